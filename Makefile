@@ -10,6 +10,7 @@
 #   make check    formatting, static analysis, include arrows, lengths
 #   make figures  the paper's figures as SVG and CSV, in FIGURES (build/figures)
 #   make feel     how curves answer to a knot that moves, and how far they overshoot, as a table
+#   make fuzz     every reader of files for SECONDS=20 each, or RUNS=10000000 inputs each; needs clang
 #   make regress BASE=path/to/other/wiggly    frame times of two builds on the committed session
 #   make compile_commands.json    for clangd and other tools that read C
 #   make install  PREFIX=/usr/local DESTDIR=
@@ -61,6 +62,8 @@ EMBEDDED := LICENSE $(wildcard shaders/*.vert shaders/*.frag assets/scenes/tail.
     assets/scenes/meadow.json)
 TOOLS := $(basename $(notdir $(wildcard tools/*.c)))
 TESTS ?= $(sort $(wildcard tests/test_*.c tests/test_*.sh))
+FUZZERS := $(basename $(notdir $(wildcard tests/fuzz/fuzz_*.c)))
+FUZZ_SUPPORT := $(filter-out tests/fuzz/fuzz_%.c,$(wildcard tests/fuzz/*.c))
 TEST_SUPPORT := $(filter-out tests/test_%.c,$(wildcard tests/*.c))
 
 GENERATED := $(B)/generated
@@ -81,7 +84,8 @@ PKG_LIBS = $(eval PKG_LIBS := $(shell pkg-config --libs glfw3 epoxy egl jansson)
 # and width of lanes; only libm's exp, expm1, sin, cos and pow may differ from one machine to the next.
 comma := ,
 OPTIMISE := $(if $(DEBUG),-O0 -g3,$(if $(SANITIZE),-O1,-O2) -g) $(if $(SANITIZE),-fno-omit-frame-pointer)
-SANITIZERS := $(if $(SANITIZE),-fsanitize=address$(comma)undefined -fno-sanitize-recover=all)
+SANITIZERS := $(if $(SANITIZE),-fsanitize=address$(comma)undefined -fno-sanitize-recover=all) \
+    $(if $(FUZZ),-fsanitize=fuzzer-no-link$(comma)float-cast-overflow)
 WARNINGS := -Wall -Wextra -Wshadow -Wconversion -Wcast-qual $(if $(WERROR),-Werror)
 ERRORS := -Werror=implicit-function-declaration -Werror=implicit-int -Werror=int-conversion \
     -Werror=incompatible-pointer-types
@@ -110,7 +114,7 @@ LINK = $(CC) $(OWN_LDFLAGS) $(CFLAGS) $(LDFLAGS)
 
 # --- goals -------------------------------------------------------------------------------------------------------------
 
-.PHONY: all library run test bench feel proof models check figures regress install clean help packages compile_commands.json FORCE
+.PHONY: all library run test bench feel proof models check figures regress fuzz fuzzers install clean help packages compile_commands.json FORCE
 
 all: $(B)/wiggly $(LIBRARIES) $(TOOLS:%=$(B)/%)
 
@@ -157,6 +161,13 @@ figures: $(B)/paper_figures
 regress: $(B)/wiggly $(B)/timing_diff
 	$(Q)$(if $(BASE),,echo "make regress: BASE=path/to/other/wiggly is missing" >&2; exit 2;) \
 	tools/regress.sh "$(BASE)" $(B)/wiggly $(B)/timing_diff $(B)/regress
+
+# Objects of their own, for clang's fuzzer and both sanitizers.
+SECONDS ?= 20
+fuzz:
+	$(Q)tools/install-missing.sh build fuzz
+	$(Q)$(MAKE) --no-print-directory CC=$(if $(findstring clang,$(CC)),$(CC),clang) SANITIZE=1 FUZZ=1 B=$(B)/fuzz fuzzers
+	$(Q)SECONDS_EACH=$(SECONDS) RUNS=$(RUNS) tests/fuzz/run.sh $(B)/fuzz $(sort $(notdir $(FUZZERS)))
 
 # What make would run to compile everything anew.
 compile_commands.json: | packages
@@ -242,6 +253,17 @@ $(B)/obj/tests/%.o: OWN_CPPFLAGS += -Itests
 $(TEST_PROGRAMS): $(B)/tests/%: $(B)/obj/tests/%.o $(TEST_SUPPORT:%.c=$(B)/obj/%.o) $(B)/parts.a
 	@mkdir -p $(@D)
 	$(Q)$(LINK) $^ $(TEST_LIBS) $(LIBS) -o $@
+
+# Of the sources only what readers need, and no GL.
+FUZZED := $(wildcard src/base/*.c src/spline/*.c src/scene/*.c src/model/*.c) src/ui/event.c \
+    $(addprefix src/app/,replay.c settings.c recovery.c) $(addprefix src/timing/,readlog.c columns.c) \
+    $(addprefix src/rig/,imported.c skeleton.c) src/simulation/drive.c
+fuzzers: $(FUZZERS:%=$(B)/%)
+$(B)/obj/tests/fuzz/%.o: OWN_CPPFLAGS += -Itests
+$(B)/fuzzed.a: $(FUZZED:%.c=$(B)/obj/%.o) $(FUZZ_SUPPORT:%.c=$(B)/obj/%.o)
+	$(Q)rm -f $@ && ar rcs $@ $^
+$(FUZZERS:%=$(B)/%): $(B)/%: $(B)/obj/tests/fuzz/%.o $(B)/fuzzed.a
+	$(Q)$(CC) -fsanitize=fuzzer$(comma)address$(comma)undefined $^ $(LIBS) -o $@
 
 # --- generated ---------------------------------------------------------------------------------------------------------
 

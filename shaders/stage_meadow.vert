@@ -43,6 +43,7 @@ void main()
     world += side * (corner.y * half_width);
     world_normal = normalize(side * (0.8 * corner.y) + toward);
     vec3 grown = mix(FOOT, mix(STEM, STRAW, 0.55 * leans.z), smoothstep(0.0, 0.6, up));
+    grown *= mix(0.4, 1.0, smoothstep(0.0, 0.5, up)); // the others keep the light off
     fur = mix(grown, STRAW * mix(0.75, 1.1, leans.z), smoothstep(0.55, 1.0, up) * 0.7);
     phase = vec2(0.0);
     open_sky = 0.25 + 0.75 * smoothstep(0.0, 0.8, up);

@@ -1,7 +1,7 @@
 #version 330 core
 // Wrapped key light, hemisphere, rim. Colours are linear until the last line.
-// FURRED is the fox's tail, LIMBED its body and FACED what its face is on; PICTURED an imported character.
-#if defined(LIMBED) || defined(FACED)
+// FURRED is the fox, FACED what its face is on; PICTURED an imported character.
+#if defined(FACED)
 #define FURRED
 #endif
 in vec3 world;
@@ -108,8 +108,8 @@ vec3 with_face(vec3 coat, float sharp, out float gloss)
     vec3 drawn = mix(coat, dark, 0.85 * front * lines);
     drawn = mix(drawn, mix(0.25 * dark, vec3(0.42, 0.15, 0.03), iris), ball);
     drawn = mix(drawn, 0.4 * dark, tip);
-    // The upper lid comes down to the lower one, its edge a lash line that bends from arch to smile.
-    float lid = mix(1.25, -0.55, blink) + (0.45 - 0.9 * blink) * (1.0 - e.x * e.x) * 0.5 - e.y;
+    // The upper lid comes down to the lower one, its edge a lash line that bends from arch to smile, late: flat halfway down it would frown.
+    float lid = mix(1.25, -0.55, blink) + (0.45 - 0.9 * blink * blink) * (1.0 - e.x * e.x) * 0.5 - e.y;
     float shut = covered(-0.0335 * lid, sharp) * step(0.01, blink);
     float lash = covered(0.0042 - 0.0335 * abs(lid), min(sharp, 330.0)) * step(0.01, blink);
     drawn = mix(drawn, mix(coat, dark, lash), ball * max(shut, lash));

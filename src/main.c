@@ -4,6 +4,7 @@
 #include "base/printable.h"
 #include "commands/commands.h"
 #include "commands/options.h"
+#include <signal.h>
 #include <stdbool.h>
 #include <stdio.h>
 #include <string.h>
@@ -103,6 +104,7 @@ static int run(int argc, char **argv)
 
 int main(int argc, char **argv)
 {
+    signal(SIGXFSZ, SIG_IGN); // a file that may not grow is a failed write, with a sentence and nothing half-written
     int status = run(argc, argv);
     bool written = fflush(stdout) == 0 && !ferror(stdout);
     if (written || status != 0) return status;

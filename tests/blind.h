@@ -22,6 +22,7 @@ static inline void blind_open(struct blind *blind, const char *scene)
     *blind = (struct blind){.options = {.scene = scene, .headless = true}};
     app->options = &blind->options;
     app->fixed_clock = true;
+    app->ui_scale = 1;
     app->platform = calloc(1, sizeof *app->platform);
     app->table.history = history_create();
     app->table.models = models_create();

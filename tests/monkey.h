@@ -204,9 +204,10 @@ static inline void drag(struct monkey *m)
 /// Numbers and nonsense into whatever is typed in. No slash: saving stays in the working folder.
 static inline void type(struct monkey *m)
 {
-    static const char *const texts[] = {"0",      "1",  "2.5", "-3",    "1e9", "-1e-9", "nan",  "inf",
-                                        "12",     "48", "120", "0.05",  "24",  "tail",  "sway", "#ff8800",
-                                        "a name", "\"", "\\",  "1e400", "1,5", "-"};
+    static const char *const texts[] = {
+        "1e308", "-1e308", "1e-308", "999999999999", "2147483648", "1/0", "12*(3+4)", "",      "0",   "1",
+        "2.5",   "-3",     "1e9",    "-1e-9",        "nan",        "inf", "12",       "48",    "120", "0.05",
+        "24",    "tail",   "sway",   "#ff8800",      "a name",     "\"",  "\\",       "1e400", "1,5", "-"};
     if (one_in(m, 3)) monkey_key(m, 'A', MOD_CTRL);
     if (one_in(m, 5)) {
         uint32_t codepoint = (uint32_t)below(m, 0x30000);
@@ -215,6 +216,45 @@ static inline void type(struct monkey *m)
         monkey_type(m, texts[below(m, sizeof texts / sizeof texts[0])]);
     }
     if (!one_in(m, 4)) monkey_key(m, KEY_ENTER, 0);
+}
+
+/// A number, most likely an impossible one, into one of the fields that are seen.
+static inline void field(struct monkey *m)
+{
+    float x, y;
+    if (!find_widget(m, &x, &y)) return;
+    monkey_move(m, x, y);
+    monkey_button(m, BUTTON_LEFT, ACTION_PRESS, 2);
+    monkey_button(m, BUTTON_LEFT, ACTION_RELEASE, 1);
+    monkey_key(m, 'A', MOD_CTRL);
+    type(m);
+}
+
+/// Rigs that come and go, and the theme.
+static inline void rig(struct monkey *m)
+{
+    static const int keys[] = {KEY_DOWN, KEY_DOWN, KEY_UP, KEY_ENTER, KEY_ENTER, KEY_TAB};
+    const int what = below(m, 4);
+    if (what == 0) {
+        monkey_key(m, KEY_DELETE, MOD_SHIFT);
+    } else if (what == 1) {
+        monkey_key(m, KEY_F10, 0);
+    } else {
+        monkey_key(m, 'A', 0);
+        for (int i = below(m, 6); i > 0; i--) monkey_key(m, keys[below(m, 6)], 0);
+        if (one_in(m, 3)) monkey_type(m, m->files->good[below(m, m->files->good_count)]); // no slash
+        monkey_key(m, KEY_ENTER, 0);
+    }
+}
+
+/// A file is written in the background, in any of the formats, while the rest goes on.
+static inline void export(struct monkey *m)
+{
+    static const char *const names[] = {"x.glb", "x.usda", "x.bvh", "x.csv", "x.npy", "x.xyz", "nowhere/x.glb"};
+    monkey_key(m, 'E', MOD_CTRL);
+    monkey_key(m, 'A', MOD_CTRL);
+    monkey_type(m, names[below(m, sizeof names / sizeof names[0])]);
+    monkey_key(m, KEY_ENTER, 0);
 }
 
 static inline void wheel(struct monkey *m)
@@ -316,9 +356,10 @@ static inline void monkey_act(struct monkey *m)
     static const struct habit {
         void (*act)(struct monkey *m);
         int weight;
-    } habits[] = {{click, 48}, {drag, 36},      {monkey_point, 10}, {any_key, 24}, {edit_key, 36}, {type, 16},
-                  {wheel, 8},  {clipboard, 12}, {play, 7},          {window, 2},   {document, 1}};
-    int left = below(m, 200);
+    } habits[] = {{click, 48},   {drag, 36}, {monkey_point, 10}, {any_key, 24}, {edit_key, 36},
+                  {type, 16},    {wheel, 8}, {clipboard, 12},    {play, 7},     {window, 2},
+                  {document, 1}, {field, 8}, {rig, 3},           {export, 1}};
+    int left = below(m, 212);
     const struct habit *habit = habits;
     while (left >= habit->weight) left -= habit++->weight;
     habit->act(m);

@@ -15,7 +15,7 @@ static inline int offscreen_open(int width, int height)
     struct error error = {0};
     platform = platform_offscreen(width, height, 1.0f, &error);
     if (!platform) {
-        print_message("skipped: no offscreen drawing here: %s\n", error.text);
+        print_message("skip - no offscreen drawing here: %s\n", error.text);
         return 0;
     }
     renderer = stage_renderer_create(&error);

@@ -221,7 +221,7 @@ static void modes_and_modifiers_do_what_they_say(void **state)
     assert_string_equal(history_undo_label(s.session.history), "Advance phase");
     assert_true(fabs(mean_lead(&s)) < -0.1 * delayed); // all but what the surface moved meanwhile
     panel_click(&s.session, "swing.less");
-    hold(&s, left_finger, 0, 600);
+    for (int stroke = 0; stroke < 6; stroke++) hold(&s, left_finger, 0, 300);
     panel_click(&s.session, "erase.all");
     assert_string_equal(history_undo_label(s.session.history), "Less amplitude");
     float least = 0;
@@ -237,6 +237,29 @@ static void modes_and_modifiers_do_what_they_say(void **state)
     assert_string_equal(history_undo_label(s.session.history), "Remove paint");
     session_key(&s.session, 'Z', MOD_CTRL);
     assert_false(paint_is_plain(rig_of(&s)->painted));
+    studio_close(&s);
+}
+
+/// However long a stroke is held, phases in its reach differ by a quarter of a turn at most, and amplitudes by a factor of four; another
+/// stroke goes on from there.
+static void a_long_stroke_saturates(void **state)
+{
+    (void)state;
+    struct studio s;
+    studio_open(&s);
+    session_key(&s.session, 'K', 0);
+    for (int stroke = 1; stroke <= 2; stroke++) {
+        hold(&s, left_finger, 0, 600);
+        float most = 0;
+        for (int i = 0; i < s.plain->character.vertex_count; i++) most = fmaxf(most, value_of(&s, 0, i)[1]);
+        if (stroke == 1) assert_near((double)most, 1.5707963, 0.02);
+        if (stroke == 2) assert_true(most > 2 && most < 3.1416f); // the surface has moved under the pointer
+    }
+    panel_click(&s.session, "swing.more");
+    hold(&s, left_finger, MOD_CTRL, 600);
+    float least = 0;
+    for (int i = 0; i < s.plain->character.vertex_count; i++) least = fminf(least, value_of(&s, 0, i)[0]);
+    assert_near((double)expf(least), 0.25, 0.02);
     studio_close(&s);
 }
 
@@ -408,6 +431,7 @@ int main(void)
         cmocka_unit_test(undo_and_redo_are_exact),
         cmocka_unit_test(a_stroke_allocates_nothing_as_it_goes_on),
         cmocka_unit_test(modes_and_modifiers_do_what_they_say),
+        cmocka_unit_test(a_long_stroke_saturates),
         cmocka_unit_test(smoothing_reduces_variation),
         cmocka_unit_test(the_map_is_shown_and_the_rest_of_the_stage_still_turns),
         cmocka_unit_test(a_click_paints_and_foreign_paint_is_left_alone),

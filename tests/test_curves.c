@@ -1,4 +1,5 @@
 /// The curves panel as an animator uses it: boxes, scaling, retiming, other curves, ruler. Events in, document out.
+#include "editor/curves/view.h"
 #include "inside.h"
 #include "panel_session.h"
 
@@ -456,6 +457,87 @@ static void test_labels_never_overlap(void **state)
     session_close(&s);
 }
 
+/// Where the view is and where a knot is in it: 0 … 1 from the bottom up.
+static double height_of(const struct session *s, int i, int k)
+{
+    const struct view *view = &s->editor->curves->view;
+    return (spline(s, i)->knots[k].value - view->value0) / (view->value1 - view->value0);
+}
+
+/// What is inserted, pasted or nudged out of sight comes into it in small steps, and the panel keeps still under a drag.
+static void test_the_view_follows_edits_smoothly(void **state)
+{
+    (void)state;
+    struct session s;
+    session_open(&s, FIVE);
+    const struct view *view = &s.editor->curves->view;
+    struct view before = *view;
+    session_click(&s, "ruler(80)");
+    session_send(&s, (struct event){.kind = EVENT_PASTE, .text = "0,6\n"});
+    session_frame(&s);
+    assert_near(view->value1, before.value1, 1e-9); // it is solved now, and only then the way begins
+    double last = view->value1, largest = 0;
+    int frames = 0;
+    for (; frames < 120 && follow_moves(s.editor->curves); frames++) {
+        session_frame(&s);
+        assert_true(view->value1 >= last);
+        largest = fmax(largest, view->value1 - last);
+        last = view->value1;
+    }
+    assert_true(frames > 10 && frames < 60);
+    assert_true(largest < 0.35 * (last - before.value1));
+    assert_true(height_of(&s, 0, 5) < 0.97);
+    assert_near(view->frame1, before.frame1, 1e-9);
+    before = *view;
+    session_pull(&s, "knot(sway,5)", 0, -60, 6); // out at the top
+    assert_true(height_of(&s, 0, 5) > 1);
+    assert_near(view->value1, before.value1, 0);
+    session_release(&s, BUTTON_LEFT);
+    for (int i = 0; i < 60; i++) session_frame(&s);
+    assert_true(height_of(&s, 0, 5) < 0.97);
+    before = *view;
+    session_key(&s, KEY_DOWN, MOD_ALT); // what stays in sight moves nothing
+    for (int i = 0; i < 10; i++) session_frame(&s);
+    assert_near(view->value1, before.value1, 0);
+    session_close(&s);
+}
+
+/// What was copied behind the end is in sight, and so is all that was before.
+static void test_the_view_follows_a_longer_scene(void **state)
+{
+    (void)state;
+    struct session s;
+    session_open(&s, FIVE);
+    const struct view *view = &s.editor->curves->view;
+    const double left = view->frame0;
+    session_key(&s, 'A', MOD_CTRL);
+    session_key(&s, 'D', MOD_CTRL);
+    assert_true(s.document->last_frame > 96);
+    for (int i = 0; i < 60; i++) session_frame(&s);
+    assert_true(view->frame1 > s.document->last_frame);
+    assert_near(view->frame0, left, 1e-9);
+    session_close(&s);
+}
+
+/// The active spline's imaginary part, too, is inside of the panel at first.
+static void test_all_that_is_drawn_is_framed(void **state)
+{
+    (void)state;
+    struct session s;
+    session_open(&s, "{\"wiggly\": 1, \"frames\": [0, 3], \"splines\": [{\"name\": \"sway\", \"frequency\": 1,"
+                     "\"damping\": 0.02, \"knots\": [{\"frame\": 0, \"value\": 0}, {\"frame\": 1, \"value\": 0.3},"
+                     "{\"frame\": 2, \"value\": 0.58}]}]}");
+    const struct curve_cache *cache = &s.editor->curves->cache;
+    const struct rect *plot = &s.editor->core.layout.plot;
+    session_key(&s, KEY_HOME, 0);
+    assert_true(cache->count > 100);
+    for (int c = 0; c < cache->count; c++) {
+        assert_true(cache->im[c][1] > plot->y + 4 && cache->im[c][1] < plot->y + plot->h - 4);
+        assert_true(cache->re[c][1] > plot->y + 4 && cache->re[c][1] < plot->y + plot->h - 4);
+    }
+    session_close(&s);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -476,6 +558,9 @@ int main(void)
         cmocka_unit_test(test_a_sloped_knot_on_the_curve_keeps_it),
         cmocka_unit_test(test_crowded_knots_are_drawn_as_one_and_hit_each),
         cmocka_unit_test(test_labels_never_overlap),
+        cmocka_unit_test(test_the_view_follows_edits_smoothly),
+        cmocka_unit_test(test_the_view_follows_a_longer_scene),
+        cmocka_unit_test(test_all_that_is_drawn_is_framed),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

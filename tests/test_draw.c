@@ -26,7 +26,7 @@ static int set_up(void **state)
     struct error error;
     platform = platform_offscreen(WIDTH, HEIGHT, 1.0f, &error);
     if (!platform) {
-        print_message("skipped: %s\n", error.text);
+        print_message("skip - %s\n", error.text);
         return 0;
     }
     if (font_init(&error)) draw = draw_create(1.0f, &error);

@@ -16,7 +16,7 @@ static bool open_picture(struct app *app)
     free(app->platform);
     app->platform = platform_offscreen(WIDTH, HEIGHT, 1, &error);
     app->draw = app->platform ? draw_create(1, &error) : NULL;
-    if (!app->draw) print_message("skipped: %s\n", error.text);
+    if (!app->draw) print_message("skip - %s\n", error.text);
     app_resize(app, WIDTH, HEIGHT, 1);
     return app->draw != NULL;
 }

@@ -52,7 +52,7 @@ if command -v convert >/dev/null; then
     [ "$(brightness "$scratch/out/light.png" 20x10+0+0)" -gt 80 ] && [ "$(brightness "$scratch/out/one.png" 20x10+0+0)" -lt 20 ]
     ok "is light, the other one dark" $?
 else
-    echo "# skipped: pictures are not looked into, as ImageMagick is missing"
+    echo "skip - pictures are not looked into, as ImageMagick is missing"
 fi
 
 # What cannot be.
@@ -119,7 +119,7 @@ keys "$scratch/none/walk.glb" >"$scratch/export.txt"
 expect 0 "a folder that is not there stops nothing" "$WIGGLY" live $tail --headless --replay "$scratch/export.txt"
 
 if ! command -v ffmpeg >/dev/null || ! command -v ffprobe >/dev/null; then
-    echo "# skipped: no films are made, as ffmpeg is missing"
+    echo "skip - no films are made, as ffmpeg is missing"
     exit $cases_failed
 fi
 fresh

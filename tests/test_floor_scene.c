@@ -1,7 +1,6 @@
 /// A character's floor: no vertex below it at any sample, knots and pins met as ever, whatever was edited before.
 #include "near.h"
 
-#include "base/clock.h"
 #include "model/morph.h"
 #include "rig/opened.h"
 #include "rig/pinning.h"
@@ -11,21 +10,28 @@
 #include <stdlib.h>
 #include <string.h>
 
-static struct opened open_scene(const char *start, const char *knots, const char *more)
+/// `more` is of the character, `spline` of the one that moves it up.
+static bool read_scene(struct opened *opened, const char *start, const char *knots, const char *spline,
+                       const char *more, struct error *error)
 {
     char text[4096], folder[2048];
-    struct opened opened;
-    struct error error = {0};
     if (!realpath("assets/models", folder)) fail_msg("no assets");
     snprintf(text, sizeof text,
              "{ \"wiggly\": 1, \"fps\": 24, \"frames\": [0, 120], \"splines\": ["
-             "{ \"name\": \"up\", \"frequency\": 1, \"damping\": 0.1, \"start\": \"%s\", \"knots\": [%s] },"
+             "{ \"name\": \"up\", \"frequency\": 1, \"damping\": 0.1, \"start\": \"%s\", \"knots\": [%s]%s },"
              "{ \"name\": \"side\", \"frequency\": 0.8, \"damping\": 0.1, \"start\": \"%s\", \"knots\": [] } ],"
              "\"rigs\": [ { \"type\": \"character\", \"name\": \"creature\", \"model\": \"%s/creature.glb\", "
-             "\"coordinates\": [ { \"name\": \"up\", \"spline\": \"up\" }, { \"name\": \"side\", \"spline\": \"side\" } ]%s } ] }",
-             start, knots, start, folder, more);
-    const char *path = temporary_file("floor.json", text, strlen(text));
-    if (!opened_read(&opened, path, &error)) fail_msg("%s", error.text);
+             "\"coordinates\": [ { \"name\": \"up\", \"spline\": \"up\" }, { \"name\": \"side\", \"spline\": "
+             "\"side\" } ]%s } ] }",
+             start, knots, spline, start, folder, more);
+    return opened_read(opened, temporary_file("floor.json", text, strlen(text)), error);
+}
+
+static struct opened open_scene(const char *start, const char *knots, const char *more)
+{
+    struct opened opened;
+    struct error error = {0};
+    if (!read_scene(&opened, start, knots, "", more, &error)) fail_msg("%s", error.text);
     assert_true(opened_solve(&opened, WIGGLY_CHAIN, &error));
     return opened;
 }
@@ -45,35 +51,217 @@ static double lowest(const struct opened *opened, int sample)
     return low;
 }
 
-static void probe(const char *start, const char *knots, const char *more)
+static void check_knots(const struct opened *opened)
 {
-    struct opened o = open_scene(start, knots, more);
-    double low = INFINITY, most = 0; int at = 0;
-    for (int i = 0; i < o.evaluation.samples; i++) { double l = lowest(&o, i); if (l < low) low = l, at = i; most = fmax(most, fabs(o.evaluation.curves[0].total[i])); }
-    const struct floor_left *left = evaluation_floor(&o.evaluation, 0);
-    double t = clock_now();
-    for (int k = 0; k < 20; k++) evaluation_update(&o.evaluation, o.document, NULL, false);
-    t = (clock_now() - t) / 20;
-    printf("%s [%s] %s: lowest %g at %d, largest %g; left %g at %d; %.3f ms\n", start, knots, more, low, at, most, left ? left->depth : -1, left ? left->sample : -1, t * 1e3);
-    opened_free(&o);
+    const struct spline *spline = &opened->document->splines[0];
+    for (int k = 0; k < spline->knot_count; k++) {
+        const int sample = document_sample(opened->document, spline->knots[k].frame);
+        assert_near(opened->evaluation.curves[0].total[sample], spline->knots[k].value, 1e-9);
+    }
 }
 
-static void test_probe(void **state)
+static void nothing_is_below_the_floor(void **state)
 {
+    static const char *const starts[] = {"free", "loop", "rest"};
+    static const char knots[] =
+        "{ \"frame\": 0, \"value\": 0 }, { \"frame\": 20, \"value\": 5 }, { \"frame\": 40, \"value\": 2 }";
     (void)state;
-    for (int v = 3; v <= 12; v += 3) { char k[200]; snprintf(k, sizeof k, "{ \"frame\": 0, \"value\": 0 }, { \"frame\": 20, \"value\": %d }", v); probe("free", k, ""); probe("free", k, ", \"floor\": 0"); snprintf(k, sizeof k, "{ \"frame\": 0, \"value\": 0 }, { \"frame\": 20, \"value\": %d }", -v); probe("free", k, "");probe("free", k, ", \"floor\": 0"); }
-    const char *knots = "{ \"frame\": 0, \"value\": 0 }, { \"frame\": 20, \"value\": 5 }, { \"frame\": 40, \"value\": 2.0 }";
-    const char *starts[] = {"free", "loop", "rest"};
-    for (int k = 0; k < 3; k++) {
-        probe(starts[k], knots, "");
-        probe(starts[k], knots, ", \"floor\": 0");
-        probe(starts[k], knots, ", \"floor\": -0.02");
-        probe(starts[k], knots, ", \"floor\": -0.1");
+    for (int s = 0; s < 3; s++) {
+        double before = INFINITY;
+        struct opened free_to_go = open_scene(starts[s], knots, ""),
+                      kept = open_scene(starts[s], knots, ", \"floor\": 0");
+        for (int i = 0; i < kept.evaluation.samples; i++) {
+            before = fmin(before, lowest(&free_to_go, i));
+            assert_true(lowest(&kept, i) > -3e-5);
+        }
+        assert_true(before < -0.1);
+        assert_true(evaluation_floor(&kept.evaluation, 0)->depth < 3e-5);
+        check_knots(&kept);
+        opened_free(&free_to_go);
+        opened_free(&kept);
     }
+}
+
+/// Solved again after a knot was elsewhere meanwhile.
+static void the_same_document_gives_the_same_bits(void **state)
+{
+    struct opened opened = open_scene("free", "{ \"frame\": 20, \"value\": 5 }", ", \"floor\": 0");
+    struct evaluation *evaluation = &opened.evaluation;
+    const size_t size = (size_t)evaluation->samples * sizeof(double);
+    double *was = malloc(size), *value = &opened.document->splines[0].knots[0].value;
+    (void)state;
+    assert_non_null(was);
+    memcpy(was, evaluation->curves[0].im, size);
+    for (*value = 5.5; *value >= 5; *value -= 0.25) evaluation_update(evaluation, opened.document, NULL, false);
+    assert_memory_equal(was, evaluation->curves[0].im, size);
+    free(was);
+    opened_free(&opened);
+}
+
+/// A floor that nothing touches changes no bit, and it is said where knots hold the character below.
+static void an_untouched_floor_is_none_and_a_missed_one_is_told(void **state)
+{
+    static const char knot[] = "{ \"frame\": 20, \"value\": 2 }";
+    struct opened plain = open_scene("free", knot, ""), floored = open_scene("free", knot, ", \"floor\": -1");
+    (void)state;
+    assert_memory_equal(plain.evaluation.curves[0].im, floored.evaluation.curves[0].im,
+                        (size_t)plain.evaluation.samples * sizeof(double));
+    assert_true(evaluation_floor(&floored.evaluation, 0)->depth == 0);
+    opened_free(&plain);
+    opened_free(&floored);
+}
+
+static void a_floor_above_the_feet_is_refused(void **state)
+{
+    struct opened opened = open_scene("free", "", ", \"floor\": -1");
+    struct history *history = history_create();
+    struct error error = {0};
+    struct edit edit = {.kind = EDIT_FLOOR, .rig = 0, .flag = true, .number = 0.5};
+    (void)state;
+    history_begin(history, "Floor", 0);
+    assert_false(history_apply(history, opened.document, &edit, &error));
+    assert_non_null(strstr(error.text, "floor: expected a height of at most 0"));
+    assert_true(opened.document->rigs[0].character.floor == -1);
+    edit.number = -0.25;
+    assert_true(history_apply(history, opened.document, &edit, &error));
+    history_end(history);
+    assert_true(opened.document->rigs[0].character.floor == -0.25);
+    assert_true(history_undo(history, opened.document));
+    assert_true(opened.document->rigs[0].character.floor == -1);
+    history_destroy(history);
+    opened_free(&opened);
+}
+
+/// A vertex low down that both splines move, and where it is at a sample.
+static int low_vertex(const struct opened *opened, int sample, double at[3])
+{
+    const struct pin_source source = pin_points(opened->models);
+    const int splines[2] = {0, 1};
+    int lowest = -1;
+    struct pin_point found;
+    for (int v = 0; v < models_figure(opened->models, 0)->character.vertex_count; v++) {
+        const struct pin pin = {.frame = sample, .point = v};
+        pin_pull c[2];
+        assert_true(
+            source.find(source.context, &opened->evaluation, opened->document, 0, &pin, splines, 2, c, &found));
+        const double moves = hypot(c[0][1][0], c[0][1][1]);
+        if (moves < 0.05 || (lowest >= 0 && found.at[1] >= at[1])) continue;
+        lowest = v;
+        memcpy(at, found.at, 3 * sizeof *at);
+    }
+    assert_true(lowest >= 0);
+    return lowest;
+}
+
+/// Pins are met, in and out of the floor; where one holds the character below, the floor sinks there and nowhere else.
+static void pins_come_first_and_the_floor_sinks_to_them(void **state)
+{
+    static const char knots[] = "{ \"frame\": 0, \"value\": 0 }, { \"frame\": 20, \"value\": 5 }";
+    (void)state;
+    struct opened free_to_go = open_scene("free", knots, "");
+    double at[3] = {0};
+    const int vertex = low_vertex(&free_to_go, 60, at);
+    opened_free(&free_to_go);
+    for (int below = 0; below < 2; below++) {
+        char more[256];
+        snprintf(more, sizeof more,
+                 ", \"floor\": 0, \"pins\": [ { \"frame\": 60, \"vertex\": %d, \"to\": [%.9g, %.9g, %.9g] } ]",
+                 vertex, at[0], below ? -0.05 : 0.04, at[2]);
+        struct opened opened = open_scene("free", knots, more);
+        const struct pin_left *left = evaluation_pin(&opened.evaluation, opened.document, 0, 0);
+        const struct floor_left *floor = evaluation_floor(&opened.evaluation, 0);
+        assert_true(fabs(left->way[1]) < 0.005);
+        check_knots(&opened);
+        if (below) {
+            assert_true(floor->depth >= 0.045 && floor->sample == 60);
+            assert_true(lowest(&opened, 60) < -0.045);
+            assert_true(lowest(&opened, 59) < -0.02 &&
+                        lowest(&opened, 61) < -0.02); // it does not jump up to the floor
+        } else {
+            assert_true(floor->depth < 3e-5);
+        }
+        for (int i = 0; i < opened.evaluation.samples; i++) {
+            if (!below || abs(i - 60) > 9) assert_true(lowest(&opened, i) > -3e-5); // a quarter of 30 samples
+        }
+        opened_free(&opened);
+    }
+}
+
+/// A variation is of the motion that pins and the floor then change; steady and limits are passed over.
+static void all_that_a_spline_may_have_at_once(void **state)
+{
+    static const char knots[] = "{ \"frame\": 0, \"value\": 0 }, { \"frame\": 20, \"value\": 5 }",
+                      pin[] = ", \"floor\": 0, \"pins\": [ { \"frame\": 60, \"vertex\": 500, \"to\": [0, 1, 0] } ]";
+    static const char *const splines[] = {"", ", \"variation\": { \"seed\": 7, \"amount\": 0.3 }",
+                                          ", \"variation\": { \"seed\": 7, \"amount\": 0.3 }, \"steady\": 1, "
+                                          "\"limits\": [-6, 6]"};
+    double seen[3][121];
+    struct error error = {0};
+    (void)state;
+    for (int n = 0; n < 3; n++) {
+        struct opened opened;
+        if (!read_scene(&opened, "free", knots, splines[n], pin, &error)) fail_msg("%s", error.text);
+        assert_true(opened_solve(&opened, WIGGLY_CHAIN, &error));
+        assert_int_equal(opened.evaluation.samples, 121);
+        check_knots(&opened);
+        for (int i = 0; i < 121; i++) {
+            assert_true(lowest(&opened, i) > -3e-5);
+            seen[n][i] = opened.evaluation.curves[0].total[i];
+        }
+        opened_free(&opened);
+    }
+    double most = 0;
+    for (int i = 0; i < 121; i++) most = fmax(most, fabs(seen[1][i] - seen[0][i]));
+    assert_true(most > 0.1);
+    assert_memory_equal(seen[1], seen[2], sizeof seen[1]);
+}
+
+static void splines_without_a_swing_are_refused(void **state)
+{
+    static const char *const splines[][2] = {{", \"mode\": \"cubic\"", "which is cubic"},
+                                             {", \"calm\": 0", "whose calm is 0"},
+                                             {", \"steady\": 0.5", NULL}};
+    (void)state;
+    for (int n = 0; n < 3; n++) {
+        struct opened opened;
+        struct error error = {0};
+        const bool read = read_scene(&opened, "free", "", splines[n][0], ", \"floor\": 0", &error);
+        assert_int_equal(read, splines[n][1] == NULL);
+        if (read) {
+            opened_free(&opened);
+        } else {
+            assert_non_null(strstr(error.text, "floor: expected splines with a swing of their own, got \"up\", "));
+            assert_non_null(strstr(error.text, splines[n][1]));
+        }
+    }
+}
+
+static void a_floor_is_saved_with_what_is_not_known(void **state)
+{
+    struct opened opened = open_scene("free", "", ", \"floor\": -0.5, \"carpet\": \"red\"");
+    size_t size;
+    char *text = scene_print(opened.document, &size);
+    (void)state;
+    assert_non_null(text);
+    assert_non_null(strstr(text, "\"floor\": -0.5"));
+    assert_non_null(strstr(text, "\"carpet\": \"red\""));
+    free(text);
+    opened.document->rigs[0].character.has_floor = false;
+    text = scene_print(opened.document, &size);
+    assert_null(strstr(text, "\"floor\""));
+    free(text);
+    opened_free(&opened);
 }
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_probe)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(nothing_is_below_the_floor),
+                                       cmocka_unit_test(the_same_document_gives_the_same_bits),
+                                       cmocka_unit_test(an_untouched_floor_is_none_and_a_missed_one_is_told),
+                                       cmocka_unit_test(a_floor_above_the_feet_is_refused),
+                                       cmocka_unit_test(pins_come_first_and_the_floor_sinks_to_them),
+                                       cmocka_unit_test(all_that_a_spline_may_have_at_once),
+                                       cmocka_unit_test(splines_without_a_swing_are_refused),
+                                       cmocka_unit_test(a_floor_is_saved_with_what_is_not_known)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -11,7 +11,7 @@ static void wrong_calls_are_counted(void **state)
     platform_debug_gl();
     struct platform *platform = platform_offscreen(64, 64, 1, &error);
     if (!platform) {
-        print_message("skipped: %s\n", error.text);
+        print_message("skip - %s\n", error.text);
         skip();
     }
     glClear(GL_COLOR_BUFFER_BIT);

@@ -1,5 +1,5 @@
 # The Khronos validator on a character that wiggly analyze wrote, and on the dog: no error, no warning. The validator comes from npm at a pinned
-# version into the build folder; where there is no npm or no network the case says that it was skipped.
+# version into the build folder; where there is no npm or no network they are skipped.
 . tests/check.sh
 . tests/box.sh
 WIGGLY=${WIGGLY:-build/wiggly}
@@ -7,7 +7,7 @@ validator=gltf-validator@2.0.0-dev.3.10
 folder=${B:-build}/gltf-validator
 
 skip() { # <why>
-    echo "ok - skipped: $1"
+    echo "skip - $1"
     exit 0
 }
 command -v node >/dev/null && command -v npm >/dev/null || skip "there is no npm, so no glTF validator"

@@ -73,6 +73,8 @@ static const struct {
      "nodes[0].skin: expected a skin of 3 joints, which its mesh uses, got 1"},
     {POSITION "0,\"JOINTS_0\":1,\"WEIGHTS_0\":6}}]}]" NODES, "attributes.JOINTS_0: expected numbers of joints"},
     {POSITION "0,\"JOINTS_0\":5}}]}]" NODES, "accessors[-1]"},
+    {"\"materials\":[{\"pbrMetallicRoughness\":{\"baseColorTexture\":{\"index\":3}}}],\"textures\":[{}]",
+     "materials[0].index: expected a number from 0 to 0, got 3"},
     {"\"nodes\":[{}],\"skins\":[{}]", "skins[0].joints: expected a joint or more, got none"},
     {"\"nodes\":[{}],\"skins\":[{\"joints\":[1]}]", "skins[0].joints[0]: expected a node from 0 to 0"},
     {"\"nodes\":[{}],\"skins\":[{\"joints\":[0],\"inverseBindMatrices\":0}]",

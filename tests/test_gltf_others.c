@@ -9,7 +9,7 @@
 static bool there(const char *folder, const char *why)
 {
     if (access(folder, R_OK) == 0) return true;
-    print_message("skipped: %s\n", why);
+    print_message("skip - %s\n", why);
     return false;
 }
 

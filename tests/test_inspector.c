@@ -125,7 +125,9 @@ static void test_only_what_counts_is_shown(void **state)
 {
     (void)state;
     struct session f;
-    panel_open(&f, scene, 1280, 720);
+    panel_open(&f, scene, 1280, 1600);
+    assert_false(panel_shows(&f, "bandwidth"));
+    panel_click(&f, "section.advanced");
     assert_true(panel_shows(&f, "bandwidth"));
     panel_click(&f, "mode.real");
     assert_int_equal(spline_mode(&f.document->splines[0]), WIGGLY_REAL);
@@ -160,7 +162,7 @@ static void test_the_solver_is_a_setting_of_the_session(void **state)
     (void)state;
     struct session f;
     double total[512];
-    panel_open(&f, scene, 1280, 720);
+    panel_open(&f, scene, 1280, 2000);
     const struct evaluation *evaluation = &f.table.evaluation;
     assert_true(evaluation->samples <= 512);
     memcpy(total, evaluation->curves[0].total, sizeof(double) * (size_t)evaluation->samples);
@@ -191,7 +193,7 @@ static void test_knot_is_edited_in_place(void **state)
 {
     (void)state;
     struct session f;
-    panel_open(&f, scene, 1280, 720);
+    panel_open(&f, scene, 1280, 1600);
     const struct spline *sway = &f.document->splines[0];
     unsigned id = sway->knots[1].id;
     core_reserve(&f.editor->core, f.document);
@@ -216,7 +218,7 @@ static void test_several_knots(void **state)
 {
     (void)state;
     struct session f;
-    panel_open(&f, scene, 1280, 720);
+    panel_open(&f, scene, 1280, 1600);
     const struct spline *sway = &f.document->splines[0];
     session_key(&f, 'A', MOD_CTRL);
     assert_false(panel_shows(&f, "stiffness")); // no slopes yet
@@ -293,7 +295,7 @@ static void test_tail_array_scales_as_a_whole(void **state)
 {
     (void)state;
     struct session f;
-    panel_open(&f, scene, 1280, 720);
+    panel_open(&f, scene, 1280, 1600);
     const struct tail *tail = document_tail(f.document, 0);
     panel_drag(&f, "gain", 18);
     assert_near(tail->channels[0].gain.value[0], 6, 1e-12);
@@ -427,7 +429,8 @@ static void test_extremes_stay_finite_and_loadable(void **state)
         for (int m = 0; m < 3; m++) {
             char *text = scene_of(knots[k], modes[m], starts[(m + k) % 3]);
             struct session f;
-            panel_open(&f, text, 1280, 720);
+            panel_open(&f, text, 1280, 1600);
+            panel_click(&f, "section.advanced");
             assert_int_equal(try_all_sliders(&f), m == 0 ? 16 : m == 1 ? 14 : 6);
             if (m == 1) {
                 panel_click(&f, "spring_friction");

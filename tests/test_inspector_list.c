@@ -227,7 +227,7 @@ static void test_frames_per_second_ask(void **state)
 {
     (void)state;
     struct session f;
-    panel_open(&f, scene, 1280, 720);
+    panel_open(&f, scene, 1280, 1600);
     panel_click(&f, "section.scene");
     char *before = session_saved(&f);
     panel_enter(&f, "scene.fps", "48");
@@ -253,7 +253,7 @@ static void test_a_range_asks_for_its_knots(void **state)
 {
     (void)state;
     struct session f;
-    panel_open(&f, scene, 1280, 720);
+    panel_open(&f, scene, 1280, 1600);
     panel_click(&f, "section.scene");
     session_click(&f, "ruler(80)");
     char *before = session_saved(&f);
@@ -344,7 +344,7 @@ static void test_random_input_comes_back(void **state)
     for (unsigned seed = 1; seed <= 6; seed++) {
         struct session f;
         unsigned random = seed;
-        panel_open(&f, scene, 1280, 720);
+        panel_open(&f, scene, 1280, 1600);
         panel_click(&f, "section.scene");
         char *first = session_saved(&f);
         for (int i = 0; i < 3000 && f.document->spline_count < 50; i++) random_input(&f, &random);

@@ -87,28 +87,58 @@ static void test_angles_one_for_each_joint(void **state)
     char *before = open_tall(&s);
     panel_click(&s, "lag.each");
     for (int n = 0; n < 4; n++) assert_near(tail(&s)->channels[0].lag.value[n], 6 * n, 1e-9);
-    panel_enter(&s, "lag.last", "24");
-    for (int n = 0; n < 4; n++) assert_near(tail(&s)->channels[0].lag.value[n], 8 * n, 1e-9);
-    panel_click(&s, "lag.each");
+    panel_click(&s, "lag.each"); // lit: back to one
     assert_int_equal(tail(&s)->channels[0].lag.form, ANGLES_ONE);
-    assert_near(tail(&s)->channels[0].lag.value[0], 8, 1e-9);
+    assert_near(tail(&s)->channels[0].lag.value[0], 6, 1e-9);
     panel_click(&s, "gain.each");
-    panel_click(&s, "gain.list");
-    session_key(&s, 'A', MOD_CTRL);
-    panel_type(&s, "1, 2 3.5,-4");
-    session_key(&s, KEY_ENTER, 0);
-    const double typed[] = {1, 2, 3.5, -4};
-    for (int n = 0; n < 4; n++) assert_near(tail(&s)->channels[0].gain.value[n], typed[n], 0);
+    panel_enter(&s, "gain.joint", "9"); // the first, as none was touched yet
+    assert_near(tail(&s)->channels[0].gain.value[0], 9, 0);
     char *good = session_saved(&s);
-    panel_click(&s, "gain.list");
-    session_key(&s, 'A', MOD_CTRL);
-    panel_type(&s, "1, 2, x");
-    session_key(&s, KEY_ENTER, 0);
-    assert_string_equal(s.editor->core.message.text, "gain: expected 4 numbers, one per joint.");
+    panel_enter(&s, "gain.joint", "x");
+    assert_non_null(strstr(s.editor->core.message.text, "joint 1: expected a number"));
     assert_saved(&s, good);
+    session_key(&s, KEY_ESCAPE, 0);
     free(good);
+    panel_click(&s, "gain.ramp");
+    assert_int_equal(tail(&s)->channels[0].gain.form, ANGLES_RAMP);
+    panel_click(&s, "gain.ramp");
+    assert_int_equal(tail(&s)->channels[0].gain.form, ANGLES_ONE);
     panel_click(&s, "rest.each");
     assert_int_equal(tail(&s)->rest.form, ANGLES_EACH);
+    close_undone(&s, before);
+}
+
+/// The curve is drawn by a drag over the joints: one step, which Esc takes back; arrows go along it.
+static void test_angles_are_drawn(void **state)
+{
+    (void)state;
+    struct session s;
+    char *before = open_tall(&s);
+    panel_click(&s, "gain.each");
+    const double *gain = tail(&s)->channels[0].gain.value;
+    char *flat = session_saved(&s);
+    panel_press(&s, "gain.curve", 1); // at the first joint
+    session_drag(&s, 80, -20, 4);     // a third of the way is the next joint
+    assert_true(gain[0] > 5 && gain[1] > gain[0]);
+    assert_near(gain[2], 5, 0);
+    assert_int_equal(s.editor->inspector->joint[ANGLE_GAIN], 1);
+    session_key(&s, KEY_ESCAPE, 0);
+    assert_saved(&s, flat);
+    panel_release(&s);
+    panel_press(&s, "gain.curve", 1);
+    session_drag(&s, 300, 10, 6); // beyond the last one
+    panel_release(&s);
+    for (int n = 2; n < 4; n++) assert_true(gain[n] < 5);
+    assert_one_step(&s, flat);
+    panel_click(&s, "gain.curve");
+    const int joint = s.editor->inspector->joint[ANGLE_GAIN];
+    const double last = gain[joint];
+    session_key(&s, KEY_UP, 0);
+    assert_near(gain[joint], last + 0.5, 1e-9);
+    session_key(&s, KEY_LEFT, 0);
+    session_key(&s, KEY_UP, 0);
+    assert_int_equal(s.editor->inspector->joint[ANGLE_GAIN], joint - 1);
+    free(flat);
     close_undone(&s, before);
 }
 
@@ -122,15 +152,20 @@ static void test_tails(void **state)
     panel_type(&s, "brush");
     session_key(&s, KEY_ENTER, 0);
     assert_string_equal(s.document->rigs[0].name, "brush");
-    panel_click(&s, "tail.add");
+    panel_click(&s, "rig.copy");
     assert_int_equal(document_count_rigs(s.document, RIG_TAIL), 2);
     assert_int_equal(editor_stage(s.editor)->tail_count, 2);
     assert_int_equal(s.editor->inspector->rig, 1);
-    panel_click(&s, "tail.delete");
-    panel_click(&s, "tail.delete");
+    panel_click(&s, "rig.delete"); // its spline bends the first one too: nothing to ask
+    assert_int_equal(document_count_rigs(s.document, RIG_TAIL), 1);
+    panel_click(&s, "rig.delete");
+    assert_int_equal(s.editor->dialogs->dialog.kind, DIALOG_ASK);
+    session_key(&s, 'K', 0);
     assert_int_equal(document_count_rigs(s.document, RIG_TAIL), 0);
     assert_int_equal(editor_stage(s.editor)->tail_count, 0);
-    panel_click(&s, "tail.add");
+    assert_int_equal(s.document->spline_count, 2);
+    panel_click(&s, "rig.add");
+    panel_click(&s, "item.tail");
     assert_int_equal(document_count_rigs(s.document, RIG_TAIL), 1);
     close_undone(&s, before);
 }
@@ -155,6 +190,7 @@ int main(void)
         cmocka_unit_test(test_place_and_size),
         cmocka_unit_test(test_channels),
         cmocka_unit_test(test_angles_one_for_each_joint),
+        cmocka_unit_test(test_angles_are_drawn),
         cmocka_unit_test(test_tails),
         cmocka_unit_test(test_toggles),
     };

@@ -128,6 +128,6 @@ CMAKE
         ok "and runs with the $kind library" $?
     done
 else
-    echo "skipped: CMake projects, because cmake is not installed"
+    echo "skip - CMake projects, because cmake is not installed"
 fi
 exit $((cases_failed > 0))

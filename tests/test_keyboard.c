@@ -66,7 +66,7 @@ static void test_the_camera_turns_and_comes_back(void **state)
     const struct camera before = s.editor->stage->camera;
     session_key(&s, KEY_RIGHT, MOD_CTRL | MOD_SHIFT);
     session_key(&s, KEY_UP, MOD_CTRL | MOD_SHIFT);
-    session_key(&s, '=', MOD_CTRL | MOD_SHIFT);
+    session_key(&s, KEY_PAGE_UP, MOD_CTRL | MOD_SHIFT);
     assert_true(s.editor->stage->camera.azimuth > before.azimuth &&
                 s.editor->stage->camera.elevation > before.elevation);
     assert_true(s.editor->stage->camera.distance < before.distance);

@@ -30,7 +30,7 @@ there() { # <what for> <command>...
     local what=$1 command
     shift
     for command in "$@"; do
-        command -v "$command" >/dev/null || { echo "skipped: $what, because $command is not installed"; return 1; }
+        command -v "$command" >/dev/null || { echo "skip - $what, because $command is not installed"; return 1; }
     done
 }
 build() { # <folder> <compiler> <flags>: builds its libwiggly.a, unoptimised, which takes half the time

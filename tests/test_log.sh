@@ -50,7 +50,7 @@ expect 2 "--turns first or second" "$WIGGLY" live --headless --turns third
 expect 2 "--turns without pipes" sh -c '"$0" live --headless --frames 2 --turns first 3<&- 4>&-' "$WIGGLY"
 says "says what is missing" "descriptors 3 and 4" "$err"
 
-"$WIGGLY" live --headless --frames 1 >/dev/null 2>&1 || { echo "  skipped: nothing is drawn here"; exit $((cases_failed > 0)); }
+"$WIGGLY" live --headless --frames 1 >/dev/null 2>&1 || { echo "skip - nothing is drawn here"; exit $((cases_failed > 0)); }
 mkfifo "$scratch/to-a" "$scratch/to-b"
 "$WIGGLY" live --headless --frames 30 --log "$scratch/turns-a.csv" --turns first 3<"$scratch/to-a" 4>"$scratch/to-b" >/dev/null &
 timeout 60 "$WIGGLY" live --headless --frames 40 --log "$scratch/turns-b.csv" --turns second 4>"$scratch/to-a" 3<"$scratch/to-b" >/dev/null

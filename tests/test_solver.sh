@@ -30,7 +30,7 @@ play() { # <name> [option]...
     shift
     "$WIGGLY" live --headless --scale 0.5 --replay $replay --log "$scratch/$name.csv" --result "$scratch/$name.json" "$@" $scene
 }
-"$WIGGLY" live --headless --frames 1 >/dev/null 2>&1 || { echo "  skipped: nothing is drawn here"; exit $((cases_failed > 0)); }
+"$WIGGLY" live --headless --frames 1 >/dev/null 2>&1 || { echo "skip - nothing is drawn here"; exit $((cases_failed > 0)); }
 expect 0 "a session plays by the band" play band --solver band --frames 400
 grep -qx "# solver: band" "$scratch/band.csv" && ! grep -q "# solver: chain" "$scratch/band.csv"
 ok "its log says so" $?
@@ -50,7 +50,9 @@ ok "to the same document" $?
 {
     sed '/^frames/d' $replay | sed '/^dt/q'
     printf 'frames 30\n'
-    printf '%s\n' "3 pointer @widget(section.scene)" "3 press left @widget(section.scene)" "3 release left @widget(section.scene)" \
+    printf '%s\n' "2 wheel 0 -40 @widget(look.stiff)+0,-60" \
+        "3 pointer @widget(section.scene)" "3 press left @widget(section.scene)" "3 release left @widget(section.scene)" \
+        "5 wheel 0 -40 @widget(look.stiff)+0,-60" \
         "6 pointer @widget(scene.solver.band)" "6 press left @widget(scene.solver.band)" "6 release left @widget(scene.solver.band)"
 } >"$scratch/switch.replay"
 replay=$scratch/switch.replay

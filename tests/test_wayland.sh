@@ -7,7 +7,7 @@ app=""
 trap 'kill -9 $app $weston 2>/dev/null; wait 2>/dev/null; rm -rf "$scratch"' EXIT
 
 skip() { # <why>
-    echo "ok - skipped: $1"
+    echo "skip - $1"
     exit 0
 }
 command -v weston >/dev/null || skip "there is no weston"

@@ -1,6 +1,6 @@
 #!/bin/sh
 # Finds what of other people's work becomes part of the binary: the fonts, and the licence of each of them and of the
-# header-only libraries. Prints a line for each: name in the binary, tab, file.
+# header-only libraries; and the demo. Prints a line for each: name in the binary, tab, file.
 # The layout is made for Inter and JetBrains Mono; where they are not installed, any sans and any monospaced font will do.
 set -eu
 export LC_ALL=C
@@ -41,4 +41,5 @@ included() { # <pkg-config module>
     font font/number 'JetBrains Mono,monospace' weight=80:spacing=100
     included cglm
     included stb
+    printf 'demo.replay\tassets/demo/demo.replay\n'
 } | awk '!seen[$0]++'

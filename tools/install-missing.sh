@@ -1,7 +1,7 @@
 #!/bin/sh
 # Installs the Debian packages that the named sets need and that are not there. Fast and silent when nothing is missing.
 # "a|b": a, or b where the system has no package a.
-# Usage: tools/install-missing.sh [build] [test] [bench] [check] [clang] [bare]
+# Usage: tools/install-missing.sh [build] [test] [bench] [check] [clang] [fuzz] [bare]
 set -eu
 
 packages_of() {
@@ -12,9 +12,10 @@ packages_of() {
     bench) echo liblapacke-dev libopenblas-dev ;;
     check) echo clang-format-14 cppcheck ;;
     clang) echo clang ;;
+    fuzz) echo clang "libclang-rt-dev|libclang-rt-14-dev" ;;
     bare) echo debootstrap ;;
     *)
-        echo "install-missing.sh: unknown set '$1'; the sets are build, test, bench, check, clang and bare" >&2
+        echo "install-missing.sh: unknown set '$1'; the sets are build, test, bench, check, clang, fuzz and bare" >&2
         exit 2
         ;;
     esac
@@ -27,7 +28,7 @@ probes_of() {
     test) echo g++ Xvfb setxkbmap xdotool convert cmocka.pc lapacke.pc openblas.pc ;;
     bench) echo lapacke.pc openblas.pc ;;
     check) echo clang-format-14 cppcheck ;;
-    clang) echo clang ;;
+    clang | fuzz) echo clang ;;
     bare) echo debootstrap ;;
     esac
 }

@@ -9,7 +9,7 @@ Run again only when the editor's targets or the scene change:
 import json
 import math
 
-from session_events import at, click, drag, key, write
+from session_events import at, click, drag, key, scroll_inspector, write
 
 NAMES = ["sway", "up", "curl", "lift", "twist", "nod", "walk", "bob"]
 
@@ -33,7 +33,9 @@ def circle(start, radius):
     return lambda u: f"{start}{radius * math.sin(2 * math.pi * u):+.2f},{radius * math.sin(4 * math.pi * u):.2f}"
 
 
+scroll_inspector(2, -40)
 click(4, "widget(section.poles)")
+scroll_inspector(8, -40)
 key(10, "Home")
 key(14, "O")
 key(18, "P")
@@ -44,7 +46,10 @@ drag(170, 120, "knot(sway,12)", lambda u: f"curve(sway,112,{math.sin(9 * u):.4f}
 key(300, "A", "ctrl")
 drag(304, 100, "knot(sway,9)", lambda u: f"curve(sway,{85 + 3 * math.sin(6 * u):.3f},{0.8 * math.cos(6 * u):.4f})")
 key(410, "Z", "ctrl")
+scroll_inspector(412, 40)
 drag(414, 60, "slider(frequency)", lambda u: f"slider(frequency,{0.5 + 2 * u:.4f})")
+scroll_inspector(477, -40)
+click(477, "widget(section.advanced)")
 drag(480, 60, "slider(bandwidth)", lambda u: f"slider(bandwidth,{0.08 + 0.2 * u:.4f})")
 # Every curve as high as the active one, then another spline, and the wheel.
 key(550, "N")

@@ -1,7 +1,8 @@
 #!/bin/bash
 # Runs test programs (cmocka) and test scripts, as many at once as there are processors, from the root of the tree. Prints a line
-# for each in the order given and, for one that failed, the end of what it said; then "N passed, N failed" over all cases. Exit
-# status 1 where any failed. Scripts report their cases as lines "ok - what" and "not ok - what".
+# for each in the order given and, for one that failed, the end of what it said; then what was skipped, and "N passed, N failed"
+# over all cases. Exit status 1 where any failed. Scripts report their cases as lines "ok - what" and "not ok - what"; what is
+# skipped says "skip - why", in cmocka's programs too.
 # Environment: JOBS, how many at once; TEST_OUT, a folder for logs, of which each test gets a folder of its own to write in;
 # TEST_TIMEOUT in seconds, for a test that hangs: a loaded machine makes tests ten times as slow.
 set -u
@@ -10,6 +11,7 @@ JOBS=${JOBS:-$(nproc 2>/dev/null || echo 2)}
 times=$TEST_OUT/times # "milliseconds name" of every test's last run
 passed=0
 failed=0
+skips=()
 mkdir -p "$TEST_OUT"
 touch "$times"
 trap 'kill $(jobs -p) 2>/dev/null; wait; exit 130' INT TERM
@@ -39,7 +41,9 @@ report() { # <test>
     good=$(grep -cE '^(\[       OK \]|ok - )' "$log")
     bad=$(grep -E '^(\[  FAILED  \] [a-z_0-9A-Z]+$|not ok - )' "$log" | sort -u | wc -l) # cmocka names a failed case twice
     # A crash, a time-out or a test without cases is a failure that no case reports.
-    if [ "$status" -ne 0 ] && [ "$bad" -eq 0 ] || [ $((good + bad)) -eq 0 ]; then bad=$((bad + 1)); fi
+    mapfile -t skipped < <(grep -E '^skip - ' "$log" | sort -u)
+    if [ "$status" -ne 0 ] && [ "$bad" -eq 0 ] || [ $((good + bad + ${#skipped[@]})) -eq 0 ]; then bad=$((bad + 1)); fi
+    skips+=("${skipped[@]/#skip - /skip  $name: }")
     passed=$((passed + good))
     failed=$((failed + bad))
     if [ "$bad" -eq 0 ]; then
@@ -91,5 +95,6 @@ for test in "$@"; do
     awk -v name="$name" '{ print $2, name }' "$TEST_OUT/$name.result"
 done | cat - "$times" | awk '!seen[$2]++' >"$times.new"
 mv "$times.new" "$times"
+[ ${#skips[@]} -eq 0 ] || printf '%s\n' "${skips[@]}"
 echo "$passed passed, $failed failed"
 [ "$failed" -eq 0 ]

@@ -1,4 +1,4 @@
-"""Collects the events of a session by frame and writes them as a replay: for make-session.py and make-full-session.py."""
+"""Collects the events of a session by frame and writes them as a replay: for make-session.py, make-full-session.py and make-demo.py."""
 import sys
 
 FRAMES = 1200
@@ -28,6 +28,11 @@ def click(frame, target, *mods):
     at(frame, f"pointer @{target}")
     at(frame + 1, " ".join([f"press left @{target}", *mods]))
     at(frame + 2, " ".join([f"release left @{target}", *mods]))
+
+
+def scroll_inspector(frame, notches):
+    """Down where notches are negative; further than it goes is as far as it goes."""
+    at(frame, f"wheel 0 {notches} @widget(look.stiff)+0,-60")
 
 
 def write(file, maker):

@@ -97,7 +97,7 @@ typedef struct wiggly_desc {
     double calm;              ///< 0 … 1; 0 is the paper's formula to the letter
     wiggly_passive passive;   ///< the oscillator, unless it says the filter
     double low, high; ///< what the total stays within wherever it is solved for; -INFINITY and INFINITY: no limit
-    double steady; ///< 0 … 1: how little the curve changes when a knot moves; 1 gives up to 15 % of the frequency
+    double steady; ///< 0 … 1: how little the curve changes when a knot moves; 1 gives up to 22 % of the frequency
     double variation;   ///< how far another motion through the same knots strays (docs/mathematics.md); 0: not at all
     int variation_seed; ///< which one
     const wiggly_knot *knots; ///< any order

@@ -16,6 +16,9 @@
 enum { DEFAULT_WIDTH = 1280, DEFAULT_HEIGHT = 720, HEADLESS_FRAMES = 1200, WARM_UP = 10, REFERENCE_FRAMES = 21 };
 enum { LOG_ROWS = 200000 };
 
+/// Whether frames come from a file, as fast as they go.
+static bool is_replay(const struct app *app) { return app->replay && !app->demo.on; }
+
 /// Opens a window; if none opens, says so in a line and goes on without.
 static bool open_platform(struct app *app, struct error *error)
 {
@@ -26,7 +29,7 @@ static bool open_platform(struct app *app, struct error *error)
     double scale = o->scale > 0 ? o->scale : header ? header->scale : 1;
     if (!o->headless) {
         struct error refused = {0};
-        int vsync = app->replay || o->frames ? 0 : 1;
+        int vsync = is_replay(app) || o->frames ? 0 : 1;
         app->platform = platform_window(width, height, "wiggly", vsync, &refused);
         if (app->platform) return true;
         fprintf(stderr, "wiggly: %s; running headless (see wiggly live --help for what it can write)\n",
@@ -44,7 +47,7 @@ static bool open_log(struct app *app, struct error *error)
     struct frame_header header = {
         .gl_renderer = draw_renderer_name(),
         .solver = evaluation_solver(app->table.evaluation.method),
-        .vsync = platform_is_window(app->platform) && !app->replay && !o->frames,
+        .vsync = platform_is_window(app->platform) && !is_replay(app) && !o->frames,
         .warm_up = WARM_UP,
         .reference_ms = NAN,
         .first_frame_ms = 1e3 * process_age(),
@@ -136,43 +139,71 @@ static bool set_resolution(struct app *app, struct error *error)
            fail(error, ERROR_USAGE, "--stage-scale: expected auto or a number from 0.25 to 1, got '%s'", scale);
 }
 
+bool app_open_editor(struct app *app, struct error *error)
+{
+    editor_destroy(app->table.editor);
+    app->table.editor = editor_create(error);
+    if (!app->table.editor) return false;
+    editor_set_method(app->table.editor, app->options->method);
+    app_connect_files(app);
+    ui_scale_fit(app);
+    return true;
+}
+
+/// Reads the replay that was asked for, or the demo's.
+static bool open_replay(struct app *app, struct error *error)
+{
+    const struct app_options *o = app->options;
+    app->demo = (struct demo){.on = o->demo, .theme = theme_in_use()};
+    if (!o->demo && !o->replay) return true;
+    app->replay = o->demo ? demo_replay(error) : replay_load(o->replay, error);
+    return app->replay != NULL;
+}
+
+/// A replay is of one scene. The demo's is of the start scene, and comes with it.
+static bool check_scene(const struct app *app, uint64_t hash, struct error *error)
+{
+    if (!is_replay(app) || replay_get_header(app->replay)->scene_hash == hash) return true;
+    return fail(error, ERROR_INPUT, "%s: recorded on another scene: expected hash %016llx, got %016llx",
+                app->options->replay, (unsigned long long)replay_get_header(app->replay)->scene_hash,
+                (unsigned long long)hash);
+}
+
 static bool start(struct app *app, struct error *error)
 {
     const struct app_options *o = app->options;
-    if (o->replay && !(app->replay = replay_load(o->replay, error))) return false;
     if (o->theme) theme_use((enum theme_kind)theme_find(o->theme));
+    if (!open_replay(app, error)) return false;
     if (!font_init(error) || !open_platform(app, error) || !set_resolution(app, error)) return false;
     int width, height;
     float scale;
     platform_size(app->platform, &width, &height, &scale);
-    if (!(app->draw = draw_create(scale, error)) || !(app->table.editor = editor_create(error))) return false;
+    app->display.width = (float)width / scale;
+    app->display.height = (float)height / scale;
+    app->display.scale = scale;
+    app->ui_scale = o->ui_scale > 0 ? o->ui_scale : app->replay ? replay_get_header(app->replay)->ui_scale : 1;
+    if (!(app->draw = draw_create(scale, error)) || !app_open_editor(app, error)) return false;
     if (!(app->table.history = history_create()) || !(app->table.models = models_create()))
         return fail(error, ERROR_ENVIRONMENT, "out of memory");
-    editor_set_method(app->table.editor, o->method);
-    app_connect_files(app);
-    app_resize(app, (float)width / scale, (float)height / scale, scale);
     if (!app_open(app, o->scene, error)) return false;
     uint64_t hash = scene_hash(app->table.document);
-    if (app->replay && replay_get_header(app->replay)->scene_hash != hash) {
-        return fail(error, ERROR_INPUT, "%s: recorded on another scene: expected hash %016llx, got %016llx",
-                    o->replay, (unsigned long long)replay_get_header(app->replay)->scene_hash,
-                    (unsigned long long)hash);
-    }
+    if (!check_scene(app, hash, error)) return false;
     if (o->record) {
         struct replay_header header = {.width = (int)lroundf((float)width / scale),
                                        .height = (int)lroundf((float)height / scale),
                                        .scale = (double)scale,
+                                       .ui_scale = app->ui_scale,
                                        .scene_hash = hash};
         if (!(app->recording = recording_open(o->record, &header, error))) return false;
     }
     if (o->frames_dir) mkdir(o->frames_dir, 0777);
     bool window = platform_is_window(app->platform);
-    app->fixed_clock = !window || app->replay || app->recording;
+    app->fixed_clock = !window || is_replay(app) || app->recording;
     app->table.threaded = !app->fixed_clock;
     app->lost = true;
     if (window) {
         platform_on_lost(on_lost, app);
-        if (!app->replay) process_catch_end();
+        if (!is_replay(app)) process_catch_end();
     }
     personal_start(app);
     if (o->welcome) editor_welcome(app->table.editor);
@@ -201,6 +232,7 @@ int app_run(const struct app_options *options, struct error *error)
     bool good = start(&app, error);
     if (good) {
         long frames = options->frames                    ? options->frames
+                      : app.demo.on && !app.fixed_clock  ? 0
                       : app.replay                       ? replay_get_header(app.replay)->frames
                       : platform_is_window(app.platform) ? 0
                                                          : HEADLESS_FRAMES;

@@ -8,10 +8,12 @@
 
 /// Zero means default throughout.
 struct app_options {
-    const char *scene;       ///< path, or NULL: the built-in tail
-    bool headless;           ///< offscreen instead of a window
-    int frames;              ///< stop after so many; 0: the replay's length, else (headless) 1200, else never
-    int width, height;       ///< logical pixels; 0: the replay's, else 1280 × 720
+    const char *scene; ///< path, or NULL: the built-in tail
+    bool headless;     ///< offscreen instead of a window
+    int frames;        ///< stop after so many; 0: the replay's length, else (headless) 1200, else never
+    int width, height; ///< logical pixels; 0: the replay's, else 1280 × 720
+    double
+        ui_scale; ///< how large everything is, on top of that; 0: the replay's, else the user's own in a window, else 1
     double scale;            ///< device pixels a logical pixel; 0: the replay's, else the display's (headless 1)
     const char *stage_scale; ///< of the stage while it moves: "auto" or a number; NULL: auto in a window, else 1
     const char *theme;       ///< a theme's name, or NULL: the user's own in a window, else dark
@@ -21,6 +23,7 @@ struct app_options {
     const char *log;         ///< timing log, CSV
     const char *screenshot;  ///< PNG of the last frame
     const char *frames_dir;  ///< a PNG for each frame
+    bool demo;               ///< plays by itself until somebody presses something
     const char *replay;      ///< events from this file; its clock is its own
     const char *record;      ///< events to this file
     const char *result;      ///< the document at the end

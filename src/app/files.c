@@ -152,6 +152,22 @@ static bool take_theirs(struct app *app, struct error *error)
     return true;
 }
 
+/// Adds the character in a file beside what stands there, as one step of the history.
+static bool add_file(struct app *app, const char *path, struct error *error)
+{
+    struct table *table = &app->table;
+    struct editor_world world = table_world(table);
+    editor_let_go(table->editor, &world);
+    history_begin(table->history, "Add character", 0);
+    const int spline = editor_focus(table->editor, table->document).spline;
+    const bool added = import_add(table->history, table->document, path, spline, error);
+    if (!added) history_restart(table->history, table->document);
+    history_end(table->history);
+    editor_refresh(table->editor, &world);
+    if (added) editor_show_last(table->editor, &world);
+    return added;
+}
+
 static bool save(struct app *app, const char *path, struct error *error)
 {
     char folder[PATH_LIMIT];
@@ -240,6 +256,8 @@ static bool carry_out(struct app *app, const struct request *request, struct err
         return open_figure(app, request->number, error);
     case REQUEST_OPEN:
         return app_open(app, request->path, error);
+    case REQUEST_ADD:
+        return add_file(app, request->path, error);
     case REQUEST_SAVE:
     case REQUEST_OVERWRITE:
         return save(app, app_path(app), error);
@@ -268,6 +286,8 @@ static bool carry_out(struct app *app, const struct request *request, struct err
     case REQUEST_FULLSCREEN:
         platform_fullscreen(app->platform, !platform_is_fullscreen(app->platform));
         return true;
+    case REQUEST_UI_SCALE:
+        return ui_scale_step(app, request->number, error);
     case REQUEST_COPY:
         app_copy(app);
         return true;
@@ -301,7 +321,10 @@ void app_requests(struct app *app)
     if (history_is_saved(app->table.history) != app->shown_saved) show_title(app);
 }
 
-static bool is_scene_name(const char *name) { return path_has_end(name, ".json") || import_suits(name); }
+static bool is_scene_name(const char *name)
+{
+    return path_has_end(name, ".json") || path_has_end(name, ".glb") || path_has_end(name, ".gltf");
+}
 
 static int compare_names(const void *a, const void *b) { return strcmp(a, b); }
 

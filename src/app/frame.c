@@ -8,7 +8,6 @@
 
 static const double replay_dt = 1.0 / 60;
 static const double idle_wait = 0.5;
-static const float smallest_width = 320, smallest_height = 240; ///< of the layout; less shows a part of it
 static const double longest_step = 1; ///< after a longer stall playback goes on from where it was
 
 static double microseconds(double from, double to) { return 1e6 * (to - from); }
@@ -22,7 +21,10 @@ static bool locate(void *user, const char *target, float *x, float *y, struct er
 
 void app_resize(struct app *app, float width, float height, float scale)
 {
-    editor_resize(app->table.editor, fmaxf(width, smallest_width), fmaxf(height, smallest_height), scale);
+    app->display.width = width;
+    app->display.height = height;
+    app->display.scale = scale;
+    ui_scale_fit(app);
 }
 
 static void handle_event(struct app *app, const struct event *event)
@@ -33,20 +35,46 @@ static void handle_event(struct app *app, const struct event *event)
         theirs_look(app);
         return;
     }
-    if (event->kind == EVENT_SIZE) app_resize(app, event->x, event->y, event->scale);
     struct editor_world world = table_world(&app->table);
-    editor_event(app->table.editor, &world, event);
+    struct event seen = *event;
+    if (event->kind == EVENT_SIZE) {
+        app_resize(app, event->x, event->y, event->scale);
+        ui_scale_to_ui(app, &seen);
+    }
+    editor_event(app->table.editor, &world, &seen);
 }
 
 static void play_events(struct app *app)
 {
+    const long frame = app->demo.on ? app->demo.frame : app->frame;
+    const bool forgives = app->demo.on && !app->fixed_clock; // a target may be out of sight in somebody's window
     struct event event;
-    app->error.kind = ERROR_NONE;
-    while (replay_next(app->replay, app->frame, locate, app, &event, &app->error)) {
-        if (isnan(app->oldest_event)) app->oldest_event = app->frame_start;
-        handle_event(app, &event);
-    }
+    do {
+        app->error.kind = ERROR_NONE;
+        while (replay_next(app->replay, frame, locate, app, &event, &app->error)) {
+            if (isnan(app->oldest_event)) app->oldest_event = app->frame_start;
+            handle_event(app, &event);
+        }
+    } while (forgives && app->error.kind != ERROR_NONE);
     if (app->error.kind != ERROR_NONE) app->failed = true;
+}
+
+/// The demo's next frame, unless somebody has stopped it.
+static void play_demo(struct app *app)
+{
+    const double dt = app->frame == 0 ? 0 : app->fixed_clock ? replay_dt : app->frame_start - app->last_time;
+    if (!demo_next(app, fmin(fmax(dt, 0), longest_step), &app->error)) app->failed = true;
+}
+
+/// Whether an event of the window's is for the editor. The first touch ends a demo, and a window that is closed meanwhile has
+/// nothing to lose.
+static bool is_for_editor(struct app *app, const struct event *event)
+{
+    if (!app->replay || event->kind == EVENT_EXPOSE) return true;
+    if (!app->demo.on) return event->kind == EVENT_CLOSE;
+    app->quit |= event->kind == EVENT_CLOSE;
+    if (demo_is_touched_by(event) && !demo_stop(app, &app->error)) app->failed = true;
+    return event->kind == EVENT_SIZE || event->kind == EVENT_DROP;
 }
 
 /// Delivers the text that the editor asked for in the last frame: as an event, so that it is recorded.
@@ -79,7 +107,7 @@ static bool take_input(struct app *app)
 {
     double wait_start = clock_now();
     bool wanted = app->fixed_clock || app->frame == 0 || editor_wants_frames(app->table.editor) || app->paste ||
-                  app->table.evaluation.stale || app->export_job;
+                  app->table.evaluation.stale || app->export_job || app->demo.on;
     app->was_idle = !wanted;
     int count = 0;
     const struct event *events = platform_events(app->platform, waiting_time(app, wanted), &count);
@@ -93,11 +121,14 @@ static bool take_input(struct app *app)
     app->row.allocations = allocation_count();
     paste(app);
     for (int i = 0; i < count; i++) {
-        if (app->replay && events[i].kind != EVENT_EXPOSE && events[i].kind != EVENT_CLOSE) continue;
+        if (!is_for_editor(app, &events[i])) continue;
         if (isnan(app->oldest_event)) app->oldest_event = events[i].time;
-        handle_event(app, &events[i]);
+        struct event event = events[i];
+        if (event.kind != EVENT_SIZE) ui_scale_to_ui(app, &event); // recorded as the display has it
+        handle_event(app, &event);
     }
-    if (app->replay) play_events(app);
+    if (app->demo.on && !app->failed) play_demo(app);
+    if (app->replay && !app->failed) play_events(app);
     app->row.input_us = microseconds(app->frame_start, clock_now());
     return true;
 }
@@ -124,6 +155,7 @@ static void on_advanced(void *user)
 {
     struct app *app = user;
     app_requests(app);
+    ui_scale_update(app);
     personal_update(app);
 }
 
@@ -161,6 +193,7 @@ static struct draw_input draw_input(const struct app *app, float stage_scale)
         .stage_scale = stage_scale,
     };
     platform_size(app->platform, &input.width, &input.height, &input.scale);
+    input.scale *= (float)app->ui_scale_shown;
     return input;
 }
 
@@ -200,7 +233,7 @@ static void draw(struct app *app)
     app->row.event_to_swap_us = isnan(app->oldest_event) ? NAN : microseconds(app->oldest_event, end);
     app->row.allocations = allocation_count() - app->row.allocations;
     if (app->resolution.changed == resolution_now(app)) measure(app);
-    platform_cursor(app->platform, editor_cursor(app->table.editor));
+    platform_cursor(app->platform, app->demo.on ? CURSOR_ARROW : editor_cursor(app->table.editor));
 }
 
 void app_draw_exactly(struct app *app)

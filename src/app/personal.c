@@ -8,6 +8,7 @@
 #include "app/state.h"
 #include "base/clock.h"
 #include "ui/theme.h"
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -23,6 +24,7 @@ struct personal {
     bool is_offered;                  ///< `offered` is claimed
     bool is_new;                      ///< somebody who has not been told yet what to try first
     enum theme_kind theme;            ///< as in the settings
+    double ui_scale;                  ///< the same
     double stage_share, panels_width; ///< as they were at the start
 };
 
@@ -52,6 +54,14 @@ static void start_theme(struct app *app, const struct settings *settings)
     app->personal->theme = theme_in_use();
 }
 
+static void start_ui_scale(struct app *app, const struct settings *settings)
+{
+    const double stored = settings_number(settings, "ui_scale", app->ui_scale);
+    if (!(app->options->ui_scale > 0)) app->ui_scale = fmin(fmax(stored, UI_SCALE_LEAST), UI_SCALE_MOST);
+    app->personal->ui_scale = app->ui_scale;
+    ui_scale_fit(app);
+}
+
 static void start_settings(struct app *app)
 {
     struct personal *personal = app->personal;
@@ -67,6 +77,7 @@ static void start_settings(struct app *app)
         personal->panels_width = settings_number(settings, "inspector_width", personal->panels_width);
         editor_set_panels(app->table.editor, personal->stage_share, personal->panels_width);
         start_theme(app, settings);
+        start_ui_scale(app, settings);
         struct export_memory memory;
         export_memory_read(settings, app_path(app), &memory);
         editor_set_export(app->table.editor, &memory);
@@ -87,6 +98,19 @@ static void note_theme(struct app *app)
     struct settings *settings = load_settings(personal, &error);
     if (!settings) return;
     settings_set(settings, "theme", theme()->name);
+    store_settings(app, settings);
+}
+
+/// Stores the scale once it has been changed.
+static void note_ui_scale(struct app *app)
+{
+    struct personal *personal = app->personal;
+    struct error error = {0};
+    if (personal->ui_scale == app->ui_scale || app->options->record || app->options->frames) return;
+    personal->ui_scale = app->ui_scale;
+    struct settings *settings = load_settings(personal, &error);
+    if (!settings) return;
+    settings_set_number(settings, "ui_scale", app->ui_scale);
     store_settings(app, settings);
 }
 
@@ -186,7 +210,7 @@ static void start_autosave(struct app *app)
 void personal_start(struct app *app)
 {
     const struct app_options *o = app->options;
-    if (!platform_is_window(app->platform) || o->replay) return;
+    if (!platform_is_window(app->platform) || app->replay) return;
     app->personal = calloc(1, sizeof *app->personal);
     if (!app->personal) return;
     start_autosave(app);
@@ -209,6 +233,7 @@ void personal_update(struct app *app)
     struct error error = {0};
     if (!app->personal) return;
     note_theme(app);
+    note_ui_scale(app);
     note_welcomed(app);
     if (!app->personal->autosave) return;
     struct autosave_work work = work_of(app);

@@ -111,6 +111,9 @@ static bool read_header_line(struct replay *replay, const struct words *w, struc
     } else if (strcmp(name, "scale") == 0) {
         if (!one || a < 0.25 || a > 8) return bad_line(replay, error, "a scale from 0.25 to 8", w->word[1]);
         h->scale = a;
+    } else if (strcmp(name, "ui-scale") == 0) {
+        if (!one || a < 0.25 || a > 8) return bad_line(replay, error, "a scale from 0.25 to 8", w->word[1]);
+        h->ui_scale = a;
     } else if (strcmp(name, "scene") == 0) {
         if (w->count < 2 || sscanf(w->word[1], "%16" SCNx64, &h->scene_hash) != 1) {
             return bad_line(replay, error, "the scene's hash", w->word[1]);
@@ -122,7 +125,7 @@ static bool read_header_line(struct replay *replay, const struct words *w, struc
         if (!whole) return bad_line(replay, error, "a number of frames", w->word[1]);
         h->frames = (long)a;
     } else {
-        return bad_line(replay, error, "version, size, scale, scene, dt, frames or an event", name);
+        return bad_line(replay, error, "version, size, scale, ui-scale, scene, dt, frames or an event", name);
     }
     return true;
 }
@@ -162,25 +165,50 @@ static bool check_frames(struct replay *replay, struct error *error)
     return true;
 }
 
-struct replay *replay_load(const char *path, struct error *error)
+/// Reads the text that a replay was made for, and checks it.
+static struct replay *finish(struct replay *replay, size_t size, struct error *error)
+{
+    replay->at = replay->text;
+    const bool whole =
+        strlen(replay->text) == size || fail(error, ERROR_INPUT, "%s: expected text, got a NUL byte", replay->path);
+    if (whole && read_header(replay, error) && check_frames(replay, error)) return replay;
+    replay_destroy(replay);
+    return NULL;
+}
+
+static struct replay *create(const char *path, struct error *error)
 {
     struct replay *replay = calloc(1, sizeof *replay);
-    size_t size = 0;
-    if (!replay) {
+    if (replay) replay->path = strdup(path);
+    if (!replay || !replay->path) {
+        replay_destroy(replay);
         fail(error, ERROR_ENVIRONMENT, "out of memory for the replay %s", path);
         return NULL;
     }
-    replay->path = strdup(path);
-    replay->header.scale = 1;
+    replay->header.scale = replay->header.ui_scale = 1;
     replay->header.frames = -1;
     replay->next_line = 1;
-    bool good = replay->path && file_read(path, MAX_REPLAY, &replay->text, &size, error);
-    replay->at = replay->text;
-    if (good && strlen(replay->text) != size) {
-        good = fail(error, ERROR_INPUT, "%s: expected text, got a NUL byte", path);
-    }
-    if (good && read_header(replay, error) && check_frames(replay, error)) return replay;
+    return replay;
+}
+
+struct replay *replay_load(const char *path, struct error *error)
+{
+    size_t size = 0;
+    struct replay *replay = create(path, error);
+    if (!replay || file_read(path, MAX_REPLAY, &replay->text, &size, error))
+        return replay ? finish(replay, size, error) : NULL;
     replay_destroy(replay);
+    return NULL;
+}
+
+struct replay *replay_parse(const char *name, const char *text, size_t size, struct error *error)
+{
+    struct replay *replay = create(name, error);
+    if (!replay) return NULL;
+    replay->text = strndup(text, size);
+    if (replay->text) return finish(replay, size, error);
+    replay_destroy(replay);
+    fail(error, ERROR_ENVIRONMENT, "out of memory for the replay %s", name);
     return NULL;
 }
 
@@ -235,6 +263,7 @@ static const struct verb {
     {"size", EVENT_SIZE, ACTION_PRESS, 0, WITH_POSITION},
     {"drop", EVENT_DROP, ACTION_PRESS, 0, WITH_PATH},
     {"paste", EVENT_PASTE, ACTION_PRESS, 0, WITH_TEXT},
+    {"caption", EVENT_CAPTION, ACTION_PRESS, 0, WITH_TEXT},
     {"close", EVENT_CLOSE, ACTION_PRESS, 0, 0},
 };
 
@@ -406,8 +435,10 @@ struct recording *recording_open(const char *path, const struct replay_header *h
         return NULL;
     }
     setvbuf(recording->file, NULL, _IOLBF, 0); // so that no crash loses events
-    fprintf(recording->file, "%s\nversion %s\nsize %d %d\nscale %g\nscene %016" PRIx64 "\ndt 1/60\nframes ",
-            first_line, WIGGLY_VERSION, header->width, header->height, header->scale, header->scene_hash);
+    fprintf(recording->file, "%s\nversion %s\nsize %d %d\nscale %g\n", first_line, WIGGLY_VERSION, header->width,
+            header->height, header->scale);
+    if (header->ui_scale != 1) fprintf(recording->file, "ui-scale %g\n", header->ui_scale);
+    fprintf(recording->file, "scene %016" PRIx64 "\ndt 1/60\nframes ", header->scene_hash);
     recording->length_at = ftell(recording->file);
     fprintf(recording->file, "%-10d\n", 0);
     return recording;

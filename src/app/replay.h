@@ -4,11 +4,12 @@
 ///     version 0.1.0
 ///     size 1280 720
 ///     scale 1
+///     ui-scale 1.5                             (left out where it is 1)
 ///     scene 0123456789abcdef
 ///     dt 1/60
 ///     frames 1200
 ///     10 pointer @knot(sway,2)
-///     10 press left @knot(sway,2) shift        (also: release, double, key, keyup, repeat, wheel, text, drop, paste, size, close)
+///     10 press left @knot(sway,2) shift        (also: release, double, key, keyup, repeat, wheel, text, drop, paste, size, caption, close)
 ///
 /// Positions are two numbers, logical pixels from the top left, or a target with an optional offset, `@knot(sway,2)+4,-3`,
 /// which is looked up on the screen when the event is played.
@@ -22,7 +23,7 @@
 
 struct replay_header {
     int width, height;
-    double scale;
+    double scale, ui_scale;
     uint64_t scene_hash;
     long frames; ///< length; in a file 0 where the recording was cut short
 };
@@ -31,6 +32,8 @@ struct replay;
 
 /// Reads a whole replay. On failure NULL with a sentence "file:line: expected …".
 struct replay *replay_load(const char *path, struct error *error);
+/// The same from memory; `name` stands for the path.
+struct replay *replay_parse(const char *name, const char *text, size_t size, struct error *error);
 void replay_destroy(struct replay *replay);
 const struct replay_header *replay_get_header(const struct replay *replay);
 

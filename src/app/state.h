@@ -8,11 +8,31 @@
 #include "app/replay.h"
 #include "app/resolution.h"
 #include "app/table.h"
-#include "app/theirs.h"
+#include "base/path.h"
+#include "base/stamp.h"
 #include "draw/draw.h"
 #include "platform/platform.h"
 #include "scene/edit.h"
+#include "ui/theme.h"
 #include <stdint.h>
+
+#define UI_SCALE_LEAST 0.75
+#define UI_SCALE_MOST 3.0
+
+/// A recording that comes with the program and plays itself, over and over, until the first touch.
+struct demo {
+    bool on;
+    double seconds;        ///< since this round began
+    long frame;            ///< of the recording
+    enum theme_kind theme; ///< before
+};
+
+/// The document's own file as it was last seen: another program, or a second window, may write it.
+struct own_file {
+    char path[PATH_LIMIT];
+    struct file_stamp stamp; ///< when it was read or written last
+    struct file_stamp asked; ///< what the user was asked about at the window's focus
+};
 
 struct app {
     const struct app_options *options;
@@ -27,7 +47,8 @@ struct app {
     struct export_job *export_job; ///< NULL where nothing is exported
     struct personal *personal;     ///< NULL where nobody sits at a window
 
-    struct replay *replay;
+    struct replay *replay; ///< of the demo too
+    struct demo demo;
     struct recording *recording;
     struct framelog *log;
     struct frame_row row; ///< of the frame in progress
@@ -36,6 +57,11 @@ struct app {
     bool fixed_clock; ///< every frame is 1/60 s (headless, replays, recordings)
     bool was_idle;    ///< nothing moved by itself before this frame
     bool lost;        ///< the framebuffer does not hold the last frame
+    struct {
+        float width, height, scale;
+    } display;             ///< the window in logical pixels of the display, device pixels to one of them
+    double ui_scale;       ///< as chosen: how large everything is, beyond the display's scale
+    double ui_scale_shown; ///< as there is room
     struct pace pace;
     struct resolution resolution;
     double process_start; ///< on the clock
@@ -54,6 +80,9 @@ void app_free(struct app *app);
 /// One frame: input, edit, solve, pose, draw, log.
 void app_frame(struct app *app);
 
+/// Puts a new editor on the table, in place of the one that is there, for the display's size.
+bool app_open_editor(struct app *app, struct error *error);
+
 /// Opens a scene file, or the built-in one for NULL; on failure the document on the table stays.
 bool app_open(struct app *app, const char *path, struct error *error);
 
@@ -70,8 +99,35 @@ void app_requests(struct app *app);
 /// path to the error's sentence.
 void app_rescue(struct app *app, struct error *error);
 
-/// A new size of the window, in logical pixels.
+/// A new size of the window, in logical pixels of the display.
 void app_resize(struct app *app, float width, float height, float scale);
+
+/// The document and its own file say the same now, or the user has seen what is in it.
+void theirs_note(struct app *app);
+
+/// Whether the file is another one than the document came from.
+bool theirs_differs(struct app *app);
+
+/// The window has the focus again: asks what to do about a changed file, once for each change.
+void theirs_look(struct app *app);
+
+/// Lays the editor out anew for the display's size, as large as is chosen and as leaves room.
+void ui_scale_fit(struct app *app);
+/// The same, where presenting or leaving has changed what is wanted.
+void ui_scale_update(struct app *app);
+/// Turns the window's coordinates into the editor's.
+void ui_scale_to_ui(const struct app *app, struct event *event);
+/// The next step up (1) or down (-1), or the display's own scale (0). Refuses one that leaves the panels no room.
+bool ui_scale_step(struct app *app, int direction, struct error *error);
+
+/// The demo's recording, from its start. NULL with a sentence where it is broken or not in this build.
+struct replay *demo_replay(struct error *error);
+/// `dt` seconds on; behind the recording's end the next round begins.
+bool demo_next(struct app *app, double dt, struct error *error);
+/// Whether somebody wants to try for themselves.
+bool demo_is_touched_by(const struct event *event);
+/// Ends it with the start scene and the user's settings, as without a demo.
+bool demo_stop(struct app *app, struct error *error);
 
 /// The folder in which the editor's dialogs look for files.
 void app_connect_files(struct app *app);

@@ -16,6 +16,9 @@ int command_live(int argc, char **argv)
          &options.frames, 1, 10000000},
         {"--size", NULL, "WxH", "logical pixels (1280x720)", OPTION_SIZE, size, 320, 8192},
         {"--scale", NULL, "S", "device pixels per logical pixel, headless only", OPTION_REAL, &options.scale, 0.5, 4},
+        {"--ui-scale", NULL, "S",
+         "how large everything is, on top of that (default: as last chosen with Ctrl+Shift+= and -, else 1)",
+         OPTION_REAL, &options.ui_scale, 0.75, 3},
         {"--stage-scale", NULL, "S",
          "stage resolution while it moves: auto or 0.25 to 1 (default: auto in a window, else 1)", OPTION_TEXT,
          &options.stage_scale, 0, 0},
@@ -30,6 +33,9 @@ int command_live(int argc, char **argv)
         {"--screenshot", NULL, "FILE.png", "save a picture of the last frame", OPTION_OUTPUT, &options.screenshot, 0,
          0},
         {"--frames-dir", NULL, "DIR", "save a PNG of every frame", OPTION_TEXT, &options.frames_dir, 0, 0},
+        {"--demo", NULL, NULL,
+         "show what the app does, over and over; the first key or click ends it with the start scene", OPTION_FLAG,
+         &options.demo, 0, 0},
         {"--replay", NULL, "FILE", "play recorded input", OPTION_TEXT, &options.replay, 0, 0},
         {"--record", NULL, "FILE", "record all input", OPTION_OUTPUT, &options.record, 0, 0},
         {"--turns", NULL, "WHICH", "first or second: draw frames in turn with another program (docs/measuring.md)",
@@ -52,6 +58,11 @@ int command_live(int argc, char **argv)
     }
     if (options.turns && strcmp(options.turns, "first") != 0 && strcmp(options.turns, "second") != 0) {
         fprintf(stderr, "wiggly live: --turns: expected first or second, got '%s'\n", options.turns);
+        return OPTIONS_WRONG;
+    }
+    if (options.demo && (options.scene || options.replay || options.record)) {
+        fprintf(stderr,
+                "wiggly live: --demo brings its own scene and input: expected no scene, --replay or --record\n");
         return OPTIONS_WRONG;
     }
     options.width = size[0];

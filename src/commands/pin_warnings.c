@@ -35,6 +35,13 @@ static void tell_floor(const struct document *document, const struct floor_left 
     tell(user, sentence);
 }
 
+static void tell_passed_over(int spline, const char *what, void (*tell)(void *user, const char *sentence), void *user)
+{
+    char sentence[80];
+    snprintf(sentence, sizeof sentence, "splines[%d].%s", spline, what);
+    tell(user, sentence);
+}
+
 void pin_warnings(const struct document *document, const struct evaluation *evaluation,
                   void (*tell)(void *user, const char *sentence), void *user)
 {
@@ -45,11 +52,11 @@ void pin_warnings(const struct document *document, const struct evaluation *eval
     for (int r = 0; r < document->rig_count; r++)
         tell_floor(document, evaluation_floor(evaluation, r), r, tell, user);
     for (int s = 0; s < document->spline_count; s++) {
+        if (!pins_move_spline(document, s)) continue;
         const struct param *parameter = document->splines[s].parameter;
-        char sentence[80];
-        const bool limited = isfinite(parameter[PARAMETER_LOW].value) || isfinite(parameter[PARAMETER_HIGH].value);
-        if (!limited || !pins_move_spline(document, s)) continue;
-        snprintf(sentence, sizeof sentence, "splines[%d].limits: pins and floors pass over them", s);
-        tell(user, sentence);
+        if (isfinite(parameter[PARAMETER_LOW].value) || isfinite(parameter[PARAMETER_HIGH].value))
+            tell_passed_over(s, "limits: pins and floors pass over them", tell, user);
+        if (parameter[PARAMETER_STEADY].value > 0)
+            tell_passed_over(s, "steady: pins and floors pass over it", tell, user);
     }
 }

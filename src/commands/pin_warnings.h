@@ -4,7 +4,7 @@
 
 #include "scene/evaluate.h"
 
-/// Calls `tell` with a sentence for each pin that is not met, and for each spline whose limits pins pass over.
+/// Calls `tell` with a sentence for each pin that is not met, for each floor that is not, and for what of each spline they pass over.
 void pin_warnings(const struct document *document, const struct evaluation *evaluation,
                   void (*tell)(void *user, const char *sentence), void *user);
 

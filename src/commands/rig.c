@@ -91,10 +91,11 @@ static bool run(const struct job *job, struct error *error)
 {
     struct opened opened;
     if (!opened_read(&opened, job->character, error)) return false;
-    bool done = true;
-    if (!job->output) {
+    bool done = character_of(&opened) ||
+                fail(error, ERROR_INPUT, "%s: expected a character with bones, got a soft one", job->character);
+    if (done && !job->output) {
         contents_print(character_of(&opened));
-    } else {
+    } else if (done) {
         done = edit(job, &opened, error) && (path_has_end(job->output, ".json") ? write_scene(job, &opened, error)
                                                                                 : write_motion(job, &opened, error));
     }

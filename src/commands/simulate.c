@@ -47,7 +47,8 @@ static bool shake(struct job *job, struct soft *soft, const struct surface *surf
     struct floor floor = {0};
     bool good = start_drive(job, soft, error);
     if (good && job->floor >= 0) {
-        good = floor_create(&floor, &soft->lattice, surface, soft->bottom + job->floor, soft->young) ||
+        good = floor_create(&floor, &soft->lattice, surface, soft->bottom + job->floor, soft->young,
+                            job->soft.density) ||
                fail_no_memory(error, job->mesh);
         job->shake.loads.floor = &floor;
     }

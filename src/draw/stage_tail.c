@@ -1,28 +1,18 @@
 /// Draws tails and their animals, skinned.
+#include "draw/area.h"
 #include "draw/painter.h"
 #include "draw/stage_extent.h"
+#include "draw/stage_skin.h"
 #include "model/coat.h"
 #include "model/creature.h"
-#include "model/tail_skin.h"
 #include <math.h>
 #include <stddef.h>
 #include <stdlib.h>
-#include <string.h>
 
-enum {
-    JOINT_BINDING = 0,
-    BLOCK_BYTES = TAIL_SLOTS * 3 * 16, ///< what the shader's block holds: three rows a slot (model/tail_skin.h)
-    BLOCK_STRIDE = (BLOCK_BYTES + 255) / 256 * 256, ///< 256: the largest offset alignment a driver may ask for
-};
-
-/// What is drawn by a program of its own, so that each pixel and vertex pays only for what it is part of: what bends with the tail, the rest
-/// of the body, and what the face is on.
-enum region { REGION_TAIL, REGION_BODY, REGION_FACE, REGIONS };
-
-/// A mesh that every animal is drawn with, its triangles by region.
+/// A mesh on the GPU: what of it does not move.
 struct model {
-    GLuint vertex_array, vertices, indices;
-    GLsizei first[REGIONS + 1];
+    struct skin_mesh skin;
+    GLuint vertex_array, vertices;
 };
 
 struct coat_program {
@@ -32,84 +22,35 @@ struct coat_program {
 };
 
 struct animals {
-    GLuint joints;
     struct coat_program programs[REGIONS];
     struct model models[CREATURE_LEVELS];
-    float rows[TAIL_SLOTS][3][4];
+    int vertices;           ///< that all animals of a stage have at most
+    float (*place)[3];      ///< of all animals, one after the other; then as many normals
+    float *facing;          ///< of all animals
+    uint32_t *seen;         ///< triangles of a pass
+    GLuint moving, indices; ///< `place` and `seen` on the GPU
 };
 
-static void attribute(GLuint index, GLint size, size_t offset)
+static void attribute(GLuint index, GLint size, size_t stride, size_t offset)
 {
     glEnableVertexAttribArray(index);
-    glVertexAttribPointer(index, size, GL_FLOAT, GL_FALSE, sizeof(struct vertex), (const void *)offset);
+    glVertexAttribPointer(index, size, GL_FLOAT, GL_FALSE, (GLsizei)stride, (const void *)offset);
 }
 
-static enum region region_of(const struct mesh *mesh, const uint32_t corners[3])
+static bool model_create(struct model *model, int level)
 {
-    bool bends = false;
-    float lo[3], hi[3];
-    for (int c = 0; c < 3; c++) {
-        const struct vertex *vertex = &mesh->vertices[corners[c]];
-        float place[3];
-        creature_into_head(vertex->position, place);
-        bends |= vertex->bend > 0.0f;
-        for (int k = 0; k < 3; k++) {
-            lo[k] = c > 0 ? fminf(lo[k], place[k]) : place[k];
-            hi[k] = c > 0 ? fmaxf(hi[k], place[k]) : place[k];
-        }
-    }
-    if (bends) return REGION_TAIL;
-    for (int k = 0; k < 3; k++) {
-        if (lo[k] > creature_face_hi[k] || hi[k] < creature_face_lo[k]) return REGION_BODY;
-    }
-    return REGION_FACE;
-}
-
-/// Sorts a mesh's triangles by region; false if memory runs out.
-static bool sort_triangles(struct model *model, struct mesh *mesh)
-{
-    const size_t size = (size_t)mesh->index_count * sizeof *mesh->indices;
-    uint32_t *sorted = malloc(size);
-    int count = 0;
-    for (int region = 0; sorted && region < REGIONS; region++) {
-        model->first[region] = count;
-        for (int i = 0; i < mesh->index_count; i += 3) {
-            if (region_of(mesh, mesh->indices + i) != (enum region)region) continue;
-            memcpy(sorted + count, mesh->indices + i, 3 * sizeof *sorted);
-            count += 3;
-        }
-    }
-    model->first[REGIONS] = count;
-    if (sorted) memcpy(mesh->indices, sorted, size);
-    free(sorted);
-    return sorted;
-}
-
-static bool model_create(struct model *model, int level, struct error *error)
-{
-    struct mesh mesh = {0};
-    mesh_creature(level, &mesh);
-    if (mesh.failed || !sort_triangles(model, &mesh)) {
-        mesh_free(&mesh);
-        return fail(error, ERROR_ENVIRONMENT, "not enough memory for the model on the stage");
-    }
+    if (!stage_skin_create(&model->skin, level)) return false;
+    const struct mesh *mesh = &model->skin.mesh;
     glGenVertexArrays(1, &model->vertex_array);
     glBindVertexArray(model->vertex_array);
     glGenBuffers(1, &model->vertices);
     glBindBuffer(GL_ARRAY_BUFFER, model->vertices);
-    glBufferData(GL_ARRAY_BUFFER, (GLsizeiptr)((size_t)mesh.vertex_count * sizeof *mesh.vertices), mesh.vertices,
+    glBufferData(GL_ARRAY_BUFFER, (GLsizeiptr)((size_t)mesh->vertex_count * sizeof *mesh->vertices), mesh->vertices,
                  GL_STATIC_DRAW);
-    glGenBuffers(1, &model->indices);
-    glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, model->indices);
-    glBufferData(GL_ELEMENT_ARRAY_BUFFER, (GLsizeiptr)((size_t)mesh.index_count * sizeof *mesh.indices), mesh.indices,
-                 GL_STATIC_DRAW);
-    attribute(0, 3, offsetof(struct vertex, position));
-    attribute(1, 3, offsetof(struct vertex, normal));
-    attribute(2, 3, offsetof(struct vertex, mark));
-    attribute(3, 1, offsetof(struct vertex, bend));
-    attribute(4, 3, offsetof(struct vertex, limb));
+    attribute(0, 3, sizeof(struct vertex), offsetof(struct vertex, position));
+    attribute(1, 3, sizeof(struct vertex), offsetof(struct vertex, mark));
+    attribute(2, 1, sizeof(struct vertex), offsetof(struct vertex, bend));
     glBindVertexArray(0);
-    mesh_free(&mesh);
     return true;
 }
 
@@ -117,7 +58,7 @@ static void model_destroy(struct model *model)
 {
     glDeleteVertexArrays(1, &model->vertex_array);
     glDeleteBuffers(1, &model->vertices);
-    glDeleteBuffers(1, &model->indices);
+    mesh_free(&model->skin.mesh);
 }
 
 /// What of the coat never changes.
@@ -145,88 +86,142 @@ static bool program_create(struct coat_program *coat, const char *define, struct
     coat->blink = glGetUniformLocation(program, "blink");
     coat->shared = painter_find_uniforms(program);
     set_coat(program);
-    glUniformBlockBinding(program, glGetUniformBlockIndex(program, "Joints"), JOINT_BINDING);
     return true;
 }
 
 static bool programs_create(struct animals *painter, struct error *error)
 {
-    static const char *const defines[REGIONS] = {
-        [REGION_TAIL] = "FURRED", [REGION_BODY] = "LIMBED", [REGION_FACE] = "FACED"};
+    static const char *const defines[REGIONS] = {[REGION_COAT] = "FURRED", [REGION_FACE] = "FACED"};
     for (int region = 0; region < REGIONS; region++) {
         if (!program_create(&painter->programs[region], defines[region], error)) return false;
     }
-    glGenBuffers(1, &painter->joints);
-    glBindBuffer(GL_UNIFORM_BUFFER, painter->joints);
-    glBufferData(GL_UNIFORM_BUFFER, STAGE_MAX_TAILS * BLOCK_STRIDE, NULL, GL_DYNAMIC_DRAW);
     return true;
+}
+
+static const struct model *model_of(const struct animals *painter, int animals)
+{
+    return &painter->models[creature_level(animals)];
+}
+
+/// Room for as many animals as a stage can have; false if memory runs out.
+static bool room_create(struct animals *painter)
+{
+    int indices = 0;
+    for (int animals = 1; animals <= STAGE_MAX_TAILS; animals++) {
+        const struct mesh *mesh = &model_of(painter, animals)->skin.mesh;
+        painter->vertices = area_max(painter->vertices, animals * mesh->vertex_count);
+        indices = area_max(indices, animals * mesh->index_count);
+    }
+    painter->place = malloc(2 * (size_t)painter->vertices * sizeof *painter->place);
+    painter->facing = malloc((size_t)painter->vertices * sizeof *painter->facing);
+    painter->seen = malloc((size_t)indices * sizeof *painter->seen);
+    glGenBuffers(1, &painter->moving);
+    glGenBuffers(1, &painter->indices);
+    return painter->place && painter->facing && painter->seen;
 }
 
 static void destroy(void *state)
 {
     struct animals *painter = state;
     for (int level = 0; level < CREATURE_LEVELS; level++) model_destroy(&painter->models[level]);
-    glDeleteBuffers(1, &painter->joints);
+    glDeleteBuffers(1, &painter->moving);
+    glDeleteBuffers(1, &painter->indices);
     for (int region = 0; region < REGIONS; region++) {
         if (painter->programs[region].program) glDeleteProgram(painter->programs[region].program);
     }
+    free(painter->place);
+    free(painter->facing);
+    free(painter->seen);
     free(painter);
 }
 
 static void *create(struct error *error)
 {
     struct animals *painter = calloc(1, sizeof *painter);
-    if (!painter) {
-        fail(error, ERROR_ENVIRONMENT, "not enough memory for the stage");
+    if (painter && !programs_create(painter, error)) {
+        destroy(painter);
         return NULL;
     }
-    bool made = programs_create(painter, error);
-    for (int level = 0; made && level < CREATURE_LEVELS; level++) {
-        made = model_create(&painter->models[level], level, error);
-    }
-    if (made) return painter;
-    destroy(painter);
+    bool made = painter != NULL;
+    for (int level = 0; made && level < CREATURE_LEVELS; level++) made = model_create(&painter->models[level], level);
+    if (made && room_create(painter)) return painter;
+    fail(error, ERROR_ENVIRONMENT, "not enough memory for the stage");
+    if (painter) destroy(painter);
     return NULL;
 }
 
-static int upload_joints(struct animals *painter, const struct stage_tail *tail, int block)
+static struct skin skin_of(const struct animals *painter, const struct model *model, int tail)
 {
-    const int bytes = tail_slots(&tail->pose, painter->rows) * (int)sizeof *painter->rows;
-    glBufferSubData(GL_UNIFORM_BUFFER, block * BLOCK_STRIDE, bytes, painter->rows);
-    return bytes;
+    const int first = tail * model->skin.mesh.vertex_count;
+    return (struct skin){painter->place + first, painter->place + painter->vertices + first, painter->facing + first};
 }
 
 static void upload(void *state, const struct stage_view *view, long *bytes)
 {
-    struct animals *painter = state;
-    glBindBuffer(GL_UNIFORM_BUFFER, painter->joints);
-    for (int t = 0; t < view->tail_count; t++) *bytes += upload_joints(painter, &view->tails[t], t);
+    const struct animals *painter = state;
+    const struct model *model = model_of(painter, view->tail_count);
+    const size_t half = (size_t)painter->vertices * sizeof *painter->place;
+    const size_t used = (size_t)(view->tail_count * model->skin.mesh.vertex_count) * sizeof *painter->place;
+    if (view->tail_count == 0) return;
+    for (int t = 0; t < view->tail_count; t++) {
+        const struct skin skin = skin_of(painter, model, t);
+        stage_skin_pose(&model->skin, &view->tails[t].pose, view->eye, &skin);
+    }
+    glBindBuffer(GL_ARRAY_BUFFER, painter->moving);
+    glBufferData(GL_ARRAY_BUFFER, (GLsizeiptr)(2 * half), NULL, GL_STREAM_DRAW);
+    glBufferSubData(GL_ARRAY_BUFFER, 0, (GLsizeiptr)used, painter->place);
+    glBufferSubData(GL_ARRAY_BUFFER, (GLintptr)half, (GLsizeiptr)used, painter->place + painter->vertices);
+    *bytes += 2 * (long)used;
 }
 
-static void draw_region(const struct animals *painter, const struct model *model, const struct stage_view *view,
-                        int tail, enum region region)
+static void draw_region(const struct animals *painter, const struct model *model, const struct pose *pose, int tail,
+                        enum region region, GLsizei first, GLsizei count)
 {
-    const struct pose *pose = &view->tails[tail].pose;
     const struct coat_program *coat = &painter->programs[region];
-    const GLsizei first = model->first[region], count = model->first[region + 1] - first;
-    const int joints = pose->count - 1;
-    const float length = pose_length(pose);
-    glUniform4f(coat->shape, length / CREATURE_TAIL_LENGTH, (float)joints, length / (float)joints, pose->ground);
-    glBindBufferRange(GL_UNIFORM_BUFFER, JOINT_BINDING, painter->joints, tail * BLOCK_STRIDE, BLOCK_BYTES);
+    const size_t stride = sizeof *painter->place, half = (size_t)painter->vertices * stride;
+    const size_t offset = (size_t)(tail * model->skin.mesh.vertex_count) * stride;
+    attribute(3, 3, stride, offset);
+    attribute(4, 3, stride, half + offset);
+    glUniform2f(coat->shape, pose_length(pose) / CREATURE_TAIL_LENGTH, pose->ground);
     if (coat->blink >= 0) glUniform1f(coat->blink, pose->limbs.blink);
     glDrawElements(GL_TRIANGLES, count, GL_UNSIGNED_INT, (const void *)((size_t)first * sizeof(GLuint)));
+}
+
+/// Uploads the triangles that are seen in a pass; those of region r and animal t begin at first[r][t] and end where the next ones begin.
+static void upload_seen(const struct animals *painter, const struct model *model, const struct stage_view *view,
+                        float seam, GLsizei first[REGIONS][STAGE_MAX_TAILS + 1])
+{
+    GLsizei count = 0;
+    for (int region = 0; region < REGIONS; region++) {
+        for (int t = 0; t < view->tail_count; t++) {
+            const struct skin skin = skin_of(painter, model, t);
+            first[region][t] = count;
+            count +=
+                stage_skin_seen(&model->skin, &skin, (enum region)region, view->eye, seam, painter->seen + count);
+        }
+        first[region][view->tail_count] = count;
+    }
+    glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, painter->indices);
+    glBufferData(GL_ELEMENT_ARRAY_BUFFER, (GLsizeiptr)((size_t)count * sizeof *painter->seen), painter->seen,
+                 GL_STREAM_DRAW);
 }
 
 static void draw(const void *state, const struct stage_view *view, float scale, float seam)
 {
     const struct animals *painter = state;
+    const struct model *model = model_of(painter, view->tail_count);
+    GLsizei first[REGIONS][STAGE_MAX_TAILS + 1];
     (void)scale;
-    const struct model *model = &painter->models[creature_level(view->tail_count)];
     if (view->tail_count == 0) return;
     glBindVertexArray(model->vertex_array);
+    upload_seen(painter, model, view, seam, first);
+    glBindBuffer(GL_ARRAY_BUFFER, painter->moving);
     for (int region = 0; region < REGIONS; region++) {
         painter_use(painter->programs[region].program, &painter->programs[region].shared, view, seam);
-        for (int t = 0; t < view->tail_count; t++) draw_region(painter, model, view, t, (enum region)region);
+        for (int t = 0; t < view->tail_count; t++) {
+            const GLsizei from = first[region][t], count = first[region][t + 1] - from;
+            draw_region(painter, model, &view->tails[t].pose, t, (enum region)region, from, count);
+        }
     }
     glBindVertexArray(0);
 }
@@ -238,7 +233,7 @@ static float ground(const struct stage_view *view)
     return lowest;
 }
 
-/// Skin follows joints that are at most 2.5 segments away (see stage_mesh.vert), so it stays within a sphere around each.
+/// Skin follows joints that are at most 2.5 segments away (see model/tail_skin.h), so it stays within a sphere around each.
 static void add_pose(struct extent *extent, const struct pose *pose)
 {
     float lo[3], hi[3];

@@ -5,6 +5,7 @@
 #include "editor/core/core.h"
 #include "editor/core/knots.h"
 #include "editor/core/pins.h"
+#include "editor/core/presenter.h"
 #include "editor/core/selection.h"
 #include "editor/curves/curves.h"
 #include "editor/dialogs/dialog_files.h"
@@ -25,8 +26,6 @@ enum { MAX_COMMANDS = 16384, MAX_POINTS = 1 << 18, MAX_TEXT = 1 << 16 };
 static void hear(void *who, const struct editor_world *world, enum news news, int spline)
 {
     struct editor *editor = who;
-    int rig, channel;
-    const struct channel *moved;
     switch (news) {
     case NEWS_OPENED:
         editor_open(editor, world);
@@ -38,8 +37,7 @@ static void hear(void *who, const struct editor_world *world, enum news news, in
         curves_activate(editor->curves, &editor->core, spline);
         break;
     case NEWS_ACTIVATED:
-        moved = core_active_channel(&editor->core, world->document, &rig, &channel);
-        if (moved && moved->spline == spline) inspector_show_channel(editor->inspector, rig, channel);
+        inspector_show_spline(editor->inspector, &editor->core, world->document, spline);
         break;
     case NEWS_DRAG_MOVES:
         curves_capture_ghost(editor->curves, &editor->core, world);
@@ -71,7 +69,9 @@ struct editor *editor_create(struct error *error)
     editor->core.layout.inspector_width = THEME_INSPECTOR_WIDTH;
     editor->core.visible = 2;
     editor->core.active = -1;
+    editor->core.ui_scale = 1;
     editor->core.brush = (struct brush){.radius = 0.12, .strength = 0.4};
+    editor->core.overlays.ghost = true;
     editor->core.listener = (struct listener){hear, editor};
     editor_resize(editor, 1280, 720, 1);
     return editor;
@@ -97,7 +97,12 @@ void editor_destroy(struct editor *editor)
 void editor_resize(struct editor *editor, float width, float height, float scale)
 {
     editor->core.layout.window = (struct rect){0, 0, width > 1 ? width : 1, height > 1 ? height : 1};
-    editor->core.scale = scale > 0 ? scale : 1;
+    const float before = editor->core.scale, now = scale > 0 ? scale : 1;
+    if (before > 0) { // the pointer stays where it is on the screen
+        editor->core.pointer_x *= before / now;
+        editor->core.pointer_y *= before / now;
+    }
+    editor->core.scale = now;
     core_layout(&editor->core);
 }
 
@@ -171,6 +176,7 @@ void editor_open(struct editor *editor, const struct editor_world *world)
     editor->core.serial = document->serial;
     editor_reserve(editor, document);
     inspector_reset(editor->inspector);
+    inspector_show_spline(editor->inspector, &editor->core, document, editor->core.active);
     editor_set_path(editor, document->path ? document->path : "");
 }
 
@@ -216,8 +222,14 @@ bool editor_wants_frames(const struct editor *editor)
 {
     return editor->core.playback.playing || editor->core.drag.kind == DRAG_GRAB ||
            editor->core.drag.kind == DRAG_PAINT || stage_is_moving(editor->stage) ||
-           editor->core.message.seconds_left > 0 || curves_wants_frames(editor->curves);
+           editor->core.message.seconds_left > 0 || editor->core.nudged_seconds > 0 ||
+           presenter_is_sliding(&editor->core) || dialogs_want_frames(editor->dialogs, &editor->core) ||
+           curves_wants_frames(editor->curves) || tooltip_waits(&editor->tooltip);
 }
+
+bool editor_is_presenting(const struct editor *editor) { return editor->core.presenter.on; }
+
+void editor_tell_ui_scale(struct editor *editor, double scale) { editor->core.ui_scale = scale; }
 
 const struct drawlist *editor_drawlist(const struct editor *editor) { return &editor->core.list; }
 
@@ -229,6 +241,12 @@ void editor_message(struct editor *editor, bool is_error, const char *text)
 }
 
 void editor_refresh(struct editor *editor, const struct editor_world *world) { core_refresh(&editor->core, world); }
+
+void editor_show_last(struct editor *editor, const struct editor_world *world)
+{
+    inspector_show_rig(editor->inspector, &editor->core, world, world->document->rig_count - 1);
+    editor->core.refit_stage = true;
+}
 
 const char *editor_clipboard(const struct editor *editor)
 {

@@ -18,6 +18,9 @@ void editor_open(struct editor *editor, const struct editor_world *world);
 /// active spline and the shown frame again, wherever they are now.
 void editor_refresh(struct editor *editor, const struct editor_world *world);
 
+/// The last rig was added by the app: it is shown, in the inspector and on the stage.
+void editor_show_last(struct editor *editor, const struct editor_world *world);
+
 /// Ends any drag where it is: before the app itself makes an edit.
 void editor_let_go(struct editor *editor, const struct editor_world *world);
 
@@ -34,6 +37,11 @@ bool editor_is_welcoming(const struct editor *editor);
 /// The panels' sizes, which the user drags: the stage's share of the height, the inspector's width.
 void editor_panels(const struct editor *editor, double *stage_share, double *inspector_width);
 void editor_set_panels(struct editor *editor, double stage_share, double inspector_width);
+
+/// Whether it presents (F5): then it wants larger type.
+bool editor_is_presenting(const struct editor *editor);
+/// What the user has chosen of the scale, for the status line.
+void editor_tell_ui_scale(struct editor *editor, double scale);
 
 /// Logical size of the window, and device pixels a logical pixel.
 void editor_resize(struct editor *editor, float width, float height, float scale);

@@ -3,6 +3,7 @@
 #include "editor/core/drag.h"
 #include "editor/core/knots.h"
 #include "editor/core/playback.h"
+#include "editor/core/presenter.h"
 #include "editor/curves/curves.h"
 #include "editor/dialogs/dialogs.h"
 #include "editor/editor.h"
@@ -52,11 +53,12 @@ static bool drag_takes(struct editor *editor, const struct editor_world *world, 
 static void press(struct editor *editor, const struct editor_world *world, const struct event *event)
 {
     enum drag_kind divider = core_divider_at(&editor->core, event->x, event->y);
+    const enum panel panel = core_panel_at(&editor->core, event->x, event->y);
     if (divider != DRAG_NONE && event->button == BUTTON_LEFT) {
         drag_begin(&editor->core, divider, NULL, event);
-    } else if (rect_contains(editor->core.layout.curves, event->x, event->y)) {
+    } else if (panel == PANEL_CURVES) {
         curves_press(editor->curves, &editor->core, world, event);
-    } else if (rect_contains(editor->core.layout.stage, event->x, event->y)) {
+    } else if (panel == PANEL_STAGE) {
         stage_press(editor->stage, &editor->core, world, event);
     } else {
         transport_event(&editor->core, world, event);
@@ -68,6 +70,14 @@ void editor_leave(struct editor *editor, const struct editor_world *world, const
 {
     inspector_let_go(editor->inspector, world);
     dialogs_leave(editor->dialogs, &editor->core, world, request);
+}
+
+static void turn_wheel(struct editor *editor, const struct editor_world *world, const struct event *event)
+{
+    const enum panel panel = core_panel_at(&editor->core, event->x, event->y);
+    if (panel == PANEL_CURVES) curves_wheel(editor->curves, &editor->core, event);
+    if (panel == PANEL_STATUS) transport_event(&editor->core, world, event);
+    if (panel == PANEL_STAGE) stage_wheel(editor->stage, &editor->core, event);
 }
 
 /// Events that neither a dialog nor a running drag nor the inspector wanted.
@@ -83,12 +93,7 @@ static void dispatch(struct editor *editor, const struct editor_world *world, co
         if (event->action == ACTION_PRESS) press(editor, world, event);
         break;
     case EVENT_WHEEL:
-        if (rect_contains(editor->core.layout.curves, event->x, event->y))
-            curves_wheel(editor->curves, &editor->core, event);
-        if (rect_contains(editor->core.layout.status, event->x, event->y))
-            transport_event(&editor->core, world, event);
-        if (rect_contains(editor->core.layout.stage, event->x, event->y))
-            stage_wheel(editor->stage, &editor->core, event);
+        turn_wheel(editor, world, event);
         break;
     case EVENT_PASTE:
         core_paste_knots(&editor->core, world, event->text);
@@ -145,16 +150,26 @@ static void let_go(struct editor *editor, const struct editor_world *world)
     editor->core.space_down = false;
 }
 
+/// What somebody does puts a tooltip away; moving the pointer does not.
+static bool is_interruption(const struct event *event)
+{
+    const bool pressed = (event->kind == EVENT_KEY || event->kind == EVENT_BUTTON) && event->action != ACTION_RELEASE;
+    return pressed || event->kind == EVENT_TEXT || event->kind == EVENT_WHEEL || event->kind == EVENT_SIZE;
+}
+
 /// Events go to what lies over the panels first, then to a running drag, then to the inspector. A field that is typed in takes
 /// all keys but Ctrl chords and F keys, a focused slider the arrows, Enter and digits, an open dialog all.
 void editor_event(struct editor *editor, const struct editor_world *world, const struct event *event)
 {
     note(editor, event);
+    if (is_interruption(event)) tooltip_dismiss(&editor->tooltip);
     if (event->kind == EVENT_SIZE) editor_resize(editor, event->x, event->y, event->scale);
     editor_reserve(editor, world->document);
+    dialogs_note(editor->dialogs, event);
     bool used =
         dialogs_event(editor->dialogs, &editor->core, world, event, inspector_is_dragging(editor->inspector)) ||
         drag_takes(editor, world, event) ||
+        (!inspector_is_typing(editor->inspector) && presenter_event(&editor->core, event)) ||
         (editor->core.drag.kind == DRAG_NONE && inspector_event(editor->inspector, &editor->core, world, event));
     if (event->kind == EVENT_KEY && event->action != ACTION_RELEASE) {
         editor->press = (struct press){.used = used, .repeated = event->action == ACTION_REPEAT};
@@ -167,12 +182,18 @@ void editor_event(struct editor *editor, const struct editor_world *world, const
 void editor_advance(struct editor *editor, const struct editor_world *world, double dt)
 {
     struct message *message = &editor->core.message;
+    const bool busy = inspector_is_typing(editor->inspector) || inspector_is_dragging(editor->inspector) ||
+                      inspector_has_menu(editor->inspector) || dialogs_cover(editor->dialogs);
     editor->press = (struct press){.used = false}; // what it types comes in the same frame
     if (message->seconds_left > 0) {
         message->seconds_left -= dt;
         if (message->seconds_left <= 0) message->text[0] = 0;
     }
+    presenter_advance(&editor->core, dt, busy);
+    dialogs_advance(editor->dialogs, &editor->core, dt);
+    editor->core.nudged_seconds = fmax(editor->core.nudged_seconds - dt, 0);
     transport_advance(editor->transport, &editor->core, dt);
+    tooltip_advance(&editor->tooltip, dt);
     playback_advance(&editor->core, world, dt);
     curves_drag_apply(editor->curves, &editor->core, world);
     curves_advance(editor->curves, &editor->core, dt);
@@ -181,6 +202,7 @@ void editor_advance(struct editor *editor, const struct editor_world *world, dou
 
 void editor_pose(struct editor *editor, const struct editor_world *world)
 {
+    sheet_update(editor->curves, &editor->core, world->document);
     if (!editor->fitted) {
         editor->fitted = true;
         curves_frame_all(editor->curves, &editor->core, world);
@@ -207,11 +229,10 @@ static void update_hover(struct editor *editor, const struct editor_world *world
     float x = editor->core.pointer_x, y = editor->core.pointer_y;
     editor->core.hover = (struct hover){.kind = HOVER_NONE};
     if (dialogs_cover(editor->dialogs) || core_divider_at(&editor->core, x, y) != DRAG_NONE) return;
-    if (rect_contains(editor->core.layout.curves, x, y))
-        editor->core.hover = curves_hover(editor->curves, &editor->core, world, x, y);
-    if (rect_contains(editor->core.layout.stage, x, y))
-        editor->core.hover = stage_hover(editor->stage, &editor->core, world->document, x, y);
-    if (rect_contains(editor->core.layout.status, x, y)) editor->core.hover = transport_hover(&editor->core, x, y);
+    const enum panel panel = core_panel_at(&editor->core, x, y);
+    if (panel == PANEL_CURVES) editor->core.hover = curves_hover(editor->curves, &editor->core, world, x, y);
+    if (panel == PANEL_STAGE) editor->core.hover = stage_hover(editor->stage, &editor->core, world->document, x, y);
+    if (panel == PANEL_STATUS) editor->core.hover = transport_hover(&editor->core, x, y);
 }
 
 /// The grip in the middle of a divider shows that it can be dragged.
@@ -228,13 +249,46 @@ static void show_grip(struct editor *editor, enum drag_kind divider, float x, fl
                      color);
 }
 
-static void show_dividers(struct editor *editor)
+static void show_stage_divider(struct editor *editor)
 {
-    const struct layout *l = &editor->core.layout;
-    drawlist_rect(&editor->core.list, (struct rect){0, l->curves.y, l->curves.w, 1}, theme()->border);
-    drawlist_rect(&editor->core.list, (struct rect){l->inspector.x, 0, 1, l->inspector.h}, theme()->border);
-    show_grip(editor, DRAG_STAGE_DIVIDER, l->curves.w / 2, l->curves.y + 0.5f);
-    show_grip(editor, DRAG_INSPECTOR_DIVIDER, l->inspector.x + 0.5f, l->inspector.h / 2);
+    const struct rect *curves = &editor->core.layout.curves;
+    drawlist_rect(&editor->core.list, (struct rect){0, curves->y, curves->w, 1}, theme()->border);
+    if (!editor->core.presenter.on) show_grip(editor, DRAG_STAGE_DIVIDER, curves->w / 2, curves->y + 0.5f);
+}
+
+static void show_inspector_divider(struct editor *editor)
+{
+    const struct rect *inspector = &editor->core.layout.inspector;
+    drawlist_rect(&editor->core.list, (struct rect){inspector->x, 0, 1, inspector->h}, theme()->border);
+    if (!editor->core.presenter.on) show_grip(editor, DRAG_INSPECTOR_DIVIDER, inspector->x + 0.5f, inspector->h / 2);
+}
+
+/// A control that the pointer is on explains itself; else the one that has the keyboard.
+static void show_tooltip(struct editor *editor, const struct editor_world *world)
+{
+    struct core *core = &editor->core;
+    const struct rect cursor = {core->pointer_x, core->pointer_y - 4, 14, 22};
+    struct rect at = cursor;
+    const char *text = inspector_hint(editor->inspector);
+    if (!text) text = transport_hint(core, world->document);
+    if (!text) text = inspector_focus_hint(editor->inspector, &at);
+    if (dialogs_cover(editor->dialogs) || core->drag.kind != DRAG_NONE) text = NULL;
+    tooltip_offer(&editor->tooltip, text, core->pointer_x, core->pointer_y, at);
+    tooltip_show(&editor->tooltip, core->layout.window, &core->list);
+}
+
+/// All panels; while presenting, those that have not slid away.
+static void show_panels(struct editor *editor, const struct editor_world *world)
+{
+    const struct presenter *presenter = &editor->core.presenter;
+    const bool below = !presenter->on || presenter->below > 0, side = !presenter->on || presenter->side > 0;
+    const char *hint = inspector_hint(editor->inspector);
+    if (below) curves_show(editor->curves, &editor->core, world);
+    if (below) show_stage_divider(editor); // below the inspector's menus
+    if (side) inspector_show(editor->inspector, &editor->core, world, dialogs_cover(editor->dialogs));
+    if (side) show_inspector_divider(editor);
+    if (!hint) hint = curves_hint(editor->curves, &editor->core);
+    if (below) transport_show(editor->transport, &editor->core, world, hint);
 }
 
 void editor_show(struct editor *editor, const struct editor_world *world)
@@ -244,12 +298,10 @@ void editor_show(struct editor *editor, const struct editor_world *world)
     stage_show(editor->stage, &editor->core, world);
     stage_show_caption(&editor->core, world->document, dialogs_bottom(editor->dialogs, &editor->core));
     dialogs_show_welcome(editor->dialogs, &editor->core, world);
-    curves_show(editor->curves, &editor->core, world);
-    inspector_show(editor->inspector, &editor->core, world, dialogs_cover(editor->dialogs));
-    show_dividers(editor);
-    const char *hint = inspector_hint(editor->inspector);
-    transport_show(editor->transport, &editor->core, world, hint ? hint : curves_hint(editor->curves, &editor->core));
+    show_panels(editor, world);
+    dialogs_show_input(editor->dialogs, &editor->core);
     dialogs_show(editor->dialogs, &editor->core, world);
+    show_tooltip(editor, world);
 }
 
 enum mouse_cursor editor_cursor(const struct editor *editor)
@@ -273,12 +325,13 @@ enum mouse_cursor editor_cursor(const struct editor *editor)
         [DRAG_PIN_TIME] = CURSOR_HORIZONTAL,
     };
     static const enum mouse_cursor of_hover[] = {
-        [HOVER_NONE] = CURSOR_ARROW,   [HOVER_KNOT] = CURSOR_MOVE,        [HOVER_SLOPE] = CURSOR_MOVE,
-        [HOVER_CURVE] = CURSOR_HAND,   [HOVER_RULER] = CURSOR_HORIZONTAL, [HOVER_JOINT] = CURSOR_HAND,
-        [HOVER_BONE] = CURSOR_HAND,    [HOVER_UNITS] = CURSOR_HAND,       [HOVER_BODY] = CURSOR_MOVE,
-        [HOVER_PLAY] = CURSOR_HAND,    [HOVER_LOOP] = CURSOR_HAND,        [HOVER_SPEED] = CURSOR_HAND,
-        [HOVER_WARNING] = CURSOR_HAND, [HOVER_LIMIT] = CURSOR_VERTICAL,   [HOVER_POINT] = CURSOR_HAND,
-        [HOVER_PIN] = CURSOR_MOVE,     [HOVER_AUTO_KEY] = CURSOR_HAND,
+        [HOVER_NONE] = CURSOR_ARROW,    [HOVER_KNOT] = CURSOR_MOVE,        [HOVER_SLOPE] = CURSOR_MOVE,
+        [HOVER_CURVE] = CURSOR_HAND,    [HOVER_RULER] = CURSOR_HORIZONTAL, [HOVER_JOINT] = CURSOR_HAND,
+        [HOVER_BONE] = CURSOR_HAND,     [HOVER_UNITS] = CURSOR_HAND,       [HOVER_SHEET] = CURSOR_HAND,
+        [HOVER_BODY] = CURSOR_MOVE,     [HOVER_PLAY] = CURSOR_HAND,        [HOVER_LOOP] = CURSOR_HAND,
+        [HOVER_SPEED] = CURSOR_HAND,    [HOVER_WARNING] = CURSOR_HAND,     [HOVER_LIMIT] = CURSOR_VERTICAL,
+        [HOVER_POINT] = CURSOR_HAND,    [HOVER_PIN] = CURSOR_MOVE,         [HOVER_ROW] = CURSOR_ARROW,
+        [HOVER_AUTO_KEY] = CURSOR_HAND, [HOVER_UI_SCALE] = CURSOR_HAND,    [HOVER_PRESENT] = CURSOR_HAND,
     };
     static const enum mouse_cursor of_widget[] = {
         [UI_OVER_NOTHING] = CURSOR_ARROW, [UI_OVER_NUMBER] = CURSOR_HORIZONTAL, [UI_OVER_TEXT] = CURSOR_TEXT};

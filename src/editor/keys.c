@@ -7,6 +7,7 @@
 #include "editor/core/knots.h"
 #include "editor/core/pins.h"
 #include "editor/core/playback.h"
+#include "editor/core/presenter.h"
 #include "editor/core/selection.h"
 #include "editor/curves/curves.h"
 #include "editor/dialogs/dialogs.h"
@@ -45,11 +46,17 @@ static void run_request(struct editor *e, const struct editor_world *w, int argu
     core_request(&e->core, (enum request_kind)argument, NULL);
 }
 
+static void run_ui_scale(struct editor *e, const struct editor_world *w, int direction)
+{
+    (void)w;
+    core_request_number(&e->core, REQUEST_UI_SCALE, direction);
+}
+
 static void run_figure(struct editor *e, const struct editor_world *w, int argument)
 {
     (void)w;
     if (argument == 2) inspector_unfold(e->inspector, "section.poles");
-    core_request_figure(&e->core, argument);
+    core_request_number(&e->core, REQUEST_FIGURE, argument);
 }
 
 static void run_insert(struct editor *e, const struct editor_world *w, int argument)
@@ -64,7 +71,7 @@ static bool has_pin(const struct editor *editor, const struct editor_world *worl
     return pins_selected(&editor->core, world->document, &rig) != NULL;
 }
 
-/// Puts the brush away; without one, stops to pick a bone, lets go of the bone or pin that is selected, or clears the selection.
+/// Puts the brush away; without one, stops to pick a bone, ends presenting, lets go of the bone or pin that is selected, or clears the selection.
 static void run_select_none(struct editor *e, const struct editor_world *w, int argument)
 {
     (void)argument;
@@ -72,6 +79,8 @@ static void run_select_none(struct editor *e, const struct editor_world *w, int 
         characters_set_brush(&e->core, w, false);
     } else if (e->core.pick.use != BONE_SELECTED) {
         e->core.pick = (struct bone_pick){0};
+    } else if (e->core.presenter.on) {
+        presenter_toggle(&e->core, w, 0);
     } else if (e->core.bone.any) {
         bones_clear(&e->core);
     } else if (has_pin(e, w)) {
@@ -99,7 +108,7 @@ static void run_hold(struct editor *e, const struct editor_world *w, int argumen
 
 static void run_frame(struct editor *e, const struct editor_world *w, int argument)
 {
-    if (!argument && rect_contains(e->core.layout.stage, e->core.pointer_x, e->core.pointer_y)) {
+    if (!argument && core_panel_at(&e->core, e->core.pointer_x, e->core.pointer_y) == PANEL_STAGE) {
         stage_fit(e->stage, &e->core, w);
     } else if (argument) {
         curves_frame_selection(e->curves, &e->core, w);
@@ -138,6 +147,13 @@ static void run_normalise(struct editor *e, const struct editor_world *w, int ar
     curves_toggle_normal(e->curves, &e->core, w);
 }
 
+static void run_sheet(struct editor *e, const struct editor_world *w, int argument)
+{
+    (void)w;
+    (void)argument;
+    curves_toggle_sheet(e->curves, &e->core);
+}
+
 static void run_units(struct editor *e, const struct editor_world *w, int argument)
 {
     (void)w;
@@ -155,6 +171,8 @@ static void run_overlay(struct editor *e, const struct editor_world *w, int argu
     (void)w;
     if (argument == 'O') {
         stage_toggle_onion(&e->core);
+    } else if (argument == KEY_F4) {
+        stage_toggle_ghost(&e->core);
     } else {
         stage_toggle_trail(&e->core);
     }
@@ -171,6 +189,19 @@ static void run_rename(struct editor *e, const struct editor_world *w, int argum
 {
     (void)argument;
     inspector_rename(e->inspector, &e->core, w);
+}
+
+static void run_add(struct editor *e, const struct editor_world *w, int argument)
+{
+    (void)w;
+    (void)argument;
+    inspector_add_menu(e->inspector, &e->core);
+}
+
+static void run_remove_rig(struct editor *e, const struct editor_world *w, int argument)
+{
+    (void)argument;
+    inspector_remove_rig(e->inspector, &e->core, w);
 }
 
 static void run_theme(struct editor *e, const struct editor_world *w, int argument)
@@ -302,6 +333,13 @@ const struct binding key_bindings[] = {
     {.key = '8', .mods = MOD_CTRL, .run = run_figure, .argument = 8},
     {.key = '9', .mods = MOD_CTRL, .run = run_figure, .argument = 9},
     {.key = '0', .mods = MOD_CTRL, .run = run_figure, .argument = 10},
+    {.key = '=', .mods = CTRL_SHIFT, .repeats = true, .run = run_ui_scale, .argument = 1},
+    {.key = '+', .mods = CTRL_SHIFT, .repeats = true, .run = run_ui_scale, .argument = 1},
+    {.key = '-', .mods = CTRL_SHIFT, .repeats = true, .run = run_ui_scale, .argument = -1},
+    {.key = '0', .mods = CTRL_SHIFT, .run = run_ui_scale, .argument = 0},
+    {.key = KEY_F8, .mods = MOD_SHIFT, .repeats = true, .run = run_ui_scale, .argument = -1},
+    {.key = KEY_F8, .repeats = true, .run = run_ui_scale, .argument = 1},
+    {.key = KEY_F5, .core = presenter_toggle},
     {.key = KEY_F10, .any_time = true, .run = run_theme},
     {.key = KEY_F11, .any_time = true, .run = run_request, .argument = REQUEST_FULLSCREEN},
     {.key = KEY_F12, .any_time = true, .run = run_request, .argument = REQUEST_SCREENSHOT},
@@ -309,6 +347,8 @@ const struct binding key_bindings[] = {
     {.key = 'I', .mods = MOD_SHIFT, .run = run_insert, .argument = true},
     {.key = KEY_DELETE, .run = run_delete},
     {.key = KEY_BACKSPACE, .run = run_delete},
+    {.key = 'A', .run = run_add},
+    {.key = KEY_DELETE, .mods = MOD_SHIFT, .run = run_remove_rig},
     {.key = 'A', .mods = MOD_CTRL, .core = core_select_all, .argument = false},
     {.key = 'A', .mods = CTRL_SHIFT, .core = core_select_all, .argument = true},
     {.key = 'A', .mods = MOD_SHIFT, .core = drag_toggle_auto_key},
@@ -335,6 +375,7 @@ const struct binding key_bindings[] = {
     {.key = 'S', .run = run_scale, .argument = false},
     {.key = 'S', .mods = MOD_SHIFT, .run = run_scale, .argument = true},
     {.key = 'N', .run = run_normalise},
+    {.key = KEY_F3, .run = run_sheet},
     {.key = 'U', .any_time = true, .run = run_units},
     {.key = 'G', .any_time = true, .core = drag_toggle_snap},
     {.key = KEY_UP, .repeats = true, .core = core_nudge_parameter, .argument = 1},
@@ -361,9 +402,6 @@ const struct binding key_bindings[] = {
     {.key = KEY_DOWN, .mods = CTRL_SHIFT, .repeats = true, .run = run_orbit, .argument = WAY_DOWN},
     {.key = KEY_PAGE_UP, .mods = CTRL_SHIFT, .repeats = true, .run = run_approach, .argument = 1},
     {.key = KEY_PAGE_DOWN, .mods = CTRL_SHIFT, .repeats = true, .run = run_approach, .argument = -1},
-    {.key = '=', .mods = CTRL_SHIFT, .repeats = true, .run = run_approach, .argument = 1},
-    {.key = '+', .mods = CTRL_SHIFT, .repeats = true, .run = run_approach, .argument = 1},
-    {.key = '-', .mods = CTRL_SHIFT, .repeats = true, .run = run_approach, .argument = -1},
     {.key = KEY_HOME, .mods = MOD_SHIFT, .run = run_fit_stage},
     {.key = 'W', .run = run_remedy},
     {.key = KEY_F6, .run = run_panel, .argument = 0},
@@ -372,6 +410,7 @@ const struct binding key_bindings[] = {
     {.key = KEY_END, .run = run_frame, .argument = 1},
     {.key = 'V', .any_time = true, .run = run_look},
     {.key = 'O', .any_time = true, .run = run_overlay, .argument = 'O'},
+    {.key = KEY_F4, .any_time = true, .run = run_overlay, .argument = KEY_F4},
     {.key = 'P', .any_time = true, .run = run_overlay, .argument = 'P'},
     {.key = 'K', .run = run_brush},
     {.key = 'H', .run = run_hold},

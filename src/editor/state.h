@@ -3,6 +3,7 @@
 #define EDITOR_STATE_H
 
 #include "editor/core/state.h"
+#include "ui/tooltip.h"
 
 /// The last key pressed in this frame; its character comes next.
 struct press {
@@ -18,6 +19,7 @@ struct editor {
     struct dialogs *dialogs;
     struct transport *transport;
     struct press press;
+    struct tooltip tooltip;
     bool fitted; ///< camera and curves view, at the first editor_pose() of a document
 };
 

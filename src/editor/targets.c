@@ -65,6 +65,18 @@ static bool find_knot(struct place *place, struct error *error)
     return in_plot(place, document_frame(document, document_sample(document, knot->frame)), knot->value, error);
 }
 
+/// A knot's mark on the dope sheet: mark(sway,2).
+static bool find_mark(struct place *place, struct error *error)
+{
+    const struct document *document = place->world->document;
+    const struct knot *knot;
+    if (!knot_named(place, &knot, error)) return false;
+    const int spline = document_find_spline(document, place->target->name);
+    return curves_mark_point(place->editor->curves, &place->editor->core, document, spline,
+                             (int)place->target->number[0], place->xy) ||
+           fail(error, ERROR_INPUT, "the dope sheet does not show that knot of \"%s\"", place->target->name);
+}
+
 /// The end of a knot's slope handle: handle(sway,2,1), 0 before and 1 after the knot.
 static bool find_handle(struct place *place, struct error *error)
 {
@@ -105,6 +117,16 @@ static bool find_stage(struct place *place, struct error *error)
     const struct rect *stage = &place->editor->core.layout.stage;
     place->xy[0] = stage->x + stage->w * (float)place->target->number[0];
     place->xy[1] = stage->y + stage->h * (float)place->target->number[1];
+    return true;
+}
+
+/// From where the pointer is, in heights of the stage: pointer(0.1,0).
+static bool find_pointer(struct place *place, struct error *error)
+{
+    (void)error;
+    const struct core *core = &place->editor->core;
+    place->xy[0] = core->pointer_x + core->layout.stage.h * (float)place->target->number[0];
+    place->xy[1] = core->pointer_y + core->layout.stage.h * (float)place->target->number[1];
     return true;
 }
 
@@ -249,11 +271,13 @@ static const struct target_kind {
     find_place *find;
 } kinds[] = {
     {.kind = "knot", .named = true, .numbers = 1, .find = find_knot},
+    {.kind = "mark", .named = true, .numbers = 1, .find = find_mark},
     {.kind = "handle", .named = true, .numbers = 2, .find = find_handle},
     {.kind = "curve", .named = true, .numbers = 2, .find = find_curve},
     {.kind = "warning", .named = false, .numbers = 1, .find = find_warning},
     {.kind = "ruler", .named = false, .numbers = 1, .find = find_ruler},
     {.kind = "stage", .named = false, .numbers = 2, .find = find_stage},
+    {.kind = "pointer", .named = false, .numbers = 2, .find = find_pointer},
     {.kind = "tail", .named = true, .numbers = 1, .find = find_tail},
     {.kind = "chain", .named = true, .numbers = 1, .find = find_chain},
     {.kind = "bone", .named = true, .numbers = 0, .find = find_bone},

@@ -4,6 +4,7 @@
 #include "export/format.h"
 #include "scene/number.h"
 #include <math.h>
+#include <stdarg.h>
 #include <string.h>
 #include <strings.h>
 #include <sys/types.h>
@@ -78,7 +79,21 @@ static bool fail_rigs(const struct shot *shot, const struct format *format, cons
                 rig_word(rig->kind), form_name(rig), endings);
 }
 
-static bool choose_rigs(struct shot *shot, const struct format *format, const char *wanted, struct error *error)
+static void note(struct export_report *report, const char *format, ...) __attribute__((format(printf, 2, 3)));
+
+/// Adds a sentence to what the user should know.
+static void note(struct export_report *report, const char *format, ...)
+{
+    const size_t used = strlen(report->note);
+    va_list arguments;
+    va_start(arguments, format);
+    snprintf(report->note + used, sizeof report->note - used, "%s", used > 0 ? "; " : "");
+    vsnprintf(report->note + strlen(report->note), sizeof report->note - strlen(report->note), format, arguments);
+    va_end(arguments);
+}
+
+static bool choose_rigs(struct shot *shot, const struct format *format, const char *wanted,
+                        struct export_report *report, struct error *error)
 {
     const struct document *document = shot->posing->document;
     int unfit = -1;
@@ -87,12 +102,16 @@ static bool choose_rigs(struct shot *shot, const struct format *format, const ch
         if (wanted && strcmp(form_name(rig), wanted) != 0) continue;
         if (fits(format, form_kind(rig->kind)->holds)) {
             shot->rigs[shot->rig_count++] = i;
-        } else if (unfit < 0) {
+        } else if (unfit < 0 || form_kind(rig->kind)->holds == 0) {
             unfit = i;
         }
     }
     if (shot->rig_count == 0 && !(format->without_rigs && !wanted))
         return fail_rigs(shot, format, wanted, unfit, error);
+    const bool is_lost = unfit >= 0 && form_kind(document->rigs[unfit].kind)->holds == 0; // a chain is in its model
+    if (is_lost && shot->rig_count > 0)
+        note(report, "a %s file cannot hold the %s \"%.40s\", which is left out", format->ending,
+             rig_word(document->rigs[unfit].kind), form_name(&document->rigs[unfit]));
     if (shot->rig_count <= 1 || !format->one_rig) return true;
     char names[256];
     list_names(document, names, sizeof names);
@@ -119,8 +138,7 @@ static bool choose_keys(struct shot *shot, const struct export_options *options,
     shot->key_count = (int)keys;
     const double end = shot_frame(shot, shot->key_count - 1);
     if (fabs(end - last) > 1e-6)
-        snprintf(report->note, sizeof report->note, "the last key is on frame %g, because no key falls on frame %g",
-                 end, last);
+        note(report, "the last key is on frame %g, because no key falls on frame %g", end, last);
     return true;
 }
 
@@ -203,6 +221,7 @@ bool export_write(const struct posing *posing, const char *path, const struct ex
         export_endings(endings);
         return fail(error, ERROR_USAGE, "%s: expected a name ending in %s", path, endings);
     }
-    if (!choose_rigs(&shot, format, options->rig, error) || !choose_keys(&shot, options, report, error)) return false;
+    if (!choose_rigs(&shot, format, options->rig, report, error) || !choose_keys(&shot, options, report, error))
+        return false;
     return write_file(&shot, format, path, report, error);
 }

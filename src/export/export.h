@@ -21,7 +21,7 @@ struct export_options {
 
 struct export_report {
     char text[160]; ///< what is in the file and how large it is: "24 joints, 121 keys, 47 KB"
-    char note[128]; ///< what the user should know besides, or empty
+    char note[256]; ///< what the user should know besides, or empty
 };
 
 enum { EXPORT_ENDINGS = 256 };

@@ -36,8 +36,10 @@ static void copy_vertices(struct form *form, struct fox *fox, int joints, float 
         memcpy(fox->normal[i], normal.raw, sizeof fox->normal[i]);
         memcpy(fox->color[i], vertex->color, sizeof fox->color[i]);
         tail_influences(vertex, joints, CREATURE_TAIL_LENGTH / (float)joints, form->slots[i], form->weights[i]);
-        for (int n = 0; n < TAIL_INFLUENCES; n++)
-            form->slots[i][n] = (uint16_t)joint_of_slot(form->slots[i][n], joints);
+        for (int n = 0; n < TAIL_INFLUENCES; n++) {
+            const bool hangs = form->weights[i][n] > 0.0f;
+            form->slots[i][n] = hangs ? (uint16_t)joint_of_slot(form->slots[i][n], joints) : 0;
+        }
     }
 }
 

@@ -46,7 +46,8 @@ static bool read_texture(struct gltf_reader *r, const json_t *info, struct gltf_
     float rotation = (float)json_number_value(json_object_get(transform, "rotation"));
     const json_t *samplers = gltf_array(r, "samplers");
     int texture, source, sampler;
-    if (!gltf_index(r, info, "index", (int)json_array_size(textures), &texture) || texture < 0) return texture < 0;
+    if (!gltf_index(r, info, "index", (int)json_array_size(textures), &texture)) return false;
+    if (texture < 0) return true;
     int64_t set = glb_integer(transform, "texCoord", glb_integer(info, "texCoord", 0));
     if (set < 0) return gltf_bad(r, ".texCoord: expected the number of a set of coordinates, got something else");
     uv->set = (int)set;

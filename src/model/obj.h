@@ -10,8 +10,8 @@
 /// Errors say "file:line: expected …, got …".
 bool obj_read(const char *path, struct surface *surface, struct error *error);
 
-/// Writes positions, colours, texture coordinates and polygons with 9 digits, so that they read back equal, and where there are materials
-/// NAME.mtl and their pictures NAME-1.png … beside it. Atomic, like file_output_commit().
+/// Writes positions, colours, texture coordinates and polygons with 9 digits, so that they read back equal (colours but for a float's
+/// last bit), and where there are materials NAME.mtl and their pictures NAME-1.png … beside it. Atomic, like file_output_commit().
 bool obj_write(const char *path, const struct surface *surface, struct error *error);
 
 #endif

@@ -81,13 +81,34 @@ void tail_influences(const struct vertex *vertex, int joints, float segment, uin
         count = add_influence(count, slot, weight, slot_of(&blend, k, joints), vertex->bend * blend.weight[k]);
 }
 
+/// What the joints do at a place along the tail: rows of bind → world, and how they change by metre.
+struct bend {
+    float z, rows[3][4], change[3][4];
+};
+
+static struct bend bend_at(float z, const float rows[TAIL_SLOTS][3][4], int joints, float segment)
+{
+    struct bend bend = {.z = z};
+    const struct blend blend = blend_at(z, segment);
+    for (int k = 0; k < 4; k++) {
+        const float(*slot)[4] = rows[slot_of(&blend, k, joints)];
+        for (int r = 0; r < 3; r++) {
+            for (int c = 0; c < 4; c++) {
+                bend.rows[r][c] += blend.weight[k] * slot[r][c];
+                bend.change[r][c] += blend.slope[k] * slot[r][c];
+            }
+        }
+    }
+    return bend;
+}
+
 /// A vertex's own rows of bind → world, and how the weights' change along the tail moves it.
 struct skinned {
     float rows[3][4], stretch[3];
 };
 
 static struct skinned skinned_at(const struct vertex *vertex, const float bind[4], const float rows[TAIL_SLOTS][3][4],
-                                 int joints, float segment)
+                                 int joints, const struct bend *bend)
 {
     struct skinned own = {0};
     const float(*from)[4] = rows[slot_of_limb(vertex->limb[0], joints)];
@@ -96,17 +117,10 @@ static struct skinned skinned_at(const struct vertex *vertex, const float bind[4
         for (int c = 0; c < 4; c++) own.rows[r][c] = from[r][c] + vertex->limb[2] * (to[r][c] - from[r][c]);
     }
     if (vertex->bend <= 0.0f) return own;
-    const struct blend blend = blend_at(bind[2], segment);
     for (int r = 0; r < 3; r++) {
         for (int c = 0; c < 4; c++) {
-            float bent = 0.0f, change = 0.0f;
-            for (int k = 0; k < 4; k++) {
-                const float entry = rows[slot_of(&blend, k, joints)][r][c];
-                bent += blend.weight[k] * entry;
-                change += blend.slope[k] * entry;
-            }
-            own.rows[r][c] += vertex->bend * (bent - own.rows[r][c]);
-            own.stretch[r] += vertex->bend * change * bind[c];
+            own.rows[r][c] += vertex->bend * (bend->rows[r][c] - own.rows[r][c]);
+            own.stretch[r] += vertex->bend * bend->change[r][c] * bind[c];
         }
     }
     return own;
@@ -132,10 +146,13 @@ void tail_skin(const struct pose *pose, const struct mesh *mesh, float (*positio
     const int joints = pose->count - 1;
     tail_slots(pose, rows);
     const float length = pose_length(pose), scale = length / CREATURE_TAIL_LENGTH, segment = length / (float)joints;
+    struct bend bend = {.z = INFINITY};
     for (int i = 0; i < mesh->vertex_count; i++) {
         const struct vertex *v = &mesh->vertices[i];
         const float bind[4] = {scale * v->position[0], scale * v->position[1], scale * v->position[2], 1.0f};
-        const struct skinned own = skinned_at(v, bind, (const float(*)[3][4])rows, joints, segment);
+        // Vertices of a ring follow each other.
+        if (v->bend > 0.0f && bind[2] != bend.z) bend = bend_at(bind[2], (const float(*)[3][4])rows, joints, segment);
+        const struct skinned own = skinned_at(v, bind, (const float(*)[3][4])rows, joints, &bend);
         for (int r = 0; r < 3; r++) {
             positions[i][r] = 0.0f;
             for (int c = 0; c < 4; c++) positions[i][r] += own.rows[r][c] * bind[c];

@@ -1,4 +1,4 @@
-/// How the fox's skin follows the joints of its tail: what shaders/stage_mesh.vert does, on the CPU.
+/// How the fox's skin follows the joints of its tail, for the stage and for exports.
 ///
 /// A vertex hangs on slots: slot 0 is the body at the tail's base, slot n + 1 follows joint n; those of the body's other parts (limbs.h)
 /// come behind. On the tail its weights are the uniform cubic B-spline along it, four joints at a time; on the torso it hangs on two parts.

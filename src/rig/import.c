@@ -1,6 +1,7 @@
 /// Makes scenes for glTF characters.
 #include "rig/import.h"
 #include "base/path.h"
+#include "model/character.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -9,7 +10,21 @@ enum { STANDARD_FRAMES = 120, LEAST_FRAMES = 2, MOST_FRAMES = 100000 };
 
 static const double SMALLEST = 0.3, LARGEST = 4, USUAL = 1.6; ///< metres: characters in between keep their size
 
-bool import_suits(const char *path) { return path_has_end(path, ".glb") || path_has_end(path, ".gltf"); }
+/// Whether a file begins as a .glb does, whatever it is called.
+static bool is_glb(const char *path)
+{
+    char start[4] = "";
+    FILE *file = fopen(path, "rb");
+    if (!file) return false;
+    const bool read = fread(start, sizeof start, 1, file) == 1;
+    fclose(file);
+    return read && memcmp(start, "glTF", sizeof start) == 0;
+}
+
+bool import_suits(const char *path)
+{
+    return path_has_end(path, ".glb") || path_has_end(path, ".gltf") || is_glb(path);
+}
 
 /// How many keys of a clip lie on whole frames.
 static int keys_on_frames(const struct gltf_clip *clip, double fps)
@@ -54,39 +69,95 @@ static int last_frame(const struct gltf_clip *clip, double fps)
     return (int)fmin(fmax(round(clip->duration * fps), LEAST_FRAMES), MOST_FRAMES);
 }
 
-/// Adds the character to an empty document.
-static bool add_character(struct document *document, const struct gltf *gltf, const char *path, struct error *error)
+/// A coordinate's spline: the one that is handed in, or a new one that swings as the coordinate does, with a knot at frame 0.
+static int spline_for(struct history *history, struct document *document, int spline,
+                      const struct coordinate *coordinate, struct error *error)
+{
+    const struct {
+        enum parameter parameter;
+        double value;
+    } swing[] = {{PARAMETER_FREQUENCY, round(coordinate->frequency * 100) / 100},
+                 {PARAMETER_DAMPING, round(coordinate->damping * 1000) / 1000}};
+    if (spline >= 0) return spline;
+    const int added = document->spline_count;
+    struct edit edit = {.kind = EDIT_SPLINE_ADD, .spline = -1, .flag = true};
+    edit.knot = (struct knot){.frame = document->first_frame, .value = 0.5}; // it swings at once
+    if (!history_apply(history, document, &edit, error)) return -1;
+    for (size_t i = 0; i < sizeof swing / sizeof swing[0]; i++) {
+        edit = (struct edit){.kind = EDIT_PARAMETER, .spline = added, .parameter = swing[i].parameter};
+        edit.param = param_number(swing[i].value);
+        if (swing[i].value > 0 && !history_apply(history, document, &edit, error)) return -1;
+    }
+    return added;
+}
+
+/// A soft character, its first coordinate driven.
+static bool add_soft(struct history *history, struct document *document, char *file, int spline,
+                     const struct character *character, struct error *error)
+{
+    const struct coordinate *first = &character->coordinates[0];
+    const int driver = spline_for(history, document, spline, first, error);
+    const struct drive drive = {.name = first->name, .spline = driver, .amplitude = DRIVE_DEFAULT_AMPLITUDE};
+    const struct rig rig = {.kind = RIG_CHARACTER,
+                            .character = {.model = file, .phases = -1, .drives = {drive}, .drive_count = 1}};
+    return driver >= 0 &&
+           history_apply(history, document, &(struct edit){.kind = EDIT_RIG_ADD, .contents = &rig}, error);
+}
+
+/// A stiff one, or one with bones; frame rate and range of a document that is empty become its clip's.
+static bool add_imported(struct history *history, struct document *document, char *file, const struct gltf *gltf,
+                         struct error *error)
 {
     const struct gltf_clip *clip = gltf->clip_count > 0 ? &gltf->clips[0] : NULL;
-    const char *slash = strrchr(path, '/');
-    char folder[PATH_LIMIT], file[PATH_LIMIT];
-    struct history *history = history_create();
-    snprintf(file, sizeof file, "%s", slash ? slash + 1 : path);
-    struct rig rig = {.kind = RIG_MODEL,
-                      .model = {.model = file, .clip = clip ? clip->name : NULL, .scale = scale_of(gltf)}};
-    if (path_folder(path, folder) && folder[0]) document->folder = strdup(folder);
-    document->fps = frame_rate(clip);
-    document->last_frame = last_frame(clip, document->fps);
-    if (!history) return fail_no_memory(error, path);
-    history_begin(history, "Import", 0);
-    bool added = history_apply(history, document, &(struct edit){.kind = EDIT_MODEL_ADD, .contents = &rig}, error);
-    history_end(history);
-    history_destroy(history);
+    const struct rig rig = {.kind = RIG_MODEL,
+                            .model = {.model = file, .clip = clip ? clip->name : NULL, .scale = scale_of(gltf)}};
+    if (document->spline_count == 0 && document->rig_count == 0) {
+        const double fps = frame_rate(clip);
+        const struct edit rate = {.kind = EDIT_FPS, .number = fps},
+                          range = {.kind = EDIT_RANGE, .first = 0, .last = last_frame(clip, fps)};
+        if (!history_apply(history, document, &rate, error) || !history_apply(history, document, &range, error))
+            return false;
+    }
+    return history_apply(history, document, &(struct edit){.kind = EDIT_MODEL_ADD, .contents = &rig}, error);
+}
+
+bool import_add(struct history *history, struct document *document, const char *path, int spline, struct error *error)
+{
+    char file[PATH_LIMIT];
+    struct character character = {0};
+    struct gltf gltf = {0};
+    struct error not_soft;
+    if (!path_rebase(path, NULL, document->folder, file)) snprintf(file, sizeof file, "%s", path);
+    const bool is_mesh = character_read(path, &character, &not_soft);
+    if (is_mesh && character.coordinate_count > 0) {
+        const bool added = add_soft(history, document, file, spline, &character, error);
+        character_free(&character);
+        return added;
+    }
+    character_free(&character);
+    if (!gltf_read(path, &gltf, error)) return false;
+    const bool added = add_imported(history, document, file, &gltf, error);
+    gltf_free(&gltf);
     return added;
 }
 
 struct document *import_scene(const char *path, struct error *error)
 {
-    struct gltf gltf = {0};
-    if (!gltf_read(path, &gltf, error)) return NULL;
+    char folder[PATH_LIMIT];
+    struct history *history = history_create();
     struct document *document = document_create();
-    if (!document) fail_no_memory(error, path);
-    if (document && !add_character(document, &gltf, path, error)) {
-        document_destroy(document);
-        document = NULL;
+    bool added = history && document;
+    if (!added) fail_no_memory(error, path);
+    if (added && path_folder(path, folder) && folder[0]) document->folder = strdup(folder);
+    if (added) {
+        history_begin(history, "Import", 0);
+        added = import_add(history, document, path, -1, error);
+        history_end(history);
     }
-    gltf_free(&gltf);
-    return document;
+    history_destroy(history);
+    if (added) return document;
+    document_destroy(document);
+    return NULL;
 }
 
 bool import_choose_clip(struct history *history, struct document *document, int rig, const struct gltf *gltf,

@@ -5,12 +5,17 @@
 #include "model/gltf.h"
 #include "scene/edit.h"
 
-/// Whether a file is a character by its name: .glb or .gltf.
+/// Whether a file is a character: by its name, .glb or .gltf, or by how it begins.
 bool import_suits(const char *path);
 
-/// A new document, without a path of its own, whose one model rig shows the file. Its range is the first clip's, its frame rate the
-/// one that the clip's keys lie on. NULL with a sentence.
+/// A new document, without a path of its own, with the character of the file, as import_add() adds it. Its range is the first clip's,
+/// its frame rate the one that the clip's keys lie on. NULL with a sentence.
 struct document *import_scene(const char *path, struct error *error);
+
+/// Adds the character in a file to a document, in the history's open step: a soft one, whose first coordinate `spline` drives (-1: a new
+/// one), or an imported one, which plays its first clip. False with a sentence.
+bool import_add(struct history *history, struct document *document, const char *path, int spline,
+                struct error *error);
 
 /// Has a model rig play a clip of its file, NULL: none, in the history's open step. In a scene that has no splines yet, frame rate and
 /// range become the clip's.

@@ -97,13 +97,14 @@ static vec3s end_of(const struct posed *posed, const struct chain_bones *bones, 
     return vec3_from(points.point[n + 1]);
 }
 
-/// Metres along the bones at rest.
-static float length_of(const struct imported *imported, const struct chain_bones *bones, const float root[16])
+/// Metres along the first `count` bones at rest.
+static float length_of(const struct imported *imported, const struct chain_bones *bones, int count,
+                       const float root[16])
 {
     struct chain_pose points;
     float sum = 0;
     chain_points(imported, bones, &imported->rest, root, &points);
-    for (int n = 1; n < points.count; n++)
+    for (int n = 1; n <= count; n++)
         sum += glms_vec3_distance(vec3_from(points.point[n - 1]), vec3_from(points.point[n]));
     return sum;
 }
@@ -122,10 +123,14 @@ static bool find(const struct posing *posing, int rig, double sample, int which,
     const struct posed posed = {imported, whole.model.pose, whole.model.root};
     const vec3s end = end_of(&posed, &bones, which);
     const vec3s at = glms_mat4_mulv3(mat4_from(posed.root), end, 1.0f);
-    const float length = length_of(imported, &bones, posed.root);
+    const float length = length_of(imported, &bones, bones.count, posed.root);
+    const float *from = posed.pose->world[bones.node[0]] + 12;
+    const vec3s base = glms_mat4_mulv3(mat4_from(posed.root), vec3_from(from), 1.0f);
     *point = (struct pin_point){.size = (double)length,
                                 .slack = (double)(SLACK * length + FLOATS * glms_vec3_norm(at)),
-                                .at = {(double)at.x, (double)at.y, (double)at.z}};
+                                .at = {(double)at.x, (double)at.y, (double)at.z},
+                                .base = {(double)base.x, (double)base.y, (double)base.z},
+                                .reach = (double)length_of(imported, &bones, which + 1, posed.root)};
     for (int r = document_next_rig(document, RIG_CHAIN, 0); count > 0 && r >= 0;
          r = document_next_rig(document, RIG_CHAIN, r + 1)) {
         wiggly_value values[RIG_MAX_INPUTS];

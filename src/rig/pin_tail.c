@@ -81,7 +81,10 @@ static bool find(const struct posing *posing, int rig, double sample, int which,
     const struct limbs limbs = tail_limbs(tail, values, LOOK_WIGGLY, shift);
     find_stretch(tail, &limbs, by_stretch);
     for (int k = 0; k < 3; k++) base[k] += shift[k];
-    *point = (struct pin_point){.size = tail->length, .slack = SLACK * tail->length};
+    *point = (struct pin_point){.size = tail->length,
+                                .slack = SLACK * tail->length,
+                                .base = {base[0], base[1], base[2]},
+                                .reach = tail->length * (which + 1) / tail->joints};
     find_hinges(tail, base, values, which + 1, hinges, point->at);
     for (int i = 0; i < count; i++) {
         add_bends(tail, hinges, which + 1, point->at, splines[i], c[i]);

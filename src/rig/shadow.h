@@ -1,4 +1,4 @@
-/// Contact shadows: where a posed tail and its animal come near the ground.
+/// Shadows: where a posed tail and its animal keep the lamp from the ground.
 #ifndef RIG_SHADOW_H
 #define RIG_SHADOW_H
 
@@ -9,8 +9,8 @@ struct shadow_blob {
     float x, z, radius, strength;
 };
 
-/// The blobs of one pose: the torso's, then evenly along the tail; those too weak to be seen are skipped.
-/// Writes at most `capacity` (16 shows a tail well) and returns how many. Allocates nothing.
-int pose_blobs(const struct pose *pose, struct shadow_blob *blobs, int capacity);
+/// The blobs of one pose under a lamp in direction `from`: the torso's, then evenly along the tail; those too weak to be seen are skipped.
+/// Writes at most `capacity` (20 shows a tail well) and returns how many. Allocates nothing.
+int pose_blobs(const struct pose *pose, const float from[3], struct shadow_blob *blobs, int capacity);
 
 #endif

@@ -23,8 +23,12 @@ enum axis {
 /// Whether it bends joints; else it moves the body.
 bool axis_bends(enum axis axis);
 
-/// Its word in files.
+/// Its word in files, and the unit of its gain.
 const char *axis_word(enum axis axis);
+const char *axis_unit(enum axis axis);
+
+/// The gain that a new channel has: one that shows.
+double axis_gain(enum axis axis);
 
 /// Which part of its spline a channel bends by: the total y + Re(e^{−j·n·lag} x), or without the equilibrium y. The latter is for a rig
 /// on something that moves: y is the base's motion, and x is relative to it.
@@ -40,6 +44,6 @@ struct channel {
 };
 
 #define CHANNEL_DEFAULT_LAG 6.5  /* degrees a joint */
-#define CHANNEL_DEFAULT_GAIN 5.0 /* degrees a unit of the spline */
+#define CHANNEL_DEFAULT_GAIN 5.0 /* degrees (or percent) a unit of the spline, where a file names none */
 
 #endif

@@ -197,6 +197,15 @@ int document_find_model(const struct document *document, const char *text, bool 
     return rig;
 }
 
+bool document_follows(const struct document *document, int spline, int rig)
+{
+    const struct joint_motion *motion = document->splines[spline].parameter[PARAMETER_EQUILIBRIUM].motion;
+    if (!motion) return false;
+    if (document->rigs[rig].kind == RIG_MODEL)
+        return document_find_model(document, motion->model, motion->by_file) == rig;
+    return motion->chain && document_find_chain(document, motion->chain) == rig;
+}
+
 int document_find_chain(const struct document *document, const char *name)
 {
     int rig = document_next_rig(document, RIG_CHAIN, 0);

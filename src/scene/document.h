@@ -138,6 +138,9 @@ int document_find_model(const struct document *document, const char *text, bool 
 /// Index of the chain with that name, or -1.
 int document_find_chain(const struct document *document, const char *name);
 
+/// Whether the equilibrium of a spline follows a joint of the model or chain at `rig`.
+bool document_follows(const struct document *document, int spline, int rig);
+
 /// Index of the knot on that sample, or -1 (binary search).
 int spline_find_knot(const struct document *document, const struct spline *spline, int sample);
 

@@ -44,10 +44,12 @@ enum edit_kind {
     EDIT_PAINT_NEW, ///< rig, coordinates, vertices (of its model): replaces its paint by one that changes nothing
     EDIT_PAINT,     ///< rig, dab. All dabs of a step on one coordinate make one change
     EDIT_MODEL_ADD, ///< contents: a model rig, which becomes the last. Its name, or else its file's, gets a number if it is taken
+    EDIT_RIG_ADD,    ///< contents: a character or a meadow, likewise
     EDIT_CHAIN_ADD,  ///< contents: a chain, likewise; without a name it is called after its first joint
     EDIT_CLIP,       ///< rig, text: the model's clip, or NULL
     EDIT_PLACE,      ///< rig, contents: the model's position, scale and turn
     EDIT_CHAIN,      ///< rig, contents: the chain's from, to, turn and mirror
+    EDIT_MEADOW,     ///< rig, contents: all numbers of the meadow
     EDIT_PIN_ADD,    ///< rig, pin (its id is given)
     EDIT_PIN_SET,    ///< rig, pin (found by id; frame, point and place are replaced)
     EDIT_PIN_REMOVE, ///< rig, pin.id

@@ -127,7 +127,7 @@ bool plan_append_channel(struct rig *rig, const struct edit *edit)
     channel->axis = edit->axis;
     channel->of = edit->of;
     channel->lag.value[0] = CHANNEL_DEFAULT_LAG;
-    channel->gain.value[0] = CHANNEL_DEFAULT_GAIN;
+    channel->gain.value[0] = axis_gain(edit->axis);
     rig->bent.channel_count++;
     return true;
 }

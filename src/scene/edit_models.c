@@ -1,4 +1,4 @@
-/// Edits of imported characters and of chains on them.
+/// Edits that add rigs, and those of imported characters and of chains on them.
 #include "scene/edit_rig.h"
 #include "scene/rig_kind.h"
 #include <assert.h>
@@ -44,8 +44,22 @@ static bool check_chain(const struct document *document, const struct rig *rig, 
     return true;
 }
 
+static bool check_character(const struct document *document, const struct character_rig *rig, struct error *error)
+{
+    if (!rig->model || !rig->model[0]) return fail(error, ERROR_INPUT, "a character needs a file");
+    bool finite = true;
+    for (int k = 0; k < 3; k++) finite &= isfinite(rig->position[k]) != 0;
+    if (!finite) return fail(error, ERROR_INPUT, "the position must be finite");
+    for (int i = 0; i < rig->drive_count; i++) {
+        if (!plan_has_spline(document, rig->drives[i].spline, error)) return false;
+    }
+    return true;
+}
+
 static bool check_contents(const struct document *document, const struct rig *rig, struct error *error)
 {
+    if (rig->kind == RIG_CHARACTER) return check_character(document, &rig->character, error);
+    if (rig->kind == RIG_MEADOW) return plan_has_spline(document, rig->meadow.spline, error);
     if (rig->kind == RIG_CHAIN) return check_chain(document, rig, error);
     if (!rig->model.model || !rig->model.model[0]) return fail(error, ERROR_INPUT, "a model needs a file");
     return check_place(&rig->model, error);
@@ -56,7 +70,9 @@ static char *new_name(const struct document *document, const struct rig *rig)
 {
     if (rig->name && rig->name[0]) return plan_rig_free_name(document, rig->name);
     if (rig->kind == RIG_CHAIN) return plan_rig_free_name(document, rig->chain.from);
-    const char *slash = strrchr(rig->model.model, '/'), *file = slash ? slash + 1 : rig->model.model;
+    if (rig->kind == RIG_MEADOW) return plan_rig_free_name(document, "meadow");
+    const char *path = rig->kind == RIG_CHARACTER ? rig->character.model : rig->model.model;
+    const char *slash = strrchr(path, '/'), *file = slash ? slash + 1 : path;
     const char *dot = strrchr(file, '.');
     char *stem = strndup(file, dot && dot > file ? (size_t)(dot - file) : strlen(file));
     char *name = stem ? plan_rig_free_name(document, stem[0] ? stem : "model") : NULL;
@@ -69,6 +85,14 @@ static bool add(struct document *document, const struct rig *contents, struct ch
     if (!plan_rig_fits(document, error) || !check_contents(document, contents, error)) return false;
     struct rig named = *contents, *rig = malloc(sizeof *rig);
     named.extra = NULL;
+    for (int i = 0; named.kind == RIG_CHARACTER && i < named.character.drive_count; i++) {
+        struct drive *drive = &named.character.drives[i];
+        drive->name = document_keep_text(document, drive->name);
+        if (!drive->name) {
+            free(rig);
+            return plan_no_memory(error);
+        }
+    }
     named.name = new_name(document, contents);
     const bool copied = rig && named.name && rig_copy(&named, rig);
     free(named.name);
@@ -83,6 +107,12 @@ static bool add(struct document *document, const struct rig *contents, struct ch
 bool plan_model_add(struct document *document, const struct edit *edit, struct change_list *list, struct error *error)
 {
     assert(edit->contents->kind == RIG_MODEL);
+    return add(document, edit->contents, list, error);
+}
+
+bool plan_rig_add(struct document *document, const struct edit *edit, struct change_list *list, struct error *error)
+{
+    assert(edit->contents->kind == RIG_CHARACTER || edit->contents->kind == RIG_MEADOW);
     return add(document, edit->contents, list, error);
 }
 
@@ -136,4 +166,26 @@ bool plan_chain(struct document *document, const struct edit *edit, struct chang
     rig->chain.mirror = wanted->mirror;
     const bool copied = rig->chain.from && rig->chain.to;
     return copied ? plan_rig_finish(edit->rig, rig, list, error) : plan_rig_abandon(rig, error);
+}
+
+static bool same_meadow(const struct meadow_rig *a, const struct meadow_rig *b)
+{
+    return a->count == b->count && a->seed == b->seed && a->area[0] == b->area[0] && a->area[1] == b->area[1] &&
+           a->height == b->height && a->variation == b->variation && a->lag == b->lag && a->gain == b->gain;
+}
+
+bool plan_meadow(struct document *document, const struct edit *edit, struct change_list *list, struct error *error)
+{
+    const struct meadow_rig *old = &document->rigs[edit->rig].meadow, *wanted = &edit->contents->meadow;
+    const bool fits = wanted->count >= 1 && wanted->count <= MEADOW_MAX_REEDS && wanted->seed >= 0 &&
+                      wanted->height > 0 && wanted->area[0] > 0 && wanted->area[1] > 0 && wanted->variation >= 0;
+    if (!fits) return fail(error, ERROR_INPUT, "a meadow has 1 to %d reeds, an area and a height", MEADOW_MAX_REEDS);
+    if (same_meadow(old, wanted)) return true;
+    struct rig *rig = plan_rig_begin(document, edit->rig, error);
+    if (!rig) return false;
+    const int spline = rig->meadow.spline;
+    rig->meadow = *wanted;
+    rig->meadow.spline = spline;
+    rig->meadow.lag += 0.0, rig->meadow.gain += 0.0;
+    return plan_rig_finish(edit->rig, rig, list, error);
 }

@@ -12,7 +12,7 @@ planner plan_parameter, plan_spring;
 planner plan_spline_add, plan_spline_copy, plan_spline_remove, plan_spline_move, plan_spline_name, plan_spline_color;
 planner plan_document, plan_fps, plan_substeps, plan_range;
 planner plan_joints, plan_tail_add, plan_rig_remove, plan_rig_name, plan_channel_add, plan_channel_remove;
-planner plan_model_add, plan_chain_add, plan_clip, plan_place, plan_chain;
+planner plan_model_add, plan_rig_add, plan_chain_add, plan_clip, plan_place, plan_chain, plan_meadow;
 planner plan_angles, plan_axis, plan_part, plan_feed, plan_position, plan_length;
 planner plan_drive, plan_drive_add, plan_drive_remove, plan_floor;
 planner plan_paint_new, plan_dab;

@@ -61,16 +61,6 @@ static const struct joint_motion *motion_of_spline(const struct document *docume
     return document->splines[spline].parameter[PARAMETER_EQUILIBRIUM].motion;
 }
 
-/// Whether a spline follows a joint of the model or chain at `rig`.
-static bool follows(const struct document *document, int spline, int rig)
-{
-    const struct joint_motion *motion = motion_of_spline(document, spline);
-    if (!motion) return false;
-    if (document->rigs[rig].kind == RIG_MODEL)
-        return document_find_model(document, motion->model, motion->by_file) == rig;
-    return motion->chain && document_find_chain(document, motion->chain) == rig;
-}
-
 static void append_name(char list[NAME_SIZE], const char *name)
 {
     const size_t used = strlen(list);
@@ -86,7 +76,7 @@ bool plan_rig_remove(struct document *document, const struct edit *edit, struct 
         if (is_on(document, r, edit->rig)) append_name(users, rig_title(&document->rigs[r]));
     }
     for (int s = 0; s < document->spline_count; s++) {
-        if (follows(document, s, edit->rig)) append_name(users, document->splines[s].name);
+        if (document_follows(document, s, edit->rig)) append_name(users, document->splines[s].name);
     }
     if (users[0]) {
         return fail(error, ERROR_INPUT, "%s: still needed by %s; remove those first", rig_title(rig), users);
@@ -174,7 +164,7 @@ static bool rename_users(struct document *document, int rig, const char *name, s
         if (goes_by_name && !set_text(document, r, model_of, name, list, error)) return false;
     }
     for (int s = 0; old && s < document->spline_count; s++) {
-        if (follows(document, s, rig) && !rename_followed(document, s, old, name, list, error)) return false;
+        if (document_follows(document, s, rig) && !rename_followed(document, s, old, name, list, error)) return false;
     }
     return true;
 }

@@ -53,13 +53,7 @@ struct pin_left {
 const struct pin_left *evaluation_pin(const struct evaluation *evaluation, const struct document *document, int rig,
                                       int pin);
 
-/// Where a character is deepest below its floor in the last update; `depth` 0: nowhere.
-struct floor_left {
-    double depth; ///< metres
-    int sample;
-};
-
-/// Of a rig that has a floor; NULL where nothing is known.
+/// Where a rig was deepest below its floor in the last update; NULL where nothing is known.
 const struct floor_left *evaluation_floor(const struct evaluation *evaluation, int rig);
 
 /// The slope at a sample that, keyed there with the curve's value, leaves the curve as it is.

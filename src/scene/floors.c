@@ -6,7 +6,6 @@
 /// Knots and pins come first. Where they hold a character below its floor, the floor sinks as deep there, and rises again over a quarter
 /// of a period: otherwise the curve would have to jump up to it in one sample.
 #include "scene/floors.h"
-#include "scene/storage.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -67,15 +66,15 @@ bool floors_resize(struct floors *floors, const struct document *document, int g
     return true;
 }
 
-static bool concerns(const struct pinned *pinned, const struct rig *rig, int which)
+static bool concerns(const int *which, const struct rig *rig, int group)
 {
-    return has_floor(rig) && rig_input_count(rig) > 0 && pinned->which[rig_input(rig, 0)] == which;
+    return has_floor(rig) && rig_input_count(rig) > 0 && which[rig_input(rig, 0)] == group;
 }
 
-bool floors_concern(const struct pinned *pinned, const struct document *document, int which)
+bool floors_concern(const int *which, const struct document *document, int group)
 {
     for (int r = 0; r < document->rig_count; r++) {
-        if (concerns(pinned, &document->rigs[r], which)) return true;
+        if (concerns(which, &document->rigs[r], group)) return true;
     }
     return false;
 }
@@ -91,44 +90,43 @@ static double depth(const struct floors *floors, const struct document *document
     return level(floors, document, rig, sample) - floors->low[sample].height;
 }
 
-static bool find_low(struct evaluation *evaluation, const struct document *document, int rig)
+static bool find_low(struct floors *floors, const struct floor_group *group, const struct document *document, int rig)
 {
-    struct floors *floors = &evaluation->storage->pinned.floors;
-    const struct pin_source *source = &evaluation->pins;
-    return source->lowest(source->context, evaluation, document, rig, document->rigs[rig].character.floor,
+    const struct pin_source *source = group->source;
+    return source->lowest(source->context, group->evaluation, document, rig, document->rigs[rig].character.floor,
                           floors->room, floors->low);
 }
 
 /// Writes the bound of a vertex that is to be no lower than `height`; returns the size of its rig.
-static double put_bound(struct evaluation *evaluation, const struct document *document, int rig, int sample,
+static double put_bound(const struct floor_group *group, const struct document *document, int rig, int sample,
                         struct low_point low, double height, wiggly_bound *bound, double (*c)[2])
 {
-    struct pinned *pinned = &evaluation->storage->pinned;
-    const struct pin_source *source = &evaluation->pins;
+    const struct pin_source *source = group->source;
     const struct pin pin = {.frame = document_frame(document, sample), .point = low.vertex};
     struct pin_point point = {.size = 1};
-    source->find(source->context, evaluation, document, rig, &pin, pinned->members, pinned->count, pinned->c, &point);
+    source->find(source->context, group->evaluation, document, rig, &pin, group->members, group->count, group->c,
+                 &point);
     *bound = (wiggly_bound){.sample = sample, .c = (const double(*)[2])c, .least = height - point.at[1]};
-    for (int i = 0; i < pinned->count; i++) {
-        const wiggly_curve *curve = &pinned->curves[i];
-        memcpy(c[i], pinned->c[i][1], sizeof c[i]);
+    for (int i = 0; i < group->count; i++) {
+        const wiggly_curve *curve = &group->curves[i];
+        memcpy(c[i], group->c[i][1], sizeof c[i]);
         bound->least += c[i][0] * curve->re[sample] - c[i][1] * curve->im[sample];
     }
     return point.size;
 }
 
 /// Samples of a quarter of a period of the slowest member.
-static double samples_to_rise(const struct pinned *pinned, int sample)
+static double samples_to_rise(const struct floor_group *group, int sample)
 {
     double slowest = INFINITY;
-    for (int i = 0; i < pinned->count; i++) {
-        const wiggly_desc *desc = &pinned->descs[i];
+    for (int i = 0; i < group->count; i++) {
+        const wiggly_desc *desc = &group->descs[i];
         const wiggly_param *pull = desc->spring_friction ? &desc->spring : &desc->frequency;
         const double value = pull->track ? pull->track[sample] : pull->value;
         const double frequency = desc->spring_friction ? sqrt(fmax(0, value)) / (2 * 3.14159265358979323846) : value;
         if (frequency > 0) slowest = fmin(slowest, frequency);
     }
-    return RISE / (slowest * pinned->descs[0].step);
+    return RISE / (slowest * group->descs[0].step);
 }
 
 /// Lets the floor sink around a sample.
@@ -140,34 +138,32 @@ static void sink(double *sunk, int samples, int at, double by, double rise)
     }
 }
 
-static bool is_held(const struct pinned *pinned, const struct pin_round *round, bool with_pins, int sample)
+static bool is_held(const struct floor_group *group, int sample)
 {
-    for (int i = 0; i < pinned->count; i++) {
-        for (int k = 0; k < pinned->descs[i].knot_count; k++) {
-            if (pinned->descs[i].knots[k].sample == sample) return true;
+    for (int i = 0; i < group->count; i++) {
+        for (int k = 0; k < group->descs[i].knot_count; k++) {
+            if (group->descs[i].knots[k].sample == sample) return true;
         }
     }
-    for (int h = 0; with_pins && h < pinned->held_count; h++) {
-        if (round->pins[h].sample == sample) return true;
+    for (int h = 0; h < group->pin_count; h++) {
+        if (group->pins[h].sample == sample) return true;
     }
     return false;
 }
 
 /// Lets a rig's floor sink where knots and pins hold it lower.
-static void find_sunk(struct evaluation *evaluation, const struct document *document, int rig,
-                      const struct pin_round *round, bool with_pins)
+static void find_sunk(struct floors *floors, const struct floor_group *group, const struct document *document,
+                      int rig)
 {
-    struct pinned *pinned = &evaluation->storage->pinned;
-    struct floors *floors = &pinned->floors;
     double *sunk = floors->sunk + rig * floors->samples;
-    memset(sunk, 0, sizeof *sunk * (size_t)evaluation->samples);
-    if (!find_low(evaluation, document, rig)) return;
-    for (int i = 0; i < evaluation->samples; i++) {
+    memset(sunk, 0, sizeof *sunk * (size_t)group->samples);
+    if (!find_low(floors, group, document, rig)) return;
+    for (int i = 0; i < group->samples; i++) {
         const double by = document->rigs[rig].character.floor - floors->low[i].height;
-        if (!(by > 0) || !is_held(pinned, round, with_pins, i)) continue;
-        put_bound(evaluation, document, rig, i, floors->low[i], 0, &floors->bounds[0], floors->c);
-        const double held = 1 - wiggly_group_reach(pinned->solver, &floors->bounds[0]) / HELD;
-        if (held > 0) sink(sunk, evaluation->samples, i, by * held, samples_to_rise(pinned, i));
+        if (!(by > 0) || !is_held(group, i)) continue;
+        put_bound(group, document, rig, i, floors->low[i], 0, &floors->bounds[0], floors->c);
+        const double held = 1 - wiggly_group_reach(group->solver, &floors->bounds[0]) / HELD;
+        if (held > 0) sink(sunk, group->samples, i, by * held, samples_to_rise(group, i));
     }
 }
 
@@ -180,21 +176,20 @@ static bool is_bound(const struct floors *floors, int rig, int sample, int verte
 }
 
 /// Adds the deepest vertex of every dip; whether there was any.
-static bool add_bounds(struct evaluation *evaluation, const struct document *document, int rig)
+static bool add_bounds(struct floors *floors, const struct floor_group *group, const struct document *document,
+                       int rig)
 {
-    struct pinned *pinned = &evaluation->storage->pinned;
-    struct floors *floors = &pinned->floors;
-    const int samples = evaluation->samples;
+    const int samples = group->samples;
     bool any = false;
-    if (!find_low(evaluation, document, rig)) return false;
+    if (!find_low(floors, group, document, rig)) return false;
     for (int i = 0; i < samples && floors->count < FLOORS_MOST_BOUNDS; i++) {
         const double deep = depth(floors, document, rig, i);
         if (!(deep > 0) || (i > 0 && depth(floors, document, rig, i - 1) > deep)) continue;
         if (i + 1 < samples && depth(floors, document, rig, i + 1) >= deep) continue;
         const int b = floors->count;
         const struct low_point low = floors->low[i];
-        const double size = put_bound(evaluation, document, rig, i, low, level(floors, document, rig, i),
-                                      &floors->bounds[b], floors->c + b * pinned->count);
+        const double size = put_bound(group, document, rig, i, low, level(floors, document, rig, i),
+                                      &floors->bounds[b], floors->c + b * group->count);
         if (!(deep > DEEP * size) || is_bound(floors, rig, i, low.vertex)) continue;
         floors->rig[b] = rig;
         floors->vertex[b] = low.vertex;
@@ -205,46 +200,34 @@ static bool add_bounds(struct evaluation *evaluation, const struct document *doc
 }
 
 /// What the floor misses after all.
-static void measure(struct evaluation *evaluation, const struct document *document, int rig)
+static void measure(struct floors *floors, const struct document *document, int rig, int samples)
 {
-    struct floors *floors = &evaluation->storage->pinned.floors;
     struct floor_left *left = &floors->left[rig];
     *left = (struct floor_left){.sample = -1};
-    for (int i = 0; i < evaluation->samples; i++) {
+    for (int i = 0; i < samples; i++) {
         const double by = document->rigs[rig].character.floor - floors->low[i].height;
         if (by > left->depth) *left = (struct floor_left){by, i};
     }
 }
 
-wiggly_status floors_solve(struct evaluation *evaluation, const struct document *document, int which,
-                           struct pin_round *round, bool with_pins, wiggly_status status)
+wiggly_status floors_solve(struct floors *floors, const struct floor_group *group, const struct document *document,
+                           wiggly_status status)
 {
-    struct pinned *pinned = &evaluation->storage->pinned;
-    struct floors *floors = &pinned->floors;
     floors->count = 0;
     for (int r = 0; r < document->rig_count; r++) {
-        if (concerns(pinned, &document->rigs[r], which)) find_sunk(evaluation, document, r, round, with_pins);
+        if (concerns(group->which, &document->rigs[r], group->group)) find_sunk(floors, group, document, r);
     }
     for (int n = 0; n < MOST_ROUNDS && status < WIGGLY_ERROR_ARGUMENT; n++) {
         bool any = false;
         for (int r = 0; r < document->rig_count; r++) {
-            if (!concerns(pinned, &document->rigs[r], which)) continue;
-            any = add_bounds(evaluation, document, r) || any;
-            measure(evaluation, document, r);
+            if (!concerns(group->which, &document->rigs[r], group->group)) continue;
+            any = add_bounds(floors, group, document, r) || any;
+            measure(floors, document, r, group->samples);
         }
         if (!any) break;
-        status = wiggly_group_solve_bounded(pinned->solver, pinned->descs, pinned->weights, pinned->curves,
-                                            pinned->count, round->pins, with_pins ? pinned->held_count : 0,
-                                            floors->bounds, floors->count);
-        for (int i = 0; i < pinned->count; i++) evaluation->curves[pinned->members[i]] = pinned->curves[i];
+        status = wiggly_group_solve_bounded(group->solver, group->descs, group->weights, group->curves, group->count,
+                                            group->pins, group->pin_count, floors->bounds, floors->count);
+        for (int i = 0; i < group->count; i++) group->shown[group->members[i]] = group->curves[i];
     }
     return status;
-}
-
-const struct floor_left *evaluation_floor(const struct evaluation *evaluation, int rig)
-{
-    const struct storage *storage = evaluation->storage;
-    return storage && storage->pinned.floors.bounds && rig < storage->pinned.floors.rigs
-               ? &storage->pinned.floors.left[rig]
-               : NULL;
 }

@@ -2,10 +2,7 @@
 #ifndef SCENE_FLOORS_H
 #define SCENE_FLOORS_H
 
-#include "scene/evaluate.h"
-
-struct pinned;
-struct pin_round;
+#include "scene/pin_source.h"
 
 enum { FLOORS_MOST_BOUNDS = 256 }; ///< points that a group keeps above floors
 
@@ -21,6 +18,25 @@ struct floors {
     int count;               ///< bounds
 };
 
+/// A group of splines as it has been solved, to be solved again above its floors.
+struct floor_group {
+    wiggly_group *solver;
+    const struct pin_source *source;
+    const struct evaluation *evaluation; ///< that the source looks at
+    wiggly_curve *shown;                 ///< its curves, of all splines
+    int samples;
+    const int *which; ///< of each spline, the group that it is in
+    int group;        ///< this one
+    const int *members;
+    int count;                ///< of them, and of the next four
+    const wiggly_desc *descs; ///< as they are solved
+    const double *weights;
+    wiggly_curve *curves;
+    pin_pull *c;      ///< room
+    wiggly_pin *pins; ///< that they are solved with
+    int pin_count;
+};
+
 /// Whether any rig has one.
 bool floors_any(const struct document *document);
 
@@ -29,10 +45,10 @@ bool floors_resize(struct floors *floors, const struct document *document, int g
 void floors_free(struct floors *floors);
 
 /// Whether a rig of a group has one.
-bool floors_concern(const struct pinned *pinned, const struct document *document, int which);
+bool floors_concern(const int *which, const struct document *document, int group);
 
-/// Solves a group that has been solved with a round's pins (or, without `with_pins`, none) once more, above its floors.
-wiggly_status floors_solve(struct evaluation *evaluation, const struct document *document, int which,
-                           struct pin_round *round, bool with_pins, wiggly_status status);
+/// Solves a group once more, above its floors; `status` is what solving it without them gave.
+wiggly_status floors_solve(struct floors *floors, const struct floor_group *group, const struct document *document,
+                           wiggly_status status);
 
 #endif

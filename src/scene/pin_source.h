@@ -11,7 +11,8 @@ struct pin_point {
     double at[3];   ///< metres of the world
     double size;    ///< of its rig, metres
     double slack;   ///< metres that do not count
-    bool is_linear; ///< it moves by Σ Re(c x), however far
+    bool is_linear; ///< it moves by Σ Re(c x), however far; else it hangs from `base`, no farther than `reach`
+    double base[3], reach;
 };
 
 /// c of each of some splines: the point moves by Re(c dx) in x, y and z.
@@ -23,7 +24,13 @@ struct low_point {
     int vertex;
 };
 
-enum { LOW_POINT_ROOM = 2 * CHARACTER_MAX_DRIVES }; ///< numbers a sample that finding them takes
+/// Where a character is deepest below its floor; `depth` 0: nowhere.
+struct floor_left {
+    double depth; ///< metres
+    int sample;
+};
+
+enum { LOW_POINT_ROOM = 6 * CHARACTER_MAX_DRIVES + 1 }; ///< numbers a sample that finding them takes
 
 struct pin_source {
     /// Finds a pin's point as the splines are in `evaluation`, and how `count` splines move it from there (`c` may be NULL if

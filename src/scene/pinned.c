@@ -1,9 +1,12 @@
 /// Solves groups of splines through their pins.
 ///
 /// A tail or chain bends, so its points move by Σ Re(c x) only near a pose: Gauss-Newton, from the motion without pins on, each round with
-/// the pulls at the pose of the last one that came nearer. A soft character needs one round.
+/// the pulls at the pose of the last one. No round is taken back, so that the motion is a continuous function of where pins are to be
+/// (pin_aim.h). A soft character needs one round.
 #include "scene/pinned.h"
 #include "base/hash.h"
+#include "scene/evaluate.h"
+#include "scene/pin_aim.h"
 #include "scene/pin_groups.h"
 #include "scene/pins.h"
 #include "scene/rig_key.h"
@@ -12,11 +15,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { MOST_ROUNDS = 8, MOST_MISSES = 2, FIRST_ROOM = 8 };
-
-static const double FIRST_STEP = 0.5; ///< of a rig's size: how far one round may take a point of a tail or chain
-static const double STALLED = 1e-4;   ///< change of the distance squared, as a part of it, that ends the rounds
-static const double SMALLER = 0.25;   ///< factor of the step after a round that came no nearer
+enum { MOST_ROUNDS = 8, FIRST_ROOM = 8 };
 
 /// Frees what a pointer leads to, and lets it lead nowhere: a failed resize leaves what the end frees again.
 #define DROP(pointer) (free(pointer), (pointer) = NULL)
@@ -31,10 +30,8 @@ static void free_solver(struct pinned *pinned)
     DROP(pinned->c);
     DROP(pinned->held);
     DROP(pinned->left);
-    for (int i = 0; i < 2; i++) {
-        DROP(pinned->round[i].pins);
-        DROP(pinned->round[i].pulls);
-    }
+    DROP(pinned->round.pins);
+    DROP(pinned->round.pulls);
     pinned->solver = NULL;
     pinned->group = pinned->pins = 0;
 }
@@ -90,15 +87,12 @@ static bool create_solver(struct pinned *pinned, const struct room *room)
     pinned->c = calloc(splines, sizeof *pinned->c);
     pinned->held = calloc(pins, sizeof *pinned->held);
     pinned->left = calloc(pins, sizeof *pinned->left);
-    bool good = pinned->descs && pinned->curves && pinned->weights && pinned->members && pinned->c && pinned->held &&
-                pinned->left;
-    for (int i = 0; i < 2; i++) {
-        pinned->round[i].pins = calloc(pins, sizeof *pinned->round[i].pins);
-        pinned->round[i].pulls = calloc(pins * splines, sizeof *pinned->round[i].pulls);
-        good &= pinned->round[i].pins && pinned->round[i].pulls;
-    }
-    good = good && wiggly_group_create_bounded(room->samples, room->knots, room->group, room->pins, room->bounds,
-                                               &pinned->solver) == WIGGLY_OK;
+    pinned->round.pins = calloc(pins, sizeof *pinned->round.pins);
+    pinned->round.pulls = calloc(pins * splines, sizeof *pinned->round.pulls);
+    const bool good = pinned->descs && pinned->curves && pinned->weights && pinned->members && pinned->c &&
+                      pinned->held && pinned->left && pinned->round.pins && pinned->round.pulls &&
+                      wiggly_group_create_bounded(room->samples, room->knots, room->group, room->pins, room->bounds,
+                                                  &pinned->solver) == WIGGLY_OK;
     if (!good) {
         free_solver(pinned);
         return false;
@@ -297,8 +291,9 @@ static void pass(const struct pinned *pinned, const wiggly_pull *pulls, int samp
     }
 }
 
-/// Finds the points, and the pulls on them as the splines are now.
-static void find_pulls(struct evaluation *evaluation, const struct document *document, struct pin_round *round)
+/// Finds the points, and the pulls on them as the splines are now, first without pins.
+static void find_pulls(struct evaluation *evaluation, const struct document *document, struct pin_round *round,
+                       bool is_first)
 {
     struct pinned *pinned = &evaluation->storage->pinned;
     const struct pin_source *source = &evaluation->pins;
@@ -316,59 +311,40 @@ static void find_pulls(struct evaluation *evaluation, const struct document *doc
             memcpy(pulls[i].c, pinned->c[i], sizeof pulls[i].c);
         }
         pass(pinned, pulls, pin->sample, held->passed);
-        memcpy(held->at, held->from.at, sizeof held->at);
+        if (is_first) held->ease = pin_ease(pin);
     }
 }
 
-/// Sets how far x is to take each point: to its place, but a tail's or chain's no farther than `step` of its size.
-static void aim(const struct pinned *pinned, const struct document *document, const struct pin_round *round,
-                double step)
+/// Sets how far x is to take each point.
+static void aim(const struct pinned *pinned, const struct document *document, const struct pin_round *round)
 {
     for (int h = 0; h < pinned->held_count; h++) {
         const struct held_pin *held = &pinned->held[h];
-        const double *to = pin_of(document, held)->to;
-        double way[3], length = 0, factor = 1;
-        if (!held->is_found) continue;
-        for (int k = 0; k < 3; k++) {
-            way[k] = to[k] - held->from.at[k];
-            length = hypot(length, way[k]);
-        }
-        if (!held->from.is_linear && length > step * held->from.size) factor = step * held->from.size / length;
-        for (int k = 0; k < 3; k++) round->pins[h].to[k] = held->passed[k] + factor * way[k];
+        wiggly_pull *pulls = &round->pulls[h * pinned->count];
+        if (held->is_found)
+            pin_aim(&held->from, held->ease, pin_of(document, held)->to, held->passed, &round->pins[h], pulls);
     }
 }
 
-/// How far all points are from their places, squared.
-static double distance(const struct pinned *pinned, const struct document *document)
+static double distance(const double a[3], const double b[3])
 {
-    double sum = 0;
-    for (int h = 0; h < pinned->held_count; h++) {
-        const struct held_pin *held = &pinned->held[h];
-        const double *to = pin_of(document, held)->to;
-        for (int k = 0; held->is_found && k < 3; k++) sum += (to[k] - held->at[k]) * (to[k] - held->at[k]);
-    }
-    return sum;
+    return hypot(hypot(a[0] - b[0], a[1] - b[1]), a[2] - b[2]);
 }
 
-/// Finds where the points are now; whether each is at its place, or where it was before.
+/// Whether each point is at its place, or where it was before.
 static bool look(struct evaluation *evaluation, const struct document *document)
 {
     struct pinned *pinned = &evaluation->storage->pinned;
     const struct pin_source *source = &evaluation->pins;
     bool there = true;
     for (int h = 0; h < pinned->held_count; h++) {
-        struct held_pin *held = &pinned->held[h];
+        const struct held_pin *held = &pinned->held[h];
         struct pin_point now;
-        double missed = 0, moved = 0;
         if (!held->is_found) continue;
         const struct pin *pin = pin_of(document, held);
         source->find(source->context, evaluation, document, held->rig, pin, NULL, 0, NULL, &now);
-        for (int k = 0; k < 3; k++) {
-            missed = hypot(missed, pin->to[k] - now.at[k]);
-            moved = hypot(moved, now.at[k] - held->from.at[k]);
-            held->at[k] = now.at[k];
-        }
-        there &= held->from.is_linear || missed <= now.slack || moved <= now.slack;
+        there &= held->from.is_linear || distance(pin->to, now.at) <= now.slack ||
+                 distance(now.at, held->from.at) <= now.slack;
     }
     return there;
 }
@@ -380,46 +356,48 @@ static bool all_linear(const struct pinned *pinned)
     return all;
 }
 
-/// Rounds from the motion without pins on; the curves are those of the round that came nearest, which `solved` receives: NULL for the motion
-/// without pins.
-static wiggly_status approach(struct evaluation *evaluation, const struct document *document,
-                              struct pin_round **solved)
+/// Rounds from the motion without pins on, which has been solved.
+static wiggly_status approach(struct evaluation *evaluation, const struct document *document, struct pin_round *round)
+{
+    const struct pinned *pinned = &evaluation->storage->pinned;
+    wiggly_status status = WIGGLY_OK;
+    const int most = all_linear(pinned) ? 1 : MOST_ROUNDS;
+    for (int n = 0; n < most; n++) {
+        aim(pinned, document, round);
+        status = solve_round(evaluation, round, true);
+        if (status >= WIGGLY_ERROR_ARGUMENT || n + 1 == most || look(evaluation, document)) break;
+        find_pulls(evaluation, document, round, false);
+    }
+    return status;
+}
+
+/// Solves the group once more, above its floors.
+static wiggly_status lift(struct evaluation *evaluation, const struct document *document, int which,
+                          wiggly_status status)
 {
     struct pinned *pinned = &evaluation->storage->pinned;
-    struct pin_round *best = &pinned->round[0], *next = &pinned->round[1];
-    bool is_best = true, has_best = false;
-    int misses = 0;
-    double step = FIRST_STEP, nearest = distance(pinned, document);
-    wiggly_status status = WIGGLY_OK;
-    for (int round = 0; round < MOST_ROUNDS && misses < MOST_MISSES && status < WIGGLY_ERROR_ARGUMENT; round++) {
-        aim(pinned, document, next, step);
-        status = solve_round(evaluation, next, true);
-        const bool arrived = look(evaluation, document);
-        const double now = distance(pinned, document);
-        const bool there = arrived || fabs(now - nearest) <= STALLED * nearest;
-        is_best = now <= nearest || there;
-        if (is_best) {
-            struct pin_round *nearer = next;
-            next = best;
-            best = nearer;
-            has_best = true;
-            misses = 0;
-            nearest = now;
-            if (there) break;
-            find_pulls(evaluation, document, next);
-        } else {
-            step *= SMALLER;
-            misses++;
-        }
-    }
-    *solved = has_best ? best : NULL;
-    return is_best ? status : solve_round(evaluation, best, has_best);
+    const struct floor_group group = {.solver = pinned->solver,
+                                      .source = &evaluation->pins,
+                                      .evaluation = evaluation,
+                                      .shown = evaluation->curves,
+                                      .samples = evaluation->samples,
+                                      .which = pinned->which,
+                                      .group = which,
+                                      .members = pinned->members,
+                                      .count = pinned->count,
+                                      .descs = pinned->descs,
+                                      .weights = pinned->weights,
+                                      .curves = pinned->curves,
+                                      .c = pinned->c,
+                                      .pins = pinned->round.pins,
+                                      .pin_count = pinned->held_count};
+    return floors_solve(&pinned->floors, &group, document, status);
 }
 
 bool pinned_solve(struct evaluation *evaluation, const struct document *document, int which, wiggly_status *status)
 {
     struct pinned *pinned = &evaluation->storage->pinned;
-    const bool has_floor = floors_concern(pinned, document, which);
+    const bool has_floor = floors_concern(pinned->which, document, which);
     wiggly_group_set_method(pinned->solver, evaluation->storage->method);
     find_members(evaluation, document, which);
     for (int i = 0; has_floor && i < pinned->count; i++) { // as where pins pull: they are passed over, pressed or not
@@ -428,18 +406,11 @@ bool pinned_solve(struct evaluation *evaluation, const struct document *document
     }
     pin_groups_visit_bases(document, pinned->which, which, still, evaluation);
     find_held(pinned, document, which);
-    *status = solve_round(evaluation, &pinned->round[0], false);
+    *status = solve_round(evaluation, &pinned->round, false);
     if (*status >= WIGGLY_ERROR_ARGUMENT) return false;
-    struct pin_round *solved = &pinned->round[1];
-    find_pulls(evaluation, document, solved);
-    if (all_linear(pinned)) {
-        aim(pinned, document, solved, 0);
-        *status = pinned->held_count > 0 ? solve_round(evaluation, solved, true) : *status;
-    } else {
-        *status = approach(evaluation, document, &solved);
-    }
-    if (has_floor)
-        *status = floors_solve(evaluation, document, which, solved ? solved : &pinned->round[0], solved, *status);
+    find_pulls(evaluation, document, &pinned->round, true);
+    if (pinned->held_count > 0) *status = approach(evaluation, document, &pinned->round);
+    if (has_floor) *status = lift(evaluation, document, which, *status);
     return *status < WIGGLY_ERROR_ARGUMENT;
 }
 
@@ -473,4 +444,12 @@ const struct pin_left *evaluation_pin(const struct evaluation *evaluation, const
     int number = pin;
     for (int r = 0; r < rig; r++) number += document->rigs[r].pin_count;
     return storage && number < storage->pinned.left_count ? &storage->pinned.left[number] : NULL;
+}
+
+const struct floor_left *evaluation_floor(const struct evaluation *evaluation, int rig)
+{
+    const struct storage *storage = evaluation->storage;
+    return storage && storage->pinned.floors.bounds && rig < storage->pinned.floors.rigs
+               ? &storage->pinned.floors.left[rig]
+               : NULL;
 }

@@ -4,6 +4,7 @@
 
 #include "scene/floors.h"
 
+struct evaluation;
 struct storage;
 
 /// A pin of the group in hand.
@@ -12,7 +13,7 @@ struct held_pin {
     bool is_found;
     struct pin_point from; ///< where its pulls are those of
     double passed[3];      ///< Σ Re(c x) there
-    double at[3];          ///< where it is now
+    double ease;           ///< pin_ease() without pins
 };
 
 /// What a group is solved with: a pin and its pulls for each held pin.
@@ -42,8 +43,8 @@ struct pinned {
     pin_pull *c; ///< of a pin, for each member
     struct held_pin *held;
     int held_count;
-    struct pin_round round[2]; ///< that was solved best, and that is tried
-    struct pin_left *left;     ///< of all pins of the document
+    struct pin_round round;
+    struct pin_left *left; ///< of all pins of the document
     int left_count;
     uint64_t rigs_key, pins_key; ///< of what was solved
 };

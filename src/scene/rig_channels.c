@@ -18,6 +18,15 @@ bool axis_bends(enum axis axis) { return axis <= AXIS_TWIST; }
 
 const char *axis_word(enum axis axis) { return axis_words[axis]; }
 
+const char *axis_unit(enum axis axis) { return axis >= AXIS_BREATH ? "%" : "°"; }
+
+double axis_gain(enum axis axis)
+{
+    static const double gain[AXES] = {
+        [AXIS_LOOK] = 20, [AXIS_NOD] = 10, [AXIS_EARS] = 20, [AXIS_BREATH] = 2, [AXIS_BLINK] = 100};
+    return gain[axis] > 0 ? gain[axis] : CHANNEL_DEFAULT_GAIN;
+}
+
 static enum axis axis_called(const char *word)
 {
     int axis = AXIS_SIDE;

@@ -119,7 +119,7 @@ static double evaluate(struct integrator *m, const struct scheme *scheme, const 
 {
     struct integrator_work *w = m->work;
     double potential, energy = add_up(m, m->time + m->step, y, w->force, &potential);
-    energy += potential;
+    energy += potential + (m->loads.floor ? m->loads.floor->drag : 0);
     for (int i = 0; i < m->body->node_count; i++) {
         for (int c = 0; c < 3; c++) w->moved[i][c] = y[i][c] - w->origin[i][c];
     }
@@ -212,6 +212,7 @@ static void begin(struct integrator *m)
     struct integrator_work *w = m->work;
     double energy = add_up(m, m->time, (const double(*)[3])m->x, w->start, &w->potential) +
                     body_kinetic(m->body, (const double(*)[3])m->v);
+    if (m->loads.floor) floor_start(m->loads.floor);
     w->scale = m->loads.drive ? fmax(w->scale, energy) : energy;
     energy += w->potential;
     w->least = w->started && !m->loads.drive ? fmin(w->least, energy) : energy;
@@ -238,15 +239,17 @@ static void aim(struct integrator *m, const struct scheme *s)
     for (int i = 0; i < m->body->node_count; i++) {
         for (int c = 0; c < 3; c++) {
             double x = m->x[i][c], v = m->v[i][c], a = w->a[i][c];
-            w->y[i][c] = w->target[i][c] = w->origin[i][c] = x;
+            w->y[i][c] = w->target[i][c] = w->origin[i][c] = w->moved[i][c] = x;
             if (m->body->pinned[i]) continue;
             double rest = kept * (s->af * w->start[i][c] / m->body->mass[i] - s->am * a) / s->inertia;
             w->target[i][c] += h * v + h * h * s->k * a + rest;
             w->origin[i][c] -=
                 ((kept - s->gamma / s->beta) * v + h * (1 - s->gamma - s->gamma * s->k / s->beta) * a) / s->rate;
             w->y[i][c] += h * v;
+            w->moved[i][c] = w->origin[i][c] + (kept - 1) * v / s->rate; // the velocity at the step's end itself
         }
     }
+    loads_aim(&m->loads, m->time + h, h, s->rate, (const double(*)[3])w->moved);
 }
 
 /// Newmark's acceleration and velocity at the step's end.

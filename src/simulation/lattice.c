@@ -63,6 +63,39 @@ static bool fit(struct tiling *best, const struct solid *solid, int target, doub
     return true;
 }
 
+/// Volume of the elements as a multiple of the solid's.
+static double swelling(const struct tiling *t, double volume)
+{
+    double voxels = 0;
+    for (int e = 0; e < t->count; e++) voxels += t->part[e] < 0 ? 0 : t->filled[e];
+    return voxels * pow(t->voxels.spacing, 3) / volume;
+}
+
+/// Voxels make a limb up to half a voxel too thick or too thin on either side, a tenth where it is one cube wide, and as much too stiff
+/// or too soft. Where that does not average out, cubes of a slightly different size make the body as large as it is.
+static bool fit_volume(struct tiling *best, const struct solid *solid, double layer, double *cell)
+{
+    enum { TRIES = 8 };
+    static const double little = 0.01, progress = 0.9;
+    const double volume = solid_volume(solid);
+    double away = log(swelling(best, volume));
+    for (int i = 0; i < TRIES && fabs(away) > little; i++) {
+        struct tiling tiling;
+        double tried = coarse_enough(&solid->shape, *cell * exp(-away / 3));
+        if (!tiling_create(&tiling, solid, tried, layer)) return false;
+        double now = log(swelling(&tiling, volume));
+        if (!(fabs(now) < progress * fabs(away))) { // as where parts overlap: their volume counts twice
+            tiling_free(&tiling);
+            break;
+        }
+        away = now;
+        *cell = tried;
+        tiling_free(best);
+        *best = tiling;
+    }
+    return true;
+}
+
 /// Numbers the kept nodes, elements and parts consecutively. index[e] is the new number of element e.
 static bool number(struct lattice *lattice, const struct tiling *t, int *index, int *node_number)
 {
@@ -193,6 +226,7 @@ static bool lattice_of(struct lattice *lattice, const struct surface *surface, c
 {
     struct tiling tiling;
     bool fitted = fit(&tiling, solid, target, layer, &lattice->cell);
+    if (fitted && tiling.kept > 0 && !solid->open) fitted = fit_volume(&tiling, solid, layer, &lattice->cell);
     if (fitted && tiling.kept == 0) {
         tiling_free(&tiling);
         return fail(error, ERROR_INPUT, "%s: the mesh is too thin for a lattice of %d tetrahedra", name, target);

@@ -19,4 +19,7 @@ struct loads {
 double loads_forces(const struct loads *loads, const struct body *body, double time, const double (*x)[3],
                     double (*force)[3]);
 
+/// Before a step that ends at `time`: what the floor has to know of it. Nodes at y move with `rate` (y − q) at its end.
+void loads_aim(const struct loads *loads, double time, double step, double rate, const double (*q)[3]);
+
 #endif

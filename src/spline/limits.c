@@ -4,9 +4,10 @@
 // would have to pull and not push, the first one first. Between two sets of held samples everything is linear, so that a solve of
 // each is all that it takes. E grows with every sample that is taken in, so no set comes twice and the method ends.
 //
-// It takes as many solves as samples are held, and a few. Where hundreds are, as on an equilibrium beyond a limit, rounds are quicker:
-// solve, let go all that would have to be pulled, hold the farthest sample of every stretch beyond a limit. Nothing says that those end,
-// so after ROUNDS it is the dual method's turn again.
+// It takes as many solves as samples are held, and a few; so a guess comes first (limits_guess.c), which is nearly always right. Where
+// many samples are beyond a limit, as on an equilibrium that is, rounds are quicker: hold all that is beyond, let go all that would have to be
+// pulled, solve. Nothing says that those end. Whatever either finds, all that would have to be pulled is let go, and the dual method goes
+// on from there: E grows again with each step.
 //
 // Every solve starts from nothing but the description: the same samples are held, and the curve has the same bits, however one came
 // to it.
@@ -14,7 +15,11 @@
 #include <math.h>
 #include <string.h>
 
-enum { FEW = 64, ROUNDS = 60, MANY = 1000 }; ///< solves
+enum {
+    ROUNDS = 10,
+    MOST = 1000,  ///< solves
+    MANY_PART = 4 ///< where more than one sample of so many is beyond a limit, many are to be held
+};
 
 static const double beyond = 1e-10;   ///< of the size of the total: what a sample may miss a limit by
 static const double faintest = 1e-12; ///< of the size of w: a pull that may be rounding
@@ -116,20 +121,14 @@ static bool relax(limits_work *w, const limits_part *part, double noise)
     return any;
 }
 
-/// Holds the farthest sample of each stretch beyond a limit. true where there was any.
-static bool tighten(limits_work *w, limits_part *part, double slack)
+/// Holds all that is beyond a limit up to the last knot. true where there was any.
+static bool tighten(limits_work *w, double slack)
 {
     bool any = false;
-    for (int i = part->from; i <= part->to; i++) {
-        double worst = limits_hold(w, i) ? 0 : excess(w, i, slack);
-        int at = i;
-        if (worst == 0) continue;
-        for (; i + 1 <= part->to && !limits_hold(w, i + 1); i++) {
-            double next = excess(w, i + 1, slack);
-            if (!(next * worst > 0)) break;
-            if (fabs(next) > fabs(worst)) worst = next, at = i + 1;
-        }
-        hold(w, part, at, worst);
+    for (int i = w->body.from; i <= w->body.to; i++) {
+        double by = limits_hold(w, i) ? 0 : excess(w, i, slack);
+        if (by == 0) continue;
+        hold(w, &w->body, i, by);
         any = true;
     }
     return any;
@@ -206,62 +205,66 @@ static void measure_work(limits_work *w, double *slack, double *noise)
 /// How a search for the samples to hold went.
 enum outcome { FOUND, TIRED, NO_ROOM };
 
-/// The dual method, from where nothing is held and all is solved, for about so many solves.
-static enum outcome climb(limits_work *w, int solves)
+/// The dual method, from where no limit pulls and all is solved.
+static enum outcome climb(limits_work *w)
 {
     double slack, noise;
     for (;;) {
         measure_work(w, &slack, &noise);
         int sample = find_farthest(w, slack);
         if (sample < 0 || solver_must_stop(w->solver->stop)) return FOUND;
-        if (w->solver->limits.solves >= solves) return TIRED;
+        if (w->solver->limits.solves >= MOST) return TIRED;
         if (!take_in(w, sample, noise)) return NO_ROOM;
     }
 }
 
-/// Rounds until nothing changes.
+/// Rounds until nothing changes up to the last knot.
 static enum outcome go_round(limits_work *w)
 {
     for (int round = 0; round < ROUNDS; round++) {
         double slack, noise;
         measure_work(w, &slack, &noise);
         bool any = relax(w, &w->body, noise);
-        any = relax(w, &w->tail, noise) || any;
-        any = tighten(w, &w->body, slack) || any;
-        any = tighten(w, &w->tail, slack) || any;
+        any = tighten(w, slack) || any;
         if (!any || solver_must_stop(w->solver->stop)) return FOUND;
         if (!limits_solve(w)) return NO_ROOM;
     }
     return TIRED;
 }
 
-/// Solves with what was guessed and lets go until nothing has to be pulled: the dual method can go on from there.
+/// Lets go until nothing has to be pulled: the dual method can go on from there.
 static bool settle(limits_work *w)
 {
+    const limit_memory *m = &w->solver->limits;
     double slack, noise;
-    for (bool any = true; any;) {
+    measure_work(w, &slack, &noise);
+    while (relax(w, &w->body, noise)) {
         if (!limits_solve(w)) return false;
         measure_work(w, &slack, &noise);
-        any = relax(w, &w->body, noise);
     }
-    const limit_memory *m = &w->solver->limits;
     for (int i = w->body.from; i <= w->body.to; i++) {
         if (limits_hold(w, i)) m->now[i] = m->pull[i];
     }
     return true;
 }
 
+static bool is_far_beyond(const limits_work *w, double slack)
+{
+    int count = 0;
+    for (int i = w->body.from; i <= w->body.to; i++) count += excess(w, i, slack) != 0;
+    return count > w->p->desc->samples / MANY_PART;
+}
+
 static enum outcome search(limits_work *w)
 {
     double slack, noise;
     measure_work(w, &slack, &noise);
-    limits_guess(w, slack);
-    if (w->body.held > 0 && !settle(w)) return NO_ROOM;
-    enum outcome outcome = climb(w, FEW);
-    if (outcome == TIRED) outcome = go_round(w);
-    if (outcome != TIRED) return outcome;
-    hold_nothing(w);
-    return limits_solve(w) ? climb(w, MANY) : NO_ROOM;
+    if (is_far_beyond(w, slack)) {
+        if (go_round(w) == NO_ROOM) return NO_ROOM;
+    } else if (limits_guess(w, slack) && !limits_solve(w)) {
+        return NO_ROOM;
+    }
+    return settle(w) ? climb(w) : NO_ROOM;
 }
 
 wiggly_status limits_find(wiggly_solver *solver, problem *p, wiggly_curve *curve, minimum *result)

@@ -45,8 +45,8 @@ typedef struct limits_work {
 /// there is no room for so many.
 bool limits_solve(limits_work *work);
 
-/// Holds what is likely to be held up to the last knot, from where nothing is held and all is solved.
-void limits_guess(limits_work *work, double slack);
+/// Holds what is likely to be held up to the last knot, from where nothing is held and all is solved. false: nothing.
+bool limits_guess(limits_work *work, double slack);
 
 static inline bool limits_hold(const limits_work *w, int sample) { return w->solver->limits.held[sample] & 1; }
 

@@ -155,21 +155,22 @@ static void push_all(guess *g)
     for (int i = body->from; i <= body->to; i++) g->moved[i] = g->alone[i] + solver->rows.gradient[place(g, i)];
 }
 
-void limits_guess(limits_work *w, double slack)
+bool limits_guess(limits_work *w, double slack)
 {
     wiggly_solver *solver = w->solver;
     limits_part *body = &w->body;
     guess g = {.w = w, .moved = solver->limits.free[0], .alone = solver->limits.free[1]};
     for (int i = body->from; i <= body->to; i++)
         g.moved[i] = solver->limits.free[1][i] = problem_about(w->p, i) + w->curve->re[i];
-    if (find_farthest(&g, slack) < 0) return;
+    if (find_farthest(&g, slack) < 0) return false;
     problem_set_rows(solver, w->p);
     const factorisation factor = solver_factor(solver);
-    if (!factor.squared || factor.rank != RANK_FULL) return;
+    if (!factor.squared || factor.rank != RANK_FULL) return false;
     for (int step = 0; step < STEPS && g.count < MOST; step++) {
         const int sample = find_farthest(&g, slack);
         if (sample < 0 || !take_in(&g, sample)) break;
         push_all(&g);
     }
     body->held = g.count;
+    return body->held > 0;
 }

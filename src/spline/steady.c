@@ -2,7 +2,8 @@
 //
 // Where knots suit a frequency badly, a curve swings wide to get through them, and a small change of a knot changes it much. A
 // neighbouring frequency may suit them well. So the solutions at PARTS of them, each for itself a spline through the knots, are taken
-// together, each weighed by E^(−3/2): those that have to be forced count little.
+// together. Those that hardly have to be forced count most, by a power of their energy; where all have to be, they count alike, for a
+// mean that follows the least of several large energies would jump.
 //
 // Only the engine is detuned. What moves by itself, u and what is behind the last knot, is of the description's own frequency: it is
 // the same for all, so that the mean of the solutions swings out as any spline does, from the mean at the last knot. Where the filter's
@@ -15,16 +16,34 @@
 
 enum { PARTS = 5 };
 
-static const double spread = 0.15; ///< of the frequency, on both sides
+static const double spread = 0.22; ///< of the frequency, on both sides
+static const double easy = 0.02;   ///< of ω³ A²: an energy that makes a part count twice
 static const double faint = 1e-26; ///< of Σ |w|²: an energy that may be rounding
+
+static double fastest_of(const problem *p)
+{
+    double fastest;
+    poles_fastest(p->desc, p->first, p->first + p->count - 1, &fastest);
+    return fastest;
+}
 
 bool steady_is_set(const problem *p)
 {
     const wiggly_desc *desc = p->desc;
     if (!(desc->steady > 0) || desc->mode == WIGGLY_CUBIC || desc->knot_count == 0 || p->pulls) return false;
-    double fastest;
-    poles_fastest(desc, p->first, p->first + p->count - 1, &fastest);
-    return fastest > 0;
+    return fastest_of(p) > 0;
+}
+
+/// An energy that is easy to spend on these knots, in units of energy_of().
+static double easy_energy(const problem *p)
+{
+    const double turn = fastest_of(p) * p->desc->step;
+    double farthest = 0;
+    for (int k = 0; k < p->desc->knot_count; k++) {
+        const wiggly_knot *knot = &p->desc->knots[k];
+        farthest = fmax(farthest, fabs(knot->value - problem_about(p, knot->sample)));
+    }
+    return easy * turn * turn * turn * farthest * farthest;
 }
 
 /// What a part's energy is; a little more than 0 wherever it is not still.
@@ -76,7 +95,8 @@ wiggly_status steady_find(wiggly_solver *solver, problem *p, wiggly_curve *curve
     const steady_memory *mean = &solver->steady;
     const int from = p->first, count = p->count;
     wiggly_status status = p->status;
-    double first = 0, weights = 0;
+    const double cheap = easy_energy(p);
+    double weights = 0;
     *result = (minimum){.solved = true};
     for (int i = 0; i < PARTS; i++) {
         problem part = *p;
@@ -87,9 +107,7 @@ wiggly_status steady_find(wiggly_solver *solver, problem *p, wiggly_curve *curve
         if (found >= WIGGLY_ERROR_ARGUMENT) return found;
         status = found > status ? found : status;
         add_result(result, &one);
-        double energy = energy_of(solver, &part, curve);
-        if (i == 0) first = energy;
-        double ratio = first / energy, weight = ratio * sqrt(ratio);
+        double ratio = cheap / energy_of(solver, &part, curve), weight = 1 + ratio * ratio * ratio * sqrt(ratio);
         if (!isfinite(weight)) weight = 1; // nothing moves, or squares do not fit a double
         weights += weight;
         if (i == 0) {

@@ -42,6 +42,8 @@ static const struct {
     {"limits", BENCH_LIMITS, REAL | CUBIC, {240}, false},
     {"steady", BENCH_STEADY, COMPLEX, {240, 1000}, false},
     {"steady", BENCH_STEADY, REAL, {240}, false},
+    {"variation", BENCH_VARIATION, COMPLEX, {240, 1000}, false},
+    {"variation", BENCH_VARIATION, REAL, {240}, false},
 };
 enum { PLANS = sizeof plan / sizeof *plan };
 

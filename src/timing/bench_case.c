@@ -30,8 +30,8 @@ static void work_destroy(struct work *w)
 
 static bool is_limited(const wiggly_desc *desc) { return desc->high < INFINITY; }
 
-/// Limits and the mean of several are no system for LAPACK: such a case is timed alone.
-static bool is_alone(const wiggly_desc *desc) { return is_limited(desc) || desc->steady > 0; }
+/// Limits, the mean of several and noise are no system for LAPACK: such a case is timed alone.
+static bool is_alone(const wiggly_desc *desc) { return is_limited(desc) || desc->steady > 0 || desc->variation > 0; }
 
 static bool work_create(struct work *w, const wiggly_desc *desc)
 {

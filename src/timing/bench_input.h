@@ -18,9 +18,10 @@ enum bench_kind {
     BENCH_SHORT_2,
     BENCH_SHORT_4,
     BENCH_SHORT_8,
-    BENCH_LIMITS, ///< the curve stays within 1.02 of the largest knot
-    BENCH_STEADY, ///< the mean of five
-    BENCH_EDIT,   ///< like single, of fewer knots
+    BENCH_LIMITS,    ///< the curve stays within 1.02 of the largest knot
+    BENCH_STEADY,    ///< the mean of five
+    BENCH_VARIATION, ///< another motion through the same knots
+    BENCH_EDIT,      ///< like single, of fewer knots
 };
 
 /// A description with memory of its own; knots[middle] may be changed.

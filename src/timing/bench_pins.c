@@ -5,26 +5,28 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-enum { GAP = 24, MOST_SPLINES = 8, MOST_PINS = 40, RUNS = 2000 };
+enum { GAP = 24, MOST_SPLINES = 8, MOST_PINS = 40, MOST_BOUNDS = 40, RUNS = 2000 };
 
 static const struct {
     const char *name;
     int splines, pins, samples;
     bool moves; ///< the dragged pin changes its sample too, so nothing of the run before serves
+    int bounds;
 } plan[] = {
-    {"pins/drag/6x9x240", 6, 9, 240, false},
-    {"pins/retime/6x9x240", 6, 9, 240, true},
-    {"pins/drag/8x40x1000", 8, 40, 1000, false},
-    {"pins/retime/8x40x1000", 8, 40, 1000, true},
+    {"pins/drag/6x9x240", 6, 9, 240, false, 0},       {"pins/retime/6x9x240", 6, 9, 240, true, 0},
+    {"pins/drag/8x40x1000", 8, 40, 1000, false, 0},   {"pins/retime/8x40x1000", 8, 40, 1000, true, 0},
+    {"pins/bounds/2x1x240/40", 2, 1, 240, false, 40},
 };
 
 struct pinned {
-    int splines, pins, samples;
+    int splines, pins, bounds, samples;
     wiggly_desc desc[MOST_SPLINES];
     double weight[MOST_SPLINES];
     wiggly_curve curve[MOST_SPLINES];
     wiggly_pull pull[MOST_PINS][MOST_SPLINES];
     wiggly_pin pin[MOST_PINS];
+    double seen[MOST_BOUNDS][MOST_SPLINES][2];
+    wiggly_bound bound[MOST_BOUNDS];
     wiggly_knot *knots;
     double *numbers;
 };
@@ -58,14 +60,25 @@ static void place(struct pinned *p, int i)
     }
 }
 
-static bool open_group(struct pinned *p, int splines, int pins, int samples)
+/// A bound on a point that half of the time is pressed.
+static void lay(struct pinned *p, int b)
 {
-    *p = (struct pinned){.splines = splines, .pins = pins, .samples = samples};
+    for (int s = 0; s < p->splines; s++) {
+        for (int part = 0; part < 2; part++) p->seen[b][s][part] = sin(3.1 * b + 1.9 * s + part);
+    }
+    p->bound[b] = (wiggly_bound){
+        .sample = 7 + b * (p->samples - 10) / p->bounds, .c = (const double(*)[2])p->seen[b], .least = -0.3};
+}
+
+static bool open_group(struct pinned *p, int splines, int pins, int samples, int bounds)
+{
+    *p = (struct pinned){.splines = splines, .pins = pins, .bounds = bounds, .samples = samples};
     p->knots = calloc((size_t)(splines * (samples / GAP)), sizeof *p->knots);
     p->numbers = calloc((size_t)(splines * 3 * samples), sizeof *p->numbers);
     if (!p->knots || !p->numbers) return false;
     for (int s = 0; s < splines; s++) describe(p, s);
     for (int i = 0; i < pins; i++) place(p, i);
+    for (int b = 0; b < bounds; b++) lay(p, b);
     return true;
 }
 
@@ -75,13 +88,15 @@ static double largest_left(const struct pinned *p)
     for (int i = 0; i < p->pins; i++) {
         for (int axis = 0; axis < 3; axis++) left = fmax(left, fabs(p->pin[i].left[axis]));
     }
+    for (int b = 0; b < p->bounds; b++) left = fmax(left, p->bound[b].left);
     return left;
 }
 
 static bool run_group(struct bench *bench, struct pinned *p, bool moves, struct bench_result *result)
 {
     wiggly_group *group = NULL;
-    wiggly_status status = wiggly_group_create(p->samples, p->samples / GAP, p->splines, p->pins, &group);
+    wiggly_status status =
+        wiggly_group_create_bounded(p->samples, p->samples / GAP, p->splines, p->pins, p->bounds, &group);
     wiggly_pin *dragged = &p->pin[p->pins / 2];
     const int at = dragged->sample;
     int run = 0;
@@ -89,14 +104,15 @@ static bool run_group(struct bench *bench, struct pinned *p, bool moves, struct 
         dragged->to[0] = 0.3 * sin(0.1 * run);
         if (moves) dragged->sample = at + run % 3;
         double start = clock_now();
-        status = wiggly_group_solve(group, p->desc, p->weight, p->curve, p->splines, p->pin, p->pins);
+        status = wiggly_group_solve_bounded(group, p->desc, p->weight, p->curve, p->splines, p->pin, p->pins,
+                                            p->bound, p->bounds);
         bench->times[run] = clock_now() - start;
     }
     wiggly_group_destroy(group);
     result->splines = p->splines;
     result->error = largest_left(p);
     bench_sum_up(bench, run, (double)p->samples * p->splines, result);
-    return status == WIGGLY_OK && result->error < 1e-9;
+    return status == WIGGLY_OK && result->error < (p->bounds > 0 ? 1e-8 : 1e-9);
 }
 
 bool bench_pins(struct bench *bench, void (*done)(void *user, const struct bench_result *result), void *user,
@@ -106,7 +122,7 @@ bool bench_pins(struct bench *bench, void (*done)(void *user, const struct bench
         struct pinned p;
         struct bench_result result = bench_blank(WIGGLY_COMPLEX, plan[n].samples);
         snprintf(result.name, sizeof result.name, "%s", plan[n].name);
-        bool good = open_group(&p, plan[n].splines, plan[n].pins, plan[n].samples) &&
+        bool good = open_group(&p, plan[n].splines, plan[n].pins, plan[n].samples, plan[n].bounds) &&
                     run_group(bench, &p, plan[n].moves, &result);
         free(p.knots);
         free(p.numbers);

@@ -20,6 +20,7 @@ enum event_kind {
     EVENT_CLOSE,   ///< the window's close button
     EVENT_EXPOSE,  ///< the window's content was lost
     EVENT_FOCUS,   ///< the window has the keyboard again
+    EVENT_CAPTION, ///< text: what a demo is showing; empty for nothing
 };
 
 enum event_action { ACTION_RELEASE, ACTION_PRESS, ACTION_REPEAT };
@@ -73,7 +74,7 @@ struct event {
     float scale;      ///< device pixels a logical pixel
     double time;      ///< seconds, when it arrived
     const char *path; ///< EVENT_DROP: valid during the frame
-    const char *text; ///< EVENT_PASTE: UTF-8, valid during the call
+    const char *text; ///< EVENT_PASTE, EVENT_CAPTION: UTF-8, valid during the call
 };
 
 /// Names for replays: "A", "Left", "F1", ","; 0 / NULL if there is none.

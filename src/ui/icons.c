@@ -115,6 +115,19 @@ static void draw_pick(const struct pen *pen)
     line(pen, 0, 3, 0, 6.5f);
 }
 
+static void draw_ramp(const struct pen *pen)
+{
+    stroke(pen, (const float[]){-5.5f, 4, -1.5f, 1.5f, 1.5f, -2.5f, 5.5f, -4}, 4);
+    dot(pen, -5, 3.7f, 1.8f);
+    dot(pen, 5, -3.8f, 1.8f);
+}
+
+static void draw_each(const struct pen *pen)
+{
+    static const float heights[] = {3, 5, 7, 9, 11};
+    for (int i = 0; i < 5; i++) line(pen, -5.0f + 2.5f * (float)i, 5.5f, -5.0f + 2.5f * (float)i, 5.5f - heights[i]);
+}
+
 bool ui_icon_button(struct ui *ui, struct rect r, const char *name, enum ui_icon icon, bool lit, const char *hint)
 {
     static void (*const shapes[])(const struct pen *) = {
@@ -129,12 +142,14 @@ bool ui_icon_button(struct ui *ui, struct rect r, const char *name, enum ui_icon
         [UI_ICON_FOLLOW] = draw_follow,
         [UI_ICON_UNFOLLOW] = draw_unfollow,
         [UI_ICON_PICK] = draw_pick,
+        [UI_ICON_RAMP] = draw_ramp,
+        [UI_ICON_EACH] = draw_each,
     };
     uint32_t id = ui_id(name);
     ui_register(ui, id, r);
     bool pressed = ui_pressed(ui, r, BUTTON_LEFT) || ui_activated(ui, id);
     bool hot = ui_hovered(ui, r);
-    if (hot) ui->hint = hint;
+    ui_hint(ui, r, hint);
     if (ui->pass == UI_PASS_DRAW) {
         if (hot) drawlist_rounded(ui->list, r, UI_RADIUS, theme()->fill);
         uint32_t color = lit ? theme()->accent : hot || ui->focus == id ? theme()->text : theme()->text_dim;

@@ -24,10 +24,12 @@ void ui_popup_close(struct ui *ui)
 
 bool ui_popup_is_open(const struct ui *ui, const char *name) { return ui->popup.id == ui_id(name); }
 
-/// Below the anchor, or above it if there is more room; always inside the panel.
+static bool is_beside(const struct ui *ui) { return ui->popup.room.w > 0; }
+
+/// Below the anchor, or above it if there is more room; always inside the panel, or in its own room.
 static struct rect place(const struct ui *ui, float width, float height)
 {
-    struct rect anchor = ui->popup.anchor, area = ui->area;
+    struct rect anchor = ui->popup.anchor, area = is_beside(ui) ? ui->popup.room : ui->area;
     float below = area.y + area.h - (anchor.y + anchor.h), above = anchor.y - area.y;
     bool up = height > below && above > below;
     height = fminf(height, up ? above : below);
@@ -41,6 +43,8 @@ void ui_popup_begin(struct ui *ui, float width, float height)
     ui->blocked = false;
     ui->popup.built = true;
     ui->stop_count = 0; // Tab stays inside
+    if (is_beside(ui)) ui->clip = ui->popup.room;
+    if (is_beside(ui) && ui->pass == UI_PASS_DRAW) drawlist_set_clip(ui->list, ui->popup.room);
     if (ui->pass == UI_PASS_DRAW) {
         drawlist_rounded(ui->list, rect_inset(box, -1), UI_RADIUS + 2, theme()->veil);
         drawlist_rounded(ui->list, box, UI_RADIUS + 1, theme()->raised);

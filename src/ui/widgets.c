@@ -19,6 +19,7 @@ static void begin(struct ui *ui, enum ui_pass pass, struct rect area)
     ui->scroll = NULL;
     ui->stop_count = 0;
     ui->popup.built = ui->popup.fresh = false;
+    ui->focus_hint = ui->offered = NULL;
     ui->blocked = ui->popup.id != 0 && pass != UI_PASS_FIND;
 }
 
@@ -193,8 +194,28 @@ bool ui_hovered(const struct ui *ui, struct rect r)
            rect_contains(ui->clip, ui->pointer_x, ui->pointer_y);
 }
 
+/// A hint may come before the widget that it is for, or after it.
+static void hint_focus(struct ui *ui, struct rect r, const char *text)
+{
+    const struct rect *focus = &ui->focus_rect;
+    if (text && rect_contains(r, focus->x + focus->w / 2, focus->y + focus->h / 2)) ui->focus_hint = text;
+}
+
+void ui_hint(struct ui *ui, struct rect r, const char *text)
+{
+    if (!text) return;
+    if (ui_hovered(ui, r)) ui->hint = text;
+    ui->offered = text;
+    ui->offered_rect = r;
+    if (ui->focus && is_shown(ui, ui->focus)) hint_focus(ui, r, text);
+}
+
 void ui_register(struct ui *ui, uint32_t id, struct rect r)
 {
+    if (id == ui->focus) {
+        ui->focus_rect = r;
+        hint_focus(ui, ui->offered_rect, ui->offered);
+    }
     if ((!ui->blocked || ui->pass == UI_PASS_DRAW) && ui->stop_count < UI_MAX_FOCUS)
         ui->stop[ui->stop_count++] = (struct ui_stop){id, r};
     if (ui->pass == UI_PASS_FIND && ui->find == id && !ui->found) {

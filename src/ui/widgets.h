@@ -52,6 +52,7 @@ struct ui_popup {
     uint32_t id;        ///< of its name; 0: none
     int which;          ///< the caller's own: what it is about
     struct rect anchor; ///< what it hangs on
+    struct rect room;   ///< where it may be; nothing: in the panel
     struct ui_scroll scroll;
     uint32_t focus;              ///< what begins with the focus; 0: its first widget
     uint32_t opener;             ///< what gets the focus back; 0 where the pointer opened it
@@ -79,7 +80,11 @@ struct ui {
     float anchor_x;           ///< where the drag's mapping starts anew: at the press and where Shift changes
     double anchor_value;
     float pointer_x, pointer_y;
-    const char *hint;    ///< of the widget that the pointer is over, a text that stays; NULL: none
+    const char *hint;       ///< of the widget that the pointer is over, a text that stays; NULL: none
+    const char *focus_hint; ///< of the one that has the keyboard
+    struct rect focus_rect; ///< where that is
+    const char *offered;    ///< the last hint of this pass, and where it holds
+    struct rect offered_rect;
     enum ui_over over;   ///< as of the last frame drawn
     char complaint[160]; ///< why what was typed was refused; the caller shows and clears it
 
@@ -195,6 +200,8 @@ enum ui_icon {
     UI_ICON_FOLLOW,   ///< a link
     UI_ICON_UNFOLLOW, ///< the same, broken
     UI_ICON_PICK,     ///< a target
+    UI_ICON_RAMP,     ///< a curve through points
+    UI_ICON_EACH,     ///< a bar for each of several
 };
 /// A square button with an icon; `lit`: it shows something that is on. true if it was pressed.
 bool ui_icon_button(struct ui *ui, struct rect r, const char *name, enum ui_icon icon, bool lit, const char *hint);
@@ -244,6 +251,11 @@ bool ui_text_field(struct ui *ui, struct rect r, const char *name);
 void ui_text_set(struct ui_text *text, const char *utf8);
 /// One key or character; false if the line does not use it. `changed` may be NULL.
 bool ui_text_event(struct ui_text *text, const struct event *event, bool *changed);
+
+/// What the widgets in `r` are for: a sentence that stays, for who points at them or has the keyboard there.
+void ui_hint(struct ui *ui, struct rect r, const char *text);
+/// Width of a label.
+float ui_text_width(const char *text);
 
 /// For widgets made elsewhere: the id of a name, whether the pointer is over (and not over anything clipped), registration.
 uint32_t ui_id(const char *name);

@@ -81,6 +81,7 @@ bool ui_section(struct ui *ui, const char *name, const char *title, bool *closed
     struct rect r = ui_row(ui, UI_ROW);
     uint32_t id = ui_id(name);
     bool first = ui->stop_count == 0;
+    ui_hint(ui, r, *closed ? "Open this section" : "Close this section");
     ui_register(ui, id, r);
     if (ui_pressed(ui, r, BUTTON_LEFT) || ui_activated(ui, id)) *closed = !*closed;
     if (ui->pass == UI_PASS_DRAW) {
@@ -93,10 +94,12 @@ bool ui_section(struct ui *ui, const char *name, const char *title, bool *closed
     return !*closed;
 }
 
+float ui_text_width(const char *text) { return font_width(FONT_LABEL, THEME_TEXT_NORMAL, text); }
+
 /// Text in the middle of `r`, cut if it does not fit.
 static void paint_centred(struct ui *ui, struct rect r, const char *text, uint32_t color)
 {
-    float w = fminf(r.w - 8, font_width(FONT_LABEL, THEME_TEXT_NORMAL, text));
+    float w = fminf(r.w - 8, ui_text_width(text));
     paint_label(ui, (struct rect){roundf(r.x + (r.w - w) / 2), r.y, w, r.h}, FONT_LABEL, text, color);
 }
 

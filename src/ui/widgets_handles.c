@@ -97,7 +97,7 @@ static void show(struct ui *ui, struct rect area, const struct ui_handle *handle
             ui->over = UI_OVER_NUMBER;
             drawlist_rounded_line(ui->list, around, 8, 1.5f, held ? theme()->accent : theme()->text_dim);
         }
-        if (i == hot) ui->hint = handles[i].hint;
+        if (i == hot || ui->focus == id_of(&handles[i])) ui_hint(ui, around, handles[i].hint);
         ui_focus_ring(ui, id_of(&handles[i]), around);
     }
 }

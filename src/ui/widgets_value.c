@@ -5,8 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { DRAG_THRESHOLD = 2 };          ///< pixels below which a press is a click
-static const double no_limit = 1e300; ///< limits from here on are none
+enum { DRAG_THRESHOLD = 2, HANDLE = 4 }; ///< pixels below which a press is a click; height of a bar's handle
+static const double no_limit = 1e300;    ///< limits from here on are none
 
 static bool has_bar(const struct ui_number *number) { return number->maximum > number->minimum; }
 
@@ -273,14 +273,15 @@ static void paint_strip(struct ui *ui, struct rect field, float zero, float at, 
     struct rect strip = {field.x + fminf(at, zero), field.y + field.h - height - 1, fabsf(at - zero), height};
     drawlist_rect(ui->list, strip, hot ? theme()->accent : theme()->text_dim);
     float x = handle_x(field, at);
-    drawlist_rect(ui->list, (struct rect){x, strip.y - 2, 2, height + 2}, hot ? theme()->accent : theme()->text);
+    drawlist_rect(ui->list, (struct rect){x - 0.5f, field.y + field.h - HANDLE - 1, 3, HANDLE},
+                  hot ? theme()->accent : theme()->text);
     drawlist_rect(ui->list, (struct rect){field.x + zero - 0.5f, strip.y - 1, 1, height + 1}, theme()->text_dim);
 }
 
-/// Filled from the left end to the value: faintly, because text stands on it, with a strip below to be seen from afar. Where
-/// the handle would strike through the text (`text_width` wide, at the right), it is a notch.
-static void paint_bar(struct ui *ui, struct rect field, const struct ui_number *number, double value,
-                      float text_width, bool hot, bool held)
+/// Filled from the left end to the value: faintly, because text stands on it, with a strip below to be seen from afar. The handle stays
+/// below the text.
+static void paint_bar(struct ui *ui, struct rect field, const struct ui_number *number, double value, bool hot,
+                      bool held)
 {
     float at = field.w * part_of(number, value);
     if (number->minimum < 0) {
@@ -295,10 +296,8 @@ static void paint_bar(struct ui *ui, struct rect field, const struct ui_number *
     float x = handle_x(field, at);
     struct rect strip = {field.x + 3, field.y + field.h - 3, fmaxf(0, x - field.x - 3), 2};
     drawlist_rect(ui->list, strip, held || hot ? theme()->accent : theme()->text_dim);
-    float text = field.x + field.w - UI_GAP - text_width;
-    bool under = x > text - 4 && x < text + text_width + 2;
-    struct rect handle = {x, field.y + (under ? field.h - 6 : 4), 2, under ? 4 : field.h - 7};
-    drawlist_rect(ui->list, handle, held || hot ? theme()->accent : theme()->text_dim);
+    struct rect handle = {x - 0.5f, field.y + field.h - HANDLE - 1, 3, HANDLE};
+    drawlist_rect(ui->list, handle, held || hot ? theme()->accent : theme()->text);
 }
 
 static void paint(struct ui *ui, struct rect r, struct rect field, uint32_t id, const struct ui_number *number,
@@ -322,7 +321,7 @@ static void paint(struct ui *ui, struct rect r, struct rect field, uint32_t id, 
     format_number(number, value, formatted, sizeof formatted);
     const char *text = number->shown ? number->shown : formatted;
     if (has_bar(number)) {
-        paint_bar(ui, field, number, value, font_width(FONT_NUMBER, THEME_TEXT_SMALL, text), hot, held);
+        paint_bar(ui, field, number, value, hot, held);
     }
     if (held) {
         drawlist_rounded_line(ui->list, field, UI_RADIUS, 1, theme()->accent);
@@ -349,7 +348,7 @@ enum ui_change ui_value(struct ui *ui, struct rect r, const struct ui_number *nu
         field.w -= UI_LABEL + UI_GAP;
     }
     ui_register(ui, id, field);
-    if (ui_hovered(ui, field) && number->hint) ui->hint = number->hint;
+    if (number->hint) ui_hint(ui, field, number->hint);
     switch (ui->pass) {
     case UI_PASS_DRAW:
         paint(ui, r, field, id, number, *value);

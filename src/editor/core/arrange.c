@@ -1,6 +1,7 @@
 /// Adds, removes, reorders and retimes splines.
 #include "editor/core/arrange.h"
 #include "editor/core/core.h"
+#include "editor/core/rigs.h"
 #include "editor/core/selection.h"
 #include "scene/reference.h"
 #include "ui/theme.h"
@@ -235,6 +236,10 @@ void arrange_answer(struct core *core, const struct editor_world *world, const s
     struct edit edit = core_edit_of(ask->kind == ASK_FPS ? EDIT_FPS : EDIT_RANGE, -1);
     switch (ask->kind) {
     case ASK_NOTHING:
+    case ASK_ADD:
+        break;
+    case ASK_RIG:
+        rigs_remove(core, world, ask->rig, answer == 0);
         break;
     case ASK_FPS:
         edit.number = ask->number;

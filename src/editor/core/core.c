@@ -122,10 +122,10 @@ void core_request(struct core *core, enum request_kind kind, const char *path)
     snprintf(request->path, sizeof request->path, "%s", path ? path : "");
 }
 
-void core_request_figure(struct core *core, int number)
+void core_request_number(struct core *core, enum request_kind kind, int number)
 {
     int at = core->request_count;
-    core_request(core, REQUEST_FIGURE, NULL);
+    core_request(core, kind, NULL);
     if (core->request_count > at) core->requests[at].number = number;
 }
 

@@ -25,8 +25,8 @@ void core_undo(struct core *core, const struct editor_world *world, int directio
 void core_jump(struct core *core, const struct editor_world *world, size_t done);
 /// Queues a request to the app; `path` may be NULL.
 void core_request(struct core *core, enum request_kind kind, const char *path);
-/// The same for a figure of the paper.
-void core_request_figure(struct core *core, int number);
+/// The same with a number.
+void core_request_number(struct core *core, enum request_kind kind, int number);
 /// See editor_message().
 void core_message(struct core *core, bool is_error, const char *text);
 /// The active spline, or NULL.
@@ -47,6 +47,8 @@ double core_round(double value, double resolution);
 /// Memory for the document's knots in selection and drags; allocates only where knots were added.
 void core_reserve(struct core *core, const struct document *document);
 
+/// The panel that is uppermost at a point.
+enum panel core_panel_at(const struct core *core, float x, float y);
 /// Rectangles of all panels for the window's size.
 void core_layout(struct core *core);
 /// Which divider is under a point, or DRAG_NONE.

@@ -1,5 +1,6 @@
 /// Where the panels are: stage over curves at the left, inspector at the right, status line below.
 #include "editor/core/core.h"
+#include "editor/core/presenter.h"
 #include "ui/theme.h"
 #include <math.h>
 
@@ -20,15 +21,29 @@ void core_layout(struct core *core)
     l->inspector = (struct rect){left, 0, right, height};
     l->status = (struct rect){0, height, l->window.w, THEME_STATUS_HEIGHT};
     float width = fmaxf(left - AXIS_WIDTH - LABEL_WIDTH, 16);
-    float plot = fmaxf(l->curves.h - RULER_HEIGHT - 1, 16);
+    float sheet = fminf(l->sheet_height, fmaxf(l->curves.h - RULER_HEIGHT - 17, 0));
+    float plot = fmaxf(l->curves.h - RULER_HEIGHT - 1 - sheet, 16);
     l->ruler = (struct rect){AXIS_WIDTH, stage + 1, width, RULER_HEIGHT};
-    l->plot = (struct rect){AXIS_WIDTH, stage + 1 + RULER_HEIGHT, width, plot};
+    l->sheet = (struct rect){AXIS_WIDTH, stage + 1 + RULER_HEIGHT, width, sheet};
+    l->plot = (struct rect){AXIS_WIDTH, stage + 1 + RULER_HEIGHT + sheet, width, plot};
     l->value_axis = (struct rect){0, l->plot.y, AXIS_WIDTH, plot};
+    l->open = l->stage;
+    if (core->presenter.on) presenter_arrange(&core->presenter, l);
+}
+
+enum panel core_panel_at(const struct core *core, float x, float y)
+{
+    const struct layout *l = &core->layout;
+    if (rect_contains(l->inspector, x, y)) return PANEL_INSPECTOR;
+    if (rect_contains(l->status, x, y)) return PANEL_STATUS;
+    if (rect_contains(l->curves, x, y)) return PANEL_CURVES;
+    return rect_contains(l->stage, x, y) ? PANEL_STAGE : PANEL_NONE;
 }
 
 enum drag_kind core_divider_at(const struct core *core, float x, float y)
 {
     const struct layout *l = &core->layout;
+    if (core->presenter.on) return DRAG_NONE;
     if (y < l->status.y && fabsf(x - l->inspector.x) < DIVIDER_REACH) return DRAG_INSPECTOR_DIVIDER;
     if (x < l->inspector.x && fabsf(y - l->curves.y) < DIVIDER_REACH) return DRAG_STAGE_DIVIDER;
     return DRAG_NONE;

@@ -13,11 +13,26 @@ enum { EDITOR_MAX_REQUESTS = 8, CORE_MAX_RECENT = 16 };
 struct layout {
     struct rect window, stage, curves, inspector, status;
     struct rect ruler;      ///< frame numbers, on top of the plot
+    struct rect sheet;      ///< the dope sheet's rows, below the ruler; empty where it is not shown
     struct rect value_axis; ///< numbers left of the plot
     struct rect plot;
+    struct rect open;  ///< of the stage, what no panel covers
     float stage_share; ///< of the height above the status line; kept when the window changes its size
     float inspector_width;
+    float sheet_height; ///< as the curves want it
 };
+
+/// F5: the stage fills the window, and panels slide in over it.
+struct presenter {
+    bool on;
+    bool pinned;  ///< Tab: all panels stay
+    bool shares;  ///< they take their room from the stage, until they are away again
+    bool pointed; ///< the pointer has moved since, so that it may call a panel
+    bool side_wanted, below_wanted;
+    float side, below; ///< 0 … 1: how far the inspector is in, and the curves with the status line
+};
+
+enum panel { PANEL_NONE, PANEL_STAGE, PANEL_CURVES, PANEL_INSPECTOR, PANEL_STATUS };
 
 /// Selected knots of any spline, or splines: one bit an id.
 struct selection {
@@ -57,7 +72,8 @@ struct drag {
     bool moved;              ///< past the threshold below which a press is a click
     bool lock_x, lock_y;     ///< only the frame, only the value may change
     bool snap;
-    bool stale; ///< the pointer moved since the edits were made
+    bool stale;    ///< the pointer moved since the edits were made
+    unsigned knot; ///< id of the active spline's knot that is held; 0: none
 };
 
 /// A knot as it was before the edit that moves it.
@@ -81,6 +97,8 @@ enum hover_kind {
     HOVER_CURVE,
     HOVER_RULER,
     HOVER_UNITS,
+    HOVER_SHEET, ///< the dope sheet's switch
+    HOVER_ROW,   ///< of the dope sheet, beside its marks
     HOVER_WARNING,
     HOVER_JOINT, ///< of a tail, or of a chain
     HOVER_BONE,  ///< of an imported character, without a chain
@@ -89,6 +107,8 @@ enum hover_kind {
     HOVER_LOOP,
     HOVER_SPEED,
     HOVER_AUTO_KEY,
+    HOVER_UI_SCALE,
+    HOVER_PRESENT,
     HOVER_LIMIT,
     HOVER_POINT, ///< of a rig, that can be pinned
     HOVER_PIN,   ///< on the stage or the ruler
@@ -141,11 +161,12 @@ struct listener {
     void *who;
 };
 
-/// An edit that is asked about before; ASK_REMOVE is about the active spline.
+/// What is asked about before: ASK_REMOVE is about the active spline, ASK_ADD asks for a file.
 struct ask {
-    enum { ASK_NOTHING, ASK_FPS, ASK_RANGE, ASK_REMOVE } kind;
+    enum { ASK_NOTHING, ASK_FPS, ASK_RANGE, ASK_REMOVE, ASK_RIG, ASK_ADD } kind;
     double number;
     int first, last;
+    int rig;
 };
 
 /// The character that is worked on, and how it is looked at; zero is a valid start.
@@ -199,11 +220,14 @@ struct brush {
 /// What is shown over the stage; stays as it is when another document is opened.
 struct overlays {
     bool onion, trail;
+    bool ghost; ///< the pose at the knot that is dragged or nudged
 };
 
 struct core {
     struct layout layout;
     float scale;
+    double ui_scale; ///< part of it that the user has chosen
+    struct presenter presenter;
     int active;                       ///< spline, -1 where there is none
     unsigned active_id;               ///< its id, by which it is found again when the list has changed
     unsigned recent[CORE_MAX_RECENT]; ///< ids of those that were active before, the last one first
@@ -230,10 +254,11 @@ struct core {
     struct pin_selection pin;
     struct brush brush;
     struct overlays overlays;
-    bool auto_key;     ///< a body that is dragged gets knots at the playhead, else the whole shot moves
-    bool record_armed; ///< the next drag of a body is recorded from its start
-    bool refit_stage;  ///< all of the stage is to be in sight
-    bool refit_curves; ///< all curves are to be, once they are solved
+    double nudged_seconds; ///< that the ghost of the nudged knot is still shown
+    bool auto_key;         ///< a body that is dragged gets knots at the playhead, else the whole shot moves
+    bool record_armed;     ///< the next drag of a body is recorded from its start
+    bool refit_stage;      ///< all of the stage is to be in sight
+    bool refit_curves;     ///< all curves are to be, once they are solved
 
     unsigned serial; ///< of the document on the table
     char title[256]; ///< the file's name, or "untitled"

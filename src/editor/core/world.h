@@ -24,6 +24,7 @@ enum request_kind {
     REQUEST_NONE,
     REQUEST_NEW,
     REQUEST_OPEN,      ///< path
+    REQUEST_ADD,       ///< path: a character or model, to the scene on the table
     REQUEST_SAVE,      ///< to the document's own path, or ask
     REQUEST_SAVE_AS,   ///< path
     REQUEST_OVERWRITE, ///< the document's own file, which somebody else has changed
@@ -35,6 +36,7 @@ enum request_kind {
     REQUEST_FORGET,  ///< the same, for good
     REQUEST_SCREENSHOT,
     REQUEST_FULLSCREEN,
+    REQUEST_UI_SCALE,    ///< number: 1 larger, -1 smaller, 0 as the display's own
     REQUEST_COPY,        ///< editor_clipboard() onto the clipboard
     REQUEST_PASTE,       ///< an EVENT_PASTE with what is there
     REQUEST_EXPORT,      ///< path, wish; answered once it is done

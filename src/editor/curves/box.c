@@ -40,6 +40,10 @@ void box_update(const struct curves *curves, struct core *core, const struct edi
     const struct document *document = world->document;
     selection_copy(&core->selection, &curves->before_box);
     if (curves->knot_drag.box == BOX_REPLACE) selection_clear(&core->selection);
+    if (curves->knot_drag.in_sheet) {
+        sheet_take_inside(curves, core, document, box_rect(&core->drag));
+        return;
+    }
     if (arrange_seen(core, world)) take_inside(curves, core, document, core->active);
     for (int i = 0; i < curves->cache.other_count; i++) {
         const int other = curves->cache.other_spline[i];
@@ -61,6 +65,9 @@ void box_show(const struct curves *curves, struct core *core)
     const struct rect r = box_rect(drag);
     const float outline[] = {r.x, r.y, r.x + r.w, r.y, r.x + r.w, r.y + r.h, r.x, r.y + r.h, r.x, r.y};
     uint32_t color = curves->knot_drag.box == BOX_REMOVE ? theme()->error : theme()->playhead;
+    struct rect clip = drawlist_push_clip(&core->list, core->layout.curves);
+    drawlist_set_clip(&core->list, curves->knot_drag.in_sheet ? core->layout.sheet : core->layout.plot);
     drawlist_rect(&core->list, r, theme_fade(color, 0.08f));
     drawlist_dashed(&core->list, outline, 5, 1, 4, 3, theme_fade(color, 0.7f));
+    drawlist_set_clip(&core->list, clip);
 }

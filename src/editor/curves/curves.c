@@ -145,6 +145,8 @@ struct hover curves_hover(const struct curves *curves, const struct core *core, 
     const struct spline *spline = core_active_spline(core, world);
     if (rect_contains(core->layout.ruler, x, y)) hover = ruler_pins_hover(curves, core, world->document, x, y);
     if (rect_contains(ruler_corner(core), x, y)) hover.kind = HOVER_UNITS;
+    if (rect_contains(sheet_switch(core), x, y)) hover.kind = HOVER_SHEET;
+    if (rect_contains(sheet_area(core), x, y)) return sheet_hover(curves, core, world->document, x, y);
     if (!rect_contains(core->layout.plot, x, y) || !spline) return hover;
     bool seen = arrange_seen(core, world) != NULL;
     if (seen) nearest_knot(curves, core, world->document, core->active, x, y, CURVES_HIT_RADIUS, &hover);
@@ -177,6 +179,7 @@ static void press_knot(struct curves *curves, struct core *core, const struct ed
         selection_set(&core->selection, id, true);
     }
     drag_begin_knots(curves, core, world, id, event);
+    core->drag.lock_x = rect_contains(core->layout.sheet, event->x, event->y); // marks are dragged in time alone
     curves->knot_drag.collapse = selected && !(event->mods & MOD_SHIFT);
 }
 
@@ -235,6 +238,12 @@ void curves_press(struct curves *curves, struct core *core, const struct editor_
     case HOVER_UNITS:
         curves_toggle_units(curves, core);
         break;
+    case HOVER_SHEET:
+        curves_toggle_sheet(curves, core);
+        break;
+    case HOVER_ROW:
+        sheet_press_row(curves, core, world, hover.spline, event);
+        break;
     case HOVER_KNOT:
         press_knot(curves, core, world, &hover, event);
         break;
@@ -251,9 +260,11 @@ void curves_press(struct curves *curves, struct core *core, const struct editor_
 
 void curves_wheel(struct curves *curves, struct core *core, const struct event *event)
 {
+    if (sheet_wheel(curves, core, event)) return;
     double notches = event->dy != 0 ? event->dy : event->dx; /* some systems turn Shift+wheel sideways */
     double factor = exp(-ZOOM_STEP * fmin(fmax(notches, -20), 20));
     double time = event->mods & MOD_SHIFT && !(event->mods & MOD_CTRL) ? 1 : factor;
     double value = event->mods & MOD_CTRL && !(event->mods & MOD_SHIFT) ? 1 : factor;
+    if (rect_contains(sheet_area(core), event->x, event->y)) value = 1; // which has only time
     curves_zoom(curves, core, event->x, event->y, time, value);
 }

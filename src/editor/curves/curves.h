@@ -12,6 +12,13 @@ struct curves *curves_create(void);
 void curves_destroy(struct curves *curves);
 /// Keeps a copy of the active curve to show behind a drag.
 void curves_capture_ghost(struct curves *curves, const struct core *core, const struct editor_world *world);
+/// Lays the dope sheet out, which takes its room from the plot.
+void sheet_update(struct curves *curves, struct core *core, const struct document *document);
+/// Opens or closes the dope sheet.
+void curves_toggle_sheet(struct curves *curves, struct core *core);
+/// Where a knot's mark is on the dope sheet; false where it is out of sight.
+bool curves_mark_point(const struct curves *curves, const struct core *core, const struct document *document,
+                       int spline, int knot, float xy[2]);
 /// The ruler counts frames or seconds.
 void curves_toggle_units(struct curves *curves, struct core *core);
 /// What is under a point of the panel.

@@ -38,11 +38,18 @@ static struct grid_step round_step(double least)
 /// To whole device pixels, so that hairlines stay sharp at every scale.
 static float sharp(const struct core *core, float at) { return roundf(at * core->scale) / core->scale; }
 
+/// What shares the axis of time: the dope sheet and the plot.
+static struct rect field_of(const struct core *core)
+{
+    const struct rect *sheet = &core->layout.sheet, *plot = &core->layout.plot;
+    return (struct rect){plot->x, sheet->y, plot->w, sheet->h + plot->h};
+}
+
 static void vertical(const struct curves *curves, struct core *core, double frame, uint32_t color)
 {
-    const struct rect *plot = &core->layout.plot;
+    const struct rect field = field_of(core);
     float x = sharp(core, curves_x(curves, core, frame));
-    drawlist_rect(&core->list, (struct rect){x, plot->y, 1, plot->h}, color);
+    drawlist_rect(&core->list, (struct rect){x, field.y, 1, field.h}, color);
 }
 
 static void horizontal(const struct curves *curves, struct core *core, double value, uint32_t color)
@@ -55,14 +62,14 @@ static void horizontal(const struct curves *curves, struct core *core, double va
 /// Darkens what lies before and after the scene's range.
 static void shade_outside(const struct curves *curves, struct core *core, const struct document *document)
 {
-    const struct rect *plot = &core->layout.plot;
-    float first = fmaxf(curves_x(curves, core, document->first_frame), plot->x);
-    float last = fminf(curves_x(curves, core, document->last_frame), plot->x + plot->w);
-    if (first > plot->x)
-        drawlist_rect(&core->list, (struct rect){plot->x, plot->y, first - plot->x, plot->h}, theme()->outside);
-    if (last < plot->x + plot->w) {
-        drawlist_rect(&core->list, (struct rect){last, plot->y, plot->x + plot->w - last, plot->h}, theme()->outside);
-    }
+    const struct rect field = field_of(core);
+    const float right = field.x + field.w;
+    float first = fmaxf(curves_x(curves, core, document->first_frame), field.x);
+    float last = fminf(curves_x(curves, core, document->last_frame), right);
+    if (first > field.x)
+        drawlist_rect(&core->list, (struct rect){field.x, field.y, first - field.x, field.h}, theme()->outside);
+    if (last < right)
+        drawlist_rect(&core->list, (struct rect){last, field.y, right - last, field.h}, theme()->outside);
 }
 
 /// `unit`: frames that one of the ruler's numbers counts.
@@ -157,12 +164,12 @@ void grid_show(const struct curves *curves, struct core *core, const struct edit
     struct grid_step times = round_step(MIN_FRAME_STEP / (curves_pixels_per_frame(curves, core) * unit));
     struct grid_step values = round_step(MIN_VALUE_STEP / curves_pixels_per_value(curves, core));
     drawlist_rect(&core->list, layout->curves, theme()->panel);
-    struct rect clip = drawlist_push_clip(&core->list, layout->plot);
+    struct rect clip = drawlist_push_clip(&core->list, field_of(core));
     shade_outside(curves, core, world->document);
     draw_lines(curves, core, times, unit, values);
     range_show_plot(curves, core, world->document);
     drawlist_set_clip(&core->list, clip);
-    drawlist_rect(&core->list, (struct rect){layout->ruler.x, layout->plot.y - 1, layout->ruler.w, 1},
+    drawlist_rect(&core->list, (struct rect){layout->ruler.x, layout->sheet.y - 1, layout->ruler.w, 1},
                   theme()->border);
     clip = drawlist_push_clip(&core->list, layout->ruler);
     range_show_ruler(curves, core, world->document);

@@ -126,11 +126,24 @@ static void show_handle(const struct curves *curves, struct core *core, const st
     }
 }
 
-static void show_diamond(struct drawlist *list, float x, float y, float r, bool filled, uint32_t color)
+void knot_ring(struct drawlist *list, float x, float y)
 {
-    float xy[] = {x, y - r, x + r, y, x, y + r, x - r, y, x, y - r};
-    drawlist_convex(list, xy, 4, filled ? color : theme()->panel);
-    drawlist_line(list, xy, 5, 1.5f, filled ? theme()->playhead : color);
+    show_ring(list, x, y, HOVER_RADIUS, 1.25f, theme()->playhead);
+}
+
+void knot_mark(struct drawlist *list, float x, float y, float r, uint32_t color, bool selected)
+{
+    const float xy[] = {x, y - r, x + r, y, x, y + r, x - r, y, x, y - r};
+    drawlist_convex(list, xy, 4, color);
+    if (selected) drawlist_line(list, xy, 5, 1.5f, theme()->playhead);
+}
+
+/// A knot of the active spline that is not selected, through which the panel is seen.
+static void show_hollow(struct drawlist *list, float x, float y, uint32_t color)
+{
+    const float r = KNOT_RADIUS, xy[] = {x, y - r, x + r, y, x, y + r, x - r, y, x, y - r};
+    drawlist_convex(list, xy, 4, theme()->panel);
+    drawlist_line(list, xy, 5, 1.5f, color);
 }
 
 /// A short stroke that says "this knot has a slope" without the handle's length.
@@ -179,10 +192,12 @@ static void show_knot(const struct curves *curves, struct core *core, const stru
     float y = curves_y(curves, core, knot->value);
     if (knot->has_slope && selected) show_handle(curves, core, document, knot, color);
     if (knot->has_slope && !selected) show_tick(curves, core, document, knot, color);
-    show_diamond(&core->list, x, y, KNOT_RADIUS, selected, color);
-    if (core->hover.kind == HOVER_KNOT && core->hover.knot == knot->id) {
-        show_ring(&core->list, x, y, HOVER_RADIUS, 1.25f, theme()->playhead);
+    if (selected) {
+        knot_mark(&core->list, x, y, KNOT_RADIUS, color, true);
+    } else {
+        show_hollow(&core->list, x, y, color);
     }
+    if (core->hover.kind == HOVER_KNOT && core->hover.knot == knot->id) knot_ring(&core->list, x, y);
 }
 
 static void show_knots(const struct curves *curves, struct core *core, const struct editor_world *world)
@@ -217,13 +232,8 @@ static void show_other_knots(const struct curves *curves, struct core *core, con
         float y = curves_y_of(curves, core, s, knot->value);
         if (x < plot->x || x > plot->x + plot->w || (x - last_x < 3 && !hovered && !selected)) continue;
         last_x = x;
-        const float r = OTHER_RADIUS, xy[] = {x, y - r, x + r, y, x, y + r, x - r, y};
-        if (selected) {
-            show_diamond(&core->list, x, y, KNOT_RADIUS, true, full);
-        } else {
-            drawlist_convex(&core->list, xy, 4, color);
-        }
-        if (hovered) show_ring(&core->list, x, y, HOVER_RADIUS, 1.25f, theme()->playhead);
+        knot_mark(&core->list, x, y, selected ? KNOT_RADIUS : OTHER_RADIUS, selected ? full : color, selected);
+        if (hovered) knot_ring(&core->list, x, y);
     }
 }
 
@@ -311,13 +321,13 @@ struct rect playhead_tag(const struct curves *curves, const struct core *core, c
 /// The line at the playhead and its frame number; drawn alone, so that playing redraws nothing else.
 static void show_playhead(const struct curves *curves, struct core *core, const struct document *document)
 {
-    const struct rect *plot = &core->layout.plot;
+    const struct rect *plot = &core->layout.plot, *sheet = &core->layout.sheet;
     float x = curves_x(curves, core, core_frame(core, document));
     const struct rect tag = playhead_tag(curves, core, document);
     if (tag.w <= 0) return;
     char text[32];
     tag_text(curves, core, document, text);
-    drawlist_rect(&core->list, (struct rect){x - 0.5f, plot->y, 1, plot->h}, theme()->playhead);
+    drawlist_rect(&core->list, (struct rect){x - 0.5f, sheet->y, 1, sheet->h + plot->h}, theme()->playhead);
     drawlist_rounded(&core->list, tag, 3, theme()->playhead);
     drawlist_text(&core->list, tag.x + 5, tag.y + 12, FONT_NUMBER, THEME_TEXT_SMALL, theme()->panel, text);
 }
@@ -370,10 +380,11 @@ void curves_show(struct curves *curves, struct core *core, const struct editor_w
     }
     show_knots(curves, core, world);
     warnings_show(curves, core);
-    box_show(curves, core);
     scale_show(curves, core);
     show_empty(core, world);
     drawlist_set_clip(&core->list, panel);
+    sheet_show(curves, core, world->document);
+    box_show(curves, core);
     show_state(curves, core);
     show_labels(curves, core, world);
     show_playhead(curves, core, world->document);

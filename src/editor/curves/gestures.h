@@ -34,6 +34,23 @@ void ruler_pins_apply(struct curves *curves, struct core *core, const struct edi
 /// The marks of all pins.
 void ruler_pins_show(const struct curves *curves, struct core *core, const struct document *document);
 
+/// Its rows with their names, and what opens it.
+struct rect sheet_area(const struct core *core);
+struct rect sheet_switch(const struct core *core);
+/// The mark or the row at a point of its area.
+struct hover sheet_hover(const struct curves *curves, const struct core *core, const struct document *document,
+                         float x, float y);
+/// A press beside the marks: the spline becomes the active one; a double click inserts a knot on its curve, a drag begins a box.
+void sheet_press_row(struct curves *curves, struct core *core, const struct editor_world *world, int spline,
+                     const struct event *event);
+/// Selects or deselects, as the running drag says, the marks in a box.
+void sheet_take_inside(const struct curves *curves, struct core *core, const struct document *document,
+                       struct rect box);
+/// Scrolls it; false where the wheel means something else.
+bool sheet_wheel(struct curves *curves, struct core *core, const struct event *event);
+/// Rows, marks, names, and its switch in the ruler's corner.
+void sheet_show(const struct curves *curves, struct core *core, const struct document *document);
+
 /// Makes the edits for the pointer's present place.
 void scale_apply(struct curves *curves, struct core *core, const struct editor_world *world);
 /// The pivot, and the line from it to the pointer.

@@ -67,7 +67,8 @@ void drag_begin_knots(struct curves *curves, struct core *core, const struct edi
                       const struct event *event)
 {
     drag_begin(core, DRAG_KNOTS, NULL, event);
-    curves->knot_drag = (struct knot_drag){.knot = knot};
+    core->drag.knot = knot;
+    curves->knot_drag = (struct knot_drag){0};
     collect(curves, core, world->document);
 }
 
@@ -77,7 +78,8 @@ void drag_begin_slope(struct curves *curves, struct core *core, const struct edi
     const struct spline *spline = core_active_spline(core, world);
     assert(spline && core->originals.capacity > 0);
     drag_begin(core, DRAG_SLOPE, "Change slope", event);
-    curves->knot_drag = (struct knot_drag){.knot = knot, .handle = handle};
+    core->drag.knot = knot;
+    curves->knot_drag = (struct knot_drag){.handle = handle};
     core->originals.list[0] =
         (struct original){.spline = core->active, .knot = spline->knots[spline_find_id(spline, knot)]};
     core->originals.count = 1;
@@ -92,7 +94,7 @@ static double wanted_frames(const struct curves *curves, struct core *core, cons
     double frames = drag->moved_x / curves_pixels_per_frame(curves, core), least, most;
     const struct original *held = &originals->list[0];
     for (int i = 0; i < originals->count; i++) {
-        if (originals->list[i].knot.id == curves->knot_drag.knot) held = &originals->list[i];
+        if (originals->list[i].knot.id == drag->knot) held = &originals->list[i];
     }
     if (drag->snap) frames = fabs(frames) < 0.5 ? 0 : round(held->knot.frame + frames) - held->knot.frame;
     shift_limits(curves, originals, document, &least, &most);
@@ -175,7 +177,7 @@ static void end_click(const struct curves *curves, struct core *core)
 {
     if (!curves->knot_drag.collapse) return;
     selection_clear(&core->selection);
-    selection_set(&core->selection, curves->knot_drag.knot, true);
+    selection_set(&core->selection, core->drag.knot, true);
 }
 
 void curves_drag_apply(struct curves *curves, struct core *core, const struct editor_world *world)

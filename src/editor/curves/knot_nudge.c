@@ -6,6 +6,8 @@
 #include "editor/curves/view.h"
 #include <math.h>
 
+static const double GHOST_SECONDS = 1.2;
+
 /// Kinds of nudges for core_merge_key().
 enum nudge_kind { NUDGE_FRAMES = 1, NUDGE_VALUE };
 
@@ -41,5 +43,6 @@ void curves_nudge(const struct curves *curves, struct core *core, const struct e
         core_edit(core, world, &edit);
     }
     history_end(world->history);
+    core->nudged_seconds = GHOST_SECONDS;
     core_tell(core, world, NEWS_EDITED, -1);
 }

@@ -8,6 +8,10 @@
 double handle_length(double stiffness);
 /// The stiffness that a length of the handle stands for.
 double handle_stiffness(double length);
+/// A knot: a diamond, filled with its colour; with an outline where it is selected.
+void knot_mark(struct drawlist *list, float x, float y, float radius, uint32_t color, bool selected);
+/// The ring around the knot under the pointer.
+void knot_ring(struct drawlist *list, float x, float y);
 /// Where the playhead's frame number is, on the ruler; empty where the playhead is out of sight.
 struct rect playhead_tag(const struct curves *curves, const struct core *core, const struct document *document);
 

@@ -23,6 +23,16 @@ struct value_map {
     double scale, offset;
 };
 
+enum { SHEET_MAX_ROWS = 16 };
+
+/// The dope sheet.
+struct sheet {
+    bool shown;
+    int first, rows, total; ///< first row in sight, how many are, and how many there are
+    int spline[SHEET_MAX_ROWS];
+    unsigned active; ///< id of the active spline when its row was last brought into sight
+};
+
 /// Visible part of the curves panel.
 struct view {
     double frame0, frame1; ///< at the plot's left and right edge
@@ -45,11 +55,11 @@ enum box_mode { BOX_REPLACE, BOX_ADD, BOX_REMOVE };
 
 /// What a drag of knots, slopes or a box has besides what all drags have.
 struct knot_drag {
-    unsigned knot;      ///< id of the knot under the pointer at the press
     double free_frames; ///< last shift by which no knot was hit
     int handle;         ///< DRAG_SLOPE: which end, as in curves_handle()
     bool collapse;      ///< a click on a selected knot selects it alone, a drag moves all
     enum box_mode box;  ///< DRAG_BOX
+    bool in_sheet;      ///< the same: around marks of the dope sheet
     bool ripple;        ///< DRAG_KNOTS: what comes after the first moved knot of a spline moves along in time
 };
 
@@ -147,6 +157,7 @@ struct ghost {
 struct curves {
     struct view view;
     struct following following;
+    struct sheet sheet;
     struct curve_options options;
     struct selection before_box; ///< the selection when a box was begun
     struct knot_drag knot_drag;

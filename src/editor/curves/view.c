@@ -93,6 +93,23 @@ static void show_values(struct view *view, const double range[2])
     view->value1 = range[1] + margin;
 }
 
+/// Makes room for what else is drawn of the active spline: its imaginary part, and what it swings about.
+static void include_rest(struct curves *curves, const struct core *core, const struct editor_world *world)
+{
+    enum { COLUMNS = 200 };
+    const double margin = 0.06, last = document_samples(world->document) - 1;
+    struct view *view = &curves->view;
+    double range[2] = {view->value0, view->value1};
+    for (int column = 0; column <= COLUMNS && core->active >= 0; column++) {
+        const wiggly_value v = evaluation_at(world->evaluation, core->active, last * column / COLUMNS);
+        include_value(range, v.y);
+        include_value(range, v.y + v.im);
+    }
+    const double span = range[1] - range[0];
+    if (range[0] < view->value0) view->value0 = range[0] - margin * span;
+    if (range[1] > view->value1) view->value1 = range[1] + margin * span;
+}
+
 void curves_frame_all(struct curves *curves, struct core *core, const struct editor_world *world)
 {
     follow_stop(curves);
@@ -110,6 +127,7 @@ void curves_frame_all(struct curves *curves, struct core *core, const struct edi
         }
     }
     show_values(&curves->view, range);
+    include_rest(curves, core, world);
     double frames = document->last_frame - document->first_frame;
     curves->view.frame0 = document->first_frame - fmax(0.02 * frames, 0.5);
     curves->view.frame1 = document->last_frame + fmax(0.02 * frames, 0.5);

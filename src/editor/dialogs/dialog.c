@@ -132,7 +132,11 @@ static void confirm(struct dialogs *dialogs, struct core *core)
         snprintf(dialog->error, sizeof dialog->error, "The path is too long.");
         return;
     }
-    dialog_await(dialogs, core, saving ? REQUEST_SAVE_AS : REQUEST_OPEN, path);
+    dialog_await(dialogs, core,
+                 saving                       ? REQUEST_SAVE_AS
+                 : dialog->kind == DIALOG_ADD ? REQUEST_ADD
+                                              : REQUEST_OPEN,
+                 path);
 }
 
 static void answer(struct dialogs *dialogs, struct core *core, const struct editor_world *world, int given)
@@ -183,7 +187,7 @@ static bool path_key(struct dialogs *dialogs, struct core *core, int key)
         move_choice(dialog, 1);
         return true;
     case KEY_ENTER:
-        if (dialog->kind == DIALOG_OPEN && dialog->match_count == 1) dialog->choice = 0;
+        if (dialog->kind != DIALOG_SAVE_AS && dialog->match_count == 1) dialog->choice = 0;
         if (dialog->choice < 0 || dialog_take(dialog, dialog->choice)) confirm(dialogs, core);
         return true;
     default:
@@ -222,8 +226,11 @@ static void build_path(struct dialogs *dialogs, struct core *core)
 {
     struct dialog *dialog = &dialogs->dialog;
     struct ui *ui = &dialog->ui;
-    bool saving = dialog->kind == DIALOG_SAVE_AS;
-    ui_label(ui, ui_row(ui, UI_ROW), saving ? "Save the scene as" : "Open a scene or character", theme()->text);
+    bool saving = dialog->kind == DIALOG_SAVE_AS, adding = dialog->kind == DIALOG_ADD;
+    const char *title = saving   ? "Save the scene as"
+                        : adding ? "Add a character or model (.glb, .gltf)"
+                                 : "Open a scene or character";
+    ui_label(ui, ui_row(ui, UI_ROW), title, theme()->text);
     ui_space(ui, 4);
     if (ui_text_field(ui, ui_row(ui, 28), "dialog.path")) {
         dialog->error[0] = '\0';
@@ -243,7 +250,8 @@ static void build_path(struct dialogs *dialogs, struct core *core)
     struct rect right = {row.x + row.w - BUTTON_WIDTH, row.y, BUTTON_WIDTH, row.h};
     struct rect left = {right.x - UI_GAP - BUTTON_WIDTH, row.y, BUTTON_WIDTH, row.h};
     bool cancelled = ui_button(ui, left, "dialog.cancel", "Cancel", false);
-    if (ui_button(ui, right, "dialog.confirm", saving ? "Save" : "Open", true)) confirm(dialogs, core);
+    if (ui_button(ui, right, "dialog.confirm", saving ? "Save" : adding ? "Add" : "Open", true))
+        confirm(dialogs, core);
     if (cancelled) dialog_close(dialogs);
 }
 

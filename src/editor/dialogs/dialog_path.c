@@ -23,6 +23,12 @@ static void list_folder(struct dialog *dialog, const char *folder)
     dialog->name_count = count > 0 ? count : 0;
 }
 
+static bool is_scene(const char *name)
+{
+    const size_t length = strlen(name);
+    return length >= 5 && strcmp(name + length - 5, ".json") == 0;
+}
+
 void dialog_match(struct dialog *dialog)
 {
     char folder[UI_TEXT_SIZE];
@@ -38,6 +44,7 @@ void dialog_match(struct dialog *dialog)
     for (int i = 0; i < dialog->name_count; i++) {
         // While the whole name is selected, the next character replaces it: everything is still open.
         bool fits = dialog->ui.text.all || strncmp(dialog->names[i], name, length) == 0;
+        if (dialog->kind == DIALOG_ADD && is_scene(dialog->names[i])) fits = false;
         if (fits) dialog->match[dialog->match_count++] = i;
     }
 }

@@ -1,11 +1,13 @@
 /// Dialogs that ask a question: before an edit that touches more than was asked for, and about recovered work.
 #include "editor/core/arrange.h"
+#include "editor/core/rigs.h"
 #include "editor/dialogs/dialog.h"
 #include "editor/dialogs/dialogs.h"
 #include "scene/reference.h"
 #include "ui/theme.h"
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 enum { BUTTON_WIDTH = 104 };
 
@@ -62,6 +64,8 @@ static const struct answer fps_answers[] = {
 static const struct answer range_answers[] = {
     {"dialog.move", "Move", 'M'}, {"dialog.trim", "Trim", 'T'}, {"dialog.cancel", "Cancel", 'C'}};
 static const struct answer remove_answers[] = {{"dialog.delete", "Delete", 'D'}, {"dialog.cancel", "Cancel", 'C'}};
+static const struct answer rig_answers[] = {
+    {"dialog.with", "With splines", 'W'}, {"dialog.keep", "Keep splines", 'K'}, {"dialog.cancel", "Cancel", 'C'}};
 static const struct answer unsaved_answers[] = {
     [UNSAVED_SAVE] = {"dialog.save", "Save", 'S'},
     [UNSAVED_DISCARD] = {"dialog.discard", "Discard", 'D'},
@@ -118,11 +122,28 @@ static void ask_remove(struct question *question, const struct document *documen
              "stage stop using it.");
 }
 
+static void ask_rig(struct question *question, const struct document *document, int rig)
+{
+    char names[160];
+    const char *title = rig_title(&document->rigs[rig]), *slash = strrchr(title, '/');
+    const int count = rigs_own_splines(document, rig, names, sizeof names);
+    *question = QUESTION(rig_answers);
+    snprintf(question->title, sizeof question->title, "Remove %.150s, with its spline%s or without?",
+             slash ? slash + 1 : title, count == 1 ? "" : "s");
+    snprintf(question->note, sizeof question->note, "Nothing else moves by %s. Kept, %s for what you add next.",
+             names, count == 1 ? "it stays" : "they stay");
+}
+
 void dialogs_ask(struct dialogs *dialogs, const struct core *core, const struct editor_world *world,
                  const struct ask *ask)
 {
     struct question *question = &dialogs->dialog.question;
+    if (ask->kind == ASK_ADD) {
+        dialog_open(dialogs, DIALOG_ADD);
+        return;
+    }
     dialogs->dialog.ask = *ask;
+    if (ask->kind == ASK_RIG) ask_rig(question, world->document, ask->rig);
     if (ask->kind == ASK_FPS) ask_fps(question, world->document, ask);
     if (ask->kind == ASK_RANGE) ask_range(question, world->document, ask);
     if (ask->kind == ASK_REMOVE) ask_remove(question, world->document, core->active);

@@ -51,6 +51,14 @@ float dialogs_bottom(const struct dialogs *dialogs, const struct core *core);
 void dialogs_welcome(struct dialogs *dialogs);
 /// Whether it is still to be seen.
 bool dialogs_is_welcoming(const struct dialogs *dialogs);
+/// Hears of every event, for who shows keys as they are pressed.
+void dialogs_note(struct dialogs *dialogs, const struct event *event);
+/// Time passes: what is shown of that fades, and the demo's pointer glides.
+void dialogs_advance(struct dialogs *dialogs, const struct core *core, double dt);
+/// Whether it is still to be seen.
+bool dialogs_want_frames(const struct dialogs *dialogs, const struct core *core);
+/// While presenting, and in a demo: what is pressed, its caption and pointer.
+void dialogs_show_input(const struct dialogs *dialogs, struct core *core);
 /// A card on the stage with what to try first.
 void dialogs_show_welcome(struct dialogs *dialogs, struct core *core, const struct editor_world *world);
 

@@ -14,6 +14,7 @@ struct help {
 enum dialog_kind {
     DIALOG_NONE,
     DIALOG_OPEN,
+    DIALOG_ADD, ///< a path, as the one before
     DIALOG_SAVE_AS,
     DIALOG_UNSAVED,
     DIALOG_RECOVER,
@@ -73,11 +74,25 @@ struct exporting {
     long done, total;
 };
 
+/// What was pressed last, for an audience.
+struct pressed {
+    char text[64];
+    int times;
+    double seconds; ///< that it is still shown for
+    bool is_down, is_drag;
+    enum event_button button;
+    float x, y;       ///< of the press
+    float pointer[2]; ///< as a demo shows it: it glides where the recording jumps
+    bool is_demo;     ///< nobody's hands: the pointer is shown as well
+};
+
 struct dialogs {
     struct dialog dialog;
     struct exporting exporting;
     struct help help;
-    bool welcome; ///< the card for newcomers is shown
+    struct pressed pressed;
+    char caption[160]; ///< of a demo
+    bool welcome;      ///< the card for newcomers is shown
 };
 
 #endif

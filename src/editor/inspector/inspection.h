@@ -22,7 +22,10 @@ enum { INSPECTOR_MAX_SPLINES = 256 }; ///< in a list to choose from, from the to
 /// The sections; inspector.c has the table. Each builds what is below its header.
 void inspector_scene(struct inspection *in);
 void inspector_splines(struct inspection *in);
+void inspector_feel(struct inspection *in);
+void inspector_rigs(struct inspection *in);
 void inspector_spline(struct inspection *in);
+void inspector_advanced(struct inspection *in);
 void inspector_limits(struct inspection *in);
 void inspector_variation(struct inspection *in);
 void inspector_poles(struct inspection *in);
@@ -30,8 +33,18 @@ void inspector_knot(struct inspection *in);
 void inspector_tail(struct inspection *in);
 void inspector_character(struct inspection *in);
 void inspector_pins(struct inspection *in);
+void inspector_meadow(struct inspection *in);
 void inspector_model(struct inspection *in);
 void inspector_history(struct inspection *in);
+/// What the section on knots is called: how many are selected.
+const char *inspector_knot_title(struct inspection *in);
+
+/// A row for a parameter of the active spline, where its mode uses it.
+void inspector_parameter(struct inspection *in, enum parameter parameter);
+
+/// The channel that is shown, where it bends by the active spline; and rows for the coordinate of the shown character that it drives.
+const struct channel *inspector_felt_channel(const struct inspection *in);
+void inspector_felt_drive(struct inspection *in);
 
 /// The rows on the brush, below "Character".
 void inspector_brush(struct inspection *in);
@@ -41,6 +54,11 @@ void inspector_palette(struct inspection *in);
 void inspector_track_list(struct inspection *in);
 /// The list of splines that may bend a tail or chain, and the one that its body may follow.
 void inspector_tail_lists(struct inspection *in);
+
+/// The menu of what can be added.
+void inspector_add_list(struct inspection *in);
+/// Shows a rig, with what it feels like.
+void inspector_choose_rig(struct inspection *in, int rig);
 
 /// A row in which a parameter follows a spline, in place of its slider; and the button at its right that lets it follow one
 /// or lets go.
@@ -81,6 +99,8 @@ int inspector_spline_list(struct inspection *in, const char *list, const bool *l
 /// A row with a label; returns what is right of it.
 struct rect inspector_labelled(struct inspection *in, const char *label);
 
+/// Finds the rigs that are shown among those that there are.
+void inspector_find_rig(struct inspection *in);
 /// The tail or chain that is shown; NULL where there is none.
 const struct rig *inspector_shown(const struct inspection *in);
 /// What a chain is made of, its place in the list of chains aside; and the buttons that make its twin and take it away.
@@ -99,14 +119,19 @@ extern const struct angle_row angle_row_lag, angle_row_gain, angle_row_rest;
 void inspector_angles(struct inspection *in, const struct angle_row *row, const struct angles *angles);
 
 /// The edit that replaces them.
+/// What its numbers are in: the gain of what moves the body may be in percent.
+const char *inspector_angle_unit(const struct inspection *in, const struct angle_row *row);
+
 struct edit inspector_angles_edit(const struct inspection *in, const struct angle_row *row,
                                   const struct angles *angles);
+/// Below the row of angles of each joint: their curve, and the number of one.
+void inspector_each(struct inspection *in, const struct angle_row *row, const struct angles *angles);
 /// Below the row of a ramp: its curve.
 void inspector_ramp(struct inspection *in, const struct angle_row *row, const struct angles *angles);
 /// A ramp of two points from the first joint's angle to the last one's.
 struct angles inspector_as_ramp(const struct angles *angles, enum angle_kind kind, int joints);
 
-/// Its channels: the list, and how much and how late the chosen one bends; and what that is made of.
+/// Its channels: the list; and what the chosen one is made of.
 void inspector_channels(struct inspection *in);
 void inspector_channel(struct inspection *in);
 

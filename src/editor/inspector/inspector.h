@@ -13,10 +13,18 @@ struct inspector *inspector_create(void);
 void inspector_destroy(struct inspector *inspector);
 /// F2: the active spline's name can be typed.
 void inspector_rename(struct inspector *inspector, const struct core *core, const struct editor_world *world);
-/// Opens the section of that name ("section.poles").
+/// Opens a section, with all of it in sight where there is room.
 void inspector_unfold(struct inspector *inspector, const char *name);
-/// Shows a channel of a tail or chain.
-void inspector_show_channel(struct inspector *inspector, int rig, int channel);
+/// Shows a rig, with what it feels like.
+void inspector_show_rig(struct inspector *inspector, struct core *core, const struct editor_world *world, int rig);
+/// Shows what a spline bends or drives: of the rig that is shown, if it is one of these.
+void inspector_show_spline(struct inspector *inspector, struct core *core, const struct document *document,
+                           int spline);
+/// A: the menu of what can be added, at the pointer over stage and curves, else on top of the inspector. And on something of the inspector.
+void inspector_add_menu(struct inspector *inspector, const struct core *core);
+void inspector_open_add(struct inspector *inspector, struct rect at);
+/// Shift+Del: asks whether to remove the rig that is shown, which is that of the active spline.
+void inspector_remove_rig(const struct inspector *inspector, struct core *core, const struct editor_world *world);
 /// What the pointer is over.
 enum ui_over inspector_over(const struct inspector *inspector);
 /// A new document is on the table: forgets focus, running drag (without touching the history), scrolling and channel.
@@ -32,8 +40,12 @@ void inspector_let_go(struct inspector *inspector, const struct editor_world *wo
 bool inspector_is_dragging(const struct inspector *inspector);
 /// Whether a value is being typed.
 bool inspector_is_typing(const struct inspector *inspector);
+/// Whether a menu is open, which may lie beside the panel.
+bool inspector_has_menu(const struct inspector *inspector);
 /// A sentence on what the pointer is over in the inspector, or NULL.
 const char *inspector_hint(const struct inspector *inspector);
+/// The same on what has the keyboard there, and where that is.
+const char *inspector_focus_hint(const struct inspector *inspector, struct rect *at);
 /// Where the widget `name` is: "frequency", "frequency,2.5" (where its bar shows 2.5), "mode.real", "spline.sway",
 /// "channel.0", "look.stiff", "section.knot". false where it is not shown or scrolled out of sight.
 bool inspector_target(struct inspector *inspector, struct core *core, const struct editor_world *world,

@@ -10,7 +10,7 @@ static void build_modes(struct inspection *in, const char *name, const char *hin
     const struct rect r = ui_row(in->ui, UI_ROW);
     const int chosen = (int)brush->mode - (int)first;
     int index = chosen >= 0 && chosen < count ? chosen : -1;
-    if (ui_hovered(in->ui, r)) in->ui->hint = hint;
+    ui_hint(in->ui, r, hint);
     if (ui_segments(in->ui, r, name, choices, count, &index)) brush->mode = (enum brush_mode)((int)first + index);
 }
 
@@ -42,7 +42,7 @@ void inspector_brush(struct inspection *in)
     struct brush *brush = &in->core->brush;
     struct rect r = inspector_labelled(in, "paint");
     int on = brush->on;
-    if (ui_hovered(in->ui, r)) in->ui->hint = "Paint phase and amplitude onto the character (K)";
+    ui_hint(in->ui, r, "Paint phase and amplitude onto the character (K)");
     if (ui_segments(in->ui, r, "paint", switches, 2, &on)) characters_set_brush(in->core, in->world, on);
     const struct character_rig *rig = characters_selected(in->core, in->world);
     if (brush->on) {
@@ -55,6 +55,7 @@ void inspector_brush(struct inspection *in)
                     &brush->strength);
     }
     if (!rig || !rig->painted || paint_is_plain(rig->painted)) return;
-    if (ui_button(in->ui, ui_row(in->ui, UI_ROW), "paint.clean", "Remove all paint", false))
-        characters_clean_paint(in->core, in->world);
+    r = ui_row(in->ui, UI_ROW);
+    ui_hint(in->ui, r, "Back to what the model says, everywhere");
+    if (ui_button(in->ui, r, "paint.clean", "Remove all paint", false)) characters_clean_paint(in->core, in->world);
 }

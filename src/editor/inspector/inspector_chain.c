@@ -28,7 +28,7 @@ static void build_end(struct inspection *in, const struct end *end, const char *
     struct rect field = inspector_labelled(in, end->label), icon = {field.x + field.w - ICON, field.y, ICON, field.h};
     field.w -= ICON + 4;
     const int rig = in->inspector->rig;
-    if (ui_hovered(in->ui, field)) in->ui->hint = end->hint;
+    ui_hint(in->ui, field, end->hint);
     ui_dropdown(in->ui, field, end->list, rig, bone, 0);
     const bool picking = in->core->pick.use == end->use && in->core->pick.which == rig;
     if (ui_icon_button(in->ui, icon, end->pick, UI_ICON_PICK, picking, "Pick it on the stage"))
@@ -76,24 +76,17 @@ static void build_mirror(struct inspection *in)
 {
     struct rig contents = *inspector_shown(in);
     struct rect r = inspector_labelled(in, "mirror");
-    if (ui_hovered(in->ui, r)) in->ui->hint = "Bend to the other side, as a left ear does to a right one";
+    ui_hint(in->ui, r, "Bend to the other side, as a left ear does to a right one");
     if (!ui_toggle(in->ui, r, "chain.mirror", &contents.chain.mirror)) return;
     const struct edit edit = chain_edit(in, &contents);
     core_step(in->core, in->world, "Mirror chain", 0, &edit);
 }
 
-static void build_buttons(struct inspection *in)
+static void build_twin(struct inspection *in)
 {
-    struct rect r = inspector_labelled(in, "chain"), icon = {r.x - 2, r.y, ICON, r.h};
-    if (ui_icon_button(in->ui, icon, "chain.delete", UI_ICON_DELETE, false, "Delete this chain")) {
-        struct edit edit = core_edit_of(EDIT_RIG_REMOVE, in->core->active);
-        edit.rig = in->inspector->rig;
-        core_step(in->core, in->world, "Delete chain", 0, &edit);
-        return;
-    }
     if (!bones_has_twin(in->world, in->inspector->rig)) return;
-    struct rect button = {icon.x + ICON + 6, r.y + 2, r.x + r.w - icon.x - ICON - 6, r.h - 4};
-    if (ui_hovered(in->ui, button)) in->ui->hint = "The same chain on the other side, mirrored, by the same splines";
+    const struct rect row = ui_row(in->ui, UI_ROW), button = {row.x, row.y + 2, row.w, row.h - 4};
+    ui_hint(in->ui, button, "The same chain on the other side, mirrored, by the same splines");
     if (!ui_button(in->ui, button, "chain.twin", "Mirror to other side", false)) return;
     bones_make_twin(in->core, in->world, in->inspector->rig);
     in->inspector->rig = in->document->rig_count - 1;
@@ -106,5 +99,5 @@ void inspector_chain(struct inspection *in)
     build_end(in, &ends[1], chain->to);
     build_turn(in);
     build_mirror(in);
-    build_buttons(in);
+    build_twin(in);
 }

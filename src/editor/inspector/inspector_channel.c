@@ -43,6 +43,20 @@ static const struct channel *chosen_channel(const struct inspection *in)
     return in->inspector->channel < count ? &channels[in->inspector->channel] : NULL;
 }
 
+const struct channel *inspector_felt_channel(const struct inspection *in)
+{
+    const struct channel *channel = chosen_channel(in);
+    return channel && channel->spline == in->core->active ? channel : NULL;
+}
+
+/// Shows a channel, and what it feels like.
+static void choose(struct inspection *in, int channel)
+{
+    in->inspector->channel = channel;
+    core_activate(in->core, in->world, chosen_channel(in)->spline);
+    in->inspector->channel = channel; // of two by the same spline
+}
+
 static void build_list(struct inspection *in)
 {
     struct ui *ui = in->ui;
@@ -54,10 +68,11 @@ static void build_list(struct inspection *in)
         snprintf(name, sizeof name, "channel.%d", c);
         snprintf(text, sizeof text, "%s, %s", in->document->splines[channel->spline].name, axis_label(channel->axis));
         struct rect r = ui_row(ui, UI_ROW);
-        if (ui_hovered(ui, r)) ui->hint = "One of the splines that bend it";
+        ui_hint(ui, r, "One of the splines that bend it");
         uint32_t color = arrange_color(in->document, channel->spline);
         if (ui_list_row(ui, r, name, text, color, c == in->inspector->channel)) {
-            in->inspector->channel = c;
+            choose(in, c);
+            return;
         }
     }
 }
@@ -80,11 +95,20 @@ static void build_buttons(struct inspection *in)
     }
 }
 
+/// A gain that was never set becomes the new axis's.
 static void set_axis(struct inspection *in, enum axis axis)
 {
+    const struct channel *channel = chosen_channel(in);
+    const struct angles gain = {.value = {axis_gain(axis)}};
+    const bool untouched = channel->gain.form == ANGLES_ONE && channel->gain.value[0] == axis_gain(channel->axis);
     struct edit edit = channel_edit(in, EDIT_AXIS);
     edit.axis = axis;
-    core_step(in->core, in->world, "Set axis", 0, &edit);
+    if (history_is_open(in->world->history)) return;
+    history_begin(in->world->history, "Set axis", 0);
+    const bool done = core_edit(in->core, in->world, &edit);
+    const struct edit with = inspector_angles_edit(in, &angle_row_gain, &gain);
+    if (done && untouched) core_edit(in->core, in->world, &with);
+    history_end(in->world->history);
 }
 
 static void build_choices(struct inspection *in, const struct channel *channel)
@@ -96,13 +120,14 @@ static void build_choices(struct inspection *in, const struct channel *channel)
     struct ui *ui = in->ui;
     int axis = (int)channel->axis, part = (int)channel->of;
     struct rect row = inspector_labelled(in, "axis");
+    ui_hint(ui, row, "The way it bends, or moves the body");
     if (inspector_shown(in)->kind == RIG_TAIL) {
         ui_dropdown(ui, row, axis_list, in->inspector->channel, axis_label(channel->axis), 0);
     } else if (ui_segments(ui, row, "axis", chain, 3, &axis)) {
         set_axis(in, (enum axis)axis);
     }
     struct rect r = inspector_labelled(in, "bends by");
-    if (ui_hovered(ui, r)) ui->hint = "Total, or displacement only: use that for a tail on a moving base";
+    ui_hint(ui, r, "Total, or displacement only: use that for a tail on a moving base");
     if (ui_segments(ui, r, "part", parts, 2, &part)) {
         struct edit edit = channel_edit(in, EDIT_PART);
         edit.of = (enum channel_part)part;
@@ -133,15 +158,13 @@ void inspector_channel_lists(struct inspection *in)
     if (picked < 0) return;
     struct edit edit = channel_edit(in, EDIT_FEED);
     edit.spline = picked;
-    core_step(in->core, in->world, "Set channel's spline", 0, &edit);
+    if (core_step(in->core, in->world, "Set channel's spline", 0, &edit)) choose(in, edit.channel);
 }
 
 void inspector_channels(struct inspection *in)
 {
     build_list(in);
     ui_space(in->ui, 4);
-    if (chosen_channel(in)) inspector_angles(in, &angle_row_lag, &chosen_channel(in)->lag);
-    if (chosen_channel(in)) inspector_angles(in, &angle_row_gain, &chosen_channel(in)->gain);
 }
 
 void inspector_channel(struct inspection *in)
@@ -151,7 +174,8 @@ void inspector_channel(struct inspection *in)
     const struct channel *channel = chosen_channel(in);
     if (!channel) return;
     const char *spline = in->document->splines[channel->spline].name;
-    ui_dropdown(in->ui, inspector_labelled(in, "spline"), feed_list, inspector->channel, spline,
-                arrange_color(in->document, channel->spline));
+    const struct rect field = inspector_labelled(in, "spline");
+    ui_hint(in->ui, field, "The spline that bends it");
+    ui_dropdown(in->ui, field, feed_list, inspector->channel, spline, arrange_color(in->document, channel->spline));
     build_choices(in, channel);
 }

@@ -20,21 +20,13 @@ static struct edit drive_edit(const struct inspection *in, enum edit_kind kind, 
     return edit;
 }
 
-/// A row for each character where there is a choice.
-static void build_characters(struct inspection *in)
+/// Shows a coordinate, and what it feels like.
+static void choose(struct inspection *in, int drive)
 {
-    const struct document *document = in->document;
-    int r = document_count_rigs(document, RIG_CHARACTER) > 1 ? document_next_rig(document, RIG_CHARACTER, 0) : -1;
-    for (int c = 0; r >= 0; c++, r = document_next_rig(document, RIG_CHARACTER, r + 1)) {
-        const struct rig *rig = &document->rigs[r];
-        struct character_view *view = &in->core->characters;
-        char name[32];
-        snprintf(name, sizeof name, "character.%d", c);
-        const char *text = rig_title(rig);
-        if (!ui_list_row(in->ui, ui_row(in->ui, UI_ROW), name, text, 0, c == view->character)) continue;
-        view->character = c;
-        view->drive = 0;
-    }
+    const struct character_view *view = &in->core->characters;
+    const struct character_rig *rig = document_character(in->document, view->character);
+    core_activate(in->core, in->world, rig->drives[drive].spline);
+    in->core->characters.drive = drive; // of two by the same spline
 }
 
 /// A row for each coordinate that is driven, with what takes it away.
@@ -49,9 +41,9 @@ static void build_drives(struct inspection *in, const struct character_rig *rig)
         snprintf(remove, sizeof remove, "drive.%d.remove", k);
         snprintf(text, sizeof text, "%.60s, by %.60s", drive->name, in->document->splines[drive->spline].name);
         r.w -= r.h + 4;
-        if (ui_hovered(ui, r)) ui->hint = "One of the ways this character swings";
+        ui_hint(ui, r, "One of the ways this character swings");
         const uint32_t color = arrange_color(in->document, drive->spline);
-        if (ui_list_row(ui, r, name, text, color, k == in->core->characters.drive)) in->core->characters.drive = k;
+        if (ui_list_row(ui, r, name, text, color, k == in->core->characters.drive)) choose(in, k);
         if (ui_icon_button(ui, button, remove, UI_ICON_DELETE, false, "Remove this coordinate")) {
             struct edit edit = drive_edit(in, EDIT_DRIVE_REMOVE, drive);
             edit.channel = k;
@@ -61,8 +53,20 @@ static void build_drives(struct inspection *in, const struct character_rig *rig)
     }
 }
 
-static void build_numbers(struct inspection *in, const struct drive *drive)
+/// The coordinate of the shown character that the active spline drives, where that is the selected one.
+static const struct drive *felt_drive(const struct inspection *in)
 {
+    const struct character_view *view = &in->core->characters;
+    const struct character_rig *rig = document_character(in->document, view->character);
+    if (!rig || view->drive >= rig->drive_count) return NULL;
+    return rig->drives[view->drive].spline == in->core->active ? &rig->drives[view->drive] : NULL;
+}
+
+void inspector_felt_drive(struct inspection *in)
+{
+    const struct drive *drive = felt_drive(in);
+    if (!drive) return;
+
     static const struct ui_number amplitude_row = {.name = "amplitude",
                                                    .label = "amplitude",
                                                    .hint = "How far it swings when the spline is 1",
@@ -85,20 +89,20 @@ static void build_numbers(struct inspection *in, const struct drive *drive)
                                              .step = 1,
                                              .decimals = 1};
     struct drive next = *drive;
-    enum ui_change change = ui_value(in->ui, ui_row(in->ui, UI_ROW), &amplitude_row, &next.amplitude);
+    enum ui_change change = ui_value(in->ui, ui_row(in->ui, UI_ROW), &lag_row, &next.lag);
     struct edit edit = drive_edit(in, EDIT_DRIVE, &next);
-    inspector_change(in, change, "Set amplitude", amplitude_row.name, &edit);
-    next = *drive;
-    change = ui_value(in->ui, ui_row(in->ui, UI_ROW), &lag_row, &next.lag);
-    edit = drive_edit(in, EDIT_DRIVE, &next);
     inspector_change(in, change, "Set lag", lag_row.name, &edit);
+    next = *felt_drive(in);
+    change = ui_value(in->ui, ui_row(in->ui, UI_ROW), &amplitude_row, &next.amplitude);
+    edit = drive_edit(in, EDIT_DRIVE, &next);
+    inspector_change(in, change, "Set amplitude", amplitude_row.name, &edit);
 }
 
 static void build_spline(struct inspection *in, const struct drive *drive)
 {
     struct rect r = inspector_labelled(in, "spline");
     const uint32_t color = arrange_color(in->document, drive->spline);
-    if (ui_hovered(in->ui, r)) in->ui->hint = "The spline that drives this coordinate";
+    ui_hint(in->ui, r, "The spline that drives this coordinate");
     ui_dropdown(in->ui, r, spline_list, 0, in->document->splines[drive->spline].name, color);
 }
 
@@ -133,13 +137,13 @@ static void build_looks(struct inspection *in)
     struct character_view *view = &in->core->characters;
     struct rect r = inspector_labelled(in, "phases");
     int map = view->mapped ? 1 + view->axis : 0, pair = view->compare;
-    if (ui_hovered(in->ui, r)) in->ui->hint = "Colour each point by its phase along x, y or z";
+    ui_hint(in->ui, r, "Colour each point by its phase along x, y or z");
     if (ui_segments(in->ui, r, "phases", maps, 4, &map)) {
         view->mapped = map > 0;
         if (map > 0) view->axis = map - 1;
     }
     r = inspector_labelled(in, "stiff twin");
-    if (ui_hovered(in->ui, r)) in->ui->hint = "Show the character with real parts only: every point moves in step";
+    ui_hint(in->ui, r, "Show the character with real parts only: every point moves in step");
     if (ui_segments(in->ui, r, "twin", pairs, 2, &pair)) {
         view->compare = pair;
         in->core->refit_stage = true;
@@ -150,15 +154,53 @@ static void build_looks(struct inspection *in)
 static void build_facts(struct inspection *in)
 {
     const struct coordinate *c = characters_coordinate(in->core, in->world);
-    char text[160];
+    char text[200];
     if (!c) {
         ui_paragraph(in->ui, "The model lacks this coordinate.", theme()->text_dim);
     } else if (c->frequency > 0) {
         snprintf(text, sizeof text,
-                 "Found at %.2f Hz, damping %.3f. Explains %.0f %%; real PCA %.0f, its first two %.0f %%.",
+                 "Found at %.2f Hz, damping %.3f. It explains %.0f %% of this motion; without phases (real PCA) one "
+                 "component explains %.0f %%, two %.0f %%.",
                  c->frequency, c->damping, 100 * c->explained, 100 * c->pca1, 100 * c->pca2);
         ui_paragraph(in->ui, text, theme()->text_dim);
     }
+}
+
+/// Whether nothing of it may be below a height, and which.
+static void build_floor(struct inspection *in, const struct character_rig *rig)
+{
+    static const struct ui_choice choices[] = {{"off", "Off"}, {"on", "On"}};
+    static const struct ui_number height_row = {.name = "floor.height",
+                                                .label = "height",
+                                                .unit = "m",
+                                                .hint = "No point of the character goes lower",
+                                                .minimum = -1,
+                                                .maximum = 0,
+                                                .lowest = -INSPECTOR_NO_LIMIT,
+                                                .highest = INSPECTOR_NO_LIMIT,
+                                                .fallback = 0,
+                                                .step = 0.01,
+                                                .decimals = 3};
+    struct rect r = inspector_labelled(in, "floor");
+    int on = rig->has_floor;
+    struct edit edit = drive_edit(in, EDIT_FLOOR, &(struct drive){0});
+    edit.number = rig->has_floor ? rig->floor : rig->position[1];
+    if (ui_hovered(in->ui, r)) in->ui->hint = "Keep the whole character above a height";
+    if (ui_segments(in->ui, r, "floor", choices, 2, &on)) {
+        edit.flag = on;
+        core_step(in->core, in->world, on ? "Set floor" : "Remove floor", 0, &edit);
+        return;
+    }
+    if (!rig->has_floor) return;
+    edit.flag = true;
+    const enum ui_change change = ui_value(in->ui, ui_row(in->ui, UI_ROW), &height_row, &edit.number);
+    inspector_change(in, change, "Set floor", height_row.name, &edit);
+    const struct floor_left *left = evaluation_floor(in->world->evaluation, edit.rig);
+    if (!left || left->depth < 1e-4) return;
+    char text[120];
+    snprintf(text, sizeof text, "Up to %.3g m below it, deepest at frame %.6g: knots and pins come first.",
+             left->depth, document_frame(in->document, left->sample));
+    ui_paragraph(in->ui, text, theme()->text_dim);
 }
 
 void inspector_character(struct inspection *in)
@@ -168,17 +210,18 @@ void inspector_character(struct inspection *in)
     const struct character_rig *rig = document_character(in->document, view->character);
     struct ui_item items[MAX_ITEMS];
     if (view->drive >= rig->drive_count) view->drive = 0;
-    build_characters(in);
     build_drives(in, rig);
     if (free_coordinates(in, rig, items) > 0 && in->document->spline_count > 0) {
-        ui_dropdown(in->ui, ui_row(in->ui, UI_ROW), add_list, 0, "Add a coordinate", 0);
+        const struct rect r = ui_row(in->ui, UI_ROW);
+        ui_hint(in->ui, r, "One more way for it to swing, by the active spline");
+        ui_dropdown(in->ui, r, add_list, 0, "Add a coordinate", 0);
     }
     ui_space(in->ui, 4);
     if (view->drive < rig->drive_count) {
         build_spline(in, &rig->drives[view->drive]);
-        build_numbers(in, &rig->drives[view->drive]);
         build_facts(in);
     }
+    build_floor(in, rig);
     build_looks(in);
     inspector_brush(in);
 }
@@ -189,7 +232,7 @@ static void spline_popup(struct inspection *in, const struct drive *drive)
     next.spline = inspector_spline_list(in, spline_list, NULL, drive->spline);
     if (next.spline < 0) return;
     struct edit edit = drive_edit(in, EDIT_DRIVE, &next);
-    core_step(in->core, in->world, "Set spline", 0, &edit);
+    if (core_step(in->core, in->world, "Set spline", 0, &edit)) choose(in, edit.channel);
 }
 
 void inspector_character_lists(struct inspection *in)

@@ -89,7 +89,7 @@ static bool build_row(struct inspection *in, size_t row)
     uint32_t color = row > view->done ? theme()->text_dim : theme()->text;
     ui_label(ui, (struct rect){r.x + 6, r.y, r.w - 60, r.h}, text, color);
     if (history_step_is_saved(history, row)) ui_label_right(ui, r, "saved", color);
-    if (ui_hovered(ui, r)) ui->hint = row > view->done ? "Redo to here" : "Undo to here";
+    ui_hint(ui, r, row > view->done ? "Redo to here" : "Undo to here");
     return pressed;
 }
 

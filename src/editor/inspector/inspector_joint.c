@@ -30,7 +30,7 @@ void inspector_joint_field(struct inspection *in, const struct joint_motion *mot
     char title[BONES_TITLE];
     const char *text = model < 0 ? motion->joint : bones_title(in->document, model, motion->joint, title);
     field.w -= ICON + 4;
-    if (ui_hovered(in->ui, field)) in->ui->hint = "The joint it follows through the clip";
+    ui_hint(in->ui, field, "The joint it follows through the clip");
     ui_dropdown(in->ui, field, joint_list, 0, text, 0);
     const bool picking = in->core->pick.use == BONE_FOLLOWED && in->core->pick.which == active;
     if (ui_icon_button(in->ui, icon, "joint.pick", UI_ICON_PICK, picking, "Pick it on the stage"))
@@ -44,7 +44,7 @@ static void build_of(struct inspection *in)
     struct joint_motion motion = *followed(in)->motion;
     int of = (int)motion.of;
     struct rect r = inspector_labelled(in, "its");
-    if (ui_hovered(in->ui, r)) in->ui->hint = "Its turn in degrees, or its way across or up in metres";
+    ui_hint(in->ui, r, "Its turn in degrees, or its way across or up in metres");
     if (!ui_segments(in->ui, r, "joint.of", choices, MOTION_KINDS, &of)) return;
     struct edit edit = joint_edit(in, followed(in));
     motion.of = (enum motion_of)of;

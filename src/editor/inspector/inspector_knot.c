@@ -179,12 +179,22 @@ static bool all_sloped(const struct inspection *in)
     return sloped;
 }
 
+/// A row without anything to set yet.
+static void build_idle(struct inspection *in, const char *label, const char *text)
+{
+    ui_label(in->ui, inspector_labelled(in, label), text, theme()->text_dim);
+}
+
 static void build_several(struct inspection *in)
 {
-    int count = all_sloped(in) ? FIELDS : FIELD_SLOPE;
-    for (int i = 0; i < count; i++) {
+    const bool sloped = all_sloped(in);
+    for (int i = 0; i < FIELDS; i++) {
         struct numbers numbers = survey(in, &fields[i]); // as the field before left the document
-        if (!isnan(numbers.first)) build_field(in, &fields[i], numbers);
+        if (i >= FIELD_SLOPE && !sloped) {
+            build_idle(in, fields[i].number.label, i == FIELD_SLOPE ? "not all have one" : "–");
+        } else if (!isnan(numbers.first)) {
+            build_field(in, &fields[i], numbers);
+        }
     }
 }
 
@@ -231,7 +241,7 @@ static void build_slope(struct inspection *in, unsigned id)
     struct ui *ui = in->ui;
     struct rect r = inspector_labelled(in, "slope");
     bool sloped = has_slope(in, id);
-    if (ui_hovered(ui, r)) ui->hint = "Give the knot a slope (T); D and E turn it";
+    ui_hint(ui, r, "Give the knot a slope (T); D and E turn it");
     if (ui_toggle(ui, r, "has_slope", &sloped)) {
         slopes_set(in->core, in->world, SLOPES_TOGGLE); // the knot is the only selected one
         return;
@@ -245,48 +255,62 @@ static void build_slope(struct inspection *in, unsigned id)
 }
 
 /// What can be done with the slopes of all selected knots.
-static void build_slopes(struct inspection *in)
+static void build_slopes(struct inspection *in, bool sloped)
 {
     enum { GAP = 4 };
-    static const struct {
+    const struct {
         const char *name, *label, *hint;
         enum slopes how;
     } buttons[] = {
         {"slope.flat", "Flat", "Make the slopes flat (Shift+T)", SLOPES_FLAT},
         {"slope.smooth", "Smooth", "Aim the slopes at the neighbours, as Catmull-Rom does (Ctrl+T)", SLOPES_SMOOTH},
-        {"slope.switch", "On, off", "Switch slopes on, along the curve, or off (T)", SLOPES_TOGGLE},
+        {"slope.switch", sloped ? "Remove" : "Add",
+         sloped ? "Let go of the slopes (T)" : "Give the knots the slope that the curve has there (T)",
+         SLOPES_TOGGLE},
     };
     struct ui *ui = in->ui;
     struct rect r = ui_row(ui, UI_ROW);
     r.w = (r.w - 2 * GAP) / 3;
     for (size_t i = 0; i < sizeof buttons / sizeof buttons[0]; i++, r.x += r.w + GAP) {
-        if (ui_hovered(ui, r)) ui->hint = buttons[i].hint;
+        ui_hint(ui, r, buttons[i].hint);
         if (ui_button(ui, r, buttons[i].name, buttons[i].label, false))
             slopes_set(in->core, in->world, (int)buttons[i].how);
     }
 }
 
+const char *inspector_knot_title(struct inspection *in)
+{
+    const int count = picked_count(in->core, in->document);
+    if (count < 2) return "Knot";
+    snprintf(in->inspector->knot_title, sizeof in->inspector->knot_title, "%d knots", count);
+    return in->inspector->knot_title;
+}
+
+/// Takes the same room whatever is selected, so that nothing below it moves.
 void inspector_knot(struct inspection *in)
 {
     struct ui *ui = in->ui;
     const struct spline *spline = core_active_spline(in->core, in->world);
-    int count = picked_count(in->core, in->document);
-    int single = selection_single(&in->core->selection, spline);
+    const int count = picked_count(in->core, in->document);
+    const int single = selection_single(&in->core->selection, spline);
+    const float end = ui->y + (FIELDS + 1) * UI_ROW;
     if (count > 1) {
-        char text[64];
-        snprintf(text, sizeof text, "%d knots selected.", count);
-        ui_paragraph(ui, text, theme()->text_dim);
         build_several(in);
-        build_slopes(in);
+        build_slopes(in, all_sloped(in));
     } else if (single < 0) {
         ui_paragraph(ui, "Click a knot to edit it. Double-click the curve to insert one.", theme()->text_dim);
     } else {
         // Each is built from the document as the one before left it; ids survive what happens to the order of knots.
-        unsigned id = spline->knots[single].id;
+        const unsigned id = spline->knots[single].id;
         build_one(in, FIELD_FRAME, id, ui_row(ui, UI_ROW));
         build_one(in, FIELD_VALUE, id, ui_row(ui, UI_ROW));
         build_slope(in, id);
-        if (has_slope(in, id)) build_one(in, FIELD_STIFFNESS, id, ui_row(ui, UI_ROW));
-        build_slopes(in);
+        if (has_slope(in, id)) {
+            build_one(in, FIELD_STIFFNESS, id, ui_row(ui, UI_ROW));
+        } else {
+            build_idle(in, "stiffness", "–");
+        }
+        build_slopes(in, has_slope(in, id));
     }
+    ui->y = end;
 }

@@ -74,7 +74,7 @@ static bool build_row(struct inspection *in, int s, struct rect r)
     if (active && ui_line_is_open(ui, rename_line)) {
         build_rename(in, s, label);
     } else {
-        if (ui_hovered(ui, label)) ui->hint = "Click to edit (PgUp, PgDn), F2 to rename, drag to reorder";
+        ui_hint(ui, label, "Click to edit (PgUp, PgDn), F2 to rename, drag to reorder");
         enum ui_row_event event = ui_sort_row(ui, r, label, name, spline->name, active);
         if (event == UI_ROW_PRESSED) core_activate(in->core, in->world, s);
         if (event == UI_ROW_TWICE) {
@@ -85,7 +85,7 @@ static bool build_row(struct inspection *in, int s, struct rect r)
     }
     struct rect swatch = {r.x, r.y, SWATCH, r.h};
     snprintf(name, sizeof name, "color.%s", spline->name);
-    if (ui_hovered(ui, swatch)) ui->hint = "Colour of this spline";
+    ui_hint(ui, swatch, "Colour of this spline");
     ui_swatch(ui, swatch, name, "palette", (int)spline->id, arrange_color(in->document, s));
     build_visibility(in, s, r);
     return dropped;

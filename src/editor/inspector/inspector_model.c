@@ -27,26 +27,11 @@ static struct edit model_edit(const struct inspection *in, enum edit_kind kind)
     return edit;
 }
 
-/// A row for each where there is a choice.
-static void build_rows(struct inspection *in)
-{
-    const struct document *document = in->document;
-    int rig = document_count_rigs(document, RIG_MODEL) > 1 ? document_next_rig(document, RIG_MODEL, 0) : -1;
-    for (int n = 0; rig >= 0; n++, rig = document_next_rig(document, RIG_MODEL, rig + 1)) {
-        char name[32];
-        snprintf(name, sizeof name, "model.%d", n);
-        const char *text = rig_title(&document->rigs[rig]);
-        if (!ui_list_row(in->ui, ui_row(in->ui, UI_ROW), name, text, 0, n == in->inspector->model)) continue;
-        bones_clear(in->core);
-        in->inspector->model = n;
-    }
-}
-
 static void build_file(struct inspection *in, const struct model_rig *rig, const struct imported *shown)
 {
     const char *slash = strrchr(rig->model, '/');
     struct rect r = inspector_labelled(in, "file");
-    if (ui_hovered(in->ui, r)) in->ui->hint = "The glTF file that shows this character";
+    ui_hint(in->ui, r, "The glTF file that shows this character");
     ui_label(in->ui, r, slash ? slash + 1 : rig->model, theme()->text);
     if (!shown) ui_paragraph(in->ui, "wiggly could not read this file.", theme()->warning);
     if (!shown || !shown->gltf.not_shown) return;
@@ -59,7 +44,7 @@ static void build_clip(struct inspection *in, const struct model_rig *rig, const
 {
     if (!shown || shown->gltf.clip_count == 0) return;
     struct rect r = inspector_labelled(in, "clip");
-    if (ui_hovered(in->ui, r)) in->ui->hint = "The animation in the file that it plays, over and over";
+    ui_hint(in->ui, r, "The animation in the file that it plays, over and over");
     ui_dropdown(in->ui, r, clip_list, in->inspector->model, rig->clip ? rig->clip : "None", 0);
 }
 
@@ -152,7 +137,7 @@ static void build_bone(struct inspection *in)
     for (size_t i = 0; i < 2; i++) {
         struct rect button = {row.x, row.y + 2, widths[i], row.h - 4};
         row.x += widths[i] + 6;
-        if (ui_hovered(in->ui, button)) in->ui->hint = buttons[i].hint;
+        ui_hint(in->ui, button, buttons[i].hint);
         if (ui_button(in->ui, button, buttons[i].name, buttons[i].label, false))
             bones_make_chain(in->core, in->world, buttons[i].follow);
     }
@@ -160,7 +145,6 @@ static void build_bone(struct inspection *in)
 
 void inspector_model(struct inspection *in)
 {
-    build_rows(in);
     const int model = shown_model(in);
     const struct imported *shown = bones_character(in->world, model);
     build_file(in, &in->document->rigs[model].model, shown);

@@ -21,21 +21,20 @@ static bool may_vary(const struct inspection *in)
 static bool has_tail(const struct inspection *in)
 {
     const struct document *document = in->document;
-    bool seen[RIG_KINDS];
-    for (int kind = 0; kind < RIG_KINDS; kind++)
-        seen[kind] = document_find_rig(document, (enum rig_kind)kind, 0) >= 0;
-    return seen[RIG_TAIL] || seen[RIG_CHAIN] || !(seen[RIG_CHARACTER] || seen[RIG_MODEL]);
+    return document_find_rig(document, RIG_TAIL, 0) >= 0 || document_find_rig(document, RIG_CHAIN, 0) >= 0;
 }
 
 static bool has_model(const struct inspection *in) { return document_find_rig(in->document, RIG_MODEL, 0) >= 0; }
 
-static const char *tail_title(const struct inspection *in)
+static const char *tail_title(struct inspection *in)
 {
-    if (document_find_rig(in->document, RIG_CHAIN, 0) < 0) return "Tail";
-    return document_find_rig(in->document, RIG_TAIL, 0) < 0 ? "Chain" : "Tail and chain";
+    const struct rig *shown = inspector_shown(in);
+    return shown && shown->kind == RIG_CHAIN ? "Chain set-up" : "Tail set-up";
 }
 
 static bool has_character(const struct inspection *in) { return document_character(in->document, 0) != NULL; }
+
+static bool has_meadow(const struct inspection *in) { return document_find_rig(in->document, RIG_MEADOW, 0) >= 0; }
 
 static bool takes_pins(const struct inspection *in)
 {
@@ -44,26 +43,31 @@ static bool takes_pins(const struct inspection *in)
     return any;
 }
 
-/// From the top down; `name` is what replays call the header. Without a title it is tail_title().
+/// From the top down; `name` is what replays call the header.
 static const struct section {
     const char *name, *title;
+    const char *(*titled)(struct inspection *in); ///< in place of a title
     void (*build)(struct inspection *in);
     void (*lists)(struct inspection *in);       ///< that it has opened over the panel; NULL: none
     bool (*shown)(const struct inspection *in); ///< NULL: always
     bool closed;                                ///< at first
 } sections[] = {
-    {"section.scene", "Scene", inspector_scene, NULL, NULL, true},
-    {"section.splines", "Splines", inspector_splines, inspector_palette, NULL, false},
-    {"section.spline", "Spline", inspector_spline, inspector_track_list, has_spline, false},
-    {"section.poles", "Poles and response", inspector_poles, NULL, has_spline, true},
-    {"section.knot", "Knot", inspector_knot, NULL, has_spline, false},
-    {"section.model", "Imported character", inspector_model, inspector_model_lists, has_model, false},
-    {"section.tail", NULL, inspector_tail, inspector_tail_lists, has_tail, false},
-    {"section.character", "Character", inspector_character, inspector_character_lists, has_character, false},
-    {"section.pins", "Pins", inspector_pins, NULL, takes_pins, false},
-    {"section.limits", "Limits and steadiness", inspector_limits, NULL, has_spline, true},
-    {"section.variation", "Variation", inspector_variation, NULL, may_vary, true},
-    {"section.history", "History", inspector_history, NULL, NULL, true}, // the last one: see there
+    {"section.feel", "Feel", NULL, inspector_feel, inspector_track_list, has_spline, false},
+    {"section.knot", NULL, inspector_knot_title, inspector_knot, NULL, has_spline, false},
+    {"section.splines", "Splines", NULL, inspector_splines, inspector_palette, NULL, false},
+    {"section.spline", "Spline", NULL, inspector_spline, NULL, has_spline, false},
+    {"section.rigs", "Tails and characters", NULL, inspector_rigs, inspector_add_list, NULL, false},
+    {"section.model", "Imported character", NULL, inspector_model, inspector_model_lists, has_model, false},
+    {"section.tail", NULL, tail_title, inspector_tail, inspector_tail_lists, has_tail, false},
+    {"section.character", "Character", NULL, inspector_character, inspector_character_lists, has_character, false},
+    {"section.meadow", "Meadow", NULL, inspector_meadow, NULL, has_meadow, false},
+    {"section.pins", "Pins", NULL, inspector_pins, NULL, takes_pins, false},
+    {"section.advanced", "Advanced", NULL, inspector_advanced, NULL, has_spline, true},
+    {"section.poles", "Poles and response", NULL, inspector_poles, NULL, has_spline, true},
+    {"section.limits", "Limits and steadiness", NULL, inspector_limits, NULL, has_spline, true},
+    {"section.variation", "Variation", NULL, inspector_variation, NULL, may_vary, true},
+    {"section.scene", "Scene", NULL, inspector_scene, NULL, NULL, true},
+    {"section.history", "History", NULL, inspector_history, NULL, NULL, true}, // the last one: see there
 };
 
 _Static_assert(sizeof sections / sizeof sections[0] <= INSPECTOR_MAX_SECTIONS, "each has a flag in struct inspector");
@@ -81,13 +85,15 @@ static void reveal(struct inspection *in, float top)
 
 static void build_sections(struct inspection *in)
 {
+    inspector_find_rig(in);
     for (size_t i = 0; i < sizeof sections / sizeof sections[0]; i++) {
         const struct section *section = &sections[i];
         bool *flipped = &in->inspector->flipped[i];
         if (section->shown && !section->shown(in)) continue;
         bool closed = *flipped != section->closed;
         const float top = in->ui->y;
-        bool open = ui_section(in->ui, section->name, section->title ? section->title : tail_title(in), &closed);
+        bool open =
+            ui_section(in->ui, section->name, section->titled ? section->titled(in) : section->title, &closed);
         *flipped = closed != section->closed;
         if (!open) continue;
         section->build(in);
@@ -101,6 +107,7 @@ void inspector_unfold(struct inspector *inspector, const char *name)
     for (size_t i = 0; i < sizeof sections / sizeof sections[0]; i++) {
         if (strcmp(sections[i].name, name) == 0) inspector->flipped[i] = sections[i].closed;
     }
+    inspector->revealed = name; // the pass that measures scrolls there
 }
 
 static void build_look(struct inspection *in, struct rect footer)
@@ -113,7 +120,7 @@ static void build_look(struct inspection *in, struct rect footer)
         drawlist_rect(ui->list, footer, theme()->panel);
         drawlist_rect(ui->list, (struct rect){footer.x, footer.y, footer.w, 1}, theme()->border);
     }
-    if (ui_hovered(ui, footer)) ui->hint = "Compare the same knots: wiggly, without lag, or as a cubic (V)";
+    ui_hint(ui, footer, "Compare the same knots: wiggly, without lag, or as a cubic (V)");
     int look = (int)in->core->look;
     if (ui_segments(ui, r, "look", looks, 3, &look)) core_set_look(in->core, (enum look)look);
 }
@@ -142,12 +149,6 @@ struct inspector *inspector_create(void) { return calloc(1, sizeof(struct inspec
 
 void inspector_destroy(struct inspector *inspector) { free(inspector); }
 
-void inspector_show_channel(struct inspector *inspector, int rig, int channel)
-{
-    inspector->rig = rig;
-    inspector->channel = channel;
-}
-
 enum ui_over inspector_over(const struct inspector *inspector) { return inspector->ui.over; }
 
 void inspector_reset(struct inspector *inspector)
@@ -155,6 +156,7 @@ void inspector_reset(struct inspector *inspector)
     ui_release(&inspector->ui);
     inspector->scroll.offset = 0;
     inspector->rig = 0;
+    inspector->selected = 0;
     inspector->model = 0;
     inspector->channel = 0;
 }
@@ -228,7 +230,6 @@ static void show_bone(struct inspection *in)
     in->inspector->seen_bone = *bone;
     if (same || !bone->any) return;
     inspector_unfold(in->inspector, "section.model");
-    in->inspector->revealed = "section.model"; // the pass that measures scrolls there
 }
 
 void inspector_show(struct inspector *inspector, struct core *core, const struct editor_world *world, bool covered)
@@ -257,7 +258,15 @@ bool inspector_is_dragging(const struct inspector *inspector) { return inspector
 
 bool inspector_is_typing(const struct inspector *inspector) { return inspector->ui.typing != 0; }
 
+bool inspector_has_menu(const struct inspector *inspector) { return inspector->ui.popup.id != 0; }
+
 const char *inspector_hint(const struct inspector *inspector) { return inspector->ui.hint; }
+
+const char *inspector_focus_hint(const struct inspector *inspector, struct rect *at)
+{
+    *at = inspector->ui.focus_rect;
+    return inspector->ui.focus ? inspector->ui.focus_hint : NULL;
+}
 
 bool inspector_target(struct inspector *inspector, struct core *core, const struct editor_world *world,
                       const char *name, float *x, float *y)

@@ -61,7 +61,7 @@ static bool build_row(struct inspection *in, int row)
     const bool pressed = ui_list_row(ui, r, name, "", 0, selected);
     ui_label(ui, (struct rect){label.x + 6, label.y, label.w - 6, label.h}, text, theme()->text);
     ui_label_right(ui, (struct rect){r.x, r.y, r.w - 4, r.h}, left, theme()->text_dim);
-    if (ui_hovered(ui, r)) ui->hint = "Frame and point of a pin, and how far the point is from it";
+    ui_hint(ui, r, "Frame and point of a pin, and how far the point is from it");
     if (pressed) pins_visit(in->core, in->document, pin);
     if (!ui_icon_button(ui, button, remove, UI_ICON_DELETE, false, "Remove this pin")) return false;
     const struct edit edit = pins_edit(EDIT_PIN_REMOVE, place.rig, pin);

@@ -143,8 +143,7 @@ void inspector_poles(struct inspection *in)
     ui_space(ui, 4);
     struct rect top = ui_row(ui, CIRCLE);
     struct rect circle = {top.x, top.y, CIRCLE, CIRCLE};
-    if (ui_hovered(ui, circle))
-        ui->hint = "Unit circle: poles inside are stable; angle is frequency, distance from the rim damping";
+    ui_hint(ui, circle, "Unit circle: poles inside are stable; angle is frequency, distance from the rim damping");
     if (ui->pass == UI_PASS_DRAW) {
         struct rect legend = {top.x + CIRCLE + UI_GAP, top.y, top.w - CIRCLE - UI_GAP, CIRCLE};
         poles_draw_circle(&setting, circle, ui->list);
@@ -154,13 +153,7 @@ void inspector_poles(struct inspection *in)
     build_inset(in, spline, &setting);
     ui_space(ui, 4);
     struct rect response = ui_row(ui, RESPONSE);
-    if (ui_hovered(ui, response)) ui->hint = "Response in dB over Hz: the complex filter rejects low frequencies";
+    ui_hint(ui, response, "Response in dB over Hz: the complex filter rejects low frequencies");
     if (ui->pass == UI_PASS_DRAW) poles_draw_response(view, response, ui->list);
-    ui_space(ui, 4);
-    struct rect find = ui_row(ui, UI_ROW);
-    if (ui_hovered(ui, find))
-        ui->hint = "Frequency and damping that explain the knots best (Shift+F); again: the runner-up";
-    if (ui_button(ui, find, "frequency.find", "Find the frequency", false))
-        core_find_frequency(in->core, in->world, 0);
     ui_space(ui, 4);
 }

@@ -183,7 +183,7 @@ void inspector_ramp(struct inspection *in, const struct angle_row *row, const st
     struct ramp_view view = {.row = row, .angles = angles, .plot = rect_inset(box, INSET)};
     int which = 0;
     lay_out(in, &view);
-    if (ui_hovered(ui, box)) ui->hint = "From the first joint to the tip; double-click adds a point";
+    ui_hint(ui, box, "From the first joint to the tip; double-click adds a point");
     if (ui->pass == UI_PASS_DRAW) draw(in, &view, box);
     const enum ui_change change = ui_handles(ui, box, view.handles, angles->count, &which);
     if (change != UI_NONE) {

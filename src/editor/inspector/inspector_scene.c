@@ -68,8 +68,7 @@ static void build_solver(struct inspection *in)
 {
     static const struct ui_choice methods[] = {[WIGGLY_CHAIN] = {"chain", "Chain"}, [WIGGLY_BAND] = {"band", "Band"}};
     struct rect r = inspector_labelled(in, "solver");
-    if (ui_hovered(in->ui, r))
-        in->ui->hint = "The same curves: stretches between knots condensed, or the paper's whole band";
+    ui_hint(in->ui, r, "The same curves: stretches between knots condensed, or the paper's whole band");
     int method = (int)in->core->method;
     if (ui_segments(in->ui, r, "scene.solver", methods, 2, &method)) in->core->method = (wiggly_method)method;
 }

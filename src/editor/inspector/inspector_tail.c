@@ -1,5 +1,5 @@
-/// The inspector's section on tails and chains: which there are, where tails stand, how they are built, and what is shown of their
-/// motion.
+/// The inspector's section on the tail or chain that is shown: what bends it, where a tail stands, how it is built, and what is shown of
+/// its motion.
 #include "editor/core/arrange.h"
 #include "editor/core/core.h"
 #include "editor/inspector/inspection.h"
@@ -17,63 +17,13 @@ static struct edit rig_edit(const struct inspection *in, enum edit_kind kind)
     return edit;
 }
 
-static bool is_tail_or_chain(const struct document *document, int rig)
-{
-    return rig < document->rig_count &&
-           (document->rigs[rig].kind == RIG_TAIL || document->rigs[rig].kind == RIG_CHAIN);
-}
-
-const struct rig *inspector_shown(const struct inspection *in)
-{
-    const int rig = in->inspector->rig;
-    return is_tail_or_chain(in->document, rig) ? &in->document->rigs[rig] : NULL;
-}
-
-/// Shows the first tail, or else the first chain, where what was shown is gone.
-static void find_shown(struct inspection *in)
-{
-    if (inspector_shown(in)) return;
-    const int tail = document_find_rig(in->document, RIG_TAIL, 0),
-              chain = document_find_rig(in->document, RIG_CHAIN, 0);
-    in->inspector->rig = tail >= 0 ? tail : chain >= 0 ? chain : 0;
-    in->inspector->channel = 0;
-}
-
-static void build_row(struct inspection *in, enum rig_kind kind, int rig, int number)
-{
-    struct inspector *inspector = in->inspector;
-    const struct rig *shown = &in->document->rigs[rig];
-    char name[32];
-    snprintf(name, sizeof name, "%s.%d", rig_word(kind), number);
-    const bool colored = kind == RIG_CHAIN && rig_input_count(shown) > 0;
-    const uint32_t color = colored ? arrange_color(in->document, rig_input(shown, 0)) : 0;
-    if (!ui_list_row(in->ui, ui_row(in->ui, UI_ROW), name, rig_title(shown), color, rig == inspector->rig)) return;
-    inspector->rig = rig;
-    inspector->channel = 0;
-    if (colored) core_activate(in->core, in->world, rig_input(shown, 0));
-}
-
-/// A row for each tail, and for each chain, where there is a choice.
-static void build_rows(struct inspection *in)
-{
-    static const enum rig_kind kinds[] = {RIG_TAIL, RIG_CHAIN};
-    if (document_count_rigs(in->document, RIG_TAIL) + document_count_rigs(in->document, RIG_CHAIN) < 2) return;
-    for (size_t k = 0; k < sizeof kinds / sizeof kinds[0]; k++) {
-        int rig = document_next_rig(in->document, kinds[k], 0);
-        for (int n = 0; rig >= 0; n++, rig = document_next_rig(in->document, kinds[k], rig + 1)) {
-            build_row(in, kinds[k], rig, n);
-        }
-    }
-    ui_space(in->ui, 6);
-}
-
 static void build_name(struct inspection *in)
 {
     const struct rig *rig = inspector_shown(in);
     struct rect r = inspector_labelled(in, "name");
     if (!ui_line_is_open(in->ui, rename_line)) {
         struct rect field = {r.x, r.y + 2, r.w, r.h - 4};
-        if (ui_hovered(in->ui, field)) in->ui->hint = "Click to rename";
+        ui_hint(in->ui, field, "Click to rename");
         if (ui_button(in->ui, field, "tail.name", rig_title(rig), false))
             ui_line_begin(in->ui, rename_line, rig_title(rig));
     } else if (ui_line(in->ui, r, rename_line) == UI_LINE_DONE) {
@@ -81,25 +31,6 @@ static void build_name(struct inspection *in)
         edit.text = in->ui->text.bytes;
         core_step(in->core, in->world, rig->kind == RIG_TAIL ? "Rename tail" : "Rename chain", 0, &edit);
     }
-}
-
-static void build_buttons(struct inspection *in)
-{
-    struct inspector *inspector = in->inspector;
-    struct rect r = inspector_labelled(in, "tail"), icon = {r.x - 2, r.y, ICON, r.h};
-    bool any = inspector_shown(in) != NULL;
-    const char *hint = any ? "Duplicate this tail" : "Add a tail bent by the active spline";
-    if (ui_icon_button(in->ui, icon, "tail.add", UI_ICON_ADD, false, hint)) {
-        struct edit edit = rig_edit(in, EDIT_TAIL_ADD);
-        if (!core_step(in->core, in->world, "Add tail", 0, &edit)) return;
-        inspector->rig = in->document->rig_count - 1;
-        inspector->channel = 0;
-        return;
-    }
-    icon.x += ICON + 6;
-    if (!any || !ui_icon_button(in->ui, icon, "tail.delete", UI_ICON_DELETE, false, "Delete this tail")) return;
-    struct edit edit = rig_edit(in, EDIT_RIG_REMOVE);
-    core_step(in->core, in->world, "Delete tail", 0, &edit);
 }
 
 /// A coordinate: a number, or the spline that it follows, and the button from one to the other.
@@ -215,11 +146,12 @@ static void build_view(struct inspection *in)
          &core->record_armed},
         {"onion", "onion skin", "Show the tail at the knots around the playhead (O)", &core->overlays.onion},
         {"trail", "motion arc", "Show the path of the tip, one mark per frame (P)", &core->overlays.trail},
+        {"ghost", "ghost pose", "Show the pose at the knot that is dragged or nudged (F4)", &core->overlays.ghost},
     };
     const size_t first = document_tail(in->document, 0) ? 0 : 1; // without a body nothing is recorded
     for (size_t i = first; i < sizeof toggles / sizeof toggles[0]; i++) {
         struct rect r = inspector_labelled(in, toggles[i].label);
-        if (ui_hovered(in->ui, r)) in->ui->hint = toggles[i].hint;
+        ui_hint(in->ui, r, toggles[i].hint);
         ui_toggle(in->ui, r, toggles[i].name, toggles[i].on);
     }
 }
@@ -245,9 +177,7 @@ static void build_shown(struct inspection *in)
 
 void inspector_tail(struct inspection *in)
 {
-    find_shown(in);
-    build_rows(in);
-    if (inspector_shown(in)) build_shown(in);
-    if (!inspector_shown(in) || inspector_shown(in)->kind == RIG_TAIL) build_buttons(in);
+    inspector_find_rig(in); // one may just have been removed
+    build_shown(in);
     build_view(in);
 }

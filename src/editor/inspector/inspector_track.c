@@ -54,7 +54,7 @@ void inspector_track(struct inspection *in, enum parameter parameter, const char
         inspector_joint_field(in, param->motion, field);
         return;
     }
-    if (ui_hovered(in->ui, field)) in->ui->hint = "The spline it follows, sample by sample";
+    ui_hint(in->ui, field, "The spline it follows, sample by sample");
     ui_dropdown(in->ui, field, track_list, (int)parameter, in->document->splines[param->track].name,
                 arrange_color(in->document, param->track));
 }

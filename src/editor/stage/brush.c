@@ -7,6 +7,7 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 static const double RADIUS_LEAST = 0.01, RADIUS_MOST = 0.5, STRENGTH_LEAST = 0.02;
 static const double WHEEL_STEP = 0.15;   ///< of a notch, as a power of e
@@ -21,6 +22,7 @@ static void free_work(struct brush_work *work)
     free(work->values);
     free(work->steps);
     free(work->turned);
+    free(work->spent);
     *work = (struct brush_work){0};
 }
 
@@ -36,8 +38,9 @@ static bool reserve(struct brush_work *work, int vertices)
     work->values = malloc(room * sizeof *work->values);
     work->steps = malloc(room * sizeof *work->steps);
     work->turned = malloc(room * sizeof *work->turned);
-    const bool good =
-        work->vertices && work->values && work->steps && work->turned && reach_create(&work->reach, vertices);
+    work->spent = calloc(room, sizeof *work->spent);
+    const bool good = work->vertices && work->values && work->steps && work->turned && work->spent &&
+                      reach_create(&work->reach, vertices);
     if (!good) {
         free_work(work);
         return false;
@@ -108,6 +111,7 @@ bool brush_press(struct stage *stage, struct core *core, const struct editor_wor
     painting->x = event->x;
     painting->y = event->y;
     painting->has_dabbed = false;
+    memset(painting->work.spent, 0, (size_t)painting->work.capacity * sizeof *painting->work.spent);
     history_begin(world->history, brush_label(painting->stroke), 0);
     const struct edit blank = characters_blank_paint(core, world, figure);
     if (!paint) core_edit(core, world, &blank);

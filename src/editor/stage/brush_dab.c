@@ -7,8 +7,11 @@ enum { SMOOTHINGS = 4 }; ///< passes of a frame
 
 static const double PHASE_FLOW = 6.2831853071795865;     ///< radians a second at full strength
 static const double AMPLITUDE_FLOW = 1.3862943611198906; ///< of a: four times as much in a second
-static const double BLENDING_FLOW = 12;                  ///< of smoothing and erasing, 1/s
-static const double MOST_BLEND = 0.5;                    ///< of one pass; more would overshoot
+static const float STROKE_LEAD = 1.5707963f,
+                   STROKE_SWELL = 1.3862944f; ///< a stroke saturates here, however long it is held:
+                                              ///< what differs by more folds through itself
+static const double BLENDING_FLOW = 12;       ///< of smoothing and erasing, 1/s
+static const double MOST_BLEND = 0.5;         ///< of one pass; more would overshoot
 static const float MOST_LEAD = 12.5663706f, LEAST_SWELL = -4.60517f, MOST_SWELL = 1.3862944f; ///< ±720°; 0.01 … 4
 static const float STILL = 1e-4f; ///< of the largest amplitude: below this a phase means nothing
 
@@ -101,10 +104,21 @@ static void smooth(struct painting *painting, const struct figure *figure, int c
     }
 }
 
-/// The change of one vertex's paint where it does not depend on its neighbours'.
-static void change(enum brush_mode mode, double flow, float weight, float value[2])
+/// How much of a step a stroke may still take where it has come to `spent`, which counts it.
+static float saturate(float step, float most, float *spent)
 {
-    const float lead = weight * (float)(PHASE_FLOW * flow), swell = weight * (float)(AMPLITUDE_FLOW * flow);
+    const float allowed = fminf(step, fmaxf(most - *spent, 0));
+    *spent += allowed;
+    return allowed;
+}
+
+/// The change of one vertex's paint where it does not depend on its neighbours'.
+static void change(enum brush_mode mode, double flow, float weight, float *spent, float value[2])
+{
+    const bool turns = mode == BRUSH_ADVANCE || mode == BRUSH_DELAY,
+               swells = mode == BRUSH_MORE || mode == BRUSH_LESS;
+    const float lead = turns ? saturate(weight * (float)(PHASE_FLOW * flow), weight * STROKE_LEAD, spent) : 0;
+    const float swell = swells ? saturate(weight * (float)(AMPLITUDE_FLOW * flow), weight * STROKE_SWELL, spent) : 0;
     const float kept = 1 - weight * (float)fmin(1, BLENDING_FLOW * flow);
     if (mode == BRUSH_ADVANCE) value[1] = glm_clamp(value[1] + lead, -MOST_LEAD, MOST_LEAD);
     if (mode == BRUSH_DELAY) value[1] = glm_clamp(value[1] - lead, -MOST_LEAD, MOST_LEAD);
@@ -127,7 +141,7 @@ struct dab brush_dab(struct painting *painting, const struct paint *paint, const
         if (!(weight > 0)) continue;
         work->vertices[count] = vertex;
         for (int k = 0; k < 2; k++) work->values[count][k] = old[k];
-        change(painting->stroke, flow, weight, work->values[count]);
+        change(painting->stroke, flow, weight, &work->spent[vertex], work->values[count]);
         count++;
     }
     if (smooths) smooth(painting, figure, coordinate, radius, count, flow);

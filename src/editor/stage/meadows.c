@@ -14,6 +14,7 @@ static const double MIDDLE = -0.28, REACH = 0.62;
 static const double FARTHEST = 1.35; ///< radians that a reed is pushed where a body stands on it
 static const double STILL = 1e-3;    ///< radians and radians a period that nobody sees
 static const double ROLL = 0.7;      ///< radians that a reed lags behind one a metre up the wind
+static const float SHADOW = 0.55f;   ///< strength of one disc of it
 static const float WIDTH = 0.013f;   ///< of a reed of 1 m
 static const double DEGREE = 0.017453292519943295;
 
@@ -89,6 +90,17 @@ static void brush_all(struct meadow_view *shown, const struct core *core, const 
     }
 }
 
+/// What all reeds together keep the light from: discs so wide that they run into each other.
+static void add_shadow(struct stage_view *view, const double area[2])
+{
+    enum { ACROSS = 3, DEEP = 2 };
+    const float wide = (float)area[0] / ACROSS, deep = (float)area[1] / DEEP, radius = 0.68f * hypotf(wide, deep);
+    for (int b = 0; b < ACROSS * DEEP && view->blob_count < STAGE_MAX_BLOBS; b++)
+        view->blobs[view->blob_count++] =
+            (struct stage_blob){wide * ((float)(b % ACROSS) - 0.5f * (ACROSS - 1)),
+                                deep * ((float)(b / ACROSS) - 0.5f * (DEEP - 1)), radius, SHADOW};
+}
+
 static void pose(struct stage *stage, const struct core *core, const struct editor_world *world, int rig, int n)
 {
     const struct posing posing = stage_posing(core, world);
@@ -121,6 +133,7 @@ static void pose(struct stage *stage, const struct core *core, const struct edit
     *view = (struct stage_meadow){
         .reeds = shown->reeds, .count = count, .lag = (float)(DEGREE * lag), .gain = (float)(DEGREE * of->gain)};
     rig_bounds(&posed, view->lo, view->hi);
+    add_shadow(&stage->view, of->area);
 }
 
 static bool bounds(const struct stage *stage, const struct core *core, const struct editor_world *world, int rig,

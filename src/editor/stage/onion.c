@@ -1,15 +1,19 @@
-/// Onion skin: light proxies of the tail (an outline each) or chain (a line each) at the knots around the playhead.
+/// Onion skin: light proxies of the tail (an outline each) or chain (a line each) at the knots around the playhead; and the
+/// same at the one knot that is being edited, its ghost.
 #include "editor/core/arrange.h"
 #include "editor/core/core.h"
 #include "editor/core/knots.h"
+#include "editor/core/selection.h"
 #include "editor/stage/overlays.h"
 #include "editor/stage/rigs.h"
 #include "editor/stage/stage.h"
 #include "editor/stage/strand.h"
 #include "model/creature.h"
 #include "model/vector.h"
+#include "ui/font.h"
 #include "ui/theme.h"
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 
 enum {
@@ -22,6 +26,8 @@ enum {
 static const double FROM = 0.16,
                     TO = 0.985; ///< shares of the length: outside of the body, and where the rounded tip begins
 static const float NEAREST = 0.75f, FARTHEST = 0.22f; ///< opacity of the first and of the last skin
+static const float GHOST = 0.85f;
+static const double FADE = 0.4; ///< seconds in which a nudged knot's ghost goes
 
 int overlay_rig(const struct stage *stage, const struct core *core, const struct document *document)
 {
@@ -111,6 +117,22 @@ static int lay_out(const struct stage *stage, const struct core *core, const str
     return pose->chain.count;
 }
 
+/// Draws the rig as it is on a sample; where the end of its tip is on the screen. false where it cannot be seen.
+static bool show_skin(const struct stage *stage, struct core *core, const struct posing *posing, int rig, int sample,
+                      float width, uint32_t color, float tip[2])
+{
+    struct rig_pose pose;
+    float points[OUTLINE + ANGLES_MAX_JOINTS][2];
+    if (!rig_pose(posing, rig, sample, NULL, &pose)) return false;
+    const int length = lay_out(stage, core, &pose, points);
+    if (length == 0) return false;
+    drawlist_line(&core->list, points[0], length, width, color);
+    const float *end = points[pose.kind == RIG_TAIL ? STATIONS + TIP / 2 : length - 1];
+    tip[0] = end[0];
+    tip[1] = end[1];
+    return true;
+}
+
 void onion_show(const struct stage *stage, struct core *core, const struct editor_world *world)
 {
     const struct document *document = world->document;
@@ -121,15 +143,49 @@ void onion_show(const struct stage *stage, struct core *core, const struct edito
     uint32_t color = arrange_color(document, core->active);
     const struct posing posing = stage_posing(core, world);
     for (int i = count - 1; i >= 0; i--) {
-        struct rig_pose pose;
-        float points[OUTLINE + ANGLES_MAX_JOINTS][2];
-        if (!rig_pose(&posing, rig, samples[i], NULL, &pose)) continue;
-        const int length = lay_out(stage, core, &pose, points);
-        if (length == 0) continue;
-        float share = count > 1 ? (float)i / (float)(count - 1) : 0;
-        drawlist_line(&core->list, points[0], length, 1.25f,
-                      theme_fade(color, NEAREST + (FARTHEST - NEAREST) * share));
+        float share = count > 1 ? (float)i / (float)(count - 1) : 0, tip[2];
+        show_skin(stage, core, &posing, rig, samples[i], 1.25f,
+                  theme_fade(color, NEAREST + (FARTHEST - NEAREST) * share), tip);
     }
+}
+
+/// The knot of the active spline that is being edited: held by the pointer, or the only one that is selected, just nudged.
+static const struct knot *edited_knot(const struct core *core, const struct editor_world *world)
+{
+    const struct drag *drag = &core->drag;
+    const struct spline *spline = core_active_spline(core, world);
+    int at = -1;
+    if (spline && drag->knot && drag->kind != DRAG_NONE && drag->moved) at = spline_find_id(spline, drag->knot);
+    if (spline && drag->kind == DRAG_NONE && core->nudged_seconds > 0)
+        at = selection_single(&core->selection, spline);
+    return at >= 0 ? &spline->knots[at] : NULL;
+}
+
+void ghost_show(const struct stage *stage, struct core *core, const struct editor_world *world)
+{
+    const struct document *document = world->document;
+    const struct knot *knot = core->overlays.ghost ? edited_knot(core, world) : NULL;
+    const int rig = overlay_rig(stage, core, document);
+    if (!knot || rig < 0) return;
+    const int sample = document_sample(document, knot->frame);
+    if (fabs(sample - core->playback.position) < 0.5) return;
+    const struct posing posing = stage_posing(core, world);
+    const double left = core->drag.kind == DRAG_NONE ? fmin(core->nudged_seconds / FADE, 1) : 1;
+    const uint32_t color = theme_fade(arrange_color(document, core->active), GHOST * (float)left);
+    float tip[2];
+    if (!show_skin(stage, core, &posing, rig, sample, 1.5f, color, tip)) return;
+    char text[32];
+    snprintf(text, sizeof text, "%.4g", knot->frame);
+    drawlist_text(&core->list, roundf(tip[0] + 8), roundf(tip[1] + 4), FONT_NUMBER, THEME_TEXT_SMALL,
+                  theme_fade(theme()->text_dim, (float)left), text);
+}
+
+void stage_toggle_ghost(struct core *core)
+{
+    core->overlays.ghost = !core->overlays.ghost;
+    core_message(core, false,
+                 core->overlays.ghost ? "Ghost on: the pose at the knot that is dragged or nudged (F4)."
+                                      : "Ghost off.");
 }
 
 void stage_toggle_onion(struct core *core)

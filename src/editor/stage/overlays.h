@@ -1,4 +1,4 @@
-/// What is drawn over the stage: caption, names, onion skin, motion arc, legend.
+/// What is drawn over the stage: caption, names, onion skin, ghost, motion arc, legend.
 #ifndef EDITOR_STAGE_OVERLAYS_H
 #define EDITOR_STAGE_OVERLAYS_H
 
@@ -8,6 +8,9 @@
 int overlay_rig(const struct stage *stage, const struct core *core, const struct document *document);
 /// Onion skin (O): the outline of the tail, or the line of the chain, at the active spline's knots, those nearest to the playhead.
 void onion_show(const struct stage *stage, struct core *core, const struct editor_world *world);
+
+/// Ghost (F4): the same at the knot that is dragged, or was just nudged, where that is not the pose that is shown.
+void ghost_show(const struct stage *stage, struct core *core, const struct editor_world *world);
 
 /// Motion arc (P): where the tip of the tail or chain goes within two seconds of the playhead, with a mark at each frame.
 void trail_show(struct stage *stage, struct core *core, const struct editor_world *world);

@@ -24,6 +24,8 @@ bool stage_bone_point(const struct stage *stage, const struct core *core, int mo
 bool stage_is_moving(const struct stage *stage);
 /// Onion skin on, off.
 void stage_toggle_onion(struct core *core);
+/// Ghost pose of the edited knot on, off.
+void stage_toggle_ghost(struct core *core);
 /// The pointer moved in a drag.
 void stage_drag_move(struct stage *stage, struct core *core);
 /// What an event means to a drag that began here.

@@ -137,6 +137,7 @@ void stage_show(struct stage *stage, struct core *core, const struct editor_worl
                           THEME_TEXT_NORMAL, theme()->text_dim, text);
     }
     onion_show(stage, core, world);
+    ghost_show(stage, core, world);
     trail_show(stage, core, world);
     characters_show(stage, core, world);
     names_show(stage, core, world->document);

@@ -152,6 +152,7 @@ struct brush_work {
     float (*values)[2];
     float (*steps)[2];  ///< that smoothing is about to make
     float (*turned)[2]; ///< by what smoothing has multiplied each vertex in this frame; 1 for all others
+    float *spent;       ///< how far the running stroke has moved each vertex's phase or amplitude
 };
 
 /// The brush at work.

@@ -37,7 +37,7 @@ static void add_blobs(struct stage_view *view, const struct pose *pose)
 {
     struct shadow_blob blobs[BLOBS_OF_ONE_TAIL];
     int room = STAGE_MAX_BLOBS - view->blob_count;
-    int count = pose_blobs(pose, blobs, room < BLOBS_OF_ONE_TAIL ? room : BLOBS_OF_ONE_TAIL);
+    int count = pose_blobs(pose, view->key_from, blobs, room < BLOBS_OF_ONE_TAIL ? room : BLOBS_OF_ONE_TAIL);
     for (int i = 0; i < count; i++) {
         view->blobs[view->blob_count++] =
             (struct stage_blob){blobs[i].x, blobs[i].z, blobs[i].radius, blobs[i].strength};

@@ -12,7 +12,15 @@ struct status {
 };
 
 /// The controls at the left of the status line.
-enum control { TRANSPORT_PLAY, TRANSPORT_LOOP, TRANSPORT_SPEED, TRANSPORT_AUTO_KEY, TRANSPORT_COUNT };
+enum control {
+    TRANSPORT_PLAY,
+    TRANSPORT_LOOP,
+    TRANSPORT_SPEED,
+    TRANSPORT_AUTO_KEY,
+    TRANSPORT_UI_SCALE,
+    TRANSPORT_PRESENT,
+    TRANSPORT_COUNT
+};
 
 struct transport {
     struct status status;

@@ -45,6 +45,10 @@ static const char *hover_hint(const struct core *core, const struct document *do
         return "Drag to scrub; Shift+drag to play part of the range, Shift+click to play it all";
     case HOVER_WARNING:
         return "Click to fix; Ctrl+Z undoes it";
+    case HOVER_SHEET:
+        return "Click to open or close the dope sheet (F3)";
+    case HOVER_ROW:
+        return "Click to edit this spline; double-click to insert a knot on its curve; drag to select with a box";
     case HOVER_UNITS:
         return "Click to switch between frames and seconds (U)";
     case HOVER_JOINT:
@@ -64,6 +68,11 @@ static const char *hover_hint(const struct core *core, const struct document *do
         return "Click: faster; Shift+click: slower; right-click: real time (- and =, or the wheel)";
     case HOVER_AUTO_KEY:
         return "Whether dragging the body sets knots at the playhead, or moves the whole shot (Shift+A)";
+    case HOVER_UI_SCALE:
+        return "How large everything is. Click: larger; Shift+click: smaller; right-click: 100 % (Ctrl+Shift+=, -, "
+               "0)";
+    case HOVER_PRESENT:
+        return "Present: large type, keys as they are pressed, panels that slide away (F5); Esc leaves";
     case HOVER_LIMIT:
         return "Drag the limit; the curve stays on this side of it";
     case HOVER_POINT:
@@ -80,6 +89,20 @@ static const char *hover_hint(const struct core *core, const struct document *do
     if (document->spline_count == 0) return "Ctrl+O opens a scene.  F1 shows all keys";
     if (document_next_rig(document, RIG_TAIL, 0) < 0) return "Drag a knot.  Space plays, F1 shows all keys";
     return "Drag the fox, its tail or a knot. Space plays, F1 shows all keys";
+}
+
+const char *transport_hint(const struct core *core, const struct document *document)
+{
+    switch (core->hover.kind) {
+    case HOVER_PLAY:
+    case HOVER_LOOP:
+    case HOVER_SPEED:
+    case HOVER_UNITS:
+    case HOVER_WARNING:
+        return hover_hint(core, document);
+    default:
+        return NULL;
+    }
 }
 
 static void paint_text(struct drawlist *list, struct rect r, enum font font, uint32_t color, const char *text)

@@ -1,0 +1,272 @@
+/// Adds and removes rigs.
+#include "editor/core/rigs.h"
+#include "editor/core/arrange.h"
+#include "editor/core/core.h"
+#include "scene/reference.h"
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const double APART = 1.25; ///< from one rig's middle to the next one's, in widths
+static const double ROOM = 1.2;   ///< metres across where a width is not known
+
+/// Ends the open step, taken back where something in it failed.
+static void finish(struct core *core, const struct editor_world *world, bool done)
+{
+    if (!done) history_restart(world->history, world->document);
+    history_end(world->history);
+    core_refresh(core, world);
+    core->refit_stage = done;
+}
+
+/// Where a rig stands along x, and how wide it is.
+static double place_of(const struct editor_world *world, int rig, double *width)
+{
+    const struct rig *at = &world->document->rigs[rig];
+    const int number = document_rig_number(world->document, rig);
+    const struct figure *figure = at->kind == RIG_CHARACTER ? models_figure(world->models, number) : NULL;
+    const struct imported *imported = at->kind == RIG_MODEL ? models_imported(world->models, number) : NULL;
+    *width = ROOM;
+    if (figure) *width = (double)(figure->hi[0] - figure->lo[0]);
+    if (imported) *width = (double)(imported->gltf.hi[0] - imported->gltf.lo[0]) * at->model.scale;
+    if (at->kind == RIG_CHARACTER) return at->character.position[0];
+    if (at->kind == RIG_MODEL) return at->model.position[0];
+    return at->kind == RIG_TAIL ? at->tail.position[0].value : 0;
+}
+
+/// A free place along x, to the right of all that stands there, for something as wide.
+static double free_place(const struct editor_world *world, double wide)
+{
+    double right = -INFINITY;
+    for (int r = 0; r < world->document->rig_count; r++) {
+        const enum rig_kind kind = world->document->rigs[r].kind;
+        double width;
+        const double at = place_of(world, r, &width);
+        if (kind != RIG_CHAIN && kind != RIG_MEADOW) right = fmax(right, at + APART * (width + wide) / 2);
+    }
+    return isfinite(right) ? core_round(right, 0.01) : 0;
+}
+
+/// The active spline, or a new one with a knot at the playhead; -1 where that cannot be.
+static int spline_to_use(struct core *core, const struct editor_world *world)
+{
+    if (core_active_spline(core, world)) return core->active;
+    struct edit edit = core_edit_of(EDIT_SPLINE_ADD, -1);
+    edit.flag = true;
+    edit.knot.frame = round(core_frame(core, world->document));
+    return core_edit(core, world, &edit) ? world->document->spline_count - 1 : -1;
+}
+
+void rigs_add_tail(struct core *core, const struct editor_world *world)
+{
+    if (history_is_open(world->history)) return;
+    const double place = free_place(world, ROOM);
+    history_begin(world->history, "Add tail", 0);
+    struct edit tail = core_edit_of(EDIT_TAIL_ADD, spline_to_use(core, world));
+    tail.rig = -1;
+    bool done = tail.spline >= 0 && core_edit(core, world, &tail);
+    struct edit move = core_edit_of(EDIT_POSITION, -1);
+    move.rig = world->document->rig_count - 1;
+    move.param = param_number(place);
+    finish(core, world, done && core_edit(core, world, &move));
+    if (done) core_activate(core, world, tail.spline);
+}
+
+void rigs_add_meadow(struct core *core, const struct editor_world *world)
+{
+    if (history_is_open(world->history)) return;
+    if (document_find_rig(world->document, RIG_MEADOW, 0) >= 0) {
+        core_message(core, false, "There is a meadow already.");
+        return;
+    }
+    history_begin(world->history, "Add meadow", 0);
+    struct rig meadow = {.kind = RIG_MEADOW,
+                         .name = NULL,
+                         .meadow = {.spline = spline_to_use(core, world),
+                                    .count = 1000,
+                                    .area = {4.6, 3.2},
+                                    .height = 0.42,
+                                    .variation = 0.45,
+                                    .lag = 14,
+                                    .gain = 7}};
+    struct edit edit = core_edit_of(EDIT_RIG_ADD, -1);
+    edit.contents = &meadow;
+    finish(core, world, meadow.meadow.spline >= 0 && core_edit(core, world, &edit));
+}
+
+/// Copies of the chains on a model, on its copy, the last rig.
+static bool copy_chains(struct core *core, const struct editor_world *world, int model, const char *copy)
+{
+    const int count = world->document->rig_count;
+    bool done = true;
+    for (int r = 0; r < count && done; r++) {
+        const struct rig *rig = &world->document->rigs[r];
+        if (rig->kind != RIG_CHAIN) continue;
+        if (document_find_model(world->document, rig->chain.model, rig->chain.by_file) != model) continue;
+        struct rig chain = *rig;
+        struct edit edit = core_edit_of(EDIT_CHAIN_ADD, -1);
+        char name[256];
+        snprintf(name, sizeof name, "%s", copy);
+        chain.chain.model = name;
+        chain.pin_count = 0;
+        edit.contents = &chain;
+        done = core_edit(core, world, &edit);
+    }
+    return done;
+}
+
+void rigs_copy(struct core *core, const struct editor_world *world, int rig)
+{
+    const struct document *document = world->document;
+    double width;
+    if (rig < 0 || rig >= document->rig_count || history_is_open(world->history)) return;
+    struct rig copy = document->rigs[rig];
+    place_of(world, rig, &width);
+    const double place = free_place(world, width);
+    struct edit edit = core_edit_of(copy.kind == RIG_MODEL ? EDIT_MODEL_ADD : EDIT_RIG_ADD, -1);
+    edit.contents = &copy;
+    copy.pin_count = 0; // what is pinned drives both
+    switch (copy.kind) {
+    case RIG_TAIL:
+        edit = core_edit_of(EDIT_TAIL_ADD, core->active);
+        edit.rig = rig;
+        break;
+    case RIG_CHARACTER:
+        copy.character.position[0] = place;
+        break;
+    case RIG_MODEL:
+        copy.model.position[0] = place;
+        break;
+    case RIG_CHAIN:
+    case RIG_MEADOW:
+    case RIG_KINDS:
+        core_message(core, false,
+                     copy.kind == RIG_CHAIN ? "A chain is copied with its character, or mirrored below."
+                                            : "There is a meadow already.");
+        return;
+    }
+    history_begin(world->history, "Add one more", 0);
+    bool done = core_edit(core, world, &edit);
+    if (done && copy.kind == RIG_MODEL)
+        done = copy_chains(core, world, rig, document->rigs[document->rig_count - 1].name);
+    finish(core, world, done);
+}
+
+/// Which rigs and splines go with a rig: the chains on it; what moves nothing else.
+struct removal {
+    const struct document *document;
+    int rig;
+    bool *mine, *others; ///< by spline: named by what goes, by what stays
+};
+
+static bool goes(const struct removal *removal, int rig)
+{
+    const struct rig *other = &removal->document->rigs[rig];
+    return rig == removal->rig ||
+           (other->kind == RIG_CHAIN &&
+            document_find_model(removal->document, other->chain.model, other->chain.by_file) == removal->rig);
+}
+
+static void sort_reference(const struct reference *reference, void *context)
+{
+    struct removal *removal = context;
+    const bool stays = reference->kind == REFERENCE_TRACK || !goes(removal, reference->owner);
+    (stays ? removal->others : removal->mine)[reference->spline] = true;
+}
+
+static bool survey(struct removal *removal, const struct document *document, int rig)
+{
+    const size_t count = (size_t)document->spline_count + 1;
+    *removal = (struct removal){document, rig, calloc(count, sizeof(bool)), calloc(count, sizeof(bool))};
+    if (removal->mine && removal->others) reference_each(document, sort_reference, removal);
+    return removal->mine && removal->others;
+}
+
+static void forget(struct removal *removal)
+{
+    free(removal->mine);
+    free(removal->others);
+}
+
+int rigs_own_splines(const struct document *document, int rig, char *names, size_t size)
+{
+    struct removal removal;
+    int count = 0;
+    size_t used = 0;
+    names[0] = '\0';
+    for (int s = 0, good = survey(&removal, document, rig); good && s < document->spline_count; s++) {
+        if (!removal.mine[s] || removal.others[s]) continue;
+        const int wrote =
+            snprintf(names + used, size - used, "%s%.40s", count > 0 ? ", " : "", document->splines[s].name);
+        used = used + (size_t)wrote < size ? used + (size_t)wrote : size - 1;
+        count++;
+    }
+    forget(&removal);
+    return count;
+}
+
+/// Splines that follow a joint of what goes keep the value at the playhead.
+static bool let_go(struct core *core, const struct editor_world *world, const struct removal *removal)
+{
+    const struct document *document = world->document;
+    bool done = true;
+    for (int s = 0; s < document->spline_count && done; s++) {
+        bool follows = false;
+        for (int r = 0; r < document->rig_count; r++) follows |= goes(removal, r) && document_follows(document, s, r);
+        if (!follows) continue;
+        const double present = arrange_present(core, world, s, PARAMETER_EQUILIBRIUM);
+        const struct edit edit = core_parameter_edit(s, PARAMETER_EQUILIBRIUM, core_round(present, 1e-3));
+        done = core_edit(core, world, &edit);
+    }
+    return done;
+}
+
+static bool remove_rigs(struct core *core, const struct editor_world *world, struct removal *removal)
+{
+    struct edit edit = core_edit_of(EDIT_RIG_REMOVE, -1);
+    bool done = true;
+    for (int r = world->document->rig_count - 1; r >= 0 && done; r--) {
+        if (r == removal->rig || !goes(removal, r)) continue;
+        edit.rig = r;
+        done = core_edit(core, world, &edit);
+        if (r < removal->rig) removal->rig--;
+    }
+    edit.rig = removal->rig;
+    return done && core_edit(core, world, &edit);
+}
+
+static bool remove_splines(struct core *core, const struct editor_world *world, const struct removal *removal)
+{
+    bool done = true;
+    for (int s = world->document->spline_count - 1; s >= 0 && done; s--) {
+        if (!removal->mine[s] || removal->others[s]) continue;
+        const struct edit edit = core_edit_of(EDIT_SPLINE_REMOVE, s);
+        done = core_edit(core, world, &edit);
+    }
+    return done;
+}
+
+void rigs_remove(struct core *core, const struct editor_world *world, int rig, bool with_splines)
+{
+    struct removal removal;
+    if (rig < 0 || rig >= world->document->rig_count || history_is_open(world->history)) return;
+    history_begin(world->history, with_splines ? "Remove with splines" : "Remove", 0);
+    bool done = survey(&removal, world->document, rig) && let_go(core, world, &removal) &&
+                remove_rigs(core, world, &removal) && (!with_splines || remove_splines(core, world, &removal));
+    forget(&removal);
+    finish(core, world, done);
+    core->refit_stage = false; // the camera stays
+}
+
+void rigs_ask_remove(struct core *core, const struct editor_world *world, int rig)
+{
+    char names[64];
+    if (rig < 0 || rig >= world->document->rig_count) {
+        core_message(core, false, "There is nothing on the stage to remove.");
+    } else if (rigs_own_splines(world->document, rig, names, sizeof names) == 0) {
+        rigs_remove(core, world, rig, false);
+    } else {
+        core->ask = (struct ask){.kind = ASK_RIG, .rig = rig};
+    }
+}

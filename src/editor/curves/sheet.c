@@ -1,0 +1,243 @@
+/// The dope sheet (F3): a row a spline between the ruler and the curves, with its knots as marks that are dragged in time.
+#include "editor/core/arrange.h"
+#include "editor/core/core.h"
+#include "editor/core/knots.h"
+#include "editor/core/selection.h"
+#include "editor/curves/curves.h"
+#include "editor/curves/gestures.h"
+#include "editor/curves/show.h"
+#include "editor/curves/view.h"
+#include "ui/font.h"
+#include "ui/theme.h"
+#include <math.h>
+
+enum { ROW = 16, PAD = 3, MOST_ROWS = 6 }; ///< pixels, pixels above and below, rows; what is more is scrolled to
+
+static const float LEAST_PLOT = 90;          ///< pixels that the curves keep
+static const float REACH = 7, RADIUS = 3.5f; ///< of a mark
+static const float CROWDED = 3;              ///< pixels between marks below which one stands for several
+
+/// The splines of all rows that are shown; how many there are.
+static int list_rows(const struct core *core, const struct document *document, int first, int *splines, int most)
+{
+    int count = 0;
+    for (int s = 0; s < document->spline_count; s++) {
+        if (!arrange_shows(core, document, s)) continue;
+        if (count >= first && count - first < most) splines[count - first] = s;
+        count++;
+    }
+    return count;
+}
+
+/// Which of all rows the active spline has, or -1.
+static int active_row(const struct core *core, const struct document *document)
+{
+    int row = 0;
+    if (!arrange_shows(core, document, core->active)) return -1;
+    for (int s = 0; s < core->active; s++) row += arrange_shows(core, document, s);
+    return row;
+}
+
+void sheet_update(struct curves *curves, struct core *core, const struct document *document)
+{
+    struct sheet *sheet = &curves->sheet;
+    const float room = core->layout.curves.h - core->layout.ruler.h - LEAST_PLOT - 2 * PAD;
+    const int total = sheet->shown ? list_rows(core, document, 0, NULL, 0) : 0;
+    int rows = total < MOST_ROWS ? total : MOST_ROWS;
+    if (rows > (int)(room / ROW)) rows = (int)fmaxf(room / ROW, 0);
+    if (sheet->active != core->active_id) { // which may be out of sight
+        const int active = active_row(core, document);
+        if (active >= 0 && active < sheet->first) sheet->first = active;
+        if (active >= sheet->first + rows) sheet->first = active - rows + 1;
+        sheet->active = core->active_id;
+    }
+    if (sheet->first > total - rows) sheet->first = total - rows;
+    sheet->rows = rows;
+    sheet->total = total;
+    list_rows(core, document, sheet->first, sheet->spline, rows);
+    const float height = rows > 0 ? (float)(rows * ROW + 2 * PAD) : 0;
+    if (core->layout.sheet_height == height) return;
+    core->layout.sheet_height = height;
+    core_layout(core);
+}
+
+void curves_toggle_sheet(struct curves *curves, struct core *core)
+{
+    curves->sheet.shown = !curves->sheet.shown;
+    core_message(core, false,
+                 curves->sheet.shown ? "Dope sheet on: drag the marks in time, or a box around them (F3)."
+                                     : "Dope sheet off.");
+}
+
+/// The middle of a row.
+static float row_y(const struct core *core, int row)
+{
+    return core->layout.sheet.y + PAD + ((float)row + 0.5f) * ROW;
+}
+
+/// The spline of the row at a height, or -1.
+static int row_spline(const struct curves *curves, const struct core *core, const struct document *document, float y)
+{
+    const int row = (int)floorf((y - core->layout.sheet.y - PAD) / ROW);
+    const int at = row < 0 ? 0 : row >= curves->sheet.rows ? curves->sheet.rows - 1 : row;
+    const int spline = at >= 0 ? curves->sheet.spline[at] : -1;
+    return spline < document->spline_count ? spline : -1;
+}
+
+struct rect sheet_area(const struct core *core)
+{
+    const struct rect *sheet = &core->layout.sheet, *panel = &core->layout.curves;
+    return (struct rect){panel->x, sheet->y, panel->w, sheet->h};
+}
+
+struct rect sheet_switch(const struct core *core)
+{
+    const struct rect corner = ruler_corner(core);
+    return (struct rect){corner.x, corner.y, 13, corner.h};
+}
+
+struct hover sheet_hover(const struct curves *curves, const struct core *core, const struct document *document,
+                         float x, float y)
+{
+    const int s = row_spline(curves, core, document, y);
+    struct hover hover = {.kind = s >= 0 ? HOVER_ROW : HOVER_NONE, .spline = s};
+    float best = REACH;
+    if (s < 0 || !rect_contains(core->layout.sheet, x, y)) return hover;
+    for (int k = 0; k < document->splines[s].knot_count; k++) {
+        const struct knot *knot = &document->splines[s].knots[k];
+        const float distance = fabsf(x - curves_knot_x(curves, core, document, knot));
+        if (distance > best) continue;
+        best = distance;
+        hover = (struct hover){.kind = HOVER_KNOT, .spline = s, .knot = knot->id};
+    }
+    return hover;
+}
+
+void sheet_press_row(struct curves *curves, struct core *core, const struct editor_world *world, int spline,
+                     const struct event *event)
+{
+    const bool keeps = event->mods & (MOD_SHIFT | MOD_CTRL | MOD_ALT);
+    const bool inside = rect_contains(core->layout.sheet, event->x, event->y);
+    if (!keeps) core_activate(core, world, spline);
+    if (!inside) return;
+    if (event->clicks == 2) {
+        core_insert_on_curve(core, world, curves_frame(curves, core, event->x), drag_snaps(core, event->mods), false);
+        return;
+    }
+    box_begin(curves, core, event);
+    curves->knot_drag.in_sheet = true;
+}
+
+void sheet_take_inside(const struct curves *curves, struct core *core, const struct document *document,
+                       struct rect box)
+{
+    for (int row = 0; row < curves->sheet.rows; row++) {
+        const int s = curves->sheet.spline[row];
+        if (s >= document->spline_count) continue;
+        const float top = row_y(core, row) - ROW / 2.0f;
+        if (top + ROW <= box.y || top >= box.y + box.h) continue;
+        for (int k = 0; k < document->splines[s].knot_count; k++) {
+            const struct knot *knot = &document->splines[s].knots[k];
+            const float x = curves_knot_x(curves, core, document, knot);
+            if (x >= box.x && x < box.x + box.w)
+                selection_set(&core->selection, knot->id, curves->knot_drag.box != BOX_REMOVE);
+        }
+    }
+}
+
+bool sheet_wheel(struct curves *curves, struct core *core, const struct event *event)
+{
+    struct sheet *sheet = &curves->sheet;
+    if (!rect_contains(sheet_area(core), event->x, event->y)) return false;
+    if (event->mods || sheet->total <= sheet->rows) return false;
+    sheet->first += event->dy > 0 ? -1 : 1;
+    if (sheet->first < 0) sheet->first = 0; // its other end: sheet_update()
+    return true;
+}
+
+bool curves_mark_point(const struct curves *curves, const struct core *core, const struct document *document,
+                       int spline, int knot, float xy[2])
+{
+    for (int row = 0; row < curves->sheet.rows; row++) {
+        if (curves->sheet.spline[row] != spline) continue;
+        xy[0] = curves_knot_x(curves, core, document, &document->splines[spline].knots[knot]);
+        xy[1] = row_y(core, row);
+        return rect_contains(core->layout.sheet, xy[0], xy[1]);
+    }
+    return false;
+}
+
+static void show_marks(const struct curves *curves, struct core *core, const struct document *document, int s,
+                       float y)
+{
+    const struct spline *spline = &document->splines[s];
+    const uint32_t color = arrange_color(document, s);
+    float last_x = -INFINITY;
+    for (int k = 0; k < spline->knot_count; k++) {
+        const struct knot *knot = &spline->knots[k];
+        const float x = curves_knot_x(curves, core, document, knot);
+        const bool selected = selection_has(&core->selection, knot->id);
+        const bool hovered = core->hover.kind == HOVER_KNOT && core->hover.knot == knot->id;
+        if (x - last_x < CROWDED && !selected && !hovered) continue;
+        last_x = x;
+        knot_mark(&core->list, x, y, selected ? RADIUS + 1 : RADIUS, color, selected);
+        if (hovered) knot_ring(&core->list, x, y);
+    }
+}
+
+/// A row: its band where it is the active one, a line from the first mark to the last one, the marks, and the name behind them.
+static void show_row(const struct curves *curves, struct core *core, const struct document *document, int row)
+{
+    const int s = curves->sheet.spline[row];
+    if (s >= document->spline_count) return; // undone in this frame
+    const struct spline *spline = &document->splines[s];
+    const struct rect *sheet = &core->layout.sheet, *panel = &core->layout.curves;
+    const bool active = s == core->active, hot = core->hover.kind == HOVER_ROW && core->hover.spline == s;
+    const float y = row_y(core, row), left = sheet->x + sheet->w + 6;
+    const uint32_t color = arrange_color(document, s);
+    const struct rect band = {sheet->x, y - ROW / 2.0f, sheet->w, ROW};
+    if (active || hot) drawlist_rect(&core->list, band, theme_fade(theme()->text, active ? 0.07f : 0.035f));
+    struct rect clip = drawlist_push_clip(&core->list, *sheet);
+    if (spline->knot_count > 1) {
+        const float from = curves_knot_x(curves, core, document, &spline->knots[0]);
+        const float to = curves_knot_x(curves, core, document, &spline->knots[spline->knot_count - 1]);
+        drawlist_rect(&core->list, (struct rect){from, roundf(y) - 0.5f, to - from, 1}, theme_fade(color, 0.35f));
+    }
+    show_marks(curves, core, document, s, y);
+    drawlist_set_clip(&core->list, clip);
+    drawlist_text_fit(&core->list, left, roundf(y + 4), panel->x + panel->w - 6 - left,
+                      active ? FONT_LABEL_BOLD : FONT_LABEL, THEME_TEXT_SMALL,
+                      theme_readable(color, theme()->panel, 4.5f), spline->name);
+}
+
+/// Says that there are more rows above or below.
+static void show_more(const struct curves *curves, struct core *core)
+{
+    const struct sheet *sheet = &curves->sheet;
+    const struct rect *area = &core->layout.sheet;
+    if (sheet->total <= sheet->rows) return;
+    const float track = area->h - 2 * PAD, length = track * (float)sheet->rows / (float)sheet->total;
+    const float y = area->y + PAD + track * (float)sheet->first / (float)sheet->total;
+    drawlist_rounded(&core->list, (struct rect){area->x - 7, y, 3, length}, 1.5f, theme()->control);
+}
+
+/// A small triangle in the ruler's corner: points down while the sheet is open.
+static void show_switch(const struct curves *curves, struct core *core)
+{
+    const struct rect r = sheet_switch(core);
+    const float x = r.x + 8, y = r.y + r.h / 2, a = 3.5f;
+    const float right[] = {x - a + 1, y - a, x + a, y, x - a + 1, y + a},
+                down[] = {x - a, y - a + 1, x + a, y - a + 1, x, y + a};
+    drawlist_convex(&core->list, curves->sheet.shown ? down : right, 3,
+                    core->hover.kind == HOVER_SHEET ? theme()->text : theme()->text_dim);
+}
+
+void sheet_show(const struct curves *curves, struct core *core, const struct document *document)
+{
+    const struct rect *area = &core->layout.sheet;
+    show_switch(curves, core);
+    if (area->h <= 0) return;
+    for (int row = 0; row < curves->sheet.rows; row++) show_row(curves, core, document, row);
+    show_more(curves, core);
+    drawlist_rect(&core->list, (struct rect){area->x, area->y + area->h - 1, area->w, 1}, theme()->border);
+}

@@ -1,0 +1,229 @@
+/// What an animator feels of the active spline: how fast it swings, how soon it settles, how late and how far it bends what it moves.
+#include "editor/core/bones.h"
+#include "editor/core/core.h"
+#include "editor/core/knots.h"
+#include "editor/inspector/inspection.h"
+#include "editor/inspector/settle.h"
+#include "scene/order.h"
+#include <math.h>
+#include <stdio.h>
+
+static const double TAU = 6.283185307179586;
+
+/// A way to swing, one click each.
+static const struct preset {
+    const char *name, *label, *hint;
+    double frequency, damping;
+    double lag; ///< degrees from the first joint to the last
+} presets[] = {
+    {"preset.cat", "Cat", "A cat's tail: slow, soon at rest, the tip far behind", 0.8, 0.22, 170},
+    {"preset.whip", "Whip", "A whip: quick, a wave that runs to the tip", 1.8, 0.12, 260},
+    {"preset.heavy", "Heavy", "Something heavy: slow and soon at rest", 0.5, 0.35, 90},
+    {"preset.jelly", "Jelly", "Jelly: quick, wobbles for long", 3, 0.06, 60},
+    {"preset.antenna", "Antenna", "An antenna: very quick, stiff, rings for long", 5, 0.03, 20},
+};
+
+enum { PRESETS = sizeof presets / sizeof presets[0], PRESET_GAP = 4 };
+
+static bool set_parameter(struct inspection *in, enum parameter parameter, double value)
+{
+    const struct edit edit = core_parameter_edit(in->core->active, parameter, value);
+    return core_edit(in->core, in->world, &edit);
+}
+
+/// The lag of the channel by which the spline bends: the same for each joint.
+static bool set_lag(struct inspection *in, double whole)
+{
+    const struct channel *channel = inspector_felt_channel(in);
+    if (!channel) return true;
+    const int joints = bones_joints(in->world, in->inspector->rig);
+    const double lag = joints > 1 ? core_round(whole / (joints - 1), 0.1) : 0;
+    const struct angles angles = {.value = {lag}};
+    const struct edit edit = inspector_angles_edit(in, &angle_row_lag, &angles);
+    return core_edit(in->core, in->world, &edit);
+}
+
+static void apply(struct inspection *in, const struct preset *preset)
+{
+    const struct spline *spline = core_active_spline(in->core, in->world);
+    const double omega = TAU * preset->frequency;
+    if (history_is_open(in->world->history)) return;
+    history_begin(in->world->history, "Choose a feel", 0);
+    bool good = spline_mode(spline) != WIGGLY_CUBIC || set_parameter(in, PARAMETER_MODE, WIGGLY_COMPLEX);
+    if (spline->spring_friction && spline_mode(spline) == WIGGLY_REAL) {
+        good = good && set_parameter(in, PARAMETER_SPRING, round(omega * omega * 100) / 100) &&
+               set_parameter(in, PARAMETER_FRICTION, round(2 * preset->damping * omega * 1000) / 1000);
+    } else {
+        good = good && set_parameter(in, PARAMETER_FREQUENCY, preset->frequency) &&
+               set_parameter(in, PARAMETER_DAMPING, preset->damping);
+    }
+    good = good && set_lag(in, preset->lag);
+    if (!good) history_restart(in->world->history, in->document);
+    history_end(in->world->history);
+    core_refresh(in->core, in->world);
+}
+
+/// Buttons side by side, each as wide as its word asks for.
+static void build_presets(struct inspection *in)
+{
+    const struct rect row = ui_row(in->ui, UI_ROW);
+    float widths[PRESETS], words = 0;
+    for (int i = 0; i < PRESETS; i++) words += widths[i] = ui_text_width(presets[i].label);
+    const float spare = (row.w - words - (PRESETS - 1) * PRESET_GAP) / PRESETS;
+    float x = row.x;
+    for (int i = 0; i < PRESETS; i++) {
+        const float right = x + widths[i] + spare;
+        const struct rect r = {roundf(x), row.y + 1, roundf(right) - roundf(x), row.h - 2};
+        ui_hint(in->ui, r, presets[i].hint);
+        if (ui_button(in->ui, r, presets[i].name, presets[i].label, false)) apply(in, &presets[i]);
+        x = right + PRESET_GAP;
+    }
+}
+
+/// The parameter by which settling is set, and what it has to be for a damping ratio.
+static enum parameter settling_parameter(const struct spline *spline, double damping, double *value)
+{
+    const bool is_spring = spline->spring_friction && spline_mode(spline) == WIGGLY_REAL;
+    *value = is_spring ? 2 * damping * sqrt(spline->parameter[PARAMETER_SPRING].value) : damping;
+    return is_spring ? PARAMETER_FRICTION : PARAMETER_DAMPING;
+}
+
+/// When the spline would settle with another damping; INFINITY: never, or too late.
+static double settles(const struct spline *spline, double damping, double step)
+{
+    struct spline other = *spline;
+    double value;
+    const enum parameter parameter = settling_parameter(spline, damping, &value);
+    other.parameter[parameter].value = value;
+    const struct settling settling = settle_alone(&other, step);
+    return settling.kind == SETTLE_ALONE ? settling.seconds : INFINITY;
+}
+
+/// The damping, at most critical, with which it settles in that time: the later, the less, so bisection finds it.
+static double damping_for(const struct spline *spline, double seconds, double step)
+{
+    double low = 0, high = 1;
+    for (int i = 0; i < 40; i++) {
+        const double middle = (low + high) / 2;
+        if (settles(spline, middle, step) > seconds) {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    return high;
+}
+
+/// The time to settle as a field: to set it is to set the damping.
+static void build_settle(struct inspection *in)
+{
+    const struct spline *spline = core_active_spline(in->core, in->world);
+    const double step = document_step(in->document);
+    const struct settling alone = settle_alone(spline, step);
+    const bool never = alone.kind == SETTLE_NEVER || alone.kind == SETTLE_LATE;
+    if (alone.kind != SETTLE_ALONE && !never) return;
+    const struct ui_number number = {.name = "settle",
+                                     .label = "settles in",
+                                     .unit = "s",
+                                     .hint =
+                                         "Time until 5 % of a swing is left; changes the damping, not the frequency",
+                                     .shown = never ? "never" : NULL,
+                                     .lowest = ceil(settles(spline, 1, step) * 100) / 100,
+                                     .highest = SETTLE_LIMIT,
+                                     .fallback = NAN,
+                                     .step = 0.05,
+                                     .decimals = 2};
+    struct rect r = ui_row(in->ui, UI_ROW);
+    double seconds = never ? SETTLE_LIMIT : alone.seconds, value = 0;
+    r.w -= UI_ROW + 2; // as the rows above, which have a button there
+    const enum ui_change change = ui_value(in->ui, r, &number, &seconds);
+    if (change == UI_NONE) return;
+    inspector_take_back(in, change);
+    const double damping = change == UI_DROP || change == UI_CANCEL ? 0 : damping_for(spline, seconds, step);
+    const enum parameter parameter = settling_parameter(spline, damping, &value);
+    const struct edit edit = core_parameter_edit(in->core->active, parameter, round(value * 1e4) / 1e4);
+    inspector_change(in, change, "Set settle time", number.name, &edit);
+}
+
+/// What that means to this motion, in one plain sentence.
+static void build_sentence(struct inspection *in)
+{
+    const struct spline *spline = core_active_spline(in->core, in->world);
+    const struct evaluation *evaluation = in->world->evaluation;
+    const int active = in->core->active;
+    char text[128];
+    struct settling settling = settle_alone(spline, document_step(in->document));
+    if (evaluation && active < evaluation->count && spline->knot_count > 0) {
+        const int last = document_sample(in->document, spline->knots[spline->knot_count - 1].frame);
+        settling = settle_measure(spline, &evaluation->curves[active], last);
+    }
+    const double frames = settling.seconds * in->document->fps;
+    switch (settling.kind) {
+    case SETTLE_UNKNOWN:
+        return;
+    case SETTLE_NEVER:
+        snprintf(text, sizeof text, "Rings forever.");
+        break;
+    case SETTLE_CUBIC:
+        snprintf(text, sizeof text, "%s",
+                 spline_mode(spline) == WIGGLY_CUBIC ? "A cubic: smooth through the knots, with no swing."
+                                                     : "Frequency 0 makes it a plain cubic.");
+        break;
+    case SETTLE_LATE:
+        snprintf(text, sizeof text, "Takes more than %d s to settle to 5 %%.", SETTLE_LIMIT);
+        break;
+    case SETTLE_ALONE:
+        snprintf(text, sizeof text, "Settles to 5 %% in %.0f frames.", frames);
+        break;
+    case SETTLE_SEEN:
+        snprintf(text, sizeof text, "Settles to 5 %% %.0f frames after the last knot.", ceil(frames - 1e-6));
+        break;
+    case SETTLE_LEFT:
+        snprintf(text, sizeof text, "At the end %.0f %% of the swing is left.", 100 * settling.left);
+        break;
+    }
+    ui_paragraph(in->ui, text, theme()->text_dim);
+}
+
+static void build_warnings(struct inspection *in)
+{
+    const struct spline *spline = core_active_spline(in->core, in->world);
+    const struct evaluation *evaluation = in->world->evaluation;
+    const int active = in->core->active;
+    if (evaluation && active < evaluation->count && evaluation->status[active] != WIGGLY_OK)
+        ui_paragraph(in->ui, wiggly_status_text(evaluation->status[active]), theme()->warning);
+    const struct param *p = spline->parameter;
+    const double beta = spline_mode(spline) == WIGGLY_COMPLEX ? p[PARAMETER_BANDWIDTH].value : 0;
+    const double highest = p[PARAMETER_FREQUENCY].value * (1 + beta);
+    const double limit = in->document->fps * in->document->substeps / 2;
+    const bool poles =
+        spline_mode(spline) != WIGGLY_CUBIC && !spline->spring_friction && p[PARAMETER_FREQUENCY].track < 0;
+    if (poles && highest > limit) {
+        char text[128];
+        snprintf(text, sizeof text, "Faster than half the sample rate (%g Hz): the swing aliases.", limit);
+        ui_paragraph(in->ui, text, theme()->warning);
+    }
+}
+
+static void build_find(struct inspection *in)
+{
+    const struct rect row = ui_row(in->ui, UI_ROW), r = {row.x, row.y + 1, row.w, row.h - 2};
+    ui_hint(in->ui, r, "Frequency and damping that explain the knots best (Shift+F); again: the runner-up");
+    if (ui_button(in->ui, r, "frequency.find", "Find the frequency", false))
+        core_find_frequency(in->core, in->world, 0);
+}
+
+void inspector_feel(struct inspection *in)
+{
+    static const enum parameter pace[] = {PARAMETER_FREQUENCY, PARAMETER_DAMPING, PARAMETER_SPRING,
+                                          PARAMETER_FRICTION};
+    build_presets(in);
+    for (size_t i = 0; i < sizeof pace / sizeof pace[0]; i++) inspector_parameter(in, pace[i]);
+    build_settle(in);
+    build_sentence(in);
+    if (inspector_felt_channel(in)) inspector_angles(in, &angle_row_lag, &inspector_felt_channel(in)->lag);
+    if (inspector_felt_channel(in)) inspector_angles(in, &angle_row_gain, &inspector_felt_channel(in)->gain);
+    inspector_felt_drive(in);
+    if (spline_mode(core_active_spline(in->core, in->world)) != WIGGLY_CUBIC) build_find(in);
+    build_warnings(in);
+}

@@ -1,0 +1,120 @@
+/// The memory of a group of splines that share pins: one block, and a solver a spline.
+#include "spline/pin_group.h"
+#include <limits.h>
+#include <stdlib.h>
+
+/// A block handed out piece by piece; without one it is only measured.
+typedef struct arena {
+    unsigned char *block;
+    size_t used;
+    bool too_large;
+} arena;
+
+static void *take(arena *a, size_t count, size_t size)
+{
+    enum { ALIGNMENT = 16 };
+    size_t bytes, end;
+    if (__builtin_mul_overflow(count, size, &bytes) || __builtin_add_overflow(bytes, ALIGNMENT - 1, &bytes) ||
+        __builtin_add_overflow(a->used, bytes & ~(size_t)(ALIGNMENT - 1), &end)) {
+        a->too_large = true;
+        return NULL;
+    }
+    void *at = a->block ? a->block + a->used : NULL;
+    a->used = end;
+    return at;
+}
+
+static void lay_out_spline(pulled *of, arena *a, int knots, int places, int pressed)
+{
+    const size_t count = (size_t)places;
+    pulled p = {.pulls = {.sample = take(a, count, sizeof(int)), .pull = take(a, count, sizeof(cplx))},
+                .place = take(a, count, sizeof(pull_place)),
+                .nodes = take(a, (size_t)knots + count + 1, sizeof(pull_node)),
+                .e = take(a, (size_t)pressed, sizeof(double))};
+    if (of) *of = p;
+}
+
+static void lay_out_bounds(struct wiggly_group *at, arena *a, size_t rows, size_t samples)
+{
+    at->want = take(a, rows, sizeof(double));
+    at->one_sided = (one_sided){.factor = take(a, rows, rows * sizeof(double)),
+                                .now = take(a, rows, sizeof(double)),
+                                .active = take(a, rows, sizeof(int)),
+                                .is_active = take(a, rows, sizeof(bool)),
+                                .is_lost = take(a, rows, sizeof(bool))};
+    at->tail_rows = take(a, rows, sizeof(tail_row));
+    at->e = take(a, samples, sizeof(double));
+    at->pressed = take(a, samples, sizeof(double));
+}
+
+static struct wiggly_group *lay_out(arena *a, const struct wiggly_group *capacity, int samples)
+{
+    const int splines = capacity->splines, pins = capacity->pins, knots = capacity->knots;
+    const size_t s = (size_t)splines, p = (size_t)capacity->places;
+    const size_t rows = 3 * (size_t)pins + (size_t)capacity->bounds;
+    struct wiggly_group measured = *capacity;
+    struct wiggly_group *g = take(a, 1, sizeof *g), *at = g ? g : &measured;
+    *at = measured;
+    at->pulled = take(a, s, sizeof(pulled));
+    for (int i = 0; i < splines; i++)
+        lay_out_spline(at->pulled ? &at->pulled[i] : NULL, a, knots, capacity->places,
+                       capacity->bounds > 0 ? samples : 0);
+    at->rows.row = take(a, rows, sizeof(pin_row));
+    at->rows.on = take(a, rows, 2 * s * sizeof(double));
+    at->rows.scratch = take(a, pin_rows_scratch(splines, pins > 0 ? pins : 1), sizeof(double));
+    at->order = take(a, (size_t)pins, sizeof(int));
+    at->pull_of = take(a, rows, sizeof(int));
+    at->compliance = take(a, 2 * p, 2 * p * sizeof(double));
+    at->alone = take(a, 2 * p, sizeof(double));
+    at->columns = take(a, 8 * p, sizeof(double));
+    at->answer = take(a, 2 * p, rows * sizeof(double));
+    at->system = take(a, rows, rows * sizeof(double));
+    at->soft = take(a, rows, sizeof(double));
+    at->lambda = take(a, rows, sizeof(double));
+    at->miss = take(a, rows, sizeof(double));
+    if (capacity->bounds > 0) lay_out_bounds(at, a, rows, (size_t)samples);
+    return g;
+}
+
+wiggly_status wiggly_group_create(int samples, int knots, int splines, int pins, wiggly_group **group)
+{
+    return wiggly_group_create_bounded(samples, knots, splines, pins, 0, group);
+}
+
+wiggly_status wiggly_group_create_bounded(int samples, int knots, int splines, int pins, int bounds,
+                                          wiggly_group **group)
+{
+    if (!group || samples < 1 || knots < 0 || splines < 1 || pins < 0 || bounds < 0 || pins > WIGGLY_MOST_PINS ||
+        bounds > WIGGLY_MOST_PINS || knots > INT_MAX - pins - bounds)
+        return WIGGLY_ERROR_ARGUMENT;
+    const struct wiggly_group capacity = {.splines = splines,
+                                          .pins = pins,
+                                          .knots = knots,
+                                          .bounds = bounds,
+                                          .places = pins + (bounds < samples ? bounds : samples)};
+    arena size = {0};
+    lay_out(&size, &capacity, samples);
+    if (size.too_large) return WIGGLY_ERROR_MEMORY;
+    arena a = {.block = calloc(1, size.used)};
+    if (!a.block) return WIGGLY_ERROR_MEMORY;
+    *group = lay_out(&a, &capacity, samples);
+    for (int s = 0; s < splines; s++) {
+        wiggly_status status = wiggly_create(samples, knots + capacity.places, &(*group)->pulled[s].solver);
+        if (status == WIGGLY_OK) continue;
+        wiggly_group_destroy(*group);
+        *group = NULL;
+        return status;
+    }
+    return WIGGLY_OK;
+}
+
+void wiggly_group_destroy(wiggly_group *g)
+{
+    for (int s = 0; g && s < g->splines; s++) wiggly_destroy(g->pulled[s].solver);
+    free(g);
+}
+
+void wiggly_group_set_method(wiggly_group *g, wiggly_method method)
+{
+    for (int s = 0; s < g->splines; s++) wiggly_set_method(g->pulled[s].solver, method);
+}

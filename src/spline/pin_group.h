@@ -1,0 +1,27 @@
+/// What a group of splines that share pins works with. Internal to src/spline.
+#ifndef SPLINE_PIN_GROUP_H
+#define SPLINE_PIN_GROUP_H
+
+#include "spline/one_sided.h"
+#include "spline/pin_rows.h"
+
+struct wiggly_group {
+    int splines, pins, knots, bounds, places; ///< capacity; places: samples of one spline that are pulled
+    pulled *pulled;
+    pin_rows rows;
+    int *order;         ///< of pins, by sample
+    int *pull_of;       ///< of each row, the pull on the spline in hand, or -1
+    double *compliance; ///< Z of the spline in hand, 2P × 2P, and what it does without pulls
+    double *alone;
+    double *columns; ///< scratch of its nodes
+    double *answer;  ///< Z R of the spline in hand, 2P × rows
+    double *system;  ///< S, the lower triangle, then its factor
+    double *soft;    ///< φ S_max of each row
+    double *lambda, *miss;
+    double *want;        ///< S λ + miss: only bounds need it, and all below
+    one_sided one_sided; ///< room for its work
+    tail_row *tail_rows; ///< of the spline in hand
+    double *e, *pressed; ///< scratch of its tail
+};
+
+#endif

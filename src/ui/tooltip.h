@@ -1,0 +1,28 @@
+/// A sentence on what the pointer rests on, or what has the keyboard, near it.
+#ifndef UI_TOOLTIP_H
+#define UI_TOOLTIP_H
+
+#include "ui/drawlist.h"
+
+/// All zero is none.
+struct tooltip {
+    const char *text; ///< that is waited for or shown; NULL: none
+    struct rect at;   ///< what it must not cover
+    float x, y;       ///< of the pointer
+    double rest;      ///< seconds that it has rested there
+    bool spent;       ///< a press has put it away, until the text changes
+};
+
+/// Says what there is to explain: where the pointer is, what must stay free. A moving pointer starts the wait anew until it is shown.
+void tooltip_offer(struct tooltip *tooltip, const char *text, float x, float y, struct rect at);
+/// A press, a key or the wheel puts it away.
+void tooltip_dismiss(struct tooltip *tooltip);
+void tooltip_advance(struct tooltip *tooltip, double dt);
+bool tooltip_is_shown(const struct tooltip *tooltip);
+/// Whether it is about to be shown: frames must go on.
+bool tooltip_waits(const struct tooltip *tooltip);
+/// Where it is in a window: below what it is about or above it, never outside the window.
+struct rect tooltip_box(const struct tooltip *tooltip, struct rect window);
+void tooltip_show(const struct tooltip *tooltip, struct rect window, struct drawlist *list);
+
+#endif

@@ -1,0 +1,358 @@
+/// Every limit that a scene, an edit or the library names: what lies one below it and at it is taken, what lies one above it is refused
+/// with a sentence that says the limit. The limits stand here as numbers, as the manual has them.
+#include "near.h"
+
+#include "folder.h"
+#include "world.h"
+
+#include "base/file.h"
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { TEXT = 1 << 20 };
+
+#define FRAMES "\"wiggly\": 1, \"frames\": [0, 48]"
+#define SPLINE "\"splines\": [{\"name\": \"s\", \"knots\": [{\"frame\": 0, \"value\": 1}]}]"
+#define RIGS "{" FRAMES ", " SPLINE ", \"rigs\": ["
+
+static struct document *parse(const char *text, size_t size, struct error *error)
+{
+    *error = (struct error){0};
+    return scene_parse("bounds.json", text, size, NULL, error);
+}
+
+static void takes(const char *text)
+{
+    struct error error;
+    struct document *document = parse(text, strlen(text), &error);
+    if (!document) fail_msg("%s\nin %.200s", error.text, text);
+    document_destroy(document);
+}
+
+static void refuses(const char *text, const char *fragment)
+{
+    struct error error;
+    struct document *document = parse(text, strlen(text), &error);
+    if (document) fail_msg("taken: %.200s", text);
+    if (!strstr(error.text, fragment)) fail_msg("\"%s\" does not say \"%s\"", error.text, fragment);
+}
+
+/// A number with a least and a most that are taken; `format` is the scene with it.
+static const struct number {
+    const char *format;
+    long least, most;
+    const char *says;
+} numbers[] = {
+    {"{" FRAMES ", \"substeps\": %ld}", 1, 1024, "from 1 to 1024"},
+    {"{" FRAMES ", \"fps\": %ld}", 1, 100000, "above 0 and at most 100000"},
+    {"{\"wiggly\": 1, \"frames\": [%ld, -999999990]}", -1000000000, -999999990, NULL},
+    {"{\"wiggly\": 1, \"frames\": [999999990, %ld]}", 999999990, 1000000000, NULL},
+    {"{\"wiggly\": 1, \"frames\": [1, %ld]}", 1, 10000000, NULL},
+    {"{\"wiggly\": 1, \"substeps\": 10, \"frames\": [0, %ld]}", 0, 999999, NULL},
+    {"{\"wiggly\": 1, \"frames\": [1, %ld], \"splines\": [{\"name\": \"a\"}, {\"name\": \"b\"}]}", 1, 5000000, NULL},
+    {RIGS "{\"type\": \"tail\", \"name\": \"t\", \"spline\": \"s\", \"joints\": %ld}]}", 1, 256, "from 1 to 256"},
+    {RIGS "{\"type\": \"meadow\", \"name\": \"m\", \"spline\": \"s\", \"count\": %ld}]}", 1, 4096, "from 1 to 4096"},
+    {RIGS "{\"type\": \"meadow\", \"name\": \"m\", \"spline\": \"s\", \"seed\": %ld}]}", 0, 999999,
+     "from 0 to 999999"},
+    {"{" FRAMES ", \"splines\": [{\"name\": \"s\", \"variation\": {\"amount\": 0.5, \"seed\": %ld}}]}", 0, 999999,
+     "from 0 to 999999"},
+};
+
+static void numbers_of_a_scene(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++) {
+        const struct number *n = &numbers[i];
+        const long good[] = {n->least, n->least + (n->least < n->most), n->most - (n->most > n->least), n->most};
+        char text[512];
+        for (int k = 0; k < 4; k++) {
+            snprintf(text, sizeof text, n->format, good[k]);
+            takes(text);
+        }
+        snprintf(text, sizeof text, n->format, n->least - 1);
+        refuses(text, n->says ? n->says : "expected");
+        snprintf(text, sizeof text, n->format, n->most + 1);
+        refuses(text, n->says ? n->says : "expected");
+    }
+}
+
+/// How many of something: `head`, elements with "%d" for their number (twice), `tail`.
+static const struct count {
+    const char *head, *element, *tail;
+    int least, most;
+    const char *says;
+} counts[] = {
+    {"{" FRAMES ", \"rigs\": [", "{\"type\": \"tail\", \"name\": \"t%d\"}", "]}", 0, 1024, "at most 1024 elements"},
+    {RIGS "{\"type\": \"tail\", \"name\": \"t\", \"channels\": [", "{\"spline\": \"s\", \"axis\": \"side\"}", "]}]}",
+     0, 64, "at most 64 elements"},
+    {RIGS "{\"type\": \"tail\", \"name\": \"t\", \"joints\": 4, \"spline\": \"s\", \"lag\": {\"ramp\": [",
+     "[0.%04d, 1]", "]}}]}", 2, 32, "from 2 to 32"},
+    {RIGS "{\"type\": \"model\", \"name\": \"m\", \"model\": \"m.glb\"}, {\"type\": \"chain\", \"name\": \"c\", "
+          "\"model\": \"m\", \"from\": \"a\", \"to\": \"b\", \"channels\": [{\"spline\": \"s\", \"axis\": \"side\", "
+          "\"lag\": [",
+     "1", "]}]}]}", 1, 256, "from 1 to 256"},
+    {RIGS "{\"type\": \"character\", \"model\": \"m.glb\", \"coordinates\": [",
+     "{\"name\": \"c%d\", \"spline\": \"s\"}", "]}]}", 0, 4, "at most 4 elements"},
+    {"{\"wiggly\": 1, \"frames\": [0, 2000], \"splines\": [{\"name\": \"s\", \"frequency\": 1}], \"rigs\": "
+     "[{\"type\": \"tail\", \"name\": \"t\", \"spline\": \"s\", \"pins\": [",
+     "{\"frame\": %d, \"joint\": 3, \"to\": [0, 0, 0]}", "]}]}", 0, 1024, "at most 1024"},
+    {"{" FRAMES ", \"unknown\": ", "[", "", 0, 63, "at most 64 levels"}, // the scene itself is the first
+};
+
+static void print_count(char *text, const struct count *c, int count)
+{
+    char *at = text + sprintf(text, "%s", c->head);
+    const bool nested = c->element[0] == '[' && !c->element[1];
+    for (int i = 0; i < count; i++) {
+        if (i > 0 && !nested) *at++ = ',';
+        at += snprintf(at, 128, c->element, i); // NOLINT: a format of the table above
+    }
+    for (int i = 0; nested && i < count; i++) *at++ = ']';
+    if (nested && count == 0) *at++ = '0';
+    sprintf(at, "%s%s", c->tail, nested ? "}" : "");
+}
+
+static void counts_of_a_scene(void **state)
+{
+    (void)state;
+    char *text = malloc(TEXT);
+    assert_non_null(text);
+    for (size_t i = 0; i < sizeof counts / sizeof *counts; i++) {
+        const struct count *c = &counts[i];
+        const int good[] = {c->least, c->least + 1, c->most - 1, c->most};
+        for (int k = 0; k < 4; k++) {
+            print_count(text, c, good[k]);
+            takes(text);
+        }
+        if (c->least > 0) {
+            print_count(text, c, c->least - 1);
+            refuses(text, c->says);
+        }
+        print_count(text, c, c->most + 1);
+        refuses(text, c->says);
+    }
+    free(text);
+}
+
+/// Pins count over all rigs together.
+static void pins_of_two_rigs(void **state)
+{
+    (void)state;
+    char *text = malloc(TEXT);
+    assert_non_null(text);
+    for (int most = 1023; most <= 1025; most++) {
+        char *at = text + sprintf(text, "{\"wiggly\": 1, \"frames\": [0, 600], \"splines\": [{\"name\": \"s\", "
+                                        "\"frequency\": 1}], \"rigs\": [");
+        for (int rig = 0, i = 0; rig < 2; rig++) {
+            at += sprintf(at, "%s{\"type\": \"tail\", \"name\": \"t%d\", \"spline\": \"s\", \"pins\": [",
+                          rig ? "," : "", rig);
+            for (int first = i; i < (rig ? most : 512); i++)
+                at += sprintf(at, "%s{\"frame\": %d, \"joint\": 3, \"to\": [0, 0, 0]}", i > first ? "," : "",
+                              i - first);
+            at += sprintf(at, "]}");
+        }
+        sprintf(at, "]}");
+        if (most <= 1024) takes(text);
+        if (most > 1024) refuses(text, "at most 1024 pins over all rigs");
+    }
+    free(text);
+}
+
+/// Each parameter of a spline: its own least and most number, and the next number beyond.
+static void parameters_of_a_spline(void **state)
+{
+    (void)state;
+    static const char scene[] = "{" FRAMES ", \"splines\": [{\"name\": \"s\", \"%s\": %.17g}]}";
+    int tried = 0;
+    for (int p = 0; p < PARAMETER_COUNT; p++) {
+        const struct parameter_row *row = &parameter_rows[p];
+        char text[256];
+        if (row->kind == PARAMETER_CHOICE || row->kind == PARAMETER_LIMIT || row->pair == PAIR_SPRING) continue;
+        if (p == PARAMETER_VARIATION || p == PARAMETER_SEED) continue; // members of an object
+        const double ends[] = {row->minimum, parameter_maximum((enum parameter)p, WIGGLY_COMPLEX)};
+        for (int k = 0; k < 2; k++) {
+            if (!isfinite(ends[k])) continue;
+            snprintf(text, sizeof text, scene, row->name, ends[k]);
+            takes(text);
+            snprintf(text, sizeof text, scene, row->name, nextafter(ends[k], k ? INFINITY : -INFINITY));
+            refuses(text, row->name);
+            tried++;
+        }
+    }
+    assert_true(tried >= 8);
+}
+
+/// A million knots: loaded, one taken away and put back, and no other. In a file one more is refused.
+static void knots_of_a_scene(void **state)
+{
+    (void)state;
+    enum { MOST = 1000000 };
+    struct error error;
+    char *text = malloc((size_t)40 * MOST);
+    assert_non_null(text);
+    for (int count = MOST; count <= MOST + 1; count++) {
+        char *at = text + sprintf(text, "{\"wiggly\": 1, \"frames\": [0, 1000100], \"splines\": [{\"name\": \"s\", "
+                                        "\"knots\": [{\"frame\": 0, \"value\": 0}");
+        for (int k = 1; k < count; k++) at += sprintf(at, ",{\"frame\":%d,\"value\":0}", k);
+        at += sprintf(at, "]}]}");
+        struct world world = {.document = parse(text, (size_t)(at - text), &error)};
+        if (count > MOST) {
+            assert_null(world.document);
+            assert_non_null(strstr(error.text, "at most 1000000"));
+            continue;
+        }
+        if (!world.document) fail_msg("%s", error.text);
+        world.history = history_create();
+        const unsigned first = world.document->splines[0].knots[5].id;
+        assert_false(world_step(&world, edit_insert(0, MOST + 50, 1)));
+        assert_string_equal(world.error.text, "the limit of 1000000 knots is reached");
+        world_must(&world, (struct edit){.kind = EDIT_KNOT_REMOVE, .knot.id = first});
+        world_must(&world, edit_insert(0, MOST + 50, 1));
+        assert_false(world_step(&world, edit_insert(0, 5, 1)));
+        history_destroy(world.history);
+        document_destroy(world.document);
+    }
+    free(text);
+}
+
+/// The same limits, where an edit would go beyond.
+static void limits_of_edits(void **state)
+{
+    (void)state;
+    static const struct {
+        struct edit edit;
+        const char *says; ///< NULL: taken
+    } cases[] = {
+        {{.kind = EDIT_FPS, .number = 99999}, NULL},
+        {{.kind = EDIT_FPS, .number = 100000}, NULL},
+        {{.kind = EDIT_FPS, .number = 100001}, "frames per second must be above 0 and at most 100000"},
+        {{.kind = EDIT_FPS, .number = 0}, "frames per second must be above 0 and at most 100000"},
+        {{.kind = EDIT_FPS, .number = NAN}, "frames per second must be above 0 and at most 100000"},
+        {{.kind = EDIT_SUBSTEPS, .substeps = 1}, NULL},
+        {{.kind = EDIT_SUBSTEPS, .substeps = 1023}, NULL},
+        {{.kind = EDIT_SUBSTEPS, .substeps = 1024}, NULL},
+        {{.kind = EDIT_SUBSTEPS, .substeps = 1025}, "substeps must be from 1 to 1024"},
+        {{.kind = EDIT_SUBSTEPS, .substeps = 0}, "substeps must be from 1 to 1024"},
+        {{.kind = EDIT_RANGE, .first = 0, .last = 3333332}, NULL}, // three splines
+        {{.kind = EDIT_RANGE, .first = 0, .last = 3333333}, "the limit is 10000000 samples over all splines"},
+        {{.kind = EDIT_RANGE, .first = 0, .last = 1000000000}, "the limit is 10000000 samples over all splines"},
+        {{.kind = EDIT_RANGE, .first = 0, .last = 1000000001}, "frames must be from -1000000000 to 1000000000"},
+        {{.kind = EDIT_RANGE, .first = -1000000001, .last = 0}, "frames must be from -1000000000 to 1000000000"},
+        {{.kind = EDIT_RANGE, .first = 0, .last = 0x7fffffff}, "frames must be from -1000000000 to 1000000000"},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        struct world world;
+        world_open(&world);
+        world_must(&world, (struct edit){.kind = EDIT_SUBSTEPS, .substeps = 2});
+        world_must(&world, (struct edit){.kind = EDIT_SUBSTEPS, .substeps = 1});
+        const bool same = cases[i].edit.kind == EDIT_SUBSTEPS && cases[i].edit.substeps == 1;
+        if (cases[i].says)
+            assert_refused(&world, cases[i].edit, cases[i].says);
+        else if (!same)
+            world_must(&world, cases[i].edit);
+        world_close(&world);
+    }
+}
+
+static void rigs_of_an_edit(void **state)
+{
+    (void)state;
+    struct world world;
+    world_open(&world);
+    while (world.document->rig_count < 1024) {
+        world_must(&world, (struct edit){.kind = EDIT_TAIL_ADD, .rig = world.document->rig_count - 1, .spline = -1});
+    }
+    assert_false(world_step(&world, (struct edit){.kind = EDIT_TAIL_ADD, .rig = 0, .spline = -1}));
+    assert_string_equal(world.error.text, "there are 1024 rigs, and no more fit");
+    char *text = world_print(&world);
+    takes(text);
+    free(text);
+    world_close(&world);
+}
+
+/// A name has no limit: a long one comes back from its file byte by byte.
+static void names_of_any_length(void **state)
+{
+    (void)state;
+    static const int lengths[] = {1, 63, 64, 65, 255, 256, 257, 1023, 1024, 1025, 100000};
+    char *text = malloc(TEXT), *name = malloc(TEXT);
+    assert_true(text && name);
+    for (size_t i = 0; i < sizeof lengths / sizeof *lengths; i++) {
+        struct error error;
+        memset(name, 'n', (size_t)lengths[i]);
+        name[lengths[i]] = '\0';
+        sprintf(text,
+                "{" FRAMES ", \"splines\": [{\"name\": \"%s\"}], \"rigs\": [{\"type\": \"tail\", \"name\": \"%s\"}]}",
+                name, name);
+        struct document *document = parse(text, strlen(text), &error);
+        if (!document) fail_msg("%s", error.text);
+        size_t size, again_size;
+        char *printed = scene_print(document, &size);
+        document_destroy(document);
+        document = parse(printed, size, &error);
+        assert_non_null(document);
+        assert_string_equal(document->splines[0].name, name);
+        char *again = scene_print(document, &again_size);
+        assert_string_equal(again, printed);
+        document_destroy(document);
+        free(printed);
+        free(again);
+    }
+    free(text);
+    free(name);
+}
+
+/// A file of exactly as many bytes as are read, one less, one more; sparse where it is large.
+static void bytes_of_a_file(void **state)
+{
+    (void)state;
+    struct error error = {0};
+    char *data;
+    size_t size;
+    for (size_t limit = 9; limit <= 11; limit++) {
+        assert_true(file_write_atomic(folder_path("ten"), "0123456789", 10, &error));
+        const bool read = file_read(folder_path("ten"), limit, &data, &size, &error);
+        assert_int_equal(read, limit >= 10);
+        if (read) {
+            assert_int_equal(size, 10);
+            assert_string_equal(data, "0123456789");
+            free(data);
+        }
+    }
+}
+
+static void pins_and_bounds_of_a_group(void **state)
+{
+    (void)state;
+    wiggly_group *group;
+    for (int pins = 4095; pins <= 4097; pins++) {
+        const wiggly_status expected = pins <= WIGGLY_MOST_PINS ? WIGGLY_OK : WIGGLY_ERROR_ARGUMENT;
+        group = NULL;
+        assert_int_equal(wiggly_group_create(2, 1, 1, pins, &group), expected);
+        if (expected == WIGGLY_OK) wiggly_group_destroy(group);
+    }
+    for (int one = -1; one <= 1; one++) {
+        wiggly_solver *solver = NULL;
+        const wiggly_status status = wiggly_create(one, 1, &solver);
+        assert_int_equal(status, one >= 1 ? WIGGLY_OK : WIGGLY_ERROR_ARGUMENT);
+        if (status == WIGGLY_OK) wiggly_destroy(solver);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(numbers_of_a_scene),
+        cmocka_unit_test(counts_of_a_scene),
+        cmocka_unit_test(pins_of_two_rigs),
+        cmocka_unit_test(parameters_of_a_spline),
+        cmocka_unit_test(knots_of_a_scene),
+        cmocka_unit_test(limits_of_edits),
+        cmocka_unit_test(rigs_of_an_edit),
+        cmocka_unit_test(names_of_any_length),
+        cmocka_unit_test_setup_teardown(bytes_of_a_file, folder_make, folder_remove),
+        cmocka_unit_test(pins_and_bounds_of_a_group),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,144 @@
+/// The demo: all of it can be played, it begins anew by itself, and the first touch ends it.
+#include "blind.h"
+#include "editor/dialogs/state.h"
+#include "editor/state.h"
+#include "inside.h"
+#include "scene/load.h"
+#include <string.h>
+
+static void demo_open(struct blind *b)
+{
+    struct error error = {0};
+    blind_open(b, NULL);
+    b->options.demo = true;
+    b->app.demo = (struct demo){.on = true, .theme = theme_in_use()};
+    b->app.replay = demo_replay(&error);
+    if (!b->app.replay) fail_msg("%s", error.text);
+}
+
+static const char *caption(struct blind *b) { return b->app.table.editor->dialogs->caption; }
+
+static bool shows(struct blind *b, const char *text)
+{
+    const struct drawlist *list = editor_drawlist(b->app.table.editor);
+    for (int i = 0; i < list->count; i++) {
+        const struct draw_command *c = &list->commands[i];
+        if (c->kind == DRAW_TEXT && strcmp(list->text + c->first, text) == 0) return true;
+    }
+    return false;
+}
+
+static uint64_t scene_now(const struct blind *b) { return scene_hash(b->app.table.document); }
+
+/// Every target is there (else a frame fails), every caption fits, every kind of thing is shown, and the second round is the first.
+static void test_all_of_it_plays_and_begins_anew(void **state)
+{
+    (void)state;
+    struct blind b;
+    bool seen[RIG_KINDS] = {false}, light = false, presents = false, records = false;
+    demo_open(&b);
+    const uint64_t first = scene_now(&b);
+    const long length = replay_get_header(b.app.replay)->frames;
+    uint64_t changed = first;
+    int edits = 0; ///< captions under which the scene became another
+    char last[160] = "";
+    assert_true(length > 100 * 60 && length < 140 * 60);
+    for (long frame = 0; frame < length; frame++) {
+        blind_frame(&b);
+        const struct document *document = b.app.table.document;
+        for (int r = 0; r < document->rig_count; r++) seen[document->rigs[r].kind] = true;
+        light |= theme_in_use() == THEME_LIGHT;
+        presents |= editor_is_presenting(b.app.table.editor);
+        records |= strstr(b.app.table.editor->core.message.text, "knots recorded") != NULL;
+        if (strcmp(last, caption(&b)) == 0) continue;
+        snprintf(last, sizeof last, "%s", caption(&b));
+        if (!shows(&b, last)) fail_msg("the caption “%s” does not fit", last);
+        edits += scene_now(&b) != changed;
+        changed = scene_now(&b);
+    }
+    for (int kind = 0; kind < RIG_KINDS; kind++) assert_true(seen[kind]);
+    assert_true(light && presents && records);
+    assert_true(edits >= 10);
+    assert_true(scene_now(&b) != first);
+    blind_frame(&b);
+    assert_int_equal(b.app.demo.frame, 0);
+    assert_int_equal(scene_now(&b), first);
+    assert_int_equal(theme_in_use(), THEME_DARK);
+    assert_true(b.app.demo.on);
+    blind_close(&b);
+}
+
+static void plays_until(const struct event *event, bool stops)
+{
+    struct blind b;
+    demo_open(&b);
+    const uint64_t first = scene_now(&b);
+    for (int i = 0; i < 9 * 60; i++) blind_frame(&b); // in the middle of a drag
+    assert_int_equal(b.app.table.editor->core.drag.kind, DRAG_BODY);
+    blind_send(&b, *event);
+    blind_frame(&b);
+    assert_int_equal(b.app.demo.on, !stops);
+    if (stops) {
+        assert_int_equal(scene_now(&b), first);
+        assert_true(history_is_saved(b.app.table.history));
+        assert_string_equal(caption(&b), "");
+        assert_int_equal(b.app.table.editor->core.drag.kind, DRAG_NONE);
+        blind_frame(&b);
+        assert_null(b.app.replay);
+    }
+    blind_close(&b);
+}
+
+static void test_the_first_touch_ends_it_with_the_start_scene(void **state)
+{
+    (void)state;
+    plays_until(&(struct event){.kind = EVENT_KEY, .key = 'V', .action = ACTION_PRESS}, true);
+    plays_until(&(struct event){.kind = EVENT_BUTTON, .action = ACTION_PRESS, .x = 300, .y = 200}, true);
+    plays_until(&(struct event){.kind = EVENT_WHEEL, .dy = 1, .x = 300, .y = 200}, true);
+}
+
+static void test_a_pointer_that_passes_does_not(void **state)
+{
+    (void)state;
+    plays_until(&(struct event){.kind = EVENT_POINTER, .x = 300, .y = 200}, false);
+    plays_until(&(struct event){.kind = EVENT_SIZE, .x = 1600, .y = 900, .scale = 1}, false);
+}
+
+/// A slow display shows fewer pictures of the same demo.
+static void test_it_takes_its_time_whatever_the_display(void **state)
+{
+    (void)state;
+    struct blind b;
+    struct error error = {0};
+    demo_open(&b);
+    for (int i = 0; i < 144 * 3; i++) assert_true(demo_next(&b.app, 1.0 / 144, &error));
+    assert_int_equal(b.app.demo.frame, 180);
+    for (int i = 0; i < 20 * 3; i++) assert_true(demo_next(&b.app, 1.0 / 20, &error));
+    assert_int_equal(b.app.demo.frame, 360);
+    blind_close(&b);
+}
+
+/// The window's close button loses nothing, and asks nothing.
+static void test_the_window_closes_at_once(void **state)
+{
+    (void)state;
+    struct blind b;
+    demo_open(&b);
+    for (int i = 0; i < 9 * 60; i++) blind_frame(&b);
+    event_queue_push(&b.app.platform->queue, &(struct event){.kind = EVENT_CLOSE});
+    app_frame(&b.app);
+    assert_true(b.app.quit);
+    blind_close(&b);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_all_of_it_plays_and_begins_anew),
+        cmocka_unit_test(test_the_first_touch_ends_it_with_the_start_scene),
+        cmocka_unit_test(test_a_pointer_that_passes_does_not),
+        cmocka_unit_test(test_it_takes_its_time_whatever_the_display),
+        cmocka_unit_test(test_the_window_closes_at_once),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,221 @@
+/// What an animator feels first: presets, time to settle, what stays in its place, and a sentence on every control near the pointer.
+#include "inside.h"
+#include "panel_session.h"
+#include <math.h>
+
+static const char tail_scene[] =
+    "{\"wiggly\": 1, \"frames\": [0, 96], \"splines\": [" PANEL_SPLINES "],"
+    "\"rigs\": [{\"type\": \"tail\", \"name\": \"tail\", \"joints\": 3, \"rest\": [4, -2, 1], \"channels\": ["
+    "{\"spline\": \"sway\", \"axis\": \"side\", \"lag\": 6.5, \"gain\": {\"ramp\": [[0, 3], [1, 9]]}},"
+    "{\"spline\": \"lift\", \"axis\": \"up\", \"lag\": 5, \"gain\": [1, 2, 3]}]}]}";
+
+static const struct param *of(const struct session *s, enum parameter which)
+{
+    return &s->document->splines[s->editor->core.active].parameter[which];
+}
+
+static void test_a_preset_is_one_step(void **state)
+{
+    (void)state;
+    struct session s;
+    panel_open(&s, tail_scene, 1280, 720);
+    char *before = session_saved(&s);
+    panel_click(&s, "preset.whip");
+    assert_near(of(&s, PARAMETER_FREQUENCY)->value, 1.8, 0);
+    assert_near(of(&s, PARAMETER_DAMPING)->value, 0.12, 0);
+    assert_near(document_tail(s.document, 0)->channels[0].lag.value[0], 130, 0); // 260° over two joints
+    assert_near(document_tail(s.document, 0)->channels[1].lag.value[0], 5, 0);
+    assert_one_step(&s, before);
+    session_key(&s, 'Z', MOD_CTRL);
+    panel_click(&s, "spline.pace"); // a cubic begins to swing; it bends nothing
+    panel_click(&s, "preset.antenna");
+    assert_int_equal(spline_mode(&s.document->splines[1]), WIGGLY_COMPLEX);
+    assert_near(of(&s, PARAMETER_FREQUENCY)->value, 5, 0);
+    assert_near(document_tail(s.document, 0)->channels[0].lag.value[0], 6.5, 0);
+    free(before);
+    session_close(&s);
+}
+
+/// An exponential's envelope falls to 5 % after ln 20 / (2π f ζ).
+static void test_the_time_to_settle_is_set(void **state)
+{
+    (void)state;
+    struct session s;
+    const double tau = 2 * acos(-1.0), ln20 = log(20);
+    panel_open(&s, tail_scene, 1280, 720);
+    char *before = session_saved(&s);
+    panel_enter(&s, "settle", "2");
+    assert_near(of(&s, PARAMETER_FREQUENCY)->value, 1, 0);
+    assert_near(of(&s, PARAMETER_DAMPING)->value, ln20 / (tau * 2), 1e-4);
+    assert_one_step(&s, before);
+    panel_enter(&s, "settle", "0.01"); // sooner than critical damping
+    assert_true(s.editor->core.message.is_error);
+    assert_non_null(strstr(s.editor->core.message.text, "settles in: expected 0.48"));
+    session_key(&s, KEY_ESCAPE, 0);
+    panel_press(&s, "settle", 1);
+    session_drag(&s, 20, 0, 4); // a second later
+    panel_release(&s);
+    assert_near(of(&s, PARAMETER_DAMPING)->value, ln20 / (tau * 3), 2e-3);
+    panel_click(&s, "mode.real");
+    panel_enter(&s, "settle", "1.5");
+    const double damping = of(&s, PARAMETER_DAMPING)->value;
+    assert_true(damping > 0.2 && damping < 0.4);
+    free(before);
+    session_close(&s);
+}
+
+static float place_of(struct session *s, const char *name)
+{
+    float x, y;
+    assert_true(inspector_target(s->editor->inspector, &s->editor->core, &s->world, name, &x, &y));
+    return y;
+}
+
+static void test_selecting_knots_moves_nothing(void **state)
+{
+    (void)state;
+    struct session s;
+    panel_open(&s, tail_scene, 1280, 1600);
+    const float before = place_of(&s, "mode.real");
+    session_click(&s, "knot(sway,1)");
+    assert_near((double)place_of(&s, "mode.real"), (double)before, 0);
+    session_key(&s, 'T', 0);
+    assert_near((double)place_of(&s, "mode.real"), (double)before, 0);
+    session_key(&s, 'A', MOD_CTRL);
+    assert_near((double)place_of(&s, "mode.real"), (double)before, 0);
+    session_close(&s);
+}
+
+static void wait(struct session *s, int frames)
+{
+    for (int i = 0; i < frames; i++) session_frame(s);
+}
+
+/// It comes after half a second of rest, beside the pointer and inside the window, and goes with a press.
+static void test_a_tooltip_is_near_the_pointer(void **state)
+{
+    (void)state;
+    static const char *const names[] = {"frequency", "preset.cat", "look.cubic"};
+    struct session s;
+    panel_open(&s, tail_scene, 960, 600);
+    const struct rect window = s.editor->core.layout.window;
+    const struct tooltip *tooltip = &s.editor->tooltip;
+    for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
+        float x, y;
+        assert_true(inspector_target(s.editor->inspector, &s.editor->core, &s.world, names[i], &x, &y));
+        session_move(&s, x, y);
+        session_frame(&s);
+        assert_false(tooltip_is_shown(tooltip));
+        assert_true(editor_wants_frames(s.editor));
+        wait(&s, 20);
+        session_move(&s, x + 2, y); // not at rest yet
+        wait(&s, 20);
+        assert_false(tooltip_is_shown(tooltip));
+        wait(&s, 20);
+        assert_true(tooltip_is_shown(tooltip));
+        const struct rect box = tooltip_box(tooltip, window);
+        assert_false(rect_contains(box, s.x, s.y));
+        assert_true(fabsf(box.y + box.h / 2 - s.y) < 80 && box.x <= s.x + 20);
+        assert_true(box.x >= 0 && box.y >= 0 && box.x + box.w <= window.w && box.y + box.h <= window.h);
+    }
+    session_press(&s, BUTTON_MIDDLE, 1);
+    session_frame(&s);
+    assert_false(tooltip_is_shown(tooltip));
+    session_release(&s, BUTTON_MIDDLE);
+    session_move(&s, 100, 100);
+    wait(&s, 40);
+    assert_false(tooltip_is_shown(tooltip));
+    session_key(&s, KEY_TAB, 0); // the first section's header has the keyboard
+    wait(&s, 40);
+    assert_true(tooltip_is_shown(tooltip));
+    assert_true(tooltip_box(tooltip, window).x > window.w - 280);
+    session_close(&s);
+}
+
+/// Points at each control that Tab could reach, in every section.
+static void assert_all_explained(struct session *s)
+{
+    static const char *const sections[] = {"feel",   "knot",      "splines",   "spline",   "rigs",
+                                           "model",  "tail",      "character", "advanced", "poles",
+                                           "limits", "variation", "scene",     "history",  "pins"};
+    struct ui *ui = &s->editor->inspector->ui;
+    for (size_t i = 0; i < sizeof sections / sizeof sections[0]; i++) {
+        char name[32];
+        snprintf(name, sizeof name, "section.%s", sections[i]);
+        inspector_unfold(s->editor->inspector, name);
+    }
+    session_frame(s);
+    struct ui_stop stops[UI_MAX_FOCUS];
+    const int count = ui->stop_count;
+    assert_true(count > 40 && count < UI_MAX_FOCUS);
+    memcpy(stops, ui->stop, sizeof stops);
+    for (int i = 0; i < count; i++) {
+        const struct rect *r = &stops[i].rect;
+        session_move(s, r->x + r->w / 2, r->y + r->h / 2);
+        session_frame(s);
+        if (!inspector_hint(s->editor->inspector))
+            fail_msg("the control at %g, %g, %g × %g has no tooltip", (double)r->x, (double)r->y, (double)r->w,
+                     (double)r->h);
+    }
+}
+
+static void test_every_control_of_a_tail_explains_itself(void **state)
+{
+    (void)state;
+    struct session s;
+    panel_open(&s, tail_scene, 1280, 3200);
+    session_click(&s, "knot(sway,1)");
+    session_key(&s, 'T', 0);
+    assert_all_explained(&s);
+    panel_click(&s, "mode.real");
+    panel_click(&s, "spring_friction");
+    assert_all_explained(&s);
+    panel_click(&s, "spline.lift");
+    assert_all_explained(&s);
+    session_close(&s);
+}
+
+static void open_file(struct session *s, const char *scene)
+{
+    struct models *models = panel_open_models(s, scene);
+    assert_non_null(models);
+    editor_resize(s->editor, 1280, 3200, 1);
+    wait(s, 2);
+}
+
+static void test_every_control_of_characters_explains_itself(void **state)
+{
+    (void)state;
+    struct session s;
+    open_file(
+        &s,
+        "{\"frames\": [0, 48], \"splines\": [{\"name\": \"s\", \"frequency\": 1, \"knots\": [{\"frame\": 0, "
+        "\"value\": 1}]}], \"rigs\": ["
+        "{\"type\": \"character\", \"model\": \"assets/models/creature.glb\", \"coordinates\": "
+        "[{\"name\": \"up\", \"spline\": \"s\"}], \"pins\": [{\"frame\": 4, \"vertex\": 9, \"to\": [0, 1, 0]}]}]}");
+    session_key(&s, 'K', 0);
+    assert_all_explained(&s);
+    session_close(&s);
+    open_file(&s,
+              "{\"frames\": [0, 48], \"splines\": [{\"name\": \"s\", \"frequency\": 1, \"knots\": [{\"frame\": 0, "
+              "\"value\": 1}]}], \"rigs\": ["
+              "{\"type\": \"model\", \"name\": \"dog\", \"model\": \"assets/models/dog.glb\"}, {\"type\": \"chain\", "
+              "\"name\": \"ear\", \"model\": \"dog\", \"from\": \"ear_1_L\", \"to\": \"ear_2_L\", \"channels\": "
+              "[{\"spline\": \"s\"}]}]}");
+    session_key(&s, 'J', 0);
+    assert_all_explained(&s);
+    session_close(&s);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_a_preset_is_one_step),
+        cmocka_unit_test(test_the_time_to_settle_is_set),
+        cmocka_unit_test(test_selecting_knots_moves_nothing),
+        cmocka_unit_test(test_a_tooltip_is_near_the_pointer),
+        cmocka_unit_test(test_every_control_of_a_tail_explains_itself),
+        cmocka_unit_test(test_every_control_of_characters_explains_itself),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

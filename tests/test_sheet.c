@@ -1,0 +1,153 @@
+/// The dope sheet: rows of marks that share the ruler's time, dragged, boxed, scrolled, by mouse and by key.
+#include "editor/core/picked.h"
+#include "inside.h"
+#include "panel_session.h"
+
+static const char TWO[] =
+    "{\"wiggly\": 1, \"frames\": [0, 96], \"splines\": [{\"name\": \"sway\", \"frequency\": 1,"
+    "\"damping\": 0.1, \"knots\": [{\"frame\": 10, \"value\": 0}, {\"frame\": 20, \"value\": 1},"
+    "{\"frame\": 60, \"value\": 0}]},"
+    "{\"name\": \"up\", \"mode\": \"cubic\", \"knots\": [{\"frame\": 20, \"value\": 0.5},"
+    "{\"frame\": 40, \"value\": -0.5}]}]}";
+
+static const struct knot *knot(const struct session *s, int spline, int k)
+{
+    return &s->document->splines[spline].knots[k];
+}
+
+static int count(const struct session *s) { return picked_count(&s->editor->core, s->document); }
+
+static float frames(const struct session *s, double count)
+{
+    return (float)(count * (double)(curves_x(s->editor->curves, &s->editor->core, 1) -
+                                    curves_x(s->editor->curves, &s->editor->core, 0)));
+}
+
+static void open_sheet(struct session *s, const char *scene)
+{
+    session_open(s, scene);
+    session_key(s, KEY_F3, 0);
+}
+
+static void test_it_takes_its_room_from_the_curves(void **state)
+{
+    (void)state;
+    struct session s;
+    session_open(&s, TWO);
+    const struct layout *layout = &s.editor->core.layout;
+    const struct rect plot = layout->plot;
+    assert_near(layout->sheet.h, 0, 0);
+    session_key(&s, KEY_F3, 0);
+    assert_true(layout->sheet.h > 20);
+    assert_near(layout->plot.h, plot.h - layout->sheet.h, 0.01);
+    assert_near(layout->sheet.y, layout->ruler.y + layout->ruler.h, 0.01);
+    assert_near(layout->sheet.x, plot.x, 0); // marks are under their frames on the ruler
+    assert_near(layout->sheet.w, plot.w, 0);
+    session_move(&s, 6, layout->ruler.y + 10); // the triangle
+    session_press(&s, BUTTON_LEFT, 1);
+    session_release(&s, BUTTON_LEFT);
+    assert_near(layout->plot.h, plot.h, 0);
+    session_close(&s);
+}
+
+static void test_marks_are_dragged_in_time_alone(void **state)
+{
+    (void)state;
+    struct session s;
+    open_sheet(&s, TWO);
+    char *original = session_saved(&s);
+    session_pull(&s, "mark(up,1)", frames(&s, 7), 40, 4);
+    session_release(&s, BUTTON_LEFT);
+    assert_int_equal(s.editor->core.active, 1);
+    assert_near(knot(&s, 1, 1)->frame, 47, 0);
+    assert_near(knot(&s, 1, 1)->value, -0.5, 0);
+    assert_one_step(&s, original);
+    free(original);
+    session_close(&s);
+}
+
+static void test_a_box_takes_the_marks_of_its_rows(void **state)
+{
+    (void)state;
+    struct session s;
+    open_sheet(&s, TWO);
+    session_point(&s, "mark(sway,1)");
+    session_move(&s, s.x - frames(&s, 3), s.y);
+    session_press(&s, BUTTON_LEFT, 1);
+    session_drag(&s, frames(&s, 6), 2, 2);
+    assert_int_equal(count(&s), 1);
+    session_drag(&s, 0, 14, 2); // into the next row
+    assert_int_equal(count(&s), 2);
+    session_release(&s, BUTTON_LEFT);
+    char *original = session_saved(&s);
+    session_pull(&s, "mark(sway,1)", frames(&s, 5), 0, 3);
+    session_release(&s, BUTTON_LEFT);
+    assert_near(knot(&s, 0, 1)->frame, 25, 0);
+    assert_near(knot(&s, 1, 0)->frame, 25, 0);
+    assert_near(knot(&s, 0, 1)->value, 1, 0);
+    assert_one_step(&s, original);
+    free(original);
+    session_close(&s);
+}
+
+static void test_rows_choose_and_insert(void **state)
+{
+    (void)state;
+    struct session s;
+    open_sheet(&s, TWO);
+    session_point(&s, "mark(up,1)");
+    session_move(&s, s.x + frames(&s, 10), s.y);
+    session_press(&s, BUTTON_LEFT, 1);
+    session_release(&s, BUTTON_LEFT);
+    assert_int_equal(s.editor->core.active, 1);
+    const wiggly_value there = evaluation_at(s.world.evaluation, 1, 50);
+    session_press(&s, BUTTON_LEFT, 2);
+    session_release(&s, BUTTON_LEFT);
+    assert_int_equal(s.document->splines[1].knot_count, 3);
+    assert_near(knot(&s, 1, 2)->frame, 50, 0);
+    assert_near(knot(&s, 1, 2)->value, there.y + there.re, 1e-6);
+    session_close(&s);
+}
+
+/// Ten rows are more than it shows: the wheel scrolls, and the active spline's row comes into sight by itself.
+static void test_rows_scroll(void **state)
+{
+    (void)state;
+    char scene[2048] = "{\"wiggly\": 1, \"frames\": [0, 96], \"splines\": [";
+    for (int i = 0; i < 10; i++) {
+        size_t length = strlen(scene);
+        snprintf(scene + length, sizeof scene - length,
+                 "%s{\"name\": \"s%d\", \"frequency\": 1, \"knots\": [{\"frame\": %d, \"value\": 0}]}", i ? ", " : "",
+                 i, 10 + i);
+    }
+    strcat(scene, "]}");
+    struct session s;
+    struct error error;
+    float x, y;
+    open_sheet(&s, scene);
+    session_point(&s, "mark(s0,0)");
+    assert_false(editor_target(s.editor, &s.world, "mark(s9,0)", &x, &y, &error));
+    session_wheel(&s, -1);
+    session_wheel(&s, -1);
+    session_frame(&s);
+    assert_false(editor_target(s.editor, &s.world, "mark(s0,0)", &x, &y, &error));
+    session_key(&s, KEY_PAGE_UP, 0); // round to the last one
+    session_frame(&s);
+    session_point(&s, "mark(s9,0)");
+    selection_set(&s.editor->core.hidden, s.document->splines[9].id, true);
+    session_frame(&s);
+    assert_false(editor_target(s.editor, &s.world, "mark(s9,0)", &x, &y, &error));
+    session_close(&s);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_it_takes_its_room_from_the_curves),
+        cmocka_unit_test(test_marks_are_dragged_in_time_alone),
+        cmocka_unit_test(test_a_box_takes_the_marks_of_its_rows),
+        cmocka_unit_test(test_rows_choose_and_insert),
+        cmocka_unit_test(test_rows_scroll),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
