@@ -9,16 +9,14 @@
 
 static enum region region_of(const struct mesh *mesh, const uint32_t corners[3])
 {
-    float lo[3], hi[3];
+    float lo[3] = {INFINITY, INFINITY, INFINITY}, hi[3] = {-INFINITY, -INFINITY, -INFINITY};
     for (int c = 0; c < 3; c++) {
         const struct vertex *vertex = &mesh->vertices[corners[c]];
         float place[3];
         if (vertex->bend > 0.0f) return REGION_COAT;
         creature_into_head(vertex->position, place);
-        for (int k = 0; k < 3; k++) {
-            lo[k] = c > 0 ? fminf(lo[k], place[k]) : place[k];
-            hi[k] = c > 0 ? fmaxf(hi[k], place[k]) : place[k];
-        }
+        glm_vec3_minv(lo, place, lo);
+        glm_vec3_maxv(hi, place, hi);
     }
     for (int k = 0; k < 3; k++) {
         if (lo[k] > creature_face_hi[k] || hi[k] < creature_face_lo[k]) return REGION_COAT;

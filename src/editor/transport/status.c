@@ -34,7 +34,7 @@ static const char *hover_hint(const struct core *core, const struct document *do
     if (core->pick.use != BONE_SELECTED) return picks[core->pick.use];
     switch (core->hover.kind) {
     case HOVER_KNOT:
-        return "Drag to move (X, Y: one axis, R: later knots too, Shift: fine, Ctrl: between frames)";
+        return "Drag it (X, Y: one axis, R: later ones too, Shift: fine, Ctrl: off frames)";
     case HOVER_SLOPE:
         return "Drag to turn the slope, pull to make it firmer; T removes it";
     case HOVER_CURVE:
