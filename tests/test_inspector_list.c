@@ -285,7 +285,7 @@ static void a_range_has_an_end(void **state)
 {
     (void)state;
     struct session f;
-    panel_open(&f, scene, 1280, 720);
+    panel_open(&f, scene, 1280, 1600);
     panel_click(&f, "section.scene");
     panel_enter(&f, "scene.substeps", "4");
     const int longest = (SCENE_MAX_SAMPLES / f.document->spline_count - 1) / 4;
