@@ -255,7 +255,8 @@ static void test_a_chain_is_edited_in_the_inspector(void **state)
     assert_near(rig->chain.turn, 30, 0);
     assert_near(rig->chain.channels[0].gain.value[0], 11, 0);
     assert_string_equal(rig->name, "brush");
-    panel_click(&s, "chain.delete");
+    panel_click(&s, "rig.delete");
+    session_key(&s, 'K', 0); // its spline stays
     assert_int_equal(s.document->rig_count, 1);
     for (int step = 0; step < 6; step++) session_key(&s, 'Z', MOD_CTRL);
     assert_saved(&s, before);
@@ -298,7 +299,7 @@ static void test_a_gain_becomes_a_ramp_whose_points_move(void **state)
     assert_int_equal(gain_of_tail(&s)->count, 2);
     session_key(&s, KEY_DELETE, 0);
     assert_int_equal(gain_of_tail(&s)->count, 2); // a ramp needs them
-    panel_click(&s, "gain.each");
+    panel_click(&s, "gain.ramp"); // lit: back to one
     assert_int_equal(gain_of_tail(&s)->form, ANGLES_ONE);
     for (int step = 0; step < 6; step++) session_key(&s, 'Z', MOD_CTRL);
     assert_saved(&s, before);
@@ -332,7 +333,7 @@ static void test_a_tail_has_no_twin(void **state)
     (void)state;
     struct session s;
     open_beast(&s, TAIL);
-    assert_true(panel_shows(&s, "chain.delete"));
+    assert_true(panel_shows(&s, "rig.delete"));
     assert_false(panel_shows(&s, "chain.twin"));
     session_close(&s);
 }

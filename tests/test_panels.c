@@ -99,7 +99,7 @@ static void check_status(struct session *f)
         editor_message(f->editor, true, messages[m]);
         show(f);
         transport_show(f->editor->transport, &f->editor->core, &f->world, NULL);
-        assert_int_equal(assert_texts_apart(&f->editor->core.list, 0, f->editor->core.layout.status), 7);
+        assert_int_equal(assert_texts_apart(&f->editor->core.list, 0, f->editor->core.layout.status), 8);
     }
 }
 

@@ -18,7 +18,7 @@ static double value(const struct session *f, enum parameter which)
 
 static void open_poles(struct session *f, int spline)
 {
-    panel_open(f, scene, 1280, 720);
+    panel_open(f, scene, 1280, 1400);
     core_activate(&f->editor->core, &f->world, spline);
     panel_click(f, "section.poles");
     session_frame(f);

@@ -71,7 +71,7 @@ printf 'no' >"$scratch/tiny.npy"
 expect 0 "a painted map of softness" "$WIGGLY" simulate "$scratch/box.obj" --soft "$scratch/map.npy" $quick -o "$scratch/soft.npy"
 # shellcheck disable=SC2086
 {
-    refused 1 "bright.obj:1: expected a colour from 0 to 1, got '1e+30'" "$scratch/bright.obj" $o
+    refused 1 "bright.obj:1: expected a colour from 0 to 1, got 1e+30" "$scratch/bright.obj" $o
     refused 1 "short.npy: expected 8 numbers, got a file that ends before" "$scratch/box.obj" --soft "$scratch/short.npy" $o
     refused 1 "long.npy: expected an array of 8 numbers, one a vertex" "$scratch/box.obj" --soft "$scratch/long.npy" $o
     refused 1 "huge.npy: expected" "$scratch/box.obj" --soft "$scratch/huge.npy" $o

@@ -218,6 +218,7 @@ void editor_pose_alone(struct editor *editor, const struct editor_world *world, 
                        float height)
 {
     editor->core.layout.stage = (struct rect){0, 0, width, height};
+    editor->core.plain = true;
     editor->core.playback.position = core_position(world->document, frame);
     editor_pose(editor, world);
 }

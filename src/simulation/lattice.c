@@ -84,7 +84,7 @@ static bool fit_volume(struct tiling *best, const struct solid *solid, double la
         double tried = coarse_enough(&solid->shape, *cell * exp(-away / 3));
         if (!tiling_create(&tiling, solid, tried, layer)) return false;
         double now = log(swelling(&tiling, volume));
-        if (!(fabs(now) < progress * fabs(away))) { // as where parts overlap: their volume counts twice
+        if (!(fabs(now) < progress * fabs(away))) {
             tiling_free(&tiling);
             break;
         }
@@ -226,7 +226,9 @@ static bool lattice_of(struct lattice *lattice, const struct surface *surface, c
 {
     struct tiling tiling;
     bool fitted = fit(&tiling, solid, target, layer, &lattice->cell);
-    if (fitted && tiling.kept > 0 && !solid->open) fitted = fit_volume(&tiling, solid, layer, &lattice->cell);
+    // Where parts overlap, the mesh' volume counts that twice.
+    if (fitted && tiling.kept > 0 && !solid->open && !tiling.voxels.overlaps)
+        fitted = fit_volume(&tiling, solid, layer, &lattice->cell);
     if (fitted && tiling.kept == 0) {
         tiling_free(&tiling);
         return fail(error, ERROR_INPUT, "%s: the mesh is too thin for a lattice of %d tetrahedra", name, target);

@@ -138,6 +138,7 @@ static void fill_closed(struct voxels *voxels, const struct crossings *list)
     for (size_t i = 0; i + 1 < list->count; i++) {
         const struct crossing *here = &list->items[i], *next = here + 1;
         winding += here->turn;
+        voxels->overlaps |= abs(winding) > 1 && next->column == here->column && next->z > here->z;
         if (next->column != here->column) {
             winding = 0;
         } else if (winding != 0) {

@@ -12,6 +12,7 @@ struct voxels {
     int size[3];
     double origin[3], spacing; ///< m
     uint8_t *inside;           ///< 1 where the centre is inside
+    bool overlaps;             ///< parts of a closed solid lie in each other
 };
 
 /// Fills `inside` for the given grid, which must hold the solid: where the winding number is not 0 or, of an open surface, above a half.

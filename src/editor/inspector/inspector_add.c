@@ -21,7 +21,7 @@ struct choice {
 struct menu {
     struct choice choices[MAX_ITEMS];
     struct ui_item items[MAX_ITEMS];
-    char names[MAX_COPIES][16], labels[MAX_COPIES][LABEL];
+    char names[MAX_COPIES][24], labels[MAX_COPIES][LABEL];
     int count;
 };
 

@@ -64,7 +64,8 @@ void stage_fit(struct stage *stage, const struct core *core, const struct editor
     if (!any) return;
     for (int k = 0; k < 2; k++) stage->view.middle[k] = 0.5f * (lo[2 * k] + hi[2 * k]);
     const struct rect place = core->layout.stage;
-    camera_fit(&stage->camera, lo, hi, place.w / place.h, caption_height(place, world->document) / place.h);
+    const float caption = core->plain ? 0 : caption_height(place, world->document);
+    camera_fit(&stage->camera, lo, hi, place.w / place.h, caption / place.h);
 }
 
 static uint64_t view_hash(const struct stage_view *view)
