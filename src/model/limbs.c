@@ -143,9 +143,9 @@ void limbs_hang(struct vertex *vertex)
     const int side = in_head.x < 0.0f;
     const bool on_ear = in_head.y > 0.0f && root > 0.0f;
     if (on_ear && tip > 0.0f && root == 1.0f) {
-        hang(vertex, LIMB_EAR + side, LIMB_EAR_TIP + side, tip);
+        hang(vertex, (enum limb)(LIMB_EAR + side), (enum limb)(LIMB_EAR_TIP + side), tip);
     } else if (on_ear) {
-        hang(vertex, LIMB_HEAD, LIMB_EAR + side, root);
+        hang(vertex, LIMB_HEAD, (enum limb)(LIMB_EAR + side), root);
     } else if (of_head > 0.0f) {
         hang(vertex, LIMB_BODY, LIMB_HEAD, of_head);
     } else {
