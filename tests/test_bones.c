@@ -299,7 +299,7 @@ static void test_a_gain_becomes_a_ramp_whose_points_move(void **state)
     assert_int_equal(gain_of_tail(&s)->count, 2);
     session_key(&s, KEY_DELETE, 0);
     assert_int_equal(gain_of_tail(&s)->count, 2); // a ramp needs them
-    panel_click(&s, "gain.ramp"); // lit: back to one
+    panel_click(&s, "gain.ramp");                 // lit: back to one
     assert_int_equal(gain_of_tail(&s)->form, ANGLES_ONE);
     for (int step = 0; step < 6; step++) session_key(&s, 'Z', MOD_CTRL);
     assert_saved(&s, before);

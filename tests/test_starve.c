@@ -236,5 +236,9 @@ int main(void)
         cmocka_unit_test(simulate_and_analyze),
         cmocka_unit_test(a_session),
     };
+    if (!CAN_STARVE) {
+        puts("skip - what allocates here cannot be interposed");
+        return 0;
+    }
     return cmocka_run_group_tests(tests, folder_make, folder_remove);
 }

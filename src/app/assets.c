@@ -5,7 +5,8 @@
 #include <unistd.h>
 
 /// Seen from the program's folder. The installation comes first: beside it may be somebody's own assets/scenes.
-static const char *const places[] = {"../share/wiggly/scenes", "../assets/scenes", "../../assets/scenes"};
+static const char *const places[] = {"../share/wiggly/scenes", "../assets/scenes", "../../assets/scenes",
+                                     "../../../assets/scenes"};
 
 bool assets_folder(char folder[PATH_LIMIT])
 {

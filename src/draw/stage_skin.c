@@ -48,7 +48,8 @@ static bool sort_triangles(struct skin_mesh *skin)
 bool stage_skin_create(struct skin_mesh *skin, int level)
 {
     mesh_creature(level, &skin->mesh);
-    return !skin->mesh.failed && sort_triangles(skin);
+    if (skin->mesh.failed) return false;
+    return sort_triangles(skin);
 }
 
 void stage_skin_pose(const struct skin_mesh *mesh, const struct pose *pose, const float eye[3],

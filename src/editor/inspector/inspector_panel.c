@@ -105,9 +105,10 @@ static void build_sections(struct inspection *in)
 void inspector_unfold(struct inspector *inspector, const char *name)
 {
     for (size_t i = 0; i < sizeof sections / sizeof sections[0]; i++) {
-        if (strcmp(sections[i].name, name) == 0) inspector->flipped[i] = sections[i].closed;
+        if (strcmp(sections[i].name, name) != 0) continue;
+        inspector->flipped[i] = sections[i].closed;
+        inspector->revealed = sections[i].name; // the pass that measures scrolls there
     }
-    inspector->revealed = name; // the pass that measures scrolls there
 }
 
 static void build_look(struct inspection *in, struct rect footer)
