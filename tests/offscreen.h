@@ -6,6 +6,9 @@
 #include "draw/stage.h"
 #include "near.h"
 #include "platform/platform.h"
+#include "rig/camera.h"
+#include "ui/theme.h"
+#include <string.h>
 
 static struct platform *platform;
 static struct stage_renderer *renderer;
@@ -41,6 +44,24 @@ static inline void offscreen_draw(const struct stage_view *view, int width, int 
     stage_draw(renderer, view, 0, 0, width, height);
     glReadPixels(0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE, pixels);
     assert_int_equal(glGetError(), GL_NO_ERROR);
+}
+
+/// Draws a character alone, the box lo … hi in sight.
+static inline void offscreen_draw_character(const struct stage_character *character, const float lo[3],
+                                            const float hi[3], int width, int height, void *pixels)
+{
+    static struct stage_view view;
+    const float aspect = (float)width / (float)height;
+    struct camera camera = camera_default();
+    memset(&view, 0, sizeof view);
+    view.viewport = (struct rect){0, 0, (float)width, (float)height};
+    view.colors = theme()->stage;
+    camera_fit(&camera, lo, hi, aspect, 0);
+    camera_matrices(&camera, aspect, view.view, view.projection, view.eye);
+    camera_lamp(&camera, view.key_from);
+    view.characters[0] = *character;
+    view.character_count = 1;
+    offscreen_draw(&view, width, height, pixels);
 }
 
 #endif

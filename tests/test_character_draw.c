@@ -4,9 +4,7 @@
 #include "model/painted.h"
 #include "offscreen.h"
 #include "puppet.h"
-#include "rig/camera.h"
 #include "ui/phase_color.h"
-#include "ui/theme.h"
 #include <stdio.h>
 
 enum { WIDTH = 500, HEIGHT = 300 };
@@ -26,18 +24,8 @@ static struct stage_character shown(const struct figure *figure)
 
 static void draw(const struct stage_character *character, picture pixels)
 {
-    static struct stage_view view;
     const float lo[3] = {-1, 0, -1}, hi[3] = {1, 1.5f, 1};
-    struct camera camera = camera_default();
-    memset(&view, 0, sizeof view);
-    view.viewport = (struct rect){0, 0, WIDTH, HEIGHT};
-    view.colors = theme()->stage;
-    camera_fit(&camera, lo, hi, (float)WIDTH / HEIGHT, 0);
-    camera_matrices(&camera, (float)WIDTH / HEIGHT, view.view, view.projection, view.eye);
-    camera_lamp(&camera, view.key_from);
-    view.characters[0] = *character;
-    view.character_count = 1;
-    offscreen_draw(&view, WIDTH, HEIGHT, pixels);
+    offscreen_draw_character(character, lo, hi, WIDTH, HEIGHT, pixels);
 }
 
 /// Pixels that differ by more than `tolerance` in any channel.

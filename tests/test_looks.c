@@ -7,8 +7,6 @@
 #include "model/obj.h"
 #include "offscreen.h"
 #include "puppet.h"
-#include "rig/camera.h"
-#include "ui/theme.h"
 
 enum { WIDTH = 200, HEIGHT = 160, TEXTURED = 0, GREEN = 1 };
 
@@ -179,18 +177,9 @@ typedef unsigned char picture[HEIGHT][WIDTH][4];
 /// The figure from the front and a little from above.
 static void draw(const struct figure *figure, int map_coordinate, picture pixels)
 {
-    static struct stage_view view;
     const float lo[3] = {-0.7f, 0, -0.7f}, hi[3] = {0.7f, 1.2f, 0.7f};
-    struct camera camera = camera_default();
-    memset(&view, 0, sizeof view);
-    view.viewport = (struct rect){0, 0, WIDTH, HEIGHT};
-    view.colors = theme()->stage;
-    camera_fit(&camera, lo, hi, (float)WIDTH / HEIGHT, 0);
-    camera_matrices(&camera, (float)WIDTH / HEIGHT, view.view, view.projection, view.eye);
-    camera_lamp(&camera, view.key_from);
-    view.characters[0] = (struct stage_character){.figure = figure, .map_coordinate = map_coordinate};
-    view.character_count = 1;
-    offscreen_draw(&view, WIDTH, HEIGHT, pixels);
+    const struct stage_character character = {.figure = figure, .map_coordinate = map_coordinate};
+    offscreen_draw_character(&character, lo, hi, WIDTH, HEIGHT, pixels);
 }
 
 /// Pixels in which channel k is more than twice the others.

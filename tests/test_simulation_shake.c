@@ -124,43 +124,61 @@ static void gravity_is_settled_before_the_start(void **state)
     soft_free(&soft);
 }
 
-/// A box that nothing holds falls, bounces and comes to rest on the floor, no corner below it by more than a hundredth of the height.
-static void a_box_falls_on_the_floor_and_stays(void **state)
-{
-    (void)state;
+/// A box that nothing holds, above a floor.
+struct loose_box {
     struct box box;
     struct soft soft;
     struct integrator integrator;
     struct floor floor;
+};
+
+static void make_loose(struct loose_box *loose, double floor, double stiffness_damping, double mass_damping)
+{
     struct soft_options options = soft_default_options();
     options.tets = 200;
     options.pin.kind = REGION_NONE;
     options.young = 1e5;
-    make_box(&box, 1, 1);
-    make_soft(&soft, &box, &options);
-    assert_true(floor_create(&floor, &soft.lattice, &box.surface, -0.3, soft.young, options.density));
-    assert_true(integrator_create(&integrator, &soft.body, 0.005));
-    integrator.tolerance = 1e-6;
-    integrator.stiffness_damping = 0.01;
-    integrator.mass_damping = 3;
-    integrator.loads.gravity = 9.81;
-    integrator.loads.floor = &floor;
+    make_box(&loose->box, 1, 1);
+    make_soft(&loose->soft, &loose->box, &options);
+    struct soft *soft = &loose->soft;
+    assert_true(
+        floor_create(&loose->floor, &soft->lattice, &loose->box.surface, floor, soft->young, options.density));
+    assert_true(integrator_create(&loose->integrator, &soft->body, 0.005));
+    loose->integrator.tolerance = 1e-6;
+    loose->integrator.stiffness_damping = stiffness_damping;
+    loose->integrator.mass_damping = mass_damping;
+    loose->integrator.loads.gravity = 9.81;
+    loose->integrator.loads.floor = &loose->floor;
+}
+
+static void free_loose(struct loose_box *loose)
+{
+    integrator_free(&loose->integrator);
+    floor_free(&loose->floor);
+    soft_free(&loose->soft);
+}
+
+/// It falls, bounces and comes to rest on the floor, no corner below it by more than a hundredth of the height.
+static void a_box_falls_on_the_floor_and_stays(void **state)
+{
+    (void)state;
+    struct loose_box loose;
+    make_loose(&loose, -0.3, 0.01, 3);
+    const struct integrator *integrator = &loose.integrator;
     float place[8][3], lowest = 1;
     for (int step = 0; step < 800; step++) {
-        assert_true(integrator_step(&integrator));
-        lattice_embed(&soft.lattice, (const double(*)[3])integrator.x, place);
+        assert_true(integrator_step(&loose.integrator));
+        lattice_embed(&loose.soft.lattice, (const double(*)[3])integrator->x, place);
         for (int i = 0; i < 8; i++) lowest = fminf(lowest, place[i][1]);
     }
     print_message("lowest %.3f m, at the end %.3f m at %.2g m/s\n", (double)lowest, (double)place[0][1],
-                  integrator.v[0][1]);
+                  integrator->v[0][1]);
     assert_true(lowest > -0.3f - 0.1f);
     for (int i = 0; i < 8; i++) {
         if (!(i & 2)) assert_near(place[i][1], -0.3, 0.01);
     }
-    for (int i = 0; i < soft.body.node_count; i++) assert_near(integrator.v[i][1], 0, 0.1);
-    integrator_free(&integrator);
-    floor_free(&floor);
-    soft_free(&soft);
+    for (int i = 0; i < loose.soft.body.node_count; i++) assert_near(integrator->v[i][1], 0, 0.1);
+    free_loose(&loose);
 }
 
 /// What lies on the floor and has hardly any damping of its own stays in touch: its vertices do not go in and out with every step.
@@ -168,38 +186,21 @@ static void a_box_on_the_floor_does_not_chatter(void **state)
 {
     (void)state;
     enum { STEPS = 1800, LAST = 600, FEW = 60 };
-    struct box box;
-    struct soft soft;
-    struct integrator integrator;
-    struct floor floor;
-    struct soft_options options = soft_default_options();
-    options.tets = 200;
-    options.pin.kind = REGION_NONE;
-    options.young = 1e5;
-    make_box(&box, 1, 1);
-    make_soft(&soft, &box, &options);
-    assert_true(floor_create(&floor, &soft.lattice, &box.surface, -0.1, soft.young, options.density));
-    assert_true(integrator_create(&integrator, &soft.body, 0.005));
-    integrator.tolerance = 1e-6;
-    integrator.stiffness_damping = 0.002;
-    integrator.mass_damping = 0.5;
-    integrator.loads.gravity = 9.81;
-    integrator.loads.floor = &floor;
+    struct loose_box loose;
+    make_loose(&loose, -0.1, 0.002, 0.5);
     bool below[8] = {false};
     int changes = 0;
     for (int step = 0; step < STEPS; step++) {
-        assert_true(integrator_step(&integrator));
+        assert_true(integrator_step(&loose.integrator));
         for (int i = 0; i < 8; i++) {
-            changes += step >= STEPS - LAST && floor.touched[i] != below[i];
-            below[i] = floor.touched[i];
+            changes += step >= STEPS - LAST && loose.floor.touched[i] != below[i];
+            below[i] = loose.floor.touched[i];
         }
     }
-    print_message("%d changes of touch in %d steps; %ld steps calmed\n", changes, LAST, integrator.calmed);
+    print_message("%d changes of touch in %d steps; %ld steps calmed\n", changes, LAST, loose.integrator.calmed);
     assert_true(changes < FEW);
-    assert_true(integrator.calmed < 5);
-    integrator_free(&integrator);
-    floor_free(&floor);
-    soft_free(&soft);
+    assert_true(loose.integrator.calmed < 5);
+    free_loose(&loose);
 }
 
 /// Volume of the body as a multiple of that of a box of 1 × 8 × 1.
