@@ -52,7 +52,7 @@ animation() { # <name>: every fourth of 300 frames, 15 a second
     "$wiggly" live --headless --replay "$scratch/loop.replay" --frames-dir "$scratch/frames" >/dev/null
     mkdir "$scratch/kept"
     find "$scratch/frames" -name '*.png' | sort | awk 'NR % 4 == 1' | xargs mv -t "$scratch/kept"
-    convert -delay 7 -loop 0 "$scratch/kept/*.png" -crop 680x576+0+0 +repage +dither -colors 128 -fuzz 0.8% \
+    convert -delay 7 -loop 0 "$scratch/kept/*.png" -crop 680x576+0+0 +repage +dither -colors 96 -fuzz 1.5% \
         -layers OptimizeTransparency "$out/$1"
     echo "$out/$1, $(($(wc -c <"$out/$1") / 1000)) kB"
 }
