@@ -1,6 +1,7 @@
 /// A character's floor: no vertex below it at any sample, knots and pins met as ever, whatever was edited before.
 #include "near.h"
 
+#include "base/path.h"
 #include "model/morph.h"
 #include "rig/opened.h"
 #include "rig/pinning.h"
@@ -14,7 +15,7 @@
 static bool read_scene(struct opened *opened, const char *start, const char *knots, const char *spline,
                        const char *more, struct error *error)
 {
-    char text[4096], folder[2048];
+    char text[8192], folder[PATH_LIMIT];
     if (!realpath("assets/models", folder)) fail_msg("no assets");
     snprintf(text, sizeof text,
              "{ \"wiggly\": 1, \"fps\": 24, \"frames\": [0, 120], \"splines\": ["

@@ -10,7 +10,7 @@ static double part(int frames, int row, int frame) { return row == 0 ? 1 : frame
 
 bool drift_append(struct basis *basis)
 {
-    double *sequence = malloc((size_t)basis->frames * sizeof *sequence);
+    double *sequence = calloc((size_t)basis->frames, sizeof *sequence);
     if (!sequence) return false;
     for (int row = 0; row < ROWS; row++) {
         for (int t = 0; t < basis->frames; t++) sequence[t] = part(basis->frames, row, t);

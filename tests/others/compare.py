@@ -16,9 +16,9 @@ def ten_of(frames):
     return [round(n * (frames - 1) / 9) for n in range(10)]
 
 
-def judge(who, off, positions):
-    """Says how far vertices are off; the exit status is 1 past 1e-5 of the size."""
+def judge(who, off, positions, bar=1e-5):
+    """Says how far vertices are off; the exit status is 1 past the bar, in parts of the size."""
     size = float(np.linalg.norm(positions.reshape(-1, 3).max(0) - positions.reshape(-1, 3).min(0)))
     print(f'{who}: at most {off:.1e} m off, {off / size:.1e} of the size')
     sys.stdout.flush()
-    return 0 if off <= 1e-5 * size else 1
+    return 0 if off <= bar * size else 1
