@@ -59,6 +59,7 @@ enum drag_kind {
     DRAG_LIMIT,
     DRAG_PIN,
     DRAG_PIN_TIME, ///< on the ruler
+    DRAG_FLOOR,
 };
 
 /// What all kinds of mouse drags in progress have in common.
@@ -112,6 +113,7 @@ enum hover_kind {
     HOVER_LIMIT,
     HOVER_POINT, ///< of a rig, that can be pinned
     HOVER_PIN,   ///< on the stage or the ruler
+    HOVER_FLOOR, ///< of a character
 };
 
 struct hover {
@@ -119,8 +121,9 @@ struct hover {
     int spline;
     unsigned knot;
     int handle; ///< HOVER_SLOPE: which end, as in curves_handle(); HOVER_WARNING: which one; HOVER_LIMIT: 1: the high one
-    int tail;        ///< HOVER_BODY: its number among tails
-    int rig, joint;  ///< HOVER_JOINT: of the tail or chain; HOVER_POINT: a joint whose end it is, or a vertex
+    int tail; ///< HOVER_BODY: its number among tails
+    int rig,
+        joint; ///< HOVER_JOINT: of the tail or chain; HOVER_POINT: a joint whose end it is, or a vertex; HOVER_FLOOR: of the character
     unsigned pin;    ///< HOVER_PIN: its id
     double fraction; ///< of the segment after the joint
     int model, node; ///< of HOVER_BONE and of a chain's HOVER_JOINT: the character's rig and the bone
