@@ -113,6 +113,16 @@ static void set_free(const limits_work *w)
     problem_fill_tail(solver, p, (cplx){0, 1}, 1, count, m->free[1] + L + 1, m->pushed[0] + L + 1);
 }
 
+void limits_set_tail_rows(limits_work *w)
+{
+    wiggly_solver *solver = w->solver;
+    set_free(w);
+    solver->limits.all[0] = at_rest(&w->tail.desc);
+    take_knots(solver, &w->tail, 1);
+    problem_pose(solver, &w->tail.desc, NULL, &w->tail.p);
+    problem_set_rows(solver, &w->tail.p);
+}
+
 /// Adds the tail's push to w, and what the held samples' pull is.
 static void add_push(limits_work *w)
 {
