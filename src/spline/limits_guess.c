@@ -17,23 +17,25 @@
 
 enum { STEPS = 40, LANES = 8 };
 
-static const double short_of = 0.995;   ///< of the way to where a gap or a push is 0
-static const double least_mean = 1e-12; ///< of the first μ: what is not clear by then has neither gap nor push
-static const double clear = 3;          ///< where one of the two falls so much faster, the other is there to stay
-static const double balanced = 1e-3;    ///< part of what H d lacked at first
+static const double short_of = 0.995; ///< of the way to where a gap or a push is 0
+static const double good = 0.2;       ///< a step that leaves so little of μ shows which of the two stays
+static const double apart = 0.5;      ///< part of itself that the other one falls by more
+static const double sure = 1e-3;      ///< of the first μ: from here on it is believed
+static const double least = 1e-10;    ///< what does not show it by then has neither gap nor push
+static const double balanced = 1e-3;  ///< part of what H d lacked at first
 
 /// One limit at all samples. Lengths are parts of the farthest that a sample is beyond a limit, pushes of what moves that one as far. At
 /// knots, which are not held, gap and push are 1 and stay so.
 typedef struct side {
     double sign, limit; ///< sign: of a push
     double *gap, *push;
-    double *
-        second; ///< product of the changes that μ = 0 would ask for; after a step above 0 where the push stays and the gap goes
+    double *by_gap,
+        *by_push; ///< parts of them that a step adds; `by_push` is first the product of what μ = 0 would add
 } side;
 
 typedef struct guess {
     limits_work *w;
-    int from, count, sides;
+    int from, count, sides; ///< samples that may be held, and knots between them
     side side[2];
     double *total, *move; ///< move: of a step
     double *is_open;      ///< 0 at knots, else 1
@@ -42,6 +44,7 @@ typedef struct guess {
     double soft;          ///< what a push of 1 does to the sample that is farthest beyond a limit
     int pairs;            ///< of gap and push
     double mean;          ///< of gap times push
+    double way;           ///< part of the last step that was gone
 } guess;
 
 /// How gap and push of a sample change, as parts of them, where their product is to be `aim`.
@@ -49,10 +52,10 @@ typedef struct change {
     double gap, push;
 } change;
 
-static inline change change_of(double sign, double limit, double gap, double push, double aim, double total,
-                               double move, double is_open)
+static inline change change_of(const side *s, double gap, double push, double aim, double total, double move,
+                               double is_open)
 {
-    const double miss = sign * (total - limit) - gap, part = (sign * move + is_open * miss) / gap;
+    const double miss = s->sign * (total - s->limit) - gap, part = (s->sign * move + is_open * miss) / gap;
     return (change){part, aim / (gap * push) - 1 - part};
 }
 
@@ -65,7 +68,7 @@ static inline double aim_of(double mean, double second, double is_open)
 /// Adds a side's part of Newton's right-hand side, with or without the second order.
 WIDEST static void add_force(const guess *g, const side *s, double mean, double part, double *restrict force)
 {
-    const double *restrict gap = s->gap, *restrict push = s->push, *restrict second = s->second,
+    const double *restrict gap = s->gap, *restrict push = s->push, *restrict second = s->by_push,
                            *restrict total = g->total, *restrict is_open = g->is_open;
     for (int i = 0; i < g->count; i++) {
         const double miss = is_open[i] * (s->sign * (total[i] - s->limit) - gap[i]);
@@ -79,18 +82,18 @@ WIDEST static void add_stiffness(const side *s, int count, double *restrict stif
     for (int i = 0; i < count; i++) stiffness[i] += s->push[i] / s->gap[i];
 }
 
-/// The second order of a step to where μ = 0 would be; its sum. `fall`: the largest part by which a gap or a push falls.
+/// The second order of a step to where μ = 0 would be, into `by_push`; its sum. `fall`: the largest part by which a gap or a push falls.
 WIDEST static double look_ahead(const guess *g, const side *s, double *fall)
 {
     const double *restrict gap = s->gap, *restrict push = s->push, *restrict total = g->total,
                            *restrict move = g->move, *restrict is_open = g->is_open;
-    double *restrict second = s->second;
+    double *restrict second = s->by_push;
     double most[LANES] = {0}, sum[LANES] = {0}, all = 0;
     for (int i = 0; i < g->count; i += LANES) {
         const int lanes = g->count - i < LANES ? g->count - i : LANES;
         for (int n = 0; n < lanes; n++) {
             const int k = i + n;
-            const change c = change_of(s->sign, s->limit, gap[k], push[k], 0, total[k], move[k], is_open[k]);
+            const change c = change_of(s, gap[k], push[k], 0, total[k], move[k], is_open[k]);
             const double by = -c.gap > -c.push ? -c.gap : -c.push;
             second[k] = is_open[k] * (c.gap * c.push * gap[k] * push[k]);
             sum[n] += second[k];
@@ -101,43 +104,41 @@ WIDEST static double look_ahead(const guess *g, const side *s, double *fall)
     return all;
 }
 
-/// The largest part by which a gap or a push falls in the step itself.
-WIDEST static double find_fall(const guess *g, const side *s, double mean)
+/// The step itself, from the second order; the largest part by which a gap or a push falls.
+WIDEST static double find_changes(const guess *g, const side *s, double mean)
 {
-    const double *restrict gap = s->gap, *restrict push = s->push, *restrict second = s->second,
-                           *restrict total = g->total, *restrict move = g->move, *restrict is_open = g->is_open;
+    const double *restrict gap = s->gap, *restrict push = s->push, *restrict total = g->total,
+                           *restrict move = g->move, *restrict is_open = g->is_open;
+    double *restrict by_gap = s->by_gap, *restrict by_push = s->by_push;
     double most[LANES] = {0}, all = 0;
     for (int i = 0; i < g->count; i += LANES) {
         const int lanes = g->count - i < LANES ? g->count - i : LANES;
         for (int n = 0; n < lanes; n++) {
             const int k = i + n;
-            const double aim = aim_of(mean, second[k], is_open[k]);
-            const change c = change_of(s->sign, s->limit, gap[k], push[k], aim, total[k], move[k], is_open[k]);
+            const double aim = aim_of(mean, by_push[k], is_open[k]);
+            const change c = change_of(s, gap[k], push[k], aim, total[k], move[k], is_open[k]);
             const double by = -c.gap > -c.push ? -c.gap : -c.push;
             most[n] = by > most[n] ? by : most[n];
+            by_gap[k] = c.gap, by_push[k] = c.push;
         }
     }
     for (int n = 0; n < LANES; n++) all = fmax(all, most[n]);
     return all;
 }
 
-/// Goes that part of a step; the sum of gap times push. `unclear` gets how many fall so alike that neither is there to stay.
-WIDEST static double advance(const guess *g, const side *s, double mean, double way, double *unclear)
+/// Goes that part of a step; the sum of gap times push. `unclear`: adds how many fall so alike that neither is there to stay.
+WIDEST static double advance(const guess *g, const side *s, double way, double *unclear)
 {
-    double *restrict gap = s->gap, *restrict push = s->push, *restrict second = s->second;
-    const double *restrict total = g->total, *restrict move = g->move, *restrict is_open = g->is_open;
+    const double *restrict by_gap = s->by_gap, *restrict by_push = s->by_push, *restrict is_open = g->is_open;
+    double *restrict gap = s->gap, *restrict push = s->push;
     double sum[LANES] = {0}, alike[LANES] = {0}, all = 0;
     for (int i = 0; i < g->count; i += LANES) {
         const int lanes = g->count - i < LANES ? g->count - i : LANES;
         for (int n = 0; n < lanes; n++) {
             const int k = i + n;
-            const double aim = aim_of(mean, second[k], is_open[k]);
-            const change c = change_of(s->sign, s->limit, gap[k], push[k], aim, total[k], move[k], is_open[k]);
-            const double of_gap = 1 + way * c.gap, of_push = 1 + way * c.push;
-            gap[k] *= of_gap, push[k] *= of_push;
-            second[k] = is_open[k] * (of_push - of_gap);
+            gap[k] += way * by_gap[k] * gap[k], push[k] += way * by_push[k] * push[k];
             sum[n] += is_open[k] * (gap[k] * push[k]);
-            alike[n] += of_push < clear * of_gap && of_gap < clear * of_push ? is_open[k] : 0;
+            alike[n] += fabs(way * (by_push[k] - by_gap[k])) < apart ? is_open[k] : 0;
         }
     }
     for (int n = 0; n < LANES; n++) *unclear += alike[n], all += sum[n];
@@ -184,10 +185,10 @@ static bool go_on(guess *g, double *unclear)
     const double left = (1 - way) + way * way * ahead / (g->pairs * g->mean), aim = left * left * left * g->mean;
     solve(g, aim, 1);
     fall = short_of;
-    for (int s = 0; s < g->sides; s++) fall = fmax(fall, find_fall(g, &g->side[s], aim));
-    way = short_of / fall;
+    for (int s = 0; s < g->sides; s++) fall = fmax(fall, find_changes(g, &g->side[s], aim));
+    way = g->way = short_of / fall;
     *unclear = 0;
-    for (int s = 0; s < g->sides; s++) sum += advance(g, &g->side[s], aim, way, unclear);
+    for (int s = 0; s < g->sides; s++) sum += advance(g, &g->side[s], way, unclear);
     for (int i = 0; i < g->count; i++) g->total[i] += way * g->move[i];
     g->lack_left *= 1 - way;
     g->mean = sum / g->pairs;
@@ -221,9 +222,12 @@ static double find_soft(const guess *g, int sample)
 static void hold_found(const guess *g)
 {
     limits_work *w = g->w;
-    for (int s = 0; s < g->sides; s++) {
+    for (int n = 0; n < g->sides; n++) {
+        const side *s = &g->side[n];
         for (int i = 0; i < g->count; i++) {
-            if (g->side[s].second[i] > 0) limits_take(w, g->from + i, g->side[s].sign < 0);
+            const int sample = g->from + i;
+            const bool stays = g->way * (s->by_push[i] - s->by_gap[i]) > apart;
+            if (stays && w->solver->limits.held[sample] == LIMITS_FREE) limits_take(w, sample, s->sign < 0);
         }
     }
 }
@@ -235,12 +239,12 @@ static guess guess_of(limits_work *w)
     const wiggly_desc *desc = w->p->desc;
     const limits_part *first = w->body.to >= w->body.from ? &w->body : &w->tail;
     const size_t n = (size_t)solver->samples;
-    double *jet = solver->rows.jet;
+    double *jet = solver->rows.jet, *x = solver->rows.x;
     guess g = {.w = w, .from = first->from, .lack_left = 1, .mean = 1};
     g.count = (limits_has_tail(w) ? w->tail.to : w->body.to) - g.from + 1;
     g.total = jet, g.move = jet + n, g.is_open = jet + 2 * n, g.lack = jet + 3 * n;
-    if (desc->low > -INFINITY) g.side[g.sides++] = (side){1, desc->low, m->free[0], m->pushed[0], m->pull};
-    if (desc->high < INFINITY) g.side[g.sides++] = (side){-1, desc->high, m->free[1], m->pushed[1], m->now};
+    if (desc->low > -INFINITY) g.side[g.sides++] = (side){1, desc->low, m->free[0], m->pushed[0], m->pull, x};
+    if (desc->high < INFINITY) g.side[g.sides++] = (side){-1, desc->high, m->free[1], m->pushed[1], m->now, x + n};
     return g;
 }
 
@@ -278,9 +282,11 @@ void limits_guess(limits_work *w, double slack)
         begin_side(&g, &g.side[s]);
     }
     double unclear = 1;
-    for (int step = 0; step < STEPS && unclear > 0 && g.mean > least_mean; step++) {
+    for (int step = 0; step < STEPS; step++) {
+        double before = g.mean;
         if (!go_on(&g, &unclear)) return;
-        if (g.lack_left > balanced) unclear = 1;
+        if (g.mean < good * before && g.lack_left < balanced && ((unclear <= 0 && g.mean < sure) || g.mean < least))
+            break;
     }
     hold_found(&g);
 }
