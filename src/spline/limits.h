@@ -59,6 +59,7 @@ void limits_set_matrix(const limits_work *w);
 /// Holds what is likely to be held, from where nothing is held and all is solved; a sample may miss a limit by `slack`.
 void limits_guess(limits_work *w, double slack);
 
+static inline bool limits_has_body(const limits_work *w) { return w->body.to >= w->body.from; }
 static inline bool limits_has_tail(const limits_work *w) { return w->tail.to >= w->tail.from; }
 
 /// The part that a sample is in.

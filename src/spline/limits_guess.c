@@ -237,7 +237,7 @@ static guess guess_of(limits_work *w)
     const wiggly_solver *solver = w->solver;
     const limit_memory *m = &solver->limits;
     const wiggly_desc *desc = w->p->desc;
-    const limits_part *first = w->body.to >= w->body.from ? &w->body : &w->tail;
+    const limits_part *first = limits_has_body(w) ? &w->body : &w->tail;
     const size_t n = (size_t)solver->samples;
     double *jet = solver->rows.jet, *x = solver->rows.x;
     guess g = {.w = w, .from = first->from, .lack_left = 1, .mean = 1};

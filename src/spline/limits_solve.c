@@ -163,6 +163,10 @@ static bool solve_body(limits_work *w, const double on_turn[2])
     body->p.level_slope = problem_implies_slope(w->p);
     body->desc = *w->p->desc;
     take_knots(solver, body, count);
+    if (!problem_is_asked(&body->p) && count > 0) { // what is held asks
+        body->p.earliest = m->all[0].sample;
+        body->p.latest = m->all[count - 1].sample;
+    }
     minimum result;
     wiggly_status status = problem_find(solver, &body->p, w->curve, &result);
     w->status = status > w->status ? status : w->status;
@@ -189,7 +193,7 @@ bool limits_solve(limits_work *w)
         if (!push(w, PUSH_FREE, &on_turn[0])) return false;
         if (knots > 0 && !push(w, PUSH_TURN, &on_turn[1])) return false;
     }
-    if (knots > 0 || w->body.held > 0) {
+    if (limits_has_body(w) || knots > 0) {
         if (!solve_body(w, on_turn)) return false;
     } else {
         memset(w->curve->re, 0, sizeof(double) * (size_t)w->p->desc->samples);
