@@ -10,6 +10,7 @@ in vec3 world_normal;
 in vec3 marking; // white, dark, brown: as in model/coat.h
 in vec4 place;   // in bind space, and how much of it is the tail's
 in float skirt;  // opacity; 1 but on the skirt
+in float open_around; // share of the light from all around that reaches it
 #ifdef FACED
 uniform mat4 head_from_bind; // to the head's own space, which looks towards -z
 uniform float blink;         // how far the lids are closed
@@ -38,7 +39,7 @@ out vec4 pixel;
 
 const vec3 KEY = vec3(1.0, 0.8796, 0.7157);      // #FFF1DC
 const vec3 SKY = vec3(0.2747, 0.3663, 0.5210);   // #8FA3BF
-const vec3 RIM = vec3(0.3325, 0.5711, 1.0);      // #9CC7FF
+const vec3 RIM = vec3(0.3050, 0.6105, 0.8714);   // #96CDF0: a bluer one turns orange to lilac
 const float EXPOSURE = 0.82;                     // the white tip, fully lit, just does not burn out
 
 // Unit vector; 0, not NaN, where there is no direction.
@@ -48,6 +49,7 @@ vec3 direction(vec3 v)
 }
 
 #ifdef FURRED
+const vec3 FUR_LIGHT = vec3(0.38, 0.20, 0.10); // what comes from fur nearby, as a share of what it keeps off
 const float TUFT = 0.007; // metres: depth of the fringe of markings
 
 // How much of a pixel, `sharp` to a metre, lies inside an edge that is `depth` metres away.
@@ -60,7 +62,7 @@ float covered(float depth, float sharp)
 // faster than the coat's place does where tufts fringe it and where it is seen at a grazing angle.
 float marked(float depth)
 {
-    return clamp(depth / max(length(vec2(dFdx(depth), dFdy(depth))), 0.004) + 0.5, 0.0, 1.0);
+    return clamp(depth / max(1.3 * length(vec2(dFdx(depth), dFdy(depth))), 0.004) + 0.5, 0.0, 1.0);
 }
 
 // About sin(2 pi x), at a quarter of its price.
@@ -191,14 +193,21 @@ void main()
     float opacity_here = seam > 0.0 ? seam_opacity(to_eye) : surface.a;
 #endif
     float facing = dot(n, to_eye);
-    float graze = 1.0 - clamp(facing, 0.0, 1.0);
+    float graze = clamp(1.0 - facing, 0.0, 0.9); // of what a pixel shows of an edge, not of the edge alone
     float graze2 = graze * graze;
     float key = max((dot(n, key_from) + 0.4) / 1.4, 0.0);
     float upward = 0.5 + 0.5 * n.y;
     // What the ground throws back is warm, and strongest near it.
-    vec3 light = KEY * key + mix(earth * (2.0 - open_sky), SKY, upward) * mix(open_sky, 1.0, 0.5 - 0.5 * upward);
-    // The sky's rim is thin and keeps to what faces up: a wider one would turn orange to lilac.
-    vec3 linear = coat * light * EXPOSURE + RIM * (0.26 * graze2 * graze2 * graze2 * open_sky * upward);
+    vec3 around = mix(earth * (2.0 - open_sky), SKY, upward) * mix(open_sky, 1.0, 0.5 - 0.5 * upward);
+    // The sky's rim is thin, and keeps to what faces up.
+    float rim = 0.22 * graze2 * graze2 * graze2 * open_sky * upward;
+#ifdef FURRED
+    around *= mix(FUR_LIGHT, vec3(1.0), open_around);
+    key *= 0.5 + 0.5 * open_around;
+    rim *= open_around * open_around;
+#endif
+    vec3 light = KEY * key + around;
+    vec3 linear = coat * light * EXPOSURE + RIM * rim;
 #ifdef FURRED
     linear += (1.0 - gloss) * coat * light * (0.55 * graze2 * graze); // hair that stands off catches the light
 #endif

@@ -6,6 +6,7 @@ layout(location = 2) in float bend;
 layout(location = 3) in vec3 moved; // world
 layout(location = 4) in vec3 moved_normal;
 layout(location = 5) in float opaque; // of the skirt
+layout(location = 6) in float open;   // as in model/mesh.h
 uniform mat4 clip_from_world;
 uniform vec2 shape; // scale, height of the ground
 out vec3 world;
@@ -14,6 +15,7 @@ out vec3 marking;
 out vec4 place;   // in bind space, and how much of it is the tail's
 out float open_sky;
 out float skirt;
+out float open_around;
 
 void main()
 {
@@ -23,5 +25,6 @@ void main()
     place = vec4(position, bend);
     open_sky = 0.45 + 0.55 * smoothstep(0.0, 0.35 * shape.x, world.y - shape.y);
     skirt = opaque;
+    open_around = open;
     gl_Position = clip_from_world * vec4(world, 1.0);
 }

@@ -136,7 +136,7 @@ static vec3s outwards(const struct skin *skin, uint32_t vertex, vec3s edge, cons
 static struct skirt_corner corner_on(const struct skin_mesh *mesh, const struct skin *skin, uint32_t v)
 {
     const struct vertex *vertex = &mesh->mesh.vertices[v];
-    struct skirt_corner corner = {.bend = vertex->bend, .opacity = 1.0f};
+    struct skirt_corner corner = {.bend = vertex->bend, .open = vertex->open, .opacity = 1.0f};
     memcpy(corner.position, vertex->position, sizeof corner.position);
     memcpy(corner.mark, vertex->mark, sizeof corner.mark);
     memcpy(corner.place, skin->place[v], sizeof corner.place);

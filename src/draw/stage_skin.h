@@ -37,7 +37,7 @@ int stage_skin_seen(const struct skin_mesh *mesh, const struct skin *skin, enum 
 
 /// A vertex of the skirt: one of the skin's, with all that stage_mesh.vert knows of it.
 struct skirt_corner {
-    float position[3], mark[3], bend;
+    float position[3], mark[3], bend, open;
     float place[3], normal[3]; ///< world
     float opacity;             ///< 1 on the skin, 0 a pixel off it
 };

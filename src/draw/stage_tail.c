@@ -54,6 +54,7 @@ static bool model_create(struct model *model, int level)
     attribute(0, 3, sizeof(struct vertex), offsetof(struct vertex, position));
     attribute(1, 3, sizeof(struct vertex), offsetof(struct vertex, mark));
     attribute(2, 1, sizeof(struct vertex), offsetof(struct vertex, bend));
+    attribute(6, 1, sizeof(struct vertex), offsetof(struct vertex, open));
     glBindVertexArray(0);
     return true;
 }
@@ -75,6 +76,7 @@ static void skirt_create(struct animals *painter)
     attribute(0, 3, stride, offsetof(struct skirt_corner, position));
     attribute(1, 3, stride, offsetof(struct skirt_corner, mark));
     attribute(2, 1, stride, offsetof(struct skirt_corner, bend));
+    attribute(6, 1, stride, offsetof(struct skirt_corner, open));
     attribute(3, 3, stride, offsetof(struct skirt_corner, place));
     attribute(4, 3, stride, offsetof(struct skirt_corner, normal));
     attribute(5, 1, stride, offsetof(struct skirt_corner, opacity));
