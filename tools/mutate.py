@@ -287,15 +287,20 @@ class Knowledge:
         self.lock = threading.Lock()
 
     def measure(self, jobs):
-        stale = [t for t, d in self.copy.tests.items() if self.known.get(t, {}).get("digest") != d]
+        """Measures what is new or has changed, the quickest first; what took long in the suite is not even begun."""
+        times = pathlib.Path("build/test-out/times")
+        last = dict(reversed(line.split()) for line in times.read_text().splitlines()) if times.exists() else {}
+        seconds = lambda test: int(last.get(test, 0)) / 1000
         for test in set(self.known) - set(self.copy.tests): del self.known[test]
+        stale = [t for t, d in self.copy.tests.items() if self.known.get(t, {}).get("digest") != d]
+        stale = sorted((t for t in stale if seconds(t) <= self.longest), key=seconds)
         with concurrent.futures.ThreadPoolExecutor(jobs) as pool: list(pool.map(self.measure_one, stale))
 
     def measure_one(self, test):
         gcov = self.copy.root / "gcov" / test
         shutil.rmtree(gcov, ignore_errors=True)
-        outcome = run_test(self.copy, test, self.copy.tree / "build/cov/so", self.copy.root / "scratch" / test, 4 * self.longest,
-                           6 * self.longest, gcov)
+        outcome = run_test(self.copy, test, self.copy.tree / "build/cov/so", self.copy.root / "scratch" / test, 10 * self.longest,
+                           20 * self.longest, gcov)
         with self.lock:
             self.known[test] = {"digest": self.copy.tests[test], "status": outcome.status, "failed": sorted(outcome.failed),
                                 "seconds": round(outcome.seconds, 2)}
@@ -331,7 +336,7 @@ class Knowledge:
         chosen = []
         for test, (counts, functions) in self.lines_of(fault.file).items():
             runs = counts[fault.line] if fault.line in counts else any(n for a, b, n in functions if a <= fault.line <= b)
-            if runs and self.known[test]["status"] is not None and self.known[test]["seconds"] <= self.longest: chosen.append(test)
+            if runs and self.known[test]["status"] is not None and self.known[test]["seconds"] <= 10 * self.longest: chosen.append(test)
         own = lambda t: t.split(".")[0].removeprefix("test_") in (stem, fault.layer)
         return sorted(chosen, key=lambda t: (not own(t), self.known[t]["seconds"]))
 
@@ -359,9 +364,13 @@ class Trial:
         text = (self.copy.tree / fault.file).read_text().split("\n")
         line = text[fault.line - 1]
         text[fault.line - 1] = line[:fault.start] + fault.new + line[fault.end:]
-        source, made = folder / fault.file, folder / "mutant.o"
+        source = folder / fault.file
         source.parent.mkdir(parents=True, exist_ok=True)
         source.write_text("\n".join(text))
+        return self.made(fault, folder)
+
+    def made(self, fault, folder):
+        source, made = folder / fault.file, folder / "mutant.o"
         command = [w for w in self.copy.commands[fault.file] if w not in ("-MMD", "-MP") and not w.startswith("-W")]
         command[command.index("-c") + 1], command[command.index("-o") + 1] = str(source), str(made)
         if subprocess.run(command + ["-w", f"-fmacro-prefix-map={folder}/="], cwd=self.copy.tree, stderr=subprocess.DEVNULL).returncode:
@@ -440,7 +449,7 @@ def main():
     options.add_argument("--seed", type=int, default=1, help="another seed makes other faults (1)")
     options.add_argument("--layers", default="", help="only these, separated by commas")
     options.add_argument("--jobs", type=int, default=1, help="how many at once (1)")
-    options.add_argument("--longest", type=float, default=30, help="leaves out tests that take longer, in seconds (30)")
+    options.add_argument("--longest", type=float, default=30, help="leaves out tests that took longer in the suite's last run, in seconds (30)")
     options.add_argument("--build", default="build/mutate", help="where (build/mutate)")
     options.add_argument("--list", action="store_true", help="prints the faults that would be tried, and builds nothing")
     given = options.parse_args()
