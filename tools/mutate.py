@@ -279,8 +279,8 @@ def worse(outcome, known):
 class Knowledge:
     """What each test does with the sources as they are: its time, its failures, and (as .gcda files) the lines it runs."""
 
-    def __init__(self, copy, longest):
-        self.copy, self.longest = copy, longest
+    def __init__(self, copy, longest, patience):
+        self.copy, self.longest, self.patience = copy, longest, patience
         self.path = copy.root / "tests.json"
         self.known = json.loads(self.path.read_text()) if self.path.exists() else {}
         self.lines = {}
@@ -306,7 +306,7 @@ class Knowledge:
                                 "seconds": round(outcome.seconds, 2)}
             self.path.write_text(json.dumps(self.known, indent=0))
             self.lines.clear()
-        if outcome.status: print(f"mutate: {test} fails by itself here: {outcome.status} {sorted(outcome.failed)}", flush=True)
+        if outcome.status: print(f"mutate: {test} fails in this copy by itself: {len(outcome.failed)} cases", flush=True)
 
     def lines_of(self, file):
         """For each test that runs a file: the lines it counts, as {line: times}, and the functions, as [(first, last, times)]."""
@@ -338,7 +338,11 @@ class Knowledge:
             runs = counts[fault.line] if fault.line in counts else any(n for a, b, n in functions if a <= fault.line <= b)
             if runs and self.known[test]["status"] is not None and self.known[test]["seconds"] <= 10 * self.longest: chosen.append(test)
         own = lambda t: t.split(".")[0].removeprefix("test_") in (stem, fault.layer)
-        return sorted(chosen, key=lambda t: (not own(t), self.known[t]["seconds"]))
+        order, spent = sorted(chosen, key=lambda t: (not own(t), self.known[t]["seconds"])), 0
+        for i, test in enumerate(order):
+            if i and spent > self.patience: return order[:i]
+            spent += self.known[test]["seconds"]
+        return order
 
 
 # --- one fault ---------------------------------------------------------------------------------------------------------
@@ -450,6 +454,7 @@ def main():
     options.add_argument("--layers", default="", help="only these, separated by commas")
     options.add_argument("--jobs", type=int, default=1, help="how many at once (1)")
     options.add_argument("--longest", type=float, default=30, help="leaves out tests that took longer in the suite's last run, in seconds (30)")
+    options.add_argument("--patience", type=float, default=300, help="of a fault: how long its tests take before it counts as survivor, in seconds (300)")
     options.add_argument("--build", default="build/mutate", help="where (build/mutate)")
     options.add_argument("--list", action="store_true", help="prints the faults that would be tried, and builds nothing")
     given = options.parse_args()
@@ -461,7 +466,7 @@ def main():
         return 0
     copy = Copy(pathlib.Path(given.build).resolve(), given.jobs)
     copy.build()
-    knowledge = Knowledge(copy, given.longest)
+    knowledge = Knowledge(copy, given.longest, given.patience)
     knowledge.measure(given.jobs)
     trial = Trial(copy, knowledge)
     with concurrent.futures.ThreadPoolExecutor(given.jobs) as pool:
