@@ -226,7 +226,8 @@ class Copy:
         made = self.tree / output
         newest = max((self.tree / o).stat().st_mtime for o in objects)
         stamp = made.with_name(made.name + ".linked")
-        if made.exists() and stamp.exists() and min(made.stat().st_mtime, stamp.stat().st_mtime) > newest: return
+        # make, too, makes the program, with all of src in it
+        if made.exists() and stamp.exists() and stamp.stat().st_mtime >= max(made.stat().st_mtime, newest): return
         must(self.link(output, objects) + list(libraries), self.tree, self.log)
         stamp.touch()
 
