@@ -234,8 +234,8 @@ static void lags_leave_out_a_twentieth_at_each_end(void **state)
     (void)state;
     enum { VERTICES = 101 };
     double complex shape[VERTICES][3] = {{0}};
-    for (int v = 0; v < 100; v++) shape[(37 * v) % 100][1] = 0.2 * cexp(-I * v * M_PI / 180);
-    shape[100][1] = 1e-4 * cexp(-I * 170 * M_PI / 180);
+    for (int v = 0; v < 100; v++) shape[(37 * v) % 100][1] = 0.2 * cexp(-I * (v * M_PI / 180));
+    shape[100][1] = 1e-4 * cexp(-I * (170 * M_PI / 180));
     struct component c = {.vertices = VERTICES, .shape = shape, .direction = {0, 1, 0}};
     assert_true(component_lags(&c));
     assert_near(c.first_lag, 5, 1.001);
