@@ -333,12 +333,12 @@ class Knowledge:
 
     def tests_of(self, fault):
         """Tests that run the line of a fault, in the order in which they are tried."""
-        stem = pathlib.Path(fault.file).stem
         chosen = []
         for test, (counts, functions) in self.lines_of(fault.file).items():
             runs = counts[fault.line] if fault.line in counts else any(n for a, b, n in functions if a <= fault.line <= b)
             if runs and self.known[test]["status"] is not None and self.known[test]["seconds"] <= 10 * self.longest: chosen.append(test)
-        own = lambda t: t.split(".")[0].removeprefix("test_") in (stem, fault.layer)
+        words = set(re.split(r"[/_]", fault.file.removesuffix(".c"))) - {"src"}
+        own = lambda test: bool(words & set(test.split(".")[0].split("_")[1:]))
         order, spent = sorted(chosen, key=lambda t: (not own(t), self.known[t]["seconds"])), 0
         for i, test in enumerate(order):
             if i and spent > self.patience: return order[:i]
