@@ -4,10 +4,8 @@
 // would have to pull and not push, the first one first. Between two sets of held samples everything is linear, so that a solve of
 // each is all that it takes. E grows with every sample that is taken in, so no set comes twice and the method ends.
 //
-// It takes as many solves as samples are held, and a few; so a guess comes first (limits_guess.c), which is nearly always right. Where
-// many samples are beyond a limit, as on an equilibrium that is, rounds are quicker: hold all that is beyond, let go all that would have to be
-// pulled, solve. Nothing says that those end. Whatever either finds, all that would have to be pulled is let go, and the dual method goes
-// on from there: E grows again with each step.
+// It takes as many solves as samples are held, and a few; so a guess comes first (limits_guess.c), which is nearly always right. What
+// of it would have to be pulled is let go, and the dual method goes on from there.
 //
 // Every solve starts from nothing but the description: the same samples are held, and the curve has the same bits, however one came
 // to it.
@@ -15,9 +13,7 @@
 #include <math.h>
 #include <string.h>
 
-enum {
-    MOST = 1000, ///< solves
-};
+enum { MOST = 1000 }; ///< solves
 
 static const double beyond = 1e-10;   ///< of the size of the total: what a sample may miss a limit by
 static const double faintest = 1e-12; ///< of the size of w: a pull that may be rounding
@@ -211,7 +207,7 @@ static enum outcome search(limits_work *w)
     double slack, noise;
     measure_work(w, &slack, &noise);
     limits_guess(w, slack);
-    if (w->body.held + w->tail.held > 0 && !limits_solve(w)) return NO_ROOM;
+    if (w->body.held + w->tail.held > 0 && !limits_solve(w)) hold_nothing(w); // there may be room for fewer
     return settle(w) ? climb(w) : NO_ROOM;
 }
 

@@ -150,16 +150,20 @@ static double *place(const guess *g, int i)
     return g->w->solver->rows.gradient + (g->w->solver->matrix.width * (g->from + i - g->w->first));
 }
 
-/// Newton's move for products of `mean`, with or without the second order.
-static void solve(const guess *g, double mean, double part)
+static void clear_right_side(const guess *g)
 {
     const wiggly_solver *solver = g->w->solver;
-    const pentadiagonal *m = &solver->matrix;
+    memset(solver->rows.gradient, 0, sizeof(double) * (size_t)(solver->matrix.width * solver->matrix.count));
+}
+
+/// Newton's move for products of `mean`, with or without the second order.
+static void find_move(const guess *g, double mean, double part)
+{
     for (int i = 0; i < g->count; i++) g->move[i] = g->lack_left * g->lack[i];
     for (int s = 0; s < g->sides; s++) add_force(g, &g->side[s], mean, part, g->move);
-    memset(solver->rows.gradient, 0, sizeof(double) * (size_t)(m->width * m->count));
+    clear_right_side(g);
     for (int i = 0; i < g->count; i++) *place(g, i) = g->move[i] / g->soft;
-    pentadiagonal_solve(m, solver->rows.gradient);
+    pentadiagonal_solve(&g->w->solver->matrix, g->w->solver->rows.gradient);
     for (int i = 0; i < g->count; i++) g->move[i] = *place(g, i);
 }
 
@@ -174,81 +178,90 @@ static bool factor(const guess *g)
     return pentadiagonal_factor(m) != RANK_BROKEN;
 }
 
+/// Where it begins: every gap at least 1, every product of gap and push 1.
+static void begin(guess *g)
+{
+    memset(g->lack, 0, sizeof *g->lack * (size_t)g->count);
+    for (int n = 0; n < g->sides; n++) {
+        const side *s = &g->side[n];
+        for (int i = 0; i < g->count; i++) {
+            const bool is_open = g->is_open[i] > 0;
+            s->gap[i] = is_open ? fmax(s->sign * (g->total[i] - s->limit), 1) : 1;
+            s->push[i] = 1 / s->gap[i];
+            if (is_open) g->lack[i] += s->sign * s->push[i];
+        }
+    }
+    g->lack_left = g->mean = 1;
+}
+
 /// One step; how many samples and limits it leaves unclear. false where numbers fail.
 static bool go_on(guess *g, double *unclear)
 {
     double fall = 1, ahead = 0, sum = 0;
     if (!factor(g)) return false;
-    solve(g, 0, 0);
+    find_move(g, 0, 0);
     for (int s = 0; s < g->sides; s++) ahead += look_ahead(g, &g->side[s], &fall);
-    double way = 1 / fall;
-    const double left = (1 - way) + way * way * ahead / (g->pairs * g->mean), aim = left * left * left * g->mean;
-    solve(g, aim, 1);
+    const double left = (1 - 1 / fall) + ahead / (fall * fall) / (g->pairs * g->mean);
+    const double aim = left * left * left * g->mean;
+    find_move(g, aim, 1);
     fall = short_of;
     for (int s = 0; s < g->sides; s++) fall = fmax(fall, find_changes(g, &g->side[s], aim));
-    way = g->way = short_of / fall;
+    g->way = short_of / fall;
     *unclear = 0;
-    for (int s = 0; s < g->sides; s++) sum += advance(g, &g->side[s], way, unclear);
-    for (int i = 0; i < g->count; i++) g->total[i] += way * g->move[i];
-    g->lack_left *= 1 - way;
+    for (int s = 0; s < g->sides; s++) sum += advance(g, &g->side[s], g->way, unclear);
+    for (int i = 0; i < g->count; i++) g->total[i] += g->way * g->move[i];
+    g->lack_left *= 1 - g->way;
     g->mean = sum / g->pairs;
     return g->mean > 0 && g->mean < INFINITY;
 }
 
-/// Where it begins: every gap at least 1, every product of gap and push 1.
-static void begin_side(guess *g, side *s)
+/// Steps until one shows what stays. false where numbers fail.
+static bool find_what_stays(guess *g)
 {
-    for (int i = 0; i < g->count; i++) {
-        const bool is_open = g->is_open[i] > 0;
-        s->gap[i] = is_open ? fmax(s->sign * (g->total[i] - s->limit), 1) : 1;
-        s->push[i] = 1 / s->gap[i];
-        if (is_open) g->lack[i] += s->sign * s->push[i];
+    for (int step = 0; step < STEPS && !solver_must_stop(g->w->solver->stop); step++) {
+        const double before = g->mean;
+        double unclear;
+        if (!go_on(g, &unclear)) return false;
+        const bool shows = g->mean < good * before && g->lack_left < balanced;
+        if (shows && (g->mean < least || (unclear == 0 && g->mean < sure))) break;
     }
+    return true;
 }
 
-/// What a push of 1 does to a sample; 0 where that is not known.
-static double find_soft(const guess *g, int sample)
+static void hold_what_stays(const guess *g)
 {
-    const wiggly_solver *solver = g->w->solver;
-    limits_set_matrix(g->w);
-    memset(solver->rows.gradient, 0, sizeof(double) * (size_t)(solver->matrix.width * solver->matrix.count));
-    if (pentadiagonal_factor(&g->w->solver->matrix) == RANK_BROKEN) return 0;
-    *place(g, sample) = 1;
-    pentadiagonal_solve(&solver->matrix, solver->rows.gradient);
-    return *place(g, sample);
-}
-
-/// Holds what the last step found.
-static void hold_found(const guess *g)
-{
-    limits_work *w = g->w;
     for (int n = 0; n < g->sides; n++) {
         const side *s = &g->side[n];
         for (int i = 0; i < g->count; i++) {
             const int sample = g->from + i;
             const bool stays = g->way * (s->by_push[i] - s->by_gap[i]) > apart;
-            if (stays && w->solver->limits.held[sample] == LIMITS_FREE) limits_take(w, sample, s->sign < 0);
+            if (stays && g->w->solver->limits.held[sample] == LIMITS_FREE) limits_take(g->w, sample, s->sign < 0);
         }
     }
 }
 
+/// The total in the solver's memory, and room there for the rest.
 static guess guess_of(limits_work *w)
 {
     const wiggly_solver *solver = w->solver;
     const limit_memory *m = &solver->limits;
     const wiggly_desc *desc = w->p->desc;
-    const limits_part *first = limits_has_body(w) ? &w->body : &w->tail;
     const size_t n = (size_t)solver->samples;
     double *jet = solver->rows.jet, *x = solver->rows.x;
-    guess g = {.w = w, .from = first->from, .lack_left = 1, .mean = 1};
+    guess g = {.w = w, .total = jet, .move = jet + n, .is_open = jet + 2 * n, .lack = jet + 3 * n};
+    g.from = limits_has_body(w) ? w->body.from : w->tail.from;
     g.count = (limits_has_tail(w) ? w->tail.to : w->body.to) - g.from + 1;
-    g.total = jet, g.move = jet + n, g.is_open = jet + 2 * n, g.lack = jet + 3 * n;
     if (desc->low > -INFINITY) g.side[g.sides++] = (side){1, desc->low, m->free[0], m->pushed[0], m->pull, x};
     if (desc->high < INFINITY) g.side[g.sides++] = (side){-1, desc->high, m->free[1], m->pushed[1], m->now, x + n};
+    for (int i = 0; i < g.count; i++) {
+        g.total[i] = limits_total(w, g.from + i);
+        g.is_open[i] = m->held[g.from + i] != LIMITS_KEYED;
+        g.pairs += g.sides * (g.is_open[i] > 0);
+    }
     return g;
 }
 
-/// The farthest that a sample is beyond a limit, from `slack` on; at: which.
+/// The farthest that a sample is beyond a limit, from `slack` on; `at`: which one.
 static double find_farthest(const guess *g, double slack, int *at)
 {
     *at = -1;
@@ -261,32 +274,28 @@ static double find_farthest(const guess *g, double slack, int *at)
     return slack;
 }
 
+/// What a push of 1 does to a sample; 0 where nothing holds the spline.
+static double find_soft(const guess *g, int sample)
+{
+    limits_set_matrix(g->w);
+    if (pentadiagonal_factor(&g->w->solver->matrix) == RANK_BROKEN) return 0;
+    clear_right_side(g);
+    *place(g, sample) = 1;
+    pentadiagonal_solve(&g->w->solver->matrix, g->w->solver->rows.gradient);
+    return *place(g, sample);
+}
+
 void limits_guess(limits_work *w, double slack)
 {
     guess g = guess_of(w);
     int farthest;
-    for (int i = 0; i < g.count; i++) {
-        g.is_open[i] = w->solver->limits.held[g.from + i] != LIMITS_KEYED;
-        g.total[i] = limits_total(w, g.from + i);
-        g.lack[i] = 0;
-        g.pairs += g.sides * (g.is_open[i] > 0);
-    }
     const double size = find_farthest(&g, slack, &farthest);
     if (farthest < 0) return;
     limits_set_system(w);
     g.soft = find_soft(&g, farthest);
     if (!(g.soft > 0)) return;
     for (int i = 0; i < g.count; i++) g.total[i] /= size;
-    for (int s = 0; s < g.sides; s++) {
-        g.side[s].limit /= size;
-        begin_side(&g, &g.side[s]);
-    }
-    double unclear = 1;
-    for (int step = 0; step < STEPS; step++) {
-        double before = g.mean;
-        if (!go_on(&g, &unclear)) return;
-        if (g.mean < good * before && g.lack_left < balanced && ((unclear <= 0 && g.mean < sure) || g.mean < least))
-            break;
-    }
-    hold_found(&g);
+    for (int s = 0; s < g.sides; s++) g.side[s].limit /= size;
+    begin(&g);
+    if (find_what_stays(&g)) hold_what_stays(&g);
 }
