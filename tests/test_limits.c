@@ -68,38 +68,6 @@ static bool is_keyed(const wiggly_desc *desc, int sample)
     return false;
 }
 
-/// A row of the real oscillator behind the last knot L, where it is at rest; |g|⁻² of it.
-static real tail_row(const real *e, int row, real by[3], real *weight)
-{
-    const struct textbook_poles *at = &book.at[book.last + row];
-    by[0] = expq(-2 * at->d * book.h), by[1] = -2 * expq(-at->d * book.h) * cosq(at->turn * book.h), by[2] = 1;
-    *weight = expq(2 * at->d * book.h);
-    return e[row + 1] + by[1] * e[row] + (row > 0 ? by[0] * e[row - 1] : 0);
-}
-
-/// −½ ∂E/∂(Re e_i) of what the limits add behind the last knot: E = Σ r_i² / (h³ |g|²).
-static real tail_pull(const real *e, int count, int i)
-{
-    real sum = 0, by[3], weight;
-    for (int row = i - 1; row <= i + 1; row++) {
-        if (row < 0 || row + 1 >= count) continue;
-        real r = tail_row(e, row, by, &weight);
-        sum += weight * by[i - row + 1] * r;
-    }
-    return -sum / (book.h * book.h * book.h);
-}
-
-/// E·h³.
-static real tail_energy(const real *e, int count)
-{
-    real sum = 0, by[3], weight;
-    for (int row = 0; row + 1 < count; row++) {
-        real r = tail_row(e, row, by, &weight);
-        sum += weight * r * r;
-    }
-    return sum;
-}
-
 /// A pull at a free sample is none; at a limit it is outwards: the limit pushes back.
 static void check_pull(const wiggly_desc *desc, int sample, real pull, double tolerance, const char *what)
 {
@@ -130,10 +98,10 @@ static real find_tail_pulls(const wiggly_desc *desc, real *pull)
         e[i] = (real)total[last + i] - book.y[last + i] - crealq(book.u[last + i]) - crealq(w);
     }
     for (int i = 1; i < count; i++) {
-        pull[i] = tail_pull(e, count, i);
+        pull[i] = textbook_tail_pull(&book, e, count, i);
         on_turn -= pull[i] * turned[i];
     }
-    const double energy = (double)tail_energy(e, count);
+    const double energy = (double)(textbook_tail_energy(&book, e, count) * book.h * book.h * book.h);
     assert_near(solver->limits.tail_energy, energy, 1e-8 * energy + 1e-18);
     return on_turn;
 }
