@@ -99,6 +99,8 @@ void main()
     at = uv;
 #endif
     open_sky = 0.45 + 0.55 * smoothstep(0.0, shade.y, world.y - shade.x);
+    // The seam is the same skin, 1.5 pixels larger (1 is too little where facets are large) and pushed back behind the first pass: only what
+    // sticks out is seen. Far behind it, or specks of it stick out of folds.
     vec3 ray = world - eye;
-    gl_Position = clip_from_world * vec4(world + seam * (1.5 * length(ray) * world_normal + 2.5 * ray), 1.0);
+    gl_Position = clip_from_world * vec4(world + seam * (1.5 * length(ray) * world_normal + 6.0 * ray), 1.0);
 }
