@@ -109,7 +109,7 @@ def faults_of_file(path, pick):
             if new is None: new = "!(" + old[start:end] + ")"
             changed = old[:start] + new + old[end:]
             found.append(Fault(path.parts[1], str(path), i + 1, kind, start, end, new, old.strip(), changed.strip(),
-                               is_idle(code, kind, start)))
+                               is_idle(code, kind, start, end)))
     return found
 
 
@@ -125,10 +125,13 @@ def shares(count, lines):
     return given
 
 
-def is_idle(code, kind, start):
-    """Whether a fault is in how much a buffer takes or in giving something back: only a sanitizer sees it."""
+def is_idle(code, kind, start, end):
+    """Whether a fault changes nothing that a test could see: how much a buffer takes and giving something back (a sanitizer's), or which
+    side of a bound a real number falls that equals it to the last bit."""
+    if kind == "statement": return bool(re.match(r"\s*\w*close\(", code))
     room = re.search(r"snprintf\([^,]*,[^,]*,", code)
-    return bool(room and start < room.end()) or kind == "statement" and bool(re.match(r"\s*\w*close\(", code))
+    bound = code[start:end] in ("<", "<=", ">", ">=") and NUMBER.match(code, end + 1)
+    return bool(room and start < room.end() or bound and "." in bound.group() and float(bound.group(1)) != 0)
 
 
 def queue_of_layer(layer, seed):
