@@ -3,10 +3,11 @@
 
 Usage: tools/mutate.py [--count 200] [--seed 1] [--layers spline,scene] [--jobs 1] [--list] ...   from the root of the tree
 
-Works on a copy of the tree (B, build/mutate). There all of src is one shared library, so that a fault costs one object and one
+Works on a copy of the tree in a build folder B (build/mutate). There all of src is one shared library, so that a fault costs one object and one
 link, however many tests there are. A build with coverage tells once which tests run which lines; each fault meets only these:
-those of its file's name first, then from the quickest to the slowest, until one fails, crashes or takes far too long. What a run
-found is kept in B/results.jsonl: the same faults again cost only the tests that changed since.
+those that share a word with its file's name first, then from the quickest to the slowest, until one fails, crashes or takes far too long. What a run
+found is kept in B/results.jsonl: the same faults again cost only the tests that changed since. Where a source has changed, all tests may
+run its lines, until B is removed and all is measured anew.
 
 Prints a table of layers and every survivor. Exit status 1 where fewer than 85 % are caught.
 """
@@ -224,11 +225,9 @@ class Copy:
         (self.root / "bin").mkdir(exist_ok=True)
         (self.root / "bin/make").write_text("#!/bin/sh\nexit 1\n")
         (self.root / "bin/make").chmod(0o755)
-        shell = digest(*sorted((tree / "tests").glob("*.sh")))
         for path in sorted((tree / "tests").glob("test_*")):
             if path.suffix == ".c": self.tests[path.stem] = digest(tree / "build/tests" / path.stem)
             elif path.suffix == ".sh": self.tests[path.name] = digest(path)
-        self.shell = shell
 
     def shared(self, output, objects, *more):
         must(self.link(output, objects, "-shared", *more), self.tree, self.log)
@@ -329,6 +328,9 @@ class Knowledge:
         for test in self.known:
             counted = self.copy.root / "gcov" / test / str(made.with_suffix(".gcda")).lstrip("/")
             if not counted.exists(): continue
+            if counted.stat().st_mtime < made.with_suffix(".gcno").stat().st_mtime: # of other sources
+                found[test] = ({}, [(1, sys.maxsize, 1)])
+                continue
             notes = counted.with_suffix(".gcno")
             if not notes.exists(): notes.symlink_to(made.with_suffix(".gcno"))
             told = subprocess.run(["gcov", "--json-format", "--stdout", str(counted)], stdout=subprocess.PIPE,
