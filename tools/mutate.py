@@ -105,12 +105,13 @@ def faults_of_file(path, pick):
         after_allocation = any("alloc" in c for c in codes[max(0, i - 2):i]) and "if (!" in code
         if not inside or LEFT_OUT.search(code) or after_allocation or "no_memory" in "".join(codes[i + 1:i + 2]): continue
         before = codes[i - 1].rstrip()
+        gives_up = "return" in code and "free(" in before and "alloc(" in "".join(codes[max(0, i - 6):i])
         for kind, start, end, new in faults_of_line(code, before.endswith((";", "{", "}", ":")), pick):
             old = lines[i]
             if new is None: new = "!(" + old[start:end] + ")"
             changed = old[:start] + new + old[end:]
             found.append(Fault(path.parts[1], str(path), i + 1, kind, start, end, new, old.strip(), changed.strip(),
-                               is_idle(code, kind, start, end)))
+                               gives_up or is_idle(code, kind, start, end)))
     return found
 
 
