@@ -69,7 +69,7 @@ printf '\223NUMPY\1\0\377\377{ and no more' >"$scratch/endless.npy"
 printf '\223NUMPY\1\0\166\0{ and no more' >"$scratch/header.npy"
 printf 'no' >"$scratch/tiny.npy"
 colored() { awk -v a="$1" -v b="$2" '/^v/ { c = $3 > 0 ? a : b; print $0, c, c, c; next } 1' "$scratch/box.obj"; }
-colored 1 0 >"$scratch/white.obj"
+colored 9 -9 >"$scratch/white.obj"
 colored 90 -90 >"$scratch/whiter.obj"
 for name in white whiter; do
     # shellcheck disable=SC2086
