@@ -1,35 +1,15 @@
-/// Floors of characters: a square on the ground plane of each, its height beside it, and a mark where the character touches it.
+/// Floors of characters by mouse: where their edges are, and drags up and down.
 #include "editor/stage/floors.h"
 #include "editor/core/core.h"
 #include "editor/core/drag.h"
 #include "editor/stage/rigs.h"
-#include "editor/stage/stage.h"
 #include "model/vector.h"
-#include "ui/font.h"
-#include "ui/theme.h"
 #include <math.h>
-#include <stdio.h>
 
-static const float AROUND = 0.42f;    ///< of the character's breadth and depth: how far the edge is from its middle
-static const float EDGE_REACH = 5;    ///< pixels
-static const float TOUCH = 2e-3f;     ///< of the character's height: what is so near touches
-static const float MARK = 4, END = 2; ///< radii, pixels
-static const float FAR_SIDE = 0.35f,
-                   FAR_PART = 0.4f; ///< of edges behind the character: opacity, and the part that is drawn
+static const float AROUND = 0.42f; ///< of the character's breadth or depth: how far the edge is from its middle
+static const float EDGE_REACH = 5; ///< pixels
 static const double LEAST_RISE =
     0.3; ///< cosine of the camera's elevation below which height follows the pointer less
-
-/// A floor as it is seen: corners in turn, on the screen, and the same of the world.
-struct shown_floor {
-    float corner[4][3], xy[4][2];
-    int first; ///< the corner that is nearest to the eye
-};
-
-static const struct character_rig *rig_of(const struct document *document, const struct stage_character *shown)
-{
-    const struct character_rig *rig = document_character(document, shown->rig);
-    return rig && rig->has_floor && !shown->is_twin ? rig : NULL;
-}
 
 bool floors_exist(const struct document *document, int rig)
 {
@@ -37,25 +17,26 @@ bool floors_exist(const struct document *document, int rig)
            document->rigs[rig].character.has_floor;
 }
 
-/// false where a corner is behind the eye.
-static bool find_corners(const struct stage *stage, const struct core *core, const struct stage_character *shown,
-                         double height, struct shown_floor *floor)
+const struct character_rig *floors_find(const struct stage *stage, const struct core *core,
+                                        const struct document *document, const struct stage_character *shown,
+                                        struct shown_floor *floor)
 {
+    const struct character_rig *rig = document_character(document, shown->rig);
+    if (!rig || !rig->has_floor || shown->is_twin) return NULL;
     static const float sides[4][2] = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};
     const float *lo = shown->figure->lo, *hi = shown->figure->hi;
     float nearest = INFINITY;
     for (int i = 0; i < 4; i++) {
-        float *at = floor->corner[i];
+        float at[3] = {0, (float)rig->floor, 0};
         for (int k = 0; k < 3; k += 2) {
             const float reach = AROUND * fmaxf(hi[0] - lo[0], hi[2] - lo[2]);
             at[k] = shown->position[k] + 0.5f * (lo[k] + hi[k]) + sides[i][k / 2] * reach;
         }
-        at[1] = (float)height;
-        if (!stage_project_point(stage, core->layout.stage, at, floor->xy[i])) return false;
+        if (!stage_project_point(stage, core->layout.stage, at, floor->xy[i])) return NULL;
         const float depth = glms_vec3_distance(vec3_from(stage->view.eye), vec3_from(at));
         if (depth < nearest) nearest = depth, floor->first = i;
     }
-    return true;
+    return rig;
 }
 
 /// How far a point of the screen is from a line between two others.
@@ -75,11 +56,10 @@ struct hover floors_hover(const struct stage *stage, const struct core *core, co
     if (core->brush.on || core->pick.use != BONE_SELECTED) return hover;
     for (int c = 0; c < stage->view.character_count; c++) {
         const struct stage_character *shown = &stage->view.characters[c];
-        const struct character_rig *rig = rig_of(document, shown);
-        struct shown_floor floor;
-        if (!rig || !find_corners(stage, core, shown, rig->floor, &floor)) continue;
-        for (int i = 0; i < 4; i++) {
-            const float distance = distance_to(floor.xy[i], floor.xy[(i + 1) % 4], x, y);
+        struct shown_floor floor = {0};
+        if (!floors_find(stage, core, document, shown, &floor)) continue;
+        for (int side = 1; side < 4; side += 2) { // those behind the character are not in the way of its surface
+            const float distance = distance_to(floor.xy[floor.first], floor.xy[(floor.first + side) % 4], x, y);
             if (distance >= best) continue;
             best = distance;
             hover = (struct hover){.kind = HOVER_FLOOR, .x = x, .y = y};
@@ -117,119 +97,4 @@ void floors_apply(struct stage *stage, struct core *core, const struct editor_wo
     edit.flag = true;
     edit.number = fmin(core_round(height, 0.5 / drag->pixels_per_metre), highest);
     core_edit(core, world, &edit);
-}
-
-/// The lowest vertex as it is posed, and its place.
-static void find_lowest(const struct stage_character *shown, float place[3])
-{
-    const struct figure *figure = shown->figure;
-    const struct morph *morph = &shown->morph;
-    float low = INFINITY;
-    int lowest = 0;
-    for (int v = 0; v < figure->character.vertex_count; v++) {
-        float y = figure->character.position[v][1];
-        for (int k = 0; k < morph->count; k++) {
-            const struct coordinate *c = &figure->character.coordinates[morph->coordinate[k]];
-            y += morph->weight[k][0] * c->re[v][1] - morph->weight[k][1] * c->im[v][1];
-        }
-        if (y < low) low = y, lowest = v;
-    }
-    morph_vertex(figure, morph, lowest, place, NULL);
-    for (int k = 0; k < 3; k++) place[k] += shown->position[k] - (k == 1 ? figure->lo[1] : 0.0f);
-}
-
-/// A disc on the floor under the lowest point, and a line to that where it is below.
-static void show_mark(const struct stage *stage, struct core *core, const float low[3], float height, uint32_t color)
-{
-    const float on[3] = {low[0], height, low[2]};
-    float line[2][2];
-    if (!stage_project_point(stage, core->layout.stage, on, line[0]) ||
-        !stage_project_point(stage, core->layout.stage, low, line[1]))
-        return;
-    if (low[1] < height) drawlist_line(&core->list, line[0], 2, 1.25f, color);
-    for (int e = 0; e < 2; e++) {
-        const float r = e == 0 ? MARK : END;
-        drawlist_rounded(&core->list, (struct rect){line[e][0] - r, line[e][1] - r, 2 * r, 2 * r}, r, color);
-    }
-}
-
-/// The height, at the corner that is farthest to the right.
-static void show_height(struct core *core, const struct shown_floor *floor, double height, float below,
-                        uint32_t color)
-{
-    char text[80];
-    int right = 0;
-    for (int i = 1; i < 4; i++) {
-        if (floor->xy[i][0] > floor->xy[right][0]) right = i;
-    }
-    int length = snprintf(text, sizeof text, "floor %.3g m", height + 0.0);
-    if (below > 0) snprintf(text + length, sizeof text - (size_t)length, ", %.2g m below", (double)below);
-    const struct rect r = core->layout.stage;
-    const float width = font_width(FONT_LABEL, THEME_TEXT_SMALL, text);
-    const float x = fmaxf(fminf(floor->xy[right][0] + 8, r.x + r.w - width - 8), r.x + 8);
-    const float y = floor->xy[right][1] + 4;
-    drawlist_rounded(&core->list, (struct rect){x - 4, y - 12, width + 8, 16}, 4, theme_fade(theme()->panel, 0.8f));
-    drawlist_text(&core->list, x, y, FONT_LABEL, THEME_TEXT_SMALL, color, text);
-}
-
-/// The edges at the nearest corner, and the beginnings of the other two, so that no line crosses the character.
-static void show_edges(struct core *core, const struct shown_floor *floor, float width, uint32_t color)
-{
-    for (int side = 1; side < 4; side += 2) {
-        const float *corner = floor->xy[(floor->first + side) % 4], *far = floor->xy[(floor->first + 2) % 4];
-        const float *near = floor->xy[floor->first];
-        const float line[3][2] = {
-            {near[0], near[1]},
-            {corner[0], corner[1]},
-            {corner[0] + FAR_PART * (far[0] - corner[0]), corner[1] + FAR_PART * (far[1] - corner[1])}};
-        drawlist_line(&core->list, line[0], 2, width, color);
-        drawlist_line(&core->list, line[1], 2, width, theme_fade(color, FAR_SIDE));
-    }
-}
-
-static void show_floor(const struct stage *stage, struct core *core, const struct stage_character *shown,
-                       double height, bool is_hot)
-{
-    struct shown_floor floor;
-    float low[3];
-    if (!find_corners(stage, core, shown, height, &floor)) return;
-    find_lowest(shown, low);
-    const float near_enough = TOUCH * (shown->figure->hi[1] - shown->figure->lo[1]);
-    const float below = (float)height - low[1];
-    const bool is_missed = below > near_enough, is_touched = below > -near_enough;
-    const uint32_t color = is_missed    ? theme()->warning
-                           : is_hot     ? theme()->playhead
-                           : is_touched ? theme()->accent
-                                        : theme()->text_dim;
-    show_edges(core, &floor, is_hot ? 2.25f : 1.5f, color);
-    if (is_touched) show_mark(stage, core, low, (float)height, color);
-    show_height(core, &floor, height, is_missed ? below : 0, is_missed ? color : theme()->text_dim);
-}
-
-void floors_show(const struct stage *stage, struct core *core, const struct editor_world *world)
-{
-    const struct document *document = world->document;
-    for (int c = 0; c < stage->view.character_count; c++) {
-        const struct stage_character *shown = &stage->view.characters[c];
-        const struct character_rig *rig = rig_of(document, shown);
-        if (!rig) continue;
-        const int index = document_find_rig(document, RIG_CHARACTER, shown->rig);
-        const bool is_held = core->drag.kind == DRAG_FLOOR && stage->floor_drag.rig == index;
-        const bool is_hot = core->hover.kind == HOVER_FLOOR && core->hover.rig == index;
-        show_floor(stage, core, shown, rig->floor, is_held || (is_hot && core->drag.kind == DRAG_NONE));
-    }
-}
-
-bool stage_floor_point(const struct stage *stage, const struct core *core, const struct document *document,
-                       int character, float xy[2])
-{
-    for (int c = 0; c < stage->view.character_count; c++) {
-        const struct stage_character *shown = &stage->view.characters[c];
-        const struct character_rig *rig = rig_of(document, shown);
-        struct shown_floor floor;
-        if (!rig || shown->rig != character || !find_corners(stage, core, shown, rig->floor, &floor)) continue;
-        for (int k = 0; k < 2; k++) xy[k] = 0.5f * (floor.xy[floor.first][k] + floor.xy[(floor.first + 1) % 4][k]);
-        return true;
-    }
-    return false;
 }

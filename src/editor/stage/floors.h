@@ -4,6 +4,17 @@
 
 #include "editor/stage/state.h"
 
+/// A floor as it is seen: corners in turn, on the screen.
+struct shown_floor {
+    float xy[4][2];
+    int first; ///< the corner that is nearest to the eye
+};
+
+/// The floor of a character that is shown, and where it is on the screen; NULL where it has none, or it is not in sight.
+const struct character_rig *floors_find(const struct stage *stage, const struct core *core,
+                                        const struct document *document, const struct stage_character *shown,
+                                        struct shown_floor *floor);
+
 /// The edge of a floor under a point of the stage (HOVER_FLOOR), or HOVER_NONE.
 struct hover floors_hover(const struct stage *stage, const struct core *core, const struct document *document,
                           float x, float y);
