@@ -105,13 +105,13 @@ vec3 with_face(vec3 coat, float sharp, out float gloss)
     // Amber that is lit through from below, around a pupil.
     float iris = 0.6 * clamp(0.55 - 0.6 * e.y, 0.0, 1.0) * clamp(4.5 * ring - 2.3, 0.0, 1.0) * clamp(5.0 - 5.0 * ring, 0.0, 1.0);
     vec3 drawn = mix(coat, dark, 0.85 * front * lines);
-    drawn = mix(drawn, mix(0.25 * dark, vec3(0.42, 0.15, 0.03), iris), ball);
-    drawn = mix(drawn, 0.4 * dark, tip);
     // The upper lid comes down to the lower one, its edge a lash line that bends from arch to smile, late: flat halfway down it would frown.
     float lid = mix(1.25, -0.55, blink) + (0.45 - 0.9 * blink * blink) * (1.0 - e.x * e.x) * 0.5 - e.y;
     float shut = covered(-0.0335 * lid, sharp) * step(0.01, blink);
     float lash = covered(0.0042 - 0.0335 * abs(lid), min(sharp, 330.0)) * step(0.01, blink);
-    drawn = mix(drawn, mix(coat, dark, lash), ball * max(shut, lash));
+    vec3 eyeball = mix(0.25 * dark, vec3(0.42, 0.15, 0.03), iris), skin = mix(0.86, 0.97, -0.5 * lid) * coat;
+    drawn = mix(drawn, mix(mix(eyeball, skin, shut), dark, lash), ball);
+    drawn = mix(drawn, 0.4 * dark, tip);
     ball *= 1.0 - max(shut, lash);
     gloss = max(ball, tip);
     // The lamp's images: fixed, as lamps are large and eyes are round; on the same side of both eyes.

@@ -174,12 +174,9 @@ static void test_angles(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_knots),
-        cmocka_unit_test(test_negative_zeros),
-        cmocka_unit_test(test_refused_knots),
-        cmocka_unit_test(test_refused_parameters),
-        cmocka_unit_test(test_modes_convert),
-        cmocka_unit_test(test_range_and_loops),
+        cmocka_unit_test(test_knots),         cmocka_unit_test(test_negative_zeros),
+        cmocka_unit_test(test_refused_knots), cmocka_unit_test(test_refused_parameters),
+        cmocka_unit_test(test_modes_convert), cmocka_unit_test(test_range_and_loops),
         cmocka_unit_test(test_angles),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -73,7 +73,7 @@ def export(name):
     press("E", "ctrl")
     press("A", "ctrl")
     text(name)
-    press("Return", frames=90)
+    press("Enter", frames=90)
     press("Escape")
 
 
