@@ -29,8 +29,8 @@ static const double balanced = 1e-3;  ///< part of what H d lacked at first
 typedef struct side {
     double sign, limit; ///< sign: of a push
     double *gap, *push;
-    double *by_gap,
-        *by_push; ///< parts of them that a step adds; `by_push` is first the product of what μ = 0 would add
+    double *by_gap;  ///< part of it that a step adds
+    double *by_push; ///< the same; before that the product of what μ = 0 would add to both
 } side;
 
 typedef struct guess {
@@ -189,6 +189,7 @@ static void begin(guess *g)
             const bool is_open = g->is_open[i] > 0;
             s->gap[i] = is_open ? fmax(s->sign * (g->total[i] - s->limit), 1) : 1;
             s->push[i] = 1 / s->gap[i];
+            s->by_push[i] = 0;
             if (is_open) g->lack[i] += s->sign * s->push[i];
         }
     }
