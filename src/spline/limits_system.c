@@ -9,7 +9,7 @@
 #include "spline/limits.h"
 #include <string.h>
 
-static const double stiff = 1e6;
+static const double stiff = 1e6; ///< of the first row, that spring
 
 /// −a and −b of a row.
 static double on_own(const coefficients *at) { return -2 - at->m.re; }
