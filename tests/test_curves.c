@@ -538,6 +538,41 @@ static void test_the_view_follows_edits_smoothly(void **state)
     session_close(&s);
 }
 
+/// The whole of the spline's curve is in sight once the view has come to rest.
+static void assert_in_sight(struct session *s, int i)
+{
+    const struct view *view = &s->editor->curves->view;
+    for (int frame = 0; frame < 90; frame++) session_frame(s);
+    for (int sample = 0; sample < document_samples(s->document); sample++) {
+        const double total = s->world.evaluation->curves[i].total[sample];
+        assert_true(total < view->value1 && total > view->value0);
+    }
+}
+
+/// Of the scene that the program begins with.
+static const char SWAY[] =
+    "{\"wiggly\": 1, \"frames\": [0, 120], \"splines\": [{\"name\": \"sway\", \"frequency\": 1, \"damping\": 0.08,"
+    "\"bandwidth\": 0.08, \"start\": \"loop\", \"knots\": [{\"frame\": 8, \"value\": 1}, {\"frame\": 20, \"value\": "
+    "-1.1},"
+    "{\"frame\": 56, \"value\": 0.4}, {\"frame\": 82, \"value\": 0.2}, {\"frame\": 100, \"value\": -0.6}]}]}";
+
+/// A found frequency, a chosen feel and a roll of the dice may swing far beyond what was seen.
+static void test_the_view_follows_another_feel(void **state)
+{
+    (void)state;
+    struct session s;
+    panel_open(&s, SWAY, 1280, 2400);
+    session_key(&s, 'F', MOD_SHIFT);
+    assert_in_sight(&s, 0);
+    panel_click(&s, "preset.antenna");
+    assert_in_sight(&s, 0);
+    panel_click(&s, "section.variation");
+    panel_enter(&s, "variation", "1");
+    panel_click(&s, "variation.roll");
+    assert_in_sight(&s, 0);
+    session_close(&s);
+}
+
 /// What was copied behind the end is in sight, and so is all that was before.
 static void test_the_view_follows_a_longer_scene(void **state)
 {
@@ -597,6 +632,7 @@ int main(void)
         cmocka_unit_test(test_crowded_knots_are_drawn_as_one_and_hit_each),
         cmocka_unit_test(test_labels_never_overlap),
         cmocka_unit_test(test_the_view_follows_edits_smoothly),
+        cmocka_unit_test(test_the_view_follows_another_feel),
         cmocka_unit_test(test_the_view_follows_a_longer_scene),
         cmocka_unit_test(test_all_that_is_drawn_is_framed),
     };
