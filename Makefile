@@ -257,7 +257,8 @@ $(TEST_PROGRAMS): $(B)/tests/%: $(B)/obj/tests/%.o $(TEST_SUPPORT:%.c=$(B)/obj/%
 # Of the sources only what readers need, and no GL.
 FUZZED := $(wildcard src/base/*.c src/spline/*.c src/scene/*.c src/model/*.c) src/ui/event.c \
     $(addprefix src/app/,replay.c settings.c recovery.c) $(addprefix src/timing/,readlog.c columns.c) \
-    $(addprefix src/rig/,imported.c skeleton.c) src/simulation/drive.c
+    $(addprefix src/rig/,imported.c skeleton.c) src/export/gltf_splice.c $(addprefix src/simulation/,drive.c softness.c \
+    lattice.c tiling.c voxels.c solid.c winding.c element.c svd.c material.c eigen.c)
 fuzzers: $(FUZZERS:%=$(B)/%)
 $(B)/obj/tests/fuzz/%.o: OWN_CPPFLAGS += -Itests
 $(B)/fuzzed.a: $(FUZZED:%.c=$(B)/obj/%.o) $(FUZZ_SUPPORT:%.c=$(B)/obj/%.o)

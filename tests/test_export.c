@@ -56,6 +56,18 @@ static void splices_touch_nothing_else(void **state)
     splice_free(&splice);
 }
 
+/// Where a file has an array twice, the one that counts is changed: the last.
+static void splices_change_what_counts(void **state)
+{
+    (void)state;
+    struct splice splice = {.text = "{\"a\":[1],\"b\":2,\"a\":[3]}"};
+    splice_append(&splice, "a", "4");
+    char *text = splice_apply(&splice);
+    assert_string_equal(text, "{\"a\":[1],\"b\":2,\"a\":[3,4]}");
+    free(text);
+    splice_free(&splice);
+}
+
 /// The only clip of a file; its channels are given one by one.
 static void each_channel(const char *path, void (*visit)(const struct gltf_channel *channel))
 {
@@ -287,6 +299,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(glb_moves_as_the_stage_does, folder_make, folder_remove),
         cmocka_unit_test(splices_touch_nothing_else),
+        cmocka_unit_test(splices_change_what_counts),
         cmocka_unit_test_setup_teardown(tangents_make_up_for_keys, folder_make, folder_remove),
         cmocka_unit_test_setup_teardown(keys_loop_and_turn_the_short_way, folder_make, folder_remove),
         cmocka_unit_test_setup_teardown(weights_stay_within_one_unless_signed, folder_make, folder_remove),

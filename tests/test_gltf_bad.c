@@ -332,13 +332,38 @@ static void changed_files_do_no_harm(void **state)
     assert_in_range(opened, 100, 1400);
 }
 
+/// Decodes a JPEG that begins with a table of so many codes, behind bytes that only look like one.
+static void decode_table(int codes, size_t cut, const char *says)
+{
+    unsigned char file[512] = {0xFF, 0xD8, 0xFF, 0xFE, 0, 6, 0xFF, 0xC4, 0, 3, 0x55, 0xFF, 0xFF, 0xC4};
+    const size_t size = 14 + 2 + 17 + (size_t)codes;
+    file[14] = (unsigned char)((size - 14) >> 8);
+    file[15] = (unsigned char)(size - 14);
+    for (int length = 9; codes > 0; length++) {
+        file[16 + length] = (unsigned char)(codes < 255 ? codes : 255);
+        codes -= file[16 + length];
+    }
+    struct gltf_image image;
+    struct error error = {0};
+    assert_false(gltf_decode_image(file, size - cut, 1 << 20, &image, &error));
+    if (!strstr(error.text, says)) fail_msg("'%s' does not say '%s'", error.text, says);
+}
+
+static void tables_of_a_jpeg(void **state)
+{
+    (void)state;
+    decode_table(256, 0, "unknown image type");
+    decode_table(257, 0, "a Huffman table is larger than it may be");
+    decode_table(300, 0, "a Huffman table is larger than it may be");
+    decode_table(256, 1, "a Huffman table is larger than it may be");
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(bad_files_get_one_sentence),
-        cmocka_unit_test(bad_containers),
-        cmocka_unit_test(claims_take_little_memory),
-        cmocka_unit_test(changed_files_do_no_harm),
+        cmocka_unit_test(bad_files_get_one_sentence), cmocka_unit_test(bad_containers),
+        cmocka_unit_test(claims_take_little_memory),  cmocka_unit_test(changed_files_do_no_harm),
+        cmocka_unit_test(tables_of_a_jpeg),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

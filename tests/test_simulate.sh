@@ -68,6 +68,15 @@ write_map above "(8, 1)" "$two$six$half"
 printf '\223NUMPY\1\0\377\377{ and no more' >"$scratch/endless.npy"
 printf '\223NUMPY\1\0\166\0{ and no more' >"$scratch/header.npy"
 printf 'no' >"$scratch/tiny.npy"
+colored() { awk -v a="$1" -v b="$2" '/^v/ { c = $3 > 0 ? a : b; print $0, c, c, c; next } 1' "$scratch/box.obj"; }
+colored 9 -9 >"$scratch/white.obj"
+colored 90 -90 >"$scratch/whiter.obj"
+for name in white whiter; do
+    # shellcheck disable=SC2086
+    expect 0 "softness where vertices are $name" "$WIGGLY" simulate "$scratch/$name.obj" --soft color $quick -o "$scratch/$name.npy"
+done
+cmp -s "$scratch/white.npy" "$scratch/whiter.npy"
+ok "white is as soft as it gets" $?
 expect 0 "a painted map of softness" "$WIGGLY" simulate "$scratch/box.obj" --soft "$scratch/map.npy" $quick -o "$scratch/soft.npy"
 # shellcheck disable=SC2086
 {

@@ -39,18 +39,18 @@ static const char *skip_value(const char *at)
     return at;
 }
 
-/// The value of a member of the object that starts here, or NULL.
+/// The value of a member of the object that starts here, or NULL; of two by one name the last, as readers of JSON have it.
 static const char *find_member(const char *object, const char *key)
 {
     const size_t length = strlen(key);
-    const char *at = skip_space(object) + 1;
+    const char *at = skip_space(object) + 1, *found = NULL;
     while (*(at = skip_space(at)) == '"') {
         const char *name = at + 1, *end = skip_string(at), *value = skip_space(skip_space(end) + 1);
-        if ((size_t)(end - name) == length + 1 && strncmp(name, key, length) == 0) return value;
+        if ((size_t)(end - name) == length + 1 && strncmp(name, key, length) == 0) found = value;
         at = skip_space(skip_value(value));
         if (*at == ',') at++;
     }
-    return NULL;
+    return found;
 }
 
 /// An element of the array that starts here, or NULL.
@@ -81,10 +81,8 @@ void splice_append(struct splice *splice, const char *array, const char *value)
     const char *found = find_member(splice->text, array);
     char *added = NULL;
     if (!found) {
-        const char *open = skip_space(splice->text) + 1;
-        const bool alone = *skip_space(open) == '}';
-        if (asprintf(&added, "\"%s\":[%s]%s", array, value, alone ? "" : ",") < 0) added = NULL;
-        add_edit(splice, open, 0, added);
+        if (asprintf(&added, "\"%s\":[%s],", array, value) < 0) added = NULL;
+        add_edit(splice, skip_space(splice->text) + 1, 0, added);
         return;
     }
     const bool empty = *skip_space(skip_space(found) + 1) == ']';

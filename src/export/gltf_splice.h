@@ -7,7 +7,7 @@
 
 enum { SPLICE_EDITS = 8 };
 
-/// All zero but `text`, which must be valid JSON whose root is an object.
+/// All zero but `text`, which must be valid JSON whose root is an object with members.
 struct splice {
     const char *text;
     struct splice_edit {

@@ -40,6 +40,7 @@ static bool weigh_color(const struct surface *surface, const char *name, double 
         return fail(error, ERROR_INPUT, "%s: --soft color: expected colours of vertices, got none", name);
     for (int i = 0; i < surface->vertex_count; i++) {
         for (int c = 0; c < 3; c++) vertex[i] += (double)srgb_from_linear(surface->color[i][c]) / 3;
+        vertex[i] = fmin(1, fmax(0, vertex[i])); // files may have colours brighter than white, and darker than black
     }
     return true;
 }

@@ -1,0 +1,45 @@
+/// Walks the segments of a JPEG (ITU T.81, annex B) as its decoder does.
+#include "model/jpeg.h"
+#include <string.h>
+
+enum { MARKER = 0xFF, START = 0xD8, END = 0xD9, FIRST_RESTART = 0xD0, HUFFMAN_TABLES = 0xC4 };
+enum { LENGTHS = 16, MOST_CODES = 256 };
+
+/// A segment's tables: a byte that names it, how many codes there are of each length, the codes.
+static bool tables_fit(const unsigned char *at, const unsigned char *end)
+{
+    while (at < end) {
+        int codes = 0;
+        if (end - at < 1 + LENGTHS) return false;
+        for (int i = 1; i <= LENGTHS; i++) codes += at[i];
+        if (codes > MOST_CODES || codes > end - at - 1 - LENGTHS) return false;
+        at += 1 + LENGTHS + codes;
+    }
+    return true;
+}
+
+/// Behind the next marker, or NULL. What is no marker lies between, as coded samples do.
+static const unsigned char *next_marker(const unsigned char *at, const unsigned char *end, int *marker)
+{
+    at = memchr(at, MARKER, (size_t)(end - at));
+    while (at && at < end && *at == MARKER) at++;
+    if (!at || at == end) return NULL;
+    *marker = *at;
+    return at + 1;
+}
+
+bool jpeg_tables_fit(const unsigned char *bytes, size_t size)
+{
+    const unsigned char *at = bytes, *end = bytes + size;
+    int marker = 0;
+    if (size < 2 || bytes[0] != MARKER || bytes[1] != START) return true;
+    while ((at = next_marker(at, end, &marker)) && marker != END) {
+        const bool alone = marker == 0 || (marker >= FIRST_RESTART && marker <= START);
+        if (alone) continue;
+        const long length = end - at < 2 ? 0 : at[0] << 8 | at[1];
+        if (length < 2 || length > end - at) return marker != HUFFMAN_TABLES;
+        if (marker == HUFFMAN_TABLES && !tables_fit(at + 2, at + length)) return false;
+        at += length;
+    }
+    return true;
+}
