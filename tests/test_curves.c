@@ -462,6 +462,34 @@ static void test_crowded_knots_are_drawn_as_one_and_hit_each(void **state)
     session_close(&s);
 }
 
+/// The first and the last as well as those between, of the active curve and of the others.
+static void test_every_knot_is_drawn(void **state)
+{
+    (void)state;
+    struct session s;
+    session_open(&s, FIVE);
+    session_frame(&s);
+    const struct drawlist *list = editor_drawlist(s.editor);
+    for (int i = 0; i < 2; i++) {
+        for (int k = 0; k < spline(&s, i)->knot_count; k++) {
+            char target[32];
+            struct error error;
+            float x, y;
+            int drawn = 0;
+            snprintf(target, sizeof target, "knot(%s,%d)", spline(&s, i)->name, k);
+            if (!editor_target(s.editor, &s.world, target, &x, &y, &error)) fail_msg("%s", error.text);
+            for (int c = 0; c < list->count; c++) {
+                const struct draw_command *command = &list->commands[c];
+                if (command->kind != DRAW_CONVEX || command->count != 4) continue;
+                const float *p = list->points + 2 * command->first; // top, right, bottom, left
+                drawn += fabsf((p[0] + p[4]) / 2 - x) < 0.5f && fabsf((p[1] + p[5]) / 2 - y) < 0.5f;
+            }
+            if (drawn != 1) fail_msg("%s is drawn %d times", target, drawn);
+        }
+    }
+    session_close(&s);
+}
+
 /// Twelve curves that end at the same height in the lowest panel there is.
 static void test_labels_never_overlap(void **state)
 {
@@ -595,6 +623,7 @@ int main(void)
         cmocka_unit_test(test_a_cubic_holds_its_last_value),
         cmocka_unit_test(test_a_sloped_knot_on_the_curve_keeps_it),
         cmocka_unit_test(test_crowded_knots_are_drawn_as_one_and_hit_each),
+        cmocka_unit_test(test_every_knot_is_drawn),
         cmocka_unit_test(test_labels_never_overlap),
         cmocka_unit_test(test_the_view_follows_edits_smoothly),
         cmocka_unit_test(test_the_view_follows_a_longer_scene),
