@@ -4,7 +4,7 @@
 Usage: tools/mutate.py [--count 200] [--seed 1] [--layers spline,scene] [--jobs 1] [--list] ...   from the root of the tree
 
 Works on a copy of the tree in a build folder B (build/mutate). There all of src is one shared library, so that a fault costs one object and one
-link, however many tests there are. A build with coverage tells once which tests run which lines; each fault meets only these:
+link, however many tests there are. A build with coverage tells once which tests run which functions; each fault meets only these:
 those that share a word with its file's name first, then from the quickest to the slowest, until one fails, crashes or takes far too long. What a run
 found is kept in B/results.jsonl: the same faults again cost only the tests that changed since. Where a source has changed, all tests may
 run its lines, until B is removed and all is measured anew.
@@ -346,14 +346,15 @@ class Knowledge:
         return found
 
     def tests_of(self, fault):
-        """Tests that run the line of a fault, in the order in which they are tried."""
-        chosen = []
+        """Tests that run the function of a fault, in the order in which they are tried: optimised code does not count every line."""
+        chosen, certain = [], set()
         for test, (counts, functions) in self.lines_of(fault.file).items():
-            runs = counts[fault.line] if fault.line in counts else any(n for a, b, n in functions if a <= fault.line <= b)
+            if counts.get(fault.line): certain.add(test)
+            runs = test in certain or any(n for a, b, n in functions if a <= fault.line <= b)
             if runs and self.known[test]["status"] is not None and self.known[test]["seconds"] <= 10 * self.longest: chosen.append(test)
         words = set(re.split(r"[/_]", fault.file.removesuffix(".c"))) - {"src"}
         own = lambda test: bool(words & set(test.split(".")[0].split("_")[1:]))
-        order, spent = sorted(chosen, key=lambda t: (not own(t), self.known[t]["seconds"])), 0
+        order, spent = sorted(chosen, key=lambda t: (not own(t), t not in certain, self.known[t]["seconds"])), 0
         for i, test in enumerate(order):
             if i and spent > self.patience: return order[:i]
             spent += self.known[test]["seconds"]
