@@ -3,11 +3,14 @@
 
 Usage: tools/mutate.py [--count 200] [--seed 1] [--layers spline,scene] [--jobs 1] [--list] ...   from the root of the tree
 
-Works on a copy of the tree in a build folder B (build/mutate). There all of src is one shared library, so that a fault costs one object and one
-link, however many tests there are. A build with coverage tells once which tests run which functions; each fault meets only these:
-those that share a word with its file's name first, then from the quickest to the slowest, until one fails, crashes or takes far too long. What a run
-found is kept in B/results.jsonl: the same faults again cost only the tests that changed since. Where a source has changed, all tests may
-run its lines, until B is removed and all is measured anew.
+Works on a copy of the tree in a build folder B (build/mutate). There all of src is one shared library, so that a fault costs one
+object and one link, however many tests there are. A build with coverage tells once which tests run which functions; each fault meets
+only these: those that share a word with its file's name first, then those that surely run its line, then from the quickest to the
+slowest, until one fails, crashes or takes far too long. Tests that took longer than --longest in the suite's last run
+(build/test-out/times) are left out; after --patience a fault counts as survivor.
+
+What a run found is kept in B/results.jsonl: the same faults again cost only the tests that changed since. Where a source has changed, all
+tests may run its lines, until B is removed and all is measured anew. Seconds are those of B's measurement.
 
 Prints a table of layers and every survivor. Exit status 1 where fewer than 85 % are caught.
 """
@@ -384,13 +387,9 @@ class Trial:
         text = (self.copy.tree / fault.file).read_text().split("\n")
         line = text[fault.line - 1]
         text[fault.line - 1] = line[:fault.start] + fault.new + line[fault.end:]
-        source = folder / fault.file
+        source, made = folder / fault.file, folder / "mutant.o"
         source.parent.mkdir(parents=True, exist_ok=True)
         source.write_text("\n".join(text))
-        return self.made(fault, folder)
-
-    def made(self, fault, folder):
-        source, made = folder / fault.file, folder / "mutant.o"
         command = [w for w in self.copy.commands[fault.file] if w not in ("-MMD", "-MP") and not w.startswith("-W")]
         command[command.index("-c") + 1], command[command.index("-o") + 1] = str(source), str(made)
         if subprocess.run(command + ["-w", f"-fmacro-prefix-map={folder}/="], cwd=self.copy.tree, stderr=subprocess.DEVNULL).returncode:
