@@ -133,7 +133,7 @@ def shares(count, lines):
 def is_idle(code, kind, start, end):
     """Whether a fault changes nothing that a test could see: how much a buffer takes and giving something back (a sanitizer's), what is
     no longer bound in OpenGL, or which side of a bound a real number falls that equals it to the last bit."""
-    if kind == "statement": return bool(re.match(r"\s*(\w*close\(|glBind\w+\((\w+, )?0\);)", code))
+    if kind == "statement": return bool(re.match(r"\s*(\w*(close|decref)\(|glBind\w+\((\w+, )?0\);)", code))
     room = re.search(r"snprintf\([^,]*,[^,]*,", code)
     bound = code[start:end] in ("<", "<=", ">", ">=") and NUMBER.match(code, end + 1)
     return bool(room and start < room.end() or bound and "." in bound.group() and float(bound.group(1)) != 0)
