@@ -23,6 +23,7 @@ uniform int first_row[4];
 uniform vec2 weight[4]; // z
 uniform int map_row;    // of the coordinate whose phases are shown; -1: none
 uniform vec3 map_axis;  // the direction of movement that is shown, divided by its largest amplitude
+uniform float dark;     // luminance below which a colour stays on the map: that of eyes and a nose
 out vec3 world;
 out vec3 world_normal;
 out vec3 fur;
@@ -73,6 +74,13 @@ vec3 phase_color(vec2 z)
     return linear_of_oklab(LIGHTNESS + dot(SWING, shown), CHROMA * vec2(-shown.y, shown.x));
 }
 
+// The face stays: without eyes nobody sees which way the animal looks.
+vec3 mapped_color()
+{
+    float luminance = dot(color, vec3(0.2126, 0.7152, 0.0722));
+    return mix(color, phase_color(phase), smoothstep(0.3 * dark, dark, luminance));
+}
+
 void main()
 {
     vec3 moved = position;
@@ -84,13 +92,15 @@ void main()
     vec3 across = cross(u, v);
     world_normal = across / max(length(across), 1e-9);
     phase = map_row >= 0 ? mapped_movement() : vec2(0.0);
-    fur = map_row >= 0 ? phase_color(phase) : color;
+    fur = map_row >= 0 ? mapped_color() : color;
 #ifdef PICTURED
     fur *= base.rgb;
     opacity = base.a;
     at = uv;
 #endif
     open_sky = 0.45 + 0.55 * smoothstep(0.0, shade.y, world.y - shade.x);
+    // The seam is the same skin, 1.5 pixels larger (1 is too little where facets are large) and pushed back behind the first pass: only what
+    // sticks out is seen. Far behind it, or specks of it stick out of folds.
     vec3 ray = world - eye;
-    gl_Position = clip_from_world * vec4(world + seam * (1.5 * length(ray) * world_normal + 2.5 * ray), 1.0);
+    gl_Position = clip_from_world * vec4(world + seam * (1.5 * length(ray) * world_normal + 6.0 * ray), 1.0);
 }

@@ -10,7 +10,7 @@ layout(location = 6) in vec4 weights;
 layout(location = 7) in vec4 more_weights;
 uniform mat4 clip_from_world;
 uniform vec3 eye;
-uniform float seam;  // as in stage_mesh.vert
+uniform float seam;  // as in stage_character.vert
 uniform vec2 shade;  // heights: of the ground, and of the dusk above it
 uniform vec4 base;   // the material's colour
 uniform int first;   // matrix of the skin's first joint
@@ -50,5 +50,5 @@ void main()
     at = uv;
     open_sky = 0.45 + 0.55 * smoothstep(0.0, shade.y, world.y - shade.x);
     vec3 ray = world - eye;
-    gl_Position = clip_from_world * vec4(world + seam * (1.5 * length(ray) * world_normal + 2.5 * ray), 1.0);
+    gl_Position = clip_from_world * vec4(world + seam * (1.5 * length(ray) * world_normal + 6.0 * ray), 1.0);
 }

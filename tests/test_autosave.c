@@ -97,37 +97,6 @@ static void test_when(void **state)
     world_close(&world);
 }
 
-/// A document that takes long to print is written in a pause; who never pauses is kept safe all the same.
-static void test_large(void **state)
-{
-    (void)state;
-    struct world world;
-    world_open(&world);
-    struct autosave *autosave = open_autosave();
-    world_must(&world, edit_range(0, 4000));
-    for (int f = 31; f < 2000; f++) world_must(&world, edit_insert(SWAY, f, 0));
-    double now = 100;
-    update(autosave, &world, now);
-    assert_false(has_file(autosave));
-    update_until(autosave, &world, now += 1, true);
-    assert_int_equal(unlink(autosave_path(autosave)), 0);
-    for (int i = 0; i < 20; i++) {
-        world_must(&world, edit_number(SWAY, PARAMETER_FREQUENCY, 1 + 0.01 * i));
-        update(autosave, &world, now += 0.5);
-    }
-    wait_a_moment();
-    assert_false(has_file(autosave));
-    update_until(autosave, &world, now + 1, true); // still within two seconds of the last edit
-    assert_int_equal(unlink(autosave_path(autosave)), 0);
-    for (int i = 0; i < 70; i++) {
-        world_must(&world, edit_number(SWAY, PARAMETER_FREQUENCY, 2 + 0.01 * i));
-        update(autosave, &world, now += 0.5);
-    }
-    update_until(autosave, &world, now, true);
-    autosave_close(autosave, false);
-    world_close(&world);
-}
-
 /// What is left behind is the document, byte for byte, with its path; it is offered once nobody runs on it any more.
 static void test_left_behind(void **state)
 {
@@ -286,7 +255,6 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(test_when, folder_make, folder_remove),
-        cmocka_unit_test_setup_teardown(test_large, folder_make, folder_remove),
         cmocka_unit_test_setup_teardown(test_left_behind, folder_make, folder_remove),
         cmocka_unit_test_setup_teardown(test_newest_first, folder_make, folder_remove),
         cmocka_unit_test_setup_teardown(test_not_a_recovery_file, folder_make, folder_remove),

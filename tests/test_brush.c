@@ -240,6 +240,37 @@ static void modes_and_modifiers_do_what_they_say(void **state)
     studio_close(&s);
 }
 
+/// Soft at the rim: half way out a moment of the brush does about half of what it does in the middle, near the rim hardly anything.
+static void a_dab_fades_towards_its_rim(void **state)
+{
+    (void)state;
+    struct studio s;
+    studio_open(&s);
+    session_key(&s.session, 'K', 0);
+    s.session.editor->core.brush.radius = 0.2;
+    hold(&s, left_finger, 0, 3);
+    const struct reach *reach = &s.session.editor->stage->painting.work.reach;
+    float most = 0, radius = 0;
+    for (int i = 0; i < reach->count; i++) {
+        const int vertex = reach->vertices[i];
+        const float done = value_of(&s, 0, vertex)[1];
+        most = fmaxf(most, done);
+        if (done > 0) radius = fmaxf(radius, reach->distance[vertex]);
+    }
+    double sum[2] = {0}; // over what lies half way out, and near the rim
+    int count[2] = {0};
+    for (int i = 0; i < reach->count; i++) {
+        const float away = reach->distance[reach->vertices[i]] / radius;
+        const bool is_half_way = away > 0.45f && away < 0.55f;
+        if (!is_half_way && !(away > 0.9f && away <= 1)) continue;
+        sum[!is_half_way] += (double)(value_of(&s, 0, reach->vertices[i])[1] / most);
+        count[!is_half_way]++;
+    }
+    assert_near(sum[0] / count[0], 0.52, 0.12);
+    assert_near(sum[1] / count[1], 0, 0.04);
+    studio_close(&s);
+}
+
 /// However long a stroke is held, phases in its reach differ by a quarter of a turn at most, and amplitudes by a factor of four; another
 /// stroke goes on from there.
 static void a_long_stroke_saturates(void **state)
@@ -431,6 +462,7 @@ int main(void)
         cmocka_unit_test(undo_and_redo_are_exact),
         cmocka_unit_test(a_stroke_allocates_nothing_as_it_goes_on),
         cmocka_unit_test(modes_and_modifiers_do_what_they_say),
+        cmocka_unit_test(a_dab_fades_towards_its_rim),
         cmocka_unit_test(a_long_stroke_saturates),
         cmocka_unit_test(smoothing_reduces_variation),
         cmocka_unit_test(the_map_is_shown_and_the_rest_of_the_stage_still_turns),

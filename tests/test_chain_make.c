@@ -1,5 +1,5 @@
 /// Chains made for a character of somebody's: names, splines and channels that suit it, motion that follows its clip, one step to undo.
-#include "near.h"
+#include "gltf_builder.h"
 #include "rig/chain_make.h"
 #include "rig/import.h"
 #include "rig/opened.h"
@@ -59,6 +59,28 @@ static void test_a_character_opens_as_a_scene(void **state)
     document_destroy(document);
     assert_null(import_scene("assets/models/no.glb", &error));
     assert_non_null(strstr(error.text, "assets/models/no.glb"));
+}
+
+/// One in centimetres, or as small as a thumb, comes about as tall as others, by a number that one would write; the rest stay.
+static void test_a_character_of_any_size_fits_the_stage(void **state)
+{
+    (void)state;
+    static const struct {
+        float height;
+        double scale;
+    } cases[] = {{180, 0.009}, {0.016f, 100}, {0.5f, 1}, {3, 1}, {5, 0.3}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        const float position[3][3] = {{0, 0, 0}, {0.1f * cases[i].height, 0, 0}, {0, cases[i].height, 0}};
+        struct builder b = {0};
+        struct error error;
+        add_data(&b, FLOAT, "VEC3", 3, position, sizeof position);
+        const char *text = builder_json(&b, "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0}}]}],"
+                                            "\"nodes\":[{\"mesh\":0}],\"scenes\":[{\"nodes\":[0]}]");
+        struct document *document = import_scene(temporary_file("size.gltf", text, strlen(text)), &error);
+        if (!document) fail_msg("%s", error.text);
+        assert_near(document->rigs[0].model.scale, cases[i].scale, 1e-9);
+        document_destroy(document);
+    }
 }
 
 static void test_a_chosen_clip_gives_the_scene_its_length(void **state)
@@ -202,6 +224,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_a_character_opens_as_a_scene),
+        cmocka_unit_test(test_a_character_of_any_size_fits_the_stage),
         cmocka_unit_test(test_a_chosen_clip_gives_the_scene_its_length),
         cmocka_unit_test(test_a_tail_swings_with_the_walk_and_loops),
         cmocka_unit_test(test_the_tip_moves_as_far_as_its_spline),

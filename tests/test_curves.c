@@ -312,6 +312,42 @@ static void test_a_longer_handle_is_stiffer(void **state)
     session_close(&s);
 }
 
+/// A handle that is pulled past its knot stays steep on its own side.
+static void test_a_handle_does_not_flip(void **state)
+{
+    (void)state;
+    struct session s;
+    session_open(&s, FIVE);
+    session_click(&s, "knot(sway,1)");
+    session_pull(&s, "handle(sway,1,1)", -150, -40, 8);
+    assert_true(spline(&s, 0)->knots[1].slope > 20);
+    session_release(&s, BUTTON_LEFT);
+    session_pull(&s, "handle(sway,1,0)", 150, 100, 8);
+    assert_true(spline(&s, 0)->knots[1].slope > 20);
+    session_release(&s, BUTTON_LEFT);
+    session_close(&s);
+}
+
+/// Of handles that nearly touch the one under the pointer is pulled.
+static void test_the_nearest_handle_is_pulled(void **state)
+{
+    (void)state;
+    static const char close[] =
+        "{\"wiggly\": 1, \"frames\": [0, 240], \"splines\": [{\"name\": \"sway\", \"frequency\": 1,"
+        "\"damping\": 0.1, \"knots\": [{\"frame\": 100, \"value\": 0, \"slope\": 0}, {\"frame\": 101, \"value\": 0,"
+        "\"slope\": 0}]}]}";
+    for (int k = 0; k < 2; k++) {
+        struct session s;
+        session_open(&s, close);
+        session_key(&s, 'A', MOD_CTRL);
+        session_pull(&s, k ? "handle(sway,1,1)" : "handle(sway,0,1)", 0, -60, 5);
+        session_release(&s, BUTTON_LEFT);
+        assert_true(spline(&s, 0)->knots[k].slope > 0.1);
+        assert_near(spline(&s, 0)->knots[1 - k].slope, 0, 0);
+        session_close(&s);
+    }
+}
+
 /// A knot where the curve is, and with the slope that it has there, leaves every sample where it was.
 static void test_double_click_on_the_curve_keeps_it(void **state)
 {
@@ -553,6 +589,8 @@ int main(void)
         cmocka_unit_test(test_normalised_curves_keep_their_picture),
         cmocka_unit_test(test_slopes_flat_and_smooth),
         cmocka_unit_test(test_a_longer_handle_is_stiffer),
+        cmocka_unit_test(test_a_handle_does_not_flip),
+        cmocka_unit_test(test_the_nearest_handle_is_pulled),
         cmocka_unit_test(test_double_click_on_the_curve_keeps_it),
         cmocka_unit_test(test_a_cubic_holds_its_last_value),
         cmocka_unit_test(test_a_sloped_knot_on_the_curve_keeps_it),

@@ -281,6 +281,20 @@ static void test_slopes(void **state)
     session_close(&s);
 }
 
+/// However long the keys are held, a stiffness stays one that a scene may have.
+static void test_stiffness_stays_in_range(void **state)
+{
+    (void)state;
+    struct session s;
+    session_open(&s, SWAY);
+    session_click(&s, "knot(sway,1)");
+    for (int i = 0; i < 80; i++) session_key(&s, 'E', MOD_SHIFT);
+    assert_near(sway(&s)->knots[1].stiffness, 1e9, 0);
+    for (int i = 0; i < 160; i++) session_key(&s, 'D', MOD_SHIFT);
+    assert_near(sway(&s)->knots[1].stiffness, 1e-3, 0);
+    session_close(&s);
+}
+
 static void test_parameters_by_held_letters(void **state)
 {
     (void)state;
@@ -414,6 +428,7 @@ int main(void)
         cmocka_unit_test(test_nudges_merge),
         cmocka_unit_test(test_a_nudge_passes_through),
         cmocka_unit_test(test_slopes),
+        cmocka_unit_test(test_stiffness_stays_in_range),
         cmocka_unit_test(test_parameters_by_held_letters),
         cmocka_unit_test(test_keys_during_a_drag_do_not_mix),
         cmocka_unit_test(test_a_monkey_can_be_undone),

@@ -224,6 +224,73 @@ static void textures_are_written_beside(void **state)
     assert_int_equal(files_in_folder(), 2);
 }
 
+/// Where the numbers begin that a name of the file has; fails where it has none from `from` on.
+static size_t numbers_of(const char *text, size_t from, const char *name)
+{
+    const char *found = strstr(text + from, name);
+    if (!found) fail_msg("there is no %s", name);
+    return (size_t)(found - text) + strcspn(found, "0123456789");
+}
+
+/// Reads the next number of a list in brackets, however they nest; false at its end.
+static bool next_number(const char *text, size_t *at, double *number)
+{
+    char *end;
+    const char *begin = text + *at + strspn(text + *at, "(, )");
+    *number = strtod(begin, &end);
+    *at = (size_t)(end - text);
+    return end != begin;
+}
+
+/// Bound where the skin of the file says: a joint's bind matrix undoes its inverse bind matrix.
+static void usd_joints_are_bound_as_the_files(void **state)
+{
+    (void)state;
+    size_t size;
+    char *text = bytes_of(export_scene("dog", "dog.usda", (struct export_options){.substeps = 1}), &size);
+    struct gltf dog;
+    struct error error;
+    assert_true(gltf_read("assets/models/dog.glb", &dog, &error));
+    const struct gltf_skin *skin = &dog.skins[0];
+    int found = 0;
+    size_t at = numbers_of(text, 0, "] bindTransforms = ");
+    for (double bind[16]; next_number(text, &at, &bind[0]);) {
+        for (int i = 1; i < 16; i++) assert_true(next_number(text, &at, &bind[i]));
+        for (int j = 0; j < skin->joint_count; j++) {
+            double off = 0;
+            for (int i = 0; i < 16; i++) {
+                double product = 0;
+                for (int k = 0; k < 4; k++)
+                    product += bind[4 * k + i % 4] * (double)skin->inverse_bind[j][i / 4 * 4 + k];
+                off = fmax(off, fabs(product - (i % 5 == 0)));
+            }
+            found += off < 1e-5;
+        }
+    }
+    assert_int_equal(found, skin->joint_count);
+    gltf_free(&dog);
+    free(text);
+}
+
+/// Every face has one material.
+static void usd_materials_share_out_the_faces(void **state)
+{
+    (void)state;
+    size_t size, at;
+    char *text = bytes_of(export_scene("dog", "dog.usda", (struct export_options){.substeps = 1}), &size);
+    int faces = 0, next = 0;
+    double number;
+    for (at = numbers_of(text, 0, "] faceVertexCounts = "); next_number(text, &at, &number); faces++)
+        assert_near(number, 3, 0);
+    while (next < faces) {
+        at = numbers_of(text, at, "int[] indices = ");
+        for (; next_number(text, &at, &number); next++) assert_near(number, next, 0);
+    }
+    assert_int_equal(next, faces);
+    assert_null(strstr(text + at, "int[] indices = "));
+    free(text);
+}
+
 /// Where the textures cannot be written, nothing is: neither the file nor a part of them.
 static void without_its_textures_nothing_is_written(void **state)
 {
@@ -266,6 +333,8 @@ int main(void)
         cmocka_unit_test_setup_teardown(text_files_get_a_clip_too, folder_make, folder_remove),
         cmocka_unit_test_setup_teardown(containers_change_and_hold_the_same, folder_make, folder_remove),
         cmocka_unit_test_setup_teardown(a_body_keeps_the_keys_of_its_clip, folder_make, folder_remove),
+        cmocka_unit_test_setup_teardown(usd_joints_are_bound_as_the_files, folder_make, folder_remove),
+        cmocka_unit_test_setup_teardown(usd_materials_share_out_the_faces, folder_make, folder_remove),
         cmocka_unit_test_setup_teardown(textures_are_written_beside, folder_make, folder_remove),
         cmocka_unit_test_setup_teardown(without_its_textures_nothing_is_written, folder_make, folder_remove),
     };

@@ -214,6 +214,30 @@ static void test_knot_is_edited_in_place(void **state)
 }
 
 /// Several knots at once: typed numbers are set, drags and frames move, and what is not possible changes nothing.
+/// Nothing is selected: the section says what knots there are and works without pointing at one; what is below stays where it is.
+static void test_the_knot_section_without_a_knot(void **state)
+{
+    (void)state;
+    struct session f;
+    float x, y[2];
+    panel_open(&f, scene, 1280, 1400);
+    assert_true(inspector_target(f.editor->inspector, &f.editor->core, &f.world, "section.splines", &x, &y[0]));
+    f.editor->core.playback.position = 20;
+    panel_click(&f, "knot.insert");
+    assert_int_equal(f.document->splines[0].knot_count, 4);
+    assert_near(f.document->splines[0].knots[1].frame, 20, 0);
+    assert_true(inspector_target(f.editor->inspector, &f.editor->core, &f.world, "section.splines", &x, &y[1]));
+    assert_near(y[1], y[0], 0);
+    assert_false(panel_shows(&f, "knot.insert"));
+    session_key(&f, KEY_ESCAPE, 0);
+    panel_click(&f, "knot.next");
+    assert_near(f.editor->core.playback.position, 36, 0);
+    session_key(&f, KEY_ESCAPE, 0);
+    panel_click(&f, "knot.all");
+    assert_true(panel_shows(&f, "slope.flat"));
+    session_close(&f);
+}
+
 static void test_several_knots(void **state)
 {
     (void)state;
@@ -472,6 +496,7 @@ int main(void)
         cmocka_unit_test(test_only_what_counts_is_shown),
         cmocka_unit_test(test_the_solver_is_a_setting_of_the_session),
         cmocka_unit_test(test_knot_is_edited_in_place),
+        cmocka_unit_test(test_the_knot_section_without_a_knot),
         cmocka_unit_test(test_several_knots),
         cmocka_unit_test(test_frame_drag_passes_through_a_neighbour),
         cmocka_unit_test(test_the_pointer_says_what_it_does),

@@ -121,6 +121,12 @@ static void test_renaming(void **state)
     assert_string_equal(f.document->splines[0].name, "swing");
     assert_non_null(strstr(f.editor->core.message.text, "a spline called pace already exists"));
     session_key(&f, KEY_F2, 0);
+    session_key(&f, KEY_END, 0); // the name that is there is what is edited
+    panel_type(&f, "s");
+    session_key(&f, KEY_ENTER, 0);
+    assert_string_equal(f.document->splines[0].name, "swings");
+    session_key(&f, 'Z', MOD_CTRL);
+    session_key(&f, KEY_F2, 0);
     session_key(&f, KEY_DELETE, 0); // all is selected
     session_key(&f, KEY_ENTER, 0);
     assert_string_equal(f.document->splines[0].name, "swing");

@@ -211,6 +211,33 @@ static void they_are_seen_on_the_stage(void **state)
     figure_free(&figure);
 }
 
+/// Through a top of half an alpha the background is seen, on which it lies as on glass; the sides stay as they were.
+static void what_is_half_clear_is_seen_through(void **state)
+{
+    (void)state;
+    static picture opaque, clear, none;
+    if (!platform) skip();
+    for (int i = 0; i < 3; i++) {
+        struct character c = read_character("cube.glb");
+        struct figure figure;
+        if (i > 0) c.looks.materials[GREEN].color[3] = i == 1 ? 0.5f : 0;
+        assert_true(figure_create(&figure, &c));
+        draw(&figure, -1, i == 0 ? opaque : i == 1 ? clear : none);
+        figure_free(&figure);
+    }
+    int between = 0, green = 0;
+    for (int i = 0; i < WIDTH * HEIGHT; i++) {
+        const unsigned char *full = opaque[i / WIDTH][i % WIDTH], *half = clear[i / WIDTH][i % WIDTH],
+                            *behind = none[i / WIDTH][i % WIDTH];
+        if (!(full[1] > 2 * full[0] + 30 && full[1] > 2 * full[2] + 30)) continue;
+        green++;
+        between += half[1] < full[1] - 5 && half[1] > behind[1] + 5;
+    }
+    assert_true(green > 200 && between > 9 * green / 10);
+    for (int k = 0; k < 3; k += 2)
+        assert_near(pixels_of(clear, k), pixels_of(opaque, k), 100); // but at the top's edges
+}
+
 /// Of a ball, which is drawn coarser in a pair, the lower half stays red and the upper green.
 static void coarse_triangles_keep_their_material(void **state)
 {
@@ -249,6 +276,7 @@ int main(void)
         cmocka_unit_test(they_are_exported_as_gltf),
         cmocka_unit_test(they_are_exported_as_usd_with_quads),
         cmocka_unit_test(they_are_seen_on_the_stage),
+        cmocka_unit_test(what_is_half_clear_is_seen_through),
         cmocka_unit_test(coarse_triangles_keep_their_material),
     };
     return cmocka_run_group_tests(tests, open_all, close_all);

@@ -30,6 +30,10 @@ eventually "what to try first is said once" said
 xdotool key F10
 light() { grep -qx "theme = light" "$XDG_CONFIG_HOME/wiggly/settings"; }
 eventually "the theme is remembered" light
+xdotool key ctrl+shift+equal
+larger() { grep -qE "^ui_scale = 1\.[0-9]+" "$XDG_CONFIG_HOME/wiggly/settings"; }
+eventually "how large everything is, is remembered" larger
+xdotool key ctrl+shift+0
 edit_and_kill shift+Left Right Right Right
 cmp "$scratch/mine.json" assets/scenes/tail.json
 ok "the scene's own file is as it was" $?

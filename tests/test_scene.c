@@ -91,6 +91,30 @@ static void test_numbers_read_back(void **state)
     }
 }
 
+/// Plain numbers are made in integers; that finds what printf() and strtod() find. Values of an edit, of any double, and those beside
+/// powers of two and ten, where the next double is nearer on one side.
+static void test_plain_numbers(void **state)
+{
+    (void)state;
+    srand(11);
+    for (int i = 0; i < 20000; i++) {
+        double value = ldexp(1 + ldexp(rand(), -31) + ldexp(rand(), -52), rand() % 66 - 16);
+        if (i % 4 == 0) value = rand() / pow(10, rand() % 10);
+        if (i % 4 == 1) value = nextafter(ldexp(1, i / 4 % 66 - 16), i / 4 % 2 ? 0 : INFINITY);
+        if (i % 4 == 2) value = nextafter(pow(10, i / 4 % 20 - 4), i / 4 % 3 ? 0 : INFINITY);
+        char text[NUMBER_TEXT_SIZE], found[PATH_SIZE];
+        int digits = 15;
+        do snprintf(found, sizeof found, "%.*g", digits, value);
+        while (digits++ < 17 && strtod(found, NULL) != value);
+        number_print(value, text);
+        if (fabs(value) < 1e-4 || fabs(value) >= 1e15) { // one of the two has an exponent there
+            if (strtod(text, NULL) != value) fail_msg("%.17g was written as %s", value, text);
+        } else {
+            assert_string_equal(text, found);
+        }
+    }
+}
+
 // --- load and print
 
 static void test_defaults(void **state)
@@ -518,17 +542,23 @@ static void test_evaluation_fits_the_document(void **state)
     document_destroy(large);
 }
 
-/// A value that no curve can pass: nothing moves, the status says why, and nothing that reads the curve falls over.
+/// A value that no curve can pass: nothing moves any more, the status says why, and nothing that reads the curve falls over.
 static void test_a_value_beyond_reach_is_flat(void **state)
 {
     (void)state;
     static const char text[] = "{\"wiggly\": 1, \"frames\": [0, 40], \"splines\": [{\"name\": \"a\", \"knots\": "
-                               "[{\"frame\": 0, \"value\": 1.7e308}, {\"frame\": 30, \"value\": -1.7e308}]}]}";
+                               "[{\"frame\": 0, \"value\": 1}, {\"frame\": 30, \"value\": -1.7e308}]}]}";
     struct error error = {0};
     struct document *document = scene_parse("huge.json", text, sizeof text - 1, NULL, &error);
     assert_non_null(document);
     struct evaluation evaluation = {0};
     assert_true(evaluation_resize(&evaluation, document, &error));
+    evaluation_update(&evaluation, document, NULL, false);
+    assert_int_equal(evaluation.status[0], WIGGLY_ERROR_NUMBER);
+    document->splines[0].knots[1].value = -1;
+    evaluation_update(&evaluation, document, NULL, false);
+    assert_near(evaluation.curves[0].total[30], -1, 0);
+    document->splines[0].knots[1].value = -1.7e308;
     evaluation_update(&evaluation, document, NULL, false);
     assert_int_equal(evaluation.status[0], WIGGLY_ERROR_NUMBER);
     wiggly_value value = wiggly_evaluate(&evaluation.curves[0], 12.5);
@@ -542,6 +572,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_numbers),
         cmocka_unit_test(test_numbers_read_back),
+        cmocka_unit_test(test_plain_numbers),
         cmocka_unit_test(test_defaults),
         cmocka_unit_test(test_unknown_keys_are_kept),
         cmocka_unit_test(test_moving_bases_are_kept),

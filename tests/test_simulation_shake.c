@@ -253,6 +253,27 @@ static int count_pinned(struct box *box, const char *where)
     return wrong ? -1 : pinned;
 }
 
+/// Where nobody says what is held, the lowest twentieth of the height is, up to a layer of nodes that lies there.
+static void the_lowest_twentieth_is_held(void **state)
+{
+    (void)state;
+    struct box box;
+    struct soft soft;
+    struct soft_options options = soft_default_options();
+    double highest = -1, lowest_free = INFINITY;
+    options.tets = 2000;
+    make_box(&box, 0.5f, 1);
+    make_soft(&soft, &box, &options);
+    for (int i = 0; i < soft.body.node_count; i++) {
+        const double y = soft.body.rest[i][1];
+        if (soft.body.pinned[i]) highest = fmax(highest, y);
+        if (!soft.body.pinned[i]) lowest_free = fmin(lowest_free, y);
+    }
+    assert_near(highest, 0.05, 1e-6);
+    assert_true(lowest_free > highest + 0.01);
+    soft_free(&soft);
+}
+
 static void regions_hold_what_they_name(void **state)
 {
     (void)state;
@@ -325,6 +346,7 @@ int main(void)
         cmocka_unit_test(a_box_falls_on_the_floor_and_stays),
         cmocka_unit_test(a_box_on_the_floor_does_not_chatter),
         cmocka_unit_test(a_beam_is_monotone_under_refinement),
+        cmocka_unit_test(the_lowest_twentieth_is_held),
         cmocka_unit_test(regions_hold_what_they_name),
         cmocka_unit_test(softness_falls_as_the_map_says),
         cmocka_unit_test(a_track_is_smooth),

@@ -54,4 +54,9 @@ bool textbook_curve(const wiggly_desc *desc, struct textbook *book, wiggly_statu
 /// The curve that the unknowns x of a solved book stand for.
 void textbook_fill(struct textbook *book, double *total, double *re, double *im);
 
+/// Of e at `count` samples from the last knot on, where it is 0: its energy, −½ of that energy's gradient by a later sample, and Im e there.
+real textbook_tail_energy(const struct textbook *book, const real *e, int count);
+real textbook_tail_pull(const struct textbook *book, const real *e, int count, int sample);
+real textbook_tail_im(const struct textbook *book, const real *e, int count, int sample);
+
 #endif

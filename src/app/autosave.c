@@ -1,48 +1,55 @@
-/// Writes unsaved work to the recovery file from a thread, so no frame waits for the disk.
+/// Writes unsaved work to the recovery file: frames copy it, a slice each, and a thread prints the copy and writes it, so that no frame
+/// waits for the disk.
 #include "app/autosave.h"
-#include "scene/load.h"
+#include "base/clock.h"
+#include "scene/snapshot.h"
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <threads.h>
 
-static const double INTERVAL = 1;  ///< seconds from one snapshot to the next
-static const double PAUSE = 1;     ///< without an edit, after which a frame may take longer unnoticed
-static const double PATIENCE = 30; ///< for such a pause
+static const double INTERVAL = 1; ///< seconds from one copy to the next
 
-/// With more knots than this a snapshot waits for a pause: it costs 2 µs a knot, 3 ms here.
-enum { LARGE = 1500 };
+static const double SLICE = 0.0004; ///< seconds of a frame for copying, and one block
+
+enum { BLOCK = 1 << 14 }; ///< knots; 0.1 ms, and 0.3 ms into memory that is new
 
 enum job { JOB_NONE, JOB_WRITE, JOB_REMOVE, JOB_END };
 
-/// A document's text, and the path of its own file.
-struct snapshot {
-    char *text;
-    size_t capacity, size;
-    char path[RECOVERY_PATH];
-};
+/// How the last write went; OUTCOME_NONE once that is known.
+enum outcome { OUTCOME_NONE, OUTCOME_KEPT, OUTCOME_FAILED };
 
 struct autosave {
     struct recovery_slot slot;
-    struct snapshot snapshot; ///< the frame's while the job is JOB_NONE, the thread's while it is another
-    uint64_t revision;        ///< of the last snapshot
-    uint64_t seen;            ///< revision at the last look; 0 before the first
-    double changed;           ///< when that was a new one
-    double taken;             ///< when the last snapshot was
+    struct snapshot *snapshot;    ///< the frame's while the job is JOB_NONE, the thread's while it is another
+    char original[RECOVERY_PATH]; ///< the path of the document's own file; likewise
+    uint64_t revision;            ///< of the last copy
+    double taken;                 ///< when it was begun
     bool has_file, complained;
 
+    char *text; ///< the thread's
+    size_t capacity;
     thrd_t thread;
     mtx_t lock;
     cnd_t given, done;
     enum job job;
-    bool failed; ///< the last write, with `error`
-    struct error error;
+    enum outcome outcome;
+    struct error error; ///< of a failure
 };
+
+/// The thread's part.
+static bool write_work(struct autosave *autosave, struct error *error)
+{
+    size_t size;
+    if (!snapshot_print(autosave->snapshot, &autosave->text, &autosave->capacity, &size))
+        return fail_no_memory(error, autosave->slot.path);
+    return recovery_write(&autosave->slot, autosave->original, autosave->text, size, error);
+}
 
 static int run(void *user)
 {
     struct autosave *autosave = user;
-    const struct snapshot *snapshot = &autosave->snapshot;
     for (;;) {
         mtx_lock(&autosave->lock);
         while (autosave->job == JOB_NONE) cnd_wait(&autosave->given, &autosave->lock);
@@ -50,14 +57,14 @@ static int run(void *user)
         mtx_unlock(&autosave->lock);
         if (job == JOB_END) return 0;
         struct error error = {0};
-        bool good = true;
+        enum outcome outcome = OUTCOME_NONE;
         if (job == JOB_WRITE) {
-            good = recovery_write(&autosave->slot, snapshot->path, snapshot->text, snapshot->size, &error);
+            outcome = write_work(autosave, &error) ? OUTCOME_KEPT : OUTCOME_FAILED;
         } else {
             recovery_remove(&autosave->slot);
         }
         mtx_lock(&autosave->lock);
-        autosave->failed = !good;
+        autosave->outcome = outcome;
         autosave->error = error;
         autosave->job = JOB_NONE;
         cnd_signal(&autosave->done);
@@ -68,13 +75,16 @@ static int run(void *user)
 struct autosave *autosave_open(const struct recovery_slot *slot, struct error *error)
 {
     struct autosave *autosave = calloc(1, sizeof *autosave);
-    if (autosave) {
+    if (autosave) autosave->snapshot = snapshot_create();
+    if (autosave && autosave->snapshot) {
         autosave->slot = *slot;
+        autosave->taken = -INFINITY;
         mtx_init(&autosave->lock, mtx_plain);
         cnd_init(&autosave->given);
         cnd_init(&autosave->done);
         if (thrd_create(&autosave->thread, run, autosave) == thrd_success) return autosave;
     }
+    if (autosave) snapshot_destroy(autosave->snapshot);
     free(autosave);
     struct recovery_slot unused = *slot;
     recovery_release(&unused);
@@ -106,48 +116,57 @@ static bool is_busy(struct autosave *autosave)
     return busy;
 }
 
-/// Makes the text. false if memory is short.
-static bool take_snapshot(struct autosave *autosave, const struct autosave_work *work)
+static bool begin_copy(struct autosave *autosave, const struct autosave_work *work)
 {
-    struct snapshot *snapshot = &autosave->snapshot;
     autosave->revision = work->revision;
-    snprintf(snapshot->path, sizeof snapshot->path, "%s", work->path);
-    return scene_print_into(work->document, RECOVERY_FOLDER, &snapshot->text, &snapshot->capacity, &snapshot->size) &&
-           scene_print_paint(work->document, &snapshot->text, &snapshot->capacity, &snapshot->size);
+    snprintf(autosave->original, sizeof autosave->original, "%s", work->path);
+    return snapshot_begin(autosave->snapshot, work->document, RECOVERY_FOLDER);
 }
 
-/// Reports the thread's failure, but only the first in a row; the next interval tries again.
+/// What came of the last write: only the first failure in a row is told; the next interval tries again.
 static bool report(struct autosave *autosave, struct error *error)
 {
-    bool news = autosave->failed && !autosave->complained;
-    autosave->complained = autosave->failed;
-    if (autosave->failed) autosave->revision = 0;
-    return !news || fail(error, ERROR_ENVIRONMENT, "Unsaved work has no recovery file: %s", autosave->error.text);
+    const enum outcome outcome = autosave->outcome;
+    const bool is_news = outcome == OUTCOME_FAILED && !autosave->complained;
+    autosave->outcome = OUTCOME_NONE;
+    if (outcome == OUTCOME_FAILED) autosave->revision = 0;
+    if (outcome != OUTCOME_NONE) autosave->complained = outcome == OUTCOME_FAILED;
+    return !is_news || fail(error, ERROR_ENVIRONMENT, "Unsaved work has no recovery file: %s", autosave->error.text);
 }
 
-/// A large document is written in a pause between edits, so that no drag stutters.
-static bool is_time(const struct autosave *autosave, const struct autosave_work *work, double now)
+/// Copies the next slice of a copy that is due or has been begun.
+static void copy_work(struct autosave *autosave, const struct autosave_work *work, double now)
 {
-    long knots = 0;
-    for (int s = 0; s < work->document->spline_count; s++) knots += work->document->splines[s].knot_count;
-    double since = now - autosave->taken;
-    if (since < INTERVAL) return false;
-    return knots <= LARGE || now - autosave->changed >= PAUSE || since >= PATIENCE;
+    if (!snapshot_is_running(autosave->snapshot)) {
+        if (now - autosave->taken < INTERVAL) return;
+        autosave->taken = now;
+        if (!begin_copy(autosave, work)) {
+            fail_no_memory(&autosave->error, autosave->slot.path);
+            autosave->outcome = OUTCOME_FAILED;
+        }
+    }
+    const double start = clock_now();
+    bool is_whole;
+    do is_whole = snapshot_continue(autosave->snapshot, BLOCK);
+    while (snapshot_is_running(autosave->snapshot) && clock_now() - start < SLICE);
+    if (is_whole) give(autosave, JOB_WRITE);
+}
+
+bool autosave_is_behind(struct autosave *autosave, const struct autosave_work *work)
+{
+    return !work->saved && (work->revision != autosave->revision || snapshot_is_running(autosave->snapshot));
 }
 
 bool autosave_update(struct autosave *autosave, const struct autosave_work *work, double now, struct error *error)
 {
     if (is_busy(autosave)) return true;
     bool good = report(autosave, error);
-    if (autosave->seen == 0) autosave->taken = now - INTERVAL;
-    if (work->revision != autosave->seen) autosave->changed = now;
-    autosave->seen = work->revision;
     if (work->saved) {
+        snapshot_give_up(autosave->snapshot);
         if (autosave->has_file) give(autosave, JOB_REMOVE);
         autosave->revision = 0;
-    } else if (work->revision != autosave->revision && is_time(autosave, work, now)) {
-        autosave->taken = now;
-        if (take_snapshot(autosave, work)) give(autosave, JOB_WRITE);
+    } else if (autosave_is_behind(autosave, work)) {
+        copy_work(autosave, work, now);
     }
     return good;
 }
@@ -155,11 +174,12 @@ bool autosave_update(struct autosave *autosave, const struct autosave_work *work
 bool autosave_flush(struct autosave *autosave, const struct autosave_work *work, struct error *error)
 {
     wait_for_thread(autosave);
-    if (!take_snapshot(autosave, work)) return fail(error, ERROR_ENVIRONMENT, "out of memory");
+    if (!begin_copy(autosave, work)) return fail_no_memory(error, autosave->slot.path);
+    snapshot_finish(autosave->snapshot);
     give(autosave, JOB_WRITE);
     wait_for_thread(autosave);
-    if (autosave->failed) *error = autosave->error;
-    return !autosave->failed;
+    if (autosave->outcome == OUTCOME_FAILED) *error = autosave->error;
+    return autosave->outcome == OUTCOME_KEPT;
 }
 
 void autosave_move(struct autosave *autosave, const struct recovery_slot *slot)
@@ -184,6 +204,7 @@ void autosave_close(struct autosave *autosave, bool keep)
     mtx_destroy(&autosave->lock);
     cnd_destroy(&autosave->given);
     cnd_destroy(&autosave->done);
-    free(autosave->snapshot.text);
+    snapshot_destroy(autosave->snapshot);
+    free(autosave->text);
     free(autosave);
 }

@@ -1,5 +1,5 @@
-/// Autosave: unsaved work is in a recovery file within two seconds of an edit, and no frame waits for the disk. The text is
-/// made in the frame, into memory that is kept, and handed to a thread that writes it.
+/// Autosave: unsaved work is in a recovery file within two seconds of an edit, and no frame waits for the disk. Frames copy the work, a
+/// slice each, into memory that is kept; a thread prints the copy and writes it.
 #ifndef APP_AUTOSAVE_H
 #define APP_AUTOSAVE_H
 
@@ -9,7 +9,7 @@ struct autosave;
 
 /// The work to keep safe.
 struct autosave_work {
-    const struct document *document;
+    struct document *document;
     const char *path;  ///< of the document's own file, or ""
     uint64_t revision; ///< changes with the document
     bool saved;        ///< nothing would be lost
@@ -18,10 +18,12 @@ struct autosave_work {
 /// Takes over the slot, and starts the thread. On failure NULL with a sentence; the slot is then released.
 struct autosave *autosave_open(const struct recovery_slot *slot, struct error *error);
 
-/// Call it often, with the time `now` in seconds. Writes the work if it has changed and the last write is a second ago (a
-/// large document waits for a pause of a second, but at most half a minute); removes the file once the work is saved.
-/// false with a sentence, once, if the file cannot be written.
+/// Call it once a frame, with the time `now` in seconds. Copies the work if it has changed and the last copy is a second ago, and has it
+/// written once the copy is whole; removes the file once the work is saved. false with a sentence, once, if the file cannot be written.
 bool autosave_update(struct autosave *autosave, const struct autosave_work *work, double now, struct error *error);
+
+/// Whether there is unsaved work that is not with the thread yet: then update it at the frames' rate even where none is drawn.
+bool autosave_is_behind(struct autosave *autosave, const struct autosave_work *work);
 
 /// Writes the work now and returns when it is on the disk.
 bool autosave_flush(struct autosave *autosave, const struct autosave_work *work, struct error *error);

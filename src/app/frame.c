@@ -99,7 +99,8 @@ static double waiting_time(const struct app *app, bool wanted)
     double left = fmax(0, app->next_time - clock_now());
     if (app->recording && !app->replay) process_sleep(left);
     if (app->fixed_clock) return 0;
-    return wanted ? left : fmin(idle_wait, resolution_wait(&app->resolution, clock_now()));
+    if (wanted) return left;
+    return fmin(personal_is_behind(app) ? replay_dt : idle_wait, resolution_wait(&app->resolution, clock_now()));
 }
 
 /// Waits, then takes the frame's events. false if nothing happened that needs a frame.

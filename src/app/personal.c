@@ -240,6 +240,13 @@ void personal_update(struct app *app)
     if (!autosave_update(app->personal->autosave, &work, clock_now(), &error)) complain(app, &error);
 }
 
+bool personal_is_behind(const struct app *app)
+{
+    if (!app->personal || !app->personal->autosave) return false;
+    const struct autosave_work work = work_of(app);
+    return autosave_is_behind(app->personal->autosave, &work);
+}
+
 /// Whether a file was written after that time.
 static bool is_newer(const char *path, time_t time)
 {

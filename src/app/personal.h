@@ -17,6 +17,9 @@ void personal_start(struct app *app);
 /// Call it once a frame, and while idle.
 void personal_update(struct app *app);
 
+/// Whether unsaved work waits for the next update.
+bool personal_is_behind(const struct app *app);
+
 /// Recent files for the editor's dialogs; `user` is the app.
 dialog_list_recent personal_recent;
 

@@ -13,7 +13,7 @@ struct painter {
     void (*destroy)(void *state);
     /// Uploads what is new in this frame; adds to `bytes`. Allocates only for what is seen for the first time.
     void (*upload)(void *state, const struct stage_view *view, long *bytes);
-    /// `scale` is device pixels a logical one, `seam` as in stage_mesh.vert.
+    /// `scale` is device pixels a logical one. `seam` is metres a pixel at a distance of 1 m in the pass that softens silhouettes, else 0.
     void (*draw)(const void *state, const struct stage_view *view, float scale, float seam);
     /// Height of the ground under the lowest of them; INFINITY where there are none.
     float (*ground)(const struct stage_view *view);

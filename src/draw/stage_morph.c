@@ -36,7 +36,7 @@ struct morph_program {
     GLuint program;
     struct painter_uniforms shared;
     struct {
-        GLint place, shade, count, first_row, weight, map_row, map_axis, line, base;
+        GLint place, shade, count, first_row, weight, map_row, map_axis, dark, line, base;
     } at;
 };
 
@@ -57,6 +57,7 @@ static bool program_create(struct morph_program *morph, const char *define, stru
         {&morph->at.place, "place"},         {&morph->at.shade, "shade"},   {&morph->at.count, "count"},
         {&morph->at.first_row, "first_row"}, {&morph->at.weight, "weight"}, {&morph->at.map_row, "map_row"},
         {&morph->at.map_axis, "map_axis"},   {&morph->at.line, "line"},     {&morph->at.base, "base"},
+        {&morph->at.dark, "dark"},
     };
     for (size_t i = 0; i < sizeof uniforms / sizeof *uniforms; i++) {
         *uniforms[i].location = glGetUniformLocation(morph->program, uniforms[i].name);
@@ -311,6 +312,7 @@ static void draw_character(const struct morph_program *morph, const struct model
     axis[shown->map_axis] = largest > 0.0f ? 1.0f / largest : 0.0f;
     glUniform1i(morph->at.map_row, mapped ? model->rows * shown->map_coordinate : -1);
     glUniform3fv(morph->at.map_axis, 1, axis);
+    glUniform1f(morph->at.dark, figure->dark);
     glUniform1f(morph->at.line, mapped ? PHASE_LINE * scale : 0.0f);
     glBindVertexArray(model->vertex_array);
     glBindTexture(GL_TEXTURE_2D, model->coordinates);

@@ -112,6 +112,16 @@ static void measure(struct figure *figure)
     }
 }
 
+static void find_dark(struct figure *figure)
+{
+    static const float share = 0.45f; // of the mean
+    const struct character *c = &figure->character;
+    double sum = 0.0;
+    for (int i = 0; i < c->vertex_count; i++)
+        sum += (double)glms_vec3_dot(vec3_from(c->color[i]), (vec3s){{0.2126f, 0.7152f, 0.0722f}});
+    figure->dark = c->vertex_count > 0 ? share * (float)(sum / c->vertex_count) : 0.0f;
+}
+
 /// A disc around the lowest points on each side of the middle.
 static void find_soles(struct figure *figure)
 {
@@ -194,6 +204,7 @@ bool figure_create(struct figure *figure, struct character *character)
     bool good = figure_derive(figure);
     if (good) {
         find_soles(figure);
+        find_dark(figure);
         good =
             decimate(&figure->character, FIGURE_COARSE, figure->coarse, figure->coarse_from, &figure->coarse_count);
     }

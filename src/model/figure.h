@@ -35,6 +35,7 @@ struct figure {
     int coarse_count;      ///< indices
     struct adjacency edges;
     float lo[3], hi[3]; ///< box at rest
+    float dark; ///< luminance, linear, below which a colour is that of eyes and a nose: far darker than the whole
     struct sole soles[FIGURE_SOLES];
     uint64_t id;      ///< unique in this run
     uint64_t version; ///< grows whenever coordinates and slopes change; 0: they never do

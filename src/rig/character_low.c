@@ -2,89 +2,143 @@
 /// them at once.
 #include "rig/pinning_kind.h"
 #include "rig/posing_kind.h"
+#include "spline/wide.h"
 #include <math.h>
 
-enum { BLOCK = 16 }; ///< samples
+/// Samples, and blocks of them, that are looked at together.
+enum { BLOCK = 16, ROW = LOW_POINT_ROW / BLOCK };
 
-/// Between what the weights of a coordinate's real and imaginary part are.
-struct range {
-    double re[2], im[2];
-};
-
-/// A coordinate that is driven: its weights at every sample, their range in each block, and over all.
+/// A coordinate that is driven: its weights at every sample, the least and the largest of each block, and of all.
 struct driven {
     const struct coordinate *coordinate;
-    const double *re, *im;
-    struct range *block, all;
+    double *re, *im;
+    double *re_range[2], *im_range[2];
+    double re_all[2], im_all[2];
 };
 
-/// z of a drive at every sample, as pose_character() has it.
-static struct driven find_weights(const struct coordinate *coordinate, const struct drive *drive,
-                                  const wiggly_curve *curve, int samples, double *room)
+/// The lowest vertices found so far: of each sample how high it is and which, and of each block how high the highest of them is.
+struct lowest {
+    double *height, *vertex, *highest;
+    int blocks; ///< whole rows of them
+};
+
+static double *take(double **room, int count)
+{
+    double *taken = *room;
+    *room += count;
+    return taken;
+}
+
+/// z of a drive at every sample, as pose_character() has it; behind the last it stays.
+static void find_weights(const struct drive *drive, const wiggly_curve *curve, int samples, struct driven *driven,
+                         int room)
 {
     const double lag = drive->lag * 3.14159265358979323846 / 180.0, c = cos(lag), s = sin(lag);
-    double *re = room, *im = room + samples;
-    for (int i = 0; i < samples; i++) {
-        re[i] = drive->amplitude * (curve->y[i] + curve->re[i] * c + curve->im[i] * s);
-        im[i] = drive->amplitude * (curve->im[i] * c - curve->re[i] * s);
-    }
-    return (struct driven){
-        .coordinate = coordinate, .re = re, .im = im, .block = (struct range *)(room + 2 * samples)};
-}
-
-static void widen(double range[2], const double *x, int count)
-{
-    for (int i = 0; i < count; i++) {
-        range[0] = x[i] < range[0] ? x[i] : range[0];
-        range[1] = x[i] > range[1] ? x[i] : range[1];
+    for (int i = 0; i < room; i++) {
+        const int at = i < samples ? i : samples - 1;
+        driven->re[i] = drive->amplitude * (curve->y[at] + curve->re[at] * c + curve->im[at] * s);
+        driven->im[i] = drive->amplitude * (curve->im[at] * c - curve->re[at] * s);
     }
 }
 
-static int block_size(int from, int samples) { return samples - from < BLOCK ? samples - from : BLOCK; }
-
-static void find_ranges(struct driven *driven, int samples)
+static void find_ranges(const double *x, int blocks, double *const range[2], double all[2])
 {
-    const struct range none = {{INFINITY, -INFINITY}, {INFINITY, -INFINITY}};
-    driven->all = none;
-    for (int from = 0; from < samples; from += BLOCK) {
-        struct range *range = &driven->block[from / BLOCK];
-        *range = none;
-        widen(range->re, driven->re + from, block_size(from, samples));
-        widen(range->im, driven->im + from, block_size(from, samples));
-        widen(driven->all.re, range->re, 2);
-        widen(driven->all.im, range->im, 2);
+    all[0] = INFINITY, all[1] = -INFINITY;
+    for (int b = 0; b < blocks; b++) {
+        double low = INFINITY, high = -INFINITY;
+        for (int i = BLOCK * b; i < BLOCK * (b + 1); i++) {
+            low = x[i] < low ? x[i] : low;
+            high = x[i] > high ? x[i] : high;
+        }
+        range[0][b] = low;
+        range[1][b] = high;
+        all[0] = fmin(all[0], low);
+        all[1] = fmax(all[1], high);
     }
 }
 
-/// The least of a x over a range of x.
-static double least_of(double a, const double range[2]) { return a * range[a < 0]; }
-
-/// How high a vertex is at least in a block, or (-1) in all.
-static double least_height(const struct driven *driven, int count, int vertex, double at_rest, int block)
+static void drive(const struct coordinate *coordinate, const struct drive *drive, const wiggly_curve *curve,
+                  int samples, int blocks, double **room, struct driven *driven)
 {
+    *driven = (struct driven){.coordinate = coordinate,
+                              .re = take(room, BLOCK * blocks),
+                              .im = take(room, BLOCK * blocks),
+                              .re_range = {take(room, blocks), take(room, blocks)},
+                              .im_range = {take(room, blocks), take(room, blocks)}};
+    find_weights(drive, curve, samples, driven, BLOCK * blocks);
+    find_ranges(driven->re, blocks, driven->re_range, driven->re_all);
+    find_ranges(driven->im, blocks, driven->im_range, driven->im_all);
+}
+
+/// How a vertex moves up with each coordinate: by a Re z − b Im z.
+struct moves {
+    double at_rest, a[CHARACTER_MAX_DRIVES], b[CHARACTER_MAX_DRIVES];
+};
+
+/// How high a vertex is at least.
+static double least_height(const struct driven *driven, int count, const struct moves *moves)
+{
+    double least = moves->at_rest;
     for (int k = 0; k < count; k++) {
-        const struct range *range = block < 0 ? &driven[k].all : &driven[k].block[block];
-        at_rest += least_of((double)driven[k].coordinate->re[vertex][1], range->re);
-        at_rest += least_of(-(double)driven[k].coordinate->im[vertex][1], range->im);
+        least += moves->a[k] * driven[k].re_all[moves->a[k] < 0];
+        least -= moves->b[k] * driven[k].im_all[moves->b[k] > 0];
     }
-    return at_rest;
+    return least;
 }
 
-/// Looks whether a vertex is the lowest in a block; returns how high the lowest are at most.
-static double look_at(const struct driven *driven, int count, int vertex, double at_rest, int from, int samples,
-                      struct low_point *low)
+/// Marks blocks of a row in which a vertex may be lower than what has been found; whether there are any.
+WIDEST static bool may_be_low(const struct driven *driven, int count, const struct moves *moves, int from,
+                              const double *restrict highest, bool *restrict may)
 {
-    double height[BLOCK], highest = -INFINITY;
-    for (int i = 0; i < samples; i++) height[i] = at_rest;
+    double least[ROW];
+    int any = 0;
+    for (int i = 0; i < ROW; i++) least[i] = moves->at_rest;
     for (int k = 0; k < count; k++) {
-        const double a = (double)driven[k].coordinate->re[vertex][1], b = (double)driven[k].coordinate->im[vertex][1];
-        for (int i = 0; i < samples; i++) height[i] += a * driven[k].re[from + i] - b * driven[k].im[from + i];
+        const double a = moves->a[k], b = moves->b[k];
+        const double *restrict re = driven[k].re_range[a < 0] + from, *restrict im = driven[k].im_range[b > 0] + from;
+        for (int i = 0; i < ROW; i++) least[i] += a * re[i] - b * im[i];
     }
-    for (int i = 0; i < samples; i++) {
-        if (height[i] < low[from + i].height) low[from + i] = (struct low_point){height[i], vertex};
-        highest = low[from + i].height > highest ? low[from + i].height : highest;
+    for (int i = 0; i < ROW; i++) any += may[i] = least[i] < highest[i];
+    return any > 0;
+}
+
+/// Looks whether a vertex is the lowest in a block.
+WIDEST static void look_at(const struct driven *driven, int count, const struct moves *moves, int vertex, int from,
+                           double *restrict low, double *restrict lowest)
+{
+    double height[BLOCK];
+    for (int i = 0; i < BLOCK; i++) height[i] = moves->at_rest;
+    for (int k = 0; k < count; k++) {
+        const double a = moves->a[k], b = moves->b[k];
+        const double *restrict re = driven[k].re + from, *restrict im = driven[k].im + from;
+        for (int i = 0; i < BLOCK; i++) height[i] += a * re[i] - b * im[i];
     }
-    return highest;
+    for (int i = 0; i < BLOCK; i++) {
+        const bool is_lower = height[i] < low[i];
+        low[i] = is_lower ? height[i] : low[i];
+        lowest[i] = is_lower ? vertex : lowest[i];
+    }
+}
+
+static double largest(const double *x, int count)
+{
+    double most = x[0];
+    for (int i = 1; i < count; i++) most = x[i] > most ? x[i] : most;
+    return most;
+}
+
+static void look_everywhere(const struct driven *driven, int count, const struct moves *moves, int vertex,
+                            struct lowest *found)
+{
+    bool may[ROW];
+    for (int row = 0; row < found->blocks; row += ROW) {
+        if (!may_be_low(driven, count, moves, row, found->highest + row, may)) continue;
+        for (int b = row; b < row + ROW; b++) {
+            if (!may[b - row]) continue;
+            look_at(driven, count, moves, vertex, BLOCK * b, found->height + BLOCK * b, found->vertex + BLOCK * b);
+            found->highest[b] = largest(found->height + BLOCK * b, BLOCK);
+        }
+    }
 }
 
 bool character_lowest(const struct posing *posing, int rig, double ceiling, double *room, struct low_point *low)
@@ -92,30 +146,28 @@ bool character_lowest(const struct posing *posing, int rig, double ceiling, doub
     const struct character_rig *character = &posing->document->rigs[rig].character;
     const struct figure *figure = models_figure(posing->models, document_rig_number(posing->document, rig));
     const int samples = posing->evaluation->samples;
+    const int blocks = low_point_samples(samples) / BLOCK;
     struct driven driven[CHARACTER_MAX_DRIVES];
+    struct moves moves;
     int count = 0;
-    double *highest = room + 6 * samples * CHARACTER_MAX_DRIVES; // of the lowest of each block
     if (!figure) return false;
+    struct lowest found = {take(&room, BLOCK * blocks), take(&room, BLOCK * blocks), take(&room, blocks), blocks};
     for (int d = 0; d < character->drive_count; d++) {
-        const struct drive *drive = &character->drives[d];
-        const int coordinate = figure_find(figure, drive->name);
+        const int coordinate = figure_find(figure, character->drives[d].name);
         if (coordinate < 0) continue;
-        driven[count] = find_weights(&figure->character.coordinates[coordinate], drive,
-                                     &posing->evaluation->curves[drive->spline], samples, room);
-        find_ranges(&driven[count++], samples);
-        room += 6 * samples;
+        drive(&figure->character.coordinates[coordinate], &character->drives[d],
+              &posing->evaluation->curves[character->drives[d].spline], samples, blocks, &room, &driven[count++]);
     }
-    for (int i = 0; i < samples; i++) low[i] = (struct low_point){ceiling, -1};
-    for (int from = 0; from < samples; from += BLOCK) highest[from / BLOCK] = ceiling;
+    for (int i = 0; i < BLOCK * blocks; i++) found.height[i] = ceiling, found.vertex[i] = -1;
+    for (int b = 0; b < blocks; b++) found.highest[b] = ceiling;
     for (int v = 0; v < figure->character.vertex_count; v++) {
-        const double at_rest =
-            character->position[1] + (double)figure->character.position[v][1] - (double)figure->lo[1];
-        if (least_height(driven, count, v, at_rest, -1) >= ceiling) continue;
-        for (int from = 0; from < samples; from += BLOCK) {
-            double *most = &highest[from / BLOCK];
-            if (least_height(driven, count, v, at_rest, from / BLOCK) < *most)
-                *most = look_at(driven, count, v, at_rest, from, block_size(from, samples), low);
+        moves.at_rest = character->position[1] + (double)figure->character.position[v][1] - (double)figure->lo[1];
+        for (int k = 0; k < count; k++) {
+            moves.a[k] = (double)driven[k].coordinate->re[v][1];
+            moves.b[k] = (double)driven[k].coordinate->im[v][1];
         }
+        if (least_height(driven, count, &moves) < ceiling) look_everywhere(driven, count, &moves, v, &found);
     }
+    for (int i = 0; i < samples; i++) low[i] = (struct low_point){found.height[i], (int)found.vertex[i]};
     return true;
 }

@@ -2,6 +2,7 @@
 #include "scene/change.h"
 #include "scene/pins.h"
 #include "scene/reference.h"
+#include "scene/snapshot.h"
 #include <assert.h>
 #include <limits.h>
 #include <stdlib.h>
@@ -57,30 +58,34 @@ size_t change_bytes(const struct change *change, const struct document *document
     }
 }
 
-static void insert_knot(const struct document *document, struct spline *spline, const struct knot *knot)
+static void insert_knot(const struct document *document, int index, const struct knot *knot)
 {
+    struct spline *spline = &document->splines[index];
     assert(spline->knot_count < spline->knot_capacity);
     int at = spline_lower_bound(document, spline, document_sample(document, knot->frame));
     memmove(&spline->knots[at + 1], &spline->knots[at], (size_t)(spline->knot_count - at) * sizeof *knot);
     spline->knots[at] = *knot;
     spline->knot_count++;
+    snapshot_knot_came(document, index, at);
 }
 
-static struct knot remove_knot(struct spline *spline, unsigned id)
+static struct knot remove_knot(const struct document *document, int index, unsigned id)
 {
+    struct spline *spline = &document->splines[index];
     int at = spline_find_id(spline, id);
     assert(at >= 0);
+    snapshot_knot_goes(document, index, at);
     struct knot knot = spline->knots[at];
     spline->knot_count--;
     memmove(&spline->knots[at], &spline->knots[at + 1], (size_t)(spline->knot_count - at) * sizeof knot);
     return knot;
 }
 
-static void swap_knot(struct change *change, const struct document *document, struct spline *spline)
+static void swap_knot(struct change *change, const struct document *document)
 {
     struct knot other = change->knot;
-    if (change->kind != CHANGE_KNOT_OUT) change->knot = remove_knot(spline, other.id);
-    if (change->kind != CHANGE_KNOT_IN) insert_knot(document, spline, &other);
+    if (change->kind != CHANGE_KNOT_OUT) change->knot = remove_knot(document, change->spline, other.id);
+    if (change->kind != CHANGE_KNOT_IN) insert_knot(document, change->spline, &other);
     if (change->kind != CHANGE_KNOT) {
         change->kind = change->kind == CHANGE_KNOT_IN ? CHANGE_KNOT_OUT : CHANGE_KNOT_IN;
     }
@@ -314,11 +319,12 @@ static void swap_pin(struct change *change, struct document *document)
 void change_swap(struct change *change, struct document *document)
 {
     struct spline *spline = change->spline >= 0 ? &document->splines[change->spline] : NULL;
+    if (document->snapshot && change_concerns_all(change)) snapshot_finish(document->snapshot);
     switch (change->kind) {
     case CHANGE_KNOT_IN:
     case CHANGE_KNOT_OUT:
     case CHANGE_KNOT:
-        swap_knot(change, document, spline);
+        swap_knot(change, document);
         break;
     case CHANGE_SETTINGS:
         swap_settings(spline, &change->settings);

@@ -1,5 +1,6 @@
 /// Makes, frees and searches documents.
 #include "scene/document.h"
+#include "scene/snapshot.h"
 #include <jansson.h>
 #include <limits.h>
 #include <math.h>
@@ -35,6 +36,7 @@ struct document *document_create(void)
 void document_destroy(struct document *document)
 {
     if (!document) return;
+    if (document->snapshot) snapshot_give_up(document->snapshot);
     for (int i = 0; i < document->spline_count; i++) {
         free(document->splines[i].name);
         free(document->splines[i].knots);

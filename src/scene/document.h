@@ -23,6 +23,7 @@ enum {
 };
 
 struct json_t;
+struct snapshot;
 
 struct knot {
     double frame; ///< as written; may be fractional
@@ -71,7 +72,8 @@ struct document {
     unsigned next_spline_id;    ///< of a spline
     struct motion_list motions; ///< that parameters follow
     struct json_t *extra;
-    struct json_t *owned; ///< what `extra` pointers point into; freed with the document
+    struct json_t *owned;      ///< what `extra` pointers point into; freed with the document
+    struct snapshot *snapshot; ///< a copy of it that is not whole yet, or NULL (snapshot.h)
 };
 
 /// Sets the path of the document's own file; "" or NULL: untitled. false if memory runs out.

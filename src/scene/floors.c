@@ -52,7 +52,7 @@ bool floors_resize(struct floors *floors, const struct document *document, int g
     floors->vertex = calloc(bounds, sizeof *floors->vertex);
     floors->c = calloc(bounds * (size_t)group, sizeof *floors->c);
     floors->low = calloc(n, sizeof *floors->low);
-    floors->room = calloc(LOW_POINT_ROOM * n, sizeof *floors->room);
+    floors->room = calloc(LOW_POINT_ROOM * (size_t)low_point_samples(samples), sizeof *floors->room);
     floors->sunk = calloc(n * (size_t)rigs, sizeof *floors->sunk);
     floors->left = calloc((size_t)rigs, sizeof *floors->left);
     if (!floors->bounds || !floors->rig || !floors->vertex || !floors->c || !floors->low || !floors->room ||

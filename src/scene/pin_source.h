@@ -30,7 +30,15 @@ struct floor_left {
     int sample;
 };
 
-enum { LOW_POINT_ROOM = 6 * CHARACTER_MAX_DRIVES + 1 }; ///< numbers a sample that finding them takes
+enum { LOW_POINT_ROW = 128 }; ///< samples in which lowest points are found together
+
+/// Samples of so many whole rows that all samples are in one.
+static inline int low_point_samples(int samples)
+{
+    return (samples + LOW_POINT_ROW - 1) / LOW_POINT_ROW * LOW_POINT_ROW;
+}
+
+enum { LOW_POINT_ROOM = 3 * (CHARACTER_MAX_DRIVES + 1) }; ///< numbers that finding them takes, for each of these
 
 struct pin_source {
     /// Finds a pin's point as the splines are in `evaluation`, and how `count` splines move it from there (`c` may be NULL if
@@ -41,7 +49,7 @@ struct pin_source {
     void (*weigh)(void *context, const struct document *document, int rig, const int *splines, int count,
                   double *weights);
     /// Finds a character's lowest vertex at every sample; those not below `ceiling` may be passed over (then the height is that,
-    /// and the vertex -1). `room` is for LOW_POINT_ROOM numbers a sample. false: its model is missing.
+    /// and the vertex -1). `room` is for LOW_POINT_ROOM numbers for each of low_point_samples(). false: its model is missing.
     bool (*lowest)(void *context, const struct evaluation *evaluation, const struct document *document, int rig,
                    double ceiling, double *room, struct low_point *low);
     void *context;

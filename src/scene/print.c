@@ -53,8 +53,18 @@ static void print_variation(struct members *members, const struct spline *spline
     text_string(members->text, " }");
 }
 
+void print_knots(struct text *text, const struct knot *knots, int count)
+{
+    for (int i = 0; i < count; i++) {
+        text_string(text, i > 0 ? ",\n        " : "[\n        ");
+        print_knot(text, &knots[i], NULL);
+    }
+    text_string(text, count > 0 ? "\n      ]" : "[]");
+}
+
+/// Without its knots if `place` is to say where they belong.
 static void print_spline(struct text *text, const struct document *document, const struct spline *spline,
-                         const char *folder)
+                         const char *folder, size_t *place)
 {
     struct members members = {text, "    {\n      ", ",\n      ", false};
     member_string(&members, "name", spline->name);
@@ -76,17 +86,16 @@ static void print_spline(struct text *text, const struct document *document, con
         print_param(text, document, &spline->parameter[p], spline->extra, name, folder);
     }
     member(&members, "knots");
-    for (int i = 0; i < spline->knot_count; i++) {
-        text_string(text, i > 0 ? ",\n        " : "[\n        ");
-        print_knot(text, &spline->knots[i], NULL);
+    if (place) {
+        *place = text->size;
+    } else {
+        print_knots(text, spline->knots, spline->knot_count);
     }
-    text_string(text, spline->knot_count > 0 ? "\n      ]" : "[]");
     members_extra(&members, spline->extra, is_parameter);
     text_string(text, "\n    }");
 }
 
-/// Paths are written relative to `folder`, that of the file.
-static void print_document(struct text *text, const struct document *document, const char *folder)
+void print_document(struct text *text, const struct document *document, const char *folder, size_t *places)
 {
     struct members members = {text, "{\n  ", ",\n  ", false};
     double frames[] = {document->first_frame, document->last_frame};
@@ -99,7 +108,7 @@ static void print_document(struct text *text, const struct document *document, c
     member(&members, "splines");
     for (int i = 0; i < document->spline_count; i++) {
         text_string(text, i > 0 ? ",\n" : "[\n");
-        print_spline(text, document, &document->splines[i], folder);
+        print_spline(text, document, &document->splines[i], folder, places ? &places[i] : NULL);
     }
     text_string(text, document->spline_count > 0 ? "\n  ]" : "[]");
     member(&members, "rigs");
@@ -112,7 +121,7 @@ bool scene_print_into(const struct document *document, const char *folder, char 
                       size_t *size)
 {
     struct text text = {.data = *buffer, .capacity = *capacity};
-    print_document(&text, document, folder);
+    print_document(&text, document, folder, NULL);
     *size = text.size;
     text_bytes(&text, "", 1);
     *buffer = text.data;

@@ -39,19 +39,27 @@ void text_number(struct text *text, double value)
     text_bytes(text, digits, number_print(value, digits));
 }
 
+/// How many characters from here on need no escape.
+static size_t plain_length(const char *c)
+{
+    size_t length = 0;
+    while ((unsigned char)c[length] >= 0x20 && c[length] != '"' && c[length] != '\\') length++;
+    return length;
+}
+
 void text_quoted(struct text *text, const char *string)
 {
     text_string(text, "\"");
-    for (const char *c = string; *c; c++) {
+    for (const char *c = string; *c;) {
+        const size_t plain = plain_length(c);
         char escape[8];
-        if (*c == '"' || *c == '\\') {
-            snprintf(escape, sizeof escape, "\\%c", *c);
-        } else if ((unsigned char)*c < 0x20) {
-            snprintf(escape, sizeof escape, "\\u%04x", (unsigned)*c);
-        } else {
-            snprintf(escape, sizeof escape, "%c", *c);
-        }
+        text_bytes(text, c, plain);
+        c += plain;
+        if (!*c) break;
+        const bool is_control = (unsigned char)*c < 0x20;
+        snprintf(escape, sizeof escape, is_control ? "\\u%04x" : "\\%c", (unsigned char)*c);
         text_string(text, escape);
+        c++;
     }
     text_string(text, "\"");
 }

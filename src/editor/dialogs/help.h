@@ -10,7 +10,7 @@ bool help_event(struct dialogs *dialogs, const struct core *core, const struct e
 /// Draws it, where it is open.
 void help_show(const struct dialogs *dialogs, struct core *core);
 
-enum { HELP_MAX_ROWS = 13, HELP_GROUPS = 10, HELP_HELD = 5 };
+enum { HELP_MAX_ROWS = 14, HELP_GROUPS = 10, HELP_HELD = 5 };
 
 /// Keys are separated by ", ", "; " or two spaces; one without Ctrl+ or Shift+ may share that of the key before it.
 struct help_row {

@@ -254,28 +254,64 @@ static void build_slope(struct inspection *in, unsigned id)
     }
 }
 
+struct knot_button {
+    const char *name, *label, *hint;
+};
+
+/// A row of three buttons; the one that was pressed, or -1.
+static int build_buttons(struct inspection *in, const struct knot_button buttons[3])
+{
+    enum { GAP = 4 };
+    struct rect r = ui_row(in->ui, UI_ROW);
+    int pressed = -1;
+    r.w = (r.w - 2 * GAP) / 3;
+    for (int i = 0; i < 3; i++, r.x += r.w + GAP) {
+        ui_hint(in->ui, r, buttons[i].hint);
+        if (ui_button(in->ui, r, buttons[i].name, buttons[i].label, false)) pressed = i;
+    }
+    return pressed;
+}
+
 /// What can be done with the slopes of all selected knots.
 static void build_slopes(struct inspection *in, bool sloped)
 {
-    enum { GAP = 4 };
-    const struct {
-        const char *name, *label, *hint;
-        enum slopes how;
-    } buttons[] = {
-        {"slope.flat", "Flat", "Make the slopes flat (Shift+T)", SLOPES_FLAT},
-        {"slope.smooth", "Smooth", "Aim the slopes at the neighbours, as Catmull-Rom does (Ctrl+T)", SLOPES_SMOOTH},
-        {"slope.switch", sloped ? "Remove" : "Add",
-         sloped ? "Let go of the slopes (T)" : "Give the knots the slope that the curve has there (T)",
-         SLOPES_TOGGLE},
-    };
-    struct ui *ui = in->ui;
-    struct rect r = ui_row(ui, UI_ROW);
-    r.w = (r.w - 2 * GAP) / 3;
-    for (size_t i = 0; i < sizeof buttons / sizeof buttons[0]; i++, r.x += r.w + GAP) {
-        ui_hint(ui, r, buttons[i].hint);
-        if (ui_button(ui, r, buttons[i].name, buttons[i].label, false))
-            slopes_set(in->core, in->world, (int)buttons[i].how);
+    static const enum slopes how[] = {SLOPES_FLAT, SLOPES_SMOOTH, SLOPES_TOGGLE};
+    const int pressed = build_buttons(
+        in, (const struct knot_button[3]){
+                {"slope.flat", "Flat", "Make the slopes flat (Shift+T)"},
+                {"slope.smooth", "Smooth", "Aim the slopes at the neighbours, as Catmull-Rom does (Ctrl+T)"},
+                {"slope.switch", sloped ? "Remove" : "Add",
+                 sloped ? "Let go of the slopes (T)" : "Give the knots the slope that the curve has there (T)"}});
+    if (pressed >= 0) slopes_set(in->core, in->world, (int)how[pressed]);
+}
+
+/// Nothing is selected: what knots there are, and what can be done without pointing at one.
+static void build_overview(struct inspection *in, const struct spline *spline)
+{
+    char frames[64] = "none", values[64] = "–";
+    double low = INFINITY, high = -INFINITY;
+    for (int k = 0; k < spline->knot_count; k++) {
+        low = fmin(low, spline->knots[k].value);
+        high = fmax(high, spline->knots[k].value);
     }
+    if (spline->knot_count > 0) {
+        snprintf(frames, sizeof frames, "%d, frames %.6g … %.6g", spline->knot_count, spline->knots[0].frame,
+                 spline->knots[spline->knot_count - 1].frame);
+        snprintf(values, sizeof values, "%.4g … %.4g", low, high);
+    }
+    ui_paragraph(in->ui, "Click a knot to edit it. Double-click the curve to insert one.", theme()->text_dim);
+    build_idle(in, "knots", frames);
+    build_idle(in, "values", values);
+    const int pressed =
+        build_buttons(in, (const struct knot_button[3]){
+                              {"knot.insert", "Insert", "Insert a knot on the curve at the playhead (I)"},
+                              {"knot.next", "Next", "Go to the next knot after the playhead (Alt+.)"},
+                              {"knot.all", "All", "Select all knots of the spline (Ctrl+A)"},
+                          });
+    if (pressed == 0) core_insert_on_curve(in->core, in->world, core_frame(in->core, in->document), true, false);
+    if (pressed == 1 && !core_visit_neighbour(in->core, in->world, 1))
+        core_message(in->core, false, "There is no knot after the playhead.");
+    if (pressed == 2) core_select_all(in->core, in->world, false);
 }
 
 const char *inspector_knot_title(struct inspection *in)
@@ -298,7 +334,7 @@ void inspector_knot(struct inspection *in)
         build_several(in);
         build_slopes(in, all_sloped(in));
     } else if (single < 0) {
-        ui_paragraph(ui, "Click a knot to edit it. Double-click the curve to insert one.", theme()->text_dim);
+        build_overview(in, spline);
     } else {
         // Each is built from the document as the one before left it; ids survive what happens to the order of knots.
         const unsigned id = spline->knots[single].id;

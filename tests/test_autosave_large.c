@@ -1,0 +1,201 @@
+/// Recovery files of a large scene, in the app's frames: soon after an edit, of one moment, and there after a kill.
+#include "blind.h"
+
+#include "app/autosave.h"
+#include "base/file.h"
+#include "folder.h"
+#include "scene/load.h"
+#include <signal.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/wait.h>
+#include <time.h>
+#include <unistd.h>
+
+enum { SPLINES = 4, KNOTS = 50000, RATE = 60 };
+
+struct session {
+    struct blind blind;
+    struct autosave *autosave;
+    long frame;
+};
+
+/// Knots on every second frame, but for the first two.
+static void write_scene(const char *path)
+{
+    FILE *file = fopen(path, "w");
+    assert_non_null(file);
+    fprintf(file, "{\"wiggly\": 1, \"frames\": [0, %d], \"splines\": [", 2 * KNOTS + 4);
+    for (int s = 0; s < SPLINES; s++) {
+        fprintf(file, "%s{\"name\": \"s%d\", \"knots\": [", s ? ", " : "", s);
+        for (int k = 0; k < KNOTS; k++)
+            fprintf(file, "%s{\"frame\": %d, \"value\": %.17g}", k ? ",\n" : "", 2 * k + 4, sin(k + s));
+        fprintf(file, "]}");
+    }
+    fprintf(file, "], \"rigs\": []}");
+    assert_int_equal(fclose(file), 0);
+}
+
+static void open_session(struct session *session)
+{
+    struct error error = {0};
+    struct recovery_slot slot;
+    char path[128];
+    snprintf(path, sizeof path, "%s", folder_path("large.json"));
+    write_scene(path);
+    *session = (struct session){0};
+    blind_open(&session->blind, path);
+    if (!recovery_claim(folder, &slot, &error)) fail_msg("%s", error.text);
+    session->autosave = autosave_open(&slot, &error);
+    if (!session->autosave) fail_msg("%s", error.text);
+}
+
+static struct document *document_of(const struct session *session) { return session->blind.app.table.document; }
+
+/// A frame with a key's events, unless it is 0, at the pace of a display. Whether a copy is being taken.
+static bool frame(struct session *session, int key, unsigned mods)
+{
+    struct error error = {0};
+    struct app *app = &session->blind.app;
+    for (int action = 0; key && action < 2; action++)
+        blind_send(&session->blind, (struct event){.kind = EVENT_KEY,
+                                                   .key = key,
+                                                   .mods = mods,
+                                                   .action = action ? ACTION_RELEASE : ACTION_PRESS});
+    blind_frame(&session->blind);
+    const struct autosave_work work = {document_of(session), app_path(app), history_revision(app->table.history),
+                                       history_is_saved(app->table.history)};
+    if (!autosave_update(session->autosave, &work, (double)session->frame++ / RATE, &error))
+        fail_msg("%s", error.text);
+    return document_of(session)->snapshot;
+}
+
+static bool is_there(const struct session *session) { return access(autosave_path(session->autosave), F_OK) == 0; }
+
+/// The thread takes the time that it takes; the display's does not go on meanwhile.
+static void wait_for_file(const struct session *session)
+{
+    for (int i = 0; i < 12000 && !is_there(session); i++) nanosleep(&(struct timespec){.tv_nsec = 5000000}, NULL);
+    assert_true(is_there(session));
+}
+
+/// As the scene's part of a recovery file says it.
+static char *text_of(struct session *session)
+{
+    char *text = NULL;
+    size_t capacity = 0, size;
+    assert_true(scene_print_into(document_of(session), RECOVERY_FOLDER, &text, &capacity, &size));
+    return text;
+}
+
+static void assert_kept(const char *path, const char *expected)
+{
+    struct error error = {0};
+    char *data;
+    size_t size;
+    if (!file_read(path, (size_t)1 << 30, &data, &size, &error)) fail_msg("%s", error.text);
+    const char *text = strchr(data, '\n') + 1;
+    assert_int_equal(strlen(text), strlen(expected));
+    if (strcmp(text, expected) != 0) fail_msg("the recovery file has another scene");
+    free(data);
+}
+
+/// Frames until a copy is taken, and on until it is with the thread.
+static void copy(struct session *session)
+{
+    while (!document_of(session)->snapshot) frame(session, 0, 0);
+    while (frame(session, 0, 0)) continue;
+}
+
+/// The scene with exactly that edit is on its way to the disk within two seconds of frames, also where a copy has just been taken. The thread
+/// must not be waited for: what it takes of the two seconds is a matter of the machine (docs/reliability.md).
+static void an_edit_is_kept(void **state)
+{
+    (void)state;
+    struct session session;
+    open_session(&session);
+    for (int i = 0; i < 3; i++) frame(&session, 0, 0);
+    frame(&session, 'I', 0);
+    copy(&session);
+    wait_for_file(&session);
+    assert_int_equal(unlink(autosave_path(session.autosave)), 0);
+    frame(&session, KEY_RIGHT, 0);
+    const long edited = session.frame;
+    frame(&session, 'I', 0);
+    assert_int_equal(document_of(&session)->splines[0].knot_count, KNOTS + 2);
+    char *expected = text_of(&session);
+    copy(&session);
+    assert_true(session.frame - edited < 2 * RATE);
+    wait_for_file(&session);
+    assert_kept(autosave_path(session.autosave), expected);
+    free(expected);
+    autosave_close(session.autosave, false);
+    blind_close(&session.blind);
+}
+
+/// Edits in the middle of a copy are not in it, not even in part; they are in the next.
+static void edits_meanwhile(void **state)
+{
+    (void)state;
+    struct session session;
+    open_session(&session);
+    for (int i = 1; i < SPLINES; i++) frame(&session, KEY_PAGE_DOWN, 0); // whose turn comes last
+    frame(&session, 'I', 0);
+    while (!document_of(&session)->snapshot) frame(&session, 0, 0);
+    assert_int_equal(document_of(&session)->splines[SPLINES - 1].knot_count, KNOTS + 1);
+    char *before = text_of(&session);
+    while (frame(&session, KEY_UP, MOD_ALT)) continue;
+    char *after = text_of(&session);
+    assert_string_not_equal(before, after);
+    wait_for_file(&session);
+    assert_kept(autosave_path(session.autosave), before);
+    assert_int_equal(unlink(autosave_path(session.autosave)), 0);
+    copy(&session);
+    wait_for_file(&session);
+    assert_kept(autosave_path(session.autosave), after);
+    free(before);
+    free(after);
+    autosave_close(session.autosave, false);
+    blind_close(&session.blind);
+}
+
+/// A program that is killed while it copies the next edits leaves the last ones that were written.
+static void a_kill(void **state)
+{
+    (void)state;
+    struct recovery_entry entry;
+    struct error error = {0};
+    int status;
+    fflush(stdout);
+    const pid_t child = fork();
+    if (child == 0) {
+        struct session session;
+        open_session(&session);
+        frame(&session, 'I', 0);
+        copy(&session);
+        wait_for_file(&session);
+        frame(&session, KEY_RIGHT, 0);
+        frame(&session, 'I', 0);
+        while (!document_of(&session)->snapshot) frame(&session, 0, 0);
+        raise(SIGKILL);
+    }
+    assert_int_equal(waitpid(child, &status, 0), child);
+    assert_true(WIFSIGNALED(status) && WTERMSIG(status) == SIGKILL);
+    assert_true(recovery_find(folder, &entry, NULL));
+    struct document *document = recovery_read(&entry.slot, &error);
+    if (!document) fail_msg("%s", error.text);
+    assert_int_equal(document->splines[0].knot_count, KNOTS + 1);
+    assert_int_equal(document->splines[SPLINES - 1].knot_count, KNOTS);
+    recovery_release(&entry.slot);
+    document_destroy(document);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test_setup_teardown(an_edit_is_kept, folder_make, folder_remove),
+        cmocka_unit_test_setup_teardown(edits_meanwhile, folder_make, folder_remove),
+        cmocka_unit_test_setup_teardown(a_kill, folder_make, folder_remove),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
