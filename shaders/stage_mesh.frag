@@ -9,6 +9,8 @@ in vec3 world_normal;
 #ifdef FURRED
 in vec3 marking; // white, dark, brown: as in model/coat.h
 in vec4 place;   // in bind space, and how much of it is the tail's
+in float skirt;  // opacity; 1 but on the skirt
+in float open_around; // share of the light from all around that reaches it
 #ifdef FACED
 uniform mat4 head_from_bind; // to the head's own space, which looks towards -z
 uniform float blink;         // how far the lids are closed
@@ -22,8 +24,10 @@ in float open_sky;
 uniform vec3 eye;
 uniform vec3 key_from;
 uniform vec3 earth; // the light that comes up from the ground
+#ifndef FURRED
 uniform float seam; // 0 in the first pass
 uniform float line; // pixels: width of the phase map's lines; 0 where no phases are shown
+#endif
 #ifdef PICTURED
 in vec2 at; // in the picture
 in float opacity;
@@ -35,7 +39,7 @@ out vec4 pixel;
 
 const vec3 KEY = vec3(1.0, 0.8796, 0.7157);      // #FFF1DC
 const vec3 SKY = vec3(0.2747, 0.3663, 0.5210);   // #8FA3BF
-const vec3 RIM = vec3(0.3325, 0.5711, 1.0);      // #9CC7FF
+const vec3 RIM = vec3(0.3050, 0.6105, 0.8714);   // #96CDF0: a bluer one turns orange to lilac
 const float EXPOSURE = 0.82;                     // the white tip, fully lit, just does not burn out
 
 // Unit vector; 0, not NaN, where there is no direction.
@@ -44,26 +48,21 @@ vec3 direction(vec3 v)
     return v / max(length(v), 1e-12);
 }
 
-// How far inside its silhouette a round shape's pixel is, in 1.4 pixels, at most 1: opacity of the soft seam (second pass;
-// the first does not blend). Where the radius is R, `facing` f falls to 0 over R·f²/2. A triangle is a chord of that
-// arc: f changes by `slope` a pixel of a chord that is foreshortened to `flat_facing`, so R = 1/(slope · flat_facing).
-// Unlike fwidth(f²), this is exact for facets smaller than a pixel, as nothing but what is linear in them is
-// differentiated.
-float seam_opacity(vec3 to_eye)
-{
-    float facing = dot(world_normal, to_eye);
-    float slope = length(vec2(dFdx(facing), dFdy(facing)));
-    float flat_facing = abs(dot(direction(cross(dFdx(world), dFdy(world))), to_eye));
-    return clamp(0.36 * facing * abs(facing) / max(slope * flat_facing, 1e-6), 0.0, 1.0);
-}
-
 #ifdef FURRED
+const vec3 FUR_LIGHT = vec3(0.38, 0.20, 0.10); // what comes from fur nearby, as a share of what it keeps off
 const float TUFT = 0.007; // metres: depth of the fringe of markings
 
 // How much of a pixel, `sharp` to a metre, lies inside an edge that is `depth` metres away.
 float covered(float depth, float sharp)
 {
     return clamp(depth * sharp + 0.5, 0.0, 1.0);
+}
+
+// How much of a pixel lies inside a marking's edge that is `depth` metres away: as it changes from pixel to pixel, which is
+// faster than the coat's place does where tufts fringe it and where it is seen at a grazing angle.
+float marked(float depth)
+{
+    return clamp(depth / max(1.3 * length(vec2(dFdx(depth), dFdy(depth))), 0.004) + 0.5, 0.0, 1.0);
 }
 
 // About sin(2 pi x), at a quarter of its price.
@@ -130,8 +129,8 @@ vec3 coat_here(out float gloss)
     float sharp = 1.0 / max(grain, 1e-5);
     float hair = strands(grain);
     vec3 coat = mix(orange, brown, clamp(marking.z + 0.10 * hair * (0.4 + marking.z), 0.0, 1.0)) * (1.0 + 0.07 * hair);
-    coat = mix(coat, white * (1.0 + 0.05 * hair), covered(marking.x + TUFT * hair, min(sharp, 250.0)));
-    coat = mix(coat, dark * (1.0 + 0.3 * hair), covered(marking.y + TUFT * hair, min(sharp, 250.0)));
+    coat = mix(coat, white * (1.0 + 0.05 * hair), marked(marking.x + TUFT * hair));
+    coat = mix(coat, dark * (1.0 + 0.3 * hair), marked(marking.y + TUFT * hair));
 #ifdef FACED
     return with_face(coat, sharp, gloss);
 #else
@@ -142,6 +141,19 @@ vec3 coat_here(out float gloss)
 #endif
 
 #ifndef FURRED
+// How far inside its silhouette a round shape's pixel is, in 1.4 pixels, at most 1: opacity of the soft seam (second pass;
+// the first does not blend). Where the radius is R, `facing` f falls to 0 over R·f²/2. A triangle is a chord of that
+// arc: f changes by `slope` a pixel of a chord that is foreshortened to `flat_facing`, so R = 1/(slope · flat_facing).
+// Unlike fwidth(f²), this is exact for facets smaller than a pixel, as nothing but what is linear in them is
+// differentiated.
+float seam_opacity(vec3 to_eye)
+{
+    float facing = dot(world_normal, to_eye);
+    float slope = length(vec2(dFdx(facing), dFdy(facing)));
+    float flat_facing = abs(dot(direction(cross(dFdx(world), dFdy(world))), to_eye));
+    return clamp(0.36 * facing * abs(facing) / max(slope * flat_facing, 1e-6), 0.0, 1.0);
+}
+
 // Dark lines on the phase map between each eighth of a turn and the next, so that phases are told apart without hue and in any
 // light. What is in step has none across it. They fade where they would run together, and where next to nothing moves,
 // as phases mean nothing there.
@@ -166,8 +178,8 @@ void main()
 {
     vec3 n = direction(world_normal);
     vec3 to_eye = normalize(eye - world);
-    float opacity_here = 1.0;
 #ifdef FURRED
+    float opacity_here = skirt;
     float gloss;
     vec3 coat = coat_here(gloss);
 #else
@@ -178,19 +190,26 @@ void main()
     if (both_sides && !gl_FrontFacing) n = -n;
 #endif
     vec3 coat = line > 0.0 ? with_phase_lines(surface.rgb) : surface.rgb;
-    opacity_here = surface.a;
+    float opacity_here = seam > 0.0 ? seam_opacity(to_eye) : surface.a;
 #endif
     float facing = dot(n, to_eye);
-    float graze = 1.0 - clamp(facing, 0.0, 1.0);
+    float graze = clamp(1.0 - facing, 0.0, 0.9); // of what a pixel shows of an edge, not of the edge alone
     float graze2 = graze * graze;
     float key = max((dot(n, key_from) + 0.4) / 1.4, 0.0);
     float upward = 0.5 + 0.5 * n.y;
     // What the ground throws back is warm, and strongest near it.
-    vec3 light = KEY * key + mix(earth * (2.0 - open_sky), SKY, upward) * mix(open_sky, 1.0, 0.5 - 0.5 * upward);
-    // The sky's rim is thin and keeps to what faces up: a wider one would turn orange to lilac.
-    vec3 linear = coat * light * EXPOSURE + RIM * (0.26 * graze2 * graze2 * graze2 * open_sky * upward);
+    vec3 around = mix(earth * (2.0 - open_sky), SKY, upward) * mix(open_sky, 1.0, 0.5 - 0.5 * upward);
+    // The sky's rim is thin, and keeps to what faces up.
+    float rim = 0.22 * graze2 * graze2 * graze2 * open_sky * upward;
+#ifdef FURRED
+    around *= mix(FUR_LIGHT, vec3(1.0), open_around);
+    key *= 0.5 + 0.5 * open_around;
+    rim *= open_around * open_around;
+#endif
+    vec3 light = KEY * key + around;
+    vec3 linear = coat * light * EXPOSURE + RIM * rim;
 #ifdef FURRED
     linear += (1.0 - gloss) * coat * light * (0.55 * graze2 * graze); // hair that stands off catches the light
 #endif
-    pixel = vec4(max(1.055 * pow(linear, vec3(1.0 / 2.4)) - 0.055, 0.0), seam > 0.0 ? seam_opacity(to_eye) : opacity_here);
+    pixel = vec4(max(1.055 * pow(linear, vec3(1.0 / 2.4)) - 0.055, 0.0), opacity_here);
 }

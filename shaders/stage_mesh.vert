@@ -5,15 +5,17 @@ layout(location = 1) in vec3 mark;     // as in model/coat.h
 layout(location = 2) in float bend;
 layout(location = 3) in vec3 moved; // world
 layout(location = 4) in vec3 moved_normal;
+layout(location = 5) in float opaque; // of the skirt
+layout(location = 6) in float open;   // as in model/mesh.h
 uniform mat4 clip_from_world;
-uniform vec3 eye;
 uniform vec2 shape; // scale, height of the ground
-uniform float seam; // metres a pixel at a distance of 1 m in the pass that softens silhouettes, else 0
 out vec3 world;
 out vec3 world_normal;
 out vec3 marking;
 out vec4 place;   // in bind space, and how much of it is the tail's
 out float open_sky;
+out float skirt;
+out float open_around;
 
 void main()
 {
@@ -22,8 +24,7 @@ void main()
     marking = mark;
     place = vec4(position, bend);
     open_sky = 0.45 + 0.55 * smoothstep(0.0, 0.35 * shape.x, world.y - shape.y);
-    // The seam is the same skin, 1.5 pixels larger (1 is too little where facets are large) and pushed back behind
-    // the first pass: only what sticks out is seen.
-    vec3 ray = world - eye;
-    gl_Position = clip_from_world * vec4(world + seam * (1.5 * length(ray) * world_normal + 2.5 * ray), 1.0);
+    skirt = opaque;
+    open_around = open;
+    gl_Position = clip_from_world * vec4(world, 1.0);
 }

@@ -285,6 +285,104 @@ static void test_two_factors_and_what_stops_them(void **state)
     session_close(&s);
 }
 
+/// The words of a draw list, one a line.
+static bool says(const struct session *s, const char *text)
+{
+    const struct drawlist *list = editor_drawlist(s->editor);
+    for (int i = 0; i < list->count; i++) {
+        if (list->commands[i].kind == DRAW_TEXT && strcmp(list->text + list->commands[i].first, text) == 0)
+            return true;
+    }
+    return false;
+}
+
+/// The upper edge goes along with the pointer, the lower one stays; the factor is beside the pointer.
+static void test_an_edge_of_the_box_scales_about_the_other_side(void **state)
+{
+    (void)state;
+    struct session s;
+    session_open(&s, TWO);
+    const float unit =
+        (float)(s.editor->core.layout.plot.h / (s.editor->curves->view.value1 - s.editor->curves->view.value0));
+    box(&s, "curve(sway,17,1.1)", "curve(sway,34,-1.2)"); // 20 and 30 of sway, 20 of up, 22 of far
+    char *original = session_saved(&s);
+    session_pull(&s, "box(0,-1)", 0, -unit / 2, 4);
+    assert_true(says(&s, "value × 1.25"));
+    assert_non_null(strstr(s.editor->curves->scaling.sentence, "value × 1.25 about the other side.  P: the equili"));
+    session_release(&s, BUTTON_LEFT);
+    assert_near(knot(&s, 0, 1)->value, 1.5, 0.01);
+    assert_near(knot(&s, 0, 2)->value, -1, 1e-9);
+    assert_near(knot(&s, 1, 0)->value, -1 + 1.5 * 1.25, 0.01);
+    assert_near(knot(&s, 0, 1)->frame, 20, 0);
+    assert_one_step(&s, original);
+    free(original);
+    session_close(&s);
+}
+
+/// With Alt about the equilibrium, or with P: the upper edge goes along, the lower one the other way.
+static void test_an_edge_of_the_box_scales_about_the_equilibrium(void **state)
+{
+    (void)state;
+    for (int by_key = 0; by_key < 2; by_key++) {
+        struct session s;
+        session_open(&s, TWO);
+        const float unit =
+            (float)(s.editor->core.layout.plot.h / (s.editor->curves->view.value1 - s.editor->curves->view.value0));
+        session_key(&s, 'A', MOD_CTRL);
+        s.mods = by_key ? 0 : MOD_ALT;
+        session_pull(&s, "box(0,-1)", 0, -unit / 2, 4);
+        if (by_key) session_key(&s, 'P', 0);
+        session_release(&s, BUTTON_LEFT);
+        assert_near(knot(&s, 0, 1)->value, 1.5, 0.01);
+        assert_near(knot(&s, 0, 2)->value, -1.5, 0.01);
+        session_close(&s);
+    }
+}
+
+static void test_a_corner_of_the_box_scales_both_and_says_what_stops_it(void **state)
+{
+    (void)state;
+    struct session s;
+    session_open(&s, TWO);
+    const struct curves *curves = s.editor->curves;
+    const float frame = (float)(s.editor->core.layout.plot.w / (curves->view.frame1 - curves->view.frame0));
+    box(&s, "curve(sway,17,1.1)", "curve(sway,34,-1.2)");
+    char *original = session_saved(&s);
+    session_pull(&s, "box(1,-1)", 10 * frame, 0, 4);
+    assert_near(knot(&s, 0, 2)->frame, 40, 0);
+    assert_near(knot(&s, 0, 1)->frame, 20, 0);
+    assert_true(says(&s, "time × 2"));
+    session_drag(&s, 80 * frame, 0, 10); // 110 is outside
+    assert_true(says(&s, "a knot would leave the range"));
+    assert_true(knot(&s, 0, 2)->frame <= 96);
+    session_key(&s, KEY_ESCAPE, 0);
+    assert_saved(&s, original);
+    free(original);
+    session_close(&s);
+}
+
+/// A knot is where a handle would be, and a press there takes the knot; a single one, and knots on one frame, have fewer handles.
+static void test_the_box_has_the_handles_that_can_scale(void **state)
+{
+    (void)state;
+    struct session s;
+    float x, y;
+    struct error error;
+    session_open(&s, TWO);
+    session_click(&s, "knot(sway,1)");
+    assert_false(editor_target(s.editor, &s.world, "box(0,-1)", &x, &y, &error));
+    s.mods = MOD_SHIFT;
+    session_click(&s, "knot(up,0)"); // on the same frame
+    s.mods = 0;
+    assert_true(editor_target(s.editor, &s.world, "box(0,-1)", &x, &y, &error));
+    assert_false(editor_target(s.editor, &s.world, "box(1,0)", &x, &y, &error));
+    assert_false(editor_target(s.editor, &s.world, "box(1,-1)", &x, &y, &error));
+    session_point(&s, "knot(sway,1)");
+    session_frame(&s);
+    assert_int_equal(s.editor->core.hover.kind, HOVER_KNOT);
+    session_close(&s);
+}
+
 /// With Alt, from the playhead; a system that sends the comma all the same goes no further.
 static void test_the_playhead_goes_to_the_next_knot(void **state)
 {
@@ -328,6 +426,10 @@ int main(void)
         cmocka_unit_test(test_pasted_knots_of_unknown_splines_go_to_the_active_one),
         cmocka_unit_test(test_copies_go_behind_the_end),
         cmocka_unit_test(test_scaling_about_the_equilibrium),
+        cmocka_unit_test(test_an_edge_of_the_box_scales_about_the_other_side),
+        cmocka_unit_test(test_an_edge_of_the_box_scales_about_the_equilibrium),
+        cmocka_unit_test(test_a_corner_of_the_box_scales_both_and_says_what_stops_it),
+        cmocka_unit_test(test_the_box_has_the_handles_that_can_scale),
         cmocka_unit_test(test_two_factors_and_what_stops_them),
         cmocka_unit_test(test_the_playhead_goes_to_the_next_knot),
     };

@@ -227,6 +227,39 @@ static void what_trails_has_a_negative_argument(void **state)
     motion_close(&motion);
 }
 
+/// Of a hundred vertices that move alike and trail by 0 … 99 degrees, 5 lead by more than the first lag and 5 trail by more than the
+/// last; a vertex that hardly moves is not among them, however late.
+static void lags_leave_out_a_twentieth_at_each_end(void **state)
+{
+    (void)state;
+    enum { VERTICES = 101 };
+    double complex shape[VERTICES][3] = {{0}};
+    for (int v = 0; v < 100; v++) shape[(37 * v) % 100][1] = 0.2 * cexp(-I * (v * M_PI / 180));
+    shape[100][1] = 1e-4 * cexp(-I * (170 * M_PI / 180));
+    struct component c = {.vertices = VERTICES, .shape = shape, .direction = {0, 1, 0}};
+    assert_true(component_lags(&c));
+    assert_near(c.first_lag, 5, 1.001);
+    assert_near(c.last_lag, 94, 1.001);
+    assert_near(c.reach, 0.2, 1e-12);
+}
+
+/// A swing of 1 Hz that dies down for four seconds; what trembles on at 3 Hz, a hundredth as wide, says little.
+static void the_fit_goes_by_what_moves_most(void **state)
+{
+    (void)state;
+    enum { FRAMES = 240 };
+    const double omega = 2 * M_PI, ratio = 0.1;
+    double complex course[FRAMES];
+    for (int i = 0; i < FRAMES; i++) {
+        const double t = i / 30.0;
+        course[i] = t < 4 ? cexp((-ratio + I * sqrt(1 - ratio * ratio)) * omega * t) : 0.01 * cexp(3 * I * omega * t);
+    }
+    struct component c = {.frames = FRAMES, .course = course};
+    component_fit(&c, 30);
+    assert_near(c.frequency, 1, 0.03);
+    assert_near(c.damping, ratio, 0.005);
+}
+
 /// A wave that travels along 60 vertices, one wavelength long, and noise of up to a fifth of its amplitude on every number.
 enum { WAVE_FRAMES = 120, WAVE_VERTICES = 60 };
 
@@ -343,6 +376,8 @@ int main(void)
         cmocka_unit_test(the_transform_holds_to_the_ends),
         cmocka_unit_test(frequency_damping_and_gauge),
         cmocka_unit_test(what_trails_has_a_negative_argument),
+        cmocka_unit_test(lags_leave_out_a_twentieth_at_each_end),
+        cmocka_unit_test(the_fit_goes_by_what_moves_most),
         cmocka_unit_test(one_complex_component_finds_a_travelling_wave),
         cmocka_unit_test(what_cannot_be_analysed_gets_one_sentence),
         cmocka_unit_test(odd_motions_give_finite_numbers),

@@ -47,6 +47,23 @@ static void points_behind_the_eye_are_not_projected(void **state)
     assert_false(project(&view, behind, screen));
 }
 
+/// From a sixteenth of the distance to the target, where a hand reaches towards the eye, to far behind it, in a scene of any size.
+static void what_is_near_or_far_is_not_cut_off(void **state)
+{
+    (void)state;
+    static const float sizes[] = {0.01f, 4.0f, 1000.0f}, seen[] = {0.0625f, 1.0f, 19.0f};
+    for (int s = 0; s < 3; s++) {
+        struct camera camera = camera_default();
+        camera_zoom(&camera, sizes[s] / camera.distance);
+        const struct view view = look(&camera);
+        for (int i = 0; i < 3; i++) {
+            const float away = seen[i] * camera.distance;
+            const float depth = (view.projection[14] - view.projection[10] * away) / away;
+            assert_true(depth > -1.0f && depth < 1.0f);
+        }
+    }
+}
+
 static void a_fitted_box_fills_the_picture_from_any_side(void **state)
 {
     (void)state;
@@ -130,6 +147,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_target_is_in_the_middle_with_y_up_and_z_to_the_left),
         cmocka_unit_test(points_behind_the_eye_are_not_projected),
+        cmocka_unit_test(what_is_near_or_far_is_not_cut_off),
         cmocka_unit_test(a_fitted_box_fills_the_picture_from_any_side),
         cmocka_unit_test(a_broken_box_changes_nothing),
         cmocka_unit_test(panning_follows_the_pointer),

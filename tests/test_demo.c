@@ -4,6 +4,7 @@
 #include "editor/state.h"
 #include "inside.h"
 #include "scene/load.h"
+#include "shown.h"
 #include <string.h>
 
 static void demo_open(struct blind *b)
@@ -17,16 +18,6 @@ static void demo_open(struct blind *b)
 }
 
 static const char *caption(struct blind *b) { return b->app.table.editor->dialogs->caption; }
-
-static bool shows(struct blind *b, const char *text)
-{
-    const struct drawlist *list = editor_drawlist(b->app.table.editor);
-    for (int i = 0; i < list->count; i++) {
-        const struct draw_command *c = &list->commands[i];
-        if (c->kind == DRAW_TEXT && strcmp(list->text + c->first, text) == 0) return true;
-    }
-    return false;
-}
 
 static uint64_t scene_now(const struct blind *b) { return scene_hash(b->app.table.document); }
 
@@ -52,7 +43,7 @@ static void test_all_of_it_plays_and_begins_anew(void **state)
         records |= strstr(b.app.table.editor->core.message.text, "knots recorded") != NULL;
         if (strcmp(last, caption(&b)) == 0) continue;
         snprintf(last, sizeof last, "%s", caption(&b));
-        if (!shows(&b, last)) fail_msg("the caption “%s” does not fit", last);
+        if (!shown_text(b.app.table.editor, last)) fail_msg("the caption “%s” does not fit", last);
         edits += scene_now(&b) != changed;
         changed = scene_now(&b);
     }

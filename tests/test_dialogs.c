@@ -1,6 +1,7 @@
 /// The dialogs that deal with files of before: recent ones, and work that an earlier run left behind.
 #include "inside.h"
 #include "panel_session.h"
+#include "shown.h"
 
 #include "ui/font.h"
 #include <string.h>
@@ -43,20 +44,9 @@ static void expect_request(struct session *session, enum request_kind kind, cons
     assert_string_equal(request.path, path);
 }
 
-/// The text as it is on the screen, or NULL; of the dialog where it has some of the same, for that is drawn last.
-static const struct draw_command *shown(const struct session *session, const char *text)
-{
-    const struct drawlist *list = editor_drawlist(session->editor);
-    for (int i = list->count - 1; i >= 0; i--) {
-        const struct draw_command *command = &list->commands[i];
-        if (command->kind == DRAW_TEXT && strcmp(list->text + command->first, text) == 0) return command;
-    }
-    return NULL;
-}
-
 static void click(struct session *session, const char *text, int clicks)
 {
-    const struct draw_command *command = shown(session, text);
+    const struct draw_command *command = shown_text(session->editor, text);
     if (!command) fail_msg("“%s” is not on the screen", text);
     session_move(session, command->x + 4, command->y - 4);
     for (int i = 1; i <= clicks; i++) {
@@ -72,8 +62,8 @@ static void test_recent_files(void **state)
     open_session(&s);
     session_key(&s, 'O', MOD_CTRL);
     assert_int_equal(s.editor->dialogs->dialog.match_count, 5);
-    assert_non_null(shown(&s, "/home/me/scenes"));
-    assert_non_null(shown(&s, "no longer exists"));
+    assert_non_null(shown_text(s.editor, "/home/me/scenes"));
+    assert_non_null(shown_text(s.editor, "no longer exists"));
     session_key(&s, KEY_DOWN, 0);
     session_key(&s, KEY_DOWN, 0);
     session_key(&s, KEY_ENTER, 0);
@@ -131,7 +121,7 @@ static void open_offer(struct session *session)
     open_session(session);
     editor_offer_recovery(session->editor, &offer);
     session_frame(session);
-    assert_non_null(shown(session, "Recover unsaved work on walk.json?"));
+    assert_non_null(shown_text(session->editor, "Recover unsaved work on walk.json?"));
 }
 
 static void test_recover(void **state)
@@ -189,11 +179,11 @@ static void test_welcome(void **state)
     (void)state;
     struct session s;
     open_session(&s);
-    assert_null(shown(&s, "Got it"));
+    assert_null(shown_text(s.editor, "Got it"));
     editor_welcome(s.editor);
     session_frame(&s);
     session_key(&s, KEY_RIGHT, 0);
-    assert_non_null(shown(&s, "Got it"));
+    assert_non_null(shown_text(s.editor, "Got it"));
     click(&s, "Got it", 1);
     assert_false(editor_is_welcoming(s.editor));
     editor_welcome(s.editor);
@@ -211,7 +201,7 @@ static void test_welcome(void **state)
     session_key(&s, 'I', 0);
     assert_int_equal(s.document->splines[0].knot_count, 3);
     assert_false(editor_is_welcoming(s.editor));
-    assert_null(shown(&s, "Got it"));
+    assert_null(shown_text(s.editor, "Got it"));
     session_close(&s);
 }
 
@@ -223,7 +213,7 @@ static void test_welcome_with_a_character(void **state)
     open_session(&s);
     editor_welcome(s.editor);
     session_frame(&s);
-    assert_non_null(shown(&s, "Drop a .glb"));
+    assert_non_null(shown_text(s.editor, "Drop a .glb"));
     session_send(&s, (struct event){.kind = EVENT_DROP, .path = "/home/ada/rex.glb"});
     expect_request(&s, REQUEST_OPEN, "/home/ada/rex.glb");
     session_close(&s);
@@ -233,8 +223,8 @@ static void test_welcome_with_a_character(void **state)
         1280, 720);
     editor_welcome(s.editor);
     session_frame(&s);
-    assert_non_null(shown(&s, "Press Shift+J"));
-    assert_null(shown(&s, "Drop a .glb"));
+    assert_non_null(shown_text(s.editor, "Press Shift+J"));
+    assert_null(shown_text(s.editor, "Drop a .glb"));
     session_close(&s);
 }
 

@@ -1,6 +1,7 @@
 /// The Export dialog: the name's ending is the format, what the format lets choose, and what is remembered.
 #include "inside.h"
 #include "panel_session.h"
+#include "shown.h"
 
 #include "app/exporting.h"
 #include "ui/font.h"
@@ -29,16 +30,6 @@ static void open_session(struct session *s, const char *path, float width, float
     open_other(s, scene, path, width, height);
 }
 
-static const struct draw_command *shown(const struct session *session, const char *text)
-{
-    const struct drawlist *list = editor_drawlist(session->editor);
-    for (int i = list->count - 1; i >= 0; i--) {
-        const struct draw_command *command = &list->commands[i];
-        if (command->kind == DRAW_TEXT && strcmp(list->text + command->first, text) == 0) return command;
-    }
-    return NULL;
-}
-
 static void click_at(struct session *s, float x, float y, int clicks)
 {
     session_move(s, x, y);
@@ -48,7 +39,7 @@ static void click_at(struct session *s, float x, float y, int clicks)
 
 static void click(struct session *s, const char *text)
 {
-    const struct draw_command *command = shown(s, text);
+    const struct draw_command *command = shown_text(s->editor, text);
     if (!command) fail_msg("“%s” is not on the screen", text);
     click_at(s, command->x + 4, command->y - 4, 1);
 }
@@ -56,7 +47,7 @@ static void click(struct session *s, const char *text)
 /// Types over the number that is so far right of a word.
 static void enter(struct session *s, const char *word, float right, const char *number)
 {
-    const struct draw_command *command = shown(s, word);
+    const struct draw_command *command = shown_text(s->editor, word);
     if (!command) fail_msg("“%s” is not on the screen", word);
     click_at(s, command->x + right, command->y - 4, 2);
     panel_type(s, number);
@@ -75,7 +66,7 @@ static void test_enter_exports_the_scene(void **state)
     (void)state;
     struct session s;
     open_session(&s, "work/walk.json", 1280, 720);
-    assert_non_null(shown(&s, "Write walk.glb"));
+    assert_non_null(shown_text(s.editor, "Write walk.glb"));
     session_key(&s, KEY_ENTER, 0);
     struct request request = asked(&s);
     assert_string_equal(request.path, "work/walk.glb");
@@ -119,15 +110,16 @@ static void test_the_ending_is_the_format(void **state)
     open_session(&s, "walk.json", 1280, 720);
     panel_type(&s, "take.csv"); // over the selected name
     assert_string_equal(exporting_formats[of(&s)->format].ending, ".csv");
-    assert_null(shown(&s, "clip"));
+    assert_null(shown_text(s.editor, "clip"));
     session_key(&s, KEY_DOWN, 0);
     assert_string_equal(of(&s)->memory.path, "take.pc2");
     click(&s, ".mp4");
-    assert_non_null(shown(&s, "Write take.mp4"));
-    assert_non_null(shown(&s, "49 pictures, 24 a second. ↑ ↓ choose the format, Tab goes to the choices."));
+    assert_non_null(shown_text(s.editor, "Write take.mp4"));
+    assert_non_null(
+        shown_text(s.editor, "49 pictures, 24 a second. ↑ ↓ choose the format, Tab goes to the choices."));
     click(&s, "take.mp4"); // back in the name, where typing goes on
     panel_type(&s, "2");
-    assert_non_null(shown(&s, "Write take.mp42.mp4"));
+    assert_non_null(shown_text(s.editor, "Write take.mp42.mp4"));
     session_close(&s);
 }
 
@@ -153,14 +145,14 @@ static void test_choices_are_asked_for(void **state)
     panel_type(&s, "Swing");
     assert_string_equal(of(&s)->memory.path, "walk.glb"); // the name is another line of text
     click(&s, "all rigs");
-    assert_non_null(shown(&s, "145 keys, 96 a second. ↑ ↓ choose the format, Tab goes to the choices."));
+    assert_non_null(shown_text(s.editor, "145 keys, 96 a second. ↑ ↓ choose the format, Tab goes to the choices."));
     click(&s, "Write walk.glb");
     struct request request = asked(&s);
     assert_true(request.wish.part && request.wish.first == 12 && request.wish.last == 48);
     assert_int_equal(request.wish.keys, 4);
     assert_string_equal(request.wish.clip, "Swing");
     assert_string_equal(request.wish.rig, "fox");
-    assert_null(shown(&s, "signed morph targets")); // tails have none
+    assert_null(shown_text(s.editor, "signed morph targets")); // tails have none
     session_close(&s);
 }
 
@@ -171,10 +163,10 @@ static void test_one_rig_only(void **state)
     struct session s;
     open_session(&s, "walk.json", 1280, 720);
     click(&s, ".pc2");
-    assert_null(shown(&s, "all rigs"));
+    assert_null(shown_text(s.editor, "all rigs"));
     click(&s, "fox");
     click(&s, "cat");
-    assert_non_null(shown(&s, "fox"));
+    assert_non_null(shown_text(s.editor, "fox"));
     session_close(&s);
 }
 
@@ -192,10 +184,10 @@ static void test_joints_are_tails_and_chains(void **state)
     struct session s;
     open_other(&s, dog, "dog.json", 1280, 720);
     click(&s, ".pc2");
-    assert_null(shown(&s, "brush"));
+    assert_null(shown_text(s.editor, "brush"));
     click(&s, ".bvh");
     click(&s, "brush");
-    assert_non_null(shown(&s, "ear"));
+    assert_non_null(shown_text(s.editor, "ear"));
     session_close(&s);
 }
 
@@ -205,7 +197,7 @@ static void test_size_of_pictures(void **state)
     struct session s;
     open_session(&s, "walk.json", 1280, 720);
     click(&s, ".gif");
-    assert_non_null(shown(&s, "640"));
+    assert_non_null(shown_text(s.editor, "640"));
     enter(&s, "size", 120, "320");
     click(&s, "Write walk.gif");
     struct request request = asked(&s);
@@ -223,7 +215,7 @@ static void test_cancelling(void **state)
     asked(&s);
     editor_tell_export(s.editor, 30, 97);
     session_frame(&s);
-    assert_non_null(shown(&s, "30 of 97. Esc cancels, and leaves nothing behind."));
+    assert_non_null(shown_text(s.editor, "30 of 97. Esc cancels, and leaves nothing behind."));
     session_key(&s, KEY_DELETE, 0); // nothing else is done meanwhile
     panel_type(&s, "x");
     assert_string_equal(of(&s)->memory.path, "walk.glb");
@@ -233,7 +225,7 @@ static void test_cancelling(void **state)
     assert_int_equal(editor_take_request(s.editor).kind, REQUEST_EXPORT_STOP);
     panel_answer(&s, REQUEST_EXPORT, false, "Cancelled. Nothing was written.");
     session_frame(&s);
-    assert_non_null(shown(&s, "Cancelled. Nothing was written."));
+    assert_non_null(shown_text(s.editor, "Cancelled. Nothing was written."));
     session_key(&s, KEY_ESCAPE, 0);
     assert_int_equal(dialog_of(&s)->kind, DIALOG_NONE);
     assert_int_equal(editor_take_request(s.editor).kind, REQUEST_NONE);
@@ -246,7 +238,7 @@ static void test_escape_in_a_number(void **state)
     (void)state;
     struct session s;
     open_session(&s, "walk.json", 1280, 720);
-    const struct draw_command *word = shown(&s, "frames");
+    const struct draw_command *word = shown_text(s.editor, "frames");
     click_at(&s, word->x + 120, word->y - 4, 2);
     panel_type(&s, "5");
     session_key(&s, KEY_ESCAPE, 0);
@@ -264,12 +256,12 @@ static void test_remembered(void **state)
     click(&s, "transparent");
     session_key(&s, KEY_ESCAPE, 0);
     session_key(&s, 'E', MOD_CTRL);
-    assert_non_null(shown(&s, "films/first.webm"));
+    assert_non_null(shown_text(s.editor, "films/first.webm"));
     session_key(&s, KEY_ESCAPE, 0);
     editor_open(s.editor, &s.world);
     editor_set_path(s.editor, "work/run.json");
     session_key(&s, 'E', MOD_CTRL);
-    assert_non_null(shown(&s, "work/run.webm")); // its own name, in the format of last time
+    assert_non_null(shown_text(s.editor, "work/run.webm")); // its own name, in the format of last time
     session_close(&s);
 }
 
@@ -278,11 +270,11 @@ static void test_small_windows(void **state)
     (void)state;
     struct session s;
     open_session(&s, "walk.json", 640, 400);
-    const struct draw_command *button = shown(&s, "Write walk.glb");
+    const struct draw_command *button = shown_text(s.editor, "Write walk.glb");
     assert_non_null(button);
     assert_true(button->y < 400);
     panel_type(&s, "walk.png"); // the last of the list comes into sight
-    const struct draw_command *row = shown(&s, ".png");
+    const struct draw_command *row = shown_text(s.editor, ".png");
     assert_non_null(row);
     assert_true(row->y > row->clip.y && row->y < row->clip.y + row->clip.h);
     session_close(&s);

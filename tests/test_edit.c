@@ -16,7 +16,7 @@ static void test_knots(void **state)
     assert_int_equal(sway->knots[1].id, id);
     assert_near(sway->knots[1].frame, 20.5, 0);
     assert_non_null(sway->knots[1].extra);
-    world_must(&world, edit_insert(SWAY, 4, -0.0));
+    world_must(&world, edit_insert(SWAY, 4, 0));
     assert_int_equal(sway->knot_count, 4);
     assert_int_equal(spline_find_knot(world.document, sway, 4), 0);
     world_must(&world, (struct edit){.kind = EDIT_KNOT_REMOVE, .spline = SWAY, .knot = {.id = id}});
@@ -24,6 +24,21 @@ static void test_knots(void **state)
     assert_true(history_undo(world.history, world.document));
     assert_int_equal(spline_find_id(sway, id), 2);
     assert_non_null(sway->knots[2].extra);
+    world_close(&world);
+}
+
+/// A file has no −0, so neither has the document: as it is saved it is loaded.
+static void test_negative_zeros(void **state)
+{
+    (void)state;
+    struct world world;
+    world_open(&world);
+    const struct spline *sway = &world.document->splines[SWAY];
+    struct edit edit = edit_move(&world, SWAY, 0, -0.0, -0.0);
+    edit.knot.slope = -0.0;
+    edit.knot.has_slope = true;
+    world_must(&world, edit);
+    assert_false(signbit(sway->knots[0].frame) || signbit(sway->knots[0].value) || signbit(sway->knots[0].slope));
     world_close(&world);
 }
 
@@ -160,6 +175,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_knots),
+        cmocka_unit_test(test_negative_zeros),
         cmocka_unit_test(test_refused_knots),
         cmocka_unit_test(test_refused_parameters),
         cmocka_unit_test(test_modes_convert),

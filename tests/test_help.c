@@ -4,6 +4,7 @@
 #include "editor/keys.h"
 #include "inside.h"
 #include "panel_session.h"
+#include "shown.h"
 
 static const char scene[] =
     "{\"wiggly\": 1, \"frames\": [0, 96], \"splines\": [{\"name\": \"sway\", \"frequency\": 1, \"knots\": "
@@ -17,18 +18,6 @@ static void open_help(struct session *s, float width, float height)
     assert_true(s->editor->dialogs->help.open);
 }
 
-/// The text on the screen that is `text`, or NULL.
-static const struct draw_command *shown(struct session *s, const char *text)
-{
-    const struct drawlist *list = editor_drawlist(s->editor);
-    const struct draw_command *found = NULL;
-    for (int i = 0; i < list->count; i++) {
-        const struct draw_command *c = &list->commands[i];
-        if (c->kind == DRAW_TEXT && strcmp(list->text + c->first, text) == 0) found = c;
-    }
-    return found;
-}
-
 static bool is_seen(const struct draw_command *c) { return c && c->y > c->clip.y && c->y < c->clip.y + c->clip.h; }
 
 static void assert_whole(struct session *s)
@@ -36,7 +25,7 @@ static void assert_whole(struct session *s)
     for (int g = 0; g < HELP_GROUPS; g++) {
         for (int i = 0; help_row(&help_groups[g], i).keys; i++) {
             const struct help_row row = help_row(&help_groups[g], i);
-            if (!is_seen(shown(s, row.keys)) || !is_seen(shown(s, row.what))) {
+            if (!is_seen(shown_text(s->editor, row.keys)) || !is_seen(shown_text(s->editor, row.what))) {
                 fail_msg("“%s, %s” is not to be seen", row.keys, row.what);
             }
         }
@@ -50,7 +39,7 @@ static void test_all_of_it_fits(void **state)
     for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++) {
         struct session s;
         open_help(&s, sizes[i][0], sizes[i][1]);
-        assert_non_null(shown(&s, "Press any key to close"));
+        assert_non_null(shown_text(s.editor, "Press any key to close"));
         assert_whole(&s);
         session_close(&s);
     }
@@ -66,7 +55,7 @@ static void test_all_of_it_is_reached_at_960_by_600(void **state)
     for (int page = 0; page < 6; page++) {
         for (int g = 0; g < HELP_GROUPS; g++) {
             for (int i = 0; help_row(&help_groups[g], i).keys; i++) {
-                seen[g][i] |= is_seen(shown(&s, help_row(&help_groups[g], i).what));
+                seen[g][i] |= is_seen(shown_text(s.editor, help_row(&help_groups[g], i).what));
             }
         }
         session_wheel(&s, -1);
@@ -84,13 +73,13 @@ static void test_small_windows_scroll(void **state)
     (void)state;
     struct session s;
     open_help(&s, 500, 360);
-    assert_true(is_seen(shown(&s, "Double-click")));
-    assert_false(is_seen(shown(&s, "Ctrl+Q")));
+    assert_true(is_seen(shown_text(s.editor, "Double-click")));
+    assert_false(is_seen(shown_text(s.editor, "Ctrl+Q")));
     for (int i = 0; i < 40; i++) session_key(&s, KEY_DOWN, 0);
-    assert_true(is_seen(shown(&s, "Ctrl+Q")));
-    assert_false(is_seen(shown(&s, "Double-click")));
+    assert_true(is_seen(shown_text(s.editor, "Ctrl+Q")));
+    assert_false(is_seen(shown_text(s.editor, "Double-click")));
     session_wheel(&s, 1000);
-    assert_true(is_seen(shown(&s, "Double-click")));
+    assert_true(is_seen(shown_text(s.editor, "Double-click")));
     session_key(&s, 'V', 0);
     assert_false(s.editor->dialogs->help.open);
     session_close(&s);

@@ -83,6 +83,11 @@ static void test_merge(void **state)
     nudge(&world, 2, 77);
     assert_true(history_undo(world.history, world.document));
     assert_true(history_redo(world.history, world.document));
+    nudge(&world, 3, 77); // what was done again is done
+    assert_int_equal(world_undo_all(&world), 2);
+    nudge(&world, 1, 77);
+    nudge(&world, 2, 78);
+    assert_true(history_undo(world.history, world.document));
     nudge(&world, 3, 77); // an undo ends a run
     assert_int_equal(world_undo_all(&world), 2);
     nudge(&world, 1, 77);

@@ -6,6 +6,7 @@
 #include "editor/core/bones.h"
 #include "editor/curves/curves.h"
 #include "folder.h"
+#include "shown.h"
 
 /// A beast that nods, with a chain in its tail and one in its left ear.
 static void open_beast(struct session *session, const char *equilibrium)
@@ -184,16 +185,6 @@ static void test_ends_that_are_no_chain_are_refused(void **state)
     session_close(&s);
 }
 
-static bool shows_text(const struct session *session, const char *text)
-{
-    const struct drawlist *list = editor_drawlist(session->editor);
-    for (int i = 0; i < list->count; i++) {
-        const struct draw_command *c = &list->commands[i];
-        if (c->kind == DRAW_TEXT && strcmp(list->text + c->first, text) == 0) return true;
-    }
-    return false;
-}
-
 /// Two beasts side by side: a bone goes by its character's name, and can be asked for by it.
 static void test_a_second_character_is_named(void **state)
 {
@@ -215,7 +206,7 @@ static void test_a_second_character_is_named(void **state)
         snprintf(target, sizeof target, "bone(%s)", bone);
         session_point(&s, target);
         session_frame(&s);
-        assert_true(shows_text(&s, bone));
+        assert_non_null(shown_text(s.editor, bone));
         session_click(&s, target);
         assert_true(bones_selected(&s.editor->core, &s.world, &model) >= 0);
         assert_int_equal(model, rig);

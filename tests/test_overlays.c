@@ -159,11 +159,82 @@ static void test_the_ghost_is_the_pose_at_the_knot_in_hand(void **state)
     session_close(&s);
 }
 
+static float turn(const float a[2], const float b[2], const float c[2])
+{
+    return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+}
+
+/// How often a line crosses itself.
+static int crossings(const struct session *s, const struct draw_command *command)
+{
+    const float(*p)[2] = (const float(*)[2])(editor_drawlist(s->editor)->points + 2 * command->first);
+    int count = 0;
+    for (int i = 0; i + 1 < command->count; i++) {
+        for (int k = i + 2; k + 1 < command->count; k++) {
+            count += turn(p[i], p[i + 1], p[k]) * turn(p[i], p[i + 1], p[k + 1]) < 0 &&
+                     turn(p[k], p[k + 1], p[i]) * turn(p[k], p[k + 1], p[i + 1]) < 0;
+        }
+    }
+    return count;
+}
+
+static void test_outlines_do_not_fold_from_any_side(void **state)
+{
+    (void)state;
+    struct session s;
+    session_open(&s, scene);
+    session_key(&s, KEY_F4, 0);
+    session_key(&s, 'O', 0);
+    for (int a = 0; a < 24; a++) {
+        s.editor->stage->camera.azimuth = 6.2831853f * (float)a / 24;
+        session_frame(&s);
+        const struct found skins = find(&s, DRAW_LINE, theme()->spline[0]);
+        assert_int_equal(skins.count, 8);
+        for (int i = 0; i < skins.count; i++) assert_int_equal(crossings(&s, skins.command[i]), 0);
+    }
+    session_close(&s);
+}
+
+/// At the height of the character: from its ears, above the middle of its head, to its feet.
+static void test_a_character_has_a_ghost(void **state)
+{
+    (void)state;
+    struct session s;
+    panel_open_models(
+        &s, "{\"frames\": [0, 96], \"splines\": [{\"name\": \"swing\", \"knots\": [{\"frame\": 0, \"value\": 0},"
+            "{\"frame\": 40, \"value\": 1}]}], \"rigs\": [{\"type\": \"character\", \"name\": \"bear\", \"model\": "
+            "\"assets/models/creature.glb\", \"coordinates\": [{\"name\": \"side\", \"spline\": "
+            "\"swing\"}]}]}");
+    const uint32_t color = theme()->spline[0];
+    session_frame(&s);
+    session_pull(&s, "knot(swing,1)", 0, 8, 2);
+    const struct found ghost = find(&s, DRAW_LINE, color);
+    assert_true(ghost.count >= 1);
+    const float *points = editor_drawlist(s.editor)->points + 2 * ghost.command[0]->first;
+    float low = INFINITY, high = -INFINITY;
+    for (int i = 0; i < ghost.command[0]->count; i++) {
+        low = fminf(low, points[2 * i + 1]);
+        high = fmaxf(high, points[2 * i + 1]);
+    }
+    struct error error;
+    float head[2], foot[2];
+    session_release(&s, BUTTON_LEFT);
+    session_click(&s, "ruler(40)");
+    session_frame(&s);
+    assert_true(editor_target(s.editor, &s.world, "character(bear,0.5,1)", &head[0], &head[1], &error));
+    assert_true(editor_target(s.editor, &s.world, "character(bear,0.4,0)", &foot[0], &foot[1], &error));
+    assert_in_range((int)(head[1] - low), 0, 60);
+    assert_near(high, foot[1], 60);
+    session_close(&s);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_onion_shows_the_nearest_knots),
         cmocka_unit_test(test_the_ghost_is_the_pose_at_the_knot_in_hand),
+        cmocka_unit_test(test_outlines_do_not_fold_from_any_side),
+        cmocka_unit_test(test_a_character_has_a_ghost),
         cmocka_unit_test(test_arc_is_where_the_tip_goes),
         cmocka_unit_test(test_arc_follows_an_edit_at_once),
         cmocka_unit_test(test_overlays_outlive_documents),

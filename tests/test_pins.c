@@ -227,7 +227,8 @@ static void make_spline(struct random_group *g, int s)
     *desc = wiggly_default_desc();
     desc->samples = g->samples;
     desc->mode = below(3) == 0 ? WIGGLY_REAL : WIGGLY_COMPLEX;
-    desc->start = below(4) == 0 ? WIGGLY_REST : WIGGLY_FREE;
+    static const wiggly_start starts[] = {WIGGLY_REST, WIGGLY_LOOP, WIGGLY_FREE, WIGGLY_FREE};
+    desc->start = starts[below(4)];
     desc->passive = below(4) == 0 ? WIGGLY_FILTER : WIGGLY_OSCILLATOR;
     desc->frequency.value = uniform(0.6, 3);
     desc->damping.value = uniform(0.02, 0.3);
@@ -237,7 +238,7 @@ static void make_spline(struct random_group *g, int s)
     g->weights[s] = uniform(0.5, 2);
 }
 
-/// Pins sit on neighbouring frames and on knots more often than chance would have it.
+/// Pins sit on neighbouring frames, on knots and at both sides of a loop's seam more often than chance would have it.
 static void make_pin(struct random_group *g, int p)
 {
     wiggly_pin *pin = &g->pin[p];
@@ -245,7 +246,8 @@ static void make_pin(struct random_group *g, int p)
     int near = p > 0 ? g->pin[p - 1].sample : 0;
     if (desc->knot_count > 0 && below(2)) near = desc->knots[below(desc->knot_count)].sample;
     pin->sample = below(3) == 0 ? near + below(3) - 1 : below(g->samples);
-    pin->sample = pin->sample < 0 ? 0 : pin->sample >= g->samples ? g->samples - 1 : pin->sample;
+    if (below(5) == 0) pin->sample = below(2) * g->samples;
+    pin->sample = pin->sample < 0 ? 0 : pin->sample >= g->samples - 1 ? g->samples - 2 : pin->sample;
     pin->pulls = g->pulls[p];
     pin->pull_count = g->splines;
     for (int s = 0; s < g->splines; s++) {

@@ -1,10 +1,13 @@
 /// The tail's pose: directions and units of the file format, lag (paper, section 7.1), and the default scene's
 /// motion.
+#include "model/creature.h"
+#include "model/tail_skin.h"
 #include "near.h"
 #include "rig/posing.h"
 #include "rig/shadow.h"
 #include "scene/load.h"
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 enum { JOINTS = 24, LOOP_FRAMES = 120 };
@@ -276,6 +279,50 @@ static void the_default_scene_swings_widely_above_the_ground(void **state)
     assert_true(right - left > 1.0f);
 }
 
+/// The body stands where its height says, on 0 where that follows a spline, wherever it is to the side.
+static void the_ground_is_below_the_base(void **state)
+{
+    (void)state;
+    static struct pose pose;
+    struct tail tail = plain_tail(AXIS_SIDE);
+    tail.channel_count = 0;
+    pose_tail(&tail, NULL, LOOK_WIGGLY, &pose);
+    const double sunk = 0.2 - CREATURE_BASE_HEIGHT * 1.6 / CREATURE_TAIL_LENGTH;
+    assert_near(pose.ground, sunk, 1e-6);
+    tail.position[0].track = 0;
+    tail.position[2].track = 0;
+    pose_tail(&tail, NULL, LOOK_WIGGLY, &pose);
+    assert_near(pose.ground, sunk, 1e-6);
+    tail.position[1].track = 0;
+    pose_tail(&tail, NULL, LOOK_WIGGLY, &pose);
+    assert_near(pose.ground, 0, 0);
+}
+
+/// Curled into a ring over the back, or into one below the feet: what redraws and cameras go by holds the skin.
+static void bounds_hold_a_curled_tail(void **state)
+{
+    (void)state;
+    static struct pose pose;
+    struct mesh mesh = {0};
+    mesh_creature(1, &mesh);
+    float(*place)[3] = calloc((size_t)mesh.vertex_count, sizeof *place);
+    assert_non_null(place);
+    for (int up = 0; up < 2; up++) {
+        struct tail tail = plain_tail(AXIS_SIDE);
+        float lo[3], hi[3];
+        tail.channel_count = 0;
+        tail.rest.value[0] = up ? 15.0 : -15.0;
+        pose_tail(&tail, NULL, LOOK_WIGGLY, &pose);
+        pose_bounds(&pose, lo, hi);
+        tail_skin(&pose, &mesh, place, NULL);
+        for (int v = 0; v < mesh.vertex_count; v++) {
+            for (int k = 0; k < 3; k++) assert_true(place[v][k] > lo[k] - 0.005f && place[v][k] < hi[k] + 0.005f);
+        }
+    }
+    free(place);
+    mesh_free(&mesh);
+}
+
 /// A tail that lies on the ground throws more shadow than one held up; both stay within the room given.
 static void shadows_are_stronger_near_the_ground(void **state)
 {
@@ -316,6 +363,8 @@ int main(void)
         cmocka_unit_test_setup_teardown(the_default_scene_is_made_of_few_knots, open_scene, close_scene),
         cmocka_unit_test_setup_teardown(the_default_scene_loops_without_a_pop, open_scene, close_scene),
         cmocka_unit_test_setup_teardown(the_default_scene_swings_widely_above_the_ground, open_scene, close_scene),
+        cmocka_unit_test(the_ground_is_below_the_base),
+        cmocka_unit_test(bounds_hold_a_curled_tail),
         cmocka_unit_test(shadows_are_stronger_near_the_ground),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -4,6 +4,7 @@
 #include "editor/state.h"
 #include "inside.h"
 #include "scene/load.h"
+#include "shown.h"
 #include <string.h>
 
 static struct core *core_of(struct blind *b) { return &b->app.table.editor->core; }
@@ -27,16 +28,6 @@ static void frames(struct blind *b, int count)
     for (int i = 0; i < count; i++) blind_frame(b);
 }
 
-static bool shows(struct blind *b, const char *text)
-{
-    const struct drawlist *list = editor_drawlist(b->app.table.editor);
-    for (int i = 0; i < list->count; i++) {
-        const struct draw_command *c = &list->commands[i];
-        if (c->kind == DRAW_TEXT && strcmp(list->text + c->first, text) == 0) return true;
-    }
-    return false;
-}
-
 static char *saved(struct blind *b)
 {
     size_t size;
@@ -53,7 +44,7 @@ static void test_keys_make_everything_larger_and_smaller(void **state)
     key(&b, '=', CTRL_SHIFT);
     assert_near(core_of(&b)->layout.window.w, 1024, 1e-3);
     assert_near(core_of(&b)->scale, 1.25, 1e-6);
-    assert_true(shows(&b, "125 %"));
+    assert_non_null(shown_text(b.app.table.editor, "125 %"));
     key(&b, KEY_F8, 0);
     assert_near(core_of(&b)->scale, 1.5, 1e-6);
     key(&b, '-', CTRL_SHIFT);
@@ -133,10 +124,10 @@ static void test_presenting_gives_the_stage_the_window_and_changes_nothing(void 
     assert_near(l->stage.w * 1.5f, 1280, 1);
     assert_near(l->stage.h * 1.5f, 720, 1);
     assert_true(l->inspector.x >= l->window.w && l->curves.y >= l->window.h);
-    assert_false(shows(&b, "Splines"));
+    assert_null(shown_text(b.app.table.editor, "Splines"));
     key(&b, KEY_ESCAPE, 0);
     assert_memory_equal(&core_of(&b)->layout, &normal, sizeof normal);
-    assert_true(shows(&b, "Splines"));
+    assert_non_null(shown_text(b.app.table.editor, "Splines"));
     assert_true(history_is_saved(b.app.table.history));
     char *after = saved(&b);
     assert_string_equal(before, after);
@@ -187,29 +178,29 @@ static void test_what_is_pressed_is_shown_and_fades(void **state)
     struct blind b;
     blind_open(&b, NULL);
     key(&b, 'Z', MOD_CTRL);
-    assert_false(shows(&b, "Ctrl + Z"));
+    assert_null(shown_text(b.app.table.editor, "Ctrl + Z"));
     key(&b, KEY_F5, 0);
-    assert_true(shows(&b, "F5"));
+    assert_non_null(shown_text(b.app.table.editor, "F5"));
     key(&b, 'Z', MOD_CTRL);
-    assert_true(shows(&b, "Ctrl + Z"));
-    assert_true(shows(&b, "Nothing to undo")); // the status line is away or on its way
+    assert_non_null(shown_text(b.app.table.editor, "Ctrl + Z"));
+    assert_non_null(shown_text(b.app.table.editor, "Nothing to undo")); // the status line is away or on its way
     key(&b, 'Z', MOD_CTRL);
-    assert_true(shows(&b, "Ctrl + Z ×2"));
+    assert_non_null(shown_text(b.app.table.editor, "Ctrl + Z ×2"));
     frames(&b, 120);
-    assert_false(shows(&b, "Ctrl + Z ×2"));
+    assert_null(shown_text(b.app.table.editor, "Ctrl + Z ×2"));
     struct event event = {
         .kind = EVENT_BUTTON, .button = BUTTON_RIGHT, .action = ACTION_PRESS, .clicks = 1, .x = 600, .y = 300};
     blind_send(&b, event);
     blind_frame(&b);
-    assert_true(shows(&b, "right-click"));
+    assert_non_null(shown_text(b.app.table.editor, "right-click"));
     point(&b, 640, 300);
-    assert_true(shows(&b, "right drag"));
+    assert_non_null(shown_text(b.app.table.editor, "right drag"));
     frames(&b, 120);
-    assert_true(shows(&b, "right drag"));
+    assert_non_null(shown_text(b.app.table.editor, "right drag"));
     event.action = ACTION_RELEASE;
     blind_send(&b, event);
     frames(&b, 120);
-    assert_false(shows(&b, "right drag"));
+    assert_null(shown_text(b.app.table.editor, "right drag"));
     blind_close(&b);
 }
 

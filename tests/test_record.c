@@ -139,13 +139,60 @@ static void test_escape_forgets_the_recording(void **state)
     session_close(&s);
 }
 
+/// A tail that only bends sideways is lifted while it records: it gets a channel that bends up, in the recording's own step.
+static void test_a_way_without_a_channel_gets_one(void **state)
+{
+    (void)state;
+    struct session s;
+    session_open(&s, scene);
+    char *before = session_saved(&s);
+    session_point(&s, "body(tail)");
+    session_frame(&s);
+    s.mods = MOD_CTRL;
+    session_press(&s, BUTTON_LEFT, 1);
+    session_hold(&s, KEY_SPACE, ACTION_PRESS);
+    session_hold(&s, KEY_SPACE, ACTION_RELEASE);
+    session_move(&s, s.x, s.y - 4);
+    session_send(&s, (struct event){.kind = EVENT_KEY, .key = 'Y', .action = ACTION_PRESS, .mods = MOD_CTRL});
+    session_send(&s, (struct event){.kind = EVENT_KEY, .key = 'R', .action = ACTION_PRESS, .mods = MOD_CTRL});
+    session_drag(&s, 0, -90, 20);
+    session_drag(&s, 0, 60, 20);
+    session_release(&s, BUTTON_LEFT);
+    const struct tail *tail = document_tail(s.document, 0);
+    const struct document *document = s.document;
+    assert_int_equal(tail->channel_count, 2);
+    const struct channel *made = &tail->channels[1];
+    assert_int_equal(made->axis, AXIS_UP);
+    assert_int_equal(made->of, PART_DISPLACEMENT);
+    assert_string_equal(document->splines[made->spline].name, "tail up");
+    assert_int_equal(document->splines[made->spline].parameter[PARAMETER_EQUILIBRIUM].track, tail->position[1].track);
+    assert_near(document->splines[made->spline].parameter[PARAMETER_FREQUENCY].value, 1.2, 0);
+    assert_non_null(
+        strstr(s.editor->core.message.text, " knots recorded. New: tail up, by which the tail swings after tail y."));
+    session_key(&s, KEY_SPACE, 0);
+    float most = 0; // it swings: the tip's height above the base changes
+    for (int f = 0; f < 90; f++) {
+        s.editor->core.playback.position = f;
+        session_frame(&s);
+        const struct pose *pose = &editor_stage(s.editor)->tails[0].pose;
+        static float first;
+        const float rise = pose->matrix[JOINTS][13] - pose->matrix[0][13];
+        if (f == 0) first = rise;
+        most = fmaxf(most, fabsf(rise - first));
+    }
+    assert_true(most > 0.03f);
+    session_key(&s, 'Z', MOD_CTRL);
+    assert_saved(&s, before);
+    free(before);
+    session_close(&s);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_few_knots_keep_to_the_way),
-        cmocka_unit_test(test_recorded_is_what_was_seen),
-        cmocka_unit_test(test_a_second_take_replaces_the_first),
-        cmocka_unit_test(test_escape_forgets_the_recording),
+        cmocka_unit_test(test_few_knots_keep_to_the_way),        cmocka_unit_test(test_recorded_is_what_was_seen),
+        cmocka_unit_test(test_a_second_take_replaces_the_first), cmocka_unit_test(test_escape_forgets_the_recording),
+        cmocka_unit_test(test_a_way_without_a_channel_gets_one),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -542,17 +542,23 @@ static void test_evaluation_fits_the_document(void **state)
     document_destroy(large);
 }
 
-/// A value that no curve can pass: nothing moves, the status says why, and nothing that reads the curve falls over.
+/// A value that no curve can pass: nothing moves any more, the status says why, and nothing that reads the curve falls over.
 static void test_a_value_beyond_reach_is_flat(void **state)
 {
     (void)state;
     static const char text[] = "{\"wiggly\": 1, \"frames\": [0, 40], \"splines\": [{\"name\": \"a\", \"knots\": "
-                               "[{\"frame\": 0, \"value\": 1.7e308}, {\"frame\": 30, \"value\": -1.7e308}]}]}";
+                               "[{\"frame\": 0, \"value\": 1}, {\"frame\": 30, \"value\": -1.7e308}]}]}";
     struct error error = {0};
     struct document *document = scene_parse("huge.json", text, sizeof text - 1, NULL, &error);
     assert_non_null(document);
     struct evaluation evaluation = {0};
     assert_true(evaluation_resize(&evaluation, document, &error));
+    evaluation_update(&evaluation, document, NULL, false);
+    assert_int_equal(evaluation.status[0], WIGGLY_ERROR_NUMBER);
+    document->splines[0].knots[1].value = -1;
+    evaluation_update(&evaluation, document, NULL, false);
+    assert_near(evaluation.curves[0].total[30], -1, 0);
+    document->splines[0].knots[1].value = -1.7e308;
     evaluation_update(&evaluation, document, NULL, false);
     assert_int_equal(evaluation.status[0], WIGGLY_ERROR_NUMBER);
     wiggly_value value = wiggly_evaluate(&evaluation.curves[0], 12.5);

@@ -3,6 +3,7 @@
 #include "inside.h"
 
 #include "folder.h"
+#include "shown.h"
 #include <fcntl.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -244,12 +245,7 @@ static void the_mouse_answers(void **state)
     for (int i = 0; i < 4; i++) {
         struct blind blind;
         open_changed(&blind);
-        const struct drawlist *list = editor_drawlist(blind.app.table.editor);
-        const struct draw_command *found = NULL;
-        for (int c = 0; c < list->count; c++) {
-            const struct draw_command *command = &list->commands[c];
-            if (command->kind == DRAW_TEXT && strcmp(list->text + command->first, labels[i]) == 0) found = command;
-        }
+        const struct draw_command *found = shown_text(blind.app.table.editor, labels[i]);
         if (!found) fail_msg("no button “%s”", labels[i]);
         const float x = found->x + 4, y = found->y - 4;
         blind_send(&blind, (struct event){.kind = EVENT_POINTER, .x = x, .y = y});

@@ -1,5 +1,6 @@
-/// The animal's skin as it is drawn: moved once a frame, on the CPU, for both passes (stage_draw()), and of its triangles those alone that may
-/// change a pixel. A software rasteriser pays for every vertex and triangle that it is handed.
+/// The animal's skin as it is drawn: moved once a frame, on the CPU, and of its triangles those alone that face the eye, as a software
+/// rasteriser pays for every vertex and triangle that it is handed. Where the skin turns away from the eye, a skirt a pixel wide sticks out of it and
+/// fades: that softens outlines, and those of a leg before another too, without multisampling.
 #ifndef DRAW_STAGE_SKIN_H
 #define DRAW_STAGE_SKIN_H
 
@@ -14,23 +15,38 @@ enum region { REGION_COAT, REGION_FACE, REGIONS };
 struct skin_mesh {
     struct mesh mesh;
     int first[REGIONS + 1]; ///< indices
+    int *
+        across; ///< per index, of the edge from it to the triangle's next: the triangle on its other side, −1 where the mesh ends
 };
 
 /// False if memory runs out.
 bool stage_skin_create(struct skin_mesh *skin, int level);
+void stage_skin_destroy(struct skin_mesh *skin);
 
-/// One animal as it stands: arrays of as many as its mesh has vertices.
+/// One animal as it stands: arrays of as many as its mesh has vertices or triangles.
 struct skin {
     float (*place)[3], (*normal)[3]; ///< world
-    float *facing;                   ///< cosine between the normal and the direction to the eye
+    bool *front;                     ///< whether a triangle faces the eye
 };
 
 void stage_skin_pose(const struct skin_mesh *mesh, const struct pose *pose, const float eye[3],
                      const struct skin *skin);
 
-/// Writes the indices of a region's triangles that may change a pixel, and returns how many. With `seam` 0 those are what faces the eye, in
-/// the pass that softens silhouettes (`seam` as in stage_mesh.vert) what is near one.
-int stage_skin_seen(const struct skin_mesh *mesh, const struct skin *skin, enum region region, const float eye[3],
-                    float seam, uint32_t *indices);
+/// Writes the indices of a region's triangles that face the eye, and returns how many.
+int stage_skin_seen(const struct skin_mesh *mesh, const struct skin *skin, enum region region, uint32_t *indices);
+
+/// A vertex of the skirt: one of the skin's, with all that stage_mesh.vert knows of it.
+struct skirt_corner {
+    float position[3], mark[3], bend, open;
+    float place[3], normal[3]; ///< world
+    float opacity;             ///< 1 on the skin, 0 a pixel off it
+};
+
+enum { SKIRT_CORNERS = 6 }; ///< along one edge of the mesh: two triangles
+
+/// Writes the skirt along a region's edges where the skin turns away from the eye, at most `room` of them, and returns how many edges.
+/// `pixel` is metres a pixel at a distance of 1 m.
+int stage_skin_skirt(const struct skin_mesh *mesh, const struct skin *skin, enum region region, const float eye[3],
+                     float pixel, struct skirt_corner *corners, int room);
 
 #endif

@@ -9,6 +9,8 @@
 #include <stddef.h>
 #include <stdlib.h>
 
+enum { MAX_SKIRT = 6000 }; ///< edges of all animals, about four times as many as any are known to have
+
 /// A mesh on the GPU: what of it does not move.
 struct model {
     struct skin_mesh skin;
@@ -24,11 +26,13 @@ struct coat_program {
 struct animals {
     struct coat_program programs[REGIONS];
     struct model models[CREATURE_LEVELS];
-    int vertices;           ///< that all animals of a stage have at most
-    float (*place)[3];      ///< of all animals, one after the other; then as many normals
-    float *facing;          ///< of all animals
-    uint32_t *seen;         ///< triangles of a pass
-    GLuint moving, indices; ///< `place` and `seen` on the GPU
+    int vertices, triangles;     ///< that all animals of a stage have at most
+    float (*place)[3];           ///< of all animals, one after the other; then as many normals
+    bool *front;                 ///< of all animals
+    uint32_t *seen;              ///< triangles that face the eye
+    struct skirt_corner *skirts; ///< of all animals
+    GLuint moving, indices;      ///< `place` and `seen` on the GPU
+    GLuint skirt_array, skirt;   ///< `skirts` there
 };
 
 static void attribute(GLuint index, GLint size, size_t stride, size_t offset)
@@ -50,6 +54,7 @@ static bool model_create(struct model *model, int level)
     attribute(0, 3, sizeof(struct vertex), offsetof(struct vertex, position));
     attribute(1, 3, sizeof(struct vertex), offsetof(struct vertex, mark));
     attribute(2, 1, sizeof(struct vertex), offsetof(struct vertex, bend));
+    attribute(6, 1, sizeof(struct vertex), offsetof(struct vertex, open));
     glBindVertexArray(0);
     return true;
 }
@@ -58,7 +63,24 @@ static void model_destroy(struct model *model)
 {
     glDeleteVertexArrays(1, &model->vertex_array);
     glDeleteBuffers(1, &model->vertices);
-    mesh_free(&model->skin.mesh);
+    stage_skin_destroy(&model->skin);
+}
+
+static void skirt_create(struct animals *painter)
+{
+    const size_t stride = sizeof(struct skirt_corner);
+    glGenVertexArrays(1, &painter->skirt_array);
+    glBindVertexArray(painter->skirt_array);
+    glGenBuffers(1, &painter->skirt);
+    glBindBuffer(GL_ARRAY_BUFFER, painter->skirt);
+    attribute(0, 3, stride, offsetof(struct skirt_corner, position));
+    attribute(1, 3, stride, offsetof(struct skirt_corner, mark));
+    attribute(2, 1, stride, offsetof(struct skirt_corner, bend));
+    attribute(6, 1, stride, offsetof(struct skirt_corner, open));
+    attribute(3, 3, stride, offsetof(struct skirt_corner, place));
+    attribute(4, 3, stride, offsetof(struct skirt_corner, normal));
+    attribute(5, 1, stride, offsetof(struct skirt_corner, opacity));
+    glBindVertexArray(0);
 }
 
 /// What of the coat never changes.
@@ -106,18 +128,19 @@ static const struct model *model_of(const struct animals *painter, int animals)
 /// Room for as many animals as a stage can have; false if memory runs out.
 static bool room_create(struct animals *painter)
 {
-    int indices = 0;
     for (int animals = 1; animals <= STAGE_MAX_TAILS; animals++) {
         const struct mesh *mesh = &model_of(painter, animals)->skin.mesh;
         painter->vertices = area_max(painter->vertices, animals * mesh->vertex_count);
-        indices = area_max(indices, animals * mesh->index_count);
+        painter->triangles = area_max(painter->triangles, animals * mesh->index_count / 3);
     }
     painter->place = malloc(2 * (size_t)painter->vertices * sizeof *painter->place);
-    painter->facing = malloc((size_t)painter->vertices * sizeof *painter->facing);
-    painter->seen = malloc((size_t)indices * sizeof *painter->seen);
+    painter->front = malloc((size_t)painter->triangles * sizeof *painter->front);
+    painter->seen = malloc(3 * (size_t)painter->triangles * sizeof *painter->seen);
+    painter->skirts = malloc((size_t)MAX_SKIRT * SKIRT_CORNERS * sizeof *painter->skirts);
     glGenBuffers(1, &painter->moving);
     glGenBuffers(1, &painter->indices);
-    return painter->place && painter->facing && painter->seen;
+    skirt_create(painter);
+    return painter->place && painter->front && painter->seen && painter->skirts;
 }
 
 static void destroy(void *state)
@@ -126,12 +149,15 @@ static void destroy(void *state)
     for (int level = 0; level < CREATURE_LEVELS; level++) model_destroy(&painter->models[level]);
     glDeleteBuffers(1, &painter->moving);
     glDeleteBuffers(1, &painter->indices);
+    glDeleteVertexArrays(1, &painter->skirt_array);
+    glDeleteBuffers(1, &painter->skirt);
     for (int region = 0; region < REGIONS; region++) {
         if (painter->programs[region].program) glDeleteProgram(painter->programs[region].program);
     }
     free(painter->place);
-    free(painter->facing);
+    free(painter->front);
     free(painter->seen);
+    free(painter->skirts);
     free(painter);
 }
 
@@ -152,8 +178,9 @@ static void *create(struct error *error)
 
 static struct skin skin_of(const struct animals *painter, const struct model *model, int tail)
 {
-    const int first = tail * model->skin.mesh.vertex_count;
-    return (struct skin){painter->place + first, painter->place + painter->vertices + first, painter->facing + first};
+    const int first = tail * model->skin.mesh.vertex_count, triangle = tail * model->skin.mesh.index_count / 3;
+    return (struct skin){painter->place + first, painter->place + painter->vertices + first,
+                         painter->front + triangle};
 }
 
 static void upload(void *state, const struct stage_view *view, long *bytes)
@@ -174,30 +201,18 @@ static void upload(void *state, const struct stage_view *view, long *bytes)
     *bytes += 2 * (long)used;
 }
 
-static void draw_region(const struct animals *painter, const struct model *model, const struct pose *pose, int tail,
-                        enum region region, GLsizei first, GLsizei count)
-{
-    const struct coat_program *coat = &painter->programs[region];
-    const size_t stride = sizeof *painter->place, half = (size_t)painter->vertices * stride;
-    const size_t offset = (size_t)(tail * model->skin.mesh.vertex_count) * stride;
-    attribute(3, 3, stride, offset);
-    attribute(4, 3, stride, half + offset);
-    glUniform2f(coat->shape, pose_length(pose) / CREATURE_TAIL_LENGTH, pose->ground);
-    if (coat->blink >= 0) glUniform1f(coat->blink, pose->limbs.blink);
-    glDrawElements(GL_TRIANGLES, count, GL_UNSIGNED_INT, (const void *)((size_t)first * sizeof(GLuint)));
-}
+/// Of a pass: what is drawn of region r and animal t begins at [r][t] and ends where the next begins.
+typedef GLsizei runs[REGIONS][STAGE_MAX_TAILS + 1];
 
-/// Uploads the triangles that are seen in a pass; those of region r and animal t begin at first[r][t] and end where the next ones begin.
 static void upload_seen(const struct animals *painter, const struct model *model, const struct stage_view *view,
-                        float seam, GLsizei first[REGIONS][STAGE_MAX_TAILS + 1])
+                        runs first)
 {
     GLsizei count = 0;
     for (int region = 0; region < REGIONS; region++) {
         for (int t = 0; t < view->tail_count; t++) {
             const struct skin skin = skin_of(painter, model, t);
             first[region][t] = count;
-            count +=
-                stage_skin_seen(&model->skin, &skin, (enum region)region, view->eye, seam, painter->seen + count);
+            count += stage_skin_seen(&model->skin, &skin, (enum region)region, painter->seen + count);
         }
         first[region][view->tail_count] = count;
     }
@@ -206,21 +221,66 @@ static void upload_seen(const struct animals *painter, const struct model *model
                  GL_STREAM_DRAW);
 }
 
+static void upload_skirts(const struct animals *painter, const struct model *model, const struct stage_view *view,
+                          float pixel, runs first)
+{
+    int count = 0;
+    for (int region = 0; region < REGIONS; region++) {
+        for (int t = 0; t < view->tail_count; t++) {
+            const struct skin skin = skin_of(painter, model, t);
+            first[region][t] = SKIRT_CORNERS * count;
+            count += stage_skin_skirt(&model->skin, &skin, (enum region)region, view->eye, pixel,
+                                      painter->skirts + SKIRT_CORNERS * count, MAX_SKIRT - count);
+        }
+        first[region][view->tail_count] = SKIRT_CORNERS * count;
+    }
+    glBindBuffer(GL_ARRAY_BUFFER, painter->skirt);
+    glBufferData(GL_ARRAY_BUFFER, (GLsizeiptr)((size_t)(SKIRT_CORNERS * count) * sizeof *painter->skirts),
+                 painter->skirts, GL_STREAM_DRAW);
+}
+
+static void use_coat(const struct coat_program *coat, const struct pose *pose)
+{
+    glUniform2f(coat->shape, pose_length(pose) / CREATURE_TAIL_LENGTH, pose->ground);
+    if (coat->blink >= 0) glUniform1f(coat->blink, pose->limbs.blink);
+}
+
+static void draw_skins(const struct animals *painter, const struct model *model, int tail, GLsizei first,
+                       GLsizei count)
+{
+    const size_t stride = sizeof *painter->place, half = (size_t)painter->vertices * stride;
+    const size_t offset = (size_t)(tail * model->skin.mesh.vertex_count) * stride;
+    attribute(3, 3, stride, offset);
+    attribute(4, 3, stride, half + offset);
+    glDrawElements(GL_TRIANGLES, count, GL_UNSIGNED_INT, (const void *)((size_t)first * sizeof(GLuint)));
+}
+
 static void draw(const void *state, const struct stage_view *view, float scale, float seam)
 {
     const struct animals *painter = state;
     const struct model *model = model_of(painter, view->tail_count);
-    GLsizei first[REGIONS][STAGE_MAX_TAILS + 1];
+    runs first;
     (void)scale;
     if (view->tail_count == 0) return;
-    glBindVertexArray(model->vertex_array);
-    upload_seen(painter, model, view, seam, first);
-    glBindBuffer(GL_ARRAY_BUFFER, painter->moving);
+    glBindVertexArray(seam > 0.0f ? painter->skirt_array : model->vertex_array);
+    if (seam > 0.0f) {
+        upload_skirts(painter, model, view, seam, first);
+    } else {
+        upload_seen(painter, model, view, first);
+        glBindBuffer(GL_ARRAY_BUFFER, painter->moving);
+        glVertexAttrib1f(5, 1.0f); // opaque
+    }
     for (int region = 0; region < REGIONS; region++) {
-        painter_use(painter->programs[region].program, &painter->programs[region].shared, view, seam);
+        const struct coat_program *coat = &painter->programs[region];
+        painter_use(coat->program, &coat->shared, view, seam);
         for (int t = 0; t < view->tail_count; t++) {
             const GLsizei from = first[region][t], count = first[region][t + 1] - from;
-            draw_region(painter, model, &view->tails[t].pose, t, (enum region)region, from, count);
+            use_coat(coat, &view->tails[t].pose);
+            if (seam > 0.0f) {
+                glDrawArrays(GL_TRIANGLES, from, count);
+            } else {
+                draw_skins(painter, model, t, from, count);
+            }
         }
     }
     glBindVertexArray(0);

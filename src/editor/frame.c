@@ -333,6 +333,7 @@ enum mouse_cursor editor_cursor(const struct editor *editor)
         [HOVER_SPEED] = CURSOR_HAND,    [HOVER_WARNING] = CURSOR_HAND,     [HOVER_LIMIT] = CURSOR_VERTICAL,
         [HOVER_POINT] = CURSOR_HAND,    [HOVER_PIN] = CURSOR_MOVE,         [HOVER_ROW] = CURSOR_ARROW,
         [HOVER_AUTO_KEY] = CURSOR_HAND, [HOVER_UI_SCALE] = CURSOR_HAND,    [HOVER_PRESENT] = CURSOR_HAND,
+        [HOVER_BOX] = CURSOR_MOVE,
     };
     static const enum mouse_cursor of_widget[] = {
         [UI_OVER_NOTHING] = CURSOR_ARROW, [UI_OVER_NUMBER] = CURSOR_HORIZONTAL, [UI_OVER_TEXT] = CURSOR_TEXT};

@@ -95,6 +95,15 @@ static bool find_curve(struct place *place, struct error *error)
     return in_plot(place, place->target->number[0], place->target->number[1], error);
 }
 
+/// A handle of the box round the selected knots: box(1,0) is the middle of its right edge, box(-1,-1) the upper left corner.
+static bool find_box(struct place *place, struct error *error)
+{
+    const int column = (int)place->target->number[0], row = (int)place->target->number[1];
+    return curves_box_point(place->editor->curves, &place->editor->core, place->world->document, column, row,
+                            place->xy) ||
+           fail(error, ERROR_INPUT, "the selected knots have no such handle");
+}
+
 static bool find_warning(struct place *place, struct error *error)
 {
     double number = place->target->number[0];
@@ -274,6 +283,7 @@ static const struct target_kind {
     {.kind = "mark", .named = true, .numbers = 1, .find = find_mark},
     {.kind = "handle", .named = true, .numbers = 2, .find = find_handle},
     {.kind = "curve", .named = true, .numbers = 2, .find = find_curve},
+    {.kind = "box", .named = false, .numbers = 2, .find = find_box},
     {.kind = "warning", .named = false, .numbers = 1, .find = find_warning},
     {.kind = "ruler", .named = false, .numbers = 1, .find = find_ruler},
     {.kind = "stage", .named = false, .numbers = 2, .find = find_stage},

@@ -11,6 +11,7 @@ struct vertex {
     float normal[3];
     float color[3]; ///< linear RGB
     float bend;     ///< how far it follows the joints: 1 on the tail, 0 on the torso, between where they join
+    float open;     ///< share of the light from all around that reaches it, 0 … 1
     float limb[3];  ///< which two parts of the body it hangs on, and its share of the second: see limbs.h
     float mark[3];  ///< a coat's markings, see coat.h; `color` is what they come to
 };

@@ -126,6 +126,21 @@ float creature_torso_distance(const float p[3])
     return parts_union(distance, -parts_union(-solid, hollow, EAR_BLEND, NULL, NULL), NECK_BLEND, NULL, NULL);
 }
 
+/// How much light from all around reaches a place on the skin: less of it where, some way out, the skin or the ground is nearer than that.
+static float openness(const float position[3], const float normal[3])
+{
+    static const struct {
+        float way, weight; // metres
+    } looks[] = {{0.025f, 5.0f}, {0.060f, 3.6f}, {0.130f, 2.2f}, {0.240f, 0.9f}};
+    float shade = 0.0f;
+    for (size_t i = 0; i < PARTS(looks); i++) {
+        const vec3s out = glms_vec3_muladds(vec3_from(normal), looks[i].way, vec3_from(position));
+        const float free = fminf(creature_torso_distance(out.raw), out.y + CREATURE_BASE_HEIGHT);
+        shade += looks[i].weight * fmaxf(looks[i].way - free, 0.0f);
+    }
+    return expf(-shade);
+}
+
 /// Each marking has a volume; around the stump markings and bending go over into the tail's.
 static void torso_paint(struct vertex *vertex)
 {
@@ -153,7 +168,11 @@ static void torso_paint(struct vertex *vertex)
 void mesh_torso(float cell, float tolerance, int rounds, struct mesh *mesh)
 {
     const struct solid torso = {creature_torso_distance, torso_paint};
-    const int first_index = mesh->index_count;
+    const int first = mesh->vertex_count, first_index = mesh->index_count;
     isosurface(&torso, creature_torso_lo, creature_torso_hi, cell, mesh);
     refine(&torso, tolerance, rounds, first_index, mesh);
+    for (int v = first; v < mesh->vertex_count; v++) {
+        struct vertex *vertex = &mesh->vertices[v];
+        vertex->open = glm_lerp(openness(vertex->position, vertex->normal), 1.0f, vertex->bend);
+    }
 }

@@ -16,9 +16,7 @@
 #include <string.h>
 
 enum {
-    ROUNDS = 10,
-    MOST = 1000,  ///< solves
-    MANY_PART = 4 ///< where more than one sample of so many is beyond a limit, many are to be held
+    MOST = 1000, ///< solves
 };
 
 static const double beyond = 1e-10;   ///< of the size of the total: what a sample may miss a limit by
@@ -71,17 +69,12 @@ static limits_part tail_of(const problem *p)
     return tail;
 }
 
-static double total_at(const limits_work *w, int sample)
-{
-    return problem_about(w->p, sample) + w->curve->re[sample];
-}
-
 /// Largest |w| and |total| of a part.
 static void measure(const limits_work *w, const limits_part *part, double *of_w, double *of_total)
 {
     for (int i = part->from; i <= part->to; i++) {
         *of_w = fmax(*of_w, fabs(w->curve->re[i]));
-        *of_total = fmax(*of_total, fabs(total_at(w, i)));
+        *of_total = fmax(*of_total, fabs(limits_total(w, i)));
     }
 }
 
@@ -89,46 +82,26 @@ static void measure(const limits_work *w, const limits_part *part, double *of_w,
 static double excess(const limits_work *w, int sample, double slack)
 {
     const wiggly_desc *desc = w->p->desc;
-    double total = total_at(w, sample);
+    double total = limits_total(w, sample);
     return total > desc->high + slack ? total - desc->high : total < desc->low - slack ? total - desc->low : 0;
-}
-
-static void hold(limits_work *w, limits_part *part, int sample, double side)
-{
-    w->solver->limits.held[sample] = side > 0 ? LIMITS_HIGH : LIMITS_LOW;
-    part->held++;
 }
 
 static void let_go(limits_work *w, int sample)
 {
-    limits_part *part = sample >= w->tail.from && sample <= w->tail.to ? &w->tail : &w->body;
     w->solver->limits.held[sample] = LIMITS_FREE;
-    part->held--;
+    limits_part_of(w, sample)->held--;
 }
 
 /// How hard a limit pushes a sample away; negative: it would have to pull.
 static double push_of(const limits_work *w, int sample, double pull) { return w->solver->limits.held[sample] * pull; }
 
 /// Lets go what limits pull. true where there was any.
-static bool relax(limits_work *w, const limits_part *part, double noise)
+static bool relax(limits_work *w, double noise)
 {
     bool any = false;
-    for (int i = part->from; i <= part->to && part->held > 0; i++) {
+    for (int i = 0; i < w->p->desc->samples; i++) {
         if (!limits_hold(w, i) || push_of(w, i, w->solver->limits.pull[i]) >= -noise) continue;
         let_go(w, i);
-        any = true;
-    }
-    return any;
-}
-
-/// Holds all that is beyond a limit up to the last knot. true where there was any.
-static bool tighten(limits_work *w, double slack)
-{
-    bool any = false;
-    for (int i = w->body.from; i <= w->body.to; i++) {
-        double by = limits_hold(w, i) ? 0 : excess(w, i, slack);
-        if (by == 0) continue;
-        hold(w, &w->body, i, by);
         any = true;
     }
     return any;
@@ -169,9 +142,8 @@ static bool take_in(limits_work *w, int sample, double noise)
 {
     const limit_memory *m = &w->solver->limits;
     double *now = m->now;
-    limits_part *part = sample >= w->tail.from && sample <= w->tail.to ? &w->tail : &w->body;
     now[sample] = 0;
-    hold(w, part, sample, excess(w, sample, 0));
+    limits_take(w, sample, excess(w, sample, 0) > 0);
     for (;;) {
         if (!limits_solve(w)) return false;
         double way;
@@ -218,52 +190,28 @@ static enum outcome climb(limits_work *w)
     }
 }
 
-/// Rounds until nothing changes up to the last knot.
-static enum outcome go_round(limits_work *w)
-{
-    for (int round = 0; round < ROUNDS; round++) {
-        double slack, noise;
-        measure_work(w, &slack, &noise);
-        bool any = relax(w, &w->body, noise);
-        any = tighten(w, slack) || any;
-        if (!any || solver_must_stop(w->solver->stop)) return FOUND;
-        if (!limits_solve(w)) return NO_ROOM;
-    }
-    return TIRED;
-}
-
 /// Lets go until nothing has to be pulled: the dual method can go on from there.
 static bool settle(limits_work *w)
 {
     const limit_memory *m = &w->solver->limits;
     double slack, noise;
     measure_work(w, &slack, &noise);
-    while (relax(w, &w->body, noise)) {
+    while (relax(w, noise)) {
         if (!limits_solve(w)) return false;
         measure_work(w, &slack, &noise);
     }
-    for (int i = w->body.from; i <= w->body.to; i++) {
+    for (int i = 0; i < w->p->desc->samples; i++) {
         if (limits_hold(w, i)) m->now[i] = m->pull[i];
     }
     return true;
-}
-
-static bool is_far_beyond(const limits_work *w, double slack)
-{
-    int count = 0;
-    for (int i = w->body.from; i <= w->body.to; i++) count += excess(w, i, slack) != 0;
-    return count > w->p->desc->samples / MANY_PART;
 }
 
 static enum outcome search(limits_work *w)
 {
     double slack, noise;
     measure_work(w, &slack, &noise);
-    if (is_far_beyond(w, slack)) {
-        if (go_round(w) == NO_ROOM) return NO_ROOM;
-    } else if (limits_guess(w, slack) && !limits_solve(w)) {
-        return NO_ROOM;
-    }
+    limits_guess(w, slack);
+    if (w->body.held + w->tail.held > 0 && !limits_solve(w)) return NO_ROOM;
     return settle(w) ? climb(w) : NO_ROOM;
 }
 

@@ -38,6 +38,8 @@ typedef struct limits_work {
     minimum *result;
     double tail_error;      ///< estimated, of what the limits add behind the last knot
     limits_part body, tail; ///< one of them may be empty: to < from
+    int first;              ///< sample of the first block of limits_set_matrix()
+    double turn;            ///< Re w of the tail's first sample from 1 of Im w at the last knot
     wiggly_status status;
 } limits_work;
 
@@ -45,8 +47,36 @@ typedef struct limits_work {
 /// there is no room for so many.
 bool limits_solve(limits_work *work);
 
-/// Holds what is likely to be held up to the last knot, from where nothing is held and all is solved. false: nothing.
-bool limits_guess(limits_work *work, double slack);
+/// Rows of the tail with nothing held, and `free` of the solver's memory.
+void limits_set_tail_rows(limits_work *w);
+
+/// What limits_set_matrix() needs, into the solver's rows.
+void limits_set_system(limits_work *w);
+
+/// The solver's matrix: of the spline with nothing held, on what limits change of the total; Re of a sample is the first of its block.
+void limits_set_matrix(const limits_work *w);
+
+/// Holds what is likely to be held, from where nothing is held and all is solved; a sample may miss a limit by `slack`.
+void limits_guess(limits_work *w, double slack);
+
+static inline bool limits_has_tail(const limits_work *w) { return w->tail.to >= w->tail.from; }
+
+/// The part that a sample is in.
+static inline limits_part *limits_part_of(limits_work *w, int sample)
+{
+    return limits_has_tail(w) && sample >= w->tail.from ? &w->tail : &w->body;
+}
+
+static inline void limits_take(limits_work *w, int sample, bool high)
+{
+    w->solver->limits.held[sample] = high ? LIMITS_HIGH : LIMITS_LOW;
+    limits_part_of(w, sample)->held++;
+}
+
+static inline double limits_total(const limits_work *w, int sample)
+{
+    return problem_about(w->p, sample) + w->curve->re[sample];
+}
 
 static inline bool limits_hold(const limits_work *w, int sample) { return w->solver->limits.held[sample] & 1; }
 

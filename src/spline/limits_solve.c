@@ -9,13 +9,13 @@
 #include <math.h>
 #include <string.h>
 
-/// A stiffness at rest by which the force at the tail's first sample, e₁ of its row, counts as any other.
-static double stiffness_of_rest(const wiggly_desc *desc)
+/// The knot that a tail starts from, at rest: of a stiffness by which the force there, e₁ of its row, counts as any other.
+static wiggly_knot at_rest(const wiggly_desc *desc)
 {
     const poles at = poles_at(desc, 0, 0);
     const double seen = poles_speed(&at, desc->step, false).on_e.re;
     const double weight = exp(poles_weight_exponent(&at, desc->step)) / (seen * seen);
-    return weight / (1 - 0.5 * weight) / desc->step;
+    return (wiggly_knot){.has_slope = true, .stiffness = weight / (1 - 0.5 * weight) / desc->step};
 }
 
 /// What a held sample is to reach, in the body and of both parts of the tail.
@@ -75,7 +75,7 @@ static bool push(limits_work *w, enum what what, double *along_turn)
     wiggly_solver *solver = w->solver;
     limit_memory *m = &solver->limits;
     limits_part *tail = &w->tail;
-    const wiggly_knot start = {.has_slope = true, .stiffness = stiffness_of_rest(&tail->desc)};
+    const wiggly_knot start = at_rest(&tail->desc);
     double *re = m->pushed[what == PUSH_TURN] + tail->begin;
     int count = add_held(w, tail, what, &start, 1);
     if (count < 0) return false;
@@ -113,6 +113,16 @@ static void set_free(const limits_work *w)
     problem_fill_tail(solver, p, (cplx){0, 1}, 1, count, m->free[1] + L + 1, m->pushed[0] + L + 1);
 }
 
+void limits_set_tail_rows(limits_work *w)
+{
+    wiggly_solver *solver = w->solver;
+    set_free(w);
+    solver->limits.all[0] = at_rest(&w->tail.desc);
+    take_knots(solver, &w->tail, 1);
+    problem_pose(solver, &w->tail.desc, NULL, &w->tail.p);
+    problem_set_rows(solver, &w->tail.p);
+}
+
 /// Adds the tail's push to w, and what the held samples' pull is.
 static void add_push(limits_work *w)
 {
@@ -122,6 +132,8 @@ static void add_push(limits_work *w)
     const int L = tail->begin, n = tail->desc.samples;
     double turn = w->p->latest < 0 ? 0 : w->curve->im[L], *e = m->pushed[0] + L, h = tail->desc.step;
     for (int i = 0; i < n; i++) e[i] += turn * m->pushed[1][L + i];
+    m->all[0] = at_rest(&tail->desc); // the body's knots were there meanwhile
+    take_knots(solver, tail, 1);
     problem_set_rows(solver, &tail->p);
     m->tail_energy = system_energy(&solver->rows, e, NULL) / tail->p.unit;
     for (int i = tail->from; i <= tail->to; i++) {

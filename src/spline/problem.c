@@ -112,9 +112,10 @@ bool problem_fits_chain(wiggly_solver *solver, const problem *p)
 bool problem_takes_pulls(wiggly_solver *solver, const problem *p)
 {
     if (solver->method == WIGGLY_BAND || p->level_slope || !poles_are_constant(p->desc)) return false;
-    if (p->start == WIGGLY_LOOP || problem_is_loose(p) || problem_pulls_imaginary(solver, p)) return false;
+    if (problem_is_loose(p) || problem_pulls_imaginary(solver, p)) return false;
     if (p->about && !problem_oscillates(p)) return false;
-    return p->desc->knot_count == 0 || slopes_fit(solver, p, 0);
+    const int begin = p->desc->knot_count > 0 ? first_of_chain(solver, p) : 0;
+    return begin >= 0 && slopes_fit(solver, p, begin);
 }
 
 double problem_omission(wiggly_solver *solver, const problem *p)

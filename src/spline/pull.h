@@ -12,6 +12,7 @@ typedef struct pull_node {
     double below[4][4]; ///< coupling to the next node, then of the factor
     double right[4];    ///< what is known pulls
     double solved[4];
+    double border[4][4]; ///< of a loop's: what 1 of each of the first node's unknowns takes off this one's
 } pull_node;
 
 /// Where a pulled sample is: a node's own, or the one after it.
@@ -27,7 +28,8 @@ typedef struct pulled {
     system_pulls pulls;
     pull_place *place; ///< of each pull, where the chain serves
     pull_node *nodes;
-    double scale; ///< of the system's compliance, to that of its weighted energy
+    int first_knot, first_pull; ///< with which a loop's nodes begin
+    double scale;               ///< of the system's compliance, to that of its weighted energy
     bool by_chain;
     bound_tail tail; ///< what bounds press behind the last knot
     double *e;       ///< that, one number a sample

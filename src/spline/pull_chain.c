@@ -7,125 +7,16 @@
 //     Σ_j = D_j⁻¹ + L_j* Σ_{j+1} L_j,
 //
 // and further back it is −L_i* of the node after: one sweep from the last node to the first gives all responses to all pulls.
-#include "spline/pull.h"
+//
+// A loop is that chain without its first node, which borders it: with T = L D L* of the others, B their coupling to the first and
+// U = T⁻¹ B, its pivot is S = A_00 − B* U, and the responses are T⁻¹ + U S⁻¹ U*, −U S⁻¹ and S⁻¹.
+#include "spline/pull_nodes.h"
 #include "spline/wide.h"
 #include <math.h>
 #include <string.h>
 
 /// Below this part of its entry a pivot has lost too many digits: the band, which refines, is to solve it.
 static const double weakest = 1e-9;
-
-// --- nodes -----------------------------------------------------------------------------------------------------------
-
-/// The knots and the pulls of a spline, merged by sample.
-typedef struct cursor {
-    int knot, pull; ///< the next ones
-} cursor;
-
-/// A keyed or pulled sample, or both.
-typedef struct stop {
-    int sample;
-    const wiggly_knot *knot; ///< or NULL
-    int pull;                ///< or -1
-} stop;
-
-static bool next_stop(const pulled *of, cursor *at, stop *s)
-{
-    const wiggly_desc *desc = of->problem.desc;
-    const wiggly_knot *knot = at->knot < desc->knot_count ? &desc->knots[of->solver->order[at->knot]] : NULL;
-    int pull = at->pull < of->pulls.count ? at->pull : -1;
-    if (!knot && pull < 0) return false;
-    if (knot && pull >= 0 && knot->sample != of->pulls.sample[pull]) {
-        if (knot->sample < of->pulls.sample[pull])
-            pull = -1;
-        else
-            knot = NULL;
-    }
-    *s = (stop){knot ? knot->sample : of->pulls.sample[pull], knot, pull};
-    at->knot += knot != NULL;
-    at->pull += pull >= 0;
-    return true;
-}
-
-static void hold(pull_node *node, int unknown, double value)
-{
-    for (int i = 0; i < 4; i++) node->to[i][unknown] = 0;
-    node->known[unknown] += value;
-}
-
-/// Everything unknown, and in cubic and real mode nothing imaginary.
-static void set_free(pull_node *node, bool is_complex)
-{
-    memset(node, 0, sizeof *node);
-    for (int i = 0; i < 4; i++) node->to[i][i] = is_complex || i % 2 == 0;
-}
-
-/// Row i of the state is c · (Re x, Im x) + value, in place of an unknown of its own.
-static void tie(pull_node *node, int i, double on_re, double on_im, double value)
-{
-    for (int u = 0; u < 4; u++) node->to[i][u] = on_re * node->to[0][u] + on_im * node->to[1][u];
-    node->known[i] = on_re * node->known[0] + on_im * node->known[1] + value;
-}
-
-/// What holds a node: a knot there or on the sample after it, or that d follows x.
-static void hold_node(const chain *c, const problem *p, pull_node *node, const stop *at, const stop *pair,
-                      bool settled)
-{
-    set_free(node, c->is_complex);
-    if (at->knot) hold(node, 0, at->knot->value - problem_about(p, at->sample));
-    if (settled) {
-        tie(node, 2, c->tail.re, -c->tail.im, 0);
-        tie(node, 3, c->tail.im, c->tail.re, 0);
-    } else if (pair && pair->knot) { // e is small beside x and x after it, and so is λ − 1
-        double after = pair->knot->value - problem_about(p, pair->sample), before = at->knot ? node->known[0] : 0;
-        tie(node, 2, at->knot ? 1 - c->lambda.re : -c->lambda.re, c->lambda.im, after - before);
-    }
-}
-
-static void put_rest(const pulled *of, chain_node *node, pull_node *state)
-{
-    const problem *p = &of->problem;
-    bool oscillates = problem_oscillates(p), is_complex = of->solver->chain.is_complex;
-    *node = (chain_node){.fixed = oscillates ? NODE_FROM_REST : NODE_AT_REST};
-    set_free(state, is_complex);
-    hold(state, 0, 0), hold(state, 1, 0);
-    if (oscillates) return;
-    hold(state, 2, p->y && !p->about ? p->y[1] - p->level : 0);
-    hold(state, 3, 0);
-}
-
-static void place_pull(const pulled *of, const stop *s, int node, bool second)
-{
-    if (s->pull >= 0) of->place[s->pull] = (pull_place){node, second};
-}
-
-/// The chain's nodes and their states. false where a slope is on the second sample of a node, where the chain has no place for it.
-static bool make_nodes(pulled *of)
-{
-    const problem *p = &of->problem;
-    chain *c = &of->solver->chain;
-    cursor at = {0};
-    stop s, after;
-    int n = 0;
-    if (p->start == WIGGLY_REST) put_rest(of, &c->nodes[0], &of->nodes[0]), n = 1;
-    for (bool more = next_stop(of, &at, &s); more; n++) {
-        cursor ahead = at;
-        bool pair = next_stop(of, &ahead, &after) && after.sample == s.sample + 1;
-        chain_node *node = &c->nodes[n];
-        *node = (chain_node){.sample = s.sample - p->first};
-        if (s.knot) problem_put_knot(p, node, s.knot, NULL);
-        bool settled = p->settles && s.sample == p->latest;
-        if (settled) node->fixed |= NODE_SETTLED;
-        hold_node(c, p, &of->nodes[n], &s, pair ? &after : NULL, settled);
-        place_pull(of, &s, n, false);
-        if (pair && after.knot && after.knot->has_slope) return false;
-        if (pair) place_pull(of, &after, n, true);
-        if (pair) at = ahead;
-        more = next_stop(of, &at, &s);
-    }
-    c->node_count = n;
-    return true;
-}
 
 // --- the system ------------------------------------------------------------------------------------------------------
 
@@ -203,18 +94,24 @@ static void add_stretch(pull_node *p, pull_node *q, const chain_stretch *s)
     }
 }
 
-/// Blocks and pulls of the states.
-static void assemble(const chain *c, pull_node *nodes)
+static void add_ends(const chain *c, pull_node *nodes)
 {
     const state_form start = chain_start_form(c), end = chain_end_form(c);
     add_form(nodes[0].pivot, start.h00, start.h01, start.h11);
     add_slope(c, NULL, &nodes[0], &c->nodes[0], NULL);
-    for (int j = 0; j + 1 < c->node_count; j++) {
-        const chain_stretch *stretch = &c->stretches[c->nodes[j].stretch];
-        add_stretch(&nodes[j], &nodes[j + 1], stretch);
-        add_slope(c, &nodes[j], &nodes[j + 1], &c->nodes[j + 1], stretch);
-    }
     add_form(nodes[c->node_count - 1].pivot, end.h00, end.h01, end.h11);
+}
+
+/// Blocks and pulls of the states.
+static void assemble(const chain *c, pull_node *nodes)
+{
+    if (!c->cyclic) add_ends(c, nodes);
+    for (int j = 0; j < chain_stretches(c); j++) {
+        const chain_stretch *stretch = &c->stretches[c->nodes[j].stretch];
+        const int next = chain_next(c, j);
+        add_stretch(&nodes[j], &nodes[next], stretch);
+        add_slope(c, &nodes[j], &nodes[next], &c->nodes[next], stretch);
+    }
 }
 
 /// out ← aᵀ m b.
@@ -259,18 +156,19 @@ static void pull_back(const pull_node *node, double v[4])
 }
 
 /// From states to unknowns; 1 on the diagonal of what is none.
-static void reduce(pull_node *nodes, int count)
+static void reduce(const chain *c, pull_node *nodes)
 {
-    for (int j = 0; j < count; j++) {
+    for (int j = 0; j < c->node_count; j++) {
         subtract_product(nodes[j].right, nodes[j].pivot, nodes[j].known);
-        if (j + 1 == count) continue;
-        subtract_product(nodes[j + 1].right, nodes[j].below, nodes[j].known);
-        subtract_transposed(nodes[j].right, nodes[j].below, nodes[j + 1].known);
+        if (j >= chain_stretches(c)) continue;
+        pull_node *next = &nodes[chain_next(c, j)];
+        subtract_product(next->right, nodes[j].below, nodes[j].known);
+        subtract_transposed(nodes[j].right, nodes[j].below, next->known);
     }
-    for (int j = 0; j < count; j++) {
+    for (int j = 0; j < c->node_count; j++) {
         pull_node *node = &nodes[j];
         transform(node->to, node->pivot, node->to, node->pivot);
-        if (j + 1 < count) transform(nodes[j + 1].to, node->below, node->to, node->below);
+        if (j < chain_stretches(c)) transform(nodes[chain_next(c, j)].to, node->below, node->to, node->below);
         pull_back(node, node->right);
         for (int i = 0; i < 4; i++) node->pivot[i][i] += node->pivot[i][i] == 0;
     }
@@ -320,6 +218,73 @@ static bool factor(pull_node *nodes, int count)
     return true;
 }
 
+/// What a loop's nodes behind the first are to it, before they are factored.
+static void border(pull_node *nodes, int count)
+{
+    const pull_node *last = &nodes[count - 1];
+    for (int j = 1; j < count; j++) memset(nodes[j].border, 0, sizeof nodes[j].border);
+    if (count > 1) memcpy(nodes[1].border, nodes[0].below, sizeof nodes[1].border);
+    for (int i = 0; i < 4; i++) {
+        for (int k = 0; k < 4; k++) {
+            if (count > 1)
+                nodes[count - 1].border[i][k] += last->below[k][i];
+            else
+                nodes[0].pivot[i][k] += last->below[i][k] + last->below[k][i]; // its own neighbour on both sides
+        }
+    }
+}
+
+/// out ← out − a b.
+static void subtract_product_of(double out[4][4], double a[4][4], double b[4][4])
+{
+    for (int i = 0; i < 4; i++) {
+        for (int k = 0; k < 4; k++) {
+            for (int j = 0; j < 4; j++) out[i][j] -= a[i][k] * b[k][j];
+        }
+    }
+}
+
+/// out ← out − aᵀ b.
+static void subtract_transposed_product(double out[4][4], double a[4][4], double b[4][4])
+{
+    for (int k = 0; k < 4; k++) {
+        for (int i = 0; i < 4; i++) {
+            for (int j = 0; j < 4; j++) out[i][j] -= a[k][i] * b[k][j];
+        }
+    }
+}
+
+/// Borders ← U, and the first node's block ← the inverse of S; false where that has lost its digits.
+static bool close_loop(pull_node *nodes, int count)
+{
+    double s[4][4], u[4][4], entry[4];
+    memcpy(s, nodes[0].pivot, sizeof s);
+    for (int i = 0; i < 4; i++) entry[i] = s[i][i];
+    for (int j = 1; j + 1 < count; j++) subtract_product_of(nodes[j + 1].border, nodes[j].below, nodes[j].border);
+    for (int j = count - 1; j > 0; j--) {
+        pull_node *node = &nodes[j];
+        memset(u, 0, sizeof u);
+        subtract_product_of(u, node->pivot, node->border);
+        for (int i = 0; i < 4; i++) {
+            for (int k = 0; k < 4; k++) u[i][k] = -u[i][k];
+        }
+        subtract_transposed_product(s, node->border, u);
+        if (j + 1 < count) subtract_transposed_product(u, node->below, nodes[j + 1].border);
+        memcpy(node->border, u, sizeof u);
+    }
+    if (!invert(s, entry)) return false;
+    memcpy(nodes[0].pivot, s, sizeof s);
+    return true;
+}
+
+static bool factor_nodes(const chain *c, pull_node *nodes)
+{
+    const int count = c->node_count;
+    if (!c->cyclic) return factor(nodes, count);
+    border(nodes, count);
+    return factor(nodes + 1, count - 1) && close_loop(nodes, count);
+}
+
 /// How Re or Im x of a pulled sample depends on its node's unknowns; nothing but that.
 static void see(const pulled *of, int pull, int part, double on[4])
 {
@@ -349,6 +314,21 @@ static void solve(pull_node *nodes, int count)
     }
 }
 
+static void solve_nodes(const chain *c, pull_node *nodes)
+{
+    const int count = c->node_count;
+    double *first = nodes[0].solved, x[4] = {0};
+    if (!c->cyclic) {
+        solve(nodes, count);
+        return;
+    }
+    for (int j = 1; j < count; j++) subtract_transposed(first, nodes[j].border, nodes[j].solved);
+    subtract_product(x, nodes[0].pivot, first);
+    for (int i = 0; i < 4; i++) first[i] = -x[i];
+    solve(nodes + 1, count - 1);
+    for (int j = 1; j < count; j++) subtract_product(nodes[j].solved, nodes[j].border, first);
+}
+
 // --- responses -------------------------------------------------------------------------------------------------------
 
 /// u ← −L* u, in columns from … to; each of the four rows is `stride` long.
@@ -364,12 +344,12 @@ WIDEST static void carry(double *restrict u, size_t stride, int from, int to, do
     }
 }
 
-/// row ← on · u, in columns from … to.
+/// row ← row + on · u, in columns from … to.
 WIDEST static void observe(const double on[4], const double *restrict u, size_t stride, int from, int to,
                            double *restrict row)
 {
     const double *restrict a = u, *restrict b = u + stride, *restrict c = b + stride, *restrict d = c + stride;
-    for (int k = from; k < to; k++) row[k] = on[0] * a[k] + on[1] * b[k] + on[2] * c[k] + on[3] * d[k];
+    for (int k = from; k < to; k++) row[k] += on[0] * a[k] + on[1] * b[k] + on[2] * c[k] + on[3] * d[k];
 }
 
 /// selected ← D⁻¹ + L* selected L, from the node after.
@@ -384,36 +364,76 @@ static void select_inverse(pull_node *node, bool is_last, double selected[4][4])
     }
 }
 
-/// The upper triangle of the compliance, from the last pull to the first.
-static void respond(pulled *of, double *compliance, double *columns)
+/// The upper triangle of the compliance, from the last pull to the first; a loop's without its first node.
+static void respond(const pulled *of, double *compliance, double *columns)
 {
-    const int count = of->solver->chain.node_count, width = 2 * of->pulls.count;
+    const chain *c = &of->solver->chain;
+    const int count = c->node_count, width = 2 * of->pulls.count;
     const size_t stride = (size_t)width;
     double selected[4][4], on[4];
     int pull = of->pulls.count - 1;
-    for (int j = count - 1; j >= 0 && pull >= 0; j--) {
+    memset(compliance, 0, sizeof *compliance * stride * stride);
+    for (int j = count - 1; j >= c->cyclic && pull >= 0; j--) {
         pull_node *node = &of->nodes[j];
         carry(columns, stride, 2 * (pull + 1), width, node->below);
         select_inverse(node, j == count - 1, selected);
         int from = pull;
-        for (; from >= 0 && of->place[from].node == j; from--) {
+        for (; from >= 0 && of->place[pull_in_turn(of, from)].node == j; from--) {
             for (int part = 0; part < 2; part++) {
                 double column[4] = {0};
-                see(of, from, part, on);
+                see(of, pull_in_turn(of, from), part, on);
                 subtract_product(column, selected, on);
                 for (int i = 0; i < 4; i++) columns[stride * (size_t)i + (size_t)(2 * from + part)] = -column[i];
             }
         }
         for (; pull > from; pull--) {
             for (int part = 0; part < 2; part++) {
-                see(of, pull, part, on);
+                see(of, pull_in_turn(of, pull), part, on);
                 observe(on, columns, stride, 2 * pull, width, compliance + width * (2 * pull + part));
             }
         }
     }
+}
+
+/// Adds what goes by a loop's first node: V S⁻¹ V*, where V is −U as pulls see it.
+static void respond_by_first(const pulled *of, double *compliance, double *columns)
+{
+    const int width = 2 * of->pulls.count;
+    for (int r = 0; r < width; r++) {
+        const int pull = pull_in_turn(of, r / 2), node = of->place[pull].node;
+        double on[4], seen[4] = {0};
+        see(of, pull, r % 2, on);
+        if (node > 0)
+            subtract_transposed(seen, of->nodes[node].border, on);
+        else
+            memcpy(seen, on, sizeof seen);
+        for (int i = 0; i < 4; i++) columns[width * i + r] = seen[i];
+    }
+    for (int r = 0; r < width; r++) {
+        const double seen[4] = {columns[r], columns[width + r], columns[2 * width + r], columns[3 * width + r]};
+        double by[4] = {0};
+        subtract_product(by, of->nodes[0].pivot, seen);
+        for (int i = 0; i < 4; i++) by[i] = -by[i];
+        observe(by, columns, (size_t)width, r, width, compliance + width * r);
+    }
+}
+
+/// x_i ← x_{i + by}, round and round; `was` is room for all.
+static void turn(double *x, int stride, int count, int by, double *was)
+{
+    for (int i = 0; i < count; i++) was[i] = x[stride * i];
+    for (int i = 0; i < count; i++) x[stride * i] = was[(i + by) % count];
+}
+
+/// The other triangle, and pulls in the order of their samples.
+static void complete(const pulled *of, double *compliance, double *columns)
+{
+    const int width = 2 * of->pulls.count, by = 2 * (of->pulls.count - of->first_pull);
     for (int i = 0; i < width; i++) {
         for (int j = 0; j < i; j++) compliance[width * i + j] = compliance[width * j + i];
     }
+    for (int i = 0; i < width && of->first_pull > 0; i++) turn(compliance + width * i, 1, width, by, columns);
+    for (int i = 0; i < width && of->first_pull > 0; i++) turn(compliance + i, width, width, by, columns);
 }
 
 /// The state of a node, and what a pulled sample sees of it.
@@ -451,14 +471,16 @@ bool pull_chain_respond(pulled *of, double *compliance, double *alone, double *c
     if (!problem_takes_pulls(of->solver, &of->problem)) return false;
     problem_set_chain(of->solver, &of->problem);
     c->kept = false;
-    if (!make_nodes(of)) return false;
+    if (!pull_make_nodes(of)) return false;
     chain_make_tables(c);
     assemble(c, of->nodes);
-    reduce(of->nodes, c->node_count);
-    if (!factor(of->nodes, c->node_count)) return false;
+    reduce(c, of->nodes);
+    if (!factor_nodes(c, of->nodes)) return false;
     respond(of, compliance, columns);
+    if (c->cyclic) respond_by_first(of, compliance, columns);
+    complete(of, compliance, columns);
     reset(of);
-    solve(of->nodes, c->node_count);
+    solve_nodes(c, of->nodes);
     for (int i = 0; i < of->pulls.count; i++) {
         cplx x = pulled_x(of, i);
         alone[2 * i] = x.re, alone[2 * i + 1] = x.im;
@@ -476,7 +498,7 @@ bool pull_chain_solve(pulled *of, wiggly_curve *curve)
         see(of, i, 1, im);
         for (int k = 0; k < 4; k++) right[k] += re[k] * of->pulls.pull[i].re + im[k] * of->pulls.pull[i].im;
     }
-    solve(of->nodes, c->node_count);
+    solve_nodes(c, of->nodes);
     for (int j = 0; j < c->node_count; j++) {
         double s[4];
         state_of(&of->nodes[j], s);

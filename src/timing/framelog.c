@@ -12,14 +12,20 @@
 enum { BLOCK_ROWS = 256, LATE_ROWS = 16 }; ///< the last rows wait for their GPU times
 static const int LOW_NEEDS_FRAMES = 1000;
 
+/// What the summary needs of a frame: all that is kept of it once its row is written.
+enum { SUMMED_TIME, SUMMED_FRAME, SUMMED_INTERVAL, SUMMED_SOLVE, SUMMED_EVENT, SUMMED_COUNT };
+static const int summed_columns[SUMMED_COUNT] = {COLUMN_TIME, COLUMN_FRAME_MS, COLUMN_FRAME_INTERVAL_MS,
+                                                 COLUMN_SOLVE_US, COLUMN_EVENT_TO_SWAP_US};
+
 struct framelog {
     FILE *file; ///< NULL: for the summary only, or a write failed
     char *path;
     int write_errno; ///< of the first failed write
     int warm_up;
-    const char *solver;     ///< as the file says so far
-    struct frame_row *rows; ///< ring: row n of the run at n % capacity
-    double *scratch;        ///< capacity numbers, for sorting
+    const char *solver;                ///< as the file says so far
+    struct frame_row rows[BLOCK_ROWS]; ///< ring: row n of the run at n % BLOCK_ROWS
+    float (*summed)[SUMMED_COUNT];     ///< ring: of row n at n % capacity
+    double *scratch;                   ///< capacity numbers, for sorting
     int capacity;
     long pushed, written; ///< rows of the run so far
 };
@@ -96,7 +102,7 @@ static void check_written(struct framelog *log)
 static void write_rows(struct framelog *log, long end)
 {
     for (; log->file && log->written < end; log->written++) {
-        const struct frame_row *row = &log->rows[log->written % log->capacity];
+        const struct frame_row *row = &log->rows[log->written % BLOCK_ROWS];
         if (row->solver != log->solver) write_solver(log->file, row->solver);
         log->solver = row->solver;
         write_row(log->file, row);
@@ -109,7 +115,7 @@ static void framelog_free(struct framelog *log)
     if (!log) return;
     if (log->file) fclose(log->file);
     free(log->path);
-    free(log->rows);
+    free(log->summed);
     free(log->scratch);
     free(log);
 }
@@ -118,14 +124,14 @@ struct framelog *framelog_open(const char *path, const struct frame_header *head
 {
     struct framelog *log = calloc(1, sizeof *log);
     if (log) {
-        log->capacity = capacity > BLOCK_ROWS ? capacity : BLOCK_ROWS;
+        log->capacity = capacity;
         log->warm_up = header->warm_up;
         log->solver = header->solver;
-        log->rows = calloc((size_t)log->capacity, sizeof *log->rows);
-        log->scratch = calloc((size_t)log->capacity, sizeof *log->scratch);
+        log->summed = calloc((size_t)capacity, sizeof *log->summed);
+        log->scratch = calloc((size_t)capacity, sizeof *log->scratch);
         log->path = path ? strdup(path) : NULL;
     }
-    if (!log || !log->rows || !log->scratch || (path && !log->path)) {
+    if (!log || !log->summed || !log->scratch || (path && !log->path)) {
         fail(error, ERROR_ENVIRONMENT, "out of memory for a timing log of %d frames", capacity);
         framelog_free(log);
         return NULL;
@@ -143,7 +149,9 @@ struct framelog *framelog_open(const char *path, const struct frame_header *head
 
 void framelog_push(struct framelog *log, const struct frame_row *row)
 {
-    log->rows[log->pushed++ % log->capacity] = *row;
+    log->rows[log->pushed % BLOCK_ROWS] = *row;
+    float *summed = log->summed[log->pushed++ % log->capacity];
+    for (int i = 0; i < SUMMED_COUNT; i++) summed[i] = (float)column_value(&timing_columns[summed_columns[i]], row);
     if (log->pushed - log->written >= BLOCK_ROWS) write_rows(log, log->pushed - LATE_ROWS);
 }
 
@@ -151,26 +159,26 @@ void framelog_gpu(struct framelog *log, long frame, double gpu_us)
 {
     long oldest = log->pushed > LATE_ROWS ? log->pushed - LATE_ROWS : 0;
     for (long n = log->pushed - 1; n >= oldest; n--) {
-        struct frame_row *row = &log->rows[n % log->capacity];
+        struct frame_row *row = &log->rows[n % BLOCK_ROWS];
         if (row->frame == frame) row->gpu_us = gpu_us;
     }
 }
 
-/// Collects the measured values of a column over the frames from `first` on in the log's scratch.
-static int collect(const struct framelog *log, long first, int column)
+/// Collects the measured values of one kind over the frames from `first` on in the log's scratch.
+static int collect(const struct framelog *log, long first, int summed)
 {
     int count = 0;
     for (long n = first; n < log->pushed; n++) {
-        double value = column_value(&timing_columns[column], &log->rows[n % log->capacity]);
+        const double value = (double)log->summed[n % log->capacity][summed];
         if (!isnan(value)) log->scratch[count++] = value;
     }
     return count;
 }
 
-static void print_percentiles(const struct framelog *log, long first, int column, double to_ms, const char *what,
+static void print_percentiles(const struct framelog *log, long first, int summed, double to_ms, const char *what,
                               FILE *out)
 {
-    int count = collect(log, first, column);
+    int count = collect(log, first, summed);
     if (count == 0) return;
     statistics_sort(log->scratch, count);
     fprintf(out, "%-14s p50 %8.3f ms   p95 %8.3f ms   p99 %8.3f ms\n", what,
@@ -181,14 +189,14 @@ static void print_percentiles(const struct framelog *log, long first, int column
 
 static void print_slow_frames(const struct framelog *log, long first, FILE *out)
 {
-    int count = collect(log, first, COLUMN_FRAME_MS);
+    int count = collect(log, first, SUMMED_FRAME);
     for (int b = 0; b < BUDGET_COUNT; b++) {
         struct over_budget over = statistics_over(log->scratch, count, frame_budgets_ms[b]);
         fprintf(out, "over %.1f ms   %d of %d frames", frame_budgets_ms[b], over.frames, count);
         if (over.longest > 1) fprintf(out, ", up to %d in a row", over.longest);
         fputc('\n', out);
     }
-    count = collect(log, first, COLUMN_FRAME_INTERVAL_MS);
+    count = collect(log, first, SUMMED_INTERVAL);
     if (count < LOW_NEEDS_FRAMES) return;
     statistics_sort(log->scratch, count);
     fprintf(out, "1 %% low        %.1f fps\n", 1000 / statistics_quantile(log->scratch, count, 0.99));
@@ -202,16 +210,16 @@ static void print_summary(const struct framelog *log, FILE *out)
         fprintf(out, "frames         %ld, all of them warm-up: nothing to sum up\n", log->pushed);
         return;
     }
-    const struct frame_row *start = &log->rows[first % log->capacity];
-    const struct frame_row *end = &log->rows[(log->pushed - 1) % log->capacity];
-    double elapsed = end->t_s + end->frame_ms / 1000 - start->t_s;
+    const float *start = log->summed[first % log->capacity], *end = log->summed[(log->pushed - 1) % log->capacity];
+    const float elapsed = end[SUMMED_TIME] + end[SUMMED_FRAME] / 1000 - start[SUMMED_TIME];
     long frames = log->pushed - first;
-    fprintf(out, "frames         %ld in %.2f s, %.1f fps on average", frames, elapsed, (double)frames / elapsed);
+    fprintf(out, "frames         %ld in %.2f s, %.1f fps on average", frames, (double)elapsed,
+            (double)frames / (double)elapsed);
     fprintf(out, ", the first %ld left out\n", first);
-    print_percentiles(log, first, COLUMN_FRAME_MS, 1, "frame", out);
-    print_percentiles(log, first, COLUMN_FRAME_INTERVAL_MS, 1, "interval", out);
-    print_percentiles(log, first, COLUMN_SOLVE_US, 1e-3, "solve", out);
-    print_percentiles(log, first, COLUMN_EVENT_TO_SWAP_US, 1e-3, "event to swap", out);
+    print_percentiles(log, first, SUMMED_FRAME, 1, "frame", out);
+    print_percentiles(log, first, SUMMED_INTERVAL, 1, "interval", out);
+    print_percentiles(log, first, SUMMED_SOLVE, 1e-3, "solve", out);
+    print_percentiles(log, first, SUMMED_EVENT, 1e-3, "event to swap", out);
     print_slow_frames(log, first, out);
 }
 

@@ -35,8 +35,8 @@ struct frame_header {
 
 struct framelog;
 
-/// `path` may be NULL: rows are kept for the summary only. Memory for `capacity` rows is taken at once; when full, older rows
-/// stay in the file but leave the summary (a long live session). NULL with a sentence where the file cannot be made.
+/// `path` may be NULL: frames are kept for the summary only. Memory for a summary of `capacity` frames is taken at once; when full,
+/// older ones stay in the file but leave the summary (a long live session). NULL with a sentence where the file cannot be made.
 struct framelog *framelog_open(const char *path, const struct frame_header *header, int capacity,
                                struct error *error);
 

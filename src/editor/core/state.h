@@ -45,7 +45,7 @@ enum drag_kind {
     DRAG_KNOTS,
     DRAG_SLOPE,
     DRAG_BOX,
-    DRAG_SCALE, ///< without a button: begun by S, ended by a click or Enter
+    DRAG_SCALE, ///< begun by S without a button and ended by a click or Enter; or of a handle of the box round the knots
     DRAG_SCRUB,
     DRAG_RANGE,
     DRAG_PAN,
@@ -110,6 +110,7 @@ enum hover_kind {
     HOVER_UI_SCALE,
     HOVER_PRESENT,
     HOVER_LIMIT,
+    HOVER_BOX,   ///< a handle of the box round the selected knots
     HOVER_POINT, ///< of a rig, that can be pinned
     HOVER_PIN,   ///< on the stage or the ruler
 };
@@ -118,7 +119,7 @@ struct hover {
     enum hover_kind kind;
     int spline;
     unsigned knot;
-    int handle; ///< HOVER_SLOPE: which end, as in curves_handle(); HOVER_WARNING: which one; HOVER_LIMIT: 1: the high one
+    int handle; ///< HOVER_SLOPE: which end, as in curves_handle(); HOVER_WARNING, HOVER_BOX: which one; HOVER_LIMIT: 1: the high one
     int tail;        ///< HOVER_BODY: its number among tails
     int rig, joint;  ///< HOVER_JOINT: of the tail or chain; HOVER_POINT: a joint whose end it is, or a vertex
     unsigned pin;    ///< HOVER_PIN: its id

@@ -153,6 +153,7 @@ struct hover curves_hover(const struct curves *curves, const struct core *core, 
     if (seen && hover.kind == HOVER_NONE) nearest_handle(curves, core, world->document, spline, x, y, &hover);
     if (hover.kind == HOVER_NONE) nearest_warning(curves, core, x, y, &hover);
     if (hover.kind == HOVER_NONE) nearest_other_knot(curves, core, world->document, x, y, &hover);
+    if (hover.kind == HOVER_NONE) scale_box_hover(curves, core, world->document, x, y, &hover);
     if (hover.kind == HOVER_NONE && seen) limits_hover(curves, core, spline, y, &hover);
     if (hover.kind == HOVER_NONE) nearest_curve(curves, core, world, x, y, &hover);
     return hover;
@@ -246,6 +247,9 @@ void curves_press(struct curves *curves, struct core *core, const struct editor_
         break;
     case HOVER_KNOT:
         press_knot(curves, core, world, &hover, event);
+        break;
+    case HOVER_BOX:
+        scale_begin_handle(curves, core, world, hover.handle, event);
         break;
     case HOVER_LIMIT:
         limits_begin_drag(curves, core, world, hover.handle, event);

@@ -63,6 +63,9 @@ void curves_remedy_first(struct curves *curves, struct core *core, const struct 
 /// Starts to scale the selected knots with the pointer: about the middle of the selection, or their values about the
 /// equilibrium. P goes on to the next pivot.
 void curves_scale(struct curves *curves, struct core *core, const struct editor_world *world, bool about_equilibrium);
+/// Where a handle of the box round the selected knots is: column and row −1 … 1, 0 0 is none. false where it is not shown.
+bool curves_box_point(const struct curves *curves, const struct core *core, const struct document *document,
+                      int column, int row, float xy[2]);
 /// Moves the selected knots by frames, and by hundredths of the values in sight; repeated nudges are one undo step.
 void curves_nudge(const struct curves *curves, struct core *core, const struct editor_world *world, double frames,
                   double hundredths);

@@ -379,8 +379,8 @@ void curves_show(struct curves *curves, struct core *core, const struct editor_w
         show_other_knots(curves, core, world->document, curves->cache.other_spline[i]);
     }
     show_knots(curves, core, world);
+    scale_box_show(curves, core, world->document);
     warnings_show(curves, core);
-    scale_show(curves, core);
     show_empty(core, world);
     drawlist_set_clip(&core->list, panel);
     sheet_show(curves, core, world->document);
@@ -389,6 +389,7 @@ void curves_show(struct curves *curves, struct core *core, const struct editor_w
     show_labels(curves, core, world);
     show_playhead(curves, core, world->document);
     ruler_pins_show(curves, core, world->document);
+    scale_show(curves, core);
     warnings_show_words(curves, core);
     drawlist_set_clip(&core->list, clip);
 }

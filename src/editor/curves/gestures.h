@@ -53,9 +53,17 @@ void sheet_show(const struct curves *curves, struct core *core, const struct doc
 
 /// Makes the edits for the pointer's present place.
 void scale_apply(struct curves *curves, struct core *core, const struct editor_world *world);
-/// The pivot, and the line from it to the pointer.
+/// The pivot, the line from it to the pointer, and beside that both factors and what stopped them.
 void scale_show(const struct curves *curves, struct core *core);
-/// Events while it runs, but the pointer's: axes, pivot, a typed factor, the end; true where the event is used up.
+/// Starts to scale by a handle of the box round the selected knots: about its other side or, with Alt, the equilibrium.
+void scale_begin_handle(struct curves *curves, struct core *core, const struct editor_world *world, int handle,
+                        const struct event *event);
+/// The handle at a point.
+void scale_box_hover(const struct curves *curves, const struct core *core, const struct document *document, float x,
+                     float y, struct hover *hover);
+/// The box round the selected knots, where there are several.
+void scale_box_show(const struct curves *curves, struct core *core, const struct document *document);
+/// Events while it runs, but the pointer's: axes, pivot, a typed factor, the end.
 enum drag_answer scale_event(struct curves *curves, struct core *core, const struct editor_world *world,
                              const struct event *event);
 

@@ -1,4 +1,4 @@
-/// Scaling the selected knots in time and value: S, then the pointer or a typed factor; one undo step.
+/// Scaling the selected knots in time and value: S, then the pointer or a typed factor, or a handle of their box; one undo step.
 ///
 /// A knot (t, v) goes to (p + a·(t − p), q + b·(v − q)) about the pivot (p, q), its slope to slope·b/a, so that the shape
 /// between the knots scales with them. About the equilibrium, q is the equilibrium of the knot's own spline at the knot: what
@@ -9,13 +9,13 @@
 #include "editor/curves/curves.h"
 #include "editor/curves/gestures.h"
 #include "editor/curves/view.h"
-#include "ui/theme.h"
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 static const double LEAST_REACH = 40; ///< pixels from the pivot that count as factor 1, or nothing could be aimed at
+static const double LEAST_SIDE = 8;   ///< the same of a box that is dragged by its handle
 static const double SLOPE_RESOLUTION = 1e-6; ///< of the visible values, a second
 static const double MOST = 1e4;              ///< factor
 
@@ -54,31 +54,77 @@ static void note_equilibria(struct curves *curves, struct core *core, const stru
     scaling->balance[1] = evaluation_at(evaluation, core->active, core_position(world->document, middle)).y;
 }
 
+/// The equilibrium, as it is drawn, of the knot that is as high as the held edge: that one stays under the pointer.
+static double edge_equilibrium(const struct curves *curves, const struct core *core)
+{
+    for (int i = 0; i < core->originals.count; i++) {
+        const struct original *original = &core->originals.list[i];
+        const struct value_map map = normal_map(curves, core, original->spline);
+        if (map.scale * original->knot.value + map.offset == curves->scaling.edge[1])
+            return map.scale * original->equilibrium + map.offset;
+    }
+    return curves->scaling.balance[1];
+}
+
 static void place_pivot(struct curves *curves, const struct core *core)
 {
     struct scaling *scaling = &curves->scaling;
     double frames[2], values[2];
     measure(curves, core, frames, values);
+    const bool held = scaling->handle >= 0, left = held && box_column(scaling->handle) < 0,
+               top = held && box_row(scaling->handle) < 0;
     const double middle[2] = {(frames[0] + frames[1]) / 2, (values[0] + values[1]) / 2};
-    const double *const places[PIVOTS] = {middle, scaling->playhead, scaling->balance};
+    const double side[2] = {frames[left], values[!top]};
+    scaling->edge[0] = frames[!left];
+    scaling->edge[1] = values[top];
+    if (held) scaling->balance[1] = edge_equilibrium(curves, core);
+    const double *const places[PIVOTS] = {middle, scaling->playhead, scaling->balance, side};
     scaling->frame = places[scaling->pivot][0];
     scaling->value = places[scaling->pivot][1];
 }
 
-static enum pivot next_pivot(const struct scaling *scaling) { return (scaling->pivot + 1) % PIVOTS; }
+static enum pivot next_pivot(const struct scaling *scaling)
+{
+    if (scaling->handle >= 0) return scaling->pivot == PIVOT_SIDE ? PIVOT_EQUILIBRIUM : PIVOT_SIDE;
+    return (scaling->pivot + 1) % PIVOT_SIDE;
+}
+
+static const char *pivot_name(const struct scaling *scaling, enum pivot pivot)
+{
+    static const char *const names[PIVOTS] = {"middle", "playhead", "equilibrium", "other side"};
+    const bool time_only = scaling->handle >= 0 && box_row(scaling->handle) == 0;
+    return time_only && pivot == PIVOT_EQUILIBRIUM ? names[PIVOT_MIDDLE] : names[pivot];
+}
+
+/// "time × 1.2", and in brackets why it is no more.
+static void say_factor(char out[128], const char *what, double factor, const char *stopped)
+{
+    snprintf(out, 128, *stopped ? "%s × %.3g (%s)" : "%s × %.3g", what, factor, stopped);
+}
 
 static void say(struct curves *curves, const struct core *core)
 {
-    static const char *const pivots[PIVOTS] = {"middle", "playhead", "equilibrium"};
     struct scaling *scaling = &curves->scaling;
     const struct drag *drag = &core->drag;
-    char time[96] = "", value[96] = "";
-    if (!drag->lock_y) snprintf(time, sizeof time, "time × %.3g%s", scaling->by.time, scaling->stopped[0]);
-    if (!drag->lock_x) snprintf(value, sizeof value, "value × %.3g%s", scaling->by.value, scaling->stopped[1]);
-    snprintf(scaling->sentence, sizeof scaling->sentence,
-             "%s%sScale %s%s%s about the %s.  P: the %s;  X, Y;  Enter, Esc", scaling->typed,
-             scaling->typed[0] ? "_   " : "", time, *time && *value ? ", " : "", value, pivots[scaling->pivot],
-             pivots[next_pivot(scaling)]);
+    const char *keys = scaling->handle < 0 ? "X, Y;  Enter, Esc" : box_corner(scaling->handle) ? "X, Y;  Esc" : "Esc";
+    char time[128] = "", value[128] = "";
+    if (!drag->lock_y) say_factor(time, "time", scaling->by.time, scaling->stopped[0]);
+    if (!drag->lock_x) say_factor(value, "value", scaling->by.value, scaling->stopped[1]);
+    snprintf(scaling->sentence, sizeof scaling->sentence, "%s%sScale %s%s%s about the %s.  P: the %s;  %s",
+             scaling->typed, scaling->typed[0] ? "_   " : "", time, *time && *value ? ", " : "", value,
+             pivot_name(scaling, scaling->pivot), pivot_name(scaling, next_pivot(scaling)), keys);
+}
+
+/// The drag has begun: about what, and by which handle of the box (-1: none).
+static void begin(struct curves *curves, struct core *core, const struct editor_world *world, enum pivot pivot,
+                  int handle)
+{
+    curves->scaling = (struct scaling){.pivot = pivot, .handle = handle, .by = {1, 1}, .free_time = 1};
+    core->message.text[0] = 0;
+    core->hover = (struct hover){.kind = HOVER_NONE};
+    note_equilibria(curves, core, world);
+    place_pivot(curves, core);
+    say(curves, core);
 }
 
 void curves_scale(struct curves *curves, struct core *core, const struct editor_world *world, bool about_equilibrium)
@@ -92,13 +138,17 @@ void curves_scale(struct curves *curves, struct core *core, const struct editor_
     drag_begin(core, DRAG_SCALE, "Scale knots", &event);
     core->drag.lock_y = about_equilibrium;
     const enum pivot pivot = core->originals.count == 1 ? PIVOT_PLAYHEAD : PIVOT_MIDDLE;
-    curves->scaling =
-        (struct scaling){.pivot = about_equilibrium ? PIVOT_EQUILIBRIUM : pivot, .by = {1, 1}, .free_time = 1};
-    core->message.text[0] = 0;
-    core->hover = (struct hover){.kind = HOVER_NONE};
-    note_equilibria(curves, core, world);
-    place_pivot(curves, core);
-    say(curves, core);
+    begin(curves, core, world, about_equilibrium ? PIVOT_EQUILIBRIUM : pivot, -1);
+}
+
+void scale_begin_handle(struct curves *curves, struct core *core, const struct editor_world *world, int handle,
+                        const struct event *event)
+{
+    core_collect(core, world->document, false);
+    drag_begin(core, DRAG_SCALE, "Scale knots", event);
+    core->drag.lock_x = box_row(handle) == 0;
+    core->drag.lock_y = box_column(handle) == 0;
+    begin(curves, core, world, event->mods & MOD_ALT ? PIVOT_EQUILIBRIUM : PIVOT_SIDE, handle);
 }
 
 /// How many times further from the pivot the pointer is than when scaling began, along one axis.
@@ -123,7 +173,25 @@ static void read_typed(const char *typed, struct factors *by)
     if (end != rest) by->value = second;
 }
 
-static struct factors wanted(const struct curves *curves, const struct core *core)
+/// The factor that keeps an edge of the box under the pointer, both in pixels from the pivot.
+static double pulled(double reach, double by, int direction)
+{
+    return 1 + by / (fabs(reach) < LEAST_SIDE ? direction * LEAST_REACH : reach);
+}
+
+static struct factors pulled_box(const struct curves *curves, const struct core *core)
+{
+    const struct drag *drag = &core->drag;
+    const struct scaling *scaling = &curves->scaling;
+    const int column = box_column(scaling->handle), row = box_row(scaling->handle);
+    const double across = curves_x(curves, core, scaling->edge[0]) - curves_x(curves, core, scaling->frame);
+    const double down = curves_y(curves, core, scaling->edge[1]) - curves_y(curves, core, scaling->value);
+    return (struct factors){column ? pulled(across, drag->moved_x, column) : 1,
+                            row ? pulled(down, drag->moved_y, row) : 1};
+}
+
+/// What the pointer asks for after S.
+static struct factors pulled_freely(const struct curves *curves, const struct core *core)
 {
     const struct drag *drag = &core->drag;
     const struct scaling *scaling = &curves->scaling;
@@ -133,7 +201,14 @@ static struct factors wanted(const struct curves *curves, const struct core *cor
     double factor = 1 + (hypot(to_x - x, to_y - y) - hypot(drag->start_x - x, drag->start_y - y)) / before;
     if (drag->lock_x) factor = along(x, drag->start_x, to_x);
     if (drag->lock_y) factor = along(y, drag->start_y, to_y);
-    struct factors by = {factor, factor};
+    return (struct factors){factor, factor};
+}
+
+static struct factors wanted(const struct curves *curves, const struct core *core)
+{
+    const struct drag *drag = &core->drag;
+    const struct scaling *scaling = &curves->scaling;
+    struct factors by = scaling->handle >= 0 ? pulled_box(curves, core) : pulled_freely(curves, core);
     read_typed(scaling->typed, &by);
     return (struct factors){drag->lock_y ? 1 : clamped(by.time), drag->lock_x ? 1 : clamped(by.value)};
 }
@@ -165,7 +240,7 @@ static double free_time(struct curves *curves, const struct core *core, const st
     scaling->stopped[0][0] = 0;
     if (room == ROOM_FREE) return scaling->free_time = factor;
     snprintf(scaling->stopped[0], sizeof scaling->stopped[0],
-             room == ROOM_OUTSIDE ? " (a knot would leave the range)" : " (a knot would land on another on frame %g)",
+             room == ROOM_OUTSIDE ? "a knot would leave the range" : "a knot would land on another on frame %g",
              frame);
     return scaling->free_time;
 }
@@ -206,6 +281,7 @@ static void move_all(struct curves *curves, struct core *core, const struct edit
     const struct originals *originals = &core->originals;
     const bool moves = scaling->by.time != 1;
     double held = NAN;
+    bool changes = moves;
     for (int i = 0; i < originals->count && moves; i++) {
         struct edit edit = core_edit_of(EDIT_KNOT_REMOVE, originals->list[i].spline);
         edit.knot = originals->list[i].knot;
@@ -214,12 +290,17 @@ static void move_all(struct curves *curves, struct core *core, const struct edit
     for (int i = 0; i < originals->count; i++) {
         struct edit edit = core_edit_of(moves ? EDIT_KNOT_INSERT : EDIT_KNOT_SET, originals->list[i].spline);
         edit.knot = scaled(curves, core, world->document, &originals->list[i], &held);
+        changes |= edit.knot.value != originals->list[i].knot.value;
         if (core_edit(core, world, &edit)) continue;
         history_restart(world->history, world->document);
         return;
     }
     scaling->stopped[1][0] = 0;
-    if (!isnan(held)) snprintf(scaling->stopped[1], sizeof scaling->stopped[1], " (held by the limit %.4g)", held);
+    if (!isnan(held))
+        snprintf(scaling->stopped[1], sizeof scaling->stopped[1], "held by the limit %.4g", held);
+    else if (!changes && scaling->by.value != 1)
+        snprintf(scaling->stopped[1], sizeof scaling->stopped[1], "all are on the %s",
+                 pivot_name(scaling, scaling->pivot));
 }
 
 void scale_apply(struct curves *curves, struct core *core, const struct editor_world *world)
@@ -230,18 +311,6 @@ void scale_apply(struct curves *curves, struct core *core, const struct editor_w
     scaling->by.time = free_time(curves, core, world->document, scaling->by.time);
     move_all(curves, core, world);
     say(curves, core);
-}
-
-void scale_show(const struct curves *curves, struct core *core)
-{
-    const struct scaling *scaling = &curves->scaling;
-    if (core->drag.kind != DRAG_SCALE) return;
-    const float x = curves_x(curves, core, scaling->frame), y = curves_y(curves, core, scaling->value), arm = 7;
-    const float across[] = {x - arm, y, x + arm, y}, down[] = {x, y - arm, x, y + arm};
-    const float line[] = {x, y, core->drag.x, core->drag.y};
-    if (!scaling->typed[0]) drawlist_dashed(&core->list, line, 2, 1, 3, 4, theme_fade(theme()->playhead, 0.5f));
-    if (!core->drag.lock_y) drawlist_line(&core->list, across, 2, 1.5f, theme()->playhead);
-    if (!core->drag.lock_x) drawlist_line(&core->list, down, 2, 1.5f, theme()->playhead);
 }
 
 /// Digits, sign and point of a factor, and the space before a second one; by what is typed, because layouts have them on different keys.
@@ -283,7 +352,7 @@ static enum drag_answer press_key(struct curves *curves, struct core *core, cons
         place_pivot(curves, core);
     } else if (event->key == KEY_BACKSPACE) {
         erase(scaling);
-    } else if (!drag_lock(&core->drag, event->key)) {
+    } else if ((scaling->handle >= 0 && !box_corner(scaling->handle)) || !drag_lock(&core->drag, event->key)) {
         return DRAG_USED;
     }
     change(core, world);
@@ -296,6 +365,7 @@ enum drag_answer scale_event(struct curves *curves, struct core *core, const str
     bool press = event->action != ACTION_RELEASE;
     switch (event->kind) {
     case EVENT_BUTTON:
+        if (curves->scaling.handle >= 0) return DRAG_PASSES;
         return !press ? DRAG_USED : event->button == BUTTON_LEFT ? DRAG_KEEP : DRAG_TAKE_BACK;
     case EVENT_KEY:
         return press ? press_key(curves, core, world, event)

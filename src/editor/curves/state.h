@@ -76,8 +76,17 @@ struct pin_time_drag {
     double free_frame; ///< the last on which its point had no other pin
 };
 
-/// What knots are scaled about: the middle of the selection; the equilibrium at the playhead; the equilibrium at each knot.
-enum pivot { PIVOT_MIDDLE, PIVOT_PLAYHEAD, PIVOT_EQUILIBRIUM, PIVOTS };
+/// What knots are scaled about: the middle of the selection; the equilibrium at the playhead; the equilibrium at each knot; the
+/// side of their box across from the handle.
+enum pivot { PIVOT_MIDDLE, PIVOT_PLAYHEAD, PIVOT_EQUILIBRIUM, PIVOT_SIDE, PIVOTS };
+
+/// Handles of the box: three rows of three, from its upper left corner; the fifth is none.
+enum { BOX_HANDLES = 9, BOX_MIDDLE = 4 };
+
+/// -1: at the left, or at the top; 1: at the right, or at the bottom; 0: between.
+static inline int box_column(int handle) { return handle % 3 - 1; }
+static inline int box_row(int handle) { return handle / 3 - 1; }
+static inline bool box_corner(int handle) { return box_column(handle) && box_row(handle); }
 
 /// Factors of time and value.
 struct factors {
@@ -87,12 +96,14 @@ struct factors {
 /// Scaling of the selected knots (DRAG_SCALE), about a frame and a value.
 struct scaling {
     enum pivot pivot;
+    int handle;                     ///< of the box round the knots, in the hand; -1: begun by S
     double frame, value;            ///< of the pivot; of PIVOT_EQUILIBRIUM, from where the pointer's way is measured
+    double edge[2];                 ///< frame and value of the knots at the handle
     double playhead[2], balance[2]; ///< frame and value: of the playhead's pivot; of the equilibrium in the middle
     struct factors by;
     double free_time;    ///< last factor by which no knot was hit
     char typed[16];      ///< one factor or, with a space between them, two in place of the pointer's
-    char stopped[2][64]; ///< why time, and value, go no further, or ""
+    char stopped[2][80]; ///< why time, and value, go no further, or ""
     char sentence[320];
 };
 

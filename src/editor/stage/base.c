@@ -2,17 +2,20 @@
 ///
 /// A channel whose spline has knots of its own stays as it is: the swing that the base causes is added by a channel of its own,
 /// on a spline with the same poles. By linearity that is the same motion, and no key of the animator's changes its meaning.
+/// A tail that has no channel for a way gets one of these for it too.
 #include "editor/stage/base.h"
 #include "editor/core/core.h"
 #include "model/creature.h"
 #include "scene/order.h"
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 enum { NAME_SIZE = 300 };
 
 static const double RESOLUTION = 1e-3; ///< metres
 static const double LEAST_SHARE = 0.05;
+static const double MAIN_SHARE = 0.5; ///< of a way that bends the tail above all along an axis
 
 /// "tail x", or with a number behind it where that is taken.
 static void free_name(const struct document *document, const char *base, char name[NAME_SIZE])
@@ -118,10 +121,8 @@ static void set_angles(const struct stage *stage, struct core *core, const struc
 }
 
 /// A spline with the poles of another and no knots, driven by the base from rest (or round the loop); its index, or -1.
-static int add_follower(struct core *core, const struct editor_world *world, int model, int base)
+static int add_follower(struct core *core, const struct editor_world *world, int model, const char *name, int base)
 {
-    char name[NAME_SIZE];
-    snprintf(name, sizeof name, "%.280s follow", world->document->splines[model].name);
     int spline = add_spline(core, world, name);
     if (spline < 0) return -1;
     const struct spline copied = world->document->splines[model];
@@ -143,28 +144,65 @@ static int add_follower(struct core *core, const struct editor_world *world, int
     return spline;
 }
 
-/// Adds a channel of the displacement beside one of the total: as it swung by hand.
-static void add_channel(const struct stage *stage, struct core *core, const struct editor_world *world,
-                        const struct channel *model, double scale, int base)
+/// Adds a channel of the displacement that bends about an axis as another does about its own: its spline, or -1.
+static int add_channel(const struct stage *stage, struct core *core, const struct editor_world *world,
+                       const struct channel *model, enum axis axis, const char *name, double scale, int base)
 {
     const struct document *document = world->document;
-    struct edit edit = core_edit_of(EDIT_CHANNEL_ADD, add_follower(core, world, model->spline, base));
+    struct edit edit = core_edit_of(EDIT_CHANNEL_ADD, add_follower(core, world, model->spline, name, base));
     struct angles gain = model->gain;
     const struct angles lag = model->lag;
     edit.rig = document_find_rig(world->document, RIG_TAIL, stage->hold.tail);
-    edit.axis = model->axis;
+    edit.axis = axis;
     edit.of = PART_DISPLACEMENT;
-    if (edit.spline < 0) return;
+    if (edit.spline < 0) return -1;
     for (int i = 0; i < angles_count(&gain); i++)
         angles_set_number(&gain, i, round(angles_number(&gain, i) * scale * 1e4) / 1e4);
-    if (!core_edit(core, world, &edit)) return;
+    if (!core_edit(core, world, &edit)) return -1;
     int added = document_tail(document, stage->hold.tail)->channel_count - 1;
     set_angles(stage, core, world, added, ANGLE_LAG, &lag);
     set_angles(stage, core, world, added, ANGLE_GAIN, &gain);
+    return edit.spline;
 }
 
-void base_hang_channels(const struct stage *stage, struct core *core, const struct editor_world *world,
-                        int coordinate, int base)
+/// The axis about which a tail bends when its base goes along a coordinate, where no channel of its does; else AXES.
+static enum axis missing_axis(const struct tail *tail, int coordinate, double *share)
+{
+    double direction[2][3];
+    swing_direction(tail, AXIS_SIDE, direction[0]);
+    swing_direction(tail, AXIS_UP, direction[1]);
+    const bool up = fabs(direction[1][coordinate]) > fabs(direction[0][coordinate]);
+    const enum axis axis = up ? AXIS_UP : AXIS_SIDE;
+    *share = direction[up][coordinate];
+    for (int c = 0; c < tail->channel_count; c++) {
+        if (tail->channels[c].axis == axis) return AXES;
+    }
+    return fabs(*share) >= MAIN_SHARE ? axis : AXES;
+}
+
+/// Lets a tail that did not swing with a coordinate do so, as it does with another one; the new spline, or -1.
+static int add_missing(const struct stage *stage, struct core *core, const struct editor_world *world, int coordinate,
+                       int base)
+{
+    const struct document *document = world->document;
+    const struct tail *tail = document_tail(document, stage->hold.tail);
+    double share;
+    const enum axis axis = missing_axis(tail, coordinate, &share);
+    char name[NAME_SIZE];
+    if (axis == AXES) return -1;
+    snprintf(name, sizeof name, "%.250s %s",
+             rig_title(&document->rigs[document_find_rig(document, RIG_TAIL, stage->hold.tail)]), axis_word(axis));
+    for (int c = 0; c < tail->channel_count; c++) {
+        const struct channel model = tail->channels[c];
+        const double scale = stage->sway[stage->hold.tail].scale[c];
+        if (axis_bends(model.axis) && stage->hold.hangs[c] && scale != 0)
+            return add_channel(stage, core, world, &model, axis, name, scale * share, base);
+    }
+    return -1;
+}
+
+int base_hang_channels(const struct stage *stage, struct core *core, const struct editor_world *world, int coordinate,
+                       int base)
 {
     int index = stage->hold.tail, count = document_tail(world->document, index)->channel_count;
     for (int c = 0; c < count; c++) {
@@ -176,9 +214,22 @@ void base_hang_channels(const struct stage *stage, struct core *core, const stru
         bool swung = stage->hold.hangs[c] && fabs(direction[coordinate]) > LEAST_SHARE && scale != 0;
         if (!swung) continue;
         if (channel.of == PART_TOTAL) {
-            add_channel(stage, core, world, &channel, scale * direction[coordinate], base);
+            char name[NAME_SIZE];
+            snprintf(name, sizeof name, "%.280s follow", world->document->splines[channel.spline].name);
+            add_channel(stage, core, world, &channel, channel.axis, name, scale * direction[coordinate], base);
         } else if (!param_follows(equilibrium)) {
             follow_base(core, world, channel.spline, base);
         }
     }
+    return add_missing(stage, core, world, coordinate, base);
+}
+
+void base_say_channel(const struct editor_world *world, int spline, char *text, size_t size)
+{
+    if (spline < 0) return;
+    const struct spline *made = &world->document->splines[spline];
+    const int base = made->parameter[PARAMETER_EQUILIBRIUM].track;
+    const size_t length = strlen(text);
+    snprintf(text + length, size - length, " New: %s, by which the tail swings after %s.", made->name,
+             base >= 0 ? world->document->splines[base].name : "it");
 }

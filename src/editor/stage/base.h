@@ -16,8 +16,10 @@ void base_put_knot(struct core *core, const struct editor_world *world, int spli
 /// The coordinate follows the spline from now on.
 void base_follow(const struct stage *stage, struct core *core, const struct editor_world *world, int coordinate,
                  int base);
-/// Lets the channels that swung with a coordinate follow its spline.
-void base_hang_channels(const struct stage *stage, struct core *core, const struct editor_world *world,
-                        int coordinate, int base);
+/// Lets the channels that swung with a coordinate follow its spline. A tail that has none that would gets one: its spline, else -1.
+int base_hang_channels(const struct stage *stage, struct core *core, const struct editor_world *world, int coordinate,
+                       int base);
+/// Adds a sentence on that spline to what is said; nothing for -1.
+void base_say_channel(const struct editor_world *world, int spline, char *text, size_t size);
 
 #endif

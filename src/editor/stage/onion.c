@@ -1,30 +1,22 @@
-/// Onion skin: light proxies of the tail (an outline each) or chain (a line each) at the knots around the playhead; and the
-/// same at the one knot that is being edited, its ghost.
+/// Onion skin: proxies of the tail or chain at the knots around the playhead; and of any rig at the one knot that is being
+/// edited, its ghost.
 #include "editor/core/arrange.h"
 #include "editor/core/core.h"
 #include "editor/core/knots.h"
 #include "editor/core/selection.h"
 #include "editor/stage/overlays.h"
+#include "editor/stage/proxy.h"
 #include "editor/stage/rigs.h"
 #include "editor/stage/stage.h"
 #include "editor/stage/strand.h"
-#include "model/creature.h"
-#include "model/vector.h"
 #include "ui/font.h"
 #include "ui/theme.h"
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 
-enum {
-    MAX_SKINS = 8,
-    STATIONS = 20,                ///< along the tail
-    TIP = 5,                      ///< points round it
-    OUTLINE = 2 * STATIONS + TIP, ///< there, round the tip and back
-};
+enum { MAX_SKINS = 8 };
 
-static const double FROM = 0.16,
-                    TO = 0.985; ///< shares of the length: outside of the body, and where the rounded tip begins
 static const float NEAREST = 0.75f, FARTHEST = 0.22f; ///< opacity of the first and of the last skin
 static const float GHOST = 0.85f;
 static const double FADE = 0.4; ///< seconds in which a nudged knot's ghost goes
@@ -65,75 +57,7 @@ static int nearest_knots(const struct document *document, const struct spline *s
     return count;
 }
 
-/// A point of the centre line at a share of the length, and the pixels that the tail is thick there to each side.
-static bool station(const struct stage *stage, const struct core *core, const struct pose *pose, double share,
-                    float xy[2], float *radius)
-{
-    const struct stage_view *view = &stage->view;
-    double at = share * (pose->count - 1);
-    int joint = at >= pose->count - 1 ? pose->count - 2 : (int)at;
-    const vec3s from = vec3_from(pose->matrix[joint] + 12), to = vec3_from(pose->matrix[joint + 1] + 12);
-    const vec3s point = glms_vec3_lerp(from, to, (float)(at - joint));
-    if (!stage_project_point(stage, core->layout.stage, point.raw, xy)) return false;
-    const float depth = camera_depth(view->view, view->eye, pose->matrix[joint] + 12);
-    float metres =
-        creature_tail_radius((float)share * CREATURE_TAIL_LENGTH) * pose_length(pose) / CREATURE_TAIL_LENGTH;
-    *radius = metres * 0.5f * view->viewport.h * view->projection[5] / fmaxf(depth, 0.1f);
-    return true;
-}
-
-/// The outline of a tail on the screen, open where it grows out of the body; false where a part of it is behind the eye.
-static bool outline(const struct stage *stage, const struct core *core, const struct pose *pose,
-                    float out[OUTLINE][2])
-{
-    float middle[STATIONS][2], radius[STATIONS], across[2] = {0, 0};
-    for (int i = 0; i < STATIONS; i++) {
-        if (!station(stage, core, pose, FROM + (TO - FROM) * i / (STATIONS - 1), middle[i], &radius[i])) return false;
-    }
-    for (int i = 0; i < STATIONS; i++) {
-        const float *from = middle[i > 0 ? i - 1 : 0], *to = middle[i + 1 < STATIONS ? i + 1 : i];
-        float dx = to[0] - from[0], dy = to[1] - from[1], length = hypotf(dx, dy);
-        if (length > 0.01f) across[0] = -dy / length, across[1] = dx / length;
-        for (int k = 0; k < 2; k++) {
-            out[i][k] = middle[i][k] + radius[i] * across[k];
-            out[2 * STATIONS + TIP - 1 - i][k] = middle[i][k] - radius[i] * across[k];
-        }
-    }
-    for (int i = 0; i < TIP; i++) { // half a turn round the tip
-        float angle = 3.14159265f * (float)(i + 1) / (TIP + 1), c = cosf(angle), s = sinf(angle);
-        out[STATIONS + i][0] = middle[STATIONS - 1][0] + radius[STATIONS - 1] * (c * across[0] + s * across[1]);
-        out[STATIONS + i][1] = middle[STATIONS - 1][1] + radius[STATIONS - 1] * (c * across[1] - s * across[0]);
-    }
-    return true;
-}
-
-/// The outline of a tail, the line of a chain's bones; how many points, 0 where a part is behind the eye.
-static int lay_out(const struct stage *stage, const struct core *core, const struct rig_pose *pose, float points[][2])
-{
-    if (pose->kind == RIG_TAIL) return outline(stage, core, &pose->tail, points) ? OUTLINE : 0;
-    for (int n = 0; n < pose->chain.count; n++) {
-        if (!stage_project_point(stage, core->layout.stage, pose->chain.point[n], points[n])) return 0;
-    }
-    return pose->chain.count;
-}
-
-/// Draws the rig as it is on a sample; where the end of its tip is on the screen. false where it cannot be seen.
-static bool show_skin(const struct stage *stage, struct core *core, const struct posing *posing, int rig, int sample,
-                      float width, uint32_t color, float tip[2])
-{
-    struct rig_pose pose;
-    float points[OUTLINE + ANGLES_MAX_JOINTS][2];
-    if (!rig_pose(posing, rig, sample, NULL, &pose)) return false;
-    const int length = lay_out(stage, core, &pose, points);
-    if (length == 0) return false;
-    drawlist_line(&core->list, points[0], length, width, color);
-    const float *end = points[pose.kind == RIG_TAIL ? STATIONS + TIP / 2 : length - 1];
-    tip[0] = end[0];
-    tip[1] = end[1];
-    return true;
-}
-
-void onion_show(const struct stage *stage, struct core *core, const struct editor_world *world)
+void onion_show(struct stage *stage, struct core *core, const struct editor_world *world)
 {
     const struct document *document = world->document;
     const struct spline *spline = keyed_spline(core, world);
@@ -144,8 +68,8 @@ void onion_show(const struct stage *stage, struct core *core, const struct edito
     const struct posing posing = stage_posing(core, world);
     for (int i = count - 1; i >= 0; i--) {
         float share = count > 1 ? (float)i / (float)(count - 1) : 0, tip[2];
-        show_skin(stage, core, &posing, rig, samples[i], 1.25f,
-                  theme_fade(color, NEAREST + (FARTHEST - NEAREST) * share), tip);
+        proxy_show(stage, core, &posing, rig, samples[i], 1.25f,
+                   theme_fade(color, NEAREST + (FARTHEST - NEAREST) * share), tip);
     }
 }
 
@@ -161,19 +85,32 @@ static const struct knot *edited_knot(const struct core *core, const struct edit
     return at >= 0 ? &spline->knots[at] : NULL;
 }
 
-void ghost_show(const struct stage *stage, struct core *core, const struct editor_world *world)
+/// The character that the active spline moves, else what the other overlays are about; -1: nothing.
+static int ghost_rig(const struct stage *stage, const struct core *core, const struct document *document)
+{
+    int r = document_next_rig(document, RIG_CHARACTER, 0);
+    for (; r >= 0; r = document_next_rig(document, RIG_CHARACTER, r + 1)) {
+        const struct rig *rig = &document->rigs[r];
+        for (int i = 0; i < rig_input_count(rig); i++) {
+            if (rig_input(rig, i) == core->active) return r;
+        }
+    }
+    return overlay_rig(stage, core, document);
+}
+
+void ghost_show(struct stage *stage, struct core *core, const struct editor_world *world)
 {
     const struct document *document = world->document;
     const struct knot *knot = core->overlays.ghost ? edited_knot(core, world) : NULL;
-    const int rig = overlay_rig(stage, core, document);
-    if (!knot || rig < 0) return;
+    const int rig = knot ? ghost_rig(stage, core, document) : -1;
+    if (rig < 0) return;
     const int sample = document_sample(document, knot->frame);
     if (fabs(sample - core->playback.position) < 0.5) return;
     const struct posing posing = stage_posing(core, world);
     const double left = core->drag.kind == DRAG_NONE ? fmin(core->nudged_seconds / FADE, 1) : 1;
     const uint32_t color = theme_fade(arrange_color(document, core->active), GHOST * (float)left);
     float tip[2];
-    if (!show_skin(stage, core, &posing, rig, sample, 1.5f, color, tip)) return;
+    if (!proxy_show(stage, core, &posing, rig, sample, 1.5f, color, tip)) return;
     char text[32];
     snprintf(text, sizeof text, "%.4g", knot->frame);
     drawlist_text(&core->list, roundf(tip[0] + 8), roundf(tip[1] + 4), FONT_NUMBER, THEME_TEXT_SMALL,

@@ -28,15 +28,16 @@ static void say_name(struct report *report, bool is_first, const char *name)
     say(report, name);
 }
 
-/// A knot at the playhead. A coordinate that was a number gets a spline, which begins where the body was.
-static void key_coordinate(const struct stage *stage, struct core *core, const struct editor_world *world,
-                           int coordinate, double by)
+/// A knot at the playhead. A coordinate that was a number gets a spline, which begins where the body was. The spline by which the
+/// tail swings with that from now on where it did not, else -1.
+static int key_coordinate(const struct stage *stage, struct core *core, const struct editor_world *world,
+                          int coordinate, double by)
 {
     const struct document *document = world->document;
     const int tail = stage->hold.tail;
     const bool is_new = document_tail(document, tail)->position[coordinate].track < 0;
     const int spline = base_spline(stage, core, world, coordinate);
-    if (spline < 0) return;
+    if (spline < 0) return -1;
     int sample = document_sample(document, round(core_frame(core, document)));
     const int last = document_last_knot_sample(document, &document->splines[spline]);
     sample = sample > last ? last : sample < 0 ? 0 : sample;
@@ -46,13 +47,14 @@ static void key_coordinate(const struct stage *stage, struct core *core, const s
         edit.knot.value = core_round(before + by, RESOLUTION);
         core_edit(core, world, &edit);
         core_tell(core, world, NEWS_EDITED, spline);
-        return;
+        return -1;
     }
     if (sample > 1) base_put_knot(core, world, spline, 0, before, true);
     base_put_knot(core, world, spline, sample, before + by, true);
     base_follow(stage, core, world, coordinate, spline);
-    base_hang_channels(stage, core, world, coordinate, spline);
+    const int swings = base_hang_channels(stage, core, world, coordinate, spline);
     core_tell(core, world, NEWS_EDITED, spline);
+    return swings;
 }
 
 static void key_body(struct stage *stage, struct core *core, const struct editor_world *world, const double offset[3])
@@ -60,11 +62,13 @@ static void key_body(struct stage *stage, struct core *core, const struct editor
     struct report report = {.text = ""};
     char frame[64];
     bool is_first = true;
+    int swings = -1;
     base_begin(stage, world);
     say(&report, "Keyed ");
     for (int k = 0; k < 3; k++) {
         if (offset[k] == 0) continue;
-        key_coordinate(stage, core, world, k, offset[k]);
+        const int made = key_coordinate(stage, core, world, k, offset[k]);
+        if (made >= 0) swings = made;
         const int track = document_tail(world->document, stage->hold.tail)->position[k].track;
         if (track < 0) continue;
         say_name(&report, is_first, world->document->splines[track].name);
@@ -72,6 +76,7 @@ static void key_body(struct stage *stage, struct core *core, const struct editor
     }
     snprintf(frame, sizeof frame, " at frame %.0f.", round(core_frame(core, world->document)));
     say(&report, frame);
+    base_say_channel(world, swings, report.text, sizeof report.text);
     if (!is_first) core_message(core, false, report.text);
 }
 

@@ -31,10 +31,11 @@ static void clear_knots(struct core *core, const struct editor_world *world, int
     }
 }
 
-/// Keys a coordinate's motion; returns how many knots that took. Before and after it the body stands still, unless the scene is a
+/// Keys a coordinate's motion; returns how many knots that took. `swings` is the spline by which the tail swings with that from now
+/// on, where it did not. Before and after it the body stands still, unless the scene is a
 /// loop, in which it comes back by itself.
 static int key_coordinate(const struct stage *stage, struct core *core, const struct editor_world *world,
-                          int coordinate)
+                          int coordinate, int *swings)
 {
     const struct record *record = &stage->record;
     const struct document *document = world->document;
@@ -59,7 +60,8 @@ static int key_coordinate(const struct stage *stage, struct core *core, const st
         if (record->first + count < last) base_put_knot(core, world, spline, last, way[count - 1], true);
     }
     if (is_new) base_follow(stage, core, world, coordinate, spline);
-    base_hang_channels(stage, core, world, coordinate, spline);
+    const int hung = base_hang_channels(stage, core, world, coordinate, spline);
+    if (hung >= 0) *swings = hung;
     core_tell(core, world, NEWS_EDITED, spline);
     return made;
 }
@@ -67,13 +69,14 @@ static int key_coordinate(const struct stage *stage, struct core *core, const st
 void record_keep(struct stage *stage, struct core *core, const struct editor_world *world)
 {
     struct record *record = &stage->record;
-    char text[64];
-    int made = 0;
+    char text[768];
+    int made = 0, swings = -1;
     base_begin(stage, world);
     for (int k = 0; k < 3; k++) {
-        if (largest(record->way[k], record->count) >= STILL) made += key_coordinate(stage, core, world, k);
+        if (largest(record->way[k], record->count) >= STILL) made += key_coordinate(stage, core, world, k, &swings);
     }
     snprintf(text, sizeof text, made == 0 ? "Nothing moved: nothing is recorded." : "%d knots recorded.", made);
+    base_say_channel(world, swings, text, sizeof text);
     core_message(core, false, text);
     record_forget(stage);
 }

@@ -143,7 +143,8 @@ void stage_drag_move(struct stage *stage, struct core *core)
 enum drag_answer stage_drag_event(struct stage *stage, struct core *core, const struct editor_world *world,
                                   const struct event *event)
 {
-    bool key = event->kind == EVENT_KEY && event->action == ACTION_PRESS && !(event->mods & (MOD_CTRL | MOD_ALT));
+    // Ctrl may still be down, which lifts bodies and takes joints.
+    bool key = event->kind == EVENT_KEY && event->action == ACTION_PRESS && !(event->mods & MOD_ALT);
     if (core->drag.kind == DRAG_PIN && key) return pins_lock(stage, event->key) ? DRAG_USED : DRAG_PASSES;
     if (core->drag.kind != DRAG_BODY || !key) return DRAG_PASSES;
     if (event->key == 'R') {

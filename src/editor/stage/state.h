@@ -3,6 +3,7 @@
 #define EDITOR_STAGE_STATE_H
 
 #include "editor/core/state.h"
+#include "editor/stage/silhouette.h"
 #include "model/reach.h"
 #include "rig/camera.h"
 #include "rig/swing.h"
@@ -192,6 +193,7 @@ struct stage {
     struct sway sway[STAGE_MAX_TAILS];
     struct trail_point trail[TRAILS][TRAIL_FRAMES];
     struct skin skin;
+    struct silhouette silhouette; ///< of what is drawn as an outline just now
     struct pointed pointed;
     struct shown_pin pins[STAGE_MAX_PINS];
     int pin_count;

@@ -75,6 +75,9 @@ static const char *hover_hint(const struct core *core, const struct document *do
         return "Present: large type, keys as they are pressed, panels that slide away (F5); Esc leaves";
     case HOVER_LIMIT:
         return "Drag the limit; the curve stays on this side of it";
+    case HOVER_BOX:
+        return "Drag to scale the selected knots about the other side; with Alt about the equilibrium (P while you "
+               "drag)";
     case HOVER_POINT:
         return "Drag to pin this point at the playhead (X, Y or Z locks an axis, Shift: fine); H pins it where it is";
     case HOVER_PIN:

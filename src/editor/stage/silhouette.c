@@ -1,0 +1,188 @@
+/// Outlines by marching squares: between a node inside and one outside, the edge is where the field passes 0.
+#include "editor/stage/silhouette.h"
+#include <math.h>
+#include <string.h>
+
+static const float FINEST = 2; ///< pixels from node to node
+static const float OUTSIDE = -2;  ///< cells; what is farther away makes no difference
+
+void silhouette_clear(struct silhouette *silhouette, struct rect area)
+{
+    const float across = fmaxf(area.w, area.h) / (SILHOUETTE_SIDE - 3);
+    silhouette->cell = fmaxf(FINEST, across);
+    silhouette->area = rect_inset(area, -silhouette->cell);
+    silhouette->columns = (int)(silhouette->area.w / silhouette->cell) + 1;
+    silhouette->rows = (int)(silhouette->area.h / silhouette->cell) + 1;
+    for (int row = 0; row < silhouette->rows; row++) {
+        for (int column = 0; column < silhouette->columns; column++)
+            silhouette->inside[row][column] = OUTSIDE * silhouette->cell;
+        memset(silhouette->followed[row], 0, sizeof silhouette->followed[row]);
+    }
+}
+
+/// The nodes between two places of an axis, all but the outermost, which stay outside so that every outline closes.
+static void nodes_between(double from, double to, float cell, int count, int range[2])
+{
+    range[0] = (int)fmax(ceil(from / (double)cell), 1);
+    range[1] = (int)fmin(floor(to / (double)cell), count - 2);
+}
+
+static void find_nodes(const struct silhouette *silhouette, const float low[2], const float high[2], int columns[2],
+                       int rows[2])
+{
+    const struct rect *area = &silhouette->area;
+    nodes_between(low[0] - area->x, high[0] - area->x, silhouette->cell, silhouette->columns, columns);
+    nodes_between(low[1] - area->y, high[1] - area->y, silhouette->cell, silhouette->rows, rows);
+}
+
+static float node_x(const struct silhouette *silhouette, int column)
+{
+    return silhouette->area.x + silhouette->cell * (float)column;
+}
+
+static float node_y(const struct silhouette *silhouette, int row)
+{
+    return silhouette->area.y + silhouette->cell * (float)row;
+}
+
+/// How far inside of the link a point is.
+static float depth_in_link(const float p[2], const float a[2], float a_radius, const float b[2], float b_radius)
+{
+    const float dx = b[0] - a[0], dy = b[1] - a[1], square = dx * dx + dy * dy;
+    const float along = square > 0 ? ((p[0] - a[0]) * dx + (p[1] - a[1]) * dy) / square : 0;
+    const float t = fminf(fmaxf(along, 0), 1);
+    const float between = a_radius + t * (b_radius - a_radius) - hypotf(p[0] - a[0] - t * dx, p[1] - a[1] - t * dy);
+    const float ends =
+        fmaxf(a_radius - hypotf(p[0] - a[0], p[1] - a[1]), b_radius - hypotf(p[0] - b[0], p[1] - b[1]));
+    return fmaxf(between, ends);
+}
+
+void silhouette_add_link(struct silhouette *silhouette, const float from[2], float from_radius, const float to[2],
+                         float to_radius)
+{
+    const float reach = fmaxf(from_radius, to_radius) - OUTSIDE * silhouette->cell;
+    const float low[2] = {fminf(from[0], to[0]) - reach, fminf(from[1], to[1]) - reach};
+    const float high[2] = {fmaxf(from[0], to[0]) + reach, fmaxf(from[1], to[1]) + reach};
+    int columns[2], rows[2];
+    find_nodes(silhouette, low, high, columns, rows);
+    for (int row = rows[0]; row <= rows[1]; row++) {
+        for (int column = columns[0]; column <= columns[1]; column++) {
+            const float p[2] = {node_x(silhouette, column), node_y(silhouette, row)};
+            float *inside = &silhouette->inside[row][column];
+            *inside = fmaxf(*inside, depth_in_link(p, from, from_radius, to, to_radius));
+        }
+    }
+}
+
+/// Twice the area of a triangle, positive where its corners go round clockwise on the screen.
+static float turn(const float a[2], const float b[2], const float c[2])
+{
+    return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+}
+
+void silhouette_add_triangle(struct silhouette *silhouette, const float corner[3][2])
+{
+    float low[2], high[2];
+    int columns[2], rows[2];
+    for (int k = 0; k < 2; k++) {
+        low[k] = fminf(corner[0][k], fminf(corner[1][k], corner[2][k]));
+        high[k] = fmaxf(corner[0][k], fmaxf(corner[1][k], corner[2][k]));
+    }
+    find_nodes(silhouette, low, high, columns, rows);
+    const float sign = turn(corner[0], corner[1], corner[2]) < 0 ? -1 : 1;
+    for (int row = rows[0]; row <= rows[1]; row++) {
+        for (int column = columns[0]; column <= columns[1]; column++) {
+            const float p[2] = {node_x(silhouette, column), node_y(silhouette, row)};
+            const bool covers = sign * turn(corner[0], corner[1], p) >= 0 &&
+                                sign * turn(corner[1], corner[2], p) >= 0 &&
+                                sign * turn(corner[2], corner[0], p) >= 0;
+            if (covers) silhouette->inside[row][column] = -OUTSIDE * silhouette->cell;
+        }
+    }
+}
+
+void silhouette_soften(struct silhouette *silhouette)
+{
+    for (int row = 1; row + 1 < silhouette->rows; row++) {
+        for (int column = 1; column + 1 < silhouette->columns; column++) {
+            float sum = 0;
+            for (int k = -1; k <= 1; k++) {
+                const float *there = &silhouette->inside[row + k][column];
+                sum += there[-1] + there[0] + there[1];
+            }
+            silhouette->blurred[row][column] = sum / 9;
+        }
+    }
+    for (int row = 1; row + 1 < silhouette->rows; row++)
+        memcpy(&silhouette->inside[row][1], &silhouette->blurred[row][1],
+               (size_t)(silhouette->columns - 2) * sizeof silhouette->inside[row][1]);
+}
+
+enum side { SIDE_TOP, SIDE_RIGHT, SIDE_BOTTOM, SIDE_LEFT };
+
+static bool is_inside(const struct silhouette *silhouette, int row, int column)
+{
+    return silhouette->inside[row][column] >= 0;
+}
+
+/// Whether the outline crosses a side of the cell whose upper left node that is.
+static bool crosses(const struct silhouette *silhouette, int row, int column, enum side side)
+{
+    const int rows[2] = {row + (side == SIDE_BOTTOM), row + (side != SIDE_TOP)};
+    const int columns[2] = {column + (side == SIDE_RIGHT), column + (side != SIDE_LEFT)};
+    return is_inside(silhouette, rows[0], columns[0]) != is_inside(silhouette, rows[1], columns[1]);
+}
+
+/// Where it does.
+static void crossing(const struct silhouette *silhouette, int row, int column, enum side side, float xy[2])
+{
+    const int rows[2] = {row + (side == SIDE_BOTTOM), row + (side != SIDE_TOP)};
+    const int columns[2] = {column + (side == SIDE_RIGHT), column + (side != SIDE_LEFT)};
+    const float a = silhouette->inside[rows[0]][columns[0]], b = silhouette->inside[rows[1]][columns[1]];
+    const float t = a / (a - b);
+    xy[0] = node_x(silhouette, columns[0]) + t * silhouette->cell * (float)(columns[1] - columns[0]);
+    xy[1] = node_y(silhouette, rows[0]) + t * silhouette->cell * (float)(rows[1] - rows[0]);
+}
+
+/// The side by which the outline that came in by one leaves; where all four are crossed, it turns around the corner at the left hand.
+static enum side leave(const struct silhouette *silhouette, int row, int column, enum side in)
+{
+    static const enum side order[] = {1, 3, 2};
+    for (int i = 0; i < 3; i++) {
+        const enum side out = (in + order[i]) % 4;
+        if (crosses(silhouette, row, column, out)) return out;
+    }
+    return in;
+}
+
+/// Follows the outline that crosses the upper side of a cell downwards, until it is back.
+static int follow_from(struct silhouette *silhouette, int row, int column)
+{
+    static const int down[4] = {-1, 0, 1, 0}, right[4] = {0, 1, 0, -1};
+    const int first_row = row, first_column = column;
+    enum side in = SIDE_TOP;
+    int count = 0;
+    do {
+        if (in == SIDE_TOP) silhouette->followed[row][column] = true;
+        if (in == SIDE_BOTTOM) silhouette->followed[row + 1][column] = true;
+        if (count < SILHOUETTE_POINTS - 1) crossing(silhouette, row, column, in, silhouette->points[count++]);
+        const enum side out = leave(silhouette, row, column, in);
+        if (out == in) break;
+        row += down[out];
+        column += right[out];
+        in = (out + 2) % 4;
+    } while (row != first_row || column != first_column || in != SIDE_TOP);
+    memcpy(silhouette->points[count], silhouette->points[0], sizeof silhouette->points[0]);
+    return count + 1;
+}
+
+int silhouette_follow(struct silhouette *silhouette)
+{
+    for (int row = 1; row + 1 < silhouette->rows; row++) {
+        for (int column = 0; column + 1 < silhouette->columns; column++) {
+            if (silhouette->followed[row][column] || !crosses(silhouette, row, column, SIDE_TOP)) continue;
+            return follow_from(silhouette, row, column);
+        }
+    }
+    return 0;
+}
