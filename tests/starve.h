@@ -7,6 +7,7 @@
 
 #include "near.h"
 
+#include <errno.h>
 #include <stdatomic.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -33,7 +34,9 @@ void *__libc_memalign(size_t alignment, size_t size);
 static int starves(void)
 {
     const long n = atomic_fetch_add(&allocations, 1);
-    return starve_at >= 0 && (starve_on ? n >= starve_at : n == starve_at);
+    const int fails = starve_at >= 0 && (starve_on ? n >= starve_at : n == starve_at);
+    if (fails) errno = ENOMEM; // which libraries look at
+    return fails;
 }
 
 void *malloc(size_t size) { return starves() ? NULL : __libc_malloc(size); }

@@ -109,52 +109,54 @@ static void copy(struct session *session)
 
 /// The scene with exactly that edit is on its way to the disk within two seconds of frames, also where a copy has just been taken. The thread
 /// must not be waited for: what it takes of the two seconds is a matter of the machine (docs/reliability.md).
-static void an_edit_is_kept(void **state)
+static void assert_edit_is_kept(struct session *session)
 {
-    (void)state;
-    struct session session;
-    open_session(&session);
-    for (int i = 0; i < 3; i++) frame(&session, 0, 0);
-    frame(&session, 'I', 0);
-    copy(&session);
-    wait_for_file(&session);
-    assert_int_equal(unlink(autosave_path(session.autosave)), 0);
-    frame(&session, KEY_RIGHT, 0);
-    const long edited = session.frame;
-    frame(&session, 'I', 0);
-    assert_int_equal(document_of(&session)->splines[0].knot_count, KNOTS + 2);
-    char *expected = text_of(&session);
-    copy(&session);
-    assert_true(session.frame - edited < 2 * RATE);
-    wait_for_file(&session);
-    assert_kept(autosave_path(session.autosave), expected);
+    for (int i = 0; i < 3; i++) frame(session, 0, 0);
+    frame(session, 'I', 0);
+    copy(session);
+    wait_for_file(session);
+    assert_int_equal(unlink(autosave_path(session->autosave)), 0);
+    frame(session, KEY_RIGHT, 0);
+    const long edited = session->frame;
+    frame(session, 'I', 0);
+    assert_int_equal(document_of(session)->splines[0].knot_count, KNOTS + 2);
+    char *expected = text_of(session);
+    copy(session);
+    assert_true(session->frame - edited < 2 * RATE);
+    wait_for_file(session);
+    assert_kept(autosave_path(session->autosave), expected);
     free(expected);
-    autosave_close(session.autosave, false);
-    blind_close(&session.blind);
 }
 
 /// Edits in the middle of a copy are not in it, not even in part; they are in the next.
-static void edits_meanwhile(void **state)
+static void assert_of_one_moment(struct session *session)
+{
+    assert_int_equal(unlink(autosave_path(session->autosave)), 0);
+    for (int i = 1; i < SPLINES; i++) frame(session, KEY_PAGE_DOWN, 0); // whose turn comes last
+    frame(session, 'I', 0);
+    while (!document_of(session)->snapshot) frame(session, 0, 0);
+    assert_int_equal(document_of(session)->splines[SPLINES - 1].knot_count, KNOTS + 1);
+    char *before = text_of(session);
+    while (frame(session, KEY_UP, MOD_ALT)) continue;
+    char *after = text_of(session);
+    assert_string_not_equal(before, after);
+    wait_for_file(session);
+    assert_kept(autosave_path(session->autosave), before);
+    assert_int_equal(unlink(autosave_path(session->autosave)), 0);
+    copy(session);
+    wait_for_file(session);
+    assert_kept(autosave_path(session->autosave), after);
+    free(before);
+    free(after);
+}
+
+static void edits(void **state)
 {
     (void)state;
     struct session session;
     open_session(&session);
-    for (int i = 1; i < SPLINES; i++) frame(&session, KEY_PAGE_DOWN, 0); // whose turn comes last
-    frame(&session, 'I', 0);
-    while (!document_of(&session)->snapshot) frame(&session, 0, 0);
-    assert_int_equal(document_of(&session)->splines[SPLINES - 1].knot_count, KNOTS + 1);
-    char *before = text_of(&session);
-    while (frame(&session, KEY_UP, MOD_ALT)) continue;
-    char *after = text_of(&session);
-    assert_string_not_equal(before, after);
-    wait_for_file(&session);
-    assert_kept(autosave_path(session.autosave), before);
-    assert_int_equal(unlink(autosave_path(session.autosave)), 0);
-    copy(&session);
-    wait_for_file(&session);
-    assert_kept(autosave_path(session.autosave), after);
-    free(before);
-    free(after);
+    assert_edit_is_kept(&session);
+    assert_of_one_moment(&session);
     autosave_close(session.autosave, false);
     blind_close(&session.blind);
 }
@@ -193,8 +195,7 @@ static void a_kill(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(an_edit_is_kept, folder_make, folder_remove),
-        cmocka_unit_test_setup_teardown(edits_meanwhile, folder_make, folder_remove),
+        cmocka_unit_test_setup_teardown(edits, folder_make, folder_remove),
         cmocka_unit_test_setup_teardown(a_kill, folder_make, folder_remove),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

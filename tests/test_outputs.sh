@@ -27,7 +27,7 @@ ok "what a living one writes stays, and files of others" $?
 
 escape=$(printf '\033')
 name="$scratch/${escape}[31mred"$'\n'"two.json"
-raw() { case $err in *"$escape"*) true ;; *) false ;; esac }
+raw() { case ${1-$err} in *"$escape"*) true ;; *) false ;; esac }
 expect 1 "a name with control characters" "$WIGGLY" check "$name"
 says "is shown escaped" '\x1b[31mred\ntwo.json' "$out$err"
 expect 2 "an unknown command" "$WIGGLY" "${escape}check"
@@ -39,4 +39,17 @@ ok "is shown escaped" $?
 expect 2 "a value that is none" "$WIGGLY" live --frames "${escape}c"
 ! raw
 ok "is shown escaped" $?
+name="$scratch/${escape}[31mred"
+cp assets/scenes/tail.json "$name.json"
+cp assets/models/dog.glb "$name.glb"
+expect 0 "writing to such a name" "$WIGGLY" export "$name.json" --frames 0:2 -o "$name.bvh"
+says "is told escaped" '\x1b[31mred.bvh' "$out$err"
+! raw "$out$err"
+ok "and nothing of it raw" $?
+expect 0 "rigging one" "$WIGGLY" rig "$name.glb" --chain tail_1:tail_8 -o "$name.rigged.json"
+! raw "$out$err"
+ok "is told escaped" $?
+expect 0 "what such a file holds" "$WIGGLY" check "$name.glb"
+! raw "$out$err"
+ok "is told escaped" $?
 exit $((cases_failed > 0))

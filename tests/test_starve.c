@@ -1,6 +1,7 @@
 /// Each allocation fails once: no signal, and no success that is none.
 #include "starve.h"
 
+#include "app/autosave.h"
 #include "app/state.h"
 #include "base/file.h"
 #include "base/lapack.h"
@@ -10,6 +11,7 @@
 #include "platform/surface.h"
 #include "scene/load.h"
 #include "ui/font.h"
+#include <time.h>
 
 /// The fonts as the app reads and rasterises them.
 static int read_fonts(void *user)
@@ -224,6 +226,46 @@ static void a_session(void **state)
     starve("a session", session, path, 400);
 }
 
+/// Unsaved work, where memory is short once: it is told, and a later try keeps the work.
+static int keep_work(void *user)
+{
+    struct error error = {0};
+    struct recovery_slot slot = {.lock = -1};
+    const char *path = user;
+    const long at = starve_at;
+    starve_at = -1;
+    unlink(path);
+    snprintf(slot.path, sizeof slot.path, "%s", path);
+    struct document *document = scene_load("assets/scenes/hands.json", NULL, &error);
+    const struct autosave_work work = {.document = document, .path = "/mine.json", .revision = 7};
+    char *text = NULL, *data = NULL;
+    size_t capacity = 0, size = 0;
+    if (!document || !scene_print_into(document, RECOVERY_FOLDER, &text, &capacity, &size)) return 9;
+    atomic_store(&allocations, 0);
+    starve_at = at;
+    struct autosave *autosave = autosave_open(&slot, &error);
+    if (!autosave) return strstr(error.text, "autosave is off") ? 3 : 4;
+    bool told = false;
+    for (int i = 0; i < 2000 && access(path, F_OK) != 0; i++) {
+        if (i == 20) starve_at = -1; // there is memory again
+        told |= !autosave_update(autosave, &work, i, &error);
+        nanosleep(&(struct timespec){.tv_nsec = 2000000}, NULL);
+    }
+    starve_at = -1;
+    autosave_close(autosave, true);
+    if (told && !strstr(error.text, "emory")) return 5;
+    if (!file_read(path, 1 << 24, &data, &size, &error)) return 6;
+    return strcmp(strchr(data, '\n') + 1, text) == 0 ? told ? 3 : 0 : 7;
+}
+
+static void unsaved_work(void **state)
+{
+    (void)state;
+    char path[128];
+    snprintf(path, sizeof path, "%s", folder_path("recovery-1"));
+    starve("unsaved work", keep_work, path, 300);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -235,6 +277,7 @@ int main(void)
         cmocka_unit_test(rig),
         cmocka_unit_test(simulate_and_analyze),
         cmocka_unit_test(a_session),
+        cmocka_unit_test(unsaved_work),
     };
     if (!CAN_STARVE) {
         puts("skip - what allocates here cannot be interposed");

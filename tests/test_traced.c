@@ -3,7 +3,7 @@
 #include "folder.h"
 #include "traced.h"
 
-#include "app/recovery.h"
+#include "app/autosave.h"
 #include "base/file.h"
 #include "commands/commands.h"
 #include "scene/load.h"
@@ -160,6 +160,46 @@ static void unsaved_work(void **state)
     torment("unsaved work", &job);
 }
 
+/// The same by autosave, whose thread writes it: whoever waits for that is told.
+static int autosave(void *user)
+{
+    struct job *job = user;
+    struct error error = {0};
+    const struct autosave_work unsaved = {.document = job->document, .path = "/walk.json", .revision = 7};
+    struct autosave *autosave = autosave_open(&job->slot, &error);
+    if (!autosave) return 9;
+    const bool good = autosave_flush(autosave, &unsaved, &error);
+    autosave_close(autosave, true);
+    return good ? 0 : error.text[0] ? 3 : 9;
+}
+
+static int autosaved_version(void)
+{
+    struct error error = {0};
+    struct recovery_slot slot = {.lock = -1};
+    snprintf(slot.path, sizeof slot.path, "%s", work("recovery-1"));
+    struct document *document = recovery_read(&slot, &error);
+    if (!document) fail_msg("%s", error.text);
+    const int version = (int)document->fps;
+    document_destroy(document);
+    return version;
+}
+
+static void unsaved_work_in_a_thread(void **state)
+{
+    (void)state;
+    struct job job = {autosave, autosaved_version, painted_scene(), {.lock = -1}};
+    snprintf(job.slot.path, sizeof job.slot.path, "%s", work("recovery-1"));
+    command("rm -rf %s/old/*");
+    job.document->fps = OLD;
+    command("rm -rf %s/work && mkdir %s/work");
+    assert_int_equal(autosave(&job), 0);
+    command("cp %s/work/recovery-1 %s/old");
+    job.document->fps = NEW;
+    torment("unsaved work in a thread", &job);
+    document_destroy(job.document);
+}
+
 static int export_it(void *user)
 {
     static char export_[] = "export", tail[] = "assets/scenes/tail.json", frames[] = "--frames=0:3", to[] = "-o";
@@ -205,6 +245,7 @@ int main(void)
 #else
         cmocka_unit_test(a_save_with_paint),
         cmocka_unit_test(unsaved_work),
+        cmocka_unit_test(unsaved_work_in_a_thread),
         cmocka_unit_test(an_export),
 #endif
     };

@@ -48,11 +48,10 @@ static inline bool can_fail(unsigned long long call)
     return changes_files(call) && call != SYS_close && call != SYS_unlink && call != SYS_unlinkat;
 }
 
-/// Returns the child's exit status, or -1 where it was killed; `*count` (may be NULL): the calls that count.
+/// Its threads' calls count too. Returns the child's exit status, or -1 where it was killed; `*count` (may be NULL): the calls that count.
 static inline int trace(traced *run, void *user, struct trouble trouble, int *count)
 {
     int status, n = 0;
-    bool inside = false, hit = false;
     const pid_t child = fork();
     if (child == 0) {
         ptrace(PTRACE_TRACEME, 0, NULL, NULL);
@@ -60,36 +59,39 @@ static inline int trace(traced *run, void *user, struct trouble trouble, int *co
         _exit(run(user));
     }
     assert_int_equal(waitpid(child, &status, 0), child);
-    ptrace(PTRACE_SETOPTIONS, child, NULL, (void *)(PTRACE_O_TRACESYSGOOD | PTRACE_O_EXITKILL));
+    ptrace(PTRACE_SETOPTIONS, child, NULL, (void *)(PTRACE_O_TRACESYSGOOD | PTRACE_O_TRACECLONE | PTRACE_O_EXITKILL));
+    pid_t hit = 0, stopped = child; // the thread whose call is the one, and the one that waits for us
     for (int passed = 0;;) {
-        assert_int_equal(ptrace(PTRACE_SYSCALL, child, NULL, passed), 0);
-        assert_int_equal(waitpid(child, &status, 0), child);
+        if (stopped) assert_int_equal(ptrace(PTRACE_SYSCALL, stopped, NULL, passed), 0);
+        stopped = waitpid(-1, &status, __WALL);
         passed = 0;
-        if (WIFEXITED(status)) break;
+        if (WIFEXITED(status) && stopped == child) break;
         if (WIFSIGNALED(status)) fail_msg("signal %d at call %d", WTERMSIG(status), trouble.n);
+        if (WIFEXITED(status)) {
+            stopped = 0;
+            continue;
+        }
         if (WSTOPSIG(status) != (SIGTRAP | 0x80)) {
-            passed = WSTOPSIG(status);
+            const bool is_begun = status >> 16 != 0 || (stopped != child && WSTOPSIG(status) == SIGSTOP);
+            passed = is_begun ? 0 : WSTOPSIG(status); // a thread begins with stops of ours
             continue;
         }
         struct user_regs_struct registers;
-        ptrace(PTRACE_GETREGS, child, NULL, &registers);
-        inside = !inside;
-        if (inside) {
-            const bool counts = trouble.error ? can_fail(registers.orig_rax) : changes_files(registers.orig_rax);
-            hit = counts && n == trouble.n;
-            n += counts;
-            if (hit && trouble.error) {
-                registers.orig_rax = (unsigned long long)-1;
-                ptrace(PTRACE_SETREGS, child, NULL, &registers);
-            }
-        } else if (hit && trouble.error) {
+        ptrace(PTRACE_GETREGS, stopped, NULL, &registers);
+        if (hit == stopped && trouble.error) {
             registers.rax = (unsigned long long)-trouble.error;
-            ptrace(PTRACE_SETREGS, child, NULL, &registers);
-            hit = false;
-        } else if (hit) {
+            ptrace(PTRACE_SETREGS, stopped, NULL, &registers);
+            hit = 0;
+        } else if (hit == stopped) {
             kill(child, SIGKILL);
-            waitpid(child, &status, 0);
+            while (waitpid(-1, &status, __WALL) > 0) continue;
             return -1;
+        } else if (registers.rax == (unsigned long long)-ENOSYS) { // at the call's start
+            const bool counts = trouble.error ? can_fail(registers.orig_rax) : changes_files(registers.orig_rax);
+            if (counts && n++ == trouble.n) hit = stopped;
+            if (hit != stopped || !trouble.error) continue;
+            registers.orig_rax = (unsigned long long)-1;
+            ptrace(PTRACE_SETREGS, stopped, NULL, &registers);
         }
     }
     if (count) *count = n;

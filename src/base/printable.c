@@ -1,6 +1,6 @@
 /// Escapes what a terminal would obey.
 #include "base/printable.h"
-#include <stdio.h>
+#include <stdarg.h>
 #include <string.h>
 
 static int utf8_length(const unsigned char *s)
@@ -47,4 +47,15 @@ void printable(const char *text, char *shown, size_t size)
         s += taken;
     }
     shown[used] = '\0';
+}
+
+void print_line(FILE *stream, const char *format, ...)
+{
+    char text[8192], shown[8192];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(text, sizeof text, format, arguments);
+    va_end(arguments);
+    printable(text, shown, sizeof shown);
+    fprintf(stream, "%s\n", shown);
 }

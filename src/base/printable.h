@@ -3,9 +3,13 @@
 #define BASE_PRINTABLE_H
 
 #include <stddef.h>
+#include <stdio.h>
 
 /// Copies a text, with control characters and bytes that are no UTF-8 as \n or \x1b; what does not fit is cut at a whole character and
 /// ends in "…".
 void printable(const char *text, char *shown, size_t size);
+
+/// Writes a line, and its end, that may repeat a path, a name or an argument.
+void print_line(FILE *stream, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
 #endif

@@ -1,5 +1,6 @@
 /// `wiggly analyze`: the complex normal coordinates of simulated motions, as a character.
 #include "analysis/analysis.h"
+#include "base/printable.h"
 #include "commands/analyze_scene.h"
 #include "commands/commands.h"
 #include "commands/open_mesh.h"
@@ -109,8 +110,8 @@ static void report_spline(const struct analyzed *analyzed, const struct componen
 
 static void report(const struct coordinate *to, const struct analyzed *analyzed, const struct component *c)
 {
-    printf("  %s: explains %.2f %%; real PCA's first %.2f %%, its first two %.2f %%\n", to->name, 100 * to->explained,
-           100 * to->pca1, 100 * to->pca2);
+    print_line(stdout, "  %s: explains %.2f %%; real PCA's first %.2f %%, its first two %.2f %%", to->name,
+               100 * to->explained, 100 * to->pca1, 100 * to->pca2);
     printf("    frequency %.4g Hz, damping ratio %.3g; mostly along (%.2f, %.2f, %.2f), %.3g m at most\n",
            c->frequency, c->damping, c->direction[0], c->direction[1], c->direction[2], c->reach);
     report_spline(analyzed, c);
@@ -121,7 +122,7 @@ static void report(const struct coordinate *to, const struct analyzed *analyzed,
 
 static void report_motion(const struct job *job, const struct motion *motion, const struct analysis *a, double fps)
 {
-    printf("%s: %d frames of %d vertices at %g fps\n", motion->path, motion->frames, motion->vertices, fps);
+    print_line(stdout, "%s: %d frames of %d vertices at %g fps", motion->path, motion->frames, motion->vertices, fps);
     double speed = sqrt(a->drift[0] * a->drift[0] + a->drift[1] * a->drift[1] + a->drift[2] * a->drift[2]);
     if (a->drift_share > 0) {
         printf("  taken out: a steady drift, %.1f %% of the motion; on average %.3g m/s along (%.2f, %.2f, %.2f)\n",
@@ -184,8 +185,8 @@ static void warn_of_distance(const struct motion *motion, const struct analysis 
         size += (at - centre[n % 3]) * (at - centre[n % 3]);
     }
     if (distance > 0.25 * size) {
-        fprintf(stderr, "%s: warning: the motion is not centred on the rest mesh; check axes, units and position\n",
-                motion->path);
+        print_line(stderr, "%s: warning: the motion is not centred on the rest mesh; check axes, units and position",
+                   motion->path);
     }
 }
 

@@ -1,5 +1,6 @@
 /// `wiggly check`: prints every problem of a scene, its solution and its models; of a character, what it holds.
 #include "base/path.h"
+#include "base/printable.h"
 #include "commands/commands.h"
 #include "commands/contents.h"
 #include "commands/options.h"
@@ -20,7 +21,7 @@ static const double MOTION_SLACK = 1e-3;
 static void print_problem(void *user, bool is_error, const char *sentence)
 {
     (void)user;
-    printf("%s%s\n", is_error ? "" : "warning: ", sentence);
+    print_line(stdout, "%s%s", is_error ? "" : "warning: ", sentence);
 }
 
 static void print_warning(struct problems *problems, const char *path, const struct document *document, int spline,
@@ -119,8 +120,8 @@ static int check_character(const char *path)
     for (int m = 0; m < gltf.mesh_count; m++) {
         for (int p = 0; p < gltf.meshes[m].part_count; p++) triangles += gltf.meshes[m].parts[p].index_count / 3;
     }
-    printf("%s: a glTF character of %d triangle%s and %d joint%s\n", path, triangles, triangles == 1 ? "" : "s",
-           gltf.joint_count, gltf.joint_count == 1 ? "" : "s");
+    print_line(stdout, "%s: a glTF character of %d triangle%s and %d joint%s", path, triangles,
+               triangles == 1 ? "" : "s", gltf.joint_count, gltf.joint_count == 1 ? "" : "s");
     contents_print(&gltf);
     gltf_free(&gltf);
     return 0;

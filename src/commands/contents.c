@@ -1,5 +1,6 @@
 /// Prints what a glTF character holds.
 #include "commands/contents.h"
+#include "base/printable.h"
 #include "rig/bones.h"
 #include <stdio.h>
 
@@ -10,7 +11,7 @@ static void print_below(const struct gltf *gltf, int parent, int depth)
 {
     for (int n = 0; n < gltf->node_count && depth < DEEPEST_SHOWN; n++) {
         if (gltf->nodes[n].parent != parent) continue;
-        printf("%*s%s\n", 2 + 2 * depth, "", gltf->nodes[n].name);
+        print_line(stdout, "%*s%s", 2 + 2 * depth, "", gltf->nodes[n].name);
         print_below(gltf, n, depth + 1);
     }
 }
@@ -32,8 +33,8 @@ static void print_chains(const struct gltf *gltf)
         const int last = begins_chain(gltf, n) ? chain_end(gltf, n, &error) : -1;
         if (last < 0 || last == n) continue;
         if (!chain_find(gltf, gltf->nodes[n].name, gltf->nodes[last].name, &bones, &error)) continue;
-        printf("%s  %s:%s (%d bones)\n", any ? "" : "ways down to a tip, for --chain:\n", gltf->nodes[n].name,
-               gltf->nodes[last].name, bones.count);
+        if (!any) puts("ways down to a tip, for --chain:");
+        print_line(stdout, "  %s:%s (%d bones)", gltf->nodes[n].name, gltf->nodes[last].name, bones.count);
         any = true;
     }
 }
@@ -42,9 +43,9 @@ void contents_print(const struct gltf *gltf)
 {
     printf("clips:%s\n", gltf->clip_count > 0 ? "" : " none");
     for (int c = 0; c < gltf->clip_count; c++)
-        printf("  %s (%.3g s)\n", gltf->clips[c].name, gltf->clips[c].duration);
+        print_line(stdout, "  %s (%.3g s)", gltf->clips[c].name, gltf->clips[c].duration);
     printf("bones and other nodes:\n");
     print_below(gltf, -1, 0);
     print_chains(gltf);
-    if (gltf->not_shown) printf("not shown: %s\n", gltf->not_shown);
+    if (gltf->not_shown) print_line(stdout, "not shown: %s", gltf->not_shown);
 }

@@ -2,6 +2,7 @@
 #include "export/export.h"
 #include "app/film.h"
 #include "base/clock.h"
+#include "base/printable.h"
 #include "commands/commands.h"
 #include "commands/options.h"
 #include "commands/progress.h"
@@ -54,8 +55,8 @@ static bool write_export(struct job *job, const struct editor_world *world, stru
     const bool done = film_knows(job->output) ? write_film(job, world, &report, error)
                                               : export_write(&posing, job->output, &job->options, &report, error);
     if (!done) progress_clear(&job->progress);
-    if (done && *report.note) fprintf(stderr, "%s: warning: %s\n", job->output, report.note);
-    if (done && !job->quiet) printf("wrote %s: %s\n", job->output, report.text);
+    if (done && *report.note) print_line(stderr, "%s: warning: %s", job->output, report.note);
+    if (done && !job->quiet) print_line(stdout, "wrote %s: %s", job->output, report.text);
     return done;
 }
 

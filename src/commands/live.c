@@ -1,5 +1,6 @@
 /// `wiggly live`: the live app, in a window or headless.
 #include "app/app.h"
+#include "base/printable.h"
 #include "commands/commands.h"
 #include "commands/options.h"
 #include "ui/theme.h"
@@ -53,11 +54,11 @@ int command_live(int argc, char **argv)
     enum options_result result = options_parse(&usage, argc, argv, &options.scene);
     if (result != OPTIONS_RUN) return (int)result;
     if (options.theme && theme_find(options.theme) < 0) {
-        fprintf(stderr, "wiggly live: --theme: expected dark or light, got '%s'\n", options.theme);
+        print_line(stderr, "wiggly live: --theme: expected dark or light, got '%s'", options.theme);
         return OPTIONS_WRONG;
     }
     if (options.turns && strcmp(options.turns, "first") != 0 && strcmp(options.turns, "second") != 0) {
-        fprintf(stderr, "wiggly live: --turns: expected first or second, got '%s'\n", options.turns);
+        print_line(stderr, "wiggly live: --turns: expected first or second, got '%s'", options.turns);
         return OPTIONS_WRONG;
     }
     if (options.demo && (options.scene || options.replay || options.record)) {

@@ -1,5 +1,6 @@
 /// Reads meshes, turns them upright, scales them, and says what was left out.
 #include "commands/open_mesh.h"
+#include "base/printable.h"
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -36,11 +37,11 @@ static bool warn(const char *path, const struct surface *surface)
     int stray = surface->vertex_count;
     for (int i = 0; used && i < surface->vertex_count; i++) stray -= used[i];
     if (used && stray > 0) {
-        fprintf(stderr, "%s: warning: %d %s of no triangle: left where they are\n", path, stray,
-                stray == 1 ? "vertex is part" : "vertices are part");
+        print_line(stderr, "%s: warning: %d %s of no triangle: left where they are", path, stray,
+                   stray == 1 ? "vertex is part" : "vertices are part");
     }
     if (surface->looks.left_out)
-        fprintf(stderr, "%s: warning: %s cannot be read and is left out\n", path, surface->looks.left_out);
+        print_line(stderr, "%s: warning: %s cannot be read and is left out", path, surface->looks.left_out);
     free(used);
     return used;
 }

@@ -1,5 +1,6 @@
 /// wiggly rig: gives the bones of a glTF character follow-through, as a scene or straight as an animated glTF file.
 #include "base/path.h"
+#include "base/printable.h"
 #include "commands/commands.h"
 #include "commands/contents.h"
 #include "commands/options.h"
@@ -71,8 +72,8 @@ static bool write_motion(const struct job *job, struct opened *opened, struct er
     if (!opened_solve(opened, WIGGLY_CHAIN, error)) return false;
     const struct posing posing = opened_posing(opened);
     if (!export_write(&posing, job->output, &options, &report, error)) return false;
-    if (*report.note) fprintf(stderr, "%s: warning: %s\n", job->output, report.note);
-    printf("wrote %s: %s\n", job->output, report.text);
+    if (*report.note) print_line(stderr, "%s: warning: %s", job->output, report.note);
+    print_line(stdout, "wrote %s: %s", job->output, report.text);
     return true;
 }
 
@@ -82,8 +83,8 @@ static bool write_scene(const struct job *job, struct opened *opened, struct err
     if (!path_folder(job->output, folder) || !document_set_folder(opened->document, folder))
         return fail_no_memory(error, job->output);
     if (!scene_save(opened->document, job->output, error)) return false;
-    printf("wrote %s: %d chain%s; wiggly %s shows it\n", job->output, job->chains.count,
-           job->chains.count == 1 ? "" : "s", job->output);
+    print_line(stdout, "wrote %s: %d chain%s; wiggly %s shows it", job->output, job->chains.count,
+               job->chains.count == 1 ? "" : "s", job->output);
     return true;
 }
 

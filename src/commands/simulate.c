@@ -1,5 +1,6 @@
 /// `wiggly simulate`: shakes a mesh as a soft body, or finds its normal modes.
 #include "base/file.h"
+#include "base/printable.h"
 #include "commands/commands.h"
 #include "commands/open_mesh.h"
 #include "commands/options.h"
@@ -85,25 +86,25 @@ static bool write_modes(const struct job *job, const struct soft *soft, struct e
     if (!good) return false;
     printf("%4s %12s\n", "mode", "Hz");
     for (int k = 0; k < soft->modes.count; k++) printf("%4d %12.6g\n", k + 1, soft->modes.frequency[k]);
-    printf("%s: %d modes of %d vertices\n", job->output, soft->modes.count, vertices);
+    print_line(stdout, "%s: %d modes of %d vertices", job->output, soft->modes.count, vertices);
     return true;
 }
 
 /// What was made of the mesh.
 static void report_body(const struct job *job, const struct soft *soft)
 {
-    printf("%s: %d tetrahedra, %d nodes, %d of them pinned; Young's modulus %.4g Pa, lowest mode %.4g Hz\n",
-           job->mesh, soft->lattice.tet_count, soft->body.node_count, soft->pinned, soft->young,
-           soft->modes.count ? soft->modes.frequency[0] : 0);
+    print_line(stdout, "%s: %d tetrahedra, %d nodes, %d of them pinned; Young's modulus %.4g Pa, lowest mode %.4g Hz",
+               job->mesh, soft->lattice.tet_count, soft->body.node_count, soft->pinned, soft->young,
+               soft->modes.count ? soft->modes.frequency[0] : 0);
     if (!job->modal) {
         printf("  shaken most: mode %d, %.4g Hz, with %.0f %% of the shake\n", soft->shaken + 1, soft_frequency(soft),
                100 * soft->share);
     }
-    if (soft->lattice.repair[0]) printf("%s: %s\n", job->mesh, soft->lattice.repair);
+    if (soft->lattice.repair[0]) print_line(stdout, "%s: %s", job->mesh, soft->lattice.repair);
     fflush(stdout);
     if (soft->loose_parts > 0 && soft->pinned > 0) {
-        fprintf(stderr, "%s: warning: %d of %d separate parts are not pinned and will drift\n", job->mesh,
-                soft->loose_parts, soft->lattice.part_count);
+        print_line(stderr, "%s: warning: %d of %d separate parts are not pinned and will drift", job->mesh,
+                   soft->loose_parts, soft->lattice.part_count);
     }
 }
 
@@ -117,7 +118,7 @@ static bool run(struct job *job, struct error *error)
         report_body(job, &soft);
         good = job->modal ? write_modes(job, &soft, error) : shake(job, &soft, &surface, error);
         good = good && obj_write(job->rest, &surface, error);
-        if (good) printf("%s: the mesh at rest\n", job->rest);
+        if (good) print_line(stdout, "%s: the mesh at rest", job->rest);
         soft_free(&soft);
     }
     surface_free(&surface);

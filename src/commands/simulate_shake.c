@@ -1,6 +1,7 @@
 /// Simulates in ever shorter steps until the motion is accurate.
 #include "commands/simulate_shake.h"
 #include "base/clock.h"
+#include "base/printable.h"
 #include "commands/progress.h"
 #include "model/motion.h"
 #include <math.h>
@@ -153,8 +154,8 @@ static bool write_frames(const struct shake_job *job, const struct soft *soft, c
 static void report(const struct shake_job *job, const struct soft *soft, const struct record *record, double left,
                    double started)
 {
-    printf("%s: %d frames of %d vertices at %g fps, in %.1f s\n", job->output, record->frames,
-           soft->lattice.vertex_count, job->fps, clock_now() - started);
+    print_line(stdout, "%s: %d frames of %d vertices at %g fps, in %.1f s", job->output, record->frames,
+               soft->lattice.vertex_count, job->fps, clock_now() - started);
     if (left < 0) {
         printf("  %d steps a frame; the error was not measured\n", record->substeps);
     } else {
@@ -165,8 +166,8 @@ static void report(const struct shake_job *job, const struct soft *soft, const s
                drive_end(job->loads.drive));
     if (left > job->accuracy) {
         fflush(stdout);
-        fprintf(stderr, "%s: warning: the motion never became as accurate as %.3g %%: it may be chaotic\n",
-                job->output, 100 * job->accuracy);
+        print_line(stderr, "%s: warning: the motion never became as accurate as %.3g %%: it may be chaotic",
+                   job->output, 100 * job->accuracy);
     }
 }
 

@@ -1,5 +1,6 @@
 /// `wiggly solve`: writes every spline of a scene as CSV.
 #include "base/file.h"
+#include "base/printable.h"
 #include "commands/commands.h"
 #include "commands/options.h"
 #include "commands/pin_warnings.h"
@@ -82,7 +83,7 @@ static void warn_statuses(const char *path, const struct document *document, con
 static void warn_of_pin(void *user, const char *sentence)
 {
     const char *const *scene = user;
-    fprintf(stderr, "%s: warning: %s\n", *scene, sentence);
+    print_line(stderr, "%s: warning: %s", *scene, sentence);
 }
 
 static bool solve(const char *scene, wiggly_method method, const char *out, struct error *error)

@@ -1,6 +1,5 @@
 /// Makes, frees and searches documents.
 #include "scene/document.h"
-#include "scene/snapshot.h"
 #include <jansson.h>
 #include <limits.h>
 #include <math.h>
@@ -36,7 +35,7 @@ struct document *document_create(void)
 void document_destroy(struct document *document)
 {
     if (!document) return;
-    if (document->snapshot) snapshot_give_up(document->snapshot);
+    if (document->watched) *document->watched = NULL;
     for (int i = 0; i < document->spline_count; i++) {
         free(document->splines[i].name);
         free(document->splines[i].knots);

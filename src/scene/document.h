@@ -74,6 +74,7 @@ struct document {
     struct json_t *extra;
     struct json_t *owned;      ///< what `extra` pointers point into; freed with the document
     struct snapshot *snapshot; ///< a copy of it that is not whole yet, or NULL (snapshot.h)
+    struct document **watched; ///< that copy's pointer to this document, which ends with it; or NULL
 };
 
 /// Sets the path of the document's own file; "" or NULL: untitled. false if memory runs out.

@@ -100,12 +100,15 @@ bool snapshot_begin(struct snapshot *snapshot, struct document *document, const 
     snapshot->spline = snapshot->next = 0;
     snapshot->document = document;
     document->snapshot = snapshot;
+    document->watched = &snapshot->document;
     return true;
 }
 
 void snapshot_give_up(struct snapshot *snapshot)
 {
-    if (snapshot->document) snapshot->document->snapshot = NULL;
+    if (!snapshot->document) return;
+    snapshot->document->snapshot = NULL;
+    snapshot->document->watched = NULL;
     snapshot->document = NULL;
 }
 
