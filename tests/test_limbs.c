@@ -2,8 +2,10 @@
 #include "model/creature.h"
 #include "model/limbs.h"
 #include "model/tail_skin.h"
+#include "model/vector.h"
 #include "near.h"
 #include "rig/opened.h"
+#include "rig/pinning.h"
 #include "scene/edit.h"
 #include <math.h>
 #include <stdlib.h>
@@ -189,6 +191,71 @@ static void axes_are_edited_and_undone(void **state)
     opened_free(&scene);
 }
 
+/// A vertex as the stage draws it.
+static vec3s moved(const struct vertex *vertex, float matrix[LIMBS][16])
+{
+    const vec3s p = vec3_from(vertex->position);
+    const vec3s a = glms_mat4_mulv3(mat4_from(matrix[(int)vertex->limb[0]]), p, 1.0f);
+    const vec3s b = glms_mat4_mulv3(mat4_from(matrix[(int)vertex->limb[1]]), p, 1.0f);
+    return glms_vec3_lerp(a, b, vertex->limb[2]);
+}
+
+static bool is_ear(const struct vertex *vertex) { return (int)vertex->limb[1] >= LIMB_EAR; }
+
+/// The distance by which the pointer's ray is marched. Between body and head the skin is bent, there it need only be near.
+static void the_moved_skin_is_where_it_is_picked(void **state)
+{
+    static const struct limbs poses[] = {
+        {0}, {.look = 0.8f}, {.nod = 0.4f}, {.stretch = 0.2f}, {.look = -0.6f, .nod = -0.3f, .stretch = -0.15f}};
+    struct mesh mesh = {0};
+    (void)state;
+    mesh_torso(0.05f, 0.01f, 0, &mesh);
+    assert_true(mesh.vertex_count > 100);
+    for (size_t n = 0; n < sizeof poses / sizeof *poses; n++) {
+        const struct limbs_back back = limbs_back(&poses[n]);
+        float matrix[LIMBS][16];
+        int head = 0, off = 0, count = 0;
+        limbs_matrices(&poses[n], 1.0f, matrix);
+        for (int v = 0; v < mesh.vertex_count; v++) {
+            const struct vertex *vertex = &mesh.vertices[v];
+            const float alone = fabsf(creature_torso_distance(vertex->position));
+            if (is_ear(vertex)) continue;
+            const vec3s at = moved(vertex, matrix);
+            const float distance = fabsf(limbs_distance(&back, at.raw));
+            const bool is_bent = vertex->limb[2] > 0 && vertex->limb[2] < 1;
+            count++;
+            head += !is_bent && (int)vertex->limb[1] == LIMB_HEAD;
+            off += !is_bent && distance > alone + 1e-4f;
+            if (is_bent) assert_true(distance < 0.12f);
+        }
+        assert_true(head > 20);
+        if (off > 0) fail_msg("pose %zu: %d of %d vertices are off the skin", n, off, count);
+    }
+    mesh_free(&mesh);
+}
+
+/// The points of pins are those of the picture, however the body moves.
+static void pins_hold_what_is_drawn(void **state)
+{
+    (void)state;
+    open_scene("assets/scenes/follow.json");
+    const struct pin_source source = pin_points(NULL);
+    const struct tail *tail = &scene.document->rigs[0].tail;
+    float stretched = 0;
+    for (int f = 0; f <= 120; f += 3) {
+        const struct pose *pose = pose_at(f);
+        stretched = fmaxf(stretched, fabsf(pose->limbs.stretch));
+        for (int joint = 0; joint < tail->joints; joint += 5) {
+            const struct pin pin = {.frame = f, .point = joint};
+            struct pin_point point;
+            assert_true(source.find(NULL, &scene.evaluation, scene.document, 0, &pin, NULL, 0, NULL, &point));
+            for (int k = 0; k < 3; k++) assert_near(point.at[k], (double)pose->matrix[joint + 1][12 + k], 1e-5);
+        }
+    }
+    assert_true(stretched > 0.05f);
+    opened_free(&scene);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -199,6 +266,8 @@ int main(void)
         cmocka_unit_test(ears_bend_as_chains),
         cmocka_unit_test(the_body_leaves_the_tail_alone),
         cmocka_unit_test(axes_are_edited_and_undone),
+        cmocka_unit_test(the_moved_skin_is_where_it_is_picked),
+        cmocka_unit_test(pins_hold_what_is_drawn),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

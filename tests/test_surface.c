@@ -50,7 +50,8 @@ static size_t make_ply(unsigned char *bytes, bool big)
                                   "ply\nformat binary_%s_endian 1.0\ncomment x\nelement vertex 4\nproperty float x\n"
                                   "property float y\nproperty float z\nproperty double quality\nproperty uchar red\n"
                                   "property uchar green\nproperty uchar blue\nelement face 1\n"
-                                  "property list uchar int vertex_indices\nend_header\n",
+                                  "property list uchar int vertex_indices\nelement edge 0\nproperty int vertex1\n"
+                                  "property int vertex2\nend_header\n", // as some programs say
                                   big ? "big" : "little");
     for (int v = 0; v < 4; v++) {
         const double quality = NAN; // left out, so it may be anything
@@ -282,12 +283,46 @@ static void nothing_is_written_where_memory_is_short(void **state)
     character_free(&c);
 }
 
+/// A triangle after `elements` of nothing, its vertices with `properties` of no meaning and one colour.
+static const char *print_ply(int elements, int properties, double red)
+{
+    static char text[4096];
+    char *at = stpcpy(text, "ply\nformat ascii 1.0\n");
+    for (int i = 0; i < elements; i++) at += sprintf(at, "element more 0\n");
+    at = stpcpy(at, "element vertex 3\nproperty float x\nproperty float y\nproperty float z\nproperty float red\n"
+                    "property float green\nproperty float blue\n");
+    for (int i = 0; i < properties; i++) at += sprintf(at, "property float p%d\n", i);
+    at = stpcpy(at, "element face 1\nproperty list int int vertex_indices\nend_header\n");
+    for (int v = 0; v < 3; v++) {
+        at += sprintf(at, "%d %d 0 %g 0 0", v == 1, v == 2, red);
+        for (int i = 0; i < properties; i++) at = stpcpy(at, " 7");
+        at = stpcpy(at, "\n");
+    }
+    stpcpy(at, "3 0 1 2\n");
+    return text;
+}
+
+static void limits_of_a_ply(void **state)
+{
+    (void)state;
+    const char *most = print_ply(14, 58, 1000);
+    struct surface surface = read_good("most.ply", most, strlen(most));
+    assert_int_equal(surface.index_count, 3);
+    assert_true(surface.color[0][0] > 1000);
+    surface_free(&surface);
+    assert_refused_text("elements.ply", print_ply(15, 0, 0), "expected at most 16 elements");
+    assert_refused_text("properties.ply", print_ply(0, 59, 0), "expected at most 64 properties");
+    assert_refused_text("bright.ply", print_ply(0, 0, 1001), "expected a colour from 0 to 1, got 1001");
+    assert_refused_text("dark.ply", print_ply(0, 0, -1001), "expected a colour from 0 to 1, got -1001");
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(ply_in_both_byte_orders), cmocka_unit_test(ply_as_text),
         cmocka_unit_test(stl_merges_corners),      cmocka_unit_test(off_with_colours),
         cmocka_unit_test(looks_come_through),      cmocka_unit_test(nothing_is_written_where_memory_is_short),
+        cmocka_unit_test(limits_of_a_ply),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

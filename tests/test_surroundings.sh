@@ -134,11 +134,27 @@ else
     echo "skip - this root may mount nothing"
 fi
 
+# --- files larger than any reader takes: sparse ones, a byte too long
+
+too_large() { # <file> <limit> <arguments>...
+    truncate -s $(($2 * 1048576 + 1)) "$scratch/$1"
+    expect 1 "$1 of $2 MiB and a byte is refused" "$WIGGLY" "${@:3}"
+    says "in a sentence" "$1: expected at most $2 MiB, got a larger file" "$err"
+    rm "$scratch/$1"
+}
+for name in large.obj large.ply large.stl large.off; do
+    too_large $name 1024 simulate "$scratch/$name" -o "$scratch/x.npy"
+done
+too_large large.glb 1024 check "$scratch/large.glb"
+too_large large.gltf 1024 check "$scratch/large.gltf"
+too_large large.replay 64 live --headless --replay "$scratch/large.replay"
+
 # --- the limits in the source
 
 listed() { grep -oE '^[A-Z0-9_]+' tests/limits.txt | LC_ALL=C sort -u; }
 limits() {
-    grep -rhoE '\b[A-Z0-9_]*_?(MAX|LIMIT|MOST)(_[A-Z0-9_]+)? = [0-9A-Z(]|#define [A-Z_]*(MAX|MOST|LIMIT)[A-Z_]* ' src/{scene,base}/*.h src/{app,commands} include/wiggly |
+    grep -rhoE '\b[A-Z0-9_]*_?(MAX|LIMIT|LARGEST|MOST)(_[A-Z0-9_]+)? = [0-9A-Z(]|#define [A-Z_]*(MAX|MOST|LIMIT)[A-Z_]* ' \
+        src/{scene,base,model,export,app,commands} src/analysis/analysis.h src/simulation/{drive,softness}.c include/wiggly |
         sed 's/#define //; s/ =.*//; s/ $//' | grep -vE '^(DRAG|HOVER|PARAMETER|WIGGLY_ERROR)_LIMIT$' | LC_ALL=C sort -u
 }
 unlisted=$(comm -13 <(listed) <(limits))

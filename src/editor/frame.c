@@ -324,6 +324,7 @@ enum mouse_cursor editor_cursor(const struct editor *editor)
         [DRAG_LIMIT] = CURSOR_VERTICAL,
         [DRAG_PIN] = CURSOR_HAND,
         [DRAG_PIN_TIME] = CURSOR_HORIZONTAL,
+        [DRAG_FLOOR] = CURSOR_VERTICAL,
     };
     static const enum mouse_cursor of_hover[] = {
         [HOVER_NONE] = CURSOR_ARROW,    [HOVER_KNOT] = CURSOR_MOVE,        [HOVER_SLOPE] = CURSOR_MOVE,
@@ -333,7 +334,7 @@ enum mouse_cursor editor_cursor(const struct editor *editor)
         [HOVER_SPEED] = CURSOR_HAND,    [HOVER_WARNING] = CURSOR_HAND,     [HOVER_LIMIT] = CURSOR_VERTICAL,
         [HOVER_POINT] = CURSOR_HAND,    [HOVER_PIN] = CURSOR_MOVE,         [HOVER_ROW] = CURSOR_ARROW,
         [HOVER_AUTO_KEY] = CURSOR_HAND, [HOVER_UI_SCALE] = CURSOR_HAND,    [HOVER_PRESENT] = CURSOR_HAND,
-        [HOVER_BOX] = CURSOR_MOVE,
+        [HOVER_BOX] = CURSOR_MOVE,      [HOVER_FLOOR] = CURSOR_VERTICAL,
     };
     static const enum mouse_cursor of_widget[] = {
         [UI_OVER_NOTHING] = CURSOR_ARROW, [UI_OVER_NUMBER] = CURSOR_HORIZONTAL, [UI_OVER_TEXT] = CURSOR_TEXT};

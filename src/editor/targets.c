@@ -233,6 +233,16 @@ static const struct pin *pin_named(const struct place *place, struct error *erro
     return NULL;
 }
 
+/// The edge of a character's floor: floor(creature).
+static bool find_floor(struct place *place, struct error *error)
+{
+    int n;
+    const struct editor *editor = place->editor;
+    return (rig_named(place, RIG_CHARACTER, &n) &&
+            stage_floor_point(editor->stage, &editor->core, place->world->document, n, place->xy)) ||
+           fail(error, ERROR_INPUT, "there is no floor of \"%s\" to be seen", place->target->name);
+}
+
 /// The marker of a pin on the stage: pin(tail,0).
 static bool find_pin(struct place *place, struct error *error)
 {
@@ -295,6 +305,7 @@ static const struct target_kind {
     {.kind = "character", .named = true, .numbers = 2, .find = find_character},
     {.kind = "pin", .named = true, .numbers = 1, .find = find_pin},
     {.kind = "pintime", .named = true, .numbers = 1, .find = find_pin_time},
+    {.kind = "floor", .named = true, .numbers = 0, .find = find_floor},
     {.kind = "divider", .named = true, .numbers = 0, .find = find_divider},
     {.kind = "slider", .named = true, .numbers = 0, .find = find_widget},
     {.kind = "widget", .named = true, .numbers = 0, .find = find_widget},

@@ -1,6 +1,6 @@
 /// Decodes the pictures of glTF files: PNG and JPEG from buffer views, data URIs and files.
 #include "model/gltf_read.h"
-#include "model/jpeg.h"
+#include "model/picture_check.h"
 #include <limits.h>
 #include <stdlib.h>
 #include <string.h>
@@ -36,8 +36,8 @@ bool gltf_decode_image(const unsigned char *bytes, size_t size, size_t most, str
                        struct error *error)
 {
     int channels, length = size <= INT_MAX ? (int)size : 0;
-    if (!jpeg_tables_fit(bytes, size))
-        return fail(error, ERROR_INPUT, "expected PNG or JPEG: a Huffman table is larger than it may be");
+    if (!picture_is_sound(bytes, size))
+        return fail(error, ERROR_INPUT, "expected PNG or JPEG: a part of it is larger than it may be");
     if (!stbi_info_from_memory(bytes, length, &image->width, &image->height, &channels))
         return fail(error, ERROR_INPUT, "expected PNG or JPEG: %s", stbi_failure_reason());
     size_t pixels = (size_t)image->width * (size_t)image->height;

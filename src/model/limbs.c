@@ -121,6 +121,31 @@ void limbs_bounds(const struct limbs *limbs, float lo[3], float hi[3])
     }
 }
 
+struct limbs_back limbs_back(const struct limbs *limbs)
+{
+    float matrix[LIMBS][16];
+    struct limbs_back back;
+    limbs_matrices(limbs, 1.0f, matrix);
+    const mat4s body = glms_mat4_inv(mat4_from(matrix[LIMB_BODY])),
+                head = glms_mat4_inv(mat4_from(matrix[LIMB_HEAD]));
+    memcpy(back.body, body.raw, sizeof back.body);
+    memcpy(back.head, head.raw, sizeof back.head);
+    const vec3s size = size_of(limbs);
+    back.step = fminf(1.0f, fminf(size.x, size.y));
+    return back;
+}
+
+/// Where both are still they overlap between the neck's heights, so that no cut shows.
+float limbs_distance(const struct limbs_back *back, const float p[3])
+{
+    const vec3s on_body = glms_mat4_mulv3(mat4_from(back->body), vec3_from(p), 1.0f);
+    const vec3s on_head = glms_mat4_mulv3(mat4_from(back->head), vec3_from(p), 1.0f);
+    const float above = on_body.y + CREATURE_BASE_HEIGHT - NECK_HIGH,
+                below = NECK_LOW - on_head.y - CREATURE_BASE_HEIGHT;
+    const float body = fmaxf(creature_torso_distance(on_body.raw), above);
+    return back->step * fminf(body, fmaxf(creature_torso_distance(on_head.raw), below));
+}
+
 /// Between two parts, or wholly on the second.
 static void hang(struct vertex *vertex, enum limb from, enum limb to, float share)
 {

@@ -102,22 +102,26 @@ WIDEST static bool may_be_low(const struct driven *driven, int count, const stru
     return any > 0;
 }
 
-/// Looks whether a vertex is the lowest in a block.
-WIDEST static void look_at(const struct driven *driven, int count, const struct moves *moves, int vertex, int from,
+/// Looks whether a vertex is the lowest at any sample of a block.
+WIDEST static bool look_at(const struct driven *driven, int count, const struct moves *moves, int vertex, int from,
                            double *restrict low, double *restrict lowest)
 {
     double height[BLOCK];
+    int lower = 0;
     for (int i = 0; i < BLOCK; i++) height[i] = moves->at_rest;
     for (int k = 0; k < count; k++) {
         const double a = moves->a[k], b = moves->b[k];
         const double *restrict re = driven[k].re + from, *restrict im = driven[k].im + from;
         for (int i = 0; i < BLOCK; i++) height[i] += a * re[i] - b * im[i];
     }
+    for (int i = 0; i < BLOCK; i++) lower += height[i] < low[i];
+    if (lower == 0) return false;
     for (int i = 0; i < BLOCK; i++) {
         const bool is_lower = height[i] < low[i];
         low[i] = is_lower ? height[i] : low[i];
         lowest[i] = is_lower ? vertex : lowest[i];
     }
+    return true;
 }
 
 static double largest(const double *x, int count)
@@ -134,9 +138,9 @@ static void look_everywhere(const struct driven *driven, int count, const struct
     for (int row = 0; row < found->blocks; row += ROW) {
         if (!may_be_low(driven, count, moves, row, found->highest + row, may)) continue;
         for (int b = row; b < row + ROW; b++) {
-            if (!may[b - row]) continue;
-            look_at(driven, count, moves, vertex, BLOCK * b, found->height + BLOCK * b, found->vertex + BLOCK * b);
-            found->highest[b] = largest(found->height + BLOCK * b, BLOCK);
+            double *height = found->height + BLOCK * b;
+            if (may[b - row] && look_at(driven, count, moves, vertex, BLOCK * b, height, found->vertex + BLOCK * b))
+                found->highest[b] = largest(height, BLOCK);
         }
     }
 }

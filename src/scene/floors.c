@@ -93,8 +93,12 @@ static double depth(const struct floors *floors, const struct document *document
 static bool find_low(struct floors *floors, const struct floor_group *group, const struct document *document, int rig)
 {
     const struct pin_source *source = group->source;
-    return source->lowest(source->context, group->evaluation, document, rig, document->rigs[rig].character.floor,
-                          floors->room, floors->low);
+    if (floors->in_hand == rig) return true;
+    if (!source->lowest(source->context, group->evaluation, document, rig, document->rigs[rig].character.floor,
+                        floors->room, floors->low))
+        return false;
+    floors->in_hand = rig;
+    return true;
 }
 
 /// Writes the bound of a vertex that is to be no lower than `height`; returns the size of its rig.
@@ -214,6 +218,7 @@ wiggly_status floors_solve(struct floors *floors, const struct floor_group *grou
                            wiggly_status status)
 {
     floors->count = 0;
+    floors->in_hand = -1;
     for (int r = 0; r < document->rig_count; r++) {
         if (concerns(group->which, &document->rigs[r], group->group)) find_sunk(floors, group, document, r);
     }
@@ -228,6 +233,7 @@ wiggly_status floors_solve(struct floors *floors, const struct floor_group *grou
         status = wiggly_group_solve_bounded(group->solver, group->descs, group->weights, group->curves, group->count,
                                             group->pins, group->pin_count, floors->bounds, floors->count);
         for (int i = 0; i < group->count; i++) group->shown[group->members[i]] = group->curves[i];
+        floors->in_hand = -1;
     }
     return status;
 }

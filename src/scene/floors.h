@@ -12,6 +12,7 @@ struct floors {
     int *rig, *vertex;       ///< of each bound
     double (*c)[2];          ///< of each bound, for each member
     struct low_point *low;   ///< of the rig in hand, at each sample
+    int in_hand;             ///< that rig, where nothing has been solved since; else -1
     double *room;            ///< to find them in
     double *sunk;            ///< for each rig and sample: how far below its floor knots and pins hold it
     struct floor_left *left; ///< of each rig

@@ -59,6 +59,7 @@ enum drag_kind {
     DRAG_LIMIT,
     DRAG_PIN,
     DRAG_PIN_TIME, ///< on the ruler
+    DRAG_FLOOR,
 };
 
 /// What all kinds of mouse drags in progress have in common.
@@ -113,6 +114,7 @@ enum hover_kind {
     HOVER_BOX,   ///< a handle of the box round the selected knots
     HOVER_POINT, ///< of a rig, that can be pinned
     HOVER_PIN,   ///< on the stage or the ruler
+    HOVER_FLOOR, ///< of the rig, a character
 };
 
 struct hover {

@@ -69,6 +69,7 @@ const struct help_group help_groups[HELP_GROUPS] = {
       {"Drag a surface", "pin it (X, Y, Z; Shift)"},
       {"Ctrl+drag a tail", "pin a joint"},
       {"H, Alt+PgUp, PgDn", "pin as it is, its frame"},
+      {"Drag a floor's edge", "raise, lower it"},
       {"Drag the body", "tail follows (R records)"},
       {"Ctrl+drag it, Shift+A", "lift it, auto-key"},
       {"Right drag, wheel", "orbit, zoom"},

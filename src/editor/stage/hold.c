@@ -3,6 +3,7 @@
 #include "editor/core/core.h"
 #include "editor/stage/rigs.h"
 #include "model/creature.h"
+#include "model/limbs.h"
 #include "model/vector.h"
 #include "ui/theme.h"
 #include <math.h>
@@ -64,20 +65,21 @@ static const float *base_of(const struct stage *stage, int tail)
 
 static float scale_of(const struct pose *pose) { return pose_length(pose) / CREATURE_TAIL_LENGTH; }
 
-/// Where the ray from the eye meets the body (metres along it, bind size), or a negative number: steps of the distance to the
-/// skin cannot pass through it.
-static float trace(const float from[3], const float direction[3])
+/// Where the ray from the eye meets the body as it is moved (metres along it, bind size), or a negative number: steps of the distance to
+/// the skin cannot pass through it.
+static float trace(const struct limbs *limbs, const float from[3], const float direction[3])
 {
-    float near = 0, far = INFINITY;
+    const struct limbs_back back = limbs_back(limbs);
+    float near = 0, far = INFINITY, lo[3], hi[3];
+    limbs_bounds(limbs, lo, hi);
     for (int k = 0; k < 3; k++) {
-        float a = (creature_torso_lo[k] - from[k]) / direction[k],
-              b = (creature_torso_hi[k] - from[k]) / direction[k];
+        float a = (lo[k] - from[k]) / direction[k], b = (hi[k] - from[k]) / direction[k];
         near = fmaxf(near, fminf(a, b));
         far = fminf(far, fmaxf(a, b));
     }
     for (int step = 0; step < TRACE_STEPS && near < far; step++) {
         const vec3s p = glms_vec3_muladds(vec3_from(direction), near, vec3_from(from));
-        float distance = creature_torso_distance(p.raw);
+        float distance = limbs_distance(&back, p.raw);
         if (distance < TRACE_NEAR) return near;
         near += 0.9f * distance;
     }
@@ -92,7 +94,7 @@ float hold_distance(const struct stage *stage, const struct pose *pose, float x,
     float direction[3];
     camera_ray(view->view, view->projection, viewport, (const float[2]){x, y}, direction);
     const vec3s from = glms_vec3_divs(glms_vec3_sub(vec3_from(view->eye), vec3_from(pose->matrix[0] + 12)), scale);
-    return scale * trace(from.raw, direction);
+    return scale * trace(&pose->limbs, from.raw, direction);
 }
 
 struct hover hold_hover(const struct stage *stage, float x, float y)
@@ -112,8 +114,13 @@ bool hold_point(const struct stage *stage, const struct core *core, int tail, in
 {
     static const float places[HOLD_POINTS][3] = {
         {0, 0.18f, -0.45f}, {0, 0.54f, -0.385f}, {0, 0.05f, -0.25f}, {0, 0, -0.5f}}; // chest, head, rump, paws
+    const struct pose *pose = &stage->view.tails[tail].pose;
     const vec3s base = vec3_from(base_of(stage, tail));
-    const vec3s place = glms_vec3_muladds(vec3_from(places[point]), scale_of(&stage->view.tails[tail].pose), base);
+    float matrix[LIMBS][16];
+    limbs_matrices(&pose->limbs, 1.0f, matrix);
+    const mat4s moved = mat4_from(matrix[point == HOLD_HEAD ? LIMB_HEAD : LIMB_BODY]);
+    const vec3s at = glms_mat4_mulv3(moved, vec3_from(places[point]), 1.0f);
+    const vec3s place = glms_vec3_muladds(at, scale_of(pose), base);
     return stage_project_point(stage, core->layout.stage, place.raw, xy);
 }
 

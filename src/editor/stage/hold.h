@@ -12,7 +12,7 @@ float hold_distance(const struct stage *stage, const struct pose *pose, float x,
 struct hover hold_moment_ago(const struct stage *stage, const struct core *core, const struct editor_world *world,
                              float x, float y);
 /// Points of a body that are likely to be in sight, the likeliest first, on the screen; false where one is behind the eye.
-enum { HOLD_POINTS = 4 };
+enum { HOLD_HEAD = 1, HOLD_POINTS = 4 };
 bool hold_point(const struct stage *stage, const struct core *core, int tail, int point, float xy[2]);
 /// Starts to drag a body, over the ground or, where it `lifts`, up and across.
 void hold_begin(struct stage *stage, const struct core *core, int tail, bool lifts);

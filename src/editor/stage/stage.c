@@ -4,6 +4,7 @@
 #include "editor/core/pins.h"
 #include "editor/stage/bones.h"
 #include "editor/stage/brush.h"
+#include "editor/stage/floors.h"
 #include "editor/stage/hold.h"
 #include "editor/stage/pins.h"
 #include "editor/stage/skin.h"
@@ -52,9 +53,11 @@ struct hover stage_hover(struct stage *stage, const struct core *core, const str
     struct hover joint = nearer(strand_hover(stage, core, x, y), bone_hover(stage, core, x, y), x, y);
     const bool pins = core->mods & MOD_CTRL && !core->brush.on && core->pick.use == BONE_SELECTED;
     if (pins && joint.kind == HOVER_JOINT) joint = strand_end(stage, core, &joint);
-    const struct hover body = joint.kind == HOVER_NONE ? hold_hover(stage, x, y) : joint;
-    const struct hover pin = pins_hover(stage, core, document, &body, x, y);
-    return pin.kind == HOVER_NONE ? body : pin;
+    struct hover found = joint;
+    if (found.kind == HOVER_NONE) found = floors_hover(stage, core, document, x, y);
+    if (found.kind == HOVER_NONE) found = hold_hover(stage, x, y);
+    const struct hover pin = pins_hover(stage, core, document, &found, x, y);
+    return pin.kind == HOVER_NONE ? found : pin;
 }
 
 /// What is under a point and still in the document: an edit in the same frame may have taken away what was last shown.
@@ -68,6 +71,7 @@ static struct hover hover_now(struct stage *stage, const struct core *core, cons
     if (hover.kind == HOVER_BODY && !document_tail(document, hover.tail)) hover.kind = HOVER_NONE;
     if ((hover.kind == HOVER_POINT || hover.kind == HOVER_PIN) && !pins_hover_exists(world, &hover))
         hover.kind = HOVER_NONE;
+    if (hover.kind == HOVER_FLOOR && !floors_exist(document, hover.rig)) hover.kind = HOVER_NONE;
     return hover;
 }
 
@@ -99,6 +103,8 @@ void stage_press(struct stage *stage, struct core *core, const struct editor_wor
     if (event->button == BUTTON_LEFT && hover.kind != HOVER_PIN) pins_clear(core);
     if (holds && (hover.kind == HOVER_POINT || hover.kind == HOVER_PIN)) {
         pins_begin(stage, core, world, &hover, event);
+    } else if (holds && hover.kind == HOVER_FLOOR) {
+        floors_begin(stage, core, world, &hover, event);
     } else if (holds && hover.kind == HOVER_BODY) {
         drag_begin(core, DRAG_BODY, "Move body", event);
         hold_begin(stage, core, hover.tail, event->mods & MOD_CTRL);
@@ -131,7 +137,7 @@ void stage_drag_move(struct stage *stage, struct core *core)
 {
     const struct drag *drag = &core->drag;
     start_recording(stage, core);
-    stage->pin_drag.stale = true;
+    stage->pin_drag.stale = stage->floor_drag.stale = true;
     if (drag->kind == DRAG_ORBIT) {
         camera_orbit(&stage->camera, -(float)drag->moved_x * ORBIT_SPEED, (float)drag->moved_y * ORBIT_SPEED);
     }
@@ -168,6 +174,7 @@ void stage_advance(struct stage *stage, struct core *core, const struct editor_w
     brush_advance(stage, core, world, dt);
     grab_apply(stage, core, world);
     pins_apply(stage, core, world);
+    floors_apply(stage, core, world);
     sway_advance(stage, core, world, dt);
     stage->meadow.dt += dt;
     record_advance(stage, core, world);

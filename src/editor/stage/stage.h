@@ -52,7 +52,8 @@ void stage_show(struct stage *stage, struct core *core, const struct editor_worl
 /// Where a point of a tail or chain is on the screen, as of the last pose: `fraction` 0 … 1 of the way from joint to joint + 1.
 bool stage_project(const struct stage *stage, const struct core *core, int rig, int joint, double fraction,
                    float xy[2]);
-/// What can be held or clicked at a point: the nearest of tails and bones, else a body; pins before these, surfaces behind.
+/// What can be held or clicked at a point: the nearest of tails and bones, else a floor's edge, else a body; pins before these, surfaces
+/// behind.
 struct hover stage_hover(struct stage *stage, const struct core *core, const struct document *document, float x,
                          float y);
 /// A press on the stage.
@@ -66,6 +67,9 @@ void stage_nudge_pin(struct stage *stage, struct core *core, const struct editor
 void stage_hold_point(struct stage *stage, struct core *core, const struct editor_world *world);
 /// Where a pin's marker is on the screen; false where it is not in sight.
 bool stage_pin_point(const struct stage *stage, const struct core *core, unsigned id, float xy[2]);
+/// The middle of a near edge of a character's floor on the screen (its number among characters); false where it is not in sight.
+bool stage_floor_point(const struct stage *stage, const struct core *core, const struct document *document,
+                       int character, float xy[2]);
 /// Motion arc on, off.
 void stage_toggle_trail(struct core *core);
 

@@ -3,6 +3,7 @@
 #include "editor/core/drag.h"
 #include "editor/stage/bones.h"
 #include "editor/stage/brush.h"
+#include "editor/stage/floors.h"
 #include "editor/stage/hold.h"
 #include "editor/stage/overlays.h"
 #include "editor/stage/pins.h"
@@ -140,6 +141,7 @@ void stage_show(struct stage *stage, struct core *core, const struct editor_worl
     onion_show(stage, core, world);
     ghost_show(stage, core, world);
     trail_show(stage, core, world);
+    floors_show(stage, core, world);
     characters_show(stage, core, world);
     names_show(stage, core, world->document);
     brush_show(stage, core, world);

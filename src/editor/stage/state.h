@@ -145,6 +145,13 @@ struct pin_drag {
     bool stale;              ///< the pointer moved since the edit was made
 };
 
+/// The floor that is dragged.
+struct floor_drag {
+    int rig; ///< in the document
+    double start, pixels_per_metre;
+    bool stale; ///< the pointer moved since the edit was made
+};
+
 /// Memory for figures of up to `capacity` vertices.
 struct brush_work {
     int capacity;
@@ -199,6 +206,7 @@ struct stage {
     int pin_count;
     uint64_t pins_key; ///< of what they were found in
     struct pin_drag pin_drag;
+    struct floor_drag floor_drag;
     struct painting painting;
 };
 

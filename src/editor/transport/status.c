@@ -82,6 +82,8 @@ static const char *hover_hint(const struct core *core, const struct document *do
         return "Drag to pin this point at the playhead (X, Y or Z locks an axis, Shift: fine); H pins it where it is";
     case HOVER_PIN:
         return "Drag the pin (X, Y or Z locks an axis, Shift: fine); Del removes it; Alt+arrows nudge it";
+    case HOVER_FLOOR:
+        return "Drag the floor up or down (Shift: fine); the whole character stays above it";
     case HOVER_NONE:
         break;
     }

@@ -1,9 +1,10 @@
-/// Walks the segments of a JPEG (ITU T.81, annex B) as its decoder does.
-#include "model/jpeg.h"
+/// Walks the chunks of a PNG (ISO 15948) and the segments of a JPEG (ITU T.81, annex B) as their decoder does.
+#include "model/picture_check.h"
 #include <string.h>
 
 enum { MARKER = 0xFF, START = 0xD8, END = 0xD9, FIRST_RESTART = 0xD0, HUFFMAN_TABLES = 0xC4 };
 enum { LENGTHS = 16, MOST_CODES = 256 };
+enum { SIGNATURE = 8, CHUNK_HEAD = 8, CHUNK_TAIL = 4 };
 
 /// A segment's tables: a byte that names it, how many codes there are of each length, the codes.
 static bool tables_fit(const unsigned char *at, const unsigned char *end)
@@ -28,11 +29,9 @@ static const unsigned char *next_marker(const unsigned char *at, const unsigned 
     return at + 1;
 }
 
-bool jpeg_tables_fit(const unsigned char *bytes, size_t size)
+static bool jpeg_is_sound(const unsigned char *at, const unsigned char *end)
 {
-    const unsigned char *at = bytes, *end = bytes + size;
     int marker = 0;
-    if (size < 2 || bytes[0] != MARKER || bytes[1] != START) return true;
     while ((at = next_marker(at, end, &marker)) && marker != END) {
         const bool alone = marker == 0 || (marker >= FIRST_RESTART && marker <= START);
         if (alone) continue;
@@ -41,5 +40,23 @@ bool jpeg_tables_fit(const unsigned char *bytes, size_t size)
         if (marker == HUFFMAN_TABLES && !tables_fit(at + 2, at + length)) return false;
         at += length;
     }
+    return true;
+}
+
+static bool png_is_sound(const unsigned char *at, const unsigned char *end)
+{
+    for (at += SIGNATURE; end - at >= CHUNK_HEAD;) {
+        const long length = (long)at[0] << 24 | at[1] << 16 | at[2] << 8 | at[3];
+        if (memcmp(at + 4, "IEND", 4) == 0) return true;
+        if (length > end - at - CHUNK_HEAD - CHUNK_TAIL) return false;
+        at += CHUNK_HEAD + length + CHUNK_TAIL;
+    }
+    return true;
+}
+
+bool picture_is_sound(const unsigned char *bytes, size_t size)
+{
+    if (size >= SIGNATURE && memcmp(bytes, "\x89PNG", 4) == 0) return png_is_sound(bytes, bytes + size);
+    if (size >= 2 && bytes[0] == MARKER && bytes[1] == START) return jpeg_is_sound(bytes, bytes + size);
     return true;
 }

@@ -1,0 +1,103 @@
+/// A character's floor on the stage: its edge is pointed at and dragged up and down.
+#include "panel_session.h"
+
+#include <math.h>
+
+static const char creature[] =
+    "{\"wiggly\": 1, \"frames\": [0, 60], \"splines\": [{\"name\": \"s\", \"frequency\": 1, \"damping\": 0.1, "
+    "\"knots\": [{\"frame\": 0, \"value\": 0}, {\"frame\": 20, \"value\": 5}]}], \"rigs\": [{\"type\": "
+    "\"character\", "
+    "\"name\": \"c\", \"model\": \"assets/models/creature.glb\", \"position\": [0, 0.2, 0], \"coordinates\": "
+    "[{\"name\": \"up\", \"spline\": \"s\"}], \"floor\": 0}]}";
+
+static void open_creature(struct session *s)
+{
+    panel_open_models(s, creature);
+    session_frame(s);
+}
+
+static double floor_of(const struct session *s) { return s->document->rigs[0].character.floor; }
+
+static void edge(struct session *s, float xy[2])
+{
+    struct error error;
+    if (!editor_target(s->editor, &s->world, "floor(c)", &xy[0], &xy[1], &error)) fail_msg("%s", error.text);
+}
+
+/// The edge stays under the pointer, and all is one step.
+static void test_the_edge_is_dragged_down(void **state)
+{
+    (void)state;
+    struct session s;
+    open_creature(&s);
+    char *before = session_saved(&s);
+    session_point(&s, "floor(c)");
+    session_frame(&s);
+    assert_int_equal(s.editor->core.hover.kind, HOVER_FLOOR);
+    assert_int_equal(editor_cursor(s.editor), CURSOR_VERTICAL);
+    float from[2], to[2];
+    edge(&s, from);
+    session_pull(&s, "floor(c)", 0, 30, 4);
+    edge(&s, to);
+    session_release(&s, BUTTON_LEFT);
+    assert_true(floor_of(&s) < -0.02);
+    if (!(fabsf(to[1] - from[1] - 30) < 6)) fail_msg("the edge moved by %g pixels of 30", (double)(to[1] - from[1]));
+    assert_one_step(&s, before);
+    free(before);
+    session_close(&s);
+}
+
+/// Whatever the pointer says, the floor is not above the feet; Esc puts it back.
+static void test_it_stops_at_the_feet_and_esc_cancels(void **state)
+{
+    (void)state;
+    struct session s;
+    open_creature(&s);
+    char *before = session_saved(&s);
+    session_pull(&s, "floor(c)", 0, -300, 4);
+    assert_near(floor_of(&s), 0.2, 1e-12);
+    session_key(&s, KEY_ESCAPE, 0);
+    session_release(&s, BUTTON_LEFT);
+    assert_saved(&s, before);
+    free(before);
+    session_close(&s);
+}
+
+/// The curve gives way while the floor is dragged, in the same frame.
+static void test_the_motion_follows(void **state)
+{
+    (void)state;
+    struct session s;
+    open_creature(&s);
+    const double was = s.world.evaluation->curves[0].total[35];
+    session_pull(&s, "floor(c)", 0, -30, 4);
+    const double now = s.world.evaluation->curves[0].total[35];
+    session_release(&s, BUTTON_LEFT);
+    assert_true(floor_of(&s) > 0.02);
+    assert_true(fabs(now - was) > 1e-3);
+    session_close(&s);
+}
+
+static void test_without_a_floor_there_is_no_edge(void **state)
+{
+    (void)state;
+    struct session s;
+    open_creature(&s);
+    float at[2];
+    struct error error;
+    edge(&s, at);
+    s.document->rigs[0].character.has_floor = false;
+    session_move(&s, at[0], at[1]);
+    session_frame(&s);
+    assert_int_not_equal(s.editor->core.hover.kind, HOVER_FLOOR);
+    assert_false(editor_target(s.editor, &s.world, "floor(c)", &at[0], &at[1], &error));
+    session_close(&s);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_the_edge_is_dragged_down), cmocka_unit_test(test_it_stops_at_the_feet_and_esc_cancels),
+        cmocka_unit_test(test_the_motion_follows), cmocka_unit_test(test_without_a_floor_there_is_no_edge)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
