@@ -3,8 +3,8 @@
 #include <math.h>
 #include <string.h>
 
-static const float FINEST = 2; ///< pixels from node to node
-static const float OUTSIDE = -2;  ///< cells; what is farther away makes no difference
+static const float FINEST = 2;   ///< pixels from node to node
+static const float OUTSIDE = -2; ///< cells; what is farther away makes no difference
 
 void silhouette_clear(struct silhouette *silhouette, struct rect area)
 {
