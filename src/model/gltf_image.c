@@ -17,6 +17,10 @@
 #define STBI_ONLY_PNG
 #define STBI_ONLY_JPEG
 #define STBI_MAX_DIMENSIONS 16384
+// A scan may name a table that the file does not have: it is then of zeros, not of what lay there before.
+#define STBI_MALLOC(size) calloc(1, size)
+#define STBI_REALLOC realloc
+#define STBI_FREE free
 #include <stb/stb_image.h>
 #ifdef __clang__
 #pragma clang attribute pop
