@@ -168,12 +168,12 @@ static void test_axes_lock_and_shift_is_fine(void **state)
 }
 
 /// Where a spline is followed, the drag leaves a knot at the playhead; the other coordinates stay numbers.
-static void test_a_tracked_body_gets_a_knot(void **state)
+static void drag_a_tracked_body(const char *text, int track)
 {
-    (void)state;
     struct session s;
-    session_open(&s, scene);
-    document_tail(s.document, 0)->position[0] = param_track(1);
+    session_open(&s, text);
+    document_tail(s.document, 0)->position[0] = param_track(track);
+    const int splines = s.document->spline_count;
     session_key(&s, 'A', MOD_SHIFT);
     session_key(&s, KEY_RIGHT, 0);
     session_key(&s, KEY_RIGHT, 0);
@@ -183,7 +183,8 @@ static void test_a_tracked_body_gets_a_knot(void **state)
     session_key(&s, 'X', 0);
     float x = joint(&s, 0)[X];
     session_release(&s, BUTTON_LEFT);
-    const struct spline *walk = &s.document->splines[1];
+    const struct spline *walk = &s.document->splines[track];
+    assert_int_equal(s.document->spline_count, splines);
     assert_int_equal(walk->knot_count, 3);
     assert_near(walk->knots[1].frame, 2, 0);
     assert_near(walk->knots[1].value, x, 1e-3);
@@ -193,6 +194,18 @@ static void test_a_tracked_body_gets_a_knot(void **state)
     assert_saved(&s, before);
     free(before);
     session_close(&s);
+}
+
+static void test_a_tracked_body_gets_a_knot(void **state)
+{
+    static const char walk_first[] =
+        "{\"frames\": [0, 48], \"splines\": [{\"name\": \"walk\", \"mode\": \"cubic\", \"knots\": [{\"frame\": 0, "
+        "\"value\": 0.1}, {\"frame\": 48, \"value\": 0.1}]}, {\"name\": \"sway\", \"frequency\": 1.5}],"
+        "\"rigs\": [{\"type\": \"tail\", \"name\": \"tail\", \"position\": [0, 0.26, 0], "
+        "\"channels\": [{\"spline\": \"sway\"}]}]}";
+    (void)state;
+    drag_a_tracked_body(scene, 1);
+    drag_a_tracked_body(walk_first, 0);
 }
 
 /// Without auto-key all of the shot moves: every knot of what the place follows.

@@ -179,6 +179,43 @@ static void phases_are_the_legends_colours(void **state)
     }
 }
 
+/// Draws a figure's phase map and its own colours: a coat, and eyes where it is high up.
+static void draw_with_eyes(float coat, float eyes, picture map, picture plain)
+{
+    struct character character = phased(0.5f, 0.3f);
+    for (int i = 0; i < character.vertex_count; i++) {
+        for (int k = 0; k < 3; k++) character.color[i][k] = character.position[i][1] > 0.9f ? eyes : coat;
+    }
+    struct figure figure = puppet_figure(&character);
+    struct stage_character mapped = shown(&figure), own = shown(&figure);
+    mapped.map_coordinate = 1;
+    mapped.map_axis = 2;
+    draw(&mapped, map);
+    draw(&own, plain);
+    figure_free(&figure);
+}
+
+/// Dark eyes on a coat stay as they are; a coat that is dark all over has phases all over.
+static void eyes_stay_on_the_phase_map(void **state)
+{
+    (void)state;
+    if (!platform) skip();
+    static picture bare;
+    draw_with_eyes(0.4f, 0.4f, bare, other);
+    draw_with_eyes(0.01f, 0.01f, one, other);
+    assert_int_equal(differing(one, bare, 2), 0);
+    draw_with_eyes(0.4f, 0.01f, one, other);
+    int kept = 0, changed = 0;
+    for (int i = 0; i < WIDTH * HEIGHT; i++) {
+        const int mapped = one[i / WIDTH][i % WIDTH][0], own = other[i / WIDTH][i % WIDTH][0];
+        const bool is_eye = mapped + 90 < bare[i / WIDTH][i % WIDTH][0];
+        kept += is_eye && abs(mapped - own) <= 2;
+        changed += is_eye && abs(mapped - own) > 2; // at their rim
+    }
+    assert_true(kept > 500);
+    assert_true(changed < kept / 10);
+}
+
 /// Between two eighths of a turn there is a thin dark line, wherever on the circle; it has no gap to either side of where half
 /// a turn ahead is half a turn behind.
 static void a_line_divides_eighths_of_a_turn(void **state)
@@ -230,11 +267,9 @@ static void what_is_too_large_says_so(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(coordinates_move_it),
-        cmocka_unit_test(normals_follow_on_the_stage),
-        cmocka_unit_test(paint_shows_on_the_stage),
-        cmocka_unit_test(phases_are_the_legends_colours),
-        cmocka_unit_test(a_line_divides_eighths_of_a_turn),
+        cmocka_unit_test(coordinates_move_it),        cmocka_unit_test(normals_follow_on_the_stage),
+        cmocka_unit_test(paint_shows_on_the_stage),   cmocka_unit_test(phases_are_the_legends_colours),
+        cmocka_unit_test(eyes_stay_on_the_phase_map), cmocka_unit_test(a_line_divides_eighths_of_a_turn),
         cmocka_unit_test(what_is_too_large_says_so),
     };
     return cmocka_run_group_tests(tests, set_up, offscreen_close);

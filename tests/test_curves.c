@@ -263,91 +263,6 @@ static void test_normalised_curves_keep_their_picture(void **state)
     session_close(&s);
 }
 
-static void test_slopes_flat_and_smooth(void **state)
-{
-    (void)state;
-    struct session s;
-    session_open(&s, FIVE);
-    session_key(&s, 'A', MOD_CTRL);
-    char *original = session_saved(&s);
-    session_key(&s, 'T', MOD_CTRL);
-    assert_near(spline(&s, 0)->knots[0].slope, (1.0 - 0) / 10 * 24, 1e-2); // only one neighbour
-    assert_near(spline(&s, 0)->knots[2].slope, (0.5 - 1) / 20 * 24, 1e-2);
-    assert_near(spline(&s, 0)->knots[3].slope, (0.0 + 1) / 30 * 24, 1e-2);
-    assert_one_step(&s, original);
-    free(original);
-    original = session_saved(&s);
-    session_key(&s, 'T', MOD_SHIFT);
-    for (int k = 0; k < 5; k++) {
-        assert_true(spline(&s, 0)->knots[k].has_slope);
-        assert_near(spline(&s, 0)->knots[k].slope, 0, 0);
-    }
-    assert_one_step(&s, original);
-    free(original);
-    panel_click(&s, "slope.smooth"); // the same by the inspector's buttons
-    assert_near(spline(&s, 0)->knots[0].slope, (1.0 - 0) / 10 * 24, 1e-2);
-    panel_click(&s, "slope.switch");
-    for (int k = 0; k < 5; k++) assert_false(spline(&s, 0)->knots[k].has_slope);
-    session_close(&s);
-}
-
-static void test_a_longer_handle_is_stiffer(void **state)
-{
-    (void)state;
-    struct session s;
-    session_open(&s, FIVE);
-    session_click(&s, "knot(sway,1)");
-    float x = s.x, y = s.y;
-    session_point(&s, "handle(sway,1,1)");
-    float along[2] = {(s.x - x) / hypotf(s.x - x, s.y - y), (s.y - y) / hypotf(s.x - x, s.y - y)};
-    session_press(&s, BUTTON_LEFT, 1);
-    session_drag(&s, 6 * along[0], 6 * along[1], 3);
-    assert_near(spline(&s, 0)->knots[1].stiffness, 1000, 0); // a hand is not that steady
-    session_drag(&s, 26 * along[0], 26 * along[1], 5);
-    assert_near(spline(&s, 0)->knots[1].stiffness, 100000, 10000); // 24 pixels are two powers of ten
-    assert_near(spline(&s, 0)->knots[1].slope, 2, 0.05);
-    session_drag(&s, -64 * along[0], -64 * along[1], 5);
-    assert_true(spline(&s, 0)->knots[1].stiffness < 50);
-    session_release(&s, BUTTON_LEFT);
-    session_close(&s);
-}
-
-/// A handle that is pulled past its knot stays steep on its own side.
-static void test_a_handle_does_not_flip(void **state)
-{
-    (void)state;
-    struct session s;
-    session_open(&s, FIVE);
-    session_click(&s, "knot(sway,1)");
-    session_pull(&s, "handle(sway,1,1)", -150, -40, 8);
-    assert_true(spline(&s, 0)->knots[1].slope > 20);
-    session_release(&s, BUTTON_LEFT);
-    session_pull(&s, "handle(sway,1,0)", 150, 100, 8);
-    assert_true(spline(&s, 0)->knots[1].slope > 20);
-    session_release(&s, BUTTON_LEFT);
-    session_close(&s);
-}
-
-/// Of handles that nearly touch the one under the pointer is pulled.
-static void test_the_nearest_handle_is_pulled(void **state)
-{
-    (void)state;
-    static const char close[] =
-        "{\"wiggly\": 1, \"frames\": [0, 240], \"splines\": [{\"name\": \"sway\", \"frequency\": 1,"
-        "\"damping\": 0.1, \"knots\": [{\"frame\": 100, \"value\": 0, \"slope\": 0}, {\"frame\": 101, \"value\": 0,"
-        "\"slope\": 0}]}]}";
-    for (int k = 0; k < 2; k++) {
-        struct session s;
-        session_open(&s, close);
-        session_key(&s, 'A', MOD_CTRL);
-        session_pull(&s, k ? "handle(sway,1,1)" : "handle(sway,0,1)", 0, -60, 5);
-        session_release(&s, BUTTON_LEFT);
-        assert_true(spline(&s, 0)->knots[k].slope > 0.1);
-        assert_near(spline(&s, 0)->knots[1 - k].slope, 0, 0);
-        session_close(&s);
-    }
-}
-
 /// A knot where the curve is, and with the slope that it has there, leaves every sample where it was.
 static void test_double_click_on_the_curve_keeps_it(void **state)
 {
@@ -462,6 +377,34 @@ static void test_crowded_knots_are_drawn_as_one_and_hit_each(void **state)
     session_close(&s);
 }
 
+/// The first and the last as well as those between, of the active curve and of the others.
+static void test_every_knot_is_drawn(void **state)
+{
+    (void)state;
+    struct session s;
+    session_open(&s, FIVE);
+    session_frame(&s);
+    const struct drawlist *list = editor_drawlist(s.editor);
+    for (int i = 0; i < 2; i++) {
+        for (int k = 0; k < spline(&s, i)->knot_count; k++) {
+            char target[32];
+            struct error error;
+            float x, y;
+            int drawn = 0;
+            snprintf(target, sizeof target, "knot(%s,%d)", spline(&s, i)->name, k);
+            if (!editor_target(s.editor, &s.world, target, &x, &y, &error)) fail_msg("%s", error.text);
+            for (int c = 0; c < list->count; c++) {
+                const struct draw_command *command = &list->commands[c];
+                if (command->kind != DRAW_CONVEX || command->count != 4) continue;
+                const float *p = list->points + 2 * command->first; // top, right, bottom, left
+                drawn += fabsf((p[0] + p[4]) / 2 - x) < 0.5f && fabsf((p[1] + p[5]) / 2 - y) < 0.5f;
+            }
+            if (drawn != 1) fail_msg("%s is drawn %d times", target, drawn);
+        }
+    }
+    session_close(&s);
+}
+
 /// Twelve curves that end at the same height in the lowest panel there is.
 static void test_labels_never_overlap(void **state)
 {
@@ -538,6 +481,41 @@ static void test_the_view_follows_edits_smoothly(void **state)
     session_close(&s);
 }
 
+/// The whole of the spline's curve is in sight once the view has come to rest.
+static void assert_in_sight(struct session *s, int i)
+{
+    const struct view *view = &s->editor->curves->view;
+    for (int frame = 0; frame < 90; frame++) session_frame(s);
+    for (int sample = 0; sample < document_samples(s->document); sample++) {
+        const double total = s->world.evaluation->curves[i].total[sample];
+        assert_true(total < view->value1 && total > view->value0);
+    }
+}
+
+/// Of the scene that the program begins with.
+static const char SWAY[] =
+    "{\"wiggly\": 1, \"frames\": [0, 120], \"splines\": [{\"name\": \"sway\", \"frequency\": 1, \"damping\": 0.08,"
+    "\"bandwidth\": 0.08, \"start\": \"loop\", \"knots\": [{\"frame\": 8, \"value\": 1}, {\"frame\": 20, \"value\": "
+    "-1.1},"
+    "{\"frame\": 56, \"value\": 0.4}, {\"frame\": 82, \"value\": 0.2}, {\"frame\": 100, \"value\": -0.6}]}]}";
+
+/// A found frequency, a chosen feel and a roll of the dice may swing far beyond what was seen.
+static void test_the_view_follows_another_feel(void **state)
+{
+    (void)state;
+    struct session s;
+    panel_open(&s, SWAY, 1280, 2400);
+    session_key(&s, 'F', MOD_SHIFT);
+    assert_in_sight(&s, 0);
+    panel_click(&s, "preset.antenna");
+    assert_in_sight(&s, 0);
+    panel_click(&s, "section.variation");
+    panel_enter(&s, "variation", "1");
+    panel_click(&s, "variation.roll");
+    assert_in_sight(&s, 0);
+    session_close(&s);
+}
+
 /// What was copied behind the end is in sight, and so is all that was before.
 static void test_the_view_follows_a_longer_scene(void **state)
 {
@@ -587,16 +565,14 @@ int main(void)
         cmocka_unit_test(test_a_ripple_moves_what_comes_after),
         cmocka_unit_test(test_ruler_units_and_snap),
         cmocka_unit_test(test_normalised_curves_keep_their_picture),
-        cmocka_unit_test(test_slopes_flat_and_smooth),
-        cmocka_unit_test(test_a_longer_handle_is_stiffer),
-        cmocka_unit_test(test_a_handle_does_not_flip),
-        cmocka_unit_test(test_the_nearest_handle_is_pulled),
         cmocka_unit_test(test_double_click_on_the_curve_keeps_it),
         cmocka_unit_test(test_a_cubic_holds_its_last_value),
         cmocka_unit_test(test_a_sloped_knot_on_the_curve_keeps_it),
         cmocka_unit_test(test_crowded_knots_are_drawn_as_one_and_hit_each),
+        cmocka_unit_test(test_every_knot_is_drawn),
         cmocka_unit_test(test_labels_never_overlap),
         cmocka_unit_test(test_the_view_follows_edits_smoothly),
+        cmocka_unit_test(test_the_view_follows_another_feel),
         cmocka_unit_test(test_the_view_follows_a_longer_scene),
         cmocka_unit_test(test_all_that_is_drawn_is_framed),
     };

@@ -140,6 +140,8 @@ static void test_choices_are_asked_for(void **state)
     struct session s;
     open_session(&s, "walk.json", 1280, 720);
     enter(&s, "frames", 120, "12");
+    enter(&s, "keys a frame", 130, "1");
+    assert_int_equal(of(&s)->memory.wish.keys, 1);
     enter(&s, "keys a frame", 130, "4");
     click(&s, "as the scene");
     panel_type(&s, "Swing");

@@ -102,14 +102,6 @@ static void test_a_pull_out_of_reach_stays_calm(void **state)
     for (int i = 0; i < 100; i++) session_frame(&s);
     for (int i = 0; i < s.table.evaluation.samples; i++)
         assert_true(fabs(s.table.evaluation.curves[0].total[i]) < 100);
-    const struct tail *tail = &s.document->rigs[0].tail;
-    for (int c = 0; c < tail->channel_count; c++) { // a little more than a full turn of the joint that is held
-        const struct spline *spline = &s.document->splines[tail->channels[c].spline];
-        double degrees = 0;
-        for (int n = 0; n <= s.editor->stage->grab.joint && n < tail->joints; n++)
-            degrees += fabs(angles_at(&tail->channels[c].gain, n, tail->joints));
-        for (int k = 0; k < spline->knot_count; k++) assert_true(fabs(spline->knots[k].value) * degrees < 402);
-    }
     session_key(&s, KEY_ESCAPE, 0);
     assert_int_equal(s.document->splines[0].knot_count, 3);
     session_close(&s);

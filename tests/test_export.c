@@ -185,6 +185,32 @@ static void point_caches_hold_the_same(void **state)
     free(mdd.number);
 }
 
+/// Where no key falls on the last frame, the report says where the last key is; else it says nothing of it.
+static void a_rate_that_misses_the_end_is_said(void **state)
+{
+    (void)state;
+    struct opened scene = open_scene("assets/scenes/tail.json"); // 24 frames a second
+    for (int misses = 0; misses < 2; misses++) {
+        const struct export_options options = {.rate = misses ? 18 : 12, .has_frames = true, .last = 22};
+        struct export_report report = {0};
+        struct error error;
+        assert_true(export_write(posing_of(&scene), folder_path("t.csv"), &options, &report, &error));
+        assert_int_equal(strstr(report.note, "the last key is on frame") != NULL, misses);
+    }
+    close_scene(&scene);
+}
+
+/// A joint's path in a .usda begins with those that it hangs on.
+static void usd_joints_hang_on_each_other(void **state)
+{
+    (void)state;
+    size_t size;
+    char *text = bytes_of(export_scene("tail", "t.usda", (struct export_options){.substeps = 1}), &size);
+    assert_non_null(
+        strstr(text, "joints = [\"tail_base\", \"tail_base/tail_body\", \"tail_base/tail_body/tail_chest\","));
+    free(text);
+}
+
 /// Each row has every spline's value and, over a channel's joints, the angles of the pose.
 static void a_table_has_splines_and_channels(void **state)
 {
@@ -305,6 +331,8 @@ int main(void)
         cmocka_unit_test_setup_teardown(weights_stay_within_one_unless_signed, folder_make, folder_remove),
         cmocka_unit_test_setup_teardown(an_exported_creature_opens_as_one, folder_make, folder_remove),
         cmocka_unit_test_setup_teardown(point_caches_hold_the_same, folder_make, folder_remove),
+        cmocka_unit_test_setup_teardown(a_rate_that_misses_the_end_is_said, folder_make, folder_remove),
+        cmocka_unit_test_setup_teardown(usd_joints_hang_on_each_other, folder_make, folder_remove),
         cmocka_unit_test_setup_teardown(a_table_has_splines_and_channels, folder_make, folder_remove),
         cmocka_unit_test_setup_teardown(stopping_leaves_nothing_behind, folder_make, folder_remove),
         cmocka_unit_test_setup_teardown(refusals_say_what_to_do, folder_make, folder_remove),

@@ -1,4 +1,5 @@
 /// Pins by mouse and keyboard: on the stage, on the ruler, in the inspector.
+#include "inside.h"
 #include "panel_session.h"
 
 #include "editor/core/pins.h"
@@ -172,6 +173,28 @@ static void test_a_marker_is_dragged_on_the_stage_and_on_the_ruler(void **state)
     session_close(&s);
 }
 
+/// A pin that throws a rig far makes its curves high: they come into sight.
+static void test_the_curves_follow_a_pin(void **state)
+{
+    (void)state;
+    struct session s;
+    panel_open_models(&s, creature);
+    session_frame(&s);
+    for (int step = 0; step < 10; step++) session_key(&s, KEY_RIGHT, 0);
+    session_pull(&s, "character(c,0.5,0.8)", 120, -80, 4);
+    session_release(&s, BUTTON_LEFT);
+    assert_int_equal(pins_of(&s), 1);
+    for (int frame = 0; frame < 90; frame++) session_frame(&s);
+    const struct view *view = &s.editor->curves->view;
+    for (int i = 0; i < 2; i++) {
+        for (int sample = 0; sample <= 60; sample++) {
+            const double total = s.world.evaluation->curves[i].total[sample];
+            assert_true(total < view->value1 && total > view->value0);
+        }
+    }
+    session_close(&s);
+}
+
 static void test_the_surface_of_a_character_is_pinned_and_follows_the_pointer(void **state)
 {
     (void)state;
@@ -259,6 +282,7 @@ int main(void)
         cmocka_unit_test(test_the_plain_drag_still_sets_knots),
         cmocka_unit_test(test_an_axis_can_be_locked_and_esc_cancels),
         cmocka_unit_test(test_a_pin_is_moved_nudged_retimed_and_deleted_by_keys),
+        cmocka_unit_test(test_the_curves_follow_a_pin),
         cmocka_unit_test(test_a_marker_is_dragged_on_the_stage_and_on_the_ruler),
         cmocka_unit_test(test_the_surface_of_a_character_is_pinned_and_follows_the_pointer),
         cmocka_unit_test(test_what_hardly_moves_does_not_light_up),

@@ -50,7 +50,8 @@ static size_t make_ply(unsigned char *bytes, bool big)
                                   "ply\nformat binary_%s_endian 1.0\ncomment x\nelement vertex 4\nproperty float x\n"
                                   "property float y\nproperty float z\nproperty double quality\nproperty uchar red\n"
                                   "property uchar green\nproperty uchar blue\nelement face 1\n"
-                                  "property list uchar int vertex_indices\nend_header\n",
+                                  "property list uchar int vertex_indices\nelement edge 0\nproperty int vertex1\n"
+                                  "property int vertex2\nend_header\n", // as some programs say
                                   big ? "big" : "little");
     for (int v = 0; v < 4; v++) {
         const double quality = NAN; // left out, so it may be anything

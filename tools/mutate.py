@@ -3,11 +3,14 @@
 
 Usage: tools/mutate.py [--count 200] [--seed 1] [--layers spline,scene] [--jobs 1] [--list] ...   from the root of the tree
 
-Works on a copy of the tree in a build folder B (build/mutate). There all of src is one shared library, so that a fault costs one object and one
-link, however many tests there are. A build with coverage tells once which tests run which lines; each fault meets only these:
-those that share a word with its file's name first, then from the quickest to the slowest, until one fails, crashes or takes far too long. What a run
-found is kept in B/results.jsonl: the same faults again cost only the tests that changed since. Where a source has changed, all tests may
-run its lines, until B is removed and all is measured anew.
+Works on a copy of the tree in a build folder B (build/mutate). There all of src is one shared library, so that a fault costs one
+object and one link, however many tests there are. A build with coverage tells once which tests run which functions; each fault meets
+only these: those that share a word with its file's name first, then those that surely run its line, then from the quickest to the
+slowest, until one fails, crashes or takes far too long. Tests that took longer than --longest in the suite's last run
+(build/test-out/times) are left out; after --patience a fault counts as survivor.
+
+What a run found is kept in B/results.jsonl: the same faults again cost only the tests that changed since. Where a source has changed, all
+tests may run its lines, until B is removed and all is measured anew. Seconds are those of B's measurement.
 
 Prints a table of layers and every survivor. Exit status 1 where fewer than 85 % are caught.
 """
@@ -128,9 +131,9 @@ def shares(count, lines):
 
 
 def is_idle(code, kind, start, end):
-    """Whether a fault changes nothing that a test could see: how much a buffer takes and giving something back (a sanitizer's), or which
-    side of a bound a real number falls that equals it to the last bit."""
-    if kind == "statement": return bool(re.match(r"\s*\w*close\(", code))
+    """Whether a fault changes nothing that a test could see: how much a buffer takes and giving something back (a sanitizer's), what is
+    no longer bound in OpenGL, or which side of a bound a real number falls that equals it to the last bit."""
+    if kind == "statement": return bool(re.match(r"\s*(\w*(close|decref)\(|glBind\w+\((\w+, )?0\);)", code))
     room = re.search(r"snprintf\([^,]*,[^,]*,", code)
     bound = code[start:end] in ("<", "<=", ">", ">=") and NUMBER.match(code, end + 1)
     return bool(room and start < room.end() or bound and "." in bound.group() and float(bound.group(1)) != 0)
@@ -346,14 +349,15 @@ class Knowledge:
         return found
 
     def tests_of(self, fault):
-        """Tests that run the line of a fault, in the order in which they are tried."""
-        chosen = []
+        """Tests that run the function of a fault, in the order in which they are tried: optimised code does not count every line."""
+        chosen, certain = [], set()
         for test, (counts, functions) in self.lines_of(fault.file).items():
-            runs = counts[fault.line] if fault.line in counts else any(n for a, b, n in functions if a <= fault.line <= b)
+            if counts.get(fault.line): certain.add(test)
+            runs = test in certain or any(n for a, b, n in functions if a <= fault.line <= b)
             if runs and self.known[test]["status"] is not None and self.known[test]["seconds"] <= 10 * self.longest: chosen.append(test)
         words = set(re.split(r"[/_]", fault.file.removesuffix(".c"))) - {"src"}
         own = lambda test: bool(words & set(test.split(".")[0].split("_")[1:]))
-        order, spent = sorted(chosen, key=lambda t: (not own(t), self.known[t]["seconds"])), 0
+        order, spent = sorted(chosen, key=lambda t: (not own(t), t not in certain, self.known[t]["seconds"])), 0
         for i, test in enumerate(order):
             if i and spent > self.patience: return order[:i]
             spent += self.known[test]["seconds"]
@@ -383,13 +387,9 @@ class Trial:
         text = (self.copy.tree / fault.file).read_text().split("\n")
         line = text[fault.line - 1]
         text[fault.line - 1] = line[:fault.start] + fault.new + line[fault.end:]
-        source = folder / fault.file
+        source, made = folder / fault.file, folder / "mutant.o"
         source.parent.mkdir(parents=True, exist_ok=True)
         source.write_text("\n".join(text))
-        return self.made(fault, folder)
-
-    def made(self, fault, folder):
-        source, made = folder / fault.file, folder / "mutant.o"
         command = [w for w in self.copy.commands[fault.file] if w not in ("-MMD", "-MP") and not w.startswith("-W")]
         command[command.index("-c") + 1], command[command.index("-o") + 1] = str(source), str(made)
         if subprocess.run(command + ["-w", f"-fmacro-prefix-map={folder}/="], cwd=self.copy.tree, stderr=subprocess.DEVNULL).returncode:

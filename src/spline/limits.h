@@ -39,7 +39,6 @@ typedef struct limits_work {
     double tail_error;      ///< estimated, of what the limits add behind the last knot
     limits_part body, tail; ///< one of them may be empty: to < from
     int first;              ///< sample of the first block of limits_set_matrix()
-    double turn;            ///< Re w of the tail's first sample from 1 of Im w at the last knot
     wiggly_status status;
 } limits_work;
 

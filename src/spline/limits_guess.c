@@ -20,7 +20,7 @@ enum { STEPS = 40, LANES = 8 };
 static const double short_of = 0.995; ///< of the way to where a gap or a push is 0
 static const double good = 0.2;       ///< a step that leaves so little of μ shows which of the two stays
 static const double apart = 0.5;      ///< part of itself that the other one falls by more
-static const double sure = 1e-3;      ///< of the first μ: from here on it is believed
+static const double sure = 1e-3;      ///< of the first μ, of limits that are not narrow: from here on it is believed
 static const double least = 1e-10;    ///< what does not show it by then has neither gap nor push
 static const double balanced = 1e-3;  ///< part of what H d lacked at first
 
@@ -29,8 +29,8 @@ static const double balanced = 1e-3;  ///< part of what H d lacked at first
 typedef struct side {
     double sign, limit; ///< sign: of a push
     double *gap, *push;
-    double *by_gap,
-        *by_push; ///< parts of them that a step adds; `by_push` is first the product of what μ = 0 would add
+    double *by_gap;  ///< part of it that a step adds
+    double *by_push; ///< the same; before that the product of what μ = 0 would add to both
 } side;
 
 typedef struct guess {
@@ -44,6 +44,7 @@ typedef struct guess {
     double soft;          ///< what a push of 1 does to the sample that is farthest beyond a limit
     int pairs;            ///< of gap and push
     double mean;          ///< of gap times push
+    double narrow;        ///< how far the limits are apart, up to 1
     double way;           ///< part of the last step that was gone
 } guess;
 
@@ -188,6 +189,7 @@ static void begin(guess *g)
             const bool is_open = g->is_open[i] > 0;
             s->gap[i] = is_open ? fmax(s->sign * (g->total[i] - s->limit), 1) : 1;
             s->push[i] = 1 / s->gap[i];
+            s->by_push[i] = 0;
             if (is_open) g->lack[i] += s->sign * s->push[i];
         }
     }
@@ -223,7 +225,7 @@ static bool find_what_stays(guess *g)
         double unclear;
         if (!go_on(g, &unclear)) return false;
         const bool shows = g->mean < good * before && g->lack_left < balanced;
-        if (shows && (g->mean < least || (unclear == 0 && g->mean < sure))) break;
+        if (shows && (g->mean < least * g->narrow || (unclear == 0 && g->mean < sure * g->narrow))) break;
     }
     return true;
 }
@@ -287,6 +289,7 @@ static double find_soft(const guess *g, int sample)
 
 void limits_guess(limits_work *w, double slack)
 {
+    const wiggly_desc *desc = w->p->desc;
     guess g = guess_of(w);
     int farthest;
     const double size = find_farthest(&g, slack, &farthest);
@@ -296,6 +299,7 @@ void limits_guess(limits_work *w, double slack)
     if (!(g.soft > 0)) return;
     for (int i = 0; i < g.count; i++) g.total[i] /= size;
     for (int s = 0; s < g.sides; s++) g.side[s].limit /= size;
+    g.narrow = fmin(1, (desc->high - desc->low) / size);
     begin(&g);
     if (find_what_stays(&g)) hold_what_stays(&g);
 }

@@ -1,23 +1,35 @@
 /// The matrix of a limited spline with what is behind its last knot, for guesses: one band.
 //
 // Let d be what limits change. Up to the last knot L its energy is that of the spline's rows. Behind it e changes by d less what
-// the motion by itself changes, by which w_L turns: Im w_L by δ. As that motion has no force but at L,
+// the motion by itself changes, φ v, where Im w_L changes by v:
 //
-//     row 0: d₁ − φ δ, φ = Re w₁ of a turn by 1        row i: d_{i+1} − a_i d_i − b_i d_{i−1}, d₀ = 0
+//     row i of the tail: d_{i+1} − a_i d_i − b_i d_{i−1} − c_i v, c_i = φ_{i+1} − a_i φ_i − b_i φ_{i−1}        (d₀ = φ₀ = 0)
 //
-// which is so for constant poles; where they vary it is as near as a guess has to be.
+// With constant poles no c_i but c₀ is more than rounding. v is handed on from block to block, as their second number, by a stiff spring.
 #include "spline/limits.h"
 #include <string.h>
 
-/// The tail's rows, to where they stand behind `body` blocks.
+static const double stiff = 1e6; ///< of the first row, that spring
+
+/// −a and −b of a row.
+static double on_own(const coefficients *at) { return -2 - at->m.re; }
+static double on_before(const coefficients *at) { return 1 + at->m.re + at->p.re; }
+
+/// The tail's rows, to where they stand behind `body` blocks, c_i among the drives.
 static void set_tail(limits_work *w, int body)
 {
     system_rows *rows = &w->solver->rows;
-    const size_t count = (size_t)(w->tail.to - w->tail.begin);
+    const int count = w->tail.to - w->tail.begin;
     limits_set_tail_rows(w);
-    memmove(rows->at + body, rows->at, sizeof *rows->at * count);
-    memmove(rows->jet_weight + body, rows->jet_weight, sizeof *rows->jet_weight * count);
-    for (size_t i = 0; i < count; i++) rows->jet_weight[(size_t)body + i] *= w->p->unit / w->tail.p.unit;
+    memmove(rows->at + body, rows->at, sizeof *rows->at * (size_t)count);
+    memmove(rows->jet_weight + body, rows->jet_weight, sizeof *rows->jet_weight * (size_t)count);
+    const double *turned = w->solver->limits.free[1] + w->tail.begin; // φ
+    for (int i = 0; i < count; i++) {
+        const coefficients *at = &rows->at[body + i];
+        rows->jet_weight[body + i] *= w->p->unit / w->tail.p.unit;
+        rows->drive[body + i].re =
+            turned[i + 1] + on_own(at) * turned[i] + (i > 0 ? on_before(at) * turned[i - 1] : 0);
+    }
 }
 
 /// In place of the rows up to the last knot where there is none: one sample at rest.
@@ -36,7 +48,6 @@ void limits_set_system(limits_work *w)
     const bool alone = w->p->latest < 0 && limits_has_tail(w);
     if (limits_has_tail(w)) set_tail(w, alone ? 1 : problem_rows(w->p));
     w->first = alone ? w->tail.begin : w->p->first;
-    w->turn = alone || !limits_has_tail(w) ? 0 : w->solver->limits.free[1][w->tail.from];
     if (alone) {
         set_rest(&w->solver->rows);
     } else {
@@ -44,34 +55,34 @@ void limits_set_system(limits_work *w)
     }
 }
 
-/// −a and −b of a row.
-static double on_own(const coefficients *at) { return -2 - at->m.re; }
-static double on_before(const coefficients *at) { return 1 + at->m.re + at->p.re; }
-
 static void add_tail(const limits_work *w)
 {
     const system_rows *rows = &w->solver->rows;
     pentadiagonal *m = &w->solver->matrix;
     const int last = rows->count - 1, count = w->tail.to - w->tail.begin;
     const coefficients *at = rows->at + last + 1;
-    const double *weight = rows->jet_weight + last + 1;
+    const double *weight = rows->jet_weight + last + 1, spring = stiff * weight[0];
+    const cplx *turn = rows->drive + last + 1; // c
     m->count += count;
-    m->diagonal[3 * last + 2] += weight[0] * (w->turn * w->turn);
-    m->below[4 * last + 1] -= weight[0] * w->turn;
+    if (!(rows->fixed[last] & FIXED_IM)) {
+        m->diagonal[3 * last + 2] += weight[0] * (turn[0].re * turn[0].re) + spring;
+        m->below[4 * last + 1] = -weight[0] * turn[0].re, m->below[4 * last + 3] = -spring;
+    }
     memset(m->below + 4 * (last + 1), 0, sizeof *m->below * 4 * (size_t)count);
     memset(m->below2 + 4 * (last + 1), 0, sizeof *m->below2 * 4 * (size_t)count);
     for (int i = 1; i <= count; i++) {
         double *diagonal = m->diagonal + 3 * (last + i), *below = m->below + 4 * (last + i);
-        diagonal[0] = weight[i - 1], diagonal[1] = 0, diagonal[2] = 1;
+        diagonal[0] = weight[i - 1], diagonal[1] = 0, diagonal[2] = spring;
         if (i < count) {
-            const double own = on_own(&at[i]);
-            diagonal[0] += weight[i] * (own * own);
-            below[0] += weight[i] * own;
+            const double own = on_own(&at[i]), c = turn[i].re;
+            diagonal[0] += weight[i] * (own * own), diagonal[1] -= weight[i] * (own * c);
+            diagonal[2] += weight[i] * (c * c) + spring;
+            below[0] += weight[i] * own, below[1] -= weight[i] * c, below[3] = -spring;
         }
         if (i + 1 < count) {
             const double own = on_own(&at[i + 1]), before = on_before(&at[i + 1]);
             diagonal[0] += weight[i + 1] * (before * before);
-            below[0] += weight[i + 1] * (own * before);
+            below[0] += weight[i + 1] * (own * before), below[2] -= weight[i + 1] * (turn[i + 1].re * before);
             m->below2[4 * (last + i)] = weight[i + 1] * before;
         }
     }

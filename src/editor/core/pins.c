@@ -58,6 +58,14 @@ struct edit pins_edit(enum edit_kind kind, int rig, const struct pin *pin)
     return edit;
 }
 
+void pins_tell(const struct core *core, const struct editor_world *world, int rig)
+{
+    const struct rig *moved = &world->document->rigs[rig];
+    for (int i = 0; i < rig_input_count(moved); i++) {
+        if (rig_point_input(moved, i) >= 0) core_tell(core, world, NEWS_EDITED, rig_point_input(moved, i));
+    }
+}
+
 bool pins_put(struct core *core, const struct editor_world *world, int rig, int point, double frame,
               const double to[3])
 {
@@ -70,6 +78,7 @@ bool pins_put(struct core *core, const struct editor_world *world, int rig, int 
     const struct edit edit = pins_edit(there < 0 ? EDIT_PIN_ADD : EDIT_PIN_SET, rig, &pin);
     if (!core_edit(core, world, &edit)) return false;
     pins_select(core, document->rigs[rig].pins[pins_find(document, &document->rigs[rig], point, sample)].id);
+    pins_tell(core, world, rig);
     return true;
 }
 
@@ -99,7 +108,7 @@ void pins_nudge(struct core *core, const struct editor_world *world, const doubl
     struct pin moved = *pin;
     for (int k = 0; k < 3; k++) moved.to[k] += by[k];
     const struct edit edit = pins_edit(EDIT_PIN_SET, rig, &moved);
-    core_step(core, world, "Nudge pin", merge_key(pin, NUDGE_PLACE), &edit);
+    if (core_step(core, world, "Nudge pin", merge_key(pin, NUDGE_PLACE), &edit)) pins_tell(core, world, rig);
 }
 
 void pins_retime(struct core *core, const struct editor_world *world, int frames)
@@ -116,8 +125,9 @@ void pins_retime(struct core *core, const struct editor_world *world, int frames
         if (sample < 0 || sample > pins_last_sample(document, &document->rigs[rig])) return;
     } while (pins_find(document, &document->rigs[rig], pin->point, sample) >= 0);
     const struct edit edit = pins_edit(EDIT_PIN_SET, rig, &moved);
-    if (core_step(core, world, "Move pin in time", merge_key(pin, NUDGE_FRAME), &edit))
-        playback_seek(core, document, moved.frame);
+    if (!core_step(core, world, "Move pin in time", merge_key(pin, NUDGE_FRAME), &edit)) return;
+    playback_seek(core, document, moved.frame);
+    pins_tell(core, world, rig);
 }
 
 void pins_delete(struct core *core, const struct editor_world *world)

@@ -153,7 +153,7 @@ enum news {
     NEWS_ACTIVATES,  ///< a spline is about to become the active one
     NEWS_ACTIVATED,  ///< it is
     NEWS_DRAG_MOVES, ///< a drag is about to edit
-    NEWS_EDITED,     ///< a spline's knots were, or where it is -1, the selected ones; they are not solved yet
+    NEWS_EDITED,     ///< a spline was, or where it is -1, its selected knots were; not solved yet
 };
 
 /// Who hears it: the editor, which passes it on to its panels.

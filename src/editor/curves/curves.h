@@ -79,7 +79,7 @@ void curves_frame_all(struct curves *curves, struct core *core, const struct edi
 void curves_frame_selection(struct curves *curves, struct core *core, const struct editor_world *world);
 /// Pans just far enough to show a frame and value.
 void curves_reveal(struct curves *curves, struct core *core, double frame, double value);
-/// All of a spline's knots, or the selected ones (-1), have been edited: once they are solved they are to be in sight.
+/// All of a spline, or the selected knots (-1), have been edited: once they are solved they are to be in sight.
 void curves_follow(struct curves *curves, int spline);
 /// After the solve: where what was edited has left the panel, the view is to widen.
 void follow_edits(struct curves *curves, struct core *core, const struct editor_world *world);

@@ -75,7 +75,9 @@ void ruler_pins_apply(struct curves *curves, struct core *core, const struct edi
         drag->free_frame = document_frame(document, sample); // else it stays where it last was free
     moved.frame = drag->free_frame;
     const struct edit edit = pins_edit(EDIT_PIN_SET, rig, &moved);
-    if (core_edit(core, world, &edit)) playback_seek(core, document, moved.frame);
+    if (!core_edit(core, world, &edit)) return;
+    playback_seek(core, document, moved.frame);
+    pins_tell(core, world, rig);
 }
 
 void ruler_pins_show(const struct curves *curves, struct core *core, const struct document *document)

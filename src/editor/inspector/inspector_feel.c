@@ -61,6 +61,7 @@ static void apply(struct inspection *in, const struct preset *preset)
     if (!good) history_restart(in->world->history, in->document);
     history_end(in->world->history);
     core_refresh(in->core, in->world);
+    core_tell(in->core, in->world, NEWS_EDITED, in->core->active);
 }
 
 /// Buttons side by side, each as wide as its word asks for.

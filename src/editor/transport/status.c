@@ -90,7 +90,9 @@ static const char *hover_hint(const struct core *core, const struct document *do
     if (document_next_rig(document, RIG_MODEL, 0) >= 0)
         return "Point at a bone and click it to make a chain. F1 shows all keys";
     if (document->spline_count == 0) return "Ctrl+O opens a scene.  F1 shows all keys";
-    if (document_next_rig(document, RIG_TAIL, 0) < 0) return "Drag a knot.  Space plays, F1 shows all keys";
+    if (document_next_rig(document, RIG_CHARACTER, 0) >= 0)
+        return "Drag a knot, or the surface to pin a point. Space plays, F1 shows all keys";
+    if (document_next_rig(document, RIG_TAIL, 0) < 0) return "Drag a knot. Space plays, F1 shows all keys";
     return "Drag the fox, its tail or a knot. Space plays, F1 shows all keys";
 }
 

@@ -1,0 +1,107 @@
+/// Slopes of knots in the curves panel: by keys, by buttons, and by pulling their handles.
+#include "panel_session.h"
+
+static const char FIVE[] =
+    "{\"wiggly\": 1, \"frames\": [0, 96], \"splines\": [{\"name\": \"sway\", \"frequency\": 1,"
+    "\"damping\": 0.1, \"knots\": [{\"frame\": 10, \"value\": 0}, {\"frame\": 20, \"value\": 1, \"slope\": 2},"
+    "{\"frame\": 30, \"value\": -1}, {\"frame\": 40, \"value\": 0.5}, {\"frame\": 60, \"value\": 0}]},"
+    "{\"name\": \"up\", \"mode\": \"cubic\", \"knots\": [{\"frame\": 5, \"value\": 1.3},"
+    "{\"frame\": 70, \"value\": 0.75}]}]}";
+
+static const struct spline *spline(const struct session *s, int i) { return &s->document->splines[i]; }
+
+static void test_slopes_flat_and_smooth(void **state)
+{
+    (void)state;
+    struct session s;
+    session_open(&s, FIVE);
+    session_key(&s, 'A', MOD_CTRL);
+    char *original = session_saved(&s);
+    session_key(&s, 'T', MOD_CTRL);
+    assert_near(spline(&s, 0)->knots[0].slope, (1.0 - 0) / 10 * 24, 1e-2); // only one neighbour
+    assert_near(spline(&s, 0)->knots[2].slope, (0.5 - 1) / 20 * 24, 1e-2);
+    assert_near(spline(&s, 0)->knots[3].slope, (0.0 + 1) / 30 * 24, 1e-2);
+    assert_one_step(&s, original);
+    free(original);
+    original = session_saved(&s);
+    session_key(&s, 'T', MOD_SHIFT);
+    for (int k = 0; k < 5; k++) {
+        assert_true(spline(&s, 0)->knots[k].has_slope);
+        assert_near(spline(&s, 0)->knots[k].slope, 0, 0);
+    }
+    assert_one_step(&s, original);
+    free(original);
+    panel_click(&s, "slope.smooth"); // the same by the inspector's buttons
+    assert_near(spline(&s, 0)->knots[0].slope, (1.0 - 0) / 10 * 24, 1e-2);
+    panel_click(&s, "slope.switch");
+    for (int k = 0; k < 5; k++) assert_false(spline(&s, 0)->knots[k].has_slope);
+    session_close(&s);
+}
+
+static void test_a_longer_handle_is_stiffer(void **state)
+{
+    (void)state;
+    struct session s;
+    session_open(&s, FIVE);
+    session_click(&s, "knot(sway,1)");
+    float x = s.x, y = s.y;
+    session_point(&s, "handle(sway,1,1)");
+    float along[2] = {(s.x - x) / hypotf(s.x - x, s.y - y), (s.y - y) / hypotf(s.x - x, s.y - y)};
+    session_press(&s, BUTTON_LEFT, 1);
+    session_drag(&s, 6 * along[0], 6 * along[1], 3);
+    assert_near(spline(&s, 0)->knots[1].stiffness, 1000, 0); // a hand is not that steady
+    session_drag(&s, 26 * along[0], 26 * along[1], 5);
+    assert_near(spline(&s, 0)->knots[1].stiffness, 100000, 10000); // 24 pixels are two powers of ten
+    assert_near(spline(&s, 0)->knots[1].slope, 2, 0.05);
+    session_drag(&s, -64 * along[0], -64 * along[1], 5);
+    assert_true(spline(&s, 0)->knots[1].stiffness < 50);
+    session_release(&s, BUTTON_LEFT);
+    session_close(&s);
+}
+
+/// A handle that is pulled past its knot stays steep on its own side.
+static void test_a_handle_does_not_flip(void **state)
+{
+    (void)state;
+    struct session s;
+    session_open(&s, FIVE);
+    session_click(&s, "knot(sway,1)");
+    session_pull(&s, "handle(sway,1,1)", -150, -40, 8);
+    assert_true(spline(&s, 0)->knots[1].slope > 20);
+    session_release(&s, BUTTON_LEFT);
+    session_pull(&s, "handle(sway,1,0)", 150, 100, 8);
+    assert_true(spline(&s, 0)->knots[1].slope > 20);
+    session_release(&s, BUTTON_LEFT);
+    session_close(&s);
+}
+
+/// Of handles that nearly touch the one under the pointer is pulled.
+static void test_the_nearest_handle_is_pulled(void **state)
+{
+    (void)state;
+    static const char close[] =
+        "{\"wiggly\": 1, \"frames\": [0, 240], \"splines\": [{\"name\": \"sway\", \"frequency\": 1,"
+        "\"damping\": 0.1, \"knots\": [{\"frame\": 100, \"value\": 0, \"slope\": 0}, {\"frame\": 101, \"value\": 0,"
+        "\"slope\": 0}]}]}";
+    for (int k = 0; k < 2; k++) {
+        struct session s;
+        session_open(&s, close);
+        session_key(&s, 'A', MOD_CTRL);
+        session_pull(&s, k ? "handle(sway,1,1)" : "handle(sway,0,1)", 0, -60, 5);
+        session_release(&s, BUTTON_LEFT);
+        assert_true(spline(&s, 0)->knots[k].slope > 0.1);
+        assert_near(spline(&s, 0)->knots[1 - k].slope, 0, 0);
+        session_close(&s);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_slopes_flat_and_smooth),
+        cmocka_unit_test(test_a_longer_handle_is_stiffer),
+        cmocka_unit_test(test_a_handle_does_not_flip),
+        cmocka_unit_test(test_the_nearest_handle_is_pulled),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
