@@ -57,6 +57,6 @@ static bool png_is_sound(const unsigned char *at, const unsigned char *end)
 bool picture_is_sound(const unsigned char *bytes, size_t size)
 {
     if (size >= SIGNATURE && memcmp(bytes, "\x89PNG", 4) == 0) return png_is_sound(bytes, bytes + size);
-    if (size >= 2 && bytes[0] == MARKER && bytes[1] == START) return jpeg_is_sound(bytes, bytes + size);
+    if (size > 0 && bytes[0] == MARKER) return jpeg_is_sound(bytes, bytes + size); // its start may be filled up
     return true;
 }
