@@ -188,7 +188,7 @@ bool snapshot_print(struct snapshot *snapshot, char **buffer, size_t *capacity, 
         print_knots(&text, knots, part->count);
     }
     text_bytes(&text, snapshot->text.data + from, snapshot->text.size - from);
-    text_bytes(&text, snapshot->paint.data, snapshot->paint.size);
+    if (snapshot->paint.size > 0) text_bytes(&text, snapshot->paint.data, snapshot->paint.size);
     *buffer = text.data;
     *capacity = text.capacity;
     *size = text.size;
