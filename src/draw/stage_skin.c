@@ -40,9 +40,10 @@ static bool sort_triangles(struct skin_mesh *skin)
         }
     }
     skin->first[REGIONS] = count;
-    if (sorted) memcpy(mesh->indices, sorted, size);
+    const bool made = sorted != NULL;
+    if (made) memcpy(mesh->indices, sorted, size);
     free(sorted);
-    return sorted;
+    return made;
 }
 
 /// The corner after a corner in its triangle.

@@ -72,7 +72,8 @@ static void join_rings(uint32_t first, uint32_t segments, struct mesh *mesh)
 
 static void close_tip(uint32_t last_ring, uint32_t segments, struct mesh *mesh)
 {
-    struct vertex tip = {.position = {0.0f, 0.0f, CREATURE_TAIL_LENGTH}, .normal = {0.0f, 0.0f, 1.0f}, .bend = 1.0f, .open = 1.0f};
+    struct vertex tip = {
+        .position = {0.0f, 0.0f, CREATURE_TAIL_LENGTH}, .normal = {0.0f, 0.0f, 1.0f}, .bend = 1.0f, .open = 1.0f};
     coat_tail(CREATURE_TAIL_LENGTH, 0.0f, tip.mark);
     coat_marked(tip.mark, tip.color);
     const uint32_t end = mesh_vertex(mesh, &tip);
