@@ -147,7 +147,7 @@ for command in $commands; do
 done
 # shellcheck disable=SC2086
 unknown=$(grep -ohE '`[^`]*`' $documents | grep -oE -- '--[a-z][a-z-]*' | sort -u |
-    grep -vxFf <(cut -d' ' -f1 "$scratch"/*.options; printf '%s\n' --help --version --cflags --libs))
+    grep -vxFf <(cut -d' ' -f1 "$scratch"/*.options; grep -ohE -- '--[a-z-]+' tools/*.py; printf '%s\n' --help --version --cflags --libs))
 [ -z "$unknown" ] || echo "  unknown option $unknown"
 [ -z "$unknown" ]
 ok "every option that is named is there" $?
