@@ -104,7 +104,7 @@ struct scaling {
     double free_time;    ///< last factor by which no knot was hit
     char typed[16];      ///< one factor or, with a space between them, two in place of the pointer's
     char stopped[2][80]; ///< why time, and value, go no further, or ""
-    char sentence[320];
+    char sentence[400];
 };
 
 enum warning_kind {
