@@ -70,6 +70,17 @@ static void paint(struct vertex *vertex)
     if (face < 0.002f) coat_mix(vertex->color, COAT_TIP, shine);
 }
 
+/// Below the nose triangles reach from it to the muzzle: their corners there are dark, too, or the nose would have teeth.
+static void darken_below_nose(struct mesh *mesh)
+{
+    for (int i = 0; i < mesh->vertex_count; i++) {
+        struct vertex *vertex = &mesh->vertices[i];
+        const float away = parts_add(body + FIRST_SHINING, 1, vertex->position, 1e3f, NULL);
+        if (away >= 0.002f && vertex->position[1] < body[FIRST_SHINING].a[1])
+            coat_mix(vertex->color, COAT_DARK, glm_smoothstep(0.026f, 0.012f, away));
+    }
+}
+
 static bool write(const struct mesh *mesh, const char *path, struct error *error)
 {
     struct surface surface = {
@@ -100,6 +111,7 @@ int main(int argc, char **argv)
     struct error error = {0};
     isosurface(&solid, lo, hi, CELL, &mesh);
     refine(&solid, TOLERANCE, REFINE_ROUNDS, 0, &mesh);
+    darken_below_nose(&mesh);
     if (mesh.failed) {
         fail(&error, ERROR_ENVIRONMENT, "not enough memory for the creature");
     } else if (write(&mesh, argv[1], &error)) {
