@@ -120,14 +120,20 @@ static void test_a_second_take_replaces_the_first(void **state)
     session_close(&s);
 }
 
+/// With the pointer on the body; the document as it is then.
+static char *open_at_body(struct session *s)
+{
+    session_open(s, scene);
+    session_point(s, "body(tail)");
+    session_frame(s);
+    return session_saved(s);
+}
+
 static void test_escape_forgets_the_recording(void **state)
 {
     (void)state;
     struct session s;
-    session_open(&s, scene);
-    char *before = session_saved(&s);
-    session_point(&s, "body(tail)");
-    session_frame(&s);
+    char *before = open_at_body(&s);
     session_press(&s, BUTTON_LEFT, 1);
     session_drag(&s, -40, 0, 4);
     session_send(&s, (struct event){.kind = EVENT_KEY, .key = 'R', .action = ACTION_PRESS});
@@ -144,10 +150,7 @@ static void test_a_way_without_a_channel_gets_one(void **state)
 {
     (void)state;
     struct session s;
-    session_open(&s, scene);
-    char *before = session_saved(&s);
-    session_point(&s, "body(tail)");
-    session_frame(&s);
+    char *before = open_at_body(&s);
     s.mods = MOD_CTRL;
     session_press(&s, BUTTON_LEFT, 1);
     session_hold(&s, KEY_SPACE, ACTION_PRESS);

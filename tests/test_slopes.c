@@ -1,14 +1,6 @@
 /// Slopes of knots in the curves panel: by keys, by buttons, and by pulling their handles.
+#include "five_knots.h"
 #include "panel_session.h"
-
-static const char FIVE[] =
-    "{\"wiggly\": 1, \"frames\": [0, 96], \"splines\": [{\"name\": \"sway\", \"frequency\": 1,"
-    "\"damping\": 0.1, \"knots\": [{\"frame\": 10, \"value\": 0}, {\"frame\": 20, \"value\": 1, \"slope\": 2},"
-    "{\"frame\": 30, \"value\": -1}, {\"frame\": 40, \"value\": 0.5}, {\"frame\": 60, \"value\": 0}]},"
-    "{\"name\": \"up\", \"mode\": \"cubic\", \"knots\": [{\"frame\": 5, \"value\": 1.3},"
-    "{\"frame\": 70, \"value\": 0.75}]}]}";
-
-static const struct spline *spline(const struct session *s, int i) { return &s->document->splines[i]; }
 
 static void test_slopes_flat_and_smooth(void **state)
 {

@@ -56,13 +56,12 @@ const char *options_nearest(const char *word, const char *const *candidates, int
 
 enum options_result options_wrong(const struct usage *usage, const char *format, ...)
 {
-    char text[4096], shown[4096];
+    char text[4096];
     va_list arguments;
     va_start(arguments, format);
     vsnprintf(text, sizeof text, format, arguments);
     va_end(arguments);
-    printable(text, shown, sizeof shown);
-    fprintf(stderr, "wiggly %s: %s; see wiggly %s --help\n", usage->command, shown, usage->command);
+    print_line(stderr, "wiggly %s: %s; see wiggly %s --help", usage->command, text, usage->command);
     return OPTIONS_WRONG;
 }
 

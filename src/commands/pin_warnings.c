@@ -26,9 +26,8 @@ static void tell_pin(const struct pin_left *left, int rig, int pin, void (*tell)
 static void tell_floor(const struct document *document, const struct floor_left *left, int rig,
                        void (*tell)(void *user, const char *sentence), void *user)
 {
-    const struct rig *of = &document->rigs[rig];
     char sentence[160];
-    if (of->kind != RIG_CHARACTER || !of->character.has_floor || !left || left->depth < BELOW) return;
+    if (!rig_has_floor(&document->rigs[rig]) || !left || left->depth < BELOW) return;
     snprintf(sentence, sizeof sentence,
              "rigs[%d].floor: knots and pins hold the character up to %.3g m below it, deepest at frame %.6g", rig,
              left->depth, document_frame(document, left->sample));

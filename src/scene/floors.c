@@ -30,12 +30,10 @@ void floors_free(struct floors *floors)
     *floors = (struct floors){0};
 }
 
-static bool has_floor(const struct rig *rig) { return rig->kind == RIG_CHARACTER && rig->character.has_floor; }
-
 bool floors_any(const struct document *document)
 {
     for (int r = 0; r < document->rig_count; r++) {
-        if (has_floor(&document->rigs[r])) return true;
+        if (rig_has_floor(&document->rigs[r])) return true;
     }
     return false;
 }
@@ -68,7 +66,7 @@ bool floors_resize(struct floors *floors, const struct document *document, int g
 
 static bool concerns(const int *which, const struct rig *rig, int group)
 {
-    return has_floor(rig) && rig_input_count(rig) > 0 && which[rig_input(rig, 0)] == group;
+    return rig_has_floor(rig) && rig_input_count(rig) > 0 && which[rig_input(rig, 0)] == group;
 }
 
 bool floors_concern(const int *which, const struct document *document, int group)

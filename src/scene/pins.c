@@ -16,10 +16,7 @@ int pins_count(const struct document *document)
     return count;
 }
 
-bool pins_hold_rig(const struct rig *rig)
-{
-    return rig->pin_count > 0 || (rig->kind == RIG_CHARACTER && rig->character.has_floor);
-}
+bool pins_hold_rig(const struct rig *rig) { return rig->pin_count > 0 || rig_has_floor(rig); }
 
 bool pins_hold_any(const struct document *document)
 {

@@ -47,6 +47,12 @@ const char *rig_word(enum rig_kind kind);
 /// What to call it in a sentence: its name, or the file or joint that it is about.
 const char *rig_title(const struct rig *rig);
 
+/// Whether it is a character that is kept above a floor.
+static inline bool rig_has_floor(const struct rig *rig)
+{
+    return rig->kind == RIG_CHARACTER && rig->character.has_floor;
+}
+
 /// The splines that bend or drive it, by index: those of its channels or drives.
 int rig_input_count(const struct rig *rig);
 int rig_input(const struct rig *rig, int input);

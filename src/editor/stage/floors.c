@@ -3,6 +3,7 @@
 #include "editor/core/core.h"
 #include "editor/core/drag.h"
 #include "editor/stage/rigs.h"
+#include "editor/stage/strand.h"
 #include "model/vector.h"
 #include <math.h>
 
@@ -13,8 +14,7 @@ static const double LEAST_RISE =
 
 bool floors_exist(const struct document *document, int rig)
 {
-    return rig >= 0 && rig < document->rig_count && document->rigs[rig].kind == RIG_CHARACTER &&
-           document->rigs[rig].character.has_floor;
+    return rig >= 0 && rig < document->rig_count && rig_has_floor(&document->rigs[rig]);
 }
 
 const struct character_rig *floors_find(const struct stage *stage, const struct core *core,
@@ -42,10 +42,8 @@ const struct character_rig *floors_find(const struct stage *stage, const struct 
 /// How far a point of the screen is from a line between two others.
 static float distance_to(const float a[2], const float b[2], float x, float y)
 {
-    const float dx = b[0] - a[0], dy = b[1] - a[1], square = dx * dx + dy * dy;
-    float along = square > 0 ? ((x - a[0]) * dx + (y - a[1]) * dy) / square : 0;
-    along = fminf(fmaxf(along, 0), 1);
-    return hypotf(a[0] + along * dx - x, a[1] + along * dy - y);
+    const float along = strand_nearest(a, b, (const float[2]){x, y});
+    return hypotf(a[0] + along * (b[0] - a[0]) - x, a[1] + along * (b[1] - a[1]) - y);
 }
 
 struct hover floors_hover(const struct stage *stage, const struct core *core, const struct document *document,

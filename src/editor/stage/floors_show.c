@@ -7,28 +7,23 @@
 #include "ui/theme.h"
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 static const float TOUCH = 2e-3f;     ///< of the character's height: what is so near touches
 static const float MARK = 4, END = 2; ///< radii, pixels
 static const float FAR_SIDE = 0.35f,
                    FAR_PART = 0.4f; ///< of edges behind the character: opacity, and the part that is drawn
 
-/// The lowest vertex as it is posed, and its place.
+/// Where the lowest vertex is as it is posed.
 static void find_lowest(const struct stage_character *shown, float place[3])
 {
     const struct figure *figure = shown->figure;
-    const struct morph *morph = &shown->morph;
-    float low = INFINITY;
-    int lowest = 0;
+    place[1] = INFINITY;
     for (int v = 0; v < figure->character.vertex_count; v++) {
-        float y = figure->character.position[v][1];
-        for (int k = 0; k < morph->count; k++) {
-            const struct coordinate *c = &figure->character.coordinates[morph->coordinate[k]];
-            y += morph->weight[k][0] * c->re[v][1] - morph->weight[k][1] * c->im[v][1];
-        }
-        if (y < low) low = y, lowest = v;
+        float at[3];
+        morph_vertex(figure, &shown->morph, v, at, NULL);
+        if (at[1] < place[1]) memcpy(place, at, sizeof at);
     }
-    morph_vertex(figure, morph, lowest, place, NULL);
     for (int k = 0; k < 3; k++) place[k] += shown->position[k] - (k == 1 ? figure->lo[1] : 0.0f);
 }
 
