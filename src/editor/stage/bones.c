@@ -3,6 +3,7 @@
 #include "editor/core/arrange.h"
 #include "editor/core/bones.h"
 #include "editor/stage/rigs.h"
+#include "editor/stage/segment.h"
 #include "editor/stage/stage.h"
 #include "editor/stage/strand.h"
 #include "model/vector.h"
@@ -71,7 +72,7 @@ static bool measure(const struct stage *stage, const struct core *core, int bone
         !stage_project_point(stage, core->layout.stage, shown->ends[1], b))
         return false;
     found->bone = bone;
-    found->fraction = strand_nearest(a, b, p);
+    found->fraction = segment_nearest(a, b, p);
     for (int k = 0; k < 2; k++) found->xy[k] = a[k] + (b[k] - a[k]) * found->fraction;
     found->distance = hypotf(p[0] - found->xy[0], p[1] - found->xy[1]);
     const vec3s at = glms_vec3_lerp(vec3_from(shown->ends[0]), vec3_from(shown->ends[1]), found->fraction);

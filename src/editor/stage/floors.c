@@ -3,7 +3,7 @@
 #include "editor/core/core.h"
 #include "editor/core/drag.h"
 #include "editor/stage/rigs.h"
-#include "editor/stage/strand.h"
+#include "editor/stage/segment.h"
 #include "model/vector.h"
 #include <math.h>
 
@@ -42,7 +42,7 @@ const struct character_rig *floors_find(const struct stage *stage, const struct 
 /// How far a point of the screen is from a line between two others.
 static float distance_to(const float a[2], const float b[2], float x, float y)
 {
-    const float along = strand_nearest(a, b, (const float[2]){x, y});
+    const float along = segment_nearest(a, b, (const float[2]){x, y});
     return hypotf(a[0] + along * (b[0] - a[0]) - x, a[1] + along * (b[1] - a[1]) - y);
 }
 

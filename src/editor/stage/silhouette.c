@@ -1,6 +1,6 @@
 /// Outlines by marching squares: between a node inside and one outside, the edge is where the field passes 0.
 #include "editor/stage/silhouette.h"
-#include "editor/stage/strand.h"
+#include "editor/stage/segment.h"
 #include <math.h>
 #include <string.h>
 
@@ -49,7 +49,7 @@ static float node_y(const struct silhouette *silhouette, int row)
 /// How far inside of the link a point is.
 static float depth_in_link(const float p[2], const float a[2], float a_radius, const float b[2], float b_radius)
 {
-    const float dx = b[0] - a[0], dy = b[1] - a[1], t = strand_nearest(a, b, p);
+    const float dx = b[0] - a[0], dy = b[1] - a[1], t = segment_nearest(a, b, p);
     const float between = a_radius + t * (b_radius - a_radius) - hypotf(p[0] - a[0] - t * dx, p[1] - a[1] - t * dy);
     const float ends =
         fmaxf(a_radius - hypotf(p[0] - a[0], p[1] - a[1]), b_radius - hypotf(p[0] - b[0], p[1] - b[1]));

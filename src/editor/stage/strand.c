@@ -1,6 +1,7 @@
 /// Tails and chains as rows of points: what is held, and what the overlays follow.
 #include "editor/stage/strand.h"
 #include "editor/stage/rigs.h"
+#include "editor/stage/segment.h"
 #include "editor/stage/stage.h"
 #include "model/vector.h"
 #include <assert.h>
@@ -76,21 +77,13 @@ bool stage_project(const struct stage *stage, const struct core *core, int rig, 
     return strand && joint < strand->count && strand_project(stage, core, strand, joint, fraction, xy);
 }
 
-float strand_nearest(const float a[2], const float b[2], const float p[2])
-{
-    float dx = b[0] - a[0], dy = b[1] - a[1];
-    float square = dx * dx + dy * dy;
-    float along = (p[0] - a[0]) * dx + (p[1] - a[1]) * dy;
-    return square > 0 ? fmaxf(0, fminf(1, along / square)) : 0;
-}
-
 void strand_nearer(const struct stage *stage, const struct core *core, const struct strand *strand, const float p[2],
                    float *nearest, struct hover *hover)
 {
     for (int n = 0; n + 1 < strand->count; n++) {
         float a[2], b[2];
         if (!strand_project(stage, core, strand, n, 0, a) || !strand_project(stage, core, strand, n, 1, b)) continue;
-        float fraction = strand_nearest(a, b, p);
+        float fraction = segment_nearest(a, b, p);
         float at[2] = {a[0] + (b[0] - a[0]) * fraction, a[1] + (b[1] - a[1]) * fraction};
         float distance = hypotf(p[0] - at[0], p[1] - at[1]);
         if (distance >= *nearest) continue;

@@ -15,8 +15,6 @@ bool strand_pose(const struct stage *stage, const struct core *core, const struc
 /// Where a point of it is on the screen: `fraction` 0 … 1 of the way from joint to joint + 1. false where it is behind the eye.
 bool strand_project(const struct stage *stage, const struct core *core, const struct strand *strand, int joint,
                     double fraction, float xy[2]);
-/// How far along the segment a … b the point nearest to p is, 0 … 1.
-float strand_nearest(const float a[2], const float b[2], const float p[2]);
 /// Pixels from its centre line within which a tail is taken.
 #define STRAND_REACH 16.0f
 /// Sets `hover` (HOVER_JOINT) and `nearest` (pixels) if a point of it is nearer to p than that.
