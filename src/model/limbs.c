@@ -12,9 +12,9 @@ static const float CHEST_INNER = 0.05f,
 static const float NECK_LOW = 0.57f, NECK_HIGH = 0.68f; ///< heights: not part of the head, and wholly
 static const float ear_root[3] = {0.088f, 0.10f, 0.015f},
                    ear_tip[3] = {0.152f, 0.292f, 0.02f}; ///< in the head's own space
-static const float JOINT[2] = {0.12f, 0.52f};            ///< places along the ear where it bends
+static const float JOINT[2] = {0.15f, 0.65f};            ///< places along the ear where it bends
 static const float EAR_LENGTH = 0.202f;                  ///< from root to tip
-static const float HALF_BEND = 0.20f;                    ///< of an ear's length, over which it does
+static const float HALF_BEND = 0.25f;                    ///< of an ear's length, over which it does
 static const float HEAD_RADIUS = 0.50f;                  ///< around the neck's joint, bind size: holds head and ears
 static const float SPLAY = 0.4f;                         ///< of an ear that is laid back
 
@@ -196,8 +196,9 @@ void limbs_hang(struct vertex *vertex)
     const float *p = vertex->position, standing[3] = {p[0], p[1] + CREATURE_BASE_HEIGHT, p[2]};
     const vec3s in_head = place_in_head(p);
     const float place = along_ear(in_head);
-    const float root = glm_smoothstep(JOINT[0] - HALF_BEND, JOINT[0] + HALF_BEND, place);
-    const float tip = glm_smoothstep(JOINT[1] - HALF_BEND, JOINT[1] + HALF_BEND, place);
+    const float root =
+        glm_clamp((place - JOINT[0]) / (2.0f * HALF_BEND) + 0.5f, 0.0f, 1.0f); // evenly, or it would crease
+    const float tip = glm_clamp((place - JOINT[1]) / (2.0f * HALF_BEND) + 0.5f, 0.0f, 1.0f);
     const float of_head = glm_smoothstep(NECK_LOW, NECK_HIGH, standing[1]);
     const int side = in_head.x < 0.0f;
     const bool on_ear = in_head.y > 0.0f && root > 0.0f;
