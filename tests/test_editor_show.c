@@ -129,6 +129,29 @@ static void test_a_pull_in_circles_winds_up_once(void **state)
     session_close(&s);
 }
 
+/// The hand has it soon wherever the tail's swing stands: how that answers to the knot is learnt while pulling.
+static void test_a_pull_arrives_within_twelve_frames(void **state)
+{
+    (void)state;
+    for (int frame = 5; frame < 100; frame += 12) {
+        struct session s;
+        float at[2];
+        char ruler[32];
+        session_open(&s, TAIL);
+        snprintf(ruler, sizeof ruler, "ruler(%d)", frame);
+        session_click(&s, ruler);
+        point_at_tail(&s, 0.9f, at);
+        session_move(&s, at[0], at[1]);
+        session_press(&s, BUTTON_LEFT, 1);
+        session_move(&s, at[0] + 40, at[1] - 30);
+        for (int i = 0; i < 12; i++) session_frame(&s);
+        point_at_tail(&s, 0.9f, at);
+        assert_near(at[0], s.x, 0.5);
+        assert_near(at[1], s.y, 0.5);
+        session_close(&s);
+    }
+}
+
 static bool is_in(const uint64_t *hashes, int count, uint64_t hash)
 {
     for (int i = 0; i < count; i++) {
@@ -539,6 +562,7 @@ int main(void)
         cmocka_unit_test(test_the_tail_follows_the_hand),
         cmocka_unit_test(test_a_pull_out_of_reach_stays_calm),
         cmocka_unit_test(test_a_pull_in_circles_winds_up_once),
+        cmocka_unit_test(test_a_pull_arrives_within_twelve_frames),
         cmocka_unit_test(test_playing_redraws_the_playhead_only),
         cmocka_unit_test(test_nothing_changes_while_nothing_happens),
         cmocka_unit_test(test_steady_frames_allocate_nothing),
