@@ -285,7 +285,8 @@ static bool read_float(struct event_line *c, float *value)
 {
     char *word = take_word(c);
     double number;
-    if (!read_number(word, &number)) return bad_line(c->replay, c->error, "a number", word);
+    if (!read_number(word, &number) || !isfinite((float)number))
+        return bad_line(c->replay, c->error, "a number", word);
     *value = (float)number;
     return true;
 }
@@ -296,7 +297,7 @@ static bool read_target(struct event_line *c, char *word, struct event *event)
     char *end = strrchr(word, ')');
     if (!end) return bad_line(c->replay, c->error, "a target such as @knot(sway,2)", word);
     float dx = 0, dy = 0;
-    if (end[1] && sscanf(end + 1, "%f,%f", &dx, &dy) != 2) {
+    if (end[1] && (sscanf(end + 1, "%f,%f", &dx, &dy) != 2 || !isfinite(dx) || !isfinite(dy))) {
         return bad_line(c->replay, c->error, "an offset such as +4,-3 behind the target", end + 1);
     }
     end[1] = '\0';
