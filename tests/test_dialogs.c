@@ -228,13 +228,46 @@ static void test_welcome_with_a_character(void **state)
     session_close(&s);
 }
 
+/// Opens a scene with the card on; whether card and status line say what is to be said of it.
+static void expect_advice(const char *scene, const char *first, const char *status)
+{
+    struct session s;
+    panel_open(&s, scene, 1280, 720);
+    editor_welcome(s.editor);
+    session_frame(&s);
+    assert_non_null(shown_text(s.editor, first));
+    assert_non_null(shown_text(s.editor, status));
+    session_close(&s);
+}
+
+static void test_advice_names_what_is_there(void **state)
+{
+    (void)state;
+#define SWING "{\"frames\": [0, 24], \"splines\": [{\"name\": \"swing\"}]"
+#define REX "{\"type\": \"model\", \"name\": \"rex\", \"model\": \"/home/ada/rex.glb\"}"
+    expect_advice(SWING
+                  ", \"rigs\": [{\"type\": \"tail\", \"name\": \"t\", \"channels\": [{\"spline\": \"swing\"}]}]}",
+                  "Drag the fox", "Drag the fox, its tail or a knot. Space plays, F1 shows all keys");
+    expect_advice(
+        SWING ", \"rigs\": [{\"type\": \"character\", \"model\": \"/home/ada/bear.glb\", \"coordinates\": []}]}",
+        "Drag the character", "Drag the character to pin a point of it, or a knot. Space plays, F1 shows all keys");
+    expect_advice(SWING
+                  ", \"rigs\": [" REX
+                  ", {\"type\": \"chain\", \"name\": \"tail\", \"model\": \"rex\", \"from\": \"a\", \"to\": \"b\", "
+                  "\"channels\": [{\"spline\": \"swing\"}]}]}",
+                  "Pull a chain", "Drag a chain or a knot, or click a bone to make another chain. F1 shows all keys");
+    expect_advice(SWING ", \"rigs\": [" REX "]}", "Click a bone",
+                  "Point at a bone and click it to make a chain. F1 shows all keys");
+    expect_advice(SWING "}", "Double-click", "Drag a knot. Space plays, F1 shows all keys");
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_recent_files),      cmocka_unit_test(test_recent_files_give_way),
         cmocka_unit_test(test_mouse_in_the_list), cmocka_unit_test(test_recover),
         cmocka_unit_test(test_welcome),           cmocka_unit_test(test_welcome_with_a_character),
-        cmocka_unit_test(test_discard_and_later),
+        cmocka_unit_test(test_discard_and_later), cmocka_unit_test(test_advice_names_what_is_there),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
