@@ -34,6 +34,10 @@ for file in tail dog; do
 done
 expect 0 "a soft character" "$WIGGLY" export $scenes/character.json -o "$scratch/soft.glb" --frames 0:4
 says "says how many morph targets it has" " morph targets, 5 keys" "$out"
+cp $scenes/tail.json "$scratch/stroll.json"
+expect 0 "a scene of another name" "$WIGGLY" export "$scratch/stroll.json" -o "$scratch/a.gltf"
+grep -q '"name": *"stroll"' "$scratch/a.gltf"
+ok "gives its name to the clip" $?
 
 # A character of several files stays beside them.
 size=$(od -An -tu4 -j12 -N4 assets/models/dog.glb | tr -d ' ')
