@@ -54,6 +54,14 @@ static void positions_are_those_of_equation_30(void **state)
         assert_near((double)hi[k], most[k], 0);
         assert_near((double)lo[k], least[k], 0);
     }
+    const struct rig_pose placed = {.kind = RIG_CHARACTER,
+                                    .character = {.figure = &figure, .morph = morph, .position = {5, 6, 7}}};
+    rig_bounds(&placed, lo, hi); // it stands on its position
+    for (int k = 0; k < 3; k++) {
+        const double at = (double)placed.character.position[k] - (k == 1 ? (double)figure.lo[1] : 0);
+        assert_near((double)hi[k], most[k] + at, 1e-6);
+        assert_near((double)lo[k], least[k] + at, 1e-6);
+    }
     figure_free(&figure);
 }
 
