@@ -375,8 +375,8 @@ class Knowledge:
         own = lambda test: bool(words & set(test.split(".")[0].split("_")[1:]))
         order, spent = sorted(chosen, key=lambda t: self.known[t]["seconds"] / (10 if own(t) else 1)), 0
         for i, test in enumerate(order):
-            if i and spent > self.patience: return order[:i]
             spent += self.known[test]["seconds"]
+            if i and spent > self.patience: return order[:i]
         return order
 
 
