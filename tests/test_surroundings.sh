@@ -181,4 +181,12 @@ while IFS=$'\t' read -r name where; do
     esac
 done < <(grep -v '^#' tests/limits.txt)
 ok "and each names its test, or says why there is none" $missing
+
+# --- each promise has its test
+missing=$(grep -oE 'test_[a-z_0-9]+\.(c|sh)' docs/reliability.md | sort -u | while read -r name; do [ -e "tests/$name" ] || echo "$name"; done)
+[ -z "$missing" ] || echo "  there is no" $missing
+ok "docs/reliability.md names tests that are there" ${#missing}
+unproven=$(grep -E '^\| [^*-]' docs/reliability.md | grep -vE '`test_|^\| Promise ')
+[ -z "$unproven" ] || printf '%s\n' "$unproven"
+ok "and one for each promise" ${#unproven}
 exit $((cases_failed > 0))
