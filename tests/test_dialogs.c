@@ -232,10 +232,10 @@ static void test_welcome_with_a_character(void **state)
 }
 
 /// Opens a scene with the card on; whether card and status line say what is to be said of it.
-static void expect_advice(const char *scene, const char *first, const char *status)
+static void expect_advice(const char *json, const char *first, const char *status)
 {
     struct session s;
-    panel_open(&s, scene, 1280, 720);
+    panel_open(&s, json, 1280, 720);
     editor_welcome(s.editor);
     session_frame(&s);
     assert_non_null(shown_text(s.editor, first));
