@@ -125,13 +125,12 @@ void limbs_bounds(const struct limbs *limbs, float lo[3], float hi[3])
 struct limbs_back limbs_back(const struct limbs *limbs)
 {
     float matrix[LIMBS][16];
-    struct limbs_back back;
+    struct limbs_back back = {.laid = limbs->ears[0] != 0.0f || limbs->ears[1] != 0.0f};
     limbs_matrices(limbs, 1.0f, matrix);
     for (int l = 0; l < LIMBS; l++) {
         const mat4s part = glms_mat4_inv(mat4_from(matrix[l]));
         memcpy(back.part[l], part.raw, sizeof back.part[l]);
     }
-    back.laid = limbs->ears[0] != 0.0f || limbs->ears[1] != 0.0f;
     const vec3s size = size_of(limbs);
     back.step = fminf(1.0f, fminf(size.x, size.y));
     return back;
@@ -147,7 +146,7 @@ static float along_ear(vec3s in_head)
 
 static vec3s place_in_head(const float p[3])
 {
-    vec3s in_head;
+    vec3s in_head = {{0, 0, 0}};
     creature_into_head(p, in_head.raw);
     return in_head;
 }
