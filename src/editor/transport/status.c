@@ -98,6 +98,8 @@ static const char *hover_hint(const struct core *core, const struct document *do
     case HOVER_POINT:
         return "Drag to pin this point at the playhead (X, Y or Z locks an axis, Shift: fine); H pins it where it is";
     case HOVER_PIN:
+        if (core_panel_at(core, core->pointer_x, core->pointer_y) == PANEL_CURVES)
+            return "Drag to move the pin in time (Ctrl: off frames); Del removes it; Alt+PgUp, Alt+PgDn: by a frame";
         return "Drag the pin (X, Y or Z locks an axis, Shift: fine); Del removes it; Alt+arrows nudge it";
     case HOVER_FLOOR:
         return "Drag the floor up or down (Shift: fine); the whole character stays above it";
