@@ -78,16 +78,17 @@ static inline int starve_once(starved *run, void *user, long at, int on, long *c
     return status;
 }
 
-/// Each allocation fails once, by itself and in turn with all after it: where there are more than `most`, every so many, by a fixed
-/// stride; all of them where STARVE_ALL is set. What runs ends by itself, and some of it with an error.
+/// Each allocation fails, by itself and with all after it: in at most so many runs, for which the two take turns and every so many
+/// allocations fail, by a fixed stride; all of them both ways where STARVE_ALL is set. What runs ends by itself, and some of it with an error.
 static inline void starve(const char *what, starved *run, void *user, long most)
 {
     long all = 0, refused = 0, runs = 0;
     int status = starve_once(run, user, -1, 0, &all);
     if (!WIFEXITED(status) || WEXITSTATUS(status) != 0)
         fail_msg("%s: status %x with all of its memory", what, status);
-    const long stride = getenv("STARVE_ALL") || all <= most ? 1 : (all + most - 1) / most;
-    for (long k = 0; k < all; k += stride, runs++) {
+    const int both = getenv("STARVE_ALL") || 2 * all <= most;
+    const long stride = both || all <= most ? 1 : (all + most - 1) / most;
+    for (long k = 0; k < all; k += both ? runs % 2 : stride, runs++) {
         status = starve_once(run, user, k, (int)(runs % 2), NULL);
         if (!WIFEXITED(status)) fail_msg("%s: signal %d at allocation %ld of %ld", what, WTERMSIG(status), k, all);
         if (WEXITSTATUS(status) > 3)
@@ -95,7 +96,8 @@ static inline void starve(const char *what, starved *run, void *user, long most)
         refused += WEXITSTATUS(status) != 0;
     }
     if (refused == 0) fail_msg("%s: none of %ld failures was noticed", what, runs);
-    print_message("           %s: %ld of %ld allocations failed, every %ld. of them\n", what, runs, all, stride);
+    print_message("           %s: %ld runs, every %ld. of %ld allocations failed%s\n", what, runs, stride, all,
+                  both ? " both ways" : "");
 }
 
 #endif

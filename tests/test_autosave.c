@@ -59,7 +59,7 @@ static char *recovered_text(struct recovery_entry *entry)
 {
     struct error error = {0};
     size_t size;
-    assert_true(recovery_find(folder, entry, NULL));
+    assert_true(recovery_find(folder, NULL, entry, NULL));
     struct document *document = recovery_read(&entry->slot, &error);
     if (!document) fail_msg("%s", error.text);
     char *text = scene_print(document, &size);
@@ -112,7 +112,7 @@ static void test_left_behind(void **state)
     struct stat about;
     assert_int_equal(stat(autosave_path(autosave), &about), 0);
     assert_int_equal(about.st_mode & 0777, 0600);
-    assert_false(recovery_find(folder, &entry, NULL)); // the running app's own
+    assert_false(recovery_find(folder, NULL, &entry, NULL)); // the running app's own
     autosave_close(autosave, true);
     char *text = recovered_text(&entry);
     assert_document(&world, text);
@@ -125,7 +125,7 @@ static void test_left_behind(void **state)
     history_mark_saved(world.history);
     update_until(other, &world, 1, false);
     autosave_close(other, false);
-    assert_false(recovery_find(folder, &entry, NULL));
+    assert_false(recovery_find(folder, NULL, &entry, NULL));
     world_close(&world);
 }
 
@@ -146,7 +146,7 @@ static void test_newest_first(void **state)
     for (int i = 0; i < 3; i++) recovery_release(&slots[i]);
     static const char *const expected[] = {"/c", "/b", "/a"};
     for (int i = 0, count; i < 3; i++) {
-        assert_true(recovery_find(folder, &entry, &count));
+        assert_true(recovery_find(folder, NULL, &entry, &count));
         assert_int_equal(count, 3 - i);
         assert_string_equal(entry.original, expected[i]);
         recovery_remove(&entry.slot);

@@ -183,7 +183,7 @@ static void a_kill(void **state)
     }
     assert_int_equal(waitpid(child, &status, 0), child);
     assert_true(WIFSIGNALED(status) && WTERMSIG(status) == SIGKILL);
-    assert_true(recovery_find(folder, &entry, NULL));
+    assert_true(recovery_find(folder, NULL, &entry, NULL));
     struct document *document = recovery_read(&entry.slot, &error);
     if (!document) fail_msg("%s", error.text);
     assert_int_equal(document->splines[0].knot_count, KNOTS + 1);

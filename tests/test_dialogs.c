@@ -69,6 +69,9 @@ static void test_recent_files(void **state)
     session_key(&s, KEY_ENTER, 0);
     expect_request(&s, REQUEST_NONE, "");
     assert_non_null(strstr(s.editor->dialogs->dialog.error, "/home/me/gone.json no longer exists"));
+    panel_type(&s, "x"); // another file: what was wrong with that one is off the screen
+    assert_string_equal(s.editor->dialogs->dialog.error, "");
+    session_key(&s, KEY_BACKSPACE, 0);
     session_key(&s, KEY_UP, 0);
     session_key(&s, KEY_ENTER, 0);
     expect_request(&s, REQUEST_OPEN, "/home/me/scenes/walk.json");
@@ -229,10 +232,10 @@ static void test_welcome_with_a_character(void **state)
 }
 
 /// Opens a scene with the card on; whether card and status line say what is to be said of it.
-static void expect_advice(const char *scene, const char *first, const char *status)
+static void expect_advice(const char *json, const char *first, const char *status)
 {
     struct session s;
-    panel_open(&s, scene, 1280, 720);
+    panel_open(&s, json, 1280, 720);
     editor_welcome(s.editor);
     session_frame(&s);
     assert_non_null(shown_text(s.editor, first));

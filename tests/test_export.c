@@ -68,6 +68,20 @@ static void splices_change_what_counts(void **state)
     splice_free(&splice);
 }
 
+/// A name may be escaped, in whole or in part.
+static void splices_find_escaped_names(void **state)
+{
+    (void)state;
+    struct splice splice = {.text = "{\"b\\u0061\":[1],\"\\u0062a\\u0073\":[{\"\\u006B\":2}],\"bab\":[]}"};
+    splice_append(&splice, "ba", "4");
+    splice_replace(&splice, "bas", 0, "k", "5");
+    splice_append(&splice, "b", "6");
+    char *text = splice_apply(&splice);
+    assert_string_equal(text, "{\"b\":[6],\"b\\u0061\":[1,4],\"\\u0062a\\u0073\":[{\"\\u006B\":5}],\"bab\":[]}");
+    free(text);
+    splice_free(&splice);
+}
+
 /// The only clip of a file; its channels are given one by one.
 static void each_channel(const char *path, void (*visit)(const struct gltf_channel *channel))
 {
@@ -326,6 +340,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(glb_moves_as_the_stage_does, folder_make, folder_remove),
         cmocka_unit_test(splices_touch_nothing_else),
         cmocka_unit_test(splices_change_what_counts),
+        cmocka_unit_test(splices_find_escaped_names),
         cmocka_unit_test_setup_teardown(tangents_make_up_for_keys, folder_make, folder_remove),
         cmocka_unit_test_setup_teardown(keys_loop_and_turn_the_short_way, folder_make, folder_remove),
         cmocka_unit_test_setup_teardown(weights_stay_within_one_unless_signed, folder_make, folder_remove),

@@ -45,6 +45,8 @@ refused "a frame before the last one" 'lines.replay:9: expected an event in a fr
 refused "a frame behind the end" 'lines.replay:8: expected an event in a frame from 0 to 1199, got "1200"' "1200 key A"
 refused "a frame that no number holds" 'lines.replay:8: expected an event in a frame' "99999999999999999999 key A"
 refused "an event without its key" "lines.replay:8: expected the name of a key, got the end of the line" "5 key"
+refused "a number beyond a float" 'lines.replay:8: expected a number, got "1e39"' "5 wheel 0 1e39 100 100"
+refused "an offset beyond a float" 'lines.replay:8: expected an offset such as +4,-3 behind the target, got "+1e39,0"' "5 pointer @knot(sway,2)+1e39,0"
 refused "words behind the event" 'lines.replay:8: expected the end of the line, got "now"' "5 close now"
 refused "a window of no size" 'lines.replay:8: expected a width and a height from 64' "5 size 0 0"
 expect 0 "the smallest window, CRLF, blank lines, a wheel with all modifiers" play_lines \

@@ -205,7 +205,7 @@ static bool start(struct app *app, struct error *error)
         platform_on_lost(on_lost, app);
         if (!is_replay(app)) process_catch_end();
     }
-    personal_start(app);
+    if (is_live(app)) personal_start(app);
     if (o->welcome) editor_welcome(app->table.editor);
     return true;
 }

@@ -43,6 +43,6 @@ bool demo_stop(struct app *app, struct error *error)
     app->replay = NULL;
     app->demo.on = false;
     if (!start_anew(app, error)) return false;
-    personal_start(app);
+    if (platform_is_window(app->platform)) personal_start(app);
     return true;
 }

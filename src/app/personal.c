@@ -171,20 +171,39 @@ int personal_recent(void *user, struct dialog_recent *files, int most)
     return count;
 }
 
-/// Asks about the newest file left behind; false if there is none.
-static bool offer(struct app *app)
+/// What the document was called whose work a file has.
+static const char *name_of(const struct recovery_entry *entry)
+{
+    const char *slash = strrchr(entry->original, '/');
+    return !entry->original[0] ? "an untitled scene" : slash ? slash + 1 : entry->original;
+}
+
+/// Says what else is there, for a start without a scene.
+static void mention(struct app *app)
+{
+    struct recovery_entry entry;
+    char sentence[400];
+    if (!recovery_find(app->personal->state_folder, NULL, &entry, NULL)) return;
+    snprintf(sentence, sizeof sentence, "Unsaved work on %.255s is kept: start wiggly without a scene to recover it.",
+             name_of(&entry));
+    editor_message(app->table.editor, false, sentence);
+    recovery_release(&entry.slot);
+}
+
+/// Asks about the newest file left behind. Whoever names a scene gets that, and is asked about work on no other.
+static void offer(struct app *app)
 {
     struct personal *personal = app->personal;
     struct recovery_entry *entry = &personal->offered;
     struct recovery_offer shown = {0};
+    const bool named = app->options->scene != NULL;
     int count;
-    personal->is_offered = recovery_find(personal->state_folder, entry, &count);
-    if (!personal->is_offered) return false;
-    const char *slash = strrchr(entry->original, '/');
-    snprintf(shown.name, sizeof shown.name, "%.255s",
-             !entry->original[0] ? "an untitled scene"
-             : slash             ? slash + 1
-                                 : entry->original);
+    personal->is_offered = recovery_find(personal->state_folder, named ? app_path(app) : NULL, entry, &count);
+    if (!personal->is_offered) {
+        if (named) mention(app);
+        return;
+    }
+    snprintf(shown.name, sizeof shown.name, "%.255s", name_of(entry));
     struct tm local;
     if (!localtime_r(&entry->time, &local) ||
         strftime(shown.when, sizeof shown.when, "%d %B %Y, %H:%M:%S", &local) == 0) {
@@ -192,7 +211,6 @@ static bool offer(struct app *app)
     }
     shown.others = count - 1;
     editor_offer_recovery(app->table.editor, &shown);
-    return true;
 }
 
 static void start_autosave(struct app *app)
@@ -210,7 +228,6 @@ static void start_autosave(struct app *app)
 void personal_start(struct app *app)
 {
     const struct app_options *o = app->options;
-    if (!platform_is_window(app->platform) || app->replay) return;
     app->personal = calloc(1, sizeof *app->personal);
     if (!app->personal) return;
     start_autosave(app);

@@ -10,7 +10,7 @@
 struct app;
 struct personal;
 
-/// After the first document is open: applies the settings, starts autosave, offers what an earlier run left behind. Failures
+/// At a window, after the first document is open: applies the settings, starts autosave, offers what an earlier run left behind. Failures
 /// go to the status line.
 void personal_start(struct app *app);
 

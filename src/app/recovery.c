@@ -1,6 +1,7 @@
 /// Slots of recovery files, locked by the program that uses them.
 #include "app/recovery.h"
 #include "base/file.h"
+#include "base/path.h"
 #include "scene/load.h"
 #include <errno.h>
 #include <fcntl.h>
@@ -80,7 +81,16 @@ static void read_original(const char *path, char original[RECOVERY_PATH])
     memcpy(original, line + prefix + 1, strlen(line + prefix + 1) + 1);
 }
 
-bool recovery_find(const char *folder, struct recovery_entry *entry, int *count)
+/// Whether a slot's file has work on that document.
+static bool is_of(const char *path, const char *of)
+{
+    char original[RECOVERY_PATH], kept[PATH_LIMIT], wanted[PATH_LIMIT];
+    read_original(path, original);
+    return original[0] && path_resolve(NULL, original, kept) && path_resolve(NULL, of, wanted) &&
+           strcmp(kept, wanted) == 0;
+}
+
+bool recovery_find(const char *folder, const char *of, struct recovery_entry *entry, int *count)
 {
     struct timespec newest = {0};
     int found = 0;
@@ -89,7 +99,7 @@ bool recovery_find(const char *folder, struct recovery_entry *entry, int *count)
         struct stat about;
         char path[RECOVERY_PATH];
         snprintf(path, sizeof path, "%s/recovery-%d", folder, n);
-        if (stat(path, &about) != 0 || !claim_slot(folder, n, &slot)) continue;
+        if (stat(path, &about) != 0 || (of && !is_of(path, of)) || !claim_slot(folder, n, &slot)) continue;
         bool newer = found++ == 0 || about.st_mtim.tv_sec > newest.tv_sec ||
                      (about.st_mtim.tv_sec == newest.tv_sec && about.st_mtim.tv_nsec > newest.tv_nsec);
         if (newer && found > 1) recovery_release(&entry->slot);
@@ -129,10 +139,12 @@ bool recovery_write(const struct recovery_slot *slot, const char *original, cons
                     struct error *error)
 {
     struct file_output output;
-    bool one_line = !strchr(original, '\n'); // else it is recovered as untitled
+    char absolute[PATH_LIMIT]; // the next start may have another working folder
+    bool fits = original[0] && path_resolve(NULL, original, absolute) && strlen(absolute) < RECOVERY_PATH &&
+                !strchr(absolute, '\n'); // else it is recovered as untitled
     if (!file_output_open(&output, slot->path, error)) return false;
     fchmod(fileno(output.stream), 0600); // the work is nobody else's
-    fprintf(output.stream, "%s %s\n", first_line, one_line ? original : "");
+    fprintf(output.stream, "%s %s\n", first_line, fits ? absolute : "");
     fwrite(text, 1, size, output.stream);
     return file_output_commit(&output, error);
 }

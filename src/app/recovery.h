@@ -3,7 +3,7 @@
 /// Slot n of a folder is the file recovery-n and its lock recovery-n.lock, which its program holds while it runs: the
 /// lock ends with the process, however that ends. A file whose lock is free was left behind and can be offered. It holds
 ///
-///     wiggly-recovery 1 /home/me/walk.json      (the path of the document's own file; nothing for an untitled one)
+///     wiggly-recovery 1 /home/me/walk.json      (the absolute path of the document's own file; nothing for an untitled one)
 ///     { "wiggly": 1, …                          (the document's canonical text, for a file in RECOVERY_FOLDER)
 ///
 /// and, if its characters are painted, a NUL and their paint (scene/load.h).
@@ -37,9 +37,9 @@ struct recovery_entry {
     char original[RECOVERY_PATH]; ///< path of the document's own file, or ""
 };
 
-/// Claims the slot with the newest file left behind; the caller releases it. `count` (may be NULL) says how many there
-/// are. false if there is none.
-bool recovery_find(const char *folder, struct recovery_entry *entry, int *count);
+/// Claims the slot with the newest file left behind, of the document's file `of` where that is not NULL; the caller releases it.
+/// `count` (may be NULL) says how many such files there are. false if there is none.
+bool recovery_find(const char *folder, const char *of, struct recovery_entry *entry, int *count);
 
 /// The document in a file. NULL with a sentence if it is damaged.
 struct document *recovery_read(const struct recovery_slot *slot, struct error *error);

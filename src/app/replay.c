@@ -122,7 +122,7 @@ static bool read_header_line(struct replay *replay, const struct words *w, struc
         if (w->count < 2 || strcmp(w->word[1], "1/60") != 0) return bad_line(replay, error, "dt 1/60", w->word[1]);
     } else if (strcmp(name, "frames") == 0) {
         bool whole = one && a >= 0 && a <= MAX_FRAMES && a == floor(a);
-        if (!whole) return bad_line(replay, error, "a number of frames", w->word[1]);
+        if (!whole) return bad_line(replay, error, "a number of frames up to 10000000", w->word[1]);
         h->frames = (long)a;
     } else {
         return bad_line(replay, error, "version, size, scale, ui-scale, scene, dt, frames or an event", name);
@@ -285,7 +285,8 @@ static bool read_float(struct event_line *c, float *value)
 {
     char *word = take_word(c);
     double number;
-    if (!read_number(word, &number)) return bad_line(c->replay, c->error, "a number", word);
+    if (!read_number(word, &number) || !isfinite((float)number))
+        return bad_line(c->replay, c->error, "a number", word);
     *value = (float)number;
     return true;
 }
@@ -296,7 +297,7 @@ static bool read_target(struct event_line *c, char *word, struct event *event)
     char *end = strrchr(word, ')');
     if (!end) return bad_line(c->replay, c->error, "a target such as @knot(sway,2)", word);
     float dx = 0, dy = 0;
-    if (end[1] && sscanf(end + 1, "%f,%f", &dx, &dy) != 2) {
+    if (end[1] && (sscanf(end + 1, "%f,%f", &dx, &dy) != 2 || !isfinite(dx) || !isfinite(dy))) {
         return bad_line(c->replay, c->error, "an offset such as +4,-3 behind the target", end + 1);
     }
     end[1] = '\0';

@@ -39,14 +39,25 @@ static const char *skip_value(const char *at)
     return at;
 }
 
+/// Whether the string that starts here says `key`, a name of letters, be they escaped or not.
+static bool says(const char *string, const char *key)
+{
+    for (string++; *key; key++) {
+        unsigned code;
+        const bool escaped = strncmp(string, "\\u", 2) == 0 && sscanf(string + 2, "%4x", &code) == 1;
+        if (escaped ? code != (unsigned char)*key : *string != *key) return false;
+        string += escaped ? 6 : 1;
+    }
+    return *string == '"';
+}
+
 /// The value of a member of the object that starts here, or NULL; of two by one name the last, as readers of JSON have it.
 static const char *find_member(const char *object, const char *key)
 {
-    const size_t length = strlen(key);
     const char *at = skip_space(object) + 1, *found = NULL;
     while (*(at = skip_space(at)) == '"') {
-        const char *name = at + 1, *end = skip_string(at), *value = skip_space(skip_space(end) + 1);
-        if ((size_t)(end - name) == length + 1 && strncmp(name, key, length) == 0) found = value;
+        const char *value = skip_space(skip_space(skip_string(at)) + 1);
+        if (says(at, key)) found = value;
         at = skip_space(skip_value(value));
         if (*at == ',') at++;
     }

@@ -22,6 +22,10 @@ static bool expected(const struct glb *glb, const char *what, struct error *erro
 static bool read_json(struct glb *glb, const char *text, size_t length, struct error *error)
 {
     json_error_t wrong;
+    while (length > 0 && text[length - 1] == '\0') length--; // how some writers fill a chunk up
+    // The JSON library reads over a NUL, where all else sees the end of the text.
+    if (memchr(text, '\0', length))
+        return fail(error, ERROR_INPUT, "%s: JSON: expected text, got a NUL byte", glb->path);
     glb->json = json_read(text, length, 0, &wrong);
     if (!glb->json && json_error_code(&wrong) == json_error_out_of_memory) return fail_no_memory(error, glb->path);
     if (!glb->json) return fail(error, ERROR_INPUT, "%s: JSON, line %d: %s", glb->path, wrong.line, wrong.text);

@@ -1,6 +1,6 @@
 /// Finds the line of every value in a scene's text.
 #include "scene/source.h"
-#include <jansson.h>
+#include "base/json.h"
 #include <stdio.h>
 #include <string.h>
 
@@ -84,7 +84,7 @@ static bool key_is(const char *from, const char *to, const char *key)
 {
     size_t length = (size_t)(to - from);
     if (!memchr(from, '\\', length)) return length == strlen(key) + 2 && memcmp(from + 1, key, length - 2) == 0;
-    json_t *string = json_loadb(from, length, JSON_DECODE_ANY, NULL);
+    json_t *string = json_read(from, length, JSON_DECODE_ANY, NULL);
     bool same = string && strcmp(json_string_value(string), key) == 0;
     json_decref(string);
     return same;

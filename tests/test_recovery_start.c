@@ -1,0 +1,165 @@
+/// A start after a kill: which scene is on the table, and what is offered.
+#include "blind.h"
+#include "inside.h"
+
+#include "app/personal.h"
+#include "app/recovery.h"
+#include "folder.h"
+#include <fcntl.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+static void write_scene(const char *path, const char *name)
+{
+    FILE *file = fopen(path, "w");
+    assert_non_null(file);
+    fprintf(file, "{\"wiggly\": 1, \"frames\": [0, 48], \"splines\": [{\"name\": \"%s\", \"knots\": []}]}", name);
+    assert_int_equal(fclose(file), 0);
+}
+
+static const char *state_folder(void)
+{
+    static char path[160];
+    snprintf(path, sizeof path, "%s/wiggly", getenv("XDG_STATE_HOME"));
+    return path;
+}
+
+/// What a killed program leaves behind.
+static void leave(const char *original, const char *name)
+{
+    struct recovery_slot slot;
+    struct error error;
+    char text[160];
+    snprintf(text, sizeof text,
+             "{\"wiggly\": 1, \"frames\": [0, 48], \"splines\": [{\"name\": \"%s\", \"knots\": []}]}", name);
+    if (!recovery_claim(state_folder(), &slot, &error)) fail_msg("%s", error.text);
+    assert_true(recovery_write(&slot, original, text, strlen(text), &error));
+    recovery_release(&slot);
+}
+
+static int forget_all(void **state)
+{
+    char path[RECOVERY_PATH + 32];
+    (void)state;
+    for (int n = 1; n <= 4; n++) {
+        snprintf(path, sizeof path, "%s/recovery-%d", state_folder(), n);
+        unlink(path);
+    }
+    return 0;
+}
+
+static void start(struct blind *blind, const char *scene)
+{
+    blind_open(blind, scene);
+    personal_start(&blind->app);
+    blind_frame(blind);
+}
+
+static void end(struct blind *blind)
+{
+    personal_end(&blind->app, false);
+    blind_close(blind);
+}
+
+static void press(struct blind *blind, int key)
+{
+    blind_send(blind, (struct event){.kind = EVENT_KEY, .key = key, .action = ACTION_PRESS});
+    blind_send(blind, (struct event){.kind = EVENT_KEY, .key = key, .action = ACTION_RELEASE});
+    blind_frame(blind);
+}
+
+static const struct dialog *dialog(const struct blind *blind) { return &blind->app.table.editor->dialogs->dialog; }
+static const char *message(const struct blind *blind) { return blind->app.table.editor->core.message.text; }
+static const char *shown(const struct blind *blind) { return blind->app.table.document->splines[0].name; }
+
+/// Enter would recover: it is not asked about, so that nothing comes in place of the scene.
+static void another_scene_is_shown_and_the_work_kept(void **state)
+{
+    (void)state;
+    struct blind blind;
+    struct recovery_entry entry;
+    write_scene(folder_path("asked.json"), "asked for");
+    leave(folder_path("walk.json"), "recovered");
+    start(&blind, folder_path("asked.json"));
+    assert_int_equal(dialog(&blind)->kind, DIALOG_NONE);
+    assert_non_null(strstr(message(&blind), "Unsaved work on walk.json is kept"));
+    press(&blind, KEY_ENTER);
+    press(&blind, 'R');
+    assert_string_equal(shown(&blind), "asked for");
+    end(&blind);
+    assert_true(recovery_find(state_folder(), NULL, &entry, NULL));
+    recovery_release(&entry.slot);
+}
+
+/// The newest one of several scenes is not the one asked for; its own work is offered, and comes once it is wanted.
+static void its_own_work_is_offered(void **state)
+{
+    (void)state;
+    struct blind blind;
+    write_scene(folder_path("asked.json"), "asked for");
+    leave(folder_path("asked.json"), "recovered");
+    leave(folder_path("walk.json"), "of another");
+    start(&blind, folder_path("asked.json"));
+    assert_int_equal(dialog(&blind)->kind, DIALOG_RECOVER);
+    assert_non_null(strstr(dialog(&blind)->question.title, "asked.json"));
+    assert_string_equal(shown(&blind), "asked for");
+    press(&blind, 'R');
+    assert_string_equal(shown(&blind), "recovered");
+    assert_string_equal(app_path(&blind.app), folder_path("asked.json"));
+    end(&blind);
+}
+
+static void discarded_work_of_its_own_leaves_the_other(void **state)
+{
+    (void)state;
+    struct blind blind;
+    write_scene(folder_path("asked.json"), "asked for");
+    leave(folder_path("asked.json"), "recovered");
+    leave("", "untitled");
+    start(&blind, folder_path("asked.json"));
+    press(&blind, 'D');
+    assert_int_equal(dialog(&blind)->kind, DIALOG_NONE);
+    assert_non_null(strstr(message(&blind), "Unsaved work on an untitled scene is kept"));
+    assert_string_equal(shown(&blind), "asked for");
+    end(&blind);
+    start(&blind, NULL);
+    assert_non_null(strstr(dialog(&blind)->question.title, "an untitled scene"));
+    end(&blind);
+}
+
+/// Named from its own folder before the kill, and from elsewhere after it.
+static void a_relative_name_is_the_same_scene(void **state)
+{
+    (void)state;
+    struct blind blind;
+    const int here = open(".", O_RDONLY | O_DIRECTORY);
+    write_scene(folder_path("asked.json"), "asked for");
+    assert_int_equal(chdir(folder), 0);
+    leave("asked.json", "recovered");
+    assert_int_equal(fchdir(here), 0);
+    close(here);
+    start(&blind, folder_path("asked.json"));
+    press(&blind, 'R');
+    assert_string_equal(shown(&blind), "recovered");
+    assert_string_equal(app_path(&blind.app), folder_path("asked.json"));
+    end(&blind);
+}
+
+static int prepare(void **state)
+{
+    if (folder_make(state) != 0 || setenv("XDG_STATE_HOME", folder, 1) != 0) return -1;
+    if (setenv("XDG_CONFIG_HOME", folder_path("config"), 1) != 0) return -1;
+    return mkdir(state_folder(), 0700);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test_setup(another_scene_is_shown_and_the_work_kept, forget_all),
+        cmocka_unit_test_setup(its_own_work_is_offered, forget_all),
+        cmocka_unit_test_setup(discarded_work_of_its_own_leaves_the_other, forget_all),
+        cmocka_unit_test_setup(a_relative_name_is_the_same_scene, forget_all),
+    };
+    return cmocka_run_group_tests(tests, prepare, folder_remove);
+}
