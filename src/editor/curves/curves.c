@@ -141,9 +141,10 @@ static void nearest_curve(const struct curves *curves, const struct core *core, 
 struct hover curves_hover(const struct curves *curves, const struct core *core, const struct editor_world *world,
                           float x, float y)
 {
-    struct hover hover = {.kind = HOVER_NONE};
+    struct hover hover = ruler_pins_hover(curves, core, world->document, x, y);
     const struct spline *spline = core_active_spline(core, world);
-    if (rect_contains(core->layout.ruler, x, y)) hover = ruler_pins_hover(curves, core, world->document, x, y);
+    if (hover.kind == HOVER_PIN) return hover;
+    if (rect_contains(core->layout.ruler, x, y)) hover.kind = HOVER_RULER;
     if (rect_contains(ruler_corner(core), x, y)) hover.kind = HOVER_UNITS;
     if (rect_contains(sheet_switch(core), x, y)) hover.kind = HOVER_SHEET;
     if (rect_contains(sheet_area(core), x, y)) return sheet_hover(curves, core, world->document, x, y);
