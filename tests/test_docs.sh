@@ -25,8 +25,11 @@ export PKG_CONFIG_PATH=$scratch/stage/opt/wiggly/lib/pkgconfig LD_LIBRARY_PATH=$
 
 cat >"$scratch/bin/wiggly" <<END
 #!/bin/bash
-# Films need ffmpeg, which not every machine has.
-if [[ " \$* " =~ \.(mp4|webm|gif)\  ]] && ! command -v ffmpeg >/dev/null; then exit 0; fi
+# Films need ffmpeg, which not every machine has; small pictures do.
+if [[ " \$* " =~ ^\ export\ .*\.(mp4|webm|gif|png)\  ]]; then
+    [[ \${BASH_REMATCH[1]} = png ]] || command -v ffmpeg >/dev/null || exit 0
+    set -- "\$@" --size 320x180
+fi
 # The live app lasts until somebody quits it: ten frames do. A simulation takes 10 s: a coarse, short one does.
 case \${1-live} in
 simulate) set -- "\$@" --tets 300 --seconds 2 ;;

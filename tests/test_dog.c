@@ -1,5 +1,6 @@
 /// The committed dog: whole, small, with joints to hang chains on, and clips that loop and leave the chains to wiggly.
 #include "near.h"
+#include "temporary.h"
 
 #include "model/gltf.h"
 #include <stdio.h>
@@ -149,6 +150,80 @@ static void stays_above_the_ground(void **state)
     free(positions);
 }
 
+/// What a model looks like however it is cut into triangles: sums of places, normals, colours and joints' weights over its area.
+enum { PER_CORNER = 10, SUMS = PER_CORNER + 64 };
+
+static void add_corner(const struct gltf_part *part, uint32_t v, double area, double *sums)
+{
+    const float *p = part->position[v], *n = part->normal[v];
+    sums[0] += area;
+    for (int k = 0; k < 3; k++) {
+        sums[1 + k] += area * (double)p[k];
+        sums[4 + k] += area * (double)(n[k] * p[k]); // the normals' own sum is nothing
+        sums[7 + k] += area * (part->color ? (double)(part->color[v][k] * (1.0f + fabsf(p[k]))) : 1.0);
+    }
+    for (int i = 0; part->joints && i < GLTF_INFLUENCES; i++) {
+        assert_in_range(part->joints[v][i], 0, SUMS - PER_CORNER - 1);
+        sums[PER_CORNER + part->joints[v][i]] += area * (double)part->weights[v][i];
+    }
+}
+
+static void add_part(const struct gltf_part *part, double *sums)
+{
+    for (int i = 0; i < part->index_count; i += 3) {
+        const uint32_t *corner = part->indices + i;
+        double edge[2][3];
+        for (int e = 0; e < 2; e++) {
+            for (int k = 0; k < 3; k++)
+                edge[e][k] = (double)(part->position[corner[e + 1]][k] - part->position[corner[0]][k]);
+        }
+        const double x = edge[0][1] * edge[1][2] - edge[0][2] * edge[1][1],
+                     y = edge[0][2] * edge[1][0] - edge[0][0] * edge[1][2],
+                     z = edge[0][0] * edge[1][1] - edge[0][1] * edge[1][0];
+        for (int c = 0; c < 3; c++) add_corner(part, corner[c], sqrt(x * x + y * y + z * z) / 6, sums);
+    }
+}
+
+/// The tool still makes the file that is committed, but for another machine's rounding.
+static void is_what_its_tool_makes(void **state)
+{
+    (void)state;
+    char path[512], command[1100];
+    const char *build = getenv("B");
+    struct gltf made;
+    struct error error = {0};
+    snprintf(path, sizeof path, "%s", temporary_path("made.glb"));
+    snprintf(command, sizeof command, "%s/dog_glb '%s' >/dev/null", build ? build : "build", path);
+    assert_int_equal(system(command), 0);
+    if (!gltf_read(path, &made, &error)) fail_msg("%s", error.text);
+    assert_int_equal(made.node_count, dog.node_count);
+    for (int n = 0; n < dog.node_count; n++) {
+        assert_string_equal(made.nodes[n].name, dog.nodes[n].name);
+        assert_int_equal(made.nodes[n].parent, dog.nodes[n].parent);
+        for (int k = 0; k < 3; k++)
+            assert_near(made.nodes[n].place.translation[k], dog.nodes[n].place.translation[k], 1e-5);
+    }
+    assert_int_equal(made.meshes[0].part_count, dog.meshes[0].part_count);
+    for (int p = 0; p < dog.meshes[0].part_count; p++) {
+        double sums[2][SUMS] = {{0}};
+        add_part(&dog.meshes[0].parts[p], sums[0]);
+        add_part(&made.meshes[0].parts[p], sums[1]);
+        for (int s = 0; s < SUMS; s++) assert_near(sums[1][s] / sums[0][0], sums[0][s] / sums[0][0], 5e-4);
+        for (int c = 0; c < 4; c++) assert_near(made.materials[p].color[c], dog.materials[p].color[c], 1e-5);
+    }
+    assert_int_equal(made.clip_count, dog.clip_count);
+    for (int c = 0; c < dog.clip_count; c++) {
+        assert_int_equal(made.clips[c].channel_count, dog.clips[c].channel_count);
+        for (int i = 0; i < dog.clips[c].channel_count; i++) {
+            const struct gltf_channel *is = &made.clips[c].channels[i], *was = &dog.clips[c].channels[i];
+            assert_int_equal(is->key_count * is->components, was->key_count * was->components);
+            for (int k = 0; k < was->key_count * was->components; k++)
+                assert_near(is->values[k], was->values[k], 1e-5);
+        }
+    }
+    gltf_free(&made);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -157,6 +232,7 @@ int main(void)
         cmocka_unit_test(clips_loop),
         cmocka_unit_test(paws_stay_planted),
         cmocka_unit_test(stays_above_the_ground),
+        cmocka_unit_test(is_what_its_tool_makes),
     };
     return cmocka_run_group_tests(tests, open_dog, close_dog);
 }

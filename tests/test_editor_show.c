@@ -107,6 +107,51 @@ static void test_a_pull_out_of_reach_stays_calm(void **state)
     session_close(&s);
 }
 
+/// However often the hand goes around the root, the tail winds up once.
+static void test_a_pull_in_circles_winds_up_once(void **state)
+{
+    (void)state;
+    struct session s;
+    float at[2], root[2];
+    session_open(&s, TAIL);
+    point_at_tail(&s, 0.05f, root);
+    point_at_tail(&s, 0.9f, at);
+    session_move(&s, at[0], at[1]);
+    session_press(&s, BUTTON_LEFT, 1);
+    const float reach = hypotf(at[0] - root[0], at[1] - root[1]), from = atan2f(at[1] - root[1], at[0] - root[0]);
+    for (int i = 1; i <= 400; i++) {
+        const float angle = from + 0.1f * (float)i;
+        session_move(&s, root[0] + reach * cosf(angle), root[1] + reach * sinf(angle));
+        session_frame(&s);
+        for (int c = 0; c < 2; c++) // the values of seven radians where it is held
+            assert_true(fabs(s.table.evaluation.curves[c].total[0]) < 6.2);
+    }
+    session_close(&s);
+}
+
+/// The hand has it soon wherever the tail's swing stands: how that answers to the knot is learnt while pulling.
+static void test_a_pull_arrives_within_twelve_frames(void **state)
+{
+    (void)state;
+    for (int frame = 5; frame < 100; frame += 12) {
+        struct session s;
+        float at[2];
+        char ruler[32];
+        session_open(&s, TAIL);
+        snprintf(ruler, sizeof ruler, "ruler(%d)", frame);
+        session_click(&s, ruler);
+        point_at_tail(&s, 0.9f, at);
+        session_move(&s, at[0], at[1]);
+        session_press(&s, BUTTON_LEFT, 1);
+        session_move(&s, at[0] + 40, at[1] - 30);
+        for (int i = 0; i < 12; i++) session_frame(&s);
+        point_at_tail(&s, 0.9f, at);
+        assert_near(at[0], s.x, 0.5);
+        assert_near(at[1], s.y, 0.5);
+        session_close(&s);
+    }
+}
+
 static bool is_in(const uint64_t *hashes, int count, uint64_t hash)
 {
     for (int i = 0; i < count; i++) {
@@ -516,6 +561,8 @@ int main(void)
         cmocka_unit_test(test_a_pull_taken_back_leaves_nothing_selected),
         cmocka_unit_test(test_the_tail_follows_the_hand),
         cmocka_unit_test(test_a_pull_out_of_reach_stays_calm),
+        cmocka_unit_test(test_a_pull_in_circles_winds_up_once),
+        cmocka_unit_test(test_a_pull_arrives_within_twelve_frames),
         cmocka_unit_test(test_playing_redraws_the_playhead_only),
         cmocka_unit_test(test_nothing_changes_while_nothing_happens),
         cmocka_unit_test(test_steady_frames_allocate_nothing),

@@ -73,7 +73,7 @@ mkdir "$scratch/empty" "$scratch/dying" "$scratch/slow"
 expect 3 "without ffmpeg there is no film" env PATH="$scratch/empty" "$(realpath "$WIGGLY")" export $tail -o "$scratch/out/walk.mp4" $small
 says "the package is named, and what works without" "install the package ffmpeg, or write pictures (.png)" "$err"
 printf '#!/bin/sh\nhead -c 1000 >/dev/null\necho "no room for this film" >&2\nexit 1\n' >"$scratch/dying/ffmpeg"
-printf '#!/bin/sh\necho begun\nexec sleep 60\n' >"$scratch/slow/ffmpeg"
+printf '#!/bin/sh\necho begun\nfor i in $(seq 300); do sleep 0.1; done\necho late >%s/late\n' "$scratch" >"$scratch/slow/ffmpeg"
 chmod +x "$scratch"/*/ffmpeg
 expect 3 "if ffmpeg gives up there is none either" env PATH="$scratch/dying:$PATH" "$WIGGLY" export $tail -o "$scratch/out/walk.mp4" $small
 says "in its own words" "ffmpeg cannot write it: no room for this film" "$err"
@@ -85,6 +85,8 @@ kill -TERM $program
 status=0
 wait $program || status=$?
 is "a film that is interrupted ends at once" 3 $status
+[ ! -e "$scratch/late" ]
+ok "without waiting for ffmpeg" $?
 is "and leaves what was there before" "walk.mp4 old" "$(ls -A "$scratch/out") $(cat "$scratch/out/walk.mp4")"
 "$WIGGLY" export $tail -o "$scratch/out/walk.png" 2>"$scratch/stderr" &
 program=$!

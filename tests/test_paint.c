@@ -344,6 +344,37 @@ static void a_copy_keeps_its_paint(void **state)
 }
 
 /// An .npy file with this dictionary, and `size` bytes of numbers.
+/// Characters that name one file, as a scene written by hand may, have a file each from the first save on.
+static void shared_paint_is_parted(void **state)
+{
+    (void)state;
+    static const char two[] =
+        "{\"wiggly\": 1, \"frames\": [0, 48], \"splines\": [{\"name\": \"s\", \"knots\": []}], \"rigs\": ["
+        "{\"type\": \"character\", \"model\": \"m.glb\", \"paint\": \"walk-paint.npy\","
+        " \"coordinates\": [{\"name\": \"a\", \"spline\": \"s\"}]},"
+        "{\"type\": \"character\", \"model\": \"m.glb\", \"paint\": \"walk-paint.npy\","
+        " \"coordinates\": [{\"name\": \"a\", \"spline\": \"s\"}]}]}";
+    const char *folder = fresh_folder();
+    struct studio s = studio_open(scene);
+    paint_stroke(&s);
+    save(&s, folder, "walk.json");
+    FILE *file = fopen(in(folder, "two.json"), "w");
+    assert_true(file && fputs(two, file) >= 0 && fclose(file) == 0);
+    struct document *document = load(folder, "two.json");
+    struct error error;
+    assert_true(document_set_path(document, in(folder, "two.json")));
+    if (!scene_save(document, in(folder, "two.json"), &error)) fail_msg("%s", error.text);
+    document_destroy(document);
+    document = load(folder, "two.json");
+    assert_string_equal(document_character(document, 0)->paint, "walk-paint.npy");
+    assert_string_equal(document_character(document, 1)->paint, "two-paint.npy");
+    assert_memory_equal(document_character(document, 1)->painted->values, rig_of(&s)->painted->values,
+                        sizeof(float[COORDINATES * VERTICES][2]));
+    document_destroy(document);
+    studio_close(&s);
+    remove_folder(folder);
+}
+
 static void write_npy(const char *path, const char *dictionary, const void *numbers, size_t size)
 {
     FILE *file = fopen(path, "wb");
@@ -575,6 +606,7 @@ int main(void)
         cmocka_unit_test(saving_loses_nothing),
         cmocka_unit_test(paint_and_scene_are_saved_together),
         cmocka_unit_test(a_copy_keeps_its_paint),
+        cmocka_unit_test(shared_paint_is_parted),
         cmocka_unit_test(broken_paint_is_said_and_stays_named),
         cmocka_unit_test(other_layouts_are_read),
         cmocka_unit_test(a_recovery_file_keeps_paint),

@@ -2,6 +2,7 @@
 #include "near.h"
 #include "simulation/soft.h"
 #include "simulation/vec3.h"
+#include "temporary.h"
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -338,6 +339,37 @@ static void a_track_is_smooth(void **state)
     drive_free(&drive);
 }
 
+/// Numbers that a spline through them would leave the finite ones with are refused with their line.
+static void a_track_stays_finite(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *text, *says; // no sentence: it is taken
+    } cases[] = {
+        {"-1e9,-1e9\n-999999999.5,1e9\n1e9,-1e9\n", NULL},
+        {"0,0\n1e-9,1e9\n2.5e-9,0\n", NULL},
+        {"0,0\n1,1.1e9\n", "track.csv:2: expected two numbers up to 1e9, \"seconds,displacement\", got '1,1.1e9'"},
+        {"-1.1e9,0\n1,1\n", "track.csv:1: expected two numbers up to 1e9"},
+        {"0,1e308\n1,-1e308\n", "track.csv:1: expected two numbers up to 1e9"},
+        {"0,0\n\n0.9e-9,1\n", "track.csv:3: expected a time a nanosecond or more after 0, got 9e-10"},
+        {"0,0\n1e-320,1\n", "track.csv:2: expected a time a nanosecond or more after 0"},
+        {"1,0\n0,1\n", "track.csv:2: expected a time a nanosecond or more after 1, got 0"},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        struct drive drive = {.size = 1};
+        struct error error = {0};
+        const char *path = temporary_file("track.csv", cases[i].text, strlen(cases[i].text));
+        const bool good = drive_read_track(&drive, path, &error);
+        if (good != !cases[i].says || (!good && !strstr(error.text, cases[i].says)))
+            fail_msg("case %zu: %s", i, good ? "taken" : error.text);
+        for (int k = 0; good && k < drive.count; k++) {
+            assert_true(isfinite(drive_place(&drive, drive.time[k])));
+            assert_true(isfinite(drive_acceleration(&drive, drive.time[k])));
+        }
+        drive_free(&drive);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -350,6 +382,7 @@ int main(void)
         cmocka_unit_test(regions_hold_what_they_name),
         cmocka_unit_test(softness_falls_as_the_map_says),
         cmocka_unit_test(a_track_is_smooth),
+        cmocka_unit_test(a_track_stays_finite),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -246,6 +246,31 @@ static void looks_come_through(void **state)
     surface_free(&again);
 }
 
+/// A name may end in blanks in one of the two files, and in a backslash, which at the end of a line would join it to the next.
+static void names_of_materials_come_through(void **state)
+{
+    (void)state;
+    const char *mtl = "newmtl red \t\r\nKd 1 0.5 0\nnewmtl back\\\nKd 0 0 1\n";
+    const char *text = "mtllib n.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl red\nf 1 2 3\nusemtl back\\ \nf 1 3 2\n";
+    struct error error;
+    temporary_file("n.mtl", mtl, strlen(mtl));
+    struct surface s = read_good("n.obj", text, strlen(text)), again;
+    assert_true(obj_write(temporary_path("n.rest.obj"), &s, &error));
+    if (!obj_read(temporary_path("n.rest.obj"), &again, &error)) fail_msg("%s", error.text);
+    const struct surface *const both[] = {&s, &again};
+    for (int i = 0; i < 2; i++) {
+        const struct looks *looks = &both[i]->looks;
+        assert_int_equal(both[i]->index_count, 6);
+        assert_int_equal(looks->material_count, 2);
+        assert_string_equal(looks->materials[looks->material[0]].name, "red");
+        assert_near(looks->materials[looks->material[0]].color[1], 0.5, 0);
+        assert_string_equal(looks->materials[looks->material[1]].name, "back\\");
+        assert_near(looks->materials[looks->material[1]].color[0], 0, 0);
+    }
+    surface_free(&s);
+    surface_free(&again);
+}
+
 /// With memory for only so many calls of the JSON library, the file is written whole or not at all.
 static long calls_left;
 static void *stingy(size_t size) { return calls_left-- > 0 ? malloc(size) : NULL; }
@@ -319,9 +344,13 @@ static void limits_of_a_ply(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(ply_in_both_byte_orders), cmocka_unit_test(ply_as_text),
-        cmocka_unit_test(stl_merges_corners),      cmocka_unit_test(off_with_colours),
-        cmocka_unit_test(looks_come_through),      cmocka_unit_test(nothing_is_written_where_memory_is_short),
+        cmocka_unit_test(ply_in_both_byte_orders),
+        cmocka_unit_test(ply_as_text),
+        cmocka_unit_test(stl_merges_corners),
+        cmocka_unit_test(off_with_colours),
+        cmocka_unit_test(looks_come_through),
+        cmocka_unit_test(names_of_materials_come_through),
+        cmocka_unit_test(nothing_is_written_where_memory_is_short),
         cmocka_unit_test(limits_of_a_ply),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

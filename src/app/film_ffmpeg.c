@@ -109,7 +109,7 @@ static enum film_state put(struct film_file *file, const unsigned char *pixels, 
     enum child_state state = child_feed(file->child, pixels, file->size, &file->taken, wait);
     if (state == CHILD_RUNS) return FILM_RUNS;
     if (state == CHILD_FAILED) {
-        child_finish(file->child, true); // so that its last words are there
+        while (child_finish(file->child, true) == CHILD_RUNS) continue; // so that its last words are there
         return fail_encoder(file, error);
     }
     file->taken = 0;

@@ -122,7 +122,7 @@ static bool read_header_line(struct replay *replay, const struct words *w, struc
         if (w->count < 2 || strcmp(w->word[1], "1/60") != 0) return bad_line(replay, error, "dt 1/60", w->word[1]);
     } else if (strcmp(name, "frames") == 0) {
         bool whole = one && a >= 0 && a <= MAX_FRAMES && a == floor(a);
-        if (!whole) return bad_line(replay, error, "a number of frames", w->word[1]);
+        if (!whole) return bad_line(replay, error, "a number of frames up to 10000000", w->word[1]);
         h->frames = (long)a;
     } else {
         return bad_line(replay, error, "version, size, scale, ui-scale, scene, dt, frames or an event", name);

@@ -76,10 +76,13 @@ struct settings *settings_load(const char *path, struct error *error)
     *error = (struct error){0};
     if (!settings || access(path, F_OK) != 0 || !file_read(path, LARGEST, &data, &size, error)) return settings;
     rest = data;
-    for (int number = 1; rest && *rest; number++) {
+    for (int number = 1; rest && *rest && number <= MAX_LINES; number++) {
         char *line = strsep(&rest, "\n");
         read_line(settings, path, number, trim(line), error);
     }
+    if (rest && *rest && error->kind == ERROR_NONE)
+        fail(error, ERROR_INPUT, "%s:%d: expected at most %d lines, got more: ignoring the rest", path, MAX_LINES + 1,
+             MAX_LINES);
     free(data);
     return settings;
 }

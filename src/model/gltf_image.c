@@ -49,7 +49,8 @@ bool gltf_decode_image(const unsigned char *bytes, size_t size, size_t most, str
     if (!picture_is_sound(bytes, size))
         return fail(error, ERROR_INPUT, "expected PNG or JPEG: a part of it is larger than it may be");
     if (!stbi_info_from_memory(bytes, length, &image->width, &image->height, &channels))
-        return fail(error, ERROR_INPUT, "expected PNG or JPEG: %s", stbi_failure_reason());
+        return fail(error, ERROR_INPUT, "expected PNG or JPEG of at most %d pixels a side: %s", STBI_MAX_DIMENSIONS,
+                    stbi_failure_reason());
     size_t pixels = (size_t)image->width * (size_t)image->height;
     if (pixels / PIXELS_A_BYTE > size || 4 * pixels > most)
         return fail(error, ERROR_INPUT, "too large with %d by %d", image->width, image->height);

@@ -79,7 +79,7 @@ static void read_line(const char *path, char *line, struct surface_builder *b, u
     char *word = line + strspn(line, " \t"), *value = word + strcspn(word, " \t\r");
     if (*value) *value++ = '\0';
     value += strspn(value, " \t");
-    value[strcspn(value, "\r")] = '\0';
+    for (size_t length = strlen(value); length > 0 && strchr(" \t\r", value[length - 1]);) value[--length] = '\0';
     if (strcmp(word, "newmtl") == 0) *current = builder_material(b, value);
     if (*current == LOOKS_NONE) return;
     struct looks_material *material = &looks->materials[*current];

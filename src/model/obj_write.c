@@ -4,6 +4,7 @@
 #include "model/mtl.h"
 #include "model/obj.h"
 #include <stdio.h>
+#include <string.h>
 
 static void write_vertices(FILE *out, const struct surface *s)
 {
@@ -23,6 +24,13 @@ static void write_corner(FILE *out, const struct surface *s, int index)
     if (s->looks.corner && s->looks.corner[index] != LOOKS_NONE) fprintf(out, "/%u", s->looks.corner[index] + 1);
 }
 
+/// A backslash at the end of a line would join it to the next one.
+static void write_use(FILE *out, const char *material)
+{
+    const size_t length = strlen(material);
+    fprintf(out, "usemtl %s%s\n", material, length > 0 && material[length - 1] == '\\' ? " " : "");
+}
+
 /// A polygon is a fan: each triangle that goes on with it adds its last corner.
 static void write_faces(FILE *out, const struct surface *s)
 {
@@ -30,7 +38,7 @@ static void write_faces(FILE *out, const struct surface *s)
     uint32_t material = LOOKS_NONE;
     for (int i = 0; i + 2 < s->index_count; i += 3) {
         const uint32_t own = looks->material ? looks->material[i / 3] : LOOKS_NONE;
-        if (own != material && own != LOOKS_NONE) fprintf(out, "usemtl %s\n", looks->materials[own].name);
+        if (own != material && own != LOOKS_NONE) write_use(out, looks->materials[own].name);
         material = own;
         fputs("f", out);
         for (int k = 0; k < 3; k++) write_corner(out, s, i + k);

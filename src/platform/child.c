@@ -1,7 +1,7 @@
 /// Runs another program and feeds it.
 #include "platform/child.h"
 #include <errno.h>
-#include <fcntl.h>
+#include <poll.h>
 #include <signal.h>
 #include <spawn.h>
 #include <stdlib.h>
@@ -15,6 +15,9 @@ struct child {
     int feed;      ///< our end of its standard input; −1 once all is said
     FILE *log;     ///< its standard error
 };
+
+/// For how long a caller that waits does, in milliseconds, before it can look whether it has been told to end.
+enum { PATIENCE = 100 };
 
 static int spawn(struct child *child, char *const *arguments, int input, int output)
 {
@@ -64,15 +67,14 @@ struct child *child_start(char *const *arguments, FILE *output, bool *missing, s
 enum child_state child_feed(struct child *child, const void *data, size_t size, size_t *taken, bool wait)
 {
     while (*taken < size) {
-        const int flags = MSG_NOSIGNAL | (wait ? 0 : MSG_DONTWAIT);
-        ssize_t sent = send(child->feed, (const char *)data + *taken, size - *taken, flags);
-        if (sent < 0 && errno == EINTR) {
-            if (wait) return CHILD_RUNS; // the caller may have been told to end
-            continue;
+        ssize_t sent = send(child->feed, (const char *)data + *taken, size - *taken, MSG_NOSIGNAL | MSG_DONTWAIT);
+        if (sent >= 0) {
+            *taken += (size_t)sent;
+        } else if (errno == EAGAIN || errno == EWOULDBLOCK) {
+            if (!wait || poll(&(struct pollfd){child->feed, POLLOUT, 0}, 1, PATIENCE) <= 0) return CHILD_RUNS;
+        } else if (errno != EINTR) {
+            return CHILD_FAILED;
         }
-        if (sent < 0 && (errno == EAGAIN || errno == EWOULDBLOCK)) return CHILD_RUNS;
-        if (sent < 0) return CHILD_FAILED;
-        *taken += (size_t)sent;
     }
     return CHILD_DONE;
 }
@@ -87,8 +89,12 @@ enum child_state child_finish(struct child *child, bool wait)
 {
     int status;
     hang_up(child);
-    pid_t ended = waitpid(child->process, &status, wait ? 0 : WNOHANG);
-    if (ended == 0 || (ended < 0 && errno == EINTR)) return CHILD_RUNS;
+    pid_t ended = waitpid(child->process, &status, WNOHANG);
+    for (int waited = 0; wait && ended == 0 && waited < PATIENCE; waited += 5) {
+        poll(NULL, 0, 5);
+        ended = waitpid(child->process, &status, WNOHANG);
+    }
+    if (ended == 0) return CHILD_RUNS;
     child->process = 0;
     return ended > 0 && WIFEXITED(status) && WEXITSTATUS(status) == 0 ? CHILD_DONE : CHILD_FAILED;
 }

@@ -15,10 +15,11 @@ struct child *child_start(char *const *arguments, FILE *output, bool *missing, s
 
 enum child_state { CHILD_RUNS, CHILD_DONE, CHILD_FAILED };
 
-/// Hands over as much of the data as it takes now, or all of it with `wait`. Adds to `*taken`. CHILD_FAILED: it takes no more.
+/// Hands over as much of the data as it takes now, or, with `wait`, until it takes nothing for a tenth of a second. Adds to `*taken`.
+/// CHILD_FAILED: it takes no more.
 enum child_state child_feed(struct child *child, const void *data, size_t size, size_t *taken, bool wait);
 
-/// Tells it that this was all, the first time, and looks whether it has ended, or waits for that.
+/// Tells it that this was all, the first time, and looks whether it has ended; with `wait` for up to a tenth of a second.
 enum child_state child_finish(struct child *child, bool wait);
 
 /// The last line that it wrote to standard error, or "".

@@ -12,7 +12,7 @@ enum column { COLUMN_FRAME, COLUMN_VALUE, COLUMN_SLOPE, COLUMN_STIFFNESS, COLUMN
 static const char *const column_names[] = {
     [COLUMN_FRAME] = "frame", [COLUMN_VALUE] = "value", [COLUMN_SLOPE] = "slope", [COLUMN_STIFFNESS] = "stiffness"};
 
-static const char byte_order_mark[] = "\xEF\xBB\xBF";
+static const char byte_order_mark[] = "\xEF\xBB\xBF", cut_off[] = "…"; // no number ends in that
 
 /// A line's fields, without surrounding quotes and blanks.
 struct line {
@@ -43,9 +43,10 @@ static void take_field(struct line *line, const char *from, size_t length)
     while (length > 0 && strchr(around, from[length - 1])) length--;
     if (line->count == MAX_FIELDS) return;
     char *field = line->field[line->count++];
-    if (length >= MAX_FIELD) length = MAX_FIELD - 1;
+    const bool fits = length < MAX_FIELD;
+    if (!fits) length = MAX_FIELD - sizeof cut_off;
     memcpy(field, from, length);
-    field[length] = '\0';
+    strcpy(field + length, fits ? "" : cut_off);
 }
 
 /// Splits a line at semicolons, else tabs, else commas. With the first two a comma in a number is its decimal point.

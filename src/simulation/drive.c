@@ -8,6 +8,9 @@
 
 enum { FILE_LIMIT = 1 << 26, BURST_PERIODS = 3, SWELL_PERIODS = 2 };
 
+/// A track's numbers, and its least step in seconds: within them no acceleration overflows.
+static const double TRACK_LIMIT = 1e9, TRACK_STEP = 1e-9;
+
 /// 0 … 1 with vanishing first and second derivatives at both ends.
 static double swell(double x)
 {
@@ -101,15 +104,17 @@ static bool read_lines(struct drive *d, char *text, const char *path, struct err
         double time, value;
         int end = 0;
         if (!line[strspn(line, " \t\r")]) continue;
-        bool good = sscanf(line, "%lf , %lf %n", &time, &value, &end) == 2 && !line[end] && isfinite(time + value);
+        bool good = sscanf(line, "%lf , %lf %n", &time, &value, &end) == 2 && !line[end] &&
+                    fabs(time) <= TRACK_LIMIT && fabs(value) <= TRACK_LIMIT;
         if (!good && d->count == 0 && !strpbrk(line, "0123456789")) continue; // the headings
         if (!good) {
-            return fail(error, ERROR_INPUT, "%s:%d: expected two numbers, \"seconds,displacement\", got '%.24s'",
-                        path, number, line);
+            return fail(error, ERROR_INPUT,
+                        "%s:%d: expected two numbers up to 1e9, \"seconds,displacement\", got '%.24s'", path, number,
+                        line);
         }
-        if (d->count > 0 && !(time > d->time[d->count - 1])) {
-            return fail(error, ERROR_INPUT, "%s:%d: expected a time after %g, got %g", path, number,
-                        d->time[d->count - 1], time);
+        if (d->count > 0 && !(time - d->time[d->count - 1] >= TRACK_STEP)) {
+            return fail(error, ERROR_INPUT, "%s:%d: expected a time a nanosecond or more after %g, got %g", path,
+                        number, d->time[d->count - 1], time);
         }
         d->time[d->count] = time;
         d->value[d->count++] = value;

@@ -99,6 +99,9 @@ int inspector_spline_list(struct inspection *in, const char *list, const bool *l
 /// A row with a label; returns what is right of it.
 struct rect inspector_labelled(struct inspection *in, const char *label);
 
+/// Switches for what is drawn over the stage: onion skin, motion arc, ghost.
+void inspector_overlays(struct inspection *in);
+
 /// Finds the rigs that are shown among those that there are.
 void inspector_find_rig(struct inspection *in);
 /// The tail or chain that is shown; NULL where there is none.
@@ -118,10 +121,9 @@ extern const struct angle_row angle_row_lag, angle_row_gain, angle_row_rest;
 /// Rows for the angles of the tail or channel that the inspector shows.
 void inspector_angles(struct inspection *in, const struct angle_row *row, const struct angles *angles);
 
-/// The edit that replaces them.
 /// What its numbers are in: the gain of what moves the body may be in percent.
 const char *inspector_angle_unit(const struct inspection *in, const struct angle_row *row);
-
+/// The edit that replaces them.
 struct edit inspector_angles_edit(const struct inspection *in, const struct angle_row *row,
                                   const struct angles *angles);
 /// Below the row of angles of each joint: their curve, and the number of one.

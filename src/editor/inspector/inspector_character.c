@@ -223,6 +223,7 @@ void inspector_character(struct inspection *in)
     }
     build_floor(in, rig);
     build_looks(in);
+    inspector_overlays(in);
     inspector_brush(in);
 }
 

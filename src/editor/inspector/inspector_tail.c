@@ -134,26 +134,32 @@ static void build_size(struct inspection *in, const struct tail *tail)
     if (change != UI_NONE) inspector_change(in, change, "Set length", "length", &edit);
 }
 
-/// What belongs to the view: the overlays, and whether the next drag of the body is recorded.
-static void build_view(struct inspection *in)
+void inspector_overlays(struct inspection *in)
 {
     struct core *core = in->core;
     const struct {
         const char *name, *label, *hint;
         bool *on;
     } toggles[] = {
-        {"record", "record", "Record the next drag of the body as knots (or press R while dragging)",
-         &core->record_armed},
-        {"onion", "onion skin", "Show the tail at the knots around the playhead (O)", &core->overlays.onion},
-        {"trail", "motion arc", "Show the path of the tip, one mark per frame (P)", &core->overlays.trail},
+        {"onion", "onion skin", "Show the pose at the knots around the playhead (O)", &core->overlays.onion},
+        {"trail", "motion arc", "Show the path of the tip or liveliest point, one mark per frame (P)",
+         &core->overlays.trail},
         {"ghost", "ghost pose", "Show the pose at the knot that is dragged or nudged (F4)", &core->overlays.ghost},
     };
-    const size_t first = document_tail(in->document, 0) ? 0 : 1; // without a body nothing is recorded
-    for (size_t i = first; i < sizeof toggles / sizeof toggles[0]; i++) {
+    for (size_t i = 0; i < sizeof toggles / sizeof toggles[0]; i++) {
         struct rect r = inspector_labelled(in, toggles[i].label);
         ui_hint(in->ui, r, toggles[i].hint);
         ui_toggle(in->ui, r, toggles[i].name, toggles[i].on);
     }
+}
+
+/// Whether the next drag of a body is recorded; without a body nothing is.
+static void build_record(struct inspection *in)
+{
+    if (!document_tail(in->document, 0)) return;
+    const struct rect r = inspector_labelled(in, "record");
+    ui_hint(in->ui, r, "Record the next drag of the body as knots (or press R while dragging)");
+    ui_toggle(in->ui, r, "record", &in->core->record_armed);
 }
 
 /// Buttons among these rows may make another list of channels, and more rigs: each looks what is shown up anew.
@@ -179,5 +185,6 @@ void inspector_tail(struct inspection *in)
 {
     inspector_find_rig(in); // one may just have been removed
     build_shown(in);
-    build_view(in);
+    build_record(in);
+    inspector_overlays(in);
 }

@@ -1,5 +1,4 @@
-/// Onion skin: proxies of the tail or chain at the knots around the playhead; and of any rig at the one knot that is being
-/// edited, its ghost.
+/// Onion skin: proxies of a rig at the knots around the playhead; and at the one knot that is being edited, its ghost.
 #include "editor/core/arrange.h"
 #include "editor/core/core.h"
 #include "editor/core/knots.h"
@@ -15,7 +14,10 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-enum { MAX_SKINS = 8 };
+enum {
+    MAX_SKINS = 8,
+    CHARACTER_SKINS = 4, ///< their outlines lie over each other, and each is a surface to pose
+};
 
 static const float NEAREST = 0.75f, FARTHEST = 0.22f; ///< opacity of the first and of the last skin
 static const float GHOST = 0.85f;
@@ -29,6 +31,19 @@ int overlay_rig(const struct stage *stage, const struct core *core, const struct
     return rig >= 0 && strand_of(stage, rig) ? rig : -1;
 }
 
+int overlay_pose_rig(const struct stage *stage, const struct core *core, const struct document *document)
+{
+    const int first = document_next_rig(document, RIG_CHARACTER, 0);
+    for (int r = first; r >= 0; r = document_next_rig(document, RIG_CHARACTER, r + 1)) {
+        const struct rig *rig = &document->rigs[r];
+        for (int i = 0; i < rig_input_count(rig); i++) {
+            if (rig_input(rig, i) == core->active) return r;
+        }
+    }
+    const int strand = overlay_rig(stage, core, document);
+    return strand >= 0 ? strand : first;
+}
+
 /// The spline whose knots are shown: the active one, or where it has none, the one that it swings about.
 static const struct spline *keyed_spline(const struct core *core, const struct editor_world *world)
 {
@@ -40,10 +55,10 @@ static const struct spline *keyed_spline(const struct core *core, const struct e
 
 /// Samples of the knots nearest to a position, the nearest first; returns how many.
 static int nearest_knots(const struct document *document, const struct spline *spline, double position,
-                         int samples[MAX_SKINS])
+                         int samples[MAX_SKINS], int most)
 {
     int after = spline_lower_bound(document, spline, (int)ceil(position)), before = after - 1, count = 0;
-    while (count < MAX_SKINS && (before >= 0 || after < spline->knot_count)) {
+    while (count < most && (before >= 0 || after < spline->knot_count)) {
         int low = before >= 0 ? document_sample(document, spline->knots[before].frame) : 0;
         int high = after < spline->knot_count ? document_sample(document, spline->knots[after].frame) : 0;
         bool back = after == spline->knot_count || (before >= 0 && position - low <= high - position);
@@ -61,9 +76,11 @@ void onion_show(struct stage *stage, struct core *core, const struct editor_worl
 {
     const struct document *document = world->document;
     const struct spline *spline = keyed_spline(core, world);
-    int rig = overlay_rig(stage, core, document), samples[MAX_SKINS];
+    const int rig = overlay_pose_rig(stage, core, document);
+    int samples[MAX_SKINS];
     if (!core->overlays.onion || !spline || rig < 0) return;
-    int count = nearest_knots(document, spline, core->playback.position, samples);
+    const int most = document->rigs[rig].kind == RIG_CHARACTER ? CHARACTER_SKINS : MAX_SKINS;
+    const int count = nearest_knots(document, spline, core->playback.position, samples, most);
     uint32_t color = arrange_color(document, core->active);
     const struct posing posing = stage_posing(core, world);
     for (int i = count - 1; i >= 0; i--) {
@@ -85,24 +102,11 @@ static const struct knot *edited_knot(const struct core *core, const struct edit
     return at >= 0 ? &spline->knots[at] : NULL;
 }
 
-/// The character that the active spline moves, else what the other overlays are about; -1: nothing.
-static int ghost_rig(const struct stage *stage, const struct core *core, const struct document *document)
-{
-    int r = document_next_rig(document, RIG_CHARACTER, 0);
-    for (; r >= 0; r = document_next_rig(document, RIG_CHARACTER, r + 1)) {
-        const struct rig *rig = &document->rigs[r];
-        for (int i = 0; i < rig_input_count(rig); i++) {
-            if (rig_input(rig, i) == core->active) return r;
-        }
-    }
-    return overlay_rig(stage, core, document);
-}
-
 void ghost_show(struct stage *stage, struct core *core, const struct editor_world *world)
 {
     const struct document *document = world->document;
     const struct knot *knot = core->overlays.ghost ? edited_knot(core, world) : NULL;
-    const int rig = knot ? ghost_rig(stage, core, document) : -1;
+    const int rig = knot ? overlay_pose_rig(stage, core, document) : -1;
     if (rig < 0) return;
     const int sample = document_sample(document, knot->frame);
     if (fabs(sample - core->playback.position) < 0.5) return;
@@ -129,6 +133,6 @@ void stage_toggle_onion(struct core *core)
 {
     core->overlays.onion = !core->overlays.onion;
     core_message(core, false,
-                 core->overlays.onion ? "Onion skin on: the tail at the knots around the playhead (O)."
+                 core->overlays.onion ? "Onion skin on: the pose at the knots around the playhead (O)."
                                       : "Onion skin off.");
 }

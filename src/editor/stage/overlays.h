@@ -6,14 +6,20 @@
 
 /// The tail or chain that the active spline moves, else the first; -1 where there is none to be seen.
 int overlay_rig(const struct stage *stage, const struct core *core, const struct document *document);
-/// Onion skin (O): the outline of the tail, or the line of the chain, at the active spline's knots, those nearest to the playhead.
+/// The character that the active spline moves, else that tail or chain, else the first character; -1: nothing.
+int overlay_pose_rig(const struct stage *stage, const struct core *core, const struct document *document);
+/// Onion skin (O): the outline of the tail or the soft character, or the line of the chain, at the active spline's knots, those
+/// nearest to the playhead.
 void onion_show(struct stage *stage, struct core *core, const struct editor_world *world);
 
-/// Ghost (F4): the same, or the outline of a soft character, at the knot that is dragged, or was just nudged, where that is not the
+/// Ghost (F4): the same at the knot that is dragged, or was just nudged, where that is not the
 /// pose that is shown.
 void ghost_show(struct stage *stage, struct core *core, const struct editor_world *world);
 
-/// Motion arc (P): where the tip of the tail or chain goes within two seconds of the playhead, with a mark at each frame.
+/// What stands for a rig where nothing is pointed at: the tip of the tail or chain that the active spline moves, else the liveliest
+/// vertex of the selected character. It may not exist (point_exists()).
+struct rig_point overlay_point(const struct stage *stage, const struct core *core, const struct editor_world *world);
+/// Motion arc (P): where that point goes within two seconds of the playhead, with a mark at each frame.
 void trail_show(struct stage *stage, struct core *core, const struct editor_world *world);
 /// The same of any point of a rig.
 void path_show(struct stage *stage, struct core *core, const struct editor_world *world, enum trail which,

@@ -7,7 +7,6 @@
 #include "editor/stage/points.h"
 #include "editor/stage/stage.h"
 #include "editor/stage/strand.h"
-#include "model/vector.h"
 #include <math.h>
 
 static const double NUDGE = 0.01; ///< of the height of what is seen
@@ -24,37 +23,6 @@ void stage_nudge_pin(struct stage *stage, struct core *core, const struct editor
     double by[3];
     for (int k = 0; k < 3; k++) by[k] = step * (right * plane.right[k] + up * plane.up[k]);
     pins_nudge(core, world, by);
-}
-
-/// The vertex of a character that moves most.
-static int liveliest_vertex(const struct character *character)
-{
-    float most = -1;
-    int found = 0;
-    for (int i = 0; i < character->vertex_count; i++) {
-        float way = 0;
-        for (int k = 0; k < character->coordinate_count; k++) {
-            const struct coordinate *c = &character->coordinates[k];
-            way += glms_vec3_norm2(vec3_from(c->re[i])) + glms_vec3_norm2(vec3_from(c->im[i]));
-        }
-        if (way > most) found = i;
-        most = fmaxf(most, way);
-    }
-    return found;
-}
-
-/// What is meant where nothing is pointed at: the tip of the tail or chain that the active spline moves, else the liveliest vertex of
-/// the selected character.
-static struct rig_point usual_point(const struct stage *stage, const struct core *core,
-                                    const struct editor_world *world)
-{
-    const int rig = overlay_rig(stage, core, world->document);
-    if (rig >= 0) return (struct rig_point){rig, bones_joints(world, rig) - 1};
-    const int n = core->characters.character;
-    const struct figure *figure = models_figure(world->models, n);
-    if (!figure) return (struct rig_point){-1, -1};
-    return (struct rig_point){document_find_rig(world->document, RIG_CHARACTER, n),
-                              liveliest_vertex(&figure->character)};
 }
 
 /// Pins a point at the playhead where it is.
@@ -82,6 +50,6 @@ void stage_hold_point(struct stage *stage, struct core *core, const struct edito
         const struct pin pin = *selected;
         pins_put_here(core, world, rig, pin.point, pin.to);
     } else {
-        hold(core, world, usual_point(stage, core, world));
+        hold(core, world, overlay_point(stage, core, world));
     }
 }

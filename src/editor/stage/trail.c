@@ -1,4 +1,5 @@
-/// Motion arcs: where the tip of the tail or chain or a held point goes, one mark per frame, fading with the distance from the playhead.
+/// Motion arcs: where the tip of the tail or chain, a character's liveliest or a held point goes, one mark per frame, fading with the
+/// distance from the playhead.
 #include "base/hash.h"
 #include "editor/core/bones.h"
 #include "editor/core/core.h"
@@ -7,6 +8,7 @@
 #include "editor/stage/rigs.h"
 #include "editor/stage/stage.h"
 #include "editor/stage/strand.h"
+#include "model/vector.h"
 #include "ui/theme.h"
 #include <math.h>
 
@@ -18,6 +20,34 @@ enum {
 
 static const double REACH = 2;                            ///< seconds to each side
 static const float OPACITY = 0.85f, MARK = 2.5f, NOW = 5; ///< pixels of a mark, and of the one at the playhead
+
+/// The vertex of a character that moves most.
+static int liveliest_vertex(const struct character *character)
+{
+    float most = -1;
+    int found = 0;
+    for (int i = 0; i < character->vertex_count; i++) {
+        float way = 0;
+        for (int k = 0; k < character->coordinate_count; k++) {
+            const struct coordinate *c = &character->coordinates[k];
+            way += glms_vec3_norm2(vec3_from(c->re[i])) + glms_vec3_norm2(vec3_from(c->im[i]));
+        }
+        if (way > most) found = i;
+        most = fmaxf(most, way);
+    }
+    return found;
+}
+
+struct rig_point overlay_point(const struct stage *stage, const struct core *core, const struct editor_world *world)
+{
+    const int rig = overlay_rig(stage, core, world->document);
+    if (rig >= 0) return (struct rig_point){rig, bones_joints(world, rig) - 1};
+    const int n = core->characters.character;
+    const struct figure *figure = models_figure(world->models, n);
+    if (!figure) return (struct rig_point){-1, -1};
+    return (struct rig_point){document_find_rig(world->document, RIG_CHARACTER, n),
+                              liveliest_vertex(&figure->character)};
+}
 
 static bool loops(const struct document *document, int spline)
 {
@@ -93,11 +123,21 @@ static void show_line(struct core *core, float points[][2], int first, int count
     }
 }
 
-/// A ring round the tip as it is now, which a body that is being dragged takes along.
-static void show_now(struct stage *stage, struct core *core, int rig)
+/// Where the point is shown now: a tip goes along with a body that is being dragged.
+static bool project_now(struct stage *stage, const struct core *core, const struct editor_world *world,
+                        struct rig_point point, float xy[2])
+{
+    float place[3];
+    if (strand_of(stage, point.rig)) return stage_project(stage, core, point.rig, point.at + 1, 0, xy);
+    return point_place(core, world, point, core->playback.position, place) &&
+           stage_project_point(stage, core->layout.stage, place, xy);
+}
+
+/// A ring round the point as it is now.
+static void show_now(struct stage *stage, struct core *core, const struct editor_world *world, struct rig_point point)
 {
     float xy[2];
-    if (!stage_project(stage, core, rig, strand_of(stage, rig)->count - 1, 0, xy)) return;
+    if (!project_now(stage, core, world, point, xy)) return;
     struct rect ring = {xy[0] - NOW, xy[1] - NOW, 2 * NOW, 2 * NOW};
     drawlist_rounded_line(&core->list, ring, NOW, 1.5f, theme()->playhead);
 }
@@ -127,16 +167,18 @@ void path_show(struct stage *stage, struct core *core, const struct editor_world
 
 void trail_show(struct stage *stage, struct core *core, const struct editor_world *world)
 {
-    int rig = overlay_rig(stage, core, world->document);
-    if (!core->overlays.trail || rig < 0) return;
-    path_show(stage, core, world, TRAIL_OF_TIP, (struct rig_point){rig, bones_joints(world, rig) - 1});
-    show_now(stage, core, rig);
+    if (!core->overlays.trail) return;
+    const struct rig_point point = overlay_point(stage, core, world);
+    if (!point_exists(world, point)) return;
+    path_show(stage, core, world, TRAIL_OF_TIP, point);
+    show_now(stage, core, world, point);
 }
 
 void stage_toggle_trail(struct core *core)
 {
     core->overlays.trail = !core->overlays.trail;
     core_message(core, false,
-                 core->overlays.trail ? "Motion arc on: the path of the tip, one mark per frame (P)."
-                                      : "Motion arc off.");
+                 core->overlays.trail
+                     ? "Motion arc on: the path of the tip or liveliest point, one mark per frame (P)."
+                     : "Motion arc off.");
 }

@@ -1,0 +1,416 @@
+/// The limits of files, pictures, the clipboard and of names that are taken: what lies at each is taken, what lies one above it is refused with
+/// a sentence. Large files are holes, which take no disk.
+#include "near.h"
+
+#include "app/recovery.h"
+#include "app/replay.h"
+#include "app/settings.h"
+#include "base/file.h"
+#include "base/png.h"
+#include "blind.h"
+#include "folder.h"
+#include "inside.h"
+#include "model/character.h"
+#include "model/gltf.h"
+#include "model/obj.h"
+#include "scene/knots.h"
+#include "scene/load.h"
+#include "scene/paint_file.h"
+#include "scene/text.h"
+#include <jansson.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+static void says(const struct error *error, const char *fragment)
+{
+    if (!strstr(error->text, fragment)) fail_msg("\"%s\" does not say \"%s\"", error->text, fragment);
+}
+
+/// Begins a file that is a hole behind its first bytes.
+static const char *hole(const char *name, const void *start, size_t length, size_t size)
+{
+    const char *path = folder_path(name);
+    FILE *file = fopen(path, "wb");
+    assert_non_null(file);
+    assert_int_equal(fwrite(start, 1, length, file), length);
+    assert_int_equal(fclose(file), 0);
+    assert_int_equal(truncate(path, (off_t)size), 0);
+    return path;
+}
+
+static char *filled(size_t size, char with)
+{
+    char *text = malloc(size + 1);
+    assert_non_null(text);
+    memset(text, with, size);
+    text[size] = '\0';
+    return text;
+}
+
+/// A file of 1 MiB, in lines of 2,048 bytes.
+static void settings_of_a_size(void **state)
+{
+    (void)state;
+    enum { MOST = 1 << 20 };
+    for (size_t size = MOST - 1; size <= MOST + 1; size++) {
+        struct error error;
+        char *text = filled(size, '#');
+        for (size_t i = 2047; i < size; i += 2048) text[i] = '\n';
+        memcpy(text, "theme = dark\n", 13);
+        assert_true(file_write_atomic(folder_path("settings"), text, size, &error));
+        struct settings *settings = settings_load(folder_path("settings"), &error);
+        const bool taken = size <= MOST;
+        assert_int_equal(error.kind != ERROR_NONE, !taken);
+        assert_int_equal(settings_get(settings, "theme", 0) != NULL, taken);
+        if (!taken) says(&error, "settings: expected at most 1 MiB, got a larger file");
+        settings_free(settings);
+        free(text);
+    }
+}
+
+/// The line above the limit is not dropped without a word.
+static void settings_of_many_lines(void **state)
+{
+    (void)state;
+    for (int lines = 999; lines <= 1001; lines++) {
+        struct error error;
+        char *text = filled(2 * (size_t)lines, '#');
+        for (int i = 0; i < lines; i++) text[2 * i + 1] = '\n';
+        assert_true(file_write_atomic(folder_path("settings"), text, strlen(text), &error));
+        struct settings *settings = settings_load(folder_path("settings"), &error);
+        assert_int_equal(error.kind != ERROR_NONE, lines > 1000);
+        if (lines > 1000) says(&error, "settings:1001: expected at most 1000 lines, got more: ignoring the rest");
+        settings_free(settings);
+        free(text);
+    }
+}
+
+/// At 1 GiB they are read and refused for what they hold; that is not done here.
+static void work_of_a_size(void **state)
+{
+    (void)state;
+    const size_t above = ((size_t)1 << 30) + 1;
+    struct error error = {0};
+    struct recovery_slot slot = {.lock = -1};
+    snprintf(slot.path, sizeof slot.path, "%s", hole("recovery-1", "", 0, above));
+    assert_null(recovery_read(&slot, &error));
+    says(&error, "recovery-1: expected at most 1024 MiB, got a larger file");
+    assert_null(paint_read(hole("paint.npy", "", 0, above), &error));
+    says(&error, "paint.npy: expected at most 1024 MiB, got a larger file");
+}
+
+/// The pictures of an OBJ's materials: one of 256 MiB, and one of a byte more.
+static void pictures_of_a_size(void **state)
+{
+    (void)state;
+    enum { MOST = 256 << 20 };
+    static const char obj[] = "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl a\nf 1 2 3\n",
+                      mtl[] = "newmtl a\nmap_Kd a.png\n", png[] = "\x89PNG\r\n\x1a\n";
+    struct error error;
+    assert_true(file_write_atomic(folder_path("a.mtl"), mtl, strlen(mtl), &error));
+    assert_true(file_write_atomic(folder_path("a.obj"), obj, strlen(obj), &error));
+    for (size_t size = MOST; size <= MOST + 1; size++) {
+        struct surface surface;
+        hole("a.png", png, strlen(png), size);
+        if (!obj_read(folder_path("a.obj"), &surface, &error)) fail_msg("%s", error.text);
+        const bool taken = size <= MOST;
+        assert_int_equal(surface.looks.materials[0].image_size, taken ? size : 0);
+        if (taken) assert_null(surface.looks.left_out);
+        if (!taken) assert_string_equal(surface.looks.left_out, "a.png");
+        surface_free(&surface);
+    }
+}
+
+static void store(void *user, const void *bytes, size_t size)
+{
+    assert_true(file_write_atomic(user, bytes, size, NULL));
+}
+
+/// 16,384 pixels a side, read and written.
+static void pictures_of_a_width(void **state)
+{
+    (void)state;
+    enum { MOST = 16384 };
+    static const char gltf[] = "{\"asset\":{\"version\":\"2.0\"},\"nodes\":[{}],\"images\":[{\"uri\":\"a.png\"}],"
+                               "\"textures\":[{\"source\":0}],\"materials\":[{\"pbrMetallicRoughness\":"
+                               "{\"baseColorTexture\":{\"index\":0}}}]}";
+    struct error error = {0};
+    unsigned char *pixels = calloc(MOST + 1, 4);
+    assert_non_null(pixels);
+    assert_true(file_write_atomic(folder_path("a.gltf"), gltf, strlen(gltf), &error));
+    for (int width = MOST - 1; width <= MOST + 1; width++) {
+        struct gltf model;
+        char path[128];
+        snprintf(path, sizeof path, "%s", folder_path("a.png"));
+        assert_int_equal(png_write(path, width, 1, pixels, &error), width <= MOST);
+        if (width > MOST) says(&error, "expected a picture of 1 to 16384 pixels a side, got 16385 × 1");
+        assert_true(png_encode(store, path, width, 1, 4, pixels, PNG_FAST));
+        if (!gltf_read(folder_path("a.gltf"), &model, &error)) fail_msg("%s", error.text);
+        assert_int_equal(model.image_count, width <= MOST);
+        if (width <= MOST) assert_int_equal(model.images[0].width, width);
+        if (width > MOST)
+            assert_string_equal(model.not_shown,
+                                "image a.png (expected PNG or JPEG of at most 16384 pixels a side: unknown)");
+        gltf_free(&model);
+    }
+    free(pixels);
+}
+
+/// Nodes that show a mesh of 8,193 vertices: 2^26 − 1 together, and with another triangle 2^26 + 2. Triangles have three.
+static void vertices_of_a_model(void **state)
+{
+    (void)state;
+    enum { VERTICES = 8193, NODES = 8191 };
+    char path[128];
+    snprintf(path, sizeof path, "%s", folder_path("many.gltf"));
+    hole("many.bin", "", 0, 12 * VERTICES);
+    for (int more = 0; more < 2; more++) {
+        struct gltf gltf;
+        struct error error = {0};
+        struct text text = {0};
+        text_string(&text,
+                    "{\"asset\":{\"version\":\"2.0\"},\"buffers\":[{\"uri\":\"many.bin\",\"byteLength\":98316}],"
+                    "\"bufferViews\":[{\"buffer\":0,\"byteLength\":98316}],\"accessors\":["
+                    "{\"componentType\":5126,\"type\":\"VEC3\",\"count\":8193,\"bufferView\":0},"
+                    "{\"componentType\":5126,\"type\":\"VEC3\",\"count\":3,\"bufferView\":0}],\"meshes\":["
+                    "{\"primitives\":[{\"attributes\":{\"POSITION\":0}}]},"
+                    "{\"primitives\":[{\"attributes\":{\"POSITION\":1}}]}],\"nodes\":[");
+        for (int i = 0; i < NODES; i++) text_string(&text, i ? ",{\"mesh\":0}" : "{\"mesh\":0}");
+        text_string(&text, more ? ",{\"mesh\":1}]}" : "]}");
+        assert_true(file_write_atomic(path, text.data, text.size, &error));
+        free(text.data);
+        const bool good = gltf_read(path, &gltf, &error);
+        if (good != !more) fail_msg("%d more: %s", more, error.text);
+        if (good) gltf_free(&gltf);
+        if (!good) says(&error, "nodes: expected at most 67108864 vertices together, got 67108866");
+    }
+}
+
+/// Vertices and those of the coordinates, 2^28 together. At the limit what is in the way is that no file of that size has as many.
+static void vertices_of_a_character(void **state)
+{
+    (void)state;
+    enum { VERTICES = 1 << 18, BYTES = 12 * VERTICES, MOST = (1 << 10) - 1 };
+    for (int coordinates = MOST; coordinates <= MOST + 1; coordinates++) {
+        struct character character;
+        struct error error;
+        struct text text = {0};
+        text_bytes(&text, "....................", 20);
+        text_string(&text, "{\"asset\":{\"version\":\"2.0\"},\"buffers\":[{\"byteLength\":3145728}],"
+                           "\"bufferViews\":[{\"buffer\":0,\"byteLength\":3145728}],"
+                           "\"accessors\":[{\"componentType\":5126,\"type\":\"VEC3\",\"count\":262144,"
+                           "\"bufferView\":0}],\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0}}],"
+                           "\"extras\":{\"targetNames\":[\"a.im\"");
+        for (int i = 0; i < coordinates; i++) text_string(&text, ",\"a.re\"");
+        text_string(&text, "]}}],\"nodes\":[{\"mesh\":0}]}");
+        while (text.size % 4) text_string(&text, " ");
+        const uint32_t json = (uint32_t)text.size - 20, chunk[2] = {BYTES, 0x004E4942},
+                       header[5] = {0x46546C67, 2, (uint32_t)text.size + 8 + BYTES, json, 0x4E4F534A};
+        memcpy(text.data, header, sizeof header);
+        text_bytes(&text, (const char *)chunk, sizeof chunk);
+        assert_false(character_read(hole("a.glb", text.data, text.size, text.size + BYTES), &character, &error));
+        says(&error, coordinates <= MOST ? "expected no more data than fits a file of this size, got 268435456 times"
+                                         : "expected at most 268435456 vertices with those of the coordinates, got "
+                                           "268697600");
+        free(text.data);
+    }
+}
+
+/// 16 MiB of text on the clipboard.
+static void text_on_the_clipboard(void **state)
+{
+    (void)state;
+    enum { MOST = 16 << 20 };
+    struct blind blind;
+    blind_open(&blind, NULL);
+    for (size_t size = MOST - 1; size <= MOST + 1; size++) {
+        char *text = filled(size, '#');
+        memcpy(text, "0,1\n", 4);
+        platform_set_clipboard(blind.app.platform, text);
+        const char *taken = app_clipboard_text(&blind.app);
+        assert_int_equal(taken != NULL, size <= MOST);
+        if (!taken) assert_non_null(strstr(blind.app.table.editor->core.message.text, "more than 16 MB"));
+        free(text);
+    }
+    blind_close(&blind);
+}
+
+static void replay_says(const char *rest, const char *fragment)
+{
+    char text[256];
+    struct error error = {0};
+    snprintf(text, sizeof text, "wiggly-replay 1\nsize 640 480\nscale 1\n%s", rest);
+    struct replay *replay = replay_parse("r", text, strlen(text), &error);
+    assert_int_equal(replay != NULL, !fragment);
+    if (fragment) says(&error, fragment);
+    replay_destroy(replay);
+}
+
+static void frames_of_a_replay(void **state)
+{
+    (void)state;
+    replay_says("frames 9999999\n", NULL);
+    replay_says("frames 10000000\n9999999 close\n", NULL);
+    replay_says("frames 10000001\n", "r:4: expected a number of frames up to 10000000, got \"10000001\"");
+    replay_says("frames 0\n9999999 close\n", NULL); // one that was cut short
+    replay_says("frames 0\n10000000 close\n", "r:5: expected an event in a frame from 0 to 9999999");
+}
+
+/// A letter beyond what is kept of a field of CSV would change its number without a word.
+static void letters_of_a_number(void **state)
+{
+    (void)state;
+    for (int zeros = 58; zeros <= 60; zeros++) {
+        char text[128];
+        struct knot_list list;
+        struct error error = {0};
+        snprintf(text, sizeof text, "0,1.%.*se5,2\n", zeros,
+                 "000000000000000000000000000000000000000000000000000000000000");
+        const int letters = zeros + 4;
+        const bool good = knots_parse("c", text, &list, &error);
+        assert_int_equal(good, letters <= 63);
+        if (good) assert_near(list.knots[0].value, 1e5, 0);
+        if (!good) says(&error, "c:1: expected a value after the frame");
+        if (good) knot_list_free(&list);
+    }
+}
+
+static int warned, last_warning;
+
+static void count_warning(void *user, bool is_error, const char *sentence)
+{
+    (void)user;
+    warned += !is_error;
+    last_warning += strstr(sentence, "further unknown keys are kept silently") != NULL;
+}
+
+static void unknown_keys(void **state)
+{
+    (void)state;
+    for (int keys = 63; keys <= 65; keys++) {
+        struct text text = {0};
+        struct error error = {0};
+        struct problems problems = {.report = count_warning};
+        text_string(&text, "{\"wiggly\": 1, \"frames\": [0, 1]");
+        for (int i = 0; i < keys; i++) {
+            char member[32];
+            snprintf(member, sizeof member, ", \"x%d\": 1", i);
+            text_string(&text, member);
+        }
+        text_string(&text, "}");
+        warned = last_warning = 0;
+        struct document *document = scene_parse("s", text.data, text.size, &problems, &error);
+        assert_non_null(document);
+        assert_int_equal(warned, keys < 64 ? keys : 64);
+        assert_int_equal(last_warning, keys >= 64);
+        assert_int_equal(json_object_size(document->extra), keys);
+        document_destroy(document);
+        free(text.data);
+    }
+}
+
+static void take_name(const char *format, int number)
+{
+    char name[64];
+    snprintf(name, sizeof name, format, number);
+    hole(name, "", 0, 0);
+}
+
+/// The temporary files of a save: this process has written a hundred there already.
+static void names_of_temporary_files(void **state)
+{
+    (void)state;
+    struct error error = {0};
+    char format[64];
+    snprintf(format, sizeof format, ".wiggly-%ld-%%d.tmp", (long)getpid());
+    for (int i = 0; i < 99; i++) take_name(format, i);
+    assert_true(file_write_atomic(folder_path("a"), "1", 1, &error));
+    take_name(format, 99);
+    assert_false(file_write_atomic(folder_path("a"), "2", 1, &error));
+    says(&error, "/a: cannot be written: File exists");
+    size_t size;
+    char *data;
+    assert_true(file_read(folder_path("a"), 10, &data, &size, &error));
+    assert_string_equal(data, "1");
+    free(data);
+}
+
+static void names_of_paint(void **state)
+{
+    (void)state;
+    static const char scene[] =
+        "{\"wiggly\": 1, \"frames\": [0, 1], \"splines\": [{\"name\": \"s\"}], \"rigs\": [{\"type\": \"character\", "
+        "\"model\": \"m.glb\", \"coordinates\": [{\"name\": \"a\", \"spline\": \"s\"}]}]}";
+    struct error error = {0};
+    for (int last = 9998; last <= 9999; last++) {
+        struct document *document = scene_parse("s", scene, strlen(scene), NULL, &error);
+        if (!document) fail_msg("%s", error.text);
+        struct character_rig *rig = document_character(document, 0);
+        assert_true(document->folder || (document->folder = strdup(folder)));
+        rig->painted = paint_create(1, 1);
+        rig->painted->values[0][0] = 1;
+        for (int i = last == 9998 ? 2 : last; i <= last; i++) take_name("walk-paint-%d.npy", i);
+        if (last == 9998) take_name("walk-paint.npy", 0);
+        const bool saved = scene_save(document, folder_path("walk.json"), &error);
+        assert_int_equal(saved, last == 9998);
+        if (!saved) says(&error, "walk.json: there is no name left for its paint");
+        document_destroy(document);
+    }
+}
+
+/// Rescued scenes beside the scene's own file; with a thousand there, the next goes to the home folder.
+static void names_of_rescued_scenes(void **state)
+{
+    (void)state;
+    static const char scene[] =
+        "{\"wiggly\": 1, \"frames\": [0, 48], \"splines\": [{\"name\": \"s\", \"knots\": []}]}";
+    char *home = getenv("HOME") ? strdup(getenv("HOME")) : NULL, own[80];
+    struct error error = {0};
+    struct blind blind;
+    snprintf(own, sizeof own, "%s/home", folder);
+    assert_int_equal(mkdir(own, 0700), 0);
+    assert_int_equal(setenv("HOME", own, 1), 0);
+    assert_true(file_write_atomic(folder_path("walk.json"), scene, strlen(scene), &error));
+    blind_open(&blind, folder_path("walk.json"));
+    blind_frame(&blind);
+    blind_send(&blind, (struct event){.kind = EVENT_KEY, .key = 'I', .action = ACTION_PRESS});
+    blind_frame(&blind);
+    assert_false(history_is_saved(blind.app.table.history));
+    hole("walk.recovered.json", "", 0, 0);
+    for (int i = 2; i <= 999; i++) take_name("walk.recovered-%d.json", i);
+    fail(&error, ERROR_ENVIRONMENT, "the end");
+    app_rescue(&blind.app, &error);
+    says(&error, "/walk.recovered-1000.json: open it to continue");
+    fail(&error, ERROR_ENVIRONMENT, "the end");
+    app_rescue(&blind.app, &error);
+    says(&error, "/home/walk.recovered.json: open it to continue");
+    blind_close(&blind);
+    if (home) setenv("HOME", home, 1);
+    free(home);
+}
+
+#define TEST(name) cmocka_unit_test_setup_teardown(name, folder_make, folder_remove)
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        TEST(settings_of_a_size),
+        TEST(settings_of_many_lines),
+        TEST(work_of_a_size),
+        TEST(pictures_of_a_size),
+        TEST(pictures_of_a_width),
+        TEST(vertices_of_a_model),
+        TEST(vertices_of_a_character),
+        TEST(text_on_the_clipboard),
+        TEST(frames_of_a_replay),
+        TEST(letters_of_a_number),
+        TEST(unknown_keys),
+        TEST(names_of_temporary_files),
+        TEST(names_of_paint),
+        TEST(names_of_rescued_scenes),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

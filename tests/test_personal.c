@@ -1,0 +1,152 @@
+/// What a window remembers for the user from run to run: looks, panels, recent files and the last export.
+#include "blind.h"
+#include "folder.h"
+#include "inside.h"
+
+#include "app/export_memory.h"
+#include "app/personal.h"
+#include "app/recent.h"
+#include "ui/theme.h"
+#include <stdio.h>
+#include <string.h>
+#include <unistd.h>
+
+/// As the app starts in a window; the folders are the test's own.
+static void start(struct blind *blind)
+{
+    setenv("XDG_CONFIG_HOME", folder, 1);
+    setenv("XDG_STATE_HOME", folder, 1);
+    blind_open(blind, NULL);
+    struct platform *platform = blind->app.platform;
+    platform->window = (struct window *)platform; // only whether there is one is asked here
+    personal_start(&blind->app);
+    platform->window = NULL;
+    assert_non_null(blind->app.personal);
+}
+
+static void end(struct blind *blind)
+{
+    personal_end(&blind->app, false);
+    blind_close(blind);
+}
+
+static struct settings *stored(void)
+{
+    struct error error = {0};
+    struct settings *settings = settings_load(folder_path("wiggly/settings"), &error);
+    assert_non_null(settings);
+    assert_int_equal(error.kind, ERROR_NONE);
+    return settings;
+}
+
+static void looks_and_panels_are_as_they_were_left(void **state)
+{
+    (void)state;
+    struct blind blind;
+    double share, width;
+    const enum theme_kind before = theme_in_use(),
+                          other = theme_find("light") == (int)before ? theme_find("dark") : theme_find("light");
+    start(&blind);
+    theme_use(other);
+    blind.app.ui_scale = 1.5;
+    editor_set_panels(blind.app.table.editor, 0.4, 333);
+    personal_update(&blind.app);
+    end(&blind);
+    theme_use(before);
+
+    start(&blind);
+    assert_int_equal(theme_in_use(), other);
+    assert_near(blind.app.ui_scale, 1.5, 0);
+    editor_panels(blind.app.table.editor, &share, &width);
+    assert_near(share, 0.4, 1e-6);
+    assert_near(width, 333, 1e-9);
+    end(&blind);
+    theme_use(before);
+}
+
+/// The card for new users comes until it has been closed once.
+static void the_welcome_comes_once(void **state)
+{
+    (void)state;
+    struct blind blind;
+    for (int run = 0; run < 3; run++) {
+        start(&blind);
+        personal_update(&blind.app);
+        assert_int_equal(editor_is_welcoming(blind.app.table.editor), run < 2);
+        blind_frame(&blind);
+        if (run == 1) {
+            blind_send(&blind, (struct event){.kind = EVENT_KEY, .key = KEY_ESCAPE, .action = ACTION_PRESS});
+            blind_send(&blind, (struct event){.kind = EVENT_KEY, .key = KEY_ESCAPE, .action = ACTION_RELEASE});
+            blind_frame(&blind);
+            personal_update(&blind.app);
+        }
+        end(&blind);
+    }
+}
+
+static const char *new_file(const char *name)
+{
+    const char *path = folder_path(name);
+    FILE *file = fopen(path, "w");
+    assert_true(file && fclose(file) == 0);
+    return path;
+}
+
+static void files_and_the_last_export_are_remembered(void **state)
+{
+    (void)state;
+    struct blind blind;
+    struct dialog_recent files[DIALOG_MAX_RECENT];
+    struct request request = {.wish = {.is_cubic = true, .keys = 3, .width = 640, .height = 360}};
+    struct export_memory memory;
+    start(&blind);
+    personal_note_file(&blind.app, new_file("one.json"));
+    personal_note_file(&blind.app, new_file("two.json"));
+    snprintf(request.path, sizeof request.path, "%s", folder_path("out.glb"));
+    personal_note_export(&blind.app, &request);
+    end(&blind);
+
+    start(&blind);
+    assert_int_equal(personal_recent(&blind.app, files, DIALOG_MAX_RECENT), 2);
+    assert_string_equal(files[0].path, folder_path("two.json"));
+    assert_string_equal(files[1].path, folder_path("one.json"));
+    struct settings *settings = stored();
+    export_memory_read(settings, "", &memory);
+    settings_free(settings);
+    assert_string_equal(memory.path, request.path);
+    assert_true(memory.wish.is_cubic);
+    assert_int_equal(memory.wish.keys, 3);
+    assert_int_equal(memory.wish.width, 640);
+    assert_int_equal(memory.wish.height, 360);
+    end(&blind);
+}
+
+static void settings_that_cannot_be_stored_are_said(void **state)
+{
+    (void)state;
+    struct blind blind;
+    char command[256];
+    start(&blind);
+    personal_note_file(&blind.app, new_file("one.json"));
+    const struct message *message = &blind.app.table.editor->core.message;
+    assert_false(message->is_error);
+    snprintf(command, sizeof command, "rm -rf %s/wiggly && touch %s/wiggly", folder, folder);
+    assert_int_equal(system(command), 0);
+    personal_note_file(&blind.app, new_file("two.json"));
+    assert_true(message->is_error);
+    assert_non_null(strstr(message->text, "settings"));
+    snprintf(command, sizeof command, "rm %s/wiggly", folder);
+    assert_int_equal(system(command), 0);
+    end(&blind);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test_setup_teardown(looks_and_panels_are_as_they_were_left, folder_make, folder_remove),
+        cmocka_unit_test_setup_teardown(the_welcome_comes_once, folder_make, folder_remove),
+        cmocka_unit_test_setup_teardown(files_and_the_last_export_are_remembered, folder_make, folder_remove),
+        cmocka_unit_test_setup_teardown(settings_that_cannot_be_stored_are_said, folder_make, folder_remove),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

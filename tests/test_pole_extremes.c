@@ -1,0 +1,114 @@
+/// Poles, their speeds and the start's cost against the textbook in quadruple precision, as far as parameters go and beyond.
+#include "near.h"
+
+#include "spline/poles.h"
+#include "textbook_parts.h"
+
+static const double step = 1.0 / 30;
+
+static wiggly_desc describe(wiggly_mode mode, double frequency, double damping)
+{
+    wiggly_desc desc = wiggly_default_desc();
+    desc.step = step;
+    desc.mode = mode;
+    desc.frequency.value = frequency;
+    desc.damping.value = damping;
+    desc.bandwidth.value = 0.2;
+    return desc;
+}
+
+static void assert_poles(const wiggly_desc *desc)
+{
+    const struct textbook_poles expected = textbook_poles_at(desc, 0, 0);
+    const wiggly_poles found = wiggly_poles_at(desc, 0);
+    const double size = (double)expected.natural * 2;
+    for (int k = 0; k < 2; k++) {
+        const number z = cexpq(expected.s[k] * desc->step);
+        assert_near(found.s[k][0], (double)crealq(expected.s[k]), 1e-14 * size);
+        assert_near(found.s[k][1], (double)cimagq(expected.s[k]), 1e-14 * size);
+        assert_near(found.z[k][0], (double)crealq(z), 1e-13);
+        assert_near(found.z[k][1], (double)cimagq(z), 1e-13);
+    }
+}
+
+static void poles_are_the_textbooks(void **state)
+{
+    (void)state;
+    static const double frequencies[] = {0, 1e-6, 1, 14.9, 60}, dampings[] = {0, 1e-9, 0.3, 1, 1.0001, 2};
+    for (size_t f = 0; f < sizeof frequencies / sizeof *frequencies; f++) {
+        for (size_t d = 0; d < sizeof dampings / sizeof *dampings; d++) {
+            wiggly_desc stiff = describe(WIGGLY_REAL, frequencies[f], dampings[d]);
+            wiggly_desc turning = describe(WIGGLY_COMPLEX, frequencies[f], dampings[d]);
+            assert_poles(&stiff);
+            assert_poles(&turning); // no more than critically damped
+        }
+    }
+}
+
+/// What is as good as infinite is no number that overflows later, and all of it the same.
+static void beyond_the_largest_nothing_changes(void **state)
+{
+    (void)state;
+    static const double beyond[] = {1e70, 1e75, 1e140, 1e200, INFINITY};
+    for (size_t b = 0; b < sizeof beyond / sizeof *beyond; b++) {
+        wiggly_desc at = describe(WIGGLY_REAL, 1e70, 1e70), desc = describe(WIGGLY_REAL, beyond[b], beyond[b]);
+        wiggly_poles expected = wiggly_poles_at(&at, 0), found = wiggly_poles_at(&desc, 0);
+        assert_memory_equal(&found, &expected, sizeof found);
+        at.spring_friction = desc.spring_friction = true;
+        at.spring.value = at.friction.value = 1e140;
+        desc.spring.value = desc.friction.value = beyond[b] * 1e70;
+        expected = wiggly_poles_at(&at, 0);
+        found = wiggly_poles_at(&desc, 0);
+        assert_memory_equal(&found, &expected, sizeof found);
+        for (int k = 0; k < 2; k++) assert_true(isfinite(found.s[k][0] * found.s[k][0]));
+    }
+}
+
+static void assert_speed(const wiggly_desc *desc, double tolerance)
+{
+    const struct textbook_poles expected = textbook_poles_at(desc, 0, 0);
+    const struct textbook_speed speed = textbook_speed_of(&expected, (real)desc->step);
+    const poles at = poles_at(desc, 0, 0);
+    const speed_form found = poles_speed(&at, desc->step, false);
+    const double on_e = (double)crealq(speed.Q * desc->step), on_x = (double)crealq((speed.P + speed.Q) * desc->step);
+    assert_near(found.on_e.re, on_e, tolerance * fabs(on_e));
+    assert_near(found.on_x.re, on_x, tolerance * fmax(1, fabs(on_x)));
+}
+
+/// From poles that nearly are one to those that nearly alias.
+static void speeds_are_the_textbooks(void **state)
+{
+    (void)state;
+    for (double frequency = 1e-4; frequency < 14; frequency *= 1.3) {
+        for (double damping = 0; damping < 1.5; damping += 0.24) {
+            wiggly_desc desc = describe(WIGGLY_REAL, frequency, damping);
+            assert_speed(&desc, 1e-13);
+        }
+    }
+    wiggly_desc desc = describe(WIGGLY_REAL, 15 * (1 - 1e-6), 0);
+    assert_speed(&desc, 1e-8);
+}
+
+/// However slowly it fades, swing at the start costs something; only where it does not fade at all, nothing.
+static void the_start_costs_what_fades(void **state)
+{
+    (void)state;
+    for (double decay = 1e-20; decay < 1; decay *= 1000) {
+        const poles at = {.s = {{-decay, 5}, {-decay, -5}}, .natural = 5, .centre = 5, .decay = decay};
+        const double expected = -expm1(-4 * step * decay);
+        assert_near(poles_start_cost(&at, step).row[0].weight, expected, 1e-14 * expected);
+    }
+    const poles still = {.s = {{0, 5}, {0, -5}}, .natural = 5, .centre = 5};
+    assert_near(poles_start_cost(&still, step).row[0].weight, 0, 0);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(poles_are_the_textbooks),
+        cmocka_unit_test(beyond_the_largest_nothing_changes),
+        cmocka_unit_test(speeds_are_the_textbooks),
+        cmocka_unit_test(the_start_costs_what_fades),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
