@@ -11,10 +11,8 @@ out vec2 at;
 out float opacity;
 #endif
 uniform mat4 clip_from_world;
-uniform vec3 eye;
 uniform vec3 place; // from the model's space to the world's
 uniform vec2 shade; // height of the ground, and how far above it its shade reaches
-uniform float seam; // metres a pixel at a distance of 1 m in the pass that softens silhouettes, else 0
 // For each coordinate and vertex: Re N, Im N and their derivatives along the tangents u and v, packed into 5 texels of a
 // row that holds 128 vertices (see pack_row() in stage_morph.c). Coordinate k begins at row first_row[k].
 uniform highp sampler2D coordinates;
@@ -99,8 +97,5 @@ void main()
     at = uv;
 #endif
     open_sky = 0.45 + 0.55 * smoothstep(0.0, shade.y, world.y - shade.x);
-    // The seam is the same skin, 1.5 pixels larger (1 is too little where facets are large) and pushed back behind the first pass: only what
-    // sticks out is seen. Far behind it, or specks of it stick out of folds.
-    vec3 ray = world - eye;
-    gl_Position = clip_from_world * vec4(world + seam * (1.5 * length(ray) * world_normal + 6.0 * ray), 1.0);
+    gl_Position = clip_from_world * vec4(world, 1.0);
 }

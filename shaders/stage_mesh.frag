@@ -1,15 +1,17 @@
 #version 330 core
 // Wrapped key light, hemisphere, rim. Colours are linear until the last line.
-// FURRED is the fox, FACED what its face is on; PICTURED an imported character.
+// FURRED is the fox, FACED what its face is on; PICTURED an imported character; SKIRT what hangs along the outlines of any other than the fox.
 #if defined(FACED)
 #define FURRED
+#endif
+#if defined(SKIRT)
+#define PICTURED
 #endif
 in vec3 world;
 in vec3 world_normal;
 #ifdef FURRED
 in vec3 marking; // white, dark, brown: as in model/coat.h
 in vec4 place;   // in bind space, and how much of it is the tail's
-in float skirt;  // opacity; 1 but on the skirt
 in float open_around; // share of the light from all around that reaches it
 #ifdef FACED
 uniform mat4 head_from_bind; // to the head's own space, which looks towards -z
@@ -21,19 +23,27 @@ in vec3 fur;
 in vec2 phase; // of the phase map: movement as a share of the largest, at the angle by which it leads
 #endif
 in float open_sky;
+#if defined(FURRED) || defined(SKIRT)
+in float skirt; // how much it covers: 1 but on the skirt
+#else
+const float skirt = 1.0;
+#endif
 uniform vec3 eye;
 uniform vec3 key_from;
 uniform vec3 earth; // the light that comes up from the ground
 #ifndef FURRED
-uniform float seam; // 0 in the first pass
 uniform float line; // pixels: width of the phase map's lines; 0 where no phases are shown
 #endif
 #ifdef PICTURED
 in vec2 at; // in the picture
 in float opacity;
 uniform sampler2D picture;
-uniform float cutoff;   // opacity below which nothing is drawn
+uniform float cutoff; // opacity below which nothing is drawn; 0: all is
+uniform bool blended; // opacity is to be seen
+uniform float seam;   // 0 in the first pass
+#ifndef SKIRT
 uniform bool both_sides;
+#endif
 #endif
 out vec4 pixel;
 
@@ -141,18 +151,16 @@ vec3 coat_here(out float gloss)
 #endif
 
 #ifndef FURRED
-// How far inside its silhouette a round shape's pixel is, in 1.4 pixels, at most 1: opacity of the soft seam (second pass;
-// the first does not blend). Where the radius is R, `facing` f falls to 0 over R·f²/2. A triangle is a chord of that
-// arc: f changes by `slope` a pixel of a chord that is foreshortened to `flat_facing`, so R = 1/(slope · flat_facing).
-// Unlike fwidth(f²), this is exact for facets smaller than a pixel, as nothing but what is linear in them is
-// differentiated.
-float seam_opacity(vec3 to_eye)
+#ifdef PICTURED
+// What a mask leaves: in the second pass it fades out within a pixel.
+float mask(float a)
 {
-    float facing = dot(world_normal, to_eye);
-    float slope = length(vec2(dFdx(facing), dFdy(facing)));
-    float flat_facing = abs(dot(direction(cross(dFdx(world), dFdy(world))), to_eye));
-    return clamp(0.36 * facing * abs(facing) / max(slope * flat_facing, 1e-6), 0.0, 1.0);
+    float step = length(vec2(dFdx(a), dFdy(a)));
+    if (cutoff <= 0.0 || a >= cutoff) return 1.0;
+    float cover = seam > 0.0 ? clamp(1.0 - (cutoff - a) / max(step, 1e-5), 0.0, 1.0) : 0.0;
+    return cover * cover;
 }
+#endif
 
 // Dark lines on the phase map between each eighth of a turn and the next, so that phases are told apart without hue and in any
 // light. What is in step has none across it. They fade where they would run together, and where next to nothing moves,
@@ -179,18 +187,22 @@ void main()
     vec3 n = direction(world_normal);
     vec3 to_eye = normalize(eye - world);
 #ifdef FURRED
-    float opacity_here = skirt * skirt; // what it adds to a shape is a third of a pixel
+    float opacity_here = 1.0;
     float gloss;
     vec3 coat = coat_here(gloss);
 #else
     vec4 surface = vec4(fur, 1.0);
 #ifdef PICTURED
     surface = vec4(fur, opacity) * texture(picture, at);
-    if (surface.a < cutoff) discard;
+    float masked = mask(surface.a);
+    if (masked <= 0.0) discard;
+    if (!blended) surface.a = masked;
+#ifndef SKIRT
     if (both_sides && !gl_FrontFacing) n = -n;
 #endif
+#endif
     vec3 coat = line > 0.0 ? with_phase_lines(surface.rgb) : surface.rgb;
-    float opacity_here = seam > 0.0 ? seam_opacity(to_eye) : surface.a;
+    float opacity_here = surface.a;
 #endif
     float facing = dot(n, to_eye);
     float graze = clamp(1.0 - facing, 0.0, 0.9); // of what a pixel shows of an edge, not of the edge alone
@@ -211,5 +223,5 @@ void main()
 #ifdef FURRED
     linear += (1.0 - gloss) * coat * light * (0.55 * graze2 * graze); // hair that stands off catches the light
 #endif
-    pixel = vec4(max(1.055 * pow(linear, vec3(1.0 / 2.4)) - 0.055, 0.0), opacity_here);
+    pixel = vec4(max(1.055 * pow(linear, vec3(1.0 / 2.4)) - 0.055, 0.0), skirt * skirt * opacity_here); // what a skirt adds to a shape is a third of a pixel
 }

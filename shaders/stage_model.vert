@@ -9,8 +9,6 @@ layout(location = 5) in uvec4 more_joints;
 layout(location = 6) in vec4 weights;
 layout(location = 7) in vec4 more_weights;
 uniform mat4 clip_from_world;
-uniform vec3 eye;
-uniform float seam;  // as in stage_character.vert
 uniform vec2 shade;  // heights: of the ground, and of the dusk above it
 uniform vec4 base;   // the material's colour
 uniform int first;   // matrix of the skin's first joint
@@ -49,6 +47,5 @@ void main()
     phase = vec2(0.0);
     at = uv;
     open_sky = 0.45 + 0.55 * smoothstep(0.0, shade.y, world.y - shade.x);
-    vec3 ray = world - eye;
-    gl_Position = clip_from_world * vec4(world + seam * (1.5 * length(ray) * world_normal + 6.0 * ray), 1.0);
+    gl_Position = clip_from_world * vec4(world, 1.0);
 }

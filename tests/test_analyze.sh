@@ -15,6 +15,8 @@ simulate() { # <name> <options>...
 }
 simulate up.npy --shake up --frequency 7
 simulate side.pc2 --shake side --impulse
+[ "$(od -An -tf4 -j20 -N8 "$scratch/side.pc2" | xargs)" = "0 1" ]
+ok "a .pc2 begins at frame 0 and has a sample a frame" $?
 
 mkdir "$scratch/out"
 analyze() { # <exit status> <what> <arguments>...

@@ -70,6 +70,23 @@ static void test_up_is_the_joints_height_less_its_mean(void **state)
     close_scene(&scene);
 }
 
+/// A clip that no number of samples fits goes on in its own time, round after round.
+static void test_a_clip_between_samples_does_not_drift(void **state)
+{
+    (void)state;
+    struct scene scene = open_scene();
+    double mean = 0;
+    scene.document->fps = 23.375; // a round of one second is 93.5 samples
+    scene.document->last_frame = 30 * 24;
+    free(scene.samples);
+    scene.count = document_samples(scene.document);
+    scene.samples = calloc((size_t)scene.count, sizeof *scene.samples);
+    read_motion(&scene, hips, MOTION_UP);
+    for (int s = 0; s < 187; s++) mean += height_at(&scene, s) / 187;
+    for (int s = 0; s < scene.count; s++) assert_near(scene.samples[s], height_at(&scene, s) - mean, 2e-3);
+    close_scene(&scene);
+}
+
 static void test_every_cycle_is_the_same(void **state)
 {
     (void)state;
@@ -126,6 +143,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_up_is_the_joints_height_less_its_mean),
+        cmocka_unit_test(test_a_clip_between_samples_does_not_drift),
         cmocka_unit_test(test_every_cycle_is_the_same),
         cmocka_unit_test(test_corners_are_rounded),
         cmocka_unit_test(test_turn_is_in_degrees),

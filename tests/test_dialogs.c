@@ -69,6 +69,9 @@ static void test_recent_files(void **state)
     session_key(&s, KEY_ENTER, 0);
     expect_request(&s, REQUEST_NONE, "");
     assert_non_null(strstr(s.editor->dialogs->dialog.error, "/home/me/gone.json no longer exists"));
+    panel_type(&s, "x"); // another file: what was wrong with that one is off the screen
+    assert_string_equal(s.editor->dialogs->dialog.error, "");
+    session_key(&s, KEY_BACKSPACE, 0);
     session_key(&s, KEY_UP, 0);
     session_key(&s, KEY_ENTER, 0);
     expect_request(&s, REQUEST_OPEN, "/home/me/scenes/walk.json");
@@ -228,13 +231,46 @@ static void test_welcome_with_a_character(void **state)
     session_close(&s);
 }
 
+/// Opens a scene with the card on; whether card and status line say what is to be said of it.
+static void expect_advice(const char *json, const char *first, const char *status)
+{
+    struct session s;
+    panel_open(&s, json, 1280, 720);
+    editor_welcome(s.editor);
+    session_frame(&s);
+    assert_non_null(shown_text(s.editor, first));
+    assert_non_null(shown_text(s.editor, status));
+    session_close(&s);
+}
+
+static void test_advice_names_what_is_there(void **state)
+{
+    (void)state;
+#define SWING "{\"frames\": [0, 24], \"splines\": [{\"name\": \"swing\"}]"
+#define REX "{\"type\": \"model\", \"name\": \"rex\", \"model\": \"/home/ada/rex.glb\"}"
+    expect_advice(SWING
+                  ", \"rigs\": [{\"type\": \"tail\", \"name\": \"t\", \"channels\": [{\"spline\": \"swing\"}]}]}",
+                  "Drag the fox", "Drag the fox, its tail or a knot. Space plays, F1 shows all keys");
+    expect_advice(
+        SWING ", \"rigs\": [{\"type\": \"character\", \"model\": \"/home/ada/bear.glb\", \"coordinates\": []}]}",
+        "Drag the character", "Drag the character to pin a point of it, or a knot. Space plays, F1 shows all keys");
+    expect_advice(SWING
+                  ", \"rigs\": [" REX
+                  ", {\"type\": \"chain\", \"name\": \"tail\", \"model\": \"rex\", \"from\": \"a\", \"to\": \"b\", "
+                  "\"channels\": [{\"spline\": \"swing\"}]}]}",
+                  "Pull a chain", "Drag a chain or a knot, or click a bone to make another chain. F1 shows all keys");
+    expect_advice(SWING ", \"rigs\": [" REX "]}", "Click a bone",
+                  "Point at a bone and click it to make a chain. F1 shows all keys");
+    expect_advice(SWING "}", "Double-click", "Drag a knot. Space plays, F1 shows all keys");
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_recent_files),      cmocka_unit_test(test_recent_files_give_way),
         cmocka_unit_test(test_mouse_in_the_list), cmocka_unit_test(test_recover),
         cmocka_unit_test(test_welcome),           cmocka_unit_test(test_welcome_with_a_character),
-        cmocka_unit_test(test_discard_and_later),
+        cmocka_unit_test(test_discard_and_later), cmocka_unit_test(test_advice_names_what_is_there),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

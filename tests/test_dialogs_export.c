@@ -264,6 +264,15 @@ static void test_remembered(void **state)
     editor_set_path(s.editor, "work/run.json");
     session_key(&s, 'E', MOD_CTRL);
     assert_non_null(shown_text(s.editor, "work/run.webm")); // its own name, in the format of last time
+    for (int format = 0; format < s.editor->dialogs->dialog.files.format_count; format++) { // whichever that was
+        const char *ending = s.editor->dialogs->dialog.files.formats[format].ending;
+        struct export_memory memory = {.path = "films/first"};
+        strncat(memory.path, ending, 16);
+        session_key(&s, KEY_ESCAPE, 0);
+        editor_set_export(s.editor, &memory);
+        session_key(&s, 'E', MOD_CTRL);
+        assert_string_equal(strrchr(s.editor->dialogs->exporting.memory.path, '.'), ending);
+    }
     session_close(&s);
 }
 

@@ -26,6 +26,28 @@ says "two keys a frame" "49 rows" "$out"
 
 expect 0 "an imported character as .usda" "$WIGGLY" export $scenes/dog.json -o "$scratch/dog.usda" --substeps 1
 says "says where its textures are" "97 keys, 1 texture in dog_textures, " "$out"
+for file in tail dog; do
+    tr -cd '{(' <"$scratch/$file.usda" | wc -c >"$scratch/opened"
+    tr -cd '})' <"$scratch/$file.usda" | wc -c >"$scratch/closed"
+    cmp -s "$scratch/opened" "$scratch/closed"
+    ok "$file.usda: what is opened is closed" $?
+done
+expect 0 "a soft character" "$WIGGLY" export $scenes/character.json -o "$scratch/soft.glb" --frames 0:4
+says "says how many morph targets it has" " morph targets, 5 keys" "$out"
+cp $scenes/tail.json "$scratch/stroll.json"
+expect 0 "a scene of another name" "$WIGGLY" export "$scratch/stroll.json" -o "$scratch/a.gltf"
+grep -q '"name": *"stroll"' "$scratch/a.gltf"
+ok "gives its name to the clip" $?
+
+# A character of several files stays beside them.
+size=$(od -An -tu4 -j12 -N4 assets/models/dog.glb | tr -d ' ')
+mkdir "$scratch/beside" "$scratch/away"
+tail -c +21 assets/models/dog.glb | head -c "$size" | sed 's/"buffers": *\[{/&"uri":"dog.bin",/' >"$scratch/beside/dog.gltf"
+tail -c +$((size + 29)) assets/models/dog.glb >"$scratch/beside/dog.bin"
+expect 0 "a character in two files" "$WIGGLY" rig "$scratch/beside/dog.gltf" --chain tail_1 -o "$scratch/beside/walk.json"
+expect 0 "is exported beside them" "$WIGGLY" export "$scratch/beside/walk.json" -o "$scratch/beside/out.gltf"
+expect 1 "but to no other folder" "$WIGGLY" export "$scratch/beside/walk.json" -o "$scratch/away/out.gltf"
+says "which is explained" "names files beside it: export it to the same folder, or as .glb" "$err"
 
 expect 2 "no file to write" "$WIGGLY" export $scenes/tail.json
 expect 2 "an ending that nobody knows" "$WIGGLY" export $scenes/tail.json -o "$scratch/tail.fbx"

@@ -35,6 +35,9 @@ static void positions_are_those_of_equation_30(void **state)
     struct morph morph;
     pose_character(&rig, &figure, x, LOOK_WIGGLY, &morph);
     assert_int_equal(morph.count, 2);
+    float lo[3] = {-9, -9, -9}, hi[3] = {9, 9, 9};
+    double most[3] = {-INFINITY, -INFINITY, -INFINITY}, least[3] = {INFINITY, INFINITY, INFINITY};
+    morph_bounds(&figure, &morph, lo, hi);
     for (int i = 0; i < figure.character.vertex_count; i++) {
         float p[3];
         morph_vertex(&figure, &morph, i, p, NULL);
@@ -43,7 +46,21 @@ static void positions_are_those_of_equation_30(void **state)
             const double complex sum = 0.7 * value[0] * ((double)c->re[i][k] + I * (double)c->im[i][k]) -
                                        1.5 * value[1] * ((double)a->re[i][k] + I * (double)a->im[i][k]);
             assert_near((double)p[k], (double)figure.character.position[i][k] + creal(sum), 1e-5);
+            most[k] = fmax(most[k], (double)p[k]);
+            least[k] = fmin(least[k], (double)p[k]);
         }
+    }
+    for (int k = 0; k < 3; k++) {
+        assert_near((double)hi[k], most[k], 0);
+        assert_near((double)lo[k], least[k], 0);
+    }
+    const struct rig_pose placed = {.kind = RIG_CHARACTER,
+                                    .character = {.figure = &figure, .morph = morph, .position = {5, 6, 7}}};
+    rig_bounds(&placed, lo, hi); // it stands on its position
+    for (int k = 0; k < 3; k++) {
+        const double at = (double)placed.character.position[k] - (k == 1 ? (double)figure.lo[1] : 0);
+        assert_near((double)hi[k], most[k] + at, 1e-6);
+        assert_near((double)lo[k], least[k] + at, 1e-6);
     }
     figure_free(&figure);
 }

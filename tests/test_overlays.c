@@ -195,18 +195,42 @@ static void test_outlines_do_not_fold_from_any_side(void **state)
     session_close(&s);
 }
 
+static void open_bear(struct session *s)
+{
+    panel_open_models(
+        s, "{\"frames\": [0, 96], \"splines\": [{\"name\": \"swing\", \"knots\": [{\"frame\": 0, \"value\": 0},"
+           "{\"frame\": 40, \"value\": 1}]}], \"rigs\": [{\"type\": \"character\", \"name\": \"bear\", \"model\": "
+           "\"assets/models/creature.glb\", \"coordinates\": [{\"name\": \"side\", \"spline\": "
+           "\"swing\"}]}]}");
+    session_frame(s);
+}
+
+/// Onion skin and motion arc are not for tails alone: a scene of a soft character shows its outlines, and where it moves most.
+static void test_a_character_has_skins_and_an_arc(void **state)
+{
+    (void)state;
+    struct session s;
+    open_bear(&s);
+    assert_int_equal(find(&s, DRAW_LINE, theme()->spline[0]).count, 0);
+    session_key(&s, 'O', 0);
+    assert_true(find(&s, DRAW_LINE, theme()->spline[0]).count >= 2); // of two knots
+    assert_int_equal(find(&s, DRAW_RECT, theme()->playhead).count, 0);
+    session_key(&s, 'P', 0);
+    assert_in_range(find(&s, DRAW_RECT, theme()->playhead).count, 44, 49);
+    panel_click(&s, "onion");
+    panel_click(&s, "trail");
+    assert_int_equal(find(&s, DRAW_LINE, theme()->spline[0]).count, 0);
+    assert_int_equal(find(&s, DRAW_RECT, theme()->playhead).count, 0);
+    session_close(&s);
+}
+
 /// At the height of the character: from its ears, above the middle of its head, to its feet.
 static void test_a_character_has_a_ghost(void **state)
 {
     (void)state;
     struct session s;
-    panel_open_models(
-        &s, "{\"frames\": [0, 96], \"splines\": [{\"name\": \"swing\", \"knots\": [{\"frame\": 0, \"value\": 0},"
-            "{\"frame\": 40, \"value\": 1}]}], \"rigs\": [{\"type\": \"character\", \"name\": \"bear\", \"model\": "
-            "\"assets/models/creature.glb\", \"coordinates\": [{\"name\": \"side\", \"spline\": "
-            "\"swing\"}]}]}");
+    open_bear(&s);
     const uint32_t color = theme()->spline[0];
-    session_frame(&s);
     session_pull(&s, "knot(swing,1)", 0, 8, 2);
     const struct found ghost = find(&s, DRAW_LINE, color);
     assert_true(ghost.count >= 1);
@@ -235,6 +259,7 @@ int main(void)
         cmocka_unit_test(test_the_ghost_is_the_pose_at_the_knot_in_hand),
         cmocka_unit_test(test_outlines_do_not_fold_from_any_side),
         cmocka_unit_test(test_a_character_has_a_ghost),
+        cmocka_unit_test(test_a_character_has_skins_and_an_arc),
         cmocka_unit_test(test_arc_is_where_the_tip_goes),
         cmocka_unit_test(test_arc_follows_an_edit_at_once),
         cmocka_unit_test(test_overlays_outlive_documents),

@@ -349,6 +349,27 @@ static void shadows_are_stronger_near_the_ground(void **state)
     assert_true(total[0] > 1.5f * total[1]);
 }
 
+/// The higher an animal hops, the weaker the shadow under its body: what is left falls to 1 : e in a third of its size.
+static void a_hop_takes_the_shadow_along(void **state)
+{
+    (void)state;
+    static struct pose pose;
+    static const float overhead[3] = {0, 1, 0};
+    struct shadow_blob blobs[2][32];
+    struct tail tail = plain_tail(AXIS_SIDE);
+    tail.channel_count = 0;
+    tail.length *= 0.2; // a small animal
+    for (int high = 0; high < 2; high++) {
+        pose_tail(&tail, NULL, LOOK_WIGGLY, &pose);
+        const float scale = pose_length(&pose) / CREATURE_TAIL_LENGTH;
+        if (high) {
+            for (int n = 0; n < pose.count; n++) pose.matrix[n][13] += 0.35f * scale;
+        }
+        assert_true(pose_blobs(&pose, overhead, blobs[high], 32) >= 3);
+    }
+    for (int b = 0; b < 3; b++) assert_near((double)(blobs[1][b].strength / blobs[0][b].strength), exp(-1), 0.02);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -366,6 +387,7 @@ int main(void)
         cmocka_unit_test(the_ground_is_below_the_base),
         cmocka_unit_test(bounds_hold_a_curled_tail),
         cmocka_unit_test(shadows_are_stronger_near_the_ground),
+        cmocka_unit_test(a_hop_takes_the_shadow_along),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

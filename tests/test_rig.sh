@@ -22,6 +22,8 @@ expect 0 "a tail and two ears" "$WIGGLY" rig $dog --chain tail_1:tail_8 --chain 
 says "says what was made" "wrote $scratch/dog.json: 3 chains" "$out"
 expect 0 "the scene is sound, and finds its character from there" "$WIGGLY" check "$scratch/dog.json"
 says "with the frequency" '"frequency": 2,' "$(cat "$scratch/dog.json")"
+expect 3 "a scene in a folder that is not there" "$WIGGLY" rig $dog --chain tail_1 -o "$scratch/none/dog.json"
+says "is said" "none/dog.json: cannot be written" "$err"
 expect 0 "its splines follow the clip" "$WIGGLY" solve "$scratch/dog.json" -o "$scratch/dog.csv"
 [ "$(awk -F, 'NR > 1 && $3 * $3 > 1e-4' "$scratch/dog.csv" | wc -l)" -gt 5 ]
 ok "and swing" $?

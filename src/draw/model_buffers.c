@@ -201,6 +201,7 @@ long model_buffers_create(struct model_buffers *buffers, const struct gltf *gltf
         }
     }
     create_matrices(buffers);
+    model_skirt_create(&buffers->skirt, gltf);
     for (int w = 0; w < gltf->weight_count; w++) buffers->weights[w] = NAN; // the first pose uploads all
     return bytes;
 }
@@ -225,6 +226,7 @@ void model_buffers_free(struct model_buffers *buffers)
     free(buffers->weights);
     free(buffers->first);
     free(buffers->rows);
+    model_skirt_free(&buffers->skirt);
     *buffers = (struct model_buffers){0};
 }
 

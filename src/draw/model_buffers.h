@@ -3,6 +3,7 @@
 #define DRAW_MODEL_BUFFERS_H
 
 #include "draw/gl.h"
+#include "draw/model_skirt.h"
 #include "model/gltf.h"
 
 enum { MATRICES_A_ROW = 64, FLOATS_A_ROW = MATRICES_A_ROW * 3 * 4 }; ///< as in stage_model.vert
@@ -31,6 +32,7 @@ struct model_buffers {
     float *rows;    ///< of all matrices, as the texture has them
     GLuint matrices;
     int row_count;
+    struct model_skirt skirt;
 };
 
 /// Uploads a model; returns the bytes. Where memory is short, what does not fit is not there.

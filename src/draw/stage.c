@@ -67,8 +67,8 @@ void stage_draw(struct stage_renderer *renderer, const struct stage_view *view, 
     stage_flat_draw(renderer->flat, y, height);
     begin_rigs();
     draw_rigs(renderer, view, scale, 0.0f);
-    // Edges without multisampling: a skirt a pixel wide (draw/stage_skin.h) or, of what the GPU moves, a second skin, a pixel
-    // larger, fades out from the silhouettes over whatever is behind: the background or the animal itself.
+    // Edges without multisampling: a skirt a pixel wide (draw/skirt.h) fades out from the outlines over whatever is behind: the
+    // background or the animal itself.
     glEnable(GL_BLEND);
     glDepthMask(GL_FALSE);
     draw_rigs(renderer, view, scale, 2.0f / (view->projection[5] * (float)height));

@@ -1,9 +1,10 @@
 /// Draws imported characters with their own materials.
 #include "draw/model_buffers.h"
-#include "draw/painter.h"
 #include "draw/stage_extent.h"
+#include "draw/stage_skirt.h"
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 enum { MATRICES_UNIT = 0, PICTURE_UNIT = 1 };
 
@@ -11,8 +12,9 @@ struct stage_models {
     GLuint program;
     struct painter_uniforms shared;
     struct {
-        GLint shade, base, first, many, cutoff, both_sides;
+        GLint shade, base, first, many, cutoff, blended, both_sides;
     } at;
+    struct stage_skirt skirt;
     struct model_buffers buffers[STAGE_MAX_MODELS]; ///< one for each place in the view
 };
 
@@ -24,7 +26,8 @@ static void *create(struct error *error)
         return NULL;
     }
     models->program = gl_program("stage_model.vert", "stage_mesh.frag", "PICTURED", error);
-    if (!models->program) {
+    if (!models->program || !stage_skirt_create(&models->skirt, error)) {
+        glDeleteProgram(models->program);
         free(models);
         return NULL;
     }
@@ -34,6 +37,7 @@ static void *create(struct error *error)
     models->at.first = glGetUniformLocation(models->program, "first");
     models->at.many = glGetUniformLocation(models->program, "many");
     models->at.cutoff = glGetUniformLocation(models->program, "cutoff");
+    models->at.blended = glGetUniformLocation(models->program, "blended");
     models->at.both_sides = glGetUniformLocation(models->program, "both_sides");
     glUseProgram(models->program);
     glUniform1i(glGetUniformLocation(models->program, "matrices"), MATRICES_UNIT);
@@ -46,6 +50,7 @@ static void destroy(void *state)
     struct stage_models *models = state;
     for (int m = 0; m < STAGE_MAX_MODELS; m++) model_buffers_free(&models->buffers[m]);
     glDeleteProgram(models->program);
+    stage_skirt_destroy(&models->skirt);
     free(models);
 }
 
@@ -65,10 +70,14 @@ static void upload(void *state, const struct stage_view *view, long *bytes)
 
 static const struct gltf_material plain = {.color = {1, 1, 1, 1}, .image = -1};
 
-static const struct gltf_material *material_of(const struct gltf *gltf, const struct model_shape *shape)
+static const struct gltf_material *material_of(const struct gltf *gltf, const struct gltf_part *part)
 {
-    int material = gltf->meshes[gltf->nodes[shape->node].mesh].parts[shape->part].material;
-    return material < 0 ? &plain : &gltf->materials[material];
+    return part->material < 0 ? &plain : &gltf->materials[part->material];
+}
+
+static const struct gltf_part *part_of(const struct gltf *gltf, const struct model_shape *shape)
+{
+    return &gltf->meshes[gltf->nodes[shape->node].mesh].parts[shape->part];
 }
 
 /// The values of attributes that a shape has no arrays for: white, all on the only matrix.
@@ -82,59 +91,127 @@ static void set_standard_attributes(void)
     glVertexAttrib4f(7, 0.0f, 0.0f, 0.0f, 0.0f);
 }
 
-/// Whether a node without a skin is mirrored, which turns its triangles round.
-static bool is_mirrored(const struct stage_model *shown, int node)
+static void use_picture(const struct model_buffers *buffers, const struct gltf_material *material, int number)
 {
-    return shown->gltf->nodes[node].skin < 0 && glms_mat4_det(mat4_from(shown->pose->world[node])) < 0.0f;
+    const GLuint picture = material->image >= 0 ? buffers->pictures[material->image] : 0;
+    glBindTexture(GL_TEXTURE_2D, picture ? picture : buffers->white);
+    glBindSampler(PICTURE_UNIT, number >= 0 ? buffers->samplers[number] : 0);
 }
 
 static void draw_shape(const struct stage_models *models, const struct model_buffers *buffers,
                        const struct stage_model *shown, const struct model_shape *shape)
 {
-    const struct gltf_material *material = material_of(shown->gltf, shape);
-    const struct gltf_part *part = &shown->gltf->meshes[shown->gltf->nodes[shape->node].mesh].parts[shape->part];
-    const GLuint picture = material->image >= 0 ? buffers->pictures[material->image] : 0;
+    const struct gltf_part *part = part_of(shown->gltf, shape);
+    const struct gltf_material *material = material_of(shown->gltf, part);
     glUniform4fv(models->at.base, 1, material->color);
     glUniform1i(models->at.first, buffers->first[shape->node]);
     glUniform1i(models->at.many, part->joints != NULL);
     glUniform1f(models->at.cutoff, material->cutoff);
     glUniform1i(models->at.both_sides, material->double_sided);
-    glBindTexture(GL_TEXTURE_2D, picture ? picture : buffers->white);
-    glBindSampler(PICTURE_UNIT, part->material >= 0 ? buffers->samplers[part->material] : 0);
+    glUniform1i(models->at.blended, material->blended);
+    use_picture(buffers, material, part->material);
     glBindVertexArray(shape->vertex_array);
-    glFrontFace(is_mirrored(shown, shape->node) ? GL_CW : GL_CCW);
+    glFrontFace(model_is_mirrored(shown->gltf, shown->pose, shape->node) ? GL_CW : GL_CCW);
     if (material->double_sided) glDisable(GL_CULL_FACE);
     glDrawElements(GL_TRIANGLES, part->index_count, GL_UNSIGNED_INT, NULL);
     glEnable(GL_CULL_FACE);
 }
 
+enum kind { SOLID, MASKED, BLENDED };
+
+static enum kind kind_of(const struct gltf_material *material)
+{
+    if (material->blended) return BLENDED;
+    return material->cutoff > 0.0f ? MASKED : SOLID;
+}
+
 static void draw_shapes(const struct stage_models *models, const struct model_buffers *buffers,
-                        const struct stage_model *shown, bool blended)
+                        const struct stage_model *shown, enum kind first, enum kind last)
 {
     for (int s = 0; s < buffers->shape_count; s++) {
-        if (material_of(shown->gltf, &buffers->shapes[s])->blended == blended)
-            draw_shape(models, buffers, shown, &buffers->shapes[s]);
+        const enum kind kind = kind_of(material_of(shown->gltf, part_of(shown->gltf, &buffers->shapes[s])));
+        if (kind >= first && kind <= last) draw_shape(models, buffers, shown, &buffers->shapes[s]);
     }
 }
 
-static void draw_model(const struct stage_models *models, const struct model_buffers *buffers,
-                       const struct stage_model *shown, bool is_seam)
+static void set_shade(GLint at, const struct stage_model *shown)
 {
-    const float height = shown->hi[1] - shown->lo[1];
-    glUniform2f(models->at.shade, shown->ground, fmaxf(0.3f * height, 1e-6f));
+    glUniform2f(at, shown->ground, fmaxf(0.3f * (shown->hi[1] - shown->lo[1]), 1e-6f));
+}
+
+/// In the second pass again what is masked, as there its edges fade out over what is behind.
+static void draw_model(const struct stage_models *models, const struct model_buffers *buffers,
+                       const struct stage_model *shown, bool second)
+{
+    set_shade(models->at.shade, shown);
     glActiveTexture(GL_TEXTURE0 + MATRICES_UNIT);
     glBindTexture(GL_TEXTURE_2D, buffers->matrices);
     glActiveTexture(GL_TEXTURE0 + PICTURE_UNIT);
-    draw_shapes(models, buffers, shown, false);
-    if (!is_seam) { // what is seen through has no seam
+    if (second) {
+        draw_shapes(models, buffers, shown, MASKED, MASKED);
+    } else {
+        draw_shapes(models, buffers, shown, SOLID, MASKED);
         glEnable(GL_BLEND);
         glDepthMask(GL_FALSE);
-        draw_shapes(models, buffers, shown, true);
+        draw_shapes(models, buffers, shown, BLENDED, BLENDED);
         glDepthMask(GL_TRUE);
         glDisable(GL_BLEND);
     }
     glBindSampler(PICTURE_UNIT, 0);
     glActiveTexture(GL_TEXTURE0);
+}
+
+/// Of a part whose first vertex among its node's is `first`.
+struct look {
+    const struct gltf_part *part;
+    const float *color, (*normal)[3];
+    int first;
+};
+
+static void look_at(const void *context, uint32_t vertex, struct skirt_vertex *out)
+{
+    const struct look *look = context;
+    const int v = (int)vertex - look->first;
+    *out = (struct skirt_vertex){0};
+    memcpy(out->normal, look->normal[vertex], sizeof out->normal);
+    memcpy(out->color, look->color, sizeof out->color);
+    for (int k = 0; look->part->color && k < 4; k++) out->color[k] *= look->part->color[v][k];
+    if (look->part->uv) memcpy(out->uv, look->part->uv[v], sizeof out->uv);
+}
+
+static void draw_node_skirts(const struct stage_models *models, const struct model_buffers *buffers,
+                             const struct stage_model *shown, int node, const struct stage_view *view, float seam)
+{
+    const struct gltf_mesh *mesh = &shown->gltf->meshes[shown->gltf->nodes[node].mesh];
+    const struct skirt_mesh skirts =
+        model_skirt_pose(&buffers->skirt, shown->gltf, shown->pose, node, shown->root, view->eye);
+    struct look look = {.normal = (const float(*)[3])buffers->skirt.normal + buffers->skirt.first_vertex[node]};
+    int first = 0;
+    for (int p = 0; p < mesh->part_count; p++) {
+        const struct gltf_material *material = material_of(shown->gltf, &mesh->parts[p]);
+        look.part = &mesh->parts[p];
+        look.color = material->color;
+        glUniform1f(models->skirt.at.cutoff, material->cutoff);
+        glUniform1i(models->skirt.at.blended, material->blended);
+        use_picture(buffers, material, look.part->material);
+        stage_skirt_draw(&models->skirt, &skirts, first, first + look.part->index_count, material->double_sided,
+                         view->eye, seam, look_at, &look);
+        look.first += look.part->vertex_count;
+        first += look.part->index_count;
+    }
+}
+
+static void draw_skirts(const struct stage_models *models, const struct stage_view *view, float seam)
+{
+    stage_skirt_use(&models->skirt, view, seam);
+    for (int m = 0; m < view->model_count; m++) {
+        const struct stage_model *shown = &view->models[m];
+        set_shade(models->skirt.at.shade, shown);
+        for (int n = 0; models->buffers[m].skirt.across && n < shown->gltf->node_count; n++) {
+            if (shown->gltf->nodes[n].mesh >= 0) draw_node_skirts(models, &models->buffers[m], shown, n, view, seam);
+        }
+    }
+    stage_skirt_leave();
 }
 
 static void draw(const void *state, const struct stage_view *view, float scale, float seam)
@@ -147,6 +224,7 @@ static void draw(const void *state, const struct stage_view *view, float scale, 
     for (int m = 0; m < view->model_count; m++)
         draw_model(models, &models->buffers[m], &view->models[m], seam > 0.0f);
     glFrontFace(GL_CCW);
+    if (seam > 0.0f) draw_skirts(models, view, seam);
     glBindVertexArray(0);
 }
 

@@ -1,5 +1,5 @@
 /// Moves soft characters on the GPU, by complex morphs.
-#include "draw/morph_looks.h"
+#include "draw/morph_skirt.h"
 #include "draw/painter.h"
 #include "draw/stage.h"
 #include "draw/stage_extent.h"
@@ -26,6 +26,7 @@ struct model {
     int rows;         ///< of the texture, for one coordinate
     uint64_t version; ///< of the figure that is in it
     struct morph_looks looks;
+    struct morph_skirt skirt;
 };
 
 /// Skins of vertex colours and phase maps; and those with materials.
@@ -36,12 +37,13 @@ struct morph_program {
     GLuint program;
     struct painter_uniforms shared;
     struct {
-        GLint place, shade, count, first_row, weight, map_row, map_axis, dark, line, base;
+        GLint place, shade, count, first_row, weight, map_row, map_axis, dark, line, base, blended;
     } at;
 };
 
 struct stage_morph {
     struct morph_program programs[PROGRAMS];
+    struct stage_skirt skirt;
     struct model models[MAX_KEPT];
     long clock;
 };
@@ -54,10 +56,10 @@ static bool program_create(struct morph_program *morph, const char *define, stru
         GLint *location;
         const char *name;
     } uniforms[] = {
-        {&morph->at.place, "place"},         {&morph->at.shade, "shade"},   {&morph->at.count, "count"},
-        {&morph->at.first_row, "first_row"}, {&morph->at.weight, "weight"}, {&morph->at.map_row, "map_row"},
-        {&morph->at.map_axis, "map_axis"},   {&morph->at.line, "line"},     {&morph->at.base, "base"},
-        {&morph->at.dark, "dark"},
+        {&morph->at.place, "place"},         {&morph->at.shade, "shade"},     {&morph->at.count, "count"},
+        {&morph->at.first_row, "first_row"}, {&morph->at.weight, "weight"},   {&morph->at.map_row, "map_row"},
+        {&morph->at.map_axis, "map_axis"},   {&morph->at.line, "line"},       {&morph->at.base, "base"},
+        {&morph->at.dark, "dark"},           {&morph->at.blended, "blended"},
     };
     for (size_t i = 0; i < sizeof uniforms / sizeof *uniforms; i++) {
         *uniforms[i].location = glGetUniformLocation(morph->program, uniforms[i].name);
@@ -77,9 +79,9 @@ static void *create(struct error *error)
         return NULL;
     }
     if (program_create(&morph->programs[PLAIN], NULL, error) &&
-        program_create(&morph->programs[PICTURED], "PICTURED", error))
+        program_create(&morph->programs[PICTURED], "PICTURED", error) && stage_skirt_create(&morph->skirt, error))
         return morph;
-    glDeleteProgram(morph->programs[PLAIN].program);
+    for (int p = 0; p < PROGRAMS; p++) glDeleteProgram(morph->programs[p].program);
     free(morph);
     return NULL;
 }
@@ -92,6 +94,7 @@ static void model_free(struct model *model)
     glDeleteBuffers(1, &model->coarse);
     glDeleteTextures(1, &model->coordinates);
     morph_looks_free(&model->looks);
+    morph_skirt_free(&model->skirt);
     *model = (struct model){0};
 }
 
@@ -100,6 +103,7 @@ static void destroy(void *state)
     struct stage_morph *morph = state;
     for (int i = 0; i < MAX_KEPT; i++) model_free(&morph->models[i]);
     for (int p = 0; p < PROGRAMS; p++) glDeleteProgram(morph->programs[p].program);
+    stage_skirt_destroy(&morph->skirt);
     free(morph);
 }
 
@@ -211,7 +215,7 @@ static GLuint upload_triangles(struct model *model, const struct figure *figure,
     if (!sorted) morph_looks_free(&model->looks);
     const uint32_t *indices = coarse ? figure->coarse : c->indices;
     const GLuint buffer = upload_buffer(GL_ELEMENT_ARRAY_BUFFER, sizeof *sorted * count, sorted ? sorted : indices);
-    free(sorted);
+    model->skirt.sorted[coarse] = sorted;
     return buffer;
 }
 
@@ -231,6 +235,7 @@ static long model_upload(struct model *model, const struct figure *figure)
     model->coarse = upload_triangles(model, figure, true);
     model->fine = upload_triangles(model, figure, false);
     glBindVertexArray(0);
+    morph_skirt_create(&model->skirt, figure, &model->looks);
     return bytes + (long)(fine + coarse);
 }
 
@@ -262,30 +267,29 @@ static void upload(void *state, const struct stage_view *view, long *bytes)
     }
 }
 
-/// What is seen through comes last, blended, and has no seam.
+/// What is seen through comes last, blended.
 static void draw_ranges(const struct morph_program *morph, const struct model *model, bool coarse, bool blended)
 {
     for (int r = 0; r < model->looks.range_count; r++) {
         const struct morph_range *range = &model->looks.ranges[coarse][r];
         if (range->count == 0 || (range->color[3] < 1) != blended) continue;
         glUniform4fv(morph->at.base, 1, range->color);
+        glUniform1i(morph->at.blended, blended);
         glBindTexture(GL_TEXTURE_2D, range->picture);
         glDrawElements(GL_TRIANGLES, range->count, GL_UNSIGNED_INT,
                        (const void *)((size_t)range->first * sizeof(uint32_t)));
     }
 }
 
-static void draw_pictured(const struct morph_program *morph, const struct model *model, bool coarse, bool is_seam)
+static void draw_pictured(const struct morph_program *morph, const struct model *model, bool coarse)
 {
     glActiveTexture(GL_TEXTURE0 + PICTURE_UNIT);
     draw_ranges(morph, model, coarse, false);
-    if (!is_seam) {
-        glEnable(GL_BLEND);
-        glDepthMask(GL_FALSE);
-        draw_ranges(morph, model, coarse, true);
-        glDepthMask(GL_TRUE);
-        glDisable(GL_BLEND);
-    }
+    glEnable(GL_BLEND);
+    glDepthMask(GL_FALSE);
+    draw_ranges(morph, model, coarse, true);
+    glDepthMask(GL_TRUE);
+    glDisable(GL_BLEND);
     glActiveTexture(GL_TEXTURE0 + COORDINATES_UNIT);
 }
 
@@ -294,8 +298,14 @@ static int program_of(const struct model *model, const struct stage_character *s
     return model->looks.range_count > 0 && shown->map_coordinate < 0 ? PICTURED : PLAIN;
 }
 
+/// Heights: of the ground, and of the dusk above it.
+static void set_shade(GLint at, const struct stage_character *shown)
+{
+    glUniform2f(at, shown->position[1], 0.3f * (shown->figure->hi[1] - shown->figure->lo[1]));
+}
+
 static void draw_character(const struct morph_program *morph, const struct model *model,
-                           const struct stage_character *shown, float scale, bool is_seam)
+                           const struct stage_character *shown, float scale)
 {
     const struct figure *figure = shown->figure;
     const float *p = shown->position;
@@ -303,7 +313,7 @@ static void draw_character(const struct morph_program *morph, const struct model
     float axis[3] = {0};
     for (int k = 0; k < shown->morph.count; k++) first_row[k] = model->rows * shown->morph.coordinate[k];
     glUniform3f(morph->at.place, p[0], p[1] - figure->lo[1], p[2]);
-    glUniform2f(morph->at.shade, p[1], 0.3f * (figure->hi[1] - figure->lo[1]));
+    set_shade(morph->at.shade, shown);
     glUniform1i(morph->at.count, model->coordinates ? shown->morph.count : 0);
     glUniform1iv(morph->at.first_row, MORPH_MAX_COORDINATES, first_row);
     glUniform2fv(morph->at.weight, MORPH_MAX_COORDINATES, shown->morph.weight[0]);
@@ -318,7 +328,7 @@ static void draw_character(const struct morph_program *morph, const struct model
     glBindTexture(GL_TEXTURE_2D, model->coordinates);
     glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, shown->coarse ? model->coarse : model->fine);
     if (program_of(model, shown) == PICTURED) {
-        draw_pictured(morph, model, shown->coarse, is_seam);
+        draw_pictured(morph, model, shown->coarse);
         return;
     }
     glDrawElements(GL_TRIANGLES, shown->coarse ? model->coarse_count : model->fine_count, GL_UNSIGNED_INT, NULL);
@@ -332,10 +342,8 @@ static const struct model *find_uploaded(const struct stage_morph *morph, const 
     return NULL;
 }
 
-static void draw(const void *state, const struct stage_view *view, float scale, float seam)
+static void draw_skins(const struct stage_morph *morph, const struct stage_view *view, float scale)
 {
-    const struct stage_morph *morph = state;
-    if (view->character_count == 0) return;
     for (int p = 0; p < PROGRAMS; p++) {
         const struct morph_program *program = &morph->programs[p];
         bool used = false;
@@ -343,11 +351,38 @@ static void draw(const void *state, const struct stage_view *view, float scale, 
             const struct stage_character *shown = &view->characters[i];
             const struct model *model = find_uploaded(morph, shown->figure);
             if (!model || program_of(model, shown) != p) continue;
-            if (!used) painter_use(program->program, &program->shared, view, seam);
+            if (!used) painter_use(program->program, &program->shared, view, 0.0f);
             used = true;
-            draw_character(program, model, shown, scale, seam > 0.0f);
+            draw_character(program, model, shown, scale);
         }
     }
+}
+
+static void draw_skirts(const struct stage_morph *morph, const struct stage_view *view, float scale, float seam)
+{
+    stage_skirt_use(&morph->skirt, view, seam);
+    for (int i = 0; i < view->character_count; i++) {
+        struct stage_character shown = view->characters[i];
+        const struct model *model = find_uploaded(morph, shown.figure);
+        if (!model) continue;
+        if (!model->coordinates) { // drawn at rest
+            shown.morph.count = 0;
+            shown.map_coordinate = -1;
+        }
+        set_shade(morph->skirt.at.shade, &shown);
+        glUniform1f(morph->skirt.at.line, shown.map_coordinate >= 0 ? PHASE_LINE * scale : 0.0f);
+        morph_skirt_draw(&model->skirt, &morph->skirt, view, &shown, &model->looks, seam);
+    }
+    stage_skirt_leave();
+}
+
+static void draw(const void *state, const struct stage_view *view, float scale, float seam)
+{
+    if (view->character_count == 0) return;
+    if (seam > 0.0f)
+        draw_skirts(state, view, scale, seam);
+    else
+        draw_skins(state, view, scale);
     glBindVertexArray(0);
 }
 

@@ -34,6 +34,16 @@ void morph_vertex(const struct figure *figure, const struct morph *morph, int ve
     if (normal) morph_normal(figure, morph, vertex, normal);
 }
 
+void morph_places(const struct figure *figure, const struct morph *morph, const float position[3], float (*places)[3])
+{
+    for (int i = 0; i < figure->character.vertex_count; i++) {
+        morph_vertex(figure, morph, i, places[i], NULL);
+        places[i][0] += position[0];
+        places[i][1] += position[1] - figure->lo[1];
+        places[i][2] += position[2];
+    }
+}
+
 void morph_bounds(const struct figure *figure, const struct morph *morph, float lo[3], float hi[3])
 {
     glm_vec3_fill(lo, INFINITY);

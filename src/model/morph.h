@@ -19,6 +19,10 @@ struct morph {
 void morph_vertex(const struct figure *figure, const struct morph *morph, int vertex, float position[3],
                   float normal[3]);
 
+/// Positions of all vertices in the world: the posed figure standing on the ground at `position`, as the stage draws it.
+void morph_places(const struct figure *figure, const struct morph *morph, const float position[3],
+                  float (*places)[3]);
+
 /// The box around the posed figure, relative to the rig's position.
 void morph_bounds(const struct figure *figure, const struct morph *morph, float lo[3], float hi[3]);
 

@@ -4,16 +4,6 @@
 #include <math.h>
 #include <string.h>
 
-void pick_pose(const struct figure *figure, const struct morph *morph, const float position[3], float (*posed)[3])
-{
-    for (int i = 0; i < figure->character.vertex_count; i++) {
-        morph_vertex(figure, morph, i, posed[i], NULL);
-        posed[i][0] += position[0];
-        posed[i][1] += position[1] - figure->lo[1];
-        posed[i][2] += position[2];
-    }
-}
-
 static const float SLACK = 1e-4f; ///< of a triangle: rounding must not leave gaps between neighbours
 
 /// Distance along the ray to the front of a triangle (Möller and Trumbore 1997), or a negative number; `uv` are the weights

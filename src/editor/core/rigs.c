@@ -11,6 +11,15 @@
 static const double APART = 1.25; ///< from one rig's middle to the next one's, in widths
 static const double ROOM = 1.2;   ///< metres across where a width is not known
 
+enum lead rigs_lead(const struct document *document)
+{
+    static const enum rig_kind kinds[] = {
+        [LEAD_TAIL] = RIG_TAIL, [LEAD_CHARACTER] = RIG_CHARACTER, [LEAD_CHAIN] = RIG_CHAIN, [LEAD_MODEL] = RIG_MODEL};
+    enum lead lead = LEAD_TAIL;
+    while (lead < LEAD_NOTHING && document_next_rig(document, kinds[lead], 0) < 0) lead++;
+    return lead;
+}
+
 /// Ends the open step, taken back where something in it failed.
 static void finish(struct core *core, const struct editor_world *world, bool done)
 {

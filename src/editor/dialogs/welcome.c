@@ -1,4 +1,5 @@
 /// What to try first: a card on the stage that goes away with the first edit, the first look at the help, Esc, or a click.
+#include "editor/core/rigs.h"
 #include "editor/dialogs/dialogs.h"
 #include "editor/dialogs/help.h"
 #include "ui/font.h"
@@ -9,18 +10,30 @@ enum { MARGIN = 16, PAD = 14, LINE = 20, GAP = 16 };
 
 enum { HINTS = 4 };
 
-/// At first, and where a character of one's own is on the stage.
+/// By what is on the stage.
 static const struct hint {
     const char *what, *why;
-} hints[2][HINTS] = {
-    {{"Drag the fox", "its tail swings after it"},
-     {"Pull the tail", "this sets a knot at the playhead"},
-     {"Drag a knot", "the curve hits it, and swings"},
-     {"Drop a .glb", "your own: click a bone, press J"}},
-    {{"Click a bone", "the first of its tail, say"},
-     {"Press Shift+J", "it swings after the clip"},
-     {"Pull the tail", "this sets a knot at the playhead"},
-     {"Press Ctrl+E", "a .glb with the new motion"}},
+} hints[LEADS][HINTS] = {
+    [LEAD_TAIL] = {{"Drag the fox", "its tail swings after it"},
+                   {"Pull the tail", "this sets a knot at the playhead"},
+                   {"Drag a knot", "the curve hits it, and swings"},
+                   {"Drop a .glb", "your own: click a bone, press J"}},
+    [LEAD_CHARACTER] = {{"Drag the character", "pins the point you hold"},
+                        {"Drag a knot", "the curve hits it, and swings"},
+                        {"Hold F, press ↑", "it swings faster"},
+                        {"Drop a .glb", "your own: click a bone, press J"}},
+    [LEAD_CHAIN] = {{"Pull a chain", "this sets a knot at the playhead"},
+                    {"Drag a knot", "the curve hits it, and swings"},
+                    {"Click a bone", "Shift+J makes another chain of it"},
+                    {"Press Ctrl+E", "a .glb with the new motion"}},
+    [LEAD_MODEL] = {{"Click a bone", "the first of its tail, say"},
+                    {"Press Shift+J", "it swings after the clip"},
+                    {"Pull the tail", "this sets a knot at the playhead"},
+                    {"Press Ctrl+E", "a .glb with the new motion"}},
+    [LEAD_NOTHING] = {{"Double-click", "sets a knot of a curve"},
+                      {"Drag a knot", "the curve hits it, and swings"},
+                      {"Press A", "adds a tail or a character"},
+                      {"Drop a .glb", "your own: click a bone, press J"}},
 };
 
 static const char closing[] = "Got it", more[] = "F1 shows all keys";
@@ -35,7 +48,7 @@ static float width_of(enum font font, const char *text) { return font_width(font
 static float what_width(void)
 {
     float width = 0;
-    for (int i = 0; i < 2 * HINTS; i++)
+    for (int i = 0; i < LEADS * HINTS; i++)
         width = fmaxf(width, width_of(FONT_LABEL_BOLD, hints[i / HINTS][i % HINTS].what));
     return ceilf(width) + GAP;
 }
@@ -44,10 +57,12 @@ struct rect welcome_card(const struct core *core)
 {
     const struct rect *stage = &core->layout.stage;
     float why = width_of(FONT_LABEL, more) + GAP + width_of(FONT_LABEL_BOLD, closing) - what_width();
-    for (int i = 0; i < 2 * HINTS; i++) why = fmaxf(why, width_of(FONT_LABEL, hints[i / HINTS][i % HINTS].why));
+    for (int i = 0; i < LEADS * HINTS; i++) why = fmaxf(why, width_of(FONT_LABEL, hints[i / HINTS][i % HINTS].why));
     const float height = 2 * PAD + (HINTS + 1) * LINE + 2;
-    return (struct rect){stage->x + MARGIN, stage->y + stage->h - MARGIN - height,
-                         2 * PAD + what_width() + ceilf(why), height};
+    const float width = 2 * PAD + what_width() + ceilf(why);
+    const bool legend = core->characters.mapped || core->brush.on; // that of the phase map is at the left hand
+    return (struct rect){legend ? stage->x + stage->w - MARGIN - width : stage->x + MARGIN,
+                         stage->y + stage->h - MARGIN - height, width, height};
 }
 
 bool welcome_event(struct dialogs *dialogs, const struct core *core, const struct event *event)
@@ -73,7 +88,7 @@ void dialogs_show_welcome(struct dialogs *dialogs, struct core *core, const stru
     drawlist_rounded(list, card, 8, theme()->panel);
     drawlist_rounded_line(list, card, 8, 1, theme()->zero);
     float left = card.x + PAD, y = card.y + PAD + 12;
-    const struct hint *shown = hints[document_find_rig(world->document, RIG_MODEL, 0) >= 0];
+    const struct hint *shown = hints[rigs_lead(world->document)];
     for (int i = 0; i < HINTS; i++, y += LINE) {
         show_text(core, left, y, FONT_LABEL_BOLD, theme()->text, shown[i].what);
         show_text(core, left + what_width(), y, FONT_LABEL, theme()->text_dim, shown[i].why);

@@ -125,7 +125,7 @@ static bool project_surface(struct stage *stage, const struct core *core, const 
     float(*posed)[3] = stage->skin.posed;
     if (figure->character.vertex_count > stage->skin.capacity) return false;
     stage->skin.hash = 0;
-    pick_pose(figure, morph, position, posed);
+    morph_places(figure, morph, position, posed);
     for (int i = 0; i < figure->character.vertex_count; i++) {
         float xy[2];
         if (!stage_project_point(stage, core->layout.stage, posed[i], xy)) return false;

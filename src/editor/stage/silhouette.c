@@ -88,14 +88,15 @@ void silhouette_add_triangle(struct silhouette *silhouette, const float corner[3
         high[k] = fmaxf(corner[0][k], fmaxf(corner[1][k], corner[2][k]));
     }
     find_nodes(silhouette, low, high, columns, rows);
-    const float sign = turn(corner[0], corner[1], corner[2]) < 0 ? -1 : 1;
+    const float sign = turn(corner[0], corner[1], corner[2]) < 0 ? -1 : 1, covered = -OUTSIDE * silhouette->cell;
     for (int row = rows[0]; row <= rows[1]; row++) {
         for (int column = columns[0]; column <= columns[1]; column++) {
             const float p[2] = {node_x(silhouette, column), node_y(silhouette, row)};
+            if (silhouette->inside[row][column] >= covered) continue; // by another one, as on a body's far side
             const bool covers = sign * turn(corner[0], corner[1], p) >= 0 &&
                                 sign * turn(corner[1], corner[2], p) >= 0 &&
                                 sign * turn(corner[2], corner[0], p) >= 0;
-            if (covers) silhouette->inside[row][column] = -OUTSIDE * silhouette->cell;
+            if (covers) silhouette->inside[row][column] = covered;
         }
     }
 }

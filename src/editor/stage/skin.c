@@ -33,7 +33,7 @@ bool skin_pose(struct stage *stage, int character)
         if (shown->rig != character || shown->is_twin) continue;
         if (shown->figure->character.vertex_count > skin->capacity) return false;
         const uint64_t hash = hash_word(hash_word(view->hash, shown->figure->id), (uint64_t)character);
-        if (skin->hash != hash) pick_pose(shown->figure, &shown->morph, shown->position, skin->posed);
+        if (skin->hash != hash) morph_places(shown->figure, &shown->morph, shown->position, skin->posed);
         skin->hash = hash;
         return true;
     }

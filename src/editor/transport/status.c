@@ -1,5 +1,6 @@
 /// The status line: where playback is, which scene, and one sentence: a message, or what the pointer is over.
 #include "editor/core/core.h"
+#include "editor/core/rigs.h"
 #include "editor/transport/state.h"
 #include "editor/transport/transport.h"
 #include "ui/font.h"
@@ -22,6 +23,22 @@ void transport_advance(struct transport *transport, const struct core *core, dou
     status->fps = transport->fps;
     status->solve_us = transport->solve_us;
     status->dropped = core->playback.dropped;
+}
+
+/// What to try where nothing is pointed at.
+static const char *lead_hint(const struct document *document)
+{
+    static const char *const hints[LEADS] = {
+        [LEAD_TAIL] = "Drag the fox, its tail or a knot. Space plays, F1 shows all keys",
+        [LEAD_CHARACTER] = "Drag the character to pin a point of it, or a knot. Space plays, F1 shows all keys",
+        [LEAD_CHAIN] = "Drag a chain or a knot, or click a bone to make another chain. F1 shows all keys",
+        [LEAD_MODEL] = "Point at a bone and click it to make a chain. F1 shows all keys",
+        [LEAD_NOTHING] = "Drag a knot. Space plays, F1 shows all keys",
+    };
+    const enum lead lead = rigs_lead(document);
+    if (lead == LEAD_NOTHING && document->spline_count == 0)
+        return "A adds a tail, Ctrl+O opens a scene. F1 shows all keys";
+    return hints[lead];
 }
 
 static const char *hover_hint(const struct core *core, const struct document *document)
@@ -89,13 +106,7 @@ static const char *hover_hint(const struct core *core, const struct document *do
     }
     if (core->bone.any)
         return "J makes a chain from this bone to its tip, Shift+J one that follows through; Esc lets go";
-    if (document_next_rig(document, RIG_MODEL, 0) >= 0)
-        return "Point at a bone and click it to make a chain. F1 shows all keys";
-    if (document->spline_count == 0) return "Ctrl+O opens a scene.  F1 shows all keys";
-    if (document_next_rig(document, RIG_CHARACTER, 0) >= 0)
-        return "Drag a knot, or the surface to pin a point. Space plays, F1 shows all keys";
-    if (document_next_rig(document, RIG_TAIL, 0) < 0) return "Drag a knot. Space plays, F1 shows all keys";
-    return "Drag the fox, its tail or a knot. Space plays, F1 shows all keys";
+    return lead_hint(document);
 }
 
 const char *transport_hint(const struct core *core, const struct document *document)

@@ -1,0 +1,181 @@
+/// Details of the editor, one each: notches of the wheel, lists longer than the screen, held letters, targets of recordings.
+#include "inside.h"
+#include "panel_session.h"
+
+static const char tail[] =
+    "{\"wiggly\": 1, \"frames\": [0, 120], \"splines\": ["
+    "{\"name\": \"sway\", \"frequency\": 1, \"knots\": [{\"frame\": 0, \"value\": 0.8}, {\"frame\": 40, \"value\": "
+    "-1}]},"
+    "{\"name\": \"lift\", \"frequency\": 0.5, \"knots\": [{\"frame\": 20, \"value\": 0.4}]}], \"rigs\": ["
+    "{\"type\": \"tail\", \"name\": \"tail\", \"channels\": [{\"spline\": \"sway\", \"axis\": \"side\"},"
+    " {\"spline\": \"lift\", \"axis\": \"up\", \"gain\": 3}]}]}";
+
+static double frames_wide(struct session *s)
+{
+    float x[2], y;
+    struct error error = {0};
+    if (!editor_target(s->editor, &s->world, "curve(sway,38,-0.5)", &x[0], &y, &error) ||
+        !editor_target(s->editor, &s->world, "curve(sway,42,-0.5)", &x[1], &y, &error)) {
+        fail_msg("%s", error.text);
+    }
+    return 4 / (double)(x[1] - x[0]);
+}
+
+/// A turn of two notches is as much as two of one.
+static void notches_of_the_wheel_add_up(void **state)
+{
+    (void)state;
+    struct session s;
+    double width[3];
+    session_open(&s, tail);
+    session_point(&s, "curve(sway,40,-0.5)");
+    width[0] = frames_wide(&s);
+    session_wheel(&s, 1);
+    session_wheel(&s, 1);
+    width[1] = frames_wide(&s);
+    session_wheel(&s, 2);
+    width[2] = frames_wide(&s);
+    assert_true(width[1] < 0.95 * width[0] && width[1] > 0.3 * width[0]);
+    assert_near(width[2] / width[1], width[1] / width[0], 1e-3);
+    session_wheel(&s, -4);
+    assert_near(frames_wide(&s), width[0], 1e-3 * width[0]);
+    session_close(&s);
+}
+
+/// More splines than the window is high: the wheel turns the open list, wherever on it the pointer is.
+static void a_long_list_turns_by_wheel(void **state)
+{
+    (void)state;
+    static char scene[8000];
+    size_t end = (size_t)snprintf(scene, sizeof scene, "{\"wiggly\": 1, \"frames\": [0, 48], \"splines\": [");
+    for (int i = 0; i < 60; i++)
+        end += (size_t)snprintf(scene + end, sizeof scene - end, "%s{\"name\": \"s%d\", \"knots\": []}", i ? "," : "",
+                                i);
+    snprintf(scene + end, sizeof scene - end, "], \"rigs\": []}");
+    struct session s;
+    panel_open(&s, scene, 1280, 600);
+    panel_click(&s, "follow.frequency");
+    assert_true(panel_shows(&s, "item.s1"));
+    assert_false(panel_shows(&s, "item.s59"));
+    float x, y;
+    assert_true(inspector_target(s.editor->inspector, &s.editor->core, &s.world, "item.s3", &x, &y));
+    session_move(&s, x, y);
+    for (int i = 0; i < 20; i++) session_wheel(&s, -5);
+    assert_true(panel_shows(&s, "item.s59"));
+    assert_false(panel_shows(&s, "item.s1"));
+    session_close(&s);
+}
+
+static double lag_of(const struct session *s, int channel)
+{
+    return angles_number(&s->document->rigs[0].tail.channels[channel].lag, 0);
+}
+
+/// L and an arrow: the lag of the channel that the active spline drives, whichever it is.
+static void lag_is_the_active_splines(void **state)
+{
+    (void)state;
+    for (int active = 0; active < 2; active++) {
+        struct session s;
+        session_open(&s, tail);
+        core_activate(&s.editor->core, &s.world, active);
+        const double before[2] = {lag_of(&s, 0), lag_of(&s, 1)};
+        session_hold(&s, 'L', ACTION_PRESS);
+        session_key(&s, KEY_UP, 0);
+        session_hold(&s, 'L', ACTION_RELEASE);
+        assert_near(lag_of(&s, active), before[active] + 0.5, 1e-9);
+        assert_near(lag_of(&s, 1 - active), before[1 - active], 0);
+        session_close(&s);
+    }
+}
+
+/// A letter that is let go while a dialog is open is no longer held once that is closed.
+static void a_letter_let_go_in_a_dialog_is_not_held(void **state)
+{
+    (void)state;
+    struct session s;
+    session_open(&s, tail);
+    char *before = session_saved(&s);
+    session_hold(&s, 'F', ACTION_PRESS);
+    editor_offer_recovery(s.editor, &(struct recovery_offer){.name = "walk.json"}); // by no key
+    assert_int_equal(s.editor->dialogs->dialog.kind, DIALOG_RECOVER);
+    session_hold(&s, 'F', ACTION_RELEASE);
+    session_key(&s, KEY_ESCAPE, 0);
+    assert_int_equal(s.editor->dialogs->dialog.kind, DIALOG_NONE);
+    session_key(&s, KEY_UP, 0);
+    assert_saved(&s, before);
+    free(before);
+    session_close(&s);
+}
+
+static void nothing_to_follow_is_an_error(void **state)
+{
+    (void)state;
+    struct session s;
+    panel_open(
+        &s, "{\"wiggly\": 1, \"frames\": [0, 48], \"splines\": [{\"name\": \"alone\", \"knots\": []}], \"rigs\": []}",
+        1280, 720);
+    panel_click(&s, "follow.frequency");
+    assert_true(s.editor->core.message.is_error);
+    assert_non_null(strstr(s.editor->core.message.text, "no other spline for alone to follow"));
+    session_close(&s);
+}
+
+/// What a recording names and the scene does not have is said.
+static void targets_that_are_missing_are_said(void **state)
+{
+    (void)state;
+    static const char *const missing[] = {"pin(tail,0)",  "pintime(tail,0)", "knot(sway,7)",
+                                          "knot(none,0)", "tail(none,0.5)",  "divider(none)"};
+    struct session s;
+    session_open(&s, tail);
+    for (size_t i = 0; i < sizeof missing / sizeof *missing; i++) {
+        struct error error = {0};
+        float x, y;
+        if (editor_target(s.editor, &s.world, missing[i], &x, &y, &error)) fail_msg("%s is there", missing[i]);
+        assert_true(error.text[0]);
+    }
+    session_close(&s);
+}
+
+static void a_target_from_the_pointer(void **state)
+{
+    (void)state;
+    struct session s;
+    struct error error = {0};
+    float x, y;
+    session_open(&s, tail);
+    session_move(&s, 300, 200);
+    const float height = s.editor->core.layout.stage.h;
+    assert_true(editor_target(s.editor, &s.world, "pointer(0.1,-0.2)", &x, &y, &error));
+    assert_near(x, 300 + 0.1f * height, 1e-3);
+    assert_near(y, 200 - 0.2f * height, 1e-3);
+    session_close(&s);
+}
+
+/// Knots before a first frame are asked about, as those behind a last one are.
+static void a_first_frame_asks_for_its_knots(void **state)
+{
+    (void)state;
+    struct session s;
+    panel_open(&s, tail, 1280, 1600);
+    panel_click(&s, "section.scene");
+    panel_enter(&s, "scene.first", "30");
+    assert_int_equal(s.editor->dialogs->dialog.kind, DIALOG_ASK);
+    session_key(&s, 'T', 0);
+    assert_int_equal(s.document->first_frame, 30);
+    assert_int_equal(s.document->splines[0].knot_count, 1);
+    assert_int_equal(s.document->splines[1].knot_count, 0);
+    session_close(&s);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(notches_of_the_wheel_add_up),   cmocka_unit_test(a_long_list_turns_by_wheel),
+        cmocka_unit_test(lag_is_the_active_splines),     cmocka_unit_test(a_letter_let_go_in_a_dialog_is_not_held),
+        cmocka_unit_test(nothing_to_follow_is_an_error), cmocka_unit_test(targets_that_are_missing_are_said),
+        cmocka_unit_test(a_target_from_the_pointer),     cmocka_unit_test(a_first_frame_asks_for_its_knots),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
