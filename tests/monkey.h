@@ -9,6 +9,7 @@
 #include <stdint.h>
 #include <stdio.h>
 #include <string.h>
+#include <unistd.h>
 
 /// Files that the monkey opens, or tries to.
 struct monkey_files {
@@ -330,6 +331,11 @@ static inline void document(struct monkey *m)
     case 2:
         monkey_key(m, 'O', MOD_CTRL);
         monkey_key(m, 'D', 0); // discards what is unsaved
+        if (one_in(m, 3)) {    // one of the recent files
+            for (int i = 1 + below(m, 4); i > 0; i--) monkey_key(m, KEY_DOWN, 0);
+            monkey_key(m, KEY_ENTER, 0);
+            return;
+        }
         monkey_key(m, 'A', MOD_CTRL);
         monkey_type(m, any_file(m));
         monkey_key(m, KEY_ENTER, 0);
@@ -351,6 +357,36 @@ static inline void document(struct monkey *m)
     if (one_in(m, 2)) monkey_key(m, 'D', 0);
 }
 
+/// Writes `text` over a file, or what is in another file; never outside the working folder.
+static inline void overwrite(const char *path, const char *text, const char *from)
+{
+    char folder[4096];
+    const bool inside =
+        path[0] != '/' || (getcwd(folder, sizeof folder) && strncmp(path, folder, strlen(folder)) == 0);
+    FILE *source = inside && from ? fopen(from, "r") : NULL, *file = inside ? fopen(path, "w") : NULL;
+    if (file && text) fputs(text, file);
+    for (int c; file && source && (c = fgetc(source)) != EOF;) fputc(c, file);
+    if (source) fclose(source);
+    if (file) fclose(file);
+}
+
+/// Another program, or a second window, writes the scene's file or the settings; the window gets the focus, and the question is answered.
+static inline void another(struct monkey *m)
+{
+    static const char *const settings[] = {"theme = light\nui_scale = 1.5\n", "theme dark\n\nui_scale = 1e999\n", "",
+                                           "recent = a.json\nrecent = /nowhere\nrecent = \nstage_share = -5\n"};
+    static const int answers[] = {'K', 'T', 'S', KEY_ESCAPE, KEY_ENTER};
+    const char *path = app_path(&m->blind->app);
+    if (one_in(m, 3)) {
+        overwrite("config/wiggly/settings", settings[below(m, 4)], NULL);
+    } else if (path[0]) {
+        overwrite(path, NULL, any_file(m));
+    }
+    monkey_send(m, (struct event){.kind = EVENT_FOCUS});
+    if (one_in(m, 2)) monkey_key(m, 'S', MOD_CTRL);
+    monkey_key(m, answers[below(m, 5)], 0);
+}
+
 /// The next thing a monkey does: one event or a few, into the queue.
 static inline void monkey_act(struct monkey *m)
 {
@@ -359,8 +395,8 @@ static inline void monkey_act(struct monkey *m)
         int weight;
     } habits[] = {{click, 48},   {drag, 36}, {monkey_point, 10}, {any_key, 24}, {edit_key, 36},
                   {type, 16},    {wheel, 8}, {clipboard, 12},    {play, 7},     {window, 2},
-                  {document, 1}, {field, 8}, {rig, 3},           {export, 1}};
-    int left = below(m, 212);
+                  {document, 1}, {field, 8}, {rig, 3},           {export, 1},   {another, 1}};
+    int left = below(m, 213);
     const struct habit *habit = habits;
     while (left >= habit->weight) left -= habit++->weight;
     habit->act(m);

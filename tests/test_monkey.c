@@ -3,6 +3,8 @@
 ///
 ///     MONKEY_SEED=7 MONKEY_EVENTS=1000000 build/tests/test_monkey    runs one seed, as long as wanted
 ///     MONKEY_RECORD=/tmp/m.replay …                                  writes down what it does
+#include "app/personal.h"
+#include "app/recovery.h"
 #include "beast.h"
 #include "inside.h"
 #include "invariants.h"
@@ -13,7 +15,15 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-enum { SEEDS = 8, EVENTS = 12500, RELOAD_EVERY = 64, UNDO_EVERY = 3000, MOST_SAMPLES = 20000 };
+enum {
+    SEEDS = 8,
+    EVENTS = 12500,
+    RELOAD_EVERY = 64,
+    UNDO_EVERY = 3000,
+    RESCUE_EVERY = 32,
+    MOST_SAMPLES = 20000,
+    THREADED_PART = 20
+};
 
 static char folder[] = "/tmp/wiggly-monkey-XXXXXX";
 static char home[4096];
@@ -82,6 +92,21 @@ static void make_beast(void)
     files.good[files.good_count++] = "beast.glb";
 }
 
+/// A scene that is long enough to be solved in the background, and not too long for keep_small().
+static void make_long(void)
+{
+    FILE *file = fopen("long.json", "w");
+    assert_non_null(file);
+    fputs("{\"wiggly\": 1, \"frames\": [0, 3000], \"splines\": [{\"name\": \"s\", \"start\": \"loop\", "
+          "\"frequency\": 1, "
+          "\"knots\": [{\"frame\": 0, \"value\": 1}, {\"frame\": 20, \"value\": -1}]}], \"rigs\": [{\"type\": "
+          "\"tail\", "
+          "\"name\": \"t\", \"spline\": \"s\"}]}",
+          file);
+    assert_int_equal(fclose(file), 0);
+    files.good[files.good_count++] = "long.json";
+}
+
 static int make_files(void **state)
 {
     (void)state;
@@ -91,6 +116,12 @@ static int make_files(void **state)
     copy_scene("figure3.json");
     make_puppet();
     make_beast();
+    make_long();
+    char own[sizeof folder + 16]; // settings, recent files and recovery
+    snprintf(own, sizeof own, "%s/config", folder);
+    setenv("XDG_CONFIG_HOME", own, 1);
+    snprintf(own, sizeof own, "%s/state", folder);
+    setenv("XDG_STATE_HOME", own, 1);
     DIR *bad = opendir(keep("%s/tests/bad%s", ""));
     if (!bad) return -1;
     for (struct dirent *entry; (entry = readdir(bad)) != NULL && files.bad_count < 100;) {
@@ -219,6 +250,26 @@ static void assert_undone(struct monkey *m, struct origin *origin)
     free(again);
 }
 
+/// As when the display is lost: the work is in a recovery file, and that gives the document.
+static void assert_rescued(struct app *app)
+{
+    struct error error = {0};
+    struct recovery_slot slot = {.lock = -1};
+    if (history_is_saved(app->table.history)) return;
+    const char *path = personal_rescue(app);
+    assert_non_null(path);
+    snprintf(slot.path, sizeof slot.path, "%s", path);
+    struct document *rescued = recovery_read(&slot, &error);
+    if (!rescued) fail_msg("%s", error.text);
+    char *own = NULL, *again = printed(rescued);
+    size_t capacity = 0, size;
+    assert_true(scene_print_into(app->table.document, RECOVERY_FOLDER, &own, &capacity, &size));
+    assert_string_equal(again, own);
+    document_destroy(rescued);
+    free(again);
+    free(own);
+}
+
 /// What takes long to solve is undone: the monkey has no patience.
 static void keep_small(struct app *app)
 {
@@ -253,6 +304,7 @@ static void let_loose(struct monkey *m, int events)
         assert_invariants(app->table.document);
         if (app->row.splines_solved > 0) assert_curves_are_finite(app);
         if (frame % RELOAD_EVERY == 0) assert_loads_again(app->table.document);
+        if (frame % RESCUE_EVERY == 0) assert_rescued(app);
         if (m->sent < next_undo) continue;
         next_undo += UNDO_EVERY;
         assert_undone(m, &origin);
@@ -280,12 +332,14 @@ static void record(struct app *app, const char *path)
     if (!app->recording) fail_msg("%s", error.text);
 }
 
-static void run_seed(int seed, int events)
+static void run_seed(int seed, int events, const char *scene, bool threaded)
 {
     struct blind *blind = malloc(sizeof *blind);
     assert_non_null(blind);
-    blind_open(blind, NULL);
+    blind_open(blind, scene);
     static struct monkey monkey;
+    personal_start(&blind->app);
+    blind->app.table.threaded = threaded;
     monkey = (struct monkey){.blind = blind, .files = &files, .random = (uint64_t)seed * 0x9E3779B97F4A7C15u};
     fprintf(stderr, "monkey: MONKEY_SEED=%d\n", seed);
     playing = &monkey;
@@ -294,6 +348,7 @@ static void run_seed(int seed, int events)
     let_loose(&monkey, events);
     recording_close(blind->app.recording, blind->app.frame, NULL);
     playing = NULL;
+    personal_end(&blind->app, false);
     blind_close(blind);
     free(blind);
 }
@@ -304,15 +359,23 @@ static void nothing_a_monkey_does_breaks_anything(void **state)
     const int seed = number("MONKEY_SEED", 0), events = number("MONKEY_EVENTS", EVENTS);
     atexit(say_where);
     for (int s = 1; s <= SEEDS; s++) {
-        if (seed == 0 || seed == s) run_seed(s, events);
+        if (seed == 0 || seed == s) run_seed(s, events, NULL, false);
     }
-    if (seed > SEEDS) run_seed(seed, events);
+    if (seed > SEEDS) run_seed(seed, events, NULL, false);
+}
+
+/// What takes longer than a frame is solved by a thread, which takes its own time: here a seed does not say everything.
+static void nor_while_a_thread_solves(void **state)
+{
+    (void)state;
+    run_seed(number("MONKEY_SEED", 1), number("MONKEY_EVENTS", EVENTS) / THREADED_PART, "long.json", true);
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(nothing_a_monkey_does_breaks_anything, make_files, remove_files),
+        cmocka_unit_test(nothing_a_monkey_does_breaks_anything),
+        cmocka_unit_test(nor_while_a_thread_solves),
     };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return cmocka_run_group_tests(tests, make_files, remove_files);
 }
