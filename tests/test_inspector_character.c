@@ -55,11 +55,12 @@ static void a_character_behind_a_tail_is_edited(void **state)
     (void)state;
     struct puppetry p;
     char scene[600];
-    snprintf(scene, sizeof scene,
-             "{\"wiggly\": 1, \"frames\": [0, 48], \"splines\": [{\"name\": \"s\", \"knots\": []}], \"rigs\": ["
-             "{\"type\": \"tail\", \"name\": \"tail\", \"channels\": []}, {\"type\": \"character\", \"model\": \"%s\", "
-             "\"coordinates\": [{\"name\": \"a\", \"spline\": \"s\"}]}]}",
-             model);
+    snprintf(
+        scene, sizeof scene,
+        "{\"wiggly\": 1, \"frames\": [0, 48], \"splines\": [{\"name\": \"s\", \"knots\": []}], \"rigs\": ["
+        "{\"type\": \"tail\", \"name\": \"tail\", \"channels\": []}, {\"type\": \"character\", \"model\": \"%s\", "
+        "\"coordinates\": [{\"name\": \"a\", \"spline\": \"s\"}]}]}",
+        model);
     p.models = panel_open_models(&p.session, scene);
     session_frame(&p.session);
     panel_enter(&p.session, "drive.lag", "90");
