@@ -1,6 +1,7 @@
 /// Details of the editor, one each: notches of the wheel, lists longer than the screen, held letters, targets of recordings.
 #include "inside.h"
 #include "panel_session.h"
+#include "ui/theme.h"
 
 static const char tail[] =
     "{\"wiggly\": 1, \"frames\": [0, 120], \"splines\": ["
@@ -169,6 +170,27 @@ static void a_first_frame_asks_for_its_knots(void **state)
     session_close(&s);
 }
 
+/// A preset is no state that something is in: none of their buttons looks like the one that Enter presses.
+static void presets_look_alike_and_plain(void **state)
+{
+    (void)state;
+    static const char *const presets[] = {"preset.cat", "preset.whip", "preset.heavy", "preset.jelly",
+                                          "preset.antenna"};
+    struct session s;
+    panel_open(&s, tail, 1280, 1400);
+    const struct drawlist *list = editor_drawlist(s.editor);
+    for (size_t p = 0; p < sizeof presets / sizeof *presets; p++) {
+        float x, y;
+        assert_true(inspector_target(s.editor->inspector, &s.editor->core, &s.world, presets[p], &x, &y));
+        for (int i = 0; i < list->count; i++) {
+            const struct draw_command *c = &list->commands[i];
+            const bool covers = c->kind != DRAW_TEXT && c->bounds.w < 200 && rect_contains(c->bounds, x, y);
+            if (covers && c->color == theme()->accent) fail_msg("%s stands out", presets[p]);
+        }
+    }
+    session_close(&s);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -176,6 +198,7 @@ int main(void)
         cmocka_unit_test(lag_is_the_active_splines),     cmocka_unit_test(a_letter_let_go_in_a_dialog_is_not_held),
         cmocka_unit_test(nothing_to_follow_is_an_error), cmocka_unit_test(targets_that_are_missing_are_said),
         cmocka_unit_test(a_target_from_the_pointer),     cmocka_unit_test(a_first_frame_asks_for_its_knots),
+        cmocka_unit_test(presets_look_alike_and_plain),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

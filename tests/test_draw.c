@@ -147,6 +147,27 @@ static void test_line_ends_where_it_is_told(void **state)
     for (int x = 20; x < 60; x++) assert_near(coverage(x, 40), (x - 20) % 10 < 6 ? 1.0 : 0.0, 0.01);
 }
 
+/// An end between two pixels covers its share of the last one, wherever on the screen and of however many points the line is.
+static void test_line_ends_between_pixels(void **state)
+{
+    (void)state;
+    const float from[] = {20.25f, 220.25f};
+    for (int i = 0; i < 2; i++) {
+        const float x = from[i];
+        const int first = (int)x;
+        begin();
+        drawlist_rect(&list, (struct rect){0.0f, 0.0f, WIDTH, HEIGHT}, BLACK);
+        drawlist_line(&list, (const float[]){x, 30.5f, x + 40.0f, 30.5f}, 2, 1.0f, WHITE);
+        drawlist_line(&list, (const float[]){x, 50.5f, x + 15.0f, 50.5f, x + 40.0f, 50.5f}, 3, 1.0f, WHITE);
+        show();
+        for (int y = 30; y <= 50; y += 20) {
+            assert_near(coverage(first, y), 0.75, 0.03);
+            assert_near(coverage(first + 40, y), 0.25, 0.03);
+            assert_near(ink(first - 2, y, first + 43, y + 1), 40.0, 0.05);
+        }
+    }
+}
+
 // Where the quads of a translucent curve overlapped, it would be brighter; where they gaped, darker.
 static void test_translucent_curve_has_no_seams(void **state)
 {
@@ -445,6 +466,7 @@ int main(void)
         cmocka_unit_test(test_later_commands_cover_earlier_ones),
         cmocka_unit_test(test_line_has_its_width_at_every_slope),
         cmocka_unit_test(test_line_ends_where_it_is_told),
+        cmocka_unit_test(test_line_ends_between_pixels),
         cmocka_unit_test(test_translucent_curve_has_no_seams),
         cmocka_unit_test(test_closed_line_has_all_its_corners),
         cmocka_unit_test(test_convex_covers_its_area),

@@ -23,7 +23,7 @@ static void a_sheet_ends_at_its_border(void **state)
 static void vertices_at_one_place_are_one(void **state)
 {
     (void)state;
-    static const float split[][3] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {-0.0f, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+    static const float split[][3] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {-1.7e-7f, 0, 0}, {1, 1, 0}, {0, 1, 0}};
     int across[6];
     find(split, 6, (const uint32_t[]){3, 4, 5}, across);
     assert_int_equal(across[2], 1);

@@ -26,6 +26,12 @@ says "two keys a frame" "49 rows" "$out"
 
 expect 0 "an imported character as .usda" "$WIGGLY" export $scenes/dog.json -o "$scratch/dog.usda" --substeps 1
 says "says where its textures are" "97 keys, 1 texture in dog_textures, " "$out"
+texture=$(ls "$scratch/dog_textures")
+mkdir -p "$scratch/taken_textures/$texture"
+expect 3 "a folder where the texture has to go" "$WIGGLY" export $scenes/dog.json -o "$scratch/taken.usda" --substeps 1
+says "is named" "taken_textures/$texture" "$err"
+[ ! -e "$scratch/taken.usda" ]
+ok "and there is no scene without its texture" $?
 for file in tail dog; do
     tr -cd '{(' <"$scratch/$file.usda" | wc -c >"$scratch/opened"
     tr -cd '})' <"$scratch/$file.usda" | wc -c >"$scratch/closed"

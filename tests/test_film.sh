@@ -34,6 +34,8 @@ ok "the second is the first again" $?
 expect 0 "frames 24 to 48" "$WIGGLY" export $tail -o "$scratch/out/part.png" --fps 1 --frames 24:48 $small
 cmp -s "$scratch/out/part-0001.png" "$scratch/out/walk-0002.png"
 ok "begin with what is there at frame 24" $?
+expect 0 "two frames" "$WIGGLY" export $tail -o "$scratch/out/two.png" --frames 24:25 --size 160x90
+says "say what they are" "two.png: 2 pictures of 160 × 90, 24 a second" "$out"
 expect 0 "one frame" "$WIGGLY" export $tail -o "$scratch/out/one.png" --frames 24:24 $small
 cmp -s "$scratch/out/one.png" "$scratch/out/walk-0002.png"
 ok "keeps its name" $?

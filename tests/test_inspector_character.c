@@ -49,6 +49,24 @@ static void open_puppet(struct puppetry *p)
 
 static void close_puppet(struct puppetry *p) { session_close(&p->session); }
 
+/// Of several rigs the character's own is edited, whichever comes first.
+static void a_character_behind_a_tail_is_edited(void **state)
+{
+    (void)state;
+    struct puppetry p;
+    char scene[600];
+    snprintf(scene, sizeof scene,
+             "{\"wiggly\": 1, \"frames\": [0, 48], \"splines\": [{\"name\": \"s\", \"knots\": []}], \"rigs\": ["
+             "{\"type\": \"tail\", \"name\": \"tail\", \"channels\": []}, {\"type\": \"character\", \"model\": \"%s\", "
+             "\"coordinates\": [{\"name\": \"a\", \"spline\": \"s\"}]}]}",
+             model);
+    p.models = panel_open_models(&p.session, scene);
+    session_frame(&p.session);
+    panel_enter(&p.session, "drive.lag", "90");
+    assert_near(document_character(p.session.document, 0)->drives[0].lag, 90, 0);
+    close_puppet(&p);
+}
+
 static const struct stage_character *on_stage(const struct puppetry *p, int index)
 {
     const struct stage_view *view = editor_stage(p->session.editor);
@@ -138,6 +156,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(amplitude_and_lag_are_live_and_one_step_each),
+        cmocka_unit_test(a_character_behind_a_tail_is_edited),
         cmocka_unit_test(coordinates_come_and_go_and_change_their_spline),
         cmocka_unit_test(phases_and_twin_are_views),
         cmocka_unit_test(the_look_is_stiff_for_characters_too),

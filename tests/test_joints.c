@@ -102,13 +102,31 @@ static void test_a_joint_is_found_by_typing(void **state)
     session_close(&s);
 }
 
+static int lines_on_stage(const struct session *session)
+{
+    const struct drawlist *list = editor_drawlist(session->editor);
+    const struct rect stage = session->editor->core.layout.stage;
+    int count = 0;
+    for (int i = 0; i < list->count; i++) {
+        const struct rect *r = &list->commands[i].bounds;
+        count += list->commands[i].kind != DRAW_TEXT && r->w < stage.w / 2 && rect_contains(stage, r->x, r->y);
+    }
+    return count;
+}
+
 static void test_a_joint_is_picked_on_the_stage(void **state)
 {
     (void)state;
     struct session s;
     open_beast(&s, FOLLOWS);
     char *before = session_saved(&s);
+    session_move(&s, 2, 2); // over no model
+    session_frame(&s);
+    const int without = lines_on_stage(&s);
     panel_click(&s, "joint.pick");
+    session_move(&s, 2, 2);
+    session_frame(&s);
+    assert_true(lines_on_stage(&s) > without + 8); // all bones, to choose from
     session_key(&s, KEY_ESCAPE, 0);
     session_click(&s, "bone(leg_FL_2)");
     assert_saved(&s, before); // Esc had let go: the click only selected the bone

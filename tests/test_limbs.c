@@ -256,6 +256,39 @@ static void pins_hold_what_is_drawn(void **state)
     opened_free(&scene);
 }
 
+/// The ears, laid back as far as they go and forward: each vertex of them is near the skin that the pointer's ray meets, and where they were at
+/// rest there is nothing.
+static void a_laid_ear_is_picked_where_it_is_drawn(void **state)
+{
+    static const struct limbs poses[] = {{.ears = {1.05f, 1.05f}},
+                                         {.ears = {-0.5f, -0.5f}, .look = 0.7f, .nod = 0.3f}};
+    struct mesh mesh = {0};
+    (void)state;
+    mesh_torso(0.05f, 0.01f, 0, &mesh);
+    for (size_t n = 0; n < sizeof poses / sizeof *poses; n++) {
+        const struct limbs_back back = limbs_back(&poses[n]);
+        struct limbs rest = poses[n];
+        float matrix[LIMBS][16], at_rest[LIMBS][16];
+        int gone = 0;
+        memset(rest.ears, 0, sizeof rest.ears);
+        limbs_matrices(&poses[n], 1.0f, matrix);
+        limbs_matrices(&rest, 1.0f, at_rest);
+        for (int v = 0; v < mesh.vertex_count; v++) {
+            const struct vertex *vertex = &mesh.vertices[v];
+            if (!is_ear(vertex)) continue;
+            const vec3s at = moved(vertex, matrix), was = moved(vertex, at_rest);
+            const bool is_bent = vertex->limb[2] < 1;
+            const float alone = fabsf(creature_torso_distance(vertex->position));
+            assert_true(fabsf(limbs_distance(&back, at.raw)) < (is_bent ? 0.05f : alone + 1e-4f));
+            if (is_bent || glms_vec3_distance(at, was) < 0.1f) continue;
+            gone++;
+            assert_true(limbs_distance(&back, was.raw) > 0.02f);
+        }
+        assert_true(gone >= 2);
+    }
+    mesh_free(&mesh);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -267,6 +300,7 @@ int main(void)
         cmocka_unit_test(the_body_leaves_the_tail_alone),
         cmocka_unit_test(axes_are_edited_and_undone),
         cmocka_unit_test(the_moved_skin_is_where_it_is_picked),
+        cmocka_unit_test(a_laid_ear_is_picked_where_it_is_drawn),
         cmocka_unit_test(pins_hold_what_is_drawn),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,6 +1,7 @@
 /// Pins by mouse and keyboard: on the stage, on the ruler, in the inspector.
 #include "inside.h"
 #include "panel_session.h"
+#include "shown.h"
 
 #include "editor/core/pins.h"
 #include "scene/pins.h"
@@ -135,6 +136,8 @@ static void test_a_pin_is_moved_nudged_retimed_and_deleted_by_keys(void **state)
     session_frame(&s);
     for (int step = 0; step < 9; step++) session_key(&s, KEY_RIGHT, 0);
     session_key(&s, 'H', 0); // the same point, once more
+    assert_non_null(
+        shown_text(s.editor, "Pinned at frame 20. Drag the marker, or type its place in the section Pins."));
     assert_int_equal(pins_of(&s), 2);
     assert_near(pin_of(&s, 1)->frame, 20, 0);
     assert_near(pin_of(&s, 1)->to[1], pin_of(&s, 0)->to[1], 0);
@@ -168,6 +171,17 @@ static void test_a_marker_is_dragged_on_the_stage_and_on_the_ruler(void **state)
     assert_near(pin_of(&s, 0)->frame, 25, 0);
     assert_near(core_frame(&s.editor->core, s.document), 25, 0);
     assert_one_step(&s, moved);
+    float mark[2];
+    where(&s, "pintime(tail,0)", mark); // it hangs over the ruler's edge, and is taken there, too
+    session_move(&s, mark[0], mark[1] + 4);
+    while (s.editor->core.message.text[0]) session_frame(&s);
+    session_frame(&s);
+    assert_non_null(shown_text(s.editor, "Drag to move the pin in time (Ctrl: off frames); Del removes it; Alt+PgUp, "
+                                         "Alt+PgDn: by a frame"));
+    session_press(&s, BUTTON_LEFT, 1);
+    session_drag(&s, to[0] - from[0], 0, 4);
+    session_release(&s, BUTTON_LEFT);
+    assert_near(pin_of(&s, 0)->frame, 40, 0);
     free(moved);
     free(placed);
     session_close(&s);

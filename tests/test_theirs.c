@@ -3,6 +3,7 @@
 #include "inside.h"
 
 #include "folder.h"
+#include "scene/load.h"
 #include "shown.h"
 #include <fcntl.h>
 #include <string.h>
@@ -238,6 +239,116 @@ static void the_content_counts(void **state)
     blind_close(&blind);
 }
 
+enum { COORDINATES = 1, VERTICES = 8 };
+
+static void paint_mark(struct document *document, float mark)
+{
+    struct character_rig *rig = document_character(document, 0);
+    rig->painted = paint_create(COORDINATES, VERTICES);
+    assert_non_null(rig->painted);
+    for (int v = 0; v < VERTICES; v++) rig->painted->values[v][1] = mark;
+}
+
+/// A scene with a painted character, saved.
+static void write_painted(float mark)
+{
+    static const char text[] =
+        "{\"wiggly\": 1, \"frames\": [0, 48], \"splines\": [{\"name\": \"s\", \"knots\": []}], \"rigs\": "
+        "[{\"type\": \"character\", \"name\": \"c\", \"model\": \"m.glb\", \"coordinates\": "
+        "[{\"name\": \"a\", \"spline\": \"s\"}]}]}";
+    struct error error = {0};
+    struct document *document = scene_parse("walk", text, sizeof text - 1, NULL, &error);
+    if (!document) fail_msg("%s", error.text);
+    document->folder = strdup(folder);
+    assert_true(document_set_path(document, scene()));
+    paint_mark(document, mark);
+    if (!scene_save(document, scene(), &error)) fail_msg("%s", error.text);
+    document_destroy(document);
+}
+
+/// The mark of the scene's paint on disk.
+static float paint_on_disk(void)
+{
+    struct error error = {0};
+    struct document *document = scene_load(scene(), NULL, &error);
+    if (!document || !scene_read_paint(document, &error)) fail_msg("%s", error.text);
+    const float mark = document_character(document, 0)->painted->values[VERTICES - 1][1];
+    document_destroy(document);
+    return mark;
+}
+
+/// Another program writes the paint file and leaves the scene's alone.
+static void write_paint(float mark)
+{
+    FILE *file = fopen(folder_path("walk-paint.npy"), "r+");
+    assert_non_null(file);
+    assert_int_equal(fseek(file, -(long)sizeof mark, SEEK_END), 0);
+    assert_int_equal(fwrite(&mark, sizeof mark, 1, file), 1);
+    assert_int_equal(fclose(file), 0);
+}
+
+static void open_painted(struct blind *blind)
+{
+    unlink(folder_path("walk-paint.npy"));
+    write_painted(1);
+    blind_open(blind, scene());
+    blind_frame(blind);
+    focus(blind);
+    assert_int_equal(asked(blind), DIALOG_NONE);
+    write_paint(2);
+    focus(blind);
+    assert_int_equal(asked(blind), DIALOG_CHANGED);
+}
+
+static void paint_alone_is_noticed_and_mine_kept(void **state)
+{
+    (void)state;
+    struct blind blind;
+    open_painted(&blind);
+    press(&blind, KEY_ESCAPE, 0);
+    focus(&blind);
+    assert_int_equal(asked(&blind), DIALOG_NONE); // once a change
+    press(&blind, 'S', MOD_CTRL);
+    assert_int_equal(asked(&blind), DIALOG_CHANGED);
+    assert_near(paint_on_disk(), 2, 0);
+    press(&blind, 'K', 0);
+    assert_near(paint_on_disk(), 1, 0);
+    press(&blind, 'S', MOD_CTRL);
+    assert_int_equal(asked(&blind), DIALOG_NONE);
+    blind_close(&blind);
+    unlink(folder_path("walk-paint-2.npy"));
+}
+
+static void paint_that_is_kept_at_focus_is_saved_later(void **state)
+{
+    (void)state;
+    struct blind blind;
+    open_painted(&blind);
+    press(&blind, 'K', 0);
+    assert_near(paint_on_disk(), 2, 0);
+    press(&blind, 'S', MOD_CTRL);
+    assert_int_equal(asked(&blind), DIALOG_NONE);
+    assert_near(paint_on_disk(), 1, 0);
+    blind_close(&blind);
+    unlink(folder_path("walk-paint-2.npy"));
+}
+
+static void their_paint_is_taken(void **state)
+{
+    (void)state;
+    struct blind blind;
+    open_painted(&blind);
+    press(&blind, 'T', 0);
+    blind_frame(&blind);
+    const struct paint *paint = document_character(blind.app.table.document, 0)->painted;
+    assert_non_null(paint);
+    assert_near(paint->values[VERTICES - 1][1], 2, 0);
+    assert_true(history_is_saved(blind.app.table.history));
+    focus(&blind);
+    assert_int_equal(asked(&blind), DIALOG_NONE);
+    blind_close(&blind);
+}
+
 static void the_mouse_answers(void **state)
 {
     (void)state;
@@ -275,6 +386,9 @@ int main(void)
         cmocka_unit_test(focus_asks_once_a_change),
         cmocka_unit_test(the_same_content_is_no_change),
         cmocka_unit_test(the_content_counts),
+        cmocka_unit_test(paint_alone_is_noticed_and_mine_kept),
+        cmocka_unit_test(paint_that_is_kept_at_focus_is_saved_later),
+        cmocka_unit_test(their_paint_is_taken),
         cmocka_unit_test(the_mouse_answers),
     };
     return cmocka_run_group_tests(tests, folder_make, folder_remove);

@@ -434,6 +434,34 @@ static void test_drawing_is_steady_and_fits(void **state)
     drawlist_destroy(&list);
 }
 
+/// Whether a small shape lies in the middle of an icon.
+static bool has_middle(enum ui_icon icon)
+{
+    struct ui ui = {0};
+    struct drawlist list;
+    const struct rect area = {0, 0, 100, 100}, r = {40, 40, 24, 24};
+    bool found = false;
+    assert_true(drawlist_create(&list, 100, 1000, 1000));
+    drawlist_clear(&list, area);
+    ui_begin_draw(&ui, area, &list);
+    ui_icon_button(&ui, r, "icon", icon, false, "Icon");
+    ui_end(&ui);
+    for (int i = 0; i < list.count; i++) {
+        const struct rect *b = &list.commands[i].bounds;
+        found |= fabsf(b->x + b->w / 2 - 52) < 1.5f && fabsf(b->y + b->h / 2 - 52) < 1.5f && b->w < 10 && b->h < 10;
+    }
+    drawlist_destroy(&list);
+    return found;
+}
+
+static void test_an_open_eye_has_a_pupil(void **state)
+{
+    (void)state;
+    assert_true(has_middle(UI_ICON_EYE));
+    assert_false(has_middle(UI_ICON_EYE_CLOSED));
+    assert_true(has_middle(UI_ICON_PICK));
+}
+
 /// Whether something goes around, or fills, all of `r` with a contrast of 3:1 against the panel.
 static bool is_seen(const struct drawlist *list, struct rect r)
 {
@@ -494,6 +522,7 @@ int main(void)
         cmocka_unit_test(test_scrolling_is_limited_and_follows_the_focus),
         cmocka_unit_test(test_text_is_edited_by_characters),
         cmocka_unit_test(test_drawing_is_steady_and_fits),
+        cmocka_unit_test(test_an_open_eye_has_a_pupil),
         cmocka_unit_test(test_controls_are_seen_where_they_are),
     };
     return cmocka_run_group_tests(tests, start, NULL);

@@ -40,6 +40,11 @@ raised() { [ "$(diff "$scratch/undone.json" "$scratch/mine.json" | grep -c '^> *
 eventually "F held and Up twice raise the frequency by 0.1 Hz" raised
 keys ctrl+z ctrl+s
 eventually "one Ctrl+Z takes both back" cmp -s "$scratch/mine.json" "$scratch/undone.json"
+xdotool mousemove 700 540 click --repeat 2 --delay 5 1
+keys ctrl+s
+eventually "a double click on the curves inserts a knot" knots -eq $((before + 2))
+keys ctrl+z ctrl+s
+eventually "one Ctrl+Z takes it back" cmp -s "$scratch/mine.json" "$scratch/undone.json"
 quit_app
 cmp "$scratch/mine.json" "$scratch/saved.json"
 ok "byte for byte" $?

@@ -161,7 +161,8 @@ def queue_of_layer(layer, seed):
 
 def faults_named(path):
     """The faults that a file names, one a line: a source, what is there once, and what takes its place; tabs between, \\n for an end of line."""
-    for row in filter(None, pathlib.Path(path).read_text().split("\n")):
+    for row in pathlib.Path(path).read_text().split("\n"):
+        if not row or row.startswith("#"): continue
         file, old, new = (field.replace("\\n", "\n") for field in row.split("\t"))
         text = pathlib.Path(file).read_text()
         if text.count(old) != 1: sys.exit(f"mutate: {path}: expected once in {file}, got {text.count(old)} times: {old}")

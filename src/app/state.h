@@ -32,6 +32,7 @@ struct own_file {
     char path[PATH_LIMIT];
     struct file_stamp stamp; ///< when it was read or written last
     struct file_stamp asked; ///< what the user was asked about at the window's focus
+    uint64_t asked_paint;    ///< the same: scene_paint_theirs()
 };
 
 struct app {

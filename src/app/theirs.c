@@ -1,6 +1,7 @@
-/// Notices that somebody else has written the document's file.
+/// Notices that somebody else has written the document's file, or its paint's.
 #include "app/state.h"
 #include "editor/dialogs/dialog_files.h"
+#include "scene/load.h"
 #include <stdio.h>
 #include <string.h>
 
@@ -9,19 +10,30 @@ void theirs_note(struct app *app)
     struct own_file *own = &app->own_file;
     snprintf(own->path, sizeof own->path, "%s", app_path(app));
     own->stamp = file_stamp(own->path);
+    scene_keep_paint(app->table.document);
+}
+
+/// Of the scene's file alone.
+static bool scene_differs(struct app *app)
+{
+    struct own_file *own = &app->own_file;
+    if (strcmp(own->path, app_path(app)) != 0) return file_stamp(app_path(app)).is_there; // back by undo: who knows
+    return file_stamp_differs(own->path, &own->stamp);
 }
 
 bool theirs_differs(struct app *app)
 {
-    struct own_file *own = &app->own_file;
-    if (!app_path(app)[0]) return false;
-    if (strcmp(own->path, app_path(app)) != 0) return file_stamp(app_path(app)).is_there; // back by undo: who knows
-    return file_stamp_differs(own->path, &own->stamp);
+    return app_path(app)[0] && (scene_differs(app) || scene_paint_theirs(app->table.document));
 }
 
 void theirs_look(struct app *app)
 {
     struct own_file *own = &app->own_file;
-    if (!theirs_differs(app) || !file_stamp_differs(app_path(app), &own->asked)) return;
-    if (editor_ask_changed(app->table.editor, false)) own->asked = file_stamp(app_path(app));
+    if (!app_path(app)[0]) return;
+    const uint64_t paint = scene_paint_theirs(app->table.document);
+    const bool scene = scene_differs(app) && file_stamp_differs(app_path(app), &own->asked);
+    if (!scene && (paint == 0 || paint == own->asked_paint)) return;
+    if (!editor_ask_changed(app->table.editor, false)) return;
+    own->asked = file_stamp(app_path(app));
+    own->asked_paint = paint;
 }

@@ -68,10 +68,8 @@ bool ui_scale_step(struct app *app, int direction, struct error *error)
     if (direction < 0) next = fmin(steps[step], app->ui_scale);
     const double shown = wanted(app, next);
     if (next > app->ui_scale && shown > 1 && !has_room(app, shown)) {
-        return fail(error, ERROR_INPUT,
-                    "%.0f %% leaves no room for the panels: it needs a window of %.0f × %.0f, not %.0f × %.0f",
-                    100 * shown, WIDTH * shown, HEIGHT * shown, (double)app->display.width,
-                    (double)app->display.height);
+        return fail(error, ERROR_INPUT, "%.0f %% needs a window of %.0f × %.0f, not %.0f × %.0f", 100 * shown,
+                    WIDTH * shown, HEIGHT * shown, (double)app->display.width, (double)app->display.height);
     }
     app->ui_scale = next;
     ui_scale_update(app);

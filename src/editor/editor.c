@@ -142,6 +142,7 @@ void editor_open(struct editor *editor, const struct editor_world *world)
 {
     const struct document *document = world->document;
     selection_clear(&editor->core.selection);
+    editor->core.survey.is_made = false;
     editor->core.drag.kind = DRAG_NONE;
     editor->core.hover = (struct hover){0};
     curves_open(editor->curves);

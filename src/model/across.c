@@ -13,6 +13,20 @@ struct corners {
     int *before;      ///< of each corner: the one before it at the same place, −1: none
 };
 
+/// Places on a grid so fine that it joins only what was meant to be one: a ring whose last vertex is its first but for rounding.
+static float (*snap(const float (*position)[3], int count))[3]
+{
+    static const float CELLS = 1 << 20;
+    float(*snapped)[3] = malloc(((size_t)count + 1) * sizeof *snapped), largest = 0.0f;
+    for (int i = 0; i < 3 * count; i++) largest = fmaxf(largest, fabsf(position[i / 3][i % 3]));
+    const float cell = largest / CELLS;
+    for (int i = 0; snapped && i < 3 * count; i++) {
+        const float place = position[i / 3][i % 3];
+        snapped[i / 3][i % 3] = cell > 0.0f ? cell * roundf(place / cell) : place;
+    }
+    return snapped;
+}
+
 static void merge_vertices(const struct spot *spots, int count, uint32_t *spot)
 {
     for (int i = 0; i < count; i++) {
@@ -53,7 +67,8 @@ static int find_one(const struct corners *corners, const uint32_t *indices, int 
 bool across_find(const float (*position)[3], int vertex_count, const uint32_t *indices, int index_count, int *across)
 {
     const size_t vertices = (size_t)vertex_count + 1;
-    struct spot *spots = spots_sort(position, vertex_count);
+    float(*snapped)[3] = snap(position, vertex_count);
+    struct spot *spots = snapped ? spots_sort((const float(*)[3])snapped, vertex_count) : NULL;
     struct corners corners = {malloc(vertices * sizeof *corners.spot), malloc(vertices * sizeof *corners.last),
                               calloc(vertices, sizeof *corners.many),
                               malloc(((size_t)index_count + 1) * sizeof *corners.before)};
@@ -63,6 +78,7 @@ bool across_find(const float (*position)[3], int vertex_count, const uint32_t *i
         list_corners(&corners, vertex_count, indices, index_count);
         for (int i = 0; i < index_count; i++) across[i] = find_one(&corners, indices, i);
     }
+    free(snapped);
     free(spots);
     free(corners.spot);
     free(corners.last);
@@ -71,14 +87,20 @@ bool across_find(const float (*position)[3], int vertex_count, const uint32_t *i
     return made;
 }
 
-/// The corner of a triangle that is at a place; −1: none is.
+/// The corner of a triangle that is nearest to a place.
 static int corner_at(const float (*position)[3], const uint32_t *indices, int triangle, const float place[3])
 {
+    int nearest = 3 * triangle;
+    float least = INFINITY;
     for (int i = 3 * triangle; i < 3 * triangle + 3; i++) {
         const float *own = position[indices[i]];
-        if (own[0] == place[0] && own[1] == place[1] && own[2] == place[2]) return i;
+        const float x = own[0] - place[0], y = own[1] - place[1], z = own[2] - place[2];
+        const float distance = x * x + y * y + z * z;
+        if (distance >= least) continue;
+        least = distance;
+        nearest = i;
     }
-    return -1;
+    return nearest;
 }
 
 void across_cut(const float (*position)[3], const uint32_t *indices, const uint32_t *look, int index_count,
@@ -89,7 +111,7 @@ void across_cut(const float (*position)[3], const uint32_t *indices, const uint3
         if (other < 0 || other > i / 3) continue;
         for (int e = 0; e < 2; e++) {
             const int there = corner_at(position, indices, other, position[indices[ends[e]]]);
-            if (there >= 0 && look[there] != look[ends[e]]) across[i] = ACROSS_CUT;
+            if (look[there] != look[ends[e]]) across[i] = ACROSS_CUT;
         }
     }
 }

@@ -8,7 +8,7 @@
 enum { ACROSS_NONE = -1, ACROSS_CUT = -2 }; ///< the mesh ends; what it looks like does
 
 /// Per index, of the edge from it to its triangle's next one: the triangle on its other side, or ACROSS_NONE. Vertices at the
-/// very same place are one. Where sheets lie back to back, a triangle's neighbour is the next of its own sheet; its own back only where that ends.
+/// same place, but for rounding, are one. Where sheets lie back to back, a triangle's neighbour is the next of its own sheet; its own back only where that ends.
 /// False if memory is short.
 bool across_find(const float (*position)[3], int vertex_count, const uint32_t *indices, int index_count, int *across);
 

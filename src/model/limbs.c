@@ -12,8 +12,9 @@ static const float CHEST_INNER = 0.05f,
 static const float NECK_LOW = 0.57f, NECK_HIGH = 0.68f; ///< heights: not part of the head, and wholly
 static const float ear_root[3] = {0.088f, 0.10f, 0.015f},
                    ear_tip[3] = {0.152f, 0.292f, 0.02f}; ///< in the head's own space
-static const float JOINT[2] = {0.12f, 0.52f};            ///< places along the ear where it bends
-static const float HALF_BEND = 0.20f;                    ///< of an ear's length, over which it does
+static const float JOINT[2] = {0.15f, 0.65f};            ///< places along the ear where it bends
+static const float EAR_LENGTH = 0.202f;                  ///< from root to tip
+static const float HALF_BEND = 0.25f;                    ///< of an ear's length, over which it does
 static const float HEAD_RADIUS = 0.50f;                  ///< around the neck's joint, bind size: holds head and ears
 static const float SPLAY = 0.4f;                         ///< of an ear that is laid back
 
@@ -124,26 +125,61 @@ void limbs_bounds(const struct limbs *limbs, float lo[3], float hi[3])
 struct limbs_back limbs_back(const struct limbs *limbs)
 {
     float matrix[LIMBS][16];
-    struct limbs_back back;
+    struct limbs_back back = {.laid = limbs->ears[0] != 0.0f || limbs->ears[1] != 0.0f};
     limbs_matrices(limbs, 1.0f, matrix);
-    const mat4s body = glms_mat4_inv(mat4_from(matrix[LIMB_BODY])),
-                head = glms_mat4_inv(mat4_from(matrix[LIMB_HEAD]));
-    memcpy(back.body, body.raw, sizeof back.body);
-    memcpy(back.head, head.raw, sizeof back.head);
+    for (int l = 0; l < LIMBS; l++) {
+        const mat4s part = glms_mat4_inv(mat4_from(matrix[l]));
+        memcpy(back.part[l], part.raw, sizeof back.part[l]);
+    }
     const vec3s size = size_of(limbs);
     back.step = fminf(1.0f, fminf(size.x, size.y));
     return back;
 }
 
-/// Where both are still they overlap between the neck's heights, so that no cut shows.
+/// How far along its ear a place in the head's own space is: 0 at the root, 1 at the tip.
+static float along_ear(vec3s in_head)
+{
+    const vec3s along = glms_vec3_sub(vec3_from(ear_tip), vec3_from(ear_root));
+    const vec3s up_ear = glms_vec3_sub((vec3s){{fabsf(in_head.x), in_head.y, in_head.z}}, vec3_from(ear_root));
+    return glms_vec3_dot(up_ear, along) / glms_vec3_norm2(along);
+}
+
+static vec3s place_in_head(const float p[3])
+{
+    vec3s in_head = {{0, 0, 0}};
+    creature_into_head(p, in_head.raw);
+    return in_head;
+}
+
+/// Distance to what of a part's skin lies between two places along an ear, where it is still.
+static float piece_distance(const struct limbs_back *back, int part, const float p[3], float from, float to)
+{
+    const vec3s own = glms_mat4_mulv3(mat4_from(back->part[part]), vec3_from(p), 1.0f);
+    const float place = along_ear(place_in_head(own.raw));
+    const float outside = EAR_LENGTH * fmaxf(from - place, place - to);
+    return fmaxf(creature_torso_distance(own.raw), outside);
+}
+
+/// Distance to the head with its ears as they are laid: they are each other's mirror image, so that the one on the point's side is nearer.
+static float head_distance(const struct limbs_back *back, const float p[3], vec3s on_head)
+{
+    if (!back->laid) return creature_torso_distance(on_head.raw);
+    const int side = place_in_head(on_head.raw).x < 0.0f;
+    const float head = fmaxf(creature_torso_distance(on_head.raw),
+                             EAR_LENGTH * (along_ear(place_in_head(on_head.raw)) - JOINT[0] - HALF_BEND));
+    const float ear = piece_distance(back, LIMB_EAR + side, p, JOINT[0], JOINT[1] + HALF_BEND);
+    return fminf(head, fminf(ear, piece_distance(back, LIMB_EAR_TIP + side, p, JOINT[1], INFINITY)));
+}
+
+/// Where parts are still they overlap, so that no cut shows: body and head between the neck's heights.
 float limbs_distance(const struct limbs_back *back, const float p[3])
 {
-    const vec3s on_body = glms_mat4_mulv3(mat4_from(back->body), vec3_from(p), 1.0f);
-    const vec3s on_head = glms_mat4_mulv3(mat4_from(back->head), vec3_from(p), 1.0f);
+    const vec3s on_body = glms_mat4_mulv3(mat4_from(back->part[LIMB_BODY]), vec3_from(p), 1.0f);
+    const vec3s on_head = glms_mat4_mulv3(mat4_from(back->part[LIMB_HEAD]), vec3_from(p), 1.0f);
     const float above = on_body.y + CREATURE_BASE_HEIGHT - NECK_HIGH,
                 below = NECK_LOW - on_head.y - CREATURE_BASE_HEIGHT;
     const float body = fmaxf(creature_torso_distance(on_body.raw), above);
-    return back->step * fminf(body, fmaxf(creature_torso_distance(on_head.raw), below));
+    return back->step * fminf(body, fmaxf(head_distance(back, p, on_head), below));
 }
 
 /// Between two parts, or wholly on the second.
@@ -157,13 +193,11 @@ static void hang(struct vertex *vertex, enum limb from, enum limb to, float shar
 void limbs_hang(struct vertex *vertex)
 {
     const float *p = vertex->position, standing[3] = {p[0], p[1] + CREATURE_BASE_HEIGHT, p[2]};
-    vec3s in_head;
-    creature_into_head(p, in_head.raw);
-    const vec3s along = glms_vec3_sub(vec3_from(ear_tip), vec3_from(ear_root));
-    const vec3s up_ear = glms_vec3_sub((vec3s){{fabsf(in_head.x), in_head.y, in_head.z}}, vec3_from(ear_root));
-    const float place = glms_vec3_dot(up_ear, along) / glms_vec3_norm2(along);
-    const float root = glm_smoothstep(JOINT[0] - HALF_BEND, JOINT[0] + HALF_BEND, place);
-    const float tip = glm_smoothstep(JOINT[1] - HALF_BEND, JOINT[1] + HALF_BEND, place);
+    const vec3s in_head = place_in_head(p);
+    const float place = along_ear(in_head);
+    const float root =
+        glm_clamp((place - JOINT[0]) / (2.0f * HALF_BEND) + 0.5f, 0.0f, 1.0f); // evenly, or it would crease
+    const float tip = glm_clamp((place - JOINT[1]) / (2.0f * HALF_BEND) + 0.5f, 0.0f, 1.0f);
     const float of_head = glm_smoothstep(NECK_LOW, NECK_HIGH, standing[1]);
     const int side = in_head.x < 0.0f;
     const bool on_ear = in_head.y > 0.0f && root > 0.0f;

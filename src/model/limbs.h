@@ -31,14 +31,15 @@ void limbs_matrices(const struct limbs *limbs, float scale, float matrix[LIMBS][
 /// Where the box around the body comes to, bind size, from its tail's base.
 void limbs_bounds(const struct limbs *limbs, float lo[3], float hi[3]);
 
-/// The way back from where the body's and the head's skin are to bind space, and how much of a step there is one here at least.
+/// The way back from where each part's skin is to bind space, and how much of a step there is one here at least.
 struct limbs_back {
-    float body[16], head[16], step;
+    float part[LIMBS][16], step;
+    bool laid; ///< the ears are turned
 };
 
 struct limbs_back limbs_back(const struct limbs *limbs);
 
-/// Distance from a point to the moved skin, without the ears' own turns; bind size, from the tail's base. As creature_torso_distance().
+/// Distance from a point to the moved skin; bind size, from the tail's base. As creature_torso_distance().
 float limbs_distance(const struct limbs_back *back, const float p[3]);
 
 /// Says what a vertex of the torso hangs on.

@@ -319,6 +319,7 @@ static void swap_pin(struct change *change, struct document *document)
 void change_swap(struct change *change, struct document *document)
 {
     struct spline *spline = change->spline >= 0 ? &document->splines[change->spline] : NULL;
+    const uint64_t edits = document->edits + 1;
     if (document->snapshot && change_concerns_all(change)) snapshot_finish(document->snapshot);
     switch (change->kind) {
     case CHANGE_KNOT_IN:
@@ -386,4 +387,5 @@ void change_swap(struct change *change, struct document *document)
         swap_pin(change, document);
         break;
     }
+    document->edits = edits; // also where it is another one now
 }

@@ -2,6 +2,7 @@
 #ifndef SCENE_CHARACTER_H
 #define SCENE_CHARACTER_H
 
+#include "base/stamp.h"
 #include "scene/paint.h"
 
 enum { CHARACTER_MAX_DRIVES = 4 };
@@ -16,10 +17,11 @@ struct drive {
 };
 
 struct character_rig {
-    char *model, *paint;   ///< files, relative to the document's folder unless absolute; paint may be NULL
-    struct paint *painted; ///< NULL: none, or the file `paint` could not be read
-    uint64_t filed;        ///< the version of `painted` that the file `paint` holds; 0: it holds something else
-    double position[3];    ///< metres
+    char *model, *paint;    ///< files, relative to the document's folder unless absolute; paint may be NULL
+    struct paint *painted;  ///< NULL: none, or the file `paint` could not be read
+    uint64_t filed;         ///< the version of `painted` that the file `paint` holds; 0: it holds something else
+    struct file_stamp file; ///< that file as it was then
+    double position[3];     ///< metres
     struct drive drives[CHARACTER_MAX_DRIVES];
     int drive_count;
     bool has_floor;

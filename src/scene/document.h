@@ -59,6 +59,7 @@ static inline enum wiggly_start spline_start(const struct spline *spline)
 struct document {
     char *path;      ///< of its own file, NULL for an untitled one; not saved
     unsigned serial; ///< set by whoever opens documents, to tell them apart; not saved
+    uint64_t edits;  ///< grows with each change of it, undone or not; not saved
     char *about;     ///< what the scene shows and what to try, or NULL
     double fps;
     int substeps;

@@ -38,6 +38,13 @@ bool scene_save(struct document *document, const char *path, struct error *error
 /// and returns false with the first error; the character then moves as its model does, and the name stays in the document.
 bool scene_read_paint(struct document *document, struct error *error);
 
+/// What other programs have made of the document's paint files since they were read or written here: a number that changes with their
+/// content; 0: they are as they were, or gone.
+uint64_t scene_paint_theirs(struct document *document);
+
+/// The user has seen that: the next save writes the document's own paint again.
+void scene_keep_paint(struct document *document);
+
 /// Appends a NUL and all paint, if there is any, to a text of scene_print_into(), for a recovery file.
 bool scene_print_paint(const struct document *document, char **buffer, size_t *capacity, size_t *size);
 

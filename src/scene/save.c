@@ -2,6 +2,7 @@
 /// the old one's place, then what only the old one named is removed. Whenever that ends, the scene on disk is the old one with
 /// the old paint, or the new one with the new.
 #include "base/file.h"
+#include "base/hash.h"
 #include "base/path.h"
 #include "scene/load.h"
 #include "scene/paint_file.h"
@@ -77,7 +78,7 @@ static bool save_sheet(struct document *document, int index, const char *scene, 
     if (document->rigs[index].kind != RIG_CHARACTER) return true;
     if (!rig->painted || paint_is_plain(rig->painted)) return true;
     if (has_own_file(document, index, scene, sheet->replaced)) {
-        if (rig->filed == rig->painted->version) return true;
+        if (rig->filed == rig->painted->version && !file_stamp_differs(sheet->replaced, &rig->file)) return true;
     } else {
         sheet->replaced[0] = '\0';
     }
@@ -128,6 +129,7 @@ static void finish(struct document *document, struct sheet *sheets, int count, b
         if (!sheet->written) continue;
         if (saved) {
             rig->filed = rig->painted->version;
+            rig->file = file_stamp(sheet->file);
             free(sheet->old_path);
             remove_replaced(sheet);
         } else {
@@ -173,6 +175,7 @@ bool scene_read_paint(struct document *document, struct error *error)
         char path[PATH_LIMIT];
         if (!rig->paint || rig->painted || rig->filed != 0) continue;
         if (path_resolve(document->folder, rig->paint, path)) {
+            rig->file = file_stamp(path);
             rig->painted = paint_read(path, &trouble);
         } else {
             fail(&trouble, ERROR_INPUT, "%s: the path is too long", rig->paint);
@@ -182,6 +185,39 @@ bool scene_read_paint(struct document *document, struct error *error)
     }
     if (first.kind != ERROR_NONE && error) *error = first;
     return first.kind == ERROR_NONE;
+}
+
+/// Whether another program has written the file that a rig's paint was read from or written to; `path` is its path then.
+static bool is_theirs(const struct document *document, struct rig *rig, char path[PATH_LIMIT])
+{
+    struct character_rig *character = &rig->character;
+    return character->paint && character->file.is_there && path_resolve(document->folder, character->paint, path) &&
+           file_stamp_differs(path, &character->file);
+}
+
+uint64_t scene_paint_theirs(struct document *document)
+{
+    uint64_t hash = 0;
+    int i = document_next_rig(document, RIG_CHARACTER, 0);
+    for (; i >= 0; i = document_next_rig(document, RIG_CHARACTER, i + 1)) {
+        char path[PATH_LIMIT];
+        if (!is_theirs(document, &document->rigs[i], path)) continue;
+        const uint64_t content = file_stamp(path).content;
+        hash = hash_bytes(hash ? hash : HASH_START, &content, sizeof content);
+    }
+    return hash;
+}
+
+void scene_keep_paint(struct document *document)
+{
+    int i = document_next_rig(document, RIG_CHARACTER, 0);
+    for (; i >= 0; i = document_next_rig(document, RIG_CHARACTER, i + 1)) {
+        struct character_rig *rig = &document->rigs[i].character;
+        char path[PATH_LIMIT];
+        if (!is_theirs(document, &document->rigs[i], path)) continue;
+        rig->filed = UINT64_MAX;
+        rig->file = file_stamp(path);
+    }
 }
 
 bool scene_print_paint(const struct document *document, char **buffer, size_t *capacity, size_t *size)

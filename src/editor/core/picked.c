@@ -3,6 +3,7 @@
 #include "editor/core/arrange.h"
 #include "editor/core/core.h"
 #include "editor/core/selection.h"
+#include "editor/core/survey.h"
 
 /// Knots that cannot be seen are not edited, unless their spline is the one that is worked on.
 static bool is_open(const struct core *core, const struct document *document, int spline)
@@ -16,7 +17,10 @@ bool picked_next(const struct core *core, const struct document *document, struc
     for (; at->spline < document->spline_count; at->spline++, at->knot = -1) {
         const struct spline *spline = &document->splines[at->spline];
         bool open = at->knot >= 0 || is_open(core, document, at->spline);
-        while (open && ++at->knot < spline->knot_count) {
+        int first, end;
+        survey_selected(core, document, at->spline, &first, &end);
+        if (at->knot < first - 1) at->knot = first - 1;
+        while (open && ++at->knot < end) {
             if (selection_has(&core->selection, spline->knots[at->knot].id)) return true;
         }
     }

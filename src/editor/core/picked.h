@@ -4,11 +4,6 @@
 
 #include "editor/core/state.h"
 
-/// A knot by its indices.
-struct knot_place {
-    int spline, knot;
-};
-
 /// Before the first one.
 #define PICKED_START                                                                                                 \
     (struct knot_place) { -1, -1 }

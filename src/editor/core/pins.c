@@ -6,6 +6,7 @@
 #include "editor/core/selection.h"
 #include "scene/pins.h"
 #include <math.h>
+#include <stdio.h>
 
 enum pin_nudge { NUDGE_PLACE, NUDGE_FRAME };
 
@@ -90,6 +91,10 @@ void pins_put_here(struct core *core, const struct editor_world *world, int rig,
     const bool done = pins_put(core, world, rig, point, frame, to);
     history_end(world->history);
     if (!done) return;
+    char text[96];
+    snprintf(text, sizeof text, "Pinned at frame %.6g. Drag the marker, or type its place in the section Pins.",
+             frame);
+    core_message(core, false, text);
     core->playback.playing = false;
     playback_seek(core, world->document, frame);
 }

@@ -8,9 +8,17 @@ bool selection_has(const struct selection *selection, unsigned id)
     return id < selection->capacity && (selection->bits[id / 64] >> (id % 64) & 1u);
 }
 
+bool selection_is_empty(const struct selection *selection)
+{
+    for (unsigned i = 0; i < selection->capacity / 64; i++)
+        if (selection->bits[i]) return false;
+    return true;
+}
+
 void selection_set(struct selection *selection, unsigned id, bool selected)
 {
     if (id >= selection->capacity) return;
+    selection->changes++;
     uint64_t bit = UINT64_C(1) << (id % 64);
     if (selected) {
         selection->bits[id / 64] |= bit;
@@ -22,6 +30,7 @@ void selection_set(struct selection *selection, unsigned id, bool selected)
 void selection_clear(struct selection *selection)
 {
     if (selection->bits) memset(selection->bits, 0, selection->capacity / 8);
+    selection->changes++;
 }
 
 void selection_drop_from(struct selection *selection, unsigned id)
@@ -63,4 +72,5 @@ void selection_copy(struct selection *to, const struct selection *from)
 {
     unsigned ids = to->capacity < from->capacity ? to->capacity : from->capacity;
     if (ids > 0) memcpy(to->bits, from->bits, ids / 8);
+    to->changes++;
 }

@@ -38,6 +38,7 @@ enum panel { PANEL_NONE, PANEL_STAGE, PANEL_CURVES, PANEL_INSPECTOR, PANEL_STATU
 struct selection {
     uint64_t *bits;
     unsigned capacity; ///< ids
+    uint64_t changes;  ///< grows whenever it may have changed
 };
 
 enum drag_kind {
@@ -121,6 +122,7 @@ struct hover {
     enum hover_kind kind;
     int spline;
     unsigned knot;
+    int place; ///< HOVER_KNOT: its index, until the next edit
     int handle; ///< HOVER_SLOPE: which end, as in curves_handle(); HOVER_WARNING, HOVER_BOX: which one; HOVER_LIMIT: 1: the high one
     int tail;        ///< HOVER_BODY: its number among tails
     int rig, joint;  ///< HOVER_JOINT: of the tail or chain; HOVER_POINT: a joint whose end it is, or a vertex
@@ -226,6 +228,26 @@ struct overlays {
     bool ghost; ///< the pose at the knot that is dragged or nudged
 };
 
+/// A knot by its indices.
+struct knot_place {
+    int spline, knot;
+};
+
+enum { SURVEY_RUNS = 4096 };
+
+/// What was found out of all knots, and when (survey.h).
+struct survey {
+    bool is_made;
+    struct survey_key {
+        unsigned serial; ///< of the document
+        int active;
+        uint64_t selected, edits;
+    } key;
+    struct knot_place from, to;    ///< the first and the last selected knot; {-1, -1}: there is none
+    int run;                       ///< knots of the active spline in each run
+    double values[SURVEY_RUNS][2]; ///< the lowest and highest of each run
+};
+
 struct core {
     struct layout layout;
     float scale;
@@ -235,6 +257,7 @@ struct core {
     unsigned active_id;               ///< its id, by which it is found again when the list has changed
     unsigned recent[CORE_MAX_RECENT]; ///< ids of those that were active before, the last one first
     struct selection selection;
+    struct survey survey;
     struct selection hidden, solo; ///< splines, by their ids
     unsigned visibility;           ///< grows whenever these change
     double visible;                ///< the height of the values that the curves show

@@ -28,9 +28,11 @@ static struct rect box_rect(const struct drag *drag)
 static void take_inside(const struct curves *curves, struct core *core, const struct document *document, int s)
 {
     const struct rect box = box_rect(&core->drag);
-    for (int k = 0; k < document->splines[s].knot_count; k++) {
-        const struct knot *knot = &document->splines[s].knots[k];
+    const struct spline *spline = &document->splines[s];
+    for (int k = curves_knot_from(curves, core, document, spline, box.x); k < spline->knot_count; k++) {
+        const struct knot *knot = &spline->knots[k];
         const float x = curves_knot_x(curves, core, document, knot), y = curves_y_of(curves, core, s, knot->value);
+        if (x > box.x + box.w) break;
         if (rect_contains(box, x, y)) selection_set(&core->selection, knot->id, curves->knot_drag.box != BOX_REMOVE);
     }
 }

@@ -8,6 +8,7 @@
 #include "editor/core/pins.h"
 #include "editor/core/playback.h"
 #include "editor/core/selection.h"
+#include "editor/core/survey.h"
 #include "editor/curves/gestures.h"
 #include "editor/curves/show.h"
 #include "editor/curves/view.h"
@@ -68,13 +69,14 @@ static float nearest_knot(const struct curves *curves, const struct core *core, 
 {
     const struct spline *spline = &document->splines[of];
     float best = reach;
-    for (int k = 0; k < spline->knot_count; k++) {
+    for (int k = curves_knot_from(curves, core, document, spline, x - reach); k < spline->knot_count; k++) {
         const struct knot *knot = &spline->knots[k];
         float at = curves_knot_x(curves, core, document, knot);
+        if (at > x + reach) break;
         float distance = hypotf(x - at, y - curves_y_of(curves, core, of, knot->value));
         if (distance > best) continue;
         best = distance;
-        *hover = (struct hover){.kind = HOVER_KNOT, .spline = of, .knot = knot->id};
+        *hover = (struct hover){.kind = HOVER_KNOT, .spline = of, .knot = knot->id, .place = k};
     }
     return best;
 }
@@ -94,7 +96,9 @@ static void nearest_handle(const struct curves *curves, const struct core *core,
                            const struct spline *spline, float x, float y, struct hover *hover)
 {
     float best = CURVES_HIT_RADIUS;
-    for (int k = 0; k < spline->knot_count; k++) {
+    int first, after;
+    survey_selected(core, document, core->active, &first, &after);
+    for (int k = first; k < after; k++) {
         const struct knot *knot = &spline->knots[k];
         if (!knot->has_slope || !selection_has(&core->selection, knot->id)) continue;
         for (int end = 0; end < 2; end++) {
@@ -141,9 +145,10 @@ static void nearest_curve(const struct curves *curves, const struct core *core, 
 struct hover curves_hover(const struct curves *curves, const struct core *core, const struct editor_world *world,
                           float x, float y)
 {
-    struct hover hover = {.kind = HOVER_NONE};
+    struct hover hover = ruler_pins_hover(curves, core, world->document, x, y);
     const struct spline *spline = core_active_spline(core, world);
-    if (rect_contains(core->layout.ruler, x, y)) hover = ruler_pins_hover(curves, core, world->document, x, y);
+    if (hover.kind == HOVER_PIN) return hover;
+    if (rect_contains(core->layout.ruler, x, y)) hover.kind = HOVER_RULER;
     if (rect_contains(ruler_corner(core), x, y)) hover.kind = HOVER_UNITS;
     if (rect_contains(sheet_switch(core), x, y)) hover.kind = HOVER_SHEET;
     if (rect_contains(sheet_area(core), x, y)) return sheet_hover(curves, core, world->document, x, y);

@@ -6,6 +6,7 @@
 #include "editor/core/knots.h"
 #include "editor/curves/curves.h"
 #include "editor/curves/view.h"
+#include <limits.h>
 #include <math.h>
 #include <string.h>
 
@@ -30,10 +31,17 @@ static void hit_knots(struct curves *curves, const struct core *core, const stru
 {
     struct curve_cache *cache = &curves->cache;
     const struct spline *spline = core_active_spline(core, world);
-    for (int k = 0; spline && k < spline->knot_count; k++) {
+    if (!spline) return;
+    int k = spline_lower_bound(world->document, spline, (int)fmax(floor(first - by), 0));
+    while (k < spline->knot_count) {
         double sample = document_sample(world->document, spline->knots[k].frame);
         double column = floor((sample - first) / by + 0.5);
-        if (column >= 0 && column < cache->count) cache->position[(int)column] = sample;
+        if (column >= cache->count) break;
+        if (column >= 0) cache->position[(int)column] = sample;
+        // Of many knots at a column the last one counts.
+        const int next =
+            spline_lower_bound(world->document, spline, (int)fmin(ceil(first + (column + 0.5) * by), INT_MAX));
+        k = next - 1 > k ? next - 1 : k + 1;
     }
 }
 

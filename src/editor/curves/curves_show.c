@@ -2,6 +2,7 @@
 #include "editor/core/arrange.h"
 #include "editor/core/core.h"
 #include "editor/core/selection.h"
+#include "editor/core/survey.h"
 #include "editor/curves/curves.h"
 #include "editor/curves/gestures.h"
 #include "editor/curves/show.h"
@@ -10,6 +11,7 @@
 #include "scene/pins.h"
 #include "ui/font.h"
 #include "ui/theme.h"
+#include <limits.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -18,6 +20,7 @@ enum { MAX_LABELS = CURVES_MAX_OTHERS + 2, RING_POINTS = 25 };
 
 static const float KNOT_RADIUS = 4.5f, OTHER_RADIUS = 3, HOVER_RADIUS = 6.5f, HANDLE_REACH = 130, HANDLE_RADIUS = 3;
 static const double FIRM_LENGTH = 48, DECADE_LENGTH = 12; ///< of a handle; of ten times the stiffness
+static const float OTHERS_CROWDED = 3;                    ///< pixels between knots below which one stands for several
 static const float LABEL_STEP = 15;
 static const float FAN_NEAR = 0.24f,
                    FAN_STEP = 0.03f; ///< opacity of the least lagged copy, and less of each further one
@@ -160,29 +163,66 @@ static void show_tick(const struct curves *curves, struct core *core, const stru
     drawlist_line(&core->list, &ends[0][0], 2, 1.5f, theme_fade(color, 0.7f));
 }
 
-/// The knot to draw of first … end − 1, all in one pixel column: the hovered one, else a selected one.
-static int column_knot(const struct core *core, const struct spline *spline, int first, int end)
+/// The first selected knot of first … end − 1, or `end`.
+static int first_selected(const struct core *core, const struct document *document, int spline, int first, int end)
 {
-    int best = first;
-    for (int k = end - 1; k >= first; k--) {
-        unsigned id = spline->knots[k].id;
-        if (core->hover.kind == HOVER_KNOT && core->hover.knot == id) return k;
-        if (selection_has(&core->selection, id)) best = k;
+    int from, to;
+    survey_selected(core, document, spline, &from, &to);
+    const struct knot *knots = document->splines[spline].knots;
+    for (int k = from > first ? from : first; k < to && k < end; k++) {
+        if (selection_has(&core->selection, knots[k].id)) return k;
     }
-    return best;
+    return end;
+}
+
+/// Index of the spline's knot under the pointer, or -1.
+static int hovered_knot(const struct core *core, const struct spline *spline)
+{
+    const struct hover *hover = &core->hover;
+    const bool known = hover->kind == HOVER_KNOT && hover->place < spline->knot_count;
+    return known && spline->knots[hover->place].id == hover->knot ? hover->place : -1;
+}
+
+int crowd_next(const struct curves *curves, const struct core *core, const struct document *document, int spline,
+               int knot, float gap)
+{
+    const struct spline *of = &document->splines[spline];
+    const float x = curves_knot_x(curves, core, document, &of->knots[knot]);
+    const int hovered = hovered_knot(core, of);
+    int next = curves_knot_from(curves, core, document, of, x + gap);
+    if (next <= knot) next = knot + 1;
+    while (next < of->knot_count && curves_knot_x(curves, core, document, &of->knots[next]) - x < gap) next++;
+    if (hovered > knot && hovered < next) next = hovered;
+    return first_selected(core, document, spline, knot + 1, next);
+}
+
+/// The knot to draw of first … end − 1, all in one pixel column: the hovered one, else a selected one.
+static int column_knot(const struct core *core, const struct document *document, int first, int end)
+{
+    const int hovered = hovered_knot(core, &document->splines[core->active]);
+    if (hovered >= first && hovered < end) return hovered;
+    const int selected = first_selected(core, document, core->active, first, end);
+    return selected < end ? selected : first;
+}
+
+/// The end of the knots in one pixel column: columns begin at the scene's first frame, so that they stay as the view is moved.
+static int column_end(const struct curves *curves, const struct core *core, const struct document *document,
+                      const struct spline *spline, int first)
+{
+    const double pixels = curves_pixels_per_frame(curves, core) / document->substeps; // a sample
+    const double column = floor(document_sample(document, spline->knots[first].frame) * pixels);
+    const int end = spline_lower_bound(document, spline, (int)fmin(ceil((column + 1) / pixels), INT_MAX));
+    return end > first ? end : first + 1;
 }
 
 /// A stroke over the values of all knots in one pixel column, for those that are not drawn.
-static void show_column(const struct curves *curves, struct core *core, const struct spline *spline, int first,
+static void show_column(const struct curves *curves, struct core *core, const struct document *document, int first,
                         int end, float x, uint32_t color)
 {
-    double low = spline->knots[first].value, high = low;
-    for (int k = first + 1; k < end; k++) {
-        low = fmin(low, spline->knots[k].value);
-        high = fmax(high, spline->knots[k].value);
-    }
-    const float xy[] = {x, curves_y(curves, core, low), x, curves_y(curves, core, high)};
-    if (high > low) drawlist_line(&core->list, xy, 2, 1.5f, theme_fade(color, 0.7f));
+    double range[2];
+    survey_values(core, document, first, end, range);
+    const float xy[] = {x, curves_y(curves, core, range[0]), x, curves_y(curves, core, range[1])};
+    if (range[1] > range[0]) drawlist_line(&core->list, xy, 2, 1.5f, theme_fade(color, 0.7f));
 }
 
 static void show_knot(const struct curves *curves, struct core *core, const struct document *document,
@@ -206,14 +246,14 @@ static void show_knots(const struct curves *curves, struct core *core, const str
     const struct spline *spline = arrange_seen(core, world);
     const struct rect *plot = &core->layout.plot;
     uint32_t color = arrange_color(document, core->active);
-    for (int k = 0, end = 0; spline && k < spline->knot_count; k = end) {
+    if (!spline) return;
+    int k = curves_knot_from(curves, core, document, spline, plot->x - HANDLE_REACH);
+    for (int end; k < spline->knot_count; k = end) {
         float x = curves_knot_x(curves, core, document, &spline->knots[k]);
-        for (end = k + 1; end < spline->knot_count; end++) {
-            if (curves_knot_x(curves, core, document, &spline->knots[end]) - x >= 1) break;
-        }
-        if (x < plot->x - HANDLE_REACH || x > plot->x + plot->w + HANDLE_REACH) continue;
-        show_column(curves, core, spline, k, end, x, color);
-        show_knot(curves, core, document, &spline->knots[column_knot(core, spline, k, end)], x, color);
+        end = column_end(curves, core, document, spline, k);
+        if (x > plot->x + plot->w + HANDLE_REACH) break;
+        show_column(curves, core, document, k, end, x, color);
+        show_knot(curves, core, document, &spline->knots[column_knot(core, document, k, end)], x, color);
     }
 }
 
@@ -223,15 +263,15 @@ static void show_other_knots(const struct curves *curves, struct core *core, con
     const struct spline *spline = &document->splines[s];
     const struct rect *plot = &core->layout.plot;
     const uint32_t full = arrange_color(document, s), color = theme_fade(full, THEME_OTHERS);
-    float last_x = -INFINITY;
-    for (int k = 0; k < spline->knot_count; k++) {
+    int k = curves_knot_from(curves, core, document, spline, plot->x);
+    for (; k < spline->knot_count; k = crowd_next(curves, core, document, s, k, OTHERS_CROWDED)) {
         const struct knot *knot = &spline->knots[k];
         bool hovered = core->hover.kind == HOVER_KNOT && core->hover.knot == knot->id;
         bool selected = selection_has(&core->selection, knot->id);
         float x = curves_knot_x(curves, core, document, knot);
         float y = curves_y_of(curves, core, s, knot->value);
-        if (x < plot->x || x > plot->x + plot->w || (x - last_x < 3 && !hovered && !selected)) continue;
-        last_x = x;
+        if (x < plot->x) continue;
+        if (x > plot->x + plot->w) break;
         knot_mark(&core->list, x, y, selected ? KNOT_RADIUS : OTHER_RADIUS, selected ? full : color, selected);
         if (hovered) knot_ring(&core->list, x, y);
     }

@@ -23,7 +23,7 @@ void limits_apply(const struct curves *curves, struct core *core, const struct e
 /// The active spline's limits, dashed.
 void limits_show(const struct curves *curves, struct core *core, const struct editor_world *world);
 
-/// The pin whose mark on the ruler is there, else the ruler.
+/// The pin whose mark on the ruler is there, or HOVER_NONE.
 struct hover ruler_pins_hover(const struct curves *curves, const struct core *core, const struct document *document,
                               float x, float y);
 /// Selects it, goes to its frame and starts to drag it.

@@ -10,8 +10,8 @@
 #include "ui/theme.h"
 #include <math.h>
 
-static const float REACH = 6, HEIGHT = 9; ///< pixels beside a mark; from the ruler's lower edge up, where marks are
-static const float RADIUS = 4;
+static const float REACH = 6;                        ///< pixels beside a mark
+static const float RADIUS = 4, ABOVE = 9, BELOW = 6; ///< of a mark on the ruler's lower edge: how far it is taken
 
 /// Where its mark is.
 static void place(const struct curves *curves, const struct core *core, const struct document *document,
@@ -26,9 +26,10 @@ struct hover ruler_pins_hover(const struct curves *curves, const struct core *co
                               float x, float y)
 {
     const struct rect *ruler = &core->layout.ruler;
-    struct hover hover = {.kind = HOVER_RULER};
+    struct hover hover = {.kind = HOVER_NONE};
     float best = REACH;
-    if (y < ruler->y + ruler->h - HEIGHT) return hover;
+    const float edge = ruler->y + ruler->h;
+    if (y < edge - ABOVE || y >= edge + BELOW || x < ruler->x || x >= ruler->x + ruler->w) return hover;
     for (int r = 0; r < document->rig_count; r++) {
         for (int i = 0; i < document->rigs[r].pin_count; i++) {
             const struct pin *pin = &document->rigs[r].pins[i];

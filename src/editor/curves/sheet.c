@@ -103,12 +103,14 @@ struct hover sheet_hover(const struct curves *curves, const struct core *core, c
     struct hover hover = {.kind = s >= 0 ? HOVER_ROW : HOVER_NONE, .spline = s};
     float best = REACH;
     if (s < 0 || !rect_contains(core->layout.sheet, x, y)) return hover;
-    for (int k = 0; k < document->splines[s].knot_count; k++) {
-        const struct knot *knot = &document->splines[s].knots[k];
-        const float distance = fabsf(x - curves_knot_x(curves, core, document, knot));
+    const struct spline *spline = &document->splines[s];
+    for (int k = curves_knot_from(curves, core, document, spline, x - REACH); k < spline->knot_count; k++) {
+        const struct knot *knot = &spline->knots[k];
+        const float at = curves_knot_x(curves, core, document, knot), distance = fabsf(x - at);
+        if (at > x + REACH) break;
         if (distance > best) continue;
         best = distance;
-        hover = (struct hover){.kind = HOVER_KNOT, .spline = s, .knot = knot->id};
+        hover = (struct hover){.kind = HOVER_KNOT, .spline = s, .knot = knot->id, .place = k};
     }
     return hover;
 }
@@ -136,11 +138,12 @@ void sheet_take_inside(const struct curves *curves, struct core *core, const str
         if (s >= document->spline_count) continue;
         const float top = row_y(core, row) - ROW / 2.0f;
         if (top + ROW <= box.y || top >= box.y + box.h) continue;
-        for (int k = 0; k < document->splines[s].knot_count; k++) {
-            const struct knot *knot = &document->splines[s].knots[k];
+        const struct spline *spline = &document->splines[s];
+        for (int k = curves_knot_from(curves, core, document, spline, box.x); k < spline->knot_count; k++) {
+            const struct knot *knot = &spline->knots[k];
             const float x = curves_knot_x(curves, core, document, knot);
-            if (x >= box.x && x < box.x + box.w)
-                selection_set(&core->selection, knot->id, curves->knot_drag.box != BOX_REMOVE);
+            if (x >= box.x + box.w) break;
+            if (x >= box.x) selection_set(&core->selection, knot->id, curves->knot_drag.box != BOX_REMOVE);
         }
     }
 }
@@ -172,14 +175,14 @@ static void show_marks(const struct curves *curves, struct core *core, const str
 {
     const struct spline *spline = &document->splines[s];
     const uint32_t color = arrange_color(document, s);
-    float last_x = -INFINITY;
-    for (int k = 0; k < spline->knot_count; k++) {
+    const struct rect *sheet = &core->layout.sheet;
+    int k = curves_knot_from(curves, core, document, spline, sheet->x - RADIUS - 1);
+    for (; k < spline->knot_count; k = crowd_next(curves, core, document, s, k, CROWDED)) {
         const struct knot *knot = &spline->knots[k];
         const float x = curves_knot_x(curves, core, document, knot);
         const bool selected = selection_has(&core->selection, knot->id);
         const bool hovered = core->hover.kind == HOVER_KNOT && core->hover.knot == knot->id;
-        if (x - last_x < CROWDED && !selected && !hovered) continue;
-        last_x = x;
+        if (x > sheet->x + sheet->w + RADIUS + 1) break;
         knot_mark(&core->list, x, y, selected ? RADIUS + 1 : RADIUS, color, selected);
         if (hovered) knot_ring(&core->list, x, y);
     }

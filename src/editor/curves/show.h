@@ -20,4 +20,8 @@ struct rect ruler_corner(const struct core *core);
 /// Grids, numbers and ruler; part of curves_show().
 void grid_show(const struct curves *curves, struct core *core, const struct editor_world *world);
 
+/// The knot to draw after one, where knots are crowded: the next that is selected or under the pointer, or at least `gap` pixels on.
+int crowd_next(const struct curves *curves, const struct core *core, const struct document *document, int spline,
+               int knot, float gap);
+
 #endif

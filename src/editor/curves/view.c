@@ -3,6 +3,7 @@
 #include "editor/core/core.h"
 #include "editor/core/picked.h"
 #include "editor/curves/curves.h"
+#include <limits.h>
 #include <math.h>
 
 /// Pixels further from the plot than this are the same to the eye, and bounded ones are safe as floats.
@@ -34,6 +35,13 @@ float curves_knot_x(const struct curves *curves, const struct core *core, const 
                     const struct knot *knot)
 {
     return curves_x(curves, core, document_frame(document, document_sample(document, knot->frame)));
+}
+
+int curves_knot_from(const struct curves *curves, const struct core *core, const struct document *document,
+                     const struct spline *spline, double x)
+{
+    const double sample = floor(core_position(document, curves_frame(curves, core, x)));
+    return spline_lower_bound(document, spline, (int)fmin(fmax(sample, INT_MIN), INT_MAX));
 }
 
 float curves_y(const struct curves *curves, const struct core *core, double value)

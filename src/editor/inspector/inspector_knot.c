@@ -4,6 +4,7 @@
 #include "editor/core/knots.h"
 #include "editor/core/picked.h"
 #include "editor/core/selection.h"
+#include "editor/core/survey.h"
 #include "editor/inspector/inspection.h"
 #include <math.h>
 #include <stddef.h>
@@ -289,15 +290,12 @@ static void build_slopes(struct inspection *in, bool sloped)
 static void build_overview(struct inspection *in, const struct spline *spline)
 {
     char frames[64] = "none", values[64] = "–";
-    double low = INFINITY, high = -INFINITY;
-    for (int k = 0; k < spline->knot_count; k++) {
-        low = fmin(low, spline->knots[k].value);
-        high = fmax(high, spline->knots[k].value);
-    }
+    double range[2];
     if (spline->knot_count > 0) {
+        survey_values(in->core, in->document, 0, spline->knot_count, range);
         snprintf(frames, sizeof frames, "%d, frames %.6g … %.6g", spline->knot_count, spline->knots[0].frame,
                  spline->knots[spline->knot_count - 1].frame);
-        snprintf(values, sizeof values, "%.4g … %.4g", low, high);
+        snprintf(values, sizeof values, "%.4g … %.4g", range[0], range[1]);
     }
     ui_paragraph(in->ui, "Click a knot to edit it. Double-click the curve to insert one.", theme()->text_dim);
     build_idle(in, "knots", frames);
@@ -328,16 +326,17 @@ void inspector_knot(struct inspection *in)
     struct ui *ui = in->ui;
     const struct spline *spline = core_active_spline(in->core, in->world);
     const int count = picked_count(in->core, in->document);
-    const int single = selection_single(&in->core->selection, spline);
+    struct knot_place only = PICKED_START;
+    const bool one = count == 1 && picked_next(in->core, in->document, &only) && only.spline == in->core->active;
     const float end = ui->y + (FIELDS + 1) * UI_ROW;
     if (count > 1) {
         build_several(in);
         build_slopes(in, all_sloped(in));
-    } else if (single < 0) {
+    } else if (!one) {
         build_overview(in, spline);
     } else {
         // Each is built from the document as the one before left it; ids survive what happens to the order of knots.
-        const unsigned id = spline->knots[single].id;
+        const unsigned id = spline->knots[only.knot].id;
         build_one(in, FIELD_FRAME, id, ui_row(ui, UI_ROW));
         build_one(in, FIELD_VALUE, id, ui_row(ui, UI_ROW));
         build_slope(in, id);

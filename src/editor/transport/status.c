@@ -98,6 +98,8 @@ static const char *hover_hint(const struct core *core, const struct document *do
     case HOVER_POINT:
         return "Drag to pin this point at the playhead (X, Y or Z locks an axis, Shift: fine); H pins it where it is";
     case HOVER_PIN:
+        if (core_panel_at(core, core->pointer_x, core->pointer_y) == PANEL_CURVES)
+            return "Drag to move the pin in time (Ctrl: off frames); Del removes it; Alt+PgUp, Alt+PgDn: by a frame";
         return "Drag the pin (X, Y or Z locks an axis, Shift: fine); Del removes it; Alt+arrows nudge it";
     case HOVER_FLOOR:
         return "Drag the floor up or down (Shift: fine); the whole character stays above it";
@@ -141,16 +143,18 @@ static float show_time(struct core *core, const struct document *document, struc
     return x + width;
 }
 
-/// The scene's name, with a dot while it has unsaved changes; returns its right end.
-static float show_title(struct core *core, const struct editor_world *world, struct rect bar, float x)
+/// The scene's name, with a dot while it has unsaved changes.
+struct title {
+    char text[256 + 8];
+    float width;
+};
+
+static struct title title_of(const struct core *core, bool saved, struct rect bar)
 {
-    char text[sizeof core->title + 8];
-    bool saved = history_is_saved(world->history);
-    snprintf(text, sizeof text, "%s%s", core->title, saved ? "" : " •");
-    float width = fminf(font_width(FONT_LABEL, THEME_TEXT_NORMAL, text), bar.w / 5);
-    struct rect r = {x, bar.y, width, bar.h};
-    paint_text(&core->list, r, FONT_LABEL, saved ? theme()->text_dim : theme()->text, text);
-    return x + width;
+    struct title title;
+    snprintf(title.text, sizeof title.text, "%s%s", core->title, saved ? "" : " •");
+    title.width = fminf(font_width(FONT_LABEL, THEME_TEXT_NORMAL, title.text), bar.w / 5);
+    return title;
 }
 
 /// Frames a second only while it plays: at rest frames come as events do, and their number would say nothing.
@@ -185,15 +189,25 @@ void transport_show(const struct transport *transport, struct core *core, const 
     drawlist_rect(&core->list, bar, theme()->panel);
     drawlist_rect(&core->list, (struct rect){bar.x, bar.y, bar.w, 1}, theme()->border);
     float x = show_time(core, world->document, bar, controls_show(core)) + GAP;
-    x = show_title(core, world, bar, x) + GAP;
     char figures[160];
     figures_text(transport, core, world, figures, sizeof figures);
-    float width = font_width(FONT_NUMBER, THEME_TEXT_SMALL, figures);
-    float right = bar.x + bar.w - 12 - width;
-    paint_text(&core->list, (struct rect){right, bar.y, width, bar.h}, FONT_NUMBER, theme()->text_dim, figures);
+    const float end = bar.x + bar.w - 12, width = font_width(FONT_NUMBER, THEME_TEXT_SMALL, figures);
+    // What has happened is said in full: the figures give way to it, and the name of the scene.
+    const float needed = GAP + font_width(FONT_LABEL, THEME_TEXT_NORMAL, message->text);
+    const bool saved = history_is_saved(world->history);
+    const struct title title = title_of(core, saved, bar);
+    const bool tight = message->text[0] && x + title.width + needed > end - width - GAP;
+    const float right = tight ? end : end - width;
+    if (!tight)
+        paint_text(&core->list, (struct rect){right, bar.y, width, bar.h}, FONT_NUMBER, theme()->text_dim, figures);
+    if (!tight || x + title.width + needed <= end) {
+        paint_text(&core->list, (struct rect){x, bar.y, title.width, bar.h}, FONT_LABEL,
+                   saved ? theme()->text_dim : theme()->text, title.text);
+        x += title.width + GAP;
+    }
     const char *text = message->text[0] ? message->text : hint ? hint : hover_hint(core, world->document);
     uint32_t color = !message->text[0] ? theme()->text_dim : message->is_error ? theme()->error : theme()->text;
-    struct rect middle = {x, bar.y, right - GAP - x, bar.h};
+    struct rect middle = {x, bar.y, right - (tight ? 0 : GAP) - x, bar.h};
     if (middle.w > 40) paint_text(&core->list, middle, FONT_LABEL, color, text);
 }
 

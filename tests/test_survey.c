@@ -1,0 +1,135 @@
+/// What frames remember of a document's knots is what a look at all of them says, whatever was edited, undone and selected.
+#include "editor/core/knots.h"
+#include "editor/core/picked.h"
+#include "editor/core/survey.h"
+#include "five_knots.h"
+#include "inside.h"
+#include "panel_session.h"
+#include "shown.h"
+#include <math.h>
+
+enum { CROWD = 30000 };
+
+/// A spline of so many knots, and another of two before it.
+static void open_crowd(struct session *s, int knots)
+{
+    const size_t room = 256 + (size_t)knots * 40;
+    char *scene = malloc(room);
+    assert_non_null(scene);
+    size_t at = (size_t)sprintf(scene,
+                                "{\"wiggly\": 1, \"frames\": [0, %d], \"splines\": [{\"name\": \"few\", \"knots\": "
+                                "[{\"frame\": 3, \"value\": 2}, {\"frame\": 9, \"value\": 1}]}, {\"name\": \"many\", "
+                                "\"mode\": \"cubic\", \"knots\": [",
+                                knots);
+    for (int k = 0; k < knots; k++)
+        at += (size_t)sprintf(scene + at, "%s{\"frame\": %d, \"value\": %d}", k ? "," : "", k, k * 7919 % 1009);
+    strcpy(scene + at, "]}]}");
+    panel_open(s, scene, 1280, 900);
+    core_activate(&s->editor->core, &s->world, 1);
+    free(scene);
+}
+
+/// By a look at all of them.
+static void assert_true_to(struct session *s)
+{
+    struct core *core = &s->editor->core;
+    const struct spline *active = &s->document->splines[core->active];
+    int expected = 0;
+    session_frame(s);
+    struct knot_place at = PICKED_START;
+    for (int of = 0; of < s->document->spline_count; of++) {
+        for (int k = 0; k < spline(s, of)->knot_count; k++) {
+            if (!selection_has(&core->selection, spline(s, of)->knots[k].id)) continue;
+            expected++;
+            assert_true(picked_next(core, s->document, &at));
+            assert_int_equal(at.spline, of);
+            assert_int_equal(at.knot, k);
+        }
+    }
+    assert_false(picked_next(core, s->document, &at));
+    assert_int_equal(picked_count(core, s->document), expected);
+    for (int i = 0; i < 40 && active->knot_count > 0; i++) {
+        const int first = i * 7919 % active->knot_count;
+        const int end = first + 1 + i * 5171 % (active->knot_count - first);
+        double range[2], low = INFINITY, high = -INFINITY;
+        survey_values(core, s->document, first, end, range);
+        for (int k = first; k < end; k++) {
+            low = fmin(low, active->knots[k].value);
+            high = fmax(high, active->knots[k].value);
+        }
+        assert_true(range[0] == low && range[1] == high);
+    }
+}
+
+static void edits_and_selections_are_seen(void **state)
+{
+    (void)state;
+    struct session s;
+    open_crowd(&s, CROWD);
+    struct core *core = &s.editor->core;
+    assert_true_to(&s);
+    selection_set(&core->selection, spline(&s, 1)->knots[CROWD - 1].id, true);
+    assert_true_to(&s);
+    session_key(&s, KEY_UP, 0); // its value
+    assert_true_to(&s);
+    selection_set(&core->selection, spline(&s, 1)->knots[100].id, true);
+    selection_set(&core->selection, spline(&s, 0)->knots[1].id, true);
+    assert_true_to(&s);
+    core_activate(core, &s.world, 0);
+    assert_true_to(&s);
+    core_activate(core, &s.world, 1);
+    selection_set(&core->selection, spline(&s, 1)->knots[100].id, true);
+    core_delete_knots(core, &s.world, 0); // indices move
+    assert_true(spline(&s, 1)->knot_count < CROWD);
+    assert_true_to(&s);
+    session_key(&s, 'Z', MOD_CTRL);
+    assert_true_to(&s);
+    session_key(&s, 'A', MOD_CTRL);
+    assert_true_to(&s);
+    session_close(&s);
+}
+
+/// Before the next picture, too: what an edit finds is what there is.
+static void an_edit_between_pictures_is_seen(void **state)
+{
+    (void)state;
+    struct session s;
+    open_crowd(&s, 100);
+    struct core *core = &s.editor->core;
+    session_frame(&s);
+    struct edit edit = {.kind = EDIT_KNOT_SET, .spline = 1, .knot = spline(&s, 1)->knots[50]};
+    edit.knot.value = 5000;
+    assert_true(core_step(core, &s.world, "Set", 0, &edit));
+    double range[2];
+    survey_values(core, s.document, 0, 100, range);
+    assert_near(range[1], 5000, 0);
+    selection_set(&core->selection, spline(&s, 1)->knots[7].id, true);
+    assert_int_equal(picked_count(core, s.document), 1);
+    session_close(&s);
+}
+
+/// Of a crowd each pixel column shows one knot, and the highest and lowest value are reached by its stroke.
+static void a_crowd_is_drawn_as_columns(void **state)
+{
+    (void)state;
+    struct session s;
+    open_crowd(&s, CROWD);
+    session_frame(&s);
+    const int few = s.editor->core.list.point_count;
+    session_close(&s);
+    open_crowd(&s, 4 * CROWD);
+    session_frame(&s);
+    const int many = s.editor->core.list.point_count;
+    assert_true(many < few + few / 4);
+    session_close(&s);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(edits_and_selections_are_seen),
+        cmocka_unit_test(an_edit_between_pictures_is_seen),
+        cmocka_unit_test(a_crowd_is_drawn_as_columns),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
