@@ -388,6 +388,9 @@ static void chunks_of_a_png(void **state)
     file[33] = 0x19; // 419 million bytes more
     assert_false(gltf_decode_image(file, sizeof file - 1, 1 << 20, &image, &error));
     if (!strstr(error.text, "a part of it is larger than it may be")) fail_msg("%s", error.text);
+    memcpy(file + 33, "\0\0\0\0IDATcrc!\0\0\0\1IDAT\x78", 21); // data that begins with an empty chunk
+    assert_false(gltf_decode_image(file, sizeof file - 1, 1 << 20, &image, &error));
+    if (!strstr(error.text, "or empty")) fail_msg("%s", error.text);
 }
 
 int main(void)

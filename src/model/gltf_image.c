@@ -47,7 +47,7 @@ bool gltf_decode_image(const unsigned char *bytes, size_t size, size_t most, str
 {
     int channels, length = size <= INT_MAX ? (int)size : 0;
     if (!picture_is_sound(bytes, size))
-        return fail(error, ERROR_INPUT, "expected PNG or JPEG: a part of it is larger than it may be");
+        return fail(error, ERROR_INPUT, "expected PNG or JPEG: a part of it is larger than it may be, or empty");
     if (!stbi_info_from_memory(bytes, length, &image->width, &image->height, &channels))
         return fail(error, ERROR_INPUT, "expected PNG or JPEG of at most %d pixels a side: %s", STBI_MAX_DIMENSIONS,
                     stbi_failure_reason());

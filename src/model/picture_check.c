@@ -45,9 +45,13 @@ static bool jpeg_is_sound(const unsigned char *at, const unsigned char *end)
 
 static bool png_is_sound(const unsigned char *at, const unsigned char *end)
 {
+    bool has_data = false;
     for (at += SIGNATURE; end - at >= CHUNK_HEAD;) {
         const long length = (long)at[0] << 24 | at[1] << 16 | at[2] << 8 | at[3];
         if (memcmp(at + 4, "IEND", 4) == 0) return true;
+        const bool is_data = memcmp(at + 4, "IDAT", 4) == 0;
+        if (is_data && length == 0 && !has_data) return false;
+        has_data |= is_data;
         if (length > end - at - CHUNK_HEAD - CHUNK_TAIL) return false;
         at += CHUNK_HEAD + length + CHUNK_TAIL;
     }
