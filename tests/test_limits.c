@@ -393,6 +393,28 @@ static void what_moves_by_itself_is_limited_too(void **state)
     }
 }
 
+/// Once the tail has left its limit, its imaginary part goes on with the real one: x turns by its pole.
+static void what_leaves_a_limit_swings_whole(void **state)
+{
+    (void)state;
+    const wiggly_knot knots[] = {{.sample = 20}, {.sample = 40, .value = 1}};
+    wiggly_desc desc = wiggly_default_desc();
+    desc.samples = 160;
+    desc.frequency.value = 1, desc.damping.value = 0.05;
+    desc.knots = knots, desc.knot_count = 2;
+    desc.low = -0.6, desc.high = 1.05;
+    assert_int_equal(wiggly_solve(solver, &desc, &curve), WIGGLY_OK);
+    int left = 0;
+    for (int i = 0; i < desc.samples; i++) left = total[i] <= desc.low || total[i] >= desc.high ? i : left;
+    assert_in_range(left, 42, 100);
+    const double d = 0.05 * 2 * M_PI, w = 2 * M_PI * sqrt(1 - 0.05 * 0.05);
+    const double fade = exp(-d * desc.step), turn_re = fade * cos(w * desc.step), turn_im = fade * sin(w * desc.step);
+    for (int i = left + 1; i + 1 < desc.samples; i++) {
+        assert_near(re[i + 1], turn_re * re[i] - turn_im * im[i], 1e-8);
+        assert_near(im[i + 1], turn_re * im[i] + turn_im * re[i], 1e-8);
+    }
+}
+
 static void what_cannot_be_is_an_error(void **state)
 {
     (void)state;
@@ -458,6 +480,7 @@ int main(void)
                                        cmocka_unit_test(bits_do_not_depend_on_the_way),
                                        cmocka_unit_test(knots_need_no_order),
                                        cmocka_unit_test(what_moves_by_itself_is_limited_too),
+                                       cmocka_unit_test(what_leaves_a_limit_swings_whole),
                                        cmocka_unit_test(what_cannot_be_is_an_error)};
     return cmocka_run_group_tests(tests, create, destroy);
 }

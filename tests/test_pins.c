@@ -365,6 +365,26 @@ static void what_is_out_of_reach_is_left(void **state)
     assert_near(g->pin[0].left[1], 0.25, 0);
 }
 
+/// A spline that the pins do not move is to the bit what it is alone, also where they name it and where it is one that could not be
+/// pulled.
+static void who_is_not_pulled_is_as_alone(void **state)
+{
+    (void)state;
+    static double memory[2][5 * SAMPLES * MOST_SPLINES];
+    wiggly_curve curves[MOST_SPLINES], alone = curve_of(memory[1], SAMPLES);
+    wiggly_solver *solver;
+    assert_int_equal(wiggly_create(SAMPLES, KNOTS, &solver), WIGGLY_OK);
+    for (unsigned n = 0; n < 20; n++) {
+        struct random_group *g = make_group(n, 3, 2);
+        for (int p = 0; p < 2; p++) g->pulls[p][2] = (wiggly_pull){.spline = 2};
+        if (n % 2) g->descs[2].calm = 0;
+        const wiggly_status expected = wiggly_solve(solver, &g->descs[2], &alone);
+        assert_int_equal(solve_group(g, WIGGLY_CHAIN, memory[0], curves), expected);
+        assert_memory_equal(memory[0] + 2 * 5 * SAMPLES, memory[1], sizeof(double) * 5 * SAMPLES);
+    }
+    wiggly_destroy(solver);
+}
+
 static wiggly_status status_of(struct random_group *g)
 {
     static double memory[5 * SAMPLES * MOST_SPLINES];
@@ -425,6 +445,7 @@ int main(void)
                                        cmocka_unit_test(chain_and_band_agree_on_random_groups),
                                        cmocka_unit_test(nothing_that_is_kept_changes_a_bit),
                                        cmocka_unit_test(what_is_out_of_reach_is_left),
+                                       cmocka_unit_test(who_is_not_pulled_is_as_alone),
                                        cmocka_unit_test(what_cannot_be_held_is_refused),
                                        cmocka_unit_test(pins_of_a_scene_too_short_are_passed_over)};
     return cmocka_run_group_tests(tests, NULL, NULL);
