@@ -46,7 +46,7 @@ bool dialogs_cover(const struct dialogs *dialogs);
 /// The same, and what the pointer is over there.
 bool dialogs_over(const struct dialogs *dialogs, enum ui_over *over);
 /// How far down the left side of the stage is free.
-float dialogs_bottom(const struct dialogs *dialogs, const struct core *core);
+float dialogs_bottom(const struct dialogs *dialogs, const struct core *core, const struct document *document);
 /// Shows the card for new users.
 void dialogs_welcome(struct dialogs *dialogs);
 /// Whether it is still to be seen.

@@ -8,7 +8,7 @@
 
 enum { MARGIN = 16, PAD = 14, LINE = 20, GAP = 16 };
 
-enum { HINTS = 4 };
+enum { HINTS = 4, WIDE = 900 }; ///< hints of a card; width of a stage that leaves room beside two characters
 
 /// By what is on the stage; an empty row is about knots.
 static const struct hint {
@@ -64,26 +64,37 @@ static float what_width(void)
     return ceilf(width) + GAP;
 }
 
-struct rect welcome_card(const struct core *core)
+/// Characters side by side fill the stage but for its edges: the card stands upright there, each reason below what to do.
+static bool is_upright(const struct core *core, const struct document *document)
+{
+    if (core->layout.stage.w < WIDE) return false;
+    const int first = document_next_rig(document, RIG_CHARACTER, 0);
+    return rigs_lead(document) == LEAD_CHARACTER && document_next_rig(document, RIG_CHARACTER, first + 1) >= 0;
+}
+
+struct rect welcome_card(const struct core *core, const struct document *document)
 {
     const struct rect *stage = &core->layout.stage;
-    float why = width_of(FONT_LABEL, more) + GAP + width_of(FONT_LABEL_BOLD, closing) - what_width();
+    const bool upright = is_upright(core, document);
+    const float before = upright ? 0 : what_width();
+    float why = width_of(FONT_LABEL, more) + GAP + width_of(FONT_LABEL_BOLD, closing) - before;
     for (int i = 0; i < LEADS * HINTS; i++) {
         const char *reason = hints[i / HINTS][i % HINTS].why;
         if (reason) why = fmaxf(why, width_of(FONT_LABEL, reason));
     }
-    const float height = 2 * PAD + (HINTS + 1) * LINE + 2;
-    const float width = 2 * PAD + what_width() + ceilf(why);
+    const float height = 2 * PAD + (HINTS * (upright ? 2 : 1) + 1) * LINE + 2;
+    const float width = 2 * PAD + before + ceilf(why);
     const bool legend = core->characters.mapped || core->brush.on; // that of the phase map is at the left hand
-    return (struct rect){legend ? stage->x + stage->w - MARGIN - width : stage->x + MARGIN,
+    return (struct rect){legend || upright ? stage->x + stage->w - MARGIN - width : stage->x + MARGIN,
                          stage->y + stage->h - MARGIN - height, width, height};
 }
 
-bool welcome_event(struct dialogs *dialogs, const struct core *core, const struct event *event)
+bool welcome_event(struct dialogs *dialogs, const struct core *core, const struct document *document,
+                   const struct event *event)
 {
     if (!dialogs->welcome || event->action != ACTION_PRESS) return false;
     bool escape = event->kind == EVENT_KEY && event->key == KEY_ESCAPE;
-    bool click = event->kind == EVENT_BUTTON && rect_contains(welcome_card(core), event->x, event->y);
+    bool click = event->kind == EVENT_BUTTON && rect_contains(welcome_card(core, document), event->x, event->y);
     if (escape || click) dialogs->welcome = false;
     return escape || click;
 }
@@ -98,14 +109,16 @@ void dialogs_show_welcome(struct dialogs *dialogs, struct core *core, const stru
     if (!history_is_saved(world->history)) dialogs->welcome = false;
     if (!dialogs->welcome) return;
     struct drawlist *list = &core->list;
-    struct rect card = welcome_card(core), clip = drawlist_push_clip(list, core->layout.stage);
+    struct rect card = welcome_card(core, world->document), clip = drawlist_push_clip(list, core->layout.stage);
     drawlist_rounded(list, card, 8, theme()->panel);
     drawlist_rounded_line(list, card, 8, 1, theme()->zero);
+    const bool upright = is_upright(core, world->document);
     float left = card.x + PAD, y = card.y + PAD + 12;
     for (int i = 0; i < HINTS; i++, y += LINE) {
         const struct hint *hint = hint_of(world->document, i);
         show_text(core, left, y, FONT_LABEL_BOLD, theme()->text, hint->what);
-        show_text(core, left + what_width(), y, FONT_LABEL, theme()->text_dim, hint->why);
+        if (upright) y += LINE;
+        show_text(core, upright ? left : left + what_width(), y, FONT_LABEL, theme()->text_dim, hint->why);
     }
     y += 4;
     show_text(core, left, y, FONT_LABEL, theme()->text_dim, more);
