@@ -4,15 +4,15 @@
 #include "base/file.h"
 #include "base/hash.h"
 #include "base/path.h"
+#include "scene/leftovers.h"
 #include "scene/load.h"
 #include "scene/paint_file.h"
 #include "scene/text.h"
-#include <dirent.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
-enum { MAX_NAMES = 10000, LARGEST_SCENE = 1 << 28 };
+enum { MAX_NAMES = 10000 };
 
 /// A character's paint while it is saved.
 struct sheet {
@@ -22,15 +22,10 @@ struct sheet {
     char replaced[PATH_LIMIT]; ///< the file that it stands for from now on, or ""
 };
 
-/// "walk-paint.npy" beside "walk.json", or the next free number: an existing file may belong to another scene.
+/// The first name that is free: an existing file may belong to another scene.
 static bool new_file(const char *scene, char file[PATH_LIMIT])
 {
-    const char *slash = strrchr(scene, '/'), *name = slash ? slash + 1 : scene, *dot = strrchr(name, '.');
-    const int stem = (int)(dot && dot > name ? dot - scene : (long)strlen(scene));
-    for (int i = 1; i < MAX_NAMES; i++) {
-        char number[16] = "";
-        if (i > 1) snprintf(number, sizeof number, "-%d", i);
-        if (snprintf(file, PATH_LIMIT, "%.*s-paint%s.npy", stem, scene, number) >= PATH_LIMIT) return false;
+    for (int i = 1; i < MAX_NAMES && leftovers_name(scene, i, file); i++) {
         if (access(file, F_OK) != 0) return true;
     }
     return false;
@@ -71,9 +66,10 @@ static bool name_file(struct document *document, struct character_rig *rig, stru
     return true;
 }
 
-static bool save_sheet(struct document *document, int index, const char *scene, struct sheet *sheet,
+static bool save_sheet(struct document *document, int index, struct leftovers *leftovers, struct sheet *sheet,
                        struct error *error)
 {
+    const char *scene = leftovers->scene;
     struct character_rig *rig = &document->rigs[index].character;
     if (document->rigs[index].kind != RIG_CHARACTER) return true;
     if (!rig->painted || paint_is_plain(rig->painted)) return true;
@@ -84,6 +80,8 @@ static bool save_sheet(struct document *document, int index, const char *scene, 
     }
     if (!new_file(scene, sheet->file))
         return fail(error, ERROR_ENVIRONMENT, "%s: there is no name left for its paint", scene);
+    leftovers_note(leftovers, sheet->file);
+    if (sheet->replaced[0]) leftovers_note(leftovers, sheet->replaced);
     if (!paint_write(rig->painted, sheet->file, error)) return false;
     if (!name_file(document, rig, sheet, error)) {
         unlink(sheet->file);
@@ -91,33 +89,6 @@ static bool save_sheet(struct document *document, int index, const char *scene, 
     }
     sheet->written = true;
     return true;
-}
-
-/// Whether a scene in the folder may name a file: a copy of the scene may be the only one that does.
-static bool is_named(const char *folder, const char *name)
-{
-    DIR *directory = opendir(folder[0] ? folder : ".");
-    bool named = !directory;
-    const struct dirent *entry;
-    while (!named && (entry = readdir(directory)) != NULL) {
-        char path[PATH_LIMIT], *data;
-        size_t size;
-        if (!path_has_end(entry->d_name, ".json")) continue;
-        const bool read =
-            path_resolve(folder, entry->d_name, path) && file_read(path, LARGEST_SCENE, &data, &size, NULL);
-        named = !read || memmem(data, size, name, strlen(name));
-        if (read) free(data);
-    }
-    if (directory) closedir(directory);
-    return named;
-}
-
-/// Removes paint that a new file stands for, unless somebody may want it.
-static void remove_replaced(const struct sheet *sheet)
-{
-    char folder[PATH_LIMIT];
-    const char *slash = strrchr(sheet->replaced, '/');
-    if (slash && path_folder(sheet->replaced, folder) && !is_named(folder, slash + 1)) unlink(sheet->replaced);
 }
 
 /// Keeps the new names and files, or undoes both on failure.
@@ -131,7 +102,7 @@ static void finish(struct document *document, struct sheet *sheets, int count, b
             rig->filed = rig->painted->version;
             rig->file = file_stamp(sheet->file);
             free(sheet->old_path);
-            remove_replaced(sheet);
+            if (sheet->replaced[0]) leftovers_remove(sheet->replaced);
         } else {
             unlink(sheet->file);
             free(rig->paint);
@@ -157,10 +128,13 @@ bool scene_save(struct document *document, const char *path, struct error *error
     const int count = document->rig_count;
     struct sheet *sheets = calloc((size_t)count + 1, sizeof *sheets);
     if (!sheets) return fail_no_memory(error, path);
+    struct leftovers leftovers;
+    leftovers_open(&leftovers, path);
     bool saved = true;
-    for (int i = 0; saved && i < count; i++) saved = save_sheet(document, i, path, &sheets[i], error);
+    for (int i = 0; saved && i < count; i++) saved = save_sheet(document, i, &leftovers, &sheets[i], error);
     saved = saved && save_scene(document, path, error);
     finish(document, sheets, count, saved);
+    leftovers_close(&leftovers);
     free(sheets);
     return saved;
 }
