@@ -280,7 +280,7 @@ static void test_two_factors_and_what_stops_them(void **state)
     session_type(&s, "0");
     session_frame(&s);
     assert_near(knot(&s, 1, 0)->value, -50, 0);
-    assert_non_null(strstr(scaling->sentence, "held by the limit -50"));
+    assert_non_null(strstr(scaling->sentence, "held by the limit -50 of up at frame 20"));
     session_key(&s, KEY_ESCAPE, 0);
     session_close(&s);
 }

@@ -3,6 +3,7 @@
 #include "inside.h"
 
 #include "scene/load.h"
+#include "shown.h"
 #include "temporary.h"
 #include <signal.h>
 #include <stdio.h>
@@ -56,6 +57,27 @@ static void a_figure_ends_a_drag_that_begins_in_its_frame(void **state)
     blind_frame(&blind);
     assert_true(app->table.document->splines[0].knots[1].value > 1);
     blind_close(&blind);
+}
+
+/// Figure 2 is of poles and response: both are in sight at once, from the command line and by its key.
+static void poles_of_figure_2_are_in_sight(void **state)
+{
+    (void)state;
+    for (int by_key = 0; by_key < 2; by_key++) {
+        struct blind blind;
+        float x, y;
+        blind_open(&blind, by_key ? NULL : "assets/scenes/figure2.json");
+        if (by_key) send_key(&blind, '2', MOD_CTRL);
+        blind_frame(&blind);
+        blind_frame(&blind);
+        struct editor *editor = blind.app.table.editor;
+        struct editor_world world = table_world(&blind.app.table);
+        assert_true(inspector_target(editor->inspector, &editor->core, &world, "pole.centre", &x, &y));
+        const struct draw_command *axis = shown_text(editor, "-1 Hz"); // below the response
+        assert_non_null(axis);
+        assert_true(axis->y < editor->core.layout.inspector.y + editor->core.layout.inspector.h - 40);
+        blind_close(&blind);
+    }
 }
 
 /// Opens a copy of the scene in a folder that everybody may read, and edits it.
@@ -236,6 +258,7 @@ static void the_last_place_is_ones_own(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(poles_of_figure_2_are_in_sight),
         cmocka_unit_test(a_figure_ends_a_drag_that_begins_in_its_frame),
         cmocka_unit_test(work_outlives_a_full_disk),
         cmocka_unit_test(work_outlives_a_folder_that_cannot_be_written),

@@ -246,7 +246,8 @@ static void expect_advice(const char *json, const char *first, const char *statu
 static void test_advice_names_what_is_there(void **state)
 {
     (void)state;
-#define SWING "{\"frames\": [0, 24], \"splines\": [{\"name\": \"swing\"}]"
+#define SWING_BY(knots) "{\"frames\": [0, 24], \"splines\": [{\"name\": \"swing\", \"knots\": [" knots "]}]"
+#define SWING SWING_BY("{\"frame\": 0, \"value\": 1}")
 #define REX "{\"type\": \"model\", \"name\": \"rex\", \"model\": \"/home/ada/rex.glb\"}"
     expect_advice(SWING
                   ", \"rigs\": [{\"type\": \"tail\", \"name\": \"t\", \"channels\": [{\"spline\": \"swing\"}]}]}",
@@ -261,6 +262,11 @@ static void test_advice_names_what_is_there(void **state)
                   "Pull a chain", "Drag a chain or a knot, or click a bone to make another chain. F1 shows all keys");
     expect_advice(SWING ", \"rigs\": [" REX "]}", "Click a bone",
                   "Point at a bone and click it to make a chain. F1 shows all keys");
+    expect_advice(SWING_BY("") ", \"rigs\": [{\"type\": \"character\", \"model\": \"/home/ada/bear.glb\", "
+                               "\"coordinates\": []}]}",
+                  "sets a knot of a curve",
+                  "Drag the character to pin a point of it. Space plays, F1 shows all keys");
+    expect_advice(SWING_BY("") "}", "Double-click", "Double-click to set a knot. Space plays, F1 shows all keys");
     expect_advice(SWING "}", "Double-click", "Drag a knot. Space plays, F1 shows all keys");
 }
 

@@ -1,6 +1,7 @@
 /// The inspector: what its widgets do to the document, by the events of mouse and keyboard.
 #include "inside.h"
 #include "panel_session.h"
+#include "shown.h"
 
 static const char scene[] =
     "{\"wiggly\": 1, \"frames\": [0, 96], \"splines\": [" PANEL_SPLINES "],"
@@ -213,7 +214,17 @@ static void test_knot_is_edited_in_place(void **state)
     session_close(&f);
 }
 
-/// Several knots at once: typed numbers are set, drags and frames move, and what is not possible changes nothing.
+static void test_one_knot_has_one_frame(void **state)
+{
+    (void)state;
+    struct session f;
+    panel_open(&f, scene, 1280, 1400);
+    assert_non_null(shown_text(f.editor, "3, frames 0 … 60"));
+    panel_click(&f, "spline.lift");
+    assert_non_null(shown_text(f.editor, "1, frame 10"));
+    session_close(&f);
+}
+
 /// Nothing is selected: the section says what knots there are and works without pointing at one; what is below stays where it is.
 static void test_the_knot_section_without_a_knot(void **state)
 {
@@ -238,6 +249,7 @@ static void test_the_knot_section_without_a_knot(void **state)
     session_close(&f);
 }
 
+/// Several knots at once: typed numbers are set, drags and frames move, and what is not possible changes nothing.
 static void test_several_knots(void **state)
 {
     (void)state;
@@ -496,6 +508,7 @@ int main(void)
         cmocka_unit_test(test_only_what_counts_is_shown),
         cmocka_unit_test(test_the_solver_is_a_setting_of_the_session),
         cmocka_unit_test(test_knot_is_edited_in_place),
+        cmocka_unit_test(test_one_knot_has_one_frame),
         cmocka_unit_test(test_the_knot_section_without_a_knot),
         cmocka_unit_test(test_several_knots),
         cmocka_unit_test(test_frame_drag_passes_through_a_neighbour),

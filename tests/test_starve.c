@@ -147,7 +147,7 @@ static void starve_command(int (*run)(int argc, char **argv), const char *output
 static void check(void **state)
 {
     (void)state;
-    starve_command(command_check, NULL, "check assets/scenes/tail.json", 400);
+    starve_command(command_check, NULL, "check assets/scenes/tail.json", 1100);
     starve_command(command_check, NULL, "check assets/scenes/hands.json", 150);
     starve_command(command_check, NULL, "check assets/scenes/dog.json", 100);
 }

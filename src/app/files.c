@@ -72,6 +72,12 @@ static struct document *parse_built_in(const char *name, struct error *error)
     return NULL;
 }
 
+/// What a figure of the paper is about is in sight, however it was opened.
+static void show_subject(struct app *app, const char *name)
+{
+    if (strcmp(name, "figure2.json") == 0) editor_show_poles(app->table.editor);
+}
+
 bool app_open(struct app *app, const char *path, struct error *error)
 {
     struct document *document;
@@ -100,6 +106,7 @@ bool app_open(struct app *app, const char *path, struct error *error)
         return fail_no_memory(error, path);
     }
     app_adopt(app, document);
+    if (path && !is_users) show_subject(app, file_name(path));
     app->own_file = read;
     personal_note_file(app, app_path(app));
     return true;
@@ -134,7 +141,10 @@ static bool open_figure(struct app *app, int number, struct error *error)
     snprintf(name, sizeof name, "figure%d.json", number);
     if (other >= 0 && other < OTHERS) snprintf(name, sizeof name, "%s", others[other].name);
     struct edit edit = {.kind = EDIT_DOCUMENT, .document = parse_built_in(name, error)};
-    return edit.document && replace_document(app, &edit, other >= 0 ? others[other].undo : "Open a figure", error);
+    if (!edit.document) return false;
+    if (!replace_document(app, &edit, other >= 0 ? others[other].undo : "Open a figure", error)) return false;
+    show_subject(app, name);
+    return true;
 }
 
 /// The document's file as somebody else has left it, in place of the document: undo brings the document back.

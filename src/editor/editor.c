@@ -181,6 +181,8 @@ void editor_open(struct editor *editor, const struct editor_world *world)
     editor_set_path(editor, document->path ? document->path : "");
 }
 
+void editor_show_poles(struct editor *editor) { inspector_unfold(editor->inspector, "section.poles"); }
+
 void editor_set_path(struct editor *editor, const char *path)
 {
     const char *slash = strrchr(path, '/');

@@ -21,6 +21,9 @@ void editor_refresh(struct editor *editor, const struct editor_world *world);
 /// The last rig was added by the app: it is shown, in the inspector and on the stage.
 void editor_show_last(struct editor *editor, const struct editor_world *world);
 
+/// Unfolds poles and response in the inspector and scrolls there.
+void editor_show_poles(struct editor *editor);
+
 /// Ends any drag where it is: before the app itself makes an edit.
 void editor_let_go(struct editor *editor, const struct editor_world *world);
 

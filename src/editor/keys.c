@@ -55,7 +55,6 @@ static void run_ui_scale(struct editor *e, const struct editor_world *w, int dir
 static void run_figure(struct editor *e, const struct editor_world *w, int argument)
 {
     (void)w;
-    if (argument == 2) inspector_unfold(e->inspector, "section.poles");
     core_request_number(&e->core, REQUEST_FIGURE, argument);
 }
 

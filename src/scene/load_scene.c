@@ -180,30 +180,29 @@ static struct document *parse_document(const char *name, const char *text, size_
 }
 
 /// Makes paths in the document relative to its file's folder.
-static struct document *set_folder(struct document *document, const char *path, struct error *error)
+static bool set_folder(struct document *document, const char *path, struct error *error)
 {
     char folder[PATH_LIMIT];
-    if (!document) return NULL;
     document->folder = path_folder(path, folder) ? strdup(folder) : NULL;
-    if (document->folder) return document;
-    fail(error, ERROR_ENVIRONMENT, "%s: not enough memory, or the path is too long", path);
-    document_destroy(document);
-    return NULL;
+    return document->folder || fail(error, ERROR_ENVIRONMENT, "%s: not enough memory, or the path is too long", path);
 }
 
 struct document *scene_load(const char *path, struct problems *problems, struct error *error)
 {
     char *text;
     size_t size;
-    struct error unread;
-    if (!file_read(path, SOURCE_MAX_BYTES, &text, &size, &unread)) {
-        struct reader reader = {.problems = problems, .error = error};
-        reader_report(&reader, &unread);
+    struct reader outside = {.problems = problems, .error = error}; // what is wrong with the file, not in it
+    struct error trouble;
+    if (!file_read(path, SOURCE_MAX_BYTES, &text, &size, &trouble)) {
+        reader_report(&outside, &trouble);
         return NULL;
     }
     struct document *document = parse_document(path, text, size, problems, error);
     free(text);
-    return set_folder(document, path, error);
+    if (!document || set_folder(document, path, &trouble)) return document;
+    reader_report(&outside, &trouble);
+    document_destroy(document);
+    return NULL;
 }
 
 struct document *scene_parse(const char *name, const char *text, size_t size, struct problems *problems,

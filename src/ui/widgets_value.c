@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { DRAG_THRESHOLD = 2, HANDLE = 4 }; ///< pixels below which a press is a click; height of a bar's handle
+enum { DRAG_THRESHOLD = 2, HANDLE = 3 }; ///< pixels below which a press is a click; height of a bar's handle
 static const double no_limit = 1e300;    ///< limits from here on are none
 
 static bool has_bar(const struct ui_number *number) { return number->maximum > number->minimum; }

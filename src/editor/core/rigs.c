@@ -20,6 +20,13 @@ enum lead rigs_lead(const struct document *document)
     return lead;
 }
 
+bool rigs_have_knots(const struct document *document)
+{
+    int s = 0;
+    while (s < document->spline_count && document->splines[s].knot_count == 0) s++;
+    return s < document->spline_count;
+}
+
 /// Ends the open step, taken back where something in it failed.
 static void finish(struct core *core, const struct editor_world *world, bool done)
 {

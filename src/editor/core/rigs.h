@@ -7,6 +7,8 @@
 /// What there is to take hold of on the stage, the likeliest thing first: what newcomers are told about.
 enum lead { LEAD_TAIL, LEAD_CHARACTER, LEAD_CHAIN, LEAD_MODEL, LEAD_NOTHING, LEADS };
 enum lead rigs_lead(const struct document *document);
+/// Whether any spline has a knot that could be dragged.
+bool rigs_have_knots(const struct document *document);
 
 /// A tail beside all else, bent by the active spline, or by a new one where there is none.
 void rigs_add_tail(struct core *core, const struct editor_world *world);

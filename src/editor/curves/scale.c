@@ -245,9 +245,15 @@ static double free_time(struct curves *curves, const struct core *core, const st
     return scaling->free_time;
 }
 
+/// A knot that a limit of its spline held.
+struct held_knot {
+    const struct original *original; ///< NULL: none was
+    double limit;
+};
+
 /// A value scaled about the pivot, inside its spline's limits; `held` is set where one of these held it.
 static double scaled_value(const struct curves *curves, const struct core *core, const struct document *document,
-                           const struct original *original, double factor, double *held)
+                           const struct original *original, double factor, struct held_knot *held)
 {
     const struct scaling *scaling = &curves->scaling;
     const struct param *parameter = document->splines[original->spline].parameter;
@@ -257,12 +263,12 @@ static double scaled_value(const struct curves *curves, const struct core *core,
     const double resolution = 0.01 / curves_pixels_per_value(curves, core) / map.scale;
     const double value = core_round(pivot + factor * (original->knot.value - pivot), resolution);
     const double inside = fmin(fmax(value, parameter[PARAMETER_LOW].value), parameter[PARAMETER_HIGH].value);
-    if (inside != value) *held = inside;
+    if (inside != value) *held = (struct held_knot){original, inside};
     return inside;
 }
 
 static struct knot scaled(struct curves *curves, const struct core *core, const struct document *document,
-                          const struct original *original, double *held)
+                          const struct original *original, struct held_knot *held)
 {
     const struct factors by = curves->scaling.by;
     const struct retiming retiming = {curves, core, by.time};
@@ -280,7 +286,7 @@ static void move_all(struct curves *curves, struct core *core, const struct edit
     struct scaling *scaling = &curves->scaling;
     const struct originals *originals = &core->originals;
     const bool moves = scaling->by.time != 1;
-    double held = NAN;
+    struct held_knot held = {0};
     bool changes = moves;
     for (int i = 0; i < originals->count && moves; i++) {
         struct edit edit = core_edit_of(EDIT_KNOT_REMOVE, originals->list[i].spline);
@@ -296,8 +302,10 @@ static void move_all(struct curves *curves, struct core *core, const struct edit
         return;
     }
     scaling->stopped[1][0] = 0;
-    if (!isnan(held))
-        snprintf(scaling->stopped[1], sizeof scaling->stopped[1], "held by the limit %.4g", held);
+    if (held.original)
+        snprintf(scaling->stopped[1], sizeof scaling->stopped[1], "held by the limit %.4g of %.24s at frame %.6g",
+                 held.limit, world->document->splines[held.original->spline].name,
+                 scaled_frame(&(struct retiming){curves, core, scaling->by.time}, held.original));
     else if (!changes && scaling->by.value != 1)
         snprintf(scaling->stopped[1], sizeof scaling->stopped[1], "all are on the %s",
                  pivot_name(scaling, scaling->pivot));

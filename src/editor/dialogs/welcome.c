@@ -10,20 +10,20 @@ enum { MARGIN = 16, PAD = 14, LINE = 20, GAP = 16 };
 
 enum { HINTS = 4 };
 
-/// By what is on the stage.
+/// By what is on the stage; an empty row is about knots.
 static const struct hint {
     const char *what, *why;
 } hints[LEADS][HINTS] = {
     [LEAD_TAIL] = {{"Drag the fox", "its tail swings after it"},
                    {"Pull the tail", "this sets a knot at the playhead"},
-                   {"Drag a knot", "the curve hits it, and swings"},
+                   {0},
                    {"Drop a .glb", "your own: click a bone, press J"}},
     [LEAD_CHARACTER] = {{"Drag the character", "pins the point you hold"},
-                        {"Drag a knot", "the curve hits it, and swings"},
+                        {0},
                         {"Hold F, press ↑", "it swings faster"},
                         {"Drop a .glb", "your own: click a bone, press J"}},
     [LEAD_CHAIN] = {{"Pull a chain", "this sets a knot at the playhead"},
-                    {"Drag a knot", "the curve hits it, and swings"},
+                    {0},
                     {"Click a bone", "Shift+J makes another chain of it"},
                     {"Press Ctrl+E", "a .glb with the new motion"}},
     [LEAD_MODEL] = {{"Click a bone", "the first of its tail, say"},
@@ -35,6 +35,15 @@ static const struct hint {
                       {"Press A", "adds a tail or a character"},
                       {"Drop a .glb", "your own: click a bone, press J"}},
 };
+
+static const struct hint knot_hints[] = {{"Double-click", "sets a knot of a curve"},
+                                         {"Drag a knot", "the curve hits it, and swings"}};
+
+static const struct hint *hint_of(const struct document *document, int row)
+{
+    const struct hint *hint = &hints[rigs_lead(document)][row];
+    return hint->what ? hint : &knot_hints[rigs_have_knots(document)];
+}
 
 static const char closing[] = "Got it", more[] = "F1 shows all keys";
 
@@ -48,8 +57,10 @@ static float width_of(enum font font, const char *text) { return font_width(font
 static float what_width(void)
 {
     float width = 0;
-    for (int i = 0; i < LEADS * HINTS; i++)
-        width = fmaxf(width, width_of(FONT_LABEL_BOLD, hints[i / HINTS][i % HINTS].what));
+    for (int i = 0; i < LEADS * HINTS; i++) {
+        const char *what = hints[i / HINTS][i % HINTS].what;
+        if (what) width = fmaxf(width, width_of(FONT_LABEL_BOLD, what));
+    }
     return ceilf(width) + GAP;
 }
 
@@ -57,7 +68,10 @@ struct rect welcome_card(const struct core *core)
 {
     const struct rect *stage = &core->layout.stage;
     float why = width_of(FONT_LABEL, more) + GAP + width_of(FONT_LABEL_BOLD, closing) - what_width();
-    for (int i = 0; i < LEADS * HINTS; i++) why = fmaxf(why, width_of(FONT_LABEL, hints[i / HINTS][i % HINTS].why));
+    for (int i = 0; i < LEADS * HINTS; i++) {
+        const char *reason = hints[i / HINTS][i % HINTS].why;
+        if (reason) why = fmaxf(why, width_of(FONT_LABEL, reason));
+    }
     const float height = 2 * PAD + (HINTS + 1) * LINE + 2;
     const float width = 2 * PAD + what_width() + ceilf(why);
     const bool legend = core->characters.mapped || core->brush.on; // that of the phase map is at the left hand
@@ -88,10 +102,10 @@ void dialogs_show_welcome(struct dialogs *dialogs, struct core *core, const stru
     drawlist_rounded(list, card, 8, theme()->panel);
     drawlist_rounded_line(list, card, 8, 1, theme()->zero);
     float left = card.x + PAD, y = card.y + PAD + 12;
-    const struct hint *shown = hints[rigs_lead(world->document)];
     for (int i = 0; i < HINTS; i++, y += LINE) {
-        show_text(core, left, y, FONT_LABEL_BOLD, theme()->text, shown[i].what);
-        show_text(core, left + what_width(), y, FONT_LABEL, theme()->text_dim, shown[i].why);
+        const struct hint *hint = hint_of(world->document, i);
+        show_text(core, left, y, FONT_LABEL_BOLD, theme()->text, hint->what);
+        show_text(core, left + what_width(), y, FONT_LABEL, theme()->text_dim, hint->why);
     }
     y += 4;
     show_text(core, left, y, FONT_LABEL, theme()->text_dim, more);

@@ -293,9 +293,10 @@ static void build_overview(struct inspection *in, const struct spline *spline)
     double range[2];
     if (spline->knot_count > 0) {
         survey_values(in->core, in->document, 0, spline->knot_count, range);
-        snprintf(frames, sizeof frames, "%d, frames %.6g … %.6g", spline->knot_count, spline->knots[0].frame,
-                 spline->knots[spline->knot_count - 1].frame);
-        snprintf(values, sizeof values, "%.4g … %.4g", range[0], range[1]);
+        const bool one = spline->knot_count == 1;
+        snprintf(frames, sizeof frames, one ? "%d, frame %.6g" : "%d, frames %.6g … %.6g", spline->knot_count,
+                 spline->knots[0].frame, spline->knots[spline->knot_count - 1].frame);
+        snprintf(values, sizeof values, one ? "%.4g" : "%.4g … %.4g", range[0], range[1]);
     }
     ui_paragraph(in->ui, "Click a knot to edit it. Double-click the curve to insert one.", theme()->text_dim);
     build_idle(in, "knots", frames);

@@ -25,20 +25,25 @@ void transport_advance(struct transport *transport, const struct core *core, dou
     status->dropped = core->playback.dropped;
 }
 
-/// What to try where nothing is pointed at.
+/// What to try where nothing is pointed at; knots are not spoken of where there are none.
 static const char *lead_hint(const struct document *document)
 {
-    static const char *const hints[LEADS] = {
-        [LEAD_TAIL] = "Drag the fox, its tail or a knot. Space plays, F1 shows all keys",
-        [LEAD_CHARACTER] = "Drag the character to pin a point of it, or a knot. Space plays, F1 shows all keys",
-        [LEAD_CHAIN] = "Drag a chain or a knot, or click a bone to make another chain. F1 shows all keys",
-        [LEAD_MODEL] = "Point at a bone and click it to make a chain. F1 shows all keys",
-        [LEAD_NOTHING] = "Drag a knot. Space plays, F1 shows all keys",
+    static const char *const hints[LEADS][2] = {
+        [LEAD_TAIL] = {"Drag the fox or its tail. Space plays, F1 shows all keys",
+                       "Drag the fox, its tail or a knot. Space plays, F1 shows all keys"},
+        [LEAD_CHARACTER] = {"Drag the character to pin a point of it. Space plays, F1 shows all keys",
+                            "Drag the character to pin a point of it, or a knot. Space plays, F1 shows all keys"},
+        [LEAD_CHAIN] = {"Drag a chain, or click a bone to make another chain. F1 shows all keys",
+                        "Drag a chain or a knot, or click a bone to make another chain. F1 shows all keys"},
+        [LEAD_MODEL] = {"Point at a bone and click it to make a chain. F1 shows all keys",
+                        "Point at a bone and click it to make a chain. F1 shows all keys"},
+        [LEAD_NOTHING] = {"Double-click to set a knot. Space plays, F1 shows all keys",
+                          "Drag a knot. Space plays, F1 shows all keys"},
     };
     const enum lead lead = rigs_lead(document);
     if (lead == LEAD_NOTHING && document->spline_count == 0)
         return "A adds a tail, Ctrl+O opens a scene. F1 shows all keys";
-    return hints[lead];
+    return hints[lead][rigs_have_knots(document)];
 }
 
 static const char *hover_hint(const struct core *core, const struct document *document)
