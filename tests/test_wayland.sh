@@ -1,10 +1,10 @@
-# The live app under a Wayland compositor, without a seat and with one, and what happens to unsaved work when the compositor dies.
+# The live app under a Wayland compositor without a seat, and what happens when the compositor dies.
 # Skipped where there is no weston, or where GLFW speaks X11 alone and Debian's build for Wayland cannot be had.
 . tests/check.sh
 . tests/desktop.sh
 WIGGLY=${WIGGLY:-build/wiggly}
 weston=""
-trap 'kill -9 $app $weston $server 2>/dev/null; wait 2>/dev/null; rm -rf "$scratch"' EXIT
+trap 'kill -9 $app $weston 2>/dev/null; wait 2>/dev/null; rm -rf "$scratch"' EXIT
 
 skip() { # <why>
     echo "skip - $1"
@@ -48,7 +48,7 @@ unpack_glfw() {
     local folder=build/glfw-wayland
     if [ ! -e $folder/usr ]; then
         mkdir -p $folder
-        (cd $folder && apt-get download libglfw3-wayland && dpkg -x libglfw3-wayland_*.deb .) >/dev/null 2>&1 || return 1
+        (cd $folder && timeout 60 apt-get download libglfw3-wayland && dpkg -x libglfw3-wayland_*.deb .) >/dev/null 2>&1 || return 1
     fi
     export LD_LIBRARY_PATH=$(echo "$PWD"/$folder/usr/lib/*)
     export ASAN_OPTIONS=${ASAN_OPTIONS:+$ASAN_OPTIONS:}detect_leaks=0 # which are the library's
@@ -62,28 +62,4 @@ expect 0 "frames in a window without a seat" wayland --frames 20
 start_wayland
 kill_weston
 says "and one sentence" "wiggly live: the window or its display is gone" "$(cat "$scratch/app.err")"
-
-# A compositor in a window of an X server, through which keys reach the app.
-ls /usr/lib/*/libweston-*/x11-backend.so >/dev/null 2>&1 || skip "this weston has no windows"
-display=seat
-start_server
-start_weston $display --backend=x11-backend.so --use-pixman --width=1200 --height=700
-cp assets/scenes/tail.json "$scratch/mine.json"
-start_wayland "$scratch/mine.json"
-xdotool mousemove 500 560 click 1
-recovery=$XDG_STATE_HOME/wiggly/recovery-1
-insert() {
-    xdotool key --delay 30 Escape Right Right Right i
-    sleep 2.5
-    [ -s "$recovery" ]
-}
-eventually "keys arrive, and unsaved work is kept" insert
-kill_weston
-says "one sentence says where the work is" "$recovery, and the next start offers to recover it" "$(cat "$scratch/app.err")"
-[ "$(grep -c ^wiggly "$scratch/app.err")" -eq 1 ] && cmp "$scratch/mine.json" assets/scenes/tail.json
-ok "the scene's own file is as it was" $?
-knots() { grep -o '"frame":' "$1" | wc -l; }
-grep -v '^wiggly-recovery 1 ' "$recovery" >"$scratch/work.json"
-[ "$(knots "$recovery")" -gt "$(knots "$scratch/mine.json")" ] && "$WIGGLY" check "$scratch/work.json" >/dev/null
-ok "the work is whole" $?
 exit $((cases_failed > 0))
