@@ -92,7 +92,7 @@ struct skirt_mesh model_skirt_pose(const struct model_skirt *skirt, const struct
     const int first = skirt->first_index[node], vertices = gltf_vertex_count(gltf, node);
     float(*place)[3] = skirt->place + skirt->first_vertex[node],
     (*normal)[3] = skirt->normal + skirt->first_vertex[node];
-    const mat4s to_world = mat4_from(root);
+    mat4s to_world = mat4_from(root);
     const struct skirt_mesh mesh = {.indices = skirt->indices + first,
                                     .across = skirt->across + first,
                                     .place = (const float(*)[3])place,
@@ -100,8 +100,8 @@ struct skirt_mesh model_skirt_pose(const struct model_skirt *skirt, const struct
                                     .mirrored = model_is_mirrored(gltf, pose, node)};
     gltf_pose_vertices(gltf, pose, node, place, normal);
     for (int v = 0; v < vertices; v++) {
-        glm_mat4_mulv3((vec4 *)to_world.raw, place[v], 1.0f, place[v]);
-        glm_mat4_mulv3((vec4 *)to_world.raw, normal[v], 0.0f, normal[v]);
+        glm_mat4_mulv3(to_world.raw, place[v], 1.0f, place[v]);
+        glm_mat4_mulv3(to_world.raw, normal[v], 0.0f, normal[v]);
     }
     skirt_face(&mesh, 0, index_count(gltf, node), eye);
     return mesh;
