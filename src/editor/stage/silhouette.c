@@ -46,13 +46,16 @@ static float node_y(const struct silhouette *silhouette, int row)
     return silhouette->area.y + silhouette->cell * (float)row;
 }
 
+/// Unlike hypotf(), not a call: this is asked of every node of a grid that grows as the view comes near.
+static float length(float x, float y) { return sqrtf(x * x + y * y); }
+
 /// How far inside of the link a point is.
 static float depth_in_link(const float p[2], const float a[2], float a_radius, const float b[2], float b_radius)
 {
     const float dx = b[0] - a[0], dy = b[1] - a[1], t = segment_nearest(a, b, p);
-    const float between = a_radius + t * (b_radius - a_radius) - hypotf(p[0] - a[0] - t * dx, p[1] - a[1] - t * dy);
+    const float between = a_radius + t * (b_radius - a_radius) - length(p[0] - a[0] - t * dx, p[1] - a[1] - t * dy);
     const float ends =
-        fmaxf(a_radius - hypotf(p[0] - a[0], p[1] - a[1]), b_radius - hypotf(p[0] - b[0], p[1] - b[1]));
+        fmaxf(a_radius - length(p[0] - a[0], p[1] - a[1]), b_radius - length(p[0] - b[0], p[1] - b[1]));
     return fmaxf(between, ends);
 }
 
