@@ -23,17 +23,11 @@ static const char new_scene[] =
     " \"rigs\": [{\"type\": \"tail\", \"name\": \"tail\", \"position\": [0, 0.26, 0], \"rest\": 2,"
     " \"spline\": \"sway\"}]}";
 
-static const char *file_name(const char *path)
-{
-    const char *slash = strrchr(path, '/');
-    return slash ? slash + 1 : path;
-}
-
 const char *app_path(const struct app *app) { return app->table.document->path ? app->table.document->path : ""; }
 
 static void show_title(struct app *app)
 {
-    const char *name = app_path(app)[0] ? file_name(app_path(app)) : "untitled";
+    const char *name = app_path(app)[0] ? path_name(app_path(app)) : "untitled";
     char title[512], shown[400];
     printable(name, shown, sizeof shown);
     app->shown_saved = history_is_saved(app->table.history);
@@ -106,7 +100,7 @@ bool app_open(struct app *app, const char *path, struct error *error)
         return fail_no_memory(error, path);
     }
     app_adopt(app, document);
-    if (path && !is_users) show_subject(app, file_name(path));
+    if (path && !is_users) show_subject(app, path_name(path));
     app->own_file = read;
     personal_note_file(app, app_path(app));
     return true;

@@ -167,7 +167,7 @@ void film_progress(const struct film *film, long *done, long *total)
 /// What to look for if that is not the name that was given.
 static const char *print_names(const struct film *film, char text[64])
 {
-    const char *slash = strrchr(film->path, '/'), *name = slash ? slash + 1 : film->path;
+    const char *name = path_name(film->path);
     const bool numbered = film->format->file == &film_png && film->shape.count > 1 && !strchr(name, '%');
     text[0] = '\0';
     if (numbered) snprintf(text, 64, ", as %.*s-0001.png and so on", (int)fmin(30, (double)strlen(name) - 4), name);

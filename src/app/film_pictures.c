@@ -22,7 +22,7 @@ struct film_file {
 /// Splits the path at its "%04d", or before ".png" if there is more than one picture.
 static bool split(struct film_file *file, struct error *error)
 {
-    const char *path = file->path, *slash = strrchr(path, '/'), *name = slash ? slash + 1 : path;
+    const char *path = file->path, *name = path_name(path);
     const char *sign = strchr(name, '%');
     file->digits = -1;
     file->before = (int)(strlen(path) - strlen(".png"));

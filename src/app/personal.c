@@ -7,6 +7,7 @@
 #include "app/settings.h"
 #include "app/state.h"
 #include "base/clock.h"
+#include "base/path.h"
 #include "ui/theme.h"
 #include <math.h>
 #include <stdio.h>
@@ -174,8 +175,7 @@ int personal_recent(void *user, struct dialog_recent *files, int most)
 /// What the document was called whose work a file has.
 static const char *name_of(const struct recovery_entry *entry)
 {
-    const char *slash = strrchr(entry->original, '/');
-    return !entry->original[0] ? "an untitled scene" : slash ? slash + 1 : entry->original;
+    return entry->original[0] ? path_name(entry->original) : "an untitled scene";
 }
 
 /// Says what else is there, for a start without a scene.

@@ -1,6 +1,7 @@
 /// Saves unsaved work when the program cannot go on: to the recovery file, which the next start offers, or else to a new file
 /// beside the original.
 #include "app/state.h"
+#include "base/path.h"
 #include "scene/load.h"
 #include <stdio.h>
 #include <stdlib.h>
@@ -36,7 +37,7 @@ static bool write_to(const struct app *app, const struct place *place, char *pat
 static bool write_somewhere(const struct app *app, char *path, size_t size, struct error *error)
 {
     const char *home = getenv("HOME"), *own = app_path(app)[0] ? app_path(app) : "untitled.json";
-    const char *slash = strrchr(own, '/'), *name = slash ? slash + 1 : own, *dot = strrchr(name, '.');
+    const char *name = path_name(own), *dot = strrchr(name, '.');
     int stem = (int)(dot && dot > name ? dot - name : (long)strlen(name));
     const struct place places[] = {
         {"", own, (int)(name - own) + stem},

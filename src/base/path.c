@@ -6,6 +6,12 @@
 #include <strings.h>
 #include <unistd.h>
 
+const char *path_name(const char *path)
+{
+    const char *slash = strrchr(path, '/');
+    return slash ? slash + 1 : path;
+}
+
 bool path_folder(const char *path, char folder[PATH_LIMIT])
 {
     const char *slash = strrchr(path, '/');

@@ -9,6 +9,9 @@ enum { PATH_LIMIT = 4096 }; ///< bytes of a path, with its end
 /// The folder of a file: "a/b.json" → "a", "b.json" → "". false if it is too long.
 bool path_folder(const char *path, char folder[PATH_LIMIT]);
 
+/// The name of a file or folder: "a/b.json" → "b.json".
+const char *path_name(const char *path);
+
 /// The absolute path, without "." and "..", of a file named from a folder. Symbolic links in the folder's path are
 /// followed where it exists. false where it is too long.
 bool path_resolve(const char *folder, const char *path, char absolute[PATH_LIMIT]);

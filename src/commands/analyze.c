@@ -1,5 +1,6 @@
 /// `wiggly analyze`: the complex normal coordinates of simulated motions, as a character.
 #include "analysis/analysis.h"
+#include "base/path.h"
 #include "base/printable.h"
 #include "commands/analyze_scene.h"
 #include "commands/commands.h"
@@ -57,8 +58,7 @@ static bool read_directions(struct job *job, int files)
 /// A unique name for a coordinate, from the file's: "up", and "up-2" … for further modes.
 static char *make_name(const char *path, const struct character *character)
 {
-    const char *slash = strrchr(path, '/'), *base = slash ? slash + 1 : path;
-    const char *dot = strrchr(base, '.');
+    const char *base = path_name(path), *dot = strrchr(base, '.');
     int stem = (int)(dot ? (size_t)(dot - base) : strlen(base));
     struct error name; // what fail() leaves is valid UTF-8
     for (int attempt = 1;; attempt++) {

@@ -1,5 +1,6 @@
 /// The editor's public functions: who gets an event, and what happens once a frame.
 #include "editor/editor.h"
+#include "base/path.h"
 #include "editor/core/bones.h"
 #include "editor/core/characters.h"
 #include "editor/core/core.h"
@@ -185,9 +186,8 @@ void editor_show_poles(struct editor *editor) { inspector_unfold(editor->inspect
 
 void editor_set_path(struct editor *editor, const char *path)
 {
-    const char *slash = strrchr(path, '/');
     snprintf(editor->core.path, sizeof editor->core.path, "%s", path);
-    snprintf(editor->core.title, sizeof editor->core.title, "%s", path[0] ? (slash ? slash + 1 : path) : "untitled");
+    snprintf(editor->core.title, sizeof editor->core.title, "%s", path[0] ? path_name(path) : "untitled");
 }
 
 void editor_set_stage_scale(struct editor *editor, float scale) { transport_tell_scale(editor->transport, scale); }

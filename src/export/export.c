@@ -1,6 +1,7 @@
 /// Finds the format, the rigs and the keys, and writes the file whole or not at all.
 #include "export/export.h"
 #include "base/file.h"
+#include "base/path.h"
 #include "export/format.h"
 #include "scene/number.h"
 #include <math.h>
@@ -146,8 +147,7 @@ static bool choose_keys(struct shot *shot, const struct export_options *options,
 static void make_title(const struct document *document, char title[FORM_NAME])
 {
     const char *path = document->path;
-    const char *slash = path ? strrchr(path, '/') : NULL;
-    const char *file = slash ? slash + 1 : path;
+    const char *file = path ? path_name(path) : NULL;
     const char *dot = file ? strrchr(file, '.') : NULL;
     snprintf(title, FORM_NAME, "%.*s", dot ? (int)(dot - file) : 60, file ? file : "wiggly");
 }

@@ -1,4 +1,5 @@
 /// Rigs as a USD scene in text: UsdSkel skeletons, blend shapes, a time sample a key. Metres, y up; time codes are the document's frames.
+#include "base/path.h"
 #include "export/format.h"
 #include "export/keys.h"
 #include "export/targets.h"
@@ -291,9 +292,8 @@ static void summarise(const struct shot *shot, char summary[FORMAT_SUMMARY])
     const int used = snprintf(summary, FORMAT_SUMMARY, "%d rig%s, %d keys", shot->rig_count,
                               shot->rig_count == 1 ? "" : "s", shot->key_count);
     if (shot->beside.count == 0) return;
-    const char *slash = strrchr(shot->beside.folder, '/');
     snprintf(summary + used, FORMAT_SUMMARY - (size_t)used, ", %d texture%s in %.40s", shot->beside.count,
-             shot->beside.count == 1 ? "" : "s", slash ? slash + 1 : shot->beside.folder);
+             shot->beside.count == 1 ? "" : "s", path_name(shot->beside.folder));
 }
 
 bool usda_write(struct shot *shot, FILE *out, char summary[FORMAT_SUMMARY], struct error *error)

@@ -1,5 +1,6 @@
 /// Writes materials of .usda files.
 #include "export/usda_look.h"
+#include "base/path.h"
 #include <string.h>
 
 /// The folder beside the file that is written: "walk.usda" → "walk_textures".
@@ -17,8 +18,7 @@ bool usda_write_picture(struct shot *shot, const struct usda_picture *picture, c
     snprintf(name, sizeof name, "%.40s_%d.%s", stem, picture->number,
              picture->size > 0 && picture->at[0] == 0xFF ? "jpg" : "png");
     name_folder(shot->path, folder);
-    const char *slash = strrchr(folder, '/');
-    if (snprintf(file, PATH_LIMIT, "./%s/%s", slash ? slash + 1 : folder, name) >= PATH_LIMIT)
+    if (snprintf(file, PATH_LIMIT, "./%s/%s", path_name(folder), name) >= PATH_LIMIT)
         return fail(error, ERROR_INPUT, "%s: the path is too long", folder);
     return beside_add(&shot->beside, folder, name, picture->at, picture->size, error);
 }

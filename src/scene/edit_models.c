@@ -1,4 +1,5 @@
 /// Edits that add rigs, and those of imported characters and of chains on them.
+#include "base/path.h"
 #include "scene/edit_rig.h"
 #include "scene/rig_kind.h"
 #include <assert.h>
@@ -72,8 +73,7 @@ static char *new_name(const struct document *document, const struct rig *rig)
     if (rig->kind == RIG_CHAIN) return plan_rig_free_name(document, rig->chain.from);
     if (rig->kind == RIG_MEADOW) return plan_rig_free_name(document, "meadow");
     const char *path = rig->kind == RIG_CHARACTER ? rig->character.model : rig->model.model;
-    const char *slash = strrchr(path, '/'), *file = slash ? slash + 1 : path;
-    const char *dot = strrchr(file, '.');
+    const char *file = path_name(path), *dot = strrchr(file, '.');
     char *stem = strndup(file, dot && dot > file ? (size_t)(dot - file) : strlen(file));
     char *name = stem ? plan_rig_free_name(document, stem[0] ? stem : "model") : NULL;
     free(stem);

@@ -2,6 +2,7 @@
 /// in it, nothing is removed but paint named after the scene.
 #include "scene/leftovers.h"
 #include "base/file.h"
+#include "base/path.h"
 #include <dirent.h>
 #include <fcntl.h>
 #include <stdio.h>
@@ -12,15 +13,9 @@
 
 enum { LARGEST_SCENE = 1 << 28, LARGEST_LIST = 1 << 16 };
 
-static const char *name_of(const char *path)
-{
-    const char *slash = strrchr(path, '/');
-    return slash ? slash + 1 : path;
-}
-
 bool leftovers_name(const char *scene, int number, char file[PATH_LIMIT])
 {
-    const char *name = name_of(scene), *dot = strrchr(name, '.');
+    const char *name = path_name(scene), *dot = strrchr(name, '.');
     const int stem = (int)(dot && dot > name ? dot - scene : (long)strlen(scene));
     char suffix[16] = "";
     if (number > 1) snprintf(suffix, sizeof suffix, "-%d", number);
@@ -49,7 +44,7 @@ static bool is_named(const char *folder, const char *name)
 void leftovers_remove(const char *file)
 {
     char folder[PATH_LIMIT];
-    if (path_folder(file, folder) && access(file, F_OK) == 0 && !is_named(folder, name_of(file))) unlink(file);
+    if (path_folder(file, folder) && access(file, F_OK) == 0 && !is_named(folder, path_name(file))) unlink(file);
 }
 
 /// Removes what the list names.
@@ -67,7 +62,7 @@ static void act_on(const struct leftovers *leftovers)
 
 void leftovers_open(struct leftovers *leftovers, const char *scene)
 {
-    const char *name = name_of(scene);
+    const char *name = path_name(scene);
     *leftovers = (struct leftovers){.scene = scene, .file = -1};
     if (snprintf(leftovers->path, PATH_LIMIT, "%.*s.%s.saving", (int)(name - scene), scene, name) >= PATH_LIMIT)
         leftovers->path[0] = '\0';
@@ -86,7 +81,7 @@ void leftovers_note(struct leftovers *leftovers, const char *file)
 {
     char own[PATH_LIMIT], real[PATH_LIMIT], line[16], end[2];
     int number = 1;
-    const char *mark = strstr(name_of(file), "-paint");
+    const char *mark = strstr(path_name(file), "-paint");
     for (const char *next = mark; next; next = strstr(next + 1, "-paint"))
         mark = next; // the scene's name may have one
     if (!mark || (sscanf(mark, "-paint-%d.np%1[y]", &number, end) != 2 && strcmp(mark, "-paint.npy") != 0)) return;

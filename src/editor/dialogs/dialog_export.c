@@ -34,12 +34,6 @@ static const struct dialog_format *format_of(const struct dialogs *dialogs)
     return &dialogs->dialog.files.formats[dialogs->exporting.format];
 }
 
-static const char *name_of(const char *path)
-{
-    const char *slash = strrchr(path, '/');
-    return slash ? slash + 1 : path;
-}
-
 /// A path with the ending of a format in place of that of another; false where it is too long.
 static bool with_ending(const struct dialog_files *files, const char *path, int format, char full[DIALOG_PATH_SIZE])
 {
@@ -136,7 +130,7 @@ static void confirm(struct dialogs *dialogs, struct core *core)
     const struct export_memory *memory = &dialogs->exporting.memory;
     if (is_running(dialog)) return;
     char full[DIALOG_PATH_SIZE];
-    const char *name = name_of(memory->path);
+    const char *name = path_name(memory->path);
     if (!*name || *name == '.') {
         snprintf(dialog->error, sizeof dialog->error, "Type a file name.");
         return;
@@ -467,7 +461,7 @@ static void build_buttons(struct dialogs *dialogs, struct core *core)
     const float end = is_running(dialog) ? row.x + row.w : right.x - UI_GAP;
     const struct rect left = {end - CANCEL_WIDTH, row.y, CANCEL_WIDTH, row.h};
     with_ending(&dialog->files, dialogs->exporting.memory.path, dialogs->exporting.format, full);
-    snprintf(label, sizeof label, "Write %.48s", name_of(full));
+    snprintf(label, sizeof label, "Write %.48s", path_name(full));
     const bool stopped = ui_button(ui, left, "dialog.cancel", "Cancel", false);
     if (!is_running(dialog) && ui_button(ui, right, "dialog.confirm", label, true)) confirm(dialogs, core);
     if (stopped) stop(dialogs, core);
@@ -479,7 +473,7 @@ void export_build(struct dialogs *dialogs, struct core *core, const struct edito
     struct ui *ui = &dialogs->dialog.ui;
     if (is_running(&dialogs->dialog)) {
         char title[96];
-        snprintf(title, sizeof title, "Writing %.80s", name_of(memory->path));
+        snprintf(title, sizeof title, "Writing %.80s", path_name(memory->path));
         ui_label(ui, ui_row(ui, UI_ROW), title, theme()->text);
         ui_space(ui, 4);
     } else {

@@ -1,4 +1,5 @@
 /// Completion of the path in the file dialogs, and the list of what it may become.
+#include "base/path.h"
 #include "editor/dialogs/dialog.h"
 #include "ui/theme.h"
 #include <math.h>
@@ -6,12 +7,7 @@
 #include <string.h>
 
 /// The part of the path behind the last '/'.
-static const char *name_part(const struct dialog *dialog)
-{
-    const char *path = dialog->ui.text.bytes;
-    const char *slash = strrchr(path, '/');
-    return slash ? slash + 1 : path;
-}
+static const char *name_part(const struct dialog *dialog) { return path_name(dialog->ui.text.bytes); }
 
 static void list_folder(struct dialog *dialog, const char *folder)
 {
@@ -118,7 +114,7 @@ static void label_recent(struct ui *ui, struct rect r, const struct dialog_recen
     int length = slash && slash > recent->path ? (int)(slash - recent->path) : 1;
     snprintf(folder, sizeof folder, "%.*s", length, recent->path);
     float half = floorf(r.w * 0.45f);
-    ui_label(ui, (struct rect){r.x + 6, r.y, half - 6, r.h}, slash ? slash + 1 : recent->path,
+    ui_label(ui, (struct rect){r.x + 6, r.y, half - 6, r.h}, path_name(recent->path),
              recent->missing ? theme()->text_dim : theme()->text);
     ui_label_right(ui, (struct rect){r.x + half + UI_GAP, r.y, r.w - half - UI_GAP - 6, r.h},
                    recent->missing ? "no longer exists" : folder, theme()->text_dim);

@@ -1,4 +1,5 @@
 /// Dialogs that ask a question: before an edit that touches more than was asked for, and about recovered work.
+#include "base/path.h"
 #include "editor/core/arrange.h"
 #include "editor/core/rigs.h"
 #include "editor/dialogs/dialog.h"
@@ -125,11 +126,10 @@ static void ask_remove(struct question *question, const struct document *documen
 static void ask_rig(struct question *question, const struct document *document, int rig)
 {
     char names[160];
-    const char *title = rig_title(&document->rigs[rig]), *slash = strrchr(title, '/');
     const int count = rigs_own_splines(document, rig, names, sizeof names);
     *question = QUESTION(rig_answers);
     snprintf(question->title, sizeof question->title, "Remove %.150s, with its spline%s or without?",
-             slash ? slash + 1 : title, count == 1 ? "" : "s");
+             path_name(rig_title(&document->rigs[rig])), count == 1 ? "" : "s");
     snprintf(question->note, sizeof question->note, "Nothing else moves by %s. Kept, %s for what you add next.",
              names, count == 1 ? "it stays" : "they stay");
 }

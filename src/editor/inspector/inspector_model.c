@@ -1,4 +1,5 @@
 /// The inspector's section on imported characters: what they are, which clip they play, where they stand, and the selected bone.
+#include "base/path.h"
 #include "editor/core/bones.h"
 #include "editor/core/core.h"
 #include "editor/inspector/inspection.h"
@@ -29,10 +30,9 @@ static struct edit model_edit(const struct inspection *in, enum edit_kind kind)
 
 static void build_file(struct inspection *in, const struct model_rig *rig, const struct imported *shown)
 {
-    const char *slash = strrchr(rig->model, '/');
     struct rect r = inspector_labelled(in, "file");
     ui_hint(in->ui, r, "The glTF file that shows this character");
-    ui_label(in->ui, r, slash ? slash + 1 : rig->model, theme()->text);
+    ui_label(in->ui, r, path_name(rig->model), theme()->text);
     if (!shown) ui_paragraph(in->ui, "wiggly could not read this file.", theme()->warning);
     if (!shown || !shown->gltf.not_shown) return;
     char text[512];
