@@ -93,6 +93,11 @@ void gl_uniform_linear(GLint location, uint32_t color)
     glUniform3fv(location, 1, linear);
 }
 
+void gl_find_uniforms(GLuint program, const struct gl_uniform *uniforms, size_t count)
+{
+    for (size_t i = 0; i < count; i++) *uniforms[i].location = glGetUniformLocation(program, uniforms[i].name);
+}
+
 int gl_largest_texture(void)
 {
     GLint largest = 0;

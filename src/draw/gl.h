@@ -4,11 +4,21 @@
 
 #include "base/error.h"
 #include <epoxy/gl.h>
+#include <stddef.h>
 #include <stdint.h>
 
 /// Compiles and links the embedded shaders "shaders/<vertex_name>" and "shaders/<fragment_name>", in which `define` (NULL: nothing)
 /// is defined. On failure 0, with the compiler's first complaint as a sentence.
 GLuint gl_program(const char *vertex_name, const char *fragment_name, const char *define, struct error *error);
+
+/// Where a program keeps a uniform.
+struct gl_uniform {
+    GLint *location;
+    const char *name;
+};
+
+/// Finds `count` of them; −1: the program has none of that name.
+void gl_find_uniforms(GLuint program, const struct gl_uniform *uniforms, size_t count);
 
 /// Side of the largest texture, texels.
 int gl_largest_texture(void);

@@ -48,10 +48,13 @@ struct stage_flat *stage_flat_create(struct error *error)
         free(flat);
         return NULL;
     }
-    flat->at.top = glGetUniformLocation(flat->program, "top");
-    flat->at.bottom = glGetUniformLocation(flat->program, "bottom");
-    flat->at.rows = glGetUniformLocation(flat->program, "rows");
-    flat->at.shadow = glGetUniformLocation(flat->program, "shadow");
+    const struct gl_uniform uniforms[] = {
+        {&flat->at.top, "top"},
+        {&flat->at.bottom, "bottom"},
+        {&flat->at.rows, "rows"},
+        {&flat->at.shadow, "shadow"},
+    };
+    gl_find_uniforms(flat->program, uniforms, sizeof uniforms / sizeof *uniforms);
     glGenVertexArrays(1, &flat->vertex_array);
     glBindVertexArray(flat->vertex_array);
     glGenBuffers(1, &flat->vertices);

@@ -32,13 +32,13 @@ static void *create(struct error *error)
         return NULL;
     }
     models->shared = painter_find_uniforms(models->program);
-    models->at.shade = glGetUniformLocation(models->program, "shade");
-    models->at.base = glGetUniformLocation(models->program, "base");
-    models->at.first = glGetUniformLocation(models->program, "first");
-    models->at.many = glGetUniformLocation(models->program, "many");
-    models->at.cutoff = glGetUniformLocation(models->program, "cutoff");
-    models->at.blended = glGetUniformLocation(models->program, "blended");
-    models->at.both_sides = glGetUniformLocation(models->program, "both_sides");
+    const struct gl_uniform uniforms[] = {
+        {&models->at.shade, "shade"},           {&models->at.base, "base"},
+        {&models->at.first, "first"},           {&models->at.many, "many"},
+        {&models->at.cutoff, "cutoff"},         {&models->at.blended, "blended"},
+        {&models->at.both_sides, "both_sides"},
+    };
+    gl_find_uniforms(models->program, uniforms, sizeof uniforms / sizeof *uniforms);
     glUseProgram(models->program);
     glUniform1i(glGetUniformLocation(models->program, "matrices"), MATRICES_UNIT);
     glUniform1i(glGetUniformLocation(models->program, "picture"), PICTURE_UNIT);

@@ -52,18 +52,13 @@ static bool program_create(struct morph_program *morph, const char *define, stru
 {
     morph->program = gl_program("stage_character.vert", "stage_mesh.frag", define, error);
     if (!morph->program) return false;
-    const struct {
-        GLint *location;
-        const char *name;
-    } uniforms[] = {
+    const struct gl_uniform uniforms[] = {
         {&morph->at.place, "place"},         {&morph->at.shade, "shade"},     {&morph->at.count, "count"},
         {&morph->at.first_row, "first_row"}, {&morph->at.weight, "weight"},   {&morph->at.map_row, "map_row"},
         {&morph->at.map_axis, "map_axis"},   {&morph->at.line, "line"},       {&morph->at.base, "base"},
         {&morph->at.dark, "dark"},           {&morph->at.blended, "blended"},
     };
-    for (size_t i = 0; i < sizeof uniforms / sizeof *uniforms; i++) {
-        *uniforms[i].location = glGetUniformLocation(morph->program, uniforms[i].name);
-    }
+    gl_find_uniforms(morph->program, uniforms, sizeof uniforms / sizeof *uniforms);
     morph->shared = painter_find_uniforms(morph->program);
     glUseProgram(morph->program);
     glUniform1i(glGetUniformLocation(morph->program, "coordinates"), COORDINATES_UNIT);

@@ -54,10 +54,13 @@ bool stage_skirt_create(struct stage_skirt *skirt, struct error *error)
         skirt->program = gl_program("stage_skirt.vert", "stage_mesh.frag", "SKIRT", error);
     if (skirt->program) {
         skirt->shared = painter_find_uniforms(skirt->program);
-        skirt->at.shade = glGetUniformLocation(skirt->program, "shade");
-        skirt->at.line = glGetUniformLocation(skirt->program, "line");
-        skirt->at.cutoff = glGetUniformLocation(skirt->program, "cutoff");
-        skirt->at.blended = glGetUniformLocation(skirt->program, "blended");
+        const struct gl_uniform uniforms[] = {
+            {&skirt->at.shade, "shade"},
+            {&skirt->at.line, "line"},
+            {&skirt->at.cutoff, "cutoff"},
+            {&skirt->at.blended, "blended"},
+        };
+        gl_find_uniforms(skirt->program, uniforms, sizeof uniforms / sizeof *uniforms);
         glUseProgram(skirt->program);
         glUniform1i(glGetUniformLocation(skirt->program, "picture"), PICTURE_UNIT);
         skirt->white = gl_white();

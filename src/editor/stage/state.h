@@ -102,6 +102,12 @@ enum { TRAIL_FRAMES = 256 };
 /// The arcs that can be shown at once.
 enum trail { TRAIL_OF_TIP, TRAIL_OF_PIN, TRAIL_OF_BODY, TRAILS };
 
+/// The vertex of a character that moves most, of the figure that was asked about last.
+struct liveliest {
+    uint64_t figure, version; ///< figure's id; 0: none yet
+    int vertex;
+};
+
 /// A point of a rig at a frame, as it was when the document was at `key`.
 struct trail_point {
     bool known;
@@ -199,6 +205,7 @@ struct stage {
     struct record record;
     struct sway sway[STAGE_MAX_TAILS];
     struct trail_point trail[TRAILS][TRAIL_FRAMES];
+    struct liveliest liveliest;
     struct skin skin;
     struct silhouette silhouette; ///< of what is drawn as an outline just now
     struct pointed pointed;

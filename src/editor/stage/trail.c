@@ -21,9 +21,11 @@ enum {
 static const double REACH = 2;                            ///< seconds to each side
 static const float OPACITY = 0.85f, MARK = 2.5f, NOW = 5; ///< pixels of a mark, and of the one at the playhead
 
-/// The vertex of a character that moves most.
-static int liveliest_vertex(const struct character *character)
+/// Looks at all vertices once a figure and version.
+static int liveliest_vertex(struct liveliest *known, const struct figure *figure)
 {
+    const struct character *character = &figure->character;
+    if (known->figure == figure->id && known->version == figure->version) return known->vertex;
     float most = -1;
     int found = 0;
     for (int i = 0; i < character->vertex_count; i++) {
@@ -35,10 +37,11 @@ static int liveliest_vertex(const struct character *character)
         if (way > most) found = i;
         most = fmaxf(most, way);
     }
+    *known = (struct liveliest){figure->id, figure->version, found};
     return found;
 }
 
-struct rig_point overlay_point(const struct stage *stage, const struct core *core, const struct editor_world *world)
+struct rig_point overlay_point(struct stage *stage, const struct core *core, const struct editor_world *world)
 {
     const int rig = overlay_rig(stage, core, world->document);
     if (rig >= 0) return (struct rig_point){rig, bones_joints(world, rig) - 1};
@@ -46,7 +49,7 @@ struct rig_point overlay_point(const struct stage *stage, const struct core *cor
     const struct figure *figure = models_figure(world->models, n);
     if (!figure) return (struct rig_point){-1, -1};
     return (struct rig_point){document_find_rig(world->document, RIG_CHARACTER, n),
-                              liveliest_vertex(&figure->character)};
+                              liveliest_vertex(&stage->liveliest, figure)};
 }
 
 static bool loops(const struct document *document, int spline)
