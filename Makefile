@@ -10,7 +10,7 @@
 #   make check    formatting, static analysis, include arrows, lengths
 #   make figures  the paper's figures as SVG and CSV, in FIGURES (build/figures)
 #   make feel     how curves answer to a knot that moves, and how far they overshoot, as a table
-#   make fuzz     every reader of files for SECONDS=20 each, or RUNS=10000000 inputs each; needs clang
+#   make fuzz     every reader of files for SECONDS=20 each, or RUNS=10000000 inputs each; SEED=1; needs clang
 #   make regress BASE=path/to/other/wiggly    frame times of two builds on the committed session
 #   make compile_commands.json    for clangd and other tools that read C
 #   make install  PREFIX=/usr/local DESTDIR=
@@ -164,10 +164,11 @@ regress: $(B)/wiggly $(B)/timing_diff
 
 # Objects of their own, for clang's fuzzer and both sanitizers.
 SECONDS ?= 20
+SEED ?= 1
 fuzz:
 	$(Q)tools/install-missing.sh build fuzz
 	$(Q)$(MAKE) --no-print-directory CC=$(if $(findstring clang,$(CC)),$(CC),clang) SANITIZE=1 FUZZ=1 B=$(B)/fuzz fuzzers
-	$(Q)SECONDS_EACH=$(SECONDS) RUNS=$(RUNS) tests/fuzz/run.sh $(B)/fuzz $(sort $(notdir $(FUZZERS)))
+	$(Q)SECONDS_EACH=$(SECONDS) RUNS=$(RUNS) SEED=$(SEED) tests/fuzz/run.sh $(B)/fuzz $(sort $(notdir $(FUZZERS)))
 
 # What make would run to compile everything anew.
 compile_commands.json: | packages

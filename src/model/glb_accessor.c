@@ -66,7 +66,7 @@ bool glb_view(const struct glb *glb, int64_t index, struct glb_bytes *bytes)
     int64_t start = glb_integer(view, "byteOffset", 0), length = glb_integer(view, "byteLength", -1);
     if (start < 0 || length < 0 || buffer < 0 || buffer >= glb->buffer_count) return false;
     const struct glb_bytes *whole = &glb->buffers[buffer].bytes;
-    if (start + length > (int64_t)whole->size) return false;
+    if (!whole->at || start + length > (int64_t)whole->size) return false;
     *bytes = (struct glb_bytes){whole->at + start, (size_t)length};
     return true;
 }
