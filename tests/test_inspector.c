@@ -86,7 +86,13 @@ static void test_typing_keeps_keys_from_the_editor(void **state)
     panel_press(&f, "frequency", 2);
     panel_release(&f);
     assert_true(inspector_is_typing(f.editor->inspector));
+    session_key(&f, 'A', MOD_CTRL); // all of what is typed, not all knots
     panel_type(&f, "v m.");
+    assert_int_equal(selection_count(&f.editor->core.selection, &f.document->splines[0]), 0);
+    session_key(&f, KEY_END, 0);
+    session_key(&f, 'A', MOD_CTRL);
+    panel_type(&f, "x");
+    assert_string_equal(f.editor->inspector->ui.text.bytes, "x");
     session_key(&f, KEY_DELETE, 0);
     session_key(&f, KEY_SPACE, 0);
     assert_int_equal(f.editor->core.look, LOOK_WIGGLY);
@@ -201,6 +207,9 @@ static void test_knot_is_edited_in_place(void **state)
     selection_set(&f.editor->core.selection, id, true);
     panel_enter(&f, "value", "0.75");
     assert_near(sway->knots[1].value, 0.75, 0);
+    panel_enter(&f, "value", "8"); // above all that was in sight
+    for (int frame = 0; frame < 90; frame++) session_frame(&f);
+    assert_true(f.editor->curves->view.value1 > 8);
     panel_enter(&f, "frame", "70"); // past its neighbour
     assert_near(sway->knots[2].frame, 70, 0);
     assert_int_equal(sway->knots[2].id, id);

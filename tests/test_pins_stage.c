@@ -266,6 +266,24 @@ static void test_the_keyboard_alone_is_enough(void **state)
     session_close(&s);
 }
 
+/// So they do where its place is typed.
+static void test_the_curves_follow_a_typed_place(void **state)
+{
+    (void)state;
+    struct session s;
+    panel_open_models(&s, creature);
+    session_frame(&s);
+    for (int step = 0; step < 10; step++) session_key(&s, KEY_RIGHT, 0);
+    session_pull(&s, "character(c,0.5,0.8)", 20, -10, 4);
+    session_release(&s, BUTTON_LEFT);
+    for (int frame = 0; frame < 90; frame++) session_frame(&s);
+    panel_enter(&s, "pin.y", "3");
+    for (int frame = 0; frame < 90; frame++) session_frame(&s);
+    const wiggly_curve *curve = s.world.evaluation->curves;
+    for (int sample = 0; sample <= 60; sample++) assert_true(curve->total[sample] < s.editor->curves->view.value1);
+    session_close(&s);
+}
+
 static void test_the_inspector_lists_pins_and_takes_numbers(void **state)
 {
     (void)state;
@@ -301,6 +319,7 @@ int main(void)
         cmocka_unit_test(test_the_surface_of_a_character_is_pinned_and_follows_the_pointer),
         cmocka_unit_test(test_what_hardly_moves_does_not_light_up),
         cmocka_unit_test(test_the_keyboard_alone_is_enough),
+        cmocka_unit_test(test_the_curves_follow_a_typed_place),
         cmocka_unit_test(test_the_inspector_lists_pins_and_takes_numbers),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

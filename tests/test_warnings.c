@@ -39,6 +39,8 @@ static void assert_remedied(struct session *s, const char *scene, enum warning_k
     session_point(s, "warning(0)");
     session_frame(s);
     assert_int_equal(s->editor->core.hover.kind, HOVER_WARNING);
+    for (int i = 0; i < 90; i++) session_frame(s);
+    assert_false(tooltip_is_shown(&s->editor->tooltip)); // it would cover what the warning says
     session_click(s, "warning(0)");
     session_frame(s);
     assert_int_equal(s->editor->curves->warnings.count, 0);

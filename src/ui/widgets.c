@@ -134,7 +134,8 @@ bool ui_is_typing_key(const struct ui *ui, const struct event *event)
 {
     if (!ui->typing) return false;
     if (event->kind == EVENT_TEXT) return true;
-    if (event->kind != EVENT_KEY || event->mods & MOD_CTRL) return false;
+    if (event->kind != EVENT_KEY) return false;
+    if (event->mods & MOD_CTRL) return ui_selects_all(event);
     return event->key < KEY_F1 || event->key > KEY_F12;
 }
 

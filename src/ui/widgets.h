@@ -114,7 +114,7 @@ bool ui_end(struct ui *ui);
 
 /// Cancels focus, hold and typing without a change.
 void ui_release(struct ui *ui);
-/// Whether a key event belongs to the text being typed: all but Ctrl chords and F keys.
+/// Whether a key event belongs to the text being typed: all but F keys and Ctrl chords, of which Ctrl+A does.
 bool ui_is_typing_key(const struct ui *ui, const struct event *event);
 
 /// The next row of `height` pixels, inset by UI_PAD from the panel's sides.
@@ -249,6 +249,8 @@ enum ui_line ui_line(struct ui *ui, struct rect r, const char *name);
 bool ui_text_field(struct ui *ui, struct rect r, const char *name);
 
 void ui_text_set(struct ui_text *text, const char *utf8);
+/// Ctrl+A.
+bool ui_selects_all(const struct event *event);
 /// One key or character; false if the line does not use it. `changed` may be NULL.
 bool ui_text_event(struct ui_text *text, const struct event *event, bool *changed);
 

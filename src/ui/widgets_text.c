@@ -111,11 +111,19 @@ static bool caret_key(struct ui_text *text, int key)
     return true;
 }
 
+bool ui_selects_all(const struct event *event)
+{
+    return event->kind == EVENT_KEY && event->action != ACTION_RELEASE && event->key == 'A' &&
+           event->mods == MOD_CTRL;
+}
+
 bool ui_text_event(struct ui_text *text, const struct event *event, bool *changed)
 {
     bool edited = false, used = true;
     if (event->kind == EVENT_TEXT) {
         edited = insert(text, event->codepoint);
+    } else if (ui_selects_all(event)) {
+        text->all = text->length > 0;
     } else if (event->kind == EVENT_KEY && event->action != ACTION_RELEASE && !(event->mods & MOD_CTRL)) {
         if (event->key == KEY_BACKSPACE || event->key == KEY_DELETE) {
             edited = erase_key(text, event->key);

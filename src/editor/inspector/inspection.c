@@ -11,6 +11,8 @@ void inspector_take_back(struct inspection *in, enum ui_change change)
     core_refresh(in->core, in->world);
 }
 
+bool inspector_changed(enum ui_change change) { return change == UI_DROP || change == UI_SET || change == UI_NUDGE; }
+
 void inspector_change(struct inspection *in, enum ui_change change, const char *label, const char *what,
                       const struct edit *edit)
 {

@@ -78,6 +78,8 @@ void inspector_model_lists(struct inspection *in);
 /// The lists that open over the section on a character; built after all else in the panel.
 void inspector_character_lists(struct inspection *in);
 
+/// Whether that is the end of a change, and no step of a drag: the curves may follow.
+bool inspector_changed(enum ui_change change);
 /// While a drag runs: the document as it was at the press, until inspector_change() makes the edit anew.
 void inspector_take_back(struct inspection *in, enum ui_change change);
 

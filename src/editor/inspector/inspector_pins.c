@@ -150,6 +150,7 @@ static void build_field(struct inspection *in, int field)
     if (change == UI_DRAG && there >= 0 && in->document->rigs[rig].pins[there].id != pin->id) return;
     const struct edit edit = pins_edit(EDIT_PIN_SET, rig, &next);
     inspector_change(in, change, fields[field].undo, number.name, &edit);
+    if (inspector_changed(change)) pins_tell(in->core, in->world, rig);
 }
 
 void inspector_pins(struct inspection *in)

@@ -123,7 +123,6 @@ const char *transport_hint(const struct core *core, const struct document *docum
     case HOVER_LOOP:
     case HOVER_SPEED:
     case HOVER_UNITS:
-    case HOVER_WARNING:
         return hover_hint(core, document);
     default:
         return NULL;
