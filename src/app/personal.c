@@ -239,10 +239,13 @@ void personal_start(struct app *app)
 
 static struct autosave_work work_of(const struct app *app)
 {
+    const struct own_file *own = &app->own_file;
+    const bool is_own = strcmp(own->path, app_path(app)) == 0;
     return (struct autosave_work){.document = app->table.document,
                                   .path = app_path(app),
                                   .revision = history_revision(app->table.history),
-                                  .saved = history_is_saved(app->table.history)};
+                                  .saved = history_is_saved(app->table.history),
+                                  .stamp = is_own ? own->stamp : (struct file_stamp){0}};
 }
 
 void personal_update(struct app *app)
@@ -264,13 +267,6 @@ bool personal_is_behind(const struct app *app)
     return autosave_is_behind(app->personal->autosave, &work);
 }
 
-/// Whether a file was written after that time.
-static bool is_newer(const char *path, time_t time)
-{
-    const struct file_stamp stamp = file_stamp(path);
-    return stamp.is_there && stamp.modified.tv_sec > time;
-}
-
 bool personal_recover(struct app *app, struct error *error)
 {
     struct personal *personal = app->personal;
@@ -282,8 +278,8 @@ bool personal_recover(struct app *app, struct error *error)
         return fail(error, ERROR_ENVIRONMENT, "not enough memory to recover");
     }
     app_adopt(app, document);
-    app->own_file = (struct own_file){0};
-    if (!is_newer(app_path(app), personal->offered.time)) theirs_note(app);
+    app->own_file = (struct own_file){.stamp = personal->offered.stamp}; // what was written since is theirs
+    snprintf(app->own_file.path, sizeof app->own_file.path, "%s", app_path(app));
     history_mark_unsaved(app->table.history);
     autosave_move(personal->autosave, &personal->offered.slot);
     personal->is_offered = false;
