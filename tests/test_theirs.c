@@ -48,6 +48,11 @@ static bool holds(const char *path, const char *name)
     return strstr(text, quoted) != NULL;
 }
 
+static const char *title(const struct blind *blind)
+{
+    return blind->app.table.editor->dialogs->dialog.question.title;
+}
+
 static enum dialog_kind asked(const struct blind *blind) { return blind->app.table.editor->dialogs->dialog.kind; }
 
 /// A scene with a knot that is not saved.
@@ -349,6 +354,26 @@ static void paint_that_is_kept_at_focus_is_saved_later(void **state)
     unlink(folder_path("walk-paint-2.npy"));
 }
 
+/// The file that has changed is named; where both have, the scene.
+static void the_question_names_the_file(void **state)
+{
+    (void)state;
+    struct blind blind;
+    open_painted(&blind);
+    assert_string_equal(title(&blind), "walk-paint.npy has changed on the disk");
+    press(&blind, KEY_ESCAPE, 0);
+    press(&blind, 'S', MOD_CTRL);
+    assert_string_equal(title(&blind), "walk-paint.npy has changed on the disk");
+    press(&blind, KEY_ESCAPE, 0);
+    write_painted_scene(72);
+    focus(&blind);
+    assert_string_equal(title(&blind), "walk.json has changed on the disk");
+    press(&blind, KEY_ESCAPE, 0);
+    press(&blind, 'S', MOD_CTRL);
+    assert_string_equal(title(&blind), "walk.json has changed on the disk");
+    blind_close(&blind);
+}
+
 static void their_paint_is_taken(void **state)
 {
     (void)state;
@@ -489,6 +514,7 @@ int main(void)
         cmocka_unit_test(the_content_counts),
         cmocka_unit_test(paint_alone_is_noticed_and_mine_kept),
         cmocka_unit_test(paint_that_is_kept_at_focus_is_saved_later),
+        cmocka_unit_test(the_question_names_the_file),
         cmocka_unit_test(their_paint_is_taken),
         cmocka_unit_test(the_mouse_answers),
         cmocka_unit_test(what_others_wrote_before_recovery_is_noticed),

@@ -169,7 +169,7 @@ static bool is_theirs(const struct document *document, struct rig *rig, char pat
            file_stamp_differs(path, &character->file);
 }
 
-uint64_t scene_paint_theirs(struct document *document)
+uint64_t scene_paint_theirs(struct document *document, const char **name)
 {
     uint64_t hash = 0;
     int i = document_next_rig(document, RIG_CHARACTER, 0);
@@ -177,6 +177,7 @@ uint64_t scene_paint_theirs(struct document *document)
         char path[PATH_LIMIT];
         if (!is_theirs(document, &document->rigs[i], path)) continue;
         const uint64_t content = file_stamp(path).content;
+        if (hash == 0) *name = document->rigs[i].character.paint;
         hash = hash_bytes(hash ? hash : HASH_START, &content, sizeof content);
     }
     return hash;
