@@ -12,7 +12,7 @@
 #include <time.h>
 #include <unistd.h>
 
-enum { MAX_LINES = 1000, MAX_WAITS = 5000 };
+enum { MAX_LINES = 1000, PATIENCE = 5000 };
 
 static const size_t LARGEST = 1 << 20;
 
@@ -101,7 +101,7 @@ static int lock_folder(const char *path)
     char folder[PATH_LIMIT];
     if (!path_folder(path, folder)) return -1;
     const int lock = open(folder[0] ? folder : ".", O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-    for (int i = 0; lock >= 0 && i < MAX_WAITS && flock(lock, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK; i++)
+    for (int i = 0; lock >= 0 && i < PATIENCE && flock(lock, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK; i++)
         nanosleep(&(struct timespec){.tv_nsec = 1000000}, NULL);
     return lock;
 }
