@@ -383,22 +383,38 @@ static void record_panel(float playhead)
     drawlist_rect(&list, (struct rect){playhead, 120.0f, 1.0f, 120.0f}, theme()->playhead);
 }
 
-static void test_moving_playhead_redraws_narrow_strips(void **state)
+/// Moves the playhead beside a stage; what that costs.
+static struct draw_cost move_playhead(const struct stage_view *stage)
 {
-    (void)state;
     record_panel(50.0f);
-    struct stage_view stage = some_stage(0.0f);
-    show_on(&stage, false, pixels);
+    show_on(stage, false, pixels);
     record_panel(50.0f);
-    struct draw_cost cost = show_on(&stage, true, pixels);
+    struct draw_cost cost = show_on(stage, true, pixels);
     assert_int_equal(cost.rectangles, 0);
     assert_int_equal(cost.pixels, 0);
     record_panel(200.0f);
-    cost = show_on(&stage, true, pixels);
+    return show_on(stage, true, pixels);
+}
+
+static void test_moving_playhead_redraws_narrow_strips(void **state)
+{
+    (void)state;
+    struct stage_view stage = some_stage(0.0f);
+    struct draw_cost cost = move_playhead(&stage);
     assert_int_equal(cost.rectangles, 2);
     assert_true(cost.pixels <= 2 * 16 * 128);
     assert_int_equal(at(200, 130), theme()->playhead >> 8);
     assert_int_equal(at(50, 130), theme()->panel >> 8);
+}
+
+static void test_a_stage_out_of_the_way_is_not_uploaded(void **state)
+{
+    (void)state;
+    struct stage_view stage = some_stage(0.0f);
+    stage.viewport.h = 90.0f;
+    long bytes = move_playhead(&stage).uploaded_bytes;
+    stage.blob_count = 3; // shadows, which cost some bytes more
+    assert_int_equal(move_playhead(&stage).uploaded_bytes, bytes);
 }
 
 // More than a buffer holds at once, in one line: drawn in several goes, its last point as well as its first.
@@ -506,6 +522,7 @@ int main(void)
         cmocka_unit_test(test_partial_redraw_equals_full_redraw),
         cmocka_unit_test(test_only_the_stage_loses_resolution),
         cmocka_unit_test(test_moving_playhead_redraws_narrow_strips),
+        cmocka_unit_test(test_a_stage_out_of_the_way_is_not_uploaded),
         cmocka_unit_test(test_very_long_line_is_drawn_whole),
         cmocka_unit_test(test_reference_frame_does_not_depend_on_the_scene),
     };

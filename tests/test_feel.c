@@ -132,6 +132,27 @@ static void test_a_tooltip_is_near_the_pointer(void **state)
     session_close(&s);
 }
 
+/// All words of a tooltip are drawn, inside its box.
+static void assert_whole(const struct tooltip *tooltip, struct rect window)
+{
+    struct drawlist list;
+    char said[512] = "";
+    const struct rect box = tooltip_box(tooltip, window);
+    assert_true(drawlist_create(&list, 64, 1024, 1024));
+    drawlist_clear(&list, window);
+    tooltip_show(tooltip, window, &list);
+    for (int i = 0; i < list.count; i++) {
+        const struct draw_command *c = &list.commands[i];
+        if (c->kind != DRAW_TEXT) continue;
+        const char *line = list.text + c->first;
+        strcat(strcat(said, *said && said[strlen(said) - 1] != ' ' ? " " : ""), line);
+        assert_true(c->x > box.x && c->x + font_width(c->font, c->width, line) < box.x + box.w);
+        assert_true(c->y - c->width > box.y && c->y < box.y + box.h);
+    }
+    assert_string_equal(said, tooltip->text);
+    drawlist_destroy(&list);
+}
+
 /// Points at each control that Tab could reach, in every section.
 static void assert_all_explained(struct session *s)
 {
@@ -153,9 +174,11 @@ static void assert_all_explained(struct session *s)
         const struct rect *r = &stops[i].rect;
         session_move(s, r->x + r->w / 2, r->y + r->h / 2);
         session_frame(s);
-        if (!inspector_hint(s->editor->inspector))
+        const char *hint = inspector_hint(s->editor->inspector);
+        if (!hint)
             fail_msg("the control at %g, %g, %g × %g has no tooltip", (double)r->x, (double)r->y, (double)r->w,
                      (double)r->h);
+        assert_whole(&(struct tooltip){.text = hint, .at = *r, .rest = 1}, s->editor->core.layout.window);
     }
 }
 

@@ -101,9 +101,9 @@ struct scaling {
     double edge[2];                 ///< frame and value of the knots at the handle
     double playhead[2], balance[2]; ///< frame and value: of the playhead's pivot; of the equilibrium in the middle
     struct factors by;
-    double free_time;    ///< last factor by which no knot was hit
-    char typed[16];      ///< one factor or, with a space between them, two in place of the pointer's
-    char stopped[2][80]; ///< why time, and value, go no further, or ""
+    double free_time;              ///< last factor by which no knot was hit
+    char typed[16];                ///< one factor or, with a space between them, two in place of the pointer's
+    char stopped[2][STOPPED_SIZE]; ///< why time, and value, go no further, or ""
     char sentence[400];
 };
 
