@@ -12,6 +12,7 @@
 #include "platform/surface.h"
 #include "scene/load.h"
 #include "ui/font.h"
+#include "world.h"
 #include <time.h>
 
 /// The fonts as the app reads and rasterises them.
@@ -53,6 +54,37 @@ static void pictures(void **state)
     char path[128];
     snprintf(path, sizeof path, "%s", folder_path("picture.png"));
     starve("a picture", write_picture, path, 300);
+}
+
+enum { MANY = 200 };
+
+/// A knot more on the last of many splines, which is then solved anew, also where there is no room to note which it is.
+static int edit_the_last_of_many(void *user)
+{
+    struct world *world = user;
+    bool dirty[MANY];
+    if (!world_step(world, edit_insert(MANY - 1, 5, 5))) return strstr(world->error.text, "emory") ? 3 : 4;
+    history_take_dirty(world->history, world->document, dirty, MANY);
+    return dirty[MANY - 1] ? 0 : 5;
+}
+
+static void an_edit_of_many_splines(void **state)
+{
+    (void)state;
+    struct world world;
+    bool dirty[MANY];
+    world_open(&world);
+    while (world.document->spline_count < MANY)
+        world_must(&world, (struct edit){.kind = EDIT_SPLINE_ADD, .spline = -1});
+    history_destroy(world.history);
+    world.history = history_create(); // one with room for few
+    history_take_dirty(world.history, world.document, dirty, MANY);
+    long all = 1;
+    for (long k = -1; k < all; k++) {
+        const int status = starve_once(edit_the_last_of_many, &world, k, 0, k < 0 ? &all : NULL);
+        assert_true(WIFEXITED(status) && WEXITSTATUS(status) <= 3);
+    }
+    world_close(&world);
 }
 
 /// Tokens that end in every way the reader looks past, each longer than any before it; it is whole where it is said to be read.
@@ -292,11 +324,17 @@ static void unsaved_work(void **state)
 int main(int argc, char **argv)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(fonts),     cmocka_unit_test(pictures),
-        cmocka_unit_test(json),      cmocka_unit_test(check),
-        cmocka_unit_test(solve),     cmocka_unit_test(export_),
-        cmocka_unit_test(rig),       cmocka_unit_test(simulate_and_analyze),
-        cmocka_unit_test(a_session), cmocka_unit_test(unsaved_work),
+        cmocka_unit_test(fonts),
+        cmocka_unit_test(pictures),
+        cmocka_unit_test(json),
+        cmocka_unit_test(an_edit_of_many_splines),
+        cmocka_unit_test(check),
+        cmocka_unit_test(solve),
+        cmocka_unit_test(export_),
+        cmocka_unit_test(rig),
+        cmocka_unit_test(simulate_and_analyze),
+        cmocka_unit_test(a_session),
+        cmocka_unit_test(unsaved_work),
     };
     if (!CAN_STARVE) {
         puts("skip - what allocates here cannot be interposed");
