@@ -244,3 +244,8 @@ int spline_find_id(const struct spline *spline, unsigned id)
     }
     return -1;
 }
+
+double spline_within(const struct spline *spline, double value)
+{
+    return fmin(fmax(value, spline->parameter[PARAMETER_LOW].value), spline->parameter[PARAMETER_HIGH].value);
+}

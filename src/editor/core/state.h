@@ -7,7 +7,7 @@
 #include "editor/core/world.h"
 #include <stdint.h>
 
-enum { EDITOR_MAX_REQUESTS = 8, CORE_MAX_RECENT = 16 };
+enum { EDITOR_MAX_REQUESTS = 8, CORE_MAX_RECENT = 16, STOPPED_SIZE = 96 /* of what stops an edit, in words */ };
 
 /// Rectangles of the panels, in logical pixels; made by core_layout().
 struct layout {
@@ -76,6 +76,7 @@ struct drag {
     bool snap;
     bool stale;    ///< the pointer moved since the edits were made
     unsigned knot; ///< id of the active spline's knot that is held; 0: none
+    bool stopped;  ///< the status line says what by
 };
 
 /// A knot as it was before the edit that moves it.

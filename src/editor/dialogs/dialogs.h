@@ -35,7 +35,7 @@ void dialogs_show(struct dialogs *dialogs, struct core *core, const struct edito
 void dialogs_ask(struct dialogs *dialogs, const struct core *core, const struct editor_world *world,
                  const struct ask *ask);
 /// See editor_ask_changed().
-bool dialogs_ask_changed(struct dialogs *dialogs, const struct core *core, bool saving);
+bool dialogs_ask_changed(struct dialogs *dialogs, const char *name, bool saving);
 /// See editor_offer_recovery().
 void dialogs_offer_recovery(struct dialogs *dialogs, const struct recovery_offer *offer);
 /// true where an open dialog, the help or the card for new users takes the event; `busy`: no help now.
@@ -46,7 +46,7 @@ bool dialogs_cover(const struct dialogs *dialogs);
 /// The same, and what the pointer is over there.
 bool dialogs_over(const struct dialogs *dialogs, enum ui_over *over);
 /// How far down the left side of the stage is free.
-float dialogs_bottom(const struct dialogs *dialogs, const struct core *core, const struct document *document);
+float dialogs_bottom(const struct dialogs *dialogs, const struct core *core);
 /// Shows the card for new users.
 void dialogs_welcome(struct dialogs *dialogs);
 /// Whether it is still to be seen.
@@ -59,7 +59,8 @@ void dialogs_advance(struct dialogs *dialogs, const struct core *core, double dt
 bool dialogs_want_frames(const struct dialogs *dialogs, const struct core *core);
 /// While presenting, and in a demo: what is pressed, its caption and pointer.
 void dialogs_show_input(const struct dialogs *dialogs, struct core *core);
-/// A card on the stage with what to try first.
-void dialogs_show_welcome(struct dialogs *dialogs, struct core *core, const struct editor_world *world);
+/// A card on the stage with what to try first, beside `figure`, which is what the scene shows.
+void dialogs_show_welcome(struct dialogs *dialogs, struct core *core, const struct editor_world *world,
+                          struct rect figure);
 
 #endif
