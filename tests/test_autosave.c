@@ -140,7 +140,7 @@ static void test_newest_first(void **state)
     for (int i = 0; i < 3; i++) assert_true(recovery_claim(folder, &slots[i], &error));
     static const int order[] = {0, 2, 1};
     for (int i = 0; i < 3; i++) {
-        assert_true(recovery_write(&slots[order[i]], originals[order[i]], "{}", 2, &error));
+        assert_true(recovery_write(&slots[order[i]], originals[order[i]], NULL, "{}", 2, &error));
         nanosleep(&(struct timespec){.tv_nsec = 20000000}, NULL); // the clock of file times is a coarse one
     }
     for (int i = 0; i < 3; i++) recovery_release(&slots[i]);

@@ -63,8 +63,10 @@ static bool frame(struct session *session, int key, unsigned mods)
                                                    .mods = mods,
                                                    .action = action ? ACTION_RELEASE : ACTION_PRESS});
     blind_frame(&session->blind);
-    const struct autosave_work work = {document_of(session), app_path(app), history_revision(app->table.history),
-                                       history_is_saved(app->table.history)};
+    const struct autosave_work work = {.document = document_of(session),
+                                       .path = app_path(app),
+                                       .revision = history_revision(app->table.history),
+                                       .saved = history_is_saved(app->table.history)};
     if (!autosave_update(session->autosave, &work, (double)session->frame++ / RATE, &error))
         fail_msg("%s", error.text);
     return document_of(session)->snapshot;

@@ -477,7 +477,7 @@ static void a_recovery_file_keeps_paint(void **state)
     assert_true(scene_print_into(s.document, RECOVERY_FOLDER, &text, &capacity, &size));
     assert_true(scene_print_paint(s.document, &text, &capacity, &size));
     if (!recovery_claim(folder, &slot, &error)) fail_msg("%s", error.text);
-    assert_true(recovery_write(&slot, in(folder, "walk.json"), text, size, &error));
+    assert_true(recovery_write(&slot, in(folder, "walk.json"), NULL, text, size, &error));
     struct studio t = {recovery_read(&slot, &error), history_create()};
     if (!t.document) fail_msg("%s", error.text);
     assert_true(scene_read_paint(t.document, &error)); // has nothing to do: the saved file is older
@@ -487,7 +487,7 @@ static void a_recovery_file_keeps_paint(void **state)
     save(&t, folder, "walk.json");
     assert_loads(&s, folder, "walk.json", "walk-paint-2.npy");
     assert_false(is_there(folder, "walk-paint.npy"));
-    assert_true(recovery_write(&slot, "", text, size - 1, &error)); // cut off
+    assert_true(recovery_write(&slot, "", NULL, text, size - 1, &error)); // cut off
     assert_null(recovery_read(&slot, &error));
     recovery_release(&slot);
     free(text);

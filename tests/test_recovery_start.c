@@ -34,7 +34,7 @@ static void leave(const char *original, const char *name)
     snprintf(text, sizeof text,
              "{\"wiggly\": 1, \"frames\": [0, 48], \"splines\": [{\"name\": \"%s\", \"knots\": []}]}", name);
     if (!recovery_claim(state_folder(), &slot, &error)) fail_msg("%s", error.text);
-    assert_true(recovery_write(&slot, original, text, strlen(text), &error));
+    assert_true(recovery_write(&slot, original, NULL, text, strlen(text), &error));
     recovery_release(&slot);
 }
 

@@ -1,12 +1,14 @@
 /// The settings file, and the list of recent files in it.
-#include "near.h"
+#include "blind.h"
 
+#include "app/personal.h"
 #include "app/recent.h"
 #include "base/file.h"
 #include "folder.h"
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 static char path[96];
@@ -132,6 +134,56 @@ static void test_recent(void **state)
     settings_free(settings);
 }
 
+enum { ROUNDS = 5, EACH = DIALOG_MAX_RECENT / 2 };
+
+static void name_file(char file[96], int window, int i) { snprintf(file, 96, "%s/%d-%d.json", folder, window, i); }
+
+/// One window opens its files, each of which is a change of the settings.
+static void open_files(int window)
+{
+    struct blind blind;
+    char file[96];
+    blind_open(&blind, NULL);
+    personal_start(&blind.app);
+    for (int i = 0; i < EACH; i++) {
+        name_file(file, window, i);
+        personal_note_file(&blind.app, file);
+    }
+    personal_end(&blind.app, false);
+    blind_close(&blind);
+    _exit(0);
+}
+
+/// Two windows change the file at the same time: it holds what both have changed.
+static void test_two_windows(void **state)
+{
+    (void)state;
+    char file[96], settings_path[128];
+    struct dialog_recent files[DIALOG_MAX_RECENT];
+    snprintf(settings_path, sizeof settings_path, "%s/wiggly/settings", folder);
+    assert_int_equal(setenv("XDG_CONFIG_HOME", folder, 1), 0);
+    assert_int_equal(setenv("XDG_STATE_HOME", folder, 1), 0);
+    for (int i = 0; i < 2 * EACH; i++) {
+        name_file(file, i % 2, i / 2);
+        write_text(file, "{}");
+    }
+    for (int round = 0; round < ROUNDS; round++) {
+        struct error error;
+        unlink(settings_path);
+        for (int window = 0; window < 2; window++) {
+            if (fork() == 0) open_files(window);
+        }
+        for (int window = 0, status; window < 2; window++) {
+            assert_true(wait(&status) > 0);
+            assert_int_equal(status, 0);
+        }
+        struct settings *settings = settings_load(settings_path, &error);
+        assert_non_null(settings);
+        assert_int_equal(recent_list(settings, files, DIALOG_MAX_RECENT), 2 * EACH);
+        settings_free(settings);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -140,6 +192,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(test_broken, make_folder, folder_remove),
         cmocka_unit_test_setup_teardown(test_unstorable, make_folder, folder_remove),
         cmocka_unit_test_setup_teardown(test_recent, make_folder, folder_remove),
+        cmocka_unit_test_setup_teardown(test_two_windows, make_folder, folder_remove),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -2,6 +2,7 @@
 #include "blind.h"
 #include "inside.h"
 
+#include "app/personal.h"
 #include "folder.h"
 #include "scene/load.h"
 #include "shown.h"
@@ -45,6 +46,11 @@ static bool holds(const char *path, const char *name)
     fclose(file);
     snprintf(quoted, sizeof quoted, "\"name\": \"%s\"", name);
     return strstr(text, quoted) != NULL;
+}
+
+static const char *title(const struct blind *blind)
+{
+    return blind->app.table.editor->dialogs->dialog.question.title;
 }
 
 static enum dialog_kind asked(const struct blind *blind) { return blind->app.table.editor->dialogs->dialog.kind; }
@@ -249,15 +255,30 @@ static void paint_mark(struct document *document, float mark)
     for (int v = 0; v < VERTICES; v++) rig->painted->values[v][1] = mark;
 }
 
+static void print_character(char text[512], int last_frame, const char *paint)
+{
+    snprintf(text, 512,
+             "{\"wiggly\": 1, \"frames\": [0, %d], \"splines\": [{\"name\": \"s\", \"knots\": []}], \"rigs\": "
+             "[{\"type\": \"character\", \"name\": \"c\", \"model\": \"m.glb\", %s\"coordinates\": "
+             "[{\"name\": \"a\", \"spline\": \"s\"}]}]}",
+             last_frame, paint);
+}
+
+/// Another program writes the scene's file and leaves the paint alone.
+static void write_painted_scene(int last_frame)
+{
+    char text[512];
+    print_character(text, last_frame, "\"paint\": \"walk-paint.npy\", ");
+    write_scene(text);
+}
+
 /// A scene with a painted character, saved.
 static void write_painted(float mark)
 {
-    static const char text[] =
-        "{\"wiggly\": 1, \"frames\": [0, 48], \"splines\": [{\"name\": \"s\", \"knots\": []}], \"rigs\": "
-        "[{\"type\": \"character\", \"name\": \"c\", \"model\": \"m.glb\", \"coordinates\": "
-        "[{\"name\": \"a\", \"spline\": \"s\"}]}]}";
+    char text[512];
+    print_character(text, 48, "");
     struct error error = {0};
-    struct document *document = scene_parse("walk", text, sizeof text - 1, NULL, &error);
+    struct document *document = scene_parse("walk", text, strlen(text), NULL, &error);
     if (!document) fail_msg("%s", error.text);
     document->folder = strdup(folder);
     assert_true(document_set_path(document, scene()));
@@ -333,6 +354,26 @@ static void paint_that_is_kept_at_focus_is_saved_later(void **state)
     unlink(folder_path("walk-paint-2.npy"));
 }
 
+/// The file that has changed is named; where both have, the scene.
+static void the_question_names_the_file(void **state)
+{
+    (void)state;
+    struct blind blind;
+    open_painted(&blind);
+    assert_string_equal(title(&blind), "walk-paint.npy has changed on the disk");
+    press(&blind, KEY_ESCAPE, 0);
+    press(&blind, 'S', MOD_CTRL);
+    assert_string_equal(title(&blind), "walk-paint.npy has changed on the disk");
+    press(&blind, KEY_ESCAPE, 0);
+    write_painted_scene(72);
+    focus(&blind);
+    assert_string_equal(title(&blind), "walk.json has changed on the disk");
+    press(&blind, KEY_ESCAPE, 0);
+    press(&blind, 'S', MOD_CTRL);
+    assert_string_equal(title(&blind), "walk.json has changed on the disk");
+    blind_close(&blind);
+}
+
 static void their_paint_is_taken(void **state)
 {
     (void)state;
@@ -373,6 +414,91 @@ static void the_mouse_answers(void **state)
     }
 }
 
+/// Whoever writes a file, and when: before the work was kept, or between the crash and the next start.
+static void nobody(bool kept) { (void)kept; }
+
+static void paint_once_kept(bool kept)
+{
+    if (kept) write_paint(2);
+}
+
+static void paint_before(bool kept)
+{
+    if (!kept) write_paint(2);
+}
+
+static void scene_once_kept(bool kept)
+{
+    if (kept) write_painted_scene(72);
+}
+
+static void scene_before(bool kept)
+{
+    if (!kept) write_painted_scene(72);
+}
+
+static void open_at_desk(struct blind *blind)
+{
+    blind_open(blind, scene());
+    personal_start(&blind->app);
+    blind_frame(blind);
+}
+
+static void crash(struct blind *blind)
+{
+    assert_non_null(personal_rescue(&blind->app));
+    personal_end(&blind->app, true);
+    blind_close(blind);
+}
+
+/// What is recovered began with files that may be others by now. It is asked about once more where a second crash follows.
+static void what_others_wrote_before_recovery_is_noticed(void **state)
+{
+    (void)state;
+    static const struct {
+        void (*theirs)(bool kept);
+        bool asks;
+    } cases[] = {{nobody, false},
+                 {paint_once_kept, true},
+                 {paint_before, true},
+                 {scene_once_kept, true},
+                 {scene_before, true}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        struct blind blind;
+        unlink(folder_path("walk-paint.npy"));
+        write_painted(1);
+        open_at_desk(&blind);
+        press(&blind, 'I', 0);
+        cases[i].theirs(false);
+        crash(&blind);
+        cases[i].theirs(true);
+        for (int crashes = 0; crashes < 2; crashes++) {
+            open_at_desk(&blind);
+            assert_int_equal(asked(&blind), DIALOG_RECOVER);
+            press(&blind, 'R', 0);
+            assert_int_equal(blind.app.table.document->splines[0].knot_count, 1);
+            if (crashes == 0) crash(&blind);
+        }
+        press(&blind, 'S', MOD_CTRL);
+        assert_int_equal(asked(&blind), cases[i].asks ? DIALOG_CHANGED : DIALOG_NONE);
+        assert_near(paint_on_disk(), cases[i].theirs == paint_once_kept || cases[i].theirs == paint_before ? 2 : 1,
+                    0);
+        if (cases[i].asks) press(&blind, 'K', 0);
+        assert_int_equal(asked(&blind), DIALOG_NONE);
+        assert_near(paint_on_disk(), 1, 0);
+        assert_true(history_is_saved(blind.app.table.history));
+        personal_end(&blind.app, false);
+        blind_close(&blind);
+        unlink(folder_path("walk-paint-2.npy"));
+    }
+}
+
+static int prepare(void **state)
+{
+    if (folder_make(state) != 0) return -1;
+    return setenv("XDG_STATE_HOME", folder_path("state"), 1) || setenv("XDG_CONFIG_HOME", folder_path("config"), 1);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -388,8 +514,10 @@ int main(void)
         cmocka_unit_test(the_content_counts),
         cmocka_unit_test(paint_alone_is_noticed_and_mine_kept),
         cmocka_unit_test(paint_that_is_kept_at_focus_is_saved_later),
+        cmocka_unit_test(the_question_names_the_file),
         cmocka_unit_test(their_paint_is_taken),
         cmocka_unit_test(the_mouse_answers),
+        cmocka_unit_test(what_others_wrote_before_recovery_is_noticed),
     };
-    return cmocka_run_group_tests(tests, folder_make, folder_remove);
+    return cmocka_run_group_tests(tests, prepare, folder_remove);
 }

@@ -155,7 +155,7 @@ static int keep(void *user)
     struct error error = {0};
     char text[32];
     snprintf(text, sizeof text, "version %d", NEW);
-    return recovery_write(&job->slot, "/walk.json", text, strlen(text), &error) ? 0 : error.text[0] ? 3 : 9;
+    return recovery_write(&job->slot, "/walk.json", NULL, text, strlen(text), &error) ? 0 : error.text[0] ? 3 : 9;
 }
 
 static int kept_version(void)

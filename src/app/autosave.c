@@ -24,6 +24,7 @@ struct autosave {
     struct recovery_slot slot;
     struct snapshot *snapshot;    ///< the frame's while the job is JOB_NONE, the thread's while it is another
     char original[RECOVERY_PATH]; ///< the path of the document's own file; likewise
+    struct file_stamp stamp;      ///< of that; likewise
     uint64_t revision;            ///< of the last copy
     double taken;                 ///< when it was begun
     bool has_file, complained;
@@ -44,7 +45,7 @@ static bool write_work(struct autosave *autosave, struct error *error)
     size_t size;
     if (!snapshot_print(autosave->snapshot, &autosave->text, &autosave->capacity, &size))
         return fail_no_memory(error, autosave->slot.path);
-    return recovery_write(&autosave->slot, autosave->original, autosave->text, size, error);
+    return recovery_write(&autosave->slot, autosave->original, &autosave->stamp, autosave->text, size, error);
 }
 
 static int run(void *user)
@@ -120,6 +121,7 @@ static bool begin_copy(struct autosave *autosave, const struct autosave_work *wo
 {
     autosave->revision = work->revision;
     snprintf(autosave->original, sizeof autosave->original, "%s", work->path);
+    autosave->stamp = work->stamp;
     return snapshot_begin(autosave->snapshot, work->document, RECOVERY_FOLDER);
 }
 

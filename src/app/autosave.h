@@ -10,9 +10,10 @@ struct autosave;
 /// The work to keep safe.
 struct autosave_work {
     struct document *document;
-    const char *path;  ///< of the document's own file, or ""
-    uint64_t revision; ///< changes with the document
-    bool saved;        ///< nothing would be lost
+    const char *path;        ///< of the document's own file, or ""
+    uint64_t revision;       ///< changes with the document
+    bool saved;              ///< nothing would be lost
+    struct file_stamp stamp; ///< the document's own file as it was read or written last; nothing there: unknown
 };
 
 /// Takes over the slot, and starts the thread. On failure NULL with a sentence; the slot is then released.

@@ -307,7 +307,7 @@ static bool is_asked_about(struct app *app, const struct request *request)
 {
     const bool saves = request->kind == REQUEST_SAVE ||
                        (request->kind == REQUEST_SAVE_AS && strcmp(request->path, app_path(app)) == 0);
-    return saves && theirs_differs(app) && editor_ask_changed(app->table.editor, true);
+    return saves && theirs_stop(app);
 }
 
 void app_requests(struct app *app)

@@ -34,10 +34,10 @@ static void complain(struct app *app, const struct error *error)
     if (error->kind != ERROR_NONE) editor_message(app->table.editor, true, error->text);
 }
 
-/// Another window may have changed the file meanwhile: it is read again for every change.
-static struct settings *load_settings(const struct personal *personal, struct error *error)
+/// Another window may have changed the file meanwhile: it is read again for every change, and that one waits until it is written.
+static struct settings *open_settings(const struct personal *personal, struct error *error)
 {
-    return personal->settings_path[0] ? settings_load(personal->settings_path, error) : NULL;
+    return personal->settings_path[0] ? settings_open(personal->settings_path, error) : NULL;
 }
 
 static void store_settings(struct app *app, struct settings *settings)
@@ -71,7 +71,7 @@ static void start_settings(struct app *app)
     if (folder_make(FOLDER_CONFIG, folder, sizeof folder, &error)) {
         snprintf(personal->settings_path, sizeof personal->settings_path, "%s/%s", folder, settings_name);
     }
-    struct settings *settings = load_settings(personal, &error);
+    struct settings *settings = open_settings(personal, &error);
     editor_panels(app->table.editor, &personal->stage_share, &personal->panels_width);
     if (settings) {
         personal->stage_share = settings_number(settings, "stage_share", personal->stage_share);
@@ -96,7 +96,7 @@ static void note_theme(struct app *app)
     struct error error = {0};
     if (personal->theme == theme_in_use()) return;
     personal->theme = theme_in_use();
-    struct settings *settings = load_settings(personal, &error);
+    struct settings *settings = open_settings(personal, &error);
     if (!settings) return;
     settings_set(settings, "theme", theme()->name);
     store_settings(app, settings);
@@ -109,7 +109,7 @@ static void note_ui_scale(struct app *app)
     struct error error = {0};
     if (personal->ui_scale == app->ui_scale || app->options->record || app->options->frames) return;
     personal->ui_scale = app->ui_scale;
-    struct settings *settings = load_settings(personal, &error);
+    struct settings *settings = open_settings(personal, &error);
     if (!settings) return;
     settings_set_number(settings, "ui_scale", app->ui_scale);
     store_settings(app, settings);
@@ -122,7 +122,7 @@ static void note_welcomed(struct app *app)
     struct error error = {0};
     if (!personal->is_new || editor_is_welcoming(app->table.editor)) return;
     personal->is_new = false;
-    struct settings *settings = load_settings(personal, &error);
+    struct settings *settings = open_settings(personal, &error);
     if (!settings) return;
     settings_set(settings, "welcomed", "yes");
     store_settings(app, settings);
@@ -135,7 +135,7 @@ static void end_settings(struct app *app)
     editor_panels(app->table.editor, &share, &width);
     if (share == personal->stage_share && width == personal->panels_width) return;
     struct error error = {0};
-    struct settings *settings = load_settings(personal, &error);
+    struct settings *settings = open_settings(personal, &error);
     if (!settings) return;
     settings_set_number(settings, "stage_share", share);
     settings_set_number(settings, "inspector_width", width);
@@ -146,7 +146,7 @@ void personal_note_file(struct app *app, const char *path)
 {
     struct error error = {0};
     if (!app->personal || !path[0]) return;
-    struct settings *settings = load_settings(app->personal, &error);
+    struct settings *settings = open_settings(app->personal, &error);
     if (!settings) return;
     recent_note(settings, path);
     store_settings(app, settings);
@@ -156,7 +156,7 @@ void personal_note_export(struct app *app, const struct request *request)
 {
     struct error error = {0};
     if (!app->personal) return;
-    struct settings *settings = load_settings(app->personal, &error);
+    struct settings *settings = open_settings(app->personal, &error);
     if (!settings) return;
     export_memory_write(settings, request, app_path(app));
     store_settings(app, settings);
@@ -166,7 +166,7 @@ int personal_recent(void *user, struct dialog_recent *files, int most)
 {
     struct app *app = user;
     struct error error = {0};
-    struct settings *settings = app->personal ? load_settings(app->personal, &error) : NULL;
+    struct settings *settings = app->personal ? settings_load(app->personal->settings_path, &error) : NULL;
     int count = settings ? recent_list(settings, files, most) : 0;
     settings_free(settings);
     return count;
@@ -239,10 +239,13 @@ void personal_start(struct app *app)
 
 static struct autosave_work work_of(const struct app *app)
 {
+    const struct own_file *own = &app->own_file;
+    const bool is_own = strcmp(own->path, app_path(app)) == 0;
     return (struct autosave_work){.document = app->table.document,
                                   .path = app_path(app),
                                   .revision = history_revision(app->table.history),
-                                  .saved = history_is_saved(app->table.history)};
+                                  .saved = history_is_saved(app->table.history),
+                                  .stamp = is_own ? own->stamp : (struct file_stamp){0}};
 }
 
 void personal_update(struct app *app)
@@ -264,13 +267,6 @@ bool personal_is_behind(const struct app *app)
     return autosave_is_behind(app->personal->autosave, &work);
 }
 
-/// Whether a file was written after that time.
-static bool is_newer(const char *path, time_t time)
-{
-    const struct file_stamp stamp = file_stamp(path);
-    return stamp.is_there && stamp.modified.tv_sec > time;
-}
-
 bool personal_recover(struct app *app, struct error *error)
 {
     struct personal *personal = app->personal;
@@ -282,8 +278,8 @@ bool personal_recover(struct app *app, struct error *error)
         return fail(error, ERROR_ENVIRONMENT, "not enough memory to recover");
     }
     app_adopt(app, document);
-    app->own_file = (struct own_file){0};
-    if (!is_newer(app_path(app), personal->offered.time)) theirs_note(app);
+    app->own_file = (struct own_file){.stamp = personal->offered.stamp}; // what was written since is theirs
+    snprintf(app->own_file.path, sizeof app->own_file.path, "%s", app_path(app));
     history_mark_unsaved(app->table.history);
     autosave_move(personal->autosave, &personal->offered.slot);
     personal->is_offered = false;

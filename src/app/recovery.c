@@ -66,15 +66,27 @@ static struct document *parse_work(const char *path, const char *text, size_t si
     return NULL;
 }
 
-/// The path in a file's first line; "" if there is none.
-static void read_original(const char *path, char original[RECOVERY_PATH])
+/// Reads the line of a stamp; returns its length, or 0 where there is none.
+static int parse_stamp(const char *line, struct file_stamp *stamp)
 {
-    char line[RECOVERY_PATH + sizeof first_line] = "";
+    long long size;
+    unsigned long long content;
+    int length;
+    if (sscanf(line, "file %lld %llx%n", &size, &content, &length) != 2 || line[length] != '\n') return 0;
+    *stamp = (struct file_stamp){.is_there = true, .size = size, .content = content};
+    return length + 1;
+}
+
+/// The path in a file's first line, "" if there is none, and the stamp (may be NULL) in its second.
+static void read_original(const char *path, char original[RECOVERY_PATH], struct file_stamp *stamp)
+{
+    char line[RECOVERY_PATH + sizeof first_line] = "", second[64] = "";
     const size_t prefix = sizeof first_line - 1;
     FILE *file = fopen(path, "r");
     original[0] = '\0';
     if (!file) return;
     bool good = fgets(line, sizeof line, file) && strncmp(line, first_line, prefix) == 0 && line[prefix] == ' ';
+    if (good && stamp && fgets(second, sizeof second, file)) parse_stamp(second, stamp);
     fclose(file);
     if (!good) return;
     line[strcspn(line, "\n")] = '\0';
@@ -85,7 +97,7 @@ static void read_original(const char *path, char original[RECOVERY_PATH])
 static bool is_of(const char *path, const char *of)
 {
     char original[RECOVERY_PATH], kept[PATH_LIMIT], wanted[PATH_LIMIT];
-    read_original(path, original);
+    read_original(path, original, NULL);
     return original[0] && path_resolve(NULL, original, kept) && path_resolve(NULL, of, wanted) &&
            strcmp(kept, wanted) == 0;
 }
@@ -113,7 +125,8 @@ bool recovery_find(const char *folder, const char *of, struct recovery_entry *en
     if (count) *count = found;
     if (found == 0) return false;
     entry->time = newest.tv_sec;
-    read_original(entry->slot.path, entry->original);
+    entry->stamp = (struct file_stamp){0};
+    read_original(entry->slot.path, entry->original, &entry->stamp);
     return true;
 }
 
@@ -125,7 +138,9 @@ struct document *recovery_read(const struct recovery_slot *slot, struct error *e
     if (!file_read(slot->path, LARGEST, &data, &size, error)) return NULL;
     const char *line_end = memchr(data, '\n', size);
     if (line_end && strncmp(data, first_line, sizeof first_line - 1) == 0) {
+        struct file_stamp stamp;
         const char *text = line_end + 1;
+        text += parse_stamp(text, &stamp);
         document = parse_work(slot->path, text, size - (size_t)(text - data), error);
         if (document) document->folder = strdup(RECOVERY_FOLDER);
     } else {
@@ -135,8 +150,8 @@ struct document *recovery_read(const struct recovery_slot *slot, struct error *e
     return document;
 }
 
-bool recovery_write(const struct recovery_slot *slot, const char *original, const char *text, size_t size,
-                    struct error *error)
+bool recovery_write(const struct recovery_slot *slot, const char *original, const struct file_stamp *stamp,
+                    const char *text, size_t size, struct error *error)
 {
     struct file_output output;
     char absolute[PATH_LIMIT]; // the next start may have another working folder
@@ -145,6 +160,8 @@ bool recovery_write(const struct recovery_slot *slot, const char *original, cons
     if (!file_output_open(&output, slot->path, error)) return false;
     fchmod(fileno(output.stream), 0600); // the work is nobody else's
     fprintf(output.stream, "%s %s\n", first_line, fits ? absolute : "");
+    if (fits && stamp && stamp->is_there)
+        fprintf(output.stream, "file %lld %llx\n", (long long)stamp->size, (unsigned long long)stamp->content);
     fwrite(text, 1, size, output.stream);
     return file_output_commit(&output, error);
 }

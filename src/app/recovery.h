@@ -6,11 +6,13 @@
 ///     wiggly-recovery 1 /home/me/walk.json      (the absolute path of the document's own file; nothing for an untitled one)
 ///     { "wiggly": 1, …                          (the document's canonical text, for a file in RECOVERY_FOLDER)
 ///
-/// and, if its characters are painted, a NUL and their paint (scene/load.h).
+/// and, if its characters are painted, a NUL and their paint (scene/load.h). Where it is known what was in the document's own file, a line
+/// "file SIZE HASH" precedes the text.
 #ifndef APP_RECOVERY_H
 #define APP_RECOVERY_H
 
 #include "base/error.h"
+#include "base/stamp.h"
 #include "scene/document.h"
 #include <stddef.h>
 #include <time.h>
@@ -35,6 +37,7 @@ struct recovery_entry {
     struct recovery_slot slot;
     time_t time;                  ///< when it was written
     char original[RECOVERY_PATH]; ///< path of the document's own file, or ""
+    struct file_stamp stamp;      ///< that file as the work began with it; nothing there: unknown
 };
 
 /// Claims the slot with the newest file left behind, of the document's file `of` where that is not NULL; the caller releases it.
@@ -44,9 +47,10 @@ bool recovery_find(const char *folder, const char *of, struct recovery_entry *en
 /// The document in a file. NULL with a sentence if it is damaged.
 struct document *recovery_read(const struct recovery_slot *slot, struct error *error);
 
-/// Writes a slot's file, atomically: `text` is the document's canonical text for RECOVERY_FOLDER, with any paint.
-bool recovery_write(const struct recovery_slot *slot, const char *original, const char *text, size_t size,
-                    struct error *error);
+/// Writes a slot's file, atomically: `text` is the document's canonical text for RECOVERY_FOLDER, with any paint; `stamp` (may be NULL)
+/// the document's own file as it was when it was read or written last.
+bool recovery_write(const struct recovery_slot *slot, const char *original, const struct file_stamp *stamp,
+                    const char *text, size_t size, struct error *error);
 
 void recovery_remove(const struct recovery_slot *slot);
 

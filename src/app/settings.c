@@ -1,13 +1,18 @@
 /// Reads and writes the settings file.
 #include "app/settings.h"
 #include "base/file.h"
+#include "base/path.h"
+#include <errno.h>
+#include <fcntl.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/file.h>
+#include <time.h>
 #include <unistd.h>
 
-enum { MAX_LINES = 1000 };
+enum { MAX_LINES = 1000, PATIENCE = 5000 };
 
 static const size_t LARGEST = 1 << 20;
 
@@ -19,6 +24,7 @@ struct line {
 struct settings {
     struct line lines[MAX_LINES];
     int count;
+    int lock; ///< the folder, or -1
 };
 
 static void drop(struct settings *settings, int at)
@@ -74,6 +80,7 @@ struct settings *settings_load(const char *path, struct error *error)
     char *data, *rest;
     size_t size;
     *error = (struct error){0};
+    if (settings) settings->lock = -1;
     if (!settings || access(path, F_OK) != 0 || !file_read(path, LARGEST, &data, &size, error)) return settings;
     rest = data;
     for (int number = 1; rest && *rest && number <= MAX_LINES; number++) {
@@ -87,9 +94,35 @@ struct settings *settings_load(const char *path, struct error *error)
     return settings;
 }
 
+/// Locks the file's folder, for the file itself is replaced at every save. Goes on without where that cannot be, or somebody else keeps
+/// it too long: a setting that is lost is less than a window that hangs. Returns a descriptor or -1.
+static int lock_folder(const char *path)
+{
+    char folder[PATH_LIMIT];
+    if (!path_folder(path, folder)) return -1;
+    const int lock = open(folder[0] ? folder : ".", O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    for (int i = 0; lock >= 0 && i < PATIENCE && flock(lock, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK; i++)
+        nanosleep(&(struct timespec){.tv_nsec = 1000000}, NULL);
+    return lock;
+}
+
+struct settings *settings_open(const char *path, struct error *error)
+{
+    const int lock = lock_folder(path);
+    struct settings *settings = settings_load(path, error);
+    if (settings) {
+        settings->lock = lock;
+    } else if (lock >= 0) {
+        close(lock);
+    }
+    return settings;
+}
+
 void settings_free(struct settings *settings)
 {
-    while (settings && settings->count > 0) drop(settings, settings->count - 1);
+    if (!settings) return;
+    while (settings->count > 0) drop(settings, settings->count - 1);
+    if (settings->lock >= 0) close(settings->lock);
     free(settings);
 }
 

@@ -16,6 +16,9 @@ struct settings;
 /// Reads a settings file; a missing one counts as empty. For a broken line or an unreadable file, `error` gets one sentence
 /// (else ERROR_NONE) and defaults apply. NULL only if memory is short.
 struct settings *settings_load(const char *path, struct error *error);
+
+/// The same to change them: another program that does so waits for settings_free(), at most five seconds.
+struct settings *settings_open(const char *path, struct error *error);
 void settings_free(struct settings *settings);
 
 /// The `n`th value of a key (from 0), or NULL; and the first one as a number, `fallback` if it is none.

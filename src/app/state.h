@@ -53,6 +53,7 @@ struct app {
     struct recording *recording;
     struct framelog *log;
     struct frame_row row; ///< of the frame in progress
+    double gpu_us;        ///< the last that the graphics card told; 0 where it has no clock
     double frame_start, oldest_event;
     double last_swap; ///< when the last frame's swap ended; NAN where the next one's interval means nothing
     bool fixed_clock; ///< every frame is 1/60 s (headless, replays, recordings)
@@ -106,8 +107,8 @@ void app_resize(struct app *app, float width, float height, float scale);
 /// The document and its own file say the same now, or the user has seen what is in it.
 void theirs_note(struct app *app);
 
-/// Whether the file is another one than the document came from.
-bool theirs_differs(struct app *app);
+/// Whether saving has to wait, for somebody else has changed the file: the user is asked.
+bool theirs_stop(struct app *app);
 
 /// The window has the focus again: asks what to do about a changed file, once for each change.
 void theirs_look(struct app *app);

@@ -276,10 +276,10 @@ void editor_offer_recovery(struct editor *editor, const struct recovery_offer *o
     dialogs_offer_recovery(editor->dialogs, offer);
 }
 
-bool editor_ask_changed(struct editor *editor, bool saving)
+bool editor_ask_changed(struct editor *editor, const char *name, bool saving)
 {
     if (!saving && editor->core.drag.kind != DRAG_NONE) return false;
-    return dialogs_ask_changed(editor->dialogs, &editor->core, saving);
+    return dialogs_ask_changed(editor->dialogs, name, saving);
 }
 
 void editor_welcome(struct editor *editor) { dialogs_welcome(editor->dialogs); }

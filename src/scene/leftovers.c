@@ -2,6 +2,7 @@
 /// in it, nothing is removed but paint named after the scene.
 #include "scene/leftovers.h"
 #include "base/file.h"
+#include "base/json.h"
 #include "base/path.h"
 #include <dirent.h>
 #include <fcntl.h>
@@ -9,9 +10,10 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
-enum { LARGEST_SCENE = 1 << 28, LARGEST_LIST = 1 << 16 };
+enum { LARGEST_SCENE = 1 << 28, LARGEST_LIST = 1 << 14, MANY_NUMBERS = 10000 };
 
 bool leftovers_name(const char *scene, int number, char file[PATH_LIMIT])
 {
@@ -20,6 +22,29 @@ bool leftovers_name(const char *scene, int number, char file[PATH_LIMIT])
     char suffix[16] = "";
     if (number > 1) snprintf(suffix, sizeof suffix, "-%d", number);
     return snprintf(file, PATH_LIMIT, "%.*s-paint%s.npy", stem, scene, suffix) < PATH_LIMIT;
+}
+
+/// Whether a text in it has the name.
+static bool has_text(json_t *json, const char *name)
+{
+    const char *key;
+    json_t *value;
+    size_t i;
+    json_object_foreach(json, key, value) if (has_text(value, name)) return true;
+    json_array_foreach(json, i, value) if (has_text(value, name)) return true;
+    return json_is_string(json) && strstr(json_string_value(json), name);
+}
+
+/// Whether a scene may name a file. Most have no escapes, and need not be parsed.
+static bool may_name(const char *data, size_t size, const char *name)
+{
+    json_error_t error;
+    if (memmem(data, size, name, strlen(name))) return true;
+    if (!memchr(data, '\\', size)) return false;
+    json_t *json = json_read(data, size, 0, &error);
+    const bool named = !json || has_text(json, name);
+    json_decref(json);
+    return named;
 }
 
 /// Whether a scene in the folder may name a file: a copy of the scene may be the only one that does.
@@ -34,7 +59,7 @@ static bool is_named(const char *folder, const char *name)
         if (!path_has_end(entry->d_name, ".json")) continue;
         const bool read =
             path_resolve(folder, entry->d_name, path) && file_read(path, LARGEST_SCENE, &data, &size, NULL);
-        named = !read || memmem(data, size, name, strlen(name));
+        named = !read || may_name(data, size, name);
         if (read) free(data);
     }
     if (directory) closedir(directory);
@@ -47,17 +72,18 @@ void leftovers_remove(const char *file)
     if (path_folder(file, folder) && access(file, F_OK) == 0 && !is_named(folder, path_name(file))) unlink(file);
 }
 
-/// Removes what the list names.
+/// Removes what the list names. Each number counts once, for all scenes in the folder are read for it.
 static void act_on(const struct leftovers *leftovers)
 {
-    char *list, *rest, file[PATH_LIMIT];
-    size_t size;
-    if (!file_read(leftovers->path, LARGEST_LIST, &list, &size, NULL)) return;
-    rest = list;
-    for (long number; (number = strtol(rest, &rest, 10)) > 0 && number < 1 << 20;) {
-        if (leftovers_name(leftovers->scene, (int)number, file)) leftovers_remove(file);
+    char list[LARGEST_LIST], file[PATH_LIMIT], *rest = list;
+    bool tried[MANY_NUMBERS] = {false};
+    const ssize_t size = read(leftovers->file, list, sizeof list - 1);
+    if (size < 0 || size == sizeof list - 1) return; // no save writes as much
+    list[size] = '\0';
+    for (long number; (number = strtol(rest, &rest, 10)) > 0 && number < MANY_NUMBERS;) {
+        if (!tried[number] && leftovers_name(leftovers->scene, (int)number, file)) leftovers_remove(file);
+        tried[number] = true;
     }
-    free(list);
 }
 
 void leftovers_open(struct leftovers *leftovers, const char *scene)
@@ -68,7 +94,9 @@ void leftovers_open(struct leftovers *leftovers, const char *scene)
         leftovers->path[0] = '\0';
     leftovers->file = open(leftovers->path, O_RDWR | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
     if (leftovers->file < 0) return;
-    if (flock(leftovers->file, LOCK_EX | LOCK_NB) == 0) {
+    struct stat about;
+    const bool is_list = fstat(leftovers->file, &about) == 0 && S_ISREG(about.st_mode);
+    if (is_list && flock(leftovers->file, LOCK_EX | LOCK_NB) == 0) {
         act_on(leftovers);
         leftovers_close(leftovers);
     } else {

@@ -39,8 +39,8 @@ bool scene_save(struct document *document, const char *path, struct error *error
 bool scene_read_paint(struct document *document, struct error *error);
 
 /// What other programs have made of the document's paint files since they were read or written here: a number that changes with their
-/// content; 0: they are as they were, or gone.
-uint64_t scene_paint_theirs(struct document *document);
+/// content; 0: they are as they were, or gone. `name` then is the first of those files, as the document has it.
+uint64_t scene_paint_theirs(struct document *document, const char **name);
 
 /// The user has seen that: the next save writes the document's own paint again.
 void scene_keep_paint(struct document *document);

@@ -12,7 +12,7 @@
 #include <string.h>
 #include <unistd.h>
 
-enum { MAX_NAMES = 10000 };
+enum { MAX_NAMES = 10000, SHEET_LINE = 128 };
 
 /// A character's paint while it is saved.
 struct sheet {
@@ -169,7 +169,7 @@ static bool is_theirs(const struct document *document, struct rig *rig, char pat
            file_stamp_differs(path, &character->file);
 }
 
-uint64_t scene_paint_theirs(struct document *document)
+uint64_t scene_paint_theirs(struct document *document, const char **name)
 {
     uint64_t hash = 0;
     int i = document_next_rig(document, RIG_CHARACTER, 0);
@@ -177,6 +177,7 @@ uint64_t scene_paint_theirs(struct document *document)
         char path[PATH_LIMIT];
         if (!is_theirs(document, &document->rigs[i], path)) continue;
         const uint64_t content = file_stamp(path).content;
+        if (hash == 0) *name = document->rigs[i].character.paint;
         hash = hash_bytes(hash ? hash : HASH_START, &content, sizeof content);
     }
     return hash;
@@ -194,17 +195,48 @@ void scene_keep_paint(struct document *document)
     }
 }
 
+/// Number, size, whether there is a file, and what that held.
+static void print_sheet_line(struct text *text, int character, const struct character_rig *rig)
+{
+    char line[SHEET_LINE];
+    const struct file_stamp *file = &rig->file;
+    const bool has_file = rig->filed != 0;
+    int length = snprintf(line, sizeof line, "paint %d %zu %d", character, paint_file_size(rig->painted), has_file);
+    if (has_file && file->is_there)
+        length += snprintf(line + length, sizeof line - (size_t)length, " %lld %llx", (long long)file->size,
+                           (unsigned long long)file->content);
+    text_string(text, line);
+    text_string(text, "\n");
+}
+
+/// The character that the line is of, or NULL. `bytes` of paint follow; its file may hold older paint, or another program's.
+static struct character_rig *parse_sheet_line(struct document *document, const char *text, size_t length,
+                                              size_t *bytes)
+{
+    char line[SHEET_LINE];
+    int character, has_file;
+    long long size;
+    unsigned long long content;
+    if (length >= sizeof line) return NULL;
+    memcpy(line, text, length);
+    line[length] = '\0';
+    const int read = sscanf(line, "paint %d %zu %d %lld %llx", &character, bytes, &has_file, &size, &content);
+    struct character_rig *rig = read == 3 || read == 5 ? document_character(document, character) : NULL;
+    if (!rig) return NULL;
+    rig->filed = has_file && rig->paint ? UINT64_MAX : 0;
+    if (read == 5) rig->file = (struct file_stamp){.is_there = true, .size = size, .content = content};
+    return rig;
+}
+
 bool scene_print_paint(const struct document *document, char **buffer, size_t *capacity, size_t *size)
 {
     struct text text = {.data = *buffer, .size = *size, .capacity = *capacity};
     int i = document_next_rig(document, RIG_CHARACTER, 0);
     for (int character = 0; i >= 0; i = document_next_rig(document, RIG_CHARACTER, i + 1), character++) {
         const struct character_rig *rig = &document->rigs[i].character;
-        char line[96];
         if (!rig->painted) continue;
         if (text.size == *size) text_bytes(&text, "", 1);
-        snprintf(line, sizeof line, "paint %d %zu %d\n", character, paint_file_size(rig->painted), rig->filed != 0);
-        text_string(&text, line);
+        print_sheet_line(&text, character, rig);
         paint_print(&text, rig->painted);
     }
     *buffer = text.data;
@@ -217,11 +249,10 @@ bool scene_parse_paint(struct document *document, const char *name, const char *
                        struct error *error)
 {
     while (size > 0) {
-        int character, has_file;
         size_t bytes;
         const char *line_end = memchr(text, '\n', size);
-        const bool good = line_end && sscanf(text, "paint %d %zu %d\n", &character, &bytes, &has_file) == 3;
-        struct character_rig *rig = good ? document_character(document, character) : NULL;
+        struct character_rig *rig =
+            line_end ? parse_sheet_line(document, text, (size_t)(line_end - text), &bytes) : NULL;
         if (!rig) return fail(error, ERROR_INPUT, "%s: expected the paint of a character, got something else", name);
         size -= (size_t)(line_end + 1 - text);
         text = line_end + 1;
@@ -230,7 +261,6 @@ bool scene_parse_paint(struct document *document, const char *name, const char *
         paint_destroy(rig->painted);
         rig->painted = paint_parse(name, text, bytes, error);
         if (!rig->painted) return false;
-        rig->filed = has_file && rig->paint ? UINT64_MAX : 0; // its file may hold older paint
         text += bytes;
         size -= bytes;
     }

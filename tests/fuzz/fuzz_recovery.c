@@ -26,7 +26,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     if (!document) return 0;
     size_t first_size, second_size;
     char *first = text_of(document, &first_size);
-    fuzz_expect(recovery_write(&slot, "/scene.json", first, first_size, &error), error.text);
+    fuzz_expect(recovery_write(&slot, "/scene.json", NULL, first, first_size, &error), error.text);
     struct document *again = recovery_read(&slot, &error);
     fuzz_expect(again != NULL, error.text);
     char *second = text_of(again, &second_size);

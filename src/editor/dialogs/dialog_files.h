@@ -59,10 +59,10 @@ void editor_set_export(struct editor *editor, const struct export_memory *memory
 /// How far the export is that was asked for; without an end in sight `total` is 0.
 void editor_tell_export(struct editor *editor, long done, long total);
 
-/// Somebody else has written the document's file: asks whether to keep mine, take theirs or save under another name. `saving`: the
-/// user has just asked to save, and that request needs no other answer. false where something else lies over the panels, or a drag
-/// goes on.
-bool editor_ask_changed(struct editor *editor, bool saving);
+/// Somebody else has written the document's file, or its paint's, of that name: asks whether to keep mine, take theirs or save under
+/// another name. `saving`: the user has just asked to save, and that request needs no other answer. false where something else
+/// lies over the panels, or a drag goes on.
+bool editor_ask_changed(struct editor *editor, const char *name, bool saving);
 
 /// Gives the editor access to folders for completion; copied.
 void editor_set_files(struct editor *editor, const struct dialog_files *files);

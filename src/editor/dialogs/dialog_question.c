@@ -168,12 +168,12 @@ void dialog_ask_unsaved(struct dialogs *dialogs, const struct core *core)
     dialog_open(dialogs, DIALOG_UNSAVED);
 }
 
-bool dialogs_ask_changed(struct dialogs *dialogs, const struct core *core, bool saving)
+bool dialogs_ask_changed(struct dialogs *dialogs, const char *name, bool saving)
 {
     struct dialog *dialog = &dialogs->dialog;
     if (!saving && dialogs_cover(dialogs)) return false;
     dialog->question = QUESTION(changed_answers);
-    snprintf(dialog->question.title, sizeof dialog->question.title, "%s has changed on the disk", core->title);
+    snprintf(dialog->question.title, sizeof dialog->question.title, "%.255s has changed on the disk", name);
     snprintf(dialog->question.note, sizeof dialog->question.note,
              "Keep mine replaces that file %s. Take theirs opens it; undo brings yours back. Save as keeps both.",
              saving ? "now" : "at the next save");

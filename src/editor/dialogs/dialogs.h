@@ -35,7 +35,7 @@ void dialogs_show(struct dialogs *dialogs, struct core *core, const struct edito
 void dialogs_ask(struct dialogs *dialogs, const struct core *core, const struct editor_world *world,
                  const struct ask *ask);
 /// See editor_ask_changed().
-bool dialogs_ask_changed(struct dialogs *dialogs, const struct core *core, bool saving);
+bool dialogs_ask_changed(struct dialogs *dialogs, const char *name, bool saving);
 /// See editor_offer_recovery().
 void dialogs_offer_recovery(struct dialogs *dialogs, const struct recovery_offer *offer);
 /// true where an open dialog, the help or the card for new users takes the event; `busy`: no help now.
