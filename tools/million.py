@@ -17,7 +17,7 @@ import tempfile
 
 from session_events import at, drag, events, key
 
-KNOTS, GAP, PHASE = 1000000, 2, 120
+KNOTS, GAP, PHASE = 1000000, 2, 90
 PHASES = ("rest", "zoom", "play", "edit, all in sight", "edit, zoomed in")
 
 

@@ -244,9 +244,11 @@ struct survey {
         int active;
         uint64_t selected, edits;
     } key;
+    struct survey_key values_key;
     struct knot_place from, to;    ///< the first and the last selected knot; {-1, -1}: there is none
+    unsigned only;                 ///< id of the selected knot where it is one, else 0
     int run;                       ///< knots of the active spline in each run
-    double values[SURVEY_RUNS][2]; ///< the lowest and highest of each run
+    double values[SURVEY_RUNS][2]; ///< the lowest and highest of each run, as of values_key
 };
 
 struct core {

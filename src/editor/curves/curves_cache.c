@@ -33,15 +33,15 @@ static void hit_knots(struct curves *curves, const struct core *core, const stru
     const struct spline *spline = core_active_spline(core, world);
     if (!spline) return;
     int k = spline_lower_bound(world->document, spline, (int)fmax(floor(first - by), 0));
-    while (k < spline->knot_count) {
+    for (int next, passed = 1; k < spline->knot_count; passed = next - k, k = next) {
         double sample = document_sample(world->document, spline->knots[k].frame);
         double column = floor((sample - first) / by + 0.5);
         if (column >= cache->count) break;
-        const int next =
-            spline_lower_bound(world->document, spline, (int)fmin(ceil(first + (column + 0.5) * by), INT_MAX));
+        next = curves_knot_near(world->document, spline, k + passed,
+                                (int)fmin(ceil(first + (column + 0.5) * by), INT_MAX));
+        next = next > k ? next : k + 1;
         // Of several knots at a column none is hit: its lowest and highest samples say where they are.
-        if (column >= 0 && next <= k + 1) cache->position[(int)column] = sample;
-        k = next > k ? next : k + 1;
+        if (column >= 0 && next == k + 1) cache->position[(int)column] = sample;
     }
 }
 
@@ -126,11 +126,11 @@ static void draw_band(const struct curves *curves, const struct core *core, cons
     }
 }
 
-/// Im x as a band: of every sample, or of thirty-two or so where a column has more.
+/// Im x as a band: of every sample, or of sixteen or so where there are more.
 static void draw_imaginary_band(struct curves *curves, const struct core *core, const struct editor_world *world)
 {
     struct curve_cache *cache = &curves->cache;
-    const double reach = widened(cache) / 2, step = 1 + floor(reach / 16), last = world->evaluation->samples - 1;
+    const double reach = widened(cache) / 2, step = 1 + floor(reach / 8), last = world->evaluation->samples - 1;
     for (int c = 0; c < cache->count; c++) {
         const double middle = cache->first + cache->by * c;
         double most = c % 2 ? -INFINITY : INFINITY;

@@ -219,13 +219,14 @@ static double column_of(const struct curves *curves, const struct core *core, co
     return floor(document_sample(document, knot->frame) * pixels);
 }
 
-/// The end of the knots in one pixel column.
+/// The end of the knots in one pixel column; the one before had `before` of them.
 static int column_end(const struct curves *curves, const struct core *core, const struct document *document,
-                      const struct spline *spline, int first)
+                      const struct spline *spline, int first, int before)
 {
     const double pixels = curves_pixels_per_frame(curves, core) / document->substeps;
     const double column = column_of(curves, core, document, &spline->knots[first]);
-    const int end = spline_lower_bound(document, spline, (int)fmin(ceil((column + 1) / pixels), INT_MAX));
+    const int sample = (int)fmin(ceil((column + 1) / pixels), INT_MAX);
+    const int end = curves_knot_near(document, spline, first + before, sample);
     return end > first ? end : first + 1;
 }
 
@@ -275,9 +276,9 @@ static void show_knots(const struct curves *curves, struct core *core, const str
     uint32_t color = arrange_color(document, core->active);
     if (!spline) return;
     int k = curves_knot_from(curves, core, document, spline, plot->x - HANDLE_REACH);
-    for (int end; k < spline->knot_count; k = end) {
+    for (int end, passed = 1; k < spline->knot_count; passed = end - k, k = end) {
         float x = curves_knot_x(curves, core, document, &spline->knots[k]);
-        end = column_end(curves, core, document, spline, k);
+        end = column_end(curves, core, document, spline, k, passed);
         if (x > plot->x + plot->w + HANDLE_REACH) break;
         const int shown = column_knot(core, document, k, end);
         if (is_lost(curves, core, document, k, shown)) continue;
