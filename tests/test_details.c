@@ -113,6 +113,31 @@ static void a_rig_has_the_colour_of_its_first_spline(void **state)
     session_close(&s);
 }
 
+/// Lines that are drawn within 10 pixels of a widget's middle.
+static int lines_at(struct session *s, const char *widget)
+{
+    const struct drawlist *list = editor_drawlist(s->editor);
+    float x, y;
+    int count = 0;
+    assert_true(inspector_target(s->editor->inspector, &s->editor->core, &s->world, widget, &x, &y));
+    for (int i = 0; i < list->count; i++) {
+        const struct rect *b = &list->commands[i].bounds;
+        const bool is_inside = b->x > x - 10 && b->x + b->w < x + 10 && b->y > y - 10 && b->y + b->h < y + 10;
+        count += list->commands[i].kind == DRAW_LINE && is_inside;
+    }
+    return count;
+}
+
+static void small_buttons_have_their_icons(void **state)
+{
+    (void)state;
+    struct session s;
+    panel_open(&s, tail, 1280, 1400);
+    assert_true(lines_at(&s, "eye.sway") > 0);
+    assert_true(lines_at(&s, "solo.sway") > 0);
+    session_close(&s);
+}
+
 /// The lines of equal damping say which they are; the lowest, at the edge, needs no number.
 static void the_map_of_poles_has_its_numbers(void **state)
 {
@@ -234,6 +259,7 @@ int main(void)
         cmocka_unit_test(a_long_list_turns_by_wheel),
         cmocka_unit_test(lag_is_the_active_splines),
         cmocka_unit_test(a_rig_has_the_colour_of_its_first_spline),
+        cmocka_unit_test(small_buttons_have_their_icons),
         cmocka_unit_test(the_map_of_poles_has_its_numbers),
         cmocka_unit_test(a_letter_let_go_in_a_dialog_is_not_held),
         cmocka_unit_test(nothing_to_follow_is_an_error),
