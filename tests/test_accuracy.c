@@ -151,11 +151,38 @@ static void slow_complex_splines(void **state)
     for (size_t s = 0; s < sizeof subjects / sizeof *subjects; s++) check(&subjects[s]);
 }
 
+/// So calm a start over gaps so long that the nodes' own system loses digits: refined, its curve is exact, or shown and said not to be.
+static void long_domains_that_lose_digits(void **state)
+{
+    (void)state;
+    static const struct {
+        struct subject subject;
+        wiggly_status status;
+        double most; ///< error
+    } cases[] = {
+        {{.frequency = 0.7, .damping = 0.1, .bandwidth = 0.1, .calm = 1e-25, .samples = 3000, .gap = 300},
+         WIGGLY_OK,
+         1e-8},
+        {{.frequency = 0.2, .bandwidth = 0.1, .calm = 1e-10, .samples = 1500, .gap = 400}, WIGGLY_INEXACT, 1e-4},
+        {{.frequency = 0.2, .damping = 0.3, .calm = 1e-20, .samples = 1200, .gap = 400}, WIGGLY_INEXACT, 1e-4},
+        {{.frequency = 0.2, .bandwidth = 0.3, .calm = 1e-20, .samples = 1200, .gap = 1000}, WIGGLY_INEXACT, 1e-2},
+    };
+    for (size_t c = 0; c < sizeof cases / sizeof *cases; c++) {
+        wiggly_curve curve;
+        double error, lapack;
+        const wiggly_status status = solve(&cases[c].subject, &curve, &error, &lapack);
+        curve_destroy(&curve);
+        if (status != cases[c].status) fail_msg("case %zu: %s, off by %g", c, wiggly_status_text(status), error);
+        assert_near(error, 0, cases[c].most);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_mode_at_every_length),
         cmocka_unit_test(slow_complex_splines),
+        cmocka_unit_test(long_domains_that_lose_digits),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

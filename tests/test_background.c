@@ -353,7 +353,7 @@ static void a_stopped_solver_is_as_good_as_new(void **state)
 static void extremes_are_those_of_a_plain_search(void **state)
 {
     (void)state;
-    enum { COUNT = 5000, BLOCKS = 5 };
+    enum { COUNT = 5000, BLOCKS = (COUNT + EXTREMES_BLOCK - 1) / EXTREMES_BLOCK };
     static double numbers[COUNT];
     double low[BLOCKS], high[BLOCKS];
     struct extremes extremes = {low, high}, none = {0};

@@ -78,6 +78,36 @@ static void a_track_from_0_over_long_gaps(void **state)
     }
 }
 
+/// A frequency that rests at 0 between its waves, and one knot: what the squared matrix cannot settle is left to the rows, and a start
+/// that nothing determines is calmed.
+static void a_track_that_rests_at_0(void **state)
+{
+    static double waves[SAMPLES];
+    static const struct {
+        wiggly_mode mode;
+        wiggly_passive passive;
+        double calm;
+        wiggly_status status;
+    } cases[] = {{WIGGLY_REAL, WIGGLY_OSCILLATOR, 1e-11, WIGGLY_OK},
+                 {WIGGLY_COMPLEX, WIGGLY_FILTER, 0, WIGGLY_CALMED}};
+    const wiggly_knot knot = {.sample = 10, .value = 1};
+    pair *p = *state;
+    for (int i = 0; i < SAMPLES; i++) waves[i] = fmax(0, sin(0.01 * i));
+    for (size_t c = 0; c < sizeof cases / sizeof *cases; c++) {
+        wiggly_desc desc = wiggly_default_desc();
+        desc.samples = 1500;
+        desc.step = 1.0 / 30;
+        desc.mode = cases[c].mode;
+        desc.passive = cases[c].passive;
+        desc.calm = cases[c].calm;
+        desc.frequency.track = waves;
+        desc.damping.value = 0.8;
+        desc.knots = &knot;
+        desc.knot_count = 1;
+        assert_int_equal(wiggly_solve(p->solver, &desc, &p->usual), cases[c].status);
+    }
+}
+
 static void gaps_of_every_length(void **state)
 {
     static wiggly_knot knots[SAMPLES];
@@ -145,6 +175,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_track_from_0_over_long_gaps),
+        cmocka_unit_test(a_track_that_rests_at_0),
         cmocka_unit_test(gaps_of_every_length),
         cmocka_unit_test(the_chain_of_one_or_two_periods),
     };

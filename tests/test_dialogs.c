@@ -243,27 +243,6 @@ static void expect_advice(const char *json, const char *first, const char *statu
     session_close(&s);
 }
 
-/// Two characters leave room at the edges only: the card stands there, and its words are whole.
-static void test_the_card_stands_beside_two_characters(void **state)
-{
-    (void)state;
-    struct session s;
-#define BEAR(name) "{\"type\": \"character\", \"name\": \"" name "\", \"model\": \"/bear.glb\", \"coordinates\": []}"
-    panel_open(&s, "{\"frames\": [0, 24], \"splines\": [], \"rigs\": [" BEAR("a") ", " BEAR("b") "]}", 1280, 720);
-    editor_welcome(s.editor);
-    session_frame(&s);
-    const struct rect stage = s.editor->core.layout.stage;
-    const struct draw_command *what = shown_text(s.editor, "Drag the character");
-    const struct draw_command *why = shown_text(s.editor, "pins the point you hold");
-    assert_true(what->x > stage.x + 0.76f * stage.w);
-    assert_true(why->x == what->x && why->y > what->y);
-    session_move(&s, what->x, why->y);
-    session_press(&s, BUTTON_LEFT, 1);
-    session_release(&s, BUTTON_LEFT);
-    assert_false(editor_is_welcoming(s.editor));
-    session_close(&s);
-}
-
 static void test_advice_names_what_is_there(void **state)
 {
     (void)state;
@@ -294,15 +273,10 @@ static void test_advice_names_what_is_there(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_recent_files),
-        cmocka_unit_test(test_recent_files_give_way),
-        cmocka_unit_test(test_mouse_in_the_list),
-        cmocka_unit_test(test_recover),
-        cmocka_unit_test(test_welcome),
-        cmocka_unit_test(test_welcome_with_a_character),
-        cmocka_unit_test(test_discard_and_later),
-        cmocka_unit_test(test_advice_names_what_is_there),
-        cmocka_unit_test(test_the_card_stands_beside_two_characters),
+        cmocka_unit_test(test_recent_files),      cmocka_unit_test(test_recent_files_give_way),
+        cmocka_unit_test(test_mouse_in_the_list), cmocka_unit_test(test_recover),
+        cmocka_unit_test(test_welcome),           cmocka_unit_test(test_welcome_with_a_character),
+        cmocka_unit_test(test_discard_and_later), cmocka_unit_test(test_advice_names_what_is_there),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

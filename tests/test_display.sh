@@ -31,6 +31,13 @@ ok "in a window" $?
 stop_server
 unset XAUTHORITY
 
+# As through ssh -X, where no socket of this machine answers.
+start_server -listen tcp -nolisten unix -nolisten local -ac
+DISPLAY=127.0.0.1$DISPLAY expect 0 "a display of another host opens" timeout 60 "$WIGGLY" live --frames 20
+silent "$err"
+ok "in a window, too" $?
+stop_server
+
 start_server -extension GLX
 falls_back "a display without GLX"
 stop_server

@@ -383,22 +383,38 @@ static void record_panel(float playhead)
     drawlist_rect(&list, (struct rect){playhead, 120.0f, 1.0f, 120.0f}, theme()->playhead);
 }
 
-static void test_moving_playhead_redraws_narrow_strips(void **state)
+/// Moves the playhead beside a stage; what that costs.
+static struct draw_cost move_playhead(const struct stage_view *stage)
 {
-    (void)state;
     record_panel(50.0f);
-    struct stage_view stage = some_stage(0.0f);
-    show_on(&stage, false, pixels);
+    show_on(stage, false, pixels);
     record_panel(50.0f);
-    struct draw_cost cost = show_on(&stage, true, pixels);
+    struct draw_cost cost = show_on(stage, true, pixels);
     assert_int_equal(cost.rectangles, 0);
     assert_int_equal(cost.pixels, 0);
     record_panel(200.0f);
-    cost = show_on(&stage, true, pixels);
+    return show_on(stage, true, pixels);
+}
+
+static void test_moving_playhead_redraws_narrow_strips(void **state)
+{
+    (void)state;
+    struct stage_view stage = some_stage(0.0f);
+    struct draw_cost cost = move_playhead(&stage);
     assert_int_equal(cost.rectangles, 2);
     assert_true(cost.pixels <= 2 * 16 * 128);
     assert_int_equal(at(200, 130), theme()->playhead >> 8);
     assert_int_equal(at(50, 130), theme()->panel >> 8);
+}
+
+static void test_a_stage_out_of_the_way_is_not_uploaded(void **state)
+{
+    (void)state;
+    struct stage_view stage = some_stage(0.0f);
+    stage.viewport.h = 90.0f;
+    long bytes = move_playhead(&stage).uploaded_bytes;
+    stage.blob_count = 3; // shadows, which cost some bytes more
+    assert_int_equal(move_playhead(&stage).uploaded_bytes, bytes);
 }
 
 // More than a buffer holds at once, in one line: drawn in several goes, its last point as well as its first.
@@ -458,10 +474,41 @@ static void test_gpu_times_come_back_with_their_frames(void **state)
     gpu_timer_destroy(&timer);
 }
 
+/// Points in turn on an upper edge that rises and a lower one that jumps: everything between is covered once, and nothing beyond.
+static void test_band_covers_what_its_line_swings_through(void **state)
+{
+    (void)state;
+    static const uint32_t half = 0xFFFFFF80u;
+    float xy[201][2];
+    begin();
+    for (int i = 0; i <= 200; i++) {
+        xy[i][0] = (float)(60 + i);
+        xy[i][1] = i % 2 ? (i < 100 ? 150.0f : 200.0f) : 120.0f - 0.25f * (float)i;
+    }
+    drawlist_rect(&list, (struct rect){0.0f, 0.0f, WIDTH, HEIGHT}, BLACK);
+    drawlist_band(&list, &xy[0][0], 201, 4.0f, half);
+    show();
+    const double whole = 128 / 255.0;
+    for (int x = 62; x < 256; x++) {
+        const double top = 118.0 - 0.25 * (x + 0.5 - 60);
+        for (int y = 0; y < HEIGHT; y++) {
+            const double bottom = x < 156 ? 152 : x > 164 ? 202 : y;
+            const double inside = fmin(y + 0.5 - top, bottom - (y + 0.5));
+            if (inside > 1.5) assert_near(coverage(x, y), whole, 0.01);
+            if (inside < -1.5) assert_near(coverage(x, y), 0, 0.01);
+        }
+        const int edge = (int)floor(top);
+        assert_true(coverage(x, edge) > 0.01 * whole || coverage(x, edge + 1) < 0.99 * whole); // no stair
+    }
+    assert_near(coverage(50, 100), 0, 0.01);
+    assert_near(coverage(270, 100), 0, 0.01);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_gpu_times_come_back_with_their_frames),
+        cmocka_unit_test(test_band_covers_what_its_line_swings_through),
         cmocka_unit_test(test_rect_has_its_color_and_exact_edges),
         cmocka_unit_test(test_later_commands_cover_earlier_ones),
         cmocka_unit_test(test_line_has_its_width_at_every_slope),
@@ -475,6 +522,7 @@ int main(void)
         cmocka_unit_test(test_partial_redraw_equals_full_redraw),
         cmocka_unit_test(test_only_the_stage_loses_resolution),
         cmocka_unit_test(test_moving_playhead_redraws_narrow_strips),
+        cmocka_unit_test(test_a_stage_out_of_the_way_is_not_uploaded),
         cmocka_unit_test(test_very_long_line_is_drawn_whole),
         cmocka_unit_test(test_reference_frame_does_not_depend_on_the_scene),
     };

@@ -222,13 +222,13 @@ static void test_steady_frames_allocate_nothing(void **state)
     session_close(&s);
 }
 
-/// Vertices of the active curve (the widest line) in the list.
+/// Vertices of the active curve (the widest line, or band) in the list.
 static const float *active_line(const struct session *s, int *count)
 {
     const struct drawlist *list = editor_drawlist(s->editor);
     for (int i = 0; i < list->count; i++) {
         const struct draw_command *command = &list->commands[i];
-        if (command->kind != DRAW_LINE || command->width < 2.4f) continue;
+        if ((command->kind != DRAW_LINE && command->kind != DRAW_BAND) || command->width < 2.4f) continue;
         *count = command->count;
         return &list->points[2 * command->first];
     }

@@ -132,6 +132,27 @@ static void test_a_tooltip_is_near_the_pointer(void **state)
     session_close(&s);
 }
 
+/// All words of a tooltip are drawn, inside its box.
+static void assert_whole(const struct tooltip *tooltip, struct rect window)
+{
+    struct drawlist list;
+    char said[512] = "";
+    const struct rect box = tooltip_box(tooltip, window);
+    assert_true(drawlist_create(&list, 64, 1024, 1024));
+    drawlist_clear(&list, window);
+    tooltip_show(tooltip, window, &list);
+    for (int i = 0; i < list.count; i++) {
+        const struct draw_command *c = &list.commands[i];
+        if (c->kind != DRAW_TEXT) continue;
+        const char *line = list.text + c->first;
+        strcat(strcat(said, *said && said[strlen(said) - 1] != ' ' ? " " : ""), line);
+        assert_true(c->x > box.x && c->x + font_width(c->font, c->width, line) < box.x + box.w);
+        assert_true(c->y - c->width > box.y && c->y < box.y + box.h);
+    }
+    assert_string_equal(said, tooltip->text);
+    drawlist_destroy(&list);
+}
+
 /// Points at each control that Tab could reach, in every section.
 static void assert_all_explained(struct session *s)
 {
@@ -153,9 +174,11 @@ static void assert_all_explained(struct session *s)
         const struct rect *r = &stops[i].rect;
         session_move(s, r->x + r->w / 2, r->y + r->h / 2);
         session_frame(s);
-        if (!inspector_hint(s->editor->inspector))
+        const char *hint = inspector_hint(s->editor->inspector);
+        if (!hint)
             fail_msg("the control at %g, %g, %g × %g has no tooltip", (double)r->x, (double)r->y, (double)r->w,
                      (double)r->h);
+        assert_whole(&(struct tooltip){.text = hint, .at = *r, .rest = 1}, s->editor->core.layout.window);
     }
 }
 
@@ -207,10 +230,33 @@ static void test_every_control_of_characters_explains_itself(void **state)
     session_close(&s);
 }
 
+static bool shows_text(const struct session *s, const char *text)
+{
+    const struct drawlist *list = editor_drawlist(s->editor);
+    for (int i = 0; i < list->count; i++) {
+        const struct draw_command *c = &list->commands[i];
+        if (c->kind == DRAW_TEXT && c->clip.w > 0 && strcmp(list->text + c->first, text) == 0) return true;
+    }
+    return false;
+}
+
+static void test_presets_can_be_read_on_a_small_window(void **state)
+{
+    (void)state;
+    static const char *const words[] = {"Cat", "Whip", "Heavy", "Jelly", "Antenna"};
+    struct session s;
+    panel_open(&s, tail_scene, 640, 360);
+    for (size_t i = 0; i < sizeof words / sizeof *words; i++) assert_true(shows_text(&s, words[i]));
+    panel_click(&s, "preset.jelly");
+    assert_near(of(&s, PARAMETER_FREQUENCY)->value, 3, 0);
+    session_close(&s);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_a_preset_is_one_step),
+        cmocka_unit_test(test_presets_can_be_read_on_a_small_window),
         cmocka_unit_test(test_the_time_to_settle_is_set),
         cmocka_unit_test(test_selecting_knots_moves_nothing),
         cmocka_unit_test(test_a_tooltip_is_near_the_pointer),

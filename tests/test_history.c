@@ -1,6 +1,7 @@
 /// Steps of edits: every one can be taken back and done again.
 #include "near.h"
 
+#include "starve.h"
 #include "timing/framelog.h"
 #include "world.h"
 #include <stdlib.h>
@@ -178,22 +179,52 @@ static void test_dirty(void **state)
     world_close(&world);
 }
 
+enum { MANY = 200 };
+
+/// Edits the last of many splines: 1 where that is refused; 9 where it is made but nobody hears of it.
+static int edit_the_last(void *user)
+{
+    struct world *world = user;
+    bool dirty[MANY];
+    if (!world_step(world, edit_insert(MANY - 1, 5, 5))) return 1;
+    history_take_dirty(world->history, world->document, dirty, MANY);
+    return dirty[MANY - 1] ? 0 : 9;
+}
+
+static void test_dirty_without_memory(void **state)
+{
+    (void)state;
+    struct world world = {0};
+    char text[MANY * 32] = "{\"frames\": [0, 48], \"splines\": [{\"name\": \"first\"}", *end = text + strlen(text);
+    bool dirty[MANY];
+    if (!CAN_STARVE) skip();
+    for (int i = 1; i < MANY; i++) end += sprintf(end, ", {\"name\": \"s%d\"}", i);
+    strcpy(end, "]}");
+    world.document = scene_parse("scene.json", text, strlen(text), NULL, &world.error);
+    if (!world.document) fail_msg("%s", world.error.text);
+    world.history = history_create();
+    assert_non_null(world.history);
+    history_take_dirty(world.history, world.document, dirty, MANY);
+    starve("an edit of the last of many splines", edit_the_last, &world, 1000);
+    world_close(&world);
+}
+
 /// The editor re-applies a drag's edits each frame: only the first may allocate.
 static void test_drag_allocates_nothing(void **state)
 {
     (void)state;
     struct world world;
     world_open(&world);
-    long allocations = 0;
+    long allocated = 0;
     history_begin(world.history, "Drag", 0);
     for (int frame = 0; frame < 100; frame++) {
-        if (frame == 1) allocations = allocation_count();
+        if (frame == 1) allocated = allocation_count();
         history_restart(world.history, world.document);
         assert_true(world_apply(&world, edit_insert(SWAY, 5, frame)));
         assert_true(world_apply(&world, edit_number(SWAY, PARAMETER_FREQUENCY, 0.5 + 0.01 * frame)));
     }
     history_end(world.history);
-    assert_int_equal(allocation_count(), allocations);
+    assert_int_equal(allocation_count(), allocated);
     world_close(&world);
 }
 
@@ -431,6 +462,7 @@ int main(void)
         cmocka_unit_test(test_saved),
         cmocka_unit_test(test_revision),
         cmocka_unit_test(test_dirty),
+        cmocka_unit_test(test_dirty_without_memory),
         cmocka_unit_test(test_drag_allocates_nothing),
         cmocka_unit_test(test_random_walks),
         cmocka_unit_test(test_history_is_bounded),

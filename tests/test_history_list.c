@@ -84,6 +84,31 @@ static void test_long_list(void **state)
     session_close(&s);
 }
 
+/// Over the list the wheel moves only that, until it is at its end; then the panel.
+static void test_wheel(void **state)
+{
+    (void)state;
+    struct session s;
+    open_list(&s, 40);
+    editor_resize(s.editor, 1280, 600, 1);
+    inspector_unfold(s.editor->inspector, "section.history");
+    session_frame(&s);
+    const struct inspector *inspector = s.editor->inspector;
+    float x, y;
+    assert_true(inspector_target(s.editor->inspector, &s.editor->core, &s.world, "section.history", &x, &y));
+    session_move(&s, x, y + 60);
+    const float offset = inspector->scroll.offset;
+    assert_true(offset > 100);
+    for (size_t top = inspector->history.top; top > 0; top = inspector->history.top) {
+        session_wheel(&s, 1);
+        assert_true(inspector->history.top < top);
+        assert_near(inspector->scroll.offset, offset, 0);
+    }
+    session_wheel(&s, 1);
+    assert_true(inspector->scroll.offset < offset);
+    session_close(&s);
+}
+
 /// The list says what it does not have any more.
 static void test_dropped(void **state)
 {
@@ -128,7 +153,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_click),   cmocka_unit_test(test_keys),          cmocka_unit_test(test_long_list),
-        cmocka_unit_test(test_dropped), cmocka_unit_test(test_not_in_a_drag),
+        cmocka_unit_test(test_dropped), cmocka_unit_test(test_not_in_a_drag), cmocka_unit_test(test_wheel),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -433,6 +433,34 @@ static void what_cannot_be_is_an_error(void **state)
     wiggly_destroy(narrow);
 }
 
+/// A wild equilibrium far beyond the limits: the search ends before it has found what to hold, and says so; the curve keeps within.
+static void a_search_that_tires_says_so(void **state)
+{
+    (void)state;
+    enum { LONG = 3000 };
+    static double wild[LONG], room[3][1 + LONG]; // what is before them is no sample
+    double *const now = room[0] + 1;
+    wiggly_solver *large;
+    const wiggly_knot knot = {.sample = 10};
+    wiggly_curve within = {.total = now, .y = room[1] + 1, .re = room[2] + 1};
+    wiggly_desc desc = wiggly_default_desc();
+    seed = 1;
+    for (int i = 0; i < LONG; i++) wild[i] = 200 * uniform() - 100;
+    desc.samples = LONG;
+    desc.mode = WIGGLY_REAL;
+    desc.start = WIGGLY_LOOP;
+    desc.frequency.value = 0.01;
+    desc.damping.value = 0.1;
+    desc.equilibrium.track = wild;
+    desc.knots = &knot;
+    desc.knot_count = 1;
+    desc.high = 0.01, desc.low = -0.01;
+    assert_int_equal(wiggly_create(LONG, LONG, &large), WIGGLY_OK);
+    assert_int_equal(wiggly_solve(large, &desc, &within), WIGGLY_INEXACT);
+    for (int i = 0; i < LONG; i++) assert_true(now[i] >= desc.low && now[i] <= desc.high);
+    wiggly_destroy(large);
+}
+
 /// An equilibrium far beyond the limits holds nearly all, the sample right behind the last knot too; in the last of these layouts
 /// with others before and behind it.
 static void what_is_right_behind_the_last_knot_is_held(void **state)
@@ -474,6 +502,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(the_conditions_hold_in_every_mode),
                                        cmocka_unit_test(the_conditions_hold_of_any_spline),
+                                       cmocka_unit_test(a_search_that_tires_says_so),
                                        cmocka_unit_test(what_is_right_behind_the_last_knot_is_held),
                                        cmocka_unit_test(few_solves_are_enough),
                                        cmocka_unit_test(few_solves_are_enough_where_most_are_held),

@@ -2,6 +2,8 @@
 #include "near.h"
 
 #include "panel_session.h"
+
+#include "editor/curves/view.h"
 #include "scene/load.h"
 #include <stdlib.h>
 #include <string.h>
@@ -54,6 +56,86 @@ static void a_line_is_dragged_as_far_as_the_knots(void **state)
     session_close(&s);
 }
 
+/// While a limit holds a knot the status line says so, and no longer; it stays after the release, to be read.
+static void what_holds_a_dragged_knot_is_said(void **state)
+{
+    (void)state;
+    struct session s;
+    session_open(&s, swinging);
+    const char *said = s.editor->core.message.text;
+    session_pull(&s, "knot(sway,1)", 0, -20, 4);
+    assert_string_equal(said, "");
+    session_drag(&s, 0, -400, 4);
+    assert_near(s.document->splines[0].knots[1].value, 1.2, 0);
+    assert_string_equal(said, "Held by the limit 1.2 of sway at frame 14.");
+    session_drag(&s, 0, 400, 4);
+    assert_string_equal(said, "");
+    session_drag(&s, 0, -400, 4);
+    session_release(&s, BUTTON_LEFT);
+    assert_string_equal(said, "Held by the limit 1.2 of sway at frame 14.");
+    session_close(&s);
+}
+
+/// A knot cannot leave the range nor sit on another one: what stops it is said as it is where knots are scaled.
+static void what_stops_a_knot_in_time_is_said(void **state)
+{
+    (void)state;
+    struct session s;
+    session_open(&s, swinging);
+    const char *said = s.editor->core.message.text;
+    const float frame =
+        curves_x(s.editor->curves, &s.editor->core, 1) - curves_x(s.editor->curves, &s.editor->core, 0);
+    session_pull(&s, "knot(sway,1)", 7 * frame, 0, 7);
+    assert_string_equal(said, "");
+    session_drag(&s, frame, 0, 1);
+    assert_near(s.document->splines[0].knots[1].frame, 21, 0);
+    assert_string_equal(said, "A knot would land on another on frame 22.");
+    session_drag(&s, frame, 0, 1); // past it
+    assert_string_equal(said, "");
+    session_drag(&s, 120 * frame, 0, 5);
+    assert_string_equal(said, "A knot would leave the range.");
+    session_key(&s, KEY_ESCAPE, 0);
+    session_click(&s, "knot(sway,0)");
+    for (int i = 0; i < 8; i++) session_key(&s, KEY_LEFT, MOD_ALT);
+    assert_near(s.document->splines[0].knots[0].frame, 0, 0);
+    s.editor->core.message.text[0] = 0;
+    session_key(&s, KEY_LEFT, MOD_ALT);
+    assert_string_equal(said, "A knot would leave the range.");
+    session_close(&s);
+}
+
+static void a_nudge_goes_as_far_as_the_limit(void **state)
+{
+    (void)state;
+    struct session s;
+    session_open(&s, swinging);
+    session_click(&s, "knot(sway,3)"); // 0.2 below it
+    for (int i = 0; i < 9; i++) session_key(&s, KEY_UP, MOD_ALT | MOD_SHIFT);
+    assert_near(s.document->splines[0].knots[3].value, 1.2, 0);
+    assert_string_equal(s.editor->core.message.text, "Held by the limit 1.2 of sway at frame 60.");
+    assert_false(s.editor->core.message.is_error);
+    session_close(&s);
+}
+
+/// It bends as far as the limit; before, the pull was taken back as a whole.
+static void a_pulled_tail_stops_at_the_limit(void **state)
+{
+    (void)state;
+    struct session s;
+    session_open(&s,
+                 "{\"wiggly\": 1, \"frames\": [0, 48], \"splines\": [{\"name\": \"sway\", \"limits\": [-0.5, 0.5], "
+                 "\"knots\": [{\"frame\": 0, \"value\": 0}]}], \"rigs\": [{\"type\": \"tail\", \"name\": \"tail\", "
+                 "\"position\": [0, 0.26, 0], \"channels\": [{\"spline\": \"sway\", \"gain\": 6}]}]}");
+    session_frame(&s);
+    session_pull(&s, "tail(tail,0.95)", -500, 0, 25);
+    for (int i = 0; i < 20; i++) session_frame(&s);
+    session_release(&s, BUTTON_LEFT);
+    assert_near(fabs(s.document->splines[0].knots[0].value), 0.5, 0);
+    assert_non_null(strstr(s.editor->core.message.text, "eld by the limit"));
+    assert_false(s.editor->core.message.is_error);
+    session_close(&s);
+}
+
 static void the_inspector_switches_each(void **state)
 {
     (void)state;
@@ -102,8 +184,10 @@ static void a_file_with_wrong_limits_says_so(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(a_line_is_dragged_as_far_as_the_knots),
-                                       cmocka_unit_test(the_inspector_switches_each),
-                                       cmocka_unit_test(a_file_with_wrong_limits_says_so)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_line_is_dragged_as_far_as_the_knots), cmocka_unit_test(what_holds_a_dragged_knot_is_said),
+        cmocka_unit_test(what_stops_a_knot_in_time_is_said),     cmocka_unit_test(a_nudge_goes_as_far_as_the_limit),
+        cmocka_unit_test(a_pulled_tail_stops_at_the_limit),      cmocka_unit_test(the_inspector_switches_each),
+        cmocka_unit_test(a_file_with_wrong_limits_says_so)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -238,6 +238,36 @@ static void what_is_half_clear_is_seen_through(void **state)
         assert_near(pixels_of(clear, k), pixels_of(opaque, k), 100); // but at the top's edges
 }
 
+/// Slopes of a picture that is drawn smaller than it is stay even, so that nothing glitters when it moves.
+static void a_far_picture_is_smooth(void **state)
+{
+    (void)state;
+    enum { SIDE = 128 };
+    static unsigned char waves[SIDE][SIDE][4];
+    static picture seen;
+    if (!platform) skip();
+    for (int i = 0; i < SIDE * SIDE; i++) {
+        memset(waves[i / SIDE][i % SIDE], 32 + 6 * abs(i % 64 - 32), 3);
+        waves[i / SIDE][i % SIDE][3] = 255;
+    }
+    struct error error;
+    assert_true(png_write(folder_path("waves.png"), SIDE, SIDE, waves[0][0], &error));
+    struct character c = read_character("cube.glb");
+    struct looks_material *sides = &c.looks.materials[TEXTURED];
+    free(sides->image);
+    sides->image = (unsigned char *)bytes_of(folder_path("waves.png"), &sides->image_size);
+    struct figure figure;
+    assert_true(figure_create(&figure, &c));
+    draw(&figure, -1, seen);
+    int uneven = 0;
+    for (int x = WIDTH / 2 - 20; x < WIDTH / 2 + 20; x++) {
+        const unsigned char(*p)[4] = &seen[HEIGHT / 2][x];
+        uneven += abs(p[-1][0] - 2 * p[0][0] + p[1][0]) > 4;
+    }
+    if (uneven > 8) fail_msg("the slope changes at %d of 40 pixels", uneven);
+    figure_free(&figure);
+}
+
 /// Of a ball, which is drawn coarser in a pair, the lower half stays red and the upper green.
 static void coarse_triangles_keep_their_material(void **state)
 {
@@ -276,6 +306,7 @@ int main(void)
         cmocka_unit_test(they_are_exported_as_gltf),
         cmocka_unit_test(they_are_exported_as_usd_with_quads),
         cmocka_unit_test(they_are_seen_on_the_stage),
+        cmocka_unit_test(a_far_picture_is_smooth),
         cmocka_unit_test(what_is_half_clear_is_seen_through),
         cmocka_unit_test(coarse_triangles_keep_their_material),
     };

@@ -385,6 +385,34 @@ static void who_is_not_pulled_is_as_alone(void **state)
     wiggly_destroy(solver);
 }
 
+/// A pin that is where its point passes in any case changes nothing, whatever the spline's frequency does.
+static void a_pin_on_the_way_changes_nothing(void **state)
+{
+    (void)state;
+    static double memory[2][5 * SAMPLES * MOST_SPLINES], frequency[SAMPLES];
+    wiggly_curve curves[MOST_SPLINES], alone = curve_of(memory[1], SAMPLES);
+    wiggly_solver *solver;
+    assert_int_equal(wiggly_create(SAMPLES, KNOTS, &solver), WIGGLY_OK);
+    for (int i = 0; i < SAMPLES; i++) frequency[i] = 2 + sin(0.03 * i);
+    for (unsigned n = 0; n < 12; n++) {
+        struct random_group *g = make_group(n, 1, 1);
+        wiggly_desc *desc = &g->descs[0];
+        desc->start = (wiggly_start)(n % 3);
+        desc->frequency.track = frequency;
+        desc->knot_count = 3;
+        for (int k = 0; k < 3; k++) g->knots[0][k] = (wiggly_knot){.sample = 40 + 80 * k, .value = k % 2};
+        g->pin[0].sample = 70;
+        assert_int_equal(wiggly_solve(solver, desc, &alone), WIGGLY_OK);
+        for (int i = 0; i < 3; i++) {
+            const double *c = g->pulls[0][0].c[i];
+            g->pin[0].to[i] = c[0] * alone.re[70] - c[1] * alone.im[70];
+        }
+        assert_int_equal(solve_group(g, WIGGLY_CHAIN, memory[0], curves), WIGGLY_OK);
+        for (int i = 0; i < SAMPLES; i++) assert_near(curves[0].total[i], alone.total[i], 1e-8);
+    }
+    wiggly_destroy(solver);
+}
+
 static wiggly_status status_of(struct random_group *g)
 {
     static double memory[5 * SAMPLES * MOST_SPLINES];
@@ -439,6 +467,27 @@ static void pins_of_a_scene_too_short_are_passed_over(void **state)
     for (int i = 0; i < 3; i++) assert_near(g->pin[0].left[i], g->pin[0].to[i], 0);
 }
 
+/// A spline that is too short to be pulled, if large, keeps no pin from those that can reach it.
+static void a_spline_too_short_bars_no_other(void **state)
+{
+    (void)state;
+    static double memory[5 * SAMPLES * MOST_SPLINES];
+    wiggly_curve curves[MOST_SPLINES];
+    struct random_group *g = make_group(3, 2, 1);
+    for (int s = 0; s < 2; s++) {
+        g->descs[s].start = WIGGLY_FREE;
+        g->descs[s].mode = WIGGLY_REAL;
+        g->descs[s].equilibrium.track = NULL;
+    }
+    g->descs[0].samples = 2;
+    g->descs[0].knot_count = 0;
+    g->pin[0] = (wiggly_pin){.sample = 1, .pulls = g->pulls[0], .pull_count = 2, .to = {0, 0.5, 0}};
+    g->pulls[0][0] = (wiggly_pull){.spline = 0, .c = {{1, 0}}};
+    g->pulls[0][1] = (wiggly_pull){.spline = 1, .c = {{0, 0}, {1e-3, 0}}};
+    assert_int_equal(solve_group(g, WIGGLY_CHAIN, memory, curves), WIGGLY_OK);
+    assert_near(g->pin[0].left[1], 0, 1e-9);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(chain_and_band_meet_every_vector),
@@ -446,7 +495,9 @@ int main(void)
                                        cmocka_unit_test(nothing_that_is_kept_changes_a_bit),
                                        cmocka_unit_test(what_is_out_of_reach_is_left),
                                        cmocka_unit_test(who_is_not_pulled_is_as_alone),
+                                       cmocka_unit_test(a_pin_on_the_way_changes_nothing),
                                        cmocka_unit_test(what_cannot_be_held_is_refused),
-                                       cmocka_unit_test(pins_of_a_scene_too_short_are_passed_over)};
+                                       cmocka_unit_test(pins_of_a_scene_too_short_are_passed_over),
+                                       cmocka_unit_test(a_spline_too_short_bars_no_other)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

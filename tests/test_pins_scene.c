@@ -81,6 +81,23 @@ static struct pin_point find(struct stand *stand, int rig, int point, double fra
     return found;
 }
 
+/// A vertex moves as far as x, however far: one round of solving is enough for its pins.
+static void a_characters_point_moves_by_its_pull_however_far(void **state)
+{
+    (void)state;
+    struct stand stand = {0};
+    pin_pull c[64], ignored[64];
+    stand_open(&stand, "assets/scenes/character.json");
+    assert_true(opened_solve(&stand.opened, WIGGLY_CHAIN, NULL));
+    const int sample = document_sample(document_of(&stand), 30);
+    const struct pin_point near = find(&stand, 0, 100, 30, c);
+    stand.opened.evaluation.curves[0].re[sample] += 1000;
+    const struct pin_point far = find(&stand, 0, 100, 30, ignored);
+    assert_true(near.is_linear && far.is_linear);
+    for (int k = 0; k < 3; k++) assert_near(far.at[k] - near.at[k], 1000 * c[0][k][0], 1e-6 * near.size);
+    stand_close(&stand);
+}
+
 static double left_of(struct stand *stand, int rig, int pin)
 {
     const struct pin_left *left = evaluation_pin(&stand->opened.evaluation, document_of(stand), rig, pin);
@@ -445,7 +462,8 @@ static void test_a_point_that_the_model_lacks(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_pulls_are_derivatives),
+    const struct CMUnitTest tests[] = {cmocka_unit_test(a_characters_point_moves_by_its_pull_however_far),
+                                       cmocka_unit_test(test_pulls_are_derivatives),
                                        cmocka_unit_test(test_a_character_meets_its_pins),
                                        cmocka_unit_test(test_a_tail_meets_its_pins),
                                        cmocka_unit_test(test_a_chain_on_a_clip_is_pinned),

@@ -5,15 +5,21 @@
 
 static const double frame = 1.0 / 60;
 
-/// Moves for that many frames of so long, of which drawing takes all but `other`; returns the scale at the end.
-static float move(struct resolution *r, double *now, int frames, double ms, double other)
+/// Moves for that many frames of that cost; returns the scale at the end.
+static float move_at(struct resolution *r, double *now, int frames, struct resolution_cost cost)
 {
     float scale = 1;
     for (int i = 0; i < frames; i++, *now += frame) {
         scale = resolution_choose(r, r->hash + 1, *now);
-        resolution_measure(r, ms, ms - other);
+        resolution_measure(r, &cost);
     }
     return scale;
+}
+
+/// Frames of so long, of which drawing takes all but `other`.
+static float move(struct resolution *r, double *now, int frames, double ms, double other)
+{
+    return move_at(r, now, frames, (struct resolution_cost){.before = other, .draw = ms - other});
 }
 
 static struct resolution adapting(void)
@@ -75,6 +81,30 @@ static void a_slow_solver_does_not_blur_the_stage(void **state)
     assert_near(move(&r, &now, 100, 60, 50), 1, 0);
 }
 
+/// Without a clock on the graphics card, its work is in the swap; with one, the swap only waits for a slow display.
+static void waiting_for_the_display_is_no_work(void **state)
+{
+    (void)state;
+    struct resolution r = adapting(), at_24_hz = adapting(), slow_card = adapting();
+    double now = 10;
+    assert_true(move_at(&r, &now, 100, (struct resolution_cost){.before = 1, .draw = 1, .swap = 40}) < 1);
+    assert_near(move_at(&at_24_hz, &now, 100, (struct resolution_cost){.before = 1, .draw = 1, .swap = 40, .gpu = 5}),
+                1, 0);
+    assert_true(
+        move_at(&slow_card, &now, 100, (struct resolution_cost){.before = 1, .draw = 1, .swap = 1, .gpu = 40}) < 1);
+}
+
+/// The card's clock still tells of the old resolution for a few frames: that is no reason for a second step.
+static void a_step_is_judged_by_its_own_frames(void **state)
+{
+    (void)state;
+    struct resolution r = adapting();
+    double now = 10;
+    while (r.moving == 0) move(&r, &now, 1, 40, 1);
+    assert_near(move(&r, &now, 4, 40, 1), 0.5, 0);
+    assert_near(move(&r, &now, 30, 28, 1), 0.5, 0);
+}
+
 static void a_busy_moment_is_forgotten(void **state)
 {
     (void)state;
@@ -82,6 +112,7 @@ static void a_busy_moment_is_forgotten(void **state)
     double now = 10;
     assert_true(move(&r, &now, 20, 80, 1) < 1);
     assert_near(move(&r, &now, 400, 12, 1), 1, 0);
+    assert_near(r.moving, 1, 0); // there is nothing sharper
 }
 
 static void words_of_the_command_line(void **state)
@@ -103,6 +134,8 @@ int main(void)
         cmocka_unit_test(it_does_not_flicker),
         cmocka_unit_test(one_slow_frame_now_and_then_changes_nothing),
         cmocka_unit_test(a_slow_solver_does_not_blur_the_stage),
+        cmocka_unit_test(waiting_for_the_display_is_no_work),
+        cmocka_unit_test(a_step_is_judged_by_its_own_frames),
         cmocka_unit_test(a_busy_moment_is_forgotten),
         cmocka_unit_test(words_of_the_command_line),
     };

@@ -336,6 +336,22 @@ static void the_tree_sums_like_all_triangles(void **state)
     surface_free(&sphere);
 }
 
+/// So few triangles that they are no tree.
+static void four_triangles_are_summed_one_by_one(void **state)
+{
+    (void)state;
+    static const uint32_t corners[4][3] = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}};
+    struct surface surface = {0};
+    struct winding winding;
+    for (int v = 0; v < 4; v++) add_vertex(&surface, v == 1, v == 2, v == 3);
+    for (int t = 0; t < 4; t++) add_triangle(&surface, (int)corners[t][0], (int)corners[t][1], (int)corners[t][2]);
+    assert_true(winding_create(&winding, &surface));
+    assert_near(winding_at(&winding, (const double[3]){0.2, 0.2, 0.2}), 1, 1e-6);
+    assert_near(winding_at(&winding, (const double[3]){0.5, 0.5, 0.5}), 0, 1e-6);
+    winding_free(&winding);
+    surface_free(&surface);
+}
+
 /// A bowl is closed by a flat lid, on which it takes up half of all directions.
 static void a_hole_is_closed_by_winding_numbers(void **state)
 {
@@ -388,6 +404,7 @@ int main(void)
         cmocka_unit_test(mixed_sides_are_made_to_agree),
         cmocka_unit_test(a_triangle_there_twice_counts_once),
         cmocka_unit_test(the_tree_sums_like_all_triangles),
+        cmocka_unit_test(four_triangles_are_summed_one_by_one),
         cmocka_unit_test(a_hole_is_closed_by_winding_numbers),
         cmocka_unit_test(strays_stay),
     };

@@ -89,6 +89,25 @@ static void edits_and_selections_are_seen(void **state)
     session_close(&s);
 }
 
+/// While a knot is dragged past others, and after.
+static void a_drag_is_seen(void **state)
+{
+    (void)state;
+    struct session s;
+    open_crowd(&s, 300);
+    session_pull(&s, "knot(many,150)", 5, 5, 2);
+    for (int i = 0; i < 30; i++) {
+        session_drag(&s, i < 20 ? 7 : -21, i % 2 ? 30 : -28, 1);
+        assert_true_to(&s);
+    }
+    assert_true(picked_count(&s.editor->core, s.document) == 1);
+    session_release(&s, BUTTON_LEFT);
+    assert_true_to(&s);
+    session_key(&s, 'Z', MOD_CTRL);
+    assert_true_to(&s);
+    session_close(&s);
+}
+
 /// Before the next picture, too: what an edit finds is what there is.
 static void an_edit_between_pictures_is_seen(void **state)
 {
@@ -128,6 +147,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(edits_and_selections_are_seen),
+        cmocka_unit_test(a_drag_is_seen),
         cmocka_unit_test(an_edit_between_pictures_is_seen),
         cmocka_unit_test(a_crowd_is_drawn_as_columns),
     };

@@ -198,17 +198,13 @@ static struct draw_input draw_input(const struct app *app, float stage_scale)
     return input;
 }
 
-/// A swap that waits for the display is no work: if the graphics card has a clock, that counts.
 static void measure(struct app *app)
 {
     const struct frame_row *row = &app->row;
-    double draw_ms = 1e-3 * (row->upload_us + row->draw_us);
-    double before_ms = row->frame_ms - draw_ms - 1e-3 * row->swap_us;
-    if (isnan(row->gpu_us))
-        draw_ms += 1e-3 * row->swap_us;
-    else
-        draw_ms = fmax(draw_ms, 1e-3 * row->gpu_us);
-    resolution_measure(&app->resolution, before_ms + draw_ms, draw_ms);
+    struct resolution_cost cost = {
+        .draw = 1e-3 * (row->upload_us + row->draw_us), .swap = 1e-3 * row->swap_us, .gpu = 1e-3 * app->gpu_us};
+    cost.before = row->frame_ms - cost.draw - cost.swap;
+    resolution_measure(&app->resolution, &cost);
 }
 
 static void draw(struct app *app)
@@ -224,6 +220,7 @@ static void draw(struct app *app)
     app->row.upload_us = cost.upload_us;
     app->row.draw_us = cost.draw_us;
     app->row.gpu_us = NAN;
+    if (cost.gpu_us >= 0) app->gpu_us = cost.gpu_us;
     if (app->log && cost.gpu_us >= 0) framelog_gpu(app->log, cost.gpu_frame, cost.gpu_us);
     app->row.uploaded_bytes = cost.uploaded_bytes;
     app->row.swap_us = microseconds(swap_start, end);

@@ -7,6 +7,7 @@
 static const float levels[] = {1.0f, 0.5f, 0.375f, 0.25f};
 enum { LEVELS = sizeof levels / sizeof *levels };
 enum { SLOW_FRAMES = 4, PATIENCE = 60, LONGEST_PATIENCE = 32 * PATIENCE };
+enum { LATE = 4 };                 ///< frames until the graphics card's clock tells of a new resolution
 static const double too_long = 31; ///< ms: 30 frames a second, and a little for the system
 static const double short_again = 25;
 static const double still = 0.15; ///< seconds without a change; a mouse that is being dragged pauses for less
@@ -63,12 +64,14 @@ static void step(struct resolution *resolution, int level, bool down)
     resolution->slow = resolution->quick = resolution->since = 0;
 }
 
-void resolution_measure(struct resolution *resolution, double frame_ms, double draw_ms)
+void resolution_measure(struct resolution *resolution, const struct resolution_cost *cost)
 {
     if (!resolution->adapts) return;
+    const double draw_ms = cost->gpu > 0 ? fmax(cost->draw, cost->gpu) : cost->draw + cost->swap;
+    const double frame_ms = cost->before + draw_ms;
     const int level = level_of(scale_of(resolution->moving));
     // Fewer pixels help only if drawing takes the time.
-    const bool slow = frame_ms > too_long && draw_ms > frame_ms / 2;
+    const bool slow = resolution->since >= LATE && frame_ms > too_long && draw_ms > frame_ms / 2;
     resolution->slow = count(resolution->slow, slow);
     resolution->quick = count(resolution->quick, frame_ms < short_again);
     resolution->since++;

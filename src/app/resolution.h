@@ -31,7 +31,14 @@ bool resolution_is_exact(const struct resolution *resolution);
 /// Seconds until the stage must be redrawn exactly; INFINITY if it is exact.
 double resolution_wait(const struct resolution *resolution, double now);
 
-/// Reports the cost of a frame with a moving stage: in all, and of drawing alone.
-void resolution_measure(struct resolution *resolution, double frame_ms, double draw_ms);
+/// What a frame with a moving stage cost, ms.
+struct resolution_cost {
+    double before;     ///< until drawing began
+    double draw, swap; ///< on the CPU's clock
+    double gpu;        ///< of a frame just before; 0 where the graphics card has no clock
+};
+
+/// Reports it. A swap that waits for the display is no work: where the graphics card has a clock, that counts instead.
+void resolution_measure(struct resolution *resolution, const struct resolution_cost *cost);
 
 #endif

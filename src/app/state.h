@@ -53,6 +53,7 @@ struct app {
     struct recording *recording;
     struct framelog *log;
     struct frame_row row; ///< of the frame in progress
+    double gpu_us;        ///< the last that the graphics card told; 0 where it has no clock
     double frame_start, oldest_event;
     double last_swap; ///< when the last frame's swap ended; NAN where the next one's interval means nothing
     bool fixed_clock; ///< every frame is 1/60 s (headless, replays, recordings)

@@ -1,5 +1,6 @@
 /// Turns the commands of a draw list into triangles.
 #include "draw/paint.h"
+#include "draw/band.h"
 #include "draw/shape.h"
 
 /// Whether nothing of the command was clipped when it was recorded: it then needs no scissor.
@@ -40,6 +41,9 @@ static void paint_command(const struct painter *painter, const struct drawlist *
         line_add(painter->batch, painter->scratch, xy, command->count, style, area_intersect(clip, area));
         break;
     }
+    case DRAW_BAND:
+        band_add(painter->batch, xy, command->count, command->width, painter->scale, command->color);
+        break;
     case DRAW_CONVEX:
         shape_convex(painter->batch, xy, command->count, painter->scale, command->color);
         break;

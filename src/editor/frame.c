@@ -299,9 +299,8 @@ void editor_show(struct editor *editor, const struct editor_world *world)
     survey_update(&editor->core, world->document);
     update_hover(editor, world);
     stage_show(editor->stage, &editor->core, world);
-    stage_show_caption(&editor->core, world->document,
-                       dialogs_bottom(editor->dialogs, &editor->core, world->document));
-    dialogs_show_welcome(editor->dialogs, &editor->core, world);
+    dialogs_show_welcome(editor->dialogs, &editor->core, world, stage_figure(editor->stage, &editor->core));
+    stage_show_caption(&editor->core, world->document, dialogs_bottom(editor->dialogs, &editor->core));
     show_panels(editor, world);
     dialogs_show_input(editor->dialogs, &editor->core);
     dialogs_show(editor->dialogs, &editor->core, world);

@@ -81,13 +81,37 @@ static struct knot remove_knot(const struct document *document, int index, unsig
     return knot;
 }
 
+/// The knot as `knot` says it is, at its new place: those between the two places move, not all behind it. Returns the old one.
+static struct knot replace_knot(const struct document *document, int index, const struct knot *knot)
+{
+    const struct spline *spline = &document->splines[index];
+    struct knot *knots = spline->knots;
+    const int from = spline_find_id(spline, knot->id);
+    assert(from >= 0);
+    snapshot_knot_goes(document, index, from);
+    const struct knot old = knots[from];
+    int to = spline_lower_bound(document, spline, document_sample(document, knot->frame));
+    if (to > from) to--; // where it is once the old one is gone
+    if (to > from) memmove(&knots[from], &knots[from + 1], (size_t)(to - from) * sizeof *knots);
+    if (to < from) memmove(&knots[to + 1], &knots[to], (size_t)(from - to) * sizeof *knots);
+    knots[to] = *knot;
+    snapshot_knot_came(document, index, to);
+    return old;
+}
+
 static void swap_knot(struct change *change, const struct document *document)
 {
     struct knot other = change->knot;
-    if (change->kind != CHANGE_KNOT_OUT) change->knot = remove_knot(document, change->spline, other.id);
-    if (change->kind != CHANGE_KNOT_IN) insert_knot(document, change->spline, &other);
-    if (change->kind != CHANGE_KNOT) {
-        change->kind = change->kind == CHANGE_KNOT_IN ? CHANGE_KNOT_OUT : CHANGE_KNOT_IN;
+    if (change->kind == CHANGE_KNOT) {
+        change->knot = replace_knot(document, change->spline, &other);
+        return;
+    }
+    if (change->kind == CHANGE_KNOT_IN) {
+        change->knot = remove_knot(document, change->spline, other.id);
+        change->kind = CHANGE_KNOT_OUT;
+    } else {
+        insert_knot(document, change->spline, &other);
+        change->kind = CHANGE_KNOT_IN;
     }
 }
 

@@ -239,8 +239,19 @@ int spline_lower_bound(const struct document *document, const struct spline *spl
 
 int spline_find_id(const struct spline *spline, unsigned id)
 {
-    for (int i = 0; i < spline->knot_count; i++) {
-        if (spline->knots[i].id == id) return i;
+    // Loaded knots have ids in a row: from where it would be if all had, outwards.
+    const int end = spline->knot_count;
+    if (end == 0) return -1;
+    const double guess = (double)id - (double)spline->knots[0].id;
+    const int place = (int)fmin(fmax(guess, 0), end - 1);
+    for (int left = place, right = place + 1; left >= 0 || right < end; left--, right++) {
+        if (left >= 0 && spline->knots[left].id == id) return left;
+        if (right < end && spline->knots[right].id == id) return right;
     }
     return -1;
+}
+
+double spline_within(const struct spline *spline, double value)
+{
+    return fmin(fmax(value, spline->parameter[PARAMETER_LOW].value), spline->parameter[PARAMETER_HIGH].value);
 }

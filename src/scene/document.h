@@ -153,6 +153,8 @@ int spline_lower_bound(const struct document *document, const struct spline *spl
 
 /// Index of the knot with that id, or -1.
 int spline_find_id(const struct spline *spline, unsigned id);
+/// A value, or the limit that is in its way.
+double spline_within(const struct spline *spline, double value);
 
 /// "x", "y" or "z".
 const char *coordinate_name(int index);

@@ -5,7 +5,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-enum { EXTREMES_BLOCK = 1024 };
+enum { EXTREMES_BLOCK = 128 };
 
 /// The lowest and highest of every EXTREMES_BLOCK numbers; NULL: unknown.
 struct extremes {

@@ -143,6 +143,15 @@ void drawlist_line(struct drawlist *list, const float *xy, int count, float widt
     drawlist_dashed(list, xy, count, width, 0.0f, 0.0f, color);
 }
 
+void drawlist_band(struct drawlist *list, const float *xy, int count, float width, uint32_t color)
+{
+    if (count < 3 || !(width > 0.0f)) return;
+    struct draw_command *command = add(list, DRAW_BAND, bounds_of(xy, count, 0.5f * width + 1.0f), color);
+    if (!command) return;
+    command->width = width;
+    add_shape(list, command, xy, count);
+}
+
 void drawlist_convex(struct drawlist *list, const float *xy, int count, uint32_t color)
 {
     if (count < 3) return;

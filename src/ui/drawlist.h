@@ -22,12 +22,12 @@ struct rect rect_inset(struct rect r, float by);
 
 enum font { FONT_LABEL, FONT_LABEL_BOLD, FONT_NUMBER, FONT_COUNT }; ///< Inter, Inter semi-bold, JetBrains Mono
 
-enum draw_kind { DRAW_RECT, DRAW_LINE, DRAW_CONVEX, DRAW_TEXT };
+enum draw_kind { DRAW_RECT, DRAW_LINE, DRAW_BAND, DRAW_CONVEX, DRAW_TEXT };
 
 struct draw_command {
     enum draw_kind kind;
     uint32_t color;
-    float width;   ///< line: full width; convex and rect: 0. text: pixel size
+    float width;   ///< line, band: full width; convex and rect: 0. text: pixel size
     float on, off; ///< line: dashes and gaps along it; both 0 where it is whole
     enum font font;
     float x, y;         ///< text: the pen, at the left end of the baseline
@@ -65,6 +65,9 @@ void drawlist_line(struct drawlist *list, const float *xy, int count, float widt
 /// The same as dashes of `on` and gaps of `off` pixels along the line.
 void drawlist_dashed(struct drawlist *list, const float *xy, int count, float width, float on, float off,
                      uint32_t color);
+/// What a line covers that goes up and down from point to point, the points a pixel or so apart: all between each point and the next, in
+/// one piece, its upper and lower edge anti-aliased. A fraction of the line's cost.
+void drawlist_band(struct drawlist *list, const float *xy, int count, float width, uint32_t color);
 /// Filled convex polygon (any winding), anti-aliased.
 void drawlist_convex(struct drawlist *list, const float *xy, int count, uint32_t color);
 /// Filled rounded rectangle, and its outline, which lies inside `r`.

@@ -45,6 +45,13 @@ static void dot(const struct pen *pen, float x, float y, float radius)
     drawlist_rounded(pen->list, r, radius, pen->color);
 }
 
+static void ring(const struct pen *pen, float radius)
+{
+    const float outer = radius + THIN / 2;
+    struct rect r = {pen->x - outer, pen->y - outer, 2 * outer, 2 * outer};
+    drawlist_rounded_line(pen->list, r, outer, THIN, pen->color);
+}
+
 static void draw_add(const struct pen *pen)
 {
     line(pen, -5, 0, 5, 0);
@@ -87,7 +94,7 @@ static void draw_eye_closed(const struct pen *pen)
 
 static void draw_solo(const struct pen *pen)
 {
-    arc(pen, (struct rect){0, 0, 5.5f, 5.5f}, 0, 1, RING_POINTS);
+    ring(pen, 5.5f);
     dot(pen, 0, 0, 2.2f);
 }
 
@@ -107,7 +114,7 @@ static void draw_unfollow(const struct pen *pen)
 
 static void draw_pick(const struct pen *pen)
 {
-    arc(pen, (struct rect){0, 0, 4, 4}, 0, 1, RING_POINTS);
+    ring(pen, 4);
     dot(pen, 0, 0, 1.2f);
     line(pen, -6.5f, 0, -3, 0);
     line(pen, 3, 0, 6.5f, 0);

@@ -6,7 +6,7 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { WIDTH = 260, LINE = 16, PAD_X = 8, PAD_Y = 5, BELOW = 6, MARGIN = 4, MOST_LINES = 6 };
+enum { WIDTH = 260, LINE = 16, PAD_X = 8, PAD_Y = 5, BELOW = 6, MARGIN = 4 };
 
 static const double WAIT = 0.5; ///< seconds of rest
 
@@ -54,7 +54,7 @@ struct rect tooltip_box(const struct tooltip *tooltip, struct rect window)
     const float width = text_width(window), whole = font_width(FONT_LABEL, THEME_TEXT_SMALL, tooltip->text);
     const char *rest = tooltip->text;
     int lines = 0;
-    for (; *rest && lines < MOST_LINES; lines++) take_line(&rest, width);
+    for (; *rest; lines++) take_line(&rest, width);
     const float w = fminf(ceilf(whole), width) + 2 * PAD_X, h = (float)(lines * LINE + 2 * PAD_Y);
     const struct rect *at = &tooltip->at;
     const float below = at->y + at->h + BELOW, above = at->y - BELOW - h;
@@ -72,7 +72,7 @@ void tooltip_show(const struct tooltip *tooltip, struct rect window, struct draw
     drawlist_rounded_line(list, box, 4, 1, theme()->control);
     float y = box.y + PAD_Y + LINE - 4;
     const char *rest = tooltip->text;
-    for (int line = 0; line < MOST_LINES && *rest; line++, y += LINE) {
+    for (; *rest; y += LINE) {
         const char *start = rest;
         char part[257];
         snprintf(part, sizeof part, "%.*s", (int)take_line(&rest, text_width(window)), start);

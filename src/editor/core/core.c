@@ -2,6 +2,7 @@
 #include "editor/core/core.h"
 #include "editor/core/arrange.h"
 #include "editor/core/selection.h"
+#include <ctype.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -134,6 +135,22 @@ void core_message(struct core *core, bool is_error, const char *text)
     snprintf(core->message.text, sizeof core->message.text, "%s", text);
     core->message.is_error = is_error;
     core->message.seconds_left = is_error ? 0 : MESSAGE_SECONDS;
+}
+
+void core_hold(const struct spline *spline, struct knot *knot, char why[STOPPED_SIZE])
+{
+    const double within = spline_within(spline, knot->value);
+    if (within != knot->value)
+        snprintf(why, STOPPED_SIZE, "held by the limit %.4g of %.24s at frame %.6g", within, spline->name,
+                 knot->frame);
+    knot->value = within;
+}
+
+void core_stopped(struct core *core, const char *why)
+{
+    char text[STOPPED_SIZE + 1];
+    snprintf(text, sizeof text, "%c%s.", toupper(*why), why + 1);
+    core_message(core, false, text);
 }
 
 struct spline *core_active_spline(const struct core *core, const struct editor_world *world)

@@ -29,6 +29,10 @@ void core_request(struct core *core, enum request_kind kind, const char *path);
 void core_request_number(struct core *core, enum request_kind kind, int number);
 /// See editor_message().
 void core_message(struct core *core, bool is_error, const char *text);
+/// Puts a knot within the limits of its spline. Where one holds it, says so: "held by the limit 1.2 of sway at frame 14".
+void core_hold(const struct spline *spline, struct knot *knot, char why[STOPPED_SIZE]);
+/// What stopped an edit, as a sentence of the status line.
+void core_stopped(struct core *core, const char *why);
 /// The active spline, or NULL.
 struct spline *core_active_spline(const struct core *core, const struct editor_world *world);
 /// Makes a spline the active one, which drops the selection.

@@ -82,6 +82,16 @@ bool drag_lock(struct drag *drag, int key)
     return true;
 }
 
+void drag_say_stopped(struct core *core, const char *why)
+{
+    if (*why) {
+        core_stopped(core, why);
+    } else if (core->drag.stopped) {
+        core->message.text[0] = 0;
+    }
+    core->drag.stopped = *why;
+}
+
 enum drag_answer drag_event(const struct drag *drag, const struct event *event)
 {
     if (event->kind == EVENT_BUTTON) {

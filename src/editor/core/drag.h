@@ -21,6 +21,8 @@ void drag_start_moving(struct core *core, const struct editor_world *world);
 bool drag_move(struct core *core, const struct editor_world *world, const struct event *event);
 /// X and Y: only the frame, only the value may change. false for other keys.
 bool drag_lock(struct drag *drag, int key);
+/// The status line says what stops a drag for as long as that does; "": nothing.
+void drag_say_stopped(struct core *core, const char *why);
 /// What the buttons and Esc mean to all drags.
 enum drag_answer drag_event(const struct drag *drag, const struct event *event);
 /// Ends it and its step; `keep` false takes the edits back.

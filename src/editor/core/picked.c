@@ -4,6 +4,7 @@
 #include "editor/core/core.h"
 #include "editor/core/selection.h"
 #include "editor/core/survey.h"
+#include <stdio.h>
 
 /// Knots that cannot be seen are not edited, unless their spline is the one that is worked on.
 static bool is_open(const struct core *core, const struct document *document, int spline)
@@ -97,6 +98,13 @@ enum room originals_room(const struct core *core, const struct document *documen
         before = sample;
     }
     return room;
+}
+
+void room_say(enum room room, double stopped, char why[STOPPED_SIZE])
+{
+    why[0] = 0;
+    if (room == ROOM_OUTSIDE) snprintf(why, STOPPED_SIZE, "a knot would leave the range");
+    if (room == ROOM_OCCUPIED) snprintf(why, STOPPED_SIZE, "a knot would land on another on frame %g", stopped);
 }
 
 double retime_shift(const void *frames, const struct original *original)

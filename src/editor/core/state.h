@@ -7,7 +7,7 @@
 #include "editor/core/world.h"
 #include <stdint.h>
 
-enum { EDITOR_MAX_REQUESTS = 8, CORE_MAX_RECENT = 16 };
+enum { EDITOR_MAX_REQUESTS = 8, CORE_MAX_RECENT = 16, STOPPED_SIZE = 96 /* of what stops an edit, in words */ };
 
 /// Rectangles of the panels, in logical pixels; made by core_layout().
 struct layout {
@@ -76,6 +76,7 @@ struct drag {
     bool snap;
     bool stale;    ///< the pointer moved since the edits were made
     unsigned knot; ///< id of the active spline's knot that is held; 0: none
+    bool stopped;  ///< the status line says what by
 };
 
 /// A knot as it was before the edit that moves it.
@@ -243,9 +244,11 @@ struct survey {
         int active;
         uint64_t selected, edits;
     } key;
+    struct survey_key values_key;
     struct knot_place from, to;    ///< the first and the last selected knot; {-1, -1}: there is none
+    unsigned only;                 ///< id of the selected knot where it is one, else 0
     int run;                       ///< knots of the active spline in each run
-    double values[SURVEY_RUNS][2]; ///< the lowest and highest of each run
+    double values[SURVEY_RUNS][2]; ///< the lowest and highest of each run, as of values_key
 };
 
 struct core {

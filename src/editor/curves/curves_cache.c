@@ -25,7 +25,7 @@ static uint64_t cache_key(const struct curves *curves, const struct core *core, 
     return key ? key : 1;
 }
 
-/// Puts the column next to each knot of the active spline exactly on it.
+/// Puts the column next to each knot of the active spline exactly on it, if it is next to no other.
 static void hit_knots(struct curves *curves, const struct core *core, const struct editor_world *world, double first,
                       double by)
 {
@@ -33,15 +33,15 @@ static void hit_knots(struct curves *curves, const struct core *core, const stru
     const struct spline *spline = core_active_spline(core, world);
     if (!spline) return;
     int k = spline_lower_bound(world->document, spline, (int)fmax(floor(first - by), 0));
-    while (k < spline->knot_count) {
+    for (int next, passed = 1; k < spline->knot_count; passed = next - k, k = next) {
         double sample = document_sample(world->document, spline->knots[k].frame);
         double column = floor((sample - first) / by + 0.5);
         if (column >= cache->count) break;
-        if (column >= 0) cache->position[(int)column] = sample;
-        // Of many knots at a column the last one counts.
-        const int next =
-            spline_lower_bound(world->document, spline, (int)fmin(ceil(first + (column + 0.5) * by), INT_MAX));
-        k = next - 1 > k ? next - 1 : k + 1;
+        next = curves_knot_near(world->document, spline, k + passed,
+                                (int)fmin(ceil(first + (column + 0.5) * by), INT_MAX));
+        next = next > k ? next : k + 1;
+        // Of several knots at a column none is hit: its lowest and highest samples say where they are.
+        if (column >= 0 && next == k + 1) cache->position[(int)column] = sample;
     }
 }
 
@@ -68,6 +68,7 @@ static void place_columns(struct curves *curves, const struct core *core, const 
     cache->count = (int)fmin(fmax(ceil(pixels) + 1, 2), EDITOR_MAX_COLUMNS);
     double first = core_position(document, left);
     double by = (core_position(document, right) - first) / (cache->count - 1);
+    cache->first = first;
     cache->by = by;
     for (int c = 0; c < cache->count; c++) {
         cache->position[c] = outermost(world->evaluation, core->active, first + by * c, by, c % 2);
@@ -94,11 +95,73 @@ static int fan_lags(const struct core *core, const struct editor_world *world, d
     return CURVES_FAN;
 }
 
+/// Whether a line whose points are the highest and the lowest of their columns in turn swings in most of them: the next point is far,
+/// and the next but one is not.
+static bool is_band(const struct curve_cache *cache, const polyline line)
+{
+    static const float least = 4; // pixels
+    int swings = 0;
+    for (int c = 0; c + 2 < cache->count; c++) {
+        const float swing = fabsf(line[c + 1][1] - line[c][1]), drift = fabsf(line[c + 2][1] - line[c][1]);
+        swings += swing > least && drift < 0.5f * swing;
+    }
+    return cache->by > 1 && 2 * swings > cache->count;
+}
+
+/// What the columns on both sides of a band's point cover: with less, a swing as long as two columns would be lost where each of them
+/// shows its other half.
+static double widened(const struct curve_cache *cache) { return 2 * cache->by; }
+
+/// A spline's total as a band: the highest and the lowest sample about each column in turn.
+static void draw_band(const struct curves *curves, const struct core *core, const struct editor_world *world,
+                      int spline, struct value_map map, polyline line)
+{
+    const struct curve_cache *cache = &curves->cache;
+    for (int c = 0; c < cache->count; c++) {
+        const double middle = cache->first + cache->by * c;
+        const double position = outermost(world->evaluation, spline, middle, widened(cache), c % 2);
+        const wiggly_value v = evaluation_at(world->evaluation, spline, position);
+        line[c][0] = curves_x(curves, core, frame_of(world->document, middle));
+        line[c][1] = curves_y(curves, core, map.scale * (v.y + v.re) + map.offset);
+    }
+}
+
+/// Im x as a band: of every sample, or of sixteen or so where there are more.
+static void draw_imaginary_band(struct curves *curves, const struct core *core, const struct editor_world *world)
+{
+    struct curve_cache *cache = &curves->cache;
+    const double reach = widened(cache) / 2, step = 1 + floor(reach / 8), last = world->evaluation->samples - 1;
+    for (int c = 0; c < cache->count; c++) {
+        const double middle = cache->first + cache->by * c;
+        double most = c % 2 ? -INFINITY : INFINITY;
+        for (double at = fmax(ceil(middle - reach), 0); at <= fmin(middle + reach, last); at += step) {
+            const wiggly_value v = evaluation_at(world->evaluation, core->active, at);
+            most = c % 2 ? fmax(most, v.y + v.im) : fmin(most, v.y + v.im);
+        }
+        cache->im[c][0] = cache->re[c][0];
+        if (isfinite(most)) cache->im[c][1] = curves_y(curves, core, most);
+    }
+}
+
+/// Whether the active spline's knots in sight are nearer to each other than its lagged copies could be told apart.
+static bool is_crowded(const struct curves *curves, const struct core *core, const struct editor_world *world)
+{
+    static const int apart = 3; // columns
+    const struct curve_cache *cache = &curves->cache;
+    const struct spline *spline = core_active_spline(core, world);
+    if (!spline) return false;
+    const double end = fmin(cache->first + cache->by * cache->count, INT_MAX);
+    const int knots = spline_lower_bound(world->document, spline, (int)end) -
+                      spline_lower_bound(world->document, spline, (int)cache->first);
+    return knots > cache->count / apart;
+}
+
 static void draw_active(struct curves *curves, const struct core *core, const struct editor_world *world)
 {
     struct curve_cache *cache = &curves->cache;
     double lags[CURVES_FAN], turn[CURVES_FAN][2];
-    cache->fan_count = core->look == LOOK_WIGGLY ? fan_lags(core, world, lags) : 0;
+    const bool fans = core->look == LOOK_WIGGLY && !is_crowded(curves, core, world);
+    cache->fan_count = fans ? fan_lags(core, world, lags) : 0;
     for (int i = 0; i < cache->fan_count; i++) {
         turn[i][0] = cos(lags[i]);
         turn[i][1] = sin(lags[i]);
@@ -114,6 +177,11 @@ static void draw_active(struct curves *curves, const struct core *core, const st
             cache->fan[i][c][1] = curves_y(curves, core, v.y + turn[i][0] * v.re + turn[i][1] * v.im);
         }
     }
+    cache->band = is_band(cache, cache->re);
+    if (!cache->band) return;
+    cache->fan_count = 0; // its copies would fill the same band
+    draw_band(curves, core, world, core->active, (struct value_map){1, 0}, cache->re);
+    draw_imaginary_band(curves, core, world);
 }
 
 static void draw_others(struct curves *curves, const struct core *core, const struct editor_world *world)
@@ -124,13 +192,15 @@ static void draw_others(struct curves *curves, const struct core *core, const st
         if (s == core->active || !arrange_shows(core, world->document, s)) continue;
         polyline *line = &cache->others[cache->other_count];
         const struct value_map map = normal_map(curves, core, s);
-        cache->other_spline[cache->other_count++] = s;
+        cache->other_spline[cache->other_count] = s;
         for (int c = 0; c < cache->count; c++) {
             double position = outermost(world->evaluation, s, cache->position[c], cache->by, c % 2);
             wiggly_value v = evaluation_at(world->evaluation, s, position);
             (*line)[c][0] = curves_x(curves, core, frame_of(world->document, position));
             (*line)[c][1] = curves_y(curves, core, map.scale * (v.y + v.re) + map.offset);
         }
+        const bool band = cache->other_band[cache->other_count++] = is_band(cache, *line);
+        if (band) draw_band(curves, core, world, s, map, *line);
     }
 }
 
@@ -150,9 +220,13 @@ void curves_capture_ghost(struct curves *curves, const struct core *core, const 
     struct ghost *ghost = &curves->ghost;
     const struct curve_cache *cache = &curves->cache;
     ghost->count = cache->count;
+    ghost->band = cache->band;
     for (int c = 0; c < cache->count; c++) {
         wiggly_value v = evaluation_at(world->evaluation, core->active, cache->position[c]);
         ghost->frame[c] = frame_of(world->document, cache->position[c]);
         ghost->value[c] = v.y + v.re;
+        if (!cache->band) continue;
+        ghost->frame[c] = curves_frame(curves, core, cache->re[c][0]);
+        ghost->value[c] = curves_value(curves, core, cache->re[c][1]);
     }
 }

@@ -20,6 +20,7 @@ enum { MAX_LABELS = CURVES_MAX_OTHERS + 2, RING_POINTS = 25 };
 
 static const float KNOT_RADIUS = 4.5f, OTHER_RADIUS = 3, HOVER_RADIUS = 6.5f, HANDLE_REACH = 130, HANDLE_RADIUS = 3;
 static const double FIRM_LENGTH = 48, DECADE_LENGTH = 12; ///< of a handle; of ten times the stiffness
+static const float MARK_STEP = 12;                        ///< columns from mark to mark in a band
 static const float OTHERS_CROWDED = 3;                    ///< pixels between knots below which one stands for several
 static const float LABEL_STEP = 15;
 static const float FAN_NEAR = 0.24f,
@@ -33,10 +34,13 @@ struct label {
     const char *text;
 };
 
-static void show_line(const struct curves *curves, struct core *core, const polyline line, float width,
-                      uint32_t color)
+static void show_line(struct core *core, const float *xy, int count, bool band, float width, uint32_t color)
 {
-    drawlist_line(&core->list, &line[0][0], curves->cache.count, width, color);
+    if (band) {
+        drawlist_band(&core->list, xy, count, width, color);
+    } else {
+        drawlist_line(&core->list, xy, count, width, color);
+    }
 }
 
 static void show_ghost(struct curves *curves, struct core *core)
@@ -49,7 +53,7 @@ static void show_ghost(struct curves *curves, struct core *core)
         xy[2 * c] = curves_x(curves, core, ghost->frame[c]);
         xy[2 * c + 1] = curves_y(curves, core, ghost->value[c]);
     }
-    drawlist_line(&core->list, xy, ghost->count, 1, theme_fade(theme()->playhead, 0.25f));
+    show_line(core, xy, ghost->count, ghost->band, 1, theme_fade(theme()->playhead, 0.25f));
 }
 
 static bool shows_imaginary(const struct core *core, const struct spline *spline)
@@ -66,17 +70,19 @@ static void show_lines(struct curves *curves, struct core *core, const struct ed
     if (cache->count < 2) return;
     for (int i = 0; i < cache->other_count; i++) {
         const bool hot = core->hover.kind == HOVER_CURVE && core->hover.spline == cache->other_spline[i];
-        show_line(curves, core, cache->others[i], 1.25f,
+        show_line(core, &cache->others[i][0][0], cache->count, cache->other_band[i], 1.25f,
                   theme_fade(arrange_color(world->document, cache->other_spline[i]), hot ? 1 : THEME_OTHERS));
     }
     if (!spline) return;
     show_ghost(curves, core);
     for (int i = cache->fan_count - 1; i >= 0; i--) {
-        show_line(curves, core, cache->fan[i], 1, theme_fade(color, FAN_NEAR - FAN_STEP * (float)i));
+        drawlist_line(&core->list, &cache->fan[i][0][0], cache->count, 1,
+                      theme_fade(color, FAN_NEAR - FAN_STEP * (float)i));
     }
     drawlist_dashed(&core->list, &cache->equilibrium[0][0], cache->count, 1.25f, 6, 4, theme()->equilibrium);
-    if (shows_imaginary(core, spline)) show_line(curves, core, cache->im, 1.25f, theme_fade(color, 0.45f));
-    show_line(curves, core, cache->re, 2.5f, color);
+    if (shows_imaginary(core, spline))
+        show_line(core, &cache->im[0][0], cache->count, cache->band, 1.25f, theme_fade(color, 0.45f));
+    show_line(core, &cache->re[0][0], cache->count, cache->band, 2.5f, color);
 }
 
 static void show_ring(struct drawlist *list, float x, float y, float radius, float width, uint32_t color)
@@ -205,13 +211,22 @@ static int column_knot(const struct core *core, const struct document *document,
     return selected < end ? selected : first;
 }
 
-/// The end of the knots in one pixel column: columns begin at the scene's first frame, so that they stay as the view is moved.
-static int column_end(const struct curves *curves, const struct core *core, const struct document *document,
-                      const struct spline *spline, int first)
+/// The pixel column of a knot: columns begin at the scene's first frame, so that they stay as the view is moved.
+static double column_of(const struct curves *curves, const struct core *core, const struct document *document,
+                        const struct knot *knot)
 {
     const double pixels = curves_pixels_per_frame(curves, core) / document->substeps; // a sample
-    const double column = floor(document_sample(document, spline->knots[first].frame) * pixels);
-    const int end = spline_lower_bound(document, spline, (int)fmin(ceil((column + 1) / pixels), INT_MAX));
+    return floor(document_sample(document, knot->frame) * pixels);
+}
+
+/// The end of the knots in one pixel column; the one before had `before` of them.
+static int column_end(const struct curves *curves, const struct core *core, const struct document *document,
+                      const struct spline *spline, int first, int before)
+{
+    const double pixels = curves_pixels_per_frame(curves, core) / document->substeps;
+    const double column = column_of(curves, core, document, &spline->knots[first]);
+    const int sample = (int)fmin(ceil((column + 1) / pixels), INT_MAX);
+    const int end = curves_knot_near(document, spline, first + before, sample);
     return end > first ? end : first + 1;
 }
 
@@ -240,6 +255,19 @@ static void show_knot(const struct curves *curves, struct core *core, const stru
     if (core->hover.kind == HOVER_KNOT && core->hover.knot == knot->id) knot_ring(&core->list, x, y);
 }
 
+/// Whether the knots of one column go without a mark, because the marks of their neighbours would cover it: in a band, which goes through
+/// all of them, only some columns have one.
+static bool is_lost(const struct curves *curves, const struct core *core, const struct document *document, int first,
+                    int shown)
+{
+    const struct knot *knots = document->splines[core->active].knots;
+    const double column = column_of(curves, core, document, &knots[first]);
+    const bool chosen = core->hover.kind == HOVER_KNOT && core->hover.knot == knots[shown].id;
+    if (!curves->cache.band || chosen || selection_has(&core->selection, knots[shown].id)) return false;
+    const bool alone = first == 0 || column - column_of(curves, core, document, &knots[first - 1]) > MARK_STEP;
+    return !alone && fmod(column, MARK_STEP) != 0;
+}
+
 static void show_knots(const struct curves *curves, struct core *core, const struct editor_world *world)
 {
     const struct document *document = world->document;
@@ -248,12 +276,14 @@ static void show_knots(const struct curves *curves, struct core *core, const str
     uint32_t color = arrange_color(document, core->active);
     if (!spline) return;
     int k = curves_knot_from(curves, core, document, spline, plot->x - HANDLE_REACH);
-    for (int end; k < spline->knot_count; k = end) {
+    for (int end, passed = 1; k < spline->knot_count; passed = end - k, k = end) {
         float x = curves_knot_x(curves, core, document, &spline->knots[k]);
-        end = column_end(curves, core, document, spline, k);
+        end = column_end(curves, core, document, spline, k, passed);
         if (x > plot->x + plot->w + HANDLE_REACH) break;
-        show_column(curves, core, document, k, end, x, color);
-        show_knot(curves, core, document, &spline->knots[column_knot(core, document, k, end)], x, color);
+        const int shown = column_knot(core, document, k, end);
+        if (is_lost(curves, core, document, k, shown)) continue;
+        if (!curves->cache.band) show_column(curves, core, document, k, end, x, color);
+        show_knot(curves, core, document, &spline->knots[shown], x, color);
     }
 }
 

@@ -10,6 +10,7 @@
 #include "editor/curves/view.h"
 #include <assert.h>
 #include <math.h>
+#include <stdio.h>
 
 static const double SLOPE_RESOLUTION = 1e-3; ///< of the visible values, a second
 static const double LENGTH_SLACK = 8; ///< pixels by which a handle may be pulled before it says more than a slope
@@ -85,8 +86,10 @@ void drag_begin_slope(struct curves *curves, struct core *core, const struct edi
     core->originals.count = 1;
 }
 
-/// The shift in frames that the pointer asks for: whole frames for the knot that is held, inside the range for all.
-static double wanted_frames(const struct curves *curves, struct core *core, const struct document *document)
+/// The shift in frames that the pointer asks for: whole frames for the knot that is held, inside the range for all; `why` it is
+/// no more.
+static double wanted_frames(const struct curves *curves, const struct core *core, const struct document *document,
+                            char why[STOPPED_SIZE])
 {
     const struct drag *drag = &core->drag;
     const struct originals *originals = &core->originals;
@@ -98,26 +101,24 @@ static double wanted_frames(const struct curves *curves, struct core *core, cons
     }
     if (drag->snap) frames = fabs(frames) < 0.5 ? 0 : round(held->knot.frame + frames) - held->knot.frame;
     shift_limits(curves, originals, document, &least, &most);
-    if (curves->knot_drag.ripple && frames > most) {
-        core_message(core, false, "The last knot has reached the end of the range. Extend the range to make room.");
-    }
+    if (frames < least || frames > most) room_say(ROOM_OUTSIDE, 0, why);
+    if (curves->knot_drag.ripple && frames > most)
+        snprintf(why, STOPPED_SIZE, "the last knot has reached the end of the range. Extend the range to make room");
     return fmax(fmin(frames, most), least);
 }
 
-/// The value of a knot that is moved by `up` on the screen, in values of the active spline; within its spline's limits.
-static double moved_value(const struct curves *curves, const struct core *core, const struct document *document,
-                          const struct original *original, double up)
+/// The value of a knot that is moved by `up` on the screen, in values of the active spline.
+static double moved_value(const struct curves *curves, const struct core *core, const struct original *original,
+                          double up)
 {
-    const struct spline *spline = &document->splines[original->spline];
     const double scale = normal_map(curves, core, original->spline).scale;
     const double resolution = 0.01 / curves_pixels_per_value(curves, core) / scale;
-    const double moved = core_round(original->knot.value + up / scale, resolution);
-    return fmin(fmax(moved, spline->parameter[PARAMETER_LOW].value), spline->parameter[PARAMETER_HIGH].value);
+    return core_round(original->knot.value + up / scale, resolution);
 }
 
-/// Moves all originals; from the far end on, so that they do not run into each other.
+/// Moves all originals; from the far end on, so that they do not run into each other. `why` says which one a limit held.
 static bool move_knots(const struct curves *curves, const struct core *core, const struct editor_world *world,
-                       double frames, double up)
+                       double frames, double up, char why[STOPPED_SIZE])
 {
     for (int i = 0; i < core->originals.count; i++) {
         const struct original *original = &core->originals.list[frames > 0 ? core->originals.count - 1 - i : i];
@@ -125,7 +126,8 @@ static bool move_knots(const struct curves *curves, const struct core *core, con
         edit.knot = original->knot;
         edit.knot.frame += frames;
         if (up != 0 && selection_has(&core->selection, original->knot.id))
-            edit.knot.value = moved_value(curves, core, world->document, original, up);
+            edit.knot.value = moved_value(curves, core, original, up);
+        core_hold(&world->document->splines[original->spline], &edit.knot, why);
         if (!history_apply(world->history, world->document, &edit, NULL)) return false;
     }
     return true;
@@ -136,16 +138,21 @@ static void apply_knots(struct curves *curves, struct core *core, const struct e
     const struct drag *drag = &core->drag;
     history_restart(world->history, world->document);
     if (core->originals.count == 0) return;
-    double frames = wanted_frames(curves, core, world->document);
+    char why[STOPPED_SIZE] = "";
+    double frames = wanted_frames(curves, core, world->document, why), stopped = 0;
     double up = drag->lock_x ? 0 : -drag->moved_y / curves_pixels_per_value(curves, core);
-    if (originals_room(core, world->document, retime_shift, &frames, NULL) != ROOM_FREE)
+    const enum room room = originals_room(core, world->document, retime_shift, &frames, &stopped);
+    if (room != ROOM_FREE) {
+        room_say(room, stopped, why);
         frames = curves->knot_drag.free_frames;
-    if (!move_knots(curves, core, world, frames, up)) {
+    }
+    if (!move_knots(curves, core, world, frames, up, why)) {
         history_restart(world->history, world->document);
         frames = curves->knot_drag.free_frames;
-        move_knots(curves, core, world, frames, up);
+        move_knots(curves, core, world, frames, up, why);
     }
     curves->knot_drag.free_frames = frames;
+    drag_say_stopped(core, why);
 }
 
 /// The slope that lets the held end of the handle point at the pointer; pulled out or pushed in, also the stiffness.

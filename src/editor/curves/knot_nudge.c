@@ -11,13 +11,16 @@ static const double GHOST_SECONDS = 1.2;
 /// Kinds of nudges for core_merge_key().
 enum nudge_kind { NUDGE_FRAMES = 1, NUDGE_VALUE };
 
-/// The shift itself, or the next multiple of it behind the knots that are in the way; 0 where there is no room.
-static double free_shift(const struct core *core, const struct document *document, double frames)
+/// The shift itself, or the next multiple of it behind the knots that are in the way; 0 where there is no room, and why.
+static double free_shift(const struct core *core, const struct document *document, double frames,
+                         char why[STOPPED_SIZE])
 {
     for (double shift = frames; frames != 0; shift += frames) {
         enum room room = originals_room(core, document, retime_shift, &shift, NULL);
         if (room == ROOM_FREE) return shift;
-        if (room == ROOM_OUTSIDE) break;
+        if (room != ROOM_OUTSIDE) continue;
+        room_say(room, 0, why);
+        break;
     }
     return 0;
 }
@@ -28,7 +31,9 @@ void curves_nudge(const struct curves *curves, struct core *core, const struct e
     const struct originals *originals = &core->originals;
     if (history_is_open(world->history)) return;
     core_collect(core, world->document, false);
-    double shift = free_shift(core, world->document, frames), up = 0.01 * hundredths * core->visible;
+    char why[STOPPED_SIZE] = "";
+    double shift = free_shift(core, world->document, frames, why), up = 0.01 * hundredths * core->visible;
+    if (*why) core_stopped(core, why);
     if (originals->count == 0 || (shift == 0 && up == 0)) return;
     history_begin(world->history, "Nudge knots",
                   core_merge_key(core, world, frames != 0 ? NUDGE_FRAMES : NUDGE_VALUE));
@@ -40,8 +45,10 @@ void curves_nudge(const struct curves *curves, struct core *core, const struct e
         edit.knot = original->knot;
         edit.knot.frame += shift;
         if (value != 0) edit.knot.value = core_round(edit.knot.value + value, 0.01 * fabs(value));
+        core_hold(&world->document->splines[original->spline], &edit.knot, why);
         core_edit(core, world, &edit);
     }
+    if (*why) core_stopped(core, why);
     history_end(world->history);
     core->nudged_seconds = GHOST_SECONDS;
     core_tell(core, world, NEWS_EDITED, -1);

@@ -237,45 +237,32 @@ static double free_time(struct curves *curves, const struct core *core, const st
     const struct retiming retiming = {curves, core, factor};
     double frame = 0;
     const enum room room = originals_room(core, document, scaled_frame, &retiming, &frame);
-    scaling->stopped[0][0] = 0;
-    if (room == ROOM_FREE) return scaling->free_time = factor;
-    snprintf(scaling->stopped[0], sizeof scaling->stopped[0],
-             room == ROOM_OUTSIDE ? "a knot would leave the range" : "a knot would land on another on frame %g",
-             frame);
-    return scaling->free_time;
+    room_say(room, frame, scaling->stopped[0]);
+    return room == ROOM_FREE ? scaling->free_time = factor : scaling->free_time;
 }
 
-/// A knot that a limit of its spline held.
-struct held_knot {
-    const struct original *original; ///< NULL: none was
-    double limit;
-};
-
-/// A value scaled about the pivot, inside its spline's limits; `held` is set where one of these held it.
-static double scaled_value(const struct curves *curves, const struct core *core, const struct document *document,
-                           const struct original *original, double factor, struct held_knot *held)
+/// A value scaled about the pivot.
+static double scaled_value(const struct curves *curves, const struct core *core, const struct original *original,
+                           double factor)
 {
     const struct scaling *scaling = &curves->scaling;
-    const struct param *parameter = document->splines[original->spline].parameter;
     const struct value_map map = normal_map(curves, core, original->spline);
     const double drawn = (scaling->value - map.offset) / map.scale;
     const double pivot = scaling->pivot == PIVOT_EQUILIBRIUM ? original->equilibrium : drawn;
     const double resolution = 0.01 / curves_pixels_per_value(curves, core) / map.scale;
-    const double value = core_round(pivot + factor * (original->knot.value - pivot), resolution);
-    const double inside = fmin(fmax(value, parameter[PARAMETER_LOW].value), parameter[PARAMETER_HIGH].value);
-    if (inside != value) *held = (struct held_knot){original, inside};
-    return inside;
+    return core_round(pivot + factor * (original->knot.value - pivot), resolution);
 }
 
 static struct knot scaled(struct curves *curves, const struct core *core, const struct document *document,
-                          const struct original *original, struct held_knot *held)
+                          const struct original *original)
 {
     const struct factors by = curves->scaling.by;
     const struct retiming retiming = {curves, core, by.time};
     struct knot to = original->knot;
     double visible = curves->view.value1 - curves->view.value0, steeper = by.value / by.time;
     to.frame = scaled_frame(&retiming, original);
-    if (by.value != 1) to.value = scaled_value(curves, core, document, original, by.value, held);
+    if (by.value != 1) to.value = scaled_value(curves, core, original, by.value);
+    core_hold(&document->splines[original->spline], &to, curves->scaling.stopped[1]);
     if (steeper != 1) to.slope = core_round(original->knot.slope * steeper, SLOPE_RESOLUTION * visible);
     return to;
 }
@@ -286,8 +273,8 @@ static void move_all(struct curves *curves, struct core *core, const struct edit
     struct scaling *scaling = &curves->scaling;
     const struct originals *originals = &core->originals;
     const bool moves = scaling->by.time != 1;
-    struct held_knot held = {0};
     bool changes = moves;
+    scaling->stopped[1][0] = 0;
     for (int i = 0; i < originals->count && moves; i++) {
         struct edit edit = core_edit_of(EDIT_KNOT_REMOVE, originals->list[i].spline);
         edit.knot = originals->list[i].knot;
@@ -295,18 +282,13 @@ static void move_all(struct curves *curves, struct core *core, const struct edit
     }
     for (int i = 0; i < originals->count; i++) {
         struct edit edit = core_edit_of(moves ? EDIT_KNOT_INSERT : EDIT_KNOT_SET, originals->list[i].spline);
-        edit.knot = scaled(curves, core, world->document, &originals->list[i], &held);
+        edit.knot = scaled(curves, core, world->document, &originals->list[i]);
         changes |= edit.knot.value != originals->list[i].knot.value;
         if (core_edit(core, world, &edit)) continue;
         history_restart(world->history, world->document);
         return;
     }
-    scaling->stopped[1][0] = 0;
-    if (held.original)
-        snprintf(scaling->stopped[1], sizeof scaling->stopped[1], "held by the limit %.4g of %.24s at frame %.6g",
-                 held.limit, world->document->splines[held.original->spline].name,
-                 scaled_frame(&(struct retiming){curves, core, scaling->by.time}, held.original));
-    else if (!changes && scaling->by.value != 1)
+    if (!scaling->stopped[1][0] && !changes && scaling->by.value != 1)
         snprintf(scaling->stopped[1], sizeof scaling->stopped[1], "all are on the %s",
                  pivot_name(scaling, scaling->pivot));
 }

@@ -14,7 +14,7 @@ static const float BESIDE = 16, BELOW = 20; ///< of the pointer
 struct tag {
     int count;
     struct {
-        char text[80];
+        char text[STOPPED_SIZE];
         bool is_stop;
     } line[MOST_LINES];
 };

@@ -101,9 +101,9 @@ struct scaling {
     double edge[2];                 ///< frame and value of the knots at the handle
     double playhead[2], balance[2]; ///< frame and value: of the playhead's pivot; of the equilibrium in the middle
     struct factors by;
-    double free_time;    ///< last factor by which no knot was hit
-    char typed[16];      ///< one factor or, with a space between them, two in place of the pointer's
-    char stopped[2][80]; ///< why time, and value, go no further, or ""
+    double free_time;              ///< last factor by which no knot was hit
+    char typed[16];                ///< one factor or, with a space between them, two in place of the pointer's
+    char stopped[2][STOPPED_SIZE]; ///< why time, and value, go no further, or ""
     char sentence[400];
 };
 
@@ -150,9 +150,12 @@ typedef float polyline[EDITOR_MAX_COLUMNS][2];
 struct curve_cache {
     uint64_t key;
     int count;                           ///< columns; 0 where the scene is out of sight
-    double by;                           ///< samples from column to column
+    double first, by;                    ///< sample of the first column, samples from column to column
     double position[EDITOR_MAX_COLUMNS]; ///< in samples; knots of the active spline are hit exactly
     polyline re, im, equilibrium, fan[CURVES_FAN], others[CURVES_MAX_OTHERS];
+    bool band,
+        other_band
+            [CURVES_MAX_OTHERS]; ///< columns hold whole swings: re and im, or the other, is drawn as what it covers
     int fan_count, other_count;
     int other_spline[CURVES_MAX_OTHERS];
     double range[CURVES_MAX_RANGES][2]; ///< lowest and highest value of each spline, where curves are normalised
@@ -162,6 +165,7 @@ struct curve_cache {
 /// The active curve as it was before a drag, in frames and values so that it survives a change of the view.
 struct ghost {
     int count;
+    bool band;
     double frame[EDITOR_MAX_COLUMNS], value[EDITOR_MAX_COLUMNS];
 };
 

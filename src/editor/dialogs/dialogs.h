@@ -46,7 +46,7 @@ bool dialogs_cover(const struct dialogs *dialogs);
 /// The same, and what the pointer is over there.
 bool dialogs_over(const struct dialogs *dialogs, enum ui_over *over);
 /// How far down the left side of the stage is free.
-float dialogs_bottom(const struct dialogs *dialogs, const struct core *core, const struct document *document);
+float dialogs_bottom(const struct dialogs *dialogs, const struct core *core);
 /// Shows the card for new users.
 void dialogs_welcome(struct dialogs *dialogs);
 /// Whether it is still to be seen.
@@ -59,7 +59,8 @@ void dialogs_advance(struct dialogs *dialogs, const struct core *core, double dt
 bool dialogs_want_frames(const struct dialogs *dialogs, const struct core *core);
 /// While presenting, and in a demo: what is pressed, its caption and pointer.
 void dialogs_show_input(const struct dialogs *dialogs, struct core *core);
-/// A card on the stage with what to try first.
-void dialogs_show_welcome(struct dialogs *dialogs, struct core *core, const struct editor_world *world);
+/// A card on the stage with what to try first, beside `figure`, which is what the scene shows.
+void dialogs_show_welcome(struct dialogs *dialogs, struct core *core, const struct editor_world *world,
+                          struct rect figure);
 
 #endif

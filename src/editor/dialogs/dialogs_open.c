@@ -14,7 +14,7 @@ bool dialogs_event(struct dialogs *dialogs, struct core *core, const struct edit
                    const struct event *event, bool busy)
 {
     return dialog_event(dialogs, core, world, event) || help_event(dialogs, core, event, busy) ||
-           welcome_event(dialogs, core, world->document, event);
+           welcome_event(dialogs, event);
 }
 
 void dialogs_show(struct dialogs *dialogs, struct core *core, const struct editor_world *world)
@@ -34,8 +34,8 @@ bool dialogs_over(const struct dialogs *dialogs, enum ui_over *over)
     return dialogs_cover(dialogs);
 }
 
-float dialogs_bottom(const struct dialogs *dialogs, const struct core *core, const struct document *document)
+float dialogs_bottom(const struct dialogs *dialogs, const struct core *core)
 {
     const struct rect *stage = &core->layout.stage;
-    return dialogs->welcome ? welcome_card(core, document).y : stage->y + stage->h;
+    return dialogs->welcome ? dialogs->card.y : stage->y + stage->h;
 }

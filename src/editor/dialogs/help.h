@@ -27,10 +27,7 @@ extern const struct help_group help_groups[HELP_GROUPS];
 /// A row of a group, from 0; without keys beyond the last one. HELP_HELD begins with the letters of the parameters.
 struct help_row help_row(const struct help_group *group, int index);
 
-/// Where the card is.
-struct rect welcome_card(const struct core *core, const struct document *document);
 /// A press on the card takes it away and is used up; so do Esc, an edit and the help.
-bool welcome_event(struct dialogs *dialogs, const struct core *core, const struct document *document,
-                   const struct event *event);
+bool welcome_event(struct dialogs *dialogs, const struct event *event);
 
 #endif

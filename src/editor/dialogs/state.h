@@ -93,6 +93,7 @@ struct dialogs {
     struct pressed pressed;
     char caption[160]; ///< of a demo
     bool welcome;      ///< the card for newcomers is shown
+    struct rect card;  ///< where it is
 };
 
 #endif

@@ -6,9 +6,13 @@
 #include "ui/theme.h"
 #include <math.h>
 
-enum { MARGIN = 16, PAD = 14, LINE = 20, GAP = 16 };
+enum { MARGIN = 16, PAD = 14, LINE = 20, GAP = 16, BAND_MARGIN = 6, TITLE = 40 };
 
-enum { HINTS = 4, WIDE = 900 }; ///< hints of a card; width of a stage that leaves room beside two characters
+enum {
+    HINTS = 4,
+    WIDE = 900,
+    TALL = 250
+}; ///< hints of a card; widths and heights of a stage with room beside tails, and for two hints
 
 /// By what is on the stage; an empty row is about knots.
 static const struct hint {
@@ -53,48 +57,87 @@ bool dialogs_is_welcoming(const struct dialogs *dialogs) { return dialogs->welco
 
 static float width_of(enum font font, const char *text) { return font_width(font, THEME_TEXT_NORMAL, text); }
 
-/// Width of the column of what to do, whichever it is.
-static float what_width(void)
+/// How the words stand: in two columns; each reason below what to do; or the first hints alone, in a band at the upper edge.
+enum form { FORM_WIDE, FORM_UPRIGHT, FORM_BAND };
+
+struct card {
+    enum form form;
+    struct rect rect;
+    float before; ///< of the reasons, from the left
+    int hints;
+};
+
+/// Widths of the widest thing to do, and of the widest reason.
+static void measure(const struct document *document, int count, float *what, float *why)
 {
-    float width = 0;
-    for (int i = 0; i < LEADS * HINTS; i++) {
-        const char *what = hints[i / HINTS][i % HINTS].what;
-        if (what) width = fmaxf(width, width_of(FONT_LABEL_BOLD, what));
+    *what = *why = 0;
+    for (int i = 0; i < count; i++) {
+        const struct hint *hint = hint_of(document, i);
+        *what = fmaxf(*what, ceilf(width_of(FONT_LABEL_BOLD, hint->what)));
+        *why = fmaxf(*why, ceilf(width_of(FONT_LABEL, hint->why)));
     }
-    return ceilf(width) + GAP;
 }
 
-/// Characters side by side fill the stage but for its edges: the card stands upright there, each reason below what to do.
-static bool is_upright(const struct core *core, const struct document *document)
-{
-    if (core->layout.stage.w < WIDE) return false;
-    const int first = document_next_rig(document, RIG_CHARACTER, 0);
-    return rigs_lead(document) == LEAD_CHARACTER && document_next_rig(document, RIG_CHARACTER, first + 1) >= 0;
-}
-
-struct rect welcome_card(const struct core *core, const struct document *document)
+/// A card in a lower corner of the stage.
+static struct card corner_card(const struct core *core, const struct document *document, enum form form, bool right)
 {
     const struct rect *stage = &core->layout.stage;
-    const bool upright = is_upright(core, document);
-    const float before = upright ? 0 : what_width();
-    float why = width_of(FONT_LABEL, more) + GAP + width_of(FONT_LABEL_BOLD, closing) - before;
-    for (int i = 0; i < LEADS * HINTS; i++) {
-        const char *reason = hints[i / HINTS][i % HINTS].why;
-        if (reason) why = fmaxf(why, width_of(FONT_LABEL, reason));
-    }
-    const float height = 2 * PAD + (HINTS * (upright ? 2 : 1) + 1) * LINE + 2;
-    const float width = 2 * PAD + before + ceilf(why);
-    const bool legend = core->characters.mapped || core->brush.on; // that of the phase map is at the left hand
-    return (struct rect){legend || upright ? stage->x + stage->w - MARGIN - width : stage->x + MARGIN,
-                         stage->y + stage->h - MARGIN - height, width, height};
+    struct card card = {.form = form, .hints = HINTS};
+    float what, why;
+    measure(document, HINTS, &what, &why);
+    card.before = form == FORM_WIDE ? what + GAP : 0;
+    const float closes = width_of(FONT_LABEL, more) + GAP + width_of(FONT_LABEL_BOLD, closing);
+    const float width = 2 * PAD + ceilf(fmaxf(fmaxf(card.before + why, what), closes));
+    const float height = 2 * PAD + (HINTS * (form == FORM_WIDE ? 1 : 2) + 1) * LINE + 2;
+    card.rect = (struct rect){right ? stage->x + stage->w - MARGIN - width : stage->x + MARGIN,
+                              stage->y + stage->h - MARGIN - height, width, height};
+    return card;
 }
 
-bool welcome_event(struct dialogs *dialogs, const struct core *core, const struct document *document,
-                   const struct event *event)
+/// Hints across the upper edge, in place of the description: the camera leaves so much free.
+static struct card band_card(const struct core *core, const struct document *document)
+{
+    const struct rect *stage = &core->layout.stage;
+    struct card card = {.form = FORM_BAND, .hints = stage->h < TALL || !document->about ? 1 : 2};
+    float what, why;
+    measure(document, card.hints, &what, &why);
+    card.before = what + GAP;
+    const float closes = width_of(card.hints > 1 ? FONT_LABEL : FONT_LABEL_BOLD, card.hints > 1 ? more : closing);
+    card.rect = (struct rect){stage->x + BAND_MARGIN, stage->y + BAND_MARGIN,
+                              2 * PAD + card.before + why + 2 * GAP + ceilf(closes), PAD + (float)card.hints * LINE};
+    return card;
+}
+
+/// Whether a card covers neither what the scene shows, nor the title of its description.
+static bool is_clear(const struct core *core, const struct card *card, struct rect figure)
+{
+    const struct rect *r = &card->rect;
+    const bool beside = r->x + r->w <= figure.x || r->x >= figure.x + figure.w || figure.w == 0;
+    return beside && r->y >= core->layout.stage.y + TITLE;
+}
+
+/// Tails swing to and fro over a wide stage, but high above its corners.
+static struct card place_card(const struct core *core, const struct document *document, struct rect figure)
+{
+    static const struct {
+        enum form form;
+        bool right;
+    } places[] = {{FORM_WIDE, false}, {FORM_UPRIGHT, false}, {FORM_UPRIGHT, true}, {FORM_WIDE, true}};
+    const bool legend = core->characters.mapped || core->brush.on; // that of the phase map is at the left hand
+    const bool roomy = core->layout.stage.w >= WIDE && rigs_lead(document) != LEAD_CHARACTER;
+    for (size_t i = 0; i < sizeof places / sizeof *places; i++) {
+        const struct card card = corner_card(core, document, places[i].form, places[i].right);
+        if (legend && !places[i].right) continue;
+        if (roomy || is_clear(core, &card, figure)) return card;
+    }
+    return band_card(core, document);
+}
+
+bool welcome_event(struct dialogs *dialogs, const struct event *event)
 {
     if (!dialogs->welcome || event->action != ACTION_PRESS) return false;
     bool escape = event->kind == EVENT_KEY && event->key == KEY_ESCAPE;
-    bool click = event->kind == EVENT_BUTTON && rect_contains(welcome_card(core, document), event->x, event->y);
+    bool click = event->kind == EVENT_BUTTON && rect_contains(dialogs->card, event->x, event->y);
     if (escape || click) dialogs->welcome = false;
     return escape || click;
 }
@@ -104,25 +147,44 @@ static void show_text(struct core *core, float x, float y, enum font font, uint3
     drawlist_text(&core->list, x, y, font, THEME_TEXT_NORMAL, color, text);
 }
 
-void dialogs_show_welcome(struct dialogs *dialogs, struct core *core, const struct editor_world *world)
+static void show_right(struct core *core, const struct card *card, float y, enum font font, uint32_t color,
+                       const char *text)
+{
+    show_text(core, card->rect.x + card->rect.w - PAD - width_of(font, text), y, font, color, text);
+}
+
+/// How to close it, below the hints, or in the band behind them.
+static void show_closing(struct core *core, const struct card *card, float y)
+{
+    if (card->form != FORM_BAND) {
+        y += 4;
+        show_text(core, card->rect.x + PAD, y, FONT_LABEL, theme()->text_dim, more);
+    } else {
+        y -= LINE;
+        if (card->hints > 1) show_right(core, card, y - LINE, FONT_LABEL, theme()->text_dim, more);
+    }
+    show_right(core, card, y, FONT_LABEL_BOLD, theme()->accent, closing);
+}
+
+void dialogs_show_welcome(struct dialogs *dialogs, struct core *core, const struct editor_world *world,
+                          struct rect figure)
 {
     if (!history_is_saved(world->history)) dialogs->welcome = false;
     if (!dialogs->welcome) return;
+    const struct card card = place_card(core, world->document, figure);
     struct drawlist *list = &core->list;
-    struct rect card = welcome_card(core, world->document), clip = drawlist_push_clip(list, core->layout.stage);
-    drawlist_rounded(list, card, 8, theme()->panel);
-    drawlist_rounded_line(list, card, 8, 1, theme()->zero);
-    const bool upright = is_upright(core, world->document);
-    float left = card.x + PAD, y = card.y + PAD + 12;
-    for (int i = 0; i < HINTS; i++, y += LINE) {
+    struct rect clip = drawlist_push_clip(list, core->layout.stage);
+    drawlist_rounded(list, card.rect, 8, theme()->panel);
+    drawlist_rounded_line(list, card.rect, 8, 1, theme()->zero);
+    const float left = card.rect.x + PAD;
+    float y = card.rect.y + (card.form == FORM_BAND ? PAD / 2 : PAD) + 12;
+    for (int i = 0; i < card.hints; i++, y += LINE) {
         const struct hint *hint = hint_of(world->document, i);
         show_text(core, left, y, FONT_LABEL_BOLD, theme()->text, hint->what);
-        if (upright) y += LINE;
-        show_text(core, upright ? left : left + what_width(), y, FONT_LABEL, theme()->text_dim, hint->why);
+        if (card.form == FORM_UPRIGHT) y += LINE;
+        show_text(core, left + card.before, y, FONT_LABEL, theme()->text_dim, hint->why);
     }
-    y += 4;
-    show_text(core, left, y, FONT_LABEL, theme()->text_dim, more);
-    float right = card.x + card.w - PAD - width_of(FONT_LABEL_BOLD, closing);
-    show_text(core, right, y, FONT_LABEL_BOLD, theme()->accent, closing);
+    show_closing(core, &card, y);
     drawlist_set_clip(list, clip);
+    dialogs->card = card.rect;
 }

@@ -53,7 +53,7 @@ float caption_height(struct rect place, const struct document *document)
 
 void stage_show_caption(struct core *core, const struct document *document, float bottom)
 {
-    if (!document->about) return;
+    if (!document->about || core->layout.stage.y + MARGIN + TOP >= bottom) return;
     const struct rect place = core->layout.stage;
     const float width = caption_width(place);
     const struct caption caption = caption_of(document);

@@ -7,6 +7,7 @@
 ///
 ///     (JᵀJ + λ) dv = Jᵀ (target − p),   in radians of bend, so that both axes count alike.
 #include "editor/core/core.h"
+#include "editor/core/drag.h"
 #include "editor/core/pins.h"
 #include "editor/core/selection.h"
 #include "editor/stage/hold.h"
@@ -134,12 +135,14 @@ static void damped_step(const double column[2][2], const double miss[2], double 
     step[1] *= factor;
 }
 
-/// Sets the knot of one axis at the grabbed sample, or inserts it.
+/// Sets the knot of one axis at the grabbed sample, or inserts it, as far as the limits of its spline allow.
 static void set_knot(const struct stage *stage, struct core *core, const struct editor_world *world,
-                     const struct grab_axis *axis)
+                     struct grab_axis *axis, char why[STOPPED_SIZE])
 {
     struct edit edit = core_knot_edit(world->document, axis->spline, stage->grab.sample);
     edit.knot.value = axis->value;
+    core_hold(&world->document->splines[axis->spline], &edit.knot, why);
+    axis->value = edit.knot.value;
     core_edit(core, world, &edit);
 }
 
@@ -183,6 +186,7 @@ void grab_apply(struct stage *stage, struct core *core, const struct editor_worl
         observe(&grab->axis[a], world, grab->sample);
         derivative(stage, core, world, &grab->axis[a], at, column[a]);
     }
+    char why[STOPPED_SIZE] = "";
     damped_step(column, miss, step);
     history_restart(world->history, world->document);
     for (int a = 0; a < 2; a++) {
@@ -191,8 +195,9 @@ void grab_apply(struct stage *stage, struct core *core, const struct editor_worl
         double most = fmax(LARGEST_BEND * axis->values_per_radian, fabs(axis->value));
         double value = fmax(-most, fmin(most, axis->value + step[a] * axis->values_per_radian));
         axis->value = core_round(value, RESOLUTION * axis->values_per_radian);
-        set_knot(stage, core, world, axis);
+        set_knot(stage, core, world, axis, why);
     }
+    drag_say_stopped(core, why);
     grab->applied = true;
     select_knot(stage, core, world);
 }

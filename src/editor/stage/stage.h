@@ -41,6 +41,8 @@ void stage_open(struct stage *stage);
 const struct stage_view *stage_seen(const struct stage *stage);
 /// All of the stage in sight, from where the camera was at first.
 void stage_fit(struct stage *stage, const struct core *core, const struct editor_world *world);
+/// About where on the screen the scene moves, as the stage was first seen; empty where nothing is on it.
+struct rect stage_figure(const struct stage *stage, const struct core *core);
 /// Turns the camera about what it looks at, radians.
 void stage_orbit(struct stage *stage, float across, float up);
 /// Comes nearer (factors below 1) or goes away.

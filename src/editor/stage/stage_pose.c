@@ -50,6 +50,32 @@ static bool add_bounds(const struct stage *stage, const struct core *core, const
     return any;
 }
 
+/// Keeps where its motion is in the picture, from the middle of the stage in heights of it, as the camera stands now.
+static void note_figure(struct stage *stage, struct rect place, const float lo[3], const float hi[3])
+{
+    const struct rect unit = {-0.5f * place.w / place.h, -0.5f, place.w / place.h, 1};
+    struct stage_view *view = &stage->view;
+    float least[2] = {INFINITY, INFINITY}, most[2] = {-INFINITY, -INFINITY};
+    camera_matrices(&stage->camera, unit.w, view->view, view->projection, view->eye);
+    for (int corner = 0; corner < 8; corner++) {
+        const float point[3] = {(corner & 1 ? hi : lo)[0], (corner & 2 ? hi : lo)[1], (corner & 4 ? hi : lo)[2]};
+        float xy[2];
+        if (!stage_project_point(stage, unit, point, xy)) continue;
+        for (int k = 0; k < 2; k++) {
+            least[k] = fminf(least[k], xy[k]);
+            most[k] = fmaxf(most[k], xy[k]);
+        }
+    }
+    stage->figure = (struct rect){least[0], least[1], most[0] - least[0], most[1] - least[1]};
+}
+
+struct rect stage_figure(const struct stage *stage, const struct core *core)
+{
+    const struct rect *place = &core->layout.stage, *figure = &stage->figure;
+    return (struct rect){place->x + place->w / 2 + figure->x * place->h, place->y + (figure->y + 0.5f) * place->h,
+                         figure->w * place->h, figure->h * place->h};
+}
+
 void stage_fit(struct stage *stage, const struct core *core, const struct editor_world *world)
 {
     float lo[3] = {INFINITY, INFINITY, INFINITY}, hi[3] = {-INFINITY, -INFINITY, -INFINITY};
@@ -62,11 +88,13 @@ void stage_fit(struct stage *stage, const struct core *core, const struct editor
     if ((seen[RIG_CHARACTER] || seen[RIG_MODEL]) && !seen[RIG_TAIL])
         stage->camera.azimuth = core->characters.compare ? AZIMUTH_OF_PAIR : AZIMUTH_OF_ONE;
     camera_lamp(&stage->camera, stage->view.key_from); // it stays there while the camera goes round
+    stage->figure = (struct rect){0};
     if (!any) return;
     for (int k = 0; k < 2; k++) stage->view.middle[k] = 0.5f * (lo[2 * k] + hi[2 * k]);
     const struct rect place = core->layout.stage;
     const float caption = core->plain ? 0 : caption_height(place, world->document);
     camera_fit(&stage->camera, lo, hi, place.w / place.h, caption / place.h);
+    note_figure(stage, place, lo, hi);
 }
 
 static uint64_t view_hash(const struct stage_view *view)

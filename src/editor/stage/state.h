@@ -195,6 +195,7 @@ struct stage {
     struct stage_view view;
     struct meadow_view meadow;
     struct camera camera;
+    struct rect figure;                       ///< see stage_figure(); from the middle of the stage, in heights of it
     struct strand strands[STAGE_MAX_STRANDS]; ///< shown
     int strand_count;
     struct shown_bone bones[STAGE_MAX_BONES];

@@ -1,0 +1,99 @@
+/// The card for newcomers stands beside what a scene shows, or in a band above it, on every size of stage.
+#include "blind.h"
+#include "shown.h"
+
+#include "editor/stage/stage.h"
+#include "editor/state.h"
+#include <stdio.h>
+#include <string.h>
+
+enum { STEPS = 12, REACH = 6, LINE = 16 };
+
+static const char *const scenes[] = {"character", "compositing", "figure7", "hands", "up-down"};
+
+static void open_scene(struct blind *b, const char *scene)
+{
+    char path[64];
+    snprintf(path, sizeof path, "assets/scenes/%s.json", scene);
+    blind_open(b, path);
+}
+
+static void welcome(struct blind *b, float width)
+{
+    app_resize(&b->app, width, roundf(width * 9 / 16), 1);
+    b->app.table.editor->core.refit_stage = true; // as in a window of that size
+    editor_welcome(b->app.table.editor);
+    for (int i = 0; i < 2; i++) blind_frame(b);
+}
+
+/// Between the first word and the last one.
+static struct rect words(const struct editor *editor)
+{
+    const struct draw_command *first = shown_text(editor, "Drag the character"), *last = shown_text(editor, "Got it");
+    assert_true(first && last && first->y <= last->y);
+    return (struct rect){first->x - REACH, first->y - LINE, last->x + 40 - first->x, last->y - first->y + LINE};
+}
+
+static bool covers_a_character(const struct editor *editor, struct rect card)
+{
+    for (int i = 0; i <= STEPS * STEPS; i++) {
+        const double uv[2] = {i % STEPS / (double)STEPS, i / STEPS / (double)STEPS};
+        for (int character = 0; character < 2; character++) {
+            float xy[2];
+            if (stage_character_point(editor->stage, character, uv, xy) && rect_contains(card, xy[0], xy[1]))
+                return true;
+        }
+    }
+    return false;
+}
+
+static void it_covers_no_character(void **state)
+{
+    (void)state;
+    for (size_t i = 0; i < sizeof scenes / sizeof *scenes; i++) {
+        struct blind b;
+        open_scene(&b, scenes[i]);
+        for (float width = 640; width <= 1280; width += 80) {
+            welcome(&b, width);
+            const struct editor *editor = b.app.table.editor;
+            const struct rect card = words(editor), stage = editor->core.layout.stage;
+            if (covers_a_character(editor, card)) fail_msg("%s at %g", scenes[i], (double)width);
+            assert_true(card.x >= stage.x && card.x + card.w <= stage.x + stage.w);
+            assert_true(card.y >= stage.y && card.y + card.h <= stage.y + stage.h);
+        }
+        blind_close(&b);
+    }
+}
+
+/// A click on it, upright at the right hand or in a band, takes it away; the description comes back where a band was.
+static void a_click_on_it_takes_it_away(void **state)
+{
+    (void)state;
+    for (float width = 640; width <= 1280; width += 640) {
+        struct blind b;
+        open_scene(&b, "compositing");
+        welcome(&b, width);
+        const struct editor *editor = b.app.table.editor;
+        const struct rect card = words(editor);
+        const bool is_band = width < 1000;
+        assert_true(is_band == !shown_text(editor, "Compositing"));
+        for (int i = 0; i < 2; i++)
+            blind_send(&b, (struct event){.kind = EVENT_BUTTON,
+                                          .button = BUTTON_LEFT,
+                                          .action = i ? ACTION_RELEASE : ACTION_PRESS,
+                                          .clicks = 1,
+                                          .x = card.x + card.w / 2,
+                                          .y = card.y + card.h / 2});
+        blind_frame(&b);
+        assert_false(editor_is_welcoming(editor));
+        assert_non_null(shown_text(editor, "Compositing"));
+        blind_close(&b);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(it_covers_no_character),
+                                       cmocka_unit_test(a_click_on_it_takes_it_away)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
