@@ -73,9 +73,10 @@ static bool gather_image(struct gathered *gathered, json_t *views, json_t *image
 {
     const char *uri = json_string_value(json_object_get(image, "uri"));
     struct glb_buffer picture;
-    struct error why;
+    struct error why = {0};
     size_t start;
-    if (!uri || !glb_read_uri(gathered->file, uri, &picture, &why)) return true;
+    if (!uri) return true;
+    if (!glb_read_uri(gathered->file, uri, &picture, &why)) return why.kind != ERROR_ENVIRONMENT; // memory is short
     const char *kind = kind_of(picture.bytes);
     bool done = true;
     if (kind) {
