@@ -113,6 +113,8 @@ allocations=$(awk -F, 'BEGIN { total = 0 }
 ok "playing allocates nothing" $?
 expect 0 "the document at the end is a good scene" "$WIGGLY" check "$scratch/end.json"
 expect 0 "it opens again" live --frames 2 "$scratch/end.json"
+expect 1 "live of a scene that is not there" live --frames 2 "$scratch/none.json"
+says "is named" "none.json: cannot be opened" "$err"
 expect 0 "without a display and without --headless" "$WIGGLY" live --frames 2 --size 640x360
 says "it says that it runs headless" "headless" "$out$err"
 expect 0 "a display that does not open" env DISPLAY=:987 "$WIGGLY" live --frames 2 --size 640x360

@@ -1,7 +1,9 @@
 /// Details of the editor, one each: notches of the wheel, lists longer than the screen, held letters, targets of recordings.
 #include "inside.h"
 #include "panel_session.h"
+#include "shown.h"
 #include "ui/theme.h"
+#include <math.h>
 
 static const char tail[] =
     "{\"wiggly\": 1, \"frames\": [0, 120], \"splines\": ["
@@ -88,6 +90,40 @@ static void lag_is_the_active_splines(void **state)
         assert_near(lag_of(&s, 1 - active), before[1 - active], 0);
         session_close(&s);
     }
+}
+
+/// In the list of rigs each has the colour of the spline that moves it first.
+static void a_rig_has_the_colour_of_its_first_spline(void **state)
+{
+    (void)state;
+    struct session s;
+    float x, y;
+    int found = 0;
+    panel_open(&s, tail, 1280, 1400);
+    inspector_unfold(s.editor->inspector, "section.rigs");
+    session_frame(&s);
+    assert_true(inspector_target(s.editor->inspector, &s.editor->core, &s.world, "tail.0", &x, &y));
+    const struct drawlist *list = editor_drawlist(s.editor);
+    for (int i = 0; i < list->count; i++) {
+        const struct draw_command *c = &list->commands[i];
+        found +=
+            c->kind == DRAW_CONVEX && c->color == theme()->spline[0] && fabsf(c->bounds.y + c->bounds.h / 2 - y) < 2;
+    }
+    assert_int_equal(found, 1);
+    session_close(&s);
+}
+
+/// The lines of equal damping say which they are; the lowest, at the edge, needs no number.
+static void the_map_of_poles_has_its_numbers(void **state)
+{
+    (void)state;
+    struct session s;
+    panel_open(&s, tail, 1280, 1400);
+    inspector_unfold(s.editor->inspector, "section.poles");
+    session_frame(&s);
+    assert_non_null(shown_text(s.editor, "ζ 0.2"));
+    assert_null(shown_text(s.editor, "ζ 0"));
+    session_close(&s);
 }
 
 /// A letter that is let go while a dialog is open is no longer held once that is closed.
@@ -194,10 +230,16 @@ static void presets_look_alike_and_plain(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(notches_of_the_wheel_add_up),   cmocka_unit_test(a_long_list_turns_by_wheel),
-        cmocka_unit_test(lag_is_the_active_splines),     cmocka_unit_test(a_letter_let_go_in_a_dialog_is_not_held),
-        cmocka_unit_test(nothing_to_follow_is_an_error), cmocka_unit_test(targets_that_are_missing_are_said),
-        cmocka_unit_test(a_target_from_the_pointer),     cmocka_unit_test(a_first_frame_asks_for_its_knots),
+        cmocka_unit_test(notches_of_the_wheel_add_up),
+        cmocka_unit_test(a_long_list_turns_by_wheel),
+        cmocka_unit_test(lag_is_the_active_splines),
+        cmocka_unit_test(a_rig_has_the_colour_of_its_first_spline),
+        cmocka_unit_test(the_map_of_poles_has_its_numbers),
+        cmocka_unit_test(a_letter_let_go_in_a_dialog_is_not_held),
+        cmocka_unit_test(nothing_to_follow_is_an_error),
+        cmocka_unit_test(targets_that_are_missing_are_said),
+        cmocka_unit_test(a_target_from_the_pointer),
+        cmocka_unit_test(a_first_frame_asks_for_its_knots),
         cmocka_unit_test(presets_look_alike_and_plain),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

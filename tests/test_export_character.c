@@ -1,6 +1,11 @@
 /// What wiggly export writes of imported characters: their own files with a clip more, in either container, and .usda.
+#include "base/path.h"
+#include "export/beside.h"
 #include "export/gltf_splice.h"
 #include "export_scene.h"
+
+#include <sys/stat.h>
+#include <unistd.h>
 
 /// The dog's scene without its chains; the caller closes it.
 static struct opened open_dog_without_chains(void)
@@ -306,6 +311,23 @@ static void without_its_textures_nothing_is_written(void **state)
     close_scene(&scene);
 }
 
+/// A picture that cannot take its place in the end: that is said, and neither it nor its folder stays.
+static void a_texture_that_cannot_take_its_place_is_told(void **state)
+{
+    (void)state;
+    struct beside beside = {0};
+    struct error error = {0};
+    char textures[PATH_LIMIT];
+    snprintf(textures, sizeof textures, "%s", folder_path("textures"));
+    assert_true(beside_add(&beside, textures, "a.png", "picture", 7, &error));
+    assert_int_equal(mkdir(folder_path("textures/a.png"), 0777), 0);
+    assert_false(beside_commit(&beside, &error));
+    assert_non_null(strstr(error.text, "a.png"));
+    assert_int_equal(rmdir(folder_path("textures/a.png")), 0);
+    beside_discard(&beside);
+    assert_int_equal(files_in_folder(), 0);
+}
+
 /// With few cubic keys only the chains are a little off: the body keeps the keys of its own clip, whole or cut out of it.
 static void a_body_keeps_the_keys_of_its_clip(void **state)
 {
@@ -332,6 +354,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(an_imported_character_gets_a_clip, folder_make, folder_remove),
         cmocka_unit_test_setup_teardown(text_files_get_a_clip_too, folder_make, folder_remove),
         cmocka_unit_test_setup_teardown(containers_change_and_hold_the_same, folder_make, folder_remove),
+        cmocka_unit_test_setup_teardown(a_texture_that_cannot_take_its_place_is_told, folder_make, folder_remove),
         cmocka_unit_test_setup_teardown(a_body_keeps_the_keys_of_its_clip, folder_make, folder_remove),
         cmocka_unit_test_setup_teardown(usd_joints_are_bound_as_the_files, folder_make, folder_remove),
         cmocka_unit_test_setup_teardown(usd_materials_share_out_the_faces, folder_make, folder_remove),

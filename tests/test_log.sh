@@ -31,6 +31,10 @@ says "counts both" "120 frames of 2 runs," "$out"
 ok "the picture has a dot a frame" $?
 [ "$(tail -n 1 "$scratch/both.svg")" = "</svg>" ]
 ok "and is whole" $?
+says "its words are plain" ">16.7 ms: 60 a second<" "$(cat "$scratch/both.svg")"
+cp "$scratch/a.csv" "$scratch/a<b&c.csv"
+expect 0 "a log whose name means something in SVG" "$WIGGLY" log "$scratch/a<b&c.csv" -o "$scratch/name.svg"
+says "is written so that it means nothing" "a&#60;b&#38;c.csv" "$(cat "$scratch/name.svg")"
 
 cat "$scratch/b.csv" "$scratch/b.csv" >"$scratch/twice.csv"
 expect 0 "a log of two slow runs" "$WIGGLY" log "$scratch/twice.csv"

@@ -1,4 +1,5 @@
 /// Onion skin and motion arc: what they show, and that they follow an edit in its own frame.
+#include "editor/stage/overlays.h"
 #include "inside.h"
 #include "panel_session.h"
 
@@ -205,6 +206,19 @@ static void open_bear(struct session *s)
     session_frame(s);
 }
 
+/// How far the coordinates move a vertex, squared.
+static float way_of(const struct character *c, int vertex)
+{
+    float way = 0;
+    for (int i = 0; i < c->coordinate_count; i++) {
+        for (int k = 0; k < 3; k++) {
+            const float re = c->coordinates[i].re[vertex][k], im = c->coordinates[i].im[vertex][k];
+            way += re * re + im * im;
+        }
+    }
+    return way;
+}
+
 /// Onion skin and motion arc are not for tails alone: a scene of a soft character shows its outlines, and where it moves most.
 static void test_a_character_has_skins_and_an_arc(void **state)
 {
@@ -217,6 +231,9 @@ static void test_a_character_has_skins_and_an_arc(void **state)
     assert_int_equal(find(&s, DRAW_RECT, theme()->playhead).count, 0);
     session_key(&s, 'P', 0);
     assert_in_range(find(&s, DRAW_RECT, theme()->playhead).count, 44, 49);
+    const struct character *bear = &models_figure(s.world.models, 0)->character;
+    const int point = overlay_point(s.editor->stage, &s.editor->core, &s.world).at;
+    for (int i = 0; i < bear->vertex_count; i++) assert_true(way_of(bear, i) <= way_of(bear, point) + 1e-6f);
     panel_click(&s, "onion");
     panel_click(&s, "trail");
     assert_int_equal(find(&s, DRAW_LINE, theme()->spline[0]).count, 0);

@@ -112,6 +112,7 @@ static void a_busy_moment_is_forgotten(void **state)
     double now = 10;
     assert_true(move(&r, &now, 20, 80, 1) < 1);
     assert_near(move(&r, &now, 400, 12, 1), 1, 0);
+    assert_near(r.moving, 1, 0); // there is nothing sharper
 }
 
 static void words_of_the_command_line(void **state)

@@ -24,6 +24,7 @@ static void test_the_menu_opens_by_its_key(void **state)
     session_key(&s, KEY_ENTER, 0);
     assert_int_equal(document_count_rigs(s.document, RIG_TAIL), 1);
     assert_int_equal(s.document->spline_count, 1); // that bends it
+    assert_int_equal(s.document->splines[0].knot_count, 1);
     assert_int_equal(document_tail(s.document, 0)->channels[0].spline, 0);
     assert_one_step(&s, before);
     session_key(&s, 'A', 0);

@@ -162,11 +162,12 @@ static void solve(void **state)
 
 enum { ROWS = 5, BONES = 4 };
 
-/// A ribbon of four bones with a clip: all that a character has, in a thirtieth of the dog's allocations, so that each can fail.
+/// A ribbon of four bones with a clip and a picture: all that a character has, in a thirtieth of the dog's allocations, so that each can fail.
 static void write_ribbon(const char *path)
 {
     static struct builder b;
-    float at[ROWS][2][3] = {{{0}}}, weights[ROWS][2][4] = {{{0}}}, inverse[BONES][16] = {{0}};
+    float at[ROWS][2][3] = {{{0}}}, uv[ROWS][2][2] = {{{0}}}, weights[ROWS][2][4] = {{{0}}},
+          inverse[BONES][16] = {{0}};
     unsigned char joints[ROWS][2][4] = {{{0}}};
     unsigned short corners[ROWS - 1][6];
     const float times[] = {0, 0.5f, 1}, turns[][4] = {{0, 0, 0, 1}, {0, 0, 0.38268343f, 0.92387953f}, {0, 0, 0, 1}};
@@ -174,6 +175,7 @@ static void write_ribbon(const char *path)
         for (int side = 0; side < 2; side++) {
             at[row][side][0] = (float)side * 0.2f - 0.1f;
             at[row][side][1] = (float)row * 0.25f;
+            memcpy(uv[row][side], at[row][side], sizeof uv[row][side]);
             joints[row][side][0] = (unsigned char)(row < BONES ? row : BONES - 1);
             weights[row][side][0] = 1;
         }
@@ -191,9 +193,17 @@ static void write_ribbon(const char *path)
     add_data(&b, FLOAT, "MAT4", BONES, inverse, sizeof inverse);
     add_data(&b, FLOAT, "SCALAR", 3, times, sizeof times);
     add_data(&b, FLOAT, "VEC4", 3, turns, sizeof turns);
+    add_data(&b, FLOAT, "VEC2", 2 * ROWS, uv, sizeof uv);
+    unsigned char pixels[4 * 8 * 8];
+    for (size_t i = 0; i < sizeof pixels; i++) pixels[i] = (unsigned char)(i * 37);
+    assert_true(png_write(folder_path("ribbon.png"), 8, 8, pixels, NULL));
     const char *text = builder_json(
-        &b, "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0,\"JOINTS_0\":1,\"WEIGHTS_0\":2},"
-            "\"indices\":3}]}],\"skins\":[{\"joints\":[1,2,3,4],\"inverseBindMatrices\":4}],\"nodes\":["
+        &b, "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0,\"JOINTS_0\":1,\"WEIGHTS_0\":2,\"TEXCOORD_"
+            "0\":7},"
+            "\"indices\":3,\"material\":0}]}],\"materials\":[{\"pbrMetallicRoughness\":{\"baseColorTexture\":{"
+            "\"index\":0}}}],"
+            "\"textures\":[{\"source\":0}],\"images\":[{\"uri\":\"ribbon.png\"}],\"skins\":[{\"joints\":[1,2,3,4],"
+            "\"inverseBindMatrices\":4}],\"nodes\":["
             "{\"mesh\":0,\"skin\":0},{\"name\":\"body\",\"children\":[2]},"
             "{\"name\":\"tail_1\",\"translation\":[0,0.25,0],\"children\":[3]},"
             "{\"name\":\"tail_2\",\"translation\":[0,0.25,0],\"children\":[4]},"
@@ -201,6 +211,26 @@ static void write_ribbon(const char *path)
             "\"animations\":[{\"name\":\"Sway\",\"samplers\":[{\"input\":5,\"output\":6}],\"channels\":["
             "{\"sampler\":0,\"target\":{\"node\":1,\"path\":\"rotation\"}}]}]");
     assert_true(file_write_atomic(path, text, strlen(text), NULL));
+}
+
+/// A model is read with its picture, or not at all: "not enough memory" is not said as if the picture were at fault.
+static int read_model(void *user)
+{
+    struct gltf gltf;
+    struct error error = {0};
+    if (!gltf_read(user, &gltf, &error)) return strstr(error.text, "memory") ? 3 : 4;
+    const bool whole = gltf.image_count == 1;
+    gltf_free(&gltf);
+    return whole ? 0 : 5;
+}
+
+static void models(void **state)
+{
+    (void)state;
+    char path[128];
+    snprintf(path, sizeof path, "%s", folder_path("ribbon.gltf"));
+    write_ribbon(path);
+    starve("a model", read_model, path, 1000);
 }
 
 /// The dog itself only in a sample: it has 15,000 to 30,000 allocations, which take an hour.
@@ -352,10 +382,9 @@ static void unsaved_work(void **state)
 int main(int argc, char **argv)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(fonts),     cmocka_unit_test(pictures),
-        cmocka_unit_test(json),      cmocka_unit_test(check),
-        cmocka_unit_test(solve),     cmocka_unit_test(export_),
-        cmocka_unit_test(rig),       cmocka_unit_test(simulate_and_analyze),
+        cmocka_unit_test(fonts),     cmocka_unit_test(pictures),     cmocka_unit_test(json),
+        cmocka_unit_test(check),     cmocka_unit_test(solve),        cmocka_unit_test(models),
+        cmocka_unit_test(export_),   cmocka_unit_test(rig),          cmocka_unit_test(simulate_and_analyze),
         cmocka_unit_test(a_session), cmocka_unit_test(unsaved_work),
     };
     if (!CAN_STARVE) {

@@ -5,6 +5,14 @@
 #include <stdlib.h>
 #include <string.h>
 
+static _Thread_local bool starved; ///< the library, which says only what it was about
+
+static void *noted(void *memory)
+{
+    starved |= !memory;
+    return memory;
+}
+
 // The implementation lives here and nowhere else; the library is not written for our warnings.
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wconversion"
@@ -18,8 +26,8 @@
 #define STBI_ONLY_JPEG
 #define STBI_MAX_DIMENSIONS 16384
 // A scan may name a table that the file does not have: it is then of zeros, not of what lay there before.
-#define STBI_MALLOC(size) calloc(1, size)
-#define STBI_REALLOC realloc
+#define STBI_MALLOC(size) noted(calloc(1, size))
+#define STBI_REALLOC(old, size) noted(realloc(old, size))
 #define STBI_FREE free
 #include <stb/stb_image.h>
 #ifdef __clang__
@@ -42,20 +50,25 @@ static bool find_bytes(struct gltf_reader *r, const json_t *image, struct glb_bu
     return found;
 }
 
+static bool fail_starved(struct error *error) { return fail(error, ERROR_ENVIRONMENT, "not enough memory"); }
+
 bool gltf_decode_image(const unsigned char *bytes, size_t size, size_t most, struct gltf_image *image,
                        struct error *error)
 {
     int channels, length = size <= INT_MAX ? (int)size : 0;
     if (!picture_is_sound(bytes, size))
         return fail(error, ERROR_INPUT, "expected PNG or JPEG: a part of it is larger than it may be, or empty");
+    starved = false;
     if (!stbi_info_from_memory(bytes, length, &image->width, &image->height, &channels))
-        return fail(error, ERROR_INPUT, "expected PNG or JPEG of at most %d pixels a side: %s", STBI_MAX_DIMENSIONS,
-                    stbi_failure_reason());
+        return starved ? fail_starved(error)
+                       : fail(error, ERROR_INPUT, "expected PNG or JPEG of at most %d pixels a side: %s",
+                              STBI_MAX_DIMENSIONS, stbi_failure_reason());
     size_t pixels = (size_t)image->width * (size_t)image->height;
     if (pixels / PIXELS_A_BYTE > size || 4 * pixels > most)
         return fail(error, ERROR_INPUT, "too large with %d by %d", image->width, image->height);
     image->pixels = stbi_load_from_memory(bytes, length, &image->width, &image->height, &channels, 4);
-    return image->pixels || fail(error, ERROR_INPUT, "%s", stbi_failure_reason());
+    if (image->pixels) return true;
+    return starved ? fail_starved(error) : fail(error, ERROR_INPUT, "%s", stbi_failure_reason());
 }
 
 /// The name for people: the image's own, or its file's.
@@ -79,6 +92,7 @@ bool gltf_read_image(struct gltf_reader *r, int number, int *index)
         if (decoded) r->pixel_room -= 4 * (size_t)image->width * (size_t)image->height;
         free(bytes.owned);
         r->image_of[number] = decoded ? r->gltf->image_count++ : -1;
+        if (why.kind == ERROR_ENVIRONMENT) return fail_no_memory(r->error, r->file.path);
         if (!decoded && !gltf_not_shown(r, "image %.40s (%.60s)", name_of(json), why.text)) return false;
     }
     *index = r->image_of[number];

@@ -23,7 +23,7 @@ static const struct preset {
     {"preset.antenna", "Antenna", "An antenna: very quick, stiff, rings for long", 5, 0.03, 20},
 };
 
-enum { PRESETS = sizeof presets / sizeof presets[0], PRESET_GAP = 4 };
+enum { PRESETS = sizeof presets / sizeof presets[0], PRESET_GAP = 4, PRESET_MARGINS = 8 };
 
 static bool set_parameter(struct inspection *in, enum parameter parameter, double value)
 {
@@ -64,21 +64,35 @@ static void apply(struct inspection *in, const struct preset *preset)
     core_tell(in->core, in->world, NEWS_EDITED, in->core->active);
 }
 
-/// Buttons side by side, each as wide as its word asks for.
-static void build_presets(struct inspection *in)
+static float presets_width(int first, int end)
 {
-    const struct rect row = ui_row(in->ui, UI_ROW);
-    float widths[PRESETS], words = 0;
-    for (int i = 0; i < PRESETS; i++) words += widths[i] = ui_text_width(presets[i].label);
-    const float spare = (row.w - words - (PRESETS - 1) * PRESET_GAP) / PRESETS;
+    float width = (float)(end - first - 1) * PRESET_GAP;
+    for (int i = first; i < end; i++) width += ui_text_width(presets[i].label);
+    return width;
+}
+
+/// Buttons side by side, each as wide as its word asks for.
+static void build_preset_row(struct inspection *in, struct rect row, int first, int end)
+{
+    const float spare = (row.w - presets_width(first, end)) / (float)(end - first);
     float x = row.x;
-    for (int i = 0; i < PRESETS; i++) {
-        const float right = x + widths[i] + spare;
+    for (int i = first; i < end; i++) {
+        const float right = x + ui_text_width(presets[i].label) + spare;
         const struct rect r = {roundf(x), row.y + 1, roundf(right) - roundf(x), row.h - 2};
         ui_hint(in->ui, r, presets[i].hint);
         if (ui_button(in->ui, r, presets[i].name, presets[i].label, false)) apply(in, &presets[i]);
         x = right + PRESET_GAP;
     }
+}
+
+/// In two rows where one would cut words.
+static void build_presets(struct inspection *in)
+{
+    const struct rect row = ui_row(in->ui, UI_ROW);
+    const bool fit = presets_width(0, PRESETS) + PRESETS * PRESET_MARGINS <= row.w;
+    const int in_first = fit ? PRESETS : (PRESETS + 1) / 2;
+    build_preset_row(in, row, 0, in_first);
+    if (!fit) build_preset_row(in, ui_row(in->ui, UI_ROW), in_first, PRESETS);
 }
 
 /// The parameter by which settling is set, and what it has to be for a damping ratio.
