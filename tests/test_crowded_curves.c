@@ -1,0 +1,83 @@
+/// Curves whose swings are finer than a pixel column, and the marks of knots that are.
+#include "editor/curves/view.h"
+#include "five_knots.h"
+#include "inside.h"
+#include "panel_session.h"
+
+/// 2,400 knots on 900 pixels, three of them a swing: some are marked, and each can still be clicked.
+static void of_crowded_knots_some_are_marked_and_each_is_hit(void **state)
+{
+    (void)state;
+    static char scene[200000];
+    size_t at = 0;
+    at += (size_t)snprintf(scene, sizeof scene,
+                           "{\"wiggly\":1,\"frames\":[0,2400],\"splines\":[{\"name\":\"sway\",\"knots\":[");
+    for (int i = 0; i < 2400; i++) {
+        at +=
+            (size_t)snprintf(scene + at, sizeof scene - at, "%s{\"frame\":%d,\"value\":%d}", i ? "," : "", i, i % 3);
+    }
+    snprintf(scene + at, sizeof scene - at, "]}]}");
+    struct session s;
+    session_open(&s, scene);
+    int diamonds = 0;
+    const struct drawlist *list = editor_drawlist(s.editor);
+    for (int i = 0; i < list->count; i++) diamonds += list->commands[i].kind == DRAW_CONVEX;
+    assert_true(diamonds < 150);
+    assert_true(diamonds > 50);
+    for (int k = 1000; k < 1003; k++) {
+        char target[32];
+        snprintf(target, sizeof target, "knot(sway,%d)", k);
+        session_click(&s, target);
+        assert_int_equal(selection_single(&s.editor->core.selection, spline(&s, 0)), k);
+    }
+    session_close(&s);
+}
+
+/// Swings finer than a pixel are drawn as the band that they fill, also where a swing takes two columns, half a swing each; and a
+/// curve that can be followed stays a line.
+static void swings_finer_than_a_column_are_a_band(void **state)
+{
+    (void)state;
+    static char scene[400000];
+    size_t at = 0;
+    at += (size_t)snprintf(scene, sizeof scene,
+                           "{\"wiggly\":1,\"frames\":[0,6400],\"splines\":[{\"name\":\"sway\",\"knots\":[");
+    for (int i = 0; i < 3200; i++) {
+        at += (size_t)snprintf(scene + at, sizeof scene - at, "%s{\"frame\":%d,\"value\":%d}", i ? "," : "", 2 * i,
+                               i / 2 % 2 ? 1 : -1);
+    }
+    snprintf(scene + at, sizeof scene - at, "]}]}");
+    struct session s;
+    session_open(&s, scene);
+    const struct rect plot = s.editor->core.layout.plot;
+    for (double frames = 6400; frames > 3200; frames *= 0.97) {
+        s.editor->curves->view = (struct view){0, frames, -2, 2};
+        session_frame(&s);
+        const struct drawlist *list = editor_drawlist(s.editor);
+        const struct draw_command *band = NULL;
+        for (int i = 0; i < list->count; i++) {
+            if (list->commands[i].kind == DRAW_BAND && list->commands[i].width > 2.4f) band = &list->commands[i];
+        }
+        if (!band) fail_msg("no band with %g frames in sight", frames);
+        const float *xy = list->points + 2 * band->first;
+        for (int c = 2; c + 3 < band->count; c++) {
+            const float high = fminf(xy[2 * c + 1], xy[2 * c + 3]), low = fmaxf(xy[2 * c + 1], xy[2 * c + 3]);
+            if (high > plot.y + plot.h / 4 + 1 || low < plot.y + 3 * plot.h / 4 - 1)
+                fail_msg("column %d with %g frames in sight is %g to %g", c, frames, high, low);
+        }
+    }
+    s.editor->curves->view = (struct view){0, 240, -2, 2};
+    session_frame(&s);
+    const struct drawlist *list = editor_drawlist(s.editor);
+    for (int i = 0; i < list->count; i++) assert_int_not_equal(list->commands[i].kind, DRAW_BAND);
+    session_close(&s);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(of_crowded_knots_some_are_marked_and_each_is_hit),
+        cmocka_unit_test(swings_finer_than_a_column_are_a_band),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
