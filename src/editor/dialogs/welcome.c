@@ -21,11 +21,11 @@ static const struct hint {
     [LEAD_TAIL] = {{"Drag the fox", "its tail swings after it"},
                    {"Pull the tail", "this sets a knot at the playhead"},
                    {0},
-                   {"Drop a .glb", "your own: click a bone, press J"}},
+                   {"Drop a .glb", "your own: click a bone, Shift+J"}},
     [LEAD_CHARACTER] = {{"Drag the character", "pins the point you hold"},
                         {0},
                         {"Hold F, press ↑", "it swings faster"},
-                        {"Drop a .glb", "your own: click a bone, press J"}},
+                        {"Drop a .glb", "your own: click a bone, Shift+J"}},
     [LEAD_CHAIN] = {{"Pull a chain", "this sets a knot at the playhead"},
                     {0},
                     {"Click a bone", "Shift+J makes another chain of it"},
@@ -37,7 +37,7 @@ static const struct hint {
     [LEAD_NOTHING] = {{"Double-click", "sets a knot of a curve"},
                       {"Drag a knot", "the curve hits it, and swings"},
                       {"Press A", "adds a tail or a character"},
-                      {"Drop a .glb", "your own: click a bone, press J"}},
+                      {"Drop a .glb", "your own: click a bone, Shift+J"}},
 };
 
 static const struct hint knot_hints[] = {{"Double-click", "sets a knot of a curve"},
