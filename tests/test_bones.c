@@ -235,6 +235,24 @@ static void test_the_inspector_chooses_the_clip(void **state)
     session_close(&s);
 }
 
+/// Each move of the drag makes its edit anew, of the chain as it was at the press.
+static void test_a_chains_turn_is_dragged(void **state)
+{
+    (void)state;
+    struct session s;
+    open_beast(&s, TAIL);
+    char *before = session_saved(&s), *from = strdup(s.document->rigs[1].chain.from);
+    panel_press(&s, "chain.turn", 1);
+    session_drag(&s, 40, 0, 6);
+    panel_release(&s);
+    assert_true(s.document->rigs[1].chain.turn > 0);
+    assert_string_equal(s.document->rigs[1].chain.from, from);
+    assert_one_step(&s, before);
+    free(from);
+    free(before);
+    session_close(&s);
+}
+
 static void test_a_chain_is_edited_in_the_inspector(void **state)
 {
     (void)state;
@@ -350,6 +368,7 @@ int main(void)
         cmocka_unit_test(test_a_chain_of_two_axes_comes_to_the_pointer),
         cmocka_unit_test(test_a_click_on_a_chain_selects_its_bone),
         cmocka_unit_test(test_the_inspector_chooses_the_clip),
+        cmocka_unit_test(test_a_chains_turn_is_dragged),
         cmocka_unit_test(test_a_chain_is_edited_in_the_inspector),
         cmocka_unit_test(test_a_gain_becomes_a_ramp_whose_points_move),
         cmocka_unit_test(test_a_chain_gets_a_twin_on_the_other_side),

@@ -66,8 +66,11 @@ static void build_turn(struct inspection *in)
                                           .highest = 36000,
                                           .fallback = 0,
                                           .step = 1};
+    double degrees = inspector_shown(in)->chain.turn;
+    const enum ui_change change = ui_value(in->ui, ui_row(in->ui, UI_ROW), &turn, &degrees);
+    inspector_take_back(in, change); // frees the names that the drag's last edit has made
     struct rig contents = *inspector_shown(in);
-    const enum ui_change change = ui_value(in->ui, ui_row(in->ui, UI_ROW), &turn, &contents.chain.turn);
+    contents.chain.turn = degrees;
     const struct edit edit = chain_edit(in, &contents);
     inspector_change(in, change, "Turn chain's axes", turn.name, &edit);
 }
