@@ -38,26 +38,16 @@ static const char *selected(const struct session *session)
     return node < 0 ? "" : bones_character(&session->world, model)->gltf.nodes[node].name;
 }
 
-static bool shows_text(const struct session *session, const char *text)
-{
-    const struct drawlist *list = editor_drawlist(session->editor);
-    for (int i = 0; i < list->count; i++) {
-        const struct draw_command *c = &list->commands[i];
-        if (c->kind == DRAW_TEXT && c->clip.w > 0 && strcmp(list->text + c->first, text) == 0) return true;
-    }
-    return false;
-}
-
 static void test_the_bone_pointed_at_says_its_name_and_a_click_selects_it(void **state)
 {
     (void)state;
     struct session s;
     open_beast(&s, "");
-    assert_false(shows_text(&s, "neck"));
+    assert_false(session_shows(&s, "neck"));
     session_point(&s, "bone(neck)");
     session_frame(&s);
     assert_int_equal(s.editor->core.hover.kind, HOVER_BONE);
-    assert_true(shows_text(&s, "neck"));
+    assert_true(session_shows(&s, "neck"));
     assert_string_equal(selected(&s), "");
     session_click(&s, "bone(neck)");
     assert_string_equal(selected(&s), "neck");

@@ -4,21 +4,25 @@
 #include "inside.h"
 #include "panel_session.h"
 
+/// Opens a scene of one spline with a knot every `gap` frames, whose values come again and again.
+static void open_crowded(struct session *s, int knots, int gap, const int *values, int period)
+{
+    static char scene[400000];
+    char *end = scene + sprintf(scene, "{\"wiggly\":1,\"frames\":[0,%d],\"splines\":[{\"name\":\"sway\",\"knots\":[",
+                                knots * gap);
+    for (int i = 0; i < knots; i++)
+        end += sprintf(end, "%s{\"frame\":%d,\"value\":%d}", i ? "," : "", gap * i, values[i % period]);
+    strcpy(end, "]}]}");
+    session_open(s, scene);
+}
+
 /// 2,400 knots on 900 pixels, three of them a swing: some are marked, and each can still be clicked.
 static void of_crowded_knots_some_are_marked_and_each_is_hit(void **state)
 {
     (void)state;
-    static char scene[200000];
-    size_t at = 0;
-    at += (size_t)snprintf(scene, sizeof scene,
-                           "{\"wiggly\":1,\"frames\":[0,2400],\"splines\":[{\"name\":\"sway\",\"knots\":[");
-    for (int i = 0; i < 2400; i++) {
-        at +=
-            (size_t)snprintf(scene + at, sizeof scene - at, "%s{\"frame\":%d,\"value\":%d}", i ? "," : "", i, i % 3);
-    }
-    snprintf(scene + at, sizeof scene - at, "]}]}");
+    static const int values[] = {0, 1, 2};
     struct session s;
-    session_open(&s, scene);
+    open_crowded(&s, 2400, 1, values, 3);
     int diamonds = 0;
     const struct drawlist *list = editor_drawlist(s.editor);
     for (int i = 0; i < list->count; i++) diamonds += list->commands[i].kind == DRAW_CONVEX;
@@ -38,17 +42,9 @@ static void of_crowded_knots_some_are_marked_and_each_is_hit(void **state)
 static void swings_finer_than_a_column_are_a_band(void **state)
 {
     (void)state;
-    static char scene[400000];
-    size_t at = 0;
-    at += (size_t)snprintf(scene, sizeof scene,
-                           "{\"wiggly\":1,\"frames\":[0,6400],\"splines\":[{\"name\":\"sway\",\"knots\":[");
-    for (int i = 0; i < 3200; i++) {
-        at += (size_t)snprintf(scene + at, sizeof scene - at, "%s{\"frame\":%d,\"value\":%d}", i ? "," : "", 2 * i,
-                               i / 2 % 2 ? 1 : -1);
-    }
-    snprintf(scene + at, sizeof scene - at, "]}]}");
+    static const int values[] = {-1, -1, 1, 1};
     struct session s;
-    session_open(&s, scene);
+    open_crowded(&s, 3200, 2, values, 4);
     const struct rect plot = s.editor->core.layout.plot;
     for (double frames = 6400; frames > 3200; frames *= 0.97) {
         s.editor->curves->view = (struct view){0, frames, -2, 2};

@@ -230,23 +230,13 @@ static void test_every_control_of_characters_explains_itself(void **state)
     session_close(&s);
 }
 
-static bool shows_text(const struct session *s, const char *text)
-{
-    const struct drawlist *list = editor_drawlist(s->editor);
-    for (int i = 0; i < list->count; i++) {
-        const struct draw_command *c = &list->commands[i];
-        if (c->kind == DRAW_TEXT && c->clip.w > 0 && strcmp(list->text + c->first, text) == 0) return true;
-    }
-    return false;
-}
-
 static void test_presets_can_be_read_on_a_small_window(void **state)
 {
     (void)state;
     static const char *const words[] = {"Cat", "Whip", "Heavy", "Jelly", "Antenna"};
     struct session s;
     panel_open(&s, tail_scene, 640, 360);
-    for (size_t i = 0; i < sizeof words / sizeof *words; i++) assert_true(shows_text(&s, words[i]));
+    for (size_t i = 0; i < sizeof words / sizeof *words; i++) assert_true(session_shows(&s, words[i]));
     panel_click(&s, "preset.jelly");
     assert_near(of(&s, PARAMETER_FREQUENCY)->value, 3, 0);
     session_close(&s);

@@ -8,11 +8,8 @@
 
 enum { MARGIN = 16, PAD = 14, LINE = 20, GAP = 16, BAND_MARGIN = 6, TITLE = 40 };
 
-enum {
-    HINTS = 4,
-    WIDE = 900,
-    TALL = 250
-}; ///< hints of a card; widths and heights of a stage with room beside tails, and for two hints
+/// Hints of a card; the width of a stage with room beside tails, the height of one with room for two hints.
+enum { HINTS = 4, WIDE = 900, TALL = 250 };
 
 /// By what is on the stage; an empty row is about knots.
 static const struct hint {
