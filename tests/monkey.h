@@ -13,7 +13,7 @@
 
 /// Files that the monkey opens, or tries to.
 struct monkey_files {
-    const char *good[16], *bad[128];
+    const char *good[16], *bad[256];
     int good_count, bad_count;
 };
 

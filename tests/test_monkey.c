@@ -37,10 +37,10 @@ struct origin {
     char *text, *folder, *paint; ///< the folder and the file of its paint that it had
 };
 
-static const char *keep(const char *format, const char *name)
+static const char *keep(const char *name)
 {
-    char path[8192];
-    snprintf(path, sizeof path, format, home, name);
+    char path[512];
+    snprintf(path, sizeof path, "%s/bad/%s", folder, name);
     assert_true(name_count < 256);
     return names[name_count++] = strdup(path);
 }
@@ -106,6 +106,22 @@ static void make_long(void)
     assert_int_equal(fclose(file), 0);
 }
 
+/// Copies, as the monkey saves beside what it opens; sorted, so that a seed says which it opens.
+static void copy_bad(void)
+{
+    char command[8192];
+    snprintf(command, sizeof command, "cp -r '%s/tests/bad' bad", home);
+    assert_int_equal(system(command), 0);
+    struct dirent **entries;
+    const int count = scandir("bad", &entries, NULL, alphasort);
+    assert_true(count > 2);
+    for (int i = 0; i < count; i++) {
+        if (files.bad_count < 200) files.bad[files.bad_count++] = keep(entries[i]->d_name);
+        free(entries[i]);
+    }
+    free(entries);
+}
+
 static int make_files(void **state)
 {
     (void)state;
@@ -122,12 +138,7 @@ static int make_files(void **state)
     setenv("XDG_CONFIG_HOME", own, 1);
     snprintf(own, sizeof own, "%s/state", folder);
     setenv("XDG_STATE_HOME", own, 1);
-    DIR *bad = opendir(keep("%s/tests/bad%s", ""));
-    if (!bad) return -1;
-    for (struct dirent *entry; (entry = readdir(bad)) != NULL && files.bad_count < 100;) {
-        files.bad[files.bad_count++] = keep("%s/tests/bad/%s", entry->d_name);
-    }
-    closedir(bad);
+    copy_bad();
     files.bad[files.bad_count++] = "not there.json";
     return 0;
 }
