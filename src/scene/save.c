@@ -56,8 +56,7 @@ static bool has_own_file(const struct document *document, int index, const char 
 static bool name_file(struct document *document, struct character_rig *rig, struct sheet *sheet, struct error *error)
 {
     char folder[PATH_LIMIT], moved[PATH_LIMIT];
-    const char *slash = strrchr(sheet->file, '/');
-    const char *name = slash ? slash + 1 : sheet->file;
+    const char *name = path_name(sheet->file);
     if (!path_folder(sheet->file, folder)) return fail(error, ERROR_ENVIRONMENT, "%s: the path is too long", name);
     char *path = strdup(path_rebase(name, folder, document->folder, moved) ? moved : name);
     if (!path) return fail_no_memory(error, sheet->file);

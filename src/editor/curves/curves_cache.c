@@ -37,8 +37,8 @@ static void hit_knots(struct curves *curves, const struct core *core, const stru
         double sample = document_sample(world->document, spline->knots[k].frame);
         double column = floor((sample - first) / by + 0.5);
         if (column >= cache->count) break;
-        next = curves_knot_near(world->document, spline, k + passed,
-                                (int)fmin(ceil(first + (column + 0.5) * by), INT_MAX));
+        next = spline_lower_bound_near(world->document, spline, k + passed,
+                                       (int)fmin(ceil(first + (column + 0.5) * by), INT_MAX));
         next = next > k ? next : k + 1;
         // Of several knots at a column none is hit: its lowest and highest samples say where they are.
         if (column >= 0 && next == k + 1) cache->position[(int)column] = sample;

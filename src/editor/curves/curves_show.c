@@ -226,7 +226,7 @@ static int column_end(const struct curves *curves, const struct core *core, cons
     const double pixels = curves_pixels_per_frame(curves, core) / document->substeps;
     const double column = column_of(curves, core, document, &spline->knots[first]);
     const int sample = (int)fmin(ceil((column + 1) / pixels), INT_MAX);
-    const int end = curves_knot_near(document, spline, first + before, sample);
+    const int end = spline_lower_bound_near(document, spline, first + before, sample);
     return end > first ? end : first + 1;
 }
 

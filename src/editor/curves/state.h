@@ -153,9 +153,8 @@ struct curve_cache {
     double first, by;                    ///< sample of the first column, samples from column to column
     double position[EDITOR_MAX_COLUMNS]; ///< in samples; knots of the active spline are hit exactly
     polyline re, im, equilibrium, fan[CURVES_FAN], others[CURVES_MAX_OTHERS];
-    bool band,
-        other_band
-            [CURVES_MAX_OTHERS]; ///< columns hold whole swings: re and im, or the other, is drawn as what it covers
+    /// Columns hold whole swings: re and im, or the other, is drawn as what it covers.
+    bool band, other_band[CURVES_MAX_OTHERS];
     int fan_count, other_count;
     int other_spline[CURVES_MAX_OTHERS];
     double range[CURVES_MAX_RANGES][2]; ///< lowest and highest value of each spline, where curves are normalised

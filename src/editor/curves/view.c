@@ -44,28 +44,6 @@ int curves_knot_from(const struct curves *curves, const struct core *core, const
     return spline_lower_bound(document, spline, (int)fmin(fmax(sample, INT_MIN), INT_MAX));
 }
 
-int curves_knot_near(const struct document *document, const struct spline *spline, int guess, int sample)
-{
-    int low = guess < spline->knot_count ? guess : spline->knot_count, high = low, step = 1;
-    while (low > 0 && document_sample(document, spline->knots[low - 1].frame) >= sample) {
-        high = low - 1;
-        low = low > step ? low - step : 0;
-        step *= 2;
-    }
-    while (high < spline->knot_count && document_sample(document, spline->knots[high].frame) < sample) {
-        low = high + 1;
-        high = spline->knot_count - high > step ? high + step : spline->knot_count;
-        step *= 2;
-    }
-    while (low < high) {
-        const int middle = low + (high - low) / 2;
-        const bool before = document_sample(document, spline->knots[middle].frame) < sample;
-        low = before ? middle + 1 : low;
-        high = before ? high : middle;
-    }
-    return low;
-}
-
 float curves_y(const struct curves *curves, const struct core *core, double value)
 {
     const struct rect *plot = &core->layout.plot;

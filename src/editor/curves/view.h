@@ -34,9 +34,6 @@ void curves_update(struct curves *curves, struct core *core, const struct editor
 float curves_knot_x(const struct curves *curves, const struct core *core, const struct document *document,
                     const struct knot *knot);
 
-/// spline_lower_bound(), looked for from a guess outwards.
-int curves_knot_near(const struct document *document, const struct spline *spline, int guess, int sample);
-
 /// Index of the first knot at a place across the panel or to the right of it, or the knot before that one; or how many there are.
 int curves_knot_from(const struct curves *curves, const struct core *core, const struct document *document,
                      const struct spline *spline, double x);

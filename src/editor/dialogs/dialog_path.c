@@ -6,9 +6,6 @@
 #include <stdio.h>
 #include <string.h>
 
-/// The part of the path behind the last '/'.
-static const char *name_part(const struct dialog *dialog) { return path_name(dialog->ui.text.bytes); }
-
 static void list_folder(struct dialog *dialog, const char *folder)
 {
     if (dialog->name_count >= 0 && strcmp(folder, dialog->listed) == 0) return;
@@ -28,7 +25,7 @@ static bool is_scene(const char *name)
 void dialog_match(struct dialog *dialog)
 {
     char folder[UI_TEXT_SIZE];
-    const char *name = name_part(dialog);
+    const char *name = path_name(dialog->ui.text.bytes);
     snprintf(folder, sizeof folder, "%.*s", (int)(name - dialog->ui.text.bytes), dialog->ui.text.bytes);
     list_folder(dialog, folder);
     dialog->match_count = 0;
@@ -48,7 +45,7 @@ void dialog_match(struct dialog *dialog)
 static void set_name(struct dialog *dialog, const char *name, size_t length)
 {
     char path[UI_TEXT_SIZE];
-    int folder = (int)(name_part(dialog) - dialog->ui.text.bytes);
+    int folder = (int)(path_name(dialog->ui.text.bytes) - dialog->ui.text.bytes);
     snprintf(path, sizeof path, "%.*s%.*s", folder, dialog->ui.text.bytes, (int)length, name);
     ui_text_set(&dialog->ui.text, path);
     dialog_match(dialog);
@@ -99,7 +96,7 @@ bool dialog_take(struct dialog *dialog, int match)
 
 bool dialog_exists(const struct dialog *dialog)
 {
-    const char *name = name_part(dialog);
+    const char *name = path_name(dialog->ui.text.bytes);
     for (int m = 0; m < dialog->match_count; m++) {
         if (!dialog_recent_of(dialog, m) && strcmp(dialog->names[dialog->match[m]], name) == 0) return true;
     }

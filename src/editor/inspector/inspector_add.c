@@ -1,4 +1,5 @@
 /// The menu of what can be added to the scene (A, or the + of the list of rigs).
+#include "base/path.h"
 #include "editor/core/arrange.h"
 #include "editor/core/bones.h"
 #include "editor/core/core.h"
@@ -6,7 +7,6 @@
 #include "editor/inspector/inspection.h"
 #include "editor/inspector/inspector.h"
 #include <stdio.h>
-#include <string.h>
 
 enum { MAX_COPIES = 4, MAX_ITEMS = 5 + MAX_COPIES, LABEL = 96, WIDTH = 244 };
 
@@ -37,9 +37,8 @@ static void add_copies(const struct inspection *in, struct menu *menu)
     for (int r = 0; r < in->document->rig_count && copies < MAX_COPIES; r++) {
         const struct rig *rig = &in->document->rigs[r];
         if (rig->kind != RIG_CHARACTER && rig->kind != RIG_MODEL) continue;
-        const char *slash = strrchr(rig_title(rig), '/');
         snprintf(menu->names[copies], sizeof menu->names[0], "copy.%d", r);
-        snprintf(menu->labels[copies], LABEL, "One more %.80s", slash ? slash + 1 : rig_title(rig));
+        snprintf(menu->labels[copies], LABEL, "One more %.80s", path_name(rig_title(rig)));
         add_item(menu, (struct choice){ADD_COPY, r}, menu->names[copies], menu->labels[copies]);
         copies++;
     }

@@ -1,4 +1,5 @@
 /// The inspector's list of all rigs: which of them is shown, one more, one less.
+#include "base/path.h"
 #include "editor/core/arrange.h"
 #include "editor/core/bones.h"
 #include "editor/core/core.h"
@@ -6,7 +7,6 @@
 #include "editor/inspector/inspection.h"
 #include "editor/inspector/inspector.h"
 #include <stdio.h>
-#include <string.h>
 
 enum { ICON = 24, MAX_ROWS = 12 }; ///< rows from the top
 
@@ -109,9 +109,8 @@ static void build_row(struct inspection *in, int rig)
     const struct rig *shown = &in->document->rigs[rig];
     const struct rect r = ui_row(in->ui, UI_ROW);
     char name[32], text[160];
-    const char *slash = strrchr(rig_title(shown), '/');
     snprintf(name, sizeof name, "%s.%d", rig_word(shown->kind), document_rig_number(in->document, rig));
-    snprintf(text, sizeof text, "%.100s, %s", slash ? slash + 1 : rig_title(shown), rig_word(shown->kind));
+    snprintf(text, sizeof text, "%.100s, %s", path_name(rig_title(shown)), rig_word(shown->kind));
     const uint32_t color = rig_input_count(shown) > 0 ? arrange_color(in->document, rig_input(shown, 0)) : 0;
     ui_hint(in->ui, r, "Show what it is made of, and what moves it");
     if (ui_list_row(in->ui, r, name, text, color, rig == in->inspector->selected)) inspector_choose_rig(in, rig);
