@@ -21,6 +21,8 @@ enum {
     RELOAD_EVERY = 64,
     UNDO_EVERY = 3000,
     RESCUE_EVERY = 32,
+    FOCUS_EVERY = 20,
+    LOST_EVERY = 100,
     MOST_SAMPLES = 20000,
     THREADED_PART = 20
 };
@@ -297,33 +299,44 @@ static int number(const char *name, int fallback)
     return text ? atoi(text) : fallback;
 }
 
-static void let_loose(struct monkey *m, int events)
+/// A monkey and what is known of its document.
+struct run {
+    struct blind blind;
+    struct monkey monkey;
+    struct origin origin;
+    uint64_t checked; ///< revision
+    int next_undo, frame;
+};
+
+static void forget_origin(struct origin *origin)
 {
-    struct origin origin = {0};
-    struct app *app = &m->blind->app;
-    uint64_t checked = 0;
-    int next_undo = UNDO_EVERY;
-    for (int frame = 0; m->sent < events; frame++) {
-        watch_origin(&origin, app);
-        for (int i = one_in(m, 4) ? below(m, 4) : 0; i >= 0; i--) monkey_act(m); // mostly each in its own frame
-        blind_frame(m->blind);
-        watch_origin(&origin, app);
-        if (!history_is_open(app->table.history)) keep_small(app);
-        assert_editor(app);
-        if (history_revision(app->table.history) == checked) continue;
-        checked = history_revision(app->table.history);
-        assert_invariants(app->table.document);
-        if (app->row.splines_solved > 0) assert_curves_are_finite(app);
-        if (frame % RELOAD_EVERY == 0) assert_loads_again(app->table.document);
-        if (frame % RESCUE_EVERY == 0) assert_rescued(app);
-        if (m->sent < next_undo) continue;
-        next_undo += UNDO_EVERY;
-        assert_undone(m, &origin);
-    }
-    assert_undone(m, &origin);
-    free(origin.text);
-    free(origin.folder);
-    free(origin.paint);
+    free(origin->text);
+    free(origin->folder);
+    free(origin->paint);
+    *origin = (struct origin){0};
+}
+
+/// A frame of what a monkey does, and all that must hold after it.
+static void step(struct run *run)
+{
+    struct monkey *m = &run->monkey;
+    struct app *app = &run->blind.app;
+    watch_origin(&run->origin, app);
+    for (int i = one_in(m, 4) ? below(m, 4) : 0; i >= 0; i--) monkey_act(m); // mostly each in its own frame
+    blind_frame(m->blind);
+    watch_origin(&run->origin, app);
+    if (!history_is_open(app->table.history)) keep_small(app);
+    assert_editor(app);
+    const int frame = run->frame++;
+    if (history_revision(app->table.history) == run->checked) return;
+    run->checked = history_revision(app->table.history);
+    assert_invariants(app->table.document);
+    if (app->row.splines_solved > 0) assert_curves_are_finite(app);
+    if (frame % RELOAD_EVERY == 0) assert_loads_again(app->table.document);
+    if (frame % RESCUE_EVERY == 0) assert_rescued(app);
+    if (m->sent < run->next_undo) return;
+    run->next_undo += UNDO_EVERY;
+    assert_undone(m, &run->origin);
 }
 
 static const struct monkey *playing; ///< for what is said of a crash
@@ -343,25 +356,46 @@ static void record(struct app *app, const char *path)
     if (!app->recording) fail_msg("%s", error.text);
 }
 
+/// Starts the app as a window does.
+static void start(struct run *run, const char *scene, bool threaded)
+{
+    blind_open(&run->blind, scene);
+    personal_start(&run->blind.app);
+    run->blind.app.table.threaded = threaded;
+}
+
+static struct run *new_run(int seed, const char *scene, bool threaded)
+{
+    struct run *run = calloc(1, sizeof *run);
+    assert_non_null(run);
+    start(run, scene, threaded);
+    run->monkey =
+        (struct monkey){.blind = &run->blind, .files = &files, .random = (uint64_t)seed * 0x9E3779B97F4A7C15u};
+    run->next_undo = UNDO_EVERY;
+    return run;
+}
+
+/// Ends the app; `lost`: as when it could not decide, so that its unsaved work stays.
+static void end(struct run *run, bool lost)
+{
+    forget_origin(&run->origin);
+    personal_end(&run->blind.app, lost);
+    blind_close(&run->blind);
+}
+
 static void run_seed(int seed, int events, const char *scene, bool threaded)
 {
-    struct blind *blind = malloc(sizeof *blind);
-    assert_non_null(blind);
-    blind_open(blind, scene);
-    static struct monkey monkey;
-    personal_start(&blind->app);
-    blind->app.table.threaded = threaded;
-    monkey = (struct monkey){.blind = blind, .files = &files, .random = (uint64_t)seed * 0x9E3779B97F4A7C15u};
+    struct run *run = new_run(seed, scene, threaded);
     fprintf(stderr, "monkey: MONKEY_SEED=%d\n", seed);
-    playing = &monkey;
+    playing = &run->monkey;
     const char *path = getenv("MONKEY_RECORD");
-    if (path) record(&blind->app, path);
-    let_loose(&monkey, events);
-    recording_close(blind->app.recording, blind->app.frame, NULL);
+    if (path) record(&run->blind.app, path);
+    while (run->monkey.sent < events) step(run);
+    assert_undone(&run->monkey, &run->origin);
+    recording_close(run->blind.app.recording, run->blind.app.frame, NULL);
     playing = NULL;
-    personal_end(&blind->app, false);
-    blind_close(blind);
-    free(blind);
+    end(run, false);
+    free(run);
 }
 
 static void nothing_a_monkey_does_breaks_anything(void **state)
@@ -383,11 +417,68 @@ static void nor_while_a_thread_solves(void **state)
     run_seed(number("MONKEY_SEED", 1), number("MONKEY_EVENTS", EVENTS) / THREADED_PART, "long.json", true);
 }
 
+static char *in_recovery(const struct document *document)
+{
+    char *text = NULL;
+    size_t capacity = 0, size;
+    assert_true(scene_print_into(document, RECOVERY_FOLDER, &text, &capacity, &size));
+    return text;
+}
+
+/// The display is lost, and the app is started again: it offers what was not saved, and nothing else, while the other one runs.
+static void lose_display(struct run *run)
+{
+    struct app *app = &run->blind.app;
+    const bool unsaved = !history_is_saved(app->table.history);
+    if (unsaved && !personal_rescue(app)) fail_msg("the work is lost");
+    char *lost = in_recovery(app->table.document);
+    end(run, true);
+    start(run, NULL, false);
+    run->checked = 0;
+    const bool offered = app->table.editor->dialogs->dialog.kind == DIALOG_RECOVER;
+    assert_int_equal(offered, unsaved);
+    const bool recover = !one_in(&run->monkey, 4);
+    if (offered) monkey_key(&run->monkey, recover ? 'R' : 'D', 0);
+    blind_frame(&run->blind);
+    if (offered && recover) {
+        char *again = in_recovery(app->table.document);
+        assert_string_equal(again, lost);
+        assert_false(history_is_saved(app->table.history));
+        free(again);
+    }
+    free(lost);
+}
+
+/// Two windows on the same files, settings and recovery files, one of which has the focus, and either loses its display now and then.
+static void nor_do_two_with_the_same_files(void **state)
+{
+    (void)state;
+    const int seed = number("MONKEY_SEED", 1), events = number("MONKEY_EVENTS", EVENTS);
+    struct run *runs[] = {new_run(seed, NULL, false), new_run(seed + 1, "tail.json", false)};
+    fprintf(stderr, "monkeys: MONKEY_SEED=%d\n", seed);
+    struct run *run = runs[0];
+    while (runs[0]->monkey.sent + runs[1]->monkey.sent < events) {
+        playing = &run->monkey;
+        step(run);
+        if (one_in(&run->monkey, LOST_EVERY)) lose_display(run);
+        if (!one_in(&run->monkey, FOCUS_EVERY)) continue;
+        run = runs[run == runs[0]];
+        monkey_send(&run->monkey, (struct event){.kind = EVENT_FOCUS});
+    }
+    playing = NULL;
+    for (int i = 0; i < 2; i++) {
+        assert_undone(&runs[i]->monkey, &runs[i]->origin);
+        end(runs[i], false);
+        free(runs[i]);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(nothing_a_monkey_does_breaks_anything),
         cmocka_unit_test(nor_while_a_thread_solves),
+        cmocka_unit_test(nor_do_two_with_the_same_files),
     };
     return cmocka_run_group_tests(tests, make_files, remove_files);
 }
