@@ -25,6 +25,24 @@ ok "what a killed program was writing is removed" $?
 [ -e "$scratch/.wiggly-$$-3.tmp" ] && [ -e "$scratch/.wiggly-999999999-0.tmp.mine" ]
 ok "what a living one writes stays, and files of others" $?
 
+# Pictures are moved out of their folder when all are there: whoever is killed before leaves it.
+mkdir "$scratch/pictures" "$scratch/pictures/.wiggly-$$-0.tmp"
+touch "$scratch/pictures/.wiggly-$$-0.tmp/1.png"
+"$WIGGLY" export $scene --fps 2400 --size 640x360 -o "$scratch/pictures/a.png" >/dev/null 2>&1 &
+exporting=$!
+for _ in $(seq 600); do
+    left=$(find "$scratch/pictures" -path "*.wiggly-*/*.png" ! -path "*-$$-0.tmp/*" 2>/dev/null | head -n 1)
+    [ -z "$left" ] || break
+    sleep 0.05
+done
+kill -9 "$exporting"
+wait "$exporting" 2>/dev/null
+[ -n "$left" ] && [ -e "$left" ]
+ok "a killed export leaves pictures in a folder of its own" $?
+expect 0 "the next one is made" "$WIGGLY" export $scene --frames 0:1 --size 64x36 -o "$scratch/pictures/a.png"
+[ "$(find "$scratch/pictures" -type f -printf '%P\n' | sort | tr '\n' ' ')" = ".wiggly-$$-0.tmp/1.png a-0001.png a-0002.png " ]
+ok "and takes that folder away, but none of a living program" $?
+
 escape=$(printf '\033')
 name="$scratch/${escape}[31mred"$'\n'"two.json"
 raw() { case ${1-$err} in *"$escape"*) true ;; *) false ;; esac }

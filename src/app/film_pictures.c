@@ -1,5 +1,6 @@
 /// A film as numbered pictures: written into a folder beside, and moved out of it when all are there.
 #include "app/film_file.h"
+#include "base/file.h"
 #include "base/path.h"
 #include "base/png.h"
 #include <ctype.h>
@@ -15,7 +16,8 @@ struct film_file {
     const char *path;
     int before, digits; ///< bytes of the path before the number, and its least number of digits; −1: it has none
     const char *after;  ///< the path after the number
-    char folder[PATH_LIMIT]; ///< for the time being
+    char *folder;       ///< for the time being
+    int lock;           ///< of the folder
     long written;
 };
 
@@ -55,23 +57,17 @@ static bool name_temporary(const struct film_file *file, long number, char name[
     return snprintf(name, PATH_LIMIT, "%s/%ld.png", file->folder, number) < PATH_LIMIT;
 }
 
-static bool make_folder(struct film_file *file, struct error *error)
-{
-    const char *slash = strrchr(file->path, '/');
-    int length = slash ? (int)(slash - file->path) + 1 : 0;
-    if (snprintf(file->folder, sizeof file->folder, "%.*s.wiggly-XXXXXX", length, file->path) >= PATH_LIMIT)
-        return fail(error, ERROR_INPUT, "%s: the path is too long", file->path);
-    return mkdtemp(file->folder) ||
-           fail(error, ERROR_ENVIRONMENT, "%s: cannot be written: %s", file->path, strerror(errno));
-}
-
 static struct film_file *open_pictures(const char *path, const struct film_shape *shape, struct error *error)
 {
     struct film_file *file = calloc(1, sizeof *file);
     if (file) {
         file->path = path;
         file->shape = *shape;
-        if (split(file, error) && make_folder(file, error)) return file;
+        if (split(file, error)) {
+            file->lock = file_folder_beside(path, &file->folder);
+            if (file->lock >= 0) return file;
+            fail(error, ERROR_ENVIRONMENT, "%s: cannot be written: %s", path, strerror(errno));
+        }
     } else {
         fail_no_memory(error, path);
     }
@@ -125,6 +121,8 @@ static void close_pictures(struct film_file *file)
         if (name_temporary(file, n, name)) unlink(name);
     }
     rmdir(file->folder);
+    close(file->lock);
+    free(file->folder);
     free(file);
 }
 

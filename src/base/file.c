@@ -114,16 +114,30 @@ static char *resolve_links(const char *path)
     return NULL;
 }
 
-/// Removes a file that a program which is gone was writing; another machine's is locked while it lives.
+/// Empties a folder that file_folder_beside() has made.
+static void empty(int folder)
+{
+    DIR *directory = fdopendir(dup(folder));
+    if (!directory) return;
+    for (const struct dirent *entry; (entry = readdir(directory)) != NULL;) unlinkat(folder, entry->d_name, 0);
+    closedir(directory);
+}
+
+/// Removes a file or a folder that a program which is gone was writing; another machine's is locked while it lives.
 static void remove_stale(int folder, const char *name)
 {
     long owner;
     int number, end = 0;
     if (sscanf(name, ".wiggly-%ld-%d.tmp%n", &owner, &number, &end) != 2 || end == 0 || name[end]) return;
     if (owner <= 0 || owner == (long)getpid() || kill((pid_t)owner, 0) == 0 || errno != ESRCH) return;
-    const int file = openat(folder, name, O_RDWR | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+    const int file = openat(folder, name, O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+    struct stat about;
     if (file < 0) return;
-    if (flock(file, LOCK_EX | LOCK_NB) == 0) unlinkat(folder, name, 0);
+    if (flock(file, LOCK_EX | LOCK_NB) == 0 && fstat(file, &about) == 0) {
+        const bool is_folder = S_ISDIR(about.st_mode);
+        if (is_folder) empty(file);
+        unlinkat(folder, name, is_folder ? AT_REMOVEDIR : 0);
+    }
     close(file);
 }
 
@@ -142,8 +156,8 @@ static void sweep(const char *target)
     closedir(directory);
 }
 
-/// Makes a new file beside the target; the kernel applies the umask. Returns the descriptor or -1 with errno set.
-static int create_beside(const char *target, char **temporary)
+/// Makes a new file beside the target, or a folder; the kernel applies the umask. Returns the descriptor or -1 with errno set.
+static int create_beside(const char *target, bool is_folder, char **temporary)
 {
     errno = ENOMEM;
     for (int i = 0; i < MAX_NAMES; i++) {
@@ -151,7 +165,9 @@ static int create_beside(const char *target, char **temporary)
         snprintf(name, sizeof name, ".wiggly-%ld-%d.tmp", (long)getpid(), i);
         *temporary = beside(target, name);
         if (!*temporary) return -1;
-        int file = open(*temporary, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+        int file = !is_folder                     ? open(*temporary, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666)
+                   : mkdir(*temporary, 0700) == 0 ? open(*temporary, O_RDONLY | O_DIRECTORY | O_CLOEXEC)
+                                                  : -1;
         if (file >= 0) {
             flock(file, LOCK_EX | LOCK_NB); // a sign of life for remove_stale()
             return file;
@@ -163,6 +179,12 @@ static int create_beside(const char *target, char **temporary)
         if (errno != EEXIST) return -1;
     }
     return -1;
+}
+
+int file_folder_beside(const char *path, char **folder)
+{
+    sweep(path);
+    return create_beside(path, true, folder);
 }
 
 /// Opens what is to be written: a file beside the target, or the target itself where it is a device or a pipe.
@@ -179,7 +201,7 @@ static int open_output(const char *path, struct file_output *output)
     output->target = resolve_links(path);
     if (!output->target) return -1;
     sweep(output->target);
-    int file = create_beside(output->target, &output->temporary);
+    int file = create_beside(output->target, false, &output->temporary);
     if (file >= 0 && exists && fchmod(file, old.st_mode & 07777) != 0) {
         close(file);
         return -1;

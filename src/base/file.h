@@ -31,4 +31,9 @@ bool file_output_commit(struct file_output *output, struct error *error);
 /// Closes and removes the temporary file.
 void file_output_discard(struct file_output *output);
 
+/// Makes a folder beside `path` for files that are moved there when all are whole. What a killed program leaves of it, files and all,
+/// goes with the next output beside it. Returns a descriptor to keep open for as long as the folder is there, and in `folder` its path,
+/// which the caller frees; −1 with errno set.
+int file_folder_beside(const char *path, char **folder);
+
 #endif
