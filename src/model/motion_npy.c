@@ -15,11 +15,10 @@ static bool set_shape(struct motion *m, const struct npy *npy, struct error *err
 /// coordinate runs faster.
 static void set_order(struct motion *m, const struct npy *npy)
 {
-    int64_t frame = m->number_size, column = frame * m->frames;
+    int64_t column = (int64_t)m->number_size * m->frames;
     bool flat = npy->count == 2;
     m->columns_first = npy->columns_first;
     if (!m->columns_first) return;
-    m->strides[0] = frame;
     m->strides[1] = flat ? 3 * column : column;
     m->strides[2] = flat ? column : column * m->vertices;
 }
