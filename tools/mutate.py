@@ -38,6 +38,7 @@ FEWEST = 5  # faults for even the smallest layer
 WRAPPED = "malloc calloc realloc aligned_alloc posix_memalign strdup".split()
 PLAIN = "-g0 -fPIC -fno-semantic-interposition"
 COVERED = "-g0 -O0 -fPIC -fno-semantic-interposition --coverage"
+TRAPS = ["-fsanitize=undefined", "-fsanitize-undefined-trap-on-error"]  # as the suite's run under sanitizers ends
 MEMORY = 8 << 30  # a fault may allocate without end
 
 Fault = collections.namedtuple("Fault", "layer file line kind start end new before after idle rank", defaults=[False, 0])
@@ -407,10 +408,11 @@ class Trial:
         source.write_text(text[:fault.start] + fault.new + text[fault.end:])
         command = [w for w in self.copy.commands[fault.file] if w not in ("-MMD", "-MP") and not w.startswith("-W")]
         command[command.index("-c") + 1], command[command.index("-o") + 1] = str(source), str(made)
-        if subprocess.run(command + ["-w", f"-fmacro-prefix-map={folder}/="], cwd=self.copy.tree, stderr=subprocess.DEVNULL).returncode:
-            return None
+        compiles = lambda *more: subprocess.run(command + ["-w", f"-fmacro-prefix-map={folder}/=", *more], cwd=self.copy.tree,
+                                                stderr=subprocess.DEVNULL).returncode == 0
         old = self.copy.tree / "build/obj" / (fault.file[:-2] + ".o")
-        return None if made.read_bytes() == old.read_bytes() else made
+        if not compiles() or made.read_bytes() == old.read_bytes(): return None
+        return made if compiles(*TRAPS) else None
 
     def caught_by(self, fault, passed, place):
         """The first test that fails with a fault; `passed` receives those that don't."""
