@@ -231,6 +231,14 @@ static void bad_files_get_one_sentence(void **state)
             "\"a.re\",\"a.im\",\"b.re\",\"b.im\"]}}]}",
             bin, 36),
         "expected no more data than fits a file of this size, got 3000000 times 24 bytes");
+    bin[7] = 0; // numbers that are none do not make room for the others smaller
+    assert_refused(glb("{" VIEW
+                       ",\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"count\":3,\"type\":\"VEC3\"},"
+                       "{\"bufferView\":0,\"componentType\":5126,\"count\":1000000000000000000,\"type\":\"VEC3\"}],"
+                       "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0}},{\"attributes\":{\"POSITION\":"
+                       "1}}]}]}",
+                       bin, sizeof bin),
+                   "expected a mesh with positions, got none");
     struct character c;
     struct error error;
     make_character(&c);

@@ -97,7 +97,7 @@ static bool check_primitive(const struct glb *glb, const json_t *primitive, stru
         return fail(error, ERROR_INPUT, "%s: expected a mesh that is not compressed, got Draco", glb->path);
     if (glb_integer(primitive, "mode", TRIANGLES) != TRIANGLES)
         return fail(error, ERROR_INPUT, "%s: expected a mesh of triangles, got strips, lines or points", glb->path);
-    if (vertex_count_of(glb, primitive) == 0)
+    if (vertex_count_of(glb, primitive) < 1)
         return fail(error, ERROR_INPUT, "%s: expected a mesh with positions, got none", glb->path);
     return glb_is_stored(glb, attribute(primitive, "POSITION")) ||
            fail(error, ERROR_INPUT, "%s: accessors[%lld]: expected positions that are in the file, got none",
