@@ -297,6 +297,35 @@ static void test_clicks_leave_the_body_alone(void **state)
     session_close(&s);
 }
 
+static void strike(struct session *s, int key, unsigned mods)
+{
+    session_send(s, (struct event){.kind = EVENT_KEY, .key = key, .action = ACTION_PRESS, .mods = mods});
+    session_send(s, (struct event){.kind = EVENT_KEY, .key = key, .action = ACTION_RELEASE, .mods = mods});
+}
+
+/// What is shown is of the last frame: a tail that an event before the press took away is not taken hold of.
+static void test_a_press_right_after_a_rig_went(void **state)
+{
+    (void)state;
+    struct session s;
+    session_open(
+        &s, "{\"frames\": [0, 48], \"splines\": [{\"name\": \"sway\", \"frequency\": 1, \"knots\": [{\"frame\": 0, "
+            "\"value\": 1}]}], \"rigs\": [{\"type\": \"tail\", \"name\": \"tail\", \"spline\": \"sway\"}, {\"type\": "
+            "\"meadow\", \"name\": \"reeds\", \"spline\": \"sway\", \"count\": 20}]}");
+    session_click(&s, "body(tail)");
+    session_key(&s, KEY_SPACE, 0);
+    for (int i = 0; i < 30; i++) session_frame(&s);
+    session_point(&s, "tail(tail,1)");
+    strike(&s, KEY_DELETE, MOD_SHIFT);
+    if (s.editor->dialogs->dialog.kind == DIALOG_ASK) strike(&s, 'K', 0);
+    assert_int_equal(s.document->rig_count, 1);
+    assert_true(s.editor->core.playback.playing);
+    session_press(&s, BUTTON_LEFT, 1);
+    session_release(&s, BUTTON_LEFT);
+    assert_int_equal(s.document->rigs[0].kind, RIG_MEADOW);
+    session_close(&s);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -311,6 +340,7 @@ int main(void)
         cmocka_unit_test(test_auto_key_makes_a_place_follow),
         cmocka_unit_test(test_a_body_is_lifted),
         cmocka_unit_test(test_clicks_leave_the_body_alone),
+        cmocka_unit_test(test_a_press_right_after_a_rig_went),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -47,11 +47,17 @@ static const char *keep(const char *name)
     return names[name_count++] = strdup(path);
 }
 
-static void copy_scene(const char *name)
+/// A scene as it was before any monkey wrote over it.
+static void restore(const char *name)
 {
     char command[8192];
     snprintf(command, sizeof command, "cp '%s/assets/scenes/%s' '%s'", home, name, name);
     assert_int_equal(system(command), 0);
+}
+
+static void copy_scene(const char *name)
+{
+    restore(name);
     files.good[files.good_count++] = name;
 }
 
@@ -454,6 +460,7 @@ static void nor_do_two_with_the_same_files(void **state)
 {
     (void)state;
     const int seed = number("MONKEY_SEED", 1), events = number("MONKEY_EVENTS", EVENTS);
+    restore("tail.json");
     struct run *runs[] = {new_run(seed, NULL, false), new_run(seed + 1, "tail.json", false)};
     fprintf(stderr, "monkeys: MONKEY_SEED=%d\n", seed);
     struct run *run = runs[0];

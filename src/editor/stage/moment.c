@@ -30,7 +30,7 @@ static struct hover hover_at(const struct stage *stage, const struct core *core,
     for (int s = 0; s < stage->strand_count; s++) {
         const int rig = stage->strands[s].rig;
         struct strand strand;
-        if (rig >= document->rig_count || !strand_pose(stage, core, world, rig, position, NULL, &strand)) continue;
+        if (!strand_pose(stage, core, world, rig, position, NULL, &strand)) continue;
         strand_nearer(stage, core, &strand, (const float[2]){x, y}, &nearest, &joint);
     }
     for (int t = 0; t < stage->view.tail_count && document_tail(document, t); t++) {
