@@ -8,6 +8,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+enum { SUBJECTS = 200 };
+
 struct subject {
     wiggly_mode mode;
     double frequency, damping, bandwidth, calm;
@@ -177,12 +179,56 @@ static void long_domains_that_lose_digits(void **state)
     }
 }
 
+static double uniform(uint64_t *seed)
+{
+    *seed = *seed * 6364136223846793005u + 1442695040888963407u;
+    return (double)(*seed >> 11) * 0x1p-53;
+}
+
+/// A long spline that is meant to be hard: hardly damped, its start held by next to nothing, knots far apart or close together.
+static struct subject some_subject(uint64_t seed)
+{
+    static const double dampings[] = {0, 0, 1e-4, 1e-2, 0.1}, bandwidths[] = {0, 0, 1e-3, 0.1, 1};
+    for (int i = 0; i < 40; i++) uniform(&seed);
+    struct subject c = {.mode = uniform(&seed) < 0.2 ? WIGGLY_REAL : WIGGLY_COMPLEX};
+    c.samples = 1001 + (int)(2000 * uniform(&seed));
+    c.frequency = 24 * pow(10, -2 + 4 * uniform(&seed)) / (c.samples - 1);
+    c.damping = dampings[(int)(5 * uniform(&seed))];
+    c.bandwidth = bandwidths[(int)(5 * uniform(&seed))];
+    c.calm = uniform(&seed) < 0.3 ? 1 : pow(10, -12 * uniform(&seed));
+    c.gap = 4 + (int)(c.samples * pow(10, -2.5 + 2 * uniform(&seed)));
+    c.slopes = uniform(&seed) < 0.3;
+    c.irregular = uniform(&seed) < 0.5;
+    return c;
+}
+
+/// Whatever is said to be solved is within the tolerance; what is not is estimated to within a few times.
+static void no_long_spline_is_called_exact_that_is_not(void **state)
+{
+    (void)state;
+    int exact = 0;
+    for (uint64_t seed = 0; seed < SUBJECTS; seed++) {
+        const struct subject c = some_subject(seed);
+        wiggly_curve curve;
+        double error, lapack;
+        const wiggly_status status = solve(&c, &curve, &error, &lapack);
+        const double estimate = curve.error, tolerance = 1e-8;
+        curve_destroy(&curve);
+        exact += status == WIGGLY_OK;
+        if (status == WIGGLY_OK && error > tolerance) fail_msg("seed %d is off by %g", (int)seed, error);
+        if (error > tolerance && error > 4 * estimate)
+            fail_msg("seed %d is off by %g, not by %g", (int)seed, error, estimate);
+    }
+    assert_in_range(exact, SUBJECTS * 9 / 10, SUBJECTS);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_mode_at_every_length),
         cmocka_unit_test(slow_complex_splines),
         cmocka_unit_test(long_domains_that_lose_digits),
+        cmocka_unit_test(no_long_spline_is_called_exact_that_is_not),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

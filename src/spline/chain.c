@@ -26,10 +26,8 @@
 #include <math.h>
 
 enum { MAX_SWEEPS = 30 };
-enum {
-    LONGEST_FOR_BAND = 1000
-}; ///< samples up to which a system that loses digits is left to the band, which knows its error
-static const double refined = 1e-13;   ///< of the largest unknown
+enum { LONGEST_FOR_BAND = 1000 };    ///< samples up to which a weak system is left to the band, which knows its error
+static const double refined = 1e-13; ///< of the largest unknown
 static const double acceptable = 1e-6; ///< of the same: still a curve to show, though one that is said to be inexact
 
 /// Whether sums of tabled columns, none of them above 1e25, weighted with z stay finite; NaN is not tame.
@@ -242,8 +240,9 @@ static bool refine(chain *c, double size)
         chain_gradient(c);
         chain_solve_nodes(c);
         double change = take_solution(c);
-        c->error = fmax(change, before < size ? before : 0);
+        c->error = change;
         if (change <= refined * size) return true;
+        c->error = fmax(change, before < size ? before : 0);
         if (!(change < 0.5 * before)) return c->error <= acceptable * size;
         before = change;
     }
@@ -308,7 +307,8 @@ bool chain_solve(chain *c, double *x_re, double *x_im)
     chain_pull_known(c);
     chain_solve_nodes(c);
     double size = fmax(take_solution(c), largest_value(c));
-    if (c->rank == CHAIN_WEAK && (c->count <= LONGEST_FOR_BAND || !refine(c, size))) return false;
+    if (c->rank == CHAIN_WEAK && c->count <= LONGEST_FOR_BAND) return false;
+    if (chain_must_refine(c) && !refine(c, size)) return false;
     if (c->im_weight > 0) {
         chain_pull_imaginary(c);
         chain_solve_nodes(c);

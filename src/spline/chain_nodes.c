@@ -203,6 +203,12 @@ static kernel_rank factor_scalars(chain *c)
     return all;
 }
 
+bool chain_must_refine(const chain *c)
+{
+    const double unrefined = 3e4; // beyond it an answer may miss the tolerance
+    return c->rank == CHAIN_WEAK || c->loose || c->lost > unrefined;
+}
+
 double chain_error(const chain *c, double size)
 {
     if (c->rank == CHAIN_WEAK || (c->im_weight > 0 && c->lost > TELLING_LOSS))

@@ -24,17 +24,22 @@ static void unpack(wiggly_solver *solver, const problem *p, wiggly_curve *curve)
     problem_settle(solver, p, curve->re, curve->im);
 }
 
-/// w into the curve: by the chain where it serves, else by refinement.
+/// w into the curve: by the chain where it serves, else by refinement. Where next to nothing holds the start and the chain has lost most
+/// of its digits, its estimate is no judge: the band solves too, and what errs less is taken.
 static minimum attempt(wiggly_solver *solver, problem *p, wiggly_curve *curve)
 {
-    minimum result = {.solved = true};
-    if (problem_fits_chain(solver, p) && problem_solve_chain(solver, p, curve->re + p->first, curve->im + p->first)) {
-        result.error = solver->chain.error;
-        result.by_chain = true;
-        return result;
+    const chain *c = &solver->chain;
+    double *re = curve->re + p->first, *im = curve->im + p->first;
+    minimum by_chain = {.by_chain = true};
+    if (problem_fits_chain(solver, p) && problem_solve_chain(solver, p, re, im)) {
+        by_chain.solved = true;
+        by_chain.error = c->error;
+        if (c->rank != CHAIN_WEAK || !c->loose) return by_chain;
     }
     problem_set_rows(solver, p);
-    result = solver_minimise(solver);
+    minimum result = solver_minimise(solver);
+    const bool is_worse = by_chain.solved && !(result.solved && result.error <= by_chain.error);
+    if (is_worse && problem_solve_chain(solver, p, re, im)) return by_chain;
     unpack(solver, p, curve);
     return result;
 }
