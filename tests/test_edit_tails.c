@@ -122,6 +122,21 @@ static void test_joints_keep_the_shape(void **state)
     world_close(&world);
 }
 
+/// What moves the tail as a whole moves it as far, and still has one number for each joint.
+static void test_joints_of_what_does_not_bend(void **state)
+{
+    (void)state;
+    struct world world;
+    world_open(&world);
+    world_must(&world, (struct edit){.kind = EDIT_AXIS, .channel = 1, .axis = AXIS_STRETCH});
+    assert_int_equal(document_tail(world.document, 0)->channels[1].gain.form, ANGLES_EACH);
+    assert_reversible(&world, (struct edit){.kind = EDIT_JOINTS, .to = 5});
+    const struct channel *stretch = &document_tail(world.document, 0)->channels[1];
+    assert_int_equal(stretch->gain.count, 5);
+    for (int n = 0; n < 5; n++) assert_near(stretch->gain.value[n], 1 + 0.5 * n, 1e-6);
+    world_close(&world);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -130,6 +145,7 @@ int main(void)
         cmocka_unit_test(test_which_tails_there_are),
         cmocka_unit_test(test_which_channels_there_are),
         cmocka_unit_test(test_joints_keep_the_shape),
+        cmocka_unit_test(test_joints_of_what_does_not_bend),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -109,9 +109,9 @@ bool plan_joints(struct document *document, const struct edit *edit, struct chan
     resample(&tail->rest, to, factor);
     for (int c = 0; c < tail->channel_count; c++) {
         struct channel *channel = &tail->channels[c];
-        if (!axis_bends(channel->axis)) continue;
-        resample(&channel->gain, to, factor);
-        resample(&channel->lag, to, channel->lag.form == ANGLES_ONE ? factor : 1);
+        const bool bends = axis_bends(channel->axis);
+        resample(&channel->gain, to, bends ? factor : 1);
+        resample(&channel->lag, to, bends && channel->lag.form == ANGLES_ONE ? factor : 1);
     }
     return plan_rig_finish(edit->rig, rig, list, error);
 }
