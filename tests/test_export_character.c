@@ -347,6 +347,40 @@ static void a_body_keeps_the_keys_of_its_clip(void **state)
     }
 }
 
+/// Characters that others have written with a bone of scale 0, with a buffer longer than it says, and one that does not say how long it is.
+static void what_opens_is_exported_whole(void **state)
+{
+    (void)state;
+    static const char *const models[] = {"flat.glb", "short.glb", "unsaid.glb"}, *const files[] = {"out.glb",
+                                                                                                   "out.gltf"};
+    char here[2048];
+    assert_non_null(getcwd(here, sizeof here));
+    for (int n = 0; n < 6; n++) {
+        char scene_path[256], file[256];
+        struct error error = {0};
+        struct export_report report;
+        const struct export_options usual = {0};
+        struct gltf gltf;
+        snprintf(scene_path, sizeof scene_path, "%s", folder_path("odd.json"));
+        FILE *out = fopen(scene_path, "w");
+        assert_non_null(out);
+        fprintf(out,
+                "{\"wiggly\": 1, \"frames\": [0, 2], \"splines\": [{\"name\": \"s\", \"frequency\": 2, \"knots\": "
+                "[{\"frame\": 0, \"value\": 1}, {\"frame\": 2, \"value\": -1}]}], \"rigs\": [{\"type\": \"model\", "
+                "\"name\": \"it\", \"model\": \"%s/tests/fuzz/seeds/export/%s\"}, {\"type\": \"chain\", \"name\": "
+                "\"tail\", \"model\": \"it\", \"from\": \"root\", \"to\": \"%s\", \"channels\": [{\"spline\": \"s\", "
+                "\"axis\": \"side\", \"gain\": 9}]}]}",
+                here, models[n / 2], n < 2 ? "node 1" : "tip");
+        assert_int_equal(fclose(out), 0);
+        struct opened scene = open_scene(scene_path);
+        snprintf(file, sizeof file, "%s", folder_path(files[n % 2]));
+        if (!export_write(posing_of(&scene), file, &usual, &report, &error)) fail_msg("%s", error.text);
+        if (!gltf_read(file, &gltf, &error)) fail_msg("%s: %s", models[n / 2], error.text);
+        gltf_free(&gltf);
+        close_scene(&scene);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -360,6 +394,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(usd_materials_share_out_the_faces, folder_make, folder_remove),
         cmocka_unit_test_setup_teardown(textures_are_written_beside, folder_make, folder_remove),
         cmocka_unit_test_setup_teardown(without_its_textures_nothing_is_written, folder_make, folder_remove),
+        cmocka_unit_test_setup_teardown(what_opens_is_exported_whole, folder_make, folder_remove),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -48,9 +48,9 @@ static void close(struct form *form)
 static versors turn_of(const struct imported *imported, const struct gltf_pose *pose, int node)
 {
     const mat4s rest = mat4_from(imported->rest.world[node]), now = mat4_from(pose->world[node]);
-    mat4s turned = glms_mat4_mul(now, glms_mat4_inv(rest));
+    mat3s turned = glms_mat3_mul(glms_mat4_pick3(now), mat3_inverse(glms_mat4_pick3(rest)));
     for (int k = 0; k < 3; k++) glm_vec3_normalize(turned.raw[k]);
-    return glms_mat4_quat(turned);
+    return glms_mat3_quat(turned);
 }
 
 static void key(const struct form *form, const struct rig_pose *pose, struct form_key *key)

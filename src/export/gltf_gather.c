@@ -39,8 +39,7 @@ static bool gather_buffers(struct gathered *gathered)
     size_t *starts = calloc(count + 1, sizeof *starts), i;
     bool done = starts;
     for (size_t b = 0; done && b < count; b++) {
-        const int64_t length = glb_integer(json_array_get(buffers, b), "byteLength", 0);
-        done = add(gathered, (struct glb_bytes){gathered->file->buffers[b].bytes.at, (size_t)length}, &starts[b]);
+        done = add(gathered, gathered->file->buffers[b].bytes, &starts[b]); // views may reach beyond the byteLength
     }
     json_array_foreach(json_object_get(gathered->file->json, "bufferViews"), i, view)
     {

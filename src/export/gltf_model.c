@@ -45,13 +45,12 @@ static json_int_t count_of(const struct original *original, const char *array)
     return (json_int_t)json_array_size(json_object_get(original->source.json, array));
 }
 
-/// Bytes of the .glb's chunk that the file's first buffer is.
+/// The .glb's chunk where the file's first buffer is that, all of it: views may reach beyond the buffer's byteLength.
 static struct glb_bytes find_chunk(const struct glb *source)
 {
     const json_t *buffer = json_array_get(json_object_get(source->json, "buffers"), 0);
     if (!source->chunk.at || !buffer || json_object_get(buffer, "uri")) return (struct glb_bytes){0};
-    const int64_t length = glb_integer(buffer, "byteLength", 0), most = (int64_t)source->chunk.size;
-    return (struct glb_bytes){source->chunk.at, (size_t)(length < 0 || length > most ? most : length)};
+    return source->chunk;
 }
 
 static void append_all(struct splice *splice, const char *array, const json_t *values)
@@ -78,13 +77,14 @@ static void put_clip(struct splice *splice, const struct gltf *gltf, const struc
     json_decref(json);
 }
 
-/// The new bytes follow those of the first buffer, or get a buffer of their own.
-static void put_bytes(struct splice *splice, const struct gltf_file *file, bool in_first, bool binary)
+/// The new bytes follow those of the first buffer, or get a buffer of their own where that is NULL.
+static void put_bytes(struct splice *splice, const struct gltf_file *file, const json_t *first, bool binary)
 {
+    const bool in_first = first != NULL, has_length = json_object_get(first, "byteLength") != NULL;
     char *value = NULL, *address = in_first && binary ? NULL : gltf_file_address(file);
     if (in_first && binary) {
-        if (asprintf(&value, "%zu", file->size) < 0) value = NULL;
-        if (value) splice_replace(splice, "buffers", 0, "byteLength", value);
+        if (asprintf(&value, has_length ? "%zu" : "{\"byteLength\":%zu}", file->size) < 0) value = NULL;
+        if (value) splice_replace(splice, "buffers", 0, has_length ? "byteLength" : NULL, value);
     } else if (address) {
         if (asprintf(&value, "{\"byteLength\":%zu,\"uri\":\"%s\"}", file->size, address) < 0) value = NULL;
         if (value && in_first) splice_replace(splice, "buffers", 0, NULL, value);
@@ -131,12 +131,13 @@ static bool write_patched(struct shot *shot, const struct form *form, const stru
                              .buffer = first.size > 0 ? 0 : count_of(original, "buffers")};
     struct gltf_file as_it_was = {0}; // a chunk that is not the first buffer
     struct splice splice = {.text = original->text};
+    const json_t *buffers = json_object_get(original->source.json, "buffers");
     char *text = NULL;
     bool whole = gltf_file_begin(&file, first.at, first.size);
     if (whole && binary && first.size == 0) whole = gltf_file_begin(&as_it_was, chunk.at, chunk.size);
     bool done = !whole || form->joint_count == 0 || put_motion(shot, form, body, &file, &splice, error);
     if (done) {
-        if (file.size > 0) put_bytes(&splice, &file, first.size > 0, binary);
+        if (file.size > 0) put_bytes(&splice, &file, first.size > 0 ? json_array_get(buffers, 0) : NULL, binary);
         if (whole && !file.without_memory) text = splice_apply(&splice);
         done = text || fail_no_memory(error, body->gltf->path);
     }

@@ -4,6 +4,7 @@
 
 #define CGLM_ALL_UNALIGNED // ours lie in arrays of vertices and on the heap
 #include <cglm/struct.h>
+#include <math.h>
 #include <string.h>
 
 static inline vec3s vec3_from(const float v[3]) { return (vec3s){.raw = {v[0], v[1], v[2]}}; }
@@ -20,6 +21,20 @@ static inline vec3s triangle_normal(const float a[3], const float b[3], const fl
 {
     const vec3s from = vec3_from(a);
     return glms_vec3_cross(glms_vec3_sub(vec3_from(b), from), glms_vec3_sub(vec3_from(c), from));
+}
+
+/// The inverse; of a matrix that is flat, as a bone's of scale 0 is, what undoes it along the axes that it has left.
+static inline mat3s mat3_inverse(mat3s m)
+{
+    const float det = glms_mat3_det(m);
+    if (det != 0.0f && isfinite(1.0f / det)) return glms_mat3_inv(m);
+    mat3s inverse = glms_mat3_zero();
+    for (int k = 0; k < 3; k++) {
+        const float length2 = glms_vec3_norm2(m.col[k]);
+        if (!isfinite(1.0f / length2)) continue;
+        for (int i = 0; i < 3; i++) inverse.col[i].raw[k] = m.col[k].raw[i] / length2;
+    }
+    return inverse;
 }
 
 #endif

@@ -12,7 +12,7 @@ static vec3s place_of(const float matrix[16]) { return vec3_from(matrix + 12); }
 /// Character's space → a bone's own at rest, without its place.
 static mat3s into_bone(const struct imported *imported, int node)
 {
-    return glms_mat3_inv(glms_mat4_pick3(mat4_from(imported->rest.world[node])));
+    return mat3_inverse(glms_mat4_pick3(mat4_from(imported->rest.world[node])));
 }
 
 /// The tip in the last bone's own space: where its first child is, else as far on as the bone before was long.
