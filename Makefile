@@ -10,7 +10,7 @@
 #   make check    formatting, static analysis, include arrows, lengths
 #   make figures  the paper's figures as SVG and CSV, in FIGURES (build/figures)
 #   make feel     how curves answer to a knot that moves, and how far they overshoot, as a table
-#   make fuzz     every reader of files for SECONDS=20 each, or RUNS=10000000 inputs each; SEED=1; needs clang
+#   make fuzz     every reader of files, and exports of what is read, for SECONDS=20 each, or RUNS=10000000 inputs each; SEED=1; needs clang
 #   make regress BASE=path/to/other/wiggly    frame times of two builds on the committed session
 #   make compile_commands.json    for clangd and other tools that read C
 #   make install  PREFIX=/usr/local DESTDIR=
@@ -255,10 +255,10 @@ $(TEST_PROGRAMS): $(B)/tests/%: $(B)/obj/tests/%.o $(TEST_SUPPORT:%.c=$(B)/obj/%
 	@mkdir -p $(@D)
 	$(Q)$(LINK) $^ $(TEST_LIBS) $(LIBS) -o $@
 
-# Of the sources only what readers need, and no GL.
+# Of the sources only what readers and exports need, and no GL.
 FUZZED := $(wildcard src/base/*.c src/spline/*.c src/scene/*.c src/model/*.c) src/ui/event.c \
     $(addprefix src/app/,replay.c settings.c recovery.c) $(addprefix src/timing/,readlog.c columns.c) \
-    $(addprefix src/rig/,imported.c skeleton.c) src/export/gltf_splice.c $(addprefix src/simulation/,drive.c softness.c \
+    $(wildcard src/rig/*.c src/export/*.c) $(addprefix src/simulation/,drive.c softness.c \
     lattice.c tiling.c voxels.c solid.c winding.c element.c svd.c material.c eigen.c)
 fuzzers: $(FUZZERS:%=$(B)/%)
 $(B)/obj/tests/fuzz/%.o: OWN_CPPFLAGS += -Itests

@@ -26,4 +26,10 @@ void fuzz_expect(bool good, const char *what);
 /// What is no JSON is changed as bytes. Returns the new size of the whole, of at most `most` bytes.
 size_t fuzz_mutate_json(uint8_t *data, size_t size, size_t most, size_t start, size_t end, unsigned seed);
 
+/// Whether an input begins as a .glb does.
+bool fuzz_is_glb(const uint8_t *data, size_t size);
+
+/// Changes the JSON of a .gltf or a .glb, whose frame it keeps whole. Returns the new size, of at most `most` bytes.
+size_t fuzz_mutate_gltf(uint8_t *data, size_t size, size_t most, unsigned seed);
+
 #endif

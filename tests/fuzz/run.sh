@@ -20,6 +20,7 @@ one() { # <target>
     mkdir -p "$corpus"
     from=$seeds/$reader
     [ "$reader" = scene ] && from="assets/scenes tests/bad"
+    [ "$reader" = export ] && from="$seeds/gltf $seeds/export"
     if [ -n "${RUNS:-}" ]; then length=-runs=$RUNS; else length=-max_total_time=$SECONDS_EACH; fi
     # The order of names is not the folder's; and addresses, which are compared too, stay the same.
     $same_addresses "$folder/$1" "$length" -seed="$SEED" -max_len=8192 -rss_limit_mb=512 -malloc_limit_mb=200 -timeout=10 \
