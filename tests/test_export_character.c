@@ -373,6 +373,10 @@ static void what_opens_is_exported_whole(void **state)
                 here, models[n / 2], n < 2 ? "node 1" : "tip");
         assert_int_equal(fclose(out), 0);
         struct opened scene = open_scene(scene_path);
+        const struct skeleton *skeleton = &models_imported(scene.models, 0)->skeleton;
+        for (int bone = 0; bone < skeleton->count; bone++) {
+            for (int k = 0; k < 3; k++) assert_true(isfinite(skeleton->bones[bone].tip[k]));
+        }
         snprintf(file, sizeof file, "%s", folder_path(files[n % 2]));
         if (!export_write(posing_of(&scene), file, &usual, &report, &error)) fail_msg("%s", error.text);
         if (!gltf_read(file, &gltf, &error)) fail_msg("%s: %s", models[n / 2], error.text);

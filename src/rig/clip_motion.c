@@ -62,7 +62,7 @@ static double turn_of(struct followed *followed)
     const mat3s rest = glms_mat4_pick3(mat4_from(followed->imported->rest.world[followed->node]));
     const mat3s now = glms_mat4_pick3(mat4_from(followed->pose->world[followed->node]));
     const vec3s axis = vec3_from(followed->axes.side), before = vec3_from(followed->axes.along);
-    const vec3s after = glms_mat3_mulv(now, glms_mat3_mulv(glms_mat3_inv(rest), before));
+    const vec3s after = glms_mat3_mulv(now, glms_mat3_mulv(mat3_inverse(rest), before));
     const vec3s across = glms_vec3_cross(axis, before);
     double turn = DEGREES * atan2((double)glms_vec3_dot(after, across), (double)glms_vec3_dot(after, before));
     turn += 360 * round((followed->seen - turn) / 360);

@@ -55,7 +55,7 @@ static void find_ways(const struct posed *posed, int node, const vec3s axes[3], 
     mat3s on = glms_mat4_pick3(glms_quat_mat4(rotation));
     if (parent >= 0) on = glms_mat3_mul(glms_mat4_pick3(mat4_from(posed->pose->world[parent])), on);
     const vec3s arm = glms_vec3_sub(vec3_from(point), vec3_from(posed->pose->world[node] + 12));
-    const vec3s own = glms_mat3_mulv(glms_mat3_inv(on), arm);
+    const vec3s own = glms_mat3_mulv(mat3_inverse(on), arm);
     const mat3s out = glms_mat3_mul(glms_mat4_pick3(mat4_from(posed->root)), on);
     for (int axis = AXIS_SIDE; axis <= AXIS_TWIST; axis++) {
         const vec3s moved = glms_mat3_mulv(out, glms_vec3_cross(axes[axis], own));

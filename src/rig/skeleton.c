@@ -23,8 +23,7 @@ static struct bone tip_bone(const struct gltf *gltf, const struct gltf_pose *res
     vec3s on = {.raw = {0, SHORT_TIP * (gltf->hi[1] - gltf->lo[1]), 0}};
     if (parent_children > 0) on = glms_vec3_sub(at, place_of(rest, gltf->nodes[node].parent));
     if (parent_children > 1) on = glms_vec3_scale(on, SHORT_SIBLING);
-    const mat4s inward = glms_mat4_inv(mat4_from(rest->world[node]));
-    const vec3s tip = glms_mat4_mulv3(inward, glms_vec3_add(at, on), 1.0f);
+    const vec3s tip = glms_mat3_mulv(mat3_inverse(glms_mat4_pick3(mat4_from(rest->world[node]))), on);
     struct bone bone = {.node = node, .child = -1};
     memcpy(bone.tip, tip.raw, sizeof bone.tip);
     return bone;
