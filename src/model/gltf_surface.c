@@ -43,6 +43,7 @@ static void add_part(struct surface_builder *b, const struct gltf *gltf, const s
                      float (*position)[3])
 {
     const int first = b->surface->vertex_count, first_uv = b->surface->looks.uv_count;
+    const int first_index = b->surface->index_count;
     b->material = part->material >= 0 ? add_material(b, gltf, part->material) : LOOKS_NONE;
     for (int i = 0; i < part->vertex_count && !b->failed; i++) {
         const double p[3] = {(double)position[i][0], (double)position[i][1], (double)position[i][2]};
@@ -63,7 +64,8 @@ static void add_part(struct surface_builder *b, const struct gltf *gltf, const s
             builder_corner(b, (uint32_t)first + corner[k], part->uv ? (uint32_t)first_uv + corner[k] : LOOKS_NONE);
     }
     builder_end_polygon(b);
-    if (part->flat && !b->failed) builder_merge(b, first); // the reader has given each triangle vertices of its own
+    if (part->flat && !b->failed)
+        builder_merge(b, first, first_index); // the reader has given each triangle vertices of its own
 }
 
 static bool add_nodes(struct surface_builder *b, const struct gltf *gltf, const struct gltf_pose *pose)

@@ -126,7 +126,7 @@ uint32_t builder_material(struct surface_builder *b, const char *name)
     return (uint32_t)looks->material_count++;
 }
 
-void builder_merge(struct surface_builder *b, int first)
+void builder_merge(struct surface_builder *b, int first, int first_index)
 {
     struct surface *s = b->surface;
     const int count = s->vertex_count - first;
@@ -149,10 +149,8 @@ void builder_merge(struct surface_builder *b, int first)
             if (s->color) memmove(s->color[first + kept], s->color[first + i], sizeof *s->color);
             name[i] = (uint32_t)kept++;
         }
-        for (int i = 0; i < s->index_count; i++) {
-            if (s->indices[i] >= (uint32_t)first)
-                s->indices[i] = (uint32_t)first + name[s->indices[i] - (uint32_t)first];
-        }
+        for (int i = first_index; i < s->index_count; i++)
+            s->indices[i] = (uint32_t)first + name[s->indices[i] - (uint32_t)first];
         s->vertex_count = first + kept;
     } else {
         b->failed = true;

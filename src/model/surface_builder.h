@@ -39,7 +39,7 @@ uint32_t builder_material(struct surface_builder *builder, const char *name);
 /// triangles; `kind` says what it is, as in "a PLY file". On failure the surface is empty.
 bool builder_finish(struct surface_builder *builder, const char *path, const char *kind, struct error *error);
 
-/// Makes one of vertices at the same place, from number `first` on.
-void builder_merge(struct surface_builder *builder, int first);
+/// Makes one of vertices at the same place, from number `first` on; the indices from `first_index` on are those that name them.
+void builder_merge(struct surface_builder *builder, int first, int first_index);
 
 #endif
