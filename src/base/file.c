@@ -117,8 +117,12 @@ static char *resolve_links(const char *path)
 /// Empties a folder that file_folder_beside() has made.
 static void empty(int folder)
 {
-    DIR *directory = fdopendir(dup(folder));
-    if (!directory) return;
+    const int own = dup(folder);
+    DIR *directory = fdopendir(own);
+    if (!directory) {
+        if (own >= 0) close(own);
+        return;
+    }
     for (const struct dirent *entry; (entry = readdir(directory)) != NULL;) unlinkat(folder, entry->d_name, 0);
     closedir(directory);
 }
@@ -130,7 +134,9 @@ static void remove_stale(int folder, const char *name)
     int number, end = 0;
     if (sscanf(name, ".wiggly-%ld-%d.tmp%n", &owner, &number, &end) != 2 || end == 0 || name[end]) return;
     if (owner <= 0 || owner == (long)getpid() || kill((pid_t)owner, 0) == 0 || errno != ESRCH) return;
-    const int file = openat(folder, name, O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+    // To be written to, though nothing is: over NFS nothing else can be locked.
+    int file = openat(folder, name, O_RDWR | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+    if (file < 0 && errno == EISDIR) file = openat(folder, name, O_RDONLY | O_NOFOLLOW | O_DIRECTORY | O_CLOEXEC);
     struct stat about;
     if (file < 0) return;
     if (flock(file, LOCK_EX | LOCK_NB) == 0 && fstat(file, &about) == 0) {
