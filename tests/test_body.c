@@ -227,6 +227,39 @@ static void test_without_auto_key_the_shot_moves(void **state)
     session_close(&s);
 }
 
+/// A limit of what the place follows: all knots stop where the first does, so that the motion stays what it was.
+static void test_a_limit_holds_the_body(void **state)
+{
+    (void)state;
+    static const char limited[] =
+        "{\"frames\": [0, 48], \"splines\": [{\"name\": \"sway\", \"frequency\": 1.5}, {\"name\": \"walk\", "
+        "\"mode\": \"cubic\", \"limits\": [-1, 0.25], \"knots\": [{\"frame\": 0, \"value\": 0.1}, {\"frame\": 24, "
+        "\"value\": 0.2}, {\"frame\": 48, \"value\": 0.1}]}], \"rigs\": [{\"type\": \"tail\", \"name\": \"tail\", "
+        "\"position\": [{\"spline\": \"walk\"}, 0.26, 0], \"channels\": [{\"spline\": \"sway\"}]}]}";
+    struct session s;
+    session_open(&s, limited);
+    session_key(&s, 'A', MOD_SHIFT); // what follows a spline is keyed, else
+    const struct spline *walk = &s.document->splines[1];
+    for (int again = 0; again < 2; again++) {
+        hold_and_drag(&s, -150, 0, 4);
+        session_key(&s, 'X', 0);
+        session_release(&s, BUTTON_LEFT);
+        for (int i = 0; i < 3; i++) assert_near(walk->knots[i].value, i == 1 ? 0.25 : 0.15, 1e-12);
+        assert_string_equal(s.editor->core.message.text,
+                            again
+                                ? "Held by the limit 0.25 of walk at frame 24."
+                                : "Moved for the whole shot: x +0.05 m. Held by the limit 0.25 of walk at frame 24.");
+    }
+    session_key(&s, 'A', MOD_SHIFT);
+    hold_and_drag(&s, -150, 0, 4);
+    session_key(&s, 'X', 0);
+    session_release(&s, BUTTON_LEFT);
+    assert_near(walk->knots[0].value, 0.25, 0);
+    assert_string_equal(s.editor->core.message.text,
+                        "Keyed walk at frame 0. Held by the limit 0.25 of walk at frame 0.");
+    session_close(&s);
+}
+
 /// With it a place that was a number gets a spline, which begins where the body was, and the tail follows that through.
 static void test_auto_key_makes_a_place_follow(void **state)
 {
@@ -337,6 +370,7 @@ int main(void)
         cmocka_unit_test(test_axes_lock_and_shift_is_fine),
         cmocka_unit_test(test_a_tracked_body_gets_a_knot),
         cmocka_unit_test(test_without_auto_key_the_shot_moves),
+        cmocka_unit_test(test_a_limit_holds_the_body),
         cmocka_unit_test(test_auto_key_makes_a_place_follow),
         cmocka_unit_test(test_a_body_is_lifted),
         cmocka_unit_test(test_clicks_leave_the_body_alone),

@@ -146,10 +146,16 @@ void core_hold(const struct spline *spline, struct knot *knot, char why[STOPPED_
     knot->value = within;
 }
 
+void core_add_stopped(const char *why, char *text, size_t size)
+{
+    const size_t length = strlen(text);
+    if (why[0]) snprintf(text + length, size - length, "%s%c%s.", length ? " " : "", toupper(why[0]), why + 1);
+}
+
 void core_stopped(struct core *core, const char *why)
 {
-    char text[STOPPED_SIZE + 1];
-    snprintf(text, sizeof text, "%c%s.", toupper(*why), why + 1);
+    char text[STOPPED_SIZE + 1] = "";
+    core_add_stopped(why, text, sizeof text);
     core_message(core, false, text);
 }
 

@@ -31,6 +31,8 @@ void core_request_number(struct core *core, enum request_kind kind, int number);
 void core_message(struct core *core, bool is_error, const char *text);
 /// Puts a knot within the limits of its spline. Where one holds it, says so: "held by the limit 1.2 of sway at frame 14".
 void core_hold(const struct spline *spline, struct knot *knot, char why[STOPPED_SIZE]);
+/// Adds what stopped an edit, as a sentence, to what else is said; nothing for "".
+void core_add_stopped(const char *why, char *text, size_t size);
 /// What stopped an edit, as a sentence of the status line.
 void core_stopped(struct core *core, const char *why);
 /// The active spline, or NULL.

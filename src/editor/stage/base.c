@@ -41,10 +41,11 @@ static void set_start(struct core *core, const struct editor_world *world, int s
 }
 
 void base_put_knot(struct core *core, const struct editor_world *world, int spline, int sample, double value,
-                   bool level)
+                   bool level, char why[STOPPED_SIZE])
 {
     struct edit edit = core_knot_edit(world->document, spline, sample);
     edit.knot.value = core_round(value, RESOLUTION);
+    core_hold(&world->document->splines[spline], &edit.knot, why);
     edit.knot.has_slope = level;
     edit.knot.slope = 0;
     edit.knot.stiffness = level ? RECORD_STIFFNESS : KNOT_DEFAULT_STIFFNESS;

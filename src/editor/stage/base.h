@@ -10,9 +10,9 @@ void base_begin(struct stage *stage, const struct editor_world *world);
 double base_value(const struct editor_world *world, int tail, int coordinate, int sample);
 /// The spline that a coordinate follows, a new cubic where it is a number yet; -1 on failure.
 int base_spline(const struct stage *stage, struct core *core, const struct editor_world *world, int coordinate);
-/// Sets or inserts a knot; a level one stands still there.
+/// Sets or inserts a knot, within the limits of its spline (see core_hold()); a level one stands still there.
 void base_put_knot(struct core *core, const struct editor_world *world, int spline, int sample, double value,
-                   bool level);
+                   bool level, char why[STOPPED_SIZE]);
 /// The coordinate follows the spline from now on.
 void base_follow(const struct stage *stage, struct core *core, const struct editor_world *world, int coordinate,
                  int base);

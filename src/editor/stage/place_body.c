@@ -8,9 +8,9 @@
 
 static const double RESOLUTION = 1e-3; ///< metres that the document gets
 
-/// What is said afterwards.
+/// What is said afterwards, and what held a knot.
 struct report {
-    char text[256];
+    char text[512], why[STOPPED_SIZE];
     size_t length;
 };
 
@@ -31,7 +31,7 @@ static void say_name(struct report *report, bool is_first, const char *name)
 /// A knot at the playhead. A coordinate that was a number gets a spline, which begins where the body was. The spline by which the
 /// tail swings with that from now on where it did not, else -1.
 static int key_coordinate(const struct stage *stage, struct core *core, const struct editor_world *world,
-                          int coordinate, double by)
+                          int coordinate, double by, char why[STOPPED_SIZE])
 {
     const struct document *document = world->document;
     const int tail = stage->hold.tail;
@@ -45,12 +45,13 @@ static int key_coordinate(const struct stage *stage, struct core *core, const st
     if (!is_new) {
         struct edit edit = core_knot_edit(document, spline, sample);
         edit.knot.value = core_round(before + by, RESOLUTION);
+        core_hold(&document->splines[spline], &edit.knot, why);
         core_edit(core, world, &edit);
         core_tell(core, world, NEWS_EDITED, spline);
         return -1;
     }
-    if (sample > 1) base_put_knot(core, world, spline, 0, before, true);
-    base_put_knot(core, world, spline, sample, before + by, true);
+    if (sample > 1) base_put_knot(core, world, spline, 0, before, true, why);
+    base_put_knot(core, world, spline, sample, before + by, true, why);
     base_follow(stage, core, world, coordinate, spline);
     const int swings = base_hang_channels(stage, core, world, coordinate, spline);
     core_tell(core, world, NEWS_EDITED, spline);
@@ -59,7 +60,7 @@ static int key_coordinate(const struct stage *stage, struct core *core, const st
 
 static void key_body(struct stage *stage, struct core *core, const struct editor_world *world, const double offset[3])
 {
-    struct report report = {.text = ""};
+    struct report report = {.length = 0};
     char frame[64];
     bool is_first = true;
     int swings = -1;
@@ -67,7 +68,7 @@ static void key_body(struct stage *stage, struct core *core, const struct editor
     say(&report, "Keyed ");
     for (int k = 0; k < 3; k++) {
         if (offset[k] == 0) continue;
-        const int made = key_coordinate(stage, core, world, k, offset[k]);
+        const int made = key_coordinate(stage, core, world, k, offset[k], report.why);
         if (made >= 0) swings = made;
         const int track = document_tail(world->document, stage->hold.tail)->position[k].track;
         if (track < 0) continue;
@@ -76,56 +77,84 @@ static void key_body(struct stage *stage, struct core *core, const struct editor
     }
     snprintf(frame, sizeof frame, " at frame %.0f.", round(core_frame(core, world->document)));
     say(&report, frame);
+    core_add_stopped(report.why, report.text, sizeof report.text);
     base_say_channel(world, swings, report.text, sizeof report.text);
     if (!is_first) core_message(core, false, report.text);
 }
 
-/// All knots of a spline, so that what follows it moves as it did, elsewhere.
-static void shift_spline(struct core *core, const struct editor_world *world, int spline, double by)
+/// How far of a way all knots of a spline can go within its limits.
+static double room_for(const struct spline *spline, double by, char why[STOPPED_SIZE])
+{
+    double room = by;
+    for (int i = 0; i < spline->knot_count; i++) {
+        struct knot moved = spline->knots[i];
+        char held[STOPPED_SIZE] = "";
+        moved.value += by;
+        core_hold(spline, &moved, held);
+        if (!held[0] || fabs(moved.value - spline->knots[i].value) >= fabs(room)) continue;
+        room = moved.value - spline->knots[i].value;
+        memcpy(why, held, sizeof held);
+    }
+    return room;
+}
+
+/// All knots of a spline, so that what follows it moves as it did, elsewhere: all by as much as each can go. How far that was.
+static double shift_spline(struct core *core, const struct editor_world *world, int spline, double way,
+                           char why[STOPPED_SIZE])
 {
     const int count = world->document->splines[spline].knot_count;
+    const double by = room_for(&world->document->splines[spline], way, why);
+    if (by == 0) return 0;
     for (int i = 0; i < count; i++) {
         struct edit edit = core_edit_of(EDIT_KNOT_SET, spline);
         edit.knot = world->document->splines[spline].knots[i];
-        edit.knot.value = core_round(edit.knot.value + by, RESOLUTION);
+        edit.knot.value =
+            spline_within(&world->document->splines[spline], core_round(edit.knot.value + by, RESOLUTION));
         core_edit(core, world, &edit);
     }
     core_tell(core, world, NEWS_EDITED, spline);
+    return by;
 }
 
-/// A height that is a number says where the ground is, which stays.
-static bool shift_coordinate(struct core *core, const struct editor_world *world, int tail, int coordinate, double by)
+/// A height that is a number says where the ground is, which stays. How far the coordinate went.
+static double shift_coordinate(struct core *core, const struct editor_world *world, int tail, int coordinate,
+                               double by, char why[STOPPED_SIZE])
 {
     const struct param *param = &document_tail(world->document, tail)->position[coordinate];
-    if (param->track >= 0) {
-        shift_spline(core, world, param->track, by);
-        return true;
-    }
-    if (coordinate == 1) return false;
+    if (param->track >= 0) return shift_spline(core, world, param->track, by, why);
+    if (coordinate == 1) return 0;
     struct edit edit = core_edit_of(EDIT_POSITION, 0);
     edit.rig = document_find_rig(world->document, RIG_TAIL, tail);
     edit.coordinate = coordinate;
     edit.param.value = core_round(param->value + by, RESOLUTION);
     core_edit(core, world, &edit);
-    return true;
+    return by;
 }
 
 static void shift_body(struct stage *stage, struct core *core, const struct editor_world *world,
                        const double offset[3])
 {
-    struct report report = {.text = ""};
+    struct report report = {.length = 0};
     bool is_first = true;
     say(&report, "Moved for the whole shot: ");
     for (int k = 0; k < 3; k++) {
         char part[32];
-        if (offset[k] == 0 || !shift_coordinate(core, world, stage->hold.tail, k, offset[k])) continue;
-        snprintf(part, sizeof part, "%s %+.2f m", coordinate_name(k), offset[k]);
+        if (offset[k] == 0) continue;
+        const double by = shift_coordinate(core, world, stage->hold.tail, k, offset[k], report.why);
+        if (by == 0) continue;
+        snprintf(part, sizeof part, "%s %+.2f m", coordinate_name(k), by);
         say_name(&report, is_first, part);
         is_first = false;
     }
-    say(&report, ". Auto-key (Shift+A) sets knots instead.");
-    core_message(core, false,
-                 is_first ? "It sits on the ground again: auto-key (Shift+A) or R keeps a height." : report.text);
+    if (is_first && report.why[0]) {
+        core_stopped(core, report.why);
+    } else if (is_first) {
+        core_message(core, false, "It sits on the ground again: auto-key (Shift+A) or R keeps a height.");
+    } else {
+        say(&report, report.why[0] ? "." : ". Auto-key (Shift+A) sets knots instead.");
+        core_add_stopped(report.why, report.text, sizeof report.text);
+        core_message(core, false, report.text);
+    }
 }
 
 void place_body(struct stage *stage, struct core *core, const struct editor_world *world, const double offset[3])

@@ -32,10 +32,10 @@ static void clear_knots(struct core *core, const struct editor_world *world, int
 }
 
 /// Keys a coordinate's motion; returns how many knots that took. `swings` is the spline by which the tail swings with that from now
-/// on, where it did not. Before and after it the body stands still, unless the scene is a
-/// loop, in which it comes back by itself.
+/// on, where it did not; `why` is what held a knot. Before and after it the body stands still, unless the scene is a loop, in which
+/// it comes back by itself.
 static int key_coordinate(const struct stage *stage, struct core *core, const struct editor_world *world,
-                          int coordinate, int *swings)
+                          int coordinate, int *swings, char why[STOPPED_SIZE])
 {
     const struct record *record = &stage->record;
     const struct document *document = world->document;
@@ -53,11 +53,11 @@ static int key_coordinate(const struct stage *stage, struct core *core, const st
     if (made == 0) return 0;
     if (!is_new) clear_knots(core, world, spline, record->first, record->first + count - 1);
     for (int i = 0; i < made; i++) {
-        base_put_knot(core, world, spline, record->first + knots[i], way[knots[i]], i == 0 || i == made - 1);
+        base_put_knot(core, world, spline, record->first + knots[i], way[knots[i]], i == 0 || i == made - 1, why);
     }
     if (is_new && !stage->hold.loops) {
-        if (record->first > 1) base_put_knot(core, world, spline, 0, way[0], true);
-        if (record->first + count < last) base_put_knot(core, world, spline, last, way[count - 1], true);
+        if (record->first > 1) base_put_knot(core, world, spline, 0, way[0], true, why);
+        if (record->first + count < last) base_put_knot(core, world, spline, last, way[count - 1], true, why);
     }
     if (is_new) base_follow(stage, core, world, coordinate, spline);
     const int hung = base_hang_channels(stage, core, world, coordinate, spline);
@@ -69,13 +69,15 @@ static int key_coordinate(const struct stage *stage, struct core *core, const st
 void record_keep(struct stage *stage, struct core *core, const struct editor_world *world)
 {
     struct record *record = &stage->record;
-    char text[768];
+    char text[768], why[STOPPED_SIZE] = "";
     int made = 0, swings = -1;
     base_begin(stage, world);
     for (int k = 0; k < 3; k++) {
-        if (largest(record->way[k], record->count) >= STILL) made += key_coordinate(stage, core, world, k, &swings);
+        if (largest(record->way[k], record->count) >= STILL)
+            made += key_coordinate(stage, core, world, k, &swings, why);
     }
     snprintf(text, sizeof text, made == 0 ? "Nothing moved: nothing is recorded." : "%d knots recorded.", made);
+    core_add_stopped(why, text, sizeof text);
     base_say_channel(world, swings, text, sizeof text);
     core_message(core, false, text);
     record_forget(stage);
