@@ -240,9 +240,9 @@ static bool refine(chain *c, double size)
         chain_gradient(c);
         chain_solve_nodes(c);
         double change = take_solution(c);
-        c->error = change;
-        if (change <= refined * size) return true;
-        c->error = fmax(change, before < size ? before : 0);
+        const bool done = change <= refined * size;
+        c->error = done ? change : fmax(change, before < size ? before : 0);
+        if (done) return true;
         if (!(change < 0.5 * before)) return c->error <= acceptable * size;
         before = change;
     }

@@ -52,12 +52,15 @@ bool strand_pose(const struct stage *stage, const struct core *core, const struc
     const struct document *document = world->document;
     struct rig_pose pose;
     if (rig >= document->rig_count) return false;
-    if (document->rigs[rig].kind == RIG_CHAIN) {
-        if (!pose_chain(core, world, rig, position, change, &pose)) return false;
-    } else if (document->rigs[rig].kind != RIG_TAIL) {
-        return false;
-    } else {
+    switch (document->rigs[rig].kind) {
+    case RIG_TAIL:
         stage_pose_tail(stage, core, world, document_rig_number(document, rig), position, change, &pose);
+        break;
+    case RIG_CHAIN:
+        if (!pose_chain(core, world, rig, position, change, &pose)) return false;
+        break;
+    default:
+        return false;
     }
     take_points(&pose, rig, strand);
     return true;
