@@ -250,7 +250,8 @@ $(B)/wiggly: $(B)/obj/src/main.o $(B)/parts.a
 $(TOOLS:%=$(B)/%): $(B)/%: $(B)/obj/tools/%.o $(B)/parts.a
 	$(Q)$(LINK) $^ $(LIBS) -o $@
 
-$(B)/obj/tests/%.o: OWN_CPPFLAGS += -Itests
+# Private: else it would be in the flags of all that a test is made of, where a test is what make is asked for.
+$(B)/obj/tests/%.o: private OWN_CPPFLAGS += -Itests
 $(TEST_PROGRAMS): $(B)/tests/%: $(B)/obj/tests/%.o $(TEST_SUPPORT:%.c=$(B)/obj/%.o) $(B)/parts.a
 	@mkdir -p $(@D)
 	$(Q)$(LINK) $^ $(TEST_LIBS) $(LIBS) -o $@
@@ -261,7 +262,6 @@ FUZZED := $(wildcard src/base/*.c src/spline/*.c src/scene/*.c src/model/*.c) sr
     $(wildcard src/rig/*.c src/export/*.c) $(addprefix src/simulation/,drive.c softness.c \
     lattice.c tiling.c voxels.c solid.c winding.c element.c svd.c material.c eigen.c)
 fuzzers: $(FUZZERS:%=$(B)/%)
-$(B)/obj/tests/fuzz/%.o: OWN_CPPFLAGS += -Itests
 $(B)/fuzzed.a: $(FUZZED:%.c=$(B)/obj/%.o) $(FUZZ_SUPPORT:%.c=$(B)/obj/%.o)
 	$(Q)rm -f $@ && ar rcs $@ $^
 $(FUZZERS:%=$(B)/%): $(B)/%: $(B)/obj/tests/fuzz/%.o $(B)/fuzzed.a
