@@ -182,15 +182,15 @@ static bool measure(struct gltf_reader *r)
     struct gltf *gltf = r->gltf;
     struct gltf_pose pose;
     int most = 0;
-    int64_t total = 0;
+    size_t total = 0;
     for (int i = 0; i < gltf->node_count; i++) {
         int count = gltf_vertex_count(gltf, i);
-        total += count;
+        total += (size_t)count;
         if (count > most) most = count;
     }
-    if (total > VERTEX_LIMIT)
-        return fail(r->error, ERROR_INPUT, "%s: nodes: expected at most %d vertices together, got %lld", gltf->path,
-                    VERTEX_LIMIT, (long long)total);
+    if (total > r->vertex_limit)
+        return fail(r->error, ERROR_INPUT, "%s: nodes: expected at most %zu vertices together%s, got %zu", gltf->path,
+                    r->vertex_limit, r->vertex_limit < VERTEX_LIMIT ? " in a file of this size" : "", total);
     float(*positions)[3] = malloc(((size_t)most + 1) * sizeof *positions);
     if (!positions || !gltf_pose_create(gltf, &pose)) {
         free(positions);
@@ -220,6 +220,7 @@ static bool read_all(struct gltf_reader *r)
     if (!check_version(r) || !check_arrays(r) || !check_extensions(r)) return false;
     if (!glb_read_buffers(&r->file, r->error)) return false;
     r->pixel_room = PIXEL_ROOM + r->file.room;
+    r->vertex_limit = r->file.room < VERTEX_LIMIT ? r->file.room : VERTEX_LIMIT;
     r->gltf->path = strdup(r->file.path);
     r->gltf->id = atomic_fetch_add(&last, 1) + 1;
     if (!r->gltf->path) return fail_no_memory(r->error, r->file.path);

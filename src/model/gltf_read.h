@@ -33,6 +33,7 @@ struct gltf_reader {
     int *joints_of;       ///< of each mesh: its joints' numbers are below
     int *image_of;        ///< gltf.images of each image of the file: −1 cannot be shown, −2 not tried yet
     size_t pixel_room;    ///< bytes of pixels that may still be decoded
+    size_t vertex_limit;  ///< of all nodes together: of a small file, too, many may show one mesh
     size_t not_shown_end; ///< length of gltf.not_shown
 };
 
