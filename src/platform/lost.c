@@ -7,8 +7,19 @@
 
 enum { EXIT_LOST = 3 };
 
+enum { BAD_WINDOW = 3, BAD_DRAWABLE = 9 };
+
+/// As <X11/Xlib.h> has it, for which alone a program would need a package.
+struct x_error {
+    int type;
+    void *display;
+    unsigned long resource, serial;
+    unsigned char code, request, minor;
+};
+
 static platform_rescue *rescue;
 static void *rescue_user;
+static unsigned long own; ///< the window
 static bool error_seen;
 
 typedef int x_handler(void *display);
@@ -30,11 +41,13 @@ static int on_io_error(void *display)
     end();
 }
 
-/// Xlib's own handler would end the process, even for harmless errors (a clipboard's owner is gone).
+/// Xlib's own handler would end the process, even for harmless errors (a clipboard's owner is gone). That the window is gone cannot
+/// wait for the frame's end: Mesa's software drivers, which ask for its size, take what they were not told, and crash.
 static int on_error(void *display, void *event)
 {
     (void)display;
-    (void)event;
+    const struct x_error *error = event;
+    if (own && error->resource == own && (error->code == BAD_WINDOW || error->code == BAD_DRAWABLE)) end();
     error_seen = true;
     return 0;
 }
@@ -60,8 +73,9 @@ void platform_on_lost(platform_rescue *function, void *user)
 void window_check(const struct window *window, bool idle)
 {
     if (rescue && wayland_is_lost()) end();
-    if (!rescue || !handle_errors() || !(error_seen || idle)) return;
+    if (!rescue || !handle_errors()) return;
+    own = window_number(window);
+    if (!error_seen && !idle) return;
     error_seen = false;
     window_ask_place(window);
-    if (error_seen) end();
 }

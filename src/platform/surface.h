@@ -34,9 +34,11 @@ struct surface_size window_size(const struct window *window);
 void window_wait(struct window *window, double seconds);
 void window_swap(struct window *window);
 double window_refresh_rate(struct window *window);
+/// What the X server calls the window; 0 where there is none.
+unsigned long window_number(const struct window *window);
 /// Asks the display where the window is: an error where it does not exist any more.
 void window_ask_place(const struct window *window);
-/// Ends the process as platform_on_lost() says if another program has destroyed the window: an error of the display shows that
+/// Has the process end as platform_on_lost() says when another program has destroyed the window: errors of the display show that
 /// or, while nothing is drawn (`idle`), asking for the window.
 void window_check(const struct window *window, bool idle);
 void window_title(struct window *window, const char *title);

@@ -3,6 +3,7 @@
 #include "platform/gl_debug.h"
 #include "platform/keys.h"
 #include "platform/surface.h"
+#include "platform/symbol.h"
 #include "platform/wayland.h"
 #include <epoxy/gl.h>
 #define GLFW_INCLUDE_NONE
@@ -296,6 +297,12 @@ void window_wait(struct window *window, double seconds)
     } else {
         glfwPollEvents();
     }
+}
+
+unsigned long window_number(const struct window *window)
+{
+    static unsigned long (*number)(GLFWwindow *);
+    return number || symbol_find("glfwGetX11Window", &number) ? number(window->handle) : 0;
 }
 
 void window_ask_place(const struct window *window)
