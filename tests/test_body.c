@@ -243,6 +243,8 @@ static void test_a_limit_holds_the_body(void **state)
     for (int again = 0; again < 2; again++) {
         hold_and_drag(&s, -150, 0, 4);
         session_key(&s, 'X', 0);
+        session_frame(&s);
+        assert_near(joint(&s, 0)[X], 0.15, 1e-6); // under the hand, too
         session_release(&s, BUTTON_LEFT);
         for (int i = 0; i < 3; i++) assert_near(walk->knots[i].value, i == 1 ? 0.25 : 0.15, 1e-12);
         assert_string_equal(s.editor->core.message.text,
@@ -253,6 +255,8 @@ static void test_a_limit_holds_the_body(void **state)
     session_key(&s, 'A', MOD_SHIFT);
     hold_and_drag(&s, -150, 0, 4);
     session_key(&s, 'X', 0);
+    session_frame(&s);
+    assert_near(joint(&s, 0)[X], 0.25, 1e-6);
     session_release(&s, BUTTON_LEFT);
     assert_near(walk->knots[0].value, 0.25, 0);
     assert_string_equal(s.editor->core.message.text,

@@ -21,12 +21,12 @@ static double along_axis(const struct hold *hold, const double axis[2], double d
     return (dx * across - dy * away) / square / hold->pixels_per_metre;
 }
 
-void hold_offset(const struct stage *stage, const struct core *core, int tail, double offset[3])
+void hold_way(const struct stage *stage, const struct core *core, double offset[3])
 {
     const struct drag *drag = &core->drag;
     const struct hold *hold = &stage->hold;
     offset[0] = offset[1] = offset[2] = 0;
-    if (drag->kind != DRAG_BODY || !drag->moved || hold->tail != tail) return;
+    if (drag->kind != DRAG_BODY || !drag->moved) return;
     const double x_axis[2] = {1, 0}, z_axis[2] = {0, 1};
     const double across = drag->moved_x / hold->pixels_per_metre;
     const double up = -drag->moved_y / hold->pixels_per_metre;
@@ -40,6 +40,18 @@ void hold_offset(const struct stage *stage, const struct core *core, int tail, d
         offset[2] = across * hold->right[1] - away * hold->right[0];
     }
     if (hold->axis == AXIS_Y || (hold->axis < 0 && hold->lifts)) offset[1] = fmax(up / hold->rise, hold->lowest);
+}
+
+void hold_advance(struct stage *stage, const struct core *core, const struct editor_world *world)
+{
+    hold_way(stage, core, stage->hold.offset);
+    place_within(stage, core, world, stage->hold.offset);
+}
+
+void hold_offset(const struct stage *stage, const struct core *core, int tail, double offset[3])
+{
+    const bool held = core->drag.kind == DRAG_BODY && stage->hold.tail == tail;
+    for (int k = 0; k < 3; k++) offset[k] = held ? stage->hold.offset[k] : 0;
 }
 
 bool hold_lock(struct stage *stage, int key)
@@ -146,7 +158,7 @@ void hold_release(struct stage *stage, struct core *core, const struct editor_wo
     int tail = stage->hold.tail;
     double offset[3];
     keep = keep && document_tail(world->document, tail); // an edit may have taken the tail out of the hand
-    hold_offset(stage, core, tail, offset);
+    hold_way(stage, core, offset);
     if (keep && record_has_motion(stage)) {
         record_keep(stage, core, world);
         sway_stop(stage, tail);

@@ -20,11 +20,19 @@ void hold_begin(struct stage *stage, const struct core *core, int tail, bool lif
 bool hold_lock(struct stage *stage, int key);
 /// The end of a drag, inside its step of the history: where `keep`, the document gets the recorded motion or the new place.
 void hold_release(struct stage *stage, struct core *core, const struct editor_world *world, bool keep);
+/// Keeps the way of the held body, metres, where the limits of the splines that it follows will keep what place_body() or a recording
+/// makes of it.
+void place_within(const struct stage *stage, const struct core *core, const struct editor_world *world,
+                  double offset[3]);
 /// The new place, metres from the old one: knots at the playhead with auto-key, else all of the shot moves. Says which.
 void place_body(struct stage *stage, struct core *core, const struct editor_world *world, const double offset[3]);
 /// A ring on the ground round the body that is held or can be.
 void hold_show(struct stage *stage, struct core *core);
 
+/// How far the pointer has taken the held body, metres, whatever holds it; 0 where none is held.
+void hold_way(const struct stage *stage, const struct core *core, double offset[3]);
+/// The held body goes as far as the pointer and limits have it: before what else advances.
+void hold_advance(struct stage *stage, const struct core *core, const struct editor_world *world);
 /// How far the running drag has moved a tail's base from where the document has it, metres; 0 for all others.
 void hold_offset(const struct stage *stage, const struct core *core, int tail, double offset[3]);
 

@@ -28,6 +28,14 @@ static void say_name(struct report *report, bool is_first, const char *name)
     say(report, name);
 }
 
+/// The sample of the playhead, or the last one where a spline has knots.
+static int sample_of(const struct core *core, const struct document *document, int spline)
+{
+    const int sample = document_sample(document, round(core_frame(core, document)));
+    const int last = document_last_knot_sample(document, &document->splines[spline]);
+    return sample > last ? last : sample < 0 ? 0 : sample;
+}
+
 /// A knot at the playhead. A coordinate that was a number gets a spline, which begins where the body was. The spline by which the
 /// tail swings with that from now on where it did not, else -1.
 static int key_coordinate(const struct stage *stage, struct core *core, const struct editor_world *world,
@@ -38,9 +46,7 @@ static int key_coordinate(const struct stage *stage, struct core *core, const st
     const bool is_new = document_tail(document, tail)->position[coordinate].track < 0;
     const int spline = base_spline(stage, core, world, coordinate);
     if (spline < 0) return -1;
-    int sample = document_sample(document, round(core_frame(core, document)));
-    const int last = document_last_knot_sample(document, &document->splines[spline]);
-    sample = sample > last ? last : sample < 0 ? 0 : sample;
+    const int sample = sample_of(core, document, spline);
     const double before = base_value(world, tail, coordinate, sample);
     if (!is_new) {
         struct edit edit = core_knot_edit(document, spline, sample);
@@ -96,6 +102,22 @@ static double room_for(const struct spline *spline, double by, char why[STOPPED_
         memcpy(why, held, sizeof held);
     }
     return room;
+}
+
+void place_within(const struct stage *stage, const struct core *core, const struct editor_world *world,
+                  double offset[3])
+{
+    const struct document *document = world->document;
+    const struct tail *tail = document_tail(document, stage->hold.tail);
+    const bool keys = core->auto_key || stage->record.running || record_has_motion(stage);
+    for (int k = 0; tail && k < 3; k++) {
+        const int track = tail->position[k].track;
+        char why[STOPPED_SIZE];
+        if (offset[k] == 0 || track < 0) continue;
+        const struct spline *spline = &document->splines[track];
+        const double before = base_value(world, stage->hold.tail, k, sample_of(core, document, track));
+        offset[k] = keys ? spline_within(spline, before + offset[k]) - before : room_for(spline, offset[k], why);
+    }
 }
 
 /// All knots of a spline, so that what follows it moves as it did, elsewhere: all by as much as each can go. How far that was.

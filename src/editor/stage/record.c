@@ -18,7 +18,7 @@ void record_advance(struct stage *stage, const struct core *core, const struct e
     struct record *record = &stage->record;
     if (!record->running || core->drag.kind != DRAG_BODY) return;
     double offset[3], position = core->playback.position;
-    hold_offset(stage, core, stage->hold.tail, offset);
+    hold_way(stage, core, offset);
     int next = record->first + record->count;
     bool ended = position < next - 1 || !core->playback.playing || record->count == RECORD_SAMPLES ||
                  next >= document_samples(world->document);

@@ -175,6 +175,7 @@ void stage_advance(struct stage *stage, struct core *core, const struct editor_w
     grab_apply(stage, core, world);
     pins_apply(stage, core, world);
     floors_apply(stage, core, world);
+    hold_advance(stage, core, world);
     sway_advance(stage, core, world, dt);
     stage->meadow.dt += dt;
     record_advance(stage, core, world);

@@ -67,6 +67,7 @@ struct hold {
     double pixels_per_metre;        ///< at the body
     double pitch;                   ///< metres up the screen for one away from the eye
     double right[2];                ///< x and z of what is to the right on the screen
+    double offset[3];               ///< metres from where the document has it, as shown
     bool hangs[SCENE_MAX_CHANNELS]; ///< channels that swing with it
     bool loops;                     ///< so do all of their splines
 };
