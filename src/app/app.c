@@ -240,6 +240,7 @@ int app_run(const struct app_options *options, struct error *error)
     }
     struct error late = {0};
     if (!finish(&app, good ? error : &late)) good = false;
+    platform_on_lost(NULL, NULL); // what there is to rescue goes now
     personal_end(&app, !good);
     app_free(&app);
     int complaints = platform_gl_complaints();

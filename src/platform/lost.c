@@ -47,7 +47,7 @@ static int on_error(void *display, void *event)
 {
     (void)display;
     const struct x_error *error = event;
-    if (own && error->resource == own && (error->code == BAD_WINDOW || error->code == BAD_DRAWABLE)) end();
+    if (rescue && own && error->resource == own && (error->code == BAD_WINDOW || error->code == BAD_DRAWABLE)) end();
     error_seen = true;
     return 0;
 }

@@ -48,7 +48,7 @@ void platform_set_clipboard(struct platform *platform, const char *text);
 void platform_cursor(struct platform *platform, enum mouse_cursor cursor);
 
 /// Called when the connection to the display is lost, or another program destroyed the window; afterwards the process ends with
-/// exit status 3, because the window is unusable. Register it once the window is open.
+/// exit status 3, because the window is unusable. Register it once the window is open; NULL: nobody is called any more.
 typedef void platform_rescue(void *user);
 void platform_on_lost(platform_rescue *function, void *user);
 
