@@ -251,6 +251,7 @@ static void test_a_limit_holds_the_body(void **state)
                             again
                                 ? "Held by the limit 0.25 of walk at frame 24."
                                 : "Moved for the whole shot: x +0.05 m. Held by the limit 0.25 of walk at frame 24.");
+        assert_false(s.editor->core.message.is_error);
     }
     session_key(&s, 'A', MOD_SHIFT);
     hold_and_drag(&s, -150, 0, 4);
