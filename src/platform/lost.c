@@ -6,8 +6,7 @@
 #include <unistd.h>
 
 enum { EXIT_LOST = 3 };
-
-enum { BAD_WINDOW = 3, BAD_DRAWABLE = 9 };
+enum { BAD_WINDOW = 3, BAD_DRAWABLE = 9 }; ///< X's codes
 
 /// As <X11/Xlib.h> has it, for which alone a program would need a package.
 struct x_error {

@@ -88,18 +88,16 @@ static void key_body(struct stage *stage, struct core *core, const struct editor
     if (!is_first) core_message(core, false, report.text);
 }
 
-/// How far of a way all knots of a spline can go within its limits.
-static double room_for(const struct spline *spline, double by, char why[STOPPED_SIZE])
+/// How far of a way all knots of a spline can go within its limits, and the knot that stops them, or NULL.
+static double room_for(const struct spline *spline, double by, const struct knot **stops)
 {
     double room = by;
+    *stops = NULL;
     for (int i = 0; i < spline->knot_count; i++) {
-        struct knot moved = spline->knots[i];
-        char held[STOPPED_SIZE] = "";
-        moved.value += by;
-        core_hold(spline, &moved, held);
-        if (!held[0] || fabs(moved.value - spline->knots[i].value) >= fabs(room)) continue;
-        room = moved.value - spline->knots[i].value;
-        memcpy(why, held, sizeof held);
+        const double value = spline->knots[i].value, within = spline_within(spline, value + by);
+        if (within == value + by || fabs(within - value) >= fabs(room)) continue;
+        room = within - value;
+        *stops = &spline->knots[i];
     }
     return room;
 }
@@ -112,11 +110,15 @@ void place_within(const struct stage *stage, const struct core *core, const stru
     const bool keys = core->auto_key || stage->record.running || record_has_motion(stage);
     for (int k = 0; tail && k < 3; k++) {
         const int track = tail->position[k].track;
-        char why[STOPPED_SIZE];
         if (offset[k] == 0 || track < 0) continue;
         const struct spline *spline = &document->splines[track];
-        const double before = base_value(world, stage->hold.tail, k, sample_of(core, document, track));
-        offset[k] = keys ? spline_within(spline, before + offset[k]) - before : room_for(spline, offset[k], why);
+        if (keys) {
+            const double before = base_value(world, stage->hold.tail, k, sample_of(core, document, track));
+            offset[k] = spline_within(spline, before + offset[k]) - before;
+        } else {
+            const struct knot *stops;
+            offset[k] = room_for(spline, offset[k], &stops);
+        }
     }
 }
 
@@ -125,7 +127,13 @@ static double shift_spline(struct core *core, const struct editor_world *world, 
                            char why[STOPPED_SIZE])
 {
     const int count = world->document->splines[spline].knot_count;
-    const double by = room_for(&world->document->splines[spline], way, why);
+    const struct knot *stops;
+    const double by = room_for(&world->document->splines[spline], way, &stops);
+    if (stops) {
+        struct knot moved = *stops;
+        moved.value += way;
+        core_hold(&world->document->splines[spline], &moved, why);
+    }
     if (by == 0) return 0;
     for (int i = 0; i < count; i++) {
         struct edit edit = core_edit_of(EDIT_KNOT_SET, spline);
