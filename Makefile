@@ -92,7 +92,7 @@ ERRORS := -Werror=implicit-function-declaration -Werror=implicit-int -Werror=int
 OWN_CPPFLAGS := -Isrc -Iinclude -D_GNU_SOURCE
 OWN_CFLAGS := $(OPTIMISE) $(WARNINGS)
 # After the user's flags: what the code is written for, and what its results depend on.
-FIXED_CFLAGS := -std=c11 -fno-fast-math -ffp-contract=off $(ERRORS) $(SANITIZERS)
+FIXED_CFLAGS := -std=c11 -fno-fast-math -ffp-contract=off -fPIC -fno-semantic-interposition $(ERRORS) $(SANITIZERS)
 SPLINE_CFLAGS := $(if $(VARIANT),,-O3 -fno-math-errno -fno-trapping-math)
 
 # src/timing/allocations.c counts what our own objects allocate.
@@ -105,7 +105,7 @@ $(B)/obj/src/spline/%.o: OWN_CFLAGS += $(filter -O%,$(SPLINE_CFLAGS))
 $(B)/obj/src/spline/%.o: FIXED_CFLAGS += $(filter -f%,$(SPLINE_CFLAGS))
 # The library is made of the objects that the app is made of: fit for a shared one, machine code whatever CFLAGS say (names are
 # taken out of it), and without a package.
-$(LIBRARY_OBJECTS): FIXED_CFLAGS += -fPIC -fno-semantic-interposition -fno-lto
+$(LIBRARY_OBJECTS): FIXED_CFLAGS += -fno-lto
 $(LIBRARY_OBJECTS): PKG_CFLAGS :=
 
 COMPILE = $(CC) $(OWN_CPPFLAGS) $(PKG_CFLAGS) $(CPPFLAGS) $(OWN_CFLAGS) $(CFLAGS) $(FIXED_CFLAGS)
@@ -239,9 +239,14 @@ $(B)/libwiggly.a: $(B)/obj/libwiggly.o
 $(SHARED_LIBRARY): $(B)/obj/libwiggly.o
 	$(Q)$(CC) -shared -Wl,-soname,libwiggly.so.$(MAJOR) -Wl,-z,defs $(SANITIZERS) $(CFLAGS) $(LDFLAGS) $< -lm -lpthread $(LDLIBS) -o $@
 
-# Everything but main(): what tests and tools link, taking only the members that they need.
-$(B)/parts.a: $(filter-out $(B)/obj/src/main.o,$(OBJECTS)) $(B)/objects | packages
+# Everything but main(): the app and the tools link it as an archive, the tests as one shared library, which makes each of them small.
+PARTS := $(filter-out $(B)/obj/src/main.o,$(OBJECTS))
+$(B)/parts.a: $(PARTS) $(B)/objects | packages
 	$(Q)rm -f $@ && ar rcs $@ $(filter %.o,$^)
+
+$(B)/tests/libparts.so: $(PARTS) $(TEST_SUPPORT:%.c=$(B)/obj/%.o) $(B)/objects | packages
+	@mkdir -p $(@D)
+	$(Q)$(LINK) -shared $(filter %.o,$^) $(TEST_LIBS) $(LIBS) -o $@
 
 $(B)/wiggly: $(B)/obj/src/main.o $(B)/parts.a
 	$(if $(Q),@echo "LINK $@")
@@ -252,9 +257,8 @@ $(TOOLS:%=$(B)/%): $(B)/%: $(B)/obj/tools/%.o $(B)/parts.a
 
 # Private: else it would be in the flags of all that a test is made of, where a test is what make is asked for.
 $(B)/obj/tests/%.o: private OWN_CPPFLAGS += -Itests
-$(TEST_PROGRAMS): $(B)/tests/%: $(B)/obj/tests/%.o $(TEST_SUPPORT:%.c=$(B)/obj/%.o) $(B)/parts.a
-	@mkdir -p $(@D)
-	$(Q)$(LINK) $^ $(TEST_LIBS) $(LIBS) -o $@
+$(TEST_PROGRAMS): $(B)/tests/%: $(B)/obj/tests/%.o $(B)/tests/libparts.so
+	$(Q)$(LINK) $^ -Wl,-rpath,'$$ORIGIN' $(TEST_LIBS) $(LIBS) -o $@
 
 # Of the sources only what readers and exports need, and no GL.
 FUZZED := $(wildcard src/base/*.c src/spline/*.c src/scene/*.c src/model/*.c) src/ui/event.c \
