@@ -32,6 +32,9 @@ silent() { # <text>
     ! printf '%s\n' "$1" | grep -E '^wiggly|ERROR: |runtime error'
 }
 
+# What `make test` does with less of, in which `make test-all` takes all the time it needs.
+quickly() { [ -n "${THOROUGH:-}" ] || echo "$@"; } # <options that make it short>...
+
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 

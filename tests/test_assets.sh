@@ -18,9 +18,9 @@ cd "$scratch" || exit 1
 
 # Opens a scene, sets a knot and presses Ctrl+S: without a question, the file is another one afterwards.
 edit() { # <wiggly> <scene>
-    "$1" live --headless --size 640x360 --frames 1 --record header "$2" || return
+    "$1" live --no-draw --size 640x360 --frames 1 --record header "$2" || return
     { sed '/^frames/d' header; printf '%s\n' "frames 20" "5 key Right" "6 key I" "9 key S ctrl"; } >edit.replay
-    "$1" live --headless --replay edit.replay "$2"
+    "$1" live --no-draw --replay edit.replay "$2"
 }
 
 is() { # <saved or untitled> <what> <wiggly> <scene>

@@ -7,9 +7,9 @@ root=$PWD
 replay() { # <scene> <event>...: plays events on a scene, the document at the end is in $scratch/deep/result.json
     local scene=$1
     shift
-    "$WIGGLY" live --headless --frames 1 --record "$scratch/header" "$scene" >/dev/null 2>&1
+    "$WIGGLY" live --no-draw --frames 1 --record "$scratch/header" "$scene" >/dev/null 2>&1
     { sed -n 1,6p "$scratch/header"; echo "frames 20"; printf '%s\n' "$@"; } >"$scratch/events"
-    "$WIGGLY" live --headless --replay "$scratch/events" --result "$scratch/deep/result.json" "$scene"
+    "$WIGGLY" live --no-draw --replay "$scratch/events" --result "$scratch/deep/result.json" "$scene"
 }
 
 mkdir -p "$scratch/deep"
@@ -30,7 +30,7 @@ sed 's|"model": ".*"|"model": "cut.glb"|' lost.json >cut.json
 head -c 5000 "$root/assets/models/creature.glb" >cut.glb
 expect 1 "a model that was cut off is a problem" "$WIGGLY" check cut.json
 says "that names it, in one sentence" "cut.glb: " "$out"
-expect 0 "that scene opens too" "$WIGGLY" live --headless --frames 3 cut.json
+expect 0 "that scene opens too" "$WIGGLY" live --no-draw --frames 3 cut.json
 sed 's|"name": "up"|"name": "sideways"|' "$root/assets/scenes/up-down.json" |
     sed "s|\"model\": \".*\"|\"model\": \"$root/assets/models/creature.glb\"|" >other.json
 expect 1 "a coordinate that the model does not have is a problem" "$WIGGLY" check other.json

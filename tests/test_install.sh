@@ -46,10 +46,10 @@ grep -rlI "$scratch/stage\|/opt/wiggly" "$root" >"$scratch/names"
 [ ! -s "$scratch/names" ]
 ok "no file of it names its place" $?
 from_elsewhere() { (cd "$scratch" && "$root/bin/wiggly" "$@"); }
-expect 0 "the default scene opens" from_elsewhere live --headless --size 640x360 --frames 2 --result "$scratch/opened.json"
-expect 0 "and is the installed one" cmp "$scratch/opened.json" <(from_elsewhere live --headless --size 640x360 --frames 2 \
+expect 0 "the default scene opens" from_elsewhere live --no-draw --frames 2 --result "$scratch/opened.json"
+expect 0 "and is the installed one" cmp "$scratch/opened.json" <(from_elsewhere live --no-draw --frames 2 \
     --result /dev/stdout "$root/share/wiggly/scenes/tail.json" | sed '/^}$/q')
-expect 0 "a scene there finds its model" from_elsewhere live --headless --size 640x360 --frames 2 "$root/share/wiggly/scenes/character.json"
+expect 0 "a scene there finds its model" from_elsewhere live --no-draw --frames 2 "$root/share/wiggly/scenes/character.json"
 
 export PKG_CONFIG_PATH=$root/lib/pkgconfig
 version=$(sed -n 's/.*define WIGGLY_VERSION "\(.*\)"/\1/p' include/wiggly/wiggly.h)

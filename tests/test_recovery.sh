@@ -4,7 +4,7 @@
 WIGGLY=${WIGGLY:-build/wiggly}
 state=$XDG_STATE_HOME/wiggly
 
-expect 0 "a headless run" "$WIGGLY" live --headless --frames 2
+expect 0 "a headless run" "$WIGGLY" live --no-draw --frames 2
 [ ! -e "$XDG_STATE_HOME" ] && [ ! -e "$XDG_CONFIG_HOME" ]
 ok "a headless run makes no files of the user's" $?
 

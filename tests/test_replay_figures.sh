@@ -12,11 +12,11 @@ figure() { # <frames> <line>...
     frames=$1
     shift
     printf '%s\n' "$header" "$@" >"$scratch/figure.replay"
-    "$WIGGLY" live --headless --scale 0.5 --replay "$scratch/figure.replay" --frames "$frames" --result "$scratch/figure.json" "$scratch/own.json"
+    "$WIGGLY" live --no-draw --replay "$scratch/figure.replay" --frames "$frames" --result "$scratch/figure.json" "$scratch/own.json"
 }
 for n in 1 2 3 4 5 6; do
     expect 0 "figure $n opens by its key" figure 20 "5 key $n ctrl"
-    cmp "$scratch/figure.json" <("$WIGGLY" live --headless --scale 0.5 --frames 1 --result /dev/stdout assets/scenes/figure$n.json | sed '/^}$/q')
+    cmp "$scratch/figure.json" <("$WIGGLY" live --no-draw --frames 1 --result /dev/stdout assets/scenes/figure$n.json | sed '/^}$/q')
     ok "it is the scene of assets" $?
 done
 expect 0 "figures one after the other, knots deleted, all undone" figure 40 \

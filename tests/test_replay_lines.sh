@@ -8,7 +8,7 @@ replay=tests/replays/session.replay
 play() { # <replay> <scene> <name> [option]...
     local file=$1 start=$2 name=$3
     shift 3
-    "$WIGGLY" live --headless --scale 0.5 --replay "$file" --log "$scratch/$name.csv" --result "$scratch/$name.json" "$@" "$start"
+    "$WIGGLY" live --no-draw --replay "$file" --log "$scratch/$name.csv" --result "$scratch/$name.json" "$@" "$start"
 }
 
 # Replays that do not fit.

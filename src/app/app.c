@@ -27,7 +27,7 @@ static bool open_platform(struct app *app, struct error *error)
     int width = o->width ? o->width : header ? header->width : DEFAULT_WIDTH;
     int height = o->height ? o->height : header ? header->height : DEFAULT_HEIGHT;
     double scale = o->scale > 0 ? o->scale : header ? header->scale : 1;
-    if (!o->headless) {
+    if (!o->headless && !o->no_draw) {
         struct error refused = {0};
         int vsync = is_replay(app) || o->frames ? 0 : 1;
         app->platform = platform_window(width, height, "wiggly", vsync, &refused);
@@ -35,7 +35,10 @@ static bool open_platform(struct app *app, struct error *error)
         fprintf(stderr, "wiggly: %s; running headless (see wiggly live --help for what it can write)\n",
                 refused.text);
     }
-    app->platform = platform_offscreen((int)lround(width * scale), (int)lround(height * scale), (float)scale, error);
+    width = (int)lround(width * scale);
+    height = (int)lround(height * scale);
+    app->platform = o->no_draw ? platform_blind(width, height, (float)scale, error)
+                               : platform_offscreen(width, height, (float)scale, error);
     return app->platform != NULL;
 }
 
@@ -45,7 +48,7 @@ static bool open_log(struct app *app, struct error *error)
 {
     const struct app_options *o = app->options;
     struct frame_header header = {
-        .gl_renderer = draw_renderer_name(),
+        .gl_renderer = app->draw ? draw_renderer_name() : NULL,
         .solver = evaluation_solver(app->table.evaluation.method),
         .vsync = platform_is_window(app->platform) && !is_replay(app) && !o->frames,
         .warm_up = WARM_UP,
@@ -53,7 +56,7 @@ static bool open_log(struct app *app, struct error *error)
         .first_frame_ms = 1e3 * process_age(),
     };
     platform_size(app->platform, &header.width, &header.height, &header.scale);
-    if (o->log && !header.vsync) {
+    if (o->log && !header.vsync && app->draw) {
         header.reference_ms = draw_reference_ms(app->draw, header.width, header.height, REFERENCE_FRAMES);
         app->lost = true;
         app->last_swap = NAN;
@@ -182,7 +185,8 @@ static bool start(struct app *app, struct error *error)
     app->display.height = (float)height / scale;
     app->display.scale = scale;
     app->ui_scale = o->ui_scale > 0 ? o->ui_scale : app->replay ? replay_get_header(app->replay)->ui_scale : 1;
-    if (!(app->draw = draw_create(scale, error)) || !app_open_editor(app, error)) return false;
+    if (!o->no_draw && !(app->draw = draw_create(scale, error))) return false;
+    if (!app_open_editor(app, error)) return false;
     if (!(app->table.history = history_create()) || !(app->table.models = models_create()))
         return fail(error, ERROR_ENVIRONMENT, "out of memory");
     if (!app_open(app, o->scene, error)) return false;

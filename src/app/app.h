@@ -10,6 +10,7 @@
 struct app_options {
     const char *scene; ///< path, or NULL: the built-in tail
     bool headless;     ///< offscreen instead of a window
+    bool no_draw;      ///< no surface at all: frames are solved and posed, not drawn
     int frames;        ///< stop after so many; 0: the replay's length, else (headless) 1200, else never
     int width, height; ///< logical pixels; 0: the replay's, else 1280 × 720
     double

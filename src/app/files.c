@@ -195,6 +195,7 @@ bool app_screenshot(struct app *app, const char *path, struct error *error)
 {
     int width, height;
     float scale;
+    if (!app->draw) return fail(error, ERROR_ENVIRONMENT, "%s: nothing is drawn, so there is no picture", path);
     platform_size(app->platform, &width, &height, &scale);
     unsigned char *pixels = malloc(4 * (size_t)width * (size_t)height);
     if (!pixels) return fail(error, ERROR_ENVIRONMENT, "out of memory for a picture of %d × %d", width, height);

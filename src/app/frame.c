@@ -207,6 +207,7 @@ static void measure(struct app *app)
     resolution_measure(&app->resolution, &cost);
 }
 
+/// Draws the frame and shows it.
 static void draw(struct app *app)
 {
     struct draw_input input = draw_input(app, app->resolution.shown);
@@ -219,17 +220,27 @@ static void draw(struct app *app)
     pace_swapped(&app->pace, end, !app->was_idle && cost.rectangles > 0);
     app->row.upload_us = cost.upload_us;
     app->row.draw_us = cost.draw_us;
-    app->row.gpu_us = NAN;
     if (cost.gpu_us >= 0) app->gpu_us = cost.gpu_us;
     if (app->log && cost.gpu_us >= 0) framelog_gpu(app->log, cost.gpu_frame, cost.gpu_us);
     app->row.uploaded_bytes = cost.uploaded_bytes;
     app->row.swap_us = microseconds(swap_start, end);
+}
+
+/// Ends what is timed of the frame.
+static void end_row(struct app *app)
+{
+    double end = clock_now();
     app->row.t_s = app->frame_start - app->process_start;
     app->row.frame_ms = 1e3 * (end - app->frame_start);
     app->row.frame_interval_ms = 1e3 * (end - app->last_swap);
     app->last_swap = end;
     app->row.event_to_swap_us = isnan(app->oldest_event) ? NAN : microseconds(app->oldest_event, end);
     app->row.allocations = allocation_count() - app->row.allocations;
+}
+
+/// What the drawn frame changes for the next ones.
+static void after_drawing(struct app *app)
+{
     if (app->resolution.changed == resolution_now(app)) measure(app);
     platform_cursor(app->platform, app->demo.on ? CURSOR_ARROW : editor_cursor(app->table.editor));
 }
@@ -269,7 +280,11 @@ void app_frame(struct app *app)
     const struct table_hooks hooks = {on_advanced, on_posed, app};
     if (!table_frame(&app->table, step(app), &hooks, &app->row, &app->error)) app->failed = true;
     if (app->failed) return;
+    app->row.upload_us = app->row.draw_us = app->row.gpu_us = app->row.swap_us = NAN;
+    app->row.uploaded_bytes = -1;
     if (app->draw) draw(app);
+    end_row(app);
+    if (app->draw) after_drawing(app);
     log_frame(app);
     app->frame++;
 }

@@ -13,6 +13,9 @@ int command_live(int argc, char **argv)
     int size[2] = {0, 0};
     const struct option_spec specs[] = {
         {"--headless", NULL, NULL, "draw without a display", OPTION_FLAG, &options.headless, 0, 0},
+        {"--no-draw", NULL, NULL,
+         "headless, and nothing is drawn: for what a replay makes of the document (--result), without OpenGL",
+         OPTION_FLAG, &options.no_draw, 0, 0},
         {"--frames", NULL, "N", "stop after N frames (default: the replay's length; headless 1200)", OPTION_INT,
          &options.frames, 1, 10000000},
         {"--size", NULL, "WxH", "logical pixels (1280x720)", OPTION_SIZE, size, 320, 8192},
@@ -64,6 +67,10 @@ int command_live(int argc, char **argv)
     if (options.demo && (options.scene || options.replay || options.record)) {
         fprintf(stderr,
                 "wiggly live: --demo brings its own scene and input: expected no scene, --replay or --record\n");
+        return OPTIONS_WRONG;
+    }
+    if (options.no_draw && (options.screenshot || options.frames_dir || options.gl_debug)) {
+        fprintf(stderr, "wiggly live: --no-draw: expected no --screenshot, --frames-dir or --gl-debug\n");
         return OPTIONS_WRONG;
     }
     options.width = size[0];

@@ -13,7 +13,6 @@ struct offscreen {
     EGLDisplay display;
     EGLContext context;
     GLuint framebuffer, color, depth;
-    struct surface_size size;
 };
 
 /// epoxy ends the process if a library is missing, so look before its first call.
@@ -104,11 +103,10 @@ static bool open_any(struct offscreen *offscreen, struct error *error)
                 "no EGL device gives an OpenGL 3.3 context without a display: install libgl1-mesa-dri");
 }
 
-static bool create_framebuffer(struct offscreen *offscreen, struct error *error)
+static bool create_framebuffer(struct offscreen *offscreen, int width, int height, struct error *error)
 {
     GLint largest = 0;
     glGetIntegerv(GL_MAX_RENDERBUFFER_SIZE, &largest);
-    int width = offscreen->size.width, height = offscreen->size.height;
     if (width < 1 || height < 1 || width > largest || height > largest) {
         return fail(error, ERROR_ENVIRONMENT, "expected a picture of 1 to %d pixels a side, got %d × %d", largest,
                     width, height);
@@ -128,7 +126,7 @@ static bool create_framebuffer(struct offscreen *offscreen, struct error *error)
                 height);
 }
 
-struct offscreen *offscreen_create(int width, int height, float scale, struct error *error)
+struct offscreen *offscreen_create(int width, int height, struct error *error)
 {
     if (!have_libraries(error)) return NULL;
     struct offscreen *offscreen = calloc(1, sizeof *offscreen);
@@ -136,13 +134,12 @@ struct offscreen *offscreen_create(int width, int height, float scale, struct er
         fail(error, ERROR_ENVIRONMENT, "out of memory for the framebuffer");
         return NULL;
     }
-    offscreen->size = (struct surface_size){width, height, scale};
     if (!open_any(offscreen, error)) {
         free(offscreen);
         return NULL;
     }
     keep_driver_loaded();
-    if (!create_framebuffer(offscreen, error)) {
+    if (!create_framebuffer(offscreen, width, height, error)) {
         offscreen_destroy(offscreen);
         return NULL;
     }
@@ -159,5 +156,3 @@ void offscreen_destroy(struct offscreen *offscreen)
     eglTerminate(offscreen->display);
     free(offscreen);
 }
-
-struct surface_size offscreen_size(const struct offscreen *offscreen) { return offscreen->size; }

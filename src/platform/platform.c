@@ -1,4 +1,4 @@
-/// Hands calls on to a window or to an offscreen surface.
+/// Hands calls on to a window or to an offscreen surface, where there is one.
 #include "platform/platform.h"
 #include "platform/gl_debug.h"
 #include "platform/process.h"
@@ -33,11 +33,18 @@ struct platform *platform_window(int width, int height, const char *title, int v
     return platform;
 }
 
-struct platform *platform_offscreen(int width, int height, float scale, struct error *error)
+struct platform *platform_blind(int width, int height, float scale, struct error *error)
 {
     struct platform *platform = allocate(error);
+    if (platform) platform->size = (struct surface_size){width, height, scale};
+    return platform;
+}
+
+struct platform *platform_offscreen(int width, int height, float scale, struct error *error)
+{
+    struct platform *platform = platform_blind(width, height, scale, error);
     if (!platform) return NULL;
-    platform->offscreen = offscreen_create(width, height, scale, error);
+    platform->offscreen = offscreen_create(width, height, error);
     if (!platform->offscreen) {
         free(platform);
         return NULL;
@@ -72,7 +79,7 @@ const struct event *platform_events(struct platform *platform, double seconds, i
 
 void platform_size(const struct platform *platform, int *width, int *height, float *scale)
 {
-    struct surface_size size = platform->window ? window_size(platform->window) : offscreen_size(platform->offscreen);
+    struct surface_size size = platform->window ? window_size(platform->window) : platform->size;
     *width = size.width;
     *height = size.height;
     *scale = size.scale;

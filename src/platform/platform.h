@@ -1,4 +1,4 @@
-/// A surface to draw on, and the source of events: a GLFW window, or an offscreen EGL context.
+/// A surface to draw on, and the source of events: a GLFW window, an offscreen EGL context, or no surface at all.
 #ifndef PLATFORM_PLATFORM_H
 #define PLATFORM_PLATFORM_H
 
@@ -19,6 +19,9 @@ struct platform *platform_window(int width, int height, const char *title, int v
 /// An offscreen framebuffer object of width × height device pixels with a current context (EGL surfaceless or device).
 struct platform *platform_offscreen(int width, int height, float scale, struct error *error);
 
+/// No surface: a size, a clipboard and a queue of events. Needs no OpenGL.
+struct platform *platform_blind(int width, int height, float scale, struct error *error);
+
 void platform_destroy(struct platform *platform);
 
 /// Waits at most `seconds` for events (0: only looks), then hands out those that came, in order. The array lives until the
@@ -31,7 +34,7 @@ void platform_size(const struct platform *platform, int *width, int *height, flo
 /// Whether the framebuffer keeps the last frame after a swap (offscreen, and software GLX; never assumed: probed once).
 bool platform_keeps(const struct platform *platform);
 
-/// Shows the frame; offscreen: glFinish.
+/// Shows the frame; offscreen: glFinish. Not without a surface.
 void platform_swap(struct platform *platform);
 
 /// Refresh rate of the monitor that shows most of the window, Hz; 0 if unknown. Asks the display.

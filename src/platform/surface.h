@@ -1,4 +1,4 @@
-/// The two kinds of surface behind platform.h. Private to platform/.
+/// The kinds of surface behind platform.h. Private to platform/.
 #ifndef PLATFORM_SURFACE_H
 #define PLATFORM_SURFACE_H
 
@@ -8,19 +8,20 @@
 struct window;
 struct offscreen;
 
-/// Exactly one of the two exists.
-struct platform {
-    struct window *window;
-    struct offscreen *offscreen;
-    struct event_queue queue;
-    bool keeps;
-    char *clipboard; ///< what stands for the system's where there is no window
-};
-
-/// What both kinds report about their framebuffer.
+/// What a surface reports about its framebuffer.
 struct surface_size {
     int width, height; ///< device pixels
     float scale;       ///< device pixels a logical pixel
+};
+
+/// At most one of the two exists.
+struct platform {
+    struct window *window;
+    struct offscreen *offscreen;
+    struct surface_size size; ///< where there is no window
+    struct event_queue queue;
+    bool keeps;
+    char *clipboard; ///< what stands for the system's where there is no window
 };
 
 /// Whether somebody listens at $DISPLAY or $WAYLAND_DISPLAY.
@@ -48,9 +49,8 @@ void window_cursor(struct window *window, enum mouse_cursor cursor);
 const char *window_clipboard(struct window *window);
 void window_set_clipboard(struct window *window, const char *text);
 
-struct offscreen *offscreen_create(int width, int height, float scale, struct error *error);
+struct offscreen *offscreen_create(int width, int height, struct error *error);
 void offscreen_destroy(struct offscreen *offscreen);
-struct surface_size offscreen_size(const struct offscreen *offscreen);
 
 /// Whether a swap of the current context keeps the back buffer: found out by swapping twice.
 bool probe_keeps(struct window *window);
