@@ -32,8 +32,9 @@ silent() { # <text>
     ! printf '%s\n' "$1" | grep -E '^wiggly|ERROR: |runtime error'
 }
 
-# What `make test` does with less of, in which `make test-all` takes all the time it needs.
-quickly() { [ -n "${THOROUGH:-}" ] || echo "$@"; } # <options that make it short>...
+# Whether this is `make test-all`, where a test may take all the time that it needs. Otherwise it does less of the same.
+thorough() { [ -n "${THOROUGH:-}" ]; }
+quickly() { thorough || echo "$@"; } # <options that make it short>...
 
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT

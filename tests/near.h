@@ -11,11 +11,18 @@
 #include <cmocka.h>
 
 #include <math.h>
+#include <stdbool.h>
+#include <stdlib.h>
 
 // cmocka's fail() macro is in the way of base/error.h's function of that name; fail_msg() is built on it.
 #undef fail
 #undef fail_msg
 #define fail_msg(...) (print_error("ERROR: " __VA_ARGS__), print_error("\n"), _fail(__FILE__, __LINE__))
+
+/// Whether this is `make test-all`, where a test may take all the time that it needs. Otherwise it does less of the same.
+static inline bool is_thorough(void) { return getenv("THOROUGH") != NULL; }
+
+static inline int quick_or_all(int quick, int all) { return is_thorough() ? all : quick; }
 
 static inline void assert_near_at(double actual, double expected, double tolerance, const char *what,
                                   const char *file, int line)

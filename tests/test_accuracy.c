@@ -8,8 +8,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-enum { SUBJECTS = 200 };
-
 struct subject {
     wiggly_mode mode;
     double frequency, damping, bandwidth, calm;
@@ -115,7 +113,8 @@ static void check(const struct subject *c)
 static void every_mode_at_every_length(void **state)
 {
     (void)state;
-    static const int lengths[][2] = {{240, 24},     {3000, 100},   {10000, 24},
+    enum { LENGTHS = 6 };
+    static const int lengths[LENGTHS][2] = {{240, 24},     {3000, 100},   {10000, 24},
                                      {10000, 9000}, {30000, 1000}, {100000, 30000}};
     static const struct subject modes[] = {
         {.mode = WIGGLY_CUBIC, .calm = 1},
@@ -125,7 +124,7 @@ static void every_mode_at_every_length(void **state)
         {.mode = WIGGLY_COMPLEX, .frequency = 2, .bandwidth = 0, .calm = 1},
     };
     for (size_t m = 0; m < sizeof modes / sizeof *modes; m++) {
-        for (size_t l = 0; l < sizeof lengths / sizeof *lengths; l++) {
+        for (size_t l = 0; l < (size_t)quick_or_all(4, LENGTHS); l++) {
             struct subject c = modes[m];
             c.samples = lengths[l][0], c.gap = lengths[l][1];
             c.irregular = l % 2, c.slopes = m % 2;
@@ -150,7 +149,9 @@ static void slow_complex_splines(void **state)
         {.frequency = 0.775, .calm = 1, .samples = 240, .gap = 150},
         {.frequency = 0.775, .calm = 1e-3, .samples = 240, .gap = 31},
     };
-    for (size_t s = 0; s < sizeof subjects / sizeof *subjects; s++) check(&subjects[s]);
+    for (size_t s = 0; s < sizeof subjects / sizeof *subjects; s++) {
+        if (is_thorough() || subjects[s].samples <= 10000) check(&subjects[s]);
+    }
 }
 
 /// So calm a start over gaps so long that the nodes' own system loses digits: refined, its curve is exact, or shown and said not to be.
@@ -207,7 +208,8 @@ static void no_long_spline_is_called_exact_that_is_not(void **state)
 {
     (void)state;
     int exact = 0;
-    for (uint64_t seed = 0; seed < SUBJECTS; seed++) {
+    const int subjects = quick_or_all(40, 200);
+    for (uint64_t seed = 0; seed < (uint64_t)subjects; seed++) {
         const struct subject c = some_subject(seed);
         wiggly_curve curve;
         double error, lapack;
@@ -219,7 +221,7 @@ static void no_long_spline_is_called_exact_that_is_not(void **state)
         if (error > tolerance && error > 4 * estimate)
             fail_msg("seed %d is off by %g, not by %g", (int)seed, error, estimate);
     }
-    assert_in_range(exact, SUBJECTS * 9 / 10, SUBJECTS);
+    assert_in_range(exact, subjects * 9 / 10, subjects);
 }
 
 int main(void)

@@ -12,7 +12,7 @@
 #include <time.h>
 #include <unistd.h>
 
-enum { SPLINES = 4, KNOTS = 50000, RATE = 60 };
+enum { SPLINES = 4, KNOTS = 12500, RATE = 60 };
 
 struct session {
     struct blind blind;

@@ -160,7 +160,7 @@ static void test_too_large(void **state)
 /// memory.
 static void assert_flood_refused(const char *pattern, const char *fragment)
 {
-    size_t length = strlen(pattern), size = (size_t)100 * MEGABYTE / length * length;
+    size_t length = strlen(pattern), size = (size_t)20 * MEGABYTE / length * length;
     char *flood = malloc(size);
     assert_non_null(flood);
     for (size_t i = 0; i < size; i += length) memcpy(flood + i, pattern, length);

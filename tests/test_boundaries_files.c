@@ -189,6 +189,7 @@ static void vertices_of_a_model(void **state)
 {
     (void)state;
     struct error error = {0};
+    if (!is_thorough()) skip();
     if (!read_nodes(2 << 20, 8191, false, &error)) fail_msg("%s", error.text);
     assert_false(read_nodes(2 << 20, 8191, true, &error));
     says(&error, "nodes: expected at most 67108864 vertices together, got 67108866");
@@ -350,6 +351,7 @@ static void names_of_temporary_files(void **state)
 static void names_of_paint(void **state)
 {
     (void)state;
+    if (!is_thorough()) skip();
     static const char scene[] =
         "{\"wiggly\": 1, \"frames\": [0, 1], \"splines\": [{\"name\": \"s\"}], \"rigs\": [{\"type\": \"character\", "
         "\"model\": \"m.glb\", \"coordinates\": [{\"name\": \"a\", \"spline\": \"s\"}]}]}";

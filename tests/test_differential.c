@@ -154,7 +154,7 @@ static void every_pattern_to_10_samples(void **state)
     wiggly_solver *solver = *state;
     struct tally tally = {0};
     uint64_t seed = 1;
-    for (int samples = 1; samples <= 10; samples++) {
+    for (int samples = 1; samples <= quick_or_all(8, 10); samples++) {
         for (uint64_t pattern = 0; pattern < 1u << samples; pattern++) {
             for (int kind = 0; kind < 9; kind++) {
                 struct example e;
@@ -164,7 +164,7 @@ static void every_pattern_to_10_samples(void **state)
             }
         }
     }
-    assert_true(tally.solved > 13000 && tally.lapack > 7000);
+    assert_true(tally.solved > quick_or_all(3000, 13000) && tally.lapack > quick_or_all(1500, 7000));
 }
 
 static void random_patterns_to_40_samples(void **state)
@@ -173,7 +173,7 @@ static void random_patterns_to_40_samples(void **state)
     struct tally tally = {0};
     uint64_t seed = 2;
     for (int samples = 11; samples <= MAX; samples++) {
-        for (int n = 0; n < 500; n++) {
+        for (int n = 0; n < quick_or_all(100, 500); n++) {
             struct example e;
             uint64_t before = seed, pattern = 0;
             double density = uniform(&seed);
@@ -183,7 +183,7 @@ static void random_patterns_to_40_samples(void **state)
             if (is_solvable(&e.desc)) compare(solver, &e, before, &tally);
         }
     }
-    assert_true(tally.solved > 9500 && tally.lapack > 5500);
+    assert_true(tally.solved > quick_or_all(1900, 9500) && tally.lapack > quick_or_all(1100, 5500));
 }
 
 /// The same patterns through the factorisation that long domains get.

@@ -28,13 +28,16 @@ cat >"$scratch/bin/wiggly" <<END
 # Films need ffmpeg, which not every machine has; small pictures do.
 if [[ " \$* " =~ ^\ export\ .*\.(mp4|webm|gif|png)\  ]]; then
     [[ \${BASH_REMATCH[1]} = png ]] || command -v ffmpeg >/dev/null || exit 0
-    set -- "\$@" --size 320x180
+    set -- "\$@" --size 160x90 --frames 0:12
 fi
-# The live app lasts until somebody quits it: ten frames do. A simulation takes 10 s: a coarse, short one does.
+# The live app lasts until somebody quits it: ten small frames do. A simulation takes 10 s: a coarse, short one does.
 case \${1-live} in
 simulate) set -- "\$@" --tets 300 --seconds 2 ;;
 solve | rig | export | check | analyze | bench | -*) ;;
-*) [[ " \$* " == *" --frames "* || " \$* " == *" --replay "* ]] || set -- "\$@" --frames 10 ;;
+*)
+    [[ " \$* " == *" --frames "* || " \$* " == *" --replay "* ]] || set -- "\$@" --frames 10
+    [[ " \$* " == *" --replay "* ]] || set -- "\$@" --size 480x320
+    ;;
 esac
 exec "$build/wiggly" "\$@"
 END

@@ -220,15 +220,18 @@ static void add_words(struct chords *chords)
     }
 }
 
-/// Whether the editor does something for a chord, or for the character that a key without modifiers is named after.
+/// Whether the editor does something for a chord, or for the character that a key without modifiers is named after. A session in
+/// which nothing was done serves for the next one, too.
 static bool try_chord(int key, unsigned mods)
 {
-    struct session s;
-    session_open(&s, scene);
+    static struct session s;
+    static bool is_open;
+    if (!is_open) session_open(&s, scene);
     const struct event press = {.kind = EVENT_KEY, .key = key, .mods = mods, .action = ACTION_PRESS};
     const struct event text = {.kind = EVENT_TEXT, .codepoint = (uint32_t)key};
     bool bound = keys_event(s.editor, &s.world, &press) || (mods == 0 && keys_event(s.editor, &s.world, &text));
-    session_close(&s);
+    is_open = !bound;
+    if (bound) session_close(&s);
     return bound;
 }
 

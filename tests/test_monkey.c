@@ -305,6 +305,8 @@ static int number(const char *name, int fallback)
     return text ? atoi(text) : fallback;
 }
 
+static int event_count(void) { return number("MONKEY_EVENTS", quick_or_all(EVENTS / 4, EVENTS)); }
+
 /// A monkey and what is known of its document.
 struct run {
     struct blind blind;
@@ -407,7 +409,7 @@ static void run_seed(int seed, int events, const char *scene, bool threaded)
 static void nothing_a_monkey_does_breaks_anything(void **state)
 {
     (void)state;
-    const int seed = number("MONKEY_SEED", 0), events = number("MONKEY_EVENTS", EVENTS);
+    const int seed = number("MONKEY_SEED", 0), events = event_count();
     atexit(say_where);
     for (int s = 1; s <= SEEDS; s++) {
         if (seed == 0 || seed == s) run_seed(s, events, NULL, false);
@@ -420,7 +422,7 @@ static void nor_while_a_thread_solves(void **state)
 {
     (void)state;
     make_long(); // the other monkey may have written something else over it
-    run_seed(number("MONKEY_SEED", 1), number("MONKEY_EVENTS", EVENTS) / THREADED_PART, "long.json", true);
+    run_seed(number("MONKEY_SEED", 1), event_count() / THREADED_PART, "long.json", true);
 }
 
 static char *in_recovery(const struct document *document)
@@ -459,7 +461,7 @@ static void lose_display(struct run *run)
 static void nor_do_two_with_the_same_files(void **state)
 {
     (void)state;
-    const int seed = number("MONKEY_SEED", 1), events = number("MONKEY_EVENTS", EVENTS);
+    const int seed = number("MONKEY_SEED", 1), events = event_count();
     restore("tail.json");
     struct run *runs[] = {new_run(seed, NULL, false), new_run(seed + 1, "tail.json", false)};
     fprintf(stderr, "monkeys: MONKEY_SEED=%d\n", seed);

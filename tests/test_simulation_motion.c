@@ -155,13 +155,13 @@ static void cantilever_converges_to_euler_and_bernoulli(void **state)
     assert_near(error[2], 0, 0.075);
 }
 
-/// Undamped, a hundred periods of fifty steps: the least and the largest energy relative to the first.
+/// Undamped, up to a hundred periods of fifty steps: the least and the largest energy relative to the first.
 static void follow_energy(struct integrator *integrator, double range[2])
 {
     double(*force)[3] = calloc((size_t)integrator->body->node_count, sizeof *force), start = 0;
     range[0] = INFINITY;
     range[1] = 0;
-    for (int step = 0; step < 100 * 50; step++) {
+    for (int step = 0; step < quick_or_all(20, 100) * 50; step++) {
         double energy = body_forces(integrator->body, (const double(*)[3])integrator->x, force) +
                         body_kinetic(integrator->body, (const double(*)[3])integrator->v);
         if (step == 0) start = energy;
@@ -174,7 +174,7 @@ static void follow_energy(struct integrator *integrator, double range[2])
 
 /// Swinging by a fifth of the length in its first mode the body keeps its energy; torn at so that nine tenths of the
 /// energy go into stretching that the steps are too long for, it loses energy and never gains any.
-static void energy_stays_over_a_hundred_periods(void **state)
+static void energy_stays_over_many_periods(void **state)
 {
     (void)state;
     struct beam beam;
@@ -361,7 +361,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(cantilever_swings_at_its_first_frequency),
         cmocka_unit_test(cantilever_converges_to_euler_and_bernoulli),
-        cmocka_unit_test(energy_stays_over_a_hundred_periods),
+        cmocka_unit_test(energy_stays_over_many_periods),
         cmocka_unit_test(a_free_body_keeps_its_momenta),
         cmocka_unit_test(a_scrambled_body_comes_back_to_rest),
         cmocka_unit_test(damping_is_the_ratio_asked_for),

@@ -222,7 +222,7 @@ static void a_beam_is_monotone_under_refinement(void **state)
     struct box box;
     make_box(&box, 1, 8);
     double before = INFINITY;
-    for (int tets = 400; tets <= 12800; tets *= 2) {
+    for (int tets = 400; tets <= quick_or_all(1600, 12800); tets *= 2) {
         struct soft soft;
         struct soft_options options = soft_default_options();
         options.tets = tets;
@@ -238,7 +238,7 @@ static void a_beam_is_monotone_under_refinement(void **state)
         before = ratio;
         soft_free(&soft);
     }
-    assert_near(before, 1, 0.015);
+    assert_near(before, 1, is_thorough() ? 0.015 : 0.07);
 }
 
 static int count_pinned(struct box *box, const char *where)

@@ -5,7 +5,7 @@
 #include "timing/framelog.h"
 #include <malloc.h>
 
-enum { WARM_UP = 600, FRAMES = 2000 };
+enum { WARM_UP = 600 };
 
 static struct blind blind;
 
@@ -72,7 +72,7 @@ static void leaves_nothing(void (*act)(int frame), bool allocates)
     size_t before = 0;
     long allocations = 0;
     blind_open(&blind, NULL);
-    for (int frame = 0; frame < WARM_UP + FRAMES; frame++) {
+    for (int frame = 0; frame < WARM_UP + quick_or_all(400, 2000); frame++) {
         if (frame == WARM_UP) before = heap_bytes(), allocations = allocation_count();
         act(frame);
         blind_frame(&blind);
