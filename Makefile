@@ -4,6 +4,7 @@
 #   make library  the library alone, static and shared; needs a C compiler, no packages
 #   make run      builds and starts the live app (ARGS="scene.json --size 960x600" for more)
 #   make test     builds and runs every test (TESTS="tests/test_timing.c tests/test_cli.sh" for some; JOBS=1 for one at a time)
+#   make test-all the same with all that takes long: failing allocations and system calls, other compilers, every size of screen
 #   make bench    the solver against LAPACKE
 #   make models   the generated characters, build/models/creature.obj and dog.glb
 #   make proof    has three.js, Blender and usd-core evaluate what wiggly exports
@@ -114,7 +115,7 @@ LINK = $(CC) $(OWN_LDFLAGS) $(CFLAGS) $(LDFLAGS)
 
 # --- goals -------------------------------------------------------------------------------------------------------------
 
-.PHONY: all library run test bench feel proof models check figures regress fuzz fuzzers install clean help packages compile_commands.json FORCE
+.PHONY: all library run test test-all bench feel proof models check figures regress fuzz fuzzers install clean help packages compile_commands.json FORCE
 
 all: $(B)/wiggly $(LIBRARIES) $(TOOLS:%=$(B)/%)
 
@@ -132,6 +133,9 @@ run: $(B)/wiggly
 test: $(B)/wiggly $(LIBRARIES) $(TOOLS:%=$(B)/%) $(TEST_PROGRAMS)
 	$(Q)B=$(B) WIGGLY=$(B)/wiggly TEST_OUT=$(B)/test-out CC="$(CC)" tools/run-tests.sh \
 	    $(TEST_PROGRAMS) $(filter %.sh,$(TESTS))
+
+test-all: export THOROUGH = 1
+test-all: test
 
 bench: $(B)/wiggly
 	$(Q)$(B)/wiggly bench $(ARGS)
@@ -166,7 +170,7 @@ regress: $(B)/wiggly $(B)/timing_diff
 SECONDS ?= 20
 SEED ?= 1
 fuzz:
-	$(Q)tools/install-missing.sh build fuzz
+	$(Q)tools/install-missing.sh build clang
 	$(Q)$(MAKE) --no-print-directory CC=$(if $(findstring clang,$(CC)),$(CC),clang) SANITIZE=1 FUZZ=1 B=$(B)/fuzz fuzzers
 	$(Q)SECONDS_EACH=$(SECONDS) RUNS=$(RUNS) SEED=$(SEED) tests/fuzz/run.sh $(B)/fuzz $(sort $(notdir $(FUZZERS)))
 
@@ -208,7 +212,7 @@ clean:
 # Everything that is compiled waits for `packages` (order-only); it asks for no more than the goals at hand need.
 
 SETS := $(if $(filter-out check clean help library %/libwiggly.a,$(or $(MAKECMDGOALS),all)),build)
-SETS += $(if $(filter test $(B)/tests/%,$(MAKECMDGOALS)),test) $(filter bench check,$(MAKECMDGOALS))
+SETS += $(if $(filter test test-all $(B)/tests/%,$(MAKECMDGOALS)),test) $(filter bench check,$(MAKECMDGOALS))
 packages:
 	$(Q)tools/install-missing.sh $(SETS)
 	$(if $(filter build,$(SETS)),$(Q)tools/check-system.sh "$(CC)" $(PACKAGES))

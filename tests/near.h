@@ -20,7 +20,7 @@
 #define fail_msg(...) (print_error("ERROR: " __VA_ARGS__), print_error("\n"), _fail(__FILE__, __LINE__))
 
 /// Whether this is `make test-all`, where a test may take all the time that it needs. Otherwise it does less of the same.
-static inline bool is_thorough(void) { return getenv("THOROUGH") != NULL; }
+static inline bool is_thorough(void) { return getenv("THOROUGH") && *getenv("THOROUGH"); }
 
 static inline int quick_or_all(int quick, int all) { return is_thorough() ? all : quick; }
 

@@ -26,8 +26,11 @@ says "the shared library's soname has the major version" "[libwiggly.so.${versio
 
 if [ -n "${SANITIZE:-}" ] || ! thorough; then exit $((cases_failed > 0)); fi
 unset MAKEFLAGS
-there() { # <what for> <command>
+# Whether a compiler makes programs with these flags: runtimes and C libraries are packages of their own.
+makes() { # <what for> <compiler> <flags>...
     command -v "$2" >/dev/null || { echo "skip - $1, because $2 is not installed"; return 1; }
+    echo 'int main(void) { return 0; }' | "${@:2}" -x c - -o "$scratch/probe" 2>/dev/null ||
+        { echo "skip - $1, because ${*:2} links no program"; return 1; }
 }
 build() { # <folder> <compiler> <flags>: builds its libwiggly.a, unoptimised, which takes half the time
     make SETS= WERROR=1 CC="$2" CFLAGS="$3" B="$scratch/$1" "$scratch/$1/libwiggly.a"
@@ -39,28 +42,27 @@ link() { # <folder> <compiler> <example> <flags>...: to the folder's file `progr
 }
 
 for compiler in gcc clang; do
-    there "the thread sanitizer under $compiler" $compiler || continue
-    # Its runtime is a package of its own.
-    echo 'int main(void) { return 0; }' | $compiler -fsanitize=thread -x c - -o "$scratch/probe" 2>/dev/null && "$scratch/probe" ||
-        { echo "skip - the thread sanitizer under $compiler, because it has no runtime for it"; continue; }
+    makes "the thread sanitizer under $compiler" $compiler -fsanitize=thread || continue
     expect 0 "$compiler builds it for the thread sanitizer" build tsan-$compiler $compiler "-O0 -fsanitize=thread"
     expect 0 "and the many threads" link tsan-$compiler $compiler examples/threads.c -fsanitize=thread -lm -lpthread
     expect 0 "which run without a race" "$scratch/tsan-$compiler/program"
 done
 
 arm=aarch64-linux-gnu-gcc
-if there "aarch64" $arm; then
+if makes "aarch64" $arm -static; then
+    emulated=yes
+    qemu-aarch64 "$scratch/probe" 2>/dev/null || { echo "skip - running it, because qemu-aarch64 does not"; emulated=""; }
     expect 0 "it is built for aarch64" build arm $arm -O0
     for example in examples/*.c; do
         expect 0 "$example is, too" link arm $arm "$example" -static -lm -lpthread
-        there "running it" qemu-aarch64 || continue
+        [ -n "$emulated" ] || continue
         expect 0 "and runs" qemu-aarch64 "$scratch/arm/program"
         [ "$example" != examples/curve.c ] || says "through its knots" "1.500000,1.000000000," "$out"
     done
 fi
 
 windows=x86_64-w64-mingw32-gcc
-if there "Windows" $windows; then
+if makes "Windows" $windows; then
     # Its own isfinite() converts.
     expect 0 "it is built for Windows" build windows $windows "-O0 -Wno-float-conversion"
     for example in examples/curve.c examples/game_loop.c examples/tail_lag.c; do

@@ -1,7 +1,7 @@
 #!/bin/sh
 # Installs the Debian packages that the named sets need and that are not there. Fast and silent when nothing is missing.
 # "a|b": a, or b where the system has no package a.
-# Usage: tools/install-missing.sh [build] [test] [bench] [check] [clang] [fuzz] [bare] [whole]
+# Usage: tools/install-missing.sh [build] [test] [bench] [check] [clang] [bare] [whole]
 set -eu
 
 packages_of() {
@@ -11,14 +11,13 @@ packages_of() {
     test) echo g++ liblapacke-dev libopenblas-dev libcmocka-dev xvfb x11-xkb-utils xdotool imagemagick ;;
     bench) echo liblapacke-dev libopenblas-dev ;;
     check) echo clang-format-14 cppcheck ;;
-    clang) echo clang ;;
-    fuzz) echo clang "libclang-rt-dev|libclang-rt-14-dev" ;;
+    clang) echo clang "libclang-rt-dev|libclang-rt-14-dev" ;; # with its sanitizers and its fuzzer
     bare) echo debootstrap ;;
     whole) # what parts of the suite are skipped without; Debian's npm, with hundreds of packages, only where there is no other
         echo ffmpeg weston cmake assimp-testmodels gcc-mingw-w64-x86-64 gcc-aarch64-linux-gnu libc6-dev-arm64-cross \
             qemu-user "$(command -v npm >/dev/null || echo nodejs npm)" ;;
     *)
-        echo "install-missing.sh: unknown set '$1'; the sets are build, test, bench, check, clang, fuzz, bare and whole" >&2
+        echo "install-missing.sh: unknown set '$1'; the sets are build, test, bench, check, clang, bare and whole" >&2
         exit 2
         ;;
     esac
@@ -31,7 +30,7 @@ probes_of() {
     test) echo g++ Xvfb setxkbmap xdotool convert cmocka.pc lapacke.pc openblas.pc ;;
     bench) echo lapacke.pc openblas.pc ;;
     check) echo clang-format-14 cppcheck ;;
-    clang | fuzz) echo clang ;;
+    clang) echo clang ;;
     bare) echo debootstrap ;;
     whole) echo ffmpeg weston cmake x86_64-w64-mingw32-gcc aarch64-linux-gnu-gcc qemu-aarch64 npm ;;
     esac
