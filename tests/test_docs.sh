@@ -43,9 +43,13 @@ exec "$build/wiggly" "\$@"
 END
 cat >"$scratch/bin/make" <<END
 #!/bin/bash
-# These two are made. Of the others it is enough that there is something to do: test is this suite, run and install have tests of
+# These two are made, but for the dog, which takes a while and nothing here needs. Of the others it is enough that there is something to do: test is this suite, run and install have tests of
 # their own, bench and regress take minutes, check installs packages, and clean would take the build away.
-case \$1 in models | figures) ;; *) set -- -n "\$@" ;; esac
+case \$1 in
+models) set -- "$(thorough && echo models || echo "$B/models/creature.obj")" ;;
+figures) ;;
+*) set -- -n "\$@" ;;
+esac
 exec $(command -v make) --no-print-directory -C "$root" B="$B" SANITIZE="${SANITIZE:-}" "\$@"
 END
 cat >"$scratch/bin/timing_diff" <<END
@@ -88,9 +92,9 @@ paste() { # <where> <text>
     (
         cd "$scratch" || exit
         echo '{"wiggly": 1, "frames": [0, 96], "splines": [{"name": "s"}]}' >empty.json
-        "$build/wiggly" live --headless --size 640x360 --frames 1 --record header empty.json &&
+        "$build/wiggly" live --no-draw --size 640x360 --frames 1 --record header empty.json &&
             { sed '/^frames/d' header && echo "frames 5" && echo "2 paste $encoded"; } >paste.replay &&
-            "$build/wiggly" live --headless --replay paste.replay --result pasted.json empty.json
+            "$build/wiggly" live --no-draw --replay paste.replay --result pasted.json empty.json
     ) >/dev/null 2>&1
     grep -q '"value": 1, "slope": 0, "stiffness": 50 }' "$scratch/pasted.json"
     ok "$1: is pasted" $?

@@ -91,13 +91,14 @@ if [ ! -e "$folder/node_modules/gltf-validator/package.json" ]; then
     timeout 60 npm install --silent --no-audit --no-fund --no-save --prefix "$folder" "$validator" >"$scratch/npm" 2>&1 ||
         skip "npm could not fetch $validator"
 fi
+mkdir "$scratch/own"
 for scene in tail follow character figure7 compositing; do
-    "$WIGGLY" export $scenes/$scene.json -o "$scratch/$scene.glb" --quiet
-    "$WIGGLY" export $scenes/$scene.json -o "$scratch/$scene-cubic.gltf" --keys cubic --signed --quiet
-    expect 0 "the validator reads $scene" node tests/others/validate.js "$folder" "$scratch/$scene.glb" "$scratch/$scene-cubic.gltf"
-    [ "$(grep -c "0 errors, 0 warnings, 0 infos, 0 hints" <<<"$out")" -eq 2 ]
-    ok "without a complaint" $?
+    "$WIGGLY" export $scenes/$scene.json -o "$scratch/own/$scene.glb" --quiet
+    "$WIGGLY" export $scenes/$scene.json -o "$scratch/own/$scene-cubic.gltf" --keys cubic --signed --quiet
 done
+expect 0 "the validator reads what wiggly makes" node tests/others/validate.js "$folder" "$scratch"/own/*.gl*
+[ "$(grep -c "0 errors, 0 warnings, 0 infos, 0 hints" <<<"$out")" -eq 10 ]
+ok "without a complaint" $?
 "$WIGGLY" export $scenes/dog.json -o "$scratch/dog.glb" --quiet
 "$WIGGLY" export $scenes/dog.json -o "$scratch/dog.gltf" --quiet
 "$WIGGLY" export $scenes/dog.json -o "$scratch/dog-cubic.glb" --keys cubic --quiet

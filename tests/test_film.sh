@@ -100,7 +100,7 @@ is "so does a sequence" "3 walk.mp4" "$status $(ls -A "$scratch/out")"
 
 # The same from the app: Ctrl+E, a name, Enter. The document is the one on the table, edits and all.
 fresh
-expect 0 "a recording to go on from" "$WIGGLY" live $tail --headless --frames 1 --record "$scratch/begin.txt"
+expect 0 "a recording to go on from" "$WIGGLY" live $tail --no-draw --frames 1 --record "$scratch/begin.txt"
 keys() { # <name>: a replay that exports to it
     sed 's/^frames .*/frames 12/' "$scratch/begin.txt"
     printf '1 key E ctrl\n1 keyup E\n'
@@ -108,19 +108,19 @@ keys() { # <name>: a replay that exports to it
     printf '3 key Enter\n3 keyup Enter\n'
 }
 keys "$scratch/out/from_app.csv" >"$scratch/export.txt"
-expect 0 "the app exports a table" "$WIGGLY" live $tail --headless --replay "$scratch/export.txt" --screenshot "$scratch/app.png"
+expect 0 "the app exports a table" "$WIGGLY" live $tail --no-draw --replay "$scratch/export.txt"
 "$WIGGLY" export $tail -o "$scratch/out/from_command.csv" --quiet
 cmp "$scratch/out/from_app.csv" "$scratch/out/from_command.csv"
 ok "which is the one that the command writes" $?
-"$WIGGLY" live assets/scenes/dog.json --headless --frames 1 --record "$scratch/begin.txt" >/dev/null 2>&1
+"$WIGGLY" live assets/scenes/dog.json --no-draw --frames 1 --record "$scratch/begin.txt" >/dev/null 2>&1
 keys "$scratch/out/dog_from_app.glb" >"$scratch/export.txt"
-expect 0 "the app exports the dog" "$WIGGLY" live assets/scenes/dog.json --headless --replay "$scratch/export.txt"
+expect 0 "the app exports the dog" "$WIGGLY" live assets/scenes/dog.json --no-draw --replay "$scratch/export.txt"
 "$WIGGLY" export assets/scenes/dog.json -o "$scratch/out/dog_from_command.glb" --quiet
 cmp "$scratch/out/dog_from_app.glb" "$scratch/out/dog_from_command.glb"
 ok "whose tail follows the clip as the command has it" $?
-"$WIGGLY" live $tail --headless --frames 1 --record "$scratch/begin.txt" >/dev/null 2>&1
+"$WIGGLY" live $tail --no-draw --frames 1 --record "$scratch/begin.txt" >/dev/null 2>&1
 keys "$scratch/none/walk.glb" >"$scratch/export.txt"
-expect 0 "a folder that is not there stops nothing" "$WIGGLY" live $tail --headless --replay "$scratch/export.txt"
+expect 0 "a folder that is not there stops nothing" "$WIGGLY" live $tail --no-draw --replay "$scratch/export.txt"
 
 if ! command -v ffmpeg >/dev/null || ! command -v ffprobe >/dev/null; then
     echo "skip - no films are made, as ffmpeg is missing"
