@@ -189,7 +189,7 @@ for document in $documents; do
             while read -r path; do [ -e "$path" ] || echo "$path"; done
         grep -oE '`test_[a-z0-9_]+`' "$document" | tr -d '`' | while read -r test; do [ -e "tests/$test.c" ] || echo "$test"; done
         grep -oE '[a-z_]+[a-z0-9_]*\(\)' "$document" | sort -u | tr -d '()' |
-            while read -r name; do grep -qrE "\b$name\(" src include || echo "$name()"; done
+            while read -r name; do grep -qrE "\b$name\(" src include tests || echo "$name()"; done
     )
     [ -z "$missing" ] || echo "  not there:" $missing
     [ -z "$missing" ]
