@@ -33,7 +33,7 @@ static inline void session_close(struct session *session) { table_free(&session-
 static inline void session_frame(struct session *session)
 {
     const struct table_hooks none = {0};
-    struct frame_row row;
+    struct frame_row row = {0};
     struct error error;
     if (!table_frame(&session->table, 1.0 / 60, &none, &row, &error)) fail_msg("%s", error.text);
 }

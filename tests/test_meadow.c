@@ -14,6 +14,18 @@ static const char scene[] =
     "{\"type\": \"meadow\", \"name\": \"reeds\", \"spline\": \"wind\", \"count\": 300, \"seed\": 5, "
     "\"area\": [4, 3], \"height\": 0.5, \"variation\": 0.4, \"mood\": \"mild\"}]}";
 
+/// The wind follows another spline, and the fox's tail has one of its own.
+static const char windy_scene[] =
+    "{\"wiggly\": 1, \"frames\": [0, 96], \"splines\": ["
+    "{\"name\": \"wind\", \"frequency\": 1, \"damping\": 0.1, \"equilibrium\": {\"spline\": \"gust\"}, "
+    "\"knots\": [{\"frame\": 10, \"value\": 0.5}, {\"frame\": 60, \"value\": -0.5}]},"
+    "{\"name\": \"gust\", \"mode\": \"cubic\", "
+    "\"knots\": [{\"frame\": 0, \"value\": 0}, {\"frame\": 50, \"value\": 0.2}]},"
+    "{\"name\": \"tail\", \"knots\": [{\"frame\": 0, \"value\": 0.2}]}],"
+    "\"rigs\": [{\"type\": \"tail\", \"name\": \"fox\", \"position\": [0, 0.26, 0], "
+    "\"channels\": [{\"spline\": \"tail\", \"axis\": \"side\", \"gain\": 4}]},"
+    "{\"type\": \"meadow\", \"name\": \"reeds\", \"spline\": \"wind\", \"count\": 300, \"variation\": 0.4}]}";
+
 static void it_is_read_and_written(void **state)
 {
     (void)state;
@@ -89,6 +101,48 @@ static void the_meadow_of_the_app_loops(void **state)
     document_destroy(document);
 }
 
+/// Reeds that a frame solves while something is dragged.
+static int solved_by_dragging(struct session *s, const char *target)
+{
+    int most = 0;
+    session_point(s, target);
+    session_press(s, BUTTON_LEFT, 1);
+    char *before = session_saved(s);
+    for (int i = 0; i < 5; i++) {
+        session_drag(s, 6, 2, 1);
+        const int solved = meadow_solved(models_meadow(s->table.models));
+        most = solved > most ? solved : most;
+    }
+    session_release(s, BUTTON_LEFT);
+    char *after = session_saved(s);
+    assert_string_not_equal(before, after);
+    free(before), free(after);
+    return most;
+}
+
+static void they_are_solved_only_where_their_curves_change(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *target;
+        int solved;
+        bool grows;
+    } cases[] = {
+        {"tail(fox,0.9)", 0, false},  {"body(fox)", 0, false},      {"slider(meadow.height)", 0, true},
+        {"knot(wind,1)", 300, false}, {"knot(gust,1)", 300, false}, {"slider(meadow.variation)", 300, false},
+    };
+    for (size_t c = 0; c < sizeof cases / sizeof *cases; c++) {
+        struct session s;
+        struct models *models = panel_open_models(&s, windy_scene);
+        session_frame(&s);
+        const float height = meadow_reed(models_meadow(models), 0)->height;
+        const int solved = solved_by_dragging(&s, cases[c].target);
+        const bool grows = meadow_reed(models_meadow(models), 0)->height != height;
+        if (solved != cases[c].solved || grows != cases[c].grows) fail_msg("%s", cases[c].target);
+        session_close(&s);
+    }
+}
+
 static double swing_of(const struct session *s)
 {
     double most = 0;
@@ -129,6 +183,7 @@ int main(void)
         cmocka_unit_test(every_reed_is_a_variation),
         cmocka_unit_test(its_numbers_are_set_in_the_inspector),
         cmocka_unit_test(the_meadow_of_the_app_loops),
+        cmocka_unit_test(they_are_solved_only_where_their_curves_change),
         cmocka_unit_test(a_dragged_body_sets_them_swinging),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -101,6 +101,7 @@ bool table_frame(struct table *table, double dt, const struct table_hooks *hooks
     if (!solve(table, row, error)) return false;
     if (table->models && !models_grow(table->models, table->document, &table->evaluation))
         editor_message(table->editor, true, "There is not enough memory for the meadow.");
+    row->splines_solved += meadow_solved(models_meadow(table->models)); // a reed is a spline, too
     row->solve_us = since(start);
     start = clock_now();
     show(table, hooks);

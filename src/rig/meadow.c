@@ -14,11 +14,13 @@ struct meadow {
     wiggly_curve *curves;
     struct reed *reeds;
     int capacity, count;
+    int solved; ///< by the last update
     double *numbers;
     size_t number_capacity;
     wiggly_knot *knots;
     int knot_capacity;
-    uint64_t key; ///< of what is solved; 0: nothing
+    uint64_t key;    ///< of what is solved; 0: nothing
+    uint64_t ground; ///< of where they are planted
 };
 
 struct meadow *meadow_create(void) { return calloc(1, sizeof(struct meadow)); }
@@ -92,7 +94,6 @@ static void describe(struct meadow *m, const struct meadow_rig *rig, const wiggl
     m->count = rig->count;
     for (int r = 0; r < rig->count; r++) {
         double *row = m->numbers + (size_t)r * ROWS * samples;
-        m->reeds[r] = plant(rig, r);
         m->curves[r] =
             (wiggly_curve){.re = row, .im = row + samples, .y = row + 2 * samples, .omega = row + 3 * samples};
         m->descs[r] = *desc;
@@ -101,35 +102,55 @@ static void describe(struct meadow *m, const struct meadow_rig *rig, const wiggl
     }
 }
 
+/// What their curves depend on: their spline, which changes with all that it follows, and how they vary.
 static uint64_t key_of(const struct meadow_rig *rig, const struct evaluation *evaluation)
 {
-    uint64_t key = hash_bytes(HASH_START, &evaluation->revision, sizeof evaluation->revision);
-    const double numbers[] = {rig->spline,  rig->count,  rig->seed,      rig->area[0],
-                              rig->area[1], rig->height, rig->variation, evaluation->samples};
-    return hash_bytes(key, numbers, sizeof numbers) | 1;
+    const uint64_t *solved = &evaluation->revisions[rig->spline];
+    const double numbers[] = {rig->spline, rig->count, rig->seed, rig->variation, evaluation->samples};
+    return hash_bytes(hash_bytes(HASH_START, solved, sizeof *solved), numbers, sizeof numbers) | 1;
+}
+
+static uint64_t ground_of(const struct meadow_rig *rig)
+{
+    const double numbers[] = {rig->count, rig->seed, rig->area[0], rig->area[1], rig->height};
+    return hash_bytes(HASH_START, numbers, sizeof numbers);
+}
+
+/// false if memory is short.
+static bool solve(struct meadow *m, const struct document *document, const struct evaluation *evaluation,
+                  const struct meadow_rig *rig)
+{
+    m->count = 0;
+    if (!make_room(m, rig->count, evaluation->samples, document->splines[rig->spline].knot_count)) return false;
+    const wiggly_desc desc = evaluation_describe(evaluation, document, rig->spline, m->knots);
+    describe(m, rig, &desc);
+    m->solved = m->count;
+    if (wiggly_batch_solve(m->batch, m->descs, m->curves, NULL, m->count) >= WIGGLY_ERROR_ARGUMENT) m->count = 0;
+    return true;
 }
 
 bool meadow_update(struct meadow *m, const struct document *document, const struct evaluation *evaluation)
 {
     const int index = document_find_rig(document, RIG_MEADOW, 0);
     const bool solved = index >= 0 && evaluation->count == document->spline_count && evaluation->samples > 0;
+    m->solved = 0;
     if (!solved) {
         m->count = 0;
         m->key = 0;
         return true;
     }
     const struct meadow_rig *rig = &document->rigs[index].meadow;
-    const int knots = document->splines[rig->spline].knot_count;
-    const uint64_t key = key_of(rig, evaluation);
-    if (key == m->key) return true;
-    m->count = 0;
+    const uint64_t key = key_of(rig, evaluation), ground = ground_of(rig);
+    const bool same = key == m->key;
     m->key = key;
-    if (!make_room(m, rig->count, evaluation->samples, knots)) return false;
-    const wiggly_desc desc = evaluation_describe(evaluation, document, rig->spline, m->knots);
-    describe(m, rig, &desc);
-    if (wiggly_batch_solve(m->batch, m->descs, m->curves, NULL, m->count) >= WIGGLY_ERROR_ARGUMENT) m->count = 0;
+    if (!same && !solve(m, document, evaluation, rig)) return false;
+    const bool planted = same && ground == m->ground;
+    m->ground = ground;
+    for (int r = 0; r < m->count && !planted; r++) m->reeds[r] = plant(rig, r);
     return true;
 }
+
+int meadow_solved(const struct meadow *m) { return m ? m->solved : 0; }
 
 int meadow_count(const struct meadow *m) { return m ? m->count : 0; }
 

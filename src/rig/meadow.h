@@ -19,9 +19,12 @@ struct meadow;
 struct meadow *meadow_create(void);
 void meadow_destroy(struct meadow *meadow);
 
-/// Solves the reeds of the document's first meadow anew where it or its spline has changed. Allocates only where there are more
+/// Solves the reeds of the document's first meadow anew if their number, seed or variation or their spline's curve has changed. Allocates only where there are more
 /// reeds, samples or knots than before. false if memory is short: then there are no reeds.
 bool meadow_update(struct meadow *meadow, const struct document *document, const struct evaluation *evaluation);
+
+/// How many the last update solved.
+int meadow_solved(const struct meadow *meadow);
 
 /// How many there are; how each stands; and its value at a position in samples.
 int meadow_count(const struct meadow *meadow);

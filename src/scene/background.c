@@ -152,7 +152,7 @@ static void show_solved(struct evaluation *evaluation, const struct document *do
     evaluation->curves[spline] = job->curve;
     storage->extremes[spline] = job->extremes;
     evaluation->status[spline] = job->status;
-    evaluation->revision++;
+    storage_curve_changed(evaluation, spline);
     evaluation->solved_splines++;
     evaluation->solved_samples += job->desc.samples;
     evaluation->solved_knots += job->desc.knot_count;
@@ -288,7 +288,7 @@ static bool show_preview(struct evaluation *evaluation, const struct focus *focu
         good = preview_show(preview, curve, extremes, preview->moved - AROUND, 2 * AROUND);
     if (good && focus->count <= WIDEST) good = preview_show(preview, curve, extremes, focus->first, focus->count);
     if (!good) b->unfit = spline;
-    evaluation->revision++;
+    storage_curve_changed(evaluation, spline);
     return good;
 }
 

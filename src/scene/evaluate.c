@@ -17,6 +17,7 @@ static void free_splines(struct evaluation *evaluation, struct storage *storage)
 {
     free(evaluation->curves);
     free(evaluation->status);
+    free(evaluation->revisions);
     free(storage->order);
     free(storage->solved);
     free(storage->space.stack);
@@ -29,6 +30,7 @@ static void free_splines(struct evaluation *evaluation, struct storage *storage)
     storage->baked = NULL;
     evaluation->curves = NULL;
     evaluation->status = NULL;
+    evaluation->revisions = NULL;
     storage->order = NULL;
     storage->solved = storage->forced = NULL;
     storage->space = (struct order_space){0};
@@ -42,6 +44,7 @@ static bool resize_splines(struct evaluation *evaluation, struct storage *storag
     free_splines(evaluation, storage);
     evaluation->curves = calloc(count, sizeof *evaluation->curves);
     evaluation->status = calloc(count, sizeof *evaluation->status);
+    evaluation->revisions = calloc(count, sizeof *evaluation->revisions);
     storage->order = calloc(count, sizeof *storage->order);
     storage->solved = calloc(count, sizeof *storage->solved);
     storage->forced = calloc(count, sizeof *storage->forced);
@@ -50,8 +53,9 @@ static bool resize_splines(struct evaluation *evaluation, struct storage *storag
     storage->extremes = calloc(count, sizeof *storage->extremes);
     storage->baked = calloc(count, sizeof *storage->baked);
     storage->is_new = true;
-    if (!storage->extremes || !storage->baked || !evaluation->curves || !evaluation->status || !storage->order ||
-        !storage->solved || !storage->forced || !storage->space.stack || !storage->space.next) {
+    if (!storage->extremes || !storage->baked || !evaluation->curves || !evaluation->status ||
+        !evaluation->revisions || !storage->order || !storage->solved || !storage->forced || !storage->space.stack ||
+        !storage->space.next) {
         return false;
     }
     storage->spline_capacity = splines;
@@ -187,6 +191,11 @@ static bool follows_solved(const struct storage *storage, const struct spline *s
     return false;
 }
 
+void storage_curve_changed(struct evaluation *evaluation, int spline)
+{
+    evaluation->revisions[spline] = ++evaluation->revision;
+}
+
 static void count_solved(struct evaluation *evaluation, const struct document *document, int spline,
                          wiggly_status status)
 {
@@ -194,7 +203,7 @@ static void count_solved(struct evaluation *evaluation, const struct document *d
     extremes_update(&storage->extremes[spline], evaluation->curves[spline].total, evaluation->samples, 0,
                     evaluation->samples);
     evaluation->status[spline] = status;
-    evaluation->revision++;
+    storage_curve_changed(evaluation, spline);
     evaluation->solved_splines++;
     evaluation->solved_samples += evaluation->samples;
     evaluation->solved_knots += document->splines[spline].knot_count;

@@ -14,6 +14,7 @@ struct evaluation {
     bool cubic;            ///< all solved in cubic mode (the "cubic" of the A/B comparison)
     wiggly_method method;  ///< of every solve; set it at any time: the next update solves all by it
     uint64_t revision;     ///< changes whenever a curve does
+    uint64_t *revisions;   ///< for each spline: the revision in which its curve last changed
     bool stale;            ///< some curves are out of date: background.h is still solving them
     long solved_splines;   ///< solved by the last update
     long solved_samples;

@@ -70,6 +70,9 @@ void storage_flatten(wiggly_curve *curve, const wiggly_desc *desc);
 
 struct evaluation;
 
+/// A spline's curve has changed.
+void storage_curve_changed(struct evaluation *evaluation, int spline);
+
 /// Stops the thread because memory that it uses is about to change; what it was solving stays to be done.
 void background_halt(struct evaluation *evaluation);
 
