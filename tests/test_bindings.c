@@ -8,6 +8,10 @@ static const char scene[] =
     "{\"wiggly\": 1, \"frames\": [0, 96], \"splines\": [{\"name\": \"sway\", \"frequency\": 1, \"knots\": "
     "[{\"frame\": 0, \"value\": 0}, {\"frame\": 36, \"value\": 1}, {\"frame\": 60, \"value\": 0}]}]}";
 
+static const char three_splines[] =
+    "{\"wiggly\": 1, \"frames\": [0, 96], \"splines\": [{\"name\": \"a\", \"knots\": []}, "
+    "{\"name\": \"b\", \"knots\": []}, {\"name\": \"c\", \"knots\": []}]}";
+
 /// The punctuation of a layout as xkb-data 2.35 has it. Letters, digits by their places and keys with a name are on all of them.
 static const struct layout_of {
     const char *name;
@@ -144,6 +148,24 @@ static void test_a_key_kept_down_is_one_press_where_it_should(void **state)
     session_close(&s);
 }
 
+static void test_a_key_kept_down_goes_on_through_the_splines(void **state)
+{
+    (void)state;
+    static const struct {
+        int key, after[3];
+    } cases[] = {{KEY_PAGE_UP, {2, 1, 0}}, {KEY_PAGE_DOWN, {1, 2, 0}}};
+    for (size_t c = 0; c < sizeof cases / sizeof *cases; c++) {
+        struct session s;
+        session_open(&s, three_splines);
+        for (int i = 0; i < 3; i++) {
+            session_hold(&s, cases[c].key, i ? ACTION_REPEAT : ACTION_PRESS);
+            session_frame(&s);
+            assert_int_equal(s.editor->core.active, cases[c].after[i]);
+        }
+        session_close(&s);
+    }
+}
+
 static void test_a_key_that_closes_something_types_nothing(void **state)
 {
     (void)state;
@@ -167,6 +189,7 @@ int main(void)
         cmocka_unit_test(test_punctuation_is_what_is_typed),
         cmocka_unit_test(test_a_part_is_played_without_brackets),
         cmocka_unit_test(test_a_key_kept_down_is_one_press_where_it_should),
+        cmocka_unit_test(test_a_key_kept_down_goes_on_through_the_splines),
         cmocka_unit_test(test_a_key_that_closes_something_types_nothing),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

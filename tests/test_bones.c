@@ -316,6 +316,41 @@ static void test_a_gain_becomes_a_ramp_whose_points_move(void **state)
     session_close(&s);
 }
 
+static double highest(const struct angles *ramp)
+{
+    double highest = 0;
+    for (int i = 0; i < ramp->count; i++) highest = fmax(highest, ramp->ramp[i].angle);
+    return highest;
+}
+
+static void test_a_ramps_plot_is_as_high_as_its_points(void **state)
+{
+    (void)state;
+    struct session s;
+    open_beast(&s, TAIL);
+    panel_click(&s, "gain.ramp");
+    const double *scale = s.editor->inspector->ramp_scale[ANGLE_GAIN];
+    panel_press(&s, "gain.point.0", 1);
+    session_drag(&s, 0, -30, 2);
+    panel_release(&s);
+    assert_true(gain_of_tail(&s)->ramp[0].angle > 10);
+    assert_near(scale[1], 1.2 * gain_of_tail(&s)->ramp[0].angle, 1e-9);
+    session_move(&s, s.x + 60, s.y + 50);
+    session_press(&s, BUTTON_LEFT, 2); // a point between
+    session_release(&s, BUTTON_LEFT);
+    panel_press(&s, "gain.point.2", 1);
+    session_drag(&s, 0, -80, 2);
+    panel_release(&s);
+    assert_int_equal(gain_of_tail(&s)->count, 3);
+    const double last = gain_of_tail(&s)->ramp[2].angle;
+    assert_near(scale[1], 1.2 * last, 1e-9);
+    session_key(&s, KEY_DELETE, 0); // the highest
+    assert_int_equal(gain_of_tail(&s)->count, 2);
+    assert_true(highest(gain_of_tail(&s)) < last);
+    assert_near(scale[1], 1.2 * highest(gain_of_tail(&s)), 1e-9);
+    session_close(&s);
+}
+
 static void test_a_chain_gets_a_twin_on_the_other_side(void **state)
 {
     (void)state;
@@ -361,6 +396,7 @@ int main(void)
         cmocka_unit_test(test_a_chains_turn_is_dragged),
         cmocka_unit_test(test_a_chain_is_edited_in_the_inspector),
         cmocka_unit_test(test_a_gain_becomes_a_ramp_whose_points_move),
+        cmocka_unit_test(test_a_ramps_plot_is_as_high_as_its_points),
         cmocka_unit_test(test_a_chain_gets_a_twin_on_the_other_side),
         cmocka_unit_test(test_a_tail_has_no_twin),
     };

@@ -58,6 +58,8 @@ static void test_csv_in_its_dialects(void **state)
         "1;2\n\n# a comment\n3;4,5;0,25;80",
         "\xEF\xBB\xBFvalue\tframe\tnote\tstiffness\tslope\n2\t1\t\t\t\n\"4.5\"\t3\thi\t80\t0.25",
         " 1 , 2 \n 3 , 4.5 , 0.25 , 80 ",
+        "1,2\r\n\r\n\t\r\n \n  # a comment\r\n3,4.5,0.25,80\r\n\r\n", // blank lines of every kind
+        "\"1\",\"2\"\n\"3\",\"4.5\",\"0.25\",\"80\"",
     };
     for (size_t i = 0; i < sizeof texts / sizeof texts[0]; i++) {
         struct knot_list list;

@@ -56,10 +56,12 @@ static void swings_finer_than_a_column_are_a_band(void **state)
         }
         if (!band) fail_msg("no band with %g frames in sight", frames);
         const float *xy = list->points + 2 * band->first;
+        const float apart = (xy[2 * band->count - 2] - xy[0]) / (float)(band->count - 1);
         for (int c = 2; c + 3 < band->count; c++) {
             const float high = fminf(xy[2 * c + 1], xy[2 * c + 3]), low = fmaxf(xy[2 * c + 1], xy[2 * c + 3]);
             if (high > plot.y + plot.h / 4 + 1 || low < plot.y + 3 * plot.h / 4 - 1)
                 fail_msg("column %d with %g frames in sight is %g to %g", c, frames, high, low);
+            assert_near(xy[2 * c + 2] - xy[2 * c], apart, 1e-3);
         }
     }
     s.editor->curves->view = (struct view){0, 240, -2, 2};

@@ -216,6 +216,10 @@ static void test_knot_is_edited_in_place(void **state)
     panel_enter(&f, "frame", "60"); // where another knot sits
     assert_near(sway->knots[2].frame, 70, 0);
     assert_true(f.editor->core.message.is_error);
+    panel_press(&f, "frame", 1);
+    session_drag(&f, 600, 0, 1); // far beyond the scene: it stops at the last frame
+    panel_release(&f);
+    assert_near(sway->knots[2].frame, 96, 0);
     panel_click(&f, "has_slope");
     assert_true(sway->knots[2].has_slope);
     panel_enter(&f, "stiffness", "50");

@@ -162,6 +162,9 @@ static void a_dragged_body_sets_them_swinging(void **state)
     session_point(&s, "body(fox)");
     session_press(&s, BUTTON_LEFT, 1);
     for (int i = 1; i <= 10; i++) {
+        const double swing = swing_of(&s);
+        editor_pose(s.editor, &s.world); // as a window's first frame after a rest: no time has passed
+        assert_near(swing_of(&s), swing, 0);
         session_move(&s, 12, 0);
         session_frame(&s);
     }
@@ -176,6 +179,26 @@ static void a_dragged_body_sets_them_swinging(void **state)
     session_close(&s);
 }
 
+/// What a cubic moves has no swing of its own: its reeds are pushed aside, and that is all.
+static void reeds_that_nothing_pulls_back_do_not_swing(void **state)
+{
+    (void)state;
+    struct session s;
+    panel_open_models(&s, scene);
+    for (int mode = 0; mode < 2; mode++) session_key(&s, 'M', 0);
+    assert_int_equal(spline_mode(&s.document->splines[0]), WIGGLY_CUBIC);
+    session_point(&s, "body(fox)");
+    session_press(&s, BUTTON_LEFT, 1);
+    session_drag(&s, 120, 0, 10);
+    assert_near(swing_of(&s), 0, 0);
+    double pushed = 0;
+    const struct stage_meadow *meadow = &editor_stage(s.editor)->meadow;
+    for (int r = 0; r < meadow->count; r++) pushed = fmax(pushed, (double)fabsf(meadow->reeds[r].pushed[0]));
+    assert_true(pushed > 0.5);
+    session_release(&s, BUTTON_LEFT);
+    session_close(&s);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -185,6 +208,7 @@ int main(void)
         cmocka_unit_test(the_meadow_of_the_app_loops),
         cmocka_unit_test(they_are_solved_only_where_their_curves_change),
         cmocka_unit_test(a_dragged_body_sets_them_swinging),
+        cmocka_unit_test(reeds_that_nothing_pulls_back_do_not_swing),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
