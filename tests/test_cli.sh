@@ -37,6 +37,8 @@ says "says what was expected and got" "expected a whole number" "$err"
 says "and what it got" "'ten'" "$err"
 expect 2 "a size that is none" "$WIGGLY" live --headless --size 1280
 expect 2 "a theme that there is none of" "$WIGGLY" live --headless --theme pink
+expect 2 "a picture of what is not drawn" "$WIGGLY" live --no-draw --screenshot "$scratch/none.png"
+says "says what was expected" "--no-draw: expected no --screenshot" "$err"
 expect 2 "one argument too many" "$WIGGLY" check a.json b.json
 says "says which one" "'b.json'" "$err"
 
