@@ -98,6 +98,7 @@ fi
 # --- the live app without a display
 
 live() { "$WIGGLY" live --headless --size 640x360 "$@"; }
+blind() { "$WIGGLY" live --no-draw --size 640x360 "$@"; }
 expect 0 "live --headless" live --frames 90 --log "$scratch/live.csv" --screenshot "$scratch/live.png" --result "$scratch/end.json"
 says "prints the summary" "fps on average" "$out"
 [ "$(identify -format '%m %wx%h' "$scratch/live.png" 2>&1)" = "PNG 640x360" ]
@@ -114,8 +115,8 @@ allocations=$(awk -F, 'BEGIN { total = 0 }
 [ "$allocations" = 0 ]
 ok "playing allocates nothing" $?
 expect 0 "the document at the end is a good scene" "$WIGGLY" check "$scratch/end.json"
-expect 0 "it opens again" live --frames 2 "$scratch/end.json"
-expect 1 "live of a scene that is not there" live --frames 2 "$scratch/none.json"
+expect 0 "it opens again" blind --frames 2 "$scratch/end.json"
+expect 1 "live of a scene that is not there" blind --frames 2 "$scratch/none.json"
 says "is named" "none.json: cannot be opened" "$err"
 expect 0 "without a display and without --headless" "$WIGGLY" live --frames 2 --size 640x360
 says "it says that it runs headless" "headless" "$out$err"
@@ -135,7 +136,7 @@ says "and says where" "Picture: $picture, timing log: $log" "$out"
 expect 0 "make run ARGS=--help" make_run --help
 [[ ! -e $picture && $out != *Picture:* ]]
 ok "promises no picture that it did not make" $?
-elsewhere() { (cd "$scratch" && "$binary" live --headless --frames 2 --size 640x360); }
+elsewhere() { (cd "$scratch" && "$binary" live --no-draw --frames 2); }
 binary=$(realpath "$WIGGLY")
 expect 0 "the built-in tail is found from any folder" elsewhere
 
@@ -143,7 +144,7 @@ expect 0 "the built-in tail is found from any folder" elsewhere
 f12() { # [scene]: pressed twice
     (
         cd "$scratch/pictures" || exit
-        "$binary" live --headless --size 640x360 --frames 1 --record header "$@" || exit
+        "$binary" live --no-draw --size 640x360 --frames 1 --record header "$@" || exit
         { sed '/^frames/d' header; printf '%s\n' "frames 30" "5 key F12" "9 key F12"; } >f12.replay
         "$binary" live --headless --replay f12.replay "$@"
     )
@@ -156,8 +157,8 @@ expect 0 "F12 with a scene" f12 mine/scene.json
     "wiggly-0001.png wiggly-0002.png mine/scene.json mine/wiggly-0001.png mine/wiggly-0002.png" ]
 ok "leaves pictures with names of their own" $?
 
-expect 1 "live with a broken scene" live --frames 2 tests/vectors/complex_default.csv
-expect 3 "a log that cannot be made" live --frames 2 --log "$scratch/no/live.csv"
+expect 1 "live with a broken scene" blind --frames 2 tests/vectors/complex_default.csv
+expect 3 "a log that cannot be made" blind --frames 2 --log "$scratch/no/live.csv"
 one_sentence "says so in one line" "$err"
 says "with its path" "no/live.csv" "$err"
 exit $((cases_failed > 0))
