@@ -3,6 +3,7 @@
 
 #include "app/autosave.h"
 #include "base/file.h"
+#include "base/path.h"
 #include "folder.h"
 #include "scene/load.h"
 #include "world.h"
@@ -154,6 +155,46 @@ static void test_newest_first(void **state)
     }
 }
 
+/// The document's own path comes back whole, up to the longest that the system takes, with whatever a name may hold.
+static void test_paths(void **state)
+{
+    (void)state;
+    static const struct {
+        size_t length;
+        const char *end;
+    } paths[] = {{1023, "walk.json"},
+                 {1024, "walk.json"},
+                 {PATH_LIMIT - 1, "walk.json"},
+                 {40, "two\nlines\n"},
+                 {PATH_LIMIT - 1, "\n"}};
+    struct world world;
+    world_open(&world);
+    world_must(&world, edit_insert(SWAY, 5, 5));
+    for (size_t i = 0; i < sizeof paths / sizeof *paths; i++) {
+        struct autosave *autosave = open_autosave();
+        struct error error = {0};
+        struct recovery_entry entry;
+        char path[PATH_LIMIT];
+        const size_t length = paths[i].length, rest = strlen(paths[i].end);
+        for (size_t k = 0; k < length - rest; k++) path[k] = k % 200 == 0 ? '/' : 'a';
+        memcpy(path + length - rest, paths[i].end, rest + 1);
+        struct autosave_work work = work_of(&world);
+        work.path = path;
+        work.stamp = (struct file_stamp){.is_there = true, .size = 7, .content = 8};
+        assert_true(autosave_flush(autosave, &work, &error));
+        autosave_close(autosave, true);
+        assert_true(recovery_find(folder, path, &entry, NULL));
+        assert_string_equal(entry.original, path);
+        assert_true(entry.stamp.is_there && entry.stamp.size == 7 && entry.stamp.content == 8);
+        struct document *document = recovery_read(&entry.slot, &error);
+        if (!document) fail_msg("%s", error.text);
+        document_destroy(document);
+        recovery_remove(&entry.slot);
+        recovery_release(&entry.slot);
+    }
+    world_close(&world);
+}
+
 static void test_not_a_recovery_file(void **state)
 {
     (void)state;
@@ -257,6 +298,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(test_when, folder_make, folder_remove),
         cmocka_unit_test_setup_teardown(test_left_behind, folder_make, folder_remove),
         cmocka_unit_test_setup_teardown(test_newest_first, folder_make, folder_remove),
+        cmocka_unit_test_setup_teardown(test_paths, folder_make, folder_remove),
         cmocka_unit_test_setup_teardown(test_not_a_recovery_file, folder_make, folder_remove),
         cmocka_unit_test_setup_teardown(test_cannot_write, folder_make, folder_remove),
         cmocka_unit_test_setup_teardown(test_killed_while_saving, folder_make, folder_remove),

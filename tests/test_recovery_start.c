@@ -4,6 +4,7 @@
 
 #include "app/personal.h"
 #include "app/recovery.h"
+#include "base/file.h"
 #include "folder.h"
 #include <fcntl.h>
 #include <string.h>
@@ -40,7 +41,7 @@ static void leave(const char *original, const char *name)
 
 static int forget_all(void **state)
 {
-    char path[RECOVERY_PATH + 32];
+    char path[PATH_LIMIT + 32];
     (void)state;
     for (int n = 1; n <= 4; n++) {
         snprintf(path, sizeof path, "%s/recovery-%d", state_folder(), n);
@@ -62,12 +63,14 @@ static void end(struct blind *blind)
     blind_close(blind);
 }
 
-static void press(struct blind *blind, int key)
+static void press_with(struct blind *blind, int key, unsigned mods)
 {
-    blind_send(blind, (struct event){.kind = EVENT_KEY, .key = key, .action = ACTION_PRESS});
-    blind_send(blind, (struct event){.kind = EVENT_KEY, .key = key, .action = ACTION_RELEASE});
+    blind_send(blind, (struct event){.kind = EVENT_KEY, .key = key, .action = ACTION_PRESS, .mods = mods});
+    blind_send(blind, (struct event){.kind = EVENT_KEY, .key = key, .action = ACTION_RELEASE, .mods = mods});
     blind_frame(blind);
 }
+
+static void press(struct blind *blind, int key) { press_with(blind, key, 0); }
 
 static const struct dialog *dialog(const struct blind *blind) { return &blind->app.table.editor->dialogs->dialog; }
 static const char *message(const struct blind *blind) { return blind->app.table.editor->core.message.text; }
@@ -146,6 +149,42 @@ static void a_relative_name_is_the_same_scene(void **state)
     end(&blind);
 }
 
+/// A path of more than 1,023 bytes, with line breaks: the work goes back where it came from, by Ctrl+S, and the dialogs show where that is.
+static void a_long_path_is_the_same_scene(void **state)
+{
+    (void)state;
+    struct blind blind;
+    struct recovery_entry entry;
+    char path[PATH_LIMIT], *text;
+    size_t size;
+    struct error error;
+    size_t length = (size_t)snprintf(path, sizeof path, "%s", folder);
+    for (int i = 0; i < 9; i++) {
+        length += (size_t)snprintf(path + length, sizeof path - length, "/%0200d\n", i);
+        assert_int_equal(mkdir(path, 0700), 0);
+    }
+    snprintf(path + length, sizeof path - length, "/walk.json");
+    write_scene(path, "as saved");
+    leave(path, "recovered");
+    start(&blind, NULL);
+    press(&blind, 'R');
+    assert_string_equal(app_path(&blind.app), path);
+    press_with(&blind, 'S', MOD_CTRL);
+    press(&blind, 'K'); // what is in the file is not known: keep mine
+    assert_string_equal(message(&blind), "Saved.");
+    if (!file_read(path, 1 << 16, &text, &size, &error)) fail_msg("%s", error.text);
+    assert_non_null(strstr(text, "recovered"));
+    free(text);
+    press_with(&blind, 'S', MOD_CTRL | MOD_SHIFT);
+    assert_string_equal(dialog(&blind)->ui.text.bytes, path);
+    press(&blind, KEY_ESCAPE);
+    press_with(&blind, 'E', MOD_CTRL);
+    snprintf(path + length, sizeof path - length, "/walk.");
+    assert_memory_equal(blind.app.table.editor->dialogs->exporting.memory.path, path, strlen(path));
+    end(&blind);
+    assert_false(recovery_find(state_folder(), NULL, &entry, NULL));
+}
+
 static int prepare(void **state)
 {
     if (folder_make(state) != 0 || setenv("XDG_STATE_HOME", folder, 1) != 0) return -1;
@@ -160,6 +199,7 @@ int main(void)
         cmocka_unit_test_setup(its_own_work_is_offered, forget_all),
         cmocka_unit_test_setup(discarded_work_of_its_own_leaves_the_other, forget_all),
         cmocka_unit_test_setup(a_relative_name_is_the_same_scene, forget_all),
+        cmocka_unit_test_setup(a_long_path_is_the_same_scene, forget_all),
     };
     return cmocka_run_group_tests(tests, prepare, folder_remove);
 }

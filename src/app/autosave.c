@@ -22,11 +22,11 @@ enum outcome { OUTCOME_NONE, OUTCOME_KEPT, OUTCOME_FAILED };
 
 struct autosave {
     struct recovery_slot slot;
-    struct snapshot *snapshot;    ///< the frame's while the job is JOB_NONE, the thread's while it is another
-    char original[RECOVERY_PATH]; ///< the path of the document's own file; likewise
-    struct file_stamp stamp;      ///< of that; likewise
-    uint64_t revision;            ///< of the last copy
-    double taken;                 ///< when it was begun
+    struct snapshot *snapshot; ///< the frame's while the job is JOB_NONE, the thread's while it is another
+    char original[PATH_LIMIT]; ///< the path of the document's own file; likewise
+    struct file_stamp stamp;   ///< of that; likewise
+    uint64_t revision;         ///< of the last copy
+    double taken;              ///< when it was begun
     bool has_file, complained;
 
     char *text; ///< the thread's

@@ -341,7 +341,7 @@ static int list_folder(void *user, const char *folder, char names[][256], int ma
     int count = 0;
     struct dirent *entry;
     while (count < max && (entry = readdir(directory)) != NULL) {
-        char path[2048];
+        char path[PATH_LIMIT + 256];
         struct stat status;
         snprintf(path, sizeof path, "%s/%s", folder[0] ? folder : ".", entry->d_name);
         if (entry->d_name[0] == '.' || strlen(entry->d_name) > 254 || stat(path, &status) != 0) continue;

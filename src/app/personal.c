@@ -18,8 +18,8 @@
 static const char settings_name[] = "settings";
 
 struct personal {
-    char settings_path[RECOVERY_PATH + 16]; ///< "" where there is no folder for it
-    char state_folder[RECOVERY_PATH];
+    char settings_path[PATH_LIMIT + 16]; ///< "" where there is no folder for it
+    char state_folder[PATH_LIMIT];
     struct autosave *autosave;        ///< NULL: unsaved work is not kept
     struct recovery_entry offered;    ///< what the dialog asks about
     bool is_offered;                  ///< `offered` is claimed
@@ -67,7 +67,7 @@ static void start_settings(struct app *app)
 {
     struct personal *personal = app->personal;
     struct error error = {0};
-    char folder[RECOVERY_PATH];
+    char folder[PATH_LIMIT];
     if (folder_make(FOLDER_CONFIG, folder, sizeof folder, &error)) {
         snprintf(personal->settings_path, sizeof personal->settings_path, "%s/%s", folder, settings_name);
     }

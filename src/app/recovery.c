@@ -18,7 +18,7 @@ static const size_t LARGEST = (size_t)1 << 30;
 /// The lock file is never removed: that would let two programs hold two locks of one name.
 static bool claim_slot(const char *folder, int n, struct recovery_slot *slot)
 {
-    char lock[RECOVERY_PATH + 16];
+    char lock[PATH_LIMIT + 16];
     int length = snprintf(slot->path, sizeof slot->path, "%s/recovery-%d", folder, n);
     if (length >= (int)sizeof slot->path) {
         errno = ENAMETOOLONG;
@@ -77,26 +77,39 @@ static int parse_stamp(const char *line, struct file_stamp *stamp)
     return length + 1;
 }
 
-/// The path in a file's first line, "" if there is none, and the stamp (may be NULL) in its second.
-static void read_original(const char *path, char original[RECOVERY_PATH], struct file_stamp *stamp)
+/// A name may hold line breaks, but no NUL: in the first line each stands for the other.
+static void swap_line_breaks(char *path, size_t length, char from, char to)
 {
-    char line[RECOVERY_PATH + sizeof first_line] = "", second[64] = "";
-    const size_t prefix = sizeof first_line - 1;
+    for (size_t i = 0; i < length; i++) {
+        if (path[i] == from) path[i] = to;
+    }
+}
+
+/// The path in a file's first line, "" if there is none, and the stamp (may be NULL) in its second.
+static void read_original(const char *path, char original[PATH_LIMIT], struct file_stamp *stamp)
+{
+    char start[PATH_LIMIT + 128];
+    const size_t prefix = sizeof first_line; // with a space in place of its end
     FILE *file = fopen(path, "r");
     original[0] = '\0';
     if (!file) return;
-    bool good = fgets(line, sizeof line, file) && strncmp(line, first_line, prefix) == 0 && line[prefix] == ' ';
-    if (good && stamp && fgets(second, sizeof second, file)) parse_stamp(second, stamp);
+    const size_t size = fread(start, 1, sizeof start - 1, file);
     fclose(file);
-    if (!good) return;
-    line[strcspn(line, "\n")] = '\0';
-    memcpy(original, line + prefix + 1, strlen(line + prefix + 1) + 1);
+    start[size] = '\0';
+    const char *end = memchr(start, '\n', size);
+    const bool good = end && strncmp(start, first_line, prefix - 1) == 0 && start[prefix - 1] == ' ';
+    const size_t length = good ? (size_t)(end - start) - prefix : 0;
+    if (!good || length >= PATH_LIMIT) return;
+    memcpy(original, start + prefix, length);
+    original[length] = '\0';
+    swap_line_breaks(original, length, '\0', '\n');
+    if (stamp) parse_stamp(end + 1, stamp);
 }
 
 /// Whether a slot's file has work on that document.
 static bool is_of(const char *path, const char *of)
 {
-    char original[RECOVERY_PATH], kept[PATH_LIMIT], wanted[PATH_LIMIT];
+    char original[PATH_LIMIT], kept[PATH_LIMIT], wanted[PATH_LIMIT];
     read_original(path, original, NULL);
     return original[0] && path_resolve(NULL, original, kept) && path_resolve(NULL, of, wanted) &&
            strcmp(kept, wanted) == 0;
@@ -109,7 +122,7 @@ bool recovery_find(const char *folder, const char *of, struct recovery_entry *en
     for (int n = 1; n <= RECOVERY_SLOTS; n++) {
         struct recovery_slot slot;
         struct stat about;
-        char path[RECOVERY_PATH];
+        char path[PATH_LIMIT];
         snprintf(path, sizeof path, "%s/recovery-%d", folder, n);
         if (stat(path, &about) != 0 || (of && !is_of(path, of)) || !claim_slot(folder, n, &slot)) continue;
         bool newer = found++ == 0 || about.st_mtim.tv_sec > newest.tv_sec ||
@@ -155,11 +168,14 @@ bool recovery_write(const struct recovery_slot *slot, const char *original, cons
 {
     struct file_output output;
     char absolute[PATH_LIMIT]; // the next start may have another working folder
-    bool fits = original[0] && path_resolve(NULL, original, absolute) && strlen(absolute) < RECOVERY_PATH &&
-                !strchr(absolute, '\n'); // else it is recovered as untitled
+    const bool fits = original[0] && path_resolve(NULL, original, absolute); // else it is recovered as untitled
+    const size_t length = fits ? strlen(absolute) : 0;
     if (!file_output_open(&output, slot->path, error)) return false;
     fchmod(fileno(output.stream), 0600); // the work is nobody else's
-    fprintf(output.stream, "%s %s\n", first_line, fits ? absolute : "");
+    swap_line_breaks(absolute, length, '\n', '\0');
+    fprintf(output.stream, "%s ", first_line);
+    fwrite(absolute, 1, length, output.stream);
+    fputc('\n', output.stream);
     if (fits && stamp && stamp->is_there)
         fprintf(output.stream, "file %lld %llx\n", (long long)stamp->size, (unsigned long long)stamp->content);
     fwrite(text, 1, size, output.stream);

@@ -3,7 +3,8 @@
 /// Slot n of a folder is the file recovery-n and its lock recovery-n.lock, which its program holds while it runs: the
 /// lock ends with the process, however that ends. A file whose lock is free was left behind and can be offered. It holds
 ///
-///     wiggly-recovery 1 /home/me/walk.json      (the absolute path of the document's own file; nothing for an untitled one)
+///     wiggly-recovery 1 /home/me/walk.json      (the absolute path of the document's own file, with NUL for a line break;
+///                                               nothing for an untitled one)
 ///     { "wiggly": 1, …                          (the document's canonical text, for a file in RECOVERY_FOLDER)
 ///
 /// and, if its characters are painted, a NUL and their paint (scene/load.h). Where it is known what was in the document's own file, a line
@@ -12,6 +13,7 @@
 #define APP_RECOVERY_H
 
 #include "base/error.h"
+#include "base/path.h"
 #include "base/stamp.h"
 #include "scene/document.h"
 #include <stddef.h>
@@ -19,11 +21,11 @@
 
 #define RECOVERY_FOLDER "/" /* paths in the text are relative to it: an untitled document has no folder of its own */
 
-enum { RECOVERY_SLOTS = 64, RECOVERY_PATH = 1024 };
+enum { RECOVERY_SLOTS = 64 };
 
 struct recovery_slot {
     int lock; ///< descriptor
-    char path[RECOVERY_PATH];
+    char path[PATH_LIMIT];
 };
 
 /// Takes a free slot without a file. false with a sentence if there is none or the folder cannot be written.
@@ -35,9 +37,9 @@ void recovery_release(struct recovery_slot *slot);
 /// A file that was left behind.
 struct recovery_entry {
     struct recovery_slot slot;
-    time_t time;                  ///< when it was written
-    char original[RECOVERY_PATH]; ///< path of the document's own file, or ""
-    struct file_stamp stamp;      ///< that file as the work began with it; nothing there: unknown
+    time_t time;               ///< when it was written
+    char original[PATH_LIMIT]; ///< path of the document's own file, or ""
+    struct file_stamp stamp;   ///< that file as the work began with it; nothing there: unknown
 };
 
 /// Claims the slot with the newest file left behind, of the document's file `of` where that is not NULL; the caller releases it.

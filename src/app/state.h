@@ -40,7 +40,7 @@ struct app {
     struct platform *platform;
     struct draw *draw; ///< NULL: frames run to the end, but for the picture
     struct table table;
-    char replaceable[1024]; ///< "save as" was asked for this existing file once
+    char replaceable[PATH_LIMIT]; ///< "save as" was asked for this existing file once
     struct own_file own_file;
     unsigned last_serial;  ///< of the documents that were on the table
     unsigned sized_serial; ///< of the document whose models were measured

@@ -10,6 +10,7 @@
 #ifndef UI_WIDGETS_H
 #define UI_WIDGETS_H
 
+#include "base/path.h"
 #include "ui/drawlist.h"
 #include "ui/event.h"
 
@@ -19,7 +20,7 @@ enum {
     UI_LABEL = 84,      ///< width of the label column
     UI_GAP = 8,         ///< between things in a row
     UI_MAX_FOCUS = 160, ///< widgets of one panel that Tab can reach
-    UI_TEXT_SIZE = 1024,
+    UI_TEXT_SIZE = PATH_LIMIT,
 };
 
 /// What the pointer is over, for the cursor.

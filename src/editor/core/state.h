@@ -290,9 +290,9 @@ struct core {
     bool refit_stage;      ///< all of the stage is to be in sight
     bool refit_curves;     ///< all curves are to be, once they are solved
 
-    unsigned serial; ///< of the document on the table
-    char title[256]; ///< the file's name, or "untitled"
-    char path[1024]; ///< of the document's own file, or ""
+    unsigned serial;       ///< of the document on the table
+    char title[256];       ///< the file's name, or "untitled"
+    char path[PATH_LIMIT]; ///< of the document's own file, or ""
     struct message message;
     struct ask ask;  ///< what is to be asked next
     char *clipboard; ///< knots that were copied, as text; NULL at first

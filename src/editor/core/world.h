@@ -2,6 +2,7 @@
 #ifndef EDITOR_CORE_WORLD_H
 #define EDITOR_CORE_WORLD_H
 
+#include "base/path.h"
 #include "rig/models.h"
 #include "rig/posing.h"
 #include "scene/background.h"
@@ -57,7 +58,7 @@ struct export_wish {
 struct request {
     enum request_kind kind;
     int number;
-    char path[1024];
+    char path[PATH_LIMIT];
     struct export_wish wish;
 };
 

@@ -35,19 +35,18 @@ static const struct dialog_format *format_of(const struct dialogs *dialogs)
 }
 
 /// A path with the ending of a format in place of that of another; false where it is too long.
-static bool with_ending(const struct dialog_files *files, const char *path, int format, char full[DIALOG_PATH_SIZE])
+static bool with_ending(const struct dialog_files *files, const char *path, int format, char full[PATH_LIMIT])
 {
     const size_t length = strlen(path);
     const int old = format_by_ending(files, path);
     const size_t stem = old >= 0 ? length - strlen(files->formats[old].ending) : length;
-    return snprintf(full, DIALOG_PATH_SIZE, "%.*s%s", (int)stem, path, files->formats[format].ending) <
-           DIALOG_PATH_SIZE;
+    return snprintf(full, PATH_LIMIT, "%.*s%s", (int)stem, path, files->formats[format].ending) < PATH_LIMIT;
 }
 
 static void choose_format(struct dialogs *dialogs, int format)
 {
     struct exporting *exporting = &dialogs->exporting;
-    char full[DIALOG_PATH_SIZE];
+    char full[PATH_LIMIT];
     if (with_ending(&dialogs->dialog.files, exporting->memory.path, format, full))
         memcpy(exporting->memory.path, full, sizeof full);
     exporting->format = format;
@@ -58,20 +57,20 @@ static void choose_format(struct dialogs *dialogs, int format)
 /// An absolute path without the ending of its file's name; false where it is too long for a dialog.
 static bool stem_of(const char *folder, const char *path, char stem[PATH_LIMIT])
 {
-    if (!path_resolve(folder, path, stem) || strlen(stem) >= DIALOG_PATH_SIZE - STEM_MORE) return false;
+    if (!path_resolve(folder, path, stem) || strlen(stem) >= PATH_LIMIT - STEM_MORE) return false;
     char *dot = strrchr(stem, '.'), *slash = strrchr(stem, '/');
     if (dot && dot > slash + 1) *dot = '\0';
     return true;
 }
 
 /// Beside the scene's file and called like it, or else like its character; but never like that character's own file.
-static void name_export(char path[DIALOG_PATH_SIZE], const struct core *core, const struct document *document)
+static void name_export(char path[PATH_LIMIT], const struct core *core, const struct document *document)
 {
     char scene[PATH_LIMIT], own[PATH_LIMIT];
     const int model = document_find_rig(document, RIG_MODEL, 0);
     const bool has_model = model >= 0 && stem_of(document->folder, document->rigs[model].model.model, own);
     const char *like = core->path[0] ? core->path : has_model ? own : "untitled";
-    snprintf(path, DIALOG_PATH_SIZE, "%.*s", DIALOG_PATH_SIZE - STEM_MORE, like);
+    snprintf(path, PATH_LIMIT, "%.*s", PATH_LIMIT - STEM_MORE, like);
     if (path_has_end(path, ".json")) path[strlen(path) - strlen(".json")] = '\0';
     if (has_model && (like == own || (stem_of(NULL, core->path, scene) && strcmp(scene, own) == 0)))
         strcat(path, "-animated");
@@ -129,7 +128,7 @@ static void confirm(struct dialogs *dialogs, struct core *core)
     struct dialog *dialog = &dialogs->dialog;
     const struct export_memory *memory = &dialogs->exporting.memory;
     if (is_running(dialog)) return;
-    char full[DIALOG_PATH_SIZE];
+    char full[PATH_LIMIT];
     const char *name = path_name(memory->path);
     if (!*name || *name == '.') {
         snprintf(dialog->error, sizeof dialog->error, "Type a file name.");
@@ -202,7 +201,7 @@ static void build_path(struct dialogs *dialogs)
 {
     struct exporting *exporting = &dialogs->exporting;
     char *path = exporting->memory.path;
-    if (!build_text(dialogs, ui_row(&dialogs->dialog.ui, 28), path_field, path, DIALOG_PATH_SIZE)) return;
+    if (!build_text(dialogs, ui_row(&dialogs->dialog.ui, 28), path_field, path, PATH_LIMIT)) return;
     const int format = format_by_ending(&dialogs->dialog.files, path);
     if (format >= 0) exporting->format = format;
 }
@@ -455,7 +454,7 @@ static void build_buttons(struct dialogs *dialogs, struct core *core)
     enum { CANCEL_WIDTH = 104, WRITE_WIDTH = 240 };
     const struct dialog *dialog = &dialogs->dialog;
     struct ui *ui = &dialogs->dialog.ui;
-    char label[64], full[DIALOG_PATH_SIZE] = "";
+    char label[64], full[PATH_LIMIT] = "";
     const struct rect row = ui_row(ui, 28);
     const struct rect right = {row.x + row.w - WRITE_WIDTH, row.y, WRITE_WIDTH, row.h};
     const float end = is_running(dialog) ? row.x + row.w : right.x - UI_GAP;

@@ -7,12 +7,12 @@
 
 struct editor;
 
-enum { DIALOG_MAX_RECENT = 12, DIALOG_PATH_SIZE = 1024 };
+enum { DIALOG_MAX_RECENT = 12 };
 
 /// A file that was opened or saved before.
 struct dialog_recent {
-    char path[DIALOG_PATH_SIZE]; ///< absolute
-    bool missing;                ///< it is not there any more, or cannot be read
+    char path[PATH_LIMIT]; ///< absolute
+    bool missing;          ///< it is not there any more, or cannot be read
 };
 
 /// Writes at most `most` recent files, newest first; returns how many.
@@ -50,7 +50,7 @@ struct dialog_files {
 
 /// What was exported last, and from which scene's file.
 struct export_memory {
-    char path[DIALOG_PATH_SIZE], scene[DIALOG_PATH_SIZE];
+    char path[PATH_LIMIT], scene[PATH_LIMIT];
     struct export_wish wish;
 };
 

@@ -106,7 +106,7 @@ bool dialog_exists(const struct dialog *dialog)
 /// A recent file: its name, and right of it the folder that it is in.
 static void label_recent(struct ui *ui, struct rect r, const struct dialog_recent *recent)
 {
-    char folder[DIALOG_PATH_SIZE];
+    char folder[PATH_LIMIT];
     const char *slash = strrchr(recent->path, '/');
     int length = slash && slash > recent->path ? (int)(slash - recent->path) : 1;
     snprintf(folder, sizeof folder, "%.*s", length, recent->path);
