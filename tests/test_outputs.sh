@@ -39,9 +39,13 @@ kill -9 "$exporting"
 wait "$exporting" 2>/dev/null
 [ -n "$left" ] && [ -e "$left" ]
 ok "a killed export leaves pictures in a folder of its own" $?
+touch "$scratch/pictures/a-0002.png"
+chmod 600 "$scratch/pictures/a-0002.png"
 expect 0 "the next one is made" "$WIGGLY" export $scene --frames 0:1 --size 64x36 -o "$scratch/pictures/a.png"
 [ "$(find "$scratch/pictures" -type f -printf '%P\n' | sort | tr '\n' ' ')" = ".wiggly-$$-0.tmp/1.png a-0001.png a-0002.png " ]
 ok "and takes that folder away, but none of a living program" $?
+[ "$(stat -c '%a' "$scratch/pictures/a-0002.png")" = 600 ]
+ok "and a picture that is replaced stays as private as it was" $?
 
 escape=$(printf '\033')
 name="$scratch/${escape}[31mred"$'\n'"two.json"

@@ -35,6 +35,9 @@ static inline bool changes_files(unsigned long long call)
     case SYS_rename:
     case SYS_renameat:
     case SYS_fchmod:
+    case SYS_fchown:
+    case SYS_fsetxattr:
+    case SYS_fremovexattr:
     case SYS_close:
         return true;
     default:

@@ -106,10 +106,7 @@ static enum film_state finish(struct film_file *file, bool wait, off_t *bytes, s
             return FILM_FAILED;
         }
         if (stat(from, &about) == 0) *bytes += about.st_size;
-        if (rename(from, to) != 0) {
-            fail(error, ERROR_ENVIRONMENT, "%s: cannot be written: %s", to, strerror(errno));
-            return FILM_FAILED;
-        }
+        if (!file_move(from, to, error)) return FILM_FAILED;
     }
     return FILM_DONE;
 }

@@ -10,9 +10,12 @@
 #include <string.h>
 #include <sys/file.h>
 #include <sys/stat.h>
+#include <sys/xattr.h>
 #include <unistd.h>
 
 enum { READ_BLOCK = 1 << 16, MAX_LINKS = 32, MAX_NAMES = 100 };
+
+static const char acl_name[] = "system.posix_acl_access";
 
 static bool fail_to(struct error *error, enum error_kind kind, const char *doing, const char *path, int cause)
 {
@@ -163,7 +166,7 @@ static void sweep(const char *target)
 }
 
 /// Makes a new file beside the target, or a folder; the kernel applies the umask. Returns the descriptor or -1 with errno set.
-static int create_beside(const char *target, bool is_folder, char **temporary)
+static int create_beside(const char *target, bool is_folder, mode_t mode, char **temporary)
 {
     errno = ENOMEM;
     for (int i = 0; i < MAX_NAMES; i++) {
@@ -171,8 +174,8 @@ static int create_beside(const char *target, bool is_folder, char **temporary)
         snprintf(name, sizeof name, ".wiggly-%ld-%d.tmp", (long)getpid(), i);
         *temporary = beside(target, name);
         if (!*temporary) return -1;
-        int file = !is_folder                     ? open(*temporary, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666)
-                   : mkdir(*temporary, 0700) == 0 ? open(*temporary, O_RDONLY | O_DIRECTORY | O_CLOEXEC)
+        int file = !is_folder                     ? open(*temporary, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, mode)
+                   : mkdir(*temporary, mode) == 0 ? open(*temporary, O_RDONLY | O_DIRECTORY | O_CLOEXEC)
                                                   : -1;
         if (file >= 0) {
             flock(file, LOCK_EX | LOCK_NB); // a sign of life for remove_stale()
@@ -190,14 +193,40 @@ static int create_beside(const char *target, bool is_folder, char **temporary)
 int file_folder_beside(const char *path, char **folder)
 {
     sweep(path);
-    return create_beside(path, true, folder);
+    return create_beside(path, true, 0700, folder);
+}
+
+/// The rights that everyone but the owner had: the group, others, and each entry of the ACL (8 bytes: tag, rights, id).
+static mode_t common_rights(mode_t mode, const unsigned char *acl, ssize_t size)
+{
+    enum { VERSION = 4, ENTRY = 8, OWNER = 1 };
+    mode_t common = mode >> 3 & mode & 7;
+    for (ssize_t at = VERSION; at + ENTRY <= size; at += ENTRY) {
+        if (acl[at] != OWNER) common &= acl[at + 2];
+    }
+    return common;
+}
+
+/// Gives a new file the owner, group, mode and ACL of an old one. If the group or the ACL cannot be set, the group and others get only
+/// the rights that both had before: a member of the old group is one of the others now.
+static bool keep_rights(int file, const char *path, const struct stat *old)
+{
+    unsigned char acl[XATTR_SIZE_MAX];
+    const ssize_t size = getxattr(path, acl_name, acl, sizeof acl);
+    const bool has_owner = fchown(file, old->st_uid, old->st_gid) == 0;
+    const bool has_group = has_owner || fchown(file, (uid_t)-1, old->st_gid) == 0;
+    fremovexattr(file, acl_name); // what the folder gives to new files
+    const bool kept = has_group && (size < 0 || fsetxattr(file, acl_name, acl, (size_t)size, 0) == 0);
+    const mode_t common = common_rights(old->st_mode, acl, size);
+    const mode_t rest = kept ? old->st_mode & 0077 : common << 3 | common;
+    return fchmod(file, (old->st_mode & 0700) | rest) == 0;
 }
 
 /// Opens what is to be written: a file beside the target, or the target itself where it is a device or a pipe.
-static int open_output(const char *path, struct file_output *output)
+static int open_output(const char *path, const char *like, struct file_output *output)
 {
     struct stat old;
-    bool exists = stat(path, &old) == 0;
+    const bool exists = stat(path, &old) == 0;
     if (exists && S_ISDIR(old.st_mode)) {
         errno = EISDIR;
         return -1;
@@ -207,24 +236,30 @@ static int open_output(const char *path, struct file_output *output)
     output->target = resolve_links(path);
     if (!output->target) return -1;
     sweep(output->target);
-    int file = create_beside(output->target, false, &output->temporary);
-    if (file >= 0 && exists && fchmod(file, old.st_mode & 07777) != 0) {
+    const bool keeps = stat(like, &old) == 0;
+    int file = create_beside(output->target, false, keeps ? 0600 : 0666, &output->temporary);
+    if (file >= 0 && keeps && !keep_rights(file, like, &old)) {
         close(file);
         return -1;
     }
     return file;
 }
 
-bool file_output_open(struct file_output *output, const char *path, struct error *error)
+bool file_output_open_like(struct file_output *output, const char *path, const char *like, struct error *error)
 {
     *output = (struct file_output){.path = path};
-    int file = open_output(path, output);
+    int file = open_output(path, like, output);
     if (file >= 0) output->stream = fdopen(file, "wb");
     if (output->stream) return true;
     int cause = errno;
     if (file >= 0) close(file);
     file_output_discard(output);
     return fail_to(error, ERROR_ENVIRONMENT, "be written", path, cause);
+}
+
+bool file_output_open(struct file_output *output, const char *path, struct error *error)
+{
+    return file_output_open_like(output, path, path, error);
 }
 
 /// The folder's entry must reach the disk too. Where a file system cannot do that, the content is safe all the same.
@@ -270,6 +305,18 @@ void file_output_discard(struct file_output *output)
     free(output->temporary);
     free(output->target);
     *output = (struct file_output){0};
+}
+
+bool file_move(const char *from, const char *to, struct error *error)
+{
+    struct stat old;
+    bool good = true;
+    if (lstat(to, &old) == 0 && S_ISREG(old.st_mode)) {
+        const int file = open(from, O_RDONLY | O_CLOEXEC);
+        good = file >= 0 && keep_rights(file, to, &old);
+        if (file >= 0) close(file);
+    }
+    return (good && rename(from, to) == 0) || fail_to(error, ERROR_ENVIRONMENT, "be written", to, errno);
 }
 
 bool file_write_atomic(const char *path, const void *data, size_t size, struct error *error)

@@ -11,7 +11,8 @@
 bool file_read(const char *path, size_t limit, char **data, size_t *size, struct error *error);
 
 /// Writes to a temporary file beside `path`, checks every call, fsyncs, renames. On failure the old file is intact
-/// and the temporary one is gone. A symbolic link's target is replaced, not the link; the old file's mode is kept.
+/// and the temporary one is gone. A symbolic link's target is replaced, not the link. Owner, group, mode and ACL of the old file are kept;
+/// where the system does not let us, the new one allows everybody else less, never more.
 bool file_write_atomic(const char *path, const void *data, size_t size, struct error *error);
 
 /// The same for output written piece by piece; a device or a pipe is written directly.
@@ -24,12 +25,18 @@ struct file_output {
 /// Opens the temporary file. `path` must live until the end.
 bool file_output_open(struct file_output *output, const char *path, struct error *error);
 
+/// The same with the rights of the file `like`, if there is one: for content that goes from one name to another.
+bool file_output_open_like(struct file_output *output, const char *path, const char *like, struct error *error);
+
 /// Checks what was written, fsyncs, renames, and closes; on failure the old file is intact and the temporary one is
 /// gone.
 bool file_output_commit(struct file_output *output, struct error *error);
 
 /// Closes and removes the temporary file.
 void file_output_discard(struct file_output *output);
+
+/// Moves a file that is whole to its place; one that is there is replaced, and its rights are kept.
+bool file_move(const char *from, const char *to, struct error *error);
 
 /// Makes a folder beside `path` for files that are moved there when all are whole. What a killed program leaves of it, files and all,
 /// goes with the next output beside it. Returns a descriptor to keep open for as long as the folder is there, and in `folder` its path,

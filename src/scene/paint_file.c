@@ -107,12 +107,12 @@ void paint_print(struct text *text, const struct paint *paint)
     text_bytes(text, (const char *)paint->values, values_size(paint));
 }
 
-bool paint_write(const struct paint *paint, const char *path, struct error *error)
+bool paint_write(const struct paint *paint, const char *path, const char *like, struct error *error)
 {
     struct file_output output;
     char header[NPY_HEADER];
     header_of(paint, header);
-    if (!file_output_open(&output, path, error)) return false;
+    if (!file_output_open_like(&output, path, like, error)) return false;
     fwrite(header, 1, sizeof header, output.stream);
     fwrite(paint->values, 1, values_size(paint), output.stream);
     return file_output_commit(&output, error);

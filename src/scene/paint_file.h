@@ -12,8 +12,8 @@ struct paint *paint_read(const char *path, struct error *error);
 /// The same from memory; `name` stands for the path.
 struct paint *paint_parse(const char *name, const char *data, size_t size, struct error *error);
 
-/// Writes a file, whole or not at all.
-bool paint_write(const struct paint *paint, const char *path, struct error *error);
+/// Writes a file, whole or not at all, with the rights of the file `like`, if there is one.
+bool paint_write(const struct paint *paint, const char *path, const char *like, struct error *error);
 
 /// Bytes of the file, and the file appended to a text.
 size_t paint_file_size(const struct paint *paint);

@@ -81,7 +81,7 @@ static bool save_sheet(struct document *document, int index, struct leftovers *l
         return fail(error, ERROR_ENVIRONMENT, "%s: there is no name left for its paint", scene);
     leftovers_note(leftovers, sheet->file);
     if (sheet->replaced[0]) leftovers_note(leftovers, sheet->replaced);
-    if (!paint_write(rig->painted, sheet->file, error)) return false;
+    if (!paint_write(rig->painted, sheet->file, sheet->replaced, error)) return false;
     if (!name_file(document, rig, sheet, error)) {
         unlink(sheet->file);
         return false;
