@@ -47,6 +47,28 @@ ok "and takes that folder away, but none of a living program" $?
 [ "$(stat -c '%a' "$scratch/pictures/a-0002.png")" = 600 ]
 ok "and a picture that is replaced stays as private as it was" $?
 
+# A pipe that nobody reads holds nothing up; one with a reader, or a device, is written where the command line names it.
+mkfifo "$scratch/pipe" "$scratch/pipe.csv" "$scratch/pipe.gif" "$scratch/pipe-0002.png" "$scratch/pipe.json"
+for option in --log --record --screenshot --result; do
+    expect 3 "$option to a pipe that nobody reads" timeout 60 "$WIGGLY" live --headless --frames 1 $option "$scratch/pipe" $scene
+    says "says so" "$scratch/pipe: cannot be written: it is a pipe that nobody reads" "$err"
+done
+expect 3 "a table to a pipe that nobody reads" timeout 60 "$WIGGLY" solve $scene -o "$scratch/pipe"
+says "says so" "it is a pipe that nobody reads" "$err"
+for end in .csv .gif -%04d.png; do
+    expect 3 "no export goes to a pipe ($end)" timeout 60 "$WIGGLY" export $scene --frames 0:1 --size 64x36 -o "$scratch/pipe$end"
+    says "says so" "expected a file, got something else (a device or a pipe)" "$err"
+done
+[ -p "$scratch/pipe.csv" ] && [ -p "$scratch/pipe-0002.png" ]
+ok "the pipes are there still" $?
+expect 1 "no scene comes from a pipe" timeout 60 "$WIGGLY" live --headless --frames 1 "$scratch/pipe.json"
+says "says so" "pipe.json: expected a file, got something else" "$err"
+"$WIGGLY" solve $scene >"$scratch/plain.csv"
+"$WIGGLY" solve $scene -o /dev/stdout | cmp - "$scratch/plain.csv" && "$WIGGLY" solve $scene -o >(cat >"$scratch/piped.csv")
+wait $!
+cmp "$scratch/piped.csv" "$scratch/plain.csv"
+ok "a pipe with a reader gets the table" $?
+
 escape=$(printf '\033')
 name="$scratch/${escape}[31mred"$'\n'"two.json"
 raw() { case ${1-$err} in *"$escape"*) true ;; *) false ;; esac }

@@ -499,6 +499,59 @@ static int prepare(void **state)
     return setenv("XDG_STATE_HOME", folder_path("state"), 1) || setenv("XDG_CONFIG_HOME", folder_path("config"), 1);
 }
 
+/// Asks the app for something, and returns what it says about it, once it does.
+static const char *said(struct blind *blind, enum request_kind kind, const char *path)
+{
+    struct core *core = &blind->app.table.editor->core;
+    core->message = (struct message){0};
+    core_request(core, kind, path);
+    for (int i = 0; i < 2000 && !core->message.text[0]; i++) {
+        blind_frame(blind);
+        if (i > 1) nanosleep(&(struct timespec){.tv_nsec = 5000000}, NULL); // an export has a thread of its own
+    }
+    return core->message.text;
+}
+
+/// Opening one would wait for whoever is at its other end; the app goes on, and the work stays unsaved.
+static void a_pipe_is_neither_read_nor_written(void **state)
+{
+    (void)state;
+    static const struct {
+        enum request_kind kind;
+        const char *name;
+        int times; ///< what is there is replaced when it is asked for again
+    } asked_for[] = {{REQUEST_OVERWRITE, NULL, 1},
+                     {REQUEST_SAVE_AS, "pipe.json", 2},
+                     {REQUEST_EXPORT, "pipe.csv", 2},
+                     {REQUEST_OPEN, "pipe.json", 1},
+                     {REQUEST_ADD, "pipe.glb", 1}};
+    struct blind blind;
+    struct stat about;
+    char recovery[160];
+    snprintf(recovery, sizeof recovery, "%s/wiggly/recovery-1", getenv("XDG_STATE_HOME"));
+    open_mine(&blind);
+    unlink(recovery);
+    assert_int_equal(mkfifo(recovery, 0600), 0);
+    alarm(60); // it would wait for ever
+    personal_start(&blind.app);
+    personal_end(&blind.app, false);
+    unlink(recovery);
+    for (size_t i = 0; i < sizeof asked_for / sizeof *asked_for; i++) {
+        char path[128];
+        snprintf(path, sizeof path, "%s", asked_for[i].name ? folder_path(asked_for[i].name) : scene());
+        unlink(path);
+        assert_int_equal(mkfifo(path, 0600), 0);
+        const char *text = "";
+        for (int k = 0; k < asked_for[i].times; k++) text = said(&blind, asked_for[i].kind, path);
+        if (!strstr(text, "expected a file, got something else")) fail_msg("%s: \"%s\"", path, text);
+        assert_int_equal(stat(path, &about), 0);
+        assert_true(S_ISFIFO(about.st_mode));
+    }
+    assert_false(history_is_saved(blind.app.table.history));
+    alarm(0);
+    blind_close(&blind);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -518,6 +571,7 @@ int main(void)
         cmocka_unit_test(their_paint_is_taken),
         cmocka_unit_test(the_mouse_answers),
         cmocka_unit_test(what_others_wrote_before_recovery_is_noticed),
+        cmocka_unit_test(a_pipe_is_neither_read_nor_written),
     };
     return cmocka_run_group_tests(tests, prepare, folder_remove);
 }

@@ -3,6 +3,7 @@
 #include "app/exporting.h"
 #include "app/state.h"
 #include "base/embedded.h"
+#include "base/file.h"
 #include "base/path.h"
 #include "base/png.h"
 #include "base/printable.h"
@@ -175,7 +176,7 @@ static bool add_file(struct app *app, const char *path, struct error *error)
 static bool save(struct app *app, const char *path, struct error *error)
 {
     char folder[PATH_LIMIT];
-    if (!scene_save(app->table.document, path, error)) return false;
+    if (!file_check_place(path, error) || !scene_save(app->table.document, path, error)) return false;
     if (!path_folder(path, folder) || !history_set_folder(app->table.history, app->table.document, folder)) {
         return fail(error, ERROR_ENVIRONMENT, "%s is saved, but there is not enough memory to continue", path);
     }

@@ -1,6 +1,7 @@
 /// Films a scene: which frames, how large, and picture after picture.
 #include "app/film.h"
 #include "app/film_file.h"
+#include "base/file.h"
 #include "base/path.h"
 #include "draw/picture.h"
 #include "platform/platform.h"
@@ -124,7 +125,7 @@ struct film *film_open(const struct editor_world *world, const char *path, const
     film->format = find_format(path);
     film->path = path;
     film->world = *world;
-    if (choose_shape(film, options, error) && choose_frames(film, options, error) &&
+    if (file_check_place(path, error) && choose_shape(film, options, error) && choose_frames(film, options, error) &&
         (film->editor = editor_create(error)) &&
         (film->picture = picture_create(film->shape.width, film->shape.height, error)) &&
         (film->file = film->format->file->open(path, &film->shape, error))) {

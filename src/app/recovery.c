@@ -89,14 +89,15 @@ static void swap_line_breaks(char *path, size_t length, char from, char to)
 static void read_original(const char *path, char original[PATH_LIMIT], struct file_stamp *stamp)
 {
     char start[PATH_LIMIT + 128];
-    const size_t prefix = sizeof first_line; // with a space in place of its end
-    FILE *file = fopen(path, "r");
+    const size_t prefix = sizeof first_line;                        // with a space in place of its end
+    const int file = open(path, O_RDONLY | O_NONBLOCK | O_CLOEXEC); // a FIFO would wait for a writer
     original[0] = '\0';
-    if (!file) return;
-    const size_t size = fread(start, 1, sizeof start - 1, file);
-    fclose(file);
+    if (file < 0) return;
+    const ssize_t size = read(file, start, sizeof start - 1);
+    close(file);
+    if (size < 0) return;
     start[size] = '\0';
-    const char *end = memchr(start, '\n', size);
+    const char *end = memchr(start, '\n', (size_t)size);
     const bool good = end && strncmp(start, first_line, prefix - 1) == 0 && start[prefix - 1] == ' ';
     const size_t length = good ? (size_t)(end - start) - prefix : 0;
     if (!good || length >= PATH_LIMIT) return;

@@ -428,9 +428,8 @@ struct recording *recording_open(const char *path, const struct replay_header *h
         fail(error, ERROR_ENVIRONMENT, "out of memory for the recording %s", path);
         return NULL;
     }
-    recording->file = fopen(path, "w");
+    recording->file = file_open_growing(path, error);
     if (!recording->file) {
-        fail(error, ERROR_ENVIRONMENT, "%s: cannot be written: choose another place for the recording", path);
         free(recording->path);
         free(recording);
         return NULL;

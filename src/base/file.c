@@ -19,7 +19,15 @@ static const char acl_name[] = "system.posix_acl_access";
 
 static bool fail_to(struct error *error, enum error_kind kind, const char *doing, const char *path, int cause)
 {
-    return fail(error, kind, "%s: cannot %s: %s", path, doing, strerror(cause ? cause : EIO));
+    const bool unread = kind == ERROR_ENVIRONMENT && cause == ENXIO;
+    return fail(error, kind, "%s: cannot %s: %s", path, doing,
+                unread ? "it is a pipe that nobody reads" : strerror(cause ? cause : EIO));
+}
+
+static bool fail_no_file(struct error *error, enum error_kind kind, const char *path, mode_t mode)
+{
+    return fail(error, kind, "%s: expected a file, got %s", path,
+                S_ISDIR(mode) ? "a directory" : "something else (a device or a pipe)");
 }
 
 /// Opens a regular file without waiting for anyone (a FIFO would block for a writer).
@@ -31,8 +39,7 @@ static int open_regular(const char *path, struct stat *about, struct error *erro
         return -1;
     }
     if (fstat(file, about) == 0 && S_ISREG(about->st_mode)) return file;
-    fail(error, ERROR_INPUT, "%s: expected a file, got %s", path,
-         S_ISDIR(about->st_mode) ? "a directory" : "something else (a device or a pipe)");
+    fail_no_file(error, ERROR_INPUT, path, about->st_mode);
     close(file);
     return -1;
 }
@@ -222,6 +229,31 @@ static bool keep_rights(int file, const char *path, const struct stat *old)
     return fchmod(file, (old->st_mode & 0700) | rest) == 0;
 }
 
+/// Opens a file, device or pipe to be written in its place. A FIFO that nobody reads is refused: opening it would wait for a reader.
+static int open_in_place(const char *path, int flags)
+{
+    const int file = open(path, O_WRONLY | O_NONBLOCK | O_CLOEXEC | flags, 0666);
+    if (file >= 0) fcntl(file, F_SETFL, fcntl(file, F_GETFL) & ~O_NONBLOCK);
+    return file;
+}
+
+FILE *file_open_growing(const char *path, struct error *error)
+{
+    const int file = open_in_place(path, O_CREAT | O_TRUNC);
+    FILE *stream = file >= 0 ? fdopen(file, "w") : NULL;
+    if (stream) return stream;
+    fail_to(error, ERROR_ENVIRONMENT, "be written", path, errno);
+    if (file >= 0) close(file);
+    return NULL;
+}
+
+bool file_check_place(const char *path, struct error *error)
+{
+    struct stat about;
+    return stat(path, &about) != 0 || S_ISREG(about.st_mode) ||
+           fail_no_file(error, ERROR_ENVIRONMENT, path, about.st_mode);
+}
+
 /// Opens what is to be written: a file beside the target, or the target itself where it is a device or a pipe.
 static int open_output(const char *path, const char *like, struct file_output *output)
 {
@@ -231,7 +263,7 @@ static int open_output(const char *path, const char *like, struct file_output *o
         errno = EISDIR;
         return -1;
     }
-    if (exists && !S_ISREG(old.st_mode)) return open(path, O_WRONLY | O_CLOEXEC);
+    if (exists && !S_ISREG(old.st_mode)) return open_in_place(path, 0);
     if (exists && access(path, W_OK) != 0) return -1;
     output->target = resolve_links(path);
     if (!output->target) return -1;
@@ -311,6 +343,7 @@ bool file_move(const char *from, const char *to, struct error *error)
 {
     struct stat old;
     bool good = true;
+    if (!file_check_place(to, error)) return false;
     if (lstat(to, &old) == 0 && S_ISREG(old.st_mode)) {
         const int file = open(from, O_RDONLY | O_CLOEXEC);
         good = file >= 0 && keep_rights(file, to, &old);

@@ -15,7 +15,7 @@ bool file_read(const char *path, size_t limit, char **data, size_t *size, struct
 /// where the system does not let us, the new one allows everybody else less, never more.
 bool file_write_atomic(const char *path, const void *data, size_t size, struct error *error);
 
-/// The same for output written piece by piece; a device or a pipe is written directly.
+/// The same for output written piece by piece. A device or a pipe is written directly, but a pipe must have a reader.
 struct file_output {
     FILE *stream;
     const char *path;         ///< the caller's, for messages
@@ -34,6 +34,12 @@ bool file_output_commit(struct file_output *output, struct error *error);
 
 /// Closes and removes the temporary file.
 void file_output_discard(struct file_output *output);
+
+/// Opens a file to be written in its place, a line at a time, as logs are; a pipe must have a reader. NULL with a sentence.
+FILE *file_open_growing(const char *path, struct error *error);
+
+/// Whether a path is a regular file's, or nothing's yet; else false with a sentence. For saves and exports: devices and pipes keep nothing.
+bool file_check_place(const char *path, struct error *error);
 
 /// Moves a file that is whole to its place; one that is there is replaced, and its rights are kept.
 bool file_move(const char *from, const char *to, struct error *error);

@@ -26,7 +26,7 @@ bool beside_add(struct beside *beside, const char *folder, const char *name, con
     struct beside_file *file = &beside->files[beside->count];
     if (asprintf(&file->path, "%s/%s", folder, name) < 0) return fail_no_memory(error, folder);
     file->is_new = access(file->path, F_OK) != 0;
-    if (!file_output_open(&file->output, file->path, error)) {
+    if (!file_check_place(file->path, error) || !file_output_open(&file->output, file->path, error)) {
         free(file->path);
         return false;
     }

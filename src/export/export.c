@@ -186,16 +186,16 @@ static bool write_file(struct shot *shot, const struct format *format, const cha
 {
     struct file_output output;
     char summary[FORMAT_SUMMARY] = "", size[32];
-    if (!file_output_open(&output, path, error)) return false;
+    if (!file_check_place(path, error) || !file_output_open(&output, path, error)) return false;
     if (!format->write(shot, output.stream, summary, error)) {
         file_output_discard(&output);
         beside_discard(&shot->beside);
         return false;
     }
-    const off_t bytes = ftello(output.stream); // −1 for a pipe
+    const off_t bytes = ftello(output.stream);
     if (!commit(shot, &output, error)) return false;
     print_size(bytes, size, sizeof size);
-    snprintf(report->text, sizeof report->text, "%s%s%s", summary, bytes >= 0 ? ", " : "", bytes >= 0 ? size : "");
+    snprintf(report->text, sizeof report->text, "%s, %s", summary, size);
     return true;
 }
 

@@ -2,9 +2,11 @@
 #include "rig/import.h"
 #include "base/path.h"
 #include "model/character.h"
+#include <fcntl.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
+#include <unistd.h>
 
 enum { STANDARD_FRAMES = 120, LEAST_FRAMES = 2, MOST_FRAMES = 100000 };
 
@@ -14,11 +16,11 @@ static const double SMALLEST = 0.3, LARGEST = 4, USUAL = 1.6; ///< metres: chara
 static bool is_glb(const char *path)
 {
     char start[4] = "";
-    FILE *file = fopen(path, "rb");
-    if (!file) return false;
-    const bool read = fread(start, sizeof start, 1, file) == 1;
-    fclose(file);
-    return read && memcmp(start, "glTF", sizeof start) == 0;
+    const int file = open(path, O_RDONLY | O_NONBLOCK | O_CLOEXEC); // a FIFO would wait for a writer
+    if (file < 0) return false;
+    const bool is_read = read(file, start, sizeof start) == sizeof start;
+    close(file);
+    return is_read && memcmp(start, "glTF", sizeof start) == 0;
 }
 
 bool import_suits(const char *path)

@@ -1,5 +1,6 @@
 /// Collects frames, writes the log and prints the summary.
 #include "base/build.h"
+#include "base/file.h"
 #include "timing/columns.h"
 #include "timing/statistics.h"
 #include <errno.h>
@@ -137,9 +138,8 @@ struct framelog *framelog_open(const char *path, const struct frame_header *head
         return NULL;
     }
     if (!path) return log;
-    log->file = fopen(path, "w");
+    log->file = file_open_growing(path, error);
     if (!log->file) {
-        fail(error, ERROR_ENVIRONMENT, "%s: the timing log cannot be made: %s", path, strerror(errno));
         framelog_free(log);
         return NULL;
     }
