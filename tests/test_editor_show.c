@@ -201,6 +201,10 @@ static void test_nothing_changes_while_nothing_happens(void **state)
     assert_true(first == list->commands[0].hash && sum == again);
     assert_true(stage == editor_stage(s.editor)->hash);
     assert_false(editor_wants_frames(s.editor));
+    editor_message(s.editor, true, "The disk is full."); // said between two frames, and to be seen in the next one
+    assert_true(editor_wants_frames(s.editor));
+    session_frame(&s);
+    assert_false(editor_wants_frames(s.editor));
     session_close(&s);
 }
 

@@ -6,9 +6,11 @@
 #include "app/recovery.h"
 #include "base/file.h"
 #include "folder.h"
+#include "shown.h"
 #include <fcntl.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <time.h>
 #include <unistd.h>
 
 static void write_scene(const char *path, const char *name)
@@ -185,6 +187,64 @@ static void a_long_path_is_the_same_scene(void **state)
     assert_false(recovery_find(state_folder(), NULL, &entry, NULL));
 }
 
+static bool is_marked(const struct blind *blind)
+{
+    return shown_text(blind->app.table.editor, "Autosave fails: save now (Ctrl+S)") != NULL;
+}
+
+/// Goes on until it is marked that work has no recovery file, or no longer: a thread writes those, at most one a second.
+static void go_on_until(struct blind *blind, bool marked)
+{
+    for (int i = 0; i < 2000 && is_marked(blind) != marked; i++) {
+        nanosleep(&(struct timespec){.tv_nsec = 5000000}, NULL);
+        blind_frame(blind);
+    }
+    assert_int_equal(is_marked(blind), marked);
+}
+
+/// Its sentence goes with the next key, the mark stays until there is a recovery file, or nothing to lose.
+static void autosave_that_fails_is_marked(void **state)
+{
+    (void)state;
+    struct blind blind;
+    char away[sizeof folder + 16];
+    snprintf(away, sizeof away, "%s/away", folder);
+    write_scene(folder_path("asked.json"), "asked for");
+    start(&blind, folder_path("asked.json"));
+    assert_int_equal(rename(state_folder(), away), 0);
+    press(&blind, 'I');
+    go_on_until(&blind, true);
+    assert_non_null(strstr(message(&blind), "Unsaved work has no recovery file"));
+    press(&blind, KEY_ESCAPE);
+    assert_string_equal(message(&blind), "");
+    assert_true(is_marked(&blind));
+    assert_int_equal(rename(away, state_folder()), 0);
+    go_on_until(&blind, false);
+    assert_int_equal(rename(state_folder(), away), 0);
+    press(&blind, KEY_RIGHT);
+    press(&blind, 'I');
+    go_on_until(&blind, true);
+    press_with(&blind, 'S', MOD_CTRL);
+    go_on_until(&blind, false);
+    end(&blind);
+    assert_int_equal(rename(away, state_folder()), 0);
+}
+
+static void no_autosave_is_marked(void **state)
+{
+    (void)state;
+    struct blind blind;
+    char folder_of_state[160];
+    snprintf(folder_of_state, sizeof folder_of_state, "%s", getenv("XDG_STATE_HOME"));
+    assert_int_equal(setenv("XDG_STATE_HOME", "/dev/null/none", 1), 0);
+    start(&blind, NULL);
+    assert_int_equal(setenv("XDG_STATE_HOME", folder_of_state, 1), 0);
+    assert_false(is_marked(&blind));
+    press(&blind, 'I');
+    go_on_until(&blind, true);
+    end(&blind);
+}
+
 static int prepare(void **state)
 {
     if (folder_make(state) != 0 || setenv("XDG_STATE_HOME", folder, 1) != 0) return -1;
@@ -199,6 +259,8 @@ int main(void)
         cmocka_unit_test_setup(its_own_work_is_offered, forget_all),
         cmocka_unit_test_setup(discarded_work_of_its_own_leaves_the_other, forget_all),
         cmocka_unit_test_setup(a_relative_name_is_the_same_scene, forget_all),
+        cmocka_unit_test_setup(autosave_that_fails_is_marked, forget_all),
+        cmocka_unit_test_setup(no_autosave_is_marked, forget_all),
         cmocka_unit_test_setup(a_long_path_is_the_same_scene, forget_all),
     };
     return cmocka_run_group_tests(tests, prepare, folder_remove);

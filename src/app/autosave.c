@@ -173,6 +173,8 @@ bool autosave_update(struct autosave *autosave, const struct autosave_work *work
     return good;
 }
 
+bool autosave_fails(const struct autosave *autosave) { return autosave->complained; }
+
 bool autosave_flush(struct autosave *autosave, const struct autosave_work *work, struct error *error)
 {
     wait_for_thread(autosave);

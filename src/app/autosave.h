@@ -26,6 +26,9 @@ bool autosave_update(struct autosave *autosave, const struct autosave_work *work
 /// Whether there is unsaved work that is not with the thread yet: then update it at the frames' rate even where none is drawn.
 bool autosave_is_behind(struct autosave *autosave, const struct autosave_work *work);
 
+/// Whether the last write failed: there is no recovery file, or an older one.
+bool autosave_fails(const struct autosave *autosave);
+
 /// Writes the work now and returns when it is on the disk.
 bool autosave_flush(struct autosave *autosave, const struct autosave_work *work, struct error *error);
 

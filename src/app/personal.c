@@ -255,9 +255,10 @@ void personal_update(struct app *app)
     note_theme(app);
     note_ui_scale(app);
     note_welcomed(app);
-    if (!app->personal->autosave) return;
-    struct autosave_work work = work_of(app);
-    if (!autosave_update(app->personal->autosave, &work, clock_now(), &error)) complain(app, &error);
+    struct autosave *autosave = app->personal->autosave;
+    const struct autosave_work work = work_of(app);
+    if (autosave && !autosave_update(autosave, &work, clock_now(), &error)) complain(app, &error);
+    editor_tell_unkept(app->table.editor, !work.saved && (!autosave || autosave_fails(autosave)));
 }
 
 bool personal_is_behind(const struct app *app)

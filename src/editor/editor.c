@@ -225,7 +225,7 @@ bool editor_wants_frames(const struct editor *editor)
 {
     return editor->core.playback.playing || editor->core.drag.kind == DRAG_GRAB ||
            editor->core.drag.kind == DRAG_PAINT || stage_is_moving(editor->stage) ||
-           editor->core.message.seconds_left > 0 || editor->core.nudged_seconds > 0 ||
+           editor->core.message.seconds_left > 0 || editor->core.unshown || editor->core.nudged_seconds > 0 ||
            presenter_is_sliding(&editor->core) || dialogs_want_frames(editor->dialogs, &editor->core) ||
            curves_wants_frames(editor->curves) || tooltip_waits(&editor->tooltip);
 }
@@ -241,6 +241,12 @@ const struct stage_view *editor_stage(const struct editor *editor) { return stag
 void editor_message(struct editor *editor, bool is_error, const char *text)
 {
     core_message(&editor->core, is_error, text);
+}
+
+void editor_tell_unkept(struct editor *editor, bool unkept)
+{
+    editor->core.unshown |= unkept != editor->core.unkept;
+    editor->core.unkept = unkept;
 }
 
 void editor_refresh(struct editor *editor, const struct editor_world *world) { core_refresh(&editor->core, world); }

@@ -82,6 +82,9 @@ const char *editor_clipboard(const struct editor *editor);
 /// Shows a sentence in the status line (an error until the next key or click, else for some seconds of `dt`).
 void editor_message(struct editor *editor, bool is_error, const char *text);
 
+/// Whether unsaved work has no recovery file: the status line has a mark for as long as that is so.
+void editor_tell_unkept(struct editor *editor, bool unkept);
+
 /// Frames a second and microseconds of solving, for the status line.
 void editor_set_stats(struct editor *editor, double fps, double solve_us);
 

@@ -305,6 +305,7 @@ void editor_show(struct editor *editor, const struct editor_world *world)
     dialogs_show_input(editor->dialogs, &editor->core);
     dialogs_show(editor->dialogs, &editor->core, world);
     show_tooltip(editor, world);
+    editor->core.unshown = false;
 }
 
 enum mouse_cursor editor_cursor(const struct editor *editor)

@@ -135,6 +135,7 @@ void core_message(struct core *core, bool is_error, const char *text)
     snprintf(core->message.text, sizeof core->message.text, "%s", text);
     core->message.is_error = is_error;
     core->message.seconds_left = is_error ? 0 : MESSAGE_SECONDS;
+    core->unshown = true;
 }
 
 void core_hold(const struct spline *spline, struct knot *knot, char why[STOPPED_SIZE])

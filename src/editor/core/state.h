@@ -294,6 +294,8 @@ struct core {
     char title[256];       ///< the file's name, or "untitled"
     char path[PATH_LIMIT]; ///< of the document's own file, or ""
     struct message message;
+    bool unkept;     ///< unsaved work has no recovery file
+    bool unshown;    ///< something of the status line has changed since it was drawn
     struct ask ask;  ///< what is to be asked next
     char *clipboard; ///< knots that were copied, as text; NULL at first
     struct request requests[EDITOR_MAX_REQUESTS];

@@ -184,10 +184,29 @@ static void figures_text(const struct transport *transport, const struct core *c
              fps[0] && solve[0] ? "  " : "", solve);
 }
 
+enum { GAP = 24, MARGIN = 12 };
+
+static const char unkept[] = "Autosave fails: save now (Ctrl+S)";
+
+/// The mark at the right end while unsaved work has no recovery file.
+static struct rect unkept_rect(struct rect bar)
+{
+    const float width = font_width(FONT_LABEL, THEME_TEXT_NORMAL, unkept);
+    return (struct rect){bar.x + bar.w - MARGIN - width, bar.y + 1, width, bar.h - 1};
+}
+
+/// In a narrow window it covers what is there.
+static void show_unkept(struct core *core, struct rect bar)
+{
+    const struct rect r = unkept_rect(bar);
+    if (!core->unkept) return;
+    drawlist_rect(&core->list, (struct rect){r.x - MARGIN, r.y, r.w + 2 * MARGIN, r.h}, theme()->panel);
+    paint_text(&core->list, (struct rect){r.x, bar.y, r.w, bar.h}, FONT_LABEL, theme()->error, unkept);
+}
+
 void transport_show(const struct transport *transport, struct core *core, const struct editor_world *world,
                     const char *hint)
 {
-    enum { GAP = 24 };
     struct rect bar = core->layout.status;
     const struct message *message = &core->message;
     drawlist_rect(&core->list, bar, theme()->panel);
@@ -195,14 +214,15 @@ void transport_show(const struct transport *transport, struct core *core, const 
     float x = show_time(core, world->document, bar, controls_show(core)) + GAP;
     char figures[160];
     figures_text(transport, core, world, figures, sizeof figures);
-    const float end = bar.x + bar.w - 12, width = font_width(FONT_NUMBER, THEME_TEXT_SMALL, figures);
+    const float end = core->unkept ? unkept_rect(bar).x - GAP : bar.x + bar.w - MARGIN;
+    const float width = font_width(FONT_NUMBER, THEME_TEXT_SMALL, figures);
     // What has happened is said in full: the figures give way to it, and the name of the scene.
     const float needed = GAP + font_width(FONT_LABEL, THEME_TEXT_NORMAL, message->text);
     const bool saved = history_is_saved(world->history);
     const struct title title = title_of(core, saved, bar);
     const bool tight = message->text[0] && x + title.width + needed > end - width - GAP;
     const float right = tight ? end : end - width;
-    if (!tight)
+    if (!tight && right > x)
         paint_text(&core->list, (struct rect){right, bar.y, width, bar.h}, FONT_NUMBER, theme()->text_dim, figures);
     if (!tight || x + title.width + needed <= end) {
         paint_text(&core->list, (struct rect){x, bar.y, title.width, bar.h}, FONT_LABEL,
@@ -213,6 +233,7 @@ void transport_show(const struct transport *transport, struct core *core, const 
     uint32_t color = !message->text[0] ? theme()->text_dim : message->is_error ? theme()->error : theme()->text;
     struct rect middle = {x, bar.y, right - (tight ? 0 : GAP) - x, bar.h};
     if (middle.w > 40) paint_text(&core->list, middle, FONT_LABEL, color, text);
+    show_unkept(core, bar);
 }
 
 struct transport *transport_create(void) { return calloc(1, sizeof(struct transport)); }
