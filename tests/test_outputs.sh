@@ -96,4 +96,27 @@ ok "is told escaped" $?
 expect 0 "what such a file holds" "$WIGGLY" check "$name.glb"
 ! raw "$out$err"
 ok "is told escaped" $?
+
+# Names within files: a terminal gets them escaped, a file or a pipe as they are.
+on_terminal() { # <command>...
+    out=$(script -qec "$(printf '%q ' "$@")" /dev/null </dev/null 2>&1)
+}
+printf '{"wiggly": 1, "frames": [0, 2], "splines": [{"name": "\\u001b[31mred\\nsecond", "knots": []}]}' >"$scratch/named.json"
+on_terminal "$WIGGLY" solve "$scratch/named.json"
+says "a terminal gets a table with names escaped" 'frame,\x1b[31mred\nsecond,\x1b[31mred\nsecond.re,' "$out"
+! raw "$out"
+ok "and nothing of them raw" $?
+on_terminal "$WIGGLY" solve "$scratch/named.json" -o /dev/tty
+says "so does the terminal as a file" 'frame,\x1b[31mred\nsecond,\x1b[31mred\nsecond.re,' "$out"
+! raw "$out"
+ok "and nothing of them raw" $?
+whole="frame,\"${escape}[31mred"$'\n'"second\",\"${escape}[31mred"$'\n'"second.re\","
+says "a pipe gets them as they are" "$whole" "$("$WIGGLY" solve "$scratch/named.json")"
+expect 0 "and a file" "$WIGGLY" solve "$scratch/named.json" -o "$scratch/named.csv"
+says "too" "$whole" "$(cat "$scratch/named.csv")"
+expect 0 "a timing log of such a name" "$WIGGLY" live --headless --frames 200 --log "$name.log" $scene
+sed -i "s/^# solver: .*/# solver: ${escape}[31m/" "$name.log"
+expect 0 "is summarised" "$WIGGLY" log "$name.log"
+! raw "$out$err"
+ok "and it is told escaped" $?
 exit $((cases_failed > 0))

@@ -1,7 +1,9 @@
 /// Escapes what a terminal would obey.
 #include "base/printable.h"
+#include <errno.h>
 #include <stdarg.h>
 #include <string.h>
+#include <unistd.h>
 
 static int utf8_length(const unsigned char *s)
 {
@@ -58,4 +60,23 @@ void print_line(FILE *stream, const char *format, ...)
     va_end(arguments);
     printable(text, shown, sizeof shown);
     fprintf(stream, "%s\n", shown);
+}
+
+void print_field(FILE *stream, const char *name, const char *suffix)
+{
+    char shown[8192] = "";
+    const int cause = errno; // of an earlier failure to write
+    if (isatty(fileno(stream))) {
+        printable(name, shown, sizeof shown);
+        name = shown;
+    }
+    errno = cause;
+    const int quotes = strpbrk(name, ",\"\r\n") != NULL;
+    if (quotes) fputc('"', stream);
+    for (const char *c = name; *c; c++) {
+        if (*c == '"') fputc('"', stream);
+        fputc(*c, stream);
+    }
+    fputs(suffix, stream);
+    if (quotes) fputc('"', stream);
 }

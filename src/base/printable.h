@@ -12,4 +12,8 @@ void printable(const char *text, char *shown, size_t size);
 /// Writes a line, and its end, that may repeat a path, a name or an argument.
 void print_line(FILE *stream, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
+/// Writes a field of a table by RFC 4180: a name and what follows it, quoted if it has a comma, a quote or a line break. A file or a pipe
+/// gets the name as it is, a terminal as printable() makes it.
+void print_field(FILE *stream, const char *name, const char *suffix);
+
 #endif

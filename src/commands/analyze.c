@@ -138,11 +138,10 @@ static void warn_of_speed(const struct motion *motion, const struct analysis *a,
     bool fast = a->fast_share > fast_warning;
     for (int k = 0; k < a->count; k++) fast |= a->components[k].frequency > fast_pole * fps / 2;
     if (fast) {
-        fprintf(stderr,
-                "%s: warning: some of it moves faster than %g fps can show (%.1f %% of the motion above %.4g Hz); "
-                "simulate "
-                "with more frames per second\n",
-                motion->path, fps, 100 * a->fast_share, fast_pole * fps / 2);
+        print_line(stderr,
+                   "%s: warning: some of it moves faster than %g fps can show (%.1f %% of the motion above %.4g Hz); "
+                   "simulate with more frames per second",
+                   motion->path, fps, 100 * a->fast_share, fast_pole * fps / 2);
     }
 }
 
@@ -150,11 +149,11 @@ static void warn_of_speed(const struct motion *motion, const struct analysis *a,
 static void warn_of_cancelling(const struct motion *motion, const struct analysis *a)
 {
     if (a->cancelled == 0) return;
-    fprintf(stderr,
-            "%s: warning: left out %d pole%s whose motion others would only cancel; where something drives the mesh, "
-            "say with "
-            "--from since when nothing does, or take --method cpca\n",
-            motion->path, a->cancelled, a->cancelled > 1 ? "s" : "");
+    print_line(
+        stderr,
+        "%s: warning: left out %d pole%s whose motion others would only cancel; where something drives the mesh, "
+        "say with --from since when nothing does, or take --method cpca",
+        motion->path, a->cancelled, a->cancelled > 1 ? "s" : "");
 }
 
 static bool check_motion(const struct job *job, const struct motion *motion, const struct surface *rest, double *fps,

@@ -1,27 +1,17 @@
 /// Writes the table for `wiggly analyze --coordinates`.
 #include "base/file.h"
+#include "base/printable.h"
 #include "commands/analyze_scene.h"
-#include <string.h>
-
-/// A field by RFC 4180.
-static void write_name(FILE *out, const char *name, const char *suffix)
-{
-    bool quotes = strpbrk(name, ",\"\r\n") != NULL;
-    fputs(quotes ? ",\"" : ",", out);
-    for (const char *c = name; *c; c++) {
-        if (*c == '"') fputc('"', out);
-        fputc(*c, out);
-    }
-    fputs(suffix, out);
-    if (quotes) fputc('"', out);
-}
 
 static void write_header(FILE *out, const struct character *character)
 {
     static const char *const suffixes[] = {".re", ".im", ".fit.re", ".fit.im"};
     fputs("frame", out);
     for (int i = 0; i < character->coordinate_count; i++) {
-        for (int k = 0; k < 4; k++) write_name(out, character->coordinates[i].name, suffixes[k]);
+        for (int k = 0; k < 4; k++) {
+            fputc(',', out);
+            print_field(out, character->coordinates[i].name, suffixes[k]);
+        }
     }
     fputc('\n', out);
 }

@@ -11,19 +11,6 @@
 #include <stdio.h>
 #include <string.h>
 
-/// Writes a field by RFC 4180: quoted if it has a comma, a quote or a line break.
-static void write_name(FILE *out, const char *name, const char *suffix)
-{
-    bool quotes = strpbrk(name, ",\"\r\n") != NULL;
-    if (quotes) fputc('"', out);
-    for (const char *c = name; *c; c++) {
-        if (*c == '"') fputc('"', out);
-        fputc(*c, out);
-    }
-    fputs(suffix, out);
-    if (quotes) fputc('"', out);
-}
-
 static void write_header(FILE *out, const struct document *document)
 {
     static const char *const suffixes[] = {"", ".re", ".im"};
@@ -31,7 +18,7 @@ static void write_header(FILE *out, const struct document *document)
     for (int i = 0; i < document->spline_count; i++) {
         for (int k = 0; k < 3; k++) {
             fputc(',', out);
-            write_name(out, document->splines[i].name, suffixes[k]);
+            print_field(out, document->splines[i].name, suffixes[k]);
         }
     }
     fputc('\n', out);

@@ -1,9 +1,9 @@
 /// A table: one row per key, a column for every spline and every channel of the rigs.
+#include "base/printable.h"
 #include "export/format.h"
 #include "scene/number.h"
 #include <stdarg.h>
 #include <stdlib.h>
-#include <string.h>
 
 /// A row being written: names at first, then numbers.
 struct row {
@@ -12,18 +12,6 @@ struct row {
     bool no_memory; ///< for a name
     int columns;
 };
-
-/// Writes a field by RFC 4180: quoted if it has a comma, a quote or a line break.
-static void write_name(FILE *out, const char *name)
-{
-    const bool quotes = strpbrk(name, ",\"\r\n") != NULL;
-    if (quotes) fputc('"', out);
-    for (const char *c = name; *c; c++) {
-        if (*c == '"') fputc('"', out);
-        fputc(*c, out);
-    }
-    if (quotes) fputc('"', out);
-}
 
 static void write_column(void *user, double value, const char *format, ...)
 {
@@ -39,7 +27,7 @@ static void write_column(void *user, double value, const char *format, ...)
     va_start(arguments, format);
     if (vasprintf(&name, format, arguments) < 0) name = NULL;
     va_end(arguments);
-    if (name) write_name(row->out, name);
+    if (name) print_field(row->out, name, "");
     row->no_memory |= !name;
     free(name);
 }

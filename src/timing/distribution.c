@@ -1,5 +1,6 @@
 /// Prints how a log's frame times are distributed.
 #include "timing/distribution.h"
+#include "base/printable.h"
 #include "timing/statistics.h"
 #include <math.h>
 #include <stdlib.h>
@@ -124,9 +125,9 @@ bool distribution_print(const struct timing_log *log, const char *name, FILE *ou
 {
     double *values = calloc((size_t)log->rows, sizeof *values);
     if (!values) return fail_no_memory(error, "a timing log");
-    fprintf(out, "%s: %d frames of %d %s, without the warm-up ones\n", name, log->rows, log->runs,
-            log->runs == 1 ? "run" : "runs");
-    if (log->solvers[0]) fprintf(out, "solver: %s\n", log->solvers);
+    print_line(out, "%s: %d frames of %d %s, without the warm-up ones", name, log->rows, log->runs,
+               log->runs == 1 ? "run" : "runs");
+    if (log->solvers[0]) print_line(out, "solver: %s", log->solvers);
     print_percentiles(log, values, out);
     print_budgets(log, values, out);
     print_histogram(log, values, out);
