@@ -130,4 +130,18 @@ wait $!
 ok "Ctrl+C ends it in order" $?
 [ -z "$(find "$scratch" -name '*stopped*')" ]
 ok "and leaves no half a file" $?
+
+# Finding 200 modes of so large a body takes minutes, and is not heard of again.
+"$WIGGLY" simulate "$scratch/box.obj" --tets 100000 --modal 200 --verbose -o "$scratch/stopped.npy" >"$scratch/begun" 2>&1 &
+preparing=$!
+for _ in $(seq 600); do grep -q "finding the modes" "$scratch/begun" && break; sleep 0.1; done
+says "says what it does before it has a body" "finding the modes" "$(<"$scratch/begun")"
+kill -TERM $preparing
+for _ in $(seq 100); do kill -0 $preparing 2>/dev/null || break; sleep 0.1; done
+! kill -KILL $preparing 2>/dev/null
+ok "SIGTERM ends it then, too" $?
+wait $preparing
+[ $? -eq 3 ] && [ -z "$(find "$scratch" -name '*stopped*' -o -name '.wiggly*')" ]
+ok "in order" $?
+says "and says so" "interrupted; nothing half-written is left" "$(<"$scratch/begun")"
 exit $((cases_failed > 0))

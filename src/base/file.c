@@ -6,6 +6,7 @@
 #include <fcntl.h>
 #include <limits.h>
 #include <signal.h>
+#include <stdatomic.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/file.h>
@@ -172,6 +173,25 @@ static void sweep(const char *target)
     closedir(directory);
 }
 
+/// Temporary files that are being written, for a program that is told to end; where there are more, the next output sweeps them up.
+static char *_Atomic unfinished[8];
+
+static void replace_unfinished(char *before, char *now)
+{
+    for (size_t i = 0; i < sizeof unfinished / sizeof *unfinished; i++) {
+        char *held = before;
+        if (atomic_compare_exchange_strong(&unfinished[i], &held, now)) return;
+    }
+}
+
+void file_remove_unfinished(void)
+{
+    for (size_t i = 0; i < sizeof unfinished / sizeof *unfinished; i++) {
+        const char *path = atomic_load(&unfinished[i]);
+        if (path) unlink(path);
+    }
+}
+
 /// Makes a new file beside the target, or a folder; the kernel applies the umask. Returns the descriptor or -1 with errno set.
 static int create_beside(const char *target, bool is_folder, mode_t mode, char **temporary)
 {
@@ -270,6 +290,7 @@ static int open_output(const char *path, const char *like, struct file_output *o
     sweep(output->target);
     const bool keeps = stat(like, &old) == 0;
     int file = create_beside(output->target, false, keeps ? 0600 : 0666, &output->temporary);
+    if (file >= 0) replace_unfinished(NULL, output->temporary);
     if (file >= 0 && keeps && !keep_rights(file, like, &old)) {
         close(file);
         return -1;
@@ -305,6 +326,14 @@ static void sync_folder(const char *target)
     close(file);
 }
 
+/// The temporary file is gone.
+static void forget(struct file_output *output)
+{
+    if (output->temporary) replace_unfinished(output->temporary, NULL);
+    free(output->temporary);
+    output->temporary = NULL;
+}
+
 bool file_output_commit(struct file_output *output, struct error *error)
 {
     FILE *stream = output->stream;
@@ -321,8 +350,7 @@ bool file_output_commit(struct file_output *output, struct error *error)
         cause = errno;
     }
     if (done && replaces) {
-        free(output->temporary);
-        output->temporary = NULL;
+        forget(output);
         sync_folder(output->target);
     }
     if (!done) fail_to(error, ERROR_ENVIRONMENT, "be written", output->path, cause);
@@ -334,7 +362,7 @@ void file_output_discard(struct file_output *output)
 {
     if (output->stream) fclose(output->stream);
     if (output->temporary) unlink(output->temporary);
-    free(output->temporary);
+    forget(output);
     free(output->target);
     *output = (struct file_output){0};
 }

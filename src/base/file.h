@@ -44,6 +44,9 @@ bool file_check_place(const char *path, struct error *error);
 /// Moves a file that is whole to its place; one that is there is replaced, and its rights are kept.
 bool file_move(const char *from, const char *to, struct error *error);
 
+/// Removes the temporary files of all outputs that are open; for a signal's handler that ends the program.
+void file_remove_unfinished(void);
+
 /// Makes a folder beside `path` for files that are moved there when all are whole. What a killed program leaves of it, files and all,
 /// goes with the next output beside it. Returns a descriptor to keep open for as long as the folder is there, and in `folder` its path,
 /// which the caller frees; −1 with errno set.

@@ -6,6 +6,7 @@
 #include "commands/commands.h"
 #include "commands/open_mesh.h"
 #include "commands/options.h"
+#include "commands/progress.h"
 #include "model/character.h"
 #include <math.h>
 #include <stdio.h>
@@ -362,6 +363,7 @@ int command_analyze(int argc, char **argv)
     if (result != OPTIONS_RUN) return (int)result;
     const char *wrong = check(&job);
     if (wrong) return (int)options_wrong(&usage, "%s", wrong);
+    progress_end_when_interrupted();
     struct error error;
     if (run(&job, &error)) return 0;
     fprintf(stderr, "%s\n", error.text);

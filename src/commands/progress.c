@@ -1,6 +1,9 @@
 /// Shows the progress of long commands, and catches Ctrl+C.
 #include "commands/progress.h"
 #include "base/clock.h"
+#include "base/error.h"
+#include "base/file.h"
+#include "base/stage.h"
 #include <math.h>
 #include <signal.h>
 #include <stdio.h>
@@ -14,12 +17,27 @@ static void interrupt(int signal_number)
     interrupted = 1;
 }
 
-void progress_catch_interrupts(void)
+/// Calls nothing that may not be called in the midst of anything.
+static void end_at_once(int signal_number)
 {
-    struct sigaction action = {.sa_handler = interrupt, .sa_flags = (int)SA_RESETHAND};
+    static const char text[] = "interrupted; nothing half-written is left\n";
+    (void)signal_number;
+    file_remove_unfinished();
+    const ssize_t told = write(STDERR_FILENO, text, sizeof text - 1);
+    (void)told; // nobody is left to tell
+    _exit(ERROR_ENVIRONMENT);
+}
+
+static void on_signals(void (*handler)(int))
+{
+    struct sigaction action = {.sa_handler = handler, .sa_flags = (int)SA_RESETHAND};
     sigaction(SIGINT, &action, NULL);
     sigaction(SIGTERM, &action, NULL);
 }
+
+void progress_catch_interrupts(void) { on_signals(interrupt); }
+
+void progress_end_when_interrupted(void) { on_signals(end_at_once); }
 
 bool progress_interrupted(void) { return interrupted != 0; }
 
@@ -32,12 +50,37 @@ void progress_show(struct progress *progress, long done, long total)
 {
     const bool terminal = isatty(STDERR_FILENO);
     const double now = clock_now(), left = (now - progress->started) * (double)(total - done) / (double)done;
+    const bool tenth = done == 0 || done * 10 / total != progress->done * 10 / total;
+    progress->done = done;
     if (terminal && done == total) progress_clear(progress);
-    const bool due = terminal ? done < total && now - progress->started > 1 && now - progress->shown > 0.1
-                              : progress->lines && done * 10 / total != (done - 1) * 10 / total;
+    const bool due = terminal ? done > 0 && done < total && now - progress->started > 1 && now - progress->shown > 0.1
+                              : progress->lines && tenth;
     if (!due) return;
     progress->shown = now;
-    fprintf(stderr, "%sframe %ld of %ld, %.0f s left%s", terminal ? "\r" : "", done, total, ceil(left),
-            terminal ? "   " : "\n");
+    if (terminal) fputc('\r', stderr);
+    if (progress->doing) {
+        fprintf(stderr, "%s: %ld %%", progress->doing, 100 * done / total);
+    } else {
+        fprintf(stderr, "frame %ld of %ld", done, total);
+    }
+    if (done > 0) fprintf(stderr, ", %.0f s left", ceil(left));
+    fputs(terminal ? "\033[K" : "\n", stderr);
     fflush(stderr);
+}
+
+static struct progress stage;
+
+static void show_stage(const char *doing, long done, long total)
+{
+    if (doing != stage.doing || done < stage.done) {
+        progress_clear(&stage);
+        stage = (struct progress){.started = clock_now(), .lines = stage.lines, .doing = doing};
+    }
+    progress_show(&stage, done, total);
+}
+
+void progress_show_stages(bool lines)
+{
+    stage.lines = lines;
+    stage_listen(show_stage);
 }

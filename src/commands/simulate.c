@@ -263,7 +263,8 @@ int command_simulate(int argc, char **argv)
     if (!job.modal) job.soft.shake = &shake->shake;
     const char *wrong = check(&job);
     if (wrong) return (int)options_wrong(&usage, "%s", wrong);
-    progress_catch_interrupts();
+    progress_end_when_interrupted();
+    progress_show_stages(shake->verbose);
     struct error error;
     if (run(&job, &error)) return 0;
     fprintf(stderr, "wiggly simulate: %s\n", error.text);

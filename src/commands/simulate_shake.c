@@ -2,6 +2,7 @@
 #include "commands/simulate_shake.h"
 #include "base/clock.h"
 #include "base/printable.h"
+#include "base/stage.h"
 #include "commands/progress.h"
 #include "model/motion.h"
 #include <math.h>
@@ -16,18 +17,12 @@ struct record {
     float (*place)[3]; ///< frames × nodes, as seen from the base
 };
 
-static bool interrupted(struct error *error)
-{
-    return progress_interrupted() && !fail(error, ERROR_ENVIRONMENT, "interrupted; nothing was written");
-}
-
 static bool step_frames(const struct shake_job *job, struct integrator *integrator, struct record *record,
                         struct error *error)
 {
     struct progress progress = {.started = clock_now(), .lines = job->verbose};
     for (int frame = 0; frame < record->frames; frame++) {
         for (int s = 0; frame > 0 && s < record->substeps; s++) {
-            if (interrupted(error)) return false;
             if (integrator_step(integrator)) continue;
             return fail(error, ERROR_INPUT,
                         "frame %d: the simulation became unstable: try a smaller --amplitude or more --damping",
@@ -143,6 +138,7 @@ static bool write_frames(const struct shake_job *job, const struct soft *soft, c
     for (int frame = 0; good && frame < record->frames; frame++) {
         embed_frame(job, soft, record, frame, x, position);
         good = motion_write_frame(writer, (const float(*)[3])position, error);
+        stage_tell("writing the motion", frame + 1, record->frames);
     }
     free(position);
     free(x);

@@ -1,6 +1,7 @@
 /// Reads OBJ surfaces.
 #include "model/obj.h"
 #include "base/file.h"
+#include "base/stage.h"
 #include "model/mtl.h"
 #include "model/surface_builder.h"
 #include <limits.h>
@@ -10,10 +11,13 @@
 #include <string.h>
 
 enum { FILE_LIMIT = 1 << 30, SHOWN_MAX = 24 };
+enum { TELLING = 1 << 16 }; ///< lines between two words about how far it is
 
 /// A file being read. `line` is cut off its text with a NUL, comments and continuations resolved.
 struct reader {
     const char *path;
+    const char *text;
+    long size;
     char *next, *line;
     int number; ///< of the line, from 1
     struct surface *surface;
@@ -149,6 +153,7 @@ static char *name_at(char *at)
 static bool read_lines(struct reader *r)
 {
     while (next_line(r)) {
+        if (r->number % TELLING == 0) stage_tell("reading the mesh", r->next - r->text, r->size);
         char *word = skip_space(r->line);
         const size_t length = strcspn(word, " \t\r");
         bool good = true;
@@ -169,7 +174,8 @@ bool obj_read(const char *path, struct surface *surface, struct error *error)
     size_t size;
     *surface = (struct surface){0};
     if (!file_read(path, FILE_LIMIT, &text, &size, error)) return false;
-    struct reader reader = {.path = path, .next = text, .surface = surface, .error = error};
+    struct reader reader = {
+        .path = path, .text = text, .size = (long)size, .next = text, .surface = surface, .error = error};
     reader.builder = (struct surface_builder){.surface = surface, .material = LOOKS_NONE};
     bool done = strlen(text) == size
                     ? read_lines(&reader)

@@ -1,5 +1,6 @@
 /// Builds the lattice and embeds the surface in it.
 #include "simulation/lattice.h"
+#include "base/stage.h"
 #include "simulation/element.h"
 #include "simulation/tiling.h"
 #include "simulation/vec3.h"
@@ -9,6 +10,8 @@
 
 // Cutting takes some 13 bytes per voxel. A very thin sheet or needle would need more voxels: it gets fewer tetrahedra instead.
 static const double voxels_max = 3e7;
+
+enum { TELLING = 1 << 13 }; ///< vertices between two words about how far it is
 
 /// Volume inside, m³: the tetrahedra from the first vertex to each triangle. Of an open surface a guess, for which a hundredth of its box
 /// is little.
@@ -192,6 +195,7 @@ static bool embed(struct lattice *lattice, const struct tiling *t, const int *in
     for (int i = 0; good && i < surface->vertex_count; i++) {
         double at[3], length = vec3_length(normal[i]);
         lattice->host[i] = -1;
+        if (i % TELLING == 0) stage_tell("placing the vertices", i, surface->vertex_count);
         if (!used[i]) continue;
         for (int c = 0; c < 3; c++) {
             double inward = length > 0 ? 0.5 * normal[i][c] / length : 0;
@@ -200,6 +204,7 @@ static bool embed(struct lattice *lattice, const struct tiling *t, const int *in
         lattice->host[i] = index[t->element[nearest_inside(t, at)]];
         locate(lattice, lattice->host[i], surface->position[i], lattice->weight[i]);
     }
+    stage_tell("placing the vertices", surface->vertex_count, surface->vertex_count);
     free(normal);
     free(used);
     return good;

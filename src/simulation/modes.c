@@ -6,6 +6,7 @@
 /// to all before it (twice, which is enough), so none returns as a copy. The small problem is diagonalised by Jacobi's
 /// method.
 #include "simulation/modes.h"
+#include "base/stage.h"
 #include "simulation/eigen.h"
 #include "simulation/vec3.h"
 #include <math.h>
@@ -134,6 +135,7 @@ static void build(struct lanczos *l)
     for (int k = 0; k < m; k++) {
         double(*next)[3] = l->basis + (size_t)(k + 1) * n;
         double *parts = l->values; // free until the end
+        stage_tell("finding the modes", k, m);
         memset(parts, 0, (size_t)m * sizeof *parts);
         apply(l, (const double(*)[3])(l->basis + (size_t)k * n), next);
         double length = orthonormalise(l, next, k + 1, parts);
@@ -190,6 +192,7 @@ bool modes_create(struct modes *modes, struct body *body, int count)
     if (good) {
         prepare(&lanczos);
         build(&lanczos);
+        stage_tell("finding the modes", steps, steps);
         extract(&lanczos, modes, count);
     }
     lanczos_free(&lanczos);

@@ -1,5 +1,6 @@
 /// Turns a surface's triangles to face outwards, and finds where it is open.
 #include "simulation/solid.h"
+#include "base/stage.h"
 #include "model/adjacency.h"
 #include "simulation/vec3.h"
 #include <math.h>
@@ -323,15 +324,26 @@ static int apply_turns(struct repair *r)
     return turned;
 }
 
+/// Says how much of the repair is done: its parts take about as long as each other.
+static void tell(long parts) { stage_tell("mending the mesh", parts, 5); }
+
 static bool repair(struct solid *solid, struct repair *r)
 {
-    if (!weld(&solid->shape, r->name) || !leave_out(r, &solid->duplicates)) return false;
+    tell(0);
+    if (!weld(&solid->shape, r->name)) return false;
+    tell(1);
+    if (!leave_out(r, &solid->duplicates)) return false;
+    tell(2);
     list_edges(r);
     join_neighbours(r);
+    tell(3);
     if (!turn_patches(r)) return false;
     solid->open = count_open(r);
     solid->turned = apply_turns(r);
-    return solid->open == 0 || winding_create(&solid->winding, &solid->shape);
+    tell(4);
+    const bool good = solid->open == 0 || winding_create(&solid->winding, &solid->shape);
+    tell(5);
+    return good;
 }
 
 bool solid_create(struct solid *solid, const struct surface *surface)

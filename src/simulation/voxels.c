@@ -5,9 +5,12 @@
 /// edge is exact in 64-bit integers; a point on an edge counts as moved by (ε, ε²). So no ray slips between two
 /// triangles or hits both, and the winding number returns to 0 in every column.
 #include "simulation/voxels.h"
+#include "base/stage.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+
+enum { TELLING = 3 << 16 }; ///< corners between two words about how far it is
 
 struct crossing {
     int column; ///< i·size[1] + j
@@ -127,7 +130,11 @@ static bool find_crossings(const struct voxels *voxels, const struct surface *su
 {
     double side = voxels->spacing * fmax(voxels->size[0], voxels->size[1]);
     struct raster raster = {.voxels = voxels, .scale = (1 << 24) / side};
-    for (int i = 0; i < surface->index_count; i += 3) rasterise(&raster, surface, surface->indices + i, list);
+    for (int i = 0; i < surface->index_count; i += 3) {
+        if (i % TELLING == 0) stage_tell("cutting the mesh into tetrahedra", i, surface->index_count);
+        rasterise(&raster, surface, surface->indices + i, list);
+    }
+    stage_tell("cutting the mesh into tetrahedra", surface->index_count, surface->index_count);
     if (!list->failed && list->count) qsort(list->items, list->count, sizeof *list->items, compare);
     return !list->failed;
 }
@@ -210,6 +217,7 @@ static bool fill_open(struct voxels *v, const struct solid *solid, const struct 
     find_range(v, &solid->shape, lo, hi);
     size_t next = 0;
     for (c.i = lo[0]; c.i < hi[0]; c.i++) {
+        stage_tell("looking for the inside of the open mesh", c.i - lo[0], hi[0] - lo[0]);
         for (c.j = lo[1]; c.j < hi[1]; c.j++) {
             const int column = c.i * v->size[1] + c.j;
             int sum = 0;
@@ -229,6 +237,7 @@ static bool fill_open(struct voxels *v, const struct solid *solid, const struct 
             }
         }
     }
+    stage_tell("looking for the inside of the open mesh", 1, 1);
     free(c.crossed);
     return true;
 }
