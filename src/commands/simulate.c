@@ -20,6 +20,7 @@ struct job {
     struct mesh_options opening;
     char rest[4096]; ///< the rest mesh beside the output
     const char *shake_text, *drive_text, *pin_text;
+    double budget; ///< millions of element-steps
     struct shake_job shake;
     struct drive drive;
     struct soft_options soft;
@@ -125,6 +126,17 @@ static bool run(struct job *job, struct error *error)
     return good;
 }
 
+/// Returns the exit status.
+static int run_watched(struct job *job)
+{
+    struct error error;
+    progress_end_when_interrupted();
+    progress_show_stages(job->shake.verbose);
+    if (run(job, &error)) return 0;
+    fprintf(stderr, "wiggly simulate: %s\n", error.text);
+    return (int)error.kind;
+}
+
 static bool ends_in(const char *path, const char *extension)
 {
     size_t length = strlen(path), tail = strlen(extension);
@@ -180,6 +192,7 @@ static const char *check(struct job *job)
     snprintf(job->rest, sizeof job->rest, "%.*s.rest.obj", (int)strlen(job->output) - 4, job->output);
     job->shake.mesh = job->mesh;
     job->shake.output = job->output;
+    job->shake.budget = 1e6 * job->budget;
     const char *wrong = mesh_options_check(&job->opening);
     if (!wrong) wrong = set_drive(job);
     return wrong ? wrong : set_material(&job->soft);
@@ -193,6 +206,7 @@ int command_simulate(int argc, char **argv)
     struct job job = {.soft = soft_default_options(),
                       .opening = {.up = "y", .scale = 1},
                       .shake = {.shake = {.amplitude = NAN}, .seconds = 4, .fps = 24, .accuracy = 0.02},
+                      .budget = 20,
                       .shake_text = "up",
                       .floor = -1};
     struct shake_job *shake = &job.shake;
@@ -220,6 +234,8 @@ int command_simulate(int argc, char **argv)
         {"--fps", NULL, "N", "frames per second (24)", OPTION_REAL, &shake->fps, 1, 1000},
         {"--accuracy", NULL, "E", "error of the motion allowed, relative to its size; sets the steps (0.02)",
          OPTION_REAL, &shake->accuracy, 1e-4, 1},
+        {"--budget", NULL, "M", "millions of element-steps after which the search for that ends (20: half a minute)",
+         OPTION_REAL, &job.budget, 0, 1e6},
         {"--substeps", NULL, "N", "integrator steps per frame, instead of --accuracy", OPTION_INT, &shake->substeps,
          1, 1000},
         {"--tets", NULL, "N", "approximate number of tetrahedra (3000)", OPTION_INT, &job.soft.tets, 50, 200000},
@@ -263,10 +279,5 @@ int command_simulate(int argc, char **argv)
     if (!job.modal) job.soft.shake = &shake->shake;
     const char *wrong = check(&job);
     if (wrong) return (int)options_wrong(&usage, "%s", wrong);
-    progress_end_when_interrupted();
-    progress_show_stages(shake->verbose);
-    struct error error;
-    if (run(&job, &error)) return 0;
-    fprintf(stderr, "wiggly simulate: %s\n", error.text);
-    return (int)error.kind;
+    return run_watched(&job);
 }
