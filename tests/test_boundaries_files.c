@@ -159,7 +159,7 @@ static void pictures_of_a_width(void **state)
     free(pixels);
 }
 
-/// Reads a file of so many bytes, beside its text, whose nodes show a mesh of 8,193 vertices; where there is more, another node shows a
+/// Reads a file of so many bytes, beside its text, whose nodes show a mesh of 4,095 vertices; where there is more, another node shows a
 /// triangle.
 static bool read_nodes(size_t bytes, int nodes, bool more, struct error *error)
 {
@@ -171,7 +171,7 @@ static bool read_nodes(size_t bytes, int nodes, bool more, struct error *error)
     text_string(&text, "{\"asset\":{\"version\":\"2.0\"},\"buffers\":[{\"uri\":\"many.bin\",\"byteLength\":");
     text_number(&text, (double)bytes);
     text_string(&text, "}],\"bufferViews\":[{\"buffer\":0,\"byteLength\":98316}],\"accessors\":["
-                       "{\"componentType\":5126,\"type\":\"VEC3\",\"count\":8193,\"bufferView\":0},"
+                       "{\"componentType\":5126,\"type\":\"VEC3\",\"count\":4095,\"bufferView\":0},"
                        "{\"componentType\":5126,\"type\":\"VEC3\",\"count\":3,\"bufferView\":0}],\"meshes\":["
                        "{\"primitives\":[{\"attributes\":{\"POSITION\":0}}]},"
                        "{\"primitives\":[{\"attributes\":{\"POSITION\":1}}]}],\"nodes\":[");
@@ -184,19 +184,19 @@ static bool read_nodes(size_t bytes, int nodes, bool more, struct error *error)
     return true;
 }
 
-/// 2^26 − 1 vertices together, and with another triangle 2^26 + 2; triangles have three. In a small file 2^23 and 32 for each of its bytes.
+/// 2^24 − 1 vertices together, and with another triangle 2^24 + 2; triangles have three. In a small file 2^23 and 32 for each of its bytes.
 static void vertices_of_a_model(void **state)
 {
     (void)state;
     struct error error = {0};
     if (!is_thorough()) skip();
-    if (!read_nodes(2 << 20, 8191, false, &error)) fail_msg("%s", error.text);
-    assert_false(read_nodes(2 << 20, 8191, true, &error));
-    says(&error, "nodes: expected at most 67108864 vertices together, got 67108866");
+    if (!read_nodes(2 << 20, 4097, false, &error)) fail_msg("%s", error.text);
+    assert_false(read_nodes(2 << 20, 4097, true, &error));
+    says(&error, "nodes: expected at most 16777216 vertices together, got 16777218");
     error = (struct error){0};
-    if (!read_nodes(98316, 1400, false, &error)) fail_msg("%s", error.text);
-    assert_false(read_nodes(98316, 1600, false, &error));
-    says(&error, " vertices together in a file of this size, got 13108800");
+    if (!read_nodes(98316, 2800, false, &error)) fail_msg("%s", error.text);
+    assert_false(read_nodes(98316, 3200, false, &error));
+    says(&error, " vertices together in a file of this size, got 13104000");
 }
 
 /// Vertices and those of the coordinates, 2^28 together. At the limit what is in the way is that no file of that size has as many.

@@ -154,9 +154,20 @@ too_large() { # <file> <limit> <arguments>...
 for name in large.obj large.ply large.stl large.off; do
     too_large $name 1024 simulate "$scratch/$name" -o "$scratch/x.npy"
 done
-too_large large.glb 1024 check "$scratch/large.glb"
-too_large large.gltf 1024 check "$scratch/large.gltf"
+too_large large.glb 256 check "$scratch/large.glb"
+too_large large.gltf 256 check "$scratch/large.gltf"
+too_large large.glb 256 live --headless "$scratch/large.glb"
 too_large large.replay 64 live --headless --replay "$scratch/large.replay"
+
+# A triangle in a file that is large all the same.
+truncate -s 24M "$scratch/large.bin"
+printf '{"asset":{"version":"2.0"},"buffers":[{"uri":"large.bin","byteLength":36}],"bufferViews":[{"buffer":0,"byteLength":36}],
+    "accessors":[{"componentType":5126,"type":"VEC3","count":3,"bufferView":0}],
+    "meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],"nodes":[{"mesh":0}]}' >"$scratch/large.gltf"
+expect 0 "a large model opens" "$WIGGLY" live --headless --frames 1 "$scratch/large.gltf"
+[ "$(grep -c "wiggly live: reading a glTF file of 24 MiB: this takes a while" <<<"$err")" -eq 1 ]
+ok "and live says once that it takes a while" $?
+rm "$scratch/large.bin"
 
 # --- the limits in the source
 

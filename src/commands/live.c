@@ -1,11 +1,22 @@
 /// `wiggly live`: the live app, in a window or headless.
 #include "app/app.h"
 #include "base/printable.h"
+#include "base/stage.h"
 #include "commands/commands.h"
 #include "commands/options.h"
 #include "ui/theme.h"
 #include <stdio.h>
 #include <string.h>
+
+/// Says of a file that takes seconds that it is being read, once.
+static void tell_large(const char *doing, long done, long bytes)
+{
+    enum { LARGE = 24 << 20 };
+    static long told;
+    if (done > 0 || bytes < LARGE || bytes == told) return;
+    told = bytes;
+    fprintf(stderr, "wiggly live: %s of %ld MiB: this takes a while\n", doing, bytes >> 20);
+}
 
 int command_live(int argc, char **argv)
 {
@@ -75,6 +86,7 @@ int command_live(int argc, char **argv)
     }
     options.width = size[0];
     options.height = size[1];
+    stage_listen(tell_large);
     struct error error = {0};
     int status = app_run(&options, &error);
     if (status != 0) fprintf(stderr, "wiggly live: %s\n", error.text);

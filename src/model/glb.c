@@ -2,6 +2,7 @@
 #include "model/glb.h"
 #include "base/file.h"
 #include "base/json.h"
+#include "base/stage.h"
 #include <stdlib.h>
 #include <string.h>
 
@@ -57,6 +58,7 @@ static bool open_file(struct glb *glb, const char *path, bool (*parse)(struct gl
     *glb = (struct glb){.path = path, .room = GLB_ROOM};
     if (!file_read(path, GLB_FILE_LIMIT, &glb->data, &size, error)) return false;
     glb->room += GLB_GROWTH * size;
+    stage_tell("reading a glTF file", 0, (long)size);
     if (parse(glb, size, error)) return true;
     glb_close(glb);
     return false;

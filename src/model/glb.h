@@ -17,7 +17,7 @@ enum {
 };
 
 /// The largest file, and what may be made of a file: so many bytes, and so many for each of its own.
-enum { GLB_FILE_LIMIT = 1 << 30, GLB_ROOM = 8 << 20, GLB_GROWTH = 32 };
+enum { GLB_FILE_LIMIT = 1 << 28, GLB_ROOM = 8 << 20, GLB_GROWTH = 32 };
 
 struct glb_bytes {
     const unsigned char *at;

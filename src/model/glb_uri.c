@@ -1,6 +1,7 @@
 /// Bytes that a glTF file keeps outside of its chunk: in files beside it and in data URIs.
 #include "base/file.h"
 #include "base/path.h"
+#include "base/stage.h"
 #include "model/glb.h"
 #include <ctype.h>
 #include <stdio.h>
@@ -78,6 +79,7 @@ bool glb_read_uri(struct glb *glb, const char *uri, struct glb_buffer *buffer, s
     size_t size;
     if (!file_read(path, GLB_FILE_LIMIT, &data, &size, error)) return false;
     glb->room += GLB_GROWTH * size;
+    stage_tell("reading a glTF file", 0, (long)size);
     *buffer = (struct glb_buffer){{(unsigned char *)data, size}, data};
     return true;
 }

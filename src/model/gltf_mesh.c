@@ -229,3 +229,36 @@ bool gltf_read_meshes(struct gltf_reader *r)
     }
     return true;
 }
+
+/// A mesh without normals has corners of its own for each triangle.
+static size_t count_in_primitive(const struct gltf_reader *r, const json_t *primitive)
+{
+    const json_t *attributes = json_object_get(primitive, "attributes");
+    const bool flat = !json_object_get(attributes, "NORMAL");
+    const int64_t mode = glb_integer(primitive, "mode", TRIANGLES),
+                  position = glb_integer(attributes, "POSITION", -1),
+                  counted = flat ? glb_integer(primitive, "indices", position) : position,
+                  count = glb_integer(json_array_get(gltf_array(r, "accessors"), (size_t)counted), "count", 0);
+    if (mode < TRIANGLES || count < (flat ? 3 : 1)) return 0;
+    return (size_t)(!flat ? count : mode == TRIANGLES ? count - count % 3 : 3 * (count - 2));
+}
+
+bool gltf_count_vertices(const struct gltf_reader *r, size_t *total)
+{
+    const json_t *meshes = gltf_array(r, "meshes"), *mesh, *node, *primitive;
+    const size_t mesh_count = json_array_size(meshes);
+    size_t *count = calloc(mesh_count + 1, sizeof *count), i, k;
+    if (!count) return false;
+    json_array_foreach(meshes, i, mesh){json_array_foreach(json_object_get(mesh, "primitives"), k,
+                                                           primitive){count[i] += count_in_primitive(r, primitive);
+}
+}
+*total = 0;
+json_array_foreach(gltf_array(r, "nodes"), i, node)
+{
+    const int64_t shown = glb_integer(node, "mesh", -1);
+    if (shown >= 0 && (size_t)shown < mesh_count) *total += count[shown];
+}
+free(count);
+return true;
+}

@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { PIXEL_ROOM = 256 << 20, VERTEX_LIMIT = 1 << 26 };
+enum { PIXEL_ROOM = 256 << 20, VERTEX_LIMIT = 1 << 24 };
 
 void gltf_at(struct gltf_reader *r, const char *format, ...)
 {
@@ -168,6 +168,17 @@ static bool check_extensions(struct gltf_reader *r)
     return json_array_size(gltf_array(r, "cameras")) == 0 || gltf_not_shown(r, "cameras");
 }
 
+/// Refuses what is too large before anything is made of it.
+static bool check_vertices(struct gltf_reader *r)
+{
+    const size_t limit = r->file.room < VERTEX_LIMIT ? r->file.room : VERTEX_LIMIT;
+    size_t total;
+    if (!gltf_count_vertices(r, &total)) return fail_no_memory(r->error, r->file.path);
+    return total <= limit ||
+           fail(r->error, ERROR_INPUT, "%s: nodes: expected at most %zu vertices together%s, got %zu", r->file.path,
+                limit, limit < VERTEX_LIMIT ? " in a file of this size" : "", total);
+}
+
 static void widen(struct gltf *gltf, const float at[3])
 {
     for (int k = 0; k < 3; k++) {
@@ -182,15 +193,10 @@ static bool measure(struct gltf_reader *r)
     struct gltf *gltf = r->gltf;
     struct gltf_pose pose;
     int most = 0;
-    size_t total = 0;
     for (int i = 0; i < gltf->node_count; i++) {
         int count = gltf_vertex_count(gltf, i);
-        total += (size_t)count;
         if (count > most) most = count;
     }
-    if (total > r->vertex_limit)
-        return fail(r->error, ERROR_INPUT, "%s: nodes: expected at most %zu vertices together%s, got %zu", gltf->path,
-                    r->vertex_limit, r->vertex_limit < VERTEX_LIMIT ? " in a file of this size" : "", total);
     float(*positions)[3] = malloc(((size_t)most + 1) * sizeof *positions);
     if (!positions || !gltf_pose_create(gltf, &pose)) {
         free(positions);
@@ -220,7 +226,7 @@ static bool read_all(struct gltf_reader *r)
     if (!check_version(r) || !check_arrays(r) || !check_extensions(r)) return false;
     if (!glb_read_buffers(&r->file, r->error)) return false;
     r->pixel_room = PIXEL_ROOM + r->file.room;
-    r->vertex_limit = r->file.room < VERTEX_LIMIT ? r->file.room : VERTEX_LIMIT;
+    if (!check_vertices(r)) return false;
     r->gltf->path = strdup(r->file.path);
     r->gltf->id = atomic_fetch_add(&last, 1) + 1;
     if (!r->gltf->path) return fail_no_memory(r->error, r->file.path);

@@ -33,7 +33,6 @@ struct gltf_reader {
     int *joints_of;       ///< of each mesh: its joints' numbers are below
     int *image_of;        ///< gltf.images of each image of the file: −1 cannot be shown, −2 not tried yet
     size_t pixel_room;    ///< bytes of pixels that may still be decoded
-    size_t vertex_limit;  ///< of all nodes together: of a small file, too, many may show one mesh
     size_t not_shown_end; ///< length of gltf.not_shown
 };
 
@@ -63,6 +62,10 @@ bool gltf_not_shown(struct gltf_reader *r, const char *format, ...) __attribute_
 
 bool gltf_read_materials(struct gltf_reader *r);
 bool gltf_read_meshes(struct gltf_reader *r);
+
+/// Adds up how many vertices all nodes will show, by what the JSON says; what is wrong in it counts as none, and is refused where it is
+/// read. False where memory is short.
+bool gltf_count_vertices(const struct gltf_reader *r, size_t *total);
 bool gltf_read_nodes(struct gltf_reader *r);
 bool gltf_read_skins(struct gltf_reader *r);
 bool gltf_read_clips(struct gltf_reader *r);
