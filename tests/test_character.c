@@ -2,6 +2,7 @@
 #include "model/character.h"
 #include "near.h"
 #include "temporary.h"
+#include <stdio.h>
 #include <string.h>
 
 /// A tetrahedron with two coordinates and coloured corners.
@@ -191,6 +192,35 @@ static void assert_refused(const char *path, const char *says)
     assert_null(c.position);
 }
 
+/// They have no area, and edges from a vertex to itself; what is left keeps its material.
+static void triangles_that_repeat_a_vertex_are_left_out(void **state)
+{
+    (void)state;
+    const struct {
+        float places[9];
+        uint16_t indices[6];
+    } bin = {{0, 0, 0, 1, 0, 0, 0, 0, 1}, {0, 1, 0, 0, 1, 2}};
+    char json[1024];
+    struct character c;
+    struct error error;
+#define REPEATS                                                                                                      \
+    "{\"bufferViews\":[{\"buffer\":0,\"byteLength\":36},{\"buffer\":0,\"byteOffset\":36,\"byteLength\":12}],"        \
+    "\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"count\":3,\"type\":\"VEC3\"},{\"bufferView\":1,"      \
+    "\"componentType\":5123,\"count\":%d,\"type\":\"SCALAR\"}],\"materials\":[{\"name\":\"red\"}],\"meshes\":["      \
+    "{\"primitives\":[{\"attributes\":{\"POSITION\":0},\"indices\":1,\"material\":0}]}]}"
+    snprintf(json, sizeof json, REPEATS, 6);
+    read_good(glb(json, &bin, sizeof bin), &c);
+    const uint32_t indices[] = {0, 1, 2};
+    assert_int_equal(c.vertex_count, 3);
+    assert_int_equal(c.index_count, 3);
+    assert_memory_equal(c.indices, indices, sizeof indices);
+    assert_int_equal(c.looks.material[0], 0);
+    character_free(&c);
+    snprintf(json, sizeof json, REPEATS, 3);
+    assert_false(character_read(glb(json, &bin, sizeof bin), &c, &error));
+    assert_non_null(strstr(error.text, "expected triangles of three different vertices, got others alone"));
+}
+
 #define MESH "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0}}]}]"
 #define VIEW "\"bufferViews\":[{\"buffer\":0,\"byteLength\":36}]"
 
@@ -294,6 +324,7 @@ int main(void)
         cmocka_unit_test(normals_point_outwards),
         cmocka_unit_test(a_file_of_another_program),
         cmocka_unit_test(a_mesh_stands_where_its_node_puts_it),
+        cmocka_unit_test(triangles_that_repeat_a_vertex_are_left_out),
         cmocka_unit_test(bad_files_get_one_sentence),
         cmocka_unit_test(changed_bytes_do_no_harm),
     };

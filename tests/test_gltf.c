@@ -2,6 +2,7 @@
 #include "base/file.h"
 #include "base/png.h"
 #include "gltf_builder.h"
+#include "model/surface.h"
 
 static const float triangle[3][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
 
@@ -139,6 +140,42 @@ static void strips_and_fans(void **state)
     assert_memory_equal(parts[2].indices, fan, sizeof fan);
     assert_string_equal(gltf.not_shown, "points, lines");
     gltf_free(&gltf);
+}
+
+/// Strips jump by triangles that name a vertex twice, which no reader keeps; a primitive of nothing else is not there.
+static void triangles_that_repeat_a_vertex_are_left_out(void **state)
+{
+    (void)state;
+    const float corners[4][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}};
+    const uint8_t strip[] = {0, 1, 2, 2, 1, 3}, flat[] = {0, 1, 0, 3, 3, 3};
+    struct builder b = {0};
+    struct gltf gltf;
+    struct error error;
+    add_data(&b, FLOAT, "VEC3", 4, corners, sizeof corners);
+    add_data(&b, FLOAT, "VEC3", 4, corners, sizeof corners);
+    add_data(&b, UBYTE, "SCALAR", 6, strip, sizeof strip);
+    add_data(&b, UBYTE, "SCALAR", 6, flat, sizeof flat);
+#define REPEATS(normal, indices, mode)                                                                               \
+    "{\"attributes\":{\"POSITION\":0" normal "},\"indices\":" indices ",\"mode\":" mode                              \
+    ",\"targets\":[{\"POSITION\":0}]}"
+    read_built(&b,
+               "\"meshes\":[{\"primitives\":[" REPEATS("", "3", "4") "," REPEATS(
+                   ",\"NORMAL\":1", "2", "5") "," REPEATS("", "2", "5") "]}]," ONE_NODE,
+               &gltf);
+    const uint32_t indices[] = {0, 1, 2, 2, 3, 1};
+    const struct gltf_part *parts = gltf.meshes[0].parts;
+    assert_int_equal(gltf.meshes[0].part_count, 2);
+    assert_int_equal(parts[0].index_count, 6);
+    assert_memory_equal(parts[0].indices, indices, sizeof indices);
+    assert_int_equal(parts[1].vertex_count, 6); // flat: three a triangle
+    assert_string_equal(gltf.not_shown, "triangles without area");
+    gltf_free(&gltf);
+    const char *path = temporary_file(
+        "flat.gltf", b.json,
+        strlen(builder_json(&b, "\"meshes\":[{\"primitives\":[" REPEATS("", "3", "4") "]}]," ONE_NODE)));
+    struct surface surface;
+    assert_false(surface_read(path, &surface, &error));
+    assert_non_null(strstr(error.text, "got none"));
 }
 
 /// Two triangles that share an edge at a right angle: without normals in the file each gets vertices of its own, and is flat.
@@ -351,10 +388,15 @@ static void nodes_and_scenes(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_component_type),     cmocka_unit_test(strides_and_offsets),
-        cmocka_unit_test(sparse_accessors),         cmocka_unit_test(strips_and_fans),
-        cmocka_unit_test(missing_normals_are_flat), cmocka_unit_test(eight_influences),
-        cmocka_unit_test(materials_and_images),     cmocka_unit_test(containers),
+        cmocka_unit_test(every_component_type),
+        cmocka_unit_test(strides_and_offsets),
+        cmocka_unit_test(sparse_accessors),
+        cmocka_unit_test(strips_and_fans),
+        cmocka_unit_test(triangles_that_repeat_a_vertex_are_left_out),
+        cmocka_unit_test(missing_normals_are_flat),
+        cmocka_unit_test(eight_influences),
+        cmocka_unit_test(materials_and_images),
+        cmocka_unit_test(containers),
         cmocka_unit_test(nodes_and_scenes),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

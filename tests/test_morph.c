@@ -5,6 +5,7 @@
 #include "scene/load.h"
 #include "ui/phase_color.h"
 #include <complex.h>
+#include <malloc.h>
 #include <stdio.h>
 #include <unistd.h>
 
@@ -158,6 +159,28 @@ static void the_coarse_mesh_is_the_same_surface(void **state)
     figure_free(&figure);
 }
 
+/// Vertices at one place and with one normal share their neighbours; where a triangle has two of them, they are no neighbours of themselves.
+static void a_triangle_between_vertices_at_one_place(void **state)
+{
+    (void)state;
+    float position[4][3] = {{0}, {0}, {1, 0, 0}, {0}};
+    uint32_t indices[] = {0, 1, 2, 1, 3, 0};
+    struct surface surface = {.position = position, .vertex_count = 4, .indices = indices, .index_count = 6};
+    struct character character;
+    struct figure figure;
+    assert_true(character_create(&character, &surface, 0));
+    mallopt(M_PERTURB, 0x5a); // what nobody has written is no vertex
+    const bool made = figure_create(&figure, &character);
+    mallopt(M_PERTURB, 0);
+    assert_true(made);
+    for (int v = 0; v < 4; v++) {
+        assert_int_equal(figure.edges.first[v + 1] - figure.edges.first[v], 3);
+        for (int e = figure.edges.first[v]; e < figure.edges.first[v + 1]; e++)
+            assert_true(figure.edges.other[e] < 4 && figure.edges.other[e] != (uint32_t)v);
+    }
+    figure_free(&figure);
+}
+
 static void a_figure_knows_where_it_stands(void **state)
 {
     (void)state;
@@ -295,6 +318,7 @@ int main(void)
         cmocka_unit_test(real_parts_alone_lose_what_lags),
         cmocka_unit_test(normals_follow_the_deformation),
         cmocka_unit_test(the_coarse_mesh_is_the_same_surface),
+        cmocka_unit_test(a_triangle_between_vertices_at_one_place),
         cmocka_unit_test(a_figure_knows_where_it_stands),
         cmocka_unit_test(the_phase_map_is_even_and_cyclic),
         cmocka_unit_test(a_model_that_is_missing_or_broken_is_said),

@@ -2,6 +2,7 @@
 #include "model/obj.h"
 #include "near.h"
 #include "temporary.h"
+#include <stdio.h>
 #include <string.h>
 
 static bool read_text(const char *text, struct surface *surface, struct error *error)
@@ -68,6 +69,58 @@ static void what_is_written_reads_back_equal(void **state)
     assert_non_null(strstr(error.text, "/nowhere/a.obj"));
 }
 
+/// A triangle that names a vertex twice has no area: it is left out, and what is left of its polygon stays a polygon where it is a fan.
+static void triangles_that_repeat_a_vertex_are_left_out(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *faces;
+        int index_count;
+        uint32_t indices[9];
+        uint8_t joined[3];
+    } cases[] = {
+        {"f 1 2 1\nf 1 2 3\nf 2 2 3\nf 3 4 4\n", 3, {0, 1, 2}, {0}},
+        {"f 1 2 3 4\nf 1 2 2\n", 6, {0, 1, 2, 0, 2, 3}, {0, 1}},
+        {"f 1 2 3\nf 1 1 3 4\n", 6, {0, 1, 2, 0, 2, 3}, {0, 0}}, // a polygon of its own, not more of the one before
+        {"f 1 2 3 3 4\n", 6, {0, 1, 2, 0, 2, 3}, {0, 1}},
+        {"f 1 2 3 1 4 5\n", 6, {0, 1, 2, 0, 3, 4}, {0, 0}}, // two that touch at a corner
+        {"f 1 2 3\nf 4 4 4\nf 1 3 4 5\n", 9, {0, 1, 2, 0, 2, 3, 0, 3, 4}, {0, 0, 1}},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        char text[256];
+        struct surface s;
+        struct error error;
+        snprintf(text, sizeof text, "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nvt 0 0\nvt 1 0\n%s",
+                 cases[i].faces);
+        if (!read_text(text, &s, &error)) fail_msg("%s", error.text);
+        assert_int_equal(s.index_count, cases[i].index_count);
+        assert_memory_equal(s.indices, cases[i].indices, (size_t)s.index_count * sizeof *s.indices);
+        for (int t = 0; t < s.index_count / 3; t++)
+            assert_int_equal(s.looks.joined ? s.looks.joined[t] : 0, cases[i].joined[t]);
+        assert_int_equal(s.vertex_count, 5); // which are what motions refer to
+        surface_free(&s);
+    }
+}
+
+/// What a triangle looks like goes with it where others before it are left out.
+static void looks_stay_with_their_triangles(void **state)
+{
+    (void)state;
+    struct surface s;
+    struct error error;
+    assert_true(read_text("v 0 0 0\nv 1 0 0\nv 1 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nusemtl a\nf 1/1 2/2 1/3\n"
+                          "usemtl b\nf 1/3 2/2 3/1\n",
+                          &s, &error));
+    const uint32_t corners[] = {2, 1, 0};
+    assert_int_equal(s.index_count, 3);
+    assert_memory_equal(s.looks.corner, corners, sizeof corners);
+    assert_string_equal(s.looks.materials[s.looks.material[0]].name, "b");
+    surface_free(&s);
+    assert_true(read_text("v 0 0 0\nv 1 0 0\nv 1 1 0\nvt 0 0\nf 1/1 2/1 1/1\nf 1 2 3\n", &s, &error));
+    assert_null(s.looks.uv); // which nothing has that is left
+    surface_free(&s);
+}
+
 static void bad_files_get_one_sentence(void **state)
 {
     (void)state;
@@ -88,6 +141,8 @@ static void bad_files_get_one_sentence(void **state)
          "form.obj:2: expected the number of a vertex, got '99999999999999999999'"},
         {"", "expected an OBJ file with vertices, got none"},
         {"v 0 0 0\n", "expected an OBJ file with faces, got none"},
+        {"v 0 0 0\nv 1 0 0\nf 1 2 1\n",
+         "expected an OBJ file with faces of three different vertices, got others alone"},
     };
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         struct surface s;
@@ -111,6 +166,8 @@ int main(void)
         cmocka_unit_test(all_forms_of_a_face),
         cmocka_unit_test(colours_become_linear),
         cmocka_unit_test(what_is_written_reads_back_equal),
+        cmocka_unit_test(triangles_that_repeat_a_vertex_are_left_out),
+        cmocka_unit_test(looks_stay_with_their_triangles),
         cmocka_unit_test(bad_files_get_one_sentence),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -196,6 +196,36 @@ static void off_with_colours(void **state)
     assert_refused_text("b.off", "OFF BINARY\n", "expected an OFF file as text");
 }
 
+/// Triangles that name a vertex twice are left out; in a strip they are how it jumps. A mesh of nothing else is refused.
+static void triangles_that_repeat_a_vertex_are_left_out(void **state)
+{
+    (void)state;
+#define THREE_OF_PLY "element vertex 3\nproperty float x\nproperty float y\nproperty float z\nelement "
+#define LISTS_OF_PLY "\nproperty list int int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n"
+#define FACET(a, b, c) "facet normal 0 0 1\nouter loop\nvertex " a "\nvertex " b "\nvertex " c "\nendloop\nendfacet\n"
+    static const struct {
+        const char *name, *good, *bad;
+    } cases[] = {
+        {"r.ply", PLY THREE_OF_PLY "face 2" LISTS_OF_PLY "3 0 1 0\n3 0 1 2\n",
+         PLY THREE_OF_PLY "face 1" LISTS_OF_PLY "3 0 1 0\n"},
+        {"t.ply", PLY THREE_OF_PLY "tristrips 1" LISTS_OF_PLY "6 0 0 0 1 2 2\n",
+         PLY THREE_OF_PLY "tristrips 1" LISTS_OF_PLY "4 0 1 1 0\n"},
+        {"r.off", "OFF\n3 2 0\n0 0 0\n1 0 0\n0 1 0\n3 2 1 2\n3 0 1 2\n",
+         "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 2 1 2\n"},
+        {"r.stl", "solid\n" FACET("0 0 0", "1 0 0", "0 1 0") FACET("0 0 0", "1 0 0", "1 0 0"),
+         "solid\n" FACET("0 0 0", "1 0 0", "1 0 0")},
+    };
+    const uint32_t indices[] = {0, 1, 2};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        struct surface s = read_good(cases[i].name, cases[i].good, strlen(cases[i].good));
+        assert_int_equal(s.vertex_count, 3);
+        assert_int_equal(s.index_count, 3);
+        assert_memory_equal(s.indices, indices, sizeof indices);
+        surface_free(&s);
+        assert_refused_text(cases[i].name, cases[i].bad, "faces of three different vertices, got others alone");
+    }
+}
+
 /// Two quads of two materials, one textured, with a seam between them: vertices 1 and 2 have two texture coordinates each.
 static void looks_come_through(void **state)
 {
@@ -348,6 +378,7 @@ int main(void)
         cmocka_unit_test(ply_as_text),
         cmocka_unit_test(stl_merges_corners),
         cmocka_unit_test(off_with_colours),
+        cmocka_unit_test(triangles_that_repeat_a_vertex_are_left_out),
         cmocka_unit_test(looks_come_through),
         cmocka_unit_test(names_of_materials_come_through),
         cmocka_unit_test(nothing_is_written_where_memory_is_short),

@@ -28,9 +28,11 @@ struct spot *spots_sort(const float (*position)[3], int count)
     return spots;
 }
 
-/// Both directions of an edge: only counted while there is no list yet, else entered at `fill`.
+/// Both directions of an edge: only counted while there is no list yet, else entered at `fill`. Twins may be the ends of one, so a vertex may
+/// be its own other end.
 static void add_edge(struct adjacency *adjacency, int *fill, uint32_t i, uint32_t j)
 {
+    if (i == j) return;
     if (adjacency->other) {
         adjacency->other[fill[i]] = j;
         adjacency->other[fill[j]] = i;
@@ -100,7 +102,7 @@ static void tidy(struct adjacency *adjacency, int vertex_count)
         qsort(list, (size_t)(end - begin), sizeof *list, compare_vertices);
         adjacency->first[i] = kept;
         for (int n = 0; n < end - begin; n++) {
-            if (list[n] == (uint32_t)i || (n > 0 && list[n] == list[n - 1])) continue;
+            if (n > 0 && list[n] == list[n - 1]) continue;
             adjacency->other[kept++] = list[n];
         }
     }

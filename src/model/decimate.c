@@ -154,10 +154,9 @@ static void drop_flat(struct work *work)
 {
     int kept = 0;
     for (int t = 0; t < work->index_count; t += 3) {
-        const uint32_t a = work->indices[t], b = work->indices[t + 1], c = work->indices[t + 2];
-        if (a == b || b == c || c == a) continue;
+        if (triangle_repeats(work->indices + t)) continue;
         if (work->sources) work->sources[kept / 3] = work->sources[t / 3];
-        work->indices[kept++] = a, work->indices[kept++] = b, work->indices[kept++] = c;
+        for (int k = 0; k < 3; k++) work->indices[kept++] = work->indices[t + k];
     }
     work->index_count = kept;
 }

@@ -63,7 +63,8 @@ static bool read_colors(const struct glb *glb, const json_t *primitive, int coun
     return true;
 }
 
-/// The triangles of a primitive whose vertices start at `base`; without indices they are in order.
+/// The triangles of a primitive whose vertices start at `base`; without indices they are in order. Those that name a vertex twice are left
+/// out.
 static bool read_indices(struct glb *glb, const json_t *primitive, int base, int count, struct surface *s,
                          struct error *error)
 {
@@ -82,6 +83,7 @@ static bool read_indices(struct glb *glb, const json_t *primitive, int base, int
         double index = numbers.values ? numbers.values[i] : i;
         good = index >= 0 && index < count;
         if (good) s->indices[s->index_count++] = (uint32_t)base + (uint32_t)index;
+        if (i % 3 == 2 && good && triangle_repeats(s->indices + s->index_count - 3)) s->index_count -= 3;
     }
     free(numbers.values);
     if (!larger) return fail_no_memory(error, glb->path);
@@ -144,6 +146,9 @@ static bool read_surface(struct glb *glb, const json_t *primitives, int coordina
     {
         if (!read_primitive(glb, primitive, shares(primitives, i), s, error)) return false;
     }
+    if (s->index_count == 0)
+        return fail(error, ERROR_INPUT, "%s: expected triangles of three different vertices, got others alone",
+                    glb->path);
     if (!s->looks.uv) s->looks.uv_count = 0;
     looks_drop_unused(&s->looks, s->index_count / 3);
     return true;

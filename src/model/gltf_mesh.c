@@ -1,9 +1,11 @@
 /// Reads meshes: triangles, strips and fans, their vertices and morph targets.
 #include "model/gltf_read.h"
+#include "model/surface.h"
 #include "model/vector.h"
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 enum { LINES = 1, TRIANGLES = 4, STRIP = 5, FAN = 6 };
 
@@ -46,6 +48,18 @@ static bool make_triangles(struct gltf_reader *r, int mode, uint32_t *corners, i
     part->indices = indices;
     part->index_count = 3 * triangles;
     return indices;
+}
+
+/// Leaves out triangles that name a vertex twice, by which strips jump.
+static void drop_repeats(struct gltf_part *part)
+{
+    int kept = 0;
+    for (int i = 0; i + 2 < part->index_count; i += 3) {
+        if (triangle_repeats(part->indices + i)) continue;
+        memmove(part->indices + kept, part->indices + i, 3 * sizeof *part->indices);
+        kept += 3;
+    }
+    part->index_count = kept;
 }
 
 static void normalise(float (*normal)[3], int count)
@@ -158,6 +172,8 @@ static bool read_part(struct gltf_reader *r, const json_t *primitive, int mode, 
         return false;
     }
     if (!make_triangles(r, mode, corners, count, part)) return false;
+    drop_repeats(part);
+    if (part->index_count == 0) return gltf_not_shown(r, "triangles without area");
     struct gltf_vertices vertices = {.in_file = (int)in_file, .count = (int)in_file};
     part->flat = !json_object_get(attributes, "NORMAL");
     part->has_polygons =
@@ -208,6 +224,10 @@ static bool read_mesh(struct gltf_reader *r, const json_t *json, size_t number)
         if (!shown) continue;
         struct gltf_part *part = &mesh->parts[mesh->part_count++];
         if (!read_part(r, primitive, (int)mode, mesh->target_count, &r->joints_of[number], part)) return false;
+        if (part->index_count > 0) continue;
+        free(part->indices);
+        part->indices = NULL;
+        mesh->part_count--;
     }
     gltf_at(r, "meshes[%zu]", number);
     mesh->weights = gltf_make(r, (size_t)mesh->target_count, sizeof *mesh->weights);

@@ -43,6 +43,12 @@ struct surface {
     struct looks looks;
 };
 
+/// Whether a triangle names a vertex twice: it has no area, and an edge from a vertex to itself. No reader keeps one.
+static inline bool triangle_repeats(const uint32_t corner[3])
+{
+    return corner[0] == corner[1] || corner[1] == corner[2] || corner[2] == corner[0];
+}
+
 /// Reads a mesh: OBJ, STL, PLY, OFF, .glb or .gltf by the end of its name (any other is read as OBJ). Vertices keep the file's order and
 /// number, which is what simulations refer to; those of an STL file, which has none, are the different places in the order of their first
 /// appearance. Errors name the file, the place in it, what was expected and what was found. Memory is bounded by the file's size.

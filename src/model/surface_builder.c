@@ -97,7 +97,6 @@ static void add_triangle(struct surface_builder *b, const uint32_t last[2])
 void builder_corner(struct surface_builder *b, uint32_t vertex, uint32_t uv)
 {
     const uint32_t corner[2] = {vertex, uv};
-    b->textured = b->textured || uv != LOOKS_NONE;
     if (b->polygon >= 2) add_triangle(b, corner);
     memcpy(b->polygon ? b->last : b->first, corner, sizeof corner);
     b->polygon++;
@@ -159,32 +158,57 @@ void builder_merge(struct surface_builder *b, int first, int first_index)
     free(name);
 }
 
-static void drop_unused(struct surface_builder *b)
+/// Leaves out triangles that name a vertex twice. What is left of a polygon is one where it is a fan still.
+static void drop_repeats(struct surface *s)
 {
-    struct looks *looks = &b->surface->looks;
-    if (!b->textured) {
+    struct looks *looks = &s->looks;
+    int kept = 0;
+    bool begun = false; // the polygon, by one that is kept
+    for (int t = 0; t < s->index_count / 3; t++) {
+        const uint32_t *corner = s->indices + 3 * t;
+        begun = begun && looks->joined[t];
+        if (triangle_repeats(corner)) continue;
+        looks->joined[kept] = begun && corner[1] == s->indices[3 * kept - 1];
+        looks->material[kept] = looks->material[t];
+        memmove(s->indices + 3 * kept, corner, 3 * sizeof *s->indices);
+        memmove(looks->corner + 3 * kept, looks->corner + 3 * t, 3 * sizeof *looks->corner);
+        begun = true;
+        kept++;
+    }
+    s->index_count = 3 * kept;
+}
+
+static void drop_unused(struct surface *s)
+{
+    struct looks *looks = &s->looks;
+    bool textured = false;
+    for (int i = 0; i < s->index_count; i++) textured = textured || looks->corner[i] != LOOKS_NONE;
+    if (!textured) {
         free(looks->uv);
         free(looks->corner);
         looks->uv = NULL;
         looks->corner = NULL;
         looks->uv_count = 0;
     }
-    looks_drop_unused(looks, b->surface->index_count / 3);
+    looks_drop_unused(looks, s->index_count / 3);
 }
 
 bool builder_finish(struct surface_builder *b, const char *path, const char *kind, struct error *error)
 {
     struct surface *s = b->surface;
-    bool good = false;
-    if (b->failed) {
-        fail_no_memory(error, path);
-    } else if (s->vertex_count == 0 || s->index_count == 0) {
-        fail(error, ERROR_INPUT, "%s: expected %s with %s, got none", path, kind,
-             s->vertex_count == 0 ? "vertices" : "faces");
+    const bool faces = s->index_count > 0;
+    bool good = !b->failed || fail_no_memory(error, path);
+    if (good) drop_repeats(s);
+    if (good && (s->vertex_count == 0 || !faces))
+        good = fail(error, ERROR_INPUT, "%s: expected %s with %s, got none", path, kind,
+                    s->vertex_count == 0 ? "vertices" : "faces");
+    if (good && s->index_count == 0)
+        good = fail(error, ERROR_INPUT, "%s: expected %s with faces of three different vertices, got others alone",
+                    path, kind);
+    if (good) {
+        drop_unused(s);
     } else {
-        drop_unused(b);
-        good = true;
+        surface_free(s);
     }
-    if (!good) surface_free(s);
     return good;
 }

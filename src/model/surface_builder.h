@@ -11,7 +11,6 @@ struct surface_builder {
     int vertices, colors, uvs, indices, corners, materials_of, joins, materials; ///< there is room for
     int polygon;                                                                 ///< corners of the open one
     uint32_t first[2], last[2]; ///< its first and its newest corner: vertex, texture coordinates
-    bool textured;              ///< some corner has texture coordinates
     bool failed;                ///< memory ran short and something is missing; stays set
 };
 
@@ -35,8 +34,8 @@ int builder_end_polygon(struct surface_builder *builder);
 /// The material of that name, made white where it is new.
 uint32_t builder_material(struct surface_builder *builder, const char *name);
 
-/// Drops what all lack: texture coordinates without corners, materials without triangles. Fails where the file has no vertices or no
-/// triangles; `kind` says what it is, as in "a PLY file". On failure the surface is empty.
+/// Drops triangles that name a vertex twice, and what all lack: texture coordinates without corners, materials without triangles. Fails
+/// where there are no vertices or no triangles then; `kind` says what it is, as in "a PLY file". On failure the surface is empty.
 bool builder_finish(struct surface_builder *builder, const char *path, const char *kind, struct error *error);
 
 /// Makes one of vertices at the same place, from number `first` on; the indices from `first_index` on are those that name them.
