@@ -16,6 +16,18 @@ says "with its clips" "Trot (0.583 s)" "$out"
 says "and the ways that chains can go" "  ear_1_L:ear_4_L (4 bones)" "$out"
 head -c 5000 $dog >"$scratch/cut.glb"
 expect 1 "check of one that was cut off" "$WIGGLY" check "$scratch/cut.glb"
+# However deep nodes lie, all are listed, and in a moment: neither time nor text grows as their square.
+awk 'BEGIN { printf "{\"asset\":{\"version\":\"2.0\"},\"nodes\":["
+    for (i = 0; i < 9999; i++) printf "{\"name\":\"b%d\",\"children\":[%d,%d]},{\"name\":\"s%d\"},", i, 2 * i + 2, 2 * i + 1, i
+    print "{\"name\":\"end\"}]}" }' >"$scratch/deep.gltf"
+expect 0 "check of 10,000 bones, each below the one before" "$WIGGLY" check "$scratch/deep.gltf"
+[ "$(grep -cE '^ +(\([0-9]+ deep\) )?([bs][0-9]+|end)$' <<<"$out")" = 19999 ]
+ok "lists all" $?
+says "those beyond a screen's width with their depth" "(9999 deep) end" "$out"
+says "each under its parent" "        b3
+          s3
+          b4
+            s4" "$out"
 expect 0 "the driver has nothing to remark" "$WIGGLY" live --headless --frames 3 --gl-debug assets/scenes/dog.json
 ! grep -q OpenGL <<<"$err"
 ok "about the character's buffers" $?

@@ -4,15 +4,25 @@
 #include "rig/bones.h"
 #include <stdio.h>
 
-enum { DEEPEST_SHOWN = 64 };
+enum { DEEPEST_INDENTED = 64 };
 
-/// The nodes below one (−1: all), each under its parent.
-static void print_below(const struct gltf *gltf, int parent, int depth)
+/// A root and the nodes below it, each under its parent. From a depth on that no screen is wide enough for, a number says how deep.
+static void print_tree(const struct gltf *gltf, int root)
 {
-    for (int n = 0; n < gltf->node_count && depth < DEEPEST_SHOWN; n++) {
-        if (gltf->nodes[n].parent != parent) continue;
-        print_line(stdout, "%*s%s", 2 + 2 * depth, "", gltf->nodes[n].name);
-        print_below(gltf, n, depth + 1);
+    const struct gltf_node *nodes = gltf->nodes;
+    for (int n = root, depth = 0; n >= 0;) {
+        if (depth <= DEEPEST_INDENTED) {
+            print_line(stdout, "%*s%s", 2 + 2 * depth, "", nodes[n].name);
+        } else {
+            print_line(stdout, "%*s(%d deep) %s", 2 + 2 * DEEPEST_INDENTED, "", depth, nodes[n].name);
+        }
+        if (nodes[n].child >= 0) {
+            n = nodes[n].child;
+            depth++;
+            continue;
+        }
+        for (; n >= 0 && nodes[n].next < 0; depth--) n = nodes[n].parent;
+        if (n >= 0) n = nodes[n].next;
     }
 }
 
@@ -45,7 +55,9 @@ void contents_print(const struct gltf *gltf)
     for (int c = 0; c < gltf->clip_count; c++)
         print_line(stdout, "  %s (%.3g s)", gltf->clips[c].name, gltf->clips[c].duration);
     printf("bones and other nodes:\n");
-    print_below(gltf, -1, 0);
+    for (int n = 0; n < gltf->node_count; n++) {
+        if (gltf->nodes[n].parent < 0) print_tree(gltf, n);
+    }
     print_chains(gltf);
     if (gltf->not_shown) print_line(stdout, "not shown: %s", gltf->not_shown);
 }

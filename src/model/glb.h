@@ -73,8 +73,8 @@ struct glb_numbers {
 
 bool glb_numbers(const struct glb *glb, int64_t accessor, struct glb_numbers *numbers, struct error *error);
 
-/// The matrix, columns first, that places mesh number `mesh` in the scene: that of the first node that shows it. False
-/// for the identity.
-bool glb_mesh_matrix(const struct glb *glb, int64_t mesh, double matrix[16]);
+/// The matrix, columns first, that places mesh number `mesh` in the scene: that of the first node that shows it. False with a sentence where
+/// memory is short.
+bool glb_mesh_matrix(const struct glb *glb, int64_t mesh, double matrix[16], struct error *error);
 
 #endif

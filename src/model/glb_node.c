@@ -1,5 +1,6 @@
 /// Where a mesh stands in the scene: the product of the matrices from the root to its node, columns first as in the file.
 #include "model/glb.h"
+#include <stdlib.h>
 #include <string.h>
 
 static const double identity[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
@@ -39,33 +40,38 @@ static void multiply_left(const double a[16], double m[16])
     memcpy(m, product, sizeof product);
 }
 
-/// The first node whose `key` is, or whose list `key` holds, this number; −1 where none does.
-static int64_t node_with(const json_t *nodes, const char *key, int64_t number)
+/// The first node that shows this mesh, −1 where none does, and of each node one more than the first whose child it is.
+static int64_t read_tree(const json_t *nodes, int64_t mesh, size_t *above)
 {
     size_t i, k;
     const json_t *node, *child;
+    int64_t shows = -1;
     json_array_foreach(nodes, i, node)
     {
-        const json_t *member = json_object_get(node, key);
-        if (json_is_integer(member) && json_integer_value(member) == number) return (int64_t)i;
-        json_array_foreach(member, k, child)
+        if (shows < 0 && glb_integer(node, "mesh", -1) == mesh) shows = (int64_t)i;
+        json_array_foreach(json_object_get(node, "children"), k, child)
         {
-            if (json_is_integer(child) && json_integer_value(child) == number) return (int64_t)i;
+            const json_int_t number = json_is_integer(child) ? json_integer_value(child) : -1;
+            if (number >= 0 && number < (json_int_t)json_array_size(nodes) && above[number] == 0)
+                above[number] = i + 1;
         }
     }
-    return -1;
+    return shows;
 }
 
-bool glb_mesh_matrix(const struct glb *glb, int64_t mesh, double matrix[16])
+bool glb_mesh_matrix(const struct glb *glb, int64_t mesh, double matrix[16], struct error *error)
 {
     const json_t *nodes = json_object_get(glb->json, "nodes");
-    int64_t node = node_with(nodes, "mesh", mesh);
+    const size_t count = json_array_size(nodes);
+    size_t *above = calloc(count + 1, sizeof *above);
+    if (!above) return fail_no_memory(error, glb->path);
+    size_t node = (size_t)(read_tree(nodes, mesh, above) + 1);
     memcpy(matrix, identity, sizeof identity);
-    for (size_t steps = json_array_size(nodes); node >= 0 && steps > 0; steps--) { // a cycle ends too
+    for (size_t steps = 0; node > 0 && steps < count; steps++, node = above[node - 1]) { // a cycle ends too
         double local[16];
-        local_matrix(json_array_get(nodes, (size_t)node), local);
+        local_matrix(json_array_get(nodes, node - 1), local);
         multiply_left(local, matrix);
-        node = node_with(nodes, "children", node);
     }
-    return memcmp(matrix, identity, sizeof identity) != 0;
+    free(above);
+    return true;
 }

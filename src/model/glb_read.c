@@ -342,7 +342,10 @@ static bool read_character(struct glb *glb, struct surface *surface, struct char
     if (!read_surface(glb, primitives, coordinates, surface, error)) return false;
     if (!character_create(c, surface, coordinates)) return fail_no_memory(error, glb->path);
     if (!read_normals(glb, primitives, c, error) || !read_coordinates(glb, mesh, c, error)) return false;
-    if (glb_mesh_matrix(glb, number, matrix)) place(c, matrix);
+    if (!glb_mesh_matrix(glb, number, matrix, error)) return false;
+    bool moved = false; // by no node: then it stays as it is, to the last bit
+    for (int n = 0; n < 16; n++) moved = moved || matrix[n] != (n % 5 == 0);
+    if (moved) place(c, matrix);
     return true;
 }
 

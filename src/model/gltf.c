@@ -4,12 +4,44 @@
 #include <stdlib.h>
 #include <string.h>
 
+static int compare_names(const void *a, const void *b)
+{
+    const struct gltf_called *p = a, *q = b;
+    const int order = strcmp(p->name, q->name);
+    return order ? order : p->node - q->node;
+}
+
+bool gltf_link_nodes(struct gltf *gltf)
+{
+    gltf->called = malloc(((size_t)gltf->node_count + 1) * sizeof *gltf->called);
+    if (!gltf->called) return false;
+    for (int n = 0; n < gltf->node_count; n++) {
+        gltf->nodes[n].child = gltf->nodes[n].next = -1;
+        gltf->called[n] = (struct gltf_called){gltf->nodes[n].name, n};
+    }
+    for (int n = gltf->node_count - 1; n >= 0; n--) {
+        struct gltf_node *node = &gltf->nodes[n];
+        if (node->parent < 0) continue;
+        node->next = gltf->nodes[node->parent].child;
+        gltf->nodes[node->parent].child = n;
+    }
+    qsort(gltf->called, (size_t)gltf->node_count, sizeof *gltf->called, compare_names);
+    return true;
+}
+
 int gltf_find_node(const struct gltf *gltf, const char *name)
 {
-    for (int i = 0; i < gltf->node_count; i++) {
-        if (strcmp(gltf->nodes[i].name, name) == 0) return i;
+    int first = 0, end = gltf->node_count;
+    while (first < end) {
+        const int middle = first + (end - first) / 2;
+        if (strcmp(gltf->called[middle].name, name) < 0) {
+            first = middle + 1;
+        } else {
+            end = middle;
+        }
     }
-    return -1;
+    const bool found = first < gltf->node_count && strcmp(gltf->called[first].name, name) == 0;
+    return found ? gltf->called[first].node : -1;
 }
 
 int gltf_find_clip(const struct gltf *gltf, const char *name)
@@ -76,6 +108,7 @@ void gltf_free(struct gltf *gltf)
     free_clips(gltf);
     free(gltf->nodes);
     free(gltf->order);
+    free(gltf->called);
     free(gltf->skins);
     free(gltf->meshes);
     for (int i = 0; i < gltf->material_count; i++) free(gltf->materials[i].name);

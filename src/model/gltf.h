@@ -21,8 +21,10 @@ struct gltf_place {
 };
 
 struct gltf_node {
-    char *name;              ///< "node 7" where the file has none
-    int parent;              ///< −1: a root
+    char *name; ///< "node 7" where the file has none
+    int parent; ///< −1: a root
+    int child,
+        next; ///< the first node below it, and the next one below its parent, by number; −1: none, and next to a root
     struct gltf_place place; ///< at rest
     float matrix[16];        ///< instead of `place` where `has_matrix`: clips and chains leave such a node alone
     bool has_matrix;
@@ -116,10 +118,17 @@ struct gltf_clip {
     int channel_count;
 };
 
+/// A node by its name.
+struct gltf_called {
+    const char *name;
+    int node;
+};
+
 struct gltf {
     char *path;
     struct gltf_node *nodes;
-    int *order; ///< all nodes, parents before children
+    int *order;                 ///< all nodes, parents before children
+    struct gltf_called *called; ///< all nodes by name, those of one name by number
     int node_count;
     struct gltf_skin *skins;
     int skin_count;
@@ -149,7 +158,10 @@ void gltf_free(struct gltf *gltf);
 bool gltf_decode_image(const unsigned char *bytes, size_t size, size_t most, struct gltf_image *image,
                        struct error *error);
 
-/// The node, or clip, with that name, or −1.
+/// Finds each node's child and next from all parents, and sorts their names. False where memory is short.
+bool gltf_link_nodes(struct gltf *gltf);
+
+/// The first node, or clip, with that name, or −1.
 int gltf_find_node(const struct gltf *gltf, const char *name);
 int gltf_find_clip(const struct gltf *gltf, const char *name);
 

@@ -30,19 +30,11 @@ bool chain_find(const struct gltf *gltf, const char *from, const char *to, struc
     return true;
 }
 
-int bones_child(const struct gltf *gltf, int node, int n)
-{
-    for (int c = 0; c < gltf->node_count; c++) {
-        if (gltf->nodes[c].parent == node && n-- == 0) return c;
-    }
-    return -1;
-}
-
 int chain_end(const struct gltf *gltf, int from, struct error *error)
 {
     int last = from;
     for (int count = 1; count <= ANGLES_MAX_JOINTS; count++) {
-        const int child = bones_child(gltf, last, 0), other = bones_child(gltf, last, 1);
+        const int child = gltf->nodes[last].child, other = child < 0 ? -1 : gltf->nodes[child].next;
         if (child < 0) return last;
         if (other >= 0) {
             fail(error, ERROR_INPUT,

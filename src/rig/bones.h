@@ -17,7 +17,4 @@ bool chain_find(const struct gltf *gltf, const char *from, const char *to, struc
 /// The bone at the end of the only way down from `from`; −1 with a sentence where the way branches, or is too long.
 int chain_end(const struct gltf *gltf, int from, struct error *error);
 
-/// The n-th child of a node, or −1.
-int bones_child(const struct gltf *gltf, int node, int n);
-
 #endif

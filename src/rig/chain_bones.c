@@ -18,7 +18,7 @@ static mat3s into_bone(const struct imported *imported, int node)
 /// The tip in the last bone's own space: where its first child is, else as far on as the bone before was long.
 static vec3s tip_of(const struct imported *imported, const struct chain_bones *bones)
 {
-    const int last = bones->node[bones->count - 1], child = bones_child(&imported->gltf, last, 0);
+    const int last = bones->node[bones->count - 1], child = imported->gltf.nodes[last].child;
     const vec3s at = place_of(imported->rest.world[last]);
     vec3s on = {.raw = {0.0f, 0.1f, 0.0f}};
     if (child >= 0) {
