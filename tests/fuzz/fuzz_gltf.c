@@ -1,5 +1,5 @@
-/// Characters in .glb and .gltf, by every reader of them: imported, as a surface, and as a character of ours.
-#include "model/character.h"
+/// Characters in .glb and .gltf, by every reader of them: imported, as a surface, and as a character of ours; and what is drawn of them.
+#include "draw/model_skirt.h"
 #include "rig/imported.h"
 #include "surface.h"
 #include <stdlib.h>
@@ -20,6 +20,21 @@ static void pose_at(const struct imported *imported, int clip, double time, stru
     }
 }
 
+static void draw(const struct imported *imported)
+{
+    static const float still[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}, eye[3] = {0, 0, 1};
+    const struct gltf *gltf = &imported->gltf;
+    struct model_skirt skirt;
+    model_skirt_create(&skirt, gltf);
+    for (int node = 0; skirt.indices && node < gltf->node_count; node++) {
+        if (gltf->nodes[node].mesh < 0) continue;
+        const struct skirt_mesh mesh = model_skirt_pose(&skirt, gltf, &imported->rest, node, still, eye);
+        fuzz_outlines(&mesh, (const float(*)[3])skirt.normal + skirt.first_vertex[node],
+                      skirt.first_index[node + 1] - skirt.first_index[node]);
+    }
+    model_skirt_free(&skirt);
+}
+
 static void import(const char *path)
 {
     struct error error = {0};
@@ -29,6 +44,7 @@ static void import(const char *path)
     if (!good) return;
     for (int clip = -1; clip < imported.gltf.clip_count && clip < 3; clip++)
         pose_at(&imported, clip, clip < 0 ? 0 : 0.6 * imported.gltf.clips[clip].duration, &imported.rest);
+    draw(&imported);
     imported_free(&imported);
 }
 
@@ -38,7 +54,7 @@ static void open_character(const char *path)
     struct character character;
     const bool good = character_read(path, &character, &error);
     fuzz_expect(good == (error.kind == ERROR_NONE), "a character is refused with a sentence");
-    if (good) character_free(&character);
+    if (good) fuzz_figure(&character);
 }
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
