@@ -49,6 +49,8 @@ grep -q '"joint"' "$scratch/plain.json"
 [ $? -eq 1 ]
 ok "follows nothing" $?
 
+expect 1 "a soft character" "$WIGGLY" rig assets/models/creature.glb
+says "has no bones" "creature.glb: expected a character with bones, got a soft one" "$err"
 expect 1 "a bone that is not there" "$WIGGLY" rig $dog --chain wing -o "$scratch/no.json"
 says "is named" 'expected a bone called "wing", got none' "$err"
 expect 1 "a way that branches" "$WIGGLY" rig $dog --chain chest -o "$scratch/no.json"

@@ -19,11 +19,6 @@ struct job {
     bool plain;
 };
 
-static const struct gltf *character_of(const struct opened *opened)
-{
-    return &models_imported(opened->models, 0)->gltf;
-}
-
 /// "A" or "A:B". Names may have colons of their own, so the colon is one between two bones that there are.
 static void split(const struct gltf *gltf, const char *text, char from[BONE_NAME_SIZE], const char **to)
 {
@@ -37,9 +32,9 @@ static void split(const struct gltf *gltf, const char *text, char from[BONE_NAME
     }
 }
 
-static bool add_chains(const struct job *job, struct history *history, struct opened *opened, struct error *error)
+static bool add_chains(const struct job *job, const struct gltf *gltf, struct history *history, struct opened *opened,
+                       struct error *error)
 {
-    const struct gltf *gltf = character_of(opened);
     struct chain_wish wish = job->wish;
     wish.follows = !job->plain && opened->document->rigs[0].model.clip;
     for (int c = 0; c < job->chains.count; c++) {
@@ -52,14 +47,13 @@ static bool add_chains(const struct job *job, struct history *history, struct op
     return true;
 }
 
-static bool edit(const struct job *job, struct opened *opened, struct error *error)
+static bool edit(const struct job *job, const struct gltf *gltf, struct opened *opened, struct error *error)
 {
     struct history *history = history_create();
     if (!history) return fail_no_memory(error, job->character);
     history_begin(history, "Rig", 0);
-    bool done =
-        !job->clip || import_choose_clip(history, opened->document, 0, character_of(opened), job->clip, error);
-    done = done && add_chains(job, history, opened, error);
+    bool done = !job->clip || import_choose_clip(history, opened->document, 0, gltf, job->clip, error);
+    done = done && add_chains(job, gltf, history, opened, error);
     history_end(history);
     history_destroy(history);
     return done && models_update(opened->models, opened->document, error);
@@ -92,13 +86,15 @@ static bool run(const struct job *job, struct error *error)
 {
     struct opened opened;
     if (!opened_read(&opened, job->character, error)) return false;
-    bool done = character_of(&opened) ||
-                fail(error, ERROR_INPUT, "%s: expected a character with bones, got a soft one", job->character);
-    if (done && !job->output) {
-        contents_print(character_of(&opened));
-    } else if (done) {
-        done = edit(job, &opened, error) && (path_has_end(job->output, ".json") ? write_scene(job, &opened, error)
-                                                                                : write_motion(job, &opened, error));
+    bool done = true;
+    const struct imported *character = models_imported(opened.models, 0);
+    if (!character) {
+        done = fail(error, ERROR_INPUT, "%s: expected a character with bones, got a soft one", job->character);
+    } else if (!job->output) {
+        contents_print(&character->gltf);
+    } else {
+        done = edit(job, &character->gltf, &opened, error) &&
+               (path_has_end(job->output, ".json") ? write_scene : write_motion)(job, &opened, error);
     }
     opened_free(&opened);
     return done;
