@@ -35,7 +35,9 @@ says "and further modes" "  up-2: explains " "$out"
 says "compares with real principal components" "real PCA's first " "$out"
 says "says what all of them leave" "  relative error of the motion with 2 coordinates: " "$out"
 says "recommends a spline" '    spline: "mode": "complex", "frequency": ' "$out"
-says "and a range of lags" "lag over the surface: from " "$out"
+says "and a range of lags" "lag over the surface: from 0 to 0 degrees" "$out"
+! grep -E -- '-0(\.0+)?[ ,)]' <<<"$out"
+ok "and prints no -0" $?
 says "the file has the targets" '"targetNames":["up.re","up.im","up-2.re","up-2.im","side.re","side.im","side-2.re","side-2.im"]' \
     "$(tr -d '\0' <"$scratch/out/box.glb")"
 says "the scene finds the file from where it is" '"model": "out/box.glb"' "$(cat "$scratch/box.json")"

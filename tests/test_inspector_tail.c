@@ -87,6 +87,10 @@ static void test_angles_one_for_each_joint(void **state)
     char *before = open_tall(&s);
     panel_click(&s, "lag.each");
     for (int n = 0; n < 4; n++) assert_near(tail(&s)->channels[0].lag.value[n], 6 * n, 1e-9);
+    panel_enter(&s, "lag.joint", "-0.04");
+    session_frame(&s);
+    assert_true(session_shows(&s, "0.0 → 18.0°")); // not −0.0
+    panel_enter(&s, "lag.joint", "0");
     panel_click(&s, "lag.each"); // lit: back to one
     assert_int_equal(tail(&s)->channels[0].lag.form, ANGLES_ONE);
     assert_near(tail(&s)->channels[0].lag.value[0], 6, 1e-9);

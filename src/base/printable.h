@@ -2,6 +2,7 @@
 #ifndef BASE_PRINTABLE_H
 #define BASE_PRINTABLE_H
 
+#include <math.h>
 #include <stddef.h>
 #include <stdio.h>
 
@@ -15,5 +16,8 @@ void print_line(FILE *stream, const char *format, ...) __attribute__((format(pri
 /// Writes a field of a table by RFC 4180: a name and what follows it, quoted if it has a comma, a quote or a line break. A file or a pipe
 /// gets the name as it is, a terminal as printable() makes it.
 void print_field(FILE *stream, const char *name, const char *suffix);
+
+/// A number to be printed in steps of `unit`: 0 where it would be shown as −0.
+static inline double printable_number(double value, double unit) { return fabs(value) <= unit / 2 ? 0 : value; }
 
 #endif

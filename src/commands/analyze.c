@@ -13,7 +13,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { FILES_MAX = 16, MODES_MAX = ANALYSIS_MODES_MAX };
+enum { FILES_MAX = 16, MODES_MAX = ANALYSIS_MODES_MAX, DIRECTION_SIZE = 64 };
 
 static const double recommended_bandwidth = 0.1; ///< the spline's default; a single oscillation says nothing of it
 static const double fast_warning = 0.01;         ///< share of the power near half the frame rate that is worth a word
@@ -109,16 +109,25 @@ static void report_spline(const struct analyzed *analyzed, const struct componen
            component_error(c, c->course));
 }
 
+static void print_direction(const double vector[3], double length, char text[DIRECTION_SIZE])
+{
+    double unit[3];
+    for (int k = 0; k < 3; k++) unit[k] = printable_number(vector[k] / length, 0.01);
+    snprintf(text, DIRECTION_SIZE, "(%.2f, %.2f, %.2f)", unit[0], unit[1], unit[2]);
+}
+
 static void report(const struct coordinate *to, const struct analyzed *analyzed, const struct component *c)
 {
     print_line(stdout, "  %s: explains %.2f %%; real PCA's first %.2f %%, its first two %.2f %%", to->name,
                100 * to->explained, 100 * to->pca1, 100 * to->pca2);
-    printf("    frequency %.4g Hz, damping ratio %.3g; mostly along (%.2f, %.2f, %.2f), %.3g m at most\n",
-           c->frequency, c->damping, c->direction[0], c->direction[1], c->direction[2], c->reach);
+    char along[DIRECTION_SIZE];
+    print_direction(c->direction, 1, along);
+    printf("    frequency %.4g Hz, damping ratio %.3g; mostly along %s, %.3g m at most\n", c->frequency, c->damping,
+           along, c->reach);
     report_spline(analyzed, c);
     printf(
         "    lag over the surface: from %.0f to %.0f degrees, beyond which 5 %% of the motion lie on either side\n",
-        c->first_lag, c->last_lag);
+        printable_number(c->first_lag, 1), printable_number(c->last_lag, 1));
 }
 
 static void report_motion(const struct job *job, const struct motion *motion, const struct analysis *a, double fps)
@@ -126,8 +135,10 @@ static void report_motion(const struct job *job, const struct motion *motion, co
     print_line(stdout, "%s: %d frames of %d vertices at %g fps", motion->path, motion->frames, motion->vertices, fps);
     double speed = sqrt(a->drift[0] * a->drift[0] + a->drift[1] * a->drift[1] + a->drift[2] * a->drift[2]);
     if (a->drift_share > 0) {
-        printf("  taken out: a steady drift, %.1f %% of the motion; on average %.3g m/s along (%.2f, %.2f, %.2f)\n",
-               100 * fmin(a->drift_share, 1), speed, a->drift[0] / speed, a->drift[1] / speed, a->drift[2] / speed);
+        char along[DIRECTION_SIZE];
+        print_direction(a->drift, speed, along);
+        printf("  taken out: a steady drift, %.1f %% of the motion; on average %.3g m/s along %s\n",
+               100 * fmin(a->drift_share, 1), speed, along);
     }
     if (a->count < job->modes)
         printf("  %d of %d coordinates: the motion has no more poles that matter\n", a->count, job->modes);

@@ -1,4 +1,5 @@
 /// Angles in the inspector: one for all joints as a slider; several as a slider that scales them and a curve.
+#include "base/printable.h"
 #include "editor/core/bones.h"
 #include "editor/core/core.h"
 #include "editor/inspector/inspection.h"
@@ -85,8 +86,8 @@ static void build_slider(struct inspection *in, const struct angle_row *row, con
                                .step = row->step,
                                .decimals = 1};
     if (several) {
-        snprintf(shown, sizeof shown, "%.1f → %.1f%s", angles_number(angles, 0),
-                 angles_number(angles, angles->count - 1), number.unit);
+        snprintf(shown, sizeof shown, "%.1f → %.1f%s", printable_number(angles_number(angles, 0), 0.1),
+                 printable_number(angles_number(angles, angles->count - 1), 0.1), number.unit);
         number.shown = shown;
     }
     enum ui_change change = ui_value(in->ui, r, &number, &value);

@@ -1,5 +1,6 @@
 /// The ring of the brush: where the distance over the surface from the spot under the pointer is the radius, drawn triangle
 /// by triangle, so that it lies on the posed surface as the paint will.
+#include "base/printable.h"
 #include "editor/core/characters.h"
 #include "editor/stage/brush.h"
 #include "editor/stage/overlays.h"
@@ -144,7 +145,8 @@ static void describe_spot(const struct stage *stage, const struct paint *paint, 
     }
     const float *value = paint->values[(size_t)coordinate * (size_t)paint->vertices + spot->corner[nearest]];
     if (value[0] == 0 && value[1] == 0) return;
-    snprintf(text, size, "painted here: %+.0f°, × %.2f", (double)value[1] * DEGREES, exp((double)value[0]));
+    snprintf(text, size, "painted here: %+.0f°, × %.2f", printable_number((double)value[1] * DEGREES, 1),
+             exp((double)value[0]));
 }
 
 static void show_state(const struct stage *stage, struct core *core, const struct paint *paint, int coordinate)
