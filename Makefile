@@ -11,6 +11,7 @@
 #   make check    formatting, static analysis, include arrows, lengths
 #   make figures  the paper's figures as SVG and CSV, in FIGURES (build/figures)
 #   make feel     how curves answer to a knot that moves, and how far they overshoot, as a table
+#   make adversary SEED=1 COUNT=2000    random splines meant to be hard, judged in quadruple precision; what is wrong is printed as a scene
 #   make fuzz     every reader of files, and exports of what is read, for SECONDS=20 each, or RUNS=10000000 inputs each; SEED=1; needs clang
 #   make regress BASE=path/to/other/wiggly    frame times of two builds on the committed session
 #   make compile_commands.json    for clangd and other tools that read C
@@ -61,7 +62,7 @@ LIBRARY_SOURCES := $(wildcard src/spline/*.c) src/base/status.c
 EMBEDDED := LICENSE $(wildcard shaders/*.vert shaders/*.frag assets/scenes/tail.json \
     assets/scenes/figure*.json assets/scenes/dog.json assets/scenes/hands.json \
     assets/scenes/meadow.json assets/demo/demo.replay)
-TOOLS := $(basename $(notdir $(wildcard tools/*.c)))
+TOOLS := $(filter-out adversary,$(basename $(notdir $(wildcard tools/*.c))))
 TESTS ?= $(sort $(wildcard tests/test_*.c tests/test_*.sh))
 FUZZERS := $(basename $(notdir $(wildcard tests/fuzz/fuzz_*.c)))
 FUZZ_SUPPORT := $(filter-out tests/fuzz/fuzz_%.c,$(wildcard tests/fuzz/*.c))
@@ -115,7 +116,8 @@ LINK = $(CC) $(OWN_LDFLAGS) $(CFLAGS) $(LDFLAGS)
 
 # --- goals -------------------------------------------------------------------------------------------------------------
 
-.PHONY: all library run test test-all bench feel proof models check figures regress fuzz fuzzers install clean help packages compile_commands.json FORCE
+.PHONY: all library run test test-all bench feel adversary proof models check figures regress fuzz fuzzers install clean help packages \
+    compile_commands.json FORCE
 
 all: $(B)/wiggly $(LIBRARIES) $(TOOLS:%=$(B)/%)
 
@@ -142,6 +144,10 @@ bench: $(B)/wiggly
 
 feel: $(B)/feel
 	$(Q)$<
+
+COUNT ?= 2000
+adversary: $(B)/adversary
+	$(Q)$< $(SEED) $(COUNT) $(JOBS)
 
 models: $(B)/models/creature.obj $(B)/models/dog.glb
 $(B)/models/%.obj: $(B)/%_obj
@@ -263,6 +269,11 @@ $(TOOLS:%=$(B)/%): $(B)/%: $(B)/obj/tools/%.o $(B)/parts.a
 $(B)/obj/tests/%.o: private OWN_CPPFLAGS += -Itests
 $(TEST_PROGRAMS): $(B)/tests/%: $(B)/obj/tests/%.o $(B)/tests/libparts.so
 	$(Q)$(LINK) $^ -Wl,-rpath,'$$ORIGIN' $(TEST_LIBS) $(LIBS) -o $@
+
+# It judges by the tests' textbook, which not every machine can build.
+$(B)/obj/tools/adversary.o: private OWN_CPPFLAGS += -Itests
+$(B)/adversary: $(B)/obj/tools/adversary.o $(patsubst %.c,$(B)/obj/%.o,$(wildcard tests/adversary*.c tests/textbook*.c)) $(B)/parts.a
+	$(Q)$(LINK) $^ -lquadmath $(LIBS) -o $@
 
 # Of the sources only what readers and exports need, and no GL.
 FUZZED := $(wildcard src/base/*.c src/spline/*.c src/scene/*.c src/model/*.c) src/ui/event.c \

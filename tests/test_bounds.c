@@ -1,4 +1,4 @@
-/// Bounds of a group, by the conditions of Karush, Kuhn and Tucker on the textbook's dense system, which shares no line with the solver.
+/// Bounds of a group, by the conditions of Karush, Kuhn and Tucker on the textbook's system, which shares no line with the solver.
 #include "near.h"
 
 #include "textbook.h"
@@ -103,8 +103,8 @@ static void check_body(const struct random_group *g, int s, const struct pushes 
     for (int j = 0; j < 2 * (last + 1); j++) {
         real pull = book.right[j], size = pushes->most;
         for (int k = 0; k < 2 * (last + 1); k++) {
-            pull -= book.matrix[j][k] * x[k];
-            size = fmaxq(size, fabsq(book.matrix[j][k] * x[k]));
+            pull -= textbook_entry(&book, j, k) * x[k];
+            size = fmaxq(size, fabsq(textbook_entry(&book, j, k) * x[k]));
         }
         if (j % 2 == 0 && (j / 2) % 40 == 0) continue; // a knot
         assert_near(pull + pushes->body[j], 0, 1e-7 * (double)size);

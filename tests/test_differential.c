@@ -1,4 +1,4 @@
-/// The solver against a textbook one (dense, quadruple precision) and against LAPACKE on the same systems: every knot pattern of
+/// The solver against a textbook one (quadruple precision) and against LAPACKE on the same systems: every knot pattern of
 /// small domains, and seeded random ones up to 40 samples, in every mode, start and kind of parameter.
 #include "near.h"
 
@@ -110,9 +110,9 @@ static void solve_with_lapack(struct textbook *book)
     for (int j = 0; j < n; j++) {
         right[j] = (double)book->right[map[j]];
         for (int i = 0; i < 2 * book->count; i++) {
-            if (book->fixed[i]) right[j] -= (double)(book->matrix[map[j]][i] * book->x[i]);
+            if (book->fixed[i]) right[j] -= (double)(textbook_entry(book, map[j], i) * book->x[i]);
         }
-        for (int i = j; i < n && i <= j + KD; i++) band[j][i - j] = (double)book->matrix[map[i]][map[j]];
+        for (int i = j; i < n && i <= j + KD; i++) band[j][i - j] = (double)textbook_entry(book, map[i], map[j]);
     }
     assert_int_equal(LAPACKE_dpbsv(LAPACK_COL_MAJOR, 'L', n, KD, 1, &band[0][0], KD + 1, right, 2 * TEXTBOOK_MAX), 0);
     for (int i = 0; i < n; i++) book->x[map[i]] = right[i];

@@ -1,4 +1,4 @@
-/// Limits, by the conditions of Karush, Kuhn and Tucker on the textbook's dense system, which shares no line with the solver: within the
+/// Limits, by the conditions of Karush, Kuhn and Tucker on the textbook's system, which shares no line with the solver: within the
 /// limits everywhere, on every knot, and nothing pulls but a limit that is touched, away from itself.
 #include "near.h"
 
@@ -115,7 +115,7 @@ static void find_body_pulls(int count, real *pull)
     }
     for (int j = 0; j < 2 * count; j++) {
         pull[j] = book.right[j];
-        for (int k = 0; k < 2 * count; k++) pull[j] -= book.matrix[j][k] * x[k];
+        for (int k = 0; k < 2 * count; k++) pull[j] -= textbook_entry(&book, j, k) * x[k];
     }
 }
 
@@ -190,7 +190,7 @@ static void vary(struct layout *l, int start, int filter, int variant)
              variant);
 }
 
-/// The textbook's matrix is for so many samples at half the rate.
+/// Half the rate is enough.
 static void the_conditions_hold_in_every_mode(void **state)
 {
     (void)state;

@@ -51,7 +51,7 @@ static real energy_of_book(void)
 {
     real sum = 0;
     for (int i = 0; i < 2 * book.count; i++) {
-        for (int j = 0; j < 2 * book.count; j++) sum += book.x[i] * book.matrix[i][j] * book.x[j];
+        for (int j = 0; j < 2 * book.count; j++) sum += book.x[i] * textbook_entry(&book, i, j) * book.x[j];
     }
     return sum;
 }

@@ -35,19 +35,19 @@ static void open_book(const wiggly_desc *desc, real calm, struct textbook *b)
     b->count = b->loop ? b->samples - 1 : b->samples - b->first;
     b->pivot = 1;
     b->growth = 0;
-    b->open = b->tied = b->swing_calmed = false;
+    b->open = b->tied = b->swing_calmed = b->swing_missing = false;
     for (int i = 0; i < b->samples; i++) {
         bool wraps = b->loop && i == b->samples - 1;
         b->y[i] = wraps ? b->y[0] : textbook_param(desc->equilibrium, i);
     }
     textbook_fill_poles(desc, b->loop ? calm / 20 : 0, b->loop, b->at);
     textbook_swing(desc, b);
-    int n = 2 * b->count;
-    for (int i = 0; i < n; i++) memset(b->matrix[i], 0, sizeof(real) * (size_t)n);
-    memset(b->right, 0, sizeof b->right);
-    memset(b->x, 0, sizeof b->x);
-    memset(b->fixed, 0, sizeof b->fixed);
-    memset(b->used, 0, sizeof b->used);
+    size_t n = 2 * (size_t)(b->count > 2 ? b->count : 2);
+    memset(b->band, 0, sizeof b->band[0] * n);
+    memset(b->right, 0, sizeof(real) * n);
+    memset(b->x, 0, sizeof(real) * n);
+    memset(b->fixed, 0, n);
+    memset(b->used, 0, n);
 }
 
 /// Nothing that could move x (or w): no knots, and no drive in the rows.
@@ -63,7 +63,7 @@ static bool is_still(const wiggly_desc *desc, const struct textbook *b)
     return !b->filter || !moves || !rings;
 }
 
-/// Too short for a row: each its knot's, else the earliest knot's.
+/// Too short for a row: each its knot's, else the earliest knot's, of an oscillator's cubic as it is in the total.
 static void solve_short(const wiggly_desc *desc, struct textbook *b)
 {
     for (int pass = 0; pass < 2; pass++) {
@@ -72,41 +72,59 @@ static void solve_short(const wiggly_desc *desc, struct textbook *b)
             real w = (real)desc->knots[n].value - b->y[sample] - crealq(b->u[sample]);
             for (int k = 0; k < b->count; k++) {
                 if (pass == 0 ? sample == b->earliest : k == sample - b->first) b->x[2 * k] = w;
+                if (pass == 0 && sample == b->earliest && desc->mode == WIGGLY_CUBIC && !b->filter)
+                    b->x[2 * k] += b->y[sample] - b->y[b->first + k];
             }
         }
     }
 }
 
-/// Cholesky, row by row from each row's first entry on.
+int textbook_place(const struct textbook *b, int unknown)
+{
+    int k = unknown / 2, folded = 2 * k < b->count ? 2 * k : 2 * (b->count - k) - 1;
+    return 2 * (b->loop ? folded : k) + unknown % 2;
+}
+
+real textbook_entry(const struct textbook *b, int row, int column)
+{
+    int i = textbook_place(b, row), j = textbook_place(b, column), n = i > j ? i - j : j - i;
+    return n < TEXTBOOK_BAND ? b->band[i > j ? i : j][n] : 0;
+}
+
+/// L D Lᵀ, row by row; what is fixed or not used has no row.
 static bool solve(struct textbook *b)
 {
-    static real l[2 * TEXTBOOK_MAX][2 * TEXTBOOK_MAX];
-    real z[2 * TEXTBOOK_MAX];
-    int map[2 * TEXTBOOK_MAX], from[2 * TEXTBOOK_MAX], n = 0;
-    for (int i = 0; i < 2 * b->count; i++) {
-        if (b->used[i] && !b->fixed[i]) map[n++] = i;
-    }
+    static real l[2 * TEXTBOOK_MAX][TEXTBOOK_BAND], d[2 * TEXTBOOK_MAX], z[2 * TEXTBOOK_MAX];
+    static int unknown[2 * TEXTBOOK_MAX];
+    int n = 2 * b->count;
+    for (int u = 0; u < n; u++) unknown[textbook_place(b, u)] = u;
     for (int i = 0; i < n; i++) {
-        const real *row = b->matrix[map[i]];
-        z[i] = b->right[map[i]];
-        for (int j = 0; j < 2 * b->count; j++) {
-            if (b->fixed[j] && b->used[j]) z[i] -= row[j] * b->x[j];
+        int u = unknown[i], from = i < TEXTBOOK_BAND ? 0 : i - TEXTBOOK_BAND + 1;
+        bool solved = b->used[u] && !b->fixed[u];
+        d[i] = 1;
+        z[i] = solved ? b->right[u] : 0;
+        for (int j = from; j < n && j < i + TEXTBOOK_BAND && solved; j++) {
+            int v = unknown[j];
+            if (b->used[v] && b->fixed[v]) z[i] -= textbook_entry(b, u, v) * b->x[v];
         }
-        for (from[i] = 0; from[i] < i && row[map[from[i]]] == 0;) from[i]++;
-        for (int j = from[i]; j <= i; j++) {
-            real sum = row[map[j]];
-            for (int k = from[i] > from[j] ? from[i] : from[j]; k < j; k++) sum -= l[i][k] * l[j][k];
-            if (i == j) b->pivot = (double)fminq(b->pivot, row[map[i]] > 0 ? sum / row[map[i]] : 0);
-            if (i == j && !(sum > least_pivot * row[map[i]])) return false;
-            l[i][j] = i == j ? sqrtq(sum) : sum / l[j][j];
+        for (int j = from; j <= i; j++) {
+            int v = unknown[j];
+            real sum = solved && b->used[v] && !b->fixed[v] ? b->band[i][i - j] : 0;
+            for (int k = from; k < j && solved; k++) {
+                if (j - k < TEXTBOOK_BAND) sum -= l[i][i - k] * l[j][j - k] * d[k];
+            }
+            if (j < i) l[i][i - j] = solved ? sum / d[j] : 0;
+            if (j < i || !solved) continue;
+            b->pivot = (double)fminq(b->pivot, b->band[i][0] > 0 ? sum / b->band[i][0] : 0);
+            if (!(sum > least_pivot * b->band[i][0])) return false;
+            d[i] = sum;
         }
-        for (int k = from[i]; k < i; k++) z[i] -= l[i][k] * z[k];
-        z[i] /= l[i][i];
+        for (int k = from; k < i; k++) z[i] -= l[i][i - k] * z[k];
     }
     for (int i = n - 1; i >= 0; i--) {
-        z[i] /= l[i][i];
-        b->x[map[i]] = z[i];
-        for (int k = from[i]; k < i; k++) z[k] -= l[i][k] * z[i];
+        z[i] /= d[i];
+        for (int k = i + 1; k < n && k < i + TEXTBOOK_BAND; k++) z[i] -= l[k][k - i] * z[k];
+        if (b->used[unknown[i]] && !b->fixed[unknown[i]]) b->x[unknown[i]] = z[i];
     }
     return true;
 }

@@ -1,5 +1,5 @@
-/// The spline as a textbook would solve it: every row of the energy written out from docs/mathematics.md, squared into a dense matrix
-/// in quadruple precision, plain Cholesky. Slow, and as independent of src/spline as can be.
+/// The spline as a textbook would solve it: every row of the energy written out from docs/mathematics.md, squared into a banded matrix
+/// in quadruple precision, plain L D Lᵀ. Slow, and as independent of src/spline as can be.
 #ifndef TESTS_TEXTBOOK_H
 #define TESTS_TEXTBOOK_H
 
@@ -7,7 +7,7 @@
 #include <stdbool.h>
 #include <wiggly/wiggly.h>
 
-enum { TEXTBOOK_MAX = 256 }; ///< samples
+enum { TEXTBOOK_MAX = 4096, TEXTBOOK_BAND = 10 }; ///< samples; entries of a matrix row up to its diagonal
 
 /// One sample's poles, and its oscillator q″ + 2d q′ + k q = 0.
 struct textbook_poles {
@@ -21,9 +21,10 @@ struct textbook_poles {
 struct textbook {
     double
         pivot; ///< least pivot of the system, as a part of its diagonal entry; of a swing in a loop, its determinant too
-    double growth;     ///< max |w| over the scale of what was asked; 0 where that is 0
-    bool open;         ///< nothing holds the start (in a loop: the damping), so the problem may be singular
-    bool swing_calmed; ///< a loop without damping has no swing of its own to speak of: u is that of calm 0.05
+    double growth;      ///< max |w| over the scale of what was asked; 0 where that is 0
+    bool open;          ///< nothing holds the start (in a loop: the damping), so the problem may be singular
+    bool swing_missing; ///< a loop without a spring whose friction varies has no periodic u: it is 0
+    bool swing_calmed;  ///< a loop without damping has no swing of its own to speak of: u is that of calm 0.05
 
     bool is_complex, loop, rest, filter; ///< filter: what moves by itself is the paper's filter
     real h, calm;
@@ -36,7 +37,9 @@ struct textbook {
     real y[TEXTBOOK_MAX], speed[TEXTBOOK_MAX];                   ///< equilibrium; (y + Re u)′
     number u[TEXTBOOK_MAX];
 
-    real matrix[2 * TEXTBOOK_MAX][2 * TEXTBOOK_MAX], right[2 * TEXTBOOK_MAX], x[2 * TEXTBOOK_MAX];
+    real band[2 * TEXTBOOK_MAX]
+             [TEXTBOOK_BAND]; ///< by textbook_place(): entry (i, i − n) at [i][n]; read with textbook_entry()
+    real right[2 * TEXTBOOK_MAX], x[2 * TEXTBOOK_MAX];
     bool fixed[2 * TEXTBOOK_MAX], used[2 * TEXTBOOK_MAX];
 };
 
@@ -50,6 +53,9 @@ bool textbook_as(const wiggly_desc *desc, wiggly_status status, struct textbook 
 /// false: none of them).
 bool textbook_curve(const wiggly_desc *desc, struct textbook *book, wiggly_status *status, double *total, double *re,
                     double *im);
+
+/// An entry of the matrix, by the numbers of its unknowns.
+real textbook_entry(const struct textbook *book, int row, int column);
 
 /// The curve that the unknowns x of a solved book stand for.
 void textbook_fill(struct textbook *book, double *total, double *re, double *im);

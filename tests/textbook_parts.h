@@ -4,6 +4,9 @@
 
 #include "textbook.h"
 
+/// The row of an unknown in the band. A loop's samples are folded, 0, P − 1, 1, P − 2 …: neighbours across its seam are near each other, too.
+int textbook_place(const struct textbook *book, int unknown);
+
 /// A parameter at a sample.
 real textbook_param(wiggly_param param, int sample);
 

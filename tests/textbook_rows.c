@@ -10,6 +10,13 @@ struct term {
 /// How much of a complex row counts.
 enum parts { REAL_PART = 1, BOTH_PARTS = 2 };
 
+/// The lower half alone is kept.
+static void add_entry(struct textbook *b, int row, int column, real value)
+{
+    int n = textbook_place(b, row) - textbook_place(b, column);
+    if (n >= 0) b->band[textbook_place(b, row)][n] += value;
+}
+
 /// Adds weight·|Σ terms − right|².
 static void add_row(struct textbook *b, enum parts parts, real weight, int n, const struct term *terms, number right)
 {
@@ -34,7 +41,7 @@ static void add_row(struct textbook *b, enum parts parts, real weight, int n, co
         }
         for (int i = 0; i < 2 * n; i++) {
             b->right[column[i]] += weight * value[i] * rhs;
-            for (int j = 0; j < 2 * n; j++) b->matrix[column[i]][column[j]] += weight * value[i] * value[j];
+            for (int j = 0; j < 2 * n; j++) add_entry(b, column[i], column[j], weight * value[i] * value[j]);
         }
     }
 }
@@ -49,14 +56,18 @@ static void add_jet(const wiggly_desc *desc, struct textbook *b)
 {
     bool driven = b->filter || desc->mode == WIGGLY_CUBIC;
     int m = b->count, from = b->loop ? 0 : 1, to = b->loop ? m - 1 : b->tied ? b->last - b->first : m - 2;
-    real cube = b->h * b->h * b->h;
+    real cube = b->h * b->h * b->h, size = 1;
+    number l0 = 0, l1 = 0, g = 0;
     for (int k = from; k <= to; k++) {
         const struct textbook_poles *at = poles_of(b, k);
         int before = b->loop ? (k + m - 1) % m : k - 1, after = b->loop ? (k + 1) % m : k + 1, i = b->first + k;
-        number l0 = cexpq(at->s[0] * b->h), l1 = cexpq(at->s[1] * b->h), g = cexpq((at->s[0] + at->s[1]) * b->h / 2);
+        if (k == from || at->s[0] != at[-1].s[0] || at->s[1] != at[-1].s[1]) {
+            l0 = cexpq(at->s[0] * b->h), l1 = cexpq(at->s[1] * b->h), g = cexpq((at->s[0] + at->s[1]) * b->h / 2);
+            size = gain(at, b->h);
+        }
         number drive = driven ? g * (textbook_y_after(b, i) - 2 * b->y[i] + textbook_y_before(b, i)) : 0;
         real weight = 1 / cube;
-        if (!b->filter) weight /= gain(at, b->h);
+        if (!b->filter) weight /= size;
         if (b->tied && k == b->last - b->first) weight *= 2;
         add_row(b, BOTH_PARTS, weight, 3, (struct term[]){{before, l0 * l1}, {k, -(l0 + l1)}, {after, 1}}, -drive);
     }
@@ -70,16 +81,17 @@ static void add_jet(const wiggly_desc *desc, struct textbook *b)
 static void hold_imaginary(struct textbook *b)
 {
     if (!b->is_complex || (b->rest && b->earliest < 0)) return;
-    real t = (b->loop ? b->count : b->count - 1) * b->h, top = 0;
+    real t = (b->loop ? b->count : b->count - 1) * b->h, top = 0, t4 = t * t * t * t;
     int held = b->tied ? b->last - b->first + 1 : b->count;
     for (int k = 0; k < held; k++) top = fmaxq(top, poles_of(b, k)->natural);
     for (int k = 0; k < held; k++) {
-        real natural = poles_of(b, k)->natural, weight = b->h / (powq(t, 4) * (1 + powq(natural * t, 8)));
+        real natural = poles_of(b, k)->natural, w2 = natural * natural;
+        real weight = b->h / (t4 * (1 + w2 * w2 * w2 * w2 * t4 * t4));
         if (!b->filter && top > 0) {
-            real lack = fmaxq(0, 1 - powq(10 * natural / top, 2));
-            weight += b->h * powq(top, 4) * lack * lack;
+            real lack = fmaxq(0, 1 - 100 * w2 / (top * top));
+            weight += b->h * (top * top * top * top) * lack * lack;
         }
-        b->matrix[2 * k + 1][2 * k + 1] += weight;
+        add_entry(b, 2 * k + 1, 2 * k + 1, weight);
     }
 }
 

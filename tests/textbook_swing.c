@@ -33,13 +33,19 @@ static struct state step(struct state from, real d, real k, real h)
 /// its jump. `drive` scales y.
 static struct state run(const struct textbook *b, struct state now, real drive, struct state *at)
 {
+    real d = -1, k = -1, h = b->h;
+    struct state of_q = {0}, of_v = {0};
     for (int i = 0;; i++) {
         real kick = -drive * (textbook_y_after(b, i) - 2 * b->y[i] + textbook_y_before(b, i)) / b->h;
         if (at) at[i] = (struct state){now.q, now.v + kick / 2};
         if (i == b->samples - 1) return now;
         now.v += kick;
         const struct textbook_poles *p = &b->swing[i], *next = &b->swing[i + 1];
-        now = step(now, (p->d + next->d) / 2, (p->k + next->k) / 2, b->h);
+        if (d != (p->d + next->d) / 2 || k != (p->k + next->k) / 2) {
+            d = (p->d + next->d) / 2, k = (p->k + next->k) / 2;
+            of_q = step((struct state){1, 0}, d, k, h), of_v = step((struct state){0, 1}, d, k, h);
+        }
+        now = (struct state){of_q.q * now.q + of_v.q * now.v, of_q.v * now.q + of_v.v * now.v};
     }
 }
 
@@ -59,11 +65,14 @@ static struct state periodic_without_spring(const struct textbook *b, bool rubs)
 /// The state before sample 0 that comes back before the last one. false where there is none.
 static bool find_periodic(struct textbook *b, struct state *start)
 {
-    bool pulls = false, rubs = false;
+    bool pulls = false, rubs = false, varies = false;
     for (int i = 0; i < b->samples - 1; i++) {
         pulls = pulls || b->swing[i].k > 0;
         rubs = rubs || b->swing[i].d > 0;
+        varies = varies || b->swing[i].d != b->swing[0].d;
     }
+    b->swing_missing = !pulls && varies;
+    if (b->swing_missing) return true;
     if (!pulls) {
         *start = periodic_without_spring(b, rubs);
         return true;
@@ -97,6 +106,7 @@ static bool swing_at_calm(const wiggly_desc *desc, struct textbook *b, real calm
     struct state at[TEXTBOOK_MAX], start = {0};
     textbook_fill_poles(desc, b->loop ? calm / 20 : 0, b->loop, b->swing);
     if (b->loop && !find_periodic(b, &start)) return false;
+    if (b->swing_missing) return true;
     run(b, start, 1, at);
     real largest = 0;
     for (int i = 0; i < b->samples; i++) {

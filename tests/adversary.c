@@ -1,0 +1,333 @@
+/// The adversary's problems.
+#include "adversary.h"
+
+#include <math.h>
+#include <string.h>
+
+static double uniform(uint64_t *seed)
+{
+    *seed = *seed * 6364136223846793005u + 1442695040888963407u;
+    return (double)(*seed >> 11) * 0x1p-53;
+}
+
+static int pick(uint64_t *seed, int count) { return (int)(uniform(seed) * count); }
+
+static double between(uint64_t *seed, double low, double high) { return low + (high - low) * uniform(seed); }
+
+/// From one power of ten to another.
+static double power(uint64_t *seed, double low, double high) { return pow(10, between(seed, low, high)); }
+
+/// From one number to another: smoothly, in one step, there and back, or in steps between the two. In a loop the ends may differ.
+static wiggly_param make_track(struct adversary_problem *p, uint64_t *seed, double from, double to)
+{
+    double *track = p->tracks[p->tracks_used++];
+    int n = p->desc.samples, shape = pick(seed, 4), at = pick(seed, n);
+    for (int i = 0; i < n; i++) {
+        double s = n > 1 ? (double)i / (n - 1) : 0, way = 0;
+        if (shape == 0) way = s * s * (3 - 2 * s);
+        if (shape == 1) way = i >= at;
+        if (shape == 2) way = sin(6.3 * s);
+        if (shape == 3) way = pick(seed, 2);
+        track[i] = from + (to - from) * way;
+    }
+    bool ragged = pick(seed, 3) == 0;
+    if (p->desc.start == WIGGLY_LOOP && !ragged) track[n - 1] = track[0];
+    return (wiggly_param){.track = track};
+}
+
+/// A number, or one time in five a track from it to another of the same kind.
+static wiggly_param make_param(struct adversary_problem *p, uint64_t *seed, double value, double other)
+{
+    if (pick(seed, 5) > 0) return (wiggly_param){.value = value};
+    return make_track(p, seed, value, other);
+}
+
+/// Periods over the domain: none, a whole or a half number, few, many.
+static double some_periods(uint64_t *seed)
+{
+    switch (pick(seed, 5)) {
+    case 0:
+        return 0;
+    case 1:
+        return 0.5 * pick(seed, 13);
+    case 2:
+        return power(seed, -4, 0);
+    case 3:
+        return between(seed, 0, 4);
+    default:
+        return between(seed, 0, 30);
+    }
+}
+
+static double some_damping(uint64_t *seed)
+{
+    switch (pick(seed, 6)) {
+    case 0:
+    case 1:
+        return 0;
+    case 2:
+        return 0.03;
+    case 3:
+        return 1;
+    case 4:
+        return between(seed, 0, 2);
+    default:
+        return pick(seed, 3) ? between(seed, 0, 0.3) : between(seed, 1, 25);
+    }
+}
+
+static double some_bandwidth(uint64_t *seed) { return (double[]){0, 0.1, 1, uniform(seed)}[pick(seed, 4)]; }
+
+static double some_calm(uint64_t *seed) { return (double[]){0, 0.001, 1, 1, power(seed, -14, 0)}[pick(seed, 5)]; }
+
+static void make_poles(struct adversary_problem *p, uint64_t *seed)
+{
+    wiggly_desc *d = &p->desc;
+    double t = (d->samples - 1) * d->step;
+    // Where both poles alias to the same λ, the oscillator's speeds are infinite.
+    double most = (d->passive == WIGGLY_FILTER ? 0.9 : 0.45) / d->step;
+    double f = fmin(some_periods(seed) / t, most), other = fmin(some_periods(seed) / t, most);
+    if (d->mode == WIGGLY_REAL && pick(seed, 4) == 0) {
+        double k = 39.5 * f * f, friction = between(seed, 0, 8);
+        d->spring_friction = true;
+        d->spring = make_param(p, seed, k, 39.5 * other * other);
+        d->friction = make_param(p, seed, friction, 0);
+        return;
+    }
+    d->frequency = make_param(p, seed, f, other);
+    d->damping = make_param(p, seed, some_damping(seed), some_damping(seed));
+    d->bandwidth = make_param(p, seed, some_bandwidth(seed), some_bandwidth(seed));
+}
+
+static void add_knot(struct adversary_problem *p, uint64_t *seed, int sample, double size, bool slope)
+{
+    wiggly_desc *d = &p->desc;
+    p->knots[d->knot_count++] = (wiggly_knot){
+        .sample = sample,
+        .value = size * between(seed, -1, 1),
+        .has_slope = slope,
+        .slope = size * between(seed, -2, 2) / d->step / (double[]){1, 10}[pick(seed, 2)],
+        .stiffness = power(seed, -3, 12),
+    };
+}
+
+/// Few or many, adjacent or apart, on the first and the last sample too.
+static void make_knots(struct adversary_problem *p, uint64_t *seed, double size)
+{
+    wiggly_desc *d = &p->desc;
+    int end = d->samples - (d->start == WIGGLY_LOOP ? 1 : 0), run = pick(seed, 3) == 0 ? pick(seed, end) : -9;
+    double density = uniform(seed) * uniform(seed);
+    bool ends = pick(seed, 3) == 0, flat = pick(seed, 12) == 0;
+    if (pick(seed, 4) == 0) density = 2.0 / d->samples;
+    for (int i = 0; i < end; i++) {
+        bool here = uniform(seed) < density || (i >= run && i < run + 3) || (ends && (i == 0 || i == end - 1));
+        if (here) add_knot(p, seed, i, flat ? 0 : size, pick(seed, 3) == 0);
+    }
+}
+
+static void make_equilibrium(struct adversary_problem *p, uint64_t *seed, double size)
+{
+    double y = size * between(seed, -1, 1);
+    if (pick(seed, 3) == 0) p->desc.equilibrium = make_param(p, seed, y, size * between(seed, -1, 1));
+    if (pick(seed, 6) == 0) p->desc.equilibrium = make_track(p, seed, y, size * between(seed, -9, 9));
+}
+
+static double some_size(uint64_t *seed) { return (double[]){1, 1, 1, 1e-6, 1e6}[pick(seed, 5)]; }
+
+/// Everything at random, of so many samples.
+static void make_mixed(struct adversary_problem *p, uint64_t *seed, int samples)
+{
+    wiggly_desc *d = &p->desc;
+    d->samples = samples;
+    d->mode = (wiggly_mode)pick(seed, 3);
+    d->start = samples > 1 ? (wiggly_start)pick(seed, 3) : WIGGLY_FREE;
+    d->calm = some_calm(seed);
+    make_poles(p, seed);
+    double size = some_size(seed);
+    make_equilibrium(p, seed, size);
+    make_knots(p, seed, size);
+}
+
+static void make_adjacent(struct adversary_problem *p, uint64_t *seed)
+{
+    wiggly_desc *d = &p->desc;
+    d->samples = 6 + pick(seed, 35);
+    d->passive = (wiggly_passive)pick(seed, 2);
+    d->calm = 0;
+    d->start = pick(seed, 2) ? WIGGLY_REST : WIGGLY_FREE;
+    d->bandwidth.value = 0;
+    d->frequency.value = fmin(power(seed, -1, 1.2) / (d->samples * d->step), 0.45 / d->step);
+    d->damping.value = some_damping(seed);
+    int first = 2 + pick(seed, d->samples - 5);
+    for (int k = 0; k < 3; k++) add_knot(p, seed, first + k, 1, false);
+}
+
+static void make_nodal(struct adversary_problem *p, uint64_t *seed)
+{
+    wiggly_desc *d = &p->desc;
+    int half = 2 + pick(seed, 4), halves = 2 + pick(seed, 3), first = pick(seed, half);
+    d->passive = (wiggly_passive)pick(seed, 2);
+    d->mode = pick(seed, 3) ? WIGGLY_REAL : WIGGLY_COMPLEX;
+    d->start = (wiggly_start)pick(seed, 3);
+    d->samples = d->start == WIGGLY_LOOP ? 2 * half * (halves / 2) + 1 : half * halves + 2 + pick(seed, 4);
+    d->calm = (double[]){0, 0.001, 1}[pick(seed, 3)];
+    d->bandwidth.value = 0;
+    d->damping.value = (double[]){0, 0, 1e-9, 1e-5}[pick(seed, 4)];
+    d->frequency.value = 1 / (2 * half * d->step);
+    if (pick(seed, 4) == 0) { // nothing swings where the curve starts
+        double *track = p->tracks[p->tracks_used++];
+        for (int i = 0; i < d->samples; i++) track[i] = i <= first ? 0 : d->frequency.value;
+        if (d->start == WIGGLY_LOOP) track[d->samples - 1] = 0;
+        d->frequency.track = track;
+    }
+    if (pick(seed, 3) == 0) d->equilibrium = make_track(p, seed, 0, between(seed, -1, 1));
+    bool flat = pick(seed, 4) == 0;
+    for (int i = first; i < d->samples - 1; i += half) {
+        add_knot(p, seed, i, 1, false);
+        if (flat) p->knots[d->knot_count - 1].value = 0.5;
+    }
+}
+
+static void make_nyquist(struct adversary_problem *p, uint64_t *seed)
+{
+    wiggly_desc *d = &p->desc;
+    d->samples = 3 + pick(seed, 60);
+    d->passive = (wiggly_passive)pick(seed, 2);
+    d->mode = (wiggly_mode)pick(seed, 2);
+    d->start = (wiggly_start)pick(seed, 3);
+    d->calm = some_calm(seed);
+    double most = d->passive == WIGGLY_FILTER ? 1.5 : 0.499, f = between(seed, 0.3, most) / d->step;
+    d->frequency = make_param(p, seed, f, 0);
+    d->damping = make_param(p, seed, some_damping(seed), some_damping(seed));
+    d->bandwidth.value = d->passive == WIGGLY_FILTER ? some_bandwidth(seed) : 0;
+    make_equilibrium(p, seed, 1);
+    make_knots(p, seed, 1);
+}
+
+static void make_from_zero(struct adversary_problem *p, uint64_t *seed)
+{
+    wiggly_desc *d = &p->desc;
+    d->samples = 4 + pick(seed, 60);
+    d->passive = (wiggly_passive)pick(seed, 2);
+    d->mode = (wiggly_mode)pick(seed, 2);
+    d->start = (wiggly_start)pick(seed, 3);
+    d->calm = some_calm(seed);
+    double f = power(seed, -2, -0.35) / d->step, end = pick(seed, 2) ? 0 : 0.5 * f;
+    double *track = p->tracks[p->tracks_used++];
+    int off = pick(seed, d->samples), on = off + 1 + pick(seed, d->samples - off);
+    for (int i = 0; i < d->samples; i++) track[i] = i >= off && i < on ? f : i < off ? 0 : end;
+    if (pick(seed, 3) == 0) {
+        for (int i = 0; i < d->samples; i++) track[i] = f * i / d->samples;
+    }
+    d->frequency.track = track;
+    double damping = pick(seed, 2) ? between(seed, 1, 25) : some_damping(seed);
+    d->damping = make_param(p, seed, damping, some_damping(seed));
+    d->bandwidth.value = some_bandwidth(seed);
+    make_equilibrium(p, seed, 1);
+    make_knots(p, seed, 1);
+}
+
+static void make_slow(struct adversary_problem *p, uint64_t *seed)
+{
+    wiggly_desc *d = &p->desc;
+    d->samples = 3 + pick(seed, pick(seed, 4) ? 60 : 600);
+    d->passive = (wiggly_passive)pick(seed, 2);
+    d->mode = (wiggly_mode)pick(seed, 2);
+    d->start = pick(seed, 3) ? WIGGLY_LOOP : (wiggly_start)pick(seed, 2);
+    d->calm = some_calm(seed);
+    double t = (d->samples - 1) * d->step, f = power(seed, -4, 0.3) / t;
+    if (d->mode == WIGGLY_REAL && pick(seed, 3) == 0) {
+        d->spring_friction = true;
+        d->spring = make_param(p, seed, pick(seed, 3) ? 39.5 * f * f : 0, 0);
+        d->friction = make_param(p, seed, between(seed, 0, 8) * (pick(seed, 2) ? f : 1), 0);
+    } else {
+        d->frequency = make_param(p, seed, f, 0.1 * f);
+        d->damping = make_param(p, seed, some_damping(seed), some_damping(seed));
+        d->bandwidth.value = some_bandwidth(seed);
+    }
+    d->equilibrium = make_track(p, seed, between(seed, -1, 1), between(seed, -1, 1));
+    if (pick(seed, 2)) make_knots(p, seed, 1);
+}
+
+/// A knot every so many samples, or about that.
+static void make_regular_knots(struct adversary_problem *p, uint64_t *seed, int gap)
+{
+    wiggly_desc *d = &p->desc;
+    int end = d->samples - (d->start == WIGGLY_LOOP ? 1 : 0);
+    bool irregular = pick(seed, 2), slopes = pick(seed, 3) == 0;
+    for (int i = pick(seed, gap); i < end; i += irregular ? 1 + pick(seed, 2 * gap - 1) : gap)
+        add_knot(p, seed, i, 1, slopes && pick(seed, 2));
+}
+
+static void make_chain(struct adversary_problem *p, uint64_t *seed)
+{
+    wiggly_desc *d = &p->desc;
+    d->samples = pick(seed, 6) ? 100 + pick(seed, 500) : 600 + pick(seed, 1800);
+    d->passive = (wiggly_passive)pick(seed, 2);
+    d->mode = pick(seed, 4) ? WIGGLY_COMPLEX : WIGGLY_REAL;
+    d->start = pick(seed, 4) ? WIGGLY_FREE : (wiggly_start)(1 + pick(seed, 2));
+    d->calm = pick(seed, 5) ? power(seed, -13, 0) : 1;
+    d->bandwidth.value = (double[]){0, 0, 1e-3, 0.1, 1}[pick(seed, 5)];
+    d->damping.value = (double[]){0, 0, 1e-9, 1e-4, 1e-2}[pick(seed, 5)];
+    int gap = 2 + (int)(d->samples * power(seed, -2.5, -0.5));
+    double halves = pick(seed, 2) ? 1 + pick(seed, 4) : between(seed, 0, 5); // periods between knots, twice
+    d->frequency.value = fmin(halves / (2 * gap * d->step), 0.45 / d->step);
+    make_regular_knots(p, seed, gap);
+}
+
+static void make_long(struct adversary_problem *p, uint64_t *seed)
+{
+    wiggly_desc *d = &p->desc;
+    int samples = pick(seed, 8) ? 60 + pick(seed, 500) : 600 + pick(seed, 2400);
+    d->passive = (wiggly_passive)pick(seed, 2);
+    if (pick(seed, 2)) {
+        make_mixed(p, seed, samples);
+        return;
+    }
+    d->samples = samples;
+    d->mode = (wiggly_mode)pick(seed, 3);
+    d->start = (wiggly_start)pick(seed, 3);
+    d->calm = some_calm(seed);
+    make_poles(p, seed);
+    make_equilibrium(p, seed, 1);
+    make_regular_knots(p, seed, 2 + (int)(samples * power(seed, -2.5, -0.05)));
+}
+
+static const double rates[] = {24, 60, 1000, 1, 15, 120, 24 * 16, 23.976 * 4, 30 * 256};
+
+void adversary_make(struct adversary_problem *p, adversary_kind kind, uint64_t seed)
+{
+    for (int i = 0; i < 8; i++) uniform(&seed);
+    p->tracks_used = 0;
+    p->desc = wiggly_default_desc();
+    p->desc.knots = p->knots;
+    p->fps = rates[pick(&seed, pick(&seed, 2) ? 4 : (int)(sizeof rates / sizeof *rates))];
+    p->desc.step = 1 / p->fps;
+    switch (kind) {
+    case ADVERSARY_FILTER:
+    case ADVERSARY_OSCILLATOR:
+        p->desc.passive = kind == ADVERSARY_FILTER ? WIGGLY_FILTER : WIGGLY_OSCILLATOR;
+        make_mixed(p, &seed, pick(&seed, 40) ? 4 + pick(&seed, 37) : 1 + pick(&seed, 3));
+        return;
+    case ADVERSARY_ADJACENT:
+        make_adjacent(p, &seed);
+        return;
+    case ADVERSARY_NODAL:
+        make_nodal(p, &seed);
+        return;
+    case ADVERSARY_NYQUIST:
+        make_nyquist(p, &seed);
+        return;
+    case ADVERSARY_FROM_ZERO:
+        make_from_zero(p, &seed);
+        return;
+    case ADVERSARY_SLOW:
+        make_slow(p, &seed);
+        return;
+    case ADVERSARY_CHAIN:
+        make_chain(p, &seed);
+        return;
+    default:
+        make_long(p, &seed);
+    }
+}
