@@ -1,4 +1,4 @@
-/// Seeded problems meant to be hard on the solver, judged by the textbook (adversary.h). tools/adversary.c
+/// Seeded problems meant to be hard on the solver, judged by the textbook (adversary.h), and those that it once got wrong. tools/adversary.c
 /// tries as many as you like.
 #include "near.h"
 
@@ -60,6 +60,13 @@ static void set_slope(double slope)
     problem.knots[problem.desc.knot_count - 1].slope = slope;
 }
 
+static wiggly_param track_of(const double *values, int count)
+{
+    double *track = problem.tracks[problem.tracks_used++];
+    for (int i = 0; i < count; i++) track[i] = values[i];
+    return (wiggly_param){.track = track};
+}
+
 /// All totals are 0, so there is nothing that an error could be a part of: two knots at 0 on no equilibrium, and every sample a knot at 0
 /// on one that is elsewhere.
 static void nothing_at_all_is_exact(void **state)
@@ -83,6 +90,28 @@ static void nothing_at_all_is_exact(void **state)
     assert_true(all);
 }
 
+/// The poles fade by e⁻⁸⁰ a sample, and jets there weigh e⁸⁰ times as much: b and the weights need all their digits.
+static void overdamped_loops_from_frequency_0(void **state)
+{
+    static const double fast_in_the_middle[] = {0, 0, 39, 39, 39, 39, 0}, fast_at_first[] = {39, 39, 0, 0, 0, 39, 39};
+    bool all = true;
+    for (double damping = 1; damping < 25; damping += 0.7) {
+        for (int at_first = 0; at_first < 2; at_first++) {
+            wiggly_desc *desc = begin(120, 7);
+            desc->mode = WIGGLY_REAL;
+            desc->start = WIGGLY_LOOP;
+            desc->frequency = track_of(at_first ? fast_at_first : fast_in_the_middle, 7);
+            desc->damping.value = damping;
+            add_knot(4, -1.24);
+            set_slope(6.5);
+            add_knot(5, 0);
+            add_knot(0, 0.4585);
+            all = stands(*state, "an overdamped loop") && all;
+        }
+    }
+    assert_true(all);
+}
+
 static int create(void **state) { return (int)wiggly_create(TEXTBOOK_MAX, TEXTBOOK_MAX, (wiggly_solver **)state); }
 
 static int destroy(void **state)
@@ -94,8 +123,12 @@ static int destroy(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(filters),      cmocka_unit_test(three_adjacent_knots),    cmocka_unit_test(undamped_chains),
-        cmocka_unit_test(long_splines), cmocka_unit_test(nothing_at_all_is_exact),
+        cmocka_unit_test(filters),
+        cmocka_unit_test(three_adjacent_knots),
+        cmocka_unit_test(undamped_chains),
+        cmocka_unit_test(long_splines),
+        cmocka_unit_test(nothing_at_all_is_exact),
+        cmocka_unit_test(overdamped_loops_from_frequency_0),
     };
     return cmocka_run_group_tests(tests, create, destroy);
 }

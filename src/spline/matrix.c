@@ -16,8 +16,8 @@ static void put_complex(double *at, cplx z) { at[0] = at[3] = z.re, at[1] = -z.i
 static double jet_row(const system_rows *rows, int i, cplx *a, cplx *b)
 {
     const coefficients *at = &rows->at[i];
-    *a = (cplx){2 + at->m.re, at->m.im};
-    *b = (cplx){a->re - 1 + at->p.re, a->im + at->p.im};
+    *a = coefficients_a(at);
+    *b = coefficients_b(at);
     if (!rows->loop && i == rows->count - 1) *a = (cplx){a->re - 1 - rows->tail.re, a->im - rows->tail.im};
     return i >= rows->jet_from && i <= rows->jet_to ? rows->jet_weight[i] : 0;
 }

@@ -68,8 +68,7 @@ static void add_jet(walk *w, int i)
 {
     const system_rows *rows = w->rows;
     int n = rows->count;
-    cplx a = {2 + rows->at[i].m.re, rows->at[i].m.im};
-    cplx b = {a.re - 1 + rows->at[i].p.re, a.im + rows->at[i].p.im};
+    cplx a = coefficients_a(&rows->at[i]), b = coefficients_b(&rows->at[i]);
     double root = sqrt(rows->jet_weight[i]);
     bool has_before = rows->loop || i > 0, has_after = rows->loop || i < n - 1;
     if (!has_after) a = (cplx){a.re - 1 - rows->tail.re, a.im - rows->tail.im};

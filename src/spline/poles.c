@@ -1,5 +1,6 @@
 /// From parameters to poles, coefficients and the cost of the start.
 #include "spline/poles.h"
+#include "spline/dd.h"
 #include "spline/wide.h"
 #include <math.h>
 #include <stdint.h>
@@ -127,15 +128,31 @@ static void distances(const poles *at, double step, cplx mu[2])
     mu[1] = conjugate ? cplx_conj(mu[0]) : cplx_expm1_of(grown, s[1].im * step);
 }
 
+/// exact − (whole + m + p) of one part.
+static double rest_of(double exact, double whole, double m, double p)
+{
+    dd sum = dd_add(dd_sum(whole, m), dd_from(p));
+    sum = dd_subtract(dd_from(exact), sum);
+    return sum.hi + sum.lo;
+}
+
 coefficients poles_coefficients(const poles *at, double step)
 {
-    cplx mu[2];
+    cplx mu[2], sum = cplx_scale(step, cplx_add(at->s[0], at->s[1]));
     distances(at, step, mu);
-    return (coefficients){
+    coefficients c = {
         .m = cplx_add(mu[0], mu[1]),
         .p = cplx_mul(mu[0], mu[1]),
-        .g = cplx_exp(cplx_scale(0.5 * step, cplx_add(at->s[0], at->s[1]))),
+        .g = cplx_exp(cplx_scale(0.5, sum)),
     };
+    if (-sum.re > FAST) {
+        cplx a = cplx_add(cplx_exp(cplx_scale(step, at->s[0])), cplx_exp(cplx_scale(step, at->s[1])));
+        cplx b = cplx_exp(sum);
+        c.a_rest = (cplx){rest_of(a.re, 2, c.m.re, 0), rest_of(a.im, 0, c.m.im, 0)};
+        c.b_rest = (cplx){rest_of(b.re, 1, c.m.re, c.p.re), rest_of(b.im, 0, c.m.im, c.p.im)};
+        if (at->s[0].im == -at->s[1].im) c.a_rest.im = c.b_rest.im = 0;
+    }
+    return c;
 }
 
 void poles_mean(const poles *at, double step, cplx *lambda, cplx *delta2)

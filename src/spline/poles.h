@@ -25,11 +25,24 @@ typedef struct poles {
 
 /// Coefficients of r_i = x_{i+1} − a x_i − b x_{i−1} + g ÿ, kept as distances from the cubic's a = 2, b = −1:
 ///     r_i = (x_{i+1} − 2x_i + x_{i−1}) − m (x_i − x_{i−1}) + p x_{i−1} + g ÿ,   m = μ₀ + μ₁, p = μ₀μ₁, μ = λ − 1,
-/// because at high sample rates a and b themselves hold no digit of the frequency.
+/// because at high sample rates a and b themselves hold no digit of the frequency. Where poles fade within a sample it is m and p that
+/// hold no digit of a and b, and weights of |b|⁻¹ make that count: the rest is kept beside them.
 typedef struct coefficients {
-    cplx m, p; ///< a = 2 + m, −b = 1 + m + p
-    cplx g;    ///< exp((s₀+s₁)h/2): the drive in phase with the filter
+    cplx m, p;           ///< a = 2 + m + a_rest, −b = 1 + m + p + b_rest
+    cplx a_rest, b_rest; ///< 0 up to FAST
+    cplx g;              ///< exp((s₀+s₁)h/2): the drive in phase with the filter
 } coefficients;
+
+static inline cplx coefficients_a(const coefficients *at)
+{
+    return (cplx){(2 + at->m.re) + at->a_rest.re, at->m.im + at->a_rest.im};
+}
+
+/// −b.
+static inline cplx coefficients_b(const coefficients *at)
+{
+    return (cplx){(2 + at->m.re - 1 + at->p.re) + at->b_rest.re, (at->m.im + at->p.im) + at->b_rest.im};
+}
 
 /// What swing at the start costs: two squares of the first state, taken as (x₀, e₀) with e₀ = x₁ − x₀,
 ///     Σ weight |on_x x₀ + on_e e₀|²,
@@ -50,6 +63,9 @@ typedef struct speed_form {
 
 /// Fading below what a double tells apart, so that weights and their products stay finite.
 #define DEEPEST 100.0
+
+/// ln |b|⁻¹ from which on a and b need all their digits.
+#define FAST 8.0
 
 /// The first of the samples from … to with the largest natural frequency, and that, rad/s.
 int poles_fastest(const wiggly_desc *desc, int from, int to, double *natural);

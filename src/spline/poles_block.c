@@ -29,8 +29,8 @@ static inline double double_of(uint64_t bits)
     return x;
 }
 
-/// eˣ − 1: x = n ln 2 + r, Taylor's series of r to the last digit.
-static inline double expm1_near(double x)
+/// eˣ = scale (1 + grown): x = n ln 2 + r, scale 2ⁿ, Taylor's series of r to the last digit.
+static inline double grown_near(double x, double *scale)
 {
     const double shifted = x * 0x1.71547652b82fep0 + ROUNDER, n = shifted - ROUNDER;
     const double r = (x - n * 0x1.62e42feep-1) - n * 0x1.a39ef35793c76p-33;
@@ -46,8 +46,22 @@ static inline double expm1_near(double x)
     s = s * r + 1.0 / 24;
     s = s * r + 1.0 / 6;
     s = s * r + 0.5;
-    const double grown = r + r * r * s, scale = double_of((bits_of(shifted) + 1023) << 52);
+    *scale = double_of((bits_of(shifted) + 1023) << 52);
+    return r + r * r * s;
+}
+
+static inline double expm1_near(double x)
+{
+    double scale;
+    const double grown = grown_near(x, &scale);
     return scale * grown + (scale - 1);
+}
+
+static inline double exp_near(double x)
+{
+    double scale;
+    const double grown = grown_near(x, &scale);
+    return scale * grown + scale;
 }
 
 /// sin x and cos x: x = q π/2 + r, series of r.
@@ -242,5 +256,5 @@ void poles_block_fill(const wiggly_desc *desc, int from, int count, double floor
 
 WIDEST void poles_block_exp(const double *restrict x, int count, double *restrict out)
 {
-    for (int i = 0; i < count; i++) out[i] = 1 + expm1_near(x[i]);
+    for (int i = 0; i < count; i++) out[i] = exp_near(x[i]);
 }

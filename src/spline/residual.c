@@ -43,6 +43,10 @@ static inline ddc complex_jet(const system_rows *rows, int i)
     if (!rows->loop && i == rows->count - 1) next = ddc_scale(rows->tail, (ddc){dd_from(here.re), dd_from(here.im)});
     ddc base = {dd_from(before.re), dd_from(before.im)};
     ddc spring = ddc_subtract(ddc_scale(rows->at[i].p, base), ddc_scale(rows->at[i].m, step));
+    if (rows->fast) {
+        ddc own = ddc_scale(rows->at[i].a_rest, (ddc){dd_from(here.re), dd_from(here.im)});
+        spring = ddc_add(spring, ddc_subtract(ddc_scale(rows->at[i].b_rest, base), own));
+    }
     ddc drive = {dd_from(rows->drive[i].re), dd_from(rows->drive[i].im)};
     return ddc_add(ddc_subtract(next, step), ddc_add(spring, drive));
 }
@@ -57,6 +61,10 @@ static inline dd real_jet(const system_rows *rows, int i)
               : rows->loop ? dd_difference(x[0], here)
                            : dd_product(rows->tail.re, here);
     dd spring = dd_subtract(dd_product(rows->at[i].p.re, before), dd_scale(rows->at[i].m.re, step));
+    if (rows->fast) {
+        dd own = dd_product(rows->at[i].a_rest.re, here);
+        spring = dd_add(spring, dd_subtract(dd_product(rows->at[i].b_rest.re, before), own));
+    }
     return dd_add(dd_subtract(next, step), dd_add(spring, dd_from(rows->drive[i].re)));
 }
 
@@ -108,6 +116,10 @@ static void complex_adjoint(const system_rows *rows)
             g = ddc_subtract(
                 g, ddc_add(ddc_scale(cplx_conj(rows->at[a].m), after), ddc_scale(cplx_conj(rows->at[a].p), after)));
         }
+        if (rows->fast) {
+            g = ddc_add(g, ddc_scale(cplx_conj(rows->at[k].a_rest), here));
+            if (a >= 0) g = ddc_subtract(g, ddc_scale(cplx_conj(rows->at[a].b_rest), after));
+        }
         if (!rows->loop && k == rows->count - 1)
             g = ddc_subtract(g, ddc_add(here, ddc_scale(cplx_conj(rows->tail), here)));
         rows->gradient[2 * k] = g.re.hi + g.re.lo;
@@ -124,6 +136,10 @@ static void real_adjoint(const system_rows *rows)
         dd second = dd_subtract(dd_subtract(before, here), dd_subtract(here, after));
         dd g = dd_subtract(dd_scale(rows->at[k].m.re, here), second);
         if (a >= 0) g = dd_subtract(g, dd_add(dd_scale(rows->at[a].m.re, after), dd_scale(rows->at[a].p.re, after)));
+        if (rows->fast) {
+            g = dd_add(g, dd_scale(rows->at[k].a_rest.re, here));
+            if (a >= 0) g = dd_subtract(g, dd_scale(rows->at[a].b_rest.re, after));
+        }
         if (!rows->loop && k == rows->count - 1) g = dd_subtract(g, dd_add(here, dd_scale(rows->tail.re, here)));
         rows->gradient[k] = g.hi + g.lo;
     }
@@ -224,6 +240,11 @@ static inline void pull_jet(const system_rows *rows, int k, cplx c, cplx r)
     rows->gradient[2 * k] -= pulled.re, rows->gradient[2 * k + 1] -= pulled.im;
 }
 
+static cplx before_of(const coefficients *at)
+{
+    return (cplx){1 + at->m.re + at->p.re + at->b_rest.re, at->m.im + at->p.im + at->b_rest.im};
+}
+
 /// The jets at x in plain double: far from what is known and drives there are none.
 static void pull_plainly(const system_rows *rows)
 {
@@ -238,12 +259,12 @@ static void pull_plainly(const system_rows *rows)
         cplx step = cplx_sub(here, before), next = is_tail ? cplx_mul(rows->tail, here) : cplx_sub(after, here);
         cplx r = cplx_add(cplx_add(cplx_sub(next, step), rows->drive[i]),
                           cplx_sub(cplx_mul(at->p, before), cplx_mul(at->m, step)));
+        if (rows->fast) r = cplx_add(r, cplx_sub(cplx_mul(at->b_rest, before), cplx_mul(at->a_rest, here)));
         r = cplx_scale(rows->jet_weight[i], r);
-        cplx middle = {-2 - at->m.re, -at->m.im};
+        cplx middle = cplx_scale(-1, coefficients_a(at));
         if (is_tail) middle = cplx_add(middle, (cplx){1 + rows->tail.re, rows->tail.im});
         pull_jet(rows, i, middle, r);
-        if (i > 0 || rows->loop)
-            pull_jet(rows, i > 0 ? i - 1 : last, (cplx){1 + at->m.re + at->p.re, at->m.im + at->p.im}, r);
+        if (i > 0 || rows->loop) pull_jet(rows, i > 0 ? i - 1 : last, before_of(at), r);
         if (i < last || rows->loop) pull_jet(rows, i < last ? i + 1 : 0, (cplx){1, 0}, r);
     }
 }

@@ -46,6 +46,7 @@ double problem_im_weight(const problem *p, double natural)
 static void set_row(system_rows *rows, const problem *p, int k, coefficients at, double jet_weight, double im_weight)
 {
     rows->at[k] = at;
+    rows->fast = rows->fast || at.a_rest.re != 0 || at.b_rest.re != 0;
     rows->jet_weight[k] = jet_weight;
     rows->im_weight[k] = im_weight;
     rows->drive[k] = drive_at(p, k, at.g);
@@ -77,6 +78,10 @@ static double set_varying(system_rows *rows, const problem *p, bool weighted)
         poles_block_exp(weight, count, weight);
         for (int i = 0; i < count; i++) {
             coefficients at = {.m = {block.m_re[i], block.m_im[i]}, .p = {block.p_re[i], block.p_im[i]}};
+            if (block.exponent[i] > FAST) {
+                const poles own = problem_poles(p, p->first + k + i, floor);
+                at = poles_coefficients(&own, desc->step);
+            }
             if (driven) at.g = drive_phase(&block, i, desc);
             double im = weighted ? problem_im_weight(p, block.natural[i]) : 0;
             if (oscillates) im = (im + slowness(block.natural[i], highest, desc->step)) * p->unit;
@@ -277,6 +282,7 @@ void problem_set_rows(wiggly_solver *solver, const problem *p)
 {
     system_rows *rows = &solver->rows;
     rows->loop = p->start == WIGGLY_LOOP;
+    rows->fast = false;
     rows->is_complex = p->desc->mode == WIGGLY_COMPLEX;
     rows->count = problem_rows(p);
     rows->jet_from = rows->loop ? 0 : 1;

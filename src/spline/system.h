@@ -33,6 +33,7 @@ typedef struct system_pulls {
 typedef struct system_rows {
     int count; ///< M
     bool loop, is_complex;
+    bool fast; ///< there are coefficients with a rest
     bool
         is_held; ///< the start costs enough, or there is none, that no more than its knot-free stretches cost it digits
     int jet_from, jet_to; ///< a loop has a jet at every sample
