@@ -26,7 +26,24 @@ static double error_of(const struct answer *a, const struct answer *exact, int n
         if (!(off <= worst)) worst = off;
         parts = fmax(parts, fmax(fabs(exact->re[i]), fabs(exact->total[i] - exact->re[i])));
     }
-    return worst <= 0x1p-46 * parts ? 0 : worst / fmax(size_of(exact, n), 1e-6 * parts);
+    return worst <= 0x1p-40 * parts ? 0 : worst / fmax(size_of(exact, n), 1e-6 * parts);
+}
+
+/// Whether the total is next to nothing beside what it is the sum of.
+static bool is_nothing(const struct answer *a, int n)
+{
+    double parts = 0;
+    for (int i = 0; i < n; i++) parts = fmax(parts, fmax(fabs(a->re[i]), fabs(a->total[i] - a->re[i])));
+    return size_of(a, n) < 1e-3 * parts;
+}
+
+/// Damped so little that rows of the energy weigh much alike.
+static bool is_tame(const wiggly_desc *d)
+{
+    bool tame = !d->spring_friction || !d->spring.track;
+    for (int i = 0; i < d->samples; i++)
+        tame = tame && (d->damping.track ? d->damping.track[i] : d->damping.value) <= 2;
+    return tame;
 }
 
 static struct textbook book;
@@ -58,29 +75,47 @@ static double tolerance(const wiggly_desc *d) { return d->mode == WIGGLY_CUBIC ?
 static void find_exact(const struct adversary_problem *p, struct adversary_verdict *v, struct answer *a)
 {
     bool asked = textbook_as(&p->desc, WIGGLY_OK, &book, a->total, a->re, a->im);
+    v->missing = book.swing_missing;
     v->pivot = book.pivot;
     v->growth = book.growth;
-    v->borderline = book.open && ((asked && book.pivot < 1e-11) || (book.growth > 300 && book.growth < 3e5));
+    v->undecided =
+        book.open ? !asked && v->said != WIGGLY_CALMED && v->said != WIGGLY_LEVELLED : !asked || book.inverse > 1e26;
+    v->borderline = book.open && ((asked && (book.pivot < 1e-11 || book.inverse > 1e14)) ||
+                                  (book.growth > 300 && book.growth < 3e5));
     v->exists = textbook_curve(&p->desc, &book, &v->status, a->total, a->re, a->im);
+    v->undecided = v->undecided || !v->exists;
     if (!v->borderline || v->said == v->status || v->said == WIGGLY_SINGULAR) return;
     bool as_asked = v->said == WIGGLY_INEXACT || v->said == WIGGLY_OK;
     v->status = as_asked ? WIGGLY_OK : v->said;
     v->exists = textbook_as(&p->desc, v->status, &book, a->total, a->re, a->im);
 }
 
+/// Whether w is calmed depends on last digits where u is in any case.
+static void try_calmed(const struct adversary_problem *p, const struct answer *got, struct answer *exact,
+                       struct adversary_verdict *v)
+{
+    if (textbook_as(&p->desc, WIGGLY_CALMED, &book, exact->total, exact->re, exact->im))
+        v->error = fmin(v->error, error_of(got, exact, p->desc.samples));
+}
+
 static const char *find_fault(const struct adversary_problem *p, struct adversary_verdict *v,
                               const struct answer *exact)
 {
     const bool inexact = v->said == WIGGLY_INEXACT;
+    if (v->missing && !(inexact && isinf(v->estimate))) return "no word of a swing that is missing";
+    if (v->missing) return v->error <= tolerance(&p->desc) ? NULL : "off, but for the swing that is missing";
     if (v->said != v->status && !(inexact && v->status == WIGGLY_OK)) return "the wrong status";
     if (!(v->estimate >= 0)) return "an estimate that is no number";
     if (v->said == WIGGLY_OK && !(v->error <= tolerance(&p->desc))) return "OK, and off";
     if (v->error > tolerance(&p->desc) && v->error > v->estimate) return "an estimate below the error";
     if (!inexact) return NULL;
+    v->needless = true;
     if (!(v->estimate > tolerance(&p->desc))) return "INEXACT by no estimate";
-    if (v->error > 0.05 * tolerance(&p->desc) || v->pivot <= 1e-9) return NULL; // what is that far off may say so
+    if (v->error > 0.05 * tolerance(&p->desc) || v->pivot <= 1e-9 || book.inverse > 1e14)
+        return NULL; // what is that far off may say so
+    if (is_nothing(exact, p->desc.samples) || !is_tame(&p->desc)) return NULL;
     v->condition = condition_of(p, v->status, exact);
-    return v->condition < 1e5 ? "INEXACT, and easy" : NULL;
+    return v->condition < 1e4 ? "INEXACT, and easy" : NULL;
 }
 
 void adversary_judge(wiggly_solver *solver, const struct adversary_problem *p, struct adversary_verdict *v)
@@ -90,12 +125,15 @@ void adversary_judge(wiggly_solver *solver, const struct adversary_problem *p, s
     *v = (struct adversary_verdict){.said = wiggly_solve(solver, &p->desc, &curve), .estimate = curve.error};
     v->estimate = curve.error;
     find_exact(p, v, &exact);
+    if (v->undecided) return;
     if (v->said == WIGGLY_SINGULAR) {
         v->fault = v->exists && !v->borderline ? "singular is not" : NULL;
     } else if (!v->exists) {
         v->fault = "an answer where there is none";
     } else {
         v->error = error_of(&got, &exact, p->desc.samples);
+        if (v->said == WIGGLY_CALMED && v->borderline && v->error > tolerance(&p->desc)) // of w, or of u alone
+            try_calmed(p, &got, &exact, v);
         v->fault = find_fault(p, v, &exact);
     }
 }

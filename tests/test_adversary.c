@@ -29,13 +29,23 @@ static void try_many(wiggly_solver *solver, adversary_kind kind, int problems)
     if (faults) fail_msg("%d of %d problems", faults, problems);
 }
 
-static void filters(void **state) { try_many(*state, ADVERSARY_FILTER, 1500); }
+static void filters(void **state) { try_many(*state, ADVERSARY_FILTER, 800); }
 
-static void three_adjacent_knots(void **state) { try_many(*state, ADVERSARY_ADJACENT, 1000); }
+static void oscillators(void **state) { try_many(*state, ADVERSARY_OSCILLATOR, 800); }
 
-static void undamped_chains(void **state) { try_many(*state, ADVERSARY_CHAIN, 40); }
+static void three_adjacent_knots(void **state) { try_many(*state, ADVERSARY_ADJACENT, 400); }
 
-static void long_splines(void **state) { try_many(*state, ADVERSARY_LONG, 40); }
+static void knots_at_half_periods(void **state) { try_many(*state, ADVERSARY_NODAL, 500); }
+
+static void fast_poles(void **state) { try_many(*state, ADVERSARY_NYQUIST, 300); }
+
+static void tracks_from_zero(void **state) { try_many(*state, ADVERSARY_FROM_ZERO, 300); }
+
+static void slow_loops(void **state) { try_many(*state, ADVERSARY_SLOW, 150); }
+
+static void undamped_chains(void **state) { try_many(*state, ADVERSARY_CHAIN, 20); }
+
+static void long_splines(void **state) { try_many(*state, ADVERSARY_LONG, 20); }
 
 /// An empty problem of so many samples.
 static wiggly_desc *begin(double fps, int samples)
@@ -112,6 +122,41 @@ static void overdamped_loops_from_frequency_0(void **state)
     assert_true(all);
 }
 
+/// With a friction that varies and no spring, what a swing loses it does not get back; its track's last sample counts for nothing.
+static void loops_without_a_spring_say_so(void **state)
+{
+    static const double friction[] = {2, 2, 0, 0, 2, 2, 2, 0}, still[] = {2, 2, 2, 2, 2, 2, 2, 0},
+                        y[] = {0, 1, 2, 1, 0, -1, -1, 0};
+    for (int varies = 0; varies < 2; varies++) {
+        wiggly_desc *desc = begin(24, 8);
+        desc->mode = WIGGLY_REAL;
+        desc->start = WIGGLY_LOOP;
+        desc->spring_friction = true;
+        desc->friction = track_of(varies ? friction : still, 8);
+        desc->equilibrium = track_of(y, 8);
+        add_knot(2, 1);
+        struct adversary_verdict v;
+        adversary_judge(*state, &problem, &v);
+        assert_int_equal(v.said, varies ? WIGGLY_INEXACT : WIGGLY_OK);
+        assert_true(v.missing == (varies == 1) && !v.fault);
+    }
+}
+
+/// Of two samples, the earliest knot's: of the oscillator its total, of the filter its x.
+static void two_samples_of_a_cubic(void **state)
+{
+    static const double y[] = {0.5, 0.5, -3};
+    for (int kind = 0; kind < 4; kind++) {
+        wiggly_desc *desc = begin(24, 3);
+        desc->mode = WIGGLY_CUBIC;
+        desc->passive = (wiggly_passive)(kind % 2);
+        desc->start = kind / 2 ? WIGGLY_LOOP : WIGGLY_FREE;
+        desc->equilibrium = track_of(y, 3);
+        add_knot(1, 7);
+        assert_true(stands(*state, "two samples of a cubic"));
+    }
+}
+
 static int create(void **state) { return (int)wiggly_create(TEXTBOOK_MAX, TEXTBOOK_MAX, (wiggly_solver **)state); }
 
 static int destroy(void **state)
@@ -124,11 +169,18 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(filters),
+        cmocka_unit_test(oscillators),
         cmocka_unit_test(three_adjacent_knots),
+        cmocka_unit_test(knots_at_half_periods),
+        cmocka_unit_test(fast_poles),
+        cmocka_unit_test(tracks_from_zero),
+        cmocka_unit_test(slow_loops),
         cmocka_unit_test(undamped_chains),
         cmocka_unit_test(long_splines),
         cmocka_unit_test(nothing_at_all_is_exact),
         cmocka_unit_test(overdamped_loops_from_frequency_0),
+        cmocka_unit_test(loops_without_a_spring_say_so),
+        cmocka_unit_test(two_samples_of_a_cubic),
     };
     return cmocka_run_group_tests(tests, create, destroy);
 }

@@ -34,7 +34,7 @@ static void open_book(const wiggly_desc *desc, real calm, struct textbook *b)
     b->first = b->loop || b->rest || b->earliest < 0 ? 0 : b->earliest;
     b->count = b->loop ? b->samples - 1 : b->samples - b->first;
     b->pivot = 1;
-    b->growth = 0;
+    b->growth = b->inverse = 0;
     b->open = b->tied = b->swing_calmed = b->swing_missing = false;
     for (int i = 0; i < b->samples; i++) {
         bool wraps = b->loop && i == b->samples - 1;
@@ -91,41 +91,70 @@ real textbook_entry(const struct textbook *b, int row, int column)
     return n < TEXTBOOK_BAND ? b->band[i > j ? i : j][n] : 0;
 }
 
-/// L D Lᵀ, row by row; what is fixed or not used has no row.
-static bool solve(struct textbook *b)
+/// L D Lᵀ of the band, place by place; what is fixed or not used has no row.
+struct factor {
+    real l[2 * TEXTBOOK_MAX][TEXTBOOK_BAND], d[2 * TEXTBOOK_MAX];
+    int unknown[2 * TEXTBOOK_MAX]; ///< at each place; -1: no row
+};
+
+static int first_in_band(int i) { return i < TEXTBOOK_BAND ? 0 : i - TEXTBOOK_BAND + 1; }
+
+static bool factorise(struct textbook *b, int n, struct factor *f)
 {
-    static real l[2 * TEXTBOOK_MAX][TEXTBOOK_BAND], d[2 * TEXTBOOK_MAX], z[2 * TEXTBOOK_MAX];
-    static int unknown[2 * TEXTBOOK_MAX];
-    int n = 2 * b->count;
-    for (int u = 0; u < n; u++) unknown[textbook_place(b, u)] = u;
+    for (int u = 0; u < n; u++) f->unknown[textbook_place(b, u)] = b->used[u] && !b->fixed[u] ? u : -1;
     for (int i = 0; i < n; i++) {
-        int u = unknown[i], from = i < TEXTBOOK_BAND ? 0 : i - TEXTBOOK_BAND + 1;
-        bool solved = b->used[u] && !b->fixed[u];
-        d[i] = 1;
-        z[i] = solved ? b->right[u] : 0;
-        for (int j = from; j < n && j < i + TEXTBOOK_BAND && solved; j++) {
-            int v = unknown[j];
-            if (b->used[v] && b->fixed[v]) z[i] -= textbook_entry(b, u, v) * b->x[v];
-        }
-        for (int j = from; j <= i; j++) {
-            int v = unknown[j];
-            real sum = solved && b->used[v] && !b->fixed[v] ? b->band[i][i - j] : 0;
-            for (int k = from; k < j && solved; k++) {
-                if (j - k < TEXTBOOK_BAND) sum -= l[i][i - k] * l[j][j - k] * d[k];
+        f->d[i] = 1;
+        memset(f->l[i], 0, sizeof f->l[i]);
+        if (f->unknown[i] < 0) continue;
+        for (int j = first_in_band(i); j <= i; j++) {
+            real sum = f->unknown[j] < 0 ? 0 : b->band[i][i - j];
+            for (int k = first_in_band(i); k < j; k++) {
+                if (j - k < TEXTBOOK_BAND) sum -= f->l[i][i - k] * f->l[j][j - k] * f->d[k];
             }
-            if (j < i) l[i][i - j] = solved ? sum / d[j] : 0;
-            if (j < i || !solved) continue;
-            b->pivot = (double)fminq(b->pivot, b->band[i][0] > 0 ? sum / b->band[i][0] : 0);
-            if (!(sum > least_pivot * b->band[i][0])) return false;
-            d[i] = sum;
+            if (j < i) f->l[i][i - j] = sum / f->d[j];
+            if (j == i) f->d[i] = sum;
         }
-        for (int k = from; k < i; k++) z[i] -= l[i][i - k] * z[k];
+        b->pivot = (double)fminq(b->pivot, b->band[i][0] > 0 ? f->d[i] / b->band[i][0] : 0);
+        if (!(f->d[i] > least_pivot * b->band[i][0])) return false;
+    }
+    return true;
+}
+
+/// z, by places, becomes the solution.
+static void substitute(const struct factor *f, int n, real *z)
+{
+    for (int i = 0; i < n; i++) {
+        for (int k = first_in_band(i); k < i; k++) z[i] -= f->l[i][i - k] * z[k];
     }
     for (int i = n - 1; i >= 0; i--) {
-        z[i] /= d[i];
-        for (int k = i + 1; k < n && k < i + TEXTBOOK_BAND; k++) z[i] -= l[k][k - i] * z[k];
-        if (b->used[unknown[i]] && !b->fixed[unknown[i]]) b->x[unknown[i]] = z[i];
+        z[i] /= f->d[i];
+        for (int k = i + 1; k < n && k < i + TEXTBOOK_BAND; k++) z[i] -= f->l[k][k - i] * z[k];
     }
+}
+
+static bool solve(struct textbook *b)
+{
+    static struct factor f;
+    static real z[2 * TEXTBOOK_MAX];
+    const int n = 2 * b->count;
+    static int at[2 * TEXTBOOK_MAX]; // unknown of each place, known ones too
+    if (!factorise(b, n, &f)) return false;
+    for (int u = 0; u < n; u++) at[textbook_place(b, u)] = u;
+    for (int i = 0; i < n; i++) {
+        const int u = f.unknown[i];
+        z[i] = u < 0 ? 0 : b->right[u];
+        for (int place = first_in_band(i); u >= 0 && place < n && place < i + TEXTBOOK_BAND; place++) {
+            const int k = at[place];
+            if (b->fixed[k] && b->used[k]) z[i] -= textbook_entry(b, u, k) * b->x[k];
+        }
+    }
+    substitute(&f, n, z);
+    for (int i = 0; i < n; i++) {
+        if (f.unknown[i] >= 0) b->x[f.unknown[i]] = z[i];
+    }
+    for (int i = 0; i < n; i++) z[i] = f.unknown[i] < 0 ? 0 : (i * 7 % 5 < 2 ? -1 : 1) * sqrtq(b->band[i][0]);
+    substitute(&f, n, z);
+    for (int i = 0; i < n; i++) b->inverse = (double)fmaxq(b->inverse, fabsq(z[i]) * sqrtq(b->band[i][0]));
     return true;
 }
 

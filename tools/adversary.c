@@ -11,13 +11,13 @@ static const char *const kinds[ADVERSARY_KINDS] = {"filter",    "oscillator", "a
                                                    "from zero", "slow",       "chain",    "long"};
 
 struct tally {
-    long tried[ADVERSARY_KINDS], faults[ADVERSARY_KINDS], inexact[ADVERSARY_KINDS];
+    long tried[ADVERSARY_KINDS], faults[ADVERSARY_KINDS], inexact[ADVERSARY_KINDS], needless, undecided;
 };
 
 static struct tally search(uint64_t seed, long first, long count, int step)
 {
     static struct adversary_problem problem;
-    struct tally tally = {{0}, {0}, {0}};
+    struct tally tally = {.needless = 0};
     wiggly_solver *solver = NULL;
     if (wiggly_create(TEXTBOOK_MAX, TEXTBOOK_MAX, &solver) != WIGGLY_OK) exit(2);
     for (long n = first; n < first + count; n += step) {
@@ -27,7 +27,9 @@ static struct tally search(uint64_t seed, long first, long count, int step)
         adversary_judge(solver, &problem, &verdict);
         tally.tried[kind]++;
         tally.inexact[kind] += verdict.said == WIGGLY_INEXACT;
-        if (!verdict.fault) continue;
+        tally.undecided += verdict.undecided;
+        tally.needless += verdict.fault && verdict.needless;
+        if (!verdict.fault || verdict.needless) continue;
         tally.faults[kind]++;
         char name[80];
         snprintf(name, sizeof name, "%llu %ld (%s)", (unsigned long long)seed, n, kinds[kind]);
@@ -66,11 +68,12 @@ int main(int argc, char **argv)
     int processes = argc > 3 ? atoi(argv[3]) : 1, ends[MOST];
     if (processes < 1 || processes > MOST) processes = 1;
     const time_t started = time(NULL);
-    struct tally all = {{0}, {0}, {0}};
+    struct tally all = {.needless = 0};
     for (int i = 0; i < processes; i++) ends[i] = begin(seed, first + i, count - i, processes);
     for (int i = 0; i < processes; i++) {
         struct tally one;
         if (read(ends[i], &one, sizeof one) != sizeof one) return 2;
+        all.needless += one.needless, all.undecided += one.undecided;
         for (int k = 0; k < ADVERSARY_KINDS; k++) {
             all.tried[k] += one.tried[k];
             all.faults[k] += one.faults[k];
@@ -85,7 +88,8 @@ int main(int argc, char **argv)
                all.faults[k]);
         tried += all.tried[k], faults += all.faults[k], inexact += all.inexact[k];
     }
-    printf("seed %llu: %ld tried, %ld inexact, %ld wrong in silence, %ld s\n", (unsigned long long)seed, tried,
-           inexact, faults, (long)(time(NULL) - started));
+    printf("seed %llu: %ld tried, %ld inexact (%ld needlessly), %ld undecided, %ld wrong in silence, %ld s\n",
+           (unsigned long long)seed, tried, inexact, all.needless, all.undecided, faults,
+           (long)(time(NULL) - started));
     return faults > 0;
 }

@@ -159,6 +159,13 @@ void problem_set_start(wiggly_solver *solver, problem *p)
     p->free_end = p->start == WIGGLY_FREE && !(p->cost.row[0].weight > 0);
 }
 
+void problem_set_calm(wiggly_solver *solver, problem *p, double calm)
+{
+    p->calm = calm;
+    if (p->start == WIGGLY_LOOP && p->about) set_about(solver, p);
+    problem_set_start(solver, p);
+}
+
 static void fill(double *x, double value, int count)
 {
     for (int i = 0; i < count; i++) x[i] = value;

@@ -96,6 +96,9 @@ slope_row problem_slope(const problem *p, int sample, double slope, double stiff
 /// c·H of the start, for the calm that the problem has now.
 void problem_set_start(wiggly_solver *solver, problem *p);
 
+/// Another calm, with the start's cost and a loop's swing for it.
+void problem_set_calm(wiggly_solver *solver, problem *p, double calm);
+
 /// w of `count` samples of the tail, the first of them `from` ≥ 1 samples behind the latest knot, from w there; im outside complex mode
 /// is not written.
 void problem_fill_tail(wiggly_solver *solver, const problem *p, cplx w, int from, int count, double *re, double *im);

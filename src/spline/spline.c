@@ -75,8 +75,7 @@ static wiggly_status minimise_safely(wiggly_solver *solver, problem *p, wiggly_c
             return status;
         if (solver_must_stop(solver->stop)) break;
         if (may_be_singular && p->calm == 0) {
-            p->calm = FALLBACK_CALM;
-            problem_set_start(solver, p);
+            problem_set_calm(solver, p, FALLBACK_CALM);
             status = WIGGLY_CALMED;
         } else if (may_be_singular && p->free_end && p->earliest >= 0 && !p->level_slope) {
             p->level_slope = true;
@@ -91,8 +90,8 @@ static wiggly_status minimise_safely(wiggly_solver *solver, problem *p, wiggly_c
     return WIGGLY_SINGULAR;
 }
 
-/// Domains too short for a jet row (M < 3) or without anything that moves: each w is its knot's, else the earliest knot's, else 0; of a
-/// cubic that is solved for its total, what is 0 is x.
+/// Domains too short for a jet row (M < 3) or without anything that moves: each w is its knot's, else the earliest knot's, else 0. Of a
+/// cubic that is solved for its total, what is 0 is x; and the paper's has the earliest knot's x, not its total.
 static void solve_short(wiggly_solver *solver, const problem *p, wiggly_curve *curve)
 {
     const wiggly_desc *desc = p->desc;
@@ -100,7 +99,10 @@ static void solve_short(wiggly_solver *solver, const problem *p, wiggly_curve *c
     if (p->earliest >= 0 && p->start != WIGGLY_REST)
         other = desc->knots[solver->order[0]].value - problem_about(p, p->earliest);
     for (int i = p->first; i < p->first + p->count; i++) re[i] = other, im[i] = 0;
-    if (p->y && !p->about && p->earliest < 0 && p->start != WIGGLY_REST) {
+    if (p->y && !p->about && p->earliest >= 0 && !problem_oscillates(p)) {
+        for (int i = p->first; i < p->first + p->count; i++) re[i] += p->y[i] - p->y[p->earliest];
+    }
+    if (p->y && !p->about && p->earliest < 0 && (p->start != WIGGLY_REST || p->count < 3)) {
         for (int i = 0; i < desc->samples; i++) re[i] = p->y[i] - p->level;
     }
     for (int n = 0; n < desc->knot_count; n++) {

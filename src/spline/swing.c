@@ -111,29 +111,47 @@ static void compose(wide_matrix d, const wide_matrix e)
     }
 }
 
-static void less_than_identity(step_matrix s, wide_matrix d)
+/// The step in extended precision.
+static void wide_step(oscillator o, double h, wide_matrix s)
 {
-    d[0][0] = 1 - (long double)s.q_q, d[0][1] = -s.q_v;
-    d[1][0] = -s.v_q, d[1][1] = 1 - (long double)s.v_v;
+    const long double d = o.d, k = o.k, r2 = d * d - k, r = sqrtl(fabsl(r2)), decay = expl(-d * h);
+    const long double slow = r2 > 0 ? expl((r - d) * h) : 0, fast = r2 > 0 ? expl(-(r + d) * h) : 0;
+    const long double c = r2 > 0 ? 0.5L * (slow + fast) : decay * cosl(r * h);
+    long double sine = r2 > 0 ? 0.5L * (slow - fast) : decay * sinl(r * h); // r s
+    sine = r * h < 1e-4L ? decay * h * (1 + r2 * h * h / 6) : sine / r;
+    s[0][0] = c + d * sine, s[0][1] = sine;
+    s[1][0] = -k * sine, s[1][1] = c - d * sine;
+}
+
+/// The step over the interval after sample i, in extended precision where `wide`: constant ones are made once, at i = 0.
+static void step_of_loop(path *p, int i, bool wide, wide_matrix s)
+{
+    if (p->constant && i > 0) return;
+    const oscillator here = p->here;
+    const step_matrix plain = next_step(p, i);
+    if (wide) {
+        wide_step((oscillator){0.5 * (here.d + p->here.d), 0.5 * (here.k + p->here.k)}, p->desc->step, s);
+    } else {
+        s[0][0] = plain.q_q, s[0][1] = plain.q_v, s[1][0] = plain.v_q, s[1][1] = plain.v_v;
+    }
 }
 
 /// I − the product of a loop's steps, in extended precision: its entries are what slow poles leave of 1. Equal steps by squaring.
-static void around(const wiggly_desc *desc, double floor, wide_matrix a)
+static void around(const wiggly_desc *desc, double floor, bool wide, wide_matrix a)
 {
     path p = begin(desc, floor);
     int period = desc->samples - 1;
-    wide_matrix step;
+    wide_matrix s, step;
     for (int i = 0; i < 4; i++) a[i / 2][i % 2] = 0;
-    if (!p.constant) {
-        for (int i = 0; i < period; i++) {
-            wide_matrix whole;
-            less_than_identity(next_step(&p, i), whole);
-            compose(whole, (const long double(*)[2])a);
-            for (int e = 0; e < 4; e++) a[e / 2][e % 2] = whole[e / 2][e % 2];
-        }
-        return;
+    for (int i = 0; !p.constant && i < period; i++) {
+        step_of_loop(&p, i, wide, s);
+        wide_matrix whole = {{1 - s[0][0], -s[0][1]}, {-s[1][0], 1 - s[1][1]}};
+        compose(whole, (const long double(*)[2])a);
+        for (int e = 0; e < 4; e++) a[e / 2][e % 2] = whole[e / 2][e % 2];
     }
-    less_than_identity(p.step, step);
+    if (!p.constant) return;
+    step_of_loop(&p, 0, wide, s);
+    step[0][0] = 1 - s[0][0], step[0][1] = -s[0][1], step[1][0] = -s[1][0], step[1][1] = 1 - s[1][1];
     for (int bit = 1; bit <= period && bit > 0; bit *= 2) {
         if (period & bit) compose(a, (const long double(*)[2])step);
         wide_matrix same = {{step[0][0], step[0][1]}, {step[1][0], step[1][1]}};
@@ -141,51 +159,118 @@ static void around(const wiggly_desc *desc, double floor, wide_matrix a)
     }
 }
 
-/// Whether nothing ever pulls q back, and whether nothing brakes it.
-static void look_for_forces(const wiggly_desc *desc, double floor, bool *pulled, bool *braked)
+/// run() in extended precision, with jumps that are not rounded to doubles; u's `im` is not read.
+static void run_wide(const wiggly_desc *desc, const double *y, double floor, const long double from[2],
+                     const swing *u, long double end[2])
 {
-    bool constant = poles_are_constant(desc);
-    *pulled = *braked = false;
-    for (int i = 0; i < (constant ? 1 : desc->samples); i++) {
-        oscillator o = oscillator_at(desc, i, floor);
-        *pulled = *pulled || o.k > 0;
-        *braked = *braked || o.d > 0;
+    path p = begin(desc, floor);
+    wide_matrix s;
+    long double q = from[0], v = from[1];
+    for (int i = 0;; i++) {
+        const long double here = y[i],
+                          kick = ((here - y_beyond(desc, y, i - 1)) - (y_beyond(desc, y, i + 1) - here)) / desc->step;
+        u->total[i] = (double)q;
+        u->speed[i] = (double)(v + 0.5L * kick);
+        if (i + 1 == desc->samples) break;
+        step_of_loop(&p, i, true, s);
+        v += kick;
+        const long double moved = s[0][0] * q + s[0][1] * v;
+        v = s[1][0] * q + s[1][1] * v;
+        q = moved;
     }
+    end[0] = q, end[1] = v;
 }
+
+/// What a loop's parameters do all the way around: pull q back, brake it, and brake it not everywhere alike.
+typedef struct forces {
+    bool pull, brake, vary;
+} forces;
+
+static forces forces_of(const wiggly_desc *desc, double floor)
+{
+    forces f = {false, false, false};
+    const double first = oscillator_at(desc, 0, floor).d;
+    for (int i = 0; i < (poles_are_constant(desc) ? 1 : desc->samples - 1); i++) {
+        oscillator o = oscillator_at(desc, i, floor);
+        f.pull = f.pull || o.k > 0;
+        f.brake = f.brake || o.d > 0;
+        f.vary = f.vary || o.d != first;
+    }
+    return f;
+}
+
+/// From where q and q' come back to themselves, given where they come from rest, and what the rounding of every step and jump may make
+/// of that. Where nothing pulls back, q' alone. false where there is no such state.
+static bool close_circle(const swing *u, int period, double step, forces f, const wide_matrix a,
+                         const long double end[2], long double epsilon, long double state[2], double *error)
+{
+    const long double seconds = period * (long double)step, rounding = 4 * epsilon;
+    long double q = 0, v = 0;
+    for (int i = 0; i < period; i++) q += fabsl(u->total[i]), v += fabsl(u->speed[i]) + fabsl(u->im[i]);
+    long double of_q = rounding * (q + seconds * v), of_v = rounding * v;
+    if (!f.pull) {
+        state[0] = 0, state[1] = f.brake ? end[1] / a[1][1] : -end[0] / seconds;
+        *error = (double)(of_q + (f.brake ? seconds * of_v / fabsl(a[1][1]) : of_q));
+        return true;
+    }
+    const long double det = a[0][0] * a[1][1] - a[0][1] * a[1][0];
+    if (!(fabsl(det) > 1e-16L * (fabsl(a[0][0] * a[1][1]) + fabsl(a[0][1] * a[1][0])))) return false;
+    state[0] = (a[1][1] * end[0] - a[0][1] * end[1]) / det;
+    state[1] = (a[0][0] * end[1] - a[1][0] * end[0]) / det;
+    of_q = rounding * q;
+    *error = (double)((fabsl(a[1][1]) * of_q + fabsl(a[0][1]) * of_v +
+                       seconds * (fabsl(a[0][0]) * of_v + fabsl(a[1][0]) * of_q)) /
+                      fabsl(det));
+    return true;
+}
+
+static double range_of(const double *x, int count)
+{
+    double low = x[0], high = x[0];
+    for (int i = 0; i < count; i++) low = x[i] < low ? x[i] : low, high = x[i] > high ? x[i] : high;
+    return high - low;
+}
+
+/// Of y's range: a loop whose error may be more is run in extended precision.
+static const double narrow = 1e-10;
 
 /// The periodic q, by the state that comes back to itself. false where there is none or one that is far too large.
 static bool run_loop(const wiggly_desc *desc, const double *y, double floor, swing *u)
 {
-    bool pulled, braked;
-    int period = desc->samples - 1;
+    const forces f = forces_of(desc, floor);
+    const int period = desc->samples - 1;
+    const double range = range_of(y, period);
+    if (!f.pull && f.vary) { // what it loses in speed it does not get back: there is no periodic q
+        swing_rest(desc, y, u);
+        for (int i = 0; i <= period; i++) u->total[i] = 0;
+        u->error = INFINITY;
+        return true;
+    }
     double end[2];
-    look_for_forces(desc, floor, &pulled, &braked);
+    long double wide_end[2], state[2] = {0, 0};
+    wide_matrix a;
     run(desc, floor, 0, 0, u, end);
-    if (!pulled) { // of a family that differs by constants the one of mean 0
+    around(desc, floor, false, a);
+    wide_end[0] = end[0], wide_end[1] = end[1];
+    if (!close_circle(u, period, desc->step, f, a, wide_end, DBL_EPSILON, state, &u->error)) return false;
+    if (u->error <= narrow * range) {
+        run(desc, floor, (double)state[0], (double)state[1], u, end);
+    } else {
+        const long double rest[2] = {0, 0};
+        run_wide(desc, y, floor, rest, u, wide_end);
+        around(desc, floor, true, a);
+        if (!close_circle(u, period, desc->step, f, a, wide_end, LDBL_EPSILON, state, &u->error)) return false;
+        run_wide(desc, y, floor, state, u, wide_end);
+    }
+    if (!f.pull) { // of a family that differs by constants the one of mean 0
         long double mean = 0;
-        wide_matrix a;
-        around(desc, floor, a);
-        double v = braked ? end[1] / (double)a[1][1] : -end[0] / (period * desc->step);
-        run(desc, floor, 0, v, u, end);
         for (int i = 0; i < period; i++) mean += u->total[i];
         for (int i = 0; i <= period; i++) u->total[i] -= (double)(mean / period);
         return true;
     }
-    wide_matrix a;
-    around(desc, floor, a);
-    long double det = a[0][0] * a[1][1] - a[0][1] * a[1][0];
-    if (!(fabsl(det) > 1e-16L * (fabsl(a[0][0] * a[1][1]) + fabsl(a[0][1] * a[1][0])))) return false;
-    double q = (double)((a[1][1] * end[0] - a[0][1] * end[1]) / det);
-    double v = (double)((a[0][0] * end[1] - a[1][0] * end[0]) / det);
-    u->error = 8 * DBL_EPSILON * (double)((fabsl(a[1][1] * end[0]) + fabsl(a[0][1] * end[1])) / fabsl(det));
-    run(desc, floor, q, v, u, end);
-    double largest = 0, low = y[0], high = y[0];
-    for (int i = 0; i < period; i++) {
-        double size = fabs(u->total[i]);
-        largest = size > largest ? size : largest;
-        low = y[i] < low ? y[i] : low, high = y[i] > high ? y[i] : high;
-    }
-    return largest <= blow_up * (high - low);
+    double largest = 0;
+    for (int i = 0; i < period; i++) largest = fabs(u->total[i]) > largest ? fabs(u->total[i]) : largest;
+    return largest <= blow_up * range;
 }
 
 WIDEST static void imaginary_constant(const double *restrict q, const double *restrict speed, double gain, double d,
