@@ -23,6 +23,7 @@
 // s (Re(on_x x_q + on_d d_q − on_r ν_d) − target)², a row of the two nodes alone. In the stretch it pulls r_q away from B* ν by
 // η = s (φ − target) on_r*, and the samples follow the costate ν − V B η, which is μ − C* B η where the stretch begins.
 #include "spline/chain.h"
+#include <float.h>
 #include <math.h>
 
 enum { MAX_SWEEPS = 30 };
@@ -241,12 +242,44 @@ static bool refine(chain *c, double size)
         chain_solve_nodes(c);
         double change = take_solution(c);
         const bool done = change <= refined * size;
-        c->error = done ? change : fmax(change, before < size ? before : 0);
+        c->error = done ? change : 4 * fmax(change, before < size ? before : 0);
         if (done) return true;
         if (!(change < 0.5 * before)) return c->error <= acceptable * size;
         before = change;
     }
     return false;
+}
+
+static void change_filter(chain *c, cplx lambda, cplx delta2)
+{
+    chain_forget(c);
+    c->lambda = lambda, c->delta2 = delta2;
+    chain_make_tables(c);
+}
+
+/// How far the nodes would be elsewhere if the poles, and with them the powers, were rounded otherwise, in size and in phase.
+static double sensitivity(chain *c)
+{
+    const cplx lambda = c->lambda, delta2 = c->delta2;
+    const double rounding = c->rounding;
+    double change = 0;
+    for (int part = 0; part < 2; part++) {
+        const cplx phase = part && c->is_complex ? (cplx){1, rounding} : (cplx){1 + rounding, 0};
+        const cplx apart = {part ? 1 - rounding : 1 + rounding, 0};
+        change_filter(c, part && !c->is_complex ? lambda : cplx_mul(phase, lambda), cplx_mul(apart, delta2));
+        chain_gradient(c);
+        chain_solve_nodes(c);
+        double largest = 0;
+        for (int j = 0; j < c->node_count; j++) {
+            const double *moved = c->rows[j].right;
+            const double size = fabs(moved[0]) + (c->is_complex ? fabs(moved[1]) + fabs(moved[2]) : 0);
+            if (!(size <= largest)) largest = size;
+        }
+        change += largest;
+    }
+    change_filter(c, lambda, delta2);
+    c->kept = true;
+    return (c->is_complex ? 16 : 48) * change;
 }
 
 void chain_reset_nodes(chain *c)
@@ -309,6 +342,7 @@ bool chain_solve(chain *c, double *x_re, double *x_im)
     double size = fmax(take_solution(c), largest_value(c));
     if (c->rank == CHAIN_WEAK && c->count <= LONGEST_FOR_BAND) return false;
     if (chain_must_refine(c) && !refine(c, size)) return false;
+    if (c->rank == CHAIN_WEAK || (c->loose && c->lost > TELLING_LOSS)) c->error += sensitivity(c);
     if (c->im_weight > 0) {
         chain_pull_imaginary(c);
         chain_solve_nodes(c);

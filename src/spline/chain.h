@@ -77,6 +77,9 @@ typedef struct chain_row {
 
 enum { CHAIN_RUN = 64 }; ///< samples that are filled from one state, at most
 
+/// Entries over pivots beyond which the error that is left is worth telling, and a chain in company is solved alone.
+#define TELLING_LOSS 300
+
 typedef enum chain_rank {
     CHAIN_LOST, ///< a pivot is not positive
     CHAIN_WEAK, ///< a pivot has lost digits: to be refined
@@ -113,6 +116,7 @@ typedef struct chain {
     bool kept; ///< tables and factor are those of the nodes' samples, fixed and slope_weight, and of everything above
     chain_rank rank;    ///< of the factor
     bool loose;         ///< next to nothing holds the start: its errors are larger
+    double rounding;    ///< of the poles
     double lost;        ///< entries over pivots of the factor, the largest of its rows
     double error;       ///< estimated error of x
     double size;        ///< of what was solved for

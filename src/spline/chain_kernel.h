@@ -17,9 +17,7 @@
 /// A pivot below this part of what its diagonal would give has lost digits that refinement must bring back.
 #define WEAKEST 1e-6
 
-/// Entries over pivots beyond which the error that is left is worth telling, and a chain in company is solved alone.
-#define TELLING_LOSS 300
-/// And beyond which the chain is not the way to solve it.
+/// Entries over pivots beyond which the chain is not the way to solve it.
 #define GREATEST_LOSS 1e7
 
 /// What a row takes from its node. A known unknown is kept out of the system by 0 in place of 1.

@@ -22,7 +22,10 @@ enum { MAX_SWEEPS = 16 };
 /// themselves: below the tolerance.
 static const double enough_complex = 8e-9, enough_real = 2e-10;
 static const double rounding = 2 * DBL_EPSILON; ///< of a coefficient
-static const double too_much = 1e-1;            ///< beyond, the squared matrix is no help to refinement
+static const double unsettled = 1e-3;           ///< an error that is as good as none found, of the largest |x|
+/// Amplifications: the most that the squared matrix can be trusted to show, and from where on rounding alone is an error.
+static const double largest_squared = 1e6, hopeless = 1e10;
+static const double too_much = 1e-1; ///< beyond, the squared matrix is no help to refinement
 
 /// Bits of a magnitude: ordered as it is, NaN above all.
 static inline int64_t bits_of(double x)
@@ -60,7 +63,7 @@ static double largest_modulus(const double *x, int count, bool is_complex)
 static double estimated_error(const system_rows *rows, const pentadiagonal *m)
 {
     double g2 = rows->stretch * rows->stretch;
-    return 16 * DBL_EPSILON * fmax(m->lost * cbrt(m->lost), g2 * g2 / 31);
+    return 40 * DBL_EPSILON * fmax(m->lost * cbrt(m->lost), g2 * g2 / 31);
 }
 
 static double enough(const system_rows *rows) { return rows->is_complex ? enough_complex : enough_real; }
@@ -93,21 +96,52 @@ static void solve(wiggly_solver *solver, const factorisation *f)
     }
 }
 
-/// How far x would be elsewhere if the coefficients were rounded otherwise.
-static double sensitivity(wiggly_solver *solver, const factorisation *f)
+/// How far x is elsewhere if the coefficients are changed by these parts of them.
+static double change_of(wiggly_solver *solver, const factorisation *f, double of_m, double of_p, double of_others)
 {
     system_rows *rows = &solver->rows;
     for (int k = 0; k < rows->count; k++) {
-        rows->at[k].m = cplx_scale(1 + rounding, rows->at[k].m);
-        rows->at[k].p = cplx_scale(1 - rounding, rows->at[k].p);
+        rows->at[k].m = cplx_scale(1 + of_m, rows->at[k].m);
+        rows->at[k].p = cplx_scale(1 + of_p, rows->at[k].p);
     }
     for (int s = 0; s < rows->slope_count; s++) {
-        rows->slopes[s].here = cplx_scale(1 + rounding, rows->slopes[s].here);
+        rows->slopes[s].here = cplx_scale(1 + of_others, rows->slopes[s].here);
     }
-    for (int i = 0; i < 2; i++) rows->start.row[i].on_x = cplx_scale(1 + rounding, rows->start.row[i].on_x);
+    for (int i = 0; i < 2; i++) rows->start.row[i].on_x = cplx_scale(1 + of_others, rows->start.row[i].on_x);
     system_gradient(rows);
     solve(solver, f);
-    return 4 * largest_modulus(rows->gradient, rows->count, rows->is_complex);
+    return largest_modulus(rows->gradient, rows->count, rows->is_complex);
+}
+
+/// How far x would be elsewhere if the coefficients were rounded otherwise, as poles that fade and as poles that turn otherwise, and what
+/// the equilibrium takes off the knots.
+static double sensitivity(wiggly_solver *solver, const factorisation *f)
+{
+    system_rows *rows = &solver->rows;
+    const double fading = change_of(solver, f, rounding, -rounding, rounding);
+    for (int k = 0, knots = 0; k < rows->count && rows->noise > 0; k++) {
+        if (rows->fixed[k] & FIXED_RE)
+            rows->x[rows->is_complex ? 2 * k : k] += knots++ % 2 ? rows->noise : -rows->noise;
+    }
+    for (int s = 0; s < rows->slope_count; s++) rows->slopes[s].target += rows->noise;
+    return 16 * (fading + change_of(solver, f, 0, 2 * rounding, 0));
+}
+
+/// Of a system that nothing but knots and jets holds: how much larger than the rows' errors x's may be. No pivot need be small for that,
+/// where poles fade: each row then knows only its neighbour.
+static double amplification(wiggly_solver *solver, const factorisation *f)
+{
+    const system_rows *rows = &solver->rows;
+    const int width = rows->is_complex ? 2 : 1;
+    double largest = 0;
+    for (int i = 0; i < width * rows->count; i++) {
+        const bool known = rows->fixed[i / width] & (i % width ? FIXED_IM : FIXED_RE);
+        rows->gradient[i] = known ? 0 : (i * 7 % 5 < 2 ? -1 : 1) * sqrt(rows->jet_weight[i / width]);
+    }
+    solve(solver, f);
+    for (int i = 0; i < width * rows->count; i++)
+        largest = fmax(largest, fabs(rows->gradient[i]) * sqrt(rows->jet_weight[i / width]));
+    return sqrt(largest);
 }
 
 /// Refines x, at first from what is known alone. false where a number overflowed or it was stopped.
@@ -128,7 +162,7 @@ static bool refine(wiggly_solver *solver, const factorisation *f, minimum *resul
         double change = first ? 0 : largest_modulus(rows->gradient, rows->count, rows->is_complex);
         if (!(change < INFINITY)) return false;
         if (change > 0.5 * before) { // at the last digit, or not converging: x stays as it was
-            result->error = fmax(change, before);
+            result->error = 4 * fmax(change, before);
             break;
         }
         for (int i = 0; i < unknowns; i++) rows->x[i] += rows->gradient[i];
@@ -168,14 +202,25 @@ minimum solver_refine(wiggly_solver *solver, factorisation *f)
     const system_rows *rows = &solver->rows;
     minimum result = {0};
     if (f->rank != RANK_BROKEN) result.solved = refine(solver, f, &result);
+    const bool open = rows->is_open && rows->count >= 3;
     bool settled = result.solved && result.error <= enough(rows) * result.largest;
+    if (open && f->squared && settled) settled = amplification(solver, f) <= largest_squared;
     if (f->squared && !settled && rows->count >= 3 && !solver_must_stop(solver->stop)) {
         reset(rows);
         *f = factor_rows(solver);
         if (f->rank == RANK_BROKEN) return (minimum){0};
         result.solved = refine(solver, f, &result);
     }
-    if (result.solved) result.weak = f->rank == RANK_WEAK || result.error > 1e-6 * result.largest; // it never settled
+    if (!result.solved) return result;
+    const bool settles =
+        rows->fast || result.error <= unsettled * result.largest; // jets of unlike weights cost digits, too
+    result.weak = f->rank == RANK_WEAK || !settles;
+    if (rows->cut) result.error += result.largest;
+    const double amplified = open && !f->squared ? amplification(solver, f) : 0;
+    if (amplified > hopeless) {
+        result.error += rounding * amplified * result.largest;
+        result.weak = result.weak || result.error > unsettled * result.largest;
+    }
     return result;
 }
 

@@ -185,7 +185,7 @@ start_cost poles_start_cost(const poles *at, double step)
 
 double poles_weight_exponent(const poles *at, double step)
 {
-    return fmin(-step * (at->s[0].re + at->s[1].re), DEEPEST);
+    return fmin(-step * (at->s[0].re + at->s[1].re), HEAVIEST);
 }
 
 /// z / sinh z of a z whose square is real.
@@ -204,8 +204,10 @@ static const double steepest = 1e8;
 speed_form poles_speed(const poles *at, double step, bool backwards)
 {
     double h = backwards ? -step : step;
+    const bool alike =
+        at->s[0].re == at->s[1].re; // else the second fades faster, and the first says how steep it gets
     cplx s0 = {fmax(at->s[0].re * step, -DEEPEST) / step, at->s[0].im};
-    cplx s1 = {fmax(at->s[1].re * step, -DEEPEST) / step, at->s[1].im};
+    cplx s1 = {fmax(at->s[1].re * step, alike ? -DEEPEST : -3 * DEEPEST) / step, at->s[1].im};
     cplx z = cplx_scale(0.5 * h, cplx_sub(s0, s1)), mean = cplx_scale(0.5 * h, cplx_add(s0, s1));
     double ratio = fmin(fmax(z_over_sinh(z.re * z.re - z.im * z.im), -steepest), steepest);
     cplx q = cplx_scale(ratio, cplx_exp(cplx_scale(-1, mean)));

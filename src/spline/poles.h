@@ -64,13 +64,16 @@ typedef struct speed_form {
 /// Fading below what a double tells apart, so that weights and their products stay finite.
 #define DEEPEST 100.0
 
+/// ln of the most that one jet may weigh beside another: cubes of it stay finite.
+#define HEAVIEST 200.0
+
 /// ln |b|⁻¹ from which on a and b need all their digits.
 #define FAST 8.0
 
 /// The first of the samples from … to with the largest natural frequency, and that, rad/s.
 int poles_fastest(const wiggly_desc *desc, int from, int to, double *natural);
 
-/// ln |g|⁻² of a sample, by which its jet row is weighed; no more than a double can hold the square of.
+/// ln |g|⁻² of a sample, by which its jet row is weighed; no more than HEAVIEST.
 double poles_weight_exponent(const poles *at, double step);
 
 /// Poles at a sample. `floor` is the least damping ratio (0 but for loops and the start's cost).

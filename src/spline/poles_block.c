@@ -251,7 +251,8 @@ void poles_block_fill(const wiggly_desc *desc, int from, int count, double floor
     } else {
         set_coefficients(&e, count, block);
     }
-    for (int i = 0; i < count; i++) block->exponent[i] = block->exponent[i] < DEEPEST ? block->exponent[i] : DEEPEST;
+    for (int i = 0; i < count; i++)
+        block->exponent[i] = block->exponent[i] < HEAVIEST ? block->exponent[i] : HEAVIEST;
 }
 
 WIDEST void poles_block_exp(const double *restrict x, int count, double *restrict out)

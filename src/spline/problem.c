@@ -1,5 +1,6 @@
 /// From the description to a chain: which documents it serves, and their nodes.
 #include "spline/problem.h"
+#include <float.h>
 #include <math.h>
 
 /// Below this many radians of the natural frequency over the domain the imaginary rows hold Im x and may not be left out. Above, what
@@ -70,7 +71,7 @@ static double phase_of(wiggly_solver *solver, const problem *p)
 
 bool problem_pulls_imaginary(wiggly_solver *solver, const problem *p)
 {
-    return p->desc->mode == WIGGLY_COMPLEX && phase_of(solver, p) < least_unpulled_phase;
+    return p->desc->mode == WIGGLY_COMPLEX && (problem_is_loose(p) || phase_of(solver, p) < least_unpulled_phase);
 }
 
 /// Samples of the longest stretch. One that ends freely bends as one that is two and a half times as long.
@@ -150,7 +151,9 @@ static chain_view view_of(const problem *p, int sample)
 bool problem_put_knot(const problem *p, chain_node *node, const wiggly_knot *knot, const wiggly_knot *pair)
 {
     slope_row slope = {0};
-    if (knot->has_slope) slope = problem_slope(p, knot->sample, knot->slope, knot->stiffness);
+    const bool inside =
+        pair && !problem_oscillates(p); // of two knots: what it asks of them is met to rounding, or not at all
+    if (knot->has_slope && !inside) slope = problem_slope(p, knot->sample, knot->slope, knot->stiffness);
     bool settled = p->settles && knot->sample == p->latest;
     unsigned fixed = pair ? NODE_FIXED_E : settled ? NODE_SETTLED : 0;
     node->value = knot->value - problem_about(p, knot->sample);
@@ -187,6 +190,8 @@ static bool make_nodes(wiggly_solver *solver, const problem *p)
     c->turned = turned;
     return same;
 }
+
+static double cplx_size(cplx z) { return fmax(fabs(z.re), fabs(z.im)); }
 
 static bool same_cplx(cplx a, cplx b) { return a.re == b.re && a.im == b.im; }
 
@@ -259,6 +264,7 @@ void problem_set_chain(wiggly_solver *solver, const problem *p)
     c->lambda = f->lambda;
     c->delta2 = f->delta2;
     c->run = f->run;
+    c->rounding = DBL_EPSILON * (1 + fmax(cplx_size(f->at.s[0]), cplx_size(f->at.s[1])) * p->desc->step);
     c->im_weight = 0;
     if (problem_pulls_imaginary(solver, p)) c->im_weight = p->unit * problem_im_weight(p, f->at.natural);
     set_speeds(c, p, f);

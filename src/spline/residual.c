@@ -35,6 +35,19 @@ static inline cplx sample_of(const system_rows *rows, int k)
     return rows->is_complex ? (cplx){rows->x[2 * k], rows->x[2 * k + 1]} : (cplx){rows->x[k], 0};
 }
 
+/// f_i: of a slow loop next to nothing is left of the sum of all, and not even their rounding may be.
+static inline ddc drive_of(const system_rows *rows, int i)
+{
+    const int last = rows->count - 1;
+    const cplx plain = rows->drive[i];
+    if (!rows->driven || (!rows->loop && (i == 0 || i == last))) return (ddc){dd_from(plain.re), dd_from(plain.im)};
+    const double *y = rows->driven, here = y[i];
+    const dd ahead = dd_difference(y[i < last ? i + 1 : 0], here),
+             behind = dd_difference(here, y[i > 0 ? i - 1 : last]);
+    const dd bend = dd_subtract(ahead, behind);
+    return (ddc){dd_scale(rows->at[i].g.re, bend), dd_scale(rows->at[i].g.im, bend)};
+}
+
 static inline ddc complex_jet(const system_rows *rows, int i)
 {
     cplx before = sample_of(rows, i - 1), here = sample_of(rows, i), after = sample_of(rows, i + 1);
@@ -47,8 +60,7 @@ static inline ddc complex_jet(const system_rows *rows, int i)
         ddc own = ddc_scale(rows->at[i].a_rest, (ddc){dd_from(here.re), dd_from(here.im)});
         spring = ddc_add(spring, ddc_subtract(ddc_scale(rows->at[i].b_rest, base), own));
     }
-    ddc drive = {dd_from(rows->drive[i].re), dd_from(rows->drive[i].im)};
-    return ddc_add(ddc_subtract(next, step), ddc_add(spring, drive));
+    return ddc_add(ddc_subtract(next, step), ddc_add(spring, drive_of(rows, i)));
 }
 
 static inline dd real_jet(const system_rows *rows, int i)
@@ -65,7 +77,7 @@ static inline dd real_jet(const system_rows *rows, int i)
         dd own = dd_product(rows->at[i].a_rest.re, here);
         spring = dd_add(spring, dd_subtract(dd_product(rows->at[i].b_rest.re, before), own));
     }
-    return dd_add(dd_subtract(next, step), dd_add(spring, dd_from(rows->drive[i].re)));
+    return dd_add(dd_subtract(next, step), dd_add(spring, drive_of(rows, i).re));
 }
 
 static const ddc no_jet = {{0, 0}, {0, 0}};

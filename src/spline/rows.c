@@ -1,6 +1,7 @@
 /// From the problem to its rows, one after the other (system.h), for the solvers of the band.
 #include "spline/poles_block.h"
 #include "spline/problem.h"
+#include <float.h>
 #include <math.h>
 #include <string.h>
 
@@ -59,7 +60,7 @@ static cplx drive_phase(const poles_block *block, int i, const wiggly_desc *desc
     return cplx_exp((cplx){-0.5 * block->exponent[i], turn});
 }
 
-/// Every row of parameters that vary, a block at a time; returns the lowest natural frequency. Weights are relative to the first sample's |g|⁻².
+/// Every row of parameters that vary, a block at a time; returns the lowest natural frequency at which Im x is left to itself. Weights are relative to the first sample's |g|⁻².
 static double set_varying(system_rows *rows, const problem *p, bool weighted)
 {
     const wiggly_desc *desc = p->desc;
@@ -78,6 +79,7 @@ static double set_varying(system_rows *rows, const problem *p, bool weighted)
         poles_block_exp(weight, count, weight);
         for (int i = 0; i < count; i++) {
             coefficients at = {.m = {block.m_re[i], block.m_im[i]}, .p = {block.p_re[i], block.p_im[i]}};
+            rows->cut = rows->cut || (oscillates && block.exponent[i] >= HEAVIEST);
             if (block.exponent[i] > FAST) {
                 const poles own = problem_poles(p, p->first + k + i, floor);
                 at = poles_coefficients(&own, desc->step);
@@ -89,6 +91,7 @@ static double set_varying(system_rows *rows, const problem *p, bool weighted)
             slowest = block.natural[i] < slowest ? block.natural[i] : slowest;
         }
     }
+    if (oscillates && desc->mode == WIGGLY_COMPLEX) return fmax(slowest, slow_part * highest); // below, Im x is held
     return slowest;
 }
 
@@ -105,7 +108,8 @@ static void set_stretch(system_rows *rows, const wiggly_solver *solver, const pr
         if (sample - before > longest) longest = sample - before;
         before = sample;
     }
-    rows->stretch = fmin(longest, swings_back / (slowest * desc->step));
+    const double whole = desc->mode == WIGGLY_COMPLEX ? 1.6 * p->count : longest; // knots do not hold Im x
+    rows->stretch = fmin(whole, swings_back / (slowest * desc->step));
 }
 
 /// Coefficients, drive, weights of jets and of Im x of every row.
@@ -278,11 +282,19 @@ static bool cancels(const problem *p)
     return values < little * needed;
 }
 
+/// The largest |y| of the domain.
+static double farthest(const problem *p)
+{
+    double most = 0;
+    for (int i = 0; i < p->desc->samples; i++) most = fabs(p->y[i]) > most ? fabs(p->y[i]) : most;
+    return most;
+}
+
 void problem_set_rows(wiggly_solver *solver, const problem *p)
 {
     system_rows *rows = &solver->rows;
     rows->loop = p->start == WIGGLY_LOOP;
-    rows->fast = false;
+    rows->fast = rows->cut = false;
     rows->is_complex = p->desc->mode == WIGGLY_COMPLEX;
     rows->count = problem_rows(p);
     rows->jet_from = rows->loop ? 0 : 1;
@@ -290,6 +302,9 @@ void problem_set_rows(wiggly_solver *solver, const problem *p)
     rows->start = p->cost;
     rows->pulls = p->pulls;
     rows->first = p->first;
+    rows->driven = !problem_oscillates(p) && p->about ? p->about + p->first : NULL;
+    rows->noise = p->about ? DBL_EPSILON * farthest(p) : 0;
+    rows->is_open = p->free_end && p->desc->mode != WIGGLY_CUBIC;
     rows->is_held = !p->strict && !problem_is_loose(p) && !cancels(p);
     set_filter(solver, p);
     set_tail(rows, p);

@@ -34,13 +34,18 @@ typedef struct system_rows {
     int count; ///< M
     bool loop, is_complex;
     bool fast; ///< there are coefficients with a rest
+    bool cut;  ///< a jet would weigh more beside another than it does here
     bool
         is_held; ///< the start costs enough, or there is none, that no more than its knot-free stretches cost it digits
+    double noise;         ///< rounding of the known values, where they are differences to an equilibrium
+    bool is_open;         ///< the start costs nothing
     int jet_from, jet_to; ///< a loop has a jet at every sample
     double
         stretch; ///< samples of the longest knot-free stretch, or as many as it takes to swing back where that is less
     coefficients *at; ///< of row i; g is folded into `drive` and not kept
     cplx *drive;      ///< f_i
+    const double
+        *driven; ///< the equilibrium of row 0 on, where f_i = g_i ÿ_i with all the digits that it has; or NULL
     double *jet_weight;
     double *im_weight;
     unsigned char *fixed;
