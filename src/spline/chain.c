@@ -264,9 +264,9 @@ static double sensitivity(chain *c)
     const double rounding = c->rounding;
     double change = 0;
     for (int part = 0; part < 2; part++) {
-        const cplx phase = part && c->is_complex ? (cplx){1, rounding} : (cplx){1 + rounding, 0};
-        const cplx apart = {part ? 1 - rounding : 1 + rounding, 0};
-        change_filter(c, part && !c->is_complex ? lambda : cplx_mul(phase, lambda), cplx_mul(apart, delta2));
+        const cplx turned = {0, rounding}, larger = {rounding, 0}, none = {0, 0};
+        const cplx apart = {part ? 1 - rounding : 1 + rounding, part && c->is_complex ? rounding : 0};
+        change_filter(c, cplx_add(lambda, !part ? larger : c->is_complex ? turned : none), cplx_mul(apart, delta2));
         chain_gradient(c);
         chain_solve_nodes(c);
         double largest = 0;

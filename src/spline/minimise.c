@@ -96,13 +96,27 @@ static void solve(wiggly_solver *solver, const factorisation *f)
     }
 }
 
+/// z and a part of it; rounding turns nothing that is real.
+static cplx changed(cplx z, cplx part)
+{
+    if (z.im == 0) part.im = 0;
+    return cplx_add(z, cplx_mul(part, z));
+}
+
 /// How far x is elsewhere if the coefficients are changed by these parts of them.
-static double change_of(wiggly_solver *solver, const factorisation *f, double of_m, double of_p, double of_others)
+static double change_of(wiggly_solver *solver, const factorisation *f, cplx of_m, cplx of_p, double of_others)
 {
     system_rows *rows = &solver->rows;
     for (int k = 0; k < rows->count; k++) {
-        rows->at[k].m = cplx_scale(1 + of_m, rows->at[k].m);
-        rows->at[k].p = cplx_scale(1 + of_p, rows->at[k].p);
+        coefficients *at = &rows->at[k];
+        if (at->a_rest.re != 0 || at->b_rest.re != 0) {
+            const cplx a = coefficients_a(at), b = coefficients_b(at);
+            at->a_rest = cplx_add(at->a_rest, cplx_sub(changed(a, of_m), a));
+            at->b_rest = cplx_add(at->b_rest, cplx_sub(changed(b, of_p), b));
+            continue;
+        }
+        at->m = changed(at->m, of_m);
+        at->p = changed(at->p, of_p);
     }
     for (int s = 0; s < rows->slope_count; s++) {
         rows->slopes[s].here = cplx_scale(1 + of_others, rows->slopes[s].here);
@@ -113,18 +127,28 @@ static double change_of(wiggly_solver *solver, const factorisation *f, double of
     return largest_modulus(rows->gradient, rows->count, rows->is_complex);
 }
 
+/// Known values, targets and drives as an equilibrium that is rounded otherwise would have them; drives of equal poles alike.
+static void change_known(system_rows *rows)
+{
+    double sign = 1, of_drive = rounding;
+    for (int k = 0; k < rows->count && rows->noise > 0; k++) {
+        if (rows->fixed[k] & FIXED_RE) rows->x[rows->is_complex ? 2 * k : k] += (sign = -sign) * rows->noise;
+        if (k > 0 && (rows->at[k].p.re != rows->at[k - 1].p.re || rows->at[k].p.im != rows->at[k - 1].p.im))
+            of_drive = k * 7 % 5 < 2 ? -rounding : rounding;
+        rows->at[k].g = cplx_scale(1 + of_drive, rows->at[k].g);
+    }
+    for (int s = 0; s < rows->slope_count; s++) rows->slopes[s].target += rows->noise;
+}
+
 /// How far x would be elsewhere if the coefficients were rounded otherwise, as poles that fade and as poles that turn otherwise, and what
 /// the equilibrium takes off the knots.
 static double sensitivity(wiggly_solver *solver, const factorisation *f)
 {
-    system_rows *rows = &solver->rows;
-    const double fading = change_of(solver, f, rounding, -rounding, rounding);
-    for (int k = 0, knots = 0; k < rows->count && rows->noise > 0; k++) {
-        if (rows->fixed[k] & FIXED_RE)
-            rows->x[rows->is_complex ? 2 * k : k] += knots++ % 2 ? rows->noise : -rows->noise;
-    }
-    for (int s = 0; s < rows->slope_count; s++) rows->slopes[s].target += rows->noise;
-    return 16 * (fading + change_of(solver, f, 0, 2 * rounding, 0));
+    const cplx more = {rounding, 0}, less = {-rounding, 0}, turned = {0, rounding},
+               both = {2 * rounding, 2 * rounding};
+    change_known(&solver->rows);
+    const double fading = change_of(solver, f, more, less, rounding);
+    return 16 * (fading + change_of(solver, f, turned, both, 0));
 }
 
 /// Of a system that nothing but knots and jets holds: how much larger than the rows' errors x's may be. No pivot need be small for that,

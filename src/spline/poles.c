@@ -2,6 +2,7 @@
 #include "spline/poles.h"
 #include "spline/dd.h"
 #include "spline/wide.h"
+#include <float.h>
 #include <math.h>
 #include <stdint.h>
 #include <string.h>
@@ -148,6 +149,11 @@ coefficients poles_coefficients(const poles *at, double step)
     if (-sum.re > FAST) {
         cplx a = cplx_add(cplx_exp(cplx_scale(step, at->s[0])), cplx_exp(cplx_scale(step, at->s[1])));
         cplx b = cplx_exp(sum);
+        if (-sum.re >
+            FASTEST) { // both are below the last digit of 1, and the rests would be, beside what m and p leave
+            if (fabs(a.re) + fabs(a.im) < DBL_EPSILON) c.m = (cplx){-2, 0};
+            c.p = (cplx){-1 - c.m.re, -c.m.im};
+        }
         c.a_rest = (cplx){rest_of(a.re, 2, c.m.re, 0), rest_of(a.im, 0, c.m.im, 0)};
         c.b_rest = (cplx){rest_of(b.re, 1, c.m.re, c.p.re), rest_of(b.im, 0, c.m.im, c.p.im)};
         if (at->s[0].im == -at->s[1].im) c.a_rest.im = c.b_rest.im = 0;

@@ -69,6 +69,8 @@ typedef struct speed_form {
 
 /// ln |b|⁻¹ from which on a and b need all their digits.
 #define FAST 8.0
+/// And from which on they are kept as what they are.
+#define FASTEST 40.0
 
 /// The first of the samples from … to with the largest natural frequency, and that, rad/s.
 int poles_fastest(const wiggly_desc *desc, int from, int to, double *natural);
