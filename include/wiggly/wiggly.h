@@ -123,7 +123,9 @@ typedef struct wiggly_curve {
     double before[2]; ///< that constant, re and im
     wiggly_mode mode;
     wiggly_start start;
-    double error;    ///< estimated largest error, relative to the larger of the total's range and magnitude
+    double
+        error; ///< estimated largest error, relative to the larger of the total's range and magnitude; infinite where a loop
+               ///< has no swing that repeats (spring 0, and a friction that varies), which is left out
     int refinements; ///< sweeps of iterative refinement that were taken
 } wiggly_curve;
 

@@ -75,9 +75,8 @@ static bool check_solution(const char *path, const struct document *document, st
         if (jumps(document, &evaluation, i)) {
             print_warning(problems, path, document, i, "the equilibrium of this loop does not end where it starts");
         }
-        if (evaluation.status[i] != WIGGLY_OK) {
-            print_warning(problems, path, document, i, wiggly_status_text(evaluation.status[i]));
-        }
+        char sentence[EVALUATION_SENTENCE];
+        if (evaluation_sentence(&evaluation, i, sentence)) print_warning(problems, path, document, i, sentence);
     }
     pin_warnings(document, &evaluation, warn_of_pin, &(struct checked){problems, path});
     evaluation_free(&evaluation);

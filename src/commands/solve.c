@@ -59,10 +59,11 @@ static bool write_output(const char *path, const struct document *document, cons
 static void warn_statuses(const char *path, const struct document *document, const struct evaluation *evaluation)
 {
     for (int i = 0; i < evaluation->count; i++) {
-        if (evaluation->status[i] == WIGGLY_OK) continue;
+        char sentence[EVALUATION_SENTENCE];
+        if (!evaluation_sentence(evaluation, i, sentence)) continue;
         struct error warning; // a name may hold anything: fail() makes it printable
         fail(&warning, ERROR_INPUT, "%s: splines[%d]: warning: \"%s\": %s", path, i, document->splines[i].name,
-             wiggly_status_text(evaluation->status[i]));
+             sentence);
         fprintf(stderr, "%s\n", warning.text);
     }
 }

@@ -2,6 +2,8 @@
 #include "scene/evaluate.h"
 #include "base/checked.h"
 #include "scene/storage.h"
+#include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -98,6 +100,23 @@ static bool resize_baked(struct evaluation *evaluation, const struct document *d
         if (!baked->raw) return false;
         baked->samples = baked->raw + samples;
         baked->capacity = samples;
+    }
+    return true;
+}
+
+bool evaluation_sentence(const struct evaluation *evaluation, int spline, char *text)
+{
+    const wiggly_status status = evaluation->status[spline];
+    const double error = evaluation->curves[spline].error;
+    if (status == WIGGLY_OK) return false;
+    if (status != WIGGLY_INEXACT) {
+        snprintf(text, EVALUATION_SENTENCE, "%s", wiggly_status_text(status));
+    } else if (error < INFINITY) {
+        snprintf(text, EVALUATION_SENTENCE, "%s: %.1e of the curve's size", wiggly_status_text(status), error);
+    } else {
+        snprintf(text, EVALUATION_SENTENCE,
+                 "a loop without a spring, whose friction varies, has no swing of its own that repeats; solved "
+                 "without it");
     }
     return true;
 }

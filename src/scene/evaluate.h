@@ -23,6 +23,12 @@ struct evaluation {
     struct storage *storage; ///< private (storage.h)
 };
 
+enum { EVALUATION_SENTENCE = 200 };
+
+/// What to tell of a spline that is not simply solved, into `text` of EVALUATION_SENTENCE bytes, with the estimated error where that is
+/// why; false where there is nothing to tell.
+bool evaluation_sentence(const struct evaluation *evaluation, int spline, char *text);
+
 /// Makes room for a document's splines. Call it again whenever the number of splines, samples or knots may have changed; it costs next
 /// to nothing if they fit. A new number of splines or samples makes every curve unsolved. On failure `count` is 0.
 bool evaluation_resize(struct evaluation *evaluation, const struct document *document, struct error *error);

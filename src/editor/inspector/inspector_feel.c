@@ -205,8 +205,9 @@ static void build_warnings(struct inspection *in)
     const struct spline *spline = core_active_spline(in->core, in->world);
     const struct evaluation *evaluation = in->world->evaluation;
     const int active = in->core->active;
-    if (evaluation && active < evaluation->count && evaluation->status[active] != WIGGLY_OK)
-        ui_paragraph(in->ui, wiggly_status_text(evaluation->status[active]), theme()->warning);
+    char sentence[EVALUATION_SENTENCE];
+    if (evaluation && active < evaluation->count && evaluation_sentence(evaluation, active, sentence))
+        ui_paragraph(in->ui, sentence, theme()->warning);
     const struct param *p = spline->parameter;
     const double beta = spline_mode(spline) == WIGGLY_COMPLEX ? p[PARAMETER_BANDWIDTH].value : 0;
     const double highest = p[PARAMETER_FREQUENCY].value * (1 + beta);
