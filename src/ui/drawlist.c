@@ -104,13 +104,14 @@ static struct rect bounds_of(const float *xy, int count, float margin)
 {
     float x0 = xy[0], y0 = xy[1], x1 = x0, y1 = y0, sum = 0.0f;
     for (int i = 0; i < count; i++) {
-        x0 = fminf(x0, xy[2 * i]);
-        x1 = fmaxf(x1, xy[2 * i]);
-        y0 = fminf(y0, xy[2 * i + 1]);
-        y1 = fmaxf(y1, xy[2 * i + 1]);
-        sum += (xy[2 * i] + xy[2 * i + 1]) * 0.0f;
+        const float x = xy[2 * i], y = xy[2 * i + 1];
+        x0 = x < x0 ? x : x0;
+        x1 = x > x1 ? x : x1;
+        y0 = y < y0 ? y : y0;
+        y1 = y > y1 ? y : y1;
+        sum += (x + y) * 0.0f;
     }
-    // 0 · x is NaN if x is not finite: fminf and fmaxf alone would overlook a NaN.
+    // 0 · x is NaN if x is not finite: comparisons alone would overlook a NaN.
     return (struct rect){x0 - margin + sum, y0 - margin, x1 - x0 + 2.0f * margin, y1 - y0 + 2.0f * margin};
 }
 

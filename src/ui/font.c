@@ -126,17 +126,16 @@ float font_cap_height(enum font font, float size) { return faces[font].cap_heigh
 
 size_t font_line(enum font font, float size, const char *utf8, float width)
 {
-    char part[256];
+    float ems = 0.0f;
     size_t fits = 0;
     const char *at = utf8;
     while (*at) {
-        utf8_next(&at);
+        const uint32_t c = utf8_next(&at);
         size_t length = (size_t)(at - utf8);
-        if (length >= sizeof part) break;
-        memcpy(part, utf8, length);
-        part[length] = '\0';
+        if (length >= 256) break;
         bool whole = *at == ' ' || *at == '\0';
-        if (font_width(font, size, part) > width) return fits ? fits : length;
+        ems += faces[font].glyphs[face_slot(c)].advance;
+        if (ems * size > width) return fits ? fits : length;
         if (whole) fits = length;
     }
     return fits ? fits : (size_t)(at - utf8);

@@ -49,14 +49,16 @@ static float node_y(const struct silhouette *silhouette, int row)
 /// Unlike hypotf(), not a call: this is asked of every node of a grid that grows as the view comes near.
 static float length(float x, float y) { return sqrtf(x * x + y * y); }
 
+static float larger(float a, float b) { return a > b ? a : b; }
+
 /// How far inside of the link a point is.
 static float depth_in_link(const float p[2], const float a[2], float a_radius, const float b[2], float b_radius)
 {
     const float dx = b[0] - a[0], dy = b[1] - a[1], t = segment_nearest(a, b, p);
     const float between = a_radius + t * (b_radius - a_radius) - length(p[0] - a[0] - t * dx, p[1] - a[1] - t * dy);
-    const float ends =
-        fmaxf(a_radius - length(p[0] - a[0], p[1] - a[1]), b_radius - length(p[0] - b[0], p[1] - b[1]));
-    return fmaxf(between, ends);
+    const float at_a = a_radius - length(p[0] - a[0], p[1] - a[1]),
+                at_b = b_radius - length(p[0] - b[0], p[1] - b[1]);
+    return larger(between, larger(at_a, at_b));
 }
 
 void silhouette_add_link(struct silhouette *silhouette, const float from[2], float from_radius, const float to[2],
@@ -71,7 +73,7 @@ void silhouette_add_link(struct silhouette *silhouette, const float from[2], flo
         for (int column = columns[0]; column <= columns[1]; column++) {
             const float p[2] = {node_x(silhouette, column), node_y(silhouette, row)};
             float *inside = &silhouette->inside[row][column];
-            *inside = fmaxf(*inside, depth_in_link(p, from, from_radius, to, to_radius));
+            *inside = larger(*inside, depth_in_link(p, from, from_radius, to, to_radius));
         }
     }
 }
