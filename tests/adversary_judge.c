@@ -34,7 +34,7 @@ static bool is_nothing(const struct answer *a, int n)
 {
     double parts = 0;
     for (int i = 0; i < n; i++) parts = fmax(parts, fmax(fabs(a->re[i]), fabs(a->total[i] - a->re[i])));
-    return size_of(a, n) < 1e-3 * parts;
+    return size_of(a, n) < 1e-2 * parts;
 }
 
 /// Damped so little that rows of the energy weigh much alike.

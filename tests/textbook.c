@@ -152,9 +152,11 @@ static bool solve(struct textbook *b)
     for (int i = 0; i < n; i++) {
         if (f.unknown[i] >= 0) b->x[f.unknown[i]] = z[i];
     }
-    for (int i = 0; i < n; i++) z[i] = f.unknown[i] < 0 ? 0 : (i * 7 % 5 < 2 ? -1 : 1) * sqrtq(b->band[i][0]);
-    substitute(&f, n, z);
-    for (int i = 0; i < n; i++) b->inverse = (double)fmaxq(b->inverse, fabsq(z[i]) * sqrtq(b->band[i][0]));
+    for (int signs = 1; signs <= 4; signs++) {
+        for (int i = 0; i < n; i++) z[i] = f.unknown[i] < 0 ? 0 : (i * 7 % 5 < signs ? -1 : 1) * sqrtq(b->band[i][0]);
+        substitute(&f, n, z);
+        for (int i = 0; i < n; i++) b->inverse = (double)fmaxq(b->inverse, fabsq(z[i]) * sqrtq(b->band[i][0]));
+    }
     return true;
 }
 

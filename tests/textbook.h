@@ -21,7 +21,7 @@ struct textbook_poles {
 struct textbook {
     double
         pivot; ///< least pivot of the system, as a part of its diagonal entry; of a swing in a loop, its determinant too
-    double inverse;     ///< how large the inverse is beside the diagonal's, by one right-hand side
+    double inverse;     ///< how large the inverse is beside the diagonal's, by four right-hand sides
     double growth;      ///< max |w| over the scale of what was asked; 0 where that is 0
     bool open;          ///< nothing holds the start (in a loop: the damping), so the problem may be singular
     bool swing_missing; ///< a loop without a spring whose friction varies has no periodic u: it is 0

@@ -279,7 +279,7 @@ static double sensitivity(chain *c)
     }
     change_filter(c, lambda, delta2);
     c->kept = true;
-    return (c->is_complex ? 16 : 48) * change;
+    return (c->is_complex ? 24 : 48) * change;
 }
 
 void chain_reset_nodes(chain *c)

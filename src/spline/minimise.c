@@ -82,7 +82,8 @@ factorisation solver_factor(wiggly_solver *solver)
         system_matrix(rows, &solver->matrix);
         f.rank = pentadiagonal_factor(&solver->matrix);
         if (f.rank != RANK_BROKEN) f.error = estimated_error(rows, &solver->matrix);
-        if (f.error <= too_much || rows->count < 3) return f;
+        // Where jets weigh much more than others, those are lost in it, and no correction shows it.
+        if (f.error <= (rows->fast ? enough(rows) : too_much) || rows->count < 3) return f;
     }
     return factor_rows(solver);
 }
@@ -127,12 +128,12 @@ static double change_of(wiggly_solver *solver, const factorisation *f, cplx of_m
     return largest_modulus(rows->gradient, rows->count, rows->is_complex);
 }
 
-/// Known values, targets and drives as an equilibrium that is rounded otherwise would have them; drives of equal poles alike.
-static void change_known(system_rows *rows)
+/// Known values, targets and drives as an equilibrium that is rounded otherwise would have them, by turns or alike; drives of equal poles alike.
+static void change_known(system_rows *rows, double sign)
 {
-    double sign = 1, of_drive = rounding;
+    double now = 1, of_drive = rounding;
     for (int k = 0; k < rows->count && rows->noise > 0; k++) {
-        if (rows->fixed[k] & FIXED_RE) rows->x[rows->is_complex ? 2 * k : k] += (sign = -sign) * rows->noise;
+        if (rows->fixed[k] & FIXED_RE) rows->x[rows->is_complex ? 2 * k : k] += (now *= sign) * rows->noise;
         if (k > 0 && (rows->at[k].p.re != rows->at[k - 1].p.re || rows->at[k].p.im != rows->at[k - 1].p.im))
             of_drive = k * 7 % 5 < 2 ? -rounding : rounding;
         rows->at[k].g = cplx_scale(1 + of_drive, rows->at[k].g);
@@ -140,15 +141,35 @@ static void change_known(system_rows *rows)
     for (int s = 0; s < rows->slope_count; s++) rows->slopes[s].target += rows->noise;
 }
 
+/// How far x is elsewhere by the rounding of what jets pull, where they weigh so much that they drown all else.
+static double change_by_jets(wiggly_solver *solver, const factorisation *f)
+{
+    const system_rows *rows = &solver->rows;
+    const int unknowns = rows->count * (rows->is_complex ? 2 : 1);
+    const int width = rows->is_complex ? 2 : 1;
+    for (int i = 0; i < unknowns; i++) {
+        const bool known = rows->fixed[i / width] & (i % width ? FIXED_IM : FIXED_RE);
+        const double pull = rows->jet_weight[i / width] * rows->x[i];
+        rows->gradient[i] = known ? 0 : (i * 7 % 5 < 2 ? -rounding : rounding) * pull;
+    }
+    solve(solver, f);
+    return largest_modulus(rows->gradient, rows->count, rows->is_complex);
+}
+
 /// How far x would be elsewhere if the coefficients were rounded otherwise, as poles that fade and as poles that turn otherwise, and what
 /// the equilibrium takes off the knots.
 static double sensitivity(wiggly_solver *solver, const factorisation *f)
 {
-    const cplx more = {rounding, 0}, less = {-rounding, 0}, turned = {0, rounding},
-               both = {2 * rounding, 2 * rounding};
-    change_known(&solver->rows);
-    const double fading = change_of(solver, f, more, less, rounding);
-    return 16 * (fading + change_of(solver, f, turned, both, 0));
+    const cplx none = {0, 0}, parts[2] = {{rounding, 0}, {0, rounding}};
+    const double heavy = solver->rows.fast ? change_by_jets(solver, f) : 0;
+    double change = 0;
+    for (int i = 0; i < (solver->rows.is_complex ? 2 : 1);
+         i++) { // of m and p, each by itself: together they may make up for each other
+        change_known(&solver->rows, i ? 1 : -1);
+        change += change_of(solver, f, parts[i], none, i ? 0 : rounding);
+        change += change_of(solver, f, none, parts[i], 0);
+    }
+    return 24 * change + 4 * heavy;
 }
 
 /// Of a system that nothing but knots and jets holds: how much larger than the rows' errors x's may be. No pivot need be small for that,

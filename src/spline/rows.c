@@ -290,6 +290,12 @@ static double farthest(const problem *p)
     return most;
 }
 
+/// Rounding of what knots are measured from; where there is no swing that is told otherwise.
+static double noise_of(const problem *p)
+{
+    return 4 * DBL_EPSILON * farthest(p) + (p->swing.error < INFINITY ? p->swing.error / 240 : 0);
+}
+
 void problem_set_rows(wiggly_solver *solver, const problem *p)
 {
     system_rows *rows = &solver->rows;
@@ -303,7 +309,7 @@ void problem_set_rows(wiggly_solver *solver, const problem *p)
     rows->pulls = p->pulls;
     rows->first = p->first;
     rows->driven = !problem_oscillates(p) && p->about ? p->about + p->first : NULL;
-    rows->noise = p->about ? DBL_EPSILON * farthest(p) : 0;
+    rows->noise = p->about ? noise_of(p) : 0;
     rows->is_open = p->free_end && p->desc->mode != WIGGLY_CUBIC;
     rows->is_held = !p->strict && !problem_is_loose(p) && !cancels(p);
     set_filter(solver, p);

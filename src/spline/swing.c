@@ -184,44 +184,52 @@ static void run_wide(const wiggly_desc *desc, const double *y, double floor, con
 /// What a loop's parameters do all the way around: pull q back, brake it, and brake it not everywhere alike.
 typedef struct forces {
     bool pull, brake, vary;
+    double k, d; ///< at most
 } forces;
 
 static forces forces_of(const wiggly_desc *desc, double floor)
 {
-    forces f = {false, false, false};
+    forces f = {.pull = false};
     const double first = oscillator_at(desc, 0, floor).d;
     for (int i = 0; i < (poles_are_constant(desc) ? 1 : desc->samples - 1); i++) {
         oscillator o = oscillator_at(desc, i, floor);
         f.pull = f.pull || o.k > 0;
         f.brake = f.brake || o.d > 0;
         f.vary = f.vary || o.d != first;
+        f.k = fmax(f.k, o.k), f.d = fmax(f.d, o.d);
     }
     return f;
 }
 
-/// From where q and q' come back to themselves, given where they come from rest, and what the rounding of every step and jump may make
-/// of that. Where nothing pulls back, q' alone. false where there is no such state.
-static bool close_circle(const swing *u, int period, double step, forces f, const wide_matrix a,
-                         const long double end[2], long double epsilon, long double state[2], double *error)
+/// From where q and q' come back to themselves, given where they come from rest. Where nothing pulls back, q' alone. false where there is
+/// no such state.
+static bool close_circle(double seconds, forces f, const wide_matrix a, const long double end[2],
+                         long double state[2])
 {
-    const long double seconds = period * (long double)step, rounding = 4 * epsilon;
-    long double q = 0, v = 0;
-    for (int i = 0; i < period; i++) q += fabsl(u->total[i]), v += fabsl(u->speed[i]) + fabsl(u->im[i]);
-    long double of_q = rounding * (q + seconds * v), of_v = rounding * v;
     if (!f.pull) {
         state[0] = 0, state[1] = f.brake ? end[1] / a[1][1] : -end[0] / seconds;
-        *error = (double)(of_q + (f.brake ? seconds * of_v / fabsl(a[1][1]) : of_q));
         return true;
     }
     const long double det = a[0][0] * a[1][1] - a[0][1] * a[1][0];
     if (!(fabsl(det) > 1e-16L * (fabsl(a[0][0] * a[1][1]) + fabsl(a[0][1] * a[1][0])))) return false;
     state[0] = (a[1][1] * end[0] - a[0][1] * end[1]) / det;
     state[1] = (a[0][0] * end[1] - a[1][0] * end[0]) / det;
-    of_q = rounding * q;
-    *error = (double)((fabsl(a[1][1]) * of_q + fabsl(a[0][1]) * of_v +
-                       seconds * (fabsl(a[0][0]) * of_v + fabsl(a[1][0]) * of_q)) /
-                      fabsl(det));
     return true;
+}
+
+/// What the rounding of every step, of every jump and of the parameters, which a resonance shows, may make of the periodic q.
+static double error_of_circle(const swing *u, int period, double step, forces f, const wide_matrix a,
+                              long double epsilon)
+{
+    const long double seconds = period * (long double)step, rounding = 4 * epsilon;
+    long double q = 0, v = 0;
+    for (int i = 0; i < period; i++) q += fabsl(u->total[i]), v += fabsl(u->speed[i]) + fabsl(u->im[i]);
+    const long double of_q = rounding * q, of_v = rounding * v + 4 * DBL_EPSILON * step * (f.k * q + 2 * f.d * v);
+    if (!f.pull) return (double)(of_q + seconds * of_v * (1 + (f.brake ? 1 / fabsl(a[1][1]) : 0)));
+    const long double det = a[0][0] * a[1][1] - a[0][1] * a[1][0];
+    return (double)((fabsl(a[1][1]) * of_q + fabsl(a[0][1]) * of_v +
+                     seconds * (fabsl(a[0][0]) * of_v + fabsl(a[1][0]) * of_q)) /
+                    fabsl(det));
 }
 
 static double range_of(const double *x, int count)
@@ -232,7 +240,7 @@ static double range_of(const double *x, int count)
 }
 
 /// Of y's range: a loop whose error may be more is run in extended precision.
-static const double narrow = 1e-10;
+static const double narrow = 1e-11;
 
 /// The periodic q, by the state that comes back to itself. false where there is none or one that is far too large.
 static bool run_loop(const wiggly_desc *desc, const double *y, double floor, swing *u)
@@ -246,21 +254,23 @@ static bool run_loop(const wiggly_desc *desc, const double *y, double floor, swi
         u->error = INFINITY;
         return true;
     }
+    const double seconds = period * desc->step;
     double end[2];
     long double wide_end[2], state[2] = {0, 0};
     wide_matrix a;
     run(desc, floor, 0, 0, u, end);
     around(desc, floor, false, a);
     wide_end[0] = end[0], wide_end[1] = end[1];
-    if (!close_circle(u, period, desc->step, f, a, wide_end, DBL_EPSILON, state, &u->error)) return false;
-    if (u->error <= narrow * range) {
-        run(desc, floor, (double)state[0], (double)state[1], u, end);
-    } else {
+    if (!close_circle(seconds, f, a, wide_end, state)) return false;
+    run(desc, floor, (double)state[0], (double)state[1], u, end);
+    u->error = error_of_circle(u, period, desc->step, f, a, DBL_EPSILON);
+    if (u->error > narrow * range) {
         const long double rest[2] = {0, 0};
         run_wide(desc, y, floor, rest, u, wide_end);
         around(desc, floor, true, a);
-        if (!close_circle(u, period, desc->step, f, a, wide_end, LDBL_EPSILON, state, &u->error)) return false;
+        if (!close_circle(seconds, f, a, wide_end, state)) return false;
         run_wide(desc, y, floor, state, u, wide_end);
+        u->error = error_of_circle(u, period, desc->step, f, a, LDBL_EPSILON);
     }
     if (!f.pull) { // of a family that differs by constants the one of mean 0
         long double mean = 0;
