@@ -172,6 +172,18 @@ static double sensitivity(wiggly_solver *solver, const factorisation *f)
     return 24 * change + 4 * heavy;
 }
 
+/// What jets and the imaginary row have in the squared matrix's diagonal, where the domain has ends.
+static double size_of(const system_rows *rows, int k, bool imaginary)
+{
+    double size = imaginary ? rows->im_weight[k] : 0;
+    for (int i = k - 1; i <= k + 1; i++) {
+        if (i < rows->jet_from || i > rows->jet_to) continue;
+        const coefficients *at = &rows->at[i];
+        size += rows->jet_weight[i] * (i < k ? 1 : cplx_norm(i > k ? coefficients_b(at) : coefficients_a(at)));
+    }
+    return size;
+}
+
 /// Of a system that nothing but knots and jets holds: how much larger than the rows' errors x's may be. No pivot need be small for that,
 /// where poles fade: each row then knows only its neighbour.
 static double amplification(wiggly_solver *solver, const factorisation *f)
@@ -181,11 +193,11 @@ static double amplification(wiggly_solver *solver, const factorisation *f)
     double largest = 0;
     for (int i = 0; i < width * rows->count; i++) {
         const bool known = rows->fixed[i / width] & (i % width ? FIXED_IM : FIXED_RE);
-        rows->gradient[i] = known ? 0 : (i * 7 % 5 < 2 ? -1 : 1) * sqrt(rows->jet_weight[i / width]);
+        rows->gradient[i] = known ? 0 : (i * 7 % 5 < 2 ? -1 : 1) * sqrt(size_of(rows, i / width, i % width));
     }
     solve(solver, f);
     for (int i = 0; i < width * rows->count; i++)
-        largest = fmax(largest, fabs(rows->gradient[i]) * sqrt(rows->jet_weight[i / width]));
+        largest = fmax(largest, fabs(rows->gradient[i]) * sqrt(size_of(rows, i / width, i % width)));
     return sqrt(largest);
 }
 
@@ -257,9 +269,8 @@ minimum solver_refine(wiggly_solver *solver, factorisation *f)
         result.solved = refine(solver, f, &result);
     }
     if (!result.solved) return result;
-    const bool settles =
-        rows->fast || result.error <= unsettled * result.largest; // jets of unlike weights cost digits, too
-    result.weak = f->rank == RANK_WEAK || !settles;
+    const bool settles = result.error <= unsettled * result.largest;
+    result.weak = !rows->fast && (f->rank == RANK_WEAK || !settles); // jets of unlike weights cost digits, too
     if (rows->cut) result.error += result.largest;
     const double amplified = open && !f->squared ? amplification(solver, f) : 0;
     if (amplified > hopeless) {
