@@ -137,6 +137,40 @@ static void a_spring_that_starts_slack_is_levelled(void **state)
     for (int i = 0; i < 60; i++) assert_true(fabs(curve.total[i]) < 1e-4);
 }
 
+/// A frequency as high as a number can be turns by no angle that could be told; the drive of a filter turns with it.
+static void a_frequency_without_bounds_is_solved(void **state)
+{
+    (void)state;
+    double frequency[12], y[12];
+    for (int i = 0; i < 12; i++) frequency[i] = 1.7e308 - i * 1e306, y[i] = sin(i);
+    const wiggly_knot knots[] = {{.sample = 0, .value = 1}, {.sample = 7, .value = -1}};
+    wiggly_desc desc = describe(12, WIGGLY_COMPLEX, WIGGLY_FREE, knots, 2);
+    desc.passive = WIGGLY_FILTER;
+    desc.damping.value = 0;
+    desc.frequency.track = frequency;
+    desc.equilibrium.track = y;
+    const wiggly_status status = wiggly_solve(solver, &desc, &curve);
+    assert_true(status == WIGGLY_OK || status == WIGGLY_INEXACT);
+    for (int i = 0; i < 12; i++) assert_true(isfinite(curve.total[i]) && isfinite(curve.im[i]));
+}
+
+/// Numbers so large that their sums overflow: straight lines join the knots.
+static void what_cannot_be_solved_is_joined_by_lines(void **state)
+{
+    (void)state;
+    const wiggly_knot knots[] = {{.sample = 2, .value = -9e299},
+                                 {.sample = 3, .value = 9e299},
+                                 {.sample = 7, .value = 1e299},
+                                 {.sample = 9, .value = 5e299}};
+    wiggly_desc desc = describe(12, WIGGLY_COMPLEX, WIGGLY_FREE, knots, 4);
+    desc.step = 1e-6;
+    desc.frequency.value = 3e5;
+    desc.passive = WIGGLY_FILTER;
+    assert_int_equal(wiggly_solve(solver, &desc, &curve), WIGGLY_SINGULAR);
+    const double expected[] = {-9, -9, -9, 9, 7, 5, 3, 1, 3, 5, 5, 5};
+    for (int i = 0; i < 12; i++) assert_near(curve.total[i] / 1e299, expected[i], 1e-12);
+}
+
 /// The paper's cubic goes straight on: two keys side by side throw it as far as it runs, and beyond 10⁴ times their scale that
 /// cannot be meant (and no level slope helps: it would lie between the two). The oscillator's holds its last value.
 static void a_thrown_cubic_is_said(void **state)
@@ -418,6 +452,8 @@ int main(void)
         cmocka_unit_test(before_the_first_knot_x_is_held),
         cmocka_unit_test(nothing_keyed_is_the_equilibrium),
         cmocka_unit_test(one_knot_of_a_cubic_is_a_constant),
+        cmocka_unit_test(a_frequency_without_bounds_is_solved),
+        cmocka_unit_test(what_cannot_be_solved_is_joined_by_lines),
         cmocka_unit_test(domains_of_one_and_two_samples),
         cmocka_unit_test(what_has_no_single_answer_is_calmed_and_said),
         cmocka_unit_test(a_spring_that_starts_slack_is_levelled),

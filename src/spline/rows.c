@@ -6,6 +6,9 @@
 #include <string.h>
 
 static const double little = 1e-3;
+
+/// Of a start, in jets of its first sample: what is beside it has no digit left.
+static const double heaviest_start = 1e26;
 static const double implied_stiffness = 1000;
 
 /// Where the oscillator's frequency is below this part of the fastest one's, Im x is held.
@@ -300,12 +303,13 @@ void problem_set_rows(wiggly_solver *solver, const problem *p)
 {
     system_rows *rows = &solver->rows;
     rows->loop = p->start == WIGGLY_LOOP;
-    rows->fast = rows->cut = false;
+    rows->fast = false;
     rows->is_complex = p->desc->mode == WIGGLY_COMPLEX;
     rows->count = problem_rows(p);
     rows->jet_from = rows->loop ? 0 : 1;
     rows->jet_to = rows->loop ? rows->count - 1 : rows->count - 2;
     rows->start = p->cost;
+    rows->cut = problem_oscillates(p) && p->cost.row[0].weight > heaviest_start;
     rows->pulls = p->pulls;
     rows->first = p->first;
     rows->driven = !problem_oscillates(p) && p->about ? p->about + p->first : NULL;
