@@ -156,6 +156,21 @@ static double change_by_jets(wiggly_solver *solver, const factorisation *f)
     return largest_modulus(rows->gradient, rows->count, rows->is_complex);
 }
 
+/// Round a loop without knots the drives' sum is balanced by p x, and of poles that vary each drive is rounded by itself.
+static double change_by_drives(const system_rows *rows)
+{
+    double drives = 0, first = rows->at[0].p.re;
+    cplx p = {0, 0};
+    bool vary = false, held = false;
+    for (int k = 0; k < rows->count; k++) {
+        drives += sqrt(cplx_norm(rows->drive[k]));
+        p = cplx_add(p, rows->at[k].p);
+        vary = vary || rows->at[k].p.re != first;
+        held = held || rows->fixed[k];
+    }
+    return vary && !held ? DBL_EPSILON * drives / sqrt(cplx_norm(p)) : 0;
+}
+
 /// How far x would be elsewhere if the coefficients were rounded otherwise, as poles that fade and as poles that turn otherwise, and what
 /// the equilibrium takes off the knots.
 static double sensitivity(wiggly_solver *solver, const factorisation *f)
@@ -169,6 +184,7 @@ static double sensitivity(wiggly_solver *solver, const factorisation *f)
         change += change_of(solver, f, parts[i], none, i ? 0 : rounding);
         change += change_of(solver, f, none, parts[i], 0);
     }
+    if (solver->rows.loop && solver->rows.driven) change += change_by_drives(&solver->rows);
     return 24 * change + 4 * heavy;
 }
 
