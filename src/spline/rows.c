@@ -315,7 +315,7 @@ void problem_set_rows(wiggly_solver *solver, const problem *p)
     rows->driven = !problem_oscillates(p) && p->about ? p->about + p->first : NULL;
     rows->noise = p->about ? noise_of(p) : 0;
     rows->is_open = p->free_end && p->desc->mode != WIGGLY_CUBIC;
-    rows->is_held = !p->strict && !problem_is_loose(p) && !cancels(p);
+    rows->is_held = !rows->is_open && !p->strict && !problem_is_loose(p) && !cancels(p);
     set_filter(solver, p);
     set_tail(rows, p);
     set_constraints(solver, p);
