@@ -63,7 +63,7 @@ static double largest_modulus(const double *x, int count, bool is_complex)
 static double estimated_error(const system_rows *rows, const pentadiagonal *m)
 {
     double g2 = rows->stretch * rows->stretch;
-    return 40 * DBL_EPSILON * fmax(m->lost * cbrt(m->lost), g2 * g2 / 31);
+    return (rows->is_complex ? 40 : 16) * DBL_EPSILON * fmax(m->lost * cbrt(m->lost), g2 * g2 / 31);
 }
 
 static double enough(const system_rows *rows) { return rows->is_complex ? enough_complex : enough_real; }
