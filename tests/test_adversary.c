@@ -20,7 +20,7 @@ static bool stands(wiggly_solver *solver, const char *name)
 static void try_many(wiggly_solver *solver, adversary_kind kind, int problems)
 {
     int faults = 0;
-    for (int seed = 0; seed < quick_or_all(problems / 8, problems); seed++) {
+    for (int seed = 0; seed < quick_or_all(problems / 8, 2 * problems); seed++) {
         char name[40];
         adversary_make(&problem, kind, (uint64_t)seed);
         snprintf(name, sizeof name, "seed %d", seed);

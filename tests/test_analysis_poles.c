@@ -126,7 +126,7 @@ static void a_pole_at_any_rate_and_damping(void **state)
 {
     (void)state;
     static const double dampings[] = {0.02, 0.05, 0.1, 0.2, 0.3}, frequencies[] = {0.7, 2, 8};
-    for (int r = 0; r < RATES; r++) {
+    for (int r = 0; r < RATES; r += quick_or_all(2, 1)) {
         for (int d = 0; d < 5; d++) {
             for (int f = 0; f < 3; f++) {
                 struct plant p = {1,     (int)(4 * rates[r]), rates[r], {frequencies[f]}, {dampings[d]},
@@ -141,7 +141,7 @@ static void two_poles_are_told_apart(void **state)
 {
     (void)state;
     static const double frequencies[][MOST] = {{2, 2.3}, {2, 6}}, dampings[] = {0.02, 0.05, 0.1, 0.2};
-    for (int r = 0; r < RATES; r++) {
+    for (int r = 0; r < RATES; r += quick_or_all(2, 1)) {
         for (int f = 0; f < 2; f++) {
             for (int d = 0; d < 4; d++) {
                 struct plant p = {2,
@@ -161,7 +161,7 @@ static void through_noise(void **state)
 {
     (void)state;
     static const double dampings[] = {0.02, 0.05, 0.1, 0.2, 0.3};
-    for (int r = 0; r < RATES; r++) {
+    for (int r = 0; r < RATES; r += quick_or_all(2, 1)) {
         for (int d = 0; d < 5; d++) {
             struct plant p = {1, (int)(4 * rates[r]), rates[r], {2}, {dampings[d]}, {0.1}, .noise = 0.8};
             hold(p, (struct bars){0.01, 0.05, 0.98});

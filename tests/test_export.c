@@ -12,7 +12,7 @@ static void glb_moves_as_the_stage_does(void **state)
 {
     static const char *const scenes[] = {"tail", "follow", "character", "figure7"};
     (void)state;
-    for (size_t s = 0; s < sizeof scenes / sizeof *scenes; s++) {
+    for (size_t s = 0; s < (size_t)quick_or_all(3, sizeof scenes / sizeof *scenes); s++) {
         struct points points = read_points(export_scene(scenes[s], "points.npy", (struct export_options){0}));
         const char *glb = export_scene(scenes[s], "rig.glb", (struct export_options){0});
         assert_near(glb_is_off(glb, &points), 0, 5e-6);

@@ -130,7 +130,7 @@ fresh
 probe() { # <file>
     ffprobe -loglevel error -count_frames -show_entries stream=width,height,nb_read_frames,r_frame_rate -of csv=p=0 "$1"
 }
-for ending in mp4 webm gif; do
+for ending in mp4 $(thorough && echo webm gif); do
     expect 0 ".$ending" "$WIGGLY" export $tail -o "$scratch/out/walk.$ending" --size 161x91 --frames 0:24 --fps 12
     case $ending in
         gif) is ".gif: the odd size, a round without its last frame" 161,91,12 "$(probe "$scratch/out/walk.gif" | cut -d, -f1,2,4)" ;;
@@ -138,7 +138,7 @@ for ending in mp4 webm gif; do
     esac
     says ".$ending: says so" "pictures of 16" "$out"
 done
-is "and nothing besides" 3 "$(ls -A "$scratch/out" | wc -l)"
+is "and nothing besides" $(thorough && echo 3 || echo 1) "$(ls -A "$scratch/out" | wc -l)"
 if command -v convert >/dev/null; then
     "$WIGGLY" export $tail -o "$scratch/out/last.png" --frames 24:24 --size 162x92 --quiet
     ffmpeg -loglevel error -i "$scratch/out/walk.mp4" -vf 'select=eq(n\,12)' -frames:v 1 "$scratch/out/seen.png"

@@ -25,7 +25,7 @@ cat >"$scratch/mine.json" <<'END'
 END
 start_app mine.json "$scratch/mine.json"
 
-# Where the layout has: A, S, Y, Z, "-", "1", ".", "5", and what selects one more knot.
+# `make test` takes the last three. Where the layout has: A, S, Y, Z, "-", "1", ".", "5", and what selects one more knot.
 while read -r layout A S Y Z minus one point five more; do
     setxkbmap -layout "$layout" -model pc105
     strike "ctrl+$A" "$S" "$Y" "$minus" "$one" "$point" "$five" Return
@@ -36,15 +36,16 @@ while read -r layout A S Y Z minus one point five more; do
     saves "a knot, then one more, and both are deleted" '"frame":' 1
     strike "ctrl+$Z"
     saves "and brought back" '"frame":' 3
-done <<'END'
+done < <(tail -n "$(thorough && echo 7 || echo 3)" <<'END'
 us 38 39 29 52 20 10       60       14       shift+60
-fr 24 39 29 25 15 shift+10 shift+59 shift+14 shift+94
 de 38 39 52 29 61 10       60       14       shift+94
 no 38 39 29 52 61 10       60       14       shift+94
 se 38 39 29 52 61 10       60       14       shift+94
+fr 24 39 29 25 15 shift+10 shift+59 shift+14 shift+94
 ru 38 39 29 52 20 10       61       14       shift+Next
 gr 38 39 29 52 20 10       60       14       shift+60
 END
+)
 
 # In Greek the key of Q has a semicolon on it.
 strike ctrl+24

@@ -61,7 +61,7 @@ for end in .csv .gif -%04d.png; do
 done
 [ -p "$scratch/pipe.csv" ] && [ -p "$scratch/pipe-0002.png" ]
 ok "the pipes are there still" $?
-expect 1 "no scene comes from a pipe" timeout 60 "$WIGGLY" live --headless --frames 1 "$scratch/pipe.json"
+expect 1 "no scene comes from a pipe" timeout 60 "$WIGGLY" live --no-draw --frames 1 "$scratch/pipe.json"
 says "says so" "pipe.json: expected a file, got something else" "$err"
 "$WIGGLY" solve $scene >"$scratch/plain.csv"
 "$WIGGLY" solve $scene -o /dev/stdout | cmp - "$scratch/plain.csv" && "$WIGGLY" solve $scene -o >(cat >"$scratch/piped.csv")
@@ -114,7 +114,7 @@ whole="frame,\"${escape}[31mred"$'\n'"second\",\"${escape}[31mred"$'\n'"second.r
 says "a pipe gets them as they are" "$whole" "$("$WIGGLY" solve "$scratch/named.json")"
 expect 0 "and a file" "$WIGGLY" solve "$scratch/named.json" -o "$scratch/named.csv"
 says "too" "$whole" "$(cat "$scratch/named.csv")"
-expect 0 "a timing log of such a name" "$WIGGLY" live --headless --frames 200 --log "$name.log" $scene
+expect 0 "a timing log of such a name" "$WIGGLY" live --no-draw --frames 200 --log "$name.log" $scene
 sed -i "s/^# solver: .*/# solver: ${escape}[31m/" "$name.log"
 expect 0 "is summarised" "$WIGGLY" log "$name.log"
 ! raw "$out$err"

@@ -188,6 +188,7 @@ static void a_box_on_the_floor_does_not_chatter(void **state)
     (void)state;
     enum { STEPS = 1800, LAST = 600, FEW = 60 };
     struct loose_box loose;
+    if (!is_thorough()) skip();
     make_loose(&loose, -0.1, 0.002, 0.5);
     bool below[8] = {false};
     int changes = 0;

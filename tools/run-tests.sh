@@ -1,5 +1,5 @@
 #!/bin/bash
-# Runs test programs (cmocka) and test scripts, as many at once as there are processors, from the root of the tree. Prints a line
+# Runs test programs (cmocka) and test scripts, one more at once than there are processors, from the root of the tree. Prints a line
 # for each in the order given and, for one that failed, the end of what it said; then what was skipped, and "N passed, N failed"
 # over all cases. Exit status 1 where any failed. Scripts report their cases as lines "ok - what" and "not ok - what"; what is
 # skipped says "skip - why", in cmocka's programs too.
@@ -7,7 +7,7 @@
 # TEST_TIMEOUT in seconds, for a test that hangs: a loaded machine makes tests ten times as slow.
 set -u
 TEST_OUT=${TEST_OUT:-build/test-out}
-JOBS=${JOBS:-$(nproc 2>/dev/null || echo 2)}
+JOBS=${JOBS:-$(($(nproc 2>/dev/null || echo 2) + 1))} # some of them wait for a window
 times=$TEST_OUT/times # "milliseconds name" of every test's last run
 passed=0
 failed=0
