@@ -45,8 +45,8 @@ static void compare_frames(const char *scene)
         skip();
     }
     const int stride = quick_or_all(4, 9);
-    for (int frame = 0; frame < quick_or_all(8, 45); frame++) {
-        if (frame == 5)
+    for (int frame = 0; frame < quick_or_all(5, 45); frame++) {
+        if (frame == quick_or_all(2, 5))
             blind_send(&blind, (struct event){.kind = EVENT_KEY, .key = 'O', .action = ACTION_PRESS});
         blind_frame(&blind);
         if (frame % stride) continue;

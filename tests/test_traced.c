@@ -102,10 +102,10 @@ static void save_next(void)
 }
 
 /// Of hundreds of writes of one large file those in the middle differ in nothing: some of them are tried, and all with TRACE_ALL. `make test`
-/// tries every fourth call.
+/// tries every eighth call.
 static bool is_one_of_many(int n, int count)
 {
-    enum { ENDS = 6, MIDDLE = 3, QUICK = 4 };
+    enum { ENDS = 6, MIDDLE = 3, QUICK = 8 };
     if (getenv("TRACE_ALL")) return false;
     if (!is_thorough() && n % QUICK) return true;
     if (count < 40 || n < ENDS || n >= count - ENDS) return false;
