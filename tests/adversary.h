@@ -35,6 +35,14 @@ struct adversary_problem {
 /// The problem of a kind and seed: the same on every machine.
 void adversary_make(struct adversary_problem *problem, adversary_kind kind, uint64_t seed);
 
+/// The nth problem of a search: the kinds take turns.
+static inline adversary_kind adversary_make_nth(struct adversary_problem *problem, uint64_t seed, uint64_t n)
+{
+    const adversary_kind kind = (adversary_kind)(n % ADVERSARY_KINDS);
+    adversary_make(problem, kind, seed * 0x9E3779B97F4A7C15u + n);
+    return kind;
+}
+
 /// Writes the problem as a scene in one line, for `wiggly solve`; its last spline is the problem's, the others its tracks.
 void adversary_print(FILE *out, const struct adversary_problem *problem);
 

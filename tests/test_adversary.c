@@ -7,26 +7,38 @@
 
 static struct adversary_problem problem;
 
+static void tell(const char *name, const struct adversary_verdict *v)
+{
+    adversary_explain(stderr, name, v);
+    adversary_print(stderr, &problem);
+}
+
 static bool stands(wiggly_solver *solver, const char *name)
 {
     struct adversary_verdict v;
     adversary_judge(solver, &problem, &v);
-    if (!v.fault) return true;
-    adversary_explain(stderr, name, &v);
-    adversary_print(stderr, &problem);
-    return false;
+    if (v.fault) tell(name, &v);
+    return !v.fault;
 }
 
+/// A complaint about what is easy is no more than a nuisance: one in two hundred may have it.
 static void try_many(wiggly_solver *solver, adversary_kind kind, int problems)
 {
-    int faults = 0;
-    for (int seed = 0; seed < quick_or_all(problems / 8, 2 * problems); seed++) {
+    int faults = 0, needless = 0;
+    problems = quick_or_all(problems / 8, 2 * problems);
+    for (int seed = 0; seed < problems; seed++) {
         char name[40];
         adversary_make(&problem, kind, (uint64_t)seed);
         snprintf(name, sizeof name, "seed %d", seed);
-        faults += !stands(solver, name);
+        struct adversary_verdict v;
+        adversary_judge(solver, &problem, &v);
+        needless += v.fault && v.needless;
+        faults += v.fault && !v.needless;
+        if (v.fault && !v.needless) tell(name, &v);
     }
     if (faults) fail_msg("%d of %d problems", faults, problems);
+    if (needless > 1 + problems / 200)
+        fail_msg("%d of %d problems are called INEXACT needlessly", needless, problems);
 }
 
 static void filters(void **state) { try_many(*state, ADVERSARY_FILTER, 800); }
@@ -46,6 +58,19 @@ static void slow_loops(void **state) { try_many(*state, ADVERSARY_SLOW, 150); }
 static void undamped_chains(void **state) { try_many(*state, ADVERSARY_CHAIN, 20); }
 
 static void long_splines(void **state) { try_many(*state, ADVERSARY_LONG, 20); }
+
+/// What make adversary once found wrong in silence: its seed and number.
+static void found_before(void **state)
+{
+    static const struct {
+        uint64_t seed, number;
+    } found[] = {
+        {302, 958}}; // a loop whose damping falls from 7.7 to 0: of the light jets the squared matrix kept nothing
+    for (size_t i = 0; i < sizeof found / sizeof *found; i++) {
+        adversary_make_nth(&problem, found[i].seed, found[i].number);
+        assert_true(stands(*state, "found before"));
+    }
+}
 
 /// An empty problem of so many samples.
 static wiggly_desc *begin(double fps, int samples)
@@ -177,6 +202,7 @@ int main(void)
         cmocka_unit_test(slow_loops),
         cmocka_unit_test(undamped_chains),
         cmocka_unit_test(long_splines),
+        cmocka_unit_test(found_before),
         cmocka_unit_test(nothing_at_all_is_exact),
         cmocka_unit_test(overdamped_loops_from_frequency_0),
         cmocka_unit_test(loops_without_a_spring_say_so),

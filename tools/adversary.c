@@ -21,9 +21,8 @@ static struct tally search(uint64_t seed, long first, long count, int step)
     wiggly_solver *solver = NULL;
     if (wiggly_create(TEXTBOOK_MAX, TEXTBOOK_MAX, &solver) != WIGGLY_OK) exit(2);
     for (long n = first; n < first + count; n += step) {
-        const adversary_kind kind = (adversary_kind)(n % ADVERSARY_KINDS);
+        const adversary_kind kind = adversary_make_nth(&problem, seed, (uint64_t)n);
         struct adversary_verdict verdict;
-        adversary_make(&problem, kind, seed * 0x9E3779B97F4A7C15u + (uint64_t)n);
         adversary_judge(solver, &problem, &verdict);
         tally.tried[kind]++;
         tally.inexact[kind] += verdict.said == WIGGLY_INEXACT;

@@ -257,6 +257,21 @@ static bool refine(wiggly_solver *solver, const factorisation *f, minimum *resul
     return true;
 }
 
+/// How far the rows' own factor would move x. It loses other digits than the squared matrix does, whose factor is made again.
+static double error_by_rows(wiggly_solver *solver, factorisation *f)
+{
+    const system_rows *rows = &solver->rows;
+    const factorisation other = factor_rows(solver);
+    double change = INFINITY;
+    if (other.rank != RANK_BROKEN) {
+        system_gradient(rows);
+        solve(solver, &other);
+        change = largest_modulus(rows->gradient, rows->count, rows->is_complex);
+    }
+    *f = solver_factor(solver);
+    return change;
+}
+
 /// Everything that is not known 0 again.
 static void reset(const system_rows *rows)
 {
@@ -285,6 +300,10 @@ minimum solver_refine(wiggly_solver *solver, factorisation *f)
         result.solved = refine(solver, f, &result);
     }
     if (!result.solved) return result;
+    if (f->squared && rows->unlike && rows->count >= 3) {
+        result.error += fmin(4 * error_by_rows(solver, f), result.largest);
+        result.unrefined = false; // more sweeps would only make it worse
+    }
     const bool settles = result.error <= unsettled * result.largest;
     result.weak = !rows->fast && (f->rank == RANK_WEAK || !settles); // jets of unlike weights cost digits, too
     if (rows->cut) result.error += result.largest;

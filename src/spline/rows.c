@@ -11,6 +11,9 @@ static const double little = 1e-3;
 static const double heaviest_start = 1e26;
 static const double implied_stiffness = 1000;
 
+/// ln of how many times as much one jet may weigh as another: beyond, of a light one too few digits are left beside it.
+static const double unlike_jets = 16;
+
 /// Where the oscillator's frequency is below this part of the fastest one's, Im x is held.
 static const double slow_part = 0.1;
 
@@ -70,7 +73,7 @@ static double set_varying(system_rows *rows, const problem *p, bool weighted)
     const bool oscillates = problem_oscillates(p), driven = !oscillates && p->about;
     const double floor = problem_least_damping(p);
     poles_block block;
-    double weight[POLES_BLOCK], reference = 0, highest = 0;
+    double weight[POLES_BLOCK], reference = 0, highest = 0, lightest = INFINITY, heaviest = -INFINITY;
     double slowest = INFINITY;
     if (oscillates) poles_fastest(desc, p->first, p->first + rows->count - 1, &highest);
     highest *= p->detune;
@@ -83,6 +86,8 @@ static double set_varying(system_rows *rows, const problem *p, bool weighted)
         for (int i = 0; i < count; i++) {
             coefficients at = {.m = {block.m_re[i], block.m_im[i]}, .p = {block.p_re[i], block.p_im[i]}};
             rows->cut = rows->cut || (oscillates && block.exponent[i] >= HEAVIEST);
+            lightest = block.exponent[i] < lightest ? block.exponent[i] : lightest;
+            heaviest = block.exponent[i] > heaviest ? block.exponent[i] : heaviest;
             if (block.exponent[i] > FAST) {
                 const poles own = problem_poles(p, p->first + k + i, floor);
                 at = poles_coefficients(&own, desc->step);
@@ -94,6 +99,7 @@ static double set_varying(system_rows *rows, const problem *p, bool weighted)
             slowest = block.natural[i] < slowest ? block.natural[i] : slowest;
         }
     }
+    rows->unlike = oscillates && heaviest - lightest > unlike_jets;
     if (oscillates && desc->mode == WIGGLY_COMPLEX) return fmax(slowest, slow_part * highest); // below, Im x is held
     return slowest;
 }
@@ -303,7 +309,7 @@ void problem_set_rows(wiggly_solver *solver, const problem *p)
 {
     system_rows *rows = &solver->rows;
     rows->loop = p->start == WIGGLY_LOOP;
-    rows->fast = false;
+    rows->fast = rows->unlike = false;
     rows->is_complex = p->desc->mode == WIGGLY_COMPLEX;
     rows->count = problem_rows(p);
     rows->jet_from = rows->loop ? 0 : 1;

@@ -33,8 +33,9 @@ typedef struct system_pulls {
 typedef struct system_rows {
     int count; ///< M
     bool loop, is_complex;
-    bool fast; ///< there are coefficients with a rest
-    bool cut;  ///< a jet would weigh more beside another than it does here
+    bool fast;   ///< there are coefficients with a rest
+    bool unlike; ///< jets weigh so differently that a squared matrix would lose the light ones
+    bool cut;    ///< a jet would weigh more beside another than it does here
     bool
         is_held; ///< the start costs enough, or there is none, that no more than its knot-free stretches cost it digits
     double noise;         ///< rounding of the known values, where they are differences to an equilibrium
