@@ -115,7 +115,7 @@ static void every_mode_at_every_length(void **state)
     (void)state;
     enum { LENGTHS = 6 };
     static const int lengths[LENGTHS][2] = {{240, 24},     {3000, 100},   {10000, 24},
-                                     {10000, 9000}, {30000, 1000}, {100000, 30000}};
+                                            {10000, 9000}, {30000, 1000}, {100000, 30000}};
     static const struct subject modes[] = {
         {.mode = WIGGLY_CUBIC, .calm = 1},
         {.mode = WIGGLY_REAL, .frequency = 1, .damping = 0.05, .calm = 1},
