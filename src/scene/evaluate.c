@@ -111,6 +111,8 @@ bool evaluation_sentence(const struct evaluation *evaluation, int spline, char *
     if (status == WIGGLY_OK) return false;
     if (status != WIGGLY_INEXACT) {
         snprintf(text, EVALUATION_SENTENCE, "%s", wiggly_status_text(status));
+    } else if (error > 1 && error < INFINITY) {
+        snprintf(text, EVALUATION_SENTENCE, "%s: no digit of it is certain", wiggly_status_text(status));
     } else if (error < INFINITY) {
         snprintf(text, EVALUATION_SENTENCE, "%s: %.1e of the curve's size", wiggly_status_text(status), error);
     } else {

@@ -3,6 +3,7 @@
 #include "spline/limits.h"
 #include "spline/problem.h"
 #include "spline/steady.h"
+#include <float.h>
 #include <math.h>
 #include <string.h>
 
@@ -154,6 +155,8 @@ static wiggly_status judge(wiggly_curve *curve, const minimum *result, wiggly_st
         measure(curve->re, curve->samples, &of_x, &ignored);
         double size = fmax(fmax(range, magnitude), negligible * of_x);
         curve->error = size > 0 ? result->error / size : 0;
+        // Of a curve that is all error the size says nothing of that of the right one.
+        if (curve->error > 1 && curve->error < DBL_MAX) curve->error = DBL_MAX;
     }
     curve->refinements = result->sweeps > 1 ? result->sweeps - 1 : 0;
     return status == WIGGLY_OK && !(curve->error <= tolerance(curve->mode)) ? WIGGLY_INEXACT : status;
