@@ -185,7 +185,7 @@ static double sensitivity(wiggly_solver *solver, const factorisation *f)
         change += change_of(solver, f, none, parts[i], 0);
     }
     if (solver->rows.loop && solver->rows.driven) change += change_by_drives(&solver->rows);
-    return 24 * change + 4 * heavy;
+    return 48 * change + 4 * heavy;
 }
 
 /// What jets and the imaginary row have in the squared matrix's diagonal, where the domain has ends.
