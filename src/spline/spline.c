@@ -13,6 +13,8 @@ wiggly_desc wiggly_default_desc(void)
         .samples = 1, .step = 1.0 / 24, .bandwidth.value = 0.1, .calm = 1, .low = -INFINITY, .high = INFINITY};
 }
 
+static double tolerance(wiggly_mode mode) { return mode == WIGGLY_CUBIC ? 1e-9 : 1e-8; }
+
 /// w of the system into the curve's arrays, and of what is behind it.
 static void unpack(wiggly_solver *solver, const problem *p, wiggly_curve *curve)
 {
@@ -40,7 +42,12 @@ static minimum attempt(wiggly_solver *solver, problem *p, wiggly_curve *curve)
     problem_set_rows(solver, p);
     minimum result = solver_minimise(solver);
     const bool is_worse = by_chain.solved && !(result.solved && result.error <= by_chain.error);
-    if (is_worse && problem_solve_chain(solver, p, re, im)) return by_chain;
+    if (is_worse && problem_solve_chain(solver, p, re, im)) {
+        // Inexact by both: two roundings that agree are no proof, so the factor says how much it lost.
+        if (by_chain.error > tolerance(WIGGLY_COMPLEX) * c->size)
+            by_chain.error = fmax(by_chain.error, 100 * DBL_EPSILON * c->lost * c->size);
+        return by_chain;
+    }
     unpack(solver, p, curve);
     return result;
 }
@@ -127,8 +134,6 @@ static bool is_still(const problem *p)
     }
     return !moves || !rings;
 }
-
-static double tolerance(wiggly_mode mode) { return mode == WIGGLY_CUBIC ? 1e-9 : 1e-8; }
 
 /// Largest magnitude, and largest less smallest.
 static void measure(const double *values, int count, double *magnitude, double *range)
