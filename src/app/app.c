@@ -2,6 +2,7 @@
 #include "app/app.h"
 #include "app/state.h"
 #include "base/clock.h"
+#include "base/need.h"
 #include "platform/process.h"
 #include "platform/turns.h"
 #include "scene/load.h"
@@ -75,7 +76,9 @@ static bool run_frames(struct app *app, long frames, bool timed, struct error *e
             turns_take();
             app->last_swap = NAN; // the other program's frame was in between
         }
+        mtx_lock(&app->working);
         app_frame(app);
+        mtx_unlock(&app->working);
         if (app->frame == 1 && timed && !app->log && !open_log(app, error)) return false;
         if (app->options->turns) turns_give();
     }
@@ -209,7 +212,10 @@ static bool start(struct app *app, struct error *error)
         platform_on_lost(on_lost, app);
         if (!is_replay(app)) process_catch_end();
     }
-    if (is_live(app)) personal_start(app);
+    if (is_live(app)) {
+        personal_start(app);
+        app_rescue_without_memory(app);
+    }
     if (o->welcome) editor_welcome(app->table.editor);
     return true;
 }
@@ -233,6 +239,7 @@ int app_run(const struct app_options *options, struct error *error)
     double age = process_age();
     app.process_start = clock_now() - (isnan(age) ? 0 : age);
     if (options->gl_debug) platform_debug_gl();
+    mtx_init(&app.working, mtx_timed);
     bool good = start(&app, error);
     if (good) {
         long frames = options->frames                    ? options->frames
@@ -245,8 +252,10 @@ int app_run(const struct app_options *options, struct error *error)
     struct error late = {0};
     if (!finish(&app, good ? error : &late)) good = false;
     platform_on_lost(NULL, NULL); // what there is to rescue goes now
+    need_keep(0, NULL, NULL);
     personal_end(&app, !good);
     app_free(&app);
+    mtx_destroy(&app.working);
     int complaints = platform_gl_complaints();
     if (good && complaints > 0)
         good = fail(error, ERROR_ENVIRONMENT, "--gl-debug: the OpenGL driver complained %d times", complaints);

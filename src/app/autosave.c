@@ -177,13 +177,13 @@ bool autosave_fails(const struct autosave *autosave) { return autosave->complain
 
 bool autosave_flush(struct autosave *autosave, const struct autosave_work *work, struct error *error)
 {
-    wait_for_thread(autosave);
+    if (!thrd_equal(thrd_current(), autosave->thread)) wait_for_thread(autosave);
     if (!begin_copy(autosave, work)) return fail_no_memory(error, autosave->slot.path);
     snapshot_finish(autosave->snapshot);
-    give(autosave, JOB_WRITE);
-    wait_for_thread(autosave);
-    if (autosave->outcome == OUTCOME_FAILED) *error = autosave->error;
-    return autosave->outcome == OUTCOME_KEPT;
+    const bool kept = autosave->has_file = write_work(autosave, &autosave->error);
+    autosave->outcome = kept ? OUTCOME_KEPT : OUTCOME_FAILED;
+    if (!kept) *error = autosave->error;
+    return kept;
 }
 
 void autosave_move(struct autosave *autosave, const struct recovery_slot *slot)

@@ -29,7 +29,7 @@ bool autosave_is_behind(struct autosave *autosave, const struct autosave_work *w
 /// Whether the last write failed: there is no recovery file, or an older one.
 bool autosave_fails(const struct autosave *autosave);
 
-/// Writes the work now and returns when it is on the disk.
+/// Writes the work now, in the calling thread, and returns when it is on the disk. Autosave's own thread may call it.
 bool autosave_flush(struct autosave *autosave, const struct autosave_work *work, struct error *error);
 
 /// Moves to another slot, taking over its file; removes and releases the old one.

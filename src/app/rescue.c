@@ -1,6 +1,7 @@
 /// Saves unsaved work when the program cannot go on: to the recovery file, which the next start offers, or else to a new file
 /// beside the original.
 #include "app/state.h"
+#include "base/need.h"
 #include "base/path.h"
 #include "scene/load.h"
 #include <stdio.h>
@@ -10,6 +11,7 @@
 #include <unistd.h>
 
 enum { MAX_NAMES = 1000 };
+enum { RESERVE = 64 << 20, LONGEST_WAIT = 2 }; ///< bytes put by for the rescue; seconds
 
 /// A place for the work: `folder` "" is the working folder, `name` has no ending.
 struct place {
@@ -71,4 +73,22 @@ void app_rescue(struct app *app, struct error *error)
     } else {
         fail(error, why.kind, "%s; the unsaved scene is lost: %s", why.text, trouble.text);
     }
+}
+
+/// In another thread than the frames' it waits for the end of a frame, for then the document is whole; but not for long: the frame may
+/// be waiting for that thread.
+static void on_no_memory(void *user, struct error *error)
+{
+    struct app *app = user;
+    struct timespec until;
+    timespec_get(&until, TIME_UTC);
+    until.tv_sec += LONGEST_WAIT;
+    if (!thrd_equal(thrd_current(), app->main_thread)) mtx_timedlock(&app->working, &until);
+    app_rescue(app, error);
+}
+
+void app_rescue_without_memory(struct app *app)
+{
+    app->main_thread = thrd_current();
+    need_keep(RESERVE, on_no_memory, app);
 }

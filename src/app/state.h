@@ -15,6 +15,7 @@
 #include "scene/edit.h"
 #include "ui/theme.h"
 #include <stdint.h>
+#include <threads.h>
 
 #define UI_SCALE_LEAST 0.75
 #define UI_SCALE_MOST 3.0
@@ -44,6 +45,9 @@ struct app {
     struct own_file own_file;
     unsigned last_serial;  ///< of the documents that were on the table
     unsigned sized_serial; ///< of the document whose models were measured
+
+    thrd_t main_thread;
+    mtx_t working; ///< locked while a frame is made, for a thread that runs out of memory and saves the work
 
     struct export_job *export_job; ///< NULL where nothing is exported
     struct personal *personal;     ///< NULL where nobody sits at a window
@@ -100,6 +104,9 @@ void app_requests(struct app *app);
 /// Writes unsaved work to the recovery file, else to a new file beside the scene's own one, and adds its
 /// path to the error's sentence.
 void app_rescue(struct app *app, struct error *error);
+
+/// From now on need() does that where memory runs out. The calling thread is the one that makes frames.
+void app_rescue_without_memory(struct app *app);
 
 /// A new size of the window, in logical pixels of the display.
 void app_resize(struct app *app, float width, float height, float scale);

@@ -1,0 +1,94 @@
+/// Ends the program where memory runs out, with the work saved.
+#include "base/need.h"
+#include "base/checked.h"
+#include "base/file.h"
+#include <stdatomic.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <threads.h>
+#include <unistd.h>
+
+enum { NAPS = 1000 }; ///< of 10 ms each
+
+static void *kept;
+static need_rescue *rescue;
+static void *rescue_user;
+static atomic_bool ends;
+static _Thread_local bool rescues; ///< this thread is in the rescue
+
+_Noreturn static void end(const char *sentence)
+{
+    file_remove_unfinished();
+    fprintf(stderr, "wiggly: %s\n", sentence);
+    fflush(stderr);
+    _exit(ERROR_ENVIRONMENT); // other threads go on meanwhile: nothing of theirs is taken down
+}
+
+/// Ends the process. Returns only where another thread is saving the work: with what the reserve has freed, the caller tries again.
+static void ran_short(void)
+{
+    if (rescues) end("out of memory; what autosave has not kept is lost");
+    if (atomic_exchange(&ends, true)) {
+        thrd_sleep(&(struct timespec){.tv_nsec = 10000000}, NULL);
+        return;
+    }
+    struct error error;
+    rescues = true;
+    free(kept);
+    fail(&error, ERROR_ENVIRONMENT, "out of memory");
+    if (rescue) rescue(rescue_user, &error);
+    end(error.text);
+}
+
+_Noreturn void need_failed(void)
+{
+    for (int i = 0; i < NAPS; i++) ran_short();
+    end("out of memory");
+}
+
+/// `count` · `size`, at least 1: NULL has to mean that there was no memory.
+static size_t bytes_of(size_t count, size_t size)
+{
+    size_t bytes;
+    if (!checked_mul(count, size, &bytes)) need_failed();
+    return bytes ? bytes : 1;
+}
+
+void *need_more(void *old, size_t count, size_t size)
+{
+    const size_t bytes = bytes_of(count, size);
+    for (int i = 0; i < NAPS; i++) {
+        void *memory = realloc(old, bytes);
+        if (memory) return memory;
+        ran_short();
+    }
+    end("out of memory");
+}
+
+void *need(size_t count, size_t size)
+{
+    void *memory = malloc(bytes_of(count, size));
+    return memory ? memory : need_more(NULL, count, size);
+}
+
+void *need_zeroed(size_t count, size_t size)
+{
+    const size_t bytes = bytes_of(count, size);
+    void *memory = calloc(1, bytes); // pages from the system are zero already
+    return memory ? memory : memset(need_more(NULL, count, size), 0, bytes);
+}
+
+char *need_text(const char *text)
+{
+    const size_t size = strlen(text) + 1;
+    return memcpy(need(size, 1), text, size);
+}
+
+void need_keep(size_t reserve, need_rescue *saves, void *user)
+{
+    free(kept);
+    rescue = saves;
+    rescue_user = user;
+    kept = reserve ? need(reserve, 1) : NULL;
+}

@@ -1,0 +1,33 @@
+/// Memory that the program cannot do without. need() and its kin never return NULL: where memory runs out they free a reserve, let the
+/// app save the work, remove what is half-written, say one sentence and end the process with exit status 3.
+///
+/// Sizes that a file claims are not for these: readers of files, and libwiggly, return an error.
+#ifndef BASE_NEED_H
+#define BASE_NEED_H
+
+#include "base/error.h"
+#include <stddef.h>
+
+/// `count` members of `size` bytes each, which the caller frees. Any thread may call it.
+void *need(size_t count, size_t size) __attribute__((returns_nonnull));
+
+/// The same, all bytes zero.
+void *need_zeroed(size_t count, size_t size) __attribute__((returns_nonnull));
+
+/// As realloc(): moves `old` (may be NULL) to a block of that many members.
+void *need_more(void *old, size_t count, size_t size) __attribute__((returns_nonnull));
+
+/// A copy of a text.
+char *need_text(const char *text) __attribute__((returns_nonnull));
+
+/// What need() does where memory runs out, for a library that has said so.
+_Noreturn void need_failed(void);
+
+/// Saves the work, and adds to the sentence in `error` where it is. It may be called in any thread, once; if memory runs out in it too,
+/// the process ends there.
+typedef void need_rescue(void *user, struct error *error);
+
+/// From now on `rescue` (NULL: none) is called where memory runs out, and has `reserve` bytes that are put by for it.
+void need_keep(size_t reserve, need_rescue *rescue, void *user);
+
+#endif
