@@ -230,7 +230,7 @@ static void test_damaged_bytes(void **state)
 static void test_many_problems(void **state)
 {
     (void)state;
-    enum { KNOTS = 200000, KNOT_BYTES = 32 };
+    enum { KNOTS = 100000, KNOT_BYTES = 32 };
     char *text = malloc(KNOTS * KNOT_BYTES + 200);
     assert_non_null(text);
     char *end = text + sprintf(text, "{\"frames\": [0, 9], \"splines\": [{\"name\": \"x\", \"knots\": [\n");

@@ -294,7 +294,7 @@ static void a_range_has_an_end(void **state)
     panel_open(&f, scene, 1280, 2000);
     panel_click(&f, "section.scene");
     panel_enter(&f, "scene.substeps", "4");
-    const int longest = (SCENE_MAX_SAMPLES / f.document->spline_count - 1) / 4;
+    const int longest = (SPLINE_MAX_SAMPLES - 1) / 4;
     char *before = session_saved(&f), most[64];
     panel_enter(&f, "scene.last", "999999999");
     assert_int_equal(f.editor->dialogs->dialog.kind, DIALOG_NONE);

@@ -24,7 +24,7 @@ enum {
     FOCUS_EVERY = 20,
     LOST_EVERY = 100,
     MOST_SAMPLES = 20000,
-    THREADED_PART = 20
+    LONG_PART = 20
 };
 
 static char folder[] = "/tmp/wiggly-monkey-XXXXXX";
@@ -365,18 +365,17 @@ static void record(struct app *app, const char *path)
 }
 
 /// Starts the app as a window does.
-static void start(struct run *run, const char *scene, bool threaded)
+static void start(struct run *run, const char *scene)
 {
     blind_open(&run->blind, scene);
     personal_start(&run->blind.app);
-    run->blind.app.table.threaded = threaded;
 }
 
-static struct run *new_run(int seed, const char *scene, bool threaded)
+static struct run *new_run(int seed, const char *scene)
 {
     struct run *run = calloc(1, sizeof *run);
     assert_non_null(run);
-    start(run, scene, threaded);
+    start(run, scene);
     run->monkey =
         (struct monkey){.blind = &run->blind, .files = &files, .random = (uint64_t)seed * 0x9E3779B97F4A7C15u};
     run->next_undo = UNDO_EVERY;
@@ -391,9 +390,9 @@ static void end(struct run *run, bool lost)
     blind_close(&run->blind);
 }
 
-static void run_seed(int seed, int events, const char *scene, bool threaded)
+static void run_seed(int seed, int events, const char *scene)
 {
-    struct run *run = new_run(seed, scene, threaded);
+    struct run *run = new_run(seed, scene);
     fprintf(stderr, "monkey: MONKEY_SEED=%d\n", seed);
     playing = &run->monkey;
     const char *path = getenv("MONKEY_RECORD");
@@ -412,17 +411,16 @@ static void nothing_a_monkey_does_breaks_anything(void **state)
     const int seed = number("MONKEY_SEED", 0), events = event_count();
     atexit(say_where);
     for (int s = 1; s <= SEEDS; s++) {
-        if (seed == 0 || seed == s) run_seed(s, events, NULL, false);
+        if (seed == 0 || seed == s) run_seed(s, events, NULL);
     }
-    if (seed > SEEDS) run_seed(seed, events, NULL, false);
+    if (seed > SEEDS) run_seed(seed, events, NULL);
 }
 
-/// What takes longer than a frame is solved by a thread, which takes its own time: here a seed does not say everything.
-static void nor_while_a_thread_solves(void **state)
+static void nor_in_a_long_scene(void **state)
 {
     (void)state;
     make_long(); // the other monkey may have written something else over it
-    run_seed(number("MONKEY_SEED", 1), event_count() / THREADED_PART, "long.json", true);
+    run_seed(number("MONKEY_SEED", 1), event_count() / LONG_PART, "long.json");
 }
 
 static char *in_recovery(const struct document *document)
@@ -441,7 +439,7 @@ static void lose_display(struct run *run)
     if (unsaved && !personal_rescue(app)) fail_msg("the work is lost");
     char *lost = in_recovery(app->table.document);
     end(run, true);
-    start(run, NULL, false);
+    start(run, NULL);
     run->checked = 0;
     const bool offered = app->table.editor->dialogs->dialog.kind == DIALOG_RECOVER;
     assert_int_equal(offered, unsaved);
@@ -463,7 +461,7 @@ static void nor_do_two_with_the_same_files(void **state)
     (void)state;
     const int seed = number("MONKEY_SEED", 1), events = event_count();
     restore("tail.json");
-    struct run *runs[] = {new_run(seed, NULL, false), new_run(seed + 1, "tail.json", false)};
+    struct run *runs[] = {new_run(seed, NULL), new_run(seed + 1, "tail.json")};
     fprintf(stderr, "monkeys: MONKEY_SEED=%d\n", seed);
     struct run *run = runs[0];
     while (runs[0]->monkey.sent + runs[1]->monkey.sent < events) {
@@ -486,7 +484,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(nothing_a_monkey_does_breaks_anything),
-        cmocka_unit_test(nor_while_a_thread_solves),
+        cmocka_unit_test(nor_in_a_long_scene),
         cmocka_unit_test(nor_do_two_with_the_same_files),
     };
     return cmocka_run_group_tests(tests, make_files, remove_files);

@@ -3,7 +3,7 @@
 #include "session.h"
 #include "world.h"
 
-#include "scene/background.h"
+#include "scene/evaluate.h"
 #include "scene/motion.h"
 #include "scene/storage.h"
 #include <math.h>
@@ -289,44 +289,12 @@ static void a_motion_keeps_to_its_joint(void **state)
     stand_close(&stand);
 }
 
-/// A long scene: the thread solves with the motion; a new clip while it works is not lost.
-static void the_thread_follows_joints_too(void **state)
-{
-    (void)state;
-    static struct session s;
-    static const char longer[] =
-        "{\"frames\": [0, 60000], \"substeps\": 10, \"splines\": [{\"name\": \"wag\", \"frequency\": 1.5,"
-        " \"damping\": 0.1, \"knots\": [{\"frame\": 10, \"value\": 2}], \"equilibrium\": {\"model\": \"dog\","
-        " \"joint\": \"hips\", \"of\": \"turn\"}}], " MODELS;
-    struct stand stand = {0};
-    session_open(&s, longer);
-    s.table.motions = (struct motion_source){.read = read_walk, .context = &stand};
-    s.table.threaded = true;
-    assert_true(background_serves(s.document, WIGGLY_CHAIN));
-    session_frame(&s);
-    static const char *const clips[] = {"Run", "Gallop", "Walks"};
-    for (int i = 0; i < 3; i++) {
-        const struct edit edit = {.kind = EDIT_CLIP, .rig = DOG, .text = clips[i]};
-        history_begin(s.history, "Set clip", 0);
-        assert_true(history_apply(s.history, s.document, &edit, NULL));
-        history_end(s.history);
-        session_frame(&s);
-    }
-    const struct focus focus = {.spline = 0, .count = 100};
-    background_settle(&s.table.evaluation, s.document, &focus);
-    stand.world.document = s.document;
-    stand.evaluation = s.table.evaluation;
-    assert_solved(&stand, 0, 1);
-    session_close(&s);
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(motions_are_printed_as_they_were_read), cmocka_unit_test(a_motion_is_solved_as_a_track_is),
         cmocka_unit_test(a_motion_is_read_when_it_has_changed),  cmocka_unit_test(without_a_source_it_stays_at_0),
         cmocka_unit_test(following_is_edited_and_undone),        cmocka_unit_test(a_motion_keeps_to_its_joint),
-        cmocka_unit_test(the_thread_follows_joints_too),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -10,13 +10,13 @@ static const char small_scene[] =
 
 /// Long names, large numbers, tracks, many splines: whatever makes a panel crowded.
 static const char crowded_scene[] =
-    "{\"wiggly\": 1, \"frames\": [-100000, 96], \"substeps\": 4, \"splines\": ["
+    "{\"wiggly\": 1, \"frames\": [-100000, -75001], \"substeps\": 4, \"splines\": ["
     "{\"name\": \"a spline whose name is far longer than any panel is wide, by a good deal\", \"mode\": \"real\", "
     "\"frequency\": 123456.789, \"damping\": 12345678, \"equilibrium\": -1e300, \"knots\": [{\"frame\": -99999.75, "
     "\"value\": -123456789.125, \"slope\": 1e200, \"stiffness\": 1e250}]},"
     "{\"name\": \"b\", \"frequency\": {\"spline\": \"a spline whose name is far longer than any panel is wide, by a "
     "good "
-    "deal\"}, \"equilibrium\": {\"spline\": \"c\"}, \"knots\": [{\"frame\": 0, \"value\": 0}]},"
+    "deal\"}, \"equilibrium\": {\"spline\": \"c\"}, \"knots\": [{\"frame\": -80000, \"value\": 0}]},"
     "{\"name\": \"c\"}, {\"name\": \"d\"}, {\"name\": \"e\"}, {\"name\": \"f\"}, {\"name\": \"g\"}, {\"name\": "
     "\"h\"}, "
     "{\"name\": \"i\"}, {\"name\": \"j\"}], \"rigs\": [{\"type\": \"tail\", \"name\": \"t\", \"joints\": 2, "

@@ -1,6 +1,6 @@
 /// C11's threads by the names of POSIX, because the thread sanitizer does not see through <threads.h>. Included ahead of all sources:
 ///
-///     make B=build/threads CFLAGS="-fsanitize=thread -include tests/thread_sanitizer.h" TESTS=tests/test_background.c test
+///     make B=build/threads CFLAGS="-fsanitize=thread -include tests/thread_sanitizer.h" TESTS=tests/test_autosave.c test
 ///
 /// In glibc each type is the other's.
 #ifndef TESTS_THREAD_SANITIZER_H

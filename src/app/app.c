@@ -206,7 +206,6 @@ static bool start(struct app *app, struct error *error)
     if (o->frames_dir) mkdir(o->frames_dir, 0777);
     bool window = platform_is_window(app->platform);
     app->fixed_clock = !window || is_replay(app) || app->recording;
-    app->table.threaded = !app->fixed_clock;
     app->lost = true;
     if (window) {
         platform_on_lost(on_lost, app);

@@ -164,7 +164,7 @@ static bool add_file(struct app *app, const char *path, struct error *error)
     struct editor_world world = table_world(table);
     editor_let_go(table->editor, &world);
     history_begin(table->history, "Add character", 0);
-    const int spline = editor_focus(table->editor, table->document).spline;
+    const int spline = editor_active(table->editor, table->document);
     const bool added = import_add(table->history, table->document, path, spline, error);
     if (!added) history_restart(table->history, table->document);
     history_end(table->history);

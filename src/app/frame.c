@@ -108,7 +108,7 @@ static bool take_input(struct app *app)
 {
     double wait_start = clock_now();
     bool wanted = app->fixed_clock || app->frame == 0 || editor_wants_frames(app->table.editor) || app->paste ||
-                  app->table.evaluation.stale || app->export_job || app->demo.on;
+                  app->export_job || app->demo.on;
     app->was_idle = !wanted;
     int count = 0;
     const struct event *events = platform_events(app->platform, waiting_time(app, wanted), &count);

@@ -3,7 +3,6 @@
 #include "base/clock.h"
 #include "rig/clip_motion.h"
 #include "rig/pinning.h"
-#include "scene/background.h"
 #include "scene/load.h"
 #include <stdlib.h>
 
@@ -28,19 +27,6 @@ static bool fit_evaluation(struct table *table, bool resized, struct error *erro
     return true;
 }
 
-static void evaluate(struct table *table, bool resized, bool cubic, bool threaded)
-{
-    const struct document *document = table->document;
-    history_take_dirty(table->history, document, table->dirty, document->spline_count);
-    bool *dirty = resized ? NULL : table->dirty;
-    if (threaded) {
-        struct focus focus = editor_focus(table->editor, document);
-        background_update(&table->evaluation, document, dirty, cubic, &focus);
-    } else {
-        evaluation_update(&table->evaluation, document, dirty, cubic);
-    }
-}
-
 static bool solve(struct table *table, struct frame_row *row, struct error *error)
 {
     const struct document *document = table->document;
@@ -52,15 +38,15 @@ static bool solve(struct table *table, struct frame_row *row, struct error *erro
     row->edited = revision != table->solved_revision;
     if ((resized || row->edited) && !fit_evaluation(table, resized, error)) return false;
     wiggly_method method = editor_method(table->editor);
-    bool threaded = table->threaded && background_serves(document, method);
     const struct motion_source motions = table->motions.read ? table->motions : clip_motions(table->models);
     bool moved = motions_bake(&table->evaluation, document, &motions);
     bool same_way = cubic == table->solved_cubic && method == evaluation->method;
     row->solver = evaluation_solver(method);
-    if (!resized && !row->edited && same_way && !moved && !threaded && !evaluation->stale) return true;
+    if (!resized && !row->edited && same_way && !moved) return true;
     table->evaluation.method = method;
     table->evaluation.pins = pin_points(table->models);
-    evaluate(table, resized, cubic, threaded);
+    history_take_dirty(table->history, document, table->dirty, document->spline_count);
+    evaluation_update(&table->evaluation, document, resized ? NULL : table->dirty, cubic);
     row->splines_solved = evaluation->solved_splines;
     row->samples = evaluation->solved_samples;
     row->knots = evaluation->solved_knots;

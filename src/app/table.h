@@ -14,7 +14,6 @@ struct table {
     struct models *models;        ///< NULL: the characters have no models
     struct motion_source motions; ///< where equilibria that follow joints are read from; zero: the models' clips
     struct evaluation evaluation;
-    bool threaded;            ///< what takes longer than a frame is solved in the background
     unsigned models_serial;   ///< of the document whose models were read last
     uint64_t solved_revision; ///< 0: nothing is solved
     bool solved_cubic;

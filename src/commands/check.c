@@ -13,8 +13,6 @@
 #include <math.h>
 #include <stdio.h>
 
-enum { MAX_SOLVED_SAMPLES = 1000000 }; ///< larger scenes are checked as they are written only
-
 /// Degrees or metres by which a clip that goes round may miss its start.
 static const double MOTION_SLACK = 1e-3;
 
@@ -67,7 +65,6 @@ static bool check_solution(const char *path, const struct document *document, st
 {
     const struct motion_source motions = clip_motions(models);
     struct evaluation evaluation = {.pins = pin_points(models)};
-    if ((long long)document_samples(document) * document->spline_count > MAX_SOLVED_SAMPLES) return true;
     if (!evaluation_resize(&evaluation, document, error)) return false;
     motions_bake(&evaluation, document, &motions);
     evaluation_update(&evaluation, document, NULL, false);

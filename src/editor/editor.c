@@ -143,7 +143,6 @@ void editor_open(struct editor *editor, const struct editor_world *world)
 {
     const struct document *document = world->document;
     selection_clear(&editor->core.selection);
-    editor->core.survey.is_made = false;
     editor->core.drag.kind = DRAG_NONE;
     editor->core.hover = (struct hover){0};
     curves_open(editor->curves);
@@ -292,10 +291,7 @@ void editor_welcome(struct editor *editor) { dialogs_welcome(editor->dialogs); }
 
 bool editor_is_welcoming(const struct editor *editor) { return dialogs_is_welcoming(editor->dialogs); }
 
-struct focus editor_focus(const struct editor *editor, const struct document *document)
+int editor_active(const struct editor *editor, const struct document *document)
 {
-    struct focus focus = {.spline = editor->core.active < document->spline_count ? editor->core.active : -1};
-    curves_span(editor->curves, document, &focus.first, &focus.count);
-    focus.at = (int)fmin(fmax(editor->core.playback.position, 0), document_samples(document) - 1);
-    return focus;
+    return editor->core.active < document->spline_count ? editor->core.active : -1;
 }

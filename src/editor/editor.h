@@ -56,8 +56,8 @@ void editor_event(struct editor *editor, const struct editor_world *world, const
 /// applied.
 void editor_advance(struct editor *editor, const struct editor_world *world, double dt);
 
-/// The part of the splines in sight, which a long spline solves first.
-struct focus editor_focus(const struct editor *editor, const struct document *document);
+/// The active spline, or -1.
+int editor_active(const struct editor *editor, const struct document *document);
 
 /// After the solve: poses rigs, builds this frame's draw list and stage, both valid until the next call. Allocates
 /// nothing.

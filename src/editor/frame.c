@@ -4,7 +4,6 @@
 #include "editor/core/knots.h"
 #include "editor/core/playback.h"
 #include "editor/core/presenter.h"
-#include "editor/core/survey.h"
 #include "editor/curves/curves.h"
 #include "editor/dialogs/dialogs.h"
 #include "editor/editor.h"
@@ -296,7 +295,6 @@ static void show_panels(struct editor *editor, const struct editor_world *world)
 void editor_show(struct editor *editor, const struct editor_world *world)
 {
     drawlist_clear(&editor->core.list, editor->core.layout.window);
-    survey_update(&editor->core, world->document);
     update_hover(editor, world);
     stage_show(editor->stage, &editor->core, world);
     dialogs_show_welcome(editor->dialogs, &editor->core, world, stage_figure(editor->stage, &editor->core));

@@ -95,10 +95,35 @@ int document_samples(const struct document *document)
     return (document->last_frame - document->first_frame) * document->substeps + 1;
 }
 
+static int most_samples(int splines, bool limited)
+{
+    const int each = limited ? LIMITED_MAX_SAMPLES : SPLINE_MAX_SAMPLES;
+    return splines > SCENE_MAX_SAMPLES / each ? SCENE_MAX_SAMPLES / splines : each;
+}
+
+bool document_check_samples(int splines, long long samples, bool limited, struct error *error)
+{
+    if (samples <= most_samples(splines, limited)) return true;
+    if (samples > SPLINE_MAX_SAMPLES)
+        return fail(error, ERROR_INPUT, "at most %d samples a spline, got %lld", SPLINE_MAX_SAMPLES, samples);
+    if (limited && samples > LIMITED_MAX_SAMPLES)
+        return fail(error, ERROR_INPUT, "at most %d samples where a spline has a low or high limit, got %lld",
+                    LIMITED_MAX_SAMPLES, samples);
+    return fail(error, ERROR_INPUT, "at most %d samples over all splines, got %d times %lld", SCENE_MAX_SAMPLES,
+                splines, samples);
+}
+
 int document_longest(const struct document *document)
 {
-    const int splines = document->spline_count > 0 ? document->spline_count : 1;
-    return (SCENE_MAX_SAMPLES / splines - 1) / document->substeps;
+    return (most_samples(document->spline_count, document_is_limited(document)) - 1) / document->substeps;
+}
+
+bool document_is_limited(const struct document *document)
+{
+    for (int i = 0; i < document->spline_count; i++) {
+        if (spline_is_limited(&document->splines[i])) return true;
+    }
+    return false;
 }
 
 double document_step(const struct document *document) { return 1 / (document->fps * document->substeps); }
@@ -260,6 +285,21 @@ int spline_lower_bound_near(const struct document *document, const struct spline
         step *= 2;
     }
     return bisect(document, spline, low, high, sample);
+}
+
+bool spline_is_limited(const struct spline *spline)
+{
+    return isfinite(spline->parameter[PARAMETER_LOW].value) || isfinite(spline->parameter[PARAMETER_HIGH].value);
+}
+
+void spline_values(const struct spline *spline, int first, int end, double range[2])
+{
+    range[0] = range[1] = spline->knots[first].value;
+    for (int k = first + 1; k < end; k++) {
+        const double value = spline->knots[k].value;
+        range[0] = value < range[0] ? value : range[0];
+        range[1] = value > range[1] ? value : range[1];
+    }
 }
 
 int spline_find_id(const struct spline *spline, unsigned id)

@@ -15,8 +15,10 @@
 
 enum {
     SCENE_MAX_SUBSTEPS = 1024,
-    SCENE_MAX_SAMPLES = 10000000, ///< over all splines together
-    SCENE_MAX_KNOTS = 1000000,    ///< over all splines together
+    SPLINE_MAX_SAMPLES = 100000, ///< of each spline
+    LIMITED_MAX_SAMPLES = 20000, ///< of each, where one has a low or high limit
+    SCENE_MAX_SAMPLES = 1000000, ///< over all splines together
+    SCENE_MAX_KNOTS = 100000,    ///< over all splines together
     SCENE_MAX_FPS = 100000,
     SCENE_MAX_FRAME = 1000000000, ///< limit of first and last, either sign
     SCENE_MAX_RIGS = 1024,
@@ -98,8 +100,14 @@ const char *document_keep_text(struct document *document, const char *text);
 /// Number of samples N of every spline.
 int document_samples(const struct document *document);
 
-/// The most frames from first to last for which the splines there are stay within SCENE_MAX_SAMPLES.
+/// Whether so many splines may have that many samples each; `limited`: one of them has a low or high limit.
+bool document_check_samples(int splines, long long samples, bool limited, struct error *error);
+
+/// The most frames from first to last that the splines there are may have.
 int document_longest(const struct document *document);
+
+/// Whether a spline of the document has a low or high limit.
+bool document_is_limited(const struct document *document);
 
 /// Seconds between samples.
 double document_step(const struct document *document);
@@ -152,6 +160,12 @@ int spline_find_knot(const struct document *document, const struct spline *splin
 int spline_lower_bound(const struct document *document, const struct spline *spline, int sample);
 /// The same, looked for outwards from a guess of at least 0: quicker where that is near.
 int spline_lower_bound_near(const struct document *document, const struct spline *spline, int guess, int sample);
+
+/// Whether it has a low or high limit.
+bool spline_is_limited(const struct spline *spline);
+
+/// The lowest and highest value of the knots, at least one, from `first` to before `end`.
+void spline_values(const struct spline *spline, int first, int end, double range[2]);
 
 /// Index of the knot with that id, or -1.
 int spline_find_id(const struct spline *spline, unsigned id);

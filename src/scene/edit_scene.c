@@ -39,7 +39,7 @@ static bool check_knots_fit(const struct document *document, const double *frame
 /// Whether a timing is allowed, leaving the knots aside.
 static bool check_timing(const struct document *document, const struct timing *timing, struct error *error)
 {
-    long long frames = (long long)timing->last - timing->first, splines = document->spline_count;
+    long long frames = (long long)timing->last - timing->first;
     long long samples = frames * timing->substeps + 1;
     if (!(timing->fps > 0 && timing->fps <= SCENE_MAX_FPS)) {
         return fail(error, ERROR_INPUT, "frames per second must be above 0 and at most %d", SCENE_MAX_FPS);
@@ -51,10 +51,7 @@ static bool check_timing(const struct document *document, const struct timing *t
     if (timing->first < -SCENE_MAX_FRAME || timing->last > SCENE_MAX_FRAME) {
         return fail(error, ERROR_INPUT, "frames must be from -%d to %d", SCENE_MAX_FRAME, SCENE_MAX_FRAME);
     }
-    if (samples * (splines > 0 ? splines : 1) > SCENE_MAX_SAMPLES) {
-        return fail(error, ERROR_INPUT, "the limit is %d samples over all splines", SCENE_MAX_SAMPLES);
-    }
-    return true;
+    return document_check_samples(document->spline_count, samples, document_is_limited(document), error);
 }
 
 static struct document with_timing(const struct document *document, const struct timing *timing)

@@ -83,13 +83,15 @@ static bool check_constant(const struct spline *spline, enum parameter parameter
 }
 
 /// A limit may be infinite, which is none; knots stay within.
-static bool check_limit(const struct spline *spline, enum parameter parameter, double value, struct error *error)
+static bool check_limit(const struct document *document, const struct spline *spline, enum parameter parameter,
+                        double value, struct error *error)
 {
     const struct parameter_row *row = &parameter_rows[parameter];
     const bool is_high = parameter == PARAMETER_HIGH;
     const double other = spline->parameter[is_high ? PARAMETER_LOW : PARAMETER_HIGH].value;
     if (value == row->standard) return true;
     if (!isfinite(value)) return fail(error, ERROR_INPUT, "%s: a limit must be finite", spline->name);
+    if (!document_check_samples(1, document_samples(document), true, error)) return false;
     if (is_high ? value <= other : value >= other)
         return fail(error, ERROR_INPUT, "%s: the low limit must be below the high one", spline->name);
     for (int k = 0; k < spline->knot_count; k++) {
@@ -179,7 +181,10 @@ bool plan_parameter(struct document *document, const struct edit *edit, struct c
         *param = param_track(edit->param.track);
     } else {
         const bool limits = parameter_rows[edit->parameter].kind == PARAMETER_LIMIT;
-        if (!(limits ? check_limit : check_constant)(spline, edit->parameter, edit->param.value, error)) return false;
+        const double value = edit->param.value;
+        if (!(limits ? check_limit(document, spline, edit->parameter, value, error)
+                     : check_constant(spline, edit->parameter, value, error)))
+            return false;
         *param = param_number(edit->param.value + 0.0);
     }
     return add_settings(document, edit, &settings, list, error);

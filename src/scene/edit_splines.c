@@ -9,13 +9,12 @@
 #include <string.h>
 
 /// Makes room for one more spline, unless there would be too many samples or knots.
-static bool reserve_spline(struct document *document, int knots, struct error *error)
+static bool reserve_spline(struct document *document, const struct spline *added, struct error *error)
 {
-    long long total = knots, samples = (long long)document_samples(document) * (document->spline_count + 1);
+    const bool limited = spline_is_limited(added) || document_is_limited(document);
+    long long total = added->knot_count;
     for (int i = 0; i < document->spline_count; i++) total += document->splines[i].knot_count;
-    if (samples > SCENE_MAX_SAMPLES) {
-        return fail(error, ERROR_INPUT, "the limit is %d samples over all splines", SCENE_MAX_SAMPLES);
-    }
+    if (!document_check_samples(document->spline_count + 1, document_samples(document), limited, error)) return false;
     if (total > SCENE_MAX_KNOTS) {
         return fail(error, ERROR_INPUT, "the limit is %d knots over all splines", SCENE_MAX_KNOTS);
     }
@@ -100,7 +99,9 @@ bool plan_spline_add(struct document *document, const struct edit *edit, struct 
     int count = document->spline_count, at = edit->spline < 0 || edit->spline > count ? count : edit->spline;
     if (edit->text && !check_name(document, edit->text, -1, error)) return false;
     if (edit->flag && !check_first_knot(document, &edit->knot, error)) return false;
-    if (!reserve_spline(document, edit->flag ? 1 : 0, error)) return false;
+    struct spline fresh = {.knot_count = edit->flag ? 1 : 0};
+    spline_reset(&fresh);
+    if (!reserve_spline(document, &fresh, error)) return false;
     struct spline *held = hold_spline(free_name(document, edit->text ? edit->text : "spline"), 1);
     if (!held) return plan_no_memory(error);
     spline_reset(held);
@@ -118,7 +119,7 @@ bool plan_spline_add(struct document *document, const struct edit *edit, struct 
 bool plan_spline_copy(struct document *document, const struct edit *edit, struct change_list *list,
                       struct error *error)
 {
-    if (!reserve_spline(document, document->splines[edit->spline].knot_count, error)) return false;
+    if (!reserve_spline(document, &document->splines[edit->spline], error)) return false;
     const struct spline *spline = &document->splines[edit->spline];
     struct spline *held = hold_spline(free_name(document, spline->name), spline->knot_count);
     if (!held) return plan_no_memory(error);

@@ -25,10 +25,8 @@ static void free_splines(struct evaluation *evaluation, struct storage *storage)
     free(storage->space.stack);
     free(storage->space.next);
     free(storage->forced);
-    free(storage->extremes);
     for (int s = 0; s < storage->spline_capacity; s++) free(storage->baked[s].raw);
     free(storage->baked);
-    storage->extremes = NULL;
     storage->baked = NULL;
     evaluation->curves = NULL;
     evaluation->status = NULL;
@@ -52,12 +50,10 @@ static bool resize_splines(struct evaluation *evaluation, struct storage *storag
     storage->forced = calloc(count, sizeof *storage->forced);
     storage->space.stack = calloc(count, sizeof *storage->space.stack);
     storage->space.next = calloc(count, sizeof *storage->space.next);
-    storage->extremes = calloc(count, sizeof *storage->extremes);
     storage->baked = calloc(count, sizeof *storage->baked);
     storage->is_new = true;
-    if (!storage->extremes || !storage->baked || !evaluation->curves || !evaluation->status ||
-        !evaluation->revisions || !storage->order || !storage->solved || !storage->forced || !storage->space.stack ||
-        !storage->space.next) {
+    if (!storage->baked || !evaluation->curves || !evaluation->status || !evaluation->revisions || !storage->order ||
+        !storage->solved || !storage->forced || !storage->space.stack || !storage->space.next) {
         return false;
     }
     storage->spline_capacity = splines;
@@ -76,25 +72,12 @@ static bool resize_numbers(struct storage *storage, int splines, int samples)
     return storage->numbers != NULL;
 }
 
-static bool resize_marks(struct storage *storage, int splines, int samples)
-{
-    size_t needed = storage_wants_extremes(samples) ? 2 * (size_t)splines * extremes_blocks(samples) : 0;
-    if (needed <= storage->mark_capacity) return true;
-    free(storage->marks);
-    storage->marks = calloc(needed, sizeof *storage->marks);
-    storage->mark_capacity = storage->marks ? needed : 0;
-    storage->is_new = true;
-    return storage->marks != NULL;
-}
-
 /// Room for the motions that splines follow.
-static bool resize_baked(struct evaluation *evaluation, const struct document *document, int samples)
+static bool resize_baked(struct storage *storage, const struct document *document, int samples)
 {
-    struct storage *storage = evaluation->storage;
     for (int s = 0; s < document->spline_count; s++) {
         struct baked *baked = &storage->baked[s];
         if (!document->splines[s].parameter[PARAMETER_EQUILIBRIUM].motion || samples <= baked->capacity) continue;
-        background_halt(evaluation);
         free(baked->raw);
         *baked = (struct baked){.raw = malloc(2 * (size_t)samples * sizeof *baked->raw)};
         if (!baked->raw) return false;
@@ -146,22 +129,10 @@ static void lay_out(struct evaluation *evaluation, struct storage *storage, int 
     evaluation->count = splines;
     evaluation->samples = samples;
     storage->is_new = true;
-    storage->layout++;
     for (int i = 0; i < splines; i++) {
-        size_t row = (size_t)i * ROWS * (size_t)samples, mark = 2 * (size_t)i * extremes_blocks(samples);
-        storage_place(&evaluation->curves[i], storage->numbers + row, samples);
-        double *marks = storage_wants_extremes(samples) ? storage->marks + mark : NULL;
-        storage->extremes[i] = storage_extremes(marks, samples);
+        storage_place(&evaluation->curves[i], storage->numbers + (size_t)i * ROWS * (size_t)samples, samples);
         evaluation->status[i] = WIGGLY_OK;
     }
-}
-
-/// Whether the layout can stay as it is.
-static bool fits(const struct evaluation *evaluation, const struct document *document, int knots)
-{
-    const struct storage *storage = evaluation->storage;
-    return evaluation->count == document->spline_count && evaluation->samples == document_samples(document) &&
-           !storage->is_new && knots <= storage->solver_knots;
 }
 
 bool evaluation_resize(struct evaluation *evaluation, const struct document *document, struct error *error)
@@ -174,10 +145,9 @@ bool evaluation_resize(struct evaluation *evaluation, const struct document *doc
     if (!evaluation->storage) evaluation->storage = calloc(1, sizeof *evaluation->storage);
     struct storage *storage = evaluation->storage;
     if (!storage) return fail_memory(document, error);
-    if (!fits(evaluation, document, knots)) background_halt(evaluation);
     if (!resize_splines(evaluation, storage, splines) || !resize_numbers(storage, splines, samples) ||
-        !resize_marks(storage, splines, samples) || !resize_solver(storage, samples, knots) ||
-        !resize_baked(evaluation, document, samples) || !pinned_resize(storage, document)) {
+        !resize_solver(storage, samples, knots) || !resize_baked(storage, document, samples) ||
+        !pinned_resize(storage, document)) {
         evaluation->count = 0;
         return fail_memory(document, error);
     }
@@ -190,10 +160,8 @@ void evaluation_free(struct evaluation *evaluation)
 {
     struct storage *storage = evaluation->storage;
     if (storage) {
-        background_destroy(storage->background);
         free_splines(evaluation, storage);
         free(storage->numbers);
-        free(storage->marks);
         free(storage->knots);
         wiggly_destroy(storage->solver);
         pinned_free(&storage->pinned);
@@ -212,19 +180,11 @@ static bool follows_solved(const struct storage *storage, const struct spline *s
     return false;
 }
 
-void storage_curve_changed(struct evaluation *evaluation, int spline)
-{
-    evaluation->revisions[spline] = ++evaluation->revision;
-}
-
 static void count_solved(struct evaluation *evaluation, const struct document *document, int spline,
                          wiggly_status status)
 {
-    struct storage *storage = evaluation->storage;
-    extremes_update(&storage->extremes[spline], evaluation->curves[spline].total, evaluation->samples, 0,
-                    evaluation->samples);
     evaluation->status[spline] = status;
-    storage_curve_changed(evaluation, spline);
+    evaluation->revisions[spline] = ++evaluation->revision;
     evaluation->solved_splines++;
     evaluation->solved_samples += evaluation->samples;
     evaluation->solved_knots += document->splines[spline].knot_count;
@@ -308,9 +268,8 @@ void evaluation_update(struct evaluation *evaluation, const struct document *doc
     evaluation->solved_splines = evaluation->solved_samples = evaluation->solved_knots = 0;
     if (evaluation->count != document->spline_count || evaluation->samples != document_samples(document))
         return; // evaluation_resize() failed and reported it
-    background_forget(evaluation);
     bool same_way = cubic == evaluation->cubic && evaluation->method == storage->method;
-    if (storage->is_new || !same_way || evaluation->stale) dirty = NULL;
+    if (storage->is_new || !same_way) dirty = NULL;
     evaluation->cubic = cubic;
     storage->method = evaluation->method;
     if (!scene_order(document, storage->space, storage->order, &cycle)) return; // a document has no cycles
@@ -327,7 +286,7 @@ void evaluation_update(struct evaluation *evaluation, const struct document *doc
         i++;
     }
     if (storage->pinned.pins > 0) pinned_measure(evaluation, document);
-    storage->is_new = evaluation->stale = false;
+    storage->is_new = false;
 }
 
 const char *evaluation_solver(wiggly_method method) { return method == WIGGLY_BAND ? "band" : "chain"; }
@@ -340,6 +299,10 @@ wiggly_value evaluation_at(const struct evaluation *evaluation, int spline, doub
 
 int evaluation_extreme(const struct evaluation *evaluation, int spline, int first, int last, bool highest)
 {
-    const struct storage *storage = evaluation->storage;
-    return extremes_find(&storage->extremes[spline], evaluation->curves[spline].total, first, last, highest);
+    const double *total = evaluation->curves[spline].total;
+    int best = first;
+    for (int i = first + 1; i <= last; i++) {
+        if (highest ? total[i] > total[best] : total[i] < total[best]) best = i;
+    }
+    return best;
 }

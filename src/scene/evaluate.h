@@ -15,7 +15,6 @@ struct evaluation {
     wiggly_method method;  ///< of every solve; set it at any time: the next update solves all by it
     uint64_t revision;     ///< changes whenever a curve does
     uint64_t *revisions;   ///< for each spline: the revision in which its curve last changed
-    bool stale;            ///< some curves are out of date: background.h is still solving them
     long solved_splines;   ///< solved by the last update
     long solved_samples;
     long solved_knots;
@@ -66,7 +65,7 @@ const struct floor_left *evaluation_floor(const struct evaluation *evaluation, i
 /// The slope at a sample that, keyed there with the curve's value, leaves the curve as it is.
 double evaluation_slope(const struct evaluation *evaluation, const struct document *document, int spline, int sample);
 
-/// The sample from `first` to `last` with a solved spline's lowest (or highest) total, the earliest of equal ones; fast at any length.
+/// The sample from `first` to `last` with a solved spline's lowest (or highest) total, the earliest of equal ones.
 int evaluation_extreme(const struct evaluation *evaluation, int spline, int first, int last, bool highest);
 
 #endif

@@ -105,7 +105,7 @@ static bool read_field(const struct csv *csv, enum column column, bool *given, d
 static bool add_knot(struct csv *csv, const struct knot *knot)
 {
     struct knot_list *list = csv->list;
-    if (list->count == SCENE_MAX_KNOTS) return bad(csv, "at most 1000000 knots", "more");
+    if (list->count == SCENE_MAX_KNOTS) return bad(csv, "at most 100000 knots", "more");
     if (list->count == csv->capacity) {
         int capacity = csv->capacity > 0 ? 2 * csv->capacity : FIRST_KNOTS;
         struct knot *knots = realloc(list->knots, (size_t)capacity * sizeof *knots);

@@ -4,6 +4,7 @@
 #include "base/path.h"
 #include "scene/load.h"
 #include "scene/reader.h"
+#include <limits.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -105,9 +106,9 @@ static void load_domain(struct reader *reader, const struct value *scene)
     if (!good) return;
     long long samples = ((long long)frames[1] - frames[0]) * document->substeps + 1;
     size_t splines = json_array_size(json_object_get(scene->json, "splines"));
-    if (samples > SCENE_MAX_SAMPLES || samples * (long long)splines > SCENE_MAX_SAMPLES) {
-        reader_fail(reader, &range.at, "expected at most %d samples over all splines, got %zu times %lld",
-                    SCENE_MAX_SAMPLES, splines > 0 ? splines : 1, samples);
+    struct error error;
+    if (!document_check_samples(splines < INT_MAX ? (int)splines : INT_MAX, samples, false, &error)) {
+        reader_fail(reader, &range.at, "expected %s", error.text);
         return;
     }
     document->first_frame = frames[0];

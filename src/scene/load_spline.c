@@ -215,6 +215,16 @@ static void check_loop(struct reader *reader, const struct where *spline_at, con
     }
 }
 
+/// Samples at a limit are held as knots are, so a limited spline costs more.
+static void check_length(struct reader *reader, const struct where *spline_at, const struct spline *spline)
+{
+    struct where at = {.parent = spline_at, .key = parameter_key(PARAMETER_LOW)};
+    struct error error;
+    if (!reader->has_domain || !spline_is_limited(spline)) return;
+    if (!document_check_samples(1, document_samples(reader->document), true, &error))
+        reader_fail(reader, &at, "expected %s", error.text);
+}
+
 static void load_color(struct reader *reader, struct value value, int *color)
 {
     const char *text = json_string_value(value.json);
@@ -245,6 +255,7 @@ static void load_spline(struct reader *reader, struct value object, struct splin
     spline->extra = reader_keep(reader, extra);
     load_color(reader, reader_member(&object, "color"), &spline->color);
     check_loop(reader, &object.at, spline);
+    check_length(reader, &object.at, spline);
     load_knots(reader, &object, spline);
 }
 

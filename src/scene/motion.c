@@ -62,7 +62,6 @@ bool motions_bake(struct evaluation *evaluation, const struct document *document
         if (!param->motion || baked->capacity < count) continue;
         const uint64_t key = key_of(document, param->motion, source);
         if (key == baked->key && param->gain == baked->gain) continue;
-        if (!any) background_halt(evaluation);
         if (key != baked->key) read(baked, document, param->motion, source);
         for (int i = 0; i < count; i++) baked->samples[i] = param->gain * baked->raw[i];
         baked->key = key;

@@ -3,11 +3,6 @@
 #include <math.h>
 #include <string.h>
 
-/// Curves of at least that many samples have extremes: scanning them all takes 1 ms of a frame.
-enum { MANY_SAMPLES = 250000 };
-
-enum { MOST_HELD = 1 << 20 };
-
 void storage_place(wiggly_curve *curve, double *numbers, int samples)
 {
     size_t n = (size_t)samples;
@@ -18,13 +13,6 @@ void storage_place(wiggly_curve *curve, double *numbers, int samples)
                             .omega = numbers + 4 * n,
                             .samples = samples,
                             .mode = WIGGLY_CUBIC};
-}
-
-bool storage_wants_extremes(int samples) { return samples >= MANY_SAMPLES; }
-
-struct extremes storage_extremes(double *marks, int samples)
-{
-    return marks ? (struct extremes){marks, marks + extremes_blocks(samples)} : (struct extremes){0};
 }
 
 /// What the spline follows in a parameter, sample by sample; NULL: a constant, or a motion that is not baked.
@@ -76,10 +64,7 @@ void storage_add_knots(wiggly_desc *desc, const struct document *document, int s
 
 int storage_knot_room(const struct spline *spline, int samples)
 {
-    bool limited =
-        isfinite(spline->parameter[PARAMETER_LOW].value) || isfinite(spline->parameter[PARAMETER_HIGH].value);
-    int held = samples < MOST_HELD ? samples : MOST_HELD;
-    return spline->knot_count + (limited ? held : 0);
+    return spline->knot_count + (spline_is_limited(spline) ? samples : 0);
 }
 
 void storage_flatten(wiggly_curve *curve, const wiggly_desc *desc)

@@ -1,10 +1,8 @@
-/// What evaluate.c and background.c share: the curves' memory, the thread that may be using it, and how a spline is described to
-/// the solver. Private to src/scene.
+/// The curves' memory, and how a spline is described to the solver. Private to src/scene.
 #ifndef SCENE_STORAGE_H
 #define SCENE_STORAGE_H
 
 #include "scene/document.h"
-#include "scene/extremes.h"
 #include "scene/order.h"
 #include "scene/pinned.h"
 
@@ -22,8 +20,6 @@ struct baked {
 struct storage {
     double *numbers; ///< ROWS · N for each spline
     size_t number_capacity;
-    double *marks; ///< of all extremes
-    size_t mark_capacity;
     wiggly_solver *solver;
     int solver_samples, solver_knots;
     wiggly_method method; ///< of the last update
@@ -32,24 +28,14 @@ struct storage {
     bool *solved;
     bool *forced; ///< to be solved whether edited or not: what moves its pinned rigs has changed
     struct order_space space;
-    struct extremes *extremes;
     struct baked *baked;
     int spline_capacity;
-    bool is_new;                   ///< the curves have a new layout, and none is solved
-    unsigned layout;               ///< counts the layouts
-    unsigned threaded_layout;      ///< the last one offered to a thread
-    struct background *background; ///< NULL: no thread
+    bool is_new; ///< the curves have a new layout, and none is solved
     struct pinned pinned;
 };
 
 /// Lays a curve's rows out in ROWS · samples numbers.
 void storage_place(wiggly_curve *curve, double *numbers, int samples);
-
-/// Extremes laid out in 2 · extremes_blocks(samples) marks; NULL: none.
-struct extremes storage_extremes(double *marks, int samples);
-
-/// Whether curves of that many samples have extremes.
-bool storage_wants_extremes(int samples);
 
 /// What is to be solved for one spline, its knots left out; tracks point into `curves`, which has one for each spline,
 /// and into baked motions.
@@ -67,19 +53,5 @@ int storage_knot_room(const struct spline *spline, int samples);
 
 /// A curve at rest, for where there is no solution.
 void storage_flatten(wiggly_curve *curve, const wiggly_desc *desc);
-
-struct evaluation;
-
-/// A spline's curve has changed.
-void storage_curve_changed(struct evaluation *evaluation, int spline);
-
-/// Stops the thread because memory that it uses is about to change; what it was solving stays to be done.
-void background_halt(struct evaluation *evaluation);
-
-/// The same where everything stale is about to be solved anyway.
-void background_forget(struct evaluation *evaluation);
-
-/// NULL is fine.
-void background_destroy(struct background *background);
 
 #endif

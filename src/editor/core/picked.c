@@ -3,7 +3,6 @@
 #include "editor/core/arrange.h"
 #include "editor/core/core.h"
 #include "editor/core/selection.h"
-#include "editor/core/survey.h"
 #include <stdio.h>
 
 /// Knots that cannot be seen are not edited, unless their spline is the one that is worked on.
@@ -18,10 +17,7 @@ bool picked_next(const struct core *core, const struct document *document, struc
     for (; at->spline < document->spline_count; at->spline++, at->knot = -1) {
         const struct spline *spline = &document->splines[at->spline];
         bool open = at->knot >= 0 || is_open(core, document, at->spline);
-        int first, end;
-        survey_selected(core, document, at->spline, &first, &end);
-        if (at->knot < first - 1) at->knot = first - 1;
-        while (open && ++at->knot < end) {
+        while (open && ++at->knot < spline->knot_count) {
             if (selection_has(&core->selection, spline->knots[at->knot].id)) return true;
         }
     }

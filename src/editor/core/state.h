@@ -234,23 +234,6 @@ struct knot_place {
     int spline, knot;
 };
 
-enum { SURVEY_RUNS = 4096 };
-
-/// What was found out of all knots, and when (survey.h).
-struct survey {
-    bool is_made;
-    struct survey_key {
-        unsigned serial; ///< of the document
-        int active;
-        uint64_t selected, edits;
-    } key;
-    struct survey_key values_key;
-    struct knot_place from, to;    ///< the first and the last selected knot; {-1, -1}: there is none
-    unsigned only;                 ///< id of the selected knot where it is one, else 0
-    int run;                       ///< knots of the active spline in each run
-    double values[SURVEY_RUNS][2]; ///< the lowest and highest of each run, as of values_key
-};
-
 struct core {
     struct layout layout;
     float scale;
@@ -260,7 +243,6 @@ struct core {
     unsigned active_id;               ///< its id, by which it is found again when the list has changed
     unsigned recent[CORE_MAX_RECENT]; ///< ids of those that were active before, the last one first
     struct selection selection;
-    struct survey survey;
     struct selection hidden, solo; ///< splines, by their ids
     unsigned visibility;           ///< grows whenever these change
     double visible;                ///< the height of the values that the curves show

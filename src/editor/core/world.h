@@ -5,7 +5,6 @@
 #include "base/path.h"
 #include "rig/models.h"
 #include "rig/posing.h"
-#include "scene/background.h"
 #include "scene/edit.h"
 #include "scene/evaluate.h"
 #include "ui/drawlist.h"

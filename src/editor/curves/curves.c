@@ -8,7 +8,6 @@
 #include "editor/core/pins.h"
 #include "editor/core/playback.h"
 #include "editor/core/selection.h"
-#include "editor/core/survey.h"
 #include "editor/curves/gestures.h"
 #include "editor/curves/show.h"
 #include "editor/curves/view.h"
@@ -50,10 +49,7 @@ void curves_forget(struct curves *curves)
     curves->cache.other_count = curves->cache.count = 0;
 }
 
-bool curves_wants_frames(const struct curves *curves)
-{
-    return curves->warnings.search.running || follow_moves(curves);
-}
+bool curves_wants_frames(const struct curves *curves) { return follow_moves(curves); }
 
 const char *curves_hint(const struct curves *curves, const struct core *core)
 {
@@ -96,9 +92,7 @@ static void nearest_handle(const struct curves *curves, const struct core *core,
                            const struct spline *spline, float x, float y, struct hover *hover)
 {
     float best = CURVES_HIT_RADIUS;
-    int first, after;
-    survey_selected(core, document, core->active, &first, &after);
-    for (int k = first; k < after; k++) {
+    for (int k = 0; k < spline->knot_count; k++) {
         const struct knot *knot = &spline->knots[k];
         if (!knot->has_slope || !selection_has(&core->selection, knot->id)) continue;
         for (int end = 0; end < 2; end++) {

@@ -2,7 +2,6 @@
 #include "editor/core/arrange.h"
 #include "editor/core/core.h"
 #include "editor/core/selection.h"
-#include "editor/core/survey.h"
 #include "editor/curves/curves.h"
 #include "editor/curves/gestures.h"
 #include "editor/curves/show.h"
@@ -172,10 +171,8 @@ static void show_tick(const struct curves *curves, struct core *core, const stru
 /// The first selected knot of first … end − 1, or `end`.
 static int first_selected(const struct core *core, const struct document *document, int spline, int first, int end)
 {
-    int from, to;
-    survey_selected(core, document, spline, &from, &to);
     const struct knot *knots = document->splines[spline].knots;
-    for (int k = from > first ? from : first; k < to && k < end; k++) {
+    for (int k = first; k < end; k++) {
         if (selection_has(&core->selection, knots[k].id)) return k;
     }
     return end;
@@ -235,7 +232,7 @@ static void show_column(const struct curves *curves, struct core *core, const st
                         int end, float x, uint32_t color)
 {
     double range[2];
-    survey_values(core, document, first, end, range);
+    spline_values(&document->splines[core->active], first, end, range);
     const float xy[] = {x, curves_y(curves, core, range[0]), x, curves_y(curves, core, range[1])};
     if (range[1] > range[0]) drawlist_line(&core->list, xy, 2, 1.5f, theme_fade(color, 0.7f));
 }

@@ -126,20 +126,9 @@ struct warning {
 
 enum { WARNINGS_MAX = 16 };
 
-/// Progress of the search: millions of samples take many frames.
-struct warning_search {
-    bool running;
-    int measured; ///< knots whose heights are in `highest`
-    int next;     ///< knot from whose span it goes on
-    double frequency, bandwidth, highest;
-    struct warning drift; ///< the worst; amount 0: none
-};
-
 struct warnings {
     uint64_t key; ///< of what they were found in
-    int spline;   ///< whose they are
     int count;
-    struct warning_search search;
     struct warning list[WARNINGS_MAX];
 };
 

@@ -3,7 +3,6 @@
 #include "editor/curves/warnings.h"
 #include "base/hash.h"
 #include "editor/core/arrange.h"
-#include <limits.h>
 #include <math.h>
 
 static const double TWO_PI = 6.283185307179586;
@@ -11,11 +10,6 @@ static const double MOST_SWING = 2;      ///< of a span, in heights of its knots
 static const double LEAST_HEIGHT = 0.75; ///< of a span's knots, as a share of the highest: small ones may ring
 static const double MOST_RATE = 0.4;     ///< f·(1 + β) in sample rates; at 0.5 swings alias
 static const double MOST_TURN = 0.3;     ///< β · periods between two knots (Figure 4)
-
-enum {
-    SAMPLES_A_FRAME = 500000, ///< that are looked at in one frame: 1 ms
-    COST_OF_A_KNOT = 50,      ///< in samples: far apart as they are, each is a wait for memory
-};
 
 static void add(struct warnings *found, const struct warning *warning)
 {
@@ -111,67 +105,44 @@ static void find_idle_slope(const struct document *document, const struct spline
 
 /// The worst drift alone is kept: its remedy is the others' too.
 static void find_drift(const struct document *document, const wiggly_curve *curve, const struct span *span,
-                       struct warning_search *search)
+                       double frequency, double bandwidth, struct warning *drift)
 {
-    double periods = search->frequency * span->length * document_step(document);
-    if (search->bandwidth * periods <= MOST_TURN * (1 + 1e-9))
-        return; /* at the limit is within it, rounding or not */
-    if (periods <= search->drift.amount) return;
+    double periods = frequency * span->length * document_step(document);
+    if (bandwidth * periods <= MOST_TURN * (1 + 1e-9)) return; /* at the limit is within it, rounding or not */
+    if (periods <= drift->amount) return;
     int period = curve->samples - 1, middle = span->first + span->length / 2;
     if (middle > period) middle -= period;
-    search->drift = (struct warning){.kind = WARNING_DRIFT,
-                                     .frame = document_frame(document, middle),
-                                     .value = curve->total[middle],
-                                     .from = span->from->frame,
-                                     .to = span->to->frame,
-                                     .amount = periods,
-                                     .limit = search->bandwidth,
-                                     .remedy = floor(1000 * MOST_TURN / periods) / 1000};
-}
-
-/// What concerns the spline as a whole.
-static void begin(const struct document *document, const struct evaluation *evaluation, int of,
-                  struct warnings *found)
-{
-    const struct spline *spline = &document->splines[of];
-    struct warning_search *search = &found->search;
-    found->count = 0;
-    *search = (struct warning_search){0};
-    if (of >= evaluation->count || spline_mode(spline) == WIGGLY_CUBIC || evaluation->cubic) return;
-    search->running = true;
-    search->frequency = frequency_of(evaluation, spline);
-    search->bandwidth = bandwidth_of(spline);
-    find_rate(document, evaluation, spline, found);
-}
-
-/// Goes on with the knots' heights, then with spans, until about that many samples were looked at.
-static void go_on(const struct document *document, const struct evaluation *evaluation, int of, long samples,
-                  struct warnings *found)
-{
-    const struct spline *spline = &document->splines[of];
-    struct warning_search *search = &found->search;
-    for (; search->measured < spline->knot_count && samples > 0; search->measured++, samples -= COST_OF_A_KNOT) {
-        int sample = document_sample(document, spline->knots[search->measured].frame);
-        search->highest = fmax(search->highest, height(&evaluation->curves[of], sample));
-        find_idle_slope(document, spline, search->measured, found);
-    }
-    for (; search->next < spline->knot_count && samples > 0; search->next++) {
-        struct span span;
-        if (!take_span(document, spline, search->next, &span)) continue;
-        find_swing(document, &evaluation->curves[of], &span, search->highest, found);
-        find_drift(document, &evaluation->curves[of], &span, search);
-        samples -= span.length;
-    }
-    if (search->next < spline->knot_count) return;
-    if (search->drift.amount > 0) add(found, &search->drift);
-    search->running = false;
+    *drift = (struct warning){.kind = WARNING_DRIFT,
+                              .frame = document_frame(document, middle),
+                              .value = curve->total[middle],
+                              .from = span->from->frame,
+                              .to = span->to->frame,
+                              .amount = periods,
+                              .limit = bandwidth,
+                              .remedy = floor(1000 * MOST_TURN / periods) / 1000};
 }
 
 void warnings_find(const struct document *document, const struct evaluation *evaluation, int of,
                    struct warnings *found)
 {
-    begin(document, evaluation, of, found);
-    if (found->search.running) go_on(document, evaluation, of, LONG_MAX, found);
+    const struct spline *spline = &document->splines[of];
+    found->count = 0;
+    if (of >= evaluation->count || spline_mode(spline) == WIGGLY_CUBIC || evaluation->cubic) return;
+    const double frequency = frequency_of(evaluation, spline), bandwidth = bandwidth_of(spline);
+    double highest = 0;
+    struct warning drift = {0};
+    find_rate(document, evaluation, spline, found);
+    for (int k = 0; k < spline->knot_count; k++) {
+        highest = fmax(highest, height(&evaluation->curves[of], document_sample(document, spline->knots[k].frame)));
+        find_idle_slope(document, spline, k, found);
+    }
+    for (int k = 0; k < spline->knot_count; k++) {
+        struct span span;
+        if (!take_span(document, spline, k, &span)) continue;
+        find_swing(document, &evaluation->curves[of], &span, highest, found);
+        find_drift(document, &evaluation->curves[of], &span, frequency, bandwidth, &drift);
+    }
+    if (drift.amount > 0) add(found, &drift);
 }
 
 void warnings_update(struct curves *curves, const struct core *core, const struct editor_world *world)
@@ -180,17 +151,11 @@ void warnings_update(struct curves *curves, const struct core *core, const struc
     const struct spline *spline = arrange_seen(core, world);
     const struct evaluation *evaluation = world->evaluation;
     bool solved = spline && evaluation && evaluation->samples == document_samples(world->document);
-    if (solved && evaluation->stale && core->active == warnings->spline)
-        return; // the last ones stay until it is solved
     const uint64_t state[] = {history_revision(world->history), (uint64_t)(core->active + 1), (uint64_t)core->look,
                               solved, evaluation ? evaluation->revision : 0};
     uint64_t key = hash_bytes(HASH_START, state, sizeof state);
-    if (key != warnings->key) {
-        warnings->count = 0;
-        warnings->search.running = false;
-        warnings->key = key;
-        warnings->spline = core->active;
-        if (solved) begin(world->document, evaluation, core->active, warnings);
-    }
-    if (warnings->search.running) go_on(world->document, evaluation, core->active, SAMPLES_A_FRAME, warnings);
+    if (key == warnings->key) return;
+    warnings->count = 0;
+    warnings->key = key;
+    if (solved) warnings_find(world->document, evaluation, core->active, warnings);
 }

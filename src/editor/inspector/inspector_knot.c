@@ -4,7 +4,6 @@
 #include "editor/core/knots.h"
 #include "editor/core/picked.h"
 #include "editor/core/selection.h"
-#include "editor/core/survey.h"
 #include "editor/inspector/inspection.h"
 #include <math.h>
 #include <stddef.h>
@@ -294,7 +293,7 @@ static void build_overview(struct inspection *in, const struct spline *spline)
     char frames[64] = "none", values[64] = "–";
     double range[2];
     if (spline->knot_count > 0) {
-        survey_values(in->core, in->document, 0, spline->knot_count, range);
+        spline_values(spline, 0, spline->knot_count, range);
         const bool one = spline->knot_count == 1;
         snprintf(frames, sizeof frames, one ? "%d, frame %.6g" : "%d, frames %.6g … %.6g", spline->knot_count,
                  spline->knots[0].frame, spline->knots[spline->knot_count - 1].frame);

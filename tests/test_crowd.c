@@ -1,12 +1,10 @@
-/// What frames remember of a document's knots is what a look at all of them says, whatever was edited, undone and selected.
+/// Splines of thousands of knots: which are selected, and how they are drawn.
 #include "editor/core/knots.h"
 #include "editor/core/picked.h"
-#include "editor/core/survey.h"
 #include "five_knots.h"
 #include "inside.h"
 #include "panel_session.h"
 #include "shown.h"
-#include <math.h>
 
 enum { CROWD = 30000 };
 
@@ -30,10 +28,9 @@ static void open_crowd(struct session *s, int knots)
 }
 
 /// By a look at all of them.
-static void assert_true_to(struct session *s)
+static void assert_walked(struct session *s)
 {
     struct core *core = &s->editor->core;
-    const struct spline *active = &s->document->splines[core->active];
     int expected = 0;
     session_frame(s);
     struct knot_place at = PICKED_START;
@@ -48,49 +45,38 @@ static void assert_true_to(struct session *s)
     }
     assert_false(picked_next(core, s->document, &at));
     assert_int_equal(picked_count(core, s->document), expected);
-    for (int i = 0; i < 40 && active->knot_count > 0; i++) {
-        const int first = i * 7919 % active->knot_count;
-        const int end = first + 1 + i * 5171 % (active->knot_count - first);
-        double range[2], low = INFINITY, high = -INFINITY;
-        survey_values(core, s->document, first, end, range);
-        for (int k = first; k < end; k++) {
-            low = fmin(low, active->knots[k].value);
-            high = fmax(high, active->knots[k].value);
-        }
-        assert_true(range[0] == low && range[1] == high);
-    }
 }
 
-static void edits_and_selections_are_seen(void **state)
+static void edits_and_selections_are_found(void **state)
 {
     (void)state;
     struct session s;
     open_crowd(&s, CROWD);
     struct core *core = &s.editor->core;
-    assert_true_to(&s);
+    assert_walked(&s);
     selection_set(&core->selection, spline(&s, 1)->knots[CROWD - 1].id, true);
-    assert_true_to(&s);
+    assert_walked(&s);
     session_key(&s, KEY_UP, 0); // its value
-    assert_true_to(&s);
+    assert_walked(&s);
     selection_set(&core->selection, spline(&s, 1)->knots[100].id, true);
     selection_set(&core->selection, spline(&s, 0)->knots[1].id, true);
-    assert_true_to(&s);
+    assert_walked(&s);
     core_activate(core, &s.world, 0);
-    assert_true_to(&s);
+    assert_walked(&s);
     core_activate(core, &s.world, 1);
     selection_set(&core->selection, spline(&s, 1)->knots[100].id, true);
     core_delete_knots(core, &s.world, 0); // indices move
     assert_true(spline(&s, 1)->knot_count < CROWD);
-    assert_true_to(&s);
+    assert_walked(&s);
     session_key(&s, 'Z', MOD_CTRL);
-    assert_true_to(&s);
+    assert_walked(&s);
     session_key(&s, 'A', MOD_CTRL);
-    assert_true_to(&s);
+    assert_walked(&s);
     session_close(&s);
 }
 
 /// While a knot is dragged past others, and after.
-static void a_drag_is_seen(void **state)
+static void a_drag_is_found(void **state)
 {
     (void)state;
     struct session s;
@@ -98,32 +84,13 @@ static void a_drag_is_seen(void **state)
     session_pull(&s, "knot(many,150)", 5, 5, 2);
     for (int i = 0; i < 30; i++) {
         session_drag(&s, i < 20 ? 7 : -21, i % 2 ? 30 : -28, 1);
-        assert_true_to(&s);
+        assert_walked(&s);
     }
     assert_true(picked_count(&s.editor->core, s.document) == 1);
     session_release(&s, BUTTON_LEFT);
-    assert_true_to(&s);
+    assert_walked(&s);
     session_key(&s, 'Z', MOD_CTRL);
-    assert_true_to(&s);
-    session_close(&s);
-}
-
-/// Before the next picture, too: what an edit finds is what there is.
-static void an_edit_between_pictures_is_seen(void **state)
-{
-    (void)state;
-    struct session s;
-    open_crowd(&s, 100);
-    struct core *core = &s.editor->core;
-    session_frame(&s);
-    struct edit edit = {.kind = EDIT_KNOT_SET, .spline = 1, .knot = spline(&s, 1)->knots[50]};
-    edit.knot.value = 5000;
-    assert_true(core_step(core, &s.world, "Set", 0, &edit));
-    double range[2];
-    survey_values(core, s.document, 0, 100, range);
-    assert_near(range[1], 5000, 0);
-    selection_set(&core->selection, spline(&s, 1)->knots[7].id, true);
-    assert_int_equal(picked_count(core, s.document), 1);
+    assert_walked(&s);
     session_close(&s);
 }
 
@@ -136,7 +103,7 @@ static void a_crowd_is_drawn_as_columns(void **state)
     session_frame(&s);
     const int few = s.editor->core.list.point_count;
     session_close(&s);
-    open_crowd(&s, 4 * CROWD);
+    open_crowd(&s, 3 * CROWD);
     session_frame(&s);
     const int many = s.editor->core.list.point_count;
     assert_true(many < few + few / 4);
@@ -146,9 +113,8 @@ static void a_crowd_is_drawn_as_columns(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(edits_and_selections_are_seen),
-        cmocka_unit_test(a_drag_is_seen),
-        cmocka_unit_test(an_edit_between_pictures_is_seen),
+        cmocka_unit_test(edits_and_selections_are_found),
+        cmocka_unit_test(a_drag_is_found),
         cmocka_unit_test(a_crowd_is_drawn_as_columns),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
