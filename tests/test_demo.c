@@ -65,7 +65,7 @@ static void plays_until(const struct event *event, bool stops)
     demo_open(&b);
     const uint64_t first = scene_now(&b);
     for (int i = 0; i < 9 * 60; i++) blind_frame(&b); // in the middle of a drag
-    assert_int_equal(b.app.table.editor->core.drag.kind, DRAG_BODY);
+    assert_string_equal(b.app.table.editor->core.drag.label, "Move body");
     blind_send(&b, *event);
     blind_frame(&b);
     assert_int_equal(b.app.demo.on, !stops);
@@ -73,7 +73,7 @@ static void plays_until(const struct event *event, bool stops)
         assert_int_equal(scene_now(&b), first);
         assert_true(history_is_saved(b.app.table.history));
         assert_string_equal(caption(&b), "");
-        assert_int_equal(b.app.table.editor->core.drag.kind, DRAG_NONE);
+        assert_null(b.app.table.editor->core.drag.owner);
         blind_frame(&b);
         assert_null(b.app.replay);
     }

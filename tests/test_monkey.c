@@ -215,10 +215,10 @@ static void assert_editor(const struct app *app)
 {
     const struct editor *editor = app->table.editor;
     const struct document *d = app->table.document;
-    bool dragging = editor->core.drag.kind != DRAG_NONE || inspector_is_dragging(editor->inspector);
+    bool dragging = editor->core.drag.owner || inspector_is_dragging(editor->inspector);
     const struct ui *ui = &editor->inspector->ui;
     if (history_is_open(app->table.history) && !dragging) {
-        fail_msg("a step is open, and nothing is dragged: %d %d, %x %d, dialog %d", editor->core.drag.kind,
+        fail_msg("a step is open, and nothing is dragged: %d %d, %x %d, dialog %d", editor->core.drag.owner != NULL,
                  editor->core.drag.moved, ui->held, ui->moved, editor->dialogs->dialog.kind);
     }
     if (d->spline_count == 0) assert_int_equal(editor->core.active, -1);

@@ -40,9 +40,6 @@ static void hear(void *who, const struct editor_world *world, enum news news, in
     case NEWS_ACTIVATED:
         inspector_show_spline(editor->inspector, &editor->core, world->document, spline);
         break;
-    case NEWS_DRAG_MOVES:
-        curves_capture_ghost(editor->curves, &editor->core, world);
-        break;
     case NEWS_EDITED:
         curves_follow(editor->curves, spline);
         break;
@@ -143,7 +140,7 @@ void editor_open(struct editor *editor, const struct editor_world *world)
 {
     const struct document *document = world->document;
     selection_clear(&editor->core.selection);
-    editor->core.drag.kind = DRAG_NONE;
+    editor->core.drag = (struct drag){0};
     editor->core.hover = (struct hover){0};
     curves_open(editor->curves);
     stage_open(editor->stage);
@@ -222,8 +219,8 @@ bool editor_is_playing(const struct editor *editor) { return editor->core.playba
 
 bool editor_wants_frames(const struct editor *editor)
 {
-    return editor->core.playback.playing || editor->core.drag.kind == DRAG_GRAB ||
-           editor->core.drag.kind == DRAG_PAINT || stage_is_moving(editor->stage) ||
+    const struct drag_owner *dragged = editor->core.drag.owner;
+    return editor->core.playback.playing || (dragged && dragged->goes_on) || stage_is_moving(editor->stage) ||
            editor->core.message.seconds_left > 0 || editor->core.unshown || editor->core.nudged_seconds > 0 ||
            presenter_is_sliding(&editor->core) || dialogs_want_frames(editor->dialogs, &editor->core) ||
            curves_wants_frames(editor->curves) || tooltip_waits(&editor->tooltip);
@@ -283,7 +280,7 @@ void editor_offer_recovery(struct editor *editor, const struct recovery_offer *o
 
 bool editor_ask_changed(struct editor *editor, const char *name, bool saving)
 {
-    if (!saving && editor->core.drag.kind != DRAG_NONE) return false;
+    if (!saving && editor->core.drag.owner) return false;
     return dialogs_ask_changed(editor->dialogs, name, saving);
 }
 

@@ -17,45 +17,31 @@
 #include <stdio.h>
 
 /// A divider between the panels follows the pointer.
-static void move_divider(struct editor *editor, const struct event *event)
+static void move_stage_divider(void *room, struct core *core, const struct editor_world *world)
 {
-    enum drag_kind kind = editor->core.drag.kind;
-    if (kind == DRAG_STAGE_DIVIDER || kind == DRAG_INSPECTOR_DIVIDER)
-        core_divider_move(&editor->core, kind, event->x, event->y);
+    (void)room;
+    (void)world;
+    core_divider_move(core, DIVIDER_STAGE, core->drag.x, core->drag.y);
 }
 
-/// Ends the running drag; `keep` false takes everything back.
-static void end_drag(struct editor *editor, const struct editor_world *world, bool keep)
+static void move_inspector_divider(void *room, struct core *core, const struct editor_world *world)
 {
-    curves_drag_end(editor->curves, &editor->core, world, keep);
-    stage_drag_end(editor->stage, &editor->core, world, keep);
-    drag_end(&editor->core, world, keep);
+    (void)room;
+    (void)world;
+    core_divider_move(core, DIVIDER_INSPECTOR, core->drag.x, core->drag.y);
 }
 
-/// A running drag's events go to the panel that began it; true where the event is used up.
-static bool drag_takes(struct editor *editor, const struct editor_world *world, const struct event *event)
-{
-    if (editor->core.drag.kind == DRAG_NONE) return false;
-    if (event->kind == EVENT_POINTER) {
-        if (!drag_move(&editor->core, world, event)) return true;
-        curves_drag_move(editor->curves, &editor->core, world, event);
-        stage_drag_move(editor->stage, &editor->core);
-        move_divider(editor, event);
-        return true;
-    }
-    enum drag_answer answer = curves_drag_event(editor->curves, &editor->core, world, event);
-    if (answer == DRAG_PASSES) answer = stage_drag_event(editor->stage, &editor->core, world, event);
-    if (answer == DRAG_PASSES) answer = drag_event(&editor->core.drag, event);
-    if (answer == DRAG_KEEP || answer == DRAG_TAKE_BACK) end_drag(editor, world, answer == DRAG_KEEP);
-    return answer != DRAG_PASSES;
-}
+static const struct drag_owner divider_drags[] = {
+    [DIVIDER_STAGE] = {.cursor = CURSOR_VERTICAL, .move = move_stage_divider},
+    [DIVIDER_INSPECTOR] = {.cursor = CURSOR_HORIZONTAL, .move = move_inspector_divider},
+};
 
 static void press(struct editor *editor, const struct editor_world *world, const struct event *event)
 {
-    enum drag_kind divider = core_divider_at(&editor->core, event->x, event->y);
+    enum divider divider = core_divider_at(&editor->core, event->x, event->y);
     const enum panel panel = core_panel_at(&editor->core, event->x, event->y);
-    if (divider != DRAG_NONE && event->button == BUTTON_LEFT) {
-        drag_begin(&editor->core, divider, NULL, event);
+    if (divider != DIVIDER_NONE && event->button == BUTTON_LEFT) {
+        drag_begin(&editor->core, &divider_drags[divider], NULL, NULL, event);
     } else if (panel == PANEL_CURVES) {
         curves_press(editor->curves, &editor->core, world, event);
     } else if (panel == PANEL_STAGE) {
@@ -128,7 +114,7 @@ static void note(struct editor *editor, const struct event *event)
 
 void editor_let_go(struct editor *editor, const struct editor_world *world)
 {
-    if (editor->core.drag.kind != DRAG_NONE) end_drag(editor, world, true);
+    drag_end(&editor->core, world, true);
     inspector_let_go(editor->inspector, world);
 }
 
@@ -145,7 +131,7 @@ static void ask(struct editor *editor, const struct editor_world *world)
 static void let_go(struct editor *editor, const struct editor_world *world)
 {
     if (!dialogs_cover(editor->dialogs)) return;
-    if (editor->core.drag.kind != DRAG_NONE) end_drag(editor, world, true);
+    drag_end(&editor->core, world, true);
     editor->core.held_key = 0;
     editor->core.space_down = false;
 }
@@ -168,9 +154,9 @@ void editor_event(struct editor *editor, const struct editor_world *world, const
     dialogs_note(editor->dialogs, event);
     bool used =
         dialogs_event(editor->dialogs, &editor->core, world, event, inspector_is_dragging(editor->inspector)) ||
-        drag_takes(editor, world, event) ||
+        drag_event(&editor->core, world, event) ||
         (!inspector_is_typing(editor->inspector) && presenter_event(&editor->core, event)) ||
-        (editor->core.drag.kind == DRAG_NONE && inspector_event(editor->inspector, &editor->core, world, event));
+        (!editor->core.drag.owner && inspector_event(editor->inspector, &editor->core, world, event));
     if (event->kind == EVENT_KEY && event->action != ACTION_RELEASE) {
         editor->press = (struct press){.used = used, .repeated = event->action == ACTION_REPEAT};
     }
@@ -195,8 +181,8 @@ void editor_advance(struct editor *editor, const struct editor_world *world, dou
     transport_advance(editor->transport, &editor->core, dt);
     tooltip_advance(&editor->tooltip, dt);
     playback_advance(&editor->core, world, dt);
-    curves_drag_apply(editor->curves, &editor->core, world);
-    curves_advance(editor->curves, &editor->core, dt);
+    curves_advance(editor->curves, &editor->core, world, dt);
+    drag_apply(&editor->core, world, dt);
     stage_advance(editor->stage, &editor->core, world, dt);
 }
 
@@ -226,10 +212,10 @@ void editor_pose_alone(struct editor *editor, const struct editor_world *world, 
 /// Finds what the pointer is over now, because things move under it.
 static void update_hover(struct editor *editor, const struct editor_world *world)
 {
-    if (editor->core.drag.kind != DRAG_NONE) return;
+    if (editor->core.drag.owner) return;
     float x = editor->core.pointer_x, y = editor->core.pointer_y;
     editor->core.hover = (struct hover){.kind = HOVER_NONE};
-    if (dialogs_cover(editor->dialogs) || core_divider_at(&editor->core, x, y) != DRAG_NONE) return;
+    if (dialogs_cover(editor->dialogs) || core_divider_at(&editor->core, x, y) != DIVIDER_NONE) return;
     const enum panel panel = core_panel_at(&editor->core, x, y);
     if (panel == PANEL_CURVES) editor->core.hover = curves_hover(editor->curves, &editor->core, world, x, y);
     if (panel == PANEL_STAGE) editor->core.hover = stage_hover(editor->stage, &editor->core, world->document, x, y);
@@ -237,13 +223,13 @@ static void update_hover(struct editor *editor, const struct editor_world *world
 }
 
 /// The grip in the middle of a divider shows that it can be dragged.
-static void show_grip(struct editor *editor, enum drag_kind divider, float x, float y)
+static void show_grip(struct editor *editor, enum divider divider, float x, float y)
 {
     enum { LENGTH = 36, THICKNESS = 3 };
-    const bool across = divider == DRAG_STAGE_DIVIDER;
+    const bool across = divider == DIVIDER_STAGE;
     const float w = across ? LENGTH : THICKNESS, h = across ? THICKNESS : LENGTH;
-    const bool held = editor->core.drag.kind == divider;
-    const bool hot = editor->core.drag.kind == DRAG_NONE &&
+    const bool held = editor->core.drag.owner == &divider_drags[divider];
+    const bool hot = !editor->core.drag.owner &&
                      core_divider_at(&editor->core, editor->core.pointer_x, editor->core.pointer_y) == divider;
     const uint32_t color = held ? theme()->accent : hot ? theme()->text : theme()->text_dim;
     drawlist_rounded(&editor->core.list, (struct rect){roundf(x - w / 2), roundf(y - h / 2), w, h}, THICKNESS / 2.0f,
@@ -254,14 +240,14 @@ static void show_stage_divider(struct editor *editor)
 {
     const struct rect *curves = &editor->core.layout.curves;
     drawlist_rect(&editor->core.list, (struct rect){0, curves->y, curves->w, 1}, theme()->border);
-    if (!editor->core.presenter.on) show_grip(editor, DRAG_STAGE_DIVIDER, curves->w / 2, curves->y + 0.5f);
+    if (!editor->core.presenter.on) show_grip(editor, DIVIDER_STAGE, curves->w / 2, curves->y + 0.5f);
 }
 
 static void show_inspector_divider(struct editor *editor)
 {
     const struct rect *inspector = &editor->core.layout.inspector;
     drawlist_rect(&editor->core.list, (struct rect){inspector->x, 0, 1, inspector->h}, theme()->border);
-    if (!editor->core.presenter.on) show_grip(editor, DRAG_INSPECTOR_DIVIDER, inspector->x + 0.5f, inspector->h / 2);
+    if (!editor->core.presenter.on) show_grip(editor, DIVIDER_INSPECTOR, inspector->x + 0.5f, inspector->h / 2);
 }
 
 /// A control that the pointer is on explains itself; else the one that has the keyboard.
@@ -273,7 +259,7 @@ static void show_tooltip(struct editor *editor, const struct editor_world *world
     const char *text = inspector_hint(editor->inspector);
     if (!text) text = transport_hint(core, world->document);
     if (!text) text = inspector_focus_hint(editor->inspector, &at);
-    if (dialogs_cover(editor->dialogs) || core->drag.kind != DRAG_NONE) text = NULL;
+    if (dialogs_cover(editor->dialogs) || core->drag.owner) text = NULL;
     tooltip_offer(&editor->tooltip, text, core->pointer_x, core->pointer_y, at);
     tooltip_show(&editor->tooltip, core->layout.window, &core->list);
 }
@@ -288,7 +274,7 @@ static void show_panels(struct editor *editor, const struct editor_world *world)
     if (below) show_stage_divider(editor); // below the inspector's menus
     if (side) inspector_show(editor->inspector, &editor->core, world, dialogs_cover(editor->dialogs));
     if (side) show_inspector_divider(editor);
-    if (!hint) hint = curves_hint(editor->curves, &editor->core);
+    if (!hint) hint = editor->core.drag.hint;
     if (below) transport_show(editor->transport, &editor->core, world, hint);
 }
 
@@ -308,25 +294,6 @@ void editor_show(struct editor *editor, const struct editor_world *world)
 
 enum mouse_cursor editor_cursor(const struct editor *editor)
 {
-    static const enum mouse_cursor of_drag[] = {
-        [DRAG_KNOTS] = CURSOR_MOVE,
-        [DRAG_SLOPE] = CURSOR_MOVE,
-        [DRAG_PAN] = CURSOR_MOVE,
-        [DRAG_BOX] = CURSOR_ARROW,
-        [DRAG_SCALE] = CURSOR_MOVE,
-        [DRAG_SCRUB] = CURSOR_HORIZONTAL,
-        [DRAG_RANGE] = CURSOR_HORIZONTAL,
-        [DRAG_STAGE_PAN] = CURSOR_MOVE,
-        [DRAG_GRAB] = CURSOR_HAND,
-        [DRAG_BODY] = CURSOR_MOVE,
-        [DRAG_PAINT] = CURSOR_ARROW,
-        [DRAG_STAGE_DIVIDER] = CURSOR_VERTICAL,
-        [DRAG_INSPECTOR_DIVIDER] = CURSOR_HORIZONTAL,
-        [DRAG_LIMIT] = CURSOR_VERTICAL,
-        [DRAG_PIN] = CURSOR_HAND,
-        [DRAG_PIN_TIME] = CURSOR_HORIZONTAL,
-        [DRAG_FLOOR] = CURSOR_VERTICAL,
-    };
     static const enum mouse_cursor of_hover[] = {
         [HOVER_NONE] = CURSOR_ARROW,    [HOVER_KNOT] = CURSOR_MOVE,        [HOVER_SLOPE] = CURSOR_MOVE,
         [HOVER_CURVE] = CURSOR_HAND,    [HOVER_RULER] = CURSOR_HORIZONTAL, [HOVER_JOINT] = CURSOR_HAND,
@@ -341,9 +308,9 @@ enum mouse_cursor editor_cursor(const struct editor *editor)
         [UI_OVER_NOTHING] = CURSOR_ARROW, [UI_OVER_NUMBER] = CURSOR_HORIZONTAL, [UI_OVER_TEXT] = CURSOR_TEXT};
     enum ui_over over;
     if (dialogs_over(editor->dialogs, &over)) return of_widget[over];
-    if (editor->core.drag.kind != DRAG_NONE) return of_drag[editor->core.drag.kind];
-    enum drag_kind divider = core_divider_at(&editor->core, editor->core.pointer_x, editor->core.pointer_y);
-    if (divider != DRAG_NONE) return of_drag[divider];
+    if (editor->core.drag.owner) return editor->core.drag.owner->cursor;
+    enum divider divider = core_divider_at(&editor->core, editor->core.pointer_x, editor->core.pointer_y);
+    if (divider != DIVIDER_NONE) return divider_drags[divider].cursor;
     if (inspector_over(editor->inspector) != UI_OVER_NOTHING) return of_widget[inspector_over(editor->inspector)];
     if (editor->core.hover.kind == HOVER_CURVE && editor->core.hover.spline == editor->core.active)
         return CURSOR_ARROW;

@@ -57,9 +57,9 @@ void core_reserve(struct core *core, const struct document *document);
 enum panel core_panel_at(const struct core *core, float x, float y);
 /// Rectangles of all panels for the window's size.
 void core_layout(struct core *core);
-/// Which divider is under a point, or DRAG_NONE.
-enum drag_kind core_divider_at(const struct core *core, float x, float y);
+/// Which divider is under a point, or DIVIDER_NONE.
+enum divider core_divider_at(const struct core *core, float x, float y);
 /// Moves a divider to a point.
-void core_divider_move(struct core *core, enum drag_kind kind, float x, float y);
+void core_divider_move(struct core *core, enum divider divider, float x, float y);
 
 #endif

@@ -1,4 +1,4 @@
-/// A drag of the pointer, whichever panel began it: how far it has gone, and its step of the history.
+/// A drag of the pointer: how far it has gone, its step of the history, and when its owner is called.
 #include "editor/core/drag.h"
 #include "editor/core/core.h"
 #include "editor/core/pins.h"
@@ -30,9 +30,11 @@ void drag_toggle_auto_key(struct core *core, const struct editor_world *world, i
                                 : "Auto-key off: dragging a body moves it for the whole shot.");
 }
 
-void drag_begin(struct core *core, enum drag_kind kind, const char *label, const struct event *event)
+void drag_begin(struct core *core, const struct drag_owner *owner, void *room, const char *label,
+                const struct event *event)
 {
-    core->drag = (struct drag){.kind = kind,
+    core->drag = (struct drag){.owner = owner,
+                               .room = room,
                                .label = label,
                                .button = event->button,
                                .x = event->x,
@@ -47,12 +49,16 @@ void drag_start_moving(struct core *core, const struct editor_world *world)
     struct drag *drag = &core->drag;
     if (drag->moved) return;
     drag->moved = true;
-    if (!drag->label) return;
-    history_begin(world->history, drag->label, 0);
-    core_tell(core, world, NEWS_DRAG_MOVES, core->active);
+    if (drag->label) history_begin(world->history, drag->label, 0);
 }
 
-bool drag_move(struct core *core, const struct editor_world *world, const struct event *event)
+void drag_restart(const struct core *core, const struct editor_world *world)
+{
+    if (core->drag.moved && core->drag.label) history_restart(world->history, world->document);
+}
+
+/// Adds up the pointer's way; a press that hardly moves stays a click.
+static void move(struct core *core, const struct editor_world *world, const struct event *event)
 {
     struct drag *drag = &core->drag;
     float dx = event->x - drag->x, dy = event->y - drag->y;
@@ -64,11 +70,66 @@ bool drag_move(struct core *core, const struct editor_world *world, const struct
     drag->moved_y += dy * fine;
     drag->snap = drag_snaps(core, event->mods);
     drag->stale = true;
-    if (!drag->moved) {
-        if (hypotf(event->x - drag->start_x, event->y - drag->start_y) < CLICK_REACH) return false;
-        drag_start_moving(core, world);
+    if (!drag->moved && hypotf(event->x - drag->start_x, event->y - drag->start_y) < CLICK_REACH) return;
+    drag_start_moving(core, world);
+    if (drag->owner->move) drag->owner->move(drag->room, core, world);
+}
+
+/// What the buttons and Esc mean to all drags.
+static enum drag_answer answer_of_all(const struct drag *drag, const struct event *event)
+{
+    if (event->kind == EVENT_BUTTON) {
+        return event->action == ACTION_RELEASE && event->button == drag->button ? DRAG_KEEP : DRAG_USED;
     }
-    return true;
+    bool escape = event->kind == EVENT_KEY && event->action == ACTION_PRESS && event->key == KEY_ESCAPE;
+    return escape ? DRAG_TAKE_BACK : DRAG_PASSES;
+}
+
+bool drag_event(struct core *core, const struct editor_world *world, const struct event *event)
+{
+    struct drag *drag = &core->drag;
+    enum drag_answer answer = DRAG_PASSES;
+    if (!drag->owner) return false;
+    if (event->kind == EVENT_POINTER) {
+        move(core, world, event);
+        return true;
+    }
+    if (drag->owner->event) answer = drag->owner->event(drag->room, core, world, event);
+    if (answer == DRAG_PASSES) answer = answer_of_all(drag, event);
+    if (answer == DRAG_KEEP || answer == DRAG_TAKE_BACK) drag_end(core, world, answer == DRAG_KEEP);
+    return answer != DRAG_PASSES;
+}
+
+void drag_apply(struct core *core, const struct editor_world *world, double dt)
+{
+    struct drag *drag = &core->drag;
+    const struct drag_owner *owner = drag->owner;
+    if (!owner || !owner->apply || !drag->moved || !(drag->stale || owner->goes_on)) return;
+    drag->stale = false;
+    drag->dt = dt;
+    if (!owner->goes_on) drag_restart(core, world);
+    owner->apply(drag->room, core, world);
+}
+
+void drag_end(struct core *core, const struct editor_world *world, bool keep)
+{
+    struct drag *drag = &core->drag;
+    if (!drag->owner) return;
+    if (keep && !drag->owner->goes_on) drag_apply(core, world, 0);
+    if (drag->owner->end) drag->owner->end(drag->room, core, world, keep);
+    if (drag->moved && drag->label) {
+        if (!keep) drag_restart(core, world);
+        if (!keep) selection_drop_from(&core->selection, world->document->next_id);
+        if (!keep && core->pin.id >= world->document->next_id) pins_clear(core);
+        history_end(world->history);
+    }
+    *drag = (struct drag){0};
+}
+
+void drag_show(const void *room, struct core *core, const struct editor_world *world)
+{
+    const struct drag_owner *owner = core->drag.owner;
+    if (owner && owner->show && core->drag.room == room) owner->show(core->drag.room, core, world);
 }
 
 bool drag_lock(struct drag *drag, int key)
@@ -90,25 +151,4 @@ void drag_say_stopped(struct core *core, const char *why)
         core->message.text[0] = 0;
     }
     core->drag.stopped = *why;
-}
-
-enum drag_answer drag_event(const struct drag *drag, const struct event *event)
-{
-    if (event->kind == EVENT_BUTTON) {
-        return event->action == ACTION_RELEASE && event->button == drag->button ? DRAG_KEEP : DRAG_USED;
-    }
-    bool escape = event->kind == EVENT_KEY && event->action == ACTION_PRESS && event->key == KEY_ESCAPE;
-    return escape ? DRAG_TAKE_BACK : DRAG_PASSES;
-}
-
-void drag_end(struct core *core, const struct editor_world *world, bool keep)
-{
-    struct drag *drag = &core->drag;
-    if (drag->moved && drag->label) {
-        if (!keep) history_restart(world->history, world->document);
-        if (!keep) selection_drop_from(&core->selection, world->document->next_id);
-        if (!keep && core->pin.id >= world->document->next_id) pins_clear(core);
-        history_end(world->history);
-    }
-    drag->kind = DRAG_NONE;
 }

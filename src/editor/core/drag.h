@@ -1,4 +1,4 @@
-/// A drag of the pointer: what all kinds have in common. What a kind does is in the room that begins it.
+/// A drag of the pointer. It has an owner, set where it is pressed, and nobody else hears of it.
 #ifndef EDITOR_CORE_DRAG_H
 #define EDITOR_CORE_DRAG_H
 
@@ -7,6 +7,24 @@
 /// What an event means to a running drag.
 enum drag_answer { DRAG_PASSES, DRAG_USED, DRAG_KEEP, DRAG_TAKE_BACK };
 
+/// What a drag does. A function may be NULL; `room` is the panel that began the drag.
+struct drag_owner {
+    enum mouse_cursor cursor;
+    bool goes_on; ///< apply() is called in every frame, and goes on from the edits of the last one
+
+    /// The pointer has moved.
+    void (*move)(void *room, struct core *core, const struct editor_world *world);
+    /// Once in a frame with movements: makes the edits, on the document as it was when the drag began.
+    void (*apply)(void *room, struct core *core, const struct editor_world *world);
+    /// Events but the pointer's; what passes means the same to all drags.
+    enum drag_answer (*event)(void *room, struct core *core, const struct editor_world *world,
+                              const struct event *event);
+    /// Before its step is closed; `keep` false: before its edits are taken back.
+    void (*end)(void *room, struct core *core, const struct editor_world *world, bool keep);
+    /// Draws what only shows while it runs.
+    void (*show)(void *room, struct core *core, const struct editor_world *world);
+};
+
 /// Whether knots go to whole frames: Ctrl turns around what the panel is set to.
 bool drag_snaps(const struct core *core, unsigned mods);
 /// Snapping to frames on, off; Ctrl means the other.
@@ -14,18 +32,23 @@ void drag_toggle_snap(struct core *core, const struct editor_world *world, int u
 /// Whether dragging a body sets knots, on, off.
 void drag_toggle_auto_key(struct core *core, const struct editor_world *world, int unused);
 /// Starts a drag at a press; its history step, called `label` (NULL: it edits nothing), is opened only once the pointer has moved.
-void drag_begin(struct core *core, enum drag_kind kind, const char *label, const struct event *event);
-/// The pointer left the place of the press: this is a drag, not a click. Opens its history step.
+void drag_begin(struct core *core, const struct drag_owner *owner, void *room, const char *label,
+                const struct event *event);
+/// This is a drag, not a click. Opens its history step.
 void drag_start_moving(struct core *core, const struct editor_world *world);
-/// Takes the pointer's way over; true where this is a drag, and no click.
-bool drag_move(struct core *core, const struct editor_world *world, const struct event *event);
+/// Hands an event to the running drag; true where that uses it up.
+bool drag_event(struct core *core, const struct editor_world *world, const struct event *event);
+/// Once a frame, after its events: the running drag makes its edits.
+void drag_apply(struct core *core, const struct editor_world *world, double dt);
+/// Takes the edits back that the drag has made so far.
+void drag_restart(const struct core *core, const struct editor_world *world);
+/// Ends the running drag and its step; `keep` false takes the edits back. Nothing where none runs.
+void drag_end(struct core *core, const struct editor_world *world, bool keep);
+/// Draws what the running drag shows, if this room began it.
+void drag_show(const void *room, struct core *core, const struct editor_world *world);
 /// X and Y: only the frame, only the value may change. false for other keys.
 bool drag_lock(struct drag *drag, int key);
 /// The status line says what stops a drag for as long as that does; "": nothing.
 void drag_say_stopped(struct core *core, const char *why);
-/// What the buttons and Esc mean to all drags.
-enum drag_answer drag_event(const struct drag *drag, const struct event *event);
-/// Ends it and its step; `keep` false takes the edits back.
-void drag_end(struct core *core, const struct editor_world *world, bool keep);
 
 #endif

@@ -40,20 +40,20 @@ enum panel core_panel_at(const struct core *core, float x, float y)
     return rect_contains(l->stage, x, y) ? PANEL_STAGE : PANEL_NONE;
 }
 
-enum drag_kind core_divider_at(const struct core *core, float x, float y)
+enum divider core_divider_at(const struct core *core, float x, float y)
 {
     const struct layout *l = &core->layout;
-    if (core->presenter.on) return DRAG_NONE;
-    if (y < l->status.y && fabsf(x - l->inspector.x) < DIVIDER_REACH) return DRAG_INSPECTOR_DIVIDER;
-    if (x < l->inspector.x && fabsf(y - l->curves.y) < DIVIDER_REACH) return DRAG_STAGE_DIVIDER;
-    return DRAG_NONE;
+    if (core->presenter.on) return DIVIDER_NONE;
+    if (y < l->status.y && fabsf(x - l->inspector.x) < DIVIDER_REACH) return DIVIDER_INSPECTOR;
+    if (x < l->inspector.x && fabsf(y - l->curves.y) < DIVIDER_REACH) return DIVIDER_STAGE;
+    return DIVIDER_NONE;
 }
 
-void core_divider_move(struct core *core, enum drag_kind kind, float x, float y)
+void core_divider_move(struct core *core, enum divider divider, float x, float y)
 {
     struct layout *l = &core->layout;
     float height = fmaxf(l->status.y, 1);
-    if (kind == DRAG_STAGE_DIVIDER) {
+    if (divider == DIVIDER_STAGE) {
         l->stage_share = clamped(y, MIN_STAGE, fmaxf(height - MIN_CURVES, 1)) / height;
     } else {
         l->inspector_width = roundf(clamped(l->window.w - x, MIN_INSPECTOR, MAX_INSPECTOR));

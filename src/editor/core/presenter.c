@@ -48,7 +48,7 @@ void presenter_advance(struct core *core, double dt, bool busy)
 {
     struct presenter *presenter = &core->presenter;
     if (!presenter->on) return;
-    if (!busy && core->drag.kind == DRAG_NONE) {
+    if (!busy && !core->drag.owner) {
         presenter->side_wanted = is_wanted(core, PANEL_INSPECTOR);
         presenter->below_wanted = is_wanted(core, PANEL_CURVES);
     }

@@ -32,6 +32,9 @@ struct presenter {
     float side, below; ///< 0 … 1: how far the inspector is in, and the curves with the status line
 };
 
+/// The edges that change the panels' sizes: above the curves, left of the inspector.
+enum divider { DIVIDER_NONE, DIVIDER_STAGE, DIVIDER_INSPECTOR };
+
 enum panel { PANEL_NONE, PANEL_STAGE, PANEL_CURVES, PANEL_INSPECTOR, PANEL_STATUS };
 
 /// Selected knots of any spline, or splines: one bit an id.
@@ -41,36 +44,19 @@ struct selection {
     uint64_t changes;  ///< grows whenever it may have changed
 };
 
-enum drag_kind {
-    DRAG_NONE,
-    DRAG_KNOTS,
-    DRAG_SLOPE,
-    DRAG_BOX,
-    DRAG_SCALE, ///< begun by S without a button and ended by a click or Enter; or of a handle of the box round the knots
-    DRAG_SCRUB,
-    DRAG_RANGE,
-    DRAG_PAN,
-    DRAG_ORBIT,
-    DRAG_STAGE_PAN,
-    DRAG_GRAB,
-    DRAG_BODY,
-    DRAG_PAINT, ///< a stroke of the brush
-    DRAG_STAGE_DIVIDER,
-    DRAG_INSPECTOR_DIVIDER,
-    DRAG_LIMIT,
-    DRAG_PIN,
-    DRAG_PIN_TIME, ///< on the ruler
-    DRAG_FLOOR,
-};
+struct drag_owner;
 
-/// What all kinds of mouse drags in progress have in common.
+/// The drag of the pointer that is running. Whose it is and what that does: drag.h.
 struct drag {
-    enum drag_kind kind;
-    const char *label; ///< of its step in the history; NULL: it edits nothing
+    const struct drag_owner *owner; ///< NULL: nothing is dragged
+    void *room;                     ///< the panel that began it
+    const char *label;              ///< of its step in the history; NULL: it edits nothing
+    const char *hint;               ///< the status line's sentence while it runs, or NULL
     enum event_button button;
     float x, y; ///< pointer at the last step
     float start_x, start_y;
     double moved_x, moved_y; ///< sum of movements, the fine ones scaled down
+    double dt;               ///< seconds since the last frame
     bool moved;              ///< past the threshold below which a press is a click
     bool lock_x, lock_y;     ///< only the frame, only the value may change
     bool snap;
@@ -157,7 +143,6 @@ enum news {
     NEWS_RENUMBERED, ///< splines have other indices
     NEWS_ACTIVATES,  ///< a spline is about to become the active one
     NEWS_ACTIVATED,  ///< it is
-    NEWS_DRAG_MOVES, ///< a drag is about to edit
     NEWS_EDITED,     ///< a spline was, or where it is -1, its selected knots were; not solved yet
 };
 

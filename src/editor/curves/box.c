@@ -9,15 +9,6 @@
 #include "ui/theme.h"
 #include <math.h>
 
-void box_begin(struct curves *curves, struct core *core, const struct event *event)
-{
-    drag_begin(core, DRAG_BOX, NULL, event);
-    curves->knot_drag = (struct knot_drag){0};
-    bool removes = event->mods & (MOD_CTRL | MOD_ALT);
-    curves->knot_drag.box = removes ? BOX_REMOVE : event->mods & MOD_SHIFT ? BOX_ADD : BOX_REPLACE;
-    selection_copy(&curves->before_box, &core->selection);
-}
-
 static struct rect box_rect(const struct drag *drag)
 {
     return (struct rect){fminf(drag->start_x, drag->x), fminf(drag->start_y, drag->y), fabsf(drag->x - drag->start_x),
@@ -37,8 +28,10 @@ static void take_inside(const struct curves *curves, struct core *core, const st
     }
 }
 
-void box_update(const struct curves *curves, struct core *core, const struct editor_world *world)
+/// Selects what is in the box as it is now.
+static void move(void *room, struct core *core, const struct editor_world *world)
 {
+    const struct curves *curves = room;
     const struct document *document = world->document;
     selection_copy(&core->selection, &curves->before_box);
     if (curves->knot_drag.box == BOX_REPLACE) selection_clear(&core->selection);
@@ -53,18 +46,21 @@ void box_update(const struct curves *curves, struct core *core, const struct edi
     }
 }
 
-void box_end(struct curves *curves, struct core *core, const struct editor_world *world, bool keep)
+/// A press that did not move was a click on empty; `keep` false brings the former selection back.
+static void end(void *room, struct core *core, const struct editor_world *world, bool keep)
 {
+    const struct curves *curves = room;
     if (!keep) selection_copy(&core->selection, &curves->before_box);
     if (keep && !core->drag.moved && curves->knot_drag.box == BOX_REPLACE) selection_clear(&core->selection);
     if (keep) picked_settle(core, world);
 }
 
-void box_show(const struct curves *curves, struct core *core)
+static void show(void *room, struct core *core, const struct editor_world *world)
 {
-    const struct drag *drag = &core->drag;
-    if (drag->kind != DRAG_BOX || !drag->moved) return;
-    const struct rect r = box_rect(drag);
+    const struct curves *curves = room;
+    const struct rect r = box_rect(&core->drag);
+    (void)world;
+    if (!core->drag.moved) return;
     const float outline[] = {r.x, r.y, r.x + r.w, r.y, r.x + r.w, r.y + r.h, r.x, r.y + r.h, r.x, r.y};
     uint32_t color = curves->knot_drag.box == BOX_REMOVE ? theme()->error : theme()->playhead;
     struct rect clip = drawlist_push_clip(&core->list, core->layout.curves);
@@ -72,4 +68,14 @@ void box_show(const struct curves *curves, struct core *core)
     drawlist_rect(&core->list, r, theme_fade(color, 0.08f));
     drawlist_dashed(&core->list, outline, 5, 1, 4, 3, theme_fade(color, 0.7f));
     drawlist_set_clip(&core->list, clip);
+}
+
+void box_begin(struct curves *curves, struct core *core, const struct event *event)
+{
+    static const struct drag_owner owner = {.cursor = CURSOR_ARROW, .move = move, .end = end, .show = show};
+    drag_begin(core, &owner, curves, NULL, event);
+    curves->knot_drag = (struct knot_drag){0};
+    bool removes = event->mods & (MOD_CTRL | MOD_ALT);
+    curves->knot_drag.box = removes ? BOX_REMOVE : event->mods & MOD_SHIFT ? BOX_ADD : BOX_REPLACE;
+    selection_copy(&curves->before_box, &core->selection);
 }

@@ -51,11 +51,6 @@ void curves_forget(struct curves *curves)
 
 bool curves_wants_frames(const struct curves *curves) { return follow_moves(curves); }
 
-const char *curves_hint(const struct curves *curves, const struct core *core)
-{
-    return core->drag.kind == DRAG_SCALE ? curves->scaling.sentence : NULL;
-}
-
 static const float CURVE_REACH = 7, OTHER_REACH = 7, WARNING_REACH = 9;
 static const double ZOOM_STEP = 0.15; ///< of a wheel's notch, as a power of e
 
@@ -201,25 +196,39 @@ static void press_empty(struct curves *curves, struct core *core, const struct e
     box_begin(curves, core, event);
 }
 
-static void press_ruler(const struct curves *curves, struct core *core, const struct editor_world *world,
+static void scrub(void *room, struct core *core, const struct editor_world *world)
+{
+    const double frame = curves_frame(room, core, core->drag.x);
+    playback_seek(core, world->document, core->drag.snap ? round(frame) : frame);
+}
+
+static void pan(void *room, struct core *core, const struct editor_world *world)
+{
+    (void)world;
+    curves_pan(room, core, core->drag.moved_x, core->drag.moved_y);
+}
+
+static void press_ruler(struct curves *curves, struct core *core, const struct editor_world *world,
                         const struct event *event)
 {
+    static const struct drag_owner owner = {.cursor = CURSOR_HORIZONTAL, .move = scrub};
     if (event->mods & MOD_SHIFT) {
-        range_begin(core, event);
+        range_begin(curves, core, event);
         return;
     }
     double frame = curves_frame(curves, core, event->x);
-    drag_begin(core, DRAG_SCRUB, NULL, event);
+    drag_begin(core, &owner, curves, NULL, event);
     playback_seek(core, world->document, drag_snaps(core, event->mods) ? round(frame) : frame);
 }
 
 void curves_press(struct curves *curves, struct core *core, const struct editor_world *world,
                   const struct event *event)
 {
-    bool pan = event->button == BUTTON_MIDDLE || (event->button == BUTTON_LEFT && core->space_down);
-    if (pan) {
+    static const struct drag_owner panning = {.cursor = CURSOR_MOVE, .move = pan};
+    const bool pans = event->button == BUTTON_MIDDLE || (event->button == BUTTON_LEFT && core->space_down);
+    if (pans) {
         core->space_used = core->space_down;
-        drag_begin(core, DRAG_PAN, NULL, event);
+        drag_begin(core, &panning, curves, NULL, event);
         return;
     }
     if (event->button != BUTTON_LEFT) return;

@@ -10,8 +10,6 @@ struct curves;
 struct curves *curves_create(void);
 /// NULL is fine.
 void curves_destroy(struct curves *curves);
-/// Keeps a copy of the active curve to show behind a drag.
-void curves_capture_ghost(struct curves *curves, const struct core *core, const struct editor_world *world);
 /// Lays the dope sheet out, which takes its room from the plot.
 void sheet_update(struct curves *curves, struct core *core, const struct document *document);
 /// Opens or closes the dope sheet.
@@ -37,23 +35,11 @@ bool curves_reserve(struct curves *curves, const struct core *core);
 void curves_forget(struct curves *curves);
 /// Whether a search for warnings goes on, or the view moves.
 bool curves_wants_frames(const struct curves *curves);
-/// A sentence on what is being done, or NULL.
-const char *curves_hint(const struct curves *curves, const struct core *core);
 /// Ends of a knot's slope handle: before (0) or after (1) the knot.
 void curves_handle(const struct curves *curves, const struct core *core, const struct document *document,
                    const struct knot *knot, int end, float xy[2]);
 /// The whole panel into the draw list. The playhead comes last: nothing before it depends on the time shown.
 void curves_show(struct curves *curves, struct core *core, const struct editor_world *world);
-/// Makes the edits of a running drag for where the pointer is now.
-void curves_drag_apply(struct curves *curves, struct core *core, const struct editor_world *world);
-/// The pointer moved in a drag that edits nothing.
-void curves_drag_move(struct curves *curves, struct core *core, const struct editor_world *world,
-                      const struct event *event);
-/// What an event means to a drag that began here.
-enum drag_answer curves_drag_event(struct curves *curves, struct core *core, const struct editor_world *world,
-                                   const struct event *event);
-/// A drag ends: before its step is closed.
-void curves_drag_end(struct curves *curves, struct core *core, const struct editor_world *world, bool keep);
 /// Switches normalisation.
 void curves_toggle_normal(struct curves *curves, struct core *core, const struct editor_world *world);
 /// Another spline becomes active: keeps the picture as it is.
@@ -84,7 +70,7 @@ void curves_follow(struct curves *curves, int spline);
 /// After the solve: where what was edited has left the panel, the view is to widen.
 void follow_edits(struct curves *curves, struct core *core, const struct editor_world *world);
 /// Time passes: the view goes on to where it is to be.
-void curves_advance(struct curves *curves, struct core *core, double dt);
+void curves_advance(struct curves *curves, struct core *core, const struct editor_world *world, double dt);
 /// Moves the view with the pointer, by logical pixels.
 void curves_pan(struct curves *curves, struct core *core, double dx, double dy);
 /// Zooms about a point of the panel; factors below 1 come closer.

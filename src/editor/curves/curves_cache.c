@@ -15,7 +15,7 @@ static uint64_t cache_key(const struct curves *curves, const struct core *core, 
 {
     uint64_t revision[2] = {history_revision(world->history), world->evaluation ? world->evaluation->revision : 0};
     int choice[3] = {core->active, (int)core->look, curves->options.normalise};
-    bool held = curves->options.normalise && core->drag.kind != DRAG_NONE;
+    bool held = curves->options.normalise && core->drag.owner != NULL;
     uint64_t key = hash_bytes(HASH_START, revision, sizeof revision);
     key = hash_bytes(key, choice, sizeof choice);
     key = hash_bytes(key, &held, sizeof held);
@@ -215,9 +215,12 @@ void curves_update(struct curves *curves, struct core *core, const struct editor
     draw_others(curves, core, world);
 }
 
-void curves_capture_ghost(struct curves *curves, const struct core *core, const struct editor_world *world)
+void keep_ghost(struct curves *curves, const struct core *core, const struct editor_world *world)
 {
     struct ghost *ghost = &curves->ghost;
+    const bool was_shown = ghost->is_shown;
+    ghost->is_shown = core->drag.moved && core->drag.label;
+    if (was_shown || !ghost->is_shown) return;
     const struct curve_cache *cache = &curves->cache;
     ghost->count = cache->count;
     ghost->band = cache->band;

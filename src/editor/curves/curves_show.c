@@ -45,8 +45,7 @@ static void show_line(struct core *core, const float *xy, int count, bool band, 
 static void show_ghost(struct curves *curves, struct core *core)
 {
     const struct ghost *ghost = &curves->ghost;
-    const struct drag *drag = &core->drag;
-    if (drag->kind == DRAG_NONE || !drag->moved || !drag->label || ghost->count < 2) return;
+    if (!ghost->is_shown || !core->drag.owner || ghost->count < 2) return;
     float *xy = curves->scratch;
     for (int c = 0; c < ghost->count; c++) {
         xy[2 * c] = curves_x(curves, core, ghost->frame[c]);
@@ -446,17 +445,16 @@ void curves_show(struct curves *curves, struct core *core, const struct editor_w
         show_other_knots(curves, core, world->document, curves->cache.other_spline[i]);
     }
     show_knots(curves, core, world);
-    scale_box_show(curves, core, world->document);
+    if (!core->drag.owner) scale_box_show(curves, core, world->document, true);
     warnings_show(curves, core);
     show_empty(core, world);
     drawlist_set_clip(&core->list, panel);
     sheet_show(curves, core, world->document);
-    box_show(curves, core);
     show_state(curves, core);
     show_labels(curves, core, world);
     show_playhead(curves, core, world->document);
     ruler_pins_show(curves, core, world->document);
-    scale_show(curves, core);
+    drag_show(curves, core, world);
     warnings_show_words(curves, core);
     drawlist_set_clip(&core->list, clip);
 }

@@ -107,29 +107,12 @@ void follow_edits(struct curves *curves, struct core *core, const struct editor_
     *following = (struct following){.moves = moves, .goal = goal};
 }
 
-/// Whether the pointer measures something in the panel, which must hold still then.
-static bool is_measured(enum drag_kind kind)
+void curves_advance(struct curves *curves, struct core *core, const struct editor_world *world, double dt)
 {
-    switch (kind) {
-    case DRAG_KNOTS:
-    case DRAG_SLOPE:
-    case DRAG_BOX:
-    case DRAG_SCALE:
-    case DRAG_SCRUB:
-    case DRAG_RANGE:
-    case DRAG_PAN:
-    case DRAG_LIMIT:
-    case DRAG_PIN_TIME:
-        return true;
-    default:
-        return false;
-    }
-}
-
-void curves_advance(struct curves *curves, struct core *core, double dt)
-{
+    keep_ghost(curves, core, world);
     struct following *following = &curves->following;
-    if (!following->moves || is_measured(core->drag.kind)) return;
+    const bool is_measured = core->drag.owner && core->drag.room == curves; // which must hold still then
+    if (!following->moves || is_measured) return;
     const double share = 1 - exp(-RATE * fmax(dt, 0));
     struct view *view = &curves->view;
     const struct view *goal = &following->goal;

@@ -18,8 +18,6 @@ void limits_hover(const struct curves *curves, const struct core *core, const st
 /// Starts to drag the low limit (0) or the high one (1).
 void limits_begin_drag(struct curves *curves, struct core *core, const struct editor_world *world, int handle,
                        const struct event *event);
-/// Makes the edit for the pointer's present place; knots stay within.
-void limits_apply(const struct curves *curves, struct core *core, const struct editor_world *world);
 /// The active spline's limits, dashed.
 void limits_show(const struct curves *curves, struct core *core, const struct editor_world *world);
 
@@ -29,8 +27,6 @@ struct hover ruler_pins_hover(const struct curves *curves, const struct core *co
 /// Selects it, goes to its frame and starts to drag it.
 void ruler_pins_begin(struct curves *curves, struct core *core, const struct editor_world *world,
                       const struct hover *hover, const struct event *event);
-/// Makes the edit for the pointer's present place; the playhead goes along.
-void ruler_pins_apply(struct curves *curves, struct core *core, const struct editor_world *world);
 /// The marks of all pins.
 void ruler_pins_show(const struct curves *curves, struct core *core, const struct document *document);
 
@@ -51,37 +47,20 @@ bool sheet_wheel(struct curves *curves, struct core *core, const struct event *e
 /// Rows, marks, names, and its switch in the ruler's corner.
 void sheet_show(const struct curves *curves, struct core *core, const struct document *document);
 
-/// Makes the edits for the pointer's present place.
-void scale_apply(struct curves *curves, struct core *core, const struct editor_world *world);
 /// The pivot, the line from it to the pointer, and beside that both factors and what stopped them.
-void scale_show(const struct curves *curves, struct core *core);
+void scale_show(void *room, struct core *core, const struct editor_world *world);
 /// Starts to scale by a handle of the box round the selected knots: about its other side or, with Alt, the equilibrium.
 void scale_begin_handle(struct curves *curves, struct core *core, const struct editor_world *world, int handle,
                         const struct event *event);
 /// The handle at a point.
 void scale_box_hover(const struct curves *curves, const struct core *core, const struct document *document, float x,
                      float y, struct hover *hover);
-/// The box round the selected knots, where there are several.
-void scale_box_show(const struct curves *curves, struct core *core, const struct document *document);
-/// Events while it runs, but the pointer's: axes, pivot, a typed factor, the end.
-enum drag_answer scale_event(struct curves *curves, struct core *core, const struct editor_world *world,
-                             const struct event *event);
-
+/// The box round the selected knots, where there are several, and its handles.
+void scale_box_show(const struct curves *curves, struct core *core, const struct document *document, bool handles);
 /// Starts to select knots of the drawn curves by a box; Shift adds them, Ctrl or Alt removes them.
 void box_begin(struct curves *curves, struct core *core, const struct event *event);
-/// Selects what is in the box as it is now.
-void box_update(const struct curves *curves, struct core *core, const struct editor_world *world);
-/// Ends it: a press that did not move was a click on empty; `keep` false brings the former selection back.
-void box_end(struct curves *curves, struct core *core, const struct editor_world *world, bool keep);
-/// The box while it grows.
-void box_show(const struct curves *curves, struct core *core);
-
 /// Starts to choose the part that is played.
-void range_begin(struct core *core, const struct event *event);
-/// The part goes from where the drag began to the pointer.
-void range_drag(const struct curves *curves, struct core *core, const struct document *document, float x);
-/// A press that did not move plays all again; `keep` false brings the former part back.
-void range_end(struct core *core, bool keep);
+void range_begin(struct curves *curves, struct core *core, const struct event *event);
 /// Marks the part on the ruler; nothing where all is played.
 void range_show_ruler(const struct curves *curves, struct core *core, const struct document *document);
 /// Tints the part in the plot.

@@ -26,7 +26,7 @@ static void collect(const struct curves *curves, struct core *core, const struct
 static void toggle_ripple(struct curves *curves, struct core *core, const struct editor_world *world)
 {
     struct knot_drag *drag = &curves->knot_drag;
-    if (core->drag.moved) history_restart(world->history, world->document);
+    drag_restart(core, world);
     drag->ripple = !drag->ripple;
     drag->free_frames = 0;
     core->drag.stale = true;
@@ -62,28 +62,6 @@ static void shift_limits(const struct curves *curves, const struct originals *or
         if (is_first) *least = fmax(*least, least_frames(curves, document, original));
         *most = fmin(*most, end - original->knot.frame);
     }
-}
-
-void drag_begin_knots(struct curves *curves, struct core *core, const struct editor_world *world, unsigned knot,
-                      const struct event *event)
-{
-    drag_begin(core, DRAG_KNOTS, NULL, event);
-    core->drag.knot = knot;
-    curves->knot_drag = (struct knot_drag){0};
-    collect(curves, core, world->document);
-}
-
-void drag_begin_slope(struct curves *curves, struct core *core, const struct editor_world *world, unsigned knot,
-                      int handle, const struct event *event)
-{
-    const struct spline *spline = core_active_spline(core, world);
-    assert(spline && core->originals.capacity > 0);
-    drag_begin(core, DRAG_SLOPE, "Change slope", event);
-    core->drag.knot = knot;
-    curves->knot_drag = (struct knot_drag){.handle = handle};
-    core->originals.list[0] =
-        (struct original){.spline = core->active, .knot = spline->knots[spline_find_id(spline, knot)]};
-    core->originals.count = 1;
 }
 
 /// The shift in frames that the pointer asks for: whole frames for the knot that is held, inside the range for all; `why` it is
@@ -133,10 +111,10 @@ static bool move_knots(const struct curves *curves, const struct core *core, con
     return true;
 }
 
-static void apply_knots(struct curves *curves, struct core *core, const struct editor_world *world)
+static void apply_knots(void *of, struct core *core, const struct editor_world *world)
 {
+    struct curves *curves = of;
     const struct drag *drag = &core->drag;
-    history_restart(world->history, world->document);
     if (core->originals.count == 0) return;
     char why[STOPPED_SIZE] = "";
     double frames = wanted_frames(curves, core, world->document, why), stopped = 0;
@@ -147,7 +125,7 @@ static void apply_knots(struct curves *curves, struct core *core, const struct e
         frames = curves->knot_drag.free_frames;
     }
     if (!move_knots(curves, core, world, frames, up, why)) {
-        history_restart(world->history, world->document);
+        drag_restart(core, world);
         frames = curves->knot_drag.free_frames;
         move_knots(curves, core, world, frames, up, why);
     }
@@ -156,8 +134,9 @@ static void apply_knots(struct curves *curves, struct core *core, const struct e
 }
 
 /// The slope that lets the held end of the handle point at the pointer; pulled out or pushed in, also the stiffness.
-static void apply_slope(const struct curves *curves, struct core *core, const struct editor_world *world)
+static void apply_slope(void *of, struct core *core, const struct editor_world *world)
 {
+    const struct curves *curves = of;
     const struct drag *drag = &core->drag;
     const struct knot *knot = &core->originals.list[0].knot;
     float end[2];
@@ -175,59 +154,58 @@ static void apply_slope(const struct curves *curves, struct core *core, const st
     if (fabs(longer) > LENGTH_SLACK) {
         edit.knot.stiffness = handle_stiffness(length + longer - copysign(LENGTH_SLACK, longer));
     }
-    history_restart(world->history, world->document);
     core_edit(core, world, &edit);
 }
 
-/// The click on a knot that was selected already selects it alone.
-static void end_click(const struct curves *curves, struct core *core)
+static enum drag_answer knots_event(void *room, struct core *core, const struct editor_world *world,
+                                    const struct event *event)
 {
-    if (!curves->knot_drag.collapse) return;
-    selection_clear(&core->selection);
-    selection_set(&core->selection, core->drag.knot, true);
+    bool key = event->kind == EVENT_KEY && event->action == ACTION_PRESS && !(event->mods & (MOD_CTRL | MOD_ALT));
+    if (!key) return DRAG_PASSES;
+    if (event->key == 'R') toggle_ripple(room, core, world);
+    return event->key == 'R' || drag_lock(&core->drag, event->key) ? DRAG_USED : DRAG_PASSES;
 }
 
-void curves_drag_apply(struct curves *curves, struct core *core, const struct editor_world *world)
+/// What was dragged comes into sight. The click on a knot that was selected already selects it alone.
+static void end_knots(void *room, struct core *core, const struct editor_world *world, bool keep)
 {
-    struct drag *drag = &core->drag;
-    if (!drag->stale || !drag->moved) return;
-    drag->stale = false;
-    if (drag->kind == DRAG_KNOTS) apply_knots(curves, core, world);
-    if (drag->kind == DRAG_SLOPE) apply_slope(curves, core, world);
-    if (drag->kind == DRAG_SCALE) scale_apply(curves, core, world);
-    if (drag->kind == DRAG_LIMIT) limits_apply(curves, core, world);
-    if (drag->kind == DRAG_PIN_TIME) ruler_pins_apply(curves, core, world);
+    struct curves *curves = room;
+    (void)world;
+    if (!keep) return;
+    if (core->drag.moved) {
+        curves_follow(curves, -1);
+    } else if (curves->knot_drag.collapse) {
+        selection_clear(&core->selection);
+        selection_set(&core->selection, core->drag.knot, true);
+    }
 }
 
-void curves_drag_move(struct curves *curves, struct core *core, const struct editor_world *world,
+static void show_knots(void *room, struct core *core, const struct editor_world *world)
+{
+    scale_box_show(room, core, world->document, false);
+}
+
+void drag_begin_knots(struct curves *curves, struct core *core, const struct editor_world *world, unsigned knot,
                       const struct event *event)
 {
-    const struct drag *drag = &core->drag;
-    double frame = curves_frame(curves, core, event->x);
-    if (drag->kind == DRAG_PAN) curves_pan(curves, core, drag->moved_x, drag->moved_y);
-    if (drag->kind == DRAG_SCRUB) playback_seek(core, world->document, drag->snap ? round(frame) : frame);
-    if (drag->kind == DRAG_RANGE) range_drag(curves, core, world->document, event->x);
-    if (drag->kind == DRAG_BOX) box_update(curves, core, world);
+    static const struct drag_owner owner = {
+        .cursor = CURSOR_MOVE, .apply = apply_knots, .event = knots_event, .end = end_knots, .show = show_knots};
+    drag_begin(core, &owner, curves, NULL, event);
+    core->drag.knot = knot;
+    curves->knot_drag = (struct knot_drag){0};
+    collect(curves, core, world->document);
 }
 
-enum drag_answer curves_drag_event(struct curves *curves, struct core *core, const struct editor_world *world,
-                                   const struct event *event)
+void drag_begin_slope(struct curves *curves, struct core *core, const struct editor_world *world, unsigned knot,
+                      int handle, const struct event *event)
 {
-    struct drag *drag = &core->drag;
-    if (drag->kind == DRAG_SCALE) return scale_event(curves, core, world, event);
-    bool key = event->kind == EVENT_KEY && event->action == ACTION_PRESS && !(event->mods & (MOD_CTRL | MOD_ALT));
-    if (drag->kind != DRAG_KNOTS || !key) return DRAG_PASSES;
-    if (event->key == 'R') toggle_ripple(curves, core, world);
-    return event->key == 'R' || drag_lock(drag, event->key) ? DRAG_USED : DRAG_PASSES;
-}
-
-void curves_drag_end(struct curves *curves, struct core *core, const struct editor_world *world, bool keep)
-{
-    const struct drag *drag = &core->drag;
-    const bool edits = drag->kind == DRAG_KNOTS || drag->kind == DRAG_SLOPE || drag->kind == DRAG_SCALE;
-    if (keep) curves_drag_apply(curves, core, world);
-    if (keep && edits && drag->moved) curves_follow(curves, -1);
-    if (drag->kind == DRAG_KNOTS && !drag->moved && keep) end_click(curves, core);
-    if (drag->kind == DRAG_RANGE) range_end(core, keep);
-    if (drag->kind == DRAG_BOX) box_end(curves, core, world, keep);
+    static const struct drag_owner owner = {.cursor = CURSOR_MOVE, .apply = apply_slope, .end = end_knots};
+    const struct spline *spline = core_active_spline(core, world);
+    assert(spline && core->originals.capacity > 0);
+    drag_begin(core, &owner, curves, "Change slope", event);
+    core->drag.knot = knot;
+    curves->knot_drag = (struct knot_drag){.handle = handle};
+    core->originals.list[0] =
+        (struct original){.spline = core->active, .knot = spline->knots[spline_find_id(spline, knot)]};
+    core->originals.count = 1;
 }

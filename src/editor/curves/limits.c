@@ -26,16 +26,10 @@ void limits_hover(const struct curves *curves, const struct core *core, const st
     }
 }
 
-void limits_begin_drag(struct curves *curves, struct core *core, const struct editor_world *world, int handle,
-                       const struct event *event)
+/// The limit goes where the pointer is; knots stay within.
+static void apply(void *room, struct core *core, const struct editor_world *world)
 {
-    const struct spline *spline = core_active_spline(core, world);
-    drag_begin(core, DRAG_LIMIT, parameter_rows[limit_of(handle)].undo, event);
-    curves->limit_drag = (struct limit_drag){handle, spline->parameter[limit_of(handle)].value};
-}
-
-void limits_apply(const struct curves *curves, struct core *core, const struct editor_world *world)
-{
+    const struct curves *curves = room;
     const struct limit_drag *drag = &curves->limit_drag;
     const struct spline *spline = core_active_spline(core, world);
     double by = -core->drag.moved_y / curves_pixels_per_value(curves, core);
@@ -47,8 +41,17 @@ void limits_apply(const struct curves *curves, struct core *core, const struct e
     }
     if (drag->handle ? value <= other : value >= other) return; // without knots: they do not pass each other
     struct edit edit = core_parameter_edit(core->active, limit_of(drag->handle), value);
-    history_restart(world->history, world->document);
     core_edit(core, world, &edit);
+}
+
+void limits_begin_drag(struct curves *curves, struct core *core, const struct editor_world *world, int handle,
+                       const struct event *event)
+{
+    static const struct drag_owner owner = {.cursor = CURSOR_VERTICAL, .apply = apply};
+    const struct spline *spline = core_active_spline(core, world);
+    drag_begin(core, &owner, curves, parameter_rows[limit_of(handle)].undo, event);
+    core->hover = (struct hover){.kind = HOVER_LIMIT, .spline = core->active, .handle = handle};
+    curves->limit_drag = (struct limit_drag){handle, spline->parameter[limit_of(handle)].value};
 }
 
 void limits_show(const struct curves *curves, struct core *core, const struct editor_world *world)
@@ -59,8 +62,7 @@ void limits_show(const struct curves *curves, struct core *core, const struct ed
     for (int i = 0; i < 2; i++) {
         double value = spline->parameter[limit_of(i)].value;
         if (!isfinite(value)) continue;
-        bool held = core->drag.kind == DRAG_LIMIT && curves->limit_drag.handle == i;
-        bool hot = held || (core->hover.kind == HOVER_LIMIT && core->hover.handle == i);
+        const bool hot = core->hover.kind == HOVER_LIMIT && core->hover.handle == i;
         float y = curves_y(curves, core, value);
         const float line[2][2] = {{plot->x, y}, {plot->x + plot->w, y}};
         drawlist_dashed(&core->list, &line[0][0], 2, hot ? 2 : 1.25f, 10, 6,

@@ -33,7 +33,7 @@ void normal_update(struct curves *curves, const struct core *core, const struct 
 {
     struct curve_cache *cache = &curves->cache;
     const struct evaluation *evaluation = world->evaluation;
-    if (!curves->options.normalise || core->drag.kind != DRAG_NONE || !evaluation) return;
+    if (!curves->options.normalise || core->drag.owner || !evaluation) return;
     cache->range_count = evaluation->count < CURVES_MAX_RANGES ? evaluation->count : CURVES_MAX_RANGES;
     for (int s = 0; s < cache->range_count; s++) {
         for (int highest = 0; highest < 2; highest++) {

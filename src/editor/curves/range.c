@@ -8,25 +8,21 @@
 #include "ui/theme.h"
 #include <math.h>
 
-void range_begin(struct core *core, const struct event *event)
+/// The part goes from where the drag began to the pointer.
+static void move(void *room, struct core *core, const struct editor_world *world)
 {
-    struct playback *playback = &core->playback;
-    drag_begin(core, DRAG_RANGE, NULL, event);
-    playback->had_range = playback->has_range;
-    playback->old_range[0] = playback->range[0];
-    playback->old_range[1] = playback->range[1];
+    const double from = round(curves_frame(room, core, core->drag.start_x));
+    const double to = round(curves_frame(room, core, core->drag.x));
+    playback_choose(core, world->document, fmin(from, to), fmax(from, to));
+    playback_say_range(core, world->document);
 }
 
-void range_drag(const struct curves *curves, struct core *core, const struct document *document, float x)
-{
-    double from = round(curves_frame(curves, core, core->drag.start_x)), to = round(curves_frame(curves, core, x));
-    playback_choose(core, document, fmin(from, to), fmax(from, to));
-    playback_say_range(core, document);
-}
-
-void range_end(struct core *core, bool keep)
+/// A press that did not move plays all again; `keep` false brings the former part back.
+static void end(void *room, struct core *core, const struct editor_world *world, bool keep)
 {
     struct playback *playback = &core->playback;
+    (void)room;
+    (void)world;
     if (!keep) {
         playback->has_range = playback->had_range;
         playback->range[0] = playback->old_range[0];
@@ -35,6 +31,16 @@ void range_end(struct core *core, bool keep)
         playback->has_range = false;
         core_message(core, false, "Playing the whole scene.");
     }
+}
+
+void range_begin(struct curves *curves, struct core *core, const struct event *event)
+{
+    static const struct drag_owner owner = {.cursor = CURSOR_HORIZONTAL, .move = move, .end = end};
+    struct playback *playback = &core->playback;
+    drag_begin(core, &owner, curves, NULL, event);
+    playback->had_range = playback->has_range;
+    playback->old_range[0] = playback->range[0];
+    playback->old_range[1] = playback->range[1];
 }
 
 /// Where the part lies on the screen.

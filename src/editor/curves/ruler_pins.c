@@ -45,25 +45,13 @@ struct hover ruler_pins_hover(const struct curves *curves, const struct core *co
     return hover;
 }
 
-void ruler_pins_begin(struct curves *curves, struct core *core, const struct editor_world *world,
-                      const struct hover *hover, const struct event *event)
+/// The pin goes to the pointer's frame, and the playhead goes along.
+static void apply(void *room, struct core *core, const struct editor_world *world)
 {
-    const struct document *document = world->document;
-    const struct rig *rig = &document->rigs[hover->rig];
-    const int at = pins_find_id(rig, hover->pin);
-    if (at < 0) return;
-    drag_begin(core, DRAG_PIN_TIME, "Move pin in time", event);
-    curves->pin_drag = (struct pin_time_drag){.id = hover->pin, .frame = rig->pins[at].frame};
-    curves->pin_drag.free_frame = curves->pin_drag.frame;
-    pins_visit(core, document, &rig->pins[at]);
-}
-
-void ruler_pins_apply(struct curves *curves, struct core *core, const struct editor_world *world)
-{
+    struct curves *curves = room;
     struct pin_time_drag *drag = &curves->pin_drag;
     const struct document *document = world->document;
     int rig;
-    history_restart(world->history, world->document);
     const struct pin *pin = pins_selected(core, document, &rig);
     if (!pin || pin->id != drag->id) return;
     struct pin moved = *pin;
@@ -79,6 +67,20 @@ void ruler_pins_apply(struct curves *curves, struct core *core, const struct edi
     if (!core_edit(core, world, &edit)) return;
     playback_seek(core, document, moved.frame);
     pins_tell(core, world, rig);
+}
+
+void ruler_pins_begin(struct curves *curves, struct core *core, const struct editor_world *world,
+                      const struct hover *hover, const struct event *event)
+{
+    static const struct drag_owner owner = {.cursor = CURSOR_HORIZONTAL, .apply = apply};
+    const struct document *document = world->document;
+    const struct rig *rig = &document->rigs[hover->rig];
+    const int at = pins_find_id(rig, hover->pin);
+    if (at < 0) return;
+    drag_begin(core, &owner, curves, "Move pin in time", event);
+    curves->pin_drag = (struct pin_time_drag){.id = hover->pin, .frame = rig->pins[at].frame};
+    curves->pin_drag.free_frame = curves->pin_drag.frame;
+    pins_visit(core, document, &rig->pins[at]);
 }
 
 void ruler_pins_show(const struct curves *curves, struct core *core, const struct document *document)

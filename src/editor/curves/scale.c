@@ -115,42 +115,6 @@ static void say(struct curves *curves, const struct core *core)
              pivot_name(scaling, scaling->pivot), pivot_name(scaling, next_pivot(scaling)), keys);
 }
 
-/// The drag has begun: about what, and by which handle of the box (-1: none).
-static void begin(struct curves *curves, struct core *core, const struct editor_world *world, enum pivot pivot,
-                  int handle)
-{
-    curves->scaling = (struct scaling){.pivot = pivot, .handle = handle, .by = {1, 1}, .free_time = 1};
-    core->message.text[0] = 0;
-    core->hover = (struct hover){.kind = HOVER_NONE};
-    note_equilibria(curves, core, world);
-    place_pivot(curves, core);
-    say(curves, core);
-}
-
-void curves_scale(struct curves *curves, struct core *core, const struct editor_world *world, bool about_equilibrium)
-{
-    core_collect(core, world->document, false);
-    if (core->originals.count == 0) {
-        core_message(core, false, "Select the knots to scale first.");
-        return;
-    }
-    const struct event event = {.button = BUTTON_LEFT, .x = core->pointer_x, .y = core->pointer_y};
-    drag_begin(core, DRAG_SCALE, "Scale knots", &event);
-    core->drag.lock_y = about_equilibrium;
-    const enum pivot pivot = core->originals.count == 1 ? PIVOT_PLAYHEAD : PIVOT_MIDDLE;
-    begin(curves, core, world, about_equilibrium ? PIVOT_EQUILIBRIUM : pivot, -1);
-}
-
-void scale_begin_handle(struct curves *curves, struct core *core, const struct editor_world *world, int handle,
-                        const struct event *event)
-{
-    core_collect(core, world->document, false);
-    drag_begin(core, DRAG_SCALE, "Scale knots", event);
-    core->drag.lock_x = box_row(handle) == 0;
-    core->drag.lock_y = box_column(handle) == 0;
-    begin(curves, core, world, event->mods & MOD_ALT ? PIVOT_EQUILIBRIUM : PIVOT_SIDE, handle);
-}
-
 /// How many times further from the pivot the pointer is than when scaling began, along one axis.
 static double along(double pivot, double start, double now)
 {
@@ -285,7 +249,7 @@ static void move_all(struct curves *curves, struct core *core, const struct edit
         edit.knot = scaled(curves, core, world->document, &originals->list[i]);
         changes |= edit.knot.value != originals->list[i].knot.value;
         if (core_edit(core, world, &edit)) continue;
-        history_restart(world->history, world->document);
+        drag_restart(core, world);
         return;
     }
     if (!scaling->stopped[1][0] && !changes && scaling->by.value != 1)
@@ -293,10 +257,10 @@ static void move_all(struct curves *curves, struct core *core, const struct edit
                  pivot_name(scaling, scaling->pivot));
 }
 
-void scale_apply(struct curves *curves, struct core *core, const struct editor_world *world)
+static void apply(void *room, struct core *core, const struct editor_world *world)
 {
+    struct curves *curves = room;
     struct scaling *scaling = &curves->scaling;
-    history_restart(world->history, world->document);
     scaling->by = wanted(curves, core);
     scaling->by.time = free_time(curves, core, world->document, scaling->by.time);
     move_all(curves, core, world);
@@ -337,7 +301,7 @@ static enum drag_answer press_key(struct curves *curves, struct core *core, cons
     if (event->key == KEY_ESCAPE) return DRAG_TAKE_BACK;
     if (event->key == KEY_ENTER) return DRAG_KEEP;
     if (event->key == 'P') {
-        if (core->drag.moved) history_restart(world->history, world->document);
+        drag_restart(core, world);
         scaling->pivot = next_pivot(scaling);
         place_pivot(curves, core);
     } else if (event->key == KEY_BACKSPACE) {
@@ -349,9 +313,11 @@ static enum drag_answer press_key(struct curves *curves, struct core *core, cons
     return DRAG_USED;
 }
 
-enum drag_answer scale_event(struct curves *curves, struct core *core, const struct editor_world *world,
-                             const struct event *event)
+/// Events while it runs, but the pointer's: axes, pivot, a typed factor, the end.
+static enum drag_answer take_event(void *room, struct core *core, const struct editor_world *world,
+                                   const struct event *event)
 {
+    struct curves *curves = room;
     bool press = event->action != ACTION_RELEASE;
     switch (event->kind) {
     case EVENT_BUTTON:
@@ -367,4 +333,53 @@ enum drag_answer scale_event(struct curves *curves, struct core *core, const str
         return event->kind == EVENT_WHEEL ? DRAG_USED
                                           : DRAG_PASSES; /* the factor is measured in pixels: no zooming meanwhile */
     }
+}
+
+/// What was scaled comes into sight.
+static void end(void *room, struct core *core, const struct editor_world *world, bool keep)
+{
+    (void)world;
+    if (keep && core->drag.moved) curves_follow(room, -1);
+}
+
+/// Begun by S without a button and ended by a click or Enter, or of a handle of the box round the knots.
+static const struct drag_owner owner = {
+    .cursor = CURSOR_MOVE, .apply = apply, .event = take_event, .end = end, .show = scale_show};
+
+/// The drag has begun: about what, and by which handle of the box (-1: none).
+static void begin(struct curves *curves, struct core *core, const struct editor_world *world, enum pivot pivot,
+                  int handle)
+{
+    curves->scaling = (struct scaling){.pivot = pivot, .handle = handle, .by = {1, 1}, .free_time = 1};
+    core->message.text[0] = 0;
+    core->hover = (struct hover){.kind = HOVER_NONE};
+    note_equilibria(curves, core, world);
+    place_pivot(curves, core);
+    core->drag.hint = curves->scaling.sentence;
+    say(curves, core);
+}
+
+void curves_scale(struct curves *curves, struct core *core, const struct editor_world *world, bool about_equilibrium)
+{
+    core_collect(core, world->document, false);
+    if (core->originals.count == 0) {
+        core_message(core, false, "Select the knots to scale first.");
+        return;
+    }
+    const struct event event = {.button = BUTTON_LEFT, .x = core->pointer_x, .y = core->pointer_y};
+    drag_begin(core, &owner, curves, "Scale knots", &event);
+    core->drag.lock_y = about_equilibrium;
+    const enum pivot pivot = core->originals.count == 1 ? PIVOT_PLAYHEAD : PIVOT_MIDDLE;
+    begin(curves, core, world, about_equilibrium ? PIVOT_EQUILIBRIUM : pivot, -1);
+}
+
+void scale_begin_handle(struct curves *curves, struct core *core, const struct editor_world *world, int handle,
+                        const struct event *event)
+{
+    core_collect(core, world->document, false);
+    drag_begin(core, &owner, curves, "Scale knots", event);
+    core->drag.lock_x = box_row(handle) == 0;
+    core->drag.lock_y = box_column(handle) == 0;
+    begin(curves, core, world, event->mods & MOD_ALT ? PIVOT_EQUILIBRIUM : PIVOT_SIDE, handle);
+    core->hover = (struct hover){.kind = HOVER_BOX, .spline = core->active, .handle = handle};
 }

@@ -75,25 +75,22 @@ void scale_box_hover(const struct curves *curves, const struct core *core, const
     }
 }
 
-static void show_handle(const struct curves *curves, struct core *core, int handle, const float xy[2])
+static void show_handle(struct core *core, int handle, const float xy[2])
 {
-    const bool held = core->drag.kind == DRAG_SCALE && curves->scaling.handle == handle;
-    const bool hot = held || (core->hover.kind == HOVER_BOX && core->hover.handle == handle);
+    const bool hot = core->hover.kind == HOVER_BOX && core->hover.handle == handle;
     const float size = hot ? HANDLE + 3 : HANDLE;
     const struct rect r = {roundf(xy[0] - size / 2), roundf(xy[1] - size / 2), size, size};
     drawlist_rounded(&core->list, r, 1.5f, hot ? theme()->playhead : theme()->panel);
     drawlist_rounded_line(&core->list, r, 1.5f, 1, theme_fade(theme()->playhead, hot ? 1 : 0.75f));
 }
 
-void scale_box_show(const struct curves *curves, struct core *core, const struct document *document)
+void scale_box_show(const struct curves *curves, struct core *core, const struct document *document, bool handles)
 {
     struct knot_box box;
-    const enum drag_kind drag = core->drag.kind;
-    const bool shown = drag == DRAG_NONE || drag == DRAG_SCALE || drag == DRAG_KNOTS;
-    if (!shown || !find_knot_box(curves, core, document, &box)) return;
+    if (!find_knot_box(curves, core, document, &box)) return;
     drawlist_rounded_line(&core->list, rect_inset(box.area, -0.5f), 0, 1, theme_fade(theme()->playhead, 0.3f));
-    for (int i = 0; i < BOX_HANDLES && drag != DRAG_KNOTS; i++) {
+    for (int i = 0; i < BOX_HANDLES && handles; i++) {
         float xy[2];
-        if (handle_place(&box, i, xy)) show_handle(curves, core, i, xy);
+        if (handle_place(&box, i, xy)) show_handle(core, i, xy);
     }
 }

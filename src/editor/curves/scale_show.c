@@ -59,12 +59,13 @@ static void show_pivot(const struct curves *curves, struct core *core)
     if (!core->drag.lock_x) drawlist_line(&core->list, down, 2, 1.5f, theme()->playhead);
 }
 
-void scale_show(const struct curves *curves, struct core *core)
+void scale_show(void *room, struct core *core, const struct editor_world *world)
 {
+    const struct curves *curves = room;
     const struct scaling *scaling = &curves->scaling;
     struct tag tag = {0};
-    if (core->drag.kind != DRAG_SCALE) return;
     const struct rect clip = drawlist_push_clip(&core->list, core->layout.plot);
+    scale_box_show(curves, core, world->document, true);
     show_pivot(curves, core);
     drawlist_set_clip(&core->list, clip);
     if (!core->drag.lock_y) add_factor(&tag, "time", scaling->by.time, scaling->stopped[0]);

@@ -56,11 +56,11 @@ enum box_mode { BOX_REPLACE, BOX_ADD, BOX_REMOVE };
 /// What a drag of knots, slopes or a box has besides what all drags have.
 struct knot_drag {
     double free_frames; ///< last shift by which no knot was hit
-    int handle;         ///< DRAG_SLOPE: which end, as in curves_handle()
+    int handle;         ///< of a slope: which end, as in curves_handle()
     bool collapse;      ///< a click on a selected knot selects it alone, a drag moves all
-    enum box_mode box;  ///< DRAG_BOX
-    bool in_sheet;      ///< the same: around marks of the dope sheet
-    bool ripple;        ///< DRAG_KNOTS: what comes after the first moved knot of a spline moves along in time
+    enum box_mode box;
+    bool in_sheet; ///< the box is around marks of the dope sheet
+    bool ripple;   ///< what comes after the first moved knot of a spline moves along in time
 };
 
 /// A drag of a limit.
@@ -93,7 +93,7 @@ struct factors {
     double time, value;
 };
 
-/// Scaling of the selected knots (DRAG_SCALE), about a frame and a value.
+/// Scaling of the selected knots, about a frame and a value.
 struct scaling {
     enum pivot pivot;
     int handle;                     ///< of the box round the knots, in the hand; -1: begun by S
@@ -152,6 +152,7 @@ struct curve_cache {
 
 /// The active curve as it was before a drag, in frames and values so that it survives a change of the view.
 struct ghost {
+    bool is_shown; ///< the drag edits
     int count;
     bool band;
     double frame[EDITOR_MAX_COLUMNS], value[EDITOR_MAX_COLUMNS];

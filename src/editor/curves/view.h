@@ -30,6 +30,8 @@ void normal_update(struct curves *curves, const struct core *core, const struct 
 
 /// Rebuilds the polylines where document, view or layout changed since; allocates nothing.
 void curves_update(struct curves *curves, struct core *core, const struct editor_world *world);
+/// Before a drag makes its first edits: keeps a copy of the active curve to show behind it.
+void keep_ghost(struct curves *curves, const struct core *core, const struct editor_world *world);
 /// Where a knot is across the panel, logical pixels: on its sample.
 float curves_knot_x(const struct curves *curves, const struct core *core, const struct document *document,
                     const struct knot *knot);

@@ -126,7 +126,7 @@ void bones_show(const struct stage *stage, struct core *core, const struct edito
     const struct imported *chosen = showing.chosen >= 0 ? bones_character(world, showing.chosen_model) : NULL;
     if (chosen) showing.tip = chain_end(&chosen->gltf, showing.chosen, NULL);
     const bool on_chain = hover->kind == HOVER_JOINT && world->document->rigs[hover->rig].kind == RIG_CHAIN;
-    if (core->drag.kind == DRAG_NONE && (hover->kind == HOVER_BONE || on_chain)) {
+    if (!core->drag.owner && (hover->kind == HOVER_BONE || on_chain)) {
         showing.meant_model = hover->model;
         showing.meant = hover->node;
     }

@@ -93,31 +93,6 @@ const char *brush_label(enum brush_mode stroke)
     return labels[stroke];
 }
 
-bool brush_press(struct stage *stage, struct core *core, const struct editor_world *world, const struct event *event)
-{
-    const struct brush *brush = &core->brush;
-    struct painting *painting = &stage->painting;
-    int coordinate;
-    if (!brush->on || event->button != BUTTON_LEFT || history_is_open(world->history)) return false;
-    const struct figure *figure = pose_figure(stage, core, world, &coordinate);
-    if (!figure || !skin_spot(stage, figure, event->x, event->y, &painting->spot)) return false;
-    const struct paint *paint = characters_selected(core, world)->painted;
-    if (paint && !models_paint_fits(paint, figure)) {
-        core_message(core, true, "The paint in this scene belongs to another model. Remove it first.");
-        return true;
-    }
-    drag_begin(core, DRAG_PAINT, NULL, event);
-    painting->stroke = brush_stroke(brush, event->mods);
-    painting->x = event->x;
-    painting->y = event->y;
-    painting->has_dabbed = false;
-    memset(painting->work.spent, 0, (size_t)painting->work.capacity * sizeof *painting->work.spent);
-    history_begin(world->history, brush_label(painting->stroke), 0);
-    const struct edit blank = characters_blank_paint(core, world, figure);
-    if (!paint) core_edit(core, world, &blank);
-    return true;
-}
-
 /// The spots that the pointer went over since the last frame; those off the character are left out.
 static int find_way(const struct stage *stage, const struct core *core, const struct figure *figure,
                     struct surface_spot spots[REACH_MAX_SPOTS])
@@ -135,13 +110,14 @@ static int find_way(const struct stage *stage, const struct core *core, const st
     return count;
 }
 
-void brush_advance(struct stage *stage, struct core *core, const struct editor_world *world, double dt)
+/// Goes on with the stroke for drag.dt seconds.
+static void apply(void *room, struct core *core, const struct editor_world *world)
 {
+    struct stage *stage = room;
     const struct brush *brush = &core->brush;
     struct painting *painting = &stage->painting;
     struct surface_spot spots[REACH_MAX_SPOTS];
     int coordinate;
-    if (core->drag.kind != DRAG_PAINT) return;
     const struct figure *figure = pose_figure(stage, core, world, &coordinate);
     const struct paint *paint = figure ? characters_selected(core, world)->painted : NULL;
     if (!paint || !models_paint_fits(paint, figure)) return;
@@ -151,18 +127,48 @@ void brush_advance(struct stage *stage, struct core *core, const struct editor_w
     painting->has_dabbed = true;
     if (count == 0) return;
     reach_find(&painting->work.reach, figure, spots, count, brush_radius_of(brush, figure));
-    const struct dab dab =
-        brush_dab(painting, paint, figure, coordinate, brush_radius_of(brush, figure), brush->strength * dt);
+    const struct dab dab = brush_dab(painting, paint, figure, coordinate, brush_radius_of(brush, figure),
+                                     brush->strength * core->drag.dt);
     struct edit edit = characters_paint_edit(core, world, EDIT_PAINT);
     edit.dab = &dab;
     core_edit(core, world, &edit);
 }
 
-void brush_end(struct stage *stage, struct core *core, const struct editor_world *world, bool keep)
+static void end(void *room, struct core *core, const struct editor_world *world, bool keep)
 {
-    if (keep && !stage->painting.has_dabbed) brush_advance(stage, core, world, SHORTEST);
-    if (!keep) history_restart(world->history, world->document);
-    history_end(world->history);
+    const struct stage *stage = room;
+    if (!keep || stage->painting.has_dabbed) return;
+    core->drag.dt = SHORTEST;
+    apply(room, core, world);
+}
+
+static const struct drag_owner owner = {.cursor = CURSOR_ARROW, .goes_on = true, .apply = apply, .end = end};
+
+bool brush_paints(const struct core *core) { return core->drag.owner == &owner; }
+
+bool brush_press(struct stage *stage, struct core *core, const struct editor_world *world, const struct event *event)
+{
+    const struct brush *brush = &core->brush;
+    struct painting *painting = &stage->painting;
+    int coordinate;
+    if (!brush->on || event->button != BUTTON_LEFT || history_is_open(world->history)) return false;
+    const struct figure *figure = pose_figure(stage, core, world, &coordinate);
+    if (!figure || !skin_spot(stage, figure, event->x, event->y, &painting->spot)) return false;
+    const struct paint *paint = characters_selected(core, world)->painted;
+    if (paint && !models_paint_fits(paint, figure)) {
+        core_message(core, true, "The paint in this scene belongs to another model. Remove it first.");
+        return true;
+    }
+    painting->stroke = brush_stroke(brush, event->mods);
+    drag_begin(core, &owner, stage, brush_label(painting->stroke), event);
+    painting->x = event->x;
+    painting->y = event->y;
+    painting->has_dabbed = false;
+    memset(painting->work.spent, 0, (size_t)painting->work.capacity * sizeof *painting->work.spent);
+    drag_start_moving(core, world);
+    const struct edit blank = characters_blank_paint(core, world, figure);
+    if (!paint) core_edit(core, world, &blank);
+    return true;
 }
 
 bool brush_wheel(struct core *core, const struct event *event)
@@ -198,7 +204,7 @@ void brush_pose(struct stage *stage, struct core *core, const struct editor_worl
     const struct brush *brush = &core->brush;
     struct painting *painting = &stage->painting;
     const bool pointed = rect_contains(core->layout.stage, core->pointer_x, core->pointer_y);
-    const bool free_hand = core->drag.kind == DRAG_NONE || core->drag.kind == DRAG_PAINT;
+    const bool free_hand = !core->drag.owner || brush_paints(core);
     int coordinate;
     painting->covers = false;
     if (brush->on && !reserve_figure(stage, core, world)) return;

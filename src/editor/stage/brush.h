@@ -12,10 +12,8 @@ enum brush_mode brush_stroke(const struct brush *brush, unsigned mods);
 const char *brush_label(enum brush_mode stroke);
 /// Handles a press on the stage; true if it began a stroke.
 bool brush_press(struct stage *stage, struct core *core, const struct editor_world *world, const struct event *event);
-/// Continues the running stroke for `dt` seconds.
-void brush_advance(struct stage *stage, struct core *core, const struct editor_world *world, double dt);
-/// Ends the running stroke; `keep` false takes it back.
-void brush_end(struct stage *stage, struct core *core, const struct editor_world *world, bool keep);
+/// Whether a stroke is running.
+bool brush_paints(const struct core *core);
 /// Ctrl+wheel changes the radius, Shift+wheel the strength; true if it was one of these.
 bool brush_wheel(struct core *core, const struct event *event);
 /// Finds what is under the pointer once the stage is posed, and what the brush reaches from there.

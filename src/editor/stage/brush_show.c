@@ -155,7 +155,7 @@ static void show_state(const struct stage *stage, struct core *core, const struc
     const struct painting *painting = &stage->painting;
     const struct rect legend = characters_legend(core);
     const struct rect box = {legend.x, legend.y - STATE_HEIGHT - 8, legend.w, STATE_HEIGHT};
-    const bool paints = core->drag.kind == DRAG_PAINT;
+    const bool paints = brush_paints(core);
     const char *label = brush_label(paints ? painting->stroke : brush_stroke(brush, core->mods));
     char text[64] = "nothing painted here";
     if (painting->covers && paint) describe_spot(stage, paint, coordinate, text, sizeof text);

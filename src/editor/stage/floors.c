@@ -67,26 +67,10 @@ struct hover floors_hover(const struct stage *stage, const struct core *core, co
     return hover;
 }
 
-void floors_begin(struct stage *stage, struct core *core, const struct editor_world *world, const struct hover *hover,
-                  const struct event *event)
+/// The floor goes where the pointer is now.
+static void apply(void *room, struct core *core, const struct editor_world *world)
 {
-    const struct character_rig *rig = &world->document->rigs[hover->rig].character;
-    const float at[3] = {(float)rig->position[0], (float)rig->floor, (float)rig->position[2]};
-    const float depth = fmaxf(camera_depth(stage->view.view, stage->view.eye, at), 0.1f);
-    const double rise = fmax(cos((double)stage->camera.elevation), LEAST_RISE);
-    drag_begin(core, DRAG_FLOOR, "Set floor", event);
-    stage->floor_drag = (struct floor_drag){
-        .rig = hover->rig,
-        .start = rig->floor,
-        .pixels_per_metre = 0.5 * rise * (double)(core->layout.stage.h * stage->view.projection[5] / depth)};
-}
-
-void floors_apply(struct stage *stage, struct core *core, const struct editor_world *world)
-{
-    struct floor_drag *drag = &stage->floor_drag;
-    if (core->drag.kind != DRAG_FLOOR || !core->drag.moved || !drag->stale) return;
-    drag->stale = false;
-    history_restart(world->history, world->document);
+    const struct floor_drag *drag = &((const struct stage *)room)->floor_drag;
     if (!floors_exist(world->document, drag->rig)) return;
     const double highest = world->document->rigs[drag->rig].character.position[1];
     const double height = drag->start - core->drag.moved_y / drag->pixels_per_metre;
@@ -95,4 +79,20 @@ void floors_apply(struct stage *stage, struct core *core, const struct editor_wo
     edit.flag = true;
     edit.number = fmin(core_round(height, 0.5 / drag->pixels_per_metre), highest);
     core_edit(core, world, &edit);
+}
+
+void floors_begin(struct stage *stage, struct core *core, const struct editor_world *world, const struct hover *hover,
+                  const struct event *event)
+{
+    static const struct drag_owner owner = {.cursor = CURSOR_VERTICAL, .apply = apply, .end = stage_click};
+    const struct character_rig *rig = &world->document->rigs[hover->rig].character;
+    const float at[3] = {(float)rig->position[0], (float)rig->floor, (float)rig->position[2]};
+    const float depth = fmaxf(camera_depth(stage->view.view, stage->view.eye, at), 0.1f);
+    const double rise = fmax(cos((double)stage->camera.elevation), LEAST_RISE);
+    core->hover = *hover;
+    drag_begin(core, &owner, stage, "Set floor", event);
+    stage->floor_drag = (struct floor_drag){
+        .rig = hover->rig,
+        .start = rig->floor,
+        .pixels_per_metre = 0.5 * rise * (double)(core->layout.stage.h * stage->view.projection[5] / depth)};
 }

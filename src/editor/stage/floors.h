@@ -24,9 +24,6 @@ bool floors_exist(const struct document *document, int rig);
 /// Starts to drag a floor; edits nothing until the pointer moves.
 void floors_begin(struct stage *stage, struct core *core, const struct editor_world *world, const struct hover *hover,
                   const struct event *event);
-/// The floor goes where the pointer is now.
-void floors_apply(struct stage *stage, struct core *core, const struct editor_world *world);
-
 /// Draws all floors: brighter where a character stands on one, in the colour of warnings where it is below.
 void floors_show(const struct stage *stage, struct core *core, const struct editor_world *world);
 

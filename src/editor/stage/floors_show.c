@@ -102,9 +102,8 @@ void floors_show(const struct stage *stage, struct core *core, const struct edit
         const struct character_rig *rig = floors_find(stage, core, document, shown, &floor);
         if (!rig) continue;
         const int index = document_find_rig(document, RIG_CHARACTER, shown->rig);
-        const bool is_held = core->drag.kind == DRAG_FLOOR && stage->floor_drag.rig == index;
         const bool is_hot = core->hover.kind == HOVER_FLOOR && core->hover.rig == index;
-        show_floor(stage, core, shown, &floor, rig->floor, is_held || (is_hot && core->drag.kind == DRAG_NONE));
+        show_floor(stage, core, shown, &floor, rig->floor, is_hot);
     }
 }
 

@@ -12,6 +12,7 @@
 #include "editor/core/selection.h"
 #include "editor/stage/hold.h"
 #include "editor/stage/rigs.h"
+#include "editor/stage/stage.h"
 #include "editor/stage/strand.h"
 #include <math.h>
 
@@ -65,28 +66,6 @@ bool grab_holds(const struct document *document, int rig, int joint)
     if (rig >= document->rig_count) return false;
     const struct rig *held = &document->rigs[rig];
     return held->kind == RIG_CHAIN || (held->kind == RIG_TAIL && joint <= held->tail.joints);
-}
-
-void grab_begin(struct stage *stage, struct core *core, const struct editor_world *world, const struct hover *hover)
-{
-    const struct rig *rig = &world->document->rigs[hover->rig];
-    struct grab *grab = &stage->grab;
-    struct strand strand;
-    *grab = (struct grab){.rig = hover->rig, .joint = hover->joint, .fraction = hover->fraction};
-    if (!strand_pose(stage, core, world, grab->rig, core->playback.position, NULL, &strand)) return;
-    grab->axis[AXIS_SIDE] = axis_for(core, rig, &strand, grab->joint, AXIS_SIDE);
-    grab->axis[AXIS_UP] = axis_for(core, rig, &strand, grab->joint, AXIS_UP);
-    if (grab->axis[AXIS_SIDE].active && grab->axis[AXIS_SIDE].spline == grab->axis[AXIS_UP].spline) {
-        grab->axis[AXIS_UP].active = false;
-    }
-    if (rig->kind == RIG_TAIL) sway_stop(stage, document_rig_number(world->document, grab->rig));
-    grab->sample = sample_for(stage, core, world->document);
-    core->playback.playing = false;
-    core->playback.position = grab->sample;
-    grab->start[0] = hover->x;
-    grab->start[1] = hover->y;
-    if (!strand_pose(stage, core, world, grab->rig, core->playback.position, NULL, &strand)) return;
-    strand_project(stage, core, &strand, grab->joint, grab->fraction, grab->start);
 }
 
 /// Takes the present value over and learns from the last step how Im x follows it.
@@ -167,11 +146,12 @@ static void select_knot(const struct stage *stage, struct core *core, const stru
     }
 }
 
-void grab_apply(struct stage *stage, struct core *core, const struct editor_world *world)
+/// One step towards the pointer; needs the pose of the last solved frame.
+static void apply(void *room, struct core *core, const struct editor_world *world)
 {
+    struct stage *stage = room;
     struct grab *grab = &stage->grab;
     const struct drag *drag = &core->drag;
-    if (drag->kind != DRAG_GRAB || !drag->moved) return;
     if (!grab->axis[AXIS_SIDE].active && !grab->axis[AXIS_UP].active) return;
     if (!grab_holds(world->document, grab->rig, grab->joint)) return;
     struct strand strand;
@@ -188,7 +168,7 @@ void grab_apply(struct stage *stage, struct core *core, const struct editor_worl
     }
     char why[STOPPED_SIZE] = "";
     damped_step(column, miss, step);
-    history_restart(world->history, world->document);
+    drag_restart(core, world);
     for (int a = 0; a < 2; a++) {
         struct grab_axis *axis = &grab->axis[a];
         if (!axis->active) continue;
@@ -200,4 +180,39 @@ void grab_apply(struct stage *stage, struct core *core, const struct editor_worl
     drag_say_stopped(core, why);
     grab->applied = true;
     select_knot(stage, core, world);
+}
+
+static void show(void *room, struct core *core, const struct editor_world *world)
+{
+    const struct grab *grab = &((const struct stage *)room)->grab;
+    float xy[2];
+    (void)world;
+    if (stage_project(room, core, grab->rig, grab->joint, grab->fraction, xy)) stage_ring(core, xy);
+}
+
+static const struct drag_owner owner = {
+    .cursor = CURSOR_HAND, .goes_on = true, .apply = apply, .end = stage_click, .show = show};
+
+void grab_begin(struct stage *stage, struct core *core, const struct editor_world *world, const struct hover *hover,
+                const struct event *event)
+{
+    const struct rig *rig = &world->document->rigs[hover->rig];
+    struct grab *grab = &stage->grab;
+    struct strand strand;
+    drag_begin(core, &owner, stage, rig->kind == RIG_CHAIN ? "Pull chain" : "Pull tail", event);
+    *grab = (struct grab){.rig = hover->rig, .joint = hover->joint, .fraction = hover->fraction};
+    if (!strand_pose(stage, core, world, grab->rig, core->playback.position, NULL, &strand)) return;
+    grab->axis[AXIS_SIDE] = axis_for(core, rig, &strand, grab->joint, AXIS_SIDE);
+    grab->axis[AXIS_UP] = axis_for(core, rig, &strand, grab->joint, AXIS_UP);
+    if (grab->axis[AXIS_SIDE].active && grab->axis[AXIS_SIDE].spline == grab->axis[AXIS_UP].spline) {
+        grab->axis[AXIS_UP].active = false;
+    }
+    if (rig->kind == RIG_TAIL) sway_stop(stage, document_rig_number(world->document, grab->rig));
+    grab->sample = sample_for(stage, core, world->document);
+    core->playback.playing = false;
+    core->playback.position = grab->sample;
+    grab->start[0] = hover->x;
+    grab->start[1] = hover->y;
+    if (!strand_pose(stage, core, world, grab->rig, core->playback.position, NULL, &strand)) return;
+    strand_project(stage, core, &strand, grab->joint, grab->fraction, grab->start);
 }

@@ -1,6 +1,7 @@
 /// Dragging the body over the ground: where the pointer takes it, and what the document makes of that.
 #include "editor/stage/hold.h"
 #include "editor/core/core.h"
+#include "editor/core/drag.h"
 #include "editor/stage/rigs.h"
 #include "model/creature.h"
 #include "model/limbs.h"
@@ -26,7 +27,7 @@ void hold_way(const struct stage *stage, const struct core *core, double offset[
     const struct drag *drag = &core->drag;
     const struct hold *hold = &stage->hold;
     offset[0] = offset[1] = offset[2] = 0;
-    if (drag->kind != DRAG_BODY || !drag->moved) return;
+    if (!body_is_held(core) || !drag->moved) return;
     const double x_axis[2] = {1, 0}, z_axis[2] = {0, 1};
     const double across = drag->moved_x / hold->pixels_per_metre;
     const double up = -drag->moved_y / hold->pixels_per_metre;
@@ -50,11 +51,11 @@ void hold_advance(struct stage *stage, const struct core *core, const struct edi
 
 void hold_offset(const struct stage *stage, const struct core *core, int tail, double offset[3])
 {
-    const bool held = core->drag.kind == DRAG_BODY && stage->hold.tail == tail;
+    const bool held = body_is_held(core) && stage->hold.tail == tail;
     for (int k = 0; k < 3; k++) offset[k] = held ? stage->hold.offset[k] : 0;
 }
 
-bool hold_lock(struct stage *stage, int key)
+static bool lock(struct stage *stage, int key)
 {
     if (key != 'X' && key != 'Y' && key != 'Z') return false;
     const int axis = key - 'X';
@@ -136,24 +137,34 @@ bool hold_point(const struct stage *stage, const struct core *core, int tail, in
     return stage_project_point(stage, core->layout.stage, place.raw, xy);
 }
 
-void hold_begin(struct stage *stage, const struct core *core, int tail, bool lifts)
+/// A stretch of the ring that is as far from the eye all along, near or far half.
+static void show_arc(struct core *core, const float point[RING_POINTS + 1][2], int from, int to, uint32_t color)
 {
-    struct hold *hold = &stage->hold;
-    const struct camera *camera = &stage->camera;
-    const struct pose *pose = &stage->view.tails[tail].pose;
-    *hold = (struct hold){.tail = tail, .lifts = lifts, .axis = -1};
-    const float depth = camera_depth(stage->view.view, stage->view.eye, base_of(stage, tail));
-    hold->pixels_per_metre = 0.5 * (double)(core->layout.stage.h * stage->view.projection[5] / fmaxf(depth, 0.1f));
-    double pitch = sin((double)camera->elevation);
-    hold->pitch = copysign(fmax(fabs(pitch), LEAST_PITCH), pitch);
-    hold->rise = fmax(cos((double)camera->elevation), LEAST_RISE);
-    const float sitting = pose->ground + CREATURE_BASE_HEIGHT * scale_of(pose);
-    hold->lowest = fmin(0, (double)(sitting - base_of(stage, tail)[1]));
-    hold->right[0] = -sin((double)camera->azimuth);
-    hold->right[1] = -cos((double)camera->azimuth);
+    drawlist_line(&core->list, point[from], to - from + 1, 1.5f, color);
 }
 
-void hold_release(struct stage *stage, struct core *core, const struct editor_world *world, bool keep)
+void hold_show(struct stage *stage, struct core *core)
+{
+    bool held = body_is_held(core);
+    if (!held && core->hover.kind != HOVER_BODY) return;
+    int tail = held ? stage->hold.tail : core->hover.tail;
+    if (tail >= stage->view.tail_count) return;
+    const float scale = scale_of(&stage->view.tails[tail].pose), *base = base_of(stage, tail);
+    const uint32_t color = held ? theme()->accent : theme()->playhead;
+    float point[RING_POINTS + 1][2];
+    for (int i = 0; i <= RING_POINTS; i++) { // from the right side of the picture over the near half
+        float angle = 6.2831853f * (float)i / RING_POINTS - stage->camera.azimuth;
+        const float world[3] = {base[0] + scale * (ring_middle[0] - RING_RADIUS * sinf(-angle)),
+                                stage->view.tails[tail].pose.ground,
+                                base[2] + scale * (ring_middle[1] - RING_RADIUS * cosf(-angle))};
+        if (!stage_project_point(stage, core->layout.stage, world, point[i])) return;
+    }
+    show_arc(core, (const float(*)[2])point, 0, RING_POINTS / 2, color);
+    show_arc(core, (const float(*)[2])point, RING_POINTS / 2, RING_POINTS, theme_fade(color, 0.3f));
+}
+
+/// Inside the open step the document gets the recorded motion or the new place.
+static void release(struct stage *stage, struct core *core, const struct editor_world *world, bool keep)
 {
     int tail = stage->hold.tail;
     double offset[3];
@@ -170,28 +181,53 @@ void hold_release(struct stage *stage, struct core *core, const struct editor_wo
     record_forget(stage);
 }
 
-/// A stretch of the ring that is as far from the eye all along, near or far half.
-static void show_arc(struct core *core, const float point[RING_POINTS + 1][2], int from, int to, uint32_t color)
+/// A body that is to be recorded is so from the first movement on.
+static void move(void *room, struct core *core, const struct editor_world *world)
 {
-    drawlist_line(&core->list, point[from], to - from + 1, 1.5f, color);
+    struct stage *stage = room;
+    (void)world;
+    if (stage->hold.begun) return;
+    stage->hold.begun = true;
+    if (core->record_armed) record_begin(stage, core);
 }
 
-void hold_show(struct stage *stage, struct core *core)
+static enum drag_answer take_event(void *room, struct core *core, const struct editor_world *world,
+                                   const struct event *event)
 {
-    bool held = core->drag.kind == DRAG_BODY;
-    if (!held && core->hover.kind != HOVER_BODY) return;
-    int tail = held ? stage->hold.tail : core->hover.tail;
-    if (tail >= stage->view.tail_count) return;
-    const float scale = scale_of(&stage->view.tails[tail].pose), *base = base_of(stage, tail);
-    const uint32_t color = held ? theme()->accent : theme()->playhead;
-    float point[RING_POINTS + 1][2];
-    for (int i = 0; i <= RING_POINTS; i++) { // from the right side of the picture over the near half
-        float angle = 6.2831853f * (float)i / RING_POINTS - stage->camera.azimuth;
-        const float world[3] = {base[0] + scale * (ring_middle[0] - RING_RADIUS * sinf(-angle)),
-                                stage->view.tails[tail].pose.ground,
-                                base[2] + scale * (ring_middle[1] - RING_RADIUS * cosf(-angle))};
-        if (!stage_project_point(stage, core->layout.stage, world, point[i])) return;
-    }
-    show_arc(core, (const float(*)[2])point, 0, RING_POINTS / 2, color);
-    show_arc(core, (const float(*)[2])point, RING_POINTS / 2, RING_POINTS, theme_fade(color, 0.3f));
+    // Ctrl may still be down, which lifts bodies.
+    const bool key = event->kind == EVENT_KEY && event->action == ACTION_PRESS && !(event->mods & MOD_ALT);
+    if (!key) return DRAG_PASSES;
+    if (event->key != 'R') return lock(room, event->key) ? DRAG_USED : DRAG_PASSES;
+    drag_start_moving(core, world);
+    move(room, core, world);
+    record_begin(room, core);
+    return DRAG_USED;
+}
+
+static void end(void *room, struct core *core, const struct editor_world *world, bool keep)
+{
+    if (core->drag.moved) release(room, core, world, keep);
+    stage_click(room, core, world, keep);
+}
+
+static const struct drag_owner body_owner = {.cursor = CURSOR_MOVE, .move = move, .event = take_event, .end = end};
+
+bool body_is_held(const struct core *core) { return core->drag.owner == &body_owner; }
+
+void hold_begin(struct stage *stage, struct core *core, int tail, const struct event *event)
+{
+    struct hold *hold = &stage->hold;
+    const struct camera *camera = &stage->camera;
+    const struct pose *pose = &stage->view.tails[tail].pose;
+    drag_begin(core, &body_owner, stage, "Move body", event);
+    *hold = (struct hold){.tail = tail, .lifts = event->mods & MOD_CTRL, .axis = -1};
+    const float depth = camera_depth(stage->view.view, stage->view.eye, base_of(stage, tail));
+    hold->pixels_per_metre = 0.5 * (double)(core->layout.stage.h * stage->view.projection[5] / fmaxf(depth, 0.1f));
+    double pitch = sin((double)camera->elevation);
+    hold->pitch = copysign(fmax(fabs(pitch), LEAST_PITCH), pitch);
+    hold->rise = fmax(cos((double)camera->elevation), LEAST_RISE);
+    const float sitting = pose->ground + CREATURE_BASE_HEIGHT * scale_of(pose);
+    hold->lowest = fmin(0, (double)(sitting - base_of(stage, tail)[1]));
+    hold->right[0] = -sin((double)camera->azimuth);
+    hold->right[1] = -cos((double)camera->azimuth);
 }

@@ -14,12 +14,10 @@ struct hover hold_moment_ago(const struct stage *stage, const struct core *core,
 /// Points of a body that are likely to be in sight, the likeliest first, on the screen; false where one is behind the eye.
 enum { HOLD_HEAD = 1, HOLD_POINTS = 4 };
 bool hold_point(const struct stage *stage, const struct core *core, int tail, int point, float xy[2]);
-/// Starts to drag a body, over the ground or, where it `lifts`, up and across.
-void hold_begin(struct stage *stage, const struct core *core, int tail, bool lifts);
-/// X, Y or Z: along that axis only, or again freely. false for other keys.
-bool hold_lock(struct stage *stage, int key);
-/// The end of a drag, inside its step of the history: where `keep`, the document gets the recorded motion or the new place.
-void hold_release(struct stage *stage, struct core *core, const struct editor_world *world, bool keep);
+/// Starts to drag a body, over the ground or, with Ctrl, up and across. X, Y and Z lock an axis, R records.
+void hold_begin(struct stage *stage, struct core *core, int tail, const struct event *event);
+/// Whether a body is dragged.
+bool body_is_held(const struct core *core);
 /// Keeps the way of the held body, metres, where the limits of the splines that it follows will keep what place_body() or a recording
 /// makes of it.
 void place_within(const struct stage *stage, const struct core *core, const struct editor_world *world,
@@ -67,8 +65,7 @@ void record_keep(struct stage *stage, struct core *core, const struct editor_wor
 /// Whether a tail or chain is in the document and has the joint.
 bool grab_holds(const struct document *document, int rig, int joint);
 /// Starts to pull a tail or chain; edits nothing until the pointer moves.
-void grab_begin(struct stage *stage, struct core *core, const struct editor_world *world, const struct hover *hover);
-/// One step towards the pointer; needs the pose of the last solved frame.
-void grab_apply(struct stage *stage, struct core *core, const struct editor_world *world);
+void grab_begin(struct stage *stage, struct core *core, const struct editor_world *world, const struct hover *hover,
+                const struct event *event);
 
 #endif

@@ -1,5 +1,6 @@
 /// A meadow on the stage: its reeds in their wind, pushed by bodies, and swinging after what was dragged through them.
 #include "base/hash.h"
+#include "editor/stage/hold.h"
 #include "editor/stage/rigs.h"
 #include "model/creature.h"
 #include "model/vector.h"
@@ -65,7 +66,7 @@ static void brush_all(struct meadow_view *shown, const struct core *core, const 
                       const struct spline *spline, int count)
 {
     struct swing_filter filter;
-    const bool held = core->drag.kind == DRAG_BODY && core->drag.moved, moves = filter_of(spline, &filter);
+    const bool held = body_is_held(core) && core->drag.moved, moves = filter_of(spline, &filter);
     const bool steps = moves && shown->dt > 0 && (held || shown->swings);
     step_matrix m = {0};
     if (steps) m = oscillator_step(filter.of, shown->dt);

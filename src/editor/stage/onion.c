@@ -96,9 +96,8 @@ static const struct knot *edited_knot(const struct core *core, const struct edit
     const struct drag *drag = &core->drag;
     const struct spline *spline = core_active_spline(core, world);
     int at = -1;
-    if (spline && drag->knot && drag->kind != DRAG_NONE && drag->moved) at = spline_find_id(spline, drag->knot);
-    if (spline && drag->kind == DRAG_NONE && core->nudged_seconds > 0)
-        at = selection_single(&core->selection, spline);
+    if (spline && drag->owner && drag->knot && drag->moved) at = spline_find_id(spline, drag->knot);
+    if (spline && !drag->owner && core->nudged_seconds > 0) at = selection_single(&core->selection, spline);
     return at >= 0 ? &spline->knots[at] : NULL;
 }
 
@@ -111,7 +110,7 @@ void ghost_show(struct stage *stage, struct core *core, const struct editor_worl
     const int sample = document_sample(document, knot->frame);
     if (fabs(sample - core->playback.position) < 0.5) return;
     const struct posing posing = stage_posing(core, world);
-    const double left = core->drag.kind == DRAG_NONE ? fmin(core->nudged_seconds / FADE, 1) : 1;
+    const double left = !core->drag.owner ? fmin(core->nudged_seconds / FADE, 1) : 1;
     const uint32_t color = theme_fade(arrange_color(document, core->active), GHOST * (float)left);
     float tip[2];
     if (!proxy_show(stage, core, &posing, rig, sample, 1.5f, color, tip)) return;

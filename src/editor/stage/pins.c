@@ -128,35 +128,13 @@ void pins_take_plane(const struct stage *stage, const struct core *core, const d
     }
 }
 
-void pins_begin(struct stage *stage, struct core *core, const struct editor_world *world, const struct hover *hover,
-                const struct event *event)
-{
-    struct pin_drag *drag = &stage->pin_drag;
-    const struct document *document = world->document;
-    drag_begin(core, DRAG_PIN, hover->kind == HOVER_PIN ? "Move pin" : "Pin", event);
-    *drag = (struct pin_drag){.point = {hover->rig, hover->joint}, .axis = -1};
-    if (hover->kind == HOVER_PIN) {
-        const struct rig *rig = &document->rigs[hover->rig];
-        const struct pin *pin = &rig->pins[pins_find_id(rig, hover->pin)];
-        pins_visit(core, document, pin);
-        drag->frame = pin->frame;
-        memcpy(drag->start, pin->to, sizeof drag->start);
-    } else {
-        float place[3] = {0};
-        drag->frame = pins_frame_here(core, document, hover->rig);
-        playback_seek(core, document, drag->frame);
-        point_place(core, world, drag->point, core->playback.position, place);
-        for (int k = 0; k < 3; k++) drag->start[k] = (double)place[k];
-    }
-    pins_take_plane(stage, core, drag->start, drag);
-}
-
-bool pins_lock(struct stage *stage, int key)
+/// X, Y and Z lock an axis; false for other keys.
+static bool lock(struct stage *stage, struct drag *drag, int key)
 {
     if (key != 'X' && key != 'Y' && key != 'Z') return false;
     const int axis = key - 'X';
     stage->pin_drag.axis = stage->pin_drag.axis == axis ? -1 : axis;
-    stage->pin_drag.stale = true;
+    drag->stale = true;
     return true;
 }
 
@@ -173,13 +151,45 @@ static void drag_to(const struct pin_drag *drag, double dx, double dy, double to
     to[drag->axis] += (dx * across - dy * up) / square / drag->pixels_per_metre;
 }
 
-void pins_apply(struct stage *stage, struct core *core, const struct editor_world *world)
+/// The point, or the marker, goes where the pointer is now.
+static void apply(void *room, struct core *core, const struct editor_world *world)
 {
-    struct pin_drag *drag = &stage->pin_drag;
+    const struct pin_drag *drag = &((const struct stage *)room)->pin_drag;
     double to[3];
-    if (core->drag.kind != DRAG_PIN || !core->drag.moved || !drag->stale) return;
-    drag->stale = false;
     drag_to(drag, core->drag.moved_x, core->drag.moved_y, to);
-    history_restart(world->history, world->document);
     pins_put(core, world, drag->point.rig, drag->point.at, drag->frame, to);
+}
+
+static enum drag_answer take_event(void *room, struct core *core, const struct editor_world *world,
+                                   const struct event *event)
+{
+    // Ctrl may still be down, which takes joints.
+    const bool key = event->kind == EVENT_KEY && event->action == ACTION_PRESS && !(event->mods & MOD_ALT);
+    (void)world;
+    return key && lock(room, &core->drag, event->key) ? DRAG_USED : DRAG_PASSES;
+}
+
+void pins_begin(struct stage *stage, struct core *core, const struct editor_world *world, const struct hover *hover,
+                const struct event *event)
+{
+    static const struct drag_owner owner = {
+        .cursor = CURSOR_HAND, .apply = apply, .event = take_event, .end = stage_click, .show = pins_show_axis};
+    struct pin_drag *drag = &stage->pin_drag;
+    const struct document *document = world->document;
+    drag_begin(core, &owner, stage, hover->kind == HOVER_PIN ? "Move pin" : "Pin", event);
+    *drag = (struct pin_drag){.point = {hover->rig, hover->joint}, .axis = -1};
+    if (hover->kind == HOVER_PIN) {
+        const struct rig *rig = &document->rigs[hover->rig];
+        const struct pin *pin = &rig->pins[pins_find_id(rig, hover->pin)];
+        pins_visit(core, document, pin);
+        drag->frame = pin->frame;
+        memcpy(drag->start, pin->to, sizeof drag->start);
+    } else {
+        float place[3] = {0};
+        drag->frame = pins_frame_here(core, document, hover->rig);
+        playback_seek(core, document, drag->frame);
+        point_place(core, world, drag->point, core->playback.position, place);
+        for (int k = 0; k < 3; k++) drag->start[k] = (double)place[k];
+    }
+    pins_take_plane(stage, core, drag->start, drag);
 }

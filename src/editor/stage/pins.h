@@ -17,10 +17,8 @@ bool pins_hover_exists(const struct editor_world *world, const struct hover *hov
 /// Starts to drag what is under the pointer, a point or a marker; edits nothing until it moves.
 void pins_begin(struct stage *stage, struct core *core, const struct editor_world *world, const struct hover *hover,
                 const struct event *event);
-/// X, Y and Z lock an axis of the running drag; false for other keys.
-bool pins_lock(struct stage *stage, int key);
-/// The point, or the marker, goes where the pointer is now.
-void pins_apply(struct stage *stage, struct core *core, const struct editor_world *world);
+/// Draws the line along which a locked drag goes.
+void pins_show_axis(void *room, struct core *core, const struct editor_world *world);
 
 /// Draws all markers, what is lit up, and the path of the point that is held or selected.
 void pins_show(struct stage *stage, struct core *core, const struct editor_world *world);

@@ -93,12 +93,13 @@ static void show_marker(const struct stage *stage, struct core *core, const stru
     if (selected || hot) show_frame(core, line[0], pin->frame);
 }
 
-/// The line along which a locked drag goes.
-static void show_axis(const struct stage *stage, struct core *core)
+void pins_show_axis(void *room, struct core *core, const struct editor_world *world)
 {
+    const struct stage *stage = room;
     const struct pin_drag *drag = &stage->pin_drag;
     float ends[2][3], line[2][2];
-    if (core->drag.kind != DRAG_PIN || drag->axis < 0) return;
+    (void)world;
+    if (drag->axis < 0) return;
     for (int e = 0; e < 2; e++) {
         for (int k = 0; k < 3; k++) ends[e][k] = (float)drag->start[k];
         ends[e][drag->axis] += e ? AXIS : -AXIS;
@@ -111,7 +112,7 @@ static void show_axis(const struct stage *stage, struct core *core)
 static void show_lit(struct core *core)
 {
     const float xy[2] = {core->hover.x, core->hover.y};
-    if (core->hover.kind != HOVER_POINT || core->drag.kind != DRAG_NONE) return;
+    if (core->hover.kind != HOVER_POINT || core->drag.owner) return;
     show_circle(&core->list, xy, LIT + 1.5f, theme_fade(theme()->panel, 0.6f));
     show_circle(&core->list, xy, LIT, theme()->playhead);
     show_disc(&core->list, xy, END, theme()->playhead);
@@ -125,7 +126,6 @@ void pins_show(struct stage *stage, struct core *core, const struct editor_world
     const struct pin *selected = pins_selected(core, document, &rig);
     if (selected && point_exists(world, (struct rig_point){rig, selected->point}))
         path_show(stage, core, world, TRAIL_OF_PIN, (struct rig_point){rig, selected->point});
-    show_axis(stage, core);
     const int now = document_sample(document, core_frame(core, document));
     for (int i = 0; i < stage->pin_count; i++) {
         const struct shown_pin *pin = &stage->pins[i];

@@ -16,7 +16,7 @@ void record_begin(struct stage *stage, struct core *core)
 void record_advance(struct stage *stage, const struct core *core, const struct editor_world *world)
 {
     struct record *record = &stage->record;
-    if (!record->running || core->drag.kind != DRAG_BODY) return;
+    if (!record->running || !body_is_held(core)) return;
     double offset[3], position = core->playback.position;
     hold_way(stage, core, offset);
     int next = record->first + record->count;

@@ -52,7 +52,7 @@ static void show_way(const struct stage *stage, struct core *core, const struct 
 void record_show(struct stage *stage, struct core *core, const struct editor_world *world)
 {
     const struct document *document = world->document;
-    const bool is_held = core->drag.kind == DRAG_BODY;
+    const bool is_held = body_is_held(core);
     const int tail = is_held ? stage->hold.tail : core->hover.tail;
     const struct tail *shown = is_held || core->hover.kind == HOVER_BODY ? document_tail(document, tail) : NULL;
     bool moves = false;

@@ -23,6 +23,11 @@ struct posing stage_posing(const struct core *core, const struct editor_world *w
 /// Where a point of the world is on the screen, the stage being drawn in `r`; false where it is behind the eye.
 bool stage_project_point(const struct stage *stage, struct rect r, const float point[3], float xy[2]);
 
+/// A ring where a tail or chain is held, or can be taken hold of.
+void stage_ring(struct core *core, const float xy[2]);
+/// The end of a drag that never moved: a click, on a bone or beside all.
+void stage_click(void *room, struct core *core, const struct editor_world *world, bool keep);
+
 /// Poses one tail with what is moved by hand; `change` may be NULL.
 void stage_pose_tail(const struct stage *stage, const struct core *core, const struct editor_world *world, int tail,
                      double position, const struct what_if *change, struct rig_pose *pose);

@@ -86,12 +86,36 @@ bool stage_body_point(struct stage *stage, const struct core *core, const struct
     return false;
 }
 
+void stage_click(void *room, struct core *core, const struct editor_world *world, bool keep)
+{
+    if (!core->drag.moved && core->drag.button == BUTTON_LEFT && keep) bone_click(room, core, world);
+}
+
+static const float ORBIT_SPEED = 0.008f; ///< radians a pixel
+
+static void orbit(void *room, struct core *core, const struct editor_world *world)
+{
+    struct stage *stage = room;
+    (void)world;
+    camera_orbit(&stage->camera, -(float)core->drag.moved_x * ORBIT_SPEED, (float)core->drag.moved_y * ORBIT_SPEED);
+}
+
+static void pan(void *room, struct core *core, const struct editor_world *world)
+{
+    struct stage *stage = room;
+    (void)world;
+    camera_pan(&stage->camera, (float)core->drag.moved_x, (float)core->drag.moved_y, core->layout.stage.h);
+}
+
+static const struct drag_owner panning = {.cursor = CURSOR_MOVE, .move = pan, .end = stage_click};
+static const struct drag_owner orbiting = {.cursor = CURSOR_ARROW, .move = orbit, .end = stage_click};
+
 void stage_press(struct stage *stage, struct core *core, const struct editor_world *world, const struct event *event)
 {
-    bool pan = event->button == BUTTON_MIDDLE || (event->button == BUTTON_LEFT && core->space_down);
-    if (pan) {
+    const bool pans = event->button == BUTTON_MIDDLE || (event->button == BUTTON_LEFT && core->space_down);
+    if (pans) {
         core->space_used = core->space_down;
-        drag_begin(core, DRAG_STAGE_PAN, NULL, event);
+        drag_begin(core, &panning, stage, NULL, event);
         return;
     }
     if (brush_press(stage, core, world, event)) return;
@@ -106,14 +130,11 @@ void stage_press(struct stage *stage, struct core *core, const struct editor_wor
     } else if (holds && hover.kind == HOVER_FLOOR) {
         floors_begin(stage, core, world, &hover, event);
     } else if (holds && hover.kind == HOVER_BODY) {
-        drag_begin(core, DRAG_BODY, "Move body", event);
-        hold_begin(stage, core, hover.tail, event->mods & MOD_CTRL);
+        hold_begin(stage, core, hover.tail, event);
     } else if (holds && hover.kind == HOVER_JOINT) {
-        const bool is_chain = world->document->rigs[hover.rig].kind == RIG_CHAIN;
-        drag_begin(core, DRAG_GRAB, is_chain ? "Pull chain" : "Pull tail", event);
-        grab_begin(stage, core, world, &hover);
+        grab_begin(stage, core, world, &hover, event);
     } else {
-        drag_begin(core, DRAG_ORBIT, NULL, event);
+        drag_begin(core, &orbiting, stage, NULL, event);
     }
 }
 
@@ -123,58 +144,8 @@ void stage_wheel(struct stage *stage, struct core *core, const struct event *eve
     camera_zoom(&stage->camera, (float)exp(-ZOOM_STEP * fmin(fmax(event->dy, -20), 20)));
 }
 
-static const float ORBIT_SPEED = 0.008f; ///< radians a pixel
-
-/// A body that is to be recorded is so from the first movement on.
-static void start_recording(struct stage *stage, struct core *core)
-{
-    if (core->drag.kind != DRAG_BODY || stage->hold.begun) return;
-    stage->hold.begun = true;
-    if (core->record_armed) record_begin(stage, core);
-}
-
-void stage_drag_move(struct stage *stage, struct core *core)
-{
-    const struct drag *drag = &core->drag;
-    start_recording(stage, core);
-    stage->pin_drag.stale = stage->floor_drag.stale = true;
-    if (drag->kind == DRAG_ORBIT) {
-        camera_orbit(&stage->camera, -(float)drag->moved_x * ORBIT_SPEED, (float)drag->moved_y * ORBIT_SPEED);
-    }
-    if (drag->kind == DRAG_STAGE_PAN) {
-        camera_pan(&stage->camera, (float)drag->moved_x, (float)drag->moved_y, core->layout.stage.h);
-    }
-}
-
-enum drag_answer stage_drag_event(struct stage *stage, struct core *core, const struct editor_world *world,
-                                  const struct event *event)
-{
-    // Ctrl may still be down, which lifts bodies and takes joints.
-    bool key = event->kind == EVENT_KEY && event->action == ACTION_PRESS && !(event->mods & MOD_ALT);
-    if (core->drag.kind == DRAG_PIN && key) return pins_lock(stage, event->key) ? DRAG_USED : DRAG_PASSES;
-    if (core->drag.kind != DRAG_BODY || !key) return DRAG_PASSES;
-    if (event->key == 'R') {
-        drag_start_moving(core, world);
-        start_recording(stage, core);
-        record_begin(stage, core);
-        return DRAG_USED;
-    }
-    return hold_lock(stage, event->key) ? DRAG_USED : DRAG_PASSES;
-}
-
-void stage_drag_end(struct stage *stage, struct core *core, const struct editor_world *world, bool keep)
-{
-    if (core->drag.kind == DRAG_BODY && core->drag.moved) hold_release(stage, core, world, keep);
-    if (!core->drag.moved && core->drag.button == BUTTON_LEFT && keep) bone_click(stage, core, world);
-    if (core->drag.kind == DRAG_PAINT) brush_end(stage, core, world, keep);
-}
-
 void stage_advance(struct stage *stage, struct core *core, const struct editor_world *world, double dt)
 {
-    brush_advance(stage, core, world, dt);
-    grab_apply(stage, core, world);
-    pins_apply(stage, core, world);
-    floors_apply(stage, core, world);
     hold_advance(stage, core, world);
     sway_advance(stage, core, world, dt);
     stage->meadow.dt += dt;

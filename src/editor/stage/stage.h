@@ -26,14 +26,7 @@ bool stage_is_moving(const struct stage *stage);
 void stage_toggle_onion(struct core *core);
 /// Ghost pose of the edited knot on, off.
 void stage_toggle_ghost(struct core *core);
-/// The pointer moved in a drag.
-void stage_drag_move(struct stage *stage, struct core *core);
-/// What an event means to a drag that began here.
-enum drag_answer stage_drag_event(struct stage *stage, struct core *core, const struct editor_world *world,
-                                  const struct event *event);
-/// A drag ends: before its step is closed.
-void stage_drag_end(struct stage *stage, struct core *core, const struct editor_world *world, bool keep);
-/// Time passes: strokes, the grab and what swings go on.
+/// Time passes: recordings and what swings go on.
 void stage_advance(struct stage *stage, struct core *core, const struct editor_world *world, double dt);
 /// A new document is on the table.
 void stage_open(struct stage *stage);

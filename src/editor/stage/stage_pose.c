@@ -131,15 +131,8 @@ void stage_pose(struct stage *stage, struct core *core, const struct editor_worl
     brush_pose(stage, core, world, covered);
 }
 
-/// A ring where a tail or chain can be taken hold of.
-static void show_hold(struct stage *stage, struct core *core)
+void stage_ring(struct core *core, const float xy[2])
 {
-    float xy[2] = {core->hover.x, core->hover.y};
-    if (core->drag.kind == DRAG_GRAB) {
-        if (!stage_project(stage, core, stage->grab.rig, stage->grab.joint, stage->grab.fraction, xy)) return;
-    } else if (core->hover.kind != HOVER_JOINT) {
-        return;
-    }
     struct rect ring = {xy[0] - RING_SIZE / 2.0f, xy[1] - RING_SIZE / 2.0f, RING_SIZE, RING_SIZE};
     drawlist_rounded_line(&core->list, ring, RING_SIZE / 2.0f, 1.5f, theme()->playhead);
 }
@@ -176,7 +169,9 @@ void stage_show(struct stage *stage, struct core *core, const struct editor_worl
     hold_show(stage, core);
     record_show(stage, core, world);
     bones_show(stage, core, world);
-    show_hold(stage, core);
+    if (!core->drag.owner && core->hover.kind == HOVER_JOINT)
+        stage_ring(core, (float[2]){core->hover.x, core->hover.y});
+    drag_show(stage, core, world);
     pins_show(stage, core, world);
     drawlist_set_clip(&core->list, clip);
 }

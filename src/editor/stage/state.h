@@ -149,14 +149,12 @@ struct pin_drag {
     int axis;                ///< the only one along which it moves; −1: as the pointer does
     double right[3], up[3];  ///< of the picture, world
     double pixels_per_metre; ///< there
-    bool stale;              ///< the pointer moved since the edit was made
 };
 
 /// The floor that is dragged.
 struct floor_drag {
     int rig; ///< in the document
     double start, pixels_per_metre;
-    bool stale; ///< the pointer moved since the edit was made
 };
 
 /// Memory for figures of up to `capacity` vertices.
