@@ -63,6 +63,7 @@ EMBEDDED := LICENSE $(wildcard shaders/*.vert shaders/*.frag assets/scenes/tail.
     assets/scenes/figure*.json assets/scenes/dog.json assets/scenes/hands.json \
     assets/scenes/meadow.json assets/demo/demo.replay)
 TOOLS := $(filter-out adversary,$(basename $(notdir $(wildcard tools/*.c))))
+TOOL_PARTS := $(wildcard tools/*/*.c)
 TESTS ?= $(sort $(wildcard tests/test_*.c tests/test_*.sh))
 FUZZERS := $(basename $(notdir $(wildcard tests/fuzz/fuzz_*.c)))
 FUZZ_SUPPORT := $(filter-out tests/fuzz/fuzz_%.c,$(wildcard tests/fuzz/*.c))
@@ -254,7 +255,7 @@ PARTS := $(filter-out $(B)/obj/src/main.o,$(OBJECTS))
 $(B)/parts.a: $(PARTS) $(B)/objects | packages
 	$(Q)rm -f $@ && ar rcs $@ $(filter %.o,$^)
 
-$(B)/tests/libparts.so: $(PARTS) $(TEST_SUPPORT:%.c=$(B)/obj/%.o) $(B)/objects | packages
+$(B)/tests/libparts.so: $(PARTS) $(TOOL_PARTS:%.c=$(B)/obj/%.o) $(TEST_SUPPORT:%.c=$(B)/obj/%.o) $(B)/objects | packages
 	@mkdir -p $(@D)
 	$(Q)$(LINK) -shared $(filter %.o,$^) $(TEST_LIBS) $(LIBS) -o $@
 
@@ -262,11 +263,16 @@ $(B)/wiggly: $(B)/obj/src/main.o $(B)/parts.a
 	$(if $(Q),@echo "LINK $@")
 	$(Q)$(LINK) $^ $(LIBS) -o $@
 
-$(TOOLS:%=$(B)/%): $(B)/%: $(B)/obj/tools/%.o $(B)/parts.a
+# What tools are made of besides, each in a folder of tools; tests see that too.
+$(B)/obj/tools/%.o: private OWN_CPPFLAGS += -Itools
+$(B)/tools.a: $(TOOL_PARTS:%.c=$(B)/obj/%.o)
+	$(Q)rm -f $@ && ar rcs $@ $^
+
+$(TOOLS:%=$(B)/%): $(B)/%: $(B)/obj/tools/%.o $(B)/tools.a $(B)/parts.a
 	$(Q)$(LINK) $^ $(LIBS) -o $@
 
 # Private: else it would be in the flags of all that a test is made of, where a test is what make is asked for.
-$(B)/obj/tests/%.o: private OWN_CPPFLAGS += -Itests
+$(B)/obj/tests/%.o: private OWN_CPPFLAGS += -Itests -Itools
 $(TEST_PROGRAMS): $(B)/tests/%: $(B)/obj/tests/%.o $(B)/tests/libparts.so
 	$(Q)$(LINK) $^ -Wl,-rpath,'$$ORIGIN' $(TEST_LIBS) $(LIBS) -o $@
 

@@ -21,7 +21,7 @@ formatted() { # <file>...
 analyse() {
     cppcheck --quiet --error-exitcode=1 --enable=warning,performance,portability --inline-suppr --std=c11 \
         --suppress=missingIncludeSystem -j "$(nproc)" \
-        -D_GNU_SOURCE -Isrc -Iinclude src tools 2>&1
+        -D_GNU_SOURCE -Isrc -Iinclude -Itools src tools 2>&1
 }
 
 # shellcheck disable=SC2086 # the list is split on purpose

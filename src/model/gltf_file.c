@@ -62,16 +62,14 @@ void gltf_append_to(struct gltf_file *file, json_t *object, const char *key, jso
     gltf_append(file, json_object_get(object, key), value);
 }
 
-/// Each element begins `stride` floats behind the last.
-static void add_bounds(struct gltf_file *file, json_t *accessor, const float *numbers, size_t count, int components,
-                       size_t stride)
+static void add_bounds(struct gltf_file *file, json_t *accessor, const float *numbers, size_t count, int components)
 {
     json_t *low = json_array(), *high = json_array();
     for (int k = 0; k < components; k++) {
         float least = INFINITY, most = -INFINITY;
         for (size_t i = 0; i < count; i++) {
-            least = fminf(least, numbers[i * stride + (size_t)k]);
-            most = fmaxf(most, numbers[i * stride + (size_t)k]);
+            least = fminf(least, numbers[i * (size_t)components + (size_t)k]);
+            most = fmaxf(most, numbers[i * (size_t)components + (size_t)k]);
         }
         gltf_append(file, low, json_real((double)least));
         gltf_append(file, high, json_real((double)most));
@@ -104,29 +102,7 @@ json_int_t gltf_file_add(struct gltf_file *file, enum gltf_elements elements, co
     const json_int_t view = add_view(file, data, count * (size_t)(kind->components * kind->size), kind->target);
     json_t *accessor = json_pack("{s:I, s:i, s:I, s:s}", "bufferView", view, "componentType", kind->type, "count",
                                  (json_int_t)count, "type", kind->shape);
-    if (bounds) add_bounds(file, accessor, data, count, kind->components, (size_t)kind->components);
-    return file->first_accessor + gltf_append(file, file->accessors, accessor);
-}
-
-void gltf_file_add_rows(struct gltf_file *file, struct gltf_rows *rows)
-{
-    rows->view = add_view(file, rows->data, rows->count * rows->stride, ARRAY_BUFFER);
-    json_t *view = json_array_get(file->views, (size_t)(rows->view - file->first_view));
-    gltf_set(file, view, "byteStride", json_integer((json_int_t)rows->stride));
-}
-
-json_int_t gltf_file_add_column(struct gltf_file *file, const struct gltf_rows *rows,
-                                const struct gltf_column *column)
-{
-    if (!file->accessors) file->accessors = json_array();
-    json_t *accessor =
-        json_pack("{s:I, s:I, s:i, s:I, s:s}", "bufferView", rows->view, "byteOffset", (json_int_t)column->offset,
-                  "componentType", column->type, "count", (json_int_t)rows->count, "type", column->shape);
-    if (column->normalized) gltf_set(file, accessor, "normalized", json_true());
-    if (column->bounds) {
-        const void *first = (const char *)rows->data + column->offset;
-        add_bounds(file, accessor, first, rows->count, column->components, rows->stride / sizeof(float));
-    }
+    if (bounds) add_bounds(file, accessor, data, count, kind->components);
     return file->first_accessor + gltf_append(file, file->accessors, accessor);
 }
 

@@ -38,26 +38,6 @@ bool gltf_file_begin(struct gltf_file *file, const void *bytes, size_t size);
 json_int_t gltf_file_add(struct gltf_file *file, enum gltf_elements elements, const void *data, size_t count,
                          bool bounds);
 
-/// Rows of a buffer view, each of which has several things of a vertex.
-struct gltf_rows {
-    const void *data;
-    size_t stride, count; ///< bytes of a row
-    json_int_t view;
-};
-
-/// One of these things. Its type is OpenGL's.
-struct gltf_column {
-    const char *name, *shape;
-    int components, type;
-    bool normalized, bounds; ///< `bounds`: of floats, states their least and largest
-    size_t offset;           ///< in a row
-};
-
-/// Adds rows, and then a column of them; returns the accessor's number.
-void gltf_file_add_rows(struct gltf_file *file, struct gltf_rows *rows);
-json_int_t gltf_file_add_column(struct gltf_file *file, const struct gltf_rows *rows,
-                                const struct gltf_column *column);
-
 /// Adds bytes that no accessor finds, as those of a picture, and returns the buffer view's number.
 json_int_t gltf_file_add_bytes(struct gltf_file *file, const void *data, size_t size);
 

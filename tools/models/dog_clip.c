@@ -1,11 +1,130 @@
-/// The dog's clips: poses from gaits, with its paws held where they belong by two-bone inverse kinematics.
+/// The dog's clips: how paws and trunk move in a walk and a trot, and poses from that, with the paws held where they belong by two-bone
+/// inverse kinematics.
 ///
 /// A pose is made of turns about the model's own axes: A of each joint against its parent, G = G(parent)·A against the world. With the
 /// rest rotation R of each joint, what a file stores is R(parent)⁻¹·A·R.
-#include "model/dog.h"
-#include "model/dog_gait.h"
 #include "model/vector.h"
+#include "models/dog.h"
 #include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+// --- gaits
+
+enum { DOG_LEGS = 4 }; ///< front left, front right, hind left, hind right, as in dog_limbs
+
+/// A gait, in place. Lengths in metres, angles in degrees, phases in cycles.
+struct gait {
+    float phase[DOG_LEGS]; ///< at which each paw comes down
+    float duty;            ///< share of the cycle that a paw is on the ground
+    float stride;          ///< how far it then moves back
+    float lift[2];         ///< of front and hind paws
+    float bob, sway;       ///< of hips and chest
+    float turn, roll;
+    float nod;
+};
+
+/// A paw against where it stands at rest: its ball moves, the foot tilts forward about the ball, the toes tilt down.
+struct paw {
+    float up, ahead;
+    float foot, toes; ///< degrees
+};
+
+/// Where one end of the trunk goes with its pair of legs: 0 the chest, 1 the hips. Degrees: `turn` to its left, `roll` left side up.
+struct sway {
+    float across, up, turn, roll;
+};
+
+/// A lateral sequence: hind left, front left, hind right, front right, a quarter of a cycle apart.
+static const struct gait walk = {
+    .phase = {0.25f, 0.75f, 0.0f, 0.5f},
+    .duty = 0.62f,
+    .stride = 0.25f,
+    .lift = {0.065f, 0.055f},
+    .bob = 0.008f,
+    .sway = 0.014f,
+    .turn = 6.0f,
+    .roll = 4.5f,
+    .nod = 3.5f,
+};
+/// Diagonal pairs, with a moment in the air between them.
+static const struct gait trot = {
+    .phase = {0.5f, 0.0f, 0.0f, 0.5f},
+    .duty = 0.44f,
+    .stride = 0.21f,
+    .lift = {0.095f, 0.085f},
+    .bob = 0.014f,
+    .sway = 0.006f,
+    .turn = 5.0f,
+    .roll = 3.0f,
+    .nod = 2.5f,
+};
+
+/// An angle at a place in the step: 0 … 0.5 on the ground, 0.5 … 1 in the air.
+struct key {
+    float place, degrees;
+};
+enum { KEYS = 8 };
+
+static const struct key foot_keys[2][KEYS] = {
+    {{0, -8}, {0.12f, 0}, {0.30f, 3}, {0.44f, 20}, {0.56f, 50}, {0.70f, 58}, {0.86f, 18}, {0.95f, -8}},
+    {{0, -8}, {0.12f, -4}, {0.30f, 2}, {0.44f, 18}, {0.56f, 46}, {0.70f, 48}, {0.86f, 8}, {0.95f, -8}},
+};
+static const float toe_curl[2] = {42.0f, 36.0f};
+
+static float step_time(float place, float duty)
+{
+    return place < 0.5f ? 2.0f * place * duty : duty + (2.0f * place - 1.0f) * (1.0f - duty);
+}
+
+/// A periodic Catmull–Rom curve through the keys.
+static float foot_tilt(const struct key *keys, float duty, float u)
+{
+    float at[4], value[4];
+    int k = KEYS - 1;
+    while (k > 0 && step_time(keys[k].place, duty) > u) k--;
+    for (int n = 0; n < 4; n++) {
+        const int key = k + n - 1, wrapped = (key + KEYS) % KEYS;
+        at[n] = step_time(keys[wrapped].place, duty) + (key < 0 ? -1.0f : key >= KEYS ? 1.0f : 0.0f);
+        value[n] = keys[wrapped].degrees;
+    }
+    const float span = at[2] - at[1], t = (u - at[1]) / span;
+    const float in = (value[2] - value[0]) / (at[2] - at[0]) * span,
+                out = (value[3] - value[1]) / (at[3] - at[1]) * span;
+    return glm_hermite(t, value[1], in, out, value[2]);
+}
+
+/// On the ground a paw moves back evenly, flat; its path is smooth.
+static struct paw gait_paw(const struct gait *gait, int leg, float time)
+{
+    const int pair = leg / 2;
+    const float u = time - gait->phase[leg] - floorf(time - gait->phase[leg]), half = 0.5f * gait->stride;
+    struct paw paw = {.foot = foot_tilt(foot_keys[pair], gait->duty, u)};
+    if (u < gait->duty) {
+        paw.ahead = half - gait->stride * u / gait->duty;
+        return paw;
+    }
+    const float air = 1.0f - gait->duty, s = (u - gait->duty) / air, back = -gait->stride * air / gait->duty;
+    const float rise = sinf(GLM_PIf * s), early = sinf(GLM_PIf * powf(s, 0.85f));
+    paw.ahead = glm_hermite(s, -half, back, back, half);
+    paw.up = gait->lift[pair] * early * early;
+    paw.toes = rise * rise * (1.7f * toe_curl[pair] * (1.0f - s) - 12.0f * s);
+    return paw;
+}
+
+static struct sway gait_sway(const struct gait *gait, int end, float time)
+{
+    const float left = 2.0f * GLM_PIf * (time - gait->phase[2 * end]); // 0 where the left paw comes down
+    const float borne = left - GLM_PIf * gait->duty;                   // 0 half-way through its time on the ground
+    return (struct sway){
+        .across = gait->sway * cosf(borne),
+        .up = gait->bob * cosf(2.0f * borne) * (gait->duty < 0.5f ? -1.0f : 1.0f),
+        .turn = -gait->turn * cosf(left),
+        .roll = gait->roll * cosf(borne),
+    };
+}
+
+// --- poses
 
 const struct dog_clip dog_clips[DOG_CLIPS] = {{"Walk", 24}, {"Trot", 14}, {"Idle", 120}};
 enum { WALK, TROT, IDLE };
@@ -82,8 +201,8 @@ static bool reach(const struct dog_skeleton *skeleton, const int leg[DOG_LEG_JOI
     return true;
 }
 
-/// Puts a leg's paw where it belongs. False where it does not reach.
-static bool stand(struct figure_pose *pose, int leg, const struct dog_paw *paw)
+/// Puts a leg's paw where it belongs.
+static void stand(struct figure_pose *pose, int leg, const struct paw *paw)
 {
     int joint[DOG_LEG_JOINTS];
     for (int n = 0; n < DOG_LEG_JOINTS; n++)
@@ -95,16 +214,18 @@ static bool stand(struct figure_pose *pose, int leg, const struct dog_paw *paw)
     versors g[DOG_LEG_JOINTS] = {[2] = angles(paw->foot, 0, 0), [3] = angles(paw->toes, 0, 0)};
     const vec3s foot = glms_vec3_sub(place(pose->skeleton, joint[3]), place(pose->skeleton, joint[2]));
     const vec3s ankle = glms_vec3_sub(ball, glms_quat_rotatev(g[2], foot));
-    if (!reach(pose->skeleton, joint, hip, ankle, g)) return false;
+    if (!reach(pose->skeleton, joint, hip, ankle, g)) {
+        fprintf(stderr, "dog_glb: %s does not reach its paw\n", pose->skeleton->joints[joint[0]].name);
+        exit(EXIT_FAILURE);
+    }
     for (int n = 0; n < DOG_LEG_JOINTS; n++)
         pose->turn[joint[n]] = glms_quat_mul(glms_quat_inv(n == 0 ? body : g[n - 1]), g[n]);
-    return true;
 }
 
 /// The trunk between hips and chest, which each go with their own legs; the head keeps steady, and nods.
-static void trunk(struct figure_pose *pose, const struct dog_gait *gait, float time)
+static void trunk(struct figure_pose *pose, const struct gait *gait, float time)
 {
-    const struct dog_sway hips = dog_gait_sway(gait, 1, time), chest = dog_gait_sway(gait, 0, time);
+    const struct sway hips = gait_sway(gait, 1, time), chest = gait_sway(gait, 0, time);
     const float length = 0.29f; // from hips to chest
     const float tilt = glm_deg((hips.up - chest.up) / length), yaw = glm_deg((chest.across - hips.across) / length);
     pose->move = (vec3s){{hips.across, hips.up - 0.004f, 0}};
@@ -165,20 +286,19 @@ static versors rest_rotation(const struct dog_skeleton *skeleton, int joint)
     return q;
 }
 
-bool dog_pose(const struct dog_skeleton *skeleton, int clip, float time, struct dog_pose *out)
+void dog_pose(const struct dog_skeleton *skeleton, int clip, float time, struct dog_pose *out)
 {
     struct figure_pose pose = {.skeleton = skeleton};
     for (int j = 0; j < skeleton->count; j++) pose.turn[j] = glms_quat_identity();
-    const struct dog_gait *gait = clip == WALK ? &dog_walk : clip == TROT ? &dog_trot : NULL;
-    bool stands = true;
+    const struct gait *gait = clip == WALK ? &walk : clip == TROT ? &trot : NULL;
     if (gait) {
         trunk(&pose, gait, time);
     } else {
         rest(&pose, time);
     }
     for (int leg = 0; leg < DOG_LEGS; leg++) {
-        const struct dog_paw paw = gait ? dog_gait_paw(gait, leg, time) : (struct dog_paw){0};
-        stands = stand(&pose, leg, &paw) && stands;
+        const struct paw paw = gait ? gait_paw(gait, leg, time) : (struct paw){0};
+        stand(&pose, leg, &paw);
     }
     for (int j = 0; j < skeleton->count; j++) {
         const versors parent = rest_rotation(skeleton, skeleton->joints[j].parent);
@@ -188,5 +308,4 @@ bool dog_pose(const struct dog_skeleton *skeleton, int clip, float time, struct 
     }
     const vec3s hips = glms_vec3_add(place(skeleton, 0), pose.move);
     memcpy(out->hips, hips.raw, sizeof out->hips);
-    return stands;
 }

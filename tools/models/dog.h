@@ -2,10 +2,9 @@
 /// clips of its own.
 ///
 /// Metres, y up; it stands on y = 0 and looks towards +z, so that its left is +x.
-#ifndef MODEL_DOG_H
-#define MODEL_DOG_H
+#ifndef MODELS_DOG_H
+#define MODELS_DOG_H
 
-#include "base/error.h"
 #include "model/mesh.h"
 #include <stdbool.h>
 
@@ -62,9 +61,8 @@ enum dog_limb_number {
     DOG_LIMBS = DOG_FIRST_LEG + 4
 };
 
-/// Distance to one limb, and to the smooth union of all, for isosurface.h.
+/// Distance to one limb.
 float dog_limb_distance(int limb, const float p[3]);
-float dog_distance(const float p[3]);
 
 /// A limb: the chain of joints that it follows. `blend`: over how many metres it shares vertices with its neighbours; `bend`: over which
 /// share of a bone each of its joints bends.
@@ -120,11 +118,7 @@ struct dog_pose {
     float hips[3];
 };
 
-/// The pose at 0 … 1 of a clip. False where a leg does not reach its paw, which is an error in the clip.
-bool dog_pose(const struct dog_skeleton *skeleton, int clip, float time, struct dog_pose *pose);
-
-/// Writes all of it as a .glb, whole or not at all.
-bool dog_write(const char *path, const struct dog_skeleton *skeleton, const struct dog_pieces *pieces,
-               struct error *error);
+/// The pose at 0 … 1 of a clip. Where a leg does not reach its paw, which is an error in the clip, the program ends.
+void dog_pose(const struct dog_skeleton *skeleton, int clip, float time, struct dog_pose *pose);
 
 #endif
