@@ -5,7 +5,7 @@
 #   make run      builds and starts the live app (ARGS="scene.json --size 960x600" for more)
 #   make test     builds and runs every test (TESTS="tests/test_timing.c tests/test_cli.sh" for some; JOBS=1 for one at a time)
 #   make test-all the same with all that takes long: failing allocations and system calls, other compilers, every size of screen
-#   make bench    the solver against LAPACKE
+#   make bench    the solver against LAPACKE (ARGS="--json FILE --large")
 #   make models   the generated characters, build/models/creature.obj and dog.glb
 #   make proof    has three.js, Blender and usd-core evaluate what wiggly exports
 #   make check    formatting, static analysis, include arrows, lengths
@@ -140,8 +140,8 @@ test: $(B)/wiggly $(LIBRARIES) $(TOOLS:%=$(B)/%) $(TEST_PROGRAMS)
 test-all: export THOROUGH = 1
 test-all: test
 
-bench: $(B)/wiggly
-	$(Q)$(B)/wiggly bench $(ARGS)
+bench: $(B)/wiggly-bench
+	$(Q)$< $(ARGS)
 
 feel: $(B)/feel
 	$(Q)$<

@@ -26,7 +26,6 @@ static const struct command {
     {"analyze", command_analyze, "up.npy --rest mesh.obj --fps N -o creature.glb",
      "turns motions into a character that splines can drive"},
     {"log", command_log, "FILE.csv [-o FILE.svg]", "summarises the frame times in a timing log"},
-    {"bench", command_bench, "[--json FILE]", "times the solver against LAPACKE"},
 };
 
 enum { COMMAND_COUNT = sizeof commands / sizeof commands[0], SUMMARY_AT = 33 };

@@ -1,9 +1,11 @@
 /// The benchmark's own check: every kind of spline against LAPACK's banded solver, and what the table's figures have to be.
 #include "near.h"
 
-#include "timing/bench.h"
+#include "bench/bench.h"
 #include <math.h>
 #include <string.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 enum { SAMPLES = 200 };
 
@@ -25,13 +27,7 @@ static wiggly_desc describe(wiggly_mode mode, wiggly_start start)
     return desc;
 }
 
-static struct bench *open_bench(struct bench_machine *machine)
-{
-    struct error error = {0};
-    struct bench *bench = bench_open(machine, WIGGLY_CHAIN, &error);
-    if (!bench) fail_msg("%s", error.text);
-    return bench;
-}
+static struct bench bench;
 
 /// What is timed is right, and what LAPACK is timed on are the same systems: it could solve neither otherwise.
 static void every_kind_agrees_with_lapack(void **state)
@@ -44,40 +40,46 @@ static void every_kind_agrees_with_lapack(void **state)
                  {WIGGLY_REAL, WIGGLY_FREE},
                  {WIGGLY_CUBIC, WIGGLY_FREE},
                  {WIGGLY_COMPLEX, WIGGLY_LOOP}};
-    struct bench_machine machine;
-    struct bench *bench = open_bench(&machine);
+    bench_open(&bench);
     for (size_t k = 0; k < sizeof kinds / sizeof *kinds; k++) {
-        struct error error = {0};
-        struct bench_result result;
+        struct bench_result result = bench_blank(kinds[k].mode, 0);
         const wiggly_desc desc = describe(kinds[k].mode, kinds[k].start);
-        if (!bench_spline(bench, "one", &desc, &result, &error)) fail_msg("%s", error.text);
-        assert_string_equal(result.name, "one");
+        bench_case(&bench, &desc, false, &result);
         assert_int_equal(result.samples, SAMPLES);
         assert_true(result.error <= 1e-6);
         assert_true(result.ns_per_sample > 0 && result.band_ns_per_sample > 0);
         assert_true(result.p50_us <= result.p99_us && 1e3 * result.p50_us >= 0.999 * result.ns_per_sample * SAMPLES);
-        if (strstr(machine.blas, "not ")) continue; // it says why there is none
-        assert_true(result.dpbsv_ns_per_sample > 0);
-        const bool hermitian = kinds[k].mode == WIGGLY_COMPLEX && kinds[k].start != WIGGLY_LOOP;
-        assert_int_equal(result.zpbsv_ns_per_sample > 0, hermitian);
+        if (strstr(bench.blas, "not ")) continue; // it says why there is none
+        assert_int_equal(result.dpbsv_ns_per_sample > 0, kinds[k].start != WIGGLY_LOOP);
     }
-    bench_close(bench);
+    lapack_unload(&bench.lapack);
 }
 
 static void what_cannot_be_solved_is_no_figure(void **state)
 {
     (void)state;
-    struct bench_machine machine;
-    struct bench *bench = open_bench(&machine);
-    struct error error = {0};
-    struct bench_result result;
-    wiggly_desc desc = describe(WIGGLY_COMPLEX, WIGGLY_FREE);
-    const wiggly_knot twice[] = {{.sample = 3, .value = 1}, {.sample = 3, .value = 2}};
-    desc.knots = twice;
-    desc.knot_count = 2;
-    assert_false(bench_spline(bench, "twice", &desc, &result, &error));
-    assert_non_null(strstr(error.text, "twice"));
-    bench_close(bench);
+    static char says[4096];
+    int end[2], status;
+    size_t length = 0;
+    assert_int_equal(pipe(end), 0);
+    const pid_t child = fork();
+    if (child == 0) {
+        const wiggly_knot twice[] = {{.sample = 3, .value = 1}, {.sample = 3, .value = 2}};
+        struct bench_result result = {.name = "twice"};
+        wiggly_desc desc = describe(WIGGLY_COMPLEX, WIGGLY_FREE);
+        desc.knots = twice;
+        desc.knot_count = 2;
+        dup2(end[1], STDERR_FILENO);
+        bench_case(&bench, &desc, false, &result);
+        _exit(0);
+    }
+    close(end[1]);
+    assert_true(child > 0);
+    for (ssize_t got; (got = read(end[0], says + length, sizeof says - 1 - length)) > 0;) length += (size_t)got;
+    close(end[0]);
+    assert_int_equal(waitpid(child, &status, 0), child);
+    assert_true(WIFEXITED(status) && WEXITSTATUS(status) != 0);
+    assert_non_null(strstr(says, "twice"));
 }
 
 int main(void)

@@ -13,10 +13,10 @@ one_sentence() { # <what> <text>
 expect 0 "--version" "$WIGGLY" --version
 says "--version gives version and commit" "wiggly $(sed -n 's/.*define WIGGLY_VERSION "\(.*\)"/\1/p' include/wiggly/wiggly.h) (" "$out"
 expect 0 "--help" "$WIGGLY" --help
-for command in live solve export check simulate log bench; do
+for command in live solve export check simulate log; do
     says "--help lists $command" "  $command " "$out"
 done
-for command in live solve export check simulate log bench; do
+for command in live solve export check simulate log; do
     expect 0 "$command --help" "$WIGGLY" $command --help
     says "$command --help says how it is called" "Usage: wiggly $command" "$out"
     expect 2 "$command refuses an unknown option" "$WIGGLY" $command --hlep

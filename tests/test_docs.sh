@@ -33,7 +33,7 @@ fi
 # The live app lasts until somebody quits it: ten small frames do. A simulation takes 10 s: a coarse, short one does.
 case \${1-live} in
 simulate) set -- "\$@" --tets 300 --seconds 2 ;;
-solve | rig | export | check | analyze | bench | -*) ;;
+solve | rig | export | check | analyze | -*) ;;
 *)
     [[ " \$* " == *" --frames "* || " \$* " == *" --replay "* ]] || set -- "\$@" --frames 10
     [[ " \$* " == *" --replay "* ]] || set -- "\$@" --size 480x320
@@ -157,7 +157,7 @@ for command in $commands; do
 done
 # shellcheck disable=SC2086
 unknown=$(grep -ohE '`[^`]*`' $documents | grep -oE -- '--[a-z][a-z-]*' | sort -u |
-    grep -vxFf <(cut -d' ' -f1 "$scratch"/*.options; grep -ohE -- '--[a-z-]+' tools/*.py; printf '%s\n' --help --version --cflags --libs))
+    grep -vxFf <(cut -d' ' -f1 "$scratch"/*.options; grep -ohE -- '--[a-z-]+' tools/*.py tools/wiggly-bench.c; printf '%s\n' --help --version --cflags --libs))
 [ -z "$unknown" ] || echo "  unknown option $unknown"
 [ -z "$unknown" ]
 ok "every option that is named is there" $?

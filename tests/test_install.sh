@@ -24,7 +24,7 @@ if command -v man >/dev/null; then
     [ -z "$err" ]
     ok "without a warning" $?
 fi
-for command in live solve check simulate analyze log bench; do
+for command in live solve check simulate analyze log; do
     missing=$("$root/bin/wiggly" $command --help | sed -nE 's/^  ((-., )?--[a-z-]+.*[^ ])  +.*/\1/p' | while IFS= read -r option; do
         sed 's/\\-/-/g' "$page" | grep -qxF ".B $option" || echo "$option"
     done)

@@ -1,11 +1,11 @@
-# --solver: solve, live and bench take chain or band; the curves are the same, and the log says which one ran.
+# --solver: solve and live take chain or band; the curves are the same, and the log says which one ran.
 . tests/check.sh
 WIGGLY=${WIGGLY:-build/wiggly}
 unset DISPLAY WAYLAND_DISPLAY
 scene=tests/replays/session.json
 replay=tests/replays/session.replay
 
-for command in "solve $scene" live bench; do
+for command in "solve $scene" live; do
     # shellcheck disable=SC2086
     expect 2 "${command%% *} by a solver that there is none of" "$WIGGLY" $command --solver tree
     says "says which there are" "wiggly ${command%% *}: --solver: expected chain or band, got 'tree'" "$err"

@@ -19,7 +19,7 @@ BEGIN {
     sees["editor"]   = "editor ui rig scene model spline base include"
     sees["draw"]     = "draw ui model base"
     sees["platform"] = "platform ui model base"
-    sees["timing"]   = "timing spline base include"
+    sees["timing"]   = "timing base include"
     sees["analysis"] = "analysis model spline base include"
     sees["app"]      = "app draw platform timing export " sees["editor"]
     sees["commands"] = "commands simulation analysis " sees["app"]

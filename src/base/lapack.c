@@ -36,12 +36,11 @@ bool lapack_load(struct lapack *lapack, char *description, size_t size)
     find(lapack->blas, "cblas_dsyrk", &lapack->dsyrk);
     find(lapack->blas, "cblas_dgemm", &lapack->dgemm);
     find(lapack->lapacke, "LAPACKE_dpbsv", &lapack->dpbsv);
-    find(lapack->lapacke, "LAPACKE_zpbsv", &lapack->zpbsv);
     find(lapack->lapacke, "LAPACKE_dsyevd", &lapack->dsyevd);
     find(lapack->lapacke, "LAPACKE_zheevd", &lapack->zheevd);
     find(lapack->lapacke, "LAPACKE_dgeev", &lapack->dgeev);
     if (set_threads) set_threads(1);
-    bool whole = lapack->dpbsv && lapack->zpbsv && lapack->dsyevd && lapack->zheevd && lapack->dgeev &&
+    bool whole = lapack->dpbsv && lapack->dsyevd && lapack->zheevd && lapack->dgeev &&
                  lapack->dsyrk && lapack->dgemm;
     if (!whole) {
         lapack_unload(lapack);

@@ -1,4 +1,4 @@
-/// LAPACKE and OpenBLAS, loaded at run time: the benchmark and the analysis need them, the live app does not.
+/// LAPACKE and OpenBLAS, loaded at run time: the analysis, tests and benchmark need them, the live app does not.
 #ifndef BASE_LAPACK_H
 #define BASE_LAPACK_H
 
@@ -10,8 +10,6 @@
 struct lapack {
     void *lapacke, *blas;
     int (*dpbsv)(int layout, char uplo, int n, int kd, int columns, double *ab, int ldab, double *b, int ldb);
-    int (*zpbsv)(int layout, char uplo, int n, int kd, int columns, double complex *ab, int ldab, double complex *b,
-                 int ldb);
     int (*dsyevd)(int layout, char vectors, char uplo, int n, double *a, int lda, double *values);
     int (*zheevd)(int layout, char vectors, char uplo, int n, double complex *a, int lda, double *values);
     int (*dgeev)(int layout, char left, char right, int n, double *a, int lda, double *re, double *im, double *vl,

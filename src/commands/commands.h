@@ -9,7 +9,6 @@ int command_rig(int argc, char **argv);
 int command_export(int argc, char **argv);
 int command_check(int argc, char **argv);
 int command_log(int argc, char **argv);
-int command_bench(int argc, char **argv);
 int command_simulate(int argc, char **argv);
 int command_analyze(int argc, char **argv);
 

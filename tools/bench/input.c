@@ -1,9 +1,8 @@
 /// The benchmark's splines: frequency 1, damping 0.05, at 24 samples a second, about a knot a second.
-#include "timing/bench_input.h"
+#include "bench/bench.h"
 #include <math.h>
 #include <stdint.h>
 #include <stdlib.h>
-#include <string.h>
 
 enum { KNOT_EVERY = 24, EDIT_EVERY = 100, LEAST_GAP = 12, GAPS = 25 };
 static const double pi = 3.14159265358979323846;
@@ -47,11 +46,6 @@ static void set_limits(struct bench_input *input, double by)
     input->desc.low = -input->desc.high;
 }
 
-static double periods_of(enum bench_kind kind)
-{
-    return kind >= BENCH_SHORT_1 && kind <= BENCH_SHORT_8 ? 1 << (kind - BENCH_SHORT_1) : 0;
-}
-
 /// Up and down about every 15 seconds; a loop's would close.
 static void add_track(struct bench_input *input, wiggly_param *param, double middle, double by)
 {
@@ -59,42 +53,27 @@ static void add_track(struct bench_input *input, wiggly_param *param, double mid
     param->track = input->track;
 }
 
-static bool allocate(struct bench_input *input, int knots, int track)
+void bench_input_create(struct bench_input *input, enum bench_kind kind, wiggly_mode mode, int samples)
 {
-    input->knots = calloc((size_t)knots + 1, sizeof *input->knots);
-    input->track = track ? calloc((size_t)track, sizeof *input->track) : NULL;
-    input->desc.knots = input->knots;
-    return input->knots && (input->track || !track);
-}
-
-bool bench_input_create(struct bench_input *input, enum bench_kind kind, wiggly_mode mode, int samples)
-{
-    bool moves = kind == BENCH_EQUILIBRIUM || kind == BENCH_TRACK;
-    *input = (struct bench_input){.desc = wiggly_default_desc()};
+    *input = (struct bench_input){
+        .desc = wiggly_default_desc(),
+        .knots = bench_room((size_t)samples / LEAST_GAP + 3, sizeof *input->knots),
+        .track = bench_room((size_t)samples, sizeof *input->track),
+    };
     wiggly_desc *desc = &input->desc;
+    desc->knots = input->knots;
     desc->samples = samples;
     desc->mode = mode;
-    desc->frequency.value = 1;
+    desc->frequency.value = kind == BENCH_SHORT ? 1 / ((samples - 1) * desc->step) : 1;
     desc->damping.value = 0.05;
-    if (!allocate(input, samples / LEAST_GAP + 2, moves ? samples : 0)) return false;
     if (kind == BENCH_LOOP) desc->start = WIGGLY_LOOP;
     if (kind == BENCH_REST) desc->start = WIGGLY_REST;
     if (kind == BENCH_EQUILIBRIUM) add_track(input, &desc->equilibrium, 0, 1);
     if (kind == BENCH_TRACK) add_track(input, &desc->frequency, 1, 0.4);
-    if (periods_of(kind) > 0) desc->frequency.value = periods_of(kind) / ((samples - 1) * desc->step);
     add_knots(input, kind);
     if (kind == BENCH_LIMITS) set_limits(input, 1.02);
     if (kind == BENCH_STEADY) desc->steady = 1;
     if (kind == BENCH_VARIATION) desc->variation = 0.5, desc->variation_seed = 7;
-    return true;
-}
-
-bool bench_input_copy(struct bench_input *input, const wiggly_desc *desc)
-{
-    *input = (struct bench_input){.desc = *desc};
-    if (!allocate(input, desc->knot_count, 0)) return false;
-    memcpy(input->knots, desc->knots, sizeof *desc->knots * (size_t)desc->knot_count);
-    return true;
 }
 
 void bench_input_destroy(struct bench_input *input)

@@ -1,9 +1,8 @@
 /// The benchmark's batches: 10,000 splines of 240 samples, every knot changed between runs, for total and Im x.
-#include "base/clock.h"
 #include "spline/batch.h"
+#include "base/clock.h"
+#include "bench/bench.h"
 #include "spline/chain_lanes.h"
-#include "timing/bench_case.h"
-#include "timing/bench_input.h"
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -40,18 +39,16 @@ static void describe(struct crowd *crowd, int s, enum bench_kind kind)
     desc->equilibrium.track = y;
 }
 
-static bool crowd_create(struct crowd *crowd, enum bench_kind kind)
+static void crowd_create(struct crowd *crowd, enum bench_kind kind)
 {
     *crowd = (struct crowd){
-        .desc = calloc(CROWD, sizeof *crowd->desc),
-        .curve = calloc(CROWD, sizeof *crowd->curve),
-        .knots = calloc((size_t)CROWD * KNOTS, sizeof *crowd->knots),
-        .numbers = calloc((size_t)CROWD * 2 * SAMPLES, sizeof *crowd->numbers),
-        .equilibria = calloc((size_t)CROWD * SAMPLES, sizeof *crowd->equilibria),
+        .desc = bench_room(CROWD, sizeof *crowd->desc),
+        .curve = bench_room(CROWD, sizeof *crowd->curve),
+        .knots = bench_room((size_t)CROWD * KNOTS, sizeof *crowd->knots),
+        .numbers = bench_room((size_t)CROWD * 2 * SAMPLES, sizeof *crowd->numbers),
+        .equilibria = bench_room((size_t)CROWD * SAMPLES, sizeof *crowd->equilibria),
     };
-    if (!crowd->desc || !crowd->curve || !crowd->knots || !crowd->numbers || !crowd->equilibria) return false;
     for (int s = 0; s < CROWD; s++) describe(crowd, s, kind);
-    return true;
 }
 
 static void crowd_destroy(struct crowd *crowd)
@@ -64,25 +61,23 @@ static void crowd_destroy(struct crowd *crowd)
 }
 
 /// Times the crowd on several threads.
-static bool run_crowd(struct bench *bench, struct crowd *crowd, int threads, int lanes, struct bench_result *result)
+static void run_crowd(struct bench *bench, struct crowd *crowd, int threads, int lanes, struct bench_result *result)
 {
     wiggly_batch *batch = NULL;
-    if (batch_of_lanes(SAMPLES, KNOTS, threads, lanes, &batch) != WIGGLY_OK) return false;
     int runs = 0;
-    wiggly_status worst = WIGGLY_OK;
-    for (double end = clock_now() + seconds_a_batch; bench_goes_on(runs, end); runs++) {
+    wiggly_status worst = batch_of_lanes(SAMPLES, KNOTS, threads, lanes, &batch);
+    for (double end = clock_now() + seconds_a_batch; worst == WIGGLY_OK && bench_goes_on(runs, end); runs++) {
         for (int k = 0; k < CROWD * KNOTS; k++) crowd->knots[k].value *= -1;
         double start = clock_now();
-        wiggly_status status = wiggly_batch_solve(batch, crowd->desc, crowd->curve, NULL, CROWD);
+        worst = wiggly_batch_solve(batch, crowd->desc, crowd->curve, NULL, CROWD);
         bench->times[runs] = clock_now() - start;
-        worst = status > worst ? status : worst;
     }
     wiggly_batch_destroy(batch);
+    if (worst != WIGGLY_OK) bench_stop("%s: %s", result->name, wiggly_status_text(worst));
     result->splines = CROWD;
     result->threads = threads;
     result->lanes = lanes > 0 ? lanes : 1;
     bench_sum_up(bench, runs, (double)SAMPLES * CROWD, result);
-    return worst == WIGGLY_OK;
 }
 
 /// The kinds that go together are timed on one thread and two, in lanes as wide as can be, narrower, and one by one; the others
@@ -98,23 +93,20 @@ static const struct {
     {BENCH_LOOP, "batch/loop/10000x240", false},
 };
 
-bool bench_batches(struct bench *bench, const struct bench_result *singles,
-                   void (*done)(void *user, const struct bench_result *result), void *user, struct error *error)
+void bench_batches(struct bench *bench)
 {
     for (size_t k = 0; k < sizeof kinds / sizeof *kinds; k++) {
         struct crowd crowd;
-        struct bench_result result = singles[kinds[k].kind];
-        bool good = crowd_create(&crowd, kinds[k].kind);
+        struct bench_result result = bench_blank(WIGGLY_COMPLEX, SAMPLES);
+        crowd_create(&crowd, kinds[k].kind);
         snprintf(result.name, sizeof result.name, "%s", kinds[k].name);
-        for (int lanes = chain_lanes(); good && lanes >= 0; lanes -= 4) {
-            for (int threads = 1; good && threads <= 2; threads++) {
+        for (int lanes = chain_lanes(); lanes >= 0; lanes -= 4) {
+            for (int threads = 1; threads <= 2; threads++) {
                 if (!kinds[k].every_way && (lanes < chain_lanes() || threads > 1)) continue;
-                good = run_crowd(bench, &crowd, threads, lanes, &result);
-                if (good) done(user, &result);
+                run_crowd(bench, &crowd, threads, lanes, &result);
+                bench_report(bench, &result);
             }
         }
         crowd_destroy(&crowd);
-        if (!good) return fail(error, ERROR_ENVIRONMENT, "%s could not be solved", result.name);
     }
-    return true;
 }

@@ -1,6 +1,6 @@
 /// The benchmark's pins: groups of splines that share points, one of which is dragged.
 #include "base/clock.h"
-#include "timing/bench_case.h"
+#include "bench/bench.h"
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -70,16 +70,14 @@ static void lay(struct pinned *p, int b)
         .sample = 7 + b * (p->samples - 10) / p->bounds, .c = (const double(*)[2])p->seen[b], .least = -0.3};
 }
 
-static bool open_group(struct pinned *p, int splines, int pins, int samples, int bounds)
+static void open_group(struct pinned *p, int splines, int pins, int samples, int bounds)
 {
     *p = (struct pinned){.splines = splines, .pins = pins, .bounds = bounds, .samples = samples};
-    p->knots = calloc((size_t)(splines * (samples / GAP)), sizeof *p->knots);
-    p->numbers = calloc((size_t)(splines * 3 * samples), sizeof *p->numbers);
-    if (!p->knots || !p->numbers) return false;
+    p->knots = bench_room((size_t)(splines * (samples / GAP)), sizeof *p->knots);
+    p->numbers = bench_room((size_t)(splines * 3 * samples), sizeof *p->numbers);
     for (int s = 0; s < splines; s++) describe(p, s);
     for (int i = 0; i < pins; i++) place(p, i);
     for (int b = 0; b < bounds; b++) lay(p, b);
-    return true;
 }
 
 static double largest_left(const struct pinned *p)
@@ -92,7 +90,7 @@ static double largest_left(const struct pinned *p)
     return left;
 }
 
-static bool run_group(struct bench *bench, struct pinned *p, bool moves, struct bench_result *result)
+static void run_group(struct bench *bench, struct pinned *p, bool moves, struct bench_result *result)
 {
     wiggly_group *group = NULL;
     wiggly_status status =
@@ -112,22 +110,20 @@ static bool run_group(struct bench *bench, struct pinned *p, bool moves, struct 
     result->splines = p->splines;
     result->error = largest_left(p);
     bench_sum_up(bench, run, (double)p->samples * p->splines, result);
-    return status == WIGGLY_OK && result->error < (p->bounds > 0 ? 1e-8 : 1e-9);
+    if (status != WIGGLY_OK || !(result->error < (p->bounds > 0 ? 1e-8 : 1e-9)))
+        bench_stop("%s: points are off by %g", result->name, result->error);
 }
 
-bool bench_pins(struct bench *bench, void (*done)(void *user, const struct bench_result *result), void *user,
-                struct error *error)
+void bench_pins(struct bench *bench)
 {
     for (size_t n = 0; n < sizeof plan / sizeof *plan; n++) {
         struct pinned p;
         struct bench_result result = bench_blank(WIGGLY_COMPLEX, plan[n].samples);
         snprintf(result.name, sizeof result.name, "%s", plan[n].name);
-        bool good = open_group(&p, plan[n].splines, plan[n].pins, plan[n].samples, plan[n].bounds) &&
-                    run_group(bench, &p, plan[n].moves, &result);
+        open_group(&p, plan[n].splines, plan[n].pins, plan[n].samples, plan[n].bounds);
+        run_group(bench, &p, plan[n].moves, &result);
+        bench_report(bench, &result);
         free(p.knots);
         free(p.numbers);
-        if (!good) return fail(error, ERROR_ENVIRONMENT, "%s: points are off by %g", result.name, result.error);
-        done(user, &result);
     }
-    return true;
 }

@@ -1,0 +1,179 @@
+/// One spline of the benchmark: its check against LAPACK on the squared system, and its times.
+#include "base/clock.h"
+#include "bench/bench.h"
+#include "spline/solver.h"
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const double seconds_a_case = 0.2, seconds_beside = 0.05;
+static const double agreement = 1e-6; ///< of the largest value: dpbsv's own error on these systems is about 1e-9
+
+/// What one case works on.
+struct work {
+    wiggly_solver *solver;
+    wiggly_desc desc;
+    wiggly_knot *knots; ///< its own
+    wiggly_curve curve;
+    double *about; ///< what the system's x is measured from
+    /// The system in LAPACK's lower band storage (column major), and what stands on its right: once filled, once solved.
+    double *band, *right, *solved_band, *solved;
+    int unknowns, band_width;
+};
+
+enum { MOST_BAND = 5 };
+
+static bool is_limited(const wiggly_desc *desc) { return desc->high < INFINITY; }
+
+/// Limits, the mean of several and noise are no system for LAPACK: such a case is timed alone.
+static bool is_alone(const wiggly_desc *desc) { return is_limited(desc) || desc->steady > 0 || desc->variation > 0; }
+
+static void work_create(struct work *w, const wiggly_desc *desc, const char *name)
+{
+    const size_t n = (size_t)desc->samples, band = 2 * n * (MOST_BAND + 1);
+    double *total = bench_room(6 * n + 2 * (band + 2 * n), sizeof *total);
+    *w = (struct work){.desc = *desc, .about = total + 5 * n, .band = total + 6 * n};
+    w->curve = (wiggly_curve){
+        .total = total, .y = total + n, .re = total + 2 * n, .im = total + 3 * n, .omega = total + 4 * n};
+    w->right = w->band + band;
+    w->solved_band = w->right + 2 * n;
+    w->solved = w->solved_band + band;
+    w->knots = bench_room((size_t)desc->knot_count, sizeof *w->knots);
+    memcpy(w->knots, desc->knots, sizeof *w->knots * (size_t)desc->knot_count);
+    w->desc.knots = w->knots;
+    const int held = is_limited(desc) ? desc->samples : 0;
+    const wiggly_status status = wiggly_create(desc->samples, desc->knot_count + held, &w->solver);
+    if (status != WIGGLY_OK) bench_stop("%s: %s", name, wiggly_status_text(status));
+}
+
+static void work_destroy(struct work *w)
+{
+    wiggly_destroy(w->solver);
+    free(w->knots);
+    free(w->curve.total);
+}
+
+/// A number of a block below the diagonal.
+static double below(const double *blocks, int block, int width, int row, int column)
+{
+    return width == 2 ? blocks[4 * block + 2 * row + column] : blocks[block];
+}
+
+/// The gradient at "knots fixed, 0 elsewhere" stands on the right, so that the solution is x less the knots.
+/// Entries that would stand below the last row are never read.
+static void fill_band(struct work *w)
+{
+    const pentadiagonal *m = &w->solver->matrix;
+    solver_describe(w->solver, &w->desc, w->about);
+    const int width = m->width, kd = width == 2 ? MOST_BAND : 2;
+    system_gradient(&w->solver->rows);
+    w->unknowns = width * m->count;
+    w->band_width = kd;
+    memset(w->band, 0, sizeof(double) * (size_t)(w->unknowns * (kd + 1)));
+    for (int unknown = 0; unknown < w->unknowns; unknown++) {
+        const int k = unknown / width, part = unknown % width;
+        double *column = w->band + (size_t)unknown * (size_t)(kd + 1);
+        for (int row = part; row < width; row++)
+            column[row - part] = width == 2 ? m->diagonal[3 * k + row + part] : m->diagonal[k];
+        for (int row = 0; row < width; row++) {
+            column[width + row - part] = below(m->below, k, width, row, part);
+            column[2 * width + row - part] = below(m->below2, k, width, row, part);
+        }
+    }
+    memcpy(w->right, w->solver->rows.gradient, sizeof(double) * (size_t)w->unknowns);
+}
+
+/// Seconds that LAPACKE_dpbsv takes; NAN where it failed.
+static double run_dpbsv(struct work *w, const struct lapack *lapack)
+{
+    const int rows = w->band_width + 1;
+    memcpy(w->solved_band, w->band, sizeof(double) * (size_t)w->unknowns * (size_t)rows);
+    memcpy(w->solved, w->right, sizeof(double) * (size_t)w->unknowns);
+    double start = clock_now();
+    int info = lapack->dpbsv(LAPACK_COLUMNS_FIRST, 'L', w->unknowns, w->band_width, 1, w->solved_band, rows,
+                             w->solved, w->unknowns);
+    double time = clock_now() - start;
+    return info == 0 ? time : NAN;
+}
+
+/// Solves by the band of all samples, block by block: a factor and a solve.
+static double run_band(struct work *w)
+{
+    double start = clock_now();
+    solver_describe(w->solver, &w->desc, w->about);
+    bool good = pentadiagonal_factor(&w->solver->matrix) != RANK_BROKEN;
+    system_right_side(&w->solver->rows);
+    pentadiagonal_solve(&w->solver->matrix, w->solver->rows.gradient);
+    double time = clock_now() - start;
+    return good ? time : NAN;
+}
+
+/// Compares the samples of the system with dpbsv's, or the band's without LAPACK, relative to the largest value; NAN where it failed.
+static double compare(struct work *w, const struct lapack *lapack)
+{
+    const system_rows *rows = &w->solver->rows;
+    double worst = 0 * (lapack ? run_dpbsv(w, lapack) : run_band(w)), largest = 0;
+    const double *solved = lapack ? w->solved : rows->gradient;
+    bool swings = w->desc.equilibrium.track && rows->is_complex && w->desc.passive == WIGGLY_OSCILLATOR;
+    int width = rows->is_complex ? 2 : 1;
+    for (int i = 0; i < width * rows->count; i++) {
+        int sample = w->curve.first + i / width;
+        bool im = i % width == 1;
+        double ours = im ? w->curve.im[sample] : w->curve.total[sample];
+        double theirs = solved[i] + rows->x[i];
+        if (!im) theirs += w->about[sample];
+        if (im && swings) theirs += w->solver->swing.im[sample];
+        worst = fmax(worst, fabs(theirs - ours)) + 0 * theirs;
+        largest = fmax(largest, fabs(ours));
+    }
+    return worst / largest;
+}
+
+/// Fastest of several runs of a way beside the solver's own, per sample.
+static double time_beside(struct work *w, const struct lapack *lapack, bool by_band)
+{
+    double best = INFINITY, end = clock_now() + seconds_beside;
+    for (int run = 0; bench_goes_on(run, end); run++) {
+        double time = by_band ? run_band(w) : run_dpbsv(w, lapack);
+        if (!(time >= 0)) return NAN;
+        if (run > 0) best = fmin(best, time);
+    }
+    return 1e9 * best / w->desc.samples;
+}
+
+static void time_solver(struct bench *bench, struct work *w, bool values_only, struct bench_result *result)
+{
+    int runs = 0;
+    double end = clock_now() + seconds_a_case;
+    for (; bench_goes_on(runs, end); runs++) {
+        w->knots[w->desc.knot_count / 2].value += runs % 2 ? -1e-3 : 1e-3;
+        if (!values_only) solver_forget(w->solver);
+        double start = clock_now();
+        wiggly_solve(w->solver, &w->desc, &w->curve);
+        bench->times[runs] = clock_now() - start;
+    }
+    bench_sum_up(bench, runs, w->desc.samples, result);
+}
+
+void bench_case(struct bench *bench, const wiggly_desc *desc, bool values_only, struct bench_result *result)
+{
+    struct work w;
+    work_create(&w, desc, result->name);
+    wiggly_status status = wiggly_solve(w.solver, &w.desc, &w.curve);
+    if (status != WIGGLY_OK) bench_stop("%s: %s", result->name, wiggly_status_text(status));
+    result->samples = desc->samples;
+    result->error = w.curve.error;
+    if (!is_alone(desc)) {
+        // A loop is no banded system: the band has blocks in the corners.
+        const struct lapack *lapack = bench->lapack.dpbsv && desc->start != WIGGLY_LOOP ? &bench->lapack : NULL;
+        if (lapack) fill_band(&w);
+        result->error = compare(&w, lapack);
+        if (!(result->error <= agreement))
+            bench_stop("%s: differs from %s by %g of the largest value", result->name,
+                       lapack ? "LAPACKE_dpbsv" : "the band", result->error);
+        if (lapack) result->dpbsv_ns_per_sample = time_beside(&w, lapack, false);
+        result->band_ns_per_sample = time_beside(&w, lapack, true);
+    }
+    time_solver(bench, &w, values_only, result);
+    work_destroy(&w);
+}
