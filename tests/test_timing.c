@@ -1,7 +1,7 @@
 /// The timing log is evidence: what it writes, what it sums up and what timing_diff concludes must be exact.
 #include "near.h"
+#include "regress/bootstrap.h"
 #include "timing/readlog.h"
-#include "timing/statistics.h"
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -259,15 +259,14 @@ static void noisy(struct observation *items, unsigned seed, double factor, doubl
         double noise = (double)rand() / RAND_MAX - 0.5;
         items[i] = (struct observation){factor * (10 + 4 * noise) * (1 + drift * (i / 60)), i / 60};
     }
-    statistics_sort_observations(items, FRAMES);
+    sort_observations(items, FRAMES);
 }
 
 /// New over old, of the medians of two sets of FRAMES observations.
 static double median_ratio(const int *old_weight, const int *new_weight, const void *user)
 {
     const struct observation *const *sets = user;
-    return statistics_weighted_quantile(sets[1], FRAMES, new_weight, 0.5) /
-           statistics_weighted_quantile(sets[0], FRAMES, old_weight, 0.5);
+    return weighted_quantile(sets[1], FRAMES, new_weight, 0.5) / weighted_quantile(sets[0], FRAMES, old_weight, 0.5);
 }
 
 static void test_interval_covers_the_true_ratio(void **state)
@@ -279,11 +278,11 @@ static void test_interval_covers_the_true_ratio(void **state)
     struct estimate first, again;
     noisy(old, 1, 1, 0);
     noisy(new, 2, 1.2, 0);
-    assert_true(statistics_bootstrap(&segments, median_ratio, sets, &first));
+    first = bootstrap(&segments, median_ratio, sets);
     assert_near(first.value, 1.2, 0.05);
     assert_true(first.low < 1.2 && 1.2 < first.high);
     assert_true(first.low > 1.1 && first.high < 1.3);
-    assert_true(statistics_bootstrap(&segments, median_ratio, sets, &again));
+    again = bootstrap(&segments, median_ratio, sets);
     assert_memory_equal(&first, &again, sizeof first); // a fixed seed: the same logs, the same verdict
 }
 
@@ -296,8 +295,8 @@ static void test_pairs_cancel_drift(void **state)
     struct estimate unpaired, paired;
     noisy(old, 1, 1, 0.1); // the machine slows down to half its speed over the ten pairs
     noisy(new, 2, 1.2, 0.1);
-    assert_true(statistics_bootstrap(&alone, median_ratio, sets, &unpaired));
-    assert_true(statistics_bootstrap(&together, median_ratio, sets, &paired));
+    unpaired = bootstrap(&alone, median_ratio, sets);
+    paired = bootstrap(&together, median_ratio, sets);
     assert_true(paired.low < 1.2 && 1.2 < paired.high);
     assert_true(paired.high - paired.low < 0.5 * (unpaired.high - unpaired.low));
 }

@@ -1,6 +1,7 @@
-/// The columns of the timing log.
+/// The columns of the timing log, and what sums one up.
 #include "timing/columns.h"
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #define ROW(field) #field, .offset = offsetof(struct frame_row, field)
@@ -39,4 +40,37 @@ double column_value(const struct column *column, const struct frame_row *row)
     double value;
     memcpy(&value, field, sizeof value);
     return value;
+}
+
+static int by_number(const void *a, const void *b)
+{
+    double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+void statistics_sort(double *values, int count)
+{
+    if (count > 1) qsort(values, (size_t)count, sizeof *values, by_number);
+}
+
+double statistics_quantile(const double *sorted, int count, double p)
+{
+    if (count < 1) return NAN;
+    double position = p * (count - 1);
+    int below = (int)position;
+    int above = below + 1 < count ? below + 1 : below;
+    return sorted[below] + (position - below) * (sorted[above] - sorted[below]);
+}
+
+const double frame_budgets_ms[BUDGET_COUNT] = {1000.0 / 60, 1000.0 / 30};
+
+struct over_budget statistics_over(const double *values, int count, double budget)
+{
+    struct over_budget over = {0, 0};
+    for (int i = 0, run = 0; i < count; i++) {
+        run = values[i] > budget ? run + 1 : 0;
+        over.frames += run > 0;
+        if (run > over.longest) over.longest = run;
+    }
+    return over;
 }

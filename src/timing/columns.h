@@ -1,4 +1,4 @@
-/// The columns of the timing log, for its writer and its readers.
+/// The columns of the timing log, for its writer and its readers, and what sums one up.
 #ifndef TIMING_COLUMNS_H
 #define TIMING_COLUMNS_H
 
@@ -42,5 +42,23 @@ extern const struct column timing_columns[COLUMN_COUNT];
 
 /// The number in a column of a row; NAN where it was not measured.
 double column_value(const struct column *column, const struct frame_row *row);
+
+/// Sorts ascending; no NaN among them.
+void statistics_sort(double *values, int count);
+
+/// The quantile p in 0 … 1 of sorted values, between two of them by linear interpolation at p·(count − 1). NAN for none.
+double statistics_quantile(const double *sorted, int count, double p);
+
+/// Budget of a frame at 60 and 30 frames per second.
+enum { BUDGET_60, BUDGET_30, BUDGET_COUNT };
+extern const double frame_budgets_ms[BUDGET_COUNT];
+
+/// Frames over a budget, and the longest run of them.
+struct over_budget {
+    int frames, longest;
+};
+
+/// Counts the values above `budget`, which are in the order of time; NaN breaks a run.
+struct over_budget statistics_over(const double *values, int count, double budget);
 
 #endif

@@ -1,6 +1,6 @@
 /// The picture: frames along the session above, the histogram and the percentiles side by side below.
+#include "timing/columns.h"
 #include "timing/distribution.h"
-#include "timing/statistics.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

@@ -2,7 +2,6 @@
 #include "base/build.h"
 #include "base/file.h"
 #include "timing/columns.h"
-#include "timing/statistics.h"
 #include <errno.h>
 #include <math.h>
 #include <stdlib.h>

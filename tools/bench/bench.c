@@ -2,7 +2,7 @@
 #include "bench/bench.h"
 #include "base/clock.h"
 #include "base/error.h"
-#include "timing/statistics.h"
+#include "timing/columns.h"
 #include <math.h>
 #include <stdarg.h>
 #include <stdlib.h>

@@ -1,47 +1,17 @@
 /// The bootstrap: draw as many segments as there are, with replacement, and compute the quantity from the frames in them; repeat.
 /// A drawn segment only changes how often its frames count, so frames are sorted once, and each repetition walks them adding up
 /// weights until the quantile's share of the total is reached.
-#include "timing/statistics.h"
+#include "regress/bootstrap.h"
+#include "base/error.h"
+#include "timing/columns.h"
 #include <assert.h>
 #include <math.h>
 #include <stdint.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 enum { RESAMPLES = 1000 };
-
-static int by_number(const void *a, const void *b)
-{
-    double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
-void statistics_sort(double *values, int count)
-{
-    if (count > 1) qsort(values, (size_t)count, sizeof *values, by_number);
-}
-
-double statistics_quantile(const double *sorted, int count, double p)
-{
-    if (count < 1) return NAN;
-    double position = p * (count - 1);
-    int below = (int)position;
-    int above = below + 1 < count ? below + 1 : below;
-    return sorted[below] + (position - below) * (sorted[above] - sorted[below]);
-}
-
-const double frame_budgets_ms[BUDGET_COUNT] = {1000.0 / 60, 1000.0 / 30};
-
-struct over_budget statistics_over(const double *values, int count, double budget)
-{
-    struct over_budget over = {0, 0};
-    for (int i = 0, run = 0; i < count; i++) {
-        run = values[i] > budget ? run + 1 : 0;
-        over.frames += run > 0;
-        if (run > over.longest) over.longest = run;
-    }
-    return over;
-}
 
 static int by_value(const void *a, const void *b)
 {
@@ -49,12 +19,12 @@ static int by_value(const void *a, const void *b)
     return (x->value > y->value) - (x->value < y->value);
 }
 
-void statistics_sort_observations(struct observation *items, int count)
+void sort_observations(struct observation *items, int count)
 {
     if (count > 1) qsort(items, (size_t)count, sizeof *items, by_value);
 }
 
-double statistics_weighted_quantile(const struct observation *sorted, int count, const int *weight, double p)
+double weighted_quantile(const struct observation *sorted, int count, const int *weight, double p)
 {
     long total = 0, seen = 0;
     for (int i = 0; i < count; i++) total += weight[sorted[i].segment];
@@ -83,8 +53,8 @@ static void draw_segments(int *weight, int segments, uint64_t *random)
     for (int i = 0; i < segments; i++) weight[next_random(random) % (uint64_t)segments]++;
 }
 
-static void resample(const struct segments *segments, statistics_quantity *quantity, const void *user,
-                     int *old_weight, int *new_weight, double *values, struct estimate *result)
+static void resample(const struct segments *segments, bootstrap_quantity *quantity, const void *user, int *old_weight,
+                     int *new_weight, double *values, struct estimate *result)
 {
     uint64_t random = 1;
     int count = 0;
@@ -99,22 +69,27 @@ static void resample(const struct segments *segments, statistics_quantity *quant
     result->high = statistics_quantile(values, count, 0.995);
 }
 
-bool statistics_bootstrap(const struct segments *segments, statistics_quantity *quantity, const void *user,
-                          struct estimate *result)
+static void *room(size_t count, size_t size)
+{
+    void *memory = malloc(count * size);
+    if (memory) return memory;
+    fputs("timing_diff: out of memory\n", stderr);
+    exit(ERROR_ENVIRONMENT);
+}
+
+struct estimate bootstrap(const struct segments *segments, bootstrap_quantity *quantity, const void *user)
 {
     assert(!segments->paired || segments->old_count == segments->new_count);
-    int *old_weight = malloc((size_t)segments->old_count * sizeof *old_weight);
-    int *new_weight = malloc((size_t)segments->new_count * sizeof *new_weight);
-    double *values = malloc(RESAMPLES * sizeof *values);
-    bool done = old_weight && new_weight && values;
-    if (done) {
-        for (int i = 0; i < segments->old_count; i++) old_weight[i] = 1;
-        for (int i = 0; i < segments->new_count; i++) new_weight[i] = 1;
-        result->value = quantity(old_weight, new_weight, user);
-        resample(segments, quantity, user, old_weight, new_weight, values, result);
-    }
+    int *old_weight = room((size_t)segments->old_count, sizeof *old_weight);
+    int *new_weight = room((size_t)segments->new_count, sizeof *new_weight);
+    double *values = room(RESAMPLES, sizeof *values);
+    struct estimate result;
+    for (int i = 0; i < segments->old_count; i++) old_weight[i] = 1;
+    for (int i = 0; i < segments->new_count; i++) new_weight[i] = 1;
+    result.value = quantity(old_weight, new_weight, user);
+    resample(segments, quantity, user, old_weight, new_weight, values, &result);
     free(old_weight);
     free(new_weight);
     free(values);
-    return done;
+    return result;
 }
