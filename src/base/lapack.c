@@ -40,8 +40,7 @@ bool lapack_load(struct lapack *lapack, char *description, size_t size)
     find(lapack->lapacke, "LAPACKE_zheevd", &lapack->zheevd);
     find(lapack->lapacke, "LAPACKE_dgeev", &lapack->dgeev);
     if (set_threads) set_threads(1);
-    bool whole = lapack->dpbsv && lapack->dsyevd && lapack->zheevd && lapack->dgeev &&
-                 lapack->dsyrk && lapack->dgemm;
+    bool whole = lapack->dpbsv && lapack->dsyevd && lapack->zheevd && lapack->dgeev && lapack->dsyrk && lapack->dgemm;
     if (!whole) {
         lapack_unload(lapack);
         snprintf(description, size, "not found (install liblapacke and libopenblas0)");
