@@ -2,6 +2,7 @@
 ///
 /// Exit status 1 where something became worse by more than its limit or a counter differs in any frame; 2 where the logs cannot be compared;
 /// else 0.
+#include "base/need.h"
 #include "regress/bootstrap.h"
 #include "timing/readlog.h"
 #include <math.h>
@@ -72,25 +73,17 @@ static bool has_same_shape(const struct timing_log *old, const struct timing_log
     return true;
 }
 
-static void *room(int count, size_t size)
-{
-    void *memory = calloc((size_t)count, size);
-    if (memory) return memory;
-    fputs("timing_diff: out of memory\n", stderr);
-    exit(ERROR_ENVIRONMENT);
-}
-
 static struct comparison comparison_open(const struct timing_log *old, const struct timing_log *new)
 {
     struct comparison c = {.old = old, .new = new, .same_shape = has_same_shape(old, new)};
     c.by_run = old->runs >= RUNS_ENOUGH && new->runs >= RUNS_ENOUGH;
     c.segments = (struct segments){segment_of(&c, old, old->rows - 1) + 1, segment_of(&c, new, new->rows - 1) + 1,
                                    c.same_shape};
-    c.old_items = room(old->rows, sizeof *c.old_items);
-    c.new_items = room(new->rows, sizeof *c.new_items);
-    c.ratios = room(old->rows, sizeof *c.ratios);
-    c.old_tallies = room(old->rows, sizeof *c.old_tallies); // at most a run or a stretch a frame
-    c.new_tallies = room(new->rows, sizeof *c.new_tallies);
+    c.old_items = need_zeroed((size_t)old->rows, sizeof *c.old_items);
+    c.new_items = need_zeroed((size_t) new->rows, sizeof *c.new_items);
+    c.ratios = need_zeroed((size_t)old->rows, sizeof *c.ratios);
+    c.old_tallies = need_zeroed((size_t)old->rows, sizeof *c.old_tallies); // at most a run or a stretch a frame
+    c.new_tallies = need_zeroed((size_t) new->rows, sizeof *c.new_tallies);
     return c;
 }
 

@@ -3,6 +3,7 @@
 #include "base/clock.h"
 #include "base/error.h"
 #include "base/file.h"
+#include "base/need.h"
 #include "bench/bench.h"
 #include "spline/solver.h"
 #include <math.h>
@@ -75,7 +76,7 @@ static void run_edit(struct bench *bench)
     wiggly_take *take = NULL;
     wiggly_solver *solver = NULL;
     double values[PART];
-    wiggly_curve curve = {.total = bench_room(SAMPLES, sizeof(double))};
+    wiggly_curve curve = {.total = need_zeroed(SAMPLES, sizeof(double))};
     struct bench_result result = bench_blank(WIGGLY_COMPLEX, SAMPLES);
     snprintf(result.name, sizeof result.name, "edit/complex/%d", SAMPLES);
     bench_input_create(&input, BENCH_EDIT, WIGGLY_COMPLEX, SAMPLES);
@@ -112,7 +113,7 @@ static void run_large(struct bench *bench)
     struct bench_input input;
     wiggly_solver *solver = NULL;
     struct rusage usage;
-    wiggly_curve curve = {.total = bench_room(SAMPLES, sizeof(double))};
+    wiggly_curve curve = {.total = need_zeroed(SAMPLES, sizeof(double))};
     struct bench_result result = bench_blank(WIGGLY_COMPLEX, SAMPLES);
     snprintf(result.name, sizeof result.name, "loop/complex/%d", SAMPLES);
     bench_input_create(&input, BENCH_LOOP, WIGGLY_COMPLEX, SAMPLES);
@@ -179,7 +180,7 @@ int main(int argc, char **argv)
     size_t size = 0;
     bench_open(&bench);
     bench.json = open_memstream(&cases, &size);
-    if (!bench.json) bench_stop("out of memory");
+    if (!bench.json) need_failed();
     if (large) run_large(&bench);
     run_plans(&bench);
     bench_batches(&bench);

@@ -1,6 +1,7 @@
 /// The benchmark's batches: 10,000 splines of 240 samples, every knot changed between runs, for total and Im x.
 #include "spline/batch.h"
 #include "base/clock.h"
+#include "base/need.h"
 #include "bench/bench.h"
 #include "spline/chain_lanes.h"
 #include <math.h>
@@ -42,11 +43,11 @@ static void describe(struct crowd *crowd, int s, enum bench_kind kind)
 static void crowd_create(struct crowd *crowd, enum bench_kind kind)
 {
     *crowd = (struct crowd){
-        .desc = bench_room(CROWD, sizeof *crowd->desc),
-        .curve = bench_room(CROWD, sizeof *crowd->curve),
-        .knots = bench_room((size_t)CROWD * KNOTS, sizeof *crowd->knots),
-        .numbers = bench_room((size_t)CROWD * 2 * SAMPLES, sizeof *crowd->numbers),
-        .equilibria = bench_room((size_t)CROWD * SAMPLES, sizeof *crowd->equilibria),
+        .desc = need_zeroed(CROWD, sizeof *crowd->desc),
+        .curve = need_zeroed(CROWD, sizeof *crowd->curve),
+        .knots = need_zeroed((size_t)CROWD * KNOTS, sizeof *crowd->knots),
+        .numbers = need_zeroed((size_t)CROWD * 2 * SAMPLES, sizeof *crowd->numbers),
+        .equilibria = need_zeroed((size_t)CROWD * SAMPLES, sizeof *crowd->equilibria),
     };
     for (int s = 0; s < CROWD; s++) describe(crowd, s, kind);
 }

@@ -18,13 +18,6 @@ void bench_stop(const char *format, ...)
     exit(ERROR_ENVIRONMENT);
 }
 
-void *bench_room(size_t count, size_t size)
-{
-    void *room = calloc(count, size);
-    if (!room) bench_stop("out of memory");
-    return room;
-}
-
 void bench_open(struct bench *bench)
 {
     *bench = (struct bench){0};

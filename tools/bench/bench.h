@@ -48,9 +48,6 @@ void bench_report(struct bench *bench, const struct bench_result *result);
 /// Ends the program with a sentence.
 _Noreturn void bench_stop(const char *format, ...) __attribute__((format(printf, 1, 2)));
 
-/// Zeros, which the caller frees.
-void *bench_room(size_t count, size_t size);
-
 /// Verifies a description, which has knots, and times it; `values_only`: by a solver that has just solved it all but for a knot's value.
 void bench_case(struct bench *bench, const wiggly_desc *desc, bool values_only, struct bench_result *result);
 

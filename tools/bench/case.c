@@ -1,5 +1,6 @@
 /// One spline of the benchmark: its check against LAPACK on the squared system, and its times.
 #include "base/clock.h"
+#include "base/need.h"
 #include "bench/bench.h"
 #include "spline/solver.h"
 #include <math.h>
@@ -31,14 +32,14 @@ static bool is_alone(const wiggly_desc *desc) { return is_limited(desc) || desc-
 static void work_create(struct work *w, const wiggly_desc *desc, const char *name)
 {
     const size_t n = (size_t)desc->samples, band = 2 * n * (MOST_BAND + 1);
-    double *total = bench_room(6 * n + 2 * (band + 2 * n), sizeof *total);
+    double *total = need_zeroed(6 * n + 2 * (band + 2 * n), sizeof *total);
     *w = (struct work){.desc = *desc, .about = total + 5 * n, .band = total + 6 * n};
     w->curve = (wiggly_curve){
         .total = total, .y = total + n, .re = total + 2 * n, .im = total + 3 * n, .omega = total + 4 * n};
     w->right = w->band + band;
     w->solved_band = w->right + 2 * n;
     w->solved = w->solved_band + band;
-    w->knots = bench_room((size_t)desc->knot_count, sizeof *w->knots);
+    w->knots = need_zeroed((size_t)desc->knot_count, sizeof *w->knots);
     memcpy(w->knots, desc->knots, sizeof *w->knots * (size_t)desc->knot_count);
     w->desc.knots = w->knots;
     const int held = is_limited(desc) ? desc->samples : 0;

@@ -1,4 +1,5 @@
 /// The benchmark's splines: frequency 1, damping 0.05, at 24 samples a second, about a knot a second.
+#include "base/need.h"
 #include "bench/bench.h"
 #include <math.h>
 #include <stdint.h>
@@ -57,8 +58,8 @@ void bench_input_create(struct bench_input *input, enum bench_kind kind, wiggly_
 {
     *input = (struct bench_input){
         .desc = wiggly_default_desc(),
-        .knots = bench_room((size_t)samples / LEAST_GAP + 3, sizeof *input->knots),
-        .track = bench_room((size_t)samples, sizeof *input->track),
+        .knots = need_zeroed((size_t)samples / LEAST_GAP + 3, sizeof *input->knots),
+        .track = need_zeroed((size_t)samples, sizeof *input->track),
     };
     wiggly_desc *desc = &input->desc;
     desc->knots = input->knots;

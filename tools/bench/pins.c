@@ -1,5 +1,6 @@
 /// The benchmark's pins: groups of splines that share points, one of which is dragged.
 #include "base/clock.h"
+#include "base/need.h"
 #include "bench/bench.h"
 #include <math.h>
 #include <stdio.h>
@@ -73,8 +74,8 @@ static void lay(struct pinned *p, int b)
 static void open_group(struct pinned *p, int splines, int pins, int samples, int bounds)
 {
     *p = (struct pinned){.splines = splines, .pins = pins, .bounds = bounds, .samples = samples};
-    p->knots = bench_room((size_t)(splines * (samples / GAP)), sizeof *p->knots);
-    p->numbers = bench_room((size_t)(splines * 3 * samples), sizeof *p->numbers);
+    p->knots = need_zeroed((size_t)(splines * (samples / GAP)), sizeof *p->knots);
+    p->numbers = need_zeroed((size_t)(splines * 3 * samples), sizeof *p->numbers);
     for (int s = 0; s < splines; s++) describe(p, s);
     for (int i = 0; i < pins; i++) place(p, i);
     for (int b = 0; b < bounds; b++) lay(p, b);

@@ -1,5 +1,6 @@
 /// Times the splines of assets/scenes, tracks and all.
 #include "base/error.h"
+#include "base/need.h"
 #include "bench/bench.h"
 #include "rig/opened.h"
 #include "scene/storage.h"
@@ -29,7 +30,7 @@ static void time_spline(struct bench *bench, const struct opened *opened, int sp
     const struct evaluation *evaluation = &opened->evaluation;
     struct bench_result result = bench_blank(WIGGLY_COMPLEX, 0);
     wiggly_desc desc = storage_describe(evaluation->storage, evaluation->curves, opened->document, spline, false);
-    wiggly_knot *knots = bench_room((size_t)of->knot_count, sizeof *knots);
+    wiggly_knot *knots = need_zeroed((size_t)of->knot_count, sizeof *knots);
     storage_add_knots(&desc, opened->document, spline, knots);
     snprintf(result.name, sizeof result.name, "%.19s: %.18s", path, of->name);
     bench_case(bench, &desc, false, &result);

@@ -2,12 +2,11 @@
 /// A drawn segment only changes how often its frames count, so frames are sorted once, and each repetition walks them adding up
 /// weights until the quantile's share of the total is reached.
 #include "regress/bootstrap.h"
-#include "base/error.h"
+#include "base/need.h"
 #include "timing/columns.h"
 #include <assert.h>
 #include <math.h>
 #include <stdint.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -69,20 +68,12 @@ static void resample(const struct segments *segments, bootstrap_quantity *quanti
     result->high = statistics_quantile(values, count, 0.995);
 }
 
-static void *room(size_t count, size_t size)
-{
-    void *memory = malloc(count * size);
-    if (memory) return memory;
-    fputs("timing_diff: out of memory\n", stderr);
-    exit(ERROR_ENVIRONMENT);
-}
-
 struct estimate bootstrap(const struct segments *segments, bootstrap_quantity *quantity, const void *user)
 {
     assert(!segments->paired || segments->old_count == segments->new_count);
-    int *old_weight = room((size_t)segments->old_count, sizeof *old_weight);
-    int *new_weight = room((size_t)segments->new_count, sizeof *new_weight);
-    double *values = room(RESAMPLES, sizeof *values);
+    int *old_weight = need((size_t)segments->old_count, sizeof *old_weight);
+    int *new_weight = need((size_t)segments->new_count, sizeof *new_weight);
+    double *values = need(RESAMPLES, sizeof *values);
     struct estimate result;
     for (int i = 0; i < segments->old_count; i++) old_weight[i] = 1;
     for (int i = 0; i < segments->new_count; i++) new_weight[i] = 1;
