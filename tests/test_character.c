@@ -112,6 +112,8 @@ static const char *glb(const char *json, const void *bin, size_t bin_size)
     return temporary_file("other.glb", data, 28 + length + bin_size);
 }
 
+#define HEAD "{\"asset\":{\"version\":\"2.0\"},\"buffers\":[{}],\"nodes\":[{\"mesh\":0}]"
+
 /// What another exporter may write: interleaved positions and byte colours with alpha, short indices, two primitives, a
 /// target that is sparse and one that is left out, and other targets between ours.
 static void a_file_of_another_program(void **state)
@@ -137,7 +139,7 @@ static void a_file_of_another_program(void **state)
         "{\"bufferView\":1,\"componentType\":5123,\"count\":3,\"type\":\"SCALAR\"},"
         "{\"componentType\":5126,\"count\":3,\"type\":\"VEC3\",\"sparse\":{\"count\":1,\"indices\":{\"bufferView\":1,"
         "\"byteOffset\":6,\"componentType\":5123},\"values\":{\"bufferView\":2}}}],"
-        "\"meshes\":[{\"primitives\":[{\"attributes\":{}}]},{\"primitives\":["
+        "\"nodes\":[{\"mesh\":1}],\"meshes\":[{\"primitives\":[{\"attributes\":{}}]},{\"primitives\":["
         "{\"attributes\":{\"POSITION\":0,\"COLOR_0\":1},\"indices\":2,\"targets\":[{},{\"POSITION\":3},{}]},"
         "{\"attributes\":{\"POSITION\":0},\"targets\":[{},{},{}]}],"
         "\"extras\":{\"targetNames\":[\"up.re\",\"up.im\",\"smile\"]}}]}";
@@ -166,7 +168,8 @@ static void a_mesh_stands_where_its_node_puts_it(void **state)
     const float bin[9] = {0, 0, 0, 1, 0, 0, 0, 0, 1};
     struct character c;
     read_good(
-        glb("{\"bufferViews\":[{\"buffer\":0,\"byteLength\":36}],\"accessors\":[{\"bufferView\":0,"
+        glb("{\"asset\":{\"version\":\"2.0\"},\"buffers\":[{}],\"bufferViews\":[{\"buffer\":0,\"byteLength\":36}],"
+            "\"accessors\":[{\"bufferView\":0,"
             "\"componentType\":5126,\"count\":3,\"type\":\"VEC3\"}],\"nodes\":[{\"mesh\":0,\"scale\":[-2,2,2]},"
             "{\"children\":[0],\"translation\":[0,5,0],\"rotation\":[0,0.7071067811865476,0,0.7071067811865476]}],"
             "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0},\"targets\":[{\"POSITION\":0},{}]}],"
@@ -204,10 +207,10 @@ static void triangles_that_repeat_a_vertex_are_left_out(void **state)
     struct character c;
     struct error error;
 #define REPEATS                                                                                                      \
-    "{\"bufferViews\":[{\"buffer\":0,\"byteLength\":36},{\"buffer\":0,\"byteOffset\":36,\"byteLength\":12}],"        \
-    "\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"count\":3,\"type\":\"VEC3\"},{\"bufferView\":1,"      \
-    "\"componentType\":5123,\"count\":%d,\"type\":\"SCALAR\"}],\"materials\":[{\"name\":\"red\"}],\"meshes\":["      \
-    "{\"primitives\":[{\"attributes\":{\"POSITION\":0},\"indices\":1,\"material\":0}]}]}"
+    HEAD ",\"bufferViews\":[{\"buffer\":0,\"byteLength\":36},{\"buffer\":0,\"byteOffset\":36,\"byteLength\":12}],"   \
+         "\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"count\":3,\"type\":\"VEC3\"},{\"bufferView\":1," \
+         "\"componentType\":5123,\"count\":%d,\"type\":\"SCALAR\"}],\"materials\":[{\"name\":\"red\"}],\"meshes\":[" \
+         "{\"primitives\":[{\"attributes\":{\"POSITION\":0},\"indices\":1,\"material\":0}]}]}"
     snprintf(json, sizeof json, REPEATS, 6);
     read_good(glb(json, &bin, sizeof bin), &c);
     const uint32_t indices[] = {0, 1, 2};
@@ -218,7 +221,7 @@ static void triangles_that_repeat_a_vertex_are_left_out(void **state)
     character_free(&c);
     snprintf(json, sizeof json, REPEATS, 3);
     assert_false(character_read(glb(json, &bin, sizeof bin), &c, &error));
-    assert_non_null(strstr(error.text, "expected triangles of three different vertices, got others alone"));
+    assert_non_null(strstr(error.text, "expected a mesh of triangles, got triangles without area"));
 }
 
 #define MESH "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0}}]}]"
@@ -230,45 +233,48 @@ static void bad_files_get_one_sentence(void **state)
     float bin[9] = {0, 0, 0, 1, 0, 0, 0, (float)NAN, 0};
     assert_refused("/nowhere.glb", "/nowhere.glb: cannot be opened");
     assert_refused(temporary_file("text.glb", "{\"asset\": {\"version\": \"2.0\"}}", 29),
-                   "expected a binary glTF 2.0 file");
+                   "expected something to show, got no nodes");
     assert_refused(glb("{", bin, 0), "JSON, line 1");
-    assert_refused(glb("{}", bin, 0), "expected a mesh, got none");
-    assert_refused(glb("{" MESH "}", bin, 0), "expected a mesh with positions, got none");
-    assert_refused(glb("{" MESH "," VIEW
-                       ",\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"count\":4,\"type\":"
-                       "\"VEC3\"}]}",
+    assert_refused(glb("{}", bin, 0), "expected glTF 2.0, got none");
+    assert_refused(glb("{\"asset\":{\"version\":\"2.0\"},\"nodes\":[{}]}", bin, 0),
+                   "expected a mesh of triangles, got none");
+    assert_refused(glb(HEAD "," MESH "}", bin, 0), "attributes.POSITION: expected an accessor, got none");
+    assert_refused(glb(HEAD "," MESH "," VIEW
+                            ",\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"count\":4,\"type\":"
+                            "\"VEC3\"}]}",
                        bin, sizeof bin),
                    "accessors[0]: expected data within the file");
-    assert_refused(glb("{" MESH "," VIEW
-                       ",\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"count\":3,\"type\":"
-                       "\"VEC3\"}]}",
+    assert_refused(glb(HEAD "," MESH "," VIEW
+                            ",\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"count\":3,\"type\":"
+                            "\"VEC3\"}]}",
                        bin, sizeof bin),
                    "accessors[0]: expected finite numbers, got NaN");
-    assert_refused(glb("{" MESH "," VIEW
-                       ",\"accessors\":[{\"bufferView\":7,\"componentType\":5126,\"count\":3,\"type\":"
-                       "\"VEC2\"}]}",
+    assert_refused(glb(HEAD "," MESH "," VIEW
+                            ",\"accessors\":[{\"bufferView\":7,\"componentType\":5126,\"count\":3,\"type\":"
+                            "\"VEC2\"}]}",
                        bin, sizeof bin),
                    "accessors[0]: expected ");
-    assert_refused(glb("{\"accessors\":[{\"componentType\":5126,\"count\":100000000,\"type\":\"VEC3\"}],\"meshes\":["
+    assert_refused(glb(HEAD
+                       ",\"accessors\":[{\"componentType\":5126,\"count\":100000000,\"type\":\"VEC3\"}],\"meshes\":["
                        "{\"primitives\":[{\"attributes\":{\"POSITION\":0}}],\"extras\":{\"targetNames\":["
                        "\"a.re\",\"a.im\",\"b.re\",\"b.im\"]}}]}",
                        bin, 0),
-                   "accessors[0]: expected positions that are in the file, got none");
+                   "expected at most 8397344 vertices together in a file of this size, got 100000000");
     assert_refused(
-        glb("{" VIEW ",\"accessors\":[{\"componentType\":5126,\"count\":1000000,\"type\":\"VEC3\",\"sparse\":{"
-            "\"count\":1,\"indices\":{\"bufferView\":0,\"componentType\":5121},\"values\":{\"bufferView\":0}}}],"
-            "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0}}],\"extras\":{\"targetNames\":["
-            "\"a.re\",\"a.im\",\"b.re\",\"b.im\"]}}]}",
+        glb(HEAD "," VIEW ",\"accessors\":[{\"componentType\":5126,\"count\":1000000,\"type\":\"VEC3\",\"sparse\":{"
+                 "\"count\":1,\"indices\":{\"bufferView\":0,\"componentType\":5121},\"values\":{\"bufferView\":0}}}],"
+                 "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0}}],\"extras\":{\"targetNames\":["
+                 "\"a.re\",\"a.im\",\"b.re\",\"b.im\"]}}]}",
             bin, 36),
-        "expected no more data than fits a file of this size, got 3000000 times 24 bytes");
+        "attributes.POSITION: expected at most 699");
     bin[7] = 0; // numbers that are none do not make room for the others smaller
-    assert_refused(glb("{" VIEW
-                       ",\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"count\":3,\"type\":\"VEC3\"},"
-                       "{\"bufferView\":0,\"componentType\":5126,\"count\":1000000000000000000,\"type\":\"VEC3\"}],"
-                       "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0}},{\"attributes\":{\"POSITION\":"
-                       "1}}]}]}",
-                       bin, sizeof bin),
-                   "expected a mesh with positions, got none");
+    assert_refused(
+        glb(HEAD "," VIEW ",\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"count\":3,\"type\":\"VEC3\"},"
+                 "{\"bufferView\":0,\"componentType\":5126,\"count\":1000000000000000000,\"type\":\"VEC3\"}],"
+                 "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0}},{\"attributes\":{\"POSITION\":"
+                 "1}}]}]}",
+            bin, sizeof bin),
+        "attributes.POSITION: expected an accessor, got none");
     struct character c;
     struct error error;
     make_character(&c);

@@ -201,7 +201,7 @@ static bool open_original(const struct shot *shot, const char *path, bool binary
 {
     *original = (struct original){0};
     struct glb *source = &original->source;
-    if (!glb_open_any(source, path, error)) return false;
+    if (!glb_open(source, path, error)) return false;
     original->is_other = (memcmp(source->data, "glTF", 4) == 0) != binary;
     bool done;
     if (original->is_other) {

@@ -16,7 +16,7 @@ struct gltf_source *gltf_source_open(const char *path, struct error *error)
         fail_no_memory(error, path);
         return NULL;
     }
-    if (glb_open_any(&source->file, path, error)) {
+    if (glb_open(&source->file, path, error)) {
         if (glb_read_buffers(&source->file, error)) return source;
         glb_close(&source->file);
     }

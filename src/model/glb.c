@@ -50,54 +50,22 @@ static bool read_chunks(struct glb *glb, size_t size, struct error *error)
     return read_json(glb, glb->data + HEADER + CHUNK_HEADER, length, error);
 }
 
-/// Reads the file; `parse` its bytes. False leaves nothing to close.
-static bool open_file(struct glb *glb, const char *path, bool (*parse)(struct glb *, size_t, struct error *),
-                      struct error *error)
+bool glb_open_bytes(struct glb *glb, const char *path, char *data, size_t size, struct error *error)
 {
-    size_t size;
-    *glb = (struct glb){.path = path, .room = GLB_ROOM};
-    if (!file_read(path, GLB_FILE_LIMIT, &glb->data, &size, error)) return false;
-    glb->room += GLB_GROWTH * size;
+    *glb = (struct glb){.path = path, .data = data, .room = GLB_ROOM + GLB_GROWTH * size};
     stage_tell("reading a glTF file", 0, (long)size);
-    if (parse(glb, size, error)) return true;
+    const bool binary = size >= 4 && word_at(data) == GLB_MAGIC;
+    const bool parsed = binary ? read_chunks(glb, size, error) : read_json(glb, data, size, error);
+    if (parsed && (json_is_object(glb->json) || expected(glb, "a JSON object", error))) return true;
     glb_close(glb);
     return false;
 }
 
-static bool read_glb(struct glb *glb, size_t size, struct error *error)
-{
-    if (!read_chunks(glb, size, error)) return false;
-    glb->buffers = calloc(1, sizeof *glb->buffers);
-    if (!glb->buffers) return fail_no_memory(error, glb->path);
-    glb->buffers[glb->buffer_count++].bytes = glb->chunk;
-    return true;
-}
-
 bool glb_open(struct glb *glb, const char *path, struct error *error)
 {
-    return open_file(glb, path, read_glb, error);
-}
-
-static bool read_either(struct glb *glb, size_t size, struct error *error)
-{
-    bool binary = size >= 4 && word_at(glb->data) == GLB_MAGIC;
-    bool parsed = binary ? read_chunks(glb, size, error) : read_json(glb, glb->data, size, error);
-    return parsed && (json_is_object(glb->json) || expected(glb, "a JSON object", error));
-}
-
-bool glb_open_any(struct glb *glb, const char *path, struct error *error)
-{
-    return open_file(glb, path, read_either, error);
-}
-
-bool glb_take_room(struct glb *glb, size_t count, size_t size, struct error *error)
-{
-    if (count > glb->room / size)
-        return fail(error, ERROR_INPUT,
-                    "%s: expected no more data than fits a file of this size, got %zu times %zu bytes", glb->path,
-                    count, size);
-    glb->room -= count * size;
-    return true;
+    char *data;
+    size_t size;
+    return file_read(path, GLB_FILE_LIMIT, &data, &size, error) && glb_open_bytes(glb, path, data, size, error);
 }
 
 void glb_close(struct glb *glb)

@@ -39,15 +39,12 @@ struct glb {
     size_t room; ///< bytes that may still be made of it, so that no claim of a small file fills the memory
 };
 
-/// Reads a .glb and its JSON; its chunk is the only buffer. False leaves nothing to close.
+/// Reads a .glb or .gltf and its JSON, no buffers yet. False leaves nothing to close.
 bool glb_open(struct glb *glb, const char *path, struct error *error);
 
-/// Reads a .glb or .gltf and its JSON, no buffers yet. False leaves nothing to close.
-bool glb_open_any(struct glb *glb, const char *path, struct error *error);
+/// The same of a file's bytes, which it takes over; behind them is room for a NUL.
+bool glb_open_bytes(struct glb *glb, const char *path, char *data, size_t size, struct error *error);
 void glb_close(struct glb *glb);
-
-/// Takes so much of the room for what is about to be made of the file. False with a sentence where there is less.
-bool glb_take_room(struct glb *glb, size_t count, size_t size, struct error *error);
 
 /// The buffers that the JSON names: the chunk, files beside it and data URIs.
 bool glb_read_buffers(struct glb *glb, struct error *error);
@@ -72,9 +69,5 @@ struct glb_numbers {
 };
 
 bool glb_numbers(const struct glb *glb, int64_t accessor, struct glb_numbers *numbers, struct error *error);
-
-/// The matrix, columns first, that places mesh number `mesh` in the scene: that of the first node that shows it. False with a sentence where
-/// memory is short.
-bool glb_mesh_matrix(const struct glb *glb, int64_t mesh, double matrix[16], struct error *error);
 
 #endif

@@ -52,6 +52,11 @@ int gltf_find_clip(const struct gltf *gltf, const char *name)
     return -1;
 }
 
+const char *gltf_target_name(const struct gltf_mesh *mesh, int target)
+{
+    return json_string_value(json_array_get(json_object_get(mesh->extras, "targetNames"), (size_t)target));
+}
+
 int gltf_vertex_count(const struct gltf *gltf, int node)
 {
     const struct gltf_mesh *mesh = gltf->nodes[node].mesh >= 0 ? &gltf->meshes[gltf->nodes[node].mesh] : NULL;
@@ -60,7 +65,7 @@ int gltf_vertex_count(const struct gltf *gltf, int node)
     return count;
 }
 
-static void free_part(struct gltf_part *part, int targets)
+static void free_vertices(struct gltf_part *part, int targets)
 {
     for (int i = 0; part->targets && i < targets; i++) {
         free(part->targets[i].position);
@@ -69,16 +74,19 @@ static void free_part(struct gltf_part *part, int targets)
     free(part->targets);
     free(part->position);
     free(part->normal);
-    free(part->uv);
     free(part->color);
     free(part->joints);
     free(part->weights);
-    free(part->indices);
 }
 
 static void free_mesh(struct gltf_mesh *mesh)
 {
-    for (int i = 0; i < mesh->part_count; i++) free_part(&mesh->parts[i], mesh->target_count);
+    for (int i = 0; i < mesh->part_count; i++) {
+        if (!mesh->parts[i].shared) free_vertices(&mesh->parts[i], mesh->target_count);
+        free(mesh->parts[i].uv);
+        free(mesh->parts[i].indices);
+    }
+    json_decref(mesh->extras);
     free(mesh->parts);
     free(mesh->weights);
     free(mesh->name);
@@ -100,7 +108,11 @@ void gltf_free(struct gltf *gltf)
 {
     for (int i = 0; i < gltf->node_count; i++) free(gltf->nodes[i].name);
     for (int i = 0; i < gltf->mesh_count; i++) free_mesh(&gltf->meshes[i]);
-    for (int i = 0; i < gltf->image_count; i++) free(gltf->images[i].pixels);
+    for (int i = 0; i < gltf->image_count; i++) {
+        free(gltf->images[i].name);
+        free(gltf->images[i].bytes);
+        free(gltf->images[i].pixels);
+    }
     for (int i = 0; i < gltf->skin_count; i++) {
         free(gltf->skins[i].joints);
         free(gltf->skins[i].inverse_bind);

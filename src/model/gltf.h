@@ -4,7 +4,7 @@
 #ifndef MODEL_GLTF_H
 #define MODEL_GLTF_H
 
-#include "base/error.h"
+#include "model/surface.h"
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -62,12 +62,17 @@ struct gltf_material {
     struct gltf_sampler sampler; ///< of that
     float cutoff;                ///< alpha below it is not drawn; 0: all is
     bool blended, double_sided;
+    bool shines; ///< one `metallic` and `roughness` for all of it; else a picture says them, or nothing
+    double metallic, roughness;
 };
 
-/// Decoded pixels, sRGB with opacity, 8 bits each, top row first.
+/// A picture, as the file has it and decoded: sRGB with opacity, 8 bits each, top row first.
 struct gltf_image {
+    char *name;           ///< NULL: none
+    unsigned char *bytes; ///< PNG or JPEG
+    size_t size;
     int width, height;
-    unsigned char *pixels;
+    unsigned char *pixels; ///< NULL after gltf_read_stored(), whose `bytes` may be of any kind
 };
 
 /// How far a morph target takes each vertex; NULL where it leaves positions or normals alone.
@@ -89,14 +94,23 @@ struct gltf_part {
     int material;                ///< −1: plain white
     bool has_polygons;           ///< GLTF_POLYGONS, unless flat
     bool flat;                   ///< the file has no normals, so each triangle has vertices of its own
+    bool shared; ///< its vertices are those of the mesh's first part, but for `uv`: at the same addresses
 };
+
+/// Whether the triangle at index `i` goes on with the polygon of the one before.
+static inline bool gltf_joins(const struct gltf_part *part, int i)
+{
+    const uint32_t *corner = part->indices + i;
+    return part->has_polygons && i > 0 && corner[0] == corner[-3] && corner[1] == corner[-1];
+}
 
 struct gltf_mesh {
     char *name;
     struct gltf_part *parts;
     int part_count;
     int target_count;
-    float *weights; ///< of its targets at rest
+    float *weights;        ///< of its targets at rest
+    struct json_t *extras; ///< what other programs say of it in the file; NULL: nothing
 };
 
 enum gltf_path { GLTF_TRANSLATION, GLTF_ROTATION, GLTF_SCALE, GLTF_WEIGHTS };
@@ -145,6 +159,7 @@ struct gltf {
     int joint_count;    ///< joints of all skins together
     float lo[3], hi[3]; ///< the box around it at rest
     char *not_shown;    ///< names of what is in the file and not shown, comma separated; NULL: all is shown
+    size_t room;        ///< bytes that may still be made of it, so that no claim of a small file fills the memory
     uint64_t id;        ///< tells it from any other that was read in this process; never 0
     void *owned;        ///< private: memory that clips point into
 };
@@ -152,7 +167,20 @@ struct gltf {
 /// Reads a .glb or .gltf (with its files or data URIs). What it takes in memory is bounded by a small multiple of the sizes of the files
 /// read, whatever they claim. Errors name file, place, what was expected and what was found; on error nothing is left to free.
 bool gltf_read(const char *path, struct gltf *gltf, struct error *error);
+
+/// The same with vertices as they are stored: parts without normals have none (NULL) and keep their vertices, targets leave normals
+/// alone, and pictures are not decoded.
+bool gltf_read_stored(const char *path, struct gltf *gltf, struct error *error);
+
+/// The same as gltf_read() of a file's bytes, which it takes over; behind them is room for a NUL. `path` is for messages.
+bool gltf_read_bytes(const char *path, char *data, size_t size, struct gltf *gltf, struct error *error);
 void gltf_free(struct gltf *gltf);
+
+/// Copies the materials into empty looks, with their pictures where these are PNG or JPEG. False where memory is short.
+bool gltf_copy_looks(const struct gltf *gltf, struct looks *looks);
+
+/// The name of a morph target where many exporters put it; NULL: it has none.
+const char *gltf_target_name(const struct gltf_mesh *mesh, int target);
 
 /// Decodes a PNG or JPEG into at most `most` bytes of pixels, which the caller frees. False with a sentence that names no file.
 bool gltf_decode_image(const unsigned char *bytes, size_t size, size_t most, struct gltf_image *image,
@@ -186,6 +214,12 @@ void gltf_channel_at(const struct gltf_channel *channel, double time, float *out
 /// World and joint matrices from places. Allocates nothing.
 void gltf_pose_world(const struct gltf *gltf, struct gltf_pose *pose);
 
+/// In double precision: a place as a matrix; of a node against its parent, and in the model's space, at rest; and a · b.
+void gltf_place_matrix(const struct gltf_place *place, double matrix[16]);
+void gltf_node_matrix(const struct gltf_node *node, double matrix[16]);
+void gltf_rest_matrix(const struct gltf *gltf, int node, double matrix[16]);
+void gltf_multiply(const double a[16], const double b[16], double product[16]);
+
 /// What skinning multiplies the vertices of a skin's joint by: world of the joint · inverse bind. The same as in `joints`.
 void gltf_joint_matrix(const struct gltf *gltf, const struct gltf_pose *pose, int skin, int joint, float matrix[16]);
 
@@ -196,5 +230,27 @@ void gltf_pose_vertices(const struct gltf *gltf, const struct gltf_pose *pose, i
 
 /// Vertices of one node's mesh; 0 without one.
 int gltf_vertex_count(const struct gltf *gltf, int node);
+
+// --- the box around a posed character, without posing its vertices: skin stays within the boxes of what follows each joint
+
+/// What follows one joint of a mesh's skin, or a whole mesh that has none.
+struct gltf_box {
+    int node;           ///< that shows the mesh
+    int joint;          ///< of its skin, −1: none
+    float lo[3], hi[3]; ///< of these vertices in the mesh's own space
+};
+
+struct gltf_bounds {
+    struct gltf_box *boxes;
+    int count;
+};
+
+/// false if memory is short.
+bool gltf_bounds_create(const struct gltf *gltf, struct gltf_bounds *bounds);
+void gltf_bounds_free(struct gltf_bounds *bounds);
+
+/// The box in the model's space; it may be a little too large, never too small for morph weights from −1 to 1. Allocates nothing.
+void gltf_bounds_at(const struct gltf_bounds *bounds, const struct gltf *gltf, const struct gltf_pose *pose,
+                    float lo[3], float hi[3]);
 
 #endif

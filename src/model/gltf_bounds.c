@@ -1,5 +1,5 @@
 /// Boxes around what each joint carries.
-#include "model/gltf_bounds.h"
+#include "model/gltf.h"
 #include "model/vector.h"
 #include <math.h>
 #include <stdlib.h>

@@ -80,20 +80,45 @@ static const char *name_of(const json_t *image)
     return uri && strncmp(uri, "data:", 5) != 0 ? uri : "of no name";
 }
 
+/// Keeps the encoded bytes, and unless they are only stored, decodes them. `why` says why it cannot.
+static bool read_picture(struct gltf_reader *r, const json_t *json, struct gltf_image *image, struct error *why)
+{
+    const char *name = json_string_value(json_object_get(json, "name"));
+    struct glb_buffer bytes;
+    if (!find_bytes(r, json, &bytes, why)) return false;
+    const size_t size = bytes.bytes.size;
+    if (!r->stored && !gltf_decode_image(bytes.bytes.at, size, r->pixel_room, image, why)) {
+        free(bytes.owned);
+        return false;
+    }
+    r->pixel_room -= r->stored ? 0 : 4 * (size_t)image->width * (size_t)image->height;
+    if (!bytes.owned && size > r->file.room) {
+        free(image->pixels);
+        return fail(why, ERROR_INPUT, "too large with %zu bytes", size);
+    }
+    if (!bytes.owned) r->file.room -= size;
+    image->bytes = bytes.owned ? bytes.owned : malloc(size + 1);
+    image->name = name && name[0] ? strdup(name) : NULL;
+    image->size = size;
+    if (image->bytes && !bytes.owned) memcpy(image->bytes, bytes.bytes.at, size);
+    if (image->bytes && (image->name || !name || !name[0])) return true;
+    free(image->pixels);
+    free(image->bytes);
+    free(image->name);
+    return fail_starved(why);
+}
+
 bool gltf_read_image(struct gltf_reader *r, int number, int *index)
 {
     const json_t *json = json_array_get(gltf_array(r, "images"), (size_t)number);
     struct gltf_image *image = &r->gltf->images[r->gltf->image_count];
-    struct glb_buffer bytes;
     struct error why = {0};
     if (r->image_of[number] == -2) {
-        bool decoded = find_bytes(r, json, &bytes, &why) &&
-                       gltf_decode_image(bytes.bytes.at, bytes.bytes.size, r->pixel_room, image, &why);
-        if (decoded) r->pixel_room -= 4 * (size_t)image->width * (size_t)image->height;
-        free(bytes.owned);
-        r->image_of[number] = decoded ? r->gltf->image_count++ : -1;
+        const bool read = read_picture(r, json, image, &why);
+        if (!read) *image = (struct gltf_image){0};
+        r->image_of[number] = read ? r->gltf->image_count++ : -1;
         if (why.kind == ERROR_ENVIRONMENT) return fail_no_memory(r->error, r->file.path);
-        if (!decoded && !gltf_not_shown(r, "image %.40s (%.60s)", name_of(json), why.text)) return false;
+        if (!read && !gltf_not_shown(r, "image %.40s (%.60s)", name_of(json), why.text)) return false;
     }
     *index = r->image_of[number];
     return true;

@@ -78,6 +78,13 @@ static bool read_color(struct gltf_reader *r, const json_t *json, struct gltf_ma
            read_texture(r, json_object_get(gloss, "diffuseTexture"), uv, material);
 }
 
+/// A factor, which is 1 where it is missing.
+static double number_of(const json_t *object, const char *key)
+{
+    const json_t *number = json_object_get(object, key);
+    return number ? json_number_value(number) : 1;
+}
+
 static bool read_material(struct gltf_reader *r, const json_t *json, size_t number, struct gltf_material *material,
                           struct gltf_uv *uv)
 {
@@ -87,6 +94,10 @@ static bool read_material(struct gltf_reader *r, const json_t *json, size_t numb
     *uv = (struct gltf_uv){.scale = {1, 1}};
     material->name = gltf_name(r, json, "material", number);
     if (!material->name) return false;
+    const json_t *metal = json_object_get(json, "pbrMetallicRoughness");
+    material->shines = metal && !json_object_get(metal, "metallicRoughnessTexture");
+    material->metallic = number_of(metal, "metallicFactor");
+    material->roughness = number_of(metal, "roughnessFactor");
     material->double_sided = json_is_true(json_object_get(json, "doubleSided"));
     material->blended = mode && strcmp(mode, "BLEND") == 0;
     if (mode && strcmp(mode, "MASK") == 0) material->cutoff = cutoff ? (float)json_number_value(cutoff) : 0.5f;

@@ -62,134 +62,83 @@ static void drop_repeats(struct gltf_part *part)
     part->index_count = kept;
 }
 
-static void normalise(float (*normal)[3], int count)
+/// Whether a primitive has the vertices of another, as ours with several materials do: then they are read once.
+static bool shares(const json_t *primitive, const json_t *other)
 {
-    for (int i = 0; i < count; i++) {
-        float length = glm_vec3_norm(normal[i]);
-        if (length > 0 && isfinite(length)) {
-            glm_vec3_divs(normal[i], length, normal[i]);
-        } else {
-            glm_vec3_copy((vec3){0, 1, 0}, normal[i]);
-        }
-    }
+    return other && json_equal(json_object_get(primitive, "attributes"), json_object_get(other, "attributes")) &&
+           json_equal(json_object_get(primitive, "targets"), json_object_get(other, "targets"));
 }
 
-/// What glTF wants where there are no normals: each triangle with vertices of its own, and flat.
-static bool make_flat(struct gltf_reader *r, struct gltf_part *part)
+/// The vertices of another part, but for its material's texture coordinates.
+static void share(struct gltf_part *part, const struct gltf_part *other)
 {
-    part->normal = gltf_make(r, (size_t)part->vertex_count, sizeof *part->normal);
-    for (int i = 0; part->normal && i + 2 < part->index_count; i += 3) {
-        float(*corner)[3] = part->position + i;
-        vec3s normal = triangle_normal(corner[0], corner[1], corner[2]);
-        for (int k = 0; k < 3; k++) glm_vec3_copy(normal.raw, part->normal[i + k]);
-    }
-    return part->normal;
+    struct gltf_part shared = *other;
+    shared.uv = NULL;
+    shared.indices = part->indices;
+    shared.index_count = part->index_count;
+    shared.material = part->material;
+    shared.has_polygons = part->has_polygons;
+    shared.shared = true;
+    *part = shared;
 }
 
-/// Puts texture coordinates where the material has them on its texture (KHR_texture_transform).
-static void place_uv(const struct gltf_uv *uv, float (*at)[2], int count)
+/// How many vertices a primitive has in the file; false where they cannot be read.
+static bool count_in_file(struct gltf_reader *r, const json_t *attributes, int *count)
 {
-    float c = cosf(uv->rotation), s = sinf(uv->rotation);
-    for (int i = 0; at && i < count; i++) {
-        float u = at[i][0] * uv->scale[0], v = at[i][1] * uv->scale[1];
-        at[i][0] = c * u + s * v + uv->offset[0];
-        at[i][1] = -s * u + c * v + uv->offset[1];
-    }
-}
-
-static bool read_uv(struct gltf_reader *r, const json_t *attributes, const struct gltf_vertices *vertices,
-                    struct gltf_part *part)
-{
-    static const struct gltf_uv plain = {.scale = {1, 1}};
-    const struct gltf_uv *uv = part->material >= 0 ? &r->uvs[part->material] : &plain;
-    char name[32];
-    float *rows = NULL;
-    snprintf(name, sizeof name, "TEXCOORD_%d", uv->set);
-    if (!gltf_rows(r, attributes, name, 2, vertices, &rows)) {
-        free(rows);
-        return false;
-    }
-    part->uv = (float(*)[2])rows;
-    place_uv(uv, part->uv, vertices->count);
+    const int64_t accessor = glb_integer(attributes, "POSITION", -1);
+    const json_t *position = json_array_get(gltf_array(r, "accessors"), (size_t)accessor);
+    const int64_t in_file = glb_integer(position, "count", -1);
+    const size_t most = r->file.room / sizeof(float[3]);
+    if (in_file < 1) return gltf_bad(r, ".attributes.POSITION: expected an accessor, got none");
+    if (!glb_is_stored(&r->file, accessor))
+        return gltf_bad(r, ".attributes.POSITION: expected positions that are in the file, got none");
+    if ((size_t)in_file > most)
+        return gltf_bad(r, ".attributes.POSITION: expected at most %zu vertices in a file of this size, got %lld",
+                        most, (long long)in_file);
+    *count = (int)in_file;
     return true;
 }
 
-static bool read_targets(struct gltf_reader *r, const json_t *targets, const struct gltf_vertices *vertices,
-                         int count, struct gltf_part *part)
-{
-    if ((size_t)count != json_array_size(targets))
-        return gltf_bad(r, ".targets: expected %d as in the mesh's first primitive, got %zu", count,
-                        json_array_size(targets));
-    part->targets = gltf_make(r, (size_t)count, sizeof *part->targets);
-    for (int i = 0; part->targets && i < count; i++) {
-        const json_t *target = json_array_get(targets, (size_t)i);
-        float *position = NULL, *normal = NULL;
-        bool read = gltf_rows(r, target, "POSITION", 3, vertices, &position) &&
-                    (vertices->order || gltf_rows(r, target, "NORMAL", 3, vertices, &normal));
-        part->targets[i] = (struct gltf_target){(float(*)[3])position, (float(*)[3])normal};
-        if (!read) return false;
-    }
-    return part->targets;
-}
-
-/// Reads the attributes. `vertices` says which of the file's vertices the part has.
-static bool read_vertices(struct gltf_reader *r, const json_t *primitive, const struct gltf_vertices *vertices,
-                          int targets, int *joints, struct gltf_part *part)
-{
-    const json_t *attributes = json_object_get(primitive, "attributes");
-    float *position = NULL, *normal = NULL, *color = NULL;
-    part->vertex_count = vertices->count;
-    bool read = gltf_rows(r, attributes, "POSITION", 3, vertices, &position) &&
-                (vertices->order || gltf_rows(r, attributes, "NORMAL", 3, vertices, &normal)) &&
-                gltf_rows(r, attributes, "COLOR_0", 4, vertices, &color);
-    part->position = (float(*)[3])position;
-    part->normal = (float(*)[3])normal;
-    part->color = (float(*)[4])color;
-    if (!read || (vertices->order && !make_flat(r, part))) return false;
-    normalise(part->normal, part->vertex_count);
-    return read_uv(r, attributes, vertices, part) && gltf_read_influences(r, attributes, vertices, part, joints) &&
-           read_targets(r, json_object_get(primitive, "targets"), vertices, targets, part);
-}
-
-static bool read_part(struct gltf_reader *r, const json_t *primitive, int mode, int targets, int *joints,
+/// Reads a primitive; `like` has the vertices of the mesh's first part, if there is one.
+static bool read_part(struct gltf_reader *r, const json_t *primitive, const json_t *like, struct gltf_mesh *mesh,
                       struct gltf_part *part)
 {
     const json_t *attributes = json_object_get(primitive, "attributes");
-    const json_t *position =
-        json_array_get(gltf_array(r, "accessors"), (size_t)glb_integer(attributes, "POSITION", -1));
-    int64_t in_file = glb_integer(position, "count", -1);
+    struct gltf_vertices vertices = {0};
     uint32_t *corners;
     int count;
-    if (in_file < 1) return gltf_bad(r, ".attributes.POSITION: expected an accessor, got none");
-    if (!glb_is_stored(&r->file, glb_integer(attributes, "POSITION", -1)))
-        return gltf_bad(r, ".attributes.POSITION: expected positions that are in the file, got none");
-    if ((size_t)in_file > r->file.room / sizeof *part->position)
-        return gltf_bad(r, ".attributes.POSITION: expected at most %zu vertices in a file of this size, got %lld",
-                        r->file.room / sizeof *part->position, (long long)in_file);
+    if (!count_in_file(r, attributes, &vertices.in_file)) return false;
     if (!gltf_index(r, primitive, "material", r->gltf->material_count, &part->material)) return false;
-    if (!read_corners(r, primitive, (int)in_file, &corners, &count)) {
+    if (!read_corners(r, primitive, vertices.in_file, &corners, &count)) {
         free(corners);
         return false;
     }
-    if (!make_triangles(r, mode, corners, count, part)) return false;
+    if (!make_triangles(r, (int)glb_integer(primitive, "mode", TRIANGLES), corners, count, part)) return false;
     drop_repeats(part);
     if (part->index_count == 0) return gltf_not_shown(r, "triangles without area");
-    struct gltf_vertices vertices = {.in_file = (int)in_file, .count = (int)in_file};
-    part->flat = !json_object_get(attributes, "NORMAL");
+    part->flat = !r->stored && !json_object_get(attributes, "NORMAL");
     part->has_polygons =
         !part->flat && json_object_get(json_object_get(primitive, "extensions"), GLTF_POLYGONS) != NULL;
-    if (part->flat) {
-        vertices.order = part->indices;
-        vertices.count = part->index_count;
+    vertices.order = part->flat ? part->indices : NULL;
+    vertices.count = part->flat ? part->index_count : vertices.in_file;
+    if (!part->flat && shares(primitive, like)) {
+        share(part, mesh->parts);
+    } else {
+        if (!gltf_read_vertices(r, primitive, &vertices, mesh->target_count, part)) return false;
+        for (int n = 0; part->joints && n < vertices.count * GLTF_INFLUENCES; n++) {
+            const int joint = part->joints[n / GLTF_INFLUENCES][n % GLTF_INFLUENCES];
+            if (joint >= r->joints_of[mesh - r->gltf->meshes]) r->joints_of[mesh - r->gltf->meshes] = joint + 1;
+        }
     }
-    if (!read_vertices(r, primitive, &vertices, targets, joints, part)) return false;
+    if (!gltf_read_uv(r, attributes, &vertices, part)) return false;
     for (int i = 0; part->flat && i < part->index_count; i++) part->indices[i] = (uint32_t)i;
     return true;
 }
 
 /// Whether a primitive has triangles; what else it has is named.
-static bool has_triangles(struct gltf_reader *r, const json_t *primitive, int64_t mode, bool *shown)
+static bool has_triangles(struct gltf_reader *r, const json_t *primitive, bool *shown)
 {
+    const int64_t mode = glb_integer(primitive, "mode", TRIANGLES);
     const json_t *attributes = json_object_get(primitive, "attributes");
     *shown = false;
     if (mode < 0 || mode > FAN) return gltf_bad(r, ".mode: expected a number from 0 to 6, got something else");
@@ -207,6 +156,7 @@ static bool has_triangles(struct gltf_reader *r, const json_t *primitive, int64_
 static bool read_mesh(struct gltf_reader *r, const json_t *json, size_t number)
 {
     const json_t *primitives = json_object_get(json, "primitives"), *primitive;
+    const json_t *first = NULL;
     struct gltf_mesh *mesh = &r->gltf->meshes[number];
     size_t i;
     gltf_at(r, "meshes[%zu]", number);
@@ -217,19 +167,20 @@ static bool read_mesh(struct gltf_reader *r, const json_t *json, size_t number)
     mesh->target_count = (int)json_array_size(json_object_get(json_array_get(primitives, 0), "targets"));
     json_array_foreach(primitives, i, primitive)
     {
-        int64_t mode = glb_integer(primitive, "mode", TRIANGLES);
         bool shown;
         gltf_at(r, "meshes[%zu].primitives[%zu]", number, i);
-        if (!has_triangles(r, primitive, mode, &shown)) return false;
+        if (!has_triangles(r, primitive, &shown)) return false;
         if (!shown) continue;
         struct gltf_part *part = &mesh->parts[mesh->part_count++];
-        if (!read_part(r, primitive, (int)mode, mesh->target_count, &r->joints_of[number], part)) return false;
+        if (!read_part(r, primitive, first, mesh, part)) return false;
+        if (!first && part->index_count > 0) first = primitive;
         if (part->index_count > 0) continue;
         free(part->indices);
         part->indices = NULL;
         mesh->part_count--;
     }
     gltf_at(r, "meshes[%zu]", number);
+    mesh->extras = json_incref(json_object_get(json, "extras"));
     mesh->weights = gltf_make(r, (size_t)mesh->target_count, sizeof *mesh->weights);
     return mesh->weights && gltf_reals(r, json, "weights", mesh->weights, (size_t)mesh->target_count);
 }
@@ -254,7 +205,7 @@ bool gltf_read_meshes(struct gltf_reader *r)
 static size_t count_in_primitive(const struct gltf_reader *r, const json_t *primitive)
 {
     const json_t *attributes = json_object_get(primitive, "attributes");
-    const bool flat = !json_object_get(attributes, "NORMAL");
+    const bool flat = !r->stored && !json_object_get(attributes, "NORMAL");
     const int64_t mode = glb_integer(primitive, "mode", TRIANGLES),
                   position = glb_integer(attributes, "POSITION", -1),
                   counted = flat ? glb_integer(primitive, "indices", position) : position,

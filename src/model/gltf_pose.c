@@ -1,4 +1,5 @@
-/// Poses of glTF characters: the matrices of nodes and joints.
+/// Poses of glTF characters: the matrices of nodes and joints, and their vertices: v′ = Σ wⱼ Jⱼ (v + Σ wₜ Δₜ v), and normals by the
+/// cofactors of the same matrix.
 #include "model/gltf.h"
 #include "model/vector.h"
 #include <stdlib.h>
@@ -61,4 +62,114 @@ void gltf_joint_matrix(const struct gltf *gltf, const struct gltf_pose *pose, in
     const struct gltf_skin *s = &gltf->skins[skin];
     mat4s m = glms_mat4_mul(mat4_from(pose->world[s->joints[joint]]), mat4_from(s->inverse_bind[joint]));
     memcpy(matrix, &m, sizeof m);
+}
+
+// --- in double precision, columns first
+
+void gltf_place_matrix(const struct gltf_place *place, double m[16])
+{
+    const double x = (double)place->rotation[0], y = (double)place->rotation[1], z = (double)place->rotation[2],
+                 w = (double)place->rotation[3];
+    const double turned[3][3] = {{1 - 2 * (y * y + z * z), 2 * (x * y + w * z), 2 * (x * z - w * y)},
+                                 {2 * (x * y - w * z), 1 - 2 * (x * x + z * z), 2 * (y * z + w * x)},
+                                 {2 * (x * z + w * y), 2 * (y * z - w * x), 1 - 2 * (x * x + y * y)}};
+    for (int c = 0; c < 3; c++) {
+        for (int r = 0; r < 3; r++) m[4 * c + r] = (double)place->scale[c] * turned[c][r];
+        m[4 * c + 3] = 0;
+        m[12 + c] = (double)place->translation[c];
+    }
+    m[15] = 1;
+}
+
+void gltf_node_matrix(const struct gltf_node *node, double m[16])
+{
+    gltf_place_matrix(&node->place, m);
+    for (int i = 0; i < 16 && node->has_matrix; i++) m[i] = (double)node->matrix[i];
+}
+
+void gltf_multiply(const double a[16], const double b[16], double product[16])
+{
+    for (int i = 0; i < 16; i++) {
+        product[i] = 0;
+        for (int k = 0; k < 4; k++) product[i] += a[4 * k + i % 4] * b[i / 4 * 4 + k];
+    }
+}
+
+void gltf_rest_matrix(const struct gltf *gltf, int node, double m[16])
+{
+    gltf_node_matrix(&gltf->nodes[node], m);
+    while ((node = gltf->nodes[node].parent) >= 0) {
+        double above[16], below[16];
+        memcpy(below, m, sizeof below);
+        gltf_node_matrix(&gltf->nodes[node], above);
+        gltf_multiply(above, below, m);
+    }
+}
+
+// --- vertices
+
+/// v + Σ w Δ; `targets` are those of positions or, from the same array, of normals.
+static void morph(const struct gltf_part *part, int target_count, const float *weights, bool normals, float (*out)[3])
+{
+    memcpy(out, normals ? part->normal : part->position, (size_t)part->vertex_count * sizeof *out);
+    for (int t = 0; t < target_count; t++) {
+        const float(*by)[3] = normals ? part->targets[t].normal : part->targets[t].position;
+        float w = weights[t];
+        if (!by || w == 0) continue;
+        for (int i = 0; i < part->vertex_count; i++)
+            for (int k = 0; k < 3; k++) out[i][k] += w * by[i][k];
+    }
+}
+
+static void blend(const float (*joints)[16], const uint16_t *joint, const float *weights, float m[16])
+{
+    memset(m, 0, 16 * sizeof *m);
+    for (int k = 0; k < GLTF_INFLUENCES; k++) {
+        if (weights[k] == 0) continue;
+        const float *one = joints[joint[k]], w = weights[k];
+        for (int n = 0; n < 16; n++) m[n] += w * one[n];
+    }
+}
+
+static void move(const float m[16], float v[3])
+{
+    const float x = v[0], y = v[1], z = v[2];
+    for (int k = 0; k < 3; k++) v[k] = m[k] * x + m[4 + k] * y + m[8 + k] * z + m[12 + k];
+}
+
+/// Turns a normal whatever the scale; a mirror turns it round, with the triangles.
+static void turn(const float m[16], float normal[3])
+{
+    const vec3s x = vec3_from(m), y = vec3_from(m + 4), z = vec3_from(m + 8), yz = glms_vec3_cross(y, z);
+    vec3s sum = glms_vec3_scale(yz, normal[0]);
+    sum = glms_vec3_add(sum, glms_vec3_scale(glms_vec3_cross(z, x), normal[1]));
+    sum = glms_vec3_add(sum, glms_vec3_scale(glms_vec3_cross(x, y), normal[2]));
+    float length = glms_vec3_norm(sum);
+    if (length > 0) sum = glms_vec3_divs(sum, glms_vec3_dot(x, yz) < 0 ? -length : length);
+    glm_vec3_copy(sum.raw, normal);
+}
+
+void gltf_pose_vertices(const struct gltf *gltf, const struct gltf_pose *pose, int node, float (*positions)[3],
+                        float (*normals)[3])
+{
+    const struct gltf_node *shown = &gltf->nodes[node];
+    if (shown->mesh < 0) return;
+    const struct gltf_mesh *mesh = &gltf->meshes[shown->mesh];
+    const float *weights = pose->weights + shown->first_weight;
+    const float(*joints)[16] = shown->skin >= 0 ? pose->joints + gltf->skins[shown->skin].first_joint : NULL;
+    for (int p = 0; p < mesh->part_count; p++) {
+        const struct gltf_part *part = &mesh->parts[p];
+        bool skinned = joints && part->joints;
+        morph(part, mesh->target_count, weights, false, positions);
+        if (normals) morph(part, mesh->target_count, weights, true, normals);
+        float m[16];
+        memcpy(m, pose->world[node], sizeof m);
+        for (int i = 0; i < part->vertex_count; i++) {
+            if (skinned) blend(joints, part->joints[i], part->weights[i], m);
+            move(m, positions[i]);
+            if (normals) turn(m, normals[i]);
+        }
+        positions += part->vertex_count;
+        if (normals) normals += part->vertex_count;
+    }
 }

@@ -234,16 +234,36 @@ static bool read_all(struct gltf_reader *r)
            gltf_read_clips(r) && measure(r);
 }
 
+/// Reads what is open, and closes it.
+static bool read_open(struct gltf_reader *r)
+{
+    const bool done = read_all(r);
+    r->gltf->room = r->file.room;
+    free(r->uvs);
+    free(r->joints_of);
+    free(r->image_of);
+    glb_close(&r->file);
+    if (!done) gltf_free(r->gltf);
+    return done;
+}
+
 bool gltf_read(const char *path, struct gltf *gltf, struct error *error)
 {
     struct gltf_reader r = {.gltf = gltf, .error = error};
     *gltf = (struct gltf){0};
-    if (!glb_open_any(&r.file, path, error)) return false;
-    bool done = read_all(&r);
-    free(r.uvs);
-    free(r.joints_of);
-    free(r.image_of);
-    glb_close(&r.file);
-    if (!done) gltf_free(gltf);
-    return done;
+    return glb_open(&r.file, path, error) && read_open(&r);
+}
+
+bool gltf_read_stored(const char *path, struct gltf *gltf, struct error *error)
+{
+    struct gltf_reader r = {.gltf = gltf, .error = error, .stored = true};
+    *gltf = (struct gltf){0};
+    return glb_open(&r.file, path, error) && read_open(&r);
+}
+
+bool gltf_read_bytes(const char *path, char *data, size_t size, struct gltf *gltf, struct error *error)
+{
+    struct gltf_reader r = {.gltf = gltf, .error = error};
+    *gltf = (struct gltf){0};
+    return glb_open_bytes(&r.file, path, data, size, error) && read_open(&r);
 }

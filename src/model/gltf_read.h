@@ -28,6 +28,7 @@ struct gltf_reader {
     struct glb file;
     struct gltf *gltf;
     struct error *error;
+    bool stored;          ///< gltf_read_stored()
     char place[96];       ///< in the JSON, for messages
     struct gltf_uv *uvs;  ///< of each material
     int *joints_of;       ///< of each mesh: its joints' numbers are below
@@ -70,22 +71,22 @@ bool gltf_read_nodes(struct gltf_reader *r);
 bool gltf_read_skins(struct gltf_reader *r);
 bool gltf_read_clips(struct gltf_reader *r);
 
-/// The joints (of a file's own numbers) and weights of a part's vertices, in that order.
+/// Which vertices of the file a part has.
 struct gltf_vertices {
     int in_file;           ///< how many the accessors have
     const uint32_t *order; ///< which of them each vertex is; NULL: the same
     int count;
 };
 
-/// An attribute as rows of `width` floats, NULL where it is missing. Of four, a missing fourth is 1.
-bool gltf_rows(struct gltf_reader *r, const json_t *attributes, const char *name, int width,
-               const struct gltf_vertices *vertices, float **rows);
+/// Reads the attributes and targets of a part's vertices, but for texture coordinates; what the file has not is NULL.
+bool gltf_read_vertices(struct gltf_reader *r, const json_t *primitive, const struct gltf_vertices *vertices,
+                        int targets, struct gltf_part *part);
 
-/// Joints and weights of a part; `joints` becomes more than any joint's number.
-bool gltf_read_influences(struct gltf_reader *r, const json_t *attributes, const struct gltf_vertices *vertices,
-                          struct gltf_part *part, int *joints);
+/// Reads the texture coordinates that the part's material wants.
+bool gltf_read_uv(struct gltf_reader *r, const json_t *attributes, const struct gltf_vertices *vertices,
+                  struct gltf_part *part);
 
-/// Decodes an image of the file into gltf.images, once; −1 and named as not shown where it cannot be.
+/// Puts an image of the file into gltf.images, once; −1 and named as not shown where it cannot be.
 bool gltf_read_image(struct gltf_reader *r, int image, int *index);
 
 #endif

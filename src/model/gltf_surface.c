@@ -1,41 +1,46 @@
 /// Makes one surface of all that a glTF file shows at rest.
-#include "base/png.h"
 #include "model/gltf.h"
+#include "model/mtl.h"
 #include "model/surface_readers.h"
 #include "model/vector.h"
 #include <stdlib.h>
 #include <string.h>
 
-struct encoded {
-    unsigned char *bytes;
-    size_t size;
-};
-
-/// The encoder hands the whole file over.
-static void keep_png(void *user, const void *bytes, size_t size)
+/// The base colour and, where that takes no more than `room`, the bytes of its picture.
+static bool copy_look(const struct gltf *gltf, int number, size_t room, struct looks_material *look)
 {
-    struct encoded *encoded = user;
-    encoded->bytes = malloc(size);
-    if (!encoded->bytes) return;
-    memcpy(encoded->bytes, bytes, size);
-    encoded->size = size;
+    const struct gltf_material *material = &gltf->materials[number];
+    for (int k = 0; k < 4; k++) look->color[k] = glm_clamp(material->color[k], 0, 1);
+    const struct gltf_image *image = material->image >= 0 ? &gltf->images[material->image] : NULL;
+    if (look->image || !image || image->size > room || !looks_image_kind(image->bytes, image->size)) return true;
+    look->image = malloc(image->size);
+    if (!look->image) return false;
+    memcpy(look->image, image->bytes, image->size);
+    look->image_size = image->size;
+    return true;
+}
+
+bool gltf_copy_looks(const struct gltf *gltf, struct looks *looks)
+{
+    size_t room = LOOKS_IMAGES_LIMIT;
+    looks->materials = calloc((size_t)gltf->material_count + 1, sizeof *looks->materials);
+    if (!looks->materials) return false;
+    for (int m = 0; m < gltf->material_count; m++) {
+        struct looks_material *look = &looks->materials[looks->material_count++];
+        look->name = strdup(gltf->materials[m].name);
+        if (!look->name || !copy_look(gltf, m, room, look)) return false;
+        room -= look->image_size;
+    }
+    return true;
 }
 
 static uint32_t add_material(struct surface_builder *b, const struct gltf *gltf, int number)
 {
     const uint32_t index = builder_material(b, gltf->materials[number].name);
     if (index == LOOKS_NONE) return index;
-    struct looks_material *to = &b->surface->looks.materials[index];
-    const struct gltf_material *from = &gltf->materials[number];
-    memcpy(to->color, from->color, sizeof to->color);
-    const bool room = looks_image_bytes(&b->surface->looks) < LOOKS_IMAGES_LIMIT / 2;
-    if (to->image || from->image < 0 || !room) return index;
-    const struct gltf_image *image = &gltf->images[from->image];
-    struct encoded encoded = {0};
-    png_encode(keep_png, &encoded, image->width, image->height, 4, image->pixels, PNG_SMALL);
-    b->failed = b->failed || !encoded.bytes;
-    to->image = encoded.bytes;
-    to->image_size = encoded.size;
+    const size_t used = looks_image_bytes(&b->surface->looks);
+    const size_t room = used < LOOKS_IMAGES_LIMIT ? LOOKS_IMAGES_LIMIT - used : 0;
+    b->failed = b->failed || !copy_look(gltf, number, room, &b->surface->looks.materials[index]);
     return index;
 }
 
@@ -57,8 +62,7 @@ static void add_part(struct surface_builder *b, const struct gltf *gltf, const s
     }
     for (int i = 0; i + 2 < part->index_count && !b->failed; i += 3) {
         const uint32_t *corner = part->indices + i;
-        const bool joined =
-            part->has_polygons && i > 0 && corner[0] == corner[-3] && corner[1] == corner[-1]; // goes on with the fan
+        const bool joined = gltf_joins(part, i);
         if (!joined) builder_end_polygon(b);
         for (int k = joined ? 2 : 0; k < 3; k++)
             builder_corner(b, (uint32_t)first + corner[k], part->uv ? (uint32_t)first_uv + corner[k] : LOOKS_NONE);

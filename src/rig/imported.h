@@ -3,7 +3,6 @@
 #ifndef RIG_IMPORTED_H
 #define RIG_IMPORTED_H
 
-#include "model/gltf_bounds.h"
 #include "rig/skeleton.h"
 
 struct imported {

@@ -1,0 +1,269 @@
+/// Makes a character of what a glTF file holds: of its first mesh with morph targets, else its first with triangles.
+#include "model/character.h"
+#include "model/gltf.h"
+#include "model/vector.h"
+#include <jansson.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { COUNT_LIMIT = 1 << 28 };
+
+static const struct gltf_mesh *choose_mesh(const struct gltf *gltf)
+{
+    const struct gltf_mesh *first = NULL;
+    for (int m = 0; m < gltf->mesh_count; m++) {
+        const struct gltf_mesh *mesh = &gltf->meshes[m];
+        if (mesh->part_count > 0 && mesh->target_count > 0) return mesh;
+        if (mesh->part_count > 0 && !first) first = mesh;
+    }
+    return first;
+}
+
+/// The vertex of the character that a part's first one is; the next part's is in `next`.
+static int first_vertex(const struct gltf_part *part, int *next)
+{
+    const int first = part->shared ? 0 : *next;
+    *next += part->shared ? 0 : part->vertex_count;
+    return first;
+}
+
+// --- surface
+
+static bool reserve(const struct gltf_mesh *mesh, struct surface *s)
+{
+    size_t vertices = 0, indices = 0;
+    bool uv = false;
+    for (int p = 0; p < mesh->part_count; p++) {
+        vertices += mesh->parts[p].shared ? 0 : (size_t)mesh->parts[p].vertex_count;
+        indices += (size_t)mesh->parts[p].index_count;
+        uv = uv || mesh->parts[p].uv;
+    }
+    if (vertices > COUNT_LIMIT || indices > COUNT_LIMIT) return false;
+    s->vertex_count = (int)vertices;
+    s->index_count = (int)indices;
+    s->position = calloc(vertices, sizeof *s->position);
+    s->color = calloc(vertices, sizeof *s->color);
+    s->indices = calloc(indices, sizeof *s->indices);
+    s->looks.material = calloc(indices / 3, sizeof *s->looks.material);
+    s->looks.joined = calloc(indices / 3, sizeof *s->looks.joined);
+    s->looks.uv = uv ? calloc(vertices, sizeof *s->looks.uv) : NULL;
+    s->looks.uv_count = uv ? (int)vertices : 0;
+    return s->position && s->color && s->indices && s->looks.material && s->looks.joined && (!uv || s->looks.uv);
+}
+
+static void add_vertices(struct surface *s, int base, const struct gltf_part *part)
+{
+    const size_t count = (size_t)part->vertex_count;
+    memcpy(s->position + base, part->position, count * sizeof *s->position);
+    if (part->uv) memcpy(s->looks.uv + base, part->uv, count * sizeof *part->uv);
+    for (int i = 0; i < part->vertex_count; i++) {
+        for (int k = 0; k < 3; k++) s->color[base + i][k] = part->color ? part->color[i][k] : 1;
+    }
+}
+
+/// All parts of a mesh as one surface.
+static bool make_surface(const struct gltf *gltf, const struct gltf_mesh *mesh, struct surface *s)
+{
+    int next = 0, index = 0;
+    if (!reserve(mesh, s) || !gltf_copy_looks(gltf, &s->looks)) return false;
+    for (int p = 0; p < mesh->part_count; p++) {
+        const struct gltf_part *part = &mesh->parts[p];
+        const int base = first_vertex(part, &next);
+        if (!part->shared) add_vertices(s, base, part);
+        for (int i = 0; i < part->index_count; i++, index++) {
+            s->indices[index] = (uint32_t)base + part->indices[i];
+            if (i % 3 > 0) continue;
+            s->looks.material[index / 3] = part->material >= 0 ? (uint32_t)part->material : LOOKS_NONE;
+            s->looks.joined[index / 3] = gltf_joins(part, i);
+        }
+    }
+    looks_drop_unused(&s->looks, s->index_count / 3);
+    return true;
+}
+
+// --- coordinates
+
+/// The target called `name` followed by `part`, or −1.
+static int target_called(const struct gltf_mesh *mesh, const char *name, size_t length, const char *part)
+{
+    for (int t = 0; t < mesh->target_count; t++) {
+        const char *text = gltf_target_name(mesh, t);
+        if (text && strlen(text) == length + strlen(part) && strncmp(text, name, length) == 0 &&
+            strcmp(text + length, part) == 0)
+            return t;
+    }
+    return -1;
+}
+
+/// Whether a target is the real part of a coordinate, and which target is its imaginary part.
+static bool is_coordinate(const struct gltf_mesh *mesh, int target, size_t *name_length, int *im)
+{
+    const char *name = gltf_target_name(mesh, target);
+    size_t length = name ? strlen(name) : 0;
+    if (length < 4 || strcmp(name + length - 3, ".re") != 0) return false;
+    *name_length = length - 3;
+    *im = target_called(mesh, name, length - 3, ".im");
+    return *im >= 0;
+}
+
+static double real_of(const json_t *object, const char *key)
+{
+    return json_number_value(json_object_get(object, key));
+}
+
+/// What our extras say about a coordinate; NULL: nothing.
+static const json_t *known_of(const struct gltf_mesh *mesh, const char *name)
+{
+    size_t i;
+    const json_t *known;
+    json_array_foreach(json_object_get(json_object_get(mesh->extras, "wiggly"), "coordinates"), i, known)
+    {
+        const char *called = json_string_value(json_object_get(known, "name"));
+        if (called && strcmp(called, name) == 0) return known;
+    }
+    return NULL;
+}
+
+/// Takes a target's vectors. An export scales targets so that weights stay within 0 … 1.
+static void take_target(const struct gltf_mesh *mesh, int target, double sign, double scale, float (*vectors)[3])
+{
+    int next = 0;
+    for (int p = 0; p < mesh->part_count; p++) {
+        const struct gltf_part *part = &mesh->parts[p];
+        const int base = first_vertex(part, &next);
+        if (part->shared || !part->targets[target].position) continue;
+        for (int i = 0; i < part->vertex_count; i++) {
+            for (int k = 0; k < 3; k++)
+                vectors[base + i][k] = (float)(sign * (double)part->targets[target].position[i][k] / scale);
+        }
+    }
+}
+
+static bool take_coordinates(const struct gltf_mesh *mesh, struct character *c)
+{
+    struct coordinate *coordinate = c->coordinates;
+    for (int t = 0; t < mesh->target_count; t++) {
+        size_t length;
+        int im;
+        if (!is_coordinate(mesh, t, &length, &im)) continue;
+        coordinate->name = strndup(gltf_target_name(mesh, t), length);
+        if (!coordinate->name) return false;
+        const json_t *known = known_of(mesh, coordinate->name);
+        const double scale = real_of(known, "scale") > 0 ? real_of(known, "scale") : 1;
+        coordinate->frequency = real_of(known, "frequency");
+        coordinate->damping = real_of(known, "damping");
+        coordinate->explained = real_of(known, "explained");
+        coordinate->pca1 = real_of(known, "pca1");
+        coordinate->pca2 = real_of(known, "pca2");
+        take_target(mesh, t, 1, scale, coordinate->re);
+        take_target(mesh, im, -1, scale, coordinate->im);
+        coordinate++;
+    }
+    return true;
+}
+
+// --- its place
+
+static void transform(const double m[16], double weight, float v[3])
+{
+    const double x = (double)v[0], y = (double)v[1], z = (double)v[2];
+    for (int i = 0; i < 3; i++) v[i] = (float)(m[i] * x + m[4 + i] * y + m[8 + i] * z + m[12 + i] * weight);
+}
+
+/// The cofactors of the linear part, which turn normals whatever the scale; returns the determinant.
+static double cofactors(const double m[16], double c[16])
+{
+    for (int n = 0; n < 16; n++) c[n] = 0;
+    for (int n = 0; n < 9; n++) {
+        int column = n / 3, row = n % 3, c1 = (column + 1) % 3, c2 = (column + 2) % 3, r1 = (row + 1) % 3;
+        int r2 = (row + 2) % 3;
+        c[4 * column + row] = m[4 * c1 + r1] * m[4 * c2 + r2] - m[4 * c2 + r1] * m[4 * c1 + r2];
+    }
+    return m[0] * c[0] + m[1] * c[1] + m[2] * c[2];
+}
+
+/// Puts a character where its node stands. A mirror turns the triangles round, and the normals with them.
+static void place(struct character *c, const double matrix[16])
+{
+    double normal[16];
+    bool mirrored = cofactors(matrix, normal) < 0;
+    for (int i = 0; i < c->vertex_count; i++) {
+        transform(matrix, 1, c->position[i]);
+        transform(normal, 0, c->normal[i]);
+        float *n = c->normal[i], length = glm_vec3_norm(n);
+        if (length > 0) glm_vec3_divs(n, mirrored ? -length : length, n);
+        for (int k = 0; k < c->coordinate_count; k++) {
+            transform(matrix, 0, c->coordinates[k].re[i]);
+            transform(matrix, 0, c->coordinates[k].im[i]);
+        }
+    }
+    for (int i = 0; mirrored && i + 2 < c->index_count; i += 3) {
+        if (c->looks.joined) c->looks.joined[i / 3] = 0; // a fan that is turned round begins elsewhere
+        uint32_t corner = c->indices[i + 1];
+        c->indices[i + 1] = c->indices[i + 2];
+        c->indices[i + 2] = corner;
+    }
+}
+
+/// Where the first node has it that shows it. What no node moves stays as it is, to the last bit.
+static void place_as_node(const struct gltf *gltf, const struct gltf_mesh *mesh, struct character *c)
+{
+    double matrix[16];
+    bool moved = false;
+    int node = 0;
+    while (node < gltf->node_count && gltf->nodes[node].mesh != mesh - gltf->meshes) node++;
+    if (node == gltf->node_count) return;
+    gltf_rest_matrix(gltf, node, matrix);
+    for (int n = 0; n < 16; n++) moved = moved || matrix[n] != (n % 5 == 0);
+    if (moved) place(c, matrix);
+}
+
+// --- all of it
+
+static bool make_character(const struct gltf *gltf, const struct gltf_mesh *mesh, int coordinates,
+                           struct character *c)
+{
+    struct surface surface = {0};
+    int next = 0;
+    const bool made = make_surface(gltf, mesh, &surface) && character_create(c, &surface, coordinates);
+    surface_free(&surface);
+    if (!made) return false;
+    for (int p = 0; p < mesh->part_count; p++) {
+        const struct gltf_part *part = &mesh->parts[p];
+        const int base = first_vertex(part, &next);
+        if (!part->shared && part->normal)
+            memcpy(c->normal + base, part->normal, (size_t)part->vertex_count * sizeof *part->normal);
+    }
+    if (!take_coordinates(mesh, c)) return false;
+    place_as_node(gltf, mesh, c);
+    return true;
+}
+
+static bool read_character(const struct gltf *gltf, struct character *c, struct error *error)
+{
+    const struct gltf_mesh *mesh = choose_mesh(gltf);
+    size_t vertices = 0, coordinates = 0, length;
+    int im;
+    if (!mesh)
+        return fail(error, ERROR_INPUT, "%s: expected a mesh of triangles, got %s", gltf->path,
+                    gltf->not_shown ? gltf->not_shown : "none");
+    for (int p = 0; p < mesh->part_count; p++)
+        vertices += mesh->parts[p].shared ? 0 : (size_t)mesh->parts[p].vertex_count;
+    for (int t = 0; t < mesh->target_count; t++) coordinates += is_coordinate(mesh, t, &length, &im);
+    if (vertices * coordinates > gltf->room / (2 * sizeof *c->position))
+        return fail(error, ERROR_INPUT, "%s: expected at most %zu vertices in a file of this size, got %zu times %zu",
+                    gltf->path, gltf->room / (2 * sizeof *c->position), coordinates, vertices);
+    return make_character(gltf, mesh, (int)coordinates, c) || fail_no_memory(error, gltf->path);
+}
+
+bool character_read(const char *path, struct character *character, struct error *error)
+{
+    struct gltf gltf;
+    *character = (struct character){0};
+    if (!gltf_read_stored(path, &gltf, error)) return false;
+    const bool done = read_character(&gltf, character, error);
+    gltf_free(&gltf);
+    if (!done) character_free(character);
+    return done;
+}
