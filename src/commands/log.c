@@ -11,10 +11,7 @@ static bool draw(const struct timing_log *log, const char *name, const char *pat
 {
     struct file_output output;
     if (!file_output_open(&output, path, error)) return false;
-    if (!distribution_draw(log, name, output.stream, error)) {
-        file_output_discard(&output);
-        return false;
-    }
+    distribution_draw(log, name, output.stream);
     return file_output_commit(&output, error);
 }
 
@@ -39,7 +36,8 @@ int command_log(int argc, char **argv)
     struct error error = {0};
     bool good = timing_log_read(path, &log, &error);
     if (good) {
-        good = distribution_print(&log, path, stdout, &error) && (!picture || draw(&log, path, picture, &error));
+        distribution_print(&log, path, stdout);
+        good = !picture || draw(&log, path, picture, &error);
         timing_log_free(&log);
     }
     if (good) return 0;

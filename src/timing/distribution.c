@@ -1,5 +1,6 @@
 /// Prints how a log's frame times are distributed.
 #include "timing/distribution.h"
+#include "base/need.h"
 #include "base/printable.h"
 #include "timing/columns.h"
 #include <math.h>
@@ -121,10 +122,9 @@ static void print_slowest(const struct timing_log *log, FILE *out)
     }
 }
 
-bool distribution_print(const struct timing_log *log, const char *name, FILE *out, struct error *error)
+void distribution_print(const struct timing_log *log, const char *name, FILE *out)
 {
-    double *values = calloc((size_t)log->rows, sizeof *values);
-    if (!values) return fail_no_memory(error, "a timing log");
+    double *values = need_zeroed((size_t)log->rows, sizeof *values);
     print_line(out, "%s: %d frames of %d %s, without the warm-up ones", name, log->rows, log->runs,
                log->runs == 1 ? "run" : "runs");
     if (log->solvers[0]) print_line(out, "solver: %s", log->solvers);
@@ -133,5 +133,4 @@ bool distribution_print(const struct timing_log *log, const char *name, FILE *ou
     print_histogram(log, values, out);
     print_slowest(log, out);
     free(values);
-    return true;
 }

@@ -6,12 +6,11 @@
 #include <stdio.h>
 
 /// Percentiles of every time, frames over budget, a histogram of frame_ms, and where the slowest frames spent their time.
-/// false with a sentence where memory is short.
-bool distribution_print(const struct timing_log *log, const char *name, FILE *out, struct error *error);
+void distribution_print(const struct timing_log *log, const char *name, FILE *out);
 
 /// An SVG: every frame of every run along the session, the histogram, and the percentiles up to the slowest frame.
-/// false with a sentence where memory is short; whether `out` was written is the caller's to check.
-bool distribution_draw(const struct timing_log *log, const char *name, FILE *out, struct error *error);
+/// Whether `out` was written is the caller's to check.
+void distribution_draw(const struct timing_log *log, const char *name, FILE *out);
 
 /// The smallest of 1, 2 and 5 times a power of ten that is not below `least`.
 double round_step(double least);

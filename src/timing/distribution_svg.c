@@ -1,4 +1,5 @@
 /// The picture: frames along the session above, the histogram and the percentiles side by side below.
+#include "base/need.h"
 #include "timing/columns.h"
 #include "timing/distribution.h"
 #include <math.h>
@@ -152,10 +153,9 @@ static void draw_percentiles(FILE *svg, const struct timing_log *log, const doub
     budgets(svg, &p);
 }
 
-bool distribution_draw(const struct timing_log *log, const char *name, FILE *out, struct error *error)
+void distribution_draw(const struct timing_log *log, const char *name, FILE *out)
 {
-    double *sorted = calloc(2 * (size_t)log->rows, sizeof *sorted);
-    if (!sorted) return fail_no_memory(error, "a timing log");
+    double *sorted = need_zeroed(2 * (size_t)log->rows, sizeof *sorted);
     int count = column_values(log, COLUMN_FRAME_MS, sorted);
     statistics_sort(sorted, count);
     double top_ms =
@@ -176,5 +176,4 @@ bool distribution_draw(const struct timing_log *log, const char *name, FILE *out
     }
     fputs("</svg>\n", out);
     free(sorted);
-    return true;
 }

@@ -1,6 +1,7 @@
 /// Collects frames, writes the log and prints the summary.
 #include "base/build.h"
 #include "base/file.h"
+#include "base/need.h"
 #include "timing/columns.h"
 #include <errno.h>
 #include <math.h>
@@ -112,7 +113,6 @@ static void write_rows(struct framelog *log, long end)
 
 static void framelog_free(struct framelog *log)
 {
-    if (!log) return;
     if (log->file) fclose(log->file);
     free(log->path);
     free(log->summed);
@@ -122,21 +122,14 @@ static void framelog_free(struct framelog *log)
 
 struct framelog *framelog_open(const char *path, const struct frame_header *header, int capacity, struct error *error)
 {
-    struct framelog *log = calloc(1, sizeof *log);
-    if (log) {
-        log->capacity = capacity;
-        log->warm_up = header->warm_up;
-        log->solver = header->solver;
-        log->summed = calloc((size_t)capacity, sizeof *log->summed);
-        log->scratch = calloc((size_t)capacity, sizeof *log->scratch);
-        log->path = path ? strdup(path) : NULL;
-    }
-    if (!log || !log->summed || !log->scratch || (path && !log->path)) {
-        fail(error, ERROR_ENVIRONMENT, "out of memory for a timing log of %d frames", capacity);
-        framelog_free(log);
-        return NULL;
-    }
+    struct framelog *log = need_zeroed(1, sizeof *log);
+    log->capacity = capacity;
+    log->warm_up = header->warm_up;
+    log->solver = header->solver;
+    log->summed = need_zeroed((size_t)capacity, sizeof *log->summed);
+    log->scratch = need_zeroed((size_t)capacity, sizeof *log->scratch);
     if (!path) return log;
+    log->path = need_text(path);
     log->file = file_open_growing(path, error);
     if (!log->file) {
         framelog_free(log);
