@@ -23,7 +23,7 @@ static inline void blind_open(struct blind *blind, const char *scene)
     app->options = &blind->options;
     app->fixed_clock = true;
     app->ui_scale = 1;
-    app->platform = platform_blind(1280, 720, 1, &error);
+    app->platform = platform_blind(1280, 720, 1);
     app->table.history = history_create();
     app->table.models = models_create();
     app->table.editor = font_init(&error) ? editor_create(&error) : NULL;

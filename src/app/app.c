@@ -38,7 +38,7 @@ static bool open_platform(struct app *app, struct error *error)
     }
     width = (int)lround(width * scale);
     height = (int)lround(height * scale);
-    app->platform = o->no_draw ? platform_blind(width, height, (float)scale, error)
+    app->platform = o->no_draw ? platform_blind(width, height, (float)scale)
                                : platform_offscreen(width, height, (float)scale, error);
     return app->platform != NULL;
 }

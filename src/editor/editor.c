@@ -49,8 +49,9 @@ static void hear(void *who, const struct editor_world *world, enum news news, in
 struct editor *editor_create(struct error *error)
 {
     struct editor *editor = calloc(1, sizeof *editor);
-    bool good = editor && drawlist_create(&editor->core.list, MAX_COMMANDS, MAX_POINTS, MAX_TEXT);
+    bool good = editor != NULL;
     if (good) {
+        drawlist_create(&editor->core.list, MAX_COMMANDS, MAX_POINTS, MAX_TEXT);
         editor->curves = curves_create();
         editor->stage = stage_create();
         editor->inspector = inspector_create();

@@ -1,5 +1,6 @@
 /// Runs another program and feeds it.
 #include "platform/child.h"
+#include "base/need.h"
 #include <errno.h>
 #include <poll.h>
 #include <signal.h>
@@ -44,14 +45,14 @@ static int spawn(struct child *child, char *const *arguments, int input, int out
 
 struct child *child_start(char *const *arguments, FILE *output, bool *missing, struct error *error)
 {
-    int ends[2] = {-1, -1}, cause = ENOMEM;
-    struct child *child = calloc(1, sizeof *child);
+    int ends[2] = {-1, -1}, cause;
+    struct child *child = need_zeroed(1, sizeof *child);
     *missing = false;
     // A socket, because writing to one whose reader is gone can do without SIGPIPE.
-    if (child && socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) == 0 && (child->log = tmpfile())) {
+    if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) == 0 && (child->log = tmpfile())) {
         child->feed = ends[0];
         cause = spawn(child, arguments, ends[1], fileno(output));
-    } else if (child) {
+    } else {
         cause = errno;
     }
     if (ends[1] >= 0) close(ends[1]);
@@ -59,7 +60,7 @@ struct child *child_start(char *const *arguments, FILE *output, bool *missing, s
     *missing = cause == ENOENT;
     fail(error, ERROR_ENVIRONMENT, "%s: cannot be run: %s", arguments[0], strerror(cause));
     if (ends[0] >= 0) close(ends[0]);
-    if (child && child->log) fclose(child->log);
+    if (child->log) fclose(child->log);
     free(child);
     return NULL;
 }

@@ -1,4 +1,5 @@
 /// An EGL surface to draw on without a display.
+#include "base/need.h"
 #include "platform/gl_debug.h"
 #include "platform/surface.h"
 #include <dlfcn.h>
@@ -129,11 +130,7 @@ static bool create_framebuffer(struct offscreen *offscreen, int width, int heigh
 struct offscreen *offscreen_create(int width, int height, struct error *error)
 {
     if (!have_libraries(error)) return NULL;
-    struct offscreen *offscreen = calloc(1, sizeof *offscreen);
-    if (!offscreen) {
-        fail(error, ERROR_ENVIRONMENT, "out of memory for the framebuffer");
-        return NULL;
-    }
+    struct offscreen *offscreen = need_zeroed(1, sizeof *offscreen);
     if (!open_any(offscreen, error)) {
         free(offscreen);
         return NULL;

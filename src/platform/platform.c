@@ -1,5 +1,6 @@
 /// Hands calls on to a window or to an offscreen surface, where there is one.
 #include "platform/platform.h"
+#include "base/need.h"
 #include "platform/gl_debug.h"
 #include "platform/process.h"
 #include "platform/surface.h"
@@ -7,18 +8,16 @@
 #include <stdlib.h>
 #include <string.h>
 
-static struct platform *allocate(struct error *error)
+static struct platform *allocate(void)
 {
-    struct platform *platform = calloc(1, sizeof *platform);
-    if (!platform) fail(error, ERROR_ENVIRONMENT, "out of memory for the window's events");
+    struct platform *platform = need_zeroed(1, sizeof *platform);
     keep_freed_memory();
     return platform;
 }
 
 struct platform *platform_window(int width, int height, const char *title, int vsync, struct error *error)
 {
-    struct platform *platform = allocate(error);
-    if (!platform) return NULL;
+    struct platform *platform = allocate();
     platform->window = window_create(width, height, title, vsync, &platform->queue, error);
     if (!platform->window) {
         free(platform);
@@ -33,16 +32,16 @@ struct platform *platform_window(int width, int height, const char *title, int v
     return platform;
 }
 
-struct platform *platform_blind(int width, int height, float scale, struct error *error)
+struct platform *platform_blind(int width, int height, float scale)
 {
-    struct platform *platform = allocate(error);
-    if (platform) platform->size = (struct surface_size){width, height, scale};
+    struct platform *platform = allocate();
+    platform->size = (struct surface_size){width, height, scale};
     return platform;
 }
 
 struct platform *platform_offscreen(int width, int height, float scale, struct error *error)
 {
-    struct platform *platform = platform_blind(width, height, scale, error);
+    struct platform *platform = platform_blind(width, height, scale);
     if (!platform) return NULL;
     platform->offscreen = offscreen_create(width, height, error);
     if (!platform->offscreen) {
@@ -129,7 +128,7 @@ void platform_set_clipboard(struct platform *platform, const char *text)
         window_set_clipboard(platform->window, text);
     } else {
         free(platform->clipboard);
-        platform->clipboard = strdup(text);
+        platform->clipboard = need_text(text);
     }
 }
 

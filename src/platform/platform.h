@@ -20,7 +20,7 @@ struct platform *platform_window(int width, int height, const char *title, int v
 struct platform *platform_offscreen(int width, int height, float scale, struct error *error);
 
 /// No surface: a size, a clipboard and a queue of events. Needs no OpenGL.
-struct platform *platform_blind(int width, int height, float scale, struct error *error);
+struct platform *platform_blind(int width, int height, float scale);
 
 void platform_destroy(struct platform *platform);
 

@@ -1,5 +1,6 @@
 /// A GLFW window and its callbacks, which only translate and queue.
 #include "base/clock.h"
+#include "base/need.h"
 #include "platform/gl_debug.h"
 #include "platform/keys.h"
 #include "platform/surface.h"
@@ -256,9 +257,9 @@ struct window *window_create(int width, int height, const char *title, int vsync
         fail_glfw(error, "no window opens");
         return NULL;
     }
-    struct window *window = calloc(1, sizeof *window);
-    if (window) window->handle = open_handle(width, height, title);
-    if (!window || !window->handle) {
+    struct window *window = need_zeroed(1, sizeof *window);
+    window->handle = open_handle(width, height, title);
+    if (!window->handle) {
         fail_glfw(error, "no window with OpenGL 3.3 opens");
         free(window);
         glfwTerminate();

@@ -1,4 +1,5 @@
 /// Packs the glyphs of all fonts and sizes into one texture.
+#include "base/need.h"
 #include "ui/face.h"
 #include "ui/font.h"
 #include "ui/theme.h"
@@ -91,18 +92,15 @@ static void thicken(struct atlas *atlas)
 bool atlas_build(float scale, struct atlas *atlas, struct error *error)
 {
     struct typesetter setter = {.x = GAP + 1, .y = GAP + 1};
-    struct glyph_table *table = calloc(1, sizeof *table);
+    struct glyph_table *table = need_zeroed(1, sizeof *table);
     *atlas = (struct atlas){.width = ATLAS_WIDTH, .scale = scale, .storage = table};
-    if (!table) return fail(error, ERROR_ENVIRONMENT, "out of memory for the fonts");
     for (int i = 0; i < ENTRY_COUNT; i++) place_glyph(&setter, table_entry(atlas, i));
     atlas->height = setter.y + setter.row_height + GAP;
-    if (atlas->height <= ATLAS_MAX_HEIGHT) atlas->coverage = calloc((size_t)atlas->height, (size_t)atlas->width);
-    if (!atlas->coverage) {
-        const bool fits = atlas->height <= ATLAS_MAX_HEIGHT;
+    if (atlas->height > ATLAS_MAX_HEIGHT) {
         atlas_free(atlas);
-        if (fits) return fail(error, ERROR_ENVIRONMENT, "out of memory for the fonts");
         return fail(error, ERROR_ENVIRONMENT, "the fonts do not fit into a texture at scale %g", (double)scale);
     }
+    atlas->coverage = need_zeroed((size_t)atlas->height, (size_t)atlas->width);
     for (int i = 0; i < ENTRY_COUNT; i++) rasterise_glyph(atlas, table_entry(atlas, i));
     atlas->coverage[0] = 255;
     thicken(atlas);

@@ -1,24 +1,22 @@
 /// Records draw commands.
 #include "ui/drawlist.h"
 #include "base/hash.h"
+#include "base/need.h"
 #include "ui/font.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-bool drawlist_create(struct drawlist *list, int commands, int points, int text_bytes)
+void drawlist_create(struct drawlist *list, int commands, int points, int text_bytes)
 {
     *list = (struct drawlist){
-        .commands = calloc((size_t)commands, sizeof *list->commands),
+        .commands = need_zeroed((size_t)commands, sizeof *list->commands),
         .capacity = commands,
-        .points = calloc((size_t)points * 2, sizeof *list->points),
+        .points = need_zeroed((size_t)points * 2, sizeof *list->points),
         .point_capacity = points,
-        .text = calloc((size_t)text_bytes, 1),
+        .text = need_zeroed((size_t)text_bytes, 1),
         .text_capacity = text_bytes,
     };
-    if (list->commands && list->points && list->text) return true;
-    drawlist_destroy(list);
-    return false;
 }
 
 void drawlist_destroy(struct drawlist *list)

@@ -48,8 +48,8 @@ struct drawlist {
     bool overflow;    ///< something did not fit and was left out
 };
 
-/// Allocates all memory it will ever use. false if memory is short.
-bool drawlist_create(struct drawlist *list, int commands, int points, int text_bytes);
+/// Allocates all memory it will ever use.
+void drawlist_create(struct drawlist *list, int commands, int points, int text_bytes);
 void drawlist_destroy(struct drawlist *list);
 void drawlist_clear(struct drawlist *list, struct rect whole);
 
