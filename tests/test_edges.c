@@ -8,7 +8,7 @@ static const float square[][3] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
 static void find(const float (*position)[3], int vertices, const uint32_t other[3], int across[6])
 {
     const uint32_t indices[6] = {0, 1, 2, other[0], other[1], other[2]};
-    assert_true(across_find(position, vertices, indices, 6, across));
+    across_find(position, vertices, indices, 6, across);
 }
 
 static void a_sheet_ends_at_its_border(void **state)
@@ -36,7 +36,7 @@ static void sheets_back_to_back_go_on_in_themselves(void **state)
     (void)state;
     static const uint32_t indices[12] = {0, 1, 2, 0, 2, 1, 0, 2, 3, 0, 3, 2};
     int across[12];
-    assert_true(across_find(square, 4, indices, 12, across));
+    across_find(square, 4, indices, 12, across);
     assert_int_equal(across[2], 2); // the diagonal, from 2 to 0: to the other front, not to its own back
     assert_int_equal(across[3], 3);
     assert_int_equal(across[0], 1); // the border: round to the back
@@ -56,7 +56,7 @@ static void large_fans_are_whole(void **state)
         indices[3 * i + 1] = (uint32_t)i + 1;
         indices[3 * i + 2] = (uint32_t)(i + 1) % MANY + 1;
     }
-    assert_true(across_find((const float(*)[3])position, MANY + 1, indices, 3 * MANY, across));
+    across_find((const float(*)[3])position, MANY + 1, indices, 3 * MANY, across);
     for (int i = 0; i < MANY; i++) assert_int_equal(across[3 * i + 2], (i + 1) % MANY);
 }
 

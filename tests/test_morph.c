@@ -170,9 +170,8 @@ static void a_triangle_between_vertices_at_one_place(void **state)
     struct figure figure;
     assert_true(character_create(&character, &surface, 0));
     mallopt(M_PERTURB, 0x5a); // what nobody has written is no vertex
-    const bool made = figure_create(&figure, &character);
+    figure_create(&figure, &character);
     mallopt(M_PERTURB, 0);
-    assert_true(made);
     for (int v = 0; v < 4; v++) {
         assert_int_equal(figure.edges.first[v + 1] - figure.edges.first[v], 3);
         for (int e = figure.edges.first[v]; e < figure.edges.first[v + 1]; e++)

@@ -3,6 +3,7 @@
 /// One solid, so that the mesh is one closed manifold: a smooth union of round cones, cut off flat at the ground. It is
 /// 1.5 m high, looks towards +z and stands on y = 0; its arms stand well clear of the body, so that a lattice around the
 /// mesh does not glue them together.
+#include "base/need.h"
 #include "model/coat.h"
 #include "model/isosurface.h"
 #include "model/obj.h"
@@ -86,15 +87,13 @@ static bool write(const struct mesh *mesh, const char *path, struct error *error
     struct surface surface = {
         .vertex_count = mesh->vertex_count, .indices = mesh->indices, .index_count = mesh->index_count};
     const size_t bytes = (size_t)mesh->vertex_count * sizeof *surface.position;
-    surface.position = malloc(bytes);
-    surface.color = malloc(bytes);
-    bool written = surface.position && surface.color;
-    for (int i = 0; written && i < mesh->vertex_count; i++) {
+    surface.position = need(bytes, 1);
+    surface.color = need(bytes, 1);
+    for (int i = 0; i < mesh->vertex_count; i++) {
         memcpy(surface.position[i], mesh->vertices[i].position, sizeof *surface.position);
         memcpy(surface.color[i], mesh->vertices[i].color, sizeof *surface.color);
     }
-    written = written ? obj_write(path, &surface, error)
-                      : fail(error, ERROR_ENVIRONMENT, "not enough memory for the creature");
+    const bool written = obj_write(path, &surface, error);
     free(surface.position);
     free(surface.color);
     return written;
@@ -112,9 +111,7 @@ int main(int argc, char **argv)
     isosurface(&solid, lo, hi, CELL, &mesh);
     refine(&solid, TOLERANCE, REFINE_ROUNDS, 0, &mesh);
     darken_below_nose(&mesh);
-    if (mesh.failed) {
-        fail(&error, ERROR_ENVIRONMENT, "not enough memory for the creature");
-    } else if (write(&mesh, argv[1], &error)) {
+    if (write(&mesh, argv[1], &error)) {
         printf("%s: %d vertices, %d triangles\n", argv[1], mesh.vertex_count, mesh.index_count / 3);
     }
     mesh_free(&mesh);

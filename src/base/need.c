@@ -85,6 +85,13 @@ char *need_text(const char *text)
     return memcpy(need(size, 1), text, size);
 }
 
+bool need_has_room(size_t bytes)
+{
+    void *volatile trial = malloc(bytes); // volatile: else the compiler takes it for granted
+    free(trial);
+    return trial != NULL;
+}
+
 void need_keep(size_t reserve, need_rescue *saves, void *user)
 {
     free(kept);

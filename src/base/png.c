@@ -1,68 +1,29 @@
 /// Writes PNG files.
 #include "base/png.h"
 #include "base/file.h"
-#include <setjmp.h>
+#include "base/need.h"
 #include <stdlib.h>
-
-/// The library does not check each of its allocations: where one fails, its call is left from there, and what it held is freed.
-struct piece {
-    struct piece *before, *after;
-    max_align_t bytes[];
-};
-static _Thread_local struct piece *pieces; ///< of the picture that is being encoded
-static _Thread_local jmp_buf no_memory;
-
-static void *take(void *old, size_t size)
-{
-    struct piece *piece = old ? (struct piece *)((char *)old - offsetof(struct piece, bytes)) : NULL;
-    struct piece *moved = realloc(piece, sizeof *piece + size);
-    if (!moved) longjmp(no_memory, 1);
-    if (!piece) *moved = (struct piece){.after = pieces};
-    if (moved->after) moved->after->before = moved;
-    if (moved->before)
-        moved->before->after = moved;
-    else
-        pieces = moved;
-    return moved->bytes;
-}
-
-static void give_back(void *bytes)
-{
-    if (!bytes) return;
-    struct piece *piece = (struct piece *)((char *)bytes - offsetof(struct piece, bytes));
-    if (piece->after) piece->after->before = piece->before;
-    if (piece->before)
-        piece->before->after = piece->after;
-    else
-        pieces = piece->after;
-    free(piece);
-}
 
 // The implementation lives here and nowhere else; the library is not written for our warnings.
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wconversion"
 #pragma GCC diagnostic ignored "-Wshadow"
-#define STBIW_MALLOC(size) take(NULL, size)
-#define STBIW_REALLOC(piece, size) take(piece, size)
-#define STBIW_FREE(piece) give_back(piece)
+#define STBIW_MALLOC(size) need(size, 1)
+#define STBIW_REALLOC(piece, size) need_more(piece, size, 1)
+#define STBIW_FREE(piece) free(piece)
 #define STB_IMAGE_WRITE_IMPLEMENTATION
 #define STBI_WRITE_NO_STDIO
 #include <stb/stb_image_write.h>
 #pragma GCC diagnostic pop
 
-bool png_encode(void (*store)(void *user, const void *bytes, size_t size), void *user, int width, int height,
+void png_encode(void (*store)(void *user, const void *bytes, size_t size), void *user, int width, int height,
                 int channels, const unsigned char *pixels, enum png_effort effort)
 {
     int size;
-    if (setjmp(no_memory)) {
-        while (pieces) give_back(pieces->bytes);
-        return false;
-    }
     stbi_write_png_compression_level = (int)effort;
     unsigned char *png = stbi_write_png_to_mem(pixels, channels * width, width, height, channels, &size);
     store(user, png, (size_t)size);
-    give_back(png);
-    return true;
+    free(png);
 }
 
 /// Where the encoder's output goes, and whether all of it arrived.
@@ -85,7 +46,6 @@ bool png_write(const char *path, int width, int height, const unsigned char *rgb
                     width, height);
     }
     struct sink sink = {.path = path, .error = error};
-    if (!png_encode(store, &sink, width, height, 4, rgba, PNG_FAST))
-        return fail(error, ERROR_ENVIRONMENT, "%s: out of memory while the picture was compressed", path);
+    png_encode(store, &sink, width, height, 4, rgba, PNG_FAST);
     return sink.written;
 }

@@ -11,8 +11,8 @@ bool png_write(const char *path, int width, int height, const unsigned char *rgb
 /// How long to look for what repeats.
 enum png_effort { PNG_FAST = 5, PNG_SMALL = 8 };
 
-/// Hands a whole PNG of pixels with `channels` bytes each over to `store`, once. false if memory runs out before.
-bool png_encode(void (*store)(void *user, const void *bytes, size_t size), void *user, int width, int height,
+/// Hands a whole PNG of pixels with `channels` bytes each over to `store`, once.
+void png_encode(void (*store)(void *user, const void *bytes, size_t size), void *user, int width, int height,
                 int channels, const unsigned char *pixels, enum png_effort effort);
 
 #endif

@@ -1,5 +1,6 @@
 /// Collects triangles and draws them in order with few calls.
 #include "draw/batch.h"
+#include "base/need.h"
 #include "draw/timer.h"
 #include <stddef.h>
 #include <stdlib.h>
@@ -29,14 +30,10 @@ static void create_buffers(struct batch *batch)
 bool batch_create(struct batch *batch, struct error *error)
 {
     *batch = (struct batch){
-        .vertices = calloc(BATCH_VERTICES, sizeof *batch->vertices),
-        .indices = calloc(BATCH_INDICES, sizeof *batch->indices),
-        .parts = calloc(BATCH_PARTS, sizeof *batch->parts),
+        .vertices = need_zeroed(BATCH_VERTICES, sizeof *batch->vertices),
+        .indices = need_zeroed(BATCH_INDICES, sizeof *batch->indices),
+        .parts = need_zeroed(BATCH_PARTS, sizeof *batch->parts),
     };
-    if (!batch->vertices || !batch->indices || !batch->parts) {
-        batch_destroy(batch);
-        return fail(error, ERROR_ENVIRONMENT, "out of memory for drawing");
-    }
     batch->program = gl_program("ui.vert", "ui.frag", NULL, error);
     if (!batch->program) {
         batch_destroy(batch);

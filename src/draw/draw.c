@@ -1,6 +1,7 @@
 /// The renderer: draws stage and draw list, only where something changed.
 #include "draw/draw.h"
 #include "base/hash.h"
+#include "base/need.h"
 #include "draw/batch.h"
 #include "draw/damage.h"
 #include "draw/paint.h"
@@ -63,17 +64,14 @@ static bool load_atlas(struct draw *draw, float scale, struct error *error)
 
 struct draw *draw_create(float scale, struct error *error)
 {
-    struct draw *draw = calloc(1, sizeof *draw);
-    if (!draw) {
-        fail(error, ERROR_ENVIRONMENT, "out of memory for drawing");
-        return NULL;
-    }
+    struct draw *draw = need_zeroed(1, sizeof *draw);
     bool ok = batch_create(&draw->batch, error) && load_atlas(draw, scale, error);
     if (ok) draw->stage = stage_renderer_create(error);
-    if (!draw->stage || !reference_create(&draw->reference, error)) {
+    if (!draw->stage) {
         draw_destroy(draw);
         return NULL;
     }
+    reference_create(&draw->reference);
     gpu_timer_create(&draw->timer, is_software(draw_renderer_name()));
     return draw;
 }
@@ -172,7 +170,7 @@ void draw_frame(struct draw *draw, const struct draw_input *input, struct draw_c
     *cost = (struct draw_cost){0};
     cost->gpu_us = gpu_timer_take(&draw->timer, &cost->gpu_frame);
     double start = timer_now_us();
-    // If memory is short the old glyphs serve, if less sharply.
+    // Where the driver takes no larger texture the old glyphs serve, if less sharply.
     if (input->scale != draw->atlas.scale) load_atlas(draw, input->scale, NULL);
     if (!input->keeps) damage_forget(&draw->damage);
     const struct damage_stage stage = describe_stage(input);

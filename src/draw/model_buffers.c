@@ -1,5 +1,6 @@
 /// Uploads imported characters and their poses.
 #include "draw/model_buffers.h"
+#include "base/need.h"
 #include "model/vector.h"
 #include <math.h>
 #include <stdlib.h>
@@ -140,21 +141,17 @@ static int lay_out_matrices(int *first, const struct gltf *gltf)
     return count;
 }
 
-static bool allocate(struct model_buffers *buffers, const struct gltf *gltf, int parts, int shapes)
+static void allocate(struct model_buffers *buffers, const struct gltf *gltf, int parts, int shapes)
 {
-    buffers->vertices = calloc((size_t)parts + 1, sizeof *buffers->vertices);
-    buffers->indices = calloc((size_t)parts + 1, sizeof *buffers->indices);
-    buffers->pictures = calloc((size_t)gltf->image_count + 1, sizeof *buffers->pictures);
-    buffers->samplers = calloc((size_t)gltf->material_count + 1, sizeof *buffers->samplers);
-    buffers->shapes = calloc((size_t)shapes + 1, sizeof *buffers->shapes);
-    buffers->weights = calloc((size_t)gltf->weight_count + 1, sizeof *buffers->weights);
-    buffers->first = calloc((size_t)gltf->node_count + 1, sizeof *buffers->first);
-    if (!buffers->vertices || !buffers->indices || !buffers->pictures || !buffers->samplers || !buffers->shapes ||
-        !buffers->weights || !buffers->first)
-        return false;
+    buffers->vertices = need_zeroed((size_t)parts + 1, sizeof *buffers->vertices);
+    buffers->indices = need_zeroed((size_t)parts + 1, sizeof *buffers->indices);
+    buffers->pictures = need_zeroed((size_t)gltf->image_count + 1, sizeof *buffers->pictures);
+    buffers->samplers = need_zeroed((size_t)gltf->material_count + 1, sizeof *buffers->samplers);
+    buffers->shapes = need_zeroed((size_t)shapes + 1, sizeof *buffers->shapes);
+    buffers->weights = need_zeroed((size_t)gltf->weight_count + 1, sizeof *buffers->weights);
+    buffers->first = need_zeroed((size_t)gltf->node_count + 1, sizeof *buffers->first);
     buffers->row_count = (lay_out_matrices(buffers->first, gltf) + MATRICES_A_ROW - 1) / MATRICES_A_ROW;
-    buffers->rows = calloc((size_t)buffers->row_count * FLOATS_A_ROW + 1, sizeof *buffers->rows);
-    return buffers->rows != NULL;
+    buffers->rows = need_zeroed((size_t)buffers->row_count * FLOATS_A_ROW + 1, sizeof *buffers->rows);
 }
 
 static void create_matrices(struct model_buffers *buffers)
@@ -187,7 +184,7 @@ long model_buffers_create(struct model_buffers *buffers, const struct gltf *gltf
     for (int n = 0; n < gltf->node_count; n++) {
         if (gltf->nodes[n].mesh >= 0) shapes += gltf->meshes[gltf->nodes[n].mesh].part_count;
     }
-    if (!allocate(buffers, gltf, parts, shapes)) return 0;
+    allocate(buffers, gltf, parts, shapes);
     long bytes = upload_pictures(buffers, gltf);
     create_samplers(buffers, gltf);
     for (int m = 0; m < gltf->mesh_count; m++) {

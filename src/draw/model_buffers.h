@@ -35,7 +35,7 @@ struct model_buffers {
     struct model_skirt skirt;
 };
 
-/// Uploads a model; returns the bytes. Where memory is short, what does not fit is not there.
+/// Uploads a model; returns the bytes.
 long model_buffers_create(struct model_buffers *buffers, const struct gltf *gltf);
 void model_buffers_free(struct model_buffers *buffers);
 

@@ -1,5 +1,6 @@
 /// Finds the outlines of imported characters.
 #include "draw/model_skirt.h"
+#include "base/need.h"
 #include "model/across.h"
 #include "model/vector.h"
 #include <stdlib.h>
@@ -13,6 +14,7 @@ static int index_count(const struct gltf *gltf, int node)
     return count;
 }
 
+/// False where a mesh that many nodes show is too much: a small file can claim any number of triangles.
 static bool allocate(struct model_skirt *skirt, const struct gltf *gltf)
 {
     const size_t nodes = (size_t)gltf->node_count + 1;
@@ -21,17 +23,18 @@ static bool allocate(struct model_skirt *skirt, const struct gltf *gltf)
         vertices += (size_t)gltf_vertex_count(gltf, n);
         indices += (size_t)index_count(gltf, n);
     }
-    *skirt =
-        (struct model_skirt){malloc(indices * sizeof *skirt->indices), malloc(indices * sizeof *skirt->across),
-                             malloc(vertices * sizeof *skirt->place),  malloc(vertices * sizeof *skirt->normal),
-                             malloc(indices * sizeof *skirt->front),   calloc(nodes, sizeof *skirt->first_vertex),
-                             calloc(nodes, sizeof *skirt->first_index)};
-    return skirt->indices && skirt->across && skirt->place && skirt->normal && skirt->front && skirt->first_vertex &&
-           skirt->first_index;
+    *skirt = (struct model_skirt){0};
+    if (!need_has_room(vertices * 2 * sizeof *skirt->place + indices * 8 * sizeof *skirt->across)) return false;
+    *skirt = (struct model_skirt){
+        need(indices, sizeof *skirt->indices),         need(indices, sizeof *skirt->across),
+        need(vertices, sizeof *skirt->place),          need(vertices, sizeof *skirt->normal),
+        need(indices, sizeof *skirt->front),           need_zeroed(nodes, sizeof *skirt->first_vertex),
+        need_zeroed(nodes, sizeof *skirt->first_index)};
+    return true;
 }
 
 /// Fills a node's part of the arrays, from its mesh at rest.
-static bool add_node(const struct model_skirt *skirt, uint32_t *look, const struct gltf *gltf, int node)
+static void add_node(const struct model_skirt *skirt, uint32_t *look, const struct gltf *gltf, int node)
 {
     const struct gltf_mesh *mesh = &gltf->meshes[gltf->nodes[node].mesh];
     const int first = skirt->first_index[node], count = index_count(gltf, node);
@@ -49,24 +52,22 @@ static bool add_node(const struct model_skirt *skirt, uint32_t *look, const stru
         vertex += (uint32_t)part->vertex_count;
     }
     const float(*place)[3] = (const float(*)[3])skirt->place;
-    if (!across_find(place, (int)vertex, indices, count, skirt->across + first)) return false;
+    across_find(place, (int)vertex, indices, count, skirt->across + first);
     across_cut(place, indices, look, count, skirt->across + first);
-    return true;
 }
 
 void model_skirt_create(struct model_skirt *skirt, const struct gltf *gltf)
 {
-    bool made = allocate(skirt, gltf);
-    for (int n = 0; made && n < gltf->node_count; n++) {
+    if (!allocate(skirt, gltf)) return;
+    for (int n = 0; n < gltf->node_count; n++) {
         skirt->first_vertex[n + 1] = skirt->first_vertex[n] + gltf_vertex_count(gltf, n);
         skirt->first_index[n + 1] = skirt->first_index[n] + index_count(gltf, n);
     }
-    uint32_t *look = made ? malloc(((size_t)skirt->first_index[gltf->node_count] + 1) * sizeof *look) : NULL;
-    made = look != NULL;
-    for (int n = 0; made && n < gltf->node_count; n++)
-        made = gltf->nodes[n].mesh < 0 || add_node(skirt, look, gltf, n);
+    uint32_t *look = need((size_t)skirt->first_index[gltf->node_count] + 1, sizeof *look);
+    for (int n = 0; n < gltf->node_count; n++) {
+        if (gltf->nodes[n].mesh >= 0) add_node(skirt, look, gltf, n);
+    }
     free(look);
-    if (!made) model_skirt_free(skirt);
 }
 
 void model_skirt_free(struct model_skirt *skirt)

@@ -5,7 +5,7 @@
 #include "draw/skirt.h"
 #include "model/gltf.h"
 
-/// All nodes' meshes, one after the other, part after part, as one that stands in the world. All zero: memory is short, and edges stay hard.
+/// All nodes' meshes, one after the other, part after part, as one that stands in the world. All zero: they are too many, and edges stay hard.
 struct model_skirt {
     uint32_t *indices;
     int *across;

@@ -1,5 +1,6 @@
 /// Uploads the pictures of soft characters, and sorts their triangles by material.
 #include "draw/morph_looks.h"
+#include "base/need.h"
 #include "model/gltf.h"
 #include <stdlib.h>
 #include <string.h>
@@ -43,17 +44,12 @@ long morph_looks_create(struct morph_looks *looks, const struct figure *figure)
     long bytes = 0;
     *looks = (struct morph_looks){0};
     if (!looks_show(from)) return 0;
-    looks->pictures = calloc((size_t)from->material_count + 1, sizeof *looks->pictures);
-    if (!looks->pictures) return 0;
+    looks->pictures = need_zeroed((size_t)from->material_count + 1, sizeof *looks->pictures);
     looks->picture_count = from->material_count + 1;
     looks->pictures[from->material_count] = gl_white();
     for (int m = 0; m < from->material_count; m++) bytes += upload_picture(looks, from, m, &room);
-    for (int coarse = 0; coarse < 2; coarse++) {
-        looks->ranges[coarse] = calloc((size_t)looks->picture_count, sizeof *looks->ranges[coarse]);
-        if (looks->ranges[coarse]) continue;
-        morph_looks_free(looks);
-        return bytes;
-    }
+    for (int coarse = 0; coarse < 2; coarse++)
+        looks->ranges[coarse] = need_zeroed((size_t)looks->picture_count, sizeof *looks->ranges[coarse]);
     looks->range_count = looks->picture_count;
     return bytes;
 }
@@ -71,9 +67,9 @@ uint32_t *morph_looks_sort(struct morph_looks *looks, const struct figure *figur
     const struct character *c = &figure->character;
     const uint32_t *indices = coarse ? figure->coarse : c->indices, *material = c->looks.material;
     const int count = coarse ? figure->coarse_count : c->index_count, materials = c->looks.material_count;
-    uint32_t *sorted = malloc(((size_t)count + 1) * sizeof *sorted);
+    uint32_t *sorted = need((size_t)count + 1, sizeof *sorted);
     GLsizei used = 0;
-    for (int m = 0; sorted && m <= materials; m++) {
+    for (int m = 0; m <= materials; m++) {
         struct morph_range *range = &looks->ranges[coarse][m];
         *range = (struct morph_range){.first = used, .color = {1, 1, 1, 1}, .picture = looks->pictures[m]};
         if (m < materials) memcpy(range->color, c->looks.materials[m].color, sizeof range->color);

@@ -12,7 +12,7 @@ struct morph_range {
     GLuint picture;
 };
 
-/// All zero: its materials are not to be seen, or memory is short.
+/// All zero: its materials are not to be seen.
 struct morph_looks {
     GLuint *pictures; ///< of each material, and a white one
     int picture_count;
@@ -24,7 +24,7 @@ struct morph_looks {
 long morph_looks_create(struct morph_looks *looks, const struct figure *figure);
 void morph_looks_free(struct morph_looks *looks);
 
-/// The fine or the coarse triangles material after material, with their ranges. The caller frees them; NULL where memory is short.
+/// The fine or the coarse triangles material after material, with their ranges. The caller frees them.
 uint32_t *morph_looks_sort(struct morph_looks *looks, const struct figure *figure, bool coarse);
 
 #endif

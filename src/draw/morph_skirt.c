@@ -1,5 +1,6 @@
 /// Finds the outlines of soft characters, and what skirts show there.
 #include "draw/morph_skirt.h"
+#include "base/need.h"
 #include "model/across.h"
 #include "ui/phase_color.h"
 #include <stdlib.h>
@@ -16,20 +17,18 @@ static int count_of(const struct figure *figure, bool coarse)
     return coarse ? figure->coarse_count : figure->character.index_count;
 }
 
-/// False if memory is short.
-static bool cut(const struct figure *figure, const struct morph_looks *looks, bool coarse, const uint32_t *indices,
+static void cut(const struct figure *figure, const struct morph_looks *looks, bool coarse, const uint32_t *indices,
                 int *across)
 {
     const struct character *c = &figure->character;
     const int count = count_of(figure, coarse);
-    uint32_t *look = malloc(((size_t)count + 1) * sizeof *look);
-    for (int i = 0, r = 0; look && i < count; i++) {
+    uint32_t *look = need((size_t)count + 1, sizeof *look);
+    for (int i = 0, r = 0; i < count; i++) {
         while (r < looks->range_count && i >= looks->ranges[coarse][r].first + looks->ranges[coarse][r].count) r++;
         look[i] = across_look(r, c->color[indices[i]]);
     }
-    if (look) across_cut((const float(*)[3])c->position, indices, look, count, across);
+    across_cut((const float(*)[3])c->position, indices, look, count, across);
     free(look);
-    return look != NULL;
 }
 
 static void find_across(struct morph_skirt *skirt, const struct figure *figure, const struct morph_looks *looks,
@@ -38,22 +37,17 @@ static void find_across(struct morph_skirt *skirt, const struct figure *figure, 
     const struct character *c = &figure->character;
     const int count = count_of(figure, coarse);
     const uint32_t *indices = indices_of(skirt, figure, coarse);
-    int *across = malloc(((size_t)count + 1) * sizeof *across);
-    if (across && across_find((const float(*)[3])c->position, c->vertex_count, indices, count, across) &&
-        cut(figure, looks, coarse, indices, across)) {
-        skirt->across[coarse] = across;
-    } else {
-        free(across);
-    }
+    int *across = skirt->across[coarse] = need((size_t)count + 1, sizeof *across);
+    across_find((const float(*)[3])c->position, c->vertex_count, indices, count, across);
+    cut(figure, looks, coarse, indices, across);
 }
 
 void morph_skirt_create(struct morph_skirt *skirt, const struct figure *figure, const struct morph_looks *looks)
 {
     const struct character *c = &figure->character;
-    skirt->place = malloc(((size_t)c->vertex_count + 1) * sizeof *skirt->place);
-    skirt->front = malloc(((size_t)c->index_count / 3 + 1) * sizeof *skirt->front);
-    for (int coarse = 0; skirt->place && skirt->front && coarse < 2; coarse++)
-        find_across(skirt, figure, looks, coarse);
+    skirt->place = need((size_t)c->vertex_count + 1, sizeof *skirt->place);
+    skirt->front = need((size_t)c->index_count / 3 + 1, sizeof *skirt->front);
+    for (int coarse = 0; coarse < 2; coarse++) find_across(skirt, figure, looks, coarse);
 }
 
 void morph_skirt_free(struct morph_skirt *skirt)
@@ -113,7 +107,6 @@ void morph_skirt_draw(const struct morph_skirt *skirt, const struct stage_skirt 
                                     .across = skirt->across[coarse],
                                     .place = (const float(*)[3])skirt->place,
                                     .front = skirt->front};
-    if (!mesh.across) return;
     morph_places(shown->figure, &shown->morph, shown->position, skirt->place);
     skirt_face(&mesh, 0, count, view->eye);
     if (shown->map_coordinate >= 0 || looks->range_count == 0) {

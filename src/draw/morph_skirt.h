@@ -5,7 +5,7 @@
 #include "draw/morph_looks.h"
 #include "draw/stage_skirt.h"
 
-/// What of a figure's outlines is kept. Without `across` its edges stay hard: memory is short.
+/// What of a figure's outlines is kept.
 struct morph_skirt {
     uint32_t *sorted
         [2]; ///< of the fine and of the coarse triangles, as morph_looks_sort() has them; NULL: as the figure has them

@@ -1,5 +1,6 @@
 /// Draws pictures of the stage at twice their size and averages four pixels into one.
 #include "draw/picture.h"
+#include "base/need.h"
 #include "draw/gl.h"
 #include "draw/stage.h"
 #include <stdlib.h>
@@ -44,17 +45,13 @@ static bool create_framebuffer(struct picture *picture, struct error *error)
 
 struct picture *picture_create(int width, int height, struct error *error)
 {
-    struct picture *picture = calloc(1, sizeof *picture);
-    if (picture) {
+    struct picture *picture = need_zeroed(1, sizeof *picture);
+    picture->width = width;
+    picture->height = height;
+    if ((picture->stage = stage_renderer_create(error)) && create_framebuffer(picture, error)) {
         const size_t bytes = 4 * (size_t)width * (size_t)height;
-        picture->width = width;
-        picture->height = height;
-        picture->drawn = malloc(FINE * FINE * bytes);
-        picture->pixels = malloc(bytes);
-    }
-    if (!picture || !picture->drawn || !picture->pixels) {
-        fail(error, ERROR_ENVIRONMENT, "not enough memory for pictures of %d × %d pixels", width, height);
-    } else if ((picture->stage = stage_renderer_create(error)) && create_framebuffer(picture, error)) {
+        picture->drawn = need(FINE * FINE, bytes);
+        picture->pixels = need(bytes, 1);
         return picture;
     }
     picture_destroy(picture);

@@ -7,10 +7,9 @@
 
 enum { LINES = 20, POINTS = 500, GLYPHS = 300, GLYPHS_A_ROW = 50, JOINTS = 24 };
 
-bool reference_create(struct reference *reference, struct error *error)
+void reference_create(struct reference *reference)
 {
-    if (drawlist_create(&reference->list, 64, LINES * POINTS + 16, 1024)) return true;
-    return fail(error, ERROR_ENVIRONMENT, "out of memory for the reference frame");
+    drawlist_create(&reference->list, 64, LINES * POINTS + 16, 1024);
 }
 
 void reference_destroy(struct reference *reference) { drawlist_destroy(&reference->list); }

@@ -14,7 +14,7 @@ struct reference {
     double ms[REFERENCE_RUNS_MAX];
 };
 
-bool reference_create(struct reference *reference, struct error *error);
+void reference_create(struct reference *reference);
 void reference_destroy(struct reference *reference);
 
 /// Lays the frame out in a window of width × height logical pixels.

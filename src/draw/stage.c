@@ -1,5 +1,6 @@
 /// Draws the stage: ground, shadows and rigs.
 #include "draw/stage.h"
+#include "base/need.h"
 #include "draw/painter.h"
 #include "draw/stage_flat.h"
 #include <stdlib.h>
@@ -11,11 +12,7 @@ struct stage_renderer {
 
 struct stage_renderer *stage_renderer_create(struct error *error)
 {
-    struct stage_renderer *renderer = calloc(1, sizeof *renderer);
-    if (!renderer) {
-        fail(error, ERROR_ENVIRONMENT, "not enough memory for the stage");
-        return NULL;
-    }
+    struct stage_renderer *renderer = need_zeroed(1, sizeof *renderer);
     bool made = (renderer->flat = stage_flat_create(error)) != NULL;
     for (int p = 0; made && p < PAINTERS; p++) made = (renderer->states[p] = painters[p]->create(error)) != NULL;
     if (made) return renderer;

@@ -1,5 +1,6 @@
 /// Draws background, ground and contact shadows.
 #include "draw/stage_flat.h"
+#include "base/need.h"
 #include "draw/painter.h"
 #include "draw/stage_extent.h"
 #include <math.h>
@@ -38,11 +39,7 @@ static const float square[CORNERS][2] = {{-1, -1}, {1, -1}, {1, 1}, {-1, -1}, {1
 
 struct stage_flat *stage_flat_create(struct error *error)
 {
-    struct stage_flat *flat = calloc(1, sizeof *flat);
-    if (!flat) {
-        fail(error, ERROR_ENVIRONMENT, "not enough memory for the stage");
-        return NULL;
-    }
+    struct stage_flat *flat = need_zeroed(1, sizeof *flat);
     flat->program = gl_program("stage_flat.vert", "stage_flat.frag", NULL, error);
     if (!flat->program) {
         free(flat);

@@ -1,4 +1,5 @@
 /// Draws a meadow: one strip of triangles, instanced for every reed.
+#include "base/need.h"
 #include "draw/painter.h"
 #include "draw/stage_extent.h"
 #include <math.h>
@@ -67,11 +68,7 @@ static void destroy(void *state)
 
 static void *create(struct error *error)
 {
-    struct reeds *painter = calloc(1, sizeof *painter);
-    if (!painter) {
-        fail(error, ERROR_ENVIRONMENT, "not enough memory for the stage");
-        return NULL;
-    }
+    struct reeds *painter = need_zeroed(1, sizeof *painter);
     painter->program = gl_program("stage_meadow.vert", "stage_mesh.frag", NULL, error);
     if (!painter->program) {
         free(painter);

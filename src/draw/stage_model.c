@@ -1,4 +1,5 @@
 /// Draws imported characters with their own materials.
+#include "base/need.h"
 #include "draw/model_buffers.h"
 #include "draw/stage_extent.h"
 #include "draw/stage_skirt.h"
@@ -20,11 +21,7 @@ struct stage_models {
 
 static void *create(struct error *error)
 {
-    struct stage_models *models = calloc(1, sizeof *models);
-    if (!models) {
-        fail(error, ERROR_ENVIRONMENT, "not enough memory for the stage");
-        return NULL;
-    }
+    struct stage_models *models = need_zeroed(1, sizeof *models);
     models->program = gl_program("stage_model.vert", "stage_mesh.frag", "PICTURED", error);
     if (!models->program || !stage_skirt_create(&models->skirt, error)) {
         glDeleteProgram(models->program);

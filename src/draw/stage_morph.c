@@ -1,4 +1,5 @@
 /// Moves soft characters on the GPU, by complex morphs.
+#include "base/need.h"
 #include "draw/morph_skirt.h"
 #include "draw/painter.h"
 #include "draw/stage.h"
@@ -68,11 +69,7 @@ static bool program_create(struct morph_program *morph, const char *define, stru
 
 static void *create(struct error *error)
 {
-    struct stage_morph *morph = calloc(1, sizeof *morph);
-    if (!morph) {
-        fail(error, ERROR_ENVIRONMENT, "not enough memory for the stage");
-        return NULL;
-    }
+    struct stage_morph *morph = need_zeroed(1, sizeof *morph);
     if (program_create(&morph->programs[PLAIN], NULL, error) &&
         program_create(&morph->programs[PICTURED], "PICTURED", error) && stage_skirt_create(&morph->skirt, error))
         return morph;
@@ -135,11 +132,8 @@ static long upload_coordinates(struct model *model, const struct figure *figure)
     model->rows = figure_blocks(figure);
     const int height = model->rows * c->coordinate_count;
     const size_t bytes = (size_t)width * (size_t)(height + 1) * 4 * sizeof(float);
-    float *texels = calloc(1, bytes);
-    if (!texels || !stage_morph_fits(figure, gl_largest_texture(), NULL)) { // drawn at rest
-        free(texels);
-        return 0;
-    }
+    if (!stage_morph_fits(figure, gl_largest_texture(), NULL)) return 0; // drawn at rest
+    float *texels = need_zeroed(1, bytes);
     for (int row = 0; row < height; row++)
         pack_row(figure, row / model->rows, row % model->rows, texels + (size_t)row * ROW_FLOATS);
     glGenTextures(1, &model->coordinates);

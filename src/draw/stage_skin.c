@@ -1,5 +1,6 @@
 /// Moves the animal's skin, and finds which triangles of it are seen and where its outlines are.
 #include "draw/stage_skin.h"
+#include "base/need.h"
 #include "draw/skirt.h"
 #include "model/across.h"
 #include "model/creature.h"
@@ -26,14 +27,14 @@ static enum region region_of(const struct mesh *mesh, const uint32_t corners[3])
     return REGION_FACE;
 }
 
-/// Sorts a mesh's triangles by region; false if memory runs out.
-static bool sort_triangles(struct skin_mesh *skin)
+/// Sorts a mesh's triangles by region.
+static void sort_triangles(struct skin_mesh *skin)
 {
     struct mesh *mesh = &skin->mesh;
     const size_t size = (size_t)mesh->index_count * sizeof *mesh->indices;
-    uint32_t *sorted = malloc(size);
+    uint32_t *sorted = need(size, 1);
     int count = 0;
-    for (int region = 0; sorted && region < REGIONS; region++) {
+    for (int region = 0; region < REGIONS; region++) {
         skin->first[region] = count;
         for (int i = 0; i < mesh->index_count; i += 3) {
             if (region_of(mesh, mesh->indices + i) != (enum region)region) continue;
@@ -42,25 +43,20 @@ static bool sort_triangles(struct skin_mesh *skin)
         }
     }
     skin->first[REGIONS] = count;
-    const bool made = sorted != NULL;
-    if (made) memcpy(mesh->indices, sorted, size);
+    memcpy(mesh->indices, sorted, size);
     free(sorted);
-    return made;
 }
 
-bool stage_skin_create(struct skin_mesh *skin, int level)
+void stage_skin_create(struct skin_mesh *skin, int level)
 {
     struct mesh *mesh = &skin->mesh;
     mesh_creature(level, mesh);
-    if (mesh->failed || !sort_triangles(skin)) return false;
-    float(*rest)[3] = malloc((size_t)mesh->vertex_count * sizeof *rest);
-    skin->across = malloc((size_t)mesh->index_count * sizeof *skin->across);
-    for (int v = 0; rest && v < mesh->vertex_count; v++) memcpy(rest[v], mesh->vertices[v].position, sizeof *rest);
-    const bool made =
-        rest && skin->across &&
-        across_find((const float(*)[3])rest, mesh->vertex_count, mesh->indices, mesh->index_count, skin->across);
+    sort_triangles(skin);
+    float(*rest)[3] = need((size_t)mesh->vertex_count, sizeof *rest);
+    skin->across = need((size_t)mesh->index_count, sizeof *skin->across);
+    for (int v = 0; v < mesh->vertex_count; v++) memcpy(rest[v], mesh->vertices[v].position, sizeof *rest);
+    across_find((const float(*)[3])rest, mesh->vertex_count, mesh->indices, mesh->index_count, skin->across);
     free(rest);
-    return made;
 }
 
 void stage_skin_destroy(struct skin_mesh *skin)

@@ -19,8 +19,7 @@ struct skin_mesh {
         across; ///< per index, of the edge from it to the triangle's next: the triangle on its other side, −1 where the mesh ends
 };
 
-/// False if memory runs out.
-bool stage_skin_create(struct skin_mesh *skin, int level);
+void stage_skin_create(struct skin_mesh *skin, int level);
 void stage_skin_destroy(struct skin_mesh *skin);
 
 /// One animal as it stands: arrays of as many as its mesh has vertices or triangles.

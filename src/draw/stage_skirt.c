@@ -1,5 +1,6 @@
 /// Draws the skirts of what the GPU moves.
 #include "draw/stage_skirt.h"
+#include "base/need.h"
 #include "model/across.h"
 #include "model/vector.h"
 #include <math.h>
@@ -46,12 +47,9 @@ static void create_buffers(struct stage_skirt *skirt, uint16_t *indices)
 
 bool stage_skirt_create(struct stage_skirt *skirt, struct error *error)
 {
-    uint16_t *indices = malloc(6 * EDGES * sizeof *indices);
-    *skirt = (struct stage_skirt){.vertices = malloc(CORNERS * EDGES * sizeof *skirt->vertices)};
-    if (!indices || !skirt->vertices)
-        fail(error, ERROR_ENVIRONMENT, "not enough memory for the stage");
-    else
-        skirt->program = gl_program("stage_skirt.vert", "stage_mesh.frag", "SKIRT", error);
+    uint16_t *indices = need(6 * EDGES, sizeof *indices);
+    *skirt = (struct stage_skirt){.vertices = need(CORNERS * EDGES, sizeof *skirt->vertices)};
+    skirt->program = gl_program("stage_skirt.vert", "stage_mesh.frag", "SKIRT", error);
     if (skirt->program) {
         skirt->shared = painter_find_uniforms(skirt->program);
         const struct gl_uniform uniforms[] = {

@@ -1,4 +1,5 @@
 /// Draws tails and their animals, skinned.
+#include "base/need.h"
 #include "draw/area.h"
 #include "draw/painter.h"
 #include "draw/stage_extent.h"
@@ -41,9 +42,9 @@ static void attribute(GLuint index, GLint size, size_t stride, size_t offset)
     glVertexAttribPointer(index, size, GL_FLOAT, GL_FALSE, (GLsizei)stride, (const void *)offset);
 }
 
-static bool model_create(struct model *model, int level)
+static void model_create(struct model *model, int level)
 {
-    if (!stage_skin_create(&model->skin, level)) return false;
+    stage_skin_create(&model->skin, level);
     const struct mesh *mesh = &model->skin.mesh;
     glGenVertexArrays(1, &model->vertex_array);
     glBindVertexArray(model->vertex_array);
@@ -56,7 +57,6 @@ static bool model_create(struct model *model, int level)
     attribute(2, 1, sizeof(struct vertex), offsetof(struct vertex, bend));
     attribute(6, 1, sizeof(struct vertex), offsetof(struct vertex, open));
     glBindVertexArray(0);
-    return true;
 }
 
 static void model_destroy(struct model *model)
@@ -125,22 +125,21 @@ static const struct model *model_of(const struct animals *painter, int animals)
     return &painter->models[creature_level(animals)];
 }
 
-/// Room for as many animals as a stage can have; false if memory runs out.
-static bool room_create(struct animals *painter)
+/// Room for as many animals as a stage can have.
+static void room_create(struct animals *painter)
 {
     for (int animals = 1; animals <= STAGE_MAX_TAILS; animals++) {
         const struct mesh *mesh = &model_of(painter, animals)->skin.mesh;
         painter->vertices = area_max(painter->vertices, animals * mesh->vertex_count);
         painter->triangles = area_max(painter->triangles, animals * mesh->index_count / 3);
     }
-    painter->place = malloc(2 * (size_t)painter->vertices * sizeof *painter->place);
-    painter->front = malloc((size_t)painter->triangles * sizeof *painter->front);
-    painter->seen = malloc(3 * (size_t)painter->triangles * sizeof *painter->seen);
-    painter->skirts = malloc((size_t)MAX_SKIRT * SKIRT_CORNERS * sizeof *painter->skirts);
+    painter->place = need(2 * (size_t)painter->vertices, sizeof *painter->place);
+    painter->front = need((size_t)painter->triangles, sizeof *painter->front);
+    painter->seen = need(3 * (size_t)painter->triangles, sizeof *painter->seen);
+    painter->skirts = need((size_t)MAX_SKIRT * SKIRT_CORNERS, sizeof *painter->skirts);
     glGenBuffers(1, &painter->moving);
     glGenBuffers(1, &painter->indices);
     skirt_create(painter);
-    return painter->place && painter->front && painter->seen && painter->skirts;
 }
 
 static void destroy(void *state)
@@ -163,17 +162,14 @@ static void destroy(void *state)
 
 static void *create(struct error *error)
 {
-    struct animals *painter = calloc(1, sizeof *painter);
-    if (painter && !programs_create(painter, error)) {
+    struct animals *painter = need_zeroed(1, sizeof *painter);
+    if (!programs_create(painter, error)) {
         destroy(painter);
         return NULL;
     }
-    bool made = painter != NULL;
-    for (int level = 0; made && level < CREATURE_LEVELS; level++) made = model_create(&painter->models[level], level);
-    if (made && room_create(painter)) return painter;
-    fail(error, ERROR_ENVIRONMENT, "not enough memory for the stage");
-    if (painter) destroy(painter);
-    return NULL;
+    for (int level = 0; level < CREATURE_LEVELS; level++) model_create(&painter->models[level], level);
+    room_create(painter);
+    return painter;
 }
 
 static struct skin skin_of(const struct animals *painter, const struct model *model, int tail)

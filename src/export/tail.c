@@ -88,8 +88,7 @@ static bool open(const struct posing *posing, int rig, const struct rig_pose *po
     form->slots = malloc(count * sizeof *form->slots);
     form->weights = malloc(count * sizeof *form->weights);
     form->joints = calloc((size_t)(FIRST_BONE + joints), sizeof *form->joints);
-    if (fox->mesh.failed || !fox->position || !fox->normal || !fox->color || !form->slots || !form->weights ||
-        !form->joints)
+    if (!fox->position || !fox->normal || !fox->color || !form->slots || !form->weights || !form->joints)
         return fail_no_memory(error, form->name);
     form->vertex_count = fox->mesh.vertex_count;
     form->position = (const float(*)[3])fox->position;

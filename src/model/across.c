@@ -1,5 +1,6 @@
 /// Finds the triangles across edges: an edge a → b is b → a there.
 #include "model/across.h"
+#include "base/need.h"
 #include "model/adjacency.h"
 #include <math.h>
 #include <stdlib.h>
@@ -17,10 +18,10 @@ struct corners {
 static float (*snap(const float (*position)[3], int count))[3]
 {
     static const float CELLS = 1 << 20;
-    float(*snapped)[3] = malloc(((size_t)count + 1) * sizeof *snapped), largest = 0.0f;
+    float(*snapped)[3] = need((size_t)count + 1, sizeof *snapped), largest = 0.0f;
     for (int i = 0; i < 3 * count; i++) largest = fmaxf(largest, fabsf(position[i / 3][i % 3]));
     const float cell = largest / CELLS;
-    for (int i = 0; snapped && i < 3 * count; i++) {
+    for (int i = 0; i < 3 * count; i++) {
         const float place = position[i / 3][i % 3];
         snapped[i / 3][i % 3] = cell > 0.0f ? cell * roundf(place / cell) : place;
     }
@@ -64,27 +65,24 @@ static int find_one(const struct corners *corners, const uint32_t *indices, int 
     return back;
 }
 
-bool across_find(const float (*position)[3], int vertex_count, const uint32_t *indices, int index_count, int *across)
+void across_find(const float (*position)[3], int vertex_count, const uint32_t *indices, int index_count, int *across)
 {
     const size_t vertices = (size_t)vertex_count + 1;
     float(*snapped)[3] = snap(position, vertex_count);
-    struct spot *spots = snapped ? spots_sort((const float(*)[3])snapped, vertex_count) : NULL;
-    struct corners corners = {malloc(vertices * sizeof *corners.spot), malloc(vertices * sizeof *corners.last),
-                              calloc(vertices, sizeof *corners.many),
-                              malloc(((size_t)index_count + 1) * sizeof *corners.before)};
-    const bool made = spots && corners.spot && corners.last && corners.many && corners.before;
-    if (made) {
-        merge_vertices(spots, vertex_count, corners.spot);
-        list_corners(&corners, vertex_count, indices, index_count);
-        for (int i = 0; i < index_count; i++) across[i] = find_one(&corners, indices, i);
-    }
+    struct spot *spots = need(vertices, sizeof *spots);
+    struct corners corners = {need(vertices, sizeof *corners.spot), need(vertices, sizeof *corners.last),
+                              need_zeroed(vertices, sizeof *corners.many),
+                              need((size_t)index_count + 1, sizeof *corners.before)};
+    spots_sort((const float(*)[3])snapped, vertex_count, spots);
+    merge_vertices(spots, vertex_count, corners.spot);
+    list_corners(&corners, vertex_count, indices, index_count);
+    for (int i = 0; i < index_count; i++) across[i] = find_one(&corners, indices, i);
     free(snapped);
     free(spots);
     free(corners.spot);
     free(corners.last);
     free(corners.many);
     free(corners.before);
-    return made;
 }
 
 /// The corner of a triangle that is nearest to a place.

@@ -9,8 +9,7 @@ enum { ACROSS_NONE = -1, ACROSS_CUT = -2 }; ///< the mesh ends; what it looks li
 
 /// Per index, of the edge from it to its triangle's next one: the triangle on its other side, or ACROSS_NONE. Vertices at the
 /// same place, but for rounding, are one. Where sheets lie back to back, a triangle's neighbour is the next of its own sheet; its own back only where that ends.
-/// False if memory is short.
-bool across_find(const float (*position)[3], int vertex_count, const uint32_t *indices, int index_count, int *across);
+void across_find(const float (*position)[3], int vertex_count, const uint32_t *indices, int index_count, int *across);
 
 /// Writes ACROSS_CUT, for the later of two triangles, at edges where what corners look like changes at once; `look` is of each index.
 void across_cut(const float (*position)[3], const uint32_t *indices, const uint32_t *look, int index_count,

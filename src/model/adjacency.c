@@ -1,5 +1,6 @@
 /// Lists the neighbours of every vertex.
 #include "model/adjacency.h"
+#include "base/need.h"
 #include <stdlib.h>
 #include <string.h>
 
@@ -17,15 +18,13 @@ bool spots_meet(const struct spot *a, const struct spot *b)
     return memcmp(a->position, b->position, sizeof a->position) == 0;
 }
 
-struct spot *spots_sort(const float (*position)[3], int count)
+void spots_sort(const float (*position)[3], int count, struct spot *spots)
 {
-    struct spot *spots = malloc(((size_t)count + 1) * sizeof *spots);
-    for (int i = 0; spots && i < count; i++) {
+    for (int i = 0; i < count; i++) {
         for (int k = 0; k < 3; k++) spots[i].position[k] = position[i][k] + 0.0f; // −0 is 0
         spots[i].vertex = (uint32_t)i;
     }
-    if (spots) qsort(spots, (size_t)count, sizeof *spots, compare_spots);
-    return spots;
+    qsort(spots, (size_t)count, sizeof *spots, compare_spots);
 }
 
 /// Both directions of an edge: only counted while there is no list yet, else entered at `fill`. Twins may be the ends of one, so a vertex may
@@ -109,33 +108,26 @@ static void tidy(struct adjacency *adjacency, int vertex_count)
     adjacency->first[vertex_count] = kept;
 }
 
-bool adjacency_create(struct adjacency *adjacency, const float (*position)[3], const float (*normal)[3],
+void adjacency_create(struct adjacency *adjacency, const float (*position)[3], const float (*normal)[3],
                       int vertex_count, const uint32_t *indices, int index_count)
 {
     const size_t room = (size_t)vertex_count + 1;
     *adjacency = (struct adjacency){0};
-    struct spot *spots = spots_sort(position, vertex_count);
-    int *fill = calloc(room, sizeof *fill);
-    const struct edges edges = {indices, index_count, spots, malloc(room * sizeof *edges.twin), vertex_count};
-    adjacency->first = calloc(room, sizeof *adjacency->first);
-    bool good = spots && edges.twin && fill && adjacency->first;
-    if (good) {
-        find_twins(&edges, normal);
-        add_edges(adjacency, &edges, fill);
-        for (int i = 0; i < vertex_count; i++) adjacency->first[i + 1] = adjacency->first[i] + fill[i];
-        memcpy(fill, adjacency->first, (size_t)vertex_count * sizeof *fill);
-        adjacency->other = malloc(((size_t)adjacency->first[vertex_count] + 1) * sizeof *adjacency->other);
-        good = adjacency->other != NULL;
-    }
-    if (good) {
-        add_edges(adjacency, &edges, fill);
-        tidy(adjacency, vertex_count);
-    }
+    struct spot *spots = need(room, sizeof *spots);
+    int *fill = need_zeroed(room, sizeof *fill);
+    const struct edges edges = {indices, index_count, spots, need(room, sizeof *edges.twin), vertex_count};
+    adjacency->first = need_zeroed(room, sizeof *adjacency->first);
+    spots_sort(position, vertex_count, spots);
+    find_twins(&edges, normal);
+    add_edges(adjacency, &edges, fill);
+    for (int i = 0; i < vertex_count; i++) adjacency->first[i + 1] = adjacency->first[i] + fill[i];
+    memcpy(fill, adjacency->first, (size_t)vertex_count * sizeof *fill);
+    adjacency->other = need((size_t)adjacency->first[vertex_count] + 1, sizeof *adjacency->other);
+    add_edges(adjacency, &edges, fill);
+    tidy(adjacency, vertex_count);
     free(spots);
     free(edges.twin);
     free(fill);
-    if (!good) adjacency_free(adjacency);
-    return good;
 }
 
 void adjacency_free(struct adjacency *adjacency)

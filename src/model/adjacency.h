@@ -13,8 +13,7 @@ struct adjacency {
     uint32_t *other;
 };
 
-/// false if memory is short; then there is nothing to free.
-bool adjacency_create(struct adjacency *adjacency, const float (*position)[3], const float (*normal)[3],
+void adjacency_create(struct adjacency *adjacency, const float (*position)[3], const float (*normal)[3],
                       int vertex_count, const uint32_t *indices, int index_count);
 
 /// Leaves an empty one, all zero.
@@ -26,8 +25,8 @@ struct spot {
     uint32_t vertex;
 };
 
-/// All vertices sorted by place, then by number; the caller frees it. NULL if memory is short.
-struct spot *spots_sort(const float (*position)[3], int count);
+/// Lists all vertices, sorted by place, then by number.
+void spots_sort(const float (*position)[3], int count, struct spot *spots);
 
 /// Whether two vertices are at the very same place.
 bool spots_meet(const struct spot *a, const struct spot *b);

@@ -1,6 +1,7 @@
 /// Half-edge collapses in rounds. In each round every removable vertex picks the neighbour onto which it collapses at least
 /// cost; the cheapest collapse, unless one touches what another has changed.
 #include "model/decimate.h"
+#include "base/need.h"
 #include "model/vector.h"
 #include <math.h>
 #include <stdlib.h>
@@ -173,7 +174,7 @@ static int collapse_round(struct work *work, int most)
     return done;
 }
 
-bool decimate(const struct character *character, int triangles, uint32_t *indices, uint32_t *sources,
+void decimate(const struct character *character, int triangles, uint32_t *indices, uint32_t *sources,
               int *index_count)
 {
     const size_t vertices = (size_t)character->vertex_count, count = (size_t)character->index_count;
@@ -182,14 +183,13 @@ bool decimate(const struct character *character, int triangles, uint32_t *indice
                         .indices = indices,
                         .sources = sources,
                         .index_count = character->index_count};
-    work.first = malloc((vertices + 2) * sizeof *work.first);
-    work.around = malloc((count + 1) * sizeof *work.around);
-    work.locked = malloc((vertices + 1) * sizeof *work.locked);
-    work.collapses = malloc((vertices + 1) * sizeof *work.collapses);
-    bool good = work.first && work.around && work.locked && work.collapses;
-    if (good) memcpy(indices, character->indices, count * sizeof *indices);
+    work.first = need(vertices + 2, sizeof *work.first);
+    work.around = need(count + 1, sizeof *work.around);
+    work.locked = need(vertices + 1, sizeof *work.locked);
+    work.collapses = need(vertices + 1, sizeof *work.collapses);
+    memcpy(indices, character->indices, count * sizeof *indices);
     for (uint32_t t = 0; sources && t < (uint32_t)count / 3; t++) sources[t] = t;
-    for (int round = 0; good && round < MAX_ROUNDS && work.index_count > 3 * triangles; round++) {
+    for (int round = 0; round < MAX_ROUNDS && work.index_count > 3 * triangles; round++) {
         if (collapse_round(&work, (work.index_count / 3 - triangles + 1) / 2) == 0) break;
     }
     *index_count = work.index_count;
@@ -197,5 +197,4 @@ bool decimate(const struct character *character, int triangles, uint32_t *indice
     free(work.around);
     free(work.locked);
     free(work.collapses);
-    return good;
 }

@@ -1,5 +1,6 @@
 /// Prepares a character for the stage: normals, a coarser mesh, its bounds.
 #include "model/figure.h"
+#include "base/need.h"
 #include "model/decimate.h"
 #include "model/vector.h"
 #include <math.h>
@@ -145,17 +146,16 @@ static void find_soles(struct figure *figure)
     }
 }
 
-static bool reserve(struct figure *figure)
+static void reserve(struct figure *figure)
 {
     const size_t vertices = (size_t)figure->character.vertex_count;
     const size_t coordinates = (size_t)figure->character.coordinate_count;
     const size_t indices = (size_t)figure->character.index_count;
-    figure->tangent = malloc((vertices + 1) * sizeof *figure->tangent);
-    figure->slopes = calloc(vertices * coordinates + 1, sizeof *figure->slopes);
-    figure->largest = calloc(coordinates + 1, sizeof *figure->largest);
-    figure->coarse = malloc((indices + 1) * sizeof *figure->coarse);
-    figure->coarse_from = malloc((indices / 3 + 1) * sizeof *figure->coarse_from);
-    return figure->tangent && figure->slopes && figure->largest && figure->coarse && figure->coarse_from;
+    figure->tangent = need(vertices + 1, sizeof *figure->tangent);
+    figure->slopes = need_zeroed(vertices * coordinates + 1, sizeof *figure->slopes);
+    figure->largest = need_zeroed(coordinates + 1, sizeof *figure->largest);
+    figure->coarse = need(indices + 1, sizeof *figure->coarse);
+    figure->coarse_from = need(indices / 3 + 1, sizeof *figure->coarse_from);
 }
 
 uint64_t figure_new_id(void)
@@ -164,19 +164,17 @@ uint64_t figure_new_id(void)
     return ++made;
 }
 
-bool figure_derive(struct figure *figure)
+void figure_derive(struct figure *figure)
 {
     const struct character *c = &figure->character;
-    if (!reserve(figure) ||
-        !adjacency_create(&figure->edges, (const float(*)[3])c->position, (const float(*)[3])c->normal,
-                          c->vertex_count, c->indices, c->index_count))
-        return false;
+    reserve(figure);
+    adjacency_create(&figure->edges, (const float(*)[3])c->position, (const float(*)[3])c->normal, c->vertex_count,
+                     c->indices, c->index_count);
     measure(figure);
     for (int k = 0; k < c->coordinate_count; k++) {
         figure_measure(figure, k);
         for (int i = 0; i < c->vertex_count; i++) figure_fit(figure, k, i);
     }
-    return true;
 }
 
 void figure_forget(struct figure *figure)
@@ -197,19 +195,22 @@ void figure_turn_normals(const struct figure *figure, int coordinate, bool imagi
     }
 }
 
-bool figure_create(struct figure *figure, struct character *character)
+bool figure_has_room(const struct character *character)
+{
+    enum { OTHERS = 4 }; // working memory, and what else is of each vertex or corner
+    const size_t vertices = (size_t)character->vertex_count, corners = (size_t)character->index_count;
+    const size_t slopes = (size_t)character->coordinate_count * sizeof(struct slope);
+    return need_has_room(vertices * (slopes + OTHERS * sizeof(struct spot)) + corners * OTHERS * sizeof(uint32_t));
+}
+
+void figure_create(struct figure *figure, struct character *character)
 {
     *figure = (struct figure){.character = *character, .id = figure_new_id()};
     *character = (struct character){0};
-    bool good = figure_derive(figure);
-    if (good) {
-        find_soles(figure);
-        find_dark(figure);
-        good =
-            decimate(&figure->character, FIGURE_COARSE, figure->coarse, figure->coarse_from, &figure->coarse_count);
-    }
-    if (!good) figure_free(figure);
-    return good;
+    figure_derive(figure);
+    find_soles(figure);
+    find_dark(figure);
+    decimate(&figure->character, FIGURE_COARSE, figure->coarse, figure->coarse_from, &figure->coarse_count);
 }
 
 void figure_free(struct figure *figure)

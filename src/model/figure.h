@@ -43,13 +43,15 @@ struct figure {
     uint64_t *changed;
 };
 
-/// Takes over a character, which is left empty, and derives the rest. If memory is short, false: the figure is then
-/// empty and the character freed.
-bool figure_create(struct figure *figure, struct character *character);
+/// Whether there is memory for the figure of a character that a file claims.
+bool figure_has_room(const struct character *character);
+
+/// Takes over a character, which is left empty, and derives the rest.
+void figure_create(struct figure *figure, struct character *character);
 
 /// The derivatives alone, for a figure whose character is set and all else zero. figure_forget() frees them and leaves the character to
-/// whom it belongs. False where memory is short: then too.
-bool figure_derive(struct figure *figure);
+/// whom it belongs.
+void figure_derive(struct figure *figure);
 void figure_forget(struct figure *figure);
 
 /// How the real or the imaginary part of a coordinate turns normals, to first order, as morph targets have it: n = t₁ × t₂, and the

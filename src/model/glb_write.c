@@ -150,7 +150,8 @@ bool character_write(const char *path, const struct character *character, bool t
 {
     struct figure figure = {.character = *character};
     struct output o = {.character = character, .figure = turn_normals ? &figure : NULL, .looks.file = &o.file};
-    bool done = (!turn_normals || figure_derive(&figure)) && split_create(&o.split, character);
+    if (turn_normals) figure_derive(&figure);
+    bool done = split_create(&o.split, character);
     if (done) {
         o.scratch = malloc(((size_t)o.split.count + 1) * sizeof *o.scratch);
         done = o.scratch;

@@ -1,5 +1,6 @@
 /// Surface nets: turns a distance function into triangles.
 #include "model/isosurface.h"
+#include "base/need.h"
 #include "model/vector.h"
 #include <math.h>
 #include <stdlib.h>
@@ -164,15 +165,11 @@ void isosurface(const struct solid *solid, const float lo[3], const float hi[3],
         grid.lo[k] = lo[k] - cell;
         corners *= (size_t)grid.n[k];
     }
-    grid.distance = malloc(corners * sizeof *grid.distance);
-    grid.vertex = malloc(corners * sizeof *grid.vertex);
-    if (grid.distance && grid.vertex) {
-        sample(solid, &grid);
-        place_vertices(solid, &grid, mesh);
-        connect(&grid, mesh);
-    } else {
-        mesh->failed = true;
-    }
+    grid.distance = need(corners, sizeof *grid.distance);
+    grid.vertex = need(corners, sizeof *grid.vertex);
+    sample(solid, &grid);
+    place_vertices(solid, &grid, mesh);
+    connect(&grid, mesh);
     free(grid.distance);
     free(grid.vertex);
 }

@@ -13,7 +13,7 @@ struct solid {
 };
 
 /// Appends the surface inside the box lo … hi, which must hold it whole, with edges about `cell` metres long.
-/// Vertices lie on the surface; normals are the distance's gradient. mesh->failed where memory is short.
+/// Vertices lie on the surface; normals are the distance's gradient.
 void isosurface(const struct solid *solid, const float lo[3], const float hi[3], float cell, struct mesh *mesh);
 
 /// Moves a vertex less than `cell` metres off onto the surface, and sets its normal and colour.

@@ -21,10 +21,9 @@ struct mesh {
     int vertex_count, vertex_capacity;
     uint32_t *indices; ///< triangles, counter-clockwise seen from outside
     int index_count, index_capacity;
-    bool failed; ///< memory ran short and something is missing; stays set
 };
 
-/// Adds a vertex and returns its index; if memory is short, sets `failed` and returns 0.
+/// Adds a vertex and returns its index.
 uint32_t mesh_vertex(struct mesh *mesh, const struct vertex *vertex);
 void mesh_triangle(struct mesh *mesh, uint32_t a, uint32_t b, uint32_t c);
 

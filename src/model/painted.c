@@ -1,31 +1,28 @@
 /// Applies painted phases and amplitudes to a figure.
 #include "model/painted.h"
+#include "base/need.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-static bool reserve(struct painted *painted)
+static void reserve(struct painted *painted)
 {
     const struct character *plain = &painted->plain->character;
     struct figure *figure = &painted->figure;
     const size_t vertices = (size_t)plain->vertex_count, coordinates = (size_t)plain->coordinate_count;
     const size_t blocks = (size_t)figure_blocks(painted->plain);
-    figure->slopes = malloc((vertices * coordinates + 1) * sizeof *figure->slopes);
-    figure->largest = malloc((coordinates + 1) * sizeof *figure->largest);
-    figure->changed = calloc(coordinates * blocks + 1, sizeof *figure->changed);
-    figure->character.coordinates = calloc(coordinates + 1, sizeof *figure->character.coordinates);
-    painted->applied = calloc(vertices * coordinates + 1, sizeof *painted->applied);
-    painted->stale = calloc(vertices + 1, sizeof *painted->stale);
-    bool good = figure->slopes && figure->largest && figure->changed && figure->character.coordinates &&
-                painted->applied && painted->stale;
-    for (size_t k = 0; good && k < coordinates; k++) {
+    figure->slopes = need(vertices * coordinates + 1, sizeof *figure->slopes);
+    figure->largest = need(coordinates + 1, sizeof *figure->largest);
+    figure->changed = need_zeroed(coordinates * blocks + 1, sizeof *figure->changed);
+    figure->character.coordinates = need_zeroed(coordinates + 1, sizeof *figure->character.coordinates);
+    painted->applied = need_zeroed(vertices * coordinates + 1, sizeof *painted->applied);
+    painted->stale = need_zeroed(vertices + 1, sizeof *painted->stale);
+    for (size_t k = 0; k < coordinates; k++) {
         struct coordinate *c = &figure->character.coordinates[k];
         *c = plain->coordinates[k]; // the name is shared
-        c->re = malloc((vertices + 1) * sizeof *c->re);
-        c->im = malloc((vertices + 1) * sizeof *c->im);
-        good = c->re && c->im;
+        c->re = need(vertices + 1, sizeof *c->re);
+        c->im = need(vertices + 1, sizeof *c->im);
     }
-    return good;
 }
 
 static void copy_coordinates(struct painted *painted)
@@ -43,8 +40,7 @@ static void copy_coordinates(struct painted *painted)
 
 struct painted *painted_create(const struct figure *plain)
 {
-    struct painted *painted = calloc(1, sizeof *painted);
-    if (!painted) return NULL;
+    struct painted *painted = need_zeroed(1, sizeof *painted);
     painted->plain = plain;
     painted->figure = *plain;
     painted->figure.id = figure_new_id();
@@ -52,12 +48,9 @@ struct painted *painted_create(const struct figure *plain)
     painted->figure.slopes = NULL;
     painted->figure.largest = NULL;
     painted->figure.character.coordinates = NULL;
-    if (reserve(painted)) {
-        copy_coordinates(painted);
-        return painted;
-    }
-    painted_destroy(painted);
-    return NULL;
+    reserve(painted);
+    copy_coordinates(painted);
+    return painted;
 }
 
 void painted_destroy(struct painted *painted)

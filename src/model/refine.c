@@ -1,5 +1,6 @@
 /// Splits triangles that are too flat or too large.
 #include "model/refine.h"
+#include "base/need.h"
 #include "model/vector.h"
 #include <math.h>
 #include <stdlib.h>
@@ -108,19 +109,15 @@ static void split_all(const uint32_t *triangles, size_t count, const struct edge
 
 void refine(const struct solid *solid, float tolerance, int rounds, int first_index, struct mesh *mesh)
 {
-    for (bool any = true; any && rounds > 0 && !mesh->failed; rounds--) {
+    for (bool any = true; any && rounds > 0; rounds--) {
         const size_t indices = (size_t)(mesh->index_count - first_index);
-        uint32_t *triangles = malloc(indices * sizeof *triangles);
-        struct edge *edges = malloc(indices * sizeof *edges);
-        if (triangles && edges) {
-            memcpy(triangles, mesh->indices + first_index, indices * sizeof *triangles);
-            const size_t edge_count = collect_edges(triangles, indices / 3, edges);
-            any = halve_edges(solid, tolerance, edges, edge_count, mesh);
-            mesh->index_count = first_index;
-            split_all(triangles, indices / 3, edges, edge_count, mesh);
-        } else {
-            mesh->failed = true;
-        }
+        uint32_t *triangles = need(indices, sizeof *triangles);
+        struct edge *edges = need(indices, sizeof *edges);
+        memcpy(triangles, mesh->indices + first_index, indices * sizeof *triangles);
+        const size_t edge_count = collect_edges(triangles, indices / 3, edges);
+        any = halve_edges(solid, tolerance, edges, edge_count, mesh);
+        mesh->index_count = first_index;
+        split_all(triangles, indices / 3, edges, edge_count, mesh);
         free(triangles);
         free(edges);
     }

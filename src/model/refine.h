@@ -6,7 +6,7 @@
 
 /// Halves every edge that stays more than `tolerance` metres away from the solid, or whose ends have very different
 /// colours, in up to `rounds` rounds; new vertices lie on the surface and no gaps open. Works on the triangles from index `first_index` on, which must not
-/// share edges with earlier ones. mesh->failed where memory is short.
+/// share edges with earlier ones.
 void refine(const struct solid *solid, float tolerance, int rounds, int first_index, struct mesh *mesh);
 
 #endif

@@ -130,10 +130,11 @@ void builder_merge(struct surface_builder *b, int first, int first_index)
     struct surface *s = b->surface;
     const int count = s->vertex_count - first;
     if (count <= 0) return;
-    struct spot *spots = spots_sort((const float(*)[3])s->position + first, count);
+    struct spot *spots = malloc((size_t)count * sizeof *spots);
     uint32_t *name =
         malloc((size_t)count * sizeof *name); // first each vertex's earliest at its place, then that one's new number
     if (spots && name) {
+        spots_sort((const float(*)[3])s->position + first, count, spots);
         for (int i = 0, earliest = 0; i < count; i++) {
             if (!spots_meet(&spots[earliest], &spots[i])) earliest = i;
             name[spots[i].vertex] = spots[earliest].vertex;

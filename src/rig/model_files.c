@@ -53,7 +53,12 @@ static bool read_figure(struct figure *figure, const char *path, struct error *e
 {
     struct character character = {0};
     if (!character_read(path, &character, error)) return false;
-    return figure_create(figure, &character) || fail_no_memory(error, path);
+    if (!figure_has_room(&character)) {
+        character_free(&character);
+        return fail_no_memory(error, path);
+    }
+    figure_create(figure, &character);
+    return true;
 }
 
 static struct model_file *read_file(const char *path, enum model_kind kind, struct error *error)

@@ -248,7 +248,6 @@ void models_paint(struct models *models, const struct document *document)
         if (paint && (!model->plain || !models_paint_fits(paint, model->plain))) paint = NULL;
         if (model->version == (paint ? paint->version : 0)) continue;
         if (!model->painted) model->painted = painted_create(model->plain);
-        if (!model->painted) continue;
         painted_update(model->painted, paint ? (const float(*)[2])paint->values : NULL);
         model->version = paint ? paint->version : 0;
     }

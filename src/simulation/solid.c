@@ -31,8 +31,9 @@ struct repair {
 
 static bool weld(const struct surface *surface, uint32_t *name)
 {
-    struct spot *spots = spots_sort((const float(*)[3])surface->position, surface->vertex_count);
+    struct spot *spots = malloc((size_t)surface->vertex_count * sizeof *spots);
     if (!spots) return false;
+    spots_sort((const float(*)[3])surface->position, surface->vertex_count, spots);
     for (int i = 0, first = 0; i < surface->vertex_count; i++) {
         if (!spots_meet(&spots[first], &spots[i])) first = i;
         name[spots[i].vertex] = (uint32_t)first;

@@ -32,11 +32,10 @@ static inline void fuzz_triangles(const struct character *c, const uint32_t *ind
     uint32_t *look = malloc(room * sizeof *look);
     bool *front = malloc(room * sizeof *front);
     for (int i = 0; i < index_count; i++) look[i] = across_look(0, c->color[indices[i]]);
-    if (across_find(place, c->vertex_count, indices, index_count, across)) {
-        across_cut(place, indices, look, index_count, across);
-        const struct skirt_mesh mesh = {.indices = indices, .across = across, .place = place, .front = front};
-        fuzz_outlines(&mesh, (const float(*)[3])c->normal, index_count);
-    }
+    across_find(place, c->vertex_count, indices, index_count, across);
+    across_cut(place, indices, look, index_count, across);
+    const struct skirt_mesh mesh = {.indices = indices, .across = across, .place = place, .front = front};
+    fuzz_outlines(&mesh, (const float(*)[3])c->normal, index_count);
     free(across);
     free(look);
     free(front);
@@ -46,7 +45,7 @@ static inline void fuzz_triangles(const struct character *c, const uint32_t *ind
 static inline void fuzz_figure(struct character *character)
 {
     struct figure figure;
-    if (!figure_create(&figure, character)) return;
+    figure_create(&figure, character);
     const struct character *c = &figure.character;
     float(*turn)[3] = malloc(((size_t)c->vertex_count + 1) * sizeof *turn);
     for (int e = 0; e < figure.edges.first[c->vertex_count]; e++)
@@ -54,8 +53,8 @@ static inline void fuzz_figure(struct character *character)
     for (int k = 0; k < 2 * c->coordinate_count; k++) figure_turn_normals(&figure, k / 2, k % 2, turn);
     free(turn);
     fuzz_triangles(c, c->indices, c->index_count);
-    if (decimate(c, c->index_count / 6, figure.coarse, figure.coarse_from, &figure.coarse_count))
-        fuzz_triangles(c, figure.coarse, figure.coarse_count);
+    decimate(c, c->index_count / 6, figure.coarse, figure.coarse_from, &figure.coarse_count);
+    fuzz_triangles(c, figure.coarse, figure.coarse_count);
     figure_free(&figure);
 }
 

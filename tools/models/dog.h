@@ -72,7 +72,7 @@ struct dog_limb {
 };
 extern const struct dog_limb dog_limbs[DOG_LIMBS];
 
-/// The coat: about so many triangles. mesh->failed where memory is short.
+/// The coat: about so many triangles.
 void dog_coat(int triangles, struct mesh *mesh);
 
 enum dog_material {

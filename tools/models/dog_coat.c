@@ -1,4 +1,5 @@
 /// The dog's coat: a smooth union of limbs, each of which is made of round cones and follows a chain of joints; its mesh and its colours.
+#include "base/need.h"
 #include "model/coat.h"
 #include "model/decimate.h"
 #include "model/isosurface.h"
@@ -192,34 +193,31 @@ static void paint(struct vertex *vertex)
 }
 
 /// The mesh as a character, which decimate() takes. It borrows nothing.
-static bool thin(struct mesh *mesh, int triangles)
+static void thin(struct mesh *mesh, int triangles)
 {
     const size_t count = (size_t)mesh->vertex_count;
     struct character c = {
         .vertex_count = mesh->vertex_count, .indices = mesh->indices, .index_count = mesh->index_count};
-    uint32_t *indices = malloc((size_t)mesh->index_count * sizeof *indices);
-    c.position = malloc(count * sizeof *c.position);
-    c.color = malloc(count * sizeof *c.color);
-    bool good = indices && c.position && c.color;
-    for (size_t i = 0; good && i < count; i++) {
+    uint32_t *indices = need((size_t)mesh->index_count, sizeof *indices);
+    c.position = need(count, sizeof *c.position);
+    c.color = need(count, sizeof *c.color);
+    for (size_t i = 0; i < count; i++) {
         memcpy(c.position[i], mesh->vertices[i].position, sizeof *c.position);
         memcpy(c.color[i], mesh->vertices[i].color, sizeof *c.color);
     }
     int index_count = 0;
-    good = good && decimate(&c, triangles, indices, NULL, &index_count);
-    if (good) memcpy(mesh->indices, indices, (size_t)index_count * sizeof *indices);
-    if (good) mesh->index_count = index_count;
+    decimate(&c, triangles, indices, NULL, &index_count);
+    memcpy(mesh->indices, indices, (size_t)index_count * sizeof *indices);
+    mesh->index_count = index_count;
     free(indices);
     free(c.position);
     free(c.color);
-    return good;
 }
 
 /// Drops the vertices that no triangle needs any more.
-static bool drop_unused(struct mesh *mesh)
+static void drop_unused(struct mesh *mesh)
 {
-    uint32_t *place = malloc((size_t)mesh->vertex_count * sizeof *place);
-    if (!place) return false;
+    uint32_t *place = need((size_t)mesh->vertex_count, sizeof *place);
     memset(place, 0xFF, (size_t)mesh->vertex_count * sizeof *place);
     for (int i = 0; i < mesh->index_count; i++) place[mesh->indices[i]] = 0;
     uint32_t kept = 0;
@@ -231,7 +229,6 @@ static bool drop_unused(struct mesh *mesh)
     for (int i = 0; i < mesh->index_count; i++) mesh->indices[i] = place[mesh->indices[i]];
     mesh->vertex_count = (int)kept;
     free(place);
-    return true;
 }
 
 void dog_coat(int triangles, struct mesh *mesh)
@@ -239,5 +236,6 @@ void dog_coat(int triangles, struct mesh *mesh)
     const struct solid solid = {distance, paint};
     isosurface(&solid, lo, hi, CELL, mesh);
     refine(&solid, TOLERANCE, REFINE_ROUNDS, 0, mesh);
-    if (mesh->failed || !thin(mesh, triangles) || !drop_unused(mesh)) mesh->failed = true;
+    thin(mesh, triangles);
+    drop_unused(mesh);
 }
