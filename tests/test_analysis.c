@@ -142,7 +142,7 @@ static double transform_error(const struct ringing *r, int frames)
     make_motion(&motion, frames, RINGING_VERTICES, ringing, (void *)(uintptr_t)r);
     assert_true(slabs_gram(&lapack, &motion, gram, means, &error));
     struct predictor predictor = hilbert_predictor(gram, frames);
-    assert_true(hilbert_transform(&lapack, &predictor, frames, h));
+    hilbert_transform(&lapack, &predictor, frames, h);
     for (int j = 0; j < 3 * RINGING_VERTICES; j++) {
         double mean = 0;
         for (int s = 0; s < frames; s++) mean += creal(ring(s, j, r)) / frames;
@@ -237,7 +237,7 @@ static void lags_leave_out_a_twentieth_at_each_end(void **state)
     for (int v = 0; v < 100; v++) shape[(37 * v) % 100][1] = 0.2 * cexp(-I * (v * M_PI / 180));
     shape[100][1] = 1e-4 * cexp(-I * (170 * M_PI / 180));
     struct component c = {.vertices = VERTICES, .shape = shape, .direction = {0, 1, 0}};
-    assert_true(component_lags(&c));
+    component_lags(&c);
     assert_near(c.first_lag, 5, 1.001);
     assert_near(c.last_lag, 94, 1.001);
     assert_near(c.reach, 0.2, 1e-12);

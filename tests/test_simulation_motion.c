@@ -110,10 +110,10 @@ static void cantilever_swings_at_its_first_frequency(void **state)
     dense_eigenvalues(&beam, &body, young, poisson, &values);
     double expected = sqrt(values[0]) / (2 * pi);
 
-    assert_true(modes_create(&modes, &body, 8));
+    modes_create(&modes, &body, 8);
     for (int k = 0; k < 8; k++) assert_near(modes.frequency[k] / (sqrt(values[k]) / (2 * pi)), 1, 1e-7);
 
-    assert_true(integrator_create(&integrator, &body, 1 / expected / 60));
+    integrator_create(&integrator, &body, 1 / expected / 60);
     integrator.tolerance = 1e-9;
     for (int i = 0; i < beam.nodes; i++) { // bent a little, with some of the higher modes besides
         double along = beam.rest[i][0];
@@ -144,7 +144,7 @@ static void cantilever_converges_to_euler_and_bernoulli(void **state)
         struct modes modes;
         beam_create(&beam, (const int[3]){(int)length * n, n, n}, 1.0 / n);
         beam_body(&beam, material_from(young, 0), density, true, &body);
-        assert_true(modes_create(&modes, &body, 1));
+        modes_create(&modes, &body, 1);
         error[k] = modes.frequency[0] / slender - 1;
         print_message("%d cubes across: %.4f of Euler and Bernoulli's\n", n, 1 + error[k]);
         modes_free(&modes);
@@ -184,9 +184,9 @@ static void energy_stays_over_many_periods(void **state)
     double range[2];
     beam_create(&beam, (const int[3]){5, 1, 1}, 0.2);
     beam_body(&beam, material_from(1e5, 0.3), 1000, true, &body);
-    assert_true(modes_create(&modes, &body, 1));
+    modes_create(&modes, &body, 1);
     const double omega = 2 * pi * modes.frequency[0], step = 1 / modes.frequency[0] / 50;
-    assert_true(integrator_create(&integrator, &body, step));
+    integrator_create(&integrator, &body, step);
     integrator.tolerance = 1e-7;
     double tip = vec3_length(modes.shape[beam.nodes - 1]);
     for (int i = 0; i < 3 * beam.nodes; i++)
@@ -198,7 +198,7 @@ static void energy_stays_over_many_periods(void **state)
     assert_int_equal(integrator.calmed, 0);
     integrator_free(&integrator);
 
-    assert_true(integrator_create(&integrator, &body, step));
+    integrator_create(&integrator, &body, step);
     integrator.tolerance = 1e-7;
     for (int i = 0; i < beam.nodes; i++) integrator.x[i][1] += 0.2 * beam.rest[i][0] * beam.rest[i][0];
     follow_energy(&integrator, range);
@@ -234,7 +234,7 @@ static void a_free_body_keeps_its_momenta(void **state)
     uint64_t seed = 6;
     beam_create(&beam, (const int[3]){4, 2, 1}, 0.25);
     beam_body(&beam, material_from(2e4, 0.35), 1000, false, &body);
-    assert_true(integrator_create(&integrator, &body, 0.005));
+    integrator_create(&integrator, &body, 0.005);
     integrator.tolerance = 1e-10;
     const double spin[3] = {1, 2, 3};
     for (int i = 0; i < beam.nodes; i++) {
@@ -272,7 +272,7 @@ static void a_scrambled_body_comes_back_to_rest(void **state)
         uint64_t numbers = seed;
         beam_create(&beam, (const int[3]){3, 3, 3}, 1 / 3.0);
         beam_body(&beam, material_from(1e5, 0.35), 1000, true, &body);
-        assert_true(integrator_create(&integrator, &body, 0.02));
+        integrator_create(&integrator, &body, 0.02);
         integrator.mass_damping = 2;
         integrator.stiffness_damping = 0.02;
         integrator.tolerance = 1e-6;
@@ -307,9 +307,9 @@ static void damping_is_the_ratio_asked_for(void **state)
     struct integrator integrator;
     beam_create(&beam, (const int[3]){6, 1, 2}, 0.2);
     beam_body(&beam, material_from(1e5, 0.3), 1000, true, &body);
-    assert_true(modes_create(&modes, &body, 1));
+    modes_create(&modes, &body, 1);
     double omega = 2 * pi * modes.frequency[0];
-    assert_true(integrator_create(&integrator, &body, 1 / modes.frequency[0] / period));
+    integrator_create(&integrator, &body, 1 / modes.frequency[0] / period);
     integrator.mass_damping = ratio * omega;
     integrator.stiffness_damping = ratio / omega;
     double start = 0, end = 0;
@@ -341,7 +341,7 @@ static void modes_of_a_free_body_leave_out_the_rigid_ones(void **state)
     beam_create(&beam, (const int[3]){4, 2, 1}, 0.3);
     beam_body(&beam, material_from(1e5, 0.3), 1000, false, &body);
     dense_eigenvalues(&beam, &body, 1e5, 0.3, &values);
-    assert_true(modes_create(&modes, &body, 12));
+    modes_create(&modes, &body, 12);
     assert_int_equal(modes.count, 12);
     for (int k = 0; k < 12; k++) assert_near(modes.frequency[k] / (sqrt(values[k + 6]) / (2 * pi)), 1, 1e-7);
     for (int k = 0; k < 144; k++) { // they diagonalise the mass

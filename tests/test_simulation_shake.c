@@ -70,7 +70,7 @@ static void a_moving_base_shakes_a_mode_as_it_shakes_an_oscillator(void **state)
     make_soft(&soft, &box, &options);
     assert_near(soft_frequency(&soft), 2, 1e-9);
     struct drive drive = {.kind = DRIVE_BURST, .direction = {1, 0, 0}, .size = 1e-4, .frequency = 1.7, .seconds = 3};
-    assert_true(integrator_create(&integrator, &soft.body, h));
+    integrator_create(&integrator, &soft.body, h);
     integrator.mass_damping = soft.alpha;
     integrator.stiffness_damping = soft.beta;
     integrator.tolerance = 1e-10;
@@ -108,7 +108,7 @@ static void gravity_is_settled_before_the_start(void **state)
     options.frequency = 3;
     make_box(&box, 0.4f, 1);
     make_soft(&soft, &box, &options);
-    assert_true(integrator_create(&integrator, &soft.body, 0.01));
+    integrator_create(&integrator, &soft.body, 0.01);
     integrator.tolerance = 1e-7;
     integrator.loads.gravity = 9.81;
     assert_true(integrator_settle(&integrator));
@@ -142,9 +142,8 @@ static void make_loose(struct loose_box *loose, double floor, double stiffness_d
     make_box(&loose->box, 1, 1);
     make_soft(&loose->soft, &loose->box, &options);
     struct soft *soft = &loose->soft;
-    assert_true(
-        floor_create(&loose->floor, &soft->lattice, &loose->box.surface, floor, soft->young, options.density));
-    assert_true(integrator_create(&loose->integrator, &soft->body, 0.005));
+    floor_create(&loose->floor, &soft->lattice, &loose->box.surface, floor, soft->young, options.density);
+    integrator_create(&loose->integrator, &soft->body, 0.005);
     loose->integrator.tolerance = 1e-6;
     loose->integrator.stiffness_damping = stiffness_damping;
     loose->integrator.mass_damping = mass_damping;

@@ -4,6 +4,7 @@
 #include "analysis/exponentials.h"
 #include "analysis/slabs.h"
 #include "analysis/spectrum.h"
+#include "base/need.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -62,13 +63,18 @@ static bool swings(const struct work *w, const double *gram, const struct basis 
     return fail(error, ERROR_INPUT, "%s: expected an oscillation, got a steady drift alone", w->motion->path);
 }
 
-/// G of the frames from the plan's first on; NULL where memory is short.
+static bool fail_frames(struct error *error, const struct motion *motion)
+{
+    return fail(error, ERROR_ENVIRONMENT, "%s: not enough memory for %d frames", motion->path, motion->frames);
+}
+
+/// G of the frames from the plan's first on.
 static const double *cut_gram(struct work *w)
 {
     size_t first = (size_t)w->plan->first, n = (size_t)w->motion->frames, left = n - first;
     if (first == 0) return w->gram;
-    w->free = malloc(left * left * sizeof *w->free);
-    for (size_t t = 0; w->free && t < left; t++)
+    w->free = need(left * left, sizeof *w->free);
+    for (size_t t = 0; t < left; t++)
         memcpy(w->free + t * left, w->gram + (t + first) * n + first, left * sizeof *w->free);
     return w->free;
 }
@@ -79,41 +85,38 @@ static bool find_drift(struct work *w, struct basis *basis, struct error *error)
     int first = w->plan->first, frames = w->motion->frames - first;
     const double *gram = cut_gram(w);
     const double least = first > 0 ? least_gain_afterwards : least_gain;
-    if (!basis_create(basis, frames, 2 + 2 * COURSES_MAX) || !gram || !drift_append(basis))
-        return fail_no_memory(error, w->motion->path);
+    basis_create(basis, frames, 2 + 2 * COURSES_MAX);
+    drift_append(basis);
     if (!swings(w, gram, basis, error)) return false;
     int found = subspace_poles(w->lapack, gram, frames, w->poles);
-    if (found >= 0) w->pole_count = exponentials_choose(w->poles, found, COURSES_MAX, least, gram, basis);
-    if (found < 0 || w->pole_count < 0 || !drift_create(&w->drift, basis, gram) ||
-        (first > 0 && !drift_extend(&w->drift, first, w->gram)))
-        return fail_no_memory(error, w->motion->path);
+    if (found < 0) return fail_frames(error, w->motion);
+    w->pole_count = exponentials_choose(w->poles, found, COURSES_MAX, least, gram, basis);
+    drift_create(&w->drift, basis, gram);
+    if (first > 0) drift_extend(&w->drift, first, w->gram);
     if (w->plan->method == ANALYSIS_CPCA) {
         if (w->drift.share < least_drift)
             drift_keep_all(&w->drift);
         else
             drift_keep_means(&w->drift);
     }
-    if (!drift_remove(&w->drift, w->gram)) return fail_no_memory(error, w->motion->path);
+    drift_remove(&w->drift, w->gram);
     w->power = trace(w->gram, w->motion->frames);
     return true;
 }
 
-static bool create_components(struct analysis *a, const struct work *w, int count)
+static void create_components(struct analysis *a, const struct work *w, int count)
 {
     int frames = w->motion->frames, vertices = w->motion->vertices;
-    a->components = calloc((size_t)count, sizeof *a->components);
-    if (!a->components) return false;
+    a->components = need_zeroed((size_t)count, sizeof *a->components);
     a->count = count;
     for (int k = 0; k < count; k++) {
         struct component *c = &a->components[k];
         c->frames = frames;
         c->vertices = vertices;
-        c->course = malloc((size_t)frames * sizeof *c->course);
-        c->shape = malloc((size_t)vertices * sizeof *c->shape);
-        c->metric.pull = malloc((size_t)frames * sizeof *c->metric.pull);
-        if (!c->course || !c->shape || !c->metric.pull) return false;
+        c->course = need((size_t)frames, sizeof *c->course);
+        c->shape = need((size_t)vertices, sizeof *c->shape);
+        c->metric.pull = need((size_t)frames, sizeof *c->metric.pull);
     }
-    return true;
 }
 
 /// A component a principal component of the analytic signal.
@@ -121,7 +124,8 @@ static bool find_principal(struct analysis *a, struct work *w)
 {
     int frames = w->motion->frames, count = w->plan->modes < frames ? w->plan->modes : frames;
     struct spectrum spectrum;
-    if (!create_components(a, w, count) || !spectrum_create(&spectrum, w->lapack, w->gram, frames)) return false;
+    create_components(a, w, count);
+    if (!spectrum_create(&spectrum, w->lapack, w->gram, frames)) return false;
     for (int k = 0; k < count; k++) {
         struct component *c = &a->components[k];
         for (int t = 0; t < frames; t++) c->course[t] = spectrum.vectors[(size_t)k * (size_t)frames + (size_t)t];
@@ -141,15 +145,15 @@ static int find_cancelled(const struct courses *courses, double power)
 }
 
 /// Courses of the first poles, without those whose parts others cancel.
-static bool find_courses(struct analysis *a, struct work *w, struct courses *courses)
+static void find_courses(struct analysis *a, struct work *w, struct courses *courses)
 {
     for (;;) {
         int count = w->pole_count < w->plan->modes ? w->pole_count : w->plan->modes;
         double complex z[COURSES_MAX];
         for (int k = 0; k < count; k++) z[k] = w->poles[k].z;
-        if (!courses_create(courses, w->lapack, w->gram, w->motion->frames, w->plan->first, z, count)) return false;
+        courses_create(courses, w->lapack, w->gram, w->motion->frames, w->plan->first, z, count);
         int cancelled = find_cancelled(courses, w->power);
-        if (cancelled < 0 || count == 1) return true;
+        if (cancelled < 0 || count == 1) return;
         courses_free(courses);
         for (int k = cancelled; k + 1 < w->pole_count; k++) w->poles[k] = w->poles[k + 1];
         w->pole_count--;
@@ -158,15 +162,12 @@ static bool find_courses(struct analysis *a, struct work *w, struct courses *cou
 }
 
 /// A component a pole.
-static bool find_swinging(struct analysis *a, struct work *w)
+static void find_swinging(struct analysis *a, struct work *w)
 {
     struct courses courses;
-    if (!find_courses(a, w, &courses)) return false;
+    find_courses(a, w, &courses);
     int frames = w->motion->frames, count = courses.count;
-    if (!create_components(a, w, count)) {
-        courses_free(&courses);
-        return false;
-    }
+    create_components(a, w, count);
     const double complex *z = courses.pole;
     for (int k = 0; k < count; k++) {
         struct component *c = &a->components[k];
@@ -178,7 +179,6 @@ static bool find_swinging(struct analysis *a, struct work *w)
     }
     for (size_t i = 0; i < 2 * (size_t)count * (size_t)frames; i++) w->weights[i] = courses.weights[i];
     courses_free(&courses);
-    return true;
 }
 
 /// What any course would leave of all the motion, from the weights of Ñ.
@@ -215,12 +215,11 @@ static double find_overlap(const struct component *k, const struct component *l,
 }
 
 /// Gives each component its own motion, from what there is of all: Σ |s − Σ_l Re(R_l Ñ_l)|² over the l that are not k.
-static bool share_motion(struct analysis *a, const struct work *w)
+static void share_motion(struct analysis *a, const struct work *w)
 {
     size_t n = (size_t)w->motion->frames;
     double products[COURSES_MAX][COURSES_MAX], pulls[COURSES_MAX] = {0}, left = w->power;
-    double complex *along = malloc((1 + (size_t)a->count) * n * sizeof *along);
-    if (!along) return false;
+    double complex *along = need((1 + (size_t)a->count) * n, sizeof *along);
     double complex *others = along + n;
     for (size_t i = 0; i < (size_t)a->count * n; i++) others[i] = 0;
     for (int k = 0; k < a->count; k++) {
@@ -242,21 +241,15 @@ static bool share_motion(struct analysis *a, const struct work *w)
         for (size_t t = 0; t < n; t++) c->metric.pull[t] -= others[(size_t)k * n + t];
     }
     free(along);
-    return true;
 }
 
 /// Ñ of every component and the drift, by one more pass over the motion.
 static bool form_shapes(struct analysis *a, struct work *w, struct error *error)
 {
     size_t frames = (size_t)w->motion->frames, columns = 3 * (size_t)w->motion->vertices, count = (size_t)a->count;
-    double *slopes = w->weights + 2 * count * frames,
-           *combined = malloc((2 * count + 1) * columns * sizeof *combined);
-    if (!combined) return fail_no_memory(error, w->motion->path);
+    double *slopes = w->weights + 2 * count * frames, *combined = need((2 * count + 1) * columns, sizeof *combined);
     for (size_t k = 0; k < count; k++) fill_metric(&a->components[k], w, w->weights + 2 * k * frames);
-    if (!share_motion(a, w)) {
-        free(combined);
-        return fail_no_memory(error, w->motion->path);
-    }
+    share_motion(a, w);
     drift_adapt(&w->drift, w->weights, 2 * a->count);
     for (size_t t = 0; t < frames; t++) slopes[t] = w->drift.weights[frames + t];
     bool done = slabs_combine(w->lapack, w->motion, w->weights, 2 * a->count + 1, combined, error);
@@ -271,16 +264,15 @@ static bool form_shapes(struct analysis *a, struct work *w, struct error *error)
     return done;
 }
 
-static bool finish(struct analysis *a, const struct work *w, struct error *error)
+static void finish(struct analysis *a, const struct work *w)
 {
     for (int k = 0; k < a->count; k++) {
         struct component *c = &a->components[k];
         component_scale(c);
         component_turn(c, w->plan->direction);
         if (w->plan->method == ANALYSIS_CPCA) component_fit(c, w->plan->fps);
-        if (!component_lags(c)) return fail_no_memory(error, w->motion->path);
+        component_lags(c);
     }
-    return true;
 }
 
 static bool find_components(struct analysis *a, struct work *w, struct error *error)
@@ -296,12 +288,15 @@ static bool find_components(struct analysis *a, struct work *w, struct error *er
                     w->motion->path);
     a->fast_share = fast_share(w->gram, frames);
     if (!spectrum_real_shares(w->lapack, w->gram, frames, ANALYSIS_MODES_MAX, shares) ||
-        !(w->plan->method == ANALYSIS_CPCA ? find_principal(a, w) : find_swinging(a, w)))
-        return fail(error, ERROR_ENVIRONMENT, "%s: not enough memory for %d frames", w->motion->path, frames);
+        (w->plan->method == ANALYSIS_CPCA && !find_principal(a, w)))
+        return fail_frames(error, w->motion);
+    if (w->plan->method != ANALYSIS_CPCA) find_swinging(a, w);
     a->pca1 = shares[0];
     a->pca2 = shares[1];
     a->real_left = sqrt(fmax(1 - shares[a->count - 1], 0));
-    return form_shapes(a, w, error) && finish(a, w, error);
+    if (!form_shapes(a, w, error)) return false;
+    finish(a, w);
+    return true;
 }
 
 bool analysis_create(struct analysis *a, const struct lapack *lapack, const struct motion *motion,
@@ -316,11 +311,12 @@ bool analysis_create(struct analysis *a, const struct lapack *lapack, const stru
     if (motion->frames - plan->first < ANALYSIS_FRAMES_MIN)
         return fail(error, ERROR_INPUT, "%s: expected %d frames or more that nothing drives, got %d", motion->path,
                     ANALYSIS_FRAMES_MIN, motion->frames > plan->first ? motion->frames - plan->first : 0);
-    a->mean = malloc((size_t)motion->vertices * sizeof *a->mean);
-    work.gram = malloc(n * n * sizeof *work.gram);
-    work.weights = malloc((2 * (size_t)plan->modes + 1) * n * sizeof *work.weights);
-    bool done = a->mean && work.gram && work.weights ? true : fail_no_memory(error, motion->path);
-    done = done && slabs_gram(lapack, motion, work.gram, a->mean[0], error) && find_components(a, &work, error);
+    const size_t numbers = plan->method == ANALYSIS_CPCA ? 13 : 5; // a pair of frames
+    if (!need_has_room(numbers * n * n * sizeof *work.gram)) return fail_frames(error, motion);
+    a->mean = need((size_t)motion->vertices, sizeof *a->mean);
+    work.gram = need(n * n, sizeof *work.gram);
+    work.weights = need((2 * (size_t)plan->modes + 1) * n, sizeof *work.weights);
+    bool done = slabs_gram(lapack, motion, work.gram, a->mean[0], error) && find_components(a, &work, error);
     free(work.gram);
     free(work.free);
     free(work.weights);

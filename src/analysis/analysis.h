@@ -44,7 +44,7 @@ struct analysis {
 
 /// Finds the components, most important first; fewer than asked for where the motion has fewer poles. Reads the motion twice;
 /// needs memory for frames² numbers, a slab of 8 MiB and the result. Errors: too few or too many frames, nothing moves or
-/// swings, a number that is not finite, out of memory.
+/// swings, a number that is not finite, not enough memory for so many frames.
 bool analysis_create(struct analysis *analysis, const struct lapack *lapack, const struct motion *motion,
                      const struct analysis_plan *plan, struct error *error);
 void analysis_free(struct analysis *analysis);

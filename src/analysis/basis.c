@@ -1,19 +1,17 @@
 /// Gram-Schmidt on sequences over the frames, each made orthogonal twice, so that close poles keep their digits.
 #include "analysis/basis.h"
+#include "base/need.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 static const double dependent = 1e-12; ///< what is left of a sequence that the others span, relative to it
 
-bool basis_create(struct basis *b, int frames, int capacity)
+void basis_create(struct basis *b, int frames, int capacity)
 {
     *b = (struct basis){.frames = frames, .capacity = capacity};
-    b->q = malloc((size_t)capacity * (size_t)frames * sizeof *b->q);
-    b->lower = calloc((size_t)capacity * (size_t)capacity, sizeof *b->lower);
-    if (b->q && b->lower) return true;
-    basis_free(b);
-    return false;
+    b->q = need((size_t)capacity * (size_t)frames, sizeof *b->q);
+    b->lower = need_zeroed((size_t)capacity * (size_t)capacity, sizeof *b->lower);
 }
 
 void basis_free(struct basis *b)

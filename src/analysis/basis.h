@@ -11,8 +11,8 @@ struct basis {
     double *lower; ///< capacity × capacity
 };
 
-/// Room for `capacity` sequences. False where memory is short.
-bool basis_create(struct basis *basis, int frames, int capacity);
+/// Room for `capacity` sequences.
+void basis_create(struct basis *basis, int frames, int capacity);
 void basis_free(struct basis *basis);
 
 /// Appends a sequence; one that the others span counts as zero.

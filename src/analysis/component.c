@@ -1,5 +1,6 @@
 /// Fixes the gauge of a complex component and fits its frequency, damping and lags.
 #include "analysis/component.h"
+#include "base/need.h"
 #include <math.h>
 #include <stdlib.h>
 
@@ -142,10 +143,9 @@ static int compare_lags(const void *a, const void *b)
     return (x->lag > y->lag) - (x->lag < y->lag);
 }
 
-bool component_lags(struct component *c)
+void component_lags(struct component *c)
 {
-    struct share *shares = malloc((size_t)c->vertices * sizeof *shares);
-    if (!shares) return false;
+    struct share *shares = need((size_t)c->vertices, sizeof *shares);
     double total = 0, sum = 0;
     c->reach = 0;
     for (int v = 0; v < c->vertices; v++) {
@@ -164,5 +164,4 @@ bool component_lags(struct component *c)
         sum += shares[v].weight;
     }
     free(shares);
-    return true;
 }

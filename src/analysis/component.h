@@ -40,7 +40,7 @@ void component_turn(struct component *component, const double direction[3]);
 /// Fits R ≈ c exp((−ζω_n + jω_n √(1−ζ²)) t): the slopes of log |R| and of the unwrapped arg R, weighted by |R|².
 void component_fit(struct component *component, double fps);
 
-/// Finds `first_lag`, `last_lag` and `reach`. False where memory is short.
-bool component_lags(struct component *component);
+/// Finds `first_lag`, `last_lag` and `reach`.
+void component_lags(struct component *component);
 
 #endif

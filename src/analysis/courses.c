@@ -13,6 +13,7 @@
 #include "analysis/courses.h"
 #include "analysis/basis.h"
 #include "analysis/exponentials.h"
+#include "base/need.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -196,32 +197,28 @@ static void take_turns(struct fit *f)
     }
 }
 
-bool courses_create(struct courses *c, const struct lapack *lapack, const double *gram, int frames, int first,
+void courses_create(struct courses *c, const struct lapack *lapack, const double *gram, int frames, int first,
                     const double complex *poles, int count)
 {
     size_t n = (size_t)frames, d = 2 * (size_t)count;
     struct fit fit = {.courses = c, .lapack = lapack, .gram = gram, .first = first};
     *c = (struct courses){.frames = frames, .count = count};
     memcpy(c->pole, poles, (size_t)count * sizeof *poles);
-    c->rows = malloc(d * n * sizeof *c->rows);
-    c->weights = malloc(d * n * sizeof *c->weights);
-    fit.pull = malloc(d * n * sizeof *fit.pull);
-    fit.factors = malloc(2 * d * d * n * sizeof *fit.factors);
-    bool done = basis_create(&fit.basis, frames, (int)d) && c->rows && c->weights && fit.pull && fit.factors;
-    for (int k = 0; done && k < count; k++) {
+    c->rows = need(d * n, sizeof *c->rows);
+    c->weights = need(d * n, sizeof *c->weights);
+    fit.pull = need(d * n, sizeof *fit.pull);
+    fit.factors = need(2 * d * d * n, sizeof *fit.factors);
+    basis_create(&fit.basis, frames, (int)d);
+    for (int k = 0; k < count; k++) {
         double *re = c->rows + 2 * (size_t)k * n, *im = re + n;
         exponentials_fill(poles[k], frames, re);
         for (int t = 0; t < first; t++) re[t] = im[t] = 0;
     }
-    if (done) {
-        take_turns(&fit);
-        measure_parts(&fit);
-    }
+    take_turns(&fit);
+    measure_parts(&fit);
     basis_free(&fit.basis);
     free(fit.pull);
     free(fit.factors);
-    if (!done) courses_free(c);
-    return done;
 }
 
 void courses_free(struct courses *c)

@@ -18,8 +18,8 @@ struct courses {
 
 /// Fits the courses of `count` poles. `gram` is G = S Sᵀ of a motion without drift. A course swings at its pole, and leaves that
 /// as far as the motion asks for it, as where a force acts. The first shapes are those of the frames from `first` on, which nothing
-/// drives. False where memory is short.
-bool courses_create(struct courses *courses, const struct lapack *lapack, const double *gram, int frames, int first,
+/// drives.
+void courses_create(struct courses *courses, const struct lapack *lapack, const double *gram, int frames, int first,
                     const double complex *poles, int count);
 void courses_free(struct courses *courses);
 

@@ -1,5 +1,6 @@
 /// The drift of a motion, found by least squares together with its oscillations: half a swing is no drift.
 #include "analysis/drift.h"
+#include "base/need.h"
 #include <stdlib.h>
 #include <string.h>
 
@@ -8,16 +9,14 @@ enum { ROWS = 2 };
 /// p_r at a frame.
 static double part(int frames, int row, int frame) { return row == 0 ? 1 : frame - (frames - 1) / 2.0; }
 
-bool drift_append(struct basis *basis)
+void drift_append(struct basis *basis)
 {
-    double *sequence = calloc((size_t)basis->frames, sizeof *sequence);
-    if (!sequence) return false;
+    double *sequence = need_zeroed((size_t)basis->frames, sizeof *sequence);
     for (int row = 0; row < ROWS; row++) {
         for (int t = 0; t < basis->frames; t++) sequence[t] = part(basis->frames, row, t);
         basis_append(basis, sequence);
     }
     free(sequence);
-    return true;
 }
 
 static void measure(struct drift *d, const double *gram)
@@ -34,21 +33,18 @@ static void measure(struct drift *d, const double *gram)
     d->share = power > 0 ? speed * size / power : 0;
 }
 
-bool drift_create(struct drift *d, const struct basis *basis, const double *gram)
+void drift_create(struct drift *d, const struct basis *basis, const double *gram)
 {
     *d = (struct drift){.frames = basis->frames};
-    d->weights = malloc((size_t)basis->count * (size_t)d->frames * sizeof *d->weights);
-    if (!d->weights) return false;
+    d->weights = need((size_t)basis->count * (size_t)d->frames, sizeof *d->weights);
     basis_weights(basis, d->weights);
     measure(d, gram);
-    return true;
 }
 
-bool drift_extend(struct drift *d, int first, const double *gram)
+void drift_extend(struct drift *d, int first, const double *gram)
 {
     size_t from = (size_t)first, n = from + (size_t)d->frames;
-    double *weights = calloc(ROWS * n, sizeof *weights);
-    if (!weights) return false;
+    double *weights = need_zeroed(ROWS * n, sizeof *weights);
     for (size_t t = from; t < n; t++) {
         const double position = d->weights[t - from], speed = d->weights[n - from + t - from];
         weights[t] =
@@ -59,7 +55,6 @@ bool drift_extend(struct drift *d, int first, const double *gram)
     d->weights = weights;
     d->frames = (int)n;
     measure(d, gram);
-    return true;
 }
 
 void drift_free(struct drift *d)
@@ -76,11 +71,10 @@ void drift_keep_all(struct drift *d)
     d->share = 0;
 }
 
-bool drift_remove(const struct drift *d, double *gram)
+void drift_remove(const struct drift *d, double *gram)
 {
     size_t n = (size_t)d->frames;
-    double *product = malloc(n * sizeof *product);
-    if (!product) return false;
+    double *product = need(n, sizeof *product);
     for (int row = 0; row < ROWS; row++) {
         const double *w = d->weights + (size_t)row * n;
         double twice = 0;
@@ -100,7 +94,6 @@ bool drift_remove(const struct drift *d, double *gram)
         }
     }
     free(product);
-    return true;
 }
 
 void drift_adapt(const struct drift *d, double *weights, int rows)

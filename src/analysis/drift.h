@@ -12,15 +12,15 @@ struct drift {
     double share;    ///< of the motion's power, 0 … 1
 };
 
-/// Appends p₀ and p₁ to a basis; false where memory is short.
-bool drift_append(struct basis *basis);
+/// Appends p₀ and p₁ to a basis.
+void drift_append(struct basis *basis);
 
-/// From a basis that begins with p₀ and p₁; `gram` is G = S Sᵀ. False where memory is short.
-bool drift_create(struct drift *drift, const struct basis *basis, const double *gram);
+/// From a basis that begins with p₀ and p₁; `gram` is G = S Sᵀ.
+void drift_create(struct drift *drift, const struct basis *basis, const double *gram);
 void drift_free(struct drift *drift);
 
-/// From one of the frames from `first` on to one of all of them, whose G is `gram`. False where memory is short.
-bool drift_extend(struct drift *drift, int first, const double *gram);
+/// From one of the frames from `first` on to one of all of them, whose G is `gram`.
+void drift_extend(struct drift *drift, int first, const double *gram);
 
 /// Keeps each column's mean: D = p₁ w₁ᵀ from now on.
 void drift_keep_means(struct drift *drift);
@@ -28,8 +28,8 @@ void drift_keep_means(struct drift *drift);
 /// No drift at all: D = 0.
 void drift_keep_all(struct drift *drift);
 
-/// G becomes (1 − D) G (1 − D)ᵀ. False where memory is short.
-bool drift_remove(const struct drift *drift, double *gram);
+/// G becomes (1 − D) G (1 − D)ᵀ.
+void drift_remove(const struct drift *drift, double *gram);
 
 /// Weights of S′ become the weights of S that do the same: `rows` of them, each `frames` long.
 void drift_adapt(const struct drift *drift, double *weights, int rows);

@@ -1,5 +1,6 @@
 /// Forward selection of poles, on G = S Sᵀ alone.
 #include "analysis/exponentials.h"
+#include "base/need.h"
 #include <math.h>
 #include <stdlib.h>
 
@@ -114,8 +115,7 @@ static int choose(struct pole *poles, int count, int most, double least, const d
 int exponentials_choose(struct pole *poles, int count, int most, double least, const double *gram,
                         struct basis *basis)
 {
-    double *room = malloc((size_t)basis->capacity * (size_t)basis->frames * sizeof *room);
-    if (!room) return -1;
+    double *room = need((size_t)basis->capacity * (size_t)basis->frames, sizeof *room);
     int chosen = choose(poles, count, most, least, gram, basis, room);
     free(room);
     return chosen;

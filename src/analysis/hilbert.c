@@ -11,6 +11,7 @@
 /// the continuation never grows. Mirroring would be right only for a shake that starts displaced and at rest;
 /// after a blow it is off by a quarter period.
 #include "analysis/hilbert.h"
+#include "base/need.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -124,12 +125,11 @@ static double kernel(int difference, int length)
     return difference % 2 == 0 ? 0 : 2.0 / length / tan(M_PI * difference / length);
 }
 
-bool hilbert_transform(const struct lapack *lapack, const struct predictor *predictor, int frames, double *transform)
+void hilbert_transform(const struct lapack *lapack, const struct predictor *predictor, int frames, double *transform)
 {
     size_t n = (size_t)frames;
     int before = frames / 2, length = 2 * frames;
-    double *rows = malloc(2 * n * n * sizeof *rows);
-    if (!rows) return false;
+    double *rows = need(2 * n * n, sizeof *rows);
     double *outside = rows + n * n; // K's columns of the continuation
     continue_samples(predictor, frames, rows);
     for (int t = 0; t < frames; t++) {
@@ -141,5 +141,4 @@ bool hilbert_transform(const struct lapack *lapack, const struct predictor *pred
     lapack->dgemm(LAPACK_ROWS_FIRST, BLAS_PLAIN, BLAS_PLAIN, frames, frames, frames, 1, outside, frames, rows, frames,
                   1, transform, frames);
     free(rows);
-    return true;
 }

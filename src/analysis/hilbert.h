@@ -20,7 +20,7 @@ struct predictor hilbert_predictor(const double *gram, int frames);
 
 /// Fills `transform` (frames × frames, row after row) with H, such that S + j H S is the analytic signal of the real S with
 /// positive frequencies turning counter-clockwise. Beyond its ends S is continued by the predictor, faded out over half
-/// its length each; H includes the continuation. False where memory is short.
-bool hilbert_transform(const struct lapack *lapack, const struct predictor *predictor, int frames, double *transform);
+/// its length each; H includes the continuation.
+void hilbert_transform(const struct lapack *lapack, const struct predictor *predictor, int frames, double *transform);
 
 #endif

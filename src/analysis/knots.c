@@ -6,6 +6,7 @@
 /// and the solver answers in microseconds. The rest is search: one knot after the other where it helps most, then every frame
 /// and parameter in turn by shorter and shorter steps, all in a fixed order.
 #include "analysis/knots.h"
+#include "base/need.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -253,32 +254,28 @@ static struct knots find(const struct search *s, wiggly_mode mode, bool sloped)
     return k;
 }
 
-bool knots_create(struct knots *k, const struct component *component, double fps)
+void knots_create(struct knots *k, const struct component *component, double fps)
 {
     struct search s = {.component = component, .fps = fps};
     size_t n = (size_t)component->frames;
-    double complex *course = malloc(n * sizeof *course);
-    s.response = malloc(UNKNOWNS * n * sizeof *s.response);
-    s.re = malloc(2 * n * sizeof *s.re);
-    s.im = s.re ? s.re + n : NULL;
-    bool done = course && s.response && s.re && wiggly_create((int)n, KNOTS_MOST, &s.solver) == WIGGLY_OK;
-    if (done) {
-        *k = find(&s, WIGGLY_COMPLEX, false);
-        if (k->error > close_enough * component_error(component, component->course)) {
-            const struct knots sloped = find(&s, WIGGLY_COMPLEX, true), stiff = find(&s, WIGGLY_REAL, false);
-            prefer(k, &sloped);
-            prefer(k, &stiff);
-        }
-        shorten(k);
-        done = solve(&s, k, course);
-        k->course = course;
-        k->error = component_error(component, course);
+    double complex *course = need(n, sizeof *course);
+    s.response = need(UNKNOWNS * n, sizeof *s.response);
+    s.re = need(2 * n, sizeof *s.re);
+    s.im = s.re + n;
+    if (wiggly_create((int)n, KNOTS_MOST, &s.solver) != WIGGLY_OK) need_failed();
+    *k = find(&s, WIGGLY_COMPLEX, false);
+    if (k->error > close_enough * component_error(component, component->course)) {
+        const struct knots sloped = find(&s, WIGGLY_COMPLEX, true), stiff = find(&s, WIGGLY_REAL, false);
+        prefer(k, &sloped);
+        prefer(k, &stiff);
     }
+    shorten(k);
+    if (!solve(&s, k, course)) need_failed();
+    k->course = course;
+    k->error = component_error(component, course);
     wiggly_destroy(s.solver);
     free(s.response);
     free(s.re);
-    if (!done) free(course);
-    return done;
 }
 
 void knots_free(struct knots *k)

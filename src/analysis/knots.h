@@ -20,8 +20,8 @@ struct knots {
 };
 
 /// Finds as few knots as bring the error of the motion near the component's own, at most KNOTS_MOST. The same component gives the same
-/// knots. False where memory is short.
-bool knots_create(struct knots *knots, const struct component *component, double fps);
+/// knots.
+void knots_create(struct knots *knots, const struct component *component, double fps);
 void knots_free(struct knots *knots);
 
 #endif

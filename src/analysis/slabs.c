@@ -1,5 +1,6 @@
 /// Two passes over a motion in slabs of columns: one forms G = S Sᵀ, the other weights frames.
 #include "analysis/slabs.h"
+#include "base/need.h"
 #include <stdlib.h>
 
 enum { SLAB_NUMBERS = 1 << 20 }; ///< 8 MiB: a slab and its copies fit the cache
@@ -23,8 +24,7 @@ static bool visit_slabs(const struct motion *motion, visit *each, void *user, do
 {
     int columns = 3 * motion->vertices, width = SLAB_NUMBERS / motion->frames + 1;
     if (width > columns) width = columns;
-    double *slab = malloc((size_t)motion->frames * (size_t)width * sizeof *slab);
-    if (!slab) return fail_no_memory(error, motion->path);
+    double *slab = need((size_t)motion->frames * (size_t)width, sizeof *slab);
     bool done = true;
     for (int first = 0; done && first < columns; first += width) {
         int count = columns - first < width ? columns - first : width;

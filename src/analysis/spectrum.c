@@ -1,16 +1,16 @@
 /// Complex and real principal components from G, by LAPACKE.
 #include "analysis/spectrum.h"
 #include "analysis/hilbert.h"
+#include "base/need.h"
 #include <stdlib.h>
 #include <string.h>
 
 /// S̃ S̃ᴴ = (1 + jH) G (1 − jHᵀ) = G + H G Hᵀ + j (H G − (H G)ᵀ)
-static bool covariance(const struct lapack *lapack, const double *h, const double *gram, int frames,
+static void covariance(const struct lapack *lapack, const double *h, const double *gram, int frames,
                        double complex *result)
 {
     size_t n = (size_t)frames;
-    double *hg = malloc(2 * n * n * sizeof *hg);
-    if (!hg) return false;
+    double *hg = need(2 * n * n, sizeof *hg);
     double *hgh = hg + n * n;
     memcpy(hgh, gram, n * n * sizeof *hgh);
     lapack->dgemm(LAPACK_ROWS_FIRST, BLAS_PLAIN, BLAS_PLAIN, frames, frames, frames, 1, h, frames, gram, frames, 0,
@@ -22,14 +22,12 @@ static bool covariance(const struct lapack *lapack, const double *h, const doubl
             result[j * n + i] = hgh[i * n + j] + I * (hg[i * n + j] - hg[j * n + i]);
     }
     free(hg);
-    return true;
 }
 
 bool spectrum_real_shares(const struct lapack *lapack, const double *gram, int frames, int count, double *shares)
 {
     size_t n = (size_t)frames;
-    double total = 0, *copy = malloc((n * n + n) * sizeof *copy);
-    if (!copy) return false;
+    double total = 0, *copy = need(n * n + n, sizeof *copy);
     double *values = copy + n * n;
     memcpy(copy, gram, n * n * sizeof *copy);
     bool done = lapack->dsyevd(LAPACK_COLUMNS_FIRST, 'N', 'L', frames, copy, frames, values) == 0;
@@ -69,12 +67,12 @@ bool spectrum_create(struct spectrum *s, const struct lapack *lapack, const doub
     size_t n = (size_t)frames;
     struct predictor predictor = hilbert_predictor(gram, frames);
     *s = (struct spectrum){.frames = frames};
-    s->transform = malloc(n * n * sizeof *s->transform);
-    s->vectors = malloc(n * n * sizeof *s->vectors);
-    s->values = malloc(n * sizeof *s->values);
-    if (s->transform && s->vectors && s->values && hilbert_transform(lapack, &predictor, frames, s->transform) &&
-        covariance(lapack, s->transform, gram, frames, s->vectors) &&
-        lapack->zheevd(LAPACK_COLUMNS_FIRST, 'V', 'L', frames, s->vectors, frames, s->values) == 0) {
+    s->transform = need(n * n, sizeof *s->transform);
+    s->vectors = need(n * n, sizeof *s->vectors);
+    s->values = need(n, sizeof *s->values);
+    hilbert_transform(lapack, &predictor, frames, s->transform);
+    covariance(lapack, s->transform, gram, frames, s->vectors);
+    if (lapack->zheevd(LAPACK_COLUMNS_FIRST, 'V', 'L', frames, s->vectors, frames, s->values) == 0) {
         turn_round(s);
         return true;
     }

@@ -15,10 +15,10 @@ struct spectrum {
 };
 
 /// The shares of the real variance that real PCA's first component, its first two … explain, 0 … 1: `count` of them, at most one a
-/// frame. `gram` is above 0. False where memory is short.
+/// frame. `gram` is above 0. False where LAPACK has no memory.
 bool spectrum_real_shares(const struct lapack *lapack, const double *gram, int frames, int count, double *shares);
 
-/// Decomposes; the trace of `gram` is above 0. False, with nothing to free, where memory is short.
+/// Decomposes; the trace of `gram` is above 0. False, with nothing to free, where LAPACK has no memory.
 bool spectrum_create(struct spectrum *spectrum, const struct lapack *lapack, const double *gram, int frames);
 void spectrum_free(struct spectrum *spectrum);
 

@@ -16,6 +16,7 @@
 /// A motion that is not quite a sum of oscillations (large displacements, a force) needs more poles than it has. Those that chance
 /// puts where something is left to explain move as the order grows; those of the body stay, to three digits at any rate.
 #include "analysis/subspace.h"
+#include "base/need.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -176,8 +177,7 @@ int subspace_poles(const struct lapack *lapack, const double *gram, int frames, 
 {
     int length = frames / 2, count = -1;
     size_t n = (size_t)frames, size = n / 2 * (n / 2);
-    double *c = malloc((size + n * n + n) * sizeof *c);
-    if (!c) return -1;
+    double *c = need(size + n * n + n, sizeof *c);
     double *room = c + size, *values = room + n * n;
     sum_windows(gram, n, n / 2, c);
     project(lapack, gram, frames, length, false, room, c);

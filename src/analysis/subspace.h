@@ -16,7 +16,7 @@ struct pole {
 
 /// Finds the oscillations of all columns of S together, from G (frames × frames, row after row, both halves), the steadiest
 /// first. Whatever is constant or grows linearly with time takes no part. Overdamped and growing ones are left out.
-/// Returns their number, at most SUBSPACE_POLES_MAX; -1 where memory is short.
+/// Returns their number, at most SUBSPACE_POLES_MAX; -1 where LAPACK has no memory.
 int subspace_poles(const struct lapack *lapack, const double *gram, int frames, struct pole *poles);
 
 #endif

@@ -1,5 +1,6 @@
 /// `wiggly analyze`: the complex normal coordinates of simulated motions, as a character.
 #include "analysis/analysis.h"
+#include "base/need.h"
 #include "base/path.h"
 #include "base/printable.h"
 #include "commands/analyze_scene.h"
@@ -70,18 +71,17 @@ static char *make_name(const char *path, const struct character *character)
             const char *other = character->coordinates[i].name;
             taken |= other && strcmp(other, name.text) == 0;
         }
-        if (!taken) return strdup(name.text);
+        if (!taken) return need_text(name.text);
     }
 }
 
 /// To a millionth, so that a file is the same whatever processor LAPACK ran on.
 static double rounded(double value) { return round(value * 1e6) / 1e6; }
 
-static bool keep(struct coordinate *to, const struct component *c, const struct analysis *analysis, const char *path,
-                 const struct character *character, struct error *error)
+static void keep(struct coordinate *to, const struct component *c, const struct analysis *analysis, const char *path,
+                 const struct character *character)
 {
     to->name = make_name(path, character);
-    if (!to->name) return fail_no_memory(error, path);
     to->frequency = rounded(c->frequency);
     to->damping = rounded(c->damping);
     to->explained = rounded(c->explained);
@@ -91,7 +91,6 @@ static bool keep(struct coordinate *to, const struct component *c, const struct 
         to->re[n / 3][n % 3] = (float)creal(c->shape[n / 3][n % 3]);
         to->im[n / 3][n % 3] = (float)cimag(c->shape[n / 3][n % 3]);
     }
-    return true;
 }
 
 static void report_spline(const struct analyzed *analyzed, const struct component *c)
@@ -202,30 +201,28 @@ static void warn_of_distance(const struct motion *motion, const struct analysis 
 }
 
 /// Keeps course and knots, which only a scene and the table of coordinates need.
-static bool keep_course(const struct job *job, struct analyzed *to, struct component *c, int rank, double fps)
+static void keep_course(const struct job *job, struct analyzed *to, struct component *c, int rank, double fps)
 {
     *to = (struct analyzed){.rank = rank, .fps = fps, .frames = c->frames};
-    if (!job->scene && !job->coordinates) return true;
-    if (!knots_create(&to->knots, c, fps)) return false;
-    to->course = malloc((size_t)c->frames * sizeof *to->course);
-    if (to->course) memcpy(to->course, c->course, (size_t)c->frames * sizeof *to->course);
-    return to->course;
+    if (!job->scene && !job->coordinates) return;
+    knots_create(&to->knots, c, fps);
+    to->course = need((size_t)c->frames, sizeof *to->course);
+    memcpy(to->course, c->course, (size_t)c->frames * sizeof *to->course);
 }
 
-static bool keep_all(const struct job *job, const struct analysis *analysis, const struct motion *motion, double fps,
-                     struct result *result, struct error *error)
+static void keep_all(const struct job *job, const struct analysis *analysis, const struct motion *motion, double fps,
+                     struct result *result)
 {
     for (int k = 0; k < analysis->count; k++) {
         struct coordinate *to = &result->character.coordinates[result->filled];
         struct analyzed *analyzed = &result->analyzed[result->filled++];
         struct component *c = &analysis->components[k];
-        if (!keep(to, c, analysis, motion->path, &result->character, error)) return false;
-        if (!keep_course(job, analyzed, c, k, fps)) return fail_no_memory(error, motion->path);
+        keep(to, c, analysis, motion->path, &result->character);
+        keep_course(job, analyzed, c, k, fps);
         report(to, analyzed, c);
     }
     printf("  relative error of the motion with %d coordinate%s: %.3g; as many real principal components: %.3g\n",
            analysis->count, analysis->count > 1 ? "s" : "", analysis->left, analysis->real_left);
-    return true;
 }
 
 /// Analyses one file and appends its coordinates to the character.
@@ -250,7 +247,7 @@ static bool analyse(const struct job *job, int file, const struct lapack *lapack
         warn_of_speed(&motion, &analysis, fps);
         warn_of_cancelling(&motion, &analysis);
         report_motion(job, &motion, &analysis, fps);
-        done = keep_all(job, &analysis, &motion, fps, result, error);
+        keep_all(job, &analysis, &motion, fps, result);
     }
     analysis_free(&analysis);
     motion_close(&motion);
@@ -273,9 +270,8 @@ static bool analyse_files(const struct job *job, const struct lapack *lapack, co
 {
     int files = 0;
     while (job->files[files]) files++;
-    result->analyzed = calloc((size_t)(files * job->modes), sizeof *result->analyzed);
-    if (!result->analyzed || !character_create(&result->character, rest, files * job->modes))
-        return fail_no_memory(error, job->rest);
+    result->analyzed = need_zeroed((size_t)(files * job->modes), sizeof *result->analyzed);
+    if (!character_create(&result->character, rest, files * job->modes)) return fail_no_memory(error, job->rest);
     for (int i = 0; i < files; i++) {
         if (!analyse(job, i, lapack, rest, result, error)) return false;
     }

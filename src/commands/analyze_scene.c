@@ -1,6 +1,7 @@
 /// Writes the scene for `wiggly analyze --scene`.
 #include "commands/analyze_scene.h"
 #include "base/file.h"
+#include "base/need.h"
 #include "scene/document.h"
 #include "scene/text.h"
 #include <errno.h>
@@ -13,10 +14,10 @@
 static char *real_place(const char *path)
 {
     const char *slash = strrchr(path, '/');
-    char *folder = slash ? strndup(path, (size_t)(slash - path) + 1) : strdup(".");
+    char *folder = slash ? strndup(path, (size_t)(slash - path) + 1) : need_text(".");
     char *real = folder ? realpath(folder, NULL) : NULL;
     const char *name = slash ? slash + 1 : path;
-    char *place = real ? malloc(strlen(real) + strlen(name) + 2) : NULL;
+    char *place = real ? need(strlen(real) + strlen(name) + 2, 1) : NULL;
     if (place) sprintf(place, "%s/%s", strcmp(real, "/") == 0 ? "" : real, name);
     free(folder);
     free(real);

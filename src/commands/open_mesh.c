@@ -31,19 +31,18 @@ static bool place(const struct mesh_options *options, struct surface *surface)
     return true;
 }
 
-static bool warn(const char *path, const struct surface *surface)
+static void warn(const char *path, const struct surface *surface)
 {
     uint8_t *used = surface_used_vertices(surface);
     int stray = surface->vertex_count;
-    for (int i = 0; used && i < surface->vertex_count; i++) stray -= used[i];
-    if (used && stray > 0) {
+    for (int i = 0; i < surface->vertex_count; i++) stray -= used[i];
+    if (stray > 0) {
         print_line(stderr, "%s: warning: %d %s of no triangle: left where they are", path, stray,
                    stray == 1 ? "vertex is part" : "vertices are part");
     }
     if (surface->looks.left_out)
         print_line(stderr, "%s: warning: %s cannot be read and is left out", path, surface->looks.left_out);
     free(used);
-    return used;
 }
 
 bool open_mesh(const char *path, const struct mesh_options *options, struct surface *surface, struct error *error)
@@ -51,7 +50,9 @@ bool open_mesh(const char *path, const struct mesh_options *options, struct surf
     bool done = surface_read(path, surface, error);
     if (done && !place(options, surface))
         done = fail(error, ERROR_INPUT, "%s: expected a size that --scale keeps finite, got an infinite one", path);
-    if (done && !warn(path, surface)) done = fail_no_memory(error, path);
-    if (!done) surface_free(surface);
+    if (done)
+        warn(path, surface);
+    else
+        surface_free(surface);
     return done;
 }

@@ -1,5 +1,6 @@
 /// `wiggly simulate`: shakes a mesh as a soft body, or finds its normal modes.
 #include "base/file.h"
+#include "base/need.h"
 #include "base/printable.h"
 #include "commands/commands.h"
 #include "commands/open_mesh.h"
@@ -49,9 +50,7 @@ static bool shake(struct job *job, struct soft *soft, const struct surface *surf
     struct floor floor = {0};
     bool good = start_drive(job, soft, error);
     if (good && job->floor >= 0) {
-        good = floor_create(&floor, &soft->lattice, surface, soft->bottom + job->floor, soft->young,
-                            job->soft.density) ||
-               fail_no_memory(error, job->mesh);
+        floor_create(&floor, &soft->lattice, surface, soft->bottom + job->floor, soft->young, job->soft.density);
         job->shake.loads.floor = &floor;
     }
     good = good && simulate_shake(&job->shake, soft, surface, error);
@@ -65,8 +64,7 @@ static bool write_modes(const struct job *job, const struct soft *soft, struct e
 {
     const int vertices = soft->lattice.vertex_count, nodes = soft->body.node_count;
     struct motion_writer writer;
-    float(*shape)[3] = calloc((size_t)vertices + 1, sizeof *shape);
-    if (!shape) return fail_no_memory(error, job->mesh);
+    float(*shape)[3] = need_zeroed((size_t)vertices + 1, sizeof *shape);
     bool good = motion_write_open(&writer, job->output, soft->modes.count, vertices, error);
     for (int k = 0; good && k < soft->modes.count; k++) {
         lattice_embed(&soft->lattice, (const double(*)[3])(soft->modes.shape + (size_t)k * (size_t)nodes), shape);

@@ -1,6 +1,7 @@
 /// Simulates in ever shorter steps until the motion is accurate.
 #include "commands/simulate_shake.h"
 #include "base/clock.h"
+#include "base/need.h"
 #include "base/printable.h"
 #include "base/stage.h"
 #include "commands/progress.h"
@@ -42,8 +43,7 @@ static bool step_frames(const struct shake_job *job, struct integrator *integrat
 static bool simulate(const struct shake_job *job, struct soft *soft, struct record *record, struct error *error)
 {
     struct integrator integrator;
-    if (!integrator_create(&integrator, &soft->body, 1 / (job->fps * record->substeps)))
-        return fail_no_memory(error, job->mesh);
+    integrator_create(&integrator, &soft->body, 1 / (job->fps * record->substeps));
     integrator.mass_damping = soft->alpha;
     integrator.stiffness_damping = soft->beta;
     integrator.tolerance = 1e-4 * soft->lattice.cell; // Newton's next step would be a thousandth of that
@@ -138,11 +138,10 @@ static void embed_frame(const struct shake_job *job, const struct soft *soft, co
 static bool write_frames(const struct shake_job *job, const struct soft *soft, const struct surface *surface,
                          const struct record *record, struct motion_writer *writer, struct error *error)
 {
-    float(*position)[3] = calloc((size_t)soft->lattice.vertex_count + 1, sizeof *position);
-    double(*x)[3] = calloc((size_t)record->nodes + 1, sizeof *x);
-    bool good = (position && x) || fail_no_memory(error, job->mesh);
-    if (good)
-        memcpy(position, surface->position, (size_t)surface->vertex_count * sizeof *position); // strays stay there
+    float(*position)[3] = need_zeroed((size_t)soft->lattice.vertex_count + 1, sizeof *position);
+    double(*x)[3] = need_zeroed((size_t)record->nodes + 1, sizeof *x);
+    bool good = true;
+    memcpy(position, surface->position, (size_t)surface->vertex_count * sizeof *position); // strays stay there
     for (int frame = 0; good && frame < record->frames; frame++) {
         embed_frame(job, soft, record, frame, x, position);
         good = motion_write_frame(writer, (const float(*)[3])position, error);

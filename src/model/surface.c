@@ -1,13 +1,14 @@
 /// Copies, measures and frees surfaces.
 #include "model/surface.h"
+#include "base/need.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 uint8_t *surface_used_vertices(const struct surface *surface)
 {
-    uint8_t *used = calloc((size_t)surface->vertex_count + 1, 1);
-    for (int i = 0; used && i < surface->index_count; i++) used[surface->indices[i]] = 1;
+    uint8_t *used = need_zeroed((size_t)surface->vertex_count + 1, 1);
+    for (int i = 0; i < surface->index_count; i++) used[surface->indices[i]] = 1;
     return used;
 }
 

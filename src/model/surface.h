@@ -54,7 +54,7 @@ static inline bool triangle_repeats(const uint32_t corner[3])
 /// appearance. Errors name the file, the place in it, what was expected and what was found. Memory is bounded by the file's size.
 bool surface_read(const char *path, struct surface *surface, struct error *error);
 
-/// Per vertex, 1 where some triangle has it; the caller frees it. NULL where memory is short.
+/// Per vertex, 1 where some triangle has it; the caller frees it.
 uint8_t *surface_used_vertices(const struct surface *surface);
 
 /// The box around the vertices that triangles have, m; lo > hi if there are none.

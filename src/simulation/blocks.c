@@ -1,5 +1,6 @@
 /// Assembles and applies sparse block matrices.
 #include "simulation/blocks.h"
+#include "base/need.h"
 #include <stdint.h>
 #include <stdlib.h>
 
@@ -25,26 +26,22 @@ static size_t list_pairs(uint64_t *pairs, const struct element *elements, int co
     return kept;
 }
 
-bool blocks_create(struct blocks *blocks, int nodes, const struct element *elements, int count)
+void blocks_create(struct blocks *blocks, int nodes, const struct element *elements, int count)
 {
     *blocks = (struct blocks){.rows = nodes};
-    uint64_t *pairs = malloc(((size_t)count * 16 + 1) * sizeof *pairs);
-    if (!pairs) return false;
+    uint64_t *pairs = need((size_t)count * 16 + 1, sizeof *pairs);
     size_t kept = list_pairs(pairs, elements, count);
-    blocks->start = calloc((size_t)nodes + 1, sizeof *blocks->start);
-    blocks->column = calloc(kept + 1, sizeof *blocks->column);
-    blocks->block = calloc(kept + 1, sizeof *blocks->block);
-    blocks->diagonal = calloc((size_t)nodes, sizeof *blocks->diagonal);
-    bool good = blocks->start && blocks->column && blocks->block && blocks->diagonal;
-    for (size_t i = 0; good && i < kept; i++) {
+    blocks->start = need_zeroed((size_t)nodes + 1, sizeof *blocks->start);
+    blocks->column = need_zeroed(kept + 1, sizeof *blocks->column);
+    blocks->block = need_zeroed(kept + 1, sizeof *blocks->block);
+    blocks->diagonal = need_zeroed((size_t)nodes, sizeof *blocks->diagonal);
+    for (size_t i = 0; i < kept; i++) {
         int row = (int)(pairs[i] >> 32), column = (int)(uint32_t)pairs[i];
         blocks->start[row + 1] = (int)i + 1;
         blocks->column[i] = column;
         if (row == column) blocks->diagonal[row] = (int)i;
     }
     free(pairs);
-    if (!good) blocks_free(blocks);
-    return good;
 }
 
 void blocks_free(struct blocks *blocks)

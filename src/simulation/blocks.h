@@ -13,8 +13,8 @@ struct blocks {
     int *diagonal;      ///< per row: index of block (i, i)
 };
 
-/// The pattern of a mesh: a block for each pair of nodes that share an element. False where memory is short.
-bool blocks_create(struct blocks *blocks, int nodes, const struct element *elements, int count);
+/// The pattern of a mesh: a block for each pair of nodes that share an element.
+void blocks_create(struct blocks *blocks, int nodes, const struct element *elements, int count);
 void blocks_free(struct blocks *blocks);
 
 /// Index of the block (row, column), which must be in the pattern.

@@ -1,35 +1,38 @@
 /// Sums energy, forces and stiffness over the elements.
 #include "simulation/body.h"
+#include "base/need.h"
 #include "simulation/vec3.h"
 #include <stdlib.h>
 #include <string.h>
 
-static bool allocate(struct body *body)
+static void allocate(struct body *body)
 {
     size_t nodes = (size_t)body->node_count, elements = (size_t)body->element_count;
-    body->rest = calloc(nodes + 1, sizeof *body->rest);
-    body->mass = calloc(nodes + 1, sizeof *body->mass);
-    body->pinned = calloc(nodes + 1, sizeof *body->pinned);
-    body->elements = calloc(elements + 1, sizeof *body->elements);
-    body->svd = calloc(elements + 1, sizeof *body->svd);
-    body->place = calloc(elements + 1, sizeof *body->place);
-    return body->rest && body->mass && body->pinned && body->elements && body->svd && body->place &&
-           conjugate_create(&body->scratch, body->node_count);
+    body->rest = need_zeroed(nodes + 1, sizeof *body->rest);
+    body->mass = need_zeroed(nodes + 1, sizeof *body->mass);
+    body->pinned = need_zeroed(nodes + 1, sizeof *body->pinned);
+    body->elements = need_zeroed(elements + 1, sizeof *body->elements);
+    body->svd = need_zeroed(elements + 1, sizeof *body->svd);
+    body->place = need_zeroed(elements + 1, sizeof *body->place);
+    conjugate_create(&body->scratch, body->node_count);
 }
 
 bool body_create(struct body *body, const double (*rest)[3], int node_count, const int (*tets)[4],
                  const double *fraction, int element_count, struct material material, double density)
 {
     *body = (struct body){.node_count = node_count, .element_count = element_count, .material = material};
-    bool good = allocate(body);
-    if (good) memcpy(body->rest, rest, (size_t)node_count * sizeof *rest);
+    bool good = true;
+    allocate(body);
+    memcpy(body->rest, rest, (size_t)node_count * sizeof *rest);
     for (int e = 0; good && e < element_count; e++) {
         struct element *element = &body->elements[e];
         good = element_init(element, tets[e], rest, fraction ? fraction[e] : 1);
         for (int a = 0; good && a < 4; a++) body->mass[tets[e][a]] += density * element->volume / 4;
     }
-    good = good && blocks_create(&body->stiffness, node_count, body->elements, element_count);
-    if (!good) body_free(body);
+    if (good)
+        blocks_create(&body->stiffness, node_count, body->elements, element_count);
+    else
+        body_free(body);
     return good;
 }
 

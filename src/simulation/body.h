@@ -24,7 +24,7 @@ struct body {
 };
 
 /// The body of `element_count` tetrahedra, tets[e] naming four nodes. `fraction` says how much of each is filled, or is
-/// NULL (all); density in kg/m³. False where memory is short or an element is flat.
+/// NULL (all); density in kg/m³. False where an element is flat.
 bool body_create(struct body *body, const double (*rest)[3], int node_count, const int (*tets)[4],
                  const double *fraction, int element_count, struct material material, double density);
 void body_free(struct body *body);

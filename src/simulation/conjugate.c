@@ -1,21 +1,19 @@
 /// Solves by preconditioned conjugate gradients.
 #include "simulation/conjugate.h"
+#include "base/need.h"
 #include <stdlib.h>
 #include <string.h>
 
-bool conjugate_create(struct conjugate *conjugate, int rows)
+void conjugate_create(struct conjugate *conjugate, int rows)
 {
     size_t n = (size_t)rows;
     *conjugate = (struct conjugate){
-        .r = calloc(n, sizeof *conjugate->r),
-        .z = calloc(n, sizeof *conjugate->z),
-        .p = calloc(n, sizeof *conjugate->p),
-        .q = calloc(n, sizeof *conjugate->q),
-        .inverse = calloc(n, sizeof *conjugate->inverse),
+        .r = need_zeroed(n, sizeof *conjugate->r),
+        .z = need_zeroed(n, sizeof *conjugate->z),
+        .p = need_zeroed(n, sizeof *conjugate->p),
+        .q = need_zeroed(n, sizeof *conjugate->q),
+        .inverse = need_zeroed(n, sizeof *conjugate->inverse),
     };
-    if (conjugate->r && conjugate->z && conjugate->p && conjugate->q && conjugate->inverse) return true;
-    conjugate_free(conjugate);
-    return false;
 }
 
 void conjugate_free(struct conjugate *conjugate)

@@ -14,7 +14,7 @@ struct conjugate {
     double (*r)[3], (*z)[3], (*p)[3], (*q)[3];
     double (*inverse)[9]; ///< of the diagonal blocks
 };
-bool conjugate_create(struct conjugate *conjugate, int rows);
+void conjugate_create(struct conjugate *conjugate, int rows);
 void conjugate_free(struct conjugate *conjugate);
 
 /// Solves A x = b for a definite A from the guess x, until the residual in the preconditioner's norm has fallen by

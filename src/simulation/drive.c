@@ -1,6 +1,7 @@
 /// The base's displacement over time.
 #include "simulation/drive.h"
 #include "base/file.h"
+#include "base/need.h"
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -131,12 +132,11 @@ bool drive_read_track(struct drive *d, const char *path, struct error *error)
     if (!file_read(path, FILE_LIMIT, &text, &size, error)) return false;
     for (size_t i = 0; i < size; i++) lines += text[i] == '\n';
     d->kind = DRIVE_TRACK;
-    d->time = calloc(lines, sizeof *d->time);
-    d->value = calloc(lines, sizeof *d->value);
-    d->curvature = calloc(lines, sizeof *d->curvature);
-    double *scratch = calloc(lines, sizeof *scratch);
-    bool good = d->time && d->value && d->curvature && scratch;
-    good = good ? read_lines(d, text, path, error) : fail_no_memory(error, path);
+    d->time = need_zeroed(lines, sizeof *d->time);
+    d->value = need_zeroed(lines, sizeof *d->value);
+    d->curvature = need_zeroed(lines, sizeof *d->curvature);
+    double *scratch = need_zeroed(lines, sizeof *scratch);
+    const bool good = read_lines(d, text, path, error);
     if (good) bend_track(d, scratch);
     free(scratch);
     free(text);

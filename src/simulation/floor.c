@@ -1,5 +1,6 @@
 /// Springs under the surface's vertices.
 #include "simulation/floor.h"
+#include "base/need.h"
 #include "simulation/vec3.h"
 #include <math.h>
 #include <stdlib.h>
@@ -21,28 +22,23 @@ static void add_areas(const struct surface *surface, double *area)
     }
 }
 
-bool floor_create(struct floor *f, const struct lattice *lattice, const struct surface *surface, double height,
+void floor_create(struct floor *f, const struct lattice *lattice, const struct surface *surface, double height,
                   double young, double density)
 {
     const double stiffer = 10; // than the body's own layer of cells: sinks in by a tenth of what the feet give way
     size_t count = (size_t)surface->vertex_count + 1;
     *f = (struct floor){.lattice = lattice, .height = height};
-    f->spring = calloc(count, sizeof *f->spring);
-    f->damper = calloc(count, sizeof *f->damper);
-    f->origin = calloc(count, sizeof *f->origin);
-    f->touched = calloc(count, sizeof *f->touched);
-    f->damped = calloc(count, sizeof *f->damped);
-    f->pushed = calloc(count, sizeof *f->pushed);
-    if (!f->spring || !f->damper || !f->origin || !f->touched || !f->damped || !f->pushed) {
-        floor_free(f);
-        return false;
-    }
+    f->spring = need_zeroed(count, sizeof *f->spring);
+    f->damper = need_zeroed(count, sizeof *f->damper);
+    f->origin = need_zeroed(count, sizeof *f->origin);
+    f->touched = need_zeroed(count, sizeof *f->touched);
+    f->damped = need_zeroed(count, sizeof *f->damped);
+    f->pushed = need_zeroed(count, sizeof *f->pushed);
     add_areas(surface, f->spring);
     for (int i = 0; i < surface->vertex_count; i++) {
         f->damper[i] = f->spring[i] * sqrt(young * density);
         f->spring[i] *= stiffer * young / lattice->cell;
     }
-    return true;
 }
 
 void floor_free(struct floor *f)

@@ -30,8 +30,8 @@ struct floor {
     double drag;    ///< J: how far the potential of the last floor_push() exceeds the springs' energy
 };
 
-/// A floor under the lattice's surface, as stiff as ten times the body's material, a cell thick. False where memory is short.
-bool floor_create(struct floor *floor, const struct lattice *lattice, const struct surface *surface, double height,
+/// A floor under the lattice's surface, as stiff as ten times the body's material, a cell thick.
+void floor_create(struct floor *floor, const struct lattice *lattice, const struct surface *surface, double height,
                   double young, double density);
 void floor_free(struct floor *floor);
 

@@ -1,5 +1,6 @@
 /// Generalised-α steps, one Newton solve each.
 #include "simulation/integrator.h"
+#include "base/need.h"
 #include "simulation/vec3.h"
 #include <stdlib.h>
 #include <string.h>
@@ -57,25 +58,18 @@ static struct scheme generalised_alpha(double h)
 
 static struct scheme backward_euler(double h) { return complete((struct scheme){.beta = 1, .gamma = 1}, h); }
 
-bool integrator_create(struct integrator *integrator, struct body *body, double step)
+void integrator_create(struct integrator *integrator, struct body *body, double step)
 {
     enum { VECTORS = 10 };
     size_t n = (size_t)body->node_count;
     *integrator = (struct integrator){.body = body, .step = step, .tolerance = 1e-9};
-    integrator->x = calloc(n, sizeof *integrator->x);
-    integrator->v = calloc(n, sizeof *integrator->v);
-    struct integrator_work *w = integrator->work = calloc(1, sizeof *w);
-    double(*pool)[3] = calloc(VECTORS * n, sizeof *pool);
-    if (w) {
-        w->a = pool;
-        w->lagged = body->stiffness;
-        w->lagged.block = calloc((size_t)body->stiffness.start[n] + 1, sizeof *w->lagged.block);
-    }
-    if (!integrator->x || !integrator->v || !w || !pool || !w->lagged.block) {
-        if (!w) free(pool);
-        integrator_free(integrator);
-        return false;
-    }
+    integrator->x = need_zeroed(n, sizeof *integrator->x);
+    integrator->v = need_zeroed(n, sizeof *integrator->v);
+    struct integrator_work *w = integrator->work = need_zeroed(1, sizeof *w);
+    double(*pool)[3] = need_zeroed(VECTORS * n, sizeof *pool);
+    w->lagged = body->stiffness;
+    w->lagged.block = need_zeroed((size_t)body->stiffness.start[n] + 1, sizeof *w->lagged.block);
+    w->a = pool;
     w->y = pool + n;
     w->target = pool + 2 * n;
     w->origin = pool + 3 * n;
@@ -86,16 +80,13 @@ bool integrator_create(struct integrator *integrator, struct body *body, double 
     w->moved = pool + 8 * n;
     w->drag = pool + 9 * n;
     memcpy(integrator->x, body->rest, n * sizeof *integrator->x);
-    return true;
 }
 
 void integrator_free(struct integrator *integrator)
 {
     struct integrator_work *w = integrator->work;
-    if (w) {
-        free(w->a);
-        free(w->lagged.block);
-    }
+    free(w->a);
+    free(w->lagged.block);
     free(w);
     free(integrator->x);
     free(integrator->v);

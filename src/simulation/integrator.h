@@ -33,8 +33,8 @@ struct integrator {
     struct integrator_work *work;
 };
 
-/// A body at rest, undamped. False where memory is short. The body must be ready and outlive it.
-bool integrator_create(struct integrator *integrator, struct body *body, double step);
+/// A body at rest, undamped. The body must be ready and outlive it.
+void integrator_create(struct integrator *integrator, struct body *body, double step);
 void integrator_free(struct integrator *integrator);
 
 /// Moves the body to where the loads of the start hold it, at rest. It must be pinned, or nothing stops its fall.

@@ -1,5 +1,6 @@
 /// Builds the lattice and embeds the surface in it.
 #include "simulation/lattice.h"
+#include "base/need.h"
 #include "base/stage.h"
 #include "simulation/element.h"
 #include "simulation/tiling.h"
@@ -41,7 +42,7 @@ static double coarse_enough(const struct surface *surface, double cell)
 }
 
 /// Tries cubes of several sizes, twelve tetrahedra each inside, until the number is within 3 % or no longer gets nearer.
-static bool fit(struct tiling *best, const struct solid *solid, int target, double layer, double *best_cell)
+static void fit(struct tiling *best, const struct solid *solid, int target, double layer, double *best_cell)
 {
     enum { TRIES = 8 };
     double cell = cbrt(12 * solid_volume(solid) / target), nearest = INFINITY;
@@ -51,7 +52,7 @@ static bool fit(struct tiling *best, const struct solid *solid, int target, doub
         double allowed = coarse_enough(&solid->shape, cell);
         if (allowed > cell && i > 0) break; // as fine as can be
         cell = allowed;
-        if (!tiling_create(&tiling, solid, cell, layer)) return false;
+        tiling_create(&tiling, solid, cell, layer);
         double ratio = fmax(tiling.kept, 1) / target;
         if (fabs(log(ratio)) < nearest) {
             nearest = fabs(log(ratio));
@@ -63,7 +64,6 @@ static bool fit(struct tiling *best, const struct solid *solid, int target, doub
         }
         cell *= pow(ratio, 0.4); // the number falls with a power between 2 (all surface) and 3 (all inside)
     }
-    return true;
 }
 
 /// Volume of the elements as a multiple of the solid's.
@@ -76,7 +76,7 @@ static double swelling(const struct tiling *t, double volume)
 
 /// Voxels make a limb up to half a voxel too thick or too thin on either side, a tenth where it is one cube wide, and as much too stiff
 /// or too soft. Where that does not average out, cubes of a slightly different size make the body as large as it is.
-static bool fit_volume(struct tiling *best, const struct solid *solid, double layer, double *cell)
+static void fit_volume(struct tiling *best, const struct solid *solid, double layer, double *cell)
 {
     enum { TRIES = 8 };
     static const double little = 0.01, progress = 0.9;
@@ -85,7 +85,7 @@ static bool fit_volume(struct tiling *best, const struct solid *solid, double la
     for (int i = 0; i < TRIES && fabs(away) > little; i++) {
         struct tiling tiling;
         double tried = coarse_enough(&solid->shape, *cell * exp(-away / 3));
-        if (!tiling_create(&tiling, solid, tried, layer)) return false;
+        tiling_create(&tiling, solid, tried, layer);
         double now = log(swelling(&tiling, volume));
         if (!(fabs(now) < progress * fabs(away))) {
             tiling_free(&tiling);
@@ -96,18 +96,16 @@ static bool fit_volume(struct tiling *best, const struct solid *solid, double la
         tiling_free(best);
         *best = tiling;
     }
-    return true;
 }
 
 /// Numbers the kept nodes, elements and parts consecutively. index[e] is the new number of element e.
-static bool number(struct lattice *lattice, const struct tiling *t, int *index, int *node_number)
+static void number(struct lattice *lattice, const struct tiling *t, int *index, int *node_number)
 {
     size_t n = (size_t)t->kept;
-    lattice->node = calloc(4 * n + 1, sizeof *lattice->node);
-    lattice->tet = calloc(n + 1, sizeof *lattice->tet);
-    lattice->fraction = calloc(n + 1, sizeof *lattice->fraction);
-    lattice->part = calloc(n + 1, sizeof *lattice->part);
-    if (!lattice->node || !lattice->tet || !lattice->fraction || !lattice->part) return false;
+    lattice->node = need_zeroed(4 * n + 1, sizeof *lattice->node);
+    lattice->tet = need_zeroed(n + 1, sizeof *lattice->tet);
+    lattice->fraction = need_zeroed(n + 1, sizeof *lattice->fraction);
+    lattice->part = need_zeroed(n + 1, sizeof *lattice->part);
     const double whole = VOXELS_A_CELL * VOXELS_A_CELL * VOXELS_A_CELL / 12.0; // a tetrahedron's volume in voxels
     for (int e = 0; e < t->count; e++) {
         if (t->part[e] < 0) continue;
@@ -123,7 +121,6 @@ static bool number(struct lattice *lattice, const struct tiling *t, int *index, 
             lattice->tet[k][a] = *known;
         }
     }
-    return true;
 }
 
 /// The voxel inside that is nearest to a point given in voxels: shells of growing distance around it.
@@ -166,7 +163,7 @@ static void locate(const struct lattice *lattice, int tet, const float point[3],
 /// Each vertex's normal, not of unit length; 0 where its triangles are left out.
 static double (*normals_of(const struct surface *surface))[3]
 {
-    double(*normal)[3] = calloc((size_t)surface->vertex_count + 1, sizeof *normal);
+    double(*normal)[3] = need_zeroed((size_t)surface->vertex_count + 1, sizeof *normal);
     for (int i = 0; normal && i < surface->index_count; i++) { // each corner adds its triangle's normal
         double edge[2][3], across[3];
         const uint32_t *corner = surface->indices + i / 3 * 3;
@@ -182,17 +179,16 @@ static double (*normals_of(const struct surface *surface))[3]
 }
 
 /// Hosts each vertex in the element of the nearest voxel, seen from half a voxel under the surface, lest it be another limb's.
-static bool embed(struct lattice *lattice, const struct tiling *t, const int *index, const struct surface *surface,
+static void embed(struct lattice *lattice, const struct tiling *t, const int *index, const struct surface *surface,
                   const struct solid *solid)
 {
     size_t count = (size_t)surface->vertex_count;
     lattice->vertex_count = surface->vertex_count;
-    lattice->host = calloc(count + 1, sizeof *lattice->host);
-    lattice->weight = calloc(count + 1, sizeof *lattice->weight);
+    lattice->host = need_zeroed(count + 1, sizeof *lattice->host);
+    lattice->weight = need_zeroed(count + 1, sizeof *lattice->weight);
     double(*normal)[3] = normals_of(&solid->shape);
     uint8_t *used = surface_used_vertices(surface);
-    bool good = lattice->host && lattice->weight && normal && used;
-    for (int i = 0; good && i < surface->vertex_count; i++) {
+    for (int i = 0; i < surface->vertex_count; i++) {
         double at[3], length = vec3_length(normal[i]);
         lattice->host[i] = -1;
         if (i % TELLING == 0) stage_tell("placing the vertices", i, surface->vertex_count);
@@ -207,22 +203,18 @@ static bool embed(struct lattice *lattice, const struct tiling *t, const int *in
     stage_tell("placing the vertices", surface->vertex_count, surface->vertex_count);
     free(normal);
     free(used);
-    return good;
 }
 
-static bool build(struct lattice *lattice, const struct tiling *t, const struct surface *surface,
+static void build(struct lattice *lattice, const struct tiling *t, const struct surface *surface,
                   const struct solid *solid)
 {
-    int *index = calloc((size_t)t->count + 1, sizeof *index);
-    int *node_number = malloc(((size_t)t->count * 4 + 1) * sizeof *node_number);
-    bool good = index && node_number;
-    if (good) {
-        memset(node_number, 0xFF, (size_t)t->count * 4 * sizeof *node_number); // −1
-        good = number(lattice, t, index, node_number) && embed(lattice, t, index, surface, solid);
-    }
+    int *index = need_zeroed((size_t)t->count + 1, sizeof *index);
+    int *node_number = need((size_t)t->count * 4 + 1, sizeof *node_number);
+    memset(node_number, 0xFF, (size_t)t->count * 4 * sizeof *node_number); // −1
+    number(lattice, t, index, node_number);
+    embed(lattice, t, index, surface, solid);
     free(index);
     free(node_number);
-    return good;
 }
 
 /// The lattice of a solid with some volume.
@@ -230,19 +222,16 @@ static bool lattice_of(struct lattice *lattice, const struct surface *surface, c
                        double layer, const char *name, struct error *error)
 {
     struct tiling tiling;
-    bool fitted = fit(&tiling, solid, target, layer, &lattice->cell);
-    // Where parts overlap, the mesh' volume counts that twice.
-    if (fitted && tiling.kept > 0 && !solid->open && !tiling.voxels.overlaps)
-        fitted = fit_volume(&tiling, solid, layer, &lattice->cell);
-    if (fitted && tiling.kept == 0) {
+    fit(&tiling, solid, target, layer, &lattice->cell);
+    if (tiling.kept == 0) {
         tiling_free(&tiling);
         return fail(error, ERROR_INPUT, "%s: the mesh is too thin for a lattice of %d tetrahedra", name, target);
     }
-    bool good = fitted && build(lattice, &tiling, surface, solid);
+    // Where parts overlap, the mesh' volume counts that twice.
+    if (!solid->open && !tiling.voxels.overlaps) fit_volume(&tiling, solid, layer, &lattice->cell);
+    build(lattice, &tiling, surface, solid);
     tiling_free(&tiling);
-    if (good) return true;
-    lattice_free(lattice);
-    return fail_no_memory(error, name);
+    return true;
 }
 
 bool lattice_create(struct lattice *lattice, const struct surface *surface, int target, double layer,
@@ -250,7 +239,7 @@ bool lattice_create(struct lattice *lattice, const struct surface *surface, int 
 {
     struct solid solid;
     *lattice = (struct lattice){0};
-    if (!solid_create(&solid, surface)) return fail_no_memory(error, name);
+    solid_create(&solid, surface);
     solid_describe(&solid, lattice->repair);
     bool good = solid_volume(&solid) > 0 ? lattice_of(lattice, surface, &solid, target, layer, name, error)
                                          : fail(error, ERROR_INPUT, "%s: the mesh encloses no volume", name);
@@ -302,12 +291,11 @@ static int spread_further(const struct lattice *lattice, double *node, double *s
     return missing;
 }
 
-bool lattice_spread(const struct lattice *lattice, const double *vertex, double *node)
+void lattice_spread(const struct lattice *lattice, const double *vertex, double *node)
 {
-    double *sum = calloc((size_t)lattice->node_count + 1, sizeof *sum);
-    double *share = calloc((size_t)lattice->node_count + 1, sizeof *share);
-    bool good = sum && share;
-    for (int i = 0; good && i < lattice->vertex_count; i++) {
+    double *sum = need_zeroed((size_t)lattice->node_count + 1, sizeof *sum);
+    double *share = need_zeroed((size_t)lattice->node_count + 1, sizeof *share);
+    for (int i = 0; i < lattice->vertex_count; i++) {
         for (int a = 0; lattice->host[i] >= 0 && a < 4; a++) {
             double weight = fmax(0, lattice->weight[i][a]);
             sum[lattice->tet[lattice->host[i]][a]] += weight * vertex[i];
@@ -315,17 +303,15 @@ bool lattice_spread(const struct lattice *lattice, const double *vertex, double 
         }
     }
     int missing = 0;
-    for (int i = 0; good && i < lattice->node_count; i++) {
+    for (int i = 0; i < lattice->node_count; i++) {
         node[i] = share[i] > 0 ? sum[i] / share[i] : NAN;
         missing += isnan(node[i]);
     }
-    for (int before = missing + 1; good && missing > 0 && missing < before;) {
+    for (int before = missing + 1; missing > 0 && missing < before;) {
         before = missing;
         missing = spread_further(lattice, node, sum, share);
     }
-    for (int i = 0; good && i < lattice->node_count; i++)
-        node[i] = isnan(node[i]) ? 0 : node[i]; // a part without vertices
+    for (int i = 0; i < lattice->node_count; i++) node[i] = isnan(node[i]) ? 0 : node[i]; // a part without vertices
     free(sum);
     free(share);
-    return good;
 }

@@ -32,14 +32,13 @@ struct lattice {
 };
 
 /// The lattice with about `target` tetrahedra, a layer of nodes at the height `layer` unless that is NAN: what is held up to
-/// there is held exactly so far in every resolution. Errors say: no volume, no memory. `name` is the surface's, for messages.
+/// there is held exactly so far in every resolution. Errors say: no volume. `name` is the surface's, for messages.
 bool lattice_create(struct lattice *lattice, const struct surface *surface, int target, double layer,
                     const char *name, struct error *error);
 void lattice_free(struct lattice *lattice);
 
 /// Numbers of nodes from those of vertices: the mean of the vertices around each node, and elsewhere of the nodes nearby.
-/// False where memory is short.
-bool lattice_spread(const struct lattice *lattice, const double *vertex, double *node);
+void lattice_spread(const struct lattice *lattice, const double *vertex, double *node);
 
 /// Vertex positions, float, from node positions: Σ_a w_a x_a. Those of vertices that no triangle has are left as they are.
 void lattice_embed(const struct lattice *lattice, const double (*x)[3], float (*position)[3]);

@@ -6,6 +6,7 @@
 /// to all before it (twice, which is enough), so none returns as a copy. The small problem is diagonalised by Jacobi's
 /// method.
 #include "simulation/modes.h"
+#include "base/need.h"
 #include "base/stage.h"
 #include "simulation/eigen.h"
 #include "simulation/vec3.h"
@@ -26,16 +27,15 @@ struct lanczos {
     double *values, *vectors; ///< of `small`
 };
 
-static bool lanczos_create(struct lanczos *l, struct body *body, int steps)
+static void lanczos_create(struct lanczos *l, struct body *body, int steps)
 {
     size_t nodes = (size_t)body->node_count, m = (size_t)steps;
     *l = (struct lanczos){.body = body, .node_count = body->node_count, .steps = steps};
-    l->basis = calloc((m + 1) * nodes, sizeof *l->basis);
-    l->left = calloc(nodes, sizeof *l->left);
-    l->small = calloc(m * m, sizeof *l->small);
-    l->values = calloc(m, sizeof *l->values);
-    l->vectors = calloc(m * m, sizeof *l->vectors);
-    return l->basis && l->left && l->small && l->values && l->vectors;
+    l->basis = need_zeroed((m + 1) * nodes, sizeof *l->basis);
+    l->left = need_zeroed(nodes, sizeof *l->left);
+    l->small = need_zeroed(m * m, sizeof *l->small);
+    l->values = need_zeroed(m, sizeof *l->values);
+    l->vectors = need_zeroed(m * m, sizeof *l->vectors);
 }
 
 static void lanczos_free(struct lanczos *l)
@@ -178,26 +178,23 @@ static void extract(struct lanczos *l, struct modes *modes, int wanted)
     }
 }
 
-bool modes_create(struct modes *modes, struct body *body, int count)
+void modes_create(struct modes *modes, struct body *body, int count)
 {
     int movable = 0;
     for (int i = 0; i < body->node_count; i++) movable += 3 * !body->pinned[i];
     int steps = 2 * (count + RIGID) + 24; // enough for all to converge, by the test against a dense solver
     if (steps > movable) steps = movable;
     *modes = (struct modes){0};
-    modes->frequency = calloc((size_t)count + 1, sizeof *modes->frequency);
-    modes->shape = calloc((size_t)(count + 1) * (size_t)body->node_count, sizeof *modes->shape);
-    struct lanczos lanczos = {0};
-    bool good = modes->frequency && modes->shape && steps > 0 && lanczos_create(&lanczos, body, steps);
-    if (good) {
-        prepare(&lanczos);
-        build(&lanczos);
-        stage_tell("finding the modes", steps, steps);
-        extract(&lanczos, modes, count);
-    }
+    modes->frequency = need_zeroed((size_t)count + 1, sizeof *modes->frequency);
+    modes->shape = need_zeroed((size_t)(count + 1) * (size_t)body->node_count, sizeof *modes->shape);
+    if (steps == 0) return;
+    struct lanczos lanczos;
+    lanczos_create(&lanczos, body, steps);
+    prepare(&lanczos);
+    build(&lanczos);
+    stage_tell("finding the modes", steps, steps);
+    extract(&lanczos, modes, count);
     lanczos_free(&lanczos);
-    if (!good) modes_free(modes);
-    return good;
 }
 
 void modes_free(struct modes *modes)

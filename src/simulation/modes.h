@@ -12,8 +12,8 @@ struct modes {
     double (*shape)[3]; ///< count × node_count rows: mode k of node i at [k · node_count + i]; φᵀMφ = 1
 };
 
-/// The `count` lowest ones, or as many as there are. False where memory is short.
-bool modes_create(struct modes *modes, struct body *body, int count);
+/// The `count` lowest ones, or as many as there are.
+void modes_create(struct modes *modes, struct body *body, int count);
 void modes_free(struct modes *modes);
 
 #endif

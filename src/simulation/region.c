@@ -1,5 +1,6 @@
 /// Reads and applies --pin.
 #include "simulation/region.h"
+#include "base/need.h"
 #include "base/srgb.h"
 #include <math.h>
 #include <stdio.h>
@@ -70,19 +71,17 @@ static bool has_color(const struct region *region, const float linear[3])
 static bool colored_nodes(const struct region *region, const struct lattice *lattice, const struct surface *surface,
                           const char *name, bool *inside, struct error *error)
 {
-    double *vertex = calloc((size_t)surface->vertex_count + 1, sizeof *vertex);
-    double *node = calloc((size_t)lattice->node_count + 1, sizeof *node);
-    bool good = vertex && node;
+    double *vertex = need_zeroed((size_t)surface->vertex_count + 1, sizeof *vertex);
+    double *node = need_zeroed((size_t)lattice->node_count + 1, sizeof *node);
     int found = 0;
-    for (int i = 0; good && surface->color && i < surface->vertex_count; i++) {
+    for (int i = 0; surface->color && i < surface->vertex_count; i++) {
         vertex[i] = has_color(region, surface->color[i]);
         found += vertex[i] > 0;
     }
-    good = good && lattice_spread(lattice, vertex, node);
-    for (int i = 0; good && i < lattice->node_count; i++) inside[i] = node[i] > 0.5;
+    lattice_spread(lattice, vertex, node);
+    for (int i = 0; i < lattice->node_count; i++) inside[i] = node[i] > 0.5;
     free(vertex);
     free(node);
-    if (!good) return fail_no_memory(error, name);
     return found > 0 || fail(error, ERROR_INPUT, "%s: no vertex has the colour %06X of --pin", name, region->color);
 }
 

@@ -25,7 +25,7 @@ struct region {
 /// H, none, plane:x,y,z,nx,ny,nz, sphere:x,y,z,r or color:RRGGBB. False if it is none of these.
 bool region_parse(const char *text, struct region *region);
 
-/// Which nodes of the lattice are in it, one a node. Errors: no vertex has the colour, no memory; `name` is the
+/// Which nodes of the lattice are in it, one a node. Errors: no vertex has the colour; `name` is the
 /// surface's.
 bool region_nodes(const struct region *region, const struct lattice *lattice, const struct surface *surface,
                   const char *name, bool *inside, struct error *error);

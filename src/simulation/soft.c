@@ -1,5 +1,6 @@
 /// Tunes a soft body to a frequency, and pins and shakes it.
 #include "simulation/soft.h"
+#include "base/need.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -27,8 +28,7 @@ static void measure(struct soft *soft, const struct surface *surface)
 static bool pin(struct soft *soft, const struct surface *surface, const struct region *region, const char *name,
                 struct error *error)
 {
-    bool *inside = calloc((size_t)soft->body.node_count + 1, sizeof *inside);
-    if (!inside) return fail_no_memory(error, name);
+    bool *inside = need_zeroed((size_t)soft->body.node_count + 1, sizeof *inside);
     bool good = region_nodes(region, &soft->lattice, surface, name, inside, error);
     for (int i = 0; good && i < soft->body.node_count; i++) {
         if (!inside[i]) continue;
@@ -48,17 +48,15 @@ static bool pin(struct soft *soft, const struct surface *surface, const struct r
 }
 
 /// Counts the parts of the lattice that nothing holds.
-static bool count_loose(struct soft *soft)
+static void count_loose(struct soft *soft)
 {
     const struct lattice *lattice = &soft->lattice;
-    bool *held = calloc((size_t)lattice->part_count + 1, sizeof *held);
-    if (!held) return false;
+    bool *held = need_zeroed((size_t)lattice->part_count + 1, sizeof *held);
     for (int e = 0; e < lattice->tet_count; e++) {
         for (int a = 0; a < 4; a++) held[lattice->part[e]] |= soft->body.pinned[lattice->tet[e][a]];
     }
     for (int p = 0; p < lattice->part_count; p++) soft->loose_parts += !held[p];
     free(held);
-    return true;
 }
 
 /// Heights between which nodes are pinned; both the lowest where none is.
@@ -112,11 +110,11 @@ static void find_shaken(struct soft *soft, const struct shake *shake)
 }
 
 /// Finds the modes with Young's modulus 1 and scales: frequencies go with its square root.
-static bool tune(struct soft *soft, const struct soft_options *options)
+static void tune(struct soft *soft, const struct soft_options *options)
 {
     soft->body.material = material_from(1, options->poisson);
-    if (!modes_create(&soft->modes, &soft->body, options->modes)) return false;
-    if (soft->modes.count == 0) return true;
+    modes_create(&soft->modes, &soft->body, options->modes);
+    if (soft->modes.count == 0) return;
     if (options->shake) find_shaken(soft, options->shake);
     soft->young =
         options->young > 0 ? options->young : pow(options->frequency / soft->modes.frequency[soft->shaken], 2);
@@ -125,7 +123,6 @@ static bool tune(struct soft *soft, const struct soft_options *options)
     double omega = 2 * M_PI * soft_frequency(soft);
     soft->alpha = options->damping * omega;
     soft->beta = options->damping / omega;
-    return true;
 }
 
 double soft_frequency(const struct soft *soft)
@@ -141,13 +138,16 @@ static bool make(struct soft *soft, const struct surface *surface, const char *n
     double foot = held->size < 0 ? 0.05 * soft->height : held->size;
     double layer = held->kind == REGION_FOOT ? soft->bottom + foot : NAN;
     if (!lattice_create(lattice, surface, options->tets, layer, name, error)) return false;
-    bool enough = body_create(&soft->body, (const double(*)[3])lattice->node, lattice->node_count,
-                              (const int(*)[4])lattice->tet, lattice->fraction, lattice->tet_count,
-                              material_from(1, options->poisson), options->density);
-    if (!enough) return fail_no_memory(error, name);
-    return pin(soft, surface, held, name, error) &&
-           softness_apply(&options->softness, lattice, surface, name, &soft->body, error) &&
-           ((count_loose(soft) && tune(soft, options)) || fail_no_memory(error, name));
+    bool whole = body_create(&soft->body, (const double(*)[3])lattice->node, lattice->node_count,
+                             (const int(*)[4])lattice->tet, lattice->fraction, lattice->tet_count,
+                             material_from(1, options->poisson), options->density);
+    if (!whole) return fail(error, ERROR_INPUT, "%s: the lattice has a tetrahedron without volume", name);
+    if (!pin(soft, surface, held, name, error) ||
+        !softness_apply(&options->softness, lattice, surface, name, &soft->body, error))
+        return false;
+    count_loose(soft);
+    tune(soft, options);
+    return true;
 }
 
 bool soft_create(struct soft *soft, const struct surface *surface, const char *name,

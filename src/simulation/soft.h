@@ -49,7 +49,7 @@ struct soft {
     int loose_parts;       ///< parts of the lattice without a pinned node
 };
 
-/// `name` is the surface's, for messages. Errors are the lattice's, the region's, the softness', no memory, everything pinned.
+/// `name` is the surface's, for messages. Errors are the lattice's, the region's, the softness', everything pinned.
 bool soft_create(struct soft *soft, const struct surface *surface, const char *name,
                  const struct soft_options *options, struct error *error);
 void soft_free(struct soft *soft);

@@ -1,6 +1,7 @@
 /// Weights of nodes, from vertices or from distances, and the elements' stiffness from these.
 #include "simulation/softness.h"
 #include "base/file.h"
+#include "base/need.h"
 #include "base/npy.h"
 #include "base/srgb.h"
 #include "simulation/vec3.h"
@@ -92,17 +93,17 @@ static bool weigh(const struct softness *softness, const struct lattice *lattice
     bool good = strcmp(softness->from, "color") == 0
                     ? weigh_color(surface, name, vertex, error)
                     : weigh_painted(softness->from, surface->vertex_count, vertex, error);
-    return good && (lattice_spread(lattice, vertex, node) || fail_no_memory(error, name));
+    if (good) lattice_spread(lattice, vertex, node);
+    return good;
 }
 
 bool softness_apply(const struct softness *softness, const struct lattice *lattice, const struct surface *surface,
                     const char *name, struct body *body, struct error *error)
 {
     if (!softness->from) return true;
-    double *vertex = calloc((size_t)surface->vertex_count + 1, sizeof *vertex);
-    double *node = calloc((size_t)lattice->node_count + 1, sizeof *node);
-    bool good = vertex && node;
-    good = good ? weigh(softness, lattice, surface, name, body, vertex, node, error) : fail_no_memory(error, name);
+    double *vertex = need_zeroed((size_t)surface->vertex_count + 1, sizeof *vertex);
+    double *node = need_zeroed((size_t)lattice->node_count + 1, sizeof *node);
+    const bool good = weigh(softness, lattice, surface, name, body, vertex, node, error);
     for (int e = 0; good && e < body->element_count; e++) {
         double weight = 0;
         for (int a = 0; a < 4; a++) weight += node[lattice->tet[e][a]] / 4;

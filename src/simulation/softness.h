@@ -16,7 +16,7 @@ struct softness {
 
 /// Sets the elements' stiffness. distance: w is the way through the body from the pinned nodes, 1 where it is longest. color:
 /// how bright the vertex is, 0 black, 1 white or brighter. FILE.npy: one number of 0 … 1 a vertex. Errors: no colours, nothing pinned,
-/// a file that does not fit, no memory; `name` is the surface's.
+/// a file that does not fit; `name` is the surface's.
 bool softness_apply(const struct softness *softness, const struct lattice *lattice, const struct surface *surface,
                     const char *name, struct body *body, struct error *error);
 

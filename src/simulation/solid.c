@@ -1,5 +1,6 @@
 /// Turns a surface's triangles to face outwards, and finds where it is open.
 #include "simulation/solid.h"
+#include "base/need.h"
 #include "base/stage.h"
 #include "model/adjacency.h"
 #include "simulation/vec3.h"
@@ -29,17 +30,15 @@ struct repair {
     int *patch;      ///< triangles, those of a patch one after the other
 };
 
-static bool weld(const struct surface *surface, uint32_t *name)
+static void weld(const struct surface *surface, uint32_t *name)
 {
-    struct spot *spots = malloc((size_t)surface->vertex_count * sizeof *spots);
-    if (!spots) return false;
+    struct spot *spots = need((size_t)surface->vertex_count, sizeof *spots);
     spots_sort((const float(*)[3])surface->position, surface->vertex_count, spots);
     for (int i = 0, first = 0; i < surface->vertex_count; i++) {
         if (!spots_meet(&spots[first], &spots[i])) first = i;
         name[spots[i].vertex] = (uint32_t)first;
     }
     free(spots);
-    return true;
 }
 
 // --- triangles with the same corners
@@ -59,14 +58,14 @@ static int compare_corners(const void *a, const void *b)
 }
 
 /// Leaves out triangles without area in the names, and all but the first of those with the same corners.
-static bool leave_out(struct repair *r, int *duplicates)
+static void leave_out(struct repair *r, int *duplicates)
 {
     struct surface *s = r->shape;
     const int triangles = s->index_count / 3;
-    struct corners *all = malloc(((size_t)triangles + 1) * sizeof *all);
-    uint8_t *dropped = calloc((size_t)triangles + 1, 1);
+    struct corners *all = need((size_t)triangles + 1, sizeof *all);
+    uint8_t *dropped = need_zeroed((size_t)triangles + 1, 1);
     int count = 0, kept = 0;
-    for (int t = 0; all && dropped && t < triangles; t++) {
+    for (int t = 0; t < triangles; t++) {
         struct corners c = {.triangle = t};
         for (int k = 0; k < 3; k++) {
             const uint32_t name = r->name[s->indices[3 * t + k]];
@@ -77,20 +76,18 @@ static bool leave_out(struct repair *r, int *duplicates)
         dropped[t] = c.name[0] == c.name[1] || c.name[1] == c.name[2];
         if (!dropped[t]) all[count++] = c;
     }
-    const bool good = all && dropped;
-    if (good) qsort(all, (size_t)count, sizeof *all, compare_corners);
-    for (int i = 1; good && i < count; i++) {
+    qsort(all, (size_t)count, sizeof *all, compare_corners);
+    for (int i = 1; i < count; i++) {
         if (memcmp(all[i].name, all[i - 1].name, sizeof all->name) != 0) continue;
         dropped[all[i].triangle] = 1;
         ++*duplicates;
     }
-    for (int t = 0; good && t < triangles; t++) {
+    for (int t = 0; t < triangles; t++) {
         if (!dropped[t]) memmove(s->indices + 3 * kept++, s->indices + 3 * t, 3 * sizeof *s->indices);
     }
-    if (good) s->index_count = 3 * kept;
+    s->index_count = 3 * kept;
     free(all);
     free(dropped);
-    return good;
 }
 
 // --- edges
@@ -289,13 +286,12 @@ static bool faces_inwards(const struct repair *r, int first, int count, int rays
     return votes > 0;
 }
 
-static bool turn_patches(struct repair *r)
+static void turn_patches(struct repair *r)
 {
     const int triangles = r->shape->index_count / 3;
-    uint8_t *reached = calloc((size_t)triangles + 1, 1);
+    uint8_t *reached = need_zeroed((size_t)triangles + 1, 1);
     const double whole = whole_area(r->shape);
     int left = (int)(TESTS_TOGETHER / (triangles + 40000));
-    if (!reached) return false;
     for (int start = 0, first = 0; start < triangles; start++) {
         if (reached[start]) continue;
         r->patch[first] = start;
@@ -309,7 +305,6 @@ static bool turn_patches(struct repair *r)
         first += count;
     }
     free(reached);
-    return true;
 }
 
 static int apply_turns(struct repair *r)
@@ -328,48 +323,42 @@ static int apply_turns(struct repair *r)
 /// Says how much of the repair is done: its parts take about as long as each other.
 static void tell(long parts) { stage_tell("mending the mesh", parts, 5); }
 
-static bool repair(struct solid *solid, struct repair *r)
+static void repair(struct solid *solid, struct repair *r)
 {
     tell(0);
-    if (!weld(&solid->shape, r->name)) return false;
+    weld(&solid->shape, r->name);
     tell(1);
-    if (!leave_out(r, &solid->duplicates)) return false;
+    leave_out(r, &solid->duplicates);
     tell(2);
     list_edges(r);
     join_neighbours(r);
     tell(3);
-    if (!turn_patches(r)) return false;
+    turn_patches(r);
     solid->open = count_open(r);
     solid->turned = apply_turns(r);
     tell(4);
-    const bool good = solid->open == 0 || winding_create(&solid->winding, &solid->shape);
+    if (solid->open > 0) winding_create(&solid->winding, &solid->shape);
     tell(5);
-    return good;
 }
 
-bool solid_create(struct solid *solid, const struct surface *surface)
+void solid_create(struct solid *solid, const struct surface *surface)
 {
     const size_t indices = (size_t)surface->index_count + 1;
     *solid = (struct solid){.shape = *surface};
-    solid->shape.indices = malloc(indices * sizeof *solid->shape.indices);
+    solid->shape.indices = need(indices, sizeof *solid->shape.indices);
     struct repair r = {.shape = &solid->shape,
-                       .name = malloc(((size_t)surface->vertex_count + 1) * sizeof *r.name),
-                       .edge = malloc(indices * sizeof *r.edge),
-                       .next = malloc(indices * sizeof *r.next),
-                       .turned = calloc(indices, sizeof *r.turned),
-                       .patch = malloc(indices * sizeof *r.patch)};
-    bool good = solid->shape.indices && r.name && r.edge && r.next && r.turned && r.patch;
-    if (good) {
-        memcpy(solid->shape.indices, surface->indices, (indices - 1) * sizeof *surface->indices);
-        good = repair(solid, &r);
-    }
+                       .name = need((size_t)surface->vertex_count + 1, sizeof *r.name),
+                       .edge = need(indices, sizeof *r.edge),
+                       .next = need(indices, sizeof *r.next),
+                       .turned = need_zeroed(indices, sizeof *r.turned),
+                       .patch = need(indices, sizeof *r.patch)};
+    memcpy(solid->shape.indices, surface->indices, (indices - 1) * sizeof *surface->indices);
+    repair(solid, &r);
     free(r.name);
     free(r.edge);
     free(r.next);
     free(r.turned);
     free(r.patch);
-    if (!good) solid_free(solid);
-    return good;
 }
 
 void solid_free(struct solid *solid)

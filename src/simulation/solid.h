@@ -16,8 +16,8 @@ struct solid {
     struct winding winding; ///< of an open one
 };
 
-/// The surface must outlive the solid. False where memory is short.
-bool solid_create(struct solid *solid, const struct surface *surface);
+/// The surface must outlive the solid.
+void solid_create(struct solid *solid, const struct surface *surface);
 void solid_free(struct solid *solid);
 
 /// What was done to the surface as one sentence without a full stop; "" where nothing was.

@@ -1,5 +1,6 @@
 /// Cuts a solid into elements by the tetrahedra of a lattice.
 #include "simulation/tiling.h"
+#include "base/need.h"
 #include <math.h>
 #include <stdint.h>
 #include <stdlib.h>
@@ -136,7 +137,7 @@ static void join_nodes(struct tiling *t, int *set, const uint64_t *tetrahedron, 
 }
 
 /// Numbers the sets of voxels: elements with their nodes' places and their size.
-static bool number_elements(struct tiling *t, int *set)
+static void number_elements(struct tiling *t, int *set)
 {
     const int *size = t->voxels.size;
     int count = (int)voxels_count(&t->voxels);
@@ -144,17 +145,15 @@ static bool number_elements(struct tiling *t, int *set)
         if (t->voxels.inside[i]) t->element[i] = union_root(set, i) == i ? t->count++ : t->element[set[i]];
     }
     size_t n = (size_t)t->count + 1;
-    t->filled = calloc(n, sizeof *t->filled);
-    t->key = calloc(n, sizeof *t->key);
-    t->node = calloc(n, sizeof *t->node);
-    t->part = calloc(n, sizeof *t->part);
-    if (!t->filled || !t->key || !t->node || !t->part) return false;
+    t->filled = need_zeroed(n, sizeof *t->filled);
+    t->key = need_zeroed(n, sizeof *t->key);
+    t->node = need_zeroed(n, sizeof *t->node);
+    t->part = need_zeroed(n, sizeof *t->part);
     for (int i = 0; i < count; i++) {
         if (t->element[i] < 0 || t->filled[t->element[i]]++ > 0) continue;
         const int voxel[3] = {i / (size[1] * size[2]), i / size[2] % size[1], i % size[2]};
         tetrahedron_at(&t->voxels, voxel, t->key[t->element[i]]);
     }
-    return true;
 }
 
 /// Each voxel's tetrahedron as one number: its face's middle and twice its edge's middle identify it.
@@ -196,11 +195,10 @@ static struct face face_of(const struct tiling *t, int element, int opposite)
 }
 
 /// Elements that share a face are one part.
-static bool find_parts(struct tiling *t)
+static void find_parts(struct tiling *t)
 {
     size_t count = (size_t)t->count * 4;
-    struct face *faces = calloc(count + 1, sizeof *faces);
-    if (!faces) return false;
+    struct face *faces = need_zeroed(count + 1, sizeof *faces);
     for (int e = 0; e < t->count; e++) {
         t->part[e] = e;
         for (int a = 0; a < 4; a++) faces[4 * e + a] = face_of(t, e, a);
@@ -212,14 +210,12 @@ static bool find_parts(struct tiling *t)
         }
     }
     free(faces);
-    return true;
 }
 
 /// Drops parts below a hundredth of the whole, but never the largest.
-static bool drop_crumbs(struct tiling *t)
+static void drop_crumbs(struct tiling *t)
 {
-    int *voxels = calloc((size_t)t->count + 1, sizeof *voxels), total = 0, largest = 0;
-    if (!voxels) return false;
+    int *voxels = need_zeroed((size_t)t->count + 1, sizeof *voxels), total = 0, largest = 0;
     for (int e = 0; e < t->count; e++) {
         t->part[e] = union_root(t->part, e);
         voxels[t->part[e]] += t->filled[e];
@@ -237,42 +233,36 @@ static bool drop_crumbs(struct tiling *t)
     for (int i = 0; i < count; i++) {
         if (t->element[i] >= 0 && t->part[t->element[i]] < 0) t->element[i] = -1;
     }
-    return true;
 }
 
 /// Elements, their nodes and their parts; `set` and `tetrahedron` have room for each voxel.
-static bool cut(struct tiling *t, int *set, uint64_t *tetrahedron)
+static void cut(struct tiling *t, int *set, uint64_t *tetrahedron)
 {
     name_tetrahedra(&t->voxels, tetrahedron, set);
     visit_neighbours(t, set, tetrahedron, join_voxels);
-    if (!number_elements(t, set)) return false;
-    int *nodes = calloc((size_t)t->count * 4 + 1, sizeof *nodes);
-    if (!nodes) return false;
+    number_elements(t, set);
+    int *nodes = need_zeroed((size_t)t->count * 4 + 1, sizeof *nodes);
     for (int i = 0; i < 4 * t->count; i++) nodes[i] = i;
     visit_neighbours(t, nodes, tetrahedron, join_nodes);
     for (int i = 0; i < 4 * t->count; i++) t->node[i / 4][i % 4] = union_root(nodes, i);
     free(nodes);
-    return find_parts(t) && drop_crumbs(t);
+    find_parts(t);
+    drop_crumbs(t);
 }
 
-bool tiling_create(struct tiling *t, const struct solid *solid, double cell, double layer)
+void tiling_create(struct tiling *t, const struct solid *solid, double cell, double layer)
 {
     *t = (struct tiling){0};
     lay_out(&t->voxels, &solid->shape, cell, layer);
-    if (!voxels_fill(&t->voxels, solid)) return false;
+    voxels_fill(&t->voxels, solid);
     size_t count = voxels_count(&t->voxels);
-    int *set = calloc(count, sizeof *set);
-    uint64_t *tetrahedron = calloc(count, sizeof *tetrahedron);
-    t->element = malloc(count * sizeof *t->element);
-    bool good = set && tetrahedron && t->element;
-    if (good) {
-        memset(t->element, 0xFF, count * sizeof *t->element); // −1
-        good = cut(t, set, tetrahedron);
-    }
+    int *set = need_zeroed(count, sizeof *set);
+    uint64_t *tetrahedron = need_zeroed(count, sizeof *tetrahedron);
+    t->element = need(count, sizeof *t->element);
+    memset(t->element, 0xFF, count * sizeof *t->element); // −1
+    cut(t, set, tetrahedron);
     free(set);
     free(tetrahedron);
-    if (!good) tiling_free(t);
-    return good;
 }
 
 void tiling_free(struct tiling *t)

@@ -23,8 +23,8 @@ struct tiling {
 double tiling_voxels(const struct surface *surface, double cell);
 
 /// Cuts the solid with cubes of edge `cell`, for which tiling_voxels() must fit an int. A layer of nodes lies at the height
-/// `layer` (y), unless that is NAN. False where memory is short.
-bool tiling_create(struct tiling *tiling, const struct solid *solid, double cell, double layer);
+/// `layer` (y), unless that is NAN.
+void tiling_create(struct tiling *tiling, const struct solid *solid, double cell, double layer);
 void tiling_free(struct tiling *tiling);
 
 /// Where a point of the lattice is, m.

@@ -5,6 +5,7 @@
 /// edge is exact in 64-bit integers; a point on an edge counts as moved by (ε, ε²). So no ray slips between two
 /// triangles or hits both, and the winding number returns to 0 in every column.
 #include "simulation/voxels.h"
+#include "base/need.h"
 #include "base/stage.h"
 #include <math.h>
 #include <stdlib.h>
@@ -21,7 +22,6 @@ struct crossing {
 struct crossings {
     struct crossing *items;
     size_t count, capacity;
-    bool failed;
 };
 
 struct point {
@@ -31,14 +31,8 @@ struct point {
 static void push(struct crossings *list, struct crossing crossing)
 {
     if (list->count == list->capacity) {
-        size_t capacity = list->capacity ? 2 * list->capacity : 4096;
-        struct crossing *items = realloc(list->items, capacity * sizeof *items);
-        if (!items) {
-            list->failed = true;
-            return;
-        }
-        list->items = items;
-        list->capacity = capacity;
+        list->capacity = list->capacity ? 2 * list->capacity : 4096;
+        list->items = need_more(list->items, list->capacity, sizeof *list->items);
     }
     list->items[list->count++] = crossing;
 }
@@ -126,7 +120,7 @@ static void fill(struct voxels *voxels, int column, double from, double to)
 }
 
 /// All crossings, column by column upwards.
-static bool find_crossings(const struct voxels *voxels, const struct surface *surface, struct crossings *list)
+static void find_crossings(const struct voxels *voxels, const struct surface *surface, struct crossings *list)
 {
     double side = voxels->spacing * fmax(voxels->size[0], voxels->size[1]);
     struct raster raster = {.voxels = voxels, .scale = (1 << 24) / side};
@@ -135,8 +129,7 @@ static bool find_crossings(const struct voxels *voxels, const struct surface *su
         rasterise(&raster, surface, surface->indices + i, list);
     }
     stage_tell("cutting the mesh into tetrahedra", surface->index_count, surface->index_count);
-    if (!list->failed && list->count) qsort(list->items, list->count, sizeof *list->items, compare);
-    return !list->failed;
+    if (list->count) qsort(list->items, list->count, sizeof *list->items, compare);
 }
 
 static void fill_closed(struct voxels *voxels, const struct crossings *list)
@@ -207,13 +200,12 @@ static void find_range(const struct voxels *v, const struct surface *surface, in
 }
 
 /// What is outside of the surface's box is outside.
-static bool fill_open(struct voxels *v, const struct solid *solid, const struct crossings *list)
+static void fill_open(struct voxels *v, const struct solid *solid, const struct crossings *list)
 {
     enum { STEP = 16 };
     int lo[3], hi[3];
     struct column c = {.voxels = v, .winding = &solid->winding};
-    c.crossed = malloc((size_t)v->size[2] * sizeof *c.crossed);
-    if (!c.crossed) return false;
+    c.crossed = need((size_t)v->size[2], sizeof *c.crossed);
     find_range(v, &solid->shape, lo, hi);
     size_t next = 0;
     for (c.i = lo[0]; c.i < hi[0]; c.i++) {
@@ -239,22 +231,18 @@ static bool fill_open(struct voxels *v, const struct solid *solid, const struct 
     }
     stage_tell("looking for the inside of the open mesh", 1, 1);
     free(c.crossed);
-    return true;
 }
 
-bool voxels_fill(struct voxels *voxels, const struct solid *solid)
+void voxels_fill(struct voxels *voxels, const struct solid *solid)
 {
     struct crossings list = {0};
-    voxels->inside = calloc(voxels_count(voxels), 1);
-    bool good = voxels->inside && find_crossings(voxels, &solid->shape, &list);
-    if (good && solid->open) {
-        good = fill_open(voxels, solid, &list);
-    } else if (good) {
+    voxels->inside = need_zeroed(voxels_count(voxels), 1);
+    find_crossings(voxels, &solid->shape, &list);
+    if (solid->open)
+        fill_open(voxels, solid, &list);
+    else
         fill_closed(voxels, &list);
-    }
     free(list.items);
-    if (!good) voxels_free(voxels);
-    return good;
 }
 
 void voxels_free(struct voxels *voxels)

@@ -16,8 +16,7 @@ struct voxels {
 };
 
 /// Fills `inside` for the given grid, which must hold the solid: where the winding number is not 0 or, of an open surface, above a half.
-/// False where memory is short.
-bool voxels_fill(struct voxels *voxels, const struct solid *solid);
+void voxels_fill(struct voxels *voxels, const struct solid *solid);
 void voxels_free(struct voxels *voxels);
 
 static inline size_t voxels_count(const struct voxels *voxels)

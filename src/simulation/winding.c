@@ -1,5 +1,6 @@
 /// A tree of triangles, and sums over it.
 #include "simulation/winding.h"
+#include "base/need.h"
 #include "simulation/vec3.h"
 #include <math.h>
 #include <stdlib.h>
@@ -93,19 +94,14 @@ static int build(struct winding *w, int first, int count, int depth)
     return number;
 }
 
-bool winding_create(struct winding *winding, const struct surface *surface)
+void winding_create(struct winding *winding, const struct surface *surface)
 {
     const int triangles = surface->index_count / 3;
     *winding = (struct winding){.surface = surface};
-    winding->order = malloc(((size_t)triangles + 1) * sizeof *winding->order);
-    winding->nodes = malloc((2 * (size_t)triangles + 1) * sizeof *winding->nodes);
-    if (!winding->order || !winding->nodes) {
-        winding_free(winding);
-        return false;
-    }
+    winding->order = need((size_t)triangles + 1, sizeof *winding->order);
+    winding->nodes = need(2 * (size_t)triangles + 1, sizeof *winding->nodes);
     for (int i = 0; i < triangles; i++) winding->order[i] = i;
     if (triangles > 0) build(winding, 0, triangles, 0);
-    return true;
 }
 
 void winding_free(struct winding *winding)

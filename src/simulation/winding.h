@@ -24,8 +24,8 @@ struct winding {
     int node_count;
 };
 
-/// The surface must outlive it. False where memory is short.
-bool winding_create(struct winding *winding, const struct surface *surface);
+/// The surface must outlive it.
+void winding_create(struct winding *winding, const struct surface *surface);
 void winding_free(struct winding *winding);
 
 double winding_at(const struct winding *winding, const double point[3]);
