@@ -190,8 +190,8 @@ static bool start(struct app *app, struct error *error)
     app->ui_scale = o->ui_scale > 0 ? o->ui_scale : app->replay ? replay_get_header(app->replay)->ui_scale : 1;
     if (!o->no_draw && !(app->draw = draw_create(scale, error))) return false;
     if (!app_open_editor(app, error)) return false;
-    if (!(app->table.history = history_create()) || !(app->table.models = models_create()))
-        return fail(error, ERROR_ENVIRONMENT, "out of memory");
+    app->table.models = models_create();
+    if (!(app->table.history = history_create())) return fail(error, ERROR_ENVIRONMENT, "out of memory");
     if (!app_open(app, o->scene, error)) return false;
     uint64_t hash = scene_hash(app->table.document);
     if (!check_scene(app, hash, error)) return false;

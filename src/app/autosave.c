@@ -2,6 +2,7 @@
 /// waits for the disk.
 #include "app/autosave.h"
 #include "base/clock.h"
+#include "base/need.h"
 #include "scene/snapshot.h"
 #include <math.h>
 #include <stdio.h>
@@ -75,9 +76,9 @@ static int run(void *user)
 
 struct autosave *autosave_open(const struct recovery_slot *slot, struct error *error)
 {
-    struct autosave *autosave = calloc(1, sizeof *autosave);
-    if (autosave) autosave->snapshot = snapshot_create();
-    if (autosave && autosave->snapshot) {
+    struct autosave *autosave = need_zeroed(1, sizeof *autosave);
+    autosave->snapshot = snapshot_create();
+    if (autosave->snapshot) {
         autosave->slot = *slot;
         autosave->taken = -INFINITY;
         mtx_init(&autosave->lock, mtx_plain);
@@ -85,7 +86,7 @@ struct autosave *autosave_open(const struct recovery_slot *slot, struct error *e
         cnd_init(&autosave->done);
         if (thrd_create(&autosave->thread, run, autosave) == thrd_success) return autosave;
     }
-    if (autosave) snapshot_destroy(autosave->snapshot);
+    snapshot_destroy(autosave->snapshot);
     free(autosave);
     struct recovery_slot unused = *slot;
     recovery_release(&unused);

@@ -2,6 +2,7 @@
 #include "app/exporting.h"
 #include "app/film.h"
 #include "app/state.h"
+#include "base/need.h"
 #include "rig/opened.h"
 #include "scene/load.h"
 #include <stdatomic.h>
@@ -51,7 +52,7 @@ static struct document *parse_copy(const struct document *document, const char *
     const char *end = memchr(text, '\0', size), *name = document->path ? document->path : "untitled";
     struct document *copy = scene_parse(name, text, end ? (size_t)(end - text) : size, NULL, error);
     if (!copy) return NULL;
-    if (document->folder) copy->folder = strdup(document->folder);
+    if (document->folder) copy->folder = need_text(document->folder);
     bool good = document_set_path(copy, document->path) || fail_no_memory(error, name);
     if (good && end) good = scene_parse_paint(copy, name, end + 1, size - (size_t)(end + 1 - text), error);
     if (good) return copy;
@@ -130,13 +131,12 @@ bool exporting_start(struct app *app, const struct request *request, struct erro
     if (app->export_job) return fail(error, ERROR_INPUT, "Another export is running.");
     if (!app->draw && film_knows(request->path))
         return fail(error, ERROR_ENVIRONMENT, "%s: pictures need OpenGL, which is not there", request->path);
-    struct export_job *job = calloc(1, sizeof *job);
-    if (!job) return fail_no_memory(error, request->path);
+    struct export_job *job = need_zeroed(1, sizeof *job);
     job->request = *request;
     struct opened *opened = &job->opened;
     opened->document = copy_document(app->table.document, error);
-    if (opened->document && !(opened->models = models_create())) fail_no_memory(error, request->path);
-    if (opened->models) {
+    if (opened->document) {
+        opened->models = models_create();
         job->threaded = thrd_create(&job->thread, work, job) == thrd_success;
         if (!job->threaded) fail(error, ERROR_ENVIRONMENT, "%s: no thread can be started", request->path);
     }

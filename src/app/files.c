@@ -4,6 +4,7 @@
 #include "app/state.h"
 #include "base/embedded.h"
 #include "base/file.h"
+#include "base/need.h"
 #include "base/path.h"
 #include "base/png.h"
 #include "base/printable.h"
@@ -53,7 +54,7 @@ void app_adopt(struct app *app, struct document *document)
 static struct document *built_in_place(struct document *document)
 {
     char folder[PATH_LIMIT];
-    if (document && assets_folder(folder)) document->folder = strdup(folder);
+    if (document && assets_folder(folder)) document->folder = need_text(folder);
     return document;
 }
 
@@ -198,8 +199,7 @@ bool app_screenshot(struct app *app, const char *path, struct error *error)
     float scale;
     if (!app->draw) return fail(error, ERROR_ENVIRONMENT, "%s: nothing is drawn, so there is no picture", path);
     platform_size(app->platform, &width, &height, &scale);
-    unsigned char *pixels = malloc(4 * (size_t)width * (size_t)height);
-    if (!pixels) return fail(error, ERROR_ENVIRONMENT, "out of memory for a picture of %d × %d", width, height);
+    unsigned char *pixels = need(4 * (size_t)width * (size_t)height, 1);
     app_draw_exactly(app);
     draw_read(width, height, pixels);
     bool done = png_write(path, width, height, pixels, error);

@@ -2,6 +2,7 @@
 #include "app/film.h"
 #include "app/film_file.h"
 #include "base/file.h"
+#include "base/need.h"
 #include "base/path.h"
 #include "draw/picture.h"
 #include "platform/platform.h"
@@ -117,11 +118,7 @@ static bool choose_shape(struct film *film, const struct film_options *options, 
 struct film *film_open(const struct editor_world *world, const char *path, const struct film_options *options,
                        struct error *error)
 {
-    struct film *film = calloc(1, sizeof *film);
-    if (!film) {
-        fail_no_memory(error, path);
-        return NULL;
-    }
+    struct film *film = need_zeroed(1, sizeof *film);
     film->format = find_format(path);
     film->path = path;
     film->world = *world;

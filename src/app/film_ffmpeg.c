@@ -1,6 +1,7 @@
 /// Films by ffmpeg, which gets raw pictures through its standard input and writes to a temporary file.
 #include "app/film_file.h"
 #include "base/file.h"
+#include "base/need.h"
 #include "platform/child.h"
 #include <stdlib.h>
 #include <string.h>
@@ -32,12 +33,8 @@ static struct film_file *open_encoder(const char *path, const struct film_shape 
     for (size_t i = 0; i < sizeof input / sizeof *input; i++) arguments[count++] = input[i];
     while (*coding) arguments[count++] = *coding++;
     arguments[count] = output_name;
-    struct film_file *file = calloc(1, sizeof *file);
+    struct film_file *file = need_zeroed(1, sizeof *file);
     bool missing = false;
-    if (!file) {
-        fail_no_memory(error, path);
-        return NULL;
-    }
     file->path = path;
     file->size = 4 * (size_t)shape->width * (size_t)shape->height;
     if (file_output_open(&file->output, path, error)) {

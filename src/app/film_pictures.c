@@ -1,6 +1,7 @@
 /// A film as numbered pictures: written into a folder beside, and moved out of it when all are there.
 #include "app/film_file.h"
 #include "base/file.h"
+#include "base/need.h"
 #include "base/path.h"
 #include "base/png.h"
 #include <ctype.h>
@@ -59,17 +60,13 @@ static bool name_temporary(const struct film_file *file, long number, char name[
 
 static struct film_file *open_pictures(const char *path, const struct film_shape *shape, struct error *error)
 {
-    struct film_file *file = calloc(1, sizeof *file);
-    if (file) {
-        file->path = path;
-        file->shape = *shape;
-        if (split(file, error)) {
-            file->lock = file_folder_beside(path, &file->folder);
-            if (file->lock >= 0) return file;
-            fail(error, ERROR_ENVIRONMENT, "%s: cannot be written: %s", path, strerror(errno));
-        }
-    } else {
-        fail_no_memory(error, path);
+    struct film_file *file = need_zeroed(1, sizeof *file);
+    file->path = path;
+    file->shape = *shape;
+    if (split(file, error)) {
+        file->lock = file_folder_beside(path, &file->folder);
+        if (file->lock >= 0) return file;
+        fail(error, ERROR_ENVIRONMENT, "%s: cannot be written: %s", path, strerror(errno));
     }
     free(file);
     return NULL;

@@ -7,6 +7,7 @@
 #include "app/settings.h"
 #include "app/state.h"
 #include "base/clock.h"
+#include "base/need.h"
 #include "base/path.h"
 #include "ui/theme.h"
 #include <math.h>
@@ -228,8 +229,7 @@ static void start_autosave(struct app *app)
 void personal_start(struct app *app)
 {
     const struct app_options *o = app->options;
-    app->personal = calloc(1, sizeof *app->personal);
-    if (!app->personal) return;
+    app->personal = need_zeroed(1, sizeof *app->personal);
     start_autosave(app);
     if (o->record || o->frames) return; // a script must not depend on who runs it
     start_settings(app);

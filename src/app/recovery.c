@@ -1,6 +1,7 @@
 /// Slots of recovery files, locked by the program that uses them.
 #include "app/recovery.h"
 #include "base/file.h"
+#include "base/need.h"
 #include "base/path.h"
 #include "scene/load.h"
 #include <errno.h>
@@ -156,7 +157,7 @@ struct document *recovery_read(const struct recovery_slot *slot, struct error *e
         const char *text = line_end + 1;
         text += parse_stamp(text, &stamp);
         document = parse_work(slot->path, text, size - (size_t)(text - data), error);
-        if (document) document->folder = strdup(RECOVERY_FOLDER);
+        if (document) document->folder = need_text(RECOVERY_FOLDER);
     } else {
         fail(error, ERROR_INPUT, "%s:1: expected \"%s\", got something else", slot->path, first_line);
     }

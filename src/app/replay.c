@@ -1,6 +1,7 @@
 /// Reads and writes replays, and turns their lines into events.
 #include "app/replay.h"
 #include "base/file.h"
+#include "base/need.h"
 #include <ctype.h>
 #include <inttypes.h>
 #include <math.h>
@@ -176,15 +177,10 @@ static struct replay *finish(struct replay *replay, size_t size, struct error *e
     return NULL;
 }
 
-static struct replay *create(const char *path, struct error *error)
+static struct replay *create(const char *path)
 {
-    struct replay *replay = calloc(1, sizeof *replay);
-    if (replay) replay->path = strdup(path);
-    if (!replay || !replay->path) {
-        replay_destroy(replay);
-        fail(error, ERROR_ENVIRONMENT, "out of memory for the replay %s", path);
-        return NULL;
-    }
+    struct replay *replay = need_zeroed(1, sizeof *replay);
+    replay->path = need_text(path);
     replay->header.scale = replay->header.ui_scale = 1;
     replay->header.frames = -1;
     replay->next_line = 1;
@@ -194,22 +190,17 @@ static struct replay *create(const char *path, struct error *error)
 struct replay *replay_load(const char *path, struct error *error)
 {
     size_t size = 0;
-    struct replay *replay = create(path, error);
-    if (!replay || file_read(path, MAX_REPLAY, &replay->text, &size, error))
-        return replay ? finish(replay, size, error) : NULL;
+    struct replay *replay = create(path);
+    if (file_read(path, MAX_REPLAY, &replay->text, &size, error)) return finish(replay, size, error);
     replay_destroy(replay);
     return NULL;
 }
 
 struct replay *replay_parse(const char *name, const char *text, size_t size, struct error *error)
 {
-    struct replay *replay = create(name, error);
-    if (!replay) return NULL;
-    replay->text = strndup(text, size);
-    if (replay->text) return finish(replay, size, error);
-    replay_destroy(replay);
-    fail(error, ERROR_ENVIRONMENT, "out of memory for the replay %s", name);
-    return NULL;
+    struct replay *replay = create(name);
+    replay->text = memcpy(need_zeroed(size + 1, 1), text, size);
+    return finish(replay, size, error);
 }
 
 void replay_destroy(struct replay *replay)
@@ -421,13 +412,8 @@ struct recording {
 
 struct recording *recording_open(const char *path, const struct replay_header *header, struct error *error)
 {
-    struct recording *recording = calloc(1, sizeof *recording);
-    if (recording) recording->path = strdup(path);
-    if (!recording || !recording->path) {
-        free(recording);
-        fail(error, ERROR_ENVIRONMENT, "out of memory for the recording %s", path);
-        return NULL;
-    }
+    struct recording *recording = need_zeroed(1, sizeof *recording);
+    recording->path = need_text(path);
     recording->file = file_open_growing(path, error);
     if (!recording->file) {
         free(recording->path);

@@ -1,6 +1,7 @@
 /// Reads and writes the settings file.
 #include "app/settings.h"
 #include "base/file.h"
+#include "base/need.h"
 #include "base/path.h"
 #include <errno.h>
 #include <fcntl.h>
@@ -39,15 +40,10 @@ static void drop(struct settings *settings, int at)
 /// Inserts a line at `at`, if there is room.
 static void insert(struct settings *settings, int at, const char *key, const char *value)
 {
-    struct line line = {key ? strdup(key) : NULL, strdup(value)};
-    if (settings->count == MAX_LINES || !line.value || (key && !line.key)) {
-        free(line.key);
-        free(line.value);
-        return;
-    }
+    if (settings->count == MAX_LINES) return;
     memmove(&settings->lines[at + 1], &settings->lines[at],
             (size_t)(settings->count - at) * sizeof settings->lines[0]);
-    settings->lines[at] = line;
+    settings->lines[at] = (struct line){key ? need_text(key) : NULL, need_text(value)};
     settings->count++;
 }
 
@@ -76,12 +72,12 @@ static void read_line(struct settings *settings, const char *path, int number, c
 
 struct settings *settings_load(const char *path, struct error *error)
 {
-    struct settings *settings = calloc(1, sizeof *settings);
+    struct settings *settings = need_zeroed(1, sizeof *settings);
     char *data, *rest;
     size_t size;
     *error = (struct error){0};
-    if (settings) settings->lock = -1;
-    if (!settings || access(path, F_OK) != 0 || !file_read(path, LARGEST, &data, &size, error)) return settings;
+    settings->lock = -1;
+    if (access(path, F_OK) != 0 || !file_read(path, LARGEST, &data, &size, error)) return settings;
     rest = data;
     for (int number = 1; rest && *rest && number <= MAX_LINES; number++) {
         char *line = strsep(&rest, "\n");
@@ -110,11 +106,7 @@ struct settings *settings_open(const char *path, struct error *error)
 {
     const int lock = lock_folder(path);
     struct settings *settings = settings_load(path, error);
-    if (settings) {
-        settings->lock = lock;
-    } else if (lock >= 0) {
-        close(lock);
-    }
+    settings->lock = lock;
     return settings;
 }
 

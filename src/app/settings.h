@@ -14,7 +14,7 @@
 struct settings;
 
 /// Reads a settings file; a missing one counts as empty. For a broken line or an unreadable file, `error` gets one sentence
-/// (else ERROR_NONE) and defaults apply. NULL only if memory is short.
+/// (else ERROR_NONE) and defaults apply.
 struct settings *settings_load(const char *path, struct error *error);
 
 /// The same to change them: another program that does so waits for settings_free(), at most five seconds.

@@ -1,6 +1,7 @@
 /// A frame of the document on the table: edit, solve, pose, show.
 #include "app/table.h"
 #include "base/clock.h"
+#include "base/need.h"
 #include "rig/clip_motion.h"
 #include "rig/pinning.h"
 #include "scene/load.h"
@@ -21,9 +22,7 @@ static bool fit_evaluation(struct table *table, bool resized, struct error *erro
     if (!evaluation_resize(&table->evaluation, table->document, error)) return false;
     if (!resized) return true;
     size_t count = table->document->spline_count > 0 ? (size_t)table->document->spline_count : 1;
-    bool *dirty = realloc(table->dirty, count * sizeof *dirty);
-    if (!dirty) return fail(error, ERROR_ENVIRONMENT, "out of memory for %zu splines", count);
-    table->dirty = dirty;
+    table->dirty = need_more(table->dirty, count, sizeof *table->dirty);
     return true;
 }
 

@@ -96,7 +96,6 @@ static bool check_document(const char *path, struct document *document, struct p
                            struct error *error)
 {
     struct models *models = models_create();
-    if (!models) return fail_no_memory(error, path);
     const bool good = check_models(path, document, models, problems);
     const bool done = check_solution(path, document, models, problems, error);
     models_destroy(models);

@@ -1,5 +1,6 @@
 /// Makes scenes for glTF characters.
 #include "rig/import.h"
+#include "base/need.h"
 #include "base/path.h"
 #include "model/character.h"
 #include <fcntl.h>
@@ -150,7 +151,7 @@ struct document *import_scene(const char *path, struct error *error)
     struct document *document = document_create();
     bool added = history && document;
     if (!added) fail_no_memory(error, path);
-    if (added && path_folder(path, folder) && folder[0]) document->folder = strdup(folder);
+    if (added && path_folder(path, folder) && folder[0]) document->folder = need_text(folder);
     if (added) {
         history_begin(history, "Import", 0);
         added = import_add(history, document, path, -1, error);

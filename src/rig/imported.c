@@ -12,9 +12,8 @@ bool imported_read(struct imported *imported, const char *path, struct error *er
     }
     gltf_pose_clip(&imported->gltf, -1, 0.0, &imported->rest);
     gltf_pose_world(&imported->gltf, &imported->rest);
-    if (skeleton_create(&imported->gltf, &imported->rest, &imported->skeleton)) return true;
-    imported_free(imported);
-    return fail_no_memory(error, path);
+    skeleton_create(&imported->gltf, &imported->rest, &imported->skeleton);
+    return true;
 }
 
 void imported_free(struct imported *imported)

@@ -1,5 +1,6 @@
 /// Keeps models by path.
 #include "rig/model_files.h"
+#include "base/need.h"
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -63,12 +64,8 @@ static bool read_figure(struct figure *figure, const char *path, struct error *e
 
 static struct model_file *read_file(const char *path, enum model_kind kind, struct error *error)
 {
-    struct model_file *file = calloc(1, sizeof *file);
-    if (!file || !(file->path = strdup(path))) {
-        free(file);
-        fail_no_memory(error, path);
-        return NULL;
-    }
+    struct model_file *file = need_zeroed(1, sizeof *file);
+    file->path = need_text(path);
     file->kind = kind;
     if (kind == MODEL_FIGURE ? read_figure(&file->figure, path, error) : imported_read(&file->imported, path, error))
         return file;
@@ -77,18 +74,15 @@ static struct model_file *read_file(const char *path, enum model_kind kind, stru
 }
 
 /// Puts a file that was read in the place of an older one, or (`at` −1) adds it.
-static bool keep(struct model_files *files, int at, struct model_file *file)
+static void keep(struct model_files *files, int at, struct model_file *file)
 {
     if (at >= 0) {
         file_destroy(files->files[at]);
         files->files[at] = file;
-        return true;
+        return;
     }
-    struct model_file **larger = realloc(files->files, ((size_t)files->count + 1) * sizeof(struct model_file *));
-    if (!larger) return false;
-    files->files = larger;
+    files->files = need_more(files->files, (size_t)files->count + 1, sizeof *files->files);
     files->files[files->count++] = file;
-    return true;
 }
 
 /// The model in a file, read again only if the file has changed; NULL with a sentence.
@@ -103,10 +97,8 @@ static const struct model_file *obtain(struct model_files *files, const char *pa
     if (!file) return NULL;
     file->changed = about.st_mtim;
     file->size = about.st_size;
-    if (keep(files, at, file)) return file;
-    file_destroy(file);
-    fail_no_memory(error, path);
-    return NULL;
+    keep(files, at, file);
+    return file;
 }
 
 const struct figure *model_files_figure(struct model_files *files, const char *path, struct error *error)

@@ -1,5 +1,6 @@
 /// Reads the models of a document's characters, and keeps them by path.
 #include "rig/models.h"
+#include "base/need.h"
 #include "base/path.h"
 #include "rig/bones.h"
 #include "rig/model_files.h"
@@ -31,7 +32,7 @@ struct models {
     uint64_t version;
 };
 
-struct models *models_create(void) { return calloc(1, sizeof(struct models)); }
+struct models *models_create(void) { return need_zeroed(1, sizeof(struct models)); }
 
 bool models_grow(struct models *models, const struct document *document, const struct evaluation *evaluation)
 {
@@ -138,12 +139,8 @@ static void update_characters(struct models *models, const struct document *docu
 {
     drop_characters(models);
     const int count = document_count_rigs(document, RIG_CHARACTER);
-    struct character_model *characters = realloc(models->characters, ((size_t)count + 1) * sizeof *characters);
-    if (!characters) {
-        fail(first, ERROR_ENVIRONMENT, "not enough memory for the characters");
-        return;
-    }
-    models->characters = characters;
+    struct character_model *characters = models->characters =
+        need_more(models->characters, (size_t)count + 1, sizeof *characters);
     int rig = document_next_rig(document, RIG_CHARACTER, 0);
     for (int i = 0; i < count; i++, rig = document_next_rig(document, RIG_CHARACTER, rig + 1)) {
         struct error trouble = {0};
@@ -167,8 +164,7 @@ static bool place_model(struct models *models, const struct document *document, 
                         struct placed_model *placed, struct error *error)
 {
     char path[PATH_LIMIT];
-    *placed = (struct placed_model){.path = strdup(rig->model)};
-    if (!placed->path) return fail_no_memory(error, rig->model);
+    *placed = (struct placed_model){.path = need_text(rig->model)};
     if (!resolve(document, rig->model, path, error)) return false;
     const struct imported *imported = model_files_imported(&models->files, path, error);
     if (!imported) return false;
@@ -183,12 +179,7 @@ static void update_placed(struct models *models, const struct document *document
 {
     drop_placed(models);
     const int count = document_count_rigs(document, RIG_MODEL);
-    struct placed_model *placed = realloc(models->placed, ((size_t)count + 1) * sizeof *placed);
-    if (!placed) {
-        fail(first, ERROR_ENVIRONMENT, "not enough memory for the characters");
-        return;
-    }
-    models->placed = placed;
+    struct placed_model *placed = models->placed = need_more(models->placed, (size_t)count + 1, sizeof *placed);
     int rig = document_next_rig(document, RIG_MODEL, 0);
     for (int i = 0; i < count; i++, rig = document_next_rig(document, RIG_MODEL, rig + 1)) {
         struct error trouble = {0};

@@ -10,7 +10,6 @@
 
 struct models;
 
-/// NULL if memory is short.
 struct models *models_create(void);
 void models_destroy(struct models *models);
 
@@ -23,7 +22,7 @@ bool models_update(struct models *models, const struct document *document, struc
 bool models_suit(const struct models *models, const struct document *document);
 
 /// Applies the document's paint to the figures of its characters: call it once a frame after models_update(), before posing.
-/// Only changes cost time, and only the first paint on a character allocates; if memory is short, or the paint is for
+/// Only changes cost time, and only the first paint on a character allocates; if the paint is for
 /// another model, the character stays plain.
 void models_paint(struct models *models, const struct document *document);
 

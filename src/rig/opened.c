@@ -6,10 +6,9 @@
 #include "scene/load.h"
 #include "scene/pins.h"
 
-static bool read_models(struct opened *opened, const char *path, struct error *error)
+static bool read_models(struct opened *opened, struct error *error)
 {
     opened->models = models_create();
-    if (!opened->models) return fail_no_memory(error, path);
     return scene_read_paint(opened->document, error) && models_update(opened->models, opened->document, error);
 }
 
@@ -19,7 +18,7 @@ static bool read_any(struct opened *opened, const char *path, bool with_models, 
         (struct opened){.document = import_suits(path) ? import_scene(path, error) : scene_load(path, NULL, error)};
     if (!opened->document) return false;
     if (!with_models && opened->document->motions.count == 0 && !pins_hold_any(opened->document)) return true;
-    if (read_models(opened, path, error)) return true;
+    if (read_models(opened, error)) return true;
     opened_free(opened);
     return false;
 }

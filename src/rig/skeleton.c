@@ -1,5 +1,6 @@
 /// Finds the bones of an imported character.
 #include "rig/skeleton.h"
+#include "base/need.h"
 #include "model/vector.h"
 #include <stdlib.h>
 
@@ -46,20 +47,16 @@ static void list_bones(const struct gltf *gltf, const struct gltf_pose *rest, co
     }
 }
 
-bool skeleton_create(const struct gltf *gltf, const struct gltf_pose *rest, struct skeleton *skeleton)
+void skeleton_create(const struct gltf *gltf, const struct gltf_pose *rest, struct skeleton *skeleton)
 {
     const size_t count = (size_t)gltf->node_count + 1;
-    bool *is_bone = calloc(count, sizeof *is_bone);
-    int *children = calloc(count, sizeof *children); // that are bones
-    *skeleton = (struct skeleton){.bones = calloc(2 * count, sizeof *skeleton->bones)};
-    const bool whole = is_bone && children && skeleton->bones;
-    if (whole) {
-        mark_joints(gltf, is_bone);
-        list_bones(gltf, rest, is_bone, children, skeleton);
-    }
+    bool *is_bone = need_zeroed(count, sizeof *is_bone);
+    int *children = need_zeroed(count, sizeof *children); // that are bones
+    *skeleton = (struct skeleton){.bones = need_zeroed(2 * count, sizeof *skeleton->bones)};
+    mark_joints(gltf, is_bone);
+    list_bones(gltf, rest, is_bone, children, skeleton);
     free(is_bone);
     free(children);
-    return whole;
 }
 
 void skeleton_free(struct skeleton *skeleton)

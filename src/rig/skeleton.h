@@ -18,8 +18,7 @@ struct skeleton {
     int count; ///< one for each pair of joints, one for each tip
 };
 
-/// false if memory is short.
-bool skeleton_create(const struct gltf *gltf, const struct gltf_pose *rest, struct skeleton *skeleton);
+void skeleton_create(const struct gltf *gltf, const struct gltf_pose *rest, struct skeleton *skeleton);
 void skeleton_free(struct skeleton *skeleton);
 
 /// Where a bone begins and ends in a pose, in the character's space.
