@@ -19,12 +19,13 @@
 enum { CAN_STARVE = 0 }; // the sanitizer's allocator is in the way
 static atomic_long allocations;
 static long starve_at;
-static int starve_on;
+static int starve_on, starve_on_last;
 #else
 enum { CAN_STARVE = 1 };
 static atomic_long allocations; ///< since it was set to 0
 static long starve_at = -1;     ///< the allocation that fails; negative: none
 static int starve_on;           ///< so do those after it
+static int starve_on_last;      ///< as it was in the last run
 
 void *__libc_malloc(size_t size);
 void *__libc_calloc(size_t count, size_t size);
@@ -78,9 +79,13 @@ static inline int starve_once(starved *run, void *user, long at, int on, long *c
     return status;
 }
 
+/// What must hold after a run that has ended with that status, or was ended by need(): looked at from outside.
+typedef void starve_check(void *user, int status);
+
 /// Each allocation fails, by itself and with all after it: in at most so many runs, for which the two take turns and every so many
-/// allocations fail, by a fixed stride; a twelfth of that in `make test`, all of them both ways where STARVE_ALL is set. What runs ends by itself, and some of it with an error.
-static inline void starve(const char *what, starved *run, void *user, long most)
+/// allocations fail, by a fixed stride; a twelfth of that in `make test`, all of them both ways where STARVE_ALL is set. What runs ends by
+/// itself, and some of it with an error. `check` may be NULL.
+static inline void starve_checked(const char *what, starved *run, starve_check *check, void *user, long most)
 {
     long all = 0, refused = 0, runs = 0;
     if (!is_thorough()) most = 8 + most / 12;
@@ -90,15 +95,22 @@ static inline void starve(const char *what, starved *run, void *user, long most)
     const int both = getenv("STARVE_ALL") || 2 * all <= most;
     const long stride = both || all <= most ? 1 : (all + most - 1) / most;
     for (long k = 0; k < all; k += both ? runs % 2 : stride, runs++) {
-        status = starve_once(run, user, k, (int)(runs % 2), NULL);
+        starve_on_last = (int)(runs % 2);
+        status = starve_once(run, user, k, starve_on_last, NULL);
         if (!WIFEXITED(status)) fail_msg("%s: signal %d at allocation %ld of %ld", what, WTERMSIG(status), k, all);
         if (WEXITSTATUS(status) > 3)
             fail_msg("%s: wrong (%d) at allocation %ld of %ld", what, WEXITSTATUS(status), k, all);
+        if (check) check(user, WEXITSTATUS(status));
         refused += WEXITSTATUS(status) != 0;
     }
     if (refused == 0) fail_msg("%s: none of %ld failures was noticed", what, runs);
     print_message("           %s: %ld runs, every %ld. of %ld allocations failed%s\n", what, runs, stride, all,
                   both ? " both ways" : "");
+}
+
+static inline void starve(const char *what, starved *run, void *user, long most)
+{
+    starve_checked(what, run, NULL, user, most);
 }
 
 #endif

@@ -1,18 +1,20 @@
-/// Each allocation fails once: no signal, and no success that is none.
+/// Each allocation fails once: no signal, no success that is none, nothing half-written, one sentence, and unsaved work is kept.
 #include "gltf_builder.h"
 #include "starve.h"
 
 #include "app/autosave.h"
-#include "app/state.h"
 #include "base/file.h"
 #include "base/json.h"
 #include "base/lapack.h"
 #include "base/png.h"
+#include "blind.h"
 #include "commands/commands.h"
 #include "folder.h"
 #include "platform/surface.h"
 #include "scene/load.h"
 #include "ui/font.h"
+#include <dirent.h>
+#include <sys/mman.h>
 #include <time.h>
 
 /// The fonts as the app reads and rasterises them.
@@ -94,7 +96,6 @@ static char *content(const char *path, size_t *size)
     return file_read(path, (size_t)1 << 30, &data, size, NULL) ? data : NULL;
 }
 
-/// Where it says that it is done, the file is what it always is; where not, there is none, and one sentence says why.
 static int run_job(void *user)
 {
     struct job *job = user;
@@ -112,22 +113,31 @@ static int run_job(void *user)
     if (job->output[0]) unlink(job->output);
     atomic_store(&allocations, 0);
     starve_at = at;
-    int status = job->run(argc, argv);
+    const int status = job->run(argc, argv);
     starve_at = -1;
-    size_t size = 0;
-    if (status == 0 && job->output[0] && job->expected) {
-        char *bytes = content(job->output, &size);
-        if (!bytes || size != job->size || memcmp(bytes, job->expected, size) != 0) status = 5;
-    } else if (status != 0 && job->output[0] && access(job->output, F_OK) == 0) {
-        char *bytes = content(job->output, &size); // the first of two files
-        if (!bytes || size != job->size || memcmp(bytes, job->expected, size) != 0) status = 6;
-    }
     fflush(stdout);
-    if (status != 0 && status <= 3 && !getenv("STARVE_LOUD")) {
-        char *said = content(errors, &size);
-        if (!said || size == 0) status = 7;
-    }
     return status;
+}
+
+static int is_unfinished(const struct dirent *entry) { return strncmp(entry->d_name, ".wiggly-", 8) == 0; }
+
+/// Where it says that it is done, the file is what it always is; where not, there is none, and one sentence says why.
+static void check_job(void *user, int status)
+{
+    const struct job *job = user;
+    struct dirent **entries = NULL;
+    size_t size = 0;
+    char *bytes = job->output[0] && access(job->output, F_OK) == 0 ? content(job->output, &size) : NULL;
+    if (status == 0 && job->output[0] && !bytes) fail_msg("%s: nothing is written", job->line);
+    if (bytes && (size != job->size || memcmp(bytes, job->expected, size) != 0)) // or the first of two files
+        fail_msg("%s: status %d, and something else is written", job->line, status);
+    free(bytes);
+    assert_int_equal(scandir(folder, &entries, is_unfinished, NULL), 0);
+    free(entries);
+    if (status == 0 || getenv("STARVE_LOUD")) return;
+    char *said = content(folder_path("errors"), &size);
+    if (!said || size == 0 || !strstr(said, "memory")) fail_msg("%s: status %d says '%s'", job->line, status, said);
+    free(said);
 }
 
 /// A command with `%s` for the test's folder.
@@ -141,7 +151,7 @@ static void starve_command(int (*run)(int argc, char **argv), const char *output
     if (!WIFEXITED(status) || WEXITSTATUS(status) != 0)
         fail_msg("%s: status %x with all of its memory", line, status);
     if (output) job.expected = content(job.output, &job.size);
-    starve(line, run_job, &job, most);
+    starve_checked(line, run_job, check_job, &job, most);
     free(job.expected);
 }
 
@@ -291,57 +301,104 @@ static void simulate_and_analyze(void **state)
     lapack_unload(&lapack);
 }
 
-/// A short session: start, an edit, playing, undo, saving, opening a figure, exporting.
-static int session(void *user)
+enum { STEPS = 12 };
+
+/// A session of so many frames, and how many of them the process has made: it is shared with the process that looks on.
+struct session {
+    char path[128];
+    char *after[STEPS + 1]; ///< the document after each frame, and at first, with all of the memory
+    int *done;
+};
+
+static char *text_of(const struct document *document)
+{
+    char *text = NULL;
+    size_t capacity = 0, size = 0;
+    return scene_print_into(document, RECOVERY_FOLDER, &text, &capacity, &size) ? text : NULL;
+}
+
+/// A short session at a desk: start, edits, playing, undo, opening a figure, copying. `seen` (NULL: nobody) is handed the document after each frame.
+static int run_session(struct session *session,
+                       void (*seen)(struct session *session, const struct document *document))
 {
     static const struct {
         int key;
         unsigned mods;
-    } keys[] = {{'I', 0},        {' ', 0},        {'Z', MOD_CTRL}, {'Y', MOD_CTRL}, {'N', MOD_SHIFT}, {'S', MOD_CTRL},
-                {'3', MOD_CTRL}, {'C', MOD_CTRL}, {'F', 0},        {'O', MOD_CTRL}, {KEY_ESCAPE, 0},  {KEY_F1, 0}};
-    const char *path = user;
+    } keys[STEPS] = {{KEY_ESCAPE, 0},  {KEY_RIGHT, 0},  {'I', 0}, {' ', 0},        {'Z', MOD_CTRL}, {'Y', MOD_CTRL},
+                     {'N', MOD_SHIFT}, {'3', MOD_CTRL}, {'F', 0}, {'C', MOD_CTRL}, {KEY_F1, 0},     {KEY_ESCAPE, 0}};
     struct error error = {0};
-    struct app app = {0};
-    struct app_options options = {.scene = path, .headless = true};
+    struct blind blind;
+    struct app *app = &blind.app;
     const long at = starve_at;
-    starve_at = -1;
-    app.platform = calloc(1, sizeof *app.platform); // the window is not what is starved
+    starve_at = -1; // what is starved begins with the first frame
+    blind_open(&blind, session->path);
+    mtx_init(&app->working, mtx_timed);
+    personal_start(app);
+    app_rescue_without_memory(app);
+    *session->done = 0;
+    if (seen) seen(session, app->table.document);
+    history_mark_unsaved(app->table.history);
     atomic_store(&allocations, 0);
     starve_at = at;
-    app.options = &options;
-    app.fixed_clock = true;
-    bool good = font_init(&error) && (app.table.editor = editor_create(&error)) &&
-                (app.table.history = history_create()) && (app.table.models = models_create());
-    if (good) {
-        app_connect_files(&app);
-        app_resize(&app, 1280, 720, 1);
-        good = app_open(&app, path, &error);
-    }
-    for (size_t i = 0; good && i < sizeof keys / sizeof *keys; i++) {
+    for (int i = 0; !app->failed && i < STEPS; i++) {
         const struct event event = {
             .kind = EVENT_KEY, .key = keys[i].key, .mods = keys[i].mods, .action = ACTION_PRESS};
-        event_queue_push(&app.platform->queue, &event);
-        app_frame(&app);
-        good = !app.failed;
+        event_queue_push(&app->platform->queue, &event);
+        app_frame(app);
+        *session->done = i + 1;
+        if (seen) seen(session, app->table.document);
     }
-    app_free(&app);
     starve_at = -1;
-    struct document *document = scene_load(path, NULL, &error);
-    if (!document) return 8; // old or new, but whole
-    document_destroy(document);
+    const bool good = !app->failed;
+    if (!good) app_rescue(app, &error);
+    personal_end(app, !good);
     return good ? 0 : 3;
+}
+
+static void keep_text(struct session *session, const struct document *document)
+{
+    session->after[*session->done] = text_of(document);
+}
+
+static int session(void *user) { return run_session(user, NULL); }
+
+/// The recovery file holds the document as it was after the last frame, or as the one that was begun has left it. Where there is never any memory
+/// again, edits before that may have been refused, and there may be no file.
+static void check_session(void *user, int status)
+{
+    const struct session *session = user;
+    const int done = *session->done;
+    char path[128], *data = NULL;
+    size_t size;
+    snprintf(path, sizeof path, "%s/wiggly/recovery-1", folder_path("state"));
+    const bool kept = status != 0 && file_read(path, 1 << 24, &data, &size, NULL);
+    unlink(path);
+    if (starve_on_last) return;
+    if (status != 0 && !kept) fail_msg("the work of %d frames is lost", done);
+    if (!kept) return;
+    const char *text = strchr(data, '\n') + 1;
+    if (strncmp(text, "file ", 5) == 0) text = strchr(text, '\n') + 1;
+    const bool as_before = strcmp(text, session->after[done]) == 0;
+    if (!as_before && !(done < STEPS && strcmp(text, session->after[done + 1]) == 0))
+        fail_msg("after %d frames the recovery file holds\n%s", done, text);
+    free(data);
 }
 
 static void a_session(void **state)
 {
     (void)state;
-    char path[128];
     static const char scene[] = "{\"wiggly\": 1, \"frames\": [0, 48], \"splines\": [{\"name\": \"s\", \"knots\": "
                                 "[{\"frame\": 0, \"value\": 0}, {\"frame\": 36, \"value\": 1}]}], \"rigs\": "
                                 "[{\"type\": \"tail\", \"name\": \"tail\", \"spline\": \"s\"}]}";
-    snprintf(path, sizeof path, "%s", folder_path("session.json"));
-    assert_true(file_write_atomic(path, scene, sizeof scene - 1, NULL));
-    starve("a session", session, path, 400);
+    struct session own = {.done = mmap(NULL, sizeof(int), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0)};
+    snprintf(own.path, sizeof own.path, "%s", folder_path("session.json"));
+    assert_true(own.done != MAP_FAILED && file_write_atomic(own.path, scene, sizeof scene - 1, NULL));
+    setenv("XDG_STATE_HOME", folder_path("state"), 1);
+    setenv("XDG_CONFIG_HOME", folder_path("config"), 1);
+    assert_int_equal(run_session(&own, keep_text), 0);
+    starve_checked("a session", session, check_session, &own, 400);
+    for (int i = 0; i <= STEPS; i++) free(own.after[i]);
+    munmap(own.done, sizeof(int));
 }
 
 /// Unsaved work, where memory is short once: it is told, and a later try keeps the work.

@@ -1,6 +1,7 @@
 /// Reads whole files, and writes them by a temporary file and a rename.
 #include "base/file.h"
 #include "base/hash.h"
+#include "base/need.h"
 #include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
@@ -100,8 +101,7 @@ static char *beside(const char *path, const char *name)
 {
     const char *slash = strrchr(path, '/');
     size_t folder = slash && name[0] != '/' ? (size_t)(slash - path) + 1 : 0;
-    char *joined = malloc(folder + strlen(name) + 1);
-    if (!joined) return NULL;
+    char *joined = need(folder + strlen(name) + 1, 1);
     memcpy(joined, path, folder);
     strcpy(joined + folder, name);
     return joined;
@@ -110,8 +110,8 @@ static char *beside(const char *path, const char *name)
 /// Where a path's symbolic links end, whether or not there is a file yet. NULL with errno set.
 static char *resolve_links(const char *path)
 {
-    char *target = strdup(path);
-    for (int i = 0; target && i < MAX_LINKS; i++) {
+    char *target = need_text(path);
+    for (int i = 0; i < MAX_LINKS; i++) {
         char link[PATH_MAX];
         ssize_t length = readlink(target, link, sizeof link - 1);
         if (length < 0) return target;
@@ -120,8 +120,8 @@ static char *resolve_links(const char *path)
         free(target);
         target = next;
     }
-    errno = target ? ELOOP : ENOMEM;
     free(target);
+    errno = ELOOP;
     return NULL;
 }
 
@@ -163,7 +163,7 @@ static void sweep(const char *target)
 {
     static _Thread_local uint64_t swept;
     char *path = beside(target, ".");
-    const uint64_t folder = path ? hash_bytes(HASH_START, path, strlen(path)) : swept;
+    const uint64_t folder = hash_bytes(HASH_START, path, strlen(path));
     DIR *directory = folder != swept ? opendir(path) : NULL;
     swept = folder;
     free(path);
@@ -195,12 +195,10 @@ void file_remove_unfinished(void)
 /// Makes a new file beside the target, or a folder; the kernel applies the umask. Returns the descriptor or -1 with errno set.
 static int create_beside(const char *target, bool is_folder, mode_t mode, char **temporary)
 {
-    errno = ENOMEM;
     for (int i = 0; i < MAX_NAMES; i++) {
         char name[64];
         snprintf(name, sizeof name, ".wiggly-%ld-%d.tmp", (long)getpid(), i);
         *temporary = beside(target, name);
-        if (!*temporary) return -1;
         int file = !is_folder                     ? open(*temporary, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, mode)
                    : mkdir(*temporary, mode) == 0 ? open(*temporary, O_RDONLY | O_DIRECTORY | O_CLOEXEC)
                                                   : -1;
@@ -319,7 +317,7 @@ bool file_output_open(struct file_output *output, const char *path, struct error
 static void sync_folder(const char *target)
 {
     char *folder = beside(target, ".");
-    int file = folder ? open(folder, O_RDONLY | O_DIRECTORY | O_CLOEXEC) : -1;
+    int file = open(folder, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     free(folder);
     if (file < 0) return;
     fsync(file);

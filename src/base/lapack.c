@@ -1,8 +1,8 @@
 /// Loads LAPACKE and OpenBLAS at run time.
 #include "base/lapack.h"
+#include "base/need.h"
 #include <dlfcn.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 /// dlsym() returns an object pointer; POSIX allows copying it into a function pointer, C forbids the cast.
@@ -16,9 +16,7 @@ static void find(void *library, const char *name, void *function)
 /// here, once as much memory is known to be there.
 static bool take_buffer(const struct lapack *lapack)
 {
-    void *room = malloc((size_t)160 << 20);
-    if (!room) return false;
-    free(room);
+    if (!need_has_room((size_t)160 << 20)) return false;
     double one = 1, sum = 0;
     lapack->dsyrk(LAPACK_ROWS_FIRST, BLAS_LOWER, BLAS_PLAIN, 1, 1, 1, &one, 1, 0, &sum, 1);
     return true;

@@ -69,14 +69,18 @@ void *need_more(void *old, size_t count, size_t size)
 void *need(size_t count, size_t size)
 {
     void *memory = malloc(bytes_of(count, size));
-    return memory ? memory : need_more(NULL, count, size);
+    if (memory) return memory;
+    ran_short();
+    return need_more(NULL, count, size);
 }
 
 void *need_zeroed(size_t count, size_t size)
 {
     const size_t bytes = bytes_of(count, size);
     void *memory = calloc(1, bytes); // pages from the system are zero already
-    return memory ? memory : memset(need_more(NULL, count, size), 0, bytes);
+    if (memory) return memory;
+    ran_short();
+    return memset(need_more(NULL, count, size), 0, bytes);
 }
 
 char *need_text(const char *text)

@@ -185,11 +185,12 @@ bool simulate_shake(const struct shake_job *job, struct soft *soft, const struct
     struct motion_writer writer;
     const double started = clock_now();
     double left;
+    if (!need_has_room(2 * (size_t)frames * (size_t)nodes * sizeof *fine.place))
+        return fail_no_memory(error, job->mesh);
     if (!motion_write_open(&writer, job->output, frames, soft->lattice.vertex_count, error)) return false;
-    fine.place = calloc((size_t)frames * (size_t)nodes, sizeof *fine.place);
-    coarse.place = calloc((size_t)frames * (size_t)nodes, sizeof *coarse.place);
-    bool good = (fine.place && coarse.place) || fail_no_memory(error, job->mesh);
-    good = good && refine(job, soft, &fine, &coarse, &left, error);
+    fine.place = need_zeroed((size_t)frames * (size_t)nodes, sizeof *fine.place);
+    coarse.place = need_zeroed((size_t)frames * (size_t)nodes, sizeof *coarse.place);
+    bool good = refine(job, soft, &fine, &coarse, &left, error);
     if (good) {
         good = write_frames(job, soft, surface, &fine, &writer, error);
         if (good) report(job, soft, &fine, left, started);
