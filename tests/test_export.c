@@ -1,5 +1,4 @@
 /// What wiggly export writes, read back: by the reader of imported characters, by that of motions, and number by number.
-#include "export/gltf_splice.h"
 #include "export_scene.h"
 #include "model/character.h"
 
@@ -35,51 +34,6 @@ static void tangents_make_up_for_keys(void **state)
     assert_true(linear > 0.02);
     assert_true(cubic < linear / 5);
     free(points.number);
-}
-
-/// Every change is made, and no other byte: spaces, numbers and unknown members stay as they are.
-static void splices_touch_nothing_else(void **state)
-{
-    (void)state;
-    struct splice splice = {
-        .text =
-            "{ \"a\" : [ 1.0,{\"x\": \"]\\\"}\"} ],\n \"b\":[],\t\"n\":{\"a\":[7]}, \"c\":[{\"k\":1, \"l\":2 }] }"};
-    splice_append(&splice, "a", "3");
-    splice_append(&splice, "b", "4");
-    splice_append(&splice, "d", "5");
-    splice_replace(&splice, "a", 0, NULL, "9");
-    splice_replace(&splice, "c", 0, "l", "8");
-    char *text = splice_apply(&splice);
-    assert_string_equal(text, "{\"d\":[5], \"a\" : [ 9,{\"x\": \"]\\\"}\"},3 ],\n \"b\":[4],\t\"n\":{\"a\":[7]}, "
-                              "\"c\":[{\"k\":1, \"l\":8 }] }");
-    free(text);
-    splice_free(&splice);
-}
-
-/// Where a file has an array twice, the one that counts is changed: the last.
-static void splices_change_what_counts(void **state)
-{
-    (void)state;
-    struct splice splice = {.text = "{\"a\":[1],\"b\":2,\"a\":[3]}"};
-    splice_append(&splice, "a", "4");
-    char *text = splice_apply(&splice);
-    assert_string_equal(text, "{\"a\":[1],\"b\":2,\"a\":[3,4]}");
-    free(text);
-    splice_free(&splice);
-}
-
-/// A name may be escaped, in whole or in part.
-static void splices_find_escaped_names(void **state)
-{
-    (void)state;
-    struct splice splice = {.text = "{\"b\\u0061\":[1],\"\\u0062a\\u0073\":[{\"\\u006B\":2}],\"bab\":[]}"};
-    splice_append(&splice, "ba", "4");
-    splice_replace(&splice, "bas", 0, "k", "5");
-    splice_append(&splice, "b", "6");
-    char *text = splice_apply(&splice);
-    assert_string_equal(text, "{\"b\":[6],\"b\\u0061\":[1,4],\"\\u0062a\\u0073\":[{\"\\u006B\":5}],\"bab\":[]}");
-    free(text);
-    splice_free(&splice);
 }
 
 /// The only clip of a file; its channels are given one by one.
@@ -338,9 +292,6 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(glb_moves_as_the_stage_does, folder_make, folder_remove),
-        cmocka_unit_test(splices_touch_nothing_else),
-        cmocka_unit_test(splices_change_what_counts),
-        cmocka_unit_test(splices_find_escaped_names),
         cmocka_unit_test_setup_teardown(tangents_make_up_for_keys, folder_make, folder_remove),
         cmocka_unit_test_setup_teardown(keys_loop_and_turn_the_short_way, folder_make, folder_remove),
         cmocka_unit_test_setup_teardown(weights_stay_within_one_unless_signed, folder_make, folder_remove),

@@ -1,9 +1,9 @@
 /// What wiggly export writes of imported characters: their own files with a clip more, in either container, and .usda.
 #include "base/path.h"
 #include "export/beside.h"
-#include "export/gltf_splice.h"
 #include "export_scene.h"
 
+#include <jansson.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -39,7 +39,7 @@ static void without_a_chain_the_file_stays_the_same(void **state)
     free(copy);
 }
 
-/// The clip is replaced or added; the chunk begins with all bytes that it had, and the JSON keeps its words.
+/// The clip is replaced or added; the chunk begins with all bytes that it had.
 static void an_imported_character_gets_a_clip(void **state)
 {
     static const char *const names[] = {NULL, "Wag"};
@@ -174,23 +174,57 @@ static void scatter_dog(void)
 {
     size_t size;
     struct error error;
-    char *dog = bytes_of("assets/models/dog.glb", &size), buffer[64];
-    const size_t json = word_at(dog + 12), chunk = word_at(dog + 20 + json);
-    char *text = strndup(dog + 20, json), *picture = memmem(dog, size, "\x89PNG", 4);
-    struct splice splice = {.text = text};
+    char *dog = bytes_of("assets/models/dog.glb", &size);
+    const size_t length = word_at(dog + 12), chunk = word_at(dog + 20 + length);
+    char *picture = memmem(dog, size, "\x89PNG", 4);
+    json_t *json = json_loadb(dog + 20, length, 0, NULL);
     assert_non_null(picture);
-    snprintf(buffer, sizeof buffer, "{\"byteLength\":%zu,\"uri\":\"a%%20dog.bin\"}", chunk);
-    splice_replace(&splice, "buffers", 0, NULL, buffer);
-    splice_replace(&splice, "images", 0, NULL, "{\"uri\":\"tag.png\"}");
-    char *scattered = splice_apply(&splice);
-    assert_non_null(scattered);
-    assert_true(file_write_atomic(folder_path("dog.gltf"), scattered, strlen(scattered), &error));
-    assert_true(file_write_atomic(folder_path("a dog.bin"), dog + 28 + json, chunk, &error));
+    json_object_set_new(json_array_get(json_object_get(json, "buffers"), 0), "uri", json_string("a%20dog.bin"));
+    json_array_set_new(json_object_get(json, "images"), 0, json_pack("{s:s}", "uri", "tag.png"));
+    assert_int_equal(json_dump_file(json, folder_path("dog.gltf"), 0), 0);
+    assert_true(file_write_atomic(folder_path("a dog.bin"), dog + 28 + length, chunk, &error));
     assert_true(file_write_atomic(folder_path("tag.png"), picture, (size_t)(dog + size - picture), &error));
-    splice_free(&splice);
-    free(scattered);
-    free(text);
+    json_decref(json);
     free(dog);
+}
+
+/// What wiggly does not know, numbers to the last bit, odd names and the order of members: all stays but what the clip adds.
+static void what_is_not_known_stays(void **state)
+{
+    static const char text[] =
+        "{\"extras\":{\"big\":9007199254740993,\"real\":0.1,\"whole\":2.0,\"tiny\":1e-300,\"odd\":[null,true,"
+        "\"\\u00e9/\\n\"]},"
+        "\"as\\u0073et\":{\"version\":\"2.0\",\"generator\":\"theirs\"},\"nodes\":[{\"name\":\"a\",\"children\":[1],"
+        "\"translation\":[0,0.30000000000000004,0]},{\"name\":\"b\",\"translation\":[0,1,0],\"extensions\":{\"EXT_"
+        "none\":"
+        "{\"k\":[1.5]}}}],\"unknown\":[{\"x\":1},{}],\"extensionsUsed\":[\"EXT_none\"],\"unknown\":[{\"x\":2}]}";
+    static const char scene_text[] =
+        "{\"wiggly\": 1, \"frames\": [0, 2], \"splines\": [{\"name\": \"s\", \"knots\": [{\"frame\": 0, \"value\": "
+        "1}]}], "
+        "\"rigs\": [{\"type\": \"model\", \"name\": \"it\", \"model\": \"theirs.gltf\"}, {\"type\": \"chain\", "
+        "\"name\": \"c\", "
+        "\"model\": \"it\", \"from\": \"a\", \"to\": \"b\", \"channels\": [{\"spline\": \"s\"}]}]}";
+    static const char *const added[] = {"animations", "accessors", "bufferViews", "buffers"};
+    (void)state;
+    struct error error = {0};
+    struct export_report report;
+    const struct export_options usual = {0};
+    assert_true(file_write_atomic(folder_path("theirs.gltf"), text, strlen(text), &error));
+    assert_true(file_write_atomic(folder_path("scene.json"), scene_text, strlen(scene_text), &error));
+    struct opened scene = open_scene(folder_path("scene.json"));
+    if (!export_write(posing_of(&scene), folder_path("out.gltf"), &usual, &report, &error))
+        fail_msg("%s", error.text);
+    close_scene(&scene);
+    json_t *before = json_loads(text, 0, NULL), *after = json_load_file(folder_path("out.gltf"), 0, NULL);
+    assert_int_equal(json_array_size(json_object_get(after, "animations")), 1);
+    for (int a = 0; a < 4; a++) assert_int_equal(json_object_del(after, added[a]), 0);
+    char *as_it_was = json_dumps(before, JSON_REAL_PRECISION(17)),
+         *as_it_is = json_dumps(after, JSON_REAL_PRECISION(17));
+    assert_string_equal(as_it_was, as_it_is);
+    free(as_it_was);
+    free(as_it_is);
+    json_decref(before);
+    json_decref(after);
 }
 
 /// A .gltf with files beside it becomes one .glb, and a .glb one .gltf; there and back nothing is lost.
@@ -391,6 +425,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(without_a_chain_the_file_stays_the_same, folder_make, folder_remove),
         cmocka_unit_test_setup_teardown(an_imported_character_gets_a_clip, folder_make, folder_remove),
         cmocka_unit_test_setup_teardown(text_files_get_a_clip_too, folder_make, folder_remove),
+        cmocka_unit_test_setup_teardown(what_is_not_known_stays, folder_make, folder_remove),
         cmocka_unit_test_setup_teardown(containers_change_and_hold_the_same, folder_make, folder_remove),
         cmocka_unit_test_setup_teardown(a_texture_that_cannot_take_its_place_is_told, folder_make, folder_remove),
         cmocka_unit_test_setup_teardown(a_body_keeps_the_keys_of_its_clip, folder_make, folder_remove),

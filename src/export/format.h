@@ -22,6 +22,10 @@ bool mdd_write(struct shot *shot, FILE *out, char summary[FORMAT_SUMMARY], struc
 bool npy_write(struct shot *shot, FILE *out, char summary[FORMAT_SUMMARY], struct error *error);
 bool glb_write(struct shot *shot, FILE *out, char summary[FORMAT_SUMMARY], struct error *error);
 bool gltf_write(struct shot *shot, FILE *out, char summary[FORMAT_SUMMARY], struct error *error);
+/// Writes the file that the shot's only rig came from, with a clip added or, where it has one of that name, replaced. All else stays as it
+/// was; in the other container, .glb or .gltf, it says the same. Without a chain there is no new clip.
+bool gltf_model_write(struct shot *shot, bool binary, FILE *out, char summary[FORMAT_SUMMARY], struct error *error);
+
 bool bvh_write(struct shot *shot, FILE *out, char summary[FORMAT_SUMMARY], struct error *error);
 bool usda_write(struct shot *shot, FILE *out, char summary[FORMAT_SUMMARY], struct error *error);
 

@@ -1,6 +1,5 @@
 /// Rigs as glTF 2.0: meshes with skins or morph targets, and one clip that moves them all.
 #include "export/format.h"
-#include "export/gltf_model.h"
 #include "export/gltf_motion.h"
 #include "export/keys.h"
 #include "export/targets.h"

@@ -1,164 +1,100 @@
-/// Writes an imported character's own file with a clip more.
-#include "export/gltf_model.h"
+/// Writes an imported character's own file with a clip more: parses its JSON, adds to it, and prints it.
 #include "base/file.h"
-#include "base/json.h"
 #include "base/path.h"
-#include "export/gltf_body.h"
-#include "export/gltf_gather.h"
-#include "export/gltf_splice.h"
+#include "export/format.h"
+#include "export/gltf_motion.h"
 #include "export/keys.h"
 #include "export/model.h"
 #include "model/glb.h"
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-static void add_bones(const struct form *form, const struct keys *keys, struct gltf_motion *motion)
-{
-    const struct model_bones *own = form->owned;
-    for (int j = 0; j < form->joint_count; j++) {
-        const size_t at = (size_t)j * (size_t)keys->count;
-        gltf_motion_add(motion, own->node[j], GLTF_ROTATION, keys->at.rotation[at],
-                        keys->slope.rotation ? keys->slope.rotation[at] : NULL, 4);
-    }
-}
-
-/// What the clip is put into: the file as it is, or gathered for the other container.
+/// The file that the clip goes into.
 struct original {
-    struct glb source;       ///< its JSON
-    char *text;              ///< of that
-    struct glb_buffer first; ///< its first buffer where that has no address
-    bool is_other;           ///< in another container than it came in
+    struct glb source;
+    struct gltf_file file; ///< its JSON, and the bytes of the buffer that new ones go into
+    bool is_same;          ///< the container stays what it is
 };
 
-/// The JSON as a text of its own; NULL if memory is short.
-static char *text_of(const struct glb *source, bool binary)
+// --- the other container: all bytes in one buffer without an address, pictures too
+
+/// Lets a view, or an extension of one, find its bytes again. False if memory is short.
+static bool move(json_t *view, const size_t *starts, size_t count)
 {
-    uint32_t length;
-    if (!binary) return strdup(source->data);
-    memcpy(&length, source->data + 12, sizeof length);
-    return strndup(source->data + 20, length);
+    const int64_t buffer = glb_integer(view, "buffer", -1), offset = glb_integer(view, "byteOffset", 0);
+    if (buffer < 0 || (size_t)buffer >= count || offset < 0) return true;
+    return json_object_set_new(view, "buffer", json_integer(0)) == 0 &&
+           (starts[buffer] == 0 ||
+            json_object_set_new(view, "byteOffset", json_integer(offset + (json_int_t)starts[buffer])) == 0);
 }
 
-static json_int_t count_of(const struct original *original, const char *array)
+static bool gather_buffers(struct original *o)
 {
-    return (json_int_t)json_array_size(json_object_get(original->source.json, array));
-}
-
-/// The .glb's chunk where the file's first buffer is that, all of it: views may reach beyond the buffer's byteLength.
-static struct glb_bytes find_chunk(const struct glb *source)
-{
-    const json_t *buffer = json_array_get(json_object_get(source->json, "buffers"), 0);
-    if (!source->chunk.at || !buffer || json_object_get(buffer, "uri")) return (struct glb_bytes){0};
-    return source->chunk;
-}
-
-static void append_all(struct splice *splice, const char *array, const json_t *values)
-{
-    char *joined = json_print(values, JSON_COMPACT | JSON_REAL_PRECISION(9));
-    if (joined) {
-        joined[strlen(joined) - 1] = '\0'; // without the brackets
-        splice_append(splice, array, joined + 1);
+    const size_t count = json_array_size(json_object_get(o->source.json, "buffers"));
+    size_t *starts = calloc(count + 1, sizeof *starts), i;
+    json_t *view, *extension;
+    bool done = starts;
+    for (size_t b = 0; done && b < count; b++) { // all there is: views may reach beyond the byteLength
+        const struct glb_bytes bytes = o->source.buffers[b].bytes;
+        starts[b] = gltf_file_append(&o->file, bytes.at, bytes.size);
     }
-    splice->failed = splice->failed || !joined;
-    free(joined);
-}
-
-static void put_clip(struct splice *splice, const struct gltf *gltf, const struct gltf_motion *motion,
-                     const char *name)
-{
-    json_t *json = gltf_motion_json(motion, name);
-    char *text = json ? json_print(json, JSON_COMPACT) : NULL;
-    const int known = gltf_find_clip(gltf, name);
-    if (text && known >= 0) splice_replace(splice, "animations", (size_t)known, NULL, text);
-    if (text && known < 0) splice_append(splice, "animations", text);
-    splice->failed = splice->failed || !text;
-    free(text);
-    json_decref(json);
-}
-
-/// The new bytes follow those of the first buffer, or get a buffer of their own where that is NULL.
-static void put_bytes(struct splice *splice, const struct gltf_file *file, const json_t *first, bool binary)
-{
-    const bool in_first = first != NULL, has_length = json_object_get(first, "byteLength") != NULL;
-    char *value = NULL, *address = in_first && binary ? NULL : gltf_file_address(file);
-    if (in_first && binary) {
-        if (asprintf(&value, has_length ? "%zu" : "{\"byteLength\":%zu}", file->size) < 0) value = NULL;
-        if (value) splice_replace(splice, "buffers", 0, has_length ? "byteLength" : NULL, value);
-    } else if (address) {
-        if (asprintf(&value, "{\"byteLength\":%zu,\"uri\":\"%s\"}", file->size, address) < 0) value = NULL;
-        if (value && in_first) splice_replace(splice, "buffers", 0, NULL, value);
-        if (value && !in_first) splice_append(splice, "buffers", value);
+    json_array_foreach(o->file.views, i, view)
+    {
+        const char *name;
+        done = done && move(view, starts, count);
+        json_object_foreach(json_object_get(view, "extensions"), name, extension) done =
+            done && move(extension, starts, count);
     }
-    splice->failed = splice->failed || !value;
-    free(value);
-    free(address);
-}
-
-static bool add_motion(struct shot *shot, const struct form *form, const struct gltf_body *body,
-                       struct gltf_motion *motion, struct error *error)
-{
-    struct keys keys;
-    if (!keys_collect(shot, shot->rigs[0], form, &keys, error)) return false;
-    const bool done = !body->clip || (shot->is_cubic ? gltf_body_keep(body, shot, motion, error)
-                                                     : gltf_body_sample(body, shot, motion, error));
-    if (done) add_bones(form, &keys, motion);
-    keys_free(&keys);
+    if (o->file.size > 0) json_object_del(o->source.json, "buffers");
+    free(starts);
     return done;
 }
 
-/// Puts the new clip into the text.
-static bool put_motion(struct shot *shot, const struct form *form, const struct gltf_body *body,
-                       struct gltf_file *file, struct splice *splice, struct error *error)
+/// What kind of picture the bytes are; NULL: of none that is known.
+static const char *kind_of(struct glb_bytes bytes)
 {
-    struct gltf_motion motion;
-    gltf_motion_begin(&motion, file, shot);
-    const bool done = add_motion(shot, form, body, &motion, error);
-    put_clip(splice, body->gltf, &motion, shot->clip);
-    append_all(splice, "accessors", file->accessors);
-    append_all(splice, "bufferViews", file->views);
-    gltf_motion_free(&motion);
-    return done;
-}
-
-/// Writes the file with a clip more, if a chain moves it.
-static bool write_patched(struct shot *shot, const struct form *form, const struct gltf_body *body,
-                          const struct original *original, bool binary, FILE *out, struct error *error)
-{
-    const struct glb_bytes first = original->first.bytes, chunk = original->source.chunk;
-    struct gltf_file file = {.first_view = count_of(original, "bufferViews"),
-                             .first_accessor = count_of(original, "accessors"),
-                             .buffer = first.size > 0 ? 0 : count_of(original, "buffers")};
-    struct gltf_file as_it_was = {0}; // a chunk that is not the first buffer
-    struct splice splice = {.text = original->text};
-    const json_t *buffers = json_object_get(original->source.json, "buffers");
-    char *text = NULL;
-    bool whole = gltf_file_begin(&file, first.at, first.size);
-    if (whole && binary && first.size == 0) whole = gltf_file_begin(&as_it_was, chunk.at, chunk.size);
-    bool done = !whole || form->joint_count == 0 || put_motion(shot, form, body, &file, &splice, error);
-    if (done) {
-        if (file.size > 0) put_bytes(&splice, &file, first.size > 0 ? json_array_get(buffers, 0) : NULL, binary);
-        if (whole && !file.without_memory) text = splice_apply(&splice);
-        done = text || fail_no_memory(error, body->gltf->path);
+    static const struct {
+        const char *start, *kind;
+        size_t length;
+    } kinds[] = {{"\x89PNG", "image/png", 4}, {"\xFF\xD8", "image/jpeg", 2}, {"\xABKTX 20", "image/ktx2", 7}};
+    for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++) {
+        if (bytes.size >= kinds[i].length && memcmp(bytes.at, kinds[i].start, kinds[i].length) == 0)
+            return kinds[i].kind;
     }
-    if (done && binary) gltf_file_write_binary(first.size > 0 ? &file : &as_it_was, text, out);
-    if (done && !binary) fputs(text, out);
-    free(text);
-    splice_free(&splice);
-    gltf_file_free(&file);
-    gltf_file_free(&as_it_was);
-    return done;
+    const bool webp = bytes.size >= 12 && memcmp(bytes.at, "RIFF", 4) == 0 && memcmp(bytes.at + 8, "WEBP", 4) == 0;
+    return webp ? "image/webp" : NULL;
 }
 
-static bool write_same(const char *path, FILE *out, struct error *error)
+/// A picture that cannot be read, which is not shown either, keeps its address. False if memory is short.
+static bool gather_image(struct original *o, json_t *image)
 {
-    char *data;
-    size_t size;
-    if (!file_read(path, GLB_FILE_LIMIT, &data, &size, error)) return false;
-    fwrite(data, 1, size, out);
-    free(data);
+    const char *uri = json_string_value(json_object_get(image, "uri"));
+    struct glb_buffer picture;
+    struct error why = {0};
+    if (!uri) return true;
+    if (!glb_read_uri(&o->source, uri, &picture, &why)) return why.kind != ERROR_ENVIRONMENT;
+    const char *kind = kind_of(picture.bytes);
+    if (kind) {
+        const json_int_t view = gltf_file_add_bytes(&o->file, picture.bytes.at, picture.bytes.size);
+        gltf_set(&o->file, image, "bufferView", json_integer(view));
+        gltf_set(&o->file, image, "mimeType", json_string(kind));
+        json_object_del(image, "uri");
+    }
+    free(picture.owned);
     return true;
 }
+
+static bool gather(struct original *o, struct error *error)
+{
+    size_t i;
+    json_t *image;
+    if (!glb_read_buffers(&o->source, error)) return false;
+    bool done = gather_buffers(o);
+    json_array_foreach(json_object_get(o->source.json, "images"), i, image) done = done && gather_image(o, image);
+    return done || fail_no_memory(error, o->source.path);
+}
+
+// --- the same container
 
 /// Whether buffers and images are in the file itself.
 static bool is_alone(const struct glb *source)
@@ -188,34 +124,84 @@ static bool check_place(const struct shot *shot, const struct glb *source, struc
                 source->path);
 }
 
-static void close_original(struct original *original)
+/// Takes the bytes that new ones follow: those of a .glb's chunk, if that is its first buffer; none of a .gltf; else all there are.
+static bool take_bytes(const struct shot *shot, bool binary, struct original *o, struct error *error)
 {
-    free(original->text);
-    free(original->first.owned);
-    glb_close(&original->source);
+    const json_t *buffers = json_object_get(o->source.json, "buffers"), *first = json_array_get(buffers, 0);
+    const bool has_chunk = o->source.chunk.at && first && !json_object_get(first, "uri");
+    gltf_file_continue(&o->file, o->source.json);
+    if (!o->is_same || (binary && !has_chunk)) return gather(o, error);
+    if (has_chunk) gltf_file_append(&o->file, o->source.chunk.at, o->source.chunk.size);
+    if (!has_chunk) o->file.buffer = (json_int_t)json_array_size(buffers);
+    return check_place(shot, &o->source, error);
 }
 
-/// False leaves nothing to close.
-static bool open_original(const struct shot *shot, const char *path, bool binary, struct original *original,
-                          struct error *error)
+static bool write_same(const char *path, FILE *out, struct error *error)
 {
-    *original = (struct original){0};
-    struct glb *source = &original->source;
-    if (!glb_open(source, path, error)) return false;
-    original->is_other = (memcmp(source->data, "glTF", 4) == 0) != binary;
-    bool done;
-    if (original->is_other) {
-        done = gltf_gather(source, &original->first, error);
-        if (done) original->text = json_print(source->json, binary ? JSON_COMPACT : JSON_INDENT(1));
-    } else {
-        done = check_place(shot, source, error);
-        if (done) original->text = text_of(source, binary);
-        original->first.bytes = binary ? find_chunk(source) : (struct glb_bytes){0};
+    char *data;
+    size_t size;
+    if (!file_read(path, GLB_FILE_LIMIT, &data, &size, error)) return false;
+    fwrite(data, 1, size, out);
+    free(data);
+    return true;
+}
+
+// --- the clip
+
+static bool add_motion(struct shot *shot, const struct form *form, const struct gltf_body *body,
+                       struct gltf_motion *motion, struct error *error)
+{
+    const struct model_bones *own = form->owned;
+    struct keys keys;
+    if (!keys_collect(shot, shot->rigs[0], form, &keys, error)) return false;
+    const bool done = !body->clip || (shot->is_cubic ? gltf_body_keep(body, shot, motion, error)
+                                                     : gltf_body_sample(body, shot, motion, error));
+    for (int j = 0; done && j < form->joint_count; j++) {
+        const size_t at = (size_t)j * (size_t)keys.count;
+        gltf_motion_add(motion, own->node[j], GLTF_ROTATION, keys.at.rotation[at],
+                        keys.slope.rotation ? keys.slope.rotation[at] : NULL, 4);
     }
-    if (done && original->text) return true;
-    if (done) fail_no_memory(error, path);
-    close_original(original);
-    return false;
+    keys_free(&keys);
+    return done;
+}
+
+/// Adds the clip; one of the same name it replaces.
+static bool put_clip(struct shot *shot, const struct form *form, const struct gltf_body *body, struct original *o,
+                     struct error *error)
+{
+    struct gltf_motion motion;
+    json_t *root = o->source.json;
+    gltf_motion_begin(&motion, &o->file, shot);
+    const bool done = add_motion(shot, form, body, &motion, error);
+    json_t *clip = done ? gltf_motion_json(&motion, shot->clip) : NULL;
+    const int known = gltf_find_clip(body->gltf, shot->clip);
+    if (known < 0) {
+        gltf_append_to(&o->file, root, "animations", clip);
+    } else if (json_array_set_new(json_object_get(root, "animations"), (size_t)known, clip) != 0) {
+        o->file.without_memory = true;
+    }
+    gltf_motion_free(&motion);
+    return done;
+}
+
+static bool write_file(struct shot *shot, const struct form *form, const struct gltf_body *body, bool binary,
+                       FILE *out, struct error *error)
+{
+    struct original o = {0};
+    const char *path = body->gltf->path;
+    if (!glb_open(&o.source, path, error)) return false;
+    o.is_same = (memcmp(o.source.data, "glTF", 4) == 0) == binary;
+    bool done;
+    if (form->joint_count == 0 && o.is_same) {
+        done = check_place(shot, &o.source, error) && write_same(path, out, error);
+    } else {
+        done = take_bytes(shot, binary, &o, error) &&
+               (form->joint_count == 0 || put_clip(shot, form, body, &o, error)) &&
+               gltf_file_write(&o.file, json_incref(o.source.json), binary, out, error);
+    }
+    gltf_file_free(&o.file);
+    glb_close(&o.source);
+    return done;
 }
 
 static bool write_model(struct shot *shot, const struct form *form, bool binary, FILE *out, struct error *error)
@@ -225,15 +211,9 @@ static bool write_model(struct shot *shot, const struct form *form, bool binary,
     const int clip = model->clip ? gltf_find_clip(own->gltf, model->clip) : -1;
     const struct gltf_body body = {
         .gltf = own->gltf, .clip = clip >= 0 ? &own->gltf->clips[clip] : NULL, .is_bone = own->is_bone};
-    struct original original;
     if (body.clip && !shot->is_cubic) shot->total += shot->key_count;
     if (!shot->clip) shot->clip = model->clip ? model->clip : shot->title;
-    if (!open_original(shot, own->gltf->path, binary, &original, error)) return false;
-    const bool is_same = form->joint_count == 0 && !original.is_other;
-    const bool done = is_same ? write_same(own->gltf->path, out, error)
-                              : write_patched(shot, form, &body, &original, binary, out, error);
-    close_original(&original);
-    return done;
+    return write_file(shot, form, &body, binary, out, error);
 }
 
 bool gltf_model_write(struct shot *shot, bool binary, FILE *out, char summary[FORMAT_SUMMARY], struct error *error)

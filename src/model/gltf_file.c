@@ -25,24 +25,30 @@ static const struct element {
     [ELEMENTS_TURNS] = {"VEC4", 4, FLOAT, 4, 0},
 };
 
-static bool append(struct gltf_file *file, const void *data, size_t size)
+void gltf_file_continue(struct gltf_file *file, json_t *root)
 {
-    if (size == 0) return true;
-    if (file->size + size > file->capacity) {
-        const size_t capacity = 2 * (file->size + size);
+    file->views = json_incref(json_object_get(root, "bufferViews"));
+    file->accessors = json_incref(json_object_get(root, "accessors"));
+}
+
+size_t gltf_file_append(struct gltf_file *file, const void *bytes, size_t size)
+{
+    const size_t start = file->size, padded = (size + 3) / 4 * 4;
+    if (start + padded > file->capacity) {
+        const size_t capacity = 2 * (start + padded);
         char *larger = realloc(file->data, capacity);
-        if (!larger) return false;
+        if (!larger) {
+            file->without_memory = true;
+            return start;
+        }
         file->data = larger;
         file->capacity = capacity;
     }
-    memcpy(file->data + file->size, data, size);
-    file->size += size;
-    return true;
-}
-
-bool gltf_file_begin(struct gltf_file *file, const void *bytes, size_t size)
-{
-    return append(file, bytes, size) && append(file, "\0\0\0", (4 - size % 4) % 4);
+    if (size == 0) return start;
+    memcpy(file->data + start, bytes, size);
+    memset(file->data + start + size, 0, padded - size);
+    file->size = start + padded;
+    return start;
 }
 
 json_int_t gltf_append(struct gltf_file *file, json_t *array, json_t *value)
@@ -85,8 +91,8 @@ static json_int_t add_view(struct gltf_file *file, const void *data, size_t size
     json_t *view = json_pack("{s:I, s:I, s:I}", "buffer", file->buffer, "byteOffset", (json_int_t)file->size,
                              "byteLength", (json_int_t)size);
     if (target) gltf_set(file, view, "target", json_integer(target));
-    if (!gltf_file_begin(file, data, size)) file->without_memory = true;
-    return file->first_view + gltf_append(file, file->views, view);
+    gltf_file_append(file, data, size);
+    return gltf_append(file, file->views, view);
 }
 
 json_int_t gltf_file_add_bytes(struct gltf_file *file, const void *data, size_t size)
@@ -103,7 +109,7 @@ json_int_t gltf_file_add(struct gltf_file *file, enum gltf_elements elements, co
     json_t *accessor = json_pack("{s:I, s:i, s:I, s:s}", "bufferView", view, "componentType", kind->type, "count",
                                  (json_int_t)count, "type", kind->shape);
     if (bounds) add_bounds(file, accessor, data, count, kind->components);
-    return file->first_accessor + gltf_append(file, file->accessors, accessor);
+    return gltf_append(file, file->accessors, accessor);
 }
 
 static void write_words(FILE *out, uint32_t a, uint32_t b)
@@ -112,7 +118,7 @@ static void write_words(FILE *out, uint32_t a, uint32_t b)
     fwrite(words, sizeof words, 1, out);
 }
 
-void gltf_file_write_binary(const struct gltf_file *file, const char *text, FILE *out)
+static void write_binary(const struct gltf_file *file, const char *text, FILE *out)
 {
     const size_t length = strlen(text), padded = (length + 3) / 4 * 4, chunk = file->size > 0 ? 8 + file->size : 0;
     const uint32_t total = (uint32_t)(12 + 8 + padded + chunk);
@@ -125,7 +131,8 @@ void gltf_file_write_binary(const struct gltf_file *file, const char *text, FILE
     fwrite(file->data, 1, file->size, out);
 }
 
-char *gltf_file_address(const struct gltf_file *file)
+/// The bytes as a data URI; the caller frees it. NULL if memory is short.
+static char *address_of(const struct gltf_file *file)
 {
     static const char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
     static const char start[] = "data:application/octet-stream;base64,";
@@ -142,31 +149,37 @@ char *gltf_file_address(const struct gltf_file *file)
     return text;
 }
 
-static bool complete(struct gltf_file *file, json_t *root, bool binary)
+/// Describes the buffer that the bytes are in, which other members of it outlive.
+static void complete(struct gltf_file *file, json_t *root, bool binary)
 {
-    json_t *buffer = json_pack("{s:I}", "byteLength", (json_int_t)file->size);
-    char *address = binary ? NULL : gltf_file_address(file);
-    if (!binary) gltf_set(file, buffer, "uri", address ? json_string(address) : NULL);
-    const bool whole = buffer && !file->without_memory;
-    free(address);
-    return json_object_set_new(root, "buffers", json_pack("[o]", buffer)) == 0 &&
-           json_object_set(root, "bufferViews", file->views) == 0 &&
-           json_object_set(root, "accessors", file->accessors) == 0 && whole;
+    json_t *buffers = json_object_get(root, "buffers");
+    if (file->size > 0) {
+        if (json_array_size(buffers) <= (size_t)file->buffer) gltf_append_to(file, root, "buffers", json_object());
+        json_t *buffer = json_array_get(json_object_get(root, "buffers"), (size_t)file->buffer);
+        char *address = binary ? NULL : address_of(file);
+        gltf_set(file, buffer, "byteLength", json_integer((json_int_t)file->size));
+        if (!binary) gltf_set(file, buffer, "uri", address ? json_string(address) : NULL);
+        free(address);
+    }
+    if (json_array_size(file->views) > 0) gltf_set(file, root, "bufferViews", json_incref(file->views));
+    if (json_array_size(file->accessors) > 0) gltf_set(file, root, "accessors", json_incref(file->accessors));
 }
 
 bool gltf_file_write(struct gltf_file *file, json_t *root, bool binary, FILE *out, struct error *error)
 {
     char *text = NULL;
-    if (root && !file->without_memory && file->size < UINT32_MAX / 2 && complete(file, root, binary))
+    const bool fits = file->size < UINT32_MAX / 2;
+    if (root && fits) complete(file, root, binary);
+    if (root && fits && !file->without_memory)
         text = json_print(root, (binary ? JSON_COMPACT : JSON_INDENT(1)) | JSON_REAL_PRECISION(17));
     json_decref(root);
     if (!text) {
         return fail(error, ERROR_ENVIRONMENT,
-                    file->size < UINT32_MAX / 2 ? "not enough memory, or a name is not UTF-8"
-                                                : "a glTF file holds 2 GB: ask for fewer keys or frames");
+                    fits ? "not enough memory, or a name is not UTF-8"
+                         : "a glTF file holds 2 GB: ask for fewer keys or frames");
     }
     if (binary) {
-        gltf_file_write_binary(file, text, out);
+        write_binary(file, text, out);
     } else {
         fputs(text, out);
         fputc('\n', out);

@@ -9,9 +9,7 @@
 /// All zero at first; without_memory stays set.
 struct gltf_file {
     json_t *views, *accessors;
-    json_int_t first_view,
-        first_accessor; ///< what the first ones are called: others come before them in a file that exists
-    json_int_t buffer;  ///< that the bytes are in
+    json_int_t buffer; ///< that the bytes are in
     char *data;
     size_t size, capacity;
     bool without_memory;
@@ -31,8 +29,11 @@ enum gltf_elements {
     ELEMENTS_TURNS
 };
 
-/// Begins with bytes that are there already. False if memory is short.
-bool gltf_file_begin(struct gltf_file *file, const void *bytes, size_t size);
+/// Goes on with the JSON of a file that exists: what is added follows what it has.
+void gltf_file_continue(struct gltf_file *file, json_t *root);
+
+/// Adds bytes that views find already, up to a multiple of four; returns where they are.
+size_t gltf_file_append(struct gltf_file *file, const void *bytes, size_t size);
 
 /// Adds `count` elements and returns the accessor's number; with bounds, it states their least and largest.
 json_int_t gltf_file_add(struct gltf_file *file, enum gltf_elements elements, const void *data, size_t count,
@@ -49,13 +50,8 @@ void gltf_set(struct gltf_file *file, json_t *object, const char *key, json_t *v
 /// Appends to a member that is an array, which is made where it is missing.
 void gltf_append_to(struct gltf_file *file, json_t *object, const char *key, json_t *value);
 
-/// The bytes as a data URI; the caller frees it. NULL if memory is short.
-char *gltf_file_address(const struct gltf_file *file);
-
-/// Writes the parts of a .glb: `text` is all of the JSON, the file's bytes are the chunk.
-void gltf_file_write_binary(const struct gltf_file *file, const char *text, FILE *out);
-
-/// Completes the JSON of the rest (which it takes over; NULL: memory was short) and writes both: as .glb, or as text with the bytes in it.
+/// Completes the JSON of the rest (which it takes over; NULL: memory was short) and writes both: as .glb, whose buffer must be 0, or as
+/// text with the bytes in it. Numbers of the JSON read back equal, and its members keep their order.
 /// False with a sentence if it cannot be made; the stream's errors are the caller's.
 bool gltf_file_write(struct gltf_file *file, json_t *root, bool binary, FILE *out, struct error *error);
 void gltf_file_free(struct gltf_file *file);
