@@ -174,8 +174,8 @@ static void usd_joints_hang_on_each_other(void **state)
     (void)state;
     size_t size;
     char *text = bytes_of(export_scene("tail", "t.usda", (struct export_options){.substeps = 1}), &size);
-    assert_non_null(
-        strstr(text, "joints = [\"tail_base\", \"tail_base/tail_body\", \"tail_base/tail_body/tail_chest\","));
+    assert_non_null(strstr(text, "joints = [\"tail_base\", \"tail_base/tail_body\", "));
+    assert_non_null(strstr(text, ", \"tail_base/tail_body/tail_chest\", "));
     free(text);
 }
 

@@ -26,6 +26,9 @@ bool gltf_write(struct shot *shot, FILE *out, char summary[FORMAT_SUMMARY], stru
 /// was; in the other container, .glb or .gltf, it says the same. Without a chain there is no new clip.
 bool gltf_model_write(struct shot *shot, bool binary, FILE *out, char summary[FORMAT_SUMMARY], struct error *error);
 
+/// Writes a rig that is no imported character as a .glb of its own.
+bool gltf_write_rig(struct shot *shot, int rig, FILE *out, struct error *error);
+
 bool bvh_write(struct shot *shot, FILE *out, char summary[FORMAT_SUMMARY], struct error *error);
 bool usda_write(struct shot *shot, FILE *out, char summary[FORMAT_SUMMARY], struct error *error);
 

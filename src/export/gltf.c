@@ -268,17 +268,17 @@ static void summarise(const struct scene *scene, char summary[FORMAT_SUMMARY])
     snprintf(summary, FORMAT_SUMMARY, "%s%s%d keys", joints, targets, scene->shot->key_count);
 }
 
-static bool write_scene(struct shot *shot, bool binary, FILE *out, char summary[FORMAT_SUMMARY], struct error *error)
+static bool write_scene(struct shot *shot, const int *rigs, int count, bool binary, FILE *out,
+                        char summary[FORMAT_SUMMARY], struct error *error)
 {
     struct scene scene = {.shot = shot};
     json_t **const arrays[] = {&scene.roots, &scene.nodes, &scene.meshes, &scene.skins};
     enum { ARRAYS = sizeof arrays / sizeof *arrays };
     scene.looks.file = &scene.file;
     for (int i = 0; i < ARRAYS; i++) *arrays[i] = json_array();
-    shot->total = (long)shot->key_count * shot->rig_count;
     bool done = true;
     gltf_motion_begin(&scene.motion, &scene.file, shot);
-    for (int r = 0; done && r < shot->rig_count; r++) done = add_rig(&scene, shot->rigs[r], error);
+    for (int r = 0; done && r < count; r++) done = add_rig(&scene, rigs[r], error);
     done = done && gltf_file_write(&scene.file, make_root(&scene), binary, out, error);
     summarise(&scene, summary);
     for (int i = 0; i < ARRAYS; i++) json_decref(*arrays[i]);
@@ -299,7 +299,14 @@ static bool write_either(struct shot *shot, bool binary, FILE *out, char summary
         return fail(error, ERROR_INPUT, "\"%s\" is exported into a copy of its own file: choose one rig with %s",
                     form_name(rig), shot->rig_choice);
     }
-    return write_scene(shot, binary, out, summary, error);
+    shot->total = (long)shot->key_count * shot->rig_count;
+    return write_scene(shot, shot->rigs, shot->rig_count, binary, out, summary, error);
+}
+
+bool gltf_write_rig(struct shot *shot, int rig, FILE *out, struct error *error)
+{
+    char summary[FORMAT_SUMMARY];
+    return write_scene(shot, &rig, 1, true, out, summary, error);
 }
 
 bool glb_write(struct shot *shot, FILE *out, char summary[FORMAT_SUMMARY], struct error *error)

@@ -1,5 +1,5 @@
-/// The joints of an imported character in a .usda file: which there are, and where they rest and were bound.
-#include "export/usda_model.h"
+/// The joints of a rig in a .usda file: which there are, and where they rest and were bound.
+#include "export/usda.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -35,14 +35,19 @@ static bool needs_two_joints(const struct usda_model *model, int node)
     return !is_half(scale[0]) || !is_half(scale[1]) || !is_half(scale[2]);
 }
 
-static void add_joint(struct usda_model *model, int node, int parent, enum usda_joint_part part)
+static void add_joint(struct usda_model *model, struct usda_names *names, int node, int parent,
+                      enum usda_joint_part part)
 {
     const int j = model->joint_count++;
+    struct usda_joint *joint = &model->joints[j];
     char wanted[FORM_NAME];
-    snprintf(wanted, sizeof wanted, "%.40s%s", model->gltf->nodes[node].name, part == JOINT_SCALE ? "_scale" : "");
-    usda_unique(model->joint_names, j, wanted, model->joint_names[j]);
-    model->joints[j] = (struct usda_joint){
+    double local[16];
+    *joint = (struct usda_joint){
         .node = node, .parent = parent, .part = part, .moves = part != JOINT_SCALE && moves(model, node)};
+    snprintf(wanted, sizeof wanted, "%.40s%s", model->gltf->nodes[node].name, part == JOINT_SCALE ? "_scale" : "");
+    usda_unique(names, wanted, joint->name);
+    usda_rest(model, j, parent >= 0 ? local : joint->world);
+    if (parent >= 0) gltf_multiply(model->joints[parent].world, local, joint->world);
     model->joint_of[node] = j;
 }
 
@@ -68,49 +73,27 @@ static void mark(const struct gltf *gltf, bool *needed)
     }
 }
 
-bool usda_make_joints(struct usda_model *model, struct error *error)
+bool usda_make_joints(struct usda_model *model)
 {
     const struct gltf *gltf = model->gltf;
+    struct usda_names names = {0};
     bool *needed = calloc((size_t)gltf->node_count + 1, sizeof *needed);
-    if (!needed) return fail_no_memory(error, gltf->path);
+    if (!needed) return false;
     mark(gltf, needed);
     for (int i = 0; i < gltf->node_count; i++) {
         const int n = gltf->order[i], above = gltf->nodes[n].parent;
         model->joint_of[n] = -1;
         if (!needed[n]) continue;
         const bool two = moves(model, n) && needs_two_joints(model, n);
-        add_joint(model, n, above >= 0 ? model->joint_of[above] : -1, two ? JOINT_UNSCALED : JOINT_WHOLE);
-        if (two) add_joint(model, n, model->joint_of[n], JOINT_SCALE);
+        add_joint(model, &names, n, above >= 0 ? model->joint_of[above] : -1, two ? JOINT_UNSCALED : JOINT_WHOLE);
+        if (two) add_joint(model, &names, n, model->joint_of[n], JOINT_SCALE);
     }
     free(needed);
-    return true;
+    usda_names_free(&names);
+    return !names.failed;
 }
 
 // --- matrices
-
-/// Columns first, as glTF has them.
-static void matrix_of(const struct gltf_place *place, double m[16])
-{
-    const double x = (double)place->rotation[0], y = (double)place->rotation[1], z = (double)place->rotation[2],
-                 w = (double)place->rotation[3];
-    const double turned[3][3] = {{1 - 2 * (y * y + z * z), 2 * (x * y + w * z), 2 * (x * z - w * y)},
-                                 {2 * (x * y - w * z), 1 - 2 * (x * x + z * z), 2 * (y * z + w * x)},
-                                 {2 * (x * z + w * y), 2 * (y * z - w * x), 1 - 2 * (x * x + y * y)}};
-    for (int c = 0; c < 3; c++) {
-        for (int r = 0; r < 3; r++) m[4 * c + r] = (double)place->scale[c] * turned[c][r];
-        m[4 * c + 3] = 0;
-        m[12 + c] = (double)place->translation[c];
-    }
-    m[15] = 1;
-}
-
-static void multiply(const double a[16], const double b[16], double product[16])
-{
-    for (int i = 0; i < 16; i++) {
-        product[i] = 0;
-        for (int k = 0; k < 4; k++) product[i] += a[4 * k + i % 4] * b[i / 4 * 4 + k];
-    }
-}
 
 /// The inverse of an affine matrix; false where it has none.
 static bool invert(const float m[16], double inverse[16])
@@ -139,45 +122,33 @@ static bool invert(const float m[16], double inverse[16])
 void usda_rest(const struct usda_model *model, int number, double m[16])
 {
     const struct usda_joint *joint = &model->joints[number];
-    const struct gltf_node *node = &model->gltf->nodes[joint->node];
-    struct gltf_place place = node->place;
+    struct gltf_node node = model->gltf->nodes[joint->node];
     if (joint->part == JOINT_UNSCALED) {
-        for (int k = 0; k < 3; k++) place.scale[k] = 1;
+        for (int k = 0; k < 3; k++) node.place.scale[k] = 1;
     } else if (joint->part == JOINT_SCALE) {
-        place = (struct gltf_place){.rotation = {0, 0, 0, 1}};
-        memcpy(place.scale, usda_place(model, 0, joint->node)->scale, sizeof place.scale);
+        node.place = (struct gltf_place){.rotation = {0, 0, 0, 1}};
+        memcpy(node.place.scale, usda_place(model, 0, joint->node)->scale, sizeof node.place.scale);
     }
-    matrix_of(&place, m);
-    for (int i = 0; i < 16 && node->has_matrix; i++) m[i] = (double)node->matrix[i];
+    gltf_node_matrix(&node, m);
 }
 
-static void world_of(const struct usda_model *model, int joint, double world[16])
+/// Finds the nodes of a skin among its joints.
+static void find_slots(const struct usda_model *model, int skin, bool joints)
 {
-    usda_rest(model, joint, world);
-    for (int j = model->joints[joint].parent; j >= 0; j = model->joints[j].parent) {
-        double above[16], below[16];
-        memcpy(below, world, sizeof below);
-        usda_rest(model, j, above);
-        multiply(above, below, world);
-    }
+    for (int j = skin >= 0 ? model->gltf->skins[skin].joint_count - 1 : -1; j >= 0; j--)
+        model->slot_of[model->gltf->skins[skin].joints[j]] = joints ? j : -1;
 }
 
-void usda_bind(const struct usda_model *model, int skeleton, int joint, double matrix[16])
+void usda_bind(struct usda_model *model, int skeleton, int joint, double matrix[16])
 {
     const struct gltf *gltf = model->gltf;
-    const struct gltf_skin *skin = skeleton < gltf->skin_count ? &gltf->skins[skeleton] : NULL;
-    const int node = model->joints[joint].node;
-    for (int j = 0; skin && j < skin->joint_count && model->joint_of[node] == joint; j++) {
-        if (skin->joints[j] == node && invert(skin->inverse_bind[j], matrix)) return;
+    const int node = model->joints[joint].node, skin = skeleton < gltf->skin_count ? skeleton : -1;
+    if (skin != model->slots) {
+        find_slots(model, model->slots, false);
+        find_slots(model, skin, true);
+        model->slots = skin;
     }
-    world_of(model, joint, matrix);
-}
-
-void usda_matrix(FILE *out, const double m[16])
-{
-    for (int c = 0; c < 4; c++) {
-        fprintf(out, "%s(%.17g, %.17g, %.17g, %.17g)", c > 0 ? ", " : "(", m[4 * c], m[4 * c + 1], m[4 * c + 2],
-                m[4 * c + 3]);
-    }
-    fputs(")", out);
+    const int slot = model->joint_of[node] == joint ? model->slot_of[node] : -1;
+    if (slot < 0 || !invert(gltf->skins[skin].inverse_bind[slot], matrix))
+        memcpy(matrix, model->joints[joint].world, sizeof model->joints[joint].world);
 }

@@ -1,49 +1,156 @@
-/// The materials of an imported character in a .usda file, and the files of their textures.
-#include "export/usda_look.h"
-#include "export/usda_model.h"
+/// The materials of a rig in a .usda file, and the files of their textures, in a folder beside it.
+#include "base/path.h"
+#include "export/usda.h"
 #include <stdlib.h>
 #include <string.h>
 
-/// Writes the picture's file the first time: as the picture is called, or its material.
-static bool add_texture(struct usda_model *model, int material, struct usda_texture *texture, struct error *error)
+/// A material being written; `file` is that of its texture, or empty.
+struct usda_look {
+    const struct usda_model *model;
+    const struct gltf_material *material;
+    const char *name, *file;
+    bool is_plain; ///< no vertex of it has a colour of its own
+};
+
+/// Writes a picture's file, into a folder called as the .usda: "walk.usda" → "walk_textures". False with a sentence.
+static bool write_picture(const struct usda_model *model, const char *stem, const struct gltf_image *image,
+                          char file[PATH_LIMIT], struct error *error)
 {
-    struct gltf_texture of;
-    if (!gltf_source_texture(model->source, material, &of, error)) return false;
-    const struct usda_picture picture = {of.name ? of.name : model->materials[material], of.image, of.at, of.size};
-    const bool done = texture->file[0] || usda_write_picture(model->shot, &picture, texture->file, error);
-    memcpy(texture->wrap, of.wrap, sizeof of.wrap);
-    free(of.owned);
-    return done;
+    const char *path = model->shot->path, *dot = strrchr(path, '.');
+    char identifier[FORM_NAME], name[FORM_NAME], folder[PATH_LIMIT];
+    struct usda_names none = {0};
+    usda_unique(&none, stem, identifier);
+    usda_names_free(&none);
+    snprintf(name, sizeof name, "%.40s_%d.%s", identifier, model->shot->beside.count,
+             image->bytes[0] == 0xFF ? "jpg" : "png");
+    snprintf(folder, PATH_LIMIT, "%.*s_textures", dot ? (int)(dot - path) : (int)strlen(path), path);
+    if (snprintf(file, PATH_LIMIT, "./%s/%s", path_name(folder), name) >= PATH_LIMIT)
+        return fail(error, ERROR_INPUT, "%s: the path is too long", folder);
+    return beside_add(&model->shot->beside, folder, name, image->bytes, image->size, error);
 }
 
-static void write_material(const struct usda_model *model, int material, const struct usda_texture *texture)
+static void begin_shader(FILE *out, const char *name, const char *id)
 {
-    const struct gltf_material *m = &model->gltf->materials[material];
-    struct usda_look look = {.rig = model->name,
-                             .name = model->materials[material],
-                             .texture = texture,
-                             .is_blended = m->blended,
-                             .cutoff = m->cutoff};
-    memcpy(look.color, m->color, sizeof look.color);
-    look.shines = gltf_source_shine(model->source, material, &look.metallic, &look.roughness);
-    usda_write_look(model->out, &look);
+    fprintf(out, "\n                def Shader \"%s\"\n                {\n", name);
+    fprintf(out, "                    uniform token info:id = \"%s\"\n", id);
+}
+
+/// "name.connect = </…>", to an output of another shader of the material.
+static void connect(const struct usda_look *look, const char *name, const char *output)
+{
+    fprintf(look->model->out, "                    %s.connect = </scene/%s/materials/%s/%s>\n", name,
+            look->model->name, look->name, output);
+}
+
+static const char *wrap_of(int wrap)
+{
+    return wrap == GLTF_CLAMPED ? "clamp" : wrap == GLTF_MIRRORED ? "mirror" : "repeat";
+}
+
+static void write_texture(const struct usda_look *look)
+{
+    FILE *out = look->model->out;
+    const float *c = look->material->color;
+    const char *quote = strchr(look->file, '@') ? "@@@" : "@";
+    begin_shader(out, "texture", "UsdUVTexture");
+    fprintf(out, "                    asset inputs:file = %s%s%s\n", quote, look->file, quote);
+    fprintf(out, "                    float4 inputs:scale = (%.9g, %.9g, %.9g, %.9g)\n", (double)c[0], (double)c[1],
+            (double)c[2], (double)c[3]);
+    fputs("                    token inputs:sourceColorSpace = \"sRGB\"\n", out);
+    connect(look, "float2 inputs:st", "st.outputs:result");
+    fprintf(out, "                    token inputs:wrapS = \"%s\"\n", wrap_of(look->material->sampler.wrap[0]));
+    fprintf(out, "                    token inputs:wrapT = \"%s\"\n", wrap_of(look->material->sampler.wrap[1]));
+    fputs("                    float outputs:a\n                    float3 outputs:rgb\n                }\n", out);
+    begin_shader(out, "st", "UsdPrimvarReader_float2");
+    fputs("                    string inputs:varname = \"st\"\n", out);
+    fputs("                    float2 outputs:result\n                }\n", out);
+}
+
+/// Colours by vertex hold the material's own.
+static void write_color_reader(FILE *out)
+{
+    begin_shader(out, "color", "UsdPrimvarReader_float3");
+    fputs("                    string inputs:varname = \"displayColor\"\n", out);
+    fputs("                    float3 outputs:result\n                }\n", out);
+}
+
+static void write_surface(const struct usda_look *look)
+{
+    FILE *out = look->model->out;
+    const struct gltf_material *m = look->material;
+    begin_shader(out, "surface", "UsdPreviewSurface");
+    if (look->is_plain && !look->file[0]) {
+        usda_vector(out, "                    color3f inputs:diffuseColor = ", m->color);
+        fputc('\n', out);
+    } else {
+        connect(look, "color3f inputs:diffuseColor", look->file[0] ? "texture.outputs:rgb" : "color.outputs:result");
+    }
+    if ((m->blended || m->cutoff > 0) && look->file[0]) {
+        connect(look, "float inputs:opacity", "texture.outputs:a");
+    } else if (m->blended) {
+        fprintf(out, "                    float inputs:opacity = %.9g\n", (double)m->color[3]);
+    }
+    if (m->cutoff > 0) fprintf(out, "                    float inputs:opacityThreshold = %.9g\n", (double)m->cutoff);
+    if (m->shines) {
+        fprintf(out, "                    float inputs:metallic = %.9g\n", m->metallic);
+        fprintf(out, "                    float inputs:roughness = %.9g\n", m->roughness);
+    }
+    fputs("                    token outputs:surface\n                }\n", out);
+}
+
+static void write_material(const struct usda_look *look)
+{
+    FILE *out = look->model->out;
+    fprintf(out, "            def Material \"%s\"\n            {\n", look->name);
+    fprintf(out, "                token outputs:surface.connect = </scene/%s/materials/%s/surface.outputs:surface>\n",
+            look->model->name, look->name);
+    write_surface(look);
+    if (look->file[0]) {
+        write_texture(look);
+    } else if (!look->is_plain) {
+        write_color_reader(out);
+    }
+    fputs("            }\n\n", out);
+}
+
+/// Marks the materials of vertices that have colours of their own.
+static void mark_colored(const struct gltf *gltf, bool *colored)
+{
+    for (int m = 0; m < gltf->mesh_count; m++) {
+        for (int p = 0; p < gltf->meshes[m].part_count; p++) {
+            const struct gltf_part *part = &gltf->meshes[m].parts[p];
+            bool *is_colored = part->material >= 0 && part->color ? &colored[part->material] : NULL;
+            for (int i = 0; is_colored && !*is_colored && i < part->vertex_count; i++) {
+                const float *c = part->color[i];
+                *is_colored = c[0] != 1 || c[1] != 1 || c[2] != 1;
+            }
+        }
+    }
 }
 
 bool usda_write_materials(struct usda_model *model, struct error *error)
 {
     const struct gltf *gltf = model->gltf;
-    struct usda_texture *textures =
-        calloc((size_t)gltf->image_count + 1, sizeof *textures); // a picture is written once
-    bool done = textures || fail_no_memory(error, gltf->path);
+    struct usda_names names = {0};
+    char(*files)[PATH_LIMIT] = calloc((size_t)gltf->image_count + 1, sizeof *files); // a picture is written once
+    bool *colored = calloc((size_t)gltf->material_count + 1, sizeof *colored);
+    bool done = (files && colored) || fail_no_memory(error, gltf->path);
+    if (done) mark_colored(gltf, colored);
     fputs("        def Scope \"materials\"\n        {\n", model->out);
     for (int m = 0; done && m < gltf->material_count; m++) {
-        const char *name = gltf_source_material(model->source, m);
-        const int image = gltf->materials[m].image; // −1: none, or it could not be shown
-        usda_unique(model->materials, m, name ? name : "material", model->materials[m]);
-        done = image < 0 || add_texture(model, m, &textures[image], error);
-        if (done) write_material(model, m, image >= 0 ? &textures[image] : NULL);
+        struct usda_look look = {model, &gltf->materials[m], model->materials[m], "", !colored[m]};
+        const int number = look.material->image; // −1: none, or it could not be shown
+        const struct gltf_image *image = number >= 0 ? &gltf->images[number] : NULL;
+        usda_unique(&names, look.material->name, model->materials[m]);
+        if (image) look.file = files[number];
+        if (image && !look.file[0])
+            done = write_picture(model, image->name ? image->name : look.name, image, files[number], error);
+        if (done) write_material(&look);
     }
     fputs("        }\n", model->out);
-    free(textures);
+    if (done && names.failed) done = fail_no_memory(error, gltf->path);
+    usda_names_free(&names);
+    free(colored);
+    free(files);
     return done;
 }

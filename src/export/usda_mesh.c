@@ -1,9 +1,6 @@
-/// The meshes of an imported character in a .usda file, bound to its skeletons. Vertices are in the order of its .pc2.
-#include "export/usda_look.h"
-#include "export/usda_model.h"
-#include <math.h>
+/// The meshes of a rig in a .usda file, bound to its skeletons. Vertices are in the order of its .pc2.
+#include "export/usda.h"
 #include <stdlib.h>
-#include <string.h>
 
 /// Parts of a node's mesh, one after the other, that are a prim: all of them, unless some have a skin and some have not.
 struct run {
@@ -11,6 +8,7 @@ struct run {
     int node;
     const struct gltf_part *parts;
     int count;
+    int owner; ///< the first part whose vertices others share, which leave theirs out; −1: none, as in an imported character's .pc2
     int influences; ///< joints a vertex; 0: all hangs at the node's own
     const char *name;
 };
@@ -26,6 +24,24 @@ static int skeleton_of(const struct run *run)
     return skin >= 0 ? skin : 0;
 }
 
+/// Whether a part's vertices are written with another's: where texture coordinates differ they are not.
+static bool is_left_out(const struct run *run, int p)
+{
+    const struct gltf_part *part = &run->parts[p];
+    const struct gltf_part *owner = run->owner >= 0 && p != run->owner ? &run->parts[run->owner] : NULL;
+    return owner && part->position == owner->position && part->uv == owner->uv;
+}
+
+/// The vertex of the prim that a part's first one is; `next` counts them.
+static int first_vertex(const struct run *run, int p, int *owner, int *next)
+{
+    if (is_left_out(run, p)) return *owner;
+    const int first = *next;
+    if (p == run->owner) *owner = first;
+    *next += run->parts[p].vertex_count;
+    return first;
+}
+
 // --- arrays by vertex
 
 /// Writes one vertex, after `before`.
@@ -37,7 +53,7 @@ static void write_vertices(const struct run *run, const char *declaration, write
     const char *before = "";
     fprintf(out, "            %s = [", declaration);
     for (int p = 0; p < run->count; p++) {
-        for (int i = 0; i < run->parts[p].vertex_count; i++) {
+        for (int i = 0; i < run->parts[p].vertex_count && !is_left_out(run, p); i++) {
             write(run, &run->parts[p], i, before);
             before = ", ";
         }
@@ -45,19 +61,22 @@ static void write_vertices(const struct run *run, const char *declaration, write
     fputs("]", out);
 }
 
-static void write_vector(const struct run *run, const float v[3], const char *before)
+/// Says that an array goes by vertex, with `each` elements for one; 0: it need not be said.
+static void end_by_vertex(FILE *out, int each)
 {
-    fprintf(run->model->out, "%s(%.9g, %.9g, %.9g)", before, (double)v[0], (double)v[1], (double)v[2]);
+    fputs(" (\n", out);
+    if (each > 0) fprintf(out, "                elementSize = %d\n", each);
+    fputs("                interpolation = \"vertex\"\n            )\n", out);
 }
 
 static void write_position(const struct run *run, const struct gltf_part *part, int vertex, const char *before)
 {
-    write_vector(run, part->position[vertex], before);
+    usda_vector(run->model->out, before, part->position[vertex]);
 }
 
 static void write_normal(const struct run *run, const struct gltf_part *part, int vertex, const char *before)
 {
-    write_vector(run, part->normal[vertex], before);
+    usda_vector(run->model->out, before, part->normal[vertex]);
 }
 
 /// USD counts upwards.
@@ -65,17 +84,6 @@ static void write_uv(const struct run *run, const struct gltf_part *part, int ve
 {
     const float u = part->uv ? part->uv[vertex][0] : 0, v = part->uv ? part->uv[vertex][1] : 0;
     fprintf(run->model->out, "%s(%.9g, %.9g)", before, (double)u, 1 - (double)v);
-}
-
-/// The material's colour times the vertex's.
-static void write_color(const struct run *run, const struct gltf_part *part, int vertex, const char *before)
-{
-    float color[3] = {1, 1, 1};
-    for (int k = 0; k < 3; k++) {
-        if (part->material >= 0) color[k] = run->model->gltf->materials[part->material].color[k];
-        if (part->color) color[k] *= part->color[vertex][k];
-    }
-    write_vector(run, color, before);
 }
 
 static void write_slots(const struct run *run, const struct gltf_part *part, int vertex, const char *before)
@@ -97,32 +105,67 @@ static void write_weights(const struct run *run, const struct gltf_part *part, i
 static void write_interpolated(const struct run *run, const char *declaration, write_vertex *write, int each)
 {
     write_vertices(run, declaration, write);
-    usda_by_vertex(run->model->out, each);
+    end_by_vertex(run->model->out, each);
+}
+
+/// The material's colour times the vertex's: where two materials meet, that of the later triangle. False if memory is short.
+static bool write_colors(const struct run *run)
+{
+    int count = 0, owner = 0, next = 0;
+    for (int p = 0; p < run->count; p++) first_vertex(run, p, &owner, &count);
+    float(*tint)[3] = malloc(((size_t)count + 1) * sizeof *tint);
+    if (!tint) return false;
+    for (int i = 0; i < 3 * count; i++) tint[i / 3][i % 3] = 1;
+    for (int p = 0; p < run->count; p++) {
+        const struct gltf_part *part = &run->parts[p];
+        const int first = first_vertex(run, p, &owner, &next);
+        for (int i = 0; i < part->index_count; i++) {
+            const uint32_t v = part->indices[i];
+            for (int k = 0; k < 3; k++)
+                tint[first + (int)v][k] =
+                    (part->color ? part->color[v][k] : 1) *
+                    (part->material >= 0 ? run->model->gltf->materials[part->material].color[k] : 1);
+        }
+    }
+    fputs("            color3f[] primvars:displayColor = [", run->model->out);
+    for (int i = 0; i < count; i++) usda_vector(run->model->out, i > 0 ? ", " : "", tint[i]);
+    fputs("]", run->model->out);
+    end_by_vertex(run->model->out, 0);
+    free(tint);
+    return true;
 }
 
 // --- faces and their materials
+
+/// The index behind the polygon that begins at index `i`.
+static int polygon_end(const struct gltf_part *part, int i)
+{
+    for (i += 3; i < part->index_count && gltf_joins(part, i);) i += 3;
+    return i;
+}
 
 static void write_faces(const struct run *run)
 {
     FILE *out = run->model->out;
     const char *before = "";
-    uint32_t first = 0;
+    int owner = 0, next = 0;
     fputs("            int[] faceVertexCounts = [", out);
     for (int p = 0; p < run->count; p++) {
-        for (int i = 0; i + 2 < run->parts[p].index_count; i += 3) {
-            fprintf(out, "%s3", before);
-            before = ", ";
+        for (int i = 0, end; i < run->parts[p].index_count; i = end, before = ", ") {
+            end = polygon_end(&run->parts[p], i);
+            fprintf(out, "%s%d", before, (end - i) / 3 + 2);
         }
     }
     before = "";
     fputs("]\n            int[] faceVertexIndices = [", out);
     for (int p = 0; p < run->count; p++) {
         const struct gltf_part *part = &run->parts[p];
+        const uint32_t first = (uint32_t)first_vertex(run, p, &owner, &next);
         for (int i = 0; i < part->index_count; i++) {
+            if (i % 3 < 2 && gltf_joins(part, i - i % 3)) continue;
             fprintf(out, "%s%u", before, first + part->indices[i]);
             before = ", ";
         }
-        first += (uint32_t)part->vertex_count;
     }
     fputs("]\n            uniform token subdivisionScheme = \"none\"\n", out);
 }
@@ -133,11 +176,18 @@ static void write_subsets(const struct run *run)
     int face = 0;
     fputs("            uniform token subsetFamily:materialBind:familyType = \"nonOverlapping\"\n", out);
     for (int p = 0; p < run->count; p++) {
-        const int count = run->parts[p].index_count / 3, material = run->parts[p].material;
-        usda_begin_subset(out, p + 1);
-        for (int i = 0; i < count; i++) fprintf(out, "%s%d", i > 0 ? ", " : "", face + i);
-        usda_end_subset(out, run->model->name, material >= 0 ? run->model->materials[material] : NULL);
-        face += count;
+        const struct gltf_part *part = &run->parts[p];
+        fprintf(out, "\n            def GeomSubset \"part_%d\" (\n", p + 1);
+        fputs("                prepend apiSchemas = [\"MaterialBindingAPI\"]\n            )\n            {\n", out);
+        fputs("                uniform token elementType = \"face\"\n", out);
+        fputs("                uniform token familyName = \"materialBind\"\n                int[] indices = [", out);
+        for (int i = 0; i < part->index_count; i = polygon_end(part, i))
+            fprintf(out, "%s%d", i > 0 ? ", " : "", face++);
+        fputs("]\n", out);
+        if (part->material >= 0)
+            fprintf(out, "                rel material:binding = </scene/%s/materials/%s>\n", run->model->name,
+                    run->model->materials[part->material]);
+        fputs("            }\n", out);
     }
 }
 
@@ -153,8 +203,8 @@ static void write_offsets(const struct run *run, int target, bool normals)
     for (int p = 0; p < run->count; p++) {
         const struct gltf_target *of = &run->parts[p].targets[target];
         const float(*by)[3] = normals ? of->normal : of->position;
-        for (int i = 0; i < run->parts[p].vertex_count; i++) {
-            write_vector(run, by ? by[i] : still, before);
+        for (int i = 0; i < run->parts[p].vertex_count && !is_left_out(run, p); i++) {
+            usda_vector(out, before, by ? by[i] : still);
             before = ", ";
         }
     }
@@ -193,7 +243,7 @@ static void write_binding(const struct run *run)
         write_interpolated(run, "float[] primvars:skel:jointWeights", write_weights, run->influences);
     } else {
         double bind[16];
-        usda_bind(model, skeleton_of(run), joint, bind);
+        usda_bind(run->model, skeleton_of(run), joint, bind);
         fprintf(model->out,
                 "            int[] primvars:skel:jointIndices = [%d] (\n                elementSize = 1\n", joint);
         fputs("                interpolation = \"constant\"\n            )\n", model->out);
@@ -208,7 +258,7 @@ static void write_binding(const struct run *run)
             model->prims[skeleton_of(run)]);
 }
 
-static void write_run(const struct run *run)
+static bool write_run(const struct run *run)
 {
     const struct usda_model *model = run->model;
     bool double_sided = false, has_uv = false;
@@ -223,13 +273,14 @@ static void write_run(const struct run *run)
     write_vertices(run, "point3f[] points", write_position);
     fputc('\n', model->out);
     write_interpolated(run, "normal3f[] normals", write_normal, 0);
-    write_interpolated(run, "color3f[] primvars:displayColor", write_color, 0);
+    if (!write_colors(run)) return false;
     if (has_uv) write_interpolated(run, "texCoord2f[] primvars:st", write_uv, 0);
     write_faces(run);
     write_binding(run);
     write_shapes(run);
     write_subsets(run);
     fputs("        }\n", model->out);
+    return true;
 }
 
 /// The joints that a vertex has at most; where a part has no skin, all of the run's have none.
@@ -247,18 +298,23 @@ static int count_influences(const struct run *run)
     return most > 0 ? most : 1;
 }
 
-void usda_write_meshes(struct usda_model *model)
+bool usda_write_meshes(struct usda_model *model, struct error *error)
 {
     const struct gltf *gltf = model->gltf;
     for (int n = 0; n < gltf->node_count; n++) {
         const struct gltf_mesh *mesh = gltf->nodes[n].mesh >= 0 ? &gltf->meshes[gltf->nodes[n].mesh] : NULL;
         for (int p = 0, end; mesh && p < mesh->part_count; p = end) {
+            struct run run = {.model = model, .node = n, .parts = mesh->parts + p, .owner = -1};
             const bool skinned = has_skin(model, n, &mesh->parts[p]);
-            for (end = p + 1; end < mesh->part_count && has_skin(model, n, &mesh->parts[end]) == skinned;) end++;
-            struct run run = {.model = model, .node = n, .parts = mesh->parts + p, .count = end - p};
+            for (end = p; end < mesh->part_count && has_skin(model, n, &mesh->parts[end]) == skinned; end++) {
+                if (model->is_own && run.owner < 0 && mesh->parts[end].position == mesh->parts->position)
+                    run.owner = end - p;
+            }
+            run.count = end - p;
             run.influences = count_influences(&run);
             run.name = usda_prim(model, gltf->nodes[n].name);
-            write_run(&run);
+            if (!write_run(&run)) return fail_no_memory(error, gltf->path);
         }
     }
+    return true;
 }

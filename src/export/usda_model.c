@@ -1,22 +1,37 @@
-/// The skeletons of an imported character in a .usda file, and what moves them.
-#include "export/usda_model.h"
+/// The skeletons of a rig in a .usda file, and what moves them.
 #include "export/keys.h"
+#include "export/usda.h"
 #include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
 
 // --- keys
 
-static bool collect_keys(struct usda_model *model, struct error *error)
+/// Poses the model at a key: as the scene has it, or as its clip says.
+static bool pose_at(struct usda_model *model, int key, struct gltf_pose *own, const struct gltf_pose **pose,
+                    struct error *error)
+{
+    struct rig_pose posed;
+    *pose = own;
+    if (model->is_own) {
+        gltf_pose_clip(model->gltf, model->gltf->clip_count > 0 ? 0 : -1, (float)shot_seconds(model->shot, key), own);
+        return true;
+    }
+    if (!shot_pose(model->shot, model->rig, key, &posed, error) || !shot_proceed(model->shot, error)) return false;
+    *pose = posed.model.pose;
+    return true;
+}
+
+static bool collect_keys(struct usda_model *model, struct gltf_pose *own, struct error *error)
 {
     const struct gltf *gltf = model->gltf;
     const size_t nodes = (size_t)gltf->node_count, weights = (size_t)gltf->weight_count;
     for (int k = 0; k < model->shot->key_count; k++) {
-        struct rig_pose pose;
+        const struct gltf_pose *pose;
         struct gltf_place *at = model->places + (size_t)k * nodes;
-        if (!shot_pose(model->shot, model->rig, k, &pose, error) || !shot_proceed(model->shot, error)) return false;
-        memcpy(at, pose.model.pose->place, nodes * sizeof *at);
-        memcpy(model->weights + (size_t)k * weights, pose.model.pose->weights, weights * sizeof *model->weights);
+        if (!pose_at(model, k, own, &pose, error)) return false;
+        memcpy(at, pose->place, nodes * sizeof *at);
+        memcpy(model->weights + (size_t)k * weights, pose->weights, weights * sizeof *model->weights);
         for (size_t n = 0; n < nodes; n++)
             keys_turn_short_way(k > 0 ? (at + n - nodes)->rotation : gltf->nodes[n].place.rotation, at[n].rotation);
     }
@@ -34,7 +49,7 @@ static void write_path(const struct usda_model *model, int joint)
         write_path(model, model->joints[joint].parent);
         fputc('/', model->out);
     }
-    fputs(model->joint_names[joint], model->out);
+    fputs(model->joints[joint].name, model->out);
 }
 
 static void write_joints(const struct usda_model *model, bool moving)
@@ -59,7 +74,7 @@ static bool is_animated(const struct usda_model *model)
     return model->gltf->weight_count > 0;
 }
 
-static void write_skeleton(const struct usda_model *model, int skeleton)
+static void write_skeleton(struct usda_model *model, int skeleton)
 {
     double m[16];
     fprintf(model->out, "        def Skeleton \"%s\" (\n            prepend apiSchemas = [\"SkelBindingAPI\"]\n",
@@ -86,58 +101,43 @@ static void write_skeleton(const struct usda_model *model, int skeleton)
 
 // --- what moves them
 
-typedef void write_key(const struct usda_model *model, int key);
+typedef void write_joint(const struct usda_model *model, int key, const struct usda_joint *joint, const char *before);
 
-static void write_translations(const struct usda_model *model, int key)
+static void write_translation(const struct usda_model *model, int key, const struct usda_joint *joint,
+                              const char *before)
 {
-    const char *before = "[";
-    for (int j = 0; j < model->joint_count; j++) {
-        if (!model->joints[j].moves) continue;
-        const float *p = usda_place(model, key, model->joints[j].node)->translation;
-        fprintf(model->out, "%s(%.9g, %.9g, %.9g)", before, (double)p[0], (double)p[1], (double)p[2]);
-        before = ", ";
-    }
+    usda_vector(model->out, before, usda_place(model, key, joint->node)->translation);
 }
 
-static void write_rotations(const struct usda_model *model, int key)
+static void write_rotation(const struct usda_model *model, int key, const struct usda_joint *joint,
+                           const char *before)
 {
-    const char *before = "[";
-    for (int j = 0; j < model->joint_count; j++) {
-        if (!model->joints[j].moves) continue;
-        const float *q = usda_place(model, key, model->joints[j].node)->rotation;
-        fprintf(model->out, "%s(%.9g, %.9g, %.9g, %.9g)", before, (double)q[3], (double)q[0], (double)q[1],
-                (double)q[2]);
-        before = ", ";
-    }
+    const float *q = usda_place(model, key, joint->node)->rotation;
+    fprintf(model->out, "%s(%.9g, %.9g, %.9g, %.9g)", before, (double)q[3], (double)q[0], (double)q[1], (double)q[2]);
 }
 
-static void write_scales(const struct usda_model *model, int key)
+static void write_scale(const struct usda_model *model, int key, const struct usda_joint *joint, const char *before)
 {
     static const float one[3] = {1, 1, 1};
-    const char *before = "[";
-    for (int j = 0; j < model->joint_count; j++) {
-        if (!model->joints[j].moves) continue;
-        const bool unscaled = model->joints[j].part == JOINT_UNSCALED;
-        const float *s = unscaled ? one : usda_place(model, key, model->joints[j].node)->scale;
-        fprintf(model->out, "%s(%.9g, %.9g, %.9g)", before, (double)s[0], (double)s[1], (double)s[2]);
-        before = ", ";
-    }
+    usda_vector(model->out, before, joint->part == JOINT_UNSCALED ? one : usda_place(model, key, joint->node)->scale);
 }
 
-static void write_weights(const struct usda_model *model, int key)
+/// A key for all joints that move; of the weights where `write` is NULL.
+static void write_samples(const struct usda_model *model, const char *declaration, write_joint *write, int count)
 {
-    const int count = model->gltf->weight_count;
-    for (int i = 0; i < count; i++)
-        fprintf(model->out, "%s%.9g", i > 0 ? ", " : "[",
-                (double)model->weights[(size_t)key * (size_t)count + (size_t)i]);
-}
-
-static void write_samples(const struct usda_model *model, const char *declaration, write_key *write, int count)
-{
+    const int weights = model->gltf->weight_count;
     fprintf(model->out, "            %s.timeSamples = {\n", declaration);
     for (int k = 0; k < count; k++) {
+        const char *before = "[";
         fprintf(model->out, "                %.9g: ", shot_frame(model->shot, k));
-        write(model, k);
+        for (int j = 0; write && j < model->joint_count; j++) {
+            if (!model->joints[j].moves) continue;
+            write(model, k, &model->joints[j], before);
+            before = ", ";
+        }
+        for (int i = 0; !write && i < weights; i++)
+            fprintf(model->out, "%s%.9g", i > 0 ? ", " : "[",
+                    (double)model->weights[(size_t)k * (size_t)weights + (size_t)i]);
         fputs("],\n", model->out);
     }
     fputs("            }\n", model->out);
@@ -162,11 +162,11 @@ static void write_animation(const struct usda_model *model)
     fputs("        def SkelAnimation \"animation\"\n        {\n", model->out);
     if (any) {
         write_joints(model, true);
-        write_samples(model, "float3[] translations", write_translations,
+        write_samples(model, "float3[] translations", write_translation,
                       count_keys(model, offsetof(struct gltf_place, translation), 3 * sizeof(float)));
-        write_samples(model, "quatf[] rotations", write_rotations,
+        write_samples(model, "quatf[] rotations", write_rotation,
                       count_keys(model, offsetof(struct gltf_place, rotation), 4 * sizeof(float)));
-        write_samples(model, "half3[] scales", write_scales,
+        write_samples(model, "half3[] scales", write_scale,
                       count_keys(model, offsetof(struct gltf_place, scale), 3 * sizeof(float)));
     }
     if (model->gltf->weight_count > 0) {
@@ -174,7 +174,7 @@ static void write_animation(const struct usda_model *model)
         for (int i = 0; i < model->gltf->weight_count; i++)
             fprintf(model->out, "%s\"%s\"", i > 0 ? ", " : "", model->shapes[i]);
         fputs("]\n", model->out);
-        write_samples(model, "float[] blendShapeWeights", write_weights, model->shot->key_count);
+        write_samples(model, "float[] blendShapeWeights", NULL, model->shot->key_count);
     }
     fputs("        }\n\n", model->out);
 }
@@ -182,18 +182,21 @@ static void write_animation(const struct usda_model *model)
 // --- all of it
 
 /// As the file calls them (a custom of many exporters), else by number; those of all nodes together differ.
-static void name_shapes(struct usda_model *model)
+static bool name_shapes(struct usda_model *model)
 {
     const struct gltf *gltf = model->gltf;
+    struct usda_names names = {0};
     for (int n = 0; n < gltf->node_count; n++) {
         const int mesh = gltf->nodes[n].mesh, first = gltf->nodes[n].first_weight;
         for (int t = 0; mesh >= 0 && t < gltf->meshes[mesh].target_count; t++) {
             char numbered[32];
-            const char *name = gltf_source_target(model->source, mesh, t);
+            const char *name = gltf_target_name(&gltf->meshes[mesh], t);
             snprintf(numbered, sizeof numbered, "target_%d", t);
-            usda_unique(model->shapes, first + t, name ? name : numbered, model->shapes[first + t]);
+            usda_unique(&names, name ? name : numbered, model->shapes[first + t]);
         }
     }
+    usda_names_free(&names);
+    return !names.failed;
 }
 
 /// Skeletons, what all have, and meshes: at most one for each part.
@@ -215,70 +218,72 @@ static bool reserve(struct usda_model *model)
     model->weights = calloc(keys * weights, sizeof *model->weights);
     model->shapes = calloc(weights, sizeof *model->shapes);
     model->joints = calloc(2 * nodes, sizeof *model->joints);
-    model->joint_names = calloc(2 * nodes, sizeof *model->joint_names);
     model->joint_of = calloc(nodes, sizeof *model->joint_of);
+    model->slot_of = malloc(nodes * sizeof *model->slot_of);
     model->materials = calloc((size_t)gltf->material_count + 1, sizeof *model->materials);
     model->prims = calloc(count_prims(gltf), sizeof *model->prims);
-    return model->places && model->weights && model->shapes && model->joints && model->joint_names &&
-           model->joint_of && model->materials && model->prims;
+    for (size_t n = 0; model->slot_of && n < nodes; n++) model->slot_of[n] = -1;
+    model->slots = -1;
+    return model->places && model->weights && model->shapes && model->joints && model->joint_of && model->slot_of &&
+           model->materials && model->prims;
 }
 
 static void release(struct usda_model *model)
 {
-    gltf_source_close(model->source);
+    usda_names_free(&model->prim_names);
     free(model->places);
     free(model->weights);
     free(model->shapes);
     free(model->joints);
-    free(model->joint_names);
     free(model->joint_of);
+    free(model->slot_of);
     free(model->materials);
     free(model->prims);
 }
 
-/// Where the scene has it, which stands still.
-static void write_root(const struct usda_model *model, const struct rig_pose *pose)
-{
-    double root[16];
-    for (int i = 0; i < 16; i++) root[i] = (double)pose->model.root[i];
-    fprintf(model->out, "\n    def SkelRoot \"%s\"\n    {\n        matrix4d xformOp:transform = ", model->name);
-    usda_matrix(model->out, root);
-    fputs("\n        uniform token[] xformOpOrder = [\"xformOp:transform\"]\n\n", model->out);
-}
-
 const char *usda_prim(struct usda_model *model, const char *wanted)
 {
-    char *name = model->prims[model->prim_count];
-    usda_unique(model->prims, model->prim_count++, wanted, name);
+    char *name = model->prims[model->prim_count++];
+    usda_unique(&model->prim_names, wanted, name);
     return name;
 }
 
-static bool write_all(struct usda_model *model, const struct rig_pose *pose, struct error *error)
+static bool write_all(struct usda_model *model, struct error *error)
 {
-    name_shapes(model);
-    write_root(model, pose);
     const int skeletons = model->gltf->skin_count > 1 ? model->gltf->skin_count : 1;
     for (int s = 0; s < skeletons; s++) usda_prim(model, "skeleton");
     usda_prim(model, "animation");
     usda_prim(model, "materials");
     for (int s = 0; s < skeletons; s++) write_skeleton(model, s);
     if (is_animated(model)) write_animation(model);
-    if (!usda_write_materials(model, error)) return false;
-    usda_write_meshes(model);
-    fputs("    }\n", model->out);
+    return usda_write_materials(model, error) && usda_write_meshes(model, error) &&
+           (!model->prim_names.failed || fail_no_memory(error, model->gltf->path));
+}
+
+/// Where the scene has it, which stands still; its own rigs are there already.
+static bool write_root(const struct usda_model *model, struct error *error)
+{
+    struct rig_pose pose;
+    double root[16];
+    fprintf(model->out, "\n    def SkelRoot \"%s\"\n    {\n", model->name);
+    if (model->is_own) return true;
+    if (!shot_pose(model->shot, model->rig, 0, &pose, error)) return false;
+    for (int i = 0; i < 16; i++) root[i] = (double)pose.model.root[i];
+    fputs("        matrix4d xformOp:transform = ", model->out);
+    usda_matrix(model->out, root);
+    fputs("\n        uniform token[] xformOpOrder = [\"xformOp:transform\"]\n\n", model->out);
     return true;
 }
 
-bool usda_model_write(struct shot *shot, int rig, const char *name, FILE *out, struct error *error)
+bool usda_model_write(struct usda_model *model, struct error *error)
 {
-    struct usda_model model = {.shot = shot, .rig = rig, .name = name, .out = out};
-    struct rig_pose pose;
-    if (!shot_pose(shot, rig, 0, &pose, error)) return false;
-    model.gltf = &pose.model.imported->gltf;
-    model.source = gltf_source_open(model.gltf->path, error);
-    if (!model.source) return false;
-    const bool done = (reserve(&model) || fail_no_memory(error, model.gltf->path)) && collect_keys(&model, error) &&
-                      usda_make_joints(&model, error) && write_all(&model, &pose, error);
-    release(&model);
+    struct gltf_pose pose = {0};
+    const bool room = reserve(model) && gltf_pose_create(model->gltf, &pose);
+    bool done = (room || fail_no_memory(error, model->gltf->path)) && collect_keys(model, &pose, error);
+    if (done && (!usda_make_joints(model) || !name_shapes(model))) done = fail_no_memory(error, model->gltf->path);
+    done = done && write_root(model, error) && write_all(model, error);
+    fputs("    }\n", model->out);
+    gltf_pose_free(&pose);
+    release(model);
     return done;
 }

@@ -83,7 +83,7 @@ static void free_mesh(struct gltf_mesh *mesh)
 {
     for (int i = 0; i < mesh->part_count; i++) {
         if (!mesh->parts[i].shared) free_vertices(&mesh->parts[i], mesh->target_count);
-        free(mesh->parts[i].uv);
+        if (i == 0 || mesh->parts[i].uv != mesh->parts[0].uv) free(mesh->parts[i].uv);
         free(mesh->parts[i].indices);
     }
     json_decref(mesh->extras);

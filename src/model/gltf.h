@@ -94,7 +94,8 @@ struct gltf_part {
     int material;                ///< −1: plain white
     bool has_polygons;           ///< GLTF_POLYGONS, unless flat
     bool flat;                   ///< the file has no normals, so each triangle has vertices of its own
-    bool shared; ///< its vertices are those of the mesh's first part, but for `uv`: at the same addresses
+    bool
+        shared; ///< its vertices are those of the mesh's first part, at the same addresses; so is `uv`, unless materials differ in that
 };
 
 /// Whether the triangle at index `i` goes on with the polygon of the one before.

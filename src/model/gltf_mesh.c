@@ -69,11 +69,14 @@ static bool shares(const json_t *primitive, const json_t *other)
            json_equal(json_object_get(primitive, "targets"), json_object_get(other, "targets"));
 }
 
-/// The vertices of another part, but for its material's texture coordinates.
-static void share(struct gltf_part *part, const struct gltf_part *other)
+/// The vertices of another part; its texture coordinates too, where both materials have them at the same place.
+static void share(const struct gltf_reader *r, struct gltf_part *part, const struct gltf_part *other)
 {
+    const struct gltf_uv *uvs = r->uvs;
     struct gltf_part shared = *other;
-    shared.uv = NULL;
+    if (part->material != other->material && (part->material < 0 || other->material < 0 ||
+                                              memcmp(&uvs[part->material], &uvs[other->material], sizeof *uvs) != 0))
+        shared.uv = NULL;
     shared.indices = part->indices;
     shared.index_count = part->index_count;
     shared.material = part->material;
@@ -122,7 +125,7 @@ static bool read_part(struct gltf_reader *r, const json_t *primitive, const json
     vertices.order = part->flat ? part->indices : NULL;
     vertices.count = part->flat ? part->index_count : vertices.in_file;
     if (!part->flat && shares(primitive, like)) {
-        share(part, mesh->parts);
+        share(r, part, mesh->parts);
     } else {
         if (!gltf_read_vertices(r, primitive, &vertices, mesh->target_count, part)) return false;
         for (int n = 0; part->joints && n < vertices.count * GLTF_INFLUENCES; n++) {
@@ -130,7 +133,7 @@ static bool read_part(struct gltf_reader *r, const json_t *primitive, const json
             if (joint >= r->joints_of[mesh - r->gltf->meshes]) r->joints_of[mesh - r->gltf->meshes] = joint + 1;
         }
     }
-    if (!gltf_read_uv(r, attributes, &vertices, part)) return false;
+    if (!part->uv && !gltf_read_uv(r, attributes, &vertices, part)) return false;
     for (int i = 0; part->flat && i < part->index_count; i++) part->indices[i] = (uint32_t)i;
     return true;
 }
