@@ -28,7 +28,7 @@ out vec3 fur;
 out vec2 phase;
 out float open_sky;
 
-// The phase map's colours: see ui/phase_color.h.
+// The phase map's colours: see ui/theme.h.
 const float LIGHTNESS = 0.70;
 const float CHROMA = 0.10;
 const vec2 SWING = vec2(0.09298, 0.19939);

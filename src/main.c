@@ -1,5 +1,4 @@
 /// Reads the command line and hands over to one command.
-#include "base/build.h"
 #include "base/embedded.h"
 #include "base/printable.h"
 #include "commands/commands.h"

@@ -4,7 +4,7 @@
 #include "model/painted.h"
 #include "offscreen.h"
 #include "puppet.h"
-#include "ui/phase_color.h"
+#include "ui/theme.h"
 #include <stdio.h>
 
 enum { WIDTH = 500, HEIGHT = 300 };

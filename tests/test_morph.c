@@ -3,7 +3,7 @@
 #include "rig/models.h"
 #include "rig/posing.h"
 #include "scene/load.h"
-#include "ui/phase_color.h"
+#include "ui/theme.h"
 #include <complex.h>
 #include <malloc.h>
 #include <stdio.h>

@@ -3,7 +3,6 @@
 #include "near.h"
 #include "simulation/blocks.h"
 #include "simulation/eigen.h"
-#include "simulation/svd.h"
 #include "simulation/vec3.h"
 #include <lapacke.h>
 #include <stdlib.h>

@@ -2,7 +2,6 @@
 /// colour-blind eyes too.
 #include "color.h"
 #include "near.h"
-#include "ui/phase_color.h"
 #include "ui/theme.h"
 #include <math.h>
 

@@ -12,7 +12,7 @@ compiler=$($2 --version | head -n 1 | tr -d '"\\')
 mkdir -p "$(dirname "$output")"
 new=$output.$$ # several may be at it at once
 {
-    echo '#include "base/build.h"'
+    echo '#include "base/embedded.h"'
     echo
     echo "const char build_commit[] = \"$commit\";"
     echo "const char build_compiler[] = \"$compiler\";"

@@ -5,7 +5,7 @@
 #include "model/character.h"
 #include "rig/posing.h"
 #include "scene/load.h"
-#include "ui/phase_color.h"
+#include "ui/theme.h"
 #include <errno.h>
 #include <math.h>
 #include <stdio.h>

@@ -1,6 +1,6 @@
 /// wiggly-bench [--json FILE] [--large]: the solver against LAPACKE, on the same systems in the same run.
-#include "base/build.h"
 #include "base/clock.h"
+#include "base/embedded.h"
 #include "base/error.h"
 #include "base/file.h"
 #include "base/need.h"

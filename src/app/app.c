@@ -4,7 +4,6 @@
 #include "base/clock.h"
 #include "base/need.h"
 #include "platform/process.h"
-#include "platform/turns.h"
 #include "scene/load.h"
 #include "ui/font.h"
 #include "ui/theme.h"

@@ -28,7 +28,7 @@ struct app_options {
     const char *replay;      ///< events from this file; its clock is its own
     const char *record;      ///< events to this file
     const char *result;      ///< the document at the end
-    const char *turns;       ///< "first" or "second": draws frames in turn with another program (platform/turns.h)
+    const char *turns;       ///< "first" or "second": draws frames in turn with another program (platform/process.h)
 };
 
 /// Runs until the user quits or the frames are done; prints the timing summary if frames were counted. Without a display

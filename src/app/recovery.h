@@ -13,8 +13,8 @@
 #define APP_RECOVERY_H
 
 #include "base/error.h"
+#include "base/file.h"
 #include "base/path.h"
-#include "base/stamp.h"
 #include "scene/document.h"
 #include <stddef.h>
 #include <time.h>

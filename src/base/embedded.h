@@ -1,4 +1,4 @@
-/// Files that are part of the binary: shaders, fonts, the default scene. The table is generated at build time.
+/// What is part of the binary: files (shaders, fonts, the default scene), in a table that is generated at build time, and how it was built.
 #ifndef BASE_EMBEDDED_H
 #define BASE_EMBEDDED_H
 
@@ -16,5 +16,10 @@ const struct embedded *embedded_find(const char *name);
 
 /// The next file whose name begins with `folder`, after `previous` or from the start (NULL); NULL after the last.
 const struct embedded *embedded_next(const char *folder, const struct embedded *previous);
+
+/// Facts known only at build time; tools/build-info.sh generates the definitions.
+extern const char build_commit[];   ///< abbreviated, "-dirty" where the tree was; "unknown" outside git
+extern const char build_compiler[]; ///< first line of its --version
+extern const char build_flags[];    ///< those that affect the generated code
 
 #endif

@@ -1,4 +1,4 @@
-/// Reads whole files, and writes them by a temporary file and a rename.
+/// Reads whole files, writes them by a temporary file and a rename, and tells whether somebody else has written one since.
 #include "base/file.h"
 #include "base/hash.h"
 #include "base/need.h"
@@ -388,4 +388,47 @@ bool file_write_atomic(const char *path, const void *data, size_t size, struct e
         return fail_to(error, ERROR_ENVIRONMENT, "be written", path, cause);
     }
     return file_output_commit(&output, error);
+}
+
+// --- whether somebody else has written it
+
+static const size_t LARGEST = (size_t)1 << 30;
+
+static struct file_stamp look(const char *path)
+{
+    struct stat about;
+    if (stat(path, &about) != 0) return (struct file_stamp){0};
+    return (struct file_stamp){.is_there = true,
+                               .device = about.st_dev,
+                               .inode = about.st_ino,
+                               .size = about.st_size,
+                               .modified = about.st_mtim};
+}
+
+static bool same_file(const struct file_stamp *a, const struct file_stamp *b)
+{
+    return a->is_there == b->is_there && a->device == b->device && a->inode == b->inode && a->size == b->size &&
+           a->modified.tv_sec == b->modified.tv_sec && a->modified.tv_nsec == b->modified.tv_nsec;
+}
+
+struct file_stamp file_stamp(const char *path)
+{
+    struct file_stamp stamp = look(path);
+    struct error error;
+    char *data;
+    size_t size;
+    if (!stamp.is_there || !file_read(path, LARGEST, &data, &size, &error)) return stamp;
+    stamp.content = hash_bytes(HASH_START, data, size);
+    free(data);
+    return stamp;
+}
+
+bool file_stamp_differs(const char *path, struct file_stamp *stamp)
+{
+    struct file_stamp now = look(path);
+    if (!now.is_there || same_file(&now, stamp)) return false;
+    now = file_stamp(path);
+    if (!stamp->is_there || now.size != stamp->size || now.content != stamp->content) return true;
+    *stamp = now;
+    return false;
 }

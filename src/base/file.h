@@ -3,8 +3,12 @@
 #define BASE_FILE_H
 
 #include "base/error.h"
+#include <stdbool.h>
 #include <stddef.h>
+#include <stdint.h>
 #include <stdio.h>
+#include <sys/types.h>
+#include <time.h>
 
 /// Reads a regular file of at most `limit` bytes into memory that the caller frees, with a terminating NUL that
 /// `size` does not count. Errors name the path and say: no such file, a directory, no permission, too large.
@@ -51,5 +55,22 @@ void file_remove_unfinished(void);
 /// goes with the next output beside it. Returns a descriptor to keep open for as long as the folder is there, and in `folder` its path,
 /// which the caller frees; −1 with errno set.
 int file_folder_beside(const char *path, char **folder);
+
+/// A file as it was at some time.
+struct file_stamp {
+    bool is_there;
+    dev_t device;
+    ino_t inode;
+    off_t size;
+    struct timespec modified;
+    uint64_t content; ///< its hash
+};
+
+/// The file as it is now.
+struct file_stamp file_stamp(const char *path);
+
+/// Whether there is a file with another content now. One that was only touched or copied over itself is not another; the stamp then
+/// becomes its own.
+bool file_stamp_differs(const char *path, struct file_stamp *stamp);
 
 #endif

@@ -2,7 +2,7 @@
 #include "draw/morph_skirt.h"
 #include "base/need.h"
 #include "model/across.h"
-#include "ui/phase_color.h"
+#include "ui/theme.h"
 #include <stdlib.h>
 #include <string.h>
 

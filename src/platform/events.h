@@ -1,4 +1,4 @@
-/// Events on their way from callbacks to the frame that handles them. Private to platform/.
+/// From GLFW's keys to ours, and events on their way from callbacks to the frame that handles them. Private to platform/.
 #ifndef PLATFORM_EVENTS_H
 #define PLATFORM_EVENTS_H
 
@@ -29,5 +29,12 @@ void event_queue_push_drop(struct event_queue *queue, const char *path, double t
 
 /// The events since the last call; valid until the next one.
 const struct event *event_queue_take(struct event_queue *queue, int *count);
+
+/// Letters and punctuation go by what is printed on the key; digits, arrows and the rest go by place, as do letters if the
+/// layout has no Latin ones. KEY_NONE for keys without a meaning here.
+int key_translate(int glfw_key, int scancode);
+
+/// GLFW's modifier bits as ours.
+unsigned mods_translate(int glfw_mods);
 
 #endif

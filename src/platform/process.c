@@ -1,5 +1,7 @@
-/// Age, memory, sleep and signals of this process.
+/// Age, memory, sleep and signals of this process, and its turns with another.
 #include "platform/process.h"
+#include <errno.h>
+#include <fcntl.h>
 #include <math.h>
 #include <signal.h>
 #include <stdio.h>
@@ -55,3 +57,26 @@ void process_catch_end(void)
 }
 
 bool process_was_told_to_end(void) { return told_to_end != 0; }
+
+enum { FROM_OTHER = 3, TO_OTHER = 4 };
+static bool ours;
+
+bool turns_open(bool first)
+{
+    ours = first;
+    signal(SIGPIPE, SIG_IGN); // the other program may end first
+    return fcntl(FROM_OTHER, F_GETFD) >= 0 && fcntl(TO_OTHER, F_GETFD) >= 0;
+}
+
+void turns_take(void)
+{
+    char byte;
+    while (!ours && read(FROM_OTHER, &byte, 1) < 0 && errno == EINTR) continue;
+    ours = true;
+}
+
+void turns_give(void)
+{
+    while (write(TO_OTHER, "", 1) < 0 && errno == EINTR) continue;
+    ours = false;
+}

@@ -1,4 +1,4 @@
-/// The running process: its age, its memory, sleep, and signals.
+/// The running process: its age, its memory, sleep, signals, and turns with another.
 #ifndef PLATFORM_PROCESS_H
 #define PLATFORM_PROCESS_H
 
@@ -16,5 +16,14 @@ void process_sleep(double seconds);
 /// kind ends the process.
 void process_catch_end(void);
 bool process_was_told_to_end(void);
+
+/// The other program hands over by a byte on descriptor 3, and gets one on descriptor 4; whoever starts the two connects the
+/// pipes. `first`: this one begins. false if the descriptors are not open.
+bool turns_open(bool first);
+
+/// Waits for this program's turn; returns at once if the other one has ended.
+void turns_take(void);
+
+void turns_give(void);
 
 #endif

@@ -1,8 +1,8 @@
 /// A GLFW window and its callbacks, which only translate and queue.
 #include "base/clock.h"
 #include "base/need.h"
+#include "platform/events.h"
 #include "platform/gl_debug.h"
-#include "platform/keys.h"
 #include "platform/surface.h"
 #include "platform/symbol.h"
 #include "platform/wayland.h"

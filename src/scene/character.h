@@ -2,7 +2,7 @@
 #ifndef SCENE_CHARACTER_H
 #define SCENE_CHARACTER_H
 
-#include "base/stamp.h"
+#include "base/file.h"
 #include "scene/paint.h"
 
 enum { CHARACTER_MAX_DRIVES = 4 };

@@ -6,8 +6,8 @@
 #ifndef SIMULATION_ELEMENT_H
 #define SIMULATION_ELEMENT_H
 
+#include "simulation/eigen.h"
 #include "simulation/material.h"
-#include "simulation/svd.h"
 #include <stdbool.h>
 
 struct element {

@@ -15,8 +15,19 @@
 #ifndef SIMULATION_INTEGRATOR_H
 #define SIMULATION_INTEGRATOR_H
 
-#include "simulation/loads.h"
+#include "simulation/drive.h"
+#include "simulation/floor.h"
 #include <stdbool.h>
+
+/// What acts on a body from outside: gravity, a base that moves, a floor. All zero: nothing.
+///
+/// A body is simulated as seen from its base. There a base that accelerates by a is a uniform force −m a on all nodes, and
+/// the pinned nodes stand still; the floor moves instead. This is exact, not an approximation.
+struct loads {
+    double gravity;            ///< down (−y), m/s²
+    const struct drive *drive; ///< of the base, or NULL
+    struct floor *floor;       ///< or NULL
+};
 
 struct integrator {
     struct body *body;

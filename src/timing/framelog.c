@@ -1,5 +1,5 @@
 /// Collects frames, writes the log and prints the summary.
-#include "base/build.h"
+#include "base/embedded.h"
 #include "base/file.h"
 #include "base/need.h"
 #include "timing/columns.h"

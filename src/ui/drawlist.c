@@ -1,4 +1,4 @@
-/// Records draw commands.
+/// Records draw commands; intersects and shrinks rectangles.
 #include "ui/drawlist.h"
 #include "base/hash.h"
 #include "base/need.h"
@@ -263,4 +263,16 @@ void drawlist_text_fit(struct drawlist *list, float x, float y, float width, enu
     memcpy(cut, utf8, length);
     memcpy(cut + length, ellipsis, sizeof ellipsis);
     drawlist_text(list, x, y, font, size, color, cut);
+}
+
+struct rect rect_intersect(struct rect a, struct rect b)
+{
+    float x = fmaxf(a.x, b.x), y = fmaxf(a.y, b.y);
+    float w = fminf(a.x + a.w, b.x + b.w) - x, h = fminf(a.y + a.h, b.y + b.h) - y;
+    return (struct rect){x, y, fmaxf(w, 0.0f), fmaxf(h, 0.0f)};
+}
+
+struct rect rect_inset(struct rect r, float by)
+{
+    return (struct rect){r.x + by, r.y + by, fmaxf(r.w - 2.0f * by, 0.0f), fmaxf(r.h - 2.0f * by, 0.0f)};
 }

@@ -89,6 +89,14 @@ struct stage_view {
 };
 
 /// Hash of what all pictures of the stage share: viewport, camera, light and colours.
-uint64_t stage_scenery_hash(const struct stage_view *view);
+static inline uint64_t stage_scenery_hash(const struct stage_view *view)
+{
+    uint64_t hash = hash_bytes(HASH_START, &view->viewport, sizeof view->viewport);
+    hash = hash_bytes(hash, view->view, sizeof view->view);
+    hash = hash_bytes(hash, view->projection, sizeof view->projection);
+    hash = hash_bytes(hash, view->middle, sizeof view->middle);
+    hash = hash_bytes(hash, view->key_from, sizeof view->key_from);
+    return hash_bytes(hash, &view->colors, sizeof view->colors);
+}
 
 #endif

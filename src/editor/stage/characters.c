@@ -3,7 +3,6 @@
 #include "editor/stage/rigs.h"
 #include "editor/stage/stage.h"
 #include "ui/font.h"
-#include "ui/phase_color.h"
 #include "ui/theme.h"
 #include <math.h>
 #include <stdio.h>

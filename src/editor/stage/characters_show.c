@@ -4,7 +4,6 @@
 #include "editor/stage/rigs.h"
 #include "rig/camera.h"
 #include "ui/font.h"
-#include "ui/phase_color.h"
 #include "ui/theme.h"
 #include <math.h>
 #include <stdio.h>
