@@ -3,8 +3,7 @@
 #include "export/gltf_motion.h"
 #include "export/keys.h"
 #include "export/targets.h"
-#include "model/gltf_looks.h"
-#include <math.h>
+#include "model/gltf_shape.h"
 #include <stdlib.h>
 #include <string.h>
 
@@ -34,91 +33,36 @@ static json_t *numbers(struct scene *scene, const float *values, int count)
 
 // --- mesh
 
-static json_int_t add_vectors(struct scene *scene, const struct form *form, const float (*vectors)[3], bool bounds)
-{
-    return gltf_file_add(&scene->file, ELEMENTS_VECTORS, vectors, (size_t)form->vertex_count, bounds);
-}
-
-/// Colours within 0 … 1, which glTF asks for.
-static json_int_t add_colors(struct scene *scene, const struct form *form, float (*scratch)[3])
-{
-    for (int i = 0; i < form->vertex_count; i++) {
-        for (int k = 0; k < 3; k++) scratch[i][k] = fminf(fmaxf(form->color[i][k], 0.0f), 1.0f);
-    }
-    return add_vectors(scene, form, (const float(*)[3])scratch, false);
-}
-
-static void add_attribute(struct scene *scene, json_t *attributes, const char *name, enum gltf_elements elements,
-                          const void *data, size_t count)
-{
-    gltf_set(&scene->file, attributes, name, json_integer(gltf_file_add(&scene->file, elements, data, count, false)));
-}
-
-static json_t *make_attributes(struct scene *scene, const struct form *form, float (*scratch)[3])
-{
-    const json_int_t position = add_vectors(scene, form, form->position, true);
-    const json_int_t normal = add_vectors(scene, form, form->normal, false);
-    json_t *attributes = json_pack("{s:I, s:I, s:I}", "POSITION", position, "NORMAL", normal, "COLOR_0",
-                                   add_colors(scene, form, scratch));
-    const size_t count = (size_t)form->vertex_count;
-    if (form->looks && form->looks->uv)
-        add_attribute(scene, attributes, "TEXCOORD_0", ELEMENTS_UVS, form->looks->uv, count);
-    if (form->joint_count == 0) return attributes;
-    add_attribute(scene, attributes, "JOINTS_0", ELEMENTS_JOINTS, form->slots, count);
-    add_attribute(scene, attributes, "WEIGHTS_0", ELEMENTS_WEIGHTS, form->weights, count);
-    return attributes;
-}
-
-static json_t *make_targets(struct scene *scene, const struct part *part, float (*scratch)[3])
+static json_int_t add_mesh(struct scene *scene, const struct part *part)
 {
     const struct form *form = part->form;
-    json_t *targets = json_array();
-    for (int t = 0; t < part->targets->count; t++) {
+    struct gltf_shape shape = {.name = form->name,
+                               .vertex_count = form->vertex_count,
+                               .position = form->position,
+                               .normal = form->normal,
+                               .color = form->color,
+                               .uv = form->looks ? (const float(*)[2])form->looks->uv : NULL,
+                               .joints = (const uint16_t(*)[4])form->slots,
+                               .weights = (const float(*)[4])form->weights,
+                               .indices = form->indices,
+                               .index_count = form->index_count,
+                               .looks = form->looks,
+                               .target_count = part->targets->count,
+                               .character = form->character};
+    shape.targets = calloc((size_t)shape.target_count + 1, sizeof *shape.targets);
+    if (!shape.targets) {
+        scene->file.without_memory = true;
+        return 0;
+    }
+    for (int t = 0; t < shape.target_count; t++) {
         const struct file_target *target = &part->targets->list[t];
-        targets_scale(target, form->targets[target->source].position, form->vertex_count, scratch);
-        const json_int_t position = add_vectors(scene, form, (const float(*)[3])scratch, true);
-        targets_scale(target, form->targets[target->source].normal, form->vertex_count, scratch);
-        const json_int_t normal = add_vectors(scene, form, (const float(*)[3])scratch, false);
-        gltf_append(&scene->file, targets, json_pack("{s:I, s:I}", "POSITION", position, "NORMAL", normal));
+        const struct form_target *of = &form->targets[target->source];
+        shape.targets[t] = (struct gltf_shape_target){target->name, (const float(*)[3])of->position,
+                                                      (const float(*)[3])of->normal, target->scale, target->scale};
     }
-    return targets;
-}
-
-/// What model/character.h reads: the names of the targets, and what is known of each coordinate.
-static json_t *make_extras(struct scene *scene, const struct part *part)
-{
-    const struct character *character = part->form->character;
-    json_t *names = json_array(), *coordinates = json_array();
-    for (int t = 0; t < part->targets->count; t++)
-        gltf_append(&scene->file, names, json_string(part->targets->list[t].name));
-    for (int i = 0; character && i < character->coordinate_count; i++) {
-        const struct coordinate *c = &character->coordinates[i];
-        json_t *known = json_pack("{s:s, s:f, s:f, s:f, s:f, s:f}", "name", c->name, "frequency", c->frequency,
-                                  "damping", c->damping, "explained", c->explained, "pca1", c->pca1, "pca2", c->pca2);
-        const double scale = (double)part->targets->list[2 * i].scale;
-        if (scale != 1) gltf_set(&scene->file, known, "scale", json_real(scale));
-        gltf_append(&scene->file, coordinates, known);
-    }
-    return json_pack("{s:o, s:{s:o}}", "targetNames", names, "wiggly", "coordinates", coordinates);
-}
-
-static json_int_t add_mesh(struct scene *scene, const struct part *part, float (*scratch)[3])
-{
-    const struct form *form = part->form;
-    const struct gltf_triangles triangles = {form->looks, form->indices, form->index_count};
-    json_t *attributes = make_attributes(scene, form, scratch), *targets = make_targets(scene, part, scratch);
-    json_t *mesh = json_pack("{s:s, s:o}", "name", form->name, "primitives",
-                             gltf_looks_primitives(&scene->looks, &triangles, attributes, targets));
-    if (part->targets->count > 0) {
-        json_t *weights = json_array();
-        for (int t = 0; t < part->targets->count; t++) gltf_append(&scene->file, weights, json_integer(0));
-        gltf_set(&scene->file, mesh, "weights", weights);
-        gltf_set(&scene->file, mesh, "extras", make_extras(scene, part));
-    }
-    if (!targets) scene->file.without_memory = true;
-    json_decref(attributes);
-    json_decref(targets);
-    return gltf_append(&scene->file, scene->meshes, mesh);
+    const json_int_t mesh = gltf_append(&scene->file, scene->meshes, gltf_shape_json(&scene->looks, &shape));
+    free(shape.targets);
+    return mesh;
 }
 
 // --- nodes
@@ -229,17 +173,14 @@ static bool add_rig(struct scene *scene, int rig, struct error *error)
     struct file_targets targets = {0};
     if (!form_open(scene->shot, rig, &form, error)) return false;
     bool done = keys_collect(scene->shot, rig, &form, &keys, error);
-    float(*scratch)[3] = done ? malloc(((size_t)form.vertex_count + 1) * sizeof *scratch) : NULL;
-    if (done && (!scratch || !targets_create(scene->shot, &form, &keys, &targets)))
-        done = fail_no_memory(error, form.name);
+    if (done && !targets_create(scene->shot, &form, &keys, &targets)) done = fail_no_memory(error, form.name);
     if (done) {
         struct part part = {.form = &form, .keys = &keys, .targets = &targets};
-        add_nodes(scene, &part, add_mesh(scene, &part, scratch));
+        add_nodes(scene, &part, add_mesh(scene, &part));
         add_animation(scene, &part);
         scene->joints += form.joint_count - form.first_bone;
         scene->targets += targets.count;
     }
-    free(scratch);
     targets_free(&targets);
     keys_free(&keys);
     form_close(&form);

@@ -74,10 +74,3 @@ float targets_slope(const struct file_targets *targets, int target, const struct
     const bool at_rest = targets->clamped && keys->at.weight[at] / of->scale <= 0;
     return at_rest ? 0.0f : keys->slope.weight[at] / of->scale;
 }
-
-void targets_scale(const struct file_target *target, const float (*vectors)[3], int count, float (*scaled)[3])
-{
-    for (int i = 0; i < count; i++) {
-        for (int k = 0; k < 3; k++) scaled[i][k] = target->scale * vectors[i][k];
-    }
-}

@@ -27,7 +27,4 @@ void targets_free(struct file_targets *targets);
 float targets_weight(const struct file_targets *targets, int target, const struct keys *keys, int key);
 float targets_slope(const struct file_targets *targets, int target, const struct keys *keys, int key);
 
-/// Scales vectors of the form's target to those of the file's.
-void targets_scale(const struct file_target *target, const float (*vectors)[3], int count, float (*scaled)[3]);
-
 #endif

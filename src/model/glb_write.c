@@ -1,146 +1,169 @@
 /// Writes a character to a .glb file.
 #include "base/file.h"
 #include "model/figure.h"
-#include "model/glb_split.h"
-#include "model/gltf_looks.h"
-#include <math.h>
+#include "model/gltf_shape.h"
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-/// A file being written.
-struct output {
-    const struct character *character;
-    const struct figure *figure; ///< NULL: targets leave normals as they are
-    struct split split;
-    struct gltf_file file;
-    float (*scratch)[3]; ///< room for a vector a vertex of the file
-    struct gltf_looks looks;
+// --- the vertices of the file: one for each pair of a vertex and its texture coordinates
+
+/// The character's vertices come first, in their order; copies of those with several texture coordinates follow.
+struct split {
+    int count;
+    uint32_t *source;  ///< per vertex of the file: the character's
+    uint32_t *indices; ///< as many as the character's, in their order
+    float (*uv)[2];    ///< NULL: none
 };
 
-static bool has_colors(const struct character *c)
+/// Vertices of the file by the character's: the first is its own number, `next` the next copy, 0 the end.
+struct chains {
+    uint32_t *uv, *next;
+};
+
+static uint32_t find_or_add(struct split *s, struct chains *chains, uint32_t vertex, uint32_t uv)
 {
-    for (int n = 0; n < 3 * c->vertex_count; n++) {
-        if (c->color[n / 3][n % 3] != 1) return true;
+    uint32_t at = vertex;
+    if (chains->uv[at] == LOOKS_NONE) chains->uv[at] = uv;
+    while (chains->uv[at] != uv && chains->next[at]) at = chains->next[at];
+    if (chains->uv[at] == uv) return at;
+    chains->next[at] = (uint32_t)s->count;
+    at = (uint32_t)s->count++;
+    s->source[at] = vertex;
+    chains->uv[at] = uv;
+    chains->next[at] = 0;
+    return at;
+}
+
+static void split_vertices(struct split *s, const struct character *c, struct chains *chains)
+{
+    const struct looks *looks = &c->looks;
+    s->count = c->vertex_count;
+    for (int v = 0; v < c->vertex_count; v++) {
+        s->source[v] = (uint32_t)v;
+        chains->uv[v] = LOOKS_NONE;
+        chains->next[v] = 0;
     }
-    return false;
-}
-
-/// The character's vectors times `sign`, within [lowest, highest], for the vertices of the file.
-static json_int_t add_vectors(struct output *o, const float (*vectors)[3], float sign, float lowest, float highest,
-                              bool bounds)
-{
-    for (int v = 0; v < o->split.count; v++) {
-        const float *vector = vectors[o->split.source[v]];
-        for (int k = 0; k < 3; k++) o->scratch[v][k] = fminf(fmaxf(sign * vector[k], lowest), highest);
+    for (int i = 0; i < c->index_count; i++) {
+        const uint32_t uv = looks->corner ? looks->corner[i] : LOOKS_NONE;
+        s->indices[i] = uv == LOOKS_NONE ? c->indices[i] : find_or_add(s, chains, c->indices[i], uv);
     }
-    return gltf_file_add(&o->file, ELEMENTS_VECTORS, o->scratch, (size_t)o->split.count, bounds);
-}
-
-static json_int_t add_places(struct output *o, const float (*vectors)[3], float sign)
-{
-    return add_vectors(o, vectors, sign, -INFINITY, INFINITY, true);
-}
-
-// --- mesh
-
-static json_t *make_attributes(struct output *o)
-{
-    const struct character *c = o->character;
-    const json_int_t position = add_places(o, (const float(*)[3])c->position, 1);
-    const json_int_t normal = add_vectors(o, (const float(*)[3])c->normal, 1, -1, 1, false);
-    json_t *attributes = json_pack("{s:I, s:I}", "POSITION", position, "NORMAL", normal);
-    if (has_colors(c))
-        gltf_set(&o->file, attributes, "COLOR_0",
-                 json_integer(add_vectors(o, (const float(*)[3])c->color, 1, 0, 1, false)));
-    if (o->split.uv)
-        gltf_set(&o->file, attributes, "TEXCOORD_0",
-                 json_integer(gltf_file_add(&o->file, ELEMENTS_UVS, o->split.uv, (size_t)o->split.count, false)));
-    return attributes;
-}
-
-/// Re Ñ and −Im Ñ of each coordinate, and how they turn normals; `turn` has room for a vector a vertex of the character.
-static json_t *make_targets(struct output *o, float (*turn)[3])
-{
-    const struct character *c = o->character;
-    json_t *targets = json_array();
-    for (int i = 0; i < 2 * c->coordinate_count; i++) {
-        const struct coordinate *n = &c->coordinates[i / 2];
-        const bool imaginary = i % 2;
-        const json_int_t position =
-            imaginary ? add_places(o, (const float(*)[3])n->im, -1) : add_places(o, (const float(*)[3])n->re, 1);
-        json_t *target = json_pack("{s:I}", "POSITION", position);
-        if (o->figure) {
-            figure_turn_normals(o->figure, i / 2, imaginary, turn);
-            gltf_set(&o->file, target, "NORMAL",
-                     json_integer(add_vectors(o, (const float(*)[3])turn, 1, -INFINITY, INFINITY, false)));
-        }
-        gltf_append(&o->file, targets, target);
+    for (int v = 0; s->uv && v < s->count; v++) {
+        const uint32_t uv = looks->corner ? chains->uv[v] : (uint32_t)v;
+        memcpy(s->uv[v], uv != LOOKS_NONE ? looks->uv[uv] : (float[2]){0}, sizeof *s->uv);
     }
-    return targets;
 }
 
-/// A primitive for each material that triangles have, and one for those without.
-static json_t *make_primitives(struct output *o, float (*turn)[3])
+static void split_free(struct split *split)
 {
-    const struct gltf_triangles triangles = {&o->character->looks, o->split.indices, o->character->index_count};
-    json_t *attributes = make_attributes(o), *targets = make_targets(o, turn);
-    json_t *primitives = gltf_looks_primitives(&o->looks, &triangles, attributes, targets);
-    if (!targets) o->file.without_memory = true;
-    json_decref(attributes);
-    json_decref(targets);
-    return primitives;
+    free(split->source);
+    free(split->indices);
+    free(split->uv);
+    *split = (struct split){0};
 }
 
-static json_t *describe(const struct coordinate *c)
+/// False where memory is short.
+static bool split_create(struct split *split, const struct character *c)
 {
-    return json_pack("{s:s, s:f, s:f, s:f, s:f, s:f}", "name", c->name, "frequency", c->frequency, "damping",
-                     c->damping, "explained", c->explained, "pca1", c->pca1, "pca2", c->pca2);
-}
-
-static json_t *make_mesh(struct output *o, json_t *primitives)
-{
-    const struct character *c = o->character;
-    json_t *names = json_array(), *coordinates = json_array(), *weights = json_array();
-    for (int i = 0; i < c->coordinate_count; i++) {
-        gltf_append(&o->file, names, json_sprintf("%s.re", c->coordinates[i].name));
-        gltf_append(&o->file, names, json_sprintf("%s.im", c->coordinates[i].name));
-        gltf_append(&o->file, coordinates, describe(&c->coordinates[i]));
-        for (int k = 0; k < 2; k++) gltf_append(&o->file, weights, json_integer(0));
-    }
-    json_t *mesh = json_pack("{s:s, s:o, s:{s:o, s:{s:o}}}", "name", "character", "primitives", primitives, "extras",
-                             "targetNames", names, "wiggly", "coordinates", coordinates);
-    if (c->coordinate_count > 0) {
-        gltf_set(&o->file, mesh, "weights", weights);
+    const size_t most = (size_t)c->vertex_count + (c->looks.corner ? (size_t)c->index_count : 0) + 1;
+    struct chains chains = {.uv = malloc(most * sizeof *chains.uv), .next = malloc(most * sizeof *chains.next)};
+    *split = (struct split){.source = malloc(most * sizeof *split->source),
+                            .indices = malloc(((size_t)c->index_count + 1) * sizeof *split->indices),
+                            .uv = c->looks.uv ? malloc(most * sizeof *split->uv) : NULL};
+    const bool good = chains.uv && chains.next && split->source && split->indices && (split->uv || !c->looks.uv);
+    if (good) {
+        split_vertices(split, c, &chains);
     } else {
-        json_decref(weights);
+        split_free(split);
     }
-    return mesh;
+    free(chains.uv);
+    free(chains.next);
+    return good;
 }
 
-/// All but the buffers, which belong to the file; NULL where memory is short or a name is not UTF-8.
-static json_t *make_root(struct output *o)
+// --- the file
+
+/// A file being written.
+struct output {
+    struct gltf_file file;
+    struct gltf_looks looks;
+    struct split split;
+    struct gltf_shape shape;
+    char **names;       ///< of the targets
+    float (**turns)[3]; ///< how targets turn normals, or NULL
+};
+
+/// Re Ñ and −Im Ñ of each coordinate, and with a figure how they turn normals.
+static bool make_targets(struct output *o, const struct character *c, const struct figure *figure)
 {
-    float(*turn)[3] = malloc(((size_t)o->character->vertex_count + 1) * sizeof *turn);
-    json_t *root = NULL;
-    if (turn) {
-        root = json_pack("{s:{s:s, s:s}, s:i, s:[{s:[i]}], s:[{s:s, s:i}], s:[o]}", "asset", "version", "2.0",
-                         "generator", "wiggly", "scene", 0, "scenes", "nodes", 0, "nodes", "name", "character",
-                         "mesh", 0, "meshes", make_mesh(o, make_primitives(o, turn)));
-        gltf_looks_complete(&o->looks, root);
+    const size_t count = 2 * (size_t)c->coordinate_count;
+    o->shape.targets = calloc(count + 1, sizeof *o->shape.targets);
+    o->names = calloc(count + 1, sizeof *o->names);
+    o->turns = calloc(count + 1, sizeof *o->turns);
+    if (!o->shape.targets || !o->names || !o->turns) return false;
+    o->shape.target_count = (int)count;
+    for (size_t t = 0; t < count; t++) {
+        const struct coordinate *n = &c->coordinates[t / 2];
+        const bool imaginary = t % 2;
+        if (asprintf(&o->names[t], "%s.%s", n->name, imaginary ? "im" : "re") < 0) {
+            o->names[t] = NULL;
+            return false;
+        }
+        if (figure) {
+            o->turns[t] = malloc(((size_t)c->vertex_count + 1) * sizeof *o->turns[t]);
+            if (!o->turns[t]) return false;
+            figure_turn_normals(figure, (int)t / 2, imaginary, o->turns[t]);
+        }
+        o->shape.targets[t] = (struct gltf_shape_target){.name = o->names[t],
+                                                         .position = (const float(*)[3])(imaginary ? n->im : n->re),
+                                                         .normal = (const float(*)[3])o->turns[t],
+                                                         .scale = imaginary ? -1 : 1,
+                                                         .turn = 1};
     }
-    free(turn);
-    return root;
+    return true;
+}
+
+static bool open_output(struct output *o, const struct character *c, const struct figure *figure)
+{
+    *o = (struct output){.looks.file = &o->file};
+    if (!split_create(&o->split, c)) return false;
+    o->shape = (struct gltf_shape){.name = "character",
+                                   .vertex_count = o->split.count,
+                                   .source = o->split.source,
+                                   .position = (const float(*)[3])c->position,
+                                   .normal = (const float(*)[3])c->normal,
+                                   .color = (const float(*)[3])c->color,
+                                   .uv = (const float(*)[2])o->split.uv,
+                                   .indices = o->split.indices,
+                                   .index_count = c->index_count,
+                                   .looks = &c->looks,
+                                   .character = c};
+    return make_targets(o, c, figure);
+}
+
+static void close_output(struct output *o)
+{
+    for (int t = 0; t < o->shape.target_count; t++) {
+        free(o->names[t]);
+        free(o->turns[t]);
+    }
+    free(o->shape.targets);
+    free(o->names);
+    free(o->turns);
+    gltf_looks_free(&o->looks);
+    gltf_file_free(&o->file);
+    split_free(&o->split);
 }
 
 static bool write_file(struct output *o, const char *path, struct error *error)
 {
     struct file_output out;
     struct error why;
-    json_t *root = make_root(o);
-    if (!file_output_open(&out, path, error)) {
-        json_decref(root);
-        return false;
-    }
+    if (!file_output_open(&out, path, error)) return false;
+    json_t *root = json_pack("{s:{s:s, s:s}, s:i, s:[{s:[i]}], s:[{s:s, s:i}], s:[o]}", "asset", "version", "2.0",
+                             "generator", "wiggly", "scene", 0, "scenes", "nodes", 0, "nodes", "name", "character",
+                             "mesh", 0, "meshes", gltf_shape_json(&o->looks, &o->shape));
+    gltf_looks_complete(&o->looks, root);
     if (gltf_file_write(&o->file, root, true, out.stream, &why)) return file_output_commit(&out, error);
     file_output_discard(&out);
     return fail(error, why.kind, "%s: %s", path, why.text);
@@ -149,18 +172,11 @@ static bool write_file(struct output *o, const char *path, struct error *error)
 bool character_write(const char *path, const struct character *character, bool turn_normals, struct error *error)
 {
     struct figure figure = {.character = *character};
-    struct output o = {.character = character, .figure = turn_normals ? &figure : NULL, .looks.file = &o.file};
+    struct output o = {0};
     if (turn_normals) figure_derive(&figure);
-    bool done = split_create(&o.split, character);
-    if (done) {
-        o.scratch = malloc(((size_t)o.split.count + 1) * sizeof *o.scratch);
-        done = o.scratch;
-    }
-    done = done ? write_file(&o, path, error) : fail_no_memory(error, path);
-    free(o.scratch);
-    gltf_looks_free(&o.looks);
-    gltf_file_free(&o.file);
-    split_free(&o.split);
+    const bool made = open_output(&o, character, turn_normals ? &figure : NULL);
+    const bool done = made ? write_file(&o, path, error) : fail_no_memory(error, path);
+    close_output(&o);
     figure_forget(&figure);
     return done;
 }

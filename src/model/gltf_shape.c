@@ -1,6 +1,7 @@
-/// Writes materials, pictures and triangles of glTF files.
-#include "model/gltf_looks.h"
+/// Writes meshes, materials and pictures of glTF files.
+#include "model/gltf_shape.h"
 #include "model/mtl.h"
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -76,10 +77,10 @@ static size_t add_fan(const uint32_t *fan, size_t triangles, size_t turn, uint32
 }
 
 /// How many triangles from number `first` on are a polygon of one material.
-static size_t polygon_at(const struct gltf_triangles *triangles, size_t first)
+static size_t polygon_at(const struct gltf_shape *shape, size_t first)
 {
-    const struct looks *looks = triangles->looks;
-    const size_t count = (size_t)triangles->corner_count / 3;
+    const struct looks *looks = shape->looks;
+    const size_t count = (size_t)shape->index_count / 3;
     size_t end = first + 1;
     while (looks && looks->joined && end < count && looks->joined[end] &&
            (!looks->material || looks->material[end] == looks->material[first]))
@@ -94,40 +95,41 @@ static uint32_t material_of(const struct looks *looks, size_t triangle)
 }
 
 /// The corners of one material; returns how many. Of two polygons in a row each begins elsewhere, so that they are told apart.
-static size_t collect(const struct gltf_triangles *triangles, uint32_t material, uint32_t *corners)
+static size_t collect(const struct gltf_shape *shape, uint32_t material, uint32_t *corners)
 {
-    const bool polygons = triangles->looks && triangles->looks->joined;
-    const size_t count = (size_t)triangles->corner_count / 3;
+    const bool polygons = shape->looks && shape->looks->joined;
+    const size_t count = (size_t)shape->index_count / 3;
     size_t used = 0, size;
     for (size_t t = 0; t < count; t += size) {
-        const uint32_t *fan = triangles->corners + 3 * t;
-        size = polygon_at(triangles, t);
-        if (material_of(triangles->looks, t) != material) continue;
+        const uint32_t *fan = shape->indices + 3 * t;
+        size = polygon_at(shape, t);
+        if (material_of(shape->looks, t) != material) continue;
         const bool same = polygons && used > 0 && corners[used - 3] == fan[0];
         used += add_fan(fan, size, same, corners + used);
     }
     return used;
 }
 
-static void add_primitive(struct gltf_looks *l, json_t *primitives, const struct gltf_triangles *triangles,
+static void add_primitive(struct gltf_looks *l, json_t *primitives, const struct gltf_shape *shape,
                           json_int_t indices, json_int_t material, json_t *attributes, json_t *targets)
 {
     json_t *primitive =
         json_pack("{s:O, s:I, s:I}", "attributes", attributes, "indices", indices, "material", material);
     if (json_array_size(targets) > 0) gltf_set(l->file, primitive, "targets", json_incref(targets));
-    if (triangles->looks && triangles->looks->joined) {
+    if (shape->looks && shape->looks->joined) {
         gltf_set(l->file, primitive, "extensions", json_pack("{s:{}}", GLTF_POLYGONS));
         l->has_polygons = true;
     }
     gltf_append(l->file, primitives, primitive);
 }
 
-json_t *gltf_looks_primitives(struct gltf_looks *l, const struct gltf_triangles *triangles, json_t *attributes,
-                              json_t *targets)
+/// A primitive for each material that triangles have, and one for those without.
+static json_t *make_primitives(struct gltf_looks *l, const struct gltf_shape *shape, json_t *attributes,
+                               json_t *targets)
 {
-    const struct looks *looks = triangles->looks;
+    const struct looks *looks = shape->looks;
     const uint32_t materials = looks ? (uint32_t)looks->material_count : 0;
-    uint32_t *corners = malloc(((size_t)triangles->corner_count + 1) * sizeof *corners);
+    uint32_t *corners = malloc(((size_t)shape->index_count + 1) * sizeof *corners);
     json_t *primitives = json_array();
     if (!l->materials) l->materials = json_array();
     if (!l->textures) l->textures = json_array();
@@ -135,15 +137,113 @@ json_t *gltf_looks_primitives(struct gltf_looks *l, const struct gltf_triangles 
     if (!corners || !attributes) l->file->without_memory = true;
     for (uint32_t m = 0; corners && attributes && m <= materials; m++) {
         const bool none = m == materials;
-        const size_t count = collect(triangles, none ? LOOKS_NONE : m, corners);
+        const size_t count = collect(shape, none ? LOOKS_NONE : m, corners);
         if (count == 0) continue;
         const json_int_t indices = gltf_file_add(l->file, ELEMENTS_INDICES, corners, count, false);
         const json_int_t material = none ? plain_material(l) : add_material(l, &looks->materials[m]);
-        add_primitive(l, primitives, triangles, indices, material, attributes, targets);
+        add_primitive(l, primitives, shape, indices, material, attributes, targets);
     }
     free(corners);
     return primitives;
 }
+
+// --- vertices
+
+/// A copy of vectors for the vertices of the file, times `scale`, within [lowest, highest].
+static json_int_t add_vectors(struct gltf_looks *l, const struct gltf_shape *shape, const float (*vectors)[3],
+                              float scale, const float range[2], bool bounds)
+{
+    const size_t count = (size_t)shape->vertex_count;
+    float(*copy)[3] = malloc((count + 1) * sizeof *copy);
+    if (!copy) {
+        l->file->without_memory = true;
+        return 0;
+    }
+    for (size_t i = 0; i < count; i++) {
+        const float *vector = vectors[shape->source ? shape->source[i] : i];
+        for (int k = 0; k < 3; k++) copy[i][k] = fminf(fmaxf(scale * vector[k], range[0]), range[1]);
+    }
+    const json_int_t accessor = gltf_file_add(l->file, ELEMENTS_VECTORS, copy, count, bounds);
+    free(copy);
+    return accessor;
+}
+
+static const float any[2] = {-INFINITY, INFINITY}, unit[2] = {-1, 1}, share[2] = {0, 1};
+
+static bool has_colors(const struct gltf_shape *shape)
+{
+    for (int n = 0; n < 3 * shape->vertex_count; n++) {
+        const size_t i = shape->source ? shape->source[n / 3] : (size_t)(n / 3);
+        if (shape->color[i][n % 3] != 1) return true;
+    }
+    return false;
+}
+
+static void add_attribute(struct gltf_looks *l, json_t *attributes, const char *name, enum gltf_elements elements,
+                          const void *data, int count)
+{
+    if (!data) return;
+    gltf_set(l->file, attributes, name, json_integer(gltf_file_add(l->file, elements, data, (size_t)count, false)));
+}
+
+static json_t *make_attributes(struct gltf_looks *l, const struct gltf_shape *shape)
+{
+    const json_int_t position = add_vectors(l, shape, shape->position, 1, any, true);
+    const json_int_t normal = add_vectors(l, shape, shape->normal, 1, unit, false);
+    json_t *attributes = json_pack("{s:I, s:I}", "POSITION", position, "NORMAL", normal);
+    if (has_colors(shape))
+        gltf_set(l->file, attributes, "COLOR_0", json_integer(add_vectors(l, shape, shape->color, 1, share, false)));
+    add_attribute(l, attributes, "TEXCOORD_0", ELEMENTS_UVS, shape->uv, shape->vertex_count);
+    add_attribute(l, attributes, "JOINTS_0", ELEMENTS_JOINTS, shape->joints, shape->vertex_count);
+    add_attribute(l, attributes, "WEIGHTS_0", ELEMENTS_WEIGHTS, shape->weights, shape->vertex_count);
+    return attributes;
+}
+
+static json_t *make_targets(struct gltf_looks *l, const struct gltf_shape *shape)
+{
+    json_t *targets = json_array();
+    for (int t = 0; t < shape->target_count; t++) {
+        const struct gltf_shape_target *target = &shape->targets[t];
+        json_t *json =
+            json_pack("{s:I}", "POSITION", add_vectors(l, shape, target->position, target->scale, any, true));
+        if (target->normal)
+            gltf_set(l->file, json, "NORMAL",
+                     json_integer(add_vectors(l, shape, target->normal, target->turn, any, false)));
+        gltf_append(l->file, targets, json);
+    }
+    return targets;
+}
+
+/// What model/character.h reads: the names of the targets, and what is known of each coordinate.
+static json_t *make_extras(struct gltf_looks *l, const struct gltf_shape *shape)
+{
+    json_t *names = json_array(), *coordinates = json_array();
+    for (int t = 0; t < shape->target_count; t++) gltf_append(l->file, names, json_string(shape->targets[t].name));
+    for (int i = 0; shape->character && i < shape->character->coordinate_count; i++) {
+        const struct coordinate *c = &shape->character->coordinates[i];
+        json_t *known = json_pack("{s:s, s:f, s:f, s:f, s:f, s:f}", "name", c->name, "frequency", c->frequency,
+                                  "damping", c->damping, "explained", c->explained, "pca1", c->pca1, "pca2", c->pca2);
+        const double scale = (double)shape->targets[2 * i].scale;
+        if (scale != 1) gltf_set(l->file, known, "scale", json_real(scale));
+        gltf_append(l->file, coordinates, known);
+    }
+    return json_pack("{s:o, s:{s:o}}", "targetNames", names, "wiggly", "coordinates", coordinates);
+}
+
+json_t *gltf_shape_json(struct gltf_looks *l, const struct gltf_shape *shape)
+{
+    json_t *attributes = make_attributes(l, shape), *targets = make_targets(l, shape);
+    json_t *mesh =
+        json_pack("{s:s, s:o}", "name", shape->name, "primitives", make_primitives(l, shape, attributes, targets));
+    for (int t = 0; t < shape->target_count; t++) gltf_append_to(l->file, mesh, "weights", json_integer(0));
+    if (shape->target_count > 0) gltf_set(l->file, mesh, "extras", make_extras(l, shape));
+    if (!targets) l->file->without_memory = true;
+    json_decref(attributes);
+    json_decref(targets);
+    return mesh;
+}
+
+// --- the rest of the file
 
 void gltf_looks_complete(struct gltf_looks *l, json_t *root)
 {
