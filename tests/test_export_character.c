@@ -1,6 +1,6 @@
 /// What wiggly export writes of imported characters: their own files with a clip more, in either container, and .usda.
 #include "base/path.h"
-#include "export/beside.h"
+#include "export/sidecar.h"
 #include "export_scene.h"
 
 #include <jansson.h>
@@ -349,16 +349,16 @@ static void without_its_textures_nothing_is_written(void **state)
 static void a_texture_that_cannot_take_its_place_is_told(void **state)
 {
     (void)state;
-    struct beside beside = {0};
+    struct sidecars sidecars = {0};
     struct error error = {0};
     char textures[PATH_LIMIT];
     snprintf(textures, sizeof textures, "%s", folder_path("textures"));
-    assert_true(beside_add(&beside, textures, "a.png", "picture", 7, &error));
+    assert_true(sidecars_add(&sidecars, textures, "a.png", "picture", 7, &error));
     assert_int_equal(mkdir(folder_path("textures/a.png"), 0777), 0);
-    assert_false(beside_commit(&beside, &error));
+    assert_false(sidecars_commit(&sidecars, &error));
     assert_non_null(strstr(error.text, "a.png"));
     assert_int_equal(rmdir(folder_path("textures/a.png")), 0);
-    beside_discard(&beside);
+    sidecars_discard(&sidecars);
     assert_int_equal(files_in_folder(), 0);
 }
 

@@ -1,5 +1,5 @@
 /// Joints as .bvh. Metres, y up; a joint turns by R_y · R_x · R_z, so that a tail's side and up are the first two of its channels.
-#include "export/format.h"
+#include "export/form.h"
 #include "export/keys.h"
 #include <ctype.h>
 #include <math.h>
@@ -77,18 +77,18 @@ static void write_key(FILE *out, const struct form *form, const struct keys *key
     }
 }
 
-bool bvh_write(struct shot *shot, FILE *out, char summary[FORMAT_SUMMARY], struct error *error)
+bool bvh_write(struct export_range *range, FILE *out, char summary[FORMAT_SUMMARY], struct error *error)
 {
     struct form form;
     struct keys keys;
-    shot->total = shot->key_count;
-    shot->is_cubic = false;
-    if (!form_open(shot, shot->rigs[0], &form, error)) return false;
-    const bool done = keys_collect(shot, shot->rigs[0], &form, &keys, error);
+    range->total = range->key_count;
+    range->is_cubic = false;
+    if (!form_open(range, range->rigs[0], &form, error)) return false;
+    const bool done = keys_collect(range, range->rigs[0], &form, &keys, error);
     if (done) {
         fputs("HIERARCHY\n", out);
         write_joint(out, &form, form.first_bone, 0);
-        fprintf(out, "MOTION\nFrames: %d\nFrame Time: %.12g\n", keys.count, shot_seconds(shot, 1));
+        fprintf(out, "MOTION\nFrames: %d\nFrame Time: %.12g\n", keys.count, range_seconds(range, 1));
         for (int k = 0; k < keys.count; k++) {
             const float *place = keys.at.translation[k];
             fprintf(out, "%.9g %.9g %.9g", (double)place[0], (double)place[1], (double)place[2]);

@@ -67,11 +67,11 @@ static void key(const struct form *form, const struct rig_pose *pose, struct for
     }
 }
 
-static void columns(const struct shot *shot, int rig, const struct rig_pose *pose, double key, form_column *column,
-                    void *user)
+static void columns(const struct export_range *range, int rig, const struct rig_pose *pose, double key,
+                    form_column *column, void *user)
 {
-    const struct chain *chain = &shot->posing->document->rigs[rig].chain;
-    form_channels(shot, rig, chain->channels, chain->channel_count, pose->chain.count - 1, key, column, user);
+    const struct chain *chain = &range->posing->document->rigs[rig].chain;
+    form_channels(range, rig, chain->channels, chain->channel_count, pose->chain.count - 1, key, column, user);
 }
 
 const struct form_kind chain_form = {

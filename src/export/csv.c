@@ -1,6 +1,6 @@
 /// A table: one row per key, a column for every spline and every channel of the rigs.
 #include "base/printable.h"
-#include "export/format.h"
+#include "export/form.h"
 #include "scene/number.h"
 #include <stdarg.h>
 #include <stdlib.h>
@@ -32,36 +32,36 @@ static void write_column(void *user, double value, const char *format, ...)
     free(name);
 }
 
-static bool write_row(struct shot *shot, double key, struct row *row, struct error *error)
+static bool write_row(struct export_range *range, double key, struct row *row, struct error *error)
 {
     struct rig_pose pose;
-    const struct document *document = shot->posing->document;
+    const struct document *document = range->posing->document;
     row->columns = 0;
-    write_column(row, shot_frame(shot, key), "frame");
+    write_column(row, range_frame(range, key), "frame");
     for (int i = 0; i < document->spline_count; i++) {
-        const wiggly_value value = shot_value(shot, i, key);
+        const wiggly_value value = range_value(range, i, key);
         write_column(row, value.y + value.re, "%s", document->splines[i].name);
     }
-    for (int r = 0; r < shot->rig_count; r++) {
-        const int rig = shot->rigs[r];
-        if (!shot_pose(shot, rig, key, &pose, error)) return false;
+    for (int r = 0; r < range->rig_count; r++) {
+        const int rig = range->rigs[r];
+        if (!range_pose(range, rig, key, &pose, error)) return false;
         const struct form_kind *kind = form_kind(document->rigs[rig].kind);
-        if (kind->columns) kind->columns(shot, rig, &pose, key, write_column, row);
+        if (kind->columns) kind->columns(range, rig, &pose, key, write_column, row);
     }
     fputc('\n', row->out);
     return true;
 }
 
-bool csv_write(struct shot *shot, FILE *out, char summary[FORMAT_SUMMARY], struct error *error)
+bool csv_write(struct export_range *range, FILE *out, char summary[FORMAT_SUMMARY], struct error *error)
 {
     struct row row = {.out = out, .names = true};
-    shot->total = shot->key_count;
-    if (!write_row(shot, 0, &row, error)) return false;
+    range->total = range->key_count;
+    if (!write_row(range, 0, &row, error)) return false;
     if (row.no_memory) return fail_no_memory(error, "the table");
     row.names = false;
-    for (int k = 0; k < shot->key_count; k++) {
-        if (!write_row(shot, k, &row, error) || !shot_proceed(shot, error)) return false;
+    for (int k = 0; k < range->key_count; k++) {
+        if (!write_row(range, k, &row, error) || !range_proceed(range, error)) return false;
     }
-    snprintf(summary, FORMAT_SUMMARY, "%d columns, %d rows", row.columns, shot->key_count);
+    snprintf(summary, FORMAT_SUMMARY, "%d columns, %d rows", row.columns, range->key_count);
     return true;
 }

@@ -1,14 +1,23 @@
-/// Finds the format, the rigs and the keys, and writes the file whole or not at all.
+/// Finds the format, the rigs and the keys, poses the rigs at these, and writes the file whole or not at all.
 #include "export/export.h"
 #include "base/file.h"
 #include "base/path.h"
-#include "export/format.h"
+#include "export/form.h"
 #include "scene/number.h"
 #include <math.h>
 #include <stdarg.h>
 #include <string.h>
 #include <strings.h>
 #include <sys/types.h>
+
+struct format {
+    const char *ending;
+    bool without_rigs; ///< it makes sense without one
+    unsigned holds;    ///< of what a kind of rig gives (form.h); 0: any kind
+    bool one_rig;      ///< it holds one rig
+    /// Writes all of it to a stream, whose errors the caller sees, and says in a few words what it wrote.
+    bool (*write)(struct export_range *range, FILE *out, char summary[FORMAT_SUMMARY], struct error *error);
+};
 
 static const struct format formats[] = {
     {.ending = ".glb", .holds = FORM_MESH | FORM_FILE, .write = glb_write},
@@ -63,16 +72,16 @@ static void list_names(const struct document *document, char *text, size_t size)
 }
 
 /// Why there is no rig to write; `unfit` is one that the format cannot hold, or −1.
-static bool fail_rigs(const struct shot *shot, const struct format *format, const char *wanted, int unfit,
+static bool fail_rigs(const struct export_range *range, const struct format *format, const char *wanted, int unfit,
                       struct error *error)
 {
-    const struct document *document = shot->posing->document;
+    const struct document *document = range->posing->document;
     char names[256], endings[EXPORT_ENDINGS];
     list_names(document, names, sizeof names);
     if (document->rig_count == 0)
         return fail(error, ERROR_INPUT, "the scene has no rig to export: its splines go into a .csv file");
     if (unfit < 0)
-        return fail(error, ERROR_INPUT, "%s: expected the name of a rig, %s, got \"%s\"", shot->rig_choice, names,
+        return fail(error, ERROR_INPUT, "%s: expected the name of a rig, %s, got \"%s\"", range->rig_choice, names,
                     wanted);
     const struct rig *rig = &document->rigs[unfit];
     list_endings(form_kind(rig->kind)->holds, endings);
@@ -93,51 +102,51 @@ static void note(struct export_report *report, const char *format, ...)
     va_end(arguments);
 }
 
-static bool choose_rigs(struct shot *shot, const struct format *format, const char *wanted,
+static bool choose_rigs(struct export_range *range, const struct format *format, const char *wanted,
                         struct export_report *report, struct error *error)
 {
-    const struct document *document = shot->posing->document;
+    const struct document *document = range->posing->document;
     int unfit = -1;
     for (int i = 0; i < document->rig_count && i < SCENE_MAX_RIGS; i++) {
         const struct rig *rig = &document->rigs[i];
         if (wanted && strcmp(form_name(rig), wanted) != 0) continue;
         if (fits(format, form_kind(rig->kind)->holds)) {
-            shot->rigs[shot->rig_count++] = i;
+            range->rigs[range->rig_count++] = i;
         } else if (unfit < 0 || form_kind(rig->kind)->holds == 0) {
             unfit = i;
         }
     }
-    if (shot->rig_count == 0 && !(format->without_rigs && !wanted))
-        return fail_rigs(shot, format, wanted, unfit, error);
+    if (range->rig_count == 0 && !(format->without_rigs && !wanted))
+        return fail_rigs(range, format, wanted, unfit, error);
     const bool is_lost = unfit >= 0 && form_kind(document->rigs[unfit].kind)->holds == 0; // a chain is in its model
-    if (is_lost && shot->rig_count > 0)
+    if (is_lost && range->rig_count > 0)
         note(report, "a %s file cannot hold the %s \"%.40s\", which is left out", format->ending,
              rig_word(document->rigs[unfit].kind), form_name(&document->rigs[unfit]));
-    if (shot->rig_count <= 1 || !format->one_rig) return true;
+    if (range->rig_count <= 1 || !format->one_rig) return true;
     char names[256];
     list_names(document, names, sizeof names);
     return fail(error, ERROR_INPUT, "a %s file holds one rig: choose one of %s with %s", format->ending, names,
-                shot->rig_choice);
+                range->rig_choice);
 }
 
-static bool choose_keys(struct shot *shot, const struct export_options *options, struct export_report *report,
-                        struct error *error)
+static bool choose_keys(struct export_range *range, const struct export_options *options,
+                        struct export_report *report, struct error *error)
 {
-    const struct document *document = shot->posing->document;
+    const struct document *document = range->posing->document;
     const double first = options->has_frames ? options->first : document->first_frame;
     const double last = options->has_frames ? options->last : document->last_frame;
     const int substeps = options->substeps > 0 ? options->substeps : document->substeps;
     if (!(first <= last) || first < document->first_frame || last > document->last_frame)
         return fail(error, ERROR_INPUT, "--frames: expected frames from %d to %d in this order, got %g:%g",
                     document->first_frame, document->last_frame, first, last);
-    shot->first = first;
-    shot->spacing = options->rate > 0 ? document->fps / options->rate : 1.0 / substeps;
-    const double keys = floor((last - first) / shot->spacing + 1e-6) + 1;
+    range->first = first;
+    range->spacing = options->rate > 0 ? document->fps / options->rate : 1.0 / substeps;
+    const double keys = floor((last - first) / range->spacing + 1e-6) + 1;
     if (keys > MAX_KEYS)
         return fail(error, ERROR_INPUT, "expected at most %d keys, got %.0f: ask for fewer frames or keys a second",
                     MAX_KEYS, keys);
-    shot->key_count = (int)keys;
-    const double end = shot_frame(shot, shot->key_count - 1);
+    range->key_count = (int)keys;
+    const double end = range_frame(range, range->key_count - 1);
     if (fabs(end - last) > 1e-6)
         note(report, "the last key is on frame %g, because no key falls on frame %g", end, last);
     return true;
@@ -165,35 +174,35 @@ static void print_size(off_t bytes, char *text, size_t size)
 }
 
 /// The files that this one names come first; a full disk is seen before that.
-static bool commit(struct shot *shot, struct file_output *output, struct error *error)
+static bool commit(struct export_range *range, struct file_output *output, struct error *error)
 {
     const bool broken = fflush(output->stream) != 0 || ferror(output->stream);
-    if (!broken && !beside_commit(&shot->beside, error)) {
+    if (!broken && !sidecars_commit(&range->sidecars, error)) {
         file_output_discard(output);
-        beside_discard(&shot->beside);
+        sidecars_discard(&range->sidecars);
         return false;
     }
     if (!file_output_commit(output, error)) {
-        beside_discard(&shot->beside);
+        sidecars_discard(&range->sidecars);
         return false;
     }
-    beside_free(&shot->beside);
+    sidecars_free(&range->sidecars);
     return true;
 }
 
-static bool write_file(struct shot *shot, const struct format *format, const char *path, struct export_report *report,
-                       struct error *error)
+static bool write_file(struct export_range *range, const struct format *format, const char *path,
+                       struct export_report *report, struct error *error)
 {
     struct file_output output;
     char summary[FORMAT_SUMMARY] = "", size[32];
     if (!file_check_place(path, error) || !file_output_open(&output, path, error)) return false;
-    if (!format->write(shot, output.stream, summary, error)) {
+    if (!format->write(range, output.stream, summary, error)) {
         file_output_discard(&output);
-        beside_discard(&shot->beside);
+        sidecars_discard(&range->sidecars);
         return false;
     }
     const off_t bytes = ftello(output.stream);
-    if (!commit(shot, &output, error)) return false;
+    if (!commit(range, &output, error)) return false;
     print_size(bytes, size, sizeof size);
     snprintf(report->text, sizeof report->text, "%s, %s", summary, size);
     return true;
@@ -204,7 +213,7 @@ bool export_write(const struct posing *posing, const char *path, const struct ex
 {
     const struct format *format = find_format(path);
     char title[FORM_NAME], endings[EXPORT_ENDINGS];
-    struct shot shot = {
+    struct export_range range = {
         .posing = posing,
         .clip = options->clip,
         .title = title,
@@ -221,7 +230,48 @@ bool export_write(const struct posing *posing, const char *path, const struct ex
         export_endings(endings);
         return fail(error, ERROR_USAGE, "%s: expected a name ending in %s", path, endings);
     }
-    if (!choose_rigs(&shot, format, options->rig, report, error) || !choose_keys(&shot, options, report, error))
+    if (!choose_rigs(&range, format, options->rig, report, error) || !choose_keys(&range, options, report, error))
         return false;
-    return write_file(&shot, format, path, report, error);
+    return write_file(&range, format, path, report, error);
+}
+
+// --- the rigs at the times that are exported
+
+double range_frame(const struct export_range *range, double key) { return range->first + key * range->spacing; }
+
+double range_seconds(const struct export_range *range, double key)
+{
+    return key * range->spacing / range->posing->document->fps;
+}
+
+/// In samples. A key that is meant to fall on a sample must not miss it by rounding: the last of a loop is the first.
+static double position_of(const struct export_range *range, double key)
+{
+    const struct document *document = range->posing->document;
+    const double position = (range_frame(range, key) - document->first_frame) * document->substeps;
+    return fabs(position - round(position)) < 1e-6 ? round(position) : position;
+}
+
+bool range_pose(const struct export_range *range, int rig, double key, struct rig_pose *pose, struct error *error)
+{
+    if (rig_pose(range->posing, rig, position_of(range, key), NULL, pose)) return true;
+    return fail(error, ERROR_INPUT, "rigs[%d]: its model could not be read", rig);
+}
+
+wiggly_value range_value(const struct export_range *range, int spline, double key)
+{
+    return evaluation_at(range->posing->evaluation, spline, position_of(range, key));
+}
+
+bool range_is_inside(const struct export_range *range, double key)
+{
+    const double position = position_of(range, key);
+    return position >= 0 && position <= document_samples(range->posing->document) - 1;
+}
+
+bool range_proceed(struct export_range *range, struct error *error)
+{
+    range->done++;
+    if (!range->proceed || range->proceed(range->user, range->done, range->total)) return true;
+    return fail(error, ERROR_ENVIRONMENT, "interrupted; nothing was written");
 }

@@ -22,32 +22,32 @@ static void make_name(const struct document *document, int rig, char name[FORM_N
     if (number > 1) snprintf(name + strlen(name), 16, "_%d", number);
 }
 
-bool form_open(const struct shot *shot, int rig, struct form *form, struct error *error)
+bool form_open(const struct export_range *range, int rig, struct form *form, struct error *error)
 {
     struct rig_pose pose;
-    const struct document *document = shot->posing->document;
+    const struct document *document = range->posing->document;
     const struct rig *source = &document->rigs[rig];
     *form = (struct form){.kind = kinds[source->kind]};
-    if (!shot_pose(shot, rig, 0, &pose, error)) return false;
+    if (!range_pose(range, rig, 0, &pose, error)) return false;
     make_name(document, rig, form->name);
-    if (form->kind->open(shot->posing, rig, &pose, form, error)) return true;
+    if (form->kind->open(range->posing, rig, &pose, form, error)) return true;
     form_close(form);
     return false;
 }
 
-void form_channels(const struct shot *shot, int rig, const struct channel *channels, int count, int joints,
+void form_channels(const struct export_range *range, int rig, const struct channel *channels, int count, int joints,
                    double key, form_column *column, void *user)
 {
-    const struct document *document = shot->posing->document;
+    const struct document *document = range->posing->document;
     const char *name = form_name(&document->rigs[rig]);
     for (int c = 0; c < count; c++) {
         const struct channel *channel = &channels[c];
-        const wiggly_value value = shot_value(shot, channel->spline, key);
+        const wiggly_value value = range_value(range, channel->spline, key);
         if (!axis_bends(channel->axis))
-            column(user, channel_moves(channel, value, 1, shot->posing->look), "%s.%s.%s", name,
+            column(user, channel_moves(channel, value, 1, range->posing->look), "%s.%s.%s", name,
                    axis_word(channel->axis), document->splines[channel->spline].name);
         for (int n = 0; n < joints && axis_bends(channel->axis); n++) {
-            const double angle = channel_bend(channel, value, n, joints, shot->posing->look);
+            const double angle = channel_bend(channel, value, n, joints, range->posing->look);
             column(user, 180 / 3.14159265358979323846 * angle, "%s.%s.%s.%d", name, axis_word(channel->axis),
                    document->splines[channel->spline].name, n);
         }

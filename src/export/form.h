@@ -3,7 +3,7 @@
 #ifndef EXPORT_FORM_H
 #define EXPORT_FORM_H
 
-#include "export/shot.h"
+#include "export/range.h"
 
 enum { FORM_INFLUENCES = 4, FORM_NAME = 64 };
 
@@ -65,8 +65,8 @@ struct form_kind {
     /// Where the vertices are, as the stage shows them.
     void (*vertices)(const struct form *form, const struct rig_pose *pose, float (*positions)[3]);
     /// What moves the rig at a key: always the same columns in the same order. NULL: it has none.
-    void (*columns)(const struct shot *shot, int rig, const struct rig_pose *pose, double key, form_column *column,
-                    void *user);
+    void (*columns)(const struct export_range *range, int rig, const struct rig_pose *pose, double key,
+                    form_column *column, void *user);
 };
 
 extern const struct form_kind tail_form, character_form, model_form, chain_form;
@@ -75,14 +75,21 @@ extern const struct form_kind tail_form, character_form, model_form, chain_form;
 const struct form_kind *form_kind(enum rig_kind kind);
 
 /// Columns of the angles in degrees by which channels bend joints.
-void form_channels(const struct shot *shot, int rig, const struct channel *channels, int count, int joints,
+void form_channels(const struct export_range *range, int rig, const struct channel *channels, int count, int joints,
                    double key, form_column *column, void *user);
 
 /// What a rig is called in files and messages: its name, or its kind's word.
 const char *form_name(const struct rig *rig);
 
 /// The form of a rig. False with a sentence, and nothing to close.
-bool form_open(const struct shot *shot, int rig, struct form *form, struct error *error);
+bool form_open(const struct export_range *range, int rig, struct form *form, struct error *error);
 void form_close(struct form *form);
+
+/// What the form of an imported character knows besides, in form.owned: its joints are the bones that chains bend.
+struct model_bones {
+    const struct gltf *gltf;
+    int *node;     ///< of each joint of the form
+    bool *is_bone; ///< of each node: some chain bends it
+};
 
 #endif

@@ -1,5 +1,5 @@
 /// Rigs as glTF 2.0: meshes with skins or morph targets, and one clip that moves them all.
-#include "export/format.h"
+#include "export/form.h"
 #include "export/gltf_motion.h"
 #include "export/keys.h"
 #include "export/targets.h"
@@ -8,7 +8,7 @@
 #include <string.h>
 
 struct scene {
-    struct shot *shot;
+    struct export_range *range;
     struct gltf_file file;
     struct gltf_looks looks;
     json_t *roots, *nodes, *meshes, *skins;
@@ -171,9 +171,9 @@ static bool add_rig(struct scene *scene, int rig, struct error *error)
     struct form form;
     struct keys keys;
     struct file_targets targets = {0};
-    if (!form_open(scene->shot, rig, &form, error)) return false;
-    bool done = keys_collect(scene->shot, rig, &form, &keys, error);
-    if (done && !targets_create(scene->shot, &form, &keys, &targets)) done = fail_no_memory(error, form.name);
+    if (!form_open(scene->range, rig, &form, error)) return false;
+    bool done = keys_collect(scene->range, rig, &form, &keys, error);
+    if (done && !targets_create(scene->range, &form, &keys, &targets)) done = fail_no_memory(error, form.name);
     if (done) {
         struct part part = {.form = &form, .keys = &keys, .targets = &targets};
         add_nodes(scene, &part, add_mesh(scene, &part));
@@ -195,7 +195,7 @@ static json_t *make_root(struct scene *scene)
     gltf_looks_complete(&scene->looks, root);
     if (json_array_size(scene->skins) > 0) gltf_set(&scene->file, root, "skins", json_incref(scene->skins));
     if (json_array_size(scene->motion.channels) > 0) {
-        const char *name = scene->shot->clip ? scene->shot->clip : scene->shot->title;
+        const char *name = scene->range->clip ? scene->range->clip : scene->range->title;
         gltf_set(&scene->file, root, "animations", json_pack("[o]", gltf_motion_json(&scene->motion, name)));
     }
     return root;
@@ -206,19 +206,19 @@ static void summarise(const struct scene *scene, char summary[FORMAT_SUMMARY])
     char joints[32] = "", targets[32] = "";
     if (scene->joints > 0) snprintf(joints, sizeof joints, "%d joints, ", scene->joints);
     if (scene->targets > 0) snprintf(targets, sizeof targets, "%d morph targets, ", scene->targets);
-    snprintf(summary, FORMAT_SUMMARY, "%s%s%d keys", joints, targets, scene->shot->key_count);
+    snprintf(summary, FORMAT_SUMMARY, "%s%s%d keys", joints, targets, scene->range->key_count);
 }
 
-static bool write_scene(struct shot *shot, const int *rigs, int count, bool binary, FILE *out,
+static bool write_scene(struct export_range *range, const int *rigs, int count, bool binary, FILE *out,
                         char summary[FORMAT_SUMMARY], struct error *error)
 {
-    struct scene scene = {.shot = shot};
+    struct scene scene = {.range = range};
     json_t **const arrays[] = {&scene.roots, &scene.nodes, &scene.meshes, &scene.skins};
     enum { ARRAYS = sizeof arrays / sizeof *arrays };
     scene.looks.file = &scene.file;
     for (int i = 0; i < ARRAYS; i++) *arrays[i] = json_array();
     bool done = true;
-    gltf_motion_begin(&scene.motion, &scene.file, shot);
+    gltf_motion_begin(&scene.motion, &scene.file, range);
     for (int r = 0; done && r < count; r++) done = add_rig(&scene, rigs[r], error);
     done = done && gltf_file_write(&scene.file, make_root(&scene), binary, out, error);
     summarise(&scene, summary);
@@ -230,32 +230,33 @@ static bool write_scene(struct shot *shot, const int *rigs, int count, bool bina
 }
 
 /// An imported character has a file of its own, in which nothing else has a place.
-static bool write_either(struct shot *shot, bool binary, FILE *out, char summary[FORMAT_SUMMARY], struct error *error)
+static bool write_either(struct export_range *range, bool binary, FILE *out, char summary[FORMAT_SUMMARY],
+                         struct error *error)
 {
-    const struct document *document = shot->posing->document;
-    for (int r = 0; r < shot->rig_count; r++) {
-        const struct rig *rig = &document->rigs[shot->rigs[r]];
+    const struct document *document = range->posing->document;
+    for (int r = 0; r < range->rig_count; r++) {
+        const struct rig *rig = &document->rigs[range->rigs[r]];
         if (!(form_kind(rig->kind)->holds & FORM_FILE)) continue;
-        if (shot->rig_count == 1) return gltf_model_write(shot, binary, out, summary, error);
+        if (range->rig_count == 1) return gltf_model_write(range, binary, out, summary, error);
         return fail(error, ERROR_INPUT, "\"%s\" is exported into a copy of its own file: choose one rig with %s",
-                    form_name(rig), shot->rig_choice);
+                    form_name(rig), range->rig_choice);
     }
-    shot->total = (long)shot->key_count * shot->rig_count;
-    return write_scene(shot, shot->rigs, shot->rig_count, binary, out, summary, error);
+    range->total = (long)range->key_count * range->rig_count;
+    return write_scene(range, range->rigs, range->rig_count, binary, out, summary, error);
 }
 
-bool gltf_write_rig(struct shot *shot, int rig, FILE *out, struct error *error)
+bool gltf_write_rig(struct export_range *range, int rig, FILE *out, struct error *error)
 {
     char summary[FORMAT_SUMMARY];
-    return write_scene(shot, &rig, 1, true, out, summary, error);
+    return write_scene(range, &rig, 1, true, out, summary, error);
 }
 
-bool glb_write(struct shot *shot, FILE *out, char summary[FORMAT_SUMMARY], struct error *error)
+bool glb_write(struct export_range *range, FILE *out, char summary[FORMAT_SUMMARY], struct error *error)
 {
-    return write_either(shot, true, out, summary, error);
+    return write_either(range, true, out, summary, error);
 }
 
-bool gltf_write(struct shot *shot, FILE *out, char summary[FORMAT_SUMMARY], struct error *error)
+bool gltf_write(struct export_range *range, FILE *out, char summary[FORMAT_SUMMARY], struct error *error)
 {
-    return write_either(shot, false, out, summary, error);
+    return write_either(range, false, out, summary, error);
 }

@@ -28,12 +28,13 @@ static const float *values_of(const struct gltf *gltf, const struct gltf_pose *p
 }
 
 /// One track after the other in each row.
-static bool collect(const struct gltf_body *body, struct shot *shot, float *rows, int width, struct error *error)
+static bool collect(const struct gltf_body *body, struct export_range *range, float *rows, int width,
+                    struct error *error)
 {
-    for (int k = 0; k < shot->key_count; k++) {
+    for (int k = 0; k < range->key_count; k++) {
         struct rig_pose pose;
         float *at = rows + (size_t)k * (size_t)width;
-        if (!shot_pose(shot, shot->rigs[0], k, &pose, error) || !shot_proceed(shot, error)) return false;
+        if (!range_pose(range, range->rigs[0], k, &pose, error) || !range_proceed(range, error)) return false;
         for (int c = 0; c < body->clip->channel_count; c++) {
             const struct gltf_channel *channel = &body->clip->channels[c];
             memcpy(at, values_of(body->gltf, pose.model.pose, channel), (size_t)channel->components * sizeof *at);
@@ -41,7 +42,7 @@ static bool collect(const struct gltf_body *body, struct shot *shot, float *rows
             at += channel->components;
         }
     }
-    keys_close_loop(rows, width, shot->key_count);
+    keys_close_loop(rows, width, range->key_count);
     return true;
 }
 
@@ -69,14 +70,14 @@ bool gltf_body_leaves_out(const struct gltf_body *body, const struct gltf_channe
     return channel->path == GLTF_ROTATION && body->is_bone[channel->node];
 }
 
-bool gltf_body_sample(const struct gltf_body *body, struct shot *shot, struct gltf_motion *motion,
+bool gltf_body_sample(const struct gltf_body *body, struct export_range *range, struct gltf_motion *motion,
                       struct error *error)
 {
     int width = 0;
     for (int c = 0; c < body->clip->channel_count; c++) width += body->clip->channels[c].components;
-    float *rows = malloc(((size_t)shot->key_count * (size_t)width + 1) * sizeof *rows);
+    float *rows = malloc(((size_t)range->key_count * (size_t)width + 1) * sizeof *rows);
     if (!rows) return fail_no_memory(error, body->gltf->path);
-    const bool done = collect(body, shot, rows, width, error) &&
+    const bool done = collect(body, range, rows, width, error) &&
                       (add_tracks(body, rows, width, motion) || fail_no_memory(error, body->gltf->path));
     free(rows);
     return done;
@@ -186,7 +187,7 @@ static void begin_round(struct track *track, double time)
     add_key(track, time, track->slope, track->value, track->slope);
 }
 
-/// The keys from one time of the clip to another; `start`: seconds from the shot's first key.
+/// The keys from one time of the clip to another; `start`: seconds from the range's first key.
 static void add_round(struct track *track, double from, double to, double start)
 {
     const struct gltf_channel *channel = track->channel;
@@ -208,10 +209,10 @@ static void add_round(struct track *track, double from, double to, double start)
     add_key(track, start + to - from, track->slope, track->value, track->slope);
 }
 
-static void add_rounds(struct track *track, const struct shot *shot, double duration)
+static void add_rounds(struct track *track, const struct export_range *range, double duration)
 {
-    const double first = shot_frame(shot, 0) / shot->posing->document->fps,
-                 last = first + shot_seconds(shot, shot->key_count - 1);
+    const double first = range_frame(range, 0) / range->posing->document->fps,
+                 last = first + range_seconds(range, range->key_count - 1);
     const double length = duration > 0 ? duration : fmax(last - first, 1);
     for (double n = floor(first / length + 1e-9); n * length < last - NEAR_TIME && !track->failed; n++) {
         const double from = fmax(first - n * length, 0), to = fmin(last - n * length, length);
@@ -223,7 +224,7 @@ static void add_rounds(struct track *track, const struct shot *shot, double dura
     begin_round(track, last - first); // the last key of a loop is its first
 }
 
-static bool add_track(const struct gltf_channel *channel, const struct shot *shot, double duration,
+static bool add_track(const struct gltf_channel *channel, const struct export_range *range, double duration,
                       struct gltf_motion *motion)
 {
     const size_t width = (size_t)channel->components;
@@ -231,8 +232,8 @@ static bool add_track(const struct gltf_channel *channel, const struct shot *sho
     if (!scratch) return false;
     struct track track = {
         .channel = channel, .sign = 1, .value = scratch, .slope = scratch + width, .still = scratch + 2 * width};
-    track.is_cubic = channel->interpolation == GLTF_CUBIC && shot->key_count > 1;
-    add_rounds(&track, shot, duration);
+    track.is_cubic = channel->interpolation == GLTF_CUBIC && range->key_count > 1;
+    add_rounds(&track, range, duration);
     if (!track.failed)
         gltf_motion_add_own(motion, channel,
                             track.is_cubic || channel->interpolation != GLTF_CUBIC ? channel->interpolation
@@ -244,13 +245,13 @@ static bool add_track(const struct gltf_channel *channel, const struct shot *sho
     return !track.failed;
 }
 
-bool gltf_body_keep(const struct gltf_body *body, const struct shot *shot, struct gltf_motion *motion,
+bool gltf_body_keep(const struct gltf_body *body, const struct export_range *range, struct gltf_motion *motion,
                     struct error *error)
 {
     for (int c = 0; c < body->clip->channel_count; c++) {
         const struct gltf_channel *channel = &body->clip->channels[c];
         if (gltf_body_leaves_out(body, channel)) continue;
-        if (!add_track(channel, shot, body->clip->duration, motion)) return fail_no_memory(error, body->gltf->path);
+        if (!add_track(channel, range, body->clip->duration, motion)) return fail_no_memory(error, body->gltf->path);
     }
     return true;
 }

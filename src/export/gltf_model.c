@@ -1,10 +1,9 @@
 /// Writes an imported character's own file with a clip more: parses its JSON, adds to it, and prints it.
 #include "base/file.h"
 #include "base/path.h"
-#include "export/format.h"
+#include "export/form.h"
 #include "export/gltf_motion.h"
 #include "export/keys.h"
-#include "export/model.h"
 #include "model/glb.h"
 #include <stdlib.h>
 #include <string.h>
@@ -113,19 +112,19 @@ static bool is_alone(const struct glb *source)
 }
 
 /// A file that stays what it is must be beside the files that it names.
-static bool check_place(const struct shot *shot, const struct glb *source, struct error *error)
+static bool check_place(const struct export_range *range, const struct glb *source, struct error *error)
 {
     char from[PATH_LIMIT], to[PATH_LIMIT], folder[PATH_LIMIT];
     if (is_alone(source)) return true;
     const bool same = path_folder(source->path, folder) && path_resolve(folder, ".", from) &&
-                      path_folder(shot->path, folder) && path_resolve(folder, ".", to) && strcmp(from, to) == 0;
+                      path_folder(range->path, folder) && path_resolve(folder, ".", to) && strcmp(from, to) == 0;
     if (same) return true;
     return fail(error, ERROR_INPUT, "%s: names files beside it: export it to the same folder, or as .glb",
                 source->path);
 }
 
 /// Takes the bytes that new ones follow: those of a .glb's chunk, if that is its first buffer; none of a .gltf; else all there are.
-static bool take_bytes(const struct shot *shot, bool binary, struct original *o, struct error *error)
+static bool take_bytes(const struct export_range *range, bool binary, struct original *o, struct error *error)
 {
     const json_t *buffers = json_object_get(o->source.json, "buffers"), *first = json_array_get(buffers, 0);
     const bool has_chunk = o->source.chunk.at && first && !json_object_get(first, "uri");
@@ -133,7 +132,7 @@ static bool take_bytes(const struct shot *shot, bool binary, struct original *o,
     if (!o->is_same || (binary && !has_chunk)) return gather(o, error);
     if (has_chunk) gltf_file_append(&o->file, o->source.chunk.at, o->source.chunk.size);
     if (!has_chunk) o->file.buffer = (json_int_t)json_array_size(buffers);
-    return check_place(shot, &o->source, error);
+    return check_place(range, &o->source, error);
 }
 
 static bool write_same(const char *path, FILE *out, struct error *error)
@@ -148,14 +147,14 @@ static bool write_same(const char *path, FILE *out, struct error *error)
 
 // --- the clip
 
-static bool add_motion(struct shot *shot, const struct form *form, const struct gltf_body *body,
+static bool add_motion(struct export_range *range, const struct form *form, const struct gltf_body *body,
                        struct gltf_motion *motion, struct error *error)
 {
     const struct model_bones *own = form->owned;
     struct keys keys;
-    if (!keys_collect(shot, shot->rigs[0], form, &keys, error)) return false;
-    const bool done = !body->clip || (shot->is_cubic ? gltf_body_keep(body, shot, motion, error)
-                                                     : gltf_body_sample(body, shot, motion, error));
+    if (!keys_collect(range, range->rigs[0], form, &keys, error)) return false;
+    const bool done = !body->clip || (range->is_cubic ? gltf_body_keep(body, range, motion, error)
+                                                      : gltf_body_sample(body, range, motion, error));
     for (int j = 0; done && j < form->joint_count; j++) {
         const size_t at = (size_t)j * (size_t)keys.count;
         gltf_motion_add(motion, own->node[j], GLTF_ROTATION, keys.at.rotation[at],
@@ -166,15 +165,15 @@ static bool add_motion(struct shot *shot, const struct form *form, const struct 
 }
 
 /// Adds the clip; one of the same name it replaces.
-static bool put_clip(struct shot *shot, const struct form *form, const struct gltf_body *body, struct original *o,
-                     struct error *error)
+static bool put_clip(struct export_range *range, const struct form *form, const struct gltf_body *body,
+                     struct original *o, struct error *error)
 {
     struct gltf_motion motion;
     json_t *root = o->source.json;
-    gltf_motion_begin(&motion, &o->file, shot);
-    const bool done = add_motion(shot, form, body, &motion, error);
-    json_t *clip = done ? gltf_motion_json(&motion, shot->clip) : NULL;
-    const int known = gltf_find_clip(body->gltf, shot->clip);
+    gltf_motion_begin(&motion, &o->file, range);
+    const bool done = add_motion(range, form, body, &motion, error);
+    json_t *clip = done ? gltf_motion_json(&motion, range->clip) : NULL;
+    const int known = gltf_find_clip(body->gltf, range->clip);
     if (known < 0) {
         gltf_append_to(&o->file, root, "animations", clip);
     } else if (json_array_set_new(json_object_get(root, "animations"), (size_t)known, clip) != 0) {
@@ -184,7 +183,7 @@ static bool put_clip(struct shot *shot, const struct form *form, const struct gl
     return done;
 }
 
-static bool write_file(struct shot *shot, const struct form *form, const struct gltf_body *body, bool binary,
+static bool write_file(struct export_range *range, const struct form *form, const struct gltf_body *body, bool binary,
                        FILE *out, struct error *error)
 {
     struct original o = {0};
@@ -193,10 +192,10 @@ static bool write_file(struct shot *shot, const struct form *form, const struct 
     o.is_same = (memcmp(o.source.data, "glTF", 4) == 0) == binary;
     bool done;
     if (form->joint_count == 0 && o.is_same) {
-        done = check_place(shot, &o.source, error) && write_same(path, out, error);
+        done = check_place(range, &o.source, error) && write_same(path, out, error);
     } else {
-        done = take_bytes(shot, binary, &o, error) &&
-               (form->joint_count == 0 || put_clip(shot, form, body, &o, error)) &&
+        done = take_bytes(range, binary, &o, error) &&
+               (form->joint_count == 0 || put_clip(range, form, body, &o, error)) &&
                gltf_file_write(&o.file, json_incref(o.source.json), binary, out, error);
     }
     gltf_file_free(&o.file);
@@ -204,26 +203,28 @@ static bool write_file(struct shot *shot, const struct form *form, const struct 
     return done;
 }
 
-static bool write_model(struct shot *shot, const struct form *form, bool binary, FILE *out, struct error *error)
+static bool write_model(struct export_range *range, const struct form *form, bool binary, FILE *out,
+                        struct error *error)
 {
     const struct model_bones *own = form->owned;
-    const struct model_rig *model = &shot->posing->document->rigs[shot->rigs[0]].model;
+    const struct model_rig *model = &range->posing->document->rigs[range->rigs[0]].model;
     const int clip = model->clip ? gltf_find_clip(own->gltf, model->clip) : -1;
     const struct gltf_body body = {
         .gltf = own->gltf, .clip = clip >= 0 ? &own->gltf->clips[clip] : NULL, .is_bone = own->is_bone};
-    if (body.clip && !shot->is_cubic) shot->total += shot->key_count;
-    if (!shot->clip) shot->clip = model->clip ? model->clip : shot->title;
-    return write_file(shot, form, &body, binary, out, error);
+    if (body.clip && !range->is_cubic) range->total += range->key_count;
+    if (!range->clip) range->clip = model->clip ? model->clip : range->title;
+    return write_file(range, form, &body, binary, out, error);
 }
 
-bool gltf_model_write(struct shot *shot, bool binary, FILE *out, char summary[FORMAT_SUMMARY], struct error *error)
+bool gltf_model_write(struct export_range *range, bool binary, FILE *out, char summary[FORMAT_SUMMARY],
+                      struct error *error)
 {
     struct form form;
-    shot->total = shot->key_count;
-    if (!form_open(shot, shot->rigs[0], &form, error)) return false;
-    const bool done = write_model(shot, &form, binary, out, error);
+    range->total = range->key_count;
+    if (!form_open(range, range->rigs[0], &form, error)) return false;
+    const bool done = write_model(range, &form, binary, out, error);
     if (form.joint_count > 0) {
-        snprintf(summary, FORMAT_SUMMARY, "%d bones bent by chains, %d keys", form.joint_count, shot->key_count);
+        snprintf(summary, FORMAT_SUMMARY, "%d bones bent by chains, %d keys", form.joint_count, range->key_count);
     } else {
         snprintf(summary, FORMAT_SUMMARY, "what is in the file as it was, because no chain moves it");
     }

@@ -3,13 +3,13 @@
 #include <stdlib.h>
 #include <string.h>
 
-void gltf_motion_begin(struct gltf_motion *motion, struct gltf_file *file, const struct shot *shot)
+void gltf_motion_begin(struct gltf_motion *motion, struct gltf_file *file, const struct export_range *range)
 {
-    const int count = shot->key_count;
+    const int count = range->key_count;
     *motion =
         (struct gltf_motion){.file = file, .samplers = json_array(), .channels = json_array(), .key_count = count};
     float *times = malloc((size_t)count * sizeof *times);
-    for (int k = 0; times && k < count; k++) times[k] = (float)shot_seconds(shot, k);
+    for (int k = 0; times && k < count; k++) times[k] = (float)range_seconds(range, k);
     if (!times) file->without_memory = true;
     if (times) motion->times = gltf_file_add(file, ELEMENTS_KEYS, times, (size_t)count, true);
     free(times);

@@ -2,7 +2,7 @@
 #ifndef EXPORT_GLTF_MOTION_H
 #define EXPORT_GLTF_MOTION_H
 
-#include "export/shot.h"
+#include "export/range.h"
 #include "model/gltf.h"
 #include "model/gltf_file.h"
 
@@ -16,8 +16,8 @@ struct gltf_motion {
     int own_count;
 };
 
-/// Starts an animation with a shot's keys. `file` must outlive it.
-void gltf_motion_begin(struct gltf_motion *motion, struct gltf_file *file, const struct shot *shot);
+/// Starts an animation with a range's keys. `file` must outlive it.
+void gltf_motion_begin(struct gltf_motion *motion, struct gltf_file *file, const struct export_range *range);
 void gltf_motion_free(struct gltf_motion *motion);
 
 /// Adds what moves a node: `width` numbers a key, and how fast they change by second (NULL: straight lines between keys).
@@ -43,11 +43,11 @@ struct gltf_body {
 bool gltf_body_leaves_out(const struct gltf_body *body, const struct gltf_channel *channel);
 
 /// Adds a key a sample for all that the clip moves. False with a sentence.
-bool gltf_body_sample(const struct gltf_body *body, struct shot *shot, struct gltf_motion *motion,
+bool gltf_body_sample(const struct gltf_body *body, struct export_range *range, struct gltf_motion *motion,
                       struct error *error);
 
-/// Adds the clip's own keys, as often as the shot repeats them, which move the body the same at any time.
-bool gltf_body_keep(const struct gltf_body *body, const struct shot *shot, struct gltf_motion *motion,
+/// Adds the clip's own keys, as often as the range repeats them, which move the body the same at any time.
+bool gltf_body_keep(const struct gltf_body *body, const struct export_range *range, struct gltf_motion *motion,
                     struct error *error);
 
 #endif

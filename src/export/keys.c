@@ -8,7 +8,7 @@
 
 /// All numbers of one time in one row: translation, rotations, scales, weights.
 struct sampler {
-    const struct shot *shot;
+    const struct export_range *range;
     const struct form *form;
     int rig, width;
 };
@@ -21,7 +21,7 @@ static bool sample(const struct sampler *from, double key, float *row, struct er
                               .scale = (float(*)[3])(row + 3 + 4 * joints),
                               .weight = row + 3 + 7 * joints};
     for (int i = 0; i < 3 * joints; i++) row[3 + 4 * joints + i] = 1;
-    if (!shot_pose(from->shot, from->rig, key, &pose, error)) return false;
+    if (!range_pose(from->range, from->rig, key, &pose, error)) return false;
     from->form->kind->key(from->form, &pose, &values);
     memcpy(row, values.translation, sizeof values.translation);
     return true;
@@ -53,10 +53,11 @@ struct difference {
 };
 
 /// About the key; or, at an end of the document, from its inside.
-static struct difference choose_difference(const struct shot *shot, double key, bool loops)
+static struct difference choose_difference(const struct export_range *range, double key, bool loops)
 {
-    if (!loops && !shot_is_inside(shot, key - STEP)) return (struct difference){{0, STEP, 2 * STEP}, {-1.5, 2, -0.5}};
-    if (!loops && !shot_is_inside(shot, key + STEP))
+    if (!loops && !range_is_inside(range, key - STEP))
+        return (struct difference){{0, STEP, 2 * STEP}, {-1.5, 2, -0.5}};
+    if (!loops && !range_is_inside(range, key + STEP))
         return (struct difference){{0, -STEP, -2 * STEP}, {1.5, -2, 0.5}};
     return (struct difference){{-STEP, 0, STEP}, {-0.5, 0, 0.5}};
 }
@@ -64,8 +65,8 @@ static struct difference choose_difference(const struct shot *shot, double key, 
 static bool slope_at(const struct sampler *from, int key, bool loops, const float *at, float *slope, float *scratch,
                      struct error *error)
 {
-    const struct difference difference = choose_difference(from->shot, key, loops);
-    const double seconds = shot_seconds(from->shot, STEP);
+    const struct difference difference = choose_difference(from->range, key, loops);
+    const double seconds = range_seconds(from->range, STEP);
     memset(slope, 0, (size_t)from->width * sizeof *slope);
     for (int d = 0; d < 3; d++) {
         if (difference.factor[d] == 0) continue;
@@ -113,29 +114,30 @@ static bool collect_slopes(const struct sampler *from, struct keys *keys, const 
     return true;
 }
 
-static bool collect(struct shot *shot, const struct sampler *from, struct keys *keys, float *rows, float *scratch,
-                    struct error *error)
+static bool collect(struct export_range *range, const struct sampler *from, struct keys *keys, float *rows,
+                    float *scratch, struct error *error)
 {
     const size_t width = (size_t)from->width;
     if (!reserve(&keys->at, from->form, keys->count)) return fail_no_memory(error, from->form->name);
     for (int k = 0; k < keys->count; k++) {
         float *row = rows + (size_t)k * width;
-        if (!sample(from, k, row, error) || !shot_proceed(shot, error)) return false;
+        if (!sample(from, k, row, error) || !range_proceed(range, error)) return false;
         if (k > 0) turn_short_way(from, row - width, row);
         if (k > 0) keys->travels = keys->travels || memcmp(row, rows, 3 * sizeof *row) != 0;
     }
     keys_close_loop(rows, from->width, keys->count);
     for (int k = 0; k < keys->count; k++) scatter(from->form, keys->count, k, rows + (size_t)k * width, &keys->at);
-    return !shot->is_cubic || keys->count < 2 || collect_slopes(from, keys, rows, scratch, error);
+    return !range->is_cubic || keys->count < 2 || collect_slopes(from, keys, rows, scratch, error);
 }
 
-bool keys_collect(struct shot *shot, int rig, const struct form *form, struct keys *keys, struct error *error)
+bool keys_collect(struct export_range *range, int rig, const struct form *form, struct keys *keys,
+                  struct error *error)
 {
-    const struct sampler from = {shot, form, rig, 3 + 7 * form->joint_count + form->target_count};
+    const struct sampler from = {range, form, rig, 3 + 7 * form->joint_count + form->target_count};
     const size_t width = (size_t)from.width;
-    float *rows = malloc(((size_t)shot->key_count + 2) * width * sizeof *rows);
-    *keys = (struct keys){.count = shot->key_count};
-    bool done = rows ? collect(shot, &from, keys, rows, rows + (size_t)shot->key_count * width, error)
+    float *rows = malloc(((size_t)range->key_count + 2) * width * sizeof *rows);
+    *keys = (struct keys){.count = range->key_count};
+    bool done = rows ? collect(range, &from, keys, rows, rows + (size_t)range->key_count * width, error)
                      : fail_no_memory(error, form->name);
     free(rows);
     if (!done) keys_free(keys);

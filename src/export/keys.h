@@ -15,12 +15,13 @@ struct key_values {
 struct keys {
     int count;
     struct key_values at;
-    struct key_values slope; ///< of the curve itself; all NULL unless the shot is cubic
+    struct key_values slope; ///< of the curve itself; all NULL unless the range is cubic
     bool travels;            ///< the translation changes
 };
 
 /// Poses the rig at each key. False with a sentence, and nothing to free.
-bool keys_collect(struct shot *shot, int rig, const struct form *form, struct keys *keys, struct error *error);
+bool keys_collect(struct export_range *range, int rig, const struct form *form, struct keys *keys,
+                  struct error *error);
 void keys_free(struct keys *keys);
 
 /// A quaternion and its negative are the same rotation: makes `q` the one nearer to `before`.

@@ -1,5 +1,4 @@
 /// An imported character as a form: its vertices, and the bones that its chains bend, as joints. All in the space of its file.
-#include "export/model.h"
 #include "export/form.h"
 #include "rig/chain_bones.h"
 #include <stdio.h>

@@ -1,57 +1,57 @@
 /// Where all vertices of a rig are at each key: .pc2, .mdd and .npy.
-#include "export/format.h"
+#include "export/form.h"
 #include "model/motion.h"
 #include <stdlib.h>
 
-static bool write_keys(struct shot *shot, const struct form *form, FILE *out, enum motion_form as,
+static bool write_keys(struct export_range *range, const struct form *form, FILE *out, enum motion_form as,
                        float (*positions)[3], struct error *error)
 {
     struct rig_pose pose;
     const bool in_seconds = as == MOTION_MDD;
-    const struct document *document = shot->posing->document;
+    const struct document *document = range->posing->document;
     const struct motion_span span = {
-        .frames = shot->key_count,
+        .frames = range->key_count,
         .vertices = form->vertex_count,
-        .first = in_seconds ? shot->first / document->fps : shot->first,
-        .spacing = in_seconds ? shot_seconds(shot, 1) : shot->spacing,
+        .first = in_seconds ? range->first / document->fps : range->first,
+        .spacing = in_seconds ? range_seconds(range, 1) : range->spacing,
     };
     motion_print_start(out, as, &span);
-    for (int k = 0; k < shot->key_count; k++) {
-        if (!shot_pose(shot, shot->rigs[0], k, &pose, error)) return false;
+    for (int k = 0; k < range->key_count; k++) {
+        if (!range_pose(range, range->rigs[0], k, &pose, error)) return false;
         form->kind->vertices(form, &pose, positions);
         motion_print_frame(out, as, (const float(*)[3])positions, form->vertex_count);
         if (ferror(out)) return true; // the caller says what is wrong; a full disk need not be filled to the end
-        if (!shot_proceed(shot, error)) return false;
+        if (!range_proceed(range, error)) return false;
     }
     return true;
 }
 
-static bool write_points(struct shot *shot, FILE *out, enum motion_form as, char summary[FORMAT_SUMMARY],
+static bool write_points(struct export_range *range, FILE *out, enum motion_form as, char summary[FORMAT_SUMMARY],
                          struct error *error)
 {
     struct form form;
-    if (!form_open(shot, shot->rigs[0], &form, error)) return false;
+    if (!form_open(range, range->rigs[0], &form, error)) return false;
     float(*positions)[3] = malloc(((size_t)form.vertex_count + 1) * sizeof *positions);
-    shot->total = shot->key_count;
+    range->total = range->key_count;
     const bool done =
-        positions ? write_keys(shot, &form, out, as, positions, error) : fail_no_memory(error, form.name);
-    snprintf(summary, FORMAT_SUMMARY, "%d vertices, %d frames", form.vertex_count, shot->key_count);
+        positions ? write_keys(range, &form, out, as, positions, error) : fail_no_memory(error, form.name);
+    snprintf(summary, FORMAT_SUMMARY, "%d vertices, %d frames", form.vertex_count, range->key_count);
     free(positions);
     form_close(&form);
     return done;
 }
 
-bool pc2_write(struct shot *shot, FILE *out, char summary[FORMAT_SUMMARY], struct error *error)
+bool pc2_write(struct export_range *range, FILE *out, char summary[FORMAT_SUMMARY], struct error *error)
 {
-    return write_points(shot, out, MOTION_PC2, summary, error);
+    return write_points(range, out, MOTION_PC2, summary, error);
 }
 
-bool mdd_write(struct shot *shot, FILE *out, char summary[FORMAT_SUMMARY], struct error *error)
+bool mdd_write(struct export_range *range, FILE *out, char summary[FORMAT_SUMMARY], struct error *error)
 {
-    return write_points(shot, out, MOTION_MDD, summary, error);
+    return write_points(range, out, MOTION_MDD, summary, error);
 }
 
-bool npy_write(struct shot *shot, FILE *out, char summary[FORMAT_SUMMARY], struct error *error)
+bool npy_write(struct export_range *range, FILE *out, char summary[FORMAT_SUMMARY], struct error *error)
 {
-    return write_points(shot, out, MOTION_NPY, summary, error);
+    return write_points(range, out, MOTION_NPY, summary, error);
 }

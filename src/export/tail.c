@@ -146,12 +146,12 @@ static void vertices(const struct form *form, const struct rig_pose *pose, float
     tail_skin(&pose->tail, &fox->mesh, positions, NULL);
 }
 
-static void columns(const struct shot *shot, int rig, const struct rig_pose *pose, double key, form_column *column,
-                    void *user)
+static void columns(const struct export_range *range, int rig, const struct rig_pose *pose, double key,
+                    form_column *column, void *user)
 {
-    const struct tail *tail = &shot->posing->document->rigs[rig].tail;
+    const struct tail *tail = &range->posing->document->rigs[rig].tail;
     (void)pose;
-    form_channels(shot, rig, tail->channels, tail->channel_count, tail->joints, key, column, user);
+    form_channels(range, rig, tail->channels, tail->channel_count, tail->joints, key, column, user);
 }
 
 const struct form_kind tail_form = {FORM_MESH | FORM_JOINTS | FORM_POINTS, open, close, key, vertices, columns};

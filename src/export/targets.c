@@ -32,11 +32,11 @@ static void name_negative(const char *name, char negative[FORM_NAME])
     snprintf(negative, FORM_NAME, "%.*s-%s", before < FORM_NAME ? before : FORM_NAME, name, name + before);
 }
 
-bool targets_create(const struct shot *shot, const struct form *form, const struct keys *keys,
+bool targets_create(const struct export_range *range, const struct form *form, const struct keys *keys,
                     struct file_targets *targets)
 {
     const int count = form->target_count;
-    *targets = (struct file_targets){.clamped = !shot->is_signed, .count = count};
+    *targets = (struct file_targets){.clamped = !range->is_signed, .count = count};
     targets->list = calloc(2 * (size_t)count + 1, sizeof *targets->list);
     if (!targets->list) return false;
     for (int t = 0; t < count; t++) {

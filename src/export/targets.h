@@ -19,7 +19,7 @@ struct file_targets {
 };
 
 /// False if memory is short.
-bool targets_create(const struct shot *shot, const struct form *form, const struct keys *keys,
+bool targets_create(const struct export_range *range, const struct form *form, const struct keys *keys,
                     struct file_targets *targets);
 void targets_free(struct file_targets *targets);
 

@@ -1,7 +1,7 @@
 /// Rigs as a USD scene in text: UsdSkel skeletons, blend shapes, a time sample a key. Metres, y up; time codes are the document's frames.
 #include "export/usda.h"
 #include "base/path.h"
-#include "export/format.h"
+#include "export/form.h"
 #include <ctype.h>
 #include <search.h>
 #include <stdlib.h>
@@ -60,61 +60,62 @@ void usda_matrix(FILE *out, const double m[16])
 // --- rigs
 
 /// Reads a rig back from the glTF file that it would be.
-static bool read_own(struct shot *shot, int rig, struct gltf *gltf, struct error *error)
+static bool read_own(struct export_range *range, int rig, struct gltf *gltf, struct error *error)
 {
     char *data = NULL;
     size_t size = 0;
     FILE *file = open_memstream(&data, &size);
-    bool done = file && gltf_write_rig(shot, rig, file, error);
+    bool done = file && gltf_write_rig(range, rig, file, error);
     const bool whole = file && fclose(file) == 0;
-    if (done && whole) return gltf_read_bytes(form_name(&shot->posing->document->rigs[rig]), data, size, gltf, error);
+    if (done && whole)
+        return gltf_read_bytes(form_name(&range->posing->document->rigs[rig]), data, size, gltf, error);
     free(data);
-    return (file && !done) ? false : fail_no_memory(error, shot->path);
+    return (file && !done) ? false : fail_no_memory(error, range->path);
 }
 
-static bool write_rig(struct shot *shot, int rig, const char *name, FILE *out, struct error *error)
+static bool write_rig(struct export_range *range, int rig, const char *name, FILE *out, struct error *error)
 {
-    const struct rig *source = &shot->posing->document->rigs[rig];
-    struct usda_model model = {.shot = shot, .rig = rig, .name = name, .out = out};
+    const struct rig *source = &range->posing->document->rigs[rig];
+    struct usda_model model = {.range = range, .rig = rig, .name = name, .out = out};
     struct rig_pose pose;
     struct gltf gltf = {0};
     model.is_own = !(form_kind(source->kind)->holds & FORM_FILE);
-    if (!model.is_own && !shot_pose(shot, rig, 0, &pose, error)) return false;
-    if (model.is_own && !read_own(shot, rig, &gltf, error)) return false;
+    if (!model.is_own && !range_pose(range, rig, 0, &pose, error)) return false;
+    if (model.is_own && !read_own(range, rig, &gltf, error)) return false;
     model.gltf = model.is_own ? &gltf : &pose.model.imported->gltf;
     const bool done = usda_model_write(&model, error);
     gltf_free(&gltf);
     return done;
 }
 
-static void summarise(const struct shot *shot, char summary[FORMAT_SUMMARY])
+static void summarise(const struct export_range *range, char summary[FORMAT_SUMMARY])
 {
-    const int used = snprintf(summary, FORMAT_SUMMARY, "%d rig%s, %d keys", shot->rig_count,
-                              shot->rig_count == 1 ? "" : "s", shot->key_count);
-    if (shot->beside.count == 0) return;
-    snprintf(summary + used, FORMAT_SUMMARY - (size_t)used, ", %d texture%s in %.40s", shot->beside.count,
-             shot->beside.count == 1 ? "" : "s", path_name(shot->beside.folder));
+    const int used = snprintf(summary, FORMAT_SUMMARY, "%d rig%s, %d keys", range->rig_count,
+                              range->rig_count == 1 ? "" : "s", range->key_count);
+    if (range->sidecars.count == 0) return;
+    snprintf(summary + used, FORMAT_SUMMARY - (size_t)used, ", %d texture%s in %.40s", range->sidecars.count,
+             range->sidecars.count == 1 ? "" : "s", path_name(range->sidecars.folder));
 }
 
-bool usda_write(struct shot *shot, FILE *out, char summary[FORMAT_SUMMARY], struct error *error)
+bool usda_write(struct export_range *range, FILE *out, char summary[FORMAT_SUMMARY], struct error *error)
 {
     struct usda_names names = {0};
-    char(*name)[FORM_NAME] = calloc((size_t)shot->rig_count + 1, sizeof *name);
-    bool done = name || fail_no_memory(error, shot->path);
-    shot->total = (long)shot->key_count * shot->rig_count;
-    shot->is_cubic = false;
+    char(*name)[FORM_NAME] = calloc((size_t)range->rig_count + 1, sizeof *name);
+    bool done = name || fail_no_memory(error, range->path);
+    range->total = (long)range->key_count * range->rig_count;
+    range->is_cubic = false;
     fprintf(out, "#usda 1.0\n(\n    defaultPrim = \"scene\"\n    metersPerUnit = 1\n    upAxis = \"Y\"\n");
     fprintf(out, "    startTimeCode = %.9g\n    endTimeCode = %.9g\n    timeCodesPerSecond = %.9g\n)\n",
-            shot_frame(shot, 0), shot_frame(shot, shot->key_count - 1), shot->posing->document->fps);
+            range_frame(range, 0), range_frame(range, range->key_count - 1), range->posing->document->fps);
     fputs("\ndef Xform \"scene\"\n{", out);
-    for (int r = 0; done && r < shot->rig_count; r++) {
-        const char *wanted = form_name(&shot->posing->document->rigs[shot->rigs[r]]);
+    for (int r = 0; done && r < range->rig_count; r++) {
+        const char *wanted = form_name(&range->posing->document->rigs[range->rigs[r]]);
         usda_unique(&names, wanted, name[r]);
-        done = write_rig(shot, shot->rigs[r], name[r], out, error);
+        done = write_rig(range, range->rigs[r], name[r], out, error);
     }
     fputs("}\n", out);
     usda_names_free(&names);
     free(name);
-    summarise(shot, summary);
+    summarise(range, summary);
     return done;
 }

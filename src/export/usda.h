@@ -27,7 +27,7 @@ struct usda_joint {
 };
 
 struct usda_model {
-    struct shot *shot;
+    struct export_range *range;
     int rig;
     const char *name; ///< of its prim
     FILE *out;

@@ -19,7 +19,7 @@ static bool is_half(float number)
 
 static bool moves(const struct usda_model *model, int node)
 {
-    for (int k = 0; k < model->shot->key_count; k++) {
+    for (int k = 0; k < model->range->key_count; k++) {
         if (memcmp(usda_place(model, k, node), &model->gltf->nodes[node].place, sizeof *model->places) != 0)
             return !model->gltf->nodes[node].has_matrix;
     }
@@ -29,7 +29,7 @@ static bool moves(const struct usda_model *model, int node)
 static bool needs_two_joints(const struct usda_model *model, int node)
 {
     const float *scale = usda_place(model, 0, node)->scale;
-    for (int k = 1; k < model->shot->key_count; k++) {
+    for (int k = 1; k < model->range->key_count; k++) {
         if (memcmp(usda_place(model, k, node)->scale, scale, 3 * sizeof *scale) != 0) return false;
     }
     return !is_half(scale[0]) || !is_half(scale[1]) || !is_half(scale[2]);

@@ -16,17 +16,17 @@ struct usda_look {
 static bool write_picture(const struct usda_model *model, const char *stem, const struct gltf_image *image,
                           char file[PATH_LIMIT], struct error *error)
 {
-    const char *path = model->shot->path, *dot = strrchr(path, '.');
+    const char *path = model->range->path, *dot = strrchr(path, '.');
     char identifier[FORM_NAME], name[FORM_NAME], folder[PATH_LIMIT];
     struct usda_names none = {0};
     usda_unique(&none, stem, identifier);
     usda_names_free(&none);
-    snprintf(name, sizeof name, "%.40s_%d.%s", identifier, model->shot->beside.count,
+    snprintf(name, sizeof name, "%.40s_%d.%s", identifier, model->range->sidecars.count,
              image->bytes[0] == 0xFF ? "jpg" : "png");
     snprintf(folder, PATH_LIMIT, "%.*s_textures", dot ? (int)(dot - path) : (int)strlen(path), path);
     if (snprintf(file, PATH_LIMIT, "./%s/%s", path_name(folder), name) >= PATH_LIMIT)
         return fail(error, ERROR_INPUT, "%s: the path is too long", folder);
-    return beside_add(&model->shot->beside, folder, name, image->bytes, image->size, error);
+    return sidecars_add(&model->range->sidecars, folder, name, image->bytes, image->size, error);
 }
 
 static void begin_shader(FILE *out, const char *name, const char *id)

@@ -14,10 +14,12 @@ static bool pose_at(struct usda_model *model, int key, struct gltf_pose *own, co
     struct rig_pose posed;
     *pose = own;
     if (model->is_own) {
-        gltf_pose_clip(model->gltf, model->gltf->clip_count > 0 ? 0 : -1, (float)shot_seconds(model->shot, key), own);
+        gltf_pose_clip(model->gltf, model->gltf->clip_count > 0 ? 0 : -1, (float)range_seconds(model->range, key),
+                       own);
         return true;
     }
-    if (!shot_pose(model->shot, model->rig, key, &posed, error) || !shot_proceed(model->shot, error)) return false;
+    if (!range_pose(model->range, model->rig, key, &posed, error) || !range_proceed(model->range, error))
+        return false;
     *pose = posed.model.pose;
     return true;
 }
@@ -26,7 +28,7 @@ static bool collect_keys(struct usda_model *model, struct gltf_pose *own, struct
 {
     const struct gltf *gltf = model->gltf;
     const size_t nodes = (size_t)gltf->node_count, weights = (size_t)gltf->weight_count;
-    for (int k = 0; k < model->shot->key_count; k++) {
+    for (int k = 0; k < model->range->key_count; k++) {
         const struct gltf_pose *pose;
         struct gltf_place *at = model->places + (size_t)k * nodes;
         if (!pose_at(model, k, own, &pose, error)) return false;
@@ -36,8 +38,8 @@ static bool collect_keys(struct usda_model *model, struct gltf_pose *own, struct
             keys_turn_short_way(k > 0 ? (at + n - nodes)->rotation : gltf->nodes[n].place.rotation, at[n].rotation);
     }
     keys_close_loop((float *)model->places, gltf->node_count * (int)(sizeof *model->places / sizeof(float)),
-                    model->shot->key_count);
-    keys_close_loop(model->weights, gltf->weight_count, model->shot->key_count);
+                    model->range->key_count);
+    keys_close_loop(model->weights, gltf->weight_count, model->range->key_count);
     return true;
 }
 
@@ -129,7 +131,7 @@ static void write_samples(const struct usda_model *model, const char *declaratio
     fprintf(model->out, "            %s.timeSamples = {\n", declaration);
     for (int k = 0; k < count; k++) {
         const char *before = "[";
-        fprintf(model->out, "                %.9g: ", shot_frame(model->shot, k));
+        fprintf(model->out, "                %.9g: ", range_frame(model->range, k));
         for (int j = 0; write && j < model->joint_count; j++) {
             if (!model->joints[j].moves) continue;
             write(model, k, &model->joints[j], before);
@@ -146,10 +148,10 @@ static void write_samples(const struct usda_model *model, const char *declaratio
 /// The keys of a member of all places: one, if it never changes.
 static int count_keys(const struct usda_model *model, size_t member, size_t size)
 {
-    for (int k = 1; k < model->shot->key_count; k++) {
+    for (int k = 1; k < model->range->key_count; k++) {
         for (int n = 0; n < model->gltf->node_count; n++) {
             const char *first = (const char *)usda_place(model, 0, n), *now = (const char *)usda_place(model, k, n);
-            if (memcmp(first + member, now + member, size) != 0) return model->shot->key_count;
+            if (memcmp(first + member, now + member, size) != 0) return model->range->key_count;
         }
     }
     return 1;
@@ -174,7 +176,7 @@ static void write_animation(const struct usda_model *model)
         for (int i = 0; i < model->gltf->weight_count; i++)
             fprintf(model->out, "%s\"%s\"", i > 0 ? ", " : "", model->shapes[i]);
         fputs("]\n", model->out);
-        write_samples(model, "float[] blendShapeWeights", NULL, model->shot->key_count);
+        write_samples(model, "float[] blendShapeWeights", NULL, model->range->key_count);
     }
     fputs("        }\n\n", model->out);
 }
@@ -212,7 +214,7 @@ static size_t count_prims(const struct gltf *gltf)
 static bool reserve(struct usda_model *model)
 {
     const struct gltf *gltf = model->gltf;
-    const size_t keys = (size_t)model->shot->key_count, nodes = (size_t)gltf->node_count + 1,
+    const size_t keys = (size_t)model->range->key_count, nodes = (size_t)gltf->node_count + 1,
                  weights = (size_t)gltf->weight_count + 1;
     model->places = calloc(keys * nodes, sizeof *model->places);
     model->weights = calloc(keys * weights, sizeof *model->weights);
@@ -267,7 +269,7 @@ static bool write_root(const struct usda_model *model, struct error *error)
     double root[16];
     fprintf(model->out, "\n    def SkelRoot \"%s\"\n    {\n", model->name);
     if (model->is_own) return true;
-    if (!shot_pose(model->shot, model->rig, 0, &pose, error)) return false;
+    if (!range_pose(model->range, model->rig, 0, &pose, error)) return false;
     for (int i = 0; i < 16; i++) root[i] = (double)pose.model.root[i];
     fputs("        matrix4d xformOp:transform = ", model->out);
     usda_matrix(model->out, root);

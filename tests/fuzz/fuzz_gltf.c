@@ -63,7 +63,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     const char *path = fuzz_file(glb ? "fuzz.glb" : "fuzz.gltf", data, size);
     import(path);
     fuzz_surface(path);
-    if (glb) open_character(path);
+    open_character(path);
     return 0;
 }
 
