@@ -10,11 +10,29 @@
 #define NEAR_TIME 1e-6 /* seconds; keys nearer than that to an end are that end */
 #define NEAR_VALUE 1e-5f
 
-static const float *values_of(const struct gltf *gltf, const struct gltf_pose *pose,
-                              const struct gltf_channel *channel)
+bool gltf_body_leaves_out(const struct gltf_body *body, const struct gltf_channel *channel)
 {
-    const struct gltf_place *place = &pose->place[channel->node];
-    switch (channel->path) {
+    return channel->path == GLTF_ROTATION && body->is_bone[channel->node];
+}
+
+/// What the clip moves, and then the bones of chains, as channels without keys. NULL if memory is short.
+static struct gltf_channel *list_tracks(const struct gltf_body *body, int *count)
+{
+    const int channels = body->clip ? body->clip->channel_count : 0;
+    struct gltf_channel *tracks = malloc(((size_t)channels + (size_t)body->bone_count + 1) * sizeof *tracks);
+    *count = 0;
+    for (int c = 0; tracks && c < channels; c++) {
+        if (!gltf_body_leaves_out(body, &body->clip->channels[c])) tracks[(*count)++] = body->clip->channels[c];
+    }
+    for (int b = 0; tracks && b < body->bone_count; b++)
+        tracks[(*count)++] = (struct gltf_channel){.node = body->bones[b], .path = GLTF_ROTATION, .components = 4};
+    return tracks;
+}
+
+static const float *values_of(const struct gltf *gltf, const struct gltf_pose *pose, const struct gltf_channel *track)
+{
+    const struct gltf_place *place = &pose->place[track->node];
+    switch (track->path) {
     case GLTF_TRANSLATION:
         return place->translation;
     case GLTF_ROTATION:
@@ -24,62 +42,45 @@ static const float *values_of(const struct gltf *gltf, const struct gltf_pose *p
     case GLTF_WEIGHTS:
         break;
     }
-    return pose->weights + gltf->nodes[channel->node].first_weight;
+    return pose->weights + gltf->nodes[track->node].first_weight;
 }
 
-/// One track after the other in each row.
-static bool collect(const struct gltf_body *body, struct export_range *range, float *rows, int width,
-                    struct error *error)
+/// One track after the other, each with a key a sample.
+static bool collect(const struct gltf_body *body, struct export_range *range, const struct gltf_channel *tracks,
+                    int count, float *keys, struct error *error)
 {
     for (int k = 0; k < range->key_count; k++) {
         struct rig_pose pose;
-        float *at = rows + (size_t)k * (size_t)width;
+        float *track = keys;
         if (!range_pose(range, range->rigs[0], k, &pose, error) || !range_proceed(range, error)) return false;
-        for (int c = 0; c < body->clip->channel_count; c++) {
-            const struct gltf_channel *channel = &body->clip->channels[c];
-            memcpy(at, values_of(body->gltf, pose.model.pose, channel), (size_t)channel->components * sizeof *at);
-            if (channel->path == GLTF_ROTATION && k > 0) keys_turn_short_way(at - width, at);
-            at += channel->components;
+        for (int t = 0; t < count; t++) {
+            const int width = tracks[t].components;
+            float *at = track + (size_t)k * (size_t)width;
+            memcpy(at, values_of(body->gltf, pose.model.pose, &tracks[t]), (size_t)width * sizeof *at);
+            if (tracks[t].path == GLTF_ROTATION && k > 0) keys_turn_short_way(at - width, at);
+            track += (size_t)range->key_count * (size_t)width;
         }
     }
-    keys_close_loop(rows, width, range->key_count);
     return true;
-}
-
-/// The tracks, each in an array of its own.
-static bool add_tracks(const struct gltf_body *body, const float *rows, int width, struct gltf_motion *motion)
-{
-    const size_t keys = (size_t)motion->key_count;
-    for (int c = 0; c < body->clip->channel_count; c++) {
-        const struct gltf_channel *channel = &body->clip->channels[c];
-        const size_t size = (size_t)channel->components;
-        const float *from = rows;
-        rows += size;
-        if (gltf_body_leaves_out(body, channel)) continue;
-        float *track = malloc(keys * size * sizeof *track);
-        if (!track) return false;
-        for (size_t k = 0; k < keys; k++) memcpy(track + k * size, from + k * (size_t)width, size * sizeof *track);
-        gltf_motion_add(motion, channel->node, channel->path, track, NULL, channel->components);
-        free(track);
-    }
-    return true;
-}
-
-bool gltf_body_leaves_out(const struct gltf_body *body, const struct gltf_channel *channel)
-{
-    return channel->path == GLTF_ROTATION && body->is_bone[channel->node];
 }
 
 bool gltf_body_sample(const struct gltf_body *body, struct export_range *range, struct gltf_motion *motion,
                       struct error *error)
 {
-    int width = 0;
-    for (int c = 0; c < body->clip->channel_count; c++) width += body->clip->channels[c].components;
-    float *rows = malloc(((size_t)range->key_count * (size_t)width + 1) * sizeof *rows);
-    if (!rows) return fail_no_memory(error, body->gltf->path);
-    const bool done = collect(body, range, rows, width, error) &&
-                      (add_tracks(body, rows, width, motion) || fail_no_memory(error, body->gltf->path));
-    free(rows);
+    int count, width = 0;
+    const size_t rows = (size_t)range->key_count;
+    struct gltf_channel *tracks = list_tracks(body, &count);
+    for (int t = 0; tracks && t < count; t++) width += tracks[t].components;
+    float *keys = tracks ? malloc((rows * (size_t)width + 1) * sizeof *keys) : NULL, *track = keys;
+    const bool done =
+        keys ? collect(body, range, tracks, count, keys, error) : fail_no_memory(error, body->gltf->path);
+    for (int t = 0; done && t < count; t++) {
+        keys_close_loop(track, tracks[t].components, range->key_count);
+        gltf_motion_add(motion, tracks[t].node, tracks[t].path, track, NULL, tracks[t].components);
+        track += rows * (size_t)tracks[t].components;
+    }
+    free(keys);
+    free(tracks);
     return done;
 }
 

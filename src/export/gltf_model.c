@@ -147,17 +147,16 @@ static bool write_same(const char *path, FILE *out, struct error *error)
 
 // --- the clip
 
-static bool add_motion(struct export_range *range, const struct form *form, const struct gltf_body *body,
-                       struct gltf_motion *motion, struct error *error)
+/// The bones with tangents, and all else with the keys of its own clip.
+static bool add_cubic(struct export_range *range, const struct form *form, const struct gltf_body *body,
+                      struct gltf_motion *motion, struct error *error)
 {
-    const struct model_bones *own = form->owned;
     struct keys keys;
     if (!keys_collect(range, range->rigs[0], form, &keys, error)) return false;
-    const bool done = !body->clip || (range->is_cubic ? gltf_body_keep(body, range, motion, error)
-                                                      : gltf_body_sample(body, range, motion, error));
+    const bool done = !body->clip || gltf_body_keep(body, range, motion, error);
     for (int j = 0; done && j < form->joint_count; j++) {
         const size_t at = (size_t)j * (size_t)keys.count;
-        gltf_motion_add(motion, own->node[j], GLTF_ROTATION, keys.at.rotation[at],
+        gltf_motion_add(motion, body->bones[j], GLTF_ROTATION, keys.at.rotation[at],
                         keys.slope.rotation ? keys.slope.rotation[at] : NULL, 4);
     }
     keys_free(&keys);
@@ -171,7 +170,8 @@ static bool put_clip(struct export_range *range, const struct form *form, const 
     struct gltf_motion motion;
     json_t *root = o->source.json;
     gltf_motion_begin(&motion, &o->file, range);
-    const bool done = add_motion(range, form, body, &motion, error);
+    const bool done = range->is_cubic ? add_cubic(range, form, body, &motion, error)
+                                      : gltf_body_sample(body, range, &motion, error);
     json_t *clip = done ? gltf_motion_json(&motion, range->clip) : NULL;
     const int known = gltf_find_clip(body->gltf, range->clip);
     if (known < 0) {
@@ -209,9 +209,11 @@ static bool write_model(struct export_range *range, const struct form *form, boo
     const struct model_bones *own = form->owned;
     const struct model_rig *model = &range->posing->document->rigs[range->rigs[0]].model;
     const int clip = model->clip ? gltf_find_clip(own->gltf, model->clip) : -1;
-    const struct gltf_body body = {
-        .gltf = own->gltf, .clip = clip >= 0 ? &own->gltf->clips[clip] : NULL, .is_bone = own->is_bone};
-    if (body.clip && !range->is_cubic) range->total += range->key_count;
+    const struct gltf_body body = {.gltf = own->gltf,
+                                   .clip = clip >= 0 ? &own->gltf->clips[clip] : NULL,
+                                   .bones = own->node,
+                                   .bone_count = form->joint_count,
+                                   .is_bone = own->is_bone};
     if (!range->clip) range->clip = model->clip ? model->clip : range->title;
     return write_file(range, form, &body, binary, out, error);
 }

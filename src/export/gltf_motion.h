@@ -35,14 +35,16 @@ json_t *gltf_motion_json(const struct gltf_motion *motion, const char *name);
 
 struct gltf_body {
     const struct gltf *gltf;
-    const struct gltf_clip *clip;
-    const bool *is_bone; ///< of each node: chains have its rotation
+    const struct gltf_clip *clip; ///< NULL: none
+    const int *bones;             ///< nodes that chains turn
+    int bone_count;
+    const bool *is_bone; ///< of each node
 };
 
 /// Whether a chain has what this channel of the clip moves.
 bool gltf_body_leaves_out(const struct gltf_body *body, const struct gltf_channel *channel);
 
-/// Adds a key a sample for all that the clip moves. False with a sentence.
+/// Adds a key a sample for all that the clip or chains move. False with a sentence.
 bool gltf_body_sample(const struct gltf_body *body, struct export_range *range, struct gltf_motion *motion,
                       struct error *error);
 

@@ -180,6 +180,9 @@ void gltf_free(struct gltf *gltf);
 /// Copies the materials into empty looks, with their pictures where these are PNG or JPEG. False where memory is short.
 bool gltf_copy_looks(const struct gltf *gltf, struct looks *looks);
 
+/// Whether it is a soft character: character_read() finds coordinates in it.
+bool gltf_is_soft(const struct gltf *gltf);
+
 /// The name of a morph target where many exporters put it; NULL: it has none.
 const char *gltf_target_name(const struct gltf_mesh *mesh, int target);
 

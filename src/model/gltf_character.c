@@ -107,6 +107,17 @@ static bool is_coordinate(const struct gltf_mesh *mesh, int target, size_t *name
     return *im >= 0;
 }
 
+bool gltf_is_soft(const struct gltf *gltf)
+{
+    const struct gltf_mesh *mesh = choose_mesh(gltf);
+    size_t length;
+    int im;
+    for (int t = 0; mesh && t < mesh->target_count; t++) {
+        if (is_coordinate(mesh, t, &length, &im)) return true;
+    }
+    return false;
+}
+
 static double real_of(const json_t *object, const char *key)
 {
     return json_number_value(json_object_get(object, key));

@@ -129,17 +129,13 @@ bool import_add(struct history *history, struct document *document, const char *
     char file[PATH_LIMIT];
     struct character character = {0};
     struct gltf gltf = {0};
-    struct error not_soft;
     if (!path_rebase(path, NULL, document->folder, file)) snprintf(file, sizeof file, "%s", path);
-    const bool is_mesh = character_read(path, &character, &not_soft);
-    if (is_mesh && character.coordinate_count > 0) {
-        const bool added = add_soft(history, document, file, spline, &character, error);
-        character_free(&character);
-        return added;
-    }
-    character_free(&character);
     if (!gltf_read(path, &gltf, error)) return false;
-    const bool added = add_imported(history, document, file, &gltf, error);
+    const bool is_soft = gltf_is_soft(&gltf);
+    const bool added = is_soft ? character_read(path, &character, error) &&
+                                     add_soft(history, document, file, spline, &character, error)
+                               : add_imported(history, document, file, &gltf, error);
+    character_free(&character);
     gltf_free(&gltf);
     return added;
 }
