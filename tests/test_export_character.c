@@ -263,12 +263,19 @@ static void textures_are_written_beside(void **state)
     assert_int_equal(files_in_folder(), 2);
 }
 
-/// Where the numbers begin that a name of the file has; fails where it has none from `from` on.
-static size_t numbers_of(const char *text, size_t from, const char *name)
+/// What is behind a name that the file has from `from` on; fails where it has none.
+static size_t behind(const char *text, size_t from, const char *name)
 {
     const char *found = strstr(text + from, name);
     if (!found) fail_msg("there is no %s", name);
-    return (size_t)(found - text) + strcspn(found, "0123456789");
+    return (size_t)(found - text) + strlen(name);
+}
+
+/// Where the numbers begin that are behind a name.
+static size_t numbers_of(const char *text, size_t from, const char *name)
+{
+    const size_t at = behind(text, from, name);
+    return at + strcspn(text + at, "0123456789");
 }
 
 /// Reads the next number of a list in brackets, however they nest; false at its end.
@@ -327,6 +334,53 @@ static void usd_materials_share_out_the_faces(void **state)
     }
     assert_int_equal(next, faces);
     assert_null(strstr(text + at, "int[] indices = "));
+    free(text);
+}
+
+static int compare_names(const void *a, const void *b) { return strcmp(*(char *const *)a, *(char *const *)b); }
+
+/// Prims may not share a name, however many joints of a file do.
+static void usd_tells_joints_of_one_name_apart(void **state)
+{
+    enum { JOINTS = 3000 };
+    static const char scene_text[] =
+        "{\"wiggly\": 1, \"frames\": [0, 1], \"splines\": [], \"rigs\": [{\"type\": \"model\", "
+        "\"model\": \"many.gltf\"}]}";
+    (void)state;
+    struct error error = {0};
+    json_t *joints = json_pack("[i]", 0), *below = json_array(),
+           *nodes = json_pack("[{s:s, s:O}]", "name", "b", "children", below);
+    for (int n = 1; n < JOINTS; n++) {
+        json_array_append_new(joints, json_integer(n));
+        json_array_append_new(below, json_integer(n));
+        json_array_append_new(nodes, json_pack("{s:s}", "name", "b"));
+    }
+    json_t *json =
+        json_pack("{s:{s:s}, s:o, s:[{s:o}]}", "asset", "version", "2.0", "nodes", nodes, "skins", "joints", joints);
+    assert_int_equal(json_dump_file(json, folder_path("many.gltf"), 0), 0);
+    json_decref(json);
+    json_decref(below);
+    assert_true(file_write_atomic(folder_path("one.json"), scene_text, strlen(scene_text), &error));
+    struct opened scene = open_scene(folder_path("one.json"));
+    struct export_report report;
+    const struct export_options usual = {0};
+    if (!export_write(posing_of(&scene), folder_path("many.usda"), &usual, &report, &error))
+        fail_msg("%s", error.text);
+    close_scene(&scene);
+    static char *names[JOINTS];
+    size_t size;
+    char *text = bytes_of(folder_path("many.usda"), &size);
+    size_t at = behind(text, 0, "joints = [\"");
+    for (int n = 0; n < JOINTS; n++) {
+        const size_t length = strcspn(text + at, "\"]");
+        names[n] = strndup(text + at, length);
+        assert_true(length > 0 && names[n]);
+        at += length + strlen("\", \"");
+    }
+    assert_memory_equal(text + at - 3, "]\n", 2); // behind the last
+    qsort(names, JOINTS, sizeof *names, compare_names);
+    for (int n = 1; n < JOINTS; n++) assert_string_not_equal(names[n - 1], names[n]);
+    for (int n = 0; n < JOINTS; n++) free(names[n]);
     free(text);
 }
 
@@ -430,6 +484,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(a_texture_that_cannot_take_its_place_is_told, folder_make, folder_remove),
         cmocka_unit_test_setup_teardown(a_body_keeps_the_keys_of_its_clip, folder_make, folder_remove),
         cmocka_unit_test_setup_teardown(usd_joints_are_bound_as_the_files, folder_make, folder_remove),
+        cmocka_unit_test_setup_teardown(usd_tells_joints_of_one_name_apart, folder_make, folder_remove),
         cmocka_unit_test_setup_teardown(usd_materials_share_out_the_faces, folder_make, folder_remove),
         cmocka_unit_test_setup_teardown(textures_are_written_beside, folder_make, folder_remove),
         cmocka_unit_test_setup_teardown(without_its_textures_nothing_is_written, folder_make, folder_remove),

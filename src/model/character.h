@@ -43,7 +43,7 @@ struct character {
 /// Ñ are zero and whose names are NULL. False where memory is short.
 bool character_create(struct character *character, const struct surface *surface, int coordinates);
 
-/// Reads a .glb: the first mesh with morph targets (else the first mesh), all its triangles as one. Coordinates are the
+/// Reads a .glb or .gltf: the first mesh with morph targets (else the first mesh), all its triangles as one. Coordinates are the
 /// pairs of morph targets called NAME.re and NAME.im; without our extras their numbers are 0. Normals are computed where
 /// there are none. The first node that shows the mesh places it. Errors name the file, the place in it, what was expected and what was found.
 bool character_read(const char *path, struct character *character, struct error *error);
