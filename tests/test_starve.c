@@ -344,11 +344,14 @@ static int run_session(struct session *session,
         const struct event event = {
             .kind = EVENT_KEY, .key = keys[i].key, .mods = keys[i].mods, .action = ACTION_PRESS};
         event_queue_push(&app->platform->queue, &event);
+        mtx_lock(&app->working);
         app_frame(app);
         *session->done = i + 1;
+        mtx_unlock(&app->working);
         if (seen) seen(session, app->table.document);
     }
     starve_at = -1;
+    mtx_lock(&app->working);
     const bool good = !app->failed;
     if (!good) app_rescue(app, &error);
     personal_end(app, !good);
@@ -380,7 +383,7 @@ static void check_session(void *user, int status)
     if (strncmp(text, "file ", 5) == 0) text = strchr(text, '\n') + 1;
     const bool as_before = strcmp(text, session->after[done]) == 0;
     if (!as_before && !(done < STEPS && strcmp(text, session->after[done + 1]) == 0))
-        fail_msg("after %d frames the recovery file holds\n%s", done, text);
+        fail_msg("after %d frames the recovery file holds\n%s\nand not\n%s", done, text, session->after[done]);
     free(data);
 }
 

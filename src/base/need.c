@@ -9,7 +9,7 @@
 #include <threads.h>
 #include <unistd.h>
 
-enum { NAPS = 1000 }; ///< of 10 ms each
+enum { NAPS = 50 }; ///< of 10 ms each
 
 static void *kept;
 static need_rescue *rescue;
