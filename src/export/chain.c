@@ -1,5 +1,6 @@
 /// A chain as a form: its bones as joints, turned against their rest in the character's own space. The character that it moves is
 /// exported as a whole (model.c).
+#include "base/need.h"
 #include "export/form.h"
 #include "model/vector.h"
 #include "rig/chain_bones.h"
@@ -19,15 +20,13 @@ static bool open(const struct posing *posing, int rig, const struct rig_pose *po
 {
     const struct chain *chain = &posing->document->rigs[rig].chain;
     const struct imported *imported = pose->chain.imported;
-    struct limb *limb = form->owned = malloc(sizeof *limb);
+    struct limb *limb = form->owned = need(1, sizeof *limb);
     struct chain_pose rest;
-    if (!limb) return fail_no_memory(error, form->name);
     limb->imported = imported;
     if (!chain_find(&imported->gltf, chain->from, chain->to, &limb->bones, error)) return false;
     chain_points(imported, &limb->bones, &imported->rest, still, &rest);
     form->joint_count = limb->bones.count;
-    form->joints = calloc((size_t)form->joint_count, sizeof *form->joints);
-    if (!form->joints) return fail_no_memory(error, form->name);
+    form->joints = need_zeroed((size_t)form->joint_count, sizeof *form->joints);
     for (int n = 0; n < form->joint_count; n++) {
         form->joints[n].parent = n - 1;
         snprintf(form->joints[n].name, FORM_NAME, "%.60s", imported->gltf.nodes[limb->bones.node[n]].name);

@@ -1,28 +1,27 @@
 /// A soft character as a form: its mesh, and two morph targets a coordinate, as in its own file (model/character.h).
+#include "base/need.h"
 #include "export/form.h"
 #include "model/vector.h"
 #include <stdio.h>
 #include <stdlib.h>
 
 /// Re Ñ and −Im Ñ of one coordinate, for the weights Re z and Im z.
-static bool add_targets(struct form *form, const struct figure *figure, int coordinate)
+static void add_targets(struct form *form, const struct figure *figure, int coordinate)
 {
     static const char *const parts[] = {"re", "im"};
     const struct coordinate *n = &figure->character.coordinates[coordinate];
     const size_t count = (size_t)form->vertex_count + 1;
     for (int part = 0; part < 2; part++) {
         struct form_target *target = &form->targets[form->target_count++];
-        *target = (struct form_target){.position = malloc(count * sizeof *target->position),
-                                       .normal = malloc(count * sizeof *target->normal),
+        *target = (struct form_target){.position = need(count, sizeof *target->position),
+                                       .normal = need(count, sizeof *target->normal),
                                        .group = coordinate};
-        if (!target->position || !target->normal || asprintf(&target->name, "%s.%s", n->name, parts[part]) < 0)
-            return false;
+        if (asprintf(&target->name, "%s.%s", n->name, parts[part]) < 0) need_failed();
         for (int i = 0; i < form->vertex_count; i++) {
             for (int k = 0; k < 3; k++) target->position[i][k] = part ? -n->im[i][k] : n->re[i][k];
         }
         figure_turn_normals(figure, coordinate, part == 1, target->normal);
     }
-    return true;
 }
 
 /// The character with those of its coordinates alone that the rig moves by.
@@ -45,6 +44,7 @@ static bool open(const struct posing *posing, int rig, const struct rig_pose *po
     const struct character *c = &figure->character;
     (void)posing;
     (void)rig;
+    (void)error;
     form->vertex_count = c->vertex_count;
     form->position = (const float(*)[3])c->position;
     form->normal = (const float(*)[3])c->normal;
@@ -52,10 +52,9 @@ static bool open(const struct posing *posing, int rig, const struct rig_pose *po
     form->indices = c->indices;
     form->index_count = c->index_count;
     struct moving *moving = form->owned =
-        malloc(sizeof *moving + (size_t)c->coordinate_count * sizeof *moving->coordinates);
+        need(sizeof *moving + (size_t)c->coordinate_count * sizeof *moving->coordinates, 1);
     form->looks = &c->looks;
-    form->targets = calloc((size_t)c->coordinate_count * 2 + 1, sizeof *form->targets);
-    if (!moving || !form->targets) return fail_no_memory(error, form->name);
+    form->targets = need_zeroed((size_t)c->coordinate_count * 2 + 1, sizeof *form->targets);
     moving->character = *c;
     moving->character.coordinates = moving->coordinates;
     moving->character.coordinate_count = 0;
@@ -63,7 +62,7 @@ static bool open(const struct posing *posing, int rig, const struct rig_pose *po
     for (int k = 0; k < c->coordinate_count; k++) {
         if (!moves_by(&pose->character.morph, k)) continue;
         moving->coordinates[moving->character.coordinate_count++] = c->coordinates[k];
-        if (!add_targets(form, figure, k)) return fail_no_memory(error, form->name);
+        add_targets(form, figure, k);
     }
     return true;
 }

@@ -1,4 +1,5 @@
 /// A table: one row per key, a column for every spline and every channel of the rigs.
+#include "base/need.h"
 #include "base/printable.h"
 #include "export/form.h"
 #include "scene/number.h"
@@ -9,7 +10,6 @@
 struct row {
     FILE *out;
     bool names;
-    bool no_memory; ///< for a name
     int columns;
 };
 
@@ -25,10 +25,9 @@ static void write_column(void *user, double value, const char *format, ...)
     }
     va_list arguments;
     va_start(arguments, format);
-    if (vasprintf(&name, format, arguments) < 0) name = NULL;
+    if (vasprintf(&name, format, arguments) < 0) need_failed();
     va_end(arguments);
-    if (name) print_field(row->out, name, "");
-    row->no_memory |= !name;
+    print_field(row->out, name, "");
     free(name);
 }
 
@@ -57,7 +56,6 @@ bool csv_write(struct export_range *range, FILE *out, char summary[FORMAT_SUMMAR
     struct row row = {.out = out, .names = true};
     range->total = range->key_count;
     if (!write_row(range, 0, &row, error)) return false;
-    if (row.no_memory) return fail_no_memory(error, "the table");
     row.names = false;
     for (int k = 0; k < range->key_count; k++) {
         if (!write_row(range, k, &row, error) || !range_proceed(range, error)) return false;

@@ -173,7 +173,7 @@ static bool add_rig(struct scene *scene, int rig, struct error *error)
     struct file_targets targets = {0};
     if (!form_open(scene->range, rig, &form, error)) return false;
     bool done = keys_collect(scene->range, rig, &form, &keys, error);
-    if (done && !targets_create(scene->range, &form, &keys, &targets)) done = fail_no_memory(error, form.name);
+    if (done) targets_create(scene->range, &form, &keys, &targets);
     if (done) {
         struct part part = {.form = &form, .keys = &keys, .targets = &targets};
         add_nodes(scene, &part, add_mesh(scene, &part));

@@ -1,4 +1,5 @@
 /// An imported character as a form: its vertices, and the bones that its chains bend, as joints. All in the space of its file.
+#include "base/need.h"
 #include "export/form.h"
 #include "rig/chain_bones.h"
 #include <stdio.h>
@@ -24,13 +25,11 @@ static bool open(const struct posing *posing, int rig, const struct rig_pose *po
     const struct document *document = posing->document;
     const struct gltf *gltf = &pose->model.imported->gltf;
     const size_t nodes = (size_t)gltf->node_count + 1;
-    struct model_bones *own = form->owned = calloc(1, sizeof *own);
-    if (!own) return fail_no_memory(error, form->name);
+    struct model_bones *own = form->owned = need_zeroed(1, sizeof *own);
     own->gltf = gltf;
-    own->node = calloc(nodes, sizeof *own->node);
-    own->is_bone = calloc(nodes, sizeof *own->is_bone);
-    form->joints = calloc(nodes, sizeof *form->joints);
-    if (!own->node || !own->is_bone || !form->joints) return fail_no_memory(error, form->name);
+    own->node = need_zeroed(nodes, sizeof *own->node);
+    own->is_bone = need_zeroed(nodes, sizeof *own->is_bone);
+    form->joints = need_zeroed(nodes, sizeof *form->joints);
     for (int r = 0; r < document->rig_count; r++) {
         const struct chain *chain = &document->rigs[r].chain;
         struct chain_bones bones;

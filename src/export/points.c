@@ -1,4 +1,5 @@
 /// Where all vertices of a rig are at each key: .pc2, .mdd and .npy.
+#include "base/need.h"
 #include "export/form.h"
 #include "model/motion.h"
 #include <stdlib.h>
@@ -31,10 +32,9 @@ static bool write_points(struct export_range *range, FILE *out, enum motion_form
 {
     struct form form;
     if (!form_open(range, range->rigs[0], &form, error)) return false;
-    float(*positions)[3] = malloc(((size_t)form.vertex_count + 1) * sizeof *positions);
+    float(*positions)[3] = need((size_t)form.vertex_count + 1, sizeof *positions);
     range->total = range->key_count;
-    const bool done =
-        positions ? write_keys(range, &form, out, as, positions, error) : fail_no_memory(error, form.name);
+    const bool done = write_keys(range, &form, out, as, positions, error);
     snprintf(summary, FORMAT_SUMMARY, "%d vertices, %d frames", form.vertex_count, range->key_count);
     free(positions);
     form_close(&form);

@@ -1,5 +1,6 @@
 /// Keeps the files beside another in step with it.
 #include "export/sidecar.h"
+#include "base/need.h"
 #include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -20,11 +21,9 @@ bool sidecars_add(struct sidecars *sidecars, const char *folder, const char *nam
                   struct error *error)
 {
     if (!make_folder(sidecars, folder, error)) return false;
-    struct sidecar *larger = realloc(sidecars->files, ((size_t)sidecars->count + 1) * sizeof *larger);
-    if (!larger) return fail_no_memory(error, folder);
-    sidecars->files = larger;
+    sidecars->files = need_more(sidecars->files, (size_t)sidecars->count + 1, sizeof *sidecars->files);
     struct sidecar *file = &sidecars->files[sidecars->count];
-    if (asprintf(&file->path, "%s/%s", folder, name) < 0) return fail_no_memory(error, folder);
+    if (asprintf(&file->path, "%s/%s", folder, name) < 0) need_failed();
     file->is_new = access(file->path, F_OK) != 0;
     if (!file_check_place(file->path, error) || !file_output_open(&file->output, file->path, error)) {
         free(file->path);

@@ -1,4 +1,5 @@
 /// A tail as a form: the fox, skinned to the tail's joints.
+#include "base/need.h"
 #include "export/form.h"
 #include "model/creature.h"
 #include "model/tail_skin.h"
@@ -78,18 +79,16 @@ static bool open(const struct posing *posing, int rig, const struct rig_pose *po
 {
     const struct document *document = posing->document;
     const int joints = document->rigs[rig].tail.joints;
-    struct fox *fox = form->owned = calloc(1, sizeof *fox);
-    if (!fox) return fail_no_memory(error, form->name);
+    (void)error;
+    struct fox *fox = form->owned = need_zeroed(1, sizeof *fox);
     mesh_creature(creature_level(document_count_rigs(document, RIG_TAIL)), &fox->mesh);
     const size_t count = (size_t)fox->mesh.vertex_count + 1;
-    fox->position = malloc(count * sizeof *fox->position);
-    fox->normal = malloc(count * sizeof *fox->normal);
-    fox->color = malloc(count * sizeof *fox->color);
-    form->slots = malloc(count * sizeof *form->slots);
-    form->weights = malloc(count * sizeof *form->weights);
-    form->joints = calloc((size_t)(FIRST_BONE + joints), sizeof *form->joints);
-    if (!fox->position || !fox->normal || !fox->color || !form->slots || !form->weights || !form->joints)
-        return fail_no_memory(error, form->name);
+    fox->position = need(count, sizeof *fox->position);
+    fox->normal = need(count, sizeof *fox->normal);
+    fox->color = need(count, sizeof *fox->color);
+    form->slots = need(count, sizeof *form->slots);
+    form->weights = need(count, sizeof *form->weights);
+    form->joints = need_zeroed((size_t)(FIRST_BONE + joints), sizeof *form->joints);
     form->vertex_count = fox->mesh.vertex_count;
     form->position = (const float(*)[3])fox->position;
     form->normal = (const float(*)[3])fox->normal;

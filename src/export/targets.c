@@ -1,5 +1,6 @@
 /// Splits morph targets by the sign of their weights.
 #include "export/targets.h"
+#include "base/need.h"
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -32,13 +33,12 @@ static void name_negative(const char *name, char negative[FORM_NAME])
     snprintf(negative, FORM_NAME, "%.*s-%s", before < FORM_NAME ? before : FORM_NAME, name, name + before);
 }
 
-bool targets_create(const struct export_range *range, const struct form *form, const struct keys *keys,
+void targets_create(const struct export_range *range, const struct form *form, const struct keys *keys,
                     struct file_targets *targets)
 {
     const int count = form->target_count;
     *targets = (struct file_targets){.clamped = !range->is_signed, .count = count};
-    targets->list = calloc(2 * (size_t)count + 1, sizeof *targets->list);
-    if (!targets->list) return false;
+    targets->list = need_zeroed(2 * (size_t)count + 1, sizeof *targets->list);
     for (int t = 0; t < count; t++) {
         struct file_target *target = &targets->list[t];
         *target = (struct file_target){.source = t, .scale = 1.0f};
@@ -51,7 +51,6 @@ bool targets_create(const struct export_range *range, const struct form *form, c
         *target = (struct file_target){.source = t, .scale = -targets->list[t].scale};
         name_negative(form->targets[t].name, target->name);
     }
-    return true;
 }
 
 void targets_free(struct file_targets *targets)

@@ -18,8 +18,7 @@ struct file_targets {
     bool clamped; ///< weights are 0 … 1
 };
 
-/// False if memory is short.
-bool targets_create(const struct export_range *range, const struct form *form, const struct keys *keys,
+void targets_create(const struct export_range *range, const struct form *form, const struct keys *keys,
                     struct file_targets *targets);
 void targets_free(struct file_targets *targets);
 

@@ -1,5 +1,6 @@
 /// Rigs as a USD scene in text: UsdSkel skeletons, blend shapes, a time sample a key. Metres, y up; time codes are the document's frames.
 #include "export/usda.h"
+#include "base/need.h"
 #include "base/path.h"
 #include "export/form.h"
 #include <ctype.h>
@@ -32,8 +33,8 @@ void usda_unique(struct usda_names *names, const char *wanted, char name[FORM_NA
     make_identifier(wanted, name);
     for (int number = names->count++;; number++) { // from where most likely none is
         char *const *found = tsearch(name, &names->tree, compare);
-        names->failed = names->failed || !found;
-        if (!found || *found == name) return;
+        if (!found) need_failed();
+        if (*found == name) return;
         snprintf(numbered, sizeof numbered, "%.40s_%d", wanted, number);
         make_identifier(numbered, name);
     }
@@ -100,8 +101,8 @@ static void summarise(const struct export_range *range, char summary[FORMAT_SUMM
 bool usda_write(struct export_range *range, FILE *out, char summary[FORMAT_SUMMARY], struct error *error)
 {
     struct usda_names names = {0};
-    char(*name)[FORM_NAME] = calloc((size_t)range->rig_count + 1, sizeof *name);
-    bool done = name || fail_no_memory(error, range->path);
+    char(*name)[FORM_NAME] = need_zeroed((size_t)range->rig_count + 1, sizeof *name);
+    bool done = true;
     range->total = (long)range->key_count * range->rig_count;
     range->is_cubic = false;
     fprintf(out, "#usda 1.0\n(\n    defaultPrim = \"scene\"\n    metersPerUnit = 1\n    upAxis = \"Y\"\n");

@@ -11,7 +11,6 @@
 struct usda_names {
     void *tree;
     int count;
-    bool failed; ///< memory was short
 };
 
 /// A joint is a node; or, where its scale stands still and is no half, which is what UsdSkel's keys of scales are, two of them: one
@@ -53,8 +52,8 @@ bool usda_model_write(struct usda_model *model, struct error *error);
 /// Where a node is at a key, against its parent.
 const struct gltf_place *usda_place(const struct usda_model *model, int key, int node);
 
-/// Finds the joints, from all keys. False where memory is short.
-bool usda_make_joints(struct usda_model *model);
+/// Finds the joints, from all keys.
+void usda_make_joints(struct usda_model *model);
 
 /// Of a joint against its parent at rest; of one in the character's space as a skeleton was bound to it, or at rest where the skin has no
 /// such joint.
@@ -65,7 +64,7 @@ void usda_bind(struct usda_model *model, int skeleton, int joint, double matrix[
 bool usda_write_materials(struct usda_model *model, struct error *error);
 
 /// Writes the meshes of all nodes. False with a sentence.
-bool usda_write_meshes(struct usda_model *model, struct error *error);
+void usda_write_meshes(struct usda_model *model);
 
 // --- text
 

@@ -1,4 +1,5 @@
 /// The joints of a rig in a .usda file: which there are, and where they rest and were bound.
+#include "base/need.h"
 #include "export/usda.h"
 #include <math.h>
 #include <stdlib.h>
@@ -73,12 +74,11 @@ static void mark(const struct gltf *gltf, bool *needed)
     }
 }
 
-bool usda_make_joints(struct usda_model *model)
+void usda_make_joints(struct usda_model *model)
 {
     const struct gltf *gltf = model->gltf;
     struct usda_names names = {0};
-    bool *needed = calloc((size_t)gltf->node_count + 1, sizeof *needed);
-    if (!needed) return false;
+    bool *needed = need_zeroed((size_t)gltf->node_count + 1, sizeof *needed);
     mark(gltf, needed);
     for (int i = 0; i < gltf->node_count; i++) {
         const int n = gltf->order[i], above = gltf->nodes[n].parent;
@@ -90,7 +90,6 @@ bool usda_make_joints(struct usda_model *model)
     }
     free(needed);
     usda_names_free(&names);
-    return !names.failed;
 }
 
 // --- matrices

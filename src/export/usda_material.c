@@ -1,4 +1,5 @@
 /// The materials of a rig in a .usda file, and the files of their textures, in a folder beside it.
+#include "base/need.h"
 #include "base/path.h"
 #include "export/usda.h"
 #include <stdlib.h>
@@ -132,10 +133,10 @@ bool usda_write_materials(struct usda_model *model, struct error *error)
 {
     const struct gltf *gltf = model->gltf;
     struct usda_names names = {0};
-    char(*files)[PATH_LIMIT] = calloc((size_t)gltf->image_count + 1, sizeof *files); // a picture is written once
-    bool *colored = calloc((size_t)gltf->material_count + 1, sizeof *colored);
-    bool done = (files && colored) || fail_no_memory(error, gltf->path);
-    if (done) mark_colored(gltf, colored);
+    char(*files)[PATH_LIMIT] = need_zeroed((size_t)gltf->image_count + 1, sizeof *files); // a picture is written once
+    bool *colored = need_zeroed((size_t)gltf->material_count + 1, sizeof *colored);
+    bool done = true;
+    mark_colored(gltf, colored);
     fputs("        def Scope \"materials\"\n        {\n", model->out);
     for (int m = 0; done && m < gltf->material_count; m++) {
         struct usda_look look = {model, &gltf->materials[m], model->materials[m], "", !colored[m]};
@@ -148,7 +149,6 @@ bool usda_write_materials(struct usda_model *model, struct error *error)
         if (done) write_material(&look);
     }
     fputs("        }\n", model->out);
-    if (done && names.failed) done = fail_no_memory(error, gltf->path);
     usda_names_free(&names);
     free(colored);
     free(files);

@@ -1,4 +1,5 @@
 /// The meshes of a rig in a .usda file, bound to its skeletons. Vertices are in the order of its .pc2.
+#include "base/need.h"
 #include "export/usda.h"
 #include <stdlib.h>
 
@@ -108,13 +109,12 @@ static void write_interpolated(const struct run *run, const char *declaration, w
     end_by_vertex(run->model->out, each);
 }
 
-/// The material's colour times the vertex's: where two materials meet, that of the later triangle. False if memory is short.
-static bool write_colors(const struct run *run)
+/// The material's colour times the vertex's: where two materials meet, that of the later triangle.
+static void write_colors(const struct run *run)
 {
     int count = 0, owner = 0, next = 0;
     for (int p = 0; p < run->count; p++) first_vertex(run, p, &owner, &count);
-    float(*tint)[3] = malloc(((size_t)count + 1) * sizeof *tint);
-    if (!tint) return false;
+    float(*tint)[3] = need(((size_t)count + 1), sizeof *tint);
     for (int i = 0; i < 3 * count; i++) tint[i / 3][i % 3] = 1;
     for (int p = 0; p < run->count; p++) {
         const struct gltf_part *part = &run->parts[p];
@@ -132,7 +132,6 @@ static bool write_colors(const struct run *run)
     fputs("]", run->model->out);
     end_by_vertex(run->model->out, 0);
     free(tint);
-    return true;
 }
 
 // --- faces and their materials
@@ -258,7 +257,7 @@ static void write_binding(const struct run *run)
             model->prims[skeleton_of(run)]);
 }
 
-static bool write_run(const struct run *run)
+static void write_run(const struct run *run)
 {
     const struct usda_model *model = run->model;
     bool double_sided = false, has_uv = false;
@@ -273,14 +272,13 @@ static bool write_run(const struct run *run)
     write_vertices(run, "point3f[] points", write_position);
     fputc('\n', model->out);
     write_interpolated(run, "normal3f[] normals", write_normal, 0);
-    if (!write_colors(run)) return false;
+    write_colors(run);
     if (has_uv) write_interpolated(run, "texCoord2f[] primvars:st", write_uv, 0);
     write_faces(run);
     write_binding(run);
     write_shapes(run);
     write_subsets(run);
     fputs("        }\n", model->out);
-    return true;
 }
 
 /// The joints that a vertex has at most; where a part has no skin, all of the run's have none.
@@ -298,7 +296,7 @@ static int count_influences(const struct run *run)
     return most > 0 ? most : 1;
 }
 
-bool usda_write_meshes(struct usda_model *model, struct error *error)
+void usda_write_meshes(struct usda_model *model)
 {
     const struct gltf *gltf = model->gltf;
     for (int n = 0; n < gltf->node_count; n++) {
@@ -313,8 +311,7 @@ bool usda_write_meshes(struct usda_model *model, struct error *error)
             run.count = end - p;
             run.influences = count_influences(&run);
             run.name = usda_prim(model, gltf->nodes[n].name);
-            if (!write_run(&run)) return fail_no_memory(error, gltf->path);
+            write_run(&run);
         }
     }
-    return true;
 }

@@ -184,7 +184,7 @@ static void write_animation(const struct usda_model *model)
 // --- all of it
 
 /// As the file calls them (a custom of many exporters), else by number; those of all nodes together differ.
-static bool name_shapes(struct usda_model *model)
+static void name_shapes(struct usda_model *model)
 {
     const struct gltf *gltf = model->gltf;
     struct usda_names names = {0};
@@ -198,7 +198,6 @@ static bool name_shapes(struct usda_model *model)
         }
     }
     usda_names_free(&names);
-    return !names.failed;
 }
 
 /// Skeletons, what all have, and meshes: at most one for each part.
@@ -258,8 +257,9 @@ static bool write_all(struct usda_model *model, struct error *error)
     usda_prim(model, "materials");
     for (int s = 0; s < skeletons; s++) write_skeleton(model, s);
     if (is_animated(model)) write_animation(model);
-    return usda_write_materials(model, error) && usda_write_meshes(model, error) &&
-           (!model->prim_names.failed || fail_no_memory(error, model->gltf->path));
+    if (!usda_write_materials(model, error)) return false;
+    usda_write_meshes(model);
+    return true;
 }
 
 /// Where the scene has it, which stands still; its own rigs are there already.
@@ -282,7 +282,10 @@ bool usda_model_write(struct usda_model *model, struct error *error)
     struct gltf_pose pose = {0};
     const bool room = reserve(model) && gltf_pose_create(model->gltf, &pose);
     bool done = (room || fail_no_memory(error, model->gltf->path)) && collect_keys(model, &pose, error);
-    if (done && (!usda_make_joints(model) || !name_shapes(model))) done = fail_no_memory(error, model->gltf->path);
+    if (done) {
+        usda_make_joints(model);
+        name_shapes(model);
+    }
     done = done && write_root(model, error) && write_all(model, error);
     fputs("    }\n", model->out);
     gltf_pose_free(&pose);
