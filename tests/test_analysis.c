@@ -184,7 +184,7 @@ static void frequency_damping_and_gauge(void **state)
     assert_true(c->explained > 0.999);
     double largest = 0, most = 0;
     double complex squares = 0, sum = 0;
-    for (int t = 0; t < c->frames; t++) largest = fmax(largest, cabs(c->course[t]));
+    for (int t = 0; t < c->frames; t++) largest = fmax(largest, cabs(c->series[t]));
     for (int v = 0; v < c->vertices; v++) {
         double complex along = 0;
         for (int k = 0; k < 3; k++) along += c->shape[v][k] * c->direction[k];
@@ -249,12 +249,12 @@ static void the_fit_goes_by_what_moves_most(void **state)
     (void)state;
     enum { FRAMES = 240 };
     const double omega = 2 * M_PI, ratio = 0.1;
-    double complex course[FRAMES];
+    double complex series[FRAMES];
     for (int i = 0; i < FRAMES; i++) {
         const double t = i / 30.0;
-        course[i] = t < 4 ? cexp((-ratio + I * sqrt(1 - ratio * ratio)) * omega * t) : 0.01 * cexp(3 * I * omega * t);
+        series[i] = t < 4 ? cexp((-ratio + I * sqrt(1 - ratio * ratio)) * omega * t) : 0.01 * cexp(3 * I * omega * t);
     }
-    struct component c = {.frames = FRAMES, .course = course};
+    struct component c = {.frames = FRAMES, .series = series};
     component_fit(&c, 30);
     assert_near(c.frequency, 1, 0.03);
     assert_near(c.damping, ratio, 0.005);
@@ -283,7 +283,7 @@ static void one_complex_component_finds_a_travelling_wave(void **state)
     double left = 0, signal = 0;
     for (int i = 0; i < WAVE_FRAMES; i++) {
         for (int j = 0; j < 3 * WAVE_VERTICES; j++) {
-            left += pow(wave(i, j) - creal(c->course[i] * c->shape[j / 3][j % 3]), 2);
+            left += pow(wave(i, j) - creal(c->series[i] * c->shape[j / 3][j % 3]), 2);
             signal += pow(wave(i, j), 2);
         }
     }

@@ -217,9 +217,9 @@ static void few_knots_move_it_so(void **state)
         assert_near(c->frequency, forced ? 2.7 : 2, 0.02);
         assert_near(c->damping, forced ? 0 : 0.05, 0.002);
         knots_create(&knots, c, p.fps);
-        assert_near(component_error(c, knots.course), knots.error, 0);
-        if (!(knots.error <= 1.1 * component_error(c, c->course)))
-            fail_msg("%d knots leave %g, the coordinate %g", knots.count, knots.error, component_error(c, c->course));
+        assert_near(component_error(c, knots.series), knots.error, 0);
+        if (!(knots.error <= 1.1 * component_error(c, c->series)))
+            fail_msg("%d knots leave %g, the coordinate %g", knots.count, knots.error, component_error(c, c->series));
         assert_true(forced ? knots.count <= KNOTS_MOST : knots.count <= 2);
         knots_free(&knots);
         analysis_free(&a);
@@ -233,19 +233,19 @@ static void knots_are_exchanged_more_than_once(void **state)
 {
     (void)state;
     enum { FRAMES = 60 };
-    double complex course[FRAMES], pull[FRAMES], shape[1][3] = {{1, -I, 0}}, x = 0;
+    double complex series[FRAMES], pull[FRAMES], shape[1][3] = {{1, -I, 0}}, x = 0;
     struct component c = {
-        .frames = FRAMES, .vertices = 1, .course = course, .shape = shape, .frequency = 2, .damping = 0.1};
+        .frames = FRAMES, .vertices = 1, .series = series, .shape = shape, .frequency = 2, .damping = 0.1};
     struct knots knots;
     uint32_t random = 24;
-    c.metric = (struct course_metric){.pull = pull, .norm = 2};
+    c.metric = (struct series_metric){.pull = pull, .norm = 2};
     for (int t = 0; t < FRAMES; t++) {
         x *= cexp((-0.1 + I) * 2 * M_PI * 2 / 24);
         if (t % 10 == 0) {
             const double kick = noise(&random);
             x += kick + 0.3 * I * noise(&random);
         }
-        course[t] = x, pull[t] = conj(x);
+        series[t] = x, pull[t] = conj(x);
         c.metric.power += creal(x * conj(x));
     }
     knots_create(&knots, &c, 24);
@@ -258,7 +258,7 @@ enum { KICKED_FRAMES = 144, KICKED_MODES = 3, KICKED_FREE = 53 };
 
 struct kicked {
     double frequency[KICKED_MODES];
-    double course[KICKED_FRAMES][KICKED_MODES];
+    double series[KICKED_FRAMES][KICKED_MODES];
 };
 
 static double burst(double t)
@@ -270,7 +270,7 @@ static double kicked(int i, int j, void *user)
 {
     const struct kicked *body = user;
     double sum = 0;
-    for (int k = 0; k < KICKED_MODES; k++) sum += cos(0.01 * (k + 1) * j + k) * body->course[i][k];
+    for (int k = 0; k < KICKED_MODES; k++) sum += cos(0.01 * (k + 1) * j + k) * body->series[i][k];
     return sum;
 }
 
@@ -284,7 +284,7 @@ static void kick(struct kicked *body)
         const double complex turn = cexp(h * omega * (-damping + I * sqrt(1 - damping * damping)));
         double complex z = 0;
         for (int i = 0; i < KICKED_FRAMES; i++) {
-            body->course[i][k] = omega * cimag(z);
+            body->series[i][k] = omega * cimag(z);
             for (int j = 0; j < STEPS; j++) z = (z + h * burst((i + (j + 0.5) / STEPS) / 48)) * turn;
         }
     }
@@ -316,7 +316,7 @@ static void what_was_driven_has_its_poles_where_it_swings_freely(void **state)
         for (int j = 0; j < COLUMNS; j++) shape[j] = cos(0.01 * (k + 1) * j + k);
         assert_true(overlap(c, shape) > 0.99);
     }
-    assert_true(a.left < 0.02); // 0.14 where courses must keep to their poles while the burst lasts
+    assert_true(a.left < 0.02); // 0.14 where time series must keep to their poles while the burst lasts
     analysis_free(&a);
 }
 

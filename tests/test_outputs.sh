@@ -15,7 +15,7 @@ ln "$scratch/there" "$scratch/twin"
 expect 2 "and through a symbolic link" "$WIGGLY" live --headless --frames 2 --log "$scratch/link" --result "$scratch/there"
 expect 2 "and to a second name of the file" "$WIGGLY" live --headless --frames 2 --log "$scratch/twin" --result "$scratch/there"
 expect 2 "a character and its scene are two files" "$WIGGLY" analyze x.npy --rest x.obj --output "$scratch/c" --scene "$scratch/c"
-expect 2 "a character and its courses are two files" "$WIGGLY" analyze x.npy --rest x.obj --output "$scratch/c" --coordinates "$scratch/c"
+expect 2 "a character and its time series are two files" "$WIGGLY" analyze x.npy --rest x.obj --output "$scratch/c" --coordinates "$scratch/c"
 
 # A process number that the system never gives, and one that lives.
 touch "$scratch/.wiggly-999999999-0.tmp" "$scratch/.wiggly-$$-3.tmp" "$scratch/.wiggly-999999999-0.tmp.mine"

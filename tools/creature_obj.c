@@ -7,8 +7,6 @@
 #include "model/coat.h"
 #include "model/isosurface.h"
 #include "model/obj.h"
-#include "model/parts.h"
-#include "model/refine.h"
 #include "model/vector.h"
 #include <math.h>
 #include <stdio.h>

@@ -85,12 +85,12 @@ static bool find_drift(struct work *w, struct basis *basis, struct error *error)
     int first = w->plan->first, frames = w->motion->frames - first;
     const double *gram = cut_gram(w);
     const double least = first > 0 ? least_gain_afterwards : least_gain;
-    basis_create(basis, frames, 2 + 2 * COURSES_MAX);
+    basis_create(basis, frames, 2 + 2 * TIME_SERIES_MAX);
     drift_append(basis);
     if (!swings(w, gram, basis, error)) return false;
     int found = subspace_poles(w->lapack, gram, frames, w->poles);
     if (found < 0) return fail_frames(error, w->motion);
-    w->pole_count = exponentials_choose(w->poles, found, COURSES_MAX, least, gram, basis);
+    w->pole_count = exponentials_choose(w->poles, found, TIME_SERIES_MAX, least, gram, basis);
     drift_create(&w->drift, basis, gram);
     if (first > 0) drift_extend(&w->drift, first, w->gram);
     if (w->plan->method == ANALYSIS_CPCA) {
@@ -113,7 +113,7 @@ static void create_components(struct analysis *a, const struct work *w, int coun
         struct component *c = &a->components[k];
         c->frames = frames;
         c->vertices = vertices;
-        c->course = need((size_t)frames, sizeof *c->course);
+        c->series = need((size_t)frames, sizeof *c->series);
         c->shape = need((size_t)vertices, sizeof *c->shape);
         c->metric.pull = need((size_t)frames, sizeof *c->metric.pull);
     }
@@ -128,7 +128,7 @@ static bool find_principal(struct analysis *a, struct work *w)
     if (!spectrum_create(&spectrum, w->lapack, w->gram, frames)) return false;
     for (int k = 0; k < count; k++) {
         struct component *c = &a->components[k];
-        for (int t = 0; t < frames; t++) c->course[t] = spectrum.vectors[(size_t)k * (size_t)frames + (size_t)t];
+        for (int t = 0; t < frames; t++) c->series[t] = spectrum.vectors[(size_t)k * (size_t)frames + (size_t)t];
         c->explained = spectrum.values[k] / spectrum.total;
         spectrum_weights(&spectrum, k, w->weights + 2 * (size_t)k * (size_t)frames);
     }
@@ -137,24 +137,24 @@ static bool find_principal(struct analysis *a, struct work *w)
 }
 
 /// The last of the components whose part only others cancel; -1: none.
-static int find_cancelled(const struct courses *courses, double power)
+static int find_cancelled(const struct time_series *series, double power)
 {
-    int k = courses->count - 1;
-    while (k >= 0 && courses->part[k] <= cancelling * power) k--;
+    int k = series->count - 1;
+    while (k >= 0 && series->part[k] <= cancelling * power) k--;
     return k;
 }
 
-/// Courses of the first poles, without those whose parts others cancel.
-static void find_courses(struct analysis *a, struct work *w, struct courses *courses)
+/// Time series of the first poles, without those whose parts others cancel.
+static void find_series(struct analysis *a, struct work *w, struct time_series *series)
 {
     for (;;) {
         int count = w->pole_count < w->plan->modes ? w->pole_count : w->plan->modes;
-        double complex z[COURSES_MAX];
+        double complex z[TIME_SERIES_MAX];
         for (int k = 0; k < count; k++) z[k] = w->poles[k].z;
-        courses_create(courses, w->lapack, w->gram, w->motion->frames, w->plan->first, z, count);
-        int cancelled = find_cancelled(courses, w->power);
+        time_series_create(series, w->lapack, w->gram, w->motion->frames, w->plan->first, z, count);
+        int cancelled = find_cancelled(series, w->power);
         if (cancelled < 0 || count == 1) return;
-        courses_free(courses);
+        time_series_free(series);
         for (int k = cancelled; k + 1 < w->pole_count; k++) w->poles[k] = w->poles[k + 1];
         w->pole_count--;
         a->cancelled++;
@@ -164,28 +164,28 @@ static void find_courses(struct analysis *a, struct work *w, struct courses *cou
 /// A component a pole.
 static void find_swinging(struct analysis *a, struct work *w)
 {
-    struct courses courses;
-    find_courses(a, w, &courses);
-    int frames = w->motion->frames, count = courses.count;
+    struct time_series series;
+    find_series(a, w, &series);
+    int frames = w->motion->frames, count = series.count;
     create_components(a, w, count);
-    const double complex *z = courses.pole;
+    const double complex *z = series.pole;
     for (int k = 0; k < count; k++) {
         struct component *c = &a->components[k];
-        const double *row = courses.rows + 2 * (size_t)k * (size_t)frames;
+        const double *row = series.rows + 2 * (size_t)k * (size_t)frames;
         double complex s = clog(z[k]) * w->plan->fps;
-        for (int t = 0; t < frames; t++) c->course[t] = row[t] - I * row[frames + t];
+        for (int t = 0; t < frames; t++) c->series[t] = row[t] - I * row[frames + t];
         c->frequency = cabs(s) / (2 * M_PI);
         c->damping = fmax(-creal(s) / cabs(s), 0);
     }
-    for (size_t i = 0; i < 2 * (size_t)count * (size_t)frames; i++) w->weights[i] = courses.weights[i];
-    courses_free(&courses);
+    for (size_t i = 0; i < 2 * (size_t)count * (size_t)frames; i++) w->weights[i] = series.weights[i];
+    time_series_free(&series);
 }
 
-/// What any course would leave of all the motion, from the weights of Ñ.
+/// What any time series would leave of all the motion, from the weights of Ñ.
 static void fill_metric(struct component *c, const struct work *w, const double *weights)
 {
     size_t n = (size_t)c->frames;
-    struct course_metric *m = &c->metric;
+    struct series_metric *m = &c->metric;
     for (size_t t = 0; t < n; t++) {
         m->pull[t] = 0;
         for (size_t s = 0; s < n; s++) m->pull[t] += w->gram[t * n + s] * (weights[s] + I * weights[n + s]);
@@ -208,8 +208,8 @@ static double find_overlap(const struct component *k, const struct component *l,
         conjugate += conj(w) * k->metric.pull[t];
     }
     for (int t = 0; t < k->frames; t++) {
-        along[t] = (l->course[t] * plain + conj(l->course[t]) * conjugate) / 2;
-        product += creal(k->course[t] * along[t]);
+        along[t] = (l->series[t] * plain + conj(l->series[t]) * conjugate) / 2;
+        product += creal(k->series[t] * along[t]);
     }
     return product;
 }
@@ -218,13 +218,13 @@ static double find_overlap(const struct component *k, const struct component *l,
 static void share_motion(struct analysis *a, const struct work *w)
 {
     size_t n = (size_t)w->motion->frames;
-    double products[COURSES_MAX][COURSES_MAX], pulls[COURSES_MAX] = {0}, left = w->power;
+    double products[TIME_SERIES_MAX][TIME_SERIES_MAX], pulls[TIME_SERIES_MAX] = {0}, left = w->power;
     double complex *along = need((1 + (size_t)a->count) * n, sizeof *along);
     double complex *others = along + n;
     for (size_t i = 0; i < (size_t)a->count * n; i++) others[i] = 0;
     for (int k = 0; k < a->count; k++) {
         struct component *c = &a->components[k];
-        for (size_t t = 0; t < n; t++) pulls[k] += creal(c->course[t] * c->metric.pull[t]);
+        for (size_t t = 0; t < n; t++) pulls[k] += creal(c->series[t] * c->metric.pull[t]);
         left -= 2 * pulls[k];
         for (int l = 0; l < a->count; l++) {
             products[k][l] = find_overlap(c, &a->components[l], w->weights + 2 * (size_t)l * n, along);
@@ -328,7 +328,7 @@ bool analysis_create(struct analysis *a, const struct lapack *lapack, const stru
 void analysis_free(struct analysis *a)
 {
     for (int k = 0; k < a->count; k++) {
-        free(a->components[k].course);
+        free(a->components[k].series);
         free(a->components[k].shape);
         free(a->components[k].metric.pull);
     }

@@ -3,7 +3,7 @@
 #define ANALYSIS_ANALYSIS_H
 
 #include "analysis/component.h"
-#include "analysis/courses.h"
+#include "analysis/time_series.h"
 #include "base/lapack.h"
 #include "model/motion.h"
 
@@ -11,7 +11,7 @@ enum {
     ANALYSIS_FRAMES_MIN = 8,
     ANALYSIS_FRAMES_MAX =
         4096, ///< the memory grows with the square of the frames: 100 n² bytes by CPCA, 40 n² by poles
-    ANALYSIS_MODES_MAX = COURSES_MAX,
+    ANALYSIS_MODES_MAX = TIME_SERIES_MAX,
 };
 
 enum analysis_method {

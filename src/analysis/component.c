@@ -6,12 +6,12 @@
 
 static const double tail_share = 0.05; ///< of the motion beyond each end of the range of lags
 
-double component_error(const struct component *c, const double complex *course)
+double component_error(const struct component *c, const double complex *series)
 {
-    const struct course_metric *m = &c->metric;
+    const struct series_metric *m = &c->metric;
     double left = m->power;
     for (int t = 0; t < c->frames; t++) {
-        double complex x = course[t];
+        double complex x = series[t];
         left += (creal(x * conj(x)) * m->norm + creal(x * x * m->square)) / 2 - 2 * creal(x * m->pull[t]);
     }
     return sqrt(fmax(left, 0) / m->power);
@@ -22,7 +22,7 @@ static void change_gauge(struct component *c, double complex g)
 {
     for (int n = 0; n < 3 * c->vertices; n++) c->shape[n / 3][n % 3] *= g;
     for (int t = 0; t < c->frames; t++) {
-        c->course[t] /= g;
+        c->series[t] /= g;
         c->metric.pull[t] *= g;
     }
     c->metric.norm *= creal(g * conj(g));
@@ -32,7 +32,7 @@ static void change_gauge(struct component *c, double complex g)
 void component_scale(struct component *c)
 {
     double largest = 0;
-    for (int t = 0; t < c->frames; t++) largest = fmax(largest, cabs(c->course[t]));
+    for (int t = 0; t < c->frames; t++) largest = fmax(largest, cabs(c->series[t]));
     if (largest > 0) change_gauge(c, largest);
 }
 
@@ -122,10 +122,10 @@ static double slope(const struct slopes *s, int i)
 void component_fit(struct component *c, double fps)
 {
     struct slopes sums = {0};
-    double phase = carg(c->course[0]);
+    double phase = carg(c->series[0]);
     for (int t = 0; t < c->frames; t++) {
-        double size = cabs(c->course[t]);
-        if (t > 0) phase += carg(c->course[t] * conj(c->course[t - 1]));
+        double size = cabs(c->series[t]);
+        if (t > 0) phase += carg(c->series[t] * conj(c->series[t - 1]));
         if (size > 0) add_point(&sums, size * size, t / fps, log(size), phase);
     }
     double decay = fmax(-slope(&sums, 0), 0), turning = fabs(slope(&sums, 1)), natural = hypot(decay, turning);

@@ -1,13 +1,13 @@
-/// One complex coordinate of a motion: its course over time R and its complex normal coordinate Ñ, with S ≈ Re(R Ñ).
+/// One complex coordinate of a motion: its time series R and its complex normal coordinate Ñ, with S ≈ Re(R Ñ).
 #ifndef ANALYSIS_COMPONENT_H
 #define ANALYSIS_COMPONENT_H
 
 #include <complex.h>
 #include <stdbool.h>
 
-/// Σ_t |s_t − Re(x_t Ñ)|² for any course x, from a few numbers. s_t is a frame of the component's own motion: that of all
+/// Σ_t |s_t − Re(x_t Ñ)|² for any time series x, from a few numbers. s_t is a frame of the component's own motion: that of all
 /// vertices less what the other components do.
-struct course_metric {
+struct series_metric {
     double complex *pull;  ///< s_t·Ñ per frame
     double norm;           ///< |Ñ|²
     double complex square; ///< Ñ·Ñ
@@ -16,19 +16,19 @@ struct course_metric {
 
 struct component {
     int frames, vertices;
-    double complex *course;      ///< R per frame; max |R| = 1
+    double complex *series;      ///< R per frame; max |R| = 1
     double complex (*shape)[3];  ///< Ñ per vertex, metres a unit of R; a positive argument leads
     double explained;            ///< share of the motion, 0 … 1: of the complex variance by CPCA, else of S
     double direction[3];         ///< d of the gauge, a unit vector
     double frequency, damping;   ///< of R: undamped, Hz; ratio, 0 … 1
-    struct course_metric metric; ///< what another course in R's place would leave of the motion
+    struct series_metric metric; ///< what another time series in R's place would leave of the motion
     double first_lag,
         last_lag; ///< degrees: 5 % of the motion along d leads by more than the one, 5 % lags by more than the other
     double reach; ///< metres: the farthest any vertex moves from its mean while |R| = 1
 };
 
-/// The relative error of the component's own motion with `course` in R's place: √(Σ |s_t − Re(x_t Ñ)|² / Σ |s_t|²).
-double component_error(const struct component *component, const double complex *course);
+/// The relative error of the component's own motion with `series` in R's place: √(Σ |s_t − Re(x_t Ñ)|² / Σ |s_t|²).
+double component_error(const struct component *component, const double complex *series);
 
 /// Scales R to max |R| = 1 and Ñ inversely, so that R Ñ stays.
 void component_scale(struct component *component);

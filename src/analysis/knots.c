@@ -28,7 +28,7 @@ struct search {
 };
 
 /// x as the knots say; false where the solver gives up.
-static bool solve(const struct search *s, const struct knots *k, double complex *course)
+static bool solve(const struct search *s, const struct knots *k, double complex *series)
 {
     wiggly_knot knots[KNOTS_MOST];
     wiggly_desc desc = wiggly_default_desc();
@@ -49,12 +49,12 @@ static bool solve(const struct search *s, const struct knots *k, double complex 
     desc.knots = knots;
     desc.knot_count = k->count;
     if (wiggly_solve(s->solver, &desc, &curve) >= WIGGLY_ERROR_ARGUMENT) return false;
-    for (int t = 0; t < desc.samples; t++) course[t] = s->re[t] + I * s->im[t];
+    for (int t = 0; t < desc.samples; t++) series[t] = s->re[t] + I * s->im[t];
     return true;
 }
 
 /// φ of value i or, from `count` on, of slope i − count: in units in which both are about as large.
-static bool respond(const struct search *s, const struct knots *k, int unknown, double complex *course)
+static bool respond(const struct search *s, const struct knots *k, int unknown, double complex *series)
 {
     struct knots unit = *k;
     memset(unit.value, 0, sizeof unit.value);
@@ -63,7 +63,7 @@ static bool respond(const struct search *s, const struct knots *k, int unknown, 
         unit.value[unknown] = 1;
     else
         unit.slope[unknown - k->count] = 2 * M_PI * k->frequency;
-    return solve(s, &unit, course);
+    return solve(s, &unit, series);
 }
 
 /// Solves A v = b by Cholesky; an unknown that does nothing gets 0. Returns bᵀv.
@@ -95,7 +95,7 @@ static double solve_unknowns(double a[UNKNOWNS][UNKNOWNS], const double *b, int 
 /// Finds the best values and slopes, and the error with them; infinite where the solver gives up.
 static double evaluate(const struct search *s, struct knots *k)
 {
-    const struct course_metric *m = &s->component->metric;
+    const struct series_metric *m = &s->component->metric;
     double a[UNKNOWNS][UNKNOWNS] = {{0}}, b[UNKNOWNS] = {0}, v[UNKNOWNS];
     int n = s->component->frames, unknowns = k->sloped ? 2 * k->count : k->count;
     k->error = HUGE_VAL;
@@ -245,7 +245,7 @@ static struct knots find(const struct search *s, wiggly_mode mode, bool sloped)
                       .count = 1,
                       .sloped = sloped};
     int stride = (c->frames + CANDIDATES - 1) / CANDIDATES;
-    double floor_error = component_error(c, c->course);
+    double floor_error = component_error(c, c->series);
     evaluate(s, &k);
     while (k.error > near_enough * floor_error && k.count < KNOTS_MOST && add_knot(s, &k, stride))
         refine(s, &k, stride);
@@ -258,21 +258,21 @@ void knots_create(struct knots *k, const struct component *component, double fps
 {
     struct search s = {.component = component, .fps = fps};
     size_t n = (size_t)component->frames;
-    double complex *course = need(n, sizeof *course);
+    double complex *series = need(n, sizeof *series);
     s.response = need(UNKNOWNS * n, sizeof *s.response);
     s.re = need(2 * n, sizeof *s.re);
     s.im = s.re + n;
     if (wiggly_create((int)n, KNOTS_MOST, &s.solver) != WIGGLY_OK) need_failed();
     *k = find(&s, WIGGLY_COMPLEX, false);
-    if (k->error > close_enough * component_error(component, component->course)) {
+    if (k->error > close_enough * component_error(component, component->series)) {
         const struct knots sloped = find(&s, WIGGLY_COMPLEX, true), stiff = find(&s, WIGGLY_REAL, false);
         prefer(k, &sloped);
         prefer(k, &stiff);
     }
     shorten(k);
-    if (!solve(&s, k, course)) need_failed();
-    k->course = course;
-    k->error = component_error(component, course);
+    if (!solve(&s, k, series)) need_failed();
+    k->series = series;
+    k->error = component_error(component, series);
     wiggly_destroy(s.solver);
     free(s.response);
     free(s.re);
@@ -280,6 +280,6 @@ void knots_create(struct knots *k, const struct component *component, double fps
 
 void knots_free(struct knots *k)
 {
-    free(k->course);
+    free(k->series);
     *k = (struct knots){0};
 }

@@ -15,7 +15,7 @@ struct knots {
     bool sloped;                                 ///< every knot has a slope
     int frame[KNOTS_MOST];                       ///< ascending; the first is 0
     double value[KNOTS_MOST], slope[KNOTS_MOST]; ///< value per second
-    double complex *course;                      ///< x per frame
+    double complex *series;                      ///< x per frame
     double error;                                ///< component_error() of x
 };
 

@@ -96,7 +96,7 @@ static void keep(struct coordinate *to, const struct component *c, const struct 
 static void report_spline(const struct analyzed *analyzed, const struct component *c)
 {
     const struct knots *k = &analyzed->knots;
-    if (!k->course) {
+    if (!k->series) {
         printf("    spline: \"mode\": \"complex\", \"frequency\": %.4g, \"damping\": %.3g, \"bandwidth\": %g\n",
                c->frequency, c->damping, recommended_bandwidth);
         return;
@@ -104,8 +104,8 @@ static void report_spline(const struct analyzed *analyzed, const struct componen
     printf("    spline: \"mode\": \"%s\", \"frequency\": %.4g, \"damping\": %.3g, \"bandwidth\": %.3g, %d knot%s\n",
            k->mode == WIGGLY_REAL ? "real" : "complex", k->frequency, k->damping, k->bandwidth, k->count,
            k->count > 1 ? "s" : "");
-    printf("    relative error of its motion: %.3g by this spline, %.3g by the coordinate's own course\n", k->error,
-           component_error(c, c->course));
+    printf("    relative error of its motion: %.3g by this spline, %.3g by the coordinate's own time series\n",
+           k->error, component_error(c, c->series));
 }
 
 static void print_direction(const double vector[3], double length, char text[DIRECTION_SIZE])
@@ -200,14 +200,14 @@ static void warn_of_distance(const struct motion *motion, const struct analysis 
     }
 }
 
-/// Keeps course and knots, which only a scene and the table of coordinates need.
+/// Keeps time series and knots, which only a scene and the table of coordinates need.
 static void keep_course(const struct job *job, struct analyzed *to, struct component *c, int rank, double fps)
 {
     *to = (struct analyzed){.rank = rank, .fps = fps, .frames = c->frames};
     if (!job->scene && !job->coordinates) return;
     knots_create(&to->knots, c, fps);
-    to->course = need((size_t)c->frames, sizeof *to->course);
-    memcpy(to->course, c->course, (size_t)c->frames * sizeof *to->course);
+    to->series = need((size_t)c->frames, sizeof *to->series);
+    memcpy(to->series, c->series, (size_t)c->frames * sizeof *to->series);
 }
 
 static void keep_all(const struct job *job, const struct analysis *analysis, const struct motion *motion, double fps,
@@ -285,7 +285,7 @@ static bool analyse_files(const struct job *job, const struct lapack *lapack, co
 static void free_result(struct result *result)
 {
     for (int i = 0; i < result->filled; i++) {
-        free(result->analyzed[i].course);
+        free(result->analyzed[i].series);
         knots_free(&result->analyzed[i].knots);
     }
     free(result->analyzed);
@@ -354,8 +354,8 @@ int command_analyze(int argc, char **argv)
          OPTION_REAL, &job.from, 0, 1e6},
         {"--scene", NULL, "FILE", "write a scene too, with knots that move the character as the motions did",
          OPTION_OUTPUT, &job.scene, 0, 0},
-        {"--coordinates", NULL, "FILE", "write each coordinate's course over time and its spline's, as CSV",
-         OPTION_OUTPUT, &job.coordinates, 0, 0},
+        {"--coordinates", NULL, "FILE", "write each coordinate's time series and its spline's, as CSV", OPTION_OUTPUT,
+         &job.coordinates, 0, 0},
     };
     const struct usage usage = {
         .command = "analyze",

@@ -25,7 +25,7 @@ static void write_row(FILE *out, const struct analyzed *analyzed, int count, int
             fputs(",,,,", out);
             continue;
         }
-        double complex r = analyzed[i].course[frame], x = analyzed[i].knots.course[frame];
+        double complex r = analyzed[i].series[frame], x = analyzed[i].knots.series[frame];
         fprintf(out, ",%.9g,%.9g,%.9g,%.9g", creal(r), cimag(r), creal(x), cimag(x));
     }
     fputc('\n', out);

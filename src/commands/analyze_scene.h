@@ -10,7 +10,7 @@ struct analyzed {
     int rank; ///< among those of its motion, from 0
     double fps;
     int frames;
-    double complex *course; ///< R, one number a frame
+    double complex *series; ///< R, one number a frame
     struct knots knots;
 };
 

@@ -1,7 +1,7 @@
 /// Finds the outlines of imported characters.
 #include "draw/model_skirt.h"
 #include "base/need.h"
-#include "model/across.h"
+#include "model/triangle_neighbours.h"
 #include "model/vector.h"
 #include <stdlib.h>
 
@@ -24,9 +24,9 @@ static bool allocate(struct model_skirt *skirt, const struct gltf *gltf)
         indices += (size_t)index_count(gltf, n);
     }
     *skirt = (struct model_skirt){0};
-    if (!need_has_room(vertices * 2 * sizeof *skirt->place + indices * 8 * sizeof *skirt->across)) return false;
+    if (!need_has_room(vertices * 2 * sizeof *skirt->place + indices * 8 * sizeof *skirt->neighbours)) return false;
     *skirt = (struct model_skirt){
-        need(indices, sizeof *skirt->indices),         need(indices, sizeof *skirt->across),
+        need(indices, sizeof *skirt->indices),         need(indices, sizeof *skirt->neighbours),
         need(vertices, sizeof *skirt->place),          need(vertices, sizeof *skirt->normal),
         need(indices, sizeof *skirt->front),           need_zeroed(nodes, sizeof *skirt->first_vertex),
         need_zeroed(nodes, sizeof *skirt->first_index)};
@@ -47,13 +47,13 @@ static void add_node(const struct model_skirt *skirt, uint32_t *look, const stru
         for (int i = 0; i < part->index_count; i++, index++) {
             const uint32_t own = part->indices[i];
             indices[index] = vertex + own;
-            look[index] = across_look(part->material, part->color ? part->color[own] : white);
+            look[index] = neighbours_look(part->material, part->color ? part->color[own] : white);
         }
         vertex += (uint32_t)part->vertex_count;
     }
     const float(*place)[3] = (const float(*)[3])skirt->place;
-    across_find(place, (int)vertex, indices, count, skirt->across + first);
-    across_cut(place, indices, look, count, skirt->across + first);
+    neighbours_find(place, (int)vertex, indices, count, skirt->neighbours + first);
+    neighbours_cut(place, indices, look, count, skirt->neighbours + first);
 }
 
 void model_skirt_create(struct model_skirt *skirt, const struct gltf *gltf)
@@ -73,7 +73,7 @@ void model_skirt_create(struct model_skirt *skirt, const struct gltf *gltf)
 void model_skirt_free(struct model_skirt *skirt)
 {
     free(skirt->indices);
-    free(skirt->across);
+    free(skirt->neighbours);
     free(skirt->place);
     free(skirt->normal);
     free(skirt->front);
@@ -95,7 +95,7 @@ struct skirt_mesh model_skirt_pose(const struct model_skirt *skirt, const struct
     (*normal)[3] = skirt->normal + skirt->first_vertex[node];
     mat4s to_world = mat4_from(root);
     const struct skirt_mesh mesh = {.indices = skirt->indices + first,
-                                    .across = skirt->across + first,
+                                    .neighbours = skirt->neighbours + first,
                                     .place = (const float(*)[3])place,
                                     .front = skirt->front + first / 3,
                                     .mirrored = model_is_mirrored(gltf, pose, node)};

@@ -8,7 +8,7 @@
 /// All nodes' meshes, one after the other, part after part, as one that stands in the world. All zero: they are too many, and edges stay hard.
 struct model_skirt {
     uint32_t *indices;
-    int *across;
+    int *neighbours;
     float (*place)[3], (*normal)[3];
     bool *front;
     int *first_vertex, *first_index; ///< of each node

@@ -1,7 +1,7 @@
 /// Finds the outlines of soft characters, and what skirts show there.
 #include "draw/morph_skirt.h"
 #include "base/need.h"
-#include "model/across.h"
+#include "model/triangle_neighbours.h"
 #include "ui/theme.h"
 #include <stdlib.h>
 #include <string.h>
@@ -18,16 +18,16 @@ static int count_of(const struct figure *figure, bool coarse)
 }
 
 static void cut(const struct figure *figure, const struct morph_looks *looks, bool coarse, const uint32_t *indices,
-                int *across)
+                int *neighbours)
 {
     const struct character *c = &figure->character;
     const int count = count_of(figure, coarse);
     uint32_t *look = need((size_t)count + 1, sizeof *look);
     for (int i = 0, r = 0; i < count; i++) {
         while (r < looks->range_count && i >= looks->ranges[coarse][r].first + looks->ranges[coarse][r].count) r++;
-        look[i] = across_look(r, c->color[indices[i]]);
+        look[i] = neighbours_look(r, c->color[indices[i]]);
     }
-    across_cut((const float(*)[3])c->position, indices, look, count, across);
+    neighbours_cut((const float(*)[3])c->position, indices, look, count, neighbours);
     free(look);
 }
 
@@ -37,9 +37,9 @@ static void find_across(struct morph_skirt *skirt, const struct figure *figure, 
     const struct character *c = &figure->character;
     const int count = count_of(figure, coarse);
     const uint32_t *indices = indices_of(skirt, figure, coarse);
-    int *across = skirt->across[coarse] = need((size_t)count + 1, sizeof *across);
-    across_find((const float(*)[3])c->position, c->vertex_count, indices, count, across);
-    cut(figure, looks, coarse, indices, across);
+    int *neighbours = skirt->neighbours[coarse] = need((size_t)count + 1, sizeof *neighbours);
+    neighbours_find((const float(*)[3])c->position, c->vertex_count, indices, count, neighbours);
+    cut(figure, looks, coarse, indices, neighbours);
 }
 
 void morph_skirt_create(struct morph_skirt *skirt, const struct figure *figure, const struct morph_looks *looks)
@@ -54,7 +54,7 @@ void morph_skirt_free(struct morph_skirt *skirt)
 {
     for (int coarse = 0; coarse < 2; coarse++) {
         free(skirt->sorted[coarse]);
-        free(skirt->across[coarse]);
+        free(skirt->neighbours[coarse]);
     }
     free(skirt->place);
     free(skirt->front);
@@ -104,7 +104,7 @@ void morph_skirt_draw(const struct morph_skirt *skirt, const struct stage_skirt 
     const bool coarse = shown->coarse;
     const int count = count_of(shown->figure, coarse);
     const struct skirt_mesh mesh = {.indices = indices_of(skirt, shown->figure, coarse),
-                                    .across = skirt->across[coarse],
+                                    .neighbours = skirt->neighbours[coarse],
                                     .place = (const float(*)[3])skirt->place,
                                     .front = skirt->front};
     morph_places(shown->figure, &shown->morph, shown->position, skirt->place);

@@ -9,7 +9,7 @@
 struct morph_skirt {
     uint32_t *sorted
         [2]; ///< of the fine and of the coarse triangles, as morph_looks_sort() has them; NULL: as the figure has them
-    int *across[2];
+    int *neighbours[2];
     float (*place)[3]; ///< of each vertex
     bool *front;       ///< of each triangle
 };

@@ -1,6 +1,6 @@
 /// Finds outlines, and which way skirts hang.
 #include "draw/skirt.h"
-#include "model/across.h"
+#include "model/triangle_neighbours.h"
 #include "model/vector.h"
 
 /// Whether a triangle faces the eye, or nearly: the rasteriser, which rounds, has the last word.
@@ -26,7 +26,7 @@ void skirt_face(const struct skirt_mesh *mesh, int first, int end, const float e
 int skirt_next(const struct skirt_mesh *mesh, int first, int end, bool both_sides)
 {
     for (int i = first; i < end; i++) {
-        const int other = mesh->across[i];
+        const int other = mesh->neighbours[i];
         const bool front = mesh->front[i / 3];
         if (other < 0 ? front || both_sides : front && !mesh->front[other]) return i;
     }
@@ -51,7 +51,7 @@ void skirt_out(const struct skirt_mesh *mesh, int corner, const float normal[2][
     for (int e = 0; e < 2; e++) {
         const vec3s ray = glms_vec3_sub(vec3_from(end[e]), vec3_from(eye));
         const vec3s off_edge = glms_vec3_scale(glms_vec3_normalize(glms_vec3_cross(ray, edge)), side);
-        vec3s step = mesh->across[corner] < 0 ? off_edge : outwards(ray, normal[e], off_edge);
+        vec3s step = mesh->neighbours[corner] < 0 ? off_edge : outwards(ray, normal[e], off_edge);
         step = glms_vec3_scale(step, pixel * glms_vec3_norm(ray));
         memcpy(out[e], step.raw, sizeof out[e]);
     }

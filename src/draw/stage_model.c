@@ -204,7 +204,7 @@ static void draw_skirts(const struct stage_models *models, const struct stage_vi
     for (int m = 0; m < view->model_count; m++) {
         const struct stage_model *shown = &view->models[m];
         set_shade(models->skirt.at.shade, shown);
-        for (int n = 0; models->buffers[m].skirt.across && n < shown->gltf->node_count; n++) {
+        for (int n = 0; models->buffers[m].skirt.neighbours && n < shown->gltf->node_count; n++) {
             if (shown->gltf->nodes[n].mesh >= 0) draw_node_skirts(models, &models->buffers[m], shown, n, view, seam);
         }
     }

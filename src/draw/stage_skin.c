@@ -2,9 +2,9 @@
 #include "draw/stage_skin.h"
 #include "base/need.h"
 #include "draw/skirt.h"
-#include "model/across.h"
 #include "model/creature.h"
 #include "model/tail_skin.h"
+#include "model/triangle_neighbours.h"
 #include "model/vector.h"
 #include <math.h>
 #include <stdlib.h>
@@ -53,21 +53,22 @@ void stage_skin_create(struct skin_mesh *skin, int level)
     mesh_creature(level, mesh);
     sort_triangles(skin);
     float(*rest)[3] = need((size_t)mesh->vertex_count, sizeof *rest);
-    skin->across = need((size_t)mesh->index_count, sizeof *skin->across);
+    skin->neighbours = need((size_t)mesh->index_count, sizeof *skin->neighbours);
     for (int v = 0; v < mesh->vertex_count; v++) memcpy(rest[v], mesh->vertices[v].position, sizeof *rest);
-    across_find((const float(*)[3])rest, mesh->vertex_count, mesh->indices, mesh->index_count, skin->across);
+    neighbours_find((const float(*)[3])rest, mesh->vertex_count, mesh->indices, mesh->index_count, skin->neighbours);
     free(rest);
 }
 
 void stage_skin_destroy(struct skin_mesh *skin)
 {
     mesh_free(&skin->mesh);
-    free(skin->across);
+    free(skin->neighbours);
 }
 
 static struct skirt_mesh standing(const struct skin_mesh *mesh, const struct skin *skin)
 {
-    return (struct skirt_mesh){mesh->mesh.indices, mesh->across, (const float(*)[3])skin->place, skin->front, false};
+    return (struct skirt_mesh){mesh->mesh.indices, mesh->neighbours, (const float(*)[3])skin->place, skin->front,
+                               false};
 }
 
 void stage_skin_pose(const struct skin_mesh *mesh, const struct pose *pose, const float eye[3],

@@ -16,7 +16,7 @@ struct skin_mesh {
     struct mesh mesh;
     int first[REGIONS + 1]; ///< indices
     int *
-        across; ///< per index, of the edge from it to the triangle's next: the triangle on its other side, −1 where the mesh ends
+        neighbours; ///< per index, of the edge from it to the triangle's next: the triangle on its other side, −1 where the mesh ends
 };
 
 void stage_skin_create(struct skin_mesh *skin, int level);

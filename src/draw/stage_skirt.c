@@ -1,7 +1,7 @@
 /// Draws the skirts of what the GPU moves.
 #include "draw/stage_skirt.h"
 #include "base/need.h"
-#include "model/across.h"
+#include "model/triangle_neighbours.h"
 #include "model/vector.h"
 #include <math.h>
 #include <stddef.h>
@@ -150,7 +150,7 @@ static void hang(const struct skirt_mesh *mesh, int corner, const float eye[3], 
         outer->cover = 0.0f;
         for (int k = 0; k < 3; k++) outer->place[k] += off[e][k];
     }
-    for (int c = 0; mesh->across[corner] == ACROSS_CUT && c < CORNERS; c++) {
+    for (int c = 0; mesh->neighbours[corner] == NEIGHBOUR_CUT && c < CORNERS; c++) {
         for (int k = 0; k < 3; k++) out[c].place[k] += LIFT * seam * (eye[k] - out[c].place[k]);
     }
 }

@@ -1,9 +1,12 @@
-/// Turns a solid given by its distance function into triangles by surface nets: one vertex per grid cell that
-/// the surface passes through, one quad per edge that it crosses.
+/// Solids: soft shapes built of round cones (the hull of two balls) that blend into each other, each with its own colour, and the triangles of
+/// whatever has a distance function.
 #ifndef MODEL_ISOSURFACE_H
 #define MODEL_ISOSURFACE_H
 
 #include "model/mesh.h"
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
 
 /// A solid: negative inside; never larger than the true distance, and close to it near the surface.
 struct solid {
@@ -12,11 +15,34 @@ struct solid {
     void (*paint)(struct vertex *vertex);
 };
 
-/// Appends the surface inside the box lo … hi, which must hold it whole, with edges about `cell` metres long.
-/// Vertices lie on the surface; normals are the distance's gradient.
+/// Appends the surface inside the box lo … hi, which must hold it whole, with edges about `cell` metres long. Surface nets: one vertex per
+/// grid cell that the surface passes through, one quad per edge that it crosses. Vertices lie on the surface; normals are the
+/// distance's gradient.
 void isosurface(const struct solid *solid, const float lo[3], const float hi[3], float cell, struct mesh *mesh);
 
 /// Moves a vertex less than `cell` metres off onto the surface, and sets its normal and colour.
 void surface_place(const struct solid *solid, float cell, struct vertex *vertex);
+
+/// A round cone, metres; mirrored parts are given for x > 0.
+struct part {
+    float a[3], b[3];
+    float radius_a, radius_b;
+    float blend;    ///< width of the fillet to the parts before it
+    uint32_t color; ///< sRGB 0xRRGGBB
+    bool mirror;
+};
+
+/// Smooth minimum of two distances (polynomial, with a fillet `blend` wide); colours mix in the same measure, into
+/// `rgb`, where that is not NULL.
+float parts_union(float old, float added, float blend, float rgb[3], const float added_rgb[3]);
+
+/// Adds the parts of a table, in their order, to a solid at distance `distance` (1e3: none yet): returns the distance of
+/// all of them from `p`, and in `rgb`, if not NULL, the linear colour there.
+float parts_add(const struct part *table, size_t count, const float p[3], float distance, float rgb[3]);
+
+/// Halves every edge that stays more than `tolerance` metres away from the solid, or whose ends have very different
+/// colours, in up to `rounds` rounds; new vertices lie on the surface and no gaps open. Works on the triangles from index `first_index` on, which must not
+/// share edges with earlier ones.
+void refine(const struct solid *solid, float tolerance, int rounds, int first_index, struct mesh *mesh);
 
 #endif

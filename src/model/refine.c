@@ -1,6 +1,6 @@
 /// Splits triangles that are too flat or too large.
-#include "model/refine.h"
 #include "base/need.h"
+#include "model/isosurface.h"
 #include "model/vector.h"
 #include <math.h>
 #include <stdlib.h>

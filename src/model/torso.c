@@ -3,8 +3,6 @@
 #include "model/creature.h"
 #include "model/isosurface.h"
 #include "model/limbs.h"
-#include "model/parts.h"
-#include "model/refine.h"
 #include "model/vector.h"
 #include <math.h>
 #include <stddef.h>

@@ -1,7 +1,7 @@
 /// Collects the OpenGL driver's debug messages.
-#include "platform/gl_debug.h"
 #include "base/hash.h"
 #include "platform/platform.h"
+#include "platform/surface.h"
 #include <epoxy/gl.h>
 #include <stdio.h>
 #include <string.h>

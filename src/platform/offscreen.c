@@ -1,6 +1,5 @@
 /// An EGL surface to draw on without a display.
 #include "base/need.h"
-#include "platform/gl_debug.h"
 #include "platform/surface.h"
 #include <dlfcn.h>
 #include <epoxy/egl.h>

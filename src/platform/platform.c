@@ -1,7 +1,6 @@
 /// Hands calls on to a window or to an offscreen surface, where there is one.
 #include "platform/platform.h"
 #include "base/need.h"
-#include "platform/gl_debug.h"
 #include "platform/process.h"
 #include "platform/surface.h"
 #include <epoxy/gl.h>

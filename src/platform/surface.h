@@ -2,6 +2,7 @@
 #ifndef PLATFORM_SURFACE_H
 #define PLATFORM_SURFACE_H
 
+#include "base/error.h"
 #include "platform/events.h"
 #include "platform/platform.h"
 
@@ -61,5 +62,13 @@ void keep_freed_memory(void);
 
 /// In builds with the address sanitizer: keeps the loaded graphics driver in memory until the process ends.
 void keep_driver_loaded(void);
+
+// The graphics driver's messages (--gl-debug).
+
+/// Whether platform_debug_gl() was called: contexts are then made for debugging.
+bool gl_debug_wanted(void);
+
+/// If wanted, listens to the current context. false if its driver has no debug output.
+bool gl_debug_start(struct error *error);
 
 #endif

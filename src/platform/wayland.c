@@ -1,6 +1,5 @@
 /// Asks a Wayland compositor what GLFW does not report.
 #include "platform/wayland.h"
-#include "platform/symbol.h"
 #include <poll.h>
 #include <stdint.h>
 #include <string.h>

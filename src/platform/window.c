@@ -2,9 +2,7 @@
 #include "base/clock.h"
 #include "base/need.h"
 #include "platform/events.h"
-#include "platform/gl_debug.h"
 #include "platform/surface.h"
-#include "platform/symbol.h"
 #include "platform/wayland.h"
 #include <epoxy/gl.h>
 #define GLFW_INCLUDE_NONE

@@ -1,8 +1,9 @@
-/// Assembles and applies sparse block matrices.
+/// Sums blocks, and solves by preconditioned conjugate gradients.
 #include "simulation/blocks.h"
 #include "base/need.h"
 #include <stdint.h>
 #include <stdlib.h>
+#include <string.h>
 
 static int compare(const void *a, const void *b)
 {
@@ -79,4 +80,83 @@ void blocks_multiply(const struct blocks *blocks, const double (*x)[3], double (
         }
         for (int c = 0; c < 3; c++) y[i][c] = sum[c];
     }
+}
+
+void conjugate_create(struct conjugate *conjugate, int rows)
+{
+    size_t n = (size_t)rows;
+    *conjugate = (struct conjugate){
+        .r = need_zeroed(n, sizeof *conjugate->r),
+        .z = need_zeroed(n, sizeof *conjugate->z),
+        .p = need_zeroed(n, sizeof *conjugate->p),
+        .q = need_zeroed(n, sizeof *conjugate->q),
+        .inverse = need_zeroed(n, sizeof *conjugate->inverse),
+    };
+}
+
+void conjugate_free(struct conjugate *conjugate)
+{
+    free(conjugate->r);
+    free(conjugate->z);
+    free(conjugate->p);
+    free(conjugate->q);
+    free(conjugate->inverse);
+    *conjugate = (struct conjugate){0};
+}
+
+/// Inverse of a symmetric definite 3×3 block by cofactors.
+static void invert(const double a[9], double out[9])
+{
+    double c0 = a[4] * a[8] - a[5] * a[7], c1 = a[5] * a[6] - a[3] * a[8], c2 = a[3] * a[7] - a[4] * a[6];
+    double scale = 1 / (a[0] * c0 + a[1] * c1 + a[2] * c2);
+    out[0] = c0 * scale;
+    out[1] = out[3] = c1 * scale;
+    out[2] = out[6] = c2 * scale;
+    out[4] = (a[0] * a[8] - a[2] * a[6]) * scale;
+    out[5] = out[7] = (a[1] * a[6] - a[0] * a[7]) * scale;
+    out[8] = (a[0] * a[4] - a[1] * a[3]) * scale;
+}
+
+/// z = D⁻¹ r; returns r · z.
+static double precondition(const struct conjugate *c, int rows, const double (*r)[3], double (*z)[3])
+{
+    double dot = 0;
+    for (int i = 0; i < rows; i++) {
+        const double *d = c->inverse[i], *v = r[i];
+        for (int k = 0; k < 3; k++) {
+            z[i][k] = d[3 * k] * v[0] + d[3 * k + 1] * v[1] + d[3 * k + 2] * v[2];
+            dot += z[i][k] * v[k];
+        }
+    }
+    return dot;
+}
+
+int conjugate_solve(struct conjugate *c, const struct blocks *a, const double (*b)[3], double (*x)[3],
+                    double tolerance, int limit)
+{
+    const int rows = a->rows, n = 3 * rows;
+    double *r = *c->r, *z = *c->z, *p = *c->p, *q = *c->q, *unknown = *x;
+    const double *right = *b;
+    for (int i = 0; i < rows; i++) invert(a->block[a->diagonal[i]], c->inverse[i]);
+    double goal = tolerance * tolerance * precondition(c, rows, b, c->z);
+    blocks_multiply(a, (const double(*)[3])x, c->q);
+    for (int i = 0; i < n; i++) r[i] = right[i] - q[i];
+    double rz = precondition(c, rows, (const double(*)[3])c->r, c->z);
+    memcpy(p, z, (size_t)n * sizeof *p);
+    int iteration = 0;
+    for (; iteration < limit && rz > goal; iteration++) {
+        blocks_multiply(a, (const double(*)[3])c->p, c->q);
+        double curvature = 0;
+        for (int i = 0; i < n; i++) curvature += p[i] * q[i];
+        double alpha = rz / curvature;
+        for (int i = 0; i < n; i++) {
+            unknown[i] += alpha * p[i];
+            r[i] -= alpha * q[i];
+        }
+        double next = precondition(c, rows, (const double(*)[3])c->r, c->z);
+        double beta = next / rz;
+        rz = next;
+        for (int i = 0; i < n; i++) p[i] = z[i] + beta * p[i];
+    }
+    return iteration;
 }

@@ -5,7 +5,6 @@
 #define SIMULATION_BODY_H
 
 #include "simulation/blocks.h"
-#include "simulation/conjugate.h"
 #include "simulation/element.h"
 #include "simulation/material.h"
 #include <stdbool.h>

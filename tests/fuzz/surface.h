@@ -4,9 +4,9 @@
 
 #include "draw/skirt.h"
 #include "fuzz.h"
-#include "model/across.h"
 #include "model/decimate.h"
 #include "model/figure.h"
+#include "model/triangle_neighbours.h"
 #include <stdlib.h>
 
 /// The outlines of a mesh as it stands, from an eye.
@@ -28,15 +28,15 @@ static inline void fuzz_triangles(const struct character *c, const uint32_t *ind
 {
     const float(*place)[3] = (const float(*)[3])c->position;
     const size_t room = (size_t)index_count + 1;
-    int *across = malloc(room * sizeof *across);
+    int *neighbours = malloc(room * sizeof *neighbours);
     uint32_t *look = malloc(room * sizeof *look);
     bool *front = malloc(room * sizeof *front);
-    for (int i = 0; i < index_count; i++) look[i] = across_look(0, c->color[indices[i]]);
-    across_find(place, c->vertex_count, indices, index_count, across);
-    across_cut(place, indices, look, index_count, across);
-    const struct skirt_mesh mesh = {.indices = indices, .across = across, .place = place, .front = front};
+    for (int i = 0; i < index_count; i++) look[i] = neighbours_look(0, c->color[indices[i]]);
+    neighbours_find(place, c->vertex_count, indices, index_count, neighbours);
+    neighbours_cut(place, indices, look, index_count, neighbours);
+    const struct skirt_mesh mesh = {.indices = indices, .neighbours = neighbours, .place = place, .front = front};
     fuzz_outlines(&mesh, (const float(*)[3])c->normal, index_count);
-    free(across);
+    free(neighbours);
     free(look);
     free(front);
 }

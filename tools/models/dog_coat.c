@@ -3,8 +3,6 @@
 #include "model/coat.h"
 #include "model/decimate.h"
 #include "model/isosurface.h"
-#include "model/parts.h"
-#include "model/refine.h"
 #include "model/vector.h"
 #include "models/dog.h"
 #include <math.h>

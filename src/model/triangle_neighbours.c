@@ -1,5 +1,5 @@
 /// Finds the triangles across edges: an edge a → b is b → a there.
-#include "model/across.h"
+#include "model/triangle_neighbours.h"
 #include "base/need.h"
 #include "model/adjacency.h"
 #include <math.h>
@@ -55,7 +55,7 @@ static int find_one(const struct corners *corners, const uint32_t *indices, int 
     const uint32_t from = corners->spot[indices[corner]], to = corners->spot[indices[next_corner(corner)]];
     const uint32_t third = corners->spot[indices[corner_before(corner)]];
     const bool at_end = corners->many[to] <= corners->many[from];
-    int back = ACROSS_NONE, other = corners->last[at_end ? to : from];
+    int back = NEIGHBOUR_NONE, other = corners->last[at_end ? to : from];
     for (int n = 0; other >= 0 && n < CORNERS_MAX; n++, other = corners->before[other]) {
         const int begins = at_end ? other : corner_before(other), ends = next_corner(begins);
         if (corners->spot[indices[begins]] != to || corners->spot[indices[ends]] != from) continue;
@@ -65,7 +65,8 @@ static int find_one(const struct corners *corners, const uint32_t *indices, int 
     return back;
 }
 
-void across_find(const float (*position)[3], int vertex_count, const uint32_t *indices, int index_count, int *across)
+void neighbours_find(const float (*position)[3], int vertex_count, const uint32_t *indices, int index_count,
+                     int *neighbours)
 {
     const size_t vertices = (size_t)vertex_count + 1;
     float(*snapped)[3] = snap(position, vertex_count);
@@ -76,7 +77,7 @@ void across_find(const float (*position)[3], int vertex_count, const uint32_t *i
     spots_sort((const float(*)[3])snapped, vertex_count, spots);
     merge_vertices(spots, vertex_count, corners.spot);
     list_corners(&corners, vertex_count, indices, index_count);
-    for (int i = 0; i < index_count; i++) across[i] = find_one(&corners, indices, i);
+    for (int i = 0; i < index_count; i++) neighbours[i] = find_one(&corners, indices, i);
     free(snapped);
     free(spots);
     free(corners.spot);
@@ -101,20 +102,20 @@ static int corner_at(const float (*position)[3], const uint32_t *indices, int tr
     return nearest;
 }
 
-void across_cut(const float (*position)[3], const uint32_t *indices, const uint32_t *look, int index_count,
-                int *across)
+void neighbours_cut(const float (*position)[3], const uint32_t *indices, const uint32_t *look, int index_count,
+                    int *neighbours)
 {
     for (int i = 0; i < index_count; i++) {
-        const int other = across[i], ends[2] = {i, next_corner(i)};
+        const int other = neighbours[i], ends[2] = {i, next_corner(i)};
         if (other < 0 || other > i / 3) continue;
         for (int e = 0; e < 2; e++) {
             const int there = corner_at(position, indices, other, position[indices[ends[e]]]);
-            if (look[there] != look[ends[e]]) across[i] = ACROSS_CUT;
+            if (look[there] != look[ends[e]]) neighbours[i] = NEIGHBOUR_CUT;
         }
     }
 }
 
-uint32_t across_look(int material, const float color[3])
+uint32_t neighbours_look(int material, const float color[3])
 {
     uint32_t look = (uint32_t)material;
     for (int k = 0; k < 3; k++) look = look << 4 | (uint32_t)lroundf(8.0f * fminf(fmaxf(color[k], 0.0f), 1.0f));

@@ -1,4 +1,4 @@
-/// The courses R_k and the shapes Ñ_k of given poles z_k minimise
+/// The time series R_k and the shapes Ñ_k of given poles z_k minimise
 ///
 ///     Σ_t |s_t − Σ_k Re(R_k,t Ñ_k)|²  +  Σ_k μ_k Σ_t |R_k,t+1 − z_k R_k,t|²        μ_k = |Ñ_k|² / 2 (β |ln z_k|)²
 ///
@@ -10,7 +10,7 @@
 /// In turn, R given Ñ and Ñ given R are linear least squares, and each makes the sum smaller. Ñ = W S with weights W of the frames,
 /// so all that is needed of the motion is G = S Sᵀ: Ñᵢ·s_t = (W G)_it and Ñᵢ·Ñⱼ = (W G Wᵀ)_ij. R given Ñ is
 /// block tridiagonal over the frames, 2 × 2 a pole.
-#include "analysis/courses.h"
+#include "analysis/time_series.h"
 #include "analysis/basis.h"
 #include "analysis/exponentials.h"
 #include "base/need.h"
@@ -23,11 +23,11 @@ static const double driven = 0.03;      ///< of μ, where something drives the m
 static const double settled = 1e-4;     ///< change of what is left, as a share of the power, that ends the turns
 static const double least_push = 1e-12; ///< so that a shape of zero keeps the equations definite
 
-enum { TURNS_MAX = 30, ROWS_MAX = 2 * COURSES_MAX, BLOCK = ROWS_MAX * ROWS_MAX };
+enum { TURNS_MAX = 30, ROWS_MAX = 2 * TIME_SERIES_MAX, BLOCK = ROWS_MAX * ROWS_MAX };
 
 /// Room for the turns.
 struct fit {
-    struct courses *courses;
+    struct time_series *series;
     const struct lapack *lapack;
     const double *gram;
     struct basis basis;
@@ -74,12 +74,12 @@ static double firmness(const struct fit *f, int t) { return t < f->first ? drive
 /// μ_k of every pole, and z_k so that it does not grow.
 static void weigh_pushes(const struct fit *f, double *push, double complex *z)
 {
-    int d = 2 * f->courses->count;
+    int d = 2 * f->series->count;
     double trace = 0;
     for (int i = 0; i < d; i++) trace += f->metric[i * d + i];
-    for (int k = 0; k < f->courses->count; k++) {
+    for (int k = 0; k < f->series->count; k++) {
         double shape = f->metric[2 * k * d + 2 * k] + f->metric[(2 * k + 1) * d + 2 * k + 1];
-        z[k] = f->courses->pole[k] / fmax(1, cabs(f->courses->pole[k]));
+        z[k] = f->series->pole[k] / fmax(1, cabs(f->series->pole[k]));
         push[k] = (shape + least_push * trace) / 2 / pow(freedom * cabs(clog(z[k])), 2);
     }
 }
@@ -100,10 +100,10 @@ static void fill_beside(const double *push, const double complex *z, int d, doub
 /// R given Ñ.
 static void solve_courses(struct fit *f)
 {
-    int n = f->courses->frames, d = 2 * f->courses->count;
+    int n = f->series->frames, d = 2 * f->series->count;
     size_t block = (size_t)(d * d);
-    double push[COURSES_MAX], x[ROWS_MAX] = {0}, beside[BLOCK];
-    double complex z[COURSES_MAX];
+    double push[TIME_SERIES_MAX], x[ROWS_MAX] = {0}, beside[BLOCK];
+    double complex z[TIME_SERIES_MAX];
     weigh_pushes(f, push, z);
     fill_beside(push, z, d, beside);
     for (int t = 0; t < n; t++) {
@@ -129,22 +129,22 @@ static void solve_courses(struct fit *f)
             for (int k = 0; before && k < d; k++) right[i] -= before[k * d + i] * x[k];
         }
         solve_lower(l, d, right, 1);
-        for (int i = 0; i < d; i++) f->courses->rows[i * n + t] = x[i] = right[i];
+        for (int i = 0; i < d; i++) f->series->rows[i * n + t] = x[i] = right[i];
     }
     for (int t = n - 1; t >= 0; t--) {
         const double *l = f->factors + 2 * (size_t)t * block, *y = l + block;
         double right[ROWS_MAX];
         for (int i = 0; i < d; i++) {
-            right[i] = f->courses->rows[i * n + t];
+            right[i] = f->series->rows[i * n + t];
             for (int k = 0; t < n - 1 && k < d; k++) right[i] -= y[i * d + k] * x[k];
         }
         solve_upper(l, d, right);
-        for (int i = 0; i < d; i++) f->courses->rows[i * n + t] = x[i] = right[i];
+        for (int i = 0; i < d; i++) f->series->rows[i * n + t] = x[i] = right[i];
     }
 }
 
 /// Each R to a largest modulus of 1, so that the push's weight means the same in every turn.
-static void scale_courses(struct courses *c)
+static void scale_series(struct time_series *c)
 {
     for (int k = 0; k < c->count; k++) {
         double *re = c->rows + 2 * k * c->frames, *im = re + c->frames, largest = 0;
@@ -159,23 +159,23 @@ static void scale_courses(struct courses *c)
 /// Ñ given R; returns what both explain of Σ |s_t|².
 static double solve_shapes(struct fit *f)
 {
-    int n = f->courses->frames, d = 2 * f->courses->count;
+    int n = f->series->frames, d = 2 * f->series->count;
     double explained = 0;
-    scale_courses(f->courses);
+    scale_series(f->series);
     f->basis.count = 0;
-    for (int i = 0; i < d; i++) basis_append(&f->basis, f->courses->rows + i * n);
-    basis_weights(&f->basis, f->courses->weights);
-    f->lapack->dgemm(LAPACK_ROWS_FIRST, BLAS_PLAIN, BLAS_PLAIN, d, n, n, 1, f->courses->weights, n, f->gram, n, 0,
+    for (int i = 0; i < d; i++) basis_append(&f->basis, f->series->rows + i * n);
+    basis_weights(&f->basis, f->series->weights);
+    f->lapack->dgemm(LAPACK_ROWS_FIRST, BLAS_PLAIN, BLAS_PLAIN, d, n, n, 1, f->series->weights, n, f->gram, n, 0,
                      f->pull, n);
-    f->lapack->dgemm(LAPACK_ROWS_FIRST, BLAS_PLAIN, BLAS_TRANSPOSED, d, d, n, 1, f->pull, n, f->courses->weights, n,
-                     0, f->metric, d);
-    for (int i = 0; i < d * n; i++) explained += f->courses->rows[i] * f->pull[i];
+    f->lapack->dgemm(LAPACK_ROWS_FIRST, BLAS_PLAIN, BLAS_TRANSPOSED, d, d, n, 1, f->pull, n, f->series->weights, n, 0,
+                     f->metric, d);
+    for (int i = 0; i < d * n; i++) explained += f->series->rows[i] * f->pull[i];
     return explained;
 }
 
 static void measure_parts(const struct fit *f)
 {
-    struct courses *c = f->courses;
+    struct time_series *c = f->series;
     for (int k = 0; k < c->count; k++) {
         const double *re = c->rows + 2 * k * c->frames, *im = re + c->frames;
         const double *m = f->metric + (size_t)(2 * k) * (size_t)(2 * c->count + 1), *below = m + 2 * c->count;
@@ -186,7 +186,7 @@ static void measure_parts(const struct fit *f)
 
 static void take_turns(struct fit *f)
 {
-    int n = f->courses->frames;
+    int n = f->series->frames;
     double power = 0, before, explained = solve_shapes(f);
     for (int t = 0; t < n; t++) power += f->gram[(size_t)t * (size_t)(n + 1)];
     for (int turn = 0; turn < TURNS_MAX; turn++) {
@@ -197,12 +197,12 @@ static void take_turns(struct fit *f)
     }
 }
 
-void courses_create(struct courses *c, const struct lapack *lapack, const double *gram, int frames, int first,
-                    const double complex *poles, int count)
+void time_series_create(struct time_series *c, const struct lapack *lapack, const double *gram, int frames, int first,
+                        const double complex *poles, int count)
 {
     size_t n = (size_t)frames, d = 2 * (size_t)count;
-    struct fit fit = {.courses = c, .lapack = lapack, .gram = gram, .first = first};
-    *c = (struct courses){.frames = frames, .count = count};
+    struct fit fit = {.series = c, .lapack = lapack, .gram = gram, .first = first};
+    *c = (struct time_series){.frames = frames, .count = count};
     memcpy(c->pole, poles, (size_t)count * sizeof *poles);
     c->rows = need(d * n, sizeof *c->rows);
     c->weights = need(d * n, sizeof *c->weights);
@@ -221,9 +221,9 @@ void courses_create(struct courses *c, const struct lapack *lapack, const double
     free(fit.factors);
 }
 
-void courses_free(struct courses *c)
+void time_series_free(struct time_series *c)
 {
     free(c->rows);
     free(c->weights);
-    *c = (struct courses){0};
+    *c = (struct time_series){0};
 }
