@@ -32,10 +32,12 @@ static inline void session_close(struct session *session) { table_free(&session-
 /// A frame of 1/60 s, the editor's requests left to the test.
 static inline void session_frame(struct session *session)
 {
-    const struct table_hooks none = {0};
     struct frame_row row = {0};
     struct error error;
-    if (!table_frame(&session->table, 1.0 / 60, &none, &row, &error)) fail_msg("%s", error.text);
+    table_edit(&session->table, 1.0 / 60, &row);
+    if (!table_solve(&session->table, &row, &error)) fail_msg("%s", error.text);
+    table_pose(&session->table, &row);
+    table_show(&session->table, &row);
 }
 
 static inline void session_move(struct session *session, float x, float y)

@@ -505,6 +505,7 @@ static const char *said(struct blind *blind, enum request_kind kind, const char 
     struct core *core = &blind->app.table.editor->core;
     core->message = (struct message){0};
     core_request(core, kind, path);
+    app_requests(&blind->app);
     for (int i = 0; i < 2000 && !core->message.text[0]; i++) {
         blind_frame(blind);
         if (i > 1) nanosleep(&(struct timespec){.tv_nsec = 5000000}, NULL); // an export has a thread of its own

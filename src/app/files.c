@@ -37,6 +37,11 @@ static void show_title(struct app *app)
     platform_title(app->platform, title);
 }
 
+void app_show_title(struct app *app)
+{
+    if (history_is_saved(app->table.history) != app->shown_saved) show_title(app);
+}
+
 void app_adopt(struct app *app, struct document *document)
 {
     document_destroy(app->table.document);
@@ -315,16 +320,14 @@ static bool is_asked_about(struct app *app, const struct request *request)
 void app_requests(struct app *app)
 {
     for (;;) {
-        struct request request = editor_take_request(app->table.editor);
-        if (request.kind == REQUEST_NONE) break;
+        const struct request request = editor_take_request(app->table.editor);
+        if (request.kind == REQUEST_NONE) return;
         if (is_asked_about(app, &request)) continue;
         struct error error = {0};
-        bool done = carry_out(app, &request, &error);
+        const bool done = carry_out(app, &request, &error);
         const bool goes_on = done && request.kind == REQUEST_EXPORT;
         if (!goes_on) editor_answer(app->table.editor, &request, done, error.text);
     }
-    exporting_step(app);
-    if (history_is_saved(app->table.history) != app->shown_saved) show_title(app);
 }
 
 static bool is_scene_name(const char *name)

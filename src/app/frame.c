@@ -1,4 +1,5 @@
 /// One frame of the app: take input, work on the table, draw, log.
+#include "app/exporting.h"
 #include "app/state.h"
 #include "base/clock.h"
 #include "platform/process.h"
@@ -42,6 +43,7 @@ static void handle_event(struct app *app, const struct event *event)
         ui_scale_to_ui(app, &seen);
     }
     editor_event(app->table.editor, &world, &seen);
+    app_requests(app);
 }
 
 static void play_events(struct app *app)
@@ -152,14 +154,6 @@ static double step(struct app *app)
     return starts ? 0 : dt;
 }
 
-static void on_advanced(void *user)
-{
-    struct app *app = user;
-    app_requests(app);
-    ui_scale_update(app);
-    personal_update(app);
-}
-
 /// Says which characters are too large for the graphics driver.
 static void check_sizes(struct app *app)
 {
@@ -175,12 +169,11 @@ static void check_sizes(struct app *app)
     }
 }
 
-static void on_posed(void *user)
+/// How large the stage is drawn, which the status line says.
+static void choose_resolution(struct app *app)
 {
-    struct app *app = user;
     struct editor *editor = app->table.editor;
-    if (app->sized_serial != app->table.models_serial) check_sizes(app);
-    float scale = resolution_choose(&app->resolution, editor_stage(editor)->hash, resolution_now(app));
+    const float scale = resolution_choose(&app->resolution, editor_stage(editor)->hash, resolution_now(app));
     editor_set_stage_scale(editor, scale);
 }
 
@@ -273,15 +266,25 @@ static void log_frame(struct app *app)
 
 void app_frame(struct app *app)
 {
+    struct table *table = &app->table;
+    struct frame_row *row = &app->row;
     if (!take_input(app)) {
         personal_update(app);
         return;
     }
-    const struct table_hooks hooks = {on_advanced, on_posed, app};
-    if (!table_frame(&app->table, step(app), &hooks, &app->row, &app->error)) app->failed = true;
+    exporting_step(app);
+    table_edit(table, step(app), row);
+    app_show_title(app);
+    ui_scale_update(app);
+    personal_update(app);
+    app->failed |= !table_solve(table, row, &app->error);
     if (app->failed) return;
-    app->row.upload_us = app->row.draw_us = app->row.gpu_us = app->row.swap_us = NAN;
-    app->row.uploaded_bytes = -1;
+    table_pose(table, row);
+    if (app->sized_serial != table->models_serial) check_sizes(app);
+    choose_resolution(app);
+    table_show(table, row);
+    row->upload_us = row->draw_us = row->gpu_us = row->swap_us = NAN;
+    row->uploaded_bytes = -1;
     if (app->draw) draw(app);
     end_row(app);
     if (app->draw) after_drawing(app);

@@ -98,8 +98,10 @@ void app_adopt(struct app *app, struct document *document);
 /// The document's own file; "" for an untitled one.
 const char *app_path(const struct app *app);
 
-/// Carries out what the editor asked for: files, window, end.
+/// Carries out what an event has asked for: files, window, end.
 void app_requests(struct app *app);
+/// Keeps the star in the window's title, which says that there is unsaved work.
+void app_show_title(struct app *app);
 
 /// Writes unsaved work to the recovery file, else to a new file beside the scene's own one, and adds its
 /// path to the error's sentence.

@@ -9,13 +9,6 @@
 
 static double since(double start) { return 1e6 * (clock_now() - start); }
 
-static void advance(struct table *table, double dt, const struct table_hooks *hooks)
-{
-    struct editor_world world = table_world(table);
-    editor_advance(table->editor, &world, dt);
-    if (hooks->advanced) hooks->advanced(hooks->user);
-}
-
 /// Makes room for the document's splines and knots after an edit; `resized`: the number or length of splines has changed.
 static bool fit_evaluation(struct table *table, bool resized, struct error *error)
 {
@@ -66,32 +59,41 @@ static void read_models(struct table *table)
     if (!models_update(table->models, table->document, &error)) editor_message(table->editor, true, error.text);
 }
 
-static void show(struct table *table, const struct table_hooks *hooks)
+void table_edit(struct table *table, double dt, struct frame_row *row)
 {
-    struct editor_world world = table_world(table);
-    editor_pose(table->editor, &world);
-    if (hooks->posed) hooks->posed(hooks->user);
-    editor_show(table->editor, &world);
+    const double start = clock_now();
+    const struct editor_world world = table_world(table);
+    editor_advance(table->editor, &world, dt);
+    row->edit_us = since(start);
 }
 
-bool table_frame(struct table *table, double dt, const struct table_hooks *hooks, struct frame_row *row,
-                 struct error *error)
+bool table_solve(struct table *table, struct frame_row *row, struct error *error)
 {
-    double start = clock_now();
-    advance(table, dt, hooks);
-    row->edit_us = since(start);
     read_models(table);
     if (table->models) models_paint(table->models, table->document);
-    start = clock_now();
+    const double start = clock_now();
     if (!solve(table, row, error)) return false;
     if (table->models && !models_grow(table->models, table->document, &table->evaluation))
         editor_message(table->editor, true, "There is not enough memory for the meadow.");
     row->splines_solved += meadow_solved(models_meadow(table->models)); // a reed is a spline, too
     row->solve_us = since(start);
-    start = clock_now();
-    show(table, hooks);
-    row->pose_us = since(start);
     return true;
+}
+
+void table_pose(struct table *table, struct frame_row *row)
+{
+    const double start = clock_now();
+    const struct editor_world world = table_world(table);
+    editor_pose(table->editor, &world);
+    row->pose_us = since(start);
+}
+
+void table_show(struct table *table, struct frame_row *row)
+{
+    const double start = clock_now();
+    const struct editor_world world = table_world(table);
+    editor_show(table->editor, &world);
+    row->pose_us += since(start);
 }
 
 void table_free(struct table *table)

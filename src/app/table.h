@@ -6,7 +6,7 @@
 #include "scene/motion.h"
 #include "timing/framelog.h"
 
-/// All zero but what table_frame() works on.
+/// All zero but what a frame works on.
 struct table {
     struct editor *editor;
     struct document *document;
@@ -20,22 +20,19 @@ struct table {
     bool *dirty; ///< one a spline
 };
 
-/// What the app does between the parts of a frame; either may be NULL.
-struct table_hooks {
-    void (*advanced)(void *user); ///< the editor's requests wait for an answer
-    void (*posed)(void *user);    ///< the stage is set, what is around it is not yet
-    void *user;
-};
-
 static inline struct editor_world table_world(const struct table *table)
 {
     return (struct editor_world){table->document, table->history, &table->evaluation, table->models};
 }
 
-/// One frame, after its events: `dt` seconds of playback, the hooks' work, and the draw list. Enters times and counts in the
-/// row. false if memory is short for an edit.
-bool table_frame(struct table *table, double dt, const struct table_hooks *hooks, struct frame_row *row,
-                 struct error *error);
+/// The parts of a frame after its events, in turn. Each enters its time and counts in the row.
+/// `dt` seconds of playback, and the edits of a running drag.
+void table_edit(struct table *table, double dt, struct frame_row *row);
+/// false if memory is short for an edit.
+bool table_solve(struct table *table, struct frame_row *row, struct error *error);
+void table_pose(struct table *table, struct frame_row *row);
+/// The draw list.
+void table_show(struct table *table, struct frame_row *row);
 
 /// Frees everything on it.
 void table_free(struct table *table);

@@ -1,13 +1,7 @@
 /// The editor's public functions: who gets an event, and what happens once a frame.
 #include "editor/editor.h"
-#include "base/path.h"
-#include "editor/core/bones.h"
-#include "editor/core/characters.h"
 #include "editor/core/core.h"
-#include "editor/core/knots.h"
-#include "editor/core/pins.h"
 #include "editor/core/presenter.h"
-#include "editor/core/selection.h"
 #include "editor/curves/curves.h"
 #include "editor/dialogs/dialog_files.h"
 #include "editor/dialogs/dialogs.h"
@@ -22,29 +16,6 @@
 #include <string.h>
 
 enum { MAX_COMMANDS = 16384, MAX_POINTS = 1 << 18, MAX_TEXT = 1 << 16 };
-
-/// Passes core's news on to the panels.
-static void hear(void *who, const struct editor_world *world, enum news news, int spline)
-{
-    struct editor *editor = who;
-    switch (news) {
-    case NEWS_OPENED:
-        editor_open(editor, world);
-        break;
-    case NEWS_RENUMBERED:
-        curves_forget(editor->curves);
-        break;
-    case NEWS_ACTIVATES:
-        curves_activate(editor->curves, &editor->core, spline);
-        break;
-    case NEWS_ACTIVATED:
-        inspector_show_spline(editor->inspector, &editor->core, world->document, spline);
-        break;
-    case NEWS_EDITED:
-        curves_follow(editor->curves, spline);
-        break;
-    }
-}
 
 struct editor *editor_create(struct error *error)
 {
@@ -71,7 +42,6 @@ struct editor *editor_create(struct error *error)
     editor->core.ui_scale = 1;
     editor->core.brush = (struct brush){.radius = 0.12, .strength = 0.4};
     editor->core.overlays.ghost = true;
-    editor->core.listener = (struct listener){hear, editor};
     editor_resize(editor, 1280, 720, 1);
     return editor;
 }
@@ -118,18 +88,6 @@ void editor_set_panels(struct editor *editor, double stage_share, double inspect
     core_layout(&editor->core);
 }
 
-/// The spline that is active first: the first that moves something, else the first; -1 if there is none.
-static int first_spline(const struct document *document)
-{
-    for (int kind = 0; kind < RIG_KINDS; kind++) {
-        int r = document_next_rig(document, (enum rig_kind)kind, 0);
-        for (; r >= 0; r = document_next_rig(document, (enum rig_kind)kind, r + 1)) {
-            if (rig_input_count(&document->rigs[r]) > 0) return rig_input(&document->rigs[r], 0);
-        }
-    }
-    return document->spline_count > 0 ? 0 : -1;
-}
-
 void editor_reserve(struct editor *editor, const struct document *document)
 {
     core_reserve(&editor->core, document);
@@ -137,55 +95,40 @@ void editor_reserve(struct editor *editor, const struct document *document)
         core_message(&editor->core, true, "Out of memory: no box can be taken back.");
 }
 
-void editor_open(struct editor *editor, const struct editor_world *world)
+/// The panels start anew with a document.
+static void open_panels(struct editor *editor, const struct editor_world *world)
 {
-    const struct document *document = world->document;
-    selection_clear(&editor->core.selection);
-    editor->core.drag = (struct drag){0};
-    editor->core.hover = (struct hover){0};
+    editor->seen.serial = editor->core.serial;
+    editor->fitted = false;
     curves_open(editor->curves);
     stage_open(editor->stage);
-    editor->fitted = false;
-    editor->core.look = LOOK_WIGGLY;
-    characters_open(&editor->core, document);
-    bones_clear(&editor->core);
-    pins_clear(&editor->core);
-    editor->core.pick = (struct bone_pick){0};
-    memset(editor->core.recent, 0, sizeof editor->core.recent);
-    editor->core.active = first_spline(document);
-    editor->core.active_id = editor->core.active >= 0 ? document->splines[editor->core.active].id : 0;
-    selection_clear(&editor->core.hidden);
-    selection_clear(&editor->core.solo);
-    editor->core.seen_first = document->first_frame;
-    editor->core.seen_substeps = document->substeps;
-    editor->core.held_key = 0;
-    editor->core.space_down = false;
-    editor->core.message = (struct message){0};
-    editor->core.playback = (struct playback){.looping = true, .speed = 1, .playing = document->about != NULL};
-    for (int s = 0; s < document->spline_count; s++) {
-        editor->core.playback.playing |= spline_start(&document->splines[s]) == WIGGLY_LOOP;
-    }
-    editor->core.auto_key = false;
-    for (int r = 0; r < document->rig_count; r++) {
-        const struct rig *rig = &document->rigs[r];
-        editor->core.playback.playing |= rig->kind == RIG_MODEL && rig->model.clip;
-        for (int k = 0; k < 3 && rig->kind == RIG_TAIL; k++)
-            editor->core.auto_key |= rig->tail.position[k].track >= 0; // who animates a body goes on to
-    }
-    editor->core.serial = document->serial;
-    editor_reserve(editor, document);
+    editor_reserve(editor, world->document);
     inspector_reset(editor->inspector);
-    inspector_show_spline(editor->inspector, &editor->core, document, editor->core.active);
-    editor_set_path(editor, document->path ? document->path : "");
+    inspector_show_spline(editor->inspector, &editor->core, world->document, editor->core.active);
+    editor->seen.active = editor->core.active_id;
+}
+
+void editor_open(struct editor *editor, const struct editor_world *world)
+{
+    core_open(&editor->core, world->document);
+    open_panels(editor, world);
+}
+
+void editor_settle(struct editor *editor, const struct editor_world *world)
+{
+    struct core *core = &editor->core;
+    if (editor->seen.serial != core->serial) open_panels(editor, world);
+    if (editor->seen.active == core->active_id) return;
+    const int before = document_find_spline_id(world->document, editor->seen.active);
+    editor->seen.active = core->active_id;
+    if (core->active < 0) return;
+    if (before >= 0) curves_activate(editor->curves, core, before);
+    inspector_show_spline(editor->inspector, core, world->document, core->active);
 }
 
 void editor_show_poles(struct editor *editor) { inspector_unfold(editor->inspector, "section.poles"); }
 
-void editor_set_path(struct editor *editor, const char *path)
-{
-    snprintf(editor->core.path, sizeof editor->core.path, "%s", path);
-    snprintf(editor->core.title, sizeof editor->core.title, "%s", path[0] ? path_name(path) : "untitled");
-}
+void editor_set_path(struct editor *editor, const char *path) { core_set_path(&editor->core, path); }
 
 void editor_set_stage_scale(struct editor *editor, float scale) { transport_tell_scale(editor->transport, scale); }
 
@@ -196,11 +139,8 @@ void editor_set_stats(struct editor *editor, double fps, double solve_us)
 
 struct request editor_take_request(struct editor *editor)
 {
-    struct request taken = {.kind = REQUEST_NONE};
-    if (editor->core.request_count == 0) return taken;
-    taken = editor->core.requests[0];
-    editor->core.request_count--;
-    memmove(&editor->core.requests[0], &editor->core.requests[1], (size_t)editor->core.request_count * sizeof taken);
+    const struct request taken = editor->core.request;
+    editor->core.request = (struct request){.kind = REQUEST_NONE};
     return taken;
 }
 
@@ -246,7 +186,11 @@ void editor_tell_unkept(struct editor *editor, bool unkept)
     editor->core.unkept = unkept;
 }
 
-void editor_refresh(struct editor *editor, const struct editor_world *world) { core_refresh(&editor->core, world); }
+void editor_refresh(struct editor *editor, const struct editor_world *world)
+{
+    core_refresh(&editor->core, world);
+    editor_settle(editor, world);
+}
 
 void editor_show_last(struct editor *editor, const struct editor_world *world)
 {

@@ -69,7 +69,7 @@ void editor_pose_alone(struct editor *editor, const struct editor_world *world, 
 const struct drawlist *editor_drawlist(const struct editor *editor);
 const struct stage_view *editor_stage(const struct editor *editor);
 
-/// Takes the oldest request; REQUEST_NONE where there is none.
+/// Takes what an event has asked for, or an answer; REQUEST_NONE: nothing.
 struct request editor_take_request(struct editor *editor);
 
 /// Answers a request, once all that it entails (editor_open(), editor_set_path()) is done; every request gets an answer. If not

@@ -161,6 +161,7 @@ void editor_event(struct editor *editor, const struct editor_world *world, const
         editor->press = (struct press){.used = used, .repeated = event->action == ACTION_REPEAT};
     }
     if (!used) dispatch(editor, world, event);
+    editor_settle(editor, world);
     ask(editor, world);
     let_go(editor, world);
 }
@@ -184,6 +185,7 @@ void editor_advance(struct editor *editor, const struct editor_world *world, dou
     curves_advance(editor->curves, &editor->core, world, dt);
     drag_apply(&editor->core, world, dt);
     stage_advance(editor->stage, &editor->core, world, dt);
+    editor_settle(editor, world);
 }
 
 void editor_pose(struct editor *editor, const struct editor_world *world)

@@ -20,11 +20,17 @@ struct editor {
     struct transport *transport;
     struct press press;
     struct tooltip tooltip;
-    bool fitted; ///< camera and curves view, at the first editor_pose() of a document
+    struct {
+        unsigned serial; ///< of the document
+        unsigned active; ///< id of the spline
+    } seen;              ///< that the panels were last told of
+    bool fitted;         ///< camera and curves view, at the first editor_pose() of a document
 };
 
 /// Does what leaves the document, but asks first where work would be lost.
 void editor_leave(struct editor *editor, const struct editor_world *world, const struct request *request);
+/// After each event and edit: the panels follow another document and another active spline.
+void editor_settle(struct editor *editor, const struct editor_world *world);
 /// Memory for the document's knots in selection and drags; allocates only where knots were added.
 void editor_reserve(struct editor *editor, const struct document *document);
 

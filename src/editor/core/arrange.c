@@ -56,7 +56,6 @@ void arrange_refresh(struct core *core, const struct editor_world *world)
     if (!same || !active || active->id != core->active_id) {
         find_active(core, document);
         core->hover = (struct hover){0};
-        core_tell(core, world, NEWS_RENUMBERED, core->active);
     }
     double frame = core->seen_first + core->playback.position / core->seen_substeps;
     bool moved = core->seen_first != document->first_frame || core->seen_substeps != document->substeps;

@@ -83,7 +83,7 @@ static bool end_insertion(struct core *core, const struct editor_world *world, u
     pins_clear(core);
     for (unsigned id = first_id; id < document->next_id; id++) selection_set(&core->selection, id, true);
     picked_settle(core, world);
-    core_tell(core, world, NEWS_EDITED, -1);
+    core_edited(core, -1);
     return true;
 }
 

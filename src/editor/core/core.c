@@ -1,5 +1,6 @@
 /// What all panels share, and the edits that they ask for.
 #include "editor/core/core.h"
+#include "base/path.h"
 #include "editor/core/arrange.h"
 #include "editor/core/selection.h"
 #include <ctype.h>
@@ -10,10 +11,20 @@
 
 static const double MESSAGE_SECONDS = 5;
 
-void core_tell(const struct core *core, const struct editor_world *world, enum news news, int spline)
+void core_set_path(struct core *core, const char *path)
 {
-    const struct listener *listener = &core->listener;
-    if (listener->hear) listener->hear(listener->who, world, news, spline);
+    snprintf(core->path, sizeof core->path, "%s", path);
+    snprintf(core->title, sizeof core->title, "%s", path[0] ? path_name(path) : "untitled");
+}
+
+void core_edited(struct core *core, int spline)
+{
+    struct edited *edited = &core->edited;
+    if (spline < 0) edited->selection = true;
+    for (int i = 0; i < edited->count; i++) {
+        if (edited->spline[i] == spline) return;
+    }
+    if (spline >= 0 && edited->count < CORE_MAX_EDITED) edited->spline[edited->count++] = spline;
 }
 
 struct edit core_edit_of(enum edit_kind kind, int spline)
@@ -63,7 +74,7 @@ bool core_step(struct core *core, const struct editor_world *world, const char *
 void core_refresh(struct core *core, const struct editor_world *world)
 {
     if (core->serial != world->document->serial) {
-        core_tell(core, world, NEWS_OPENED, -1);
+        core_open(core, world->document);
     } else {
         arrange_refresh(core, world);
     }
@@ -81,7 +92,6 @@ static void return_to_active(struct core *core, const struct editor_world *world
         break;
     }
     core_refresh(core, world);
-    if (gone && core->active >= 0) core_tell(core, world, NEWS_ACTIVATED, core->active);
 }
 
 void core_undo(struct core *core, const struct editor_world *world, int direction)
@@ -117,17 +127,14 @@ void core_jump(struct core *core, const struct editor_world *world, size_t done)
 
 void core_request(struct core *core, enum request_kind kind, const char *path)
 {
-    if (core->request_count == EDITOR_MAX_REQUESTS) return;
-    struct request *request = &core->requests[core->request_count++];
-    request->kind = kind;
-    snprintf(request->path, sizeof request->path, "%s", path ? path : "");
+    core->request = (struct request){.kind = kind};
+    snprintf(core->request.path, sizeof core->request.path, "%s", path ? path : "");
 }
 
 void core_request_number(struct core *core, enum request_kind kind, int number)
 {
-    int at = core->request_count;
     core_request(core, kind, NULL);
-    if (core->request_count > at) core->requests[at].number = number;
+    core->request.number = number;
 }
 
 void core_message(struct core *core, bool is_error, const char *text)
@@ -169,12 +176,10 @@ struct spline *core_active_spline(const struct core *core, const struct editor_w
 void core_turn_to(struct core *core, const struct editor_world *world, int spline)
 {
     if (spline == core->active || spline < 0 || spline >= world->document->spline_count) return;
-    core_tell(core, world, NEWS_ACTIVATES, spline);
     memmove(core->recent + 1, core->recent, (CORE_MAX_RECENT - 1) * sizeof *core->recent);
     core->recent[0] = core->active_id;
     core->active = spline;
     core->active_id = world->document->splines[spline].id;
-    core_tell(core, world, NEWS_ACTIVATED, spline);
 }
 
 void core_activate(struct core *core, const struct editor_world *world, int spline)

@@ -4,8 +4,12 @@
 
 #include "editor/core/state.h"
 
-/// Tells the editor what has happened.
-void core_tell(const struct core *core, const struct editor_world *world, enum news news, int spline);
+/// A new document is on the table: selection, playhead and what is looked at start anew.
+void core_open(struct core *core, const struct document *document);
+/// The path of the document's own file, "" for none.
+void core_set_path(struct core *core, const char *path);
+/// A spline was edited, or where it is -1, its selected knots were.
+void core_edited(struct core *core, int spline);
 /// An edit with everything else zero (tracks -1): fill in what the kind needs.
 struct edit core_edit_of(enum edit_kind kind, int spline);
 /// The edit that gives a parameter of a spline a value, which stops it from following another.
@@ -23,7 +27,7 @@ void core_refresh(struct core *core, const struct editor_world *world);
 void core_undo(struct core *core, const struct editor_world *world, int direction);
 /// Undoes or redoes until `done` of the history's steps are done.
 void core_jump(struct core *core, const struct editor_world *world, size_t done);
-/// Queues a request to the app; `path` may be NULL.
+/// Asks the app for something; `path` may be NULL.
 void core_request(struct core *core, enum request_kind kind, const char *path);
 /// The same with a number.
 void core_request_number(struct core *core, enum request_kind kind, int number);

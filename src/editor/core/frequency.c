@@ -88,7 +88,7 @@ void core_find_frequency(struct core *core, const struct editor_world *world, in
     const bool good = core_edit(core, world, &edits[0]) && core_edit(core, world, &edits[1]);
     history_end(world->history);
     if (!good) return;
-    core_tell(core, world, NEWS_EDITED, core->active);
+    core_edited(core, core->active);
     const int length = snprintf(text, sizeof text, "%s: %.2f Hz, damping %.3g.", chosen ? "Runner-up" : "Best",
                                 found[chosen].frequency, found[chosen].damping);
     char *rest = text + length;

@@ -43,7 +43,7 @@ static void insert_at(struct core *core, const struct editor_world *world, const
     }
     if (at < 0) return;
     select_only(core, spline->knots[at].id);
-    core_tell(core, world, NEWS_EDITED, -1);
+    core_edited(core, -1);
 }
 
 /// The frame for a knot of the active spline: a whole one when `snap`, inside the range.

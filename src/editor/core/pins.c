@@ -59,11 +59,11 @@ struct edit pins_edit(enum edit_kind kind, int rig, const struct pin *pin)
     return edit;
 }
 
-void pins_tell(const struct core *core, const struct editor_world *world, int rig)
+void pins_tell(struct core *core, const struct editor_world *world, int rig)
 {
     const struct rig *moved = &world->document->rigs[rig];
     for (int i = 0; i < rig_input_count(moved); i++) {
-        if (rig_point_input(moved, i) >= 0) core_tell(core, world, NEWS_EDITED, rig_point_input(moved, i));
+        if (rig_point_input(moved, i) >= 0) core_edited(core, rig_point_input(moved, i));
     }
 }
 

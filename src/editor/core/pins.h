@@ -22,7 +22,7 @@ bool pins_put(struct core *core, const struct editor_world *world, int rig, int 
 /// The same at the playhead, as a step of its own.
 void pins_put_here(struct core *core, const struct editor_world *world, int rig, int point, const double to[3]);
 /// The splines that a pin of the rig moves have been edited.
-void pins_tell(const struct core *core, const struct editor_world *world, int rig);
+void pins_tell(struct core *core, const struct editor_world *world, int rig);
 /// The edit that gives a pin, found by its id, these numbers.
 struct edit pins_edit(enum edit_kind kind, int rig, const struct pin *pin);
 /// Moves the selected pin by metres; repeated nudges are one undo step.

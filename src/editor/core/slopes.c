@@ -74,7 +74,7 @@ static void change_knots(struct core *core, const struct editor_world *world, co
         core_edit(core, world, &edit);
     }
     history_end(world->history);
-    core_tell(core, world, NEWS_EDITED, -1);
+    core_edited(core, -1);
 }
 
 void slopes_turn(struct core *core, const struct editor_world *world, int direction)

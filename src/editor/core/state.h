@@ -7,7 +7,7 @@
 #include "editor/core/world.h"
 #include <stdint.h>
 
-enum { EDITOR_MAX_REQUESTS = 8, CORE_MAX_RECENT = 16, STOPPED_SIZE = 96 /* of what stops an edit, in words */ };
+enum { CORE_MAX_RECENT = 16, STOPPED_SIZE = 96 /* of what stops an edit, in words */ };
 
 /// Rectangles of the panels, in logical pixels; made by core_layout().
 struct layout {
@@ -137,19 +137,13 @@ struct message {
     double seconds_left; ///< of a message that is not an error
 };
 
-/// What panels must hear of at once.
-enum news {
-    NEWS_OPENED,     ///< another document is on the table
-    NEWS_RENUMBERED, ///< splines have other indices
-    NEWS_ACTIVATES,  ///< a spline is about to become the active one
-    NEWS_ACTIVATED,  ///< it is
-    NEWS_EDITED,     ///< a spline was, or where it is -1, its selected knots were; not solved yet
-};
+enum { CORE_MAX_EDITED = 8 };
 
-/// Who hears it: the editor, which passes it on to its panels.
-struct listener {
-    void (*hear)(void *who, const struct editor_world *world, enum news news, int spline);
-    void *who;
+/// What was edited since the curves last looked, and is not solved yet: their view follows it.
+struct edited {
+    bool selection; ///< the selected knots
+    int count;      ///< all knots of these splines
+    int spline[CORE_MAX_EDITED];
 };
 
 /// What is asked about before: ASK_REMOVE is about the active spline, ASK_ADD asks for a file.
@@ -236,6 +230,7 @@ struct core {
     struct playback playback;
     struct drag drag;
     struct originals originals;
+    struct edited edited;
     struct hover hover;
     enum look look;
     wiggly_method method; ///< that solves the splines; stays as it is when another document is opened
@@ -261,14 +256,12 @@ struct core {
     char title[256];       ///< the file's name, or "untitled"
     char path[PATH_LIMIT]; ///< of the document's own file, or ""
     struct message message;
-    bool unkept;     ///< unsaved work has no recovery file
-    bool unshown;    ///< something of the status line has changed since it was drawn
-    struct ask ask;  ///< what is to be asked next
-    char *clipboard; ///< knots that were copied, as text; NULL at first
-    struct request requests[EDITOR_MAX_REQUESTS];
-    int request_count;
+    bool unkept;            ///< unsaved work has no recovery file
+    bool unshown;           ///< something of the status line has changed since it was drawn
+    struct ask ask;         ///< what is to be asked next
+    char *clipboard;        ///< knots that were copied, as text; NULL at first
+    struct request request; ///< the app carries it out after the event
     struct drawlist list;
-    struct listener listener;
 };
 
 #endif

@@ -41,8 +41,8 @@ static void move(void *room, struct core *core, const struct editor_world *world
     }
     if (arrange_seen(core, world)) take_inside(curves, core, document, core->active);
     for (int i = 0; i < curves->cache.other_count; i++) {
-        const int other = curves->cache.other_spline[i];
-        if (other < document->spline_count) take_inside(curves, core, document, other);
+        const int other = curves_other(curves, document, i);
+        if (other >= 0) take_inside(curves, core, document, other);
     }
 }
 

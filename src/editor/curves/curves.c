@@ -33,7 +33,7 @@ void curves_open(struct curves *curves)
 {
     curves->cache.key = 0;
     curves->cache.range_count = 0;
-    follow_stop(curves);
+    curves->following = (struct following){0};
     curves->warnings = (struct warnings){0};
 }
 
@@ -41,12 +41,6 @@ bool curves_reserve(struct curves *curves, const struct core *core)
 {
     unsigned ids = core->selection.capacity;
     return curves->before_box.capacity >= ids || selection_reserve(&curves->before_box, ids);
-}
-
-void curves_forget(struct curves *curves)
-{
-    curves->cache.key = 0;
-    curves->cache.other_count = curves->cache.count = 0;
 }
 
 bool curves_wants_frames(const struct curves *curves) { return follow_moves(curves); }
@@ -78,8 +72,8 @@ static void nearest_other_knot(const struct curves *curves, const struct core *c
 {
     float best = OTHER_REACH;
     for (int i = 0; i < curves->cache.other_count; i++) {
-        int spline = curves->cache.other_spline[i];
-        if (spline < document->spline_count) best = nearest_knot(curves, core, document, spline, x, y, best, hover);
+        const int spline = curves_other(curves, document, i);
+        if (spline >= 0) best = nearest_knot(curves, core, document, spline, x, y, best, hover);
     }
 }
 

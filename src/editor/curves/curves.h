@@ -31,8 +31,6 @@ void curves_wheel(struct curves *curves, struct core *core, const struct event *
 void curves_open(struct curves *curves);
 /// Room for as many selected knots as core has; allocates only where knots were added. false where memory is short.
 bool curves_reserve(struct curves *curves, const struct core *core);
-/// Splines have new indices: drops the polylines, which use them.
-void curves_forget(struct curves *curves);
 /// Whether a search for warnings goes on, or the view moves.
 bool curves_wants_frames(const struct curves *curves);
 /// Ends of a knot's slope handle: before (0) or after (1) the knot.
@@ -42,8 +40,8 @@ void curves_handle(const struct curves *curves, const struct core *core, const s
 void curves_show(struct curves *curves, struct core *core, const struct editor_world *world);
 /// Switches normalisation.
 void curves_toggle_normal(struct curves *curves, struct core *core, const struct editor_world *world);
-/// Another spline becomes active: keeps the picture as it is.
-void curves_activate(struct curves *curves, struct core *core, int spline);
+/// Another spline has become active than `before`: keeps the picture as it is.
+void curves_activate(struct curves *curves, struct core *core, int before);
 /// Fixes the first warning.
 void curves_remedy_first(struct curves *curves, struct core *core, const struct editor_world *world);
 /// Starts to scale the selected knots with the pointer: about the middle of the selection, or their values about the
@@ -65,8 +63,6 @@ void curves_frame_all(struct curves *curves, struct core *core, const struct edi
 void curves_frame_selection(struct curves *curves, struct core *core, const struct editor_world *world);
 /// Pans just far enough to show a frame and value.
 void curves_reveal(struct curves *curves, struct core *core, double frame, double value);
-/// All of a spline, or the selected knots (-1), have been edited: once they are solved they are to be in sight.
-void curves_follow(struct curves *curves, int spline);
 /// After the solve: where what was edited has left the panel, the view is to widen.
 void follow_edits(struct curves *curves, struct core *core, const struct editor_world *world);
 /// Time passes: the view goes on to where it is to be.

@@ -11,16 +11,10 @@ static const double CLOSE = 0.25;  ///< pixels: it is there
 static const double MARGIN = 0.06; ///< of what is seen, beyond what was edited
 static const double WIDEST = 1.7;  ///< of the visible frames: what needs more is panned to
 
-void follow_stop(struct curves *curves) { curves->following = (struct following){0}; }
-
-void curves_follow(struct curves *curves, int spline)
+void follow_stop(struct curves *curves, struct core *core)
 {
-    struct following *following = &curves->following;
-    if (spline < 0) following->selection = true;
-    for (int i = 0; i < following->count; i++) {
-        if (following->spline[i] == spline) return;
-    }
-    if (spline >= 0 && following->count < CURVES_MAX_FOLLOWED) following->spline[following->count++] = spline;
+    curves->following = (struct following){0};
+    core->edited = (struct edited){0};
 }
 
 bool follow_moves(const struct curves *curves) { return curves->following.moves; }
@@ -66,14 +60,14 @@ static void include_knot(const struct curves *curves, const struct core *core, c
 /// The frames and values of all that was edited since the last picture; of splines only values, where they are in sight.
 static struct view edited_part(const struct curves *curves, const struct core *core, const struct editor_world *world)
 {
-    const struct following *following = &curves->following;
+    const struct edited *edited = &core->edited;
     const struct document *document = world->document;
-    struct view edited = {INFINITY, -INFINITY, INFINITY, -INFINITY};
-    for (struct knot_place at = PICKED_START; following->selection && picked_next(core, document, &at);)
-        include_knot(curves, core, world, at, &edited);
-    for (int i = 0; i < following->count; i++)
-        include_curve(curves, core, world, following->spline[i], 0, document_samples(document) - 1, &edited);
-    return edited;
+    struct view part = {INFINITY, -INFINITY, INFINITY, -INFINITY};
+    for (struct knot_place at = PICKED_START; edited->selection && picked_next(core, document, &at);)
+        include_knot(curves, core, world, at, &part);
+    for (int i = 0; i < edited->count; i++)
+        include_curve(curves, core, world, edited->spline[i], 0, document_samples(document) - 1, &part);
+    return part;
 }
 
 /// Moves the edges of what is seen out to what has to be; where that would be too wide, all of it by what is missing.
@@ -95,7 +89,7 @@ static void widen(double *low, double *high, const double part[2], double widest
 void follow_edits(struct curves *curves, struct core *core, const struct editor_world *world)
 {
     struct following *following = &curves->following;
-    if (!following->selection && following->count == 0) return;
+    if (!core->edited.selection && core->edited.count == 0) return;
     const struct view edited = edited_part(curves, core, world);
     struct view goal = following->moves ? following->goal : curves->view;
     if (edited.frame0 <= edited.frame1)
@@ -105,6 +99,7 @@ void follow_edits(struct curves *curves, struct core *core, const struct editor_
     const bool moves = goal.frame0 != curves->view.frame0 || goal.frame1 != curves->view.frame1 ||
                        goal.value0 != curves->view.value0 || goal.value1 != curves->view.value1;
     *following = (struct following){.moves = moves, .goal = goal};
+    core->edited = (struct edited){0};
 }
 
 void curves_advance(struct curves *curves, struct core *core, const struct editor_world *world, double dt)

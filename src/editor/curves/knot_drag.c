@@ -173,7 +173,7 @@ static void end_knots(void *room, struct core *core, const struct editor_world *
     (void)world;
     if (!keep) return;
     if (core->drag.moved) {
-        curves_follow(curves, -1);
+        core_edited(core, -1);
     } else if (curves->knot_drag.collapse) {
         selection_clear(&core->selection);
         selection_set(&core->selection, core->drag.knot, true);

@@ -51,5 +51,5 @@ void curves_nudge(const struct curves *curves, struct core *core, const struct e
     if (*why) core_stopped(core, why);
     history_end(world->history);
     core->nudged_seconds = GHOST_SECONDS;
-    core_tell(core, world, NEWS_EDITED, -1);
+    core_edited(core, -1);
 }

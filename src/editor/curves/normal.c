@@ -9,11 +9,11 @@
 
 static bool has_height(const double range[2]) { return range[1] - range[0] > 1e-12 * fmax(1, fabs(range[0])); }
 
-struct value_map normal_map(const struct curves *curves, const struct core *core, int spline)
+/// Where the values of one spline are drawn as those of another.
+static struct value_map map_between(const struct curves *curves, int active, int spline)
 {
     const struct value_map as_it_is = {1, 0};
     const struct curve_cache *cache = &curves->cache;
-    int active = core->active;
     bool known = spline < cache->range_count && active >= 0 && active < cache->range_count;
     if (!curves->options.normalise || spline == active || !known) return as_it_is;
     const double *to = cache->range[active], *from = cache->range[spline];
@@ -21,6 +21,11 @@ struct value_map normal_map(const struct curves *curves, const struct core *core
     if (!has_height(from)) return (struct value_map){1, (to[0] + to[1]) / 2 - from[0]};
     double scale = (to[1] - to[0]) / (from[1] - from[0]);
     return (struct value_map){scale, to[0] - scale * from[0]};
+}
+
+struct value_map normal_map(const struct curves *curves, const struct core *core, int spline)
+{
+    return map_between(curves, core->active, spline);
 }
 
 float curves_y_of(const struct curves *curves, const struct core *core, int spline, double value)
@@ -55,8 +60,8 @@ void curves_toggle_normal(struct curves *curves, struct core *core, const struct
             : "All curves share one axis again.");
 }
 
-void curves_activate(struct curves *curves, struct core *core, int spline)
+void curves_activate(struct curves *curves, struct core *core, int before)
 {
-    struct value_map map = normal_map(curves, core, spline);
+    const struct value_map map = map_between(curves, before, core->active);
     view_rescale(curves, core, map.scale, map.offset);
 }

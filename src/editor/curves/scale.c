@@ -338,8 +338,9 @@ static enum drag_answer take_event(void *room, struct core *core, const struct e
 /// What was scaled comes into sight.
 static void end(void *room, struct core *core, const struct editor_world *world, bool keep)
 {
+    (void)room;
     (void)world;
-    if (keep && core->drag.moved) curves_follow(room, -1);
+    if (keep && core->drag.moved) core_edited(core, -1);
 }
 
 /// Begun by S without a button and ended by a click or Enter, or of a handle of the box round the knots.

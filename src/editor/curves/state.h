@@ -39,15 +39,10 @@ struct view {
     double value0, value1; ///< at its bottom and top edge
 };
 
-enum { CURVES_MAX_FOLLOWED = 8 };
-
 /// The view on its way to what was edited.
 struct following {
     bool moves;
     struct view goal;
-    bool selection; ///< the selected knots were edited since the last picture
-    int count;      ///< and all knots of these splines
-    int spline[CURVES_MAX_FOLLOWED];
 };
 
 /// What a box does with the knots in it.
@@ -146,6 +141,7 @@ struct curve_cache {
     bool band, other_band[CURVES_MAX_OTHERS];
     int fan_count, other_count;
     int other_spline[CURVES_MAX_OTHERS];
+    unsigned other_id[CURVES_MAX_OTHERS];
     double range[CURVES_MAX_RANGES][2]; ///< lowest and highest value of each spline, where curves are normalised
     int range_count;
 };

@@ -120,7 +120,7 @@ static void include_rest(struct curves *curves, const struct core *core, const s
 
 void curves_frame_all(struct curves *curves, struct core *core, const struct editor_world *world)
 {
-    follow_stop(curves);
+    follow_stop(curves, core);
     const struct document *document = world->document;
     const struct evaluation *evaluation = world->evaluation;
     double range[2] = {INFINITY, -INFINITY};
@@ -170,7 +170,7 @@ void curves_frame_selection(struct curves *curves, struct core *core, const stru
         return;
     }
     double margin = fmax(0.25 * (frames[1] - frames[0]), 6);
-    follow_stop(curves);
+    follow_stop(curves, core);
     curves->view.frame0 = frames[0] - margin;
     curves->view.frame1 = frames[1] + margin;
     int seen = -1;
@@ -183,7 +183,7 @@ void curves_frame_selection(struct curves *curves, struct core *core, const stru
 
 void curves_reveal(struct curves *curves, struct core *core, double frame, double value)
 {
-    follow_stop(curves);
+    follow_stop(curves, core);
     struct view *view = &curves->view;
     double frames = 0.05 * (view->frame1 - view->frame0);
     double values = 0.05 * (view->value1 - view->value0);
@@ -198,7 +198,7 @@ void curves_reveal(struct curves *curves, struct core *core, double frame, doubl
 
 void view_rescale(struct curves *curves, struct core *core, double scale, double offset)
 {
-    follow_stop(curves);
+    follow_stop(curves, core);
     curves->view.value0 = (curves->view.value0 - offset) / scale;
     curves->view.value1 = (curves->view.value1 - offset) / scale;
     keep_sane(curves, core);
@@ -206,7 +206,7 @@ void view_rescale(struct curves *curves, struct core *core, double scale, double
 
 void curves_pan(struct curves *curves, struct core *core, double dx, double dy)
 {
-    follow_stop(curves);
+    follow_stop(curves, core);
     struct view *view = &curves->view;
     double frames = dx / curves_pixels_per_frame(curves, core);
     double values = dy / curves_pixels_per_value(curves, core);
@@ -219,7 +219,7 @@ void curves_pan(struct curves *curves, struct core *core, double dx, double dy)
 
 void curves_zoom(struct curves *curves, struct core *core, float x, float y, double time_factor, double value_factor)
 {
-    follow_stop(curves);
+    follow_stop(curves, core);
     struct view *view = &curves->view;
     double frame = curves_frame(curves, core, x);
     double value = curves_value(curves, core, y);

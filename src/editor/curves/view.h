@@ -15,7 +15,7 @@ double curves_value(const struct curves *curves, const struct core *core, double
 /// Shows a part, within reason.
 void view_set(struct curves *curves, struct core *core, struct view view);
 /// The view stays where it is, whatever was edited.
-void follow_stop(struct curves *curves);
+void follow_stop(struct curves *curves, struct core *core);
 /// Whether the view is on its way.
 bool follow_moves(const struct curves *curves);
 /// Shows the values v that were shown as scale·v + offset.
@@ -30,6 +30,8 @@ void normal_update(struct curves *curves, const struct core *core, const struct 
 
 /// Rebuilds the polylines where document, view or layout changed since; allocates nothing.
 void curves_update(struct curves *curves, struct core *core, const struct editor_world *world);
+/// The spline whose polyline is one of the others, or -1 where an edit has given it another place since it was drawn.
+int curves_other(const struct curves *curves, const struct document *document, int other);
 /// Before a drag makes its first edits: keeps a copy of the active curve to show behind it.
 void keep_ghost(struct curves *curves, const struct core *core, const struct editor_world *world);
 /// Where a knot is across the panel, logical pixels: on its sample.

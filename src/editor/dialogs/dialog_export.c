@@ -140,7 +140,7 @@ static void confirm(struct dialogs *dialogs, struct core *core)
     }
     dialogs->exporting.done = dialogs->exporting.total = 0;
     dialog_await(dialogs, core, REQUEST_EXPORT, full);
-    if (core->request_count > 0) core->requests[core->request_count - 1].wish = memory->wish;
+    core->request.wish = memory->wish;
 }
 
 static void stop(struct dialogs *dialogs, struct core *core)

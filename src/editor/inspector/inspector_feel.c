@@ -61,7 +61,7 @@ static void apply(struct inspection *in, const struct preset *preset)
     if (!good) history_restart(in->world->history, in->document);
     history_end(in->world->history);
     core_refresh(in->core, in->world);
-    core_tell(in->core, in->world, NEWS_EDITED, in->core->active);
+    core_edited(in->core, in->core->active);
 }
 
 static float presets_width(int first, int end)

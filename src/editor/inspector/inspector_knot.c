@@ -169,7 +169,7 @@ static void build_field(struct inspection *in, const struct knot_field *field, s
     } else if (change != UI_NONE) {
         change_all(in, change, field, value);
     }
-    if (inspector_changed(change)) core_tell(in->core, in->world, NEWS_EDITED, -1);
+    if (inspector_changed(change)) core_edited(in->core, -1);
 }
 
 static bool all_sloped(const struct inspection *in)
@@ -229,7 +229,7 @@ static void build_one(struct inspection *in, int which, unsigned id, struct rect
     struct edit edit = core_edit_of(EDIT_KNOT_SET, in->core->active);
     edit.knot = next;
     inspector_change(in, change, field->undo_one, number.name, &edit);
-    if (inspector_changed(change)) core_tell(in->core, in->world, NEWS_EDITED, -1);
+    if (inspector_changed(change)) core_edited(in->core, -1);
 }
 
 static bool has_slope(const struct inspection *in, unsigned id)

@@ -136,7 +136,7 @@ static void roll(struct inspection *in, const struct spline *spline)
     edit = core_parameter_edit(in->core->active, PARAMETER_VARIATION, FRESH_VARIATION);
     if (spline->parameter[PARAMETER_VARIATION].value == 0) core_edit(in->core, in->world, &edit);
     history_end(in->world->history);
-    core_tell(in->core, in->world, NEWS_EDITED, in->core->active);
+    core_edited(in->core, in->core->active);
 }
 
 /// Why there is no variation to see; NULL: there is.

@@ -139,10 +139,10 @@ static void select_knot(const struct stage *stage, struct core *core, const stru
     pins_clear(core);
     selection_clear(&core->selection);
     selection_set(&core->selection, spline->knots[at].id, true);
-    core_tell(core, world, NEWS_EDITED, -1);
+    core_edited(core, -1);
     for (int a = 0; a < 2; a++) {
         const struct grab_axis *axis = &grab->axis[a];
-        if (axis->active && axis->spline != core->active) core_tell(core, world, NEWS_EDITED, axis->spline);
+        if (axis->active && axis->spline != core->active) core_edited(core, axis->spline);
     }
 }
 

@@ -53,14 +53,14 @@ static int key_coordinate(const struct stage *stage, struct core *core, const st
         edit.knot.value = core_round(before + by, RESOLUTION);
         core_hold(&document->splines[spline], &edit.knot, why);
         core_edit(core, world, &edit);
-        core_tell(core, world, NEWS_EDITED, spline);
+        core_edited(core, spline);
         return -1;
     }
     if (sample > 1) base_put_knot(core, world, spline, 0, before, true, why);
     base_put_knot(core, world, spline, sample, before + by, true, why);
     base_follow(stage, core, world, coordinate, spline);
     const int swings = base_hang_channels(stage, core, world, coordinate, spline);
-    core_tell(core, world, NEWS_EDITED, spline);
+    core_edited(core, spline);
     return swings;
 }
 
@@ -142,7 +142,7 @@ static double shift_spline(struct core *core, const struct editor_world *world, 
             spline_within(&world->document->splines[spline], core_round(edit.knot.value + by, RESOLUTION));
         core_edit(core, world, &edit);
     }
-    core_tell(core, world, NEWS_EDITED, spline);
+    core_edited(core, spline);
     return by;
 }
 

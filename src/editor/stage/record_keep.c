@@ -62,7 +62,7 @@ static int key_coordinate(const struct stage *stage, struct core *core, const st
     if (is_new) base_follow(stage, core, world, coordinate, spline);
     const int hung = base_hang_channels(stage, core, world, coordinate, spline);
     if (hung >= 0) *swings = hung;
-    core_tell(core, world, NEWS_EDITED, spline);
+    core_edited(core, spline);
     return made;
 }
 
