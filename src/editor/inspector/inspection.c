@@ -2,6 +2,8 @@
 #include "editor/inspector/inspection.h"
 #include "editor/core/arrange.h"
 #include "editor/core/core.h"
+#include <math.h>
+#include <string.h>
 
 void inspector_take_back(struct inspection *in, enum ui_change change)
 {
@@ -49,6 +51,72 @@ void inspector_change_all(struct inspection *in, enum ui_change change, const ch
     history_begin(history, label, merge);
     for (int i = 0; i < count; i++) core_edit(in->core, in->world, &edits[i]);
     history_end(history);
+}
+
+static double get_number(const struct number_row *row, const struct setting *setting)
+{
+    const char *at = (const char *)setting + row->at;
+    double number;
+    int whole;
+    if (row->is_whole) {
+        memcpy(&whole, at, sizeof whole);
+        return whole;
+    }
+    memcpy(&number, at, sizeof number);
+    return number;
+}
+
+static void set_number(const struct number_row *row, struct setting *setting, double number)
+{
+    char *at = (char *)setting + row->at;
+    const int whole = row->is_whole ? (int)lround(number) : 0;
+    if (row->is_whole) {
+        memcpy(at, &whole, sizeof whole);
+    } else {
+        memcpy(at, &number, sizeof number);
+    }
+}
+
+/// A drag stays where it last was possible.
+static void drag(struct inspection *in, const struct number_row *row, struct setting *setting, double value)
+{
+    struct history *history = in->world->history;
+    double *possible = &in->inspector->dragged;
+    if (!history_is_open(history)) {
+        history_begin(history, row->undo, 0);
+        *possible = get_number(row, setting);
+    }
+    set_number(row, setting, value);
+    if (history_apply(history, in->document, &setting->edit, NULL)) {
+        *possible = value;
+    } else {
+        set_number(row, setting, *possible);
+        history_apply(history, in->document, &setting->edit, NULL);
+    }
+    core_refresh(in->core, in->world);
+}
+
+enum ui_change inspector_number(struct inspection *in, const struct number_row *row, struct rect r)
+{
+    struct setting setting;
+    row->now(in, row->which, &setting);
+    double value = get_number(row, &setting);
+    const enum ui_change change = ui_value(in->ui, r, &row->number, &value);
+    if (change == UI_NONE) return change;
+    inspector_take_back(in, change); // an edit may start from more than the number: from what was before the drag
+    row->now(in, row->which, &setting);
+    if (change == UI_DRAG) {
+        drag(in, row, &setting, value);
+        return change;
+    }
+    set_number(row, &setting, value);
+    inspector_change(in, change, row->undo, row->number.name, &setting.edit);
+    return change;
+}
+
+void inspector_numbers(struct inspection *in, const struct number_row *rows, int count)
+{
+    for (int i = 0; i < count; i++) inspector_number(in, &rows[i], ui_row(in->ui, UI_ROW));
 }
 
 int inspector_spline_items(const struct inspection *in, const bool *left_out, int chosen, struct ui_item *items,

@@ -91,6 +91,27 @@ void inspector_change(struct inspection *in, enum ui_change change, const char *
 void inspector_change_all(struct inspection *in, enum ui_change change, const char *label, const char *what,
                           const struct edit *edits, int count);
 
+/// An edit that would set things as they are.
+struct setting {
+    struct edit edit;
+    struct rig contents; ///< where edit.contents points, for edits that have some
+};
+
+/// A row of a table: a number of the scene, and how it is set.
+struct number_row {
+    struct ui_number number;
+    const char *undo; ///< what its step of the history is called
+    size_t at;        ///< of the number in struct setting
+    bool is_whole;    ///< it is an int there
+    void (*now)(const struct inspection *in, int which, struct setting *setting);
+    int which; ///< for now(), which of several
+};
+
+/// A row on the panel, and its edit where it changes. The number is built from the document as the rows before left it.
+enum ui_change inspector_number(struct inspection *in, const struct number_row *row, struct rect r);
+/// Several, one below the other.
+void inspector_numbers(struct inspection *in, const struct number_row *rows, int count);
+
 /// Rows for the splines of the document, without those that are left out (by index; NULL: none), in room for INSPECTOR_MAX_SPLINES;
 /// returns how many. `row`: that of the chosen spline, or -1.
 int inspector_spline_items(const struct inspection *in, const bool *left_out, int chosen, struct ui_item *items,

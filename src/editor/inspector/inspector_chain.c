@@ -54,26 +54,28 @@ void inspector_chain_lists(struct inspection *in)
     }
 }
 
-static void build_turn(struct inspection *in)
+static void now(const struct inspection *in, int which, struct setting *setting)
 {
-    static const struct ui_number turn = {.name = "chain.turn",
-                                          .label = "turn",
-                                          .unit = "°",
-                                          .hint = "Turns the axes of side and up about the chain's own direction",
-                                          .minimum = -180,
-                                          .maximum = 180,
-                                          .lowest = -36000,
-                                          .highest = 36000,
-                                          .fallback = 0,
-                                          .step = 1};
-    double degrees = inspector_shown(in)->chain.turn;
-    const enum ui_change change = ui_value(in->ui, ui_row(in->ui, UI_ROW), &turn, &degrees);
-    inspector_take_back(in, change); // frees the names that the drag's last edit has made
-    struct rig contents = *inspector_shown(in);
-    contents.chain.turn = degrees;
-    const struct edit edit = chain_edit(in, &contents);
-    inspector_change(in, change, "Turn chain's axes", turn.name, &edit);
+    (void)which;
+    setting->contents = *inspector_shown(in);
+    setting->edit = chain_edit(in, &setting->contents);
 }
+
+static const struct number_row turn_row = {{.name = "chain.turn",
+                                            .label = "turn",
+                                            .unit = "°",
+                                            .hint = "Turns the axes of side and up about the chain's own direction",
+                                            .minimum = -180,
+                                            .maximum = 180,
+                                            .lowest = -36000,
+                                            .highest = 36000,
+                                            .fallback = 0,
+                                            .step = 1},
+                                           "Turn chain's axes",
+                                           offsetof(struct setting, contents.chain.turn),
+                                           false,
+                                           now,
+                                           0};
 
 static void build_mirror(struct inspection *in)
 {
@@ -100,7 +102,7 @@ void inspector_chain(struct inspection *in)
     const struct chain *chain = &inspector_shown(in)->chain;
     build_end(in, &ends[0], chain->from);
     build_end(in, &ends[1], chain->to);
-    build_turn(in);
+    inspector_numbers(in, &turn_row, 1);
     build_mirror(in);
     build_twin(in);
 }

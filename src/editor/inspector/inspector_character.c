@@ -62,40 +62,49 @@ static const struct drive *felt_drive(const struct inspection *in)
     return rig->drives[view->drive].spline == in->core->active ? &rig->drives[view->drive] : NULL;
 }
 
+static void drive_now(const struct inspection *in, int which, struct setting *setting)
+{
+    (void)which;
+    setting->edit = drive_edit(in, EDIT_DRIVE, felt_drive(in));
+}
+
+static const struct number_row drive_rows[] = {
+    {{.name = "drive.lag",
+      .label = "lag",
+      .unit = "°",
+      .hint = "How far it lags behind the spline; 360 is a full swing",
+      .minimum = -180,
+      .maximum = 180,
+      .lowest = -36000,
+      .highest = 36000,
+      .fallback = 0,
+      .step = 1,
+      .decimals = 1},
+     "Set lag",
+     offsetof(struct setting, edit.drive.lag),
+     false,
+     drive_now,
+     0},
+    {{.name = "amplitude",
+      .label = "amplitude",
+      .hint = "How far it swings when the spline is 1",
+      .minimum = -2,
+      .maximum = 2,
+      .lowest = -INSPECTOR_NO_LIMIT,
+      .highest = INSPECTOR_NO_LIMIT,
+      .fallback = DRIVE_DEFAULT_AMPLITUDE,
+      .step = 0.05,
+      .decimals = 2},
+     "Set amplitude",
+     offsetof(struct setting, edit.drive.amplitude),
+     false,
+     drive_now,
+     0},
+};
+
 void inspector_felt_drive(struct inspection *in)
 {
-    const struct drive *drive = felt_drive(in);
-    if (!drive) return;
-
-    static const struct ui_number amplitude_row = {.name = "amplitude",
-                                                   .label = "amplitude",
-                                                   .hint = "How far it swings when the spline is 1",
-                                                   .minimum = -2,
-                                                   .maximum = 2,
-                                                   .lowest = -INSPECTOR_NO_LIMIT,
-                                                   .highest = INSPECTOR_NO_LIMIT,
-                                                   .fallback = DRIVE_DEFAULT_AMPLITUDE,
-                                                   .step = 0.05,
-                                                   .decimals = 2};
-    static const struct ui_number lag_row = {.name = "drive.lag",
-                                             .label = "lag",
-                                             .unit = "°",
-                                             .hint = "How far it lags behind the spline; 360 is a full swing",
-                                             .minimum = -180,
-                                             .maximum = 180,
-                                             .lowest = -36000,
-                                             .highest = 36000,
-                                             .fallback = 0,
-                                             .step = 1,
-                                             .decimals = 1};
-    struct drive next = *drive;
-    enum ui_change change = ui_value(in->ui, ui_row(in->ui, UI_ROW), &lag_row, &next.lag);
-    struct edit edit = drive_edit(in, EDIT_DRIVE, &next);
-    inspector_change(in, change, "Set lag", lag_row.name, &edit);
-    next = *felt_drive(in);
-    change = ui_value(in->ui, ui_row(in->ui, UI_ROW), &amplitude_row, &next.amplitude);
-    edit = drive_edit(in, EDIT_DRIVE, &next);
-    inspector_change(in, change, "Set amplitude", amplitude_row.name, &edit);
+    if (felt_drive(in)) inspector_numbers(in, drive_rows, sizeof drive_rows / sizeof drive_rows[0]);
 }
 
 static void build_spline(struct inspection *in, const struct drive *drive)
@@ -166,36 +175,51 @@ static void build_facts(struct inspection *in)
     }
 }
 
+static void floor_now(const struct inspection *in, int which, struct setting *setting)
+{
+    const int number = in->core->characters.character;
+    const struct character_rig *rig = document_character(in->document, number);
+    (void)which;
+    setting->edit = core_edit_of(EDIT_FLOOR, -1);
+    setting->edit.rig = document_find_rig(in->document, RIG_CHARACTER, number);
+    setting->edit.flag = true;
+    setting->edit.number = rig->has_floor ? rig->floor : rig->position[1];
+}
+
+static const struct number_row floor_row = {{.name = "floor.height",
+                                             .label = "height",
+                                             .unit = "m",
+                                             .hint = "No point of the character goes lower",
+                                             .minimum = -1,
+                                             .maximum = 0,
+                                             .lowest = -INSPECTOR_NO_LIMIT,
+                                             .highest = INSPECTOR_NO_LIMIT,
+                                             .fallback = 0,
+                                             .step = 0.01,
+                                             .decimals = 3},
+                                            "Set floor",
+                                            offsetof(struct setting, edit.number),
+                                            false,
+                                            floor_now,
+                                            0};
+
 /// Whether nothing of it may be below a height, and which.
 static void build_floor(struct inspection *in, const struct character_rig *rig)
 {
     static const struct ui_choice choices[] = {{"off", "Off"}, {"on", "On"}};
-    static const struct ui_number height_row = {.name = "floor.height",
-                                                .label = "height",
-                                                .unit = "m",
-                                                .hint = "No point of the character goes lower",
-                                                .minimum = -1,
-                                                .maximum = 0,
-                                                .lowest = -INSPECTOR_NO_LIMIT,
-                                                .highest = INSPECTOR_NO_LIMIT,
-                                                .fallback = 0,
-                                                .step = 0.01,
-                                                .decimals = 3};
     struct rect r = inspector_labelled(in, "floor");
+    struct setting setting;
     int on = rig->has_floor;
-    struct edit edit = drive_edit(in, EDIT_FLOOR, &(struct drive){0});
-    edit.number = rig->has_floor ? rig->floor : rig->position[1];
+    floor_now(in, 0, &setting);
     if (ui_hovered(in->ui, r)) in->ui->hint = "Keep the whole character above a height";
     if (ui_segments(in->ui, r, "floor", choices, 2, &on)) {
-        edit.flag = on;
-        core_step(in->core, in->world, on ? "Set floor" : "Remove floor", 0, &edit);
+        setting.edit.flag = on;
+        core_step(in->core, in->world, on ? "Set floor" : "Remove floor", 0, &setting.edit);
         return;
     }
     if (!rig->has_floor) return;
-    edit.flag = true;
-    const enum ui_change change = ui_value(in->ui, ui_row(in->ui, UI_ROW), &height_row, &edit.number);
-    inspector_change(in, change, "Set floor", height_row.name, &edit);
-    const struct floor_left *left = evaluation_floor(in->world->evaluation, edit.rig);
+    inspector_numbers(in, &floor_row, 1);
+    const struct floor_left *left = evaluation_floor(in->world->evaluation, setting.edit.rig);
     if (!left || left->depth < 1e-4) return;
     char text[120];
     snprintf(text, sizeof text, "Up to %.3g m below it, deepest at frame %.6g: knots and pins come first.",

@@ -52,25 +52,30 @@ static void build_of(struct inspection *in)
     core_step(in->core, in->world, "Set joint's motion", 0, &edit);
 }
 
-static void build_gain(struct inspection *in)
+static void now(const struct inspection *in, int which, struct setting *setting)
 {
-    static const struct ui_number gain = {.name = "joint.gain",
-                                          .label = "times",
-                                          .hint = "How much of the joint's motion it follows",
-                                          .lowest = -1e6,
-                                          .highest = 1e6,
-                                          .fallback = 1,
-                                          .step = 0.01,
-                                          .decimals = 2};
-    struct edit edit = joint_edit(in, followed(in));
-    const enum ui_change change = ui_value(in->ui, ui_row(in->ui, UI_ROW), &gain, &edit.param.gain);
-    inspector_change(in, change, "Set joint's gain", gain.name, &edit);
+    (void)which;
+    setting->edit = joint_edit(in, followed(in));
 }
+
+static const struct number_row gain_row = {{.name = "joint.gain",
+                                            .label = "times",
+                                            .hint = "How much of the joint's motion it follows",
+                                            .lowest = -1e6,
+                                            .highest = 1e6,
+                                            .fallback = 1,
+                                            .step = 0.01,
+                                            .decimals = 2},
+                                           "Set joint's gain",
+                                           offsetof(struct setting, edit.param.gain),
+                                           false,
+                                           now,
+                                           0};
 
 void inspector_joint(struct inspection *in)
 {
     if (followed(in)->motion) build_of(in);
-    if (followed(in)->motion) build_gain(in);
+    if (followed(in)->motion) inspector_numbers(in, &gain_row, 1);
 }
 
 int inspector_bone_list(struct inspection *in, const char *list, int model, int top, const char *chosen)

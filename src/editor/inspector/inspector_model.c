@@ -64,54 +64,86 @@ void inspector_model_lists(struct inspection *in)
     bones_choose_clip(in->core, in->world, model, picked > 0 ? gltf->clips[picked - 1].name : NULL);
 }
 
-/// A number of its place; `value` is in `contents`.
-static void build_number(struct inspection *in, const struct ui_number *number, const struct rig *contents,
-                         double *value)
+static void now(const struct inspection *in, int which, struct setting *setting)
 {
-    const enum ui_change change = ui_value(in->ui, ui_row(in->ui, UI_ROW), number, value);
-    struct edit edit = model_edit(in, EDIT_PLACE);
-    edit.contents = contents;
-    inspector_change(in, change, "Place character", number->name, &edit);
+    (void)which;
+    setting->contents = in->document->rigs[shown_model(in)];
+    setting->edit = model_edit(in, EDIT_PLACE);
+    setting->edit.contents = &setting->contents;
 }
 
-static void build_place(struct inspection *in)
-{
-    static const struct ui_number position = {
-        .unit = "m", .lowest = -1e6, .highest = 1e6, .fallback = 0, .step = 0.01, .decimals = 3};
-    static const struct ui_number scale = {.name = "model.scale",
-                                           .label = "scale",
-                                           .hint = "Scales the size that the file gives it",
-                                           .lowest = 1e-9,
-                                           .highest = 1e9,
-                                           .fallback = 1,
-                                           .step = 0.01,
-                                           .decimals = 3};
-    static const struct ui_number turn = {.name = "model.turn",
-                                          .label = "turn",
-                                          .unit = "°",
-                                          .hint = "About the vertical",
-                                          .minimum = -180,
-                                          .maximum = 180,
-                                          .lowest = -36000,
-                                          .highest = 36000,
-                                          .fallback = 0,
-                                          .step = 1};
-    static const char *const names[] = {"model.x", "model.y", "model.z"};
-    static const char *const hints[] = {"Where it stands along x", "Height of what it stands on",
-                                        "Where it stands along z"};
-    for (int k = 0; k < 3; k++) {
-        struct rig contents = in->document->rigs[shown_model(in)];
-        struct ui_number number = position;
-        number.name = names[k];
-        number.label = coordinate_name(k);
-        number.hint = hints[k];
-        build_number(in, &number, &contents, &contents.model.position[k]);
-    }
-    struct rig contents = in->document->rigs[shown_model(in)];
-    build_number(in, &scale, &contents, &contents.model.scale);
-    contents = in->document->rigs[shown_model(in)];
-    build_number(in, &turn, &contents, &contents.model.turn);
-}
+static const struct number_row place[] = {
+    {{.name = "model.x",
+      .label = "x",
+      .unit = "m",
+      .hint = "Where it stands along x",
+      .lowest = -1e6,
+      .highest = 1e6,
+      .fallback = 0,
+      .step = 0.01,
+      .decimals = 3},
+     "Place character",
+     offsetof(struct setting, contents.model.position[0]),
+     false,
+     now,
+     0},
+    {{.name = "model.y",
+      .label = "y",
+      .unit = "m",
+      .hint = "Height of what it stands on",
+      .lowest = -1e6,
+      .highest = 1e6,
+      .fallback = 0,
+      .step = 0.01,
+      .decimals = 3},
+     "Place character",
+     offsetof(struct setting, contents.model.position[1]),
+     false,
+     now,
+     0},
+    {{.name = "model.z",
+      .label = "z",
+      .unit = "m",
+      .hint = "Where it stands along z",
+      .lowest = -1e6,
+      .highest = 1e6,
+      .fallback = 0,
+      .step = 0.01,
+      .decimals = 3},
+     "Place character",
+     offsetof(struct setting, contents.model.position[2]),
+     false,
+     now,
+     0},
+    {{.name = "model.scale",
+      .label = "scale",
+      .hint = "Scales the size that the file gives it",
+      .lowest = 1e-9,
+      .highest = 1e9,
+      .fallback = 1,
+      .step = 0.01,
+      .decimals = 3},
+     "Place character",
+     offsetof(struct setting, contents.model.scale),
+     false,
+     now,
+     0},
+    {{.name = "model.turn",
+      .label = "turn",
+      .unit = "°",
+      .hint = "About the vertical",
+      .minimum = -180,
+      .maximum = 180,
+      .lowest = -36000,
+      .highest = 36000,
+      .fallback = 0,
+      .step = 1},
+     "Place character",
+     offsetof(struct setting, contents.model.turn),
+     false,
+     now,
+     0},
+};
 
 /// The selected bone, and what can be made of it.
 static void build_bone(struct inspection *in)
@@ -149,6 +181,6 @@ void inspector_model(struct inspection *in)
     const struct imported *shown = bones_character(in->world, model);
     build_file(in, &in->document->rigs[model].model, shown);
     build_clip(in, &in->document->rigs[model].model, shown);
-    build_place(in);
+    inspector_numbers(in, place, sizeof place / sizeof place[0]);
     if (shown) build_bone(in);
 }

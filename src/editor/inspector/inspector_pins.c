@@ -83,26 +83,6 @@ static void build_list(struct inspection *in, int count)
     ui_paragraph(in->ui, text, theme()->text_dim);
 }
 
-/// Frame, point and place, in this order.
-enum { FIELD_FRAME, FIELD_POINT, FIELD_X, FIELDS = FIELD_X + 3 };
-
-static const struct {
-    struct ui_number number;
-    const char *undo;
-} fields[FIELDS] = {
-    [FIELD_FRAME] = {{.name = "pin.frame",
-                      .label = "frame",
-                      .hint = "Frame of the pin (Alt+PgUp, Alt+PgDn)",
-                      .fallback = NAN,
-                      .step = 1},
-                     "Move pin in time"},
-    [FIELD_POINT] = {{.name = "pin.point", .hint = "What is pinned", .fallback = NAN, .step = 1},
-                     "Pin another point"},
-    [FIELD_X] = {{.name = "pin.x", .label = "x", .hint = "Where the point is to be; 0 is the middle"}, "Move pin"},
-    [FIELD_X + 1] = {{.name = "pin.y", .label = "y", .hint = "Where the point is to be: height"}, "Move pin"},
-    [FIELD_X + 2] = {{.name = "pin.z", .label = "z", .hint = "Where the point is to be: depth"}, "Move pin"},
-};
-
 /// How many points the rig has.
 static int points_of(const struct inspection *in, int rig)
 {
@@ -112,44 +92,91 @@ static int points_of(const struct inspection *in, int rig)
     return figure ? figure->character.vertex_count : 1;
 }
 
-/// Ends of a field, and what it is called.
-static struct ui_number number_for(const struct inspection *in, int field, int rig)
+static void now(const struct inspection *in, int which, struct setting *setting)
 {
-    struct ui_number number = fields[field].number;
-    if (field == FIELD_FRAME) {
-        number.lowest = in->document->first_frame;
-        number.highest = document_frame(in->document, pins_last_sample(in->document, &in->document->rigs[rig]));
-    } else if (field == FIELD_POINT) {
-        number.label = word_of(&in->document->rigs[rig]);
-        number.highest = points_of(in, rig) - 1;
-    } else {
-        number.unit = "m";
-        number.lowest = -INSPECTOR_NO_LIMIT;
-        number.highest = INSPECTOR_NO_LIMIT;
-        number.fallback = NAN;
-        number.step = 0.005;
-        number.decimals = 3;
-    }
-    return number;
+    int rig;
+    const struct pin *pin = pins_selected(in->core, in->document, &rig);
+    (void)which;
+    setting->edit = pins_edit(EDIT_PIN_SET, rig, pin);
 }
+
+enum { ROW_FRAME, ROW_POINT, ROWS = ROW_POINT + 4 };
+
+static const struct number_row rows[ROWS] = {
+    {{.name = "pin.frame",
+      .label = "frame",
+      .hint = "Frame of the pin (Alt+PgUp, Alt+PgDn)",
+      .fallback = NAN,
+      .step = 1},
+     "Move pin in time",
+     offsetof(struct setting, edit.pin.frame),
+     false,
+     now,
+     0},
+    {{.name = "pin.point", .hint = "What is pinned", .fallback = NAN, .step = 1},
+     "Pin another point",
+     offsetof(struct setting, edit.pin.point),
+     true,
+     now,
+     0},
+    {{.name = "pin.x",
+      .label = "x",
+      .unit = "m",
+      .hint = "Where the point is to be; 0 is the middle",
+      .lowest = -INSPECTOR_NO_LIMIT,
+      .highest = INSPECTOR_NO_LIMIT,
+      .fallback = NAN,
+      .step = 0.005,
+      .decimals = 3},
+     "Move pin",
+     offsetof(struct setting, edit.pin.to[0]),
+     false,
+     now,
+     0},
+    {{.name = "pin.y",
+      .label = "y",
+      .unit = "m",
+      .hint = "Where the point is to be: height",
+      .lowest = -INSPECTOR_NO_LIMIT,
+      .highest = INSPECTOR_NO_LIMIT,
+      .fallback = NAN,
+      .step = 0.005,
+      .decimals = 3},
+     "Move pin",
+     offsetof(struct setting, edit.pin.to[1]),
+     false,
+     now,
+     0},
+    {{.name = "pin.z",
+      .label = "z",
+      .unit = "m",
+      .hint = "Where the point is to be: depth",
+      .lowest = -INSPECTOR_NO_LIMIT,
+      .highest = INSPECTOR_NO_LIMIT,
+      .fallback = NAN,
+      .step = 0.005,
+      .decimals = 3},
+     "Move pin",
+     offsetof(struct setting, edit.pin.to[2]),
+     false,
+     now,
+     0},
+};
 
 static void build_field(struct inspection *in, int field)
 {
     int rig;
-    const struct pin *pin = pins_selected(in->core, in->document, &rig);
-    if (!pin) return;
-    struct pin next = *pin;
-    const struct ui_number number = number_for(in, field, rig);
-    double value = field == FIELD_FRAME ? pin->frame : field == FIELD_POINT ? pin->point : pin->to[field - FIELD_X];
-    const enum ui_change change = ui_value(in->ui, ui_row(in->ui, UI_ROW), &number, &value);
-    if (field == FIELD_FRAME) next.frame = value;
-    if (field == FIELD_POINT) next.point = (int)lround(value);
-    if (field >= FIELD_X) next.to[field - FIELD_X] = value;
-    const int there =
-        pins_find(in->document, &in->document->rigs[rig], next.point, document_sample(in->document, next.frame));
-    if (change == UI_DRAG && there >= 0 && in->document->rigs[rig].pins[there].id != pin->id) return;
-    const struct edit edit = pins_edit(EDIT_PIN_SET, rig, &next);
-    inspector_change(in, change, fields[field].undo, number.name, &edit);
+    struct number_row row = rows[field];
+    if (!pins_selected(in->core, in->document, &rig)) return;
+    const struct rig *pinned = &in->document->rigs[rig];
+    if (field == ROW_FRAME) {
+        row.number.lowest = in->document->first_frame;
+        row.number.highest = document_frame(in->document, pins_last_sample(in->document, pinned));
+    } else if (field == ROW_POINT) {
+        row.number.label = word_of(pinned);
+        row.number.highest = points_of(in, rig) - 1;
+    }
+    const enum ui_change change = inspector_number(in, &row, ui_row(in->ui, UI_ROW));
     if (inspector_changed(change)) pins_tell(in->core, in->world, rig);
 }
 
@@ -163,5 +190,5 @@ void inspector_pins(struct inspection *in)
     build_list(in, count);
     if (!pins_selected(in->core, in->document, &rig)) return;
     ui_space(in->ui, 4);
-    for (int field = 0; field < FIELDS; field++) build_field(in, field);
+    for (int field = 0; field < ROWS; field++) build_field(in, field);
 }

@@ -6,26 +6,33 @@
 #include <math.h>
 #include <stdio.h>
 
+static void now(const struct inspection *in, int parameter, struct setting *setting)
+{
+    const struct spline *spline = core_active_spline(in->core, in->world);
+    const double value = spline->parameter[parameter].value;
+    setting->edit = core_parameter_edit(in->core->active, (enum parameter)parameter, value);
+}
+
 static void build_slider(struct inspection *in, enum parameter parameter, struct rect r)
 {
     const struct spline *spline = core_active_spline(in->core, in->world);
     const struct parameter_row *row = &parameter_rows[parameter];
-    struct ui_number number = {
-        .name = row->name,
-        .label = row->name,
-        .unit = row->unit,
-        .hint = row->hint,
-        .maximum = core_slider_end(in->document, spline, parameter),
-        .lowest = row->minimum,
-        .highest = parameter_maximum(parameter, spline_mode(spline)),
-        .fallback = row->fresh,
-        .step = row->step,
-        .decimals = row->decimals,
-    };
-    double value = spline->parameter[parameter].value;
-    enum ui_change change = ui_value(in->ui, r, &number, &value);
-    struct edit edit = core_parameter_edit(in->core->active, parameter, value);
-    inspector_change(in, change, row->undo, number.name, &edit);
+    const struct number_row number = {{.name = row->name,
+                                       .label = row->name,
+                                       .unit = row->unit,
+                                       .hint = row->hint,
+                                       .maximum = core_slider_end(in->document, spline, parameter),
+                                       .lowest = row->minimum,
+                                       .highest = parameter_maximum(parameter, spline_mode(spline)),
+                                       .fallback = row->fresh,
+                                       .step = row->step,
+                                       .decimals = row->decimals},
+                                      row->undo,
+                                      offsetof(struct setting, edit.param.value),
+                                      false,
+                                      now,
+                                      (int)parameter};
+    inspector_number(in, &number, r);
 }
 
 static void build_number(struct inspection *in, enum parameter parameter)

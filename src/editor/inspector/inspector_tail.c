@@ -33,6 +33,58 @@ static void build_name(struct inspection *in)
     }
 }
 
+static void position_now(const struct inspection *in, int k, struct setting *setting)
+{
+    setting->edit = rig_edit(in, EDIT_POSITION);
+    setting->edit.coordinate = k;
+    setting->edit.param = inspector_shown(in)->tail.position[k];
+}
+
+static const struct number_row position[] = {
+    {{.name = "position.x",
+      .label = "x",
+      .unit = "m",
+      .hint = "Position of the body along x",
+      .lowest = -1e6,
+      .highest = 1e6,
+      .fallback = 0,
+      .step = 0.01,
+      .decimals = 3},
+     "Move body",
+     offsetof(struct setting, edit.param.value),
+     false,
+     position_now,
+     0},
+    {{.name = "position.y",
+      .label = "y",
+      .unit = "m",
+      .hint = "Position of the body along y",
+      .lowest = -1e6,
+      .highest = 1e6,
+      .fallback = 0.26,
+      .step = 0.01,
+      .decimals = 3},
+     "Move body",
+     offsetof(struct setting, edit.param.value),
+     false,
+     position_now,
+     1},
+    {{.name = "position.z",
+      .label = "z",
+      .unit = "m",
+      .hint = "Position of the body along z",
+      .lowest = -1e6,
+      .highest = 1e6,
+      .fallback = 0,
+      .step = 0.01,
+      .decimals = 3},
+     "Move body",
+     offsetof(struct setting, edit.param.value),
+     false,
+     position_now,
+     2},
+};
+
 /// A coordinate: a number, or the spline that it follows, and the button from one to the other.
 static void build_coordinate(struct inspection *in, const struct tail *tail, int k)
 {
@@ -57,20 +109,7 @@ static void build_coordinate(struct inspection *in, const struct tail *tail, int
         core_step(in->core, in->world, "Stop following", 0, &edit);
         return;
     }
-    const char *names[] = {"position.x", "position.y", "position.z"};
-    const char *hints[] = {"Position of the body along x", "Position of the body along y",
-                           "Position of the body along z"};
-    const struct ui_number number = {.name = names[k],
-                                     .label = coordinate_name(k),
-                                     .unit = "m",
-                                     .hint = hints[k],
-                                     .lowest = -1e6,
-                                     .highest = 1e6,
-                                     .fallback = k == 1 ? 0.26 : 0,
-                                     .step = 0.01,
-                                     .decimals = 3};
-    enum ui_change change = ui_value(in->ui, r, &number, &edit.param.value);
-    if (change != UI_NONE) inspector_change(in, change, "Move body", names[k], &edit);
+    inspector_number(in, &position[k], r);
     if (in->document->spline_count == 0) return;
     if (ui_icon_button(in->ui, icon, button, UI_ICON_FOLLOW, false, "Follow a spline (in metres)")) {
         ui_popup_open(in->ui, place_list, k, field);
@@ -97,42 +136,52 @@ void inspector_tail_lists(struct inspection *in)
     place_popup(in);
 }
 
-static void build_size(struct inspection *in, const struct tail *tail)
+static void joints_now(const struct inspection *in, int which, struct setting *setting)
 {
-    static const struct ui_number joints = {.name = "joints",
-                                            .label = "joints",
-                                            .hint = "More joints bend more smoothly; shape and swing stay the same",
-                                            .minimum = 1,
-                                            .maximum = 64,
-                                            .lowest = 1,
-                                            .highest = TAIL_MAX_JOINTS,
-                                            .fallback = TAIL_DEFAULT_JOINTS,
-                                            .step = 1};
-    static const struct ui_number length = {.name = "length",
-                                            .label = "length",
-                                            .unit = "m",
-                                            .hint = "Length of the tail; the body scales with it",
-                                            .minimum = 0.2,
-                                            .maximum = 4,
-                                            .lowest = 1e-3,
-                                            .highest = 1e6,
-                                            .fallback = TAIL_DEFAULT_LENGTH,
-                                            .step = 0.05,
-                                            .decimals = 2};
-    double value = tail->joints;
-    enum ui_change change = ui_value(in->ui, ui_row(in->ui, UI_ROW), &joints, &value);
-    if (change != UI_NONE) {
-        inspector_take_back(in, change); // resampled from what they were, not from what the drag has made of them
-        struct edit edit = rig_edit(in, EDIT_JOINTS);
-        edit.to = (int)lround(value);
-        inspector_change(in, change, "Set joints", "joints", &edit);
-        tail = &inspector_shown(in)->tail;
-    }
-    struct edit edit = rig_edit(in, EDIT_LENGTH);
-    edit.number = tail->length;
-    change = ui_value(in->ui, ui_row(in->ui, UI_ROW), &length, &edit.number);
-    if (change != UI_NONE) inspector_change(in, change, "Set length", "length", &edit);
+    (void)which;
+    setting->edit = rig_edit(in, EDIT_JOINTS);
+    setting->edit.to = inspector_shown(in)->tail.joints;
 }
+
+static void length_now(const struct inspection *in, int which, struct setting *setting)
+{
+    (void)which;
+    setting->edit = rig_edit(in, EDIT_LENGTH);
+    setting->edit.number = inspector_shown(in)->tail.length;
+}
+
+static const struct number_row size[] = {
+    {{.name = "joints",
+      .label = "joints",
+      .hint = "More joints bend more smoothly; shape and swing stay the same",
+      .minimum = 1,
+      .maximum = 64,
+      .lowest = 1,
+      .highest = TAIL_MAX_JOINTS,
+      .fallback = TAIL_DEFAULT_JOINTS,
+      .step = 1},
+     "Set joints",
+     offsetof(struct setting, edit.to),
+     true,
+     joints_now,
+     0},
+    {{.name = "length",
+      .label = "length",
+      .unit = "m",
+      .hint = "Length of the tail; the body scales with it",
+      .minimum = 0.2,
+      .maximum = 4,
+      .lowest = 1e-3,
+      .highest = 1e6,
+      .fallback = TAIL_DEFAULT_LENGTH,
+      .step = 0.05,
+      .decimals = 2},
+     "Set length",
+     offsetof(struct setting, edit.number),
+     false,
+     length_now,
+     0},
+};
 
 void inspector_overlays(struct inspection *in)
 {
@@ -177,7 +226,7 @@ static void build_shown(struct inspection *in)
         inspector_chain(in);
         return;
     }
-    build_size(in, &inspector_shown(in)->tail);
+    inspector_numbers(in, size, sizeof size / sizeof size[0]);
     for (int k = 0; k < 3; k++) build_coordinate(in, &inspector_shown(in)->tail, k);
 }
 
