@@ -96,27 +96,39 @@ static void drag(struct inspection *in, const struct number_row *row, struct set
     core_refresh(in->core, in->world);
 }
 
-enum ui_change inspector_number(struct inspection *in, const struct number_row *row, struct rect r)
+enum ui_change inspector_number(struct inspection *in, const struct number_row *row, setting_now *now, int which,
+                                struct rect r)
 {
+    const struct ui_number number = {.name = row->name,
+                                     .label = row->label,
+                                     .unit = row->unit,
+                                     .hint = row->hint,
+                                     .minimum = row->minimum,
+                                     .maximum = row->maximum,
+                                     .lowest = row->lowest,
+                                     .highest = row->highest,
+                                     .fallback = row->fallback,
+                                     .step = row->step,
+                                     .decimals = row->decimals};
     struct setting setting;
-    row->now(in, row->which, &setting);
+    now(in, which, &setting);
     double value = get_number(row, &setting);
-    const enum ui_change change = ui_value(in->ui, r, &row->number, &value);
+    const enum ui_change change = ui_value(in->ui, r, &number, &value);
     if (change == UI_NONE) return change;
     inspector_take_back(in, change); // an edit may start from more than the number: from what was before the drag
-    row->now(in, row->which, &setting);
+    now(in, which, &setting);
     if (change == UI_DRAG) {
         drag(in, row, &setting, value);
         return change;
     }
     set_number(row, &setting, value);
-    inspector_change(in, change, row->undo, row->number.name, &setting.edit);
+    inspector_change(in, change, row->undo, row->name, &setting.edit);
     return change;
 }
 
-void inspector_numbers(struct inspection *in, const struct number_row *rows, int count)
+void inspector_numbers(struct inspection *in, const struct number_row *rows, int count, setting_now *now)
 {
-    for (int i = 0; i < count; i++) inspector_number(in, &rows[i], ui_row(in->ui, UI_ROW));
+    for (int i = 0; i < count; i++) inspector_number(in, &rows[i], now, i, ui_row(in->ui, UI_ROW));
 }
 
 int inspector_spline_items(const struct inspection *in, const bool *left_out, int chosen, struct ui_item *items,

@@ -97,20 +97,30 @@ struct setting {
     struct rig contents; ///< where edit.contents points, for edits that have some
 };
 
-/// A row of a table: a number of the scene, and how it is set.
+/// Fills a setting with things as they are; `which` of several.
+typedef void setting_now(const struct inspection *in, int which, struct setting *setting);
+
+/// A row of a table: a number of the scene.
 struct number_row {
-    struct ui_number number;
-    const char *undo; ///< what its step of the history is called
-    size_t at;        ///< of the number in struct setting
-    bool is_whole;    ///< it is an int there
-    void (*now)(const struct inspection *in, int which, struct setting *setting);
-    int which; ///< for now(), which of several
+    const char *name, *label, *unit, *hint; ///< as struct ui_number
+    const char *undo;                       ///< what its step of the history is called
+    size_t at;                              ///< of the number in struct setting
+    bool is_whole;                          ///< it is an int there
+    double minimum, maximum;                ///< ends of the bar
+    double lowest, highest;                 ///< what may be typed
+    double fallback, step;
+    int decimals;
 };
 
-/// A row on the panel, and its edit where it changes. The number is built from the document as the rows before left it.
-enum ui_change inspector_number(struct inspection *in, const struct number_row *row, struct rect r);
-/// Several, one below the other.
-void inspector_numbers(struct inspection *in, const struct number_row *rows, int count);
+/// The place of a number, and of a whole one.
+#define NUMBER_AT(member) offsetof(struct setting, member), false
+#define WHOLE_AT(member) offsetof(struct setting, member), true
+
+/// A row on the panel, and its edit where it changes.
+enum ui_change inspector_number(struct inspection *in, const struct number_row *row, setting_now *now, int which,
+                                struct rect r);
+/// All rows of a table, each with its place in it as `which`.
+void inspector_numbers(struct inspection *in, const struct number_row *rows, int count, setting_now *now);
 
 /// Rows for the splines of the document, without those that are left out (by index; NULL: none), in room for INSPECTOR_MAX_SPLINES;
 /// returns how many. `row`: that of the chosen spline, or -1.

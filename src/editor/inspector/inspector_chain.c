@@ -61,20 +61,18 @@ static void now(const struct inspection *in, int which, struct setting *setting)
     setting->edit = chain_edit(in, &setting->contents);
 }
 
-static const struct number_row turn_row = {{.name = "chain.turn",
-                                            .label = "turn",
-                                            .unit = "°",
-                                            .hint = "Turns the axes of side and up about the chain's own direction",
-                                            .minimum = -180,
-                                            .maximum = 180,
-                                            .lowest = -36000,
-                                            .highest = 36000,
-                                            .fallback = 0,
-                                            .step = 1},
+static const struct number_row turn_row = {"chain.turn",
+                                           "turn",
+                                           "°",
+                                           "Turns the axes of side and up about the chain's own direction",
                                            "Turn chain's axes",
-                                           offsetof(struct setting, contents.chain.turn),
-                                           false,
-                                           now,
+                                           NUMBER_AT(contents.chain.turn),
+                                           -180,
+                                           180,
+                                           -36000,
+                                           36000,
+                                           0,
+                                           1,
                                            0};
 
 static void build_mirror(struct inspection *in)
@@ -102,7 +100,7 @@ void inspector_chain(struct inspection *in)
     const struct chain *chain = &inspector_shown(in)->chain;
     build_end(in, &ends[0], chain->from);
     build_end(in, &ends[1], chain->to);
-    inspector_numbers(in, &turn_row, 1);
+    inspector_numbers(in, &turn_row, 1, now);
     build_mirror(in);
     build_twin(in);
 }

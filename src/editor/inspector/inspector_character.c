@@ -69,42 +69,16 @@ static void drive_now(const struct inspection *in, int which, struct setting *se
 }
 
 static const struct number_row drive_rows[] = {
-    {{.name = "drive.lag",
-      .label = "lag",
-      .unit = "°",
-      .hint = "How far it lags behind the spline; 360 is a full swing",
-      .minimum = -180,
-      .maximum = 180,
-      .lowest = -36000,
-      .highest = 36000,
-      .fallback = 0,
-      .step = 1,
-      .decimals = 1},
-     "Set lag",
-     offsetof(struct setting, edit.drive.lag),
-     false,
-     drive_now,
-     0},
-    {{.name = "amplitude",
-      .label = "amplitude",
-      .hint = "How far it swings when the spline is 1",
-      .minimum = -2,
-      .maximum = 2,
-      .lowest = -INSPECTOR_NO_LIMIT,
-      .highest = INSPECTOR_NO_LIMIT,
-      .fallback = DRIVE_DEFAULT_AMPLITUDE,
-      .step = 0.05,
-      .decimals = 2},
-     "Set amplitude",
-     offsetof(struct setting, edit.drive.amplitude),
-     false,
-     drive_now,
-     0},
+    {"drive.lag", "lag", "°", "How far it lags behind the spline; 360 is a full swing", "Set lag",
+     NUMBER_AT(edit.drive.lag), -180, 180, -36000, 36000, 0, 1, 1},
+    {"amplitude", "amplitude", NULL, "How far it swings when the spline is 1", "Set amplitude",
+     NUMBER_AT(edit.drive.amplitude), -2, 2, -INSPECTOR_NO_LIMIT, INSPECTOR_NO_LIMIT, DRIVE_DEFAULT_AMPLITUDE, 0.05,
+     2},
 };
 
 void inspector_felt_drive(struct inspection *in)
 {
-    if (felt_drive(in)) inspector_numbers(in, drive_rows, sizeof drive_rows / sizeof drive_rows[0]);
+    if (felt_drive(in)) inspector_numbers(in, drive_rows, sizeof drive_rows / sizeof drive_rows[0], drive_now);
 }
 
 static void build_spline(struct inspection *in, const struct drive *drive)
@@ -186,22 +160,19 @@ static void floor_now(const struct inspection *in, int which, struct setting *se
     setting->edit.number = rig->has_floor ? rig->floor : rig->position[1];
 }
 
-static const struct number_row floor_row = {{.name = "floor.height",
-                                             .label = "height",
-                                             .unit = "m",
-                                             .hint = "No point of the character goes lower",
-                                             .minimum = -1,
-                                             .maximum = 0,
-                                             .lowest = -INSPECTOR_NO_LIMIT,
-                                             .highest = INSPECTOR_NO_LIMIT,
-                                             .fallback = 0,
-                                             .step = 0.01,
-                                             .decimals = 3},
+static const struct number_row floor_row = {"floor.height",
+                                            "height",
+                                            "m",
+                                            "No point of the character goes lower",
                                             "Set floor",
-                                            offsetof(struct setting, edit.number),
-                                            false,
-                                            floor_now,
-                                            0};
+                                            NUMBER_AT(edit.number),
+                                            -1,
+                                            0,
+                                            -INSPECTOR_NO_LIMIT,
+                                            INSPECTOR_NO_LIMIT,
+                                            0,
+                                            0.01,
+                                            3};
 
 /// Whether nothing of it may be below a height, and which.
 static void build_floor(struct inspection *in, const struct character_rig *rig)
@@ -218,7 +189,7 @@ static void build_floor(struct inspection *in, const struct character_rig *rig)
         return;
     }
     if (!rig->has_floor) return;
-    inspector_numbers(in, &floor_row, 1);
+    inspector_numbers(in, &floor_row, 1, floor_now);
     const struct floor_left *left = evaluation_floor(in->world->evaluation, setting.edit.rig);
     if (!left || left->depth < 1e-4) return;
     char text[120];

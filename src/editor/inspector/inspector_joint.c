@@ -58,24 +58,24 @@ static void now(const struct inspection *in, int which, struct setting *setting)
     setting->edit = joint_edit(in, followed(in));
 }
 
-static const struct number_row gain_row = {{.name = "joint.gain",
-                                            .label = "times",
-                                            .hint = "How much of the joint's motion it follows",
-                                            .lowest = -1e6,
-                                            .highest = 1e6,
-                                            .fallback = 1,
-                                            .step = 0.01,
-                                            .decimals = 2},
+static const struct number_row gain_row = {"joint.gain",
+                                           "times",
+                                           NULL,
+                                           "How much of the joint's motion it follows",
                                            "Set joint's gain",
-                                           offsetof(struct setting, edit.param.gain),
-                                           false,
-                                           now,
-                                           0};
+                                           NUMBER_AT(edit.param.gain),
+                                           0,
+                                           0,
+                                           -1e6,
+                                           1e6,
+                                           1,
+                                           0.01,
+                                           2};
 
 void inspector_joint(struct inspection *in)
 {
     if (followed(in)->motion) build_of(in);
-    if (followed(in)->motion) inspector_numbers(in, &gain_row, 1);
+    if (followed(in)->motion) inspector_numbers(in, &gain_row, 1, now);
 }
 
 int inspector_bone_list(struct inspection *in, const char *list, int model, int top, const char *chosen)

@@ -111,7 +111,8 @@ static bool set_all(struct inspection *in, const struct knot_field *field, doubl
 }
 
 /// A drag stays where it last was possible; anything else that is not possible is said and changes nothing.
-static void change_all(struct inspection *in, enum ui_change change, const struct knot_field *field, double value)
+static void change_all(struct inspection *in, enum ui_change change, const struct knot_field *field, const char *undo,
+                       double value)
 {
     struct history *history = in->world->history;
     double *possible = &in->inspector->dragged;
@@ -120,7 +121,7 @@ static void change_all(struct inspection *in, enum ui_change change, const struc
     if ((change != UI_DRAG && history_is_open(history)) || collect(in) == 0) return;
     if (!history_is_open(history)) {
         uint64_t merge = change == UI_NUDGE ? core_merge_key(in->core, in->world, ui_id(field->number.name)) : 0;
-        history_begin(history, field->undo, merge);
+        history_begin(history, undo, merge);
         *possible = number_of(field, &in->core->originals.list[0].knot);
     }
     bool together = change != UI_SET || field->moves;
@@ -137,6 +138,7 @@ static void change_all(struct inspection *in, enum ui_change change, const struc
 
 /// What the selected knots have in a field: the first one's number, and whether others have another.
 struct numbers {
+    int count;
     double first;
     bool mixed;
 };
@@ -144,7 +146,7 @@ struct numbers {
 static struct numbers survey(const struct inspection *in, const struct knot_field *field)
 {
     struct numbers numbers = {.first = NAN};
-    for (struct knot_place at = PICKED_START; picked_next(in->core, in->document, &at);) {
+    for (struct knot_place at = PICKED_START; picked_next(in->core, in->document, &at); numbers.count++) {
         double number = number_of(field, knot_at(in->document, at));
         if (isnan(numbers.first)) numbers.first = number;
         numbers.mixed |= number != numbers.first;
@@ -152,22 +154,42 @@ static struct numbers survey(const struct inspection *in, const struct knot_fiel
     return numbers;
 }
 
-static void build_field(struct inspection *in, const struct knot_field *field, struct numbers numbers)
+/// Where one knot alone is selected, its field knows more.
+static void fit_to_one(const struct inspection *in, int which, double value, struct ui_number *number)
 {
+    number->hint = fields[which].hint_one;
+    if (which == FIELD_FRAME) {
+        const struct spline *spline = core_active_spline(in->core, in->world);
+        number->lowest = in->document->first_frame;
+        number->highest = document_frame(in->document, document_last_knot_sample(in->document, spline));
+        number->decimals = value == floor(value) ? 0 : 2;
+    }
+    if (which == FIELD_SLOPE) number->label = NULL; // before its switch
+    if (which == FIELD_STIFFNESS && value < 10) number->decimals = 3;
+}
+
+static void build_field(struct inspection *in, int which, struct rect r)
+{
+    const struct knot_field *field = &fields[which];
+    const struct numbers numbers = survey(in, field); // as the field before left the document
     struct ui_number number = field->number;
     double value = numbers.first;
     char shown[64];
-    if (field->moves) {
+    if (numbers.count == 0) return;
+    if (numbers.count == 1) {
+        fit_to_one(in, which, value, &number);
+    } else if (field->moves) {
         snprintf(shown, sizeof shown, "%.6g …", value);
         number.shown = shown;
     } else if (numbers.mixed) {
         number.shown = "mixed";
     }
-    enum ui_change change = ui_value(in->ui, ui_row(in->ui, UI_ROW), &number, &value);
+    const char *undo = numbers.count == 1 ? field->undo_one : field->undo;
+    const enum ui_change change = ui_value(in->ui, r, &number, &value);
     if (change == UI_DROP || change == UI_CANCEL) {
-        inspector_change(in, change, field->undo, number.name, NULL);
+        inspector_change(in, change, undo, number.name, NULL);
     } else if (change != UI_NONE) {
-        change_all(in, change, field, value);
+        change_all(in, change, field, undo, value);
     }
     if (inspector_changed(change)) core_edited(in->core, -1);
 }
@@ -190,46 +212,12 @@ static void build_several(struct inspection *in)
 {
     const bool sloped = all_sloped(in);
     for (int i = 0; i < FIELDS; i++) {
-        struct numbers numbers = survey(in, &fields[i]); // as the field before left the document
         if (i >= FIELD_SLOPE && !sloped) {
             build_idle(in, fields[i].number.label, i == FIELD_SLOPE ? "not all have one" : "–");
-        } else if (!isnan(numbers.first)) {
-            build_field(in, &fields[i], numbers);
+        } else {
+            build_field(in, i, ui_row(in->ui, UI_ROW));
         }
     }
-}
-
-/// Whether another knot sits where this one would go.
-static bool is_occupied(const struct inspection *in, const struct spline *spline, const struct knot *knot)
-{
-    int at = spline_find_knot(in->document, spline, document_sample(in->document, knot->frame));
-    return at >= 0 && spline->knots[at].id != knot->id;
-}
-
-/// A field of the only selected knot.
-static void build_one(struct inspection *in, int which, unsigned id, struct rect r)
-{
-    const struct knot_field *field = &fields[which];
-    const struct spline *spline = core_active_spline(in->core, in->world);
-    struct knot next = spline->knots[spline_find_id(spline, id)];
-    struct ui_number number = field->number;
-    double value = number_of(field, &next);
-    number.hint = field->hint_one;
-    if (which == FIELD_FRAME) {
-        number.lowest = in->document->first_frame;
-        number.highest = document_frame(in->document, document_last_knot_sample(in->document, spline));
-        number.decimals = value == floor(value) ? 0 : 2;
-    }
-    if (which == FIELD_SLOPE) number.label = NULL;
-    if (which == FIELD_STIFFNESS && value < 10) number.decimals = 3;
-    enum ui_change change = ui_value(in->ui, r, &number, &value);
-    set_number(field, &next, value);
-    bool passes = which == FIELD_FRAME && change == UI_DRAG && is_occupied(in, spline, &next);
-    if (passes) return; // it stays where it last was free
-    struct edit edit = core_edit_of(EDIT_KNOT_SET, in->core->active);
-    edit.knot = next;
-    inspector_change(in, change, field->undo_one, number.name, &edit);
-    if (inspector_changed(change)) core_edited(in->core, -1);
 }
 
 static bool has_slope(const struct inspection *in, unsigned id)
@@ -250,7 +238,7 @@ static void build_slope(struct inspection *in, unsigned id)
     }
     r = (struct rect){r.x + 36, r.y, r.w - 36, r.h};
     if (sloped) {
-        build_one(in, FIELD_SLOPE, id, r);
+        build_field(in, FIELD_SLOPE, r);
     } else {
         ui_label(ui, r, "free", theme()->text_dim);
     }
@@ -339,11 +327,11 @@ void inspector_knot(struct inspection *in)
     } else {
         // Each is built from the document as the one before left it; ids survive what happens to the order of knots.
         const unsigned id = spline->knots[only.knot].id;
-        build_one(in, FIELD_FRAME, id, ui_row(ui, UI_ROW));
-        build_one(in, FIELD_VALUE, id, ui_row(ui, UI_ROW));
+        build_field(in, FIELD_FRAME, ui_row(ui, UI_ROW));
+        build_field(in, FIELD_VALUE, ui_row(ui, UI_ROW));
         build_slope(in, id);
         if (has_slope(in, id)) {
-            build_one(in, FIELD_STIFFNESS, id, ui_row(ui, UI_ROW));
+            build_field(in, FIELD_STIFFNESS, ui_row(ui, UI_ROW));
         } else {
             build_idle(in, "stiffness", "–");
         }

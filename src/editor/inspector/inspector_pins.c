@@ -103,64 +103,15 @@ static void now(const struct inspection *in, int which, struct setting *setting)
 enum { ROW_FRAME, ROW_POINT, ROWS = ROW_POINT + 4 };
 
 static const struct number_row rows[ROWS] = {
-    {{.name = "pin.frame",
-      .label = "frame",
-      .hint = "Frame of the pin (Alt+PgUp, Alt+PgDn)",
-      .fallback = NAN,
-      .step = 1},
-     "Move pin in time",
-     offsetof(struct setting, edit.pin.frame),
-     false,
-     now,
-     0},
-    {{.name = "pin.point", .hint = "What is pinned", .fallback = NAN, .step = 1},
-     "Pin another point",
-     offsetof(struct setting, edit.pin.point),
-     true,
-     now,
-     0},
-    {{.name = "pin.x",
-      .label = "x",
-      .unit = "m",
-      .hint = "Where the point is to be; 0 is the middle",
-      .lowest = -INSPECTOR_NO_LIMIT,
-      .highest = INSPECTOR_NO_LIMIT,
-      .fallback = NAN,
-      .step = 0.005,
-      .decimals = 3},
-     "Move pin",
-     offsetof(struct setting, edit.pin.to[0]),
-     false,
-     now,
-     0},
-    {{.name = "pin.y",
-      .label = "y",
-      .unit = "m",
-      .hint = "Where the point is to be: height",
-      .lowest = -INSPECTOR_NO_LIMIT,
-      .highest = INSPECTOR_NO_LIMIT,
-      .fallback = NAN,
-      .step = 0.005,
-      .decimals = 3},
-     "Move pin",
-     offsetof(struct setting, edit.pin.to[1]),
-     false,
-     now,
-     0},
-    {{.name = "pin.z",
-      .label = "z",
-      .unit = "m",
-      .hint = "Where the point is to be: depth",
-      .lowest = -INSPECTOR_NO_LIMIT,
-      .highest = INSPECTOR_NO_LIMIT,
-      .fallback = NAN,
-      .step = 0.005,
-      .decimals = 3},
-     "Move pin",
-     offsetof(struct setting, edit.pin.to[2]),
-     false,
-     now,
-     0},
+    {"pin.frame", "frame", NULL, "Frame of the pin (Alt+PgUp, Alt+PgDn)", "Move pin in time",
+     NUMBER_AT(edit.pin.frame), 0, 0, 0, 0, NAN, 1, 0},
+    {"pin.point", NULL, NULL, "What is pinned", "Pin another point", WHOLE_AT(edit.pin.point), 0, 0, 0, 0, NAN, 1, 0},
+    {"pin.x", "x", "m", "Where the point is to be; 0 is the middle", "Move pin", NUMBER_AT(edit.pin.to[0]), 0, 0,
+     -INSPECTOR_NO_LIMIT, INSPECTOR_NO_LIMIT, NAN, 0.005, 3},
+    {"pin.y", "y", "m", "Where the point is to be: height", "Move pin", NUMBER_AT(edit.pin.to[1]), 0, 0,
+     -INSPECTOR_NO_LIMIT, INSPECTOR_NO_LIMIT, NAN, 0.005, 3},
+    {"pin.z", "z", "m", "Where the point is to be: depth", "Move pin", NUMBER_AT(edit.pin.to[2]), 0, 0,
+     -INSPECTOR_NO_LIMIT, INSPECTOR_NO_LIMIT, NAN, 0.005, 3},
 };
 
 static void build_field(struct inspection *in, int field)
@@ -170,13 +121,13 @@ static void build_field(struct inspection *in, int field)
     if (!pins_selected(in->core, in->document, &rig)) return;
     const struct rig *pinned = &in->document->rigs[rig];
     if (field == ROW_FRAME) {
-        row.number.lowest = in->document->first_frame;
-        row.number.highest = document_frame(in->document, pins_last_sample(in->document, pinned));
+        row.lowest = in->document->first_frame;
+        row.highest = document_frame(in->document, pins_last_sample(in->document, pinned));
     } else if (field == ROW_POINT) {
-        row.number.label = word_of(pinned);
-        row.number.highest = points_of(in, rig) - 1;
+        row.label = word_of(pinned);
+        row.highest = points_of(in, rig) - 1;
     }
-    const enum ui_change change = inspector_number(in, &row, ui_row(in->ui, UI_ROW));
+    const enum ui_change change = inspector_number(in, &row, now, field, ui_row(in->ui, UI_ROW));
     if (inspector_changed(change)) pins_tell(in->core, in->world, rig);
 }
 

@@ -17,22 +17,19 @@ static void build_slider(struct inspection *in, enum parameter parameter, struct
 {
     const struct spline *spline = core_active_spline(in->core, in->world);
     const struct parameter_row *row = &parameter_rows[parameter];
-    const struct number_row number = {{.name = row->name,
-                                       .label = row->name,
-                                       .unit = row->unit,
-                                       .hint = row->hint,
-                                       .maximum = core_slider_end(in->document, spline, parameter),
-                                       .lowest = row->minimum,
-                                       .highest = parameter_maximum(parameter, spline_mode(spline)),
-                                       .fallback = row->fresh,
-                                       .step = row->step,
-                                       .decimals = row->decimals},
-                                      row->undo,
-                                      offsetof(struct setting, edit.param.value),
-                                      false,
-                                      now,
-                                      (int)parameter};
-    inspector_number(in, &number, r);
+    const struct number_row number = {.name = row->name,
+                                      .label = row->name,
+                                      .unit = row->unit,
+                                      .hint = row->hint,
+                                      .undo = row->undo,
+                                      .at = offsetof(struct setting, edit.param.value),
+                                      .maximum = core_slider_end(in->document, spline, parameter),
+                                      .lowest = row->minimum,
+                                      .highest = parameter_maximum(parameter, spline_mode(spline)),
+                                      .fallback = row->fresh,
+                                      .step = row->step,
+                                      .decimals = row->decimals};
+    inspector_number(in, &number, now, (int)parameter, r);
 }
 
 static void build_number(struct inspection *in, enum parameter parameter)

@@ -41,48 +41,12 @@ static void position_now(const struct inspection *in, int k, struct setting *set
 }
 
 static const struct number_row position[] = {
-    {{.name = "position.x",
-      .label = "x",
-      .unit = "m",
-      .hint = "Position of the body along x",
-      .lowest = -1e6,
-      .highest = 1e6,
-      .fallback = 0,
-      .step = 0.01,
-      .decimals = 3},
-     "Move body",
-     offsetof(struct setting, edit.param.value),
-     false,
-     position_now,
-     0},
-    {{.name = "position.y",
-      .label = "y",
-      .unit = "m",
-      .hint = "Position of the body along y",
-      .lowest = -1e6,
-      .highest = 1e6,
-      .fallback = 0.26,
-      .step = 0.01,
-      .decimals = 3},
-     "Move body",
-     offsetof(struct setting, edit.param.value),
-     false,
-     position_now,
-     1},
-    {{.name = "position.z",
-      .label = "z",
-      .unit = "m",
-      .hint = "Position of the body along z",
-      .lowest = -1e6,
-      .highest = 1e6,
-      .fallback = 0,
-      .step = 0.01,
-      .decimals = 3},
-     "Move body",
-     offsetof(struct setting, edit.param.value),
-     false,
-     position_now,
-     2},
+    {"position.x", "x", "m", "Position of the body along x", "Move body", NUMBER_AT(edit.param.value), 0, 0, -1e6,
+     1e6, 0, 0.01, 3},
+    {"position.y", "y", "m", "Position of the body along y", "Move body", NUMBER_AT(edit.param.value), 0, 0, -1e6,
+     1e6, 0.26, 0.01, 3},
+    {"position.z", "z", "m", "Position of the body along z", "Move body", NUMBER_AT(edit.param.value), 0, 0, -1e6,
+     1e6, 0, 0.01, 3},
 };
 
 /// A coordinate: a number, or the spline that it follows, and the button from one to the other.
@@ -109,7 +73,7 @@ static void build_coordinate(struct inspection *in, const struct tail *tail, int
         core_step(in->core, in->world, "Stop following", 0, &edit);
         return;
     }
-    inspector_number(in, &position[k], r);
+    inspector_number(in, &position[k], position_now, k, r);
     if (in->document->spline_count == 0) return;
     if (ui_icon_button(in->ui, icon, button, UI_ICON_FOLLOW, false, "Follow a spline (in metres)")) {
         ui_popup_open(in->ui, place_list, k, field);
@@ -136,51 +100,19 @@ void inspector_tail_lists(struct inspection *in)
     place_popup(in);
 }
 
-static void joints_now(const struct inspection *in, int which, struct setting *setting)
+static void size_now(const struct inspection *in, int which, struct setting *setting)
 {
-    (void)which;
-    setting->edit = rig_edit(in, EDIT_JOINTS);
-    setting->edit.to = inspector_shown(in)->tail.joints;
-}
-
-static void length_now(const struct inspection *in, int which, struct setting *setting)
-{
-    (void)which;
-    setting->edit = rig_edit(in, EDIT_LENGTH);
-    setting->edit.number = inspector_shown(in)->tail.length;
+    const struct tail *tail = &inspector_shown(in)->tail;
+    setting->edit = rig_edit(in, which == 0 ? EDIT_JOINTS : EDIT_LENGTH);
+    setting->edit.to = tail->joints;
+    setting->edit.number = tail->length;
 }
 
 static const struct number_row size[] = {
-    {{.name = "joints",
-      .label = "joints",
-      .hint = "More joints bend more smoothly; shape and swing stay the same",
-      .minimum = 1,
-      .maximum = 64,
-      .lowest = 1,
-      .highest = TAIL_MAX_JOINTS,
-      .fallback = TAIL_DEFAULT_JOINTS,
-      .step = 1},
-     "Set joints",
-     offsetof(struct setting, edit.to),
-     true,
-     joints_now,
-     0},
-    {{.name = "length",
-      .label = "length",
-      .unit = "m",
-      .hint = "Length of the tail; the body scales with it",
-      .minimum = 0.2,
-      .maximum = 4,
-      .lowest = 1e-3,
-      .highest = 1e6,
-      .fallback = TAIL_DEFAULT_LENGTH,
-      .step = 0.05,
-      .decimals = 2},
-     "Set length",
-     offsetof(struct setting, edit.number),
-     false,
-     length_now,
-     0},
+    {"joints", "joints", NULL, "More joints bend more smoothly; shape and swing stay the same", "Set joints",
+     WHOLE_AT(edit.to), 1, 64, 1, TAIL_MAX_JOINTS, TAIL_DEFAULT_JOINTS, 1, 0},
+    {"length", "length", "m", "Length of the tail; the body scales with it", "Set length", NUMBER_AT(edit.number),
+     0.2, 4, 1e-3, 1e6, TAIL_DEFAULT_LENGTH, 0.05, 2},
 };
 
 void inspector_overlays(struct inspection *in)
@@ -226,7 +158,7 @@ static void build_shown(struct inspection *in)
         inspector_chain(in);
         return;
     }
-    inspector_numbers(in, size, sizeof size / sizeof size[0]);
+    inspector_numbers(in, size, sizeof size / sizeof size[0], size_now);
     for (int k = 0; k < 3; k++) build_coordinate(in, &inspector_shown(in)->tail, k);
 }
 
