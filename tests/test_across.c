@@ -1,5 +1,6 @@
 /// Knots of several splines at once: selected, moved, nudged, scaled, sloped, deleted, copied and pasted as one step.
-#include "editor/core/picked.h"
+#include "editor/core/selected_knots.h"
+#include "editor/core/selection.h"
 #include "inside.h"
 #include "panel_session.h"
 
@@ -16,7 +17,7 @@ static const struct knot *knot(const struct session *s, int spline, int k)
     return &s->document->splines[spline].knots[k];
 }
 
-static int count(const struct session *s) { return picked_count(&s->editor->core, s->document); }
+static int count(const struct session *s) { return selected_count(&s->editor->core, s->document); }
 
 /// A box from one place of the plot to another, by frames and values.
 static void box(struct session *s, const char *from, const char *to)

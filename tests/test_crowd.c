@@ -1,6 +1,7 @@
 /// Splines of thousands of knots: which are selected, and how they are drawn.
 #include "editor/core/knots.h"
-#include "editor/core/picked.h"
+#include "editor/core/selected_knots.h"
+#include "editor/core/selection.h"
 #include "five_knots.h"
 #include "inside.h"
 #include "panel_session.h"
@@ -33,18 +34,18 @@ static void assert_walked(struct session *s)
     struct core *core = &s->editor->core;
     int expected = 0;
     session_frame(s);
-    struct knot_place at = PICKED_START;
+    struct knot_place at = SELECTED_START;
     for (int of = 0; of < s->document->spline_count; of++) {
         for (int k = 0; k < spline(s, of)->knot_count; k++) {
             if (!selection_has(&core->selection, spline(s, of)->knots[k].id)) continue;
             expected++;
-            assert_true(picked_next(core, s->document, &at));
+            assert_true(selected_next(core, s->document, &at));
             assert_int_equal(at.spline, of);
             assert_int_equal(at.knot, k);
         }
     }
-    assert_false(picked_next(core, s->document, &at));
-    assert_int_equal(picked_count(core, s->document), expected);
+    assert_false(selected_next(core, s->document, &at));
+    assert_int_equal(selected_count(core, s->document), expected);
 }
 
 static void edits_and_selections_are_found(void **state)
@@ -86,7 +87,7 @@ static void a_drag_is_found(void **state)
         session_drag(&s, i < 20 ? 7 : -21, i % 2 ? 30 : -28, 1);
         assert_walked(&s);
     }
-    assert_true(picked_count(&s.editor->core, s.document) == 1);
+    assert_true(selected_count(&s.editor->core, s.document) == 1);
     session_release(&s, BUTTON_LEFT);
     assert_walked(&s);
     session_key(&s, 'Z', MOD_CTRL);

@@ -1,5 +1,5 @@
 /// Curves whose swings are finer than a pixel column, and the marks of knots that are.
-#include "editor/curves/view.h"
+#include "editor/curves/parts.h"
 #include "five_knots.h"
 #include "inside.h"
 #include "panel_session.h"

@@ -1,5 +1,5 @@
 /// The curves panel as an animator uses it: boxes, scaling, retiming, other curves, ruler. Events in, document out.
-#include "editor/curves/view.h"
+#include "editor/curves/parts.h"
 #include "five_knots.h"
 #include "inside.h"
 #include "panel_session.h"

@@ -2,9 +2,8 @@
 #include "panel_session.h"
 
 #include "base/file.h"
-#include "editor/core/arrange.h"
-#include "editor/stage/overlays.h"
-#include "editor/stage/rigs.h"
+#include "editor/core/spline_list.h"
+#include "editor/stage/parts.h"
 #include <math.h>
 
 static const char swings[] =
@@ -132,7 +131,7 @@ static void test_two_tails_are_told_apart(void **state)
         for (int t = 0; t < 2; t++) {
             if (strcmp(list->text + command->first, t ? "new" : "old") != 0) continue;
             x[t] = command->x;
-            assert_int_equal(list->commands[i - 1].color, arrange_color(s.document, t));
+            assert_int_equal(list->commands[i - 1].color, spline_list_color(s.document, t));
         }
     }
     assert_true(x[0] > 0 && x[1] > 0 && fabsf(x[0] - x[1]) > 100);

@@ -1,5 +1,5 @@
 /// The inspector's scene, list of splines, tracks and palette, by the events of mouse and keyboard.
-#include "editor/core/arrange.h"
+#include "editor/core/spline_list.h"
 #include "inside.h"
 #include "panel_session.h"
 
@@ -190,10 +190,10 @@ static void test_hidden_and_solo_curves(void **state)
     assert_int_equal(f.editor->curves->cache.other_count, 1);
     panel_click(&f, "spline.pace"); // the order of the list does not matter to what is hidden
     panel_click(&f, "spline.up");
-    assert_false(arrange_shows(&f.editor->core, f.document, 0));
+    assert_false(spline_list_shows(&f.editor->core, f.document, 0));
     panel_click(&f, "solo.lift");
-    assert_true(arrange_shows(&f.editor->core, f.document, 2));
-    assert_false(arrange_shows(&f.editor->core, f.document, 1));
+    assert_true(spline_list_shows(&f.editor->core, f.document, 2));
+    assert_false(spline_list_shows(&f.editor->core, f.document, 1));
     panel_click(&f, "solo.lift");
     panel_click(&f, "eye.pace");
     assert_int_equal(f.editor->curves->cache.other_count, 2);

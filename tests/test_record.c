@@ -2,7 +2,7 @@
 #include "inside.h"
 #include "panel_session.h"
 
-#include "editor/stage/hold.h"
+#include "editor/stage/parts.h"
 #include <math.h>
 
 static const char scene[] =

@@ -1,5 +1,6 @@
 /// The dope sheet: rows of marks that share the ruler's time, dragged, boxed, scrolled, by mouse and by key.
-#include "editor/core/picked.h"
+#include "editor/core/selected_knots.h"
+#include "editor/core/selection.h"
 #include "inside.h"
 #include "panel_session.h"
 
@@ -15,7 +16,7 @@ static const struct knot *knot(const struct session *s, int spline, int k)
     return &s->document->splines[spline].knots[k];
 }
 
-static int count(const struct session *s) { return picked_count(&s->editor->core, s->document); }
+static int count(const struct session *s) { return selected_count(&s->editor->core, s->document); }
 
 static float frames(const struct session *s, double count)
 {

@@ -1,7 +1,6 @@
 /// The editor's public functions: who gets an event, and what happens once a frame.
 #include "editor/editor.h"
 #include "editor/core/core.h"
-#include "editor/core/presenter.h"
 #include "editor/curves/curves.h"
 #include "editor/dialogs/dialog_files.h"
 #include "editor/dialogs/dialogs.h"

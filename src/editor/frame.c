@@ -3,7 +3,6 @@
 #include "editor/core/drag.h"
 #include "editor/core/knots.h"
 #include "editor/core/playback.h"
-#include "editor/core/presenter.h"
 #include "editor/curves/curves.h"
 #include "editor/dialogs/dialogs.h"
 #include "editor/editor.h"

@@ -1,10 +1,12 @@
-/// The selected bone of an imported character, and what can be made of it.
+/// The selected bone of an imported character, chains of its bones, and what follows it.
 #include "editor/core/bones.h"
 #include "editor/core/core.h"
 #include "rig/bones.h"
 #include "rig/chain_make.h"
 #include "rig/import.h"
+#include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 const struct imported *bones_character(const struct editor_world *world, int model)
 {
@@ -102,4 +104,255 @@ void bones_make_chain(struct core *core, const struct editor_world *world, int f
     core_activate(core, world, rig_input(&world->document->rigs[rig], 0));
     core->refit_curves = !has_splines;
     tell(core, world->document, &world->document->rigs[rig], model, follow);
+}
+
+int bones_model_of(const struct document *document, const struct chain *chain)
+{
+    return document_find_model(document, chain->model, chain->by_file);
+}
+
+static bool is_below(const struct gltf *gltf, int node, int top)
+{
+    while (node >= 0 && node != top) node = gltf->nodes[node].parent;
+    return node == top;
+}
+
+static bool is_bone(const struct skeleton *skeleton, int node)
+{
+    for (int b = 0; b < skeleton->count; b++) {
+        if (skeleton->bones[b].node == node) return true;
+    }
+    return false;
+}
+
+int bones_below(const struct imported *character, int top, int *nodes, int most)
+{
+    int count = 0;
+    for (int n = 0; n < character->gltf.node_count && count < most; n++) {
+        if (is_bone(&character->skeleton, n) && is_below(&character->gltf, n, top)) nodes[count++] = n;
+    }
+    return count;
+}
+
+void bones_pick(struct core *core, enum bone_use use, int which) { core->pick = (struct bone_pick){use, which}; }
+
+void bones_clicked(struct core *core, const struct editor_world *world, int model, int node)
+{
+    const struct bone_pick pick = core->pick;
+    const struct document *document = world->document;
+    core->pick = (struct bone_pick){0};
+    if (pick.use == BONE_SELECTED) {
+        bones_select(core, world, model, node);
+    } else if (pick.use == BONE_FOLLOWED) {
+        bones_follow(core, world, pick.which, model, node);
+    } else if (bones_model_of(document, &document->rigs[pick.which].chain) == model) {
+        bones_set_end(core, world, pick.which, pick.use == BONE_FIRST, node);
+    } else {
+        core_message(core, true, "This bone is another character's: a chain stays on its own.");
+    }
+}
+
+/// A chain of a model that a spline bends, and the first of its channels that does; NULL where there is none.
+static const struct rig *bent_by(const struct document *document, int spline, int model,
+                                 const struct channel **channel)
+{
+    for (int r = document_next_rig(document, RIG_CHAIN, 0); r >= 0;
+         r = document_next_rig(document, RIG_CHAIN, r + 1)) {
+        const struct chain *chain = &document->rigs[r].chain;
+        if (bones_model_of(document, chain) != model) continue;
+        for (int c = 0; c < chain->channel_count; c++) {
+            *channel = &chain->channels[c];
+            if (chain->channels[c].spline == spline) return &document->rigs[r];
+        }
+    }
+    return NULL;
+}
+
+/// The gain with which a chain's channel bends as far as its joint has moved, as chains do that are made to follow.
+static double gain_for(const struct editor_world *world, int model, const struct chain *chain,
+                       const struct channel *channel)
+{
+    const struct imported *character = bones_character(world, model);
+    struct chain_bones bones;
+    if (!chain_find(&character->gltf, chain->from, chain->to, &bones, NULL)) return 1;
+    const double wanted = chain_bend_a_metre(character, &bones, world->document->rigs[model].model.scale);
+    const double bend = angles_at(&channel->gain, 0, bones.count);
+    const double gain = wanted / bend;
+    return isfinite(gain) && gain > 0 ? core_round(gain, 0.01 * gain) : 1;
+}
+
+/// Along the way that a channel bends its chain.
+static enum motion_of motion_along(enum axis axis)
+{
+    return axis == AXIS_SIDE ? MOTION_ACROSS : axis == AXIS_UP ? MOTION_UP : MOTION_TURN;
+}
+
+/// Has the chains' channels bend by what the spline adds to what it follows: they are carried by that already.
+static bool bend_by_the_rest(struct core *core, const struct editor_world *world, int spline, int model)
+{
+    const struct document *document = world->document;
+    bool done = true;
+    for (int r = document_next_rig(document, RIG_CHAIN, 0); r >= 0;
+         r = document_next_rig(document, RIG_CHAIN, r + 1)) {
+        const struct chain *chain = &document->rigs[r].chain;
+        const int count = bones_model_of(document, chain) == model ? chain->channel_count : 0;
+        for (int c = 0; c < count; c++) {
+            struct edit edit = core_edit_of(EDIT_PART, spline);
+            edit.rig = r;
+            edit.channel = c;
+            edit.of = PART_DISPLACEMENT;
+            if (document->rigs[r].chain.channels[c].spline == spline) done &= core_edit(core, world, &edit);
+        }
+    }
+    return done;
+}
+
+void bones_follow(struct core *core, const struct editor_world *world, int spline, int model, int node)
+{
+    const struct document *document = world->document;
+    const struct param *old = &document->splines[spline].parameter[PARAMETER_EQUILIBRIUM];
+    const struct imported *character = bones_character(world, model);
+    if (!character || history_is_open(world->history)) return;
+    const struct channel *channel = NULL;
+    const struct rig *bent = bent_by(document, spline, model, &channel), *rig = &document->rigs[model];
+    struct joint_motion motion = {.model = rig->name ? rig->name : rig->model.model, .of = MOTION_TURN};
+    struct edit edit = core_edit_of(EDIT_PARAMETER, spline);
+    edit.parameter = PARAMETER_EQUILIBRIUM;
+    edit.param.gain = 1;
+    if (bent) {
+        motion.chain = bent->name;
+        motion.joint = bent->chain.to;
+        motion.of = motion_along(channel->axis);
+        if (motion.of != MOTION_TURN) edit.param.gain = gain_for(world, model, &bent->chain, channel);
+    }
+    const bool goes_on =
+        old->motion && document_find_model(document, old->motion->model, old->motion->by_file) == model;
+    if (goes_on) {
+        motion = *old->motion;
+        edit.param.gain = old->gain;
+    }
+    int chosen_on;
+    const int chosen = bones_selected(core, world, &chosen_on);
+    if (node < 0 && !bent && chosen_on == model) node = chosen;
+    if (node < 0 && !bent && bones_below(character, -1, &node, 1) == 0) return;
+    if (node >= 0) motion.joint = character->gltf.nodes[node].name;
+    edit.param.motion = &motion;
+    const bool is_new = !old->motion;
+    history_begin(world->history, "Follow joint", 0);
+    const bool done = core_edit(core, world, &edit) && (!is_new || bend_by_the_rest(core, world, spline, model));
+    if (!done) history_restart(world->history, world->document);
+    history_end(world->history);
+    if (!done) core_refresh(core, world);
+}
+
+/// The names of a chain's ends with another bone at one of them; false with a sentence.
+static bool find_ends(const struct gltf *gltf, const struct chain *chain, bool first, int node, char *ends[2],
+                      struct error *error)
+{
+    struct chain_bones bones;
+    ends[0] = first ? gltf->nodes[node].name : chain->from;
+    ends[1] = first ? chain->to : gltf->nodes[node].name;
+    if (chain_find(gltf, ends[0], ends[1], &bones, error)) return true;
+    const int last = first ? chain_end(gltf, node, error) : -1;
+    if (last < 0) return false;
+    ends[1] = gltf->nodes[last].name;
+    return chain_find(gltf, ends[0], ends[1], &bones, error);
+}
+
+/// Splines that follow a chain's last bone go on to follow its new one.
+static bool follow_end(struct core *core, const struct editor_world *world, const char *chain, const char *old,
+                       char *new)
+{
+    const struct document *document = world->document;
+    bool done = true;
+    for (int s = 0; s < document->spline_count; s++) {
+        struct edit edit = core_edit_of(EDIT_PARAMETER, s);
+        edit.parameter = PARAMETER_EQUILIBRIUM;
+        edit.param = document->splines[s].parameter[PARAMETER_EQUILIBRIUM];
+        if (!edit.param.motion || !edit.param.motion->chain || !chain) continue;
+        struct joint_motion motion = *edit.param.motion;
+        if (strcmp(motion.chain, chain) != 0 || strcmp(motion.joint, old) != 0) continue;
+        motion.joint = new;
+        edit.param.motion = &motion;
+        done &= core_edit(core, world, &edit);
+    }
+    return done;
+}
+
+void bones_set_end(struct core *core, const struct editor_world *world, int chain, bool first, int node)
+{
+    struct rig contents = world->document->rigs[chain];
+    const int model = bones_model_of(world->document, &contents.chain);
+    const struct imported *character = model >= 0 ? bones_character(world, model) : NULL;
+    struct error error = {0};
+    char *ends[2];
+    if (!character || history_is_open(world->history)) return;
+    if (!find_ends(&character->gltf, &contents.chain, first, node, ends, &error)) {
+        core_message(core, true, error.text);
+        return;
+    }
+    char old[BONE_NAME_SIZE], text[2 * BONE_NAME_SIZE];
+    snprintf(old, sizeof old, "%s", contents.chain.to);
+    contents.chain.from = ends[0];
+    contents.chain.to = ends[1];
+    struct edit edit = core_edit_of(EDIT_CHAIN, core->active);
+    edit.rig = chain;
+    edit.contents = &contents;
+    history_begin(world->history, "Set chain's bones", 0);
+    const bool done = core_edit(core, world, &edit) && follow_end(core, world, contents.name, old, ends[1]);
+    if (!done) history_restart(world->history, world->document);
+    history_end(world->history);
+    if (!done) {
+        core_refresh(core, world);
+        return;
+    }
+    const struct rig *rig = &world->document->rigs[chain];
+    snprintf(text, sizeof text, "%.80s goes from %.100s to %.100s.", rig_title(rig), rig->chain.from, rig->chain.to);
+    core_message(core, false, text);
+}
+
+/// Whether a chain of the model begins at a bone.
+static bool begins_at(const struct document *document, int model, const char *from)
+{
+    for (int r = document_next_rig(document, RIG_CHAIN, 0); r >= 0;
+         r = document_next_rig(document, RIG_CHAIN, r + 1)) {
+        const struct chain *chain = &document->rigs[r].chain;
+        if (document_find_model(document, chain->model, chain->by_file) == model && strcmp(chain->from, from) == 0)
+            return true;
+    }
+    return false;
+}
+
+/// The names of both ends of the twin; false where it has none, or is there already.
+static bool find_twin(const struct editor_world *world, int rig, char from[BONE_NAME_SIZE], char to[BONE_NAME_SIZE])
+{
+    const struct chain *chain = &world->document->rigs[rig].chain;
+    const int model = document_find_model(world->document, chain->model, chain->by_file);
+    const struct imported *shown = model >= 0 ? bones_character(world, model) : NULL;
+    if (!shown || !chain_other_side(chain->from, from) || !chain_other_side(chain->to, to)) return false;
+    return gltf_find_node(&shown->gltf, from) >= 0 && gltf_find_node(&shown->gltf, to) >= 0 &&
+           !begins_at(world->document, model, from);
+}
+
+bool bones_has_twin(const struct editor_world *world, int chain)
+{
+    char from[BONE_NAME_SIZE], to[BONE_NAME_SIZE];
+    return find_twin(world, chain, from, to);
+}
+
+void bones_make_twin(struct core *core, const struct editor_world *world, int chain)
+{
+    char from[BONE_NAME_SIZE], to[BONE_NAME_SIZE], name[BONE_NAME_SIZE], text[2 * BONE_NAME_SIZE];
+    if (!find_twin(world, chain, from, to)) return;
+    struct rig twin = world->document->rigs[chain];
+    struct edit edit = core_edit_of(EDIT_CHAIN_ADD, core->active);
+    twin.name = twin.name && chain_other_side(twin.name, name) ? name : NULL;
+    twin.chain.from = from;
+    twin.chain.to = to;
+    twin.chain.mirror = !twin.chain.mirror;
+    edit.contents = &twin;
+    if (!core_step(core, world, "Mirror chain", 0, &edit)) return;
+    snprintf(text, sizeof text, "Made the chain %s, mirrored, by the same splines.",
+             rig_title(&world->document->rigs[world->document->rig_count - 1]));
+    core_message(core, false, text);
 }

@@ -1,8 +1,8 @@
 /// Knots on the clipboard, and duplicates: copy, cut, paste at the playhead, duplicate.
 #include "editor/core/core.h"
 #include "editor/core/knots.h"
-#include "editor/core/picked.h"
 #include "editor/core/pins.h"
+#include "editor/core/selected_knots.h"
 #include "editor/core/selection.h"
 #include "scene/knots.h"
 #include <math.h>
@@ -82,7 +82,7 @@ static bool end_insertion(struct core *core, const struct editor_world *world, u
     selection_clear(&core->selection);
     pins_clear(core);
     for (unsigned id = first_id; id < document->next_id; id++) selection_set(&core->selection, id, true);
-    picked_settle(core, world);
+    selected_settle(core, world);
     core_edited(core, -1);
     return true;
 }

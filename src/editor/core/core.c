@@ -1,8 +1,8 @@
 /// What all panels share, and the edits that they ask for.
 #include "editor/core/core.h"
 #include "base/path.h"
-#include "editor/core/arrange.h"
 #include "editor/core/selection.h"
+#include "editor/core/spline_list.h"
 #include <ctype.h>
 #include <math.h>
 #include <stdio.h>
@@ -76,7 +76,7 @@ void core_refresh(struct core *core, const struct editor_world *world)
     if (core->serial != world->document->serial) {
         core_open(core, world->document);
     } else {
-        arrange_refresh(core, world);
+        spline_list_refresh(core, world);
     }
 }
 

@@ -66,4 +66,15 @@ enum divider core_divider_at(const struct core *core, float x, float y);
 /// Moves a divider to a point.
 void core_divider_move(struct core *core, enum divider divider, float x, float y);
 
+/// Begins or ends it (F5).
+void presenter_toggle(struct core *core, const struct editor_world *world, int argument);
+/// Tab shows all panels or lets them go; true where the event is used up.
+bool presenter_event(struct core *core, const struct event *event);
+/// Time passes: panels slide; `busy`: those in sight stay.
+void presenter_advance(struct core *core, double dt, bool busy);
+/// Whether a panel is on its way.
+bool presenter_is_sliding(const struct core *core);
+/// Moves the panels of a layout to where they have slid to, and gives the stage the window.
+void presenter_arrange(const struct presenter *presenter, struct layout *layout);
+
 #endif

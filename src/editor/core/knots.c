@@ -1,19 +1,19 @@
 /// Inserting, deleting and choosing knots.
 #include "editor/core/knots.h"
 #include "base/hash.h"
-#include "editor/core/arrange.h"
 #include "editor/core/core.h"
-#include "editor/core/picked.h"
 #include "editor/core/pins.h"
 #include "editor/core/playback.h"
+#include "editor/core/selected_knots.h"
 #include "editor/core/selection.h"
+#include "editor/core/spline_list.h"
 #include <math.h>
 
 uint64_t core_merge_key(const struct core *core, const struct editor_world *world, uint64_t kind)
 {
     uint64_t key = hash_bytes(HASH_START, &kind, sizeof kind);
     key = hash_bytes(key, &core->active, sizeof core->active);
-    for (struct knot_place at = PICKED_START; picked_next(core, world->document, &at);) {
+    for (struct knot_place at = SELECTED_START; selected_next(core, world->document, &at);) {
         unsigned id = knot_at(world->document, at)->id;
         key = hash_bytes(key, &id, sizeof id);
     }
@@ -94,7 +94,7 @@ void core_remove_knots(struct core *core, const struct editor_world *world, cons
 void core_delete_knots(struct core *core, const struct editor_world *world, int unused)
 {
     (void)unused;
-    core_remove_knots(core, world, picked_count(core, world->document) == 1 ? "Delete knot" : "Delete knots");
+    core_remove_knots(core, world, selected_count(core, world->document) == 1 ? "Delete knot" : "Delete knots");
 }
 
 void core_select_all(struct core *core, const struct editor_world *world, int all_splines)
@@ -104,10 +104,10 @@ void core_select_all(struct core *core, const struct editor_world *world, int al
     selection_clear(&core->selection);
     for (int s = 0; s < document->spline_count; s++) {
         const struct spline *spline = &document->splines[s];
-        if (all_splines ? !arrange_shows(core, document, s) : s != core->active) continue;
+        if (all_splines ? !spline_list_shows(core, document, s) : s != core->active) continue;
         for (int k = 0; k < spline->knot_count; k++) selection_set(&core->selection, spline->knots[k].id, true);
     }
-    picked_settle(core, world);
+    selected_settle(core, world);
 }
 
 /// Index of the first knot after, or last one before, a position; -1 where there is none.

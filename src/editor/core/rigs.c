@@ -1,7 +1,7 @@
 /// Adds and removes rigs.
 #include "editor/core/rigs.h"
-#include "editor/core/arrange.h"
 #include "editor/core/core.h"
+#include "editor/core/spline_list.h"
 #include "scene/reference.h"
 #include <math.h>
 #include <stdio.h>
@@ -231,7 +231,7 @@ static bool let_go(struct core *core, const struct editor_world *world, const st
         bool follows = false;
         for (int r = 0; r < document->rig_count; r++) follows |= goes(removal, r) && document_follows(document, s, r);
         if (!follows) continue;
-        const double present = arrange_present(core, world, s, PARAMETER_EQUILIBRIUM);
+        const double present = spline_list_present(core, world, s, PARAMETER_EQUILIBRIUM);
         const struct edit edit = core_parameter_edit(s, PARAMETER_EQUILIBRIUM, core_round(present, 1e-3));
         done = core_edit(core, world, &edit);
     }

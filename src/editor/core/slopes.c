@@ -1,7 +1,7 @@
 /// The slopes of the selected knots: on, off, flat, Catmull-Rom, turned and made firmer by keys.
 #include "editor/core/core.h"
 #include "editor/core/knots.h"
-#include "editor/core/picked.h"
+#include "editor/core/selected_knots.h"
 #include <math.h>
 
 /// Kinds of nudges for core_merge_key(), apart from those of nudge.c.
@@ -58,9 +58,9 @@ struct knot_change {
 static void change_knots(struct core *core, const struct editor_world *world, const struct knot_change *change)
 {
     const struct document *document = world->document;
-    if (history_is_open(world->history) || picked_count(core, document) == 0) return;
+    if (history_is_open(world->history) || selected_count(core, document) == 0) return;
     history_begin(world->history, change->label, change->kind ? core_merge_key(core, world, change->kind) : 0);
-    for (struct knot_place at = PICKED_START; picked_next(core, document, &at);) {
+    for (struct knot_place at = SELECTED_START; selected_next(core, document, &at);) {
         const struct knot *knot = knot_at(document, at);
         struct edit edit = core_edit_of(EDIT_KNOT_SET, at.spline);
         edit.knot = *knot;
@@ -97,7 +97,7 @@ void slopes_stiffen(struct core *core, const struct editor_world *world, int dir
 static bool all_sloped(const struct core *core, const struct document *document)
 {
     bool all = true;
-    for (struct knot_place at = PICKED_START; picked_next(core, document, &at);) {
+    for (struct knot_place at = SELECTED_START; selected_next(core, document, &at);) {
         all &= knot_at(document, at)->has_slope;
     }
     return all;

@@ -1,17 +1,15 @@
-/// The curves panel: its beginning and end, what is under the pointer, presses and the wheel.
+/// The curves panel: its beginning and end, what is under the pointer, presses, boxes round knots, and the active spline's limits.
 #include "editor/curves/curves.h"
-#include "editor/core/arrange.h"
 #include "editor/core/core.h"
 #include "editor/core/drag.h"
 #include "editor/core/knots.h"
-#include "editor/core/picked.h"
 #include "editor/core/pins.h"
 #include "editor/core/playback.h"
+#include "editor/core/selected_knots.h"
 #include "editor/core/selection.h"
-#include "editor/curves/gestures.h"
-#include "editor/curves/show.h"
-#include "editor/curves/view.h"
-#include "editor/curves/warnings.h"
+#include "editor/core/spline_list.h"
+#include "editor/curves/parts.h"
+#include "ui/theme.h"
 #include <math.h>
 #include <stdlib.h>
 
@@ -116,7 +114,7 @@ static void nearest_curve(const struct curves *curves, const struct core *core, 
     float best = CURVE_REACH;
     for (int i = 0; i < world->document->spline_count; i++) {
         int s = i == 0 ? core->active : i <= core->active ? i - 1 : i;
-        if (!arrange_shows(core, world->document, s)) continue;
+        if (!spline_list_shows(core, world->document, s)) continue;
         wiggly_value v = evaluation_at(world->evaluation, s, position);
         float distance = fabsf(y - curves_y_of(curves, core, s, v.y + v.re));
         if (distance >= best) continue;
@@ -136,7 +134,7 @@ struct hover curves_hover(const struct curves *curves, const struct core *core, 
     if (rect_contains(sheet_switch(core), x, y)) hover.kind = HOVER_SHEET;
     if (rect_contains(sheet_area(core), x, y)) return sheet_hover(curves, core, world->document, x, y);
     if (!rect_contains(core->layout.plot, x, y) || !spline) return hover;
-    bool seen = arrange_seen(core, world) != NULL;
+    bool seen = spline_list_seen(core, world) != NULL;
     if (seen) nearest_knot(curves, core, world->document, core->active, x, y, CURVES_HIT_RADIUS, &hover);
     if (seen && hover.kind == HOVER_NONE) nearest_handle(curves, core, world->document, spline, x, y, &hover);
     if (hover.kind == HOVER_NONE) nearest_warning(curves, core, x, y, &hover);
@@ -161,7 +159,7 @@ static void press_knot(struct curves *curves, struct core *core, const struct ed
     }
     if (event->mods & MOD_SHIFT) {
         selection_set(&core->selection, id, !selected);
-        picked_settle(core, world);
+        selected_settle(core, world);
         if (selected) return;
     } else if (!selected) {
         selection_clear(&core->selection);
@@ -273,4 +271,136 @@ void curves_wheel(struct curves *curves, struct core *core, const struct event *
     double value = event->mods & MOD_CTRL && !(event->mods & MOD_SHIFT) ? 1 : factor;
     if (rect_contains(sheet_area(core), event->x, event->y)) value = 1; // which has only time
     curves_zoom(curves, core, event->x, event->y, time, value);
+}
+
+static struct rect box_rect(const struct drag *drag)
+{
+    return (struct rect){fminf(drag->start_x, drag->x), fminf(drag->start_y, drag->y), fabsf(drag->x - drag->start_x),
+                         fabsf(drag->y - drag->start_y)};
+}
+
+/// Selects or deselects what of one spline is in the box.
+static void take_inside(const struct curves *curves, struct core *core, const struct document *document, int s)
+{
+    const struct rect box = box_rect(&core->drag);
+    const struct spline *spline = &document->splines[s];
+    for (int k = curves_knot_from(curves, core, document, spline, box.x); k < spline->knot_count; k++) {
+        const struct knot *knot = &spline->knots[k];
+        const float x = curves_knot_x(curves, core, document, knot), y = curves_y_of(curves, core, s, knot->value);
+        if (x > box.x + box.w) break;
+        if (rect_contains(box, x, y)) selection_set(&core->selection, knot->id, curves->knot_drag.box != BOX_REMOVE);
+    }
+}
+
+/// Selects what is in the box as it is now.
+static void move(void *room, struct core *core, const struct editor_world *world)
+{
+    const struct curves *curves = room;
+    const struct document *document = world->document;
+    selection_copy(&core->selection, &curves->before_box);
+    if (curves->knot_drag.box == BOX_REPLACE) selection_clear(&core->selection);
+    if (curves->knot_drag.in_sheet) {
+        sheet_take_inside(curves, core, document, box_rect(&core->drag));
+        return;
+    }
+    if (spline_list_seen(core, world)) take_inside(curves, core, document, core->active);
+    for (int i = 0; i < curves->cache.other_count; i++) {
+        const int other = curves_other(curves, document, i);
+        if (other >= 0) take_inside(curves, core, document, other);
+    }
+}
+
+/// A press that did not move was a click on empty; `keep` false brings the former selection back.
+static void end(void *room, struct core *core, const struct editor_world *world, bool keep)
+{
+    const struct curves *curves = room;
+    if (!keep) selection_copy(&core->selection, &curves->before_box);
+    if (keep && !core->drag.moved && curves->knot_drag.box == BOX_REPLACE) selection_clear(&core->selection);
+    if (keep) selected_settle(core, world);
+}
+
+static void show(void *room, struct core *core, const struct editor_world *world)
+{
+    const struct curves *curves = room;
+    const struct rect r = box_rect(&core->drag);
+    (void)world;
+    if (!core->drag.moved) return;
+    const float outline[] = {r.x, r.y, r.x + r.w, r.y, r.x + r.w, r.y + r.h, r.x, r.y + r.h, r.x, r.y};
+    uint32_t color = curves->knot_drag.box == BOX_REMOVE ? theme()->error : theme()->playhead;
+    struct rect clip = drawlist_push_clip(&core->list, core->layout.curves);
+    drawlist_set_clip(&core->list, curves->knot_drag.in_sheet ? core->layout.sheet : core->layout.plot);
+    drawlist_rect(&core->list, r, theme_fade(color, 0.08f));
+    drawlist_dashed(&core->list, outline, 5, 1, 4, 3, theme_fade(color, 0.7f));
+    drawlist_set_clip(&core->list, clip);
+}
+
+void box_begin(struct curves *curves, struct core *core, const struct event *event)
+{
+    static const struct drag_owner owner = {.cursor = CURSOR_ARROW, .move = move, .end = end, .show = show};
+    drag_begin(core, &owner, curves, NULL, event);
+    curves->knot_drag = (struct knot_drag){0};
+    bool removes = event->mods & (MOD_CTRL | MOD_ALT);
+    curves->knot_drag.box = removes ? BOX_REMOVE : event->mods & MOD_SHIFT ? BOX_ADD : BOX_REPLACE;
+    selection_copy(&curves->before_box, &core->selection);
+}
+
+static const float REACH = 5; ///< pixels from a line at which it is hit
+
+static enum parameter limit_of(int handle) { return handle ? PARAMETER_HIGH : PARAMETER_LOW; }
+
+void limits_hover(const struct curves *curves, const struct core *core, const struct spline *spline, float y,
+                  struct hover *hover)
+{
+    float best = REACH;
+    for (int i = 0; i < 2; i++) {
+        double value = spline->parameter[limit_of(i)].value;
+        float distance = isfinite(value) ? fabsf(y - curves_y(curves, core, value)) : INFINITY;
+        if (distance > best) continue;
+        best = distance;
+        *hover = (struct hover){.kind = HOVER_LIMIT, .spline = core->active, .handle = i};
+    }
+}
+
+/// The limit goes where the pointer is; knots stay within.
+static void apply(void *room, struct core *core, const struct editor_world *world)
+{
+    const struct curves *curves = room;
+    const struct limit_drag *drag = &curves->limit_drag;
+    const struct spline *spline = core_active_spline(core, world);
+    double by = -core->drag.moved_y / curves_pixels_per_value(curves, core);
+    double value = core_round(drag->value + by, 0.01 / curves_pixels_per_value(curves, core));
+    const double other = spline->parameter[limit_of(!drag->handle)].value;
+    for (int k = 0; k < spline->knot_count; k++) {
+        const double knot = spline->knots[k].value;
+        value = drag->handle ? fmax(value, knot) : fmin(value, knot);
+    }
+    if (drag->handle ? value <= other : value >= other) return; // without knots: they do not pass each other
+    struct edit edit = core_parameter_edit(core->active, limit_of(drag->handle), value);
+    core_edit(core, world, &edit);
+}
+
+void limits_begin_drag(struct curves *curves, struct core *core, const struct editor_world *world, int handle,
+                       const struct event *event)
+{
+    static const struct drag_owner owner = {.cursor = CURSOR_VERTICAL, .apply = apply};
+    const struct spline *spline = core_active_spline(core, world);
+    drag_begin(core, &owner, curves, parameter_rows[limit_of(handle)].undo, event);
+    core->hover = (struct hover){.kind = HOVER_LIMIT, .spline = core->active, .handle = handle};
+    curves->limit_drag = (struct limit_drag){handle, spline->parameter[limit_of(handle)].value};
+}
+
+void limits_show(const struct curves *curves, struct core *core, const struct editor_world *world)
+{
+    const struct spline *spline = spline_list_seen(core, world);
+    const struct rect *plot = &core->layout.plot;
+    if (!spline) return;
+    for (int i = 0; i < 2; i++) {
+        double value = spline->parameter[limit_of(i)].value;
+        if (!isfinite(value)) continue;
+        const bool hot = core->hover.kind == HOVER_LIMIT && core->hover.handle == i;
+        float y = curves_y(curves, core, value);
+        const float line[2][2] = {{plot->x, y}, {plot->x + plot->w, y}};
+        drawlist_dashed(&core->list, &line[0][0], 2, hot ? 2 : 1.25f, 10, 6,
+                        theme_fade(spline_list_color(world->document, core->active), hot ? 1 : 0.6f));
+    }
 }

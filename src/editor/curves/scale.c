@@ -5,10 +5,11 @@
 /// swings about it swings b times as far.
 #include "editor/core/core.h"
 #include "editor/core/drag.h"
-#include "editor/core/picked.h"
+#include "editor/core/selected_knots.h"
 #include "editor/curves/curves.h"
-#include "editor/curves/gestures.h"
-#include "editor/curves/view.h"
+#include "editor/curves/parts.h"
+#include "ui/font.h"
+#include "ui/theme.h"
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -383,4 +384,158 @@ void scale_begin_handle(struct curves *curves, struct core *core, const struct e
     core->drag.lock_y = box_column(handle) == 0;
     begin(curves, core, world, event->mods & MOD_ALT ? PIVOT_EQUILIBRIUM : PIVOT_SIDE, handle);
     core->hover = (struct hover){.kind = HOVER_BOX, .spline = core->active, .handle = handle};
+}
+
+static const float PAD = 12;   ///< from a knot to the edge: beside what a press on the knot takes
+static const float REACH = 7;  ///< of a handle
+static const float HANDLE = 6; ///< its size
+static const float INSIDE = 4; ///< that the box stays inside of the plot, where handles can be taken
+static const float LEAST = 2;  ///< pixels between the outermost knots, below which there is nothing to scale
+
+/// The box as it is drawn, in the visible part of the plot; which ways its knots lie apart.
+struct knot_box {
+    struct rect area;
+    bool wide, high;
+};
+
+/// false where fewer than two knots are selected, or none of them is in sight.
+static bool find_knot_box(const struct curves *curves, const struct core *core, const struct document *document,
+                          struct knot_box *box)
+{
+    float left = INFINITY, right = -INFINITY, top = INFINITY, bottom = -INFINITY;
+    int count = 0;
+    for (struct knot_place at = SELECTED_START; selected_next(core, document, &at); count++) {
+        const struct knot *knot = knot_at(document, at);
+        const float x = curves_knot_x(curves, core, document, knot);
+        const float y = curves_y_of(curves, core, at.spline, knot->value);
+        left = fminf(left, x);
+        right = fmaxf(right, x);
+        top = fminf(top, y);
+        bottom = fmaxf(bottom, y);
+    }
+    if (count < 2) return false;
+    const struct rect whole = {left - PAD, top - PAD, right - left + 2 * PAD, bottom - top + 2 * PAD};
+    *box = (struct knot_box){rect_intersect(whole, rect_inset(core->layout.plot, INSIDE)), right - left >= LEAST,
+                             bottom - top >= LEAST};
+    return box->area.w > 0 && box->area.h > 0;
+}
+
+/// Where a handle is; false where there is nothing to scale that way.
+static bool handle_place(const struct knot_box *box, int handle, float xy[2])
+{
+    const int column = box_column(handle), row = box_row(handle);
+    if (handle == BOX_MIDDLE || (column && !box->wide) || (column && row && !box->high)) return false;
+    xy[0] = box->area.x + box->area.w * 0.5f * (float)(column + 1);
+    xy[1] = box->area.y + box->area.h * 0.5f * (float)(row + 1);
+    return true;
+}
+
+bool curves_box_point(const struct curves *curves, const struct core *core, const struct document *document,
+                      int column, int row, float xy[2])
+{
+    struct knot_box box;
+    const bool known = abs(column) <= 1 && abs(row) <= 1 && find_knot_box(curves, core, document, &box);
+    return known && handle_place(&box, 3 * (row + 1) + column + 1, xy);
+}
+
+void scale_box_hover(const struct curves *curves, const struct core *core, const struct document *document, float x,
+                     float y, struct hover *hover)
+{
+    struct knot_box box;
+    float best = REACH, xy[2];
+    if (!find_knot_box(curves, core, document, &box)) return;
+    for (int i = 0; i < BOX_HANDLES; i++) {
+        if (!handle_place(&box, i, xy)) continue;
+        const float distance = hypotf(x - xy[0], y - xy[1]);
+        if (distance > best) continue;
+        best = distance;
+        *hover = (struct hover){.kind = HOVER_BOX, .spline = core->active, .handle = i};
+    }
+}
+
+static void show_handle(struct core *core, int handle, const float xy[2])
+{
+    const bool hot = core->hover.kind == HOVER_BOX && core->hover.handle == handle;
+    const float size = hot ? HANDLE + 3 : HANDLE;
+    const struct rect r = {roundf(xy[0] - size / 2), roundf(xy[1] - size / 2), size, size};
+    drawlist_rounded(&core->list, r, 1.5f, hot ? theme()->playhead : theme()->panel);
+    drawlist_rounded_line(&core->list, r, 1.5f, 1, theme_fade(theme()->playhead, hot ? 1 : 0.75f));
+}
+
+void scale_box_show(const struct curves *curves, struct core *core, const struct document *document, bool handles)
+{
+    struct knot_box box;
+    if (!find_knot_box(curves, core, document, &box)) return;
+    drawlist_rounded_line(&core->list, rect_inset(box.area, -0.5f), 0, 1, theme_fade(theme()->playhead, 0.3f));
+    for (int i = 0; i < BOX_HANDLES && handles; i++) {
+        float xy[2];
+        if (handle_place(&box, i, xy)) show_handle(core, i, xy);
+    }
+}
+
+enum { TAG_PAD = 8, LINE = 16, MARGIN = 4, MOST_LINES = 4 };
+
+static const float BESIDE = 16, BELOW = 20; ///< of the pointer
+
+/// The words beside the pointer.
+struct tag {
+    int count;
+    struct {
+        char text[STOPPED_SIZE];
+        bool is_stop;
+    } line[MOST_LINES];
+};
+
+/// A factor, and on a line of its own what stopped it.
+static void add_factor(struct tag *tag, const char *what, double factor, const char *stopped)
+{
+    snprintf(tag->line[tag->count++].text, sizeof tag->line[0].text, "%s × %.3g", what, factor);
+    if (!*stopped) return;
+    tag->line[tag->count].is_stop = true;
+    snprintf(tag->line[tag->count++].text, sizeof tag->line[0].text, "%s", stopped);
+}
+
+/// Beside the pointer, inside the panel.
+static void show_tag(struct core *core, const struct tag *tag)
+{
+    const struct rect panel = core->layout.curves;
+    float width = 0;
+    for (int i = 0; i < tag->count; i++)
+        width = fmaxf(width, ceilf(font_width(FONT_LABEL, THEME_TEXT_SMALL, tag->line[i].text)));
+    const float w = width + 2 * TAG_PAD, h = (float)(tag->count * LINE + TAG_PAD);
+    const float right = panel.x + panel.w - MARGIN - w, bottom = panel.y + panel.h - MARGIN - h;
+    const struct rect box = {roundf(fmaxf(panel.x + MARGIN, fminf(core->drag.x + BESIDE, right))),
+                             roundf(core->drag.y + BELOW <= bottom ? core->drag.y + BELOW : core->drag.y - BELOW - h),
+                             w, h};
+    drawlist_rounded(&core->list, box, 4, theme()->raised);
+    drawlist_rounded_line(&core->list, box, 4, 1, theme()->control);
+    for (int i = 0; i < tag->count; i++)
+        drawlist_text(&core->list, box.x + TAG_PAD, box.y + (float)((i + 1) * LINE), FONT_LABEL, THEME_TEXT_SMALL,
+                      tag->line[i].is_stop ? theme()->warning : theme()->text, tag->line[i].text);
+}
+
+static void show_pivot(const struct curves *curves, struct core *core)
+{
+    const struct scaling *scaling = &curves->scaling;
+    const float x = curves_x(curves, core, scaling->frame), y = curves_y(curves, core, scaling->value), arm = 7;
+    const float across[] = {x - arm, y, x + arm, y}, down[] = {x, y - arm, x, y + arm};
+    const float line[] = {x, y, core->drag.x, core->drag.y};
+    const bool pointed = scaling->handle < 0 && !scaling->typed[0];
+    if (pointed) drawlist_dashed(&core->list, line, 2, 1, 3, 4, theme_fade(theme()->playhead, 0.5f));
+    if (!core->drag.lock_y) drawlist_line(&core->list, across, 2, 1.5f, theme()->playhead);
+    if (!core->drag.lock_x) drawlist_line(&core->list, down, 2, 1.5f, theme()->playhead);
+}
+
+void scale_show(void *room, struct core *core, const struct editor_world *world)
+{
+    const struct curves *curves = room;
+    const struct scaling *scaling = &curves->scaling;
+    struct tag tag = {0};
+    const struct rect clip = drawlist_push_clip(&core->list, core->layout.plot);
+    scale_box_show(curves, core, world->document, true);
+    show_pivot(curves, core);
+    drawlist_set_clip(&core->list, clip);
+    if (!core->drag.lock_y) add_factor(&tag, "time", scaling->by.time, scaling->stopped[0]);
+    if (!core->drag.lock_x) add_factor(&tag, "value", scaling->by.value, scaling->stopped[1]);
+    show_tag(core, &tag);
 }

@@ -1,12 +1,10 @@
 /// The dope sheet (F3): a row a spline between the ruler and the curves, with its knots as marks that are dragged in time.
-#include "editor/core/arrange.h"
 #include "editor/core/core.h"
 #include "editor/core/knots.h"
 #include "editor/core/selection.h"
+#include "editor/core/spline_list.h"
 #include "editor/curves/curves.h"
-#include "editor/curves/gestures.h"
-#include "editor/curves/show.h"
-#include "editor/curves/view.h"
+#include "editor/curves/parts.h"
 #include "ui/font.h"
 #include "ui/theme.h"
 #include <math.h>
@@ -22,7 +20,7 @@ static int list_rows(const struct core *core, const struct document *document, i
 {
     int count = 0;
     for (int s = 0; s < document->spline_count; s++) {
-        if (!arrange_shows(core, document, s)) continue;
+        if (!spline_list_shows(core, document, s)) continue;
         if (count >= first && count - first < most) splines[count - first] = s;
         count++;
     }
@@ -33,8 +31,8 @@ static int list_rows(const struct core *core, const struct document *document, i
 static int active_row(const struct core *core, const struct document *document)
 {
     int row = 0;
-    if (!arrange_shows(core, document, core->active)) return -1;
-    for (int s = 0; s < core->active; s++) row += arrange_shows(core, document, s);
+    if (!spline_list_shows(core, document, core->active)) return -1;
+    for (int s = 0; s < core->active; s++) row += spline_list_shows(core, document, s);
     return row;
 }
 
@@ -174,7 +172,7 @@ static void show_marks(const struct curves *curves, struct core *core, const str
                        float y)
 {
     const struct spline *spline = &document->splines[s];
-    const uint32_t color = arrange_color(document, s);
+    const uint32_t color = spline_list_color(document, s);
     const struct rect *sheet = &core->layout.sheet;
     int k = curves_knot_from(curves, core, document, spline, sheet->x - RADIUS - 1);
     for (; k < spline->knot_count; k = crowd_next(curves, core, document, s, k, CROWDED)) {
@@ -197,7 +195,7 @@ static void show_row(const struct curves *curves, struct core *core, const struc
     const struct rect *sheet = &core->layout.sheet, *panel = &core->layout.curves;
     const bool active = s == core->active, hot = core->hover.kind == HOVER_ROW && core->hover.spline == s;
     const float y = row_y(core, row), left = sheet->x + sheet->w + 6;
-    const uint32_t color = arrange_color(document, s);
+    const uint32_t color = spline_list_color(document, s);
     const struct rect band = {sheet->x, y - ROW / 2.0f, sheet->w, ROW};
     if (active || hot) drawlist_rect(&core->list, band, theme_fade(theme()->text, active ? 0.07f : 0.035f));
     struct rect clip = drawlist_push_clip(&core->list, *sheet);

@@ -1,9 +1,16 @@
-/// Finds problems: swings that outgrow their knots, frequencies too high for the sample rate, bandwidths that let the phase
-/// drift, slopes that have no effect.
-#include "editor/curves/warnings.h"
+/// Warnings on the active curve: what is found, what a click does about it, and the marks.
 #include "base/hash.h"
-#include "editor/core/arrange.h"
+#include "editor/core/core.h"
+#include "editor/core/knots.h"
+#include "editor/core/spline_list.h"
+#include "editor/curves/curves.h"
+#include "editor/curves/parts.h"
+#include "scene/motion.h"
+#include "ui/font.h"
+#include "ui/theme.h"
+#include <limits.h>
 #include <math.h>
+#include <stdio.h>
 
 static const double TWO_PI = 6.283185307179586;
 static const double MOST_SWING = 2;      ///< of a span, in heights of its knots
@@ -148,7 +155,7 @@ void warnings_find(const struct document *document, const struct evaluation *eva
 void warnings_update(struct curves *curves, const struct core *core, const struct editor_world *world)
 {
     struct warnings *warnings = &curves->warnings;
-    const struct spline *spline = arrange_seen(core, world);
+    const struct spline *spline = spline_list_seen(core, world);
     const struct evaluation *evaluation = world->evaluation;
     bool solved = spline && evaluation && evaluation->samples == document_samples(world->document);
     const uint64_t state[] = {history_revision(world->history), (uint64_t)(core->active + 1), (uint64_t)core->look,
@@ -158,4 +165,255 @@ void warnings_update(struct curves *curves, const struct core *core, const struc
     warnings->count = 0;
     warnings->key = key;
     if (solved) warnings_find(world->document, evaluation, core->active, warnings);
+}
+
+enum { LOWER_STEPS = 8 };
+
+static const double LOWER = 0.9; ///< factor of the frequency from try to try
+
+/// Swings that the spline has too many of with the document as it is now; -1 where it cannot be solved.
+static int count_swings(const struct core *core, const struct editor_world *world)
+{
+    const struct document *document = world->document;
+    struct evaluation trial = {.method = core->method, .pins = world->evaluation->pins};
+    struct warnings found = {0};
+    bool good = evaluation_resize(&trial, document, NULL);
+    if (good) {
+        motions_copy(&trial, world->evaluation);
+        evaluation_update(&trial, document, NULL, false);
+        warnings_find(document, &trial, core->active, &found);
+    }
+    int count = 0;
+    for (int i = 0; i < found.count; i++) count += found.list[i].kind == WARNING_SWING;
+    evaluation_free(&trial);
+    return good ? count : -1;
+}
+
+/// Does an edit in the open step and says whether there are fewer swings than `before`; if not, it is taken back.
+static bool helps(const struct core *core, const struct editor_world *world, const struct edit *edit, int before)
+{
+    struct document *document = world->document;
+    int count = -1;
+    if (history_apply(world->history, document, edit, NULL)) count = count_swings(core, world);
+    if (count >= 0 && count < before) return true;
+    history_restart(world->history, document);
+    return false;
+}
+
+static bool lower_frequency(const struct core *core, const struct editor_world *world, const struct spline *spline,
+                            int before, char text[96])
+{
+    const struct param *frequency = &spline->parameter[PARAMETER_FREQUENCY];
+    double value = frequency->value;
+    if (frequency->track >= 0 || spline->spring_friction) return false;
+    for (int i = 0; i < LOWER_STEPS; i++) {
+        value = core_round(value * LOWER, 0.01);
+        struct edit edit = core_parameter_edit(core->active, PARAMETER_FREQUENCY, value);
+        if (!helps(core, world, &edit, before)) continue;
+        snprintf(text, 96, "Lowered the frequency to %.3g Hz to tame the swing.", value);
+        return true;
+    }
+    return false;
+}
+
+/// A limit on the side of the swing, a little beyond the knots.
+static bool limit_curve(const struct core *core, const struct editor_world *world, const struct spline *spline,
+                        const struct warning *warning, int before, char text[96])
+{
+    const enum parameter side = warning->value > warning->remedy ? PARAMETER_HIGH : PARAMETER_LOW;
+    const double value = core_fresh_limit(spline, side);
+    struct edit edit = core_parameter_edit(core->active, side, value);
+    if (isfinite(spline->parameter[side].value) || !helps(core, world, &edit, before)) return false;
+    snprintf(text, 96, "Set the %s to %.6g to tame the swing.", parameter_rows[side].name, value);
+    return true;
+}
+
+static bool tame(const struct curves *curves, const struct core *core, const struct editor_world *world,
+                 const struct warning *warning, char text[96])
+{
+    const struct spline *spline = core_active_spline(core, world);
+    int before = count_swings(core, world);
+    struct edit calm = core_parameter_edit(core->active, PARAMETER_CALM, 1);
+    struct edit hold = core_edit_of(EDIT_KNOT_INSERT, core->active);
+    double resolution = 0.01 / curves_pixels_per_value(curves, core);
+    hold.knot = (struct knot){.frame = warning->frame,
+                              .value = core_round(warning->remedy, resolution),
+                              .stiffness = KNOT_DEFAULT_STIFFNESS};
+    if (spline->parameter[PARAMETER_CALM].value < 1 && helps(core, world, &calm, before)) {
+        snprintf(text, 96, "Raised calm to 1 to tame the swing.");
+        return true;
+    }
+    if (helps(core, world, &hold, before)) {
+        snprintf(text, 96, "Added a knot at frame %.6g to tame the swing.", warning->frame);
+        return true;
+    }
+    if (limit_curve(core, world, spline, warning, before, text)) return true;
+    return lower_frequency(core, world, spline, before, text);
+}
+
+/// More substeps keep the motion as it is; where there is no room for them the frequency gives way.
+static bool resolve_rate(struct core *core, const struct editor_world *world, const struct warning *warning,
+                         char text[96])
+{
+    struct edit edit = core_edit_of(EDIT_SUBSTEPS, -1);
+    edit.substeps = (int)fmin(warning->remedy, SCENE_MAX_SUBSTEPS);
+    snprintf(text, 96, "%d substeps a frame.", edit.substeps);
+    if (warning->remedy <= SCENE_MAX_SUBSTEPS && history_apply(world->history, world->document, &edit, NULL)) {
+        return true;
+    }
+    const struct spline *spline = core_active_spline(core, world);
+    double value = spline->parameter[PARAMETER_FREQUENCY].value * warning->limit / warning->amount;
+    edit = core_parameter_edit(core->active, PARAMETER_FREQUENCY, core_round(0.99 * value, 0.01));
+    snprintf(text, 96, "%.3g Hz.", edit.param.value);
+    return core_edit(core, world, &edit);
+}
+
+static bool switch_off(struct core *core, const struct editor_world *world, const struct warning *warning,
+                       char text[96])
+{
+    const struct spline *spline = core_active_spline(core, world);
+    int k = spline_find_knot(world->document, spline, document_sample(world->document, warning->frame));
+    struct edit edit = core_edit_of(EDIT_KNOT_SET, core->active);
+    if (k < 0) return false;
+    edit.knot = spline->knots[k];
+    edit.knot.has_slope = false;
+    snprintf(text, 96, "The slope at frame %.6g is off.", warning->frame);
+    return core_edit(core, world, &edit);
+}
+
+void curves_remedy_first(struct curves *curves, struct core *core, const struct editor_world *world)
+{
+    warnings_update(curves, core, world);
+    if (curves->warnings.count > 0) {
+        warning_remedy(curves, core, world, &curves->warnings.list[0]);
+    } else {
+        core_message(core, false, "This spline has no warnings.");
+    }
+}
+
+void warning_remedy(const struct curves *curves, struct core *core, const struct editor_world *world,
+                    const struct warning *warning)
+{
+    static const char *const labels[] = {[WARNING_SWING] = "Tame swing",
+                                         [WARNING_RATE] = "Add substeps",
+                                         [WARNING_DRIFT] = "Narrow bandwidth",
+                                         [WARNING_SLOPE] = "Slope off"};
+    const struct warning chosen = *warning;
+    char text[96] = "";
+    bool good = false;
+    if (!core_active_spline(core, world) || history_is_open(world->history)) return;
+    history_begin(world->history, labels[chosen.kind], 0);
+    if (chosen.kind == WARNING_SWING) good = tame(curves, core, world, &chosen, text);
+    if (chosen.kind == WARNING_RATE) good = resolve_rate(core, world, &chosen, text);
+    if (chosen.kind == WARNING_DRIFT) {
+        struct edit edit = core_parameter_edit(core->active, PARAMETER_BANDWIDTH, chosen.remedy);
+        good = core_edit(core, world, &edit);
+        snprintf(text, sizeof text, "Bandwidth %.3g.", chosen.remedy);
+    }
+    if (chosen.kind == WARNING_SLOPE) good = switch_off(core, world, &chosen, text);
+    history_end(world->history);
+    core_reserve(core, world->document);
+    if (good) {
+        core_message(core, false, text);
+    } else if (chosen.kind == WARNING_SWING) {
+        core_message(core, false, "Calm, a limit, a knot or a lower frequency would not help here. Move the knots.");
+    }
+}
+
+static const float SIZE = 7, LIFT = 16, EDGE = 12; ///< half a marker; above its place; from the plot's border
+
+bool warning_place(const struct curves *curves, const struct core *core, const struct warning *warning, float xy[2])
+{
+    const struct rect plot = core->layout.plot;
+    xy[0] = plot.x + EDGE;
+    xy[1] = plot.y + EDGE;
+    if (warning->kind == WARNING_RATE) return true;
+    xy[0] = curves_x(curves, core, warning->frame);
+    xy[1] = fminf(fmaxf(curves_y(curves, core, warning->value) - LIFT, plot.y + EDGE), plot.y + plot.h - EDGE);
+    return xy[0] >= plot.x && xy[0] <= plot.x + plot.w;
+}
+
+bool curves_warning(const struct curves *curves, const struct core *core, double number, float xy[2])
+{
+    bool there = number >= 0 && number < curves->warnings.count;
+    return there && warning_place(curves, core, &curves->warnings.list[(int)number], xy);
+}
+
+/// What is wrong, and what a click does about it.
+static void put_words(const struct warning *warning, char what[160], char remedy[96])
+{
+    switch (warning->kind) {
+    case WARNING_SWING:
+        snprintf(what, 160, "Frames %.6g to %.6g: the curve swings %.1f times as far as its knots.", warning->from,
+                 warning->to, warning->amount);
+        snprintf(remedy, 96, "Click to tame it with more calm, a knot at the peak or a lower frequency.");
+        break;
+    case WARNING_RATE:
+        snprintf(what, 160, "%.3g Hz is too close to half the sample rate to keep its shape (the limit is %.3g Hz).",
+                 warning->amount, warning->limit);
+        snprintf(remedy, 96, "Click to use %.0f substeps per frame.", warning->remedy);
+        break;
+    case WARNING_DRIFT:
+        snprintf(what, 160,
+                 "Bandwidth %.3g is too wide for the %.1f periods between frames %.6g and %.6g: the swing drifts out "
+                 "of phase.",
+                 warning->limit, warning->amount, warning->from, warning->to);
+        snprintf(remedy, 96, "Click to narrow it to %.3g.", warning->remedy);
+        break;
+    case WARNING_SLOPE:
+        snprintf(what, 160, "Frame %.6g: the slope has no effect, as both samples beside it have knots.",
+                 warning->frame);
+        snprintf(remedy, 96, "Click to switch it off.");
+        break;
+    }
+}
+
+/// The warning under the pointer, or NULL.
+static const struct warning *hovered_warning(const struct curves *curves, const struct core *core)
+{
+    int index = core->hover.handle;
+    if (core->hover.kind != HOVER_WARNING || index >= curves->warnings.count) return NULL;
+    return &curves->warnings.list[index];
+}
+
+static void show_marker(struct drawlist *list, const float xy[2], bool hovered)
+{
+    const float x = xy[0], y = xy[1], r = hovered ? SIZE + 1.5f : SIZE;
+    const float corners[] = {x, y - r, x + r, y + 0.8f * r, x - r, y + 0.8f * r};
+    drawlist_convex(list, corners, 3, theme()->warning);
+    drawlist_rect(list, (struct rect){x - 0.75f, y - 0.4f * r, 1.5f, 0.6f * r}, theme()->panel);
+    drawlist_rect(list, (struct rect){x - 0.75f, y + 0.38f * r, 1.5f, 1.5f}, theme()->panel);
+}
+
+void warnings_show(const struct curves *curves, struct core *core)
+{
+    const struct warning *hovered = hovered_warning(curves, core);
+    for (int i = 0; i < curves->warnings.count; i++) {
+        float xy[2];
+        const struct warning *warning = &curves->warnings.list[i];
+        if (warning_place(curves, core, warning, xy)) show_marker(&core->list, xy, warning == hovered);
+    }
+}
+
+void warnings_show_words(const struct curves *curves, struct core *core)
+{
+    enum { PAD = 10, LINE = 18 };
+    const struct warning *warning = hovered_warning(curves, core);
+    float xy[2];
+    if (!warning || !warning_place(curves, core, warning, xy)) return;
+    char what[160], remedy[96];
+    put_words(warning, what, remedy);
+    const struct rect panel = core->layout.curves;
+    float width =
+        fmaxf(font_width(FONT_LABEL, THEME_TEXT_NORMAL, what), font_width(FONT_LABEL, THEME_TEXT_NORMAL, remedy));
+    float w = fminf(width + 2 * PAD, panel.w - 16), h = 2 * LINE + PAD;
+    float x = fminf(fmaxf(xy[0] - w / 2, panel.x + 8), panel.x + panel.w - 8 - w);
+    float y = xy[1] + 14 + h < panel.y + panel.h ? xy[1] + 14 : xy[1] - 14 - h;
+    struct rect box = {roundf(x), roundf(y), w, h};
+    drawlist_rounded(&core->list, box, 5, theme()->raised);
+    drawlist_rounded_line(&core->list, box, 5, 1, theme_fade(theme()->warning, 0.6f));
+    drawlist_text_fit(&core->list, box.x + PAD, box.y + LINE, w - 2 * PAD, FONT_LABEL, THEME_TEXT_NORMAL,
+                      theme()->text, what);
+    drawlist_text_fit(&core->list, box.x + PAD, box.y + 2 * LINE, w - 2 * PAD, FONT_LABEL, THEME_TEXT_NORMAL,
+                      theme()->warning, remedy);
 }

@@ -1,7 +1,7 @@
 /// Dialogs that ask a question: before an edit that touches more than was asked for, and about recovered work.
 #include "base/path.h"
-#include "editor/core/arrange.h"
 #include "editor/core/rigs.h"
+#include "editor/core/spline_list.h"
 #include "editor/dialogs/dialog.h"
 #include "editor/dialogs/dialogs.h"
 #include "scene/reference.h"
@@ -104,7 +104,7 @@ static void ask_fps(struct question *question, const struct document *document, 
 
 static void ask_range(struct question *question, const struct document *document, const struct ask *ask)
 {
-    int count = arrange_outside(document, ask->first, ask->last);
+    int count = spline_list_outside(document, ask->first, ask->last);
     *question = QUESTION(range_answers);
     snprintf(question->title, sizeof question->title, "%d knot%s would fall outside frames %d to %d", count,
              count == 1 ? "" : "s", ask->first, ask->last);
@@ -155,7 +155,7 @@ void dialog_ask_answer(struct dialogs *dialogs, struct core *core, const struct 
     const struct ask ask = dialogs->dialog.ask;
     bool cancelled = answer == dialogs->dialog.question.count - 1;
     dialog_close(dialogs);
-    if (!cancelled) arrange_answer(core, world, &ask, answer);
+    if (!cancelled) spline_list_answer(core, world, &ask, answer);
 }
 
 void dialog_ask_unsaved(struct dialogs *dialogs, const struct core *core)

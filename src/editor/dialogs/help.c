@@ -2,6 +2,7 @@
 /// scrolled where that is not enough.
 #include "editor/dialogs/help.h"
 #include "editor/dialogs/dialogs.h"
+#include "scene/parameter.h"
 #include "ui/font.h"
 #include "ui/theme.h"
 #include "ui/widgets.h"
@@ -224,4 +225,102 @@ void help_show(const struct dialogs *dialogs, struct core *core)
     show_columns(list, &page, offset);
     drawlist_set_clip(list, clip);
     show_bar(list, &page, offset);
+}
+
+const struct help_group help_groups[HELP_GROUPS] = {
+    {"Knots",
+     {{"Double-click", "insert a knot"},
+      {"I, Shift+I", "at playhead (sloped)"},
+      {"Del, Backspace", "delete"},
+      {"Click, Shift+click", "select, add to it"},
+      {"Drag a box", "select its knots"},
+      {"Ctrl+A, Ctrl+Shift+A", "all; of all splines"},
+      {",  .", "previous, next knot"},
+      {"Alt+.  ,  Home, End", "go there"},
+      {"<  >", "extend to that one"},
+      {"Shift+PgUp, PgDn", "the same"},
+      {"Alt+arrows", "nudge (Shift, Ctrl)"},
+      {"Ctrl+C, X, V, D", "copy, cut, paste, clone"},
+      {"S, Shift+S", "scale; the swing"},
+      {"Drag their box", "scale (Alt: the swing)"}}},
+    {"While dragging",
+     {{"X, Y", "only time, only value"},
+      {"R", "move later knots too"},
+      {"Shift", "fine"},
+      {"Ctrl", "between the frames"},
+      {"Esc", "cancel"}}},
+    {"Slopes",
+     {{"T; Shift+T; Ctrl+T", "on or off; flat; smooth"},
+      {"D, E", "turn it down, up"},
+      {"Shift+D, Shift+E", "softer, firmer"}}},
+    {"Inspector",
+     {{"Tab, Shift+Tab", "next, previous field"},
+      {"Arrows", "change it (Shift: ×10)"},
+      {"Enter, double-click", "type a number"},
+      {"Del, right-click", "restore the default"},
+      {"Type in a list", "search it"},
+      {"A, Shift+Del", "add, remove a rig"}}},
+    {"Spline",
+     {{"PgUp, PgDn", "previous, next spline"},
+      {"F2", "rename it"},
+      {"M; Shift+M", "mode; oscillator, filter"},
+      {"V", "wiggly, stiff, cubic look"},
+      {"Shift+F", "find its frequency"},
+      {"W", "fix a warning"}}},
+    [HELP_HELD] = {"Hold and press ↑ ↓", {{"L", "lag of the tail"}}},
+    {"Playback",
+     {{"Space", "play, pause"},
+      {"←  →", "step a frame"},
+      {"Shift+←, Shift+→", "to the start, the end"},
+      {"Drag the ruler", "scrub"},
+      {"Shift+drag it", "play a part"},
+      {"Ctrl+L", "loop on or off"},
+      {"[  ]", "play from, to here"},
+      {"Ctrl+Home, End", "the same"},
+      {"-  +", "slower, faster (also =)"}}},
+    {"Curves",
+     {{"Wheel", "zoom"},
+      {"Ctrl, Shift+wheel", "zoom time, value"},
+      {"Middle drag", "pan (also Space+drag)"},
+      {"Ctrl+arrows", "pan"},
+      {"Ctrl+=, Ctrl+-", "zoom (or PgUp, PgDn)"},
+      {"Home, End", "show all, the selection"},
+      {"N", "normalise"},
+      {"F3", "dope sheet"},
+      {"U", "frames or seconds"},
+      {"G", "snap to frames or not"}}},
+    {"Stage",
+     {{"Drag the tail", "bend it"},
+      {"Drag a surface", "pin it (X, Y, Z; Shift)"},
+      {"Ctrl+drag a tail", "pin a joint"},
+      {"H, Alt+PgUp, PgDn", "pin as it is, its frame"},
+      {"Drag a floor's edge", "raise, lower it"},
+      {"Drag the body", "tail follows (R records)"},
+      {"Ctrl+drag it, Shift+A", "lift it, auto-key"},
+      {"Right drag, wheel", "orbit, zoom"},
+      {"Ctrl+Shift+arrows", "orbit (PgUp: zoom)"},
+      {"Shift+Home", "show everything"},
+      {"O, P; F4", "onion skin, arc; ghost"},
+      {"K; J, Shift+J", "paint; chain of bones"}}},
+    {"File and window",
+     {{"Ctrl+Z, Ctrl+Y", "undo, redo (or Shift+Z)"},
+      {"Ctrl+O, N, E", "open, new, export"},
+      {"Ctrl+S, Ctrl+Shift+S", "save, save as"},
+      {"Ctrl+1 … 9, Ctrl+0", "figures, scenes"},
+      {"F6, Shift+F6", "resize the panels"},
+      {"Ctrl+Shift+=, -, 0", "larger, smaller, reset"},
+      {"F8, Shift+F8", "larger, smaller"},
+      {"F5, Tab", "present; panels"},
+      {"F10", "light or dark"},
+      {"F11, F12", "full screen, screenshot"},
+      {"Ctrl+Q", "quit"}}},
+};
+
+struct help_row help_row(const struct help_group *group, int index)
+{
+    for (enum parameter p = 0; group == &help_groups[HELP_HELD] && p < PARAMETER_COUNT; p++) {
+        const struct parameter_row *row = &parameter_rows[p];
+        if (row->letter && index-- == 0) return (struct help_row){row->letter, row->name};
+    }
+    return index < HELP_MAX_ROWS ? group->rows[index] : (struct help_row){0};
 }

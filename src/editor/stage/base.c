@@ -3,8 +3,8 @@
 /// A channel whose spline has knots of its own stays as it is: the swing that the base causes is added by a channel of its own,
 /// on a spline with the same poles. By linearity that is the same motion, and no key of the animator's changes its meaning.
 /// A tail that has no channel for a way gets one of these for it too.
-#include "editor/stage/base.h"
 #include "editor/core/core.h"
+#include "editor/stage/parts.h"
 #include "model/creature.h"
 #include "scene/order.h"
 #include <math.h>
@@ -54,7 +54,7 @@ void base_put_knot(struct core *core, const struct editor_world *world, int spli
 
 void base_begin(struct stage *stage, const struct editor_world *world)
 {
-    struct hold *hold = &stage->hold;
+    struct body_drag *hold = &stage->body_drag;
     const struct tail *tail = document_tail(world->document, hold->tail);
     hold->loops = tail->channel_count > 0;
     for (int c = 0; c < tail->channel_count; c++) {
@@ -65,7 +65,7 @@ void base_begin(struct stage *stage, const struct editor_world *world)
 
 int base_spline(const struct stage *stage, struct core *core, const struct editor_world *world, int coordinate)
 {
-    const int tail = stage->hold.tail;
+    const int tail = stage->body_drag.tail;
     const struct tail *moved = document_tail(world->document, tail);
     char name[NAME_SIZE];
     if (moved->position[coordinate].track >= 0) return moved->position[coordinate].track;
@@ -76,7 +76,7 @@ int base_spline(const struct stage *stage, struct core *core, const struct edito
     if (spline < 0) return -1;
     struct edit mode = core_parameter_edit(spline, PARAMETER_MODE, WIGGLY_CUBIC);
     core_edit(core, world, &mode);
-    if (stage->hold.loops) set_start(core, world, spline, WIGGLY_LOOP);
+    if (stage->body_drag.loops) set_start(core, world, spline, WIGGLY_LOOP);
     return spline;
 }
 
@@ -96,7 +96,7 @@ void base_follow(const struct stage *stage, struct core *core, const struct edit
                  int base)
 {
     struct edit edit = core_edit_of(EDIT_POSITION, 0);
-    edit.rig = document_find_rig(world->document, RIG_TAIL, stage->hold.tail);
+    edit.rig = document_find_rig(world->document, RIG_TAIL, stage->body_drag.tail);
     edit.coordinate = coordinate;
     edit.param.track = base;
     core_edit(core, world, &edit);
@@ -114,7 +114,7 @@ static void set_angles(const struct stage *stage, struct core *core, const struc
                        enum angle_kind kind, const struct angles *angles)
 {
     struct edit edit = core_edit_of(EDIT_ANGLES, 0);
-    edit.rig = document_find_rig(world->document, RIG_TAIL, stage->hold.tail);
+    edit.rig = document_find_rig(world->document, RIG_TAIL, stage->body_drag.tail);
     edit.channel = channel;
     edit.angle = kind;
     edit.angles = angles;
@@ -153,14 +153,14 @@ static int add_channel(const struct stage *stage, struct core *core, const struc
     struct edit edit = core_edit_of(EDIT_CHANNEL_ADD, add_follower(core, world, model->spline, name, base));
     struct angles gain = model->gain;
     const struct angles lag = model->lag;
-    edit.rig = document_find_rig(world->document, RIG_TAIL, stage->hold.tail);
+    edit.rig = document_find_rig(world->document, RIG_TAIL, stage->body_drag.tail);
     edit.axis = axis;
     edit.of = PART_DISPLACEMENT;
     if (edit.spline < 0) return -1;
     for (int i = 0; i < angles_count(&gain); i++)
         angles_set_number(&gain, i, round(angles_number(&gain, i) * scale * 1e4) / 1e4);
     if (!core_edit(core, world, &edit)) return -1;
-    int added = document_tail(document, stage->hold.tail)->channel_count - 1;
+    int added = document_tail(document, stage->body_drag.tail)->channel_count - 1;
     set_angles(stage, core, world, added, ANGLE_LAG, &lag);
     set_angles(stage, core, world, added, ANGLE_GAIN, &gain);
     return edit.spline;
@@ -186,17 +186,18 @@ static int add_missing(const struct stage *stage, struct core *core, const struc
                        int base)
 {
     const struct document *document = world->document;
-    const struct tail *tail = document_tail(document, stage->hold.tail);
+    const struct tail *tail = document_tail(document, stage->body_drag.tail);
     double share;
     const enum axis axis = missing_axis(tail, coordinate, &share);
     char name[NAME_SIZE];
     if (axis == AXES) return -1;
     snprintf(name, sizeof name, "%.250s %s",
-             rig_title(&document->rigs[document_find_rig(document, RIG_TAIL, stage->hold.tail)]), axis_word(axis));
+             rig_title(&document->rigs[document_find_rig(document, RIG_TAIL, stage->body_drag.tail)]),
+             axis_word(axis));
     for (int c = 0; c < tail->channel_count; c++) {
         const struct channel model = tail->channels[c];
-        const double scale = stage->sway[stage->hold.tail].scale[c];
-        if (axis_bends(model.axis) && stage->hold.hangs[c] && scale != 0)
+        const double scale = stage->inertia[stage->body_drag.tail].scale[c];
+        if (axis_bends(model.axis) && stage->body_drag.hangs[c] && scale != 0)
             return add_channel(stage, core, world, &model, axis, name, scale * share, base);
     }
     return -1;
@@ -205,14 +206,14 @@ static int add_missing(const struct stage *stage, struct core *core, const struc
 int base_hang_channels(const struct stage *stage, struct core *core, const struct editor_world *world, int coordinate,
                        int base)
 {
-    int index = stage->hold.tail, count = document_tail(world->document, index)->channel_count;
+    int index = stage->body_drag.tail, count = document_tail(world->document, index)->channel_count;
     for (int c = 0; c < count; c++) {
         const struct tail *tail = document_tail(world->document, index);
         const struct channel channel = tail->channels[c];
         const struct param *equilibrium = &world->document->splines[channel.spline].parameter[PARAMETER_EQUILIBRIUM];
-        double direction[3], scale = stage->sway[index].scale[c];
+        double direction[3], scale = stage->inertia[index].scale[c];
         swing_direction(tail, channel.axis, direction);
-        bool swung = stage->hold.hangs[c] && fabs(direction[coordinate]) > LEAST_SHARE && scale != 0;
+        bool swung = stage->body_drag.hangs[c] && fabs(direction[coordinate]) > LEAST_SHARE && scale != 0;
         if (!swung) continue;
         if (channel.of == PART_TOTAL) {
             char name[NAME_SIZE];

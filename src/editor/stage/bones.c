@@ -1,13 +1,13 @@
-/// Which bone is pointed at.
-#include "editor/stage/bones.h"
-#include "editor/core/arrange.h"
+/// Bones of imported characters on the stage: which one is under the pointer, a click on one, and how they are drawn.
 #include "editor/core/bones.h"
-#include "editor/stage/rigs.h"
-#include "editor/stage/segment.h"
+#include "editor/core/spline_list.h"
+#include "editor/stage/parts.h"
 #include "editor/stage/stage.h"
-#include "editor/stage/strand.h"
 #include "model/vector.h"
+#include "ui/font.h"
+#include "ui/theme.h"
 #include <math.h>
+#include <string.h>
 
 static const float REACH = 12; ///< pixels from a bone
 static const float OVERLAP =
@@ -52,7 +52,7 @@ void bones_mark(struct stage *stage, const struct core *core, const struct docum
             if (bones->node[n] != bone->node) continue;
             bone->chain = rig;
             bone->joint = n;
-            bone->color = spline >= 0 ? arrange_color(document, spline) : 0;
+            bone->color = spline >= 0 ? spline_list_color(document, spline) : 0;
         }
     }
 }
@@ -142,4 +142,133 @@ bool stage_bone_point(const struct stage *stage, const struct core *core, int mo
             return stage_project_point(stage, core->layout.stage, middle.raw, xy);
     }
     return false;
+}
+
+enum { LABEL_HEIGHT = 20, LABEL_PAD = 7, LABEL_AWAY = 14 };
+
+static const float NEAR_BOX = 12;                              ///< pixels round a character where its bones show
+static const float THICKEST = 5, THINNEST = 1.5f;              ///< pixels of half a bone's width
+static const float SHARE = 0.09f, WIDEST_AT = 0.14f;           ///< of its length: half its width, and where that is
+static const float PLAIN = 0.3f, MEANT = 0.6f, CHOSEN = 0.85f; ///< opacity of the fill
+
+/// Whether a point is over the box round a character on the screen.
+static bool is_over(const struct stage *stage, const struct core *core, const struct stage_model *model)
+{
+    float lo[2] = {INFINITY, INFINITY}, hi[2] = {-INFINITY, -INFINITY};
+    for (int c = 0; c < 8; c++) {
+        const float corner[3] = {c & 1 ? model->hi[0] : model->lo[0], c & 2 ? model->hi[1] : model->lo[1],
+                                 c & 4 ? model->hi[2] : model->lo[2]};
+        float xy[2];
+        if (!stage_project_point(stage, core->layout.stage, corner, xy)) return true;
+        for (int k = 0; k < 2; k++) {
+            lo[k] = fminf(lo[k], xy[k]);
+            hi[k] = fmaxf(hi[k], xy[k]);
+        }
+    }
+    const struct rect box = {lo[0], lo[1], hi[0] - lo[0], hi[1] - lo[1]};
+    return rect_contains(rect_inset(box, -NEAR_BOX), core->pointer_x, core->pointer_y);
+}
+
+/// The character's rig whose bones are to be seen because the pointer is over it, −1: none.
+static int model_under(const struct stage *stage, const struct core *core, const struct editor_world *world)
+{
+    const struct stage_view *view = &stage->view;
+    if (core->hover.kind == HOVER_BONE) return core->hover.model;
+    if (core->brush.on || !rect_contains(view->viewport, core->pointer_x, core->pointer_y)) return -1;
+    int rig = document_next_rig(world->document, RIG_MODEL, 0);
+    for (int n = 0; rig >= 0; n++, rig = document_next_rig(world->document, RIG_MODEL, rig + 1)) {
+        const struct gltf_pose *pose = models_pose(world->models, n, true);
+        for (int m = 0; pose && m < view->model_count; m++) {
+            if (view->models[m].pose == pose && is_over(stage, core, &view->models[m])) return rig;
+        }
+    }
+    return -1;
+}
+
+static void show_bone(struct drawlist *list, const float a[2], const float b[2], uint32_t color, uint32_t edge,
+                      float opacity)
+{
+    const float dx = b[0] - a[0], dy = b[1] - a[1], length = hypotf(dx, dy);
+    const float half = fmaxf(THINNEST, fminf(THICKEST, SHARE * length));
+    const float ux = length > 0 ? dx / length : 1, uy = length > 0 ? dy / length : 0;
+    const float x = a[0] + WIDEST_AT * dx, y = a[1] + WIDEST_AT * dy;
+    const float corners[5][2] = {
+        {a[0], a[1]}, {x - half * uy, y + half * ux}, {b[0], b[1]}, {x + half * uy, y - half * ux}, {a[0], a[1]}};
+    drawlist_line(list, corners[0], 5, 3, theme_fade(theme()->panel, 0.45f));
+    drawlist_convex(list, corners[0], 4, theme_fade(color, opacity));
+    drawlist_line(list, corners[0], 5, 1.25f, theme_fade(edge, 0.5f + 0.5f * opacity));
+}
+
+/// The name of a bone beside the pointer, inside of the stage.
+static void show_name(struct core *core, const char *name)
+{
+    const struct rect stage = core->layout.stage;
+    const float width = fminf(font_width(FONT_LABEL, THEME_TEXT_NORMAL, name), stage.w / 3) + 2 * LABEL_PAD + 2;
+    struct rect r = {core->pointer_x + LABEL_AWAY, core->pointer_y - LABEL_AWAY - LABEL_HEIGHT, width, LABEL_HEIGHT};
+    if (r.x + r.w > stage.x + stage.w) r.x = core->pointer_x - LABEL_AWAY - r.w;
+    if (r.y < stage.y) r.y = core->pointer_y + LABEL_AWAY;
+    drawlist_rounded(&core->list, r, 4, theme_fade(theme()->raised, 0.92f));
+    drawlist_rounded_line(&core->list, r, 4, 1, theme()->border);
+    drawlist_text_fit(&core->list, r.x + LABEL_PAD, r.y + 14, r.w - LABEL_PAD, FONT_LABEL, THEME_TEXT_NORMAL,
+                      theme()->text, name);
+}
+
+/// How bones are shown in this frame: of which character, which is chosen, the tip of the chain that it could begin, and which is meant.
+struct showing {
+    bool all; ///< one of them is to be picked
+    int model, chosen_model, chosen, tip, meant_model, meant;
+};
+
+/// Whether a node is on the way from the chosen bone to its tip.
+static bool is_ahead(const struct gltf *gltf, const struct showing *showing, int node)
+{
+    if (showing->tip < 0) return false;
+    for (int n = showing->tip; n >= 0; n = n == showing->chosen ? -1 : gltf->nodes[n].parent) {
+        if (n == node) return true;
+    }
+    return false;
+}
+
+static float opacity_of(const struct showing *showing, const struct gltf *chosen, const struct shown_bone *bone)
+{
+    if (bone->model == showing->chosen_model && bone->node == showing->chosen) return CHOSEN;
+    if (bone->model == showing->meant_model && bone->node == showing->meant) return MEANT;
+    if (bone->model == showing->chosen_model && is_ahead(chosen, showing, bone->node)) return MEANT;
+    return PLAIN;
+}
+
+static void show_all(const struct stage *stage, struct core *core, const struct showing *showing,
+                     const struct gltf *chosen)
+{
+    for (int b = 0; b < stage->bone_count; b++) {
+        const struct shown_bone *bone = &stage->bones[b];
+        float ends[2][2];
+        if (bone->model != showing->model && bone->model != showing->chosen_model && !showing->all) continue;
+        if (!stage_project_point(stage, core->layout.stage, bone->ends[0], ends[0]) ||
+            !stage_project_point(stage, core->layout.stage, bone->ends[1], ends[1]))
+            continue;
+        const float opacity = opacity_of(showing, chosen, bone);
+        const uint32_t color = bone->chain >= 0 && bone->color ? bone->color : theme()->playhead;
+        show_bone(&core->list, ends[0], ends[1], color, opacity == CHOSEN ? theme()->text : color, opacity);
+    }
+}
+
+void bones_show(const struct stage *stage, struct core *core, const struct editor_world *world)
+{
+    const struct hover *hover = &core->hover;
+    struct showing showing = {
+        .all = core->pick.use != BONE_SELECTED, .model = model_under(stage, core, world), .tip = -1, .meant = -1};
+    showing.chosen = bones_selected(core, world, &showing.chosen_model);
+    const struct imported *chosen = showing.chosen >= 0 ? bones_character(world, showing.chosen_model) : NULL;
+    if (chosen) showing.tip = chain_end(&chosen->gltf, showing.chosen, NULL);
+    const bool on_chain = hover->kind == HOVER_JOINT && world->document->rigs[hover->rig].kind == RIG_CHAIN;
+    if (!core->drag.owner && (hover->kind == HOVER_BONE || on_chain)) {
+        showing.meant_model = hover->model;
+        showing.meant = hover->node;
+    }
+    show_all(stage, core, &showing, chosen ? &chosen->gltf : NULL);
+    if (showing.meant < 0) return;
+    char title[BONES_TITLE];
+    const char *name = bones_character(world, hover->model)->gltf.nodes[hover->node].name;
+    show_name(core, bones_title(world->document, hover->model, name, title));
 }

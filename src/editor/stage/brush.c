@@ -1,9 +1,11 @@
 /// The brush: strokes as an airbrush makes them. A stroke adds flow × time to every vertex under it.
-#include "editor/stage/brush.h"
+#include "base/printable.h"
 #include "editor/core/characters.h"
 #include "editor/core/core.h"
 #include "editor/core/drag.h"
-#include "editor/stage/skin.h"
+#include "editor/stage/parts.h"
+#include "model/vector.h"
+#include "ui/theme.h"
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -213,4 +215,316 @@ void brush_pose(struct stage *stage, struct core *core, const struct editor_worl
     if (!figure || !skin_spot(stage, figure, core->pointer_x, core->pointer_y, &painting->spot)) return;
     painting->covers = true;
     reach_find(&painting->work.reach, figure, &painting->spot, 1, (1 + RIM) * brush_radius_of(brush, figure));
+}
+
+enum { SMOOTHINGS = 4 }; ///< passes of a frame
+
+static const double PHASE_FLOW = 6.2831853071795865;     ///< radians a second at full strength
+static const double AMPLITUDE_FLOW = 1.3862943611198906; ///< of a: four times as much in a second
+static const float STROKE_LEAD = 1.5707963f,
+                   STROKE_SWELL = 1.3862944f; ///< a stroke saturates here, however long it is held:
+                                              ///< what differs by more folds through itself
+static const double BLENDING_FLOW = 12;       ///< of smoothing and erasing, 1/s
+static const double MOST_BLEND = 0.5;         ///< of one pass; more would overshoot
+static const float MOST_LEAD = 12.5663706f, LEAST_SWELL = -4.60517f, MOST_SWELL = 1.3862944f; ///< ±720°; 0.01 … 4
+static const float STILL = 1e-4f; ///< of the largest amplitude: below this a phase means nothing
+
+/// 1 in the middle, 0 at the rim, flat at both.
+static float falloff(float distance, float radius)
+{
+    const float t = distance / radius;
+    return t < 1 ? (1 - t * t) * (1 - t * t) : 0;
+}
+
+static double blend(double flow) { return fmin(MOST_BLEND, BLENDING_FLOW * flow / SMOOTHINGS); }
+
+static void multiply(const float a[2], const float b[2], float out[2])
+{
+    const float re = a[0] * b[0] - a[1] * b[1], im = a[0] * b[1] + a[1] * b[0];
+    out[0] = re;
+    out[1] = im;
+}
+
+/// Ñ' of a vertex as far as this frame has come.
+static void motion_of(const struct brush_work *work, const struct coordinate *c, uint32_t vertex, float out[3][2])
+{
+    for (int k = 0; k < 3; k++)
+        multiply(work->turned[vertex], (const float[2]){c->re[vertex][k], c->im[vertex][k]}, out[k]);
+}
+
+/// What a vertex lacks to be as its neighbours are: log of amplitude, and the angle φ for which e^{jφ} Ñ' comes closest to their
+/// mean m, which is that of Σ conj(Ñ') m over the three directions. Angles that way need no unwrapping. false where
+/// there is no motion to speak of.
+static bool difference(const struct brush_work *work, const struct figure *figure, int coordinate, int vertex,
+                       float out[2])
+{
+    const struct coordinate *c = &figure->character.coordinates[coordinate];
+    const int first = figure->edges.first[vertex], end = figure->edges.first[vertex + 1];
+    float own[3][2], turn[2] = {0}, size = 0, mean = 0, largest = 0;
+    for (int k = 0; k < 3; k++) largest = fmaxf(largest, figure->largest[coordinate][k]);
+    motion_of(work, c, (uint32_t)vertex, own);
+    for (int k = 0; k < 3; k++) size += own[k][0] * own[k][0] + own[k][1] * own[k][1];
+    for (int e = first; e < end; e++) {
+        float other[3][2], square = 0;
+        motion_of(work, c, figure->edges.other[e], other);
+        for (int k = 0; k < 3; k++) {
+            turn[0] += own[k][0] * other[k][0] + own[k][1] * other[k][1];
+            turn[1] += own[k][0] * other[k][1] - own[k][1] * other[k][0];
+            square += other[k][0] * other[k][0] + other[k][1] * other[k][1];
+        }
+        mean += sqrtf(square) / (float)(end - first);
+    }
+    size = sqrtf(size);
+    if (!(size > STILL * largest) || !(mean > STILL * largest)) return false;
+    out[0] = logf(mean / size);
+    out[1] = atan2f(turn[1], turn[0]);
+    return true;
+}
+
+/// One pass over all vertices from the state before it (Jacobi), so that their order means nothing.
+static void smooth_once(struct painting *painting, const struct figure *figure, int coordinate, float radius,
+                        int count, double flow)
+{
+    struct brush_work *work = &painting->work;
+    const bool phase = painting->stroke == BRUSH_SMOOTH_PHASE;
+    const float share = (float)blend(flow);
+    for (int i = 0; i < count; i++) {
+        const int vertex = work->vertices[i];
+        const float weight = share * falloff(work->reach.distance[vertex], radius);
+        float by[2] = {0, 0};
+        difference(work, figure, coordinate, vertex, by);
+        work->steps[i][0] = phase ? 0 : weight * by[0];
+        work->steps[i][1] = phase ? weight * by[1] : 0;
+    }
+    for (int i = 0; i < count; i++) {
+        float *value = work->values[i], *turned = work->turned[work->vertices[i]];
+        const float swell = glm_clamp(value[0] + work->steps[i][0], LEAST_SWELL, MOST_SWELL) - value[0];
+        const float lead = glm_clamp(value[1] + work->steps[i][1], -MOST_LEAD, MOST_LEAD) - value[1];
+        const float size = expf(swell);
+        multiply(turned, (const float[2]){size * cosf(lead), size * sinf(lead)}, turned);
+        value[0] += swell;
+        value[1] += lead;
+    }
+}
+
+static void smooth(struct painting *painting, const struct figure *figure, int coordinate, float radius, int count,
+                   double flow)
+{
+    struct brush_work *work = &painting->work;
+    for (int pass = 0; pass < SMOOTHINGS; pass++) smooth_once(painting, figure, coordinate, radius, count, flow);
+    for (int i = 0; i < count; i++) {
+        work->turned[work->vertices[i]][0] = 1;
+        work->turned[work->vertices[i]][1] = 0;
+    }
+}
+
+/// How much of a step a stroke may still take where it has come to `spent`, which counts it.
+static float saturate(float step, float most, float *spent)
+{
+    const float allowed = fminf(step, fmaxf(most - *spent, 0));
+    *spent += allowed;
+    return allowed;
+}
+
+/// The change of one vertex's paint where it does not depend on its neighbours'.
+static void change(enum brush_mode mode, double flow, float weight, float *spent, float value[2])
+{
+    const bool turns = mode == BRUSH_ADVANCE || mode == BRUSH_DELAY,
+               swells = mode == BRUSH_MORE || mode == BRUSH_LESS;
+    const float lead = turns ? saturate(weight * (float)(PHASE_FLOW * flow), weight * STROKE_LEAD, spent) : 0;
+    const float swell = swells ? saturate(weight * (float)(AMPLITUDE_FLOW * flow), weight * STROKE_SWELL, spent) : 0;
+    const float kept = 1 - weight * (float)fmin(1, BLENDING_FLOW * flow);
+    if (mode == BRUSH_ADVANCE) value[1] = glm_clamp(value[1] + lead, -MOST_LEAD, MOST_LEAD);
+    if (mode == BRUSH_DELAY) value[1] = glm_clamp(value[1] - lead, -MOST_LEAD, MOST_LEAD);
+    if (mode == BRUSH_MORE) value[0] = glm_clamp(value[0] + swell, LEAST_SWELL, MOST_SWELL);
+    if (mode == BRUSH_LESS) value[0] = glm_clamp(value[0] - swell, LEAST_SWELL, MOST_SWELL);
+    if (mode != BRUSH_ERASE) return;
+    for (int k = 0; k < 2; k++) value[k] = fabsf(value[k]) < 1e-3f ? 0 : kept * value[k];
+}
+
+struct dab brush_dab(struct painting *painting, const struct paint *paint, const struct figure *figure,
+                     int coordinate, float radius, double flow)
+{
+    struct brush_work *work = &painting->work;
+    const bool smooths = painting->stroke == BRUSH_SMOOTH_PHASE || painting->stroke == BRUSH_SMOOTH_AMPLITUDE;
+    int count = 0;
+    for (int i = 0; i < work->reach.count; i++) {
+        const int vertex = work->reach.vertices[i];
+        const float weight = falloff(work->reach.distance[vertex], radius);
+        const float *old = paint->values[(size_t)coordinate * (size_t)paint->vertices + (size_t)vertex];
+        if (!(weight > 0)) continue;
+        work->vertices[count] = vertex;
+        for (int k = 0; k < 2; k++) work->values[count][k] = old[k];
+        change(painting->stroke, flow, weight, &work->spent[vertex], work->values[count]);
+        count++;
+    }
+    if (smooths) smooth(painting, figure, coordinate, radius, count, flow);
+    return (struct dab){coordinate, count, work->vertices, (const float(*)[2])work->values};
+}
+
+enum { MOST_PIECES = 512, RING_SMOOTHINGS = 3, STATE_HEIGHT = 46 };
+
+static const double DEGREES = 57.29577951308232;
+
+static const float RING_WIDTH = 1.5f, SHADE_WIDTH = 3.5f;
+static const uint32_t RING = 0xFFFFFFFFu, SHADE = 0x00000060u; ///< on the colours of the map, in any theme
+static const float CLOSE = 2;                                  ///< pixels: points nearer to the last one are left out
+
+/// Pieces of the ring on the screen: two points each, which neighbours share exactly.
+struct ring {
+    float xy[MOST_PIECES][2][2];
+    int count;
+};
+
+/// Where the distance passes `radius` on the side between two corners: the same for both triangles at it, to the last bit.
+static bool crosses(const struct stage *stage, uint32_t one, uint32_t other, float radius, float point[3])
+{
+    const uint32_t a = one < other ? one : other, b = one < other ? other : one;
+    const float *distance = stage->painting.work.reach.distance, from = distance[a], to = distance[b];
+    if ((from < radius) == (to < radius) || !(from < INFINITY) || !(to < INFINITY)) return false;
+    const float share = (radius - from) / (to - from);
+    glm_vec3_lerp(stage->skin.posed[a], stage->skin.posed[b], share, point);
+    return true;
+}
+
+static bool faces_eye(const struct stage *stage, const uint32_t *corner)
+{
+    float xy[3][2];
+    for (int c = 0; c < 3; c++) {
+        if (!stage_project_point(stage, stage->view.viewport, stage->skin.posed[corner[c]], xy[c])) return false;
+    }
+    return (xy[1][0] - xy[0][0]) * (xy[2][1] - xy[0][1]) < (xy[1][1] - xy[0][1]) * (xy[2][0] - xy[0][0]);
+}
+
+static void add_piece(struct stage *stage, const uint32_t *corner, float radius, struct ring *ring)
+{
+    float ends[3][3];
+    int count = 0;
+    if (ring->count == MOST_PIECES) return;
+    for (int c = 0; c < 3; c++) count += crosses(stage, corner[c], corner[(c + 1) % 3], radius, ends[count]);
+    if (count != 2 || !faces_eye(stage, corner)) return;
+    float(*piece)[2] = ring->xy[ring->count];
+    ring->count += stage_project_point(stage, stage->view.viewport, ends[0], piece[0]) &&
+                   stage_project_point(stage, stage->view.viewport, ends[1], piece[1]);
+}
+
+static bool is_same(const float a[2], const float b[2]) { return a[0] == b[0] && a[1] == b[1]; }
+
+/// Takes a piece that begins or ends at a point out of the ring, and moves the point to its other end.
+static bool take_piece(struct ring *ring, float at[2])
+{
+    for (int i = 0; i < ring->count; i++) {
+        for (int end = 0; end < 2; end++) {
+            if (!is_same(ring->xy[i][end], at)) continue;
+            memcpy(at, ring->xy[i][1 - end], sizeof ring->xy[i][0]);
+            memcpy(ring->xy[i], ring->xy[--ring->count], sizeof ring->xy[i]);
+            return true;
+        }
+    }
+    return false;
+}
+
+/// Follows a line from one of its ends as far as it goes.
+static int extend(struct ring *ring, const float from[2], float (*line)[2], int count)
+{
+    float at[2] = {from[0], from[1]};
+    while (take_piece(ring, at)) {
+        const bool is_last = ring->count == 0;
+        if (!is_last && hypotf(at[0] - line[count - 1][0], at[1] - line[count - 1][1]) < CLOSE) continue;
+        memcpy(line[count++], at, sizeof at);
+    }
+    return count;
+}
+
+/// Takes a piece and all that go on from it out of the ring, as one line: from the piece's first end backwards, turned round, and
+/// then from its second end on.
+static int take_line(struct ring *ring, float (*line)[2])
+{
+    float first[2][2];
+    memcpy(first, ring->xy[--ring->count], sizeof first);
+    memcpy(line[0], first[0], sizeof first[0]);
+    int count = extend(ring, first[0], line, 1);
+    for (int i = 0; i < count / 2; i++) {
+        float other[2];
+        memcpy(other, line[i], sizeof other);
+        memcpy(line[i], line[count - 1 - i], sizeof other);
+        memcpy(line[count - 1 - i], other, sizeof other);
+    }
+    memcpy(line[count++], first[1], sizeof first[1]);
+    return extend(ring, first[1], line, count);
+}
+
+/// Evens out the zigzag of ways along edges: each point goes halfway to the middle of its neighbours, ends of an open line stay.
+static void smooth_line(float (*line)[2], int count)
+{
+    const bool closed = is_same(line[0], line[count - 1]);
+    for (int k = 0; k < 2 && count > 2; k++) {
+        float before = line[closed ? count - 2 : 0][k];
+        for (int i = closed ? 0 : 1; i < count - 1; i++) {
+            const float own = line[i][k];
+            line[i][k] = 0.5f * own + 0.25f * (before + line[i + 1][k]);
+            before = own;
+        }
+        if (closed) line[count - 1][k] = line[0][k];
+    }
+}
+
+static void show_ring(struct stage *stage, struct core *core, const struct figure *figure)
+{
+    struct ring ring;
+    ring.count = 0;
+    const float radius = brush_radius_of(&core->brush, figure);
+    for (int t = 0; t < figure->character.index_count; t += 3)
+        add_piece(stage, figure->character.indices + t, radius, &ring);
+    while (ring.count > 0) {
+        float line[2 * MOST_PIECES + 2][2];
+        const int count = take_line(&ring, line);
+        for (int pass = 0; pass < RING_SMOOTHINGS; pass++) smooth_line(line, count);
+        drawlist_line(&core->list, line[0], count, SHADE_WIDTH, SHADE);
+        drawlist_line(&core->list, line[0], count, RING_WIDTH, RING);
+    }
+}
+
+/// What is painted at the vertex nearest to the pointer; leaves the text alone where that is nothing.
+static void describe_spot(const struct stage *stage, const struct paint *paint, int coordinate, char *text,
+                          size_t size)
+{
+    const struct surface_spot *spot = &stage->painting.spot;
+    int nearest = 0;
+    for (int c = 1; c < 3; c++) {
+        if (spot->weight[c] > spot->weight[nearest]) nearest = c;
+    }
+    const float *value = paint->values[(size_t)coordinate * (size_t)paint->vertices + spot->corner[nearest]];
+    if (value[0] == 0 && value[1] == 0) return;
+    snprintf(text, size, "painted here: %+.0f°, × %.2f", printable_number((double)value[1] * DEGREES, 1),
+             exp((double)value[0]));
+}
+
+static void show_state(const struct stage *stage, struct core *core, const struct paint *paint, int coordinate)
+{
+    const struct brush *brush = &core->brush;
+    const struct painting *painting = &stage->painting;
+    const struct rect legend = characters_legend(core);
+    const struct rect box = {legend.x, legend.y - STATE_HEIGHT - 8, legend.w, STATE_HEIGHT};
+    const bool paints = brush_paints(core);
+    const char *label = brush_label(paints ? painting->stroke : brush_stroke(brush, core->mods));
+    char text[64] = "nothing painted here";
+    if (painting->covers && paint) describe_spot(stage, paint, coordinate, text, sizeof text);
+    if (!painting->covers)
+        snprintf(text, sizeof text, "radius %.0f %%, strength %.0f %%", 100 * brush->radius, 100 * brush->strength);
+    drawlist_rounded(&core->list, box, 6, (theme()->panel & 0xFFFFFF00u) | 0xD8u);
+    drawlist_text_fit(&core->list, box.x + 10, box.y + 18, box.w - 20, FONT_LABEL_BOLD, THEME_TEXT_SMALL,
+                      theme()->text, label);
+    drawlist_text_fit(&core->list, box.x + 10, box.y + 35, box.w - 20, FONT_LABEL, THEME_TEXT_SMALL,
+                      theme()->text_dim, text);
+}
+
+void brush_show(struct stage *stage, struct core *core, const struct editor_world *world)
+{
+    int coordinate;
+    const struct figure *figure = core->brush.on ? characters_figure(core, world, &coordinate) : NULL;
+    if (!figure) return;
+    const struct paint *paint = characters_selected(core, world)->painted;
+    if (stage->painting.covers) show_ring(stage, core, figure);
+    show_state(stage, core, paint && models_paint_fits(paint, figure) ? paint : NULL, coordinate);
 }

@@ -1,11 +1,14 @@
-/// Floors of characters by mouse: where their edges are, and drags up and down.
-#include "editor/stage/floors.h"
+/// Floors of characters on the stage: where their edges are, drags up and down, and how they are drawn.
 #include "editor/core/core.h"
 #include "editor/core/drag.h"
-#include "editor/stage/rigs.h"
-#include "editor/stage/segment.h"
+#include "editor/stage/parts.h"
+#include "editor/stage/stage.h"
 #include "model/vector.h"
+#include "ui/font.h"
+#include "ui/theme.h"
 #include <math.h>
+#include <stdio.h>
+#include <string.h>
 
 static const float AROUND = 0.42f; ///< of the character's breadth or depth: how far the edge is from its middle
 static const float EDGE_REACH = 5; ///< pixels
@@ -95,4 +98,115 @@ void floors_begin(struct stage *stage, struct core *core, const struct editor_wo
         .rig = hover->rig,
         .start = rig->floor,
         .pixels_per_metre = 0.5 * rise * (double)(core->layout.stage.h * stage->view.projection[5] / depth)};
+}
+
+static const float TOUCH = 2e-3f;     ///< of the character's height: what is so near touches
+static const float MARK = 4, END = 2; ///< radii, pixels
+static const float FAR_SIDE = 0.35f,
+                   FAR_PART = 0.4f; ///< of edges behind the character: opacity, and the part that is drawn
+
+/// Where the lowest vertex is as it is posed.
+static void find_lowest(const struct stage_character *shown, float place[3])
+{
+    const struct figure *figure = shown->figure;
+    place[1] = INFINITY;
+    for (int v = 0; v < figure->character.vertex_count; v++) {
+        float at[3];
+        morph_vertex(figure, &shown->morph, v, at, NULL);
+        if (at[1] < place[1]) memcpy(place, at, sizeof at);
+    }
+    for (int k = 0; k < 3; k++) place[k] += shown->position[k] - (k == 1 ? figure->lo[1] : 0.0f);
+}
+
+/// A disc on the floor under the lowest point, and a line to that where it is below.
+static void show_mark(const struct stage *stage, struct core *core, const float low[3], float height, uint32_t color)
+{
+    const float on[3] = {low[0], height, low[2]};
+    float line[2][2];
+    if (!stage_project_point(stage, core->layout.stage, on, line[0]) ||
+        !stage_project_point(stage, core->layout.stage, low, line[1]))
+        return;
+    if (low[1] < height) drawlist_line(&core->list, line[0], 2, 1.25f, color);
+    for (int e = 0; e < 2; e++) {
+        const float r = e == 0 ? MARK : END;
+        drawlist_rounded(&core->list, (struct rect){line[e][0] - r, line[e][1] - r, 2 * r, 2 * r}, r, color);
+    }
+}
+
+/// The height, at the corner that is farthest to the right.
+static void show_height(struct core *core, const struct shown_floor *floor, double height, float below,
+                        uint32_t color)
+{
+    char text[80];
+    int right = 0;
+    for (int i = 1; i < 4; i++) {
+        if (floor->xy[i][0] > floor->xy[right][0]) right = i;
+    }
+    int length = snprintf(text, sizeof text, "floor %.3g m", height + 0.0);
+    if (below > 0) snprintf(text + length, sizeof text - (size_t)length, ", %.2g m below", (double)below);
+    const struct rect r = core->layout.stage;
+    const float width = font_width(FONT_LABEL, THEME_TEXT_SMALL, text);
+    const float x = fmaxf(fminf(floor->xy[right][0] + 8, r.x + r.w - width - 8), r.x + 8);
+    const float y = floor->xy[right][1] + 4;
+    drawlist_rounded(&core->list, (struct rect){x - 4, y - 12, width + 8, 16}, 4, theme_fade(theme()->panel, 0.8f));
+    drawlist_text(&core->list, x, y, FONT_LABEL, THEME_TEXT_SMALL, color, text);
+}
+
+/// The edges at the nearest corner, and the beginnings of the other two, so that no line crosses the character.
+static void show_edges(struct core *core, const struct shown_floor *floor, float width, uint32_t color)
+{
+    for (int side = 1; side < 4; side += 2) {
+        const float *corner = floor->xy[(floor->first + side) % 4], *far = floor->xy[(floor->first + 2) % 4];
+        const float *near = floor->xy[floor->first];
+        const float line[3][2] = {
+            {near[0], near[1]},
+            {corner[0], corner[1]},
+            {corner[0] + FAR_PART * (far[0] - corner[0]), corner[1] + FAR_PART * (far[1] - corner[1])}};
+        drawlist_line(&core->list, line[0], 2, width, color);
+        drawlist_line(&core->list, line[1], 2, width, theme_fade(color, FAR_SIDE));
+    }
+}
+
+static void show_floor(const struct stage *stage, struct core *core, const struct stage_character *shown,
+                       const struct shown_floor *floor, double height, bool is_hot)
+{
+    float low[3];
+    find_lowest(shown, low);
+    const float near_enough = TOUCH * (shown->figure->hi[1] - shown->figure->lo[1]);
+    const float below = (float)height - low[1];
+    const bool is_missed = below > near_enough, is_touched = below > -near_enough;
+    const uint32_t color = is_missed    ? theme()->warning
+                           : is_hot     ? theme()->playhead
+                           : is_touched ? theme()->accent
+                                        : theme()->text_dim;
+    show_edges(core, floor, is_hot ? 2.25f : 1.5f, color);
+    if (is_touched) show_mark(stage, core, low, (float)height, color);
+    show_height(core, floor, height, is_missed ? below : 0, is_missed ? color : theme()->text_dim);
+}
+
+void floors_show(const struct stage *stage, struct core *core, const struct editor_world *world)
+{
+    const struct document *document = world->document;
+    for (int c = 0; c < stage->view.character_count; c++) {
+        const struct stage_character *shown = &stage->view.characters[c];
+        struct shown_floor floor = {0};
+        const struct character_rig *rig = floors_find(stage, core, document, shown, &floor);
+        if (!rig) continue;
+        const int index = document_find_rig(document, RIG_CHARACTER, shown->rig);
+        const bool is_hot = core->hover.kind == HOVER_FLOOR && core->hover.rig == index;
+        show_floor(stage, core, shown, &floor, rig->floor, is_hot);
+    }
+}
+
+bool stage_floor_point(const struct stage *stage, const struct core *core, const struct document *document,
+                       int character, float xy[2])
+{
+    for (int c = 0; c < stage->view.character_count; c++) {
+        const struct stage_character *shown = &stage->view.characters[c];
+        struct shown_floor floor = {0};
+        if (shown->rig != character || !floors_find(stage, core, document, shown, &floor)) continue;
+        for (int k = 0; k < 2; k++) xy[k] = 0.5f * (floor.xy[floor.first][k] + floor.xy[(floor.first + 1) % 4][k]);
+        return true;
+    }
+    return false;
 }

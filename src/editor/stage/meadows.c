@@ -1,7 +1,6 @@
 /// A meadow on the stage: its reeds in their wind, pushed by bodies, and swinging after what was dragged through them.
 #include "base/hash.h"
-#include "editor/stage/hold.h"
-#include "editor/stage/rigs.h"
+#include "editor/stage/parts.h"
 #include "model/creature.h"
 #include "model/vector.h"
 #include <math.h>

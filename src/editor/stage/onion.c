@@ -1,18 +1,19 @@
-/// Onion skin: proxies of a rig at the knots around the playhead; and at the one knot that is being edited, its ghost.
-#include "editor/core/arrange.h"
+/// Onion skin: outlines of a rig at the knots around the playhead; and at the one knot that is being edited, its ghost.
 #include "editor/core/core.h"
 #include "editor/core/knots.h"
 #include "editor/core/selection.h"
-#include "editor/stage/overlays.h"
-#include "editor/stage/proxy.h"
-#include "editor/stage/rigs.h"
+#include "editor/core/spline_list.h"
+#include "editor/stage/parts.h"
 #include "editor/stage/stage.h"
-#include "editor/stage/strand.h"
+#include "model/creature.h"
+#include "model/vector.h"
+#include "rig/pick.h"
 #include "ui/font.h"
 #include "ui/theme.h"
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 enum {
     MAX_SKINS = 8,
@@ -81,7 +82,7 @@ void onion_show(struct stage *stage, struct core *core, const struct editor_worl
     if (!core->overlays.onion || !spline || rig < 0) return;
     const int most = document->rigs[rig].kind == RIG_CHARACTER ? CHARACTER_SKINS : MAX_SKINS;
     const int count = nearest_knots(document, spline, core->playback.position, samples, most);
-    uint32_t color = arrange_color(document, core->active);
+    uint32_t color = spline_list_color(document, core->active);
     const struct posing posing = stage_posing(core, world);
     for (int i = count - 1; i >= 0; i--) {
         float share = count > 1 ? (float)i / (float)(count - 1) : 0, tip[2];
@@ -111,7 +112,7 @@ void ghost_show(struct stage *stage, struct core *core, const struct editor_worl
     if (fabs(sample - core->playback.position) < 0.5) return;
     const struct posing posing = stage_posing(core, world);
     const double left = !core->drag.owner ? fmin(core->nudged_seconds / FADE, 1) : 1;
-    const uint32_t color = theme_fade(arrange_color(document, core->active), GHOST * (float)left);
+    const uint32_t color = theme_fade(spline_list_color(document, core->active), GHOST * (float)left);
     float tip[2];
     if (!proxy_show(stage, core, &posing, rig, sample, 1.5f, color, tip)) return;
     char text[32];
@@ -134,4 +135,175 @@ void stage_toggle_onion(struct core *core)
     core_message(core, false,
                  core->overlays.onion ? "Onion skin on: the pose at the knots around the playhead (O)."
                                       : "Onion skin off.");
+}
+
+enum {
+    STATIONS = 48,     ///< along the tail
+    LEAST_POINTS = 12, ///< of an outline that can be told from a speck
+};
+
+static const double FROM = 0.16,
+                    TO = 0.985; ///< shares of the length: outside of the body, and where the rounded tip begins
+static const float AROUND = 8;  ///< pixels beside the stage that outlines reach, so that their edge is not seen
+static const float OPEN = 1.5f; ///< cells from the root's disc, within which a tail's outline is left open
+
+/// A disc of a tail on the screen.
+struct disc {
+    float middle[2], radius;
+};
+
+/// The tail at a share of the length; false where it is behind the eye.
+static bool station(const struct stage *stage, const struct core *core, const struct pose *pose, double share,
+                    struct disc *disc)
+{
+    const struct stage_view *view = &stage->view;
+    double at = share * (pose->count - 1);
+    int joint = at >= pose->count - 1 ? pose->count - 2 : (int)at;
+    const vec3s from = vec3_from(pose->matrix[joint] + 12), to = vec3_from(pose->matrix[joint + 1] + 12);
+    const vec3s point = glms_vec3_lerp(from, to, (float)(at - joint));
+    if (!stage_project_point(stage, core->layout.stage, point.raw, disc->middle)) return false;
+    const float depth = camera_depth(view->view, view->eye, pose->matrix[joint] + 12);
+    float metres =
+        creature_tail_radius((float)share * CREATURE_TAIL_LENGTH) * pose_length(pose) / CREATURE_TAIL_LENGTH;
+    disc->radius = metres * 0.5f * view->viewport.h * view->projection[5] / fmaxf(depth, 0.1f);
+    return true;
+}
+
+/// The part of the stage, and a little beside it, that holds a box.
+static struct rect part_of_stage(const struct core *core, const float low[2], const float high[2])
+{
+    const struct rect box = {low[0], low[1], high[0] - low[0], high[1] - low[1]};
+    return rect_intersect(rect_inset(core->layout.stage, -AROUND), rect_inset(box, -AROUND));
+}
+
+static void widen(float low[2], float high[2], const float xy[2], float radius)
+{
+    for (int k = 0; k < 2; k++) {
+        low[k] = fminf(low[k], xy[k] - radius);
+        high[k] = fmaxf(high[k], xy[k] + radius);
+    }
+}
+
+/// Draws an outline without what is at the root, where the tail grows out of the body: without the longest such part.
+static void show_open(struct stage *stage, struct core *core, int count, const struct disc *root, float width,
+                      uint32_t color)
+{
+    float(*points)[2] = stage->silhouette.points;
+    const float reach = root->radius + OPEN * stage->silhouette.cell;
+    const int whole = count - 1; // the last point is the first
+    int longest = 0, start = 0, run = 0;
+    memcpy(points[whole], points[0], (size_t)whole * sizeof points[0]);
+    for (int i = 0; i < 2 * whole; i++) {
+        run = hypotf(points[i][0] - root->middle[0], points[i][1] - root->middle[1]) < reach ? run + 1 : 0;
+        if (run > longest && run < whole) longest = run, start = (i + 1) % whole;
+    }
+    drawlist_line(&core->list, points[start], longest > 0 ? whole - longest : count, width, color);
+}
+
+static bool show_tail(struct stage *stage, struct core *core, const struct pose *pose, float width, uint32_t color,
+                      float tip[2])
+{
+    struct disc discs[STATIONS];
+    float low[2] = {INFINITY, INFINITY}, high[2] = {-INFINITY, -INFINITY};
+    for (int i = 0; i < STATIONS; i++) {
+        if (!station(stage, core, pose, FROM + (TO - FROM) * i / (STATIONS - 1), &discs[i])) return false;
+        widen(low, high, discs[i].middle, discs[i].radius);
+    }
+    const struct rect area = part_of_stage(core, low, high);
+    if (area.w <= 0 || area.h <= 0) return false;
+    silhouette_clear(&stage->silhouette, area);
+    for (int i = 1; i < STATIONS; i++)
+        silhouette_add_link(&stage->silhouette, discs[i - 1].middle, discs[i - 1].radius, discs[i].middle,
+                            discs[i].radius);
+    const int count = silhouette_follow(&stage->silhouette);
+    if (count > LEAST_POINTS) show_open(stage, core, count, &discs[0], width, color);
+    const struct disc *last = &discs[STATIONS - 1], *before = &discs[STATIONS - 3];
+    const float dx = last->middle[0] - before->middle[0], dy = last->middle[1] - before->middle[1];
+    const float share = last->radius / fmaxf(hypotf(dx, dy), 1);
+    tip[0] = last->middle[0] + share * dx;
+    tip[1] = last->middle[1] + share * dy;
+    return true;
+}
+
+static bool show_chain(struct stage *stage, struct core *core, const struct chain_pose *pose, float width,
+                       uint32_t color, float tip[2])
+{
+    float points[ANGLES_MAX_JOINTS + 1][2];
+    for (int n = 0; n < pose->count; n++) {
+        if (!stage_project_point(stage, core->layout.stage, pose->point[n], points[n])) return false;
+    }
+    if (pose->count == 0) return false;
+    drawlist_line(&core->list, points[0], pose->count, width, color);
+    memcpy(tip, points[pose->count - 1], 2 * sizeof *tip);
+    return true;
+}
+
+/// The character where the stage shows it: of a pair, the one that is not stiff.
+static const struct stage_character *find_shown(const struct stage *stage, int character)
+{
+    for (int c = 0; c < stage->view.character_count; c++) {
+        const struct stage_character *shown = &stage->view.characters[c];
+        if (shown->rig == character && !shown->is_twin) return shown;
+    }
+    return NULL;
+}
+
+/// Poses its surface and puts that on the screen, in the memory for what is pointed at, which is posed anew then.
+static bool project_surface(struct stage *stage, const struct core *core, const struct figure *figure,
+                            const struct morph *morph, const float position[3], float low[2], float high[2])
+{
+    float(*posed)[3] = stage->skin.posed;
+    if (figure->character.vertex_count > stage->skin.capacity) return false;
+    stage->skin.hash = 0;
+    morph_places(figure, morph, position, posed);
+    for (int i = 0; i < figure->character.vertex_count; i++) {
+        float xy[2];
+        if (!stage_project_point(stage, core->layout.stage, posed[i], xy)) return false;
+        memcpy(posed[i], xy, sizeof xy);
+        widen(low, high, xy, 0);
+    }
+    return true;
+}
+
+static bool show_character(struct stage *stage, struct core *core, const struct rig_pose *pose, int character,
+                           float width, uint32_t color, float tip[2])
+{
+    const struct figure *figure = pose->character.figure;
+    const struct stage_character *shown = find_shown(stage, character);
+    struct silhouette *silhouette = &stage->silhouette;
+    float low[2] = {INFINITY, INFINITY}, high[2] = {-INFINITY, -INFINITY};
+    if (!shown || !project_surface(stage, core, figure, &pose->character.morph, shown->position, low, high))
+        return false;
+    const struct rect area = part_of_stage(core, low, high);
+    if (area.w <= 0 || area.h <= 0) return false;
+    silhouette_clear(silhouette, area);
+    for (int t = 0; t < figure->character.index_count; t += 3) {
+        float corner[3][2];
+        for (int k = 0; k < 3; k++)
+            memcpy(corner[k], stage->skin.posed[figure->character.indices[t + k]], sizeof corner[k]);
+        silhouette_add_triangle(silhouette, (const float(*)[2])corner);
+    }
+    silhouette_soften(silhouette);
+    for (int count; (count = silhouette_follow(silhouette)) > 0;)
+        if (count > LEAST_POINTS) drawlist_line(&core->list, silhouette->points[0], count, width, color);
+    tip[0] = fminf(high[0], core->layout.stage.x + 0.9f * core->layout.stage.w);
+    tip[1] = fmaxf(0.7f * low[1] + 0.3f * high[1], core->layout.stage.y + 20);
+    return true;
+}
+
+bool proxy_show(struct stage *stage, struct core *core, const struct posing *posing, int rig, int sample, float width,
+                uint32_t color, float tip[2])
+{
+    struct rig_pose pose;
+    if (!rig_pose(posing, rig, sample, NULL, &pose)) return false;
+    switch (pose.kind) {
+    case RIG_TAIL:
+        return show_tail(stage, core, &pose.tail, width, color, tip);
+    case RIG_CHAIN:
+        return show_chain(stage, core, &pose.chain, width, color, tip);
+    case RIG_CHARACTER:
+        return show_character(stage, core, &pose, document_rig_number(posing->document, rig), width, color, tip);
+    default:
+        return false;
+    }
 }

@@ -1,15 +1,19 @@
-/// Pins by mouse: what is pointed at, and drags in the plane that faces the eye.
-#include "editor/stage/pins.h"
+/// Pins on the stage: what is pointed at, drags in the plane that faces the eye, keys, and their markers.
+#include "editor/core/pins.h"
+#include "base/hash.h"
+#include "editor/core/bones.h"
 #include "editor/core/core.h"
 #include "editor/core/drag.h"
-#include "editor/core/pins.h"
 #include "editor/core/playback.h"
-#include "editor/stage/points.h"
-#include "editor/stage/rigs.h"
-#include "editor/stage/skin.h"
+#include "editor/core/spline_list.h"
+#include "editor/stage/parts.h"
+#include "editor/stage/stage.h"
 #include "model/vector.h"
 #include "scene/pins.h"
+#include "ui/font.h"
+#include "ui/theme.h"
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 static const float MARKER_REACH = 9;    ///< pixels
@@ -192,4 +196,213 @@ void pins_begin(struct stage *stage, struct core *core, const struct editor_worl
         for (int k = 0; k < 3; k++) drag->start[k] = (double)place[k];
     }
     pins_take_plane(stage, core, drag->start, drag);
+}
+
+static const double NUDGE = 0.01; ///< of the height of what is seen
+
+void stage_nudge_pin(struct stage *stage, struct core *core, const struct editor_world *world, double right,
+                     double up)
+{
+    int rig;
+    struct pin_drag plane;
+    const struct pin *pin = pins_selected(core, world->document, &rig);
+    if (!pin) return;
+    pins_take_plane(stage, core, pin->to, &plane);
+    const double step = core_round(NUDGE * (double)core->layout.stage.h / plane.pixels_per_metre, 0.01);
+    double by[3];
+    for (int k = 0; k < 3; k++) by[k] = step * (right * plane.right[k] + up * plane.up[k]);
+    pins_nudge(core, world, by);
+}
+
+/// Pins a point at the playhead where it is.
+static void hold(struct core *core, const struct editor_world *world, struct rig_point point)
+{
+    float place[3];
+    if (!point_exists(world, point)) {
+        core_message(core, false, "There is no tail, chain or character to pin.");
+        return;
+    }
+    const double frame = pins_frame_here(core, world->document, point.rig);
+    if (!point_place(core, world, point, core_position(world->document, frame), place)) return;
+    pins_put_here(core, world, point.rig, point.at, (const double[3]){place[0], place[1], place[2]});
+}
+
+void stage_hold_point(struct stage *stage, struct core *core, const struct editor_world *world)
+{
+    int rig;
+    struct hover hover = core->hover;
+    if (hover.kind == HOVER_JOINT) hover = strand_end(stage, core, &hover);
+    const struct pin *selected = pins_selected(core, world->document, &rig);
+    if (hover.kind == HOVER_POINT) {
+        hold(core, world, (struct rig_point){hover.rig, hover.joint});
+    } else if (selected) {
+        const struct pin pin = *selected;
+        pins_put_here(core, world, rig, pin.point, pin.to);
+    } else {
+        hold(core, world, overlay_point(stage, core, world));
+    }
+}
+
+static const float HERE = 5, ELSEWHERE = 3.5f, RING = 8, LIT = 6.5f, END = 2; ///< radii, pixels
+static const float LEAST_LINE = 1.5f;                                         ///< pixels that are left to be seen
+static const float FAINT = 0.5f;                                              ///< opacity of markers of other frames
+static const float AXIS = 2; ///< metres of a locked axis to each side
+
+/// The document as it is solved now.
+static uint64_t state_key(const struct core *core, const struct editor_world *world)
+{
+    const uint64_t solved = world->evaluation ? world->evaluation->revision : 0;
+    const uint64_t edited = world->history ? history_revision(world->history) : 0; // a film has none
+    return hash_word(hash_word(hash_word(HASH_START, edited), solved), (uint64_t)core->look);
+}
+
+static void add_pin(struct stage *stage, const struct editor_world *world, int rig, int at)
+{
+    const struct document *document = world->document;
+    const struct pin *pin = &document->rigs[rig].pins[at];
+    const struct pin_left *left = evaluation_pin(world->evaluation, document, rig, at);
+    const int spline = rig_point_spline(&document->rigs[rig]);
+    struct shown_pin *shown = &stage->pins[stage->pin_count++];
+    *shown = (struct shown_pin){.id = pin->id, .point = {rig, pin->point}, .frame = pin->frame};
+    shown->color = spline >= 0 ? spline_list_color(document, spline) : theme()->text_dim;
+    shown->is_known = left && left->is_found;
+    for (int k = 0; k < 3; k++) shown->to[k] = (float)pin->to[k];
+    for (int k = 0; k < 3 && shown->is_known; k++) shown->place[k] = (float)left->at[k];
+}
+
+/// Finds all markers for the document as it is solved now.
+static void update(struct stage *stage, const struct core *core, const struct editor_world *world)
+{
+    const struct document *document = world->document;
+    const uint64_t key = hash_word(state_key(core, world), (uint64_t)theme_in_use() << 32 | document->serial);
+    if (stage->pins_key == key) return;
+    stage->pins_key = key;
+    stage->pin_count = 0;
+    for (int r = 0; r < document->rig_count; r++) {
+        if (document->rigs[r].kind == RIG_CHARACTER && core->characters.compare) continue; // they stand aside
+        for (int i = 0; i < document->rigs[r].pin_count; i++) add_pin(stage, world, r, i);
+    }
+}
+
+static void show_disc(struct drawlist *list, const float xy[2], float radius, uint32_t color)
+{
+    drawlist_rounded(list, (struct rect){xy[0] - radius, xy[1] - radius, 2 * radius, 2 * radius}, radius, color);
+}
+
+static void show_circle(struct drawlist *list, const float xy[2], float radius, uint32_t color)
+{
+    const struct rect r = {xy[0] - radius, xy[1] - radius, 2 * radius, 2 * radius};
+    drawlist_rounded_line(list, r, radius, 1.5f, color);
+}
+
+/// The frame of a marker, right of it.
+static void show_frame(struct core *core, const float xy[2], double frame)
+{
+    char text[32];
+    snprintf(text, sizeof text, "%.6g", frame);
+    drawlist_text(&core->list, xy[0] + RING + 4, xy[1] + 4, FONT_NUMBER, THEME_TEXT_SMALL, theme()->text, text);
+}
+
+static void show_marker(const struct stage *stage, struct core *core, const struct shown_pin *pin, bool here)
+{
+    struct drawlist *list = &core->list;
+    const bool selected = core->pin.any && core->pin.id == pin->id;
+    const bool hot = core->hover.kind == HOVER_PIN && core->hover.pin == pin->id;
+    const float radius = here || selected || hot ? HERE : ELSEWHERE;
+    const uint32_t color = theme_fade(pin->color, here || selected || hot ? 1 : FAINT);
+    float line[2][2];
+    if (!stage_project_point(stage, core->layout.stage, pin->to, line[0])) return;
+    const bool has_end = pin->is_known && stage_project_point(stage, core->layout.stage, pin->place, line[1]);
+    if (has_end && hypotf(line[1][0] - line[0][0], line[1][1] - line[0][1]) > LEAST_LINE) {
+        drawlist_line(list, line[0], 2, 1.25f, color);
+        show_disc(list, line[1], END, color);
+    }
+    show_disc(list, line[0], radius + 1.5f, theme_fade(theme()->panel, here || selected ? 0.8f : 0.4f));
+    show_disc(list, line[0], radius, color);
+    if (selected || hot) show_circle(list, line[0], RING, theme()->playhead);
+    if (selected || hot) show_frame(core, line[0], pin->frame);
+}
+
+void pins_show_axis(void *room, struct core *core, const struct editor_world *world)
+{
+    const struct stage *stage = room;
+    const struct pin_drag *drag = &stage->pin_drag;
+    float ends[2][3], line[2][2];
+    (void)world;
+    if (drag->axis < 0) return;
+    for (int e = 0; e < 2; e++) {
+        for (int k = 0; k < 3; k++) ends[e][k] = (float)drag->start[k];
+        ends[e][drag->axis] += e ? AXIS : -AXIS;
+        if (!stage_project_point(stage, core->layout.stage, ends[e], line[e])) return;
+    }
+    drawlist_dashed(&core->list, line[0], 2, 1, 6, 4, theme_fade(theme()->playhead, 0.7f));
+}
+
+/// What a press would take hold of.
+static void show_lit(struct core *core)
+{
+    const float xy[2] = {core->hover.x, core->hover.y};
+    if (core->hover.kind != HOVER_POINT || core->drag.owner) return;
+    show_circle(&core->list, xy, LIT + 1.5f, theme_fade(theme()->panel, 0.6f));
+    show_circle(&core->list, xy, LIT, theme()->playhead);
+    show_disc(&core->list, xy, END, theme()->playhead);
+}
+
+void pins_show(struct stage *stage, struct core *core, const struct editor_world *world)
+{
+    const struct document *document = world->document;
+    int rig;
+    update(stage, core, world);
+    const struct pin *selected = pins_selected(core, document, &rig);
+    if (selected && point_exists(world, (struct rig_point){rig, selected->point}))
+        path_show(stage, core, world, TRAIL_OF_PIN, (struct rig_point){rig, selected->point});
+    const int now = document_sample(document, core_frame(core, document));
+    for (int i = 0; i < stage->pin_count; i++) {
+        const struct shown_pin *pin = &stage->pins[i];
+        show_marker(stage, core, pin, document_sample(document, pin->frame) == now);
+    }
+    show_lit(core);
+}
+
+bool stage_pin_point(const struct stage *stage, const struct core *core, unsigned id, float xy[2])
+{
+    for (int i = 0; i < stage->pin_count; i++) {
+        if (stage->pins[i].id == id) return stage_project_point(stage, core->layout.stage, stage->pins[i].to, xy);
+    }
+    return false;
+}
+
+bool point_exists(const struct editor_world *world, struct rig_point point)
+{
+    const struct document *document = world->document;
+    if (point.rig < 0 || point.rig >= document->rig_count) return false;
+    const enum rig_kind kind = document->rigs[point.rig].kind;
+    if (point.at < 0) return point.at == POINT_BASE && kind == RIG_TAIL;
+    if (kind == RIG_TAIL || kind == RIG_CHAIN) return point.at < bones_joints(world, point.rig);
+    const int n = document_rig_number(document, point.rig);
+    const struct figure *figure = kind == RIG_CHARACTER ? models_figure(world->models, n) : NULL;
+    return figure && point.at < figure->character.vertex_count;
+}
+
+/// Out of a posed rig.
+static void take_place(const struct rig_pose *pose, int at, float place[3])
+{
+    if (pose->kind == RIG_CHARACTER) {
+        const struct figure *figure = pose->character.figure;
+        morph_vertex(figure, &pose->character.morph, at, place, NULL);
+        for (int k = 0; k < 3; k++) place[k] += pose->character.position[k] - (k == 1 ? figure->lo[1] : 0.0f);
+    } else {
+        const float *end = pose->kind == RIG_CHAIN ? pose->chain.point[at + 1] : pose->tail.matrix[at + 1] + 12;
+        memcpy(place, end, 3 * sizeof *place);
+    }
+}
+
+bool point_place(const struct core *core, const struct editor_world *world, struct rig_point point, double position,
+                 float place[3])
+{
+    struct rig_pose pose;
+    const struct posing posing = stage_posing(core, world);
+    if (!point_exists(world, point) || !rig_pose(&posing, point.rig, position, NULL, &pose)) return false;
+    take_place(&pose, point.at, place);
+    return true;
 }

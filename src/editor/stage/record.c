@@ -1,7 +1,10 @@
-/// The motion of a body that is dragged while it is recorded: one place for each sample that the playhead passes.
+/// The motion of a body that is dragged while it is recorded: a place a sample, the knots that are made of it, and its path on the stage.
 #include "editor/core/core.h"
-#include "editor/stage/hold.h"
+#include "editor/stage/parts.h"
+#include "ui/font.h"
+#include "ui/theme.h"
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 
 void record_begin(struct stage *stage, struct core *core)
@@ -18,7 +21,7 @@ void record_advance(struct stage *stage, const struct core *core, const struct e
     struct record *record = &stage->record;
     if (!record->running || !body_is_held(core)) return;
     double offset[3], position = core->playback.position;
-    hold_way(stage, core, offset);
+    body_drag_way(stage, core, offset);
     int next = record->first + record->count;
     bool ended = position < next - 1 || !core->playback.playing || record->count == RECORD_SAMPLES ||
                  next >= document_samples(world->document);
@@ -99,4 +102,142 @@ int record_simplify(const double *values, int count, double tolerance, wiggly_me
     free(buffer);
     free(total);
     return good ? made : 0;
+}
+
+enum { MAX_KNOTS = 64 };
+
+static const double STILL = 2e-3;     ///< metres: a coordinate that moved less did not move
+static const double TOLERANCE = 4e-3; ///< metres between the hand's way and the cubic through its knots
+
+static double largest(const double *values, int count)
+{
+    double most = 0;
+    for (int i = 0; i < count; i++) most = fmax(most, fabs(values[i]));
+    return most;
+}
+
+static void clear_knots(struct core *core, const struct editor_world *world, int spline, int from, int to)
+{
+    const struct document *document = world->document;
+    for (;;) {
+        int at = spline_lower_bound(document, &document->splines[spline], from);
+        const struct spline *cleared = &document->splines[spline];
+        if (at == cleared->knot_count || document_sample(document, cleared->knots[at].frame) > to) return;
+        struct edit edit = core_edit_of(EDIT_KNOT_REMOVE, spline);
+        edit.knot = cleared->knots[at];
+        if (!core_edit(core, world, &edit)) return;
+    }
+}
+
+/// Keys a coordinate's motion; returns how many knots that took. `swings` is the spline by which the tail swings with that from now
+/// on, where it did not; `why` is what held a knot. Before and after it the body stands still, unless the scene is a loop, in which
+/// it comes back by itself.
+static int key_coordinate(const struct stage *stage, struct core *core, const struct editor_world *world,
+                          int coordinate, int *swings, char why[STOPPED_SIZE])
+{
+    const struct record *record = &stage->record;
+    const struct document *document = world->document;
+    const int tail = stage->body_drag.tail, last = document_samples(document) - 1;
+    const bool is_new = document_tail(document, tail)->position[coordinate].track < 0;
+    double way[RECORD_SAMPLES];
+    int knots[MAX_KNOTS];
+    int spline = base_spline(stage, core, world, coordinate);
+    if (spline < 0) return 0;
+    int count = record->count, end = document_last_knot_sample(document, &document->splines[spline]);
+    if (record->first + count - 1 > end) count = end - record->first + 1;
+    for (int i = 0; i < count; i++)
+        way[i] = base_value(world, tail, coordinate, record->first + i) + record->way[coordinate][i];
+    int made = count >= 2 ? record_simplify(way, count, TOLERANCE, core->method, knots, MAX_KNOTS) : 0;
+    if (made == 0) return 0;
+    if (!is_new) clear_knots(core, world, spline, record->first, record->first + count - 1);
+    for (int i = 0; i < made; i++) {
+        base_put_knot(core, world, spline, record->first + knots[i], way[knots[i]], i == 0 || i == made - 1, why);
+    }
+    if (is_new && !stage->body_drag.loops) {
+        if (record->first > 1) base_put_knot(core, world, spline, 0, way[0], true, why);
+        if (record->first + count < last) base_put_knot(core, world, spline, last, way[count - 1], true, why);
+    }
+    if (is_new) base_follow(stage, core, world, coordinate, spline);
+    const int hung = base_hang_channels(stage, core, world, coordinate, spline);
+    if (hung >= 0) *swings = hung;
+    core_edited(core, spline);
+    return made;
+}
+
+void record_keep(struct stage *stage, struct core *core, const struct editor_world *world)
+{
+    struct record *record = &stage->record;
+    char text[768], why[STOPPED_SIZE] = "";
+    int made = 0, swings = -1;
+    base_begin(stage, world);
+    for (int k = 0; k < 3; k++) {
+        if (largest(record->way[k], record->count) >= STILL)
+            made += key_coordinate(stage, core, world, k, &swings, why);
+    }
+    snprintf(text, sizeof text, made == 0 ? "Nothing moved: nothing is recorded." : "%d knots recorded.", made);
+    core_add_stopped(why, text, sizeof text);
+    base_say_channel(world, swings, text, sizeof text);
+    core_message(core, false, text);
+    record_forget(stage);
+}
+
+enum { MARGIN = 12, HEIGHT = 22, PAD = 8, DOT = 10, MAX_POINTS = 256 };
+
+/// In the upper right corner, below the caption.
+static void show_sign(struct core *core, const struct document *document, bool runs, const char *text)
+{
+    const struct rect stage = core->layout.stage;
+    const float width = ceilf(font_width(FONT_LABEL_BOLD, THEME_TEXT_NORMAL, text)) + DOT + 3 * PAD;
+    const struct rect sign = {stage.x + stage.w - MARGIN - width,
+                              stage.y + fmaxf(MARGIN, caption_height(stage, document)), width, HEIGHT};
+    const struct rect dot = {sign.x + PAD, sign.y + (HEIGHT - DOT) / 2.0f, DOT, DOT};
+    drawlist_rounded(&core->list, sign, HEIGHT / 2.0f, theme()->panel);
+    if (runs) {
+        drawlist_rounded(&core->list, dot, DOT / 2.0f, theme()->error);
+    } else {
+        drawlist_rounded_line(&core->list, dot, DOT / 2.0f, 1.5f, theme()->error);
+    }
+    drawlist_text(&core->list, dot.x + DOT + PAD, sign.y + HEIGHT - 7, FONT_LABEL_BOLD, THEME_TEXT_NORMAL,
+                  theme()->error, text);
+}
+
+/// The way so far, where the hand took the base at each sample.
+static void show_way(const struct stage *stage, struct core *core, const struct editor_world *world)
+{
+    const struct record *record = &stage->record;
+    const int tail = stage->body_drag.tail, step = record->count / MAX_POINTS + 1;
+    float points[MAX_POINTS][2];
+    int count = 0;
+    for (int i = 0; i < record->count; i += step) {
+        float place[3];
+        for (int k = 0; k < 3; k++) {
+            const struct param *param = &document_tail(world->document, tail)->position[k];
+            double value = param->value;
+            if (param->track >= 0) value = base_value(world, tail, k, record->first + i);
+            place[k] = (float)(value + record->way[k][i]);
+        }
+        if (!stage_project_point(stage, core->layout.stage, place, points[count++])) return;
+    }
+    if (count > 1) drawlist_line(&core->list, (const float *)points, count, 2, theme()->error);
+}
+
+void record_show(struct stage *stage, struct core *core, const struct editor_world *world)
+{
+    const struct document *document = world->document;
+    const bool is_held = body_is_held(core);
+    const int tail = is_held ? stage->body_drag.tail : core->hover.tail;
+    const struct tail *shown = is_held || core->hover.kind == HOVER_BODY ? document_tail(document, tail) : NULL;
+    bool moves = false;
+    for (int k = 0; shown && k < 3; k++) moves |= shown->position[k].track >= 0;
+    if (moves && !core->overlays.trail)
+        path_show(stage, core, world, TRAIL_OF_BODY,
+                  (struct rig_point){document_find_rig(document, RIG_TAIL, tail), POINT_BASE});
+    if (is_held && stage->record.running) {
+        char text[32];
+        show_way(stage, core, world);
+        snprintf(text, sizeof text, "REC %.1f s", stage->record.count / (document->fps * document->substeps));
+        show_sign(core, document, true, text);
+    } else if (core->record_armed && document_tail(document, 0)) {
+        show_sign(core, document, false, "Drag the body to record it");
+    }
 }

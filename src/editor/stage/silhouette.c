@@ -1,6 +1,6 @@
 /// Outlines by marching squares: between a node inside and one outside, the edge is where the field passes 0.
 #include "editor/stage/silhouette.h"
-#include "editor/stage/segment.h"
+#include "editor/stage/parts.h"
 #include <math.h>
 #include <string.h>
 

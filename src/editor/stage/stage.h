@@ -10,7 +10,7 @@ struct stage;
 struct stage *stage_create(void);
 /// NULL is fine.
 void stage_destroy(struct stage *stage);
-/// A point of the screen where hold_hover() finds that tail's body; false where it is hidden.
+/// A point of the screen where body_hover() finds that tail's body; false where it is hidden.
 bool stage_body_point(struct stage *stage, const struct core *core, const struct document *document, int tail,
                       float xy[2]);
 /// What the scene is about, in the upper left corner of the stage: up to the first full stop as a title.

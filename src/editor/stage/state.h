@@ -19,7 +19,7 @@ struct what_if {
 
 /// One channel that a grab steers through a knot at the playhead. The solution is affine in the knot's value v: at
 /// that sample x = x₀ + v·(1 + j·turn), where `turn` is observed from one step to the next.
-struct grab_axis {
+struct tail_drag_axis {
     bool active;
     int spline;
     double value; ///< of the knot, in the running step
@@ -47,17 +47,17 @@ struct shown_bone {
 };
 
 /// The tail or chain held by the pointer.
-struct grab {
+struct tail_drag {
     int rig, joint;
-    double fraction;          ///< of the segment after `joint`
-    int sample;               ///< on which the knots are set
-    float start[2];           ///< where the grabbed point was, pixels
-    struct grab_axis axis[2]; ///< by enum axis
-    bool applied;             ///< the open step holds edits
+    double fraction;               ///< of the segment after `joint`
+    int sample;                    ///< on which the knots are set
+    float start[2];                ///< where the grabbed point was, pixels
+    struct tail_drag_axis axis[2]; ///< by enum axis
+    bool applied;                  ///< the open step holds edits
 };
 
 /// The body held by the pointer, and how the pointer's way becomes one over the ground, or up.
-struct hold {
+struct body_drag {
     int tail;
     bool begun;                     ///< the pointer has moved
     bool lifts;                     ///< up the screen is up, not away
@@ -83,7 +83,7 @@ struct record {
 };
 
 /// A tail whose body is or was moved by hand.
-struct sway {
+struct drag_inertia {
     bool swings;
     double offset[3], velocity[3]; ///< of the base from where the document has it, metres and metres per second
     struct swing channel[SCENE_MAX_CHANNELS]; ///< in metres
@@ -200,10 +200,10 @@ struct stage {
     struct shown_bone bones[STAGE_MAX_BONES];
     int bone_count;
     struct hover pressed; ///< what the running drag began on
-    struct grab grab;
-    struct hold hold;
+    struct tail_drag tail_drag;
+    struct body_drag body_drag;
     struct record record;
-    struct sway sway[STAGE_MAX_TAILS];
+    struct drag_inertia inertia[STAGE_MAX_TAILS];
     struct trail_point trail[TRAILS][TRAIL_FRAMES];
     struct liveliest liveliest;
     struct skin skin;

@@ -3,11 +3,8 @@
 #include "base/hash.h"
 #include "editor/core/bones.h"
 #include "editor/core/core.h"
-#include "editor/stage/overlays.h"
-#include "editor/stage/points.h"
-#include "editor/stage/rigs.h"
+#include "editor/stage/parts.h"
 #include "editor/stage/stage.h"
-#include "editor/stage/strand.h"
 #include "model/vector.h"
 #include "ui/theme.h"
 #include <math.h>

@@ -1,0 +1,109 @@
+/// Walks over the selected knots of all splines, and keeps them as they were for an edit.
+#include "editor/core/selected_knots.h"
+#include "editor/core/core.h"
+#include "editor/core/selection.h"
+#include "editor/core/spline_list.h"
+#include <stdio.h>
+
+/// Knots that cannot be seen are not edited, unless their spline is the one that is worked on.
+static bool is_open(const struct core *core, const struct document *document, int spline)
+{
+    return spline == core->active || spline_list_shows(core, document, spline);
+}
+
+bool selected_next(const struct core *core, const struct document *document, struct knot_place *at)
+{
+    if (at->spline < 0) *at = (struct knot_place){0, -1};
+    for (; at->spline < document->spline_count; at->spline++, at->knot = -1) {
+        const struct spline *spline = &document->splines[at->spline];
+        bool open = at->knot >= 0 || is_open(core, document, at->spline);
+        while (open && ++at->knot < spline->knot_count) {
+            if (selection_has(&core->selection, spline->knots[at->knot].id)) return true;
+        }
+    }
+    return false;
+}
+
+int selected_count(const struct core *core, const struct document *document)
+{
+    int count = 0;
+    for (struct knot_place at = SELECTED_START; selected_next(core, document, &at);) count++;
+    return count;
+}
+
+void selected_settle(struct core *core, const struct editor_world *world)
+{
+    struct knot_place first = SELECTED_START;
+    if (selection_count(&core->selection, core_active_spline(core, world)) > 0) return;
+    if (selected_next(core, world->document, &first)) core_turn_to(core, world, first.spline);
+}
+
+void core_collect(struct core *core, const struct document *document, bool later)
+{
+    struct originals *originals = &core->originals;
+    originals->count = 0;
+    for (int s = 0; s < document->spline_count; s++) {
+        const struct spline *spline = &document->splines[s];
+        bool begun = false;
+        if (!is_open(core, document, s)) continue;
+        for (int k = 0; k < spline->knot_count && originals->count < originals->capacity; k++) {
+            bool selected = selection_has(&core->selection, spline->knots[k].id);
+            begun |= selected;
+            if (selected || (later && begun))
+                originals->list[originals->count++] = (struct original){.spline = s, .knot = spline->knots[k]};
+        }
+    }
+}
+
+/// Whether the knot on that sample is one of the originals, which are sorted.
+static bool is_original(const struct originals *originals, const struct document *document, int spline, int sample)
+{
+    int low = 0, high = originals->count;
+    while (low < high) {
+        int middle = (low + high) / 2;
+        const struct original *original = &originals->list[middle];
+        int there = document_sample(document, original->knot.frame);
+        if (original->spline == spline && there == sample) return true;
+        bool before = original->spline < spline || (original->spline == spline && there < sample);
+        if (before) {
+            low = middle + 1;
+        } else {
+            high = middle;
+        }
+    }
+    return false;
+}
+
+enum room originals_room(const struct core *core, const struct document *document, retime *rule, const void *how,
+                         double *stopped)
+{
+    const struct originals *originals = &core->originals;
+    enum room room = ROOM_FREE;
+    for (int i = 0, before = 0; i < originals->count; i++) {
+        const struct original *original = &originals->list[i];
+        const struct spline *spline = &document->splines[original->spline];
+        const double frame = rule(how, original);
+        const int sample = document_sample(document, frame);
+        const bool meets = i > 0 && originals->list[i - 1].spline == original->spline && sample == before;
+        const bool outside = sample < 0 || sample > document_last_knot_sample(document, spline);
+        const bool taken = spline_find_knot(document, spline, sample) >= 0 &&
+                           !is_original(originals, document, original->spline, sample);
+        if (stopped && room == ROOM_FREE && (meets || taken || outside)) *stopped = frame;
+        if (outside) return ROOM_OUTSIDE;
+        if (meets || taken) room = ROOM_OCCUPIED;
+        before = sample;
+    }
+    return room;
+}
+
+void room_say(enum room room, double stopped, char why[STOPPED_SIZE])
+{
+    why[0] = 0;
+    if (room == ROOM_OUTSIDE) snprintf(why, STOPPED_SIZE, "a knot would leave the range");
+    if (room == ROOM_OCCUPIED) snprintf(why, STOPPED_SIZE, "a knot would land on another on frame %g", stopped);
+}
+
+double retime_shift(const void *frames, const struct original *original)
+{
+    return original->knot.frame + *(const double *)frames;
+}

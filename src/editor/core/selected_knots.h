@@ -1,0 +1,42 @@
+/// The knots that edits are about: the selected ones of every spline that is shown, and of the active one.
+#ifndef EDITOR_CORE_SELECTED_KNOTS_H
+#define EDITOR_CORE_SELECTED_KNOTS_H
+
+#include "editor/core/state.h"
+
+/// Before the first one.
+#define SELECTED_START                                                                                               \
+    (struct knot_place) { -1, -1 }
+
+/// The knot at a place.
+static inline const struct knot *knot_at(const struct document *document, struct knot_place at)
+{
+    return &document->splines[at.spline].knots[at.knot];
+}
+
+/// Goes on to the next selected knot, by spline and in each by sample; false behind the last one.
+bool selected_next(const struct core *core, const struct document *document, struct knot_place *at);
+/// How many there are.
+int selected_count(const struct core *core, const struct document *document);
+/// Where none of the active spline's knots is selected, but another's, that spline becomes the active one.
+void selected_settle(struct core *core, const struct editor_world *world);
+
+/// Takes them into `originals`; `later` also takes what comes behind the first one of each spline.
+void core_collect(struct core *core, const struct document *document, bool later);
+
+/// A new frame for an original.
+typedef double retime(const void *how, const struct original *original);
+
+/// Whether knots can go where they are to.
+enum room { ROOM_FREE, ROOM_OCCUPIED, ROOM_OUTSIDE };
+
+/// Whether the originals can go where a rule, which keeps or reverses their order, puts them: inside the range, apart, and off the
+/// knots that stay. The document is as it was when they were collected. `stopped` (or NULL) is the frame that one cannot have.
+enum room originals_room(const struct core *core, const struct document *document, retime *rule, const void *how,
+                         double *stopped);
+/// Says why there is none: "a knot would leave the range"; "" where there is.
+void room_say(enum room room, double stopped, char why[STOPPED_SIZE]);
+/// The rule that moves all of them by `*(const double *)frames`.
+double retime_shift(const void *frames, const struct original *original);
+
+#endif

@@ -1,0 +1,258 @@
+/// Adds, removes, reorders and retimes splines.
+#include "editor/core/spline_list.h"
+#include "editor/core/core.h"
+#include "editor/core/rigs.h"
+#include "editor/core/selection.h"
+#include "scene/reference.h"
+#include "ui/theme.h"
+#include <math.h>
+#include <stdlib.h>
+
+uint32_t spline_list_color(const struct document *document, int spline)
+{
+    if (spline < 0 || spline >= document->spline_count) return theme()->spline[0];
+    int color = document->splines[spline].color;
+    return color < 0 ? theme()->spline[spline % THEME_SPLINE_COLORS] : theme_spline((uint32_t)color);
+}
+
+static bool any_solo(const struct core *core, const struct document *document)
+{
+    for (int s = 0; s < document->spline_count; s++) {
+        if (selection_has(&core->solo, document->splines[s].id)) return true;
+    }
+    return false;
+}
+
+bool spline_list_shows(const struct core *core, const struct document *document, int spline)
+{
+    if (spline < 0 || spline >= document->spline_count) return false;
+    unsigned id = document->splines[spline].id;
+    if (any_solo(core, document)) return selection_has(&core->solo, id);
+    return !selection_has(&core->hidden, id);
+}
+
+const struct spline *spline_list_seen(const struct core *core, const struct editor_world *world)
+{
+    return spline_list_shows(core, world->document, core->active) ? core_active_spline(core, world) : NULL;
+}
+
+static void find_active(struct core *core, const struct document *document)
+{
+    int found = document_find_spline_id(document, core->active_id);
+    if (found < 0) {
+        int last = document->spline_count - 1;
+        found = core->active > last ? last : core->active < 0 && last >= 0 ? 0 : core->active;
+        core->active_id = found >= 0 ? document->splines[found].id : 0;
+        selection_clear(&core->selection);
+    }
+    core->active = found;
+}
+
+void spline_list_refresh(struct core *core, const struct editor_world *world)
+{
+    const struct document *document = world->document;
+    const struct spline *active = core_active_spline(core, world);
+    bool same = world->evaluation && world->evaluation->count == document->spline_count;
+    if (!same || !active || active->id != core->active_id) {
+        find_active(core, document);
+        core->hover = (struct hover){0};
+    }
+    double frame = core->seen_first + core->playback.position / core->seen_substeps;
+    bool moved = core->seen_first != document->first_frame || core->seen_substeps != document->substeps;
+    if (moved) core->playback.position = (frame - document->first_frame) * document->substeps;
+    core->playback.position = fmax(0, fmin(core->playback.position, document_samples(document) - 1));
+    core->seen_first = document->first_frame;
+    core->seen_substeps = document->substeps;
+    core->pick = (struct bone_pick){0};
+    core_reserve(core, document);
+}
+
+void spline_list_add(struct core *core, const struct editor_world *world)
+{
+    const struct document *document = world->document;
+    double frame = round(core_frame(core, document));
+    struct edit edit = core_edit_of(EDIT_SPLINE_ADD, -1);
+    edit.flag = true;
+    edit.knot.frame = fmax(document->first_frame, fmin(frame, document->last_frame));
+    if (!core_step(core, world, "Add spline", 0, &edit)) return;
+    core_activate(core, world, document->spline_count - 1);
+}
+
+void spline_list_copy(struct core *core, const struct editor_world *world)
+{
+    struct edit edit = core_edit_of(EDIT_SPLINE_COPY, core->active);
+    if (!core_active_spline(core, world)) return;
+    if (core_step(core, world, "Duplicate spline", 0, &edit)) core_activate(core, world, core->active + 1);
+}
+
+void spline_list_move(struct core *core, const struct editor_world *world, int spline, int to)
+{
+    struct edit edit = core_edit_of(EDIT_SPLINE_MOVE, spline);
+    edit.to = to;
+    if (to != spline && to >= 0 && to < world->document->spline_count) {
+        core_step(core, world, "Reorder splines", 0, &edit);
+    }
+}
+
+double spline_list_present(const struct core *core, const struct editor_world *world, int spline,
+                           enum parameter parameter)
+{
+    const struct spline *follower = &world->document->splines[spline];
+    const struct param *param = &follower->parameter[parameter];
+    wiggly_value v = evaluation_at(world->evaluation, param->motion ? spline : param->track, core->playback.position);
+    double now = param->motion ? v.y : v.y + v.re, value = isfinite(now) ? now : parameter_rows[parameter].standard;
+    return parameter_clamped(parameter, spline_mode(follower), value);
+}
+
+/// Finds the last place that follows a spline, so that letting go of it moves no other place.
+struct search {
+    int spline;
+    bool found;
+    struct reference reference;
+};
+
+static void find_reference(const struct reference *reference, void *context)
+{
+    struct search *search = context;
+    if (reference->spline != search->spline) return;
+    search->found = true;
+    search->reference = *reference;
+}
+
+/// The edit after which a place does not follow the active spline any more.
+static struct edit release_edit(const struct core *core, const struct editor_world *world,
+                                const struct reference *reference)
+{
+    struct edit edit = core_edit_of(EDIT_PARAMETER, reference->owner);
+    wiggly_value v = evaluation_at(world->evaluation, core->active, core->playback.position);
+    edit.rig = reference->owner;
+    switch (reference->kind) {
+    case REFERENCE_TRACK:
+        edit.parameter = (enum parameter)reference->which;
+        edit.param.value = spline_list_present(core, world, reference->owner, edit.parameter);
+        break;
+    case REFERENCE_POSITION:
+        edit.kind = EDIT_POSITION;
+        edit.coordinate = reference->which;
+        edit.param.value = v.y + v.re;
+        break;
+    case REFERENCE_CHANNEL:
+        edit.kind = EDIT_CHANNEL_REMOVE;
+        edit.channel = reference->which;
+        break;
+    case REFERENCE_DRIVE:
+        edit.kind = EDIT_DRIVE_REMOVE;
+        edit.channel = reference->which;
+        break;
+    case REFERENCE_MEADOW:
+        edit.kind = EDIT_RIG_REMOVE;
+        break;
+    }
+    return edit;
+}
+
+static void spline_list_remove_now(struct core *core, const struct editor_world *world)
+{
+    if (!core_active_spline(core, world) || history_is_open(world->history)) return;
+    bool good = true;
+    history_begin(world->history, "Delete spline", 0);
+    for (struct search search = {.found = true}; good && search.found;) {
+        search = (struct search){.spline = core->active};
+        reference_each(world->document, find_reference, &search);
+        if (!search.found) break;
+        struct edit release = release_edit(core, world, &search.reference);
+        good = core_edit(core, world, &release);
+    }
+    struct edit edit = core_edit_of(EDIT_SPLINE_REMOVE, core->active);
+    good = good && core_edit(core, world, &edit);
+    if (!good) history_restart(world->history, world->document);
+    history_end(world->history);
+    spline_list_refresh(core, world);
+}
+
+void spline_list_remove(struct core *core, const struct editor_world *world)
+{
+    if (!core_active_spline(core, world)) return;
+    if (reference_count(world->document, core->active) == 0) {
+        spline_list_remove_now(core, world);
+        return;
+    }
+    core->ask = (struct ask){.kind = ASK_REMOVE};
+}
+
+static int knot_count(const struct document *document)
+{
+    int count = 0;
+    for (int s = 0; s < document->spline_count; s++) count += document->splines[s].knot_count;
+    return count;
+}
+
+void spline_list_fps(struct core *core, const struct editor_world *world, double fps)
+{
+    struct edit edit = core_edit_of(EDIT_FPS, -1);
+    edit.number = fps;
+    if (fps == world->document->fps) return;
+    if (knot_count(world->document) == 0 || !(fps > 0 && fps <= SCENE_MAX_FPS)) {
+        core_step(core, world, "Set frames per second", 0, &edit);
+    } else {
+        core->ask = (struct ask){.kind = ASK_FPS, .number = fps};
+    }
+}
+
+int spline_list_outside(const struct document *document, int first, int last)
+{
+    struct document moved = *document;
+    int count = 0;
+    moved.first_frame = first;
+    moved.last_frame = last;
+    for (int s = 0; s < document->spline_count; s++) {
+        const struct spline *spline = &document->splines[s];
+        int end = document_last_knot_sample(&moved, spline);
+        for (int k = 0; k < spline->knot_count; k++) {
+            int sample = document_sample(&moved, spline->knots[k].frame);
+            count += sample < 0 || sample > end;
+        }
+    }
+    return count;
+}
+
+void spline_list_range(struct core *core, const struct editor_world *world, int first, int last)
+{
+    struct edit edit = core_edit_of(EDIT_RANGE, -1);
+    edit.first = first;
+    edit.last = last;
+    bool possible = last >= first && last <= SCENE_MAX_FRAME && first >= -SCENE_MAX_FRAME &&
+                    (long long)last - first <= document_longest(world->document);
+    if (possible && spline_list_outside(world->document, first, last) > 0) {
+        core->ask = (struct ask){.kind = ASK_RANGE, .first = first, .last = last};
+    } else {
+        core_step(core, world, "Set range", 0, &edit);
+    }
+}
+
+void spline_list_answer(struct core *core, const struct editor_world *world, const struct ask *ask, int answer)
+{
+    struct edit edit = core_edit_of(ask->kind == ASK_FPS ? EDIT_FPS : EDIT_RANGE, -1);
+    switch (ask->kind) {
+    case ASK_NOTHING:
+    case ASK_ADD:
+        break;
+    case ASK_RIG:
+        rigs_remove(core, world, ask->rig, answer == 0);
+        break;
+    case ASK_FPS:
+        edit.number = ask->number;
+        edit.flag = answer == 1;
+        core_step(core, world, "Set frames per second", 0, &edit);
+        break;
+    case ASK_RANGE:
+        edit.first = ask->first;
+        edit.last = ask->last;
+        edit.fit = answer == 0 ? RANGE_MOVE : RANGE_TRIM;
+        core_step(core, world, "Set range", 0, &edit);
+        break;
+    case ASK_REMOVE:
+        spline_list_remove_now(core, world);
+        break;
+    }
+}

@@ -1,0 +1,354 @@
+/// Grids, numbers and the ruler: on it the part that is played, and a mark for each pin, which is dragged to move it in time.
+#include "editor/core/core.h"
+#include "editor/core/drag.h"
+#include "editor/core/pins.h"
+#include "editor/core/playback.h"
+#include "editor/core/spline_list.h"
+#include "editor/curves/curves.h"
+#include "editor/curves/parts.h"
+#include "scene/pins.h"
+#include "ui/font.h"
+#include "ui/theme.h"
+#include <math.h>
+#include <stdio.h>
+
+static const float MIN_FRAME_STEP = 64, MIN_VALUE_STEP = 34, TAG_GAP = 3; ///< pixels between numbers
+
+/// A round distance between numbers, and how many parts it has.
+struct grid_step {
+    double size;
+    int parts;
+    int decimals;
+};
+
+/// The smallest of 1, 2, 5 · 10ⁿ that is not below `least`.
+static struct grid_step round_step(double least)
+{
+    double power = pow(10, floor(log10(least)));
+    double factor = least / power;
+    struct grid_step step = {power, 5, 0};
+    if (factor > 5) {
+        step.size = 10 * power;
+    } else if (factor > 2) {
+        step.size = 5 * power;
+    } else if (factor > 1) {
+        step = (struct grid_step){2 * power, 4, 0};
+    }
+    step.decimals = (int)fmin(fmax(-floor(log10(step.size) + 1e-9), 0), 9);
+    return step;
+}
+
+/// To whole device pixels, so that hairlines stay sharp at every scale.
+static float sharp(const struct core *core, float at) { return roundf(at * core->scale) / core->scale; }
+
+/// What shares the axis of time: the dope sheet and the plot.
+static struct rect field_of(const struct core *core)
+{
+    const struct rect *sheet = &core->layout.sheet, *plot = &core->layout.plot;
+    return (struct rect){plot->x, sheet->y, plot->w, sheet->h + plot->h};
+}
+
+static void vertical(const struct curves *curves, struct core *core, double frame, uint32_t color)
+{
+    const struct rect field = field_of(core);
+    float x = sharp(core, curves_x(curves, core, frame));
+    drawlist_rect(&core->list, (struct rect){x, field.y, 1, field.h}, color);
+}
+
+static void horizontal(const struct curves *curves, struct core *core, double value, uint32_t color)
+{
+    const struct rect *plot = &core->layout.plot;
+    float y = sharp(core, curves_y(curves, core, value));
+    drawlist_rect(&core->list, (struct rect){plot->x, y, plot->w, 1}, color);
+}
+
+/// Darkens what lies before and after the scene's range.
+static void shade_outside(const struct curves *curves, struct core *core, const struct document *document)
+{
+    const struct rect field = field_of(core);
+    const float right = field.x + field.w;
+    float first = fmaxf(curves_x(curves, core, document->first_frame), field.x);
+    float last = fminf(curves_x(curves, core, document->last_frame), right);
+    if (first > field.x)
+        drawlist_rect(&core->list, (struct rect){field.x, field.y, first - field.x, field.h}, theme()->outside);
+    if (last < right)
+        drawlist_rect(&core->list, (struct rect){last, field.y, right - last, field.h}, theme()->outside);
+}
+
+/// `unit`: frames that one of the ruler's numbers counts.
+static void draw_lines(const struct curves *curves, struct core *core, struct grid_step times, double unit,
+                       struct grid_step values)
+{
+    const struct view *view = &curves->view;
+    double minor = times.size / times.parts * unit;
+    for (double i = ceil(view->frame0 / minor); i * minor <= view->frame1; i++) {
+        if (fmod(i, times.parts) != 0) vertical(curves, core, i * minor, theme()->grid_minor);
+    }
+    minor = values.size / values.parts;
+    for (double i = ceil(view->value0 / minor); i * minor <= view->value1; i++) {
+        if (fmod(i, values.parts) != 0) horizontal(curves, core, i * minor, theme()->grid_minor);
+    }
+    double major = times.size * unit;
+    for (double i = ceil(view->frame0 / major); i * major <= view->frame1; i++) {
+        vertical(curves, core, i * major, theme()->grid_major);
+    }
+    for (double i = ceil(view->value0 / values.size); i * values.size <= view->value1; i++) {
+        horizontal(curves, core, i * values.size, i == 0 ? theme()->zero : theme()->grid_major);
+    }
+}
+
+/// Numbers of the value axis, right-aligned beside the plot.
+static void number_values(const struct curves *curves, struct core *core, struct grid_step step)
+{
+    const struct rect *axis = &core->layout.value_axis;
+    float half = font_cap_height(FONT_NUMBER, THEME_TEXT_SMALL) / 2;
+    for (double i = ceil(curves->view.value0 / step.size); i * step.size <= curves->view.value1; i++) {
+        double value = i * step.size;
+        float y = curves_y(curves, core, value);
+        if (y < axis->y + 8 || y > axis->y + axis->h - 8) continue;
+        char text[32];
+        bool wide = fabs(value) >= 1e6 || step.size < 1e-6;
+        snprintf(text, sizeof text, wide ? "%.*g" : "%.*f", wide ? 3 : step.decimals, value + 0.0);
+        float x = axis->x + axis->w - 8 - font_width(FONT_NUMBER, THEME_TEXT_SMALL, text);
+        drawlist_text(&core->list, fmaxf(x, axis->x + 2), roundf(y + half), FONT_NUMBER, THEME_TEXT_SMALL,
+                      theme()->text_dim, text);
+    }
+}
+
+struct rect ruler_corner(const struct core *core)
+{
+    const struct layout *layout = &core->layout;
+    return (struct rect){layout->value_axis.x, layout->ruler.y, layout->value_axis.w, layout->ruler.h};
+}
+
+void curves_toggle_units(struct curves *curves, struct core *core)
+{
+    curves->options.seconds = !curves->options.seconds;
+    core_message(core, false, curves->options.seconds ? "The ruler shows seconds." : "The ruler shows frames.");
+}
+
+static void show_units(const struct curves *curves, struct core *core)
+{
+    struct rect corner = ruler_corner(core);
+    const char *text = curves->options.seconds ? "s" : "frame";
+    float x = corner.x + corner.w - 8 - font_width(FONT_LABEL, THEME_TEXT_SMALL, text);
+    drawlist_text(&core->list, x, corner.y + 15, FONT_LABEL, THEME_TEXT_SMALL,
+                  core->hover.kind == HOVER_UNITS ? theme()->text : theme()->text_dim, text);
+}
+
+/// Frames a unit of the ruler.
+static double ruler_unit(const struct curves *curves, const struct document *document)
+{
+    return curves->options.seconds ? document->fps : 1;
+}
+
+/// Numbers of the ruler, centred over their grid lines; the one under the playhead's tag makes room for it.
+static void number_frames(const struct curves *curves, struct core *core, const struct document *document,
+                          struct grid_step step)
+{
+    const struct rect *ruler = &core->layout.ruler;
+    const struct rect tag = playhead_tag(curves, core, document);
+    double unit = ruler_unit(curves, document);
+    for (double i = ceil(curves->view.frame0 / unit / step.size); i * step.size <= curves->view.frame1 / unit; i++) {
+        char text[32];
+        snprintf(text, sizeof text, "%.*f", step.decimals, i * step.size + 0.0);
+        float width = font_width(FONT_NUMBER, THEME_TEXT_SMALL, text);
+        float x = curves_x(curves, core, i * step.size * unit) - width / 2;
+        if (x < ruler->x || x + width > ruler->x + ruler->w) continue;
+        if (x < tag.x + tag.w + TAG_GAP && x + width > tag.x - TAG_GAP) continue;
+        drawlist_text(&core->list, x, ruler->y + 15, FONT_NUMBER, THEME_TEXT_SMALL, theme()->text_dim, text);
+    }
+}
+
+void grid_show(const struct curves *curves, struct core *core, const struct editor_world *world)
+{
+    const struct layout *layout = &core->layout;
+    double unit = ruler_unit(curves, world->document);
+    struct grid_step times = round_step(MIN_FRAME_STEP / (curves_pixels_per_frame(curves, core) * unit));
+    struct grid_step values = round_step(MIN_VALUE_STEP / curves_pixels_per_value(curves, core));
+    drawlist_rect(&core->list, layout->curves, theme()->panel);
+    struct rect clip = drawlist_push_clip(&core->list, field_of(core));
+    shade_outside(curves, core, world->document);
+    draw_lines(curves, core, times, unit, values);
+    range_show_plot(curves, core, world->document);
+    drawlist_set_clip(&core->list, clip);
+    drawlist_rect(&core->list, (struct rect){layout->ruler.x, layout->sheet.y - 1, layout->ruler.w, 1},
+                  theme()->border);
+    clip = drawlist_push_clip(&core->list, layout->ruler);
+    range_show_ruler(curves, core, world->document);
+    number_frames(curves, core, world->document, times);
+    drawlist_set_clip(&core->list, clip);
+    show_units(curves, core);
+    clip = drawlist_push_clip(&core->list, layout->value_axis);
+    number_values(curves, core, values);
+    drawlist_set_clip(&core->list, clip);
+}
+
+/// The part goes from where the drag began to the pointer.
+static void move(void *room, struct core *core, const struct editor_world *world)
+{
+    const double from = round(curves_frame(room, core, core->drag.start_x));
+    const double to = round(curves_frame(room, core, core->drag.x));
+    playback_choose(core, world->document, fmin(from, to), fmax(from, to));
+    playback_say_range(core, world->document);
+}
+
+/// A press that did not move plays all again; `keep` false brings the former part back.
+static void end(void *room, struct core *core, const struct editor_world *world, bool keep)
+{
+    struct playback *playback = &core->playback;
+    (void)room;
+    (void)world;
+    if (!keep) {
+        playback->has_range = playback->had_range;
+        playback->range[0] = playback->old_range[0];
+        playback->range[1] = playback->old_range[1];
+    } else if (!core->drag.moved) {
+        playback->has_range = false;
+        core_message(core, false, "Playing the whole scene.");
+    }
+}
+
+void range_begin(struct curves *curves, struct core *core, const struct event *event)
+{
+    static const struct drag_owner owner = {.cursor = CURSOR_HORIZONTAL, .move = move, .end = end};
+    struct playback *playback = &core->playback;
+    drag_begin(core, &owner, curves, NULL, event);
+    playback->had_range = playback->has_range;
+    playback->old_range[0] = playback->range[0];
+    playback->old_range[1] = playback->range[1];
+}
+
+/// Where the part lies on the screen.
+static void edges(const struct curves *curves, const struct core *core, const struct document *document, float x[2])
+{
+    const struct rect *plot = &core->layout.plot;
+    double range[2];
+    playback_range(core, document, range);
+    for (int end = 0; end < 2; end++) {
+        x[end] = fminf(fmaxf(curves_x(curves, core, range[end]), plot->x), plot->x + plot->w);
+    }
+}
+
+void range_show_ruler(const struct curves *curves, struct core *core, const struct document *document)
+{
+    const struct rect *ruler = &core->layout.ruler;
+    float x[2];
+    if (!playback_is_part(core, document)) return;
+    edges(curves, core, document, x);
+    struct rect band = {x[0], ruler->y, x[1] - x[0], ruler->h};
+    drawlist_rect(&core->list, band, theme_fade(theme()->accent, 0.14f));
+    drawlist_rect(&core->list, (struct rect){band.x, ruler->y, 2, ruler->h}, theme()->accent);
+    drawlist_rect(&core->list, (struct rect){band.x + band.w - 2, ruler->y, 2, ruler->h}, theme()->accent);
+}
+
+void range_show_plot(const struct curves *curves, struct core *core, const struct document *document)
+{
+    const struct rect *plot = &core->layout.plot;
+    float x[2];
+    if (!playback_is_part(core, document)) return;
+    edges(curves, core, document, x);
+    drawlist_rect(&core->list, (struct rect){x[0], plot->y, x[1] - x[0], plot->h},
+                  theme_fade(theme()->accent, 0.05f));
+}
+
+static const float REACH = 6;                        ///< pixels beside a mark
+static const float RADIUS = 4, ABOVE = 9, BELOW = 6; ///< of a mark on the ruler's lower edge: how far it is taken
+
+/// Where its mark is.
+static void place(const struct curves *curves, const struct core *core, const struct document *document,
+                  const struct pin *pin, float xy[2])
+{
+    const struct rect *ruler = &core->layout.ruler;
+    xy[0] = curves_x(curves, core, document_frame(document, document_sample(document, pin->frame)));
+    xy[1] = ruler->y + ruler->h - 1;
+}
+
+struct hover ruler_pins_hover(const struct curves *curves, const struct core *core, const struct document *document,
+                              float x, float y)
+{
+    const struct rect *ruler = &core->layout.ruler;
+    struct hover hover = {.kind = HOVER_NONE};
+    float best = REACH;
+    const float edge = ruler->y + ruler->h;
+    if (y < edge - ABOVE || y >= edge + BELOW || x < ruler->x || x >= ruler->x + ruler->w) return hover;
+    for (int r = 0; r < document->rig_count; r++) {
+        for (int i = 0; i < document->rigs[r].pin_count; i++) {
+            const struct pin *pin = &document->rigs[r].pins[i];
+            float xy[2];
+            place(curves, core, document, pin, xy);
+            float distance = fabsf(x - xy[0]);
+            if (distance < REACH && core->pin.any && core->pin.id == pin->id) distance = 0;
+            if (distance >= best) continue;
+            best = distance;
+            hover = (struct hover){.kind = HOVER_PIN, .rig = r, .joint = pin->point, .pin = pin->id};
+        }
+    }
+    return hover;
+}
+
+/// The pin goes to the pointer's frame, and the playhead goes along.
+static void apply(void *room, struct core *core, const struct editor_world *world)
+{
+    struct curves *curves = room;
+    struct pin_time_drag *drag = &curves->pin_drag;
+    const struct document *document = world->document;
+    int rig;
+    const struct pin *pin = pins_selected(core, document, &rig);
+    if (!pin || pin->id != drag->id) return;
+    struct pin moved = *pin;
+    double frame = drag->frame + core->drag.moved_x / curves_pixels_per_frame(curves, core);
+    if (core->drag.snap) frame = round(frame);
+    int sample = document_sample(document, frame), last = pins_last_sample(document, &document->rigs[rig]);
+    sample = sample < 0 ? 0 : sample > last ? last : sample;
+    const int there = pins_find(document, &document->rigs[rig], pin->point, sample);
+    if (there < 0 || document->rigs[rig].pins[there].id == pin->id)
+        drag->free_frame = document_frame(document, sample); // else it stays where it last was free
+    moved.frame = drag->free_frame;
+    const struct edit edit = pins_edit(EDIT_PIN_SET, rig, &moved);
+    if (!core_edit(core, world, &edit)) return;
+    playback_seek(core, document, moved.frame);
+    pins_tell(core, world, rig);
+}
+
+void ruler_pins_begin(struct curves *curves, struct core *core, const struct editor_world *world,
+                      const struct hover *hover, const struct event *event)
+{
+    static const struct drag_owner owner = {.cursor = CURSOR_HORIZONTAL, .apply = apply};
+    const struct document *document = world->document;
+    const struct rig *rig = &document->rigs[hover->rig];
+    const int at = pins_find_id(rig, hover->pin);
+    if (at < 0) return;
+    drag_begin(core, &owner, curves, "Move pin in time", event);
+    curves->pin_drag = (struct pin_time_drag){.id = hover->pin, .frame = rig->pins[at].frame};
+    curves->pin_drag.free_frame = curves->pin_drag.frame;
+    pins_visit(core, document, &rig->pins[at]);
+}
+
+void ruler_pins_show(const struct curves *curves, struct core *core, const struct document *document)
+{
+    for (int r = 0; r < document->rig_count; r++) {
+        const struct rig *rig = &document->rigs[r];
+        const int spline = rig_point_spline(rig);
+        const uint32_t color = spline >= 0 ? spline_list_color(document, spline) : theme()->text_dim;
+        for (int i = 0; i < rig->pin_count; i++) {
+            const struct pin *pin = &rig->pins[i];
+            const bool selected = core->pin.any && core->pin.id == pin->id;
+            const bool hot = core->hover.kind == HOVER_PIN && core->hover.pin == pin->id;
+            const float radius = RADIUS + (selected || hot ? 1 : 0);
+            float xy[2];
+            place(curves, core, document, pin, xy);
+            if (xy[0] < core->layout.ruler.x || xy[0] > core->layout.ruler.x + core->layout.ruler.w) continue;
+            const struct rect disc = {xy[0] - radius, xy[1] - radius, 2 * radius, 2 * radius};
+            drawlist_rounded(&core->list, disc, radius, selected ? theme()->playhead : color);
+            drawlist_rounded_line(&core->list, disc, radius, 1, selected || hot ? color : theme()->panel);
+        }
+    }
+}
+
+bool curves_pin_point(const struct curves *curves, const struct core *core, const struct document *document,
+                      const struct pin *pin, float xy[2])
+{
+    place(curves, core, document, pin, xy);
+    return rect_contains(core->layout.ruler, xy[0], xy[1]);
+}

@@ -1,0 +1,457 @@
+/// Draws the curves panel: lines, knots, slope handles, names, playhead.
+#include "editor/core/core.h"
+#include "editor/core/selection.h"
+#include "editor/core/spline_list.h"
+#include "editor/curves/curves.h"
+#include "editor/curves/parts.h"
+#include "scene/pins.h"
+#include "ui/font.h"
+#include "ui/theme.h"
+#include <limits.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+enum { MAX_LABELS = CURVES_MAX_OTHERS + 2, RING_POINTS = 25 };
+
+static const float KNOT_RADIUS = 4.5f, OTHER_RADIUS = 3, HOVER_RADIUS = 6.5f, HANDLE_REACH = 130, HANDLE_RADIUS = 3;
+static const double FIRM_LENGTH = 48, DECADE_LENGTH = 12; ///< of a handle; of ten times the stiffness
+static const float MARK_STEP = 12;                        ///< columns from mark to mark in a band
+static const float OTHERS_CROWDED = 3;                    ///< pixels between knots below which one stands for several
+static const float LABEL_STEP = 15;
+static const float FAN_NEAR = 0.24f,
+                   FAN_STEP = 0.03f; ///< opacity of the least lagged copy, and less of each further one
+
+/// A name beside the right end of its curve.
+struct label {
+    float y;
+    enum font font;
+    uint32_t color;
+    const char *text;
+};
+
+static void show_line(struct core *core, const float *xy, int count, bool band, float width, uint32_t color)
+{
+    if (band) {
+        drawlist_band(&core->list, xy, count, width, color);
+    } else {
+        drawlist_line(&core->list, xy, count, width, color);
+    }
+}
+
+static void show_ghost(struct curves *curves, struct core *core)
+{
+    const struct ghost *ghost = &curves->ghost;
+    if (!ghost->is_shown || !core->drag.owner || ghost->count < 2) return;
+    float *xy = curves->scratch;
+    for (int c = 0; c < ghost->count; c++) {
+        xy[2 * c] = curves_x(curves, core, ghost->frame[c]);
+        xy[2 * c + 1] = curves_y(curves, core, ghost->value[c]);
+    }
+    show_line(core, xy, ghost->count, ghost->band, 1, theme_fade(theme()->playhead, 0.25f));
+}
+
+static bool shows_imaginary(const struct core *core, const struct spline *spline)
+{
+    return spline_mode(spline) == WIGGLY_COMPLEX && core->look != LOOK_CUBIC;
+}
+
+/// Lines in painter's order, the active one last.
+static void show_lines(struct curves *curves, struct core *core, const struct editor_world *world)
+{
+    const struct curve_cache *cache = &curves->cache;
+    const struct spline *spline = spline_list_seen(core, world);
+    uint32_t color = spline_list_color(world->document, core->active);
+    if (cache->count < 2) return;
+    for (int i = 0; i < cache->other_count; i++) {
+        const bool hot = core->hover.kind == HOVER_CURVE && core->hover.spline == cache->other_spline[i];
+        show_line(core, &cache->others[i][0][0], cache->count, cache->other_band[i], 1.25f,
+                  theme_fade(spline_list_color(world->document, cache->other_spline[i]), hot ? 1 : THEME_OTHERS));
+    }
+    if (!spline) return;
+    show_ghost(curves, core);
+    for (int i = cache->fan_count - 1; i >= 0; i--) {
+        drawlist_line(&core->list, &cache->fan[i][0][0], cache->count, 1,
+                      theme_fade(color, FAN_NEAR - FAN_STEP * (float)i));
+    }
+    drawlist_dashed(&core->list, &cache->equilibrium[0][0], cache->count, 1.25f, 6, 4, theme()->equilibrium);
+    if (shows_imaginary(core, spline))
+        show_line(core, &cache->im[0][0], cache->count, cache->band, 1.25f, theme_fade(color, 0.45f));
+    show_line(core, &cache->re[0][0], cache->count, cache->band, 2.5f, color);
+}
+
+static void show_ring(struct drawlist *list, float x, float y, float radius, float width, uint32_t color)
+{
+    float xy[RING_POINTS][2];
+    for (int i = 0; i < RING_POINTS; i++) {
+        double angle = 2 * acos(-1.0) * i / (RING_POINTS - 1);
+        xy[i][0] = x + radius * (float)cos(angle);
+        xy[i][1] = y + radius * (float)sin(angle);
+    }
+    drawlist_line(list, &xy[0][0], RING_POINTS, width, color);
+}
+
+double handle_length(double stiffness)
+{
+    return fmin(fmax(FIRM_LENGTH + DECADE_LENGTH * log10(stiffness / KNOT_DEFAULT_STIFFNESS), 12), 120);
+}
+
+double handle_stiffness(double length)
+{
+    double stiffness = KNOT_DEFAULT_STIFFNESS * pow(10, (length - FIRM_LENGTH) / DECADE_LENGTH);
+    return core_round(stiffness, 0.05 * stiffness);
+}
+
+void curves_handle(const struct curves *curves, const struct core *core, const struct document *document,
+                   const struct knot *knot, int end, float xy[2])
+{
+    double across = curves_pixels_per_frame(curves, core) * document->fps; /* pixels a second */
+    double down = -curves_pixels_per_value(curves, core) * knot->slope;
+    double length = hypot(across, down);
+    double factor = (end ? 1 : -1) * handle_length(knot->stiffness) / (isfinite(length) && length > 0 ? length : 1);
+    xy[0] = curves_knot_x(curves, core, document, knot) + (float)fmin(fmax(across * factor, -1e3), 1e3);
+    xy[1] = curves_y(curves, core, knot->value) + (float)fmin(fmax(down * factor, -1e3), 1e3);
+}
+
+static void show_handle(const struct curves *curves, struct core *core, const struct document *document,
+                        const struct knot *knot, uint32_t color)
+{
+    float ends[2][2];
+    curves_handle(curves, core, document, knot, 0, ends[0]);
+    curves_handle(curves, core, document, knot, 1, ends[1]);
+    drawlist_line(&core->list, &ends[0][0], 2, 1, theme_fade(color, 0.8f));
+    for (int end = 0; end < 2; end++) {
+        struct rect dot = {ends[end][0] - HANDLE_RADIUS, ends[end][1] - HANDLE_RADIUS, 2 * HANDLE_RADIUS,
+                           2 * HANDLE_RADIUS};
+        drawlist_rounded(&core->list, dot, HANDLE_RADIUS, color);
+        if (core->hover.kind == HOVER_SLOPE && core->hover.knot == knot->id && core->hover.handle == end) {
+            show_ring(&core->list, ends[end][0], ends[end][1], HOVER_RADIUS, 1.25f, theme()->playhead);
+        }
+    }
+}
+
+void knot_ring(struct drawlist *list, float x, float y)
+{
+    show_ring(list, x, y, HOVER_RADIUS, 1.25f, theme()->playhead);
+}
+
+void knot_mark(struct drawlist *list, float x, float y, float r, uint32_t color, bool selected)
+{
+    const float xy[] = {x, y - r, x + r, y, x, y + r, x - r, y, x, y - r};
+    drawlist_convex(list, xy, 4, color);
+    if (selected) drawlist_line(list, xy, 5, 1.5f, theme()->playhead);
+}
+
+/// A knot of the active spline that is not selected, through which the panel is seen.
+static void show_hollow(struct drawlist *list, float x, float y, uint32_t color)
+{
+    const float r = KNOT_RADIUS, xy[] = {x, y - r, x + r, y, x, y + r, x - r, y, x, y - r};
+    drawlist_convex(list, xy, 4, theme()->panel);
+    drawlist_line(list, xy, 5, 1.5f, color);
+}
+
+/// A short stroke that says "this knot has a slope" without the handle's length.
+static void show_tick(const struct curves *curves, struct core *core, const struct document *document,
+                      const struct knot *knot, uint32_t color)
+{
+    float ends[2][2], x = curves_knot_x(curves, core, document, knot);
+    float y = curves_y(curves, core, knot->value);
+    for (int end = 0; end < 2; end++) {
+        curves_handle(curves, core, document, knot, end, ends[end]);
+        ends[end][0] = x + 0.3f * (ends[end][0] - x);
+        ends[end][1] = y + 0.3f * (ends[end][1] - y);
+    }
+    drawlist_line(&core->list, &ends[0][0], 2, 1.5f, theme_fade(color, 0.7f));
+}
+
+/// The first selected knot of first … end − 1, or `end`.
+static int first_selected(const struct core *core, const struct document *document, int spline, int first, int end)
+{
+    const struct knot *knots = document->splines[spline].knots;
+    for (int k = first; k < end; k++) {
+        if (selection_has(&core->selection, knots[k].id)) return k;
+    }
+    return end;
+}
+
+/// Index of the spline's knot under the pointer, or -1.
+static int hovered_knot(const struct core *core, const struct spline *spline)
+{
+    const struct hover *hover = &core->hover;
+    const bool known = hover->kind == HOVER_KNOT && hover->place < spline->knot_count;
+    return known && spline->knots[hover->place].id == hover->knot ? hover->place : -1;
+}
+
+int crowd_next(const struct curves *curves, const struct core *core, const struct document *document, int spline,
+               int knot, float gap)
+{
+    const struct spline *of = &document->splines[spline];
+    const float x = curves_knot_x(curves, core, document, &of->knots[knot]);
+    const int hovered = hovered_knot(core, of);
+    int next = curves_knot_from(curves, core, document, of, x + gap);
+    if (next <= knot) next = knot + 1;
+    while (next < of->knot_count && curves_knot_x(curves, core, document, &of->knots[next]) - x < gap) next++;
+    if (hovered > knot && hovered < next) next = hovered;
+    return first_selected(core, document, spline, knot + 1, next);
+}
+
+/// The knot to draw of first … end − 1, all in one pixel column: the hovered one, else a selected one.
+static int column_knot(const struct core *core, const struct document *document, int first, int end)
+{
+    const int hovered = hovered_knot(core, &document->splines[core->active]);
+    if (hovered >= first && hovered < end) return hovered;
+    const int selected = first_selected(core, document, core->active, first, end);
+    return selected < end ? selected : first;
+}
+
+/// The pixel column of a knot: columns begin at the scene's first frame, so that they stay as the view is moved.
+static double column_of(const struct curves *curves, const struct core *core, const struct document *document,
+                        const struct knot *knot)
+{
+    const double pixels = curves_pixels_per_frame(curves, core) / document->substeps; // a sample
+    return floor(document_sample(document, knot->frame) * pixels);
+}
+
+/// The end of the knots in one pixel column; the one before had `before` of them.
+static int column_end(const struct curves *curves, const struct core *core, const struct document *document,
+                      const struct spline *spline, int first, int before)
+{
+    const double pixels = curves_pixels_per_frame(curves, core) / document->substeps;
+    const double column = column_of(curves, core, document, &spline->knots[first]);
+    const int sample = (int)fmin(ceil((column + 1) / pixels), INT_MAX);
+    const int end = spline_lower_bound_near(document, spline, first + before, sample);
+    return end > first ? end : first + 1;
+}
+
+/// A stroke over the values of all knots in one pixel column, for those that are not drawn.
+static void show_column(const struct curves *curves, struct core *core, const struct document *document, int first,
+                        int end, float x, uint32_t color)
+{
+    double range[2];
+    spline_values(&document->splines[core->active], first, end, range);
+    const float xy[] = {x, curves_y(curves, core, range[0]), x, curves_y(curves, core, range[1])};
+    if (range[1] > range[0]) drawlist_line(&core->list, xy, 2, 1.5f, theme_fade(color, 0.7f));
+}
+
+static void show_knot(const struct curves *curves, struct core *core, const struct document *document,
+                      const struct knot *knot, float x, uint32_t color)
+{
+    bool selected = selection_has(&core->selection, knot->id);
+    float y = curves_y(curves, core, knot->value);
+    if (knot->has_slope && selected) show_handle(curves, core, document, knot, color);
+    if (knot->has_slope && !selected) show_tick(curves, core, document, knot, color);
+    if (selected) {
+        knot_mark(&core->list, x, y, KNOT_RADIUS, color, true);
+    } else {
+        show_hollow(&core->list, x, y, color);
+    }
+    if (core->hover.kind == HOVER_KNOT && core->hover.knot == knot->id) knot_ring(&core->list, x, y);
+}
+
+/// Whether the knots of one column go without a mark, because the marks of their neighbours would cover it: in a band, which goes through
+/// all of them, only some columns have one.
+static bool is_lost(const struct curves *curves, const struct core *core, const struct document *document, int first,
+                    int shown)
+{
+    const struct knot *knots = document->splines[core->active].knots;
+    const double column = column_of(curves, core, document, &knots[first]);
+    const bool chosen = core->hover.kind == HOVER_KNOT && core->hover.knot == knots[shown].id;
+    if (!curves->cache.band || chosen || selection_has(&core->selection, knots[shown].id)) return false;
+    const bool alone = first == 0 || column - column_of(curves, core, document, &knots[first - 1]) > MARK_STEP;
+    return !alone && fmod(column, MARK_STEP) != 0;
+}
+
+static void show_knots(const struct curves *curves, struct core *core, const struct editor_world *world)
+{
+    const struct document *document = world->document;
+    const struct spline *spline = spline_list_seen(core, world);
+    const struct rect *plot = &core->layout.plot;
+    uint32_t color = spline_list_color(document, core->active);
+    if (!spline) return;
+    int k = curves_knot_from(curves, core, document, spline, plot->x - HANDLE_REACH);
+    for (int end, passed = 1; k < spline->knot_count; passed = end - k, k = end) {
+        float x = curves_knot_x(curves, core, document, &spline->knots[k]);
+        end = column_end(curves, core, document, spline, k, passed);
+        if (x > plot->x + plot->w + HANDLE_REACH) break;
+        const int shown = column_knot(core, document, k, end);
+        if (is_lost(curves, core, document, k, shown)) continue;
+        if (!curves->cache.band) show_column(curves, core, document, k, end, x, color);
+        show_knot(curves, core, document, &spline->knots[shown], x, color);
+    }
+}
+
+/// Knots of the other curves, small unless they are selected: a click on one makes its spline the active one.
+static void show_other_knots(const struct curves *curves, struct core *core, const struct document *document, int s)
+{
+    const struct spline *spline = &document->splines[s];
+    const struct rect *plot = &core->layout.plot;
+    const uint32_t full = spline_list_color(document, s), color = theme_fade(full, THEME_OTHERS);
+    int k = curves_knot_from(curves, core, document, spline, plot->x);
+    for (; k < spline->knot_count; k = crowd_next(curves, core, document, s, k, OTHERS_CROWDED)) {
+        const struct knot *knot = &spline->knots[k];
+        bool hovered = core->hover.kind == HOVER_KNOT && core->hover.knot == knot->id;
+        bool selected = selection_has(&core->selection, knot->id);
+        float x = curves_knot_x(curves, core, document, knot);
+        float y = curves_y_of(curves, core, s, knot->value);
+        if (x < plot->x) continue;
+        if (x > plot->x + plot->w) break;
+        knot_mark(&core->list, x, y, selected ? KNOT_RADIUS : OTHER_RADIUS, selected ? full : color, selected);
+        if (hovered) knot_ring(&core->list, x, y);
+    }
+}
+
+static void insert_label(struct label *labels, int *count, struct label label)
+{
+    int i = (*count)++;
+    for (; i > 0 && labels[i - 1].y > label.y; i--) labels[i] = labels[i - 1];
+    labels[i] = label;
+}
+
+/// Moves labels apart, downwards first and then back up from the panel's bottom.
+static void spread_labels(struct label *labels, int count, float top, float bottom)
+{
+    for (int i = 0; i < count; i++) labels[i].y = fmaxf(labels[i].y, i ? labels[i - 1].y + LABEL_STEP : top);
+    float limit = bottom;
+    for (int i = count - 1; i >= 0; i--, limit -= LABEL_STEP) labels[i].y = fminf(labels[i].y, limit);
+}
+
+/// A spline's colour, as far as it can be read as text.
+static uint32_t label_color(const struct editor_world *world, int spline)
+{
+    return theme_readable(spline_list_color(world->document, spline), theme()->panel, 4.5f);
+}
+
+/// Labels of the curves that are drawn, at most `most`, the active one's first; by height. How many there are.
+static int place_labels(const struct curves *curves, const struct core *core, const struct editor_world *world,
+                        struct label *labels, int most)
+{
+    const struct curve_cache *cache = &curves->cache;
+    const struct spline *active = spline_list_seen(core, world);
+    uint32_t color = label_color(world, core->active);
+    int count = 0, end = cache->count - 1;
+    if (active) {
+        insert_label(labels, &count, (struct label){cache->re[end][1], FONT_LABEL_BOLD, color, active->name});
+    }
+    if (active && shows_imaginary(core, active)) {
+        insert_label(labels, &count, (struct label){cache->im[end][1], FONT_LABEL, color, "Im"});
+    }
+    for (int i = 0; i < cache->other_count && count < most; i++) {
+        int spline = cache->other_spline[i];
+        insert_label(labels, &count,
+                     (struct label){cache->others[i][end][1], FONT_LABEL, label_color(world, spline),
+                                    world->document->splines[spline].name});
+    }
+    return count;
+}
+
+static void show_labels(const struct curves *curves, struct core *core, const struct editor_world *world)
+{
+    const struct rect *plot = &core->layout.plot;
+    struct label labels[MAX_LABELS];
+    if (curves->cache.count < 2) return;
+    const float top = plot->y + 8, bottom = plot->y + plot->h - 8;
+    int most = (int)fmaxf(2, (bottom - top) / LABEL_STEP + 1);
+    int count = place_labels(curves, core, world, labels, most);
+    spread_labels(labels, count, top, bottom);
+    float x = plot->x + plot->w + 6;
+    float width = core->layout.curves.x + core->layout.curves.w - 6 - x;
+    for (int i = 0; i < count; i++) {
+        drawlist_text_fit(&core->list, x, roundf(labels[i].y + 4), width, labels[i].font, THEME_TEXT_SMALL,
+                          labels[i].color, labels[i].text);
+    }
+}
+
+static void tag_text(const struct curves *curves, const struct core *core, const struct document *document,
+                     char text[32])
+{
+    double frame = round(core_frame(core, document)) + 0.0; /* the one that I would insert at */
+    snprintf(text, 32, curves->options.seconds ? "%.2f" : "%.0f",
+             curves->options.seconds ? frame / document->fps : frame);
+}
+
+struct rect playhead_tag(const struct curves *curves, const struct core *core, const struct document *document)
+{
+    const struct rect *ruler = &core->layout.ruler;
+    float x = curves_x(curves, core, core_frame(core, document));
+    if (x < ruler->x || x > ruler->x + ruler->w) return (struct rect){0};
+    char text[32];
+    tag_text(curves, core, document, text);
+    float width = roundf(font_width(FONT_NUMBER, THEME_TEXT_SMALL, text)) + 10;
+    float left = fminf(fmaxf(roundf(x - width / 2), ruler->x), ruler->x + ruler->w - width);
+    return (struct rect){left, ruler->y + 3, width, 16};
+}
+
+/// The line at the playhead and its frame number; drawn alone, so that playing redraws nothing else.
+static void show_playhead(const struct curves *curves, struct core *core, const struct document *document)
+{
+    const struct rect *plot = &core->layout.plot, *sheet = &core->layout.sheet;
+    float x = curves_x(curves, core, core_frame(core, document));
+    const struct rect tag = playhead_tag(curves, core, document);
+    if (tag.w <= 0) return;
+    char text[32];
+    tag_text(curves, core, document, text);
+    drawlist_rect(&core->list, (struct rect){x - 0.5f, sheet->y, 1, sheet->h + plot->h}, theme()->playhead);
+    drawlist_rounded(&core->list, tag, 3, theme()->playhead);
+    drawlist_text(&core->list, tag.x + 5, tag.y + 12, FONT_NUMBER, THEME_TEXT_SMALL, theme()->panel, text);
+}
+
+/// What to do where there is nothing to edit yet, and no swing of the equilibrium's that the text would cover.
+static void show_empty(struct core *core, const struct editor_world *world)
+{
+    const struct spline *spline = core_active_spline(core, world);
+    bool flat = spline && spline->knot_count == 0 && !param_follows(&spline->parameter[PARAMETER_EQUILIBRIUM]) &&
+                !pins_move_spline(world->document, core->active);
+    bool hidden = spline && !spline_list_seen(core, world);
+    if (spline && !flat && !hidden) return;
+    const bool has_bones = document_find_rig(world->document, RIG_MODEL, 0) >= 0;
+    const char *text = hidden      ? "This spline is hidden. Click its eye in the list to show it."
+                       : flat      ? "Double-click to set the first knot."
+                       : has_bones ? "This scene has no splines. Click a bone and press Shift+J to let it swing."
+                                   : "This scene has no splines. Click + in the list on the right to add one.";
+    const struct rect *plot = &core->layout.plot;
+    float x = plot->x + (plot->w - font_width(FONT_LABEL, THEME_TEXT_NORMAL, text)) / 2;
+    drawlist_text(&core->list, x, plot->y + 32, FONT_LABEL, THEME_TEXT_NORMAL, theme()->text_dim, text);
+}
+
+/// Says above the curves' names where they are not shown as the document has them (V, N) and where knots do not snap (G).
+static void show_state(const struct curves *curves, struct core *core)
+{
+    static const char *const looks[] = {[LOOK_WIGGLY] = "", [LOOK_STIFF] = "Stiff", [LOOK_CUBIC] = "Cubic"};
+    const struct rect *ruler = &core->layout.ruler;
+    const char *normal = curves->options.normalise ? "fit" : "", *snap = core->no_snap ? "free" : "";
+    const char *const words[] = {looks[core->look], normal, snap};
+    char text[32] = "";
+    for (int i = 0; i < 3; i++) {
+        if (*text && *words[i]) strcat(text, ", ");
+        strcat(text, words[i]);
+    }
+    drawlist_text(&core->list, ruler->x + ruler->w + 6, ruler->y + 15, FONT_LABEL_BOLD, THEME_TEXT_SMALL,
+                  theme()->text, text);
+}
+
+void curves_show(struct curves *curves, struct core *core, const struct editor_world *world)
+{
+    struct rect clip = drawlist_push_clip(&core->list, core->layout.curves);
+    curves_update(curves, core, world);
+    warnings_update(curves, core, world);
+    grid_show(curves, core, world);
+    struct rect panel = drawlist_push_clip(&core->list, core->layout.plot);
+    limits_show(curves, core, world);
+    show_lines(curves, core, world);
+    for (int i = 0; i < curves->cache.other_count; i++) {
+        show_other_knots(curves, core, world->document, curves->cache.other_spline[i]);
+    }
+    show_knots(curves, core, world);
+    if (!core->drag.owner) scale_box_show(curves, core, world->document, true);
+    warnings_show(curves, core);
+    show_empty(core, world);
+    drawlist_set_clip(&core->list, panel);
+    sheet_show(curves, core, world->document);
+    show_state(curves, core);
+    show_labels(curves, core, world);
+    show_playhead(curves, core, world->document);
+    ruler_pins_show(curves, core, world->document);
+    drag_show(curves, core, world);
+    warnings_show_words(curves, core);
+    drawlist_set_clip(&core->list, clip);
+}

@@ -1,0 +1,309 @@
+/// The inspector's section on a soft character: what moves each of its coordinates, how it is shown, and the brush.
+#include "editor/core/characters.h"
+#include "editor/core/core.h"
+#include "editor/core/spline_list.h"
+#include "editor/inspector/inspection.h"
+#include "rig/models.h"
+#include <stdio.h>
+#include <string.h>
+
+enum { MAX_ITEMS = 32 }; ///< coordinates that may be added
+
+static const char spline_list[] = "drive.splines", add_list[] = "drive.add";
+
+static struct edit drive_edit(const struct inspection *in, enum edit_kind kind, const struct drive *drive)
+{
+    struct edit edit = core_edit_of(kind, 0);
+    edit.rig = document_find_rig(in->document, RIG_CHARACTER, in->core->characters.character);
+    edit.channel = in->core->characters.drive;
+    edit.drive = *drive;
+    return edit;
+}
+
+/// Shows a coordinate, and what it feels like.
+static void choose(struct inspection *in, int drive)
+{
+    const struct character_view *view = &in->core->characters;
+    const struct character_rig *rig = document_character(in->document, view->character);
+    core_activate(in->core, in->world, rig->drives[drive].spline);
+    in->core->characters.drive = drive; // of two by the same spline
+}
+
+/// A row for each coordinate that is driven, with what takes it away.
+static void build_drives(struct inspection *in, const struct character_rig *rig)
+{
+    struct ui *ui = in->ui;
+    for (int k = 0; k < rig->drive_count; k++) {
+        const struct drive *drive = &rig->drives[k];
+        char name[32], remove[32], text[160];
+        struct rect r = ui_row(ui, UI_ROW), button = {r.x + r.w - r.h, r.y, r.h, r.h};
+        snprintf(name, sizeof name, "drive.%d", k);
+        snprintf(remove, sizeof remove, "drive.%d.remove", k);
+        snprintf(text, sizeof text, "%.60s, by %.60s", drive->name, in->document->splines[drive->spline].name);
+        r.w -= r.h + 4;
+        ui_hint(ui, r, "One of the ways this character swings");
+        const uint32_t color = spline_list_color(in->document, drive->spline);
+        if (ui_list_row(ui, r, name, text, color, k == in->core->characters.drive)) choose(in, k);
+        if (ui_icon_button(ui, button, remove, UI_ICON_DELETE, false, "Remove this coordinate")) {
+            struct edit edit = drive_edit(in, EDIT_DRIVE_REMOVE, drive);
+            edit.channel = k;
+            core_step(in->core, in->world, "Remove coordinate", 0, &edit);
+            return;
+        }
+    }
+}
+
+/// The coordinate of the shown character that the active spline drives, where that is the selected one.
+static const struct drive *felt_drive(const struct inspection *in)
+{
+    const struct character_view *view = &in->core->characters;
+    const struct character_rig *rig = document_character(in->document, view->character);
+    if (!rig || view->drive >= rig->drive_count) return NULL;
+    return rig->drives[view->drive].spline == in->core->active ? &rig->drives[view->drive] : NULL;
+}
+
+static void drive_now(const struct inspection *in, int which, struct setting *setting)
+{
+    (void)which;
+    setting->edit = drive_edit(in, EDIT_DRIVE, felt_drive(in));
+}
+
+static const struct number_row drive_rows[] = {
+    {"drive.lag", "lag", "°", "How far it lags behind the spline; 360 is a full swing", "Set lag",
+     NUMBER_AT(edit.drive.lag), -180, 180, -36000, 36000, 0, 1, 1},
+    {"amplitude", "amplitude", NULL, "How far it swings when the spline is 1", "Set amplitude",
+     NUMBER_AT(edit.drive.amplitude), -2, 2, -INSPECTOR_NO_LIMIT, INSPECTOR_NO_LIMIT, DRIVE_DEFAULT_AMPLITUDE, 0.05,
+     2},
+};
+
+void inspector_felt_drive(struct inspection *in)
+{
+    if (felt_drive(in)) inspector_numbers(in, drive_rows, sizeof drive_rows / sizeof drive_rows[0], drive_now);
+}
+
+static void build_spline(struct inspection *in, const struct drive *drive)
+{
+    struct rect r = inspector_labelled(in, "spline");
+    const uint32_t color = spline_list_color(in->document, drive->spline);
+    ui_hint(in->ui, r, "The spline that drives this coordinate");
+    ui_dropdown(in->ui, r, spline_list, 0, in->document->splines[drive->spline].name, color);
+}
+
+/// Whether the rig drives the coordinate already.
+static bool is_driven(const struct character_rig *rig, const char *name)
+{
+    for (int k = 0; k < rig->drive_count; k++) {
+        if (strcmp(rig->drives[k].name, name) == 0) return true;
+    }
+    return false;
+}
+
+/// The figure's coordinates that nothing drives yet; returns how many.
+static int free_coordinates(const struct inspection *in, const struct character_rig *rig,
+                            struct ui_item items[MAX_ITEMS])
+{
+    const struct figure *figure = models_figure(in->world->models, in->core->characters.character);
+    int count = 0;
+    if (!figure || rig->drive_count == CHARACTER_MAX_DRIVES) return 0;
+    for (int k = 0; k < figure->character.coordinate_count && count < MAX_ITEMS; k++) {
+        const char *name = figure->character.coordinates[k].name;
+        if (!is_driven(rig, name)) items[count++] = (struct ui_item){name, name, 0};
+    }
+    return count;
+}
+
+/// Phases as colours, by direction of movement; and the stiff twin beside it.
+static void build_looks(struct inspection *in)
+{
+    static const struct ui_choice maps[] = {{"off", "Off"}, {"x", "x"}, {"y", "y"}, {"z", "z"}};
+    static const struct ui_choice pairs[] = {{"off", "Off"}, {"on", "Beside it"}};
+    struct character_view *view = &in->core->characters;
+    struct rect r = inspector_labelled(in, "phases");
+    int map = view->mapped ? 1 + view->axis : 0, pair = view->compare;
+    ui_hint(in->ui, r, "Colour each point by its phase along x, y or z");
+    if (ui_segments(in->ui, r, "phases", maps, 4, &map)) {
+        view->mapped = map > 0;
+        if (map > 0) view->axis = map - 1;
+    }
+    r = inspector_labelled(in, "stiff twin");
+    ui_hint(in->ui, r, "Show the character with real parts only: every point moves in step");
+    if (ui_segments(in->ui, r, "twin", pairs, 2, &pair)) {
+        view->compare = pair;
+        in->core->refit_stage = true;
+    }
+}
+
+/// What the analysis found out about the selected coordinate.
+static void build_facts(struct inspection *in)
+{
+    const struct coordinate *c = characters_coordinate(in->core, in->world);
+    char text[200];
+    if (!c) {
+        ui_paragraph(in->ui, "The model lacks this coordinate.", theme()->text_dim);
+    } else if (c->frequency > 0) {
+        snprintf(text, sizeof text,
+                 "Found at %.2f Hz, damping %.3f. It explains %.0f %% of this motion; without phases (real PCA) one "
+                 "component explains %.0f %%, two %.0f %%.",
+                 c->frequency, c->damping, 100 * c->explained, 100 * c->pca1, 100 * c->pca2);
+        ui_paragraph(in->ui, text, theme()->text_dim);
+    }
+}
+
+static void floor_now(const struct inspection *in, int which, struct setting *setting)
+{
+    const int number = in->core->characters.character;
+    const struct character_rig *rig = document_character(in->document, number);
+    (void)which;
+    setting->edit = core_edit_of(EDIT_FLOOR, -1);
+    setting->edit.rig = document_find_rig(in->document, RIG_CHARACTER, number);
+    setting->edit.flag = true;
+    setting->edit.number = rig->has_floor ? rig->floor : rig->position[1];
+}
+
+static const struct number_row floor_row = {"floor.height",
+                                            "height",
+                                            "m",
+                                            "No point of the character goes lower",
+                                            "Set floor",
+                                            NUMBER_AT(edit.number),
+                                            -1,
+                                            0,
+                                            -INSPECTOR_NO_LIMIT,
+                                            INSPECTOR_NO_LIMIT,
+                                            0,
+                                            0.01,
+                                            3};
+
+/// Whether nothing of it may be below a height, and which.
+static void build_floor(struct inspection *in, const struct character_rig *rig)
+{
+    static const struct ui_choice choices[] = {{"off", "Off"}, {"on", "On"}};
+    struct rect r = inspector_labelled(in, "floor");
+    struct setting setting;
+    int on = rig->has_floor;
+    floor_now(in, 0, &setting);
+    if (ui_hovered(in->ui, r)) in->ui->hint = "Keep the whole character above a height";
+    if (ui_segments(in->ui, r, "floor", choices, 2, &on)) {
+        setting.edit.flag = on;
+        core_step(in->core, in->world, on ? "Set floor" : "Remove floor", 0, &setting.edit);
+        return;
+    }
+    if (!rig->has_floor) return;
+    inspector_numbers(in, &floor_row, 1, floor_now);
+    const struct floor_left *left = evaluation_floor(in->world->evaluation, setting.edit.rig);
+    if (!left || left->depth < 1e-4) return;
+    char text[120];
+    snprintf(text, sizeof text, "Up to %.3g m below it, deepest at frame %.6g: knots and pins come first.",
+             left->depth, document_frame(in->document, left->sample));
+    ui_paragraph(in->ui, text, theme()->text_dim);
+}
+
+void inspector_character(struct inspection *in)
+{
+    struct character_view *view = &in->core->characters;
+    if (!document_character(in->document, view->character)) view->character = 0;
+    const struct character_rig *rig = document_character(in->document, view->character);
+    struct ui_item items[MAX_ITEMS];
+    if (view->drive >= rig->drive_count) view->drive = 0;
+    build_drives(in, rig);
+    if (free_coordinates(in, rig, items) > 0 && in->document->spline_count > 0) {
+        const struct rect r = ui_row(in->ui, UI_ROW);
+        ui_hint(in->ui, r, "One more way for it to swing, by the active spline");
+        ui_dropdown(in->ui, r, add_list, 0, "Add a coordinate", 0);
+    }
+    ui_space(in->ui, 4);
+    if (view->drive < rig->drive_count) {
+        build_spline(in, &rig->drives[view->drive]);
+        build_facts(in);
+    }
+    build_floor(in, rig);
+    build_looks(in);
+    inspector_overlays(in);
+    inspector_brush(in);
+}
+
+static void spline_popup(struct inspection *in, const struct drive *drive)
+{
+    struct drive next = *drive;
+    next.spline = inspector_spline_list(in, spline_list, NULL, drive->spline);
+    if (next.spline < 0) return;
+    struct edit edit = drive_edit(in, EDIT_DRIVE, &next);
+    if (core_step(in->core, in->world, "Set spline", 0, &edit)) choose(in, edit.channel);
+}
+
+void inspector_character_lists(struct inspection *in)
+{
+    const struct character_view *view = &in->core->characters;
+    const struct character_rig *rig = document_character(in->document, view->character);
+    if (!rig) return;
+    if (ui_popup_is_open(in->ui, spline_list) && view->drive < rig->drive_count) {
+        spline_popup(in, &rig->drives[view->drive]);
+    } else if (ui_popup_is_open(in->ui, add_list)) {
+        struct ui_item items[MAX_ITEMS];
+        const int picked = ui_popup_list(in->ui, add_list, items, free_coordinates(in, rig, items), -1);
+        if (picked < 0) return;
+        const int spline = in->core->active >= 0 ? in->core->active : 0;
+        const struct drive drive = {
+            .name = items[picked].name, .spline = spline, .amplitude = DRIVE_DEFAULT_AMPLITUDE};
+        struct edit edit = drive_edit(in, EDIT_DRIVE_ADD, &drive);
+        core_step(in->core, in->world, "Add coordinate", 0, &edit);
+    }
+}
+
+/// Modes of one kind side by side; none is marked where the brush is set to another kind.
+static void build_modes(struct inspection *in, const char *name, const char *hint, enum brush_mode first,
+                        const struct ui_choice *choices, int count)
+{
+    struct brush *brush = &in->core->brush;
+    const struct rect r = ui_row(in->ui, UI_ROW);
+    const int chosen = (int)brush->mode - (int)first;
+    int index = chosen >= 0 && chosen < count ? chosen : -1;
+    ui_hint(in->ui, r, hint);
+    if (ui_segments(in->ui, r, name, choices, count, &index)) brush->mode = (enum brush_mode)((int)first + index);
+}
+
+static void build_share(struct inspection *in, const char *name, const char *hint, double fallback, double minimum,
+                        double maximum, double *share)
+{
+    const struct ui_number row = {.name = name,
+                                  .label = name,
+                                  .unit = "%",
+                                  .hint = hint,
+                                  .minimum = 100 * minimum,
+                                  .maximum = 100 * maximum,
+                                  .lowest = 100 * minimum,
+                                  .highest = 100 * maximum,
+                                  .fallback = 100 * fallback,
+                                  .step = 1};
+    double percent = 100 * *share;
+    const enum ui_change change = ui_value(in->ui, ui_row(in->ui, UI_ROW), &row, &percent);
+    if (change == UI_DRAG || change == UI_SET || change == UI_NUDGE) *share = percent / 100;
+}
+
+void inspector_brush(struct inspection *in)
+{
+    static const struct ui_choice switches[] = {{"off", "Off"}, {"on", "Brush"}};
+    static const struct ui_choice phase[] = {{"advance", "Advance"}, {"delay", "Delay"}, {"smooth", "Smooth"}};
+    static const struct ui_choice amplitude[] = {
+        {"more", "Swing more"}, {"less", "Swing less"}, {"smooth", "Smooth"}};
+    static const struct ui_choice erase[] = {{"all", "Erase"}};
+    struct brush *brush = &in->core->brush;
+    struct rect r = inspector_labelled(in, "paint");
+    int on = brush->on;
+    ui_hint(in->ui, r, "Paint phase and amplitude onto the character (K)");
+    if (ui_segments(in->ui, r, "paint", switches, 2, &on)) characters_set_brush(in->core, in->world, on);
+    const struct character_rig *rig = characters_selected(in->core, in->world);
+    if (brush->on) {
+        build_modes(in, "phase", "Move earlier, later, or blend with the surroundings", BRUSH_ADVANCE, phase, 3);
+        build_modes(in, "swing", "Swing more, less, or blend with the surroundings", BRUSH_MORE, amplitude, 3);
+        build_modes(in, "erase", "Remove paint and restore the model", BRUSH_ERASE, erase, 1);
+        build_share(in, "radius", "Radius, relative to the character's height (Ctrl+wheel on the stage)", 0.12, 0.01,
+                    0.5, &brush->radius);
+        build_share(in, "strength", "How fast paint flows (Shift+wheel on the stage)", 0.4, 0.02, 1,
+                    &brush->strength);
+    }
+    if (!rig || !rig->painted || paint_is_plain(rig->painted)) return;
+    r = ui_row(in->ui, UI_ROW);
+    ui_hint(in->ui, r, "Back to what the model says, everywhere");
+    if (ui_button(in->ui, r, "paint.clean", "Remove all paint", false)) characters_clean_paint(in->core, in->world);
+}

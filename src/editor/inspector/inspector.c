@@ -1,0 +1,450 @@
+/// The inspector: its sections, from top to bottom; and what they share: rows of numbers, lists of splines, steps of the history.
+#include "editor/inspector/inspector.h"
+#include "editor/core/core.h"
+#include "editor/core/pins.h"
+#include "editor/core/spline_list.h"
+#include "editor/inspector/inspection.h"
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { FOOTER = 40 }; ///< height of the look switch, which never scrolls away
+
+static bool has_spline(const struct inspection *in) { return core_active_spline(in->core, in->world) != NULL; }
+
+static bool may_vary(const struct inspection *in)
+{
+    const struct spline *spline = core_active_spline(in->core, in->world);
+    return spline && spline_mode(spline) != WIGGLY_CUBIC;
+}
+
+static bool has_tail(const struct inspection *in)
+{
+    const struct document *document = in->document;
+    return document_find_rig(document, RIG_TAIL, 0) >= 0 || document_find_rig(document, RIG_CHAIN, 0) >= 0;
+}
+
+static bool has_model(const struct inspection *in) { return document_find_rig(in->document, RIG_MODEL, 0) >= 0; }
+
+static const char *tail_title(struct inspection *in)
+{
+    const struct rig *shown = inspector_shown(in);
+    return shown && shown->kind == RIG_CHAIN ? "Chain set-up" : "Tail set-up";
+}
+
+static bool has_character(const struct inspection *in) { return document_character(in->document, 0) != NULL; }
+
+static bool has_meadow(const struct inspection *in) { return document_find_rig(in->document, RIG_MEADOW, 0) >= 0; }
+
+static bool takes_pins(const struct inspection *in)
+{
+    bool any = false;
+    for (int r = 0; r < in->document->rig_count; r++) any |= pins_suit(&in->document->rigs[r]);
+    return any;
+}
+
+/// From the top down; `name` is what replays call the header.
+static const struct section {
+    const char *name, *title;
+    const char *(*titled)(struct inspection *in); ///< in place of a title
+    void (*build)(struct inspection *in);
+    void (*lists)(struct inspection *in);       ///< that it has opened over the panel; NULL: none
+    bool (*shown)(const struct inspection *in); ///< NULL: always
+    bool closed;                                ///< at first
+} sections[] = {
+    {"section.feel", "Feel", NULL, inspector_feel, inspector_track_list, has_spline, false},
+    {"section.knot", NULL, inspector_knot_title, inspector_knot, NULL, has_spline, false},
+    {"section.splines", "Splines", NULL, inspector_splines, inspector_palette, NULL, false},
+    {"section.spline", "Spline", NULL, inspector_spline, NULL, has_spline, false},
+    {"section.rigs", "Tails and characters", NULL, inspector_rigs, inspector_add_list, NULL, false},
+    {"section.model", "Imported character", NULL, inspector_model, inspector_model_lists, has_model, false},
+    {"section.tail", NULL, tail_title, inspector_tail, inspector_tail_lists, has_tail, false},
+    {"section.character", "Character", NULL, inspector_character, inspector_character_lists, has_character, false},
+    {"section.meadow", "Meadow", NULL, inspector_meadow, NULL, has_meadow, false},
+    {"section.pins", "Pins", NULL, inspector_pins, NULL, takes_pins, false},
+    {"section.advanced", "Advanced", NULL, inspector_advanced, NULL, has_spline, true},
+    {"section.poles", "Poles and response", NULL, inspector_poles, NULL, has_spline, true},
+    {"section.limits", "Limits and steadiness", NULL, inspector_limits, NULL, has_spline, true},
+    {"section.variation", "Variation", NULL, inspector_variation, NULL, may_vary, true},
+    {"section.scene", "Scene", NULL, inspector_scene, NULL, NULL, true},
+    {"section.history", "History", NULL, inspector_history, NULL, NULL, true}, // the last one: see there
+};
+
+_Static_assert(sizeof sections / sizeof sections[0] <= INSPECTOR_MAX_SECTIONS, "each has a flag in struct inspector");
+
+/// Scrolls just so far that what was built from `top` on is in sight, and remembers it as done.
+static void reveal(struct inspection *in, float top)
+{
+    const struct ui *ui = in->ui;
+    struct ui_scroll *scroll = &in->inspector->scroll;
+    const float below = ui->y - (ui->scroll_area.y + ui->scroll_area.h), above = top - ui->scroll_area.y;
+    in->inspector->revealed = NULL;
+    if (below > 0) scroll->offset += fminf(below, above);
+    if (above < 0) scroll->offset += above;
+}
+
+static void build_sections(struct inspection *in)
+{
+    inspector_find_rig(in);
+    for (size_t i = 0; i < sizeof sections / sizeof sections[0]; i++) {
+        const struct section *section = &sections[i];
+        bool *flipped = &in->inspector->flipped[i];
+        if (section->shown && !section->shown(in)) continue;
+        bool closed = *flipped != section->closed;
+        const float top = in->ui->y;
+        bool open =
+            ui_section(in->ui, section->name, section->titled ? section->titled(in) : section->title, &closed);
+        *flipped = closed != section->closed;
+        if (!open) continue;
+        section->build(in);
+        ui_space(in->ui, 4);
+        if (in->inspector->revealed && strcmp(in->inspector->revealed, section->name) == 0) reveal(in, top);
+    }
+}
+
+void inspector_unfold(struct inspector *inspector, const char *name)
+{
+    for (size_t i = 0; i < sizeof sections / sizeof sections[0]; i++) {
+        if (strcmp(sections[i].name, name) != 0) continue;
+        inspector->flipped[i] = sections[i].closed;
+        inspector->revealed = sections[i].name; // the pass that measures scrolls there
+    }
+}
+
+static void build_look(struct inspection *in, struct rect footer)
+{
+    static const struct ui_choice looks[] = {
+        [LOOK_WIGGLY] = {"wiggly", "Wiggly"}, [LOOK_STIFF] = {"stiff", "Stiff"}, [LOOK_CUBIC] = {"cubic", "Cubic"}};
+    struct ui *ui = in->ui;
+    struct rect r = {footer.x + UI_PAD, footer.y + 8, footer.w - 2 * UI_PAD, UI_ROW};
+    if (ui->pass == UI_PASS_DRAW) {
+        drawlist_rect(ui->list, footer, theme()->panel);
+        drawlist_rect(ui->list, (struct rect){footer.x, footer.y, footer.w, 1}, theme()->border);
+    }
+    ui_hint(ui, footer, "Compare the same knots: wiggly, without lag, or as a cubic (V)");
+    int look = (int)in->core->look;
+    if (ui_segments(ui, r, "look", looks, 3, &look)) core_set_look(in->core, (enum look)look);
+}
+
+static void build(struct inspection *in, struct rect area)
+{
+    struct ui *ui = in->ui;
+    struct rect view = {area.x, area.y, area.w, fmaxf(0, area.h - FOOTER)};
+    ui_scroll_begin(ui, &in->inspector->scroll, view);
+    build_sections(in);
+    ui_space(ui, 4);
+    ui_scroll_end(ui);
+    build_look(in, (struct rect){area.x, area.y + view.h, area.w, FOOTER});
+    for (size_t i = 0; i < sizeof sections / sizeof sections[0]; i++) {
+        if (sections[i].lists) sections[i].lists(in);
+    }
+}
+
+static struct inspection inspection_of(struct inspector *inspector, struct core *core,
+                                       const struct editor_world *world)
+{
+    return (struct inspection){core, inspector, world, world->document, &inspector->ui};
+}
+
+struct inspector *inspector_create(void) { return calloc(1, sizeof(struct inspector)); }
+
+void inspector_destroy(struct inspector *inspector) { free(inspector); }
+
+enum ui_over inspector_over(const struct inspector *inspector) { return inspector->ui.over; }
+
+void inspector_reset(struct inspector *inspector)
+{
+    ui_release(&inspector->ui);
+    inspector->scroll.offset = 0;
+    inspector->rig = 0;
+    inspector->selected = 0;
+    inspector->model = 0;
+    inspector->channel = 0;
+}
+
+/// Whether the panel's code has to run for the event at all; keys are the editor's where nothing here has the keyboard.
+static bool concerns(const struct inspector *inspector, const struct core *core, const struct event *event)
+{
+    const struct ui *ui = &inspector->ui;
+    struct rect area = core->layout.inspector;
+    bool input = event->kind <= EVENT_WHEEL;
+    if (event->kind == EVENT_KEY && event->action == ACTION_RELEASE) return false;
+    if (ui->popup.id) return input;
+    switch (event->kind) {
+    case EVENT_KEY:
+        if (core->held_key && !ui->typing) return false; // F and an arrow is the editor's, whatever has the focus
+        return ui->held || ui->typing || ui->focus || event->key == KEY_TAB;
+    case EVENT_TEXT:
+        return ui->typing || ui->focus;
+    case EVENT_POINTER:
+        return ui->held || rect_contains(area, event->x, event->y);
+    case EVENT_BUTTON:
+        return ui->held || ui->typing || rect_contains(area, event->x, event->y);
+    case EVENT_WHEEL:
+        return rect_contains(area, event->x, event->y);
+    default:
+        return false;
+    }
+}
+
+/// An event elsewhere still ends hovering; a press also ends the keyboard focus.
+static void event_elsewhere(struct ui *ui, const struct event *event)
+{
+    if (event->kind == EVENT_SIZE) ui->popup.id = 0; // what it hangs on is elsewhere now
+    if (event->kind != EVENT_POINTER && event->kind != EVENT_BUTTON) return;
+    ui->pointer_x = event->x;
+    ui->pointer_y = event->y;
+    ui->hint = NULL;
+    if (event->kind == EVENT_BUTTON && event->action == ACTION_PRESS) ui->focus = 0;
+}
+
+bool inspector_event(struct inspector *inspector, struct core *core, const struct editor_world *world,
+                     const struct event *event)
+{
+    struct inspection in = inspection_of(inspector, core, world);
+    struct ui *ui = in.ui;
+    struct rect area = core->layout.inspector;
+    if (!concerns(inspector, core, event)) {
+        event_elsewhere(ui, event);
+        return false;
+    }
+    bool was_dragging = ui->held && ui->moved;
+    ui_begin_event(ui, area, event);
+    build(&in, area);
+    bool used = ui_end(ui);
+    if (was_dragging && !ui->held && history_is_open(world->history)) history_end(world->history);
+    if (ui->complaint[0]) {
+        core_message(core, true, ui->complaint);
+        ui->complaint[0] = '\0';
+    }
+    bool inside = rect_contains(area, ui->pointer_x, ui->pointer_y);
+    bool pointer = event->kind == EVENT_POINTER || event->kind == EVENT_WHEEL ||
+                   (event->kind == EVENT_BUTTON && event->action == ACTION_PRESS);
+    return used || (pointer && inside);
+}
+
+/// A bone that was just selected is to be seen, with what can be made of it.
+static void show_bone(struct inspection *in)
+{
+    const struct bone_selection *bone = &in->core->bone, *seen = &in->inspector->seen_bone;
+    const bool same = bone->any == seen->any && bone->node == seen->node && bone->file == seen->file;
+    in->inspector->seen_bone = *bone;
+    if (same || !bone->any) return;
+    inspector_unfold(in->inspector, "section.model");
+}
+
+void inspector_show(struct inspector *inspector, struct core *core, const struct editor_world *world, bool covered)
+{
+    struct inspection in = inspection_of(inspector, core, world);
+    struct rect area = core->layout.inspector;
+    if (covered) in.ui->pointer_x = area.x - 1; // nothing here is under the pointer
+    show_bone(&in);
+    ui_begin_find(in.ui, area, "", NULL); // measures, so that a shorter panel is not drawn scrolled past its end
+    build(&in, area);
+    ui_end(in.ui);
+    drawlist_rect(&core->list, area, theme()->panel);
+    ui_begin_draw(in.ui, area, &core->list);
+    build(&in, area);
+    ui_end(in.ui);
+    drawlist_rect(&core->list, (struct rect){area.x, area.y, 1, area.h}, theme()->border);
+}
+
+void inspector_let_go(struct inspector *inspector, const struct editor_world *world)
+{
+    if (inspector_is_dragging(inspector) && history_is_open(world->history)) history_end(world->history);
+    ui_release(&inspector->ui);
+}
+
+bool inspector_is_dragging(const struct inspector *inspector) { return inspector->ui.held && inspector->ui.moved; }
+
+bool inspector_is_typing(const struct inspector *inspector) { return inspector->ui.typing != 0; }
+
+bool inspector_has_menu(const struct inspector *inspector) { return inspector->ui.popup.id != 0; }
+
+const char *inspector_hint(const struct inspector *inspector) { return inspector->ui.hint; }
+
+const char *inspector_focus_hint(const struct inspector *inspector, struct rect *at)
+{
+    *at = inspector->ui.focus_rect;
+    return inspector->ui.focus ? inspector->ui.focus_hint : NULL;
+}
+
+bool inspector_target(struct inspector *inspector, struct core *core, const struct editor_world *world,
+                      const char *name, float *x, float *y)
+{
+    struct inspection in = inspection_of(inspector, core, world);
+    char widget[128];
+    snprintf(widget, sizeof widget, "%s", name);
+    char *comma = strrchr(widget, ',');
+    double value = 0;
+    if (comma) {
+        char *end;
+        value = strtod(comma + 1, &end);
+        if (end == comma + 1 || *end || !isfinite(value)) return false;
+        *comma = '\0';
+    }
+    ui_begin_find(in.ui, core->layout.inspector, widget, comma ? &value : NULL);
+    build(&in, core->layout.inspector);
+    bool found = ui_end(in.ui);
+    *x = in.ui->found_x;
+    *y = in.ui->found_y;
+    return found;
+}
+
+void inspector_take_back(struct inspection *in, enum ui_change change)
+{
+    struct history *history = in->world->history;
+    if (change != UI_DRAG || !history_is_open(history)) return;
+    history_restart(history, in->document);
+    core_refresh(in->core, in->world);
+}
+
+bool inspector_changed(enum ui_change change) { return change == UI_DROP || change == UI_SET || change == UI_NUDGE; }
+
+void inspector_change(struct inspection *in, enum ui_change change, const char *label, const char *what,
+                      const struct edit *edit)
+{
+    inspector_change_all(in, change, label, what, edit, 1);
+}
+
+void inspector_change_all(struct inspection *in, enum ui_change change, const char *label, const char *what,
+                          const struct edit *edits, int count)
+{
+    struct history *history = in->world->history;
+    uint64_t merge = 0;
+    switch (change) {
+    case UI_NONE:
+        return;
+    case UI_DRAG:
+        inspector_take_back(in, change);
+        if (!history_is_open(history)) history_begin(history, label, 0);
+        for (int i = 0; i < count; i++) core_edit(in->core, in->world, &edits[i]);
+        return;
+    case UI_CANCEL:
+    case UI_DROP:
+        if (!history_is_open(history)) return; // nothing was moved by this drag
+        if (change == UI_CANCEL) history_restart(history, in->document);
+        history_end(history);
+        core_refresh(in->core, in->world);
+        return;
+    case UI_NUDGE:
+        merge = (uint64_t)ui_id(what) << 32 | (uint32_t)(in->core->active + 1);
+        break;
+    case UI_SET:
+        break;
+    }
+    if (history_is_open(history)) return; // as core_step()
+    history_begin(history, label, merge);
+    for (int i = 0; i < count; i++) core_edit(in->core, in->world, &edits[i]);
+    history_end(history);
+}
+
+static double get_number(const struct number_row *row, const struct setting *setting)
+{
+    const char *at = (const char *)setting + row->at;
+    double number;
+    int whole;
+    if (row->is_whole) {
+        memcpy(&whole, at, sizeof whole);
+        return whole;
+    }
+    memcpy(&number, at, sizeof number);
+    return number;
+}
+
+static void set_number(const struct number_row *row, struct setting *setting, double number)
+{
+    char *at = (char *)setting + row->at;
+    const int whole = row->is_whole ? (int)lround(number) : 0;
+    if (row->is_whole) {
+        memcpy(at, &whole, sizeof whole);
+    } else {
+        memcpy(at, &number, sizeof number);
+    }
+}
+
+/// A drag stays where it last was possible.
+static void drag(struct inspection *in, const struct number_row *row, struct setting *setting, double value)
+{
+    struct history *history = in->world->history;
+    double *possible = &in->inspector->dragged;
+    if (!history_is_open(history)) {
+        history_begin(history, row->undo, 0);
+        *possible = get_number(row, setting);
+    }
+    set_number(row, setting, value);
+    if (history_apply(history, in->document, &setting->edit, NULL)) {
+        *possible = value;
+    } else {
+        set_number(row, setting, *possible);
+        history_apply(history, in->document, &setting->edit, NULL);
+    }
+    core_refresh(in->core, in->world);
+}
+
+enum ui_change inspector_number(struct inspection *in, const struct number_row *row, setting_now *now, int which,
+                                struct rect r)
+{
+    const struct ui_number number = {.name = row->name,
+                                     .label = row->label,
+                                     .unit = row->unit,
+                                     .hint = row->hint,
+                                     .minimum = row->minimum,
+                                     .maximum = row->maximum,
+                                     .lowest = row->lowest,
+                                     .highest = row->highest,
+                                     .fallback = row->fallback,
+                                     .step = row->step,
+                                     .decimals = row->decimals};
+    struct setting setting;
+    now(in, which, &setting);
+    double value = get_number(row, &setting);
+    const enum ui_change change = ui_value(in->ui, r, &number, &value);
+    if (change == UI_NONE) return change;
+    inspector_take_back(in, change); // an edit may start from more than the number: from what was before the drag
+    now(in, which, &setting);
+    if (change == UI_DRAG) {
+        drag(in, row, &setting, value);
+        return change;
+    }
+    set_number(row, &setting, value);
+    inspector_change(in, change, row->undo, row->name, &setting.edit);
+    return change;
+}
+
+void inspector_numbers(struct inspection *in, const struct number_row *rows, int count, setting_now *now)
+{
+    for (int i = 0; i < count; i++) inspector_number(in, &rows[i], now, i, ui_row(in->ui, UI_ROW));
+}
+
+int inspector_spline_items(const struct inspection *in, const bool *left_out, int chosen, struct ui_item *items,
+                           int *splines, int *row)
+{
+    int count = 0;
+    *row = -1;
+    for (int s = 0; s < in->document->spline_count && s < INSPECTOR_MAX_SPLINES; s++) {
+        if (left_out && left_out[s]) continue;
+        const char *name = in->document->splines[s].name;
+        if (s == chosen) *row = count;
+        items[count] = (struct ui_item){name, name, spline_list_color(in->document, s)};
+        splines[count++] = s;
+    }
+    return count;
+}
+
+int inspector_spline_list(struct inspection *in, const char *list, const bool *left_out, int chosen)
+{
+    struct ui_item items[INSPECTOR_MAX_SPLINES];
+    int splines[INSPECTOR_MAX_SPLINES] = {0}, row;
+    const int count = inspector_spline_items(in, left_out, chosen, items, splines, &row);
+    int picked = ui_popup_list(in->ui, list, items, count, row);
+    return picked < 0 ? -1 : splines[picked];
+}
+
+struct rect inspector_labelled(struct inspection *in, const char *label)
+{
+    struct rect r = ui_row(in->ui, UI_ROW);
+    ui_label(in->ui, (struct rect){r.x, r.y, UI_LABEL, r.h}, label, theme()->text_dim);
+    return (struct rect){r.x + UI_LABEL + UI_GAP, r.y, r.w - UI_LABEL - UI_GAP, r.h};
+}

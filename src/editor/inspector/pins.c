@@ -1,0 +1,145 @@
+/// The inspector's section on pins: the list of all, what is left of each, and the numbers of the selected one.
+#include "editor/core/pins.h"
+#include "editor/core/bones.h"
+#include "editor/core/core.h"
+#include "editor/inspector/inspection.h"
+#include "scene/pins.h"
+#include <math.h>
+#include <stdio.h>
+
+enum { MAX_ROWS = 8 }; ///< pins listed at once
+
+/// A pin in the list of all, rig by rig.
+struct place {
+    int rig, at;
+};
+
+static struct place place_of(const struct document *document, int row)
+{
+    int rig = 0;
+    while (row >= document->rigs[rig].pin_count) row -= document->rigs[rig++].pin_count;
+    return (struct place){rig, row};
+}
+
+/// The row of the selected pin, 0 where none is.
+static int selected_row(const struct inspection *in)
+{
+    int rig, row = 0;
+    const struct pin *pin = pins_selected(in->core, in->document, &rig);
+    if (!pin) return 0;
+    for (int r = 0; r < rig; r++) row += in->document->rigs[r].pin_count;
+    return row + (int)(pin - in->document->rigs[rig].pins);
+}
+
+/// Millimetres that are left; NAN where that is not known.
+static double left_of(const struct inspection *in, int rig, int at)
+{
+    const struct pin_left *left = evaluation_pin(in->world->evaluation, in->document, rig, at);
+    if (!left || !left->is_found) return NAN;
+    return 1e3 * sqrt(left->way[0] * left->way[0] + left->way[1] * left->way[1] + left->way[2] * left->way[2]);
+}
+
+static const char *word_of(const struct rig *rig) { return rig->kind == RIG_CHARACTER ? "vertex" : "joint"; }
+
+/// true if the pin was removed.
+static bool build_row(struct inspection *in, int row)
+{
+    struct ui *ui = in->ui;
+    const struct place place = place_of(in->document, row);
+    const struct rig *rig = &in->document->rigs[place.rig];
+    const struct pin *pin = &rig->pins[place.at];
+    struct rect r = ui_row(ui, UI_ROW), button = {r.x + r.w - r.h, r.y, r.h, r.h};
+    char name[32], remove[32], text[160], left[32] = "";
+    snprintf(name, sizeof name, "pin.%d", row);
+    snprintf(remove, sizeof remove, "pin.%d.remove", row);
+    snprintf(text, sizeof text, "%.6g: %.60s, %s %d", pin->frame, rig_title(rig), word_of(rig), pin->point);
+    const double millimetres = left_of(in, place.rig, place.at);
+    if (isfinite(millimetres)) snprintf(left, sizeof left, "%.1f mm", millimetres);
+    r.w -= r.h + 4;
+    const struct rect label = {r.x, r.y, r.w - 60, r.h};
+    const bool selected = in->core->pin.any && in->core->pin.id == pin->id;
+    const bool pressed = ui_list_row(ui, r, name, "", 0, selected);
+    ui_label(ui, (struct rect){label.x + 6, label.y, label.w - 6, label.h}, text, theme()->text);
+    ui_label_right(ui, (struct rect){r.x, r.y, r.w - 4, r.h}, left, theme()->text_dim);
+    ui_hint(ui, r, "Frame and point of a pin, and how far the point is from it");
+    if (pressed) pins_visit(in->core, in->document, pin);
+    if (!ui_icon_button(ui, button, remove, UI_ICON_DELETE, false, "Remove this pin")) return false;
+    const struct edit edit = pins_edit(EDIT_PIN_REMOVE, place.rig, pin);
+    return core_step(in->core, in->world, "Delete pin", 0, &edit);
+}
+
+static void build_list(struct inspection *in, int count)
+{
+    const int rows = count < MAX_ROWS ? count : MAX_ROWS;
+    int first = selected_row(in) - MAX_ROWS / 2;
+    first = first > count - rows ? count - rows : first;
+    first = first < 0 ? 0 : first;
+    for (int row = first; row < first + rows; row++) {
+        if (build_row(in, row)) return;
+    }
+    if (count <= MAX_ROWS) return;
+    char text[64];
+    snprintf(text, sizeof text, "%d of %d pins; , and . show more", MAX_ROWS, count);
+    ui_paragraph(in->ui, text, theme()->text_dim);
+}
+
+/// How many points the rig has.
+static int points_of(const struct inspection *in, int rig)
+{
+    const struct rig *pinned = &in->document->rigs[rig];
+    if (pinned->kind != RIG_CHARACTER) return bones_joints(in->world, rig);
+    const struct figure *figure = models_figure(in->world->models, document_rig_number(in->document, rig));
+    return figure ? figure->character.vertex_count : 1;
+}
+
+static void now(const struct inspection *in, int which, struct setting *setting)
+{
+    int rig;
+    const struct pin *pin = pins_selected(in->core, in->document, &rig);
+    (void)which;
+    setting->edit = pins_edit(EDIT_PIN_SET, rig, pin);
+}
+
+enum { ROW_FRAME, ROW_POINT, ROWS = ROW_POINT + 4 };
+
+static const struct number_row rows[ROWS] = {
+    {"pin.frame", "frame", NULL, "Frame of the pin (Alt+PgUp, Alt+PgDn)", "Move pin in time",
+     NUMBER_AT(edit.pin.frame), 0, 0, 0, 0, NAN, 1, 0},
+    {"pin.point", NULL, NULL, "What is pinned", "Pin another point", WHOLE_AT(edit.pin.point), 0, 0, 0, 0, NAN, 1, 0},
+    {"pin.x", "x", "m", "Where the point is to be; 0 is the middle", "Move pin", NUMBER_AT(edit.pin.to[0]), 0, 0,
+     -INSPECTOR_NO_LIMIT, INSPECTOR_NO_LIMIT, NAN, 0.005, 3},
+    {"pin.y", "y", "m", "Where the point is to be: height", "Move pin", NUMBER_AT(edit.pin.to[1]), 0, 0,
+     -INSPECTOR_NO_LIMIT, INSPECTOR_NO_LIMIT, NAN, 0.005, 3},
+    {"pin.z", "z", "m", "Where the point is to be: depth", "Move pin", NUMBER_AT(edit.pin.to[2]), 0, 0,
+     -INSPECTOR_NO_LIMIT, INSPECTOR_NO_LIMIT, NAN, 0.005, 3},
+};
+
+static void build_field(struct inspection *in, int field)
+{
+    int rig;
+    struct number_row row = rows[field];
+    if (!pins_selected(in->core, in->document, &rig)) return;
+    const struct rig *pinned = &in->document->rigs[rig];
+    if (field == ROW_FRAME) {
+        row.lowest = in->document->first_frame;
+        row.highest = document_frame(in->document, pins_last_sample(in->document, pinned));
+    } else if (field == ROW_POINT) {
+        row.label = word_of(pinned);
+        row.highest = points_of(in, rig) - 1;
+    }
+    const enum ui_change change = inspector_number(in, &row, now, field, ui_row(in->ui, UI_ROW));
+    if (inspector_changed(change)) pins_tell(in->core, in->world, rig);
+}
+
+void inspector_pins(struct inspection *in)
+{
+    int rig;
+    const int count = pins_count(in->document);
+    if (count == 0)
+        ui_paragraph(in->ui, "Drag a character's surface on the stage to pin it; on tails and chains, hold Ctrl.",
+                     theme()->text_dim);
+    build_list(in, count);
+    if (!pins_selected(in->core, in->document, &rig)) return;
+    ui_space(in->ui, 4);
+    for (int field = 0; field < ROWS; field++) build_field(in, field);
+}

@@ -1,0 +1,259 @@
+/// The inspector's list of all rigs: which of them is shown, one less, and the menu of what can be added.
+#include "editor/core/rigs.h"
+#include "base/path.h"
+#include "editor/core/bones.h"
+#include "editor/core/core.h"
+#include "editor/core/spline_list.h"
+#include "editor/inspector/inspection.h"
+#include "editor/inspector/inspector.h"
+#include <stdio.h>
+
+enum { ICON = 24, MAX_ROWS = 12 }; ///< rows from the top
+
+static bool is_tail_or_chain(const struct document *document, int rig)
+{
+    return rig >= 0 && rig < document->rig_count &&
+           (document->rigs[rig].kind == RIG_TAIL || document->rigs[rig].kind == RIG_CHAIN);
+}
+
+const struct rig *inspector_shown(const struct inspection *in)
+{
+    const int rig = in->inspector->rig;
+    return is_tail_or_chain(in->document, rig) ? &in->document->rigs[rig] : NULL;
+}
+
+void inspector_find_rig(struct inspection *in)
+{
+    struct inspector *inspector = in->inspector;
+    if (!inspector_shown(in)) {
+        const int tail = document_find_rig(in->document, RIG_TAIL, 0),
+                  chain = document_find_rig(in->document, RIG_CHAIN, 0);
+        inspector->rig = tail >= 0 ? tail : chain >= 0 ? chain : 0;
+        inspector->channel = 0;
+    }
+    const struct rig *shown = inspector_shown(in);
+    if (shown && inspector->channel >= rig_input_count(shown)) inspector->channel = 0;
+    if (inspector->selected >= in->document->rig_count) inspector->selected = in->document->rig_count - 1;
+    if (inspector->selected < 0) inspector->selected = 0;
+}
+
+/// Has the section of its kind show a rig.
+static void show_rig(struct inspector *inspector, struct core *core, const struct document *document, int rig)
+{
+    const int number = document_rig_number(document, rig);
+    inspector->selected = rig;
+    switch (document->rigs[rig].kind) {
+    case RIG_TAIL:
+    case RIG_CHAIN:
+        inspector->channel = rig == inspector->rig ? inspector->channel : 0;
+        inspector->rig = rig;
+        break;
+    case RIG_CHARACTER:
+        core->characters.drive = number == core->characters.character ? core->characters.drive : 0;
+        core->characters.character = number;
+        break;
+    case RIG_MODEL:
+        inspector->model = number;
+        break;
+    case RIG_MEADOW:
+    case RIG_KINDS:
+        break;
+    }
+}
+
+static int input_of(const struct rig *rig, int spline)
+{
+    for (int i = 0; i < rig_input_count(rig); i++) {
+        if (rig_input(rig, i) == spline) return i;
+    }
+    return -1;
+}
+
+void inspector_show_spline(struct inspector *inspector, struct core *core, const struct document *document,
+                           int spline)
+{
+    int found = inspector->selected < document->rig_count ? inspector->selected : -1;
+    if (found >= 0 && input_of(&document->rigs[found], spline) < 0) found = -1;
+    for (int r = 0; r < document->rig_count && found < 0; r++) {
+        if (input_of(&document->rigs[r], spline) >= 0) found = r;
+    }
+    if (found < 0) return;
+    const int input = input_of(&document->rigs[found], spline);
+    show_rig(inspector, core, document, found);
+    if (is_tail_or_chain(document, found)) inspector->channel = input;
+    if (document->rigs[found].kind == RIG_CHARACTER) core->characters.drive = input;
+}
+
+void inspector_choose_rig(struct inspection *in, int rig)
+{
+    static const char *const sections[] = {[RIG_TAIL] = "section.tail",
+                                           [RIG_CHAIN] = "section.tail",
+                                           [RIG_CHARACTER] = "section.character",
+                                           [RIG_MODEL] = "section.model",
+                                           [RIG_MEADOW] = "section.meadow"};
+    const struct rig *chosen = &in->document->rigs[rig];
+    if (chosen->kind == RIG_MODEL) bones_clear(in->core);
+    show_rig(in->inspector, in->core, in->document, rig);
+    inspector_unfold(in->inspector, sections[chosen->kind]);
+    if (rig_input_count(chosen) > 0) core_activate(in->core, in->world, rig_input(chosen, 0));
+}
+
+void inspector_show_rig(struct inspector *inspector, struct core *core, const struct editor_world *world, int rig)
+{
+    struct inspection in = {core, inspector, world, world->document, &inspector->ui};
+    inspector_choose_rig(&in, rig);
+}
+
+static void build_row(struct inspection *in, int rig)
+{
+    const struct rig *shown = &in->document->rigs[rig];
+    const struct rect r = ui_row(in->ui, UI_ROW);
+    char name[32], text[160];
+    snprintf(name, sizeof name, "%s.%d", rig_word(shown->kind), document_rig_number(in->document, rig));
+    snprintf(text, sizeof text, "%.100s, %s", path_name(rig_title(shown)), rig_word(shown->kind));
+    const uint32_t color = rig_input_count(shown) > 0 ? spline_list_color(in->document, rig_input(shown, 0)) : 0;
+    ui_hint(in->ui, r, "Show what it is made of, and what moves it");
+    if (ui_list_row(in->ui, r, name, text, color, rig == in->inspector->selected)) inspector_choose_rig(in, rig);
+}
+
+static void build_buttons(struct inspection *in)
+{
+    const struct rect r = ui_row(in->ui, UI_ROW);
+    struct rect icon = {r.x - 2, r.y, ICON, r.h};
+    const bool any = in->document->rig_count > 0;
+    const int rig = in->inspector->selected;
+    if (ui_icon_button(in->ui, icon, "rig.add", UI_ICON_ADD, false, "Add a tail, a character, a chain … (A)"))
+        inspector_open_add(in->inspector, icon);
+    icon.x += ICON + 6;
+    if (any && ui_icon_button(in->ui, icon, "rig.copy", UI_ICON_COPY, false, "One more like it, beside it")) {
+        const int before = in->document->rig_count;
+        rigs_copy(in->core, in->world, rig);
+        if (in->document->rig_count > before) inspector_choose_rig(in, before);
+        return;
+    }
+    icon.x += ICON + 6;
+    if (any && ui_icon_button(in->ui, icon, "rig.delete", UI_ICON_DELETE, false,
+                              "Remove it, with its splines or without (Shift+Del)"))
+        rigs_ask_remove(in->core, in->world, rig);
+}
+
+void inspector_remove_rig(const struct inspector *inspector, struct core *core, const struct editor_world *world)
+{
+    rigs_ask_remove(core, world, inspector->selected);
+}
+
+void inspector_rigs(struct inspection *in)
+{
+    const int count = in->document->rig_count, chosen = in->inspector->selected;
+    const int first = count <= MAX_ROWS || chosen < MAX_ROWS ? 0 : chosen - MAX_ROWS + 1;
+    if (count == 0) ui_paragraph(in->ui, "Nothing is on the stage yet.", theme()->text_dim);
+    for (int r = first; r < count && r < first + MAX_ROWS; r++) build_row(in, r);
+    if (count > MAX_ROWS) {
+        char text[64];
+        snprintf(text, sizeof text, "%d of %d", MAX_ROWS, count);
+        ui_paragraph(in->ui, text, theme()->text_dim);
+    }
+    build_buttons(in);
+}
+
+enum { MAX_COPIES = 4, MAX_ITEMS = 5 + MAX_COPIES, LABEL = 96, WIDTH = 244 };
+
+static const char add_list[] = "add";
+
+/// A row of the menu.
+struct choice {
+    enum { ADD_TAIL, ADD_FILE, ADD_COPY, ADD_CHAIN, ADD_MEADOW, ADD_SPLINE } what;
+    int rig; ///< of ADD_COPY
+};
+
+struct menu {
+    struct choice choices[MAX_ITEMS];
+    struct ui_item items[MAX_ITEMS];
+    char names[MAX_COPIES][24], labels[MAX_COPIES][LABEL];
+    int count;
+};
+
+static void add_item(struct menu *menu, struct choice choice, const char *name, const char *label)
+{
+    menu->choices[menu->count] = choice;
+    menu->items[menu->count++] = (struct ui_item){name, label, 0};
+}
+
+static void add_copies(const struct inspection *in, struct menu *menu)
+{
+    int copies = 0;
+    for (int r = 0; r < in->document->rig_count && copies < MAX_COPIES; r++) {
+        const struct rig *rig = &in->document->rigs[r];
+        if (rig->kind != RIG_CHARACTER && rig->kind != RIG_MODEL) continue;
+        snprintf(menu->names[copies], sizeof menu->names[0], "copy.%d", r);
+        snprintf(menu->labels[copies], LABEL, "One more %.80s", path_name(rig_title(rig)));
+        add_item(menu, (struct choice){ADD_COPY, r}, menu->names[copies], menu->labels[copies]);
+        copies++;
+    }
+}
+
+static void fill(const struct inspection *in, struct menu *menu)
+{
+    const struct document *document = in->document;
+    add_item(menu, (struct choice){ADD_TAIL, 0}, "tail", "Tail");
+    add_item(menu, (struct choice){ADD_FILE, 0}, "file", "Character or model from a file …");
+    add_copies(in, menu);
+    if (document_find_rig(document, RIG_MODEL, 0) >= 0)
+        add_item(menu, (struct choice){ADD_CHAIN, 0}, "chain", "Chain from the selected bone (J)");
+    if (document_find_rig(document, RIG_MEADOW, 0) < 0)
+        add_item(menu, (struct choice){ADD_MEADOW, 0}, "meadow", "Meadow");
+    add_item(menu, (struct choice){ADD_SPLINE, 0}, "spline", "Spline");
+}
+
+static void carry_out(struct inspection *in, struct choice choice)
+{
+    const int before = in->document->rig_count;
+    switch (choice.what) {
+    case ADD_TAIL:
+        rigs_add_tail(in->core, in->world);
+        break;
+    case ADD_FILE:
+        in->core->ask = (struct ask){.kind = ASK_ADD};
+        break;
+    case ADD_COPY:
+        rigs_copy(in->core, in->world, choice.rig);
+        break;
+    case ADD_CHAIN:
+        bones_make_chain(in->core, in->world, false);
+        break;
+    case ADD_MEADOW:
+        rigs_add_meadow(in->core, in->world);
+        break;
+    case ADD_SPLINE:
+        spline_list_add(in->core, in->world);
+        break;
+    }
+    if (in->document->rig_count > before) inspector_choose_rig(in, before);
+}
+
+void inspector_add_list(struct inspection *in)
+{
+    struct menu menu = {.count = 0};
+    if (!ui_popup_is_open(in->ui, add_list)) return;
+    fill(in, &menu);
+    const int picked = ui_popup_list(in->ui, add_list, menu.items, menu.count, -1);
+    if (picked >= 0) carry_out(in, menu.choices[picked]);
+}
+
+void inspector_open_add(struct inspector *inspector, struct rect at)
+{
+    at.w = WIDTH;
+    ui_popup_open(&inspector->ui, add_list, 0, at);
+}
+
+void inspector_add_menu(struct inspector *inspector, const struct core *core)
+{
+    const struct layout *layout = &core->layout;
+    const float x = core->pointer_x, y = core->pointer_y;
+    const bool beside = rect_contains(layout->stage, x, y) || rect_contains(layout->curves, x, y);
+    const struct rect panel = layout->inspector;
+    inspector_open_add(inspector,
+                       beside ? (struct rect){x, y, 0, 0} : (struct rect){panel.x + UI_PAD, panel.y, 0, 4});
+    if (beside) inspector->ui.popup.room = (struct rect){0, 0, panel.x, layout->status.y};
+    inspector->ui.focus = ui_id("item.tail");
+}

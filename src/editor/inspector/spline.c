@@ -1,0 +1,383 @@
+/// The active spline's parameters: a row for each, what those follow (another spline, or a joint), and the sections that list them.
+#include "editor/core/bones.h"
+#include "editor/core/core.h"
+#include "editor/core/knots.h"
+#include "editor/core/spline_list.h"
+#include "editor/inspector/inspection.h"
+#include "scene/order.h"
+#include <math.h>
+#include <stdio.h>
+
+static void now(const struct inspection *in, int parameter, struct setting *setting)
+{
+    const struct spline *spline = core_active_spline(in->core, in->world);
+    const double value = spline->parameter[parameter].value;
+    setting->edit = core_parameter_edit(in->core->active, (enum parameter)parameter, value);
+}
+
+static void build_slider(struct inspection *in, enum parameter parameter, struct rect r)
+{
+    const struct spline *spline = core_active_spline(in->core, in->world);
+    const struct parameter_row *row = &parameter_rows[parameter];
+    const struct number_row number = {.name = row->name,
+                                      .label = row->name,
+                                      .unit = row->unit,
+                                      .hint = row->hint,
+                                      .undo = row->undo,
+                                      .at = offsetof(struct setting, edit.param.value),
+                                      .maximum = core_slider_end(in->document, spline, parameter),
+                                      .lowest = row->minimum,
+                                      .highest = parameter_maximum(parameter, spline_mode(spline)),
+                                      .fallback = row->fresh,
+                                      .step = row->step,
+                                      .decimals = row->decimals};
+    inspector_number(in, &number, now, (int)parameter, r);
+}
+
+static void build_number(struct inspection *in, enum parameter parameter)
+{
+    const struct spline *spline = core_active_spline(in->core, in->world);
+    struct rect r = ui_row(in->ui, UI_ROW);
+    bool may_follow = parameter_rows[parameter].kind == PARAMETER_TRACK;
+    if (may_follow) r.w -= UI_ROW + 2;
+    if (!param_follows(&spline->parameter[parameter])) {
+        build_slider(in, parameter, r);
+    } else {
+        inspector_track(in, parameter, parameter_rows[parameter].name, r);
+    }
+    struct rect button = {r.x + r.w + 2, r.y, UI_ROW, UI_ROW};
+    if (may_follow) inspector_track_button(in, parameter, button);
+    if (spline->parameter[parameter].motion) inspector_joint(in);
+}
+
+static void build_choice(struct inspection *in, enum parameter parameter)
+{
+    const struct spline *spline = core_active_spline(in->core, in->world);
+    const struct parameter_row *row = &parameter_rows[parameter];
+    struct ui_choice choices[PARAMETER_MAX_WORDS];
+    int chosen = (int)spline->parameter[parameter].value, count = 0;
+    for (; row->words[count]; count++) choices[count] = (struct ui_choice){row->words[count], row->labels[count]};
+    struct rect r = parameter == PARAMETER_MODE ? ui_row(in->ui, UI_ROW) : inspector_labelled(in, row->name);
+    ui_hint(in->ui, r, row->hint);
+    if (!ui_segments(in->ui, r, row->name, choices, count, &chosen)) return;
+    struct edit edit = core_parameter_edit(in->core->active, parameter, chosen);
+    core_step(in->core, in->world, row->undo, 0, &edit);
+}
+
+void inspector_parameter(struct inspection *in, enum parameter parameter)
+{
+    if (!spline_uses(core_active_spline(in->core, in->world), parameter, false)) return;
+    if (parameter_rows[parameter].kind == PARAMETER_CHOICE) {
+        build_choice(in, parameter);
+    } else {
+        build_number(in, parameter);
+    }
+}
+
+void inspector_spline(struct inspection *in)
+{
+    static const enum parameter shown[] = {PARAMETER_MODE, PARAMETER_EQUILIBRIUM, PARAMETER_START};
+    for (size_t i = 0; i < sizeof shown / sizeof shown[0]; i++) inspector_parameter(in, shown[i]);
+}
+
+static void build_spring_toggle(struct inspection *in, const struct spline *spline)
+{
+    bool on = spline->spring_friction;
+    struct rect r = ui_row(in->ui, UI_ROW);
+    ui_label(in->ui, (struct rect){r.x, r.y, r.w - 40, r.h}, "spring and friction", theme()->text_dim);
+    ui_hint(in->ui, r, "Use spring constant and friction instead of frequency and damping");
+    r = (struct rect){r.x + r.w - 28, r.y, 28, r.h};
+    if (!ui_toggle(in->ui, r, "spring_friction", &on)) return;
+    struct edit edit = core_edit_of(EDIT_SPRING, in->core->active);
+    edit.flag = on;
+    core_step(in->core, in->world, on ? "Use spring and friction" : "Use frequency and damping", 0, &edit);
+}
+
+void inspector_advanced(struct inspection *in)
+{
+    static const enum parameter shown[] = {PARAMETER_BANDWIDTH, PARAMETER_CALM, PARAMETER_PASSIVE};
+    for (size_t i = 0; i < sizeof shown / sizeof shown[0]; i++) inspector_parameter(in, shown[i]);
+    const struct spline *spline = core_active_spline(in->core, in->world);
+    if (spline_mode(spline) == WIGGLY_REAL) build_spring_toggle(in, spline);
+}
+
+/// A number and a switch beside it; off, the name alone.
+static void build_limit(struct inspection *in, const struct spline *spline, enum parameter parameter)
+{
+    const struct parameter_row *row = &parameter_rows[parameter];
+    const struct rect r = ui_row(in->ui, UI_ROW);
+    const struct rect name = {r.x, r.y, r.w - 34, r.h}, at = {r.x + r.w - 28, r.y, 28, r.h};
+    bool on = isfinite(spline->parameter[parameter].value);
+    if (on) {
+        build_slider(in, parameter, name);
+    } else {
+        ui_label(in->ui, name, row->name, theme()->text_dim);
+    }
+    ui_hint(in->ui, r, row->hint);
+    if (!ui_toggle(in->ui, at, parameter == PARAMETER_HIGH ? "limit.high" : "limit.low", &on)) return;
+    struct edit edit =
+        core_parameter_edit(in->core->active, parameter, on ? core_fresh_limit(spline, parameter) : row->standard);
+    core_step(in->core, in->world, row->undo, 0, &edit);
+}
+
+void inspector_limits(struct inspection *in)
+{
+    const struct spline *spline = core_active_spline(in->core, in->world);
+    build_limit(in, spline, PARAMETER_HIGH);
+    build_limit(in, spline, PARAMETER_LOW);
+    inspector_parameter(in, PARAMETER_STEADY);
+}
+
+/// Of a roll where there is no variation yet.
+static const double FRESH_VARIATION = 0.3;
+
+/// Another seed, and an amount where there was none, as one step.
+static void roll(struct inspection *in, const struct spline *spline)
+{
+    const int most = (int)parameter_rows[PARAMETER_SEED].maximum + 1;
+    const long long seed = (long long)spline->parameter[PARAMETER_SEED].value;
+    struct edit edit = core_parameter_edit(in->core->active, PARAMETER_SEED, (double)((seed * 7 + 1) % 1000 % most));
+    history_begin(in->world->history, "Roll variation", 0);
+    core_edit(in->core, in->world, &edit);
+    edit = core_parameter_edit(in->core->active, PARAMETER_VARIATION, FRESH_VARIATION);
+    if (spline->parameter[PARAMETER_VARIATION].value == 0) core_edit(in->core, in->world, &edit);
+    history_end(in->world->history);
+    core_edited(in->core, in->core->active);
+}
+
+/// Why there is no variation to see; NULL: there is.
+static const char *stillness(const struct spline *spline)
+{
+    const struct param *p = spline->parameter;
+    if (p[PARAMETER_PASSIVE].value != WIGGLY_OSCILLATOR) return "The paper's filter has no variations.";
+    for (enum parameter n = PARAMETER_FREQUENCY; n <= PARAMETER_FRICTION; n++) {
+        if (p[n].track >= 0 && spline_uses(spline, n, false))
+            return "Where frequency or damping follow a spline there are no variations.";
+    }
+    const enum parameter pace = spline->spring_friction ? PARAMETER_SPRING : PARAMETER_FREQUENCY;
+    return p[pace].value > 0 ? NULL : "What does not swing has no variations.";
+}
+
+void inspector_variation(struct inspection *in)
+{
+    const struct spline *spline = core_active_spline(in->core, in->world);
+    const char *reason = stillness(spline);
+    build_slider(in, PARAMETER_VARIATION, ui_row(in->ui, UI_ROW));
+    struct rect r = ui_row(in->ui, UI_ROW), button = {r.x + r.w - 64, r.y + 2, 64, r.h - 4};
+    r.w -= 70;
+    build_slider(in, PARAMETER_SEED, r);
+    ui_hint(in->ui, button, "Another motion through the same knots");
+    if (ui_button(in->ui, button, "variation.roll", "Roll", false)) roll(in, spline);
+    if (reason) ui_paragraph(in->ui, reason, theme()->text_dim);
+}
+
+enum { MAX_MODELS = 16, MODEL_TEXT = 112 }; ///< whose joints are offered
+
+static const char track_list[] = "follow";
+
+/// Marks the splines that the active one cannot follow without a cycle; whether any is left.
+static bool find_leaders(const struct inspection *in, bool left_out[INSPECTOR_MAX_SPLINES])
+{
+    int count =
+        in->document->spline_count < INSPECTOR_MAX_SPLINES ? in->document->spline_count : INSPECTOR_MAX_SPLINES;
+    bool any = false;
+    scene_followers(in->document, in->core->active, left_out, count);
+    for (int s = 0; s < count; s++) any |= !left_out[s];
+    return any;
+}
+
+static void set_track(struct inspection *in, enum parameter parameter, struct param param)
+{
+    struct edit edit = core_edit_of(EDIT_PARAMETER, in->core->active);
+    edit.parameter = parameter;
+    edit.param = param;
+    const char *label = param_follows(&param) ? "Follow spline" : "Stop following";
+    core_step(in->core, in->world, label, 0, &edit);
+}
+
+static void open_list(struct inspection *in, enum parameter parameter, struct rect r)
+{
+    bool left_out[INSPECTOR_MAX_SPLINES];
+    const bool joints = parameter == PARAMETER_EQUILIBRIUM && document_find_rig(in->document, RIG_MODEL, 0) >= 0;
+    if (find_leaders(in, left_out) || joints) {
+        ui_popup_open(in->ui, track_list, (int)parameter, r);
+        return;
+    }
+    char text[160];
+    snprintf(text, sizeof text, "There is no other spline for %.80s to follow.",
+             in->document->splines[in->core->active].name);
+    core_message(in->core, true, text);
+}
+
+void inspector_track(struct inspection *in, enum parameter parameter, const char *label, struct rect r)
+{
+    const struct spline *spline = &in->document->splines[in->core->active];
+    const struct param *param = &spline->parameter[parameter];
+    ui_label(in->ui, (struct rect){r.x, r.y, UI_LABEL, r.h}, label, theme()->text_dim);
+    struct rect field = {r.x + UI_LABEL + UI_GAP, r.y, r.w - UI_LABEL - UI_GAP, r.h};
+    if (param->motion) {
+        inspector_joint_field(in, param->motion, field);
+        return;
+    }
+    ui_hint(in->ui, field, "The spline it follows, sample by sample");
+    ui_dropdown(in->ui, field, track_list, (int)parameter, in->document->splines[param->track].name,
+                spline_list_color(in->document, param->track));
+}
+
+void inspector_track_button(struct inspection *in, enum parameter parameter, struct rect r)
+{
+    int active = in->core->active;
+    bool follows = param_follows(&in->document->splines[active].parameter[parameter]);
+    enum ui_icon icon = follows ? UI_ICON_UNFOLLOW : UI_ICON_FOLLOW;
+    const bool joints = parameter == PARAMETER_EQUILIBRIUM && document_find_rig(in->document, RIG_MODEL, 0) >= 0;
+    const char *hint = follows  ? "Stop following; keep the value at the playhead"
+                       : joints ? "Follow another spline, or a joint of the character"
+                                : "Follow another spline";
+    char name[64];
+    snprintf(name, sizeof name, "follow.%s", parameter_rows[parameter].name);
+    if (!ui_icon_button(in->ui, r, name, icon, false, hint)) return;
+    if (follows) {
+        double value = spline_list_present(in->core, in->world, active, parameter);
+        set_track(in, parameter, param_number(value));
+    } else {
+        struct rect row = {in->ui->area.x + UI_PAD + UI_LABEL + UI_GAP, r.y, 0, r.h};
+        row.w = r.x - 2 - row.x;
+        open_list(in, parameter, row);
+    }
+}
+
+/// The character whose joint the equilibrium is to follow: rows below the splines, called after their rigs. Returns how many.
+static int add_models(const struct inspection *in, struct ui_item *items, char texts[][MODEL_TEXT], int *models)
+{
+    int count = 0;
+    for (int r = document_next_rig(in->document, RIG_MODEL, 0); r >= 0 && count < MAX_MODELS;
+         r = document_next_rig(in->document, RIG_MODEL, r + 1)) {
+        if (!bones_character(in->world, r)) continue;
+        snprintf(texts[count], MODEL_TEXT, "A joint of %.80s", rig_title(&in->document->rigs[r]));
+        items[count] = (struct ui_item){texts[count], texts[count], 0};
+        models[count++] = r;
+    }
+    return count;
+}
+
+void inspector_track_list(struct inspection *in)
+{
+    struct ui *ui = in->ui;
+    const struct spline *spline = core_active_spline(in->core, in->world);
+    inspector_joint_list(in);
+    if (!ui_popup_is_open(ui, track_list) || !spline) return;
+    enum parameter parameter = (enum parameter)ui->popup.which;
+    bool left_out[INSPECTOR_MAX_SPLINES];
+    struct ui_item items[INSPECTOR_MAX_SPLINES + MAX_MODELS];
+    char texts[MAX_MODELS][MODEL_TEXT];
+    int splines[INSPECTOR_MAX_SPLINES], models[MAX_MODELS], row;
+    find_leaders(in, left_out);
+    const int count = inspector_spline_items(in, left_out, spline->parameter[parameter].track, items, splines, &row);
+    const int more = parameter == PARAMETER_EQUILIBRIUM ? add_models(in, items + count, texts, models) : 0;
+    const int picked = ui_popup_list(ui, track_list, items, count + more, row);
+    if (picked >= count) {
+        bones_follow(in->core, in->world, in->core->active, models[picked - count], -1);
+    } else if (picked >= 0) {
+        set_track(in, parameter, param_track(splines[picked]));
+    }
+}
+
+enum { ICON = 24, MAX_BONES = 1024 }; ///< in a list
+
+static const char joint_list[] = "joint";
+
+/// What the active spline's equilibrium follows.
+static const struct param *followed(const struct inspection *in)
+{
+    const struct spline *spline = core_active_spline(in->core, in->world);
+    return spline ? &spline->parameter[PARAMETER_EQUILIBRIUM] : NULL;
+}
+
+static struct edit joint_edit(const struct inspection *in, const struct param *param)
+{
+    struct edit edit = core_edit_of(EDIT_PARAMETER, in->core->active);
+    edit.parameter = PARAMETER_EQUILIBRIUM;
+    edit.param = *param;
+    return edit;
+}
+
+void inspector_joint_field(struct inspection *in, const struct joint_motion *motion, struct rect field)
+{
+    struct rect icon = {field.x + field.w - ICON, field.y, ICON, field.h};
+    const int active = in->core->active;
+    const int model = document_find_model(in->document, motion->model, motion->by_file);
+    char title[BONES_TITLE];
+    const char *text = model < 0 ? motion->joint : bones_title(in->document, model, motion->joint, title);
+    field.w -= ICON + 4;
+    ui_hint(in->ui, field, "The joint it follows through the clip");
+    ui_dropdown(in->ui, field, joint_list, 0, text, 0);
+    const bool picking = in->core->pick.use == BONE_FOLLOWED && in->core->pick.which == active;
+    if (ui_icon_button(in->ui, icon, "joint.pick", UI_ICON_PICK, picking, "Pick it on the stage"))
+        bones_pick(in->core, picking ? BONE_SELECTED : BONE_FOLLOWED, active);
+}
+
+static void build_of(struct inspection *in)
+{
+    static const struct ui_choice choices[] = {
+        [MOTION_TURN] = {"turn", "Turn"}, [MOTION_ACROSS] = {"across", "Across"}, [MOTION_UP] = {"up", "Up"}};
+    struct joint_motion motion = *followed(in)->motion;
+    int of = (int)motion.of;
+    struct rect r = inspector_labelled(in, "its");
+    ui_hint(in->ui, r, "Its turn in degrees, or its way across or up in metres");
+    if (!ui_segments(in->ui, r, "joint.of", choices, MOTION_KINDS, &of)) return;
+    struct edit edit = joint_edit(in, followed(in));
+    motion.of = (enum motion_of)of;
+    edit.param.motion = &motion;
+    core_step(in->core, in->world, "Set joint's motion", 0, &edit);
+}
+
+static void joint_now(const struct inspection *in, int which, struct setting *setting)
+{
+    (void)which;
+    setting->edit = joint_edit(in, followed(in));
+}
+
+static const struct number_row gain_row = {"joint.gain",
+                                           "times",
+                                           NULL,
+                                           "How much of the joint's motion it follows",
+                                           "Set joint's gain",
+                                           NUMBER_AT(edit.param.gain),
+                                           0,
+                                           0,
+                                           -1e6,
+                                           1e6,
+                                           1,
+                                           0.01,
+                                           2};
+
+void inspector_joint(struct inspection *in)
+{
+    if (followed(in)->motion) build_of(in);
+    if (followed(in)->motion) inspector_numbers(in, &gain_row, 1, joint_now);
+}
+
+int inspector_bone_list(struct inspection *in, const char *list, int model, int top, const char *chosen)
+{
+    const struct imported *character = bones_character(in->world, model);
+    int nodes[MAX_BONES], row = -1;
+    struct ui_item items[MAX_BONES];
+    const int count = bones_below(character, top, nodes, MAX_BONES), node = gltf_find_node(&character->gltf, chosen);
+    for (int b = 0; b < count; b++) {
+        const char *name = character->gltf.nodes[nodes[b]].name;
+        if (nodes[b] == node) row = b;
+        items[b] = (struct ui_item){name, name, 0};
+    }
+    const int picked = ui_popup_list(in->ui, list, items, count, row);
+    return picked < 0 ? -1 : nodes[picked];
+}
+
+void inspector_joint_list(struct inspection *in)
+{
+    const struct param *param = followed(in);
+    if (!ui_popup_is_open(in->ui, joint_list) || !param || !param->motion) return;
+    const int model = document_find_model(in->document, param->motion->model, param->motion->by_file);
+    if (model < 0 || !bones_character(in->world, model)) return;
+    const int node = inspector_bone_list(in, joint_list, model, -1, param->motion->joint);
+    if (node >= 0) bones_follow(in->core, in->world, in->core->active, model, node);
+}

@@ -1,0 +1,222 @@
+/// The inspector's list of splines: which is active, what it is called, its colour, whether the curves show it, its place.
+#include "editor/core/core.h"
+#include "editor/core/selection.h"
+#include "editor/core/spline_list.h"
+#include "editor/inspector/inspection.h"
+#include "editor/inspector/inspector.h"
+#include "scene/color.h"
+#include <math.h>
+#include <stdio.h>
+
+enum { MAX_ROWS = 8, ICON = 24, SWATCH = 22 }; ///< splines listed at once; widths in pixels
+
+static const char rename_line[] = "rename";
+
+void inspector_rename(struct inspector *inspector, const struct core *core, const struct editor_world *world)
+{
+    const struct spline *spline = core_active_spline(core, world);
+    if (!spline) return;
+    inspector_unfold(inspector, "section.splines");
+    inspector->scroll.offset = 0; // the list is near the top
+    ui_line_begin(&inspector->ui, rename_line, spline->name);
+}
+
+static void flip(struct core *core, struct selection *set, unsigned id)
+{
+    selection_set(set, id, !selection_has(set, id));
+    core->visibility++;
+}
+
+/// Solo and eye at the right end of a row.
+static void build_visibility(struct inspection *in, int s, struct rect r)
+{
+    struct core *core = in->core;
+    const struct spline *spline = &in->document->splines[s];
+    char name[192];
+    bool solo = selection_has(&core->solo, spline->id), shown = spline_list_shows(core, in->document, s);
+    struct rect icon = {r.x + r.w - 2 * ICON, r.y, ICON, r.h};
+    snprintf(name, sizeof name, "solo.%s", spline->name);
+    if (ui_icon_button(in->ui, icon, name, UI_ICON_SOLO, solo, "Show only this curve")) {
+        flip(core, &core->solo, spline->id);
+    }
+    icon.x += ICON;
+    snprintf(name, sizeof name, "eye.%s", spline->name);
+    enum ui_icon eye = shown ? UI_ICON_EYE : UI_ICON_EYE_CLOSED;
+    if (ui_icon_button(in->ui, icon, name, eye, false, "Show or hide this curve")) {
+        flip(core, &core->hidden, spline->id);
+    }
+}
+
+/// The name in place, while it is typed.
+static void build_rename(struct inspection *in, int s, struct rect r)
+{
+    if (ui_line(in->ui, r, rename_line) != UI_LINE_DONE) return;
+    struct edit edit = core_edit_of(EDIT_SPLINE_NAME, s);
+    edit.text = in->ui->text.bytes;
+    core_step(in->core, in->world, "Rename spline", 0, &edit);
+}
+
+/// The place where a dragged row would go, told from the pointer.
+static int drop_place(const struct inspection *in, int first, int rows, float top)
+{
+    int row = (int)floorf((in->ui->pointer_y - top) / UI_ROW);
+    return first + (row < 0 ? 0 : row >= rows ? rows - 1 : row);
+}
+
+/// A row; returns whether it was dropped after a drag.
+static bool build_row(struct inspection *in, int s, struct rect r)
+{
+    struct ui *ui = in->ui;
+    const struct spline *spline = &in->document->splines[s];
+    bool active = s == in->core->active, dropped = false;
+    char name[192];
+    snprintf(name, sizeof name, "spline.%s", spline->name);
+    struct rect label = {r.x + SWATCH, r.y, r.w - SWATCH - 2 * ICON, r.h};
+    if (active && ui_line_is_open(ui, rename_line)) {
+        build_rename(in, s, label);
+    } else {
+        ui_hint(ui, label, "Click to edit (PgUp, PgDn), F2 to rename, drag to reorder");
+        enum ui_row_event event = ui_sort_row(ui, r, label, name, spline->name, active);
+        if (event == UI_ROW_PRESSED) core_activate(in->core, in->world, s);
+        if (event == UI_ROW_TWICE) {
+            core_activate(in->core, in->world, s);
+            inspector_rename(in->inspector, in->core, in->world);
+        }
+        dropped = event == UI_ROW_DROPPED;
+    }
+    struct rect swatch = {r.x, r.y, SWATCH, r.h};
+    snprintf(name, sizeof name, "color.%s", spline->name);
+    ui_hint(ui, swatch, "Colour of this spline");
+    ui_swatch(ui, swatch, name, "palette", (int)spline->id, spline_list_color(in->document, s));
+    build_visibility(in, s, r);
+    return dropped;
+}
+
+static void build_buttons(struct inspection *in)
+{
+    static const struct {
+        const char *name, *hint;
+        enum ui_icon icon;
+    } buttons[] = {
+        {"spline.add", "Add a spline with a knot at the playhead", UI_ICON_ADD},
+        {"spline.copy", "Duplicate this spline", UI_ICON_COPY},
+        {"spline.delete", "Delete this spline", UI_ICON_DELETE},
+        {"spline.up", "Move this spline up", UI_ICON_UP},
+        {"spline.down", "Move this spline down", UI_ICON_DOWN},
+    };
+    struct rect r = ui_row(in->ui, UI_ROW);
+    struct core *core = in->core;
+    int pressed = -1, count = sizeof buttons / sizeof buttons[0];
+    for (int i = 0; i < count; i++) {
+        struct rect icon = {r.x - 2 + (float)(i * (ICON + 6)), r.y, ICON, r.h};
+        if (ui_icon_button(in->ui, icon, buttons[i].name, buttons[i].icon, false, buttons[i].hint)) pressed = i;
+    }
+    if (pressed == 0) spline_list_add(core, in->world);
+    if (pressed == 1) spline_list_copy(core, in->world);
+    if (pressed == 2) spline_list_remove(core, in->world);
+    if (pressed >= 3) spline_list_move(core, in->world, core->active, core->active + (pressed == 3 ? -1 : 1));
+}
+
+/// The line between rows where a dragged one would go.
+static void show_drop(struct inspection *in, int from, int to, float y)
+{
+    struct ui *ui = in->ui;
+    if (ui->pass != UI_PASS_DRAW || to == from) return;
+    drawlist_rect(ui->list, (struct rect){ui->area.x + UI_PAD, y - 1, ui->area.w - 2 * UI_PAD, 2}, theme()->accent);
+}
+
+void inspector_splines(struct inspection *in)
+{
+    struct ui *ui = in->ui;
+    int count = in->document->spline_count, first = 0, from = -1, dropped = -1;
+    if (count == 0) ui_paragraph(ui, "This scene has no splines yet.", theme()->text_dim);
+    if (count > MAX_ROWS) {
+        first = in->core->active - MAX_ROWS / 2;
+        first = first < 0 ? 0 : first > count - MAX_ROWS ? count - MAX_ROWS : first;
+    }
+    int rows = count < MAX_ROWS ? count : MAX_ROWS;
+    float top = ui->y;
+    for (int i = 0; i < rows; i++) {
+        char name[192];
+        snprintf(name, sizeof name, "spline.%s", in->document->splines[first + i].name);
+        if (ui_is_dragged(ui, name)) from = first + i;
+        if (build_row(in, first + i, ui_row(ui, UI_ROW))) dropped = first + i;
+    }
+    int to = drop_place(in, first, rows, top);
+    if (from >= 0) show_drop(in, from, to, top + (float)((to - first + (to > from ? 1 : 0)) * UI_ROW));
+    if (dropped >= 0) spline_list_move(in->core, in->world, dropped, to);
+    if (count > MAX_ROWS) {
+        char text[64];
+        snprintf(text, sizeof text, "%d of %d splines; PgUp and PgDn show more", MAX_ROWS, count);
+        ui_paragraph(ui, text, theme()->text_dim);
+    }
+    build_buttons(in);
+}
+
+enum { COLOR = 28, WIDTH = THEME_SPLINE_COLORS * COLOR + 20 };
+
+static const char palette[] = "palette", hex_line[] = "color.hex";
+
+static void set_color(struct inspection *in, int spline, int color)
+{
+    struct edit edit = core_edit_of(EDIT_SPLINE_COLOR, spline);
+    edit.color = color;
+    core_step(in->core, in->world, "Set colour", 0, &edit);
+}
+
+/// true where one of the theme's was picked.
+static bool build_theme(struct inspection *in, int spline, struct rect r)
+{
+    uint32_t present = spline_list_color(in->document, spline);
+    bool picked = false;
+    for (int i = 0; i < THEME_SPLINE_COLORS; i++) {
+        char name[24];
+        snprintf(name, sizeof name, "color.%d", i);
+        struct rect field = {r.x + (float)(i * COLOR), r.y, COLOR, COLOR};
+        if (!ui_color(in->ui, field, name, theme()->spline[i], theme()->spline[i] == present)) continue;
+        set_color(in, spline, (int)theme_spline_rgb(i));
+        picked = true;
+    }
+    return picked;
+}
+
+/// "#RRGGBB", typed over; nonsense is said and changes nothing.
+static void build_typed(struct inspection *in, int spline, struct rect r)
+{
+    struct ui *ui = in->ui;
+    char text[COLOR_TEXT_SIZE];
+    int color;
+    int stored = in->document->splines[spline].color;
+    color_print(stored < 0 ? (int)theme_spline_rgb(spline % THEME_SPLINE_COLORS) : stored, text);
+    if (!ui_line_is_open(ui, hex_line)) {
+        if (ui_button(ui, r, "color.type", text, false)) ui_line_begin(ui, hex_line, text);
+        return;
+    }
+    if (ui_line(ui, r, hex_line) != UI_LINE_DONE) return;
+    if (color_parse(ui->text.bytes, &color)) {
+        set_color(in, spline, color);
+    } else {
+        snprintf(ui->complaint, sizeof ui->complaint, "colour: expected something like #FFB000, got “%.40s”",
+                 ui->text.bytes);
+    }
+}
+
+void inspector_palette(struct inspection *in)
+{
+    struct ui *ui = in->ui;
+    if (!ui_popup_is_open(ui, palette)) return;
+    int spline = document_find_spline_id(in->document, (unsigned)ui->popup.which);
+    if (spline < 0) return;
+    ui_popup_begin(ui, WIDTH, COLOR + UI_ROW + 8);
+    struct rect r = {ui->scroll_area.x + 6, ui->y + 2, THEME_SPLINE_COLORS * COLOR, COLOR};
+    bool picked = build_theme(in, spline, r);
+    struct rect typed = {r.x, r.y + COLOR + 2, 86, UI_ROW}, none = {r.x + 92, typed.y, r.w - 92, UI_ROW};
+    build_typed(in, spline, typed);
+    if (ui_button(ui, none, "color.none", "Default", false)) {
+        set_color(in, spline, -1);
+        picked = true;
+    }
+    ui_space(ui, COLOR + UI_ROW + 8);
+    ui_popup_end(ui);
+    if (picked) ui_popup_close(ui);
+}

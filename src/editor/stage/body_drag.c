@@ -1,0 +1,425 @@
+/// Dragging the body over the ground: where the pointer takes it, and what the document makes of that.
+#include "editor/core/core.h"
+#include "editor/core/drag.h"
+#include "editor/stage/parts.h"
+#include "model/creature.h"
+#include "model/limbs.h"
+#include "model/vector.h"
+#include "ui/theme.h"
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+enum { AXIS_X, AXIS_Y, AXIS_Z };
+
+static const double LEAST_AXIS = 0.3; ///< pixels of an axis in a pixel across, below which it is as slow as that
+
+/// Along one axis of the ground, so that the body stays under the pointer: the axis' own direction on the screen counts.
+static double along_axis(const struct body_drag *hold, const double axis[2], double dx, double dy)
+{
+    double across = axis[0] * hold->right[0] + axis[1] * hold->right[1];
+    double away = (axis[0] * hold->right[1] - axis[1] * hold->right[0]) * hold->pitch;
+    double square = fmax(across * across + away * away, LEAST_AXIS * LEAST_AXIS);
+    return (dx * across - dy * away) / square / hold->pixels_per_metre;
+}
+
+void body_drag_way(const struct stage *stage, const struct core *core, double offset[3])
+{
+    const struct drag *drag = &core->drag;
+    const struct body_drag *hold = &stage->body_drag;
+    offset[0] = offset[1] = offset[2] = 0;
+    if (!body_is_held(core) || !drag->moved) return;
+    const double x_axis[2] = {1, 0}, z_axis[2] = {0, 1};
+    const double across = drag->moved_x / hold->pixels_per_metre;
+    const double up = -drag->moved_y / hold->pixels_per_metre;
+    const double away = hold->lifts ? 0 : up / hold->pitch;
+    if (hold->axis == AXIS_X) {
+        offset[0] = along_axis(hold, x_axis, drag->moved_x, drag->moved_y);
+    } else if (hold->axis == AXIS_Z) {
+        offset[2] = along_axis(hold, z_axis, drag->moved_x, drag->moved_y);
+    } else if (hold->axis != AXIS_Y) {
+        offset[0] = across * hold->right[0] + away * hold->right[1];
+        offset[2] = across * hold->right[1] - away * hold->right[0];
+    }
+    if (hold->axis == AXIS_Y || (hold->axis < 0 && hold->lifts)) offset[1] = fmax(up / hold->rise, hold->lowest);
+}
+
+void body_drag_advance(struct stage *stage, const struct core *core, const struct editor_world *world)
+{
+    body_drag_way(stage, core, stage->body_drag.offset);
+    place_within(stage, core, world, stage->body_drag.offset);
+}
+
+void body_drag_offset(const struct stage *stage, const struct core *core, int tail, double offset[3])
+{
+    const bool held = body_is_held(core) && stage->body_drag.tail == tail;
+    for (int k = 0; k < 3; k++) offset[k] = held ? stage->body_drag.offset[k] : 0;
+}
+
+static bool lock(struct stage *stage, int key)
+{
+    if (key != 'X' && key != 'Y' && key != 'Z') return false;
+    const int axis = key - 'X';
+    stage->body_drag.axis = stage->body_drag.axis == axis ? -1 : axis;
+    return true;
+}
+
+enum { TRACE_STEPS = 64, RING_POINTS = 64 };
+
+static const float TRACE_NEAR = 0.004f; ///< metres from the skin that count as touching it, bind size
+static const double LEAST_PITCH = 0.35; ///< sine of the camera's elevation below which depth follows the pointer less
+static const double LEAST_RISE = 0.3;   ///< cosine of it below which height does
+static const float ring_middle[2] = {0, -0.25f}; ///< x and z in bind size, metres
+static const float RING_RADIUS = 0.6f;
+
+static const float *base_of(const struct stage *stage, int tail)
+{
+    return stage->view.tails[tail].pose.matrix[0] + 12;
+}
+
+static float scale_of(const struct pose *pose) { return pose_length(pose) / CREATURE_TAIL_LENGTH; }
+
+/// Where the ray from the eye meets the body as it is moved (metres along it, bind size), or a negative number: steps of the distance to
+/// the skin cannot pass through it.
+static float trace(const struct limbs *limbs, const float from[3], const float direction[3])
+{
+    const struct limbs_back back = limbs_back(limbs);
+    float near = 0, far = INFINITY, lo[3], hi[3];
+    limbs_bounds(limbs, lo, hi);
+    for (int k = 0; k < 3; k++) {
+        float a = (lo[k] - from[k]) / direction[k], b = (hi[k] - from[k]) / direction[k];
+        near = fmaxf(near, fminf(a, b));
+        far = fminf(far, fmaxf(a, b));
+    }
+    for (int step = 0; step < TRACE_STEPS && near < far; step++) {
+        const vec3s p = glms_vec3_muladds(vec3_from(direction), near, vec3_from(from));
+        float distance = limbs_distance(&back, p.raw);
+        if (distance < TRACE_NEAR) return near;
+        near += 0.9f * distance;
+    }
+    return -1;
+}
+
+float body_distance(const struct stage *stage, const struct pose *pose, float x, float y)
+{
+    const struct stage_view *view = &stage->view;
+    const float viewport[4] = {view->viewport.x, view->viewport.y, view->viewport.w, view->viewport.h};
+    const float scale = scale_of(pose);
+    float direction[3];
+    camera_ray(view->view, view->projection, viewport, (const float[2]){x, y}, direction);
+    const vec3s from = glms_vec3_divs(glms_vec3_sub(vec3_from(view->eye), vec3_from(pose->matrix[0] + 12)), scale);
+    return scale * trace(&pose->limbs, from.raw, direction);
+}
+
+struct hover body_hover(const struct stage *stage, float x, float y)
+{
+    struct hover hover = {.kind = HOVER_NONE};
+    float nearest = INFINITY;
+    for (int t = 0; t < stage->view.tail_count; t++) {
+        const float distance = body_distance(stage, &stage->view.tails[t].pose, x, y);
+        if (!(distance >= 0 && distance < nearest)) continue;
+        nearest = distance;
+        hover = (struct hover){.kind = HOVER_BODY, .tail = t, .x = x, .y = y};
+    }
+    return hover;
+}
+
+bool body_point(const struct stage *stage, const struct core *core, int tail, int point, float xy[2])
+{
+    static const float places[BODY_POINTS][3] = {
+        {0, 0.18f, -0.45f}, {0, 0.54f, -0.385f}, {0, 0.05f, -0.25f}, {0, 0, -0.5f}}; // chest, head, rump, paws
+    const struct pose *pose = &stage->view.tails[tail].pose;
+    const vec3s base = vec3_from(base_of(stage, tail));
+    float matrix[LIMBS][16];
+    limbs_matrices(&pose->limbs, 1.0f, matrix);
+    const mat4s moved = mat4_from(matrix[point == BODY_HEAD ? LIMB_HEAD : LIMB_BODY]);
+    const vec3s at = glms_mat4_mulv3(moved, vec3_from(places[point]), 1.0f);
+    const vec3s place = glms_vec3_muladds(at, scale_of(pose), base);
+    return stage_project_point(stage, core->layout.stage, place.raw, xy);
+}
+
+/// A stretch of the ring that is as far from the eye all along, near or far half.
+static void show_arc(struct core *core, const float point[RING_POINTS + 1][2], int from, int to, uint32_t color)
+{
+    drawlist_line(&core->list, point[from], to - from + 1, 1.5f, color);
+}
+
+void body_drag_show(struct stage *stage, struct core *core)
+{
+    bool held = body_is_held(core);
+    if (!held && core->hover.kind != HOVER_BODY) return;
+    int tail = held ? stage->body_drag.tail : core->hover.tail;
+    if (tail >= stage->view.tail_count) return;
+    const float scale = scale_of(&stage->view.tails[tail].pose), *base = base_of(stage, tail);
+    const uint32_t color = held ? theme()->accent : theme()->playhead;
+    float point[RING_POINTS + 1][2];
+    for (int i = 0; i <= RING_POINTS; i++) { // from the right side of the picture over the near half
+        float angle = 6.2831853f * (float)i / RING_POINTS - stage->camera.azimuth;
+        const float world[3] = {base[0] + scale * (ring_middle[0] - RING_RADIUS * sinf(-angle)),
+                                stage->view.tails[tail].pose.ground,
+                                base[2] + scale * (ring_middle[1] - RING_RADIUS * cosf(-angle))};
+        if (!stage_project_point(stage, core->layout.stage, world, point[i])) return;
+    }
+    show_arc(core, (const float(*)[2])point, 0, RING_POINTS / 2, color);
+    show_arc(core, (const float(*)[2])point, RING_POINTS / 2, RING_POINTS, theme_fade(color, 0.3f));
+}
+
+/// Inside the open step the document gets the recorded motion or the new place.
+static void release(struct stage *stage, struct core *core, const struct editor_world *world, bool keep)
+{
+    int tail = stage->body_drag.tail;
+    double offset[3];
+    keep = keep && document_tail(world->document, tail); // an edit may have taken the tail out of the hand
+    body_drag_way(stage, core, offset);
+    if (keep && record_has_motion(stage)) {
+        record_keep(stage, core, world);
+        drag_inertia_stop(stage, tail);
+    } else if (keep) {
+        place_body(stage, core, world, offset);
+    } else {
+        drag_inertia_stop(stage, tail);
+    }
+    record_forget(stage);
+}
+
+/// A body that is to be recorded is so from the first movement on.
+static void move(void *room, struct core *core, const struct editor_world *world)
+{
+    struct stage *stage = room;
+    (void)world;
+    if (stage->body_drag.begun) return;
+    stage->body_drag.begun = true;
+    if (core->record_armed) record_begin(stage, core);
+}
+
+static enum drag_answer take_event(void *room, struct core *core, const struct editor_world *world,
+                                   const struct event *event)
+{
+    // Ctrl may still be down, which lifts bodies.
+    const bool key = event->kind == EVENT_KEY && event->action == ACTION_PRESS && !(event->mods & MOD_ALT);
+    if (!key) return DRAG_PASSES;
+    if (event->key != 'R') return lock(room, event->key) ? DRAG_USED : DRAG_PASSES;
+    drag_start_moving(core, world);
+    move(room, core, world);
+    record_begin(room, core);
+    return DRAG_USED;
+}
+
+static void end(void *room, struct core *core, const struct editor_world *world, bool keep)
+{
+    if (core->drag.moved) release(room, core, world, keep);
+    stage_click(room, core, world, keep);
+}
+
+static const struct drag_owner body_owner = {.cursor = CURSOR_MOVE, .move = move, .event = take_event, .end = end};
+
+bool body_is_held(const struct core *core) { return core->drag.owner == &body_owner; }
+
+void body_drag_begin(struct stage *stage, struct core *core, int tail, const struct event *event)
+{
+    struct body_drag *hold = &stage->body_drag;
+    const struct camera *camera = &stage->camera;
+    const struct pose *pose = &stage->view.tails[tail].pose;
+    drag_begin(core, &body_owner, stage, "Move body", event);
+    *hold = (struct body_drag){.tail = tail, .lifts = event->mods & MOD_CTRL, .axis = -1};
+    const float depth = camera_depth(stage->view.view, stage->view.eye, base_of(stage, tail));
+    hold->pixels_per_metre = 0.5 * (double)(core->layout.stage.h * stage->view.projection[5] / fmaxf(depth, 0.1f));
+    double pitch = sin((double)camera->elevation);
+    hold->pitch = copysign(fmax(fabs(pitch), LEAST_PITCH), pitch);
+    hold->rise = fmax(cos((double)camera->elevation), LEAST_RISE);
+    const float sitting = pose->ground + CREATURE_BASE_HEIGHT * scale_of(pose);
+    hold->lowest = fmin(0, (double)(sitting - base_of(stage, tail)[1]));
+    hold->right[0] = -sin((double)camera->azimuth);
+    hold->right[1] = -cos((double)camera->azimuth);
+}
+
+static const double RESOLUTION = 1e-3; ///< metres that the document gets
+
+/// What is said afterwards, and what held a knot.
+struct report {
+    char text[512], why[STOPPED_SIZE];
+    size_t length;
+};
+
+static void say(struct report *report, const char *text)
+{
+    report->length +=
+        (size_t)snprintf(report->text + report->length, sizeof report->text - report->length, "%s", text);
+    if (report->length >= sizeof report->text) report->length = sizeof report->text - 1;
+}
+
+/// A name, after a comma where it is not the first.
+static void say_name(struct report *report, bool is_first, const char *name)
+{
+    if (!is_first) say(report, ", ");
+    say(report, name);
+}
+
+/// The sample of the playhead, or the last one where a spline has knots.
+static int sample_of(const struct core *core, const struct document *document, int spline)
+{
+    const int sample = document_sample(document, round(core_frame(core, document)));
+    const int last = document_last_knot_sample(document, &document->splines[spline]);
+    return sample > last ? last : sample < 0 ? 0 : sample;
+}
+
+/// A knot at the playhead. A coordinate that was a number gets a spline, which begins where the body was. The spline by which the
+/// tail swings with that from now on where it did not, else -1.
+static int key_coordinate(const struct stage *stage, struct core *core, const struct editor_world *world,
+                          int coordinate, double by, char why[STOPPED_SIZE])
+{
+    const struct document *document = world->document;
+    const int tail = stage->body_drag.tail;
+    const bool is_new = document_tail(document, tail)->position[coordinate].track < 0;
+    const int spline = base_spline(stage, core, world, coordinate);
+    if (spline < 0) return -1;
+    const int sample = sample_of(core, document, spline);
+    const double before = base_value(world, tail, coordinate, sample);
+    if (!is_new) {
+        struct edit edit = core_knot_edit(document, spline, sample);
+        edit.knot.value = core_round(before + by, RESOLUTION);
+        core_hold(&document->splines[spline], &edit.knot, why);
+        core_edit(core, world, &edit);
+        core_edited(core, spline);
+        return -1;
+    }
+    if (sample > 1) base_put_knot(core, world, spline, 0, before, true, why);
+    base_put_knot(core, world, spline, sample, before + by, true, why);
+    base_follow(stage, core, world, coordinate, spline);
+    const int swings = base_hang_channels(stage, core, world, coordinate, spline);
+    core_edited(core, spline);
+    return swings;
+}
+
+static void key_body(struct stage *stage, struct core *core, const struct editor_world *world, const double offset[3])
+{
+    struct report report = {.length = 0};
+    char frame[64];
+    bool is_first = true;
+    int swings = -1;
+    base_begin(stage, world);
+    say(&report, "Keyed ");
+    for (int k = 0; k < 3; k++) {
+        if (offset[k] == 0) continue;
+        const int made = key_coordinate(stage, core, world, k, offset[k], report.why);
+        if (made >= 0) swings = made;
+        const int track = document_tail(world->document, stage->body_drag.tail)->position[k].track;
+        if (track < 0) continue;
+        say_name(&report, is_first, world->document->splines[track].name);
+        is_first = false;
+    }
+    snprintf(frame, sizeof frame, " at frame %.0f.", round(core_frame(core, world->document)));
+    say(&report, frame);
+    core_add_stopped(report.why, report.text, sizeof report.text);
+    base_say_channel(world, swings, report.text, sizeof report.text);
+    if (!is_first) core_message(core, false, report.text);
+}
+
+/// How far of a way all knots of a spline can go within its limits, and the knot that stops them, or NULL.
+static double room_for(const struct spline *spline, double by, const struct knot **stops)
+{
+    double room = by;
+    *stops = NULL;
+    for (int i = 0; i < spline->knot_count; i++) {
+        const double value = spline->knots[i].value, within = spline_within(spline, value + by);
+        if (within == value + by || fabs(within - value) >= fabs(room)) continue;
+        room = within - value;
+        *stops = &spline->knots[i];
+    }
+    return room;
+}
+
+void place_within(const struct stage *stage, const struct core *core, const struct editor_world *world,
+                  double offset[3])
+{
+    const struct document *document = world->document;
+    const struct tail *tail = document_tail(document, stage->body_drag.tail);
+    const bool keys = core->auto_key || stage->record.running || record_has_motion(stage);
+    for (int k = 0; tail && k < 3; k++) {
+        const int track = tail->position[k].track;
+        if (offset[k] == 0 || track < 0) continue;
+        const struct spline *spline = &document->splines[track];
+        if (keys) {
+            const double before = base_value(world, stage->body_drag.tail, k, sample_of(core, document, track));
+            offset[k] = spline_within(spline, before + offset[k]) - before;
+        } else {
+            const struct knot *stops;
+            offset[k] = room_for(spline, offset[k], &stops);
+        }
+    }
+}
+
+/// All knots of a spline, so that what follows it moves as it did, elsewhere: all by as much as each can go. How far that was.
+static double shift_spline(struct core *core, const struct editor_world *world, int spline, double way,
+                           char why[STOPPED_SIZE])
+{
+    const int count = world->document->splines[spline].knot_count;
+    const struct knot *stops;
+    const double by = room_for(&world->document->splines[spline], way, &stops);
+    if (stops) {
+        struct knot moved = *stops;
+        moved.value += way;
+        core_hold(&world->document->splines[spline], &moved, why);
+    }
+    if (by == 0) return 0;
+    for (int i = 0; i < count; i++) {
+        struct edit edit = core_edit_of(EDIT_KNOT_SET, spline);
+        edit.knot = world->document->splines[spline].knots[i];
+        edit.knot.value =
+            spline_within(&world->document->splines[spline], core_round(edit.knot.value + by, RESOLUTION));
+        core_edit(core, world, &edit);
+    }
+    core_edited(core, spline);
+    return by;
+}
+
+/// A height that is a number says where the ground is, which stays. How far the coordinate went.
+static double shift_coordinate(struct core *core, const struct editor_world *world, int tail, int coordinate,
+                               double by, char why[STOPPED_SIZE])
+{
+    const struct param *param = &document_tail(world->document, tail)->position[coordinate];
+    if (param->track >= 0) return shift_spline(core, world, param->track, by, why);
+    if (coordinate == 1) return 0;
+    struct edit edit = core_edit_of(EDIT_POSITION, 0);
+    edit.rig = document_find_rig(world->document, RIG_TAIL, tail);
+    edit.coordinate = coordinate;
+    edit.param.value = core_round(param->value + by, RESOLUTION);
+    core_edit(core, world, &edit);
+    return by;
+}
+
+static void shift_body(struct stage *stage, struct core *core, const struct editor_world *world,
+                       const double offset[3])
+{
+    struct report report = {.length = 0};
+    bool is_first = true;
+    say(&report, "Moved for the whole shot: ");
+    for (int k = 0; k < 3; k++) {
+        char part[32];
+        if (offset[k] == 0) continue;
+        const double by = shift_coordinate(core, world, stage->body_drag.tail, k, offset[k], report.why);
+        if (by == 0) continue;
+        snprintf(part, sizeof part, "%s %+.2f m", coordinate_name(k), by);
+        say_name(&report, is_first, part);
+        is_first = false;
+    }
+    if (is_first && report.why[0]) {
+        core_stopped(core, report.why);
+    } else if (is_first) {
+        core_message(core, false, "It sits on the ground again: auto-key (Shift+A) or R keeps a height.");
+    } else {
+        say(&report, report.why[0] ? "." : ". Auto-key (Shift+A) sets knots instead.");
+        core_add_stopped(report.why, report.text, sizeof report.text);
+        core_message(core, false, report.text);
+    }
+}
+
+void place_body(struct stage *stage, struct core *core, const struct editor_world *world, const double offset[3])
+{
+    if (core->auto_key) {
+        key_body(stage, core, world, offset);
+    } else {
+        shift_body(stage, core, world, offset);
+    }
+    drag_inertia_land(stage, stage->body_drag.tail);
+}

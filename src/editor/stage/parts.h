@@ -1,0 +1,278 @@
+/// What the files of the stage give each other. Private to the room, and to tests.
+#ifndef EDITOR_STAGE_PARTS_H
+#define EDITOR_STAGE_PARTS_H
+
+#include "editor/stage/state.h"
+#include "rig/chain_bones.h"
+#include "rig/posing.h"
+#include <math.h>
+
+/// `rig` is the index in the document, `n` that among its kind.
+struct stage_kind {
+    /// Poses it into the editor's stage view, with its shadow.
+    void (*pose)(struct stage *stage, const struct core *core, const struct editor_world *world, int rig, int n);
+    /// Adds its motion over the whole scene to the box lo … hi; false where it is not to be seen.
+    bool (*bounds)(const struct stage *stage, const struct core *core, const struct editor_world *world, int rig,
+                   int n, float lo[3], float hi[3]);
+    /// Of all that are in the view.
+    uint64_t (*hash)(uint64_t hash, const struct stage_view *view);
+};
+
+extern const struct stage_kind stage_tails, stage_characters, stage_models, stage_chains, stage_meadows;
+
+/// What rigs are posed from: the world, in the editor's look.
+struct posing stage_posing(const struct core *core, const struct editor_world *world);
+/// Where a point of the world is on the screen, the stage being drawn in `r`; false where it is behind the eye.
+bool stage_project_point(const struct stage *stage, struct rect r, const float point[3], float xy[2]);
+
+/// A ring where a tail or chain is held, or can be taken hold of.
+void stage_ring(struct core *core, const float xy[2]);
+/// The end of a drag that never moved: a click, on a bone or beside all.
+void stage_click(void *room, struct core *core, const struct editor_world *world, bool keep);
+
+/// Poses one tail with what is moved by hand; `change` may be NULL.
+void stage_pose_tail(const struct stage *stage, const struct core *core, const struct editor_world *world, int tail,
+                     double position, const struct what_if *change, struct rig_pose *pose);
+
+/// Notes what hangs on the held body, before anything is edited.
+void base_begin(struct stage *stage, const struct editor_world *world);
+/// Where a coordinate is at a sample, metres, as a spline would have it.
+double base_value(const struct editor_world *world, int tail, int coordinate, int sample);
+/// The spline that a coordinate follows, a new cubic where it is a number yet; -1 on failure.
+int base_spline(const struct stage *stage, struct core *core, const struct editor_world *world, int coordinate);
+/// Sets or inserts a knot, within the limits of its spline (see core_hold()); a level one stands still there.
+void base_put_knot(struct core *core, const struct editor_world *world, int spline, int sample, double value,
+                   bool level, char why[STOPPED_SIZE]);
+/// The coordinate follows the spline from now on.
+void base_follow(const struct stage *stage, struct core *core, const struct editor_world *world, int coordinate,
+                 int base);
+/// Lets the channels that swung with a coordinate follow its spline. A tail that has none that would gets one: its spline, else -1.
+int base_hang_channels(const struct stage *stage, struct core *core, const struct editor_world *world, int coordinate,
+                       int base);
+/// Adds a sentence on that spline to what is said; nothing for -1.
+void base_say_channel(const struct editor_world *world, int spline, char *text, size_t size);
+
+/// Adds one that is shown.
+void strand_add(struct stage *stage, int rig, const struct rig_pose *pose);
+/// The one of a rig as it was last shown, or NULL.
+const struct strand *strand_of(const struct stage *stage, int rig);
+/// Poses one with what is moved by hand; `change` may be NULL. false if its model is missing.
+bool strand_pose(const struct stage *stage, const struct core *core, const struct editor_world *world, int rig,
+                 double position, const struct what_if *change, struct strand *strand);
+/// Where a point of it is on the screen: `fraction` 0 … 1 of the way from joint to joint + 1. false where it is behind the eye.
+bool strand_project(const struct stage *stage, const struct core *core, const struct strand *strand, int joint,
+                    double fraction, float xy[2]);
+/// Pixels from its centre line within which a tail is taken.
+#define STRAND_REACH 16.0f
+/// Sets `hover` (HOVER_JOINT) and `nearest` (pixels) if a point of it is nearer to p than that.
+void strand_nearer(const struct stage *stage, const struct core *core, const struct strand *strand, const float p[2],
+                   float *nearest, struct hover *hover);
+/// The nearest point of a tail (HOVER_JOINT), or HOVER_NONE. Chains are pointed at by their bones (bone_hover()).
+struct hover strand_hover(const struct stage *stage, const struct core *core, float x, float y);
+/// The end of the joint of a tail or chain that is nearest to a point between two (HOVER_POINT); HOVER_NONE where it is behind the eye.
+struct hover strand_end(const struct stage *stage, const struct core *core, const struct hover *between);
+
+/// Whether the document has it and, of a character, its model.
+bool point_exists(const struct editor_world *world, struct rig_point point);
+/// Where the document has it at a position in samples, world; false where its model is missing.
+bool point_place(const struct core *core, const struct editor_world *world, struct rig_point point, double position,
+                 float place[3]);
+
+/// Adds the bones of a character that is shown.
+void bones_add(struct stage *stage, int model, const struct rig_pose *pose);
+/// Marks those of a chain of a model rig.
+void bones_mark(struct stage *stage, const struct core *core, const struct document *document, int rig, int model,
+                const struct chain_bones *bones);
+
+/// The bone that is meant by a point of the stage: HOVER_JOINT of its chain, else HOVER_BONE, or HOVER_NONE.
+struct hover bone_hover(const struct stage *stage, const struct core *core, float x, float y);
+/// Whether a rig is still an imported character.
+bool bone_exists(const struct document *document, int model);
+/// A click where the pointer went down: selects the bone there, or none.
+void bone_click(const struct stage *stage, struct core *core, const struct editor_world *world);
+
+/// Draws them: all of the character under the pointer, those behind the selected bone.
+void bones_show(const struct stage *stage, struct core *core, const struct editor_world *world);
+
+/// A floor as it is seen: corners in turn, on the screen.
+struct shown_floor {
+    float xy[4][2];
+    int first; ///< the corner that is nearest to the eye
+};
+
+/// The floor of a character that is shown, and where it is on the screen; NULL where it has none, or it is not in sight.
+const struct character_rig *floors_find(const struct stage *stage, const struct core *core,
+                                        const struct document *document, const struct stage_character *shown,
+                                        struct shown_floor *floor);
+
+/// The edge of a floor under a point of the stage (HOVER_FLOOR), or HOVER_NONE.
+struct hover floors_hover(const struct stage *stage, const struct core *core, const struct document *document,
+                          float x, float y);
+/// Whether a rig of the document has a floor.
+bool floors_exist(const struct document *document, int rig);
+
+/// Starts to drag a floor; edits nothing until the pointer moves.
+void floors_begin(struct stage *stage, struct core *core, const struct editor_world *world, const struct hover *hover,
+                  const struct event *event);
+/// Draws all floors: brighter where a character stands on one, in the colour of warnings where it is below.
+void floors_show(const struct stage *stage, struct core *core, const struct editor_world *world);
+
+/// What of pins is under a point of the stage: a marker (HOVER_PIN), else, where nothing else was `found` there, a point of a surface
+/// that can be pinned (HOVER_POINT). HOVER_NONE: nothing.
+struct hover pins_hover(struct stage *stage, const struct core *core, const struct document *document,
+                        const struct hover *found, float x, float y);
+/// The picture's directions in the world, and its scale at a place.
+void pins_take_plane(const struct stage *stage, const struct core *core, const double place[3],
+                     struct pin_drag *drag);
+/// Whether what was found is still in the document.
+bool pins_hover_exists(const struct editor_world *world, const struct hover *hover);
+
+/// Starts to drag what is under the pointer, a point or a marker; edits nothing until it moves.
+void pins_begin(struct stage *stage, struct core *core, const struct editor_world *world, const struct hover *hover,
+                const struct event *event);
+/// Draws the line along which a locked drag goes.
+void pins_show_axis(void *room, struct core *core, const struct editor_world *world);
+
+/// Draws all markers, what is lit up, and the path of the point that is held or selected.
+void pins_show(struct stage *stage, struct core *core, const struct editor_world *world);
+
+/// Frees its memory.
+void brush_free(struct painting *painting);
+/// What a stroke that begins with these modifiers does: Shift smooths, Ctrl reverses.
+enum brush_mode brush_stroke(const struct brush *brush, unsigned mods);
+/// The name of a stroke.
+const char *brush_label(enum brush_mode stroke);
+/// Handles a press on the stage; true if it began a stroke.
+bool brush_press(struct stage *stage, struct core *core, const struct editor_world *world, const struct event *event);
+/// Whether a stroke is running.
+bool brush_paints(const struct core *core);
+/// Ctrl+wheel changes the radius, Shift+wheel the strength; true if it was one of these.
+bool brush_wheel(struct core *core, const struct event *event);
+/// Finds what is under the pointer once the stage is posed, and what the brush reaches from there.
+void brush_pose(struct stage *stage, struct core *core, const struct editor_world *world, bool covered);
+
+/// A dab for what work.reach holds: `flow` is the strength times the time. Its arrays are the brush's own.
+struct dab brush_dab(struct painting *painting, const struct paint *paint, const struct figure *figure,
+                     int coordinate, float radius, double flow);
+
+/// Draws the ring on the surface; above the legend, what the brush does and what is painted at the pointer.
+void brush_show(struct stage *stage, struct core *core, const struct editor_world *world);
+
+/// The body under a point of the stage (HOVER_BODY), the nearest to the eye, or HOVER_NONE.
+struct hover body_hover(const struct stage *stage, float x, float y);
+/// How far from the eye a point of the stage meets the body of a posed tail, metres, or a negative number.
+float body_distance(const struct stage *stage, const struct pose *pose, float x, float y);
+/// What was under a point within the last third of a second of a scene that plays: who presses there aimed at that.
+struct hover body_moment_ago(const struct stage *stage, const struct core *core, const struct editor_world *world,
+                             float x, float y);
+/// Points of a body that are likely to be in sight, the likeliest first, on the screen; false where one is behind the eye.
+enum { BODY_HEAD = 1, BODY_POINTS = 4 };
+bool body_point(const struct stage *stage, const struct core *core, int tail, int point, float xy[2]);
+/// Starts to drag a body, over the ground or, with Ctrl, up and across. X, Y and Z lock an axis, R records.
+void body_drag_begin(struct stage *stage, struct core *core, int tail, const struct event *event);
+/// Whether a body is dragged.
+bool body_is_held(const struct core *core);
+/// Keeps the way of the held body, metres, where the limits of the splines that it follows will keep what place_body() or a recording
+/// makes of it.
+void place_within(const struct stage *stage, const struct core *core, const struct editor_world *world,
+                  double offset[3]);
+/// The new place, metres from the old one: knots at the playhead with auto-key, else all of the shot moves. Says which.
+void place_body(struct stage *stage, struct core *core, const struct editor_world *world, const double offset[3]);
+/// A ring on the ground round the body that is held or can be.
+void body_drag_show(struct stage *stage, struct core *core);
+
+/// How far the pointer has taken the held body, metres, whatever holds it; 0 where none is held.
+void body_drag_way(const struct stage *stage, const struct core *core, double offset[3]);
+/// The held body goes as far as the pointer and limits have it: before what else advances.
+void body_drag_advance(struct stage *stage, const struct core *core, const struct editor_world *world);
+/// How far the running drag has moved a tail's base from where the document has it, metres; 0 for all others.
+void body_drag_offset(const struct stage *stage, const struct core *core, int tail, double offset[3]);
+
+/// Advances by `dt` seconds: the bases go where body_drag_offset() says, and what hangs on them swings.
+void drag_inertia_advance(struct stage *stage, const struct core *core, const struct editor_world *world, double dt);
+/// The document now holds the offset: the base has not moved by that.
+void drag_inertia_land(struct stage *stage, int tail);
+/// Stops a tail's swing at once.
+void drag_inertia_stop(struct stage *stage, int tail);
+/// What follow-through adds to a channel's value now (y is 0).
+wiggly_value drag_inertia_value(const struct stage *stage, int tail, int channel);
+
+/// Starts to record at the playhead, and plays; the body must be held.
+void record_begin(struct stage *stage, struct core *core);
+/// Records where the body is, up to the playhead; stops at the end of what is played.
+void record_advance(struct stage *stage, const struct core *core, const struct editor_world *world);
+/// The path of the body that is pointed at or held, and the way that is being recorded.
+void record_show(struct stage *stage, struct core *core, const struct editor_world *world);
+/// Whether a motion was recorded.
+bool record_has_motion(const struct stage *stage);
+/// Forgets the motion.
+void record_forget(struct stage *stage);
+/// Indices (from 0) of knots that a cubic through them, level at both ends, needs to stay within `tolerance` of `count` values a
+/// sample; at most `capacity` (at least 2). Returns how many, 0 where memory is short. Allocates.
+int record_simplify(const double *values, int count, double tolerance, wiggly_method method, int *knots,
+                    int capacity);
+
+/// Makes the edits, in the open step: base splines for the coordinates that moved, and channels that follow them. Says how many
+/// knots that took, then forgets the motion.
+void record_keep(struct stage *stage, struct core *core, const struct editor_world *world);
+
+/// Whether a tail or chain is in the document and has the joint.
+bool tail_drag_holds(const struct document *document, int rig, int joint);
+/// Starts to pull a tail or chain; edits nothing until the pointer moves.
+void tail_drag_begin(struct stage *stage, struct core *core, const struct editor_world *world,
+                     const struct hover *hover, const struct event *event);
+
+/// The tail or chain that the active spline moves, else the first; -1 where there is none to be seen.
+int overlay_rig(const struct stage *stage, const struct core *core, const struct document *document);
+/// The character that the active spline moves, else that tail or chain, else the first character; -1: nothing.
+int overlay_pose_rig(const struct stage *stage, const struct core *core, const struct document *document);
+/// Onion skin (O): the outline of the tail or the soft character, or the line of the chain, at the active spline's knots, those
+/// nearest to the playhead.
+void onion_show(struct stage *stage, struct core *core, const struct editor_world *world);
+
+/// Ghost (F4): the same at the knot that is dragged, or was just nudged, where that is not the
+/// pose that is shown.
+void ghost_show(struct stage *stage, struct core *core, const struct editor_world *world);
+
+/// What stands for a rig where nothing is pointed at: the tip of the tail or chain that the active spline moves, else the liveliest
+/// vertex of the selected character. It may not exist (point_exists()).
+struct rig_point overlay_point(struct stage *stage, const struct core *core, const struct editor_world *world);
+/// Motion arc (P): where that point goes within two seconds of the playhead, with a mark at each frame.
+void trail_show(struct stage *stage, struct core *core, const struct editor_world *world);
+/// The same of any point of a rig.
+void path_show(struct stage *stage, struct core *core, const struct editor_world *world, enum trail which,
+               struct rig_point point);
+
+/// How much of the upper edge of a stage the scene's description takes, pixels; 0 without one.
+float caption_height(struct rect place, const struct document *document);
+/// The names of tails at their feet, in the colour of the spline that moves them, where there are several.
+void names_show(const struct stage *stage, struct core *core, const struct document *document);
+
+/// Where the legend is, when it is shown.
+struct rect characters_legend(const struct core *core);
+/// Legend of the phase map, and what the two of a pair are.
+void characters_show(const struct stage *stage, struct core *core, const struct editor_world *world);
+
+/// Draws the rig as it is on a sample; `tip` is where words about it may stand. false where it cannot be seen.
+bool proxy_show(struct stage *stage, struct core *core, const struct posing *posing, int rig, int sample, float width,
+                uint32_t color, float tip[2]);
+
+/// How far along the segment a … b the point nearest to p is, 0 … 1.
+static inline float segment_nearest(const float a[2], const float b[2], const float p[2])
+{
+    const float dx = b[0] - a[0], dy = b[1] - a[1], square = dx * dx + dy * dy;
+    const float along = (p[0] - a[0]) * dx + (p[1] - a[1]) * dy;
+    return square > 0 ? fmaxf(0, fminf(1, along / square)) : 0;
+}
+
+/// Frees its memory.
+void skin_free(struct skin *skin);
+/// Memory for the surface of any character that is shown; allocates only where a larger one has come onto the stage.
+void skin_reserve(struct stage *stage);
+/// Poses the surface of a character (its number among those of the document, its stiff twin left out), unless it is posed so
+/// already. false where it is not shown.
+bool skin_pose(struct stage *stage, int character);
+/// What of the posed surface, which is the figure's, is under a point of the stage; false where that is nothing.
+bool skin_spot(const struct stage *stage, const struct figure *figure, float x, float y, struct surface_spot *spot);
+
+#endif

@@ -1,0 +1,359 @@
+/// The status line: the controls of playback, what was last said, and what the machine does.
+#include "editor/transport/transport.h"
+#include "editor/core/core.h"
+#include "editor/core/drag.h"
+#include "editor/core/playback.h"
+#include "editor/core/rigs.h"
+#include "editor/transport/state.h"
+#include "ui/font.h"
+#include "ui/theme.h"
+#include "ui/widgets.h"
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum {
+    MARGIN = 6,
+    PLAY_WIDTH = 24,
+    LOOP_WIDTH = 42,
+    SPEED_WIDTH = 44,
+    AUTO_KEY_WIDTH = 64,
+    UI_SCALE_WIDTH = 48,
+    PRESENT_WIDTH = 28
+};
+
+struct rect controls_rect(const struct core *core, enum control control)
+{
+    static const float width[TRANSPORT_COUNT] = {PLAY_WIDTH,     LOOP_WIDTH,     SPEED_WIDTH,
+                                                 AUTO_KEY_WIDTH, UI_SCALE_WIDTH, PRESENT_WIDTH};
+    struct rect bar = core->layout.status, r = {bar.x + MARGIN, bar.y + 2, width[0], bar.h - 3};
+    for (int i = 1; i <= (int)control; i++) {
+        r.x += r.w;
+        r.w = width[i];
+    }
+    return r;
+}
+
+static enum control control_at(const struct core *core, float x, float y)
+{
+    int control = 0;
+    while (control < TRANSPORT_COUNT && !rect_contains(controls_rect(core, (enum control)control), x, y)) control++;
+    return (enum control)control;
+}
+
+struct hover transport_hover(const struct core *core, float x, float y)
+{
+    static const enum hover_kind kinds[] = {HOVER_PLAY,     HOVER_LOOP,    HOVER_SPEED, HOVER_AUTO_KEY,
+                                            HOVER_UI_SCALE, HOVER_PRESENT, HOVER_NONE};
+    return (struct hover){.kind = kinds[control_at(core, x, y)]};
+}
+
+bool transport_event(struct core *core, const struct editor_world *world, const struct event *event)
+{
+    enum control control = control_at(core, event->x, event->y);
+    if (event->kind == EVENT_WHEEL) {
+        const bool turns = (control == TRANSPORT_SPEED || control == TRANSPORT_UI_SCALE) && event->dy != 0;
+        if (turns && control == TRANSPORT_UI_SCALE) {
+            core_request_number(core, REQUEST_UI_SCALE, event->dy > 0 ? 1 : -1);
+        } else if (turns)
+            playback_change_speed(core, world, event->dy > 0 ? 1 : -1);
+        return turns;
+    }
+    if (control == TRANSPORT_COUNT || event->button == BUTTON_MIDDLE) return false;
+    bool left = event->button == BUTTON_LEFT;
+    const int step = !left ? 0 : event->mods & MOD_SHIFT ? -1 : 1;
+    if (control == TRANSPORT_PLAY && left) playback_toggle(core, world);
+    if (control == TRANSPORT_LOOP && left) playback_toggle_loop(core, world, 0);
+    if (control == TRANSPORT_AUTO_KEY && left) drag_toggle_auto_key(core, world, 0);
+    if (control == TRANSPORT_SPEED) playback_change_speed(core, world, step);
+    if (control == TRANSPORT_UI_SCALE) core_request_number(core, REQUEST_UI_SCALE, step);
+    if (control == TRANSPORT_PRESENT && left) presenter_toggle(core, world, 0);
+    return true;
+}
+
+/// A triangle while it plays, else two bars.
+static void paint_play_state(struct drawlist *list, float x, float y, bool playing, bool hot)
+{
+    uint32_t color = playing ? theme()->accent : hot ? theme()->text : theme()->text_dim;
+    if (playing) {
+        const float triangle[6] = {x, y - 5, x + 9, y, x, y + 5};
+        drawlist_convex(list, triangle, 3, color);
+    } else {
+        drawlist_rect(list, (struct rect){x, y - 5, 3, 10}, color);
+        drawlist_rect(list, (struct rect){x + 5, y - 5, 3, 10}, color);
+    }
+}
+
+static void paint_word(struct core *core, struct rect r, enum font font, const char *text, bool on, bool hot)
+{
+    float size = font == FONT_NUMBER ? THEME_TEXT_SMALL : THEME_TEXT_NORMAL;
+    uint32_t color = on ? theme()->accent : hot ? theme()->text : theme()->text_dim;
+    float x = roundf(r.x + (r.w - font_width(font, size, text)) / 2);
+    float y = ui_baseline(r, font, size);
+    drawlist_text(&core->list, x, y, font, size, color, text);
+}
+
+/// A screen on its foot.
+static void paint_screen(struct drawlist *list, struct rect r, bool on, bool hot)
+{
+    const uint32_t color = on ? theme()->accent : hot ? theme()->text : theme()->text_dim;
+    const float x = roundf(r.x + (r.w - 14) / 2), y = roundf(r.y + (r.h - 12) / 2);
+    drawlist_rounded_line(list, (struct rect){x, y, 14, 10}, 1.5f, 1.25f, color);
+    drawlist_rect(list, (struct rect){x + 4, y + 11, 6, 1}, color);
+}
+
+float controls_show(struct core *core)
+{
+    const struct playback *playback = &core->playback;
+    enum hover_kind hover = core->hover.kind;
+    struct rect play = controls_rect(core, TRANSPORT_PLAY), loop = controls_rect(core, TRANSPORT_LOOP);
+    struct rect speed = controls_rect(core, TRANSPORT_SPEED);
+    char text[16];
+    snprintf(text, sizeof text, "%g×", playback->speed);
+    paint_play_state(&core->list, play.x + 6, play.y + play.h / 2, playback->playing, hover == HOVER_PLAY);
+    paint_word(core, loop, FONT_LABEL, "Loop", playback->looping, hover == HOVER_LOOP);
+    paint_word(core, speed, FONT_NUMBER, text, playback->speed != 1, hover == HOVER_SPEED);
+    const struct rect auto_key = controls_rect(core, TRANSPORT_AUTO_KEY);
+    paint_word(core, auto_key, FONT_LABEL, "Auto-key", core->auto_key, hover == HOVER_AUTO_KEY);
+    const struct rect scale = controls_rect(core, TRANSPORT_UI_SCALE),
+                      present = controls_rect(core, TRANSPORT_PRESENT);
+    snprintf(text, sizeof text, "%.0f %%", 100 * core->ui_scale);
+    paint_word(core, scale, FONT_NUMBER, text, core->ui_scale != 1, hover == HOVER_UI_SCALE);
+    paint_screen(&core->list, present, core->presenter.on, hover == HOVER_PRESENT);
+    return present.x + present.w;
+}
+
+static const double REFRESH = 0.5; ///< seconds between changes of the figures at the right
+static const double SOLVED = 5;    ///< µs; what took less was only a look for something to solve
+
+void transport_advance(struct transport *transport, const struct core *core, double dt)
+{
+    struct status *status = &transport->status;
+    status->age += dt;
+    if (status->fps > 0 && status->age < REFRESH) return;
+    status->age = 0;
+    status->fps = transport->fps;
+    status->solve_us = transport->solve_us;
+    status->dropped = core->playback.dropped;
+}
+
+/// What to try where nothing is pointed at; knots are not spoken of where there are none.
+static const char *lead_hint(const struct document *document)
+{
+    static const char *const hints[LEADS][2] = {
+        [LEAD_TAIL] = {"Drag the fox or its tail. Space plays, F1 shows all keys",
+                       "Drag the fox, its tail or a knot. Space plays, F1 shows all keys"},
+        [LEAD_CHARACTER] = {"Drag the character to pin a point of it. Space plays, F1 shows all keys",
+                            "Drag the character to pin a point of it, or a knot. Space plays, F1 shows all keys"},
+        [LEAD_CHAIN] = {"Drag a chain, or click a bone to make another chain. F1 shows all keys",
+                        "Drag a chain or a knot, or click a bone to make another chain. F1 shows all keys"},
+        [LEAD_MODEL] = {"Point at a bone and click it to make a chain. F1 shows all keys",
+                        "Point at a bone and click it to make a chain. F1 shows all keys"},
+        [LEAD_NOTHING] = {"Double-click to set a knot. Space plays, F1 shows all keys",
+                          "Drag a knot. Space plays, F1 shows all keys"},
+    };
+    const enum lead lead = rigs_lead(document);
+    if (lead == LEAD_NOTHING && document->spline_count == 0)
+        return "A adds a tail, Ctrl+O opens a scene. F1 shows all keys";
+    return hints[lead][rigs_have_knots(document)];
+}
+
+static const char *hover_hint(const struct core *core, const struct document *document)
+{
+    static const char *const picks[] = {
+        [BONE_FOLLOWED] = "Click the bone that the equilibrium is to follow; Esc: none",
+        [BONE_FIRST] = "Click the bone that the chain is to begin with; Esc: none",
+        [BONE_LAST] = "Click the bone that the chain is to end with; Esc: none",
+    };
+    if (core->pick.use != BONE_SELECTED) return picks[core->pick.use];
+    switch (core->hover.kind) {
+    case HOVER_KNOT:
+        return "Drag it (X, Y: one axis, R: later ones too, Shift: fine, Ctrl: off frames)";
+    case HOVER_SLOPE:
+        return "Drag to turn the slope, pull to make it firmer; T removes it";
+    case HOVER_CURVE:
+        return core->hover.spline == core->active
+                   ? "Double-click to insert a knot without changing the curve; drag to select with a box"
+                   : "Click to edit this spline";
+    case HOVER_RULER:
+        return "Drag to scrub; Shift+drag to play part of the range, Shift+click to play it all";
+    case HOVER_WARNING:
+        return "Click to fix; Ctrl+Z undoes it";
+    case HOVER_SHEET:
+        return "Click to open or close the dope sheet (F3)";
+    case HOVER_ROW:
+        return "Click to edit this spline; double-click to insert a knot on its curve; drag to select with a box";
+    case HOVER_UNITS:
+        return "Click to switch between frames and seconds (U)";
+    case HOVER_JOINT:
+        return document->rigs[core->hover.rig].kind == RIG_CHAIN
+                   ? "Drag the chain to set the knot at the playhead; Ctrl+drag or H pins a joint; click to select "
+                     "the bone"
+                   : "Drag the tail to set the knot at the playhead; Ctrl+drag or H pins a joint";
+    case HOVER_BONE:
+        return "Click to select this bone";
+    case HOVER_BODY:
+        return "Drag the body and the tail follows through (Ctrl: lift it, X, Y or Z locks an axis, R records)";
+    case HOVER_PLAY:
+        return "Play, pause (Space)";
+    case HOVER_LOOP:
+        return "Loop or stop at the end (Ctrl+L)";
+    case HOVER_SPEED:
+        return "Click: faster; Shift+click: slower; right-click: real time (- and =, or the wheel)";
+    case HOVER_AUTO_KEY:
+        return "Whether dragging the body sets knots at the playhead, or moves the whole shot (Shift+A)";
+    case HOVER_UI_SCALE:
+        return "How large everything is. Click: larger; Shift+click: smaller; right-click: 100 % (Ctrl+Shift+=, -, "
+               "0)";
+    case HOVER_PRESENT:
+        return "Present: large type, keys as they are pressed, panels that slide away (F5); Esc leaves";
+    case HOVER_LIMIT:
+        return "Drag the limit; the curve stays on this side of it";
+    case HOVER_BOX:
+        return "Drag to scale the selected knots about the other side; with Alt about the equilibrium (P while you "
+               "drag)";
+    case HOVER_POINT:
+        return "Drag to pin this point at the playhead (X, Y or Z locks an axis, Shift: fine); H pins it where it is";
+    case HOVER_PIN:
+        if (core_panel_at(core, core->pointer_x, core->pointer_y) == PANEL_CURVES)
+            return "Drag to move the pin in time (Ctrl: off frames); Del removes it; Alt+PgUp, Alt+PgDn: by a frame";
+        return "Drag the pin (X, Y or Z locks an axis, Shift: fine); Del removes it; Alt+arrows nudge it";
+    case HOVER_FLOOR:
+        return "Drag the floor up or down (Shift: fine); the whole character stays above it";
+    case HOVER_NONE:
+        break;
+    }
+    if (core->bone.any)
+        return "J makes a chain from this bone to its tip, Shift+J one that follows through; Esc lets go";
+    return lead_hint(document);
+}
+
+const char *transport_hint(const struct core *core, const struct document *document)
+{
+    switch (core->hover.kind) {
+    case HOVER_PLAY:
+    case HOVER_LOOP:
+    case HOVER_SPEED:
+    case HOVER_UNITS:
+        return hover_hint(core, document);
+    default:
+        return NULL;
+    }
+}
+
+static void paint_text(struct drawlist *list, struct rect r, enum font font, uint32_t color, const char *text)
+{
+    float size = font == FONT_NUMBER ? THEME_TEXT_SMALL : THEME_TEXT_NORMAL;
+    float y = ui_baseline(r, font, size);
+    drawlist_text_fit(list, r.x, y, r.w, font, size, color, text);
+}
+
+/// Frame and time, in a column whose width does not depend on them; returns the column's right end.
+static float show_time(struct core *core, const struct document *document, struct rect bar, float x)
+{
+    char text[64];
+    double frame = core_frame(core, document);
+    snprintf(text, sizeof text, "%5.0f  %6.2f s", round(frame), frame / document->fps);
+    float width = font_width(FONT_NUMBER, THEME_TEXT_SMALL, text);
+    paint_text(&core->list, (struct rect){x, bar.y, width, bar.h}, FONT_NUMBER, theme()->text, text);
+    return x + width;
+}
+
+/// The scene's name, with a dot while it has unsaved changes.
+struct title {
+    char text[256 + 8];
+    float width;
+};
+
+static struct title title_of(const struct core *core, bool saved, struct rect bar)
+{
+    struct title title;
+    snprintf(title.text, sizeof title.text, "%s%s", core->title, saved ? "" : " •");
+    title.width = fminf(font_width(FONT_LABEL, THEME_TEXT_NORMAL, title.text), bar.w / 5);
+    return title;
+}
+
+/// Frames a second only while it plays: at rest frames come as events do, and their number would say nothing.
+static void figures_text(const struct transport *transport, const struct core *core, char *text, size_t size)
+{
+    const struct status *status = &transport->status;
+    char stage[32] = "", fps[64] = "", solve[32] = "";
+    if (core->playback.playing && status->fps > 0) {
+        snprintf(fps, sizeof fps, "%.0f fps  %ld dropped", status->fps, status->dropped);
+    }
+    if (status->solve_us >= SOLVED) {
+        snprintf(solve, sizeof solve, "solve %.0f µs (%s)", status->solve_us, evaluation_solver(core->method));
+    } else if (core->method != WIGGLY_CHAIN) {
+        snprintf(solve, sizeof solve, "%s", evaluation_solver(core->method));
+    }
+    if (transport->stage_scale > 0 && transport->stage_scale < 1) {
+        snprintf(stage, sizeof stage, "stage at %.0f %%", 100 * (double)transport->stage_scale);
+    }
+    snprintf(text, size, "%s%s%s%s%s", stage, stage[0] && (fps[0] || solve[0]) ? "  " : "", fps,
+             fps[0] && solve[0] ? "  " : "", solve);
+}
+
+enum { GAP = 24, STATUS_MARGIN = 12 };
+
+static const char unkept[] = "Autosave fails: save now (Ctrl+S)";
+
+/// The mark at the right end while unsaved work has no recovery file.
+static struct rect unkept_rect(struct rect bar)
+{
+    const float width = font_width(FONT_LABEL, THEME_TEXT_NORMAL, unkept);
+    return (struct rect){bar.x + bar.w - STATUS_MARGIN - width, bar.y + 1, width, bar.h - 1};
+}
+
+/// In a narrow window it covers what is there.
+static void show_unkept(struct core *core, struct rect bar)
+{
+    const struct rect r = unkept_rect(bar);
+    if (!core->unkept) return;
+    drawlist_rect(&core->list, (struct rect){r.x - STATUS_MARGIN, r.y, r.w + 2 * STATUS_MARGIN, r.h}, theme()->panel);
+    paint_text(&core->list, (struct rect){r.x, bar.y, r.w, bar.h}, FONT_LABEL, theme()->error, unkept);
+}
+
+void transport_show(const struct transport *transport, struct core *core, const struct editor_world *world,
+                    const char *hint)
+{
+    struct rect bar = core->layout.status;
+    const struct message *message = &core->message;
+    drawlist_rect(&core->list, bar, theme()->panel);
+    drawlist_rect(&core->list, (struct rect){bar.x, bar.y, bar.w, 1}, theme()->border);
+    float x = show_time(core, world->document, bar, controls_show(core)) + GAP;
+    char figures[160];
+    figures_text(transport, core, figures, sizeof figures);
+    const float end = core->unkept ? unkept_rect(bar).x - GAP : bar.x + bar.w - STATUS_MARGIN;
+    const float width = font_width(FONT_NUMBER, THEME_TEXT_SMALL, figures);
+    // What has happened is said in full: the figures give way to it, and the name of the scene.
+    const float needed = GAP + font_width(FONT_LABEL, THEME_TEXT_NORMAL, message->text);
+    const bool saved = history_is_saved(world->history);
+    const struct title title = title_of(core, saved, bar);
+    const bool tight = message->text[0] && x + title.width + needed > end - width - GAP;
+    const float right = tight ? end : end - width;
+    if (!tight && right > x)
+        paint_text(&core->list, (struct rect){right, bar.y, width, bar.h}, FONT_NUMBER, theme()->text_dim, figures);
+    if (!tight || x + title.width + needed <= end) {
+        paint_text(&core->list, (struct rect){x, bar.y, title.width, bar.h}, FONT_LABEL,
+                   saved ? theme()->text_dim : theme()->text, title.text);
+        x += title.width + GAP;
+    }
+    const char *text = message->text[0] ? message->text : hint ? hint : hover_hint(core, world->document);
+    uint32_t color = !message->text[0] ? theme()->text_dim : message->is_error ? theme()->error : theme()->text;
+    struct rect middle = {x, bar.y, right - (tight ? 0 : GAP) - x, bar.h};
+    if (middle.w > 40) paint_text(&core->list, middle, FONT_LABEL, color, text);
+    show_unkept(core, bar);
+}
+
+struct transport *transport_create(void) { return calloc(1, sizeof(struct transport)); }
+
+void transport_destroy(struct transport *transport) { free(transport); }
+
+void transport_tell(struct transport *transport, double fps, double solve_us)
+{
+    transport->fps = fps;
+    transport->solve_us = solve_us;
+}
+
+void transport_tell_scale(struct transport *transport, float scale) { transport->stage_scale = scale; }
