@@ -84,7 +84,7 @@ PKG_CFLAGS = $(eval PKG_CFLAGS := $(patsubst -I%,-isystem %,$(shell pkg-config -
 PKG_LIBS = $(eval PKG_LIBS := $(shell pkg-config --libs glfw3 epoxy egl jansson))$(PKG_LIBS)
 
 # No fused multiply-add and no -ffast-math anywhere: a scene gives the same bits at every optimisation level, number of threads
-# and width of lanes; only libm's exp, expm1, sin, cos and pow may differ from one machine to the next.
+# and width of vectors; only libm's exp, expm1, sin, cos and pow may differ from one machine to the next.
 comma := ,
 OPTIMISE := $(if $(DEBUG),-O0 -g3,$(if $(SANITIZE),-O1,-O2) -g) $(if $(SANITIZE),-fno-omit-frame-pointer)
 SANITIZERS := $(if $(SANITIZE),-fsanitize=address$(comma)undefined -fno-sanitize-recover=all) \

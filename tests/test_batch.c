@@ -11,7 +11,6 @@ static void *failing_calloc(size_t count, size_t size) { return granted-- == 0 ?
 
 #define calloc failing_calloc
 #include "spline/batch.c"
-#include "spline/group.c"
 #include "spline/solver.c"
 #undef calloc
 
@@ -83,7 +82,7 @@ static void a_batch_is_the_same_to_the_bit(void **state)
     }
 }
 
-/// Splines that are solved side by side: one filter and start, all else different.
+/// Splines of one filter and start, all else different: a solver keeps what it can from one to the next.
 typedef struct company {
     const char *what;
     wiggly_mode mode;
@@ -91,8 +90,8 @@ typedef struct company {
     wiggly_passive passive;
     double frequency, damping, calm; ///< 0: 1.5, 0.1, 1
     bool undamped;
-    int count; ///< not a multiple of the lanes
-    int grid;  ///< knots only on multiples of this; 0: anywhere
+    int count;
+    int grid; ///< knots only on multiples of this; 0: anywhere
     bool pairs_only;
     bool moves; ///< equilibria that move, each another way
 } company;
@@ -100,7 +99,7 @@ typedef struct company {
 static const company companies[] = {
     {.what = "complex", .start = WIGGLY_FREE, .count = 37},
     {.what = "complex from rest", .start = WIGGLY_REST, .frequency = 2.5, .damping = 0.3, .count = 21},
-    {.what = "fewer than lanes", .calm = 0.5, .count = 3},
+    {.what = "few", .calm = 0.5, .count = 3},
     {.what = "real", .mode = WIGGLY_REAL, .count = 37},
     {.what = "real from rest", .mode = WIGGLY_REAL, .start = WIGGLY_REST, .damping = 2, .count = 19},
     {.what = "cubic", .mode = WIGGLY_CUBIC, .count = 37},
@@ -148,7 +147,7 @@ static void assert_same_curve(const wiggly_curve *one, const wiggly_curve *many)
     assert_true(one->error == many->error && one->refinements == many->refinements);
 }
 
-static int check_company(const company *c, int lanes)
+static int check_company(const company *c, int threads)
 {
     static wiggly_knot knots[SAMPLES][KNOTS];
     static double equilibria[SAMPLES][SAMPLES];
@@ -159,7 +158,7 @@ static int check_company(const company *c, int lanes)
     wiggly_solver *solver = NULL;
     uint64_t seed = 5;
     int refined = 0;
-    assert_int_equal(batch_of_lanes(SAMPLES, KNOTS, 1, lanes, &batch), WIGGLY_OK);
+    assert_int_equal(wiggly_batch_create(SAMPLES, KNOTS, threads, &batch), WIGGLY_OK);
     assert_int_equal(wiggly_create(SAMPLES, KNOTS, &solver), WIGGLY_OK);
     for (int i = 0; i < c->count; i++) {
         desc[i] = wiggly_default_desc();
@@ -193,34 +192,16 @@ static int check_company(const company *c, int lanes)
     return refined;
 }
 
-static void lanes_are_the_same_to_the_bit(void **state)
+static void every_kind_is_the_same_to_the_bit(void **state)
 {
     (void)state;
     for (size_t c = 0; c < sizeof companies / sizeof *companies; c++) {
-        for (int lanes = 0; lanes <= chain_lanes(); lanes += 4) {
-            print_message("%s, %d lanes\n", companies[c].what, lanes);
-            int refined = check_company(&companies[c], lanes);
+        for (int threads = 1; threads <= 2; threads++) {
+            print_message("%s, %d threads\n", companies[c].what, threads);
+            int refined = check_company(&companies[c], threads);
             assert_true(companies[c].grid == 0 || refined > 0);
         }
     }
-}
-
-/// Loops and limited splines are left to wiggly_solve(), which poses them: doing it twice doubled a meadow's time.
-static void what_no_group_takes_is_posed_once(void **state)
-{
-    (void)state;
-    wiggly_solver *solver = NULL;
-    wiggly_desc desc = wiggly_default_desc();
-    desc.samples = SAMPLES;
-    assert_int_equal(wiggly_create(SAMPLES, KNOTS, &solver), WIGGLY_OK);
-    for (int limited = 0; limited < 2; limited++) {
-        problem p = {0};
-        desc.start = limited ? WIGGLY_FREE : WIGGLY_LOOP;
-        if (limited) desc.low = -1;
-        assert_false(problem_pose_for_group(solver, &desc, &p));
-        assert_null(p.desc);
-    }
-    wiggly_destroy(solver);
 }
 
 static void empty_and_wrong_calls(void **state)
@@ -316,9 +297,9 @@ static void running_out_of_memory_is_said(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_batch_is_the_same_to_the_bit),    cmocka_unit_test(lanes_are_the_same_to_the_bit),
-        cmocka_unit_test(what_no_group_takes_is_posed_once), cmocka_unit_test(empty_and_wrong_calls),
-        cmocka_unit_test(a_batch_fits_the_callers_memory),   cmocka_unit_test(running_out_of_memory_is_said),
+        cmocka_unit_test(a_batch_is_the_same_to_the_bit), cmocka_unit_test(every_kind_is_the_same_to_the_bit),
+        cmocka_unit_test(empty_and_wrong_calls),          cmocka_unit_test(a_batch_fits_the_callers_memory),
+        cmocka_unit_test(running_out_of_memory_is_said),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -193,7 +193,7 @@ static void limits_hold(void **state)
     }
 }
 
-/// In lanes beside others, as by itself.
+/// In a batch, as by itself.
 static void a_batch_has_the_same_bits(void **state)
 {
     (void)state;

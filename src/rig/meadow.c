@@ -1,4 +1,4 @@
-/// Solves a meadow's reeds in the batch's lanes, and plants them.
+/// Solves a meadow's reeds in one batch, and plants them.
 #include "rig/meadow.h"
 #include "base/hash.h"
 #include <math.h>

@@ -1,15 +1,13 @@
 /// Many splines over threads: each thread has a solver of its own and takes the next few splines until none is left. Which thread
-/// solves which spline does not matter to the bits, because neither what a solver keeps nor who is in a group does.
-#include "spline/batch.h"
-#include "spline/group.h"
+/// solves which spline does not matter to the bits, because what a solver keeps does not.
+#include "spline/solver.h"
 #include "spline/thread.h"
 #include <stdatomic.h>
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
-#include <wiggly/wiggly.h>
 
-enum { MAX_THREADS = 256, AT_A_TIME = GROUP_ROOM };
+enum { MAX_THREADS = 256, AT_A_TIME = 16 };
 
 /// One call of wiggly_batch_solve().
 typedef struct job {
@@ -21,7 +19,7 @@ typedef struct job {
 
 typedef struct worker {
     wiggly_batch *batch;
-    group *group;
+    wiggly_solver *solver;
     thread thread;
     wiggly_status worst;
 } worker;
@@ -47,12 +45,10 @@ static void work(worker *w)
     for (;;) {
         int from = atomic_fetch_add(&batch->next, AT_A_TIME), to = from + AT_A_TIME;
         if (from >= now->count) return;
-        for (int i = from; i < to && i < now->count; i++) group_add(w->group, &now->desc[i], &now->curve[i]);
-        wiggly_status statuses[AT_A_TIME];
-        int count = group_finish(w->group, statuses);
-        for (int i = 0; i < count; i++) {
-            if (now->status) now->status[from + i] = statuses[i];
-            if (statuses[i] > w->worst) w->worst = statuses[i];
+        for (int i = from; i < to && i < now->count; i++) {
+            wiggly_status status = wiggly_solve(w->solver, &now->desc[i], &now->curve[i]);
+            if (now->status) now->status[i] = status;
+            if (status > w->worst) w->worst = status;
         }
     }
 }
@@ -76,22 +72,29 @@ static thread_result THREAD_CALL run(void *argument)
     return 0;
 }
 
-static bool add_worker(wiggly_batch *batch, group *own)
+static bool add_worker(wiggly_batch *batch, wiggly_solver *own)
 {
     worker *w = &batch->workers[batch->threads];
     w->batch = batch;
-    w->group = own;
+    w->solver = own;
     if (batch->threads > 0 && !thread_start(&w->thread, run, w)) return false;
     batch->threads++;
     return true;
 }
 
-/// Bytes of everything but the groups.
+/// Bytes of everything but the solvers.
 static size_t head_size(int threads) { return sizeof(wiggly_batch) + sizeof(worker) * (size_t)threads; }
+
+/// Bytes of one solver, the next one being aligned as it is; 0 where that does not fit.
+static size_t each_size(int samples, int knots)
+{
+    size_t each = wiggly_memsize(samples, knots), past = (sizeof(double) - each % sizeof(double)) % sizeof(double);
+    return each && !__builtin_add_overflow(each, past, &each) ? each : 0;
+}
 
 size_t wiggly_batch_memsize(int samples, int knots, int threads)
 {
-    size_t each = group_memsize(samples, knots), size;
+    size_t each = each_size(samples, knots), size;
     if (!each || threads < 1 || threads > MAX_THREADS) return 0;
     bool fits = !__builtin_mul_overflow(each, (size_t)threads, &size) &&
                 !__builtin_add_overflow(size, head_size(threads), &size);
@@ -99,19 +102,18 @@ size_t wiggly_batch_memsize(int samples, int knots, int threads)
 }
 
 /// Lays a batch into zeroes and starts its threads.
-static wiggly_status start(void *memory, int samples, int knots, int threads, int lanes, bool owned,
-                           wiggly_batch **out)
+static wiggly_status start(void *memory, int samples, int knots, int threads, bool owned, wiggly_batch **out)
 {
     wiggly_batch *batch = memory;
-    unsigned char *groups = (unsigned char *)memory + head_size(threads);
-    size_t each = group_memsize(samples, knots);
+    unsigned char *solvers = (unsigned char *)memory + head_size(threads);
+    size_t each = each_size(samples, knots);
     batch->owned = owned;
     thread_lock_create(&batch->lock);
     thread_signal_create(&batch->given);
     thread_signal_create(&batch->done);
     while (batch->threads < threads) {
-        void *room = groups + each * (size_t)batch->threads;
-        if (!add_worker(batch, group_lay_out(room, samples, knots, lanes))) {
+        void *room = solvers + each * (size_t)batch->threads;
+        if (!add_worker(batch, solver_lay_out(room, samples, knots))) {
             wiggly_batch_destroy(batch);
             return WIGGLY_ERROR_MEMORY;
         }
@@ -120,17 +122,12 @@ static wiggly_status start(void *memory, int samples, int knots, int threads, in
     return WIGGLY_OK;
 }
 
-wiggly_status batch_of_lanes(int samples, int knots, int threads, int lanes, wiggly_batch **out)
+wiggly_status wiggly_batch_create(int samples, int knots, int threads, wiggly_batch **out)
 {
     size_t size = wiggly_batch_memsize(samples, knots, threads);
     if (!out || !size) return WIGGLY_ERROR_ARGUMENT;
     void *memory = calloc(1, size);
-    return memory ? start(memory, samples, knots, threads, lanes, true, out) : WIGGLY_ERROR_MEMORY;
-}
-
-wiggly_status wiggly_batch_create(int samples, int knots, int threads, wiggly_batch **out)
-{
-    return batch_of_lanes(samples, knots, threads, chain_lanes(), out);
+    return memory ? start(memory, samples, knots, threads, true, out) : WIGGLY_ERROR_MEMORY;
 }
 
 wiggly_status wiggly_batch_create_at(void *memory, size_t size, int samples, int knots, int threads,
@@ -140,7 +137,7 @@ wiggly_status wiggly_batch_create_at(void *memory, size_t size, int samples, int
     if (!memory || !out || !needed || (uintptr_t)memory % sizeof(double) != 0) return WIGGLY_ERROR_ARGUMENT;
     if (size < needed) return WIGGLY_ERROR_MEMORY;
     memset(memory, 0, needed);
-    return start(memory, samples, knots, threads, chain_lanes(), false, out);
+    return start(memory, samples, knots, threads, false, out);
 }
 
 wiggly_status wiggly_batch_solve(wiggly_batch *batch, const wiggly_desc *desc, wiggly_curve *curve,

@@ -77,7 +77,7 @@ typedef struct chain_row {
 
 enum { CHAIN_RUN = 64 }; ///< samples that are filled from one state, at most
 
-/// Entries over pivots beyond which the error that is left is worth telling, and a chain in company is solved alone.
+/// Entries over pivots beyond which the error that is left is worth telling.
 #define TELLING_LOSS 300
 
 typedef enum chain_rank {
@@ -106,8 +106,7 @@ typedef struct chain {
         [2]; ///< 1 + index of the stretch of each length, 0 where there is none yet; the second are those that settle
     chain_stretch *stretches;
     int stretch_count, stretch_capacity;
-    unsigned forgotten; ///< how often all stretches were forgotten
-    int powers_count;   ///< k for which there are powers
+    int powers_count; ///< k for which there are powers
     chain_node *nodes;
     int node_count;
     chain_row *rows;

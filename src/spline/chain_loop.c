@@ -10,7 +10,7 @@ WIDEST static kernel_rank close_blocks(chain *c)
     const int last = c->node_count - 1;
     chain_row *first = &c->rows[0];
     double f[9], n[9] = {0}, l[9] = {0};
-    kernel_rank all = {1, 1, 1, 1};
+    kernel_rank all = {true, true, 1};
     if (last == 0) { // to itself: A + Aᵀ
         const double *a = first->below;
         const double twice[6] = {2 * a[0], a[1] + a[3], a[2] + a[6], 2 * a[4], a[5] + a[7], 2 * a[8]};
@@ -42,7 +42,7 @@ static kernel_rank close_scalars(chain *c)
     const int last = c->node_count - 1;
     chain_row *first = &c->rows[0];
     double s = 1, n = 0, f = first->below[0], closed = first->diagonal[0] + (last == 0 ? 2 * f : 0), whole = closed;
-    kernel_rank all = {1, 1, 1, 1};
+    kernel_rank all = {true, true, 1};
     for (int k = 1; k <= last; k++) {
         chain_row *row = &c->rows[k];
         if (k == last) f += row->below[0];
@@ -57,8 +57,7 @@ static kernel_rank close_scalars(chain *c)
         f *= -row->below[0];
     }
     first->diagonal[0] = 1 / closed;
-    chain_add_rank(&all,
-                   (kernel_rank){(closed > 0) & (closed < INFINITY), closed >= WEAKEST * whole, 1, whole / closed});
+    chain_add_rank(&all, (kernel_rank){closed > 0 && closed < INFINITY, closed >= WEAKEST * whole, whole / closed});
     return all;
 }
 

@@ -1,5 +1,5 @@
 /// The nodes' block-tridiagonal system of one spline: assembled from stretches, start and slopes, factored, solved (see chain.c for
-/// the mathematics, chain_kernel.h for the rows).
+/// the mathematics, chain_nodes.h for the rows).
 #include "spline/chain_nodes.h"
 #include <float.h>
 
@@ -177,7 +177,7 @@ chain_rank chain_invert(const double *s, double *p) { return chain_rank_of(kerne
 
 static kernel_rank factor_blocks(chain *c)
 {
-    kernel_rank all = {1, 1, 1, 1};
+    kernel_rank all = {true, true, 1};
     double n[9] = {0}, l[9] = {0};
     for (chain_row *row = c->rows; row < c->rows + c->node_count; row++) {
         kernel_rank rank = kernel_pivot(row->diagonal, l, n);
@@ -191,7 +191,7 @@ static kernel_rank factor_blocks(chain *c)
 
 static kernel_rank factor_scalars(chain *c)
 {
-    kernel_rank all = {1, 1, 1, 1};
+    kernel_rank all = {true, true, 1};
     double n = 0, s = 1;
     for (chain_row *row = c->rows; row < c->rows + c->node_count; row++) {
         kernel_rank rank = kernel_pivot_one(&s, row->diagonal[0], n);

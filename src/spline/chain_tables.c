@@ -179,7 +179,6 @@ static void forget_stretches(chain *c)
 {
     for (int s = 0; s < c->stretch_count; s++) c->stretch_of[c->stretches[s].settles][c->stretches[s].length] = 0;
     c->stretch_count = 0;
-    c->forgotten++;
 }
 
 void chain_forget(chain *c)

@@ -270,34 +270,8 @@ void problem_set_chain(wiggly_solver *solver, const problem *p)
     set_speeds(c, p, f);
 }
 
-bool problem_shares_chain(wiggly_solver *solver, const problem *p)
-{
-    problem_filter(solver, p);
-    return same_filter(solver, p) && same_start(start_of(p), solver->chain.start) &&
-           solver->chain.settles == p->settles && !solver->chain.cyclic &&
-           solver->chain.oscillates == problem_oscillates(p);
-}
-
 /// One knot without any hold has no single answer.
 static bool is_held(const chain *c) { return c->cyclic || c->node_count >= 2 || c->start.row[0].weight > 0; }
-
-bool problem_join(wiggly_solver *solver, const problem *p)
-{
-    chain *c = &solver->chain;
-    c->kept = false;
-    problem_make_chain(solver, p);
-    if (!is_held(c)) return false;
-    chain_make_tables(c);
-    chain_reset_nodes(c);
-    return true;
-}
-
-bool problem_ends_in_pair(const wiggly_solver *solver, const problem *p)
-{
-    int paired = 0, n = p->desc->knot_count - 1;
-    for (; n > 0 && has_company(solver, p, n - 1); n--) paired++;
-    return p->settles && paired % 2 == 1;
-}
 
 bool problem_make_chain(wiggly_solver *solver, const problem *p)
 {

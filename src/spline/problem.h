@@ -142,18 +142,6 @@ wiggly_status problem_find(wiggly_solver *solver, problem *p, wiggly_curve *curv
 /// Whether a slope is implied at the earliest knot, because nothing else holds the spline.
 bool problem_implies_slope(const problem *p);
 
-/// Poses a spline that might be solved in a group. false where it is one for wiggly_solve().
-bool problem_pose_for_group(wiggly_solver *solver, const wiggly_desc *desc, problem *p);
-
-/// Whether it settles behind a pair of knots side by side, which is one node: its last row is then another than its company's.
-bool problem_ends_in_pair(const wiggly_solver *solver, const problem *p);
-
-/// Whether the problem that was posed last has the filter and the start of the chain as it is.
-bool problem_shares_chain(wiggly_solver *solver, const problem *p);
-
-/// Puts it into the chain, with its stretches and everything unknown 0. false where nothing holds it.
-bool problem_join(wiggly_solver *solver, const problem *p);
-
 /// Samples of a spline whose nodes are solved, and all else of the curve, as wiggly_solve() would leave it. false where something
 /// is wrong with them, and wiggly_solve() is to find a way.
 bool problem_finish(wiggly_solver *solver, const problem *p, wiggly_curve *curve);

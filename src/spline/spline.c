@@ -246,14 +246,6 @@ wiggly_status wiggly_solve(wiggly_solver *solver, const wiggly_desc *desc, wiggl
     return status;
 }
 
-bool problem_pose_for_group(wiggly_solver *solver, const wiggly_desc *desc, problem *p)
-{
-    if (desc->start == WIGGLY_LOOP || limits_are_set(desc)) return false;
-    return problem_pose(solver, desc, solver->y, p) == WIGGLY_OK && !problem_is_loose(p) && !steady_is_set(p) &&
-           !is_plain(p) && problem_fits_chain(solver, p) && problem_omission(solver, p) == 0 &&
-           !problem_ends_in_pair(solver, p);
-}
-
 bool problem_finish(wiggly_solver *solver, const problem *p, wiggly_curve *curve)
 {
     wiggly_curve all = with_arrays(solver, curve);

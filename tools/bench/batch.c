@@ -1,9 +1,7 @@
 /// The benchmark's batches: 10,000 splines of 240 samples, every knot changed between runs, for total and Im x.
-#include "spline/batch.h"
 #include "base/clock.h"
 #include "base/need.h"
 #include "bench/bench.h"
-#include "spline/chain_lanes.h"
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -62,11 +60,11 @@ static void crowd_destroy(struct crowd *crowd)
 }
 
 /// Times the crowd on several threads.
-static void run_crowd(struct bench *bench, struct crowd *crowd, int threads, int lanes, struct bench_result *result)
+static void run_crowd(struct bench *bench, struct crowd *crowd, int threads, struct bench_result *result)
 {
     wiggly_batch *batch = NULL;
     int runs = 0;
-    wiggly_status worst = batch_of_lanes(SAMPLES, KNOTS, threads, lanes, &batch);
+    wiggly_status worst = wiggly_batch_create(SAMPLES, KNOTS, threads, &batch);
     for (double end = clock_now() + seconds_a_batch; worst == WIGGLY_OK && bench_goes_on(runs, end); runs++) {
         for (int k = 0; k < CROWD * KNOTS; k++) crowd->knots[k].value *= -1;
         double start = clock_now();
@@ -77,21 +75,19 @@ static void run_crowd(struct bench *bench, struct crowd *crowd, int threads, int
     if (worst != WIGGLY_OK) bench_stop("%s: %s", result->name, wiggly_status_text(worst));
     result->splines = CROWD;
     result->threads = threads;
-    result->lanes = lanes > 0 ? lanes : 1;
     bench_sum_up(bench, runs, (double)SAMPLES * CROWD, result);
 }
 
-/// The kinds that go together are timed on one thread and two, in lanes as wide as can be, narrower, and one by one; the others
-/// as they are by default on one thread.
+/// The plain kind is timed on one thread and two, the others on one.
 static const struct {
     enum bench_kind kind;
     const char *name;
-    bool every_way;
+    int most_threads;
 } kinds[] = {
-    {BENCH_SINGLE, "batch/complex/10000x240", true},
-    {BENCH_REST, "batch/rest/10000x240", false},
-    {BENCH_EQUILIBRIUM, "batch/equilibrium/10000x240", false},
-    {BENCH_LOOP, "batch/loop/10000x240", false},
+    {BENCH_SINGLE, "batch/complex/10000x240", 2},
+    {BENCH_REST, "batch/rest/10000x240", 1},
+    {BENCH_EQUILIBRIUM, "batch/equilibrium/10000x240", 1},
+    {BENCH_LOOP, "batch/loop/10000x240", 1},
 };
 
 void bench_batches(struct bench *bench)
@@ -101,12 +97,9 @@ void bench_batches(struct bench *bench)
         struct bench_result result = bench_blank(WIGGLY_COMPLEX, SAMPLES);
         crowd_create(&crowd, kinds[k].kind);
         snprintf(result.name, sizeof result.name, "%s", kinds[k].name);
-        for (int lanes = chain_lanes(); lanes >= 0; lanes -= 4) {
-            for (int threads = 1; threads <= 2; threads++) {
-                if (!kinds[k].every_way && (lanes < chain_lanes() || threads > 1)) continue;
-                run_crowd(bench, &crowd, threads, lanes, &result);
-                bench_report(bench, &result);
-            }
+        for (int threads = 1; threads <= kinds[k].most_threads; threads++) {
+            run_crowd(bench, &crowd, threads, &result);
+            bench_report(bench, &result);
         }
         crowd_destroy(&crowd);
     }

@@ -31,7 +31,6 @@ struct bench_result bench_blank(wiggly_mode mode, int samples)
                                  .samples = samples,
                                  .splines = 1,
                                  .threads = 1,
-                                 .lanes = 1,
                                  .band_ns_per_sample = NAN,
                                  .dpbsv_ns_per_sample = NAN,
                                  .error = NAN,
@@ -70,10 +69,8 @@ static void print_json(FILE *json, const struct bench_result *r)
         {"peak_mb", r->peak_mb},
     };
     char text[32];
-    fprintf(
-        json,
-        "    {\"name\": \"%s\", \"mode\": \"%s\", \"samples\": %d, \"splines\": %d, \"threads\": %d, \"lanes\": %d",
-        r->name, r->mode, r->samples, r->splines, r->threads, r->lanes);
+    fprintf(json, "    {\"name\": \"%s\", \"mode\": \"%s\", \"samples\": %d, \"splines\": %d, \"threads\": %d",
+            r->name, r->mode, r->samples, r->splines, r->threads);
     for (size_t f = 0; f < sizeof figures / sizeof *figures; f++)
         fprintf(json, ", \"%s\": %s", figures[f].name, number(text, "%.4g", figures[f].value, "null"));
     fprintf(json, "}");
@@ -84,13 +81,12 @@ void bench_report(struct bench *bench, const struct bench_result *r)
     char band[32], dpbsv[32], times[32], error[32];
     const bool first = bench->lines++ == 0;
     if (first)
-        printf("%-26s %7s %5s %9s %10s %10s %9s %9s %8s %8s\n", "case", "threads", "lanes", "ns/sample", "p50 us",
-               "p99 us", "band ns", "dpbsv ns", "dpbsv x", "error");
-    printf("%-26s %7d %5d %9.2f %10.2f %10.2f %9s %9s %8s %8s", r->name, r->threads, r->lanes, r->ns_per_sample,
-           r->p50_us, r->p99_us, number(band, "%.4g", r->band_ns_per_sample, "-"),
-           number(dpbsv, "%.4g", r->dpbsv_ns_per_sample, "-"),
-           number(times, "%.4g", r->dpbsv_ns_per_sample / r->ns_per_sample, "-"),
-           number(error, "%.1e", r->error, "-"));
+        printf("%-26s %7s %9s %10s %10s %9s %9s %8s %8s\n", "case", "threads", "ns/sample", "p50 us", "p99 us",
+               "band ns", "dpbsv ns", "dpbsv x", "error");
+    printf(
+        "%-26s %7d %9.2f %10.2f %10.2f %9s %9s %8s %8s", r->name, r->threads, r->ns_per_sample, r->p50_us, r->p99_us,
+        number(band, "%.4g", r->band_ns_per_sample, "-"), number(dpbsv, "%.4g", r->dpbsv_ns_per_sample, "-"),
+        number(times, "%.4g", r->dpbsv_ns_per_sample / r->ns_per_sample, "-"), number(error, "%.1e", r->error, "-"));
     if (!isnan(r->peak_mb)) printf("  in %.0f MB at most", r->peak_mb);
     printf("\n");
     fflush(stdout);

@@ -11,7 +11,7 @@
 struct bench_result {
     char name[40]; ///< "single/complex/1000"
     const char *mode;
-    int samples, splines, threads, lanes;
+    int samples, splines, threads;
     double ns_per_sample;       ///< fastest run of the whole solve: poles, assembly, factor, refinement
     double p50_us, p99_us;      ///< of one solve
     double band_ns_per_sample;  ///< the band of all samples, block by block: assembly, factor and one solve
