@@ -36,7 +36,6 @@ static wiggly_desc describe(wiggly_mode mode, wiggly_start start, bool pair)
                          .calm = 0.5,
                          .low = -20,
                          .high = 20,
-                         .steady = 0.6,
                          .knots = knots,
                          .knot_count = KNOTS};
 }

@@ -197,13 +197,13 @@ static void pins_come_first_and_the_floor_sinks_to_them(void **state)
     }
 }
 
-/// A variation is of the motion that pins and the floor then change; steady and limits are passed over.
+/// A variation is of the motion that pins and the floor then change; limits are passed over.
 static void all_that_a_spline_may_have_at_once(void **state)
 {
     static const char knots[] = "{ \"frame\": 0, \"value\": 0 }, { \"frame\": 20, \"value\": 5 }",
                       pin[] = ", \"floor\": 0, \"pins\": [ { \"frame\": 60, \"vertex\": 500, \"to\": [0, 1, 0] } ]";
     static const char *const splines[] = {"", ", \"variation\": { \"seed\": 7, \"amount\": 0.3 }",
-                                          ", \"variation\": { \"seed\": 7, \"amount\": 0.3 }, \"steady\": 1, "
+                                          ", \"variation\": { \"seed\": 7, \"amount\": 0.3 }, "
                                           "\"limits\": [-6, 6]"};
     double seen[3][121];
     struct error error = {0};
@@ -229,20 +229,14 @@ static void all_that_a_spline_may_have_at_once(void **state)
 static void splines_without_a_swing_are_refused(void **state)
 {
     static const char *const splines[][2] = {{", \"mode\": \"cubic\"", "which is cubic"},
-                                             {", \"calm\": 0", "whose calm is 0"},
-                                             {", \"steady\": 0.5", NULL}};
+                                             {", \"calm\": 0", "whose calm is 0"}};
     (void)state;
-    for (int n = 0; n < 3; n++) {
+    for (int n = 0; n < 2; n++) {
         struct opened opened;
         struct error error = {0};
-        const bool read = read_scene(&opened, "free", "", splines[n][0], ", \"floor\": 0", &error);
-        assert_int_equal(read, splines[n][1] == NULL);
-        if (read) {
-            opened_free(&opened);
-        } else {
-            assert_non_null(strstr(error.text, "floor: expected splines with a swing of their own, got \"up\", "));
-            assert_non_null(strstr(error.text, splines[n][1]));
-        }
+        assert_false(read_scene(&opened, "free", "", splines[n][0], ", \"floor\": 0", &error));
+        assert_non_null(strstr(error.text, "floor: expected splines with a swing of their own, got \"up\", "));
+        assert_non_null(strstr(error.text, splines[n][1]));
     }
 }
 

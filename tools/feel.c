@@ -1,5 +1,5 @@
 /// What an animator feels, as a table: how far the curve moves when a knot moves by one frame, how far it overshoots, before and after the
-/// last knot, and Figure 4; of the paper's filter, the oscillator, steady splines, limits and the cubic.
+/// last knot, and Figure 4; of the paper's filter, the oscillator, limits and the cubic.
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -7,9 +7,9 @@
 #include <wiggly/wiggly.h>
 
 enum { SAMPLES = 121, MOST_KNOTS = 6, SETTINGS = 10, LAYOUTS = 200, RUNS = SETTINGS * LAYOUTS };
-enum way { FILTER, OSCILLATOR, STEADY, LIMITED, STEADY_LIMITED, CUBIC, WAYS };
+enum way { FILTER, OSCILLATOR, LIMITED, CUBIC, WAYS };
 
-static const char *const names[] = {"filter", "oscillator", "steady", "limits", "steady+limits", "cubic"};
+static const char *const names[] = {"filter", "oscillator", "limits", "cubic"};
 static const double limit = 1.15;
 
 struct layout {
@@ -68,8 +68,7 @@ static void solve_way(wiggly_solver *solver, const struct layout *l, enum way wa
     own.desc.knots = own.knots;
     if (way == FILTER) own.desc.passive = WIGGLY_FILTER;
     if (way == CUBIC) own.desc.mode = WIGGLY_CUBIC;
-    if (way == LIMITED || way == STEADY_LIMITED) own.desc.high = limit * l->largest, own.desc.low = -own.desc.high;
-    if (way == STEADY || way == STEADY_LIMITED) own.desc.steady = 1;
+    if (way == LIMITED) own.desc.high = limit * l->largest, own.desc.low = -own.desc.high;
     wiggly_curve curve = {.total = out->total};
     wiggly_status status = wiggly_solve(solver, &own.desc, &curve);
     if (status >= WIGGLY_ERROR_ARGUMENT) fprintf(stderr, "%s\n", wiggly_status_text(status));

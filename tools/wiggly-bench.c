@@ -39,8 +39,6 @@ static const struct {
     {"short", BENCH_SHORT, COMPLEX | REAL, {240}, false},
     {"limits", BENCH_LIMITS, COMPLEX, {240, 1000}, false},
     {"limits", BENCH_LIMITS, REAL | CUBIC, {240}, false},
-    {"steady", BENCH_STEADY, COMPLEX, {240, 1000}, false},
-    {"steady", BENCH_STEADY, REAL, {240}, false},
     {"variation", BENCH_VARIATION, COMPLEX, {240, 1000}, false},
     {"variation", BENCH_VARIATION, REAL, {240}, false},
 };

@@ -33,7 +33,7 @@ typedef enum wiggly_status {
     WIGGLY_SINGULAR,       ///< singular whatever was tried: knots joined by straight lines
     WIGGLY_ERROR_ARGUMENT, ///< a pointer is missing or a count is out of range
     WIGGLY_ERROR_CAPACITY, ///< more samples or knots than the solver was created for
-    WIGGLY_ERROR_NUMBER, ///< a number is NaN or infinite, a value beyond 1e300, a stiffness not above 0, or calm or steady outside 0 … 1
+    WIGGLY_ERROR_NUMBER, ///< a number is NaN or infinite, a value beyond 1e300, a stiffness not above 0, or calm outside 0 … 1
     WIGGLY_ERROR_KNOT,   ///< two knots on one sample, or a knot outside the domain (a loop's last sample is outside)
     WIGGLY_ERROR_LOOP,   ///< a loop of one sample
     WIGGLY_ERROR_SPRING, ///< spring and friction in complex mode
@@ -96,8 +96,7 @@ typedef struct wiggly_desc {
     wiggly_param equilibrium; ///< y (eq. 25)
     double calm;              ///< 0 … 1; 0 is the paper's formula to the letter
     wiggly_passive passive;   ///< the oscillator, unless it says the filter
-    double low, high; ///< what the total stays within wherever it is solved for; -INFINITY and INFINITY: no limit
-    double steady; ///< 0 … 1: how little the curve changes when a knot moves; 1 gives up to 22 % of the frequency
+    double low, high;   ///< what the total stays within wherever it is solved for; -INFINITY and INFINITY: no limit
     double variation;   ///< how far another motion through the same knots strays (docs/mathematics.md); 0: not at all
     int variation_seed; ///< which one
     const wiggly_knot *knots; ///< any order
@@ -185,7 +184,7 @@ void wiggly_batch_destroy(wiggly_batch *batch);
 typedef struct wiggly_take wiggly_take;
 
 /// Condenses a spline; the description's knots are copied and must be in order. WIGGLY_ERROR_ARGUMENT where it is not of that
-/// kind (tracks, a loop, limits, steady, a variation, so slow a complex spline that Im x is not held by its oscillation, fewer than
+/// kind (tracks, a loop, limits, a variation, so slow a complex spline that Im x is not held by its oscillation, fewer than
 /// two knots), else what wiggly_solve() says of a wrong description.
 wiggly_status wiggly_take_create(const wiggly_desc *desc, wiggly_take **take);
 
@@ -252,7 +251,7 @@ wiggly_status wiggly_group_create(int samples, int knots, int splines, int pins,
 /// Solves all splines so that Σ weights[s] times the energy of spline s is least, through their knots and the pins; allocates nothing.
 /// A pin counts as a knot for where each spline that moves it starts and ends. Places that the splines can hardly move to are met in
 /// part, and `left` says what is missing. Weights are positive: they make the energies comparable (the mean of |c|² over what a spline
-/// moves serves). The limits of a spline that a pin moves are passed over, and so is steady. Returns the largest status; WIGGLY_ERROR_PIN for a pin outside a spline's samples (a loop's last one is outside), or on
+/// moves serves). The limits of a spline that a pin moves are passed over. Returns the largest status; WIGGLY_ERROR_PIN for a pin outside a spline's samples (a loop's last one is outside), or on
 /// a spline that is cubic, of calm 0 or of frequency 0 from its first knot or pin to the last.
 wiggly_status wiggly_group_solve(wiggly_group *group, const wiggly_desc *descs, const double *weights,
                                  wiggly_curve *curves, int spline_count, wiggly_pin *pins, int pin_count);

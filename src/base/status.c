@@ -10,7 +10,7 @@ static const char *const status_text[WIGGLY_STATUS_COUNT] = {
     [WIGGLY_ERROR_ARGUMENT] = "a pointer is missing or a count is out of range",
     [WIGGLY_ERROR_CAPACITY] = "more samples or knots than the solver has room for",
     [WIGGLY_ERROR_NUMBER] =
-        "a number is not finite, a value beyond 1e300, a stiffness not above 0, or calm or steady outside 0 to 1",
+        "a number is not finite, a value beyond 1e300, a stiffness not above 0, or calm outside 0 to 1",
     [WIGGLY_ERROR_KNOT] = "two knots share a sample, or a knot is outside the domain",
     [WIGGLY_ERROR_LOOP] = "a loop needs more than one sample",
     [WIGGLY_ERROR_SPRING] = "spring and friction work in real mode only",

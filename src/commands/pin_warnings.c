@@ -55,7 +55,5 @@ void pin_warnings(const struct document *document, const struct evaluation *eval
         const struct param *parameter = document->splines[s].parameter;
         if (isfinite(parameter[PARAMETER_LOW].value) || isfinite(parameter[PARAMETER_HIGH].value))
             tell_passed_over(s, "limits: pins and floors pass over them", tell, user);
-        if (parameter[PARAMETER_STEADY].value > 0)
-            tell_passed_over(s, "steady: pins and floors pass over it", tell, user);
     }
 }

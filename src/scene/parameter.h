@@ -20,7 +20,6 @@ enum parameter {
     PARAMETER_EQUILIBRIUM,
     PARAMETER_START,
     PARAMETER_PASSIVE,
-    PARAMETER_STEADY,
     PARAMETER_LOW, ///< these two are one member of the file, "limits": [low, high]
     PARAMETER_HIGH,
     PARAMETER_VARIATION, ///< these two as well: "variation": { "seed", "amount" }

@@ -402,7 +402,6 @@ bool pinned_solve(struct evaluation *evaluation, const struct document *document
     find_members(evaluation, document, which);
     for (int i = 0; has_floor && i < pinned->count; i++) { // as where pins pull: they are passed over, pressed or not
         pinned->descs[i].low = -INFINITY, pinned->descs[i].high = INFINITY;
-        pinned->descs[i].steady = 0;
     }
     pin_groups_visit_bases(document, pinned->which, which, still, evaluation);
     find_held(pinned, document, which);

@@ -18,7 +18,6 @@
     X(passive, CHOICE, true)                                                                                         \
     X(low, NUMBER, false)                                                                                            \
     X(high, NUMBER, false)                                                                                           \
-    X(steady, NUMBER, false)                                                                                         \
     X(variation, NUMBER, false)                                                                                      \
     X(variation_seed, COUNT, false)
 

@@ -81,14 +81,6 @@ double poles_weight_exponent(const poles *at, double step);
 /// Poles at a sample. `floor` is the least damping ratio (0 but for loops and the start's cost).
 poles poles_at(const wiggly_desc *desc, int sample, double floor);
 
-/// The poles of a frequency that many times as high, of the same damping ratio and bandwidth.
-static inline poles poles_detuned(poles at, double by)
-{
-    for (int i = 0; i < 2; i++) at.s[i] = cplx_scale(by, at.s[i]);
-    at.natural *= by, at.centre *= by, at.decay *= by;
-    return at;
-}
-
 /// True where no pole parameter that the mode uses has a track.
 bool poles_are_constant(const wiggly_desc *desc);
 

@@ -169,10 +169,10 @@ WIDEST static void set_alike_coefficients(const exponents *restrict e, int count
 }
 
 /// What is out of the polynomials' reach, one by one.
-static void fill_each(const wiggly_desc *desc, int from, int count, double floor, double detune, poles_block *block)
+static void fill_each(const wiggly_desc *desc, int from, int count, double floor, poles_block *block)
 {
     for (int i = 0; i < count; i++) {
-        poles at = poles_detuned(poles_at(desc, from + i, floor), detune);
+        poles at = poles_at(desc, from + i, floor);
         coefficients c = poles_coefficients(&at, desc->step);
         block->natural[i] = at.natural;
         block->centre[i] = at.centre;
@@ -228,22 +228,12 @@ void poles_block_centres(const wiggly_desc *desc, int from, int count, double fl
     }
 }
 
-/// All of them are as many times as large as the frequency is.
-static void detune_exponents(exponents *e, double by, int count, poles_block *block)
-{
-    for (int i = 0; i < count; i++) {
-        for (int k = 0; k < 2; k++) e->real[k][i] *= by, e->half[k][i] *= by;
-        block->natural[i] *= by, block->centre[i] *= by;
-    }
-}
-
-void poles_block_fill(const wiggly_desc *desc, int from, int count, double floor, double detune, poles_block *block)
+void poles_block_fill(const wiggly_desc *desc, int from, int count, double floor, poles_block *block)
 {
     exponents e;
     set_exponents(desc, from, count, floor, block, &e);
-    if (detune != 1) detune_exponents(&e, detune, count, block);
     if (!is_within_reach(&e, count)) {
-        fill_each(desc, from, count, floor, detune, block);
+        fill_each(desc, from, count, floor, block);
         return;
     }
     if (desc->mode == WIGGLY_COMPLEX) {

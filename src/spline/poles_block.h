@@ -12,9 +12,9 @@ typedef struct poles_block {
     double m_re[POLES_BLOCK], m_im[POLES_BLOCK], p_re[POLES_BLOCK], p_im[POLES_BLOCK];
 } poles_block;
 
-/// Fills `count` ≤ POLES_BLOCK samples from `from` on, as poles_at(), poles_detuned() and poles_coefficients() would to the last
+/// Fills `count` ≤ POLES_BLOCK samples from `from` on, as poles_at() and poles_coefficients() would to the last
 /// digits.
-void poles_block_fill(const wiggly_desc *desc, int from, int count, double floor, double detune, poles_block *block);
+void poles_block_fill(const wiggly_desc *desc, int from, int count, double floor, poles_block *block);
 
 /// The centres of any number of samples.
 void poles_block_centres(const wiggly_desc *desc, int from, int count, double floor, double *centre);

@@ -34,8 +34,7 @@ static wiggly_status check_desc(const wiggly_solver *solver, const wiggly_desc *
     if (desc->samples > solver->samples || desc->knot_count > solver->knots) return WIGGLY_ERROR_CAPACITY;
     if (desc->mode == WIGGLY_COMPLEX && desc->spring_friction) return WIGGLY_ERROR_SPRING;
     if (desc->start == WIGGLY_LOOP && desc->samples < 2) return WIGGLY_ERROR_LOOP;
-    if (!(desc->step > 0 && desc->step < INFINITY) || !is_part(desc->calm) || !is_part(desc->steady))
-        return WIGGLY_ERROR_NUMBER;
+    if (!(desc->step > 0 && desc->step < INFINITY) || !is_part(desc->calm)) return WIGGLY_ERROR_NUMBER;
     if (!(desc->variation >= 0 && desc->variation < INFINITY)) return WIGGLY_ERROR_NUMBER;
     for (const desc_member *m = desc_members; m->name; m++) {
         if (m->kind != DESC_PARAM) continue;
@@ -132,7 +131,7 @@ static start_cost cost_of_start(wiggly_solver *solver, const problem *p)
     const wiggly_desc *desc = p->desc;
     if (poles_are_constant(desc)) return problem_filter(solver, p)->start;
     int at = problem_oscillates(p) ? poles_fastest(desc, p->first, p->latest, NULL) : p->first;
-    poles damped = problem_poles(p, at, LEAST_DAMPING), here = problem_poles(p, p->first, 0);
+    poles damped = poles_at(desc, at, LEAST_DAMPING), here = poles_at(desc, p->first, 0);
     start_cost cost = poles_start_cost(&damped, desc->step);
     if (!problem_oscillates(p)) return cost;
     double weight = exp(poles_weight_exponent(&damped, desc->step) - poles_weight_exponent(&here, desc->step));
@@ -144,7 +143,7 @@ static double unit_of(wiggly_solver *solver, const problem *p)
 {
     if (!problem_oscillates(p)) return 1;
     if (poles_are_constant(p->desc)) return problem_filter(solver, p)->unit;
-    poles at = problem_poles(p, p->first, problem_least_damping(p));
+    poles at = poles_at(p->desc, p->first, problem_least_damping(p));
     return exp(-poles_weight_exponent(&at, p->desc->step));
 }
 
@@ -176,7 +175,7 @@ wiggly_status problem_pose(wiggly_solver *solver, const wiggly_desc *desc, doubl
     wiggly_status status = check_desc(solver, desc);
     if (status == WIGGLY_OK) status = order_knots(solver, desc);
     if (status != WIGGLY_OK) return status;
-    *p = (problem){.desc = desc, .calm = desc->calm, .detune = 1, .pulls = solver->pulls};
+    *p = (problem){.desc = desc, .calm = desc->calm, .pulls = solver->pulls};
     if (desc->equilibrium.track) {
         memmove(y, desc->equilibrium.track, sizeof *y * (size_t)desc->samples);
         if (desc->start == WIGGLY_LOOP) y[desc->samples - 1] = y[0];

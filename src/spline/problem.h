@@ -28,8 +28,6 @@ typedef struct problem {
     cplx held;   ///< the noise before `first`
     wiggly_start start;
     double calm;
-    double
-        detune; ///< how many times as high the frequency of the engine's filter is (steady.h); of all that moves by itself it is the description's
     wiggly_status status;      ///< WIGGLY_CALMED where u is not that of the calm as asked
     int first;                 ///< sample of the system's row 0
     int count;                 ///< samples from there to the domain's end (in a loop, round it)
@@ -66,16 +64,10 @@ static inline bool problem_is_loose(const problem *p)
     return p->calm < LOOSE_CALM && p->start != WIGGLY_REST && p->desc->mode != WIGGLY_CUBIC;
 }
 
-/// The engine's poles at a sample, of at least so much damping.
-static inline poles problem_poles(const problem *p, int sample, double floor)
-{
-    return poles_detuned(poles_at(p->desc, sample, floor), p->detune);
-}
-
 /// The filter of a problem without pole tracks.
 static inline const constant_filter *problem_filter(wiggly_solver *solver, const problem *p)
 {
-    return solver_filter(solver, p->desc, problem_least_damping(p), p->detune);
+    return solver_filter(solver, p->desc, problem_least_damping(p));
 }
 
 /// Whether anything asks for a motion: knots or pulls.

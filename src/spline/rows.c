@@ -76,10 +76,9 @@ static double set_varying(system_rows *rows, const problem *p, bool weighted)
     double weight[POLES_BLOCK], reference = 0, highest = 0, lightest = INFINITY, heaviest = -INFINITY;
     double slowest = INFINITY;
     if (oscillates) poles_fastest(desc, p->first, p->first + rows->count - 1, &highest);
-    highest *= p->detune;
     for (int k = 0; k < rows->count; k += POLES_BLOCK) {
         int count = rows->count - k < POLES_BLOCK ? rows->count - k : POLES_BLOCK;
-        poles_block_fill(desc, p->first + k, count, floor, p->detune, &block);
+        poles_block_fill(desc, p->first + k, count, floor, &block);
         if (k == 0 && oscillates) reference = block.exponent[0];
         for (int i = 0; i < count; i++) weight[i] = oscillates ? block.exponent[i] - reference : 0;
         poles_block_exp(weight, count, weight);
@@ -89,7 +88,7 @@ static double set_varying(system_rows *rows, const problem *p, bool weighted)
             lightest = block.exponent[i] < lightest ? block.exponent[i] : lightest;
             heaviest = block.exponent[i] > heaviest ? block.exponent[i] : heaviest;
             if (block.exponent[i] > FAST) {
-                const poles own = problem_poles(p, p->first + k + i, floor);
+                const poles own = poles_at(desc, p->first + k + i, floor);
                 at = poles_coefficients(&own, desc->step);
             }
             if (driven) at.g = drive_phase(&block, i, desc);
@@ -201,7 +200,7 @@ static void see_speed(const problem *p, slope_row *row)
         row->here = cplx_scale(h, poles_passive(&own));
         return;
     }
-    poles at = problem_poles(p, p->first + row->sample, problem_least_damping(p));
+    poles at = poles_at(p->desc, p->first + row->sample, problem_least_damping(p));
     const double part = 1.0 / (from.ahead + from.behind);
     speed_form forward = poles_speed(&at, h, false), backward = poles_speed(&at, h, true);
     if (from.ahead) row->here = cplx_scale(part, forward.on_x), row->ahead = cplx_scale(part, forward.on_e);
@@ -274,8 +273,8 @@ static void set_tail(system_rows *rows, const problem *p)
     if (rows->count > 1) rows->jet_weight[rows->count - 1] *= 2;
     if (rows->count == 1) rows->jet_to = -1;
     if (!rows->is_complex) return;
-    poles own = poles_at(p->desc, p->latest, 0), at = poles_detuned(own, p->detune);
-    speed_form ahead = poles_speed(&at, p->desc->step, false);
+    poles own = poles_at(p->desc, p->latest, 0);
+    speed_form ahead = poles_speed(&own, p->desc->step, false);
     rows->tail = poles_tail(poles_passive(&own), &ahead, p->desc->step);
 }
 

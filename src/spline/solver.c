@@ -12,11 +12,10 @@ enum {
     CHAIN_DOUBLES = 8,
     RUN_DOUBLES = 6,
     LIMIT_DOUBLES = 8,
-    STEADY_DOUBLES = 2,
     LINE = 64, ///< of the cache: columns begin with one
-    BYTES_PER_SAMPLE = (int)((MATRIX_DOUBLES + 2 + 2 + 2 + 4 + 4) * sizeof(double) + sizeof(coefficients) +
-                             (LIMIT_DOUBLES + STEADY_DOUBLES) * sizeof(double) + sizeof(cplx) + 3 * sizeof(int) +
-                             2 * sizeof(unsigned char)),
+    BYTES_PER_SAMPLE =
+        (int)((MATRIX_DOUBLES + 2 + 2 + 2 + 4 + 4) * sizeof(double) + sizeof(coefficients) +
+              LIMIT_DOUBLES * sizeof(double) + sizeof(cplx) + 3 * sizeof(int) + 2 * sizeof(unsigned char)),
     BYTES_PER_KNOT = (int)(sizeof(slope_row) + sizeof(chain_stretch) + sizeof(chain_node) + sizeof(chain_row) +
                            2 * sizeof(wiggly_knot) + 9 * sizeof(double) + sizeof(int)),
     FIXED_BYTES = (int)(RUN_DOUBLES * CHAIN_RUN * sizeof(double)) + CHAIN_DOUBLES * LINE + 3 * LINE,
@@ -90,10 +89,6 @@ static void carve(wiggly_solver *solver)
                                   &limits->free[0], &limits->free[1], &limits->pushed[0], &limits->pushed[1]};
     _Static_assert(sizeof of_limits / sizeof *of_limits == LIMIT_DOUBLES, "LIMIT_DOUBLES counts the arrays");
     for (int i = 0; i < LIMIT_DOUBLES; i++) *of_limits[i] = take(&at, n * sizeof(double));
-    steady_memory *steady = &solver->steady;
-    double **const of_steady[] = {&steady->re, &steady->im};
-    _Static_assert(sizeof of_steady / sizeof *of_steady == STEADY_DOUBLES, "STEADY_DOUBLES counts the arrays");
-    for (int i = 0; i < STEADY_DOUBLES; i++) *of_steady[i] = take(&at, n * sizeof(double));
     size_t k = (size_t)solver->knots + 1;
     chain *c = &solver->chain;
     limits->own = take(&at, k * sizeof(wiggly_knot));
@@ -160,19 +155,15 @@ static int run_of(const poles *at, double step)
     return run < CHAIN_RUN ? (int)fmax(run, 1) : CHAIN_RUN;
 }
 
-const constant_filter *solver_filter(wiggly_solver *solver, const wiggly_desc *desc, double floor, double detune)
+const constant_filter *solver_filter(wiggly_solver *solver, const wiggly_desc *desc, double floor)
 {
     constant_filter *f = &solver->filter;
-    if (f->known && f->floor == floor && f->detune == detune && desc_same_filter(&f->desc, desc)) return f;
+    if (f->known && f->floor == floor && desc_same_filter(&f->desc, desc)) return f;
     const poles own = poles_at(desc, 0, floor);
-    *f = (constant_filter){.known = true,
-                           .desc = desc_settings(desc),
-                           .floor = floor,
-                           .detune = detune,
-                           .at = poles_detuned(own, detune)};
+    *f = (constant_filter){.known = true, .desc = desc_settings(desc), .floor = floor, .at = own};
     poles_mean(&f->at, desc->step, &f->lambda, &f->delta2);
     f->run = run_of(&f->at, desc->step);
-    poles damped = poles_detuned(poles_at(desc, 0, fmax(floor, LEAST_DAMPING)), detune);
+    poles damped = poles_at(desc, 0, fmax(floor, LEAST_DAMPING));
     f->start = poles_start_cost(&damped, desc->step);
     if (desc->passive != WIGGLY_OSCILLATOR) return f;
     f->unit = exp(-poles_weight_exponent(&f->at, desc->step));

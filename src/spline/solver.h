@@ -16,7 +16,6 @@ typedef struct constant_filter {
     bool known;
     wiggly_desc desc; ///< that it is of, without knots
     double floor;     ///< least damping ratio
-    double detune;    ///< how many times as high the filter's frequency is
     poles at;
     start_cost start; ///< at calm 1; the oscillator's is in units of the jets' weight
     cplx lambda, delta2;
@@ -26,11 +25,6 @@ typedef struct constant_filter {
     cplx passive;     ///< h p of what moves by itself
     cplx tail;        ///< what one sample of that adds, as the poles see it
 } constant_filter;
-
-/// What a steady spline needs (steady.h).
-typedef struct steady_memory {
-    double *re, *im; ///< the mean of w so far
-} steady_memory;
 
 /// What limits need (limits.h).
 typedef struct limit_memory {
@@ -57,7 +51,6 @@ struct wiggly_solver {
     constant_filter filter;
     chain chain; ///< its large arrays lie over the matrix's: a solve uses one of the two
     limit_memory limits;
-    steady_memory steady;
     swing swing;  ///< what moves by itself as the equilibrium does
     double *y;    ///< equilibrium, where the curve has no array for it
     int *order;   ///< indices of the description's knots by sample
@@ -97,8 +90,8 @@ minimum solver_refine(wiggly_solver *solver, factorisation *factor);
 /// other solvers. `y` receives the equilibrium, N numbers. WIGGLY_OK, or what is wrong with the description.
 wiggly_status solver_describe(wiggly_solver *solver, const wiggly_desc *desc, double *y);
 
-/// The filter of a description without pole tracks, of at least so much damping; what moves by itself is not detuned.
-const constant_filter *solver_filter(wiggly_solver *solver, const wiggly_desc *desc, double floor, double detune);
+/// The filter of a description without pole tracks, of at least so much damping.
+const constant_filter *solver_filter(wiggly_solver *solver, const wiggly_desc *desc, double floor);
 
 /// Forgets everything that is kept for the case that little changes: the next solve is a whole one. Changes no result.
 void solver_forget(wiggly_solver *solver);

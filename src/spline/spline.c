@@ -2,7 +2,6 @@
 /// (docs/mathematics.md, last rule of Constraints).
 #include "spline/limits.h"
 #include "spline/problem.h"
-#include "spline/steady.h"
 #include <float.h>
 #include <math.h>
 #include <string.h>
@@ -228,12 +227,11 @@ wiggly_status wiggly_solve(wiggly_solver *solver, const wiggly_desc *desc, wiggl
     wiggly_status status = problem_pose(solver, desc, all.y ? all.y : solver->y, &p);
     if (status != WIGGLY_OK) return status;
     const bool limited = limits_are_set(desc) && !solver->pulls; // pins come first
-    const bool steady = steady_is_set(&p);
     wiggly_desc ordered;
     if (limited) limits_begin(solver, &p, &ordered, curve, &all);
     for (;;) {
         minimum result = {0};
-        status = (steady ? steady_find : limited ? limits_find : problem_find)(solver, &p, &all, &result);
+        status = (limited ? limits_find : problem_find)(solver, &p, &all, &result);
         if (status >= WIGGLY_ERROR_ARGUMENT) return status;
         problem_complete(solver, &p, &all);
         if (limited) limits_clamp(solver, &p, &all);

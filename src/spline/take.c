@@ -5,7 +5,6 @@
 #include "spline/take.h"
 #include "spline/limits.h"
 #include "spline/problem.h"
-#include "spline/steady.h"
 #include "spline/tree.h"
 #include "spline/variation.h"
 #include <limits.h>
@@ -39,7 +38,7 @@ static bool is_for_tree(const wiggly_take *take, const problem *p)
         if (!knot->has_slope || knot->stiffness * take->desc.step <= heaviest) continue;
         if (problem_slope(p, knot->sample, knot->slope, knot->stiffness).weight > heaviest) return false;
     }
-    return p->start != WIGGLY_LOOP && !limits_are_set(p->desc) && !steady_is_set(p) && !variation_is_set(p->desc) &&
+    return p->start != WIGGLY_LOOP && !limits_are_set(p->desc) && !variation_is_set(p->desc) &&
            !problem_is_loose(p) && problem_fits_chain(take->solver, p) && !problem_pulls_imaginary(take->solver, p);
 }
 

@@ -63,7 +63,6 @@ enum bench_kind {
     BENCH_TRACK,     ///< the frequency moves
     BENCH_SHORT,     ///< one period in all
     BENCH_LIMITS,    ///< the curve stays within 1.02 of the largest knot
-    BENCH_STEADY,    ///< the mean of five
     BENCH_VARIATION, ///< another motion through the same knots
     BENCH_EDIT,      ///< like single, of fewer knots
 };

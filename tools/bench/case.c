@@ -27,7 +27,7 @@ enum { MOST_BAND = 5 };
 static bool is_limited(const wiggly_desc *desc) { return desc->high < INFINITY; }
 
 /// Limits, the mean of several and noise are no system for LAPACK: such a case is timed alone.
-static bool is_alone(const wiggly_desc *desc) { return is_limited(desc) || desc->steady > 0 || desc->variation > 0; }
+static bool is_alone(const wiggly_desc *desc) { return is_limited(desc) || desc->variation > 0; }
 
 static void work_create(struct work *w, const wiggly_desc *desc, const char *name)
 {

@@ -73,7 +73,6 @@ void bench_input_create(struct bench_input *input, enum bench_kind kind, wiggly_
     if (kind == BENCH_TRACK) add_track(input, &desc->frequency, 1, 0.4);
     add_knots(input, kind);
     if (kind == BENCH_LIMITS) set_limits(input, 1.02);
-    if (kind == BENCH_STEADY) desc->steady = 1;
     if (kind == BENCH_VARIATION) desc->variation = 0.5, desc->variation_seed = 7;
 }
 

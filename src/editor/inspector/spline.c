@@ -125,7 +125,6 @@ void inspector_limits(struct inspection *in)
     const struct spline *spline = core_active_spline(in->core, in->world);
     build_limit(in, spline, PARAMETER_HIGH);
     build_limit(in, spline, PARAMETER_LOW);
-    inspector_parameter(in, PARAMETER_STEADY);
 }
 
 /// Of a roll where there is no variation yet.
