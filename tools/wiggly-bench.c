@@ -65,45 +65,6 @@ static void expect(const struct bench_result *result, wiggly_status status)
     if (status != WIGGLY_OK) bench_stop("%s: %s", result->name, wiggly_status_text(status));
 }
 
-/// Drags a knot of a million samples up and down and along, and reads the samples around it. Compared with wiggly_solve() of the same spline
-/// first.
-static void run_edit(struct bench *bench)
-{
-    enum { SAMPLES = 1000000, PART = 1000 };
-    struct bench_input input;
-    wiggly_take *take = NULL;
-    wiggly_solver *solver = NULL;
-    double values[PART];
-    wiggly_curve curve = {.total = need_zeroed(SAMPLES, sizeof(double))};
-    struct bench_result result = bench_blank(WIGGLY_COMPLEX, SAMPLES);
-    snprintf(result.name, sizeof result.name, "edit/complex/%d", SAMPLES);
-    bench_input_create(&input, BENCH_EDIT, WIGGLY_COMPLEX, SAMPLES);
-    expect(&result, wiggly_take_create(&input.desc, &take));
-    expect(&result, wiggly_create(SAMPLES, input.desc.knot_count, &solver));
-    const int edited = input.desc.knot_count / 2, at = input.knots[edited].sample;
-    for (int run = 0; run < MAX_RUNS; run++) {
-        wiggly_knot *knot = &input.knots[edited];
-        knot->value += 1e-3;
-        knot->sample = at + (13 * run) % 41 - 20;
-        const int from = knot->sample - PART / 2;
-        double start = clock_now();
-        expect(&result, wiggly_take_set_knot(take, edited, *knot));
-        expect(&result, wiggly_take_read(take, from, PART, values, NULL));
-        bench->times[run] = clock_now() - start;
-        if (run > 0) continue;
-        expect(&result, wiggly_solve(solver, &input.desc, &curve));
-        result.error = 0;
-        for (int i = 0; i < PART; i++) result.error = fmax(result.error, fabs(values[i] - curve.total[from + i]));
-        if (!(result.error <= 1e-9)) bench_stop("%s: off by %g", result.name, result.error);
-    }
-    bench_sum_up(bench, MAX_RUNS, PART, &result);
-    bench_report(bench, &result);
-    wiggly_take_destroy(take);
-    wiggly_destroy(solver);
-    bench_input_destroy(&input);
-    free(curve.total);
-}
-
 /// A loop of 10,000,000 samples, its total alone, and the memory that this takes: to be run before all else.
 static void run_large(struct bench *bench)
 {
@@ -183,7 +144,6 @@ int main(int argc, char **argv)
     run_plans(&bench);
     bench_batches(&bench);
     bench_pins(&bench);
-    run_edit(&bench);
     bench_scenes(&bench);
     fclose(bench.json);
     lapack_unload(&bench.lapack);

@@ -179,41 +179,6 @@ wiggly_status wiggly_batch_solve(wiggly_batch *batch, const wiggly_desc *desc, w
 /// Ends the threads and frees; NULL is fine.
 void wiggly_batch_destroy(wiggly_batch *batch);
 
-/// A long spline that is edited knot by knot and looked at through a window: kept condensed in a tree, so that an edit and a
-/// window of W samples cost O(log knots + W) and not O(N). For constant parameters on a constant equilibrium, start free or rest.
-typedef struct wiggly_take wiggly_take;
-
-/// Condenses a spline; the description's knots are copied and must be in order. WIGGLY_ERROR_ARGUMENT where it is not of that
-/// kind (tracks, a loop, limits, a variation, so slow a complex spline that Im x is not held by its oscillation, fewer than
-/// two knots), else what wiggly_solve() says of a wrong description.
-wiggly_status wiggly_take_create(const wiggly_desc *desc, wiggly_take **take);
-
-/// Bytes that wiggly_take_create_at() needs, or 0 where samples < 1 or knots < 1 or the size does not fit.
-size_t wiggly_take_memsize(int samples, int knots);
-
-/// The same in the caller's memory (aligned for double, `size` bytes); never destroyed, only forgotten. Memory for more knots than
-/// the description has is room for wiggly_take_append().
-wiggly_status wiggly_take_create_at(void *memory, size_t size, const wiggly_desc *desc, wiggly_take **take);
-
-/// Replaces the knot at `index` (in order of samples), which must stay between its neighbours: WIGGLY_ERROR_KNOT. The take is the
-/// same to the last bit as one created with that knot. Allocates nothing.
-wiggly_status wiggly_take_set_knot(wiggly_take *take, int index, wiggly_knot knot);
-
-/// Adds a knot behind the last one, in O(log knots) where that is not on the sample just before and has a slope just if this one has:
-/// for keys that come one by one. WIGGLY_ERROR_CAPACITY where there is no room, WIGGLY_ERROR_KNOT where it is not behind. The take is
-/// the same to the last bit as one created with that knot. Allocates nothing.
-wiggly_status wiggly_take_append(wiggly_take *take, wiggly_knot knot);
-
-/// The samples `from` … `from + count − 1`: total and Im x (each may be NULL). WIGGLY_INEXACT where pivots lost digits: then
-/// wiggly_solve() is the better one.
-wiggly_status wiggly_take_read(wiggly_take *take, int from, int count, double *total, double *im);
-
-/// The least and the largest total in each of `columns` equal parts of the samples `from` … `from + count − 1`, count ≥ columns.
-wiggly_status wiggly_take_range(wiggly_take *take, int from, int count, int columns, double *low, double *high);
-
-/// Frees; NULL is fine.
-void wiggly_take_destroy(wiggly_take *take);
-
 /// How a point moves with a spline of a group: by Re(c x), for each of x, y and z. c is (re, im).
 typedef struct wiggly_pull {
     int spline;

@@ -23,6 +23,7 @@
 // s (Re(on_x x_q + on_d d_q − on_r ν_d) − target)², a row of the two nodes alone. In the stretch it pulls r_q away from B* ν by
 // η = s (φ − target) on_r*, and the samples follow the costate ν − V B η, which is μ − C* B η where the stretch begins.
 #include "spline/chain.h"
+#include "spline/wide.h"
 #include <float.h>
 #include <math.h>
 
@@ -128,6 +129,50 @@ int chain_length_after(const chain *c, int j)
     return ahead - c->nodes[j].sample;
 }
 
+/// x of `count` samples inside a run from its sample `from` on: four columns of the tables, weighted with the state (x, d) and the
+/// costate that it starts from.
+WIDEST static void fill_complex(const chain *c, const cplx weight[4], int from, int count, double *restrict re,
+                                double *restrict im)
+{
+    const double *restrict f0r = c->powers.p.re + from, *restrict f0i = c->powers.p.im + from;
+    const double *restrict f1r = c->powers.q.re + from, *restrict f1i = c->powers.q.im + from;
+    const double *restrict g0r = c->pulled[0].re + from, *restrict g0i = c->pulled[0].im + from;
+    const double *restrict g1r = c->pulled[1].re + from, *restrict g1i = c->pulled[1].im + from;
+    const cplx a = weight[0], b = weight[1], d = weight[2], e = weight[3];
+    for (int i = 0; i < count; i++) {
+        re[i] = ((f0r[i] * a.re - f0i[i] * a.im) + (f1r[i] * b.re - f1i[i] * b.im)) +
+                ((g0r[i] * d.re - g0i[i] * d.im) + (g1r[i] * e.re - g1i[i] * e.im));
+        im[i] = ((f0r[i] * a.im + f0i[i] * a.re) + (f1r[i] * b.im + f1i[i] * b.re)) +
+                ((g0r[i] * d.im + g0i[i] * d.re) + (g1r[i] * e.im + g1i[i] * e.re));
+    }
+}
+
+WIDEST static void fill_real(const chain *c, const cplx weight[4], int from, int count, double *restrict re)
+{
+    const double *restrict f0 = c->powers.p.re + from, *restrict f1 = c->powers.q.re + from;
+    const double *restrict g0 = c->pulled[0].re + from, *restrict g1 = c->pulled[1].re + from;
+    const double a = weight[0].re, b = weight[1].re, d = weight[2].re, e = weight[3].re;
+    for (int i = 0; i < count; i++) re[i] = (f0[i] * a + f1[i] * b) + (g0[i] * d + g1[i] * e);
+}
+
+/// x of `count` samples from the state (x, d) on where nothing pulls.
+WIDEST static void fill_free_complex(const chain *c, int count, cplx x, cplx d, double *restrict re,
+                                     double *restrict im)
+{
+    const double *restrict pr = c->powers.p.re, *restrict pi = c->powers.p.im;
+    const double *restrict qr = c->powers.q.re, *restrict qi = c->powers.q.im;
+    for (int i = 0; i < count; i++) {
+        re[i] = (pr[i] * x.re - pi[i] * x.im) + (qr[i] * d.re - qi[i] * d.im);
+        im[i] = (pr[i] * x.im + pi[i] * x.re) + (qr[i] * d.im + qi[i] * d.re);
+    }
+}
+
+WIDEST static void fill_free_real(const chain *c, int count, double x, double d, double *restrict re)
+{
+    const double *restrict p = c->powers.p.re, *restrict q = c->powers.q.re;
+    for (int i = 0; i < count; i++) re[i] = p[i] * x + q[i] * d;
+}
+
 /// Fills samples of a run, whole blocks where there is room up to `end`: what is behind them is filled later.
 static void fill_samples(const chain *c, const cplx weight[4], int from, int count, int at, int end, double *re,
                          double *im)
@@ -135,9 +180,9 @@ static void fill_samples(const chain *c, const cplx weight[4], int from, int cou
     int whole = (count + CHAIN_BLOCK - 1) & -CHAIN_BLOCK;
     if (from + whole <= CHAIN_RUN && at + whole <= end) count = whole;
     if (c->is_complex) {
-        chain_fill_complex(c, weight, from, count, re + at, im + at);
+        fill_complex(c, weight, from, count, re + at, im + at);
     } else {
-        chain_fill_real(c, weight, from, count, re + at);
+        fill_real(c, weight, from, count, re + at);
     }
 }
 
@@ -166,7 +211,9 @@ void chain_begin_run(const chain *c, const chain_node *p, const chain_node *q, i
     }
 }
 
-bool chain_fill_stretch(const chain *c, const chain_node *p, const chain_node *q, double *re, double *im)
+/// x from node p to before node q, into arrays (im NULL outside complex mode) that begin at the system's first sample. false where sums
+/// might overflow.
+static bool fill_stretch(const chain *c, const chain_node *p, const chain_node *q, double *re, double *im)
 {
     const int n = c->stretches[p->stretch].length;
     cplx weight[4], nu[2];
@@ -181,16 +228,17 @@ bool chain_fill_stretch(const chain *c, const chain_node *p, const chain_node *q
     return tame;
 }
 
-bool chain_run_free(const chain *c, const chain_node *last, int count, double *re, double *im)
+/// x of `count` samples from the last node on, where the arrays begin.
+static bool run_free(const chain *c, const chain_node *last, int count, double *re, double *im)
 {
     cplx x = {last->value, last->x_im}, d = {last->d_re, last->d_im};
     bool tame = is_tame(x) && is_tame(d);
     for (int i = 0; i < count; i += CHAIN_RUN) { // nothing pulls: r = 0
         int run = count - i < CHAIN_RUN ? count - i : CHAIN_RUN;
         if (c->is_complex) {
-            chain_fill_free_complex(c, run, x, d, re + i, im + i);
+            fill_free_complex(c, run, x, d, re + i, im + i);
         } else {
-            chain_fill_free_real(c, run, x.re, d.re, re + i);
+            fill_free_real(c, run, x.re, d.re, re + i);
         }
         if (i + run == count) break;
         cplx p = chain_power(c, &c->powers.p, CHAIN_RUN), q = chain_power(c, &c->powers.q, CHAIN_RUN);
@@ -201,12 +249,9 @@ bool chain_run_free(const chain *c, const chain_node *last, int count, double *r
     return tame;
 }
 
-double chain_add_to_node(const chain *c, chain_node *node, const double *solved)
+/// Adds unknowns (Im x, Re d, Im d) to a node; returns their size.
+static double add_to_node(const chain *c, chain_node *node, const double *solved)
 {
-    if (!c->is_complex) {
-        node->d_re += solved[0];
-        return fabs(solved[0]);
-    }
     cplx tie = chain_node_tie(c, node);
     double x_im = solved[0], d_re = solved[1] + tie.re * x_im, d_im = solved[2] + tie.im * x_im;
     node->x_im += x_im, node->d_re += d_re, node->d_im += d_im;
@@ -226,7 +271,7 @@ static double take_solution(chain *c)
         return largest;
     }
     for (int j = 0; j < c->node_count; j++) {
-        double size = chain_add_to_node(c, &c->nodes[j], c->rows[j].right);
+        double size = add_to_node(c, &c->nodes[j], c->rows[j].right);
         if (!(size <= largest)) largest = size;
     }
     return largest;
@@ -282,7 +327,8 @@ static double sensitivity(chain *c)
     return (c->is_complex ? 24 : 48) * change;
 }
 
-void chain_reset_nodes(chain *c)
+/// Everything unknown 0 at the nodes.
+static void reset_nodes(chain *c)
 {
     for (int j = 0; j < c->node_count; j++) {
         chain_node *node = &c->nodes[j];
@@ -312,11 +358,11 @@ bool chain_fill(chain *c, double *x_re, double *x_im)
             double piece = bound_of_piece(p, q, chain_length_after(c, j));
             c->cubic_bound = piece > c->cubic_bound ? piece : c->cubic_bound;
         }
-        tame = chain_fill_stretch(c, p, q, x_re, im) && tame;
+        tame = fill_stretch(c, p, q, x_re, im) && tame;
     }
     if (c->cyclic) return tame;
     im = im ? im + last->sample : NULL;
-    return chain_run_free(c, last, c->count - last->sample, x_re + last->sample, im) && tame;
+    return run_free(c, last, c->count - last->sample, x_re + last->sample, im) && tame;
 }
 
 static double largest_value(const chain *c)
@@ -336,7 +382,7 @@ bool chain_solve(chain *c, double *x_re, double *x_im)
     }
     c->error = 0;
     if (c->rank == CHAIN_LOST) return false;
-    chain_reset_nodes(c);
+    reset_nodes(c);
     chain_pull_known(c);
     chain_solve_nodes(c);
     double size = fmax(take_solution(c), largest_value(c));

@@ -174,12 +174,8 @@ chain_rank chain_factor(chain *chain);
 bool chain_must_refine(const chain *chain);
 /// What the factor's lost digits make of an x of that size; 0 where that is nothing worth telling.
 double chain_error(const chain *chain, double size);
-/// p ← inverse of the symmetric positive definite 3×3 s (00 01 02 11 12 22).
-chain_rank chain_invert(const double *s, double *p);
 /// rows' right ← solution.
 void chain_solve_nodes(chain *chain);
-/// Everything unknown 0 at the nodes.
-void chain_reset_nodes(chain *chain);
 /// rows' right ← the right-hand side: −½ of the energy's gradient where everything unknown is 0.
 void chain_pull_known(chain *chain);
 /// The same at the nodes' present state, in double-double.
@@ -190,8 +186,6 @@ void chain_pull(const chain *chain, int j, cplx on_x, cplx on_d);
 void chain_hold_known(const chain *chain, int j);
 /// The same of the imaginary rows alone.
 void chain_pull_imaginary(chain *chain);
-/// Adds unknowns (Im x, Re d, Im d; or d alone) to a node; returns their size.
-double chain_add_to_node(const chain *chain, chain_node *node, const double *solved);
 /// Samples of the stretch after node j, and the node at its end.
 int chain_length_after(const chain *chain, int j);
 static inline int chain_next(const chain *c, int j) { return j + 1 < c->node_count ? j + 1 : 0; }
@@ -199,20 +193,4 @@ static inline int chain_next(const chain *c, int j) { return j + 1 < c->node_cou
 static inline int chain_stretches(const chain *c) { return c->cyclic ? c->node_count : c->node_count - 1; }
 /// State and costate that the run from sample k of a stretch begins with. ν is that of the stretch's end, set with the second run.
 void chain_begin_run(const chain *chain, const chain_node *p, const chain_node *q, int k, cplx nu[2], cplx weight[4]);
-/// x from node p to before node q, into arrays (im NULL outside complex mode) that begin at the system's first sample. false where sums
-/// might overflow.
-bool chain_fill_stretch(const chain *chain, const chain_node *p, const chain_node *q, double *re, double *im);
-/// x of `count` samples from the last node on, where the arrays begin.
-bool chain_run_free(const chain *chain, const chain_node *last, int count, double *re, double *im);
-
-/// x of `count` samples inside a run from its sample `from` on: four columns of the tables, weighted with the state (x, d) and the
-/// costate that it starts from. Chosen for the processor's vector width at run time.
-void chain_fill_complex(const chain *chain, const cplx weight[4], int from, int count, double *restrict re,
-                        double *restrict im);
-void chain_fill_real(const chain *chain, const cplx weight[4], int from, int count, double *restrict re);
-
-/// x of `count` samples from the state (x, d) on where nothing pulls.
-void chain_fill_free_complex(const chain *chain, int count, cplx x, cplx d, double *restrict re, double *restrict im);
-void chain_fill_free_real(const chain *chain, int count, double x, double d, double *restrict re);
-
 #endif

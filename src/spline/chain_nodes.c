@@ -173,8 +173,6 @@ void chain_assemble(chain *c)
     }
 }
 
-chain_rank chain_invert(const double *s, double *p) { return chain_rank_of(kernel_invert(s, p)); }
-
 static kernel_rank factor_blocks(chain *c)
 {
     kernel_rank all = {true, true, 1};

@@ -34,25 +34,6 @@ wiggly_desc desc_settings(const wiggly_desc *desc) { return (wiggly_desc){SETTIN
 #define SAME_CHOICE(member) (a->member == b->member)
 #define SAME_NUMBER(member) (a->member == b->member)
 #define SAME_PARAM(member) (a->member.value == b->member.value && a->member.track == b->member.track)
-#define AND_SAME(member, kind, filters) &&SAME_##kind(member)
 #define AND_SAME_FILTER(member, kind, filters) &&(!(filters) || SAME_##kind(member))
 
-bool desc_same_settings(const wiggly_desc *a, const wiggly_desc *b) { return true SETTINGS(AND_SAME); }
-
 bool desc_same_filter(const wiggly_desc *a, const wiggly_desc *b) { return true SETTINGS(AND_SAME_FILTER); }
-
-bool desc_has_track(const wiggly_desc *desc)
-{
-    for (const desc_member *m = desc_members; m->name; m++) {
-        if (m->kind == DESC_PARAM && desc_param(desc, m)->track) return true;
-    }
-    return false;
-}
-
-bool desc_reads(const wiggly_desc *desc, const double *track)
-{
-    for (const desc_member *m = desc_members; m->name; m++) {
-        if (m->kind == DESC_PARAM && desc_param(desc, m)->track == track) return true;
-    }
-    return false;
-}

@@ -25,15 +25,8 @@ extern const desc_member desc_members[];
 /// A description without its knots.
 wiggly_desc desc_settings(const wiggly_desc *desc);
 
-/// Whether two descriptions are the same but for their knots; tracks by where they are.
-bool desc_same_settings(const wiggly_desc *a, const wiggly_desc *b);
-
 /// Whether the same filter serves both, where no pole parameter is a track.
 bool desc_same_filter(const wiggly_desc *a, const wiggly_desc *b);
-
-/// Whether any parameter is a track, and whether any is that one.
-bool desc_has_track(const wiggly_desc *desc);
-bool desc_reads(const wiggly_desc *desc, const double *track);
 
 /// A member that is a parameter.
 static inline const wiggly_param *desc_param(const wiggly_desc *desc, const desc_member *member)

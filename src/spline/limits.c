@@ -180,7 +180,7 @@ static enum outcome climb(limits_work *w)
     for (;;) {
         measure_work(w, &slack, &noise);
         int sample = find_farthest(w, slack);
-        if (sample < 0 || solver_must_stop(w->solver->stop)) return FOUND;
+        if (sample < 0) return FOUND;
         if (w->solver->limits.solves >= MOST) return TIRED;
         if (!take_in(w, sample, noise)) return NO_ROOM;
     }

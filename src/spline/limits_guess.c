@@ -220,7 +220,7 @@ static bool go_on(guess *g, double *unclear)
 /// Steps until one shows what stays. false where numbers fail.
 static bool find_what_stays(guess *g)
 {
-    for (int step = 0; step < STEPS && !solver_must_stop(g->w->solver->stop); step++) {
+    for (int step = 0; step < STEPS; step++) {
         const double before = g->mean;
         double unclear;
         if (!go_on(g, &unclear)) return false;

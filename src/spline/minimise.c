@@ -70,8 +70,7 @@ static double enough(const system_rows *rows) { return rows->is_complex ? enough
 
 static factorisation factor_rows(wiggly_solver *solver)
 {
-    return (factorisation){.rank = orthogonal_factor(&solver->rows, &solver->matrix, solver->stop),
-                           .error = INFINITY};
+    return (factorisation){.rank = orthogonal_factor(&solver->rows, &solver->matrix), .error = INFINITY};
 }
 
 factorisation solver_factor(wiggly_solver *solver)
@@ -217,14 +216,13 @@ static double amplification(wiggly_solver *solver, const factorisation *f)
     return sqrt(largest);
 }
 
-/// Refines x, at first from what is known alone. false where a number overflowed or it was stopped.
+/// Refines x, at first from what is known alone. false where a number overflowed.
 static bool refine(wiggly_solver *solver, const factorisation *f, minimum *result)
 {
     system_rows *rows = &solver->rows;
     int unknowns = rows->count * (rows->is_complex ? 2 : 1);
     double before = INFINITY;
     for (result->sweeps = 0; result->sweeps < MAX_SWEEPS;) {
-        if (solver_must_stop(solver->stop)) return false;
         if (result->sweeps == 0) {
             system_right_side(rows);
         } else {
@@ -293,7 +291,7 @@ minimum solver_refine(wiggly_solver *solver, factorisation *f)
     const bool open = rows->is_open && rows->count >= 3;
     bool settled = result.solved && result.error <= enough(rows) * result.largest;
     if (open && f->squared && settled) settled = amplification(solver, f) <= largest_squared;
-    if (f->squared && !settled && rows->count >= 3 && !solver_must_stop(solver->stop)) {
+    if (f->squared && !settled && rows->count >= 3) {
         reset(rows);
         *f = factor_rows(solver);
         if (f->rank == RANK_BROKEN) return (minimum){0};

@@ -14,7 +14,6 @@
 #include <string.h>
 
 enum { MAX_COLUMNS = 10, MAX_ROWS = 40 };
-enum { ROWS_A_LOOK = 4096 }; ///< samples between two looks for a stop: 2 ms
 
 /// A pivot below this is rounding, every column having had a 1 of a jet in it; what holds Im x of a slow spline of N samples is N⁻² of it.
 static const double lost = 1e-13;
@@ -266,7 +265,7 @@ static pentadiagonal_rank eliminate_seam(walk *w, pentadiagonal *m)
     return rank;
 }
 
-pentadiagonal_rank orthogonal_factor(const system_rows *rows, pentadiagonal *m, solver_stop *stop)
+pentadiagonal_rank orthogonal_factor(const system_rows *rows, pentadiagonal *m)
 {
     walk w = {.rows = rows, .width = rows->is_complex ? 2 : 1};
     w.columns = w.width * 5;
@@ -277,7 +276,6 @@ pentadiagonal_rank orthogonal_factor(const system_rows *rows, pentadiagonal *m, 
     pentadiagonal_rank rank = RANK_FULL;
     for (w.k = 0; w.k < w.interior; w.k++) {
         int top = 0;
-        if (w.k % ROWS_A_LOOK == 0 && solver_must_stop(stop)) return RANK_BROKEN;
         add_rows(&w);
         clear_fixed(&w);
         pentadiagonal_rank step = eliminate(&w, w.k, 0, &top);

@@ -3,12 +3,10 @@
 #ifndef SPLINE_ORTHOGONAL_H
 #define SPLINE_ORTHOGONAL_H
 
-#include "spline/stop.h"
 #include "spline/system.h"
 
-/// Factors into the memory of `matrix` (diagonal: U_kk, below: U_{k,k+1}, below2: U_{k,k+2}, border: U_{k,seam}); RANK_BROKEN where
-/// it was stopped, too.
-pentadiagonal_rank orthogonal_factor(const system_rows *rows, pentadiagonal *matrix, solver_stop *stop);
+/// Factors into the memory of `matrix` (diagonal: U_kk, below: U_{k,k+1}, below2: U_{k,k+2}, border: U_{k,seam}).
+pentadiagonal_rank orthogonal_factor(const system_rows *rows, pentadiagonal *matrix);
 
 /// b ← (Uᵀ U)⁻¹ b after a successful factor.
 void orthogonal_solve(const pentadiagonal *matrix, double *b);

@@ -147,7 +147,8 @@ static double unit_of(wiggly_solver *solver, const problem *p)
     return exp(-poles_weight_exponent(&at, p->desc->step));
 }
 
-void problem_set_start(wiggly_solver *solver, problem *p)
+/// c·H of the start, for the calm that the problem has now.
+static void set_start(wiggly_solver *solver, problem *p)
 {
     p->cost = (start_cost){0};
     p->unit = unit_of(solver, p);
@@ -162,7 +163,7 @@ void problem_set_calm(wiggly_solver *solver, problem *p, double calm)
 {
     p->calm = calm;
     if (p->start == WIGGLY_LOOP && p->about) set_about(solver, p);
-    problem_set_start(solver, p);
+    set_start(solver, p);
 }
 
 static void fill(double *x, double value, int count)
@@ -186,6 +187,6 @@ wiggly_status problem_pose(wiggly_solver *solver, const wiggly_desc *desc, doubl
     }
     set_domain(solver, p);
     set_about(solver, p);
-    problem_set_start(solver, p);
+    set_start(solver, p);
     return WIGGLY_OK;
 }

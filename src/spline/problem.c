@@ -69,7 +69,8 @@ static double phase_of(wiggly_solver *solver, const problem *p)
     return problem_filter(solver, p)->at.natural * (intervals * p->desc->step);
 }
 
-bool problem_pulls_imaginary(wiggly_solver *solver, const problem *p)
+/// Whether a chain takes the imaginary rows as a pull on its nodes: they are felt.
+static bool pulls_imaginary(wiggly_solver *solver, const problem *p)
 {
     return p->desc->mode == WIGGLY_COMPLEX && (problem_is_loose(p) || phase_of(solver, p) < least_unpulled_phase);
 }
@@ -93,7 +94,7 @@ static bool imaginary_fit(wiggly_solver *solver, const problem *p)
 {
     const double phase = phase_of(solver, p), phase2 = phase * phase;
     if (problem_is_loose(p)) return phase >= least_phase_of_loose_start;
-    if (!problem_pulls_imaginary(solver, p)) return true;
+    if (!pulls_imaginary(solver, p)) return true;
     const double stiffness = phase2 * (p->count / longest_gap(solver, p)), stiffness2 = stiffness * stiffness;
     return phase >= least_phase && stiffness2 * stiffness2 >= least_stiffness_of_gaps;
 }
@@ -113,13 +114,14 @@ bool problem_fits_chain(wiggly_solver *solver, const problem *p)
 bool problem_takes_pulls(wiggly_solver *solver, const problem *p)
 {
     if (solver->method == WIGGLY_BAND || p->level_slope || !poles_are_constant(p->desc)) return false;
-    if (problem_is_loose(p) || problem_pulls_imaginary(solver, p)) return false;
+    if (problem_is_loose(p) || pulls_imaginary(solver, p)) return false;
     if (p->about && !problem_oscillates(p)) return false;
     const int begin = p->desc->knot_count > 0 ? first_of_chain(solver, p) : 0;
     return begin >= 0 && slopes_fit(solver, p, begin);
 }
 
-double problem_omission(wiggly_solver *solver, const problem *p)
+/// What a chain without the imaginary rows, or with no more than their pull on the nodes, may be off by, as a part of x; 0 where that is next to nothing.
+static double omission(wiggly_solver *solver, const problem *p)
 {
     if (p->desc->mode != WIGGLY_COMPLEX) return 0;
     double ratio = fmin(1, least_unpulled_phase / phase_of(solver, p)), r2 = ratio * ratio, r4 = r2 * r2;
@@ -266,14 +268,15 @@ void problem_set_chain(wiggly_solver *solver, const problem *p)
     c->run = f->run;
     c->rounding = DBL_EPSILON * (1 + fmax(cplx_size(f->at.s[0]), cplx_size(f->at.s[1])) * p->desc->step);
     c->im_weight = 0;
-    if (problem_pulls_imaginary(solver, p)) c->im_weight = p->unit * problem_im_weight(p, f->at.natural);
+    if (pulls_imaginary(solver, p)) c->im_weight = p->unit * problem_im_weight(p, f->at.natural);
     set_speeds(c, p, f);
 }
 
 /// One knot without any hold has no single answer.
 static bool is_held(const chain *c) { return c->cyclic || c->node_count >= 2 || c->start.row[0].weight > 0; }
 
-bool problem_make_chain(wiggly_solver *solver, const problem *p)
+/// Puts filter, start and nodes into the solver's chain; true where the nodes differ from those before only in values.
+static bool make_chain(wiggly_solver *solver, const problem *p)
 {
     problem_set_chain(solver, p);
     return make_nodes(solver, p);
@@ -282,10 +285,10 @@ bool problem_make_chain(wiggly_solver *solver, const problem *p)
 bool problem_solve_chain(wiggly_solver *solver, const problem *p, double *x_re, double *x_im)
 {
     chain *c = &solver->chain;
-    bool same_nodes = problem_make_chain(solver, p);
+    bool same_nodes = make_chain(solver, p);
     c->kept = c->kept && same_nodes;
     if (!is_held(c) || !chain_solve(c, x_re, x_im)) return false;
-    c->error += problem_omission(solver, p) * c->size;
+    c->error += omission(solver, p) * c->size;
     problem_settle(solver, p, x_re - p->first, x_im - p->first);
     return true;
 }

@@ -85,9 +85,6 @@ void problem_set_rows(wiggly_solver *solver, const problem *p);
 /// Slope row of a knot that has one, or of the implied one, without an oscillator's coefficients; weight 0 where it is without effect.
 slope_row problem_slope(const problem *p, int sample, double slope, double stiffness);
 
-/// c·H of the start, for the calm that the problem has now.
-void problem_set_start(wiggly_solver *solver, problem *p);
-
 /// Another calm, with the start's cost and a loop's swing for it.
 void problem_set_calm(wiggly_solver *solver, problem *p, double calm);
 
@@ -98,18 +95,12 @@ void problem_fill_tail(wiggly_solver *solver, const problem *p, cplx w, int from
 /// The same for all samples behind the latest knot; arrays of the whole spline.
 void problem_settle(wiggly_solver *solver, const problem *p, double *re, double *im);
 
-/// Whether a chain takes the imaginary rows as a pull on its nodes: they are felt.
-bool problem_pulls_imaginary(wiggly_solver *solver, const problem *p);
-
 /// Whether the document is one for the chain: constant parameters, a constant equilibrium, no seam.
 bool problem_fits_chain(wiggly_solver *solver, const problem *p);
 
 /// Checks a description and applies the rules of the start; y receives the equilibrium where it moves, N numbers. What is wrong,
 /// or WIGGLY_OK.
 wiggly_status problem_pose(wiggly_solver *solver, const wiggly_desc *desc, double *y, problem *p);
-
-/// What a chain without the imaginary rows, or with no more than their pull on the nodes, may be off by, as a part of x; 0 where that is next to nothing.
-double problem_omission(wiggly_solver *solver, const problem *p);
 
 /// Writes what a knot says into a node, with the knot on the next sample where there is one; true where only values changed.
 bool problem_put_knot(const problem *p, chain_node *node, const wiggly_knot *knot, const wiggly_knot *pair);
@@ -119,9 +110,6 @@ bool problem_takes_pulls(wiggly_solver *solver, const problem *p);
 
 /// Puts filter, start and end into the solver's chain, and forgets what was made for others.
 void problem_set_chain(wiggly_solver *solver, const problem *p);
-
-/// Puts filter, start and nodes into the solver's chain; true where the nodes differ from those before only in values.
-bool problem_make_chain(wiggly_solver *solver, const problem *p);
 
 /// Solves by the chain: x of the system, M numbers each (x_im in complex mode). false where it declines: one knot without any
 /// hold, digits lost, or numbers so large that something might overflow.

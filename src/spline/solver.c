@@ -179,8 +179,6 @@ const constant_filter *solver_filter(wiggly_solver *solver, const wiggly_desc *d
 
 void wiggly_set_method(wiggly_solver *solver, wiggly_method method) { solver->method = method; }
 
-void solver_watch(wiggly_solver *solver, solver_stop *stop) { solver->stop = stop; }
-
 void solver_forget(wiggly_solver *solver)
 {
     solver->filter.known = false;

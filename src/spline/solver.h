@@ -4,7 +4,6 @@
 
 #include "spline/chain.h"
 #include "spline/desc.h"
-#include "spline/stop.h"
 #include "spline/swing.h"
 #include "spline/system.h"
 
@@ -42,7 +41,6 @@ typedef struct limit_memory {
 struct wiggly_solver {
     int samples, knots; ///< capacity
     bool owned;
-    solver_stop *stop;         ///< or NULL
     const system_pulls *pulls; ///< on the splines to be solved, or NULL
     wiggly_method method;
     int longest_squared; ///< longer domains are factored without squaring: none, but tests set it

@@ -6,6 +6,8 @@
 #include <math.h>
 #include <string.h>
 
+const char *wiggly_version(void) { return WIGGLY_VERSION; }
+
 wiggly_desc wiggly_default_desc(void)
 {
     return (wiggly_desc){
@@ -80,7 +82,6 @@ static wiggly_status minimise_safely(wiggly_solver *solver, problem *p, wiggly_c
             !(may_be_singular &&
               (result->weak || problem_blew_up(p, result->by_chain ? &solver->chain : NULL, curve))))
             return status;
-        if (solver_must_stop(solver->stop)) break;
         if (may_be_singular && p->calm == 0) {
             problem_set_calm(solver, p, FALLBACK_CALM);
             status = WIGGLY_CALMED;

@@ -64,7 +64,6 @@ enum bench_kind {
     BENCH_SHORT,     ///< one period in all
     BENCH_LIMITS,    ///< the curve stays within 1.02 of the largest knot
     BENCH_VARIATION, ///< another motion through the same knots
-    BENCH_EDIT,      ///< like single, of fewer knots
 };
 
 /// A spline of a kind; knots[middle] may be changed.

@@ -5,7 +5,7 @@
 #include <stdint.h>
 #include <stdlib.h>
 
-enum { KNOT_EVERY = 24, EDIT_EVERY = 100, LEAST_GAP = 12, GAPS = 25 };
+enum { KNOT_EVERY = 24, LEAST_GAP = 12, GAPS = 25 };
 static const double pi = 3.14159265358979323846;
 
 static bool has_slope(enum bench_kind kind, int knot, bool last)
@@ -27,14 +27,14 @@ static void add_knot(struct bench_input *input, int sample, bool with_slope)
 /// Gaps from LEAST_GAP to twice KNOT_EVERY less that, in no order.
 static void add_knots(struct bench_input *input, enum bench_kind kind)
 {
-    bool even = kind == BENCH_SINGLE || kind == BENCH_EDIT, ends = kind == BENCH_ENDS || kind == BENCH_END_SLOPES;
-    int gap = kind == BENCH_EDIT ? EDIT_EVERY : KNOT_EVERY, last = input->desc.samples - 1;
+    bool even = kind == BENCH_SINGLE, ends = kind == BENCH_ENDS || kind == BENCH_END_SLOPES;
+    int last = input->desc.samples - 1;
     uint32_t seed = 11;
     int sample = even || ends ? 0 : LEAST_GAP / 2;
     while (sample < last - (ends ? LEAST_GAP : 0)) {
         add_knot(input, sample, has_slope(kind, input->desc.knot_count, false));
         seed = seed * 1664525 + 1013904223;
-        sample += even ? gap : LEAST_GAP + (int)(seed >> 24) % GAPS;
+        sample += even ? KNOT_EVERY : LEAST_GAP + (int)(seed >> 24) % GAPS;
     }
     if (ends) add_knot(input, last, has_slope(kind, input->desc.knot_count, true));
 }
