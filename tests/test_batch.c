@@ -204,6 +204,37 @@ static void every_kind_is_the_same_to_the_bit(void **state)
     }
 }
 
+/// The same knots over another number of samples, one solver after the other: in a loop the last gap is another one, and behind a
+/// real spline's last knot there is more to fill.
+static void lengths_do_not_mix(void **state)
+{
+    (void)state;
+    static const wiggly_knot keys[] = {
+        {.sample = 1, .value = 0.3}, {.sample = 6, .value = -1}, {.sample = 9, .value = 2}};
+    static const int lengths[] = {11, SAMPLES, 40, 41, 12, SAMPLES};
+    wiggly_solver *used = NULL, *fresh = NULL;
+    wiggly_curve one = curve_create(SAMPLES), other = curve_create(SAMPLES);
+    assert_int_equal(wiggly_create(SAMPLES, KNOTS, &used), WIGGLY_OK);
+    for (int kind = 0; kind < 18; kind++) {
+        for (size_t n = 0; n < sizeof lengths / sizeof *lengths; n++) {
+            wiggly_desc desc = wiggly_default_desc();
+            desc.samples = lengths[n];
+            desc.mode = (wiggly_mode)(kind % 3), desc.start = (wiggly_start)(kind / 3 % 3);
+            desc.passive = kind < 9 ? WIGGLY_OSCILLATOR : WIGGLY_FILTER;
+            desc.frequency.value = 6, desc.damping.value = 0.1;
+            desc.knots = keys, desc.knot_count = 3;
+            assert_int_equal(wiggly_create(SAMPLES, KNOTS, &fresh), WIGGLY_OK);
+            assert_int_equal(wiggly_solve(used, &desc, &one), wiggly_solve(fresh, &desc, &other));
+            assert_memory_equal(one.total, other.total, (size_t)lengths[n] * sizeof *one.total);
+            assert_memory_equal(one.im, other.im, (size_t)lengths[n] * sizeof *one.im);
+            wiggly_destroy(fresh);
+        }
+    }
+    wiggly_destroy(used);
+    curve_destroy(&one);
+    curve_destroy(&other);
+}
+
 static void empty_and_wrong_calls(void **state)
 {
     (void)state;
@@ -297,9 +328,9 @@ static void running_out_of_memory_is_said(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_batch_is_the_same_to_the_bit), cmocka_unit_test(every_kind_is_the_same_to_the_bit),
-        cmocka_unit_test(empty_and_wrong_calls),          cmocka_unit_test(a_batch_fits_the_callers_memory),
-        cmocka_unit_test(running_out_of_memory_is_said),
+        cmocka_unit_test(a_batch_is_the_same_to_the_bit),  cmocka_unit_test(every_kind_is_the_same_to_the_bit),
+        cmocka_unit_test(empty_and_wrong_calls),           cmocka_unit_test(lengths_do_not_mix),
+        cmocka_unit_test(a_batch_fits_the_callers_memory), cmocka_unit_test(running_out_of_memory_is_said),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -253,7 +253,7 @@ void problem_set_chain(wiggly_solver *solver, const problem *p)
     const constant_filter *f = problem_filter(solver, p);
     if (!same_filter(solver, p)) chain_forget(c);
     start_cost start = start_of(p);
-    if (!same_start(start, c->start)) c->kept = false;
+    if (!same_start(start, c->start) || c->count != problem_rows(p)) c->kept = false;
     if (c->settles != p->settles || c->cyclic != (p->start == WIGGLY_LOOP) || c->oscillates != problem_oscillates(p))
         c->kept = false;
     c->is_complex = p->desc->mode == WIGGLY_COMPLEX;
