@@ -42,6 +42,22 @@ static wiggly_param make_param(struct adversary_problem *p, uint64_t *seed, doub
     return make_track(p, seed, value, other);
 }
 
+static double at_sample(wiggly_param param, int sample) { return param.track ? param.track[sample] : param.value; }
+
+/// A spring and a friction, as a frequency and a damping.
+static void set_spring(struct adversary_problem *p, wiggly_param k, wiggly_param gamma)
+{
+    wiggly_desc *d = &p->desc;
+    if (!k.track && !gamma.track) {
+        wiggly_from_spring(k.value, gamma.value, &d->frequency.value, &d->damping.value);
+        return;
+    }
+    double *frequency = p->tracks[p->tracks_used++], *damping = p->tracks[p->tracks_used++];
+    for (int i = 0; i < d->samples; i++)
+        wiggly_from_spring(at_sample(k, i), at_sample(gamma, i), &frequency[i], &damping[i]);
+    d->frequency.track = frequency, d->damping.track = damping;
+}
+
 /// Periods over the domain: none, a whole or a half number, few, many.
 static double some_periods(uint64_t *seed)
 {
@@ -88,10 +104,9 @@ static void make_poles(struct adversary_problem *p, uint64_t *seed)
     double most = (d->passive == WIGGLY_FILTER ? 0.9 : 0.45) / d->step;
     double f = fmin(some_periods(seed) / t, most), other = fmin(some_periods(seed) / t, most);
     if (d->mode == WIGGLY_REAL && pick(seed, 4) == 0) {
-        double k = 39.5 * f * f, friction = between(seed, 0, 8);
-        d->spring_friction = true;
-        d->spring = make_param(p, seed, k, 39.5 * other * other);
-        d->friction = make_param(p, seed, friction, 0);
+        double friction = between(seed, 0, 8);
+        wiggly_param k = make_param(p, seed, 39.5 * f * f, 39.5 * other * other);
+        set_spring(p, k, make_param(p, seed, friction, 0));
         return;
     }
     d->frequency = make_param(p, seed, f, other);
@@ -237,9 +252,8 @@ static void make_slow(struct adversary_problem *p, uint64_t *seed)
     d->calm = some_calm(seed);
     double t = (d->samples - 1) * d->step, f = power(seed, -4, 0.3) / t;
     if (d->mode == WIGGLY_REAL && pick(seed, 3) == 0) {
-        d->spring_friction = true;
-        d->spring = make_param(p, seed, pick(seed, 3) ? 39.5 * f * f : 0, 0);
-        d->friction = make_param(p, seed, between(seed, 0, 8) * (pick(seed, 2) ? f : 1), 0);
+        wiggly_param k = make_param(p, seed, pick(seed, 3) ? 39.5 * f * f : 0, 0);
+        set_spring(p, k, make_param(p, seed, between(seed, 0, 8) * (pick(seed, 2) ? f : 1), 0));
     } else {
         d->frequency = make_param(p, seed, f, 0.1 * f);
         d->damping = make_param(p, seed, some_damping(seed), some_damping(seed));

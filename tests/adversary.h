@@ -50,7 +50,6 @@ void adversary_print(FILE *out, const struct adversary_problem *problem);
 struct adversary_verdict {
     const char *fault; ///< what is wrong with the solver's answer, or NULL
     wiggly_status said, status;
-    bool missing;    ///< a loop has no periodic swing: it is 0, which the solver has to say
     bool exists;     ///< there is an answer for the status that the solver gave
     bool undecided;  ///< quadruple precision is not enough for the textbook either
     bool needless;   ///< the fault is no more than a complaint about what is easy

@@ -40,7 +40,7 @@ static bool is_nothing(const struct answer *a, int n)
 /// Damped so little that rows of the energy weigh much alike.
 static bool is_tame(const wiggly_desc *d)
 {
-    bool tame = !d->spring_friction || !d->spring.track;
+    bool tame = true;
     for (int i = 0; i < d->samples; i++)
         tame = tame && (d->damping.track ? d->damping.track[i] : d->damping.value) <= 2;
     return tame;
@@ -56,9 +56,9 @@ static double condition_of(const struct adversary_problem *p, wiggly_status stat
     static double track[TEXTBOOK_MAX];
     const double change = 1e-12;
     wiggly_desc other = p->desc;
-    wiggly_param *params[] = {&other.frequency, &other.damping, &other.spring, &other.friction};
+    wiggly_param *params[] = {&other.frequency, &other.damping};
     double worst = 0;
-    for (int i = 0; i < 4; i++) {
+    for (int i = 0; i < 2; i++) {
         wiggly_param kept = *params[i];
         for (int k = 0; kept.track && k < other.samples; k++) track[k] = kept.track[k] * (1 + change);
         *params[i] = (wiggly_param){kept.value * (1 + change), kept.track ? track : NULL};
@@ -75,7 +75,6 @@ static double tolerance(const wiggly_desc *d) { return d->mode == WIGGLY_CUBIC ?
 static void find_exact(const struct adversary_problem *p, struct adversary_verdict *v, struct answer *a)
 {
     bool asked = textbook_as(&p->desc, WIGGLY_OK, &book, a->total, a->re, a->im);
-    v->missing = book.swing_missing;
     v->pivot = book.pivot;
     v->growth = book.growth;
     v->undecided =
@@ -102,8 +101,6 @@ static const char *find_fault(const struct adversary_problem *p, struct adversar
                               const struct answer *exact)
 {
     const bool inexact = v->said == WIGGLY_INEXACT;
-    if (v->missing && !(inexact && isinf(v->estimate))) return "no word of a swing that is missing";
-    if (v->missing) return v->error <= tolerance(&p->desc) ? NULL : "off, but for the swing that is missing";
     if (v->said != v->status && !(inexact && v->status == WIGGLY_OK)) return "the wrong status";
     if (!(v->estimate >= 0)) return "an estimate that is no number";
     if (v->said == WIGGLY_OK && !(v->error <= tolerance(&p->desc))) return "OK, and off";

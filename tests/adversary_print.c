@@ -5,9 +5,10 @@ static const struct member {
     const char *key;
     size_t at;
 } members[] = {
-    {"frequency", offsetof(wiggly_desc, frequency)}, {"damping", offsetof(wiggly_desc, damping)},
-    {"bandwidth", offsetof(wiggly_desc, bandwidth)}, {"spring", offsetof(wiggly_desc, spring)},
-    {"friction", offsetof(wiggly_desc, friction)},   {"equilibrium", offsetof(wiggly_desc, equilibrium)},
+    {"frequency", offsetof(wiggly_desc, frequency)},
+    {"damping", offsetof(wiggly_desc, damping)},
+    {"bandwidth", offsetof(wiggly_desc, bandwidth)},
+    {"equilibrium", offsetof(wiggly_desc, equilibrium)},
 };
 
 /// A cubic with a knot on every sample: its total is the track, to the bit.
@@ -22,8 +23,6 @@ static void print_track(FILE *out, const struct adversary_problem *p, int track)
 static void print_params(FILE *out, const struct adversary_problem *p)
 {
     for (size_t m = 0; m < sizeof members / sizeof *members; m++) {
-        const bool physical = m == 3 || m == 4, ratio = m < 3;
-        if ((physical && !p->desc.spring_friction) || (ratio && p->desc.spring_friction)) continue;
         const wiggly_param *param = (const wiggly_param *)((const char *)&p->desc + members[m].at);
         if (param->track) {
             int track = 0;

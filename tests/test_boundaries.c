@@ -167,7 +167,7 @@ static void parameters_of_a_spline(void **state)
     for (int p = 0; p < PARAMETER_COUNT; p++) {
         const struct parameter_row *row = &parameter_rows[p];
         char text[256];
-        if (row->kind == PARAMETER_CHOICE || row->kind == PARAMETER_LIMIT || row->pair == PAIR_SPRING) continue;
+        if (row->kind == PARAMETER_CHOICE || row->kind == PARAMETER_LIMIT) continue;
         if (p == PARAMETER_VARIATION || p == PARAMETER_SEED) continue; // members of an object
         const double ends[] = {row->minimum, parameter_maximum((enum parameter)p, WIGGLY_COMPLEX)};
         for (int k = 0; k < 2; k++) {

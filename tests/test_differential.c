@@ -58,9 +58,9 @@ static void make_example(struct example *e, uint64_t *seed, int samples, uint64_
     e->desc.bandwidth = some_param(e, seed, 2, 0, 0.4);
     if (pick(seed, 3) == 0) e->desc.equilibrium = some_param(e, seed, 3, -1, 1);
     if (mode == WIGGLY_REAL && pick(seed, 4) == 0) {
-        e->desc.spring_friction = true;
-        e->desc.spring = (wiggly_param){.value = 400 * uniform(seed)};
-        e->desc.friction = (wiggly_param){.value = 8 * uniform(seed)};
+        const double k = 400 * uniform(seed), gamma = 8 * uniform(seed);
+        e->desc.frequency.track = e->desc.damping.track = NULL;
+        wiggly_from_spring(k, gamma, &e->desc.frequency.value, &e->desc.damping.value);
     }
     for (int i = 0; i < samples - (start == WIGGLY_LOOP ? 1 : 0); i++) {
         if (!(pattern >> i & 1)) continue;

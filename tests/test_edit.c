@@ -3,6 +3,7 @@
 
 #include "world.h"
 #include <stdlib.h>
+#include <string.h>
 
 /// A knot may pass others: it is found by its id, and knots stay by sample; its unknown keys go with it.
 static void test_knots(void **state)
@@ -73,48 +74,49 @@ static void test_refused_parameters(void **state)
     assert_refused(&world, edit_number(SWAY, PARAMETER_FREQUENCY, -1), "sway: frequency must be at least 0");
     assert_refused(&world, edit_number(SWAY, PARAMETER_DAMPING, 1.5), "sway: damping must be at most 1");
     assert_refused(&world, edit_number(SWAY, PARAMETER_EQUILIBRIUM, NAN), "sway: equilibrium must be finite");
-    assert_refused(&world, edit_number(SWAY, PARAMETER_SPRING, 1), "sway: spring is not in use");
-    assert_refused(&world, edit_number(PLUCK, PARAMETER_DAMPING, 1), "pluck: damping is not in use");
     assert_refused(&world, edit_track(SWAY, PARAMETER_CALM, LOOP), "sway: calm must be a number");
     assert_refused(&world, edit_track(SWAY, PARAMETER_DAMPING, 3), "sway: there is no spline to follow");
     assert_refused(&world, edit_track(SWAY, PARAMETER_DAMPING, SWAY),
                    "sway cannot follow sway, which already follows it");
     assert_refused(&world, edit_track(SWAY, PARAMETER_DAMPING, LOOP),
                    "sway cannot follow loop, which already follows it");
-    world_must(&world, edit_track(PLUCK, PARAMETER_SPRING, LOOP));
+    world_must(&world, edit_track(PLUCK, PARAMETER_FREQUENCY, LOOP));
     assert_refused(&world, edit_track(SWAY, PARAMETER_BANDWIDTH, PLUCK),
                    "sway cannot follow pluck, which already follows it");
-    assert_refused(&world, edit_mode(PLUCK, WIGGLY_COMPLEX),
-                   "pluck: spring follows a spline: make it a number before converting");
-    assert_refused(&world, (struct edit){.kind = EDIT_SPRING, .spline = SWAY, .flag = true},
-                   "sway: spring and friction are for real mode only");
     world_close(&world);
 }
 
-/// ω = √k and ζ = γ/2√k; what is out of the new mode's range is clamped, so that what is saved loads.
-static void test_modes_convert(void **state)
+/// What is out of the new mode's range is clamped, so that what is saved loads.
+static void test_modes_clamp(void **state)
 {
     (void)state;
     struct world world;
     world_open(&world);
     const struct spline *pluck = &world.document->splines[PLUCK];
-    world_must(&world, edit_number(PLUCK, PARAMETER_FRICTION, 30));
+    world_must(&world, edit_number(PLUCK, PARAMETER_DAMPING, 2.4));
     char *before = world_print(&world);
     world_must(&world, edit_mode(PLUCK, WIGGLY_COMPLEX));
-    assert_near(pluck->parameter[PARAMETER_FREQUENCY].value, sqrt(40) / (8 * atan(1)), 1e-15);
-    assert_near(pluck->parameter[PARAMETER_DAMPING].value, 1, 0); // 30/2√40 = 2.37
-    assert_false(pluck->spring_friction);
+    assert_near(pluck->parameter[PARAMETER_DAMPING].value, 1, 0);
     assert_true(history_undo(world.history, world.document));
     assert_document(&world, before);
     free(before);
-    world_must(&world, (struct edit){.kind = EDIT_SPRING, .spline = PLUCK, .flag = false});
-    assert_near(pluck->parameter[PARAMETER_DAMPING].value, 15 / sqrt(40), 1e-15);
-    world_must(&world, (struct edit){.kind = EDIT_SPRING, .spline = PLUCK, .flag = true});
-    assert_near(pluck->parameter[PARAMETER_SPRING].value, 40, 1e-13);
-    assert_near(pluck->parameter[PARAMETER_FRICTION].value, 30, 1e-13);
-    world_must(&world, edit_number(PLUCK, PARAMETER_SPRING, 0));
-    world_must(&world, edit_mode(PLUCK, WIGGLY_COMPLEX));
-    assert_near(pluck->parameter[PARAMETER_DAMPING].value, 0, 0);
+    world_close(&world);
+}
+
+/// The paper's pair in a file (eq. 12) is read as what it is: ω = √k, ζ = γ/2√k.
+static void test_a_spring_is_saved_as_frequency_and_damping(void **state)
+{
+    (void)state;
+    struct world world;
+    world_open(&world);
+    const struct spline *pluck = &world.document->splines[PLUCK];
+    assert_near(pluck->parameter[PARAMETER_FREQUENCY].value, sqrt(40) / (8 * atan(1)), 1e-15);
+    assert_near(pluck->parameter[PARAMETER_DAMPING].value, 0.5 / sqrt(40), 1e-15);
+    char *text = world_print(&world);
+    assert_non_null(strstr(text, "\"pluck\""));
+    assert_null(strstr(text, "\"spring\""));
+    assert_null(strstr(text, "\"friction\""));
+    free(text);
     world_close(&world);
 }
 
@@ -174,10 +176,10 @@ static void test_angles(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_knots),         cmocka_unit_test(test_negative_zeros),
-        cmocka_unit_test(test_refused_knots), cmocka_unit_test(test_refused_parameters),
-        cmocka_unit_test(test_modes_convert), cmocka_unit_test(test_range_and_loops),
-        cmocka_unit_test(test_angles),
+        cmocka_unit_test(test_knots),           cmocka_unit_test(test_negative_zeros),
+        cmocka_unit_test(test_refused_knots),   cmocka_unit_test(test_refused_parameters),
+        cmocka_unit_test(test_modes_clamp),     cmocka_unit_test(test_a_spring_is_saved_as_frequency_and_damping),
+        cmocka_unit_test(test_range_and_loops), cmocka_unit_test(test_angles),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -191,8 +191,6 @@ static void test_every_control_of_a_tail_explains_itself(void **state)
     session_key(&s, 'T', 0);
     assert_all_explained(&s);
     panel_click(&s, "mode.real");
-    panel_click(&s, "spring_friction");
-    assert_all_explained(&s);
     panel_click(&s, "spline.lift");
     assert_all_explained(&s);
     session_close(&s);

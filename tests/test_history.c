@@ -166,7 +166,7 @@ static void test_dirty(void **state)
     assert_dirty(&world, true, true, true); // a new history: nothing is known to be solved
     assert_dirty(&world, false, false, false);
     world_must(&world, edit_insert(SWAY, 5, 5));
-    world_must(&world, edit_number(PLUCK, PARAMETER_SPRING, 4));
+    world_must(&world, edit_number(PLUCK, PARAMETER_FREQUENCY, 4));
     assert_dirty(&world, true, true, false);
     assert_true(history_undo(world.history, world.document));
     assert_dirty(&world, false, true, false);
@@ -251,8 +251,8 @@ static struct edit random_setting_edit(struct angles *angles)
 {
     struct edit edit = {.spline = rand() % 3, .channel = rand() % 3 - 1, .angles = angles};
     static const enum edit_kind kinds[] = {EDIT_PARAMETER, EDIT_PARAMETER, EDIT_PARAMETER, EDIT_PARAMETER,
-                                           EDIT_SPRING,    EDIT_RANGE,     EDIT_ANGLES,    EDIT_AXIS};
-    edit.kind = kinds[rand() % 8];
+                                           EDIT_RANGE,     EDIT_ANGLES,    EDIT_AXIS};
+    edit.kind = kinds[rand() % 7];
     edit.parameter = (enum parameter)(rand() % PARAMETER_COUNT);
     edit.param.value = rand() % 2 ? fabs(random_number()) : 0.5;
     edit.param.track = rand() % 6 - 3;

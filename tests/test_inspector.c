@@ -139,11 +139,8 @@ static void test_only_what_counts_is_shown(void **state)
     panel_click(&f, "mode.real");
     assert_int_equal(spline_mode(&f.document->splines[0]), WIGGLY_REAL);
     assert_false(panel_shows(&f, "bandwidth"));
-    panel_click(&f, "spring_friction");
-    assert_true(panel_shows(&f, "spring"));
-    assert_false(panel_shows(&f, "frequency"));
     panel_click(&f, "mode.cubic");
-    assert_false(panel_shows(&f, "spring"));
+    assert_false(panel_shows(&f, "frequency"));
     panel_click(&f, "spline.lift");
     assert_int_equal(f.editor->core.active, 2);
     assert_false(panel_shows(&f, "frequency")); // a track drives it
@@ -451,9 +448,8 @@ static int try_all_sliders(struct session *f)
     static const struct {
         const char *name;
         double ends[2];
-    } sliders[] = {{"frequency", {0, 12}}, {"damping", {0, 1}},   {"damping", {0, 3}},   {"bandwidth", {0, 1}},
-                   {"calm", {0, 1}},       {"spring", {0, 2000}}, {"friction", {0, 50}}, {"lag", {0, 30}},
-                   {"gain", {0, 20}},      {"rest", {-15, 15}}};
+    } sliders[] = {{"frequency", {0, 12}}, {"damping", {0, 1}}, {"damping", {0, 3}}, {"bandwidth", {0, 1}},
+                   {"calm", {0, 1}},       {"lag", {0, 30}},    {"gain", {0, 20}},   {"rest", {-15, 15}}};
     for (size_t s = 0; s < sizeof sliders / sizeof sliders[0]; s++) {
         for (int end = 0; end < 2; end++) {
             if (!panel_shows(f, sliders[s].name)) continue;
@@ -481,10 +477,6 @@ static void test_extremes_stay_finite_and_loadable(void **state)
             panel_open(&f, text, 1280, 1600);
             panel_click(&f, "section.advanced");
             assert_int_equal(try_all_sliders(&f), m == 0 ? 16 : m == 1 ? 14 : 6);
-            if (m == 1) {
-                panel_click(&f, "spring_friction");
-                assert_int_equal(try_all_sliders(&f), 12);
-            }
             session_close(&f);
             free(text);
         }

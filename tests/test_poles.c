@@ -7,7 +7,7 @@ static const char scene[] =
     "{\"name\": \"sway\", \"frequency\": 1, \"damping\": 0.1, \"bandwidth\": 0.1234, \"knots\": ["
     "  {\"frame\": 0, \"value\": 0}, {\"frame\": 36, \"value\": 1}]},"
     "{\"name\": \"pace\", \"mode\": \"cubic\", \"knots\": [{\"frame\": 0, \"value\": 1}]},"
-    "{\"name\": \"pluck\", \"mode\": \"real\", \"spring\": 40, \"friction\": 1},"
+    "{\"name\": \"pluck\", \"mode\": \"real\", \"frequency\": 1, \"damping\": 0.08},"
     "{\"name\": \"lift\", \"frequency\": {\"spline\": \"pace\"}, \"damping\": 0.2, \"knots\": ["
     "  {\"frame\": 10, \"value\": 1}]}], \"rigs\": []}";
 
@@ -76,8 +76,8 @@ static void test_pole_opens_the_band(void **state)
     }
 }
 
-/// The paper's own pair is set where the spline uses it: ω² and 2ζω.
-static void test_spring_and_friction(void **state)
+/// The poles of real mode mirror each other: there is one handle.
+static void test_real_poles(void **state)
 {
     (void)state;
     struct session f;
@@ -85,11 +85,11 @@ static void test_spring_and_friction(void **state)
     assert_false(panel_shows(&f, "pole.upper"));
     drag(&f, "pole.centre", 30, -10);
     panel_release(&f);
-    assert_true(value(&f, PARAMETER_SPRING) > 45);
-    assert_true(value(&f, PARAMETER_FRICTION) > 1.1);
+    assert_true(value(&f, PARAMETER_FREQUENCY) > 1.05);
+    assert_true(value(&f, PARAMETER_DAMPING) > 0.08);
     session_key(&f, 'Z', MOD_CTRL);
-    assert_near(value(&f, PARAMETER_SPRING), 40, 0);
-    assert_near(value(&f, PARAMETER_FRICTION), 1, 0);
+    assert_near(value(&f, PARAMETER_FREQUENCY), 1, 0);
+    assert_near(value(&f, PARAMETER_DAMPING), 0.08, 0);
     session_close(&f);
 }
 
@@ -128,7 +128,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_centre_sets_frequency_and_damping),
         cmocka_unit_test(test_pole_opens_the_band),
-        cmocka_unit_test(test_spring_and_friction),
+        cmocka_unit_test(test_real_poles),
         cmocka_unit_test(test_tracks_stay),
         cmocka_unit_test(test_arrow_keys_move_a_focused_pole),
     };

@@ -44,14 +44,6 @@ expect 0 "solve of an undamped chain without calm" "$WIGGLY" solve "$scratch/cha
 grep -qE '"chain": solved, but the estimated error exceeds the tolerance: [0-9.]+e-[0-9]+ of the curve'"'"'s size$' <<<"$err"
 ok "says that it is inexact, and by how much" $?
 
-cat >"$scratch/rubbed.json" <<'END'
-{"frames": [0, 5], "splines": [{"name": "rub", "mode": "cubic", "knots": [{"frame": 0, "value": 1}, {"frame": 3, "value": 0}]},
-  {"name": "loop", "mode": "real", "start": "loop", "spring": 0, "friction": {"spline": "rub"}, "equilibrium": {"spline": "rub"},
-   "knots": [{"frame": 1, "value": 0}]}]}
-END
-expect 0 "solve of a loop without a spring, whose friction varies" "$WIGGLY" solve "$scratch/rubbed.json"
-says "says that no swing repeats" '"loop": a loop without a spring, whose friction varies, has no swing' "$err"
-
 expect 0 "check of a loop whose equilibrium jumps" "$WIGGLY" check tests/vectors/loop_moving_equilibrium.json
 says "says so" "the equilibrium of this loop does not end where it starts" "$out"
 

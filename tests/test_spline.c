@@ -262,15 +262,13 @@ static void wrong_descriptions_are_named_and_leave_the_curve_alone(void **state)
         {describe(0, WIGGLY_COMPLEX, WIGGLY_FREE, &good, 1), WIGGLY_ERROR_ARGUMENT},
         {describe(MAX + 1, WIGGLY_COMPLEX, WIGGLY_FREE, &good, 1), WIGGLY_ERROR_CAPACITY},
         {describe(1, WIGGLY_COMPLEX, WIGGLY_LOOP, NULL, 0), WIGGLY_ERROR_LOOP},
-        {ok, WIGGLY_ERROR_SPRING},
         {ok, WIGGLY_ERROR_NUMBER},
         {ok, WIGGLY_ERROR_NUMBER},
         {ok, WIGGLY_ERROR_NUMBER},
     };
-    cases[9].desc.spring_friction = true;
-    cases[10].desc.step = 0;
-    cases[11].desc.calm = 1.5;
-    cases[12].desc.damping.track = broken_track;
+    cases[9].desc.step = 0;
+    cases[10].desc.calm = 1.5;
+    cases[11].desc.damping.track = broken_track;
     for (size_t c = 0; c < sizeof cases / sizeof *cases; c++) {
         memset(curve.total, 0x5A, sizeof(double) * MAX);
         wiggly_curve before = curve;
@@ -431,9 +429,9 @@ static void extremes_stay_finite(void **state)
         desc.damping.value = PICK(&seed, -1, 0, 1e-12, 1, 3, 1e300);
         desc.bandwidth.value = PICK(&seed, -1, 0, 0.1, 1, 1e300);
         desc.calm = PICK(&seed, 0, 1e-9, 1);
-        desc.spring_friction = desc.mode == WIGGLY_REAL && PICK(&seed, 0, 1) > 0;
-        desc.spring.value = PICK(&seed, 0, 1e-300, 1, 1e308);
-        desc.friction.value = PICK(&seed, 0, 1e-300, 1, 1e308);
+        const double k = PICK(&seed, 0, 1e-300, 1, 1e308), gamma = PICK(&seed, 0, 1e-300, 1, 1e308);
+        if (desc.mode == WIGGLY_REAL && PICK(&seed, 0, 1) > 0)
+            wiggly_from_spring(k, gamma, &desc.frequency.value, &desc.damping.value);
         wiggly_status status = wiggly_solve(solver, &desc, &curve);
         if (status >= WIGGLY_ERROR_ARGUMENT) fail_msg("example %d: %s", n, wiggly_status_text(status));
         for (int i = 0; i < samples; i++) {

@@ -86,10 +86,11 @@ static wiggly_desc read_desc(const struct scene *scene, const json_t *spline, wi
     read_param(scene, spline, "frequency", &desc.frequency);
     read_param(scene, spline, "damping", &desc.damping);
     read_param(scene, spline, "bandwidth", &desc.bandwidth);
-    read_param(scene, spline, "spring", &desc.spring);
-    read_param(scene, spline, "friction", &desc.friction);
     read_param(scene, spline, "equilibrium", &desc.equilibrium);
-    desc.spring_friction = json_object_get(spline, "spring") || json_object_get(spline, "friction");
+    const json_t *k = json_object_get(spline, "spring"), *gamma = json_object_get(spline, "friction");
+    if (k || gamma)
+        wiggly_from_spring(json_number_value(k), json_number_value(gamma), &desc.frequency.value,
+                           &desc.damping.value);
     desc.knots = knots;
     size_t n;
     json_array_foreach(json_object_get(spline, "knots"), n, knot)
@@ -154,28 +155,25 @@ static void the_textbook_meets_every_vector(void **state)
 static bool read_problem(FILE *file, wiggly_desc *desc, double tracks[4][TEXTBOOK_MAX], wiggly_knot *knots,
                          double expected[][3])
 {
-    int mode, start, passive, spring_friction, has_slope;
+    int mode, start, passive, has_slope;
     double fps;
     *desc = wiggly_default_desc();
-    if (fscanf(file, "%d %lf %d %d %d %lf %d %d", &desc->samples, &fps, &mode, &start, &passive, &desc->calm,
-               &spring_friction, &desc->knot_count) != 8)
+    if (fscanf(file, "%d %lf %d %d %d %lf %*d %d", &desc->samples, &fps, &mode, &start, &passive, &desc->calm,
+               &desc->knot_count) != 7)
         return false;
     assert_true(desc->samples <= TEXTBOOK_MAX && desc->knot_count <= MAX_KNOTS);
     desc->step = 1 / fps;
     desc->mode = (wiggly_mode)mode;
     desc->start = (wiggly_start)start;
     desc->passive = (wiggly_passive)passive;
-    desc->spring_friction = spring_friction;
     desc->knots = knots;
-    wiggly_param *spring[] = {&desc->spring, &desc->friction, &desc->equilibrium},
-                 *ratios[] = {&desc->frequency, &desc->damping, &desc->bandwidth, &desc->equilibrium};
-    for (int p = 0; p < (spring_friction ? 3 : 4); p++) {
-        wiggly_param *param = spring_friction ? spring[p] : ratios[p];
+    wiggly_param *params[] = {&desc->frequency, &desc->damping, &desc->bandwidth, &desc->equilibrium};
+    for (int p = 0; p < 4; p++) {
         int varies;
         assert_int_equal(fscanf(file, "%*s %d", &varies), 1);
         for (int i = 0; i < (varies ? desc->samples : 1); i++)
             assert_int_equal(fscanf(file, "%lf", &tracks[p][i]), 1);
-        *param = (wiggly_param){tracks[p][0], varies ? tracks[p] : NULL};
+        *params[p] = (wiggly_param){tracks[p][0], varies ? tracks[p] : NULL};
     }
     for (wiggly_knot *k = knots; k < knots + desc->knot_count; k++) {
         assert_int_equal(
@@ -188,8 +186,8 @@ static bool read_problem(FILE *file, wiggly_desc *desc, double tracks[4][TEXTBOO
     return true;
 }
 
-/// tests/textbook/small.txt: what the vectors lack. A problem is a line of samples, rate, mode, start, passive, calm, whether spring and
-/// friction, and knots; its parameters (0: a number, 1: a track); its knots (sample, value, whether a slope, slope, stiffness); and total,
+/// tests/textbook/small.txt: what the vectors lack. A problem is a line of samples, rate, mode, start, passive, calm, 0, and
+/// knots; its parameters (0: a number, 1: a track); its knots (sample, value, whether a slope, slope, stiffness); and total,
 /// Re x, Im x of every sample in 60-digit arithmetic.
 static void the_textbook_meets_every_small_problem(void **state)
 {

@@ -35,7 +35,7 @@ static void open_book(const wiggly_desc *desc, real calm, struct textbook *b)
     b->count = b->loop ? b->samples - 1 : b->samples - b->first;
     b->pivot = 1;
     b->growth = b->inverse = 0;
-    b->open = b->tied = b->swing_calmed = b->swing_missing = false;
+    b->open = b->tied = b->swing_calmed = false;
     for (int i = 0; i < b->samples; i++) {
         bool wraps = b->loop && i == b->samples - 1;
         b->y[i] = wraps ? b->y[0] : textbook_param(desc->equilibrium, i);

@@ -21,11 +21,10 @@ struct textbook_poles {
 struct textbook {
     double
         pivot; ///< least pivot of the system, as a part of its diagonal entry; of a swing in a loop, its determinant too
-    double inverse;     ///< how large the inverse is beside the diagonal's, by four right-hand sides
-    double growth;      ///< max |w| over the scale of what was asked; 0 where that is 0
-    bool open;          ///< nothing holds the start (in a loop: the damping), so the problem may be singular
-    bool swing_missing; ///< a loop without a spring whose friction varies has no periodic u: it is 0
-    bool swing_calmed;  ///< a loop without damping has no swing of its own to speak of: u is that of calm 0.05
+    double inverse;    ///< how large the inverse is beside the diagonal's, by four right-hand sides
+    double growth;     ///< max |w| over the scale of what was asked; 0 where that is 0
+    bool open;         ///< nothing holds the start (in a loop: the damping), so the problem may be singular
+    bool swing_calmed; ///< a loop without damping has no swing of its own to speak of: u is that of calm 0.05
 
     bool is_complex, loop, rest, filter; ///< filter: what moves by itself is the paper's filter
     real h, calm;

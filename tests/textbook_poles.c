@@ -10,20 +10,7 @@ struct textbook_poles textbook_poles_at(const wiggly_desc *desc, int sample, rea
     struct textbook_poles at = {0};
     number j = 1.0Qi;
     if (desc->mode == WIGGLY_CUBIC) return at;
-    real w, zeta;
-    if (desc->spring_friction) {
-        real friction = not_negative(desc->friction, sample);
-        w = sqrtq(not_negative(desc->spring, sample));
-        if (w == 0) {
-            at.s[1] = -friction;
-            at.d = friction / 2;
-            return at;
-        }
-        zeta = friction / (2 * w);
-    } else {
-        w = 2 * M_PIq * not_negative(desc->frequency, sample);
-        zeta = not_negative(desc->damping, sample);
-    }
+    real w = 2 * M_PIq * not_negative(desc->frequency, sample), zeta = not_negative(desc->damping, sample);
     zeta = fmaxq(zeta, floor);
     if (desc->mode == WIGGLY_COMPLEX) zeta = fminq(zeta, 1);
     at.natural = w;
@@ -44,8 +31,7 @@ struct textbook_poles textbook_poles_at(const wiggly_desc *desc, int sample, rea
 
 void textbook_fill_poles(const wiggly_desc *desc, real floor, bool loop, struct textbook_poles *at)
 {
-    bool varies = desc->spring_friction ? desc->spring.track || desc->friction.track
-                                        : desc->frequency.track || desc->damping.track || desc->bandwidth.track;
+    bool varies = desc->frequency.track || desc->damping.track || desc->bandwidth.track;
     for (int i = 0; i < desc->samples; i++) {
         int j = loop ? i % (desc->samples - 1) : i;
         at[i] = i > 0 && !varies ? at[0] : textbook_poles_at(desc, j, floor);

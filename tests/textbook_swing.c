@@ -50,11 +50,11 @@ static struct state run(const struct textbook *b, struct state now, real drive, 
 }
 
 /// Nothing pulls it back: of the family of periodic swings, the one of mean 0.
-static struct state periodic_without_spring(const struct textbook *b, bool rubs)
+static struct state periodic_without_spring(const struct textbook *b)
 {
     int period = b->samples - 1;
-    struct state driven = run(b, (struct state){0}, 1, NULL), moved = run(b, (struct state){0, 1}, 0, NULL);
-    struct state at[TEXTBOOK_MAX], start = {0, rubs ? driven.v / (1 - moved.v) : -driven.q / (period * b->h)};
+    struct state driven = run(b, (struct state){0}, 1, NULL);
+    struct state at[TEXTBOOK_MAX], start = {0, -driven.q / (period * b->h)};
     run(b, start, 1, at);
     real sum = 0;
     for (int i = 0; i < period; i++) sum += at[i].q;
@@ -65,16 +65,10 @@ static struct state periodic_without_spring(const struct textbook *b, bool rubs)
 /// The state before sample 0 that comes back before the last one. false where there is none.
 static bool find_periodic(struct textbook *b, struct state *start)
 {
-    bool pulls = false, rubs = false, varies = false;
-    for (int i = 0; i < b->samples - 1; i++) {
-        pulls = pulls || b->swing[i].k > 0;
-        rubs = rubs || b->swing[i].d > 0;
-        varies = varies || b->swing[i].d != b->swing[0].d;
-    }
-    b->swing_missing = !pulls && varies;
-    if (b->swing_missing) return true;
+    bool pulls = false;
+    for (int i = 0; i < b->samples - 1; i++) pulls = pulls || b->swing[i].k > 0;
     if (!pulls) {
-        *start = periodic_without_spring(b, rubs);
+        *start = periodic_without_spring(b);
         return true;
     }
     struct state driven = run(b, (struct state){0}, 1, NULL), q = run(b, (struct state){1, 0}, 0, NULL),
@@ -106,7 +100,6 @@ static bool swing_at_calm(const wiggly_desc *desc, struct textbook *b, real calm
     struct state at[TEXTBOOK_MAX], start = {0};
     textbook_fill_poles(desc, b->loop ? calm / 20 : 0, b->loop, b->swing);
     if (b->loop && !find_periodic(b, &start)) return false;
-    if (b->swing_missing) return true;
     run(b, start, 1, at);
     real largest = 0;
     for (int i = 0; i < b->samples; i++) {

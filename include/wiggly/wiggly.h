@@ -36,7 +36,6 @@ typedef enum wiggly_status {
     WIGGLY_ERROR_NUMBER, ///< a number is NaN or infinite, a value beyond 1e300, a stiffness not above 0, or calm outside 0 … 1
     WIGGLY_ERROR_KNOT,   ///< two knots on one sample, or a knot outside the domain (a loop's last sample is outside)
     WIGGLY_ERROR_LOOP,   ///< a loop of one sample
-    WIGGLY_ERROR_SPRING, ///< spring and friction in complex mode
     WIGGLY_ERROR_MEMORY, ///< out of memory
     WIGGLY_ERROR_PIN,    ///< a pin outside the domain, or on a spline that has no motion of its own
     WIGGLY_ERROR_LIMIT,  ///< a knot beyond a limit, or a low limit that is not below the high one
@@ -81,6 +80,10 @@ typedef struct wiggly_knot {
     double stiffness; ///< > 0, 1/s: what missing the slope costs; 1000 is firm
 } wiggly_knot;
 
+/// Frequency, Hz, and damping ratio of a spring k, 1/s², and a friction gamma, 1/s (eq. 12), neither below 0: √k/2π and gamma/2√k. No
+/// damping beyond 10⁸: a friction without a spring is that of one so weak that it never shows.
+void wiggly_from_spring(double k, double gamma, double *frequency, double *damping);
+
 /// What to solve. Start from wiggly_default_desc().
 typedef struct wiggly_desc {
     int samples; ///< N, at least 1
@@ -90,9 +93,6 @@ typedef struct wiggly_desc {
     wiggly_param frequency;   ///< Hz, undamped natural frequency; 0 is the cubic
     wiggly_param damping;     ///< ratio; 1 is critical, above 1 (real mode only) overdamped
     wiggly_param bandwidth;   ///< fraction of the frequency, 0 … 1; complex mode only
-    bool spring_friction;     ///< real mode: use the next two in place of frequency and damping
-    wiggly_param spring;      ///< k, 1/s² (eq. 12)
-    wiggly_param friction;    ///< gamma, 1/s (eq. 12)
     wiggly_param equilibrium; ///< y (eq. 25)
     double calm;              ///< 0 … 1; 0 is the paper's formula to the letter
     wiggly_passive passive;   ///< the oscillator, unless it says the filter
@@ -122,9 +122,7 @@ typedef struct wiggly_curve {
     double before[2]; ///< that constant, re and im
     wiggly_mode mode;
     wiggly_start start;
-    double
-        error; ///< estimated largest error, relative to the larger of the total's range and magnitude; infinite where a loop
-               ///< has no swing that repeats (spring 0, and a friction that varies), which is left out
+    double error;    ///< estimated largest error, relative to the larger of the total's range and magnitude
     int refinements; ///< sweeps of iterative refinement that were taken
 } wiggly_curve;
 

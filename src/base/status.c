@@ -13,7 +13,6 @@ static const char *const status_text[WIGGLY_STATUS_COUNT] = {
         "a number is not finite, a value beyond 1e300, a stiffness not above 0, or calm outside 0 to 1",
     [WIGGLY_ERROR_KNOT] = "two knots share a sample, or a knot is outside the domain",
     [WIGGLY_ERROR_LOOP] = "a loop needs more than one sample",
-    [WIGGLY_ERROR_SPRING] = "spring and friction work in real mode only",
     [WIGGLY_ERROR_MEMORY] = "out of memory",
     [WIGGLY_ERROR_PIN] =
         "a pin is outside the domain, or on a spline that has no motion of its own: cubic, calm 0 or frequency 0",

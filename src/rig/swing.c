@@ -38,7 +38,6 @@ bool swing_filter(const struct spline *spline, const double parameter[PARAMETER_
     wiggly_desc desc = wiggly_default_desc();
     for (enum parameter p = 0; p < PARAMETER_COUNT; p++) parameter_describe(p, parameter[p], NULL, &desc);
     desc.mode = spline_mode(spline);
-    desc.spring_friction = spline->spring_friction && desc.mode == WIGGLY_REAL;
     const poles at = poles_at(&desc, 0, LEAST_DAMPING);
     *filter = (struct swing_filter){.s = {{at.s[0].re, at.s[0].im}, {at.s[1].re, at.s[1].im}},
                                     .oscillates = desc.passive == WIGGLY_OSCILLATOR,

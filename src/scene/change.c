@@ -117,7 +117,7 @@ static void swap_knot(struct change *change, const struct document *document)
 
 struct settings settings_of(const struct spline *spline)
 {
-    struct settings settings = {.spring_friction = spline->spring_friction};
+    struct settings settings;
     memcpy(settings.parameter, spline->parameter, sizeof settings.parameter);
     return settings;
 }
@@ -125,7 +125,6 @@ struct settings settings_of(const struct spline *spline)
 static void swap_settings(struct spline *spline, struct settings *settings)
 {
     struct settings old = settings_of(spline);
-    spline->spring_friction = settings->spring_friction;
     memcpy(spline->parameter, settings->parameter, sizeof spline->parameter);
     *settings = old;
 }

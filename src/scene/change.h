@@ -35,9 +35,8 @@ enum change_kind {
     CHANGE_PIN,         ///< a pin's numbers
 };
 
-/// What EDIT_PARAMETER and EDIT_SPRING change.
+/// What EDIT_PARAMETER changes.
 struct settings {
-    bool spring_friction;
     struct param parameter[PARAMETER_COUNT];
 };
 

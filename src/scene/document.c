@@ -14,7 +14,6 @@ const char *coordinate_name(int index)
 
 void spline_reset(struct spline *spline)
 {
-    spline->spring_friction = false;
     spline->color = -1;
     for (int i = 0; i < PARAMETER_COUNT; i++) {
         spline->parameter[i] = param_number(parameter_rows[i].standard);

@@ -39,7 +39,6 @@ struct knot {
 
 struct spline {
     char *name;
-    bool spring_friction; ///< real mode with spring and friction, the paper's pair
     struct param parameter[PARAMETER_COUNT];
     struct knot *knots; ///< by sample
     int knot_count, knot_capacity;

@@ -13,7 +13,6 @@ enum edit_kind {
     EDIT_KNOT_REMOVE, ///< spline, knot.id
     EDIT_KNOT_SET,    ///< spline, knot (found by id; frame, value, slope, has_slope, stiffness are replaced)
     EDIT_PARAMETER, ///< spline, parameter, param (its motion is copied). A new mode converts ω = √k, ζ = γ/2√k and clamps, so that the saved file loads
-    EDIT_SPRING,    ///< spline, flag: whether spring and friction are in use (real mode only)
     EDIT_SPLINE_ADD,  ///< spline: its place in the list, text (NULL: a free name), and if `flag` its first knot. f 1,
                       ///< ζ 0.1, β 0.1
     EDIT_SPLINE_COPY, ///< spline: a copy goes after it, with a free name and new knot ids

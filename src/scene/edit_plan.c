@@ -36,7 +36,6 @@ static const struct {
     [EDIT_KNOT_REMOVE] = {plan_knot_remove, TARGET_SPLINE, 0},
     [EDIT_KNOT_SET] = {plan_knot_set, TARGET_SPLINE, 0},
     [EDIT_PARAMETER] = {plan_parameter, TARGET_SPLINE, 0},
-    [EDIT_SPRING] = {plan_spring, TARGET_SPLINE, 0},
     [EDIT_SPLINE_ADD] = {plan_spline_add, TARGET_SCENE, 0},
     [EDIT_SPLINE_COPY] = {plan_spline_copy, TARGET_SPLINE, 0},
     [EDIT_SPLINE_REMOVE] = {plan_spline_remove, TARGET_SPLINE, 0},

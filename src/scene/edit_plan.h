@@ -8,7 +8,7 @@ typedef bool planner(struct document *document, const struct edit *edit, struct 
                      struct error *error);
 
 planner plan_knot_insert, plan_knot_remove, plan_knot_set;
-planner plan_parameter, plan_spring;
+planner plan_parameter;
 planner plan_spline_add, plan_spline_copy, plan_spline_remove, plan_spline_move, plan_spline_name, plan_spline_color;
 planner plan_document, plan_fps, plan_substeps, plan_range;
 planner plan_joints, plan_tail_add, plan_rig_remove, plan_rig_name, plan_channel_add, plan_channel_remove;

@@ -4,11 +4,9 @@
 #include "scene/order.h"
 #include <math.h>
 
-static const double TWO_PI = 6.283185307179586;
-
 static bool same_settings(const struct settings *a, const struct settings *b)
 {
-    bool same = a->spring_friction == b->spring_friction;
+    bool same = true;
     for (int i = 0; i < PARAMETER_COUNT; i++) {
         const struct param *one = &a->parameter[i], *other = &b->parameter[i];
         same &= one->value == other->value && one->track == other->track && one->motion == other->motion &&
@@ -104,43 +102,11 @@ static bool check_limit(const struct document *document, const struct spline *sp
     return true;
 }
 
-/// ω = √k, ζ = γ/2√k, or back: k = ω², γ = 2ζω. The pair that is dropped returns to its default.
-static bool convert_spring(const struct spline *spline, struct settings *settings, bool to_spring,
-                           struct error *error)
+/// Clamps what the mode does not allow.
+static void clamp_to_mode(struct settings *settings, enum wiggly_mode mode)
 {
-    enum parameter from[] = {PARAMETER_FREQUENCY, PARAMETER_DAMPING}, to[] = {PARAMETER_SPRING, PARAMETER_FRICTION};
-    double number[2], result[2];
-    for (int i = 0; i < 2; i++) {
-        enum parameter source = to_spring ? from[i] : to[i];
-        number[i] = settings->parameter[source].value;
-        if (settings->parameter[source].track >= 0) {
-            return fail(error, ERROR_INPUT, "%s: %s follows a spline: make it a number before converting",
-                        spline->name, parameter_rows[source].name);
-        }
-        settings->parameter[source].value = parameter_rows[source].standard;
-    }
-    double omega = to_spring ? TWO_PI * number[0] : sqrt(number[0]);
-    result[0] = to_spring ? omega * omega : omega / TWO_PI;
-    result[1] = to_spring ? 2 * number[1] * omega : omega > 0 ? number[1] / (2 * omega) : 0;
-    if (!isfinite(result[0]) || !isfinite(result[1])) {
-        return fail(error, ERROR_INPUT, "%s: the numbers are too large to convert", spline->name);
-    }
-    for (int i = 0; i < 2; i++) settings->parameter[to_spring ? to[i] : from[i]].value = result[i];
-    settings->spring_friction = to_spring;
-    return true;
-}
-
-/// Converts and clamps what the mode does not allow.
-static bool set_mode(const struct spline *spline, struct settings *settings, enum wiggly_mode mode,
-                     struct error *error)
-{
-    bool converts = mode == WIGGLY_COMPLEX && settings->spring_friction;
-    if (converts && !convert_spring(spline, settings, false, error)) return false;
-    for (enum parameter p = 0; p < PARAMETER_COUNT; p++) {
-        double maximum = parameter_maximum(p, mode);
-        if (settings->parameter[p].value > maximum) settings->parameter[p].value = maximum;
-    }
-    return true;
+    for (enum parameter p = 0; p < PARAMETER_COUNT; p++)
+        settings->parameter[p].value = fmin(settings->parameter[p].value, parameter_maximum(p, mode));
 }
 
 static bool check_loop(const struct document *document, const struct spline *spline, struct error *error)
@@ -159,7 +125,7 @@ static bool set_choice(const struct document *document, const struct spline *spl
     if (!(value >= 0 && value <= row->maximum && value == floor(value)))
         return fail(error, ERROR_INPUT, "there is no such %s", row->name);
     settings->parameter[parameter] = param_number(value);
-    if (parameter == PARAMETER_MODE) return set_mode(spline, settings, (enum wiggly_mode)value, error);
+    if (parameter == PARAMETER_MODE) clamp_to_mode(settings, (enum wiggly_mode)value);
     return parameter != PARAMETER_START || value != WIGGLY_LOOP || check_loop(document, spline, error);
 }
 
@@ -168,9 +134,6 @@ bool plan_parameter(struct document *document, const struct edit *edit, struct c
     const struct spline *spline = &document->splines[edit->spline];
     struct settings settings = settings_of(spline);
     if ((unsigned)edit->parameter >= PARAMETER_COUNT) return fail(error, ERROR_INPUT, "there is no such parameter");
-    if (!spline_has(spline, edit->parameter)) {
-        return fail(error, ERROR_INPUT, "%s: %s is not in use", spline->name, parameter_rows[edit->parameter].name);
-    }
     struct param *param = &settings.parameter[edit->parameter];
     if (parameter_rows[edit->parameter].kind == PARAMETER_CHOICE) {
         if (!set_choice(document, spline, &settings, edit->parameter, edit->param.value, error)) return false;
@@ -187,17 +150,5 @@ bool plan_parameter(struct document *document, const struct edit *edit, struct c
             return false;
         *param = param_number(edit->param.value + 0.0);
     }
-    return add_settings(document, edit, &settings, list, error);
-}
-
-bool plan_spring(struct document *document, const struct edit *edit, struct change_list *list, struct error *error)
-{
-    const struct spline *spline = &document->splines[edit->spline];
-    struct settings settings = settings_of(spline);
-    if (spline_mode(spline) != WIGGLY_REAL) {
-        return fail(error, ERROR_INPUT, "%s: spring and friction are for real mode only", spline->name);
-    }
-    if (edit->flag == settings.spring_friction) return true;
-    if (!convert_spring(spline, &settings, edit->flag, error)) return false;
     return add_settings(document, edit, &settings, list, error);
 }

@@ -106,7 +106,7 @@ bool plan_spline_add(struct document *document, const struct edit *edit, struct 
     if (!held) return plan_no_memory(error);
     spline_reset(held);
     for (enum parameter p = 0; p < PARAMETER_COUNT; p++) {
-        if (spline_has(held, p)) held->parameter[p].value = parameter_rows[p].fresh;
+        held->parameter[p].value = parameter_rows[p].fresh;
     }
     if (edit->flag) {
         held->knot_count = 1;

@@ -94,14 +94,10 @@ bool evaluation_sentence(const struct evaluation *evaluation, int spline, char *
     if (status == WIGGLY_OK) return false;
     if (status != WIGGLY_INEXACT) {
         snprintf(text, EVALUATION_SENTENCE, "%s", wiggly_status_text(status));
-    } else if (error > 1 && error < INFINITY) {
+    } else if (error > 1) {
         snprintf(text, EVALUATION_SENTENCE, "%s: no digit of it is certain", wiggly_status_text(status));
-    } else if (error < INFINITY) {
-        snprintf(text, EVALUATION_SENTENCE, "%s: %.1e of the curve's size", wiggly_status_text(status), error);
     } else {
-        snprintf(text, EVALUATION_SENTENCE,
-                 "a loop without a spring, whose friction varies, has no swing of its own that repeats; solved "
-                 "without it");
+        snprintf(text, EVALUATION_SENTENCE, "%s: %.1e of the curve's size", wiggly_status_text(status), error);
     }
     return true;
 }

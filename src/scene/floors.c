@@ -123,9 +123,7 @@ static double samples_to_rise(const struct floor_group *group, int sample)
     double slowest = INFINITY;
     for (int i = 0; i < group->count; i++) {
         const wiggly_desc *desc = &group->descs[i];
-        const wiggly_param *pull = desc->spring_friction ? &desc->spring : &desc->frequency;
-        const double value = pull->track ? pull->track[sample] : pull->value;
-        const double frequency = desc->spring_friction ? sqrt(fmax(0, value)) / (2 * 3.14159265358979323846) : value;
+        const double frequency = desc->frequency.track ? desc->frequency.track[sample] : desc->frequency.value;
         if (frequency > 0) slowest = fmin(slowest, frequency);
     }
     return RISE / (slowest * group->descs[0].step);

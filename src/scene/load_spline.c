@@ -6,7 +6,7 @@
 #include <string.h>
 
 /// Keys that are no parameters.
-static const char *const spline_keys[] = {"name", "knots", "color", NULL};
+static const char *const spline_keys[] = {"name", "knots", "color", "spring", "friction", NULL};
 static const char *const knot_keys[] = {"frame", "value", "slope", "stiffness", NULL};
 
 /// One of the two numbers; null: none.
@@ -72,21 +72,23 @@ static bool load_parameter(struct reader *reader, const struct value *object, st
     return true;
 }
 
-/// Outside complex mode the paper's pair may stand in for frequency and damping.
+/// The paper's spring and friction (eq. 12), outside complex mode: read as the frequency and damping that they are.
 static void load_spring(struct reader *reader, const struct value *object, struct spline *spline)
 {
-    bool ratios = json_object_get(object->json, "frequency") || json_object_get(object->json, "damping");
-    for (enum parameter p = 0; p < PARAMETER_COUNT; p++) {
-        const char *name = parameter_rows[p].name;
-        const struct value value = reader_member(object, name);
-        if (parameter_rows[p].pair != PAIR_SPRING || !value.json) continue;
-        spline->spring_friction = true;
-        if (ratios) {
-            reader_fail(reader, &value.at, "expected either spring and friction or frequency and damping, got both");
-        } else if (spline_mode(spline) == WIGGLY_COMPLEX) {
-            reader_fail(reader, &value.at, "expected frequency and damping in complex mode, got %s", name);
-        }
+    const struct value k = reader_member(object, "spring"), gamma = reader_member(object, "friction");
+    const struct value first = k.json ? k : gamma;
+    const struct range range = {0, INFINITY, false};
+    double spring = 0, friction = 0;
+    if (!first.json) return;
+    if (json_object_get(object->json, "frequency") || json_object_get(object->json, "damping")) {
+        reader_fail(reader, &first.at, "expected either spring and friction or frequency and damping, got both");
+    } else if (spline_mode(spline) == WIGGLY_COMPLEX) {
+        reader_fail(reader, &first.at, "expected frequency and damping in complex mode, got %s", first.at.key);
     }
+    if (!reader_number(reader, k, false, range, &spring) || !reader_number(reader, gamma, false, range, &friction))
+        return;
+    wiggly_from_spring(spring, friction, &spline->parameter[PARAMETER_FREQUENCY].value,
+                       &spline->parameter[PARAMETER_DAMPING].value);
 }
 
 bool reader_knot(struct reader *reader, struct value object, struct knot *knot)

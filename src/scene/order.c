@@ -5,16 +5,10 @@
 
 enum { UNSEEN = 0, DONE = PARAMETER_COUNT + 2 }; ///< of order_space.next; between them 1 + the next parameter
 
-bool spline_has(const struct spline *spline, enum parameter parameter)
-{
-    enum parameter_pair pair = parameter_rows[parameter].pair;
-    return pair == PAIR_NONE || (pair == PAIR_SPRING) == spline->spring_friction;
-}
-
 bool spline_uses(const struct spline *spline, enum parameter parameter, bool cubic)
 {
     enum wiggly_mode mode = cubic ? WIGGLY_CUBIC : spline_mode(spline);
-    return parameter_rows[parameter].modes >> mode & 1 && spline_has(spline, parameter);
+    return parameter_rows[parameter].modes >> mode & 1;
 }
 
 /// Depth-first search from one spline, without recursion because a chain of tracks may be as long as the scene.

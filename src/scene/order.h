@@ -23,9 +23,6 @@ bool scene_order(const struct document *document, struct order_space space, int 
 /// Whether there is such an order; allocates what it needs. `cycle->spline` is -1 if memory runs out.
 bool scene_has_order(const struct document *document, struct order_cycle *cycle);
 
-/// Whether a spline has that parameter: it has either frequency and damping or spring and friction.
-bool spline_has(const struct spline *spline, enum parameter parameter);
-
 /// Whether a spline's solution depends on that parameter, in its own mode or as a cubic.
 bool spline_uses(const struct spline *spline, enum parameter parameter, bool cubic);
 

@@ -14,8 +14,6 @@ enum parameter {
     PARAMETER_FREQUENCY,
     PARAMETER_DAMPING,
     PARAMETER_BANDWIDTH,
-    PARAMETER_SPRING,
-    PARAMETER_FRICTION,
     PARAMETER_CALM,
     PARAMETER_EQUILIBRIUM,
     PARAMETER_START,
@@ -34,9 +32,6 @@ enum parameter_kind {
     PARAMETER_LIMIT,  ///< a number, or none: infinite
     PARAMETER_WHOLE,  ///< a whole number: an int
 };
-
-/// Two pairs say the same; a spline has one of them.
-enum parameter_pair { PAIR_NONE, PAIR_RATIO, PAIR_SPRING };
 
 /// Where a file names a parameter that has its default. Any other value is always written.
 enum parameter_print {
@@ -61,7 +56,6 @@ struct parameter_row {
     const char *hint, *undo;
     const char *letter; ///< held while arrows change it, or NULL
     enum parameter_kind kind;
-    enum parameter_pair pair;
     unsigned modes;          ///< that use it: IN_COMPLEX | …
     size_t place;            ///< in wiggly_desc
     double minimum, maximum; ///< of a constant

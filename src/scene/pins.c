@@ -135,10 +135,9 @@ static bool check_frame(const struct document *document, const struct rig *rig, 
 /// Why pins cannot pull a spline; NULL: they can.
 static const char *stiffness_of(const struct spline *spline)
 {
-    const struct param *pull = &spline->parameter[spline->spring_friction ? PARAMETER_SPRING : PARAMETER_FREQUENCY];
+    const struct param *pull = &spline->parameter[PARAMETER_FREQUENCY];
     if (spline_mode(spline) == WIGGLY_CUBIC) return "which is cubic";
-    if (pull->track < 0 && pull->value == 0)
-        return spline->spring_friction ? "whose spring is 0" : "whose frequency is 0";
+    if (pull->track < 0 && pull->value == 0) return "whose frequency is 0";
     const struct param *calm = &spline->parameter[PARAMETER_CALM];
     return calm->track < 0 && calm->value == 0 ? "whose calm is 0" : NULL;
 }

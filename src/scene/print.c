@@ -11,13 +11,12 @@ static bool is_parameter(const char *key) { return parameter_find(key) != PARAME
 
 static bool is_variation(enum parameter p) { return p == PARAMETER_VARIATION || p == PARAMETER_SEED; }
 
-/// A file has one of the two pairs (frequency, damping and spring, friction). What differs from its default is kept even where the mode
-/// does not use it, because another mode may.
+/// What differs from its default is kept even where the mode does not use it, because another mode may.
 static bool is_printed(const struct spline *spline, enum parameter parameter)
 {
     const struct param *param = &spline->parameter[parameter];
     const struct parameter_row *row = &parameter_rows[parameter];
-    if (!spline_has(spline, parameter) || row->kind == PARAMETER_LIMIT || is_variation(parameter)) return false;
+    if (row->kind == PARAMETER_LIMIT || is_variation(parameter)) return false;
     if (param_follows(param) || param->value != row->standard) return true;
     return row->print == PRINT_ALWAYS || (row->print == PRINT_USED && spline_uses(spline, parameter, false));
 }

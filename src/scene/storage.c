@@ -41,7 +41,6 @@ wiggly_desc storage_describe(const struct storage *storage, const wiggly_curve *
         desc.mode = WIGGLY_CUBIC;
         desc.passive = WIGGLY_OSCILLATOR; // its last value is held: a tail does not wind through its body
     }
-    desc.spring_friction = spline->spring_friction && desc.mode == WIGGLY_REAL;
     return desc;
 }
 

@@ -4,8 +4,6 @@
 #include "scene/rig_pins.h"
 #include <math.h>
 
-static const double TWO_PI = 6.283185307179586;
-
 static void check_cycles(struct reader *reader, const struct where *splines_at)
 {
     struct order_cycle cycle;
@@ -24,13 +22,11 @@ static void check_cycles(struct reader *reader, const struct where *splines_at)
 }
 
 /// The highest frequency in Hz at which a spline with constant parameters can ring; 0 for tracks.
-static double highest_frequency(const struct spline *spline, enum parameter *parameter)
+static double highest_frequency(const struct spline *spline)
 {
     const struct param *frequency = &spline->parameter[PARAMETER_FREQUENCY];
     const struct param *bandwidth = &spline->parameter[PARAMETER_BANDWIDTH];
-    *parameter = spline->spring_friction ? PARAMETER_SPRING : PARAMETER_FREQUENCY;
-    if (spline_mode(spline) == WIGGLY_CUBIC || spline->parameter[*parameter].track >= 0) return 0;
-    if (spline->spring_friction) return sqrt(spline->parameter[PARAMETER_SPRING].value) / TWO_PI;
+    if (spline_mode(spline) == WIGGLY_CUBIC || frequency->track >= 0) return 0;
     double widening = spline_mode(spline) == WIGGLY_COMPLEX && bandwidth->track < 0 ? bandwidth->value : 0;
     return frequency->value * (1 + widening);
 }
@@ -40,11 +36,10 @@ static void check_aliasing(struct reader *reader, const struct where *splines_at
     const struct document *document = reader->document;
     double limit = 0.5 / document_step(document);
     for (int i = 0; i < document->spline_count; i++) {
-        enum parameter parameter;
-        double highest = highest_frequency(&document->splines[i], &parameter);
+        double highest = highest_frequency(&document->splines[i]);
         if (highest <= limit) continue;
         struct where spline_at = {.parent = splines_at, .index = (size_t)i};
-        struct where at = {.parent = &spline_at, .key = parameter_rows[parameter].name};
+        struct where at = {.parent = &spline_at, .key = "frequency"};
         reader_warn(reader, &at, "%.4g Hz is above half the sample rate, %.4g Hz: it aliases", highest, limit);
     }
 }

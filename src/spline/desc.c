@@ -10,9 +10,6 @@
     X(frequency, PARAM, true)                                                                                        \
     X(damping, PARAM, true)                                                                                          \
     X(bandwidth, PARAM, true)                                                                                        \
-    X(spring_friction, CHOICE, true)                                                                                 \
-    X(spring, PARAM, true)                                                                                           \
-    X(friction, PARAM, true)                                                                                         \
     X(equilibrium, PARAM, false)                                                                                     \
     X(calm, NUMBER, false)                                                                                           \
     X(passive, CHOICE, true)                                                                                         \

@@ -58,8 +58,8 @@ static limits_part tail_of(const problem *p)
     tail.desc.low = -INFINITY, tail.desc.high = INFINITY;
     tail.desc.equilibrium = (wiggly_param){0};
     tail.desc.variation = 0;
-    wiggly_param *const tracks[] = {&tail.desc.frequency, &tail.desc.damping, &tail.desc.spring, &tail.desc.friction};
-    for (int i = 0; i < 4; i++) {
+    wiggly_param *const tracks[] = {&tail.desc.frequency, &tail.desc.damping};
+    for (int i = 0; i < 2; i++) {
         if (tracks[i]->track) tracks[i]->track += tail.begin;
     }
     return tail;

@@ -41,11 +41,6 @@ static poles real_poles(double sigma, double omega)
 poles poles_at(const wiggly_desc *desc, int sample, double floor)
 {
     if (desc->mode == WIGGLY_CUBIC) return (poles){0};
-    if (desc->spring_friction) {
-        double omega = sqrt(at_sample(desc->spring, sample, largest));
-        double sigma = 0.5 * at_sample(desc->friction, sample, largest);
-        return real_poles(fmax(sigma, floor * omega), omega);
-    }
     double omega = 2 * pi * at_sample(desc->frequency, sample, sqrt(largest));
     double zeta = fmax(at_sample(desc->damping, sample, sqrt(largest)), floor);
     if (desc->mode == WIGGLY_REAL) return real_poles(zeta * omega, omega);
@@ -79,7 +74,7 @@ WIDEST static int64_t largest_bits(const double *x, int count)
 
 int poles_fastest(const wiggly_desc *desc, int from, int to, double *natural)
 {
-    const double *track = desc->spring_friction ? desc->spring.track : desc->frequency.track;
+    const double *track = desc->frequency.track;
     int fastest = from;
     if (track && from < to) {
         const int64_t most = largest_bits(track + from, to - from + 1);
@@ -92,7 +87,6 @@ int poles_fastest(const wiggly_desc *desc, int from, int to, double *natural)
 bool poles_are_constant(const wiggly_desc *desc)
 {
     if (desc->mode == WIGGLY_CUBIC) return true;
-    if (desc->spring_friction) return !desc->spring.track && !desc->friction.track;
     return !desc->frequency.track && !desc->damping.track && (desc->mode == WIGGLY_REAL || !desc->bandwidth.track);
 }
 
@@ -237,6 +231,13 @@ start_cost poles_start_seen_from(start_cost cost, const poles *damped, const pol
 cplx poles_tail(cplx passive, const speed_form *ahead, double step)
 {
     return cplx_divide(cplx_sub(cplx_scale(step, passive), ahead->on_x), ahead->on_e);
+}
+
+void wiggly_from_spring(double k, double gamma, double *frequency, double *damping)
+{
+    const double most = 1e8, omega = fmax(sqrt(k), gamma / (2 * most));
+    *frequency = omega / (2 * pi);
+    *damping = omega > 0 ? gamma / (2 * omega) : 0;
 }
 
 wiggly_poles wiggly_poles_at(const wiggly_desc *desc, int sample)

@@ -202,11 +202,6 @@ static void set_exponents(const wiggly_desc *desc, int from, int count, double f
         load(desc->damping, from, count, b);
         load(desc->bandwidth, from, count, c);
         set_complex(a, b, c, floor, desc->step, count, block, e);
-    } else if (desc->spring_friction) {
-        load(desc->spring, from, count, a);
-        load(desc->friction, from, count, b);
-        for (int i = 0; i < count; i++) a[i] = sqrt(a[i]), b[i] = fmax(0.5 * b[i], floor * a[i]);
-        set_real(a, b, desc->step, count, block, e);
     } else {
         load(desc->frequency, from, count, a);
         load(desc->damping, from, count, b);

@@ -32,7 +32,6 @@ static wiggly_status check_desc(const wiggly_solver *solver, const wiggly_desc *
     if (desc->samples < 1 || desc->knot_count < 0 || (desc->knot_count > 0 && !desc->knots))
         return WIGGLY_ERROR_ARGUMENT;
     if (desc->samples > solver->samples || desc->knot_count > solver->knots) return WIGGLY_ERROR_CAPACITY;
-    if (desc->mode == WIGGLY_COMPLEX && desc->spring_friction) return WIGGLY_ERROR_SPRING;
     if (desc->start == WIGGLY_LOOP && desc->samples < 2) return WIGGLY_ERROR_LOOP;
     if (!(desc->step > 0 && desc->step < INFINITY) || !is_part(desc->calm)) return WIGGLY_ERROR_NUMBER;
     if (!(desc->variation >= 0 && desc->variation < INFINITY)) return WIGGLY_ERROR_NUMBER;

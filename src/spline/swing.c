@@ -181,21 +181,24 @@ static void run_wide(const wiggly_desc *desc, const double *y, double floor, con
     end[0] = q, end[1] = v;
 }
 
-/// What a loop's parameters do all the way around: pull q back, brake it, and brake it not everywhere alike.
+/// A pull that brings q back by less than this on one round is none: a circle could not be closed by it.
+static const double faint = 1e-12;
+
+/// What a loop's parameters do all the way around: pull q back, and brake it.
 typedef struct forces {
-    bool pull, brake, vary;
+    bool pull, brake;
     double k, d; ///< at most
 } forces;
 
 static forces forces_of(const wiggly_desc *desc, double floor)
 {
     forces f = {.pull = false};
-    const double first = oscillator_at(desc, 0, floor).d;
-    for (int i = 0; i < (poles_are_constant(desc) ? 1 : desc->samples - 1); i++) {
+    const bool constant = poles_are_constant(desc);
+    const double seconds = (desc->samples - 1) * desc->step;
+    for (int i = 0; i < (constant ? 1 : desc->samples - 1); i++) {
         oscillator o = oscillator_at(desc, i, floor);
-        f.pull = f.pull || o.k > 0;
+        f.pull = f.pull || o.k > (constant ? faint * 2 * o.d / seconds : 0);
         f.brake = f.brake || o.d > 0;
-        f.vary = f.vary || o.d != first;
         f.k = fmax(f.k, o.k), f.d = fmax(f.d, o.d);
     }
     return f;
@@ -248,12 +251,6 @@ static bool run_loop(const wiggly_desc *desc, const double *y, double floor, swi
     const forces f = forces_of(desc, floor);
     const int period = desc->samples - 1;
     const double range = range_of(y, period);
-    if (!f.pull && f.vary) { // what it loses in speed it does not get back: there is no periodic q
-        swing_rest(desc, y, u);
-        for (int i = 0; i <= period; i++) u->total[i] = 0;
-        u->error = INFINITY;
-        return true;
-    }
     const double seconds = period * desc->step;
     double end[2];
     long double wide_end[2], state[2] = {0, 0};

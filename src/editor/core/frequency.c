@@ -5,17 +5,12 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-static const double TAU = 6.283185307179586;
-
 /// Why it cannot be done; NULL: it can.
 static const char *obstacle(const struct spline *spline)
 {
     const struct param *p = spline->parameter;
     if (spline_mode(spline) == WIGGLY_CUBIC) return "A cubic does not swing; press M to change the mode.";
-    const bool spring = spline->spring_friction && spline_mode(spline) == WIGGLY_REAL;
-    const enum parameter first = spring ? PARAMETER_SPRING : PARAMETER_FREQUENCY,
-                         second = spring ? PARAMETER_FRICTION : PARAMETER_DAMPING;
-    if (p[first].track >= 0 || p[second].track >= 0)
+    if (p[PARAMETER_FREQUENCY].track >= 0 || p[PARAMETER_DAMPING].track >= 0)
         return "Frequency and damping follow another spline; give them numbers first.";
     if (spline->knot_count < WIGGLY_FEWEST_EXPLAINED) return "Four knots are needed to tell a frequency from them.";
     return NULL;
@@ -46,18 +41,10 @@ static int explain(const struct core *core, const struct editor_world *world, co
 }
 
 /// What the spline would be given: numbers as they are saved.
-static void settings_of(const struct spline *spline, const wiggly_explanation *found, struct edit edits[2],
-                        int active)
+static void settings_of(const wiggly_explanation *found, struct edit edits[2], int active)
 {
-    const double frequency = round(found->frequency * 100) / 100, damping = round(found->damping * 1000) / 1000;
-    if (spline->spring_friction && spline_mode(spline) == WIGGLY_REAL) {
-        const double omega = TAU * found->frequency;
-        edits[0] = core_parameter_edit(active, PARAMETER_SPRING, round(omega * omega * 100) / 100);
-        edits[1] = core_parameter_edit(active, PARAMETER_FRICTION, round(2 * found->damping * omega * 1000) / 1000);
-    } else {
-        edits[0] = core_parameter_edit(active, PARAMETER_FREQUENCY, frequency);
-        edits[1] = core_parameter_edit(active, PARAMETER_DAMPING, damping);
-    }
+    edits[0] = core_parameter_edit(active, PARAMETER_FREQUENCY, round(found->frequency * 100) / 100);
+    edits[1] = core_parameter_edit(active, PARAMETER_DAMPING, round(found->damping * 1000) / 1000);
 }
 
 static bool is_set(const struct spline *spline, const struct edit edits[2])
@@ -81,9 +68,9 @@ void core_find_frequency(struct core *core, const struct editor_world *world, in
     }
     struct edit edits[2];
     char text[160];
-    settings_of(spline, &found[0], edits, core->active);
+    settings_of(&found[0], edits, core->active);
     const int chosen = count == 2 && is_set(spline, edits) ? 1 : 0;
-    settings_of(spline, &found[chosen], edits, core->active);
+    settings_of(&found[chosen], edits, core->active);
     history_begin(world->history, "Find frequency", 0);
     const bool good = core_edit(core, world, &edits[0]) && core_edit(core, world, &edits[1]);
     history_end(world->history);

@@ -8,8 +8,6 @@
 
 enum { NUDGE_PARAMETER = 100 }; ///< a kind of nudges for core_merge_key()
 
-static const double TAU = 6.283185307179586;
-
 const struct channel *core_active_channel(const struct core *core, const struct document *document, int *rig,
                                           int *channel)
 {
@@ -49,21 +47,6 @@ static void nudge_lag(struct core *core, const struct editor_world *world, doubl
     edit.angles = &lag;
     uint64_t kind = NUDGE_PARAMETER + PARAMETER_COUNT + (uint64_t)(rig * 4096 + channel);
     core_step(core, world, "Change lag", core_merge_key(core, world, kind), &edit);
-}
-
-/// The same step where the spline has spring and friction instead: f = √k/2π, ζ = γ/2√k.
-static void step_spring(const struct spline *spline, struct edit *edit, double step)
-{
-    double spring = spline->parameter[PARAMETER_SPRING].value;
-    if (edit->parameter == PARAMETER_FREQUENCY) {
-        double frequency = fmax(sqrt(fmax(spring, 0)) / TAU + step, 0);
-        edit->parameter = PARAMETER_SPRING;
-        edit->param.value = TAU * frequency * TAU * frequency;
-    } else {
-        edit->parameter = PARAMETER_FRICTION;
-        edit->param.value = spline->parameter[PARAMETER_FRICTION].value + step * 2 * sqrt(fmax(spring, 1));
-    }
-    edit->param.track = spline->parameter[edit->parameter].track;
 }
 
 /// Of the largest knot.
@@ -112,8 +95,6 @@ static void nudge_one(struct core *core, const struct editor_world *world, const
     struct edit edit = core_edit_of(EDIT_PARAMETER, core->active);
     edit.parameter = parameter;
     edit.param = spline->parameter[parameter];
-    bool pair = !spline_has(spline, parameter);
-    if (pair) step_spring(spline, &edit, step);
     if (edit.param.track >= 0) {
         char text[160];
         snprintf(text, sizeof text, "The %s follows the spline \"%.60s\".", parameter_rows[edit.parameter].name,
@@ -121,11 +102,9 @@ static void nudge_one(struct core *core, const struct editor_world *world, const
         core_message(core, false, text);
         return;
     }
-    if (!pair)
-        edit.param.value =
-            round((edit.param.value + step) * 1e6) / 1e6; /* 0.30000000000000004 is no number to save */
+    edit.param.value = round((edit.param.value + step) * 1e6) / 1e6; /* 0.30000000000000004 is no number to save */
     double most = parameter_maximum(edit.parameter, spline_mode(spline));
-    if (!pair && parameter_rows[parameter].usual > 0)
+    if (parameter_rows[parameter].usual > 0)
         most = fmax(core_slider_end(world->document, spline, parameter), spline->parameter[parameter].value);
     edit.param.value = fmin(fmax(edit.param.value, parameter_rows[edit.parameter].minimum), most);
     if (edit.param.value == spline->parameter[edit.parameter].value) return;

@@ -12,7 +12,6 @@
 #include <math.h>
 #include <stdio.h>
 
-static const double TWO_PI = 6.283185307179586;
 static const double MOST_SWING = 2;      ///< of a span, in heights of its knots
 static const double LEAST_HEIGHT = 0.75; ///< of a span's knots, as a share of the highest: small ones may ring
 static const double MOST_RATE = 0.4;     ///< f·(1 + β) in sample rates; at 0.5 swings alias
@@ -27,7 +26,6 @@ static void add(struct warnings *found, const struct warning *warning)
 static double frequency_of(const struct evaluation *evaluation, const struct spline *spline)
 {
     const struct param *param = &spline->parameter[PARAMETER_FREQUENCY];
-    if (spline->spring_friction) return sqrt(fmax(spline->parameter[PARAMETER_SPRING].value, 0)) / TWO_PI;
     if (param->track < 0) return param->value;
     int highest = evaluation_extreme(evaluation, param->track, 0, evaluation->samples - 1, true);
     return fmax(evaluation->curves[param->track].total[highest], 0);
@@ -205,7 +203,7 @@ static bool lower_frequency(const struct core *core, const struct editor_world *
 {
     const struct param *frequency = &spline->parameter[PARAMETER_FREQUENCY];
     double value = frequency->value;
-    if (frequency->track >= 0 || spline->spring_friction) return false;
+    if (frequency->track >= 0) return false;
     for (int i = 0; i < LOWER_STEPS; i++) {
         value = core_round(value * LOWER, 0.01);
         struct edit edit = core_parameter_edit(core->active, PARAMETER_FREQUENCY, value);

@@ -8,8 +8,6 @@
 #include <math.h>
 #include <stdio.h>
 
-static const double TAU = 6.283185307179586;
-
 /// A way to swing, one click each.
 static const struct preset {
     const char *name, *label, *hint;
@@ -46,17 +44,11 @@ static bool set_lag(struct inspection *in, double whole)
 static void apply(struct inspection *in, const struct preset *preset)
 {
     const struct spline *spline = core_active_spline(in->core, in->world);
-    const double omega = TAU * preset->frequency;
     if (history_is_open(in->world->history)) return;
     history_begin(in->world->history, "Choose a feel", 0);
     bool good = spline_mode(spline) != WIGGLY_CUBIC || set_parameter(in, PARAMETER_MODE, WIGGLY_COMPLEX);
-    if (spline->spring_friction && spline_mode(spline) == WIGGLY_REAL) {
-        good = good && set_parameter(in, PARAMETER_SPRING, round(omega * omega * 100) / 100) &&
-               set_parameter(in, PARAMETER_FRICTION, round(2 * preset->damping * omega * 1000) / 1000);
-    } else {
-        good = good && set_parameter(in, PARAMETER_FREQUENCY, preset->frequency) &&
-               set_parameter(in, PARAMETER_DAMPING, preset->damping);
-    }
+    good = good && set_parameter(in, PARAMETER_FREQUENCY, preset->frequency) &&
+           set_parameter(in, PARAMETER_DAMPING, preset->damping);
     good = good && set_lag(in, preset->lag);
     if (!good) history_restart(in->world->history, in->document);
     history_end(in->world->history);
@@ -95,21 +87,11 @@ static void build_presets(struct inspection *in)
     if (!fit) build_preset_row(in, ui_row(in->ui, UI_ROW), in_first, PRESETS);
 }
 
-/// The parameter by which settling is set, and what it has to be for a damping ratio.
-static enum parameter settling_parameter(const struct spline *spline, double damping, double *value)
-{
-    const bool is_spring = spline->spring_friction && spline_mode(spline) == WIGGLY_REAL;
-    *value = is_spring ? 2 * damping * sqrt(spline->parameter[PARAMETER_SPRING].value) : damping;
-    return is_spring ? PARAMETER_FRICTION : PARAMETER_DAMPING;
-}
-
 /// When the spline would settle with another damping; INFINITY: never, or too late.
 static double settles(const struct spline *spline, double damping, double step)
 {
     struct spline other = *spline;
-    double value;
-    const enum parameter parameter = settling_parameter(spline, damping, &value);
-    other.parameter[parameter].value = value;
+    other.parameter[PARAMETER_DAMPING].value = damping;
     const struct settling settling = settle_alone(&other, step);
     return settling.kind == SETTLE_ALONE ? settling.seconds : INFINITY;
 }
@@ -149,14 +131,13 @@ static void build_settle(struct inspection *in)
                                      .step = 0.05,
                                      .decimals = 2};
     struct rect r = ui_row(in->ui, UI_ROW);
-    double seconds = never ? SETTLE_LIMIT : alone.seconds, value = 0;
+    double seconds = never ? SETTLE_LIMIT : alone.seconds;
     r.w -= UI_ROW + 2; // as the rows above, which have a button there
     const enum ui_change change = ui_value(in->ui, r, &number, &seconds);
     if (change == UI_NONE) return;
     inspector_take_back(in, change);
     const double damping = change == UI_DROP || change == UI_CANCEL ? 0 : damping_for(spline, seconds, step);
-    const enum parameter parameter = settling_parameter(spline, damping, &value);
-    const struct edit edit = core_parameter_edit(in->core->active, parameter, round(value * 1e4) / 1e4);
+    const struct edit edit = core_parameter_edit(in->core->active, PARAMETER_DAMPING, round(damping * 1e4) / 1e4);
     inspector_change(in, change, "Set settle time", number.name, &edit);
 }
 
@@ -212,8 +193,7 @@ static void build_warnings(struct inspection *in)
     const double beta = spline_mode(spline) == WIGGLY_COMPLEX ? p[PARAMETER_BANDWIDTH].value : 0;
     const double highest = p[PARAMETER_FREQUENCY].value * (1 + beta);
     const double limit = in->document->fps * in->document->substeps / 2;
-    const bool poles =
-        spline_mode(spline) != WIGGLY_CUBIC && !spline->spring_friction && p[PARAMETER_FREQUENCY].track < 0;
+    const bool poles = spline_mode(spline) != WIGGLY_CUBIC && p[PARAMETER_FREQUENCY].track < 0;
     if (poles && highest > limit) {
         char text[128];
         snprintf(text, sizeof text, "Faster than half the sample rate (%g Hz): the swing aliases.", limit);
@@ -231,8 +211,7 @@ static void build_find(struct inspection *in)
 
 void inspector_feel(struct inspection *in)
 {
-    static const enum parameter pace[] = {PARAMETER_FREQUENCY, PARAMETER_DAMPING, PARAMETER_SPRING,
-                                          PARAMETER_FRICTION};
+    static const enum parameter pace[] = {PARAMETER_FREQUENCY, PARAMETER_DAMPING};
     build_presets(in);
     for (size_t i = 0; i < sizeof pace / sizeof pace[0]; i++) inspector_parameter(in, pace[i]);
     build_settle(in);

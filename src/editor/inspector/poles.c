@@ -230,14 +230,8 @@ static struct pole_setting setting_of(const struct inspection *in, const struct 
     struct pole_setting setting = {.kind = spline_mode(spline) == WIGGLY_REAL ? FILTER_TWO_REAL : FILTER_TWO_COMPLEX,
                                    .bandwidth = value_now(in, spline, PARAMETER_BANDWIDTH),
                                    .step = document_step(in->document)};
-    if (spline->spring_friction && spline_mode(spline) == WIGGLY_REAL) {
-        double omega = sqrt(value_now(in, spline, PARAMETER_SPRING));
-        setting.hz = omega / (2 * M_PI);
-        setting.damping = omega > 0 ? value_now(in, spline, PARAMETER_FRICTION) / (2 * omega) : 0;
-    } else {
-        setting.hz = value_now(in, spline, PARAMETER_FREQUENCY);
-        setting.damping = value_now(in, spline, PARAMETER_DAMPING);
-    }
+    setting.hz = value_now(in, spline, PARAMETER_FREQUENCY);
+    setting.damping = value_now(in, spline, PARAMETER_DAMPING);
     return setting;
 }
 
@@ -252,15 +246,6 @@ static int edits_of(const struct inspection *in, const struct spline *spline, co
 {
     const struct param *p = spline->parameter;
     int count = 0;
-    if (spline->spring_friction && spline_mode(spline) == WIGGLY_REAL) {
-        double omega = 2 * M_PI * setting->hz;
-        if (p[PARAMETER_SPRING].track < 0)
-            edits[count++] = core_parameter_edit(in->core->active, PARAMETER_SPRING, rounded(omega * omega, 100));
-        if (p[PARAMETER_FRICTION].track < 0)
-            edits[count++] = core_parameter_edit(in->core->active, PARAMETER_FRICTION,
-                                                 rounded(2 * setting->damping * omega, 1000));
-        return count;
-    }
     if (which == HANDLE_CENTRE && p[PARAMETER_FREQUENCY].track < 0)
         edits[count++] = core_parameter_edit(in->core->active, PARAMETER_FREQUENCY, rounded(setting->hz, 100));
     if (p[PARAMETER_DAMPING].track < 0)

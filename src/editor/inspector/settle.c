@@ -10,13 +10,10 @@ enum { MAX_SAMPLES = 100000 };
 static bool swing_of(const struct spline *spline, double *omega, double *zeta)
 {
     const struct param *p = spline->parameter;
-    bool pair = spline_mode(spline) == WIGGLY_REAL && spline->spring_friction;
-    const struct param *first = &p[pair ? PARAMETER_SPRING : PARAMETER_FREQUENCY];
-    const struct param *second = &p[pair ? PARAMETER_FRICTION : PARAMETER_DAMPING];
-    if (first->track >= 0 || second->track >= 0) return false;
+    if (p[PARAMETER_FREQUENCY].track >= 0 || p[PARAMETER_DAMPING].track >= 0) return false;
     if (spline_mode(spline) == WIGGLY_COMPLEX && p[PARAMETER_BANDWIDTH].track >= 0) return false;
-    *omega = pair ? sqrt(first->value) : 2 * acos(-1.0) * first->value;
-    *zeta = !pair ? second->value : *omega > 0 ? second->value / (2 * *omega) : 0;
+    *omega = 2 * acos(-1.0) * p[PARAMETER_FREQUENCY].value;
+    *zeta = p[PARAMETER_DAMPING].value;
     return true;
 }
 

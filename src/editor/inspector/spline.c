@@ -80,25 +80,10 @@ void inspector_spline(struct inspection *in)
     for (size_t i = 0; i < sizeof shown / sizeof shown[0]; i++) inspector_parameter(in, shown[i]);
 }
 
-static void build_spring_toggle(struct inspection *in, const struct spline *spline)
-{
-    bool on = spline->spring_friction;
-    struct rect r = ui_row(in->ui, UI_ROW);
-    ui_label(in->ui, (struct rect){r.x, r.y, r.w - 40, r.h}, "spring and friction", theme()->text_dim);
-    ui_hint(in->ui, r, "Use spring constant and friction instead of frequency and damping");
-    r = (struct rect){r.x + r.w - 28, r.y, 28, r.h};
-    if (!ui_toggle(in->ui, r, "spring_friction", &on)) return;
-    struct edit edit = core_edit_of(EDIT_SPRING, in->core->active);
-    edit.flag = on;
-    core_step(in->core, in->world, on ? "Use spring and friction" : "Use frequency and damping", 0, &edit);
-}
-
 void inspector_advanced(struct inspection *in)
 {
     static const enum parameter shown[] = {PARAMETER_BANDWIDTH, PARAMETER_CALM, PARAMETER_PASSIVE};
     for (size_t i = 0; i < sizeof shown / sizeof shown[0]; i++) inspector_parameter(in, shown[i]);
-    const struct spline *spline = core_active_spline(in->core, in->world);
-    if (spline_mode(spline) == WIGGLY_REAL) build_spring_toggle(in, spline);
 }
 
 /// A number and a switch beside it; off, the name alone.
@@ -149,12 +134,11 @@ static const char *stillness(const struct spline *spline)
 {
     const struct param *p = spline->parameter;
     if (p[PARAMETER_PASSIVE].value != WIGGLY_OSCILLATOR) return "The paper's filter has no variations.";
-    for (enum parameter n = PARAMETER_FREQUENCY; n <= PARAMETER_FRICTION; n++) {
+    for (enum parameter n = PARAMETER_FREQUENCY; n <= PARAMETER_BANDWIDTH; n++) {
         if (p[n].track >= 0 && spline_uses(spline, n, false))
             return "Where frequency or damping follow a spline there are no variations.";
     }
-    const enum parameter pace = spline->spring_friction ? PARAMETER_SPRING : PARAMETER_FREQUENCY;
-    return p[pace].value > 0 ? NULL : "What does not swing has no variations.";
+    return p[PARAMETER_FREQUENCY].value > 0 ? NULL : "What does not swing has no variations.";
 }
 
 void inspector_variation(struct inspection *in)

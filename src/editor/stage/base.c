@@ -127,14 +127,12 @@ static int add_follower(struct core *core, const struct editor_world *world, int
     int spline = add_spline(core, world, name);
     if (spline < 0) return -1;
     const struct spline copied = world->document->splines[model];
-    struct edit mode = core_edit_of(EDIT_PARAMETER, spline), spring = core_edit_of(EDIT_SPRING, spline);
+    struct edit mode = core_edit_of(EDIT_PARAMETER, spline);
     mode.parameter = PARAMETER_MODE;
     mode.param = copied.parameter[PARAMETER_MODE];
-    spring.flag = copied.spring_friction;
     core_edit(core, world, &mode);
-    if (spring.flag) core_edit(core, world, &spring);
     for (enum parameter p = 0; p < PARAMETER_COUNT; p++) {
-        if (p == PARAMETER_EQUILIBRIUM || p == PARAMETER_START || !spline_has(&copied, p)) continue;
+        if (p == PARAMETER_EQUILIBRIUM || p == PARAMETER_START) continue;
         struct edit edit = core_edit_of(EDIT_PARAMETER, spline);
         edit.parameter = p;
         edit.param = copied.parameter[p];
