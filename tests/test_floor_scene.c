@@ -42,7 +42,7 @@ static struct opened open_scene(const char *start, const char *knots, const char
     struct opened opened;
     struct error error = {0};
     if (!read_scene(&opened, start, knots, "", more, &error)) fail_msg("%s", error.text);
-    assert_true(opened_solve(&opened, WIGGLY_CHAIN, &error));
+    assert_true(opened_solve(&opened, SOLVER_BY_LENGTH, &error));
     return opened;
 }
 
@@ -211,7 +211,7 @@ static void all_that_a_spline_may_have_at_once(void **state)
     for (int n = 0; n < 3; n++) {
         struct opened opened;
         if (!read_scene(&opened, "free", knots, splines[n], pin, &error)) fail_msg("%s", error.text);
-        assert_true(opened_solve(&opened, WIGGLY_CHAIN, &error));
+        assert_true(opened_solve(&opened, SOLVER_BY_LENGTH, &error));
         assert_int_equal(opened.evaluation.samples, 121);
         check_knots(&opened);
         for (int i = 0; i < 121; i++) {

@@ -16,7 +16,8 @@ static struct opened scene;
 static void open_scene(const char *path)
 {
     struct error error = {0};
-    if (!opened_read(&scene, path, &error) || !opened_solve(&scene, WIGGLY_CHAIN, &error)) fail_msg("%s", error.text);
+    if (!opened_read(&scene, path, &error) || !opened_solve(&scene, SOLVER_BY_LENGTH, &error))
+        fail_msg("%s", error.text);
 }
 
 static const struct pose *pose_at(double frame)

@@ -1,13 +1,14 @@
 /// The command line's table: what is understood, what is refused, and that a refused value leaves its target alone.
 #include "commands/options.h"
 #include "near.h"
+#include "scene/evaluate.h"
 #include <string.h>
 
 static bool loud;
 static const char *out;
 static int frames, size[2];
 static double scale;
-static wiggly_method method;
+static enum solver_choice method;
 static const char *operands[2];
 
 static const struct option_spec specs[] = {
@@ -16,7 +17,7 @@ static const struct option_spec specs[] = {
     {"--frames", NULL, "N", "a whole number", OPTION_INT, &frames, 1, 100},
     {"--scale", NULL, "S", "a number", OPTION_REAL, &scale, 0.5, 4},
     {"--size", NULL, "WxH", "a size", OPTION_SIZE, size, 16, 8192},
-    {"--solver", NULL, "METHOD", "a method", OPTION_METHOD, &method, 0, 0},
+    {"--solver", NULL, "METHOD", "a method", OPTION_SOLVER, &method, 0, 0},
 };
 
 static const struct usage usage = {
@@ -41,7 +42,7 @@ static enum options_result parse(const char *line)
     out = NULL;
     frames = size[0] = size[1] = -1;
     scale = -1;
-    method = WIGGLY_CHAIN;
+    method = SOLVER_CHAIN;
     strncpy(text, line, sizeof text - 1);
     for (char *word = strtok(text, " "); word && argc < WORDS_MAX; word = strtok(NULL, " ")) argv[argc++] = word;
     return options_parse(&usage, argc, argv, operands);
@@ -59,11 +60,11 @@ static void test_values_in_every_spelling(void **state)
     assert_int_equal(size[1], 720);
     assert_string_equal(operands[0], "a");
     assert_string_equal(operands[1], "b");
-    assert_int_equal(method, WIGGLY_CHAIN);
+    assert_int_equal(method, SOLVER_CHAIN);
     assert_int_equal(parse("a --solver band"), OPTIONS_RUN);
-    assert_int_equal(method, WIGGLY_BAND);
+    assert_int_equal(method, SOLVER_BAND);
     assert_int_equal(parse("a --solver=band --solver=chain"), OPTIONS_RUN);
-    assert_int_equal(method, WIGGLY_CHAIN);
+    assert_int_equal(method, SOLVER_CHAIN);
 }
 
 static void test_names_that_look_like_options(void **state)
@@ -113,7 +114,7 @@ static void test_what_is_refused(void **state)
         assert_int_equal(frames, -1);
         assert_near(scale, -1, 0);
         assert_int_equal(size[0], -1);
-        assert_int_equal(method, WIGGLY_CHAIN);
+        assert_int_equal(method, SOLVER_CHAIN);
     }
 }
 

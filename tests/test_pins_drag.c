@@ -34,7 +34,7 @@ static void open_drag(struct stand *stand, const struct drag *drag)
     struct error error = {0};
     memset(&stand->opened, 0, sizeof stand->opened);
     if (!opened_read(&stand->opened, drag->scene, &error)) fail_msg("%s", error.text);
-    assert_true(opened_solve(&stand->opened, WIGGLY_CHAIN, NULL));
+    assert_true(opened_solve(&stand->opened, SOLVER_BY_LENGTH, NULL));
     const struct pin_source source = pin_points(stand->opened.models);
     struct pin pin = {.frame = drag->frame, .point = drag->point};
     struct pin_point at;

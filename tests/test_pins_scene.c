@@ -58,7 +58,7 @@ static void solve(struct stand *stand)
 static void solve_whole(struct stand *stand)
 {
     evaluation_free(&stand->opened.evaluation);
-    assert_true(opened_solve(&stand->opened, WIGGLY_CHAIN, NULL));
+    assert_true(opened_solve(&stand->opened, SOLVER_BY_LENGTH, NULL));
 }
 
 static struct edit pin_edit(int rig, int point, double frame, const double to[3])
@@ -88,7 +88,7 @@ static void a_characters_point_moves_by_its_pull_however_far(void **state)
     struct stand stand = {0};
     pin_pull c[64], ignored[64];
     stand_open(&stand, "assets/scenes/character.json");
-    assert_true(opened_solve(&stand.opened, WIGGLY_CHAIN, NULL));
+    assert_true(opened_solve(&stand.opened, SOLVER_BY_LENGTH, NULL));
     const int sample = document_sample(document_of(&stand), 30);
     const struct pin_point near = find(&stand, 0, 100, 30, c);
     stand.opened.evaluation.curves[0].re[sample] += 1000;

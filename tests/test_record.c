@@ -23,16 +23,16 @@ static void test_few_knots_keep_to_the_way(void **state)
     double way[COUNT];
     int knots[CAPACITY];
     for (int i = 0; i < COUNT; i++) way[i] = 0.3 * (1 - cos(0.05 * i)) * exp(-0.01 * i);
-    int made = record_simplify(way, COUNT, 0.004, WIGGLY_CHAIN, knots, CAPACITY);
+    int made = record_simplify(way, COUNT, 0.004, knots, CAPACITY);
     assert_in_range(made, 3, 16);
     assert_int_equal(knots[0], 0);
     assert_int_equal(knots[made - 1], COUNT - 1);
     for (int i = 1; i < made; i++) assert_true(knots[i] > knots[i - 1]);
     assert_true(knots[1] > 1 && knots[made - 2] < COUNT - 2); // beside the ends a knot would take their slope away
     for (int i = 0; i < COUNT; i++) way[i] = 0.5;
-    assert_int_equal(record_simplify(way, COUNT, 0.004, WIGGLY_CHAIN, knots, CAPACITY), 2);
+    assert_int_equal(record_simplify(way, COUNT, 0.004, knots, CAPACITY), 2);
     for (int i = 0; i < COUNT; i++) way[i] = i % 2; // a hand that trembles: no more than there is room for
-    assert_int_equal(record_simplify(way, COUNT, 0.004, WIGGLY_CHAIN, knots, CAPACITY), CAPACITY);
+    assert_int_equal(record_simplify(way, COUNT, 0.004, knots, CAPACITY), CAPACITY);
 }
 
 /// Drags the body along x for a second while the scene plays; R recorded it or not. Notes base and tip of each frame.

@@ -51,7 +51,7 @@ static void check_spline(const char *name, const struct document *document, cons
                          const double *expected, int spline)
 {
     const struct spline *of = &document->splines[spline];
-    const char *solver = evaluation_solver(evaluation->method);
+    const char *solver = evaluation_solver(evaluation);
     double worst = relative_error(&evaluation->curves[spline], expected, 1 + 3 * document->spline_count, spline);
     double tolerance = spline_mode(of) == WIGGLY_CUBIC ? 1e-9 : 1e-8;
     if (!(worst <= tolerance)) fail_msg("%s, %s, %s: off by %g of its range", name, of->name, solver, worst);
@@ -76,7 +76,7 @@ static double difference(const wiggly_curve *a, const wiggly_curve *b)
 static void check_document(const char *name, const struct document *document, const double *expected)
 {
     struct error error = {0};
-    struct evaluation chain = {0}, band = {.method = WIGGLY_BAND};
+    struct evaluation chain = {.solver = SOLVER_CHAIN}, band = {.solver = SOLVER_BAND};
     if (!evaluation_resize(&chain, document, &error) || !evaluation_resize(&band, document, &error))
         fail_msg("%s", error.text);
     evaluation_update(&chain, document, NULL, false);

@@ -49,7 +49,7 @@ static bool open_log(struct app *app, struct error *error)
     const struct app_options *o = app->options;
     struct frame_header header = {
         .gl_renderer = app->draw ? draw_renderer_name() : NULL,
-        .solver = evaluation_solver(app->table.evaluation.method),
+        .solver = evaluation_solver(&app->table.evaluation),
         .vsync = platform_is_window(app->platform) && !is_replay(app) && !o->frames,
         .warm_up = WARM_UP,
         .reference_ms = NAN,
@@ -149,7 +149,7 @@ bool app_open_editor(struct app *app, struct error *error)
     editor_destroy(app->table.editor);
     app->table.editor = editor_create(error);
     if (!app->table.editor) return false;
-    editor_set_method(app->table.editor, app->options->method);
+    app->table.evaluation.solver = app->options->solver;
     app_connect_files(app);
     ui_scale_fit(app);
     return true;

@@ -3,6 +3,7 @@
 #define APP_APP_H
 
 #include "base/error.h"
+#include "scene/evaluate.h"
 #include <stdbool.h>
 #include <wiggly/wiggly.h>
 
@@ -15,20 +16,20 @@ struct app_options {
     int width, height; ///< logical pixels; 0: the replay's, else 1280 × 720
     double
         ui_scale; ///< how large everything is, on top of that; 0: the replay's, else the user's own in a window, else 1
-    double scale;            ///< device pixels a logical pixel; 0: the replay's, else the display's (headless 1)
-    const char *stage_scale; ///< of the stage while it moves: "auto" or a number; NULL: auto in a window, else 1
-    const char *theme;       ///< a theme's name, or NULL: the user's own in a window, else dark
-    wiggly_method method;    ///< how the splines are solved
-    bool gl_debug;           ///< prints the OpenGL driver's messages; a complaint among them is a failure
-    bool welcome;            ///< shows what to try first
-    const char *log;         ///< timing log, CSV
-    const char *screenshot;  ///< PNG of the last frame
-    const char *frames_dir;  ///< a PNG for each frame
-    bool demo;               ///< plays by itself until somebody presses something
-    const char *replay;      ///< events from this file; its clock is its own
-    const char *record;      ///< events to this file
-    const char *result;      ///< the document at the end
-    const char *turns;       ///< "first" or "second": draws frames in turn with another program (platform/process.h)
+    double scale;              ///< device pixels a logical pixel; 0: the replay's, else the display's (headless 1)
+    const char *stage_scale;   ///< of the stage while it moves: "auto" or a number; NULL: auto in a window, else 1
+    const char *theme;         ///< a theme's name, or NULL: the user's own in a window, else dark
+    enum solver_choice solver; ///< how the splines are solved
+    bool gl_debug;             ///< prints the OpenGL driver's messages; a complaint among them is a failure
+    bool welcome;              ///< shows what to try first
+    const char *log;           ///< timing log, CSV
+    const char *screenshot;    ///< PNG of the last frame
+    const char *frames_dir;    ///< a PNG for each frame
+    bool demo;                 ///< plays by itself until somebody presses something
+    const char *replay;        ///< events from this file; its clock is its own
+    const char *record;        ///< events to this file
+    const char *result;        ///< the document at the end
+    const char *turns; ///< "first" or "second": draws frames in turn with another program (platform/process.h)
 };
 
 /// Runs until the user quits or the frames are done; prints the timing summary if frames were counted. Without a display

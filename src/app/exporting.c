@@ -106,7 +106,7 @@ static bool prepare(struct export_job *job)
 {
     struct opened *opened = &job->opened;
     return models_update(opened->models, opened->document, &job->error) &&
-           opened_solve(opened, WIGGLY_CHAIN, &job->error);
+           opened_solve(opened, SOLVER_BY_LENGTH, &job->error);
 }
 
 static int work(void *user)

@@ -29,13 +29,11 @@ static bool solve(struct table *table, struct frame_row *row, struct error *erro
     uint64_t revision = history_revision(table->history);
     row->edited = revision != table->solved_revision;
     if ((resized || row->edited) && !fit_evaluation(table, resized, error)) return false;
-    wiggly_method method = editor_method(table->editor);
     const struct motion_source motions = table->motions.read ? table->motions : clip_motions(table->models);
     bool moved = motions_bake(&table->evaluation, document, &motions);
-    bool same_way = cubic == table->solved_cubic && method == evaluation->method;
-    row->solver = evaluation_solver(method);
+    bool same_way = cubic == table->solved_cubic;
+    row->solver = evaluation_solver(evaluation);
     if (!resized && !row->edited && same_way && !moved) return true;
-    table->evaluation.method = method;
     table->evaluation.pins = pin_points(table->models);
     history_take_dirty(table->history, document, table->dirty, document->spline_count);
     evaluation_update(&table->evaluation, document, resized ? NULL : table->dirty, cubic);

@@ -41,7 +41,7 @@ int command_live(int argc, char **argv)
          &options.theme, 0, 0},
         {"--welcome", NULL, NULL, "show what to try first, as on the first start in a window", OPTION_FLAG,
          &options.welcome, 0, 0},
-        options_solver(&options.method),
+        options_solver(&options.solver),
         {"--gl-debug", NULL, NULL, "print the OpenGL driver's messages; fail if it complains", OPTION_FLAG,
          &options.gl_debug, 0, 0},
         {"--log", NULL, "FILE.csv", "write a timing log, one row per frame", OPTION_OUTPUT, &options.log, 0, 0},

@@ -121,14 +121,12 @@ static bool read_size(const char *text, double minimum, double maximum, int size
     return true;
 }
 
-static bool read_method(const char *text, wiggly_method *method)
+static bool read_solver(const char *text, enum solver_choice *solver)
 {
-    for (wiggly_method m = WIGGLY_CHAIN; m <= WIGGLY_BAND; m++) {
-        if (strcmp(text, evaluation_solver(m)) != 0) continue;
-        *method = m;
-        return true;
-    }
-    return false;
+    const bool chain = strcmp(text, "chain") == 0;
+    if (!chain && strcmp(text, "band") != 0) return false;
+    *solver = chain ? SOLVER_CHAIN : SOLVER_BAND;
+    return true;
 }
 
 static enum options_result store(const struct usage *usage, const struct option_spec *option, const char *text)
@@ -164,8 +162,8 @@ static enum options_result store(const struct usage *usage, const struct option_
         if (read_size(text, low, high, option->target)) return OPTIONS_RUN;
         return options_wrong(usage, "%s: expected WIDTHxHEIGHT, each from %.10g to %.10g, got '%s'", option->name,
                              low, high, text);
-    case OPTION_METHOD:
-        if (read_method(text, option->target)) return OPTIONS_RUN;
+    case OPTION_SOLVER:
+        if (read_solver(text, option->target)) return OPTIONS_RUN;
         return options_wrong(usage, "%s: expected chain or band, got '%s'", option->name, text);
     }
     return OPTIONS_WRONG;
@@ -255,14 +253,14 @@ enum options_result options_parse(const struct usage *usage, int argc, char **ar
     return check_outputs(usage);
 }
 
-struct option_spec options_solver(wiggly_method *method)
+struct option_spec options_solver(void *solver)
 {
-    return (struct option_spec){
-        .name = "--solver",
-        .argument = "METHOD",
-        .help = "chain (default) or band: condenses stretches between knots, or factors all samples",
-        .kind = OPTION_METHOD,
-        .target = method};
+    return (struct option_spec){.name = "--solver",
+                                .argument = "METHOD",
+                                .help = "band or chain: factors all samples, or condenses stretches between knots "
+                                        "(default: band to 4096 samples)",
+                                .kind = OPTION_SOLVER,
+                                .target = solver};
 }
 
 bool options_direction(const char *text, double direction[3])

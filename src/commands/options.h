@@ -13,7 +13,7 @@ enum option_kind {
     OPTION_INT,    ///< int in [minimum, maximum]
     OPTION_REAL,   ///< double in [minimum, maximum]
     OPTION_SIZE,   ///< int[2] from "1280x720", each in [minimum, maximum]
-    OPTION_METHOD, ///< wiggly_method, by its name
+    OPTION_SOLVER, ///< enum solver_choice, by its name
 };
 
 enum { OPTION_LIST_MOST = 32 };
@@ -44,8 +44,8 @@ struct usage {
     int operand_minimum, operand_maximum;
 };
 
-/// "--solver", the same for every command that has it.
-struct option_spec options_solver(wiggly_method *method);
+/// "--solver", the same for every command that has it; of an enum solver_choice.
+struct option_spec options_solver(void *solver);
 
 /// What options_parse() returns: whether to go on, or the exit status at once.
 enum options_result {

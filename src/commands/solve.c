@@ -74,11 +74,11 @@ static void warn_of_pin(void *user, const char *sentence)
     print_line(stderr, "%s: warning: %s", *scene, sentence);
 }
 
-static bool solve(const char *scene, wiggly_method method, const char *out, struct error *error)
+static bool solve(const char *scene, enum solver_choice solver, const char *out, struct error *error)
 {
     struct opened opened;
     if (!opened_read_splines(&opened, scene, error)) return false;
-    bool done = opened_solve(&opened, method, error);
+    bool done = opened_solve(&opened, solver, error);
     if (done) {
         warn_statuses(scene, opened.document, &opened.evaluation);
         pin_warnings(opened.document, &opened.evaluation, warn_of_pin, &scene);
@@ -91,10 +91,10 @@ static bool solve(const char *scene, wiggly_method method, const char *out, stru
 int command_solve(int argc, char **argv)
 {
     const char *scene, *out = NULL;
-    wiggly_method method = WIGGLY_CHAIN;
+    enum solver_choice solver = SOLVER_BY_LENGTH;
     const struct option_spec options[] = {
         {"--output", "-o", "FILE", "file to write (default: standard output)", OPTION_TEXT, &out, 0, 0},
-        options_solver(&method),
+        options_solver(&solver),
     };
     const struct usage usage = {
         .command = "solve",
@@ -108,7 +108,7 @@ int command_solve(int argc, char **argv)
     enum options_result result = options_parse(&usage, argc, argv, &scene);
     if (result != OPTIONS_RUN) return (int)result;
     struct error error;
-    if (solve(scene, method, out, &error)) return 0;
+    if (solve(scene, solver, out, &error)) return 0;
     fprintf(stderr, "%s\n", error.text);
     return (int)error.kind;
 }

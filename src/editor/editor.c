@@ -151,10 +151,6 @@ void editor_answer(struct editor *editor, const struct request *request, bool ok
 
 enum look editor_look(const struct editor *editor) { return editor->core.look; }
 
-wiggly_method editor_method(const struct editor *editor) { return editor->core.method; }
-
-void editor_set_method(struct editor *editor, wiggly_method method) { editor->core.method = method; }
-
 bool editor_is_playing(const struct editor *editor) { return editor->core.playback.playing; }
 
 bool editor_wants_frames(const struct editor *editor)

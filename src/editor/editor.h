@@ -93,9 +93,6 @@ void editor_set_stage_scale(struct editor *editor, float scale);
 
 /// How the knots are shown (V); the app solves as cubic for LOOK_CUBIC.
 enum look editor_look(const struct editor *editor);
-/// How the splines are solved, a switch in the inspector; it is no part of the document and stays when another one is opened.
-wiggly_method editor_method(const struct editor *editor);
-void editor_set_method(struct editor *editor, wiggly_method method);
 bool editor_is_playing(const struct editor *editor);
 /// Whether something moves by itself, so that the next frame must not wait for an event.
 bool editor_wants_frames(const struct editor *editor);

@@ -33,10 +33,10 @@ bool opened_read_splines(struct opened *opened, const char *path, struct error *
     return read_any(opened, path, false, error);
 }
 
-bool opened_solve(struct opened *opened, wiggly_method method, struct error *error)
+bool opened_solve(struct opened *opened, enum solver_choice solver, struct error *error)
 {
     const struct motion_source source = clip_motions(opened->models);
-    opened->evaluation.method = method;
+    opened->evaluation.solver = solver;
     opened->evaluation.pins = pin_points(opened->models);
     if (!evaluation_resize(&opened->evaluation, opened->document, error)) return false;
     motions_bake(&opened->evaluation, opened->document, &source);

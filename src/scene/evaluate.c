@@ -195,7 +195,7 @@ static void solve(struct evaluation *evaluation, const struct document *document
     if (document->splines[spline].knot_count <= storage->solver_knots) {
         desc = storage_describe(evaluation->storage, evaluation->curves, document, spline, cubic);
         storage_add_knots(&desc, document, spline, storage->knots);
-        wiggly_set_method(storage->solver, storage->method);
+        wiggly_set_method(storage->solver, evaluation_method(evaluation));
         status = wiggly_solve(storage->solver, &desc, curve);
     }
     if (status >= WIGGLY_ERROR_ARGUMENT) storage_flatten(curve, &desc);
@@ -264,10 +264,8 @@ void evaluation_update(struct evaluation *evaluation, const struct document *doc
     evaluation->solved_splines = evaluation->solved_samples = evaluation->solved_knots = 0;
     if (evaluation->count != document->spline_count || evaluation->samples != document_samples(document))
         return; // evaluation_resize() failed and reported it
-    bool same_way = cubic == evaluation->cubic && evaluation->method == storage->method;
-    if (storage->is_new || !same_way) dirty = NULL;
+    if (storage->is_new || cubic != evaluation->cubic) dirty = NULL;
     evaluation->cubic = cubic;
-    storage->method = evaluation->method;
     if (!scene_order(document, storage->space, storage->order, &cycle)) return; // a document has no cycles
     const bool grouped = pinned_begin(evaluation, document);
     const int *order = grouped ? storage->pinned.order : storage->order;
@@ -285,7 +283,16 @@ void evaluation_update(struct evaluation *evaluation, const struct document *doc
     storage->is_new = false;
 }
 
-const char *evaluation_solver(wiggly_method method) { return method == WIGGLY_BAND ? "band" : "chain"; }
+wiggly_method evaluation_method(const struct evaluation *evaluation)
+{
+    if (evaluation->solver != SOLVER_BY_LENGTH) return evaluation->solver == SOLVER_BAND ? WIGGLY_BAND : WIGGLY_CHAIN;
+    return evaluation->samples <= SOLVER_LONGEST_BAND ? WIGGLY_BAND : WIGGLY_CHAIN;
+}
+
+const char *evaluation_solver(const struct evaluation *evaluation)
+{
+    return evaluation_method(evaluation) == WIGGLY_BAND ? "band" : "chain";
+}
 
 wiggly_value evaluation_at(const struct evaluation *evaluation, int spline, double position)
 {

@@ -5,17 +5,25 @@
 #include "scene/document.h"
 #include "scene/pin_source.h"
 
+/// How splines are solved. The curves are the same but for rounding; a document has the same bits each time.
+enum solver_choice {
+    SOLVER_BY_LENGTH, ///< up to so many samples by the paper's band, longer ones by the chain
+    SOLVER_CHAIN,
+    SOLVER_BAND,
+};
+enum { SOLVER_LONGEST_BAND = 4096 };
+
 /// Solutions of all splines of one document.
 struct evaluation {
-    wiggly_curve *curves;  ///< one for each spline
-    wiggly_status *status; ///< what the solver said
-    int count;             ///< splines
-    int samples;           ///< N
-    bool cubic;            ///< all solved in cubic mode (the "cubic" of the A/B comparison)
-    wiggly_method method;  ///< of every solve; set it at any time: the next update solves all by it
-    uint64_t revision;     ///< changes whenever a curve does
-    uint64_t *revisions;   ///< for each spline: the revision in which its curve last changed
-    long solved_splines;   ///< solved by the last update
+    wiggly_curve *curves;      ///< one for each spline
+    wiggly_status *status;     ///< what the solver said
+    int count;                 ///< splines
+    int samples;               ///< N
+    bool cubic;                ///< all solved in cubic mode (the "cubic" of the A/B comparison)
+    enum solver_choice solver; ///< of every solve; set it before the first update
+    uint64_t revision;         ///< changes whenever a curve does
+    uint64_t *revisions;       ///< for each spline: the revision in which its curve last changed
+    long solved_splines;       ///< solved by the last update
     long solved_samples;
     long solved_knots;
     struct pin_source pins;  ///< where pinned points are; set it before each update. Zero: pins are passed over
@@ -41,8 +49,9 @@ void evaluation_update(struct evaluation *evaluation, const struct document *doc
 wiggly_desc evaluation_describe(const struct evaluation *evaluation, const struct document *document, int spline,
                                 wiggly_knot *knots);
 
-/// What a method is called: "chain" or "band".
-const char *evaluation_solver(wiggly_method method);
+/// Which way its splines go, and what that is called: "chain" or "band".
+wiggly_method evaluation_method(const struct evaluation *evaluation);
+const char *evaluation_solver(const struct evaluation *evaluation);
 
 /// A spline's value at a position in samples, possibly between two. Zeros if there is no such spline or `evaluation` is NULL.
 wiggly_value evaluation_at(const struct evaluation *evaluation, int spline, double position);

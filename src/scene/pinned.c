@@ -398,7 +398,7 @@ bool pinned_solve(struct evaluation *evaluation, const struct document *document
 {
     struct pinned *pinned = &evaluation->storage->pinned;
     const bool has_floor = floors_concern(pinned->which, document, which);
-    wiggly_group_set_method(pinned->solver, evaluation->storage->method);
+    wiggly_group_set_method(pinned->solver, evaluation->solver == SOLVER_BAND ? WIGGLY_BAND : WIGGLY_CHAIN);
     find_members(evaluation, document, which);
     for (int i = 0; has_floor && i < pinned->count; i++) { // as where pins pull: they are passed over, pressed or not
         pinned->descs[i].low = -INFINITY, pinned->descs[i].high = INFINITY;

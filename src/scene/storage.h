@@ -22,9 +22,8 @@ struct storage {
     size_t number_capacity;
     wiggly_solver *solver;
     int solver_samples, solver_knots;
-    wiggly_method method; ///< of the last update
-    wiggly_knot *knots;   ///< of the spline being solved; solver_knots
-    int *order;           ///< one for each spline, as the next five
+    wiggly_knot *knots; ///< of the spline being solved; solver_knots
+    int *order;         ///< one for each spline, as the next five
     bool *solved;
     bool *forced; ///< to be solved whether edited or not: what moves its pinned rigs has changed
     struct order_space space;

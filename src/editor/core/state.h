@@ -233,7 +233,6 @@ struct core {
     struct edited edited;
     struct hover hover;
     enum look look;
-    wiggly_method method; ///< that solves the splines; stays as it is when another document is opened
     float pointer_x, pointer_y;
     unsigned mods;
     int held_key; ///< F Z B C L while pressed, else 0

@@ -173,7 +173,7 @@ static const double LOWER = 0.9; ///< factor of the frequency from try to try
 static int count_swings(const struct core *core, const struct editor_world *world)
 {
     const struct document *document = world->document;
-    struct evaluation trial = {.method = core->method, .pins = world->evaluation->pins};
+    struct evaluation trial = {.solver = world->evaluation->solver, .pins = world->evaluation->pins};
     struct warnings found = {0};
     bool good = evaluation_resize(&trial, document, NULL);
     if (good) {

@@ -63,14 +63,12 @@ static void build_substeps(struct inspection *in)
     core_step(in->core, in->world, "Set substeps", 0, &edit);
 }
 
-/// A setting of the session, not of the scene: no step of the history.
 static void build_solver(struct inspection *in)
 {
-    static const struct ui_choice methods[] = {[WIGGLY_CHAIN] = {"chain", "Chain"}, [WIGGLY_BAND] = {"band", "Band"}};
-    struct rect r = inspector_labelled(in, "solver");
-    ui_hint(in->ui, r, "The same curves: stretches between knots condensed, or the paper's whole band");
-    int method = (int)in->core->method;
-    if (ui_segments(in->ui, r, "scene.solver", methods, 2, &method)) in->core->method = (wiggly_method)method;
+    const struct rect r = inspector_labelled(in, "solver");
+    ui_hint(in->ui, r,
+            "Band: all samples at once, as in the paper. Chain: stretches between knots, beyond 4096 samples");
+    if (in->world->evaluation) ui_label(in->ui, r, evaluation_solver(in->world->evaluation), theme()->text);
 }
 
 void inspector_scene(struct inspection *in)

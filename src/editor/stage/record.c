@@ -83,7 +83,7 @@ static void insert_sorted(int *knots, int count, int sample)
     knots[i] = sample;
 }
 
-int record_simplify(const double *values, int count, double tolerance, wiggly_method method, int *knots, int capacity)
+int record_simplify(const double *values, int count, double tolerance, int *knots, int capacity)
 {
     wiggly_solver *solver = NULL;
     double *total = malloc((size_t)count * sizeof *total), miss = 0;
@@ -92,7 +92,6 @@ int record_simplify(const double *values, int count, double tolerance, wiggly_me
     knots[0] = 0;
     knots[1] = count - 1;
     bool good = total && buffer && wiggly_create(count, capacity, &solver) == WIGGLY_OK;
-    if (good) wiggly_set_method(solver, method);
     while (good && solve_through(solver, values, count, knots, made, buffer, total)) {
         int at = farthest(values, total, count, &miss);
         if (miss <= tolerance || made == capacity) break;
@@ -147,7 +146,7 @@ static int key_coordinate(const struct stage *stage, struct core *core, const st
     if (record->first + count - 1 > end) count = end - record->first + 1;
     for (int i = 0; i < count; i++)
         way[i] = base_value(world, tail, coordinate, record->first + i) + record->way[coordinate][i];
-    int made = count >= 2 ? record_simplify(way, count, TOLERANCE, core->method, knots, MAX_KNOTS) : 0;
+    int made = count >= 2 ? record_simplify(way, count, TOLERANCE, knots, MAX_KNOTS) : 0;
     if (made == 0) return 0;
     if (!is_new) clear_knots(core, world, spline, record->first, record->first + count - 1);
     for (int i = 0; i < made; i++) {

@@ -275,18 +275,16 @@ static struct title title_of(const struct core *core, bool saved, struct rect ba
 }
 
 /// Frames a second only while it plays: at rest frames come as events do, and their number would say nothing.
-static void figures_text(const struct transport *transport, const struct core *core, char *text, size_t size)
+static void figures_text(const struct transport *transport, const struct core *core,
+                         const struct evaluation *evaluation, char *text, size_t size)
 {
     const struct status *status = &transport->status;
     char stage[32] = "", fps[64] = "", solve[32] = "";
     if (core->playback.playing && status->fps > 0) {
         snprintf(fps, sizeof fps, "%.0f fps  %ld dropped", status->fps, status->dropped);
     }
-    if (status->solve_us >= SOLVED) {
-        snprintf(solve, sizeof solve, "solve %.0f µs (%s)", status->solve_us, evaluation_solver(core->method));
-    } else if (core->method != WIGGLY_CHAIN) {
-        snprintf(solve, sizeof solve, "%s", evaluation_solver(core->method));
-    }
+    if (status->solve_us >= SOLVED && evaluation)
+        snprintf(solve, sizeof solve, "solve %.0f µs (%s)", status->solve_us, evaluation_solver(evaluation));
     if (transport->stage_scale > 0 && transport->stage_scale < 1) {
         snprintf(stage, sizeof stage, "stage at %.0f %%", 100 * (double)transport->stage_scale);
     }
@@ -323,7 +321,7 @@ void transport_show(const struct transport *transport, struct core *core, const 
     drawlist_rect(&core->list, (struct rect){bar.x, bar.y, bar.w, 1}, theme()->border);
     float x = show_time(core, world->document, bar, controls_show(core)) + GAP;
     char figures[160];
-    figures_text(transport, core, figures, sizeof figures);
+    figures_text(transport, core, world->evaluation, figures, sizeof figures);
     const float end = core->unkept ? unkept_rect(bar).x - GAP : bar.x + bar.w - STATUS_MARGIN;
     const float width = font_width(FONT_NUMBER, THEME_TEXT_SMALL, figures);
     // What has happened is said in full: the figures give way to it, and the name of the scene.
