@@ -24,7 +24,7 @@ static inline void blind_open(struct blind *blind, const char *scene)
     app->fixed_clock = true;
     app->ui_scale = 1;
     app->platform = platform_blind(1280, 720, 1);
-    app->table.history = history_create();
+    app->table.history = history_create(NULL);
     app->table.models = models_create();
     app->table.editor = font_init(&error) ? editor_create(&error) : NULL;
     if (!app->table.editor) fail_msg("%s", error.text);

@@ -28,10 +28,10 @@ static inline struct opened open_scene(const char *path)
     struct error error = {0};
     scene.document = scene_load(path, NULL, &error);
     if (!scene.document) fail_msg("%s", error.text);
-    assert_true(document_set_path(scene.document, path));
+    document_set_path(scene.document, path);
     assert_true(models_update(scene.models, scene.document, &error));
     assert_true(evaluation_resize(&scene.evaluation, scene.document, &error));
-    evaluation_update(&scene.evaluation, scene.document, NULL, false);
+    evaluation_update(&scene.evaluation, scene.document, false);
     return scene;
 }
 

@@ -11,6 +11,6 @@ static const char FIVE[] =
     "{\"name\": \"up\", \"mode\": \"cubic\", \"knots\": [{\"frame\": 5, \"value\": 1.3},"
     "{\"frame\": 70, \"value\": 0.75}]}]}";
 
-static inline const struct spline *spline(const struct session *s, int i) { return &s->document->splines[i]; }
+static inline const struct spline *spline(const struct session *s, int i) { return s->document->splines[i]; }
 
 #endif

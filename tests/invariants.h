@@ -29,10 +29,10 @@ static inline int compare_ids(const void *a, const void *b)
 static inline void assert_knots(const struct document *d)
 {
     int count = 0;
-    for (int s = 0; s < d->spline_count; s++) count += d->splines[s].knot_count;
+    for (int s = 0; s < d->spline_count; s++) count += d->splines[s]->knot_count;
     unsigned *ids = malloc(((size_t)count + 1) * sizeof *ids), *next = ids;
     for (int s = 0; s < d->spline_count; s++) {
-        const struct spline *spline = &d->splines[s];
+        const struct spline *spline = d->splines[s];
         int before = -1;
         for (int k = 0; k < spline->knot_count; k++) {
             const struct knot *knot = &spline->knots[k];
@@ -67,7 +67,7 @@ static inline void assert_param(const struct document *d, const struct param *pa
 static inline void assert_splines(const struct document *d)
 {
     for (int s = 0; s < d->spline_count; s++) {
-        const struct spline *spline = &d->splines[s];
+        const struct spline *spline = d->splines[s];
         assert_true(spline->name && spline->name[0]);
         assert_int_equal(document_find_spline(d, spline->name), s);
         assert_int_equal(document_find_spline_id(d, spline->id), s);
@@ -98,12 +98,12 @@ static inline void assert_angles(const struct angles *angles, int joints)
 
 static inline void assert_tails(const struct document *d)
 {
-    assert_true(d->rig_count <= SCENE_MAX_RIGS && d->rig_count <= d->rig_capacity);
+    assert_true(d->rig_count <= SCENE_MAX_RIGS);
     for (int t = 0; t < document_count_rigs(d, RIG_TAIL); t++) {
         const struct tail *tail = document_tail(d, t);
-        const char *name = d->rigs[document_find_rig(d, RIG_TAIL, t)].name;
+        const char *name = d->rigs[document_find_rig(d, RIG_TAIL, t)]->name;
         assert_true(name && name[0]);
-        for (int u = 0; u < t; u++) assert_string_not_equal(name, d->rigs[document_find_rig(d, RIG_TAIL, u)].name);
+        for (int u = 0; u < t; u++) assert_string_not_equal(name, d->rigs[document_find_rig(d, RIG_TAIL, u)]->name);
         assert_in_range(tail->joints, 1, TAIL_MAX_JOINTS);
         assert_true(isfinite(tail->length) && tail->length > 0);
         for (int k = 0; k < 3; k++) assert_param(d, &tail->position[k], false);
@@ -135,7 +135,7 @@ static inline void assert_characters(const struct document *d)
 static inline void assert_models(const struct document *d)
 {
     for (int r = 0; r < d->rig_count; r++) {
-        const struct rig *rig = &d->rigs[r];
+        const struct rig *rig = d->rigs[r];
         if (rig->kind == RIG_MODEL) {
             assert_true(rig->model.model[0] && isfinite(rig->model.scale) && rig->model.scale > 0);
             assert_true(!rig->model.clip || rig->model.clip[0]);

@@ -81,7 +81,7 @@ static inline bool find_thing(struct monkey *m, float *x, float *y)
     struct editor_world world = table_world(&app->table);
     const struct spline *spline = core_active_spline(&app->table.editor->core, &world);
     const int tails = document_count_rigs(d, RIG_TAIL);
-    const char *tail = tails > 0 ? d->rigs[document_find_rig(d, RIG_TAIL, below(m, tails))].name : NULL;
+    const char *tail = tails > 0 ? d->rigs[document_find_rig(d, RIG_TAIL, below(m, tails))]->name : NULL;
     char target[512] = "";
     int which = below(m, 9);
     if (document_find_rig(d, RIG_MODEL, 0) >= 0 && one_in(m, 2)) {

@@ -180,7 +180,7 @@ static inline void session_open(struct session *session, const char *scene)
     if (!font_init(&error)) fail_msg("%s", error.text);
     session->document = scene_parse("test", scene, strlen(scene), NULL, &error);
     if (!session->document) fail_msg("%s", error.text);
-    session->history = history_create();
+    session->history = history_create(session->document);
     assert_non_null(session->history);
     session->editor = editor_create(&error);
     if (!session->editor) fail_msg("%s", error.text);

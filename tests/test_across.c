@@ -14,7 +14,7 @@ static const char TWO[] =
 
 static const struct knot *knot(const struct session *s, int spline, int k)
 {
-    return &s->document->splines[spline].knots[k];
+    return &s->document->splines[spline]->knots[k];
 }
 
 static int count(const struct session *s) { return selected_count(&s->editor->core, s->document); }
@@ -40,7 +40,7 @@ static void test_all_of_one_and_of_all_that_are_shown(void **state)
     assert_int_equal(count(&s), 7);
     session_key(&s, 'A', MOD_CTRL); // fewer again
     assert_int_equal(count(&s), 4);
-    selection_set(&s.editor->core.hidden, s.document->splines[2].id, true);
+    selection_set(&s.editor->core.hidden, s.document->splines[2]->id, true);
     session_key(&s, 'A', MOD_CTRL | MOD_SHIFT);
     assert_int_equal(count(&s), 6);
     session_close(&s);
@@ -155,7 +155,7 @@ static void test_delete_and_slopes_are_one_step(void **state)
     free(original);
     original = session_saved(&s);
     session_key(&s, KEY_DELETE, 0);
-    for (int i = 0; i < 3; i++) assert_int_equal(s.document->splines[i].knot_count, 0);
+    for (int i = 0; i < 3; i++) assert_int_equal(s.document->splines[i]->knot_count, 0);
     assert_one_step(&s, original);
     free(original);
     session_close(&s);
@@ -178,9 +178,9 @@ static void test_pasted_knots_go_to_their_splines(void **state)
     assert_non_null(strstr(text, "\"spline\": \"up\""));
     session_click(&s, "ruler(21)");
     paste(&s, text);
-    assert_int_equal(s.document->splines[0].knot_count, 8);
-    assert_int_equal(s.document->splines[1].knot_count, 4);
-    assert_int_equal(s.document->splines[2].knot_count, 2);
+    assert_int_equal(s.document->splines[0]->knot_count, 8);
+    assert_int_equal(s.document->splines[1]->knot_count, 4);
+    assert_int_equal(s.document->splines[2]->knot_count, 2);
     assert_near(knot(&s, 1, 1)->frame, 31, 0); // 20 is 10 behind the first one, of another spline
     assert_int_equal(count(&s), 7);
     assert_one_step(&s, original);
@@ -216,7 +216,7 @@ static void test_copies_go_behind_the_end(void **state)
     session_key(&s, 'A', MOD_CTRL | MOD_SHIFT);
     char *original = session_saved(&s);
     session_key(&s, 'D', MOD_CTRL); // 10 … 60 and 40 behind each other: 20 later
-    assert_int_equal(s.document->splines[0].knot_count, 8);
+    assert_int_equal(s.document->splines[0]->knot_count, 8);
     assert_int_equal(s.document->last_frame, 130);
     assert_near(knot(&s, 0, 7)->frame, 130, 0);
     assert_near(knot(&s, 1, 2)->frame, 90, 0);

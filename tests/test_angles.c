@@ -47,7 +47,7 @@ static void ramps_are_printed_as_they_were_read(void **state)
 {
     (void)state;
     struct document *document = parse(text);
-    assert_memory_equal(&document->rigs[0].tail.channels[0].lag.ramp, &ramp.ramp, 3 * sizeof *ramp.ramp);
+    assert_memory_equal(&document->rigs[0]->tail.channels[0].lag.ramp, &ramp.ramp, 3 * sizeof *ramp.ramp);
     size_t size;
     char *first = scene_print(document, &size);
     assert_non_null(strstr(first, "\"rest\": { \"ramp\": [[0, 1], [1, 2]], \"mood\": 1 }"));
@@ -68,7 +68,7 @@ static void a_ramp_poses_like_its_numbers(void **state)
     (void)state;
     static struct pose posed[2];
     struct document *document = parse(text);
-    struct tail *tail = &document->rigs[0].tail;
+    struct tail *tail = &document->rigs[0]->tail;
     const wiggly_value value = {.y = 0.1, .re = 0.7, .im = -0.4};
     pose_tail(tail, &value, LOOK_WIGGLY, &posed[0]);
     struct angles *const all[] = {&tail->rest, &tail->channels[0].lag, &tail->channels[0].gain};

@@ -42,7 +42,7 @@ static void a_figure_ends_a_press_that_began_in_its_frame(void **state)
     blind_frame(&blind);
     struct app *app = &blind.app;
     struct editor_world world = table_world(&app->table);
-    const double before = app->table.document->splines[0].knots[1].value;
+    const double before = app->table.document->splines[0]->knots[1].value;
     float x, y;
     assert_true(editor_target(app->table.editor, &world, "knot(s,1)", &x, &y, NULL));
     send_pointer(&blind, EVENT_POINTER, x, y);
@@ -56,7 +56,7 @@ static void a_figure_ends_a_press_that_began_in_its_frame(void **state)
     blind_frame(&blind);
     send_key(&blind, 'Z', MOD_CTRL);
     blind_frame(&blind);
-    assert_true(app->table.document->splines[0].knots[1].value == before);
+    assert_true(app->table.document->splines[0]->knots[1].value == before);
     blind_close(&blind);
 }
 
@@ -104,7 +104,7 @@ static void assert_knots_in_file(const char *path, int knots)
     struct error error = {0};
     struct document *document = scene_load(path, NULL, &error);
     if (!document) fail_msg("%s", error.text);
-    assert_int_equal(document->splines[0].knot_count, knots);
+    assert_int_equal(document->splines[0]->knot_count, knots);
     document_destroy(document);
 }
 
@@ -118,7 +118,7 @@ static void assert_save_fails(struct blind *blind, const char *folder, const cha
     assert_non_null(strstr(message->text, path));
     assert_null(strchr(message->text, '\n'));
     assert_false(history_is_saved(blind->app.table.history));
-    assert_int_equal(blind->app.table.document->splines[0].knot_count, 1);
+    assert_int_equal(blind->app.table.document->splines[0]->knot_count, 1);
     assert_knots_in_file(path, 0);
     char command[128];
     snprintf(command, sizeof command, "[ \"$(ls -A %s)\" = scene.json ]", folder);
@@ -235,7 +235,7 @@ static void the_last_place_is_ones_own(void **state)
     struct stat about;
     char folder[64], path[96], *home = getenv("HOME") ? strdup(getenv("HOME")) : NULL;
     open_edited(&blind, folder, path);
-    assert_true(document_set_path(blind.app.table.document, "/proc/scene.json"));
+    document_set_path(blind.app.table.document, "/proc/scene.json");
     setenv("HOME", "/proc", 1);
     struct error error = {0};
     fail(&error, ERROR_ENVIRONMENT, "the end");

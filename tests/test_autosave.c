@@ -260,7 +260,7 @@ static void test_killed_while_saving(void **state)
     struct error error = {0};
     world_open(&small);
     world_open(&large);
-    world_must(&large, edit_range(0, 4000));
+    world_must(&large, range_edit(0, 4000));
     for (int f = 31; f < 4000; f++) world_must(&large, edit_insert(SWAY, f, sin(f)));
     char *texts[] = {world_print(&small), world_print(&large)};
     snprintf(path, sizeof path, "%s/mine.json", folder);

@@ -93,7 +93,7 @@ static void test_a_factor_is_what_is_typed(void **state)
     session_key(&s, KEY_BACKSPACE, 0);
     session_strike(&s, '5', MOD_SHIFT, '5');
     session_key(&s, KEY_ENTER, 0);
-    const struct knot *knots = s.document->splines[0].knots;
+    const struct knot *knots = s.document->splines[0]->knots;
     assert_near(knots[0].value, 1.25, 1e-9);
     assert_near(knots[1].value, -0.25, 1e-9);
     session_close(&s);
@@ -111,9 +111,9 @@ static void test_punctuation_is_what_is_typed(void **state)
     assert_near(playback->speed, 1, 0);
     session_strike(&s, '8', 0, '[');         // with AltGr
     session_strike(&s, ';', MOD_SHIFT, '.'); // AZERTY
-    assert_int_equal(selection_count(&s.editor->core.selection, &s.document->splines[0]), 1);
+    assert_int_equal(selection_count(&s.editor->core.selection, s.document->splines[0]), 1);
     session_strike(&s, '<', MOD_SHIFT, '>');
-    assert_int_equal(selection_count(&s.editor->core.selection, &s.document->splines[0]), 2);
+    assert_int_equal(selection_count(&s.editor->core.selection, s.document->splines[0]), 2);
     session_close(&s);
 }
 
@@ -174,9 +174,9 @@ static void test_a_key_that_closes_something_types_nothing(void **state)
     session_key(&s, KEY_F1, 0);
     session_type(&s, ".");
     assert_false(s.editor->dialogs->help.open);
-    assert_int_equal(selection_count(&s.editor->core.selection, &s.document->splines[0]), 0);
+    assert_int_equal(selection_count(&s.editor->core.selection, s.document->splines[0]), 0);
     session_type(&s, ".");
-    assert_int_equal(selection_count(&s.editor->core.selection, &s.document->splines[0]), 1);
+    assert_int_equal(selection_count(&s.editor->core.selection, s.document->splines[0]), 1);
     session_close(&s);
 }
 

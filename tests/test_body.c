@@ -183,7 +183,7 @@ static void drag_a_tracked_body(const char *text, int track)
     session_key(&s, 'X', 0);
     float x = joint(&s, 0)[X];
     session_release(&s, BUTTON_LEFT);
-    const struct spline *walk = &s.document->splines[track];
+    const struct spline *walk = s.document->splines[track];
     assert_int_equal(s.document->spline_count, splines);
     assert_int_equal(walk->knot_count, 3);
     assert_near(walk->knots[1].frame, 2, 0);
@@ -220,7 +220,7 @@ static void test_without_auto_key_the_shot_moves(void **state)
     session_key(&s, 'X', 0);
     float x = joint(&s, 0)[X];
     session_release(&s, BUTTON_LEFT);
-    const struct spline *walk = &s.document->splines[1];
+    const struct spline *walk = s.document->splines[1];
     assert_int_equal(walk->knot_count, 2);
     for (int i = 0; i < 2; i++) assert_near(walk->knots[i].value, x, 1e-3);
     assert_non_null(strstr(s.editor->core.message.text, "whole shot: x +"));
@@ -239,14 +239,13 @@ static void test_a_limit_holds_the_body(void **state)
     struct session s;
     session_open(&s, limited);
     session_key(&s, 'A', MOD_SHIFT); // what follows a spline is keyed, else
-    const struct spline *walk = &s.document->splines[1];
     for (int again = 0; again < 2; again++) {
         hold_and_drag(&s, -150, 0, 4);
         session_key(&s, 'X', 0);
         session_frame(&s);
         assert_near(joint(&s, 0)[X], 0.15, 1e-6); // under the hand, too
         session_release(&s, BUTTON_LEFT);
-        for (int i = 0; i < 3; i++) assert_near(walk->knots[i].value, i == 1 ? 0.25 : 0.15, 1e-12);
+        for (int i = 0; i < 3; i++) assert_near(s.document->splines[1]->knots[i].value, i == 1 ? 0.25 : 0.15, 1e-12);
         assert_string_equal(s.editor->core.message.text,
                             again
                                 ? "Held by the limit 0.25 of walk at frame 24."
@@ -259,7 +258,7 @@ static void test_a_limit_holds_the_body(void **state)
     session_frame(&s);
     assert_near(joint(&s, 0)[X], 0.25, 1e-6);
     session_release(&s, BUTTON_LEFT);
-    assert_near(walk->knots[0].value, 0.25, 0);
+    assert_near(s.document->splines[1]->knots[0].value, 0.25, 0);
     assert_string_equal(s.editor->core.message.text,
                         "Keyed walk at frame 0. Held by the limit 0.25 of walk at frame 0.");
     session_close(&s);
@@ -280,7 +279,7 @@ static void test_auto_key_makes_a_place_follow(void **state)
     session_release(&s, BUTTON_LEFT);
     int track = document_tail(s.document, 0)->position[0].track;
     assert_true(track >= 0);
-    const struct spline *made = &s.document->splines[track];
+    const struct spline *made = s.document->splines[track];
     assert_string_equal(made->name, "tail x");
     assert_int_equal(made->knot_count, 2);
     assert_near(made->knots[0].value, 0, 0);
@@ -288,7 +287,7 @@ static void test_auto_key_makes_a_place_follow(void **state)
     assert_near(made->knots[1].value, x, 1e-3);
     const struct tail *tail = document_tail(s.document, 0);
     assert_int_equal(tail->channel_count, 2);
-    assert_int_equal(s.document->splines[tail->channels[1].spline].parameter[PARAMETER_EQUILIBRIUM].track, track);
+    assert_int_equal(s.document->splines[tail->channels[1].spline]->parameter[PARAMETER_EQUILIBRIUM].track, track);
     assert_int_equal(document_tail(s.document, 0)->position[2].track, -1);
     assert_string_equal(s.editor->core.message.text, "Keyed tail x at frame 12.");
     session_key(&s, 'Z', MOD_CTRL);
@@ -360,7 +359,7 @@ static void test_a_press_right_after_a_rig_went(void **state)
     assert_true(s.editor->core.playback.playing);
     session_press(&s, BUTTON_LEFT, 1);
     session_release(&s, BUTTON_LEFT);
-    assert_int_equal(s.document->rigs[0].kind, RIG_MEADOW);
+    assert_int_equal(s.document->rigs[0]->kind, RIG_MEADOW);
     session_close(&s);
 }
 

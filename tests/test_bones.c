@@ -108,7 +108,7 @@ static void test_a_key_makes_a_chain_to_the_tip_in_one_step(void **state)
     session_click(&s, "bone(tail_3)");
     session_key(&s, 'J', 0);
     assert_int_equal(s.document->rig_count, 2);
-    const struct rig *made = &s.document->rigs[1];
+    const struct rig *made = s.document->rigs[1];
     assert_int_equal(made->kind, RIG_CHAIN);
     assert_string_equal(made->chain.from, "tail_3");
     assert_string_equal(made->chain.to, "tail_8");
@@ -153,7 +153,7 @@ static void test_dragging_a_chain_sets_a_knot(void **state)
     for (int frame = 0; frame < 60; frame++) session_frame(&s);
     const float x = s.x, y = s.y;
     session_release(&s, BUTTON_LEFT);
-    assert_int_equal(s.document->splines[0].knot_count, 1);
+    assert_int_equal(s.document->splines[0]->knot_count, 1);
     assert_true(editor_target(s.editor, &s.world, "chain(tail,0.95)", &tip[0], &tip[1], &error));
     assert_true(hypotf(tip[0] - x, tip[1] - y) < 30); // one axis only: as near as it gets
     assert_one_step(&s, before);
@@ -178,7 +178,7 @@ static void test_a_chain_of_two_axes_comes_to_the_pointer(void **state)
     panel_click(&s, "spline.add");
     panel_click(&s, "channel.add");
     panel_click(&s, "axis.up");
-    assert_int_equal(s.document->rigs[1].chain.channels[1].axis, AXIS_UP);
+    assert_int_equal(s.document->rigs[1]->chain.channels[1].axis, AXIS_UP);
     session_pull(&s, "chain(tail,0.9)", 12, 18, 12);
     for (int frame = 0; frame < 60; frame++) session_frame(&s);
     const float x = s.x, y = s.y;
@@ -209,18 +209,18 @@ static void test_the_inspector_chooses_the_clip(void **state)
     char *before = session_saved(&s);
     panel_click(&s, "model.clips.0");
     panel_click(&s, "item.Nod");
-    assert_string_equal(s.document->rigs[0].model.clip, "Nod");
+    assert_string_equal(s.document->rigs[0]->model.clip, "Nod");
     assert_one_step(&s, before);
     panel_click(&s, "model.clips.0");
     panel_click(&s, "item.none");
-    assert_null(s.document->rigs[0].model.clip);
+    assert_null(s.document->rigs[0]->model.clip);
     assert_saved(&s, before);
     panel_enter(&s, "model.scale", "2");
     panel_enter(&s, "model.turn", "90");
     panel_enter(&s, "model.x", "0.5");
-    assert_near(s.document->rigs[0].model.scale, 2, 0);
-    assert_near(s.document->rigs[0].model.turn, 90, 0);
-    assert_near(s.document->rigs[0].model.position[0], 0.5, 0);
+    assert_near(s.document->rigs[0]->model.scale, 2, 0);
+    assert_near(s.document->rigs[0]->model.turn, 90, 0);
+    assert_near(s.document->rigs[0]->model.position[0], 0.5, 0);
     free(before);
     session_close(&s);
 }
@@ -231,12 +231,12 @@ static void test_a_chains_turn_is_dragged(void **state)
     (void)state;
     struct session s;
     open_beast(&s, TAIL);
-    char *before = session_saved(&s), *from = strdup(s.document->rigs[1].chain.from);
+    char *before = session_saved(&s), *from = strdup(s.document->rigs[1]->chain.from);
     panel_press(&s, "chain.turn", 1);
     session_drag(&s, 40, 0, 6);
     panel_release(&s);
-    assert_true(s.document->rigs[1].chain.turn > 0);
-    assert_string_equal(s.document->rigs[1].chain.from, from);
+    assert_true(s.document->rigs[1]->chain.turn > 0);
+    assert_string_equal(s.document->rigs[1]->chain.from, from);
     assert_one_step(&s, before);
     free(from);
     free(before);
@@ -250,7 +250,7 @@ static void test_a_chain_is_edited_in_the_inspector(void **state)
     open_beast(&s, TAIL);
     char *before = session_saved(&s);
     panel_click(&s, "axis.twist");
-    assert_int_equal(s.document->rigs[1].chain.channels[0].axis, AXIS_TWIST);
+    assert_int_equal(s.document->rigs[1]->chain.channels[0].axis, AXIS_TWIST);
     panel_click(&s, "chain.mirror");
     panel_enter(&s, "chain.turn", "30");
     panel_enter(&s, "gain", "11");
@@ -258,7 +258,7 @@ static void test_a_chain_is_edited_in_the_inspector(void **state)
     session_key(&s, 'A', MOD_CTRL);
     panel_type(&s, "brush");
     session_key(&s, KEY_ENTER, 0);
-    const struct rig *rig = &s.document->rigs[1];
+    const struct rig *rig = s.document->rigs[1];
     assert_true(rig->chain.mirror);
     assert_near(rig->chain.turn, 30, 0);
     assert_near(rig->chain.channels[0].gain.value[0], 11, 0);
@@ -274,7 +274,7 @@ static void test_a_chain_is_edited_in_the_inspector(void **state)
 
 static const struct angles *gain_of_tail(const struct session *s)
 {
-    return &s->document->rigs[1].chain.channels[0].gain;
+    return &s->document->rigs[1]->chain.channels[0].gain;
 }
 
 static void test_a_gain_becomes_a_ramp_whose_points_move(void **state)
@@ -359,12 +359,12 @@ static void test_a_chain_gets_a_twin_on_the_other_side(void **state)
     char *before = session_saved(&s);
     panel_click(&s, "chain.twin");
     assert_int_equal(s.document->rig_count, 3);
-    const struct rig *twin = &s.document->rigs[2];
+    const struct rig *twin = s.document->rigs[2];
     assert_string_equal(twin->name, "ear_R");
     assert_string_equal(twin->chain.from, "ear_R_1");
     assert_string_equal(twin->chain.to, "ear_R_2");
     assert_true(twin->chain.mirror);
-    assert_int_equal(twin->chain.channels[0].spline, s.document->rigs[1].chain.channels[0].spline);
+    assert_int_equal(twin->chain.channels[0].spline, s.document->rigs[1]->chain.channels[0].spline);
     assert_false(panel_shows(&s, "chain.twin")); // there is one now
     assert_one_step(&s, before);
     free(before);

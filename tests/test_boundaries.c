@@ -204,8 +204,8 @@ static void knots_of_a_scene(void **state)
             continue;
         }
         if (!world.document) fail_msg("%s", error.text);
-        world.history = history_create();
-        const unsigned first = world.document->splines[0].knots[5].id;
+        world.history = history_create(world.document);
+        const unsigned first = world.document->splines[0]->knots[5].id;
         assert_false(world_step(&world, edit_insert(0, EACH + 50, 1)));
         assert_string_equal(world.error.text, "the limit of 100000 knots is reached");
         world_must(&world, (struct edit){.kind = EDIT_KNOT_REMOVE, .knot.id = first});
@@ -347,7 +347,7 @@ static void names_of_any_length(void **state)
         document_destroy(document);
         document = parse(printed, size, &error);
         assert_non_null(document);
-        assert_string_equal(document->splines[0].name, name);
+        assert_string_equal(document->splines[0]->name, name);
         char *again = scene_print(document, &again_size);
         assert_string_equal(again, printed);
         document_destroy(document);

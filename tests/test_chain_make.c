@@ -18,7 +18,7 @@ static void open_stand(struct stand *stand)
 {
     struct error error;
     if (!opened_read(&stand->opened, dog, &error)) fail_msg("%s", error.text);
-    stand->history = history_create();
+    stand->history = history_create(stand->opened.document);
     history_begin(stand->history, "Make chain", 0);
 }
 
@@ -36,7 +36,7 @@ static const struct chain *make_with_lag(struct stand *stand, const char *from, 
     const struct chain_wish wish = {.from = from, .follows = follows, .lag = lag};
     if (!chain_make(stand->history, stand->opened.document, stand->opened.models, &wish, &rig, &error))
         fail_msg("%s", error.text);
-    return &stand->opened.document->rigs[rig].chain;
+    return &stand->opened.document->rigs[rig]->chain;
 }
 
 static const struct chain *make(struct stand *stand, const char *from, bool follows)
@@ -52,8 +52,8 @@ static void test_a_character_opens_as_a_scene(void **state)
     assert_non_null(document);
     assert_null(document->path); // saving must not write over the character
     assert_int_equal(document->rig_count, 1);
-    assert_string_equal(document->rigs[0].name, "dog");
-    assert_string_equal(document->rigs[0].model.clip, "Walk");
+    assert_string_equal(document->rigs[0]->name, "dog");
+    assert_string_equal(document->rigs[0]->model.clip, "Walk");
     assert_near(document->fps, 24, 0);
     assert_int_equal(document->last_frame, 24);
     document_destroy(document);
@@ -78,7 +78,7 @@ static void test_a_character_of_any_size_fits_the_stage(void **state)
                                             "\"nodes\":[{\"mesh\":0}],\"scenes\":[{\"nodes\":[0]}]");
         struct document *document = import_scene(temporary_file("size.gltf", text, strlen(text)), &error);
         if (!document) fail_msg("%s", error.text);
-        assert_near(document->rigs[0].model.scale, cases[i].scale, 1e-9);
+        assert_near(document->rigs[0]->model.scale, cases[i].scale, 1e-9);
         document_destroy(document);
     }
 }
@@ -91,10 +91,10 @@ static void test_a_chosen_clip_gives_the_scene_its_length(void **state)
     open_stand(&stand);
     const struct gltf *gltf = &models_imported(stand.opened.models, 0)->gltf;
     assert_true(import_choose_clip(stand.history, stand.opened.document, 0, gltf, "Trot", &error));
-    assert_string_equal(stand.opened.document->rigs[0].model.clip, "Trot");
+    assert_string_equal(stand.opened.document->rigs[0]->model.clip, "Trot");
     assert_int_equal(stand.opened.document->last_frame, 14);
     make(&stand, "tail_1", true);
-    assert_int_equal(spline_start(&stand.opened.document->splines[0]), WIGGLY_LOOP);
+    assert_int_equal(spline_start(stand.opened.document->splines[0]), WIGGLY_LOOP);
     assert_true(import_choose_clip(stand.history, stand.opened.document, 0, gltf, "Idle", &error));
     assert_int_equal(stand.opened.document->last_frame, 14); // what splines there are keep their frames
     close_stand(&stand);
@@ -110,7 +110,7 @@ static void test_a_tail_swings_with_the_walk_and_loops(void **state)
     assert_string_equal(tail->to, "tail_8");
     assert_int_equal(tail->channel_count, 2);
     assert_int_equal(tail->channels[0].of, PART_DISPLACEMENT);
-    const struct spline *side = &stand.opened.document->splines[tail->channels[0].spline];
+    const struct spline *side = stand.opened.document->splines[tail->channels[0].spline];
     assert_string_equal(side->name, "tail side");
     assert_int_equal(spline_start(side), WIGGLY_LOOP);
     assert_int_equal(side->knot_count, 0);
@@ -177,10 +177,10 @@ static void test_undo_takes_all_of_it_back(void **state)
     open_stand(&stand);
     make(&stand, "tail_1", true);
     history_end(stand.history);
-    assert_true(history_undo(stand.history, stand.opened.document));
+    assert_true(history_undo(stand.history));
     assert_int_equal(stand.opened.document->rig_count, 1);
     assert_int_equal(stand.opened.document->spline_count, 0);
-    assert_true(history_redo(stand.history, stand.opened.document));
+    assert_true(history_redo(stand.history));
     assert_int_equal(stand.opened.document->spline_count, 2);
     close_stand(&stand);
 }

@@ -2,7 +2,7 @@
 #include "near.h"
 
 #include "base/path.h"
-#include "scene/edit.h"
+#include "scene/edit_kinds.h"
 #include "scene/load.h"
 #include <math.h>
 #include <stdio.h>
@@ -35,7 +35,7 @@ static void a_character_is_read(void **state)
     assert_int_equal(document_count_rigs(document, RIG_TAIL), 1);
     const struct character_rig *rig = document_character(document, 0);
     assert_string_equal(rig->model, "../models/a.glb");
-    assert_string_equal(rig->paint, "a.npy");
+    assert_string_equal(rig->file->path, "a.npy");
     assert_int_equal(rig->drive_count, 2);
     assert_string_equal(rig->drives[0].name, "up");
     assert_near(rig->drives[0].amplitude, 0.5, 0);
@@ -109,7 +109,7 @@ static void edits_are_undone_to_the_byte(void **state)
 {
     (void)state;
     struct document *document = parse(whole);
-    struct history *history = history_create();
+    struct history *history = history_create(document);
     size_t size;
     char *before = scene_print(document, &size);
     apply(history, document,
@@ -122,10 +122,10 @@ static void edits_are_undone_to_the_byte(void **state)
     assert_string_equal(rig->drives[0].name, "side");
     assert_string_equal(rig->drives[1].name, "twist");
     char *after = scene_print(document, &size);
-    while (history_undo(history, document)) continue;
+    while (history_undo(history)) continue;
     char *undone = scene_print(document, &size);
     assert_string_equal(undone, before);
-    while (history_redo(history, document)) continue;
+    while (history_redo(history)) continue;
     char *redone = scene_print(document, &size);
     assert_string_equal(redone, after);
     free(before);
@@ -159,7 +159,7 @@ static void rigs_keep_their_order(void **state)
     struct document *document =
         parse(SCENE("{\"type\": \"tail\", \"name\": \"a\"}, {\"type\": \"character\", \"model\":"
                     " \"a.glb\"}, {\"type\": \"tail\", \"name\": \"b\"}"));
-    struct history *history = history_create();
+    struct history *history = history_create(document);
     assert_order(document, "tct");
     apply(history, document, &(struct edit){.kind = EDIT_TAIL_ADD, .rig = 2});
     assert_order(document, "tctt");
@@ -169,11 +169,11 @@ static void rigs_keep_their_order(void **state)
     apply(history, document, &(struct edit){.kind = EDIT_DRIVE_ADD, .rig = 0, .drive = drive});
     apply(history, document, &(struct edit){.kind = EDIT_RIG_REMOVE, .rig = 1});
     assert_order(document, "ct");
-    assert_string_equal(document->rigs[1].name, "tail");
-    while (history_undo(history, document)) continue;
+    assert_string_equal(document->rigs[1]->name, "tail");
+    while (history_undo(history)) continue;
     assert_order(document, "tct");
     assert_int_equal(document_character(document, 0)->drive_count, 0);
-    while (history_redo(history, document)) continue;
+    while (history_redo(history)) continue;
     assert_order(document, "ct");
     assert_int_equal(document_character(document, 0)->drive_count, 1);
     history_destroy(history);
@@ -195,7 +195,7 @@ static void impossible_edits_are_refused(void **state)
         {{.kind = EDIT_DRIVE_REMOVE, .channel = -1}, "this character has no such coordinate"},
     };
     struct document *document = parse(whole);
-    struct history *history = history_create();
+    struct history *history = history_create(document);
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         struct error error = {0};
         history_begin(history, "Edit", 0);
@@ -213,7 +213,7 @@ static void drives_follow_their_splines(void **state)
 {
     (void)state;
     struct document *document = parse(whole);
-    struct history *history = history_create();
+    struct history *history = history_create(document);
     apply(history, document, &(struct edit){.kind = EDIT_SPLINE_MOVE, .spline = 0, .to = 1});
     assert_int_equal(document_character(document, 0)->drives[0].spline, 1);
     assert_int_equal(document_character(document, 0)->drives[1].spline, 0);
@@ -245,7 +245,7 @@ static void paths_are_rebased(void **state)
     assert_false(path_rebase("a.glb", "/x/", "/x", moved));
 }
 
-/// "Save as" into another folder: the file there leads to the same model, and so does the document that goes on.
+/// "Save as" into another folder: the file there leads to the same model; the document that goes on keeps its folder.
 static void a_scene_saved_elsewhere_finds_its_model(void **state)
 {
     (void)state;
@@ -254,7 +254,7 @@ static void a_scene_saved_elsewhere_finds_its_model(void **state)
     snprintf(deeper, sizeof deeper, "%s/deeper", folder);
     assert_int_equal(mkdir(deeper, 0777), 0);
     struct document *document = parse(whole);
-    assert_true(document_set_folder(document, folder));
+    document->folder = strdup(folder);
     free(document_character(document, 0)->model);
     document_character(document, 0)->model = strdup("models/a.glb");
     snprintf(path, sizeof path, "%s/scene.json", deeper);
@@ -267,8 +267,6 @@ static void a_scene_saved_elsewhere_finds_its_model(void **state)
     snprintf(path, sizeof path, "%s/models/a.glb", folder);
     assert_true(path_resolve(loaded->folder, document_character(loaded, 0)->model, absolute));
     assert_string_equal(absolute, path);
-    assert_true(document_set_folder(document, deeper));
-    assert_string_equal(document_character(document, 0)->model, "../models/a.glb");
     document_destroy(document);
     document_destroy(loaded);
     snprintf(path, sizeof path, "%s/scene.json", deeper);

@@ -9,7 +9,7 @@ static const char FIVE[] =
     "\"stiffness\": 50}, {\"frame\": 30, \"value\": -1}, {\"frame\": 40, \"value\": 0.5},"
     "{\"frame\": 60, \"value\": 0, \"mark\": \"kept\"}]}]}";
 
-static const struct spline *sway(const struct session *s) { return &s->document->splines[0]; }
+static const struct spline *sway(const struct session *s) { return s->document->splines[0]; }
 
 static void paste(struct session *s, const char *text)
 {

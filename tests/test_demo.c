@@ -37,7 +37,7 @@ static void test_all_of_it_plays_and_begins_anew(void **state)
     for (long frame = 0; frame < length; frame++) {
         blind_frame(&b);
         const struct document *document = b.app.table.document;
-        for (int r = 0; r < document->rig_count; r++) seen[document->rigs[r].kind] = true;
+        for (int r = 0; r < document->rig_count; r++) seen[document->rigs[r]->kind] = true;
         light |= theme_in_use() == THEME_LIGHT;
         presents |= editor_is_presenting(b.app.table.editor);
         records |= strstr(b.app.table.editor->core.message.text, "knots recorded") != NULL;

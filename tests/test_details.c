@@ -71,7 +71,7 @@ static void a_long_list_turns_by_wheel(void **state)
 
 static double lag_of(const struct session *s, int channel)
 {
-    return angles_number(&s->document->rigs[0].tail.channels[channel].lag, 0);
+    return angles_number(&s->document->rigs[0]->tail.channels[channel].lag, 0);
 }
 
 /// L and an arrow: the lag of the channel that the active spline drives, whichever it is.
@@ -226,8 +226,8 @@ static void a_first_frame_asks_for_its_knots(void **state)
     assert_int_equal(s.editor->dialogs->dialog.kind, DIALOG_ASK);
     session_key(&s, 'T', 0);
     assert_int_equal(s.document->first_frame, 30);
-    assert_int_equal(s.document->splines[0].knot_count, 1);
-    assert_int_equal(s.document->splines[1].knot_count, 0);
+    assert_int_equal(s.document->splines[0]->knot_count, 1);
+    assert_int_equal(s.document->splines[1]->knot_count, 0);
     session_close(&s);
 }
 

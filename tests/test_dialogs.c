@@ -133,7 +133,7 @@ static void test_recover(void **state)
     struct session s;
     open_offer(&s);
     session_key(&s, KEY_DELETE, 0); // the keys are the dialog's
-    assert_int_equal(s.document->splines[0].knot_count, 2);
+    assert_int_equal(s.document->splines[0]->knot_count, 2);
     session_key(&s, KEY_ENTER, 0);
     expect_request(&s, REQUEST_RECOVER, "");
     panel_answer(&s, REQUEST_RECOVER, false,
@@ -202,7 +202,7 @@ static void test_welcome(void **state)
     assert_false(editor_is_welcoming(s.editor));
     editor_welcome(s.editor);
     session_key(&s, 'I', 0);
-    assert_int_equal(s.document->splines[0].knot_count, 3);
+    assert_int_equal(s.document->splines[0]->knot_count, 3);
     assert_false(editor_is_welcoming(s.editor));
     assert_null(shown_text(s.editor, "Got it"));
     session_close(&s);

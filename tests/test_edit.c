@@ -11,20 +11,19 @@ static void test_knots(void **state)
     (void)state;
     struct world world;
     world_open(&world);
-    const struct spline *sway = &world.document->splines[SWAY];
-    unsigned id = sway->knots[0].id;
+    unsigned id = world.document->splines[SWAY]->knots[0].id;
     world_must(&world, edit_move(&world, SWAY, 0, 20.5, 7));
-    assert_int_equal(sway->knots[1].id, id);
-    assert_near(sway->knots[1].frame, 20.5, 0);
-    assert_non_null(sway->knots[1].extra);
+    assert_int_equal(world.document->splines[SWAY]->knots[1].id, id);
+    assert_near(world.document->splines[SWAY]->knots[1].frame, 20.5, 0);
+    assert_non_null(world.document->splines[SWAY]->knots[1].extra);
     world_must(&world, edit_insert(SWAY, 4, 0));
-    assert_int_equal(sway->knot_count, 4);
-    assert_int_equal(spline_find_knot(world.document, sway, 4), 0);
+    assert_int_equal(world.document->splines[SWAY]->knot_count, 4);
+    assert_int_equal(spline_find_knot(world.document, world.document->splines[SWAY], 4), 0);
     world_must(&world, (struct edit){.kind = EDIT_KNOT_REMOVE, .spline = SWAY, .knot = {.id = id}});
-    assert_int_equal(spline_find_id(sway, id), -1);
-    assert_true(history_undo(world.history, world.document));
-    assert_int_equal(spline_find_id(sway, id), 2);
-    assert_non_null(sway->knots[2].extra);
+    assert_int_equal(spline_find_id(world.document->splines[SWAY], id), -1);
+    assert_true(history_undo(world.history));
+    assert_int_equal(spline_find_id(world.document->splines[SWAY], id), 2);
+    assert_non_null(world.document->splines[SWAY]->knots[2].extra);
     world_close(&world);
 }
 
@@ -34,7 +33,7 @@ static void test_negative_zeros(void **state)
     (void)state;
     struct world world;
     world_open(&world);
-    const struct spline *sway = &world.document->splines[SWAY];
+    const struct spline *sway = world.document->splines[SWAY];
     struct edit edit = edit_move(&world, SWAY, 0, -0.0, -0.0);
     edit.knot.slope = -0.0;
     edit.knot.has_slope = true;
@@ -92,12 +91,11 @@ static void test_modes_clamp(void **state)
     (void)state;
     struct world world;
     world_open(&world);
-    const struct spline *pluck = &world.document->splines[PLUCK];
     world_must(&world, edit_number(PLUCK, PARAMETER_DAMPING, 2.4));
     char *before = world_print(&world);
     world_must(&world, edit_mode(PLUCK, WIGGLY_COMPLEX));
-    assert_near(pluck->parameter[PARAMETER_DAMPING].value, 1, 0);
-    assert_true(history_undo(world.history, world.document));
+    assert_near(world.document->splines[PLUCK]->parameter[PARAMETER_DAMPING].value, 1, 0);
+    assert_true(history_undo(world.history));
     assert_document(&world, before);
     free(before);
     world_close(&world);
@@ -109,9 +107,9 @@ static void test_a_spring_is_saved_as_frequency_and_damping(void **state)
     (void)state;
     struct world world;
     world_open(&world);
-    const struct spline *pluck = &world.document->splines[PLUCK];
-    assert_near(pluck->parameter[PARAMETER_FREQUENCY].value, sqrt(40) / (8 * atan(1)), 1e-15);
-    assert_near(pluck->parameter[PARAMETER_DAMPING].value, 0.5 / sqrt(40), 1e-15);
+    assert_near(world.document->splines[PLUCK]->parameter[PARAMETER_FREQUENCY].value, sqrt(40) / (8 * atan(1)),
+                1e-15);
+    assert_near(world.document->splines[PLUCK]->parameter[PARAMETER_DAMPING].value, 0.5 / sqrt(40), 1e-15);
     char *text = world_print(&world);
     assert_non_null(strstr(text, "\"pluck\""));
     assert_null(strstr(text, "\"spring\""));
@@ -125,19 +123,19 @@ static void test_range_and_loops(void **state)
     (void)state;
     struct world world;
     world_open(&world);
-    assert_refused(&world, edit_range(1, 48), "sway: the knot at frame 0 would fall outside the range");
-    assert_refused(&world, edit_range(0, 29), "sway: the knot at frame 30 would fall outside the range");
-    assert_refused(&world, edit_range(5, 4), "the last frame must not be before the first");
-    assert_refused(&world, edit_range(0, 1000000000), "at most 100000 samples a spline, got 1000000001");
-    assert_refused(&world, edit_range(INT32_MIN, INT32_MAX), "frames must be from -1000000000 to 1000000000");
-    world_must(&world, edit_range(-10, 30));
+    assert_refused(&world, range_edit(1, 48), "sway: the knot at frame 0 would fall outside the range");
+    assert_refused(&world, range_edit(0, 29), "sway: the knot at frame 30 would fall outside the range");
+    assert_refused(&world, range_edit(5, 4), "the last frame must not be before the first");
+    assert_refused(&world, range_edit(0, 1000000000), "at most 100000 samples a spline, got 1000000001");
+    assert_refused(&world, range_edit(INT32_MIN, INT32_MAX), "frames must be from -1000000000 to 1000000000");
+    world_must(&world, range_edit(-10, 30));
     assert_int_equal(document_samples(world.document), 41);
     assert_refused(&world, edit_start(SWAY, WIGGLY_LOOP),
                    "sway: delete the knot at the last frame first; in a loop that frame repeats the first");
     world_must(&world, edit_start(LOOP, WIGGLY_FREE));
-    world_must(&world, edit_range(-10, 48));
+    world_must(&world, range_edit(-10, 48));
     world_must(&world, edit_start(SWAY, WIGGLY_LOOP));
-    assert_refused(&world, edit_range(-10, 30), "sway: the knot at frame 30 would fall outside the range");
+    assert_refused(&world, range_edit(-10, 30), "sway: the knot at frame 30 would fall outside the range");
     world_close(&world);
 }
 
@@ -147,19 +145,18 @@ static void test_angles(void **state)
     struct world world;
     world_open(&world);
     char *before = world_print(&world);
-    const struct tail *tail = document_tail(world.document, 0);
     struct angles all = {.value = {4}}, each = {.form = ANGLES_EACH, .count = 3, .value = {1, 2, 9}},
                   wrong = {.value = {NAN}};
     struct edit edit = {.kind = EDIT_ANGLES, .channel = 1, .angle = ANGLE_GAIN, .angles = &all};
     world_must(&world, edit);
-    assert_int_equal(tail->channels[1].gain.form, ANGLES_ONE);
-    assert_near(tail->channels[1].gain.value[0], 4, 0);
+    assert_int_equal(document_tail(world.document, 0)->channels[1].gain.form, ANGLES_ONE);
+    assert_near(document_tail(world.document, 0)->channels[1].gain.value[0], 4, 0);
     edit.angles = &each;
     edit.angle = ANGLE_LAG;
     world_must(&world, edit);
-    assert_near(tail->channels[1].lag.value[2], 9, 0);
+    assert_near(document_tail(world.document, 0)->channels[1].lag.value[2], 9, 0);
     world_must(&world, (struct edit){.kind = EDIT_ANGLES, .channel = -1, .angle = ANGLE_REST, .angles = &each});
-    assert_int_equal(tail->rest.form, ANGLES_EACH);
+    assert_int_equal(document_tail(world.document, 0)->rest.form, ANGLES_EACH);
     world_must(&world, (struct edit){.kind = EDIT_AXIS, .channel = 0, .axis = AXIS_UP});
     edit.angles = &wrong;
     assert_refused(&world, edit, "angles must be finite");
@@ -167,7 +164,7 @@ static void test_angles(void **state)
     assert_refused(&world, edit, "there is no such channel");
     edit.rig = 1;
     assert_refused(&world, edit, "there is no such rig");
-    while (history_undo(world.history, world.document)) continue;
+    while (history_undo(world.history)) continue;
     assert_document(&world, before);
     free(before);
     world_close(&world);

@@ -24,7 +24,7 @@ static void open(struct world *world)
     *world = (struct world){0};
     world->document = scene_parse("scene.json", pinned_text, sizeof pinned_text - 1, NULL, &world->error);
     if (!world->document) fail_msg("%s", world->error.text);
-    world->history = history_create();
+    world->history = history_create(world->document);
     assert_non_null(world->history);
 }
 
@@ -35,7 +35,7 @@ static void test_saves_what_it_reads(void **state)
     (void)state;
     struct world world;
     open(&world);
-    const struct rig *rig = &world.document->rigs[0];
+    const struct rig *rig = world.document->rigs[0];
     assert_int_equal(rig->pin_count, 2);
     assert_near(rig->pins[0].frame, 12.25, 0);
     assert_int_equal(rig->pins[1].point, 11);
@@ -58,26 +58,24 @@ static void test_every_edit_is_undone(void **state)
     struct world world;
     open(&world);
     char *before = world_print(&world);
-    const struct rig *rig = &world.document->rigs[0];
     assert_reversible(&world, edit_pin(EDIT_PIN_ADD, (struct pin){.frame = 20, .point = 3, .to = {1, 2, 3}}));
-    assert_int_equal(rig->pin_count, 3);
-    struct pin moved = rig->pins[1];
+    assert_int_equal(world.document->rigs[0]->pin_count, 3);
+    struct pin moved = world.document->rigs[0]->pins[1];
     moved.frame = 40; // past the other
     moved.to[1] = -2;
     assert_reversible(&world, edit_pin(EDIT_PIN_SET, moved));
-    assert_int_equal(rig->pins[2].id, moved.id);
-    assert_reversible(&world, edit_pin(EDIT_PIN_REMOVE, rig->pins[0]));
+    assert_int_equal(world.document->rigs[0]->pins[2].id, moved.id);
+    assert_reversible(&world, edit_pin(EDIT_PIN_REMOVE, world.document->rigs[0]->pins[0]));
     assert_reversible(&world, (struct edit){.kind = EDIT_JOINTS, .to = 24});
-    assert_int_equal(rig->pins[0].point, 23);
+    assert_int_equal(world.document->rigs[0]->pins[0].point, 23);
     assert_reversible(&world, (struct edit){.kind = EDIT_FPS, .number = 48, .flag = true});
-    assert_near(rig->pins[1].frame, 80, 0);
+    assert_near(world.document->rigs[0]->pins[1].frame, 80, 0);
     assert_reversible(&world, (struct edit){.kind = EDIT_TAIL_ADD});
-    assert_int_equal(world.document->rigs[2].pin_count, 0);
-    rig = &world.document->rigs[0];
+    assert_int_equal(world.document->rigs[2]->pin_count, 0);
     assert_reversible(&world, (struct edit){.kind = EDIT_RANGE, .last = 70, .fit = RANGE_MOVE});
-    assert_near(rig->pins[1].frame, 70, 0);
+    assert_near(world.document->rigs[0]->pins[1].frame, 70, 0);
     assert_reversible(&world, (struct edit){.kind = EDIT_RANGE, .last = 65, .fit = RANGE_TRIM});
-    assert_int_equal(rig->pin_count, 1);
+    assert_int_equal(world.document->rigs[0]->pin_count, 1);
     world_undo_all(&world);
     assert_document(&world, before);
     free(before);
@@ -89,7 +87,7 @@ static void test_what_would_not_load_is_refused(void **state)
     (void)state;
     struct world world;
     open(&world);
-    struct pin pin = world.document->rigs[0].pins[1];
+    struct pin pin = world.document->rigs[0]->pins[1];
     assert_refused(&world, edit_pin(EDIT_PIN_ADD, pin),
                    "t: pins: expected a sample of its own for each pin of a point, got frame 30 again");
     pin.frame = 49;
@@ -112,7 +110,7 @@ static void test_what_would_not_load_is_refused(void **state)
                    "follows \"base\"");
     assert_refused(&world, (struct edit){.kind = EDIT_FEED, .channel = 1, .spline = BASE},
                    "t: pins: expected splines with a swing of their own, got \"base\", which is cubic");
-    assert_refused(&world, edit_range(0, 20), "t: pins: expected a frame from 0 to 20, got 30");
+    assert_refused(&world, range_edit(0, 20), "t: pins: expected a frame from 0 to 20, got 30");
     pin.frame = 48;
     pin.point = 1;
     world_must(&world, edit_pin(EDIT_PIN_ADD, pin));

@@ -10,7 +10,7 @@ static const char SWAY[] =
     "{\"frame\": 24, \"value\": -1}, {\"frame\": 36, \"value\": 0.5}]}, {\"name\": \"up\","
     "\"mode\": \"cubic\", \"knots\": [{\"frame\": 6, \"value\": 0.25}]}]}";
 
-static const struct spline *sway(const struct session *s) { return &s->document->splines[0]; }
+static const struct spline *sway(const struct session *s) { return s->document->splines[0]; }
 
 static void assert_knot(const struct session *s, int k, double frame, double value)
 {
@@ -209,7 +209,7 @@ static void test_selecting(void **state)
     session_key(&s, KEY_PAGE_DOWN, 0);
     session_key(&s, 'A', MOD_CTRL);
     session_key(&s, KEY_DELETE, 0);
-    assert_int_equal(s.document->splines[1].knot_count, 0); // of the other spline now
+    assert_int_equal(s.document->splines[1]->knot_count, 0); // of the other spline now
     assert_int_equal(sway(&s)->knot_count, 3);
     session_close(&s);
 }
@@ -406,7 +406,7 @@ static void test_a_monkey_can_be_undone(void **state)
         assert_false(history_is_open(s.history));
         for (int i = 0; i < s.table.evaluation.samples; i++)
             assert_true(isfinite(s.table.evaluation.curves[0].total[i]));
-        while (history_undo_label(s.history)) assert_true(history_undo(s.history, s.document));
+        while (history_undo_label(s.history)) assert_true(history_undo(s.history));
         assert_saved(&s, original);
         free(original);
         session_close(&s);

@@ -13,11 +13,8 @@ static struct opened open_dog_without_chains(void)
     struct opened scene = open_scene("assets/scenes/dog.json");
     struct document *document = scene.document;
     for (int r = document->rig_count - 1; r >= 0; r--) {
-        if (document->rigs[r].kind != RIG_CHAIN) continue;
-        rig_release(&document->rigs[r]);
-        memmove(&document->rigs[r], &document->rigs[r + 1],
-                (size_t)(document->rig_count - r - 1) * sizeof *document->rigs);
-        document->rig_count--;
+        if (document->rigs[r]->kind != RIG_CHAIN) continue;
+        document_remove_rig(document, r);
     }
     return scene;
 }

@@ -11,7 +11,7 @@ static const char tail_scene[] =
 
 static const struct param *of(const struct session *s, enum parameter which)
 {
-    return &s->document->splines[s->editor->core.active].parameter[which];
+    return &s->document->splines[s->editor->core.active]->parameter[which];
 }
 
 static void test_a_preset_is_one_step(void **state)
@@ -29,7 +29,7 @@ static void test_a_preset_is_one_step(void **state)
     session_key(&s, 'Z', MOD_CTRL);
     panel_click(&s, "spline.pace"); // a cubic begins to swing; it bends nothing
     panel_click(&s, "preset.antenna");
-    assert_int_equal(spline_mode(&s.document->splines[1]), WIGGLY_COMPLEX);
+    assert_int_equal(spline_mode(s.document->splines[1]), WIGGLY_COMPLEX);
     assert_near(of(&s, PARAMETER_FREQUENCY)->value, 5, 0);
     assert_near(document_tail(s.document, 0)->channels[0].lag.value[0], 6.5, 0);
     free(before);

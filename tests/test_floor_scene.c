@@ -5,7 +5,7 @@
 #include "model/morph.h"
 #include "rig/opened.h"
 #include "rig/pinning.h"
-#include "scene/edit.h"
+#include "scene/edit_kinds.h"
 #include "scene/load.h"
 #include "temporary.h"
 #include <stdlib.h>
@@ -63,7 +63,7 @@ static double lowest(const struct opened *opened, int sample)
 
 static void check_knots(const struct opened *opened)
 {
-    const struct spline *spline = &opened->document->splines[0];
+    const struct spline *spline = opened->document->splines[0];
     for (int k = 0; k < spline->knot_count; k++) {
         const int sample = document_sample(opened->document, spline->knots[k].frame);
         assert_near(opened->evaluation.curves[0].total[sample], spline->knots[k].value, 1e-9);
@@ -98,11 +98,11 @@ static void the_same_document_gives_the_same_bits(void **state)
     struct opened opened = open_scene("free", "{ \"frame\": 20, \"value\": 5 }", ", \"floor\": 0");
     struct evaluation *evaluation = &opened.evaluation;
     const size_t size = (size_t)evaluation->samples * sizeof(double);
-    double *was = malloc(size), *value = &opened.document->splines[0].knots[0].value;
+    double *was = malloc(size), *value = &opened.document->splines[0]->knots[0].value;
     (void)state;
     assert_non_null(was);
     memcpy(was, evaluation->curves[0].im, size);
-    for (*value = 5.5; *value >= 5; *value -= 0.25) evaluation_update(evaluation, opened.document, NULL, false);
+    for (*value = 5.5; *value >= 5; *value -= 0.25) evaluation_update(evaluation, opened.document, false);
     assert_memory_equal(was, evaluation->curves[0].im, size);
     free(was);
     opened_free(&opened);
@@ -124,20 +124,20 @@ static void an_untouched_floor_is_none_and_a_missed_one_is_told(void **state)
 static void a_floor_above_the_feet_is_refused(void **state)
 {
     struct opened opened = open_scene("free", "", ", \"floor\": -1");
-    struct history *history = history_create();
+    struct history *history = history_create(opened.document);
     struct error error = {0};
     struct edit edit = {.kind = EDIT_FLOOR, .rig = 0, .flag = true, .number = 0.5};
     (void)state;
     history_begin(history, "Floor", 0);
     assert_false(history_apply(history, opened.document, &edit, &error));
     assert_non_null(strstr(error.text, "floor: expected a height of at most 0"));
-    assert_true(opened.document->rigs[0].character.floor == -1);
+    assert_true(opened.document->rigs[0]->character.floor == -1);
     edit.number = -0.25;
     assert_true(history_apply(history, opened.document, &edit, &error));
     history_end(history);
-    assert_true(opened.document->rigs[0].character.floor == -0.25);
-    assert_true(history_undo(history, opened.document));
-    assert_true(opened.document->rigs[0].character.floor == -1);
+    assert_true(opened.document->rigs[0]->character.floor == -0.25);
+    assert_true(history_undo(history));
+    assert_true(opened.document->rigs[0]->character.floor == -1);
     history_destroy(history);
     opened_free(&opened);
 }
@@ -272,7 +272,7 @@ static void a_floor_is_saved_with_what_is_not_known(void **state)
     assert_non_null(strstr(text, "\"floor\": -0.5"));
     assert_non_null(strstr(text, "\"carpet\": \"red\""));
     free(text);
-    opened.document->rigs[0].character.has_floor = false;
+    opened.document->rigs[0]->character.has_floor = false;
     text = scene_print(opened.document, &size);
     assert_null(strstr(text, "\"floor\""));
     free(text);

@@ -16,7 +16,7 @@ static void open_creature(struct session *s)
     session_frame(s);
 }
 
-static double floor_of(const struct session *s) { return s->document->rigs[0].character.floor; }
+static double floor_of(const struct session *s) { return s->document->rigs[0]->character.floor; }
 
 static void edge(struct session *s, float xy[2])
 {
@@ -86,7 +86,7 @@ static void test_without_a_floor_there_is_no_edge(void **state)
     float at[2];
     struct error error;
     edge(&s, at);
-    s.document->rigs[0].character.has_floor = false;
+    s.document->rigs[0]->character.has_floor = false;
     session_move(&s, at[0], at[1]);
     session_frame(&s);
     assert_int_not_equal(s.editor->core.hover.kind, HOVER_FLOOR);

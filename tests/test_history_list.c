@@ -7,7 +7,7 @@ static const char scene[] =
     "{\"frames\": [0, 480], \"splines\": [{\"name\": \"sway\", \"mode\": \"cubic\", \"knots\": "
     "[{\"frame\": 0, \"value\": 0}]}]}";
 
-static int knots(const struct session *session) { return session->document->splines[0].knot_count; }
+static int knots(const struct session *session) { return session->document->splines[0]->knot_count; }
 
 /// Opens the section, with `steps` knots inserted one after the other.
 static void open_list(struct session *session, int steps)

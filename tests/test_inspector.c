@@ -11,7 +11,7 @@ static const char scene[] =
 
 static const struct param *parameter(const struct session *f, int spline, enum parameter which)
 {
-    return &f->document->splines[spline].parameter[which];
+    return &f->document->splines[spline]->parameter[which];
 }
 
 static void test_drag_is_one_undo_step(void **state)
@@ -88,7 +88,7 @@ static void test_typing_keeps_keys_from_the_editor(void **state)
     assert_true(inspector_is_typing(f.editor->inspector));
     session_key(&f, 'A', MOD_CTRL); // all of what is typed, not all knots
     panel_type(&f, "v m.");
-    assert_int_equal(selection_count(&f.editor->core.selection, &f.document->splines[0]), 0);
+    assert_int_equal(selection_count(&f.editor->core.selection, f.document->splines[0]), 0);
     session_key(&f, KEY_END, 0);
     session_key(&f, 'A', MOD_CTRL);
     panel_type(&f, "x");
@@ -96,8 +96,8 @@ static void test_typing_keeps_keys_from_the_editor(void **state)
     session_key(&f, KEY_DELETE, 0);
     session_key(&f, KEY_SPACE, 0);
     assert_int_equal(f.editor->core.look, LOOK_WIGGLY);
-    assert_int_equal(spline_mode(&f.document->splines[0]), WIGGLY_COMPLEX);
-    assert_int_equal(f.document->splines[0].knot_count, 3);
+    assert_int_equal(spline_mode(f.document->splines[0]), WIGGLY_COMPLEX);
+    assert_int_equal(f.document->splines[0]->knot_count, 3);
     assert_false(f.editor->core.playback.playing);
     session_key(&f, KEY_F1, 0);
     assert_true(f.editor->dialogs->help.open);
@@ -137,7 +137,7 @@ static void test_only_what_counts_is_shown(void **state)
     panel_click(&f, "section.advanced");
     assert_true(panel_shows(&f, "bandwidth"));
     panel_click(&f, "mode.real");
-    assert_int_equal(spline_mode(&f.document->splines[0]), WIGGLY_REAL);
+    assert_int_equal(spline_mode(f.document->splines[0]), WIGGLY_REAL);
     assert_false(panel_shows(&f, "bandwidth"));
     panel_click(&f, "mode.cubic");
     assert_false(panel_shows(&f, "frequency"));
@@ -146,7 +146,7 @@ static void test_only_what_counts_is_shown(void **state)
     assert_false(panel_shows(&f, "frequency")); // a track drives it
     assert_true(panel_shows(&f, "damping"));
     panel_click(&f, "start.loop");
-    assert_int_equal(spline_start(&f.document->splines[2]), WIGGLY_LOOP);
+    assert_int_equal(spline_start(f.document->splines[2]), WIGGLY_LOOP);
     panel_click(&f, "look.cubic");
     assert_int_equal(f.editor->core.look, LOOK_CUBIC);
     session_close(&f);
@@ -157,29 +157,28 @@ static void test_knot_is_edited_in_place(void **state)
     (void)state;
     struct session f;
     panel_open(&f, scene, 1280, 1600);
-    const struct spline *sway = &f.document->splines[0];
-    unsigned id = sway->knots[1].id;
+    unsigned id = f.document->splines[0]->knots[1].id;
     core_reserve(&f.editor->core, f.document);
     selection_set(&f.editor->core.selection, id, true);
     panel_enter(&f, "value", "0.75");
-    assert_near(sway->knots[1].value, 0.75, 0);
+    assert_near(f.document->splines[0]->knots[1].value, 0.75, 0);
     panel_enter(&f, "value", "8"); // above all that was in sight
     for (int frame = 0; frame < 90; frame++) session_frame(&f);
     assert_true(f.editor->curves->view.value1 > 8);
     panel_enter(&f, "frame", "70"); // past its neighbour
-    assert_near(sway->knots[2].frame, 70, 0);
-    assert_int_equal(sway->knots[2].id, id);
+    assert_near(f.document->splines[0]->knots[2].frame, 70, 0);
+    assert_int_equal(f.document->splines[0]->knots[2].id, id);
     panel_enter(&f, "frame", "60"); // where another knot sits
-    assert_near(sway->knots[2].frame, 70, 0);
+    assert_near(f.document->splines[0]->knots[2].frame, 70, 0);
     assert_true(f.editor->core.message.is_error);
     panel_press(&f, "frame", 1);
     session_drag(&f, 600, 0, 1); // far beyond the scene: it stops at the last frame
     panel_release(&f);
-    assert_near(sway->knots[2].frame, 96, 0);
+    assert_near(f.document->splines[0]->knots[2].frame, 96, 0);
     panel_click(&f, "has_slope");
-    assert_true(sway->knots[2].has_slope);
+    assert_true(f.document->splines[0]->knots[2].has_slope);
     panel_enter(&f, "stiffness", "50");
-    assert_near(sway->knots[2].stiffness, 50, 0);
+    assert_near(f.document->splines[0]->knots[2].stiffness, 50, 0);
     session_close(&f);
 }
 
@@ -204,8 +203,8 @@ static void test_the_knot_section_without_a_knot(void **state)
     assert_true(inspector_target(f.editor->inspector, &f.editor->core, &f.world, "section.splines", &x, &y[0]));
     f.editor->core.playback.position = 20;
     panel_click(&f, "knot.insert");
-    assert_int_equal(f.document->splines[0].knot_count, 4);
-    assert_near(f.document->splines[0].knots[1].frame, 20, 0);
+    assert_int_equal(f.document->splines[0]->knot_count, 4);
+    assert_near(f.document->splines[0]->knots[1].frame, 20, 0);
     assert_true(inspector_target(f.editor->inspector, &f.editor->core, &f.world, "section.splines", &x, &y[1]));
     assert_near(y[1], y[0], 0);
     assert_false(panel_shows(&f, "knot.insert"));
@@ -224,34 +223,33 @@ static void test_several_knots(void **state)
     (void)state;
     struct session f;
     panel_open(&f, scene, 1280, 1600);
-    const struct spline *sway = &f.document->splines[0];
     session_key(&f, 'A', MOD_CTRL);
     assert_false(panel_shows(&f, "stiffness")); // no slopes yet
     panel_enter(&f, "value", "0.25");
-    for (int k = 0; k < 3; k++) assert_near(sway->knots[k].value, 0.25, 0);
+    for (int k = 0; k < 3; k++) assert_near(f.document->splines[0]->knots[k].value, 0.25, 0);
     session_key(&f, 'Z', MOD_CTRL); // one step
-    assert_near(sway->knots[1].value, 1, 0);
+    assert_near(f.document->splines[0]->knots[1].value, 1, 0);
     panel_press(&f, "value", 1);
     session_drag(&f, 50, 0, 5);
     panel_release(&f);
-    assert_near(sway->knots[0].value, 0.5, 1e-12);
-    assert_near(sway->knots[2].value, 0, 1e-12);
+    assert_near(f.document->splines[0]->knots[0].value, 0.5, 1e-12);
+    assert_near(f.document->splines[0]->knots[2].value, 0, 1e-12);
     session_key(&f, 'Z', MOD_CTRL);
     assert_null(history_undo_label(f.history));
     panel_enter(&f, "frame", "10");
-    assert_near(sway->knots[0].frame, 10, 0);
-    assert_near(sway->knots[2].frame, 70, 0);
+    assert_near(f.document->splines[0]->knots[0].frame, 10, 0);
+    assert_near(f.document->splines[0]->knots[2].frame, 70, 0);
     panel_enter(&f, "frame", "40"); // the last one would leave the scene
-    assert_near(sway->knots[0].frame, 10, 0);
+    assert_near(f.document->splines[0]->knots[0].frame, 10, 0);
     assert_non_null(strstr(f.editor->core.message.text, "frame 100 is outside 0 to 96"));
     panel_press(&f, "frame", 1);
     session_drag(&f, 60, 0, 60); // as far as it goes
     panel_release(&f);
-    assert_near(sway->knots[2].frame, 96, 0);
-    assert_near(sway->knots[1].frame, 72, 0);
+    assert_near(f.document->splines[0]->knots[2].frame, 96, 0);
+    assert_near(f.document->splines[0]->knots[1].frame, 72, 0);
     session_key(&f, 'T', 0);
     panel_enter(&f, "stiffness", "50");
-    for (int k = 0; k < 3; k++) assert_near(sway->knots[k].stiffness, 50, 0);
+    for (int k = 0; k < 3; k++) assert_near(f.document->splines[0]->knots[k].stiffness, 50, 0);
     panel_enter(&f, "slope", "steep");
     assert_non_null(strstr(f.editor->core.message.text, "slope: expected a number"));
     session_close(&f);
@@ -262,17 +260,16 @@ static void test_frame_drag_passes_through_a_neighbour(void **state)
     (void)state;
     struct session f;
     panel_open(&f, scene, 1280, 720);
-    const struct spline *sway = &f.document->splines[0];
     core_reserve(&f.editor->core, f.document);
-    selection_set(&f.editor->core.selection, sway->knots[1].id, true);
+    selection_set(&f.editor->core.selection, f.document->splines[0]->knots[1].id, true);
     panel_press(&f, "frame", 1);
     float x = f.x;
     for (int moved = 3; moved <= 30; moved++) session_move(&f, x + (float)moved, f.y);
-    assert_near(sway->knots[2].frame, 66, 0);
-    assert_near(sway->knots[1].frame, 60, 0);
+    assert_near(f.document->splines[0]->knots[2].frame, 66, 0);
+    assert_near(f.document->splines[0]->knots[1].frame, 60, 0);
     panel_release(&f);
     session_key(&f, 'Z', MOD_CTRL);
-    assert_near(sway->knots[1].frame, 36, 0);
+    assert_near(f.document->splines[0]->knots[1].frame, 36, 0);
     session_close(&f);
 }
 
@@ -301,17 +298,16 @@ static void test_tail_array_scales_as_a_whole(void **state)
     (void)state;
     struct session f;
     panel_open(&f, scene, 1280, 1600);
-    const struct tail *tail = document_tail(f.document, 0);
     panel_drag(&f, "gain", 18);
-    assert_near(tail->channels[0].gain.value[0], 6, 1e-12);
-    assert_near(tail->channels[0].gain.value[2], 18, 0);
+    assert_near(document_tail(f.document, 0)->channels[0].gain.value[0], 6, 1e-12);
+    assert_near(document_tail(f.document, 0)->channels[0].gain.value[2], 18, 0);
     session_move(&f, 0, 300); // through zero and back in the same drag nothing is lost
-    assert_near(tail->channels[0].gain.value[2], 0, 0);
+    assert_near(document_tail(f.document, 0)->channels[0].gain.value[2], 0, 0);
     panel_drag(&f, "gain", 9);
-    assert_near(tail->channels[0].gain.value[0], 3, 1e-12);
+    assert_near(document_tail(f.document, 0)->channels[0].gain.value[0], 3, 1e-12);
     panel_release(&f);
     session_key(&f, 'Z', MOD_CTRL);
-    assert_near(tail->channels[0].gain.value[0], 3, 0);
+    assert_near(document_tail(f.document, 0)->channels[0].gain.value[0], 3, 0);
     session_key(&f, KEY_PAGE_UP, 0); // the tail's numbers are those of the spline that is edited
     assert_int_equal(f.editor->inspector->channel, 1);
     session_key(&f, KEY_PAGE_DOWN, 0);
@@ -319,8 +315,8 @@ static void test_tail_array_scales_as_a_whole(void **state)
     panel_click(&f, "channel.1");
     panel_drag(&f, "lag", 12);
     panel_release(&f);
-    assert_near(tail->channels[1].lag.value[0], 12, 0);
-    assert_near(tail->channels[0].lag.value[0], 6.5, 0);
+    assert_near(document_tail(f.document, 0)->channels[1].lag.value[0], 12, 0);
+    assert_near(document_tail(f.document, 0)->channels[0].lag.value[0], 6.5, 0);
     session_close(&f);
 }
 

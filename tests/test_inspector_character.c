@@ -80,19 +80,19 @@ static void amplitude_and_lag_are_live_and_one_step_each(void **state)
     (void)state;
     struct puppetry p;
     open_puppet(&p);
-    const struct drive *drive = &document_character(p.session.document, 0)->drives[0];
     const float before = on_stage(&p, 0)->morph.weight[0][0];
     panel_drag(&p.session, "amplitude", 1.5);
-    assert_true(fabs(drive->amplitude - 1.5) < 0.05);
-    assert_near((double)on_stage(&p, 0)->morph.weight[0][0], (double)before * drive->amplitude, 1e-4);
+    assert_true(fabs(document_character(p.session.document, 0)->drives[0].amplitude - 1.5) < 0.05);
+    assert_near((double)on_stage(&p, 0)->morph.weight[0][0],
+                (double)before * document_character(p.session.document, 0)->drives[0].amplitude, 1e-4);
     panel_release(&p.session);
     panel_enter(&p.session, "drive.lag", "90");
-    assert_near(drive->lag, 90, 0);
-    assert_true(history_undo(p.session.history, p.session.document));
-    assert_near(drive->lag, 0, 0);
-    assert_true(history_undo(p.session.history, p.session.document));
-    assert_near(drive->amplitude, 1, 0);
-    assert_false(history_undo(p.session.history, p.session.document));
+    assert_near(document_character(p.session.document, 0)->drives[0].lag, 90, 0);
+    assert_true(history_undo(p.session.history));
+    assert_near(document_character(p.session.document, 0)->drives[0].lag, 0, 0);
+    assert_true(history_undo(p.session.history));
+    assert_near(document_character(p.session.document, 0)->drives[0].amplitude, 1, 0);
+    assert_false(history_undo(p.session.history));
     close_puppet(&p);
 }
 
@@ -101,23 +101,22 @@ static void coordinates_come_and_go_and_change_their_spline(void **state)
     (void)state;
     struct puppetry p;
     open_puppet(&p);
-    const struct character_rig *rig = document_character(p.session.document, 0);
     panel_click(&p.session, "drive.add.0");
     panel_click(&p.session, "item.b");
-    assert_int_equal(rig->drive_count, 2);
-    assert_string_equal(rig->drives[1].name, "b");
+    assert_int_equal(document_character(p.session.document, 0)->drive_count, 2);
+    assert_string_equal(document_character(p.session.document, 0)->drives[1].name, "b");
     panel_click(&p.session, "drive.1");
     panel_click(&p.session, "drive.splines.0");
     panel_click(&p.session, "item.t");
-    assert_int_equal(rig->drives[1].spline, 1);
-    assert_int_equal(rig->drives[0].spline, 0);
+    assert_int_equal(document_character(p.session.document, 0)->drives[1].spline, 1);
+    assert_int_equal(document_character(p.session.document, 0)->drives[0].spline, 0);
     assert_int_equal(on_stage(&p, 0)->morph.count, 2);
     panel_click(&p.session, "drive.0.remove");
-    assert_int_equal(rig->drive_count, 1);
-    assert_string_equal(rig->drives[0].name, "b");
-    while (history_undo(p.session.history, p.session.document)) continue;
-    assert_int_equal(rig->drive_count, 1);
-    assert_string_equal(rig->drives[0].name, "a");
+    assert_int_equal(document_character(p.session.document, 0)->drive_count, 1);
+    assert_string_equal(document_character(p.session.document, 0)->drives[0].name, "b");
+    while (history_undo(p.session.history)) continue;
+    assert_int_equal(document_character(p.session.document, 0)->drive_count, 1);
+    assert_string_equal(document_character(p.session.document, 0)->drives[0].name, "a");
     close_puppet(&p);
 }
 

@@ -8,7 +8,7 @@ static const char scene[] =
     "\"rigs\": [{\"type\": \"tail\", \"name\": \"tail\", \"joints\": 3, \"channels\": ["
     "{\"spline\": \"sway\", \"axis\": \"side\"}, {\"spline\": \"lift\", \"axis\": \"up\"}]}]}";
 
-static const char *active_name(const struct session *f) { return f->document->splines[f->editor->core.active].name; }
+static const char *active_name(const struct session *f) { return f->document->splines[f->editor->core.active]->name; }
 
 static void test_a_spline_is_added_at_the_playhead(void **state)
 {
@@ -19,8 +19,8 @@ static void test_a_spline_is_added_at_the_playhead(void **state)
     char *before = session_saved(&f);
     panel_click(&f, "spline.add");
     assert_string_equal(active_name(&f), "spline");
-    assert_near(f.document->splines[3].knots[0].frame, 24, 0);
-    assert_near(f.document->splines[3].parameter[PARAMETER_FREQUENCY].value, 1, 0);
+    assert_near(f.document->splines[3]->knots[0].frame, 24, 0);
+    assert_near(f.document->splines[3]->parameter[PARAMETER_FREQUENCY].value, 1, 0);
     assert_one_step(&f, before);
     session_key(&f, 'Z', MOD_CTRL);
     assert_true(f.editor->core.active >= 0 && f.editor->core.active < 3);
@@ -68,8 +68,8 @@ static void test_deleting_a_followed_spline_asks(void **state)
     panel_click(&f, "spline.delete");
     session_key(&f, 'D', 0);
     assert_int_equal(f.document->spline_count, 2);
-    assert_int_equal(f.document->splines[1].parameter[PARAMETER_FREQUENCY].track, -1);
-    assert_near(f.document->splines[1].parameter[PARAMETER_FREQUENCY].value, 2, 1e-9);
+    assert_int_equal(f.document->splines[1]->parameter[PARAMETER_FREQUENCY].track, -1);
+    assert_near(f.document->splines[1]->parameter[PARAMETER_FREQUENCY].value, 2, 1e-9);
     assert_int_equal(document_tail(f.document, 0)->channels[1].spline, 1);
     assert_one_step(&f, before);
     free(before);
@@ -112,26 +112,26 @@ static void test_renaming(void **state)
     panel_release(&f);
     panel_type(&f, "swing");
     session_key(&f, KEY_ENTER, 0);
-    assert_string_equal(f.document->splines[0].name, "swing");
+    assert_string_equal(f.document->splines[0]->name, "swing");
     assert_one_step(&f, before);
     panel_click(&f, "section.splines"); // F2 opens the list again
     session_key(&f, KEY_F2, 0);
     panel_type(&f, "pace");
     session_key(&f, KEY_ENTER, 0);
-    assert_string_equal(f.document->splines[0].name, "swing");
+    assert_string_equal(f.document->splines[0]->name, "swing");
     assert_non_null(strstr(f.editor->core.message.text, "a spline called pace already exists"));
     session_key(&f, KEY_F2, 0);
     session_key(&f, KEY_END, 0); // the name that is there is what is edited
     panel_type(&f, "s");
     session_key(&f, KEY_ENTER, 0);
-    assert_string_equal(f.document->splines[0].name, "swings");
+    assert_string_equal(f.document->splines[0]->name, "swings");
     session_key(&f, 'Z', MOD_CTRL);
     session_key(&f, KEY_F2, 0);
     session_key(&f, KEY_DELETE, 0); // all is selected
     session_key(&f, KEY_ENTER, 0);
-    assert_string_equal(f.document->splines[0].name, "swing");
+    assert_string_equal(f.document->splines[0]->name, "swing");
     assert_non_null(strstr(f.editor->core.message.text, "a spline needs a name"));
-    assert_int_equal(f.document->splines[0].knot_count, 3);
+    assert_int_equal(f.document->splines[0]->knot_count, 3);
     free(before);
     session_close(&f);
 }
@@ -144,9 +144,9 @@ static void test_rows_are_dragged_to_their_place(void **state)
     char *before = session_saved(&f);
     panel_press(&f, "spline.sway", 1);
     session_drag(&f, 0, 2 * UI_ROW, 4);
-    assert_string_equal(f.document->splines[0].name, "sway"); // not before it is dropped
+    assert_string_equal(f.document->splines[0]->name, "sway"); // not before it is dropped
     panel_release(&f);
-    assert_string_equal(f.document->splines[2].name, "sway");
+    assert_string_equal(f.document->splines[2]->name, "sway");
     assert_string_equal(active_name(&f), "sway");
     assert_one_step(&f, before);
     free(before);
@@ -161,19 +161,19 @@ static void test_colours(void **state)
     char *before = session_saved(&f);
     panel_click(&f, "color.pace");
     panel_click(&f, "color.3");
-    assert_int_equal(f.document->splines[1].color, 0x1F9E7A);
+    assert_int_equal(f.document->splines[1]->color, 0x1F9E7A);
     assert_false(f.editor->inspector->ui.popup.id);
     assert_one_step(&f, before);
     panel_click(&f, "color.pace");
     panel_click(&f, "color.type");
     panel_type(&f, "#12345");
     session_key(&f, KEY_ENTER, 0);
-    assert_int_equal(f.document->splines[1].color, 0x1F9E7A);
+    assert_int_equal(f.document->splines[1]->color, 0x1F9E7A);
     assert_non_null(strstr(f.editor->core.message.text, "colour: expected something like #FFB000, got “#12345”"));
     panel_click(&f, "color.type");
     panel_type(&f, "#123456");
     session_key(&f, KEY_ENTER, 0);
-    assert_int_equal(f.document->splines[1].color, 0x123456);
+    assert_int_equal(f.document->splines[1]->color, 0x123456);
     panel_click(&f, "color.none");
     assert_saved(&f, before);
     free(before);
@@ -213,7 +213,7 @@ static void test_a_track_is_attached_and_detached(void **state)
     assert_true(panel_shows(&f, "item.pace"));
     assert_false(panel_shows(&f, "item.sway"));
     panel_click(&f, "item.pace");
-    assert_int_equal(f.document->splines[0].parameter[PARAMETER_DAMPING].track, 1);
+    assert_int_equal(f.document->splines[0]->parameter[PARAMETER_DAMPING].track, 1);
     assert_one_step(&f, before);
     assert_false(panel_shows(&f, "damping"));
     panel_click(&f, "spline.pace");
@@ -223,8 +223,8 @@ static void test_a_track_is_attached_and_detached(void **state)
     panel_click(&f, "spline.sway");
     session_frame(&f);
     panel_click(&f, "follow.damping");
-    assert_int_equal(f.document->splines[0].parameter[PARAMETER_DAMPING].track, -1);
-    assert_near(f.document->splines[0].parameter[PARAMETER_DAMPING].value, 1, 0); // 2, as far as damping goes
+    assert_int_equal(f.document->splines[0]->parameter[PARAMETER_DAMPING].track, -1);
+    assert_near(f.document->splines[0]->parameter[PARAMETER_DAMPING].value, 1, 0); // 2, as far as damping goes
     free(before);
     session_close(&f);
 }
@@ -241,13 +241,13 @@ static void test_frames_per_second_ask(void **state)
     assert_near(f.document->fps, 24, 0);
     session_key(&f, 'S', 0);
     assert_near(f.document->fps, 48, 0);
-    assert_near(f.document->splines[0].knots[1].frame, 72, 0);
+    assert_near(f.document->splines[0]->knots[1].frame, 72, 0);
     assert_int_equal(f.document->last_frame, 192);
     assert_one_step(&f, before);
     session_key(&f, 'Z', MOD_CTRL);
     panel_enter(&f, "scene.fps", "48");
     session_key(&f, 'F', 0);
-    assert_near(f.document->splines[0].knots[1].frame, 36, 0);
+    assert_near(f.document->splines[0]->knots[1].frame, 36, 0);
     panel_enter(&f, "scene.fps", "0");
     assert_non_null(strstr(f.editor->core.message.text, "rate: expected"));
     session_key(&f, KEY_ESCAPE, 0);
@@ -266,13 +266,13 @@ static void test_a_range_asks_for_its_knots(void **state)
     panel_enter(&f, "scene.last", "50");
     assert_int_equal(f.editor->dialogs->dialog.kind, DIALOG_ASK);
     session_key(&f, 'T', 0);
-    assert_int_equal(f.document->splines[0].knot_count, 2);
+    assert_int_equal(f.document->splines[0]->knot_count, 2);
     assert_near(f.editor->core.playback.position, 50, 0); // inside again
     assert_one_step(&f, before);
     session_key(&f, 'Z', MOD_CTRL);
     panel_enter(&f, "scene.last", "50");
     session_key(&f, 'M', 0);
-    assert_near(f.document->splines[0].knots[2].frame, 50, 0);
+    assert_near(f.document->splines[0]->knots[2].frame, 50, 0);
     panel_enter(&f, "scene.last", "50.5");
     assert_non_null(strstr(f.editor->core.message.text, "last: expected a whole number, got 50.5"));
     panel_enter(&f, "scene.first", "60");
@@ -363,7 +363,7 @@ static void test_random_input_comes_back(void **state)
         if (!again) fail_msg("seed %u: what was saved does not load: %s", seed, error.text);
         document_destroy(again);
         assert_false(history_is_open(f.history));
-        while (history_undo(f.history, f.document)) steps++;
+        while (history_undo(f.history)) steps++;
         assert_saved(&f, first);
         free(last);
         free(first);

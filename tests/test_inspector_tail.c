@@ -119,12 +119,12 @@ static void test_angles_are_drawn(void **state)
     struct session s;
     char *before = open_tall(&s);
     panel_click(&s, "gain.each");
-    const double *gain = tail(&s)->channels[0].gain.value;
     char *flat = session_saved(&s);
     panel_press(&s, "gain.curve", 1); // at the first joint
     session_drag(&s, 80, -20, 4);     // a third of the way is the next joint
-    assert_true(gain[0] > 5 && gain[1] > gain[0]);
-    assert_near(gain[2], 5, 0);
+    assert_true(tail(&s)->channels[0].gain.value[0] > 5 &&
+                tail(&s)->channels[0].gain.value[1] > tail(&s)->channels[0].gain.value[0]);
+    assert_near(tail(&s)->channels[0].gain.value[2], 5, 0);
     assert_int_equal(s.editor->inspector->joint[ANGLE_GAIN], 1);
     session_key(&s, KEY_ESCAPE, 0);
     assert_saved(&s, flat);
@@ -132,13 +132,13 @@ static void test_angles_are_drawn(void **state)
     panel_press(&s, "gain.curve", 1);
     session_drag(&s, 300, 10, 6); // beyond the last one
     panel_release(&s);
-    for (int n = 2; n < 4; n++) assert_true(gain[n] < 5);
+    for (int n = 2; n < 4; n++) assert_true(tail(&s)->channels[0].gain.value[n] < 5);
     assert_one_step(&s, flat);
     panel_click(&s, "gain.curve");
     const int joint = s.editor->inspector->joint[ANGLE_GAIN];
-    const double last = gain[joint];
+    const double last = tail(&s)->channels[0].gain.value[joint];
     session_key(&s, KEY_UP, 0);
-    assert_near(gain[joint], last + 0.5, 1e-9);
+    assert_near(tail(&s)->channels[0].gain.value[joint], last + 0.5, 1e-9);
     session_key(&s, KEY_LEFT, 0);
     session_key(&s, KEY_UP, 0);
     assert_int_equal(s.editor->inspector->joint[ANGLE_GAIN], joint - 1);
@@ -155,7 +155,7 @@ static void test_tails(void **state)
     session_key(&s, 'A', MOD_CTRL);
     panel_type(&s, "brush");
     session_key(&s, KEY_ENTER, 0);
-    assert_string_equal(s.document->rigs[0].name, "brush");
+    assert_string_equal(s.document->rigs[0]->name, "brush");
     panel_click(&s, "rig.copy");
     assert_int_equal(document_count_rigs(s.document, RIG_TAIL), 2);
     assert_int_equal(editor_stage(s.editor)->tail_count, 2);

@@ -32,10 +32,10 @@ static void open_beast(struct session *session, const char *equilibrium)
 
 static const struct param *equilibrium(const struct session *session)
 {
-    return &session->document->splines[0].parameter[PARAMETER_EQUILIBRIUM];
+    return &session->document->splines[0]->parameter[PARAMETER_EQUILIBRIUM];
 }
 
-static const struct chain *tail(const struct session *session) { return &session->document->rigs[1].chain; }
+static const struct chain *tail(const struct session *session) { return &session->document->rigs[1]->chain; }
 
 static void test_an_equilibrium_comes_to_follow_the_tip_of_its_chain(void **state)
 {
@@ -279,7 +279,7 @@ static void test_undoing_a_chain_activates_what_was_active(void **state)
 static bool knot_is_seen(const struct session *s)
 {
     const struct core *core = &s->editor->core;
-    const struct spline *spline = &s->document->splines[0];
+    const struct spline *spline = s->document->splines[0];
     assert_int_equal(spline->knot_count, 1);
     const float y = curves_y(s->editor->curves, core, spline->knots[0].value);
     return y >= core->layout.plot.y && y <= core->layout.plot.y + core->layout.plot.h;

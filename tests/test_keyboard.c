@@ -17,7 +17,7 @@ static const char jump[] = "{\"wiggly\": 1, \"frames\": [0, 72], \"splines\": [{
 
 static bool is_selected(const struct session *s, int knot)
 {
-    return selection_has(&s->editor->core.selection, s->document->splines[0].knots[knot].id);
+    return selection_has(&s->editor->core.selection, s->document->splines[0]->knots[knot].id);
 }
 
 static void test_the_selection_grows_by_neighbours(void **state)
@@ -33,7 +33,7 @@ static void test_the_selection_grows_by_neighbours(void **state)
     for (int k = 0; k < 3; k++) assert_true(is_selected(&s, k));
     assert_false(is_selected(&s, 3));
     for (int i = 0; i < 3; i++) session_type(&s, "<"); // there is nothing before the first
-    assert_int_equal(selection_count(&s.editor->core.selection, &s.document->splines[0]), 3);
+    assert_int_equal(selection_count(&s.editor->core.selection, s.document->splines[0]), 3);
     session_close(&s);
 }
 
@@ -112,13 +112,12 @@ static void test_a_number_goes_to_its_default(void **state)
     (void)state;
     struct session s;
     session_open(&s, scene);
-    const double *frequency = &s.document->splines[0].parameter[PARAMETER_FREQUENCY].value;
     for (int i = 0; i < 40 && s.editor->inspector->ui.focus != ui_id("frequency"); i++) session_key(&s, KEY_TAB, 0);
     session_key(&s, KEY_DELETE, 0);
-    assert_near(*frequency, 1, 1e-12);
-    assert_int_equal(s.document->splines[0].knot_count, 4);
+    assert_near(s.document->splines[0]->parameter[PARAMETER_FREQUENCY].value, 1, 1e-12);
+    assert_int_equal(s.document->splines[0]->knot_count, 4);
     session_key(&s, 'Z', MOD_CTRL);
-    assert_near(*frequency, 0.5, 1e-12);
+    assert_near(s.document->splines[0]->parameter[PARAMETER_FREQUENCY].value, 0.5, 1e-12);
     session_close(&s);
 }
 

@@ -128,7 +128,7 @@ static struct document *painted(const char *path, float mark)
     struct document *document = scene_parse("walk", scene, sizeof scene - 1, NULL, &error);
     if (!document) fail_msg("%s", error.text);
     document->folder = strdup(folder);
-    assert_true(document_set_path(document, path));
+    document_set_path(document, path);
     struct character_rig *rig = document_character(document, 0);
     rig->painted = paint_create(1, 8);
     assert_non_null(rig->painted);

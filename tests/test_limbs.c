@@ -6,7 +6,7 @@
 #include "near.h"
 #include "rig/opened.h"
 #include "rig/pinning.h"
-#include "scene/edit.h"
+#include "scene/edit_kinds.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -150,7 +150,7 @@ static void the_body_leaves_the_tail_alone(void **state)
     (void)state;
     open_scene("assets/scenes/tail.json");
     const struct pose before = *pose_at(30);
-    struct tail *tail = &scene.document->rigs[0].tail;
+    struct tail *tail = &scene.document->rigs[0]->tail;
     for (int c = 2; c < tail->channel_count; c++) tail->channels[c].gain.value[0] = 1e6;
     const struct pose *after = pose_at(30);
     for (int n = 0; n < before.count; n++)
@@ -172,21 +172,20 @@ static bool try_edit(struct history *history, struct edit edit)
 static void axes_are_edited_and_undone(void **state)
 {
     (void)state;
-    struct history *history = history_create();
     open_scene("assets/scenes/tail.json");
-    const struct channel *channels = scene.document->rigs[0].tail.channels;
+    struct history *history = history_create(scene.document);
     assert_true(try_edit(history, (struct edit){.kind = EDIT_AXIS, .rig = 0, .channel = 1, .axis = AXIS_NOD}));
-    assert_int_equal(channels[1].axis, AXIS_NOD);
-    assert_true(history_undo(history, scene.document));
-    assert_int_equal(scene.document->rigs[0].tail.channels[1].axis, AXIS_UP);
+    assert_int_equal(scene.document->rigs[0]->tail.channels[1].axis, AXIS_NOD);
+    assert_true(history_undo(history));
+    assert_int_equal(scene.document->rigs[0]->tail.channels[1].axis, AXIS_UP);
     assert_false(try_edit(history, (struct edit){.kind = EDIT_AXIS, .rig = 0, .channel = 1, .axis = AXES}));
-    const double gain = scene.document->rigs[0].tail.channels[2].gain.value[0];
+    const double gain = scene.document->rigs[0]->tail.channels[2].gain.value[0];
     assert_true(try_edit(history, (struct edit){.kind = EDIT_JOINTS, .rig = 0, .to = 12}));
-    assert_near(scene.document->rigs[0].tail.channels[2].gain.value[0], gain, 0);
+    assert_near(scene.document->rigs[0]->tail.channels[2].gain.value[0], gain, 0);
     history_destroy(history);
     opened_free(&scene);
     open_scene("assets/scenes/dog.json");
-    history = history_create();
+    history = history_create(scene.document);
     assert_false(try_edit(history, (struct edit){.kind = EDIT_AXIS, .rig = 1, .channel = 0, .axis = AXIS_BLINK}));
     history_destroy(history);
     opened_free(&scene);
@@ -241,7 +240,7 @@ static void pins_hold_what_is_drawn(void **state)
     (void)state;
     open_scene("assets/scenes/follow.json");
     const struct pin_source source = pin_points(NULL);
-    const struct tail *tail = &scene.document->rigs[0].tail;
+    const struct tail *tail = &scene.document->rigs[0]->tail;
     float stretched = 0;
     for (int f = 0; f <= 120; f += 3) {
         const struct pose *pose = pose_at(f);

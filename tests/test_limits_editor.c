@@ -13,7 +13,7 @@ static const char swinging[] =
     "\"limits\": [null, 1.2], \"knots\": [{\"frame\": 8, \"value\": 0}, {\"frame\": 14, \"value\": 0.8}, "
     "{\"frame\": 22, \"value\": -0.4}, {\"frame\": 60, \"value\": 1}]}]}";
 
-static double limit(const struct session *s, enum parameter p) { return s->document->splines[0].parameter[p].value; }
+static double limit(const struct session *s, enum parameter p) { return s->document->splines[0]->parameter[p].value; }
 
 static double highest(const struct session *s)
 {
@@ -49,7 +49,7 @@ static void a_line_is_dragged_as_far_as_the_knots(void **state)
     pull(&s, "curve(sway,100,1.05)", "curve(sway,100,0.5)");
     assert_near(limit(&s, PARAMETER_HIGH), 1, 0);
     pull(&s, "knot(sway,3)", "curve(sway,60,1.1)");
-    assert_near(s.document->splines[0].knots[3].value, 1, 0);
+    assert_near(s.document->splines[0]->knots[3].value, 1, 0);
     for (int i = 0; i < 2; i++) session_key(&s, 'Z', MOD_CTRL);
     assert_saved(&s, original);
     free(original);
@@ -66,7 +66,7 @@ static void what_holds_a_dragged_knot_is_said(void **state)
     session_pull(&s, "knot(sway,1)", 0, -20, 4);
     assert_string_equal(said, "");
     session_drag(&s, 0, -400, 4);
-    assert_near(s.document->splines[0].knots[1].value, 1.2, 0);
+    assert_near(s.document->splines[0]->knots[1].value, 1.2, 0);
     assert_string_equal(said, "Held by the limit 1.2 of sway at frame 14.");
     session_drag(&s, 0, 400, 4);
     assert_string_equal(said, "");
@@ -88,7 +88,7 @@ static void what_stops_a_knot_in_time_is_said(void **state)
     session_pull(&s, "knot(sway,1)", 7 * frame, 0, 7);
     assert_string_equal(said, "");
     session_drag(&s, frame, 0, 1);
-    assert_near(s.document->splines[0].knots[1].frame, 21, 0);
+    assert_near(s.document->splines[0]->knots[1].frame, 21, 0);
     assert_string_equal(said, "A knot would land on another on frame 22.");
     session_drag(&s, frame, 0, 1); // past it
     assert_string_equal(said, "");
@@ -97,7 +97,7 @@ static void what_stops_a_knot_in_time_is_said(void **state)
     session_key(&s, KEY_ESCAPE, 0);
     session_click(&s, "knot(sway,0)");
     for (int i = 0; i < 8; i++) session_key(&s, KEY_LEFT, MOD_ALT);
-    assert_near(s.document->splines[0].knots[0].frame, 0, 0);
+    assert_near(s.document->splines[0]->knots[0].frame, 0, 0);
     s.editor->core.message.text[0] = 0;
     session_key(&s, KEY_LEFT, MOD_ALT);
     assert_string_equal(said, "A knot would leave the range.");
@@ -111,7 +111,7 @@ static void a_nudge_goes_as_far_as_the_limit(void **state)
     session_open(&s, swinging);
     session_click(&s, "knot(sway,3)"); // 0.2 below it
     for (int i = 0; i < 9; i++) session_key(&s, KEY_UP, MOD_ALT | MOD_SHIFT);
-    assert_near(s.document->splines[0].knots[3].value, 1.2, 0);
+    assert_near(s.document->splines[0]->knots[3].value, 1.2, 0);
     assert_string_equal(s.editor->core.message.text, "Held by the limit 1.2 of sway at frame 60.");
     assert_false(s.editor->core.message.is_error);
     session_close(&s);
@@ -130,7 +130,7 @@ static void a_pulled_tail_stops_at_the_limit(void **state)
     session_pull(&s, "tail(tail,0.95)", -500, 0, 25);
     for (int i = 0; i < 20; i++) session_frame(&s);
     session_release(&s, BUTTON_LEFT);
-    assert_near(fabs(s.document->splines[0].knots[0].value), 0.5, 0);
+    assert_near(fabs(s.document->splines[0]->knots[0].value), 0.5, 0);
     assert_non_null(strstr(s.editor->core.message.text, "eld by the limit"));
     assert_false(s.editor->core.message.is_error);
     session_close(&s);

@@ -31,7 +31,7 @@ static void it_is_read_and_written(void **state)
     (void)state;
     struct session s;
     session_open(&s, scene);
-    const struct meadow_rig *meadow = &s.document->rigs[1].meadow;
+    const struct meadow_rig *meadow = &s.document->rigs[1]->meadow;
     assert_int_equal(meadow->count, 300);
     assert_near(meadow->area[1], 3, 0);
     assert_near(meadow->variation, 0.4, 0);
@@ -41,7 +41,7 @@ static void it_is_read_and_written(void **state)
     struct error error = {0};
     struct document *again = scene_parse("again", saved, strlen(saved), NULL, &error);
     if (!again) fail_msg("%s", error.text);
-    assert_memory_equal(&again->rigs[1].meadow, meadow, sizeof *meadow);
+    assert_memory_equal(&again->rigs[1]->meadow, meadow, sizeof *meadow);
     document_destroy(again);
     free(saved);
     session_close(&s);
@@ -72,12 +72,12 @@ static void its_numbers_are_set_in_the_inspector(void **state)
     panel_open(&s, scene, 1280, 2400);
     char *original = session_saved(&s);
     panel_enter(&s, "meadow.count", "120");
-    assert_int_equal(s.document->rigs[1].meadow.count, 120);
+    assert_int_equal(s.document->rigs[1]->meadow.count, 120);
     assert_one_step(&s, original);
     panel_enter(&s, "meadow.wide", "2.5");
     panel_enter(&s, "meadow.gain", "-3");
     panel_enter(&s, "meadow.seed", "9");
-    const struct meadow_rig *meadow = &s.document->rigs[1].meadow;
+    const struct meadow_rig *meadow = &s.document->rigs[1]->meadow;
     assert_near(meadow->area[0], 2.5, 0);
     assert_near(meadow->area[1], 3, 0);
     assert_near(meadow->gain, -3, 0);
@@ -97,7 +97,7 @@ static void the_meadow_of_the_app_loops(void **state)
     struct document *document = scene_load("assets/scenes/meadow.json", NULL, &error);
     if (!document) fail_msg("%s", error.text);
     for (int s = 0; s < document->spline_count; s++)
-        assert_int_equal(spline_start(&document->splines[s]), WIGGLY_LOOP);
+        assert_int_equal(spline_start(document->splines[s]), WIGGLY_LOOP);
     document_destroy(document);
 }
 
@@ -186,7 +186,7 @@ static void reeds_that_nothing_pulls_back_do_not_swing(void **state)
     struct session s;
     panel_open_models(&s, scene);
     for (int mode = 0; mode < 2; mode++) session_key(&s, 'M', 0);
-    assert_int_equal(spline_mode(&s.document->splines[0]), WIGGLY_CUBIC);
+    assert_int_equal(spline_mode(s.document->splines[0]), WIGGLY_CUBIC);
     session_point(&s, "body(fox)");
     session_press(&s, BUTTON_LEFT, 1);
     session_drag(&s, 120, 0, 10);

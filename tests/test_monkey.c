@@ -172,7 +172,7 @@ static char *printed(const struct document *document)
 static const char *paint_file(const struct document *document)
 {
     const struct character_rig *rig = document_character(document, 0);
-    const char *file = rig ? rig->paint : NULL;
+    const char *file = rig ? rig->file->path : NULL;
     return file ? file : "";
 }
 
@@ -223,7 +223,7 @@ static void assert_editor(const struct app *app)
     }
     if (d->spline_count == 0) assert_int_equal(editor->core.active, -1);
     if (d->spline_count > 0) assert_in_range(editor->core.active, 0, d->spline_count - 1);
-    if (editor->core.active >= 0) assert_int_equal(d->splines[editor->core.active].id, editor->core.active_id);
+    if (editor->core.active >= 0) assert_int_equal(d->splines[editor->core.active]->id, editor->core.active_id);
     for (unsigned id = d->next_id; id < editor->core.selection.capacity; id++) {
         assert_false(selection_has(&editor->core.selection, id));
     }

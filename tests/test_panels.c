@@ -345,7 +345,7 @@ static void test_dialog_takes_every_key(void **state)
     session_key(&f, KEY_DELETE, 0);
     assert_int_equal(f.editor->core.look, LOOK_WIGGLY);
     assert_false(f.editor->dialogs->help.open);
-    assert_int_equal(f.document->splines[0].knot_count, 2);
+    assert_int_equal(f.document->splines[0]->knot_count, 2);
     assert_string_equal(f.editor->dialogs->dialog.ui.text.bytes, "vim. ");
     session_close(&f);
 }

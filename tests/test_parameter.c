@@ -93,9 +93,9 @@ static void assert_round_trip(const struct world *world)
     assert_non_null(again);
     for (int s = 0; s < again->spline_count; s++) {
         for (enum parameter p = 0; p < PARAMETER_COUNT; p++) {
-            const struct spline *spline = &world->document->splines[s];
-            assert_true(spline->parameter[p].value == again->splines[s].parameter[p].value);
-            assert_int_equal(spline->parameter[p].track, again->splines[s].parameter[p].track);
+            const struct spline *spline = world->document->splines[s];
+            assert_true(spline->parameter[p].value == again->splines[s]->parameter[p].value);
+            assert_int_equal(spline->parameter[p].track, again->splines[s]->parameter[p].track);
         }
     }
     document_destroy(again);
@@ -121,21 +121,19 @@ static double another(const struct spline *spline, enum parameter p)
 /// Makes the edit with an evaluation that has solved what was there before, and compares with one that has not.
 static void try_edit(struct edit edit, const char *name)
 {
-    struct world world = {.history = history_create()};
+    struct world world = {0};
     struct evaluation kept = {0}, fresh = {0};
-    bool dirty[3];
     world.document = scene_parse("scene", scene, sizeof scene - 1, NULL, &world.error);
+    world.history = history_create(world.document);
     assert_non_null(world.document);
     assert_true(evaluation_resize(&kept, world.document, NULL) && evaluation_resize(&fresh, world.document, NULL));
-    evaluation_update(&kept, world.document, NULL, false);
+    evaluation_update(&kept, world.document, false);
     int samples = kept.samples;
     double *before = malloc(sizeof *before * (size_t)samples);
     memcpy(before, kept.curves[edit.spline].total, sizeof *before * (size_t)samples);
-    history_take_dirty(world.history, world.document, dirty, 3);
     world_must(&world, edit);
-    history_take_dirty(world.history, world.document, dirty, 3);
-    evaluation_update(&kept, world.document, dirty, false);
-    evaluation_update(&fresh, world.document, NULL, false);
+    evaluation_update(&kept, world.document, false);
+    evaluation_update(&fresh, world.document, false);
     assert_same_curves(&kept, &fresh, name);
     if (memcmp(before, kept.curves[edit.spline].total, sizeof *before * (size_t)samples) == 0)
         fail_msg("%s: spline %d does not change", name, edit.spline);
@@ -153,7 +151,7 @@ static void an_edit_of_each_is_seen_and_saved(void **state)
     struct document *document = scene_parse("scene", scene, sizeof scene - 1, NULL, &error);
     for (int s = 0; s < document->spline_count; s++) {
         for (enum parameter p = 0; p < PARAMETER_COUNT; p++) {
-            const struct spline *spline = &document->splines[s];
+            const struct spline *spline = document->splines[s];
             bool still =
                 p == PARAMETER_CALM && spline_start(spline) != WIGGLY_FREE; // nothing swings before the start
             still |= p == PARAMETER_HIGH && s == 1;                         // it only falls

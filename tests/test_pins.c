@@ -50,7 +50,7 @@ static void read_sheet(struct sheet *sheet, const json_t *file, const struct doc
         const char *name = json_string_value(json_array_get(names, (size_t)s));
         sheet->weights[s] = json_number_value(json_object_get(json_object_get(file, "weight"), name));
         for (int i = 0; i < document->spline_count; i++) {
-            if (strcmp(document->splines[i].name, name) == 0) sheet->spline[s] = i;
+            if (strcmp(document->splines[i]->name, name) == 0) sheet->spline[s] = i;
         }
     }
     for (int p = 0; p < sheet->pins; p++) {
@@ -115,7 +115,7 @@ static void check_group(const char *name, struct sheet *sheet, const struct docu
     struct error error = {0};
     const int samples = document_samples(document);
     assert_true(evaluation_resize(&evaluation, document, &error));
-    evaluation_update(&evaluation, document, NULL, false);
+    evaluation_update(&evaluation, document, false);
     wiggly_group *group;
     assert_int_equal(wiggly_group_create(samples, 16, sheet->splines, sheet->pins, &group), WIGGLY_OK);
     wiggly_group_set_method(group, method);

@@ -3,7 +3,7 @@
 
 #include "rig/opened.h"
 #include "rig/pinning.h"
-#include "scene/edit.h"
+#include "scene/edit_kinds.h"
 #include <stdlib.h>
 #include <string.h>
 
@@ -26,7 +26,7 @@ struct stand {
 
 static struct pin *pin_of(struct stand *stand, const struct drag *drag)
 {
-    return &stand->opened.document->rigs[drag->rig].pins[0];
+    return &stand->opened.document->rigs[drag->rig]->pins[0];
 }
 
 static void open_drag(struct stand *stand, const struct drag *drag)
@@ -42,7 +42,7 @@ static void open_drag(struct stand *stand, const struct drag *drag)
                             0, NULL, &at));
     memcpy(stand->from, at.at, sizeof stand->from);
     stand->size = at.size;
-    struct history *history = history_create();
+    struct history *history = history_create(stand->opened.document);
     struct edit edit = {.kind = EDIT_PIN_ADD, .rig = drag->rig, .pin = pin};
     memcpy(edit.pin.to, at.at, sizeof edit.pin.to);
     history_begin(history, "Pin", 0);
@@ -55,7 +55,7 @@ static void open_drag(struct stand *stand, const struct drag *drag)
 /// What is left of the pin, of the size.
 static double solve(struct stand *stand, const struct drag *drag)
 {
-    evaluation_update(&stand->opened.evaluation, stand->opened.document, NULL, false);
+    evaluation_update(&stand->opened.evaluation, stand->opened.document, false);
     const struct pin_left *left = evaluation_pin(&stand->opened.evaluation, stand->opened.document, drag->rig, 0);
     return hypot(hypot(left->way[0], left->way[1]), left->way[2]) / stand->size;
 }
@@ -153,8 +153,8 @@ static void move_within_reach(struct stand *stand, const struct drag *drag, doub
     solve(stand, drag);
     for (int s = 0; s < document->spline_count; s++) {
         bool is_knot = false;
-        for (int k = 0; k < document->splines[s].knot_count; k++)
-            is_knot |= document_sample(document, document->splines[s].knots[k].frame) == sample;
+        for (int k = 0; k < document->splines[s]->knot_count; k++)
+            is_knot |= document_sample(document, document->splines[s]->knots[k].frame) == sample;
         if (is_knot) continue;
         evaluation->curves[s].re[sample] += most * (2.0 * rand() / RAND_MAX - 1);
         evaluation->curves[s].im[sample] += most * (2.0 * rand() / RAND_MAX - 1);

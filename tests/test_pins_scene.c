@@ -4,7 +4,7 @@
 #include "model/morph.h"
 #include "rig/opened.h"
 #include "rig/pinning.h"
-#include "scene/edit.h"
+#include "scene/edit_kinds.h"
 #include "scene/load.h"
 #include "scene/pins.h"
 #include "temporary.h"
@@ -23,7 +23,7 @@ static void stand_open(struct stand *stand, const char *path)
 {
     struct error error = {0};
     if (!opened_read(&stand->opened, path, &error)) fail_msg("%s", error.text);
-    stand->history = history_create();
+    stand->history = history_create(stand->opened.document);
     assert_non_null(stand->history);
 }
 
@@ -47,11 +47,9 @@ static void solve(struct stand *stand)
 {
     struct document *document = document_of(stand);
     struct evaluation *evaluation = &stand->opened.evaluation;
-    bool dirty[64];
     evaluation->pins = pin_points(stand->opened.models);
     assert_true(evaluation_resize(evaluation, document, NULL));
-    history_take_dirty(stand->history, document, dirty, document->spline_count);
-    evaluation_update(evaluation, document, dirty, false);
+    evaluation_update(evaluation, document, false);
 }
 
 /// Solves from nothing.
@@ -277,7 +275,7 @@ static void stage_point(const struct stand *stand, int rig, int point, double fr
 /// All pins of a rig are met, also where the stage shows them, and knots as ever.
 static void assert_met(struct stand *stand, int rig, double tolerance)
 {
-    const struct rig *of = &document_of(stand)->rigs[rig];
+    const struct rig *of = document_of(stand)->rigs[rig];
     for (int i = 0; i < of->pin_count; i++) {
         const struct pin_left *left = evaluation_pin(&stand->opened.evaluation, document_of(stand), rig, i);
         float at[3];
@@ -287,7 +285,7 @@ static void assert_met(struct stand *stand, int rig, double tolerance)
         for (int k = 0; k < 3; k++) assert_near(at[k], of->pins[i].to[k], 1e-5);
     }
     for (int s = 0; s < document_of(stand)->spline_count; s++) {
-        const struct spline *spline = &document_of(stand)->splines[s];
+        const struct spline *spline = document_of(stand)->splines[s];
         for (int k = 0; k < spline->knot_count; k++) {
             const int sample = document_sample(document_of(stand), spline->knots[k].frame);
             assert_near(stand->opened.evaluation.curves[s].total[sample], spline->knots[k].value, 1e-9);
@@ -301,7 +299,7 @@ static void assert_same_as_whole(struct stand *stand)
     struct evaluation whole = {.pins = pin_points(stand->opened.models)};
     const struct evaluation *seen = &stand->opened.evaluation;
     assert_true(evaluation_resize(&whole, document_of(stand), NULL));
-    evaluation_update(&whole, document_of(stand), NULL, false);
+    evaluation_update(&whole, document_of(stand), false);
     for (int s = 0; s < whole.count; s++) {
         const size_t size = (size_t)whole.samples * sizeof(double);
         assert_memory_equal(whole.curves[s].total, seen->curves[s].total, size);
@@ -344,7 +342,7 @@ static double part_left(struct stand *stand, int rig, int point, double frame, d
     const struct pin_point before = find(stand, rig, point, frame, (pin_pull[64]){{{0}}});
     pin_near(stand, rig, point, frame, re, im);
     solve(stand);
-    const double *to = document_of(stand)->rigs[rig].pins[0].to;
+    const double *to = document_of(stand)->rigs[rig]->pins[0].to;
     const double way = hypot(hypot(to[0] - before.at[0], to[1] - before.at[1]), to[2] - before.at[2]);
     return left_of(stand, rig, 0) / way;
 }
@@ -372,7 +370,7 @@ static void test_a_tail_on_a_moving_base_is_pinned(void **state)
     solve(&stand);
     assert_true(part_left(&stand, 0, 23, 30, 0.1, 0.1) < 0.5);
     assert_same_as_whole(&stand);
-    struct edit base = {.kind = EDIT_KNOT_SET, .spline = 0, .knot = document_of(&stand)->splines[0].knots[1]};
+    struct edit base = {.kind = EDIT_KNOT_SET, .spline = 0, .knot = document_of(&stand)->splines[0]->knots[1]};
     base.knot.value = 0.9;
     must(&stand, base);
     solve(&stand); // the pinned splines follow the base by a track, and where it is
@@ -411,33 +409,33 @@ static void test_edits_give_the_same_bits(void **state)
     pin_near(&stand, SHARED, 9, 44, 0.1, 0.2);
     pin_near(&stand, OWN, 7, 10, 0.2, 0.2);
     solve(&stand);
-    struct angles gain = document->rigs[SHARED].tail.channels[1].gain;
+    struct angles gain = document->rigs[SHARED]->tail.channels[1].gain;
     gain.value[0] = 9;
-    struct edit moved = {.kind = EDIT_PIN_SET, .rig = SHARED, .pin = document->rigs[SHARED].pins[0]};
+    struct edit moved = {.kind = EDIT_PIN_SET, .rig = SHARED, .pin = document->rigs[SHARED]->pins[0]};
     moved.pin.to[1] += 0.1;
     moved.pin.frame = 40;
-    struct edit knot = {.kind = EDIT_KNOT_SET, .spline = 0, .knot = document->splines[0].knots[1]};
+    struct edit knot = {.kind = EDIT_KNOT_SET, .spline = 0, .knot = document->splines[0]->knots[1]};
     knot.knot.value = 0.5;
     const struct edit edits[] = {
         moved,
         {.kind = EDIT_ANGLES, .rig = SHARED, .channel = 1, .angle = ANGLE_GAIN, .angles = &gain},
         knot,
         {.kind = EDIT_POSITION, .rig = SHARED, .coordinate = 0, .param = param_number(0.9)},
-        {.kind = EDIT_PIN_REMOVE, .rig = CREATURE, .pin = document->rigs[CREATURE].pins[0]},
-        {.kind = EDIT_PIN_REMOVE, .rig = OWN, .pin = document->rigs[OWN].pins[0]},
-        {.kind = EDIT_PIN_REMOVE, .rig = SHARED, .pin = document->rigs[SHARED].pins[0]},
+        {.kind = EDIT_PIN_REMOVE, .rig = CREATURE, .pin = document->rigs[CREATURE]->pins[0]},
+        {.kind = EDIT_PIN_REMOVE, .rig = OWN, .pin = document->rigs[OWN]->pins[0]},
+        {.kind = EDIT_PIN_REMOVE, .rig = SHARED, .pin = document->rigs[SHARED]->pins[0]},
     };
     for (size_t i = 0; i < sizeof edits / sizeof *edits; i++) {
         must(&stand, edits[i]);
         solve(&stand);
         assert_same_as_whole(&stand);
     }
-    evaluation_update(&stand.opened.evaluation, document, (bool[4]){false}, true);
-    while (history_undo(stand.history, document)) {
+    evaluation_update(&stand.opened.evaluation, document, true);
+    while (history_undo(stand.history)) {
         solve(&stand);
         assert_same_as_whole(&stand);
     }
-    while (history_redo(stand.history, document)) {
+    while (history_redo(stand.history)) {
         solve(&stand);
         assert_same_as_whole(&stand);
     }

@@ -26,8 +26,8 @@ static void open_tail(struct session *s)
     session_frame(s);
 }
 
-static int pins_of(const struct session *s) { return s->document->rigs[0].pin_count; }
-static const struct pin *pin_of(const struct session *s, int at) { return &s->document->rigs[0].pins[at]; }
+static int pins_of(const struct session *s) { return s->document->rigs[0]->pin_count; }
+static const struct pin *pin_of(const struct session *s, int at) { return &s->document->rigs[0]->pins[at]; }
 
 /// Presses on a target with Ctrl, which pins joints, and drags.
 static void pull_with_ctrl(struct session *s, const char *target, float dx, float dy)
@@ -64,7 +64,7 @@ static void test_ctrl_and_a_drag_pin_a_joint_which_follows_the_pointer(void **st
     assert_true(hypotf(marker[0] - x, marker[1] - y) < 1);
     const float apart = hypotf(tip[0] - marker[0], tip[1] - marker[1]);
     if (!(apart < 8)) fail_msg("the tip is %g pixels from the pointer", (double)apart);
-    assert_int_equal(s.document->splines[0].knot_count, 1);
+    assert_int_equal(s.document->splines[0]->knot_count, 1);
     assert_one_step(&s, before);
     free(before);
     session_close(&s);
@@ -79,7 +79,7 @@ static void test_the_plain_drag_still_sets_knots(void **state)
     session_pull(&s, "tail(tail,0.9)", 20, 20, 4);
     session_release(&s, BUTTON_LEFT);
     assert_int_equal(pins_of(&s), 0);
-    assert_int_equal(s.document->splines[0].knot_count, 2);
+    assert_int_equal(s.document->splines[0]->knot_count, 2);
     session_close(&s);
 }
 

@@ -13,7 +13,7 @@ static const char scene[] =
 
 static double value(const struct session *f, enum parameter which)
 {
-    return f->document->splines[f->editor->core.active].parameter[which].value;
+    return f->document->splines[f->editor->core.active]->parameter[which].value;
 }
 
 static void open_poles(struct session *f, int spline)
@@ -101,7 +101,7 @@ static void test_tracks_stay(void **state)
     open_poles(&f, 3);
     drag(&f, "pole.centre", 30, -12);
     panel_release(&f);
-    assert_int_equal(f.document->splines[3].parameter[PARAMETER_FREQUENCY].track, 1);
+    assert_int_equal(f.document->splines[3]->parameter[PARAMETER_FREQUENCY].track, 1);
     assert_true(value(&f, PARAMETER_DAMPING) > 0.25);
     session_close(&f);
 }

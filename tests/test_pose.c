@@ -195,7 +195,7 @@ static int open_scene(void **state)
         print_error("%s\n", error.text);
         return -1;
     }
-    evaluation_update(&scene.evaluation, scene.document, NULL, false);
+    evaluation_update(&scene.evaluation, scene.document, false);
     *state = &scene;
     return 0;
 }
@@ -226,7 +226,7 @@ static void the_default_scene_is_made_of_few_knots(void **state)
     const struct scene *scene = *state;
     int knots = 0;
     for (int s = 0; s < scene->document->spline_count; s++) {
-        knots += s < 2 ? scene->document->splines[s].knot_count : 0; // those of the tail, which come first
+        knots += s < 2 ? scene->document->splines[s]->knot_count : 0; // those of the tail, which come first
         assert_int_equal(scene->evaluation.status[s], WIGGLY_OK);
     }
     assert_true(knots <= 9);

@@ -69,17 +69,17 @@ static void test_recorded_is_what_was_seen(void **state)
     char *before = session_saved(&s);
     perform(&s, true, base, tip);
     assert_int_equal(s.document->spline_count, 3);
-    assert_string_equal(s.document->splines[1].name, "tail x");
-    assert_int_equal(spline_mode(&s.document->splines[1]), WIGGLY_CUBIC);
-    assert_in_range(s.document->splines[1].knot_count, 3, 12);
+    assert_string_equal(s.document->splines[1]->name, "tail x");
+    assert_int_equal(spline_mode(s.document->splines[1]), WIGGLY_CUBIC);
+    assert_in_range(s.document->splines[1]->knot_count, 3, 12);
     const struct tail *tail = document_tail(s.document, 0);
     assert_int_equal(tail->position[0].track, 1);
     assert_int_equal(tail->position[2].track, -1);
     assert_int_equal(tail->channel_count, 2);
     assert_int_equal(tail->channels[0].of, PART_TOTAL);
     assert_int_equal(tail->channels[1].of, PART_DISPLACEMENT);
-    assert_int_equal(s.document->splines[2].parameter[PARAMETER_EQUILIBRIUM].track, 1);
-    assert_int_equal(s.document->splines[0].knot_count, 2); // the keyed swing is as it was
+    assert_int_equal(s.document->splines[2]->parameter[PARAMETER_EQUILIBRIUM].track, 1);
+    assert_int_equal(s.document->splines[0]->knot_count, 2); // the keyed swing is as it was
     float most = 0;
     for (int i = 0; i < WATCHED; i++) {
         assert_near(base[i], live_base[i], 0.01);
@@ -116,7 +116,7 @@ static void test_a_second_take_replaces_the_first(void **state)
     perform(&s, true, base, tip);
     assert_int_equal(s.document->spline_count, 3);
     assert_int_equal(document_tail(s.document, 0)->channel_count, 2);
-    assert_in_range(s.document->splines[1].knot_count, 3, 20);
+    assert_in_range(s.document->splines[1]->knot_count, 3, 20);
     session_close(&s);
 }
 
@@ -167,9 +167,10 @@ static void test_a_way_without_a_channel_gets_one(void **state)
     const struct channel *made = &tail->channels[1];
     assert_int_equal(made->axis, AXIS_UP);
     assert_int_equal(made->of, PART_DISPLACEMENT);
-    assert_string_equal(document->splines[made->spline].name, "tail up");
-    assert_int_equal(document->splines[made->spline].parameter[PARAMETER_EQUILIBRIUM].track, tail->position[1].track);
-    assert_near(document->splines[made->spline].parameter[PARAMETER_FREQUENCY].value, 1.2, 0);
+    assert_string_equal(document->splines[made->spline]->name, "tail up");
+    assert_int_equal(document->splines[made->spline]->parameter[PARAMETER_EQUILIBRIUM].track,
+                     tail->position[1].track);
+    assert_near(document->splines[made->spline]->parameter[PARAMETER_FREQUENCY].value, 1.2, 0);
     assert_non_null(
         strstr(s.editor->core.message.text, " knots recorded. New: tail up, by which the tail swings after tail y."));
     session_key(&s, KEY_SPACE, 0);

@@ -76,7 +76,7 @@ static void press(struct blind *blind, int key) { press_with(blind, key, 0); }
 
 static const struct dialog *dialog(const struct blind *blind) { return &blind->app.table.editor->dialogs->dialog; }
 static const char *message(const struct blind *blind) { return blind->app.table.editor->core.message.text; }
-static const char *shown(const struct blind *blind) { return blind->app.table.document->splines[0].name; }
+static const char *shown(const struct blind *blind) { return blind->app.table.document->splines[0]->name; }
 
 /// Enter would recover: it is not asked about, so that nothing comes in place of the scene.
 static void another_scene_is_shown_and_the_work_kept(void **state)

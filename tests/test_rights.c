@@ -159,7 +159,7 @@ static void paint_stays_as_private(void **state)
     struct document *document = scene_parse(path, scene, sizeof scene - 1, NULL, &error);
     if (!document) fail_msg("%s", error.text);
     document->folder = strdup(folder);
-    assert_true(document_set_path(document, path));
+    document_set_path(document, path);
     struct character_rig *rig = document_character(document, 0);
     rig->painted = paint_create(1, 8);
     rig->painted->values[0][1] = 1;
@@ -169,7 +169,7 @@ static void paint_stays_as_private(void **state)
     rig->painted->version++;
     if (!scene_save(document, path, &error)) fail_msg("%s", error.text);
     assert_int_not_equal(access(folder_path("walk-paint.npy"), F_OK), 0);
-    assert_int_equal(mode_of(folder_path(rig->paint)), 0600);
+    assert_int_equal(mode_of(folder_path(rig->file->path)), 0600);
     document_destroy(document);
 }
 

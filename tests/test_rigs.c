@@ -24,7 +24,7 @@ static void test_the_menu_opens_by_its_key(void **state)
     session_key(&s, KEY_ENTER, 0);
     assert_int_equal(document_count_rigs(s.document, RIG_TAIL), 1);
     assert_int_equal(s.document->spline_count, 1); // that bends it
-    assert_int_equal(s.document->splines[0].knot_count, 1);
+    assert_int_equal(s.document->splines[0]->knot_count, 1);
     assert_int_equal(document_tail(s.document, 0)->channels[0].spline, 0);
     assert_one_step(&s, before);
     session_key(&s, 'A', 0);
@@ -86,7 +86,7 @@ static void test_a_rig_goes_with_its_splines_or_without(void **state)
     session_key(&s, 'W', 0);
     assert_int_equal(s.document->rig_count, 0);
     assert_int_equal(s.document->spline_count, 1);
-    assert_string_equal(s.document->splines[0].name, "t");
+    assert_string_equal(s.document->splines[0]->name, "t");
     assert_one_step(&s, before);
     session_key(&s, KEY_DELETE, MOD_SHIFT);
     assert_non_null(strstr(s.editor->core.message.text, "nothing on the stage"));
@@ -117,7 +117,7 @@ static void test_a_model_goes_with_its_chains(void **state)
     session_key(&s, 'W', 0);
     assert_int_equal(s.document->rig_count, 1);
     assert_int_equal(s.document->spline_count, 1);
-    assert_null(s.document->splines[0].parameter[PARAMETER_EQUILIBRIUM].motion);
+    assert_null(s.document->splines[0]->parameter[PARAMETER_EQUILIBRIUM].motion);
     assert_one_step(&s, before);
     free(before);
     session_close(&s);
@@ -151,7 +151,7 @@ static void test_files_are_told_apart(void **state)
     (void)state;
     struct error error = {0};
     struct document *document = document_create();
-    struct history *history = history_create();
+    struct history *history = history_create(document);
     history_begin(history, "Add", 0);
     assert_true(import_add(history, document, "assets/models/creature.glb", -1, &error));
     assert_true(import_add(history, document, "assets/models/dog.glb", 0, &error));
@@ -162,7 +162,7 @@ static void test_files_are_told_apart(void **state)
     assert_int_equal(document_count_rigs(document, RIG_CHARACTER), 2);
     assert_int_equal(document_count_rigs(document, RIG_MODEL), 1);
     assert_int_equal(document->spline_count, 1);
-    assert_string_equal(document->rigs[2].name, "creature 2");
+    assert_string_equal(document->rigs[2]->name, "creature 2");
     history_destroy(history);
     document_destroy(document);
 }
@@ -181,7 +181,7 @@ static void test_a_glb_is_told_by_its_beginning(void **state)
     assert_false(import_suits("/tmp/there-is-none"));
     struct document *document = import_scene(path, &error);
     assert_non_null(document);
-    assert_int_equal(document->rigs[0].kind, RIG_MODEL);
+    assert_int_equal(document->rigs[0]->kind, RIG_MODEL);
     assert_near(document->fps, 24, 0);
     document_destroy(document);
     unlink(path);

@@ -242,9 +242,9 @@ static void assert_round_trip(const char *path)
     assert_true(scene_hash(document) == scene_hash(again));
     assert_int_equal(again->spline_count, document->spline_count);
     for (int i = 0; i < document->spline_count; i++) {
-        assert_int_equal(again->splines[i].knot_count, document->splines[i].knot_count);
+        assert_int_equal(again->splines[i]->knot_count, document->splines[i]->knot_count);
         for (int p = 0; p < PARAMETER_COUNT; p++) {
-            assert_same_param(&again->splines[i].parameter[p], &document->splines[i].parameter[p]);
+            assert_same_param(&again->splines[i]->parameter[p], &document->splines[i]->parameter[p]);
         }
     }
     free(again_text);
@@ -280,7 +280,7 @@ static void test_knots_on_samples(void **state)
         parse("{\"frames\": [-10, 10], \"substeps\": 4, \"fps\": 25, \"splines\": [{\"name\": \"x\", "
               "\"knots\": [{\"frame\": 10.12, \"value\": 3}, {\"frame\": -10.125, \"value\": 1}, "
               "{\"frame\": 0.125, \"value\": 2}]}]}");
-    const struct spline *spline = &document->splines[0];
+    const struct spline *spline = document->splines[0];
     assert_int_equal(document_samples(document), 81);
     assert_near(document_step(document), 0.01, 1e-18);
     assert_near(spline->knots[0].value, 1, 0);
@@ -450,7 +450,7 @@ static void test_a_scene_without_splines(void **state)
     struct evaluation evaluation = {0};
     struct error error = {0};
     assert_true(evaluation_resize(&evaluation, document, &error));
-    evaluation_update(&evaluation, document, NULL, false);
+    evaluation_update(&evaluation, document, false);
     assert_int_equal(evaluation.solved_splines, 0);
     evaluation_free(&evaluation);
     document_destroy(document);
@@ -463,7 +463,7 @@ static void test_only_followers_are_solved(void **state)
     struct evaluation evaluation = {0};
     struct error error = {0};
     assert_true(evaluation_resize(&evaluation, document, &error));
-    evaluation_update(&evaluation, document, NULL, false);
+    evaluation_update(&evaluation, document, false);
     assert_int_equal(evaluation.solved_splines, 4);
     assert_int_equal(evaluation.solved_samples, 4 * 49);
     assert_int_equal(evaluation.solved_knots, 5);
@@ -471,7 +471,7 @@ static void test_only_followers_are_solved(void **state)
     assert_near(evaluation.curves[1].total[20], 1, 0);
     assert_near(evaluation.curves[0].y[20], 1, 0);
     static const struct {
-        bool dirty[4];
+        bool edited[4];
         int solved, solved_as_cubics;
     } cases[] = {
         {{false, false, false, false}, 0, 0}, {{true, false, false, false}, 1, 1},
@@ -479,13 +479,17 @@ static void test_only_followers_are_solved(void **state)
         {{false, false, false, true}, 1, 1},  {{true, false, false, true}, 2, 2},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        evaluation_update(&evaluation, document, cases[i].dirty, false);
+        for (int s = 0; s < 4; s++)
+            if (cases[i].edited[s]) document_own_spline(document, s);
+        evaluation_update(&evaluation, document, false);
         assert_int_equal(evaluation.solved_splines, cases[i].solved);
     }
-    evaluation_update(&evaluation, document, cases[0].dirty, true); // another look solves all
+    evaluation_update(&evaluation, document, true); // another look solves all
     assert_int_equal(evaluation.solved_splines, 4);
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        evaluation_update(&evaluation, document, cases[i].dirty, true);
+        for (int s = 0; s < 4; s++)
+            if (cases[i].edited[s]) document_own_spline(document, s);
+        evaluation_update(&evaluation, document, true);
         assert_int_equal(evaluation.solved_splines, cases[i].solved_as_cubics);
     }
     evaluation_free(&evaluation);
@@ -499,13 +503,12 @@ static void test_partial_solves_agree(void **state)
     struct document *document = parse(chain);
     struct evaluation partial = {0}, whole = {0};
     struct error error = {0};
-    bool dirty[4] = {false, false, true, false};
     assert_true(evaluation_resize(&partial, document, &error));
-    evaluation_update(&partial, document, NULL, false);
-    document->splines[2].knots[1].value = 0.25;
-    evaluation_update(&partial, document, dirty, false);
+    evaluation_update(&partial, document, false);
+    document_own_spline(document, 2)->knots[1].value = 0.25;
+    evaluation_update(&partial, document, false);
     assert_true(evaluation_resize(&whole, document, &error));
-    evaluation_update(&whole, document, NULL, false);
+    evaluation_update(&whole, document, false);
     for (int i = 0; i < 4; i++) {
         assert_memory_equal(partial.curves[i].total, whole.curves[i].total, 49 * sizeof(double));
         assert_memory_equal(partial.curves[i].im, whole.curves[i].im, 49 * sizeof(double));
@@ -522,20 +525,19 @@ static void test_evaluation_fits_the_document(void **state)
     struct evaluation evaluation = {0};
     struct error error = {0};
     assert_true(evaluation_resize(&evaluation, small, &error));
-    evaluation_update(&evaluation, small, NULL, false);
-    evaluation_update(&evaluation, large, NULL, false); // not asked for: nothing may be touched
+    evaluation_update(&evaluation, small, false);
+    evaluation_update(&evaluation, large, false); // not asked for: nothing may be touched
     assert_int_equal(evaluation.solved_splines, 0);
     assert_true(evaluation_resize(&evaluation, large, &error));
     const double *kept = evaluation.curves[0].total;
-    bool clean[4] = {false};
-    evaluation_update(&evaluation, large, clean, false);
+    evaluation_update(&evaluation, large, false);
     assert_int_equal(evaluation.solved_splines, 4); // nothing was solved before
     assert_true(evaluation_resize(&evaluation, large, &error));
     assert_ptr_equal(evaluation.curves[0].total, kept);
-    evaluation_update(&evaluation, large, clean, false);
+    evaluation_update(&evaluation, large, false);
     assert_int_equal(evaluation.solved_splines, 0);
     assert_true(evaluation_resize(&evaluation, small, &error));
-    evaluation_update(&evaluation, small, clean, false);
+    evaluation_update(&evaluation, small, false);
     assert_int_equal(evaluation.solved_splines, 1);
     evaluation_free(&evaluation);
     document_destroy(small);
@@ -553,13 +555,13 @@ static void test_a_value_beyond_reach_is_flat(void **state)
     assert_non_null(document);
     struct evaluation evaluation = {0};
     assert_true(evaluation_resize(&evaluation, document, &error));
-    evaluation_update(&evaluation, document, NULL, false);
+    evaluation_update(&evaluation, document, false);
     assert_int_equal(evaluation.status[0], WIGGLY_ERROR_NUMBER);
-    document->splines[0].knots[1].value = -1;
-    evaluation_update(&evaluation, document, NULL, false);
+    document_own_spline(document, 0)->knots[1].value = -1;
+    evaluation_update(&evaluation, document, false);
     assert_near(evaluation.curves[0].total[30], -1, 0);
-    document->splines[0].knots[1].value = -1.7e308;
-    evaluation_update(&evaluation, document, NULL, false);
+    document_own_spline(document, 0)->knots[1].value = -1.7e308;
+    evaluation_update(&evaluation, document, false);
     assert_int_equal(evaluation.status[0], WIGGLY_ERROR_NUMBER);
     wiggly_value value = wiggly_evaluate(&evaluation.curves[0], 12.5);
     assert_near(value.y + value.re, 0, 0);

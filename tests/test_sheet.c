@@ -13,7 +13,7 @@ static const char TWO[] =
 
 static const struct knot *knot(const struct session *s, int spline, int k)
 {
-    return &s->document->splines[spline].knots[k];
+    return &s->document->splines[spline]->knots[k];
 }
 
 static int count(const struct session *s) { return selected_count(&s->editor->core, s->document); }
@@ -104,7 +104,7 @@ static void test_rows_choose_and_insert(void **state)
     const wiggly_value there = evaluation_at(s.world.evaluation, 1, 50);
     session_press(&s, BUTTON_LEFT, 2);
     session_release(&s, BUTTON_LEFT);
-    assert_int_equal(s.document->splines[1].knot_count, 3);
+    assert_int_equal(s.document->splines[1]->knot_count, 3);
     assert_near(knot(&s, 1, 2)->frame, 50, 0);
     assert_near(knot(&s, 1, 2)->value, there.y + there.re, 1e-6);
     session_close(&s);
@@ -135,7 +135,7 @@ static void test_rows_scroll(void **state)
     session_key(&s, KEY_PAGE_UP, 0); // round to the last one
     session_frame(&s);
     session_point(&s, "mark(s9,0)");
-    selection_set(&s.editor->core.hidden, s.document->splines[9].id, true);
+    selection_set(&s.editor->core.hidden, s.document->splines[9]->id, true);
     session_frame(&s);
     assert_false(editor_target(s.editor, &s.world, "mark(s9,0)", &x, &y, &error));
     session_close(&s);

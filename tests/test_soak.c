@@ -48,7 +48,7 @@ static void drag_and_give_up(int frame)
     const struct editor_world world = table_world(&app->table);
     if (frame % 50 == 0) {
         char target[64];
-        snprintf(target, sizeof target, "knot(%s,0)", app->table.document->splines[0].name);
+        snprintf(target, sizeof target, "knot(%s,0)", app->table.document->splines[0]->name);
         if (!editor_target(app->table.editor, &world, target, &x, &y, NULL)) fail_msg("no %s", target);
         blind_send(&blind, (struct event){.kind = EVENT_POINTER, .x = x, .y = y});
         button(ACTION_PRESS, x, y);
@@ -97,7 +97,7 @@ static void pointing(void **state)
 static void dragging(void **state)
 {
     (void)state;
-    leaves_nothing(drag_and_give_up, false);
+    leaves_nothing(drag_and_give_up, true);
 }
 
 static void looking(void **state)

@@ -96,12 +96,12 @@ static void take_theirs_can_be_undone(void **state)
     open_changed(&blind);
     press(&blind, 'T', 0);
     assert_int_equal(asked(&blind), DIALOG_NONE);
-    assert_string_equal(blind.app.table.document->splines[0].name, "theirs");
+    assert_string_equal(blind.app.table.document->splines[0]->name, "theirs");
     assert_string_equal(app_path(&blind.app), scene());
     assert_true(history_is_saved(blind.app.table.history));
     press(&blind, 'Z', MOD_CTRL);
-    assert_string_equal(blind.app.table.document->splines[0].name, "mine");
-    assert_int_equal(blind.app.table.document->splines[0].knot_count, 1);
+    assert_string_equal(blind.app.table.document->splines[0]->name, "mine");
+    assert_int_equal(blind.app.table.document->splines[0]->knot_count, 1);
     assert_false(history_is_saved(blind.app.table.history));
     blind_close(&blind);
 }
@@ -116,7 +116,7 @@ static void broken_theirs_is_not_taken(void **state)
     press(&blind, 'T', 0);
     assert_int_equal(asked(&blind), DIALOG_CHANGED);
     assert_non_null(strstr(blind.app.table.editor->dialogs->dialog.error, "walk.json:1"));
-    assert_string_equal(blind.app.table.document->splines[0].name, "mine");
+    assert_string_equal(blind.app.table.document->splines[0]->name, "mine");
     press(&blind, KEY_ESCAPE, 0);
     assert_int_equal(asked(&blind), DIALOG_NONE);
     blind_close(&blind);
@@ -281,7 +281,7 @@ static void write_painted(float mark)
     struct document *document = scene_parse("walk", text, strlen(text), NULL, &error);
     if (!document) fail_msg("%s", error.text);
     document->folder = strdup(folder);
-    assert_true(document_set_path(document, scene()));
+    document_set_path(document, scene());
     paint_mark(document, mark);
     if (!scene_save(document, scene(), &error)) fail_msg("%s", error.text);
     document_destroy(document);
@@ -476,7 +476,7 @@ static void what_others_wrote_before_recovery_is_noticed(void **state)
             open_at_desk(&blind);
             assert_int_equal(asked(&blind), DIALOG_RECOVER);
             press(&blind, 'R', 0);
-            assert_int_equal(blind.app.table.document->splines[0].knot_count, 1);
+            assert_int_equal(blind.app.table.document->splines[0]->knot_count, 1);
             if (crashes == 0) crash(&blind);
         }
         press(&blind, 'S', MOD_CTRL);

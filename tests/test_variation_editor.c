@@ -16,7 +16,10 @@ static const char few[] =
     "{\"wiggly\": 1, \"frames\": [0, 120], \"splines\": [{\"name\": \"sway\", \"frequency\": 3, "
     "\"knots\": [{\"frame\": 5, \"value\": 1}, {\"frame\": 15, \"value\": -0.9}, {\"frame\": 24, \"value\": 0.8}]}]}";
 
-static double number(const struct session *s, enum parameter p) { return s->document->splines[0].parameter[p].value; }
+static double number(const struct session *s, enum parameter p)
+{
+    return s->document->splines[0]->parameter[p].value;
+}
 
 static void a_key_finds_the_frequency(void **state)
 {

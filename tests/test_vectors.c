@@ -50,7 +50,7 @@ static double relative_error(const wiggly_curve *curve, const double *expected, 
 static void check_spline(const char *name, const struct document *document, const struct evaluation *evaluation,
                          const double *expected, int spline)
 {
-    const struct spline *of = &document->splines[spline];
+    const struct spline *of = document->splines[spline];
     const char *solver = evaluation_solver(evaluation);
     double worst = relative_error(&evaluation->curves[spline], expected, 1 + 3 * document->spline_count, spline);
     double tolerance = spline_mode(of) == WIGGLY_CUBIC ? 1e-9 : 1e-8;
@@ -79,14 +79,14 @@ static void check_document(const char *name, const struct document *document, co
     struct evaluation chain = {.solver = SOLVER_CHAIN}, band = {.solver = SOLVER_BAND};
     if (!evaluation_resize(&chain, document, &error) || !evaluation_resize(&band, document, &error))
         fail_msg("%s", error.text);
-    evaluation_update(&chain, document, NULL, false);
-    evaluation_update(&band, document, NULL, false);
+    evaluation_update(&chain, document, false);
+    evaluation_update(&band, document, false);
     for (int s = 0; s < document->spline_count; s++) {
         check_spline(name, document, &chain, expected, s);
         check_spline(name, document, &band, expected, s);
         double apart = difference(&chain.curves[s], &band.curves[s]);
         if (!(apart <= 1e-9))
-            fail_msg("%s, %s: band and chain are %g of its range apart", name, document->splines[s].name, apart);
+            fail_msg("%s, %s: band and chain are %g of its range apart", name, document->splines[s]->name, apart);
     }
     evaluation_free(&chain);
     evaluation_free(&band);

@@ -58,13 +58,13 @@ static void test_a_swing_is_tamed_by_what_helps(void **state)
     (void)state;
     struct session s;
     assert_remedied(&s, JUMP, WARNING_SWING);
-    const struct spline *sway = &s.document->splines[0];
+    const struct spline *sway = s.document->splines[0];
     assert_int_equal(sway->knot_count, 4); // there is calm enough: a knot holds it
     assert_near(sway->knots[2].value, 1, 1e-9);
     session_close(&s);
     assert_remedied(&s, UNCALM, WARNING_SWING);
-    assert_int_equal(s.document->splines[0].knot_count, 2); // no knot where calm does it
-    assert_near(s.document->splines[0].parameter[PARAMETER_CALM].value, 1, 0);
+    assert_int_equal(s.document->splines[0]->knot_count, 2); // no knot where calm does it
+    assert_near(s.document->splines[0]->parameter[PARAMETER_CALM].value, 1, 0);
     session_close(&s);
 }
 
@@ -74,7 +74,7 @@ static void test_a_fast_spline_gets_substeps(void **state)
     struct session s;
     assert_remedied(&s, FAST, WARNING_RATE);
     assert_int_equal(s.document->substeps, 2);
-    assert_near(s.document->splines[0].parameter[PARAMETER_FREQUENCY].value, 9, 0);
+    assert_near(s.document->splines[0]->parameter[PARAMETER_FREQUENCY].value, 9, 0);
     session_close(&s);
 }
 
@@ -83,7 +83,7 @@ static void test_a_slope_without_effect_is_switched_off(void **state)
     (void)state;
     struct session s;
     assert_remedied(&s, IDLE, WARNING_SLOPE);
-    assert_false(s.document->splines[0].knots[1].has_slope);
+    assert_false(s.document->splines[0]->knots[1].has_slope);
     session_close(&s);
 }
 
@@ -92,7 +92,7 @@ static void test_a_wide_band_is_narrowed_to_what_the_knots_hold(void **state)
     (void)state;
     struct session s;
     assert_remedied(&s, WIDE, WARNING_DRIFT);
-    assert_near(s.document->splines[0].parameter[PARAMETER_BANDWIDTH].value, 0.12, 1e-9); // 0.3 over 2.5 periods
+    assert_near(s.document->splines[0]->parameter[PARAMETER_BANDWIDTH].value, 0.12, 1e-9); // 0.3 over 2.5 periods
     session_close(&s);
 }
 

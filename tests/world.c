@@ -18,7 +18,7 @@ void world_open(struct world *world)
     *world = (struct world){0};
     world->document = scene_parse("scene.json", scene_text, sizeof scene_text - 1, NULL, &world->error);
     if (!world->document) fail_msg("%s", world->error.text);
-    world->history = history_create();
+    world->history = history_create(world->document);
     assert_non_null(world->history);
 }
 
@@ -79,9 +79,9 @@ void assert_reversible(struct world *world, struct edit edit)
     world_must(world, edit);
     char *after = world_print(world);
     assert_string_not_equal(before, after);
-    assert_true(history_undo(world->history, world->document));
+    assert_true(history_undo(world->history));
     assert_document(world, before);
-    assert_true(history_redo(world->history, world->document));
+    assert_true(history_redo(world->history));
     assert_document(world, after);
     free(before);
     free(after);
@@ -97,7 +97,7 @@ struct edit edit_insert(int spline, double frame, double value)
 struct edit edit_move(const struct world *world, int spline, int knot, double frame, double value)
 {
     struct edit edit = {
-        .kind = EDIT_KNOT_SET, .spline = spline, .knot = world->document->splines[spline].knots[knot]};
+        .kind = EDIT_KNOT_SET, .spline = spline, .knot = world->document->splines[spline]->knots[knot]};
     edit.knot.frame = frame;
     edit.knot.value = value;
     return edit;
@@ -127,7 +127,7 @@ struct edit edit_start(int spline, enum wiggly_start start)
         .kind = EDIT_PARAMETER, .spline = spline, .parameter = PARAMETER_START, .param = param_number(start)};
 }
 
-struct edit edit_range(int first, int last)
+struct edit range_edit(int first, int last)
 {
     return (struct edit){.kind = EDIT_RANGE, .first = first, .last = last};
 }
@@ -135,6 +135,6 @@ struct edit edit_range(int first, int last)
 int world_undo_all(struct world *world)
 {
     int count = 0;
-    while (history_undo(world->history, world->document)) count++;
+    while (history_undo(world->history)) count++;
     return count;
 }

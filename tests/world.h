@@ -2,7 +2,7 @@
 #ifndef TESTS_WORLD_H
 #define TESTS_WORLD_H
 
-#include "scene/edit.h"
+#include "scene/edit_kinds.h"
 #include "scene/load.h"
 
 /// The splines of the document: three knots; spring and friction from rest; a loop that follows the first.
@@ -41,6 +41,6 @@ struct edit edit_number(int spline, enum parameter parameter, double value);
 struct edit edit_track(int spline, enum parameter parameter, int track);
 struct edit edit_mode(int spline, enum wiggly_mode mode);
 struct edit edit_start(int spline, enum wiggly_start start);
-struct edit edit_range(int first, int last);
+struct edit range_edit(int first, int last);
 
 #endif

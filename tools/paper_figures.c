@@ -80,7 +80,7 @@ static struct solved solve(const char *name)
     snprintf(path, sizeof path, "assets/scenes/%s.json", name);
     s.document = scene_load(path, NULL, &error);
     if (!s.document || !evaluation_resize(&s.evaluation, s.document, &error)) stop(1, error.text);
-    evaluation_update(&s.evaluation, s.document, NULL, false);
+    evaluation_update(&s.evaluation, s.document, false);
     for (int i = 0; i < s.evaluation.count; i++) {
         if (s.evaluation.status[i] != WIGGLY_OK) stop(1, wiggly_status_text(s.evaluation.status[i]));
     }
@@ -151,7 +151,7 @@ static const double *row_of(const struct solved *s, const struct plot *plot)
 /// Knots as diamonds, keyed slopes as short lines through them.
 static void svg_knots(FILE *svg, const struct frame *f, const struct document *document, const char *name)
 {
-    const struct spline *spline = &document->splines[document_find_spline(document, name)];
+    const struct spline *spline = document->splines[document_find_spline(document, name)];
     for (int i = 0; i < spline->knot_count; i++) {
         const struct knot *knot = &spline->knots[i];
         double x = at_x(f, knot->frame), y = at_y(f, knot->value);

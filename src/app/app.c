@@ -190,7 +190,7 @@ static bool start(struct app *app, struct error *error)
     if (!o->no_draw && !(app->draw = draw_create(scale, error))) return false;
     if (!app_open_editor(app, error)) return false;
     app->table.models = models_create();
-    if (!(app->table.history = history_create())) return fail(error, ERROR_ENVIRONMENT, "out of memory");
+    if (!(app->table.history = history_create(NULL))) return fail(error, ERROR_ENVIRONMENT, "out of memory");
     if (!app_open(app, o->scene, error)) return false;
     uint64_t hash = scene_hash(app->table.document);
     if (!check_scene(app, hash, error)) return false;

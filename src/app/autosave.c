@@ -1,9 +1,8 @@
-/// Writes unsaved work to the recovery file: frames copy it, a slice each, and a thread prints the copy and writes it, so that no frame
-/// waits for the disk.
+/// Writes unsaved work to the recovery file: a thread prints a copy, which shares splines and rigs with the document, and writes it, so that
+/// no frame waits for the disk.
 #include "app/autosave.h"
-#include "base/clock.h"
 #include "base/need.h"
-#include "scene/snapshot.h"
+#include "scene/load.h"
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -12,10 +11,6 @@
 
 static const double INTERVAL = 1; ///< seconds from one copy to the next
 
-static const double SLICE = 0.0004; ///< seconds of a frame for copying, and one block
-
-enum { BLOCK = 1 << 14 }; ///< knots; 0.1 ms, and 0.3 ms into memory that is new
-
 enum job { JOB_NONE, JOB_WRITE, JOB_REMOVE, JOB_END };
 
 /// How the last write went; OUTCOME_NONE once that is known.
@@ -23,7 +18,7 @@ enum outcome { OUTCOME_NONE, OUTCOME_KEPT, OUTCOME_FAILED };
 
 struct autosave {
     struct recovery_slot slot;
-    struct snapshot *snapshot; ///< the frame's while the job is JOB_NONE, the thread's while it is another
+    struct document *document; ///< the frame's while the job is JOB_NONE, the thread's while it is another
     char original[PATH_LIMIT]; ///< the path of the document's own file; likewise
     struct file_stamp stamp;   ///< of that; likewise
     uint64_t revision;         ///< of the last copy
@@ -44,7 +39,8 @@ struct autosave {
 static bool write_work(struct autosave *autosave, struct error *error)
 {
     size_t size;
-    if (!snapshot_print(autosave->snapshot, &autosave->text, &autosave->capacity, &size))
+    if (!scene_print_into(autosave->document, RECOVERY_FOLDER, &autosave->text, &autosave->capacity, &size) ||
+        !scene_print_paint(autosave->document, &autosave->text, &autosave->capacity, &size))
         return fail_no_memory(error, autosave->slot.path);
     return recovery_write(&autosave->slot, autosave->original, &autosave->stamp, autosave->text, size, error);
 }
@@ -77,16 +73,12 @@ static int run(void *user)
 struct autosave *autosave_open(const struct recovery_slot *slot, struct error *error)
 {
     struct autosave *autosave = need_zeroed(1, sizeof *autosave);
-    autosave->snapshot = snapshot_create();
-    if (autosave->snapshot) {
-        autosave->slot = *slot;
-        autosave->taken = -INFINITY;
-        mtx_init(&autosave->lock, mtx_plain);
-        cnd_init(&autosave->given);
-        cnd_init(&autosave->done);
-        if (thrd_create(&autosave->thread, run, autosave) == thrd_success) return autosave;
-    }
-    snapshot_destroy(autosave->snapshot);
+    autosave->slot = *slot;
+    autosave->taken = -INFINITY;
+    mtx_init(&autosave->lock, mtx_plain);
+    cnd_init(&autosave->given);
+    cnd_init(&autosave->done);
+    if (thrd_create(&autosave->thread, run, autosave) == thrd_success) return autosave;
     free(autosave);
     struct recovery_slot unused = *slot;
     recovery_release(&unused);
@@ -118,12 +110,14 @@ static bool is_busy(struct autosave *autosave)
     return busy;
 }
 
-static bool begin_copy(struct autosave *autosave, const struct autosave_work *work)
+static void copy_work(struct autosave *autosave, const struct autosave_work *work)
 {
     autosave->revision = work->revision;
     snprintf(autosave->original, sizeof autosave->original, "%s", work->path);
     autosave->stamp = work->stamp;
-    return snapshot_begin(autosave->snapshot, work->document, RECOVERY_FOLDER);
+    struct document *copy = document_copy_apart(work->document);
+    document_destroy(autosave->document);
+    autosave->document = copy;
 }
 
 /// What came of the last write: only the first failure in a row is told; the next interval tries again.
@@ -137,39 +131,24 @@ static bool report(struct autosave *autosave, struct error *error)
     return !is_news || fail(error, ERROR_ENVIRONMENT, "Unsaved work has no recovery file: %s", autosave->error.text);
 }
 
-/// Copies the next slice of a copy that is due or has been begun.
-static void copy_work(struct autosave *autosave, const struct autosave_work *work, double now)
-{
-    if (!snapshot_is_running(autosave->snapshot)) {
-        if (now - autosave->taken < INTERVAL) return;
-        autosave->taken = now;
-        if (!begin_copy(autosave, work)) {
-            fail_no_memory(&autosave->error, autosave->slot.path);
-            autosave->outcome = OUTCOME_FAILED;
-        }
-    }
-    const double start = clock_now();
-    bool is_whole;
-    do is_whole = snapshot_continue(autosave->snapshot, BLOCK);
-    while (snapshot_is_running(autosave->snapshot) && clock_now() - start < SLICE);
-    if (is_whole) give(autosave, JOB_WRITE);
-}
-
 bool autosave_is_behind(struct autosave *autosave, const struct autosave_work *work)
 {
-    return !work->saved && (work->revision != autosave->revision || snapshot_is_running(autosave->snapshot));
+    return !work->saved && work->revision != autosave->revision;
 }
 
 bool autosave_update(struct autosave *autosave, const struct autosave_work *work, double now, struct error *error)
 {
     if (is_busy(autosave)) return true;
+    document_destroy(autosave->document); // the thread is through with it
+    autosave->document = NULL;
     bool good = report(autosave, error);
     if (work->saved) {
-        snapshot_give_up(autosave->snapshot);
         if (autosave->has_file) give(autosave, JOB_REMOVE);
         autosave->revision = 0;
-    } else if (autosave_is_behind(autosave, work)) {
-        copy_work(autosave, work, now);
+    } else if (autosave_is_behind(autosave, work) && now - autosave->taken >= INTERVAL) {
+        autosave->taken = now;
+        copy_work(autosave, work);
+        give(autosave, JOB_WRITE);
     }
     return good;
 }
@@ -179,8 +158,7 @@ bool autosave_fails(const struct autosave *autosave) { return autosave->complain
 bool autosave_flush(struct autosave *autosave, const struct autosave_work *work, struct error *error)
 {
     if (!thrd_equal(thrd_current(), autosave->thread)) wait_for_thread(autosave);
-    if (!begin_copy(autosave, work)) return fail_no_memory(error, autosave->slot.path);
-    snapshot_finish(autosave->snapshot);
+    copy_work(autosave, work);
     const bool kept = autosave->has_file = write_work(autosave, &autosave->error);
     autosave->outcome = kept ? OUTCOME_KEPT : OUTCOME_FAILED;
     if (!kept) *error = autosave->error;
@@ -209,7 +187,7 @@ void autosave_close(struct autosave *autosave, bool keep)
     mtx_destroy(&autosave->lock);
     cnd_destroy(&autosave->given);
     cnd_destroy(&autosave->done);
-    snapshot_destroy(autosave->snapshot);
+    document_destroy(autosave->document);
     free(autosave->text);
     free(autosave);
 }

@@ -1,5 +1,5 @@
-/// Autosave: unsaved work is in a recovery file within two seconds of an edit, and no frame waits for the disk. Frames copy the work, a
-/// slice each, into memory that is kept; a thread prints the copy and writes it.
+/// Autosave: unsaved work is in a recovery file within two seconds of an edit, and no frame waits for the disk: a thread prints a
+/// copy, which shares splines and rigs with the document, and writes it.
 #ifndef APP_AUTOSAVE_H
 #define APP_AUTOSAVE_H
 
@@ -9,7 +9,7 @@ struct autosave;
 
 /// The work to keep safe.
 struct autosave_work {
-    struct document *document;
+    const struct document *document;
     const char *path;        ///< of the document's own file, or ""
     uint64_t revision;       ///< changes with the document
     bool saved;              ///< nothing would be lost
@@ -20,7 +20,7 @@ struct autosave_work {
 struct autosave *autosave_open(const struct recovery_slot *slot, struct error *error);
 
 /// Call it once a frame, with the time `now` in seconds. Copies the work if it has changed and the last copy is a second ago, and has it
-/// written once the copy is whole; removes the file once the work is saved. false with a sentence, once, if the file cannot be written.
+/// written; removes the file once the work is saved. false with a sentence, once, if the file cannot be written.
 bool autosave_update(struct autosave *autosave, const struct autosave_work *work, double now, struct error *error);
 
 /// Whether there is unsaved work that is not with the thread yet: then update it at the frames' rate even where none is drawn.

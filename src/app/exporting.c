@@ -46,35 +46,6 @@ struct export_job {
     struct export_report report;
 };
 
-static struct document *parse_copy(const struct document *document, const char *text, size_t size,
-                                   struct error *error)
-{
-    const char *end = memchr(text, '\0', size), *name = document->path ? document->path : "untitled";
-    struct document *copy = scene_parse(name, text, end ? (size_t)(end - text) : size, NULL, error);
-    if (!copy) return NULL;
-    if (document->folder) copy->folder = need_text(document->folder);
-    bool good = document_set_path(copy, document->path) || fail_no_memory(error, name);
-    if (good && end) good = scene_parse_paint(copy, name, end + 1, size - (size_t)(end + 1 - text), error);
-    if (good) return copy;
-    document_destroy(copy);
-    return NULL;
-}
-
-static struct document *copy_document(const struct document *document, struct error *error)
-{
-    char *text = NULL;
-    size_t capacity = 0, size = 0;
-    struct document *copy = NULL;
-    if (scene_print_into(document, document->folder, &text, &capacity, &size) &&
-        scene_print_paint(document, &text, &capacity, &size)) {
-        copy = parse_copy(document, text, size, error);
-    } else {
-        fail_no_memory(error, "export");
-    }
-    free(text);
-    return copy;
-}
-
 static bool proceed(void *user, long done, long total)
 {
     struct export_job *job = user;
@@ -134,15 +105,12 @@ bool exporting_start(struct app *app, const struct request *request, struct erro
     struct export_job *job = need_zeroed(1, sizeof *job);
     job->request = *request;
     struct opened *opened = &job->opened;
-    opened->document = copy_document(app->table.document, error);
-    if (opened->document) {
-        opened->models = models_create();
-        job->threaded = thrd_create(&job->thread, work, job) == thrd_success;
-        if (!job->threaded) fail(error, ERROR_ENVIRONMENT, "%s: no thread can be started", request->path);
-    }
+    opened->document = document_copy_apart(app->table.document);
+    opened->models = models_create();
+    job->threaded = thrd_create(&job->thread, work, job) == thrd_success;
     if (!job->threaded) {
         destroy(job);
-        return false;
+        return fail(error, ERROR_ENVIRONMENT, "%s: no thread can be started", request->path);
     }
     app->export_job = job;
     return true;

@@ -47,7 +47,7 @@ void app_adopt(struct app *app, struct document *document)
     document_destroy(app->table.document);
     app->table.document = document;
     document->serial = ++app->last_serial;
-    history_clear(app->table.history);
+    history_clear(app->table.history, document);
     history_mark_saved(app->table.history);
     app->table.solved_revision = 0;
     struct editor_world world = table_world(&app->table);
@@ -102,10 +102,7 @@ bool app_open(struct app *app, const char *path, struct error *error)
     if (!document) return false;
     // Saving must write over neither a character's file nor the scenes that come with the program.
     bool is_users = path && !imports && !assets_has(path);
-    if (is_users && !document_set_path(document, path)) {
-        document_destroy(document);
-        return fail_no_memory(error, path);
-    }
+    if (is_users) document_set_path(document, path);
     app_adopt(app, document);
     if (path && !is_users) show_subject(app, path_name(path));
     app->own_file = read;
@@ -153,10 +150,7 @@ static bool take_theirs(struct app *app, struct error *error)
 {
     struct edit edit = {.kind = EDIT_DOCUMENT, .document = scene_load(app_path(app), NULL, error)};
     if (!edit.document) return false;
-    if (!document_set_path(edit.document, app_path(app))) {
-        document_destroy(edit.document);
-        return fail_no_memory(error, app_path(app));
-    }
+    document_set_path(edit.document, app_path(app));
     if (!replace_document(app, &edit, "Take theirs", error)) return false;
     history_mark_saved(app->table.history);
     theirs_note(app);
@@ -172,7 +166,7 @@ static bool add_file(struct app *app, const char *path, struct error *error)
     history_begin(table->history, "Add character", 0);
     const int spline = editor_active(table->editor, table->document);
     const bool added = import_add(table->history, table->document, path, spline, error);
-    if (!added) history_restart(table->history, table->document);
+    if (!added) history_restart(table->history);
     history_end(table->history);
     editor_refresh(table->editor, &world);
     if (added) editor_show_last(table->editor, &world);
@@ -181,14 +175,8 @@ static bool add_file(struct app *app, const char *path, struct error *error)
 
 static bool save(struct app *app, const char *path, struct error *error)
 {
-    char folder[PATH_LIMIT];
     if (!file_check_place(path, error) || !scene_save(app->table.document, path, error)) return false;
-    if (!path_folder(path, folder) || !history_set_folder(app->table.history, app->table.document, folder)) {
-        return fail(error, ERROR_ENVIRONMENT, "%s is saved, but there is not enough memory to continue", path);
-    }
-    if (path != app->table.document->path && !document_set_path(app->table.document, path)) {
-        return fail(error, ERROR_ENVIRONMENT, "%s is saved, but there is not enough memory to continue", path);
-    }
+    history_set_path(app->table.history, path);
     history_mark_saved(app->table.history);
     theirs_note(app);
     editor_set_path(app->table.editor, app_path(app));
@@ -234,7 +222,7 @@ static bool is_own_character(const struct document *document, const char *path)
     char own[PATH_LIMIT], file[PATH_LIMIT];
     for (int r = document_next_rig(document, RIG_MODEL, 0); r >= 0;
          r = document_next_rig(document, RIG_MODEL, r + 1)) {
-        const bool known = path_resolve(document->folder, document->rigs[r].model.model, own);
+        const bool known = path_resolve(document->folder, document->rigs[r]->model.model, own);
         if (known && path_resolve(NULL, path, file) && strcmp(own, file) == 0) return true;
     }
     return false;

@@ -67,7 +67,7 @@ void film_endings(char text[FILM_ENDINGS])
 static bool loops(const struct document *document)
 {
     for (int s = 0; s < document->spline_count; s++) {
-        if (spline_start(&document->splines[s]) == WIGGLY_LOOP) return true;
+        if (spline_start(document->splines[s]) == WIGGLY_LOOP) return true;
     }
     return document_find_rig(document, RIG_MODEL, 0) >= 0;
 }

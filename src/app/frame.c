@@ -163,7 +163,7 @@ static void check_sizes(struct app *app)
     for (int c = 0; app->draw && r >= 0; c++, r = document_next_rig(app->table.document, RIG_CHARACTER, r + 1)) {
         const struct figure *figure = models_figure(app->table.models, c);
         if (!figure || draw_can_move(figure, &error)) continue;
-        const struct rig *rig = &app->table.document->rigs[r];
+        const struct rig *rig = app->table.document->rigs[r];
         fail(&full, error.kind, "%s: %s", rig_title(rig), error.text);
         editor_message(app->table.editor, true, full.text);
     }

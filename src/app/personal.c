@@ -274,10 +274,7 @@ bool personal_recover(struct app *app, struct error *error)
     if (!personal || !personal->is_offered) return true;
     struct document *document = recovery_read(&personal->offered.slot, error);
     if (!document) return false;
-    if (!document_set_path(document, personal->offered.original)) {
-        document_destroy(document);
-        return fail(error, ERROR_ENVIRONMENT, "not enough memory to recover");
-    }
+    document_set_path(document, personal->offered.original);
     app_adopt(app, document);
     app->own_file = (struct own_file){.stamp = personal->offered.stamp}; // what was written since is theirs
     snprintf(app->own_file.path, sizeof app->own_file.path, "%s", app_path(app));

@@ -12,7 +12,7 @@
 #include "base/path.h"
 #include "draw/draw.h"
 #include "platform/platform.h"
-#include "scene/edit.h"
+#include "scene/edit_kinds.h"
 #include "ui/theme.h"
 #include <stdint.h>
 #include <threads.h>

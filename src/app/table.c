@@ -1,23 +1,12 @@
 /// A frame of the document on the table: edit, solve, pose, show.
 #include "app/table.h"
 #include "base/clock.h"
-#include "base/need.h"
 #include "rig/clip_motion.h"
 #include "rig/pinning.h"
 #include "scene/load.h"
 #include <stdlib.h>
 
 static double since(double start) { return 1e6 * (clock_now() - start); }
-
-/// Makes room for the document's splines and knots after an edit; `resized`: the number or length of splines has changed.
-static bool fit_evaluation(struct table *table, bool resized, struct error *error)
-{
-    if (!evaluation_resize(&table->evaluation, table->document, error)) return false;
-    if (!resized) return true;
-    size_t count = table->document->spline_count > 0 ? (size_t)table->document->spline_count : 1;
-    table->dirty = need_more(table->dirty, count, sizeof *table->dirty);
-    return true;
-}
 
 static bool solve(struct table *table, struct frame_row *row, struct error *error)
 {
@@ -28,15 +17,14 @@ static bool solve(struct table *table, struct frame_row *row, struct error *erro
                    table->solved_revision == 0;
     uint64_t revision = history_revision(table->history);
     row->edited = revision != table->solved_revision;
-    if ((resized || row->edited) && !fit_evaluation(table, resized, error)) return false;
+    if ((resized || row->edited) && !evaluation_resize(&table->evaluation, document, error)) return false;
     const struct motion_source motions = table->motions.read ? table->motions : clip_motions(table->models);
     bool moved = motions_bake(&table->evaluation, document, &motions);
     bool same_way = cubic == table->solved_cubic;
     row->solver = evaluation_solver(evaluation);
     if (!resized && !row->edited && same_way && !moved) return true;
     table->evaluation.pins = pin_points(table->models);
-    history_take_dirty(table->history, document, table->dirty, document->spline_count);
-    evaluation_update(&table->evaluation, document, resized ? NULL : table->dirty, cubic);
+    evaluation_update(&table->evaluation, document, cubic);
     row->splines_solved = evaluation->solved_splines;
     row->samples = evaluation->solved_samples;
     row->knots = evaluation->solved_knots;
@@ -53,7 +41,10 @@ static void read_models(struct table *table)
     const bool is_new = table->models_serial != table->document->serial;
     if (!is_new && models_suit(table->models, table->document)) return;
     table->models_serial = table->document->serial;
-    if (is_new && !scene_read_paint(table->document, &error)) editor_message(table->editor, true, error.text);
+    if (is_new) {
+        if (!scene_read_paint(table->document, &error)) editor_message(table->editor, true, error.text);
+        if (!history_is_open(table->history)) history_amend(table->history);
+    }
     if (!models_update(table->models, table->document, &error)) editor_message(table->editor, true, error.text);
 }
 
@@ -97,7 +88,6 @@ void table_show(struct table *table, struct frame_row *row)
 void table_free(struct table *table)
 {
     evaluation_free(&table->evaluation);
-    free(table->dirty);
     history_destroy(table->history);
     document_destroy(table->document);
     models_destroy(table->models);

@@ -17,7 +17,6 @@ struct table {
     unsigned models_serial;   ///< of the document whose models were read last
     uint64_t solved_revision; ///< 0: nothing is solved
     bool solved_cubic;
-    bool *dirty; ///< one a spline
 };
 
 static inline struct editor_world table_world(const struct table *table)

@@ -26,7 +26,7 @@ static void print_warning(struct problems *problems, const char *path, const str
                           const char *what)
 {
     struct error warning; // a name may hold anything: fail() makes it printable
-    fail(&warning, ERROR_INPUT, "%s: splines[%d]: \"%s\": %s", path, spline, document->splines[spline].name, what);
+    fail(&warning, ERROR_INPUT, "%s: splines[%d]: \"%s\": %s", path, spline, document->splines[spline]->name, what);
     problems->warnings++;
     problems->report(problems->user, false, warning.text);
 }
@@ -49,7 +49,7 @@ static void warn_of_pin(void *user, const char *sentence)
 /// A loop's last sample is its first, so an equilibrium that ends elsewhere jumps there.
 static bool jumps(const struct document *document, const struct evaluation *evaluation, int index)
 {
-    const struct spline *spline = &document->splines[index];
+    const struct spline *spline = document->splines[index];
     const struct param *equilibrium = &spline->parameter[PARAMETER_EQUILIBRIUM];
     const double *y = equilibrium->track >= 0 ? evaluation->curves[equilibrium->track].total
                       : equilibrium->motion   ? motions_samples(evaluation, index)
@@ -67,7 +67,7 @@ static bool check_solution(const char *path, const struct document *document, st
     struct evaluation evaluation = {.pins = pin_points(models)};
     if (!evaluation_resize(&evaluation, document, error)) return false;
     motions_bake(&evaluation, document, &motions);
-    evaluation_update(&evaluation, document, NULL, false);
+    evaluation_update(&evaluation, document, false);
     for (int i = 0; i < evaluation.count; i++) {
         if (jumps(document, &evaluation, i)) {
             print_warning(problems, path, document, i, "the equilibrium of this loop does not end where it starts");

@@ -64,8 +64,8 @@ static bool run(struct job *job, struct error *error)
 {
     struct opened opened;
     if (!opened_read(&opened, job->scene, error)) return false;
-    bool done = (document_set_path(opened.document, job->scene) || fail_no_memory(error, job->scene)) &&
-                opened_solve(&opened, SOLVER_BY_LENGTH, error);
+    document_set_path(opened.document, job->scene);
+    bool done = opened_solve(&opened, SOLVER_BY_LENGTH, error);
     if (done) {
         const struct editor_world world = {
             .document = opened.document, .evaluation = &opened.evaluation, .models = opened.models};

@@ -27,7 +27,7 @@ static void tell_floor(const struct document *document, const struct floor_left 
                        void (*tell)(void *user, const char *sentence), void *user)
 {
     char sentence[160];
-    if (!rig_has_floor(&document->rigs[rig]) || !left || left->depth < BELOW) return;
+    if (!rig_has_floor(document->rigs[rig]) || !left || left->depth < BELOW) return;
     snprintf(sentence, sizeof sentence,
              "rigs[%d].floor: knots and pins hold the character up to %.3g m below it, deepest at frame %.6g", rig,
              left->depth, document_frame(document, left->sample));
@@ -45,14 +45,14 @@ void pin_warnings(const struct document *document, const struct evaluation *eval
                   void (*tell)(void *user, const char *sentence), void *user)
 {
     for (int r = 0; r < document->rig_count; r++) {
-        for (int i = 0; i < document->rigs[r].pin_count; i++)
+        for (int i = 0; i < document->rigs[r]->pin_count; i++)
             tell_pin(evaluation_pin(evaluation, document, r, i), r, i, tell, user);
     }
     for (int r = 0; r < document->rig_count; r++)
         tell_floor(document, evaluation_floor(evaluation, r), r, tell, user);
     for (int s = 0; s < document->spline_count; s++) {
         if (!pins_move_spline(document, s)) continue;
-        const struct param *parameter = document->splines[s].parameter;
+        const struct param *parameter = document->splines[s]->parameter;
         if (isfinite(parameter[PARAMETER_LOW].value) || isfinite(parameter[PARAMETER_HIGH].value))
             tell_passed_over(s, "limits: pins and floors pass over them", tell, user);
     }

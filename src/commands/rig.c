@@ -36,7 +36,7 @@ static bool add_chains(const struct job *job, const struct gltf *gltf, struct hi
                        struct error *error)
 {
     struct chain_wish wish = job->wish;
-    wish.follows = !job->plain && opened->document->rigs[0].model.clip;
+    wish.follows = !job->plain && opened->document->rigs[0]->model.clip;
     for (int c = 0; c < job->chains.count; c++) {
         char from[BONE_NAME_SIZE];
         int rig;
@@ -49,8 +49,7 @@ static bool add_chains(const struct job *job, const struct gltf *gltf, struct hi
 
 static bool edit(const struct job *job, const struct gltf *gltf, struct opened *opened, struct error *error)
 {
-    struct history *history = history_create();
-    if (!history) return fail_no_memory(error, job->character);
+    struct history *history = history_create(opened->document);
     history_begin(history, "Rig", 0);
     bool done = !job->clip || import_choose_clip(history, opened->document, 0, gltf, job->clip, error);
     done = done && add_chains(job, gltf, history, opened, error);
@@ -73,9 +72,6 @@ static bool write_motion(const struct job *job, struct opened *opened, struct er
 
 static bool write_scene(const struct job *job, struct opened *opened, struct error *error)
 {
-    char folder[PATH_LIMIT];
-    if (!path_folder(job->output, folder) || !document_set_folder(opened->document, folder))
-        return fail_no_memory(error, job->output);
     if (!scene_save(opened->document, job->output, error)) return false;
     print_line(stdout, "wrote %s: %d chain%s; wiggly %s shows it", job->output, job->chains.count,
                job->chains.count == 1 ? "" : "s", job->output);

@@ -18,7 +18,7 @@ static void write_header(FILE *out, const struct document *document)
     for (int i = 0; i < document->spline_count; i++) {
         for (int k = 0; k < 3; k++) {
             fputc(',', out);
-            print_field(out, document->splines[i].name, suffixes[k]);
+            print_field(out, document->splines[i]->name, suffixes[k]);
         }
     }
     fputc('\n', out);
@@ -62,7 +62,7 @@ static void warn_statuses(const char *path, const struct document *document, con
         char sentence[EVALUATION_SENTENCE];
         if (!evaluation_sentence(evaluation, i, sentence)) continue;
         struct error warning; // a name may hold anything: fail() makes it printable
-        fail(&warning, ERROR_INPUT, "%s: splines[%d]: warning: \"%s\": %s", path, i, document->splines[i].name,
+        fail(&warning, ERROR_INPUT, "%s: splines[%d]: warning: \"%s\": %s", path, i, document->splines[i]->name,
              sentence);
         fprintf(stderr, "%s\n", warning.text);
     }

@@ -48,7 +48,7 @@ static bool knot_named(struct place *place, const struct knot **knot, struct err
     int spline;
     if (!spline_named(place, &spline, error)) return false;
     double k = place->target->number[0];
-    const struct spline *owner = &place->world->document->splines[spline];
+    const struct spline *owner = place->world->document->splines[spline];
     if (!(k >= 0 && k < owner->knot_count)) {
         return fail(error, ERROR_INPUT, "the spline \"%s\" has %d knots, no knot %g", owner->name, owner->knot_count,
                     k);
@@ -146,7 +146,7 @@ static const struct rig *rig_named(const struct place *place, enum rig_kind kind
     const struct document *document = place->world->document;
     int r = document_next_rig(document, kind, 0);
     for (*n = 0; r >= 0; (*n)++, r = document_next_rig(document, kind, r + 1)) {
-        const struct rig *rig = &document->rigs[r];
+        const struct rig *rig = document->rigs[r];
         if (strcmp(rig_title(rig), place->target->name) == 0) return rig;
     }
     return NULL;
@@ -158,7 +158,8 @@ static bool find_along(struct place *place, enum rig_kind kind, const char *word
     int n;
     const struct rig *rig = rig_named(place, kind, &n);
     if (rig) {
-        const int index = (int)(rig - place->world->document->rigs), joints = bones_joints(place->world, index);
+        const int index = document_find_rig_id(place->world->document, rig->id),
+                  joints = bones_joints(place->world, index);
         double along = fmin(fmax(place->target->number[0], 0), 1) * joints;
         int joint = (int)fmin(floor(along), joints - 1);
         if (stage_project(place->editor->stage, &place->editor->core, index, joint, along - joint, place->xy))
@@ -191,7 +192,7 @@ static bool find_bone(struct place *place, struct error *error)
         for (int r = document_next_rig(document, RIG_MODEL, 0); r >= 0;
              r = document_next_rig(document, RIG_MODEL, r + 1)) {
             const struct imported *shown = bones_character(place->world, r);
-            const char *name = bone_name(place, &document->rigs[r], whole);
+            const char *name = bone_name(place, document->rigs[r], whole);
             const int node = shown && name ? gltf_find_node(&shown->gltf, name) : -1;
             if (node >= 0 && stage_bone_point(place->editor->stage, &place->editor->core, r, node, place->xy))
                 return true;
@@ -225,7 +226,7 @@ static const struct pin *pin_named(const struct place *place, struct error *erro
     const struct document *document = place->world->document;
     const double n = place->target->number[0];
     for (int r = 0; r < document->rig_count; r++) {
-        const struct rig *rig = &document->rigs[r];
+        const struct rig *rig = document->rigs[r];
         if (strcmp(rig_title(rig), place->target->name) == 0 && n >= 0 && n < rig->pin_count)
             return &rig->pins[(int)n];
     }

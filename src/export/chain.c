@@ -18,7 +18,7 @@ struct limb {
 static bool open(const struct posing *posing, int rig, const struct rig_pose *pose, struct form *form,
                  struct error *error)
 {
-    const struct chain *chain = &posing->document->rigs[rig].chain;
+    const struct chain *chain = &posing->document->rigs[rig]->chain;
     const struct imported *imported = pose->chain.imported;
     struct limb *limb = form->owned = need(1, sizeof *limb);
     struct chain_pose rest;
@@ -69,7 +69,7 @@ static void key(const struct form *form, const struct rig_pose *pose, struct for
 static void columns(const struct export_range *range, int rig, const struct rig_pose *pose, double key,
                     form_column *column, void *user)
 {
-    const struct chain *chain = &range->posing->document->rigs[rig].chain;
+    const struct chain *chain = &range->posing->document->rigs[rig]->chain;
     form_channels(range, rig, chain->channels, chain->channel_count, pose->chain.count - 1, key, column, user);
 }
 

@@ -111,7 +111,7 @@ static void vertices(const struct form *form, const struct rig_pose *pose, float
 static void columns(const struct export_range *range, int rig, const struct rig_pose *pose, double key,
                     form_column *column, void *user)
 {
-    const char *name = form_name(&range->posing->document->rigs[rig]);
+    const char *name = form_name(range->posing->document->rigs[rig]);
     const struct character *c = &pose->character.figure->character;
     const struct morph *morph = &pose->character.morph;
     (void)key;

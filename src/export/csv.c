@@ -39,12 +39,12 @@ static bool write_row(struct export_range *range, double key, struct row *row, s
     write_column(row, range_frame(range, key), "frame");
     for (int i = 0; i < document->spline_count; i++) {
         const wiggly_value value = range_value(range, i, key);
-        write_column(row, value.y + value.re, "%s", document->splines[i].name);
+        write_column(row, value.y + value.re, "%s", document->splines[i]->name);
     }
     for (int r = 0; r < range->rig_count; r++) {
         const int rig = range->rigs[r];
         if (!range_pose(range, rig, key, &pose, error)) return false;
-        const struct form_kind *kind = form_kind(document->rigs[rig].kind);
+        const struct form_kind *kind = form_kind(document->rigs[rig]->kind);
         if (kind->columns) kind->columns(range, rig, &pose, key, write_column, row);
     }
     fputc('\n', row->out);

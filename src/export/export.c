@@ -68,7 +68,7 @@ static void list_names(const struct document *document, char *text, size_t size)
     text[0] = '\0';
     for (int i = 0; i < document->rig_count && used < size; i++)
         used +=
-            (size_t)snprintf(text + used, size - used, "%s\"%s\"", i > 0 ? ", " : "", form_name(&document->rigs[i]));
+            (size_t)snprintf(text + used, size - used, "%s\"%s\"", i > 0 ? ", " : "", form_name(document->rigs[i]));
 }
 
 /// Why there is no rig to write; `unfit` is one that the format cannot hold, or −1.
@@ -83,7 +83,7 @@ static bool fail_rigs(const struct export_range *range, const struct format *for
     if (unfit < 0)
         return fail(error, ERROR_INPUT, "%s: expected the name of a rig, %s, got \"%s\"", range->rig_choice, names,
                     wanted);
-    const struct rig *rig = &document->rigs[unfit];
+    const struct rig *rig = document->rigs[unfit];
     list_endings(form_kind(rig->kind)->holds, endings);
     return fail(error, ERROR_INPUT, "a %s file cannot hold the %s \"%s\": export it as %s", format->ending,
                 rig_word(rig->kind), form_name(rig), endings);
@@ -108,7 +108,7 @@ static bool choose_rigs(struct export_range *range, const struct format *format,
     const struct document *document = range->posing->document;
     int unfit = -1;
     for (int i = 0; i < document->rig_count && i < SCENE_MAX_RIGS; i++) {
-        const struct rig *rig = &document->rigs[i];
+        const struct rig *rig = document->rigs[i];
         if (wanted && strcmp(form_name(rig), wanted) != 0) continue;
         if (fits(format, form_kind(rig->kind)->holds)) {
             range->rigs[range->rig_count++] = i;
@@ -118,10 +118,10 @@ static bool choose_rigs(struct export_range *range, const struct format *format,
     }
     if (range->rig_count == 0 && !(format->without_rigs && !wanted))
         return fail_rigs(range, format, wanted, unfit, error);
-    const bool is_lost = unfit >= 0 && form_kind(document->rigs[unfit].kind)->holds == 0; // a chain is in its model
+    const bool is_lost = unfit >= 0 && form_kind(document->rigs[unfit]->kind)->holds == 0; // a chain is in its model
     if (is_lost && range->rig_count > 0)
         note(report, "a %s file cannot hold the %s \"%.40s\", which is left out", format->ending,
-             rig_word(document->rigs[unfit].kind), form_name(&document->rigs[unfit]));
+             rig_word(document->rigs[unfit]->kind), form_name(document->rigs[unfit]));
     if (range->rig_count <= 1 || !format->one_rig) return true;
     char names[256];
     list_names(document, names, sizeof names);

@@ -15,9 +15,9 @@ const char *form_name(const struct rig *rig) { return rig->name ? rig->name : ri
 /// Other programs tell what is in a file by its name: rigs of the same name get a number.
 static void make_name(const struct document *document, int rig, char name[FORM_NAME])
 {
-    const char *wanted = form_name(&document->rigs[rig]);
+    const char *wanted = form_name(document->rigs[rig]);
     int number = 1;
-    for (int i = 0; i < rig; i++) number += strcmp(form_name(&document->rigs[i]), wanted) == 0;
+    for (int i = 0; i < rig; i++) number += strcmp(form_name(document->rigs[i]), wanted) == 0;
     snprintf(name, FORM_NAME, "%.40s", wanted);
     if (number > 1) snprintf(name + strlen(name), 16, "_%d", number);
 }
@@ -26,7 +26,7 @@ bool form_open(const struct export_range *range, int rig, struct form *form, str
 {
     struct rig_pose pose;
     const struct document *document = range->posing->document;
-    const struct rig *source = &document->rigs[rig];
+    const struct rig *source = document->rigs[rig];
     *form = (struct form){.kind = kinds[source->kind]};
     if (!range_pose(range, rig, 0, &pose, error)) return false;
     make_name(document, rig, form->name);
@@ -39,17 +39,17 @@ void form_channels(const struct export_range *range, int rig, const struct chann
                    double key, form_column *column, void *user)
 {
     const struct document *document = range->posing->document;
-    const char *name = form_name(&document->rigs[rig]);
+    const char *name = form_name(document->rigs[rig]);
     for (int c = 0; c < count; c++) {
         const struct channel *channel = &channels[c];
         const wiggly_value value = range_value(range, channel->spline, key);
         if (!axis_bends(channel->axis))
             column(user, channel_moves(channel, value, 1, range->posing->look), "%s.%s.%s", name,
-                   axis_word(channel->axis), document->splines[channel->spline].name);
+                   axis_word(channel->axis), document->splines[channel->spline]->name);
         for (int n = 0; n < joints && axis_bends(channel->axis); n++) {
             const double angle = channel_bend(channel, value, n, joints, range->posing->look);
             column(user, 180 / 3.14159265358979323846 * angle, "%s.%s.%s.%d", name, axis_word(channel->axis),
-                   document->splines[channel->spline].name, n);
+                   document->splines[channel->spline]->name, n);
         }
     }
 }

@@ -235,7 +235,7 @@ static bool write_either(struct export_range *range, bool binary, FILE *out, cha
 {
     const struct document *document = range->posing->document;
     for (int r = 0; r < range->rig_count; r++) {
-        const struct rig *rig = &document->rigs[range->rigs[r]];
+        const struct rig *rig = document->rigs[range->rigs[r]];
         if (!(form_kind(rig->kind)->holds & FORM_FILE)) continue;
         if (range->rig_count == 1) return gltf_model_write(range, binary, out, summary, error);
         return fail(error, ERROR_INPUT, "\"%s\" is exported into a copy of its own file: choose one rig with %s",

@@ -207,7 +207,7 @@ static bool write_model(struct export_range *range, const struct form *form, boo
                         struct error *error)
 {
     const struct model_bones *own = form->owned;
-    const struct model_rig *model = &range->posing->document->rigs[range->rigs[0]].model;
+    const struct model_rig *model = &range->posing->document->rigs[range->rigs[0]]->model;
     const int clip = model->clip ? gltf_find_clip(own->gltf, model->clip) : -1;
     const struct gltf_body body = {.gltf = own->gltf,
                                    .clip = clip >= 0 ? &own->gltf->clips[clip] : NULL,

@@ -31,9 +31,9 @@ static bool open(const struct posing *posing, int rig, const struct rig_pose *po
     own->is_bone = need_zeroed(nodes, sizeof *own->is_bone);
     form->joints = need_zeroed(nodes, sizeof *form->joints);
     for (int r = 0; r < document->rig_count; r++) {
-        const struct chain *chain = &document->rigs[r].chain;
+        const struct chain *chain = &document->rigs[r]->chain;
         struct chain_bones bones;
-        if (document->rigs[r].kind != RIG_CHAIN) continue;
+        if (document->rigs[r]->kind != RIG_CHAIN) continue;
         if (document_find_model(document, chain->model, chain->by_file) != rig) continue;
         if (!chain_find(gltf, chain->from, chain->to, &bones, error)) return false;
         add_bones(form, gltf, &bones);

@@ -78,7 +78,7 @@ static bool open(const struct posing *posing, int rig, const struct rig_pose *po
                  struct error *error)
 {
     const struct document *document = posing->document;
-    const int joints = document->rigs[rig].tail.joints;
+    const int joints = document->rigs[rig]->tail.joints;
     (void)error;
     struct fox *fox = form->owned = need_zeroed(1, sizeof *fox);
     mesh_creature(creature_level(document_count_rigs(document, RIG_TAIL)), &fox->mesh);
@@ -148,7 +148,7 @@ static void vertices(const struct form *form, const struct rig_pose *pose, float
 static void columns(const struct export_range *range, int rig, const struct rig_pose *pose, double key,
                     form_column *column, void *user)
 {
-    const struct tail *tail = &range->posing->document->rigs[rig].tail;
+    const struct tail *tail = &range->posing->document->rigs[rig]->tail;
     (void)pose;
     form_channels(range, rig, tail->channels, tail->channel_count, tail->joints, key, column, user);
 }

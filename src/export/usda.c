@@ -68,15 +68,14 @@ static bool read_own(struct export_range *range, int rig, struct gltf *gltf, str
     FILE *file = open_memstream(&data, &size);
     bool done = file && gltf_write_rig(range, rig, file, error);
     const bool whole = file && fclose(file) == 0;
-    if (done && whole)
-        return gltf_read_bytes(form_name(&range->posing->document->rigs[rig]), data, size, gltf, error);
+    if (done && whole) return gltf_read_bytes(form_name(range->posing->document->rigs[rig]), data, size, gltf, error);
     free(data);
     return (file && !done) ? false : fail_no_memory(error, range->path);
 }
 
 static bool write_rig(struct export_range *range, int rig, const char *name, FILE *out, struct error *error)
 {
-    const struct rig *source = &range->posing->document->rigs[rig];
+    const struct rig *source = range->posing->document->rigs[rig];
     struct usda_model model = {.range = range, .rig = rig, .name = name, .out = out};
     struct rig_pose pose;
     struct gltf gltf = {0};
@@ -110,7 +109,7 @@ bool usda_write(struct export_range *range, FILE *out, char summary[FORMAT_SUMMA
             range_frame(range, 0), range_frame(range, range->key_count - 1), range->posing->document->fps);
     fputs("\ndef Xform \"scene\"\n{", out);
     for (int r = 0; done && r < range->rig_count; r++) {
-        const char *wanted = form_name(&range->posing->document->rigs[range->rigs[r]]);
+        const char *wanted = form_name(range->posing->document->rigs[range->rigs[r]]);
         usda_unique(&names, wanted, name[r]);
         done = write_rig(range, range->rigs[r], name[r], out, error);
     }

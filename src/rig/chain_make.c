@@ -48,7 +48,7 @@ bool chain_other_side(const char *name, char other[BONE_NAME_SIZE])
 static bool is_taken(const struct document *document, const char *name)
 {
     for (int r = 0; r < document->rig_count; r++) {
-        if (document->rigs[r].name && strcmp(document->rigs[r].name, name) == 0) return true;
+        if (document->rigs[r]->name && strcmp(document->rigs[r]->name, name) == 0) return true;
     }
     return false;
 }
@@ -137,7 +137,7 @@ static bool add_spline(const struct plan *plan, const char *axis, struct error *
 /// Makes a spline's equilibrium what the chain's tip does in the clip, carried stiffly.
 static bool follow_tip(const struct plan *plan, int spline, enum motion_of of, struct error *error)
 {
-    const struct joint_motion motion = {
+    struct joint_motion motion = {
         .model = plan->model, .by_file = plan->by_file, .joint = plan->to, .of = of, .chain = plan->chain};
     const struct param equilibrium = {.track = -1, .motion = &motion, .gain = 1};
     return set(plan, spline, PARAMETER_EQUILIBRIUM, equilibrium, error);
@@ -148,7 +148,7 @@ static const struct chain *find_twin(const struct document *document, const stru
 {
     char other[BONE_NAME_SIZE];
     for (int r = 0; r < document->rig_count && chain_other_side(wish->from, other); r++) {
-        const struct rig *rig = &document->rigs[r];
+        const struct rig *rig = document->rigs[r];
         if (rig->kind == RIG_CHAIN && strcmp(rig->chain.from, other) == 0 &&
             document_find_model(document, rig->chain.model, rig->chain.by_file) == wish->model)
             return &rig->chain;
@@ -189,7 +189,7 @@ static bool add_whole(const struct plan *plan, struct chain *chain, int bones, d
 bool chain_make(struct history *history, struct document *document, const struct models *models,
                 const struct chain_wish *wish, int *rig, struct error *error)
 {
-    const struct rig *model = &document->rigs[wish->model];
+    const struct rig *model = document->rigs[wish->model];
     const struct imported *imported = models_imported(models, document_rig_number(document, wish->model));
     char name[NAME_SIZE];
     struct chain_bones bones;

@@ -4,7 +4,7 @@
 
 #include "rig/bones.h"
 #include "rig/models.h"
-#include "scene/edit.h"
+#include "scene/edit_kinds.h"
 
 /// What is wanted; numbers that are 0 are chosen by the chain's length.
 struct chain_wish {

@@ -147,7 +147,7 @@ static void look_everywhere(const struct driven *driven, int count, const struct
 
 bool character_lowest(const struct posing *posing, int rig, double ceiling, double *room, struct low_point *low)
 {
-    const struct character_rig *character = &posing->document->rigs[rig].character;
+    const struct character_rig *character = &posing->document->rigs[rig]->character;
     const struct figure *figure = models_figure(posing->models, document_rig_number(posing->document, rig));
     const int samples = posing->evaluation->samples;
     const int blocks = low_point_samples(samples) / BLOCK;

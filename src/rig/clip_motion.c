@@ -26,7 +26,7 @@ struct followed {
 static struct chain_axes axes_of(const struct document *document, const struct imported *imported, const char *name)
 {
     for (int r = 0; name && r < document->rig_count; r++) {
-        const struct rig *rig = &document->rigs[r];
+        const struct rig *rig = document->rigs[r];
         struct chain_bones bones;
         if (rig->kind != RIG_CHAIN || !rig->name || strcmp(rig->name, name) != 0) continue;
         if (!chain_find(&imported->gltf, rig->chain.from, rig->chain.to, &bones, NULL)) continue;
@@ -40,7 +40,7 @@ static bool find(const struct models *models, const struct document *document, c
 {
     const int rig = document_find_model(document, motion->model, motion->by_file);
     if (rig < 0) return false;
-    const struct model_rig *model = &document->rigs[rig].model;
+    const struct model_rig *model = &document->rigs[rig]->model;
     const int number = document_rig_number(document, rig);
     const struct imported *imported = models_imported(models, number);
     if (!imported) return false;

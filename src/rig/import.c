@@ -143,16 +143,12 @@ bool import_add(struct history *history, struct document *document, const char *
 struct document *import_scene(const char *path, struct error *error)
 {
     char folder[PATH_LIMIT];
-    struct history *history = history_create();
     struct document *document = document_create();
-    bool added = history && document;
-    if (!added) fail_no_memory(error, path);
-    if (added && path_folder(path, folder) && folder[0]) document->folder = need_text(folder);
-    if (added) {
-        history_begin(history, "Import", 0);
-        added = import_add(history, document, path, -1, error);
-        history_end(history);
-    }
+    struct history *history = history_create(document);
+    if (path_folder(path, folder) && folder[0]) document->folder = need_text(folder);
+    history_begin(history, "Import", 0);
+    const bool added = import_add(history, document, path, -1, error);
+    history_end(history);
     history_destroy(history);
     if (added) return document;
     document_destroy(document);

@@ -3,7 +3,7 @@
 #define RIG_IMPORT_H
 
 #include "model/gltf.h"
-#include "scene/edit.h"
+#include "scene/edit_kinds.h"
 
 /// Whether a file is a character: by its name, .glb or .gltf, or by how it begins.
 bool import_suits(const char *path);

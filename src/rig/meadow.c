@@ -121,7 +121,7 @@ static bool solve(struct meadow *m, const struct document *document, const struc
                   const struct meadow_rig *rig)
 {
     m->count = 0;
-    if (!make_room(m, rig->count, evaluation->samples, document->splines[rig->spline].knot_count)) return false;
+    if (!make_room(m, rig->count, evaluation->samples, document->splines[rig->spline]->knot_count)) return false;
     const wiggly_desc desc = evaluation_describe(evaluation, document, rig->spline, m->knots);
     describe(m, rig, &desc);
     m->solved = m->count;
@@ -139,7 +139,7 @@ bool meadow_update(struct meadow *m, const struct document *document, const stru
         m->key = 0;
         return true;
     }
-    const struct meadow_rig *rig = &document->rigs[index].meadow;
+    const struct meadow_rig *rig = &document->rigs[index]->meadow;
     const uint64_t key = key_of(rig, evaluation), ground = ground_of(rig);
     const bool same = key == m->key;
     m->key = key;

@@ -95,8 +95,8 @@ static bool check_paint(const struct character_rig *rig, const struct figure *fi
     const struct paint *paint = rig->painted;
     if (!paint || models_paint_fits(paint, figure)) return true;
     return fail(error, ERROR_INPUT, "%s: expected paint for the %d coordinates of %d vertices of %s, got %d of %d",
-                rig->paint ? rig->paint : "paint", figure->character.coordinate_count, figure->character.vertex_count,
-                rig->model, paint->coordinates, paint->vertices);
+                rig->file->path ? rig->file->path : "paint", figure->character.coordinate_count,
+                figure->character.vertex_count, rig->model, paint->coordinates, paint->vertices);
 }
 
 static bool resolve(const struct document *document, const char *model, char path[PATH_LIMIT], struct error *error)
@@ -145,7 +145,7 @@ static void update_characters(struct models *models, const struct document *docu
     for (int i = 0; i < count; i++, rig = document_next_rig(document, RIG_CHARACTER, rig + 1)) {
         struct error trouble = {0};
         characters[i] =
-            (struct character_model){.plain = find_figure(models, document, &document->rigs[rig], &trouble)};
+            (struct character_model){.plain = find_figure(models, document, document->rigs[rig], &trouble)};
         keep_first(first, &trouble);
     }
     models->character_count = count;
@@ -183,7 +183,7 @@ static void update_placed(struct models *models, const struct document *document
     int rig = document_next_rig(document, RIG_MODEL, 0);
     for (int i = 0; i < count; i++, rig = document_next_rig(document, RIG_MODEL, rig + 1)) {
         struct error trouble = {0};
-        place_model(models, document, &document->rigs[rig].model, &placed[i], &trouble);
+        place_model(models, document, &document->rigs[rig]->model, &placed[i], &trouble);
         models->placed_count++;
         keep_first(first, &trouble);
     }
@@ -194,14 +194,14 @@ static bool check_chains(const struct models *models, const struct document *doc
 {
     for (int r = document_next_rig(document, RIG_CHAIN, 0); r >= 0;
          r = document_next_rig(document, RIG_CHAIN, r + 1)) {
-        const struct chain *chain = &document->rigs[r].chain;
+        const struct chain *chain = &document->rigs[r]->chain;
         const int model = document_find_model(document, chain->model, chain->by_file);
         const struct imported *imported =
             model < 0 ? NULL : models_imported(models, document_rig_number(document, model));
         struct chain_bones bones;
         if (!imported) continue;
         if (!chain_find(&imported->gltf, chain->from, chain->to, &bones, error)) return false;
-        if (!check_pins(&document->rigs[r], bones.count, error)) return false;
+        if (!check_pins(document->rigs[r], bones.count, error)) return false;
     }
     return true;
 }
@@ -224,7 +224,7 @@ bool models_suit(const struct models *models, const struct document *document)
     if (document_count_rigs(document, RIG_CHARACTER) != models->character_count) return false;
     for (int i = 0; i < models->placed_count; i++, rig = document_next_rig(document, RIG_MODEL, rig + 1)) {
         const char *path = models->placed[i].path;
-        if (rig < 0 || !path || strcmp(path, document->rigs[rig].model.model) != 0) return false;
+        if (rig < 0 || !path || strcmp(path, document->rigs[rig]->model.model) != 0) return false;
     }
     return rig < 0;
 }
@@ -234,7 +234,7 @@ void models_paint(struct models *models, const struct document *document)
     int rig = document_next_rig(document, RIG_CHARACTER, 0);
     for (int i = 0; i < models->character_count && rig >= 0;
          i++, rig = document_next_rig(document, RIG_CHARACTER, rig + 1)) {
-        const struct paint *paint = document->rigs[rig].character.painted;
+        const struct paint *paint = document->rigs[rig]->character.painted;
         struct character_model *model = &models->characters[i];
         if (paint && (!model->plain || !models_paint_fits(paint, model->plain))) paint = NULL;
         if (model->version == (paint ? paint->version : 0)) continue;

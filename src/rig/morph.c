@@ -27,7 +27,7 @@ void pose_character(const struct character_rig *rig, const struct figure *figure
 static bool pose(const struct posing *posing, int rig, double position, const wiggly_value *values,
                  const struct by_hand *by_hand, struct rig_pose *posed)
 {
-    const struct character_rig *character = &posing->document->rigs[rig].character;
+    const struct character_rig *character = &posing->document->rigs[rig]->character;
     const struct figure *figure = models_figure(posing->models, document_rig_number(posing->document, rig));
     (void)position;
     if (!figure) return false;

@@ -17,7 +17,7 @@ static bool read_any(struct opened *opened, const char *path, bool with_models, 
     *opened =
         (struct opened){.document = import_suits(path) ? import_scene(path, error) : scene_load(path, NULL, error)};
     if (!opened->document) return false;
-    if (!with_models && opened->document->motions.count == 0 && !pins_hold_any(opened->document)) return true;
+    if (!with_models && !document_has_motions(opened->document) && !pins_hold_any(opened->document)) return true;
     if (read_models(opened, error)) return true;
     opened_free(opened);
     return false;
@@ -40,10 +40,10 @@ bool opened_solve(struct opened *opened, enum solver_choice solver, struct error
     opened->evaluation.pins = pin_points(opened->models);
     if (!evaluation_resize(&opened->evaluation, opened->document, error)) return false;
     motions_bake(&opened->evaluation, opened->document, &source);
-    evaluation_update(&opened->evaluation, opened->document, NULL, false);
+    evaluation_update(&opened->evaluation, opened->document, false);
     for (int i = 0; i < opened->evaluation.count; i++) {
         if (opened->evaluation.status[i] == WIGGLY_ERROR_MEMORY)
-            return fail_no_memory(error, opened->document->splines[i].name);
+            return fail_no_memory(error, opened->document->splines[i]->name);
     }
     return !opened->models || models_grow(opened->models, opened->document, &opened->evaluation) ||
            fail(error, ERROR_ENVIRONMENT, "not enough memory for the meadow");

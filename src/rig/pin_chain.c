@@ -21,7 +21,7 @@ struct posed {
 
 static const struct imported *imported_of(const struct posing *posing, int chain, int *model)
 {
-    const struct chain *of = &posing->document->rigs[chain].chain;
+    const struct chain *of = &posing->document->rigs[chain]->chain;
     *model = document_find_model(posing->document, of->model, of->by_file);
     return *model < 0 ? NULL : models_imported(posing->models, document_rig_number(posing->document, *model));
 }
@@ -113,7 +113,7 @@ static bool find(const struct posing *posing, int rig, double sample, int which,
                  pin_pull *c, struct pin_point *point)
 {
     const struct document *document = posing->document;
-    const struct chain *chain = &document->rigs[rig].chain;
+    const struct chain *chain = &document->rigs[rig]->chain;
     struct chain_bones bones;
     struct rig_pose whole;
     int model;
@@ -137,20 +137,20 @@ static bool find(const struct posing *posing, int rig, double sample, int which,
         int other;
         if (!imported_of(posing, r, &other) || other != model) continue;
         posing_values(posing, r, sample, NULL, values);
-        add_chain(&posed, &document->rigs[r].chain, values, bones.node[which], end.raw, splines, count, c);
+        add_chain(&posed, &document->rigs[r]->chain, values, bones.node[which], end.raw, splines, count, c);
     }
     return true;
 }
 
 static void weigh(const struct posing *posing, int rig, const int *splines, int count, double *weights)
 {
-    const struct chain *chain = &posing->document->rigs[rig].chain;
+    const struct chain *chain = &posing->document->rigs[rig]->chain;
     const wiggly_value values[RIG_MAX_INPUTS] = {{0}};
     struct chain_bones bones;
     int model;
     const struct imported *imported = imported_of(posing, rig, &model);
     if (!imported || !chain_find(&imported->gltf, chain->from, chain->to, &bones, NULL)) return;
-    const float scale = (float)posing->document->rigs[model].model.scale;
+    const float scale = (float)posing->document->rigs[model]->model.scale;
     const float root[16] = {scale, 0, 0, 0, 0, scale, 0, 0, 0, 0, scale, 0, 0, 0, 0, 1};
     const struct posed posed = {imported, &imported->rest, root};
     for (int n = 0; n < bones.count; n++) {

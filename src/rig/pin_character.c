@@ -42,7 +42,7 @@ static void find_pull(const struct character_rig *rig, const struct figure *figu
 static bool find(const struct posing *posing, int rig, double sample, int which, const int *splines, int count,
                  pin_pull *c, struct pin_point *point)
 {
-    const struct character_rig *character = &posing->document->rigs[rig].character;
+    const struct character_rig *character = &posing->document->rigs[rig]->character;
     const struct figure *figure = figure_of(posing, rig);
     wiggly_value values[RIG_MAX_INPUTS];
     if (!figure || which >= figure->character.vertex_count) return false;
@@ -90,7 +90,7 @@ static double area_of(const struct figure *figure, const uint32_t corner[3])
 /// The coarse mesh has the shape, and a mean needs no more.
 static void weigh(const struct posing *posing, int rig, const int *splines, int count, double *weights)
 {
-    const struct character_rig *character = &posing->document->rigs[rig].character;
+    const struct character_rig *character = &posing->document->rigs[rig]->character;
     const struct figure *figure = figure_of(posing, rig);
     for (int i = 0; figure && i < count; i++) {
         double sum = 0, areas = 0;

@@ -68,7 +68,7 @@ static void add_stretch(const struct tail *tail, const double way[3], int spline
 static bool find(const struct posing *posing, int rig, double sample, int which, const int *splines, int count,
                  pin_pull *c, struct pin_point *point)
 {
-    const struct tail *tail = &posing->document->rigs[rig].tail;
+    const struct tail *tail = &posing->document->rigs[rig]->tail;
     struct hinge hinges[TAIL_MAX_JOINTS];
     wiggly_value values[RIG_MAX_INPUTS];
     double base[3], shift[3], by_stretch[3];
@@ -96,7 +96,7 @@ static bool find(const struct posing *posing, int rig, double sample, int which,
 
 static void weigh(const struct posing *posing, int rig, const int *splines, int count, double *weights)
 {
-    const struct tail *tail = &posing->document->rigs[rig].tail;
+    const struct tail *tail = &posing->document->rigs[rig]->tail;
     const wiggly_value values[RIG_MAX_INPUTS] = {{0}};
     const double base[3] = {0};
     struct hinge hinges[TAIL_MAX_JOINTS + 1];

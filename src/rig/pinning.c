@@ -30,15 +30,15 @@ static bool find(void *context, const struct evaluation *evaluation, const struc
 {
     const struct posing posing = {.document = document, .evaluation = evaluation, .models = context};
     if (count > 0) memset(c, 0, (size_t)count * sizeof *c);
-    return kinds[document->rigs[rig].kind]->find(&posing, rig, document_sample(document, pin->frame), pin->point,
-                                                 splines, count, c, point);
+    return kinds[document->rigs[rig]->kind]->find(&posing, rig, document_sample(document, pin->frame), pin->point,
+                                                  splines, count, c, point);
 }
 
 static void weigh(void *context, const struct document *document, int rig, const int *splines, int count,
                   double *weights)
 {
     const struct posing posing = {.document = document, .models = context};
-    const struct pinning_functions *kind = kinds[document->rigs[rig].kind];
+    const struct pinning_functions *kind = kinds[document->rigs[rig]->kind];
     if (kind) kind->weigh(&posing, rig, splines, count, weights);
 }
 

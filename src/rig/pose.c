@@ -112,7 +112,7 @@ static void base_at(const struct posing *posing, const struct tail *tail, double
 static bool pose(const struct posing *posing, int rig, double position, const wiggly_value *values,
                  const struct by_hand *by_hand, struct rig_pose *posed)
 {
-    const struct tail *tail = &posing->document->rigs[rig].tail;
+    const struct tail *tail = &posing->document->rigs[rig]->tail;
     double base[3];
     pose_tail(tail, values, posing->look, &posed->tail);
     base_at(posing, tail, position, base);

@@ -6,7 +6,7 @@
 static bool pose(const struct posing *posing, int rig, double position, const wiggly_value *values,
                  const struct by_hand *by_hand, struct rig_pose *posed)
 {
-    const struct chain *chain = &posing->document->rigs[rig].chain;
+    const struct chain *chain = &posing->document->rigs[rig]->chain;
     const int model = document_find_model(posing->document, chain->model, chain->by_file);
     struct chain_bones bones;
     struct rig_pose whole;

@@ -8,7 +8,7 @@ static const double LEAN = 0.6, TALLEST = 1.3;
 static bool pose(const struct posing *posing, int rig, double position, const wiggly_value *values,
                  const struct by_hand *by_hand, struct rig_pose *posed)
 {
-    const struct meadow_rig *meadow = &posing->document->rigs[rig].meadow;
+    const struct meadow_rig *meadow = &posing->document->rigs[rig]->meadow;
     (void)position, (void)values, (void)by_hand;
     if (meadow_count(models_meadow(posing->models)) == 0) return false;
     for (int side = 0; side < 2; side++) {

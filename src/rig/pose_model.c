@@ -21,7 +21,7 @@ static bool is_of(const struct document *document, const struct rig *chain, int 
 static void add_chain(const struct posing *posing, const struct imported *imported, int rig, double position,
                       const struct by_hand *by_hand, struct gltf_pose *pose)
 {
-    const struct chain *chain = &posing->document->rigs[rig].chain;
+    const struct chain *chain = &posing->document->rigs[rig]->chain;
     struct chain_bones bones;
     wiggly_value values[RIG_MAX_INPUTS];
     if (!chain_find(&imported->gltf, chain->from, chain->to, &bones, NULL)) return;
@@ -45,7 +45,7 @@ bool posing_model(const struct posing *posing, int rig, double position, int han
                   struct rig_pose *posed)
 {
     const struct document *document = posing->document;
-    const struct model_rig *model = &document->rigs[rig].model;
+    const struct model_rig *model = &document->rigs[rig]->model;
     const int number = document_rig_number(document, rig);
     const struct imported *imported = models_imported(posing->models, number);
     struct gltf_pose *pose = models_pose(posing->models, number, posing->shown);
@@ -54,7 +54,7 @@ bool posing_model(const struct posing *posing, int rig, double position, int han
     const int clip = model->clip ? gltf_find_clip(gltf, model->clip) : -1;
     gltf_pose_clip(gltf, clip, clip < 0 ? 0 : posing_clip_time(document, position, gltf->clips[clip].duration), pose);
     for (int r = 0; r < document->rig_count; r++) {
-        if (is_of(document, &document->rigs[r], rig))
+        if (is_of(document, document->rigs[r], rig))
             add_chain(posing, imported, r, position, r == hand ? by_hand : NULL, pose);
     }
     gltf_pose_world(gltf, pose);

@@ -9,7 +9,7 @@ static const struct posing_functions *const kinds[RIG_KINDS] = {RIG_KIND_LIST(PO
 void posing_values(const struct posing *posing, int index, double position, const struct by_hand *by_hand,
                    wiggly_value values[RIG_MAX_INPUTS])
 {
-    const struct rig *rig = &posing->document->rigs[index];
+    const struct rig *rig = posing->document->rigs[index];
     for (int i = 0; i < rig_input_count(rig); i++) {
         values[i] = evaluation_at(posing->evaluation, rig_input(rig, i), position);
         if (!by_hand) continue;
@@ -23,7 +23,7 @@ bool rig_pose(const struct posing *posing, int index, double position, const str
 {
     wiggly_value values[RIG_MAX_INPUTS];
     if (index < 0 || index >= posing->document->rig_count) return false;
-    const struct rig *rig = &posing->document->rigs[index];
+    const struct rig *rig = posing->document->rigs[index];
     posing_values(posing, index, position, by_hand, values);
     pose->kind = rig->kind;
     return kinds[rig->kind]->pose(posing, index, position, values, by_hand, pose);

@@ -1,5 +1,6 @@
 /// Makes, frees and searches documents.
 #include "scene/document.h"
+#include "base/need.h"
 #include <jansson.h>
 #include <limits.h>
 #include <math.h>
@@ -20,10 +21,17 @@ void spline_reset(struct spline *spline)
     }
 }
 
+/// The document is about to be another value.
+void document_touch(struct document *document)
+{
+    static atomic_ullong last;
+    document->edits = 1 + atomic_fetch_add(&last, 1);
+}
+
 struct document *document_create(void)
 {
-    struct document *document = calloc(1, sizeof *document);
-    if (!document) return NULL;
+    struct document *document = need_zeroed(1, sizeof *document);
+    document_touch(document);
     document->fps = 24;
     document->substeps = 1;
     document->last_frame = 120;
@@ -31,62 +39,193 @@ struct document *document_create(void)
     return document;
 }
 
-void document_destroy(struct document *document)
+/// Frees what a document holds.
+static void empty(struct document *document)
 {
-    if (!document) return;
-    if (document->watched) *document->watched = NULL;
-    for (int i = 0; i < document->spline_count; i++) {
-        free(document->splines[i].name);
-        free(document->splines[i].knots);
-    }
-    for (int i = 0; i < document->rig_count; i++) rig_release(&document->rigs[i]);
-    motion_list_free(&document->motions);
+    for (int i = 0; i < document->spline_count; i++) spline_drop(document->splines[i]);
+    for (int i = 0; i < document->rig_count; i++) rig_drop(document->rigs[i]);
     free(document->path);
     free(document->about);
     free(document->splines);
     free(document->rigs);
     free(document->folder);
     json_decref(document->owned);
+}
+
+void document_destroy(struct document *document)
+{
+    if (!document) return;
+    empty(document);
     free(document);
 }
 
-bool document_set_folder(struct document *document, const char *folder)
+static char *copy_text(const char *text) { return text ? need_text(text) : NULL; }
+
+struct document *document_copy(const struct document *document)
 {
-    char *copy = folder ? strdup(folder) : NULL;
-    if (folder && !copy) return false;
-    bool moved = true;
-    for (int i = 0; i < document->rig_count; i++) moved &= rig_rebase(&document->rigs[i], document->folder, folder);
-    moved &= motion_list_rebase(&document->motions, document->folder, folder);
-    free(document->folder);
-    document->folder = copy;
-    return moved;
+    struct document *copy = need(1, sizeof *copy);
+    *copy = *document;
+    copy->path = copy_text(document->path);
+    copy->about = copy_text(document->about);
+    copy->folder = copy_text(document->folder);
+    copy->splines = need((size_t)document->spline_count + 1, sizeof *copy->splines);
+    copy->rigs = need((size_t)document->rig_count + 1, sizeof *copy->rigs);
+    for (int i = 0; i < document->spline_count; i++) copy->splines[i] = spline_hold(document->splines[i]);
+    for (int i = 0; i < document->rig_count; i++) copy->rigs[i] = rig_hold(document->rigs[i]);
+    json_incref(document->owned);
+    return copy;
 }
 
-const char *document_keep_text(struct document *document, const char *text)
+struct document *document_copy_apart(const struct document *document)
 {
-    json_t *string = json_string(text);
-    if (!document->owned) document->owned = json_array();
-    return json_array_append_new(document->owned, string) == 0 ? json_string_value(string) : NULL;
+    struct document *copy = document_copy(document);
+    for (int i = 0; i < copy->rig_count; i++) {
+        if (copy->rigs[i]->kind == RIG_CHARACTER) paint_file_part(&document_own_rig(copy, i)->character.file);
+    }
+    return copy;
 }
 
-bool document_set_path(struct document *document, const char *path)
+void document_become(struct document *document, struct document *other)
 {
-    char *copy = path && path[0] ? strdup(path) : NULL;
-    if (path && path[0] && !copy) return false;
+    empty(document);
+    *document = *other;
+    document_touch(document);
+    free(other);
+}
+
+bool document_equals(const struct document *a, const struct document *b)
+{
+    bool same = a->serial == b->serial && a->fps == b->fps && a->substeps == b->substeps &&
+                a->first_frame == b->first_frame && a->last_frame == b->last_frame &&
+                a->spline_count == b->spline_count && a->rig_count == b->rig_count;
+    for (int i = 0; same && i < a->spline_count; i++) same = a->splines[i] == b->splines[i];
+    for (int i = 0; same && i < a->rig_count; i++) same = a->rigs[i] == b->rigs[i];
+    return same;
+}
+
+struct spline *spline_create(void)
+{
+    struct spline *spline = need_zeroed(1, sizeof *spline);
+    atomic_init(&spline->holders, 1);
+    spline_reset(spline);
+    return spline;
+}
+
+struct spline *spline_clone(const struct spline *spline)
+{
+    struct spline *clone = need(1, sizeof *clone);
+    *clone = *spline;
+    atomic_init(&clone->holders, 1);
+    clone->name = copy_text(spline->name);
+    clone->knot_capacity = spline->knot_count + 1;
+    clone->knots = need((size_t)clone->knot_capacity, sizeof *clone->knots);
+    for (int k = 0; k < spline->knot_count; k++) clone->knots[k] = spline->knots[k];
+    motion_hold(clone->parameter[PARAMETER_EQUILIBRIUM].motion);
+    return clone;
+}
+
+struct spline *spline_hold(struct spline *spline)
+{
+    atomic_fetch_add(&spline->holders, 1);
+    return spline;
+}
+
+void spline_drop(struct spline *spline)
+{
+    if (!spline || atomic_fetch_sub(&spline->holders, 1) > 1) return;
+    motion_drop(spline->parameter[PARAMETER_EQUILIBRIUM].motion);
+    free(spline->name);
+    free(spline->knots);
+    free(spline);
+}
+
+struct spline *document_own_spline(struct document *document, int spline)
+{
+    document_touch(document);
+    struct spline **own = &document->splines[spline], *shared = *own;
+    if (atomic_load(&shared->holders) > 1) {
+        *own = spline_clone(shared);
+        spline_drop(shared);
+    }
+    return *own;
+}
+
+struct rig *document_own_rig(struct document *document, int rig)
+{
+    document_touch(document);
+    struct rig **own = &document->rigs[rig], *shared = *own;
+    if (atomic_load(&shared->holders) > 1) {
+        *own = rig_clone(shared);
+        rig_drop(shared);
+    }
+    return *own;
+}
+
+void document_insert_spline(struct document *document, int at, struct spline *spline)
+{
+    document_touch(document);
+    const size_t count = (size_t)document->spline_count;
+    document->splines = need_more(document->splines, count + 1, sizeof *document->splines);
+    struct spline **place = &document->splines[at];
+    memmove(place + 1, place, (count - (size_t)at) * sizeof *place);
+    *place = spline;
+    document->spline_count++;
+}
+
+void document_insert_rig(struct document *document, int at, struct rig *rig)
+{
+    document_touch(document);
+    const size_t count = (size_t)document->rig_count;
+    document->rigs = need_more(document->rigs, count + 1, sizeof *document->rigs);
+    struct rig **place = &document->rigs[at];
+    memmove(place + 1, place, (count - (size_t)at) * sizeof *place);
+    *place = rig;
+    document->rig_count++;
+}
+
+void document_remove_spline(struct document *document, int at)
+{
+    document_touch(document);
+    struct spline **place = &document->splines[at];
+    spline_drop(*place);
+    memmove(place, place + 1, (size_t)(--document->spline_count - at) * sizeof *place);
+}
+
+void document_remove_rig(struct document *document, int at)
+{
+    document_touch(document);
+    struct rig **place = &document->rigs[at];
+    rig_drop(*place);
+    memmove(place, place + 1, (size_t)(--document->rig_count - at) * sizeof *place);
+}
+
+void document_set_path(struct document *document, const char *path)
+{
+    char *copy = path && path[0] ? need_text(path) : NULL;
     free(document->path);
     document->path = copy;
-    return true;
 }
 
-size_t document_bytes(const struct document *document)
+static size_t spline_bytes(const struct spline *spline)
 {
-    size_t bytes = sizeof *document;
+    return sizeof *spline + (size_t)spline->knot_count * sizeof *spline->knots + strlen(spline->name) + 1;
+}
+
+size_t document_bytes_beside(const struct document *document, const struct document *other)
+{
+    size_t bytes = sizeof *document + (size_t)document->spline_count * sizeof *document->splines +
+                   (size_t)document->rig_count * sizeof *document->rigs;
     for (int i = 0; i < document->spline_count; i++) {
-        const struct spline *spline = &document->splines[i];
-        bytes += sizeof *spline + (size_t)spline->knot_capacity * sizeof *spline->knots + strlen(spline->name) + 1;
+        const struct spline *spline = document->splines[i];
+        const int there = other ? document_find_spline_id(other, spline->id) : -1;
+        if (there < 0 || other->splines[there] != spline) bytes += spline_bytes(spline);
     }
-    for (int i = 0; i < document->rig_count; i++) bytes += rig_bytes(&document->rigs[i]);
-    return bytes + motion_list_bytes(&document->motions);
+    for (int i = 0; i < document->rig_count; i++) {
+        const struct rig *rig = document->rigs[i];
+        const int there = other ? document_find_rig_id(other, rig->id) : -1;
+        if (there < 0 || other->rigs[there] != rig) bytes += rig_bytes(rig, there < 0 ? NULL : other->rigs[there]);
+    }
+    return bytes;
 }
 
 int document_samples(const struct document *document)
@@ -117,10 +256,18 @@ int document_longest(const struct document *document)
     return (most_samples(document->spline_count, document_is_limited(document)) - 1) / document->substeps;
 }
 
+bool document_has_motions(const struct document *document)
+{
+    for (int i = 0; i < document->spline_count; i++) {
+        if (document->splines[i]->parameter[PARAMETER_EQUILIBRIUM].motion) return true;
+    }
+    return false;
+}
+
 bool document_is_limited(const struct document *document)
 {
     for (int i = 0; i < document->spline_count; i++) {
-        if (spline_is_limited(&document->splines[i])) return true;
+        if (spline_is_limited(document->splines[i])) return true;
     }
     return false;
 }
@@ -148,33 +295,33 @@ int document_last_knot_sample(const struct document *document, const struct spli
 int document_find_spline(const struct document *document, const char *name)
 {
     for (int i = 0; i < document->spline_count; i++) {
-        if (strcmp(document->splines[i].name, name) == 0) return i;
+        if (strcmp(document->splines[i]->name, name) == 0) return i;
     }
     return -1;
 }
 
 int document_find_spline_id(const struct document *document, unsigned id)
 {
+    const unsigned guess = id - 1; // as they were loaded
+    if (guess < (unsigned)document->spline_count && document->splines[guess]->id == id) return (int)guess;
     for (int i = 0; i < document->spline_count; i++) {
-        if (document->splines[i].id == id) return i;
+        if (document->splines[i]->id == id) return i;
     }
     return -1;
 }
 
-bool document_reserve_rigs(struct document *document, int count)
+int document_find_rig_id(const struct document *document, unsigned id)
 {
-    if (count <= document->rig_capacity) return true;
-    struct rig *rigs = realloc(document->rigs, (size_t)count * sizeof *rigs);
-    if (!rigs) return false;
-    document->rigs = rigs;
-    document->rig_capacity = count;
-    return true;
+    for (int i = 0; i < document->rig_count; i++) {
+        if (document->rigs[i]->id == id) return i;
+    }
+    return -1;
 }
 
 int document_next_rig(const struct document *document, enum rig_kind kind, int from)
 {
     for (int i = from; i < document->rig_count; i++) {
-        if (document->rigs[i].kind == kind) return i;
+        if (document->rigs[i]->kind == kind) return i;
     }
     return -1;
 }
@@ -189,34 +336,34 @@ int document_find_rig(const struct document *document, enum rig_kind kind, int n
 int document_count_rigs(const struct document *document, enum rig_kind kind)
 {
     int count = 0;
-    for (int i = 0; i < document->rig_count; i++) count += document->rigs[i].kind == kind;
+    for (int i = 0; i < document->rig_count; i++) count += document->rigs[i]->kind == kind;
     return count;
 }
 
 int document_rig_number(const struct document *document, int rig)
 {
     int number = 0;
-    for (int i = 0; i < rig; i++) number += document->rigs[i].kind == document->rigs[rig].kind;
+    for (int i = 0; i < rig; i++) number += document->rigs[i]->kind == document->rigs[rig]->kind;
     return number;
 }
 
 struct tail *document_tail(const struct document *document, int n)
 {
     int found = document_find_rig(document, RIG_TAIL, n);
-    return found >= 0 ? &document->rigs[found].tail : NULL;
+    return found >= 0 ? &document->rigs[found]->tail : NULL;
 }
 
 struct character_rig *document_character(const struct document *document, int n)
 {
     int found = document_find_rig(document, RIG_CHARACTER, n);
-    return found >= 0 ? &document->rigs[found].character : NULL;
+    return found >= 0 ? &document->rigs[found]->character : NULL;
 }
 
 int document_find_model(const struct document *document, const char *text, bool by_file)
 {
     int rig = document_next_rig(document, RIG_MODEL, 0);
     for (; rig >= 0; rig = document_next_rig(document, RIG_MODEL, rig + 1)) {
-        const char *own = by_file ? document->rigs[rig].model.model : document->rigs[rig].name;
+        const char *own = by_file ? document->rigs[rig]->model.model : document->rigs[rig]->name;
         if (own && strcmp(own, text) == 0) break;
     }
     return rig;
@@ -224,9 +371,9 @@ int document_find_model(const struct document *document, const char *text, bool 
 
 bool document_follows(const struct document *document, int spline, int rig)
 {
-    const struct joint_motion *motion = document->splines[spline].parameter[PARAMETER_EQUILIBRIUM].motion;
+    const struct joint_motion *motion = document->splines[spline]->parameter[PARAMETER_EQUILIBRIUM].motion;
     if (!motion) return false;
-    if (document->rigs[rig].kind == RIG_MODEL)
+    if (document->rigs[rig]->kind == RIG_MODEL)
         return document_find_model(document, motion->model, motion->by_file) == rig;
     return motion->chain && document_find_chain(document, motion->chain) == rig;
 }
@@ -235,7 +382,7 @@ int document_find_chain(const struct document *document, const char *name)
 {
     int rig = document_next_rig(document, RIG_CHAIN, 0);
     for (; rig >= 0; rig = document_next_rig(document, RIG_CHAIN, rig + 1)) {
-        if (document->rigs[rig].name && strcmp(document->rigs[rig].name, name) == 0) break;
+        if (document->rigs[rig]->name && strcmp(document->rigs[rig]->name, name) == 0) break;
     }
     return rig;
 }

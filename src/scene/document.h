@@ -1,6 +1,7 @@
 /// The document: a scene file (docs/scene-format.md) in memory. Everything on screen is a function of it.
 ///
-/// Only edit.h changes one; load.h makes one from a file. Knots are sorted by sample, at most one on each.
+/// It is a value: document_copy() shares its splines and rigs, which count their holders. What has a second holder is never written to;
+/// edit.h, which alone changes a document that is loaded, clones it first. Knots are sorted by sample, at most one on each.
 #ifndef SCENE_DOCUMENT_H
 #define SCENE_DOCUMENT_H
 
@@ -9,6 +10,7 @@
 #include "scene/param.h"
 #include "scene/parameter.h"
 #include "scene/rig.h"
+#include <stdatomic.h>
 #include <stdbool.h>
 #include <stdint.h>
 #include <wiggly/wiggly.h>
@@ -25,7 +27,6 @@ enum {
 };
 
 struct json_t;
-struct snapshot;
 
 struct knot {
     double frame; ///< as written; may be fractional
@@ -38,6 +39,7 @@ struct knot {
 };
 
 struct spline {
+    atomic_int holders; ///< documents, and whoever remembers it
     char *name;
     struct param parameter[PARAMETER_COUNT];
     struct knot *knots; ///< by sample
@@ -60,41 +62,66 @@ static inline enum wiggly_start spline_start(const struct spline *spline)
 struct document {
     char *path;      ///< of its own file, NULL for an untitled one; not saved
     unsigned serial; ///< set by whoever opens documents, to tell them apart; not saved
-    uint64_t edits;  ///< grows with each change of it, undone or not; not saved
     char *about;     ///< what the scene shows and what to try, or NULL
     double fps;
     int substeps;
     int first_frame, last_frame;
-    struct spline *splines;
-    int spline_count, spline_capacity;
-    struct rig *rigs; ///< in the order of the file
-    int rig_count, rig_capacity;
-    char *folder;               ///< where relative paths start; NULL: the working folder
-    unsigned next_id;           ///< of a knot
-    unsigned next_spline_id;    ///< of a spline
-    struct motion_list motions; ///< that parameters follow
+    struct spline **splines;
+    int spline_count;
+    struct rig **rigs; ///< in the order of the file
+    int rig_count;
+    char *folder;            ///< where relative paths start; NULL: the working folder
+    unsigned next_id;        ///< of a knot
+    unsigned next_spline_id; ///< of a spline
+    unsigned next_rig_id;    ///< of a rig, less one
+    uint64_t edits;          ///< another number after every edit, undone or not, than any document had; not saved
     struct json_t *extra;
-    struct json_t *owned;      ///< what `extra` pointers point into; freed with the document
-    struct snapshot *snapshot; ///< a copy of it that is not whole yet, or NULL (snapshot.h)
-    struct document **watched; ///< that copy's pointer to this document, which ends with it; or NULL
+    struct json_t *owned; ///< what `extra` pointers point into; never changed once loaded
 };
 
-/// Sets the path of the document's own file; "" or NULL: untitled. false if memory runs out.
-bool document_set_path(struct document *document, const char *path);
-
-/// Bytes that it takes, not counting unknown keys.
-size_t document_bytes(const struct document *document);
-
-/// An empty document: 24 fps, frames 0 … 120, no splines. NULL if memory runs out.
+/// An empty document: 24 fps, frames 0 … 120, no splines.
 struct document *document_create(void);
+
+/// NULL is fine.
 void document_destroy(struct document *document);
 
-/// Moves the document to another folder (NULL: the working folder), as after "save as": relative paths are rewritten to lead to
-/// the same files. false if memory runs out.
-bool document_set_folder(struct document *document, const char *folder);
+/// A copy that shares splines and rigs.
+struct document *document_copy(const struct document *document);
 
-/// A copy of a text that lives as long as the document; NULL if memory runs out.
-const char *document_keep_text(struct document *document, const char *text);
+/// The same for a thread: what a save notes of paint files stays apart, too.
+struct document *document_copy_apart(const struct document *document);
+
+/// Makes a document what another one is, which ends.
+void document_become(struct document *document, struct document *other);
+
+/// Whether two are the same value: the same splines and rigs in the same frames.
+bool document_equals(const struct document *a, const struct document *b);
+
+/// Gives it another number of `edits`: for whoever writes to it but for its splines and rigs.
+void document_touch(struct document *document);
+
+/// Sets the path of the document's own file; "" or NULL: untitled.
+void document_set_path(struct document *document, const char *path);
+
+/// Bytes of what a document holds and another does not, unknown keys aside; NULL: of all.
+size_t document_bytes_beside(const struct document *document, const struct document *other);
+
+/// A spline without knots and a name, with the file format's defaults. It has one holder, as has a clone.
+struct spline *spline_create(void);
+struct spline *spline_clone(const struct spline *spline);
+struct spline *spline_hold(struct spline *spline);
+/// NULL is fine.
+void spline_drop(struct spline *spline);
+
+/// The spline or rig at an index, to be written to: where it has another holder, a clone takes its place.
+struct spline *document_own_spline(struct document *document, int spline);
+struct rig *document_own_rig(struct document *document, int rig);
+
+/// Puts a spline or rig, whose holder the document becomes, before the one at an index; and takes one out, which it lets go.
+void document_insert_spline(struct document *document, int at, struct spline *spline);
+void document_insert_rig(struct document *document, int at, struct rig *rig);
+void document_remove_spline(struct document *document, int at);
+void document_remove_rig(struct document *document, int at);
 
 /// Number of samples N of every spline.
 int document_samples(const struct document *document);
@@ -104,6 +131,9 @@ bool document_check_samples(int splines, long long samples, bool limited, struct
 
 /// The most frames from first to last that the splines there are may have.
 int document_longest(const struct document *document);
+
+/// Whether the equilibrium of any spline follows a joint.
+bool document_has_motions(const struct document *document);
 
 /// Whether a spline of the document has a low or high limit.
 bool document_is_limited(const struct document *document);
@@ -126,8 +156,8 @@ int document_find_spline(const struct document *document, const char *name);
 /// Index of the spline with that id, or -1.
 int document_find_spline_id(const struct document *document, unsigned id);
 
-/// Makes room for that many rigs; false if memory runs out.
-bool document_reserve_rigs(struct document *document, int count);
+/// Index of the rig with that id, or -1.
+int document_find_rig_id(const struct document *document, unsigned id);
 
 /// Index of the first rig of a kind at `from` or later, or -1.
 int document_next_rig(const struct document *document, enum rig_kind kind, int from);

@@ -1,148 +1,110 @@
-/// Edits: the only way to change a document. A history keeps them, with their inverses, in steps.
+/// Edits: the only way to change a document that is loaded.
 ///
-/// A step is what one undo takes back: edits that belong together. A drag applies its step again in every frame: history_restart()
-/// takes the open step's edits back, and new ones start from the same original state.
+/// Each is a function that changes the document and returns true, or leaves it as it was and says why not. What the document shares with
+/// others stays theirs: it is cloned first. An edit that would change nothing changes nothing. history.h keeps what was before.
 #ifndef SCENE_EDIT_H
 #define SCENE_EDIT_H
 
 #include "scene/document.h"
-#include <stddef.h>
 
-enum edit_kind {
-    EDIT_KNOT_INSERT, ///< spline, knot (id 0: a new one is given)
-    EDIT_KNOT_REMOVE, ///< spline, knot.id
-    EDIT_KNOT_SET,    ///< spline, knot (found by id; frame, value, slope, has_slope, stiffness are replaced)
-    EDIT_PARAMETER, ///< spline, parameter, param (its motion is copied). A new mode converts ω = √k, ζ = γ/2√k and clamps, so that the saved file loads
-    EDIT_SPLINE_ADD,  ///< spline: its place in the list, text (NULL: a free name), and if `flag` its first knot. f 1,
-                      ///< ζ 0.1, β 0.1
-    EDIT_SPLINE_COPY, ///< spline: a copy goes after it, with a free name and new knot ids
-    EDIT_SPLINE_REMOVE, ///< spline; refused if something follows it
-    EDIT_SPLINE_MOVE,   ///< spline, to: its new place in the list
-    EDIT_SPLINE_NAME,   ///< spline, text: not empty, and no other's name
-    EDIT_SPLINE_COLOR,  ///< spline, color: 0xRRGGBB, or -1
-    EDIT_DOCUMENT,      ///< document: replaces this one; the history owns it from here on, even on failure
-    EDIT_FPS, ///< number; flag: knots and range keep their seconds instead of their frames. Slopes are per second anyway
-    EDIT_SUBSTEPS,    ///< substeps
-    EDIT_RANGE,       ///< first, last: the scene's frames; fit: what happens to knots that would fall outside
-    EDIT_ANGLES,      ///< rig, channel (-1: rest), angle: which, angles
-    EDIT_AXIS,        ///< rig, channel, axis
-    EDIT_PART,        ///< rig, channel, of
-    EDIT_FEED,        ///< rig, channel, spline: the spline that the channel bends by
-    EDIT_POSITION,    ///< rig, coordinate, param: metres, or a spline to follow
-    EDIT_LENGTH,      ///< rig, number: metres, above 0
-    EDIT_JOINTS,      ///< rig, to: how many; the tail keeps its shape
-    EDIT_TAIL_ADD,    ///< rig: a copy goes beside it; if it is no tail, a plain one bent by `spline` (-1: by nothing)
-    EDIT_RIG_REMOVE,  ///< rig; refused while a chain or a spline needs it
-    EDIT_RIG_NAME,    ///< rig, text: not empty, and no other rig's. What goes by the old name goes by the new one
-    EDIT_CHANNEL_ADD, ///< rig, spline, axis, of: one more, the last
-    EDIT_CHANNEL_REMOVE, ///< rig, channel
-    EDIT_DRIVE,          ///< rig, channel: which drive, drive: replaces spline, amplitude and lag
-    EDIT_DRIVE_ADD,      ///< rig, drive (its name is copied)
-    EDIT_DRIVE_REMOVE,   ///< rig, channel: which drive
-    EDIT_FLOOR,          ///< rig, flag: whether it has one, number: its height, metres
-    EDIT_PAINT_NEW, ///< rig, coordinates, vertices (of its model): replaces its paint by one that changes nothing
-    EDIT_PAINT,     ///< rig, dab. All dabs of a step on one coordinate make one change
-    EDIT_MODEL_ADD, ///< contents: a model rig, which becomes the last. Its name, or else its file's, gets a number if it is taken
-    EDIT_RIG_ADD,    ///< contents: a character or a meadow, likewise
-    EDIT_CHAIN_ADD,  ///< contents: a chain, likewise; without a name it is called after its first joint
-    EDIT_CLIP,       ///< rig, text: the model's clip, or NULL
-    EDIT_PLACE,      ///< rig, contents: the model's position, scale and turn
-    EDIT_CHAIN,      ///< rig, contents: the chain's from, to, turn and mirror
-    EDIT_MEADOW,     ///< rig, contents: all numbers of the meadow
-    EDIT_PIN_ADD,    ///< rig, pin (its id is given)
-    EDIT_PIN_SET,    ///< rig, pin (found by id; frame, point and place are replaced)
-    EDIT_PIN_REMOVE, ///< rig, pin.id
-};
+// --- knots ---------------------------------------------------------------------------------------------------------------
 
+/// Inserts a knot; id 0: a new one is given.
+bool edit_knot_insert(struct document *document, int spline, const struct knot *knot, struct error *error);
+bool edit_knot_remove(struct document *document, int spline, unsigned id, struct error *error);
+/// The knot of that id gets the frame, value, slope, has_slope and stiffness.
+bool edit_knot_set(struct document *document, int spline, const struct knot *knot, struct error *error);
+
+// --- splines -------------------------------------------------------------------------------------------------------------
+
+/// Sets a parameter; a motion is copied. A new mode clamps, so that the saved file loads.
+bool edit_parameter(struct document *document, int spline, enum parameter parameter, const struct param *param,
+                    struct error *error);
+/// Adds a spline at a place in the list (-1: the end), with f 1, ζ 0.1, β 0.1. `name` NULL: a free one. `first` NULL: it has no knot.
+bool edit_spline_add(struct document *document, int at, const char *name, const struct knot *first,
+                     struct error *error);
+/// A copy goes after the spline, with a free name and new knot ids.
+bool edit_spline_copy(struct document *document, int spline, struct error *error);
+/// Refused if something follows it.
+bool edit_spline_remove(struct document *document, int spline, struct error *error);
+bool edit_spline_move(struct document *document, int spline, int to, struct error *error);
+/// Not empty, and no other's name.
+bool edit_spline_name(struct document *document, int spline, const char *name, struct error *error);
+/// 0xRRGGBB, or -1.
+bool edit_spline_color(struct document *document, int spline, int color, struct error *error);
+
+// --- the scene -----------------------------------------------------------------------------------------------------------
+
+/// Puts another document, which ends, in this one's place.
+void edit_document(struct document *document, struct document *other);
+/// `keeps_seconds`: knots and range keep their seconds instead of their frames. Slopes are per second anyway.
+bool edit_fps(struct document *document, double fps, bool keeps_seconds, struct error *error);
+bool edit_substeps(struct document *document, int substeps, struct error *error);
+
+/// What happens to knots that would fall outside.
 enum range_fit {
     RANGE_REFUSE,
     RANGE_MOVE, ///< to the nearest free samples inside, in their order
     RANGE_TRIM, ///< they are deleted
 };
+bool edit_range(struct document *document, int first, int last, enum range_fit fit, struct error *error);
+
+// --- rigs ----------------------------------------------------------------------------------------------------------------
+
+/// Adds a rig like that, which becomes the last. Its name, or what it goes by, gets a number if it is taken.
+bool edit_rig_add(struct document *document, const struct rig *contents, struct error *error);
+/// Refused while a chain or a spline needs it.
+bool edit_rig_remove(struct document *document, int rig, struct error *error);
+/// Not empty, and no other rig's. What goes by the old name goes by the new one.
+bool edit_rig_name(struct document *document, int rig, const char *name, struct error *error);
 
 enum angle_kind { ANGLE_REST, ANGLE_LAG, ANGLE_GAIN };
 
-struct edit {
-    enum edit_kind kind;
-    int spline;
-    struct knot knot;
-    enum parameter parameter;
-    struct param param;
-    bool flag;
-    const char *text; ///< read during the call only
-    int to, color;
-    struct document *document;
-    int substeps, first, last;
-    enum range_fit fit;
-    int rig; ///< index of a rig of a kind that the edit is for
-    int channel;
-    enum angle_kind angle;
-    enum axis axis;
-    enum channel_part of;
-    int coordinate; ///< 0 … 2: x, y, z
-    double number;
-    struct drive drive;
-    int coordinates, vertices;
-    const struct dab *dab;       ///< read during the call only
-    const struct angles *angles; ///< read during the call only
-    const struct rig *contents;  ///< read during the call only
-    struct pin pin;
+/// Which channel of which rig: of a tail or chain, or of ANGLE_REST none.
+struct channel_place {
+    int rig, channel;
 };
+bool edit_angles(struct document *document, struct channel_place at, enum angle_kind kind,
+                 const struct angles *angles, struct error *error);
+bool edit_axis(struct document *document, struct channel_place at, enum axis axis, struct error *error);
+bool edit_part(struct document *document, struct channel_place at, enum channel_part of, struct error *error);
+/// The spline that the channel bends by.
+bool edit_feed(struct document *document, struct channel_place at, int spline, struct error *error);
+/// One more, the last.
+bool edit_channel_add(struct document *document, int rig, int spline, enum axis axis, enum channel_part of,
+                      struct error *error);
+bool edit_channel_remove(struct document *document, struct channel_place at, struct error *error);
 
-/// Undo and redo of one document. Opaque.
-struct history;
+/// Coordinate 0 … 2 of a tail: metres, or a spline to follow.
+bool edit_position(struct document *document, int rig, int coordinate, const struct param *param,
+                   struct error *error);
+bool edit_length(struct document *document, int rig, double metres, struct error *error);
+/// The tail keeps its shape.
+bool edit_joints(struct document *document, int rig, int count, struct error *error);
+/// A copy of the rig goes beside it; if it is no tail, a plain one bent by `spline` (-1: by nothing).
+bool edit_tail_add(struct document *document, int rig, int spline, enum axis axis, enum channel_part of,
+                   struct error *error);
 
-struct history *history_create(void);
-void history_destroy(struct history *history);
-/// document_set_folder(), for what undo and redo bring back as well.
-bool history_set_folder(struct history *history, struct document *document, const char *folder);
-/// Forgets everything, as for a new document.
-void history_clear(struct history *history);
+/// Replaces a drive's spline, amplitude and lag.
+bool edit_drive(struct document *document, int rig, int index, const struct drive *drive, struct error *error);
+bool edit_drive_add(struct document *document, int rig, const char *name, const struct drive *drive,
+                    struct error *error);
+bool edit_drive_remove(struct document *document, int rig, int index, struct error *error);
+bool edit_floor(struct document *document, int rig, bool on, double height, struct error *error);
 
-/// Opens a step called `label` ("Move knot"; a string constant). If `merge` is not 0 and equals the last step's, and nothing was
-/// undone since, the edits join that step, as for repeated nudges of one selection.
-void history_begin(struct history *history, const char *label, uint64_t merge);
-/// Applies an edit in the open step. If the edit is not possible (occupied sample, outside the range, not finite, track cycle, no
-/// such knot …), returns false with a sentence and leaves the document as it was.
-bool history_apply(struct history *history, struct document *document, const struct edit *edit, struct error *error);
-/// Takes back the edits of the open step, which stays open: for the next frame of a drag, or for Esc before history_end().
-void history_restart(struct history *history, struct document *document);
-/// Closes the step; an empty one leaves no trace.
-void history_end(struct history *history);
-/// Whether a step is open.
-bool history_is_open(const struct history *history);
+/// Replaces a character's paint by one that changes nothing, for its model's coordinates and vertices.
+bool edit_paint_new(struct document *document, int rig, int coordinates, int vertices, struct error *error);
+bool edit_paint(struct document *document, int rig, const struct dab *dab, struct error *error);
 
-/// Takes the last step back, or does it again; false if there is none. No step may be open.
-bool history_undo(struct history *history, struct document *document);
-bool history_redo(struct history *history, struct document *document);
-/// Label of what undo / redo would do next, or NULL.
-const char *history_undo_label(const struct history *history);
-const char *history_redo_label(const struct history *history);
+/// The model's clip, or NULL; its position, scale and turn; a chain's from, to, turn and mirror; all numbers of a meadow.
+bool edit_clip(struct document *document, int rig, const char *clip, struct error *error);
+bool edit_place(struct document *document, int rig, const struct model_rig *place, struct error *error);
+bool edit_chain(struct document *document, int rig, const struct chain *chain, struct error *error);
+bool edit_meadow(struct document *document, int rig, const struct meadow_rig *meadow, struct error *error);
 
-/// The steps that are kept, oldest first: how many there are, how many are not undone, their labels.
-size_t history_count(const struct history *history);
-size_t history_done(const struct history *history);
-const char *history_label(const struct history *history, size_t step);
-/// Whether the document was saved as it is after the first `done` steps.
-bool history_step_is_saved(const struct history *history, size_t done);
-/// Undoes or redoes until `done` steps are done; false if nothing changes. No step may be open.
-bool history_jump(struct history *history, struct document *document, size_t done);
-/// Steps that were dropped, and bytes that the rest take. Above the limit (128 MiB; at most 256 with the arrays' spare room) the
-/// oldest are dropped; the newest stays, however large.
-size_t history_dropped(const struct history *history);
-size_t history_bytes(const struct history *history);
-void history_set_limit(struct history *history, size_t bytes);
-
-/// Changes with every apply, undo and redo and never repeats, to tell whether the document has changed.
-uint64_t history_revision(const struct history *history);
-/// Marks the current state as saved; history_is_saved() is true whenever undo or redo returns to it.
-void history_mark_saved(struct history *history);
-/// Marks no state as saved, as for a recovered document.
-void history_mark_unsaved(struct history *history);
-bool history_is_saved(const struct history *history);
-
-/// Writes and clears `count` flags: the splines whose solutions the edits since the last call may have changed, without their
-/// followers. A new range marks all.
-void history_take_dirty(struct history *history, const struct document *document, bool *dirty, int count);
+/// A pin, whose id is given; the frame, point and place of the pin of that id; and away with it.
+bool edit_pin_add(struct document *document, int rig, const struct pin *pin, struct error *error);
+bool edit_pin_set(struct document *document, int rig, const struct pin *pin, struct error *error);
+bool edit_pin_remove(struct document *document, int rig, unsigned id, struct error *error);
 
 #endif

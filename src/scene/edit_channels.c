@@ -1,17 +1,23 @@
 /// Edits of the channels of a tail or chain.
-#include "scene/edit_rig.h"
+#include "base/need.h"
+#include "scene/editing.h"
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
-static struct channel *find_channel(struct document *document, const struct edit *edit)
+/// The channel at a place; NULL refuses the edit.
+static const struct channel *find(const struct document *document, struct channel_place at, struct error *error)
 {
-    int count;
-    struct channel *channels = rig_channels(&document->rigs[edit->rig], &count);
-    return edit->channel >= 0 && edit->channel < count ? &channels[edit->channel] : NULL;
+    const struct rig *rig = edit_find_rig(document, at.rig, EDIT_BENT, error);
+    if (!rig) return NULL;
+    if (at.channel >= 0 && at.channel < rig->bent.channel_count) return &rig->bent.channels[at.channel];
+    fail(error, ERROR_INPUT, "there is no such channel");
+    return NULL;
 }
 
-static bool no_channel(struct error *error) { return fail(error, ERROR_INPUT, "there is no such channel"); }
+static struct channel *own_channel(struct document *document, struct channel_place at)
+{
+    return &document_own_rig(document, at.rig)->bent.channels[at.channel];
+}
 
 static bool check_ramp(const struct angles *ramp, struct error *error)
 {
@@ -26,7 +32,7 @@ static bool check_ramp(const struct angles *ramp, struct error *error)
     return true;
 }
 
-bool plan_check_angles(const struct rig *rig, const struct angles *angles, struct error *error)
+bool edit_check_angles(const struct rig *rig, const struct angles *angles, struct error *error)
 {
     if ((unsigned)angles->form > ANGLES_RAMP) return fail(error, ERROR_INPUT, "there is no such form of angles");
     if (angles->form == ANGLES_RAMP && !check_ramp(angles, error)) return false;
@@ -43,121 +49,115 @@ bool plan_check_angles(const struct rig *rig, const struct angles *angles, struc
     return true;
 }
 
-bool plan_angles(struct document *document, const struct edit *edit, struct change_list *list, struct error *error)
+_Static_assert(sizeof(struct ramp_point) == 2 * sizeof(double), "a ramp is places and angles in turn");
+
+static int numbers_of(const struct angles *angles)
 {
-    if (edit->angle == ANGLE_REST && document->rigs[edit->rig].kind != RIG_TAIL)
+    return angles_count(angles) * (angles->form == ANGLES_RAMP ? 2 : 1);
+}
+
+static bool same_angles(const struct angles *a, const struct angles *b)
+{
+    bool same = a->form == b->form && angles_count(a) == angles_count(b);
+    for (int i = 0; same && i < numbers_of(a); i++) same = a->value[i] == b->value[i];
+    return same;
+}
+
+static struct angles *channel_angles(struct rig *rig, int channel, enum angle_kind kind)
+{
+    if (kind == ANGLE_REST) return &rig->tail.rest;
+    return kind == ANGLE_LAG ? &rig->bent.channels[channel].lag : &rig->bent.channels[channel].gain;
+}
+
+bool edit_angles(struct document *document, struct channel_place at, enum angle_kind kind,
+                 const struct angles *angles, struct error *error)
+{
+    const struct rig *rig = edit_find_rig(document, at.rig, EDIT_BENT, error);
+    if (!rig) return false;
+    if (kind == ANGLE_REST && rig->kind != RIG_TAIL)
         return fail(error, ERROR_INPUT, "only a tail has angles at rest");
-    if (edit->angle != ANGLE_REST && !find_channel(document, edit)) return no_channel(error);
-    if (!plan_check_angles(&document->rigs[edit->rig], edit->angles, error)) return false;
-    const struct angles_place at = {edit->rig, edit->channel, edit->angle};
-    const struct angles *target = change_angles(document, at), *wanted = edit->angles;
-    const int numbers = angles_count(wanted) * (wanted->form == ANGLES_RAMP ? 2 : 1);
-    if (!change_list_reserve(list, 1 + ANGLES_MAX_JOINTS)) return plan_no_memory(error);
-    if (target->form != wanted->form || angles_count(target) != angles_count(wanted)) {
-        list->items[list->count++] =
-            (struct change){.kind = CHANGE_FORM, .spline = -1, .form = {at, wanted->form, wanted->count}};
-    }
-    for (int i = 0; i < numbers; i++) {
-        double value = wanted->value[i] + 0.0;
-        if (target->value[i] == value) continue;
-        list->items[list->count++] = (struct change){.kind = CHANGE_ANGLE, .spline = -1, .angle = {at, i, value}};
-    }
+    if (kind != ANGLE_REST && !find(document, at, error)) return false;
+    if (!edit_check_angles(rig, angles, error)) return false;
+    struct angles wanted = *angles;
+    for (int i = 0; i < numbers_of(&wanted); i++) wanted.value[i] += 0.0;
+    if (same_angles(channel_angles(document->rigs[at.rig], at.channel, kind), &wanted)) return true;
+    *channel_angles(document_own_rig(document, at.rig), at.channel, kind) = wanted;
     return true;
 }
 
-/// A change that leaves the channel as it is, for the caller to fill in.
-static struct change channel_change(const struct edit *edit, const struct channel *channel)
-{
-    return (struct change){.kind = CHANGE_CHANNEL,
-                           .spline = -1,
-                           .channel = {edit->rig, edit->channel, channel->spline, channel->axis, channel->of}};
-}
-
-bool plan_check_axis(enum rig_kind kind, enum axis axis, struct error *error)
+bool edit_check_axis(enum rig_kind kind, enum axis axis, struct error *error)
 {
     if ((unsigned)axis >= AXES) return fail(error, ERROR_INPUT, "there is no such axis");
     if (!axis_bends(axis) && kind != RIG_TAIL) return fail(error, ERROR_INPUT, "only a tail's body moves");
     return axis != AXIS_TWIST || kind != RIG_TAIL || fail(error, ERROR_INPUT, "a tail does not twist");
 }
 
-bool plan_check_part(enum channel_part part, struct error *error)
+bool edit_check_part(enum channel_part part, struct error *error)
 {
     return (unsigned)part <= PART_DISPLACEMENT || fail(error, ERROR_INPUT, "there is no such part of a spline");
 }
 
-bool plan_axis(struct document *document, const struct edit *edit, struct change_list *list, struct error *error)
+bool edit_axis(struct document *document, struct channel_place at, enum axis axis, struct error *error)
 {
-    const struct channel *channel = find_channel(document, edit);
-    if (!channel) return no_channel(error);
-    if (!plan_check_axis(document->rigs[edit->rig].kind, edit->axis, error)) return false;
-    struct change change = channel_change(edit, channel);
-    change.channel.axis = edit->axis;
-    return channel->axis == edit->axis || plan_add(list, &change, error);
+    const struct channel *channel = find(document, at, error);
+    if (!channel || !edit_check_axis(document->rigs[at.rig]->kind, axis, error)) return false;
+    if (channel->axis == axis) return true;
+    struct document *before = edit_begin(document);
+    own_channel(document, at)->axis = axis;
+    return edit_end(document, before, true, error);
 }
 
-bool plan_part(struct document *document, const struct edit *edit, struct change_list *list, struct error *error)
+bool edit_part(struct document *document, struct channel_place at, enum channel_part of, struct error *error)
 {
-    const struct channel *channel = find_channel(document, edit);
-    if (!channel) return no_channel(error);
-    if (!plan_check_part(edit->of, error)) return false;
-    struct change change = channel_change(edit, channel);
-    change.channel.of = edit->of;
-    return channel->of == edit->of || plan_add(list, &change, error);
-}
-
-bool plan_feed(struct document *document, const struct edit *edit, struct change_list *list, struct error *error)
-{
-    const struct channel *channel = find_channel(document, edit);
-    if (!channel) return no_channel(error);
-    if (!plan_has_spline(document, edit->spline, error)) return false;
-    struct change change = channel_change(edit, channel);
-    change.channel.spline = edit->spline;
-    return channel->spline == edit->spline || plan_add(list, &change, error);
-}
-
-bool plan_append_channel(struct rig *rig, const struct edit *edit)
-{
-    const size_t count = (size_t)rig->bent.channel_count;
-    struct channel *channels = realloc(rig->bent.channels, (count + 1) * sizeof *channels);
-    if (!channels) return false;
-    rig->bent.channels = channels;
-    struct channel *channel = &channels[count];
-    memset(channel, 0, sizeof *channel);
-    channel->spline = edit->spline;
-    channel->axis = edit->axis;
-    channel->of = edit->of;
-    channel->lag.value[0] = CHANNEL_DEFAULT_LAG;
-    channel->gain.value[0] = axis_gain(edit->axis);
-    rig->bent.channel_count++;
+    const struct channel *channel = find(document, at, error);
+    if (!channel || !edit_check_part(of, error)) return false;
+    if (channel->of != of) own_channel(document, at)->of = of;
     return true;
 }
 
-bool plan_channel_add(struct document *document, const struct edit *edit, struct change_list *list,
+bool edit_feed(struct document *document, struct channel_place at, int spline, struct error *error)
+{
+    const struct channel *channel = find(document, at, error);
+    if (!channel || !edit_has_spline(document, spline, error)) return false;
+    if (channel->spline == spline) return true;
+    struct document *before = edit_begin(document);
+    own_channel(document, at)->spline = spline;
+    return edit_end(document, before, true, error);
+}
+
+void edit_append_channel(struct rig *rig, int spline, enum axis axis, enum channel_part of)
+{
+    const size_t count = (size_t)rig->bent.channel_count;
+    rig->bent.channels = need_more(rig->bent.channels, count + 1, sizeof *rig->bent.channels);
+    struct channel *channel = &rig->bent.channels[count];
+    *channel = (struct channel){.spline = spline, .axis = axis, .of = of};
+    channel->lag.value[0] = CHANNEL_DEFAULT_LAG;
+    channel->gain.value[0] = axis_gain(axis);
+    rig->bent.channel_count++;
+}
+
+bool edit_channel_add(struct document *document, int rig, int spline, enum axis axis, enum channel_part of,
                       struct error *error)
 {
-    const struct rig *old = &document->rigs[edit->rig];
-    int count;
-    rig_channels(old, &count);
-    if (!plan_has_spline(document, edit->spline, error) || !plan_check_axis(old->kind, edit->axis, error) ||
-        !plan_check_part(edit->of, error))
+    const struct rig *old = edit_find_rig(document, rig, EDIT_BENT, error);
+    if (!old || !edit_has_spline(document, spline, error) || !edit_check_axis(old->kind, axis, error) ||
+        !edit_check_part(of, error))
         return false;
-    if (count >= SCENE_MAX_CHANNELS) {
+    if (old->bent.channel_count >= SCENE_MAX_CHANNELS) {
         return fail(error, ERROR_INPUT, "%s: there are %d channels, and no more fit", rig_title(old),
                     SCENE_MAX_CHANNELS);
     }
-    struct rig *rig = plan_rig_begin(document, edit->rig, error);
-    if (!rig) return false;
-    if (plan_append_channel(rig, edit)) return plan_rig_finish(edit->rig, rig, list, error);
-    return plan_rig_abandon(rig, error);
+    struct document *before = edit_begin(document);
+    edit_append_channel(document_own_rig(document, rig), spline, axis, of);
+    return edit_end(document, before, true, error);
 }
 
-bool plan_channel_remove(struct document *document, const struct edit *edit, struct change_list *list,
-                         struct error *error)
+bool edit_channel_remove(struct document *document, struct channel_place at, struct error *error)
 {
-    if (!find_channel(document, edit)) return no_channel(error);
-    struct rig *rig = plan_rig_begin(document, edit->rig, error);
-    if (!rig) return false;
-    struct channel *gone = &rig->bent.channels[edit->channel];
-    memmove(gone, gone + 1, (size_t)(--rig->bent.channel_count - edit->channel) * sizeof *gone);
-    return plan_rig_finish(edit->rig, rig, list, error);
+    if (!find(document, at, error)) return false;
+    struct document *before = edit_begin(document);
+    struct rig *rig = document_own_rig(document, at.rig);
+    struct channel *gone = &rig->bent.channels[at.channel];
+    memmove(gone, gone + 1, (size_t)(--rig->bent.channel_count - at.channel) * sizeof *gone);
+    return edit_end(document, before, true, error);
 }

@@ -1,86 +1,122 @@
-/// Edits of what moves a character.
-#include "scene/edit_plan.h"
+/// Edits of what moves a character, of its floor and of its paint.
+#include "base/need.h"
+#include "scene/editing.h"
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
-static const struct character_rig *rig_of(const struct document *document, const struct edit *edit)
+static const struct character_rig *find(const struct document *document, int rig, struct error *error)
 {
-    return &document->rigs[edit->rig].character;
+    const struct rig *found = edit_find_rig(document, rig, EDIT_KIND(RIG_CHARACTER), error);
+    return found ? &found->character : NULL;
 }
 
-/// A change that leaves the character as it is, for the caller to fill in.
-static struct change unchanged(const struct document *document, const struct edit *edit)
+static const struct drive *find_drive(const struct document *document, int rig, int index, struct error *error)
 {
-    const struct character_rig *rig = rig_of(document, edit);
-    struct change change = {.kind = CHANGE_DRIVES, .spline = -1};
-    change.drives.rig = edit->rig;
-    change.drives.count = rig->drive_count;
-    memcpy(change.drives.drives, rig->drives, sizeof rig->drives);
-    return change;
-}
-
-static bool has_drive(const struct document *document, const struct edit *edit, struct error *error)
-{
-    if (edit->channel >= 0 && edit->channel < rig_of(document, edit)->drive_count) return true;
-    return fail(error, ERROR_INPUT, "this character has no such coordinate");
+    const struct character_rig *character = find(document, rig, error);
+    if (!character) return NULL;
+    if (index >= 0 && index < character->drive_count) return &character->drives[index];
+    fail(error, ERROR_INPUT, "this character has no such coordinate");
+    return NULL;
 }
 
 static bool check_drive(const struct document *document, const struct drive *drive, struct error *error)
 {
-    if (!plan_has_spline(document, drive->spline, error)) return false;
+    if (!edit_has_spline(document, drive->spline, error)) return false;
     if (isfinite(drive->amplitude) && isfinite(drive->lag)) return true;
     return fail(error, ERROR_INPUT, "amplitude and lag must be finite");
 }
 
-bool plan_drive(struct document *document, const struct edit *edit, struct change_list *list, struct error *error)
+bool edit_drive(struct document *document, int rig, int index, const struct drive *drive, struct error *error)
 {
-    if (!has_drive(document, edit, error) || !check_drive(document, &edit->drive, error)) return false;
-    struct change change = unchanged(document, edit);
-    struct drive *drive = &change.drives.drives[edit->channel];
-    const struct drive old = *drive;
-    drive->spline = edit->drive.spline;
-    drive->amplitude = edit->drive.amplitude + 0.0;
-    drive->lag = edit->drive.lag + 0.0;
-    bool same = old.spline == drive->spline && old.amplitude == drive->amplitude && old.lag == drive->lag;
-    return same || plan_add(list, &change, error);
+    const struct drive *old = find_drive(document, rig, index, error);
+    if (!old || !check_drive(document, drive, error)) return false;
+    if (old->spline == drive->spline && old->amplitude == drive->amplitude && old->lag == drive->lag) return true;
+    struct document *before = edit_begin(document);
+    struct drive *own = &document_own_rig(document, rig)->character.drives[index];
+    own->spline = drive->spline;
+    own->amplitude = drive->amplitude + 0.0;
+    own->lag = drive->lag + 0.0;
+    return edit_end(document, before, true, error);
 }
 
-bool plan_drive_add(struct document *document, const struct edit *edit, struct change_list *list, struct error *error)
+bool edit_drive_add(struct document *document, int rig, const char *name, const struct drive *drive,
+                    struct error *error)
 {
-    struct change change = unchanged(document, edit);
-    if (!edit->drive.name || !edit->drive.name[0]) return fail(error, ERROR_INPUT, "a coordinate needs a name");
-    if (!check_drive(document, &edit->drive, error)) return false;
-    if (change.drives.count == CHARACTER_MAX_DRIVES) {
+    const struct character_rig *old = find(document, rig, error);
+    if (!old) return false;
+    if (!name || !name[0]) return fail(error, ERROR_INPUT, "a coordinate needs a name");
+    if (!check_drive(document, drive, error)) return false;
+    if (old->drive_count == CHARACTER_MAX_DRIVES) {
         return fail(error, ERROR_INPUT, "a character has at most %d coordinates", CHARACTER_MAX_DRIVES);
     }
-    struct drive *drive = &change.drives.drives[change.drives.count++];
-    *drive = (struct drive){.name = document_keep_text(document, edit->drive.name),
-                            .spline = edit->drive.spline,
-                            .amplitude = edit->drive.amplitude + 0.0,
-                            .lag = edit->drive.lag + 0.0};
-    if (!drive->name) return plan_no_memory(error);
-    return plan_add(list, &change, error);
+    struct document *before = edit_begin(document);
+    struct character_rig *own = &document_own_rig(document, rig)->character;
+    own->drives[own->drive_count] = (struct drive){.name = need_text(name),
+                                                   .spline = drive->spline,
+                                                   .amplitude = drive->amplitude + 0.0,
+                                                   .lag = drive->lag + 0.0};
+    own->drive_count++;
+    return edit_end(document, before, true, error);
 }
 
-bool plan_drive_remove(struct document *document, const struct edit *edit, struct change_list *list,
-                       struct error *error)
+bool edit_drive_remove(struct document *document, int rig, int index, struct error *error)
 {
-    if (!has_drive(document, edit, error)) return false;
-    struct change change = unchanged(document, edit);
-    struct drive *gone = &change.drives.drives[edit->channel];
-    change.drives.count--;
-    memmove(gone, gone + 1, (size_t)(change.drives.count - edit->channel) * sizeof *gone);
-    return plan_add(list, &change, error);
+    if (!find_drive(document, rig, index, error)) return false;
+    struct document *before = edit_begin(document);
+    struct character_rig *own = &document_own_rig(document, rig)->character;
+    struct drive *gone = &own->drives[index];
+    free(gone->name);
+    memmove(gone, gone + 1, (size_t)(--own->drive_count - index) * sizeof *gone);
+    return edit_end(document, before, true, error);
 }
 
-bool plan_floor(struct document *document, const struct edit *edit, struct change_list *list, struct error *error)
+bool edit_floor(struct document *document, int rig, bool on, double height, struct error *error)
 {
-    const struct character_rig *rig = rig_of(document, edit);
-    struct change change = {.kind = CHANGE_FLOOR, .spline = -1};
-    change.floor.rig = edit->rig;
-    change.floor.is_on = edit->flag;
-    change.floor.height = edit->number + 0.0;
-    if (!isfinite(edit->number)) return fail(error, ERROR_INPUT, "a floor's height must be finite");
-    const bool same = rig->has_floor == edit->flag && rig->floor == change.floor.height;
-    return same || plan_add(list, &change, error);
+    const struct character_rig *old = find(document, rig, error);
+    if (!old) return false;
+    if (!isfinite(height)) return fail(error, ERROR_INPUT, "a floor's height must be finite");
+    if (old->has_floor == on && old->floor == height) return true;
+    struct document *before = edit_begin(document);
+    struct character_rig *own = &document_own_rig(document, rig)->character;
+    own->has_floor = on;
+    own->floor = height + 0.0;
+    return edit_end(document, before, true, error);
+}
+
+bool edit_paint_new(struct document *document, int rig, int coordinates, int vertices, struct error *error)
+{
+    if (!find(document, rig, error)) return false;
+    if (coordinates < 1 || vertices < 1)
+        return fail(error, ERROR_INPUT, "there is nothing to paint on this character");
+    struct paint *paint = paint_create(coordinates, vertices);
+    if (!paint) return fail(error, ERROR_ENVIRONMENT, "not enough memory for paint on %d vertices", vertices);
+    struct character_rig *own = &document_own_rig(document, rig)->character;
+    paint_drop(own->painted);
+    own->painted = paint;
+    return true;
+}
+
+static bool check_dab(const struct paint *paint, const struct dab *dab, struct error *error)
+{
+    if (!paint) return fail(error, ERROR_INPUT, "this character has no paint yet");
+    if (dab->coordinate < 0 || dab->coordinate >= paint->coordinates) {
+        return fail(error, ERROR_INPUT, "there is no such coordinate in the paint");
+    }
+    for (int i = 0; i < dab->count; i++) {
+        const float *value = dab->values[i];
+        const bool good = fabsf(value[0]) <= PAINT_MOST_SWELL && fabsf(value[1]) <= PAINT_MOST_LEAD;
+        if (!good || dab->vertices[i] < 0 || dab->vertices[i] >= paint->vertices) {
+            return fail(error, ERROR_INPUT, "paint must be finite, and on the model");
+        }
+    }
+    return true;
+}
+
+bool edit_paint(struct document *document, int rig, const struct dab *dab, struct error *error)
+{
+    const struct character_rig *old = find(document, rig, error);
+    if (!old || !check_dab(old->painted, dab, error)) return false;
+    if (dab->count > 0) paint_dab(&document_own_rig(document, rig)->character.painted, dab);
+    return true;
 }

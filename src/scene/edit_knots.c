@@ -1,25 +1,9 @@
 /// Edits of knots.
-#include "scene/edit_plan.h"
+#include "base/need.h"
+#include "scene/editing.h"
 #include "scene/number.h"
 #include <math.h>
-#include <stdlib.h>
-
-enum { FIRST_KNOTS = 16 };
-
-/// Makes room for one more knot, by doubling.
-static bool reserve_knot(const struct document *document, struct spline *spline, struct error *error)
-{
-    long long total = 1;
-    for (int i = 0; i < document->spline_count; i++) total += document->splines[i].knot_count;
-    if (total > SCENE_MAX_KNOTS) return fail(error, ERROR_INPUT, "the limit of %d knots is reached", SCENE_MAX_KNOTS);
-    if (spline->knot_count < spline->knot_capacity) return true;
-    int capacity = spline->knot_capacity > 0 ? 2 * spline->knot_capacity : FIRST_KNOTS;
-    struct knot *knots = realloc(spline->knots, (size_t)capacity * sizeof *knots);
-    if (!knots) return plan_no_memory(error);
-    spline->knots = knots;
-    spline->knot_capacity = capacity;
-    return true;
-}
+#include <string.h>
 
 /// Whether a knot may go where it says; `id` is its own.
 static bool check_knot(const struct document *document, const struct spline *spline, const struct knot *knot,
@@ -29,7 +13,6 @@ static bool check_knot(const struct document *document, const struct spline *spl
     if (!isfinite(knot->frame) || !isfinite(knot->value) || !isfinite(knot->slope) || !isfinite(knot->stiffness)) {
         return fail(error, ERROR_INPUT, "%s: a knot's numbers must be finite", spline->name);
     }
-    number_print(knot->frame, frame);
     const double low = spline->parameter[PARAMETER_LOW].value, high = spline->parameter[PARAMETER_HIGH].value;
     if (knot->value < low || knot->value > high) {
         return fail(error, ERROR_INPUT, "%s: a knot at %.6g would be %s limit, %.6g", spline->name, knot->value,
@@ -38,12 +21,14 @@ static bool check_knot(const struct document *document, const struct spline *spl
     if (knot->stiffness <= 0) return fail(error, ERROR_INPUT, "%s: stiffness must be above 0", spline->name);
     int sample = document_sample(document, knot->frame), last = document_last_knot_sample(document, spline);
     if (sample < 0 || sample > last) {
+        number_print(knot->frame, frame);
         return fail(error, ERROR_INPUT, "%s: frame %s is outside %d to %d%s", spline->name, frame,
                     document->first_frame, document->last_frame,
                     spline_start(spline) == WIGGLY_LOOP ? "; the last frame of a loop repeats the first" : "");
     }
     int there = spline_find_knot(document, spline, sample);
     if (there < 0 || spline->knots[there].id == id) return true;
+    number_print(knot->frame, frame);
     return fail(error, ERROR_INPUT, "%s: there is already a knot at frame %s", spline->name, frame);
 }
 
@@ -59,37 +44,52 @@ static struct knot without_negative_zeros(struct knot knot)
 static bool has_id(const struct document *document, unsigned id)
 {
     for (int i = 0; i < document->spline_count; i++) {
-        if (spline_find_id(&document->splines[i], id) >= 0) return true;
+        if (spline_find_id(document->splines[i], id) >= 0) return true;
     }
     return false;
 }
 
-bool plan_knot_insert(struct document *document, const struct edit *edit, struct change_list *list,
-                      struct error *error)
+bool edit_knot_insert(struct document *document, int spline, const struct knot *knot, struct error *error)
 {
-    struct spline *spline = &document->splines[edit->spline];
-    struct change change = {.kind = CHANGE_KNOT_OUT, .spline = edit->spline};
-    change.knot = without_negative_zeros(edit->knot);
-    if (!check_knot(document, spline, &change.knot, 0, error)) return false;
-    if (change.knot.id != 0 && has_id(document, change.knot.id)) {
-        return fail(error, ERROR_INPUT, "%s: this knot already exists", spline->name);
+    struct knot added = without_negative_zeros(*knot);
+    long long total = 1;
+    if (!edit_has_spline(document, spline, error)) return false;
+    const struct spline *old = document->splines[spline];
+    if (!check_knot(document, old, &added, 0, error)) return false;
+    if (added.id != 0 && has_id(document, added.id)) {
+        return fail(error, ERROR_INPUT, "%s: this knot already exists", old->name);
     }
-    if (!reserve_knot(document, spline, error)) return false;
-    if (change.knot.id == 0) change.knot.id = document->next_id;
-    if (!plan_add(list, &change, error)) return false;
-    if (document->next_id <= change.knot.id) document->next_id = change.knot.id + 1;
+    for (int i = 0; i < document->spline_count; i++) total += document->splines[i]->knot_count;
+    if (total > SCENE_MAX_KNOTS) return fail(error, ERROR_INPUT, "the limit of %d knots is reached", SCENE_MAX_KNOTS);
+    if (added.id == 0) added.id = document->next_id;
+    if (document->next_id <= added.id) document->next_id = added.id + 1;
+    struct spline *own = document_own_spline(document, spline);
+    if (own->knot_count == own->knot_capacity) {
+        own->knot_capacity += own->knot_capacity / 2 + 1;
+        own->knots = need_more(own->knots, (size_t)own->knot_capacity, sizeof *own->knots);
+    }
+    const int at = spline_lower_bound(document, own, document_sample(document, added.frame));
+    memmove(&own->knots[at + 1], &own->knots[at], (size_t)(own->knot_count++ - at) * sizeof added);
+    own->knots[at] = added;
     return true;
 }
 
-bool plan_knot_remove(struct document *document, const struct edit *edit, struct change_list *list,
-                      struct error *error)
+/// Index of the knot with that id; -1 with a sentence.
+static int find(const struct document *document, int spline, unsigned id, struct error *error)
 {
-    const struct spline *spline = &document->splines[edit->spline];
-    struct change change = {.kind = CHANGE_KNOT_IN, .spline = edit->spline, .knot = edit->knot};
-    if (spline_find_id(spline, edit->knot.id) < 0) {
-        return fail(error, ERROR_INPUT, "%s: this knot no longer exists", spline->name);
-    }
-    return plan_add(list, &change, error);
+    if (!edit_has_spline(document, spline, error)) return -1;
+    const int at = spline_find_id(document->splines[spline], id);
+    if (at < 0) fail(error, ERROR_INPUT, "%s: this knot no longer exists", document->splines[spline]->name);
+    return at;
+}
+
+bool edit_knot_remove(struct document *document, int spline, unsigned id, struct error *error)
+{
+    const int at = find(document, spline, id, error);
+    if (at < 0) return false;
+    struct spline *own = document_own_spline(document, spline);
+    memmove(&own->knots[at], &own->knots[at + 1], (size_t)(--own->knot_count - at) * sizeof *own->knots);
+    return true;
 }
 
 static bool same_knot(const struct knot *a, const struct knot *b)
@@ -98,14 +98,20 @@ static bool same_knot(const struct knot *a, const struct knot *b)
            a->has_slope == b->has_slope;
 }
 
-bool plan_knot_set(struct document *document, const struct edit *edit, struct change_list *list, struct error *error)
+bool edit_knot_set(struct document *document, int spline, const struct knot *knot, struct error *error)
 {
-    const struct spline *spline = &document->splines[edit->spline];
-    struct change change = {.kind = CHANGE_KNOT, .spline = edit->spline};
-    int at = spline_find_id(spline, edit->knot.id);
-    if (at < 0) return fail(error, ERROR_INPUT, "%s: this knot no longer exists", spline->name);
-    change.knot = without_negative_zeros(edit->knot);
-    change.knot.extra = spline->knots[at].extra;
-    if (!check_knot(document, spline, &change.knot, change.knot.id, error)) return false;
-    return same_knot(&change.knot, &spline->knots[at]) || plan_add(list, &change, error);
+    struct knot changed = without_negative_zeros(*knot);
+    const int from = find(document, spline, knot->id, error);
+    if (from < 0) return false;
+    const struct spline *old = document->splines[spline];
+    changed.extra = old->knots[from].extra;
+    if (!check_knot(document, old, &changed, changed.id, error)) return false;
+    if (same_knot(&changed, &old->knots[from])) return true;
+    struct knot *knots = document_own_spline(document, spline)->knots;
+    int to = spline_lower_bound(document, document->splines[spline], document_sample(document, changed.frame));
+    if (to > from) to--; // where it is once the old one is gone
+    if (to > from) memmove(&knots[from], &knots[from + 1], (size_t)(to - from) * sizeof *knots);
+    if (to < from) memmove(&knots[to + 1], &knots[to], (size_t)(from - to) * sizeof *knots);
+    knots[to] = changed;
+    return true;
 }

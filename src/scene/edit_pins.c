@@ -1,5 +1,5 @@
 /// Edits of pins.
-#include "scene/edit_plan.h"
+#include "scene/editing.h"
 #include "scene/pins.h"
 #include <math.h>
 
@@ -20,36 +20,34 @@ static struct pin without_negative_zeros(struct pin pin)
     return pin;
 }
 
-bool plan_pin_add(struct document *document, const struct edit *edit, struct change_list *list, struct error *error)
+/// The rig that has the pin; NULL refuses the edit.
+static const struct rig *find(const struct document *document, int rig, unsigned id, struct error *error)
 {
-    struct rig *rig = &document->rigs[edit->rig];
-    struct change change = {.kind = CHANGE_PIN_OUT, .spline = -1};
-    change.pin.rig = edit->rig;
-    change.pin.pin = without_negative_zeros(edit->pin);
-    change.pin.pin.id = document->next_id;
-    if (!check_numbers(rig, &edit->pin, error)) return false;
+    const struct rig *found = edit_find_rig(document, rig, EDIT_PINNED, error);
+    if (!found || pins_find_id(found, id) >= 0) return found;
+    fail(error, ERROR_INPUT, "%s: this pin no longer exists", rig_title(found));
+    return NULL;
+}
+
+bool edit_pin_add(struct document *document, int rig, const struct pin *pin, struct error *error)
+{
+    const struct rig *old = edit_find_rig(document, rig, EDIT_PINNED, error);
+    struct pin added = without_negative_zeros(*pin);
+    if (!old || !check_numbers(old, pin, error)) return false;
     if (pins_count(document) >= SCENE_MAX_PINS)
         return fail(error, ERROR_INPUT, "the limit of %d pins is reached", SCENE_MAX_PINS);
-    if (!pins_reserve(rig, 1)) return plan_no_memory(error);
-    if (!plan_add(list, &change, error)) return false;
-    document->next_id++;
-    return true;
+    struct document *before = edit_begin(document);
+    added.id = document->next_id++;
+    pins_insert(document_own_rig(document, rig), &added);
+    return edit_end(document, before, true, error);
 }
 
-static bool is_gone(const struct rig *rig, struct error *error)
+bool edit_pin_remove(struct document *document, int rig, unsigned id, struct error *error)
 {
-    return fail(error, ERROR_INPUT, "%s: this pin no longer exists", rig_title(rig));
-}
-
-bool plan_pin_remove(struct document *document, const struct edit *edit, struct change_list *list,
-                     struct error *error)
-{
-    const struct rig *rig = &document->rigs[edit->rig];
-    struct change change = {.kind = CHANGE_PIN_IN, .spline = -1};
-    change.pin.rig = edit->rig;
-    change.pin.pin = edit->pin;
-    if (pins_find_id(rig, edit->pin.id) < 0) return is_gone(rig, error);
-    return plan_add(list, &change, error);
+    if (!find(document, rig, id, error)) return false;
+    struct document *before = edit_begin(document);
+    pins_remove(document_own_rig(document, rig), id);
+    return edit_end(document, before, true, error);
 }
 
 static bool same_pin(const struct pin *a, const struct pin *b)
@@ -59,15 +57,17 @@ static bool same_pin(const struct pin *a, const struct pin *b)
     return same;
 }
 
-bool plan_pin_set(struct document *document, const struct edit *edit, struct change_list *list, struct error *error)
+bool edit_pin_set(struct document *document, int rig, const struct pin *pin, struct error *error)
 {
-    const struct rig *rig = &document->rigs[edit->rig];
-    struct change change = {.kind = CHANGE_PIN, .spline = -1};
-    const int at = pins_find_id(rig, edit->pin.id);
-    if (at < 0) return is_gone(rig, error);
-    change.pin.rig = edit->rig;
-    change.pin.pin = without_negative_zeros(edit->pin);
-    change.pin.pin.extra = rig->pins[at].extra;
-    if (!check_numbers(rig, &edit->pin, error)) return false;
-    return same_pin(&change.pin.pin, &rig->pins[at]) || plan_add(list, &change, error);
+    const struct rig *old = find(document, rig, pin->id, error);
+    struct pin changed = without_negative_zeros(*pin);
+    if (!old || !check_numbers(old, pin, error)) return false;
+    const struct pin *was = &old->pins[pins_find_id(old, pin->id)];
+    if (same_pin(was, &changed)) return true;
+    changed.extra = was->extra;
+    struct document *before = edit_begin(document);
+    struct rig *own = document_own_rig(document, rig);
+    pins_remove(own, changed.id);
+    pins_insert(own, &changed);
+    return edit_end(document, before, true, error);
 }

@@ -1,27 +1,27 @@
 /// Edits of the whole document, its frames per second, substeps and range of frames.
-#include "scene/edit_plan.h"
+#include "scene/editing.h"
 #include "scene/pins.h"
 #include <math.h>
-#include <stdlib.h>
+#include <string.h>
 
 static bool check_loops(const struct document *document, struct error *error)
 {
     for (int i = 0; i < document->spline_count && document_samples(document) == 1; i++) {
-        const struct spline *spline = &document->splines[i];
+        const struct spline *spline = document->splines[i];
         if (spline_start(spline) != WIGGLY_LOOP) continue;
         return fail(error, ERROR_INPUT, "%s: a loop needs more than one frame", spline->name);
     }
     return true;
 }
 
-/// Whether all knots lie inside a document's frames, each on a sample of its own. `frames` replaces the knots' frames unless NULL.
-static bool check_knots_fit(const struct document *document, const double *frames, struct error *error)
+/// Whether all knots lie inside the document's frames, each on a sample of its own.
+static bool check_knots_fit(const struct document *document, struct error *error)
 {
     for (int i = 0; i < document->spline_count; i++) {
-        const struct spline *spline = &document->splines[i];
+        const struct spline *spline = document->splines[i];
         int before = -1, last = document_last_knot_sample(document, spline);
         for (int k = 0; k < spline->knot_count; k++) {
-            double frame = frames ? *frames++ : spline->knots[k].frame;
+            const double frame = spline->knots[k].frame;
             int sample = document_sample(document, frame);
             if (sample < 0 || sample > last) {
                 return fail(error, ERROR_INPUT, "%s: the knot at frame %.10g would fall outside the range",
@@ -34,6 +34,17 @@ static bool check_knots_fit(const struct document *document, const double *frame
         }
     }
     return true;
+}
+
+/// What edits of the scene's frames change.
+struct timing {
+    double fps;
+    int substeps, first, last;
+};
+
+static struct timing timing_of(const struct document *document)
+{
+    return (struct timing){document->fps, document->substeps, document->first_frame, document->last_frame};
 }
 
 /// Whether a timing is allowed, leaving the knots aside.
@@ -54,48 +65,26 @@ static bool check_timing(const struct document *document, const struct timing *t
     return document_check_samples(document->spline_count, samples, document_is_limited(document), error);
 }
 
-static struct document with_timing(const struct document *document, const struct timing *timing)
+static void set_timing(struct document *document, const struct timing *timing)
 {
-    struct document moved = *document;
-    moved.fps = timing->fps;
-    moved.substeps = timing->substeps;
-    moved.first_frame = timing->first;
-    moved.last_frame = timing->last;
-    return moved;
+    document->fps = timing->fps;
+    document->substeps = timing->substeps;
+    document->first_frame = timing->first;
+    document->last_frame = timing->last;
+    document_touch(document);
 }
 
-static bool same_timing(const struct document *document, const struct timing *timing)
+/// Multiplies the frames of all knots and pins.
+static void scale_frames(struct document *document, double factor)
 {
-    return timing->fps == document->fps && timing->substeps == document->substeps &&
-           timing->first == document->first_frame && timing->last == document->last_frame;
-}
-
-/// Adds the change of timing and takes over its `frames`.
-static bool add_timing(const struct document *document, const struct timing *timing, struct change_list *list,
-                       struct error *error)
-{
-    struct change change = {.kind = CHANGE_TIMING, .spline = -1, .timing = *timing};
-    if (!same_timing(document, timing)) return plan_add(list, &change, error);
-    change_release(&change);
-    return true;
-}
-
-/// The frames of all knots and pins times `factor`; NULL if memory runs out.
-static double *scaled_frames(const struct document *document, double factor)
-{
-    size_t count = (size_t)pins_count(document);
-    for (int s = 0; s < document->spline_count; s++) count += (size_t)document->splines[s].knot_count;
-    double *frames = malloc((count + 1) * sizeof *frames);
-    double *next = frames;
-    for (int s = 0; frames && s < document->spline_count; s++) {
-        const struct spline *spline = &document->splines[s];
-        for (int k = 0; k < spline->knot_count; k++) *next++ = spline->knots[k].frame * factor + 0.0;
+    for (int s = 0; s < document->spline_count; s++) {
+        struct spline *spline = document_own_spline(document, s);
+        for (int k = 0; k < spline->knot_count; k++) spline->knots[k].frame = spline->knots[k].frame * factor + 0.0;
     }
-    for (int r = 0; frames && r < document->rig_count; r++) {
-        const struct rig *rig = &document->rigs[r];
-        for (int i = 0; i < rig->pin_count; i++) *next++ = rig->pins[i].frame * factor + 0.0;
+    for (int r = 0; r < document->rig_count; r++) {
+        struct rig *rig = document_own_rig(document, r);
+        for (int i = 0; i < rig->pin_count; i++) rig->pins[i].frame = rig->pins[i].frame * factor + 0.0;
     }
-    return frames;
 }
 
 /// The scaled end of the range, rounded outwards so that knots inside stay inside.
@@ -106,118 +95,117 @@ static int scaled_end(int frame, double factor, bool first)
     return (int)fmax(-SCENE_MAX_FRAME - 1, fmin(SCENE_MAX_FRAME + 1, scaled));
 }
 
-bool plan_fps(struct document *document, const struct edit *edit, struct change_list *list, struct error *error)
+bool edit_fps(struct document *document, double fps, bool keeps_seconds, struct error *error)
 {
     struct timing timing = timing_of(document);
-    timing.fps = edit->number;
+    const double factor = fps / document->fps;
+    timing.fps = fps;
     if (!check_timing(document, &timing, error)) return false;
-    if (edit->flag) {
-        double factor = edit->number / document->fps;
+    if (fps == document->fps) return true;
+    if (keeps_seconds) {
         timing.first = scaled_end(document->first_frame, factor, true);
         timing.last = scaled_end(document->last_frame, factor, false);
         if (!check_timing(document, &timing, error)) return false;
-        timing.frames = scaled_frames(document, factor);
-        if (!timing.frames) return plan_no_memory(error);
     }
-    struct document moved = with_timing(document, &timing);
-    if (check_loops(&moved, error) && check_knots_fit(&moved, timing.frames, error))
-        return add_timing(document, &timing, list, error);
-    free(timing.frames);
-    return false;
+    struct document *before = edit_begin(document);
+    if (keeps_seconds) scale_frames(document, factor);
+    set_timing(document, &timing);
+    return edit_end(document, before, check_loops(document, error) && check_knots_fit(document, error), error);
 }
 
-bool plan_substeps(struct document *document, const struct edit *edit, struct change_list *list, struct error *error)
+bool edit_substeps(struct document *document, int substeps, struct error *error)
 {
     struct timing timing = timing_of(document);
-    timing.substeps = edit->substeps;
+    timing.substeps = substeps;
     if (!check_timing(document, &timing, error)) return false;
-    struct document moved = with_timing(document, &timing);
-    return check_knots_fit(&moved, NULL, error) && add_timing(document, &timing, list, error);
+    if (substeps == document->substeps) return true;
+    struct document *before = edit_begin(document);
+    set_timing(document, &timing);
+    return edit_end(document, before, check_knots_fit(document, error), error);
 }
 
-/// Removes a spline's knots that fall outside the document's new range.
-static bool trim_knots(const struct document *moved, int spline_index, struct change_list *list, struct error *error)
+static bool is_outside(const struct document *document, double frame, int last)
 {
-    const struct spline *spline = &moved->splines[spline_index];
-    int last = document_last_knot_sample(moved, spline);
-    for (int k = 0; k < spline->knot_count; k++) {
-        int sample = document_sample(moved, spline->knots[k].frame);
-        struct change change = {.kind = CHANGE_KNOT_IN, .spline = spline_index, .knot = spline->knots[k]};
-        if ((sample < 0 || sample > last) && !plan_add(list, &change, error)) return false;
-    }
-    return true;
+    const int sample = document_sample(document, frame);
+    return sample < 0 || sample > last;
 }
 
-static bool move_knot(const struct document *moved, int spline_index, int k, int sample, struct change_list *list,
-                      struct error *error)
+/// Removes a spline's knots that fall outside the range.
+static void trim_knots(struct document *document, int index)
 {
-    struct change change = {
-        .kind = CHANGE_KNOT, .spline = spline_index, .knot = moved->splines[spline_index].knots[k]};
-    change.knot.frame = document_frame(moved, sample);
-    return plan_add(list, &change, error);
+    const struct spline *spline = document->splines[index];
+    const int last = document_last_knot_sample(document, spline), count = spline->knot_count;
+    int from = 0, to = count;
+    while (from < count && document_sample(document, spline->knots[from].frame) < 0) from++;
+    while (to > from && document_sample(document, spline->knots[to - 1].frame) > last) to--;
+    if (to - from == count) return;
+    struct spline *own = document_own_spline(document, index);
+    memmove(own->knots, own->knots + from, (size_t)(to - from) * sizeof *own->knots);
+    own->knot_count = to - from;
 }
 
-/// Moves knots that fall outside to the nearest samples inside, pushing others along. They move in an order in which no two meet.
-static bool move_knots(const struct document *moved, int spline_index, struct change_list *list, struct error *error)
+/// Moves knots that fall outside to the nearest samples inside, pushing others along.
+static bool move_knots(struct document *document, int index, struct error *error)
 {
-    const struct spline *spline = &moved->splines[spline_index];
-    int count = spline->knot_count, last = document_last_knot_sample(moved, spline);
+    const struct spline *spline = document->splines[index];
+    int count = spline->knot_count, last = document_last_knot_sample(document, spline);
     if (count > last + 1) {
         return fail(error, ERROR_INPUT, "%s: %d knots do not fit into %d frames", spline->name, count,
-                    moved->last_frame - moved->first_frame + 1);
+                    document->last_frame - document->first_frame + 1);
     }
     int low = 0, high = count; // knots that are pushed to the right, up to `low`, and to the left, from `high` on
-    while (low < count && document_sample(moved, spline->knots[low].frame) < low) low++;
-    while (high > low && document_sample(moved, spline->knots[high - 1].frame) > last - (count - high)) high--;
-    for (int k = low - 1; k >= 0; k--) {
-        if (!move_knot(moved, spline_index, k, k, list, error)) return false;
-    }
-    for (int k = high; k < count; k++) {
-        if (!move_knot(moved, spline_index, k, last - (count - 1 - k), list, error)) return false;
-    }
+    while (low < count && document_sample(document, spline->knots[low].frame) < low) low++;
+    while (high > low && document_sample(document, spline->knots[high - 1].frame) > last - (count - high)) high--;
+    if (low == 0 && high == count) return true;
+    struct knot *knots = document_own_spline(document, index)->knots;
+    for (int k = 0; k < low; k++) knots[k].frame = document_frame(document, k);
+    for (int k = high; k < count; k++) knots[k].frame = document_frame(document, last - (count - 1 - k));
     return true;
 }
 
 /// Moves a rig's pins that fall outside to the nearest sample inside, or removes them.
-static bool fit_pins(const struct document *moved, int rig, enum range_fit fit, struct change_list *list,
-                     struct error *error)
+static void fit_pins(struct document *document, int index, enum range_fit fit)
 {
-    const int last = pins_last_sample(moved, &moved->rigs[rig]);
-    for (int i = 0; i < moved->rigs[rig].pin_count; i++) {
-        struct change change = {.kind = fit == RANGE_TRIM ? CHANGE_PIN_IN : CHANGE_PIN, .spline = -1};
-        const struct pin *pin = &moved->rigs[rig].pins[i];
-        const int sample = document_sample(moved, pin->frame);
-        if (sample >= 0 && sample <= last) continue;
-        change.pin.rig = rig;
-        change.pin.pin = *pin;
-        if (fit == RANGE_MOVE) change.pin.pin.frame = document_frame(moved, sample < 0 ? 0 : last);
-        if (!plan_add(list, &change, error)) return false;
+    const struct rig *rig = document->rigs[index];
+    const int last = pins_last_sample(document, rig);
+    for (int i = 0; i < rig->pin_count;) {
+        if (!is_outside(document, rig->pins[i].frame, last)) {
+            i++;
+            continue;
+        }
+        struct rig *own = document_own_rig(document, index);
+        struct pin pin = pins_remove(own, own->pins[i].id);
+        pin.frame = document_frame(document, document_sample(document, pin.frame) < 0 ? 0 : last);
+        if (fit == RANGE_MOVE) pins_insert(own, &pin);
+        rig = own;
+        i = 0; // a pin that moved is somewhere else
     }
-    return true;
 }
 
-bool plan_range(struct document *document, const struct edit *edit, struct change_list *list, struct error *error)
+/// What falls outside the document's new range.
+static bool fit_all(struct document *document, enum range_fit fit, struct error *error)
+{
+    bool good = check_loops(document, error);
+    for (int s = 0; good && fit != RANGE_REFUSE && s < document->spline_count; s++) {
+        if (fit == RANGE_TRIM)
+            trim_knots(document, s);
+        else
+            good = move_knots(document, s, error);
+    }
+    for (int r = 0; good && fit != RANGE_REFUSE && r < document->rig_count; r++) fit_pins(document, r, fit);
+    return good && (fit != RANGE_REFUSE || check_knots_fit(document, error));
+}
+
+bool edit_range(struct document *document, int first, int last, enum range_fit fit, struct error *error)
 {
     struct timing timing = timing_of(document);
-    timing.first = edit->first;
-    timing.last = edit->last;
+    timing.first = first;
+    timing.last = last;
     if (!check_timing(document, &timing, error)) return false;
-    struct document moved = with_timing(document, &timing);
-    if (!check_loops(&moved, error)) return false;
-    for (int s = 0; edit->fit != RANGE_REFUSE && s < document->spline_count; s++) {
-        bool fits = edit->fit == RANGE_TRIM ? trim_knots(&moved, s, list, error) : move_knots(&moved, s, list, error);
-        if (!fits) return false;
-    }
-    for (int r = 0; edit->fit != RANGE_REFUSE && r < document->rig_count; r++) {
-        if (!fit_pins(&moved, r, edit->fit, list, error)) return false;
-    }
-    if (edit->fit == RANGE_REFUSE && !check_knots_fit(&moved, NULL, error)) return false;
-    return add_timing(document, &timing, list, error);
+    if (first == document->first_frame && last == document->last_frame) return true;
+    struct document *before = edit_begin(document);
+    set_timing(document, &timing);
+    return edit_end(document, before, fit_all(document, fit, error), error);
 }
 
-bool plan_document(struct document *document, const struct edit *edit, struct change_list *list, struct error *error)
-{
-    (void)document;
-    struct change change = {.kind = CHANGE_DOCUMENT, .spline = -1, .document = edit->document};
-    return plan_add(list, &change, error);
-}
+void edit_document(struct document *document, struct document *other) { document_become(document, other); }

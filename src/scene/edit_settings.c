@@ -1,71 +1,57 @@
 /// Edits of a spline's mode, start and parameters.
-#include "scene/edit_plan.h"
+#include "scene/editing.h"
 #include "scene/number.h"
 #include "scene/order.h"
 #include <math.h>
+#include <string.h>
 
-static bool same_settings(const struct settings *a, const struct settings *b)
+static bool same_param(const struct param *a, const struct param *b)
 {
+    return a->value == b->value && a->track == b->track && a->gain == b->gain && motion_equals(a->motion, b->motion);
+}
+
+/// Gives the spline the parameters of `wanted`.
+static void set(struct document *document, int index, const struct spline *wanted)
+{
+    const struct spline *old = document->splines[index];
     bool same = true;
-    for (int i = 0; i < PARAMETER_COUNT; i++) {
-        const struct param *one = &a->parameter[i], *other = &b->parameter[i];
-        same &= one->value == other->value && one->track == other->track && one->motion == other->motion &&
-                one->gain == other->gain;
-    }
-    return same;
+    for (int p = 0; p < PARAMETER_COUNT; p++) same &= same_param(&old->parameter[p], &wanted->parameter[p]);
+    if (same) return;
+    struct spline *own = document_own_spline(document, index);
+    motion_hold(wanted->parameter[PARAMETER_EQUILIBRIUM].motion);
+    motion_drop(own->parameter[PARAMETER_EQUILIBRIUM].motion);
+    memcpy(own->parameter, wanted->parameter, sizeof own->parameter);
 }
 
-static bool add_settings(struct document *document, const struct edit *edit, const struct settings *settings,
-                         struct change_list *list, struct error *error)
+static bool check_track(const struct document *document, const struct spline *spline, enum parameter parameter,
+                        int track, struct error *error)
 {
-    struct settings old = settings_of(&document->splines[edit->spline]);
-    struct change change = {.kind = CHANGE_SETTINGS, .spline = edit->spline, .settings = *settings};
-    return same_settings(&old, settings) || plan_add(list, &change, error);
-}
-
-/// Whether a spline may follow another in a parameter, found by trying it on the document.
-static bool check_track(struct document *document, const struct edit *edit, struct error *error)
-{
-    struct spline *spline = &document->splines[edit->spline];
-    struct order_cycle cycle;
-    int track = edit->param.track;
-    const struct parameter_row *row = &parameter_rows[edit->parameter];
+    const struct parameter_row *row = &parameter_rows[parameter];
     if (row->kind != PARAMETER_TRACK)
         return fail(error, ERROR_INPUT, "%s: %s must be a number", spline->name, row->name);
-    if (track >= document->spline_count) {
-        return fail(error, ERROR_INPUT, "%s: there is no spline to follow", spline->name);
-    }
-    struct param old = spline->parameter[edit->parameter];
-    spline->parameter[edit->parameter].track = track;
-    bool good = scene_has_order(document, &cycle);
-    spline->parameter[edit->parameter] = old;
-    if (good) return true;
-    if (cycle.spline < 0) return plan_no_memory(error);
-    return fail(error, ERROR_INPUT, "%s cannot follow %s, which already follows it", spline->name,
-                document->splines[track].name);
+    return track < document->spline_count ||
+           fail(error, ERROR_INPUT, "%s: there is no spline to follow", spline->name);
 }
 
-/// Makes `param` follow the edit's motion, with the document's own copy of it.
-static bool set_motion(struct document *document, const struct edit *edit, struct param *param, struct error *error)
+/// The motion as the document has it, with one holder; NULL: it may not be followed.
+static struct joint_motion *new_motion(const struct document *document, const struct spline *spline,
+                                       enum parameter parameter, const struct param *param, struct error *error)
 {
-    const char *name = document->splines[edit->spline].name;
-    struct joint_motion motion = *edit->param.motion;
+    const char *name = spline->name;
+    struct joint_motion motion = *param->motion;
     const char *model = motion.model ? motion.model : "";
-    if (edit->parameter != PARAMETER_EQUILIBRIUM) {
-        return fail(error, ERROR_INPUT, "%s: only the equilibrium follows a joint", name);
-    }
-    if (!motion.joint || !motion.joint[0] || (unsigned)motion.of >= MOTION_KINDS || !isfinite(edit->param.gain)) {
-        return fail(error, ERROR_INPUT, "%s: a motion needs a joint and a finite gain", name);
-    }
+    bool good = true;
     motion.by_file = document_find_model(document, model, false) < 0;
-    if (document_find_model(document, model, motion.by_file) < 0) {
-        return fail(error, ERROR_INPUT, "%s: there is no model \"%s\" to follow", name, model);
+    if (parameter != PARAMETER_EQUILIBRIUM) {
+        good = fail(error, ERROR_INPUT, "%s: only the equilibrium follows a joint", name);
+    } else if (!motion.joint || !motion.joint[0] || (unsigned)motion.of >= MOTION_KINDS || !isfinite(param->gain)) {
+        good = fail(error, ERROR_INPUT, "%s: a motion needs a joint and a finite gain", name);
+    } else if (document_find_model(document, model, motion.by_file) < 0) {
+        good = fail(error, ERROR_INPUT, "%s: there is no model \"%s\" to follow", name, model);
+    } else if (motion.chain && document_find_chain(document, motion.chain) < 0) {
+        good = fail(error, ERROR_INPUT, "%s: there is no chain \"%s\"", name, motion.chain);
     }
-    if (motion.chain && document_find_chain(document, motion.chain) < 0) {
-        return fail(error, ERROR_INPUT, "%s: there is no chain \"%s\"", name, motion.chain);
-    }
-    *param = (struct param){0, -1, motion_list_keep(&document->motions, &motion), edit->param.gain + 0.0};
-    return param->motion || plan_no_memory(error);
+    return good ? motion_create(&motion) : NULL;
 }
 
 static bool check_constant(const struct spline *spline, enum parameter parameter, double value, struct error *error)
@@ -103,7 +89,7 @@ static bool check_limit(const struct document *document, const struct spline *sp
 }
 
 /// Clamps what the mode does not allow.
-static void clamp_to_mode(struct settings *settings, enum wiggly_mode mode)
+static void clamp_to_mode(struct spline *settings, enum wiggly_mode mode)
 {
     for (enum parameter p = 0; p < PARAMETER_COUNT; p++)
         settings->parameter[p].value = fmin(settings->parameter[p].value, parameter_maximum(p, mode));
@@ -118,37 +104,64 @@ static bool check_loop(const struct document *document, const struct spline *spl
                 "%s: delete the knot at the last frame first; in a loop that frame repeats the first", spline->name);
 }
 
-static bool set_choice(const struct document *document, const struct spline *spline, struct settings *settings,
-                       enum parameter parameter, double value, struct error *error)
+static bool set_choice(const struct document *document, struct spline *settings, enum parameter parameter,
+                       double value, struct error *error)
 {
     const struct parameter_row *row = &parameter_rows[parameter];
     if (!(value >= 0 && value <= row->maximum && value == floor(value)))
         return fail(error, ERROR_INPUT, "there is no such %s", row->name);
     settings->parameter[parameter] = param_number(value);
     if (parameter == PARAMETER_MODE) clamp_to_mode(settings, (enum wiggly_mode)value);
-    return parameter != PARAMETER_START || value != WIGGLY_LOOP || check_loop(document, spline, error);
+    return parameter != PARAMETER_START || value != WIGGLY_LOOP || check_loop(document, settings, error);
 }
 
-bool plan_parameter(struct document *document, const struct edit *edit, struct change_list *list, struct error *error)
+static bool set_number(const struct document *document, struct spline *settings, enum parameter parameter,
+                       double value, struct error *error)
 {
-    const struct spline *spline = &document->splines[edit->spline];
-    struct settings settings = settings_of(spline);
-    if ((unsigned)edit->parameter >= PARAMETER_COUNT) return fail(error, ERROR_INPUT, "there is no such parameter");
-    struct param *param = &settings.parameter[edit->parameter];
-    if (parameter_rows[edit->parameter].kind == PARAMETER_CHOICE) {
-        if (!set_choice(document, spline, &settings, edit->parameter, edit->param.value, error)) return false;
-    } else if (edit->param.motion) {
-        if (!set_motion(document, edit, param, error)) return false;
-    } else if (edit->param.track >= 0) {
-        if (!check_track(document, edit, error)) return false;
-        *param = param_track(edit->param.track);
-    } else {
-        const bool limits = parameter_rows[edit->parameter].kind == PARAMETER_LIMIT;
-        const double value = edit->param.value;
-        if (!(limits ? check_limit(document, spline, edit->parameter, value, error)
-                     : check_constant(spline, edit->parameter, value, error)))
-            return false;
-        *param = param_number(edit->param.value + 0.0);
+    const bool limits = parameter_rows[parameter].kind == PARAMETER_LIMIT;
+    if (!(limits ? check_limit(document, settings, parameter, value, error)
+                 : check_constant(settings, parameter, value, error)))
+        return false;
+    settings->parameter[parameter] = param_number(value + 0.0);
+    return true;
+}
+
+/// Whether no spline follows itself, by way of others.
+static bool has_order(const struct document *document, int spline, int track, struct error *error)
+{
+    struct order_cycle cycle;
+    return scene_has_order(document, &cycle) ||
+           fail(error, ERROR_INPUT, "%s cannot follow %s, which already follows it", document->splines[spline]->name,
+                document->splines[track]->name);
+}
+
+static bool change(struct document *document, int spline, enum parameter parameter, const struct param *param,
+                   struct error *error)
+{
+    struct spline settings = *document->splines[spline];
+    struct joint_motion *motion = NULL;
+    if (parameter_rows[parameter].kind == PARAMETER_CHOICE) {
+        if (!set_choice(document, &settings, parameter, param->value, error)) return false;
+    } else if (param->motion) {
+        motion = new_motion(document, &settings, parameter, param, error);
+        if (!motion) return false;
+        settings.parameter[parameter] = (struct param){0, -1, motion, param->gain + 0.0};
+    } else if (param->track >= 0) {
+        if (!check_track(document, &settings, parameter, param->track, error)) return false;
+        settings.parameter[parameter] = param_track(param->track);
+    } else if (!set_number(document, &settings, parameter, param->value, error)) {
+        return false;
     }
-    return add_settings(document, edit, &settings, list, error);
+    set(document, spline, &settings);
+    motion_drop(motion);
+    return param->track < 0 || has_order(document, spline, param->track, error);
+}
+
+bool edit_parameter(struct document *document, int spline, enum parameter parameter, const struct param *param,
+                    struct error *error)
+{
+    if (!edit_has_spline(document, spline, error)) return false;
+    if ((unsigned)parameter >= PARAMETER_COUNT) return fail(error, ERROR_INPUT, "there is no such parameter");
+    struct document *before = edit_begin(document);
+    return edit_end(document, before, change(document, spline, parameter, param, error), error);
 }

@@ -1,30 +1,24 @@
 /// Edits that add, copy, remove, move, rename and colour splines.
-#include "scene/edit_plan.h"
+#include "base/need.h"
+#include "scene/editing.h"
 #include "scene/order.h"
 #include "scene/reference.h"
 #include <ctype.h>
+#include <limits.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-/// Makes room for one more spline, unless there would be too many samples or knots.
-static bool reserve_spline(struct document *document, const struct spline *added, struct error *error)
+/// Whether one more spline fits.
+static bool fits(const struct document *document, const struct spline *added, struct error *error)
 {
     const bool limited = spline_is_limited(added) || document_is_limited(document);
     long long total = added->knot_count;
-    for (int i = 0; i < document->spline_count; i++) total += document->splines[i].knot_count;
+    for (int i = 0; i < document->spline_count; i++) total += document->splines[i]->knot_count;
     if (!document_check_samples(document->spline_count + 1, document_samples(document), limited, error)) return false;
-    if (total > SCENE_MAX_KNOTS) {
-        return fail(error, ERROR_INPUT, "the limit is %d knots over all splines", SCENE_MAX_KNOTS);
-    }
-    if (document->spline_count < document->spline_capacity) return true;
-    int capacity = document->spline_capacity > 0 ? 2 * document->spline_capacity : 8;
-    struct spline *splines = realloc(document->splines, (size_t)capacity * sizeof *splines);
-    if (!splines) return plan_no_memory(error);
-    document->splines = splines;
-    document->spline_capacity = capacity;
-    return true;
+    return total <= SCENE_MAX_KNOTS ||
+           fail(error, ERROR_INPUT, "the limit is %d knots over all splines", SCENE_MAX_KNOTS);
 }
 
 /// `base`, or the first free one of "base 2", "base 3" …; a number at the end of `base` is replaced.
@@ -34,8 +28,7 @@ static char *free_name(const struct document *document, const char *base)
     while (stem > 0 && isdigit((unsigned char)base[stem - 1])) stem--;
     bool numbered = stem > 1 && stem < length && base[stem - 1] == ' ';
     if (numbered) length = stem - 1;
-    char *name = malloc(length + 16);
-    if (!name) return NULL;
+    char *name = need(length + 16, 1);
     memcpy(name, base, length);
     name[length] = '\0';
     for (int number = 2; document_find_spline(document, name) >= 0; number++) {
@@ -52,34 +45,45 @@ static bool check_name(const struct document *document, const char *name, int ow
     return fail(error, ERROR_INPUT, "a spline called %s already exists", name);
 }
 
-/// Adds a spline with new ids to the plan, which owns it even if this fails.
-static bool add_spline(struct document *document, int at, struct spline *held, struct change_list *list,
-                       struct error *error)
+/// Where the spline at `index` ends up when the one at `from` moves to `to`.
+static int moved_index(int index, int from, int to)
 {
-    struct change change = {.kind = CHANGE_SPLINE_OUT, .spline = at, .held = held};
-    held->id = document->next_spline_id;
-    for (int k = 0; k < held->knot_count; k++) held->knots[k].id = document->next_id + (unsigned)k;
-    if (!plan_add(list, &change, error)) return false;
-    document->next_spline_id++;
-    document->next_id += (unsigned)held->knot_count;
-    return true;
+    if (index == from) return to;
+    if (from < index && index <= to) return index - 1;
+    return to <= index && index < from ? index + 1 : index;
 }
 
-/// A spline outside the document with room for `knots`; takes over `name`. NULL if memory runs out.
-static struct spline *hold_spline(char *name, int knots)
+struct moving {
+    struct document *document;
+    int from, to;
+};
+
+static void move_reference(const struct reference *reference, void *context)
 {
-    struct spline *held = name ? calloc(1, sizeof *held) : NULL;
-    if (!held) {
-        free(name);
-        return NULL;
+    const struct moving *moving = context;
+    const int now = moved_index(reference->spline, moving->from, moving->to);
+    if (now != reference->spline) reference_set(moving->document, reference, now);
+}
+
+/// Gives every reference its spline's new index. INT_MAX as `from` or `to` means outside the list.
+static void move_references(struct document *document, int from, int to)
+{
+    struct moving moving = {document, from, to};
+    reference_each(document, move_reference, &moving);
+}
+
+/// Puts a spline, with new ids, into the list.
+static bool add(struct document *document, int at, struct spline *spline, struct error *error)
+{
+    if (!fits(document, spline, error)) {
+        spline_drop(spline);
+        return false;
     }
-    held->name = name;
-    held->knots = calloc((size_t)knots + 1, sizeof *held->knots); // never of size 0
-    held->knot_capacity = knots + 1;
-    if (held->knots) return held;
-    free(name);
-    free(held);
-    return NULL;
+    spline->id = document->next_spline_id++;
+    for (int k = 0; k < spline->knot_count; k++) spline->knots[k].id = document->next_id++;
+    document_insert_spline(document, at, spline);
+    move_references(document, INT_MAX, at);
+    return true;
 }
 
 static bool check_first_knot(const struct document *document, const struct knot *knot, struct error *error)
@@ -93,85 +97,76 @@ static bool check_first_knot(const struct document *document, const struct knot 
                 document->last_frame);
 }
 
-bool plan_spline_add(struct document *document, const struct edit *edit, struct change_list *list,
+bool edit_spline_add(struct document *document, int at, const char *name, const struct knot *first,
                      struct error *error)
 {
-    int count = document->spline_count, at = edit->spline < 0 || edit->spline > count ? count : edit->spline;
-    if (edit->text && !check_name(document, edit->text, -1, error)) return false;
-    if (edit->flag && !check_first_knot(document, &edit->knot, error)) return false;
-    struct spline fresh = {.knot_count = edit->flag ? 1 : 0};
-    spline_reset(&fresh);
-    if (!reserve_spline(document, &fresh, error)) return false;
-    struct spline *held = hold_spline(free_name(document, edit->text ? edit->text : "spline"), 1);
-    if (!held) return plan_no_memory(error);
-    spline_reset(held);
+    const int count = document->spline_count;
+    if (name && !check_name(document, name, -1, error)) return false;
+    if (first && !check_first_knot(document, first, error)) return false;
+    struct spline *spline = spline_create();
+    spline->name = free_name(document, name ? name : "spline");
     for (enum parameter p = 0; p < PARAMETER_COUNT; p++) {
-        held->parameter[p].value = parameter_rows[p].fresh;
+        spline->parameter[p].value = parameter_rows[p].fresh;
     }
-    if (edit->flag) {
-        held->knot_count = 1;
-        held->knots[0] = (struct knot){
-            .frame = edit->knot.frame + 0.0, .value = edit->knot.value + 0.0, .stiffness = KNOT_DEFAULT_STIFFNESS};
+    spline->knots = need(1, sizeof *spline->knots);
+    spline->knot_capacity = 1;
+    if (first) {
+        spline->knot_count = 1;
+        spline->knots[0] = (struct knot){
+            .frame = first->frame + 0.0, .value = first->value + 0.0, .stiffness = KNOT_DEFAULT_STIFFNESS};
     }
-    return add_spline(document, at, held, list, error);
+    return add(document, at < 0 || at > count ? count : at, spline, error);
 }
 
-bool plan_spline_copy(struct document *document, const struct edit *edit, struct change_list *list,
-                      struct error *error)
+bool edit_spline_copy(struct document *document, int spline, struct error *error)
 {
-    if (!reserve_spline(document, &document->splines[edit->spline], error)) return false;
-    const struct spline *spline = &document->splines[edit->spline];
-    struct spline *held = hold_spline(free_name(document, spline->name), spline->knot_count);
-    if (!held) return plan_no_memory(error);
-    char *name = held->name;
-    struct knot *knots = held->knots;
-    *held = *spline;
-    held->name = name;
-    held->knots = knots;
-    held->knot_capacity = spline->knot_count + 1;
-    for (int k = 0; k < spline->knot_count; k++) knots[k] = spline->knots[k];
-    return add_spline(document, edit->spline + 1, held, list, error);
+    if (!edit_has_spline(document, spline, error)) return false;
+    struct spline *copy = spline_clone(document->splines[spline]);
+    free(copy->name);
+    copy->name = free_name(document, document->splines[spline]->name);
+    return add(document, spline + 1, copy, error);
 }
 
-bool plan_spline_remove(struct document *document, const struct edit *edit, struct change_list *list,
-                        struct error *error)
+bool edit_spline_remove(struct document *document, int spline, struct error *error)
 {
-    struct change change = {.kind = CHANGE_SPLINE_IN, .spline = edit->spline};
-    int followers = reference_count(document, edit->spline);
+    if (!edit_has_spline(document, spline, error)) return false;
+    int followers = reference_count(document, spline);
     if (followers > 0) {
         return fail(error, ERROR_INPUT, "%s: still used in %d place%s; remove those first",
-                    document->splines[edit->spline].name, followers, followers == 1 ? "" : "s");
+                    document->splines[spline]->name, followers, followers == 1 ? "" : "s");
     }
-    change.held = calloc(1, sizeof *change.held);
-    if (!change.held) return plan_no_memory(error);
-    return plan_add(list, &change, error);
+    move_references(document, spline, INT_MAX);
+    document_remove_spline(document, spline);
+    return true;
 }
 
-bool plan_spline_move(struct document *document, const struct edit *edit, struct change_list *list,
-                      struct error *error)
+bool edit_spline_move(struct document *document, int spline, int to, struct error *error)
 {
-    struct change change = {.kind = CHANGE_SPLINE_MOVE, .spline = edit->spline, .to = edit->to};
-    if (edit->to < 0 || edit->to >= document->spline_count) {
-        return fail(error, ERROR_INPUT, "there is no such place in the list");
-    }
-    return edit->to == edit->spline || plan_add(list, &change, error);
+    if (!edit_has_spline(document, spline, error)) return false;
+    if (to < 0 || to >= document->spline_count) return fail(error, ERROR_INPUT, "there is no such place in the list");
+    if (to == spline) return true;
+    struct spline *moved = spline_hold(document->splines[spline]);
+    document_remove_spline(document, spline);
+    document_insert_spline(document, to, moved);
+    move_references(document, spline, to);
+    return true;
 }
 
-bool plan_spline_name(struct document *document, const struct edit *edit, struct change_list *list,
-                      struct error *error)
+bool edit_spline_name(struct document *document, int spline, const char *name, struct error *error)
 {
-    struct change change = {.kind = CHANGE_NAME, .spline = edit->spline};
-    if (!check_name(document, edit->text, edit->spline, error)) return false;
-    if (strcmp(document->splines[edit->spline].name, edit->text) == 0) return true;
-    change.name = strdup(edit->text);
-    if (!change.name) return plan_no_memory(error);
-    return plan_add(list, &change, error);
+    if (!edit_has_spline(document, spline, error) || !check_name(document, name, spline, error)) return false;
+    if (strcmp(document->splines[spline]->name, name) == 0) return true;
+    struct spline *own = document_own_spline(document, spline);
+    char *copy = need_text(name);
+    free(own->name);
+    own->name = copy;
+    return true;
 }
 
-bool plan_spline_color(struct document *document, const struct edit *edit, struct change_list *list,
-                       struct error *error)
+bool edit_spline_color(struct document *document, int spline, int color, struct error *error)
 {
-    struct change change = {.kind = CHANGE_COLOR, .spline = edit->spline, .color = edit->color};
-    if (edit->color < -1 || edit->color > 0xFFFFFF) return fail(error, ERROR_INPUT, "there is no such colour");
-    return document->splines[edit->spline].color == edit->color || plan_add(list, &change, error);
+    if (!edit_has_spline(document, spline, error)) return false;
+    if (color < -1 || color > 0xFFFFFF) return fail(error, ERROR_INPUT, "there is no such colour");
+    if (document->splines[spline]->color != color) document_own_spline(document, spline)->color = color;
+    return true;
 }

@@ -1,5 +1,5 @@
 /// Edits of a tail: where and how long it is, how many joints it has, and one more.
-#include "scene/edit_rig.h"
+#include "scene/editing.h"
 #include <math.h>
 #include <stdlib.h>
 
@@ -9,51 +9,39 @@ static const double ASIDE = 0.75;           ///< distance from a tail to its cop
 static const double ANGLE_RESOLUTION = 1e6; ///< resampled angles are rounded to 1/this degrees
 
 /// A tail without channels, with the file format's defaults but slightly bent and on the ground.
-static struct rig plain_tail(void)
+static struct rig *plain_tail(void)
 {
-    struct rig rig = {
-        .kind = RIG_TAIL,
-        .tail = {.joints = TAIL_DEFAULT_JOINTS, .length = TAIL_DEFAULT_LENGTH, .rest = {.value = {NEW_REST}}}};
-    for (int k = 0; k < 3; k++) rig.tail.position[k] = param_number(k == 1 ? NEW_HEIGHT : 0);
+    struct rig *rig = rig_create(RIG_TAIL);
+    rig->tail.joints = TAIL_DEFAULT_JOINTS;
+    rig->tail.length = TAIL_DEFAULT_LENGTH;
+    rig->tail.rest.value[0] = NEW_REST;
+    for (int k = 0; k < 3; k++) rig->tail.position[k] = param_number(k == 1 ? NEW_HEIGHT : 0);
     return rig;
 }
 
-static bool is_tail(const struct document *document, int rig)
+/// A copy of a tail, to stand beside it.
+static struct rig *tail_beside(const struct rig *tail)
 {
-    return rig >= 0 && rig < document->rig_count && document->rigs[rig].kind == RIG_TAIL;
+    struct rig *copy = rig_clone(tail);
+    free(copy->name);
+    copy->name = NULL;
+    copy->extra = NULL;
+    copy->pin_count = 0; // what is pinned drives both
+    if (copy->tail.position[0].track < 0) copy->tail.position[0].value += ASIDE * copy->tail.length;
+    return copy;
 }
 
-/// Makes a copy of `edit->rig` beside it, or a plain tail if that is no tail. On failure the caller must release it.
-static bool fill_new(const struct document *document, const struct edit *edit, struct rig *added)
+bool edit_tail_add(struct document *document, int rig, int spline, enum axis axis, enum channel_part of,
+                   struct error *error)
 {
-    *added = plain_tail();
-    if (is_tail(document, edit->rig)) {
-        if (!rig_copy(&document->rigs[edit->rig], added)) {
-            *added = plain_tail();
-            return false;
-        }
-        free(added->name);
-        added->name = NULL;
-        added->extra = NULL;
-        added->pin_count = 0; // what is pinned drives both
-        struct tail *tail = &added->tail;
-        if (tail->position[0].track < 0) tail->position[0].value += ASIDE * tail->length;
-    } else if (plan_has_spline(document, edit->spline, NULL) && !plan_append_channel(added, edit)) {
+    const bool is_tail = rig >= 0 && rig < document->rig_count && document->rigs[rig]->kind == RIG_TAIL;
+    if (!edit_rig_fits(document, error) || !edit_check_axis(RIG_TAIL, axis, error) || !edit_check_part(of, error))
         return false;
-    }
-    added->name = plan_rig_free_name(document, "tail");
-    return added->name != NULL;
-}
-
-bool plan_tail_add(struct document *document, const struct edit *edit, struct change_list *list, struct error *error)
-{
-    if (!plan_rig_fits(document, error) || !plan_check_axis(RIG_TAIL, edit->axis, error) ||
-        !plan_check_part(edit->of, error))
-        return false;
-    struct rig *rig = malloc(sizeof *rig);
-    if (!rig) return plan_no_memory(error);
-    if (!fill_new(document, edit, rig)) return plan_rig_abandon(rig, error);
-    return plan_rig_append(document, rig, list, error);
+    struct document *before = edit_begin(document);
+    struct rig *added = is_tail ? tail_beside(document->rigs[rig]) : plain_tail();
+    if (!is_tail && edit_has_spline(document, spline, NULL)) edit_append_channel(added, spline, axis, of);
+    edit_rig_append(document, added, edit_rig_free_name(document, "tail"));
+    return edit_end(document, before, true, error);
 }
 
 static double rounded(double degrees) { return round(degrees * ANGLE_RESOLUTION) / ANGLE_RESOLUTION + 0.0; }
@@ -92,65 +80,54 @@ static void move_pins(struct rig *rig, int from, int to)
 }
 
 /// The tail keeps its shape and swing: with twice the joints, each bends and lags half as much.
-bool plan_joints(struct document *document, const struct edit *edit, struct change_list *list, struct error *error)
+bool edit_joints(struct document *document, int rig, int count, struct error *error)
 {
-    const struct rig *old = &document->rigs[edit->rig];
-    int from = old->tail.joints, to = edit->to;
-    if (to < 1 || to > TAIL_MAX_JOINTS) {
+    const struct rig *old = edit_find_rig(document, rig, EDIT_KIND(RIG_TAIL), error);
+    if (!old) return false;
+    const int from = old->tail.joints;
+    if (count < 1 || count > TAIL_MAX_JOINTS) {
         return fail(error, ERROR_INPUT, "%s: joints must be from 1 to %d", old->name, TAIL_MAX_JOINTS);
     }
-    if (from == to) return true;
-    struct rig *rig = plan_rig_begin(document, edit->rig, error);
-    if (!rig) return false;
-    struct tail *tail = &rig->tail;
-    const double factor = (double)from / to;
-    tail->joints = to;
-    move_pins(rig, from, to);
-    resample(&tail->rest, to, factor);
+    if (from == count) return true;
+    struct document *before = edit_begin(document);
+    struct rig *own = document_own_rig(document, rig);
+    struct tail *tail = &own->tail;
+    const double factor = (double)from / count;
+    tail->joints = count;
+    move_pins(own, from, count);
+    resample(&tail->rest, count, factor);
     for (int c = 0; c < tail->channel_count; c++) {
         struct channel *channel = &tail->channels[c];
         const bool bends = axis_bends(channel->axis);
-        resample(&channel->gain, to, bends ? factor : 1);
-        resample(&channel->lag, to, bends && channel->lag.form == ANGLES_ONE ? factor : 1);
+        resample(&channel->gain, count, bends ? factor : 1);
+        resample(&channel->lag, count, bends && channel->lag.form == ANGLES_ONE ? factor : 1);
     }
-    return plan_rig_finish(edit->rig, rig, list, error);
+    return edit_end(document, before, true, error);
 }
 
-/// A change that leaves the tail's place as it is, for the caller to fill in.
-static struct change place_change(const struct edit *edit, const struct tail *tail)
+bool edit_position(struct document *document, int rig, int coordinate, const struct param *param, struct error *error)
 {
-    return (struct change){.kind = CHANGE_PLACE,
-                           .spline = -1,
-                           .place = {.rig = edit->rig,
-                                     .length = tail->length,
-                                     .position = {tail->position[0], tail->position[1], tail->position[2]}}};
+    const struct rig *old = edit_find_rig(document, rig, EDIT_KIND(RIG_TAIL), error);
+    if (!old) return false;
+    if (coordinate < 0 || coordinate > 2) return fail(error, ERROR_INPUT, "there is no such coordinate");
+    if (param->motion) return fail(error, ERROR_INPUT, "only an equilibrium follows a joint");
+    const struct param *was = &old->tail.position[coordinate];
+    const struct param wanted = param->track >= 0 ? param_track(param->track) : param_number(param->value + 0.0);
+    if (wanted.track >= document->spline_count)
+        return fail(error, ERROR_INPUT, "%s: there is no spline to follow", old->name);
+    if (!isfinite(wanted.value)) return fail(error, ERROR_INPUT, "%s: the position must be finite", old->name);
+    if (was->track == wanted.track && was->value == wanted.value) return true;
+    struct document *before = edit_begin(document);
+    document_own_rig(document, rig)->tail.position[coordinate] = wanted;
+    return edit_end(document, before, true, error);
 }
 
-bool plan_position(struct document *document, const struct edit *edit, struct change_list *list, struct error *error)
+bool edit_length(struct document *document, int rig, double metres, struct error *error)
 {
-    const struct tail *tail = &document->rigs[edit->rig].tail;
-    struct change change = place_change(edit, tail);
-    if (edit->coordinate < 0 || edit->coordinate > 2) return fail(error, ERROR_INPUT, "there is no such coordinate");
-    if (edit->param.motion) return fail(error, ERROR_INPUT, "only an equilibrium follows a joint");
-    const struct param *old = &tail->position[edit->coordinate];
-    struct param *param = &change.place.position[edit->coordinate];
-    *param = edit->param.track >= 0 ? param_track(edit->param.track) : param_number(edit->param.value + 0.0);
-    if (param->track >= document->spline_count) {
-        return fail(error, ERROR_INPUT, "%s: there is no spline to follow", document->rigs[edit->rig].name);
-    }
-    if (!isfinite(param->value))
-        return fail(error, ERROR_INPUT, "%s: the position must be finite", document->rigs[edit->rig].name);
-    bool same = old->track == param->track && old->value == param->value;
-    return same || plan_add(list, &change, error);
-}
-
-bool plan_length(struct document *document, const struct edit *edit, struct change_list *list, struct error *error)
-{
-    const struct tail *tail = &document->rigs[edit->rig].tail;
-    struct change change = place_change(edit, tail);
-    if (!isfinite(edit->number) || edit->number <= 0) {
-        return fail(error, ERROR_INPUT, "%s: the length must be above 0", document->rigs[edit->rig].name);
-    }
-    change.place.length = edit->number;
-    return tail->length == edit->number || plan_add(list, &change, error);
+    const struct rig *old = edit_find_rig(document, rig, EDIT_KIND(RIG_TAIL), error);
+    if (!old) return false;
+    if (!isfinite(metres) || metres <= 0)
+        return fail(error, ERROR_INPUT, "%s: the length must be above 0", old->name);
+    if (old->tail.length != metres) document_own_rig(document, rig)->tail.length = metres;
+    return true;
 }

@@ -1,4 +1,4 @@
-/// Solves dirty splines and their followers in dependency order.
+/// Solves the splines that have changed and their followers in dependency order.
 #include "scene/evaluate.h"
 #include "base/checked.h"
 #include "scene/storage.h"
@@ -25,9 +25,12 @@ static void free_splines(struct evaluation *evaluation, struct storage *storage)
     free(storage->space.stack);
     free(storage->space.next);
     free(storage->forced);
+    for (int s = 0; s < storage->spline_capacity; s++) spline_drop(storage->held[s]);
+    free(storage->held);
     for (int s = 0; s < storage->spline_capacity; s++) free(storage->baked[s].raw);
     free(storage->baked);
     storage->baked = NULL;
+    storage->held = NULL;
     evaluation->curves = NULL;
     evaluation->status = NULL;
     evaluation->revisions = NULL;
@@ -51,9 +54,10 @@ static bool resize_splines(struct evaluation *evaluation, struct storage *storag
     storage->space.stack = calloc(count, sizeof *storage->space.stack);
     storage->space.next = calloc(count, sizeof *storage->space.next);
     storage->baked = calloc(count, sizeof *storage->baked);
+    storage->held = calloc(count, sizeof *storage->held);
     storage->is_new = true;
-    if (!storage->baked || !evaluation->curves || !evaluation->status || !evaluation->revisions || !storage->order ||
-        !storage->solved || !storage->forced || !storage->space.stack || !storage->space.next) {
+    if (!storage->baked || !storage->held || !evaluation->curves || !evaluation->status || !evaluation->revisions ||
+        !storage->order || !storage->solved || !storage->forced || !storage->space.stack || !storage->space.next) {
         return false;
     }
     storage->spline_capacity = splines;
@@ -77,7 +81,7 @@ static bool resize_baked(struct storage *storage, const struct document *documen
 {
     for (int s = 0; s < document->spline_count; s++) {
         struct baked *baked = &storage->baked[s];
-        if (!document->splines[s].parameter[PARAMETER_EQUILIBRIUM].motion || samples <= baked->capacity) continue;
+        if (!document->splines[s]->parameter[PARAMETER_EQUILIBRIUM].motion || samples <= baked->capacity) continue;
         free(baked->raw);
         *baked = (struct baked){.raw = malloc(2 * (size_t)samples * sizeof *baked->raw)};
         if (!baked->raw) return false;
@@ -135,7 +139,7 @@ bool evaluation_resize(struct evaluation *evaluation, const struct document *doc
 {
     int splines = document->spline_count, samples = document_samples(document), knots = 0;
     for (int i = 0; i < splines; i++) {
-        int room = storage_knot_room(&document->splines[i], samples);
+        int room = storage_knot_room(document->splines[i], samples);
         if (room > knots) knots = room;
     }
     if (!evaluation->storage) evaluation->storage = calloc(1, sizeof *evaluation->storage);
@@ -183,7 +187,7 @@ static void count_solved(struct evaluation *evaluation, const struct document *d
     evaluation->revisions[spline] = ++evaluation->revision;
     evaluation->solved_splines++;
     evaluation->solved_samples += evaluation->samples;
-    evaluation->solved_knots += document->splines[spline].knot_count;
+    evaluation->solved_knots += document->splines[spline]->knot_count;
 }
 
 static void solve(struct evaluation *evaluation, const struct document *document, int spline, bool cubic)
@@ -192,7 +196,7 @@ static void solve(struct evaluation *evaluation, const struct document *document
     wiggly_curve *curve = &evaluation->curves[spline];
     wiggly_desc desc = {.samples = evaluation->samples, .step = document_step(document)};
     wiggly_status status = WIGGLY_ERROR_CAPACITY;
-    if (document->splines[spline].knot_count <= storage->solver_knots) {
+    if (document->splines[spline]->knot_count <= storage->solver_knots) {
         desc = storage_describe(evaluation->storage, evaluation->curves, document, spline, cubic);
         storage_add_knots(&desc, document, spline, storage->knots);
         wiggly_set_method(storage->solver, evaluation_method(evaluation));
@@ -202,23 +206,34 @@ static void solve(struct evaluation *evaluation, const struct document *document
     count_solved(evaluation, document, spline, status);
 }
 
-/// Whether a spline is out of date: it or what it follows was edited.
-static bool is_due(struct evaluation *evaluation, const struct document *document, const bool *dirty, int spline)
+/// Whether a spline is out of date: it or what it follows is not what was solved.
+static bool is_due(struct evaluation *evaluation, const struct document *document, int spline)
 {
     const struct storage *storage = evaluation->storage;
-    return !dirty || dirty[spline] || storage->baked[spline].is_new || storage->forced[spline] ||
-           follows_solved(storage, &document->splines[spline], evaluation->cubic);
+    return storage->is_new || storage->held[spline] != document->splines[spline] || storage->baked[spline].is_new ||
+           storage->forced[spline] || follows_solved(storage, document->splines[spline], evaluation->cubic);
 }
 
-static void mark_solved(struct storage *storage, int spline)
+/// Holds what is solved, so that its address stays its own.
+static void mark_solved(struct storage *storage, const struct document *document, int spline)
 {
+    struct spline **held = &storage->held[spline], *old = *held;
+    *held = spline_hold(document->splines[spline]);
+    spline_drop(old);
     storage->solved[spline] = true;
     storage->baked[spline].is_new = storage->forced[spline] = false;
 }
 
+/// Whether all splines are to be solved: another way, or at other times.
+static bool has_changed(const struct evaluation *evaluation, const struct document *document, bool cubic)
+{
+    const struct storage *storage = evaluation->storage;
+    return cubic != evaluation->cubic || document->fps != storage->fps || document->substeps != storage->substeps ||
+           document->first_frame != storage->first_frame;
+}
+
 /// Solves the splines of a group, which are in a row from `order` on, if one of them is out of date. Returns how many they are.
-static int update_group(struct evaluation *evaluation, const struct document *document, const bool *dirty,
-                        const int *order)
+static int update_group(struct evaluation *evaluation, const struct document *document, const int *order)
 {
     struct storage *storage = evaluation->storage;
     const struct pinned *pinned = &storage->pinned;
@@ -229,23 +244,22 @@ static int update_group(struct evaluation *evaluation, const struct document *do
     for (int s = 0; s < evaluation->count; s++) {
         if (pinned->which[s] != which) continue;
         count++;
-        due |= is_due(evaluation, document, dirty, s);
+        due |= is_due(evaluation, document, s);
     }
     const bool together = due && pinned_solve(evaluation, document, which, &status);
     for (int i = 0; i < count; i++) {
         pinned->placed[order[i]] = true;
-        if (due) mark_solved(storage, order[i]);
+        if (due) mark_solved(storage, document, order[i]);
         if (together) count_solved(evaluation, document, order[i], status);
         if (due && !together) solve(evaluation, document, order[i], false);
     }
     return count;
 }
 
-static void update_alone(struct evaluation *evaluation, const struct document *document, const bool *dirty,
-                         int spline)
+static void update_alone(struct evaluation *evaluation, const struct document *document, int spline)
 {
-    if (!is_due(evaluation, document, dirty, spline)) return;
-    mark_solved(evaluation->storage, spline);
+    if (!is_due(evaluation, document, spline)) return;
+    mark_solved(evaluation->storage, document, spline);
     solve(evaluation, document, spline, evaluation->cubic);
 }
 
@@ -257,25 +271,28 @@ wiggly_desc evaluation_describe(const struct evaluation *evaluation, const struc
     return desc;
 }
 
-void evaluation_update(struct evaluation *evaluation, const struct document *document, const bool *dirty, bool cubic)
+void evaluation_update(struct evaluation *evaluation, const struct document *document, bool cubic)
 {
     struct storage *storage = evaluation->storage;
     struct order_cycle cycle;
     evaluation->solved_splines = evaluation->solved_samples = evaluation->solved_knots = 0;
     if (evaluation->count != document->spline_count || evaluation->samples != document_samples(document))
         return; // evaluation_resize() failed and reported it
-    if (storage->is_new || cubic != evaluation->cubic) dirty = NULL;
+    storage->is_new |= has_changed(evaluation, document, cubic);
     evaluation->cubic = cubic;
+    storage->fps = document->fps;
+    storage->substeps = document->substeps;
+    storage->first_frame = document->first_frame;
     if (!scene_order(document, storage->space, storage->order, &cycle)) return; // a document has no cycles
     const bool grouped = pinned_begin(evaluation, document);
     const int *order = grouped ? storage->pinned.order : storage->order;
     for (int i = 0; i < evaluation->count; i++) storage->solved[i] = false;
     for (int i = 0; i < evaluation->count;) {
         if (grouped && storage->pinned.which[order[i]] >= 0) {
-            i += update_group(evaluation, document, dirty, &order[i]);
+            i += update_group(evaluation, document, &order[i]);
             continue;
         }
-        update_alone(evaluation, document, dirty, order[i]);
+        update_alone(evaluation, document, order[i]);
         if (grouped) storage->pinned.placed[order[i]] = true;
         i++;
     }

@@ -41,9 +41,9 @@ bool evaluation_sentence(const struct evaluation *evaluation, int spline, char *
 bool evaluation_resize(struct evaluation *evaluation, const struct document *document, struct error *error);
 void evaluation_free(struct evaluation *evaluation);
 
-/// Solves the splines marked in `dirty` (NULL: all) and those that follow them by tracks. Allocates nothing. `cubic` solves every
+/// Solves the splines that are not the ones solved last, and those that follow them by tracks. Allocates nothing. `cubic` solves every
 /// spline as a cubic on the same knots, keeping its equilibrium and, behind the last knot, its value; changing it solves all.
-void evaluation_update(struct evaluation *evaluation, const struct document *document, const bool *dirty, bool cubic);
+void evaluation_update(struct evaluation *evaluation, const struct document *document, bool cubic);
 
 /// What is solved for one spline, with its knots, for which `knots` has room.
 wiggly_desc evaluation_describe(const struct evaluation *evaluation, const struct document *document, int spline,

@@ -33,7 +33,7 @@ void floors_free(struct floors *floors)
 bool floors_any(const struct document *document)
 {
     for (int r = 0; r < document->rig_count; r++) {
-        if (rig_has_floor(&document->rigs[r])) return true;
+        if (rig_has_floor(document->rigs[r])) return true;
     }
     return false;
 }
@@ -72,7 +72,7 @@ static bool concerns(const int *which, const struct rig *rig, int group)
 bool floors_concern(const int *which, const struct document *document, int group)
 {
     for (int r = 0; r < document->rig_count; r++) {
-        if (concerns(which, &document->rigs[r], group)) return true;
+        if (concerns(which, document->rigs[r], group)) return true;
     }
     return false;
 }
@@ -80,7 +80,7 @@ bool floors_concern(const int *which, const struct document *document, int group
 /// Where the floor in hand is at a sample.
 static double level(const struct floors *floors, const struct document *document, int rig, int sample)
 {
-    return document->rigs[rig].character.floor - floors->sunk[rig * floors->samples + sample];
+    return document->rigs[rig]->character.floor - floors->sunk[rig * floors->samples + sample];
 }
 
 static double depth(const struct floors *floors, const struct document *document, int rig, int sample)
@@ -92,7 +92,7 @@ static bool find_low(struct floors *floors, const struct floor_group *group, con
 {
     const struct pin_source *source = group->source;
     if (floors->in_hand == rig) return true;
-    if (!source->lowest(source->context, group->evaluation, document, rig, document->rigs[rig].character.floor,
+    if (!source->lowest(source->context, group->evaluation, document, rig, document->rigs[rig]->character.floor,
                         floors->room, floors->low))
         return false;
     floors->in_hand = rig;
@@ -159,7 +159,7 @@ static void find_sunk(struct floors *floors, const struct floor_group *group, co
     memset(sunk, 0, sizeof *sunk * (size_t)group->samples);
     if (!find_low(floors, group, document, rig)) return;
     for (int i = 0; i < group->samples; i++) {
-        const double by = document->rigs[rig].character.floor - floors->low[i].height;
+        const double by = document->rigs[rig]->character.floor - floors->low[i].height;
         if (!(by > 0) || !is_held(group, i)) continue;
         put_bound(group, document, rig, i, floors->low[i], 0, &floors->bounds[0], floors->c);
         const double held = 1 - wiggly_group_reach(group->solver, &floors->bounds[0]) / HELD;
@@ -205,7 +205,7 @@ static void measure(struct floors *floors, const struct document *document, int 
     struct floor_left *left = &floors->left[rig];
     *left = (struct floor_left){.sample = -1};
     for (int i = 0; i < samples; i++) {
-        const double by = document->rigs[rig].character.floor - floors->low[i].height;
+        const double by = document->rigs[rig]->character.floor - floors->low[i].height;
         if (by > left->depth) *left = (struct floor_left){by, i};
     }
 }
@@ -216,12 +216,12 @@ wiggly_status floors_solve(struct floors *floors, const struct floor_group *grou
     floors->count = 0;
     floors->in_hand = -1;
     for (int r = 0; r < document->rig_count; r++) {
-        if (concerns(group->which, &document->rigs[r], group->group)) find_sunk(floors, group, document, r);
+        if (concerns(group->which, document->rigs[r], group->group)) find_sunk(floors, group, document, r);
     }
     for (int n = 0; n < MOST_ROUNDS && status < WIGGLY_ERROR_ARGUMENT; n++) {
         bool any = false;
         for (int r = 0; r < document->rig_count; r++) {
-            if (!concerns(group->which, &document->rigs[r], group->group)) continue;
+            if (!concerns(group->which, document->rigs[r], group->group)) continue;
             any = add_bounds(floors, group, document, r) || any;
             measure(floors, document, r, group->samples);
         }

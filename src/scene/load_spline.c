@@ -1,4 +1,5 @@
 /// Reads the splines of a scene.
+#include "base/need.h"
 #include "scene/color.h"
 #include "scene/reader.h"
 #include <math.h>
@@ -277,7 +278,7 @@ static void index_names(struct reader *reader, const struct where *splines_at)
         return;
     }
     for (int i = 0; i < document->spline_count; i++) {
-        const char *name = document->splines[i].name;
+        const char *name = document->splines[i]->name;
         if (name) reader->names[reader->name_count++] = (struct name_index){name, i};
     }
     qsort(reader->names, (size_t)reader->name_count, sizeof *reader->names, compare_names);
@@ -297,18 +298,14 @@ void load_splines(struct reader *reader, const struct value *scene)
     int count = reader_objects(reader, splines, SOURCE_MAX_OBJECTS);
     if (count <= 0) return;
     struct document *document = reader->document;
-    document->splines = calloc((size_t)count, sizeof *document->splines);
-    if (!document->splines) {
-        reader_no_memory(reader);
-        return;
-    }
-    document->spline_count = document->spline_capacity = count;
+    document->splines = need((size_t)count, sizeof *document->splines);
+    document->spline_count = count;
     for (int i = 0; i < count; i++) {
         const struct value object = reader_element(&splines, i);
-        spline_reset(&document->splines[i]);
-        document->splines[i].id = document->next_spline_id++;
-        document->splines[i].name = reader_name(reader, reader_member(&object, "name"));
+        document->splines[i] = spline_create();
+        document->splines[i]->id = document->next_spline_id++;
+        document->splines[i]->name = reader_name(reader, reader_member(&object, "name"));
     }
     index_names(reader, &splines.at);
-    for (int i = 0; i < count; i++) load_spline(reader, reader_element(&splines, i), &document->splines[i]);
+    for (int i = 0; i < count; i++) load_spline(reader, reader_element(&splines, i), document->splines[i]);
 }

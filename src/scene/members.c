@@ -68,7 +68,7 @@ void print_param(struct text *text, const struct document *document, const struc
     if (param->motion) {
         print_motion(&track, document, param, folder);
     } else {
-        member_string(&track, "spline", document->splines[param->track].name);
+        member_string(&track, "spline", document->splines[param->track]->name);
     }
     members_extra(&track, json_object_get(extras, key), NULL);
     text_string(text, " }");

@@ -36,8 +36,8 @@ static uint64_t key_of(const struct document *document, const struct joint_motio
     hash = hash_word(hash_word(hash, (uint64_t)document->first_frame), (uint64_t)document->last_frame);
     hash = hash_word(hash, (uint64_t)motion->of);
     hash = hash_word(hash_word(hash, source->read ? 1 : 0), source->version);
-    if (model >= 0) hash = hash_model(hash, &document->rigs[model].model);
-    if (chain >= 0) hash = hash_chain(hash, &document->rigs[chain].chain);
+    if (model >= 0) hash = hash_model(hash, &document->rigs[model]->model);
+    if (chain >= 0) hash = hash_chain(hash, &document->rigs[chain]->chain);
     return hash | 1;
 }
 
@@ -57,7 +57,7 @@ bool motions_bake(struct evaluation *evaluation, const struct document *document
     bool any = false;
     if (evaluation->count != document->spline_count || evaluation->samples != count) return false;
     for (int s = 0; s < document->spline_count; s++) {
-        const struct param *param = &document->splines[s].parameter[PARAMETER_EQUILIBRIUM];
+        const struct param *param = &document->splines[s]->parameter[PARAMETER_EQUILIBRIUM];
         struct baked *baked = &storage->baked[s];
         if (!param->motion || baked->capacity < count) continue;
         const uint64_t key = key_of(document, param->motion, source);

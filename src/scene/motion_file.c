@@ -15,8 +15,7 @@ json_t *reader_motion(struct reader *reader, const struct value *object, struct 
     if (chain.json) good &= (motion.chain = reader_name(reader, chain)) != NULL;
     if (good && of >= 0 && motion.model && motion.joint) {
         motion.of = (enum motion_of)of;
-        *param = (struct param){0, -1, motion_list_keep(&reader->document->motions, &motion), gain};
-        if (!param->motion) reader_no_memory(reader);
+        *param = (struct param){0, -1, motion_create(&motion), gain};
     }
     free(motion.model);
     free(motion.joint);
@@ -40,15 +39,13 @@ void resolve_motions(struct reader *reader, const struct value *scene)
 {
     const struct document *document = reader->document;
     const struct value splines = reader_member(scene, "splines");
-    for (int i = 0; i < document->motions.count; i++) {
-        struct joint_motion *motion = document->motions.items[i];
-        motion->by_file = document_find_model(document, motion->model, false) < 0;
-    }
-    for (int s = 0; s < document->spline_count && document->motions.count > 0; s++) {
-        const struct param *param = &document->splines[s].parameter[PARAMETER_EQUILIBRIUM];
+    for (int s = 0; s < document->spline_count; s++) {
+        const struct param *param = &document->splines[s]->parameter[PARAMETER_EQUILIBRIUM];
+        if (!param->motion) continue;
+        param->motion->by_file = document_find_model(document, param->motion->model, false) < 0;
         const struct value spline = reader_element(&splines, s);
         const struct value object = reader_member(&spline, parameter_rows[PARAMETER_EQUILIBRIUM].name);
-        if (param->motion) check_motion(reader, &object, param->motion);
+        check_motion(reader, &object, param->motion);
     }
 }
 

@@ -28,7 +28,7 @@ static bool visit(const struct document *document, struct order_space space, int
             continue;
         }
         space.next[spline]++;
-        int leader = document->splines[spline].parameter[parameter].track;
+        int leader = document->splines[spline]->parameter[parameter].track;
         if (leader < 0 || space.next[leader] == DONE) continue;
         if (space.next[leader] != UNSEEN) {
             *cycle = (struct order_cycle){spline, (enum parameter)parameter};
@@ -79,7 +79,7 @@ void scene_followers(const struct document *document, int spline, bool *follower
     for (bool more = true; more;) {
         more = false;
         for (int s = 0; s < count; s++) {
-            if (followers[s] || !follows_any(&document->splines[s], followers, count)) continue;
+            if (followers[s] || !follows_any(document->splines[s], followers, count)) continue;
             followers[s] = more = true;
         }
     }

@@ -1,6 +1,6 @@
-/// Makes paint, and remembers what a stroke touched, for undo.
-#include "scene/paint.h"
-#include <assert.h>
+/// Makes paint and changes it.
+#include "base/need.h"
+#include "scene/character.h"
 #include <stdlib.h>
 #include <string.h>
 
@@ -15,6 +15,7 @@ struct paint *paint_create(int coordinates, int vertices)
 {
     struct paint *paint = calloc(1, sizeof *paint);
     if (!paint) return NULL;
+    atomic_init(&paint->holders, 1);
     paint->coordinates = coordinates;
     paint->vertices = vertices;
     paint->values = calloc((size_t)coordinates * (size_t)vertices + 1, sizeof *paint->values);
@@ -24,20 +25,17 @@ struct paint *paint_create(int coordinates, int vertices)
     return NULL;
 }
 
-void paint_destroy(struct paint *paint)
+struct paint *paint_hold(struct paint *paint)
 {
-    if (!paint) return;
-    free(paint->values);
-    free(paint);
+    if (paint) atomic_fetch_add(&paint->holders, 1);
+    return paint;
 }
 
-struct paint *paint_copy(const struct paint *paint)
+void paint_drop(struct paint *paint)
 {
-    struct paint *copy = paint_create(paint->coordinates, paint->vertices);
-    if (!copy) return NULL;
-    memcpy(copy->values, paint->values, paint_bytes(paint) - sizeof *paint);
-    copy->version = paint->version;
-    return copy;
+    if (!paint || atomic_fetch_sub(&paint->holders, 1) > 1) return;
+    free(paint->values);
+    free(paint);
 }
 
 bool paint_is_plain(const struct paint *paint)
@@ -55,78 +53,58 @@ size_t paint_bytes(const struct paint *paint)
     return sizeof *paint + (size_t)paint->coordinates * (size_t)paint->vertices * sizeof *paint->values;
 }
 
-struct touched *touched_create(const struct paint *paint, int coordinate)
+static struct paint *copy_of(const struct paint *paint)
 {
-    const size_t room = (size_t)paint->vertices + 1;
-    struct touched *touched = calloc(1, sizeof *touched);
-    if (!touched) return NULL;
-    touched->coordinate = coordinate;
-    touched->capacity = paint->vertices;
-    touched->vertices = malloc(room * sizeof *touched->vertices);
-    touched->values = malloc(room * sizeof *touched->values);
-    touched->place = calloc(room, sizeof *touched->place);
-    if (touched->vertices && touched->values && touched->place) return touched;
-    touched_destroy(touched);
-    return NULL;
+    struct paint *copy = need(1, sizeof *copy);
+    const size_t size = paint_bytes(paint) - sizeof *paint;
+    *copy = *paint;
+    atomic_init(&copy->holders, 1);
+    copy->values = need(size + 1, 1);
+    memcpy(copy->values, paint->values, size);
+    return copy;
 }
 
-void touched_destroy(struct touched *touched)
+void paint_dab(struct paint **paint, const struct dab *dab)
 {
-    if (!touched) return;
-    free(touched->vertices);
-    free(touched->values);
-    free(touched->place);
-    free(touched);
-}
-
-static float *value_at(struct paint *paint, int coordinate, int vertex)
-{
-    return paint->values[(size_t)coordinate * (size_t)paint->vertices + (size_t)vertex];
-}
-
-void touched_dab(struct touched *touched, struct paint *paint, const struct dab *dab)
-{
-    assert(touched->place && touched->coordinate == dab->coordinate);
-    for (int i = 0; i < dab->count; i++) {
-        const int vertex = dab->vertices[i];
-        float *value = value_at(paint, dab->coordinate, vertex);
-        if (touched->place[vertex] == 0) {
-            const int place = touched->count++;
-            touched->place[vertex] = 1 + place;
-            touched->vertices[place] = vertex;
-            memcpy(touched->values[place], value, sizeof *touched->values);
-        }
-        memcpy(value, dab->values[i], sizeof *dab->values);
+    if (atomic_load(&(*paint)->holders) > 1) {
+        struct paint *copy = copy_of(*paint);
+        paint_drop(*paint);
+        *paint = copy;
     }
-    touch(paint);
+    const size_t first = (size_t)dab->coordinate * (size_t)(*paint)->vertices;
+    for (int i = 0; i < dab->count; i++)
+        memcpy((*paint)->values[first + (size_t)dab->vertices[i]], dab->values[i], sizeof *dab->values);
+    touch(*paint);
 }
 
-void touched_swap(struct touched *touched, struct paint *paint)
+struct paint_file *paint_file_create(void)
 {
-    for (int i = 0; i < touched->count; i++) {
-        float *value = value_at(paint, touched->coordinate, touched->vertices[i]), other[2];
-        memcpy(other, value, sizeof other);
-        memcpy(value, touched->values[i], sizeof other);
-        memcpy(touched->values[i], other, sizeof other);
+    struct paint_file *file = need_zeroed(1, sizeof *file);
+    atomic_init(&file->holders, 1);
+    return file;
+}
+
+struct paint_file *paint_file_hold(struct paint_file *file)
+{
+    if (file) atomic_fetch_add(&file->holders, 1);
+    return file;
+}
+
+void paint_file_drop(struct paint_file *file)
+{
+    if (!file || atomic_fetch_sub(&file->holders, 1) > 1) return;
+    free(file->path);
+    free(file);
+}
+
+void paint_file_part(struct paint_file **file)
+{
+    struct paint_file *old = *file, *copy = paint_file_create();
+    if (old) {
+        copy->path = old->path ? need_text(old->path) : NULL;
+        copy->version = old->version;
+        copy->stamp = old->stamp;
     }
-    touch(paint);
-}
-
-void touched_settle(struct touched *touched)
-{
-    const size_t room = (size_t)touched->count + 1;
-    if (!touched->place) return;
-    free(touched->place);
-    touched->place = NULL;
-    touched->capacity = touched->count;
-    int *vertices = realloc(touched->vertices, room * sizeof *vertices);
-    if (vertices) touched->vertices = vertices;
-    float(*values)[2] = realloc(touched->values, room * sizeof *values);
-    if (values) touched->values = values;
-}
-
-size_t touched_bytes(const struct touched *touched)
-{
-    const size_t each = sizeof *touched->vertices + sizeof *touched->values;
-    return sizeof *touched + (size_t)touched->capacity * (each + (touched->place ? sizeof *touched->place : 0));
+    paint_file_drop(old);
+    *file = copy;
 }

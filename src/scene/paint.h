@@ -7,6 +7,7 @@
 #define SCENE_PAINT_H
 
 #include "base/error.h"
+#include <stdatomic.h>
 #include <stddef.h>
 #include <stdint.h>
 
@@ -15,17 +16,17 @@
 #define PAINT_MOST_LEAD 1000.0f
 
 struct paint {
+    atomic_int holders;        ///< rigs
     int coordinates, vertices; ///< of its model
     float (*values)[2];        ///< a and ψ at coordinate · vertices + vertex
     uint64_t version;          ///< new after every change; never repeats
 };
 
-/// Paint that changes nothing; NULL if memory runs out.
+/// Paint that changes nothing, with one holder. NULL if memory runs out.
 struct paint *paint_create(int coordinates, int vertices);
-void paint_destroy(struct paint *paint);
-
-/// A copy with the same version, for its values are the same; NULL if memory runs out.
-struct paint *paint_copy(const struct paint *paint);
+struct paint *paint_hold(struct paint *paint);
+/// NULL is fine.
+void paint_drop(struct paint *paint);
 
 /// Whether it changes nothing at all.
 bool paint_is_plain(const struct paint *paint);
@@ -40,28 +41,7 @@ struct dab {
     const float (*values)[2]; ///< a and ψ of each
 };
 
-/// What a stroke touches: some vertices of one coordinate, with their other values.
-struct touched {
-    int coordinate, count, capacity;
-    int *vertices;
-    float (*values)[2];
-    int *place; ///< 1 + each vertex's index above, or 0; NULL once the stroke is over
-};
-
-/// Empty, with room for all vertices; NULL if memory runs out.
-struct touched *touched_create(const struct paint *paint, int coordinate);
-void touched_destroy(struct touched *touched);
-
-/// Puts a dab into the paint and keeps the values from before the stroke.
-void touched_dab(struct touched *touched, struct paint *paint, const struct dab *dab);
-
-/// Swaps its values with the paint's.
-void touched_swap(struct touched *touched, struct paint *paint);
-
-/// Ends the stroke: frees the room that it did not need.
-void touched_settle(struct touched *touched);
-
-/// Bytes that it takes.
-size_t touched_bytes(const struct touched *touched);
+/// Puts a dab into the paint; where that has another holder, a copy takes its place.
+void paint_dab(struct paint **paint, const struct dab *dab);
 
 #endif

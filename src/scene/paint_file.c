@@ -73,7 +73,7 @@ struct paint *paint_parse(const char *name, const char *data, size_t size, struc
         return NULL;
     }
     if (read_values(name, &npy, data, paint, error)) return paint;
-    paint_destroy(paint);
+    paint_drop(paint);
     return NULL;
 }
 

@@ -8,11 +8,10 @@ struct joint_motion;
 
 /// A number, the index of a word, the total of another spline, or what a joint does in a clip.
 struct param {
-    double value; ///< used if it follows nothing
-    int track;    ///< index of the spline that is followed, or -1
-    const struct joint_motion
-        *motion; ///< of the joint that is followed (joint_motion.h), or NULL; owned by the document
-    double gain; ///< times that motion
+    double value;                ///< used if it follows nothing
+    int track;                   ///< index of the spline that is followed, or -1
+    struct joint_motion *motion; ///< of the joint that is followed (joint_motion.h), or NULL; a spline holds it
+    double gain;                 ///< times that motion
 };
 
 /// A constant, and the track of a spline.

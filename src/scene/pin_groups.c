@@ -22,7 +22,7 @@ void pin_groups_find(const struct document *document, int *group)
 {
     for (int s = 0; s < document->spline_count; s++) group[s] = -1;
     for (int r = 0; r < document->rig_count; r++) {
-        const struct rig *rig = &document->rigs[r];
+        const struct rig *rig = document->rigs[r];
         const int inputs = pins_hold_rig(rig) ? rig_input_count(rig) : 0;
         for (int i = 0; i < inputs; i++) {
             const int spline = rig_point_input(rig, i);
@@ -39,7 +39,7 @@ static void visit_chains(const struct document *document, const struct chain *pi
     const int model = document_find_model(document, pinned->model, pinned->by_file);
     for (int r = document_next_rig(document, RIG_CHAIN, 0); r >= 0;
          r = document_next_rig(document, RIG_CHAIN, r + 1)) {
-        const struct chain *chain = &document->rigs[r].chain;
+        const struct chain *chain = &document->rigs[r]->chain;
         if (document_find_model(document, chain->model, chain->by_file) != model) continue;
         for (int c = 0; c < chain->channel_count; c++) visit(chain->channels[c].spline, context);
     }
@@ -64,7 +64,7 @@ void pin_groups_visit_bases(const struct document *document, const int *group, i
 {
     struct outside outside = {group, which, visit, context};
     for (int r = 0; r < document->rig_count; r++) {
-        const struct rig *rig = &document->rigs[r];
+        const struct rig *rig = document->rigs[r];
         const int spline = pins_hold_rig(rig) ? rig_point_spline(rig) : -1;
         if (spline < 0 || group[spline] != which) continue;
         for (int k = 0; rig->kind == RIG_TAIL && k < 3; k++) visit_outside(rig->tail.position[k].track, &outside);
@@ -90,7 +90,7 @@ struct ordering {
 static bool is_ready(struct ordering *o, int spline)
 {
     for (int p = 0; p < PARAMETER_COUNT; p++) {
-        const int leader = o->document->splines[spline].parameter[p].track;
+        const int leader = o->document->splines[spline]->parameter[p].track;
         if (leader < 0 || o->placed[leader]) continue;
         o->cycle = (struct pin_cycle){spline, leader};
         return false;

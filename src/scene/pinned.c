@@ -152,9 +152,9 @@ bool pinned_resize(struct storage *storage, const struct document *document)
     if (!resize_splines(pinned, document->spline_count)) return false;
     pin_groups_find(document, pinned->which);
     for (int s = 0; s < document->spline_count; s++) {
-        const int own = storage_knot_room(&document->splines[s], room.samples);
+        const int own = storage_knot_room(document->splines[s], room.samples);
         const int group = pinned->which[s] == s ? count_members(pinned, document->spline_count, s) : 0;
-        knots += document->splines[s].knot_count;
+        knots += document->splines[s]->knot_count;
         if (pinned->which[s] >= 0 && own > room.knots) room.knots = own;
         if (group > room.group) room.group = group;
     }
@@ -248,7 +248,7 @@ static void find_members(struct evaluation *evaluation, const struct document *d
         pinned->curves[i] = evaluation->curves[s];
         pinned->descs[i] = storage_describe(storage, evaluation->curves, document, s, false);
         storage_add_knots(&pinned->descs[i], document, s, knots);
-        knots += document->splines[s].knot_count;
+        knots += document->splines[s]->knot_count;
     }
 }
 
@@ -256,7 +256,7 @@ static void find_held(struct pinned *pinned, const struct document *document, in
 {
     pinned->held_count = 0;
     for (int r = 0; r < document->rig_count; r++) {
-        const struct rig *rig = &document->rigs[r];
+        const struct rig *rig = document->rigs[r];
         const int spline = rig_point_spline(rig);
         const bool is_held = spline >= 0 && pinned->which[spline] == which;
         for (int i = 0; is_held && i < rig->pin_count; i++)
@@ -266,7 +266,7 @@ static void find_held(struct pinned *pinned, const struct document *document, in
 
 static const struct pin *pin_of(const struct document *document, const struct held_pin *held)
 {
-    return &document->rigs[held->rig].pins[held->pin];
+    return &document->rigs[held->rig]->pins[held->pin];
 }
 
 /// Solves the group with a round's pins, or without any, and shows the curves to whoever finds points.
@@ -420,8 +420,8 @@ void pinned_measure(struct evaluation *evaluation, const struct document *docume
     pinned->left_count = 0;
     if (!source->find || pins_count(document) > pinned->pins) return;
     for (int r = 0; r < document->rig_count; r++) {
-        for (int i = 0; i < document->rigs[r].pin_count; i++) {
-            const struct pin *pin = &document->rigs[r].pins[i];
+        for (int i = 0; i < document->rigs[r]->pin_count; i++) {
+            const struct pin *pin = &document->rigs[r]->pins[i];
             struct pin_left *left = &pinned->left[pinned->left_count++];
             struct pin_point now;
             *left = (struct pin_left){
@@ -441,7 +441,7 @@ const struct pin_left *evaluation_pin(const struct evaluation *evaluation, const
 {
     const struct storage *storage = evaluation->storage;
     int number = pin;
-    for (int r = 0; r < rig; r++) number += document->rigs[r].pin_count;
+    for (int r = 0; r < rig; r++) number += document->rigs[r]->pin_count;
     return storage && number < storage->pinned.left_count ? &storage->pinned.left[number] : NULL;
 }
 

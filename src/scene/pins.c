@@ -1,5 +1,6 @@
 /// Keeps pins in order and checks them.
 #include "scene/pins.h"
+#include "base/need.h"
 #include "scene/order.h"
 #include "scene/pin_groups.h"
 #include <assert.h>
@@ -7,12 +8,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { FIRST_PINS = 4 };
-
 int pins_count(const struct document *document)
 {
     int count = 0;
-    for (int r = 0; r < document->rig_count; r++) count += document->rigs[r].pin_count;
+    for (int r = 0; r < document->rig_count; r++) count += document->rigs[r]->pin_count;
     return count;
 }
 
@@ -21,7 +20,7 @@ bool pins_hold_rig(const struct rig *rig) { return rig->pin_count > 0 || rig_has
 bool pins_hold_any(const struct document *document)
 {
     for (int r = 0; r < document->rig_count; r++) {
-        if (pins_hold_rig(&document->rigs[r])) return true;
+        if (pins_hold_rig(document->rigs[r])) return true;
     }
     return false;
 }
@@ -29,7 +28,7 @@ bool pins_hold_any(const struct document *document)
 bool pins_move_spline(const struct document *document, int spline)
 {
     for (int r = 0; r < document->rig_count; r++) {
-        const struct rig *rig = &document->rigs[r];
+        const struct rig *rig = document->rigs[r];
         for (int i = 0; pins_hold_rig(rig) && i < rig_input_count(rig); i++) {
             if (rig_point_input(rig, i) == spline) return true;
         }
@@ -53,18 +52,6 @@ int pins_find(const struct document *document, const struct rig *rig, int point,
     return -1;
 }
 
-bool pins_reserve(struct rig *rig, int count)
-{
-    int capacity = rig->pin_capacity > 0 ? rig->pin_capacity : FIRST_PINS;
-    while (capacity < rig->pin_count + count) capacity *= 2;
-    if (capacity == rig->pin_capacity) return true;
-    struct pin *pins = realloc(rig->pins, (size_t)capacity * sizeof *pins);
-    if (!pins) return false;
-    rig->pins = pins;
-    rig->pin_capacity = capacity;
-    return true;
-}
-
 static bool comes_after(const struct pin *a, const struct pin *b)
 {
     return a->frame > b->frame || (a->frame == b->frame && a->point > b->point);
@@ -72,7 +59,7 @@ static bool comes_after(const struct pin *a, const struct pin *b)
 
 void pins_insert(struct rig *rig, const struct pin *pin)
 {
-    assert(rig->pin_count < rig->pin_capacity);
+    rig->pins = need_more(rig->pins, (size_t)rig->pin_count + 1, sizeof *rig->pins);
     int at = rig->pin_count++;
     for (; at > 0 && comes_after(&rig->pins[at - 1], pin); at--) rig->pins[at] = rig->pins[at - 1];
     rig->pins[at] = *pin;
@@ -104,7 +91,7 @@ int pins_last_sample(const struct document *document, const struct rig *rig)
     const int samples = document_samples(document);
     for (int i = 0; i < rig_input_count(rig); i++) {
         const int spline = rig_point_input(rig, i);
-        if (spline >= 0 && spline_start(&document->splines[spline]) == WIGGLY_LOOP) return samples - 2;
+        if (spline >= 0 && spline_start(document->splines[spline]) == WIGGLY_LOOP) return samples - 2;
     }
     return samples - 1;
 }
@@ -161,7 +148,7 @@ static bool check_splines(const struct document *document, const struct rig *rig
 {
     for (int i = 0; i < rig_input_count(rig); i++) {
         if (rig_point_input(rig, i) < 0) continue;
-        const struct spline *spline = &document->splines[rig_input(rig, i)];
+        const struct spline *spline = document->splines[rig_input(rig, i)];
         const char *why = stiffness_of(spline);
         if (!why) continue;
         snprintf(trouble->sentence, sizeof trouble->sentence,
@@ -174,7 +161,7 @@ static bool check_splines(const struct document *document, const struct rig *rig
 bool pins_check(const struct document *document, struct pin_trouble *trouble)
 {
     for (int r = 0; r < document->rig_count; r++) {
-        const struct rig *rig = &document->rigs[r];
+        const struct rig *rig = document->rigs[r];
         for (int i = 0; i < rig->pin_count; i++) {
             *trouble = (struct pin_trouble){.rig = r, .pin = i};
             if (!check_frame(document, rig, i, trouble)) return false;
@@ -190,7 +177,7 @@ bool pins_check(const struct document *document, struct pin_trouble *trouble)
 static int pinned_rig_of(const struct document *document, int spline)
 {
     for (int r = 0; r < document->rig_count; r++) {
-        const struct rig *rig = &document->rigs[r];
+        const struct rig *rig = document->rigs[r];
         for (int i = 0; pins_hold_rig(rig) && i < rig_input_count(rig); i++) {
             if (rig_point_input(rig, i) == spline) return r;
         }
@@ -229,10 +216,10 @@ static void search_free(struct search *search)
 static void name_cycle(const struct document *document, const int *group, const struct pin_cycle *cycle,
                        struct pin_trouble *trouble)
 {
-    const char *name = document->splines[cycle->spline].name, *leader = document->splines[cycle->leader].name;
+    const char *name = document->splines[cycle->spline]->name, *leader = document->splines[cycle->leader]->name;
     const bool is_pinned = group[cycle->spline] >= 0;
     trouble->rig = pinned_rig_of(document, is_pinned ? cycle->spline : cycle->leader);
-    trouble->member = member_that_holds(&document->rigs[trouble->rig]);
+    trouble->member = member_that_holds(document->rigs[trouble->rig]);
     if (is_pinned && group[cycle->spline] == group[cycle->leader]) {
         snprintf(trouble->sentence, sizeof trouble->sentence,
                  "expected splines that do not follow each other, got \"%s\", which follows \"%s\"", name, leader);

@@ -21,10 +21,7 @@ int pins_find(const struct document *document, const struct rig *rig, int point,
 /// The last sample that may have a pin of the rig: where a loop drives it, the very last repeats the first.
 int pins_last_sample(const struct document *document, const struct rig *rig);
 
-/// Makes room for `count` more, by doubling; false if memory runs out.
-bool pins_reserve(struct rig *rig, int count);
-
-/// Puts a pin into its place, by frame and then by point; there must be room. And takes one out, by its id.
+/// Puts a pin into its place, by frame and then by point. And takes one out, by its id.
 void pins_insert(struct rig *rig, const struct pin *pin);
 struct pin pins_remove(struct rig *rig, unsigned id);
 

@@ -107,7 +107,7 @@ void print_document(struct text *text, const struct document *document, const ch
     member(&members, "splines");
     for (int i = 0; i < document->spline_count; i++) {
         text_string(text, i > 0 ? ",\n" : "[\n");
-        print_spline(text, document, &document->splines[i], folder, places ? &places[i] : NULL);
+        print_spline(text, document, document->splines[i], folder, places ? &places[i] : NULL);
     }
     text_string(text, document->spline_count > 0 ? "\n  ]" : "[]");
     member(&members, "rigs");

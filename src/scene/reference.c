@@ -5,19 +5,19 @@ void reference_each(const struct document *document, reference_visitor *visit, v
 {
     for (int s = 0; s < document->spline_count; s++) {
         for (int i = 0; i < PARAMETER_COUNT; i++) {
-            struct reference reference = {REFERENCE_TRACK, s, i, document->splines[s].parameter[i].track};
+            struct reference reference = {REFERENCE_TRACK, s, i, document->splines[s]->parameter[i].track};
             if (reference.spline >= 0) visit(&reference, context);
         }
     }
-    for (int i = 0; i < document->rig_count; i++) rig_references(&document->rigs[i], i, visit, context);
+    for (int i = 0; i < document->rig_count; i++) rig_references(document->rigs[i], i, visit, context);
 }
 
 void reference_set(struct document *document, const struct reference *reference, int spline)
 {
     if (reference->kind == REFERENCE_TRACK) {
-        document->splines[reference->owner].parameter[reference->which].track = spline;
+        document_own_spline(document, reference->owner)->parameter[reference->which].track = spline;
     } else {
-        rig_set_reference(&document->rigs[reference->owner], reference, spline);
+        rig_set_reference(document_own_rig(document, reference->owner), reference, spline);
     }
 }
 

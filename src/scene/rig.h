@@ -9,6 +9,7 @@
 #include "scene/model_rig.h"
 #include "scene/pin.h"
 #include "scene/tail.h"
+#include <stdatomic.h>
 #include <stddef.h>
 
 /// Every kind: its constant RIG_… and the name that its rows of functions begin with. Layers make their tables from this list.
@@ -23,6 +24,8 @@ enum rig_kind { RIG_KIND_LIST(RIG_CONSTANT) RIG_KINDS };
 enum { RIG_MAX_INPUTS = 64 }; ///< of a rig of any kind
 
 struct rig {
+    atomic_int holders; ///< documents
+    unsigned id;        ///< unique among the rigs, kept through edits and undo; not saved
     enum rig_kind kind;
     char *name; ///< NULL where the file has none
     union {
@@ -37,7 +40,7 @@ struct rig {
         struct meadow_rig meadow;
     };
     struct pin *pins; ///< by frame, then by point; at most one of a point on a sample
-    int pin_count, pin_capacity;
+    int pin_count;
     struct json_t *extra;
 };
 
@@ -67,16 +70,15 @@ struct channel *rig_channels(const struct rig *rig, int *count);
 /// What a point that can be pinned is called in the file, "vertex" or "joint"; NULL: such a rig takes no pins.
 const char *rig_pin_key(const struct rig *rig);
 
-/// A copy that owns its memory; false, with nothing to free, if memory runs out.
-bool rig_copy(const struct rig *rig, struct rig *copy);
+/// A rig of a kind without a name or an id, all else zero. It has one holder.
+struct rig *rig_create(enum rig_kind kind);
 
-/// Frees what it holds.
-void rig_release(struct rig *rig);
+/// A clone has one holder; what it holds is its own, but for paint and what is known of its file, which are counted.
+struct rig *rig_clone(const struct rig *rig);
+struct rig *rig_hold(struct rig *rig);
+void rig_drop(struct rig *rig);
 
-/// Bytes that it takes, not counting unknown keys.
-size_t rig_bytes(const struct rig *rig);
-
-/// Rewrites the paths that it names for another folder (path.h); false if memory runs out.
-bool rig_rebase(struct rig *rig, const char *from, const char *to);
+/// Bytes that it takes and another (or NULL) does not, not counting unknown keys.
+size_t rig_bytes(const struct rig *rig, const struct rig *other);
 
 #endif

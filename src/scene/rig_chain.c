@@ -1,5 +1,4 @@
 /// Chains as a kind of rig: loading, printing, references and memory.
-#include "base/path.h"
 #include "scene/rig_channels.h"
 #include "scene/rig_kind.h"
 #include <stdlib.h>
@@ -47,10 +46,10 @@ static void print(struct members *members, const struct document *document, cons
     print_channels(members, document, chain->channels, chain->channel_count);
 }
 
-static bool copy(struct rig *copy)
+static void copy(struct rig *copy)
 {
     char **const texts[] = {&copy->chain.model, &copy->chain.from, &copy->chain.to};
-    return rig_own_texts(texts, 3);
+    rig_own_texts(texts, 3);
 }
 
 static void release(struct rig *rig)
@@ -60,15 +59,11 @@ static void release(struct rig *rig)
     free(rig->chain.to);
 }
 
-static size_t bytes(const struct rig *rig)
+static size_t bytes(const struct rig *rig, const struct rig *other)
 {
+    (void)other;
     const struct chain *chain = &rig->chain;
     return text_size(chain->model) + text_size(chain->from) + text_size(chain->to);
-}
-
-static bool rebase(struct rig *rig, const char *from, const char *to)
-{
-    return !rig->chain.by_file || path_move(&rig->chain.model, from, to);
 }
 
 static const char *title(const struct rig *rig) { return rig->chain.from; }
@@ -82,5 +77,4 @@ const struct rig_functions chain_functions = {.word = "chain",
                                               .copy = copy,
                                               .release = release,
                                               .bytes = bytes,
-                                              .rebase = rebase,
                                               .title = title};

@@ -165,7 +165,7 @@ static bool holds_ramp(const char *key) { return strcmp(key, "lag") == 0 || strc
 static void print_channel(struct text *text, const struct document *document, const struct channel *channel)
 {
     struct members members = {text, "{ ", ", ", false};
-    member_string(&members, "spline", document->splines[channel->spline].name);
+    member_string(&members, "spline", document->splines[channel->spline]->name);
     member_string(&members, "axis", axis_word(channel->axis));
     if (channel->of != PART_TOTAL) member_string(&members, "of", parts[channel->of]);
     print_angles(&members, "lag", &channel->lag, channel->extra);

@@ -1,5 +1,4 @@
 /// Characters as a kind of rig: loading, printing, references and memory.
-#include "base/path.h"
 #include "scene/rig_kind.h"
 #include <stdlib.h>
 #include <string.h>
@@ -14,10 +13,7 @@ static const char *const drive_keys[] = {"name", "spline", "amplitude", "lag", N
 static void load_drive(struct reader *reader, struct value object, struct drive *drive)
 {
     drive->amplitude = DRIVE_DEFAULT_AMPLITUDE;
-    char *name = reader_name(reader, reader_member(&object, "name"));
-    if (name) drive->name = document_keep_text(reader->document, name);
-    if (name && !drive->name) reader_no_memory(reader);
-    free(name);
+    drive->name = reader_name(reader, reader_member(&object, "name"));
     drive->spline = reader_spline_name(reader, reader_member(&object, "spline"));
     reader_number(reader, reader_member(&object, "amplitude"), false, range_any, &drive->amplitude);
     reader_number(reader, reader_member(&object, "lag"), false, range_any, &drive->lag);
@@ -33,7 +29,7 @@ static void load(struct reader *reader, const struct value *object, struct rig *
     if (name.json) rig->name = reader_name(reader, name);
     character->model = reader_name(reader, reader_member(object, "model"));
     character->has_floor = floor.json && reader_number(reader, floor, false, range_any, &character->floor);
-    if (paint.json) character->paint = reader_name(reader, paint);
+    if (paint.json) character->file->path = reader_name(reader, paint);
     reader_point(reader, reader_member(object, "position"), character->position);
     character->phases = phases.json ? reader_word(reader, phases, axes, -1) : -1;
     int count = reader_objects(reader, coordinates, CHARACTER_MAX_DRIVES);
@@ -46,7 +42,7 @@ static void print_drive(struct text *text, const struct document *document, cons
 {
     struct members members = {text, "{ ", ", ", false};
     member_string(&members, "name", drive->name);
-    member_string(&members, "spline", document->splines[drive->spline].name);
+    member_string(&members, "spline", document->splines[drive->spline]->name);
     member_number(&members, "amplitude", drive->amplitude);
     member_number(&members, "lag", drive->lag);
     members_extra(&members, drive->extra, NULL);
@@ -56,8 +52,8 @@ static void print_drive(struct text *text, const struct document *document, cons
 /// Whether the scene names a paint file: not for paint that changes nothing, but still for a file that could not be read.
 static bool is_painted(const struct character_rig *character)
 {
-    if (!character->paint) return false;
-    return character->painted ? !paint_is_plain(character->painted) : character->filed == 0;
+    if (!character->file->path) return false;
+    return character->painted ? !paint_is_plain(character->painted) : character->file->version == 0;
 }
 
 static void print(struct members *members, const struct document *document, const struct rig *rig, const char *folder)
@@ -75,7 +71,7 @@ static void print(struct members *members, const struct document *document, cons
     text_string(text, character->drive_count > 0 ? "\n      ]" : "[]");
     if (character->phases >= 0) member_string(members, "phases", axes[character->phases]);
     if (character->has_floor) member_number(members, "floor", character->floor);
-    if (is_painted(character)) member_path(members, "paint", document, character->paint, folder);
+    if (is_painted(character)) member_path(members, "paint", document, character->file->path, folder);
 }
 
 static int input_count(const struct rig *rig) { return rig->character.drive_count; }
@@ -94,38 +90,32 @@ static void set_reference(struct rig *rig, const struct reference *reference, in
     rig->character.drives[reference->which].spline = spline;
 }
 
-static bool copy(struct rig *copy)
+static void copy(struct rig *copy)
 {
     struct character_rig *character = &copy->character;
-    const struct paint *painted = character->painted;
-    char **const texts[] = {&character->model, &character->paint};
-    if (!rig_own_texts(texts, 2)) return false;
-    character->painted = painted ? paint_copy(painted) : NULL;
-    if (!painted || character->painted) return true;
-    for (int i = 0; i < 2; i++) free(*texts[i]);
-    return false;
+    rig_own_texts((char **const[]){&character->model}, 1);
+    for (int i = 0; i < character->drive_count; i++) rig_own_texts((char **const[]){&character->drives[i].name}, 1);
+    paint_hold(character->painted);
+    paint_file_hold(character->file);
 }
 
 static void release(struct rig *rig)
 {
-    free(rig->character.model);
-    free(rig->character.paint);
-    paint_destroy(rig->character.painted);
+    struct character_rig *character = &rig->character;
+    for (int i = 0; i < character->drive_count; i++) free(character->drives[i].name);
+    free(character->model);
+    paint_drop(character->painted);
+    paint_file_drop(character->file);
 }
 
-static size_t bytes(const struct rig *rig)
+static size_t bytes(const struct rig *rig, const struct rig *other)
 {
     const struct character_rig *character = &rig->character;
-    return text_size(character->model) + text_size(character->paint) + paint_bytes(character->painted);
+    const bool is_shared = other && other->character.painted == character->painted;
+    return text_size(character->model) + (is_shared ? 0 : paint_bytes(character->painted));
 }
 
 static const char *title(const struct rig *rig) { return rig->character.model; }
-
-static bool rebase(struct rig *rig, const char *from, const char *to)
-{
-    bool model = path_move(&rig->character.model, from, to);
-    return path_move(&rig->character.paint, from, to) && model;
-}
 
 const struct rig_functions character_functions = {.word = "character",
                                                   .load = load,
@@ -138,5 +128,4 @@ const struct rig_functions character_functions = {.word = "character",
                                                   .copy = copy,
                                                   .release = release,
                                                   .bytes = bytes,
-                                                  .rebase = rebase,
                                                   .title = title};

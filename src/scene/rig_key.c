@@ -67,7 +67,7 @@ uint64_t rigs_key(const struct document *document)
     uint64_t hash = hash_word(HASH_START, (uint64_t)document->substeps);
     hash = hash_word(add_number(hash, document->fps), (uint64_t)document->first_frame);
     for (int r = 0; r < document->rig_count; r++) {
-        const struct rig *rig = &document->rigs[r];
+        const struct rig *rig = document->rigs[r];
         hash = add_text(hash_word(hash, (uint64_t)rig->kind), rig->name);
         if (rig->kind == RIG_TAIL) hash = add_tail(hash, &rig->tail);
         if (rig->kind == RIG_CHARACTER) hash = add_character(hash, &rig->character);
@@ -82,7 +82,7 @@ uint64_t pins_key(const struct document *document)
 {
     uint64_t hash = HASH_START;
     for (int r = 0; r < document->rig_count; r++) {
-        const struct rig *rig = &document->rigs[r];
+        const struct rig *rig = document->rigs[r];
         hash = hash_word(hash, (uint64_t)rig->pin_count);
         for (int i = 0; i < rig->pin_count; i++) {
             const struct pin *pin = &rig->pins[i];

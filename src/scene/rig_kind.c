@@ -1,5 +1,6 @@
 /// The table of rig kinds, and what all kinds share.
 #include "scene/rig_kind.h"
+#include "base/need.h"
 #include "scene/rig_pins.h"
 #include <stdlib.h>
 #include <string.h>
@@ -67,87 +68,80 @@ void rig_set_reference(struct rig *rig, const struct reference *reference, int s
     }
 }
 
-bool rig_own_texts(char **const *texts, int count)
+void rig_own_texts(char **const *texts, int count)
 {
     for (int i = 0; i < count; i++) {
-        if (!*texts[i]) continue;
-        *texts[i] = strdup(*texts[i]);
-        if (*texts[i]) continue;
-        while (i > 0) free(*texts[--i]);
-        return false;
+        if (*texts[i]) *texts[i] = need_text(*texts[i]);
     }
-    return true;
-}
-
-static bool copy_channels(struct rig *copy)
-{
-    const size_t size = (size_t)copy->bent.channel_count * sizeof *copy->bent.channels;
-    const struct channel *channels = copy->bent.channels;
-    copy->bent.channels = malloc(size > 0 ? size : 1);
-    if (copy->bent.channels && size > 0) memcpy(copy->bent.channels, channels, size);
-    return copy->bent.channels != NULL;
 }
 
 const char *rig_pin_key(const struct rig *rig) { return kinds[rig->kind]->pin_key; }
 
-static bool copy_pins(struct rig *copy)
+/// A copy of an array, for one more.
+static void *copy_array(const void *array, int count, size_t each)
 {
-    const struct pin *pins = copy->pins;
-    const size_t size = (size_t)copy->pin_count * sizeof *pins;
-    copy->pin_capacity = copy->pin_count;
-    copy->pins = size > 0 ? malloc(size) : NULL;
-    if (copy->pins) memcpy(copy->pins, pins, size);
-    return size == 0 || copy->pins;
+    void *copy = need((size_t)count + 1, each);
+    if (count > 0) memcpy(copy, array, (size_t)count * each);
+    return copy;
 }
 
-bool rig_copy(const struct rig *rig, struct rig *copy)
+struct rig *rig_create(enum rig_kind kind)
+{
+    struct rig *rig = need_zeroed(1, sizeof *rig);
+    atomic_init(&rig->holders, 1);
+    rig->kind = kind;
+    if (kind == RIG_CHARACTER) rig->character.file = paint_file_create();
+    return rig;
+}
+
+struct rig *rig_clone(const struct rig *rig)
 {
     const struct rig_functions *kind = kinds[rig->kind];
+    struct rig *copy = need(1, sizeof *copy);
     *copy = *rig;
-    if (!copy_pins(copy)) return false;
-    copy->name = rig->name ? strdup(rig->name) : NULL;
-    if ((rig->name && !copy->name) || (kind->copy && !kind->copy(copy))) {
-        free(copy->name);
-        free(copy->pins);
-        return false;
-    }
-    if (!kind->is_bent || copy_channels(copy)) return true;
-    rig_release(copy);
-    return false;
+    atomic_init(&copy->holders, 1);
+    copy->pins = copy_array(rig->pins, rig->pin_count, sizeof *rig->pins);
+    copy->name = rig->name ? need_text(rig->name) : NULL;
+    if (kind->copy) kind->copy(copy);
+    if (kind->is_bent)
+        copy->bent.channels = copy_array(rig->bent.channels, rig->bent.channel_count, sizeof *rig->bent.channels);
+    return copy;
 }
 
-void rig_release(struct rig *rig)
+struct rig *rig_hold(struct rig *rig)
 {
+    atomic_fetch_add(&rig->holders, 1);
+    return rig;
+}
+
+void rig_drop(struct rig *rig)
+{
+    if (!rig || atomic_fetch_sub(&rig->holders, 1) > 1) return;
     const struct rig_functions *kind = kinds[rig->kind];
     if (kind->release) kind->release(rig);
     if (kind->is_bent) free(rig->bent.channels);
     free(rig->pins);
     free(rig->name);
+    free(rig);
 }
 
-size_t rig_bytes(const struct rig *rig)
+size_t rig_bytes(const struct rig *rig, const struct rig *other)
 {
     const struct rig_functions *kind = kinds[rig->kind];
-    size_t size = sizeof *rig + text_size(rig->name) + (size_t)rig->pin_capacity * sizeof *rig->pins;
-    if (kind->bytes) size += kind->bytes(rig);
+    size_t size = sizeof *rig + text_size(rig->name) + (size_t)rig->pin_count * sizeof *rig->pins;
+    if (kind->bytes) size += kind->bytes(rig, other);
     if (kind->is_bent) size += (size_t)rig->bent.channel_count * sizeof *rig->bent.channels;
     return size;
-}
-
-bool rig_rebase(struct rig *rig, const char *from, const char *to)
-{
-    const struct rig_functions *kind = kinds[rig->kind];
-    return !kind->rebase || kind->rebase(rig, from, to);
 }
 
 /// Reports an earlier rig with the same name.
 static void check_name(struct reader *reader, const struct where *rig_at, int index)
 {
-    const struct rig *rigs = reader->document->rigs;
+    struct rig *const *rigs = reader->document->rigs;
     struct where at = {.parent = rig_at, .key = "name"};
-    for (int i = 0; i < index && rigs[index].name; i++) {
-        if (!rigs[i].name || strcmp(rigs[i].name, rigs[index].name) != 0) continue;
-        reader_fail(reader, &at, "expected a name of its own, got \"%s\" as rigs[%d] has", rigs[i].name, i);
+    for (int i = 0; i < index && rigs[index]->name; i++) {
+        if (!rigs[i]->name || strcmp(rigs[i]->name, rigs[index]->name) != 0) continue;
+        reader_fail(reader, &at, "expected a name of its own, got \"%s\" as rigs[%d] has", rigs[i]->name, i);
         return;
     }
 }
@@ -166,23 +160,20 @@ void load_rigs(struct reader *reader, const struct value *scene)
     int count = reader_objects(reader, rigs, SCENE_MAX_RIGS);
     struct document *document = reader->document;
     if (count <= 0) return;
-    if (!document_reserve_rigs(document, count)) {
-        reader_no_memory(reader);
-        return;
-    }
     for (int i = 0; i < count; i++) {
         const struct value object = reader_element(&rigs, i);
         int kind = load_kind(reader, reader_member(&object, "type"));
-        struct rig *rig = &document->rigs[document->rig_count++];
-        memset(rig, 0, sizeof *rig);
-        rig->kind = kind < 0 ? RIG_TAIL : (enum rig_kind)kind; // any will do: the scene is refused
+        // any kind will do where it is unknown: the scene is refused
+        struct rig *rig = rig_create(kind < 0 ? RIG_TAIL : (enum rig_kind)kind);
+        rig->id = ++document->next_rig_id;
+        document_insert_rig(document, document->rig_count, rig);
         if (kind >= 0) kinds[kind]->load(reader, &object, rig);
         if (kind >= 0 && kinds[kind]->pin_key) load_pins(reader, &object, kinds[kind]->pin_key, rig);
         check_name(reader, &object.at, i);
     }
     for (int i = 0; i < count; i++) {
         const struct value object = reader_element(&rigs, i);
-        struct rig *rig = &document->rigs[i];
+        struct rig *rig = document->rigs[i];
         if (kinds[rig->kind]->resolve) kinds[rig->kind]->resolve(reader, &object, rig);
     }
 }
@@ -203,7 +194,7 @@ void print_rigs(struct text *text, const struct document *document, const char *
 {
     for (int r = 0; r < document->rig_count; r++) {
         text_string(text, r > 0 ? ",\n" : "[\n");
-        print_rig(text, document, &document->rigs[r], folder);
+        print_rig(text, document, document->rigs[r], folder);
     }
     text_string(text, document->rig_count > 0 ? "\n  ]" : "[]");
 }

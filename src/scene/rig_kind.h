@@ -25,11 +25,10 @@ struct rig_functions {
     /// Visits the splines that the rig at `index` in the list names; NULL: it names none.
     void (*references)(const struct rig *rig, int index, reference_visitor *visit, void *context);
     void (*set_reference)(struct rig *rig, const struct reference *reference, int spline);
-    /// Gives a shallow copy memory of its own, with nothing to free on failure; NULL, as the next two: it owns none.
-    bool (*copy)(struct rig *copy);
+    /// Gives a shallow copy memory of its own; NULL, as the next two: it owns none.
+    void (*copy)(struct rig *copy);
     void (*release)(struct rig *rig);
-    size_t (*bytes)(const struct rig *rig);                            ///< that it owns
-    bool (*rebase)(struct rig *rig, const char *from, const char *to); ///< NULL: it names no files
+    size_t (*bytes)(const struct rig *rig, const struct rig *other); ///< that it owns and another (or NULL) does not
     /// What to call it where it has no name; NULL: it always has one.
     const char *(*title)(const struct rig *rig);
 };
@@ -38,7 +37,7 @@ struct rig_functions {
 RIG_KIND_LIST(RIG_FUNCTIONS)
 #undef RIG_FUNCTIONS
 
-/// Gives a shallow copy texts of its own; NULL stays NULL. On failure none is left.
-bool rig_own_texts(char **const *texts, int count);
+/// Gives a shallow copy texts of its own; NULL stays NULL.
+void rig_own_texts(char **const *texts, int count);
 
 #endif

@@ -30,7 +30,7 @@ static void print(struct members *members, const struct document *document, cons
 {
     const struct meadow_rig *meadow = &rig->meadow;
     (void)folder;
-    member_string(members, "spline", document->splines[meadow->spline].name);
+    member_string(members, "spline", document->splines[meadow->spline]->name);
     member_number(members, "count", meadow->count);
     member_number(members, "seed", meadow->seed);
     member(members, "area");

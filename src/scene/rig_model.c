@@ -1,5 +1,4 @@
 /// Imported characters as a kind of rig: loading, printing and memory.
-#include "base/path.h"
 #include "scene/rig_kind.h"
 #include <math.h>
 #include <stdlib.h>
@@ -32,10 +31,10 @@ static void print(struct members *members, const struct document *document, cons
     member_number(members, "turn", model->turn);
 }
 
-static bool copy(struct rig *copy)
+static void copy(struct rig *copy)
 {
     char **const texts[] = {&copy->model.model, &copy->model.clip};
-    return rig_own_texts(texts, 2);
+    rig_own_texts(texts, 2);
 }
 
 static void release(struct rig *rig)
@@ -44,20 +43,13 @@ static void release(struct rig *rig)
     free(rig->model.clip);
 }
 
-static size_t bytes(const struct rig *rig) { return text_size(rig->model.model) + text_size(rig->model.clip); }
-
-static bool rebase(struct rig *rig, const char *from, const char *to)
+static size_t bytes(const struct rig *rig, const struct rig *other)
 {
-    return path_move(&rig->model.model, from, to);
+    (void)other;
+    return text_size(rig->model.model) + text_size(rig->model.clip);
 }
 
 static const char *title(const struct rig *rig) { return rig->model.model; }
 
-const struct rig_functions model_functions = {.word = "model",
-                                              .load = load,
-                                              .print = print,
-                                              .copy = copy,
-                                              .release = release,
-                                              .bytes = bytes,
-                                              .rebase = rebase,
-                                              .title = title};
+const struct rig_functions model_functions = {
+    .word = "model", .load = load, .print = print, .copy = copy, .release = release, .bytes = bytes, .title = title};

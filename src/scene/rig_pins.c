@@ -24,8 +24,6 @@ void load_pins(struct reader *reader, const struct value *object, const char *ke
     if (count <= 0) return;
     if (pins_count(reader->document) + count > SCENE_MAX_PINS) {
         reader_fail(reader, &pins.at, "expected at most %d pins over all rigs, got more", SCENE_MAX_PINS);
-    } else if (!pins_reserve(rig, count)) {
-        reader_no_memory(reader);
     } else {
         const int points = rig->kind == RIG_TAIL ? rig->tail.joints : INT_MAX;
         struct pin pin;
@@ -67,7 +65,7 @@ void validate_pins(struct reader *reader, const struct where *scene_at)
     struct pin_trouble trouble;
     const struct document *document = reader->document;
     if (pins_check(document, &trouble) && pins_check_order(document, &trouble)) return;
-    const struct rig *rig = &document->rigs[trouble.rig];
+    const struct rig *rig = document->rigs[trouble.rig];
     const struct where rigs_at = {.parent = scene_at, .key = "rigs"};
     const struct where rig_at = {.parent = &rigs_at, .index = (size_t)trouble.rig};
     const struct where pins_at = {.parent = &rig_at, .key = trouble.pin >= 0 ? "pins" : trouble.member};

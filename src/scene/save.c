@@ -3,6 +3,7 @@
 /// the old paint, or the new one with the new.
 #include "base/file.h"
 #include "base/hash.h"
+#include "base/need.h"
 #include "base/path.h"
 #include "scene/leftovers.h"
 #include "scene/load.h"
@@ -34,11 +35,11 @@ static bool new_file(const char *scene, char file[PATH_LIMIT])
 /// Whether an earlier rig has its paint in the same file.
 static bool is_shared(const struct document *document, int index)
 {
-    const char *path = document->rigs[index].character.paint;
+    const char *path = document->rigs[index]->character.file->path;
     int i = document_next_rig(document, RIG_CHARACTER, 0);
     for (; i < index; i = document_next_rig(document, RIG_CHARACTER, i + 1)) {
-        const struct character_rig *other = &document->rigs[i].character;
-        if (other->paint && other->painted && strcmp(other->paint, path) == 0) return true;
+        const struct character_rig *other = &document->rigs[i]->character;
+        if (other->file->path && other->painted && strcmp(other->file->path, path) == 0) return true;
     }
     return false;
 }
@@ -46,10 +47,10 @@ static bool is_shared(const struct document *document, int index)
 /// Whether a rig's paint is in a file of its own, which the scene keeps; `own` is its path then.
 static bool has_own_file(const struct document *document, int index, const char *scene, char own[PATH_LIMIT])
 {
-    const struct character_rig *rig = &document->rigs[index].character;
+    const struct character_rig *rig = &document->rigs[index]->character;
     const bool stays = document->path && strcmp(document->path, scene) == 0;
-    return stays && rig->paint && rig->filed != 0 && !is_shared(document, index) &&
-           path_resolve(document->folder, rig->paint, own) && access(own, F_OK) == 0;
+    return stays && rig->file->path && rig->file->version != 0 && !is_shared(document, index) &&
+           path_resolve(document->folder, rig->file->path, own) && access(own, F_OK) == 0;
 }
 
 /// Makes the rig name the new file, relative to the document's folder.
@@ -58,10 +59,8 @@ static bool name_file(struct document *document, struct character_rig *rig, stru
     char folder[PATH_LIMIT], moved[PATH_LIMIT];
     const char *name = path_name(sheet->file);
     if (!path_folder(sheet->file, folder)) return fail(error, ERROR_ENVIRONMENT, "%s: the path is too long", name);
-    char *path = strdup(path_rebase(name, folder, document->folder, moved) ? moved : name);
-    if (!path) return fail_no_memory(error, sheet->file);
-    sheet->old_path = rig->paint;
-    rig->paint = path;
+    sheet->old_path = rig->file->path;
+    rig->file->path = need_text(path_rebase(name, folder, document->folder, moved) ? moved : name);
     return true;
 }
 
@@ -69,11 +68,12 @@ static bool save_sheet(struct document *document, int index, struct leftovers *l
                        struct error *error)
 {
     const char *scene = leftovers->scene;
-    struct character_rig *rig = &document->rigs[index].character;
-    if (document->rigs[index].kind != RIG_CHARACTER) return true;
+    struct character_rig *rig = &document->rigs[index]->character;
+    if (document->rigs[index]->kind != RIG_CHARACTER) return true;
     if (!rig->painted || paint_is_plain(rig->painted)) return true;
     if (has_own_file(document, index, scene, sheet->replaced)) {
-        if (rig->filed == rig->painted->version && !file_stamp_differs(sheet->replaced, &rig->file)) return true;
+        if (rig->file->version == rig->painted->version && !file_stamp_differs(sheet->replaced, &rig->file->stamp))
+            return true;
     } else {
         sheet->replaced[0] = '\0';
     }
@@ -94,18 +94,18 @@ static bool save_sheet(struct document *document, int index, struct leftovers *l
 static void finish(struct document *document, struct sheet *sheets, int count, bool saved)
 {
     for (int i = 0; i < count; i++) {
-        struct character_rig *rig = &document->rigs[i].character;
+        struct character_rig *rig = &document->rigs[i]->character;
         struct sheet *sheet = &sheets[i];
         if (!sheet->written) continue;
         if (saved) {
-            rig->filed = rig->painted->version;
-            rig->file = file_stamp(sheet->file);
+            rig->file->version = rig->painted->version;
+            rig->file->stamp = file_stamp(sheet->file);
             free(sheet->old_path);
             if (sheet->replaced[0]) leftovers_remove(sheet->replaced);
         } else {
             unlink(sheet->file);
-            free(rig->paint);
-            rig->paint = sheet->old_path;
+            free(rig->file->path);
+            rig->file->path = sheet->old_path;
         }
     }
 }
@@ -143,17 +143,18 @@ bool scene_read_paint(struct document *document, struct error *error)
     struct error first = {0};
     int i = document_next_rig(document, RIG_CHARACTER, 0);
     for (; i >= 0; i = document_next_rig(document, RIG_CHARACTER, i + 1)) {
-        struct character_rig *rig = &document->rigs[i].character;
+        const struct character_rig *character = &document->rigs[i]->character;
+        if (!character->file->path || character->painted || character->file->version != 0) continue;
+        struct character_rig *rig = &document_own_rig(document, i)->character;
         struct error trouble = {0};
         char path[PATH_LIMIT];
-        if (!rig->paint || rig->painted || rig->filed != 0) continue;
-        if (path_resolve(document->folder, rig->paint, path)) {
-            rig->file = file_stamp(path);
+        if (path_resolve(document->folder, rig->file->path, path)) {
+            rig->file->stamp = file_stamp(path);
             rig->painted = paint_read(path, &trouble);
         } else {
-            fail(&trouble, ERROR_INPUT, "%s: the path is too long", rig->paint);
+            fail(&trouble, ERROR_INPUT, "%s: the path is too long", rig->file->path);
         }
-        if (rig->painted) rig->filed = rig->painted->version;
+        if (rig->painted) rig->file->version = rig->painted->version;
         if (first.kind == ERROR_NONE) first = trouble;
     }
     if (first.kind != ERROR_NONE && error) *error = first;
@@ -163,9 +164,10 @@ bool scene_read_paint(struct document *document, struct error *error)
 /// Whether another program has written the file that a rig's paint was read from or written to; `path` is its path then.
 static bool is_theirs(const struct document *document, struct rig *rig, char path[PATH_LIMIT])
 {
-    struct character_rig *character = &rig->character;
-    return character->paint && character->file.is_there && path_resolve(document->folder, character->paint, path) &&
-           file_stamp_differs(path, &character->file);
+    const struct character_rig *character = &rig->character;
+    struct paint_file *file = character->file;
+    return file->path && file->stamp.is_there && path_resolve(document->folder, file->path, path) &&
+           file_stamp_differs(path, &file->stamp);
 }
 
 uint64_t scene_paint_theirs(struct document *document, const char **name)
@@ -174,9 +176,9 @@ uint64_t scene_paint_theirs(struct document *document, const char **name)
     int i = document_next_rig(document, RIG_CHARACTER, 0);
     for (; i >= 0; i = document_next_rig(document, RIG_CHARACTER, i + 1)) {
         char path[PATH_LIMIT];
-        if (!is_theirs(document, &document->rigs[i], path)) continue;
+        if (!is_theirs(document, document->rigs[i], path)) continue;
         const uint64_t content = file_stamp(path).content;
-        if (hash == 0) *name = document->rigs[i].character.paint;
+        if (hash == 0) *name = document->rigs[i]->character.file->path;
         hash = hash_bytes(hash ? hash : HASH_START, &content, sizeof content);
     }
     return hash;
@@ -186,11 +188,11 @@ void scene_keep_paint(struct document *document)
 {
     int i = document_next_rig(document, RIG_CHARACTER, 0);
     for (; i >= 0; i = document_next_rig(document, RIG_CHARACTER, i + 1)) {
-        struct character_rig *rig = &document->rigs[i].character;
+        struct character_rig *rig = &document->rigs[i]->character;
         char path[PATH_LIMIT];
-        if (!is_theirs(document, &document->rigs[i], path)) continue;
-        rig->filed = UINT64_MAX;
-        rig->file = file_stamp(path);
+        if (!is_theirs(document, document->rigs[i], path)) continue;
+        rig->file->version = UINT64_MAX;
+        rig->file->stamp = file_stamp(path);
     }
 }
 
@@ -198,8 +200,8 @@ void scene_keep_paint(struct document *document)
 static void print_sheet_line(struct text *text, int character, const struct character_rig *rig)
 {
     char line[SHEET_LINE];
-    const struct file_stamp *file = &rig->file;
-    const bool has_file = rig->filed != 0;
+    const struct file_stamp *file = &rig->file->stamp;
+    const bool has_file = rig->file->version != 0;
     int length = snprintf(line, sizeof line, "paint %d %zu %d", character, paint_file_size(rig->painted), has_file);
     if (has_file && file->is_there)
         length += snprintf(line + length, sizeof line - (size_t)length, " %lld %llx", (long long)file->size,
@@ -222,8 +224,8 @@ static struct character_rig *parse_sheet_line(struct document *document, const c
     const int read = sscanf(line, "paint %d %zu %d %lld %llx", &character, bytes, &has_file, &size, &content);
     struct character_rig *rig = read == 3 || read == 5 ? document_character(document, character) : NULL;
     if (!rig) return NULL;
-    rig->filed = has_file && rig->paint ? UINT64_MAX : 0;
-    if (read == 5) rig->file = (struct file_stamp){.is_there = true, .size = size, .content = content};
+    rig->file->version = has_file && rig->file->path ? UINT64_MAX : 0;
+    if (read == 5) rig->file->stamp = (struct file_stamp){.is_there = true, .size = size, .content = content};
     return rig;
 }
 
@@ -232,7 +234,7 @@ bool scene_print_paint(const struct document *document, char **buffer, size_t *c
     struct text text = {.data = *buffer, .size = *size, .capacity = *capacity};
     int i = document_next_rig(document, RIG_CHARACTER, 0);
     for (int character = 0; i >= 0; i = document_next_rig(document, RIG_CHARACTER, i + 1), character++) {
-        const struct character_rig *rig = &document->rigs[i].character;
+        const struct character_rig *rig = &document->rigs[i]->character;
         if (!rig->painted) continue;
         if (text.size == *size) text_bytes(&text, "", 1);
         print_sheet_line(&text, character, rig);
@@ -257,7 +259,7 @@ bool scene_parse_paint(struct document *document, const char *name, const char *
         text = line_end + 1;
         if (bytes > size)
             return fail(error, ERROR_INPUT, "%s: expected %zu bytes of paint, got %zu", name, bytes, size);
-        paint_destroy(rig->painted);
+        paint_drop(rig->painted);
         rig->painted = paint_parse(name, text, bytes, error);
         if (!rig->painted) return false;
         text += bytes;

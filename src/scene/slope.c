@@ -78,7 +78,7 @@ double evaluation_slope(const struct evaluation *evaluation, const struct docume
         .desc = storage_describe(evaluation->storage, evaluation->curves, document, spline, evaluation->cubic),
         .curve = &evaluation->curves[spline],
         .sample = sample};
-    const struct spline *of = &document->splines[spline];
+    const struct spline *of = document->splines[spline];
     const bool loop = place.desc.start == WIGGLY_LOOP;
     if (place.desc.passive == WIGGLY_FILTER) return step_ahead(place.curve, sample, place.desc.step);
     place.damping = loop ? LEAST_DAMPING * place.desc.calm : 0;

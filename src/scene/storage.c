@@ -19,7 +19,7 @@ void storage_place(wiggly_curve *curve, double *numbers, int samples)
 static const double *track_of(const struct storage *storage, const wiggly_curve *curves,
                               const struct document *document, int spline, enum parameter parameter)
 {
-    const struct param *param = &document->splines[spline].parameter[parameter];
+    const struct param *param = &document->splines[spline]->parameter[parameter];
     if (param->track >= 0) return curves[param->track].total;
     if (!param->motion) return NULL;
     const struct baked *baked = &storage->baked[spline];
@@ -29,7 +29,7 @@ static const double *track_of(const struct storage *storage, const wiggly_curve 
 wiggly_desc storage_describe(const struct storage *storage, const wiggly_curve *curves,
                              const struct document *document, int spline_index, bool cubic)
 {
-    const struct spline *spline = &document->splines[spline_index];
+    const struct spline *spline = document->splines[spline_index];
     wiggly_desc desc = wiggly_default_desc();
     desc.samples = document_samples(document);
     desc.step = document_step(document);
@@ -55,7 +55,7 @@ wiggly_knot storage_knot(const struct document *document, const struct knot *kno
 
 void storage_add_knots(wiggly_desc *desc, const struct document *document, int spline, wiggly_knot *knots)
 {
-    const struct spline *of = &document->splines[spline];
+    const struct spline *of = document->splines[spline];
     for (int i = 0; i < of->knot_count; i++) knots[i] = storage_knot(document, &of->knots[i]);
     desc->knots = knots;
     desc->knot_count = of->knot_count;

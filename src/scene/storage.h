@@ -22,12 +22,15 @@ struct storage {
     size_t number_capacity;
     wiggly_solver *solver;
     int solver_samples, solver_knots;
+    double fps; ///< of the last update, as the next two
+    int substeps, first_frame;
     wiggly_knot *knots; ///< of the spline being solved; solver_knots
     int *order;         ///< one for each spline, as the next five
     bool *solved;
     bool *forced; ///< to be solved whether edited or not: what moves its pinned rigs has changed
     struct order_space space;
     struct baked *baked;
+    struct spline **held; ///< as they were solved
     int spline_capacity;
     bool is_new; ///< the curves have a new layout, and none is solved
     struct pinned pinned;

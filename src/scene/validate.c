@@ -13,12 +13,12 @@ static void check_cycles(struct reader *reader, const struct where *splines_at)
         reader_no_memory(reader);
         return;
     }
-    const struct spline *spline = &document->splines[cycle.spline];
+    const struct spline *spline = document->splines[cycle.spline];
     struct where spline_at = {.parent = splines_at, .index = (size_t)cycle.spline};
     struct where at = {.parent = &spline_at, .key = parameter_rows[cycle.parameter].name};
     int leader = spline->parameter[cycle.parameter].track;
     reader_fail(reader, &at, "expected tracks without a cycle, got \"%s\", which follows \"%s\" itself",
-                document->splines[leader].name, spline->name);
+                document->splines[leader]->name, spline->name);
 }
 
 /// The highest frequency in Hz at which a spline with constant parameters can ring; 0 for tracks.
@@ -36,7 +36,7 @@ static void check_aliasing(struct reader *reader, const struct where *splines_at
     const struct document *document = reader->document;
     double limit = 0.5 / document_step(document);
     for (int i = 0; i < document->spline_count; i++) {
-        double highest = highest_frequency(&document->splines[i]);
+        double highest = highest_frequency(document->splines[i]);
         if (highest <= limit) continue;
         struct where spline_at = {.parent = splines_at, .index = (size_t)i};
         struct where at = {.parent = &spline_at, .key = "frequency"};

@@ -26,7 +26,7 @@ struct means {
 static void time_spline(struct bench *bench, const struct opened *opened, int spline, const char *path,
                         struct means *means)
 {
-    const struct spline *of = &opened->document->splines[spline];
+    const struct spline *of = opened->document->splines[spline];
     const struct evaluation *evaluation = &opened->evaluation;
     struct bench_result result = bench_blank(WIGGLY_COMPLEX, 0);
     wiggly_desc desc = storage_describe(evaluation->storage, evaluation->curves, opened->document, spline, false);
@@ -57,7 +57,7 @@ void bench_scenes(struct bench *bench)
             !opened_solve(&opened, SOLVER_BY_LENGTH, &error))
             bench_stop("%s", error.text);
         for (int s = 0; s < opened.document->spline_count; s++) {
-            if (opened.document->splines[s].knot_count > 0 && opened.evaluation.status[s] == WIGGLY_OK)
+            if (opened.document->splines[s]->knot_count > 0 && opened.evaluation.status[s] == WIGGLY_OK)
                 time_spline(bench, &opened, s, scenes.gl_pathv[i], &means);
         }
         opened_free(&opened);

@@ -24,7 +24,7 @@ int bones_selected(const struct core *core, const struct editor_world *world, in
 const char *bones_title(const struct document *document, int model, const char *name, char title[BONES_TITLE])
 {
     if (document_count_rigs(document, RIG_MODEL) < 2) return name;
-    snprintf(title, BONES_TITLE, "%.200s/%.300s", rig_title(&document->rigs[model]), name);
+    snprintf(title, BONES_TITLE, "%.200s/%.300s", rig_title(document->rigs[model]), name);
     return title;
 }
 
@@ -40,7 +40,7 @@ void bones_clear(struct core *core) { core->bone.any = false; }
 
 int bones_joints(const struct editor_world *world, int rig)
 {
-    const struct rig *bent = &world->document->rigs[rig];
+    const struct rig *bent = world->document->rigs[rig];
     if (bent->kind == RIG_TAIL) return bent->tail.joints;
     const int model = document_find_model(world->document, bent->chain.model, bent->chain.by_file);
     const struct imported *shown = model >= 0 ? bones_character(world, model) : NULL;
@@ -51,7 +51,7 @@ int bones_joints(const struct editor_world *world, int rig)
 /// Says what was made.
 static void tell(struct core *core, const struct document *document, const struct rig *made, int model, bool follows)
 {
-    const char *clip = document->rigs[model].model.clip;
+    const char *clip = document->rigs[model]->model.clip;
     char text[512], title[BONES_TITLE];
     const int length = snprintf(text, sizeof text, "Made the chain %.80s, from %.160s to %.80s.", rig_title(made),
                                 bones_title(document, model, made->chain.from, title), made->chain.to);
@@ -72,7 +72,7 @@ void bones_choose_clip(struct core *core, const struct editor_world *world, int 
     if (history_is_open(world->history) || !character) return;
     history_begin(world->history, "Choose clip", 0);
     const bool chosen = import_choose_clip(world->history, world->document, model, &character->gltf, clip, &error);
-    if (!chosen) history_restart(world->history, world->document);
+    if (!chosen) history_restart(world->history);
     history_end(world->history);
     core_refresh(core, world);
     core->refit_curves = world->document->spline_count == 0;
@@ -94,16 +94,16 @@ void bones_make_chain(struct core *core, const struct editor_world *world, int f
         .model = model, .from = bones_character(world, model)->gltf.nodes[node].name, .follows = follow};
     history_begin(world->history, follow ? "Make chain that follows" : "Make chain", 0);
     const bool made = chain_make(world->history, world->document, world->models, &wish, &rig, &error);
-    if (!made) history_restart(world->history, world->document);
+    if (!made) history_restart(world->history);
     history_end(world->history);
     core_refresh(core, world);
     if (!made) {
         core_message(core, true, error.text);
         return;
     }
-    core_activate(core, world, rig_input(&world->document->rigs[rig], 0));
+    core_activate(core, world, rig_input(world->document->rigs[rig], 0));
     core->refit_curves = !has_splines;
-    tell(core, world->document, &world->document->rigs[rig], model, follow);
+    tell(core, world->document, world->document->rigs[rig], model, follow);
 }
 
 int bones_model_of(const struct document *document, const struct chain *chain)
@@ -145,7 +145,7 @@ void bones_clicked(struct core *core, const struct editor_world *world, int mode
         bones_select(core, world, model, node);
     } else if (pick.use == BONE_FOLLOWED) {
         bones_follow(core, world, pick.which, model, node);
-    } else if (bones_model_of(document, &document->rigs[pick.which].chain) == model) {
+    } else if (bones_model_of(document, &document->rigs[pick.which]->chain) == model) {
         bones_set_end(core, world, pick.which, pick.use == BONE_FIRST, node);
     } else {
         core_message(core, true, "This bone is another character's: a chain stays on its own.");
@@ -158,11 +158,11 @@ static const struct rig *bent_by(const struct document *document, int spline, in
 {
     for (int r = document_next_rig(document, RIG_CHAIN, 0); r >= 0;
          r = document_next_rig(document, RIG_CHAIN, r + 1)) {
-        const struct chain *chain = &document->rigs[r].chain;
+        const struct chain *chain = &document->rigs[r]->chain;
         if (bones_model_of(document, chain) != model) continue;
         for (int c = 0; c < chain->channel_count; c++) {
             *channel = &chain->channels[c];
-            if (chain->channels[c].spline == spline) return &document->rigs[r];
+            if (chain->channels[c].spline == spline) return document->rigs[r];
         }
     }
     return NULL;
@@ -175,7 +175,7 @@ static double gain_for(const struct editor_world *world, int model, const struct
     const struct imported *character = bones_character(world, model);
     struct chain_bones bones;
     if (!chain_find(&character->gltf, chain->from, chain->to, &bones, NULL)) return 1;
-    const double wanted = chain_bend_a_metre(character, &bones, world->document->rigs[model].model.scale);
+    const double wanted = chain_bend_a_metre(character, &bones, world->document->rigs[model]->model.scale);
     const double bend = angles_at(&channel->gain, 0, bones.count);
     const double gain = wanted / bend;
     return isfinite(gain) && gain > 0 ? core_round(gain, 0.01 * gain) : 1;
@@ -194,14 +194,14 @@ static bool bend_by_the_rest(struct core *core, const struct editor_world *world
     bool done = true;
     for (int r = document_next_rig(document, RIG_CHAIN, 0); r >= 0;
          r = document_next_rig(document, RIG_CHAIN, r + 1)) {
-        const struct chain *chain = &document->rigs[r].chain;
+        const struct chain *chain = &document->rigs[r]->chain;
         const int count = bones_model_of(document, chain) == model ? chain->channel_count : 0;
         for (int c = 0; c < count; c++) {
             struct edit edit = core_edit_of(EDIT_PART, spline);
             edit.rig = r;
             edit.channel = c;
             edit.of = PART_DISPLACEMENT;
-            if (document->rigs[r].chain.channels[c].spline == spline) done &= core_edit(core, world, &edit);
+            if (document->rigs[r]->chain.channels[c].spline == spline) done &= core_edit(core, world, &edit);
         }
     }
     return done;
@@ -210,11 +210,11 @@ static bool bend_by_the_rest(struct core *core, const struct editor_world *world
 void bones_follow(struct core *core, const struct editor_world *world, int spline, int model, int node)
 {
     const struct document *document = world->document;
-    const struct param *old = &document->splines[spline].parameter[PARAMETER_EQUILIBRIUM];
+    const struct param *old = &document->splines[spline]->parameter[PARAMETER_EQUILIBRIUM];
     const struct imported *character = bones_character(world, model);
     if (!character || history_is_open(world->history)) return;
     const struct channel *channel = NULL;
-    const struct rig *bent = bent_by(document, spline, model, &channel), *rig = &document->rigs[model];
+    const struct rig *bent = bent_by(document, spline, model, &channel), *rig = document->rigs[model];
     struct joint_motion motion = {.model = rig->name ? rig->name : rig->model.model, .of = MOTION_TURN};
     struct edit edit = core_edit_of(EDIT_PARAMETER, spline);
     edit.parameter = PARAMETER_EQUILIBRIUM;
@@ -240,7 +240,7 @@ void bones_follow(struct core *core, const struct editor_world *world, int splin
     const bool is_new = !old->motion;
     history_begin(world->history, "Follow joint", 0);
     const bool done = core_edit(core, world, &edit) && (!is_new || bend_by_the_rest(core, world, spline, model));
-    if (!done) history_restart(world->history, world->document);
+    if (!done) history_restart(world->history);
     history_end(world->history);
     if (!done) core_refresh(core, world);
 }
@@ -268,7 +268,7 @@ static bool follow_end(struct core *core, const struct editor_world *world, cons
     for (int s = 0; s < document->spline_count; s++) {
         struct edit edit = core_edit_of(EDIT_PARAMETER, s);
         edit.parameter = PARAMETER_EQUILIBRIUM;
-        edit.param = document->splines[s].parameter[PARAMETER_EQUILIBRIUM];
+        edit.param = document->splines[s]->parameter[PARAMETER_EQUILIBRIUM];
         if (!edit.param.motion || !edit.param.motion->chain || !chain) continue;
         struct joint_motion motion = *edit.param.motion;
         if (strcmp(motion.chain, chain) != 0 || strcmp(motion.joint, old) != 0) continue;
@@ -281,7 +281,7 @@ static bool follow_end(struct core *core, const struct editor_world *world, cons
 
 void bones_set_end(struct core *core, const struct editor_world *world, int chain, bool first, int node)
 {
-    struct rig contents = world->document->rigs[chain];
+    struct rig contents = *world->document->rigs[chain];
     const int model = bones_model_of(world->document, &contents.chain);
     const struct imported *character = model >= 0 ? bones_character(world, model) : NULL;
     struct error error = {0};
@@ -300,13 +300,13 @@ void bones_set_end(struct core *core, const struct editor_world *world, int chai
     edit.contents = &contents;
     history_begin(world->history, "Set chain's bones", 0);
     const bool done = core_edit(core, world, &edit) && follow_end(core, world, contents.name, old, ends[1]);
-    if (!done) history_restart(world->history, world->document);
+    if (!done) history_restart(world->history);
     history_end(world->history);
     if (!done) {
         core_refresh(core, world);
         return;
     }
-    const struct rig *rig = &world->document->rigs[chain];
+    const struct rig *rig = world->document->rigs[chain];
     snprintf(text, sizeof text, "%.80s goes from %.100s to %.100s.", rig_title(rig), rig->chain.from, rig->chain.to);
     core_message(core, false, text);
 }
@@ -316,7 +316,7 @@ static bool begins_at(const struct document *document, int model, const char *fr
 {
     for (int r = document_next_rig(document, RIG_CHAIN, 0); r >= 0;
          r = document_next_rig(document, RIG_CHAIN, r + 1)) {
-        const struct chain *chain = &document->rigs[r].chain;
+        const struct chain *chain = &document->rigs[r]->chain;
         if (document_find_model(document, chain->model, chain->by_file) == model && strcmp(chain->from, from) == 0)
             return true;
     }
@@ -326,7 +326,7 @@ static bool begins_at(const struct document *document, int model, const char *fr
 /// The names of both ends of the twin; false where it has none, or is there already.
 static bool find_twin(const struct editor_world *world, int rig, char from[BONE_NAME_SIZE], char to[BONE_NAME_SIZE])
 {
-    const struct chain *chain = &world->document->rigs[rig].chain;
+    const struct chain *chain = &world->document->rigs[rig]->chain;
     const int model = document_find_model(world->document, chain->model, chain->by_file);
     const struct imported *shown = model >= 0 ? bones_character(world, model) : NULL;
     if (!shown || !chain_other_side(chain->from, from) || !chain_other_side(chain->to, to)) return false;
@@ -344,7 +344,7 @@ void bones_make_twin(struct core *core, const struct editor_world *world, int ch
 {
     char from[BONE_NAME_SIZE], to[BONE_NAME_SIZE], name[BONE_NAME_SIZE], text[2 * BONE_NAME_SIZE];
     if (!find_twin(world, chain, from, to)) return;
-    struct rig twin = world->document->rigs[chain];
+    struct rig twin = *world->document->rigs[chain];
     struct edit edit = core_edit_of(EDIT_CHAIN_ADD, core->active);
     twin.name = twin.name && chain_other_side(twin.name, name) ? name : NULL;
     twin.chain.from = from;
@@ -353,6 +353,6 @@ void bones_make_twin(struct core *core, const struct editor_world *world, int ch
     edit.contents = &twin;
     if (!core_step(core, world, "Mirror chain", 0, &edit)) return;
     snprintf(text, sizeof text, "Made the chain %s, mirrored, by the same splines.",
-             rig_title(&world->document->rigs[world->document->rig_count - 1]));
+             rig_title(world->document->rigs[world->document->rig_count - 1]));
     core_message(core, false, text);
 }

@@ -36,7 +36,7 @@ static char *print_originals(const struct originals *originals, const struct doc
     char *text = NULL;
     for (size_t i = 0; i < count && list.knots && list.splines; i++) {
         list.knots[i] = originals->list[i].knot;
-        list.splines[i] = mixed ? document->splines[originals->list[i].spline].name : NULL;
+        list.splines[i] = mixed ? document->splines[originals->list[i].spline]->name : NULL;
     }
     if (list.knots && list.splines) text = knots_print(&list);
     free(list.knots);
@@ -75,7 +75,7 @@ static bool insert(struct core *core, const struct editor_world *world, int spli
 static bool end_insertion(struct core *core, const struct editor_world *world, unsigned first_id, bool good)
 {
     struct document *document = world->document;
-    if (!good) history_restart(world->history, document);
+    if (!good) history_restart(world->history);
     history_end(world->history);
     if (!good) return false;
     core_reserve(core, document);
@@ -127,7 +127,7 @@ static bool has_room(const struct originals *originals, const struct document *d
     for (int i = 0; i < originals->count; i++) {
         const struct original *original = &originals->list[i];
         const int sample = document_sample(document, original->knot.frame + shift);
-        if (spline_find_knot(document, &document->splines[original->spline], sample) >= 0) return false;
+        if (spline_find_knot(document, document->splines[original->spline], sample) >= 0) return false;
     }
     return true;
 }
@@ -156,7 +156,7 @@ static int copies_end(const struct originals *originals, const struct document *
     double end = document->last_frame;
     for (int i = 0; i < originals->count; i++) {
         const struct original *original = &originals->list[i];
-        const bool loops = spline_start(&document->splines[original->spline]) == WIGGLY_LOOP;
+        const bool loops = spline_start(document->splines[original->spline]) == WIGGLY_LOOP;
         end = fmax(end, original->knot.frame + shift + (loops ? 1.0 / document->substeps : 0));
     }
     return (int)fmin(ceil(end), SCENE_MAX_FRAME);

@@ -40,7 +40,7 @@ struct edit core_parameter_edit(int spline, enum parameter parameter, double val
 
 struct edit core_knot_edit(const struct document *document, int spline, int sample)
 {
-    const struct spline *edited = &document->splines[spline];
+    const struct spline *edited = document->splines[spline];
     int at = spline_find_knot(document, edited, sample);
     struct edit edit = core_edit_of(at < 0 ? EDIT_KNOT_INSERT : EDIT_KNOT_SET, spline);
     edit.knot = at < 0 ? (struct knot){.frame = document_frame(document, sample), .stiffness = KNOT_DEFAULT_STIFFNESS}
@@ -106,9 +106,9 @@ void core_undo(struct core *core, const struct editor_world *world, int directio
         snprintf(text, sizeof text, "Nothing to %s", direction < 0 ? "undo" : "redo");
     }
     if (direction < 0) {
-        history_undo(history, world->document);
+        history_undo(history);
     } else {
-        history_redo(history, world->document);
+        history_redo(history);
     }
     return_to_active(core, world);
     core_message(core, false, text);
@@ -118,7 +118,7 @@ void core_jump(struct core *core, const struct editor_world *world, size_t done)
 {
     if (history_is_open(world->history)) return;
     size_t before = history_done(world->history), steps = before > done ? before - done : done - before;
-    if (!history_jump(world->history, world->document, done)) return;
+    if (!history_jump(world->history, done)) return;
     return_to_active(core, world);
     char text[64];
     snprintf(text, sizeof text, "%s %zu step%s", before > done ? "Undone:" : "Redone:", steps, steps == 1 ? "" : "s");
@@ -170,7 +170,7 @@ void core_stopped(struct core *core, const char *why)
 struct spline *core_active_spline(const struct core *core, const struct editor_world *world)
 {
     bool exists = core->active >= 0 && core->active < world->document->spline_count;
-    return exists ? &world->document->splines[core->active] : NULL;
+    return exists ? world->document->splines[core->active] : NULL;
 }
 
 void core_turn_to(struct core *core, const struct editor_world *world, int spline)
@@ -179,7 +179,7 @@ void core_turn_to(struct core *core, const struct editor_world *world, int splin
     memmove(core->recent + 1, core->recent, (CORE_MAX_RECENT - 1) * sizeof *core->recent);
     core->recent[0] = core->active_id;
     core->active = spline;
-    core->active_id = world->document->splines[spline].id;
+    core->active_id = world->document->splines[spline]->id;
 }
 
 void core_activate(struct core *core, const struct editor_world *world, int spline)
@@ -232,7 +232,7 @@ static bool reserve_originals(struct originals *originals, int knots)
 void core_reserve(struct core *core, const struct document *document)
 {
     int all = 0;
-    for (int s = 0; s < document->spline_count; s++) all += document->splines[s].knot_count;
+    for (int s = 0; s < document->spline_count; s++) all += document->splines[s]->knot_count;
     bool enough = selection_reserve(&core->selection, document->next_id);
     enough &= selection_reserve(&core->hidden, document->next_spline_id);
     enough &= selection_reserve(&core->solo, document->next_spline_id);

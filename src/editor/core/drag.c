@@ -54,7 +54,7 @@ void drag_start_moving(struct core *core, const struct editor_world *world)
 
 void drag_restart(const struct core *core, const struct editor_world *world)
 {
-    if (core->drag.moved && core->drag.label) history_restart(world->history, world->document);
+    if (core->drag.moved && core->drag.label) history_restart(world->history);
 }
 
 /// Adds up the pointer's way; a press that hardly moves stays a click.

@@ -31,18 +31,17 @@ static void select_only(struct core *core, unsigned id)
 static void insert_at(struct core *core, const struct editor_world *world, const struct knot *knot)
 {
     const struct document *document = world->document;
-    const struct spline *spline = core_active_spline(core, world);
     int sample = document_sample(document, knot->frame);
-    int at = spline_find_knot(document, spline, sample);
+    int at = spline_find_knot(document, core_active_spline(core, world), sample);
     if (at < 0) {
         struct edit edit = core_edit_of(EDIT_KNOT_INSERT, core->active);
         edit.knot = *knot;
         if (!core_step(core, world, "Insert knot", 0, &edit)) return;
         core_reserve(core, document);
-        at = spline_find_knot(document, spline, sample);
+        at = spline_find_knot(document, core_active_spline(core, world), sample);
     }
     if (at < 0) return;
-    select_only(core, spline->knots[at].id);
+    select_only(core, core_active_spline(core, world)->knots[at].id);
     core_edited(core, -1);
 }
 
@@ -103,7 +102,7 @@ void core_select_all(struct core *core, const struct editor_world *world, int al
     pins_clear(core);
     selection_clear(&core->selection);
     for (int s = 0; s < document->spline_count; s++) {
-        const struct spline *spline = &document->splines[s];
+        const struct spline *spline = document->splines[s];
         if (all_splines ? !spline_list_shows(core, document, s) : s != core->active) continue;
         for (int k = 0; k < spline->knot_count; k++) selection_set(&core->selection, spline->knots[k].id, true);
     }

@@ -14,7 +14,7 @@ const struct channel *core_active_channel(const struct core *core, const struct 
     const struct channel *first = NULL;
     for (int r = document->rig_count - 1; r >= 0; r--) {
         int count;
-        const struct channel *channels = rig_channels(&document->rigs[r], &count);
+        const struct channel *channels = rig_channels(document->rigs[r], &count);
         for (int c = count - 1; c >= 0; c--) {
             const struct channel *candidate = &channels[c];
             if (first && first->spline == core->active && candidate->spline != core->active) continue;
@@ -98,7 +98,7 @@ static void nudge_one(struct core *core, const struct editor_world *world, const
     if (edit.param.track >= 0) {
         char text[160];
         snprintf(text, sizeof text, "The %s follows the spline \"%.60s\".", parameter_rows[edit.parameter].name,
-                 world->document->splines[edit.param.track].name);
+                 world->document->splines[edit.param.track]->name);
         core_message(core, false, text);
         return;
     }

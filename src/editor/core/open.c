@@ -12,7 +12,7 @@ static int first_spline(const struct document *document)
     for (int kind = 0; kind < RIG_KINDS; kind++) {
         int r = document_next_rig(document, (enum rig_kind)kind, 0);
         for (; r >= 0; r = document_next_rig(document, (enum rig_kind)kind, r + 1)) {
-            if (rig_input_count(&document->rigs[r]) > 0) return rig_input(&document->rigs[r], 0);
+            if (rig_input_count(document->rigs[r]) > 0) return rig_input(document->rigs[r], 0);
         }
     }
     return document->spline_count > 0 ? 0 : -1;
@@ -25,10 +25,10 @@ static void open_playback(struct core *core, const struct document *document)
     core->seen_substeps = document->substeps;
     core->playback = (struct playback){.looping = true, .speed = 1, .playing = document->about != NULL};
     for (int s = 0; s < document->spline_count; s++)
-        core->playback.playing |= spline_start(&document->splines[s]) == WIGGLY_LOOP;
+        core->playback.playing |= spline_start(document->splines[s]) == WIGGLY_LOOP;
     core->auto_key = false;
     for (int r = 0; r < document->rig_count; r++) {
-        const struct rig *rig = &document->rigs[r];
+        const struct rig *rig = document->rigs[r];
         core->playback.playing |= rig->kind == RIG_MODEL && rig->model.clip;
         for (int k = 0; k < 3 && rig->kind == RIG_TAIL; k++) core->auto_key |= rig->tail.position[k].track >= 0;
     }
@@ -49,7 +49,7 @@ void core_open(struct core *core, const struct document *document)
     core->pick = (struct bone_pick){0};
     memset(core->recent, 0, sizeof core->recent);
     core->active = first_spline(document);
-    core->active_id = core->active >= 0 ? document->splines[core->active].id : 0;
+    core->active_id = core->active >= 0 ? document->splines[core->active]->id : 0;
     core->held_key = 0;
     core->space_down = false;
     core->message = (struct message){0};

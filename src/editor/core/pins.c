@@ -16,10 +16,10 @@ static const double RESOLUTION = 1e-4; ///< metres that the document gets
 const struct pin *pins_selected(const struct core *core, const struct document *document, int *rig)
 {
     for (int r = 0; r < document->rig_count && core->pin.any; r++) {
-        const int at = pins_find_id(&document->rigs[r], core->pin.id);
+        const int at = pins_find_id(document->rigs[r], core->pin.id);
         if (at < 0) continue;
         *rig = r;
-        return &document->rigs[r].pins[at];
+        return &document->rigs[r]->pins[at];
     }
     return NULL;
 }
@@ -47,7 +47,7 @@ bool pins_suit(const struct rig *rig)
 double pins_frame_here(const struct core *core, const struct document *document, int rig)
 {
     const int sample = document_sample(document, round(core_frame(core, document)));
-    const int last = pins_last_sample(document, &document->rigs[rig]);
+    const int last = pins_last_sample(document, document->rigs[rig]);
     return document_frame(document, sample < 0 ? 0 : sample > last ? last : sample);
 }
 
@@ -62,7 +62,7 @@ struct edit pins_edit(enum edit_kind kind, int rig, const struct pin *pin)
 
 void pins_tell(struct core *core, const struct editor_world *world, int rig)
 {
-    const struct rig *moved = &world->document->rigs[rig];
+    const struct rig *moved = world->document->rigs[rig];
     for (int i = 0; i < rig_input_count(moved); i++) {
         if (rig_point_input(moved, i) >= 0) core_edited(core, rig_point_input(moved, i));
     }
@@ -73,13 +73,13 @@ bool pins_put(struct core *core, const struct editor_world *world, int rig, int 
 {
     const struct document *document = world->document;
     const int sample = document_sample(document, frame);
-    const int there = pins_find(document, &document->rigs[rig], point, sample);
+    const int there = pins_find(document, document->rigs[rig], point, sample);
     struct pin pin = {.frame = frame, .point = point};
-    if (there >= 0) pin = document->rigs[rig].pins[there];
+    if (there >= 0) pin = document->rigs[rig]->pins[there];
     for (int k = 0; k < 3; k++) pin.to[k] = to[k];
     const struct edit edit = pins_edit(there < 0 ? EDIT_PIN_ADD : EDIT_PIN_SET, rig, &pin);
     if (!core_edit(core, world, &edit)) return false;
-    pins_select(core, document->rigs[rig].pins[pins_find(document, &document->rigs[rig], point, sample)].id);
+    pins_select(core, document->rigs[rig]->pins[pins_find(document, document->rigs[rig], point, sample)].id);
     pins_tell(core, world, rig);
     return true;
 }
@@ -128,8 +128,8 @@ void pins_retime(struct core *core, const struct editor_world *world, int frames
     do {
         moved.frame += frames;
         sample = document_sample(document, moved.frame);
-        if (sample < 0 || sample > pins_last_sample(document, &document->rigs[rig])) return;
-    } while (pins_find(document, &document->rigs[rig], pin->point, sample) >= 0);
+        if (sample < 0 || sample > pins_last_sample(document, document->rigs[rig])) return;
+    } while (pins_find(document, document->rigs[rig], pin->point, sample) >= 0);
     const struct edit edit = pins_edit(EDIT_PIN_SET, rig, &moved);
     if (!core_step(core, world, "Move pin in time", merge_key(pin, NUDGE_FRAME), &edit)) return;
     playback_seek(core, document, moved.frame);
@@ -157,8 +157,8 @@ void pins_select_neighbour(struct core *core, const struct editor_world *world, 
     const struct document *document = world->document;
     const struct pin *from = pins_selected(core, document, &rig), *best = NULL;
     for (int r = 0; from && r < document->rig_count; r++) {
-        for (int i = 0; i < document->rigs[r].pin_count; i++) {
-            const struct pin *pin = &document->rigs[r].pins[i];
+        for (int i = 0; i < document->rigs[r]->pin_count; i++) {
+            const struct pin *pin = &document->rigs[r]->pins[i];
             if (pin == from || is_before(pin, from) == (direction > 0)) continue;
             if (!best || is_before(pin, best) == (direction > 0)) best = pin;
         }

@@ -23,14 +23,14 @@ enum lead rigs_lead(const struct document *document)
 bool rigs_have_knots(const struct document *document)
 {
     int s = 0;
-    while (s < document->spline_count && document->splines[s].knot_count == 0) s++;
+    while (s < document->spline_count && document->splines[s]->knot_count == 0) s++;
     return s < document->spline_count;
 }
 
 /// Ends the open step, taken back where something in it failed.
 static void finish(struct core *core, const struct editor_world *world, bool done)
 {
-    if (!done) history_restart(world->history, world->document);
+    if (!done) history_restart(world->history);
     history_end(world->history);
     core_refresh(core, world);
     core->refit_stage = done;
@@ -39,7 +39,7 @@ static void finish(struct core *core, const struct editor_world *world, bool don
 /// Where a rig stands along x, and how wide it is.
 static double place_of(const struct editor_world *world, int rig, double *width)
 {
-    const struct rig *at = &world->document->rigs[rig];
+    const struct rig *at = world->document->rigs[rig];
     const int number = document_rig_number(world->document, rig);
     const struct figure *figure = at->kind == RIG_CHARACTER ? models_figure(world->models, number) : NULL;
     const struct imported *imported = at->kind == RIG_MODEL ? models_imported(world->models, number) : NULL;
@@ -56,7 +56,7 @@ static double free_place(const struct editor_world *world, double wide)
 {
     double right = -INFINITY;
     for (int r = 0; r < world->document->rig_count; r++) {
-        const enum rig_kind kind = world->document->rigs[r].kind;
+        const enum rig_kind kind = world->document->rigs[r]->kind;
         double width;
         const double at = place_of(world, r, &width);
         if (kind != RIG_CHAIN && kind != RIG_MEADOW) right = fmax(right, at + APART * (width + wide) / 2);
@@ -117,7 +117,7 @@ static bool copy_chains(struct core *core, const struct editor_world *world, int
     const int count = world->document->rig_count;
     bool done = true;
     for (int r = 0; r < count && done; r++) {
-        const struct rig *rig = &world->document->rigs[r];
+        const struct rig *rig = world->document->rigs[r];
         if (rig->kind != RIG_CHAIN) continue;
         if (document_find_model(world->document, rig->chain.model, rig->chain.by_file) != model) continue;
         struct rig chain = *rig;
@@ -137,7 +137,7 @@ void rigs_copy(struct core *core, const struct editor_world *world, int rig)
     const struct document *document = world->document;
     double width;
     if (rig < 0 || rig >= document->rig_count || history_is_open(world->history)) return;
-    struct rig copy = document->rigs[rig];
+    struct rig copy = *document->rigs[rig];
     place_of(world, rig, &width);
     const double place = free_place(world, width);
     struct edit edit = core_edit_of(copy.kind == RIG_MODEL ? EDIT_MODEL_ADD : EDIT_RIG_ADD, -1);
@@ -165,7 +165,7 @@ void rigs_copy(struct core *core, const struct editor_world *world, int rig)
     history_begin(world->history, "Add one more", 0);
     bool done = core_edit(core, world, &edit);
     if (done && copy.kind == RIG_MODEL)
-        done = copy_chains(core, world, rig, document->rigs[document->rig_count - 1].name);
+        done = copy_chains(core, world, rig, document->rigs[document->rig_count - 1]->name);
     finish(core, world, done);
 }
 
@@ -178,7 +178,7 @@ struct removal {
 
 static bool goes(const struct removal *removal, int rig)
 {
-    const struct rig *other = &removal->document->rigs[rig];
+    const struct rig *other = removal->document->rigs[rig];
     return rig == removal->rig ||
            (other->kind == RIG_CHAIN &&
             document_find_model(removal->document, other->chain.model, other->chain.by_file) == removal->rig);
@@ -214,7 +214,7 @@ int rigs_own_splines(const struct document *document, int rig, char *names, size
     for (int s = 0, good = survey(&removal, document, rig); good && s < document->spline_count; s++) {
         if (!removal.mine[s] || removal.others[s]) continue;
         const int wrote =
-            snprintf(names + used, size - used, "%s%.40s", count > 0 ? ", " : "", document->splines[s].name);
+            snprintf(names + used, size - used, "%s%.40s", count > 0 ? ", " : "", document->splines[s]->name);
         used = used + (size_t)wrote < size ? used + (size_t)wrote : size - 1;
         count++;
     }

@@ -15,7 +15,7 @@ bool selected_next(const struct core *core, const struct document *document, str
 {
     if (at->spline < 0) *at = (struct knot_place){0, -1};
     for (; at->spline < document->spline_count; at->spline++, at->knot = -1) {
-        const struct spline *spline = &document->splines[at->spline];
+        const struct spline *spline = document->splines[at->spline];
         bool open = at->knot >= 0 || is_open(core, document, at->spline);
         while (open && ++at->knot < spline->knot_count) {
             if (selection_has(&core->selection, spline->knots[at->knot].id)) return true;
@@ -43,7 +43,7 @@ void core_collect(struct core *core, const struct document *document, bool later
     struct originals *originals = &core->originals;
     originals->count = 0;
     for (int s = 0; s < document->spline_count; s++) {
-        const struct spline *spline = &document->splines[s];
+        const struct spline *spline = document->splines[s];
         bool begun = false;
         if (!is_open(core, document, s)) continue;
         for (int k = 0; k < spline->knot_count && originals->count < originals->capacity; k++) {
@@ -81,7 +81,7 @@ enum room originals_room(const struct core *core, const struct document *documen
     enum room room = ROOM_FREE;
     for (int i = 0, before = 0; i < originals->count; i++) {
         const struct original *original = &originals->list[i];
-        const struct spline *spline = &document->splines[original->spline];
+        const struct spline *spline = document->splines[original->spline];
         const double frame = rule(how, original);
         const int sample = document_sample(document, frame);
         const bool meets = i > 0 && originals->list[i - 1].spline == original->spline && sample == before;

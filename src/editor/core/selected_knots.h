@@ -11,7 +11,7 @@
 /// The knot at a place.
 static inline const struct knot *knot_at(const struct document *document, struct knot_place at)
 {
-    return &document->splines[at.spline].knots[at.knot];
+    return &document->splines[at.spline]->knots[at.knot];
 }
 
 /// Goes on to the next selected knot, by spline and in each by sample; false behind the last one.

@@ -67,7 +67,7 @@ static void change_knots(struct core *core, const struct editor_world *world, co
         if (change->on && !knot->has_slope) edit.knot.slope = slope_at(world, at.spline, knot);
         if (!(knot->stiffness > 0)) edit.knot.stiffness = FIRM;
         edit.knot.has_slope = change->on;
-        if (change->rule) edit.knot.slope = change->rule(document, &document->splines[at.spline], at.knot);
+        if (change->rule) edit.knot.slope = change->rule(document, document->splines[at.spline], at.knot);
         bool changes = change->rule || change->slope != 0 || (change->on && !knot->has_slope);
         if (changes) edit.knot.slope = core_round(edit.knot.slope + change->slope, SLOPE_RESOLUTION * core->visible);
         edit.knot.stiffness = fmin(fmax(edit.knot.stiffness * change->stiffness, 1e-3), 1e9);

@@ -11,14 +11,14 @@
 uint32_t spline_list_color(const struct document *document, int spline)
 {
     if (spline < 0 || spline >= document->spline_count) return theme()->spline[0];
-    int color = document->splines[spline].color;
+    int color = document->splines[spline]->color;
     return color < 0 ? theme()->spline[spline % THEME_SPLINE_COLORS] : theme_spline((uint32_t)color);
 }
 
 static bool any_solo(const struct core *core, const struct document *document)
 {
     for (int s = 0; s < document->spline_count; s++) {
-        if (selection_has(&core->solo, document->splines[s].id)) return true;
+        if (selection_has(&core->solo, document->splines[s]->id)) return true;
     }
     return false;
 }
@@ -26,7 +26,7 @@ static bool any_solo(const struct core *core, const struct document *document)
 bool spline_list_shows(const struct core *core, const struct document *document, int spline)
 {
     if (spline < 0 || spline >= document->spline_count) return false;
-    unsigned id = document->splines[spline].id;
+    unsigned id = document->splines[spline]->id;
     if (any_solo(core, document)) return selection_has(&core->solo, id);
     return !selection_has(&core->hidden, id);
 }
@@ -42,7 +42,7 @@ static void find_active(struct core *core, const struct document *document)
     if (found < 0) {
         int last = document->spline_count - 1;
         found = core->active > last ? last : core->active < 0 && last >= 0 ? 0 : core->active;
-        core->active_id = found >= 0 ? document->splines[found].id : 0;
+        core->active_id = found >= 0 ? document->splines[found]->id : 0;
         selection_clear(&core->selection);
     }
     core->active = found;
@@ -97,7 +97,7 @@ void spline_list_move(struct core *core, const struct editor_world *world, int s
 double spline_list_present(const struct core *core, const struct editor_world *world, int spline,
                            enum parameter parameter)
 {
-    const struct spline *follower = &world->document->splines[spline];
+    const struct spline *follower = world->document->splines[spline];
     const struct param *param = &follower->parameter[parameter];
     wiggly_value v = evaluation_at(world->evaluation, param->motion ? spline : param->track, core->playback.position);
     double now = param->motion ? v.y : v.y + v.re, value = isfinite(now) ? now : parameter_rows[parameter].standard;
@@ -165,7 +165,7 @@ static void spline_list_remove_now(struct core *core, const struct editor_world 
     }
     struct edit edit = core_edit_of(EDIT_SPLINE_REMOVE, core->active);
     good = good && core_edit(core, world, &edit);
-    if (!good) history_restart(world->history, world->document);
+    if (!good) history_restart(world->history);
     history_end(world->history);
     spline_list_refresh(core, world);
 }
@@ -183,7 +183,7 @@ void spline_list_remove(struct core *core, const struct editor_world *world)
 static int knot_count(const struct document *document)
 {
     int count = 0;
-    for (int s = 0; s < document->spline_count; s++) count += document->splines[s].knot_count;
+    for (int s = 0; s < document->spline_count; s++) count += document->splines[s]->knot_count;
     return count;
 }
 
@@ -206,7 +206,7 @@ int spline_list_outside(const struct document *document, int first, int last)
     moved.first_frame = first;
     moved.last_frame = last;
     for (int s = 0; s < document->spline_count; s++) {
-        const struct spline *spline = &document->splines[s];
+        const struct spline *spline = document->splines[s];
         int end = document_last_knot_sample(&moved, spline);
         for (int k = 0; k < spline->knot_count; k++) {
             int sample = document_sample(&moved, spline->knots[k].frame);

@@ -5,7 +5,7 @@
 #include "base/path.h"
 #include "rig/models.h"
 #include "rig/posing.h"
-#include "scene/edit.h"
+#include "scene/edit_kinds.h"
 #include "scene/evaluate.h"
 #include "ui/drawlist.h"
 #include "ui/event.h"

@@ -193,7 +193,7 @@ static void draw_others(struct curves *curves, const struct core *core, const st
         polyline *line = &cache->others[cache->other_count];
         const struct value_map map = normal_map(curves, core, s);
         cache->other_spline[cache->other_count] = s;
-        cache->other_id[cache->other_count] = world->document->splines[s].id;
+        cache->other_id[cache->other_count] = world->document->splines[s]->id;
         for (int c = 0; c < cache->count; c++) {
             double position = outermost(world->evaluation, s, cache->position[c], cache->by, c % 2);
             wiggly_value v = evaluation_at(world->evaluation, s, position);
@@ -209,7 +209,7 @@ int curves_other(const struct curves *curves, const struct document *document, i
 {
     const int spline = curves->cache.other_spline[other];
     const bool same =
-        spline < document->spline_count && document->splines[spline].id == curves->cache.other_id[other];
+        spline < document->spline_count && document->splines[spline]->id == curves->cache.other_id[other];
     return same ? spline : -1;
 }
 

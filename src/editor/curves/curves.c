@@ -50,7 +50,7 @@ static const double ZOOM_STEP = 0.15; ///< of a wheel's notch, as a power of e
 static float nearest_knot(const struct curves *curves, const struct core *core, const struct document *document,
                           int of, float x, float y, float reach, struct hover *hover)
 {
-    const struct spline *spline = &document->splines[of];
+    const struct spline *spline = document->splines[of];
     float best = reach;
     for (int k = curves_knot_from(curves, core, document, spline, x - reach); k < spline->knot_count; k++) {
         const struct knot *knot = &spline->knots[k];
@@ -153,7 +153,7 @@ static void press_knot(struct curves *curves, struct core *core, const struct ed
     bool selected = selection_has(&core->selection, id);
     core_turn_to(core, world, hover->spline);
     if (event->clicks == 2) {
-        const struct spline *spline = &world->document->splines[hover->spline];
+        const struct spline *spline = world->document->splines[hover->spline];
         playback_seek(core, world->document, spline->knots[spline_find_id(spline, id)].frame);
         return;
     }
@@ -283,7 +283,7 @@ static struct rect box_rect(const struct drag *drag)
 static void take_inside(const struct curves *curves, struct core *core, const struct document *document, int s)
 {
     const struct rect box = box_rect(&core->drag);
-    const struct spline *spline = &document->splines[s];
+    const struct spline *spline = document->splines[s];
     for (int k = curves_knot_from(curves, core, document, spline, box.x); k < spline->knot_count; k++) {
         const struct knot *knot = &spline->knots[k];
         const float x = curves_knot_x(curves, core, document, knot), y = curves_y_of(curves, core, s, knot->value);

@@ -39,7 +39,7 @@ static void toggle_ripple(struct curves *curves, struct core *core, const struct
 /// the knot that stays.
 static double least_frames(const struct curves *curves, const struct document *document, const struct original *first)
 {
-    const struct spline *spline = &document->splines[first->spline];
+    const struct spline *spline = document->splines[first->spline];
     int sample = document_sample(document, first->knot.frame);
     int before = spline_lower_bound(document, spline, sample) - 1;
     if (!curves->knot_drag.ripple || before < 0) return document->first_frame - first->knot.frame;
@@ -55,7 +55,7 @@ static void shift_limits(const struct curves *curves, const struct originals *or
     *most = INFINITY;
     for (int i = 0; i < originals->count; i++) {
         const struct original *original = &originals->list[i];
-        const struct spline *spline = &document->splines[original->spline];
+        const struct spline *spline = document->splines[original->spline];
         const bool is_first = i == 0 || originals->list[i - 1].spline != original->spline;
         const double end = document_frame(document, document_last_knot_sample(document, spline));
         if (is_first) *least = fmax(*least, least_frames(curves, document, original));
@@ -104,7 +104,7 @@ static bool move_knots(const struct curves *curves, const struct core *core, con
         edit.knot.frame += frames;
         if (up != 0 && selection_has(&core->selection, original->knot.id))
             edit.knot.value = moved_value(curves, core, original, up);
-        core_hold(&world->document->splines[original->spline], &edit.knot, why);
+        core_hold(world->document->splines[original->spline], &edit.knot, why);
         if (!history_apply(world->history, world->document, &edit, NULL)) return false;
     }
     return true;
@@ -248,7 +248,7 @@ void curves_nudge(const struct curves *curves, struct core *core, const struct e
         edit.knot = original->knot;
         edit.knot.frame += shift;
         if (value != 0) edit.knot.value = core_round(edit.knot.value + value, 0.01 * fabs(value));
-        core_hold(&world->document->splines[original->spline], &edit.knot, why);
+        core_hold(world->document->splines[original->spline], &edit.knot, why);
         core_edit(core, world, &edit);
     }
     if (*why) core_stopped(core, why);

@@ -273,8 +273,8 @@ struct hover ruler_pins_hover(const struct curves *curves, const struct core *co
     const float edge = ruler->y + ruler->h;
     if (y < edge - ABOVE || y >= edge + BELOW || x < ruler->x || x >= ruler->x + ruler->w) return hover;
     for (int r = 0; r < document->rig_count; r++) {
-        for (int i = 0; i < document->rigs[r].pin_count; i++) {
-            const struct pin *pin = &document->rigs[r].pins[i];
+        for (int i = 0; i < document->rigs[r]->pin_count; i++) {
+            const struct pin *pin = &document->rigs[r]->pins[i];
             float xy[2];
             place(curves, core, document, pin, xy);
             float distance = fabsf(x - xy[0]);
@@ -299,10 +299,10 @@ static void apply(void *room, struct core *core, const struct editor_world *worl
     struct pin moved = *pin;
     double frame = drag->frame + core->drag.moved_x / curves_pixels_per_frame(curves, core);
     if (core->drag.snap) frame = round(frame);
-    int sample = document_sample(document, frame), last = pins_last_sample(document, &document->rigs[rig]);
+    int sample = document_sample(document, frame), last = pins_last_sample(document, document->rigs[rig]);
     sample = sample < 0 ? 0 : sample > last ? last : sample;
-    const int there = pins_find(document, &document->rigs[rig], pin->point, sample);
-    if (there < 0 || document->rigs[rig].pins[there].id == pin->id)
+    const int there = pins_find(document, document->rigs[rig], pin->point, sample);
+    if (there < 0 || document->rigs[rig]->pins[there].id == pin->id)
         drag->free_frame = document_frame(document, sample); // else it stays where it last was free
     moved.frame = drag->free_frame;
     const struct edit edit = pins_edit(EDIT_PIN_SET, rig, &moved);
@@ -316,7 +316,7 @@ void ruler_pins_begin(struct curves *curves, struct core *core, const struct edi
 {
     static const struct drag_owner owner = {.cursor = CURSOR_HORIZONTAL, .apply = apply};
     const struct document *document = world->document;
-    const struct rig *rig = &document->rigs[hover->rig];
+    const struct rig *rig = document->rigs[hover->rig];
     const int at = pins_find_id(rig, hover->pin);
     if (at < 0) return;
     drag_begin(core, &owner, curves, "Move pin in time", event);
@@ -328,7 +328,7 @@ void ruler_pins_begin(struct curves *curves, struct core *core, const struct edi
 void ruler_pins_show(const struct curves *curves, struct core *core, const struct document *document)
 {
     for (int r = 0; r < document->rig_count; r++) {
-        const struct rig *rig = &document->rigs[r];
+        const struct rig *rig = document->rigs[r];
         const int spline = rig_point_spline(rig);
         const uint32_t color = spline >= 0 ? spline_list_color(document, spline) : theme()->text_dim;
         for (int i = 0; i < rig->pin_count; i++) {

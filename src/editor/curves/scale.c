@@ -227,7 +227,7 @@ static struct knot scaled(struct curves *curves, const struct core *core, const 
     double visible = curves->view.value1 - curves->view.value0, steeper = by.value / by.time;
     to.frame = scaled_frame(&retiming, original);
     if (by.value != 1) to.value = scaled_value(curves, core, original, by.value);
-    core_hold(&document->splines[original->spline], &to, curves->scaling.stopped[1]);
+    core_hold(document->splines[original->spline], &to, curves->scaling.stopped[1]);
     if (steeper != 1) to.slope = core_round(original->knot.slope * steeper, SLOPE_RESOLUTION * visible);
     return to;
 }

@@ -101,7 +101,7 @@ struct hover sheet_hover(const struct curves *curves, const struct core *core, c
     struct hover hover = {.kind = s >= 0 ? HOVER_ROW : HOVER_NONE, .spline = s};
     float best = REACH;
     if (s < 0 || !rect_contains(core->layout.sheet, x, y)) return hover;
-    const struct spline *spline = &document->splines[s];
+    const struct spline *spline = document->splines[s];
     for (int k = curves_knot_from(curves, core, document, spline, x - REACH); k < spline->knot_count; k++) {
         const struct knot *knot = &spline->knots[k];
         const float at = curves_knot_x(curves, core, document, knot), distance = fabsf(x - at);
@@ -136,7 +136,7 @@ void sheet_take_inside(const struct curves *curves, struct core *core, const str
         if (s >= document->spline_count) continue;
         const float top = row_y(core, row) - ROW / 2.0f;
         if (top + ROW <= box.y || top >= box.y + box.h) continue;
-        const struct spline *spline = &document->splines[s];
+        const struct spline *spline = document->splines[s];
         for (int k = curves_knot_from(curves, core, document, spline, box.x); k < spline->knot_count; k++) {
             const struct knot *knot = &spline->knots[k];
             const float x = curves_knot_x(curves, core, document, knot);
@@ -161,7 +161,7 @@ bool curves_mark_point(const struct curves *curves, const struct core *core, con
 {
     for (int row = 0; row < curves->sheet.rows; row++) {
         if (curves->sheet.spline[row] != spline) continue;
-        xy[0] = curves_knot_x(curves, core, document, &document->splines[spline].knots[knot]);
+        xy[0] = curves_knot_x(curves, core, document, &document->splines[spline]->knots[knot]);
         xy[1] = row_y(core, row);
         return rect_contains(core->layout.sheet, xy[0], xy[1]);
     }
@@ -171,7 +171,7 @@ bool curves_mark_point(const struct curves *curves, const struct core *core, con
 static void show_marks(const struct curves *curves, struct core *core, const struct document *document, int s,
                        float y)
 {
-    const struct spline *spline = &document->splines[s];
+    const struct spline *spline = document->splines[s];
     const uint32_t color = spline_list_color(document, s);
     const struct rect *sheet = &core->layout.sheet;
     int k = curves_knot_from(curves, core, document, spline, sheet->x - RADIUS - 1);
@@ -191,7 +191,7 @@ static void show_row(const struct curves *curves, struct core *core, const struc
 {
     const int s = curves->sheet.spline[row];
     if (s >= document->spline_count) return; // undone in this frame
-    const struct spline *spline = &document->splines[s];
+    const struct spline *spline = document->splines[s];
     const struct rect *sheet = &core->layout.sheet, *panel = &core->layout.curves;
     const bool active = s == core->active, hot = core->hover.kind == HOVER_ROW && core->hover.spline == s;
     const float y = row_y(core, row), left = sheet->x + sheet->w + 6;

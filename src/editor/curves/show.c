@@ -167,7 +167,7 @@ static void show_tick(const struct curves *curves, struct core *core, const stru
 /// The first selected knot of first … end − 1, or `end`.
 static int first_selected(const struct core *core, const struct document *document, int spline, int first, int end)
 {
-    const struct knot *knots = document->splines[spline].knots;
+    const struct knot *knots = document->splines[spline]->knots;
     for (int k = first; k < end; k++) {
         if (selection_has(&core->selection, knots[k].id)) return k;
     }
@@ -185,7 +185,7 @@ static int hovered_knot(const struct core *core, const struct spline *spline)
 int crowd_next(const struct curves *curves, const struct core *core, const struct document *document, int spline,
                int knot, float gap)
 {
-    const struct spline *of = &document->splines[spline];
+    const struct spline *of = document->splines[spline];
     const float x = curves_knot_x(curves, core, document, &of->knots[knot]);
     const int hovered = hovered_knot(core, of);
     int next = curves_knot_from(curves, core, document, of, x + gap);
@@ -198,7 +198,7 @@ int crowd_next(const struct curves *curves, const struct core *core, const struc
 /// The knot to draw of first … end − 1, all in one pixel column: the hovered one, else a selected one.
 static int column_knot(const struct core *core, const struct document *document, int first, int end)
 {
-    const int hovered = hovered_knot(core, &document->splines[core->active]);
+    const int hovered = hovered_knot(core, document->splines[core->active]);
     if (hovered >= first && hovered < end) return hovered;
     const int selected = first_selected(core, document, core->active, first, end);
     return selected < end ? selected : first;
@@ -228,7 +228,7 @@ static void show_column(const struct curves *curves, struct core *core, const st
                         int end, float x, uint32_t color)
 {
     double range[2];
-    spline_values(&document->splines[core->active], first, end, range);
+    spline_values(document->splines[core->active], first, end, range);
     const float xy[] = {x, curves_y(curves, core, range[0]), x, curves_y(curves, core, range[1])};
     if (range[1] > range[0]) drawlist_line(&core->list, xy, 2, 1.5f, theme_fade(color, 0.7f));
 }
@@ -253,7 +253,7 @@ static void show_knot(const struct curves *curves, struct core *core, const stru
 static bool is_lost(const struct curves *curves, const struct core *core, const struct document *document, int first,
                     int shown)
 {
-    const struct knot *knots = document->splines[core->active].knots;
+    const struct knot *knots = document->splines[core->active]->knots;
     const double column = column_of(curves, core, document, &knots[first]);
     const bool chosen = core->hover.kind == HOVER_KNOT && core->hover.knot == knots[shown].id;
     if (!curves->cache.band || chosen || selection_has(&core->selection, knots[shown].id)) return false;
@@ -283,7 +283,7 @@ static void show_knots(const struct curves *curves, struct core *core, const str
 /// Knots of the other curves, small unless they are selected: a click on one makes its spline the active one.
 static void show_other_knots(const struct curves *curves, struct core *core, const struct document *document, int s)
 {
-    const struct spline *spline = &document->splines[s];
+    const struct spline *spline = document->splines[s];
     const struct rect *plot = &core->layout.plot;
     const uint32_t full = spline_list_color(document, s), color = theme_fade(full, THEME_OTHERS);
     int k = curves_knot_from(curves, core, document, spline, plot->x);
@@ -339,7 +339,7 @@ static int place_labels(const struct curves *curves, const struct core *core, co
         int spline = cache->other_spline[i];
         insert_label(labels, &count,
                      (struct label){cache->others[i][end][1], FONT_LABEL, label_color(world, spline),
-                                    world->document->splines[spline].name});
+                                    world->document->splines[spline]->name});
     }
     return count;
 }

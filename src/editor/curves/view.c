@@ -129,7 +129,7 @@ void curves_frame_all(struct curves *curves, struct core *core, const struct edi
     const struct evaluation *evaluation = world->evaluation;
     double range[2] = {INFINITY, -INFINITY};
     for (int s = 0; s < document->spline_count; s++) {
-        const struct spline *spline = &document->splines[s];
+        const struct spline *spline = document->splines[s];
         if (curves->options.normalise && s != core->active) continue;
         for (int k = 0; k < spline->knot_count; k++) include_value(range, spline->knots[k].value);
         if (!evaluation || s >= evaluation->count) continue;
@@ -341,7 +341,7 @@ static void include_knot(const struct curves *curves, const struct core *core, c
                          struct knot_place at, struct view *edited)
 {
     const struct document *document = world->document;
-    const struct spline *spline = &document->splines[at.spline];
+    const struct spline *spline = document->splines[at.spline];
     const struct knot *knot = &spline->knots[at.knot];
     const struct value_map map = normal_map(curves, core, at.spline);
     const double value = map.scale * knot->value + map.offset;

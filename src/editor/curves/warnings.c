@@ -130,7 +130,7 @@ static void find_drift(const struct document *document, const wiggly_curve *curv
 void warnings_find(const struct document *document, const struct evaluation *evaluation, int of,
                    struct warnings *found)
 {
-    const struct spline *spline = &document->splines[of];
+    const struct spline *spline = document->splines[of];
     found->count = 0;
     if (of >= evaluation->count || spline_mode(spline) == WIGGLY_CUBIC || evaluation->cubic) return;
     const double frequency = frequency_of(evaluation, spline), bandwidth = bandwidth_of(spline);
@@ -178,7 +178,7 @@ static int count_swings(const struct core *core, const struct editor_world *worl
     bool good = evaluation_resize(&trial, document, NULL);
     if (good) {
         motions_copy(&trial, world->evaluation);
-        evaluation_update(&trial, document, NULL, false);
+        evaluation_update(&trial, document, false);
         warnings_find(document, &trial, core->active, &found);
     }
     int count = 0;
@@ -194,7 +194,7 @@ static bool helps(const struct core *core, const struct editor_world *world, con
     int count = -1;
     if (history_apply(world->history, document, edit, NULL)) count = count_swings(core, world);
     if (count >= 0 && count < before) return true;
-    history_restart(world->history, document);
+    history_restart(world->history);
     return false;
 }
 

@@ -68,7 +68,7 @@ static void name_export(char path[PATH_LIMIT], const struct core *core, const st
 {
     char scene[PATH_LIMIT], own[PATH_LIMIT];
     const int model = document_find_rig(document, RIG_MODEL, 0);
-    const bool has_model = model >= 0 && stem_of(document->folder, document->rigs[model].model.model, own);
+    const bool has_model = model >= 0 && stem_of(document->folder, document->rigs[model]->model.model, own);
     const char *like = core->path[0] ? core->path : has_model ? own : "untitled";
     snprintf(path, PATH_LIMIT, "%.*s", PATH_LIMIT - STEM_MORE, like);
     if (path_has_end(path, ".json")) path[strlen(path) - strlen(".json")] = '\0';
@@ -305,14 +305,14 @@ static void next_rig(struct export_wish *wish, const struct document *document, 
 {
     int current = -1, first = -1, next = -1;
     for (int i = 0; i < document->rig_count; i++) {
-        const struct rig *rig = &document->rigs[i];
+        const struct rig *rig = document->rigs[i];
         if (!is_offered(rig, choices)) continue;
         if (first < 0) first = i;
         if (current >= 0 && next < 0) next = i;
         if (current < 0 && strcmp(label_of(rig), wish->rig) == 0) current = i;
     }
     if (next < 0 && (current < 0 || (choices & CHOICE_ONE))) next = first;
-    snprintf(wish->rig, sizeof wish->rig, "%s", next >= 0 ? label_of(&document->rigs[next]) : "");
+    snprintf(wish->rig, sizeof wish->rig, "%s", next >= 0 ? label_of(document->rigs[next]) : "");
 }
 
 static void build_rig(struct dialogs *dialogs, const struct document *document, unsigned choices, struct rect *row)
@@ -321,9 +321,9 @@ static void build_rig(struct dialogs *dialogs, const struct document *document, 
     int offered = 0;
     bool has_chosen = false;
     for (int i = 0; i < document->rig_count; i++) {
-        if (!is_offered(&document->rigs[i], choices)) continue;
+        if (!is_offered(document->rigs[i], choices)) continue;
         offered++;
-        has_chosen = has_chosen || strcmp(label_of(&document->rigs[i]), wish->rig) == 0;
+        has_chosen = has_chosen || strcmp(label_of(document->rigs[i]), wish->rig) == 0;
     }
     if (!has_chosen) wish->rig[0] = '\0'; // the last was of another format, or has another name now
     if (offered < 2) return;
@@ -356,7 +356,7 @@ static void build_flags(struct dialogs *dialogs, const struct document *document
 static const char *usual_clip(const struct document *document)
 {
     const int rig = document_next_rig(document, RIG_MODEL, 0);
-    return rig >= 0 && document->rigs[rig].model.clip ? document->rigs[rig].model.clip : "as the scene";
+    return rig >= 0 && document->rigs[rig]->model.clip ? document->rigs[rig]->model.clip : "as the scene";
 }
 
 /// Always as many rows, so that nothing jumps when another format is chosen.

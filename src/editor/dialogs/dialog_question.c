@@ -116,7 +116,7 @@ static void ask_remove(struct question *question, const struct document *documen
 {
     int count = reference_count(document, spline);
     *question = QUESTION(remove_answers);
-    snprintf(question->title, sizeof question->title, "%.200s is used in %d place%s", document->splines[spline].name,
+    snprintf(question->title, sizeof question->title, "%.200s is used in %d place%s", document->splines[spline]->name,
              count, count == 1 ? "" : "s");
     snprintf(question->note, sizeof question->note,
              "Parameters that follow it keep their value at the playhead. Tails and characters on the "
@@ -129,7 +129,7 @@ static void ask_rig(struct question *question, const struct document *document, 
     const int count = rigs_own_splines(document, rig, names, sizeof names);
     *question = QUESTION(rig_answers);
     snprintf(question->title, sizeof question->title, "Remove %.150s, with its spline%s or without?",
-             path_name(rig_title(&document->rigs[rig])), count == 1 ? "" : "s");
+             path_name(rig_title(document->rigs[rig])), count == 1 ? "" : "s");
     snprintf(question->note, sizeof question->note, "Nothing else moves by %s. Kept, %s for what you add next.",
              names, count == 1 ? "it stays" : "they stay");
 }

@@ -67,6 +67,15 @@ static double reach_of(struct inspection *in, const struct angle_row *row, doubl
     return *reach;
 }
 
+/// The angles of a row, as the document has them now.
+static const struct angles *angles_of(const struct inspection *in, const struct angle_row *row)
+{
+    const struct rig *rig = inspector_shown(in);
+    if (row->kind == ANGLE_REST) return &rig->tail.rest;
+    const struct channel *channel = &rig->bent.channels[in->inspector->channel];
+    return row->kind == ANGLE_LAG ? &channel->lag : &channel->gain;
+}
+
 static void build_slider(struct inspection *in, const struct angle_row *row, const struct angles *angles,
                          struct rect r)
 {
@@ -94,7 +103,7 @@ static void build_slider(struct inspection *in, const struct angle_row *row, con
     enum ui_change change = ui_value(in->ui, r, &number, &value);
     if (change == UI_NONE) return;
     inspector_take_back(in, change); // scaled from where the drag began, so that a drag through 0 loses no proportion
-    struct angles next = *angles;
+    struct angles next = *angles_of(in, row);
     scale_angles(&next, value);
     struct edit edit = inspector_angles_edit(in, row, &next);
     inspector_change(in, change, row->undo, row->name, &edit);
@@ -144,6 +153,7 @@ void inspector_angles(struct inspection *in, const struct angle_row *row, const 
     struct rect r = ui_row(in->ui, UI_ROW), right = {r.x + r.w - SWITCH, r.y, SWITCH, r.h}, left = right;
     left.x -= SWITCH;
     build_slider(in, row, angles, (struct rect){r.x, r.y, left.x - r.x - 2, r.h});
+    angles = angles_of(in, row);
     const struct angles ramp = inspector_as_ramp(angles, row->kind, joints),
                         each = each_angle(angles, row->kind, joints);
     if (build_switch(in, row, angles, &ramp, left) || build_switch(in, row, angles, &each, right)) return;

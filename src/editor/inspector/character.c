@@ -39,7 +39,7 @@ static void build_drives(struct inspection *in, const struct character_rig *rig)
         struct rect r = ui_row(ui, UI_ROW), button = {r.x + r.w - r.h, r.y, r.h, r.h};
         snprintf(name, sizeof name, "drive.%d", k);
         snprintf(remove, sizeof remove, "drive.%d.remove", k);
-        snprintf(text, sizeof text, "%.60s, by %.60s", drive->name, in->document->splines[drive->spline].name);
+        snprintf(text, sizeof text, "%.60s, by %.60s", drive->name, in->document->splines[drive->spline]->name);
         r.w -= r.h + 4;
         ui_hint(ui, r, "One of the ways this character swings");
         const uint32_t color = spline_list_color(in->document, drive->spline);
@@ -86,7 +86,7 @@ static void build_spline(struct inspection *in, const struct drive *drive)
     struct rect r = inspector_labelled(in, "spline");
     const uint32_t color = spline_list_color(in->document, drive->spline);
     ui_hint(in->ui, r, "The spline that drives this coordinate");
-    ui_dropdown(in->ui, r, spline_list, 0, in->document->splines[drive->spline].name, color);
+    ui_dropdown(in->ui, r, spline_list, 0, in->document->splines[drive->spline]->name, color);
 }
 
 /// Whether the rig drives the coordinate already.
@@ -243,9 +243,9 @@ void inspector_character_lists(struct inspection *in)
         const int picked = ui_popup_list(in->ui, add_list, items, free_coordinates(in, rig, items), -1);
         if (picked < 0) return;
         const int spline = in->core->active >= 0 ? in->core->active : 0;
-        const struct drive drive = {
-            .name = items[picked].name, .spline = spline, .amplitude = DRIVE_DEFAULT_AMPLITUDE};
+        const struct drive drive = {.spline = spline, .amplitude = DRIVE_DEFAULT_AMPLITUDE};
         struct edit edit = drive_edit(in, EDIT_DRIVE_ADD, &drive);
+        edit.text = items[picked].name;
         core_step(in->core, in->world, "Add coordinate", 0, &edit);
     }
 }

@@ -50,7 +50,7 @@ static void apply(struct inspection *in, const struct preset *preset)
     good = good && set_parameter(in, PARAMETER_FREQUENCY, preset->frequency) &&
            set_parameter(in, PARAMETER_DAMPING, preset->damping);
     good = good && set_lag(in, preset->lag);
-    if (!good) history_restart(in->world->history, in->document);
+    if (!good) history_restart(in->world->history);
     history_end(in->world->history);
     core_refresh(in->core, in->world);
     core_edited(in->core, in->core->active);
@@ -136,6 +136,7 @@ static void build_settle(struct inspection *in)
     const enum ui_change change = ui_value(in->ui, r, &number, &seconds);
     if (change == UI_NONE) return;
     inspector_take_back(in, change);
+    spline = core_active_spline(in->core, in->world);
     const double damping = change == UI_DROP || change == UI_CANCEL ? 0 : damping_for(spline, seconds, step);
     const struct edit edit = core_parameter_edit(in->core->active, PARAMETER_DAMPING, round(damping * 1e4) / 1e4);
     inspector_change(in, change, "Set settle time", number.name, &edit);

@@ -40,7 +40,7 @@ static bool has_meadow(const struct inspection *in) { return document_find_rig(i
 static bool takes_pins(const struct inspection *in)
 {
     bool any = false;
-    for (int r = 0; r < in->document->rig_count; r++) any |= pins_suit(&in->document->rigs[r]);
+    for (int r = 0; r < in->document->rig_count; r++) any |= pins_suit(in->document->rigs[r]);
     return any;
 }
 
@@ -296,7 +296,7 @@ void inspector_take_back(struct inspection *in, enum ui_change change)
 {
     struct history *history = in->world->history;
     if (change != UI_DRAG || !history_is_open(history)) return;
-    history_restart(history, in->document);
+    history_restart(history);
     core_refresh(in->core, in->world);
 }
 
@@ -324,7 +324,7 @@ void inspector_change_all(struct inspection *in, enum ui_change change, const ch
     case UI_CANCEL:
     case UI_DROP:
         if (!history_is_open(history)) return; // nothing was moved by this drag
-        if (change == UI_CANCEL) history_restart(history, in->document);
+        if (change == UI_CANCEL) history_restart(history);
         history_end(history);
         core_refresh(in->core, in->world);
         return;
@@ -425,7 +425,7 @@ int inspector_spline_items(const struct inspection *in, const bool *left_out, in
     *row = -1;
     for (int s = 0; s < in->document->spline_count && s < INSPECTOR_MAX_SPLINES; s++) {
         if (left_out && left_out[s]) continue;
-        const char *name = in->document->splines[s].name;
+        const char *name = in->document->splines[s]->name;
         if (s == chosen) *row = count;
         items[count] = (struct ui_item){name, name, spline_list_color(in->document, s)};
         splines[count++] = s;

@@ -127,7 +127,7 @@ static void change_all(struct inspection *in, enum ui_change change, const struc
     if (set_all(in, field, value, together, &error)) {
         *possible = value;
     } else {
-        history_restart(history, in->document);
+        history_restart(history);
         if (change == UI_DRAG) set_all(in, field, *possible, together, &error);
     }
     if (change == UI_DRAG) return;

@@ -6,7 +6,7 @@ static void now(const struct inspection *in, int which, struct setting *setting)
 {
     const int rig = document_find_rig(in->document, RIG_MEADOW, 0);
     (void)which;
-    setting->contents = in->document->rigs[rig];
+    setting->contents = *in->document->rigs[rig];
     setting->edit = core_edit_of(EDIT_MEADOW, in->core->active);
     setting->edit.rig = rig;
     setting->edit.contents = &setting->contents;

@@ -54,7 +54,7 @@ void inspector_model_lists(struct inspection *in)
     const struct imported *shown = model >= 0 ? bones_character(in->world, model) : NULL;
     if (!ui_popup_is_open(in->ui, clip_list) || !shown) return;
     const struct gltf *gltf = &shown->gltf;
-    const char *clip = in->document->rigs[model].model.clip;
+    const char *clip = in->document->rigs[model]->model.clip;
     struct ui_item items[MAX_CLIPS + 1] = {{"none", "None", 0}};
     int count = 1;
     for (int c = 0; c < gltf->clip_count && c < MAX_CLIPS; c++)
@@ -67,7 +67,7 @@ void inspector_model_lists(struct inspection *in)
 static void now(const struct inspection *in, int which, struct setting *setting)
 {
     (void)which;
-    setting->contents = in->document->rigs[shown_model(in)];
+    setting->contents = *in->document->rigs[shown_model(in)];
     setting->edit = model_edit(in, EDIT_PLACE);
     setting->edit.contents = &setting->contents;
 }
@@ -119,8 +119,8 @@ void inspector_model(struct inspection *in)
 {
     const int model = shown_model(in);
     const struct imported *shown = bones_character(in->world, model);
-    build_file(in, &in->document->rigs[model].model, shown);
-    build_clip(in, &in->document->rigs[model].model, shown);
+    build_file(in, &in->document->rigs[model]->model, shown);
+    build_clip(in, &in->document->rigs[model]->model, shown);
     inspector_numbers(in, place, sizeof place / sizeof place[0], now);
     if (shown) build_bone(in);
 }

@@ -17,7 +17,7 @@ struct place {
 static struct place place_of(const struct document *document, int row)
 {
     int rig = 0;
-    while (row >= document->rigs[rig].pin_count) row -= document->rigs[rig++].pin_count;
+    while (row >= document->rigs[rig]->pin_count) row -= document->rigs[rig++]->pin_count;
     return (struct place){rig, row};
 }
 
@@ -27,8 +27,8 @@ static int selected_row(const struct inspection *in)
     int rig, row = 0;
     const struct pin *pin = pins_selected(in->core, in->document, &rig);
     if (!pin) return 0;
-    for (int r = 0; r < rig; r++) row += in->document->rigs[r].pin_count;
-    return row + (int)(pin - in->document->rigs[rig].pins);
+    for (int r = 0; r < rig; r++) row += in->document->rigs[r]->pin_count;
+    return row + (int)(pin - in->document->rigs[rig]->pins);
 }
 
 /// Millimetres that are left; NAN where that is not known.
@@ -46,7 +46,7 @@ static bool build_row(struct inspection *in, int row)
 {
     struct ui *ui = in->ui;
     const struct place place = place_of(in->document, row);
-    const struct rig *rig = &in->document->rigs[place.rig];
+    const struct rig *rig = in->document->rigs[place.rig];
     const struct pin *pin = &rig->pins[place.at];
     struct rect r = ui_row(ui, UI_ROW), button = {r.x + r.w - r.h, r.y, r.h, r.h};
     char name[32], remove[32], text[160], left[32] = "";
@@ -86,7 +86,7 @@ static void build_list(struct inspection *in, int count)
 /// How many points the rig has.
 static int points_of(const struct inspection *in, int rig)
 {
-    const struct rig *pinned = &in->document->rigs[rig];
+    const struct rig *pinned = in->document->rigs[rig];
     if (pinned->kind != RIG_CHARACTER) return bones_joints(in->world, rig);
     const struct figure *figure = models_figure(in->world->models, document_rig_number(in->document, rig));
     return figure ? figure->character.vertex_count : 1;
@@ -119,7 +119,7 @@ static void build_field(struct inspection *in, int field)
     int rig;
     struct number_row row = rows[field];
     if (!pins_selected(in->core, in->document, &rig)) return;
-    const struct rig *pinned = &in->document->rigs[rig];
+    const struct rig *pinned = in->document->rigs[rig];
     if (field == ROW_FRAME) {
         row.lowest = in->document->first_frame;
         row.highest = document_frame(in->document, pins_last_sample(in->document, pinned));

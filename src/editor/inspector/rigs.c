@@ -13,13 +13,13 @@ enum { ICON = 24, MAX_ROWS = 12 }; ///< rows from the top
 static bool is_tail_or_chain(const struct document *document, int rig)
 {
     return rig >= 0 && rig < document->rig_count &&
-           (document->rigs[rig].kind == RIG_TAIL || document->rigs[rig].kind == RIG_CHAIN);
+           (document->rigs[rig]->kind == RIG_TAIL || document->rigs[rig]->kind == RIG_CHAIN);
 }
 
 const struct rig *inspector_shown(const struct inspection *in)
 {
     const int rig = in->inspector->rig;
-    return is_tail_or_chain(in->document, rig) ? &in->document->rigs[rig] : NULL;
+    return is_tail_or_chain(in->document, rig) ? in->document->rigs[rig] : NULL;
 }
 
 void inspector_find_rig(struct inspection *in)
@@ -42,7 +42,7 @@ static void show_rig(struct inspector *inspector, struct core *core, const struc
 {
     const int number = document_rig_number(document, rig);
     inspector->selected = rig;
-    switch (document->rigs[rig].kind) {
+    switch (document->rigs[rig]->kind) {
     case RIG_TAIL:
     case RIG_CHAIN:
         inspector->channel = rig == inspector->rig ? inspector->channel : 0;
@@ -73,15 +73,15 @@ void inspector_show_spline(struct inspector *inspector, struct core *core, const
                            int spline)
 {
     int found = inspector->selected < document->rig_count ? inspector->selected : -1;
-    if (found >= 0 && input_of(&document->rigs[found], spline) < 0) found = -1;
+    if (found >= 0 && input_of(document->rigs[found], spline) < 0) found = -1;
     for (int r = 0; r < document->rig_count && found < 0; r++) {
-        if (input_of(&document->rigs[r], spline) >= 0) found = r;
+        if (input_of(document->rigs[r], spline) >= 0) found = r;
     }
     if (found < 0) return;
-    const int input = input_of(&document->rigs[found], spline);
+    const int input = input_of(document->rigs[found], spline);
     show_rig(inspector, core, document, found);
     if (is_tail_or_chain(document, found)) inspector->channel = input;
-    if (document->rigs[found].kind == RIG_CHARACTER) core->characters.drive = input;
+    if (document->rigs[found]->kind == RIG_CHARACTER) core->characters.drive = input;
 }
 
 void inspector_choose_rig(struct inspection *in, int rig)
@@ -91,7 +91,7 @@ void inspector_choose_rig(struct inspection *in, int rig)
                                            [RIG_CHARACTER] = "section.character",
                                            [RIG_MODEL] = "section.model",
                                            [RIG_MEADOW] = "section.meadow"};
-    const struct rig *chosen = &in->document->rigs[rig];
+    const struct rig *chosen = in->document->rigs[rig];
     if (chosen->kind == RIG_MODEL) bones_clear(in->core);
     show_rig(in->inspector, in->core, in->document, rig);
     inspector_unfold(in->inspector, sections[chosen->kind]);
@@ -106,7 +106,7 @@ void inspector_show_rig(struct inspector *inspector, struct core *core, const st
 
 static void build_row(struct inspection *in, int rig)
 {
-    const struct rig *shown = &in->document->rigs[rig];
+    const struct rig *shown = in->document->rigs[rig];
     const struct rect r = ui_row(in->ui, UI_ROW);
     char name[32], text[160];
     snprintf(name, sizeof name, "%s.%d", rig_word(shown->kind), document_rig_number(in->document, rig));
@@ -183,7 +183,7 @@ static void add_copies(const struct inspection *in, struct menu *menu)
 {
     int copies = 0;
     for (int r = 0; r < in->document->rig_count && copies < MAX_COPIES; r++) {
-        const struct rig *rig = &in->document->rigs[r];
+        const struct rig *rig = in->document->rigs[r];
         if (rig->kind != RIG_CHARACTER && rig->kind != RIG_MODEL) continue;
         snprintf(menu->names[copies], sizeof menu->names[0], "copy.%d", r);
         snprintf(menu->labels[copies], LABEL, "One more %.80s", path_name(rig_title(rig)));

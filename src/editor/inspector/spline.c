@@ -188,13 +188,13 @@ static void open_list(struct inspection *in, enum parameter parameter, struct re
     }
     char text[160];
     snprintf(text, sizeof text, "There is no other spline for %.80s to follow.",
-             in->document->splines[in->core->active].name);
+             in->document->splines[in->core->active]->name);
     core_message(in->core, true, text);
 }
 
 void inspector_track(struct inspection *in, enum parameter parameter, const char *label, struct rect r)
 {
-    const struct spline *spline = &in->document->splines[in->core->active];
+    const struct spline *spline = in->document->splines[in->core->active];
     const struct param *param = &spline->parameter[parameter];
     ui_label(in->ui, (struct rect){r.x, r.y, UI_LABEL, r.h}, label, theme()->text_dim);
     struct rect field = {r.x + UI_LABEL + UI_GAP, r.y, r.w - UI_LABEL - UI_GAP, r.h};
@@ -203,14 +203,14 @@ void inspector_track(struct inspection *in, enum parameter parameter, const char
         return;
     }
     ui_hint(in->ui, field, "The spline it follows, sample by sample");
-    ui_dropdown(in->ui, field, track_list, (int)parameter, in->document->splines[param->track].name,
+    ui_dropdown(in->ui, field, track_list, (int)parameter, in->document->splines[param->track]->name,
                 spline_list_color(in->document, param->track));
 }
 
 void inspector_track_button(struct inspection *in, enum parameter parameter, struct rect r)
 {
     int active = in->core->active;
-    bool follows = param_follows(&in->document->splines[active].parameter[parameter]);
+    bool follows = param_follows(&in->document->splines[active]->parameter[parameter]);
     enum ui_icon icon = follows ? UI_ICON_UNFOLLOW : UI_ICON_FOLLOW;
     const bool joints = parameter == PARAMETER_EQUILIBRIUM && document_find_rig(in->document, RIG_MODEL, 0) >= 0;
     const char *hint = follows  ? "Stop following; keep the value at the playhead"
@@ -236,7 +236,7 @@ static int add_models(const struct inspection *in, struct ui_item *items, char t
     for (int r = document_next_rig(in->document, RIG_MODEL, 0); r >= 0 && count < MAX_MODELS;
          r = document_next_rig(in->document, RIG_MODEL, r + 1)) {
         if (!bones_character(in->world, r)) continue;
-        snprintf(texts[count], MODEL_TEXT, "A joint of %.80s", rig_title(&in->document->rigs[r]));
+        snprintf(texts[count], MODEL_TEXT, "A joint of %.80s", rig_title(in->document->rigs[r]));
         items[count] = (struct ui_item){texts[count], texts[count], 0};
         models[count++] = r;
     }

@@ -31,7 +31,7 @@ static void flip(struct core *core, struct selection *set, unsigned id)
 static void build_visibility(struct inspection *in, int s, struct rect r)
 {
     struct core *core = in->core;
-    const struct spline *spline = &in->document->splines[s];
+    const struct spline *spline = in->document->splines[s];
     char name[192];
     bool solo = selection_has(&core->solo, spline->id), shown = spline_list_shows(core, in->document, s);
     struct rect icon = {r.x + r.w - 2 * ICON, r.y, ICON, r.h};
@@ -67,7 +67,7 @@ static int drop_place(const struct inspection *in, int first, int rows, float to
 static bool build_row(struct inspection *in, int s, struct rect r)
 {
     struct ui *ui = in->ui;
-    const struct spline *spline = &in->document->splines[s];
+    const struct spline *spline = in->document->splines[s];
     bool active = s == in->core->active, dropped = false;
     char name[192];
     snprintf(name, sizeof name, "spline.%s", spline->name);
@@ -138,7 +138,7 @@ void inspector_splines(struct inspection *in)
     float top = ui->y;
     for (int i = 0; i < rows; i++) {
         char name[192];
-        snprintf(name, sizeof name, "spline.%s", in->document->splines[first + i].name);
+        snprintf(name, sizeof name, "spline.%s", in->document->splines[first + i]->name);
         if (ui_is_dragged(ui, name)) from = first + i;
         if (build_row(in, first + i, ui_row(ui, UI_ROW))) dropped = first + i;
     }
@@ -186,7 +186,7 @@ static void build_typed(struct inspection *in, int spline, struct rect r)
     struct ui *ui = in->ui;
     char text[COLOR_TEXT_SIZE];
     int color;
-    int stored = in->document->splines[spline].color;
+    int stored = in->document->splines[spline]->color;
     color_print(stored < 0 ? (int)theme_spline_rgb(spline % THEME_SPLINE_COLORS) : stored, text);
     if (!ui_line_is_open(ui, hex_line)) {
         if (ui_button(ui, r, "color.type", text, false)) ui_line_begin(ui, hex_line, text);

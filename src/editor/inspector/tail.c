@@ -63,7 +63,7 @@ static void build_coordinate(struct inspection *in, const struct tail *tail, int
     struct rect field = {r.x + UI_LABEL + UI_GAP, r.y, r.w - UI_LABEL - UI_GAP, r.h};
     if (param->track >= 0) {
         ui_label(in->ui, (struct rect){r.x, r.y, UI_LABEL, r.h}, coordinate_name(k), theme()->text_dim);
-        ui_dropdown(in->ui, field, place_list, k, in->document->splines[param->track].name,
+        ui_dropdown(in->ui, field, place_list, k, in->document->splines[param->track]->name,
                     spline_list_color(in->document, param->track));
         wiggly_value now = evaluation_at(in->world->evaluation, param->track, in->core->playback.position);
         if (!ui_icon_button(in->ui, icon, button, UI_ICON_UNFOLLOW, false,
@@ -230,7 +230,8 @@ static void build_list(struct inspection *in)
         const struct channel *channel = &channels[c];
         char name[32], text[192];
         snprintf(name, sizeof name, "channel.%d", c);
-        snprintf(text, sizeof text, "%s, %s", in->document->splines[channel->spline].name, axis_label(channel->axis));
+        snprintf(text, sizeof text, "%s, %s", in->document->splines[channel->spline]->name,
+                 axis_label(channel->axis));
         struct rect r = ui_row(ui, UI_ROW);
         ui_hint(ui, r, "One of the splines that bend it");
         uint32_t color = spline_list_color(in->document, channel->spline);
@@ -247,7 +248,7 @@ static void build_buttons(struct inspection *in)
     if (ui_icon_button(in->ui, icon, "channel.add", UI_ICON_ADD, false, "Bend it by the active spline too")) {
         struct edit edit = channel_edit(in, EDIT_CHANNEL_ADD);
         if (core_step(in->core, in->world, "Add channel", 0, &edit)) {
-            in->inspector->channel = rig_input_count(&in->document->rigs[edit.rig]) - 1;
+            in->inspector->channel = rig_input_count(in->document->rigs[edit.rig]) - 1;
         }
         return;
     }
@@ -337,7 +338,7 @@ void inspector_channel(struct inspection *in)
     build_buttons(in);
     const struct channel *channel = chosen_channel(in);
     if (!channel) return;
-    const char *spline = in->document->splines[channel->spline].name;
+    const char *spline = in->document->splines[channel->spline]->name;
     const struct rect field = inspector_labelled(in, "spline");
     ui_hint(in->ui, field, "The spline that bends it");
     ui_dropdown(in->ui, field, feed_list, inspector->channel, spline,

@@ -45,7 +45,7 @@ void base_put_knot(struct core *core, const struct editor_world *world, int spli
 {
     struct edit edit = core_knot_edit(world->document, spline, sample);
     edit.knot.value = core_round(value, RESOLUTION);
-    core_hold(&world->document->splines[spline], &edit.knot, why);
+    core_hold(world->document->splines[spline], &edit.knot, why);
     edit.knot.has_slope = level;
     edit.knot.slope = 0;
     edit.knot.stiffness = level ? RECORD_STIFFNESS : KNOT_DEFAULT_STIFFNESS;
@@ -59,7 +59,7 @@ void base_begin(struct stage *stage, const struct editor_world *world)
     hold->loops = tail->channel_count > 0;
     for (int c = 0; c < tail->channel_count; c++) {
         hold->hangs[c] = swing_hangs(tail, &tail->channels[c]);
-        hold->loops &= spline_start(&world->document->splines[tail->channels[c].spline]) == WIGGLY_LOOP;
+        hold->loops &= spline_start(world->document->splines[tail->channels[c].spline]) == WIGGLY_LOOP;
     }
 }
 
@@ -70,7 +70,7 @@ int base_spline(const struct stage *stage, struct core *core, const struct edito
     char name[NAME_SIZE];
     if (moved->position[coordinate].track >= 0) return moved->position[coordinate].track;
     snprintf(name, sizeof name, "%.250s %s",
-             world->document->rigs[document_find_rig(world->document, RIG_TAIL, tail)].name,
+             world->document->rigs[document_find_rig(world->document, RIG_TAIL, tail)]->name,
              coordinate_name(coordinate));
     int spline = add_spline(core, world, name);
     if (spline < 0) return -1;
@@ -126,7 +126,7 @@ static int add_follower(struct core *core, const struct editor_world *world, int
 {
     int spline = add_spline(core, world, name);
     if (spline < 0) return -1;
-    const struct spline copied = world->document->splines[model];
+    const struct spline copied = *world->document->splines[model];
     struct edit mode = core_edit_of(EDIT_PARAMETER, spline);
     mode.parameter = PARAMETER_MODE;
     mode.param = copied.parameter[PARAMETER_MODE];
@@ -190,7 +190,7 @@ static int add_missing(const struct stage *stage, struct core *core, const struc
     char name[NAME_SIZE];
     if (axis == AXES) return -1;
     snprintf(name, sizeof name, "%.250s %s",
-             rig_title(&document->rigs[document_find_rig(document, RIG_TAIL, stage->body_drag.tail)]),
+             rig_title(document->rigs[document_find_rig(document, RIG_TAIL, stage->body_drag.tail)]),
              axis_word(axis));
     for (int c = 0; c < tail->channel_count; c++) {
         const struct channel model = tail->channels[c];
@@ -208,14 +208,14 @@ int base_hang_channels(const struct stage *stage, struct core *core, const struc
     for (int c = 0; c < count; c++) {
         const struct tail *tail = document_tail(world->document, index);
         const struct channel channel = tail->channels[c];
-        const struct param *equilibrium = &world->document->splines[channel.spline].parameter[PARAMETER_EQUILIBRIUM];
+        const struct param *equilibrium = &world->document->splines[channel.spline]->parameter[PARAMETER_EQUILIBRIUM];
         double direction[3], scale = stage->inertia[index].scale[c];
         swing_direction(tail, channel.axis, direction);
         bool swung = stage->body_drag.hangs[c] && fabs(direction[coordinate]) > LEAST_SHARE && scale != 0;
         if (!swung) continue;
         if (channel.of == PART_TOTAL) {
             char name[NAME_SIZE];
-            snprintf(name, sizeof name, "%.280s follow", world->document->splines[channel.spline].name);
+            snprintf(name, sizeof name, "%.280s follow", world->document->splines[channel.spline]->name);
             add_channel(stage, core, world, &channel, channel.axis, name, scale * direction[coordinate], base);
         } else if (!param_follows(equilibrium)) {
             follow_base(core, world, channel.spline, base);
@@ -227,9 +227,9 @@ int base_hang_channels(const struct stage *stage, struct core *core, const struc
 void base_say_channel(const struct editor_world *world, int spline, char *text, size_t size)
 {
     if (spline < 0) return;
-    const struct spline *made = &world->document->splines[spline];
+    const struct spline *made = world->document->splines[spline];
     const int base = made->parameter[PARAMETER_EQUILIBRIUM].track;
     const size_t length = strlen(text);
     snprintf(text + length, size - length, " New: %s, by which the tail swings after %s.", made->name,
-             base >= 0 ? world->document->splines[base].name : "it");
+             base >= 0 ? world->document->splines[base]->name : "it");
 }

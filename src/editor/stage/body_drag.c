@@ -259,7 +259,7 @@ static void say_name(struct report *report, bool is_first, const char *name)
 static int sample_of(const struct core *core, const struct document *document, int spline)
 {
     const int sample = document_sample(document, round(core_frame(core, document)));
-    const int last = document_last_knot_sample(document, &document->splines[spline]);
+    const int last = document_last_knot_sample(document, document->splines[spline]);
     return sample > last ? last : sample < 0 ? 0 : sample;
 }
 
@@ -278,7 +278,7 @@ static int key_coordinate(const struct stage *stage, struct core *core, const st
     if (!is_new) {
         struct edit edit = core_knot_edit(document, spline, sample);
         edit.knot.value = core_round(before + by, RESOLUTION);
-        core_hold(&document->splines[spline], &edit.knot, why);
+        core_hold(document->splines[spline], &edit.knot, why);
         core_edit(core, world, &edit);
         core_edited(core, spline);
         return -1;
@@ -305,7 +305,7 @@ static void key_body(struct stage *stage, struct core *core, const struct editor
         if (made >= 0) swings = made;
         const int track = document_tail(world->document, stage->body_drag.tail)->position[k].track;
         if (track < 0) continue;
-        say_name(&report, is_first, world->document->splines[track].name);
+        say_name(&report, is_first, world->document->splines[track]->name);
         is_first = false;
     }
     snprintf(frame, sizeof frame, " at frame %.0f.", round(core_frame(core, world->document)));
@@ -338,7 +338,7 @@ void place_within(const struct stage *stage, const struct core *core, const stru
     for (int k = 0; tail && k < 3; k++) {
         const int track = tail->position[k].track;
         if (offset[k] == 0 || track < 0) continue;
-        const struct spline *spline = &document->splines[track];
+        const struct spline *spline = document->splines[track];
         if (keys) {
             const double before = base_value(world, stage->body_drag.tail, k, sample_of(core, document, track));
             offset[k] = spline_within(spline, before + offset[k]) - before;
@@ -353,20 +353,20 @@ void place_within(const struct stage *stage, const struct core *core, const stru
 static double shift_spline(struct core *core, const struct editor_world *world, int spline, double way,
                            char why[STOPPED_SIZE])
 {
-    const int count = world->document->splines[spline].knot_count;
+    const int count = world->document->splines[spline]->knot_count;
     const struct knot *stops;
-    const double by = room_for(&world->document->splines[spline], way, &stops);
+    const double by = room_for(world->document->splines[spline], way, &stops);
     if (stops) {
         struct knot moved = *stops;
         moved.value += way;
-        core_hold(&world->document->splines[spline], &moved, why);
+        core_hold(world->document->splines[spline], &moved, why);
     }
     if (by == 0) return 0;
     for (int i = 0; i < count; i++) {
         struct edit edit = core_edit_of(EDIT_KNOT_SET, spline);
-        edit.knot = world->document->splines[spline].knots[i];
+        edit.knot = world->document->splines[spline]->knots[i];
         edit.knot.value =
-            spline_within(&world->document->splines[spline], core_round(edit.knot.value + by, RESOLUTION));
+            spline_within(world->document->splines[spline], core_round(edit.knot.value + by, RESOLUTION));
         core_edit(core, world, &edit);
     }
     core_edited(core, spline);

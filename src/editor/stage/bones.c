@@ -44,7 +44,7 @@ static int spline_of(const struct core *core, const struct chain *chain)
 void bones_mark(struct stage *stage, const struct core *core, const struct document *document, int rig, int model,
                 const struct chain_bones *bones)
 {
-    const int spline = spline_of(core, &document->rigs[rig].chain);
+    const int spline = spline_of(core, &document->rigs[rig]->chain);
     for (int b = 0; b < stage->bone_count; b++) {
         struct shown_bone *bone = &stage->bones[b];
         if (bone->model != model || (bone->chain >= 0 && spline != core->active)) continue;
@@ -117,7 +117,7 @@ struct hover bone_hover(const struct stage *stage, const struct core *core, floa
 
 bool bone_exists(const struct document *document, int model)
 {
-    return model < document->rig_count && document->rigs[model].kind == RIG_MODEL;
+    return model < document->rig_count && document->rigs[model]->kind == RIG_MODEL;
 }
 
 void bone_click(const struct stage *stage, struct core *core, const struct editor_world *world)
@@ -125,7 +125,7 @@ void bone_click(const struct stage *stage, struct core *core, const struct edito
     const struct hover *pressed = &stage->pressed;
     const struct document *document = world->document;
     const bool on_chain = pressed->kind == HOVER_JOINT && pressed->rig < document->rig_count &&
-                          document->rigs[pressed->rig].kind == RIG_CHAIN;
+                          document->rigs[pressed->rig]->kind == RIG_CHAIN;
     if ((pressed->kind == HOVER_BONE || on_chain) && bone_exists(document, pressed->model)) {
         bones_clicked(core, world, pressed->model, pressed->node);
     } else if (core->pick.use == BONE_SELECTED) {
@@ -261,7 +261,7 @@ void bones_show(const struct stage *stage, struct core *core, const struct edito
     showing.chosen = bones_selected(core, world, &showing.chosen_model);
     const struct imported *chosen = showing.chosen >= 0 ? bones_character(world, showing.chosen_model) : NULL;
     if (chosen) showing.tip = chain_end(&chosen->gltf, showing.chosen, NULL);
-    const bool on_chain = hover->kind == HOVER_JOINT && world->document->rigs[hover->rig].kind == RIG_CHAIN;
+    const bool on_chain = hover->kind == HOVER_JOINT && world->document->rigs[hover->rig]->kind == RIG_CHAIN;
     if (!core->drag.owner && (hover->kind == HOVER_BONE || on_chain)) {
         showing.meant_model = hover->model;
         showing.meant = hover->node;

@@ -42,7 +42,7 @@ static void add_character(struct stage *stage, const struct core *core, const st
 {
     struct stage_view *view = &stage->view;
     const struct character_view *how = &core->characters;
-    const struct character_rig *character = &world->document->rigs[rig].character;
+    const struct character_rig *character = &world->document->rigs[rig]->character;
     const struct posing posing = {
         .document = world->document, .evaluation = world->evaluation, .models = world->models, .look = look};
     struct rig_pose posed;

@@ -8,7 +8,7 @@
 static bool filter_now(const struct core *core, const struct editor_world *world, int index,
                        struct swing_filter *filter)
 {
-    const struct spline *spline = &world->document->splines[index];
+    const struct spline *spline = world->document->splines[index];
     double parameter[PARAMETER_COUNT];
     for (int p = 0; p < PARAMETER_COUNT; p++) {
         const struct param *param = &spline->parameter[p];

@@ -17,7 +17,7 @@ static const double LEAST_RISE =
 
 bool floors_exist(const struct document *document, int rig)
 {
-    return rig >= 0 && rig < document->rig_count && rig_has_floor(&document->rigs[rig]);
+    return rig >= 0 && rig < document->rig_count && rig_has_floor(document->rigs[rig]);
 }
 
 const struct character_rig *floors_find(const struct stage *stage, const struct core *core,
@@ -75,7 +75,7 @@ static void apply(void *room, struct core *core, const struct editor_world *worl
 {
     const struct floor_drag *drag = &((const struct stage *)room)->floor_drag;
     if (!floors_exist(world->document, drag->rig)) return;
-    const double highest = world->document->rigs[drag->rig].character.position[1];
+    const double highest = world->document->rigs[drag->rig]->character.position[1];
     const double height = drag->start - core->drag.moved_y / drag->pixels_per_metre;
     struct edit edit = core_edit_of(EDIT_FLOOR, -1);
     edit.rig = drag->rig;
@@ -88,7 +88,7 @@ void floors_begin(struct stage *stage, struct core *core, const struct editor_wo
                   const struct event *event)
 {
     static const struct drag_owner owner = {.cursor = CURSOR_VERTICAL, .apply = apply, .end = stage_click};
-    const struct character_rig *rig = &world->document->rigs[hover->rig].character;
+    const struct character_rig *rig = &world->document->rigs[hover->rig]->character;
     const float at[3] = {(float)rig->position[0], (float)rig->floor, (float)rig->position[2]};
     const float depth = fmaxf(camera_depth(stage->view.view, stage->view.eye, at), 0.1f);
     const double rise = fmax(cos((double)stage->camera.elevation), LEAST_RISE);

@@ -105,7 +105,7 @@ static void pose(struct stage *stage, const struct core *core, const struct edit
 {
     const struct posing posing = stage_posing(core, world);
     const struct meadow *meadow = models_meadow(world->models);
-    const struct meadow_rig *of = &world->document->rigs[rig].meadow;
+    const struct meadow_rig *of = &world->document->rigs[rig]->meadow;
     struct meadow_view *shown = &stage->meadow;
     struct stage_meadow *view = &stage->view.meadow;
     struct rig_pose posed;
@@ -124,7 +124,7 @@ static void pose(struct stage *stage, const struct core *core, const struct edit
                                               .width = WIDTH * (0.5f + 0.5f * reed->height)};
         memcpy(shown->reeds[r].place, reed->place, sizeof reed->place);
     }
-    brush_all(shown, core, &stage->view, &world->document->splines[of->spline], count);
+    brush_all(shown, core, &stage->view, world->document->splines[of->spline], count);
     for (int r = 0; r < count; r++) {
         for (int k = 0; k < 2; k++)
             shown->reeds[r].pushed[k] = (float)(shown->brushed[r].pushed[k] + shown->brushed[r].q[k]);

@@ -51,8 +51,8 @@ void names_show(const struct stage *stage, struct core *core, const struct docum
     struct rect shown[STAGE_MAX_TAILS], place;
     int count = 0, rig = document_next_rig(document, RIG_TAIL, 0);
     for (int t = 0; rig >= 0 && t < stage->view.tail_count && stage->view.tail_count > 1; t++) {
-        const struct tail *tail = &document->rigs[rig].tail;
-        const char *name = document->rigs[rig].name;
+        const struct tail *tail = &document->rigs[rig]->tail;
+        const char *name = document->rigs[rig]->name;
         const uint32_t color =
             tail->channel_count > 0 ? spline_list_color(document, tail->channels[0].spline) : theme()->text_dim;
         bool free = place_name(stage, core, t, name, &place);

@@ -36,7 +36,7 @@ int overlay_pose_rig(const struct stage *stage, const struct core *core, const s
 {
     const int first = document_next_rig(document, RIG_CHARACTER, 0);
     for (int r = first; r >= 0; r = document_next_rig(document, RIG_CHARACTER, r + 1)) {
-        const struct rig *rig = &document->rigs[r];
+        const struct rig *rig = document->rigs[r];
         for (int i = 0; i < rig_input_count(rig); i++) {
             if (rig_input(rig, i) == core->active) return r;
         }
@@ -51,7 +51,7 @@ static const struct spline *keyed_spline(const struct core *core, const struct e
     const struct spline *spline = core_active_spline(core, world);
     if (!spline || spline->knot_count > 0) return spline;
     int track = spline->parameter[PARAMETER_EQUILIBRIUM].track;
-    return track >= 0 ? &world->document->splines[track] : spline;
+    return track >= 0 ? world->document->splines[track] : spline;
 }
 
 /// Samples of the knots nearest to a position, the nearest first; returns how many.
@@ -80,7 +80,7 @@ void onion_show(struct stage *stage, struct core *core, const struct editor_worl
     const int rig = overlay_pose_rig(stage, core, document);
     int samples[MAX_SKINS];
     if (!core->overlays.onion || !spline || rig < 0) return;
-    const int most = document->rigs[rig].kind == RIG_CHARACTER ? CHARACTER_SKINS : MAX_SKINS;
+    const int most = document->rigs[rig]->kind == RIG_CHARACTER ? CHARACTER_SKINS : MAX_SKINS;
     const int count = nearest_knots(document, spline, core->playback.position, samples, most);
     uint32_t color = spline_list_color(document, core->active);
     const struct posing posing = stage_posing(core, world);

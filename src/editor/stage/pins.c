@@ -117,7 +117,7 @@ bool pins_hover_exists(const struct editor_world *world, const struct hover *hov
 {
     if (hover->kind == HOVER_POINT) return point_exists(world, (struct rig_point){hover->rig, hover->joint});
     const struct document *document = world->document;
-    return hover->rig < document->rig_count && pins_find_id(&document->rigs[hover->rig], hover->pin) >= 0;
+    return hover->rig < document->rig_count && pins_find_id(document->rigs[hover->rig], hover->pin) >= 0;
 }
 
 void pins_take_plane(const struct stage *stage, const struct core *core, const double place[3], struct pin_drag *drag)
@@ -183,7 +183,7 @@ void pins_begin(struct stage *stage, struct core *core, const struct editor_worl
     drag_begin(core, &owner, stage, hover->kind == HOVER_PIN ? "Move pin" : "Pin", event);
     *drag = (struct pin_drag){.point = {hover->rig, hover->joint}, .axis = -1};
     if (hover->kind == HOVER_PIN) {
-        const struct rig *rig = &document->rigs[hover->rig];
+        const struct rig *rig = document->rigs[hover->rig];
         const struct pin *pin = &rig->pins[pins_find_id(rig, hover->pin)];
         pins_visit(core, document, pin);
         drag->frame = pin->frame;
@@ -259,9 +259,9 @@ static uint64_t state_key(const struct core *core, const struct editor_world *wo
 static void add_pin(struct stage *stage, const struct editor_world *world, int rig, int at)
 {
     const struct document *document = world->document;
-    const struct pin *pin = &document->rigs[rig].pins[at];
+    const struct pin *pin = &document->rigs[rig]->pins[at];
     const struct pin_left *left = evaluation_pin(world->evaluation, document, rig, at);
-    const int spline = rig_point_spline(&document->rigs[rig]);
+    const int spline = rig_point_spline(document->rigs[rig]);
     struct shown_pin *shown = &stage->pins[stage->pin_count++];
     *shown = (struct shown_pin){.id = pin->id, .point = {rig, pin->point}, .frame = pin->frame};
     shown->color = spline >= 0 ? spline_list_color(document, spline) : theme()->text_dim;
@@ -279,8 +279,8 @@ static void update(struct stage *stage, const struct core *core, const struct ed
     stage->pins_key = key;
     stage->pin_count = 0;
     for (int r = 0; r < document->rig_count; r++) {
-        if (document->rigs[r].kind == RIG_CHARACTER && core->characters.compare) continue; // they stand aside
-        for (int i = 0; i < document->rigs[r].pin_count; i++) add_pin(stage, world, r, i);
+        if (document->rigs[r]->kind == RIG_CHARACTER && core->characters.compare) continue; // they stand aside
+        for (int i = 0; i < document->rigs[r]->pin_count; i++) add_pin(stage, world, r, i);
     }
 }
 
@@ -376,7 +376,7 @@ bool point_exists(const struct editor_world *world, struct rig_point point)
 {
     const struct document *document = world->document;
     if (point.rig < 0 || point.rig >= document->rig_count) return false;
-    const enum rig_kind kind = document->rigs[point.rig].kind;
+    const enum rig_kind kind = document->rigs[point.rig]->kind;
     if (point.at < 0) return point.at == POINT_BASE && kind == RIG_TAIL;
     if (kind == RIG_TAIL || kind == RIG_CHAIN) return point.at < bones_joints(world, point.rig);
     const int n = document_rig_number(document, point.rig);

@@ -119,8 +119,8 @@ static void clear_knots(struct core *core, const struct editor_world *world, int
 {
     const struct document *document = world->document;
     for (;;) {
-        int at = spline_lower_bound(document, &document->splines[spline], from);
-        const struct spline *cleared = &document->splines[spline];
+        int at = spline_lower_bound(document, document->splines[spline], from);
+        const struct spline *cleared = document->splines[spline];
         if (at == cleared->knot_count || document_sample(document, cleared->knots[at].frame) > to) return;
         struct edit edit = core_edit_of(EDIT_KNOT_REMOVE, spline);
         edit.knot = cleared->knots[at];
@@ -142,7 +142,7 @@ static int key_coordinate(const struct stage *stage, struct core *core, const st
     int knots[MAX_KNOTS];
     int spline = base_spline(stage, core, world, coordinate);
     if (spline < 0) return 0;
-    int count = record->count, end = document_last_knot_sample(document, &document->splines[spline]);
+    int count = record->count, end = document_last_knot_sample(document, document->splines[spline]);
     if (record->first + count - 1 > end) count = end - record->first + 1;
     for (int i = 0; i < count; i++)
         way[i] = base_value(world, tail, coordinate, record->first + i) + record->way[coordinate][i];

@@ -53,7 +53,7 @@ static int sample_for(const struct stage *stage, const struct core *core, const 
     for (int a = 0; a < 2; a++) {
         const struct tail_drag_axis *axis = &stage->tail_drag.axis[a];
         if (!axis->active) continue;
-        int last = document_last_knot_sample(document, &document->splines[axis->spline]);
+        int last = document_last_knot_sample(document, document->splines[axis->spline]);
         sample = sample > last ? last : sample;
     }
     return sample < 0 ? 0 : sample;
@@ -62,7 +62,7 @@ static int sample_for(const struct stage *stage, const struct core *core, const 
 bool tail_drag_holds(const struct document *document, int rig, int joint)
 {
     if (rig >= document->rig_count) return false;
-    const struct rig *held = &document->rigs[rig];
+    const struct rig *held = document->rigs[rig];
     return held->kind == RIG_CHAIN || (held->kind == RIG_TAIL && joint <= held->tail.joints);
 }
 
@@ -118,7 +118,7 @@ static void set_knot(const struct stage *stage, struct core *core, const struct 
 {
     struct edit edit = core_knot_edit(world->document, axis->spline, stage->tail_drag.sample);
     edit.knot.value = axis->value;
-    core_hold(&world->document->splines[axis->spline], &edit.knot, why);
+    core_hold(world->document->splines[axis->spline], &edit.knot, why);
     axis->value = edit.knot.value;
     core_edit(core, world, &edit);
 }
@@ -194,7 +194,7 @@ static const struct drag_owner owner = {
 void tail_drag_begin(struct stage *stage, struct core *core, const struct editor_world *world,
                      const struct hover *hover, const struct event *event)
 {
-    const struct rig *rig = &world->document->rigs[hover->rig];
+    const struct rig *rig = world->document->rigs[hover->rig];
     struct tail_drag *grab = &stage->tail_drag;
     struct strand strand;
     drag_begin(core, &owner, stage, rig->kind == RIG_CHAIN ? "Pull chain" : "Pull tail", event);

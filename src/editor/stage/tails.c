@@ -30,7 +30,7 @@ void stage_pose_tail(const struct stage *stage, const struct core *core, const s
 {
     const struct posing posing = stage_posing(core, world);
     const int rig = document_find_rig(world->document, RIG_TAIL, tail);
-    const struct by_hand hand = by_hand(stage, core, &world->document->rigs[rig].tail, tail, change);
+    const struct by_hand hand = by_hand(stage, core, &world->document->rigs[rig]->tail, tail, change);
     rig_pose(&posing, rig, position, &hand, pose);
 }
 
@@ -48,7 +48,7 @@ static void add_blobs(struct stage_view *view, const struct pose *pose)
 static void pose(struct stage *stage, const struct core *core, const struct editor_world *world, int rig, int n)
 {
     struct stage_view *view = &stage->view;
-    const struct tail *tail = &world->document->rigs[rig].tail;
+    const struct tail *tail = &world->document->rigs[rig]->tail;
     struct rig_pose posed;
     if (view->tail_count == STAGE_MAX_TAILS) return;
     struct stage_tail *shown = &view->tails[view->tail_count++];
@@ -106,7 +106,7 @@ static void add_strand(struct stage *stage, const struct editor_world *world, in
 
 static void chain_pose(struct stage *stage, const struct core *core, const struct editor_world *world, int rig, int n)
 {
-    const struct chain *chain = &world->document->rigs[rig].chain;
+    const struct chain *chain = &world->document->rigs[rig]->chain;
     const int model = document_find_model(world->document, chain->model, chain->by_file);
     const struct imported *shown = model >= 0 ? bones_character(world, model) : NULL;
     struct chain_bones bones;
@@ -161,7 +161,7 @@ static bool pose_chain(const struct core *core, const struct editor_world *world
                        const struct what_if *change, struct rig_pose *pose)
 {
     const struct posing posing = stage_posing(core, world);
-    const struct chain *chain = &world->document->rigs[rig].chain;
+    const struct chain *chain = &world->document->rigs[rig]->chain;
     struct by_hand hand = {0};
     for (int c = 0; change && c < chain->channel_count; c++) {
         if (chain->channels[c].spline != change->spline) continue;
@@ -176,7 +176,7 @@ bool strand_pose(const struct stage *stage, const struct core *core, const struc
     const struct document *document = world->document;
     struct rig_pose pose;
     if (rig >= document->rig_count) return false;
-    switch (document->rigs[rig].kind) {
+    switch (document->rigs[rig]->kind) {
     case RIG_TAIL:
         stage_pose_tail(stage, core, world, document_rig_number(document, rig), position, change, &pose);
         break;

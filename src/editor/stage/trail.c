@@ -51,7 +51,7 @@ struct rig_point overlay_point(struct stage *stage, const struct core *core, con
 
 static bool loops(const struct document *document, int spline)
 {
-    return spline < 0 || spline_start(&document->splines[spline]) == WIGGLY_LOOP;
+    return spline < 0 || spline_start(document->splines[spline]) == WIGGLY_LOOP;
 }
 
 /// Whether frames beyond the range are those at its other end: where all that moves the rig loops. A chain's clip repeats by itself.
@@ -149,7 +149,7 @@ void path_show(struct stage *stage, struct core *core, const struct editor_world
     double now = core->playback.position / document->substeps;
     double reach = fmin(fmax(REACH * document->fps, 1), MAX_REACH);
     int first = (int)ceil(now - reach), last = (int)floor(now + reach);
-    if (!rig_loops(document, &document->rigs[point.rig])) {
+    if (!rig_loops(document, document->rigs[point.rig])) {
         first = first < 0 ? 0 : first;
         last =
             last < document->last_frame - document->first_frame ? last : document->last_frame - document->first_frame;

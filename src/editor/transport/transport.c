@@ -187,7 +187,7 @@ static const char *hover_hint(const struct core *core, const struct document *do
     case HOVER_UNITS:
         return "Click to switch between frames and seconds (U)";
     case HOVER_JOINT:
-        return document->rigs[core->hover.rig].kind == RIG_CHAIN
+        return document->rigs[core->hover.rig]->kind == RIG_CHAIN
                    ? "Drag the chain to set the knot at the playhead; Ctrl+drag or H pins a joint; click to select "
                      "the bone"
                    : "Drag the tail to set the knot at the playhead; Ctrl+drag or H pins a joint";

@@ -1,0 +1,302 @@
+/// Edits that add, rename and remove rigs, and those of imported characters, chains on them, and meadows.
+#include "base/need.h"
+#include "base/path.h"
+#include "scene/editing.h"
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { NAME_SIZE = 512 };
+
+bool edit_rig_fits(const struct document *document, struct error *error)
+{
+    return document->rig_count < SCENE_MAX_RIGS ||
+           fail(error, ERROR_INPUT, "there are %d rigs, and no more fit", SCENE_MAX_RIGS);
+}
+
+void edit_rig_append(struct document *document, struct rig *rig, char *name)
+{
+    free(rig->name);
+    rig->name = name;
+    rig->id = ++document->next_rig_id;
+    document_insert_rig(document, document->rig_count, rig);
+}
+
+static bool is_taken(const struct document *document, const char *name, int own)
+{
+    for (int r = 0; r < document->rig_count; r++) {
+        const char *other = document->rigs[r]->name;
+        if (r != own && other && strcmp(other, name) == 0) return true;
+    }
+    return false;
+}
+
+/// Whether a chain of the document is on the model rig at `model`.
+static bool is_on(const struct document *document, int chain, int model)
+{
+    const struct rig *rig = document->rigs[chain];
+    return rig->kind == RIG_CHAIN && document_find_model(document, rig->chain.model, rig->chain.by_file) == model;
+}
+
+static const struct joint_motion *motion_of_spline(const struct document *document, int spline)
+{
+    return document->splines[spline]->parameter[PARAMETER_EQUILIBRIUM].motion;
+}
+
+static void append_name(char list[NAME_SIZE], const char *name)
+{
+    const size_t used = strlen(list);
+    snprintf(list + used, NAME_SIZE - used, "%s%s", used > 0 ? ", " : "", name);
+}
+
+bool edit_rig_remove(struct document *document, int rig, struct error *error)
+{
+    char users[NAME_SIZE] = "";
+    if (!edit_find_rig(document, rig, EDIT_ANY_KIND, error)) return false;
+    for (int r = 0; r < document->rig_count; r++) {
+        if (is_on(document, r, rig)) append_name(users, rig_title(document->rigs[r]));
+    }
+    for (int s = 0; s < document->spline_count; s++) {
+        if (document_follows(document, s, rig)) append_name(users, document->splines[s]->name);
+    }
+    if (users[0]) {
+        return fail(error, ERROR_INPUT, "%s: still needed by %s; remove those first", rig_title(document->rigs[rig]),
+                    users);
+    }
+    document_remove_rig(document, rig);
+    return true;
+}
+
+/// Whether a chain or a spline goes by that file: a model of that name would take it over.
+static bool is_file_of_any(const struct document *document, const char *name)
+{
+    bool any = false;
+    for (int r = 0; r < document->rig_count; r++) {
+        const struct rig *rig = document->rigs[r];
+        any |= rig->kind == RIG_CHAIN && rig->chain.by_file && strcmp(rig->chain.model, name) == 0;
+    }
+    for (int s = 0; s < document->spline_count; s++) {
+        const struct joint_motion *motion = motion_of_spline(document, s);
+        any |= motion && motion->by_file && strcmp(motion->model, name) == 0;
+    }
+    return any;
+}
+
+char *edit_rig_free_name(const struct document *document, const char *wanted)
+{
+    char name[NAME_SIZE];
+    snprintf(name, sizeof name, "%s", wanted);
+    for (int n = 2; is_taken(document, name, -1) || is_file_of_any(document, name); n++)
+        snprintf(name, sizeof name, "%.*s %d", NAME_SIZE - 16, wanted, n);
+    return need_text(name);
+}
+
+static bool check_name(const struct document *document, int rig, const char *name, struct error *error)
+{
+    const enum rig_kind kind = document->rigs[rig]->kind;
+    if (!name[0]) return fail(error, ERROR_INPUT, "a %s needs a name", rig_word(kind));
+    if (is_taken(document, name, rig)) {
+        return fail(error, ERROR_INPUT, "there is a rig called %s already", name);
+    }
+    if (kind == RIG_MODEL && is_file_of_any(document, name)) {
+        return fail(error, ERROR_INPUT, "%s is the file by which a model is found", name);
+    }
+    return true;
+}
+
+static void set_text(char **text, const char *value)
+{
+    char *copy = value ? need_text(value) : NULL; // whoever saves the work where memory runs out reads the old one
+    free(*text);
+    *text = copy;
+}
+
+/// Lets a spline follow the same joint under the rig's new name.
+static void rename_followed(struct document *document, int spline, const char *old, const char *name)
+{
+    struct param *param = &document_own_spline(document, spline)->parameter[PARAMETER_EQUILIBRIUM];
+    struct joint_motion *motion = motion_create(param->motion);
+    if (!motion->by_file && strcmp(motion->model, old) == 0) set_text(&motion->model, name);
+    if (motion->chain && strcmp(motion->chain, old) == 0) set_text(&motion->chain, name);
+    motion_drop(param->motion);
+    param->motion = motion;
+}
+
+/// All that goes by the rig's name goes by the new one.
+static void rename_users(struct document *document, int rig, const char *old, const char *name)
+{
+    for (int s = 0; s < document->spline_count; s++) {
+        if (document_follows(document, s, rig)) rename_followed(document, s, old, name);
+    }
+    for (int r = 0; r < document->rig_count; r++) {
+        const bool goes_by_name = is_on(document, r, rig) && !document->rigs[r]->chain.by_file;
+        if (goes_by_name) set_text(&document_own_rig(document, r)->chain.model, name);
+    }
+}
+
+bool edit_rig_name(struct document *document, int rig, const char *name, struct error *error)
+{
+    if (!edit_find_rig(document, rig, EDIT_ANY_KIND, error)) return false;
+    if (!check_name(document, rig, name ? name : "", error)) return false;
+    char *const old = document->rigs[rig]->name ? need_text(document->rigs[rig]->name) : NULL;
+    if (!old || strcmp(old, name) != 0) {
+        if (old) rename_users(document, rig, old, name);
+        set_text(&document_own_rig(document, rig)->name, name);
+    }
+    free(old);
+    return true;
+}
+
+static bool check_place(const struct model_rig *model, struct error *error)
+{
+    bool finite = isfinite(model->turn);
+    for (int k = 0; k < 3; k++) finite &= isfinite(model->position[k]) != 0;
+    if (!finite) return fail(error, ERROR_INPUT, "position and turn must be finite");
+    return (isfinite(model->scale) && model->scale > 0) ||
+           fail(error, ERROR_INPUT, "the scale must be above 0 and finite");
+}
+
+static bool check_ends(const struct chain *chain, struct error *error)
+{
+    if (!chain->from || !chain->from[0] || !chain->to || !chain->to[0]) {
+        return fail(error, ERROR_INPUT, "a chain needs the names of its first joint and its last");
+    }
+    return isfinite(chain->turn) || fail(error, ERROR_INPUT, "the turn must be finite");
+}
+
+static bool check_chain(const struct document *document, const struct rig *rig, struct error *error)
+{
+    const struct chain *chain = &rig->chain;
+    const char *model = chain->model ? chain->model : "";
+    if (!check_ends(chain, error)) return false;
+    if (document_find_model(document, model, false) < 0 && document_find_model(document, model, true) < 0) {
+        return fail(error, ERROR_INPUT, "there is no model \"%s\" in the scene", model);
+    }
+    if (chain->channel_count < 0 || chain->channel_count > SCENE_MAX_CHANNELS) {
+        return fail(error, ERROR_INPUT, "a chain has at most %d channels", SCENE_MAX_CHANNELS);
+    }
+    for (int c = 0; c < chain->channel_count; c++) {
+        const struct channel *channel = &chain->channels[c];
+        if (!edit_has_spline(document, channel->spline, error) || !edit_check_axis(RIG_CHAIN, channel->axis, error) ||
+            !edit_check_part(channel->of, error) || !edit_check_angles(rig, &channel->lag, error) ||
+            !edit_check_angles(rig, &channel->gain, error))
+            return false;
+    }
+    return true;
+}
+
+static bool check_character(const struct document *document, const struct character_rig *rig, struct error *error)
+{
+    if (!rig->model || !rig->model[0]) return fail(error, ERROR_INPUT, "a character needs a file");
+    bool finite = true;
+    for (int k = 0; k < 3; k++) finite &= isfinite(rig->position[k]) != 0;
+    if (!finite) return fail(error, ERROR_INPUT, "the position must be finite");
+    for (int i = 0; i < rig->drive_count; i++) {
+        if (!edit_has_spline(document, rig->drives[i].spline, error)) return false;
+    }
+    return true;
+}
+
+static bool check_contents(const struct document *document, const struct rig *rig, struct error *error)
+{
+    if (rig->kind == RIG_CHARACTER) return check_character(document, &rig->character, error);
+    if (rig->kind == RIG_MEADOW) return edit_has_spline(document, rig->meadow.spline, error);
+    if (rig->kind == RIG_CHAIN) return check_chain(document, rig, error);
+    if (!rig->model.model || !rig->model.model[0]) return fail(error, ERROR_INPUT, "a model needs a file");
+    return check_place(&rig->model, error);
+}
+
+/// Its name, or what it goes by: a file without folders and ending, or a joint.
+static char *new_name(const struct document *document, const struct rig *rig)
+{
+    if (rig->name && rig->name[0]) return edit_rig_free_name(document, rig->name);
+    if (rig->kind == RIG_CHAIN) return edit_rig_free_name(document, rig->chain.from);
+    if (rig->kind == RIG_MEADOW) return edit_rig_free_name(document, "meadow");
+    const char *path = rig->kind == RIG_CHARACTER ? rig->character.model : rig->model.model;
+    const char *file = path_name(path), *dot = strrchr(file, '.');
+    char stem[NAME_SIZE];
+    snprintf(stem, sizeof stem, "%.*s", (int)(dot && dot > file ? (size_t)(dot - file) : strlen(file)), file);
+    return edit_rig_free_name(document, stem[0] ? stem : "model");
+}
+
+bool edit_rig_add(struct document *document, const struct rig *contents, struct error *error)
+{
+    if (!edit_rig_fits(document, error) || !check_contents(document, contents, error)) return false;
+    struct document *before = edit_begin(document);
+    struct rig *rig = rig_clone(contents);
+    rig->extra = NULL;
+    if (rig->kind == RIG_CHARACTER) paint_file_part(&rig->character.file);
+    if (rig->kind == RIG_CHAIN) rig->chain.by_file = document_find_model(document, rig->chain.model, false) < 0;
+    edit_rig_append(document, rig, new_name(document, contents));
+    return edit_end(document, before, true, error);
+}
+
+bool edit_clip(struct document *document, int rig, const char *clip, struct error *error)
+{
+    const struct rig *found = edit_find_rig(document, rig, EDIT_KIND(RIG_MODEL), error);
+    if (!found) return false;
+    const char *old = found->model.clip;
+    if (clip && !clip[0]) clip = NULL;
+    if (old == clip || (old && clip && strcmp(old, clip) == 0)) return true;
+    set_text(&document_own_rig(document, rig)->model.clip, clip);
+    return true;
+}
+
+bool edit_place(struct document *document, int rig, const struct model_rig *wanted, struct error *error)
+{
+    const struct rig *found = edit_find_rig(document, rig, EDIT_KIND(RIG_MODEL), error);
+    if (!found || !check_place(wanted, error)) return false;
+    const struct model_rig *old = &found->model;
+    bool same = old->scale == wanted->scale && old->turn == wanted->turn;
+    for (int k = 0; k < 3; k++) same &= old->position[k] == wanted->position[k];
+    if (same) return true;
+    struct document *before = edit_begin(document);
+    struct model_rig *own = &document_own_rig(document, rig)->model;
+    for (int k = 0; k < 3; k++) own->position[k] = wanted->position[k] + 0.0;
+    own->scale = wanted->scale;
+    own->turn = wanted->turn + 0.0;
+    return edit_end(document, before, true, error);
+}
+
+bool edit_chain(struct document *document, int rig, const struct chain *wanted, struct error *error)
+{
+    const struct rig *found = edit_find_rig(document, rig, EDIT_KIND(RIG_CHAIN), error);
+    if (!found || !check_ends(wanted, error)) return false;
+    const struct chain *old = &found->chain;
+    if (strcmp(old->from, wanted->from) == 0 && strcmp(old->to, wanted->to) == 0 && old->turn == wanted->turn &&
+        old->mirror == wanted->mirror)
+        return true;
+    struct document *before = edit_begin(document);
+    struct chain *own = &document_own_rig(document, rig)->chain;
+    char *from = need_text(wanted->from), *to = need_text(wanted->to); // `wanted` may have the old ones
+    free(own->from);
+    free(own->to);
+    own->from = from;
+    own->to = to;
+    own->turn = wanted->turn + 0.0;
+    own->mirror = wanted->mirror;
+    return edit_end(document, before, true, error);
+}
+
+static bool same_meadow(const struct meadow_rig *a, const struct meadow_rig *b)
+{
+    return a->count == b->count && a->seed == b->seed && a->area[0] == b->area[0] && a->area[1] == b->area[1] &&
+           a->height == b->height && a->variation == b->variation && a->lag == b->lag && a->gain == b->gain;
+}
+
+bool edit_meadow(struct document *document, int rig, const struct meadow_rig *wanted, struct error *error)
+{
+    const struct rig *found = edit_find_rig(document, rig, EDIT_KIND(RIG_MEADOW), error);
+    if (!found) return false;
+    const bool fits = wanted->count >= 1 && wanted->count <= MEADOW_MAX_REEDS && wanted->seed >= 0 &&
+                      wanted->height > 0 && wanted->area[0] > 0 && wanted->area[1] > 0 && wanted->variation >= 0;
+    if (!fits) return fail(error, ERROR_INPUT, "a meadow has 1 to %d reeds, an area and a height", MEADOW_MAX_REEDS);
+    if (same_meadow(&found->meadow, wanted)) return true;
+    struct meadow_rig *own = &document_own_rig(document, rig)->meadow;
+    const int spline = own->spline;
+    *own = *wanted;
+    own->spline = spline;
+    own->lag += 0.0, own->gain += 0.0;
+    return true;
+}

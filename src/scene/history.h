@@ -1,0 +1,65 @@
+/// History: the documents that were, with what was done between them, and which of them is current.
+///
+/// A step is what one undo takes back: edits that belong together. The document on the table is edited in the open step; what it shares with
+/// the history stays as it was. A drag makes its edits again in every frame: history_restart() goes back to where the step began.
+#ifndef SCENE_HISTORY_H
+#define SCENE_HISTORY_H
+
+#include "scene/document.h"
+#include <stddef.h>
+
+/// Undo and redo of one document. Opaque.
+struct history;
+
+/// Of a document, which must outlive it: the one that history_undo() and the others change. NULL: history_clear() comes first.
+struct history *history_create(struct document *document);
+/// NULL is fine.
+void history_destroy(struct history *history);
+/// Forgets everything, as for a new document, which is in that place now.
+void history_clear(struct history *history, struct document *document);
+
+/// Opens a step called `label` ("Move knot"; a string constant). If `merge` is not 0 and equals the last step's, and nothing was
+/// undone since, the edits join that step, as for repeated nudges of one selection.
+void history_begin(struct history *history, const char *label, uint64_t merge);
+/// Takes back the edits of the open step, which stays open: for the next frame of a drag, or for Esc before history_end().
+void history_restart(struct history *history);
+/// Closes the step; one that left the document as it was leaves no trace.
+void history_end(struct history *history);
+/// Whether a step is open.
+bool history_is_open(const struct history *history);
+
+/// Takes the last step back, or does it again; false if there is none. No step may be open.
+bool history_undo(struct history *history);
+bool history_redo(struct history *history);
+/// Label of what undo / redo would do next, or NULL.
+const char *history_undo_label(const struct history *history);
+const char *history_redo_label(const struct history *history);
+
+/// The steps that are kept, oldest first: how many there are, how many are not undone, their labels.
+size_t history_count(const struct history *history);
+size_t history_done(const struct history *history);
+const char *history_label(const struct history *history, size_t step);
+/// Whether the document was saved as it is after the first `done` steps.
+bool history_step_is_saved(const struct history *history, size_t done);
+/// Undoes or redoes until `done` steps are done; false if nothing changes. No step may be open.
+bool history_jump(struct history *history, size_t done);
+/// Steps that were dropped, and bytes that the rest replaced. Above the limit (128 MiB) the oldest are dropped; the newest stays,
+/// however large.
+size_t history_dropped(const struct history *history);
+size_t history_bytes(const struct history *history);
+void history_set_limit(struct history *history, size_t bytes);
+
+/// Changes with every edit, undo and redo and never repeats, to tell whether the document has changed.
+uint64_t history_revision(const struct history *history);
+/// Marks the current state as saved; history_is_saved() is true whenever undo or redo returns to it.
+void history_mark_saved(struct history *history);
+/// Marks no state as saved, as for a recovered document.
+void history_mark_unsaved(struct history *history);
+bool history_is_saved(const struct history *history);
+
+/// The document got what is no edit, as paint that was read from its file: the current state has it, too. No step may be open.
+void history_amend(struct history *history);
+/// Sets the path of the document's own file, also where undo and redo come back to it.
+void history_set_path(struct history *history, const char *path);
+
+#endif
