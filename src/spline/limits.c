@@ -1,22 +1,17 @@
-/// Which samples of a limited spline are held at a limit: an active set.
+/// Which samples of a limited spline are held at a limit, and the curve that they hold.
 //
-// The dual method of Goldfarb and Idnani: hold the sample that is farthest beyond a limit, and on the way there let go whatever its limit
-// would have to pull and not push, the first one first. Between two sets of held samples everything is linear, so that a solve of
-// each is all that it takes. E grows with every sample that is taken in, so no set comes twice and the method ends.
-//
-// It takes as many solves as samples are held, and a few; so a guess comes first (limits_guess.c), which is nearly always right. What
-// of it would have to be pulled is let go, and the dual method goes on from there.
-//
-// Every solve starts from nothing but the description: the same samples are held, and the curve has the same bits, however one came
-// to it.
+// An interior-point method says which they are (one_sided.c), on the band's matrix with what is behind the last knot (limits_system.c). They
+// are solved as what they are, more knots (limits_solve.c); the multipliers are the gradient at the held samples. Each solve starts from
+// nothing but the description: the same samples are held, and the curve has the same bits, however one came to it.
 #include "spline/limits.h"
 #include <math.h>
 #include <string.h>
 
-enum { MOST = 1000 }; ///< solves
+enum { EXCHANGES = 6 };
 
-static const double beyond = 1e-10;   ///< of the size of the total: what a sample may miss a limit by
-static const double faintest = 1e-12; ///< of the size of w: a pull that may be rounding
+static const double beyond = 1e-10; ///< of the size of the total: what a sample may miss a limit by
+static const double faint = 1e-3;   ///< part of the hardest pull: less is left as it is
+static const double reach = 10;     ///< how much farther than by what it misses the curve may be off
 
 void limits_begin(wiggly_solver *solver, problem *p, wiggly_desc *ordered, const wiggly_curve *curve,
                   wiggly_curve *all)
@@ -65,91 +60,12 @@ static limits_part tail_of(const problem *p)
     return tail;
 }
 
-/// Largest |w| and |total| of a part.
-static void measure(const limits_work *w, const limits_part *part, double *of_w, double *of_total)
-{
-    for (int i = part->from; i <= part->to; i++) {
-        *of_w = fmax(*of_w, fabs(w->curve->re[i]));
-        *of_total = fmax(*of_total, fabs(limits_total(w, i)));
-    }
-}
-
 /// How far a sample is beyond a limit, above the high one (positive) or below the low one; 0: within.
 static double excess(const limits_work *w, int sample, double slack)
 {
     const wiggly_desc *desc = w->p->desc;
     double total = limits_total(w, sample);
     return total > desc->high + slack ? total - desc->high : total < desc->low - slack ? total - desc->low : 0;
-}
-
-static void let_go(limits_work *w, int sample)
-{
-    w->solver->limits.held[sample] = LIMITS_FREE;
-    limits_part_of(w, sample)->held--;
-}
-
-/// How hard a limit pushes a sample away; negative: it would have to pull.
-static double push_of(const limits_work *w, int sample, double pull) { return w->solver->limits.held[sample] * pull; }
-
-/// Lets go what limits pull. true where there was any.
-static bool relax(limits_work *w, double noise)
-{
-    bool any = false;
-    for (int i = 0; i < w->p->desc->samples; i++) {
-        if (!limits_hold(w, i) || push_of(w, i, w->solver->limits.pull[i]) >= -noise) continue;
-        let_go(w, i);
-        any = true;
-    }
-    return any;
-}
-
-/// The sample that is farthest beyond a limit, -1: none.
-static int find_farthest(const limits_work *w, double slack)
-{
-    double worst = 0;
-    int at = -1;
-    const limits_part *parts[] = {&w->body, &w->tail};
-    for (int n = 0; n < 2; n++) {
-        for (int i = parts[n]->from; i <= parts[n]->to; i++) {
-            double by = limits_hold(w, i) ? 0 : fabs(excess(w, i, slack));
-            if (by > worst) worst = by, at = i;
-        }
-    }
-    return at;
-}
-
-/// The held sample that would have to be pulled first on the way from the pulls `now` to those just found, and how far that is.
-static int find_blocking(const limits_work *w, const double *now, double noise, double *way)
-{
-    int at = -1;
-    *way = 1;
-    for (int i = 0; i < w->p->desc->samples; i++) {
-        if (!limits_hold(w, i)) continue;
-        double from = fmax(push_of(w, i, now[i]), 0), to = push_of(w, i, w->solver->limits.pull[i]);
-        if (!(to < -noise) || !(from / (from - to) < *way)) continue;
-        *way = from / (from - to);
-        at = i;
-    }
-    return at;
-}
-
-/// Takes in one sample: false where there is no room.
-static bool take_in(limits_work *w, int sample, double noise)
-{
-    const limit_memory *m = &w->solver->limits;
-    double *now = m->now;
-    now[sample] = 0;
-    limits_take(w, sample, excess(w, sample, 0) > 0);
-    for (;;) {
-        if (!limits_solve(w)) return false;
-        double way;
-        int blocking = find_blocking(w, now, noise, &way);
-        for (int i = 0; i < w->p->desc->samples; i++) {
-            if (limits_hold(w, i)) now[i] += way * (m->pull[i] - now[i]);
-        }
-        if (blocking < 0 || blocking == sample) return true;
-        let_go(w, blocking);
-    }
 }
 
 static void hold_nothing(limits_work *w)
@@ -161,75 +77,117 @@ static void hold_nothing(limits_work *w)
     w->body.held = w->tail.held = 0;
 }
 
-static void measure_work(limits_work *w, double *slack, double *noise)
+/// What a sample may miss a limit by.
+static double find_slack(const limits_work *w)
 {
-    double of_w = 0, of_total = 0;
-    measure(w, &w->body, &of_w, &of_total);
-    measure(w, &w->tail, &of_w, &of_total);
-    *slack = beyond * of_total;
-    *noise = faintest * of_w;
+    const limits_part *parts[] = {&w->body, &w->tail};
+    double most = 0;
+    for (int n = 0; n < 2; n++) {
+        for (int i = parts[n]->from; i <= parts[n]->to; i++) most = fmax(most, fabs(limits_total(w, i)));
+    }
+    return beyond * most;
 }
 
-/// How a search for the samples to hold went.
-enum outcome { FOUND, TIRED, NO_ROOM };
-
-/// The dual method, from where no limit pulls and all is solved.
-static enum outcome climb(limits_work *w)
+/// The farthest that a free sample is beyond a limit.
+static double find_excess(const limits_work *w)
 {
-    double slack, noise;
-    for (;;) {
-        measure_work(w, &slack, &noise);
-        int sample = find_farthest(w, slack);
-        if (sample < 0) return FOUND;
-        if (w->solver->limits.solves >= MOST) return TIRED;
-        if (!take_in(w, sample, noise)) return NO_ROOM;
+    const limits_part *parts[] = {&w->body, &w->tail};
+    double most = 0;
+    for (int n = 0; n < 2; n++) {
+        for (int i = parts[n]->from; i <= parts[n]->to; i++)
+            most = fmax(most, limits_hold(w, i) ? 0 : fabs(excess(w, i, 0)));
     }
+    return most;
 }
 
-/// Lets go until nothing has to be pulled: the dual method can go on from there.
-static bool settle(limits_work *w)
+static bool begin(void *user)
 {
-    const limit_memory *m = &w->solver->limits;
-    double slack, noise;
-    measure_work(w, &slack, &noise);
-    while (relax(w, noise)) {
-        if (!limits_solve(w)) return false;
-        measure_work(w, &slack, &noise);
-    }
-    for (int i = 0; i < w->p->desc->samples; i++) {
-        if (limits_hold(w, i)) m->now[i] = m->pull[i];
-    }
+    limits_work *w = user;
+    const bool again = w->attempts++ > 0;
+    hold_nothing(w);
+    if (again && !limits_solve(w)) return false;
+    limits_measure(w);
     return true;
 }
 
-static enum outcome search(limits_work *w)
+/// How hard a limit would have to pull, and not push, a held sample.
+static double pull_of(const limits_work *w, int sample)
 {
-    double slack, noise;
-    measure_work(w, &slack, &noise);
-    limits_guess(w, slack);
-    if (w->body.held + w->tail.held > 0 && !limits_solve(w)) hold_nothing(w); // there may be room for fewer
-    return settle(w) ? climb(w) : NO_ROOM;
+    return limits_hold(w, sample) ? fmax(0, -w->solver->limits.held[sample] * w->solver->limits.pull[sample]) : 0;
+}
+
+/// Lets go what is pulled, and holds the farthest sample of each stretch that is beyond a limit.
+static void exchange(limits_work *w, double slack)
+{
+    const limits_part *parts[] = {&w->body, &w->tail};
+    signed char *held = w->solver->limits.held;
+    double hardest = 0;
+    for (int i = 0; i < w->p->desc->samples; i++) hardest = fmax(hardest, pull_of(w, i));
+    for (int n = 0; n < 2; n++) {
+        for (int i = parts[n]->from; i <= parts[n]->to; i++) {
+            const double by = held[i] == LIMITS_FREE ? excess(w, i, slack) : 0, sign = by > 0 ? 1 : -1;
+            if (pull_of(w, i) > faint * hardest) {
+                held[i] = LIMITS_FREE;
+                limits_part_of(w, i)->held--;
+            }
+            if (by == 0 || (i > parts[n]->from && sign * excess(w, i - 1, 0) > fabs(by)) ||
+                (i < parts[n]->to && sign * excess(w, i + 1, 0) >= fabs(by)))
+                continue;
+            limits_take(w, i, by > 0);
+        }
+    }
+}
+
+/// Of a loop that nothing else holds one sample may be all: the farthest.
+static bool rests_on_one(limits_work *w)
+{
+    double slack = find_slack(w), most = slack;
+    int at = -1;
+    for (int i = w->body.from; i <= w->body.to; i++) {
+        const double by = fabs(excess(w, i, 0));
+        if (by > most) most = by, at = i;
+    }
+    if (at < 0 || problem_is_asked(w->p)) return false;
+    limits_take(w, at, excess(w, at, 0) > 0);
+    w->attempts++; // what is held has to be let go
+    return limits_solve(w) && find_excess(w) <= slack && limits_release(w) <= slack;
+}
+
+/// Solves with what the search holds. That is right where no sample is beyond a limit and no limit pulls; where it is not quite, a few
+/// exchanges may do.
+static bool finish(void *user)
+{
+    limits_work *w = user;
+    for (int i = 0; i < w->search.count; i++) {
+        const double sign = one_sided_holds(&w->search, i);
+        if (sign != 0) limits_take(w, w->from + i, sign < 0);
+    }
+    for (int n = 0;; n++) {
+        w->has_room = limits_solve(w);
+        if (!w->has_room) return true;
+        const double slack = find_slack(w);
+        w->missed = fmax(find_excess(w), limits_release(w));
+        if (w->missed <= slack) return true;
+        if (n == EXCHANGES) return false;
+        exchange(w, slack);
+    }
 }
 
 wiggly_status limits_find(wiggly_solver *solver, problem *p, wiggly_curve *curve, minimum *result)
 {
-    limits_work w = {.solver = solver, .p = p, .curve = curve, .result = result};
+    limits_work w = {.solver = solver, .p = p, .curve = curve, .result = result, .has_room = true};
     solver->limits.solves = 0;
     solver->limits.tail_energy = 0;
     w.status = problem_find(solver, p, curve, result);
     if (w.status == WIGGLY_SINGULAR) return w.status;
     w.body = body_of(p);
     w.tail = tail_of(p);
+    limits_set_search(&w);
+    w.search.begin = begin, w.search.finish = finish;
     hold_nothing(&w);
-    switch (search(&w)) {
-    case NO_ROOM:
-        return WIGGLY_ERROR_CAPACITY;
-    case TIRED:
-        result->error += fabs(excess(&w, find_farthest(&w, 0), 0)), result->unrefined = false;
-        break;
-    case FOUND:
-        break;
-    }
+    const bool found = rests_on_one(&w) || one_sided_solve(&w.search, find_slack(&w));
+    if (!w.has_room) return WIGGLY_ERROR_CAPACITY;
+    if (!found) result->error += reach * fmax(w.missed, find_excess(&w)), result->unrefined = false;
     return w.status;
 }
 

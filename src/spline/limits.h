@@ -2,6 +2,7 @@
 #ifndef SPLINE_LIMITS_H
 #define SPLINE_LIMITS_H
 
+#include "spline/one_sided.h"
 #include "spline/problem.h"
 #include <math.h>
 
@@ -36,27 +37,32 @@ typedef struct limits_work {
     problem *p; ///< on its knots alone
     wiggly_curve *curve;
     minimum *result;
-    double tail_error;      ///< estimated, of what the limits add behind the last knot
+    double tail_error; ///< estimated, of what the limits add behind the last knot
+    one_sided search;  ///< of the samples from `from` on
+    int from;
+    int attempts; ///< at it
+    double missed;
+    bool fresh;             ///< the rows are to be set
+    bool has_room;          ///< for all samples that are to be held
     limits_part body, tail; ///< one of them may be empty: to < from
-    int first;              ///< sample of the first block of limits_set_matrix()
+    int first;              ///< sample of the first block of the matrix
     wiggly_status status;
 } limits_work;
 
-/// Solves with the samples that are held; their `pull` becomes −½ of the energy's gradient there, by a positive factor. false where
-/// there is no room for so many.
+/// Solves with the samples that are held; their `pull` becomes −½ of the energy's gradient there. false where there is no room for so many.
 bool limits_solve(limits_work *work);
 
 /// Rows of the tail with nothing held, and `free` of the solver's memory.
 void limits_set_tail_rows(limits_work *w);
 
-/// What limits_set_matrix() needs, into the solver's rows.
-void limits_set_system(limits_work *w);
+/// What the search works with, and its arrays in the solver's memory.
+void limits_set_search(limits_work *w);
 
-/// The solver's matrix: of the spline with nothing held, on what limits change of the total; Re of a sample is the first of its block.
-void limits_set_matrix(const limits_work *w);
+/// The search's values as they are, and its limits.
+void limits_measure(limits_work *w);
 
-/// Holds what is likely to be held, from where nothing is held and all is solved; a sample may miss a limit by `slack`.
-void limits_guess(limits_work *w, double slack);
+/// How far x would go if what the limits pull, and not push, were let go; 0 where they pull nothing.
+double limits_release(limits_work *w);
 
 static inline bool limits_has_body(const limits_work *w) { return w->body.to >= w->body.from; }
 static inline bool limits_has_tail(const limits_work *w) { return w->tail.to >= w->tail.from; }

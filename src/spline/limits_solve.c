@@ -131,13 +131,14 @@ static void add_push(limits_work *w)
     limits_part *tail = &w->tail;
     const int L = tail->begin, n = tail->desc.samples;
     double turn = w->p->latest < 0 ? 0 : w->curve->im[L], *e = m->pushed[0] + L, h = tail->desc.step;
+    const double unit = w->p->unit / tail->p.unit;
     for (int i = 0; i < n; i++) e[i] += turn * m->pushed[1][L + i];
     m->all[0] = at_rest(&tail->desc); // the body's knots were there meanwhile
     take_knots(solver, tail, 1);
     problem_set_rows(solver, &tail->p);
     m->tail_energy = system_energy(&solver->rows, e, NULL) / tail->p.unit;
     for (int i = tail->from; i <= tail->to; i++) {
-        if (limits_hold(w, i)) m->pull[i] = system_pull(&solver->rows, e, NULL, i - L);
+        if (limits_hold(w, i)) m->pull[i] = unit * system_pull(&solver->rows, e, NULL, i - L);
     }
     for (int i = 1; i < n; i++) {
         poles at = poles_at(&tail->desc, i, 0);

@@ -1,4 +1,4 @@
-/// The matrix of a limited spline with what is behind its last knot, for guesses: one band.
+/// What the search for held samples works on: the matrix of a limited spline with what is behind its last knot, one band.
 //
 // Let d be what limits change. Up to the last knot L its energy is that of the spline's rows. Behind it e changes by d less what
 // the motion by itself changes, φ v, where Im w_L changes by v:
@@ -9,6 +9,10 @@
 #include "spline/limits.h"
 #include <string.h>
 
+enum { SWEEPS = 2 };
+
+static const double lossy[2] = {
+    1e5, 1e8};                   ///< digits lost by a factor from which on what it solves is refined; in complex mode
 static const double stiff = 1e6; ///< of the first row, that spring
 
 /// −a and −b of a row.
@@ -43,7 +47,8 @@ static void set_rest(system_rows *rows)
     rows->fixed[0] = FIXED_RE | FIXED_IM;
 }
 
-void limits_set_system(limits_work *w)
+/// What set_matrix() needs, into the solver's rows.
+static void set_system(limits_work *w)
 {
     const bool alone = w->p->latest < 0 && limits_has_tail(w);
     if (limits_has_tail(w)) set_tail(w, alone ? 1 : problem_rows(w->p));
@@ -53,6 +58,7 @@ void limits_set_system(limits_work *w)
     } else {
         problem_set_rows(w->solver, w->p);
     }
+    system_forget_known(&w->solver->rows);
 }
 
 static void add_tail(const limits_work *w)
@@ -88,8 +94,139 @@ static void add_tail(const limits_work *w)
     }
 }
 
-void limits_set_matrix(const limits_work *w)
+/// Of the spline with nothing held, on what limits change of the total; Re of a sample is the first of its block.
+static void set_matrix(const limits_work *w)
 {
     system_matrix(&w->solver->rows, &w->solver->matrix);
     if (limits_has_tail(w)) add_tail(w);
+}
+
+static bool factor(void *user, const double *stiffness)
+{
+    limits_work *w = user;
+    pentadiagonal *m = &w->solver->matrix;
+    double *kept = w->solver->limits.stiffness;
+    if (w->fresh) set_system(w);
+    w->fresh = false;
+    set_matrix(w);
+    const int stride = m->width == 2 ? 3 : 1;
+    double *at = m->diagonal + stride * (w->from - w->first);
+    for (int i = 0; i < w->search.count; i++) kept[i] = stiffness ? stiffness[i] : 0;
+    for (int i = 0; i < w->search.count; i++) at[stride * i] += kept[i];
+    return pentadiagonal_factor(m) != RANK_BROKEN;
+}
+
+/// Takes what the tail's rows and the spring make of x off the gradient.
+static void pull_tail(const limits_work *w)
+{
+    const system_rows *rows = &w->solver->rows;
+    const int last = rows->count - 1, count = w->tail.to - w->tail.begin;
+    const double *weight = rows->jet_weight + last + 1, spring = stiff * weight[0];
+    const double *d = rows->x + 2 * last; // d₀ = 0, v₀, d₁, …
+    double *g = rows->gradient + 2 * last;
+    const bool turns = !(rows->fixed[last] & FIXED_IM);
+    memset(g + 2, 0, sizeof *g * 2 * (size_t)count);
+    for (int i = 0; i < count; i++) {
+        const coefficients *at = &rows->at[last + 1 + i];
+        const double own = on_own(at), before = on_before(at), c = rows->drive[last + 1 + i].re;
+        const double here = i > 0 ? d[2 * i] : 0, back = i > 1 ? d[2 * i - 2] : 0;
+        const double r = weight[i] * (d[2 * i + 2] + own * here + before * back - c * d[2 * i + 1]);
+        g[2 * i + 2] -= r;
+        if (i > 0) g[2 * i] -= own * r;
+        if (i > 1) g[2 * i - 2] -= before * r;
+        if (i > 0 || turns) g[2 * i + 1] += c * r;
+        const double apart = spring * (d[2 * i + 3] - d[2 * i + 1]);
+        g[2 * i + 3] -= apart;
+        if (i > 0 || turns) g[2 * i + 1] += apart;
+    }
+}
+
+/// What (H + stiffness) x lacks of the force, through the rows as they are before they are squared.
+static void find_residual(limits_work *w, const double *force)
+{
+    const system_rows *rows = &w->solver->rows;
+    const pentadiagonal *m = &w->solver->matrix;
+    const int shift = w->from - w->first;
+    const double *kept = w->solver->limits.stiffness;
+    system_right_side(rows);
+    if (limits_has_tail(w)) pull_tail(w);
+    for (int i = 0; i < w->search.count; i++) {
+        const int k = shift + i, at = m->width * k;
+        if (k < rows->count && rows->fixed[k] & FIXED_RE) continue;
+        rows->gradient[at] += force[i] - kept[i] * rows->x[at];
+    }
+}
+
+static void solve(void *user, double *force)
+{
+    limits_work *w = user;
+    const pentadiagonal *m = &w->solver->matrix;
+    const int unknowns = m->width * m->count;
+    double *all = w->solver->rows.gradient, *x = w->solver->rows.x, *at = all + m->width * (w->from - w->first);
+    memset(all, 0, sizeof *all * (size_t)unknowns);
+    for (int i = 0; i < w->search.count; i++) at[m->width * i] = force[i];
+    pentadiagonal_solve(m, all);
+    memcpy(x, all, sizeof *x * (size_t)unknowns);
+    for (int sweep = 0; sweep < SWEEPS && m->lost > lossy[m->width - 1]; sweep++) {
+        find_residual(w, force);
+        pentadiagonal_solve(m, all);
+        for (int i = 0; i < unknowns; i++) x[i] += all[i];
+    }
+    at = x + m->width * (w->from - w->first);
+    for (int i = 0; i < w->search.count; i++) force[i] = at[m->width * i];
+}
+
+double limits_release(limits_work *w)
+{
+    const limit_memory *m = &w->solver->limits;
+    double *force = w->search.move, most = 0;
+    bool any = false;
+    for (int i = 0; i < w->search.count; i++) {
+        const int sample = w->from + i;
+        const bool pulls = limits_hold(w, sample) && m->held[sample] * m->pull[sample] < 0;
+        force[i] = pulls ? m->pull[sample] : 0;
+        any = any || pulls;
+    }
+    if (!any) return 0;
+    w->fresh = true;
+    if (!factor(w, NULL)) return INFINITY;
+    solve(w, force);
+    for (int i = 0; i < w->search.count; i++) most = fmax(most, fabs(force[i]));
+    return most;
+}
+
+void limits_measure(limits_work *w)
+{
+    w->fresh = true;
+    const limit_memory *m = &w->solver->limits;
+    one_sided *o = &w->search;
+    for (int i = 0; i < o->count; i++) {
+        o->value[i] = limits_total(w, w->from + i);
+        o->is_open[i] = m->held[w->from + i] != LIMITS_KEYED;
+    }
+    for (int s = 0; s < o->limits; s++) o->limit[s].at = o->limit[s].sign > 0 ? w->p->desc->low : w->p->desc->high;
+}
+
+void limits_set_search(limits_work *w)
+{
+    const wiggly_solver *solver = w->solver;
+    const limit_memory *m = &solver->limits;
+    const wiggly_desc *desc = w->p->desc;
+    const size_t n = (size_t)solver->samples;
+    double *jet = solver->rows.jet, *x = m->by_push;
+    w->from = limits_has_body(w) ? w->body.from : w->tail.from;
+    one_sided *o = &w->search;
+    *o = (one_sided){.value = jet,
+                     .move = jet + n,
+                     .is_open = jet + 2 * n,
+                     .lack = jet + 3 * n,
+                     .count = (limits_has_tail(w) ? w->tail.to : w->body.to) - w->from + 1,
+                     .user = w,
+                     .factor = factor,
+                     .solve = solve};
+    const one_sided_limit low = {.sign = 1, .gap = m->free[0], .push = m->pushed[0], .by_gap = m->pull, .by_push = x};
+    const one_sided_limit high = {
+        .sign = -1, .gap = m->free[1], .push = m->pushed[1], .by_gap = m->spare, .by_push = x + n};
+    if (desc->low > -INFINITY) o->limit[o->limits++] = low;
+    if (desc->high < INFINITY) o->limit[o->limits++] = high;
 }

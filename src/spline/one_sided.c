@@ -1,108 +1,267 @@
-/// The active set of Lawson and Hanson: take in the row that is missed most, and on the way to where all taken in are met let go what
-/// would have to be pulled, the first one first.
+/// A primal-dual interior-point method (Mehrotra's predictor and corrector).
 //
-// ½ λᵀSλ − wantᵀλ falls with every row that is taken in, so no set comes twice and it ends. The rows that hold are factored in
-// the order in which they came: one more is one row of the factor more.
+// Values x move by d under what pushes them, S⁻¹ d = Σ ± q. Of each value and limit let g be its gap, how far x is inside, and q how hard
+// the limit pushes. Then
+//
+//     S⁻¹ d = Σ ± q,      g = ± (x + d − limit),      g q = μ,      g, q > 0,
+//
+// for a μ that goes from large to next to nothing. Each step is Newton's: S⁻¹ + Σ q/g on the diagonal is factored once and solved with
+// twice, for what μ = 0 would ask for, and for the step itself, with what the first one tells of the second order. Six or so, however
+// many values are held, tell which: in the last one their gaps vanish, and the pushes on all others.
+//
+// These are solved as equalities. Where a push then turns out to be a pull, or a free value beyond a limit, the steps have stopped too
+// early, and all is done again to a smaller μ. So it ends, with the answer or knowing that it has none.
 #include "spline/one_sided.h"
-#include "spline/symmetric.h"
+#include "spline/wide.h"
 #include <math.h>
 #include <string.h>
 
-enum { ROUNDS_A_ROW = 4 };
+enum { STEPS = 100, LANES = 8, ATTEMPTS = 4 };
 
-static double entry(int n, const double *s, int i, int j) { return i >= j ? s[n * i + j] : s[n * j + i]; }
+static const double short_of = 0.995; ///< of the way to where a gap or a push is 0
+static const double at_first = 10;    ///< products, of what moves by the farthest that a value is beyond a limit
+static const double tiny_step =
+    0.1; ///< the step after such a one brings products together again, and knows no second order
+static const double together = 0.3;  ///< for that, μ falls no lower
+static const double good = 0.2;      ///< a step that leaves so little of μ shows which of the two stays
+static const double apart = 0.5;     ///< part of itself that the other one falls by more
+static const double sure = 1e-4;     ///< of the first μ, of limits that are not narrow: from here on it is believed
+static const double surer = 1e-4;    ///< times that at the next attempt
+static const double least = 1e-10;   ///< what does not show it by then has neither gap nor push
+static const double balanced = 1e-3; ///< part of what S⁻¹ d lacked at first
 
-/// Rows of the factor from `from` on.
-static void factor(one_sided *w, int n, const double *s, int from)
+/// How gap and push of a value change, as parts of them, where their product is to be `aim`. Lengths are parts of the farthest that a
+/// value is beyond a limit, pushes of what moves that one as far.
+typedef struct change {
+    double gap, push;
+} change;
+
+static inline change change_of(const one_sided_limit *s, double gap, double push, double aim, double value,
+                               double move, double is_open)
 {
-    for (int i = from; i < w->count; i++) {
-        for (int j = 0; j <= i; j++) w->factor[n * i + j] = entry(n, s, w->active[i], w->active[j]);
-        symmetric_factor_row(n, w->factor, i);
+    const double miss = s->sign * (value - s->at) - gap, part = (s->sign * move + is_open * miss) / gap;
+    return (change){part, aim / (gap * push) - 1 - part};
+}
+
+/// What the product of gap and push is to be: μ less the second order; 1 where there is no limit.
+static inline double aim_of(double mean, double second, double is_open)
+{
+    return is_open * (mean - second) + (1 - is_open);
+}
+
+/// Adds a limit's part of Newton's right-hand side, with or without the second order.
+WIDEST static void add_force(const one_sided *o, const one_sided_limit *s, double mean, double part,
+                             double *restrict force)
+{
+    const double *restrict gap = s->gap, *restrict push = s->push, *restrict second = s->by_push,
+                           *restrict value = o->value, *restrict is_open = o->is_open;
+    for (int i = 0; i < o->count; i++) {
+        const double miss = is_open[i] * (s->sign * (value[i] - s->at) - gap[i]);
+        const double aim = aim_of(mean, part * second[i], is_open[i]);
+        force[i] += s->sign * ((aim - push[i] * miss) / gap[i] - push[i]);
     }
 }
 
-static void take_in(one_sided *w, int n, const double *s, int row)
+WIDEST static void add_stiffness(const one_sided_limit *s, int count, double *restrict stiffness)
 {
-    w->is_active[row] = true;
-    w->active[w->count++] = row;
-    factor(w, n, s, w->count - 1);
+    for (int i = 0; i < count; i++) stiffness[i] += s->push[i] / s->gap[i];
 }
 
-/// Lets go the last one taken in.
-static void lose(one_sided *w)
+WIDEST static void scale(double *restrict x, int count, double by)
 {
-    const int row = w->active[--w->count];
-    w->is_active[row] = false;
-    w->is_lost[row] = true;
+    for (int i = 0; i < count; i++) x[i] *= by;
 }
 
-static void let_go(one_sided *w, int n, const double *s, int at)
+/// The second order of a step to where μ = 0 would be, into `by_push`; its sum. `fall`: the largest part by which a gap or a push falls.
+WIDEST static double look_ahead(const one_sided *o, const one_sided_limit *s, double *fall)
 {
-    w->is_active[w->active[at]] = false;
-    w->count--;
-    memmove(w->active + at, w->active + at + 1, sizeof *w->active * (size_t)(w->count - at));
-    factor(w, n, s, at);
-}
-
-/// Where the active rows would all be met.
-static void aim(one_sided *w, int n, const double *want)
-{
-    for (int i = 0; i < w->count; i++) w->now[i] = want[w->active[i]];
-    symmetric_solve_part(n, w->count, w->factor, w->now);
-}
-
-/// Goes there as far as no row has to be pulled; false, with the one that would, where that is not all the way.
-static bool go(const one_sided *w, int fixed, double *lambda, int *blocking)
-{
-    double way = 1;
-    *blocking = -1;
-    for (int i = 0; i < w->count; i++) {
-        const double from = lambda[w->active[i]], to = w->now[i];
-        const double part = from > 0 ? from / (from - to) : 0;
-        if (w->active[i] < fixed || to > 0 || part >= way) continue;
-        way = part;
-        *blocking = i;
+    const double *restrict gap = s->gap, *restrict push = s->push, *restrict value = o->value,
+                           *restrict move = o->move, *restrict is_open = o->is_open;
+    double *restrict second = s->by_push;
+    double most[LANES] = {0}, sum[LANES] = {0}, all = 0;
+    for (int i = 0; i < o->count; i += LANES) {
+        const int lanes = o->count - i < LANES ? o->count - i : LANES;
+        for (int n = 0; n < lanes; n++) {
+            const int k = i + n;
+            const change c = change_of(s, gap[k], push[k], 0, value[k], move[k], is_open[k]);
+            const double by = -c.gap > -c.push ? -c.gap : -c.push;
+            second[k] = is_open[k] * (c.gap * c.push * gap[k] * push[k]);
+            sum[n] += second[k];
+            most[n] = by > most[n] ? by : most[n];
+        }
     }
-    for (int i = 0; i < w->count; i++) lambda[w->active[i]] += way * (w->now[i] - lambda[w->active[i]]);
-    if (*blocking < 0) return true;
-    lambda[w->active[*blocking]] = 0;
-    return false;
+    for (int n = 0; n < LANES; n++) *fall = fmax(*fall, most[n]), all += sum[n];
+    return all;
 }
 
-/// The row that is missed most, -1: none.
-static int find_missed(const one_sided *w, int n, int fixed, const double *s, const double *want, double slack,
-                       const double *lambda)
+/// The step itself; the largest part by which a gap or a push falls.
+WIDEST static double find_changes(const one_sided *o, const one_sided_limit *s, double mean, double part)
+{
+    const double *restrict gap = s->gap, *restrict push = s->push, *restrict value = o->value,
+                           *restrict move = o->move, *restrict is_open = o->is_open;
+    double *restrict by_gap = s->by_gap, *restrict by_push = s->by_push;
+    double most[LANES] = {0}, all = 0;
+    for (int i = 0; i < o->count; i += LANES) {
+        const int lanes = o->count - i < LANES ? o->count - i : LANES;
+        for (int n = 0; n < lanes; n++) {
+            const int k = i + n;
+            const double aim = aim_of(mean, part * by_push[k], is_open[k]);
+            const change c = change_of(s, gap[k], push[k], aim, value[k], move[k], is_open[k]);
+            const double by = -c.gap > -c.push ? -c.gap : -c.push;
+            most[n] = by > most[n] ? by : most[n];
+            by_gap[k] = c.gap, by_push[k] = c.push;
+        }
+    }
+    for (int n = 0; n < LANES; n++) all = fmax(all, most[n]);
+    return all;
+}
+
+/// Goes that part of a step; the sum of gap times push. `unclear`: adds how many fall so alike that neither is there to stay.
+WIDEST static double advance(const one_sided *o, const one_sided_limit *s, double way, double *unclear)
+{
+    const double *restrict by_gap = s->by_gap, *restrict by_push = s->by_push, *restrict is_open = o->is_open;
+    double *restrict gap = s->gap, *restrict push = s->push;
+    double sum[LANES] = {0}, alike[LANES] = {0}, all = 0;
+    for (int i = 0; i < o->count; i += LANES) {
+        const int lanes = o->count - i < LANES ? o->count - i : LANES;
+        for (int n = 0; n < lanes; n++) {
+            const int k = i + n;
+            gap[k] += way * by_gap[k] * gap[k], push[k] += way * by_push[k] * push[k];
+            sum[n] += is_open[k] * (gap[k] * push[k]);
+            alike[n] += fabs(way * (by_push[k] - by_gap[k])) < apart ? is_open[k] : 0;
+        }
+    }
+    for (int n = 0; n < LANES; n++) *unclear += alike[n], all += sum[n];
+    return all;
+}
+
+/// Newton's move for products of `mean`, with or without the second order.
+static void find_move(one_sided *o, double mean, double part)
+{
+    for (int i = 0; i < o->count; i++) o->move[i] = o->lack_left * o->lack[i];
+    for (int s = 0; s < o->limits; s++) add_force(o, &o->limit[s], mean, part, o->move);
+    scale(o->move, o->count, 1 / o->soft);
+    o->solve(o->user, o->move);
+}
+
+static bool factor(one_sided *o)
+{
+    memset(o->move, 0, sizeof *o->move * (size_t)o->count);
+    for (int s = 0; s < o->limits; s++) add_stiffness(&o->limit[s], o->count, o->move);
+    scale(o->move, o->count, 1 / o->soft);
+    return o->factor(o->user, o->move);
+}
+
+/// One step; how many values and limits it leaves unclear. false where numbers fail.
+static bool go_on(one_sided *o, double *unclear)
+{
+    const bool bold = o->way > tiny_step || !o->bold;
+    o->bold = bold;
+    double fall = 1, ahead = 0, sum = 0;
+    if (!factor(o)) return false;
+    find_move(o, 0, 0);
+    for (int s = 0; s < o->limits; s++) ahead += look_ahead(o, &o->limit[s], &fall);
+    const double left = (1 - 1 / fall) + ahead / (fall * fall) / (o->pairs * o->mean), left3 = left * left * left;
+    const double aim = (bold ? left3 : fmax(left3, together)) * o->mean;
+    find_move(o, aim, bold);
+    fall = short_of;
+    for (int s = 0; s < o->limits; s++) fall = fmax(fall, find_changes(o, &o->limit[s], aim, bold));
+    o->way = short_of / fall;
+    *unclear = 0;
+    for (int s = 0; s < o->limits; s++) sum += advance(o, &o->limit[s], o->way, unclear);
+    for (int i = 0; i < o->count; i++) o->value[i] += o->way * o->move[i];
+    o->lack_left *= 1 - o->way;
+    o->mean = sum / o->pairs;
+    return o->mean > 0 && o->mean < INFINITY;
+}
+
+/// Steps until one shows what stays. false where numbers fail.
+static bool find_what_stays(one_sided *o, double until)
+{
+    for (int step = 0; step < STEPS; step++) {
+        const double before = o->mean;
+        double unclear;
+        if (!go_on(o, &unclear)) return false;
+        const bool shows = o->mean < good * before && o->lack_left < balanced;
+        if (shows && (o->mean < fmin(least, until) * o->narrow || (unclear == 0 && o->mean < until * o->narrow)))
+            break;
+    }
+    return true;
+}
+
+/// The value that is farthest beyond a limit, by more than `slack`; -1: none.
+static int find_farthest(const one_sided *o, double slack, double *by)
 {
     int at = -1;
-    for (int r = fixed; r < n; r++) {
-        if (w->is_active[r] || w->is_lost[r]) continue;
-        double miss = want[r];
-        for (int i = 0; i < w->count; i++) miss -= entry(n, s, r, w->active[i]) * lambda[w->active[i]];
-        if (miss > slack) slack = miss, at = r;
+    *by = slack;
+    for (int s = 0; s < o->limits; s++) {
+        for (int i = 0; i < o->count; i++) {
+            const double beyond = o->is_open[i] * (o->limit[s].sign * (o->limit[s].at - o->value[i]));
+            if (beyond > *by) *by = beyond, at = i;
+        }
     }
     return at;
 }
 
-void one_sided_solve(one_sided *w, int n, int fixed, const double *s, const double *want, double slack,
-                     double *lambda)
+/// What a force of 1 does to a value; held a little where there is no factor otherwise. 0 where there is none then.
+static double find_soft(one_sided *o, int at)
 {
-    w->count = 0;
-    memset(w->is_active, 0, sizeof *w->is_active * (size_t)n);
-    memset(w->is_lost, 0, sizeof *w->is_lost * (size_t)n);
-    for (int r = 0; r < n; r++) {
-        if (r >= fixed && !(lambda[r] > 0)) continue;
-        take_in(w, n, s, r);
-        if (r >= fixed && isinf(w->factor[n * (w->count - 1) + w->count - 1])) lambda[r] = 0, lose(w);
+    memset(o->move, 0, sizeof *o->move * (size_t)o->count);
+    for (double held = 1e-14; !o->factor(o->user, o->move); held *= 100) {
+        if (held > 1) return 0;
+        for (int i = 0; i < o->count; i++) o->move[i] = held;
     }
-    for (int round = 0, row = -1; round < ROUNDS_A_ROW * n; round++) {
-        int blocking;
-        for (aim(w, n, want); !go(w, fixed, lambda, &blocking); aim(w, n, want)) {
-            w->is_lost[w->active[blocking]] = w->active[blocking] == row; // rounding alone takes it in
-            let_go(w, n, s, blocking);
+    memset(o->move, 0, sizeof *o->move * (size_t)o->count);
+    o->move[at] = 1;
+    o->solve(o->user, o->move);
+    return o->move[at];
+}
+
+/// Lengths in parts of `size`; every gap at least 1.
+static void start(one_sided *o, double size)
+{
+    o->pairs = 0;
+    for (int i = 0; i < o->count; i++) o->value[i] /= size, o->pairs += o->limits * (o->is_open[i] > 0);
+    o->narrow = o->limits < 2 ? 1 : fmin(1, fabs(o->limit[1].at - o->limit[0].at) / size);
+    memset(o->lack, 0, sizeof *o->lack * (size_t)o->count);
+    for (int n = 0; n < o->limits; n++) {
+        one_sided_limit *s = &o->limit[n];
+        s->at /= size;
+        for (int i = 0; i < o->count; i++) {
+            const bool is_open = o->is_open[i] > 0;
+            s->gap[i] = is_open ? fmax(s->sign * (o->value[i] - s->at), 1) : 1;
+            s->push[i] = is_open ? at_first / s->gap[i] : 1;
+            s->by_push[i] = 0;
+            if (is_open) o->lack[i] += s->sign * s->push[i];
         }
-        row = find_missed(w, n, fixed, s, want, slack, lambda);
-        if (row < 0) return;
-        take_in(w, n, s, row);
-        if (isinf(w->factor[n * (w->count - 1) + w->count - 1])) lose(w);
     }
+    o->bold = true;
+    o->lack_left = o->way = 1;
+    o->mean = at_first;
+}
+
+double one_sided_holds(const one_sided *o, int i)
+{
+    double sign = 0;
+    for (int n = 0; n < o->limits && o->is_open[i] > 0; n++) {
+        const one_sided_limit *s = &o->limit[n];
+        if (o->way * (s->by_push[i] - s->by_gap[i]) > apart && sign == 0) sign = s->sign;
+    }
+    return sign;
+}
+
+bool one_sided_solve(one_sided *o, double slack)
+{
+    double until = sure, size;
+    for (int n = 0; n < ATTEMPTS; n++, until *= surer) {
+        if (!o->begin(o->user)) return false;
+        const int farthest = find_farthest(o, slack, &size);
+        if (farthest < 0) return true;
+        o->soft = find_soft(o, farthest);
+        if (!(o->soft > 0)) return false;
+        start(o, size);
+        if (!find_what_stays(o, until)) return false;
+        if (o->finish(o->user)) return true;
+    }
+    return false;
 }

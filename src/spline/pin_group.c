@@ -37,11 +37,17 @@ static void lay_out_spline(pulled *of, arena *a, int knots, int places, int pres
 static void lay_out_bounds(struct wiggly_group *at, arena *a, size_t rows, size_t samples)
 {
     at->want = take(a, rows, sizeof(double));
-    at->one_sided = (one_sided){.factor = take(a, rows, rows * sizeof(double)),
-                                .now = take(a, rows, sizeof(double)),
-                                .active = take(a, rows, sizeof(int)),
-                                .is_active = take(a, rows, sizeof(bool)),
-                                .is_lost = take(a, rows, sizeof(bool))};
+    const size_t bounds = (size_t)at->bounds;
+    at->reduced = take(a, rows, rows * sizeof(double));
+    at->square = take(a, bounds, bounds * sizeof(double));
+    at->root = take(a, bounds, sizeof(double));
+    at->scale = take(a, bounds, sizeof(double));
+    at->product = take(a, bounds, sizeof(double));
+    at->pressing = take(a, bounds, sizeof(int));
+    one_sided_limit *limit = &at->search.limit[0];
+    double **const of_search[] = {&at->search.value, &at->search.is_open, &at->search.move, &at->search.lack,
+                                  &limit->gap,       &limit->push,        &limit->by_gap,   &limit->by_push};
+    for (size_t i = 0; i < sizeof of_search / sizeof *of_search; i++) *of_search[i] = take(a, bounds, sizeof(double));
     at->tail_rows = take(a, rows, sizeof(tail_row));
     at->e = take(a, samples, sizeof(double));
     at->pressed = take(a, samples, sizeof(double));

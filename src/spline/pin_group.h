@@ -18,8 +18,13 @@ struct wiggly_group {
     double *system;  ///< S, the lower triangle, then its factor
     double *soft;    ///< φ S_max of each row
     double *lambda, *miss;
-    double *want;        ///< S λ + miss: only bounds need it, and all below
-    one_sided one_sided; ///< room for its work
+    double *want;    ///< S λ + miss: only bounds need it, and all below
+    double *reduced; ///< S with the pins' rows kept still, and want with it
+    double *square;  ///< scratch of the search for bounds that press: bounds × bounds
+    double *root, *product, *scale;
+    int *pressing;
+    double slack; ///< what a bound may be missed by
+    one_sided search;
     tail_row *tail_rows; ///< of the spline in hand
     double *e, *pressed; ///< scratch of its tail
 };

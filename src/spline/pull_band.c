@@ -2,14 +2,6 @@
 #include "spline/pull.h"
 #include <string.h>
 
-/// Everything that is known 0: what is left is the answer to the pulls.
-static void forget_known(const system_rows *rows)
-{
-    memset(rows->x, 0, sizeof *rows->x * (size_t)(rows->is_complex ? 2 * rows->count : rows->count));
-    memset(rows->drive, 0, sizeof *rows->drive * (size_t)rows->count);
-    for (int i = 0; i < rows->slope_count; i++) rows->slopes[i].target = 0;
-}
-
 static void read_pulled(const pulled *of, double *x)
 {
     const system_rows *rows = &of->solver->rows;
@@ -51,7 +43,7 @@ bool pull_band_respond(pulled *of, double *compliance, double *alone)
         double *row = compliance + width * i;
         memset(row, 0, sizeof *row * (size_t)width);
         if (i % 2 == 1 && !rows->is_complex) continue;
-        forget_known(rows);
+        system_forget_known(rows);
         of->pulls.pull[i / 2] = (cplx){i % 2 == 0, i % 2 == 1};
         bool solved = solver_refine(of->solver, &factor).solved;
         of->pulls.pull[i / 2] = (cplx){0, 0};

@@ -281,6 +281,13 @@ static void pull_plainly(const system_rows *rows)
     }
 }
 
+void system_forget_known(const system_rows *rows)
+{
+    memset(rows->x, 0, sizeof *rows->x * (size_t)(rows->is_complex ? 2 * rows->count : rows->count));
+    memset(rows->drive, 0, sizeof *rows->drive * (size_t)rows->count);
+    for (int i = 0; i < rows->slope_count; i++) rows->slopes[i].target = 0;
+}
+
 void system_right_side(const system_rows *rows)
 {
     memset(rows->gradient, 0, sizeof(double) * (size_t)(rows->is_complex ? 2 * rows->count : rows->count));

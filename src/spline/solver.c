@@ -11,7 +11,7 @@ enum {
     MATRIX_DOUBLES = 3 + 4 + 4 + 2 * BORDER_MAX,
     CHAIN_DOUBLES = 8,
     RUN_DOUBLES = 6,
-    LIMIT_DOUBLES = 8,
+    LIMIT_DOUBLES = 11,
     LINE = 64, ///< of the cache: columns begin with one
     BYTES_PER_SAMPLE =
         (int)((MATRIX_DOUBLES + 2 + 2 + 2 + 4 + 4) * sizeof(double) + sizeof(coefficients) +
@@ -85,10 +85,12 @@ static void carve(wiggly_solver *solver)
     solver->swing.im = take(&at, n * sizeof(double));
     solver->swing.speed = take(&at, n * sizeof(double));
     limit_memory *limits = &solver->limits;
-    double **const of_limits[] = {&limits->pull,    &limits->now,     &limits->re,        &limits->im,
+    double **const of_limits[] = {&limits->pull,    &limits->spare,   &limits->re,        &limits->im,
                                   &limits->free[0], &limits->free[1], &limits->pushed[0], &limits->pushed[1]};
-    _Static_assert(sizeof of_limits / sizeof *of_limits == LIMIT_DOUBLES, "LIMIT_DOUBLES counts the arrays");
-    for (int i = 0; i < LIMIT_DOUBLES; i++) *of_limits[i] = take(&at, n * sizeof(double));
+    _Static_assert(sizeof of_limits / sizeof *of_limits + 3 == LIMIT_DOUBLES, "LIMIT_DOUBLES counts the arrays");
+    for (size_t i = 0; i < sizeof of_limits / sizeof *of_limits; i++) *of_limits[i] = take(&at, n * sizeof(double));
+    limits->stiffness = take(&at, n * sizeof(double));
+    limits->by_push = take(&at, 2 * n * sizeof(double));
     size_t k = (size_t)solver->knots + 1;
     chain *c = &solver->chain;
     limits->own = take(&at, k * sizeof(wiggly_knot));

@@ -30,7 +30,9 @@ typedef struct limit_memory {
     wiggly_knot *own, *all; ///< the knots by sample; with held samples
     signed char *held;      ///< of each sample
     double *pull;           ///< of each held one: how hard the limit holds it
-    double *now;            ///< the same on the way to holding one more
+    double *spare;          ///< for the search for them
+    double *by_push;        ///< the same, two numbers a sample
+    double *stiffness;      ///< the same
     double *re, *im;        ///< where the curve has no arrays
     double *free[2];        ///< behind the last knot: Re w by itself, and what 1 of Im w there adds to it
     double *pushed[2];      ///< what the limits add to each of them

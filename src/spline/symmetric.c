@@ -64,26 +64,32 @@ WIDEST static double dot(const double *restrict a, const double *restrict b, int
     return sum;
 }
 
-void symmetric_factor_row(int n, double *a, int i)
+void symmetric_reduce(int n, int count, double *a)
 {
-    double *row = a + n * i, entry = row[i];
-    for (int j = 0; j < i; j++) row[j] = (row[j] - dot(row, a + n * j, j)) / a[n * j + j];
-    double pivot = entry - dot(row, row, i);
-    row[i] = pivot > lost * entry ? sqrt(pivot) : INFINITY;
+    for (int i = 0; i < n; i++) {
+        double *row = a + n * i, entry = row[i];
+        for (int j = 0; j < i && j < count; j++) row[j] = (row[j] - dot(row, a + n * j, j)) / a[n * j + j];
+        for (int j = count; j < i; j++) row[j] -= dot(row, a + n * j, count);
+        row[i] -= dot(row, row, i < count ? i : count);
+        if (i < count) row[i] = row[i] > lost * entry ? sqrt(row[i]) : INFINITY;
+    }
 }
 
-void symmetric_factor(int n, double *a)
-{
-    for (int i = 0; i < n; i++) symmetric_factor_row(n, a, i);
-}
+void symmetric_factor(int n, double *a) { symmetric_reduce(n, n, a); }
 
-void symmetric_solve_part(int n, int count, const double *a, double *b)
+void symmetric_solve(int n, const double *a, double *b)
 {
-    for (int i = 0; i < count; i++) b[i] = (b[i] - dot(a + n * i, b, i)) / a[n * i + i];
-    for (int i = count - 1; i >= 0; i--) {
+    for (int i = 0; i < n; i++) b[i] = (b[i] - dot(a + n * i, b, i)) / a[n * i + i];
+    for (int i = n - 1; i >= 0; i--) {
         b[i] /= a[n * i + i];
         for (int j = 0; j < i; j++) b[j] -= a[n * i + j] * b[i];
     }
 }
 
-void symmetric_solve(int n, const double *a, double *b) { symmetric_solve_part(n, n, a, b); }
+void symmetric_multiply(int n, int stride, const double *a, const double *x, double *y)
+{
+    for (int i = 0; i < n; i++) {
+        y[i] = dot(a + stride * i, x, i + 1);
+        for (int j = 0; j < i; j++) y[j] += a[stride * i + j] * x[i];
+    }
+}

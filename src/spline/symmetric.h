@@ -8,13 +8,13 @@ void symmetric_eigen(int n, double *a, double *values, double *vectors);
 /// a's lower triangle ← its Cholesky factor. A row that depends on those before it is left out: its unknown comes out 0.
 void symmetric_factor(int n, double *a);
 
-/// Row i of the factor, from those above it, which are factored.
-void symmetric_factor_row(int n, double *a, int i);
+/// a's first `count` rows ← their factor, the others what they are to each other where the first are kept still: the Schur complement.
+void symmetric_reduce(int n, int count, double *a);
 
 /// b ← a⁻¹ b, of a factored a.
 void symmetric_solve(int n, const double *a, double *b);
 
-/// The same for the first `count` rows and columns.
-void symmetric_solve_part(int n, int count, const double *a, double *b);
+/// y ← a x.
+void symmetric_multiply(int n, int stride, const double *a, const double *x, double *y);
 
 #endif

@@ -77,6 +77,9 @@ void system_gradient(const system_rows *rows);
 /// The same where x holds nothing but what is known: all of it is small sums, and plain double will do.
 void system_right_side(const system_rows *rows);
 
+/// Everything that is known 0: what is left is the answer to pulls.
+void system_forget_known(const system_rows *rows);
+
 /// E·h³ of a curve that begins with the system, and −½ of its gradient by Re x of a sample; `im` is NULL outside complex mode.
 double system_energy(const system_rows *rows, const double *re, const double *im);
 double system_pull(const system_rows *rows, const double *re, const double *im, int k);
