@@ -24,12 +24,10 @@ static void *take(arena *a, size_t count, size_t size)
     return at;
 }
 
-static void lay_out_spline(pulled *of, arena *a, int knots, int places, int pressed)
+static void lay_out_spline(pulled *of, arena *a, int places, int pressed)
 {
     const size_t count = (size_t)places;
     pulled p = {.pulls = {.sample = take(a, count, sizeof(int)), .pull = take(a, count, sizeof(cplx))},
-                .place = take(a, count, sizeof(pull_place)),
-                .nodes = take(a, (size_t)knots + count + 1, sizeof(pull_node)),
                 .e = take(a, (size_t)pressed, sizeof(double))};
     if (of) *of = p;
 }
@@ -55,7 +53,7 @@ static void lay_out_bounds(struct wiggly_group *at, arena *a, size_t rows, size_
 
 static struct wiggly_group *lay_out(arena *a, const struct wiggly_group *capacity, int samples)
 {
-    const int splines = capacity->splines, pins = capacity->pins, knots = capacity->knots;
+    const int splines = capacity->splines, pins = capacity->pins;
     const size_t s = (size_t)splines, p = (size_t)capacity->places;
     const size_t rows = 3 * (size_t)pins + (size_t)capacity->bounds;
     struct wiggly_group measured = *capacity;
@@ -63,8 +61,7 @@ static struct wiggly_group *lay_out(arena *a, const struct wiggly_group *capacit
     *at = measured;
     at->pulled = take(a, s, sizeof(pulled));
     for (int i = 0; i < splines; i++)
-        lay_out_spline(at->pulled ? &at->pulled[i] : NULL, a, knots, capacity->places,
-                       capacity->bounds > 0 ? samples : 0);
+        lay_out_spline(at->pulled ? &at->pulled[i] : NULL, a, capacity->places, capacity->bounds > 0 ? samples : 0);
     at->rows.row = take(a, rows, sizeof(pin_row));
     at->rows.on = take(a, rows, 2 * s * sizeof(double));
     at->rows.scratch = take(a, pin_rows_scratch(splines, pins > 0 ? pins : 1), sizeof(double));
@@ -72,7 +69,6 @@ static struct wiggly_group *lay_out(arena *a, const struct wiggly_group *capacit
     at->pull_of = take(a, rows, sizeof(int));
     at->compliance = take(a, 2 * p, 2 * p * sizeof(double));
     at->alone = take(a, 2 * p, sizeof(double));
-    at->columns = take(a, 8 * p, sizeof(double));
     at->answer = take(a, 2 * p, rows * sizeof(double));
     at->system = take(a, rows, rows * sizeof(double));
     at->soft = take(a, rows, sizeof(double));

@@ -13,10 +13,9 @@ struct wiggly_group {
     int *pull_of;       ///< of each row, the pull on the spline in hand, or -1
     double *compliance; ///< Z of the spline in hand, 2P × 2P, and what it does without pulls
     double *alone;
-    double *columns; ///< scratch of its nodes
-    double *answer;  ///< Z R of the spline in hand, 2P × rows
-    double *system;  ///< S, the lower triangle, then its factor
-    double *soft;    ///< φ S_max of each row
+    double *answer; ///< Z R of the spline in hand, 2P × rows
+    double *system; ///< S, the lower triangle, then its factor
+    double *soft;   ///< φ S_max of each row
     double *lambda, *miss;
     double *want;    ///< S λ + miss: only bounds need it, and all below
     double *reduced; ///< S with the pins' rows kept still, and want with it

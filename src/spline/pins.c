@@ -279,11 +279,9 @@ static bool respond(wiggly_group *g, int spline_count)
     for (int r = 0; r < n; r++) g->miss[r] = g->rows.row[r].want;
     for (int s = 0; s < spline_count; s++) {
         pulled *of = &g->pulled[s];
-        of->by_chain = false;
         if (g->rows.count > g->rows.fixed) add_tail(g, s);
         if (of->pulls.count == 0) continue;
-        of->by_chain = pull_chain_respond(of, g->compliance, g->alone, g->columns);
-        if (of->by_chain || pull_band_respond(of, g->compliance, g->alone)) {
+        if (pull_respond(of, g->compliance, g->alone)) {
             add_spline(g, s);
         } else {
             all = false;
@@ -351,10 +349,8 @@ static wiggly_status solve_splines(wiggly_group *g, const wiggly_desc *descs, wi
     wiggly_status worst = WIGGLY_OK;
     for (int s = 0; s < spline_count; s++) {
         pulled *of = &g->pulled[s];
-        wiggly_status status = of->problem.status;
         set_pulls(g, s);
-        if (!of->by_chain || !pull_chain_solve(of, &curves[s]))
-            status = wiggly_solve(of->solver, &descs[s], &curves[s]);
+        const wiggly_status status = wiggly_solve(of->solver, &descs[s], &curves[s]);
         press_tail(g, s, &curves[s]);
         worst = status > worst ? status : worst;
     }

@@ -111,15 +111,6 @@ bool problem_fits_chain(wiggly_solver *solver, const problem *p)
     return begin >= 0 && slopes_fit(solver, p, begin);
 }
 
-bool problem_takes_pulls(wiggly_solver *solver, const problem *p)
-{
-    if (solver->method == WIGGLY_BAND || p->level_slope || !poles_are_constant(p->desc)) return false;
-    if (problem_is_loose(p) || pulls_imaginary(solver, p)) return false;
-    if (p->about && !problem_oscillates(p)) return false;
-    const int begin = p->desc->knot_count > 0 ? first_of_chain(solver, p) : 0;
-    return begin >= 0 && slopes_fit(solver, p, begin);
-}
-
 /// What a chain without the imaginary rows, or with no more than their pull on the nodes, may be off by, as a part of x; 0 where that is next to nothing.
 static double omission(wiggly_solver *solver, const problem *p)
 {

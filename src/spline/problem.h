@@ -105,9 +105,6 @@ wiggly_status problem_pose(wiggly_solver *solver, const wiggly_desc *desc, doubl
 /// Writes what a knot says into a node, with the knot on the next sample where there is one; true where only values changed.
 bool problem_put_knot(const problem *p, chain_node *node, const wiggly_knot *knot, const wiggly_knot *pair);
 
-/// Whether a chain serves where it is pulled at: its nodes are then the puller's (pull_chain.c).
-bool problem_takes_pulls(wiggly_solver *solver, const problem *p);
-
 /// Puts filter, start and end into the solver's chain, and forgets what was made for others.
 void problem_set_chain(wiggly_solver *solver, const problem *p);
 

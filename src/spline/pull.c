@@ -29,7 +29,7 @@ static bool find_alone(pulled *of, factorisation *factor, double *alone)
     return true;
 }
 
-bool pull_band_respond(pulled *of, double *compliance, double *alone)
+bool pull_respond(pulled *of, double *compliance, double *alone)
 {
     const int count = of->pulls.count, width = 2 * count;
     system_rows *rows = &of->solver->rows;
