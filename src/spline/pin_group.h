@@ -28,4 +28,7 @@ struct wiggly_group {
     double *e, *pressed; ///< scratch of its tail
 };
 
+/// λ of all rows for what they want (g->want), bounds' not below 0; a row may miss that by so much of the largest. false where it is not found.
+bool bounds_find_pushes(wiggly_group *g, double near_enough);
+
 #endif

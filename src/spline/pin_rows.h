@@ -3,7 +3,17 @@
 #ifndef SPLINE_PIN_ROWS_H
 #define SPLINE_PIN_ROWS_H
 
-#include "spline/pull.h"
+#include "spline/bound_tail.h"
+
+/// One spline of a group.
+typedef struct pulled {
+    wiggly_solver *solver;
+    problem problem;
+    system_pulls pulls;
+    double scale;    ///< of the system's compliance, to that of its weighted energy
+    bound_tail tail; ///< what bounds press behind the last knot
+    double *e;       ///< that, one number a sample
+} pulled;
 
 /// One condition: Σ over splines of on[2s] Re x_s + on[2s + 1] Im x_s at a sample is `want`. A bound's is at least that, and `on` is on
 /// the sample of each spline that the bound's own is a part of (pin_rows_sample()).

@@ -9,16 +9,12 @@
 #include "spline/pin_group.h"
 #include "spline/symmetric.h"
 #include "spline/wide.h"
-#include <float.h>
 #include <math.h>
 #include <string.h>
 
 /// Rounds in which what the rows still miss is asked for again, and what they may miss, as a part of the largest.
 enum { MAX_ROUNDS = 3 };
 static const double near_enough = 1e-10;
-
-/// Of what a bound's row answers to itself: what pins leave of less holds no digit.
-static const double lost = 64 * DBL_EPSILON;
 
 // --- what is asked ---------------------------------------------------------------------------------------------------
 
@@ -270,6 +266,59 @@ static void add_tail(wiggly_group *g, int spline)
     }
 }
 
+static void read_pulled(const pulled *of, double *x)
+{
+    const system_rows *rows = &of->solver->rows;
+    for (int i = 0; i < of->pulls.count; i++) {
+        const double *at = rows->x + (rows->is_complex ? 2 : 1) * (of->pulls.sample[i] - of->problem.first);
+        x[2 * i] = at[0];
+        x[2 * i + 1] = rows->is_complex ? at[1] : 0;
+    }
+}
+
+/// What the knots and the equilibrium make of x at the pulled samples.
+static bool find_alone(pulled *of, factorisation *factor, double *alone)
+{
+    const problem *p = &of->problem;
+    problem_set_rows(of->solver, p);
+    *factor = solver_factor(of->solver);
+    minimum found = solver_refine(of->solver, factor);
+    if (!found.solved || (found.weak && p->free_end)) return false;
+    read_pulled(of, alone);
+    for (int i = 0; i < of->pulls.count; i++) {
+        int sample = of->pulls.sample[i];
+        if (p->swing.total) alone[2 * i] += p->about[sample] - p->y[sample];
+        if (p->swing.im) alone[2 * i + 1] += p->swing.im[sample];
+    }
+    return true;
+}
+
+/// x at the pulled samples under single pulls, and without any: two solves for each pull, with one factor. false where the system is
+/// singular.
+static bool respond_alone(pulled *of, double *compliance, double *alone)
+{
+    const int count = of->pulls.count, width = 2 * count;
+    system_rows *rows = &of->solver->rows;
+    factorisation factor;
+    memset(of->pulls.pull, 0, sizeof *of->pulls.pull * (size_t)count);
+    if (!find_alone(of, &factor, alone)) {
+        of->problem.level_slope = true; // as for a spline by itself that nothing holds
+        if (!of->problem.free_end || !find_alone(of, &factor, alone)) return false;
+    }
+    for (int i = 0; i < width; i++) {
+        double *row = compliance + width * i;
+        memset(row, 0, sizeof *row * (size_t)width);
+        if (i % 2 == 1 && !rows->is_complex) continue;
+        system_forget_known(rows);
+        of->pulls.pull[i / 2] = (cplx){i % 2 == 0, i % 2 == 1};
+        bool solved = solver_refine(of->solver, &factor).solved;
+        of->pulls.pull[i / 2] = (cplx){0, 0};
+        if (!solved) return false;
+        read_pulled(of, row);
+    }
+    return true;
+}
+
 /// What each spline answers: S and what is missed without pulls. false where one cannot be solved.
 static bool respond(wiggly_group *g, int spline_count)
 {
@@ -281,7 +330,7 @@ static bool respond(wiggly_group *g, int spline_count)
         pulled *of = &g->pulled[s];
         if (g->rows.count > g->rows.fixed) add_tail(g, s);
         if (of->pulls.count == 0) continue;
-        if (pull_respond(of, g->compliance, g->alone)) {
+        if (respond_alone(of, g->compliance, g->alone)) {
             add_spline(g, s);
         } else {
             all = false;
@@ -426,123 +475,13 @@ static void find_want(wiggly_group *g)
     }
 }
 
-static double *reduced_row(const wiggly_group *g, int i)
-{
-    return g->reduced + g->rows.count * (g->rows.fixed + i) + g->rows.fixed;
-}
-
-/// The search's conditions are the bounds, as λ moves them where it holds the pins: S' λ ≥ want'.
-static bool begin(void *user)
-{
-    wiggly_group *g = user;
-    for (int i = 0; i < g->search.count; i++) {
-        g->search.value[i] = -g->want[g->rows.fixed + i];
-        g->search.is_open[i] = reduced_row(g, i)[i] > 0;
-    }
-    g->search.limit[0].at = 0;
-    return true;
-}
-
-/// With D the stiffness and E its root, (S'⁻¹ + D)⁻¹ = S' − S' E (1 + E S' E)⁻¹ E S'.
-static bool factor(void *user, const double *stiffness)
-{
-    wiggly_group *g = user;
-    const int m = g->search.count;
-    for (int i = 0; i < m; i++) {
-        const double *row = reduced_row(g, i);
-        g->root[i] = stiffness ? sqrt(stiffness[i]) : 0;
-        for (int j = 0; j <= i; j++) g->square[m * i + j] = (i == j) + g->root[i] * row[j] * g->root[j];
-    }
-    symmetric_factor(m, g->square);
-    return true;
-}
-
-static void solve(void *user, double *force)
-{
-    const wiggly_group *g = user;
-    const int m = g->search.count, n = g->rows.count;
-    symmetric_multiply(m, n, reduced_row(g, 0), force, g->product);
-    memcpy(force, g->product, sizeof *force * (size_t)m);
-    for (int i = 0; i < m; i++) g->product[i] *= g->root[i];
-    symmetric_solve(m, g->square, g->product);
-    for (int i = 0; i < m; i++) g->product[i] *= g->root[i];
-    for (int i = 0; i < m; i++) {
-        for (int j = 0; j < m; j++)
-            force[i] -= (i >= j ? reduced_row(g, i)[j] : reduced_row(g, j)[i]) * g->product[j];
-    }
-}
-
-/// λ of the bounds that press, as equalities. It is right where none of them pulls, and no other is missed.
-static bool finish(void *user)
-{
-    wiggly_group *g = user;
-    const int m = g->search.count, n = g->rows.count;
-    double *lambda = g->lambda + g->rows.fixed;
-    const double *want = g->want + g->rows.fixed;
-    int count = 0;
-    bool right = true;
-    for (int i = 0; i < m; i++) {
-        if (one_sided_holds(&g->search, i) > 0) g->pressing[count++] = i;
-    }
-    for (int i = 0; i < count; i++) {
-        g->product[i] = want[g->pressing[i]];
-        for (int j = 0; j <= i; j++) g->square[count * i + j] = reduced_row(g, g->pressing[i])[g->pressing[j]];
-    }
-    symmetric_factor(count, g->square);
-    symmetric_solve(count, g->square, g->product);
-    memset(lambda, 0, sizeof *lambda * (size_t)m);
-    for (int i = 0; i < count; i++) {
-        const int at = g->pressing[i];
-        right = right && g->product[i] >= -g->slack * g->scale[at];
-        lambda[at] = fmax(g->product[i], 0);
-    }
-    symmetric_multiply(m, n, reduced_row(g, 0), lambda, g->product);
-    for (int i = 0; i < m; i++) right = right && want[i] - g->product[i] <= g->slack * g->scale[i];
-    return right;
-}
-
-/// λ of all rows for what they want, bounds' not below 0; false where it is not found.
-static bool find_pushes(wiggly_group *g)
-{
-    const int n = g->rows.count, fixed = g->rows.fixed;
-    double *a = g->reduced;
-    g->slack = 0;
-    for (int r = 0; r < n; r++) g->slack = fmax(g->slack, near_enough * fabs(g->want[r]));
-    memcpy(a, g->system, sizeof *a * (size_t)(n * n));
-    symmetric_reduce(n, fixed, a);
-    for (int i = 0; i < n; i++) {
-        for (int j = 0; j < i && j < fixed; j++) g->want[i] -= a[n * i + j] * g->want[j];
-        if (i < fixed) g->want[i] /= a[n * i + i];
-    }
-    for (int i = fixed; i < n; i++) { // in units of what each answers to itself; 0 where the pins say it already
-        const double own = a[n * i + i];
-        g->scale[i - fixed] = own > lost * g->system[n * i + i] ? 1 / sqrt(own) : 0;
-        g->want[i] *= g->scale[i - fixed];
-    }
-    for (int i = fixed; i < n; i++) {
-        for (int k = fixed; k <= i; k++) a[n * i + k] *= g->scale[i - fixed] * g->scale[k - fixed];
-    }
-    one_sided *o = &g->search;
-    o->user = g, o->begin = begin, o->factor = factor, o->solve = solve, o->finish = finish;
-    o->count = n - fixed, o->limits = 1, o->limit[0].sign = 1;
-    memset(g->lambda + fixed, 0, sizeof *g->lambda * (size_t)o->count);
-    const bool found = one_sided_solve(o, 0);
-    for (int i = fixed; i < n; i++) g->lambda[i] *= g->scale[i - fixed];
-    for (int i = fixed - 1; i >= 0; i--) {
-        g->lambda[i] = g->want[i];
-        for (int k = i + 1; k < n; k++) g->lambda[i] -= a[n * k + i] * g->lambda[k];
-        g->lambda[i] /= a[n * i + i];
-    }
-    return found;
-}
-
 /// λ and the curves of rows some of which are bounds'.
 static wiggly_status press(wiggly_group *g, const wiggly_desc *descs, wiggly_curve *curves)
 {
     wiggly_status status = solve_splines(g, descs, curves, g->rows.splines);
     for (int round = 0; round < MAX_ROUNDS && !find_miss(g, curves); round++) {
         find_want(g);
-        const bool found = find_pushes(g);
+        const bool found = bounds_find_pushes(g, near_enough);
         status = solve_splines(g, descs, curves, g->rows.splines);
         if (!found && status < WIGGLY_INEXACT) status = WIGGLY_INEXACT;
     }

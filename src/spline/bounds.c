@@ -1,0 +1,118 @@
+/// Bounds of a group: which of them press, on the pins' small dense system.
+#include "spline/pin_group.h"
+#include "spline/symmetric.h"
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+/// Of what a bound's row answers to itself: what pins leave of less holds no digit.
+static const double lost = 64 * DBL_EPSILON;
+
+static double *reduced_row(const wiggly_group *g, int i)
+{
+    return g->reduced + g->rows.count * (g->rows.fixed + i) + g->rows.fixed;
+}
+
+/// The search's conditions are the bounds, as λ moves them where it holds the pins: S' λ ≥ want'.
+static bool begin(void *user)
+{
+    wiggly_group *g = user;
+    for (int i = 0; i < g->search.count; i++) {
+        g->search.value[i] = -g->want[g->rows.fixed + i];
+        g->search.is_open[i] = reduced_row(g, i)[i] > 0;
+    }
+    g->search.limit[0].at = 0;
+    return true;
+}
+
+/// With D the stiffness and E its root, (S'⁻¹ + D)⁻¹ = S' − S' E (1 + E S' E)⁻¹ E S'.
+static bool factor(void *user, const double *stiffness)
+{
+    wiggly_group *g = user;
+    const int m = g->search.count;
+    for (int i = 0; i < m; i++) {
+        const double *row = reduced_row(g, i);
+        g->root[i] = stiffness ? sqrt(stiffness[i]) : 0;
+        for (int j = 0; j <= i; j++) g->square[m * i + j] = (i == j) + g->root[i] * row[j] * g->root[j];
+    }
+    symmetric_factor(m, g->square);
+    return true;
+}
+
+static void solve(void *user, double *force)
+{
+    const wiggly_group *g = user;
+    const int m = g->search.count, n = g->rows.count;
+    symmetric_multiply(m, n, reduced_row(g, 0), force, g->product);
+    memcpy(force, g->product, sizeof *force * (size_t)m);
+    for (int i = 0; i < m; i++) g->product[i] *= g->root[i];
+    symmetric_solve(m, g->square, g->product);
+    for (int i = 0; i < m; i++) g->product[i] *= g->root[i];
+    for (int i = 0; i < m; i++) {
+        for (int j = 0; j < m; j++)
+            force[i] -= (i >= j ? reduced_row(g, i)[j] : reduced_row(g, j)[i]) * g->product[j];
+    }
+}
+
+/// λ of the bounds that press, as equalities. It is right where none of them pulls, and no other is missed.
+static bool finish(void *user)
+{
+    wiggly_group *g = user;
+    const int m = g->search.count, n = g->rows.count;
+    double *lambda = g->lambda + g->rows.fixed;
+    const double *want = g->want + g->rows.fixed;
+    int count = 0;
+    bool right = true;
+    for (int i = 0; i < m; i++) {
+        if (one_sided_holds(&g->search, i) > 0) g->pressing[count++] = i;
+    }
+    for (int i = 0; i < count; i++) {
+        g->product[i] = want[g->pressing[i]];
+        for (int j = 0; j <= i; j++) g->square[count * i + j] = reduced_row(g, g->pressing[i])[g->pressing[j]];
+    }
+    symmetric_factor(count, g->square);
+    symmetric_solve(count, g->square, g->product);
+    memset(lambda, 0, sizeof *lambda * (size_t)m);
+    for (int i = 0; i < count; i++) {
+        const int at = g->pressing[i];
+        right = right && g->product[i] >= -g->slack * g->scale[at];
+        lambda[at] = fmax(g->product[i], 0);
+    }
+    symmetric_multiply(m, n, reduced_row(g, 0), lambda, g->product);
+    for (int i = 0; i < m; i++) right = right && want[i] - g->product[i] <= g->slack * g->scale[i];
+    return right;
+}
+
+bool bounds_find_pushes(wiggly_group *g, double near_enough)
+{
+    const int n = g->rows.count, fixed = g->rows.fixed;
+    double *a = g->reduced;
+    g->slack = 0;
+    for (int r = 0; r < n; r++) g->slack = fmax(g->slack, near_enough * fabs(g->want[r]));
+    memcpy(a, g->system, sizeof *a * (size_t)(n * n));
+    symmetric_reduce(n, fixed, a);
+    for (int i = 0; i < n; i++) {
+        for (int j = 0; j < i && j < fixed; j++) g->want[i] -= a[n * i + j] * g->want[j];
+        if (i < fixed) g->want[i] /= a[n * i + i];
+    }
+    for (int i = fixed; i < n; i++) { // in units of what each answers to itself; 0 where the pins say it already
+        const double own = a[n * i + i];
+        g->scale[i - fixed] = own > lost * g->system[n * i + i] ? 1 / sqrt(own) : 0;
+        g->want[i] *= g->scale[i - fixed];
+    }
+    for (int i = fixed; i < n; i++) {
+        for (int k = fixed; k <= i; k++) a[n * i + k] *= g->scale[i - fixed] * g->scale[k - fixed];
+    }
+    one_sided *o = &g->search;
+    o->user = g, o->begin = begin, o->factor = factor, o->solve = solve, o->finish = finish;
+    o->count = n - fixed, o->limits = 1, o->limit[0].sign = 1;
+    memset(g->lambda + fixed, 0, sizeof *g->lambda * (size_t)o->count);
+    const bool found = one_sided_solve(o, 0);
+    for (int i = fixed; i < n; i++) g->lambda[i] *= g->scale[i - fixed];
+    for (int i = fixed - 1; i >= 0; i--) {
+        g->lambda[i] = g->want[i];
+        for (int k = i + 1; k < n; k++) g->lambda[i] -= a[n * k + i] * g->lambda[k];
+        g->lambda[i] /= a[n * i + i];
+    }
+    return found;
+}
