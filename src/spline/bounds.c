@@ -32,7 +32,7 @@ static bool factor(void *user, const double *stiffness)
     const int m = g->search.count;
     for (int i = 0; i < m; i++) {
         const double *row = reduced_row(g, i);
-        g->root[i] = stiffness ? sqrt(stiffness[i]) : 0;
+        g->root[i] = sqrt(stiffness[i]);
         for (int j = 0; j <= i; j++) g->square[m * i + j] = (i == j) + g->root[i] * row[j] * g->root[j];
     }
     symmetric_factor(m, g->square);
