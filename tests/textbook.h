@@ -60,8 +60,7 @@ real textbook_entry(const struct textbook *book, int row, int column);
 /// The curve that the unknowns x of a solved book stand for.
 void textbook_fill(struct textbook *book, double *total, double *re, double *im);
 
-/// Of e at `count` samples from the last knot on, where it is 0: its energy, −½ of that energy's gradient by a later sample, and Im e there.
-real textbook_tail_energy(const struct textbook *book, const real *e, int count);
+/// Of e at `count` samples from the last knot on, where it is 0: −½ of its energy's gradient by a later sample, and Im e there.
 real textbook_tail_pull(const struct textbook *book, const real *e, int count, int sample);
 real textbook_tail_im(const struct textbook *book, const real *e, int count, int sample);
 

@@ -18,17 +18,6 @@ static real force_of(const struct row *row, const real *e, int i)
     return row->by[2] * e[i + 1] + row->by[1] * e[i] + (i > 0 ? row->by[0] * e[i - 1] : 0);
 }
 
-real textbook_tail_energy(const struct textbook *book, const real *e, int count)
-{
-    real sum = 0;
-    for (int i = 0; i + 1 < count; i++) {
-        const struct row row = row_at(book, i);
-        const real force = force_of(&row, e, i);
-        sum += row.weight * force * force;
-    }
-    return sum / (book->h * book->h * book->h);
-}
-
 real textbook_tail_pull(const struct textbook *book, const real *e, int count, int sample)
 {
     real sum = 0;

@@ -1,8 +1,5 @@
-/// The energy of a curve, and how hard it pulls at one sample: the multiplier of what holds it there.
+/// How hard the energy pulls at one sample: the multiplier of what holds it there.
 #include "spline/system.h"
-#include "spline/wide.h"
-
-enum { LANES = 8 };
 
 typedef struct view {
     const system_rows *rows;
@@ -96,55 +93,4 @@ double system_pull(const system_rows *rows, const double *re, const double *im, 
         if (beside || wraps) sum += slope_pull(&v, &rows->slopes[s], k);
     }
     return -sum;
-}
-
-/// Σ w |r|² of the rows from `from` to `end`, all of whose samples are the system's. Lanes are summed one by one, so that bits are
-/// the same however wide the machine is. In real mode im is re, and nothing of r's imaginary part counts.
-WIDEST static double inner_jets(const system_rows *rows, int from, int end, const double *restrict re,
-                                const double *restrict im)
-{
-    const double imaginary = rows->is_complex ? 1 : 0;
-    double sum[LANES] = {0}, all = 0;
-    for (int i = from; i < end; i += LANES) {
-        const int lanes = end - i < LANES ? end - i : LANES;
-        const coefficients *at = rows->at + i;
-        const cplx *drive = rows->drive + i;
-        for (int n = 0; n < lanes; n++) {
-            const double *a = re + i + n, *b = im + i + n;
-            const double step_re = a[0] - a[-1], step_im = b[0] - b[-1];
-            const double r_re = a[1] - a[0] - step_re + drive[n].re + at[n].p.re * a[-1] - at[n].p.im * b[-1] -
-                                (at[n].m.re * step_re - at[n].m.im * step_im);
-            const double r_im = b[1] - b[0] - step_im + drive[n].im + at[n].p.re * b[-1] + at[n].p.im * a[-1] -
-                                (at[n].m.re * step_im + at[n].m.im * step_re);
-            sum[n] += rows->jet_weight[i + n] * (r_re * r_re + imaginary * (r_im * r_im));
-        }
-    }
-    for (int n = 0; n < LANES; n++) all += sum[n];
-    return all;
-}
-
-static double jets_energy(const view *v)
-{
-    const system_rows *rows = v->rows;
-    const int from = rows->jet_from > 1 ? rows->jet_from : 1;
-    const int end = rows->jet_to + 1 < rows->count - 1 ? rows->jet_to + 1 : rows->count - 1;
-    double sum = from < end ? inner_jets(rows, from, end, v->re, v->im ? v->im : v->re) : 0;
-    for (int i = rows->jet_from; i <= rows->jet_to; i++) {
-        if (i < from || i >= end) sum += rows->jet_weight[i] * cplx_norm(jet_at(v, i));
-    }
-    return sum;
-}
-
-double system_energy(const system_rows *rows, const double *re, const double *im)
-{
-    view v = {rows, re, im};
-    double sum = jets_energy(&v), by;
-    for (int s = 0; s < rows->slope_count; s++) {
-        double miss = slope_miss(&v, &rows->slopes[s], -1, &by);
-        sum += rows->slopes[s].weight * (miss * miss);
-    }
-    for (int i = 0; i < 2 && !rows->loop; i++)
-        sum += rows->start.row[i].weight * cplx_norm(start_at(&v, &rows->start.row[i]));
-    for (int i = 0; i < rows->count && im; i++) sum += rows->im_weight[i] * (im[i] * im[i]);
-    return sum;
 }

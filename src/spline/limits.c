@@ -177,7 +177,6 @@ wiggly_status limits_find(wiggly_solver *solver, problem *p, wiggly_curve *curve
 {
     limits_work w = {.solver = solver, .p = p, .curve = curve, .result = result, .has_room = true};
     solver->limits.solves = 0;
-    solver->limits.tail_energy = 0;
     w.status = problem_find(solver, p, curve, result);
     if (w.status == WIGGLY_SINGULAR) return w.status;
     w.body = body_of(p);

@@ -136,7 +136,6 @@ static void add_push(limits_work *w)
     m->all[0] = at_rest(&tail->desc); // the body's knots were there meanwhile
     take_knots(solver, tail, 1);
     problem_set_rows(solver, &tail->p);
-    m->tail_energy = system_energy(&solver->rows, e, NULL) / tail->p.unit;
     for (int i = tail->from; i <= tail->to; i++) {
         if (limits_hold(w, i)) m->pull[i] = unit * system_pull(&solver->rows, e, NULL, i - L);
     }
@@ -186,7 +185,7 @@ static bool solve_body(limits_work *w, const double on_turn[2])
 bool limits_solve(limits_work *w)
 {
     double on_turn[2] = {0, 0};
-    w->tail_error = w->solver->limits.tail_energy = 0;
+    w->tail_error = 0;
     w->solver->limits.solves++;
     const int knots = w->p->desc->knot_count;
     if (w->tail.held > 0) {

@@ -141,7 +141,8 @@ static chain_view view_of(const problem *p, int sample)
     return ahead && behind ? VIEW_BOTH : ahead ? VIEW_AHEAD : VIEW_BEHIND;
 }
 
-bool problem_put_knot(const problem *p, chain_node *node, const wiggly_knot *knot, const wiggly_knot *pair)
+/// Writes what a knot says into a node, with the knot on the next sample where there is one; true where only values changed.
+static bool put_knot(const problem *p, chain_node *node, const wiggly_knot *knot, const wiggly_knot *pair)
 {
     slope_row slope = {0};
     const bool inside =
@@ -171,9 +172,7 @@ static bool make_nodes(wiggly_solver *solver, const problem *p)
     for (int i = 0; i < knots; i++, node++) {
         int n = in_turn(p, begin + i);
         bool pair = has_company(solver, p, n);
-        same =
-            problem_put_knot(p, node, knot_at(solver, p, n), pair ? knot_at(solver, p, in_turn(p, n + 1)) : NULL) &&
-            same;
+        same = put_knot(p, node, knot_at(solver, p, n), pair ? knot_at(solver, p, in_turn(p, n + 1)) : NULL) && same;
         if (p->start == WIGGLY_LOOP) node->sample = (node->sample - turned + p->count) % p->count;
         if (pair) i++;
     }
@@ -238,7 +237,8 @@ static void set_speeds(chain *c, const problem *p, const constant_filter *f)
     c->tail = tail_of(f, p);
 }
 
-void problem_set_chain(wiggly_solver *solver, const problem *p)
+/// Puts filter, start and end into the solver's chain, and forgets what was made for others.
+static void set_chain(wiggly_solver *solver, const problem *p)
 {
     chain *c = &solver->chain;
     const constant_filter *f = problem_filter(solver, p);
@@ -269,7 +269,7 @@ static bool is_held(const chain *c) { return c->cyclic || c->node_count >= 2 || 
 /// Puts filter, start and nodes into the solver's chain; true where the nodes differ from those before only in values.
 static bool make_chain(wiggly_solver *solver, const problem *p)
 {
-    problem_set_chain(solver, p);
+    set_chain(solver, p);
     return make_nodes(solver, p);
 }
 

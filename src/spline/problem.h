@@ -102,12 +102,6 @@ bool problem_fits_chain(wiggly_solver *solver, const problem *p);
 /// or WIGGLY_OK.
 wiggly_status problem_pose(wiggly_solver *solver, const wiggly_desc *desc, double *y, problem *p);
 
-/// Writes what a knot says into a node, with the knot on the next sample where there is one; true where only values changed.
-bool problem_put_knot(const problem *p, chain_node *node, const wiggly_knot *knot, const wiggly_knot *pair);
-
-/// Puts filter, start and end into the solver's chain, and forgets what was made for others.
-void problem_set_chain(wiggly_solver *solver, const problem *p);
-
 /// Solves by the chain: x of the system, M numbers each (x_im in complex mode). false where it declines: one knot without any
 /// hold, digits lost, or numbers so large that something might overflow.
 bool problem_solve_chain(wiggly_solver *solver, const problem *p, double *x_re, double *x_im);
@@ -118,10 +112,6 @@ wiggly_status problem_find(wiggly_solver *solver, problem *p, wiggly_curve *curv
 
 /// Whether a slope is implied at the earliest knot, because nothing else holds the spline.
 bool problem_implies_slope(const problem *p);
-
-/// Samples of a spline whose nodes are solved, and all else of the curve, as wiggly_solve() would leave it. false where something
-/// is wrong with them, and wiggly_solve() is to find a way.
-bool problem_finish(wiggly_solver *solver, const problem *p, wiggly_curve *curve);
 
 /// Whether max |x| is beyond what the knots can mean. `solved` is the chain where that found x, else NULL.
 bool problem_blew_up(const problem *p, const chain *solved, const wiggly_curve *curve);

@@ -36,7 +36,6 @@ typedef struct limit_memory {
     double *re, *im;        ///< where the curve has no arrays
     double *free[2];        ///< behind the last knot: Re w by itself, and what 1 of Im w there adds to it
     double *pushed[2];      ///< what the limits add to each of them
-    double tail_energy;     ///< E·h³ of that
     int solves;             ///< after the first one, of the last limited spline
 } limit_memory;
 

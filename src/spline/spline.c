@@ -244,16 +244,3 @@ wiggly_status wiggly_solve(wiggly_solver *solver, const wiggly_desc *desc, wiggl
     keep_asked(curve, all);
     return status;
 }
-
-bool problem_finish(wiggly_solver *solver, const problem *p, wiggly_curve *curve)
-{
-    wiggly_curve all = with_arrays(solver, curve);
-    if (!chain_fill(&solver->chain, all.re + p->first, all.im + p->first)) return false;
-    problem_settle(solver, p, all.re, all.im);
-    if (p->free_end && problem_blew_up(p, &solver->chain, &all)) return false;
-    problem_complete(solver, p, &all);
-    all.error = 0;
-    all.refinements = 0;
-    keep_asked(curve, all);
-    return true;
-}

@@ -80,8 +80,7 @@ void system_right_side(const system_rows *rows);
 /// Everything that is known 0: what is left is the answer to pulls.
 void system_forget_known(const system_rows *rows);
 
-/// E·h³ of a curve that begins with the system, and −½ of its gradient by Re x of a sample; `im` is NULL outside complex mode.
-double system_energy(const system_rows *rows, const double *re, const double *im);
+/// −½ of the gradient of E·h³ by Re x of a sample, at a curve that begins with the system; `im` is NULL outside complex mode.
 double system_pull(const system_rows *rows, const double *re, const double *im, int k);
 
 /// The squared matrix Rᵀ W R with fixed unknowns as rows of the identity, ready to be factored.
