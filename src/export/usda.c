@@ -33,8 +33,11 @@ void usda_unique(struct usda_names *names, const char *wanted, char name[FORM_NA
     make_identifier(wanted, name);
     for (int number = names->count++;; number++) { // from where most likely none is
         char *const *found = tsearch(name, &names->tree, compare);
-        if (!found) need_failed();
-        if (*found == name) return;
+        if (!found) {
+            need_failed();
+        } else if (*found == name) {
+            return;
+        }
         snprintf(numbered, sizeof numbered, "%.40s_%d", wanted, number);
         make_identifier(numbered, name);
     }

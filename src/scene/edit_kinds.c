@@ -2,39 +2,10 @@
 #include "scene/edit_kinds.h"
 #include <assert.h>
 
-static bool apply(struct document *d, const struct edit *e, struct error *error)
+static bool apply_to_rig(struct document *d, const struct edit *e, struct error *error)
 {
     const struct channel_place at = {e->rig, e->channel};
     switch (e->kind) {
-    case EDIT_KNOT_INSERT:
-        return edit_knot_insert(d, e->spline, &e->knot, error);
-    case EDIT_KNOT_REMOVE:
-        return edit_knot_remove(d, e->spline, e->knot.id, error);
-    case EDIT_KNOT_SET:
-        return edit_knot_set(d, e->spline, &e->knot, error);
-    case EDIT_PARAMETER:
-        return edit_parameter(d, e->spline, e->parameter, &e->param, error);
-    case EDIT_SPLINE_ADD:
-        return edit_spline_add(d, e->spline, e->text, e->flag ? &e->knot : NULL, error);
-    case EDIT_SPLINE_COPY:
-        return edit_spline_copy(d, e->spline, error);
-    case EDIT_SPLINE_REMOVE:
-        return edit_spline_remove(d, e->spline, error);
-    case EDIT_SPLINE_MOVE:
-        return edit_spline_move(d, e->spline, e->to, error);
-    case EDIT_SPLINE_NAME:
-        return edit_spline_name(d, e->spline, e->text, error);
-    case EDIT_SPLINE_COLOR:
-        return edit_spline_color(d, e->spline, e->color, error);
-    case EDIT_DOCUMENT:
-        edit_document(d, e->document);
-        return true;
-    case EDIT_FPS:
-        return edit_fps(d, e->number, e->flag, error);
-    case EDIT_SUBSTEPS:
-        return edit_substeps(d, e->substeps, error);
-    case EDIT_RANGE:
-        return edit_range(d, e->first, e->last, e->fit, error);
     case EDIT_ANGLES:
         return edit_angles(d, at, e->angle, e->angles, error);
     case EDIT_AXIS:
@@ -89,8 +60,46 @@ static bool apply(struct document *d, const struct edit *e, struct error *error)
         return edit_pin_set(d, e->rig, &e->pin, error);
     case EDIT_PIN_REMOVE:
         return edit_pin_remove(d, e->rig, e->pin.id, error);
+    default:
+        return false;
     }
-    return false;
+}
+
+static bool apply(struct document *d, const struct edit *e, struct error *error)
+{
+    switch (e->kind) {
+    case EDIT_KNOT_INSERT:
+        return edit_knot_insert(d, e->spline, &e->knot, error);
+    case EDIT_KNOT_REMOVE:
+        return edit_knot_remove(d, e->spline, e->knot.id, error);
+    case EDIT_KNOT_SET:
+        return edit_knot_set(d, e->spline, &e->knot, error);
+    case EDIT_PARAMETER:
+        return edit_parameter(d, e->spline, e->parameter, &e->param, error);
+    case EDIT_SPLINE_ADD:
+        return edit_spline_add(d, e->spline, e->text, e->flag ? &e->knot : NULL, error);
+    case EDIT_SPLINE_COPY:
+        return edit_spline_copy(d, e->spline, error);
+    case EDIT_SPLINE_REMOVE:
+        return edit_spline_remove(d, e->spline, error);
+    case EDIT_SPLINE_MOVE:
+        return edit_spline_move(d, e->spline, e->to, error);
+    case EDIT_SPLINE_NAME:
+        return edit_spline_name(d, e->spline, e->text, error);
+    case EDIT_SPLINE_COLOR:
+        return edit_spline_color(d, e->spline, e->color, error);
+    case EDIT_DOCUMENT:
+        edit_document(d, e->document);
+        return true;
+    case EDIT_FPS:
+        return edit_fps(d, e->number, e->flag, error);
+    case EDIT_SUBSTEPS:
+        return edit_substeps(d, e->substeps, error);
+    case EDIT_RANGE:
+        return edit_range(d, e->first, e->last, e->fit, error);
+    default:
+        return apply_to_rig(d, e, error);
+    }
 }
 
 bool history_apply(struct history *history, struct document *document, const struct edit *edit, struct error *error)
