@@ -118,13 +118,13 @@ static void needs_more(void *user, struct error *error)
 {
     (void)error;
     (void)user;
-    need(SIZE_MAX / 2, 1);
+    need(SIZE_MAX, 2);
 }
 
 static void run_twice_short(void)
 {
     need_keep(0, needs_more, NULL);
-    need(SIZE_MAX / 2, 1);
+    need(SIZE_MAX, 2);
 }
 
 static void a_rescue_that_runs_out_ends_there(void **state)
@@ -155,7 +155,7 @@ static void waits(void *user, struct error *error)
 static void run_threads(void)
 {
     need_keep(RESERVE, waits, NULL);
-    need(SIZE_MAX / 2, 1);
+    need(SIZE_MAX, 2);
 }
 
 static void the_first_thread_ends_it(void **state)
@@ -169,7 +169,7 @@ static void the_first_thread_ends_it(void **state)
 static int need_too_much(void *user)
 {
     (void)user;
-    need(SIZE_MAX / 2, 1);
+    need(SIZE_MAX, 2);
     return 0;
 }
 

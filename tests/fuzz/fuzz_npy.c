@@ -21,7 +21,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     fuzz_same("paint that is saved, loaded and saved is the same", first.data, first.size, second.data, second.size);
     free(first.data);
     free(second.data);
-    paint_destroy(paint);
-    paint_destroy(again);
+    paint_drop(paint);
+    paint_drop(again);
     return 0;
 }

@@ -157,8 +157,9 @@ void inspector_angles(struct inspection *in, const struct angle_row *row, const 
     const struct angles ramp = inspector_as_ramp(angles, row->kind, joints),
                         each = each_angle(angles, row->kind, joints);
     if (build_switch(in, row, angles, &ramp, left) || build_switch(in, row, angles, &each, right)) return;
-    if (angles->form == ANGLES_RAMP) inspector_ramp(in, row, angles);
-    if (angles->form == ANGLES_EACH) inspector_each(in, row, angles);
+    const struct angles now = *angles; // an edit may free them while they are shown
+    if (now.form == ANGLES_RAMP) inspector_ramp(in, row, &now);
+    if (now.form == ANGLES_EACH) inspector_each(in, row, &now);
 }
 
 enum { HEIGHT = 64, INSET = 7, NAME = 32, REACH = 11 }; ///< pixels; REACH: of a right click from its point
@@ -480,7 +481,7 @@ static void build_curve(struct inspection *in, const struct each_view *view, str
 {
     struct ui *ui = in->ui;
     struct ui_handle handle = {.name = view->name,
-                               .hint = "Drag over the joints to each_draw their angles; a click selects one",
+                               .hint = "Drag over the joints to draw their angles; a click selects one",
                                .x = each_x_of(view, view->joint),
                                .y = each_y_of(view, view->angles->value[view->joint])};
     int which;
