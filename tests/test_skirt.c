@@ -1,5 +1,5 @@
 /// Skirts of models of several nodes: each mesh stands in its own place, and faces the eye or not by itself.
-#include "draw/model_skirt.h"
+#include "draw/skirt.h"
 #include "gltf_builder.h"
 
 /// A square of one metre, seen from +z, for two nodes: one of them 5 m behind, its back to the eye.

@@ -7,8 +7,7 @@
 //     in    o---o---o---o      half a pixel inside: all
 //           |           |
 //     core  o-----------o      the rectangle's side
-#include "draw/band.h"
-#include "draw/shape.h"
+#include "draw/paint.h"
 #include <math.h>
 
 enum { STRETCH = 16 }; ///< columns

@@ -1,7 +1,5 @@
 /// Turns polylines into anti-aliased strips of triangles.
-#include "draw/line.h"
-#include "draw/simplify.h"
-#include "draw/stroke.h"
+#include "draw/paint.h"
 
 /// A line with more dashes runs far beyond any screen and is drawn solid.
 enum { DASHES_MAX = 10000 };

@@ -3,7 +3,7 @@
 #define DRAW_MODEL_BUFFERS_H
 
 #include "draw/gl.h"
-#include "draw/model_skirt.h"
+#include "draw/skirt.h"
 #include "model/gltf.h"
 
 enum { MATRICES_A_ROW = 64, FLOATS_A_ROW = MATRICES_A_ROW * 3 * 4 }; ///< as in stage_model.vert

@@ -1,6 +1,6 @@
 /// Finds the outlines of soft characters, and what skirts show there.
-#include "draw/morph_skirt.h"
 #include "base/need.h"
+#include "draw/skirt.h"
 #include "model/triangle_neighbours.h"
 #include "ui/theme.h"
 #include <stdlib.h>

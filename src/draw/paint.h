@@ -1,10 +1,83 @@
-/// Turns a draw list into triangles. Private to draw/.
+/// What draw lists become: shapes, lines and text as anti-aliased triangles. Private to draw/.
 #ifndef DRAW_PAINT_H
 #define DRAW_PAINT_H
 
 #include "draw/batch.h"
-#include "draw/line.h"
 #include "ui/font.h"
+
+// Filled shapes as anti-aliased triangles.
+
+/// A vertex of a filled shape: full coverage, white texel.
+struct batch_vertex shape_vertex(float x, float y, uint32_t color);
+
+/// The rectangle from (x0, y0) to (x1, y1), device pixels, clipped to `clip`. A partly covered pixel gets exactly
+/// that share of the colour.
+void shape_rect(struct batch *batch, const float corners[4], struct area clip, uint32_t color);
+
+/// A convex polygon of `count` points, given in logical pixels.
+void shape_convex(struct batch *batch, const float *xy, int count, float scale, uint32_t color);
+
+// What a line that goes up and down from point to point covers, as few triangles.
+
+/// Everything between each of `count` points and the next, `width` wide; points and width in logical pixels, x never decreasing.
+void band_add(struct batch *batch, const float *xy, int count, float width, float scale, uint32_t color);
+
+// Polylines as anti-aliased strips of triangles.
+
+enum { LINE_POINTS = 8192 };
+
+struct line_point {
+    float x, y;
+    float along; ///< distance from the nearer end + 1/2, or 1 where the line is closed
+};
+
+/// Working memory: a line in device pixels, and one dash of it.
+struct line_scratch {
+    struct line_point points[LINE_POINTS], dash[LINE_POINTS];
+};
+
+struct line_style {
+    float width;   ///< logical pixels
+    float on, off; ///< dashes, logical pixels; 0 where there are none
+    float scale;   ///< device pixels a logical pixel
+    uint32_t color;
+};
+
+/// Adds a polyline given in logical pixels; parts that cannot touch `visible` are left out.
+void line_add(struct batch *batch, struct line_scratch *scratch, const float *xy, int count, struct line_style style,
+              struct area visible);
+
+// Fewer points for the same picture.
+
+/// Scales points to device pixels and leaves out those that lie within a twentieth of a pixel of the line without them.
+/// Reads until `out` (`capacity` points, at least 3) is full; returns how many were written, and in `read` how many
+/// input points were looked at: where that is less than `count`, the rest begins at point read − 1. Ends are kept.
+int simplify_line(const float *xy, int count, float scale, struct line_point *out, int capacity, int *read);
+
+// The strip of triangles of one line, in device pixels.
+
+/// A line being drawn: its look, and the last pair of vertices, for the next quad to share.
+struct stroke {
+    struct batch *batch;
+    struct area visible;
+    uint32_t color;
+    float reach; ///< half width + 1/2, device pixels
+    uint32_t left, right;
+    unsigned generation;
+    bool linked;
+};
+
+/// Distinct points; where closed the last one is the first one again.
+struct polyline {
+    const struct line_point *points;
+    int count;
+    bool closed;
+};
+
+/// Adds the triangles of a line of at least two points; segments that cannot touch what is visible are left out.
+void stroke_draw(struct stroke *stroke, struct polyline line);
+
+// Turns a draw list into triangles.
 
 struct painter {
     struct batch *batch;

@@ -17,7 +17,7 @@ struct painter {
     void (*draw)(const void *state, const struct stage_view *view, float scale, float seam);
     /// Height of the ground under the lowest of them; INFINITY where there are none.
     float (*ground)(const struct stage_view *view);
-    /// Adds the boxes around them (stage_extent.h).
+    /// Adds the boxes around them (draw/stage.h).
     void (*extent)(const struct stage_view *view, struct extent *extent);
 };
 

@@ -1,5 +1,5 @@
 /// Filled shapes as triangles with anti-aliased edges.
-#include "draw/shape.h"
+#include "draw/paint.h"
 
 /// From here on a fill costs less through glClear than as two triangles (measured with llvmpipe).
 enum { FILL_PIXELS = 4096, CONVEX_MAX = 128 };

@@ -1,5 +1,5 @@
 /// Drops points of a polyline whose absence nobody would see.
-#include "draw/simplify.h"
+#include "draw/paint.h"
 #include "model/vector.h"
 
 /// Device pixels. Software rasterisers pay by the triangle, but from a fifteenth of a pixel up, steps show in slow curves.

@@ -1,10 +1,15 @@
-/// Where a mesh's outlines are as the eye sees them, and the skirt that hangs there: a strip a pixel wide that sticks out of the surface and fades.
-/// That softens outlines, those of a leg before another too, without multisampling. Private to the stage's files of draw/.
+/// Outlines of meshes, and the skirts that hang there: strips a pixel wide that stick out of the surface and fade. They soften outlines, those of
+/// a leg before another too, without multisampling. Private to the stage's files of draw/.
 #ifndef DRAW_SKIRT_H
 #define DRAW_SKIRT_H
 
+#include "draw/morph_looks.h"
+#include "draw/painter.h"
+#include "model/gltf.h"
 #include <stdbool.h>
 #include <stdint.h>
+
+// Where a mesh's outlines are as the eye sees them, and where its skirt goes.
 
 /// A mesh as it stands.
 struct skirt_mesh {
@@ -26,5 +31,82 @@ int skirt_next(const struct skirt_mesh *mesh, int first, int end, bool both_side
 /// `pixel` is metres a pixel at a distance of 1 m.
 void skirt_out(const struct skirt_mesh *mesh, int corner, const float normal[2][3], const float eye[3], float pixel,
                float out[2][3]);
+
+// Draws the skirts of what the GPU moves: soft and imported characters.
+
+/// What a skirt shows at a vertex of its mesh.
+struct skirt_vertex {
+    float place[3], normal[3]; ///< world
+    float color[4];            ///< linear, with opacity
+    float uv[2], phase[2];     ///< as stage_mesh.frag has them
+    float cover;               ///< 1 on the surface, 0 a pixel off it
+};
+
+struct stage_skirt {
+    GLuint program, vertex_array, buffer, indices, white;
+    struct painter_uniforms shared;
+    struct {
+        GLint shade, line, cutoff, blended;
+    } at;
+    struct skirt_vertex *vertices;
+};
+
+/// False with a sentence; then there is nothing to free.
+bool stage_skirt_create(struct stage_skirt *skirt, struct error *error);
+void stage_skirt_destroy(struct stage_skirt *skirt);
+
+/// Uses its program, whose uniforms `at` the caller sets; a white picture, opaque, and the unit for others until stage_skirt_leave().
+void stage_skirt_use(const struct stage_skirt *skirt, const struct stage_view *view, float seam);
+
+void stage_skirt_leave(void);
+
+/// Says all but place and cover of a vertex.
+typedef void skirt_look(const void *context, uint32_t vertex, struct skirt_vertex *out);
+
+/// Draws the skirt of the triangles from index `first` to `end`.
+void stage_skirt_draw(const struct stage_skirt *skirt, const struct skirt_mesh *mesh, int first, int end,
+                      bool both_sides, const float eye[3], float seam, skirt_look *look, const void *context);
+
+// The skirts of imported characters.
+
+/// All nodes' meshes, one after the other, part after part, as one that stands in the world. All zero: they are too many, and edges stay hard.
+struct model_skirt {
+    uint32_t *indices;
+    int *neighbours;
+    float (*place)[3], (*normal)[3];
+    bool *front;
+    int *first_vertex, *first_index; ///< of each node
+};
+
+/// Finds what lies across edges. Meshes of different nodes have nothing to do with each other.
+void model_skirt_create(struct model_skirt *skirt, const struct gltf *gltf);
+void model_skirt_free(struct model_skirt *skirt);
+
+/// Whether a node without a skin is mirrored, which turns its triangles round.
+bool model_is_mirrored(const struct gltf *gltf, const struct gltf_pose *pose, int node);
+
+/// Moves a node's mesh, and says what of it faces the eye.
+struct skirt_mesh model_skirt_pose(const struct model_skirt *skirt, const struct gltf *gltf,
+                                   const struct gltf_pose *pose, int node, const float root[16], const float eye[3]);
+
+// The skirts of soft characters.
+
+/// What of a figure's outlines is kept.
+struct morph_skirt {
+    uint32_t *sorted
+        [2]; ///< of the fine and of the coarse triangles, as morph_looks_sort() has them; NULL: as the figure has them
+    int *neighbours[2];
+    float (*place)[3]; ///< of each vertex
+    bool *front;       ///< of each triangle
+};
+
+/// `sorted` are set, and stay its own.
+void morph_skirt_create(struct morph_skirt *skirt, const struct figure *figure, const struct morph_looks *looks);
+void morph_skirt_free(struct morph_skirt *skirt);
+
+/// Draws those of a character; with pictures where it has ranges.
+void morph_skirt_draw(const struct morph_skirt *skirt, const struct stage_skirt *program,
+                      const struct stage_view *view, const struct stage_character *shown,
+                      const struct morph_looks *looks, float seam);
 
 #endif

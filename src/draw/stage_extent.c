@@ -1,7 +1,7 @@
 /// Finds what moves on the stage, and where on the screen.
-#include "draw/stage_extent.h"
 #include "base/hash.h"
 #include "draw/painter.h"
+#include "draw/stage.h"
 #include <math.h>
 
 /// A growing box on the screen: −1 … 1 over the viewport.

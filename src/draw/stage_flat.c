@@ -1,8 +1,7 @@
 /// Draws background, ground and contact shadows.
-#include "draw/stage_flat.h"
 #include "base/need.h"
 #include "draw/painter.h"
-#include "draw/stage_extent.h"
+#include "draw/stage.h"
 #include <math.h>
 #include <stddef.h>
 #include <stdlib.h>

@@ -1,7 +1,7 @@
 /// Draws a meadow: one strip of triangles, instanced for every reed.
 #include "base/need.h"
 #include "draw/painter.h"
-#include "draw/stage_extent.h"
+#include "draw/stage.h"
 #include <math.h>
 #include <stddef.h>
 #include <stdlib.h>

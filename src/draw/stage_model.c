@@ -1,8 +1,8 @@
 /// Draws imported characters with their own materials.
 #include "base/need.h"
 #include "draw/model_buffers.h"
-#include "draw/stage_extent.h"
-#include "draw/stage_skirt.h"
+#include "draw/skirt.h"
+#include "draw/stage.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

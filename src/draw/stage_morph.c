@@ -1,9 +1,8 @@
 /// Moves soft characters on the GPU, by complex morphs.
 #include "base/need.h"
-#include "draw/morph_skirt.h"
 #include "draw/painter.h"
+#include "draw/skirt.h"
 #include "draw/stage.h"
-#include "draw/stage_extent.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

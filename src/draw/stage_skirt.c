@@ -1,5 +1,5 @@
 /// Draws the skirts of what the GPU moves.
-#include "draw/stage_skirt.h"
+#include "draw/skirt.h"
 #include "base/need.h"
 #include "model/triangle_neighbours.h"
 #include "model/vector.h"

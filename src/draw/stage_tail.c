@@ -2,7 +2,7 @@
 #include "base/need.h"
 #include "draw/area.h"
 #include "draw/painter.h"
-#include "draw/stage_extent.h"
+#include "draw/stage.h"
 #include "draw/stage_skin.h"
 #include "model/coat.h"
 #include "model/creature.h"

@@ -1,6 +1,6 @@
 /// Draws the stage at a lower resolution and enlarges it.
-#include "draw/stage_target.h"
 #include "draw/batch.h"
+#include "draw/stage.h"
 
 void stage_target_destroy(struct stage_target *target)
 {

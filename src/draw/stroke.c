@@ -9,8 +9,7 @@
 //          p0 --------- p --------- p1
 //        in[1] ----- mitre ----- out[1]        right: across = −reach
 
-#include "draw/stroke.h"
-#include "draw/shape.h"
+#include "draw/paint.h"
 #include "model/vector.h"
 
 /// Beyond 120° a mitre would be longer than the line is wide.

@@ -1,8 +1,10 @@
-/// Times drawing by the CPU's clock, and by the GPU's if the driver has one. Private to draw/.
+/// What tells how fast drawing is: the CPU's clock, the GPU's, and a fixed frame as the yardstick. Private to draw/.
 #ifndef DRAW_TIMER_H
 #define DRAW_TIMER_H
 
+#include "base/error.h"
 #include "draw/gl.h"
+#include "ui/stage.h"
 #include <stdbool.h>
 
 /// Microseconds on a monotonic clock.
@@ -28,5 +30,25 @@ void gpu_timer_end(struct gpu_timer *timer);
 
 /// Microseconds of the oldest frame that has come back since the last call, and its number; negative where there is none.
 double gpu_timer_take(struct gpu_timer *timer, long *frame);
+
+// The fixed frame that every timing log carries as its yardstick: lines, text and a bent tail that come from constants
+// alone, so that logs of different builds and documents can be compared.
+
+enum { REFERENCE_RUNS_MAX = 64 };
+
+struct reference {
+    struct drawlist list;
+    struct stage_view stage;
+    double ms[REFERENCE_RUNS_MAX];
+};
+
+void reference_create(struct reference *reference);
+void reference_destroy(struct reference *reference);
+
+/// Lays the frame out in a window of width × height logical pixels.
+void reference_arrange(struct reference *reference, float width, float height);
+
+/// Sorts the first `count` entries of `ms` and returns their median.
+double reference_median(struct reference *reference, int count);
 
 #endif

@@ -1,5 +1,5 @@
 /// Characters in .glb and .gltf, by every reader of them: imported, as a surface, and as a character of ours; and what is drawn of them.
-#include "draw/model_skirt.h"
+#include "draw/skirt.h"
 #include "rig/imported.h"
 #include "surface.h"
 #include <stdlib.h>
