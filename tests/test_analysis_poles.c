@@ -1,6 +1,6 @@
 /// The analysis by poles on planted oscillations: frequency, damping and shape, whatever the frame rate, noise and drift.
 #include "analysis/analysis.h"
-#include "analysis/knots.h"
+#include "analysis/component.h"
 #include "planted.h"
 #include "with_lapack.h"
 #include <string.h>

@@ -1,8 +1,7 @@
 /// The whole analysis of one motion: G, its drift, its poles or principal components, their shapes.
 #include "analysis/analysis.h"
-#include "analysis/drift.h"
-#include "analysis/exponentials.h"
-#include "analysis/slabs.h"
+#include "analysis/basis.h"
+#include "analysis/poles.h"
 #include "analysis/spectrum.h"
 #include "base/need.h"
 #include <math.h>

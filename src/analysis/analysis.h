@@ -3,7 +3,7 @@
 #define ANALYSIS_ANALYSIS_H
 
 #include "analysis/component.h"
-#include "analysis/time_series.h"
+#include "analysis/poles.h"
 #include "base/lapack.h"
 #include "model/motion.h"
 

@@ -1,8 +1,10 @@
-/// Sequences over the frames, and least squares on them.
+/// Sequences over the frames, least squares on them, and the drift that is found so.
 #ifndef ANALYSIS_BASIS_H
 #define ANALYSIS_BASIS_H
 
 #include <stdbool.h>
+
+// Sequences over the frames, and least squares on them.
 
 /// B: `count` sequences, each of `frames` numbers. B = L Q with orthonormal rows of Q and L lower triangular.
 struct basis {
@@ -23,5 +25,37 @@ double basis_gain(const struct basis *basis, int last, const double *gram);
 
 /// W = (B Bᵀ)⁻¹ B, count × frames: S ≈ Bᵀ (W S) with the least sum of squares.
 void basis_weights(const struct basis *basis, double *weights);
+
+// The steady drift of a motion, every vertex along a line at a speed of its own, and the position that it swings about.
+
+/// Taking it out is a matrix on the frames: S′ = (1 − D) S, D = p₀ w₀ᵀ + p₁ w₁ᵀ, with p₀ = 1 and p₁ the frame number from the
+/// middle.
+struct drift {
+    int frames;
+    double *weights; ///< w₀ and w₁: w₁ S is what each column drifts by a frame
+    double share;    ///< of the motion's power, 0 … 1
+};
+
+/// Appends p₀ and p₁ to a basis.
+void drift_append(struct basis *basis);
+
+/// From a basis that begins with p₀ and p₁; `gram` is G = S Sᵀ.
+void drift_create(struct drift *drift, const struct basis *basis, const double *gram);
+void drift_free(struct drift *drift);
+
+/// From one of the frames from `first` on to one of all of them, whose G is `gram`.
+void drift_extend(struct drift *drift, int first, const double *gram);
+
+/// Keeps each column's mean: D = p₁ w₁ᵀ from now on.
+void drift_keep_means(struct drift *drift);
+
+/// No drift at all: D = 0.
+void drift_keep_all(struct drift *drift);
+
+/// G becomes (1 − D) G (1 − D)ᵀ.
+void drift_remove(const struct drift *drift, double *gram);
+
+/// Weights of S′ become the weights of S that do the same: `rows` of them, each `frames` long.
+void drift_adapt(const struct drift *drift, double *weights, int rows);
 
 #endif

@@ -1,9 +1,11 @@
-/// One complex coordinate of a motion: its time series R and its complex normal coordinate Ñ, with S ≈ Re(R Ñ).
+/// One complex coordinate of a motion, its time series R and its complex normal coordinate Ñ with S ≈ Re(R Ñ), and the wiggly spline
+/// that does what it did.
 #ifndef ANALYSIS_COMPONENT_H
 #define ANALYSIS_COMPONENT_H
 
 #include <complex.h>
 #include <stdbool.h>
+#include <wiggly/wiggly.h>
 
 /// Σ_t |s_t − Re(x_t Ñ)|² for any time series x, from a few numbers. s_t is a frame of the component's own motion: that of all
 /// vertices less what the other components do.
@@ -42,5 +44,26 @@ void component_fit(struct component *component, double fps);
 
 /// Finds `first_lag`, `last_lag` and `reach`.
 void component_lags(struct component *component);
+
+// The wiggly spline that does what a coordinate did: few knots, a frequency, a damping.
+
+enum { KNOTS_MOST = 5 };
+
+/// A spline of one sample a frame, start free and calm 1; its numbers are as short as they are written.
+struct knots {
+    wiggly_mode mode;                     ///< complex or real
+    double frequency, damping, bandwidth; ///< Hz; ratio; fraction of the frequency
+    int count;
+    bool sloped;                                 ///< every knot has a slope
+    int frame[KNOTS_MOST];                       ///< ascending; the first is 0
+    double value[KNOTS_MOST], slope[KNOTS_MOST]; ///< value per second
+    double complex *series;                      ///< x per frame
+    double error;                                ///< component_error() of x
+};
+
+/// Finds as few knots as bring the error of the motion near the component's own, at most KNOTS_MOST. The same component gives the same
+/// knots.
+void knots_create(struct knots *knots, const struct component *component, double fps);
+void knots_free(struct knots *knots);
 
 #endif

@@ -1,5 +1,5 @@
 /// The drift of a motion, found by least squares together with its oscillations: half a swing is no drift.
-#include "analysis/drift.h"
+#include "analysis/basis.h"
 #include "base/need.h"
 #include <stdlib.h>
 #include <string.h>

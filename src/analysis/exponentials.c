@@ -1,5 +1,5 @@
 /// Forward selection of poles, on G = S Sᵀ alone.
-#include "analysis/exponentials.h"
+#include "analysis/poles.h"
 #include "base/need.h"
 #include <math.h>
 #include <stdlib.h>

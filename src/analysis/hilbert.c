@@ -10,7 +10,7 @@
 /// all columns together, from G = S Sᵀ alone. Burg's reflection coefficients lie within the unit circle, so
 /// the continuation never grows. Mirroring would be right only for a shake that starts displaced and at rest;
 /// after a blow it is off by a quarter period.
-#include "analysis/hilbert.h"
+#include "analysis/spectrum.h"
 #include "base/need.h"
 #include <math.h>
 #include <stdlib.h>

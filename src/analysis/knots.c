@@ -5,7 +5,7 @@
 ///
 /// and the solver answers in microseconds. The rest is search: one knot after the other where it helps most, then every frame
 /// and parameter in turn by shorter and shorter steps, all in a fixed order.
-#include "analysis/knots.h"
+#include "analysis/component.h"
 #include "base/need.h"
 #include <math.h>
 #include <stdlib.h>

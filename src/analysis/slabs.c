@@ -1,5 +1,5 @@
 /// Two passes over a motion in slabs of columns: one forms G = S Sᵀ, the other weights frames.
-#include "analysis/slabs.h"
+#include "analysis/spectrum.h"
 #include "base/need.h"
 #include <stdlib.h>
 

@@ -1,6 +1,5 @@
 /// Complex and real principal components from G, by LAPACKE.
 #include "analysis/spectrum.h"
-#include "analysis/hilbert.h"
 #include "base/need.h"
 #include <stdlib.h>
 #include <string.h>

@@ -15,7 +15,7 @@
 ///
 /// A motion that is not quite a sum of oscillations (large displacements, a force) needs more poles than it has. Those that chance
 /// puts where something is left to explain move as the order grows; those of the body stay, to three digits at any rate.
-#include "analysis/subspace.h"
+#include "analysis/poles.h"
 #include "base/need.h"
 #include <math.h>
 #include <stdlib.h>

@@ -10,9 +10,8 @@
 /// In turn, R given Ñ and Ñ given R are linear least squares, and each makes the sum smaller. Ñ = W S with weights W of the frames,
 /// so all that is needed of the motion is G = S Sᵀ: Ñᵢ·s_t = (W G)_it and Ñᵢ·Ñⱼ = (W G Wᵀ)_ij. R given Ñ is
 /// block tridiagonal over the frames, 2 × 2 a pole.
-#include "analysis/time_series.h"
 #include "analysis/basis.h"
-#include "analysis/exponentials.h"
+#include "analysis/poles.h"
 #include "base/need.h"
 #include <math.h>
 #include <stdlib.h>

@@ -2,7 +2,7 @@
 #ifndef COMMANDS_ANALYZE_SCENE_H
 #define COMMANDS_ANALYZE_SCENE_H
 
-#include "analysis/knots.h"
+#include "analysis/component.h"
 #include "model/character.h"
 
 /// What is known of a character's coordinate besides what its file holds.
