@@ -2,8 +2,7 @@
 #include "beam.h"
 #include "near.h"
 #include "simulation/blocks.h"
-#include "simulation/eigen.h"
-#include "simulation/vec3.h"
+#include "simulation/linear.h"
 #include <lapacke.h>
 #include <stdlib.h>
 #include <string.h>

@@ -1,7 +1,7 @@
 /// The lattice around a surface: what is inside, how much of it, what hangs together, and where the vertices are.
 #include "near.h"
 #include "simulation/lattice.h"
-#include "simulation/voxels.h"
+#include "simulation/solid.h"
 #include <stdlib.h>
 #include <string.h>
 

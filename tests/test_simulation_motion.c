@@ -1,9 +1,9 @@
 /// What an elastic body does in time: its frequency, its energy, its momenta, and that it always comes back to rest.
 #include "beam.h"
 #include "near.h"
+#include "simulation/body.h"
 #include "simulation/integrator.h"
-#include "simulation/modes.h"
-#include "simulation/vec3.h"
+#include "simulation/linear.h"
 #include <lapacke.h>
 #include <stdlib.h>
 #include <string.h>

@@ -1,7 +1,7 @@
 /// What acts on a soft body from outside: a base that moves, gravity, a floor; where it is held and how soft it is.
 #include "near.h"
+#include "simulation/linear.h"
 #include "simulation/soft.h"
-#include "simulation/vec3.h"
 #include "temporary.h"
 #include <stdio.h>
 #include <stdlib.h>

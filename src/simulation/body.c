@@ -1,7 +1,7 @@
 /// Sums energy, forces and stiffness over the elements.
 #include "simulation/body.h"
 #include "base/need.h"
-#include "simulation/vec3.h"
+#include "simulation/linear.h"
 #include <stdlib.h>
 #include <string.h>
 

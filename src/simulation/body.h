@@ -1,4 +1,4 @@
-/// An elastic body: nodes with masses, tetrahedra, and its energy, forces and stiffness in any position.
+/// An elastic body: nodes with masses, tetrahedra, its energy, forces and stiffness in any position, and its normal modes at rest.
 ///
 /// Masses are lumped: a quarter of each element's at each of its nodes.
 #ifndef SIMULATION_BODY_H
@@ -41,5 +41,18 @@ void body_stiffness(struct body *body);
 
 /// ½ Σ m v², J.
 double body_kinetic(const struct body *body, const double (*v)[3]);
+
+// Classical normal coordinates: K φ = ω² M φ at rest, by simultaneous diagonalisation of stiffness and mass (Goldstein).
+
+/// The lowest normal modes. A free body's six rigid ones are skipped.
+struct modes {
+    int count;
+    double *frequency;  ///< Hz, ascending
+    double (*shape)[3]; ///< count × node_count rows: mode k of node i at [k · node_count + i]; φᵀMφ = 1
+};
+
+/// The `count` lowest ones, or as many as there are.
+void modes_create(struct modes *modes, struct body *body, int count);
+void modes_free(struct modes *modes);
 
 #endif

@@ -1,6 +1,5 @@
 /// Eigenvalues and singular values by Jacobi rotations.
-#include "simulation/eigen.h"
-#include "simulation/vec3.h"
+#include "simulation/linear.h"
 #include <float.h>
 #include <math.h>
 #include <stdbool.h>

@@ -1,6 +1,6 @@
 /// Forces and stiffness of one tetrahedron.
 #include "simulation/element.h"
-#include "simulation/vec3.h"
+#include "simulation/linear.h"
 #include <string.h>
 
 bool element_init(struct element *element, const int node[4], const double (*rest)[3], double fraction)

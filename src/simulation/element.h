@@ -6,7 +6,7 @@
 #ifndef SIMULATION_ELEMENT_H
 #define SIMULATION_ELEMENT_H
 
-#include "simulation/eigen.h"
+#include "simulation/linear.h"
 #include "simulation/material.h"
 #include <stdbool.h>
 

@@ -1,7 +1,7 @@
 /// Springs under the surface's vertices.
 #include "simulation/floor.h"
 #include "base/need.h"
-#include "simulation/vec3.h"
+#include "simulation/linear.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

@@ -1,7 +1,7 @@
 /// Generalised-α steps, one Newton solve each.
 #include "simulation/integrator.h"
 #include "base/need.h"
-#include "simulation/vec3.h"
+#include "simulation/linear.h"
 #include <stdlib.h>
 #include <string.h>
 

@@ -3,8 +3,8 @@
 #include "base/need.h"
 #include "base/stage.h"
 #include "simulation/element.h"
+#include "simulation/linear.h"
 #include "simulation/tiling.h"
-#include "simulation/vec3.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

@@ -1,6 +1,6 @@
 /// Stress and stiffness in principal stretches.
 #include "simulation/material.h"
-#include "simulation/eigen.h"
+#include "simulation/linear.h"
 #include <math.h>
 #include <stdbool.h>
 

@@ -5,11 +5,10 @@
 /// too. Each Lanczos step is one system in K + sM, solved by conjugate gradients; every new vector is made orthogonal
 /// to all before it (twice, which is enough), so none returns as a copy. The small problem is diagonalised by Jacobi's
 /// method.
-#include "simulation/modes.h"
 #include "base/need.h"
 #include "base/stage.h"
-#include "simulation/eigen.h"
-#include "simulation/vec3.h"
+#include "simulation/body.h"
+#include "simulation/linear.h"
 #include <math.h>
 #include <stdint.h>
 #include <stdlib.h>

@@ -7,7 +7,6 @@
 #include "simulation/body.h"
 #include "simulation/integrator.h"
 #include "simulation/lattice.h"
-#include "simulation/modes.h"
 #include "simulation/region.h"
 #include "simulation/softness.h"
 

@@ -4,7 +4,7 @@
 #include "base/need.h"
 #include "base/npy.h"
 #include "base/srgb.h"
-#include "simulation/vec3.h"
+#include "simulation/linear.h"
 #include <stdlib.h>
 #include <string.h>
 

@@ -3,7 +3,7 @@
 #include "base/need.h"
 #include "base/stage.h"
 #include "model/adjacency.h"
-#include "simulation/vec3.h"
+#include "simulation/linear.h"
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

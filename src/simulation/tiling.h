@@ -2,7 +2,7 @@
 #ifndef SIMULATION_TILING_H
 #define SIMULATION_TILING_H
 
-#include "simulation/voxels.h"
+#include "simulation/solid.h"
 #include <stdbool.h>
 
 enum { VOXELS_A_CELL = 8 };

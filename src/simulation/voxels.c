@@ -4,9 +4,9 @@
 /// In the (x, y) plane everything is rounded to a grid of 2⁻²⁴ of the largest side, on which the test of a point against an
 /// edge is exact in 64-bit integers; a point on an edge counts as moved by (ε, ε²). So no ray slips between two
 /// triangles or hits both, and the winding number returns to 0 in every column.
-#include "simulation/voxels.h"
 #include "base/need.h"
 #include "base/stage.h"
+#include "simulation/solid.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

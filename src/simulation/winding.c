@@ -1,7 +1,7 @@
 /// A tree of triangles, and sums over it.
 #include "simulation/winding.h"
 #include "base/need.h"
-#include "simulation/vec3.h"
+#include "simulation/linear.h"
 #include <math.h>
 #include <stdlib.h>
 
