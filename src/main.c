@@ -1,6 +1,6 @@
 /// Reads the command line and hands over to one command.
 #include "base/embedded.h"
-#include "base/printable.h"
+#include "base/error.h"
 #include "commands/commands.h"
 #include "commands/options.h"
 #include <signal.h>

@@ -3,7 +3,6 @@
 
 #include "app/autosave.h"
 #include "base/file.h"
-#include "base/path.h"
 #include "folder.h"
 #include "scene/load.h"
 #include "world.h"

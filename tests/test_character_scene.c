@@ -1,7 +1,7 @@
 /// Characters in scene files: read, refused, printed, edited and carried along when the scene is saved elsewhere.
 #include "near.h"
 
-#include "base/path.h"
+#include "base/file.h"
 #include "scene/edit_kinds.h"
 #include "scene/load.h"
 #include <math.h>

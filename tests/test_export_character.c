@@ -1,5 +1,5 @@
 /// What wiggly export writes of imported characters: their own files with a clip more, in either container, and .usda.
-#include "base/path.h"
+#include "base/file.h"
 #include "export/sidecar.h"
 #include "export_scene.h"
 

@@ -1,7 +1,7 @@
 /// A character's floor: no vertex below it at any sample, knots and pins met as ever, whatever was edited before.
 #include "near.h"
 
-#include "base/path.h"
+#include "base/file.h"
 #include "model/morph.h"
 #include "rig/opened.h"
 #include "rig/pinning.h"

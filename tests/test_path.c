@@ -1,7 +1,7 @@
 /// Paths of files that are named from a folder.
 #include "near.h"
 
-#include "base/path.h"
+#include "base/file.h"
 #include <stdio.h>
 #include <string.h>
 #include <unistd.h>

@@ -1,9 +1,9 @@
 /// wiggly-bench [--json FILE] [--large]: the solver against LAPACKE, on the same systems in the same run.
-#include "base/clock.h"
 #include "base/embedded.h"
 #include "base/error.h"
 #include "base/file.h"
 #include "base/need.h"
+#include "base/progress.h"
 #include "bench/bench.h"
 #include "spline/solver.h"
 #include <math.h>

@@ -1,8 +1,8 @@
 /// Starts the app, runs its frames and ends it.
 #include "app/app.h"
 #include "app/state.h"
-#include "base/clock.h"
 #include "base/need.h"
+#include "base/progress.h"
 #include "platform/process.h"
 #include "scene/load.h"
 #include "ui/font.h"

@@ -2,7 +2,7 @@
 #ifndef APP_ASSETS_H
 #define APP_ASSETS_H
 
-#include "base/path.h"
+#include "base/file.h"
 #include <stdbool.h>
 
 /// The folder of these scenes. false if the program stands alone.

@@ -1,6 +1,6 @@
 /// The last export in the settings: where to, from which scene, and the choices that suit another scene too.
 #include "app/export_memory.h"
-#include "base/path.h"
+#include "base/file.h"
 #include <stddef.h>
 #include <stdio.h>
 #include <string.h>

@@ -3,7 +3,6 @@
 #include "app/film_file.h"
 #include "base/file.h"
 #include "base/need.h"
-#include "base/path.h"
 #include "draw/picture.h"
 #include "platform/platform.h"
 #include <math.h>

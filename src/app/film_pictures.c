@@ -2,7 +2,6 @@
 #include "app/film_file.h"
 #include "base/file.h"
 #include "base/need.h"
-#include "base/path.h"
 #include "base/png.h"
 #include <ctype.h>
 #include <errno.h>

@@ -1,7 +1,7 @@
 /// One frame of the app: take input, work on the table, draw, log.
 #include "app/exporting.h"
 #include "app/state.h"
-#include "base/clock.h"
+#include "base/progress.h"
 #include "platform/process.h"
 #include <limits.h>
 #include <math.h>

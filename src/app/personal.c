@@ -6,9 +6,9 @@
 #include "app/recent.h"
 #include "app/settings.h"
 #include "app/state.h"
-#include "base/clock.h"
+#include "base/file.h"
 #include "base/need.h"
-#include "base/path.h"
+#include "base/progress.h"
 #include "ui/theme.h"
 #include <math.h>
 #include <stdio.h>

@@ -2,7 +2,6 @@
 #include "app/recovery.h"
 #include "base/file.h"
 #include "base/need.h"
-#include "base/path.h"
 #include "scene/load.h"
 #include <errno.h>
 #include <fcntl.h>

@@ -14,7 +14,6 @@
 
 #include "base/error.h"
 #include "base/file.h"
-#include "base/path.h"
 #include "scene/document.h"
 #include <stddef.h>
 #include <time.h>

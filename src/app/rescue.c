@@ -1,8 +1,8 @@
 /// Saves unsaved work when the program cannot go on: to the recovery file, which the next start offers, or else to a new file
 /// beside the original.
 #include "app/state.h"
+#include "base/file.h"
 #include "base/need.h"
-#include "base/path.h"
 #include "scene/load.h"
 #include <stdio.h>
 #include <stdlib.h>

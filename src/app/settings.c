@@ -2,7 +2,6 @@
 #include "app/settings.h"
 #include "base/file.h"
 #include "base/need.h"
-#include "base/path.h"
 #include <errno.h>
 #include <fcntl.h>
 #include <math.h>

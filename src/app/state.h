@@ -9,7 +9,6 @@
 #include "app/resolution.h"
 #include "app/table.h"
 #include "base/file.h"
-#include "base/path.h"
 #include "draw/draw.h"
 #include "platform/platform.h"
 #include "scene/edit_kinds.h"

@@ -1,6 +1,6 @@
 /// A frame of the document on the table: edit, solve, pose, show.
 #include "app/table.h"
-#include "base/clock.h"
+#include "base/progress.h"
 #include "rig/clip_motion.h"
 #include "rig/pinning.h"
 #include "scene/load.h"

@@ -1,6 +1,6 @@
 /// Notices that somebody else has written the document's file, or its paint's.
 #include "app/state.h"
-#include "base/path.h"
+#include "base/file.h"
 #include "editor/dialogs/dialog_files.h"
 #include "scene/load.h"
 #include <stdio.h>

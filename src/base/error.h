@@ -1,9 +1,14 @@
-/// Errors of data and of the environment: a kind, which is also the exit status, and one sentence for people.
+/// Sentences for people: errors of data and of the environment, and text from outside made fit for terminals and windows.
 #ifndef BASE_ERROR_H
 #define BASE_ERROR_H
 
+#include <math.h>
 #include <stdarg.h>
 #include <stdbool.h>
+#include <stddef.h>
+#include <stdio.h>
+
+// Errors of data and of the environment: a kind, which is also the exit status, and one sentence for people.
 
 enum error_kind {
     ERROR_NONE = 0,
@@ -23,5 +28,21 @@ bool fail(struct error *error, enum error_kind kind, const char *format, ...) __
 
 /// fail() with "what: not enough memory"; `what` is a path or an activity.
 bool fail_no_memory(struct error *error, const char *what);
+
+// Text from outside, fit for terminals and windows.
+
+/// Copies a text, with control characters and bytes that are no UTF-8 as \n or \x1b; what does not fit is cut at a whole character and
+/// ends in "…".
+void printable(const char *text, char *shown, size_t size);
+
+/// Writes a line, and its end, that may repeat a path, a name or an argument.
+void print_line(FILE *stream, const char *format, ...) __attribute__((format(printf, 2, 3)));
+
+/// Writes a field of a table by RFC 4180: a name and what follows it, quoted if it has a comma, a quote or a line break. A file or a pipe
+/// gets the name as it is, a terminal as printable() makes it.
+void print_field(FILE *stream, const char *name, const char *suffix);
+
+/// A number to be printed in steps of `unit`: 0 where it would be shown as −0.
+static inline double printable_number(double value, double unit) { return fabs(value) <= unit / 2 ? 0 : value; }
 
 #endif

@@ -1,6 +1,5 @@
 /// Ends the program where memory runs out, with the work saved.
 #include "base/need.h"
-#include "base/checked.h"
 #include "base/file.h"
 #include <stdatomic.h>
 #include <stdio.h>

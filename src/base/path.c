@@ -1,5 +1,5 @@
 /// Resolves paths against a folder, and makes them relative to it.
-#include "base/path.h"
+#include "base/file.h"
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

@@ -1,8 +1,9 @@
-/// Writes pictures.
+/// Pictures: writes them, and the transfer function of their channels.
 #ifndef BASE_PNG_H
 #define BASE_PNG_H
 
 #include "base/error.h"
+#include <math.h>
 #include <stddef.h>
 
 /// Writes width × height pixels of four bytes (R, G, B, A; top row first) as a PNG, atomically like file_write_atomic().
@@ -14,5 +15,19 @@ enum png_effort { PNG_FAST = 5, PNG_SMALL = 8 };
 /// Hands a whole PNG of pixels with `channels` bytes each over to `store`, once.
 void png_encode(void (*store)(void *user, const void *bytes, size_t size), void *user, int width, int height,
                 int channels, const unsigned char *pixels, enum png_effort effort);
+
+// The transfer function of sRGB (IEC 61966-2-1), a channel of 0 … 1 at a time.
+
+/// Light from what is encoded.
+static inline float srgb_to_linear(float encoded)
+{
+    return encoded <= 0.04045f ? encoded / 12.92f : powf((encoded + 0.055f) / 1.055f, 2.4f);
+}
+
+/// What encodes light; the inverse of srgb_to_linear().
+static inline float srgb_from_linear(float linear)
+{
+    return linear <= 0.0031308f ? 12.92f * linear : 1.055f * powf(linear, 1.0f / 2.4f) - 0.055f;
+}
 
 #endif

@@ -1,8 +1,8 @@
 /// `wiggly analyze`: the complex normal coordinates of simulated motions, as a character.
 #include "analysis/analysis.h"
+#include "base/error.h"
+#include "base/file.h"
 #include "base/need.h"
-#include "base/path.h"
-#include "base/printable.h"
 #include "commands/analyze_scene.h"
 #include "commands/commands.h"
 #include "commands/open_mesh.h"

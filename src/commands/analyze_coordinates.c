@@ -1,6 +1,6 @@
 /// Writes the table for `wiggly analyze --coordinates`.
+#include "base/error.h"
 #include "base/file.h"
-#include "base/printable.h"
 #include "commands/analyze_scene.h"
 
 static void write_header(FILE *out, const struct character *character)

@@ -1,6 +1,6 @@
 /// `wiggly check`: prints every problem of a scene, its solution and its models; of a character, what it holds.
-#include "base/path.h"
-#include "base/printable.h"
+#include "base/error.h"
+#include "base/file.h"
 #include "commands/commands.h"
 #include "commands/contents.h"
 #include "commands/options.h"

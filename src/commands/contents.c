@@ -1,6 +1,6 @@
 /// Prints what a glTF character holds.
 #include "commands/contents.h"
-#include "base/printable.h"
+#include "base/error.h"
 #include "rig/bones.h"
 #include <stdio.h>
 

@@ -1,8 +1,8 @@
 /// `wiggly export`: writes the motion of a scene into the files of other programs.
 #include "export/export.h"
 #include "app/film.h"
-#include "base/clock.h"
-#include "base/printable.h"
+#include "base/error.h"
+#include "base/progress.h"
 #include "commands/commands.h"
 #include "commands/options.h"
 #include "commands/progress.h"

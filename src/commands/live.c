@@ -1,7 +1,7 @@
 /// `wiggly live`: the live app, in a window or headless.
 #include "app/app.h"
-#include "base/printable.h"
-#include "base/stage.h"
+#include "base/error.h"
+#include "base/progress.h"
 #include "commands/commands.h"
 #include "commands/options.h"
 #include "ui/theme.h"

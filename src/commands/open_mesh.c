@@ -1,6 +1,6 @@
 /// Reads meshes, turns them upright, scales them, and says what was left out.
 #include "commands/open_mesh.h"
-#include "base/printable.h"
+#include "base/error.h"
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

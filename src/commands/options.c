@@ -1,7 +1,7 @@
 /// Parses options by a table, prints help, and suggests the nearest word.
 #include "commands/options.h"
-#include "base/path.h"
-#include "base/printable.h"
+#include "base/error.h"
+#include "base/file.h"
 #include "scene/evaluate.h"
 #include <errno.h>
 #include <limits.h>

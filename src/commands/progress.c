@@ -1,9 +1,8 @@
 /// Shows the progress of long commands, and catches Ctrl+C.
 #include "commands/progress.h"
-#include "base/clock.h"
 #include "base/error.h"
 #include "base/file.h"
-#include "base/stage.h"
+#include "base/progress.h"
 #include <math.h>
 #include <signal.h>
 #include <stdio.h>

@@ -12,7 +12,7 @@ bool progress_interrupted(void);
 /// that were being written. For commands that have nothing else to clean up.
 void progress_end_when_interrupted(void);
 
-/// Shows stages of the work that tell how far they are (base/stage.h) from now on; `lines` as below.
+/// Shows stages of the work that tell how far they are (base/progress.h) from now on; `lines` as below.
 void progress_show_stages(bool lines);
 
 struct progress {

@@ -1,6 +1,6 @@
 /// wiggly rig: gives the bones of a glTF character follow-through, as a scene or straight as an animated glTF file.
-#include "base/path.h"
-#include "base/printable.h"
+#include "base/error.h"
+#include "base/file.h"
 #include "commands/commands.h"
 #include "commands/contents.h"
 #include "commands/options.h"

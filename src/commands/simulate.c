@@ -1,7 +1,7 @@
 /// `wiggly simulate`: shakes a mesh as a soft body, or finds its normal modes.
+#include "base/error.h"
 #include "base/file.h"
 #include "base/need.h"
-#include "base/printable.h"
 #include "commands/commands.h"
 #include "commands/open_mesh.h"
 #include "commands/options.h"

@@ -1,9 +1,8 @@
 /// Simulates in ever shorter steps until the motion is accurate.
 #include "commands/simulate_shake.h"
-#include "base/clock.h"
+#include "base/error.h"
 #include "base/need.h"
-#include "base/printable.h"
-#include "base/stage.h"
+#include "base/progress.h"
 #include "commands/progress.h"
 #include "model/motion.h"
 #include <math.h>

@@ -1,6 +1,6 @@
 /// `wiggly solve`: writes every spline of a scene as CSV.
+#include "base/error.h"
 #include "base/file.h"
-#include "base/printable.h"
 #include "commands/commands.h"
 #include "commands/options.h"
 #include "commands/pin_warnings.h"

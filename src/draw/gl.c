@@ -1,7 +1,7 @@
 /// Compiles and links the shaders built into the program.
 #include "draw/gl.h"
 #include "base/embedded.h"
-#include "base/srgb.h"
+#include "base/png.h"
 #include <stdio.h>
 #include <string.h>
 

@@ -1,6 +1,6 @@
 /// Times drawing by the CPU's clock and, where there is one, the GPU's, and builds the fixed frame that timing logs carry as a yardstick.
 #include "draw/timer.h"
-#include "base/clock.h"
+#include "base/progress.h"
 #include "model/vector.h"
 #include "ui/theme.h"
 #include <stdlib.h>

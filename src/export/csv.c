@@ -1,6 +1,6 @@
 /// A table: one row per key, a column for every spline and every channel of the rigs.
+#include "base/error.h"
 #include "base/need.h"
-#include "base/printable.h"
 #include "export/form.h"
 #include "scene/number.h"
 #include <stdarg.h>

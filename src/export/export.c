@@ -1,7 +1,6 @@
 /// Finds the format, the rigs and the keys, poses the rigs at these, and writes the file whole or not at all.
 #include "export/export.h"
 #include "base/file.h"
-#include "base/path.h"
 #include "export/form.h"
 #include "scene/number.h"
 #include <math.h>

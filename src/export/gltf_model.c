@@ -1,6 +1,5 @@
 /// Writes an imported character's own file with a clip more: parses its JSON, adds to it, and prints it.
 #include "base/file.h"
-#include "base/path.h"
 #include "export/form.h"
 #include "export/gltf_motion.h"
 #include "export/keys.h"

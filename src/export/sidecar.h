@@ -3,7 +3,6 @@
 #define EXPORT_SIDECAR_H
 
 #include "base/file.h"
-#include "base/path.h"
 #include <stdbool.h>
 
 /// All zero at first.

@@ -1,7 +1,7 @@
 /// Rigs as a USD scene in text: UsdSkel skeletons, blend shapes, a time sample a key. Metres, y up; time codes are the document's frames.
 #include "export/usda.h"
+#include "base/file.h"
 #include "base/need.h"
-#include "base/path.h"
 #include "export/form.h"
 #include <ctype.h>
 #include <search.h>

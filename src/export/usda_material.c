@@ -1,6 +1,6 @@
 /// The materials of a rig in a .usda file, and the files of their textures, in a folder beside it.
+#include "base/file.h"
 #include "base/need.h"
-#include "base/path.h"
 #include "export/usda.h"
 #include <stdlib.h>
 #include <string.h>

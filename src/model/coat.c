@@ -1,6 +1,6 @@
 /// Colours of the fox's coat.
 #include "model/coat.h"
-#include "base/srgb.h"
+#include "base/png.h"
 #include "model/creature.h"
 #include "model/vector.h"
 

@@ -2,7 +2,7 @@
 #include "model/glb.h"
 #include "base/file.h"
 #include "base/json.h"
-#include "base/stage.h"
+#include "base/progress.h"
 #include <stdlib.h>
 #include <string.h>
 

@@ -1,7 +1,6 @@
 /// Bytes that a glTF file keeps outside of its chunk: in files beside it and in data URIs.
 #include "base/file.h"
-#include "base/path.h"
-#include "base/stage.h"
+#include "base/progress.h"
 #include "model/glb.h"
 #include <ctype.h>
 #include <stdio.h>

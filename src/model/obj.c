@@ -1,7 +1,7 @@
 /// Reads OBJ surfaces.
 #include "model/obj.h"
 #include "base/file.h"
-#include "base/stage.h"
+#include "base/progress.h"
 #include "model/mtl.h"
 #include "model/surface_builder.h"
 #include <limits.h>

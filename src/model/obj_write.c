@@ -1,6 +1,6 @@
 /// Writes OBJ surfaces.
 #include "base/file.h"
-#include "base/srgb.h"
+#include "base/png.h"
 #include "model/mtl.h"
 #include "model/obj.h"
 #include <stdio.h>

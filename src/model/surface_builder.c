@@ -1,6 +1,6 @@
 /// Grows surfaces vertex by vertex and polygon by polygon.
 #include "model/surface_builder.h"
-#include "base/srgb.h"
+#include "base/png.h"
 #include "model/adjacency.h"
 #include <math.h>
 #include <stdlib.h>

@@ -1,5 +1,5 @@
 /// Reads surfaces of any format.
-#include "base/path.h"
+#include "base/file.h"
 #include "model/obj.h"
 #include "model/surface_readers.h"
 

@@ -1,6 +1,6 @@
 /// A GLFW window and its callbacks, which only translate and queue.
-#include "base/clock.h"
 #include "base/need.h"
+#include "base/progress.h"
 #include "platform/events.h"
 #include "platform/surface.h"
 #include "platform/wayland.h"

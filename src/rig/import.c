@@ -1,7 +1,7 @@
 /// Makes scenes for glTF characters.
 #include "rig/import.h"
+#include "base/file.h"
 #include "base/need.h"
-#include "base/path.h"
 #include "model/character.h"
 #include <fcntl.h>
 #include <math.h>

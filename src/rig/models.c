@@ -1,7 +1,7 @@
 /// Reads the models of a document's characters, and keeps them by path.
 #include "rig/models.h"
+#include "base/file.h"
 #include "base/need.h"
-#include "base/path.h"
 #include "rig/bones.h"
 #include "rig/model_files.h"
 #include <stdio.h>

@@ -1,6 +1,6 @@
 /// Edits that add, rename and remove rigs, and those of imported characters, chains on them, and meadows.
+#include "base/file.h"
 #include "base/need.h"
-#include "base/path.h"
 #include "scene/editing.h"
 #include <math.h>
 #include <stdio.h>

@@ -1,6 +1,6 @@
 /// Solves the splines that have changed and their followers in dependency order.
 #include "scene/evaluate.h"
-#include "base/checked.h"
+#include "base/need.h"
 #include "scene/storage.h"
 #include <math.h>
 #include <stdio.h>

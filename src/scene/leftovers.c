@@ -3,7 +3,6 @@
 #include "scene/leftovers.h"
 #include "base/file.h"
 #include "base/json.h"
-#include "base/path.h"
 #include <dirent.h>
 #include <fcntl.h>
 #include <stdio.h>

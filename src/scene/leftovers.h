@@ -3,7 +3,7 @@
 #ifndef SCENE_LEFTOVERS_H
 #define SCENE_LEFTOVERS_H
 
-#include "base/path.h"
+#include "base/file.h"
 
 /// The list, locked by who saves; another machine's is left alone while it lives.
 struct leftovers {

@@ -1,7 +1,6 @@
 /// Loads a scene from a file or from text.
 #include "base/file.h"
 #include "base/json.h"
-#include "base/path.h"
 #include "scene/load.h"
 #include "scene/reader.h"
 #include <limits.h>

@@ -1,6 +1,6 @@
 /// Writes an object's members, known keys first.
 #include "scene/members.h"
-#include "base/path.h"
+#include "base/file.h"
 
 void member(struct members *members, const char *key)
 {

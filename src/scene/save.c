@@ -4,7 +4,6 @@
 #include "base/file.h"
 #include "base/hash.h"
 #include "base/need.h"
-#include "base/path.h"
 #include "scene/leftovers.h"
 #include "scene/load.h"
 #include "scene/paint_file.h"

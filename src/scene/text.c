@@ -1,6 +1,6 @@
 /// A growing text.
 #include "scene/text.h"
-#include "base/checked.h"
+#include "base/need.h"
 #include "scene/number.h"
 #include <jansson.h>
 #include <stdio.h>

@@ -1,7 +1,7 @@
 /// Builds the lattice and embeds the surface in it.
 #include "simulation/lattice.h"
 #include "base/need.h"
-#include "base/stage.h"
+#include "base/progress.h"
 #include "simulation/element.h"
 #include "simulation/linear.h"
 #include "simulation/tiling.h"

@@ -6,7 +6,7 @@
 /// to all before it (twice, which is enough), so none returns as a copy. The small problem is diagonalised by Jacobi's
 /// method.
 #include "base/need.h"
-#include "base/stage.h"
+#include "base/progress.h"
 #include "simulation/body.h"
 #include "simulation/linear.h"
 #include <math.h>

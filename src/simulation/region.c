@@ -1,7 +1,7 @@
 /// Reads and applies --pin.
 #include "simulation/region.h"
 #include "base/need.h"
-#include "base/srgb.h"
+#include "base/png.h"
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

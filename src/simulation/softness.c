@@ -3,7 +3,7 @@
 #include "base/file.h"
 #include "base/need.h"
 #include "base/npy.h"
-#include "base/srgb.h"
+#include "base/png.h"
 #include "simulation/linear.h"
 #include <stdlib.h>
 #include <string.h>

@@ -1,7 +1,7 @@
 /// Turns a surface's triangles to face outwards, and finds where it is open.
 #include "simulation/solid.h"
 #include "base/need.h"
-#include "base/stage.h"
+#include "base/progress.h"
 #include "model/adjacency.h"
 #include "simulation/linear.h"
 #include <math.h>

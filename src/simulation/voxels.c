@@ -5,7 +5,7 @@
 /// edge is exact in 64-bit integers; a point on an edge counts as moved by (ε, ε²). So no ray slips between two
 /// triangles or hits both, and the winding number returns to 0 in every column.
 #include "base/need.h"
-#include "base/stage.h"
+#include "base/progress.h"
 #include "simulation/solid.h"
 #include <math.h>
 #include <stdlib.h>

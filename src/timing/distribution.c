@@ -1,7 +1,7 @@
 /// Prints how a log's frame times are distributed.
 #include "timing/distribution.h"
+#include "base/error.h"
 #include "base/need.h"
-#include "base/printable.h"
 #include "timing/columns.h"
 #include <math.h>
 #include <stdlib.h>

@@ -1,6 +1,6 @@
 /// The dark and the light theme.
 #include "ui/theme.h"
-#include "base/srgb.h"
+#include "base/png.h"
 #include <math.h>
 #include <string.h>
 

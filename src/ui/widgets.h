@@ -10,7 +10,7 @@
 #ifndef UI_WIDGETS_H
 #define UI_WIDGETS_H
 
-#include "base/path.h"
+#include "base/file.h"
 #include "ui/drawlist.h"
 #include "ui/event.h"
 

@@ -1,6 +1,6 @@
 /// The benchmark's batches: 10,000 splines of 240 samples, every knot changed between runs, for total and Im x.
-#include "base/clock.h"
 #include "base/need.h"
+#include "base/progress.h"
 #include "bench/bench.h"
 #include <math.h>
 #include <stdio.h>

@@ -1,7 +1,7 @@
 /// What the parts of the benchmark share: memory, times, the table on stdout and as JSON.
 #include "bench/bench.h"
-#include "base/clock.h"
 #include "base/error.h"
+#include "base/progress.h"
 #include "timing/columns.h"
 #include <math.h>
 #include <stdarg.h>

@@ -1,6 +1,6 @@
 /// One spline of the benchmark: its check against LAPACK on the squared system, and its times.
-#include "base/clock.h"
 #include "base/need.h"
+#include "base/progress.h"
 #include "bench/bench.h"
 #include "spline/solver.h"
 #include <math.h>

@@ -1,6 +1,6 @@
 /// The benchmark's pins: groups of splines that share points, one of which is dragged.
-#include "base/clock.h"
 #include "base/need.h"
+#include "base/progress.h"
 #include "bench/bench.h"
 #include <math.h>
 #include <stdio.h>

@@ -1,6 +1,6 @@
 /// What all panels share, and the edits that they ask for.
 #include "editor/core/core.h"
-#include "base/path.h"
+#include "base/file.h"
 #include "editor/core/selection.h"
 #include "editor/core/spline_list.h"
 #include <ctype.h>

@@ -2,7 +2,7 @@
 #ifndef EDITOR_CORE_WORLD_H
 #define EDITOR_CORE_WORLD_H
 
-#include "base/path.h"
+#include "base/file.h"
 #include "rig/models.h"
 #include "rig/posing.h"
 #include "scene/edit_kinds.h"

@@ -1,6 +1,6 @@
 /// What lies over the panels and takes events first; among that the dialogs: open, save as, and the questions.
 #include "editor/dialogs/dialog.h"
-#include "base/path.h"
+#include "base/file.h"
 #include "editor/core/core.h"
 #include "editor/dialogs/dialogs.h"
 #include "editor/dialogs/help.h"

@@ -1,5 +1,5 @@
 /// The Export dialog: a file name whose extension is the format, the frames, and the format's options.
-#include "base/path.h"
+#include "base/file.h"
 #include "editor/core/core.h"
 #include "editor/dialogs/dialog.h"
 #include "editor/dialogs/dialogs.h"

@@ -1,5 +1,5 @@
 /// Dialogs that ask a question: before an edit that touches more than was asked for, and about recovered work.
-#include "base/path.h"
+#include "base/file.h"
 #include "editor/core/rigs.h"
 #include "editor/core/spline_list.h"
 #include "editor/dialogs/dialog.h"

@@ -1,6 +1,6 @@
 /// Angles in the inspector: one for all joints as a slider; several as a slider that scales them and a curve, of a few points that are
 /// dragged (a ramp) or of each joint, drawn by dragging over it.
-#include "base/printable.h"
+#include "base/error.h"
 #include "editor/core/bones.h"
 #include "editor/core/core.h"
 #include "editor/inspector/inspection.h"

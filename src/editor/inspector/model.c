@@ -1,5 +1,5 @@
 /// The inspector's section on imported characters: what they are, which clip they play, where they stand, and the selected bone.
-#include "base/path.h"
+#include "base/file.h"
 #include "editor/core/bones.h"
 #include "editor/core/core.h"
 #include "editor/inspector/inspection.h"

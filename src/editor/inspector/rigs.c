@@ -1,6 +1,6 @@
 /// The inspector's list of all rigs: which of them is shown, one less, and the menu of what can be added.
 #include "editor/core/rigs.h"
-#include "base/path.h"
+#include "base/file.h"
 #include "editor/core/bones.h"
 #include "editor/core/core.h"
 #include "editor/core/spline_list.h"

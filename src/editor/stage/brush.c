@@ -1,5 +1,5 @@
 /// The brush: strokes as an airbrush makes them. A stroke adds flow × time to every vertex under it.
-#include "base/printable.h"
+#include "base/error.h"
 #include "editor/core/characters.h"
 #include "editor/core/core.h"
 #include "editor/core/drag.h"

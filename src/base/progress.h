@@ -1,6 +1,9 @@
-/// How far long work is, told to who listens.
-#ifndef BASE_STAGE_H
-#define BASE_STAGE_H
+/// How long work takes, and how far it is.
+#ifndef BASE_PROGRESS_H
+#define BASE_PROGRESS_H
+
+/// Seconds on a monotonic clock.
+double clock_now(void);
 
 /// Hears what is being done ("reading the mesh"), and how much of it. A stage may come again: it then begins at 0.
 typedef void stage_listener(const char *doing, long done, long total);

@@ -1,0 +1,20 @@
+/// The monotonic clock, and who hears how far long work is.
+#include "base/progress.h"
+#include <stddef.h>
+#include <time.h>
+
+double clock_now(void)
+{
+    struct timespec now;
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return (double)now.tv_sec + (double)now.tv_nsec * 1.0e-9;
+}
+
+static stage_listener *listening;
+
+void stage_listen(stage_listener *listener) { listening = listener; }
+
+void stage_tell(const char *doing, long done, long total)
+{
+    if (listening) listening(doing, done, total);
+}
