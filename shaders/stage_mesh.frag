@@ -10,7 +10,7 @@
 in vec3 world;
 in vec3 world_normal;
 #ifdef FURRED
-in vec3 marking; // white, dark, brown: as in model/coat.h
+in vec3 marking; // white, dark, brown: as in model/mesh.h
 in vec4 place;   // in bind space, and how much of it is the tail's
 in float open_around; // share of the light from all around that reaches it
 #ifdef FACED

@@ -1,7 +1,7 @@
 #version 330 core
 // The animal, whose skin comes as it stands (draw/stage_skin.h).
 layout(location = 0) in vec3 position; // bind space, at the size that it is made in
-layout(location = 1) in vec3 mark;     // as in model/coat.h
+layout(location = 1) in vec3 mark;     // as in model/mesh.h
 layout(location = 2) in float bend;
 layout(location = 3) in vec3 moved; // world
 layout(location = 4) in vec3 moved_normal;

@@ -1,7 +1,7 @@
 /// The character's vertex shader, by what a person sees: the same picture as of a figure that already has the shape, the place
 /// or the colours that the shader should give it.
 #include "draw/stage.h"
-#include "model/painted.h"
+#include "model/figure.h"
 #include "offscreen.h"
 #include "puppet.h"
 #include "ui/theme.h"

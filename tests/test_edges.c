@@ -1,5 +1,5 @@
 /// Which triangles are across edges, and where a mesh ends: outlines are softened there, and nowhere else.
-#include "model/triangle_neighbours.h"
+#include "model/adjacency.h"
 #include "near.h"
 
 static const float square[][3] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};

@@ -2,7 +2,7 @@
 #include "near.h"
 
 #include "base/file.h"
-#include "model/morph.h"
+#include "model/figure.h"
 #include "rig/opened.h"
 #include "rig/pinning.h"
 #include "scene/edit_kinds.h"

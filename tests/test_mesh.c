@@ -1,6 +1,6 @@
 /// The animal's mesh: closed, smooth, within its budget, and one animal where tail and body meet.
-#include "model/coat.h"
 #include "model/creature.h"
+#include "model/mesh.h"
 #include "near.h"
 #include <math.h>
 #include <stdlib.h>

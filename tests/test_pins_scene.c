@@ -1,7 +1,7 @@
 /// Pins of whole scenes: points of characters, tails and chains are where they must be, whatever was edited before.
 #include "near.h"
 
-#include "model/morph.h"
+#include "model/figure.h"
 #include "rig/opened.h"
 #include "rig/pinning.h"
 #include "scene/edit_kinds.h"

@@ -1,7 +1,7 @@
 /// Finds the outlines of soft characters, and what skirts show there.
 #include "base/need.h"
 #include "draw/skirt.h"
-#include "model/triangle_neighbours.h"
+#include "model/adjacency.h"
 #include "ui/theme.h"
 #include <stdlib.h>
 #include <string.h>

@@ -1,7 +1,7 @@
 /// Finds outlines, which way skirts hang, and the outlines of imported characters.
 #include "draw/skirt.h"
 #include "base/need.h"
-#include "model/triangle_neighbours.h"
+#include "model/adjacency.h"
 #include "model/vector.h"
 #include <stdlib.h>
 

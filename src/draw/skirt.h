@@ -14,7 +14,7 @@
 /// A mesh as it stands.
 struct skirt_mesh {
     const uint32_t *indices;
-    const int *neighbours; ///< model/triangle_neighbours.h
+    const int *neighbours; ///< model/adjacency.h
     const float (*place)[3];
     bool *front;   ///< of each triangle, whether it faces the eye: skirt_face() says
     bool mirrored; ///< triangles are clockwise seen from outside

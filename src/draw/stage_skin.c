@@ -2,9 +2,9 @@
 #include "draw/stage_skin.h"
 #include "base/need.h"
 #include "draw/skirt.h"
+#include "model/adjacency.h"
 #include "model/creature.h"
 #include "model/tail_skin.h"
-#include "model/triangle_neighbours.h"
 #include "model/vector.h"
 #include <math.h>
 #include <stdlib.h>

@@ -1,7 +1,7 @@
 /// Draws the skirts of what the GPU moves.
-#include "draw/skirt.h"
 #include "base/need.h"
-#include "model/triangle_neighbours.h"
+#include "draw/skirt.h"
+#include "model/adjacency.h"
 #include "model/vector.h"
 #include <math.h>
 #include <stddef.h>

@@ -4,8 +4,8 @@
 #include "draw/painter.h"
 #include "draw/stage.h"
 #include "draw/stage_skin.h"
-#include "model/coat.h"
 #include "model/creature.h"
+#include "model/mesh.h"
 #include <math.h>
 #include <stddef.h>
 #include <stdlib.h>

@@ -1,4 +1,4 @@
-/// Prepares a character for the stage: normals, a coarser mesh, its bounds.
+/// Prepares a character for the stage: normals, a coarser mesh, its bounds; and moves it.
 #include "model/figure.h"
 #include "base/need.h"
 #include "model/decimate.h"
@@ -231,4 +231,56 @@ int figure_find(const struct figure *figure, const char *name)
         if (strcmp(figure->character.coordinates[k].name, name) == 0) return k;
     }
     return -1;
+}
+
+/// sum += Re(z (re + j·im))
+static void add_real_part(const float z[2], const float re[3], const float im[3], float sum[3])
+{
+    for (int k = 0; k < 3; k++) sum[k] += z[0] * re[k] - z[1] * im[k];
+}
+
+static void morph_normal(const struct figure *figure, const struct morph *morph, int vertex, float normal[3])
+{
+    vec3s u = vec3_from(figure->tangent[vertex]), v = glms_vec3_cross(vec3_from(figure->character.normal[vertex]), u);
+    for (int k = 0; k < morph->count; k++) {
+        const struct slope *s = &figure->slopes[morph->coordinate[k] * figure->character.vertex_count + vertex];
+        add_real_part(morph->weight[k], s->re_u, s->im_u, u.raw);
+        add_real_part(morph->weight[k], s->re_v, s->im_v, v.raw);
+    }
+    vec3s n = glms_vec3_cross(u, v);
+    n = glms_vec3_divs(n, fmaxf(glms_vec3_norm(n), 1e-9f)); // squeezed flat: no direction, and not NaN
+    glm_vec3_copy(n.raw, normal);
+}
+
+void morph_vertex(const struct figure *figure, const struct morph *morph, int vertex, float position[3],
+                  float normal[3])
+{
+    memcpy(position, figure->character.position[vertex], 3 * sizeof *position);
+    for (int k = 0; k < morph->count; k++) {
+        const struct coordinate *c = &figure->character.coordinates[morph->coordinate[k]];
+        add_real_part(morph->weight[k], c->re[vertex], c->im[vertex], position);
+    }
+    if (normal) morph_normal(figure, morph, vertex, normal);
+}
+
+void morph_places(const struct figure *figure, const struct morph *morph, const float position[3], float (*places)[3])
+{
+    for (int i = 0; i < figure->character.vertex_count; i++) {
+        morph_vertex(figure, morph, i, places[i], NULL);
+        places[i][0] += position[0];
+        places[i][1] += position[1] - figure->lo[1];
+        places[i][2] += position[2];
+    }
+}
+
+void morph_bounds(const struct figure *figure, const struct morph *morph, float lo[3], float hi[3])
+{
+    glm_vec3_fill(lo, INFINITY);
+    glm_vec3_fill(hi, -INFINITY);
+    for (int i = 0; i < figure->character.vertex_count; i++) {
+        float p[3];
+        morph_vertex(figure, morph, i, p, NULL);
+        glm_vec3_minv(p, lo, lo);
+        glm_vec3_maxv(p, hi, hi);
+    }
 }

@@ -76,4 +76,45 @@ void figure_free(struct figure *figure);
 /// Index of the coordinate of that name, or −1.
 int figure_find(const struct figure *figure, const char *name);
 
+// A soft character in motion: the sum of its complex normal coordinates, each turned and scaled by a weight,
+// D(j) = Re(Σ_k z_k Ñ_{k,j}).
+
+enum { MORPH_MAX_COORDINATES = 4 };
+
+/// The weights of a figure's coordinates at one time.
+struct morph {
+    int count;
+    int coordinate[MORPH_MAX_COORDINATES];  ///< index in the figure
+    float weight[MORPH_MAX_COORDINATES][2]; ///< z: real and imaginary part
+};
+
+/// The position and unit normal of a vertex, as the stage's vertex shader computes them. `normal` may be NULL.
+void morph_vertex(const struct figure *figure, const struct morph *morph, int vertex, float position[3],
+                  float normal[3]);
+
+/// Positions of all vertices in the world: the posed figure standing on the ground at `position`, as the stage draws it.
+void morph_places(const struct figure *figure, const struct morph *morph, const float position[3],
+                  float (*places)[3]);
+
+/// The box around the posed figure, relative to the rig's position.
+void morph_bounds(const struct figure *figure, const struct morph *morph, float lo[3], float hi[3]);
+
+// A figure whose coordinates are turned and scaled vertex by vertex: Ñ' = Ñ e^{a + jψ}.
+// Everything else is shared with the plain figure.
+
+struct painted {
+    struct figure figure; ///< with coordinates, slopes and largest amplitudes of its own
+    const struct figure *plain;
+    float (*applied)[2]; ///< a and ψ that it has, at coordinate · vertex_count + vertex
+    bool *stale;         ///< vertices whose slopes must be refitted
+};
+
+/// A copy of the plain figure, which must outlive it. NULL if memory is short.
+struct painted *painted_create(const struct figure *plain);
+void painted_destroy(struct painted *painted);
+
+/// Applies the paint (NULL: none; laid out as `applied`). Recomputes only what changed since the last time, and marks it in
+/// figure.version and figure.changed. Allocates nothing.
+void painted_update(struct painted *painted, const float (*paint)[2]);
+
 #endif

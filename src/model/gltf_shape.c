@@ -1,6 +1,6 @@
 /// Writes meshes, materials and pictures of glTF files.
 #include "model/gltf_shape.h"
-#include "model/mtl.h"
+#include "model/surface_readers.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

@@ -1,6 +1,5 @@
 /// Makes one surface of all that a glTF file shows at rest.
 #include "model/gltf.h"
-#include "model/mtl.h"
 #include "model/surface_readers.h"
 #include "model/vector.h"
 #include <stdlib.h>

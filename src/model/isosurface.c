@@ -1,7 +1,7 @@
 /// Distances to round cones, and surface nets, which turn a distance into triangles.
 #include "model/isosurface.h"
 #include "base/need.h"
-#include "model/coat.h"
+#include "model/mesh.h"
 #include "model/vector.h"
 #include <math.h>
 #include <stdlib.h>

@@ -1,6 +1,9 @@
-/// Grows and frees triangle meshes.
+/// Grows and frees triangle meshes, and colours the fox's coat.
 #include "model/mesh.h"
 #include "base/need.h"
+#include "base/png.h"
+#include "model/creature.h"
+#include "model/vector.h"
 #include <stdlib.h>
 
 /// Room for `more` further elements of `size` bytes.
@@ -31,4 +34,34 @@ void mesh_free(struct mesh *mesh)
     free(mesh->vertices);
     free(mesh->indices);
     *mesh = (struct mesh){0};
+}
+
+#define EDGE 0.025f /* metres: half the width of a marking's edge; a narrower one costs triangles */
+
+void coat_linear(uint32_t srgb, float rgb[3])
+{
+    for (int k = 0; k < 3; k++) rgb[k] = srgb_to_linear((float)(srgb >> (16 - 8 * k) & 0xFF) / 255.0f);
+}
+
+void coat_mix(float rgb[3], uint32_t to, float amount)
+{
+    float other[3];
+    coat_linear(to, other);
+    glm_vec3_lerp(rgb, other, amount, rgb);
+}
+
+void coat_marked(const float mark[MARKS], float rgb[3])
+{
+    coat_linear(COAT_FUR, rgb);
+    coat_mix(rgb, COAT_BAND, mark[MARK_BROWN]);
+    coat_mix(rgb, COAT_TIP, glm_smoothstep(-EDGE, EDGE, mark[MARK_WHITE]));
+    coat_mix(rgb, COAT_DARK, glm_smoothstep(-EDGE, EDGE, mark[MARK_DARK]));
+}
+
+void coat_tail(float z, float up, float mark[MARKS])
+{
+    const float u = z / CREATURE_TAIL_LENGTH;
+    mark[MARK_WHITE] = z - 0.79f * CREATURE_TAIL_LENGTH;
+    mark[MARK_DARK] = -1.0f;
+    mark[MARK_BROWN] = glm_smoothstep(0.45f, 0.78f, u) * (0.45f + 0.2f * up);
 }

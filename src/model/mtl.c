@@ -1,6 +1,6 @@
 /// Reads and writes materials of OBJ files.
-#include "model/mtl.h"
 #include "base/file.h"
+#include "model/surface_readers.h"
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

@@ -2,8 +2,7 @@
 #include "model/obj.h"
 #include "base/file.h"
 #include "base/progress.h"
-#include "model/mtl.h"
-#include "model/surface_builder.h"
+#include "model/surface_readers.h"
 #include <limits.h>
 #include <math.h>
 #include <stdio.h>

@@ -1,8 +1,8 @@
 /// Writes OBJ surfaces.
 #include "base/file.h"
 #include "base/png.h"
-#include "model/mtl.h"
 #include "model/obj.h"
+#include "model/surface_readers.h"
 #include <stdio.h>
 #include <string.h>
 

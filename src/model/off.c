@@ -1,7 +1,6 @@
 /// Reads OFF surfaces: OFF, and with colours (C), normals (N) and texture coordinates (ST) at vertices, as text.
 #include "base/file.h"
 #include "model/surface_readers.h"
-#include "model/words.h"
 #include <limits.h>
 #include <stdlib.h>
 #include <string.h>

@@ -1,6 +1,6 @@
 /// Applies painted phases and amplitudes to a figure.
-#include "model/painted.h"
 #include "base/need.h"
+#include "model/figure.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

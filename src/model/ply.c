@@ -5,7 +5,6 @@
 /// triangle strips the triangles.
 #include "base/file.h"
 #include "model/surface_readers.h"
-#include "model/words.h"
 #include <limits.h>
 #include <math.h>
 #include <stdlib.h>

@@ -1,7 +1,6 @@
 /// Reads STL surfaces, text or binary. Triangles stand alone in the file: corners at the same place become one vertex.
 #include "base/file.h"
 #include "model/surface_readers.h"
-#include "model/words.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

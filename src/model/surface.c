@@ -1,9 +1,28 @@
-/// Copies, measures and frees surfaces.
+/// Reads surfaces of any format, and copies, measures and frees surfaces.
 #include "model/surface.h"
+#include "base/file.h"
 #include "base/need.h"
+#include "model/obj.h"
+#include "model/surface_readers.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+
+bool surface_read(const char *path, struct surface *surface, struct error *error)
+{
+    static const struct {
+        const char *end;
+        bool (*read)(const char *path, struct surface *surface, struct error *error);
+    } formats[] = {{".stl", stl_read},
+                   {".ply", ply_read},
+                   {".off", off_read},
+                   {".glb", gltf_surface_read},
+                   {".gltf", gltf_surface_read}};
+    for (size_t i = 0; i < sizeof formats / sizeof *formats; i++) {
+        if (path_has_end(path, formats[i].end)) return formats[i].read(path, surface, error);
+    }
+    return obj_read(path, surface, error);
+}
 
 uint8_t *surface_used_vertices(const struct surface *surface)
 {

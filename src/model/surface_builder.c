@@ -1,7 +1,7 @@
 /// Grows surfaces vertex by vertex and polygon by polygon.
-#include "model/surface_builder.h"
 #include "base/png.h"
 #include "model/adjacency.h"
+#include "model/surface_readers.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

@@ -1,8 +1,89 @@
-/// The readers of single formats, for surface_read(). Private to src/model.
+/// What the readers of surfaces share: the surface that grows while they read, the words of text files, the materials of OBJ files; and
+/// the readers. Private to src/model.
 #ifndef MODEL_SURFACE_READERS_H
 #define MODEL_SURFACE_READERS_H
 
-#include "model/surface_builder.h"
+#include "base/error.h"
+#include "model/surface.h"
+#include <stdbool.h>
+
+// A surface that grows while a file is read.
+
+/// All zero but `surface` at first.
+struct surface_builder {
+    struct surface *surface;                                                     ///< an empty one at first
+    uint32_t material;                                                           ///< of the next triangles
+    int vertices, colors, uvs, indices, corners, materials_of, joins, materials; ///< there is room for
+    int polygon;                                                                 ///< corners of the open one
+    uint32_t first[2], last[2]; ///< its first and its newest corner: vertex, texture coordinates
+    bool failed;                ///< memory ran short and something is missing; stays set
+};
+
+void builder_vertex(struct surface_builder *builder, const double position[3]);
+
+/// Colours the newest vertex, sRGB; those before the first coloured one become white, and so do later ones without.
+void builder_color(struct surface_builder *builder, const double srgb[3]);
+/// The first of three numbers that is far from any colour (0 … 1); NULL: none is. What is beyond that could not be written and read again.
+const double *builder_wrong_color(const double srgb[3]);
+void builder_linear_color(struct surface_builder *builder, const float rgb[3]);
+
+/// Texture coordinates, numbered from 0.
+void builder_uv(struct surface_builder *builder, double u, double v);
+
+/// The next corner of the open polygon, which becomes a fan of triangles. `uv` may be LOOKS_NONE.
+void builder_corner(struct surface_builder *builder, uint32_t vertex, uint32_t uv);
+
+/// Closes the polygon and returns how many corners it had.
+int builder_end_polygon(struct surface_builder *builder);
+
+/// The material of that name, made white where it is new.
+uint32_t builder_material(struct surface_builder *builder, const char *name);
+
+/// Drops triangles that name a vertex twice, and what all lack: texture coordinates without corners, materials without triangles. Fails
+/// where there are no vertices or no triangles then; `kind` says what it is, as in "a PLY file". On failure the surface is empty.
+bool builder_finish(struct surface_builder *builder, const char *path, const char *kind, struct error *error);
+
+/// Makes one of vertices at the same place, from number `first` on; the indices from `first_index` on are those that name them.
+void builder_merge(struct surface_builder *builder, int first, int first_index);
+
+// The words of a text file, one after the other.
+
+struct words {
+    const char *path;
+    char *at; ///< ends in a NUL
+    int line; ///< from 1
+    struct error *error;
+};
+
+/// Goes to the next word, past comments from "#" to the end of a line; false at the end of the text.
+bool words_more(struct words *words);
+
+/// Takes the next word if it is this one.
+bool words_take(struct words *words, const char *word);
+void words_skip_line(struct words *words);
+
+/// Takes a finite number, or a whole one from `least` to `most`. Fails with what was expected.
+bool words_number(struct words *words, const char *what, double *number);
+bool words_integer(struct words *words, const char *what, long least, long most, long *number);
+
+/// "file:line: expected …, got …"
+bool words_expected(struct words *words, const char *what);
+
+// The materials of OBJ files.
+
+enum { MTL_NAME = 256 };
+
+/// Adds the materials of a file named from the folder of an OBJ file: newmtl, Kd, d, Tr, map_Kd. A file that cannot be read, or a picture
+/// that is neither PNG nor JPEG, is left out and noted in the looks.
+void mtl_read(const char *obj_path, const char *name, struct surface_builder *builder);
+
+/// Writes the materials, and their pictures, beside an OBJ file; `name` is what the OBJ file calls them.
+bool mtl_write(const char *obj_path, const struct looks *looks, char name[MTL_NAME], struct error *error);
+
+/// "png" or "jpeg" by a picture's first bytes, or NULL.
+const char *looks_image_kind(const unsigned char *bytes, size_t size);
+
+// The readers of single formats, for surface_read().
 
 bool ply_read(const char *path, struct surface *surface, struct error *error);
 bool stl_read(const char *path, struct surface *surface, struct error *error);

@@ -1,6 +1,6 @@
 /// The fox's tail, as a tube of rings with skinning weights.
-#include "model/coat.h"
 #include "model/creature.h"
+#include "model/mesh.h"
 #include <math.h>
 
 /// Where the tube starts (inside the torso), where the brush begins to swell, and where its tip begins.

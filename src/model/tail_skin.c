@@ -1,9 +1,42 @@
-/// Skins the fox on the CPU.
+/// Moves and measures a posed tail, and places its skin.
 #include "model/tail_skin.h"
 #include "model/creature.h"
+#include "model/limbs.h"
+#include "model/pose.h"
 #include "model/vector.h"
 #include <assert.h>
 #include <math.h>
+
+void pose_move(struct pose *pose, const double by[3])
+{
+    for (int n = 0; n < pose->count; n++) {
+        for (int k = 0; k < 3; k++) pose->matrix[n][12 + k] += (float)by[k];
+    }
+}
+
+float pose_length(const struct pose *pose)
+{
+    const vec3s base = vec3_from(pose->matrix[0] + 12), next = vec3_from(pose->matrix[1] + 12);
+    return glms_vec3_distance(base, next) * (float)(pose->count - 1);
+}
+
+void pose_bounds(const struct pose *pose, float lo[3], float hi[3])
+{
+    const float scale = pose_length(pose) / CREATURE_TAIL_LENGTH;
+    limbs_bounds(&pose->limbs, lo, hi);
+    for (int k = 0; k < 3; k++) {
+        lo[k] = pose->matrix[0][12 + k] + scale * lo[k];
+        hi[k] = pose->matrix[0][12 + k] + scale * hi[k];
+    }
+    for (int n = 0; n < pose->count; n++) {
+        const float along = CREATURE_TAIL_LENGTH * (float)n / (float)(pose->count - 1);
+        const float radius = scale * creature_tail_radius(along);
+        for (int k = 0; k < 3; k++) {
+            lo[k] = fminf(lo[k], pose->matrix[n][12 + k] - radius);
+            hi[k] = fmaxf(hi[k], pose->matrix[n][12 + k] + radius);
+        }
+    }
+}
 
 /// matrix · translation by −along on z, as three rows: takes a point of the straight tail to its place on the posed one.
 static void slot_rows(mat4s matrix, float along, float rows[3][4])

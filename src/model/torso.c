@@ -1,8 +1,8 @@
 /// The fox without its tail, as a union of round cones.
-#include "model/coat.h"
 #include "model/creature.h"
 #include "model/isosurface.h"
 #include "model/limbs.h"
+#include "model/mesh.h"
 #include "model/vector.h"
 #include <math.h>
 #include <stddef.h>

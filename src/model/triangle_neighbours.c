@@ -1,5 +1,4 @@
 /// Finds the triangles across edges: an edge a → b is b → a there.
-#include "model/triangle_neighbours.h"
 #include "base/need.h"
 #include "model/adjacency.h"
 #include <math.h>

@@ -1,5 +1,5 @@
 /// Takes words and numbers from a text.
-#include "model/words.h"
+#include "model/surface_readers.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

@@ -3,7 +3,7 @@
 #ifndef RIG_MODELS_H
 #define RIG_MODELS_H
 
-#include "model/painted.h"
+#include "model/figure.h"
 #include "rig/imported.h"
 #include "rig/meadow.h"
 #include "scene/document.h"

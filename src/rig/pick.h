@@ -2,7 +2,7 @@
 #ifndef RIG_PICK_H
 #define RIG_PICK_H
 
-#include "model/morph.h"
+#include "model/figure.h"
 #include "model/reach.h"
 
 /// The nearest triangle that faces the eye; false if there is none. `direction` need not be of unit length.

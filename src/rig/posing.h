@@ -2,7 +2,7 @@
 #ifndef RIG_POSING_H
 #define RIG_POSING_H
 
-#include "model/morph.h"
+#include "model/figure.h"
 #include "model/pose.h"
 #include "rig/models.h"
 #include "scene/evaluate.h"

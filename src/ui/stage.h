@@ -3,8 +3,8 @@
 #define UI_STAGE_H
 
 #include "base/hash.h"
+#include "model/figure.h"
 #include "model/gltf.h"
-#include "model/morph.h"
 #include "model/pose.h"
 #include "ui/drawlist.h"
 #include "ui/theme.h"

@@ -4,9 +4,9 @@
 
 #include "draw/skirt.h"
 #include "fuzz.h"
+#include "model/adjacency.h"
 #include "model/decimate.h"
 #include "model/figure.h"
-#include "model/triangle_neighbours.h"
 #include <stdlib.h>
 
 /// The outlines of a mesh as it stands, from an eye.

@@ -1,5 +1,5 @@
 /// What the dog wears on its coat: eyes with lids, a nose, a collar with a tag.
-#include "model/coat.h"
+#include "model/mesh.h"
 #include "model/vector.h"
 #include "models/dog.h"
 #include <assert.h>
