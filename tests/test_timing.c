@@ -1,7 +1,7 @@
 /// The timing log is evidence: what it writes, what it sums up and what timing_diff concludes must be exact.
 #include "near.h"
 #include "regress/bootstrap.h"
-#include "timing/readlog.h"
+#include "timing/columns.h"
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

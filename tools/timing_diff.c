@@ -4,7 +4,7 @@
 /// else 0.
 #include "base/need.h"
 #include "regress/bootstrap.h"
-#include "timing/readlog.h"
+#include "timing/columns.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

@@ -3,7 +3,7 @@
 #include "base/file.h"
 #include "commands/commands.h"
 #include "commands/options.h"
-#include "commands/pin_warnings.h"
+#include "commands/report.h"
 #include "rig/opened.h"
 #include "scene/evaluate.h"
 #include "scene/number.h"

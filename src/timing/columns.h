@@ -1,4 +1,4 @@
-/// The columns of the timing log, for its writer and its readers, and what sums one up.
+/// The columns of the timing log, for its writer and its readers, what sums one up, and logs read back.
 #ifndef TIMING_COLUMNS_H
 #define TIMING_COLUMNS_H
 
@@ -60,5 +60,19 @@ struct over_budget {
 
 /// Counts the values above `budget`, which are in the order of time; NaN breaks a run.
 struct over_budget statistics_over(const double *values, int count, double budget);
+
+// Reads timing logs back, also several runs in one file (`cat run1.csv run2.csv`).
+
+/// All frames of all runs, without the warm-up.
+struct timing_log {
+    double *values; ///< rows × COLUMN_COUNT, NAN where NA
+    int *run;       ///< per row, from 0
+    int rows, runs;
+    char solvers[64]; ///< by what the splines were solved: "chain", "chain, band"; "" where the log does not say
+};
+
+/// false with a sentence: not readable, another schema, not a number, no frames. Then there is nothing to free.
+bool timing_log_read(const char *path, struct timing_log *log, struct error *error);
+void timing_log_free(struct timing_log *log);
 
 #endif

@@ -2,7 +2,7 @@
 #ifndef TIMING_DISTRIBUTION_H
 #define TIMING_DISTRIBUTION_H
 
-#include "timing/readlog.h"
+#include "timing/columns.h"
 #include <stdio.h>
 
 /// Percentiles of every time, frames over budget, a histogram of frame_ms, and where the slowest frames spent their time.

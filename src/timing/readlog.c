@@ -1,5 +1,5 @@
 /// Reads timing logs of one or several runs.
-#include "timing/readlog.h"
+#include "timing/columns.h"
 #include <errno.h>
 #include <limits.h>
 #include <math.h>
