@@ -3,6 +3,7 @@
 #include "rig/chain_make.h"
 #include "rig/import.h"
 #include "rig/opened.h"
+#include "scene/history.h"
 #include <math.h>
 #include <string.h>
 
@@ -34,8 +35,7 @@ static const struct chain *make_with_lag(struct stand *stand, const char *from, 
     struct error error;
     int rig;
     const struct chain_wish wish = {.from = from, .follows = follows, .lag = lag};
-    if (!chain_make(stand->history, stand->opened.document, stand->opened.models, &wish, &rig, &error))
-        fail_msg("%s", error.text);
+    if (!chain_make(stand->opened.document, stand->opened.models, &wish, &rig, &error)) fail_msg("%s", error.text);
     return &stand->opened.document->rigs[rig]->chain;
 }
 
@@ -90,12 +90,12 @@ static void test_a_chosen_clip_gives_the_scene_its_length(void **state)
     struct error error;
     open_stand(&stand);
     const struct gltf *gltf = &models_imported(stand.opened.models, 0)->gltf;
-    assert_true(import_choose_clip(stand.history, stand.opened.document, 0, gltf, "Trot", &error));
+    assert_true(import_choose_clip(stand.opened.document, 0, gltf, "Trot", &error));
     assert_string_equal(stand.opened.document->rigs[0]->model.clip, "Trot");
     assert_int_equal(stand.opened.document->last_frame, 14);
     make(&stand, "tail_1", true);
     assert_int_equal(spline_start(stand.opened.document->splines[0]), WIGGLY_LOOP);
-    assert_true(import_choose_clip(stand.history, stand.opened.document, 0, gltf, "Idle", &error));
+    assert_true(import_choose_clip(stand.opened.document, 0, gltf, "Idle", &error));
     assert_int_equal(stand.opened.document->last_frame, 14); // what splines there are keep their frames
     close_stand(&stand);
 }
@@ -195,7 +195,7 @@ static void test_what_cannot_be_a_chain(void **state)
     const struct chain_wish wishes[] = {{.from = "chest"}, {.from = "tail_8", .to = "tail_1"}, {.from = "wing"}};
     const char *const sentences[] = {"branches into", "below \"tail_8\"", "a bone called \"wing\""};
     for (int i = 0; i < 3; i++) {
-        assert_false(chain_make(stand.history, stand.opened.document, stand.opened.models, &wishes[i], &rig, &error));
+        assert_false(chain_make(stand.opened.document, stand.opened.models, &wishes[i], &rig, &error));
         if (!strstr(error.text, sentences[i])) fail_msg("got: %s", error.text);
     }
     assert_int_equal(stand.opened.document->rig_count, 1);

@@ -347,11 +347,12 @@ static void test_another_document(void **state)
     world_must(&world, edit_insert(SWAY, 4, 1));
     history_set_path(world.history, "own.json");
     char *first = world_print(&world);
-    struct edit edit = {.kind = EDIT_DOCUMENT};
-    edit.document = scene_parse("other", text, sizeof text - 1, NULL, &world.error);
-    assert_non_null(edit.document);
+    struct document *other = scene_parse("other", text, sizeof text - 1, NULL, &world.error);
+    assert_non_null(other);
     size_t bytes = history_bytes(world.history), whole = document_bytes_beside(world.document, NULL);
-    world_must(&world, edit);
+    history_begin(world.history, "Open another", 0);
+    edit_document(world.document, other);
+    history_end(world.history);
     assert_null(world.document->path);
     assert_int_equal(world.document->spline_count, 1);
     assert_true(history_bytes(world.history) > bytes + whole);

@@ -131,7 +131,7 @@ static void a_rescue_that_runs_out_ends_there(void **state)
 {
     (void)state;
     assert_int_equal(run_apart(run_twice_short), 3);
-    assert_string_equal(said, "wiggly: out of memory; what autosave has not kept is lost\n");
+    assert_string_equal(said, "wiggly: out of memory; work since the last autosave is lost\n");
 }
 
 static int work(void *user)

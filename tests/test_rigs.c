@@ -151,19 +151,15 @@ static void test_files_are_told_apart(void **state)
     (void)state;
     struct error error = {0};
     struct document *document = document_create();
-    struct history *history = history_create(document);
-    history_begin(history, "Add", 0);
-    assert_true(import_add(history, document, "assets/models/creature.glb", -1, &error));
-    assert_true(import_add(history, document, "assets/models/dog.glb", 0, &error));
-    assert_true(import_add(history, document, "assets/models/creature.glb", 0, &error));
-    assert_false(import_add(history, document, "Makefile", 0, &error));
+    assert_true(import_add(document, "assets/models/creature.glb", -1, &error));
+    assert_true(import_add(document, "assets/models/dog.glb", 0, &error));
+    assert_true(import_add(document, "assets/models/creature.glb", 0, &error));
+    assert_false(import_add(document, "Makefile", 0, &error));
     assert_non_null(strstr(error.text, "Makefile"));
-    history_end(history);
     assert_int_equal(document_count_rigs(document, RIG_CHARACTER), 2);
     assert_int_equal(document_count_rigs(document, RIG_MODEL), 1);
     assert_int_equal(document->spline_count, 1);
     assert_string_equal(document->rigs[2]->name, "creature 2");
-    history_destroy(history);
     document_destroy(document);
 }
 

@@ -116,18 +116,17 @@ static const struct {
 } others[OTHERS] = {
     {"dog.json", "Open the dog"}, {"hands.json", "Open the hands"}, {"meadow.json", "Open the meadow"}};
 
-/// Puts the edit's document in place of the one on the table, as a step of the history.
-static bool replace_document(struct app *app, struct edit *edit, const char *label, struct error *error)
+/// Puts a document, which ends, in place of the one on the table, as a step of the history.
+static void replace_document(struct app *app, struct document *document, const char *label)
 {
-    edit->document->serial = ++app->last_serial;
+    document->serial = ++app->last_serial;
     struct editor_world world = table_world(&app->table);
     editor_let_go(app->table.editor, &world); // a drag may have begun since the request
     history_begin(app->table.history, label, 0);
-    bool done = history_apply(app->table.history, app->table.document, edit, error);
+    edit_document(app->table.document, document);
     history_end(app->table.history);
     editor_refresh(app->table.editor, &world);
     show_title(app);
-    return done;
 }
 
 /// Opens a figure of the paper, the dog, the hands or the meadow in place of the document: undo brings the document back, with its file.
@@ -137,9 +136,9 @@ static bool open_figure(struct app *app, int number, struct error *error)
     char name[32];
     snprintf(name, sizeof name, "figure%d.json", number);
     if (other >= 0 && other < OTHERS) snprintf(name, sizeof name, "%s", others[other].name);
-    struct edit edit = {.kind = EDIT_DOCUMENT, .document = parse_built_in(name, error)};
-    if (!edit.document) return false;
-    if (!replace_document(app, &edit, other >= 0 ? others[other].undo : "Open a figure", error)) return false;
+    struct document *document = parse_built_in(name, error);
+    if (!document) return false;
+    replace_document(app, document, other >= 0 ? others[other].undo : "Open a figure");
     show_subject(app, name);
     return true;
 }
@@ -147,10 +146,10 @@ static bool open_figure(struct app *app, int number, struct error *error)
 /// The document's file as somebody else has left it, in place of the document: undo brings the document back.
 static bool take_theirs(struct app *app, struct error *error)
 {
-    struct edit edit = {.kind = EDIT_DOCUMENT, .document = scene_load(app_path(app), NULL, error)};
-    if (!edit.document) return false;
-    document_set_path(edit.document, app_path(app));
-    if (!replace_document(app, &edit, "Take theirs", error)) return false;
+    struct document *document = scene_load(app_path(app), NULL, error);
+    if (!document) return false;
+    document_set_path(document, app_path(app));
+    replace_document(app, document, "Take theirs");
     history_mark_saved(app->table.history);
     theirs_note(app);
     return true;
@@ -164,7 +163,7 @@ static bool add_file(struct app *app, const char *path, struct error *error)
     editor_let_go(table->editor, &world);
     history_begin(table->history, "Add character", 0);
     const int spline = editor_active(table->editor, table->document);
-    const bool added = import_add(table->history, table->document, path, spline, error);
+    const bool added = import_add(table->document, path, spline, error);
     if (!added) history_restart(table->history);
     history_end(table->history);
     editor_refresh(table->editor, &world);

@@ -11,7 +11,8 @@
 #include "base/file.h"
 #include "draw/draw.h"
 #include "platform/platform.h"
-#include "scene/edit_kinds.h"
+#include "scene/edit.h"
+#include "scene/history.h"
 #include "ui/theme.h"
 #include <stdint.h>
 #include <threads.h>

@@ -90,9 +90,6 @@ bool path_resolve(const char *folder, const char *path, char absolute[PATH_LIMIT
 /// Rewrites a path relative to one folder as a path relative to another. false if nothing changes or the path is too long.
 bool path_rebase(const char *path, const char *from, const char *to, char moved[PATH_LIMIT]);
 
-/// The same in place, of a path that malloc() made or NULL. false if memory runs out.
-bool path_move(char **path, const char *from, const char *to);
-
 /// Whether a file's name ends so, as ".glb", in small letters or capitals.
 bool path_has_end(const char *path, const char *end);
 

@@ -28,5 +28,3 @@ json_t *json_read(const char *text, size_t size, size_t flags, json_error_t *err
     }
     return NULL;
 }
-
-char *json_print(const json_t *json, size_t flags) { return json_dumps(json, flags); }

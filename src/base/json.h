@@ -1,4 +1,4 @@
-/// Parses and prints JSON. The library's memory is need()'s: what builds JSON does not look for NULL.
+/// Parses JSON. The library's memory is need()'s: what builds JSON does not look for NULL.
 #ifndef BASE_JSON_H
 #define BASE_JSON_H
 
@@ -6,8 +6,5 @@
 
 /// As json_loadb(), for a text of somebody else's: where there is not the memory for it, NULL, and json_error_code() says so.
 json_t *json_read(const char *text, size_t size, size_t flags, json_error_t *error);
-
-/// As json_dumps(). The caller frees the text.
-char *json_print(const json_t *json, size_t flags);
 
 #endif

@@ -27,7 +27,7 @@ _Noreturn static void end(const char *sentence)
 /// Ends the process. Returns only where another thread is saving the work: with what the reserve has freed, the caller tries again.
 static void ran_short(void)
 {
-    if (rescues) end("out of memory; what autosave has not kept is lost");
+    if (rescues) end("out of memory; work since the last autosave is lost");
     if (atomic_exchange(&ends, true)) {
         thrd_sleep(&(struct timespec){.tv_nsec = 10000000}, NULL);
         return;

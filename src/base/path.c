@@ -102,17 +102,6 @@ bool path_rebase(const char *path, const char *from, const char *to, char moved[
     return path_resolve(from, path, absolute) && relative(absolute, new_folder, moved);
 }
 
-bool path_move(char **path, const char *from, const char *to)
-{
-    char moved[PATH_LIMIT];
-    if (!*path || !path_rebase(*path, from, to, moved)) return true;
-    char *copy = strdup(moved);
-    if (!copy) return false;
-    free(*path);
-    *path = copy;
-    return true;
-}
-
 bool path_has_end(const char *path, const char *end)
 {
     size_t length = strlen(path), n = strlen(end);

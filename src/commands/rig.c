@@ -32,8 +32,7 @@ static void split(const struct gltf *gltf, const char *text, char from[BONE_NAME
     }
 }
 
-static bool add_chains(const struct job *job, const struct gltf *gltf, struct history *history, struct opened *opened,
-                       struct error *error)
+static bool add_chains(const struct job *job, const struct gltf *gltf, struct opened *opened, struct error *error)
 {
     struct chain_wish wish = job->wish;
     wish.follows = !job->plain && opened->document->rigs[0]->model.clip;
@@ -42,20 +41,15 @@ static bool add_chains(const struct job *job, const struct gltf *gltf, struct hi
         int rig;
         split(gltf, job->chains.text[c], from, &wish.to);
         wish.from = from;
-        if (!chain_make(history, opened->document, opened->models, &wish, &rig, error)) return false;
+        if (!chain_make(opened->document, opened->models, &wish, &rig, error)) return false;
     }
     return true;
 }
 
 static bool edit(const struct job *job, const struct gltf *gltf, struct opened *opened, struct error *error)
 {
-    struct history *history = history_create(opened->document);
-    history_begin(history, "Rig", 0);
-    bool done = !job->clip || import_choose_clip(history, opened->document, 0, gltf, job->clip, error);
-    done = done && add_chains(job, gltf, history, opened, error);
-    history_end(history);
-    history_destroy(history);
-    return done && models_update(opened->models, opened->document, error);
+    return (!job->clip || import_choose_clip(opened->document, 0, gltf, job->clip, error)) &&
+           add_chains(job, gltf, opened, error) && models_update(opened->models, opened->document, error);
 }
 
 static bool write_motion(const struct job *job, struct opened *opened, struct error *error)

@@ -171,7 +171,7 @@ bool gltf_file_write(struct gltf_file *file, json_t *root, bool binary, FILE *ou
     const bool fits = file->size < UINT32_MAX / 2;
     if (root && fits) complete(file, root, binary);
     if (root && fits && !file->without_memory)
-        text = json_print(root, (binary ? JSON_COMPACT : JSON_INDENT(1)) | JSON_REAL_PRECISION(17));
+        text = json_dumps(root, (binary ? JSON_COMPACT : JSON_INDENT(1)) | JSON_REAL_PRECISION(17));
     json_decref(root);
     if (!text) {
         return fail(error, ERROR_ENVIRONMENT,

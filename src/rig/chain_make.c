@@ -2,6 +2,7 @@
 #include "rig/chain_make.h"
 #include "rig/chain_bones.h"
 #include "rig/posing_kind.h"
+#include "scene/edit.h"
 #include <ctype.h>
 #include <math.h>
 #include <stdio.h>
@@ -104,7 +105,6 @@ static bool is_loop(const struct document *document, const struct model_rig *mod
 
 /// What all splines of a new chain have in common.
 struct plan {
-    struct history *history;
     struct document *document;
     const struct chain_wish *wish;
     char *model; ///< its name, or where it has none its file
@@ -117,8 +117,7 @@ struct plan {
 static bool set(const struct plan *plan, int spline, enum parameter parameter, struct param param,
                 struct error *error)
 {
-    const struct edit edit = {.kind = EDIT_PARAMETER, .spline = spline, .parameter = parameter, .param = param};
-    return history_apply(plan->history, plan->document, &edit, error);
+    return edit_parameter(plan->document, spline, parameter, &param, error);
 }
 
 /// A spline for one axis, the last of the list.
@@ -127,8 +126,7 @@ static bool add_spline(const struct plan *plan, const char *axis, struct error *
     char name[NAME_SIZE];
     const int spline = plan->document->spline_count;
     name_spline(plan->document, plan->chain, axis, name);
-    const struct edit add = {.kind = EDIT_SPLINE_ADD, .spline = spline, .text = name};
-    return history_apply(plan->history, plan->document, &add, error) &&
+    return edit_spline_add(plan->document, spline, name, NULL, error) &&
            set(plan, spline, PARAMETER_FREQUENCY, param_number(plan->frequency), error) &&
            set(plan, spline, PARAMETER_DAMPING, param_number(plan->damping), error) &&
            set(plan, spline, PARAMETER_START, param_number(plan->loops ? WIGGLY_LOOP : WIGGLY_REST), error);
@@ -160,8 +158,7 @@ static bool add_chain(const struct plan *plan, const struct chain *chain, int *r
 {
     const struct rig contents = {.kind = RIG_CHAIN, .name = plan->chain, .chain = *chain};
     *rig = plan->document->rig_count;
-    return history_apply(plan->history, plan->document, &(struct edit){.kind = EDIT_CHAIN_ADD, .contents = &contents},
-                         error);
+    return edit_rig_add(plan->document, &contents, error);
 }
 
 /// Adds two splines, and the chain of so many bones that they bend, each by `bend` degrees.
@@ -186,8 +183,8 @@ static bool add_whole(const struct plan *plan, struct chain *chain, int bones, d
            (follow_tip(plan, first, MOTION_ACROSS, error) && follow_tip(plan, first + 1, MOTION_UP, error));
 }
 
-bool chain_make(struct history *history, struct document *document, const struct models *models,
-                const struct chain_wish *wish, int *rig, struct error *error)
+bool chain_make(struct document *document, const struct models *models, const struct chain_wish *wish, int *rig,
+                struct error *error)
 {
     const struct rig *model = document->rigs[wish->model];
     const struct imported *imported = models_imported(models, document_rig_number(document, wish->model));
@@ -204,8 +201,7 @@ bool chain_make(struct history *history, struct document *document, const struct
     name_chain(document, wish->from, name);
     const double length = length_of(imported, &bones, model->model.scale);
     const double frequency = fmin(fmax(USUAL_FREQUENCY * sqrt(USUAL_LENGTH / length), SLOWEST), FASTEST);
-    const struct plan plan = {.history = history,
-                              .document = document,
+    const struct plan plan = {.document = document,
                               .wish = wish,
                               .model = model->name ? model->name : model->model.model,
                               .by_file = !model->name,

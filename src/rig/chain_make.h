@@ -4,7 +4,7 @@
 
 #include "rig/bones.h"
 #include "rig/models.h"
-#include "scene/edit_kinds.h"
+#include "scene/document.h"
 
 /// What is wanted; numbers that are 0 are chosen by the chain's length.
 struct chain_wish {
@@ -17,11 +17,11 @@ struct chain_wish {
     double lag;       ///< degrees a bone
 };
 
-/// Adds the chain and its splines (side and up) in the history's open step. Where its twin on the other side, by the bones' names, is a chain
-/// already, it shares the twin's splines: mirrored, unless
-/// it follows the clip. `rig`: its index. On failure the step may hold some of the edits; take them back.
-bool chain_make(struct history *history, struct document *document, const struct models *models,
-                const struct chain_wish *wish, int *rig, struct error *error);
+/// Adds the chain and its splines (side and up). Where its twin on the other side, by the bones' names, is a chain already, it
+/// shares the twin's splines: mirrored, unless it follows the clip. `rig`: its index. After a failure some of its splines may be
+/// there: the caller takes them back.
+bool chain_make(struct document *document, const struct models *models, const struct chain_wish *wish, int *rig,
+                struct error *error);
 
 /// Degrees by which each of its bones is to bend where the tip is to move by a metre; `scale`: of the character.
 double chain_bend_a_metre(const struct imported *imported, const struct chain_bones *bones, double scale);

@@ -3,6 +3,7 @@
 #include "base/file.h"
 #include "base/need.h"
 #include "model/character.h"
+#include "scene/edit.h"
 #include <fcntl.h>
 #include <math.h>
 #include <stdio.h>
@@ -73,8 +74,7 @@ static int last_frame(const struct gltf_clip *clip, double fps)
 }
 
 /// A coordinate's spline: the one that is handed in, or a new one that swings as the coordinate does, with a knot at frame 0.
-static int spline_for(struct history *history, struct document *document, int spline,
-                      const struct coordinate *coordinate, struct error *error)
+static int spline_for(struct document *document, int spline, const struct coordinate *coordinate, struct error *error)
 {
     const struct {
         enum parameter parameter;
@@ -83,48 +83,43 @@ static int spline_for(struct history *history, struct document *document, int sp
                  {PARAMETER_DAMPING, round(coordinate->damping * 1000) / 1000}};
     if (spline >= 0) return spline;
     const int added = document->spline_count;
-    struct edit edit = {.kind = EDIT_SPLINE_ADD, .spline = -1, .flag = true};
-    edit.knot = (struct knot){.frame = document->first_frame, .value = 0.5}; // it swings at once
-    if (!history_apply(history, document, &edit, error)) return -1;
+    const struct knot first = {.frame = document->first_frame, .value = 0.5}; // it swings at once
+    if (!edit_spline_add(document, -1, NULL, &first, error)) return -1;
     for (size_t i = 0; i < sizeof swing / sizeof swing[0]; i++) {
-        edit = (struct edit){.kind = EDIT_PARAMETER, .spline = added, .parameter = swing[i].parameter};
-        edit.param = param_number(swing[i].value);
-        if (swing[i].value > 0 && !history_apply(history, document, &edit, error)) return -1;
+        const struct param value = param_number(swing[i].value);
+        if (swing[i].value > 0 && !edit_parameter(document, added, swing[i].parameter, &value, error)) return -1;
     }
     return added;
 }
 
 /// A soft character, its first coordinate driven.
-static bool add_soft(struct history *history, struct document *document, char *file, int spline,
-                     const struct character *character, struct error *error)
+static bool add_soft(struct document *document, char *file, int spline, const struct character *character,
+                     struct error *error)
 {
     const struct coordinate *first = &character->coordinates[0];
-    const int driver = spline_for(history, document, spline, first, error);
+    const int driver = spline_for(document, spline, first, error);
     const struct drive drive = {.name = first->name, .spline = driver, .amplitude = DRIVE_DEFAULT_AMPLITUDE};
     const struct rig rig = {.kind = RIG_CHARACTER,
                             .character = {.model = file, .phases = -1, .drives = {drive}, .drive_count = 1}};
-    return driver >= 0 &&
-           history_apply(history, document, &(struct edit){.kind = EDIT_RIG_ADD, .contents = &rig}, error);
+    return driver >= 0 && edit_rig_add(document, &rig, error);
 }
 
 /// A stiff one, or one with bones; frame rate and range of a document that is empty become its clip's.
-static bool add_imported(struct history *history, struct document *document, char *file, const struct gltf *gltf,
-                         struct error *error)
+static bool add_imported(struct document *document, char *file, const struct gltf *gltf, struct error *error)
 {
     const struct gltf_clip *clip = gltf->clip_count > 0 ? &gltf->clips[0] : NULL;
     const struct rig rig = {.kind = RIG_MODEL,
                             .model = {.model = file, .clip = clip ? clip->name : NULL, .scale = scale_of(gltf)}};
     if (document->spline_count == 0 && document->rig_count == 0) {
         const double fps = frame_rate(clip);
-        const struct edit rate = {.kind = EDIT_FPS, .number = fps},
-                          range = {.kind = EDIT_RANGE, .first = 0, .last = last_frame(clip, fps)};
-        if (!history_apply(history, document, &rate, error) || !history_apply(history, document, &range, error))
+        if (!edit_fps(document, fps, false, error) ||
+            !edit_range(document, 0, last_frame(clip, fps), RANGE_REFUSE, error))
             return false;
     }
-    return history_apply(history, document, &(struct edit){.kind = EDIT_MODEL_ADD, .contents = &rig}, error);
+    return edit_rig_add(document, &rig, error);
 }
 
-bool import_add(struct history *history, struct document *document, const char *path, int spline, struct error *error)
+bool import_add(struct document *document, const char *path, int spline, struct error *error)
 {
     char file[PATH_LIMIT];
     struct character character = {0};
@@ -132,9 +127,9 @@ bool import_add(struct history *history, struct document *document, const char *
     if (!path_rebase(path, NULL, document->folder, file)) snprintf(file, sizeof file, "%s", path);
     if (!gltf_read(path, &gltf, error)) return false;
     const bool is_soft = gltf_is_soft(&gltf);
-    const bool added = is_soft ? character_read(path, &character, error) &&
-                                     add_soft(history, document, file, spline, &character, error)
-                               : add_imported(history, document, file, &gltf, error);
+    const bool added =
+        is_soft ? character_read(path, &character, error) && add_soft(document, file, spline, &character, error)
+                : add_imported(document, file, &gltf, error);
     character_free(&character);
     gltf_free(&gltf);
     return added;
@@ -144,26 +139,19 @@ struct document *import_scene(const char *path, struct error *error)
 {
     char folder[PATH_LIMIT];
     struct document *document = document_create();
-    struct history *history = history_create(document);
     if (path_folder(path, folder) && folder[0]) document->folder = need_text(folder);
-    history_begin(history, "Import", 0);
-    const bool added = import_add(history, document, path, -1, error);
-    history_end(history);
-    history_destroy(history);
-    if (added) return document;
+    if (import_add(document, path, -1, error)) return document;
     document_destroy(document);
     return NULL;
 }
 
-bool import_choose_clip(struct history *history, struct document *document, int rig, const struct gltf *gltf,
-                        const char *clip, struct error *error)
+bool import_choose_clip(struct document *document, int rig, const struct gltf *gltf, const char *clip,
+                        struct error *error)
 {
     const int found = clip ? gltf_find_clip(gltf, clip) : -1;
-    const struct edit choice = {.kind = EDIT_CLIP, .rig = rig, .text = clip};
-    if (!history_apply(history, document, &choice, error)) return false;
+    if (!edit_clip(document, rig, clip, error)) return false;
     if (found < 0 || document->spline_count > 0) return true;
     const double fps = frame_rate(&gltf->clips[found]);
-    const struct edit rate = {.kind = EDIT_FPS, .number = fps};
-    const struct edit range = {.kind = EDIT_RANGE, .first = 0, .last = last_frame(&gltf->clips[found], fps)};
-    return history_apply(history, document, &rate, error) && history_apply(history, document, &range, error);
+    return edit_fps(document, fps, false, error) &&
+           edit_range(document, 0, last_frame(&gltf->clips[found], fps), RANGE_REFUSE, error);
 }

@@ -3,7 +3,7 @@
 #define RIG_IMPORT_H
 
 #include "model/gltf.h"
-#include "scene/edit_kinds.h"
+#include "scene/document.h"
 
 /// Whether a file is a character: by its name, .glb or .gltf, or by how it begins.
 bool import_suits(const char *path);
@@ -12,14 +12,12 @@ bool import_suits(const char *path);
 /// its frame rate the one that the clip's keys lie on. NULL with a sentence.
 struct document *import_scene(const char *path, struct error *error);
 
-/// Adds the character in a file to a document, in the history's open step: a soft one, whose first coordinate `spline` drives (-1: a new
-/// one), or an imported one, which plays its first clip. False with a sentence.
-bool import_add(struct history *history, struct document *document, const char *path, int spline,
-                struct error *error);
+/// Adds the character in a file to a document: a soft one, whose first coordinate `spline` drives (-1: a new one), or an imported
+/// one, which plays its first clip. False with a sentence.
+bool import_add(struct document *document, const char *path, int spline, struct error *error);
 
-/// Has a model rig play a clip of its file, NULL: none, in the history's open step. In a scene that has no splines yet, frame rate and
-/// range become the clip's.
-bool import_choose_clip(struct history *history, struct document *document, int rig, const struct gltf *gltf,
-                        const char *clip, struct error *error);
+/// Has a model rig play a clip of its file, NULL: none. In a scene that has no splines yet, frame rate and range become the clip's.
+bool import_choose_clip(struct document *document, int rig, const struct gltf *gltf, const char *clip,
+                        struct error *error);
 
 #endif

@@ -88,9 +88,6 @@ static bool apply(struct document *d, const struct edit *e, struct error *error)
         return edit_spline_name(d, e->spline, e->text, error);
     case EDIT_SPLINE_COLOR:
         return edit_spline_color(d, e->spline, e->color, error);
-    case EDIT_DOCUMENT:
-        edit_document(d, e->document);
-        return true;
     case EDIT_FPS:
         return edit_fps(d, e->number, e->flag, error);
     case EDIT_SUBSTEPS:

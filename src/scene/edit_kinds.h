@@ -9,7 +9,7 @@ enum edit_kind {
     EDIT_KNOT_INSERT, ///< spline, knot (id 0: a new one is given)
     EDIT_KNOT_REMOVE, ///< spline, knot.id
     EDIT_KNOT_SET,    ///< spline, knot (found by id; frame, value, slope, has_slope, stiffness are replaced)
-    EDIT_PARAMETER, ///< spline, parameter, param (its motion is copied). A new mode converts ω = √k, ζ = γ/2√k and clamps, so that the saved file loads
+    EDIT_PARAMETER, ///< spline, parameter, param (its motion is copied). A new mode clamps, so that the saved file loads
     EDIT_SPLINE_ADD,  ///< spline: its place in the list, text (NULL: a free name), and if `flag` its first knot. f 1,
                       ///< ζ 0.1, β 0.1
     EDIT_SPLINE_COPY, ///< spline: a copy goes after it, with a free name and new knot ids
@@ -17,7 +17,6 @@ enum edit_kind {
     EDIT_SPLINE_MOVE,   ///< spline, to: its new place in the list
     EDIT_SPLINE_NAME,   ///< spline, text: not empty, and no other's name
     EDIT_SPLINE_COLOR,  ///< spline, color: 0xRRGGBB, or -1
-    EDIT_DOCUMENT,      ///< document: replaces this one; the history owns it from here on, even on failure
     EDIT_FPS, ///< number; flag: knots and range keep their seconds instead of their frames. Slopes are per second anyway
     EDIT_SUBSTEPS,    ///< substeps
     EDIT_RANGE,       ///< first, last: the scene's frames; fit: what happens to knots that would fall outside
@@ -60,7 +59,6 @@ struct edit {
     bool flag;
     const char *text; ///< read during the call only
     int to, color;
-    struct document *document;
     int substeps, first, last;
     enum range_fit fit;
     int rig; ///< index of a rig of a kind that the edit is for

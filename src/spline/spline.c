@@ -44,7 +44,7 @@ static minimum attempt(wiggly_solver *solver, problem *p, wiggly_curve *curve)
     minimum result = solver_minimise(solver);
     const bool is_worse = by_chain.solved && !(result.solved && result.error <= by_chain.error);
     if (is_worse && problem_solve_chain(solver, p, re, im)) {
-        // Inexact by both: two roundings that agree are no proof, so the factor says how much it lost.
+        // Both are inexact, and two roundings that agree prove nothing: the estimate is at least what the factor lost.
         if (by_chain.error > tolerance(WIGGLY_COMPLEX) * c->size)
             by_chain.error = fmax(by_chain.error, 100 * DBL_EPSILON * c->lost * c->size);
         return by_chain;

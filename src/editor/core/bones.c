@@ -71,7 +71,7 @@ void bones_choose_clip(struct core *core, const struct editor_world *world, int 
     struct error error = {0};
     if (history_is_open(world->history) || !character) return;
     history_begin(world->history, "Choose clip", 0);
-    const bool chosen = import_choose_clip(world->history, world->document, model, &character->gltf, clip, &error);
+    const bool chosen = import_choose_clip(world->document, model, &character->gltf, clip, &error);
     if (!chosen) history_restart(world->history);
     history_end(world->history);
     core_refresh(core, world);
@@ -93,7 +93,7 @@ void bones_make_chain(struct core *core, const struct editor_world *world, int f
     const struct chain_wish wish = {
         .model = model, .from = bones_character(world, model)->gltf.nodes[node].name, .follows = follow};
     history_begin(world->history, follow ? "Make chain that follows" : "Make chain", 0);
-    const bool made = chain_make(world->history, world->document, world->models, &wish, &rig, &error);
+    const bool made = chain_make(world->document, world->models, &wish, &rig, &error);
     if (!made) history_restart(world->history);
     history_end(world->history);
     core_refresh(core, world);

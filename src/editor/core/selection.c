@@ -8,13 +8,6 @@ bool selection_has(const struct selection *selection, unsigned id)
     return id < selection->capacity && (selection->bits[id / 64] >> (id % 64) & 1u);
 }
 
-bool selection_is_empty(const struct selection *selection)
-{
-    for (unsigned i = 0; i < selection->capacity / 64; i++)
-        if (selection->bits[i]) return false;
-    return true;
-}
-
 void selection_set(struct selection *selection, unsigned id, bool selected)
 {
     if (id >= selection->capacity) return;

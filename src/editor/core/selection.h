@@ -6,8 +6,6 @@
 
 /// Whether an id is selected.
 bool selection_has(const struct selection *selection, unsigned id);
-/// Whether no id is.
-bool selection_is_empty(const struct selection *selection);
 /// Selects or deselects an id.
 void selection_set(struct selection *selection, unsigned id, bool selected);
 /// Deselects everything.
