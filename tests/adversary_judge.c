@@ -78,7 +78,7 @@ static void find_exact(const struct adversary_problem *p, struct adversary_verdi
     v->pivot = book.pivot;
     v->growth = book.growth;
     v->undecided = book.open ? !asked && v->said != WIGGLY_CALMED && v->said != WIGGLY_LEVELLED
-                             : !asked || book.inverse > 1e26 || book.pivot < 1e-25; // what 34 digits can tell
+                             : !asked || book.inverse > 1e26 || book.pivot < 1e-20; // what 34 digits can tell
     v->borderline = book.open && ((asked && (book.pivot < 1e-11 || book.inverse > 1e14)) ||
                                   (book.growth > 300 && book.growth < 3e5));
     v->exists = textbook_curve(&p->desc, &book, &v->status, a->total, a->re, a->im);
