@@ -33,9 +33,8 @@ static inline void session_close(struct session *session) { table_free(&session-
 static inline void session_frame(struct session *session)
 {
     struct frame_row row = {0};
-    struct error error;
     table_edit(&session->table, 1.0 / 60, &row);
-    if (!table_solve(&session->table, &row, &error)) fail_msg("%s", error.text);
+    table_solve(&session->table, &row);
     table_pose(&session->table, &row);
     table_show(&session->table, &row);
 }

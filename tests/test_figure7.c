@@ -106,9 +106,8 @@ static void it_stands_on_its_feet(void **state)
     for (size_t s = 0; s < sizeof paths / sizeof *paths; s++) {
         struct scene scene = open_scene(paths[s]);
         struct evaluation evaluation = {0};
-        struct error error = {0};
         const struct posing posing = {.document = scene.document, .evaluation = &evaluation, .models = scene.models};
-        assert_true(evaluation_resize(&evaluation, scene.document, &error));
+        evaluation_resize(&evaluation, scene.document);
         evaluation_update(&evaluation, scene.document, false);
         for (int i = 0; i < evaluation.samples; i++) {
             struct rig_pose pose;

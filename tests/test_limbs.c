@@ -16,8 +16,8 @@ static struct opened scene;
 static void open_scene(const char *path)
 {
     struct error error = {0};
-    if (!opened_read(&scene, path, &error) || !opened_solve(&scene, SOLVER_BY_LENGTH, &error))
-        fail_msg("%s", error.text);
+    if (!opened_read(&scene, path, &error)) fail_msg("%s", error.text);
+    opened_solve(&scene, SOLVER_BY_LENGTH);
 }
 
 static const struct pose *pose_at(double frame)

@@ -126,7 +126,8 @@ static void try_edit(struct edit edit, const char *name)
     world.document = scene_parse("scene", scene, sizeof scene - 1, NULL, &world.error);
     world.history = history_create(world.document);
     assert_non_null(world.document);
-    assert_true(evaluation_resize(&kept, world.document, NULL) && evaluation_resize(&fresh, world.document, NULL));
+    evaluation_resize(&kept, world.document);
+    evaluation_resize(&fresh, world.document);
     evaluation_update(&kept, world.document, false);
     int samples = kept.samples;
     double *before = malloc(sizeof *before * (size_t)samples);

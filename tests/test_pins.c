@@ -112,9 +112,8 @@ static void check_group(const char *name, struct sheet *sheet, const struct docu
                         const double *expected, wiggly_method method)
 {
     struct evaluation evaluation = {0};
-    struct error error = {0};
     const int samples = document_samples(document);
-    assert_true(evaluation_resize(&evaluation, document, &error));
+    evaluation_resize(&evaluation, document);
     evaluation_update(&evaluation, document, false);
     wiggly_group *group;
     assert_int_equal(wiggly_group_create(samples, 16, sheet->splines, sheet->pins, &group), WIGGLY_OK);

@@ -34,7 +34,7 @@ static void open_drag(struct stand *stand, const struct drag *drag)
     struct error error = {0};
     memset(&stand->opened, 0, sizeof stand->opened);
     if (!opened_read(&stand->opened, drag->scene, &error)) fail_msg("%s", error.text);
-    assert_true(opened_solve(&stand->opened, SOLVER_BY_LENGTH, NULL));
+    opened_solve(&stand->opened, SOLVER_BY_LENGTH);
     const struct pin_source source = pin_points(stand->opened.models);
     struct pin pin = {.frame = drag->frame, .point = drag->point};
     struct pin_point at;
@@ -49,7 +49,7 @@ static void open_drag(struct stand *stand, const struct drag *drag)
     if (!history_apply(history, stand->opened.document, &edit, &error)) fail_msg("%s", error.text);
     history_end(history);
     history_destroy(history);
-    assert_true(evaluation_resize(&stand->opened.evaluation, stand->opened.document, NULL));
+    evaluation_resize(&stand->opened.evaluation, stand->opened.document);
 }
 
 /// What is left of the pin, of the size.

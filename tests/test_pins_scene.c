@@ -48,7 +48,7 @@ static void solve(struct stand *stand)
     struct document *document = document_of(stand);
     struct evaluation *evaluation = &stand->opened.evaluation;
     evaluation->pins = pin_points(stand->opened.models);
-    assert_true(evaluation_resize(evaluation, document, NULL));
+    evaluation_resize(evaluation, document);
     evaluation_update(evaluation, document, false);
 }
 
@@ -56,7 +56,7 @@ static void solve(struct stand *stand)
 static void solve_whole(struct stand *stand)
 {
     evaluation_free(&stand->opened.evaluation);
-    assert_true(opened_solve(&stand->opened, SOLVER_BY_LENGTH, NULL));
+    opened_solve(&stand->opened, SOLVER_BY_LENGTH);
 }
 
 static struct edit pin_edit(int rig, int point, double frame, const double to[3])
@@ -86,7 +86,7 @@ static void a_characters_point_moves_by_its_pull_however_far(void **state)
     struct stand stand = {0};
     pin_pull c[64], ignored[64];
     stand_open(&stand, "assets/scenes/character.json");
-    assert_true(opened_solve(&stand.opened, SOLVER_BY_LENGTH, NULL));
+    opened_solve(&stand.opened, SOLVER_BY_LENGTH);
     const int sample = document_sample(document_of(&stand), 30);
     const struct pin_point near = find(&stand, 0, 100, 30, c);
     stand.opened.evaluation.curves[0].re[sample] += 1000;
@@ -298,7 +298,7 @@ static void assert_same_as_whole(struct stand *stand)
 {
     struct evaluation whole = {.pins = pin_points(stand->opened.models)};
     const struct evaluation *seen = &stand->opened.evaluation;
-    assert_true(evaluation_resize(&whole, document_of(stand), NULL));
+    evaluation_resize(&whole, document_of(stand));
     evaluation_update(&whole, document_of(stand), false);
     for (int s = 0; s < whole.count; s++) {
         const size_t size = (size_t)whole.samples * sizeof(double);

@@ -314,7 +314,8 @@ static char *text_of(const struct document *document)
 {
     char *text = NULL;
     size_t capacity = 0, size = 0;
-    return scene_print_into(document, RECOVERY_FOLDER, &text, &capacity, &size) ? text : NULL;
+    scene_print_into(document, RECOVERY_FOLDER, &text, &capacity, &size);
+    return text;
 }
 
 /// A short session at a desk: start, edits, playing, undo, opening a figure, copying. `seen` (NULL: nobody) is handed the document after each frame.
@@ -418,7 +419,8 @@ static int keep_work(void *user)
     const struct autosave_work work = {.document = document, .path = "/mine.json", .revision = 7};
     char *text = NULL, *data = NULL;
     size_t capacity = 0, size = 0;
-    if (!document || !scene_print_into(document, RECOVERY_FOLDER, &text, &capacity, &size)) return 9;
+    if (!document) return 9;
+    scene_print_into(document, RECOVERY_FOLDER, &text, &capacity, &size);
     atomic_store(&allocations, 0);
     starve_at = at;
     struct autosave *autosave = autosave_open(&slot, &error);

@@ -39,9 +39,8 @@ struct autosave {
 static bool write_work(struct autosave *autosave, struct error *error)
 {
     size_t size;
-    if (!scene_print_into(autosave->document, RECOVERY_FOLDER, &autosave->text, &autosave->capacity, &size) ||
-        !scene_print_paint(autosave->document, &autosave->text, &autosave->capacity, &size))
-        return fail_no_memory(error, autosave->slot.path);
+    scene_print_into(autosave->document, RECOVERY_FOLDER, &autosave->text, &autosave->capacity, &size);
+    scene_print_paint(autosave->document, &autosave->text, &autosave->capacity, &size);
     return recovery_write(&autosave->slot, autosave->original, &autosave->stamp, autosave->text, size, error);
 }
 

@@ -76,8 +76,9 @@ static bool write_motion(struct export_job *job)
 static bool prepare(struct export_job *job)
 {
     struct opened *opened = &job->opened;
-    return models_update(opened->models, opened->document, &job->error) &&
-           opened_solve(opened, SOLVER_BY_LENGTH, &job->error);
+    if (!models_update(opened->models, opened->document, &job->error)) return false;
+    opened_solve(opened, SOLVER_BY_LENGTH);
+    return true;
 }
 
 static int work(void *user)

@@ -277,8 +277,8 @@ void app_frame(struct app *app)
     app_show_title(app);
     ui_scale_update(app);
     personal_update(app);
-    app->failed |= !table_solve(table, row, &app->error);
     if (app->failed) return;
+    table_solve(table, row);
     table_pose(table, row);
     if (app->sized_serial != table->models_serial) check_sizes(app);
     choose_resolution(app);

@@ -8,7 +8,7 @@
 
 static double since(double start) { return 1e6 * (clock_now() - start); }
 
-static bool solve(struct table *table, struct frame_row *row, struct error *error)
+static void solve(struct table *table, struct frame_row *row)
 {
     const struct document *document = table->document;
     const struct evaluation *evaluation = &table->evaluation;
@@ -17,12 +17,12 @@ static bool solve(struct table *table, struct frame_row *row, struct error *erro
                    table->solved_revision == 0;
     uint64_t revision = history_revision(table->history);
     row->edited = revision != table->solved_revision;
-    if ((resized || row->edited) && !evaluation_resize(&table->evaluation, document, error)) return false;
+    if (resized || row->edited) evaluation_resize(&table->evaluation, document);
     const struct motion_source motions = table->motions.read ? table->motions : clip_motions(table->models);
     bool moved = motions_bake(&table->evaluation, document, &motions);
     bool same_way = cubic == table->solved_cubic;
     row->solver = evaluation_solver(evaluation);
-    if (!resized && !row->edited && same_way && !moved) return true;
+    if (!resized && !row->edited && same_way && !moved) return;
     table->evaluation.pins = pin_points(table->models);
     evaluation_update(&table->evaluation, document, cubic);
     row->splines_solved = evaluation->solved_splines;
@@ -30,7 +30,6 @@ static bool solve(struct table *table, struct frame_row *row, struct error *erro
     row->knots = evaluation->solved_knots;
     table->solved_revision = revision;
     table->solved_cubic = cubic;
-    return true;
 }
 
 /// Reads the models of a document that is new on the table, or back by undo, or has other models since the last edit.
@@ -56,17 +55,15 @@ void table_edit(struct table *table, double dt, struct frame_row *row)
     row->edit_us = since(start);
 }
 
-bool table_solve(struct table *table, struct frame_row *row, struct error *error)
+void table_solve(struct table *table, struct frame_row *row)
 {
     read_models(table);
     if (table->models) models_paint(table->models, table->document);
     const double start = clock_now();
-    if (!solve(table, row, error)) return false;
-    if (table->models && !models_grow(table->models, table->document, &table->evaluation))
-        editor_message(table->editor, true, "There is not enough memory for the meadow.");
+    solve(table, row);
+    if (table->models) models_grow(table->models, table->document, &table->evaluation);
     row->splines_solved += meadow_solved(models_meadow(table->models)); // a reed is a spline, too
     row->solve_us = since(start);
-    return true;
 }
 
 void table_pose(struct table *table, struct frame_row *row)

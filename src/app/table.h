@@ -27,8 +27,7 @@ static inline struct editor_world table_world(const struct table *table)
 /// The parts of a frame after its events, in turn. Each enters its time and counts in the row.
 /// `dt` seconds of playback, and the edits of a running drag.
 void table_edit(struct table *table, double dt, struct frame_row *row);
-/// false if memory is short for an edit.
-bool table_solve(struct table *table, struct frame_row *row, struct error *error);
+void table_solve(struct table *table, struct frame_row *row);
 void table_pose(struct table *table, struct frame_row *row);
 /// The draw list.
 void table_show(struct table *table, struct frame_row *row);

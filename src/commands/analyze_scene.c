@@ -119,7 +119,7 @@ bool analyze_scene_write(const char *path, const char *model, const struct chara
         done = fail(error, ERROR_ENVIRONMENT, "%s: cannot be written: %s", path, strerror(errno));
     } else {
         add_scene(&text, character, analyzed, from, to);
-        done = text.no_memory ? fail_no_memory(error, path) : file_write_atomic(path, text.data, text.size, error);
+        done = file_write_atomic(path, text.data, text.size, error);
     }
     free(text.data);
     free(from);

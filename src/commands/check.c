@@ -59,12 +59,12 @@ static bool jumps(const struct document *document, const struct evaluation *eval
 }
 
 /// Checks what only a solve can show.
-static bool check_solution(const char *path, const struct document *document, struct models *models,
-                           struct problems *problems, struct error *error)
+static void check_solution(const char *path, const struct document *document, struct models *models,
+                           struct problems *problems)
 {
     const struct motion_source motions = clip_motions(models);
     struct evaluation evaluation = {.pins = pin_points(models)};
-    if (!evaluation_resize(&evaluation, document, error)) return false;
+    evaluation_resize(&evaluation, document);
     motions_bake(&evaluation, document, &motions);
     evaluation_update(&evaluation, document, false);
     for (int i = 0; i < evaluation.count; i++) {
@@ -76,7 +76,6 @@ static bool check_solution(const char *path, const struct document *document, st
     }
     pin_warnings(document, &evaluation, warn_of_pin, &(struct checked){problems, path});
     evaluation_free(&evaluation);
-    return true;
 }
 
 /// Checks the characters: their paint, their models, and what the scene names in them.
@@ -91,15 +90,14 @@ static bool check_models(const char *path, struct document *document, struct mod
     return false;
 }
 
-static bool check_document(const char *path, struct document *document, struct problems *problems,
-                           struct error *error)
+/// Whether its files can be read, too.
+static bool check_document(const char *path, struct document *document, struct problems *problems)
 {
     struct models *models = models_create();
     const bool good = check_models(path, document, models, problems);
-    const bool done = check_solution(path, document, models, problems, error);
+    check_solution(path, document, models, problems);
     models_destroy(models);
-    if (done && !good) error->kind = ERROR_INPUT;
-    return done;
+    return good;
 }
 
 static int check_character(const char *path)
@@ -127,9 +125,9 @@ static int check_scene(const char *path)
     struct error error = {0};
     struct document *document = scene_load(path, &problems, &error);
     if (!document) return (int)error.kind;
-    if (!check_document(path, document, &problems, &error)) fprintf(stderr, "%s\n", error.text);
+    const bool good = check_document(path, document, &problems);
     document_destroy(document);
-    return (int)error.kind;
+    return good ? 0 : ERROR_INPUT;
 }
 
 int command_check(int argc, char **argv)

@@ -65,12 +65,10 @@ static bool run(struct job *job, struct error *error)
     struct opened opened;
     if (!opened_read(&opened, job->scene, error)) return false;
     document_set_path(opened.document, job->scene);
-    bool done = opened_solve(&opened, SOLVER_BY_LENGTH, error);
-    if (done) {
-        const struct editor_world world = {
-            .document = opened.document, .evaluation = &opened.evaluation, .models = opened.models};
-        done = write_export(job, &world, error);
-    }
+    opened_solve(&opened, SOLVER_BY_LENGTH);
+    const struct editor_world world = {
+        .document = opened.document, .evaluation = &opened.evaluation, .models = opened.models};
+    const bool done = write_export(job, &world, error);
     opened_free(&opened);
     return done;
 }

@@ -56,7 +56,7 @@ static bool write_motion(const struct job *job, struct opened *opened, struct er
 {
     struct export_report report;
     const struct export_options options = {0};
-    if (!opened_solve(opened, SOLVER_BY_LENGTH, error)) return false;
+    opened_solve(opened, SOLVER_BY_LENGTH);
     const struct posing posing = opened_posing(opened);
     if (!export_write(&posing, job->output, &options, &report, error)) return false;
     if (*report.note) print_line(stderr, "%s: warning: %s", job->output, report.note);

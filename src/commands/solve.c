@@ -78,12 +78,10 @@ static bool solve(const char *scene, enum solver_choice solver, const char *out,
 {
     struct opened opened;
     if (!opened_read_splines(&opened, scene, error)) return false;
-    bool done = opened_solve(&opened, solver, error);
-    if (done) {
-        warn_statuses(scene, opened.document, &opened.evaluation);
-        pin_warnings(opened.document, &opened.evaluation, warn_of_pin, &scene);
-        done = write_output(out, opened.document, &opened.evaluation, error);
-    }
+    opened_solve(&opened, solver);
+    warn_statuses(scene, opened.document, &opened.evaluation);
+    pin_warnings(opened.document, &opened.evaluation, warn_of_pin, &scene);
+    const bool done = write_output(out, opened.document, &opened.evaluation, error);
     opened_free(&opened);
     return done;
 }

@@ -1,6 +1,7 @@
 /// Solves a meadow's reeds in one batch, and plants them.
 #include "rig/meadow.h"
 #include "base/hash.h"
+#include "base/need.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -23,7 +24,7 @@ struct meadow {
     uint64_t ground; ///< of where they are planted
 };
 
-struct meadow *meadow_create(void) { return calloc(1, sizeof(struct meadow)); }
+struct meadow *meadow_create(void) { return need_zeroed(1, sizeof(struct meadow)); }
 
 void meadow_destroy(struct meadow *meadow)
 {
@@ -37,33 +38,31 @@ void meadow_destroy(struct meadow *meadow)
     free(meadow);
 }
 
-static bool make_room(struct meadow *m, int count, int samples, int knots)
+static void make_room(struct meadow *m, int count, int samples, int knots)
 {
     const size_t numbers = (size_t)count * ROWS * (size_t)samples;
     if (count > m->capacity) {
         free(m->descs), free(m->curves), free(m->reeds);
-        m->descs = calloc((size_t)count, sizeof *m->descs);
-        m->curves = calloc((size_t)count, sizeof *m->curves);
-        m->reeds = calloc((size_t)count, sizeof *m->reeds);
-        m->capacity = m->descs && m->curves && m->reeds ? count : 0;
+        m->descs = need_zeroed((size_t)count, sizeof *m->descs);
+        m->curves = need_zeroed((size_t)count, sizeof *m->curves);
+        m->reeds = need_zeroed((size_t)count, sizeof *m->reeds);
+        m->capacity = count;
     }
     if (numbers > m->number_capacity) {
         free(m->numbers);
-        m->numbers = calloc(numbers, sizeof *m->numbers);
-        m->number_capacity = m->numbers ? numbers : 0;
+        m->numbers = need_zeroed(numbers, sizeof *m->numbers);
+        m->number_capacity = numbers;
     }
     if (knots > m->knot_capacity || !m->knots) {
         free(m->knots);
-        m->knots = calloc((size_t)knots + 1, sizeof *m->knots);
-        m->knot_capacity = m->knots ? knots : 0;
+        m->knots = need_zeroed((size_t)knots, sizeof *m->knots);
+        m->knot_capacity = knots;
     }
     if (!m->batch || samples > m->batch_samples || knots > m->batch_knots) {
         wiggly_batch_destroy(m->batch);
-        m->batch = NULL;
         m->batch_samples = samples, m->batch_knots = knots;
-        if (wiggly_batch_create(samples, knots + samples, 1, &m->batch) != WIGGLY_OK) m->batch = NULL;
+        if (wiggly_batch_create(samples, knots + samples, 1, &m->batch) != WIGGLY_OK) need_failed();
     }
-    return count <= m->capacity && numbers <= m->number_capacity && m->knots && m->batch;
 }
 
 /// A number from 0 to 1 that the seed, the reed and `what` alone decide.
@@ -116,20 +115,18 @@ static uint64_t ground_of(const struct meadow_rig *rig)
     return hash_bytes(HASH_START, numbers, sizeof numbers);
 }
 
-/// false if memory is short.
-static bool solve(struct meadow *m, const struct document *document, const struct evaluation *evaluation,
+static void solve(struct meadow *m, const struct document *document, const struct evaluation *evaluation,
                   const struct meadow_rig *rig)
 {
     m->count = 0;
-    if (!make_room(m, rig->count, evaluation->samples, document->splines[rig->spline]->knot_count)) return false;
+    make_room(m, rig->count, evaluation->samples, document->splines[rig->spline]->knot_count);
     const wiggly_desc desc = evaluation_describe(evaluation, document, rig->spline, m->knots);
     describe(m, rig, &desc);
     m->solved = m->count;
     if (wiggly_batch_solve(m->batch, m->descs, m->curves, NULL, m->count) >= WIGGLY_ERROR_ARGUMENT) m->count = 0;
-    return true;
 }
 
-bool meadow_update(struct meadow *m, const struct document *document, const struct evaluation *evaluation)
+void meadow_update(struct meadow *m, const struct document *document, const struct evaluation *evaluation)
 {
     const int index = document_find_rig(document, RIG_MEADOW, 0);
     const bool solved = index >= 0 && evaluation->count == document->spline_count && evaluation->samples > 0;
@@ -137,17 +134,16 @@ bool meadow_update(struct meadow *m, const struct document *document, const stru
     if (!solved) {
         m->count = 0;
         m->key = 0;
-        return true;
+        return;
     }
     const struct meadow_rig *rig = &document->rigs[index]->meadow;
     const uint64_t key = key_of(rig, evaluation), ground = ground_of(rig);
     const bool same = key == m->key;
     m->key = key;
-    if (!same && !solve(m, document, evaluation, rig)) return false;
+    if (!same) solve(m, document, evaluation, rig);
     const bool planted = same && ground == m->ground;
     m->ground = ground;
     for (int r = 0; r < m->count && !planted; r++) m->reeds[r] = plant(rig, r);
-    return true;
 }
 
 int meadow_solved(const struct meadow *m) { return m ? m->solved : 0; }

@@ -15,13 +15,12 @@ struct reed {
 /// Opaque.
 struct meadow;
 
-/// NULL if memory is short.
 struct meadow *meadow_create(void);
 void meadow_destroy(struct meadow *meadow);
 
 /// Solves the reeds of the document's first meadow anew if their number, seed or variation or their spline's curve has changed. Allocates only where there are more
-/// reeds, samples or knots than before. false if memory is short: then there are no reeds.
-bool meadow_update(struct meadow *meadow, const struct document *document, const struct evaluation *evaluation);
+/// reeds, samples or knots than before.
+void meadow_update(struct meadow *meadow, const struct document *document, const struct evaluation *evaluation);
 
 /// How many the last update solved.
 int meadow_solved(const struct meadow *meadow);

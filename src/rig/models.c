@@ -34,12 +34,11 @@ struct models {
 
 struct models *models_create(void) { return need_zeroed(1, sizeof(struct models)); }
 
-bool models_grow(struct models *models, const struct document *document, const struct evaluation *evaluation)
+void models_grow(struct models *models, const struct document *document, const struct evaluation *evaluation)
 {
     const bool wanted = document_find_rig(document, RIG_MEADOW, 0) >= 0;
     if (wanted && !models->meadow) models->meadow = meadow_create();
-    if (!models->meadow) return !wanted;
-    return meadow_update(models->meadow, document, evaluation);
+    if (models->meadow) meadow_update(models->meadow, document, evaluation);
 }
 
 const struct meadow *models_meadow(const struct models *models) { return models ? models->meadow : NULL; }

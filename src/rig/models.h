@@ -38,8 +38,8 @@ uint64_t models_version(const struct models *models);
 /// The document's i-th model rig; NULL if it could not be read. `models` may be NULL.
 const struct imported *models_imported(const struct models *models, int model);
 
-/// Solves the document's meadow where it has changed; false if memory is short.
-bool models_grow(struct models *models, const struct document *document, const struct evaluation *evaluation);
+/// Solves the document's meadow where it has changed.
+void models_grow(struct models *models, const struct document *document, const struct evaluation *evaluation);
 
 /// The meadow as it was last solved; NULL: none. `models` may be NULL.
 const struct meadow *models_meadow(const struct models *models);

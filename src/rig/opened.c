@@ -33,20 +33,15 @@ bool opened_read_splines(struct opened *opened, const char *path, struct error *
     return read_any(opened, path, false, error);
 }
 
-bool opened_solve(struct opened *opened, enum solver_choice solver, struct error *error)
+void opened_solve(struct opened *opened, enum solver_choice solver)
 {
     const struct motion_source source = clip_motions(opened->models);
     opened->evaluation.solver = solver;
     opened->evaluation.pins = pin_points(opened->models);
-    if (!evaluation_resize(&opened->evaluation, opened->document, error)) return false;
+    evaluation_resize(&opened->evaluation, opened->document);
     motions_bake(&opened->evaluation, opened->document, &source);
     evaluation_update(&opened->evaluation, opened->document, false);
-    for (int i = 0; i < opened->evaluation.count; i++) {
-        if (opened->evaluation.status[i] == WIGGLY_ERROR_MEMORY)
-            return fail_no_memory(error, opened->document->splines[i]->name);
-    }
-    return !opened->models || models_grow(opened->models, opened->document, &opened->evaluation) ||
-           fail(error, ERROR_ENVIRONMENT, "not enough memory for the meadow");
+    if (opened->models) models_grow(opened->models, opened->document, &opened->evaluation);
 }
 
 void opened_free(struct opened *opened)

@@ -17,7 +17,7 @@ bool opened_read(struct opened *opened, const char *path, struct error *error);
 bool opened_read_splines(struct opened *opened, const char *path, struct error *error);
 
 /// Solves all splines, with the motions that they follow; again after edits.
-bool opened_solve(struct opened *opened, enum solver_choice solver, struct error *error);
+void opened_solve(struct opened *opened, enum solver_choice solver);
 
 void opened_free(struct opened *opened);
 

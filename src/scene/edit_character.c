@@ -90,7 +90,6 @@ bool edit_paint_new(struct document *document, int rig, int coordinates, int ver
     if (coordinates < 1 || vertices < 1)
         return fail(error, ERROR_INPUT, "there is nothing to paint on this character");
     struct paint *paint = paint_create(coordinates, vertices);
-    if (!paint) return fail(error, ERROR_ENVIRONMENT, "not enough memory for paint on %d vertices", vertices);
     struct character_rig *own = &document_own_rig(document, rig)->character;
     paint_drop(own->painted);
     own->painted = paint;

@@ -2,93 +2,64 @@
 #include "scene/evaluate.h"
 #include "base/need.h"
 #include "scene/storage.h"
-#include <math.h>
+#include <assert.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 enum { FIRST_KNOTS = 256 };
 
-static bool fail_memory(const struct document *document, struct error *error)
-{
-    return fail(error, ERROR_ENVIRONMENT, "not enough memory to solve %d splines of %d samples",
-                document->spline_count, document_samples(document));
-}
-
 static void free_splines(struct evaluation *evaluation, struct storage *storage)
 {
+    for (int s = 0; s < storage->spline_capacity; s++) {
+        spline_drop(storage->state[s].held);
+        free(storage->state[s].baked.raw);
+    }
+    free(storage->state);
+    free(storage->order);
+    free(storage->space.stack);
+    free(storage->space.next);
     free(evaluation->curves);
     free(evaluation->status);
     free(evaluation->revisions);
-    free(storage->order);
-    free(storage->solved);
-    free(storage->space.stack);
-    free(storage->space.next);
-    free(storage->forced);
-    for (int s = 0; s < storage->spline_capacity; s++) spline_drop(storage->held[s]);
-    free(storage->held);
-    for (int s = 0; s < storage->spline_capacity; s++) free(storage->baked[s].raw);
-    free(storage->baked);
-    storage->baked = NULL;
-    storage->held = NULL;
-    evaluation->curves = NULL;
-    evaluation->status = NULL;
-    evaluation->revisions = NULL;
-    storage->order = NULL;
-    storage->solved = storage->forced = NULL;
-    storage->space = (struct order_space){0};
-    storage->spline_capacity = 0;
 }
 
-static bool resize_splines(struct evaluation *evaluation, struct storage *storage, int splines)
+static void resize_splines(struct evaluation *evaluation, struct storage *storage, int splines)
 {
-    if (splines <= storage->spline_capacity) return true;
+    if (splines <= storage->spline_capacity) return;
     size_t count = (size_t)splines;
     free_splines(evaluation, storage);
-    evaluation->curves = calloc(count, sizeof *evaluation->curves);
-    evaluation->status = calloc(count, sizeof *evaluation->status);
-    evaluation->revisions = calloc(count, sizeof *evaluation->revisions);
-    storage->order = calloc(count, sizeof *storage->order);
-    storage->solved = calloc(count, sizeof *storage->solved);
-    storage->forced = calloc(count, sizeof *storage->forced);
-    storage->space.stack = calloc(count, sizeof *storage->space.stack);
-    storage->space.next = calloc(count, sizeof *storage->space.next);
-    storage->baked = calloc(count, sizeof *storage->baked);
-    storage->held = calloc(count, sizeof *storage->held);
-    storage->is_new = true;
-    if (!storage->baked || !storage->held || !evaluation->curves || !evaluation->status || !evaluation->revisions ||
-        !storage->order || !storage->solved || !storage->forced || !storage->space.stack || !storage->space.next) {
-        return false;
-    }
+    evaluation->curves = need_zeroed(count, sizeof *evaluation->curves);
+    evaluation->status = need_zeroed(count, sizeof *evaluation->status);
+    evaluation->revisions = need_zeroed(count, sizeof *evaluation->revisions);
+    storage->state = need_zeroed(count, sizeof *storage->state);
+    storage->order = need(count, sizeof *storage->order);
+    storage->space.stack = need(count, sizeof *storage->space.stack);
+    storage->space.next = need(count, sizeof *storage->space.next);
     storage->spline_capacity = splines;
-    return true;
+    storage->is_new = true;
 }
 
-static bool resize_numbers(struct storage *storage, int splines, int samples)
+static void resize_numbers(struct storage *storage, int splines, int samples)
 {
-    size_t needed;
-    if (!checked_mul((size_t)splines * ROWS, (size_t)samples, &needed)) return false;
-    if (needed <= storage->number_capacity) return true;
+    const size_t needed = (size_t)splines * ROWS * (size_t)samples;
+    if (needed <= storage->number_capacity) return;
     free(storage->numbers);
-    storage->numbers = calloc(needed, sizeof *storage->numbers);
-    storage->number_capacity = storage->numbers ? needed : 0;
+    storage->numbers = need_zeroed(needed, sizeof *storage->numbers);
+    storage->number_capacity = needed;
     storage->is_new = true;
-    return storage->numbers != NULL;
 }
 
 /// Room for the motions that splines follow.
-static bool resize_baked(struct storage *storage, const struct document *document, int samples)
+static void resize_baked(struct storage *storage, const struct document *document, int samples)
 {
     for (int s = 0; s < document->spline_count; s++) {
-        struct baked *baked = &storage->baked[s];
+        struct baked *baked = &storage->state[s].baked;
         if (!document->splines[s]->parameter[PARAMETER_EQUILIBRIUM].motion || samples <= baked->capacity) continue;
         free(baked->raw);
-        *baked = (struct baked){.raw = malloc(2 * (size_t)samples * sizeof *baked->raw)};
-        if (!baked->raw) return false;
+        *baked = (struct baked){.raw = need(2 * (size_t)samples, sizeof *baked->raw), .capacity = samples};
         baked->samples = baked->raw + samples;
-        baked->capacity = samples;
     }
-    return true;
 }
 
 bool evaluation_sentence(const struct evaluation *evaluation, int spline, char *text)
@@ -106,21 +77,18 @@ bool evaluation_sentence(const struct evaluation *evaluation, int spline, char *
     return true;
 }
 
-static bool resize_solver(struct storage *storage, int samples, int knots)
+static void resize_solver(struct storage *storage, int samples, int knots)
 {
-    if (storage->solver && samples <= storage->solver_samples && knots <= storage->solver_knots) return true;
+    if (storage->solver && samples <= storage->solver_samples && knots <= storage->solver_knots) return;
     int room = storage->solver_knots > FIRST_KNOTS ? storage->solver_knots : FIRST_KNOTS;
     while (room < knots) room *= 2;
     if (samples < storage->solver_samples) samples = storage->solver_samples;
     wiggly_destroy(storage->solver);
     free(storage->knots);
-    storage->solver = NULL;
-    storage->solver_samples = storage->solver_knots = 0;
-    storage->knots = malloc((size_t)room * sizeof *storage->knots);
-    if (!storage->knots || wiggly_create(samples, room, &storage->solver) != WIGGLY_OK) return false;
+    storage->knots = need((size_t)room, sizeof *storage->knots);
+    if (wiggly_create(samples, room, &storage->solver) != WIGGLY_OK) need_failed();
     storage->solver_samples = samples;
     storage->solver_knots = room;
-    return true;
 }
 
 /// Gives each curve its place. Until it is solved, its numbers are zeros or left over from another layout: finite in any case.
@@ -135,25 +103,22 @@ static void lay_out(struct evaluation *evaluation, struct storage *storage, int 
     }
 }
 
-bool evaluation_resize(struct evaluation *evaluation, const struct document *document, struct error *error)
+void evaluation_resize(struct evaluation *evaluation, const struct document *document)
 {
     int splines = document->spline_count, samples = document_samples(document), knots = 0;
     for (int i = 0; i < splines; i++) {
         int room = storage_knot_room(document->splines[i], samples);
         if (room > knots) knots = room;
     }
-    if (!evaluation->storage) evaluation->storage = calloc(1, sizeof *evaluation->storage);
+    if (!evaluation->storage) evaluation->storage = need_zeroed(1, sizeof *evaluation->storage);
     struct storage *storage = evaluation->storage;
-    if (!storage) return fail_memory(document, error);
-    if (!resize_splines(evaluation, storage, splines) || !resize_numbers(storage, splines, samples) ||
-        !resize_solver(storage, samples, knots) || !resize_baked(storage, document, samples) ||
-        !pinned_resize(storage, document)) {
-        evaluation->count = 0;
-        return fail_memory(document, error);
-    }
+    resize_splines(evaluation, storage, splines);
+    resize_numbers(storage, splines, samples);
+    resize_solver(storage, samples, knots);
+    resize_baked(storage, document, samples);
+    pinned_resize(storage, document);
     bool same = evaluation->count == splines && evaluation->samples == samples && !storage->is_new;
     if (!same) lay_out(evaluation, storage, splines, samples);
-    return true;
 }
 
 void evaluation_free(struct evaluation *evaluation)
@@ -175,7 +140,7 @@ static bool follows_solved(const struct storage *storage, const struct spline *s
 {
     for (int i = 0; i < PARAMETER_COUNT; i++) {
         int track = spline->parameter[i].track;
-        if (track >= 0 && storage->solved[track] && spline_uses(spline, (enum parameter)i, cubic)) return true;
+        if (track >= 0 && storage->state[track].solved && spline_uses(spline, (enum parameter)i, cubic)) return true;
     }
     return false;
 }
@@ -194,14 +159,11 @@ static void solve(struct evaluation *evaluation, const struct document *document
 {
     struct storage *storage = evaluation->storage;
     wiggly_curve *curve = &evaluation->curves[spline];
-    wiggly_desc desc = {.samples = evaluation->samples, .step = document_step(document)};
-    wiggly_status status = WIGGLY_ERROR_CAPACITY;
-    if (document->splines[spline]->knot_count <= storage->solver_knots) {
-        desc = storage_describe(evaluation->storage, evaluation->curves, document, spline, cubic);
-        storage_add_knots(&desc, document, spline, storage->knots);
-        wiggly_set_method(storage->solver, evaluation_method(evaluation));
-        status = wiggly_solve(storage->solver, &desc, curve);
-    }
+    wiggly_desc desc = storage_describe(storage, evaluation->curves, document, spline, cubic);
+    assert(document->splines[spline]->knot_count <= storage->solver_knots);
+    storage_add_knots(&desc, document, spline, storage->knots);
+    wiggly_set_method(storage->solver, evaluation_method(evaluation));
+    const wiggly_status status = wiggly_solve(storage->solver, &desc, curve);
     if (status >= WIGGLY_ERROR_ARGUMENT) storage_flatten(curve, &desc);
     count_solved(evaluation, document, spline, status);
 }
@@ -210,18 +172,20 @@ static void solve(struct evaluation *evaluation, const struct document *document
 static bool is_due(struct evaluation *evaluation, const struct document *document, int spline)
 {
     const struct storage *storage = evaluation->storage;
-    return storage->is_new || storage->held[spline] != document->splines[spline] || storage->baked[spline].is_new ||
-           storage->forced[spline] || follows_solved(storage, document->splines[spline], evaluation->cubic);
+    const struct spline_state *state = &storage->state[spline];
+    return storage->is_new || state->held != document->splines[spline] || state->baked.is_new || state->forced ||
+           follows_solved(storage, document->splines[spline], evaluation->cubic);
 }
 
 /// Holds what is solved, so that its address stays its own.
 static void mark_solved(struct storage *storage, const struct document *document, int spline)
 {
-    struct spline **held = &storage->held[spline], *old = *held;
-    *held = spline_hold(document->splines[spline]);
+    struct spline_state *state = &storage->state[spline];
+    struct spline *old = state->held;
+    state->held = spline_hold(document->splines[spline]);
     spline_drop(old);
-    storage->solved[spline] = true;
-    storage->baked[spline].is_new = storage->forced[spline] = false;
+    state->solved = true;
+    state->baked.is_new = state->forced = false;
 }
 
 /// Whether all splines are to be solved: another way, or at other times.
@@ -276,8 +240,7 @@ void evaluation_update(struct evaluation *evaluation, const struct document *doc
     struct storage *storage = evaluation->storage;
     struct order_cycle cycle;
     evaluation->solved_splines = evaluation->solved_samples = evaluation->solved_knots = 0;
-    if (evaluation->count != document->spline_count || evaluation->samples != document_samples(document))
-        return; // evaluation_resize() failed and reported it
+    assert(evaluation->count == document->spline_count && evaluation->samples == document_samples(document));
     storage->is_new |= has_changed(evaluation, document, cubic);
     evaluation->cubic = cubic;
     storage->fps = document->fps;
@@ -286,7 +249,7 @@ void evaluation_update(struct evaluation *evaluation, const struct document *doc
     if (!scene_order(document, storage->space, storage->order, &cycle)) return; // a document has no cycles
     const bool grouped = pinned_begin(evaluation, document);
     const int *order = grouped ? storage->pinned.order : storage->order;
-    for (int i = 0; i < evaluation->count; i++) storage->solved[i] = false;
+    for (int i = 0; i < evaluation->count; i++) storage->state[i].solved = false;
     for (int i = 0; i < evaluation->count;) {
         if (grouped && storage->pinned.which[order[i]] >= 0) {
             i += update_group(evaluation, document, &order[i]);

@@ -37,8 +37,8 @@ enum { EVALUATION_SENTENCE = 200 };
 bool evaluation_sentence(const struct evaluation *evaluation, int spline, char *text);
 
 /// Makes room for a document's splines. Call it again whenever the number of splines, samples or knots may have changed; it costs next
-/// to nothing if they fit. A new number of splines or samples makes every curve unsolved. On failure `count` is 0.
-bool evaluation_resize(struct evaluation *evaluation, const struct document *document, struct error *error);
+/// to nothing if they fit. A new number of splines or samples makes every curve unsolved.
+void evaluation_resize(struct evaluation *evaluation, const struct document *document);
 void evaluation_free(struct evaluation *evaluation);
 
 /// Solves the splines that are not the ones solved last, and those that follow them by tracks. Allocates nothing. `cubic` solves every

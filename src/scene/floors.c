@@ -6,6 +6,7 @@
 /// Knots and pins come first. Where they hold a character below its floor, the floor sinks as deep there, and rises again over a quarter
 /// of a period: otherwise the curve would have to jump up to it in one sample.
 #include "scene/floors.h"
+#include "base/need.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -38,30 +39,24 @@ bool floors_any(const struct document *document)
     return false;
 }
 
-bool floors_resize(struct floors *floors, const struct document *document, int group)
+void floors_resize(struct floors *floors, const struct document *document, int group)
 {
     const int samples = document_samples(document), rigs = document->rig_count;
-    if (!floors_any(document)) return true;
-    if (floors->bounds && samples <= floors->samples && group <= floors->splines && rigs <= floors->rigs) return true;
+    if (!floors_any(document)) return;
+    if (floors->bounds && samples <= floors->samples && group <= floors->splines && rigs <= floors->rigs) return;
     floors_free(floors);
     const size_t n = (size_t)samples, bounds = FLOORS_MOST_BOUNDS;
-    floors->bounds = calloc(bounds, sizeof *floors->bounds);
-    floors->rig = calloc(bounds, sizeof *floors->rig);
-    floors->vertex = calloc(bounds, sizeof *floors->vertex);
-    floors->c = calloc(bounds * (size_t)group, sizeof *floors->c);
-    floors->low = calloc(n, sizeof *floors->low);
-    floors->room = calloc(LOW_POINT_ROOM * (size_t)low_point_samples(samples), sizeof *floors->room);
-    floors->sunk = calloc(n * (size_t)rigs, sizeof *floors->sunk);
-    floors->left = calloc((size_t)rigs, sizeof *floors->left);
-    if (!floors->bounds || !floors->rig || !floors->vertex || !floors->c || !floors->low || !floors->room ||
-        !floors->sunk || !floors->left) {
-        floors_free(floors);
-        return false;
-    }
+    floors->bounds = need_zeroed(bounds, sizeof *floors->bounds);
+    floors->rig = need_zeroed(bounds, sizeof *floors->rig);
+    floors->vertex = need_zeroed(bounds, sizeof *floors->vertex);
+    floors->c = need_zeroed(bounds * (size_t)group, sizeof *floors->c);
+    floors->low = need_zeroed(n, sizeof *floors->low);
+    floors->room = need_zeroed(LOW_POINT_ROOM * (size_t)low_point_samples(samples), sizeof *floors->room);
+    floors->sunk = need_zeroed(n * (size_t)rigs, sizeof *floors->sunk);
+    floors->left = need_zeroed((size_t)rigs, sizeof *floors->left);
     floors->samples = samples;
     floors->splines = group;
     floors->rigs = rigs;
-    return true;
 }
 
 static bool concerns(const int *which, const struct rig *rig, int group)

@@ -41,8 +41,8 @@ struct floor_group {
 /// Whether any rig has one.
 bool floors_any(const struct document *document);
 
-/// Makes room for the document's floors, for groups of that many splines; false if memory runs out. Without floors it costs nothing.
-bool floors_resize(struct floors *floors, const struct document *document, int group);
+/// Makes room for the document's floors, for groups of that many splines. Without floors it costs nothing.
+void floors_resize(struct floors *floors, const struct document *document, int group);
 void floors_free(struct floors *floors);
 
 /// Whether a rig of a group has one.

@@ -1,5 +1,6 @@
 /// Reads and writes knots as JSON.
 #include "scene/knots.h"
+#include "base/need.h"
 #include "scene/members.h"
 #include "scene/reader.h"
 #include <stdlib.h>
@@ -34,9 +35,7 @@ char *knots_print(const struct knot_list *list)
     }
     text_string(&text, list->count > 0 ? "\n]\n" : "[]\n");
     text_bytes(&text, "", 1);
-    if (!text.no_memory) return text.data;
-    free(text.data);
-    return NULL;
+    return text.data;
 }
 
 static void read_array(struct reader *reader, struct value array, struct knot_list *list)
@@ -44,12 +43,8 @@ static void read_array(struct reader *reader, struct value array, struct knot_li
     int count = reader_objects(reader, array, SCENE_MAX_KNOTS);
     if (count == 0) reader_fail(reader, &array.at, "expected at least one knot, got none");
     if (count <= 0) return;
-    list->knots = calloc((size_t)count, sizeof *list->knots);
-    list->splines = calloc((size_t)count, sizeof *list->splines);
-    if (!list->knots || !list->splines) {
-        reader_no_memory(reader);
-        return;
-    }
+    list->knots = need_zeroed((size_t)count, sizeof *list->knots);
+    list->splines = need_zeroed((size_t)count, sizeof *list->splines);
     list->count = count;
     for (int i = 0; i < count; i++) {
         const struct value object = reader_element(&array, i), spline = reader_member(&object, "spline");
@@ -64,7 +59,6 @@ static bool parse_json(const char *name, const char *text, struct knot_list *lis
 {
     struct reader reader = {.source = {.name = name, .text = text, .size = strlen(text)}, .error = error};
     reader.document = document_create();
-    if (!reader.document) return reader_no_memory(&reader);
     const struct value root = {.json = reader_parse(&reader)};
     if (root.json) read_array(&reader, json_is_object(root.json) ? reader_member(&root, "knots") : root, list);
     json_decref(root.json);

@@ -13,7 +13,7 @@ struct knot_list {
 };
 
 /// A JSON array with one knot a line, as in a scene file; where it is known, "spline" says which one it is of. The caller frees
-/// it; NULL if memory runs out.
+/// it.
 char *knots_print(const struct knot_list *list);
 
 /// Reads what knots_print() writes, an object with "knots" (a scene file's spline), or CSV. If there are no knots, returns false with a

@@ -1,4 +1,5 @@
 /// Reads knots from CSV lines frame,value[,slope[,stiffness]].
+#include "base/need.h"
 #include "scene/knots.h"
 #include <math.h>
 #include <stdlib.h>
@@ -107,11 +108,8 @@ static bool add_knot(struct csv *csv, const struct knot *knot)
     struct knot_list *list = csv->list;
     if (list->count == SCENE_MAX_KNOTS) return bad(csv, "at most 100000 knots", "more");
     if (list->count == csv->capacity) {
-        int capacity = csv->capacity > 0 ? 2 * csv->capacity : FIRST_KNOTS;
-        struct knot *knots = realloc(list->knots, (size_t)capacity * sizeof *knots);
-        if (!knots) return fail_no_memory(csv->error, csv->name);
-        list->knots = knots;
-        csv->capacity = capacity;
+        csv->capacity = csv->capacity > 0 ? 2 * csv->capacity : FIRST_KNOTS;
+        list->knots = need_more(list->knots, (size_t)csv->capacity, sizeof *list->knots);
     }
     list->knots[list->count++] = *knot;
     return true;

@@ -21,12 +21,12 @@ struct document *scene_parse(const char *name, const char *text, size_t size, st
                              struct error *error);
 
 /// The canonical text: known keys in their fixed order, then unknown ones in theirs; knots by sample; numbers as the shortest text that
-/// reads back equal. scene_parse() of it gives an equal document. The caller frees it; NULL if memory runs out.
+/// reads back equal. scene_parse() of it gives an equal document. The caller frees it.
 char *scene_print(const struct document *document, size_t *size);
 
 /// The same for a file in `folder` (document.h), into `*buffer` of `*capacity` bytes (at first NULL and 0), which grows as needed and
-/// which the caller frees: printing the same document repeatedly allocates nothing. false if memory runs out.
-bool scene_print_into(const struct document *document, const char *folder, char **buffer, size_t *capacity,
+/// which the caller frees: printing the same document repeatedly allocates nothing.
+void scene_print_into(const struct document *document, const char *folder, char **buffer, size_t *capacity,
                       size_t *size);
 
 /// Saves the paint of the document's characters, each as an .npy file beside the scene (which the document then names), and then the
@@ -46,7 +46,7 @@ uint64_t scene_paint_theirs(struct document *document, const char **name);
 void scene_keep_paint(struct document *document);
 
 /// Appends a NUL and all paint, if there is any, to a text of scene_print_into(), for a recovery file.
-bool scene_print_paint(const struct document *document, char **buffer, size_t *capacity, size_t *size);
+void scene_print_paint(const struct document *document, char **buffer, size_t *capacity, size_t *size);
 
 /// Gives the document the paint that scene_print_paint() printed: `text` is what follows the NUL, and must end with one itself.
 /// `name` stands for the path in messages.

@@ -1,6 +1,7 @@
 /// Loads a scene from a file or from text.
 #include "base/file.h"
 #include "base/json.h"
+#include "base/need.h"
 #include "scene/load.h"
 #include "scene/reader.h"
 #include <limits.h>
@@ -44,8 +45,7 @@ static void fail_syntax(struct reader *reader, const json_error_t *syntax)
         snprintf(sentence, sizeof sentence, "expected UTF-8, got something else (%s)", syntax->text);
         break;
     case json_error_out_of_memory:
-        reader_no_memory(reader);
-        return;
+        need_failed();
     default:
         compose_syntax(syntax->text, sentence, sizeof sentence);
     }
@@ -73,8 +73,7 @@ static void load_about(struct reader *reader, const struct value *scene)
     if (!json_is_string(value.json)) {
         reader_unexpected(reader, value, "a string");
     } else if (json_string_length(value.json) > 0) {
-        reader->document->about = strdup(json_string_value(value.json));
-        if (!reader->document->about) reader_no_memory(reader);
+        reader->document->about = need_text(json_string_value(value.json));
     }
 }
 
@@ -169,10 +168,6 @@ static struct document *parse_document(const char *name, const char *text, size_
     struct reader reader = {
         .source = {.name = name, .text = text, .size = size}, .problems = problems, .error = error};
     reader.document = document_create();
-    if (!reader.document) {
-        reader_no_memory(&reader);
-        return NULL;
-    }
     parse(&reader);
     if (!reader.failed) return reader.document;
     document_destroy(reader.document);
@@ -183,8 +178,9 @@ static struct document *parse_document(const char *name, const char *text, size_
 static bool set_folder(struct document *document, const char *path, struct error *error)
 {
     char folder[PATH_LIMIT];
-    document->folder = path_folder(path, folder) ? strdup(folder) : NULL;
-    return document->folder || fail(error, ERROR_ENVIRONMENT, "%s: not enough memory, or the path is too long", path);
+    if (!path_folder(path, folder)) return fail(error, ERROR_ENVIRONMENT, "%s: the path is too long", path);
+    document->folder = need_text(folder);
+    return true;
 }
 
 struct document *scene_load(const char *path, struct problems *problems, struct error *error)
@@ -208,11 +204,7 @@ struct document *scene_load(const char *path, struct problems *problems, struct 
 struct document *scene_parse(const char *name, const char *text, size_t size, struct problems *problems,
                              struct error *error)
 {
-    char *copy = malloc(size + 1);
-    if (!copy) {
-        fail_no_memory(error, name);
-        return NULL;
-    }
+    char *copy = need(size + 1, 1);
     memcpy(copy, text, size);
     copy[size] = '\0';
     struct document *document = parse_document(name, copy, size, problems, error);

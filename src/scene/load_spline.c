@@ -41,10 +41,7 @@ static void load_variation(struct reader *reader, const struct value variation, 
     int seed = 0;
     const struct value value = reader_member(&variation, "seed");
     if (value.json && reader_integer(reader, value, 0, (int)row->maximum, &seed)) *number = seed;
-    json_t *unknown = reader_extra(reader, &variation, keys);
-    if (!unknown) return;
-    if (!*extra) *extra = json_object();
-    if (!*extra || json_object_set_new(*extra, row->key, unknown) != 0) reader_no_memory(reader);
+    reader_put(extra, row->key, reader_extra(reader, &variation, keys));
 }
 
 /// false if a word is not one of the choices.
@@ -197,11 +194,7 @@ static void load_knots(struct reader *reader, const struct value *object, struct
         reader_fail(reader, &knots.at, "expected at most %d knots over all splines, got more", SCENE_MAX_KNOTS);
         return;
     }
-    spline->knots = calloc((size_t)count, sizeof *spline->knots);
-    if (!spline->knots) {
-        reader_no_memory(reader);
-        return;
-    }
+    spline->knots = need_zeroed((size_t)count, sizeof *spline->knots);
     spline->knot_count = spline->knot_capacity = count;
     unsigned first_id = reader->document->next_id;
     bool good = true;
@@ -272,11 +265,7 @@ static int compare_names(const void *a, const void *b)
 static void index_names(struct reader *reader, const struct where *splines_at)
 {
     const struct document *document = reader->document;
-    reader->names = calloc((size_t)document->spline_count, sizeof *reader->names);
-    if (!reader->names) {
-        reader_no_memory(reader);
-        return;
-    }
+    reader->names = need((size_t)document->spline_count, sizeof *reader->names);
     for (int i = 0; i < document->spline_count; i++) {
         const char *name = document->splines[i]->name;
         if (name) reader->names[reader->name_count++] = (struct name_index){name, i};

@@ -55,10 +55,9 @@ bool motions_bake(struct evaluation *evaluation, const struct document *document
     struct storage *storage = evaluation->storage;
     const int count = document_samples(document);
     bool any = false;
-    if (evaluation->count != document->spline_count || evaluation->samples != count) return false;
     for (int s = 0; s < document->spline_count; s++) {
         const struct param *param = &document->splines[s]->parameter[PARAMETER_EQUILIBRIUM];
-        struct baked *baked = &storage->baked[s];
+        struct baked *baked = &storage->state[s].baked;
         if (!param->motion || baked->capacity < count) continue;
         const uint64_t key = key_of(document, param->motion, source);
         if (key == baked->key && param->gain == baked->gain) continue;
@@ -76,8 +75,8 @@ void motions_copy(struct evaluation *evaluation, const struct evaluation *from)
     if (evaluation->count != from->count || evaluation->samples != from->samples) return;
     const size_t size = (size_t)from->samples * sizeof(double);
     for (int s = 0; s < from->count; s++) {
-        struct baked *to = &evaluation->storage->baked[s];
-        const struct baked *old = &from->storage->baked[s];
+        struct baked *to = &evaluation->storage->state[s].baked;
+        const struct baked *old = &from->storage->state[s].baked;
         if (to->capacity < from->samples || old->capacity < from->samples || old->key == 0) continue;
         memcpy(to->raw, old->raw, size);
         memcpy(to->samples, old->samples, size);
@@ -88,6 +87,6 @@ void motions_copy(struct evaluation *evaluation, const struct evaluation *from)
 
 const double *motions_samples(const struct evaluation *evaluation, int spline)
 {
-    const struct baked *baked = &evaluation->storage->baked[spline];
+    const struct baked *baked = &evaluation->storage->state[spline].baked;
     return baked->key != 0 ? baked->samples : NULL;
 }

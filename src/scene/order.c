@@ -1,5 +1,6 @@
 /// Sorts splines by their dependencies, and finds cycles.
 #include "scene/order.h"
+#include "base/need.h"
 #include <stdlib.h>
 #include <string.h>
 
@@ -53,11 +54,9 @@ bool scene_order(const struct document *document, struct order_space space, int 
 bool scene_has_order(const struct document *document, struct order_cycle *cycle)
 {
     size_t count = (size_t)document->spline_count;
-    *cycle = (struct order_cycle){.spline = -1};
-    if (count == 0) return true;
-    struct order_space space = {malloc(count * sizeof *space.stack), malloc(count)};
-    int *order = malloc(count * sizeof *order);
-    bool found = space.stack && space.next && order && scene_order(document, space, order, cycle);
+    struct order_space space = {need(count, sizeof *space.stack), need(count, 1)};
+    int *order = need(count, sizeof *order);
+    const bool found = scene_order(document, space, order, cycle);
     free(order);
     free(space.next);
     free(space.stack);

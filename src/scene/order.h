@@ -20,7 +20,7 @@ struct order_cycle {
 /// of mode cannot close a cycle. false with the cycle if there is one.
 bool scene_order(const struct document *document, struct order_space space, int *order, struct order_cycle *cycle);
 
-/// Whether there is such an order; allocates what it needs. `cycle->spline` is -1 if memory runs out.
+/// Whether there is such an order; allocates what it needs.
 bool scene_has_order(const struct document *document, struct order_cycle *cycle);
 
 /// Whether a spline's solution depends on that parameter, in its own mode or as a cubic.

@@ -13,16 +13,13 @@ static void touch(struct paint *paint)
 
 struct paint *paint_create(int coordinates, int vertices)
 {
-    struct paint *paint = calloc(1, sizeof *paint);
-    if (!paint) return NULL;
+    struct paint *paint = need_zeroed(1, sizeof *paint);
     atomic_init(&paint->holders, 1);
     paint->coordinates = coordinates;
     paint->vertices = vertices;
-    paint->values = calloc((size_t)coordinates * (size_t)vertices + 1, sizeof *paint->values);
+    paint->values = need_zeroed((size_t)coordinates * (size_t)vertices, sizeof *paint->values);
     touch(paint);
-    if (paint->values) return paint;
-    free(paint);
-    return NULL;
+    return paint;
 }
 
 struct paint *paint_hold(struct paint *paint)

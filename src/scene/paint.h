@@ -22,7 +22,7 @@ struct paint {
     uint64_t version;          ///< new after every change; never repeats
 };
 
-/// Paint that changes nothing, with one holder. NULL if memory runs out.
+/// Paint that changes nothing, with one holder.
 struct paint *paint_create(int coordinates, int vertices);
 struct paint *paint_hold(struct paint *paint);
 /// NULL is fine.

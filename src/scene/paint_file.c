@@ -68,10 +68,6 @@ struct paint *paint_parse(const char *name, const char *data, size_t size, struc
     struct npy npy;
     if (!read_header(&npy, name, data, size, error)) return NULL;
     struct paint *paint = paint_create((int)npy.lengths[0], (int)npy.lengths[1]);
-    if (!paint) {
-        fail_no_memory(error, name);
-        return NULL;
-    }
     if (read_values(name, &npy, data, paint, error)) return paint;
     paint_drop(paint);
     return NULL;

@@ -5,6 +5,7 @@
 /// (pin_aim.h). A soft character needs one round.
 #include "scene/pinned.h"
 #include "base/hash.h"
+#include "base/need.h"
 #include "scene/evaluate.h"
 #include "scene/pin_aim.h"
 #include "scene/pin_groups.h"
@@ -17,33 +18,27 @@
 
 enum { MOST_ROUNDS = 8, FIRST_ROOM = 8 };
 
-/// Frees what a pointer leads to, and lets it lead nowhere: a failed resize leaves what the end frees again.
-#define DROP(pointer) (free(pointer), (pointer) = NULL)
-
 static void free_solver(struct pinned *pinned)
 {
     wiggly_group_destroy(pinned->solver);
-    DROP(pinned->descs);
-    DROP(pinned->curves);
-    DROP(pinned->weights);
-    DROP(pinned->members);
-    DROP(pinned->c);
-    DROP(pinned->held);
-    DROP(pinned->left);
-    DROP(pinned->round.pins);
-    DROP(pinned->round.pulls);
-    pinned->solver = NULL;
-    pinned->group = pinned->pins = 0;
+    free(pinned->descs);
+    free(pinned->curves);
+    free(pinned->weights);
+    free(pinned->members);
+    free(pinned->c);
+    free(pinned->held);
+    free(pinned->left);
+    free(pinned->round.pins);
+    free(pinned->round.pulls);
 }
 
 static void free_splines(struct pinned *pinned)
 {
-    DROP(pinned->which);
-    DROP(pinned->order);
-    DROP(pinned->placed);
-    DROP(pinned->was);
-    DROP(pinned->weight);
-    pinned->splines = 0;
+    free(pinned->which);
+    free(pinned->order);
+    free(pinned->placed);
+    free(pinned->was);
+    free(pinned->weight);
 }
 
 void pinned_free(struct pinned *pinned)
@@ -55,20 +50,18 @@ void pinned_free(struct pinned *pinned)
     *pinned = (struct pinned){0};
 }
 
-static bool resize_splines(struct pinned *pinned, int splines)
+static void resize_splines(struct pinned *pinned, int splines)
 {
     const size_t count = (size_t)splines;
-    if (splines <= pinned->splines) return true;
+    if (splines <= pinned->splines) return;
     free_splines(pinned);
-    pinned->which = calloc(count, sizeof *pinned->which);
-    pinned->order = calloc(count, sizeof *pinned->order);
-    pinned->placed = calloc(count, sizeof *pinned->placed);
-    pinned->was = calloc(count, sizeof *pinned->was);
-    pinned->weight = calloc(count, sizeof *pinned->weight);
+    pinned->which = need_zeroed(count, sizeof *pinned->which);
+    pinned->order = need_zeroed(count, sizeof *pinned->order);
+    pinned->placed = need_zeroed(count, sizeof *pinned->placed);
+    pinned->was = need_zeroed(count, sizeof *pinned->was);
+    pinned->weight = need_zeroed(count, sizeof *pinned->weight);
     pinned->rigs_key = pinned->pins_key = 0;
-    if (!pinned->which || !pinned->order || !pinned->placed || !pinned->was || !pinned->weight) return false;
     pinned->splines = splines;
-    return true;
 }
 
 /// What a group takes.
@@ -76,33 +69,27 @@ struct room {
     int samples, knots, group, pins, bounds;
 };
 
-static bool create_solver(struct pinned *pinned, const struct room *room)
+static void create_solver(struct pinned *pinned, const struct room *room)
 {
     const size_t splines = (size_t)room->group, pins = (size_t)room->pins;
     free_solver(pinned);
-    pinned->descs = calloc(splines, sizeof *pinned->descs);
-    pinned->curves = calloc(splines, sizeof *pinned->curves);
-    pinned->weights = calloc(splines, sizeof *pinned->weights);
-    pinned->members = calloc(splines, sizeof *pinned->members);
-    pinned->c = calloc(splines, sizeof *pinned->c);
-    pinned->held = calloc(pins, sizeof *pinned->held);
-    pinned->left = calloc(pins, sizeof *pinned->left);
-    pinned->round.pins = calloc(pins, sizeof *pinned->round.pins);
-    pinned->round.pulls = calloc(pins * splines, sizeof *pinned->round.pulls);
-    const bool good = pinned->descs && pinned->curves && pinned->weights && pinned->members && pinned->c &&
-                      pinned->held && pinned->left && pinned->round.pins && pinned->round.pulls &&
-                      wiggly_group_create_bounded(room->samples, room->knots, room->group, room->pins, room->bounds,
-                                                  &pinned->solver) == WIGGLY_OK;
-    if (!good) {
-        free_solver(pinned);
-        return false;
-    }
+    pinned->descs = need_zeroed(splines, sizeof *pinned->descs);
+    pinned->curves = need_zeroed(splines, sizeof *pinned->curves);
+    pinned->weights = need_zeroed(splines, sizeof *pinned->weights);
+    pinned->members = need_zeroed(splines, sizeof *pinned->members);
+    pinned->c = need_zeroed(splines, sizeof *pinned->c);
+    pinned->held = need_zeroed(pins, sizeof *pinned->held);
+    pinned->left = need_zeroed(pins, sizeof *pinned->left);
+    pinned->round.pins = need_zeroed(pins, sizeof *pinned->round.pins);
+    pinned->round.pulls = need_zeroed(pins * splines, sizeof *pinned->round.pulls);
+    if (wiggly_group_create_bounded(room->samples, room->knots, room->group, room->pins, room->bounds,
+                                    &pinned->solver) != WIGGLY_OK)
+        need_failed();
     pinned->samples = room->samples;
     pinned->most_knots = room->knots;
     pinned->group = room->group;
     pinned->pins = room->pins;
     pinned->bounds = room->bounds;
-    return true;
 }
 
 static int doubled(int had, int needed)
@@ -112,28 +99,24 @@ static int doubled(int had, int needed)
     return room;
 }
 
-static bool resize_solver(struct pinned *pinned, const struct room *needed)
+static void resize_solver(struct pinned *pinned, const struct room *needed)
 {
     if (pinned->solver && needed->samples <= pinned->samples && needed->knots <= pinned->most_knots &&
         needed->group <= pinned->group && needed->pins <= pinned->pins && needed->bounds <= pinned->bounds)
-        return true;
+        return;
     const struct room room = {
         needed->samples > pinned->samples ? needed->samples : pinned->samples,
         doubled(pinned->most_knots, needed->knots), needed->group > pinned->group ? needed->group : pinned->group,
         doubled(pinned->pins, needed->pins), needed->bounds > pinned->bounds ? needed->bounds : pinned->bounds};
     pinned->rigs_key = pinned->pins_key = 0;
-    return create_solver(pinned, &room);
+    create_solver(pinned, &room);
 }
 
-static bool resize_knots(struct pinned *pinned, int knots)
+static void resize_knots(struct pinned *pinned, int knots)
 {
-    if (knots <= pinned->knot_capacity) return true;
-    const int room = doubled(pinned->knot_capacity, knots);
-    wiggly_knot *more = realloc(pinned->knots, (size_t)room * sizeof *more);
-    if (!more) return false;
-    pinned->knots = more;
-    pinned->knot_capacity = room;
-    return true;
+    if (knots <= pinned->knot_capacity) return;
+    pinned->knot_capacity = doubled(pinned->knot_capacity, knots);
+    pinned->knots = need_more(pinned->knots, (size_t)pinned->knot_capacity, sizeof *pinned->knots);
 }
 
 static int count_members(const struct pinned *pinned, int splines, int which)
@@ -143,13 +126,13 @@ static int count_members(const struct pinned *pinned, int splines, int which)
     return count;
 }
 
-bool pinned_resize(struct storage *storage, const struct document *document)
+void pinned_resize(struct storage *storage, const struct document *document)
 {
     struct pinned *pinned = &storage->pinned;
     struct room room = {.samples = document_samples(document), .pins = pins_count(document)};
     int knots = 0;
-    if (!pins_hold_any(document)) return true;
-    if (!resize_splines(pinned, document->spline_count)) return false;
+    if (!pins_hold_any(document)) return;
+    resize_splines(pinned, document->spline_count);
     pin_groups_find(document, pinned->which);
     for (int s = 0; s < document->spline_count; s++) {
         const int own = storage_knot_room(document->splines[s], room.samples);
@@ -159,15 +142,17 @@ bool pinned_resize(struct storage *storage, const struct document *document)
         if (group > room.group) room.group = group;
     }
     room.bounds = floors_any(document) ? FLOORS_MOST_BOUNDS : 0;
-    return room.group == 0 || (resize_solver(pinned, &room) && resize_knots(pinned, knots) &&
-                               floors_resize(&pinned->floors, document, pinned->group));
+    if (room.group == 0) return;
+    resize_solver(pinned, &room);
+    resize_knots(pinned, knots);
+    floors_resize(&pinned->floors, document, pinned->group);
 }
 
 /// Marks what was solved in a group, or is to be.
 static void force_all(struct storage *storage, int splines)
 {
     const struct pinned *pinned = &storage->pinned;
-    for (int s = 0; s < splines; s++) storage->forced[s] |= pinned->was[s] || pinned->which[s] >= 0;
+    for (int s = 0; s < splines; s++) storage->state[s].forced |= pinned->was[s] || pinned->which[s] >= 0;
 }
 
 /// Weighs the splines that are new in groups, or all of these.
@@ -212,7 +197,7 @@ bool pinned_begin(struct evaluation *evaluation, const struct document *document
 static void note_moved(int spline, void *context)
 {
     struct storage *storage = context;
-    if (storage->pinned.placed[spline] && storage->solved[spline]) storage->pinned.base_moved = true;
+    if (storage->pinned.placed[spline] && storage->state[spline].solved) storage->pinned.base_moved = true;
 }
 
 bool pinned_base_moved(struct evaluation *evaluation, const struct document *document, int which)
@@ -230,7 +215,7 @@ static void still(int spline, void *context)
     const struct pinned *pinned = &evaluation->storage->pinned;
     if (pinned->placed[spline]) return;
     storage_flatten(&evaluation->curves[spline], &pinned->descs[0]);
-    evaluation->storage->forced[spline] = true;
+    evaluation->storage->state[spline].forced = true;
 }
 
 /// The splines of a group and what is asked of each.

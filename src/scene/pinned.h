@@ -49,8 +49,8 @@ struct pinned {
     uint64_t rigs_key, pins_key; ///< of what was solved
 };
 
-/// Makes room for the document's groups; false if memory runs out. Without pins it costs nothing.
-bool pinned_resize(struct storage *storage, const struct document *document);
+/// Makes room for the document's groups. Without pins it costs nothing.
+void pinned_resize(struct storage *storage, const struct document *document);
 void pinned_free(struct pinned *pinned);
 
 /// Puts the splines into an order for groups, and finds what is to be solved again because rigs or pins have changed. Whether there are

@@ -185,34 +185,6 @@ static int pinned_rig_of(const struct document *document, int spline)
     return 0;
 }
 
-/// Arrays of a search for an order, one element a spline.
-struct search {
-    struct order_space space;
-    int *group, *tracked, *order;
-    bool *placed;
-};
-
-static bool search_create(struct search *search, size_t count)
-{
-    *search = (struct search){.space = {malloc(count * sizeof(int)), malloc(count)},
-                              .group = malloc(count * sizeof(int)),
-                              .tracked = malloc(count * sizeof(int)),
-                              .order = malloc(count * sizeof(int)),
-                              .placed = malloc(count * sizeof(bool))};
-    return search->space.stack && search->space.next && search->group && search->tracked && search->order &&
-           search->placed;
-}
-
-static void search_free(struct search *search)
-{
-    free(search->space.stack);
-    free(search->space.next);
-    free(search->group);
-    free(search->tracked);
-    free(search->order);
-    free(search->placed);
-}
-
 static void name_cycle(const struct document *document, const int *group, const struct pin_cycle *cycle,
                        struct pin_trouble *trouble)
 {
@@ -232,19 +204,21 @@ static void name_cycle(const struct document *document, const int *group, const 
 
 bool pins_check_order(const struct document *document, struct pin_trouble *trouble)
 {
-    struct search search;
     struct order_cycle tracks;
     struct pin_cycle cycle;
     if (!pins_hold_any(document)) return true;
+    const size_t count = (size_t)document->spline_count;
+    int *group = need(4 * count, sizeof *group), *tracked = group + count, *order = tracked + count;
+    unsigned char *next = need(count, 1);
+    bool *placed = need(count, sizeof *placed), good = true;
     *trouble = (struct pin_trouble){.pin = -1};
-    bool good = search_create(&search, (size_t)document->spline_count + 1);
-    if (!good) {
-        snprintf(trouble->sentence, sizeof trouble->sentence, "not enough memory");
-    } else if (scene_order(document, search.space, search.tracked, &tracks)) {
-        pin_groups_find(document, search.group);
-        good = pin_groups_order(document, search.group, search.tracked, search.placed, search.order, &cycle);
-        if (!good) name_cycle(document, search.group, &cycle, trouble);
+    if (scene_order(document, (struct order_space){order + count, next}, tracked, &tracks)) {
+        pin_groups_find(document, group);
+        good = pin_groups_order(document, group, tracked, placed, order, &cycle);
+        if (!good) name_cycle(document, group, &cycle, trouble);
     }
-    search_free(&search);
+    free(group);
+    free(next);
+    free(placed);
     return good;
 }

@@ -35,7 +35,7 @@ struct pin_trouble {
 /// Whether all pins are inside the frames, each alone on its sample, and on splines that have a motion of their own.
 bool pins_check(const struct document *document, struct pin_trouble *trouble);
 
-/// Whether no spline of a pinned rig follows another that is solved together with it. Allocates; `trouble` says if memory runs out.
+/// Whether no spline of a pinned rig follows another that is solved together with it. Allocates.
 bool pins_check_order(const struct document *document, struct pin_trouble *trouble);
 
 #endif

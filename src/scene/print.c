@@ -116,7 +116,7 @@ void print_document(struct text *text, const struct document *document, const ch
     text_string(text, "\n}\n");
 }
 
-bool scene_print_into(const struct document *document, const char *folder, char **buffer, size_t *capacity,
+void scene_print_into(const struct document *document, const char *folder, char **buffer, size_t *capacity,
                       size_t *size)
 {
     struct text text = {.data = *buffer, .capacity = *capacity};
@@ -125,16 +125,14 @@ bool scene_print_into(const struct document *document, const char *folder, char 
     text_bytes(&text, "", 1);
     *buffer = text.data;
     *capacity = text.capacity;
-    return !text.no_memory;
 }
 
 char *scene_print(const struct document *document, size_t *size)
 {
     char *text = NULL;
     size_t capacity = 0;
-    if (scene_print_into(document, document->folder, &text, &capacity, size)) return text;
-    free(text);
-    return NULL;
+    scene_print_into(document, document->folder, &text, &capacity, size);
+    return text;
 }
 
 uint64_t scene_hash(const struct document *document)
@@ -142,7 +140,7 @@ uint64_t scene_hash(const struct document *document)
     uint64_t hash = 0xcbf29ce484222325u; // FNV-1a's offset basis
     size_t size;
     char *text = scene_print(document, &size);
-    for (size_t i = 0; text && i < size; i++) hash = (hash ^ (unsigned char)text[i]) * 0x100000001b3u;
+    for (size_t i = 0; i < size; i++) hash = (hash ^ (unsigned char)text[i]) * 0x100000001b3u;
     free(text);
     return hash;
 }

@@ -1,5 +1,6 @@
 /// Reads single values and reports what is wrong with them.
 #include "scene/reader.h"
+#include "base/need.h"
 #include "scene/number.h"
 #include <math.h>
 #include <stdio.h>
@@ -58,13 +59,6 @@ void reader_warn(struct reader *reader, const struct where *where, const char *f
     compose(reader, where, &warning, format, arguments);
     va_end(arguments);
     report(reader, false, warning.text);
-}
-
-bool reader_no_memory(struct reader *reader)
-{
-    struct error error;
-    fail_no_memory(&error, reader->source.name);
-    return reader_report(reader, &error);
 }
 
 static const char *kind_of(const json_t *value)
@@ -188,9 +182,7 @@ char *reader_name(struct reader *reader, struct value value)
         reader_fail(reader, &value.at, "expected a name, got an empty string");
         return NULL;
     }
-    char *name = strdup(json_string_value(value.json));
-    if (!name) reader_no_memory(reader);
-    return name;
+    return need_text(json_string_value(value.json));
 }
 
 bool reader_array(struct reader *reader, struct value value, size_t count, const char *expected)
@@ -277,9 +269,16 @@ json_t *reader_extra(struct reader *reader, const struct value *object, const ch
         if (is_among(key, known)) continue;
         warn_unknown(reader, &object->at, key);
         if (!extra) extra = json_object();
-        if (!extra || json_object_set(extra, key, value) != 0) reader_no_memory(reader);
+        if (!extra || json_object_set(extra, key, value) != 0) need_failed();
     }
     return extra;
+}
+
+void reader_put(json_t **extra, const char *key, json_t *unknown)
+{
+    if (!unknown) return;
+    if (!*extra) *extra = json_object();
+    if (!*extra || json_object_set_new(*extra, key, unknown) != 0) need_failed();
 }
 
 /// `{"spline": "other"}`; returns its unknown keys, or NULL.
@@ -310,10 +309,7 @@ void reader_param(struct reader *reader, struct value value, struct range range,
                   struct param *param, json_t **extra)
 {
     if (json_is_object(value.json)) {
-        json_t *unknown = read_followed(reader, &value, may_be_motion, param);
-        if (!unknown) return;
-        if (!*extra) *extra = json_object();
-        if (!*extra || json_object_set_new(*extra, key, unknown) != 0) reader_no_memory(reader);
+        reader_put(extra, key, read_followed(reader, &value, may_be_motion, param));
     } else if (!json_is_number(value.json)) {
         reader_unexpected(reader, value, "a number or {\"spline\": name}");
     } else {
@@ -326,7 +322,6 @@ json_t *reader_keep(struct reader *reader, json_t *extra)
     struct document *document = reader->document;
     if (!extra) return NULL;
     if (!document->owned) document->owned = json_array();
-    if (json_array_append_new(document->owned, extra) == 0) return extra;
-    reader_no_memory(reader);
-    return NULL;
+    if (json_array_append_new(document->owned, extra) != 0) need_failed();
+    return extra;
 }

@@ -63,9 +63,6 @@ struct value reader_element(const struct value *array, int index);
 /// Fails with "expected …, got …", naming the kind of value that is there.
 bool reader_unexpected(struct reader *reader, struct value value, const char *expected);
 
-/// Fails because memory ran out.
-bool reader_no_memory(struct reader *reader);
-
 /// Reads a number in a range. A missing one leaves `*target` alone, and is an error only if it is required.
 bool reader_number(struct reader *reader, struct value value, bool required, struct range range, double *target);
 
@@ -101,6 +98,9 @@ int reader_spline_name(struct reader *reader, struct value value);
 
 /// Warns of an object's members that are not among `known` (which ends with NULL). Returns them as a new object, or NULL.
 json_t *reader_extra(struct reader *reader, const struct value *object, const char *const *known);
+
+/// Puts unknown keys (or NULL) into the object `*extra`, which is made if it is NULL, under a key.
+void reader_put(json_t **extra, const char *key, json_t *unknown);
 
 /// Reads a number in a range, a track, `{"spline": "other"}`, or, if it may be one, the motion of a joint. Unknown keys of the latter two go
 /// into the object `*extra`, which is made if it is NULL, under `key`.

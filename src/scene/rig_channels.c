@@ -1,5 +1,6 @@
 /// Reads, prints and copies channels and their angles.
 #include "scene/rig_channels.h"
+#include "base/need.h"
 #include <stdlib.h>
 #include <string.h>
 
@@ -68,9 +69,7 @@ static void load_ramp(struct reader *reader, const struct value *object, struct 
     static const char *const known[] = {"ramp", NULL};
     const struct value ramp = reader_member(object, "ramp");
     const size_t count = json_array_size(ramp.json);
-    json_t *unknown = reader_extra(reader, object, known);
-    if (unknown && !*extra) *extra = json_object();
-    if (unknown && (!*extra || json_object_set_new(*extra, object->at.key, unknown) != 0)) reader_no_memory(reader);
+    reader_put(extra, object->at.key, reader_extra(reader, object, known));
     if (!json_is_array(ramp.json)) {
         reader_unexpected(reader, ramp, "an array of points [place, degrees]");
     } else if (count < 2 || count > RAMP_MAX_POINTS) {
@@ -121,11 +120,7 @@ struct channel *load_channels(struct reader *reader, struct value value, const c
     *count = 0;
     const int found = reader_objects(reader, value, SCENE_MAX_CHANNELS);
     if (found <= 0) return NULL;
-    struct channel *channels = calloc((size_t)found, sizeof *channels);
-    if (!channels) {
-        reader_no_memory(reader);
-        return NULL;
-    }
+    struct channel *channels = need_zeroed((size_t)found, sizeof *channels);
     for (int i = 0; i < found; i++) {
         const struct value object = reader_element(&value, i);
         load_channel(reader, &object, axes, joints, &channels[i], reader_extra(reader, &object, channel_keys));

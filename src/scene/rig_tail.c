@@ -1,4 +1,5 @@
 /// Tails as a kind of rig: loading, printing, references and memory.
+#include "base/need.h"
 #include "scene/rig_channels.h"
 #include "scene/rig_kind.h"
 #include <math.h>
@@ -16,9 +17,7 @@ static void load_position(struct reader *reader, struct value value, struct para
     for (int i = 0; i < 3; i++) {
         reader_param(reader, reader_element(&value, i), range_any, coordinate_name(i), false, &position[i], &tracks);
     }
-    if (!tracks) return;
-    if (!*extra) *extra = json_object();
-    if (!*extra || json_object_set_new(*extra, value.at.key, tracks) != 0) reader_no_memory(reader);
+    reader_put(extra, value.at.key, tracks);
 }
 
 /// From an array, or a single one from the tail's own object.
@@ -31,11 +30,10 @@ static void load_tail_channels(struct reader *reader, const struct value *object
         reader_fail(reader, &channels.at, "expected either channels or one channel's keys, got both");
     } else if (!is_short) {
         tail->channels = load_channels(reader, channels, tail_axes, tail->joints, &tail->channel_count);
-    } else if ((tail->channels = calloc(1, sizeof *tail->channels)) != NULL) {
+    } else {
+        tail->channels = need_zeroed(1, sizeof *tail->channels);
         tail->channel_count = 1;
         load_channel(reader, object, tail_axes, tail->joints, &tail->channels[0], NULL);
-    } else {
-        reader_no_memory(reader);
     }
 }
 

@@ -114,9 +114,8 @@ static bool save_scene(const struct document *document, const char *path, struct
     char folder[PATH_LIMIT], *data = NULL;
     size_t capacity = 0, size;
     if (!path_folder(path, folder)) return fail(error, ERROR_ENVIRONMENT, "%s: the path is too long", path);
-    const bool saved = scene_print_into(document, folder, &data, &capacity, &size)
-                           ? file_write_atomic(path, data, size, error)
-                           : fail_no_memory(error, path);
+    scene_print_into(document, folder, &data, &capacity, &size);
+    const bool saved = file_write_atomic(path, data, size, error);
     free(data);
     return saved;
 }
@@ -124,8 +123,7 @@ static bool save_scene(const struct document *document, const char *path, struct
 bool scene_save(struct document *document, const char *path, struct error *error)
 {
     const int count = document->rig_count;
-    struct sheet *sheets = calloc((size_t)count + 1, sizeof *sheets);
-    if (!sheets) return fail_no_memory(error, path);
+    struct sheet *sheets = need_zeroed((size_t)count, sizeof *sheets);
     struct leftovers leftovers;
     leftovers_open(&leftovers, path);
     bool saved = true;
@@ -228,7 +226,7 @@ static struct character_rig *parse_sheet_line(struct document *document, const c
     return rig;
 }
 
-bool scene_print_paint(const struct document *document, char **buffer, size_t *capacity, size_t *size)
+void scene_print_paint(const struct document *document, char **buffer, size_t *capacity, size_t *size)
 {
     struct text text = {.data = *buffer, .size = *size, .capacity = *capacity};
     int i = document_next_rig(document, RIG_CHARACTER, 0);
@@ -242,7 +240,6 @@ bool scene_print_paint(const struct document *document, char **buffer, size_t *c
     *buffer = text.data;
     *capacity = text.capacity;
     *size = text.size;
-    return !text.no_memory;
 }
 
 bool scene_parse_paint(struct document *document, const char *name, const char *text, size_t size,

@@ -1,4 +1,5 @@
 /// The slope that a knot would find at a sample of a solved spline: with it, and the curve's value, it leaves the curve as it is.
+#include "base/need.h"
 #include "scene/evaluate.h"
 #include "scene/storage.h"
 #include "spline/poles.h"
@@ -86,8 +87,8 @@ double evaluation_slope(const struct evaluation *evaluation, const struct docume
                  sample >= document_sample(document, of->knots[of->knot_count - 1].frame);
     double known = 0;
     if (place.desc.equilibrium.track && place.curve->samples > 1) {
-        place.answer = calloc(3 * (size_t)place.curve->samples, sizeof *place.answer);
-        if (place.answer) known = speed_of_equilibrium(&place);
+        place.answer = need_zeroed(3 * (size_t)place.curve->samples, sizeof *place.answer);
+        known = speed_of_equilibrium(&place);
     }
     const double slope = known + speed_of_knots(&place);
     free(place.answer);

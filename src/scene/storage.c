@@ -22,7 +22,7 @@ static const double *track_of(const struct storage *storage, const wiggly_curve 
     const struct param *param = &document->splines[spline]->parameter[parameter];
     if (param->track >= 0) return curves[param->track].total;
     if (!param->motion) return NULL;
-    const struct baked *baked = &storage->baked[spline];
+    const struct baked *baked = &storage->state[spline].baked;
     return baked->key != 0 ? baked->samples : NULL;
 }
 

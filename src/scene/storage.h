@@ -17,6 +17,13 @@ struct baked {
     bool is_new;           ///< the spline is to be solved again
 };
 
+struct spline_state {
+    struct spline *held; ///< as it was solved
+    struct baked baked;
+    bool solved; ///< in this update
+    bool forced; ///< to be solved whether edited or not: what moves its pinned rigs has changed
+};
+
 struct storage {
     double *numbers; ///< ROWS · N for each spline
     size_t number_capacity;
@@ -25,12 +32,9 @@ struct storage {
     double fps; ///< of the last update, as the next two
     int substeps, first_frame;
     wiggly_knot *knots; ///< of the spline being solved; solver_knots
-    int *order;         ///< one for each spline, as the next five
-    bool *solved;
-    bool *forced; ///< to be solved whether edited or not: what moves its pinned rigs has changed
+    int *order;         ///< one for each spline, as the next two
     struct order_space space;
-    struct baked *baked;
-    struct spline **held; ///< as they were solved
+    struct spline_state *state;
     int spline_capacity;
     bool is_new; ///< the curves have a new layout, and none is solved
     struct pinned pinned;

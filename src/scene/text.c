@@ -9,26 +9,15 @@
 
 enum { FIRST_CAPACITY = 4096 };
 
-static bool reserve(struct text *text, size_t count)
-{
-    size_t needed, doubled;
-    if (text->no_memory) return false;
-    if (checked_add(text->size, count, &needed) && needed <= text->capacity) return true;
-    bool fits = checked_add(text->size, count, &needed) && checked_mul(needed, 2, &doubled);
-    if (fits && doubled < FIRST_CAPACITY) doubled = FIRST_CAPACITY;
-    char *data = fits ? realloc(text->data, doubled) : NULL;
-    text->no_memory = !data;
-    if (!data) return false;
-    text->data = data;
-    text->capacity = doubled;
-    return true;
-}
-
 void text_bytes(struct text *text, const char *bytes, size_t count)
 {
-    if (!reserve(text, count)) return;
-    memcpy(text->data + text->size, bytes, count);
-    text->size += count;
+    const size_t needed = text->size + count;
+    if (needed > text->capacity) {
+        text->capacity = needed > FIRST_CAPACITY / 2 ? 2 * needed : FIRST_CAPACITY;
+        text->data = need_more(text->data, text->capacity, 1);
+    }
+    if (count > 0) memcpy(text->data + text->size, bytes, count);
+    text->size = needed;
 }
 
 void text_string(struct text *text, const char *string) { text_bytes(text, string, strlen(string)); }

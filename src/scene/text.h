@@ -2,16 +2,14 @@
 #ifndef SCENE_TEXT_H
 #define SCENE_TEXT_H
 
-#include <stdbool.h>
 #include <stddef.h>
 
 struct json_t;
 
-/// Starts as zeros. Once memory was short nothing more is added.
+/// Starts as zeros.
 struct text {
     char *data;
     size_t size, capacity;
-    bool no_memory;
 };
 
 void text_bytes(struct text *text, const char *bytes, size_t count);

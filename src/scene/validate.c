@@ -9,10 +9,6 @@ static void check_cycles(struct reader *reader, const struct where *splines_at)
     struct order_cycle cycle;
     const struct document *document = reader->document;
     if (scene_has_order(document, &cycle)) return;
-    if (cycle.spline < 0) {
-        reader_no_memory(reader);
-        return;
-    }
     const struct spline *spline = document->splines[cycle.spline];
     struct where spline_at = {.parent = splines_at, .index = (size_t)cycle.spline};
     struct where at = {.parent = &spline_at, .key = parameter_rows[cycle.parameter].name};

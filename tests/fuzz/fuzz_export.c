@@ -80,7 +80,8 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     struct document *document = scene_of(model, &error);
     if (!document) return 0;
     struct models *models = models_create();
-    if (models_update(models, document, &error) && evaluation_resize(&evaluation, document, &error)) {
+    if (models_update(models, document, &error)) {
+        evaluation_resize(&evaluation, document);
         evaluation_update(&evaluation, document, false);
         const struct posing posing = {.document = document, .evaluation = &evaluation, .models = models};
         export_to(&posing, fuzz_file(outputs[output], "", 0), output < GLTF_OUTPUTS);

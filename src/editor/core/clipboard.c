@@ -1,4 +1,5 @@
 /// Knots on the clipboard, and duplicates: copy, cut, paste at the playhead, duplicate.
+#include "base/need.h"
 #include "editor/core/core.h"
 #include "editor/core/knots.h"
 #include "editor/core/pins.h"
@@ -31,14 +32,12 @@ static char *print_originals(const struct originals *originals, const struct doc
 {
     const size_t count = (size_t)originals->count;
     const bool mixed = originals->list[0].spline != originals->list[count - 1].spline;
-    struct knot_list list = {malloc(count * sizeof *list.knots), malloc(count * sizeof *list.splines),
-                             originals->count};
-    char *text = NULL;
-    for (size_t i = 0; i < count && list.knots && list.splines; i++) {
+    struct knot_list list = {need(count, sizeof *list.knots), need(count, sizeof *list.splines), originals->count};
+    for (size_t i = 0; i < count; i++) {
         list.knots[i] = originals->list[i].knot;
         list.splines[i] = mixed ? document->splines[originals->list[i].spline]->name : NULL;
     }
-    if (list.knots && list.splines) text = knots_print(&list);
+    char *text = knots_print(&list);
     free(list.knots);
     free(list.splines); // the names are the document's
     return text;
@@ -49,10 +48,6 @@ bool core_copy_knots(struct core *core, const struct editor_world *world, bool c
     int count = collect(core, world);
     if (count == 0) return false;
     char *text = print_originals(&core->originals, world->document);
-    if (!text) {
-        core_message(core, true, "Not enough memory to copy these knots.");
-        return false;
-    }
     free(core->clipboard);
     core->clipboard = text;
     if (cut) core_remove_knots(core, world, count == 1 ? "Cut knot" : "Cut knots");

@@ -169,31 +169,27 @@ enum { LOWER_STEPS = 8 };
 
 static const double LOWER = 0.9; ///< factor of the frequency from try to try
 
-/// Swings that the spline has too many of with the document as it is now; -1 where it cannot be solved.
+/// Swings that the spline has too many of with the document as it is now.
 static int count_swings(const struct core *core, const struct editor_world *world)
 {
     const struct document *document = world->document;
     struct evaluation trial = {.solver = world->evaluation->solver, .pins = world->evaluation->pins};
     struct warnings found = {0};
-    bool good = evaluation_resize(&trial, document, NULL);
-    if (good) {
-        motions_copy(&trial, world->evaluation);
-        evaluation_update(&trial, document, false);
-        warnings_find(document, &trial, core->active, &found);
-    }
+    evaluation_resize(&trial, document);
+    motions_copy(&trial, world->evaluation);
+    evaluation_update(&trial, document, false);
+    warnings_find(document, &trial, core->active, &found);
     int count = 0;
     for (int i = 0; i < found.count; i++) count += found.list[i].kind == WARNING_SWING;
     evaluation_free(&trial);
-    return good ? count : -1;
+    return count;
 }
 
 /// Does an edit in the open step and says whether there are fewer swings than `before`; if not, it is taken back.
 static bool helps(const struct core *core, const struct editor_world *world, const struct edit *edit, int before)
 {
     struct document *document = world->document;
-    int count = -1;
-    if (history_apply(world->history, document, edit, NULL)) count = count_swings(core, world);
-    if (count >= 0 && count < before) return true;
+    if (history_apply(world->history, document, edit, NULL) && count_swings(core, world) < before) return true;
     history_restart(world->history);
     return false;
 }
