@@ -1,6 +1,6 @@
 #version 330 core
 // Wrapped key light, hemisphere, rim. Colours are linear until the last line.
-// FURRED is the fox, FACED what its face is on; PICTURED an imported character; SKIRT what hangs along the outlines of any other than the fox.
+// FURRED is the fox, FACED what its face is on; PICTURED a soft character with pictures; SKIRT an imported one, and what hangs along outlines of both.
 #if defined(FACED)
 #define FURRED
 #endif
@@ -41,9 +41,7 @@ uniform sampler2D picture;
 uniform float cutoff; // opacity below which nothing is drawn; 0: all is
 uniform bool blended; // opacity is to be seen
 uniform float seam;   // 0 in the first pass
-#ifndef SKIRT
 uniform bool both_sides;
-#endif
 #endif
 out vec4 pixel;
 
@@ -197,9 +195,7 @@ void main()
     float masked = mask(surface.a);
     if (masked <= 0.0) discard;
     if (!blended) surface.a = masked;
-#ifndef SKIRT
     if (both_sides && !gl_FrontFacing) n = -n;
-#endif
 #endif
     vec3 coat = line > 0.0 ? with_phase_lines(surface.rgb) : surface.rgb;
     float opacity_here = surface.a;

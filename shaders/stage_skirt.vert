@@ -1,5 +1,5 @@
 #version 330 core
-// The skirt of a soft or an imported character, which comes as it stands (draw/skirt.h).
+// An imported character, and the skirts of that and of a soft one: they come as they stand (draw/skirt.h).
 layout(location = 0) in vec3 place;
 layout(location = 1) in vec3 normal;
 layout(location = 2) in vec4 color;

@@ -1,5 +1,5 @@
 /// Skirts of models of several nodes: each mesh stands in its own place, and faces the eye or not by itself.
-#include "draw/skirt.h"
+#include "draw/model_surface.h"
 #include "gltf_builder.h"
 
 /// A square of one metre, seen from +z, for two nodes: one of them 5 m behind, its back to the eye.
@@ -9,10 +9,14 @@ static const char nodes[] =
 
 static const float square[4][3] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
 
-static int outline(const struct skirt_mesh *mesh)
+/// Edges of a node's outline.
+static int outline(const struct model_surface *surface, const struct gltf *gltf, const struct gltf_pose *pose,
+                   int node)
 {
+    const struct skirt_mesh mesh = model_surface_mesh(surface, gltf, pose, node);
+    const int end = surface->first_index[node + 1];
     int count = 0;
-    for (int at = skirt_next(mesh, 0, 6, false); at < 6; at = skirt_next(mesh, at + 1, 6, false)) count++;
+    for (int at = surface->first_index[node] - 1; (at = skirt_next(&mesh, at + 1, end, false)) < end;) count++;
     return count;
 }
 
@@ -25,7 +29,7 @@ static void nodes_stand_for_themselves(void **state)
     struct builder b = {0};
     struct gltf gltf;
     struct gltf_pose pose;
-    struct model_skirt skirt;
+    struct model_surface surface;
     add_data(&b, FLOAT, "VEC3", 4, square, sizeof square);
     add_data(&b, FLOAT, "VEC3", 4, normals, sizeof normals);
     add_data(&b, UBYTE, "SCALAR", 6, indices, sizeof indices);
@@ -33,21 +37,22 @@ static void nodes_stand_for_themselves(void **state)
     assert_true(gltf_pose_create(&gltf, &pose));
     gltf_pose_clip(&gltf, -1, 0, &pose);
     gltf_pose_world(&gltf, &pose);
-    model_skirt_create(&skirt, &gltf);
-    assert_non_null(skirt.indices);
-    struct skirt_mesh mesh[3];
-    for (int n = 2; n >= 0; n -= 2) mesh[n] = model_skirt_pose(&skirt, &gltf, &pose, n, root, eye);
+    model_surface_create(&surface, &gltf);
+    assert_non_null(surface.indices);
+    model_surface_pose(&surface, &gltf, &pose, root, eye);
+    const float(*front)[3] = (const float(*)[3])surface.place + surface.first_vertex[0];
+    const float(*behind)[3] = (const float(*)[3])surface.place + surface.first_vertex[2];
     for (int v = 0; v < 4; v++) {
-        assert_near(mesh[0].place[v][0], square[v][0] + 2, 1e-6);
-        assert_near(mesh[0].place[v][1], square[v][1], 1e-6);
-        assert_near(mesh[0].place[v][2], 0, 1e-6);
-        assert_near(mesh[2].place[v][0], 2 - square[v][0], 1e-6); // turned half round
-        assert_near(mesh[2].place[v][1], square[v][1], 1e-6);
-        assert_near(mesh[2].place[v][2], -5, 1e-6);
+        assert_near(front[v][0], square[v][0] + 2, 1e-6);
+        assert_near(front[v][1], square[v][1], 1e-6);
+        assert_near(front[v][2], 0, 1e-6);
+        assert_near(behind[v][0], 2 - square[v][0], 1e-6); // turned half round
+        assert_near(behind[v][1], square[v][1], 1e-6);
+        assert_near(behind[v][2], -5, 1e-6);
     }
-    assert_int_equal(outline(&mesh[0]), 4); // not where its triangles meet
-    assert_int_equal(outline(&mesh[2]), 0);
-    model_skirt_free(&skirt);
+    assert_int_equal(outline(&surface, &gltf, &pose, 0), 4); // not where its triangles meet
+    assert_int_equal(outline(&surface, &gltf, &pose, 2), 0);
+    model_surface_free(&surface);
     gltf_pose_free(&pose);
     gltf_free(&gltf);
 }

@@ -5,7 +5,6 @@
 
 #include "draw/morph_looks.h"
 #include "draw/painter.h"
-#include "model/gltf.h"
 #include <stdbool.h>
 #include <stdint.h>
 
@@ -32,7 +31,7 @@ int skirt_next(const struct skirt_mesh *mesh, int first, int end, bool both_side
 void skirt_out(const struct skirt_mesh *mesh, int corner, const float normal[2][3], const float eye[3], float pixel,
                float out[2][3]);
 
-// Draws the skirts of what the GPU moves: soft and imported characters.
+// Draws skirts, and surfaces that come as they stand.
 
 /// What a skirt shows at a vertex of its mesh.
 struct skirt_vertex {
@@ -46,7 +45,7 @@ struct stage_skirt {
     GLuint program, vertex_array, buffer, indices, white;
     struct painter_uniforms shared;
     struct {
-        GLint shade, line, cutoff, blended;
+        GLint shade, line, cutoff, blended, both_sides;
     } at;
     struct skirt_vertex *vertices;
 };
@@ -66,28 +65,6 @@ typedef void skirt_look(const void *context, uint32_t vertex, struct skirt_verte
 /// Draws the skirt of the triangles from index `first` to `end`.
 void stage_skirt_draw(const struct stage_skirt *skirt, const struct skirt_mesh *mesh, int first, int end,
                       bool both_sides, const float eye[3], float seam, skirt_look *look, const void *context);
-
-// The skirts of imported characters.
-
-/// All nodes' meshes, one after the other, part after part, as one that stands in the world. All zero: they are too many, and edges stay hard.
-struct model_skirt {
-    uint32_t *indices;
-    int *neighbours;
-    float (*place)[3], (*normal)[3];
-    bool *front;
-    int *first_vertex, *first_index; ///< of each node
-};
-
-/// Finds what lies across edges. Meshes of different nodes have nothing to do with each other.
-void model_skirt_create(struct model_skirt *skirt, const struct gltf *gltf);
-void model_skirt_free(struct model_skirt *skirt);
-
-/// Whether a node without a skin is mirrored, which turns its triangles round.
-bool model_is_mirrored(const struct gltf *gltf, const struct gltf_pose *pose, int node);
-
-/// Moves a node's mesh, and says what of it faces the eye.
-struct skirt_mesh model_skirt_pose(const struct model_skirt *skirt, const struct gltf *gltf,
-                                   const struct gltf_pose *pose, int node, const float root[16], const float eye[3]);
 
 // The skirts of soft characters.
 

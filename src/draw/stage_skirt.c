@@ -53,10 +53,9 @@ bool stage_skirt_create(struct stage_skirt *skirt, struct error *error)
     if (skirt->program) {
         skirt->shared = painter_find_uniforms(skirt->program);
         const struct gl_uniform uniforms[] = {
-            {&skirt->at.shade, "shade"},
-            {&skirt->at.line, "line"},
-            {&skirt->at.cutoff, "cutoff"},
-            {&skirt->at.blended, "blended"},
+            {&skirt->at.shade, "shade"},           {&skirt->at.line, "line"},
+            {&skirt->at.cutoff, "cutoff"},         {&skirt->at.blended, "blended"},
+            {&skirt->at.both_sides, "both_sides"},
         };
         gl_find_uniforms(skirt->program, uniforms, sizeof uniforms / sizeof *uniforms);
         glUseProgram(skirt->program);
@@ -84,6 +83,9 @@ void stage_skirt_use(const struct stage_skirt *skirt, const struct stage_view *v
 {
     painter_use(skirt->program, &skirt->shared, view, seam);
     glUniform1i(skirt->at.blended, 0);
+    glUniform1i(skirt->at.both_sides, 0);
+    glUniform1f(skirt->at.cutoff, 0.0f);
+    glUniform1f(skirt->at.line, 0.0f);
     glActiveTexture(GL_TEXTURE0 + PICTURE_UNIT);
     glBindTexture(GL_TEXTURE_2D, skirt->white);
 }

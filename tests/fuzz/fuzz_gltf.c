@@ -1,5 +1,5 @@
 /// Characters in .glb and .gltf, by every reader of them: imported, as a surface, and as a character of ours; and what is drawn of them.
-#include "draw/skirt.h"
+#include "draw/model_surface.h"
 #include "rig/imported.h"
 #include "surface.h"
 #include <stdlib.h>
@@ -24,15 +24,15 @@ static void draw(const struct imported *imported)
 {
     static const float still[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}, eye[3] = {0, 0, 1};
     const struct gltf *gltf = &imported->gltf;
-    struct model_skirt skirt;
-    model_skirt_create(&skirt, gltf);
-    for (int node = 0; skirt.indices && node < gltf->node_count; node++) {
-        if (gltf->nodes[node].mesh < 0) continue;
-        const struct skirt_mesh mesh = model_skirt_pose(&skirt, gltf, &imported->rest, node, still, eye);
-        fuzz_outlines(&mesh, (const float(*)[3])skirt.normal + skirt.first_vertex[node],
-                      skirt.first_index[node + 1] - skirt.first_index[node]);
+    struct model_surface surface;
+    model_surface_create(&surface, gltf);
+    model_surface_pose(&surface, gltf, &imported->rest, still, eye);
+    for (int node = 0; surface.indices && node < gltf->node_count; node++) {
+        const struct skirt_mesh mesh = model_surface_mesh(&surface, gltf, &imported->rest, node);
+        fuzz_outlines(&mesh, (const float(*)[3])surface.normal, surface.first_index[node],
+                      surface.first_index[node + 1]);
     }
-    model_skirt_free(&skirt);
+    model_surface_free(&surface);
 }
 
 static void import(const char *path)

@@ -10,11 +10,11 @@
 #include <stdlib.h>
 
 /// The outlines of a mesh as it stands, from an eye.
-static inline void fuzz_outlines(const struct skirt_mesh *mesh, const float (*normal)[3], int index_count)
+static inline void fuzz_outlines(const struct skirt_mesh *mesh, const float (*normal)[3], int first, int end)
 {
     const float eye[3] = {1, 2, 3};
-    skirt_face(mesh, 0, index_count, eye);
-    for (int i = -1; (i = skirt_next(mesh, i + 1, index_count, i % 2 == 0)) < index_count;) {
+    skirt_face(mesh, first, end, eye);
+    for (int i = first - 1; (i = skirt_next(mesh, i + 1, end, i % 2 == 0)) < end;) {
         float ends[2][3], out[2][3];
         for (int k = 0; k < 3; k++) {
             ends[0][k] = normal[mesh->indices[i]][k];
@@ -35,7 +35,7 @@ static inline void fuzz_triangles(const struct character *c, const uint32_t *ind
     neighbours_find(place, c->vertex_count, indices, index_count, neighbours);
     neighbours_cut(place, indices, look, index_count, neighbours);
     const struct skirt_mesh mesh = {.indices = indices, .neighbours = neighbours, .place = place, .front = front};
-    fuzz_outlines(&mesh, (const float(*)[3])c->normal, index_count);
+    fuzz_outlines(&mesh, (const float(*)[3])c->normal, 0, index_count);
     free(neighbours);
     free(look);
     free(front);
