@@ -82,9 +82,11 @@ static void a_ramp_poses_like_its_numbers(void **state)
     document_destroy(document);
 }
 
-static struct edit edit_lag(const struct angles *angles)
+static const struct channel_place second = {0, 1};
+
+static bool edit_lag(struct world *world, const struct angles *angles)
 {
-    return (struct edit){.kind = EDIT_ANGLES, .channel = 1, .angle = ANGLE_LAG, .angles = angles};
+    return edit_angles(world_edit(world), second, ANGLE_LAG, angles, &world->error);
 }
 
 static void forms_are_edited_and_undone(void **state)
@@ -97,17 +99,17 @@ static void forms_are_edited_and_undone(void **state)
     longer.ramp[longer.count++] = (struct ramp_point){1, 7};
     longer.ramp[2].at = 0.75;
     const struct angles *const turns[] = {&ramp, &longer, &each, &ramp, &one, &each};
-    for (size_t i = 0; i < sizeof turns / sizeof *turns; i++) assert_reversible(&world, edit_lag(turns[i]));
+    for (size_t i = 0; i < sizeof turns / sizeof *turns; i++) assert_reversible(&world, edit_lag(&world, turns[i]));
     struct angles wrong = ramp;
     wrong.ramp[1].at = 0.25;
-    assert_refused(&world, edit_lag(&wrong), "the places of a ramp must ascend");
+    assert_refused(&world, edit_lag(&world, &wrong), "the places of a ramp must ascend");
     wrong.ramp[1].at = 2;
-    assert_refused(&world, edit_lag(&wrong), "the places of a ramp are from 0 to 1");
+    assert_refused(&world, edit_lag(&world, &wrong), "the places of a ramp are from 0 to 1");
     wrong.count = 1;
-    assert_refused(&world, edit_lag(&wrong), "a ramp has from 2 to 32 points");
+    assert_refused(&world, edit_lag(&world, &wrong), "a ramp has from 2 to 32 points");
     wrong = each;
     wrong.count = 2;
-    assert_refused(&world, edit_lag(&wrong), "t: there must be one angle for each of the 3 joints");
+    assert_refused(&world, edit_lag(&world, &wrong), "t: there must be one angle for each of the 3 joints");
     world_undo_all(&world);
     world_close(&world);
 }
@@ -118,11 +120,9 @@ static void a_ramp_stays_as_joints_are_added(void **state)
     (void)state;
     struct world world;
     world_open(&world);
-    world_must(&world, edit_lag(&ramp));
-    struct edit gain = edit_lag(&ramp);
-    gain.angle = ANGLE_GAIN;
-    world_must(&world, gain);
-    assert_reversible(&world, (struct edit){.kind = EDIT_JOINTS, .to = 6});
+    world_must(&world, edit_lag(&world, &ramp));
+    world_must(&world, edit_angles(world_edit(&world), second, ANGLE_GAIN, &ramp, &world.error));
+    assert_reversible(&world, edit_joints(world_edit(&world), 0, 6, &world.error));
     const struct channel *channel = &document_tail(world.document, 0)->channels[1];
     assert_int_equal(channel->gain.form, ANGLES_RAMP);
     for (int i = 0; i < ramp.count; i++) {

@@ -77,10 +77,10 @@ static void test_when(void **state)
     update(autosave, &world, 10);
     wait_a_moment();
     assert_false(has_file(autosave));
-    world_must(&world, edit_insert(SWAY, 5, 5));
+    world_must(&world, edit_insert(&world, SWAY, 5, 5));
     update_until(autosave, &world, 10.1, true);
     assert_int_equal(unlink(autosave_path(autosave)), 0); // so that the next write shows
-    world_must(&world, edit_insert(SWAY, 6, 5));
+    world_must(&world, edit_insert(&world, SWAY, 6, 5));
     update(autosave, &world, 10.9); // less than a second after the one before
     wait_a_moment();
     assert_false(has_file(autosave));
@@ -89,7 +89,7 @@ static void test_when(void **state)
     update(autosave, &world, 20); // nothing new to write
     wait_a_moment();
     assert_false(has_file(autosave));
-    world_must(&world, edit_insert(SWAY, 7, 5));
+    world_must(&world, edit_insert(&world, SWAY, 7, 5));
     update_until(autosave, &world, 30, true);
     history_mark_saved(world.history);
     update_until(autosave, &world, 30.1, false);
@@ -106,7 +106,7 @@ static void test_left_behind(void **state)
     struct recovery_entry entry;
     world_open(&world);
     struct autosave *autosave = open_autosave();
-    world_must(&world, edit_insert(SWAY, 5, 5));
+    world_must(&world, edit_insert(&world, SWAY, 5, 5));
     struct autosave_work work = work_of(&world);
     assert_true(autosave_flush(autosave, &work, &error));
     struct stat about;
@@ -168,7 +168,7 @@ static void test_paths(void **state)
                  {PATH_LIMIT - 1, "\n"}};
     struct world world;
     world_open(&world);
-    world_must(&world, edit_insert(SWAY, 5, 5));
+    world_must(&world, edit_insert(&world, SWAY, 5, 5));
     for (size_t i = 0; i < sizeof paths / sizeof *paths; i++) {
         struct autosave *autosave = open_autosave();
         struct error error = {0};
@@ -222,7 +222,7 @@ static void test_cannot_write(void **state)
     char moved[80];
     snprintf(moved, sizeof moved, "%s.away", folder);
     assert_int_equal(rename(folder, moved), 0);
-    world_must(&world, edit_insert(SWAY, 5, 5));
+    world_must(&world, edit_insert(&world, SWAY, 5, 5));
     int complaints = 0;
     for (int i = 0; i < 100; i++) {
         struct autosave_work work = work_of(&world);
@@ -259,8 +259,8 @@ static void test_killed_while_saving(void **state)
     struct error error = {0};
     world_open(&small);
     world_open(&large);
-    world_must(&large, range_edit(0, 4000));
-    for (int f = 31; f < 4000; f++) world_must(&large, edit_insert(SWAY, f, sin(f)));
+    world_must(&large, edit_frames(&large, 0, 4000));
+    for (int f = 31; f < 4000; f++) world_must(&large, edit_insert(&large, SWAY, f, sin(f)));
     char *texts[] = {world_print(&small), world_print(&large)};
     snprintf(path, sizeof path, "%s/mine.json", folder);
     assert_true(scene_save(small.document, path, &error));

@@ -107,7 +107,7 @@ static void test_a_tail_that_goes_while_held(void **state)
     struct error error;
     session_open(&s, scene);
     hold_and_drag(&s, 80, 30, 6);
-    assert_true(history_apply(s.history, s.document, &(struct edit){.kind = EDIT_RIG_REMOVE}, &error));
+    assert_true(edit_rig_remove(s.document, 0, &error));
     char *without = session_saved(&s);
     session_button(&s, BUTTON_LEFT, ACTION_RELEASE, 1);
     session_frame(&s);
@@ -125,7 +125,7 @@ static void press_as_it_goes(const char *target)
     session_frame(&s);
     session_point(&s, target);
     history_begin(s.history, "Remove tail", 0);
-    assert_true(history_apply(s.history, s.document, &(struct edit){.kind = EDIT_RIG_REMOVE}, &error));
+    assert_true(edit_rig_remove(s.document, 0, &error));
     history_end(s.history);
     char *without = session_saved(&s);
     session_press(&s, BUTTON_LEFT, 1);

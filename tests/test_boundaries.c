@@ -206,52 +206,65 @@ static void knots_of_a_scene(void **state)
         if (!world.document) fail_msg("%s", error.text);
         world.history = history_create(world.document);
         const unsigned first = world.document->splines[0]->knots[5].id;
-        assert_false(world_step(&world, edit_insert(0, EACH + 50, 1)));
+        assert_false(world_step(&world, edit_insert(&world, 0, EACH + 50, 1)));
         assert_string_equal(world.error.text, "the limit of 100000 knots is reached");
-        world_must(&world, (struct edit){.kind = EDIT_KNOT_REMOVE, .knot.id = first});
-        world_must(&world, edit_insert(0, EACH + 50, 1));
-        assert_false(world_step(&world, edit_insert(0, 5, 1)));
+        world_must(&world, edit_knot_remove(world_edit(&world), 0, first, &world.error));
+        world_must(&world, edit_insert(&world, 0, EACH + 50, 1));
+        assert_false(world_step(&world, edit_insert(&world, 0, 5, 1)));
         history_destroy(world.history);
         document_destroy(world.document);
     }
     free(text);
 }
 
+/// Whether an edit that fits the document's limits is taken, and any other refused with a sentence.
+static void assert_taken(struct world *world, bool done, const char *says)
+{
+    if (says) {
+        assert_refused(world, done, says);
+    } else {
+        world_must(world, done);
+    }
+}
+
 /// The same limits, where an edit would go beyond.
 static void limits_of_edits(void **state)
 {
     (void)state;
+    static const char rate[] = "frames per second must be above 0 and at most 100000";
+    static const char subs[] = "substeps must be from 1 to 1024";
+    static const char far[] = "frames must be from -1000000000 to 1000000000";
     static const struct {
-        struct edit edit;
+        double fps;
         const char *says; ///< NULL: taken
-    } cases[] = {
-        {{.kind = EDIT_FPS, .number = 99999}, NULL},
-        {{.kind = EDIT_FPS, .number = 100000}, NULL},
-        {{.kind = EDIT_FPS, .number = 100001}, "frames per second must be above 0 and at most 100000"},
-        {{.kind = EDIT_FPS, .number = 0}, "frames per second must be above 0 and at most 100000"},
-        {{.kind = EDIT_FPS, .number = NAN}, "frames per second must be above 0 and at most 100000"},
-        {{.kind = EDIT_SUBSTEPS, .substeps = 1}, NULL},
-        {{.kind = EDIT_SUBSTEPS, .substeps = 1023}, NULL},
-        {{.kind = EDIT_SUBSTEPS, .substeps = 1024}, NULL},
-        {{.kind = EDIT_SUBSTEPS, .substeps = 1025}, "substeps must be from 1 to 1024"},
-        {{.kind = EDIT_SUBSTEPS, .substeps = 0}, "substeps must be from 1 to 1024"},
-        {{.kind = EDIT_RANGE, .first = 0, .last = 99999}, NULL},
-        {{.kind = EDIT_RANGE, .first = 0, .last = 100000}, "at most 100000 samples a spline, got 100001"},
-        {{.kind = EDIT_RANGE, .first = 0, .last = 1000000000}, "at most 100000 samples a spline, got 1000000001"},
-        {{.kind = EDIT_RANGE, .first = 0, .last = 1000000001}, "frames must be from -1000000000 to 1000000000"},
-        {{.kind = EDIT_RANGE, .first = -1000000001, .last = 0}, "frames must be from -1000000000 to 1000000000"},
-        {{.kind = EDIT_RANGE, .first = 0, .last = 0x7fffffff}, "frames must be from -1000000000 to 1000000000"},
-    };
-    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        struct world world;
+    } rates[] = {{99999, NULL}, {100000, NULL}, {100001, rate}, {0, rate}, {(double)NAN, rate}};
+    static const struct {
+        int substeps;
+        const char *says;
+    } steps[] = {{2, NULL}, {1, NULL}, {1023, NULL}, {1024, NULL}, {1025, subs}, {0, subs}};
+    static const struct {
+        int first, last;
+        const char *says;
+    } ranges[] = {{0, 99999, NULL},
+                  {0, 100000, "at most 100000 samples a spline, got 100001"},
+                  {0, 1000000000, "at most 100000 samples a spline, got 1000000001"},
+                  {0, 1000000001, far},
+                  {-1000000001, 0, far},
+                  {0, 0x7fffffff, far}};
+    struct world world;
+    for (size_t i = 0; i < sizeof rates / sizeof *rates; i++) {
         world_open(&world);
-        world_must(&world, (struct edit){.kind = EDIT_SUBSTEPS, .substeps = 2});
-        world_must(&world, (struct edit){.kind = EDIT_SUBSTEPS, .substeps = 1});
-        const bool same = cases[i].edit.kind == EDIT_SUBSTEPS && cases[i].edit.substeps == 1;
-        if (cases[i].says)
-            assert_refused(&world, cases[i].edit, cases[i].says);
-        else if (!same)
-            world_must(&world, cases[i].edit);
+        assert_taken(&world, edit_fps(world_edit(&world), rates[i].fps, false, &world.error), rates[i].says);
+        world_close(&world);
+    }
+    for (size_t i = 0; i < sizeof steps / sizeof *steps; i++) {
+        world_open(&world);
+        assert_taken(&world, edit_substeps(world_edit(&world), steps[i].substeps, &world.error), steps[i].says);
+        world_close(&world);
+    }
+    for (size_t i = 0; i < sizeof ranges / sizeof *ranges; i++) {
+        world_open(&world);
+        assert_taken(&world, edit_frames(&world, ranges[i].first, ranges[i].last), ranges[i].says);
         world_close(&world);
     }
 }
@@ -262,9 +275,10 @@ static void rigs_of_an_edit(void **state)
     struct world world;
     world_open(&world);
     while (world.document->rig_count < 1024) {
-        world_must(&world, (struct edit){.kind = EDIT_TAIL_ADD, .rig = world.document->rig_count - 1, .spline = -1});
+        world_must(&world, edit_tail_add(world_edit(&world), world.document->rig_count - 1, -1, AXIS_SIDE, PART_TOTAL,
+                                         &world.error));
     }
-    assert_false(world_step(&world, (struct edit){.kind = EDIT_TAIL_ADD, .rig = 0, .spline = -1}));
+    assert_false(world_step(&world, edit_tail_add(world_edit(&world), 0, -1, AXIS_SIDE, PART_TOTAL, &world.error)));
     assert_string_equal(world.error.text, "there are 1024 rigs, and no more fit");
     char *text = world_print(&world);
     takes(text);
@@ -313,15 +327,13 @@ static void samples_of_limits(void **state)
 {
     (void)state;
     static const char *const says = "at most 20000 samples where a spline has a low or high limit, got 20001";
-    const struct edit limit = {.kind = EDIT_PARAMETER, .parameter = PARAMETER_HIGH, .param = param_number(1e6)};
-    const struct edit longer = {.kind = EDIT_RANGE, .first = 0, .last = 20000};
     struct world world;
     world_open(&world);
-    world_must(&world, longer);
-    assert_refused(&world, limit, says);
-    world_must(&world, (struct edit){.kind = EDIT_RANGE, .first = 0, .last = 19999});
-    world_must(&world, limit);
-    assert_refused(&world, longer, says);
+    world_must(&world, edit_frames(&world, 0, 20000));
+    assert_refused(&world, edit_number(&world, 0, PARAMETER_HIGH, 1e6), says);
+    world_must(&world, edit_range(world_edit(&world), 0, 19999, RANGE_REFUSE, &world.error));
+    world_must(&world, edit_number(&world, 0, PARAMETER_HIGH, 1e6));
+    assert_refused(&world, edit_frames(&world, 0, 20000), says);
     assert_int_equal(document_longest(world.document), 19999);
     world_close(&world);
 }

@@ -332,10 +332,8 @@ static void make_rough(struct studio *s)
     const struct dab dab = {0, count, vertices, (const float(*)[2])values};
     struct error error;
     history_begin(s->session.history, "Rough", 0);
-    assert_true(history_apply(s->session.history, s->session.document,
-                              &(struct edit){.kind = EDIT_PAINT_NEW, .coordinates = 2, .vertices = count}, &error));
-    assert_true(history_apply(s->session.history, s->session.document,
-                              &(struct edit){.kind = EDIT_PAINT, .dab = &dab}, &error));
+    assert_true(edit_paint_new(s->session.document, 0, 2, count, &error));
+    assert_true(edit_paint(s->session.document, 0, &dab, &error));
     history_end(s->session.history);
     free(vertices);
     free(values);
@@ -415,8 +413,7 @@ static void a_click_paints_and_foreign_paint_is_left_alone(void **state)
     assert_true(mean_lead(&s) > 0);
     struct error error;
     history_begin(s.session.history, "Foreign", 0);
-    assert_true(history_apply(s.session.history, s.session.document,
-                              &(struct edit){.kind = EDIT_PAINT_NEW, .coordinates = 5, .vertices = 7}, &error));
+    assert_true(edit_paint_new(s.session.document, 0, 5, 7, &error));
     history_end(s.session.history);
     const uint64_t version = rig_of(&s)->painted->version;
     frame(&s);

@@ -2,7 +2,8 @@
 #include "near.h"
 
 #include "base/file.h"
-#include "scene/edit_kinds.h"
+#include "scene/edit.h"
+#include "scene/history.h"
 #include "scene/load.h"
 #include <math.h>
 #include <stdio.h>
@@ -97,11 +98,16 @@ static void bad_characters_are_refused(void **state)
     }
 }
 
-static void apply(struct history *history, struct document *document, const struct edit *edit)
+/// The document of a step that opens; and its end, after an edit that must be possible.
+static struct document *begin(struct history *history, struct document *document)
 {
-    struct error error = {0};
     history_begin(history, "Edit", 0);
-    if (!history_apply(history, document, edit, &error)) fail_msg("%s", error.text);
+    return document;
+}
+
+static void end(struct history *history, bool done)
+{
+    assert_true(done);
     history_end(history);
 }
 
@@ -112,11 +118,11 @@ static void edits_are_undone_to_the_byte(void **state)
     struct history *history = history_create(document);
     size_t size;
     char *before = scene_print(document, &size);
-    apply(history, document,
-          &(struct edit){.kind = EDIT_DRIVE, .channel = 0, .drive = {.spline = 1, .amplitude = -2, .lag = 45}});
-    apply(history, document,
-          &(struct edit){.kind = EDIT_DRIVE_ADD, .drive = {.name = "twist", .spline = 0, .amplitude = 1}});
-    apply(history, document, &(struct edit){.kind = EDIT_DRIVE_REMOVE, .channel = 0});
+    end(history, edit_drive(begin(history, document), 0, 0,
+                            &(const struct drive){.spline = 1, .amplitude = -2, .lag = 45}, NULL));
+    end(history, edit_drive_add(begin(history, document), 0, "twist",
+                                &(const struct drive){.name = "twist", .spline = 0, .amplitude = 1}, NULL));
+    end(history, edit_drive_remove(begin(history, document), 0, 0, NULL));
     const struct character_rig *rig = document_character(document, 0);
     assert_int_equal(rig->drive_count, 2);
     assert_string_equal(rig->drives[0].name, "side");
@@ -161,13 +167,13 @@ static void rigs_keep_their_order(void **state)
                     " \"a.glb\"}, {\"type\": \"tail\", \"name\": \"b\"}"));
     struct history *history = history_create(document);
     assert_order(document, "tct");
-    apply(history, document, &(struct edit){.kind = EDIT_TAIL_ADD, .rig = 2});
+    end(history, edit_tail_add(begin(history, document), 2, 0, AXIS_SIDE, PART_TOTAL, NULL));
     assert_order(document, "tctt");
-    apply(history, document, &(struct edit){.kind = EDIT_RIG_REMOVE, .rig = 0});
+    end(history, edit_rig_remove(begin(history, document), 0, NULL));
     assert_order(document, "ctt");
     const struct drive drive = {.name = "up", .spline = 1, .amplitude = 1};
-    apply(history, document, &(struct edit){.kind = EDIT_DRIVE_ADD, .rig = 0, .drive = drive});
-    apply(history, document, &(struct edit){.kind = EDIT_RIG_REMOVE, .rig = 1});
+    end(history, edit_drive_add(begin(history, document), 0, drive.name, &drive, NULL));
+    end(history, edit_rig_remove(begin(history, document), 1, NULL));
     assert_order(document, "ct");
     assert_string_equal(document->rigs[1]->name, "tail");
     while (history_undo(history)) continue;
@@ -183,26 +189,24 @@ static void rigs_keep_their_order(void **state)
 static void impossible_edits_are_refused(void **state)
 {
     (void)state;
-    static const struct {
-        struct edit edit;
-        const char *sentence;
-    } cases[] = {
-        {{.kind = EDIT_DRIVE, .rig = 1}, "there is no such character"},
-        {{.kind = EDIT_DRIVE, .channel = 2}, "this character has no such coordinate"},
-        {{.kind = EDIT_DRIVE, .drive = {.spline = 2}}, "there is no such spline"},
-        {{.kind = EDIT_DRIVE, .drive = {.amplitude = (double)INFINITY}}, "amplitude and lag must be finite"},
-        {{.kind = EDIT_DRIVE_ADD}, "a coordinate needs a name"},
-        {{.kind = EDIT_DRIVE_REMOVE, .channel = -1}, "this character has no such coordinate"},
-    };
     struct document *document = parse(whole);
     struct history *history = history_create(document);
-    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        struct error error = {0};
-        history_begin(history, "Edit", 0);
-        assert_false(history_apply(history, document, &cases[i].edit, &error));
-        history_end(history);
-        assert_string_equal(error.text, cases[i].sentence);
-    }
+    const struct drive good = {.amplitude = 1}, other = {.spline = 2}, endless = {.amplitude = (double)INFINITY};
+    struct error error = {0};
+    history_begin(history, "Edit", 0);
+    assert_false(edit_drive(document, 1, 0, &good, &error));
+    assert_string_equal(error.text, "there is no such character");
+    assert_false(edit_drive(document, 0, 2, &good, &error));
+    assert_string_equal(error.text, "this character has no such coordinate");
+    assert_false(edit_drive(document, 0, 0, &other, &error));
+    assert_string_equal(error.text, "there is no such spline");
+    assert_false(edit_drive(document, 0, 0, &endless, &error));
+    assert_string_equal(error.text, "amplitude and lag must be finite");
+    assert_false(edit_drive_add(document, 0, NULL, &good, &error));
+    assert_string_equal(error.text, "a coordinate needs a name");
+    assert_false(edit_drive_remove(document, 0, -1, &error));
+    assert_string_equal(error.text, "this character has no such coordinate");
+    history_end(history);
     assert_true(history_is_saved(history) || history_undo_label(history) == NULL);
     history_destroy(history);
     document_destroy(document);
@@ -214,12 +218,12 @@ static void drives_follow_their_splines(void **state)
     (void)state;
     struct document *document = parse(whole);
     struct history *history = history_create(document);
-    apply(history, document, &(struct edit){.kind = EDIT_SPLINE_MOVE, .spline = 0, .to = 1});
+    end(history, edit_spline_move(begin(history, document), 0, 1, NULL));
     assert_int_equal(document_character(document, 0)->drives[0].spline, 1);
     assert_int_equal(document_character(document, 0)->drives[1].spline, 0);
     struct error error = {0};
     history_begin(history, "Remove", 0);
-    assert_false(history_apply(history, document, &(struct edit){.kind = EDIT_SPLINE_REMOVE, .spline = 0}, &error));
+    assert_false(edit_spline_remove(document, 0, &error));
     history_end(history);
     history_destroy(history);
     document_destroy(document);

@@ -28,8 +28,6 @@ static void open(struct world *world)
     assert_non_null(world->history);
 }
 
-static struct edit edit_pin(enum edit_kind kind, struct pin pin) { return (struct edit){.kind = kind, .pin = pin}; }
-
 static void test_saves_what_it_reads(void **state)
 {
     (void)state;
@@ -58,23 +56,25 @@ static void test_every_edit_is_undone(void **state)
     struct world world;
     open(&world);
     char *before = world_print(&world);
-    assert_reversible(&world, edit_pin(EDIT_PIN_ADD, (struct pin){.frame = 20, .point = 3, .to = {1, 2, 3}}));
+    assert_reversible(&world, edit_pin_add(world_edit(&world), 0,
+                                           &(struct pin){.frame = 20, .point = 3, .to = {1, 2, 3}}, &world.error));
     assert_int_equal(world.document->rigs[0]->pin_count, 3);
     struct pin moved = world.document->rigs[0]->pins[1];
     moved.frame = 40; // past the other
     moved.to[1] = -2;
-    assert_reversible(&world, edit_pin(EDIT_PIN_SET, moved));
+    assert_reversible(&world, edit_pin_set(world_edit(&world), 0, &moved, &world.error));
     assert_int_equal(world.document->rigs[0]->pins[2].id, moved.id);
-    assert_reversible(&world, edit_pin(EDIT_PIN_REMOVE, world.document->rigs[0]->pins[0]));
-    assert_reversible(&world, (struct edit){.kind = EDIT_JOINTS, .to = 24});
+    assert_reversible(&world,
+                      edit_pin_remove(world_edit(&world), 0, world.document->rigs[0]->pins[0].id, &world.error));
+    assert_reversible(&world, edit_joints(world_edit(&world), 0, 24, &world.error));
     assert_int_equal(world.document->rigs[0]->pins[0].point, 23);
-    assert_reversible(&world, (struct edit){.kind = EDIT_FPS, .number = 48, .flag = true});
+    assert_reversible(&world, edit_fps(world_edit(&world), 48, true, &world.error));
     assert_near(world.document->rigs[0]->pins[1].frame, 80, 0);
-    assert_reversible(&world, (struct edit){.kind = EDIT_TAIL_ADD});
+    assert_reversible(&world, edit_tail_add(world_edit(&world), 0, 0, AXIS_SIDE, PART_TOTAL, &world.error));
     assert_int_equal(world.document->rigs[2]->pin_count, 0);
-    assert_reversible(&world, (struct edit){.kind = EDIT_RANGE, .last = 70, .fit = RANGE_MOVE});
+    assert_reversible(&world, edit_range(world_edit(&world), 0, 70, RANGE_MOVE, &world.error));
     assert_near(world.document->rigs[0]->pins[1].frame, 70, 0);
-    assert_reversible(&world, (struct edit){.kind = EDIT_RANGE, .last = 65, .fit = RANGE_TRIM});
+    assert_reversible(&world, edit_range(world_edit(&world), 0, 65, RANGE_TRIM, &world.error));
     assert_int_equal(world.document->rigs[0]->pin_count, 1);
     world_undo_all(&world);
     assert_document(&world, before);
@@ -88,33 +88,36 @@ static void test_what_would_not_load_is_refused(void **state)
     struct world world;
     open(&world);
     struct pin pin = world.document->rigs[0]->pins[1];
-    assert_refused(&world, edit_pin(EDIT_PIN_ADD, pin),
+    assert_refused(&world, edit_pin_add(world_edit(&world), 0, &pin, &world.error),
                    "t: pins: expected a sample of its own for each pin of a point, got frame 30 again");
     pin.frame = 49;
-    assert_refused(&world, edit_pin(EDIT_PIN_SET, pin), "t: pins: expected a frame from 0 to 48, got 49");
+    assert_refused(&world, edit_pin_set(world_edit(&world), 0, &pin, &world.error),
+                   "t: pins: expected a frame from 0 to 48, got 49");
     pin.to[1] = NAN;
-    assert_refused(&world, edit_pin(EDIT_PIN_SET, pin), "t: a pin's numbers must be finite");
+    assert_refused(&world, edit_pin_set(world_edit(&world), 0, &pin, &world.error),
+                   "t: a pin's numbers must be finite");
     pin = (struct pin){.frame = 2, .point = 12};
-    assert_refused(&world, edit_pin(EDIT_PIN_ADD, pin), "t: there is no point 12 to pin");
-    assert_refused(&world, edit_pin(EDIT_PIN_REMOVE, pin), "t: this pin no longer exists");
-    assert_refused(&world, edit_mode(SIDE, WIGGLY_CUBIC),
+    assert_refused(&world, edit_pin_add(world_edit(&world), 0, &pin, &world.error), "t: there is no point 12 to pin");
+    assert_refused(&world, edit_pin_remove(world_edit(&world), 0, pin.id, &world.error),
+                   "t: this pin no longer exists");
+    assert_refused(&world, edit_mode(&world, SIDE, WIGGLY_CUBIC),
                    "t: pins: expected splines with a swing of their own, got \"side\", which is cubic");
-    assert_refused(&world, edit_number(UP, PARAMETER_FREQUENCY, 0),
+    assert_refused(&world, edit_number(&world, UP, PARAMETER_FREQUENCY, 0),
                    "t: pins: expected splines with a swing of their own, got \"up\", whose frequency is 0");
-    assert_refused(&world, edit_number(UP, PARAMETER_CALM, 0),
+    assert_refused(&world, edit_number(&world, UP, PARAMETER_CALM, 0),
                    "t: pins: expected splines with a swing of their own, got \"up\", whose calm is 0");
-    assert_refused(&world, edit_track(UP, PARAMETER_EQUILIBRIUM, SIDE),
+    assert_refused(&world, edit_track(&world, UP, PARAMETER_EQUILIBRIUM, SIDE),
                    "t: pins: expected splines that do not follow each other, got \"up\", which follows \"side\"");
-    assert_refused(&world, edit_track(BASE, PARAMETER_EQUILIBRIUM, SIDE),
+    assert_refused(&world, edit_track(&world, BASE, PARAMETER_EQUILIBRIUM, SIDE),
                    "t: pins: expected splines that are not solved before and after each other, got \"up\", which "
                    "follows \"base\"");
-    assert_refused(&world, (struct edit){.kind = EDIT_FEED, .channel = 1, .spline = BASE},
+    assert_refused(&world, edit_feed(world_edit(&world), (struct channel_place){0, 1}, BASE, &world.error),
                    "t: pins: expected splines with a swing of their own, got \"base\", which is cubic");
-    assert_refused(&world, range_edit(0, 20), "t: pins: expected a frame from 0 to 20, got 30");
+    assert_refused(&world, edit_frames(&world, 0, 20), "t: pins: expected a frame from 0 to 20, got 30");
     pin.frame = 48;
     pin.point = 1;
-    world_must(&world, edit_pin(EDIT_PIN_ADD, pin));
-    assert_refused(&world, edit_start(UP, WIGGLY_LOOP),
+    world_must(&world, edit_pin_add(world_edit(&world), 0, &pin, &world.error));
+    assert_refused(&world, edit_start(&world, UP, WIGGLY_LOOP),
                    "t: pins: expected a frame before 48, because the last frame of a loop repeats the first, got 48");
     world_close(&world);
 }

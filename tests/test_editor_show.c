@@ -484,20 +484,17 @@ static char *scene_with_knots(int knots)
 
 static void set(struct session *s, enum parameter parameter, double value)
 {
-    const struct edit edit = {.kind = EDIT_PARAMETER, .parameter = parameter, .param = param_number(value)};
+    const struct param param = param_number(value);
     struct error error = {0};
-    if (!history_apply(s->history, s->document, &edit, &error)) fail_msg("%s", error.text);
+    if (!edit_parameter(s->document, 0, parameter, &param, &error)) fail_msg("%s", error.text);
 }
 
 /// Sets every slider to one of its ends, as the bits of `ends` say, and looks at the curve.
 static void assert_finite_at(struct session *s, enum wiggly_mode mode, enum wiggly_start start, int ends)
 {
-    const struct edit edits[] = {
-        {.kind = EDIT_PARAMETER, .parameter = PARAMETER_MODE, .param = param_number(mode)},
-        {.kind = EDIT_PARAMETER, .parameter = PARAMETER_START, .param = param_number(start)}};
     history_begin(s->history, "extremes", 1);
-    assert_true(history_apply(s->history, s->document, &edits[0], NULL));
-    assert_true(history_apply(s->history, s->document, &edits[1], NULL));
+    set(s, PARAMETER_MODE, mode);
+    set(s, PARAMETER_START, start);
     set(s, PARAMETER_FREQUENCY, ends & 1 ? 12 : 0);
     set(s, PARAMETER_DAMPING, ends & 2 ? (mode == WIGGLY_REAL ? 3 : 1) : 0);
     set(s, PARAMETER_BANDWIDTH, ends & 4 ? 1 : 0);

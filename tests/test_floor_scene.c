@@ -5,7 +5,8 @@
 #include "model/figure.h"
 #include "rig/opened.h"
 #include "rig/pinning.h"
-#include "scene/edit_kinds.h"
+#include "scene/edit.h"
+#include "scene/history.h"
 #include "scene/load.h"
 #include "temporary.h"
 #include <stdlib.h>
@@ -117,14 +118,12 @@ static void a_floor_above_the_feet_is_refused(void **state)
     struct opened opened = open_scene("free", "", ", \"floor\": -1");
     struct history *history = history_create(opened.document);
     struct error error = {0};
-    struct edit edit = {.kind = EDIT_FLOOR, .rig = 0, .flag = true, .number = 0.5};
     (void)state;
     history_begin(history, "Floor", 0);
-    assert_false(history_apply(history, opened.document, &edit, &error));
+    assert_false(edit_floor(opened.document, 0, true, 0.5, &error));
     assert_non_null(strstr(error.text, "floor: expected a height of at most 0"));
     assert_true(opened.document->rigs[0]->character.floor == -1);
-    edit.number = -0.25;
-    assert_true(history_apply(history, opened.document, &edit, &error));
+    assert_true(edit_floor(opened.document, 0, true, -0.25, &error));
     history_end(history);
     assert_true(opened.document->rigs[0]->character.floor == -0.25);
     assert_true(history_undo(history));

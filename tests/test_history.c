@@ -19,8 +19,8 @@ static void test_restart(void **state)
     history_begin(world.history, "Drag", 0);
     for (int frame = 0; frame < 20; frame++) {
         history_restart(world.history);
-        assert_true(world_apply(&world, edit_insert(SWAY, 2 + frame % 3, frame)));
-        assert_true(world_apply(&world, edit_move(&world, SWAY, 2, 20 + frame, 0)));
+        assert_true(edit_insert(&world, SWAY, 2 + frame % 3, frame));
+        assert_true(edit_move(&world, SWAY, 2, 20 + frame, 0));
         int at = spline_find_knot(world.document, world.document->splines[SWAY], 2 + frame % 3);
         assert_true(at >= 0);
         if (frame > 0) assert_int_equal(world.document->splines[SWAY]->knots[at].id, id);
@@ -42,11 +42,11 @@ static void test_cancelled_step(void **state)
     (void)state;
     struct world world;
     world_open(&world);
-    world_must(&world, edit_insert(SWAY, 5, 5));
+    world_must(&world, edit_insert(&world, SWAY, 5, 5));
     char *after = world_print(&world);
     assert_true(history_undo(world.history));
     history_begin(world.history, "Cancelled", 0);
-    assert_true(world_apply(&world, edit_insert(SWAY, 6, 6)));
+    assert_true(edit_insert(&world, SWAY, 6, 6));
     history_restart(world.history);
     assert_true(history_is_open(world.history));
     history_end(world.history);
@@ -64,7 +64,7 @@ static void test_cancelled_step(void **state)
 static void nudge(struct world *world, double value, uint64_t merge)
 {
     history_begin(world->history, "Nudge", merge);
-    assert_true(world_apply(world, edit_move(world, SWAY, 0, 0, value)));
+    assert_true(edit_move(world, SWAY, 0, 0, value));
     history_end(world->history);
 }
 
@@ -107,20 +107,20 @@ static void test_saved(void **state)
     struct world world;
     world_open(&world);
     assert_true(history_is_saved(world.history));
-    world_must(&world, edit_insert(SWAY, 5, 5));
+    world_must(&world, edit_insert(&world, SWAY, 5, 5));
     assert_false(history_is_saved(world.history));
     history_mark_saved(world.history);
-    world_must(&world, edit_insert(SWAY, 6, 6));
+    world_must(&world, edit_insert(&world, SWAY, 6, 6));
     assert_true(history_undo(world.history));
     assert_true(history_is_saved(world.history));
     assert_true(history_undo(world.history));
     assert_false(history_is_saved(world.history));
-    world_must(&world, edit_insert(SWAY, 5, 5)); // the same document by another way counts as changed
+    world_must(&world, edit_insert(&world, SWAY, 5, 5)); // the same document by another way counts as changed
     assert_false(history_is_saved(world.history));
     history_begin(world.history, "Drag", 0);
     history_mark_saved(world.history);
     assert_true(history_is_saved(world.history));
-    assert_true(world_apply(&world, edit_insert(SWAY, 7, 7)));
+    assert_true(edit_insert(&world, SWAY, 7, 7));
     assert_false(history_is_saved(world.history));
     history_restart(world.history);
     assert_true(history_is_saved(world.history));
@@ -134,7 +134,7 @@ static void test_revision(void **state)
     struct world world;
     world_open(&world);
     uint64_t revision = history_revision(world.history);
-    world_must(&world, edit_insert(SWAY, 5, 5));
+    world_must(&world, edit_insert(&world, SWAY, 5, 5));
     assert_true(history_revision(world.history) > revision);
     revision = history_revision(world.history);
     assert_true(history_undo(world.history));
@@ -152,56 +152,75 @@ static void test_revision(void **state)
 
 static double random_number(void) { return (double)(rand() % 2001 - 1000) / 128; }
 
-static struct edit random_knot_edit(const struct world *world)
+static void edit_random_knot(struct world *world)
 {
     int spline = rand() % 3, count = world->document->splines[spline]->knot_count;
     int at = count > 0 ? rand() % count : 0;
     double frame = (double)(rand() % 450 - 30) / 8;
-    if (count == 0 || rand() % 3 == 0) return edit_insert(spline, frame, random_number());
-    struct edit edit = edit_move(
-        world, spline, at, rand() % 2 ? frame : world->document->splines[spline]->knots[at].frame, random_number());
-    if (rand() % 4 == 0) edit.kind = EDIT_KNOT_REMOVE;
-    edit.knot.has_slope = rand() % 2;
-    edit.knot.slope = random_number();
-    edit.knot.stiffness = fabs(random_number());
-    return edit;
+    if (count == 0 || rand() % 3 == 0) {
+        edit_insert(world, spline, frame, random_number());
+        return;
+    }
+    struct knot knot = world->document->splines[spline]->knots[at];
+    if (rand() % 2) knot.frame = frame;
+    knot.value = random_number();
+    knot.has_slope = rand() % 2;
+    knot.slope = random_number();
+    knot.stiffness = fabs(random_number());
+    if (rand() % 4 == 0) {
+        edit_knot_remove(world->document, spline, knot.id, &world->error);
+    } else {
+        edit_knot_set(world->document, spline, &knot, &world->error);
+    }
 }
 
-static struct edit random_setting_edit(struct angles *angles)
+static struct angles random_angles(void)
 {
-    struct edit edit = {.spline = rand() % 3, .channel = rand() % 3 - 1, .angles = angles};
-    static const enum edit_kind kinds[] = {EDIT_PARAMETER, EDIT_PARAMETER, EDIT_PARAMETER, EDIT_PARAMETER,
-                                           EDIT_RANGE,     EDIT_ANGLES,    EDIT_AXIS};
-    edit.kind = kinds[rand() % 7];
-    edit.parameter = (enum parameter)(rand() % PARAMETER_COUNT);
-    edit.param.value = rand() % 2 ? fabs(random_number()) : 0.5;
-    edit.param.track = rand() % 6 - 3;
-    if (rand() % 2) {
-        edit.parameter = rand() % 2 ? PARAMETER_MODE : PARAMETER_START;
-        edit.param = param_number(rand() % 3);
-    }
-    edit.flag = rand() % 2;
-    edit.first = -(rand() % 20);
-    edit.last = 40 + rand() % 20;
-    edit.angle = (enum angle_kind)(rand() % 3);
-    edit.axis = (enum axis)(rand() % 2);
-    angles->form = (enum angle_form)(rand() % 3);
-    angles->count = 3;
+    struct angles angles = {.form = (enum angle_form)(rand() % 3), .count = 3};
     for (int i = 0; i < 3; i++) {
-        if (angles->form == ANGLES_RAMP) angles->ramp[i].at = i / 2.0;
-        angles_set_number(angles, i, random_number());
+        if (angles.form == ANGLES_RAMP) angles.ramp[i].at = i / 2.0;
+        angles_set_number(&angles, i, random_number());
     }
-    return edit;
+    return angles;
+}
+
+static void edit_random_setting(struct world *world)
+{
+    struct document *document = world->document;
+    const struct channel_place at = {0, rand() % 3 - 1};
+    const struct angles angles = random_angles();
+    enum parameter parameter = (enum parameter)(rand() % PARAMETER_COUNT);
+    struct param param = {.value = rand() % 2 ? fabs(random_number()) : 0.5, .track = rand() % 6 - 3};
+    if (rand() % 2) {
+        parameter = rand() % 2 ? PARAMETER_MODE : PARAMETER_START;
+        param = param_number(rand() % 3);
+    }
+    switch (rand() % 7) {
+    case 0:
+        edit_frames(world, -(rand() % 20), 40 + rand() % 20);
+        break;
+    case 1:
+        edit_angles(document, at, (enum angle_kind)(rand() % 3), &angles, &world->error);
+        break;
+    case 2:
+        edit_axis(document, at, (enum axis)(rand() % 2), &world->error);
+        break;
+    default:
+        edit_parameter(document, rand() % 3, parameter, &param, &world->error);
+        break;
+    }
 }
 
 /// Some edits, a restart now and then, undo and redo in between.
 static void random_step(struct world *world)
 {
-    struct angles angles = {0};
     history_begin(world->history, "Random", (uint64_t)(rand() % 3));
     for (int i = rand() % 4; i >= 0; i--) {
-        struct edit edit = rand() % 2 ? random_knot_edit(world) : random_setting_edit(&angles);
-        world_apply(world, edit);
+        if (rand() % 2) {
+            edit_random_knot(world);
+        } else {
+            edit_random_setting(world);
+        }
         if (rand() % 8 == 0) history_restart(world->history);
     }
     history_end(world->history);
@@ -296,10 +315,10 @@ static void test_bytes(void **state)
     nudge(&world, 4, 9);
     nudge(&world, 5, 9);
     assert_int_equal(history_bytes(world.history), 3 * one);
-    world_must(&world, edit_insert(PLUCK, 5, 1));
+    world_must(&world, edit_insert(&world, PLUCK, 5, 1));
     size_t before = history_bytes(world.history);
     world_must(&world,
-               (struct edit){.kind = EDIT_SPLINE_REMOVE, .spline = PLUCK}); // is kept, with its knots, for undo
+               edit_spline_remove(world_edit(&world), PLUCK, &world.error)); // is kept, with its knots, for undo
     assert_true(history_bytes(world.history) > before + one + sizeof(struct spline));
     history_clear(world.history, world.document);
     assert_int_equal(history_bytes(world.history), 0);
@@ -344,7 +363,7 @@ static void test_another_document(void **state)
         "\"knots\": [{\"frame\": 4, \"value\": 1}]}]}";
     struct world world;
     world_open(&world);
-    world_must(&world, edit_insert(SWAY, 4, 1));
+    world_must(&world, edit_insert(&world, SWAY, 4, 1));
     history_set_path(world.history, "own.json");
     char *first = world_print(&world);
     struct document *other = scene_parse("other", text, sizeof text - 1, NULL, &world.error);
@@ -356,7 +375,7 @@ static void test_another_document(void **state)
     assert_null(world.document->path);
     assert_int_equal(world.document->spline_count, 1);
     assert_true(history_bytes(world.history) > bytes + whole);
-    world_must(&world, edit_insert(0, 6, -1));
+    world_must(&world, edit_insert(&world, 0, 6, -1));
     char *second = world_print(&world);
     assert_true(history_undo(world.history));
     assert_true(history_undo(world.history));

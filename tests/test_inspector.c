@@ -158,7 +158,6 @@ static void test_knot_is_edited_in_place(void **state)
     struct session f;
     panel_open(&f, scene, 1280, 1600);
     unsigned id = f.document->splines[0]->knots[1].id;
-    core_reserve(&f.editor->core, f.document);
     selection_set(&f.editor->core.selection, id, true);
     panel_enter(&f, "value", "0.75");
     assert_near(f.document->splines[0]->knots[1].value, 0.75, 0);
@@ -260,7 +259,6 @@ static void test_frame_drag_passes_through_a_neighbour(void **state)
     (void)state;
     struct session f;
     panel_open(&f, scene, 1280, 720);
-    core_reserve(&f.editor->core, f.document);
     selection_set(&f.editor->core.selection, f.document->splines[0]->knots[1].id, true);
     panel_press(&f, "frame", 1);
     float x = f.x;

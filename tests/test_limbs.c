@@ -6,7 +6,8 @@
 #include "near.h"
 #include "rig/opened.h"
 #include "rig/pinning.h"
-#include "scene/edit_kinds.h"
+#include "scene/edit.h"
+#include "scene/history.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -159,11 +160,10 @@ static void the_body_leaves_the_tail_alone(void **state)
     opened_free(&scene);
 }
 
-static bool try_edit(struct history *history, struct edit edit)
+static bool try_axis(struct history *history, int rig, int channel, enum axis axis)
 {
-    struct error error = {0};
-    history_begin(history, "Edit", 0);
-    const bool possible = history_apply(history, scene.document, &edit, &error);
+    history_begin(history, "Axis", 0);
+    const bool possible = edit_axis(scene.document, (struct channel_place){rig, channel}, axis, NULL);
     history_end(history);
     return possible;
 }
@@ -174,19 +174,21 @@ static void axes_are_edited_and_undone(void **state)
     (void)state;
     open_scene("assets/scenes/tail.json");
     struct history *history = history_create(scene.document);
-    assert_true(try_edit(history, (struct edit){.kind = EDIT_AXIS, .rig = 0, .channel = 1, .axis = AXIS_NOD}));
+    assert_true(try_axis(history, 0, 1, AXIS_NOD));
     assert_int_equal(scene.document->rigs[0]->tail.channels[1].axis, AXIS_NOD);
     assert_true(history_undo(history));
     assert_int_equal(scene.document->rigs[0]->tail.channels[1].axis, AXIS_UP);
-    assert_false(try_edit(history, (struct edit){.kind = EDIT_AXIS, .rig = 0, .channel = 1, .axis = AXES}));
+    assert_false(try_axis(history, 0, 1, AXES));
     const double gain = scene.document->rigs[0]->tail.channels[2].gain.value[0];
-    assert_true(try_edit(history, (struct edit){.kind = EDIT_JOINTS, .rig = 0, .to = 12}));
+    history_begin(history, "Joints", 0);
+    assert_true(edit_joints(scene.document, 0, 12, NULL));
+    history_end(history);
     assert_near(scene.document->rigs[0]->tail.channels[2].gain.value[0], gain, 0);
     history_destroy(history);
     opened_free(&scene);
     open_scene("assets/scenes/dog.json");
     history = history_create(scene.document);
-    assert_false(try_edit(history, (struct edit){.kind = EDIT_AXIS, .rig = 1, .channel = 0, .axis = AXIS_BLINK}));
+    assert_false(try_axis(history, 1, 0, AXIS_BLINK));
     history_destroy(history);
     opened_free(&scene);
 }

@@ -179,11 +179,6 @@ static void open_whole(struct world *world)
     history_clear(world->history, world->document);
 }
 
-static struct edit edit_rig(enum edit_kind kind, int rig, const struct rig *contents)
-{
-    return (struct edit){.kind = kind, .rig = rig, .contents = contents};
-}
-
 static void channels_of_a_chain_are_edited_as_those_of_a_tail(void **state)
 {
     (void)state;
@@ -191,21 +186,27 @@ static void channels_of_a_chain_are_edited_as_those_of_a_tail(void **state)
     open_whole(&world);
     const struct angles ramp = {.form = ANGLES_RAMP, .count = 2, .ramp = {{0, 1}, {1, 30}}};
     const struct angles many = {.form = ANGLES_EACH, .count = 7, .value = {1, 2, 3, 4, 5, 6, 7}};
-    assert_reversible(&world, (struct edit){.kind = EDIT_ANGLES, .rig = TAIL, .angle = ANGLE_LAG, .angles = &ramp});
-    assert_reversible(&world, (struct edit){.kind = EDIT_ANGLES, .rig = TAIL, .angle = ANGLE_GAIN, .angles = &many});
-    assert_reversible(&world, (struct edit){.kind = EDIT_AXIS, .rig = TAIL, .axis = AXIS_TWIST});
-    assert_reversible(&world, (struct edit){.kind = EDIT_PART, .rig = TAIL, .of = PART_DISPLACEMENT});
-    assert_reversible(&world, (struct edit){.kind = EDIT_CHANNEL_ADD, .rig = EAR, .axis = AXIS_TWIST});
-    assert_reversible(&world, (struct edit){.kind = EDIT_SPLINE_ADD, .spline = 0, .text = "first"});
+    assert_reversible(
+        &world, edit_angles(world_edit(&world), (struct channel_place){TAIL, 0}, ANGLE_LAG, &ramp, &world.error));
+    assert_reversible(
+        &world, edit_angles(world_edit(&world), (struct channel_place){TAIL, 0}, ANGLE_GAIN, &many, &world.error));
+    assert_reversible(&world,
+                      edit_axis(world_edit(&world), (struct channel_place){TAIL, 0}, AXIS_TWIST, &world.error));
+    assert_reversible(
+        &world, edit_part(world_edit(&world), (struct channel_place){TAIL, 0}, PART_DISPLACEMENT, &world.error));
+    assert_reversible(&world, edit_channel_add(world_edit(&world), EAR, 0, AXIS_TWIST, PART_TOTAL, &world.error));
+    assert_reversible(&world, edit_spline_add(world_edit(&world), 0, "first", NULL, &world.error));
     assert_int_equal(document_find_spline(world.document, "s"), world.document->rigs[TAIL]->chain.channels[1].spline);
-    assert_reversible(&world, (struct edit){.kind = EDIT_FEED, .rig = TAIL, .channel = 1, .spline = 0});
-    assert_reversible(&world, (struct edit){.kind = EDIT_CHANNEL_REMOVE, .rig = TAIL, .channel = 0});
+    assert_reversible(&world, edit_feed(world_edit(&world), (struct channel_place){TAIL, 1}, 0, &world.error));
+    assert_reversible(&world, edit_channel_remove(world_edit(&world), (struct channel_place){TAIL, 0}, &world.error));
     assert_int_equal(world.document->rigs[TAIL]->chain.channel_count, 1);
-    assert_refused(&world, (struct edit){.kind = EDIT_ANGLES, .rig = TAIL, .angle = ANGLE_REST, .angles = &ramp},
+    assert_refused(&world,
+                   edit_angles(world_edit(&world), (struct channel_place){TAIL, 0}, ANGLE_REST, &ramp, &world.error),
                    "only a tail has angles at rest");
-    assert_refused(&world, (struct edit){.kind = EDIT_AXIS, .rig = WALK}, "there is no such rig");
-    assert_refused(&world, (struct edit){.kind = EDIT_LENGTH, .rig = TAIL, .number = 1}, "there is no such tail");
-    assert_refused(&world, (struct edit){.kind = EDIT_SPLINE_REMOVE, .spline = 1},
+    assert_refused(&world, edit_axis(world_edit(&world), (struct channel_place){WALK, 0}, AXIS_SIDE, &world.error),
+                   "there is no such rig");
+    assert_refused(&world, edit_length(world_edit(&world), TAIL, 1, &world.error), "there is no such tail");
+    assert_refused(&world, edit_spline_remove(world_edit(&world), 1, &world.error),
                    "s: still used in 1 place; remove those first");
     world_close(&world);
 }
@@ -220,15 +221,15 @@ static void models_and_chains_are_added(void **state)
     struct rig model = {.kind = RIG_MODEL, .model = {.model = file, .clip = from, .scale = 2}};
     struct rig chain = {.kind = RIG_CHAIN,
                         .chain = {.model = file, .from = from, .to = to, .channels = &channel, .channel_count = 1}};
-    assert_refused(&world, edit_rig(EDIT_CHAIN_ADD, 0, &chain),
+    assert_refused(&world, edit_rig_add(world_edit(&world), &chain, &world.error),
                    "there is no model \"../films/walk.glb\" in the scene");
-    assert_reversible(&world, edit_rig(EDIT_MODEL_ADD, 0, &model));
+    assert_reversible(&world, edit_rig_add(world_edit(&world), &model, &world.error));
     assert_string_equal(world.document->rigs[4]->name, "walk 2");
-    assert_reversible(&world, edit_rig(EDIT_CHAIN_ADD, 0, &chain));
+    assert_reversible(&world, edit_rig_add(world_edit(&world), &chain, &world.error));
     assert_string_equal(world.document->rigs[5]->name, "leg");
     assert_true(world.document->rigs[5]->chain.by_file);
     chain.chain.model = world.document->rigs[4]->name;
-    assert_reversible(&world, edit_rig(EDIT_CHAIN_ADD, 0, &chain));
+    assert_reversible(&world, edit_rig_add(world_edit(&world), &chain, &world.error));
     assert_string_equal(world.document->rigs[6]->name, "leg 2");
     memset(file, 'x', sizeof file - 1);
     memset(from, 'x', sizeof from - 1);
@@ -237,9 +238,10 @@ static void models_and_chains_are_added(void **state)
     assert_string_equal(world.document->rigs[4]->model.model, "../films/walk.glb");
     assert_near(world.document->rigs[6]->chain.channels[0].gain.value[0], 4, 0);
     model.model.scale = 0;
-    assert_refused(&world, edit_rig(EDIT_MODEL_ADD, 0, &model), "the scale must be above 0 and finite");
+    assert_refused(&world, edit_rig_add(world_edit(&world), &model, &world.error),
+                   "the scale must be above 0 and finite");
     channel.spline = 1;
-    assert_refused(&world, edit_rig(EDIT_CHAIN_ADD, 0, &chain), "there is no such spline");
+    assert_refused(&world, edit_rig_add(world_edit(&world), &chain, &world.error), "there is no such spline");
     world_undo_all(&world);
     assert_document(&world, whole);
     world_close(&world);
@@ -253,20 +255,22 @@ static void models_and_chains_are_set(void **state)
     char from[] = "a", to[] = "b", nothing[] = "";
     struct rig place = {.model = {.position = {1, 2, 3}, .scale = 4, .turn = -5}};
     struct rig ends = {.chain = {.from = from, .to = to, .turn = 7}};
-    assert_reversible(&world, edit_rig(EDIT_PLACE, WALK, &place));
+    assert_reversible(&world, edit_place(world_edit(&world), WALK, &place.model, &world.error));
     assert_near(world.document->rigs[WALK]->model.position[2], 3, 0);
-    assert_reversible(&world, (struct edit){.kind = EDIT_CLIP, .rig = WALK, .text = "Run"});
-    assert_reversible(&world, (struct edit){.kind = EDIT_CLIP, .rig = WALK});
+    assert_reversible(&world, edit_clip(world_edit(&world), WALK, "Run", &world.error));
+    assert_reversible(&world, edit_clip(world_edit(&world), WALK, NULL, &world.error));
     assert_null(world.document->rigs[WALK]->model.clip);
-    assert_reversible(&world, edit_rig(EDIT_CHAIN, TAIL, &ends));
+    assert_reversible(&world, edit_chain(world_edit(&world), TAIL, &ends.chain, &world.error));
     assert_string_equal(world.document->rigs[TAIL]->chain.to, "b");
     assert_false(world.document->rigs[TAIL]->chain.mirror);
     ends.chain.to = nothing;
-    assert_refused(&world, edit_rig(EDIT_CHAIN, TAIL, &ends),
+    assert_refused(&world, edit_chain(world_edit(&world), TAIL, &ends.chain, &world.error),
                    "a chain needs the names of its first joint and its last");
     place.model.turn = NAN;
-    assert_refused(&world, edit_rig(EDIT_PLACE, WALK, &place), "position and turn must be finite");
-    assert_refused(&world, edit_rig(EDIT_PLACE, TAIL, &place), "there is no such model");
+    assert_refused(&world, edit_place(world_edit(&world), WALK, &place.model, &world.error),
+                   "position and turn must be finite");
+    assert_refused(&world, edit_place(world_edit(&world), TAIL, &place.model, &world.error),
+                   "there is no such model");
     world_undo_all(&world);
     assert_document(&world, whole);
     world_close(&world);
@@ -277,19 +281,19 @@ static void chains_keep_to_their_model(void **state)
     (void)state;
     struct world world;
     open_whole(&world);
-    assert_refused(&world, (struct edit){.kind = EDIT_RIG_REMOVE, .rig = WALK},
+    assert_refused(&world, edit_rig_remove(world_edit(&world), WALK, &world.error),
                    "walk: still needed by tail; remove those first");
-    assert_reversible(&world, (struct edit){.kind = EDIT_RIG_NAME, .rig = WALK, .text = "dog"});
+    assert_reversible(&world, edit_rig_name(world_edit(&world), WALK, "dog", &world.error));
     assert_string_equal(world.document->rigs[TAIL]->chain.model, "dog");
-    assert_reversible(&world, (struct edit){.kind = EDIT_RIG_NAME, .rig = CAT, .text = "cat"});
+    assert_reversible(&world, edit_rig_name(world_edit(&world), CAT, "cat", &world.error));
     assert_string_equal(world.document->rigs[EAR]->chain.model, "models/cat.glb");
-    assert_refused(&world, (struct edit){.kind = EDIT_RIG_NAME, .rig = WALK, .text = "models/cat.glb"},
+    assert_refused(&world, edit_rig_name(world_edit(&world), WALK, "models/cat.glb", &world.error),
                    "models/cat.glb is the file by which a model is found");
-    assert_refused(&world, (struct edit){.kind = EDIT_RIG_NAME, .rig = EAR, .text = "tail"},
+    assert_refused(&world, edit_rig_name(world_edit(&world), EAR, "tail", &world.error),
                    "there is a rig called tail already");
-    assert_refused(&world, (struct edit){.kind = EDIT_RIG_NAME, .rig = EAR}, "a chain needs a name");
-    assert_reversible(&world, (struct edit){.kind = EDIT_RIG_REMOVE, .rig = EAR});
-    assert_reversible(&world, (struct edit){.kind = EDIT_RIG_REMOVE, .rig = CAT});
+    assert_refused(&world, edit_rig_name(world_edit(&world), EAR, NULL, &world.error), "a chain needs a name");
+    assert_reversible(&world, edit_rig_remove(world_edit(&world), EAR, &world.error));
+    assert_reversible(&world, edit_rig_remove(world_edit(&world), CAT, &world.error));
     world_undo_all(&world);
     assert_document(&world, whole);
     world_close(&world);
@@ -303,12 +307,8 @@ static const char *random_name(void)
 }
 
 /// Any edit of rigs or of what follows them, possible or not.
-static void random_edit(struct world *world)
+static bool random_edit(struct world *world)
 {
-    static const enum edit_kind kinds[] = {EDIT_RIG_REMOVE,  EDIT_RIG_NAME,    EDIT_MODEL_ADD,  EDIT_CHAIN_ADD,
-                                           EDIT_CLIP,        EDIT_PLACE,       EDIT_CHAIN,      EDIT_CHANNEL_REMOVE,
-                                           EDIT_CHANNEL_ADD, EDIT_ANGLES,      EDIT_PARAMETER,  EDIT_TAIL_ADD,
-                                           EDIT_AXIS,        EDIT_SPLINE_COPY, EDIT_SPLINE_MOVE};
     char text[2][32];
     for (int i = 0; i < 2; i++) snprintf(text[i], sizeof text[i], "%s", random_name());
     struct channel channel = {.axis = (enum axis)(rand() % 4), .gain = {.value = {rand()}}};
@@ -316,14 +316,13 @@ static void random_edit(struct world *world)
         .form = (enum angle_form)(rand() % 3), .count = 1 + rand() % 4, .ramp = {{0, 1}, {1, 2}}};
     struct rig rig = {.name = rand() % 2 ? text[0] : NULL};
     struct joint_motion motion = {.model = text[0], .joint = text[1], .chain = rand() % 2 ? text[1] : NULL};
-    struct edit edit = {.kind = kinds[rand() % 15], .rig = rand() % 6, .text = text[0], .contents = &rig};
-    edit.angles = &angles;
-    edit.angle = (enum angle_kind)(1 + rand() % 2);
-    edit.axis = channel.axis;
-    edit.parameter = PARAMETER_EQUILIBRIUM;
-    edit.param = (struct param){.track = -1, .motion = rand() % 3 ? &motion : NULL, .gain = rand() % 5};
-    edit.spline = rand() % world->document->spline_count;
-    if (edit.kind == EDIT_CHAIN_ADD || edit.kind == EDIT_CHAIN) {
+    struct document *document = world->document;
+    struct error *error = &world->error;
+    const int r = rand() % 6, spline = rand() % document->spline_count;
+    const struct channel_place at = {r, 0};
+    const struct param param = {.track = -1, .motion = rand() % 3 ? &motion : NULL, .gain = rand() % 5};
+    const int kind = rand() % 15;
+    if (kind < 2) {
         rig.kind = RIG_CHAIN;
         rig.chain = (struct chain){.model = text[0], .from = text[1], .to = text[0], .mirror = rand() % 2};
         if (rand() % 2) rig.chain.channels = &channel, rig.chain.channel_count = 1;
@@ -331,8 +330,38 @@ static void random_edit(struct world *world)
         rig.kind = RIG_MODEL;
         rig.model = (struct model_rig){.model = text[1], .scale = rand() % 3, .turn = rand() % 9};
     }
-    if (edit.kind == EDIT_SPLINE_COPY && world->document->spline_count > 6) return;
-    world_apply(world, edit);
+    switch (kind) {
+    case 0:
+        return edit_rig_add(document, &rig, error);
+    case 1:
+        return edit_chain(document, r, &rig.chain, error);
+    case 2:
+        return edit_rig_add(document, &rig, error);
+    case 3:
+        return edit_place(document, r, &rig.model, error);
+    case 4:
+        return edit_rig_remove(document, r, error);
+    case 5:
+        return edit_rig_name(document, r, text[0], error);
+    case 6:
+        return edit_clip(document, r, text[0], error);
+    case 7:
+        return edit_channel_remove(document, at, error);
+    case 8:
+        return edit_channel_add(document, r, spline, channel.axis, PART_TOTAL, error);
+    case 9:
+        return edit_angles(document, at, (enum angle_kind)(1 + rand() % 2), &angles, error);
+    case 10:
+        return edit_parameter(document, spline, PARAMETER_EQUILIBRIUM, &param, error);
+    case 11:
+        return edit_tail_add(document, r, spline, channel.axis, PART_TOTAL, error);
+    case 12:
+        return edit_axis(document, at, channel.axis, error);
+    case 13:
+        return document->spline_count <= 6 && edit_spline_copy(document, spline, error);
+    default:
+        return edit_spline_move(document, spline, 0, error);
+    }
 }
 
 /// Whatever was done: what is there holds together, all of it can be saved, and undo gives back the first document to the byte.

@@ -167,10 +167,10 @@ static void a_motion_is_read_when_it_has_changed(void **state)
     assert_int_equal(stand.reads, 2);
     assert_false(stand_update(&stand));
     assert_int_equal(stand.evaluation.solved_splines, 0);
-    world_must(world, edit_insert(ALONE, 7, 1));
+    world_must(world, edit_insert(world, ALONE, 7, 1));
     assert_false(stand_update(&stand));
     assert_int_equal(stand.evaluation.solved_splines, 1);
-    world_must(world, (struct edit){.kind = EDIT_CLIP, .rig = DOG, .text = "Gallop"});
+    world_must(world, edit_clip(world_edit(world), DOG, "Gallop", &world->error));
     assert_true(stand_update(&stand));
     assert_int_equal(stand.reads, 4);
     assert_int_equal(stand.evaluation.solved_splines, 3); // wag, its follower, ear
@@ -180,11 +180,11 @@ static void a_motion_is_read_when_it_has_changed(void **state)
     assert_solved(&stand, WAG, -2.5);
     struct rig ends = *world->document->rigs[TAIL];
     ends.chain.turn = 30;
-    world_must(world, (struct edit){.kind = EDIT_CHAIN, .rig = TAIL, .contents = &ends});
+    world_must(world, edit_chain(world_edit(world), TAIL, &ends.chain, &world->error));
     assert_true(stand_update(&stand));
     assert_int_equal(stand.reads, 7); // only wag's goes by the chain
     assert_int_equal(stand.evaluation.solved_splines, 2);
-    world_must(world, range_edit(-10, 60));
+    world_must(world, edit_frames(world, -10, 60));
     assert_true(stand_update(&stand));
     assert_int_equal(stand.reads, 9);
     assert_solved(&stand, WAG, -2.5);
@@ -209,12 +209,10 @@ static void without_a_source_it_stays_at_0(void **state)
     stand_close(&stand);
 }
 
-static struct edit edit_follow(int spline, struct joint_motion *motion, double gain)
+static bool follow(struct world *world, enum parameter parameter, struct joint_motion *motion, double gain)
 {
-    struct edit edit = edit_number(spline, PARAMETER_EQUILIBRIUM, 0);
-    edit.param.motion = motion;
-    edit.param.gain = gain;
-    return edit;
+    const struct param param = {.track = -1, .motion = motion, .gain = gain};
+    return edit_parameter(world_edit(world), ALONE, parameter, &param, &world->error);
 }
 
 static void following_is_edited_and_undone(void **state)
@@ -226,31 +224,33 @@ static void following_is_edited_and_undone(void **state)
     char model[] = "dog", joint[] = "spine", nobody[] = "cat", nothing[] = "";
     struct joint_motion motion = {.model = model, .joint = joint, .of = MOTION_UP};
     stand_update(&stand);
-    assert_reversible(world, edit_follow(ALONE, &motion, 3));
+    assert_reversible(world, follow(world, PARAMETER_EQUILIBRIUM, &motion, 3));
     memset(joint, 'x', sizeof joint - 1);
     assert_string_equal(world->document->splines[ALONE]->parameter[PARAMETER_EQUILIBRIUM].motion->joint, "spine");
     stand_update(&stand);
     assert_solved(&stand, ALONE, 3);
     const int reads = stand.reads;
-    assert_reversible(
-        world, edit_follow(ALONE, world->document->splines[ALONE]->parameter[PARAMETER_EQUILIBRIUM].motion, 4));
+    assert_reversible(world, follow(world, PARAMETER_EQUILIBRIUM,
+                                    world->document->splines[ALONE]->parameter[PARAMETER_EQUILIBRIUM].motion, 4));
     stand_update(&stand);
     assert_solved(&stand, ALONE, 4);
     assert_int_equal(stand.reads, reads); // a gain alone reads nothing
-    assert_reversible(world, edit_number(ALONE, PARAMETER_EQUILIBRIUM, 1));
+    assert_reversible(world, edit_number(world, ALONE, PARAMETER_EQUILIBRIUM, 1));
     stand_update(&stand);
     assert_near(stand.evaluation.curves[ALONE].y[5], 1, 0);
-    assert_reversible(world, edit_track(WAG, PARAMETER_EQUILIBRIUM, ALONE));
-    struct edit edit = edit_follow(ALONE, &motion, 1);
-    edit.parameter = PARAMETER_DAMPING;
-    assert_refused(world, edit, "alone: only the equilibrium follows a joint");
-    assert_refused(world, edit_follow(ALONE, &motion, NAN), "alone: a motion needs a joint and a finite gain");
+    assert_reversible(world, edit_track(world, WAG, PARAMETER_EQUILIBRIUM, ALONE));
+    assert_refused(world, follow(world, PARAMETER_DAMPING, &motion, 1),
+                   "alone: only the equilibrium follows a joint");
+    assert_refused(world, follow(world, PARAMETER_EQUILIBRIUM, &motion, NAN),
+                   "alone: a motion needs a joint and a finite gain");
     motion.chain = nobody;
-    assert_refused(world, edit_follow(ALONE, &motion, 1), "alone: there is no chain \"cat\"");
+    assert_refused(world, follow(world, PARAMETER_EQUILIBRIUM, &motion, 1), "alone: there is no chain \"cat\"");
     motion.model = nobody;
-    assert_refused(world, edit_follow(ALONE, &motion, 1), "alone: there is no model \"cat\" to follow");
+    assert_refused(world, follow(world, PARAMETER_EQUILIBRIUM, &motion, 1),
+                   "alone: there is no model \"cat\" to follow");
     motion.joint = nothing;
-    assert_refused(world, edit_follow(ALONE, &motion, 1), "alone: a motion needs a joint and a finite gain");
+    assert_refused(world, follow(world, PARAMETER_EQUILIBRIUM, &motion, 1),
+                   "alone: a motion needs a joint and a finite gain");
     stand_close(&stand);
 }
 
@@ -262,16 +262,16 @@ static void a_motion_keeps_to_its_joint(void **state)
     stand_open(&stand);
     struct world *world = &stand.world;
     struct document *document = world->document;
-    assert_refused(world, (struct edit){.kind = EDIT_RIG_REMOVE, .rig = DOG},
+    assert_refused(world, edit_rig_remove(world_edit(world), DOG, &world->error),
                    "dog: still needed by tail, wag, ear; remove those first");
-    assert_refused(world, (struct edit){.kind = EDIT_RIG_REMOVE, .rig = TAIL},
+    assert_refused(world, edit_rig_remove(world_edit(world), TAIL, &world->error),
                    "tail: still needed by wag; remove those first");
-    assert_reversible(world, (struct edit){.kind = EDIT_RIG_NAME, .rig = DOG, .text = "wolf"});
-    assert_reversible(world, (struct edit){.kind = EDIT_RIG_NAME, .rig = TAIL, .text = "brush"});
+    assert_reversible(world, edit_rig_name(world_edit(world), DOG, "wolf", &world->error));
+    assert_reversible(world, edit_rig_name(world_edit(world), TAIL, "brush", &world->error));
     const struct param *wag = &document->splines[WAG]->parameter[PARAMETER_EQUILIBRIUM];
     assert_string_equal(wag->motion->model, "wolf");
     assert_string_equal(wag->motion->chain, "brush");
-    assert_refused(world, (struct edit){.kind = EDIT_RIG_NAME, .rig = DOG, .text = "dog.glb"},
+    assert_refused(world, edit_rig_name(world_edit(world), DOG, "dog.glb", &world->error),
                    "dog.glb is the file by which a model is found");
     document->folder = strdup("/films");
     size_t size;

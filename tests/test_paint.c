@@ -3,7 +3,8 @@
 #include "base/npy.h"
 #include "puppet.h"
 #include "rig/models.h"
-#include "scene/edit_kinds.h"
+#include "scene/edit.h"
+#include "scene/history.h"
 #include "scene/load.h"
 #include "temporary.h"
 #include <string.h>
@@ -36,12 +37,6 @@ static void studio_close(struct studio *s)
     document_destroy(s->document);
 }
 
-static void apply(struct studio *s, const struct edit *edit)
-{
-    struct error error = {0};
-    if (!history_apply(s->history, s->document, edit, &error)) fail_msg("%s", error.text);
-}
-
 /// One moment of a brush: `count` vertices of coordinate 1 from `first` on get (a, ψ).
 static void dab(struct studio *s, int first, int count, float swell, float lead)
 {
@@ -53,13 +48,10 @@ static void dab(struct studio *s, int first, int count, float swell, float lead)
         values[i][1] = lead;
     }
     const struct dab made = {1, count, vertices, (const float(*)[2])values};
-    apply(s, &(struct edit){.kind = EDIT_PAINT, .dab = &made});
+    assert_true(edit_paint(s->document, 0, &made, NULL));
 }
 
-static void new_paint(struct studio *s)
-{
-    apply(s, &(struct edit){.kind = EDIT_PAINT_NEW, .coordinates = COORDINATES, .vertices = VERTICES});
-}
+static void new_paint(struct studio *s) { assert_true(edit_paint_new(s->document, 0, COORDINATES, VERTICES, NULL)); }
 
 /// A stroke of three dabs, with the paint it is the first on.
 static void paint_stroke(struct studio *s)
@@ -133,19 +125,18 @@ static void paint_that_is_no_number_is_refused(void **state)
     struct error error;
     const int vertex = 3, beyond = VERTICES;
     struct dab made = {0, 1, &vertex, NULL};
-    const struct edit edit = {.kind = EDIT_PAINT, .dab = &made};
     history_begin(s.history, "Paint", 0);
     made.values = broken;
-    assert_false(history_apply(s.history, s.document, &edit, &error)); // no paint yet
+    assert_false(edit_paint(s.document, 0, &made, &error)); // no paint yet
     new_paint(&s);
     for (int i = 0; i < 4; i++) {
         made.values = &broken[i];
-        assert_false(history_apply(s.history, s.document, &edit, &error));
+        assert_false(edit_paint(s.document, 0, &made, &error));
     }
     made = (struct dab){0, 1, &beyond, (const float[][2]){{0, 0}}};
-    assert_false(history_apply(s.history, s.document, &edit, &error));
+    assert_false(edit_paint(s.document, 0, &made, &error));
     made = (struct dab){COORDINATES, 1, &vertex, (const float[][2]){{0, 0}}};
-    assert_false(history_apply(s.history, s.document, &edit, &error));
+    assert_false(edit_paint(s.document, 0, &made, &error));
     assert_true(paint_is_plain(rig_of(&s)->painted));
     history_end(s.history);
     studio_close(&s);

@@ -75,7 +75,6 @@ static void check_inspector(struct session *f)
     const struct spline *spline = core_active_spline(&f->editor->core, &f->world);
     for (int selected = 0; selected < 2; selected++) {
         if (selected && spline->knot_count > 0) {
-            core_reserve(&f->editor->core, f->document);
             selection_set(&f->editor->core.selection, spline->knots[0].id, true);
         }
         for (int page = 0; page < 3; page++) {
@@ -108,10 +107,9 @@ static void check_status(struct session *f)
 static void check_dialogs(struct session *f)
 {
     const struct request quit = {.kind = REQUEST_QUIT};
-    struct edit edit = core_edit_of(EDIT_PARAMETER, 0);
-    edit.parameter = PARAMETER_START;
-    edit.param = param_number(WIGGLY_REST);
-    assert_true(core_step(&f->editor->core, &f->world, "Change start", 0, &edit));
+    struct core *core = &f->editor->core;
+    assert_true(core_begin(core, &f->world, "Change start", 0));
+    assert_true(core_end(core, &f->world, core_set_parameter(core, &f->world, 0, PARAMETER_START, WIGGLY_REST)));
     for (int kind = 0; kind < 4; kind++) {
         if (kind == 0) dialog_ask_open(f->editor->dialogs);
         if (kind == 1) dialogs_save_as(f->editor->dialogs, &f->editor->core);

@@ -118,9 +118,10 @@ static double another(const struct spline *spline, enum parameter p)
     return value > 0 ? 0.75 * value : 0.25;
 }
 
-/// Makes the edit with an evaluation that has solved what was there before, and compares with one that has not.
-static void try_edit(struct edit edit, const char *name)
+/// Makes a parameter another with an evaluation that has solved what was there before, and compares with one that has not.
+static void try_edit(int spline, enum parameter parameter, struct param param)
 {
+    const char *name = parameter_rows[parameter].name;
     struct world world = {0};
     struct evaluation kept = {0}, fresh = {0};
     world.document = scene_parse("scene", scene, sizeof scene - 1, NULL, &world.error);
@@ -131,13 +132,13 @@ static void try_edit(struct edit edit, const char *name)
     evaluation_update(&kept, world.document, false);
     int samples = kept.samples;
     double *before = malloc(sizeof *before * (size_t)samples);
-    memcpy(before, kept.curves[edit.spline].total, sizeof *before * (size_t)samples);
-    world_must(&world, edit);
+    memcpy(before, kept.curves[spline].total, sizeof *before * (size_t)samples);
+    world_must(&world, edit_parameter(world_edit(&world), spline, parameter, &param, &world.error));
     evaluation_update(&kept, world.document, false);
     evaluation_update(&fresh, world.document, false);
     assert_same_curves(&kept, &fresh, name);
-    if (memcmp(before, kept.curves[edit.spline].total, sizeof *before * (size_t)samples) == 0)
-        fail_msg("%s: spline %d does not change", name, edit.spline);
+    if (memcmp(before, kept.curves[spline].total, sizeof *before * (size_t)samples) == 0)
+        fail_msg("%s: spline %d does not change", name, spline);
     assert_round_trip(&world);
     free(before);
     evaluation_free(&kept);
@@ -157,9 +158,8 @@ static void an_edit_of_each_is_seen_and_saved(void **state)
                 p == PARAMETER_CALM && spline_start(spline) != WIGGLY_FREE; // nothing swings before the start
             still |= p == PARAMETER_HIGH && s == 1;                         // it only falls
             if (!spline_uses(spline, p, false) || still) continue;
-            try_edit(edit_number(s, p, another(spline, p)), parameter_rows[p].name);
-            if (parameter_rows[p].kind == PARAMETER_TRACK)
-                try_edit(edit_track(s, p, s == 2 ? 1 : 2), parameter_rows[p].name);
+            try_edit(s, p, param_number(another(spline, p)));
+            if (parameter_rows[p].kind == PARAMETER_TRACK) try_edit(s, p, param_track(s == 2 ? 1 : 2));
         }
     }
     document_destroy(document);

@@ -3,7 +3,8 @@
 
 #include "rig/opened.h"
 #include "rig/pinning.h"
-#include "scene/edit_kinds.h"
+#include "scene/edit.h"
+#include "scene/history.h"
 #include <stdlib.h>
 #include <string.h>
 
@@ -43,10 +44,9 @@ static void open_drag(struct stand *stand, const struct drag *drag)
     memcpy(stand->from, at.at, sizeof stand->from);
     stand->size = at.size;
     struct history *history = history_create(stand->opened.document);
-    struct edit edit = {.kind = EDIT_PIN_ADD, .rig = drag->rig, .pin = pin};
-    memcpy(edit.pin.to, at.at, sizeof edit.pin.to);
+    memcpy(pin.to, at.at, sizeof pin.to);
     history_begin(history, "Pin", 0);
-    if (!history_apply(history, stand->opened.document, &edit, &error)) fail_msg("%s", error.text);
+    if (!edit_pin_add(stand->opened.document, drag->rig, &pin, &error)) fail_msg("%s", error.text);
     history_end(history);
     history_destroy(history);
     evaluation_resize(&stand->opened.evaluation, stand->opened.document);

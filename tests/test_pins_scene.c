@@ -4,7 +4,8 @@
 #include "model/figure.h"
 #include "rig/opened.h"
 #include "rig/pinning.h"
-#include "scene/edit_kinds.h"
+#include "scene/edit.h"
+#include "scene/history.h"
 #include "scene/load.h"
 #include "scene/pins.h"
 #include "temporary.h"
@@ -33,12 +34,16 @@ static void stand_close(struct stand *stand)
     opened_free(&stand->opened);
 }
 
-/// An edit as a step of its own, which must be possible.
-static void must(struct stand *stand, struct edit edit)
+/// The document of a step that opens; and its end, after an edit that must be possible.
+static struct document *begin(struct stand *stand)
 {
-    struct error error = {0};
     history_begin(stand->history, "Edit", 0);
-    if (!history_apply(stand->history, document_of(stand), &edit, &error)) fail_msg("%s", error.text);
+    return document_of(stand);
+}
+
+static void end(struct stand *stand, bool done)
+{
+    assert_true(done);
     history_end(stand->history);
 }
 
@@ -57,12 +62,6 @@ static void solve_whole(struct stand *stand)
 {
     evaluation_free(&stand->opened.evaluation);
     opened_solve(&stand->opened, SOLVER_BY_LENGTH);
-}
-
-static struct edit pin_edit(int rig, int point, double frame, const double to[3])
-{
-    return (struct edit){
-        .kind = EDIT_PIN_ADD, .rig = rig, .pin = {.frame = frame, .point = point, .to = {to[0], to[1], to[2]}}};
 }
 
 /// The point and, of each spline, how it moves it.
@@ -252,7 +251,8 @@ static void pin_near(struct stand *stand, int rig, int point, double frame, doub
     for (int s = 0; s < document_of(stand)->spline_count; s++) {
         for (int k = 0; k < 3; k++) at.at[k] += c[s][k][0] * re - c[s][k][1] * im;
     }
-    must(stand, pin_edit(rig, point, frame, at.at));
+    const struct pin pin = {.frame = frame, .point = point, .to = {at.at[0], at.at[1], at.at[2]}};
+    end(stand, edit_pin_add(begin(stand), rig, &pin, NULL));
 }
 
 /// Where the stage shows a point.
@@ -370,9 +370,9 @@ static void test_a_tail_on_a_moving_base_is_pinned(void **state)
     solve(&stand);
     assert_true(part_left(&stand, 0, 23, 30, 0.1, 0.1) < 0.5);
     assert_same_as_whole(&stand);
-    struct edit base = {.kind = EDIT_KNOT_SET, .spline = 0, .knot = document_of(&stand)->splines[0]->knots[1]};
-    base.knot.value = 0.9;
-    must(&stand, base);
+    struct knot base = document_of(&stand)->splines[0]->knots[1];
+    base.value = 0.9;
+    end(&stand, edit_knot_set(begin(&stand), 0, &base, NULL));
     solve(&stand); // the pinned splines follow the base by a track, and where it is
     assert_same_as_whole(&stand);
     stand_close(&stand);
@@ -398,6 +398,30 @@ static void test_rigs_that_share_splines(void **state)
     stand_close(&stand);
 }
 
+/// Edit number `i` of those below; false after the last.
+static bool edit_once(struct stand *stand, int i)
+{
+    struct document *document = begin(stand);
+    struct pin moved = document->rigs[SHARED]->pins ? document->rigs[SHARED]->pins[0] : (struct pin){0};
+    struct knot knot = document->splines[0]->knots[1];
+    struct angles gain = document->rigs[SHARED]->tail.channels[1].gain;
+    const struct param place = param_number(0.9);
+    static const int pinned[] = {CREATURE, OWN, SHARED};
+    moved.to[1] += 0.1;
+    moved.frame = 40;
+    knot.value = 0.5;
+    gain.value[0] = 9;
+    bool done = false;
+    if (i == 0) done = edit_pin_set(document, SHARED, &moved, NULL);
+    if (i == 1) done = edit_angles(document, (struct channel_place){SHARED, 1}, ANGLE_GAIN, &gain, NULL);
+    if (i == 2) done = edit_knot_set(document, 0, &knot, NULL);
+    if (i == 3) done = edit_position(document, SHARED, 0, &place, NULL);
+    if (i >= 4 && i < 7)
+        done = edit_pin_remove(document, pinned[i - 4], document->rigs[pinned[i - 4]]->pins[0].id, NULL);
+    history_end(stand->history);
+    return done;
+}
+
 /// Whatever was edited, undone and looked at in between, the curves are those of the document.
 static void test_edits_give_the_same_bits(void **state)
 {
@@ -409,24 +433,8 @@ static void test_edits_give_the_same_bits(void **state)
     pin_near(&stand, SHARED, 9, 44, 0.1, 0.2);
     pin_near(&stand, OWN, 7, 10, 0.2, 0.2);
     solve(&stand);
-    struct angles gain = document->rigs[SHARED]->tail.channels[1].gain;
-    gain.value[0] = 9;
-    struct edit moved = {.kind = EDIT_PIN_SET, .rig = SHARED, .pin = document->rigs[SHARED]->pins[0]};
-    moved.pin.to[1] += 0.1;
-    moved.pin.frame = 40;
-    struct edit knot = {.kind = EDIT_KNOT_SET, .spline = 0, .knot = document->splines[0]->knots[1]};
-    knot.knot.value = 0.5;
-    const struct edit edits[] = {
-        moved,
-        {.kind = EDIT_ANGLES, .rig = SHARED, .channel = 1, .angle = ANGLE_GAIN, .angles = &gain},
-        knot,
-        {.kind = EDIT_POSITION, .rig = SHARED, .coordinate = 0, .param = param_number(0.9)},
-        {.kind = EDIT_PIN_REMOVE, .rig = CREATURE, .pin = document->rigs[CREATURE]->pins[0]},
-        {.kind = EDIT_PIN_REMOVE, .rig = OWN, .pin = document->rigs[OWN]->pins[0]},
-        {.kind = EDIT_PIN_REMOVE, .rig = SHARED, .pin = document->rigs[SHARED]->pins[0]},
-    };
-    for (size_t i = 0; i < sizeof edits / sizeof *edits; i++) {
-        must(&stand, edits[i]);
+    for (int i = 0; i < 7; i++) {
+        assert_true(edit_once(&stand, i));
         solve(&stand);
         assert_same_as_whole(&stand);
     }

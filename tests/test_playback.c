@@ -156,9 +156,8 @@ static void test_part_on_the_ruler(void **state)
     assert_range(&s, 40, 60);
     session_release(&s, BUTTON_LEFT);
     struct error error = {0};
-    struct edit edit = {.kind = EDIT_RANGE, .first = 0, .last = 50};
     history_begin(s.history, "Range", 0);
-    assert_true(history_apply(s.history, s.document, &edit, &error));
+    assert_true(edit_range(s.document, 0, 50, RANGE_REFUSE, &error));
     history_end(s.history);
     assert_range(&s, 40, 50); // what the scene still has of it
     history_undo(s.history);

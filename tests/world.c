@@ -1,4 +1,4 @@
-/// A small document, and makers of edits.
+/// A small document, and edits of it.
 #include "world.h"
 #include "near.h"
 #include <stdlib.h>
@@ -43,40 +43,52 @@ void assert_document(const struct world *world, const char *expected)
     free(text);
 }
 
-bool world_apply(struct world *world, struct edit edit)
+struct document *world_edit(struct world *world)
 {
-    return history_apply(world->history, world->document, &edit, &world->error);
-}
-
-bool world_step(struct world *world, struct edit edit)
-{
+    if (history_is_open(world->history)) return world->document;
+    world->before = document_copy(world->document);
+    world->label = history_undo_label(world->history);
     history_begin(world->history, "Step", 0);
-    bool applied = world_apply(world, edit);
+    return world->document;
+}
+
+/// Closes the step; the text of what was there before it, if that is wanted.
+static char *end_step(struct world *world, bool wanted)
+{
+    struct world before = {.document = world->before};
+    char *text = wanted ? world_print(&before) : NULL;
     history_end(world->history);
-    return applied;
+    document_destroy(world->before);
+    world->before = NULL;
+    return text;
 }
 
-void world_must(struct world *world, struct edit edit)
+bool world_step(struct world *world, bool done)
 {
-    if (!world_step(world, edit)) fail_msg("%s", world->error.text);
+    end_step(world, false);
+    return done;
 }
 
-void assert_refused(struct world *world, struct edit edit, const char *sentence)
+void world_must(struct world *world, bool done)
 {
-    char *before = world_print(world);
-    const char *label = history_undo_label(world->history);
-    assert_false(world_step(world, edit));
+    if (!world_step(world, done)) fail_msg("%s", world->error.text);
+}
+
+void assert_refused(struct world *world, bool done, const char *sentence)
+{
+    char *before = end_step(world, true);
+    assert_false(done);
     assert_int_equal(world->error.kind, ERROR_INPUT);
     assert_string_equal(world->error.text, sentence);
     assert_document(world, before);
-    assert_ptr_equal(history_undo_label(world->history), label);
+    assert_ptr_equal(history_undo_label(world->history), world->label);
     free(before);
 }
 
-void assert_reversible(struct world *world, struct edit edit)
+void assert_reversible(struct world *world, bool done)
 {
-    char *before = world_print(world);
-    world_must(world, edit);
+    char *before = end_step(world, true);
+    if (!done) fail_msg("%s", world->error.text);
     char *after = world_print(world);
     assert_string_not_equal(before, after);
     assert_true(history_undo(world->history));
@@ -87,49 +99,48 @@ void assert_reversible(struct world *world, struct edit edit)
     free(after);
 }
 
-struct edit edit_insert(int spline, double frame, double value)
+bool edit_insert(struct world *world, int spline, double frame, double value)
 {
-    return (struct edit){.kind = EDIT_KNOT_INSERT,
-                         .spline = spline,
-                         .knot = {.frame = frame, .value = value, .stiffness = KNOT_DEFAULT_STIFFNESS}};
+    const struct knot knot = {.frame = frame, .value = value, .stiffness = KNOT_DEFAULT_STIFFNESS};
+    return edit_knot_insert(world_edit(world), spline, &knot, &world->error);
 }
 
-struct edit edit_move(const struct world *world, int spline, int knot, double frame, double value)
+bool edit_move(struct world *world, int spline, int knot, double frame, double value)
 {
-    struct edit edit = {
-        .kind = EDIT_KNOT_SET, .spline = spline, .knot = world->document->splines[spline]->knots[knot]};
-    edit.knot.frame = frame;
-    edit.knot.value = value;
-    return edit;
+    struct knot moved = world->document->splines[spline]->knots[knot];
+    moved.frame = frame;
+    moved.value = value;
+    return edit_knot_set(world_edit(world), spline, &moved, &world->error);
 }
 
-struct edit edit_number(int spline, enum parameter parameter, double value)
+static bool set(struct world *world, int spline, enum parameter parameter, struct param param)
 {
-    return (struct edit){
-        .kind = EDIT_PARAMETER, .spline = spline, .parameter = parameter, .param = param_number(value)};
+    return edit_parameter(world_edit(world), spline, parameter, &param, &world->error);
 }
 
-struct edit edit_track(int spline, enum parameter parameter, int track)
+bool edit_number(struct world *world, int spline, enum parameter parameter, double value)
 {
-    return (struct edit){
-        .kind = EDIT_PARAMETER, .spline = spline, .parameter = parameter, .param = param_track(track)};
+    return set(world, spline, parameter, param_number(value));
 }
 
-struct edit edit_mode(int spline, enum wiggly_mode mode)
+bool edit_track(struct world *world, int spline, enum parameter parameter, int track)
 {
-    return (struct edit){
-        .kind = EDIT_PARAMETER, .spline = spline, .parameter = PARAMETER_MODE, .param = param_number(mode)};
+    return set(world, spline, parameter, param_track(track));
 }
 
-struct edit edit_start(int spline, enum wiggly_start start)
+bool edit_mode(struct world *world, int spline, enum wiggly_mode mode)
 {
-    return (struct edit){
-        .kind = EDIT_PARAMETER, .spline = spline, .parameter = PARAMETER_START, .param = param_number(start)};
+    return edit_number(world, spline, PARAMETER_MODE, mode);
 }
 
-struct edit range_edit(int first, int last)
+bool edit_start(struct world *world, int spline, enum wiggly_start start)
 {
-    return (struct edit){.kind = EDIT_RANGE, .first = first, .last = last};
+    return edit_number(world, spline, PARAMETER_START, start);
+}
+
+bool edit_frames(struct world *world, int first, int last)
+{
+    return edit_range(world_edit(world), first, last, RANGE_REFUSE, &world->error);
 }
 
 int world_undo_all(struct world *world)

@@ -1,8 +1,9 @@
-/// A small document under edit, and makers of edits, for the tests of edits and of their history.
+/// A small document under edit, and edits of it, for the tests of edits and of their history.
 #ifndef TESTS_WORLD_H
 #define TESTS_WORLD_H
 
-#include "scene/edit_kinds.h"
+#include "scene/edit.h"
+#include "scene/history.h"
 #include "scene/load.h"
 
 /// The splines of the document: three knots; spring and friction from rest; a loop that follows the first.
@@ -11,7 +12,9 @@ enum { SWAY, PLUCK, LOOP };
 struct world {
     struct document *document;
     struct history *history;
-    struct error error; ///< of the last edit that was refused
+    struct error error;      ///< of the last edit that was refused
+    struct document *before; ///< the step of world_edit(); NULL: none is open
+    const char *label;       ///< of the step before
 };
 
 void world_open(struct world *world);
@@ -21,26 +24,30 @@ void world_close(struct world *world);
 char *world_print(const struct world *world);
 void assert_document(const struct world *world, const char *expected);
 
-/// An edit inside an open step; an edit as a step of its own; the same, which must be possible.
-bool world_apply(struct world *world, struct edit edit);
-bool world_step(struct world *world, struct edit edit);
-void world_must(struct world *world, struct edit edit);
+/// The document, to be edited in a step, which this opens unless one is open:
+/// `world_must(&world, edit_length(world_edit(&world), 0, 2.5, &world.error))`.
+struct document *world_edit(struct world *world);
+/// Closes the step of an edit that has been done or refused; the same of one that must be possible.
+bool world_step(struct world *world, bool done);
+void world_must(struct world *world, bool done);
 
-/// The edit is refused with that sentence, and leaves document and history as they were.
-void assert_refused(struct world *world, struct edit edit, const char *sentence);
+/// The edit was refused with that sentence, and left document and history as they were.
+void assert_refused(struct world *world, bool done, const char *sentence);
 
-/// The edit changes the text as a step that undo takes back byte by byte and redo makes again, as which it stays.
-void assert_reversible(struct world *world, struct edit edit);
+/// The edit changed the text as a step that undo takes back byte by byte and redo makes again, as which it stays.
+void assert_reversible(struct world *world, bool done);
 
 /// Undoes all, and says how many steps there were.
 int world_undo_all(struct world *world);
 
-struct edit edit_insert(int spline, double frame, double value);
-struct edit edit_move(const struct world *world, int spline, int knot, double frame, double value);
-struct edit edit_number(int spline, enum parameter parameter, double value);
-struct edit edit_track(int spline, enum parameter parameter, int track);
-struct edit edit_mode(int spline, enum wiggly_mode mode);
-struct edit edit_start(int spline, enum wiggly_start start);
-struct edit range_edit(int first, int last);
+// Edits of the world's document, as by world_edit().
+
+bool edit_insert(struct world *world, int spline, double frame, double value);
+bool edit_move(struct world *world, int spline, int knot, double frame, double value);
+bool edit_number(struct world *world, int spline, enum parameter parameter, double value);
+bool edit_track(struct world *world, int spline, enum parameter parameter, int track);
+bool edit_mode(struct world *world, int spline, enum wiggly_mode mode);
+bool edit_start(struct world *world, int spline, enum wiggly_start start);
+bool edit_frames(struct world *world, int first, int last);
 
 #endif

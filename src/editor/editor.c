@@ -87,13 +87,6 @@ void editor_set_panels(struct editor *editor, double stage_share, double inspect
     core_layout(&editor->core);
 }
 
-void editor_reserve(struct editor *editor, const struct document *document)
-{
-    core_reserve(&editor->core, document);
-    if (!curves_reserve(editor->curves, &editor->core))
-        core_message(&editor->core, true, "Out of memory: no box can be taken back.");
-}
-
 /// The panels start anew with a document.
 static void open_panels(struct editor *editor, const struct editor_world *world)
 {
@@ -101,7 +94,6 @@ static void open_panels(struct editor *editor, const struct editor_world *world)
     editor->fitted = false;
     curves_open(editor->curves);
     stage_open(editor->stage);
-    editor_reserve(editor, world->document);
     inspector_reset(editor->inspector);
     inspector_show_spline(editor->inspector, &editor->core, world->document, editor->core.active);
     editor->seen.active = editor->core.active_id;

@@ -149,7 +149,6 @@ void editor_event(struct editor *editor, const struct editor_world *world, const
     note(editor, event);
     if (is_interruption(event)) tooltip_dismiss(&editor->tooltip);
     if (event->kind == EVENT_SIZE) editor_resize(editor, event->x, event->y, event->scale);
-    editor_reserve(editor, world->document);
     dialogs_note(editor->dialogs, event);
     bool used =
         dialogs_event(editor->dialogs, &editor->core, world, event, inspector_is_dragging(editor->inspector)) ||

@@ -31,7 +31,5 @@ struct editor {
 void editor_leave(struct editor *editor, const struct editor_world *world, const struct request *request);
 /// After each event and edit: the panels follow another document and another active spline.
 void editor_settle(struct editor *editor, const struct editor_world *world);
-/// Memory for the document's knots in selection and drags; allocates only where knots were added.
-void editor_reserve(struct editor *editor, const struct document *document);
 
 #endif

@@ -68,22 +68,15 @@ static void tell(struct core *core, const struct document *document, const struc
 void bones_choose_clip(struct core *core, const struct editor_world *world, int model, const char *clip)
 {
     const struct imported *character = bones_character(world, model);
-    struct error error = {0};
-    if (history_is_open(world->history) || !character) return;
-    history_begin(world->history, "Choose clip", 0);
-    const bool chosen = import_choose_clip(world->document, model, &character->gltf, clip, &error);
-    if (!chosen) history_restart(world->history);
-    history_end(world->history);
-    core_refresh(core, world);
+    if (!character || !core_begin(core, world, "Choose clip", 0)) return;
+    core_end(core, world, import_choose_clip(world->document, model, &character->gltf, clip, &core->error));
     core->refit_curves = world->document->spline_count == 0;
-    if (!chosen) core_message(core, true, error.text);
 }
 
 void bones_make_chain(struct core *core, const struct editor_world *world, int follow)
 {
     int model, rig;
     const int node = bones_selected(core, world, &model);
-    struct error error = {0};
     const bool has_splines = world->document->spline_count > 0;
     if (history_is_open(world->history)) return;
     if (node < 0) {
@@ -92,15 +85,8 @@ void bones_make_chain(struct core *core, const struct editor_world *world, int f
     }
     const struct chain_wish wish = {
         .model = model, .from = bones_character(world, model)->gltf.nodes[node].name, .follows = follow};
-    history_begin(world->history, follow ? "Make chain that follows" : "Make chain", 0);
-    const bool made = chain_make(world->document, world->models, &wish, &rig, &error);
-    if (!made) history_restart(world->history);
-    history_end(world->history);
-    core_refresh(core, world);
-    if (!made) {
-        core_message(core, true, error.text);
-        return;
-    }
+    core_begin(core, world, follow ? "Make chain that follows" : "Make chain", 0);
+    if (!core_end(core, world, chain_make(world->document, world->models, &wish, &rig, &core->error))) return;
     core_activate(core, world, rig_input(world->document->rigs[rig], 0));
     core->refit_curves = !has_splines;
     tell(core, world->document, world->document->rigs[rig], model, follow);
@@ -197,11 +183,9 @@ static bool bend_by_the_rest(struct core *core, const struct editor_world *world
         const struct chain *chain = &document->rigs[r]->chain;
         const int count = bones_model_of(document, chain) == model ? chain->channel_count : 0;
         for (int c = 0; c < count; c++) {
-            struct edit edit = core_edit_of(EDIT_PART, spline);
-            edit.rig = r;
-            edit.channel = c;
-            edit.of = PART_DISPLACEMENT;
-            if (document->rigs[r]->chain.channels[c].spline == spline) done &= core_edit(core, world, &edit);
+            if (document->rigs[r]->chain.channels[c].spline != spline) continue;
+            const struct channel_place at = {r, c};
+            done &= edit_part(world->document, at, PART_DISPLACEMENT, &core->error);
         }
     }
     return done;
@@ -216,33 +200,28 @@ void bones_follow(struct core *core, const struct editor_world *world, int splin
     const struct channel *channel = NULL;
     const struct rig *bent = bent_by(document, spline, model, &channel), *rig = document->rigs[model];
     struct joint_motion motion = {.model = rig->name ? rig->name : rig->model.model, .of = MOTION_TURN};
-    struct edit edit = core_edit_of(EDIT_PARAMETER, spline);
-    edit.parameter = PARAMETER_EQUILIBRIUM;
-    edit.param.gain = 1;
+    struct param param = {.track = -1, .gain = 1, .motion = &motion};
     if (bent) {
         motion.chain = bent->name;
         motion.joint = bent->chain.to;
         motion.of = motion_along(channel->axis);
-        if (motion.of != MOTION_TURN) edit.param.gain = gain_for(world, model, &bent->chain, channel);
+        if (motion.of != MOTION_TURN) param.gain = gain_for(world, model, &bent->chain, channel);
     }
     const bool goes_on =
         old->motion && document_find_model(document, old->motion->model, old->motion->by_file) == model;
     if (goes_on) {
         motion = *old->motion;
-        edit.param.gain = old->gain;
+        param.gain = old->gain;
     }
     int chosen_on;
     const int chosen = bones_selected(core, world, &chosen_on);
     if (node < 0 && !bent && chosen_on == model) node = chosen;
     if (node < 0 && !bent && bones_below(character, -1, &node, 1) == 0) return;
     if (node >= 0) motion.joint = character->gltf.nodes[node].name;
-    edit.param.motion = &motion;
     const bool is_new = !old->motion;
-    history_begin(world->history, "Follow joint", 0);
-    const bool done = core_edit(core, world, &edit) && (!is_new || bend_by_the_rest(core, world, spline, model));
-    if (!done) history_restart(world->history);
-    history_end(world->history);
-    if (!done) core_refresh(core, world);
+    core_begin(core, world, "Follow joint", 0);
+    const bool done = edit_parameter(world->document, spline, PARAMETER_EQUILIBRIUM, &param, &core->error);
+    core_end(core, world, done && (!is_new || bend_by_the_rest(core, world, spline, model)));
 }
 
 /// The names of a chain's ends with another bone at one of them; false with a sentence.
@@ -266,15 +245,13 @@ static bool follow_end(struct core *core, const struct editor_world *world, cons
     const struct document *document = world->document;
     bool done = true;
     for (int s = 0; s < document->spline_count; s++) {
-        struct edit edit = core_edit_of(EDIT_PARAMETER, s);
-        edit.parameter = PARAMETER_EQUILIBRIUM;
-        edit.param = document->splines[s]->parameter[PARAMETER_EQUILIBRIUM];
-        if (!edit.param.motion || !edit.param.motion->chain || !chain) continue;
-        struct joint_motion motion = *edit.param.motion;
+        struct param param = document->splines[s]->parameter[PARAMETER_EQUILIBRIUM];
+        if (!param.motion || !param.motion->chain || !chain) continue;
+        struct joint_motion motion = *param.motion;
         if (strcmp(motion.chain, chain) != 0 || strcmp(motion.joint, old) != 0) continue;
         motion.joint = new;
-        edit.param.motion = &motion;
-        done &= core_edit(core, world, &edit);
+        param.motion = &motion;
+        done &= edit_parameter(world->document, s, PARAMETER_EQUILIBRIUM, &param, &core->error);
     }
     return done;
 }
@@ -295,17 +272,10 @@ void bones_set_end(struct core *core, const struct editor_world *world, int chai
     snprintf(old, sizeof old, "%s", contents.chain.to);
     contents.chain.from = ends[0];
     contents.chain.to = ends[1];
-    struct edit edit = core_edit_of(EDIT_CHAIN, core->active);
-    edit.rig = chain;
-    edit.contents = &contents;
-    history_begin(world->history, "Set chain's bones", 0);
-    const bool done = core_edit(core, world, &edit) && follow_end(core, world, contents.name, old, ends[1]);
-    if (!done) history_restart(world->history);
-    history_end(world->history);
-    if (!done) {
-        core_refresh(core, world);
-        return;
-    }
+    core_begin(core, world, "Set chain's bones", 0);
+    const bool done = edit_chain(world->document, chain, &contents.chain, &core->error) &&
+                      follow_end(core, world, contents.name, old, ends[1]);
+    if (!core_end(core, world, done)) return;
     const struct rig *rig = world->document->rigs[chain];
     snprintf(text, sizeof text, "%.80s goes from %.100s to %.100s.", rig_title(rig), rig->chain.from, rig->chain.to);
     core_message(core, false, text);
@@ -345,13 +315,12 @@ void bones_make_twin(struct core *core, const struct editor_world *world, int ch
     char from[BONE_NAME_SIZE], to[BONE_NAME_SIZE], name[BONE_NAME_SIZE], text[2 * BONE_NAME_SIZE];
     if (!find_twin(world, chain, from, to)) return;
     struct rig twin = *world->document->rigs[chain];
-    struct edit edit = core_edit_of(EDIT_CHAIN_ADD, core->active);
     twin.name = twin.name && chain_other_side(twin.name, name) ? name : NULL;
     twin.chain.from = from;
     twin.chain.to = to;
     twin.chain.mirror = !twin.chain.mirror;
-    edit.contents = &twin;
-    if (!core_step(core, world, "Mirror chain", 0, &edit)) return;
+    if (!core_begin(core, world, "Mirror chain", 0)) return;
+    if (!core_end(core, world, edit_rig_add(world->document, &twin, &core->error))) return;
     snprintf(text, sizeof text, "Made the chain %s, mirrored, by the same splines.",
              rig_title(world->document->rigs[world->document->rig_count - 1]));
     core_message(core, false, text);

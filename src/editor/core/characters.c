@@ -60,27 +60,22 @@ void characters_set_brush(struct core *core, const struct editor_world *world, b
     core_message(core, false, "Drag over the character to paint. Ctrl reverses, Shift smooths, Esc ends.");
 }
 
-struct edit characters_paint_edit(const struct core *core, const struct editor_world *world, enum edit_kind kind)
+int characters_rig(const struct core *core, const struct editor_world *world)
 {
-    struct edit edit = core_edit_of(kind, 0);
-    edit.rig = document_find_rig(world->document, RIG_CHARACTER, core->characters.character);
-    return edit;
+    return document_find_rig(world->document, RIG_CHARACTER, core->characters.character);
 }
 
-struct edit characters_blank_paint(const struct core *core, const struct editor_world *world,
-                                   const struct figure *figure)
+bool characters_blank_paint(struct core *core, const struct editor_world *world, const struct figure *figure)
 {
-    struct edit edit = characters_paint_edit(core, world, EDIT_PAINT_NEW);
-    edit.coordinates = figure->character.coordinate_count;
-    edit.vertices = figure->character.vertex_count;
-    return edit;
+    const struct character *character = &figure->character;
+    return edit_paint_new(world->document, characters_rig(core, world), character->coordinate_count,
+                          character->vertex_count, &core->error);
 }
 
 void characters_clean_paint(struct core *core, const struct editor_world *world)
 {
     int coordinate;
     const struct figure *figure = characters_figure(core, world, &coordinate);
-    if (!figure || history_is_open(world->history)) return;
-    const struct edit blank = characters_blank_paint(core, world, figure);
-    core_step(core, world, "Remove paint", 0, &blank);
+    if (!figure || !core_begin(core, world, "Remove paint", 0)) return;
+    core_end(core, world, characters_blank_paint(core, world, figure));
 }

@@ -15,11 +15,10 @@ void characters_open(struct core *core, const struct document *document);
 const struct figure *characters_figure(const struct core *core, const struct editor_world *world, int *coordinate);
 /// Takes the brush up or puts it away. It cannot be taken up where no character with a coordinate is selected.
 void characters_set_brush(struct core *core, const struct editor_world *world, bool on);
-/// An edit of the selected character's paint.
-struct edit characters_paint_edit(const struct core *core, const struct editor_world *world, enum edit_kind kind);
-/// Blank paint of the figure's shape.
-struct edit characters_blank_paint(const struct core *core, const struct editor_world *world,
-                                   const struct figure *figure);
+/// The rig of the selected character.
+int characters_rig(const struct core *core, const struct editor_world *world);
+/// An edit: gives the selected character blank paint of the figure's shape.
+bool characters_blank_paint(struct core *core, const struct editor_world *world, const struct figure *figure);
 /// Takes all paint off the selected character, as a step of the history.
 void characters_clean_paint(struct core *core, const struct editor_world *world);
 

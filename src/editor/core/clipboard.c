@@ -59,21 +59,17 @@ bool core_copy_knots(struct core *core, const struct editor_world *world, bool c
 static bool insert(struct core *core, const struct editor_world *world, int spline, const struct knot *knot,
                    double shift)
 {
-    struct edit edit = core_edit_of(EDIT_KNOT_INSERT, spline);
-    edit.knot = *knot;
-    edit.knot.id = 0;
-    edit.knot.frame += shift;
-    return core_edit(core, world, &edit);
+    struct knot copy = *knot;
+    copy.id = 0;
+    copy.frame += shift;
+    return core_put_knot(core, world, spline, &copy);
 }
 
 /// Closes the step that inserted knots from an id on, and selects them; takes it back where it is not `good`.
 static bool end_insertion(struct core *core, const struct editor_world *world, unsigned first_id, bool good)
 {
     struct document *document = world->document;
-    if (!good) history_restart(world->history);
-    history_end(world->history);
-    if (!good) return false;
-    core_reserve(core, document);
+    if (!core_end(core, world, good)) return false;
     selection_clear(&core->selection);
     pins_clear(core);
     for (unsigned id = first_id; id < document->next_id; id++) selection_set(&core->selection, id, true);
@@ -109,7 +105,7 @@ void core_paste_knots(struct core *core, const struct editor_world *world, const
     bool good = true;
     for (int k = 1; k < list.count; k++) first = fmin(first, list.knots[k].frame);
     const double shift = round(core_frame(core, document)) - first;
-    history_begin(world->history, list.count == 1 ? "Paste knot" : "Paste knots", 0);
+    core_begin(core, world, list.count == 1 ? "Paste knot" : "Paste knots", 0);
     for (int k = 0; k < list.count && good; k++)
         good = insert(core, world, target_of(core, document, &list, k), &list.knots[k], shift);
     if (end_insertion(core, world, first_id, good)) say_count(core, "Pasted", list.count);
@@ -159,18 +155,16 @@ static int copies_end(const struct originals *originals, const struct document *
 
 void core_duplicate_knots(struct core *core, const struct editor_world *world)
 {
-    const struct document *document = world->document;
+    struct document *document = world->document;
     const struct originals *originals = &core->originals;
     const int count = collect(core, world);
     if (count == 0) return;
     const double shift = copies_shift(originals, document);
     const unsigned first_id = document->next_id;
-    struct edit range = core_edit_of(EDIT_RANGE, -1);
-    range.first = document->first_frame;
-    range.last = copies_end(originals, document, shift);
-    const bool longer = range.last > document->last_frame;
-    history_begin(world->history, count == 1 ? "Duplicate knot" : "Duplicate knots", 0);
-    bool good = !longer || core_edit(core, world, &range);
+    const int end = copies_end(originals, document, shift);
+    const bool longer = end > document->last_frame;
+    core_begin(core, world, count == 1 ? "Duplicate knot" : "Duplicate knots", 0);
+    bool good = !longer || edit_range(document, document->first_frame, end, RANGE_REFUSE, &core->error);
     for (int i = 0; i < count && good; i++)
         good = insert(core, world, originals->list[i].spline, &originals->list[i].knot, shift);
     if (!end_insertion(core, world, first_id, good)) return;
@@ -178,6 +172,6 @@ void core_duplicate_knots(struct core *core, const struct editor_world *world)
     if (!longer) return;
     char text[96];
     snprintf(text, sizeof text, "Duplicated %d knot%s; the scene now ends on frame %d.", count, count == 1 ? "" : "s",
-             range.last);
+             end);
     core_message(core, false, text);
 }

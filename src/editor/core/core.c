@@ -27,48 +27,50 @@ void core_edited(struct core *core, int spline)
     if (spline >= 0 && edited->count < CORE_MAX_EDITED) edited->spline[edited->count++] = spline;
 }
 
-struct edit core_edit_of(enum edit_kind kind, int spline)
+bool core_begin(struct core *core, const struct editor_world *world, const char *label, uint64_t merge)
 {
-    return (struct edit){.kind = kind, .spline = spline, .param.track = -1};
+    if (history_is_open(world->history)) return false;
+    history_begin(world->history, label, merge);
+    core->error = (struct error){0};
+    return true;
 }
 
-struct edit core_parameter_edit(int spline, enum parameter parameter, double value)
+bool core_end(struct core *core, const struct editor_world *world, bool done)
 {
-    return (struct edit){
-        .kind = EDIT_PARAMETER, .spline = spline, .parameter = parameter, .param = param_number(value)};
+    if (!done) history_restart(world->history);
+    history_end(world->history);
+    core_settle(core, world);
+    return done;
 }
 
-struct edit core_knot_edit(const struct document *document, int spline, int sample)
+void core_settle(struct core *core, const struct editor_world *world)
+{
+    core_refresh(core, world);
+    if (core->error.kind == ERROR_NONE) return;
+    core_message(core, true, core->error.text);
+    core->error = (struct error){0};
+    selection_drop_from(&core->selection, world->document->next_id); // what the drag had inserted a moment ago
+}
+
+bool core_set_parameter(struct core *core, const struct editor_world *world, int spline, enum parameter parameter,
+                        double value)
+{
+    const struct param param = param_number(value);
+    return edit_parameter(world->document, spline, parameter, &param, &core->error);
+}
+
+bool core_put_knot(struct core *core, const struct editor_world *world, int spline, const struct knot *knot)
+{
+    return knot->id == 0 ? edit_knot_insert(world->document, spline, knot, &core->error)
+                         : edit_knot_set(world->document, spline, knot, &core->error);
+}
+
+struct knot core_knot_at(const struct document *document, int spline, int sample)
 {
     const struct spline *edited = document->splines[spline];
-    int at = spline_find_knot(document, edited, sample);
-    struct edit edit = core_edit_of(at < 0 ? EDIT_KNOT_INSERT : EDIT_KNOT_SET, spline);
-    edit.knot = at < 0 ? (struct knot){.frame = document_frame(document, sample), .stiffness = KNOT_DEFAULT_STIFFNESS}
-                       : edited->knots[at];
-    return edit;
-}
-
-bool core_edit(struct core *core, const struct editor_world *world, const struct edit *edit)
-{
-    struct error error = {0};
-    if (history_apply(world->history, world->document, edit, &error)) {
-        core_refresh(core, world);
-        return true;
-    }
-    core_message(core, true, error.text);
-    selection_drop_from(&core->selection, world->document->next_id); // what the drag had inserted a moment ago
-    return false;
-}
-
-bool core_step(struct core *core, const struct editor_world *world, const char *label, uint64_t merge,
-               const struct edit *edit)
-{
-    if (history_is_open(world->history))
-        return false; /* a drag is running: its step is not to be mixed with others */
-    history_begin(world->history, label, merge);
-    bool done = core_edit(core, world, edit);
-    history_end(world->history);
-    return done;
+    const int at = spline_find_knot(document, edited, sample);
+    return at < 0 ? (struct knot){.frame = document_frame(document, sample), .stiffness = KNOT_DEFAULT_STIFFNESS}
+                  : edited->knots[at];
 }
 
 void core_refresh(struct core *core, const struct editor_world *world)
@@ -216,27 +218,4 @@ double core_round(double value, double resolution)
     double power = pow(10, fabs(exponent));
     double rounded = exponent < 0 ? round(value * power) / power : round(value / power) * power;
     return isfinite(rounded) && fabs(value) < 1e15 * resolution ? rounded : value;
-}
-
-static bool reserve_originals(struct originals *originals, int knots)
-{
-    if (originals->capacity > 0 && knots <= originals->capacity) return true;
-    int capacity = knots + knots / 2 + 64;
-    struct original *memory = realloc(originals->list, (size_t)capacity * sizeof *memory);
-    if (!memory) return false;
-    originals->list = memory;
-    originals->capacity = capacity;
-    return true;
-}
-
-void core_reserve(struct core *core, const struct document *document)
-{
-    int all = 0;
-    for (int s = 0; s < document->spline_count; s++) all += document->splines[s]->knot_count;
-    bool enough = selection_reserve(&core->selection, document->next_id);
-    enough &= selection_reserve(&core->hidden, document->next_spline_id);
-    enough &= selection_reserve(&core->solo, document->next_spline_id);
-    if (!reserve_originals(&core->originals, all) || !enough) {
-        core_message(core, true, "Out of memory: some knots cannot be selected.");
-    }
 }

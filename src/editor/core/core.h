@@ -10,18 +10,21 @@ void core_open(struct core *core, const struct document *document);
 void core_set_path(struct core *core, const char *path);
 /// A spline was edited, or where it is -1, its selected knots were.
 void core_edited(struct core *core, int spline);
-/// An edit with everything else zero (tracks -1): fill in what the kind needs.
-struct edit core_edit_of(enum edit_kind kind, int spline);
-/// The edit that gives a parameter of a spline a value, which stops it from following another.
-struct edit core_parameter_edit(int spline, enum parameter parameter, double value);
-/// The edit for a knot on a sample: sets the one there, or inserts one. Fill in its value.
-struct edit core_knot_edit(const struct document *document, int spline, int sample);
-/// Applies one edit inside the open step; on failure the sentence goes to the status line.
-bool core_edit(struct core *core, const struct editor_world *world, const struct edit *edit);
-/// One edit as a step of its own; `merge` as in history_begin().
-bool core_step(struct core *core, const struct editor_world *world, const char *label, uint64_t merge,
-               const struct edit *edit);
-/// After each edit, undo and redo: see editor_refresh().
+/// Opens a step, whose edits say why they fail in core->error; `merge` as in history_begin(). false while another step is open: that of a
+/// drag is not to be mixed with others.
+bool core_begin(struct core *core, const struct editor_world *world, const char *label, uint64_t merge);
+/// Closes the step, taken back where it is not `done`, which is returned.
+bool core_end(struct core *core, const struct editor_world *world, bool done);
+/// After edits: the editor follows the document, and core->error goes to the status line.
+void core_settle(struct core *core, const struct editor_world *world);
+/// An edit: gives a parameter of a spline a value, which stops it from following another.
+bool core_set_parameter(struct core *core, const struct editor_world *world, int spline, enum parameter parameter,
+                        double value);
+/// An edit: sets a knot, or inserts it where its id is 0.
+bool core_put_knot(struct core *core, const struct editor_world *world, int spline, const struct knot *knot);
+/// The knot on a sample, or a new one with id 0 for it.
+struct knot core_knot_at(const struct document *document, int spline, int sample);
+/// After undo, redo and another document: see editor_refresh().
 void core_refresh(struct core *core, const struct editor_world *world);
 /// Undoes the last step (direction -1), or does the next one again (1).
 void core_undo(struct core *core, const struct editor_world *world, int direction);
@@ -54,9 +57,6 @@ double core_position(const struct document *document, double frame);
 /// Rounds to a multiple of the power of ten at or below `resolution` (> 0): no more decimals than a mouse can mean, so that
 /// files keep short numbers.
 double core_round(double value, double resolution);
-/// Memory for the document's knots in selection and drags; allocates only where knots were added.
-void core_reserve(struct core *core, const struct document *document);
-
 /// The panel that is uppermost at a point.
 enum panel core_panel_at(const struct core *core, float x, float y);
 /// Rectangles of all panels for the window's size.

@@ -108,7 +108,9 @@ void drag_apply(struct core *core, const struct editor_world *world, double dt)
     drag->stale = false;
     drag->dt = dt;
     if (!owner->goes_on) drag_restart(core, world);
+    core->error = (struct error){0};
     owner->apply(drag->room, core, world);
+    if (history_is_open(world->history)) core_settle(core, world);
 }
 
 void drag_end(struct core *core, const struct editor_world *world, bool keep)

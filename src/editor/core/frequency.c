@@ -1,4 +1,5 @@
 /// Finds the frequency and damping that explain the active spline's knots best.
+#include "base/need.h"
 #include "editor/core/core.h"
 #include "editor/core/knots.h"
 #include <math.h>
@@ -16,14 +17,13 @@ static const char *obstacle(const struct spline *spline)
     return NULL;
 }
 
-/// How many explanations the knots have; -1 if memory runs out.
+/// How many explanations the knots have.
 static int explain(const struct core *core, const struct editor_world *world, const struct spline *spline,
                    wiggly_explanation found[2])
 {
     const struct evaluation *evaluation = world->evaluation;
     wiggly_desc desc = wiggly_default_desc();
-    wiggly_knot *knots = malloc(sizeof *knots * (size_t)spline->knot_count);
-    if (!knots) return -1;
+    wiggly_knot *knots = need((size_t)spline->knot_count, sizeof *knots);
     for (int k = 0; k < spline->knot_count; k++) {
         const int sample = document_sample(world->document, spline->knots[k].frame);
         knots[k] = (wiggly_knot){.sample = sample, .value = spline->knots[k].value};
@@ -41,16 +41,14 @@ static int explain(const struct core *core, const struct editor_world *world, co
 }
 
 /// What the spline would be given: numbers as they are saved.
-static void settings_of(const wiggly_explanation *found, struct edit edits[2], int active)
-{
-    edits[0] = core_parameter_edit(active, PARAMETER_FREQUENCY, round(found->frequency * 100) / 100);
-    edits[1] = core_parameter_edit(active, PARAMETER_DAMPING, round(found->damping * 1000) / 1000);
-}
+static double frequency_of(const wiggly_explanation *found) { return round(found->frequency * 100) / 100; }
 
-static bool is_set(const struct spline *spline, const struct edit edits[2])
+static double damping_of(const wiggly_explanation *found) { return round(found->damping * 1000) / 1000; }
+
+static bool is_set(const struct spline *spline, const wiggly_explanation *found)
 {
-    return spline->parameter[edits[0].parameter].value == edits[0].param.value &&
-           spline->parameter[edits[1].parameter].value == edits[1].param.value;
+    return spline->parameter[PARAMETER_FREQUENCY].value == frequency_of(found) &&
+           spline->parameter[PARAMETER_DAMPING].value == damping_of(found);
 }
 
 void core_find_frequency(struct core *core, const struct editor_world *world, int unused)
@@ -62,19 +60,15 @@ void core_find_frequency(struct core *core, const struct editor_world *world, in
     wiggly_explanation found[2];
     const int count = reason ? 0 : explain(core, world, spline, found);
     if (count <= 0) {
-        if (!reason) reason = "These knots do not swing: no frequency explains them.";
-        core_message(core, count < 0, count < 0 ? "There is not enough memory." : reason);
+        core_message(core, false, reason ? reason : "These knots do not swing: no frequency explains them.");
         return;
     }
-    struct edit edits[2];
     char text[160];
-    settings_of(&found[0], edits, core->active);
-    const int chosen = count == 2 && is_set(spline, edits) ? 1 : 0;
-    settings_of(&found[chosen], edits, core->active);
-    history_begin(world->history, "Find frequency", 0);
-    const bool good = core_edit(core, world, &edits[0]) && core_edit(core, world, &edits[1]);
-    history_end(world->history);
-    if (!good) return;
+    const int active = core->active, chosen = count == 2 && is_set(spline, &found[0]) ? 1 : 0;
+    core_begin(core, world, "Find frequency", 0);
+    const bool good = core_set_parameter(core, world, active, PARAMETER_FREQUENCY, frequency_of(&found[chosen])) &&
+                      core_set_parameter(core, world, active, PARAMETER_DAMPING, damping_of(&found[chosen]));
+    if (!core_end(core, world, good)) return;
     core_edited(core, core->active);
     const int length = snprintf(text, sizeof text, "%s: %.2f Hz, damping %.3g.", chosen ? "Runner-up" : "Best",
                                 found[chosen].frequency, found[chosen].damping);

@@ -34,10 +34,8 @@ static void insert_at(struct core *core, const struct editor_world *world, const
     int sample = document_sample(document, knot->frame);
     int at = spline_find_knot(document, core_active_spline(core, world), sample);
     if (at < 0) {
-        struct edit edit = core_edit_of(EDIT_KNOT_INSERT, core->active);
-        edit.knot = *knot;
-        if (!core_step(core, world, "Insert knot", 0, &edit)) return;
-        core_reserve(core, document);
+        if (!core_begin(core, world, "Insert knot", 0)) return;
+        if (!core_end(core, world, core_put_knot(core, world, core->active, knot))) return;
         at = spline_find_knot(document, core_active_spline(core, world), sample);
     }
     if (at < 0) return;
@@ -78,15 +76,13 @@ void core_insert_on_curve(struct core *core, const struct editor_world *world, d
 void core_remove_knots(struct core *core, const struct editor_world *world, const char *label)
 {
     const struct originals *originals = &core->originals;
-    if (history_is_open(world->history)) return;
+    if (!core_begin(core, world, label, 0)) return;
     core_collect(core, world->document, false);
-    history_begin(world->history, label, 0);
     for (int i = originals->count - 1; i >= 0; i--) {
-        struct edit edit = core_edit_of(EDIT_KNOT_REMOVE, originals->list[i].spline);
-        edit.knot.id = originals->list[i].knot.id;
-        core_edit(core, world, &edit);
+        const struct original *original = &originals->list[i];
+        edit_knot_remove(world->document, original->spline, original->knot.id, &core->error);
     }
-    history_end(world->history);
+    core_end(core, world, true);
     selection_clear(&core->selection);
 }
 

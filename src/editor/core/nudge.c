@@ -40,13 +40,10 @@ static void nudge_lag(struct core *core, const struct editor_world *world, doubl
         double behind = lag.form == ANGLES_ONE ? 1 : lag.form == ANGLES_EACH ? i : lag.ramp[i].at * (joints - 1);
         angles_set_number(&lag, i, angles_number(&lag, i) + behind * degrees);
     }
-    struct edit edit = core_edit_of(EDIT_ANGLES, core->active);
-    edit.rig = rig;
-    edit.channel = channel;
-    edit.angle = ANGLE_LAG;
-    edit.angles = &lag;
-    uint64_t kind = NUDGE_PARAMETER + PARAMETER_COUNT + (uint64_t)(rig * 4096 + channel);
-    core_step(core, world, "Change lag", core_merge_key(core, world, kind), &edit);
+    const struct channel_place at = {rig, channel};
+    const uint64_t kind = NUDGE_PARAMETER + PARAMETER_COUNT + (uint64_t)(rig * 4096 + channel);
+    if (!core_begin(core, world, "Change lag", core_merge_key(core, world, kind))) return;
+    core_end(core, world, edit_angles(world->document, at, ANGLE_LAG, &lag, &core->error));
 }
 
 /// Of the largest knot.
@@ -92,23 +89,24 @@ static void nudge_one(struct core *core, const struct editor_world *world, const
                       enum parameter parameter, double step)
 {
     if (say_idle(core, spline, parameter)) return;
-    struct edit edit = core_edit_of(EDIT_PARAMETER, core->active);
-    edit.parameter = parameter;
-    edit.param = spline->parameter[parameter];
-    if (edit.param.track >= 0) {
+    const struct param *before = &spline->parameter[parameter];
+    if (before->track >= 0) {
         char text[160];
-        snprintf(text, sizeof text, "The %s follows the spline \"%.60s\".", parameter_rows[edit.parameter].name,
-                 world->document->splines[edit.param.track]->name);
+        snprintf(text, sizeof text, "The %s follows the spline \"%.60s\".", parameter_rows[parameter].name,
+                 world->document->splines[before->track]->name);
         core_message(core, false, text);
         return;
     }
-    edit.param.value = round((edit.param.value + step) * 1e6) / 1e6; /* 0.30000000000000004 is no number to save */
-    double most = parameter_maximum(edit.parameter, spline_mode(spline));
+    struct param param = *before;
+    param.value = round((param.value + step) * 1e6) / 1e6; /* 0.30000000000000004 is no number to save */
+    double most = parameter_maximum(parameter, spline_mode(spline));
     if (parameter_rows[parameter].usual > 0)
-        most = fmax(core_slider_end(world->document, spline, parameter), spline->parameter[parameter].value);
-    edit.param.value = fmin(fmax(edit.param.value, parameter_rows[edit.parameter].minimum), most);
-    if (edit.param.value == spline->parameter[edit.parameter].value) return;
-    core_step(core, world, "Change parameter", core_merge_key(core, world, NUDGE_PARAMETER + edit.parameter), &edit);
+        most = fmax(core_slider_end(world->document, spline, parameter), before->value);
+    param.value = fmin(fmax(param.value, parameter_rows[parameter].minimum), most);
+    if (param.value == before->value) return;
+    if (!core_begin(core, world, "Change parameter", core_merge_key(core, world, NUDGE_PARAMETER + parameter)))
+        return;
+    core_end(core, world, edit_parameter(world->document, core->active, parameter, &param, &core->error));
 }
 
 void core_nudge_parameter(struct core *core, const struct editor_world *world, int direction)
@@ -127,6 +125,8 @@ void core_cycle_choice(struct core *core, const struct editor_world *world, int 
     const struct spline *spline = core_active_spline(core, world);
     if (!spline) return;
     double next = spline->parameter[parameter].value + 1;
-    struct edit edit = core_parameter_edit(core->active, (enum parameter)parameter, next <= row->maximum ? next : 0);
-    core_step(core, world, row->undo, 0, &edit);
+    if (!core_begin(core, world, row->undo, 0)) return;
+    core_end(
+        core, world,
+        core_set_parameter(core, world, core->active, (enum parameter)parameter, next <= row->maximum ? next : 0));
 }

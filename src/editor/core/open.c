@@ -56,5 +56,4 @@ void core_open(struct core *core, const struct document *document)
     open_playback(core, document);
     core->serial = document->serial;
     core_set_path(core, document->path ? document->path : "");
-    core_reserve(core, document);
 }

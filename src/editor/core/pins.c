@@ -51,13 +51,11 @@ double pins_frame_here(const struct core *core, const struct document *document,
     return document_frame(document, sample < 0 ? 0 : sample > last ? last : sample);
 }
 
-struct edit pins_edit(enum edit_kind kind, int rig, const struct pin *pin)
+bool pins_set(struct document *document, int rig, const struct pin *pin, struct error *error)
 {
-    struct edit edit = core_edit_of(kind, -1);
-    edit.rig = rig;
-    edit.pin = *pin;
-    for (int k = 0; k < 3; k++) edit.pin.to[k] = core_round(pin->to[k], RESOLUTION);
-    return edit;
+    struct pin rounded = *pin;
+    for (int k = 0; k < 3; k++) rounded.to[k] = core_round(pin->to[k], RESOLUTION);
+    return pin->id == 0 ? edit_pin_add(document, rig, &rounded, error) : edit_pin_set(document, rig, &rounded, error);
 }
 
 void pins_tell(struct core *core, const struct editor_world *world, int rig)
@@ -77,8 +75,7 @@ bool pins_put(struct core *core, const struct editor_world *world, int rig, int 
     struct pin pin = {.frame = frame, .point = point};
     if (there >= 0) pin = document->rigs[rig]->pins[there];
     for (int k = 0; k < 3; k++) pin.to[k] = to[k];
-    const struct edit edit = pins_edit(there < 0 ? EDIT_PIN_ADD : EDIT_PIN_SET, rig, &pin);
-    if (!core_edit(core, world, &edit)) return false;
+    if (!pins_set(world->document, rig, &pin, &core->error)) return false;
     pins_select(core, document->rigs[rig]->pins[pins_find(document, document->rigs[rig], point, sample)].id);
     pins_tell(core, world, rig);
     return true;
@@ -86,12 +83,9 @@ bool pins_put(struct core *core, const struct editor_world *world, int rig, int 
 
 void pins_put_here(struct core *core, const struct editor_world *world, int rig, int point, const double to[3])
 {
-    if (history_is_open(world->history)) return;
     const double frame = pins_frame_here(core, world->document, rig);
-    history_begin(world->history, "Pin", 0);
-    const bool done = pins_put(core, world, rig, point, frame, to);
-    history_end(world->history);
-    if (!done) return;
+    if (!core_begin(core, world, "Pin", 0)) return;
+    if (!core_end(core, world, pins_put(core, world, rig, point, frame, to))) return;
     char text[96];
     snprintf(text, sizeof text, "Pinned at frame %.6g. Drag the marker, or type its place in the section Pins.",
              frame);
@@ -113,8 +107,8 @@ void pins_nudge(struct core *core, const struct editor_world *world, const doubl
     if (!pin) return;
     struct pin moved = *pin;
     for (int k = 0; k < 3; k++) moved.to[k] += by[k];
-    const struct edit edit = pins_edit(EDIT_PIN_SET, rig, &moved);
-    if (core_step(core, world, "Nudge pin", merge_key(pin, NUDGE_PLACE), &edit)) pins_tell(core, world, rig);
+    if (!core_begin(core, world, "Nudge pin", merge_key(pin, NUDGE_PLACE))) return;
+    if (core_end(core, world, pins_set(world->document, rig, &moved, &core->error))) pins_tell(core, world, rig);
 }
 
 void pins_retime(struct core *core, const struct editor_world *world, int frames)
@@ -130,8 +124,8 @@ void pins_retime(struct core *core, const struct editor_world *world, int frames
         sample = document_sample(document, moved.frame);
         if (sample < 0 || sample > pins_last_sample(document, document->rigs[rig])) return;
     } while (pins_find(document, document->rigs[rig], pin->point, sample) >= 0);
-    const struct edit edit = pins_edit(EDIT_PIN_SET, rig, &moved);
-    if (!core_step(core, world, "Move pin in time", merge_key(pin, NUDGE_FRAME), &edit)) return;
+    if (!core_begin(core, world, "Move pin in time", merge_key(pin, NUDGE_FRAME))) return;
+    if (!core_end(core, world, pins_set(world->document, rig, &moved, &core->error))) return;
     playback_seek(core, document, moved.frame);
     pins_tell(core, world, rig);
 }
@@ -140,9 +134,8 @@ void pins_delete(struct core *core, const struct editor_world *world)
 {
     int rig;
     const struct pin *pin = pins_selected(core, world->document, &rig);
-    if (!pin) return;
-    const struct edit edit = pins_edit(EDIT_PIN_REMOVE, rig, pin);
-    if (core_step(core, world, "Delete pin", 0, &edit)) pins_clear(core);
+    if (!pin || !core_begin(core, world, "Delete pin", 0)) return;
+    if (core_end(core, world, edit_pin_remove(world->document, rig, pin->id, &core->error))) pins_clear(core);
 }
 
 /// Whether a pin comes before another: by frames, then by ids.

@@ -23,8 +23,8 @@ bool pins_put(struct core *core, const struct editor_world *world, int rig, int 
 void pins_put_here(struct core *core, const struct editor_world *world, int rig, int point, const double to[3]);
 /// The splines that a pin of the rig moves have been edited.
 void pins_tell(struct core *core, const struct editor_world *world, int rig);
-/// The edit that gives a pin, found by its id, these numbers.
-struct edit pins_edit(enum edit_kind kind, int rig, const struct pin *pin);
+/// An edit: gives the pin of that id, or where it is 0 a new one, these numbers.
+bool pins_set(struct document *document, int rig, const struct pin *pin, struct error *error);
 /// Moves the selected pin by metres; repeated nudges are one undo step.
 void pins_nudge(struct core *core, const struct editor_world *world, const double by[3]);
 /// Moves it to the next frame that its point has no pin on, so many frames on; repeated ones are one undo step.

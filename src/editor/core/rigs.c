@@ -1,5 +1,6 @@
 /// Adds and removes rigs.
 #include "editor/core/rigs.h"
+#include "base/need.h"
 #include "editor/core/core.h"
 #include "editor/core/spline_list.h"
 #include "scene/reference.h"
@@ -27,13 +28,10 @@ bool rigs_have_knots(const struct document *document)
     return s < document->spline_count;
 }
 
-/// Ends the open step, taken back where something in it failed.
+/// Ends the open step, and has all of the stage in sight.
 static void finish(struct core *core, const struct editor_world *world, bool done)
 {
-    if (!done) history_restart(world->history);
-    history_end(world->history);
-    core_refresh(core, world);
-    core->refit_stage = done;
+    core->refit_stage = core_end(core, world, done);
 }
 
 /// Where a rig stands along x, and how wide it is.
@@ -68,35 +66,29 @@ static double free_place(const struct editor_world *world, double wide)
 static int spline_to_use(struct core *core, const struct editor_world *world)
 {
     if (core_active_spline(core, world)) return core->active;
-    struct edit edit = core_edit_of(EDIT_SPLINE_ADD, -1);
-    edit.flag = true;
-    edit.knot.frame = round(core_frame(core, world->document));
-    return core_edit(core, world, &edit) ? world->document->spline_count - 1 : -1;
+    const struct knot first = {.frame = round(core_frame(core, world->document))};
+    const bool done = edit_spline_add(world->document, -1, NULL, &first, &core->error);
+    return done ? world->document->spline_count - 1 : -1;
 }
 
 void rigs_add_tail(struct core *core, const struct editor_world *world)
 {
-    if (history_is_open(world->history)) return;
-    const double place = free_place(world, ROOM);
-    history_begin(world->history, "Add tail", 0);
-    struct edit tail = core_edit_of(EDIT_TAIL_ADD, spline_to_use(core, world));
-    tail.rig = -1;
-    bool done = tail.spline >= 0 && core_edit(core, world, &tail);
-    struct edit move = core_edit_of(EDIT_POSITION, -1);
-    move.rig = world->document->rig_count - 1;
-    move.param = param_number(place);
-    finish(core, world, done && core_edit(core, world, &move));
-    if (done) core_activate(core, world, tail.spline);
+    struct document *document = world->document;
+    const struct param place = param_number(free_place(world, ROOM));
+    if (!core_begin(core, world, "Add tail", 0)) return;
+    const int spline = spline_to_use(core, world);
+    const bool done = spline >= 0 && edit_tail_add(document, -1, spline, AXIS_SIDE, PART_TOTAL, &core->error);
+    finish(core, world, done && edit_position(document, document->rig_count - 1, 0, &place, &core->error));
+    if (done) core_activate(core, world, spline);
 }
 
 void rigs_add_meadow(struct core *core, const struct editor_world *world)
 {
-    if (history_is_open(world->history)) return;
     if (document_find_rig(world->document, RIG_MEADOW, 0) >= 0) {
         core_message(core, false, "There is a meadow already.");
         return;
     }
-    history_begin(world->history, "Add meadow", 0);
+    if (!core_begin(core, world, "Add meadow", 0)) return;
     struct rig meadow = {.kind = RIG_MEADOW,
                          .name = NULL,
                          .meadow = {.spline = spline_to_use(core, world),
@@ -106,9 +98,7 @@ void rigs_add_meadow(struct core *core, const struct editor_world *world)
                                     .variation = 0.45,
                                     .lag = 14,
                                     .gain = 7}};
-    struct edit edit = core_edit_of(EDIT_RIG_ADD, -1);
-    edit.contents = &meadow;
-    finish(core, world, meadow.meadow.spline >= 0 && core_edit(core, world, &edit));
+    finish(core, world, meadow.meadow.spline >= 0 && edit_rig_add(world->document, &meadow, &core->error));
 }
 
 /// Copies of the chains on a model, on its copy, the last rig.
@@ -121,32 +111,26 @@ static bool copy_chains(struct core *core, const struct editor_world *world, int
         if (rig->kind != RIG_CHAIN) continue;
         if (document_find_model(world->document, rig->chain.model, rig->chain.by_file) != model) continue;
         struct rig chain = *rig;
-        struct edit edit = core_edit_of(EDIT_CHAIN_ADD, -1);
         char name[256];
         snprintf(name, sizeof name, "%s", copy);
         chain.chain.model = name;
         chain.pin_count = 0;
-        edit.contents = &chain;
-        done = core_edit(core, world, &edit);
+        done = edit_rig_add(world->document, &chain, &core->error);
     }
     return done;
 }
 
 void rigs_copy(struct core *core, const struct editor_world *world, int rig)
 {
-    const struct document *document = world->document;
+    struct document *document = world->document;
     double width;
     if (rig < 0 || rig >= document->rig_count || history_is_open(world->history)) return;
     struct rig copy = *document->rigs[rig];
     place_of(world, rig, &width);
     const double place = free_place(world, width);
-    struct edit edit = core_edit_of(copy.kind == RIG_MODEL ? EDIT_MODEL_ADD : EDIT_RIG_ADD, -1);
-    edit.contents = &copy;
     copy.pin_count = 0; // what is pinned drives both
     switch (copy.kind) {
     case RIG_TAIL:
-        edit = core_edit_of(EDIT_TAIL_ADD, core->active);
-        edit.rig = rig;
         break;
     case RIG_CHARACTER:
         copy.character.position[0] = place;
@@ -162,8 +146,10 @@ void rigs_copy(struct core *core, const struct editor_world *world, int rig)
                                             : "There is a meadow already.");
         return;
     }
-    history_begin(world->history, "Add one more", 0);
-    bool done = core_edit(core, world, &edit);
+    core_begin(core, world, "Add one more", 0);
+    bool done = copy.kind == RIG_TAIL
+                    ? edit_tail_add(document, rig, core->active, AXIS_SIDE, PART_TOTAL, &core->error)
+                    : edit_rig_add(document, &copy, &core->error);
     if (done && copy.kind == RIG_MODEL)
         done = copy_chains(core, world, rig, document->rigs[document->rig_count - 1]->name);
     finish(core, world, done);
@@ -191,12 +177,11 @@ static void sort_reference(const struct reference *reference, void *context)
     (stays ? removal->others : removal->mine)[reference->spline] = true;
 }
 
-static bool survey(struct removal *removal, const struct document *document, int rig)
+static void survey(struct removal *removal, const struct document *document, int rig)
 {
     const size_t count = (size_t)document->spline_count + 1;
-    *removal = (struct removal){document, rig, calloc(count, sizeof(bool)), calloc(count, sizeof(bool))};
-    if (removal->mine && removal->others) reference_each(document, sort_reference, removal);
-    return removal->mine && removal->others;
+    *removal = (struct removal){document, rig, need_zeroed(count, sizeof(bool)), need_zeroed(count, sizeof(bool))};
+    reference_each(document, sort_reference, removal);
 }
 
 static void forget(struct removal *removal)
@@ -211,7 +196,8 @@ int rigs_own_splines(const struct document *document, int rig, char *names, size
     int count = 0;
     size_t used = 0;
     names[0] = '\0';
-    for (int s = 0, good = survey(&removal, document, rig); good && s < document->spline_count; s++) {
+    survey(&removal, document, rig);
+    for (int s = 0; s < document->spline_count; s++) {
         if (!removal.mine[s] || removal.others[s]) continue;
         const int wrote =
             snprintf(names + used, size - used, "%s%.40s", count > 0 ? ", " : "", document->splines[s]->name);
@@ -232,33 +218,27 @@ static bool let_go(struct core *core, const struct editor_world *world, const st
         for (int r = 0; r < document->rig_count; r++) follows |= goes(removal, r) && document_follows(document, s, r);
         if (!follows) continue;
         const double present = spline_list_present(core, world, s, PARAMETER_EQUILIBRIUM);
-        const struct edit edit = core_parameter_edit(s, PARAMETER_EQUILIBRIUM, core_round(present, 1e-3));
-        done = core_edit(core, world, &edit);
+        done = core_set_parameter(core, world, s, PARAMETER_EQUILIBRIUM, core_round(present, 1e-3));
     }
     return done;
 }
 
 static bool remove_rigs(struct core *core, const struct editor_world *world, struct removal *removal)
 {
-    struct edit edit = core_edit_of(EDIT_RIG_REMOVE, -1);
     bool done = true;
     for (int r = world->document->rig_count - 1; r >= 0 && done; r--) {
         if (r == removal->rig || !goes(removal, r)) continue;
-        edit.rig = r;
-        done = core_edit(core, world, &edit);
+        done = edit_rig_remove(world->document, r, &core->error);
         if (r < removal->rig) removal->rig--;
     }
-    edit.rig = removal->rig;
-    return done && core_edit(core, world, &edit);
+    return done && edit_rig_remove(world->document, removal->rig, &core->error);
 }
 
 static bool remove_splines(struct core *core, const struct editor_world *world, const struct removal *removal)
 {
     bool done = true;
     for (int s = world->document->spline_count - 1; s >= 0 && done; s--) {
-        if (!removal->mine[s] || removal->others[s]) continue;
-        const struct edit edit = core_edit_of(EDIT_SPLINE_REMOVE, s);
-        done = core_edit(core, world, &edit);
+        if (removal->mine[s] && !removal->others[s]) done = edit_spline_remove(world->document, s, &core->error);
     }
     return done;
 }
@@ -267,12 +247,12 @@ void rigs_remove(struct core *core, const struct editor_world *world, int rig, b
 {
     struct removal removal;
     if (rig < 0 || rig >= world->document->rig_count || history_is_open(world->history)) return;
-    history_begin(world->history, with_splines ? "Remove with splines" : "Remove", 0);
-    bool done = survey(&removal, world->document, rig) && let_go(core, world, &removal) &&
-                remove_rigs(core, world, &removal) && (!with_splines || remove_splines(core, world, &removal));
+    survey(&removal, world->document, rig);
+    core_begin(core, world, with_splines ? "Remove with splines" : "Remove", 0);
+    const bool done = let_go(core, world, &removal) && remove_rigs(core, world, &removal) &&
+                      (!with_splines || remove_splines(core, world, &removal));
     forget(&removal);
-    finish(core, world, done);
-    core->refit_stage = false; // the camera stays
+    core_end(core, world, done);
 }
 
 void rigs_ask_remove(struct core *core, const struct editor_world *world, int rig)

@@ -1,5 +1,6 @@
 /// Walks over the selected knots of all splines, and keeps them as they were for an edit.
 #include "editor/core/selected_knots.h"
+#include "base/need.h"
 #include "editor/core/core.h"
 #include "editor/core/selection.h"
 #include "editor/core/spline_list.h"
@@ -38,6 +39,15 @@ void selected_settle(struct core *core, const struct editor_world *world)
     if (selected_next(core, world->document, &first)) core_turn_to(core, world, first.spline);
 }
 
+void originals_add(struct originals *originals, int spline, const struct knot *knot)
+{
+    if (originals->count == originals->capacity) {
+        originals->capacity = 2 * originals->capacity + 64;
+        originals->list = need_more(originals->list, (size_t)originals->capacity, sizeof *originals->list);
+    }
+    originals->list[originals->count++] = (struct original){.spline = spline, .knot = *knot};
+}
+
 void core_collect(struct core *core, const struct document *document, bool later)
 {
     struct originals *originals = &core->originals;
@@ -46,11 +56,10 @@ void core_collect(struct core *core, const struct document *document, bool later
         const struct spline *spline = document->splines[s];
         bool begun = false;
         if (!is_open(core, document, s)) continue;
-        for (int k = 0; k < spline->knot_count && originals->count < originals->capacity; k++) {
+        for (int k = 0; k < spline->knot_count; k++) {
             bool selected = selection_has(&core->selection, spline->knots[k].id);
             begun |= selected;
-            if (selected || (later && begun))
-                originals->list[originals->count++] = (struct original){.spline = s, .knot = spline->knots[k]};
+            if (selected || (later && begun)) originals_add(originals, s, &spline->knots[k]);
         }
     }
 }

@@ -21,6 +21,8 @@ int selected_count(const struct core *core, const struct document *document);
 /// Where none of the active spline's knots is selected, but another's, that spline becomes the active one.
 void selected_settle(struct core *core, const struct editor_world *world);
 
+/// Adds a knot as it is.
+void originals_add(struct originals *originals, int spline, const struct knot *knot);
 /// Takes them into `originals`; `later` also takes what comes behind the first one of each spline.
 void core_collect(struct core *core, const struct document *document, bool later);
 

@@ -1,6 +1,6 @@
 /// Which knots are selected: a bit for each id, so that membership costs nothing in a drag of thousands.
 #include "editor/core/selection.h"
-#include <stdlib.h>
+#include "base/need.h"
 #include <string.h>
 
 bool selection_has(const struct selection *selection, unsigned id)
@@ -8,8 +8,19 @@ bool selection_has(const struct selection *selection, unsigned id)
     return id < selection->capacity && (selection->bits[id / 64] >> (id % 64) & 1u);
 }
 
+/// Room for the ids below `end`, and for some more: ids are given in turn.
+static void reserve(struct selection *selection, unsigned end)
+{
+    if (end <= selection->capacity) return;
+    const unsigned capacity = (end / 512 + 2) * 512;
+    selection->bits = need_more(selection->bits, capacity / 64, sizeof *selection->bits);
+    memset((char *)selection->bits + selection->capacity / 8, 0, (capacity - selection->capacity) / 8);
+    selection->capacity = capacity;
+}
+
 void selection_set(struct selection *selection, unsigned id, bool selected)
 {
+    if (selected) reserve(selection, id + 1);
     if (id >= selection->capacity) return;
     selection->changes++;
     uint64_t bit = UINT64_C(1) << (id % 64);
@@ -49,21 +60,9 @@ int selection_single(const struct selection *selection, const struct spline *spl
     return found;
 }
 
-bool selection_reserve(struct selection *selection, unsigned next_id)
-{
-    if (next_id < selection->capacity) return true;
-    unsigned capacity = (next_id / 512 + 2) * 512;
-    uint64_t *bits = realloc(selection->bits, capacity / 8);
-    if (!bits) return false;
-    memset((char *)bits + selection->capacity / 8, 0, (capacity - selection->capacity) / 8);
-    selection->bits = bits;
-    selection->capacity = capacity;
-    return true;
-}
-
 void selection_copy(struct selection *to, const struct selection *from)
 {
-    unsigned ids = to->capacity < from->capacity ? to->capacity : from->capacity;
-    if (ids > 0) memcpy(to->bits, from->bits, ids / 8);
-    to->changes++;
+    reserve(to, from->capacity);
+    selection_clear(to);
+    if (from->bits) memcpy(to->bits, from->bits, from->capacity / 8);
 }

@@ -16,9 +16,7 @@ void selection_drop_from(struct selection *selection, unsigned id);
 int selection_count(const struct selection *selection, const struct spline *spline);
 /// Index of the only selected knot of the spline, or -1.
 int selection_single(const struct selection *selection, const struct spline *spline);
-/// Room for the ids below `next_id`, and for some more: ids are given in turn. false where memory is short.
-bool selection_reserve(struct selection *selection, unsigned next_id);
-/// Both have room for the same ids, unless memory was short.
+/// Selects the same ids.
 void selection_copy(struct selection *to, const struct selection *from);
 
 #endif

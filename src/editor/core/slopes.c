@@ -58,22 +58,22 @@ struct knot_change {
 static void change_knots(struct core *core, const struct editor_world *world, const struct knot_change *change)
 {
     const struct document *document = world->document;
-    if (history_is_open(world->history) || selected_count(core, document) == 0) return;
-    history_begin(world->history, change->label, change->kind ? core_merge_key(core, world, change->kind) : 0);
+    const uint64_t merge = change->kind ? core_merge_key(core, world, change->kind) : 0;
+    if (selected_count(core, document) == 0 || !core_begin(core, world, change->label, merge)) return;
     for (struct knot_place at = SELECTED_START; selected_next(core, document, &at);) {
-        const struct knot *knot = knot_at(document, at);
-        struct edit edit = core_edit_of(EDIT_KNOT_SET, at.spline);
-        edit.knot = *knot;
-        if (change->on && !knot->has_slope) edit.knot.slope = slope_at(world, at.spline, knot);
-        if (!(knot->stiffness > 0)) edit.knot.stiffness = FIRM;
-        edit.knot.has_slope = change->on;
-        if (change->rule) edit.knot.slope = change->rule(document, document->splines[at.spline], at.knot);
-        bool changes = change->rule || change->slope != 0 || (change->on && !knot->has_slope);
-        if (changes) edit.knot.slope = core_round(edit.knot.slope + change->slope, SLOPE_RESOLUTION * core->visible);
-        edit.knot.stiffness = fmin(fmax(edit.knot.stiffness * change->stiffness, 1e-3), 1e9);
-        core_edit(core, world, &edit);
+        const struct knot *before = knot_at(document, at);
+        const bool fresh = change->on && !before->has_slope;
+        struct knot knot = *before;
+        if (fresh) knot.slope = slope_at(world, at.spline, before);
+        if (!(before->stiffness > 0)) knot.stiffness = FIRM;
+        knot.has_slope = change->on;
+        if (change->rule) knot.slope = change->rule(document, document->splines[at.spline], at.knot);
+        if (change->rule || change->slope != 0 || fresh)
+            knot.slope = core_round(knot.slope + change->slope, SLOPE_RESOLUTION * core->visible);
+        knot.stiffness = fmin(fmax(knot.stiffness * change->stiffness, 1e-3), 1e9);
+        core_put_knot(core, world, at.spline, &knot);
     }
-    history_end(world->history);
+    core_end(core, world, true);
     core_edited(core, -1);
 }
 

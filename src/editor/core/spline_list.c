@@ -64,34 +64,30 @@ void spline_list_refresh(struct core *core, const struct editor_world *world)
     core->seen_first = document->first_frame;
     core->seen_substeps = document->substeps;
     core->pick = (struct bone_pick){0};
-    core_reserve(core, document);
 }
 
 void spline_list_add(struct core *core, const struct editor_world *world)
 {
-    const struct document *document = world->document;
-    double frame = round(core_frame(core, document));
-    struct edit edit = core_edit_of(EDIT_SPLINE_ADD, -1);
-    edit.flag = true;
-    edit.knot.frame = fmax(document->first_frame, fmin(frame, document->last_frame));
-    if (!core_step(core, world, "Add spline", 0, &edit)) return;
+    struct document *document = world->document;
+    const double frame = round(core_frame(core, document));
+    const struct knot first = {.frame = fmax(document->first_frame, fmin(frame, document->last_frame))};
+    if (!core_begin(core, world, "Add spline", 0)) return;
+    if (!core_end(core, world, edit_spline_add(document, -1, NULL, &first, &core->error))) return;
     core_activate(core, world, document->spline_count - 1);
 }
 
 void spline_list_copy(struct core *core, const struct editor_world *world)
 {
-    struct edit edit = core_edit_of(EDIT_SPLINE_COPY, core->active);
-    if (!core_active_spline(core, world)) return;
-    if (core_step(core, world, "Duplicate spline", 0, &edit)) core_activate(core, world, core->active + 1);
+    if (!core_active_spline(core, world) || !core_begin(core, world, "Duplicate spline", 0)) return;
+    if (core_end(core, world, edit_spline_copy(world->document, core->active, &core->error)))
+        core_activate(core, world, core->active + 1);
 }
 
 void spline_list_move(struct core *core, const struct editor_world *world, int spline, int to)
 {
-    struct edit edit = core_edit_of(EDIT_SPLINE_MOVE, spline);
-    edit.to = to;
-    if (to != spline && to >= 0 && to < world->document->spline_count) {
-        core_step(core, world, "Reorder splines", 0, &edit);
-    }
+    if (to == spline || to < 0 || to >= world->document->spline_count) return;
+    if (!core_begin(core, world, "Reorder splines", 0)) return;
+    core_end(core, world, edit_spline_move(world->document, spline, to, &core->error));
 }
 
 double spline_list_present(const struct core *core, const struct editor_world *world, int spline,
@@ -119,55 +115,41 @@ static void find_reference(const struct reference *reference, void *context)
     search->reference = *reference;
 }
 
-/// The edit after which a place does not follow the active spline any more.
-static struct edit release_edit(const struct core *core, const struct editor_world *world,
-                                const struct reference *reference)
+/// Ends that a place follows the active spline.
+static bool release(struct core *core, const struct editor_world *world, const struct reference *reference)
 {
-    struct edit edit = core_edit_of(EDIT_PARAMETER, reference->owner);
-    wiggly_value v = evaluation_at(world->evaluation, core->active, core->playback.position);
-    edit.rig = reference->owner;
+    struct document *document = world->document;
+    const int owner = reference->owner, which = reference->which;
+    const wiggly_value now = evaluation_at(world->evaluation, core->active, core->playback.position);
+    const struct param stays = param_number(now.y + now.re);
     switch (reference->kind) {
-    case REFERENCE_TRACK:
-        edit.parameter = (enum parameter)reference->which;
-        edit.param.value = spline_list_present(core, world, reference->owner, edit.parameter);
-        break;
-    case REFERENCE_POSITION:
-        edit.kind = EDIT_POSITION;
-        edit.coordinate = reference->which;
-        edit.param.value = v.y + v.re;
-        break;
-    case REFERENCE_CHANNEL:
-        edit.kind = EDIT_CHANNEL_REMOVE;
-        edit.channel = reference->which;
-        break;
-    case REFERENCE_DRIVE:
-        edit.kind = EDIT_DRIVE_REMOVE;
-        edit.channel = reference->which;
-        break;
-    case REFERENCE_MEADOW:
-        edit.kind = EDIT_RIG_REMOVE;
-        break;
+    case REFERENCE_TRACK: {
+        const enum parameter parameter = (enum parameter)which;
+        return core_set_parameter(core, world, owner, parameter, spline_list_present(core, world, owner, parameter));
     }
-    return edit;
+    case REFERENCE_POSITION:
+        return edit_position(document, owner, which, &stays, &core->error);
+    case REFERENCE_CHANNEL:
+        return edit_channel_remove(document, (struct channel_place){owner, which}, &core->error);
+    case REFERENCE_DRIVE:
+        return edit_drive_remove(document, owner, which, &core->error);
+    case REFERENCE_MEADOW:
+        return edit_rig_remove(document, owner, &core->error);
+    }
+    return false;
 }
 
 static void spline_list_remove_now(struct core *core, const struct editor_world *world)
 {
-    if (!core_active_spline(core, world) || history_is_open(world->history)) return;
+    if (!core_active_spline(core, world) || !core_begin(core, world, "Delete spline", 0)) return;
     bool good = true;
-    history_begin(world->history, "Delete spline", 0);
     for (struct search search = {.found = true}; good && search.found;) {
         search = (struct search){.spline = core->active};
         reference_each(world->document, find_reference, &search);
         if (!search.found) break;
-        struct edit release = release_edit(core, world, &search.reference);
-        good = core_edit(core, world, &release);
+        good = release(core, world, &search.reference);
     }
-    struct edit edit = core_edit_of(EDIT_SPLINE_REMOVE, core->active);
-    good = good && core_edit(core, world, &edit);
-    if (!good) history_restart(world->history);
-    history_end(world->history);
-    spline_list_refresh(core, world);
+    core_end(core, world, good && edit_spline_remove(world->document, core->active, &core->error));
 }
 
 void spline_list_remove(struct core *core, const struct editor_world *world)
@@ -187,13 +169,23 @@ static int knot_count(const struct document *document)
     return count;
 }
 
+static void set_fps(struct core *core, const struct editor_world *world, double fps, bool keeps_seconds)
+{
+    if (!core_begin(core, world, "Set frames per second", 0)) return;
+    core_end(core, world, edit_fps(world->document, fps, keeps_seconds, &core->error));
+}
+
+static void set_range(struct core *core, const struct editor_world *world, int first, int last, enum range_fit fit)
+{
+    if (!core_begin(core, world, "Set range", 0)) return;
+    core_end(core, world, edit_range(world->document, first, last, fit, &core->error));
+}
+
 void spline_list_fps(struct core *core, const struct editor_world *world, double fps)
 {
-    struct edit edit = core_edit_of(EDIT_FPS, -1);
-    edit.number = fps;
     if (fps == world->document->fps) return;
     if (knot_count(world->document) == 0 || !(fps > 0 && fps <= SCENE_MAX_FPS)) {
-        core_step(core, world, "Set frames per second", 0, &edit);
+        set_fps(core, world, fps, false);
     } else {
         core->ask = (struct ask){.kind = ASK_FPS, .number = fps};
     }
@@ -218,21 +210,17 @@ int spline_list_outside(const struct document *document, int first, int last)
 
 void spline_list_range(struct core *core, const struct editor_world *world, int first, int last)
 {
-    struct edit edit = core_edit_of(EDIT_RANGE, -1);
-    edit.first = first;
-    edit.last = last;
     bool possible = last >= first && last <= SCENE_MAX_FRAME && first >= -SCENE_MAX_FRAME &&
                     (long long)last - first <= document_longest(world->document);
     if (possible && spline_list_outside(world->document, first, last) > 0) {
         core->ask = (struct ask){.kind = ASK_RANGE, .first = first, .last = last};
     } else {
-        core_step(core, world, "Set range", 0, &edit);
+        set_range(core, world, first, last, RANGE_REFUSE);
     }
 }
 
 void spline_list_answer(struct core *core, const struct editor_world *world, const struct ask *ask, int answer)
 {
-    struct edit edit = core_edit_of(ask->kind == ASK_FPS ? EDIT_FPS : EDIT_RANGE, -1);
     switch (ask->kind) {
     case ASK_NOTHING:
     case ASK_ADD:
@@ -241,15 +229,10 @@ void spline_list_answer(struct core *core, const struct editor_world *world, con
         rigs_remove(core, world, ask->rig, answer == 0);
         break;
     case ASK_FPS:
-        edit.number = ask->number;
-        edit.flag = answer == 1;
-        core_step(core, world, "Set frames per second", 0, &edit);
+        set_fps(core, world, ask->number, answer == 1);
         break;
     case ASK_RANGE:
-        edit.first = ask->first;
-        edit.last = ask->last;
-        edit.fit = answer == 0 ? RANGE_MOVE : RANGE_TRIM;
-        core_step(core, world, "Set range", 0, &edit);
+        set_range(core, world, ask->first, ask->last, answer == 0 ? RANGE_MOVE : RANGE_TRIM);
         break;
     case ASK_REMOVE:
         spline_list_remove_now(core, world);

@@ -255,6 +255,7 @@ struct core {
     char title[256];       ///< the file's name, or "untitled"
     char path[PATH_LIMIT]; ///< of the document's own file, or ""
     struct message message;
+    struct error error;     ///< of the last edit that failed, until core_settle()
     bool unkept;            ///< unsaved work has no recovery file
     bool unshown;           ///< something of the status line has changed since it was drawn
     struct ask ask;         ///< what is to be asked next

@@ -35,12 +35,6 @@ void curves_open(struct curves *curves)
     curves->warnings = (struct warnings){0};
 }
 
-bool curves_reserve(struct curves *curves, const struct core *core)
-{
-    unsigned ids = core->selection.capacity;
-    return curves->before_box.capacity >= ids || selection_reserve(&curves->before_box, ids);
-}
-
 bool curves_wants_frames(const struct curves *curves) { return follow_moves(curves); }
 
 static const float CURVE_REACH = 7, OTHER_REACH = 7, WARNING_REACH = 9;
@@ -375,8 +369,7 @@ static void apply(void *room, struct core *core, const struct editor_world *worl
         value = drag->handle ? fmax(value, knot) : fmin(value, knot);
     }
     if (drag->handle ? value <= other : value >= other) return; // without knots: they do not pass each other
-    struct edit edit = core_parameter_edit(core->active, limit_of(drag->handle), value);
-    core_edit(core, world, &edit);
+    core_set_parameter(core, world, core->active, limit_of(drag->handle), value);
 }
 
 void limits_begin_drag(struct curves *curves, struct core *core, const struct editor_world *world, int handle,

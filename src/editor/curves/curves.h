@@ -29,8 +29,6 @@ void curves_press(struct curves *curves, struct core *core, const struct editor_
 void curves_wheel(struct curves *curves, struct core *core, const struct event *event);
 /// A new document is on the table.
 void curves_open(struct curves *curves);
-/// Room for as many selected knots as core has; allocates only where knots were added. false where memory is short.
-bool curves_reserve(struct curves *curves, const struct core *core);
 /// Whether a search for warnings goes on, or the view moves.
 bool curves_wants_frames(const struct curves *curves);
 /// Ends of a knot's slope handle: before (0) or after (1) the knot.

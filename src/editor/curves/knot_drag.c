@@ -99,13 +99,12 @@ static bool move_knots(const struct curves *curves, const struct core *core, con
 {
     for (int i = 0; i < core->originals.count; i++) {
         const struct original *original = &core->originals.list[frames > 0 ? core->originals.count - 1 - i : i];
-        struct edit edit = core_edit_of(EDIT_KNOT_SET, original->spline);
-        edit.knot = original->knot;
-        edit.knot.frame += frames;
+        struct knot knot = original->knot;
+        knot.frame += frames;
         if (up != 0 && selection_has(&core->selection, original->knot.id))
-            edit.knot.value = moved_value(curves, core, original, up);
-        core_hold(world->document->splines[original->spline], &edit.knot, why);
-        if (!history_apply(world->history, world->document, &edit, NULL)) return false;
+            knot.value = moved_value(curves, core, original, up);
+        core_hold(world->document->splines[original->spline], &knot, why);
+        if (!edit_knot_set(world->document, original->spline, &knot, NULL)) return false;
     }
     return true;
 }
@@ -145,15 +144,14 @@ static void apply_slope(void *of, struct core *core, const struct editor_world *
     double down = end[1] + drag->moved_y - curves_y(curves, core, knot->value);
     across = curves->knot_drag.handle ? fmax(across, 2) : fmin(across, -2);
     double seconds = across / curves_pixels_per_frame(curves, core) / world->document->fps;
-    struct edit edit = core_edit_of(EDIT_KNOT_SET, core->active);
-    edit.knot = *knot;
-    edit.knot.slope =
+    struct knot turned = *knot;
+    turned.slope =
         core_round(-down / curves_pixels_per_value(curves, core) / seconds, SLOPE_RESOLUTION * core->visible);
     double length = handle_length(knot->stiffness), longer = hypot(across, down) - length;
     if (fabs(longer) > LENGTH_SLACK) {
-        edit.knot.stiffness = handle_stiffness(length + longer - copysign(LENGTH_SLACK, longer));
+        turned.stiffness = handle_stiffness(length + longer - copysign(LENGTH_SLACK, longer));
     }
-    core_edit(core, world, &edit);
+    core_put_knot(core, world, core->active, &turned);
 }
 
 static enum drag_answer knots_event(void *room, struct core *core, const struct editor_world *world,
@@ -200,13 +198,12 @@ void drag_begin_slope(struct curves *curves, struct core *core, const struct edi
 {
     static const struct drag_owner owner = {.cursor = CURSOR_MOVE, .apply = apply_slope, .end = end_knots};
     const struct spline *spline = core_active_spline(core, world);
-    assert(spline && core->originals.capacity > 0);
+    assert(spline);
     drag_begin(core, &owner, curves, "Change slope", event);
     core->drag.knot = knot;
     curves->knot_drag = (struct knot_drag){.handle = handle};
-    core->originals.list[0] =
-        (struct original){.spline = core->active, .knot = spline->knots[spline_find_id(spline, knot)]};
-    core->originals.count = 1;
+    core->originals.count = 0;
+    originals_add(&core->originals, core->active, &spline->knots[spline_find_id(spline, knot)]);
 }
 
 static const double GHOST_SECONDS = 1.2;
@@ -233,26 +230,24 @@ void curves_nudge(const struct curves *curves, struct core *core, const struct e
 {
     const struct originals *originals = &core->originals;
     if (history_is_open(world->history)) return;
-    core_collect(core, world->document, false);
     char why[STOPPED_SIZE] = "";
+    core_collect(core, world->document, false);
     double shift = free_shift(core, world->document, frames, why), up = 0.01 * hundredths * core->visible;
     if (*why) core_stopped(core, why);
     if (originals->count == 0 || (shift == 0 && up == 0)) return;
-    history_begin(world->history, "Nudge knots",
-                  core_merge_key(core, world, frames != 0 ? NUDGE_FRAMES : NUDGE_VALUE));
+    core_begin(core, world, "Nudge knots", core_merge_key(core, world, frames != 0 ? NUDGE_FRAMES : NUDGE_VALUE));
     for (int i = 0; i < originals->count; i++) {
         // from the far end, so that they do not run into each other
         const struct original *original = &originals->list[shift > 0 ? originals->count - 1 - i : i];
         const double value = up / normal_map(curves, core, original->spline).scale;
-        struct edit edit = core_edit_of(EDIT_KNOT_SET, original->spline);
-        edit.knot = original->knot;
-        edit.knot.frame += shift;
-        if (value != 0) edit.knot.value = core_round(edit.knot.value + value, 0.01 * fabs(value));
-        core_hold(world->document->splines[original->spline], &edit.knot, why);
-        core_edit(core, world, &edit);
+        struct knot knot = original->knot;
+        knot.frame += shift;
+        if (value != 0) knot.value = core_round(knot.value + value, 0.01 * fabs(value));
+        core_hold(world->document->splines[original->spline], &knot, why);
+        core_put_knot(core, world, original->spline, &knot);
     }
+    core_end(core, world, true);
     if (*why) core_stopped(core, why);
-    history_end(world->history);
     core->nudged_seconds = GHOST_SECONDS;
     core_edited(core, -1);
 }

@@ -305,8 +305,7 @@ static void apply(void *room, struct core *core, const struct editor_world *worl
     if (there < 0 || document->rigs[rig]->pins[there].id == pin->id)
         drag->free_frame = document_frame(document, sample); // else it stays where it last was free
     moved.frame = drag->free_frame;
-    const struct edit edit = pins_edit(EDIT_PIN_SET, rig, &moved);
-    if (!core_edit(core, world, &edit)) return;
+    if (!pins_set(world->document, rig, &moved, &core->error)) return;
     playback_seek(core, document, moved.frame);
     pins_tell(core, world, rig);
 }

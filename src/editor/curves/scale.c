@@ -237,19 +237,21 @@ static void move_all(struct curves *curves, struct core *core, const struct edit
 {
     struct scaling *scaling = &curves->scaling;
     const struct originals *originals = &core->originals;
+    struct document *document = world->document;
     const bool moves = scaling->by.time != 1;
     bool changes = moves;
     scaling->stopped[1][0] = 0;
     for (int i = 0; i < originals->count && moves; i++) {
-        struct edit edit = core_edit_of(EDIT_KNOT_REMOVE, originals->list[i].spline);
-        edit.knot = originals->list[i].knot;
-        core_edit(core, world, &edit);
+        const struct original *original = &originals->list[i];
+        edit_knot_remove(document, original->spline, original->knot.id, &core->error);
     }
     for (int i = 0; i < originals->count; i++) {
-        struct edit edit = core_edit_of(moves ? EDIT_KNOT_INSERT : EDIT_KNOT_SET, originals->list[i].spline);
-        edit.knot = scaled(curves, core, world->document, &originals->list[i]);
-        changes |= edit.knot.value != originals->list[i].knot.value;
-        if (core_edit(core, world, &edit)) continue;
+        const struct original *original = &originals->list[i];
+        const struct knot knot = scaled(curves, core, document, original);
+        changes |= knot.value != original->knot.value;
+        const bool done = moves ? edit_knot_insert(document, original->spline, &knot, &core->error)
+                                : edit_knot_set(document, original->spline, &knot, &core->error);
+        if (done) continue;
         drag_restart(core, world);
         return;
     }

@@ -185,16 +185,16 @@ static int count_swings(const struct core *core, const struct editor_world *worl
     return count;
 }
 
-/// Does an edit in the open step and says whether there are fewer swings than `before`; if not, it is taken back.
-static bool helps(const struct core *core, const struct editor_world *world, const struct edit *edit, int before)
+/// Says whether an edit in the open step, if it was `done`, has left fewer swings than `before`; if not, it is taken back.
+static bool helps(struct core *core, const struct editor_world *world, bool done, int before)
 {
-    struct document *document = world->document;
-    if (history_apply(world->history, document, edit, NULL) && count_swings(core, world) < before) return true;
+    if (done && count_swings(core, world) < before) return true;
+    core->error = (struct error){0};
     history_restart(world->history);
     return false;
 }
 
-static bool lower_frequency(const struct core *core, const struct editor_world *world, const struct spline *spline,
+static bool lower_frequency(struct core *core, const struct editor_world *world, const struct spline *spline,
                             int before, char text[96])
 {
     const struct param *frequency = &spline->parameter[PARAMETER_FREQUENCY];
@@ -202,8 +202,8 @@ static bool lower_frequency(const struct core *core, const struct editor_world *
     if (frequency->track >= 0) return false;
     for (int i = 0; i < LOWER_STEPS; i++) {
         value = core_round(value * LOWER, 0.01);
-        struct edit edit = core_parameter_edit(core->active, PARAMETER_FREQUENCY, value);
-        if (!helps(core, world, &edit, before)) continue;
+        const bool done = core_set_parameter(core, world, core->active, PARAMETER_FREQUENCY, value);
+        if (!helps(core, world, done, before)) continue;
         snprintf(text, 96, "Lowered the frequency to %.3g Hz to tame the swing.", value);
         return true;
     }
@@ -211,33 +211,32 @@ static bool lower_frequency(const struct core *core, const struct editor_world *
 }
 
 /// A limit on the side of the swing, a little beyond the knots.
-static bool limit_curve(const struct core *core, const struct editor_world *world, const struct spline *spline,
+static bool limit_curve(struct core *core, const struct editor_world *world, const struct spline *spline,
                         const struct warning *warning, int before, char text[96])
 {
     const enum parameter side = warning->value > warning->remedy ? PARAMETER_HIGH : PARAMETER_LOW;
     const double value = core_fresh_limit(spline, side);
-    struct edit edit = core_parameter_edit(core->active, side, value);
-    if (isfinite(spline->parameter[side].value) || !helps(core, world, &edit, before)) return false;
+    if (isfinite(spline->parameter[side].value)) return false;
+    if (!helps(core, world, core_set_parameter(core, world, core->active, side, value), before)) return false;
     snprintf(text, 96, "Set the %s to %.6g to tame the swing.", parameter_rows[side].name, value);
     return true;
 }
 
-static bool tame(const struct curves *curves, const struct core *core, const struct editor_world *world,
+static bool tame(const struct curves *curves, struct core *core, const struct editor_world *world,
                  const struct warning *warning, char text[96])
 {
     const struct spline *spline = core_active_spline(core, world);
-    int before = count_swings(core, world);
-    struct edit calm = core_parameter_edit(core->active, PARAMETER_CALM, 1);
-    struct edit hold = core_edit_of(EDIT_KNOT_INSERT, core->active);
-    double resolution = 0.01 / curves_pixels_per_value(curves, core);
-    hold.knot = (struct knot){.frame = warning->frame,
+    const int active = core->active, before = count_swings(core, world);
+    const double resolution = 0.01 / curves_pixels_per_value(curves, core);
+    const struct knot hold = {.frame = warning->frame,
                               .value = core_round(warning->remedy, resolution),
                               .stiffness = KNOT_DEFAULT_STIFFNESS};
-    if (spline->parameter[PARAMETER_CALM].value < 1 && helps(core, world, &calm, before)) {
+    if (spline->parameter[PARAMETER_CALM].value < 1 &&
+        helps(core, world, core_set_parameter(core, world, active, PARAMETER_CALM, 1), before)) {
         snprintf(text, 96, "Raised calm to 1 to tame the swing.");
         return true;
     }
-    if (helps(core, world, &hold, before)) {
+    if (helps(core, world, core_put_knot(core, world, active, &hold), before)) {
         snprintf(text, 96, "Added a knot at frame %.6g to tame the swing.", warning->frame);
         return true;
     }
@@ -249,17 +248,14 @@ static bool tame(const struct curves *curves, const struct core *core, const str
 static bool resolve_rate(struct core *core, const struct editor_world *world, const struct warning *warning,
                          char text[96])
 {
-    struct edit edit = core_edit_of(EDIT_SUBSTEPS, -1);
-    edit.substeps = (int)fmin(warning->remedy, SCENE_MAX_SUBSTEPS);
-    snprintf(text, 96, "%d substeps a frame.", edit.substeps);
-    if (warning->remedy <= SCENE_MAX_SUBSTEPS && history_apply(world->history, world->document, &edit, NULL)) {
-        return true;
-    }
+    const int substeps = (int)fmin(warning->remedy, SCENE_MAX_SUBSTEPS);
+    snprintf(text, 96, "%d substeps a frame.", substeps);
+    if (warning->remedy <= SCENE_MAX_SUBSTEPS && edit_substeps(world->document, substeps, NULL)) return true;
     const struct spline *spline = core_active_spline(core, world);
-    double value = spline->parameter[PARAMETER_FREQUENCY].value * warning->limit / warning->amount;
-    edit = core_parameter_edit(core->active, PARAMETER_FREQUENCY, core_round(0.99 * value, 0.01));
-    snprintf(text, 96, "%.3g Hz.", edit.param.value);
-    return core_edit(core, world, &edit);
+    const double value = spline->parameter[PARAMETER_FREQUENCY].value * warning->limit / warning->amount;
+    const double lower = core_round(0.99 * value, 0.01);
+    snprintf(text, 96, "%.3g Hz.", lower);
+    return core_set_parameter(core, world, core->active, PARAMETER_FREQUENCY, lower);
 }
 
 static bool switch_off(struct core *core, const struct editor_world *world, const struct warning *warning,
@@ -267,12 +263,11 @@ static bool switch_off(struct core *core, const struct editor_world *world, cons
 {
     const struct spline *spline = core_active_spline(core, world);
     int k = spline_find_knot(world->document, spline, document_sample(world->document, warning->frame));
-    struct edit edit = core_edit_of(EDIT_KNOT_SET, core->active);
     if (k < 0) return false;
-    edit.knot = spline->knots[k];
-    edit.knot.has_slope = false;
+    struct knot knot = spline->knots[k];
+    knot.has_slope = false;
     snprintf(text, 96, "The slope at frame %.6g is off.", warning->frame);
-    return core_edit(core, world, &edit);
+    return core_put_knot(core, world, core->active, &knot);
 }
 
 void curves_remedy_first(struct curves *curves, struct core *core, const struct editor_world *world)
@@ -295,19 +290,15 @@ void warning_remedy(const struct curves *curves, struct core *core, const struct
     const struct warning chosen = *warning;
     char text[96] = "";
     bool good = false;
-    if (!core_active_spline(core, world) || history_is_open(world->history)) return;
-    history_begin(world->history, labels[chosen.kind], 0);
+    if (!core_active_spline(core, world) || !core_begin(core, world, labels[chosen.kind], 0)) return;
     if (chosen.kind == WARNING_SWING) good = tame(curves, core, world, &chosen, text);
     if (chosen.kind == WARNING_RATE) good = resolve_rate(core, world, &chosen, text);
     if (chosen.kind == WARNING_DRIFT) {
-        struct edit edit = core_parameter_edit(core->active, PARAMETER_BANDWIDTH, chosen.remedy);
-        good = core_edit(core, world, &edit);
+        good = core_set_parameter(core, world, core->active, PARAMETER_BANDWIDTH, chosen.remedy);
         snprintf(text, sizeof text, "Bandwidth %.3g.", chosen.remedy);
     }
     if (chosen.kind == WARNING_SLOPE) good = switch_off(core, world, &chosen, text);
-    history_end(world->history);
-    core_reserve(core, world->document);
-    if (good) {
+    if (core_end(core, world, good)) {
         core_message(core, false, text);
     } else if (chosen.kind == WARNING_SWING) {
         core_message(core, false, "Calm, a limit, a knot or a lower frequency would not help here. Move the knots.");

@@ -41,15 +41,27 @@ static void scale_angles(struct angles *angles, double value)
     }
 }
 
-struct edit inspector_angles_edit(const struct inspection *in, const struct angle_row *row,
-                                  const struct angles *angles)
+bool inspector_set_angles(struct inspection *in, const struct angle_row *row, const struct angles *angles)
 {
-    struct edit edit = core_edit_of(EDIT_ANGLES, 0);
-    edit.rig = in->inspector->rig;
-    edit.channel = row->kind == ANGLE_REST ? -1 : in->inspector->channel;
-    edit.angle = row->kind;
-    edit.angles = angles;
-    return edit;
+    const int channel = row->kind == ANGLE_REST ? -1 : in->inspector->channel;
+    return edit_angles(in->document, (struct channel_place){in->inspector->rig, channel}, row->kind, angles,
+                       &in->core->error);
+}
+
+/// The same as a step of its own.
+static void set_angles(struct inspection *in, const struct angle_row *row, const char *label,
+                       const struct angles *angles)
+{
+    if (core_begin(in->core, in->world, label, 0))
+        core_end(in->core, in->world, inspector_set_angles(in, row, angles));
+}
+
+/// The same as what a widget's change is.
+static void change_angles(struct inspection *in, const struct angle_row *row, enum ui_change change, const char *what,
+                          const struct angles *angles)
+{
+    if (inspector_begin(in, change, row->undo, what))
+        inspector_end(in, change, inspector_set_angles(in, row, angles));
 }
 
 const char *inspector_angle_unit(const struct inspection *in, const struct angle_row *row)
@@ -101,12 +113,10 @@ static void build_slider(struct inspection *in, const struct angle_row *row, con
         number.shown = shown;
     }
     enum ui_change change = ui_value(in->ui, r, &number, &value);
-    if (change == UI_NONE) return;
-    inspector_take_back(in, change); // scaled from where the drag began, so that a drag through 0 loses no proportion
-    struct angles next = *angles_of(in, row);
+    if (!inspector_begin(in, change, row->undo, row->name)) return;
+    struct angles next = *angles_of(in, row); // as the drag began, so that a drag through 0 loses no proportion
     scale_angles(&next, value);
-    struct edit edit = inspector_angles_edit(in, row, &next);
-    inspector_change(in, change, row->undo, row->name, &edit);
+    inspector_end(in, change, inspector_set_angles(in, row, &next));
 }
 
 /// An angle for each joint, as they are now.
@@ -142,8 +152,7 @@ static bool build_switch(struct inspection *in, const struct angle_row *row, con
     if (!ui_icon_button(in->ui, r, name, ramp ? UI_ICON_RAMP : UI_ICON_EACH, lit, hint)) return false;
     const int joints = bones_joints(in->world, in->inspector->rig);
     const struct angles one = one_angle(angles, row->kind, joints);
-    const struct edit edit = inspector_angles_edit(in, row, lit ? &one : next);
-    core_step(in->core, in->world, row->undo, 0, &edit);
+    set_angles(in, row, row->undo, lit ? &one : next);
     return true;
 }
 
@@ -267,8 +276,7 @@ static void change_point(struct inspection *in, const struct ramp_view *view, en
         point.angle += handle->step_y * view->row->step;
     }
     move_point(&next, which, point);
-    const struct edit edit = inspector_angles_edit(in, view->row, &next);
-    inspector_change(in, change, view->row->undo, handle->name, &edit);
+    change_angles(in, view->row, change, handle->name, &next);
 }
 
 static void add_point(struct inspection *in, const struct ramp_view *view, struct ramp_point point)
@@ -281,8 +289,7 @@ static void add_point(struct inspection *in, const struct ramp_view *view, struc
     if (close || next.count == RAMP_MAX_POINTS) return;
     for (int k = next.count++; k > i; k--) next.ramp[k] = next.ramp[k - 1];
     next.ramp[i] = point;
-    const struct edit edit = inspector_angles_edit(in, view->row, &next);
-    core_step(in->core, in->world, "Add point", 0, &edit);
+    set_angles(in, view->row, "Add point", &next);
 }
 
 static void remove_point(struct inspection *in, const struct ramp_view *view, int which)
@@ -294,8 +301,7 @@ static void remove_point(struct inspection *in, const struct ramp_view *view, in
     }
     next.count--;
     for (int k = which; k < next.count; k++) next.ramp[k] = next.ramp[k + 1];
-    const struct edit edit = inspector_angles_edit(in, view->row, &next);
-    core_step(in->core, in->world, "Remove point", 0, &edit);
+    set_angles(in, view->row, "Remove point", &next);
 }
 
 /// The point that the event is to remove: under a right click, or that has the focus when Del is pressed; −1: none.
@@ -473,8 +479,7 @@ static void nudge(struct inspection *in, const struct each_view *view, const str
     char what[NAME];
     snprintf(what, NAME, "%s.joint.%d", view->row->name, view->joint);
     angles.value[view->joint] += handle->step_y * view->row->step;
-    const struct edit edit = inspector_angles_edit(in, view->row, &angles);
-    inspector_change(in, UI_NUDGE, view->row->undo, what, &edit);
+    change_angles(in, view->row, UI_NUDGE, what, &angles);
 }
 
 static void build_curve(struct inspection *in, const struct each_view *view, struct rect box)
@@ -494,8 +499,7 @@ static void build_curve(struct inspection *in, const struct each_view *view, str
         nudge(in, view, &handle);
     } else if (change != UI_NONE) {
         if (change == UI_DRAG) draw_to(in->inspector, view, &handle);
-        const struct edit edit = inspector_angles_edit(in, view->row, &in->inspector->drawn);
-        inspector_change(in, change, view->row->undo, view->name, &edit);
+        change_angles(in, view->row, change, view->name, &in->inspector->drawn);
     }
 }
 
@@ -517,8 +521,7 @@ static void build_joint(struct inspection *in, const struct angle_row *row, cons
                                      .decimals = 1};
     struct angles next = *angles;
     const enum ui_change change = ui_value(in->ui, ui_row(in->ui, UI_ROW), &number, &next.value[joint]);
-    const struct edit edit = inspector_angles_edit(in, row, &next);
-    inspector_change(in, change, row->undo, name, &edit);
+    change_angles(in, row, change, name, &next);
 }
 
 void inspector_each(struct inspection *in, const struct angle_row *row, const struct angles *angles)

@@ -11,15 +11,6 @@ enum { MAX_ITEMS = 32 }; ///< coordinates that may be added
 
 static const char spline_list[] = "drive.splines", add_list[] = "drive.add";
 
-static struct edit drive_edit(const struct inspection *in, enum edit_kind kind, const struct drive *drive)
-{
-    struct edit edit = core_edit_of(kind, 0);
-    edit.rig = document_find_rig(in->document, RIG_CHARACTER, in->core->characters.character);
-    edit.channel = in->core->characters.drive;
-    edit.drive = *drive;
-    return edit;
-}
-
 /// Shows a coordinate, and what it feels like.
 static void choose(struct inspection *in, int drive)
 {
@@ -44,12 +35,11 @@ static void build_drives(struct inspection *in, const struct character_rig *rig)
         ui_hint(ui, r, "One of the ways this character swings");
         const uint32_t color = spline_list_color(in->document, drive->spline);
         if (ui_list_row(ui, r, name, text, color, k == in->core->characters.drive)) choose(in, k);
-        if (ui_icon_button(ui, button, remove, UI_ICON_DELETE, false, "Remove this coordinate")) {
-            struct edit edit = drive_edit(in, EDIT_DRIVE_REMOVE, drive);
-            edit.channel = k;
-            core_step(in->core, in->world, "Remove coordinate", 0, &edit);
-            return;
-        }
+        if (!ui_icon_button(ui, button, remove, UI_ICON_DELETE, false, "Remove this coordinate")) continue;
+        const int owner = characters_rig(in->core, in->world);
+        if (core_begin(in->core, in->world, "Remove coordinate", 0))
+            core_end(in->core, in->world, edit_drive_remove(in->document, owner, k, &in->core->error));
+        return;
     }
 }
 
@@ -62,23 +52,36 @@ static const struct drive *felt_drive(const struct inspection *in)
     return rig->drives[view->drive].spline == in->core->active ? &rig->drives[view->drive] : NULL;
 }
 
-static void drive_now(const struct inspection *in, int which, struct setting *setting)
-{
-    (void)which;
-    setting->edit = drive_edit(in, EDIT_DRIVE, felt_drive(in));
-}
-
 static const struct number_row drive_rows[] = {
     {"drive.lag", "lag", "°", "How far it lags behind the spline; 360 is a full swing", "Set lag",
-     NUMBER_AT(edit.drive.lag), -180, 180, -36000, 36000, 0, 1, 1},
+     NUMBER_AT(struct drive, lag), -180, 180, -36000, 36000, 0, 1, 1},
     {"amplitude", "amplitude", NULL, "How far it swings when the spline is 1", "Set amplitude",
-     NUMBER_AT(edit.drive.amplitude), -2, 2, -INSPECTOR_NO_LIMIT, INSPECTOR_NO_LIMIT, DRIVE_DEFAULT_AMPLITUDE, 0.05,
-     2},
+     NUMBER_AT(struct drive, amplitude), -2, 2, -INSPECTOR_NO_LIMIT, INSPECTOR_NO_LIMIT, DRIVE_DEFAULT_AMPLITUDE,
+     0.05, 2},
 };
+
+/// An edit: the selected coordinate's drive.
+static bool set_drive(struct inspection *in, const struct drive *drive, struct error *error)
+{
+    return edit_drive(in->document, characters_rig(in->core, in->world), in->core->characters.drive, drive, error);
+}
+
+static double get_drive_number(const struct inspection *in, int which)
+{
+    return number_at(&drive_rows[which], felt_drive(in));
+}
+
+static bool set_drive_number(struct inspection *in, int which, double number, struct error *error)
+{
+    struct drive drive = *felt_drive(in);
+    number_put(&drive_rows[which], &drive, number);
+    return set_drive(in, &drive, error);
+}
 
 void inspector_felt_drive(struct inspection *in)
 {
-    if (felt_drive(in)) inspector_numbers(in, drive_rows, sizeof drive_rows / sizeof drive_rows[0], drive_now);
+    static const struct number_home home = {get_drive_number, set_drive_number};
+    if (felt_drive(in)) inspector_numbers(in, drive_rows, sizeof drive_rows / sizeof drive_rows[0], &home);
 }
 
 static void build_spline(struct inspection *in, const struct drive *drive)
@@ -149,15 +152,17 @@ static void build_facts(struct inspection *in)
     }
 }
 
-static void floor_now(const struct inspection *in, int which, struct setting *setting)
+static double get_floor(const struct inspection *in, int which)
 {
-    const int number = in->core->characters.character;
-    const struct character_rig *rig = document_character(in->document, number);
+    const struct character_rig *rig = characters_selected(in->core, in->world);
     (void)which;
-    setting->edit = core_edit_of(EDIT_FLOOR, -1);
-    setting->edit.rig = document_find_rig(in->document, RIG_CHARACTER, number);
-    setting->edit.flag = true;
-    setting->edit.number = rig->has_floor ? rig->floor : rig->position[1];
+    return rig->has_floor ? rig->floor : rig->position[1];
+}
+
+static bool set_floor(struct inspection *in, int which, double height, struct error *error)
+{
+    (void)which;
+    return edit_floor(in->document, characters_rig(in->core, in->world), true, height, error);
 }
 
 static const struct number_row floor_row = {"floor.height",
@@ -165,7 +170,7 @@ static const struct number_row floor_row = {"floor.height",
                                             "m",
                                             "No point of the character goes lower",
                                             "Set floor",
-                                            NUMBER_AT(edit.number),
+                                            NUMBER_AT(struct character_rig, floor),
                                             -1,
                                             0,
                                             -INSPECTOR_NO_LIMIT,
@@ -179,18 +184,18 @@ static void build_floor(struct inspection *in, const struct character_rig *rig)
 {
     static const struct ui_choice choices[] = {{"off", "Off"}, {"on", "On"}};
     struct rect r = inspector_labelled(in, "floor");
-    struct setting setting;
+    static const struct number_home home = {get_floor, set_floor};
+    const int owner = characters_rig(in->core, in->world);
     int on = rig->has_floor;
-    floor_now(in, 0, &setting);
     if (ui_hovered(in->ui, r)) in->ui->hint = "Keep the whole character above a height";
     if (ui_segments(in->ui, r, "floor", choices, 2, &on)) {
-        setting.edit.flag = on;
-        core_step(in->core, in->world, on ? "Set floor" : "Remove floor", 0, &setting.edit);
+        if (core_begin(in->core, in->world, on ? "Set floor" : "Remove floor", 0))
+            core_end(in->core, in->world, edit_floor(in->document, owner, on, get_floor(in, 0), &in->core->error));
         return;
     }
     if (!rig->has_floor) return;
-    inspector_numbers(in, &floor_row, 1, floor_now);
-    const struct floor_left *left = evaluation_floor(in->world->evaluation, setting.edit.rig);
+    inspector_numbers(in, &floor_row, 1, &home);
+    const struct floor_left *left = evaluation_floor(in->world->evaluation, owner);
     if (!left || left->depth < 1e-4) return;
     char text[120];
     snprintf(text, sizeof text, "Up to %.3g m below it, deepest at frame %.6g: knots and pins come first.",
@@ -226,9 +231,8 @@ static void spline_popup(struct inspection *in, const struct drive *drive)
 {
     struct drive next = *drive;
     next.spline = inspector_spline_list(in, spline_list, NULL, drive->spline);
-    if (next.spline < 0) return;
-    struct edit edit = drive_edit(in, EDIT_DRIVE, &next);
-    if (core_step(in->core, in->world, "Set spline", 0, &edit)) choose(in, edit.channel);
+    if (next.spline < 0 || !core_begin(in->core, in->world, "Set spline", 0)) return;
+    if (core_end(in->core, in->world, set_drive(in, &next, &in->core->error))) choose(in, in->core->characters.drive);
 }
 
 void inspector_character_lists(struct inspection *in)
@@ -244,9 +248,10 @@ void inspector_character_lists(struct inspection *in)
         if (picked < 0) return;
         const int spline = in->core->active >= 0 ? in->core->active : 0;
         const struct drive drive = {.spline = spline, .amplitude = DRIVE_DEFAULT_AMPLITUDE};
-        struct edit edit = drive_edit(in, EDIT_DRIVE_ADD, &drive);
-        edit.text = items[picked].name;
-        core_step(in->core, in->world, "Add coordinate", 0, &edit);
+        const int owner = characters_rig(in->core, in->world);
+        if (core_begin(in->core, in->world, "Add coordinate", 0))
+            core_end(in->core, in->world,
+                     edit_drive_add(in->document, owner, items[picked].name, &drive, &in->core->error));
     }
 }
 

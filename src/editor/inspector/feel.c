@@ -25,8 +25,7 @@ enum { PRESETS = sizeof presets / sizeof presets[0], PRESET_GAP = 4, PRESET_MARG
 
 static bool set_parameter(struct inspection *in, enum parameter parameter, double value)
 {
-    const struct edit edit = core_parameter_edit(in->core->active, parameter, value);
-    return core_edit(in->core, in->world, &edit);
+    return core_set_parameter(in->core, in->world, in->core->active, parameter, value);
 }
 
 /// The lag of the channel by which the spline bends: the same for each joint.
@@ -37,22 +36,17 @@ static bool set_lag(struct inspection *in, double whole)
     const int joints = bones_joints(in->world, in->inspector->rig);
     const double lag = joints > 1 ? core_round(whole / (joints - 1), 0.1) : 0;
     const struct angles angles = {.value = {lag}};
-    const struct edit edit = inspector_angles_edit(in, &angle_row_lag, &angles);
-    return core_edit(in->core, in->world, &edit);
+    return inspector_set_angles(in, &angle_row_lag, &angles);
 }
 
 static void apply(struct inspection *in, const struct preset *preset)
 {
     const struct spline *spline = core_active_spline(in->core, in->world);
-    if (history_is_open(in->world->history)) return;
-    history_begin(in->world->history, "Choose a feel", 0);
+    if (!core_begin(in->core, in->world, "Choose a feel", 0)) return;
     bool good = spline_mode(spline) != WIGGLY_CUBIC || set_parameter(in, PARAMETER_MODE, WIGGLY_COMPLEX);
     good = good && set_parameter(in, PARAMETER_FREQUENCY, preset->frequency) &&
            set_parameter(in, PARAMETER_DAMPING, preset->damping);
-    good = good && set_lag(in, preset->lag);
-    if (!good) history_restart(in->world->history);
-    history_end(in->world->history);
-    core_refresh(in->core, in->world);
+    core_end(in->core, in->world, good && set_lag(in, preset->lag));
     core_edited(in->core, in->core->active);
 }
 
@@ -134,12 +128,9 @@ static void build_settle(struct inspection *in)
     double seconds = never ? SETTLE_LIMIT : alone.seconds;
     r.w -= UI_ROW + 2; // as the rows above, which have a button there
     const enum ui_change change = ui_value(in->ui, r, &number, &seconds);
-    if (change == UI_NONE) return;
-    inspector_take_back(in, change);
-    spline = core_active_spline(in->core, in->world);
-    const double damping = change == UI_DROP || change == UI_CANCEL ? 0 : damping_for(spline, seconds, step);
-    const struct edit edit = core_parameter_edit(in->core->active, PARAMETER_DAMPING, round(damping * 1e4) / 1e4);
-    inspector_change(in, change, "Set settle time", number.name, &edit);
+    if (!inspector_begin(in, change, "Set settle time", number.name)) return;
+    const double damping = damping_for(core_active_spline(in->core, in->world), seconds, step);
+    inspector_end(in, change, set_parameter(in, PARAMETER_DAMPING, round(damping * 1e4) / 1e4));
 }
 
 /// What that means to this motion, in one plain sentence.

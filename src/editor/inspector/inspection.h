@@ -80,31 +80,24 @@ void inspector_character_lists(struct inspection *in);
 
 /// Whether that is the end of a change, and no step of a drag: the curves may follow.
 bool inspector_changed(enum ui_change change);
-/// While a drag runs: the document as it was at the press, until inspector_change() makes the edit anew.
-void inspector_take_back(struct inspection *in, enum ui_change change);
-
 /// What a number's change means for the history: a drag is one step, made anew at each movement; a run of nudges of `what`
-/// (the number's name, of the active spline) is one; Esc takes the drag back. `edit` says the document's new state.
-void inspector_change(struct inspection *in, enum ui_change change, const char *label, const char *what,
-                      const struct edit *edit);
-/// The same for edits that belong together.
-void inspector_change_all(struct inspection *in, enum ui_change change, const char *label, const char *what,
-                          const struct edit *edits, int count);
+/// (the number's name, with the same selection) is one; Esc takes the drag back. true where edits are due, on the document as it was
+/// before the drag; inspector_end() comes after them.
+bool inspector_begin(struct inspection *in, enum ui_change change, const char *label, const char *what);
+/// After the edits. Not `done`: they are taken back.
+void inspector_end(struct inspection *in, enum ui_change change, bool done);
 
-/// An edit that would set things as they are.
-struct setting {
-    struct edit edit;
-    struct rig contents; ///< where edit.contents points, for edits that have some
+/// Where the numbers of a table are: what number `which` is, and the edit that makes it another.
+struct number_home {
+    double (*get)(const struct inspection *in, int which);
+    bool (*set)(struct inspection *in, int which, double number, struct error *error);
 };
-
-/// Fills a setting with things as they are; `which` of several.
-typedef void setting_now(const struct inspection *in, int which, struct setting *setting);
 
 /// A row of a table: a number of the scene.
 struct number_row {
     const char *name, *label, *unit, *hint; ///< as struct ui_number
     const char *undo;                       ///< what its step of the history is called
-    size_t at;                              ///< of the number in struct setting
+    size_t at;                              ///< of the number in its struct, for number_at()
     bool is_whole;                          ///< it is an int there
     double minimum, maximum;                ///< ends of the bar
     double lowest, highest;                 ///< what may be typed
@@ -112,15 +105,20 @@ struct number_row {
     int decimals;
 };
 
-/// The place of a number, and of a whole one.
-#define NUMBER_AT(member) offsetof(struct setting, member), false
-#define WHOLE_AT(member) offsetof(struct setting, member), true
+/// The place of a number in a struct, and of a whole one.
+#define NUMBER_AT(type, member) offsetof(type, member), false
+#define WHOLE_AT(type, member) offsetof(type, member), true
+
+/// The number of a row, read from its struct; and written.
+double number_at(const struct number_row *row, const void *of);
+void number_put(const struct number_row *row, void *of, double number);
 
 /// A row on the panel, and its edit where it changes.
-enum ui_change inspector_number(struct inspection *in, const struct number_row *row, setting_now *now, int which,
-                                struct rect r);
+enum ui_change inspector_number(struct inspection *in, const struct number_row *row, const struct number_home *home,
+                                int which, struct rect r);
 /// All rows of a table, each with its place in it as `which`.
-void inspector_numbers(struct inspection *in, const struct number_row *rows, int count, setting_now *now);
+void inspector_numbers(struct inspection *in, const struct number_row *rows, int count,
+                       const struct number_home *home);
 
 /// Rows for the splines of the document, without those that are left out (by index; NULL: none), in room for INSPECTOR_MAX_SPLINES;
 /// returns how many. `row`: that of the chosen spline, or -1.
@@ -156,9 +154,8 @@ void inspector_angles(struct inspection *in, const struct angle_row *row, const 
 
 /// What its numbers are in: the gain of what moves the body may be in percent.
 const char *inspector_angle_unit(const struct inspection *in, const struct angle_row *row);
-/// The edit that replaces them.
-struct edit inspector_angles_edit(const struct inspection *in, const struct angle_row *row,
-                                  const struct angles *angles);
+/// An edit: replaces them.
+bool inspector_set_angles(struct inspection *in, const struct angle_row *row, const struct angles *angles);
 /// Below the row of angles of each joint: their curve, and the number of one.
 void inspector_each(struct inspection *in, const struct angle_row *row, const struct angles *angles);
 /// Below the row of a ramp: its curve.

@@ -1,6 +1,7 @@
 /// The inspector: its sections, from top to bottom; and what they share: rows of numbers, lists of splines, steps of the history.
 #include "editor/inspector/inspector.h"
 #include "editor/core/core.h"
+#include "editor/core/knots.h"
 #include "editor/core/pins.h"
 #include "editor/core/spline_list.h"
 #include "editor/inspector/inspection.h"
@@ -292,57 +293,46 @@ bool inspector_target(struct inspector *inspector, struct core *core, const stru
     return found;
 }
 
-void inspector_take_back(struct inspection *in, enum ui_change change)
-{
-    struct history *history = in->world->history;
-    if (change != UI_DRAG || !history_is_open(history)) return;
-    history_restart(history);
-    core_refresh(in->core, in->world);
-}
-
 bool inspector_changed(enum ui_change change) { return change == UI_DROP || change == UI_SET || change == UI_NUDGE; }
 
-void inspector_change(struct inspection *in, enum ui_change change, const char *label, const char *what,
-                      const struct edit *edit)
-{
-    inspector_change_all(in, change, label, what, edit, 1);
-}
-
-void inspector_change_all(struct inspection *in, enum ui_change change, const char *label, const char *what,
-                          const struct edit *edits, int count)
+bool inspector_begin(struct inspection *in, enum ui_change change, const char *label, const char *what)
 {
     struct history *history = in->world->history;
-    uint64_t merge = 0;
     switch (change) {
     case UI_NONE:
-        return;
+        return false;
     case UI_DRAG:
-        inspector_take_back(in, change);
-        if (!history_is_open(history)) history_begin(history, label, 0);
-        for (int i = 0; i < count; i++) core_edit(in->core, in->world, &edits[i]);
-        return;
+        in->core->error = (struct error){0};
+        if (history_is_open(history)) {
+            history_restart(history);
+        } else {
+            history_begin(history, label, 0);
+        }
+        return true;
     case UI_CANCEL:
     case UI_DROP:
-        if (!history_is_open(history)) return; // nothing was moved by this drag
-        if (change == UI_CANCEL) history_restart(history);
-        history_end(history);
-        core_refresh(in->core, in->world);
-        return;
+        if (history_is_open(history)) core_end(in->core, in->world, change == UI_DROP);
+        return false;
     case UI_NUDGE:
-        merge = (uint64_t)ui_id(what) << 32 | (uint32_t)(in->core->active + 1);
-        break;
     case UI_SET:
-        break;
+        return core_begin(in->core, in->world, label,
+                          change == UI_NUDGE ? core_merge_key(in->core, in->world, ui_id(what)) : 0);
     }
-    if (history_is_open(history)) return; // as core_step()
-    history_begin(history, label, merge);
-    for (int i = 0; i < count; i++) core_edit(in->core, in->world, &edits[i]);
-    history_end(history);
+    return false;
 }
 
-static double get_number(const struct number_row *row, const struct setting *setting)
+void inspector_end(struct inspection *in, enum ui_change change, bool done)
 {
-    const char *at = (const char *)setting + row->at;
+    if (change == UI_DRAG) {
+        core_settle(in->core, in->world);
+    } else {
+        core_end(in->core, in->world, done);
+    }
+}
+
+double number_at(const struct number_row *row, const void *of)
+{
+    const char *at = (const char *)of + row->at;
     double number;
     int whole;
     if (row->is_whole) {
@@ -353,9 +343,9 @@ static double get_number(const struct number_row *row, const struct setting *set
     return number;
 }
 
-static void set_number(const struct number_row *row, struct setting *setting, double number)
+void number_put(const struct number_row *row, void *of, double number)
 {
-    char *at = (char *)setting + row->at;
+    char *at = (char *)of + row->at;
     const int whole = row->is_whole ? (int)lround(number) : 0;
     if (row->is_whole) {
         memcpy(at, &whole, sizeof whole);
@@ -365,26 +355,18 @@ static void set_number(const struct number_row *row, struct setting *setting, do
 }
 
 /// A drag stays where it last was possible.
-static void drag(struct inspection *in, const struct number_row *row, struct setting *setting, double value)
+static void drag(struct inspection *in, const struct number_home *home, int which, double value)
 {
-    struct history *history = in->world->history;
     double *possible = &in->inspector->dragged;
-    if (!history_is_open(history)) {
-        history_begin(history, row->undo, 0);
-        *possible = get_number(row, setting);
-    }
-    set_number(row, setting, value);
-    if (history_apply(history, in->document, &setting->edit, NULL)) {
+    if (home->set(in, which, value, NULL)) {
         *possible = value;
     } else {
-        set_number(row, setting, *possible);
-        history_apply(history, in->document, &setting->edit, NULL);
+        home->set(in, which, *possible, NULL);
     }
-    core_refresh(in->core, in->world);
 }
 
-enum ui_change inspector_number(struct inspection *in, const struct number_row *row, setting_now *now, int which,
-                                struct rect r)
+enum ui_change inspector_number(struct inspection *in, const struct number_row *row, const struct number_home *home,
+                                int which, struct rect r)
 {
     const struct ui_number number = {.name = row->name,
                                      .label = row->label,
@@ -397,25 +379,20 @@ enum ui_change inspector_number(struct inspection *in, const struct number_row *
                                      .fallback = row->fallback,
                                      .step = row->step,
                                      .decimals = row->decimals};
-    struct setting setting;
-    now(in, which, &setting);
-    double value = get_number(row, &setting);
+    double value = home->get(in, which);
     const enum ui_change change = ui_value(in->ui, r, &number, &value);
-    if (change == UI_NONE) return change;
-    inspector_take_back(in, change); // an edit may start from more than the number: from what was before the drag
-    now(in, which, &setting);
-    if (change == UI_DRAG) {
-        drag(in, row, &setting, value);
-        return change;
-    }
-    set_number(row, &setting, value);
-    inspector_change(in, change, row->undo, row->name, &setting.edit);
+    const bool is_first = change == UI_DRAG && !history_is_open(in->world->history);
+    if (!inspector_begin(in, change, row->undo, row->name)) return change;
+    if (is_first) in->inspector->dragged = home->get(in, which);
+    if (change == UI_DRAG) drag(in, home, which, value);
+    inspector_end(in, change, change == UI_DRAG || home->set(in, which, value, &in->core->error));
     return change;
 }
 
-void inspector_numbers(struct inspection *in, const struct number_row *rows, int count, setting_now *now)
+void inspector_numbers(struct inspection *in, const struct number_row *rows, int count,
+                       const struct number_home *home)
 {
-    for (int i = 0; i < count; i++) inspector_number(in, &rows[i], now, i, ui_row(in->ui, UI_ROW));
+    for (int i = 0; i < count; i++) inspector_number(in, &rows[i], home, i, ui_row(in->ui, UI_ROW));
 }
 
 int inspector_spline_items(const struct inspection *in, const bool *left_out, int chosen, struct ui_item *items,

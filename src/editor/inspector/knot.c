@@ -83,14 +83,6 @@ static void set_number(const struct knot_field *field, struct knot *knot, double
     memcpy((char *)knot + field->offset, &number, sizeof number);
 }
 
-/// The selected knots as the document has them, in the memory that a drag of knots has for the same: for an edit alone, while
-/// none is under way; how many.
-static int collect(struct inspection *in)
-{
-    core_collect(in->core, in->document, false);
-    return in->core->originals.count;
-}
-
 /// Gives every collected knot the number, or moves it by what the first one moves; in the order in which no knot meets
 /// another of them. false with a sentence where one cannot go there.
 static bool set_all(struct inspection *in, const struct knot_field *field, double value, bool together,
@@ -100,11 +92,10 @@ static bool set_all(struct inspection *in, const struct knot_field *field, doubl
     double by = value - number_of(field, &originals->list[0].knot);
     for (int i = 0; i < originals->count; i++) {
         const struct original *original = &originals->list[by > 0 ? originals->count - 1 - i : i];
-        struct edit edit = core_edit_of(EDIT_KNOT_SET, original->spline);
-        edit.knot = original->knot;
-        double number = together ? number_of(field, &edit.knot) + by : value;
-        set_number(field, &edit.knot, fmax(field->number.lowest, number));
-        if (!history_apply(in->world->history, in->document, &edit, error)) return false;
+        struct knot knot = original->knot;
+        const double number = together ? number_of(field, &knot) + by : value;
+        set_number(field, &knot, fmax(field->number.lowest, number));
+        if (!edit_knot_set(in->document, original->spline, &knot, error)) return false;
     }
     return true;
 }
@@ -113,26 +104,20 @@ static bool set_all(struct inspection *in, const struct knot_field *field, doubl
 static void change_all(struct inspection *in, enum ui_change change, const struct knot_field *field, const char *undo,
                        double value)
 {
-    struct history *history = in->world->history;
     double *possible = &in->inspector->dragged;
-    struct error error = {0};
-    inspector_take_back(in, change);
-    if ((change != UI_DRAG && history_is_open(history)) || collect(in) == 0) return;
-    if (!history_is_open(history)) {
-        uint64_t merge = change == UI_NUDGE ? core_merge_key(in->core, in->world, ui_id(field->number.name)) : 0;
-        history_begin(history, undo, merge);
-        *possible = number_of(field, &in->core->originals.list[0].knot);
-    }
-    bool together = change != UI_SET || field->moves;
-    if (set_all(in, field, value, together, &error)) {
+    const bool is_drag = change == UI_DRAG, is_first = is_drag && !history_is_open(in->world->history);
+    const bool together = change != UI_SET || field->moves;
+    if (!inspector_begin(in, change, undo, field->number.name)) return;
+    core_collect(in->core, in->document, false);
+    if (is_first) *possible = number_of(field, &in->core->originals.list[0].knot);
+    const bool done = set_all(in, field, value, together, is_drag ? NULL : &in->core->error);
+    if (done) {
         *possible = value;
-    } else {
-        history_restart(history);
-        if (change == UI_DRAG) set_all(in, field, *possible, together, &error);
+    } else if (is_drag) {
+        history_restart(in->world->history);
+        set_all(in, field, *possible, together, NULL);
     }
-    if (change == UI_DRAG) return;
-    history_end(history);
-    if (error.kind != ERROR_NONE) core_message(in->core, true, error.text);
+    inspector_end(in, change, done);
 }
 
 /// What the selected knots have in a field: the first one's number, and whether others have another.
@@ -185,11 +170,7 @@ static void build_field(struct inspection *in, int which, struct rect r)
     }
     const char *undo = numbers.count == 1 ? field->undo_one : field->undo;
     const enum ui_change change = ui_value(in->ui, r, &number, &value);
-    if (change == UI_DROP || change == UI_CANCEL) {
-        inspector_change(in, change, undo, number.name, NULL);
-    } else if (change != UI_NONE) {
-        change_all(in, change, field, undo, value);
-    }
+    change_all(in, change, field, undo, value);
     if (inspector_changed(change)) core_edited(in->core, -1);
 }
 

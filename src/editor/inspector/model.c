@@ -21,13 +21,6 @@ static int shown_model(const struct inspection *in)
     return model < 0 ? document_find_rig(in->document, RIG_MODEL, 0) : model;
 }
 
-static struct edit model_edit(const struct inspection *in, enum edit_kind kind)
-{
-    struct edit edit = core_edit_of(kind, in->core->active);
-    edit.rig = shown_model(in);
-    return edit;
-}
-
 static void build_file(struct inspection *in, const struct model_rig *rig, const struct imported *shown)
 {
     struct rect r = inspector_labelled(in, "file");
@@ -64,26 +57,31 @@ void inspector_model_lists(struct inspection *in)
     bones_choose_clip(in->core, in->world, model, picked > 0 ? gltf->clips[picked - 1].name : NULL);
 }
 
-static void now(const struct inspection *in, int which, struct setting *setting)
-{
-    (void)which;
-    setting->contents = *in->document->rigs[shown_model(in)];
-    setting->edit = model_edit(in, EDIT_PLACE);
-    setting->edit.contents = &setting->contents;
-}
-
 static const struct number_row place[] = {
-    {"model.x", "x", "m", "Where it stands along x", "Place character", NUMBER_AT(contents.model.position[0]), 0, 0,
-     -1e6, 1e6, 0, 0.01, 3},
-    {"model.y", "y", "m", "Height of what it stands on", "Place character", NUMBER_AT(contents.model.position[1]), 0,
+    {"model.x", "x", "m", "Where it stands along x", "Place character", NUMBER_AT(struct model_rig, position[0]), 0,
      0, -1e6, 1e6, 0, 0.01, 3},
-    {"model.z", "z", "m", "Where it stands along z", "Place character", NUMBER_AT(contents.model.position[2]), 0, 0,
-     -1e6, 1e6, 0, 0.01, 3},
+    {"model.y", "y", "m", "Height of what it stands on", "Place character", NUMBER_AT(struct model_rig, position[1]),
+     0, 0, -1e6, 1e6, 0, 0.01, 3},
+    {"model.z", "z", "m", "Where it stands along z", "Place character", NUMBER_AT(struct model_rig, position[2]), 0,
+     0, -1e6, 1e6, 0, 0.01, 3},
     {"model.scale", "scale", NULL, "Scales the size that the file gives it", "Place character",
-     NUMBER_AT(contents.model.scale), 0, 0, 1e-9, 1e9, 1, 0.01, 3},
-    {"model.turn", "turn", "°", "About the vertical", "Place character", NUMBER_AT(contents.model.turn), -180, 180,
+     NUMBER_AT(struct model_rig, scale), 0, 0, 1e-9, 1e9, 1, 0.01, 3},
+    {"model.turn", "turn", "°", "About the vertical", "Place character", NUMBER_AT(struct model_rig, turn), -180, 180,
      -36000, 36000, 0, 1, 0},
 };
+
+static double get(const struct inspection *in, int which)
+{
+    return number_at(&place[which], &in->document->rigs[shown_model(in)]->model);
+}
+
+static bool set(struct inspection *in, int which, double number, struct error *error)
+{
+    const int rig = shown_model(in);
+    struct model_rig model = in->document->rigs[rig]->model;
+    number_put(&place[which], &model, number);
+    return edit_place(in->document, rig, &model, error);
+}
 
 /// The selected bone, and what can be made of it.
 static void build_bone(struct inspection *in)
@@ -119,8 +117,9 @@ void inspector_model(struct inspection *in)
 {
     const int model = shown_model(in);
     const struct imported *shown = bones_character(in->world, model);
+    static const struct number_home home = {get, set};
     build_file(in, &in->document->rigs[model]->model, shown);
     build_clip(in, &in->document->rigs[model]->model, shown);
-    inspector_numbers(in, place, sizeof place / sizeof place[0], now);
+    inspector_numbers(in, place, sizeof place / sizeof place[0], &home);
     if (shown) build_bone(in);
 }

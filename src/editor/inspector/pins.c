@@ -64,8 +64,8 @@ static bool build_row(struct inspection *in, int row)
     ui_hint(ui, r, "Frame and point of a pin, and how far the point is from it");
     if (pressed) pins_visit(in->core, in->document, pin);
     if (!ui_icon_button(ui, button, remove, UI_ICON_DELETE, false, "Remove this pin")) return false;
-    const struct edit edit = pins_edit(EDIT_PIN_REMOVE, place.rig, pin);
-    return core_step(in->core, in->world, "Delete pin", 0, &edit);
+    return core_begin(in->core, in->world, "Delete pin", 0) &&
+           core_end(in->core, in->world, edit_pin_remove(in->document, place.rig, pin->id, &in->core->error));
 }
 
 static void build_list(struct inspection *in, int count)
@@ -92,27 +92,34 @@ static int points_of(const struct inspection *in, int rig)
     return figure ? figure->character.vertex_count : 1;
 }
 
-static void now(const struct inspection *in, int which, struct setting *setting)
-{
-    int rig;
-    const struct pin *pin = pins_selected(in->core, in->document, &rig);
-    (void)which;
-    setting->edit = pins_edit(EDIT_PIN_SET, rig, pin);
-}
-
 enum { ROW_FRAME, ROW_POINT, ROWS = ROW_POINT + 4 };
 
 static const struct number_row rows[ROWS] = {
     {"pin.frame", "frame", NULL, "Frame of the pin (Alt+PgUp, Alt+PgDn)", "Move pin in time",
-     NUMBER_AT(edit.pin.frame), 0, 0, 0, 0, NAN, 1, 0},
-    {"pin.point", NULL, NULL, "What is pinned", "Pin another point", WHOLE_AT(edit.pin.point), 0, 0, 0, 0, NAN, 1, 0},
-    {"pin.x", "x", "m", "Where the point is to be; 0 is the middle", "Move pin", NUMBER_AT(edit.pin.to[0]), 0, 0,
+     NUMBER_AT(struct pin, frame), 0, 0, 0, 0, NAN, 1, 0},
+    {"pin.point", NULL, NULL, "What is pinned", "Pin another point", WHOLE_AT(struct pin, point), 0, 0, 0, 0, NAN, 1,
+     0},
+    {"pin.x", "x", "m", "Where the point is to be; 0 is the middle", "Move pin", NUMBER_AT(struct pin, to[0]), 0, 0,
      -INSPECTOR_NO_LIMIT, INSPECTOR_NO_LIMIT, NAN, 0.005, 3},
-    {"pin.y", "y", "m", "Where the point is to be: height", "Move pin", NUMBER_AT(edit.pin.to[1]), 0, 0,
+    {"pin.y", "y", "m", "Where the point is to be: height", "Move pin", NUMBER_AT(struct pin, to[1]), 0, 0,
      -INSPECTOR_NO_LIMIT, INSPECTOR_NO_LIMIT, NAN, 0.005, 3},
-    {"pin.z", "z", "m", "Where the point is to be: depth", "Move pin", NUMBER_AT(edit.pin.to[2]), 0, 0,
+    {"pin.z", "z", "m", "Where the point is to be: depth", "Move pin", NUMBER_AT(struct pin, to[2]), 0, 0,
      -INSPECTOR_NO_LIMIT, INSPECTOR_NO_LIMIT, NAN, 0.005, 3},
 };
+
+static double get(const struct inspection *in, int which)
+{
+    int rig;
+    return number_at(&rows[which], pins_selected(in->core, in->document, &rig));
+}
+
+static bool set(struct inspection *in, int which, double number, struct error *error)
+{
+    int rig;
+    struct pin pin = *pins_selected(in->core, in->document, &rig);
+    number_put(&rows[which], &pin, number);
+    return pins_set(in->document, rig, &pin, error);
+}
 
 static void build_field(struct inspection *in, int field)
 {
@@ -127,7 +134,8 @@ static void build_field(struct inspection *in, int field)
         row.label = word_of(pinned);
         row.highest = points_of(in, rig) - 1;
     }
-    const enum ui_change change = inspector_number(in, &row, now, field, ui_row(in->ui, UI_ROW));
+    static const struct number_home home = {get, set};
+    const enum ui_change change = inspector_number(in, &row, &home, field, ui_row(in->ui, UI_ROW));
     if (inspector_changed(change)) pins_tell(in->core, in->world, rig);
 }
 

@@ -239,21 +239,20 @@ enum { HANDLE_CENTRE, HANDLE_LOWER, HANDLE_UPPER, HANDLES };
 
 static double rounded(double value, double steps) { return round(value * steps) / steps; }
 
-/// The edits that make a setting the spline's, where a handle was moved; parameters that follow a track are left alone.
-/// Returns their number.
-static int edits_of(const struct inspection *in, const struct spline *spline, const struct pole_setting *setting,
-                    int which, struct edit edits[2])
+/// Gives the spline a number; one that follows a track is left alone.
+static bool set(struct inspection *in, enum parameter parameter, double number)
 {
-    const struct param *p = spline->parameter;
-    int count = 0;
-    if (which == HANDLE_CENTRE && p[PARAMETER_FREQUENCY].track < 0)
-        edits[count++] = core_parameter_edit(in->core->active, PARAMETER_FREQUENCY, rounded(setting->hz, 100));
-    if (p[PARAMETER_DAMPING].track < 0)
-        edits[count++] = core_parameter_edit(in->core->active, PARAMETER_DAMPING, rounded(setting->damping, 1000));
-    if (which != HANDLE_CENTRE && p[PARAMETER_BANDWIDTH].track < 0)
-        edits[count++] =
-            core_parameter_edit(in->core->active, PARAMETER_BANDWIDTH, rounded(setting->bandwidth, 1000));
-    return count;
+    const struct spline *spline = core_active_spline(in->core, in->world);
+    return spline->parameter[parameter].track >= 0 ||
+           core_set_parameter(in->core, in->world, in->core->active, parameter, number);
+}
+
+/// Makes a setting the spline's, where a handle was moved.
+static bool set_poles(struct inspection *in, const struct pole_setting *setting, int which)
+{
+    return (which != HANDLE_CENTRE || set(in, PARAMETER_FREQUENCY, rounded(setting->hz, 100))) &&
+           set(in, PARAMETER_DAMPING, rounded(setting->damping, 1000)) &&
+           (which == HANDLE_CENTRE || set(in, PARAMETER_BANDWIDTH, rounded(setting->bandwidth, 1000)));
 }
 
 /// What the setting becomes when a handle was moved.
@@ -284,7 +283,7 @@ static struct pole_setting moved_to(const struct inspection *in, struct pole_set
     return setting;
 }
 
-static void build_inset(struct inspection *in, const struct spline *spline, const struct pole_setting *setting)
+static void build_inset(struct inspection *in, const struct pole_setting *setting)
 {
     struct poles_view *view = &in->inspector->poles;
     struct rect row = ui_row(in->ui, INSET + TICKS), inset = {row.x, row.y, row.w, INSET};
@@ -300,14 +299,9 @@ static void build_inset(struct inspection *in, const struct spline *spline, cons
     int which = 0, count = setting->kind == FILTER_TWO_COMPLEX ? HANDLES : 1;
     if (in->ui->pass == UI_PASS_DRAW) poles_draw_inset(view, setting, inset, in->ui->list);
     enum ui_change change = ui_handles(in->ui, row, handles, count, &which);
-    if (change == UI_NONE) return;
-    struct edit edits[2];
-    struct pole_setting wanted = *setting;
-    if (change == UI_DRAG || change == UI_NUDGE) {
-        wanted = moved_to(in, *setting, inset, which, change, &handles[which]);
-    }
-    int edit_count = edits_of(in, spline, &wanted, which, edits);
-    inspector_change_all(in, change, "Move poles", handles[which].name, edits, edit_count);
+    if (!inspector_begin(in, change, "Move poles", handles[which].name)) return;
+    const struct pole_setting wanted = moved_to(in, *setting, inset, which, change, &handles[which]);
+    inspector_end(in, change, set_poles(in, &wanted, which));
 }
 
 static bool is_held(const struct ui *ui)
@@ -338,7 +332,7 @@ void inspector_poles(struct inspection *in)
         poles_draw_legend(view, legend, ui->list);
     }
     ui_space(ui, 6);
-    build_inset(in, spline, &setting);
+    build_inset(in, &setting);
     ui_space(ui, 4);
     struct rect response = ui_row(ui, RESPONSE);
     ui_hint(ui, response, "Response in dB over Hz: the complex filter rejects low frequencies");

@@ -58,9 +58,8 @@ static void build_substeps(struct inspection *in)
                                .fallback = 1,
                                .step = 1};
     if (!build_whole(in, number, &substeps)) return;
-    struct edit edit = core_edit_of(EDIT_SUBSTEPS, -1);
-    edit.substeps = substeps;
-    core_step(in->core, in->world, "Set substeps", 0, &edit);
+    if (core_begin(in->core, in->world, "Set substeps", 0))
+        core_end(in->core, in->world, edit_substeps(in->document, substeps, &in->core->error));
 }
 
 static void build_solver(struct inspection *in)

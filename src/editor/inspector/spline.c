@@ -8,11 +8,22 @@
 #include <math.h>
 #include <stdio.h>
 
-static void now(const struct inspection *in, int parameter, struct setting *setting)
+static double get(const struct inspection *in, int parameter)
 {
-    const struct spline *spline = core_active_spline(in->core, in->world);
-    const double value = spline->parameter[parameter].value;
-    setting->edit = core_parameter_edit(in->core->active, (enum parameter)parameter, value);
+    return core_active_spline(in->core, in->world)->parameter[parameter].value;
+}
+
+static bool set(struct inspection *in, int parameter, double number, struct error *error)
+{
+    const struct param param = param_number(number);
+    return edit_parameter(in->document, in->core->active, (enum parameter)parameter, &param, error);
+}
+
+/// A step of its own.
+static void set_parameter(struct inspection *in, enum parameter parameter, double number)
+{
+    if (core_begin(in->core, in->world, parameter_rows[parameter].undo, 0))
+        core_end(in->core, in->world, set(in, (int)parameter, number, &in->core->error));
 }
 
 static void build_slider(struct inspection *in, enum parameter parameter, struct rect r)
@@ -24,14 +35,14 @@ static void build_slider(struct inspection *in, enum parameter parameter, struct
                                       .unit = row->unit,
                                       .hint = row->hint,
                                       .undo = row->undo,
-                                      .at = offsetof(struct setting, edit.param.value),
                                       .maximum = core_slider_end(in->document, spline, parameter),
                                       .lowest = row->minimum,
                                       .highest = parameter_maximum(parameter, spline_mode(spline)),
                                       .fallback = row->fresh,
                                       .step = row->step,
                                       .decimals = row->decimals};
-    inspector_number(in, &number, now, (int)parameter, r);
+    static const struct number_home home = {get, set};
+    inspector_number(in, &number, &home, (int)parameter, r);
 }
 
 static void build_number(struct inspection *in, enum parameter parameter)
@@ -59,9 +70,7 @@ static void build_choice(struct inspection *in, enum parameter parameter)
     for (; row->words[count]; count++) choices[count] = (struct ui_choice){row->words[count], row->labels[count]};
     struct rect r = parameter == PARAMETER_MODE ? ui_row(in->ui, UI_ROW) : inspector_labelled(in, row->name);
     ui_hint(in->ui, r, row->hint);
-    if (!ui_segments(in->ui, r, row->name, choices, count, &chosen)) return;
-    struct edit edit = core_parameter_edit(in->core->active, parameter, chosen);
-    core_step(in->core, in->world, row->undo, 0, &edit);
+    if (ui_segments(in->ui, r, row->name, choices, count, &chosen)) set_parameter(in, parameter, chosen);
 }
 
 void inspector_parameter(struct inspection *in, enum parameter parameter)
@@ -99,10 +108,8 @@ static void build_limit(struct inspection *in, const struct spline *spline, enum
         ui_label(in->ui, name, row->name, theme()->text_dim);
     }
     ui_hint(in->ui, r, row->hint);
-    if (!ui_toggle(in->ui, at, parameter == PARAMETER_HIGH ? "limit.high" : "limit.low", &on)) return;
-    struct edit edit =
-        core_parameter_edit(in->core->active, parameter, on ? core_fresh_limit(spline, parameter) : row->standard);
-    core_step(in->core, in->world, row->undo, 0, &edit);
+    if (ui_toggle(in->ui, at, parameter == PARAMETER_HIGH ? "limit.high" : "limit.low", &on))
+        set_parameter(in, parameter, on ? core_fresh_limit(spline, parameter) : row->standard);
 }
 
 void inspector_limits(struct inspection *in)
@@ -120,12 +127,12 @@ static void roll(struct inspection *in, const struct spline *spline)
 {
     const int most = (int)parameter_rows[PARAMETER_SEED].maximum + 1;
     const long long seed = (long long)spline->parameter[PARAMETER_SEED].value;
-    struct edit edit = core_parameter_edit(in->core->active, PARAMETER_SEED, (double)((seed * 7 + 1) % 1000 % most));
-    history_begin(in->world->history, "Roll variation", 0);
-    core_edit(in->core, in->world, &edit);
-    edit = core_parameter_edit(in->core->active, PARAMETER_VARIATION, FRESH_VARIATION);
-    if (spline->parameter[PARAMETER_VARIATION].value == 0) core_edit(in->core, in->world, &edit);
-    history_end(in->world->history);
+    const bool is_new = spline->parameter[PARAMETER_VARIATION].value == 0;
+    const int active = in->core->active;
+    if (!core_begin(in->core, in->world, "Roll variation", 0)) return;
+    core_set_parameter(in->core, in->world, active, PARAMETER_SEED, (double)((seed * 7 + 1) % 1000 % most));
+    if (is_new) core_set_parameter(in->core, in->world, active, PARAMETER_VARIATION, FRESH_VARIATION);
+    core_end(in->core, in->world, true);
     core_edited(in->core, in->core->active);
 }
 
@@ -171,11 +178,10 @@ static bool find_leaders(const struct inspection *in, bool left_out[INSPECTOR_MA
 
 static void set_track(struct inspection *in, enum parameter parameter, struct param param)
 {
-    struct edit edit = core_edit_of(EDIT_PARAMETER, in->core->active);
-    edit.parameter = parameter;
-    edit.param = param;
     const char *label = param_follows(&param) ? "Follow spline" : "Stop following";
-    core_step(in->core, in->world, label, 0, &edit);
+    if (!core_begin(in->core, in->world, label, 0)) return;
+    core_end(in->core, in->world,
+             edit_parameter(in->document, in->core->active, parameter, &param, &in->core->error));
 }
 
 static void open_list(struct inspection *in, enum parameter parameter, struct rect r)
@@ -276,12 +282,10 @@ static const struct param *followed(const struct inspection *in)
     return spline ? &spline->parameter[PARAMETER_EQUILIBRIUM] : NULL;
 }
 
-static struct edit joint_edit(const struct inspection *in, const struct param *param)
+/// An edit: follows a joint like this.
+static bool follow_joint(struct inspection *in, const struct param *param, struct error *error)
 {
-    struct edit edit = core_edit_of(EDIT_PARAMETER, in->core->active);
-    edit.parameter = PARAMETER_EQUILIBRIUM;
-    edit.param = *param;
-    return edit;
+    return edit_parameter(in->document, in->core->active, PARAMETER_EQUILIBRIUM, param, error);
 }
 
 void inspector_joint_field(struct inspection *in, const struct joint_motion *motion, struct rect field)
@@ -308,16 +312,27 @@ static void build_of(struct inspection *in)
     struct rect r = inspector_labelled(in, "its");
     ui_hint(in->ui, r, "Its turn in degrees, or its way across or up in metres");
     if (!ui_segments(in->ui, r, "joint.of", choices, MOTION_KINDS, &of)) return;
-    struct edit edit = joint_edit(in, followed(in));
+    struct param param = *followed(in);
     motion.of = (enum motion_of)of;
-    edit.param.motion = &motion;
-    core_step(in->core, in->world, "Set joint's motion", 0, &edit);
+    param.motion = &motion;
+    if (core_begin(in->core, in->world, "Set joint's motion", 0))
+        core_end(in->core, in->world, follow_joint(in, &param, &in->core->error));
 }
 
-static void joint_now(const struct inspection *in, int which, struct setting *setting)
+static double get_gain(const struct inspection *in, int which)
 {
     (void)which;
-    setting->edit = joint_edit(in, followed(in));
+    return followed(in)->gain;
+}
+
+static bool set_gain(struct inspection *in, int which, double gain, struct error *error)
+{
+    struct joint_motion motion = *followed(in)->motion;
+    struct param param = *followed(in);
+    (void)which;
+    param.gain = gain;
+    param.motion = &motion;
+    return follow_joint(in, &param, error);
 }
 
 static const struct number_row gain_row = {"joint.gain",
@@ -325,7 +340,7 @@ static const struct number_row gain_row = {"joint.gain",
                                            NULL,
                                            "How much of the joint's motion it follows",
                                            "Set joint's gain",
-                                           NUMBER_AT(edit.param.gain),
+                                           NUMBER_AT(struct param, gain),
                                            0,
                                            0,
                                            -1e6,
@@ -337,7 +352,8 @@ static const struct number_row gain_row = {"joint.gain",
 void inspector_joint(struct inspection *in)
 {
     if (followed(in)->motion) build_of(in);
-    if (followed(in)->motion) inspector_numbers(in, &gain_row, 1, joint_now);
+    static const struct number_home home = {get_gain, set_gain};
+    if (followed(in)->motion) inspector_numbers(in, &gain_row, 1, &home);
 }
 
 int inspector_bone_list(struct inspection *in, const char *list, int model, int top, const char *chosen)

@@ -51,9 +51,8 @@ static void build_visibility(struct inspection *in, int s, struct rect r)
 static void build_rename(struct inspection *in, int s, struct rect r)
 {
     if (ui_line(in->ui, r, rename_line) != UI_LINE_DONE) return;
-    struct edit edit = core_edit_of(EDIT_SPLINE_NAME, s);
-    edit.text = in->ui->text.bytes;
-    core_step(in->core, in->world, "Rename spline", 0, &edit);
+    if (core_begin(in->core, in->world, "Rename spline", 0))
+        core_end(in->core, in->world, edit_spline_name(in->document, s, in->ui->text.bytes, &in->core->error));
 }
 
 /// The place where a dragged row would go, told from the pointer.
@@ -159,9 +158,8 @@ static const char palette[] = "palette", hex_line[] = "color.hex";
 
 static void set_color(struct inspection *in, int spline, int color)
 {
-    struct edit edit = core_edit_of(EDIT_SPLINE_COLOR, spline);
-    edit.color = color;
-    core_step(in->core, in->world, "Set colour", 0, &edit);
+    if (core_begin(in->core, in->world, "Set colour", 0))
+        core_end(in->core, in->world, edit_spline_color(in->document, spline, color, &in->core->error));
 }
 
 /// true where one of the theme's was picked.

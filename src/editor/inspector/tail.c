@@ -10,13 +10,6 @@ enum { ICON = 24 };
 
 static const char rename_line[] = "tail.rename", place_list[] = "place";
 
-static struct edit rig_edit(const struct inspection *in, enum edit_kind kind)
-{
-    struct edit edit = core_edit_of(kind, in->core->active);
-    edit.rig = in->inspector->rig;
-    return edit;
-}
-
 static void build_name(struct inspection *in)
 {
     const struct rig *rig = inspector_shown(in);
@@ -27,37 +20,43 @@ static void build_name(struct inspection *in)
         if (ui_button(in->ui, field, "tail.name", rig_title(rig), false))
             ui_line_begin(in->ui, rename_line, rig_title(rig));
     } else if (ui_line(in->ui, r, rename_line) == UI_LINE_DONE) {
-        struct edit edit = rig_edit(in, EDIT_RIG_NAME);
-        edit.text = in->ui->text.bytes;
-        core_step(in->core, in->world, rig->kind == RIG_TAIL ? "Rename tail" : "Rename chain", 0, &edit);
+        if (!core_begin(in->core, in->world, rig->kind == RIG_TAIL ? "Rename tail" : "Rename chain", 0)) return;
+        const char *name = in->ui->text.bytes;
+        core_end(in->core, in->world, edit_rig_name(in->document, in->inspector->rig, name, &in->core->error));
     }
 }
 
-static void position_now(const struct inspection *in, int k, struct setting *setting)
-{
-    setting->edit = rig_edit(in, EDIT_POSITION);
-    setting->edit.coordinate = k;
-    setting->edit.param = inspector_shown(in)->tail.position[k];
-}
-
 static const struct number_row position[] = {
-    {"position.x", "x", "m", "Position of the body along x", "Move body", NUMBER_AT(edit.param.value), 0, 0, -1e6,
+    {"position.x", "x", "m", "Position of the body along x", "Move body", NUMBER_AT(struct param, value), 0, 0, -1e6,
      1e6, 0, 0.01, 3},
-    {"position.y", "y", "m", "Position of the body along y", "Move body", NUMBER_AT(edit.param.value), 0, 0, -1e6,
+    {"position.y", "y", "m", "Position of the body along y", "Move body", NUMBER_AT(struct param, value), 0, 0, -1e6,
      1e6, 0.26, 0.01, 3},
-    {"position.z", "z", "m", "Position of the body along z", "Move body", NUMBER_AT(edit.param.value), 0, 0, -1e6,
+    {"position.z", "z", "m", "Position of the body along z", "Move body", NUMBER_AT(struct param, value), 0, 0, -1e6,
      1e6, 0, 0.01, 3},
 };
+
+static double get_position(const struct inspection *in, int k) { return inspector_shown(in)->tail.position[k].value; }
+
+static bool set_position(struct inspection *in, int k, double metres, struct error *error)
+{
+    const struct param param = param_number(metres);
+    return edit_position(in->document, in->inspector->rig, k, &param, error);
+}
+
+/// A step of its own: lets the body follow a spline, or stay.
+static void follow(struct inspection *in, int k, struct param param)
+{
+    if (core_begin(in->core, in->world, param.track < 0 ? "Stop following" : "Follow spline", 0))
+        core_end(in->core, in->world, edit_position(in->document, in->inspector->rig, k, &param, &in->core->error));
+}
 
 /// A coordinate: a number, or the spline that it follows, and the button from one to the other.
 static void build_coordinate(struct inspection *in, const struct tail *tail, int k)
 {
     struct rect r = ui_row(in->ui, UI_ROW), icon = {r.x + r.w - ICON, r.y, ICON, r.h};
+    static const struct number_home home = {get_position, set_position};
     const struct param *param = &tail->position[k];
-    struct edit edit = rig_edit(in, EDIT_POSITION);
     char button[32];
-    edit.coordinate = k;
-    edit.param = *param;
     r.w -= ICON + 4;
     snprintf(button, sizeof button, "position.%s.follow", coordinate_name(k));
     struct rect field = {r.x + UI_LABEL + UI_GAP, r.y, r.w - UI_LABEL - UI_GAP, r.h};
@@ -66,14 +65,12 @@ static void build_coordinate(struct inspection *in, const struct tail *tail, int
         ui_dropdown(in->ui, field, place_list, k, in->document->splines[param->track]->name,
                     spline_list_color(in->document, param->track));
         wiggly_value now = evaluation_at(in->world->evaluation, param->track, in->core->playback.position);
-        if (!ui_icon_button(in->ui, icon, button, UI_ICON_UNFOLLOW, false,
-                            "Stop following; stay at the current position"))
-            return;
-        edit.param = param_number(core_round(now.y + now.re, 1e-3));
-        core_step(in->core, in->world, "Stop following", 0, &edit);
+        if (ui_icon_button(in->ui, icon, button, UI_ICON_UNFOLLOW, false,
+                           "Stop following; stay at the current position"))
+            follow(in, k, param_number(core_round(now.y + now.re, 1e-3)));
         return;
     }
-    inspector_number(in, &position[k], position_now, k, r);
+    inspector_number(in, &position[k], &home, k, r);
     if (in->document->spline_count == 0) return;
     if (ui_icon_button(in->ui, icon, button, UI_ICON_FOLLOW, false, "Follow a spline (in metres)")) {
         ui_popup_open(in->ui, place_list, k, field);
@@ -86,11 +83,7 @@ static void place_popup(struct inspection *in)
     if (!ui_popup_is_open(in->ui, place_list) || !rig || rig->kind != RIG_TAIL) return;
     int k = in->ui->popup.which;
     int picked = inspector_spline_list(in, place_list, NULL, rig->tail.position[k].track);
-    if (picked < 0) return;
-    struct edit edit = rig_edit(in, EDIT_POSITION);
-    edit.coordinate = k;
-    edit.param = param_track(picked);
-    core_step(in->core, in->world, "Follow spline", 0, &edit);
+    if (picked >= 0) follow(in, k, param_track(picked));
 }
 
 void inspector_tail_lists(struct inspection *in)
@@ -100,20 +93,24 @@ void inspector_tail_lists(struct inspection *in)
     place_popup(in);
 }
 
-static void size_now(const struct inspection *in, int which, struct setting *setting)
-{
-    const struct tail *tail = &inspector_shown(in)->tail;
-    setting->edit = rig_edit(in, which == 0 ? EDIT_JOINTS : EDIT_LENGTH);
-    setting->edit.to = tail->joints;
-    setting->edit.number = tail->length;
-}
-
 static const struct number_row size[] = {
     {"joints", "joints", NULL, "More joints bend more smoothly; shape and swing stay the same", "Set joints",
-     WHOLE_AT(edit.to), 1, 64, 1, TAIL_MAX_JOINTS, TAIL_DEFAULT_JOINTS, 1, 0},
-    {"length", "length", "m", "Length of the tail; the body scales with it", "Set length", NUMBER_AT(edit.number),
-     0.2, 4, 1e-3, 1e6, TAIL_DEFAULT_LENGTH, 0.05, 2},
+     WHOLE_AT(struct tail, joints), 1, 64, 1, TAIL_MAX_JOINTS, TAIL_DEFAULT_JOINTS, 1, 0},
+    {"length", "length", "m", "Length of the tail; the body scales with it", "Set length",
+     NUMBER_AT(struct tail, length), 0.2, 4, 1e-3, 1e6, TAIL_DEFAULT_LENGTH, 0.05, 2},
 };
+
+static double get_size(const struct inspection *in, int which)
+{
+    return number_at(&size[which], &inspector_shown(in)->tail);
+}
+
+static bool set_size(struct inspection *in, int which, double number, struct error *error)
+{
+    const int rig = in->inspector->rig;
+    return which == 0 ? edit_joints(in->document, rig, (int)lround(number), error)
+                      : edit_length(in->document, rig, number, error);
+}
 
 void inspector_overlays(struct inspection *in)
 {
@@ -148,6 +145,7 @@ static void build_shown(struct inspection *in)
 {
     struct inspector *inspector = in->inspector;
     const bool is_tail = inspector_shown(in)->kind == RIG_TAIL;
+    static const struct number_home home = {get_size, set_size};
     if (inspector->channel >= rig_input_count(inspector_shown(in))) inspector->channel = 0;
     inspector_channels(in);
     if (is_tail) inspector_angles(in, &angle_row_rest, &inspector_shown(in)->tail.rest);
@@ -158,7 +156,7 @@ static void build_shown(struct inspection *in)
         inspector_chain(in);
         return;
     }
-    inspector_numbers(in, size, sizeof size / sizeof size[0], size_now);
+    inspector_numbers(in, size, sizeof size / sizeof size[0], &home);
     for (int k = 0; k < 3; k++) build_coordinate(in, &inspector_shown(in)->tail, k);
 }
 
@@ -190,12 +188,9 @@ static const char *axis_label(enum axis axis)
     return a < sizeof tail_axes / sizeof *tail_axes ? tail_axes[a].item.label : "twist";
 }
 
-static struct edit channel_edit(const struct inspection *in, enum edit_kind kind)
+static struct channel_place place_of(const struct inspection *in)
 {
-    struct edit edit = core_edit_of(kind, in->core->active);
-    edit.rig = in->inspector->rig;
-    edit.channel = in->inspector->channel;
-    return edit;
+    return (struct channel_place){in->inspector->rig, in->inspector->channel};
 }
 
 /// The channel that is chosen of the tail or chain; NULL where it has none.
@@ -246,18 +241,18 @@ static void build_buttons(struct inspection *in)
 {
     struct rect r = inspector_labelled(in, "channel"), icon = {r.x - 2, r.y, ICON, r.h};
     if (ui_icon_button(in->ui, icon, "channel.add", UI_ICON_ADD, false, "Bend it by the active spline too")) {
-        struct edit edit = channel_edit(in, EDIT_CHANNEL_ADD);
-        if (core_step(in->core, in->world, "Add channel", 0, &edit)) {
-            in->inspector->channel = rig_input_count(in->document->rigs[edit.rig]) - 1;
-        }
+        const int rig = in->inspector->rig, spline = in->core->active;
+        if (!core_begin(in->core, in->world, "Add channel", 0)) return;
+        if (core_end(in->core, in->world,
+                     edit_channel_add(in->document, rig, spline, AXIS_SIDE, PART_TOTAL, &in->core->error)))
+            in->inspector->channel = rig_input_count(in->document->rigs[rig]) - 1;
         return;
     }
     icon.x += ICON + 6;
     if (!chosen_channel(in)) return;
-    if (ui_icon_button(in->ui, icon, "channel.delete", UI_ICON_DELETE, false, "Delete this channel")) {
-        struct edit edit = channel_edit(in, EDIT_CHANNEL_REMOVE);
-        core_step(in->core, in->world, "Delete channel", 0, &edit);
-    }
+    if (ui_icon_button(in->ui, icon, "channel.delete", UI_ICON_DELETE, false, "Delete this channel") &&
+        core_begin(in->core, in->world, "Delete channel", 0))
+        core_end(in->core, in->world, edit_channel_remove(in->document, place_of(in), &in->core->error));
 }
 
 /// A gain that was never set becomes the new axis's.
@@ -266,14 +261,9 @@ static void set_axis(struct inspection *in, enum axis axis)
     const struct channel *channel = chosen_channel(in);
     const struct angles gain = {.value = {axis_gain(axis)}};
     const bool untouched = channel->gain.form == ANGLES_ONE && channel->gain.value[0] == axis_gain(channel->axis);
-    struct edit edit = channel_edit(in, EDIT_AXIS);
-    edit.axis = axis;
-    if (history_is_open(in->world->history)) return;
-    history_begin(in->world->history, "Set axis", 0);
-    const bool done = core_edit(in->core, in->world, &edit);
-    const struct edit with = inspector_angles_edit(in, &angle_row_gain, &gain);
-    if (done && untouched) core_edit(in->core, in->world, &with);
-    history_end(in->world->history);
+    if (!core_begin(in->core, in->world, "Set axis", 0)) return;
+    const bool done = edit_axis(in->document, place_of(in), axis, &in->core->error);
+    core_end(in->core, in->world, done && (!untouched || inspector_set_angles(in, &angle_row_gain, &gain)));
 }
 
 static void build_choices(struct inspection *in, const struct channel *channel)
@@ -293,11 +283,9 @@ static void build_choices(struct inspection *in, const struct channel *channel)
     }
     struct rect r = inspector_labelled(in, "bends by");
     ui_hint(ui, r, "Total, or displacement only: use that for a tail on a moving base");
-    if (ui_segments(ui, r, "part", parts, 2, &part)) {
-        struct edit edit = channel_edit(in, EDIT_PART);
-        edit.of = (enum channel_part)part;
-        core_step(in->core, in->world, "Set what bends", 0, &edit);
-    }
+    if (ui_segments(ui, r, "part", parts, 2, &part) && core_begin(in->core, in->world, "Set what bends", 0))
+        core_end(in->core, in->world,
+                 edit_part(in->document, place_of(in), (enum channel_part)part, &in->core->error));
 }
 
 static void build_axis_list(struct inspection *in, const struct channel *channel)
@@ -320,10 +308,9 @@ void inspector_channel_lists(struct inspection *in)
     if (channel) build_axis_list(in, channel);
     if (!ui_popup_is_open(in->ui, feed_list) || !channel) return;
     int picked = inspector_spline_list(in, feed_list, NULL, channel->spline);
-    if (picked < 0) return;
-    struct edit edit = channel_edit(in, EDIT_FEED);
-    edit.spline = picked;
-    if (core_step(in->core, in->world, "Set channel's spline", 0, &edit)) choose(in, edit.channel);
+    if (picked < 0 || !core_begin(in->core, in->world, "Set channel's spline", 0)) return;
+    const struct channel_place at = place_of(in);
+    if (core_end(in->core, in->world, edit_feed(in->document, at, picked, &in->core->error))) choose(in, at.channel);
 }
 
 void inspector_channels(struct inspection *in)
@@ -354,14 +341,6 @@ static const struct end {
     {"from", "chain.from", "chain.from.pick", "The bone that it begins with", BONE_FIRST},
     {"to", "chain.to", "chain.to.pick", "The bone that it ends with", BONE_LAST},
 };
-
-static struct edit chain_edit(const struct inspection *in, const struct rig *contents)
-{
-    struct edit edit = core_edit_of(EDIT_CHAIN, in->core->active);
-    edit.rig = in->inspector->rig;
-    edit.contents = contents;
-    return edit;
-}
 
 /// The bone at one end: a list of those that it may be, and a button to pick it on the stage.
 static void build_end(struct inspection *in, const struct end *end, const char *bone)
@@ -395,19 +374,12 @@ void inspector_chain_lists(struct inspection *in)
     }
 }
 
-static void now(const struct inspection *in, int which, struct setting *setting)
-{
-    (void)which;
-    setting->contents = *inspector_shown(in);
-    setting->edit = chain_edit(in, &setting->contents);
-}
-
 static const struct number_row turn_row = {"chain.turn",
                                            "turn",
                                            "°",
                                            "Turns the axes of side and up about the chain's own direction",
                                            "Turn chain's axes",
-                                           NUMBER_AT(contents.chain.turn),
+                                           NUMBER_AT(struct chain, turn),
                                            -180,
                                            180,
                                            -36000,
@@ -416,14 +388,27 @@ static const struct number_row turn_row = {"chain.turn",
                                            1,
                                            0};
 
+static double get_turn(const struct inspection *in, int which)
+{
+    (void)which;
+    return inspector_shown(in)->chain.turn;
+}
+
+static bool set_turn(struct inspection *in, int which, double degrees, struct error *error)
+{
+    struct chain chain = inspector_shown(in)->chain;
+    (void)which;
+    chain.turn = degrees;
+    return edit_chain(in->document, in->inspector->rig, &chain, error);
+}
+
 static void build_mirror(struct inspection *in)
 {
-    struct rig contents = *inspector_shown(in);
+    struct chain chain = inspector_shown(in)->chain;
     struct rect r = inspector_labelled(in, "mirror");
     ui_hint(in->ui, r, "Bend to the other side, as a left ear does to a right one");
-    if (!ui_toggle(in->ui, r, "chain.mirror", &contents.chain.mirror)) return;
-    const struct edit edit = chain_edit(in, &contents);
-    core_step(in->core, in->world, "Mirror chain", 0, &edit);
+    if (ui_toggle(in->ui, r, "chain.mirror", &chain.mirror) && core_begin(in->core, in->world, "Mirror chain", 0))
+        core_end(in->core, in->world, edit_chain(in->document, in->inspector->rig, &chain, &in->core->error));
 }
 
 static void build_twin(struct inspection *in)
@@ -438,10 +423,11 @@ static void build_twin(struct inspection *in)
 
 void inspector_chain(struct inspection *in)
 {
+    static const struct number_home home = {get_turn, set_turn};
     const struct chain *chain = &inspector_shown(in)->chain;
     build_end(in, &ends[0], chain->from);
     build_end(in, &ends[1], chain->to);
-    inspector_numbers(in, &turn_row, 1, now);
+    inspector_numbers(in, &turn_row, 1, &home);
     build_mirror(in);
     build_twin(in);
 }

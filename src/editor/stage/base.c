@@ -29,27 +29,20 @@ static int add_spline(struct core *core, const struct editor_world *world, const
 {
     char name[NAME_SIZE];
     free_name(world->document, base, name);
-    struct edit edit = core_edit_of(EDIT_SPLINE_ADD, world->document->spline_count);
-    edit.text = name;
-    return core_edit(core, world, &edit) ? world->document->spline_count - 1 : -1;
-}
-
-static void set_start(struct core *core, const struct editor_world *world, int spline, enum wiggly_start start)
-{
-    struct edit edit = core_parameter_edit(spline, PARAMETER_START, start);
-    core_edit(core, world, &edit);
+    const bool done = edit_spline_add(world->document, -1, name, NULL, &core->error);
+    return done ? world->document->spline_count - 1 : -1;
 }
 
 void base_put_knot(struct core *core, const struct editor_world *world, int spline, int sample, double value,
                    bool level, char why[STOPPED_SIZE])
 {
-    struct edit edit = core_knot_edit(world->document, spline, sample);
-    edit.knot.value = core_round(value, RESOLUTION);
-    core_hold(world->document->splines[spline], &edit.knot, why);
-    edit.knot.has_slope = level;
-    edit.knot.slope = 0;
-    edit.knot.stiffness = level ? RECORD_STIFFNESS : KNOT_DEFAULT_STIFFNESS;
-    core_edit(core, world, &edit);
+    struct knot knot = core_knot_at(world->document, spline, sample);
+    knot.value = core_round(value, RESOLUTION);
+    core_hold(world->document->splines[spline], &knot, why);
+    knot.has_slope = level;
+    knot.slope = 0;
+    knot.stiffness = level ? RECORD_STIFFNESS : KNOT_DEFAULT_STIFFNESS;
+    core_put_knot(core, world, spline, &knot);
 }
 
 void base_begin(struct stage *stage, const struct editor_world *world)
@@ -74,9 +67,8 @@ int base_spline(const struct stage *stage, struct core *core, const struct edito
              coordinate_name(coordinate));
     int spline = add_spline(core, world, name);
     if (spline < 0) return -1;
-    struct edit mode = core_parameter_edit(spline, PARAMETER_MODE, WIGGLY_CUBIC);
-    core_edit(core, world, &mode);
-    if (stage->body_drag.loops) set_start(core, world, spline, WIGGLY_LOOP);
+    core_set_parameter(core, world, spline, PARAMETER_MODE, WIGGLY_CUBIC);
+    if (stage->body_drag.loops) core_set_parameter(core, world, spline, PARAMETER_START, WIGGLY_LOOP);
     return spline;
 }
 
@@ -95,30 +87,15 @@ double base_value(const struct editor_world *world, int tail, int coordinate, in
 void base_follow(const struct stage *stage, struct core *core, const struct editor_world *world, int coordinate,
                  int base)
 {
-    struct edit edit = core_edit_of(EDIT_POSITION, 0);
-    edit.rig = document_find_rig(world->document, RIG_TAIL, stage->body_drag.tail);
-    edit.coordinate = coordinate;
-    edit.param.track = base;
-    core_edit(core, world, &edit);
+    const int rig = document_find_rig(world->document, RIG_TAIL, stage->body_drag.tail);
+    const struct param param = param_track(base);
+    edit_position(world->document, rig, coordinate, &param, &core->error);
 }
 
 static void follow_base(struct core *core, const struct editor_world *world, int spline, int base)
 {
-    struct edit edit = core_edit_of(EDIT_PARAMETER, spline);
-    edit.parameter = PARAMETER_EQUILIBRIUM;
-    edit.param.track = base;
-    core_edit(core, world, &edit);
-}
-
-static void set_angles(const struct stage *stage, struct core *core, const struct editor_world *world, int channel,
-                       enum angle_kind kind, const struct angles *angles)
-{
-    struct edit edit = core_edit_of(EDIT_ANGLES, 0);
-    edit.rig = document_find_rig(world->document, RIG_TAIL, stage->body_drag.tail);
-    edit.channel = channel;
-    edit.angle = kind;
-    edit.angles = angles;
-    core_edit(core, world, &edit);
+    const struct param param = param_track(base);
+    edit_parameter(world->document, spline, PARAMETER_EQUILIBRIUM, &param, &core->error);
 }
 
 /// A spline with the poles of another and no knots, driven by the base from rest (or round the loop); its index, or -1.
@@ -126,19 +103,14 @@ static int add_follower(struct core *core, const struct editor_world *world, int
 {
     int spline = add_spline(core, world, name);
     if (spline < 0) return -1;
-    const struct spline copied = *world->document->splines[model];
-    struct edit mode = core_edit_of(EDIT_PARAMETER, spline);
-    mode.parameter = PARAMETER_MODE;
-    mode.param = copied.parameter[PARAMETER_MODE];
-    core_edit(core, world, &mode);
+    const struct spline *copied = world->document->splines[model];
+    const bool loops = spline_start(copied) == WIGGLY_LOOP;
+    core_set_parameter(core, world, spline, PARAMETER_MODE, spline_mode(copied));
     for (enum parameter p = 0; p < PARAMETER_COUNT; p++) {
-        if (p == PARAMETER_EQUILIBRIUM || p == PARAMETER_START) continue;
-        struct edit edit = core_edit_of(EDIT_PARAMETER, spline);
-        edit.parameter = p;
-        edit.param = copied.parameter[p];
-        core_edit(core, world, &edit);
+        if (p != PARAMETER_EQUILIBRIUM && p != PARAMETER_START)
+            edit_parameter(world->document, spline, p, &copied->parameter[p], &core->error);
     }
-    set_start(core, world, spline, spline_start(&copied) == WIGGLY_LOOP ? WIGGLY_LOOP : WIGGLY_REST);
+    core_set_parameter(core, world, spline, PARAMETER_START, loops ? WIGGLY_LOOP : WIGGLY_REST);
     follow_base(core, world, spline, base);
     return spline;
 }
@@ -147,21 +119,19 @@ static int add_follower(struct core *core, const struct editor_world *world, int
 static int add_channel(const struct stage *stage, struct core *core, const struct editor_world *world,
                        const struct channel *model, enum axis axis, const char *name, double scale, int base)
 {
-    const struct document *document = world->document;
-    struct edit edit = core_edit_of(EDIT_CHANNEL_ADD, add_follower(core, world, model->spline, name, base));
+    struct document *document = world->document;
+    const int spline = add_follower(core, world, model->spline, name, base);
     struct angles gain = model->gain;
     const struct angles lag = model->lag;
-    edit.rig = document_find_rig(world->document, RIG_TAIL, stage->body_drag.tail);
-    edit.axis = axis;
-    edit.of = PART_DISPLACEMENT;
-    if (edit.spline < 0) return -1;
+    if (spline < 0) return -1;
     for (int i = 0; i < angles_count(&gain); i++)
         angles_set_number(&gain, i, round(angles_number(&gain, i) * scale * 1e4) / 1e4);
-    if (!core_edit(core, world, &edit)) return -1;
-    int added = document_tail(document, stage->body_drag.tail)->channel_count - 1;
-    set_angles(stage, core, world, added, ANGLE_LAG, &lag);
-    set_angles(stage, core, world, added, ANGLE_GAIN, &gain);
-    return edit.spline;
+    const int rig = document_find_rig(document, RIG_TAIL, stage->body_drag.tail);
+    if (!edit_channel_add(document, rig, spline, axis, PART_DISPLACEMENT, &core->error)) return -1;
+    const struct channel_place added = {rig, document->rigs[rig]->tail.channel_count - 1};
+    edit_angles(document, added, ANGLE_LAG, &lag, &core->error);
+    edit_angles(document, added, ANGLE_GAIN, &gain, &core->error);
+    return spline;
 }
 
 /// The axis about which a tail bends when its base goes along a coordinate, where no channel of its does; else AXES.

@@ -276,10 +276,10 @@ static int key_coordinate(const struct stage *stage, struct core *core, const st
     const int sample = sample_of(core, document, spline);
     const double before = base_value(world, tail, coordinate, sample);
     if (!is_new) {
-        struct edit edit = core_knot_edit(document, spline, sample);
-        edit.knot.value = core_round(before + by, RESOLUTION);
-        core_hold(document->splines[spline], &edit.knot, why);
-        core_edit(core, world, &edit);
+        struct knot knot = core_knot_at(document, spline, sample);
+        knot.value = core_round(before + by, RESOLUTION);
+        core_hold(document->splines[spline], &knot, why);
+        core_put_knot(core, world, spline, &knot);
         core_edited(core, spline);
         return -1;
     }
@@ -363,11 +363,9 @@ static double shift_spline(struct core *core, const struct editor_world *world, 
     }
     if (by == 0) return 0;
     for (int i = 0; i < count; i++) {
-        struct edit edit = core_edit_of(EDIT_KNOT_SET, spline);
-        edit.knot = world->document->splines[spline]->knots[i];
-        edit.knot.value =
-            spline_within(world->document->splines[spline], core_round(edit.knot.value + by, RESOLUTION));
-        core_edit(core, world, &edit);
+        struct knot knot = world->document->splines[spline]->knots[i];
+        knot.value = spline_within(world->document->splines[spline], core_round(knot.value + by, RESOLUTION));
+        core_put_knot(core, world, spline, &knot);
     }
     core_edited(core, spline);
     return by;
@@ -380,11 +378,9 @@ static double shift_coordinate(struct core *core, const struct editor_world *wor
     const struct param *param = &document_tail(world->document, tail)->position[coordinate];
     if (param->track >= 0) return shift_spline(core, world, param->track, by, why);
     if (coordinate == 1) return 0;
-    struct edit edit = core_edit_of(EDIT_POSITION, 0);
-    edit.rig = document_find_rig(world->document, RIG_TAIL, tail);
-    edit.coordinate = coordinate;
-    edit.param.value = core_round(param->value + by, RESOLUTION);
-    core_edit(core, world, &edit);
+    const struct param moved = param_number(core_round(param->value + by, RESOLUTION));
+    const int rig = document_find_rig(world->document, RIG_TAIL, tail);
+    edit_position(world->document, rig, coordinate, &moved, &core->error);
     return by;
 }
 

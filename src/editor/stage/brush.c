@@ -131,9 +131,7 @@ static void apply(void *room, struct core *core, const struct editor_world *worl
     reach_find(&painting->work.reach, figure, spots, count, brush_radius_of(brush, figure));
     const struct dab dab = brush_dab(painting, paint, figure, coordinate, brush_radius_of(brush, figure),
                                      brush->strength * core->drag.dt);
-    struct edit edit = characters_paint_edit(core, world, EDIT_PAINT);
-    edit.dab = &dab;
-    core_edit(core, world, &edit);
+    edit_paint(world->document, characters_rig(core, world), &dab, &core->error);
 }
 
 static void end(void *room, struct core *core, const struct editor_world *world, bool keep)
@@ -168,8 +166,8 @@ bool brush_press(struct stage *stage, struct core *core, const struct editor_wor
     painting->has_dabbed = false;
     memset(painting->work.spent, 0, (size_t)painting->work.capacity * sizeof *painting->work.spent);
     drag_start_moving(core, world);
-    const struct edit blank = characters_blank_paint(core, world, figure);
-    if (!paint) core_edit(core, world, &blank);
+    if (!paint) characters_blank_paint(core, world, figure);
+    core_settle(core, world);
     return true;
 }
 

@@ -77,11 +77,8 @@ static void apply(void *room, struct core *core, const struct editor_world *worl
     if (!floors_exist(world->document, drag->rig)) return;
     const double highest = world->document->rigs[drag->rig]->character.position[1];
     const double height = drag->start - core->drag.moved_y / drag->pixels_per_metre;
-    struct edit edit = core_edit_of(EDIT_FLOOR, -1);
-    edit.rig = drag->rig;
-    edit.flag = true;
-    edit.number = fmin(core_round(height, 0.5 / drag->pixels_per_metre), highest);
-    core_edit(core, world, &edit);
+    const double rounded = fmin(core_round(height, 0.5 / drag->pixels_per_metre), highest);
+    edit_floor(world->document, drag->rig, true, rounded, &core->error);
 }
 
 void floors_begin(struct stage *stage, struct core *core, const struct editor_world *world, const struct hover *hover,

@@ -122,9 +122,7 @@ static void clear_knots(struct core *core, const struct editor_world *world, int
         int at = spline_lower_bound(document, document->splines[spline], from);
         const struct spline *cleared = document->splines[spline];
         if (at == cleared->knot_count || document_sample(document, cleared->knots[at].frame) > to) return;
-        struct edit edit = core_edit_of(EDIT_KNOT_REMOVE, spline);
-        edit.knot = cleared->knots[at];
-        if (!core_edit(core, world, &edit)) return;
+        if (!edit_knot_remove(world->document, spline, cleared->knots[at].id, &core->error)) return;
     }
 }
 

@@ -116,11 +116,11 @@ static void damped_step(const double column[2][2], const double miss[2], double 
 static void set_knot(const struct stage *stage, struct core *core, const struct editor_world *world,
                      struct tail_drag_axis *axis, char why[STOPPED_SIZE])
 {
-    struct edit edit = core_knot_edit(world->document, axis->spline, stage->tail_drag.sample);
-    edit.knot.value = axis->value;
-    core_hold(world->document->splines[axis->spline], &edit.knot, why);
-    axis->value = edit.knot.value;
-    core_edit(core, world, &edit);
+    struct knot knot = core_knot_at(world->document, axis->spline, stage->tail_drag.sample);
+    knot.value = axis->value;
+    core_hold(world->document->splines[axis->spline], &knot, why);
+    axis->value = knot.value;
+    core_put_knot(core, world, axis->spline, &knot);
 }
 
 /// Makes the knot that is pulled the selected one.
@@ -133,7 +133,6 @@ static void select_knot(const struct stage *stage, struct core *core, const stru
     const struct spline *spline = core_active_spline(core, world);
     int at = spline ? spline_find_knot(world->document, spline, grab->sample) : -1;
     if (at < 0) return;
-    core_reserve(core, world->document);
     pins_clear(core);
     selection_clear(&core->selection);
     selection_set(&core->selection, spline->knots[at].id, true);
