@@ -53,23 +53,13 @@ static int moved_index(int index, int from, int to)
     return to <= index && index < from ? index + 1 : index;
 }
 
-struct moving {
-    struct document *document;
-    int from, to;
-};
-
-static void move_reference(const struct reference *reference, void *context)
-{
-    const struct moving *moving = context;
-    const int now = moved_index(reference->spline, moving->from, moving->to);
-    if (now != reference->spline) reference_set(moving->document, reference, now);
-}
-
 /// Gives every reference its spline's new index. INT_MAX as `from` or `to` means outside the list.
 static void move_references(struct document *document, int from, int to)
 {
-    struct moving moving = {document, from, to};
-    reference_each(document, move_reference, &moving);
+    for (struct reference reference = {0}; reference_next(document, &reference);) {
+        const int now = moved_index(reference.spline, from, to);
+        if (now != reference.spline) reference_set(document, &reference, now);
+    }
 }
 
 /// Puts a spline, with new ids, into the list.

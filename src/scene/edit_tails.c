@@ -12,10 +12,8 @@ static const double ANGLE_RESOLUTION = 1e6; ///< resampled angles are rounded to
 static struct rig *plain_tail(void)
 {
     struct rig *rig = rig_create(RIG_TAIL);
-    rig->tail.joints = TAIL_DEFAULT_JOINTS;
-    rig->tail.length = TAIL_DEFAULT_LENGTH;
     rig->tail.rest.value[0] = NEW_REST;
-    for (int k = 0; k < 3; k++) rig->tail.position[k] = param_number(k == 1 ? NEW_HEIGHT : 0);
+    rig->tail.position[1].value = NEW_HEIGHT;
     return rig;
 }
 

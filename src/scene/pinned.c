@@ -4,13 +4,11 @@
 /// the pulls at the pose of the last one. No round is taken back, so that the motion is a continuous function of where pins are to be
 /// (pin_aim.h). A soft character needs one round.
 #include "scene/pinned.h"
-#include "base/hash.h"
 #include "base/need.h"
 #include "scene/evaluate.h"
 #include "scene/pin_aim.h"
 #include "scene/pin_groups.h"
 #include "scene/pins.h"
-#include "scene/rig_key.h"
 #include "scene/storage.h"
 #include <math.h>
 #include <stdlib.h>
@@ -41,8 +39,19 @@ static void free_splines(struct pinned *pinned)
     free(pinned->weight);
 }
 
+/// Holds the rigs as they are, so that none that differs has the address of one of them.
+static void hold_rigs(struct pinned *pinned, struct rig *const *rigs, int count)
+{
+    for (int r = 0; r < count; r++) rig_hold(rigs[r]);
+    for (int r = 0; r < pinned->rig_count; r++) rig_drop(pinned->rigs[r]);
+    if (count > 0) memcpy(pinned->rigs, rigs, (size_t)count * sizeof *rigs);
+    pinned->rig_count = count;
+}
+
 void pinned_free(struct pinned *pinned)
 {
+    hold_rigs(pinned, NULL, 0);
+    free(pinned->rigs);
     free_solver(pinned);
     free_splines(pinned);
     floors_free(&pinned->floors);
@@ -60,7 +69,7 @@ static void resize_splines(struct pinned *pinned, int splines)
     pinned->placed = need_zeroed(count, sizeof *pinned->placed);
     pinned->was = need_zeroed(count, sizeof *pinned->was);
     pinned->weight = need_zeroed(count, sizeof *pinned->weight);
-    pinned->rigs_key = pinned->pins_key = 0;
+    pinned->served = false;
     pinned->splines = splines;
 }
 
@@ -108,7 +117,7 @@ static void resize_solver(struct pinned *pinned, const struct room *needed)
         needed->samples > pinned->samples ? needed->samples : pinned->samples,
         doubled(pinned->most_knots, needed->knots), needed->group > pinned->group ? needed->group : pinned->group,
         doubled(pinned->pins, needed->pins), needed->bounds > pinned->bounds ? needed->bounds : pinned->bounds};
-    pinned->rigs_key = pinned->pins_key = 0;
+    pinned->served = false;
     create_solver(pinned, &room);
 }
 
@@ -117,6 +126,13 @@ static void resize_knots(struct pinned *pinned, int knots)
     if (knots <= pinned->knot_capacity) return;
     pinned->knot_capacity = doubled(pinned->knot_capacity, knots);
     pinned->knots = need_more(pinned->knots, (size_t)pinned->knot_capacity, sizeof *pinned->knots);
+}
+
+static void resize_rigs(struct pinned *pinned, int rigs)
+{
+    if (rigs <= pinned->rig_capacity) return;
+    pinned->rigs = need_more(pinned->rigs, (size_t)rigs, sizeof *pinned->rigs);
+    pinned->rig_capacity = rigs;
 }
 
 static int count_members(const struct pinned *pinned, int splines, int which)
@@ -133,6 +149,7 @@ void pinned_resize(struct storage *storage, const struct document *document)
     int knots = 0;
     if (!pins_hold_any(document)) return;
     resize_splines(pinned, document->spline_count);
+    resize_rigs(pinned, document->rig_count);
     pin_groups_find(document, pinned->which);
     for (int s = 0; s < document->spline_count; s++) {
         const int own = storage_knot_room(document->splines[s], room.samples);
@@ -169,6 +186,17 @@ static void weigh(struct evaluation *evaluation, const struct document *document
     }
 }
 
+/// Whether a rig is not the one that was solved; `beside_pins`: in more than its pins.
+static bool rigs_differ(const struct pinned *pinned, const struct document *document, bool beside_pins)
+{
+    bool differ = pinned->rig_count != document->rig_count;
+    for (int r = 0; !differ && r < document->rig_count; r++) {
+        const struct rig *solved = pinned->rigs[r], *rig = document->rigs[r];
+        differ = beside_pins ? !rig_equals(solved, rig) : solved != rig;
+    }
+    return differ;
+}
+
 bool pinned_begin(struct evaluation *evaluation, const struct document *document)
 {
     struct storage *storage = evaluation->storage;
@@ -177,17 +205,16 @@ bool pinned_begin(struct evaluation *evaluation, const struct document *document
     const int count = evaluation->count, pins = pins_count(document);
     const bool serves =
         pins_hold_any(document) && pinned->pins >= pins && evaluation->pins.find && !evaluation->cubic;
-    if (pinned->splines < count || (!serves && pinned->pins_key == 0)) return false;
+    if (pinned->splines < count || (!serves && !pinned->served)) return false;
     for (int s = 0; s < count; s++) pinned->which[s] = -1;
     if (serves) pin_groups_find(document, pinned->which);
-    const uint64_t rigs = serves ? hash_word(rigs_key(document), evaluation->pins.version) : 0;
-    const uint64_t own = serves ? pins_key(document) : 0;
-    const bool moved = rigs != pinned->rigs_key;
-    if (moved || own != pinned->pins_key) force_all(storage, count);
-    weigh(evaluation, document, moved);
+    const bool anew = serves != pinned->served || pinned->version != evaluation->pins.version;
+    if (anew || rigs_differ(pinned, document, false)) force_all(storage, count);
+    weigh(evaluation, document, anew || rigs_differ(pinned, document, true));
     for (int s = 0; s < count; s++) pinned->was[s] = pinned->which[s] >= 0;
-    pinned->rigs_key = rigs;
-    pinned->pins_key = own;
+    pinned->served = serves;
+    pinned->version = evaluation->pins.version;
+    hold_rigs(pinned, document->rigs, serves ? document->rig_count : 0);
     if (!serves || !pin_groups_order(document, pinned->which, storage->order, pinned->placed, pinned->order, &cycle))
         return false;
     for (int s = 0; s < count; s++) pinned->placed[s] = false;

@@ -46,7 +46,10 @@ struct pinned {
     struct pin_round round;
     struct pin_left *left; ///< of all pins of the document
     int left_count;
-    uint64_t rigs_key, pins_key; ///< of what was solved
+    bool served;       ///< groups were solved in the last update
+    struct rig **rigs; ///< as they were solved
+    int rig_count, rig_capacity;
+    uint64_t version; ///< of the source then
 };
 
 /// Makes room for the document's groups. Without pins it costs nothing.

@@ -70,13 +70,16 @@ struct channel *rig_channels(const struct rig *rig, int *count);
 /// What a point that can be pinned is called in the file, "vertex" or "joint"; NULL: such a rig takes no pins.
 const char *rig_pin_key(const struct rig *rig);
 
-/// A rig of a kind without a name or an id, all else zero. It has one holder.
+/// A rig of a kind as a file has it that says no more, without a name or an id. It has one holder.
 struct rig *rig_create(enum rig_kind kind);
 
 /// A clone has one holder; what it holds is its own, but for paint and what is known of its file, which are counted.
 struct rig *rig_clone(const struct rig *rig);
 struct rig *rig_hold(struct rig *rig);
 void rig_drop(struct rig *rig);
+
+/// Whether two are the same but for name, pins and unknown keys.
+bool rig_equals(const struct rig *a, const struct rig *b);
 
 /// Bytes that it takes and another (or NULL) does not, not counting unknown keys.
 size_t rig_bytes(const struct rig *rig, const struct rig *other);

@@ -1,14 +1,12 @@
 /// Reads, prints and copies channels and their angles.
-#include "scene/rig_channels.h"
 #include "base/need.h"
+#include "scene/rig_kind.h"
 #include <stdlib.h>
 #include <string.h>
 
 _Static_assert((int)SCENE_MAX_CHANNELS <= (int)RIG_MAX_INPUTS, "a channel is an input");
 
 const char *const channel_keys[] = {"spline", "axis", "of", "lag", "gain", NULL};
-const char *const tail_axes[] = {"side", "up", "look", "nod", "ears", "breath", "stretch", "blink", NULL};
-const char *const chain_axes[] = {"side", "up", "twist", NULL};
 static const char *const axis_words[AXES] = {
     [AXIS_SIDE] = "side",     [AXIS_UP] = "up",           [AXIS_TWIST] = "twist",
     [AXIS_LOOK] = "look",     [AXIS_NOD] = "nod",         [AXIS_EARS] = "ears",
@@ -114,19 +112,18 @@ void load_channel(struct reader *reader, const struct value *object, const char 
     channel->extra = reader_keep(reader, extra);
 }
 
-struct channel *load_channels(struct reader *reader, struct value value, const char *const *axes, int joints,
-                              int *count)
+void load_channels(struct reader *reader, const struct value *object, const char *const *axes, int joints,
+                   struct rig *rig)
 {
-    *count = 0;
-    const int found = reader_objects(reader, value, SCENE_MAX_CHANNELS);
-    if (found <= 0) return NULL;
-    struct channel *channels = need_zeroed((size_t)found, sizeof *channels);
-    for (int i = 0; i < found; i++) {
-        const struct value object = reader_element(&value, i);
-        load_channel(reader, &object, axes, joints, &channels[i], reader_extra(reader, &object, channel_keys));
+    const struct value value = reader_member(object, "channels");
+    const int count = reader_objects(reader, value, SCENE_MAX_CHANNELS);
+    if (count <= 0) return;
+    rig->bent.channels = need_zeroed((size_t)count, sizeof *rig->bent.channels);
+    rig->bent.channel_count = count;
+    for (int i = 0; i < count; i++) {
+        const struct value one = reader_element(&value, i);
+        load_channel(reader, &one, axes, joints, &rig->bent.channels[i], reader_extra(reader, &one, channel_keys));
     }
-    *count = found;
-    return channels;
 }
 
 static void print_ramp(struct text *text, const struct angles *angles, json_t *extra)
@@ -169,14 +166,16 @@ static void print_channel(struct text *text, const struct document *document, co
     text_string(text, " }");
 }
 
-void print_channels(struct members *members, const struct document *document, const struct channel *channels,
-                    int count)
+void print_channels(struct members *members, const struct document *document, const struct rig *rig,
+                    const char *folder)
 {
+    const int count = rig->bent.channel_count;
     struct text *text = members->text;
+    (void)folder;
     member(members, "channels");
     for (int i = 0; i < count; i++) {
         text_string(text, i > 0 ? ",\n        " : "[\n        ");
-        print_channel(text, document, &channels[i]);
+        print_channel(text, document, &rig->bent.channels[i]);
     }
     text_string(text, count > 0 ? "\n      ]" : "[]");
 }

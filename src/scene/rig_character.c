@@ -1,12 +1,12 @@
-/// Characters as a kind of rig: loading, printing, references and memory.
+/// Characters as a kind of rig.
+#include "base/need.h"
 #include "scene/rig_kind.h"
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 _Static_assert((int)CHARACTER_MAX_DRIVES <= (int)RIG_MAX_INPUTS, "a drive is an input");
 
-static const char *const character_keys[] = {"type",   "name",  "model", "position", "coordinates",
-                                             "phases", "paint", "floor", "pins",     NULL};
 static const char *const axes[] = {"x", "y", "z", NULL};
 static const char *const drive_keys[] = {"name", "spline", "amplitude", "lag", NULL};
 
@@ -20,22 +20,13 @@ static void load_drive(struct reader *reader, struct value object, struct drive 
     drive->extra = reader_keep(reader, reader_extra(reader, &object, drive_keys));
 }
 
-static void load(struct reader *reader, const struct value *object, struct rig *rig)
+static void load_drives(struct reader *reader, const struct value *object, struct rig *rig)
 {
     struct character_rig *character = &rig->character;
-    const struct value name = reader_member(object, "name"), coordinates = reader_member(object, "coordinates");
-    const struct value phases = reader_member(object, "phases"), paint = reader_member(object, "paint");
-    const struct value floor = reader_member(object, "floor");
-    if (name.json) rig->name = reader_name(reader, name);
-    character->model = reader_name(reader, reader_member(object, "model"));
-    character->has_floor = floor.json && reader_number(reader, floor, false, range_any, &character->floor);
-    if (paint.json) character->file->path = reader_name(reader, paint);
-    reader_point(reader, reader_member(object, "position"), character->position);
-    character->phases = phases.json ? reader_word(reader, phases, axes, -1) : -1;
+    const struct value coordinates = reader_member(object, "coordinates");
     int count = reader_objects(reader, coordinates, CHARACTER_MAX_DRIVES);
     for (int i = 0; i < count; i++) load_drive(reader, reader_element(&coordinates, i), &character->drives[i]);
     character->drive_count = count > 0 ? count : 0;
-    rig->extra = reader_keep(reader, reader_extra(reader, object, character_keys));
 }
 
 static void print_drive(struct text *text, const struct document *document, const struct drive *drive)
@@ -49,6 +40,52 @@ static void print_drive(struct text *text, const struct document *document, cons
     text_string(text, " }");
 }
 
+static void print_drives(struct members *members, const struct document *document, const struct rig *rig,
+                         const char *folder)
+{
+    const struct character_rig *character = &rig->character;
+    struct text *text = members->text;
+    (void)folder;
+    member(members, "coordinates");
+    for (int i = 0; i < character->drive_count; i++) {
+        text_string(text, i > 0 ? ",\n        " : "[\n        ");
+        print_drive(text, document, &character->drives[i]);
+    }
+    text_string(text, character->drive_count > 0 ? "\n      ]" : "[]");
+}
+
+static void load_phases(struct reader *reader, const struct value *object, struct rig *rig)
+{
+    const struct value phases = reader_member(object, "phases");
+    if (phases.json) rig->character.phases = reader_word(reader, phases, axes, -1);
+}
+
+static void print_phases(struct members *members, const struct document *document, const struct rig *rig,
+                         const char *folder)
+{
+    (void)document, (void)folder;
+    if (rig->character.phases >= 0) member_string(members, "phases", axes[rig->character.phases]);
+}
+
+static void load_floor(struct reader *reader, const struct value *object, struct rig *rig)
+{
+    const struct value floor = reader_member(object, "floor");
+    rig->character.has_floor = floor.json && reader_number(reader, floor, false, range_any, &rig->character.floor);
+}
+
+static void print_floor(struct members *members, const struct document *document, const struct rig *rig,
+                        const char *folder)
+{
+    (void)document, (void)folder;
+    if (rig->character.has_floor) member_number(members, "floor", rig->character.floor);
+}
+
+static void load_paint(struct reader *reader, const struct value *object, struct rig *rig)
+{
+    const struct value paint = reader_member(object, "paint");
+    if (paint.json) rig->character.file->path = reader_name(reader, paint);
+}
+
 /// Whether the scene names a paint file: not for paint that changes nothing, but still for a file that could not be read.
 static bool is_painted(const struct character_rig *character)
 {
@@ -56,45 +93,35 @@ static bool is_painted(const struct character_rig *character)
     return character->painted ? !paint_is_plain(character->painted) : character->file->version == 0;
 }
 
-static void print(struct members *members, const struct document *document, const struct rig *rig, const char *folder)
+static void print_paint(struct members *members, const struct document *document, const struct rig *rig,
+                        const char *folder)
 {
-    const struct character_rig *character = &rig->character;
-    struct text *text = members->text;
-    member_path(members, "model", document, character->model, folder);
-    member(members, "position");
-    text_numbers(text, character->position, 3);
-    member(members, "coordinates");
-    for (int i = 0; i < character->drive_count; i++) {
-        text_string(text, i > 0 ? ",\n        " : "[\n        ");
-        print_drive(text, document, &character->drives[i]);
-    }
-    text_string(text, character->drive_count > 0 ? "\n      ]" : "[]");
-    if (character->phases >= 0) member_string(members, "phases", axes[character->phases]);
-    if (character->has_floor) member_number(members, "floor", character->floor);
-    if (is_painted(character)) member_path(members, "paint", document, character->file->path, folder);
+    if (is_painted(&rig->character)) member_path(members, "paint", document, rig->character.file->path, folder);
 }
 
-static int input_count(const struct rig *rig) { return rig->character.drive_count; }
+static const struct field fields[] = {
+    {FIELD("model", FIELD_PATH, character.model)},
+    {FIELD("position", FIELD_NUMBERS, character.position), .range = FIELD_ANY},
+    {"coordinates", .load = load_drives, .print = print_drives},
+    {"phases", .load = load_phases, .print = print_phases},
+    {FIELD("floor", FIELD_OWN, character.floor), .load = load_floor, .print = print_floor},
+    {"paint", .load = load_paint, .print = print_paint},
+    {.key = NULL},
+};
 
-static int input(const struct rig *rig, int input) { return rig->character.drives[input].spline; }
-
-static void references(const struct rig *rig, int index, reference_visitor *visit, void *context)
+static void reset(struct rig *rig)
 {
-    for (int i = 0; i < rig->character.drive_count; i++) {
-        visit(&(struct reference){REFERENCE_DRIVE, index, i, rig->character.drives[i].spline}, context);
-    }
-}
-
-static void set_reference(struct rig *rig, const struct reference *reference, int spline)
-{
-    rig->character.drives[reference->which].spline = spline;
+    rig->character.phases = -1;
+    rig->character.file = paint_file_create();
 }
 
 static void copy(struct rig *copy)
 {
     struct character_rig *character = &copy->character;
-    rig_own_texts((char **const[]){&character->model}, 1);
-    for (int i = 0; i < character->drive_count; i++) rig_own_texts((char **const[]){&character->drives[i].name}, 1);
+    for (int i = 0; i < character->drive_count; i++) {
+        struct drive *drive = &character->drives[i];
+        if (drive->name) drive->name = need_text(drive->name);
+    }
     paint_hold(character->painted);
     paint_file_hold(character->file);
 }
@@ -103,29 +130,37 @@ static void release(struct rig *rig)
 {
     struct character_rig *character = &rig->character;
     for (int i = 0; i < character->drive_count; i++) free(character->drives[i].name);
-    free(character->model);
     paint_drop(character->painted);
     paint_file_drop(character->file);
+}
+
+/// What its drives and paint say.
+static bool equals(const struct rig *a, const struct rig *b)
+{
+    const struct character_rig *left = &a->character, *right = &b->character;
+    bool same = left->painted == right->painted && left->has_floor == right->has_floor &&
+                left->drive_count == right->drive_count;
+    for (int i = 0; same && i < left->drive_count; i++) {
+        const struct drive *l = &left->drives[i], *r = &right->drives[i];
+        same = strcmp(l->name, r->name) == 0 && l->spline == r->spline && l->amplitude == r->amplitude &&
+               l->lag == r->lag;
+    }
+    return same;
 }
 
 static size_t bytes(const struct rig *rig, const struct rig *other)
 {
     const struct character_rig *character = &rig->character;
     const bool is_shared = other && other->character.painted == character->painted;
-    return text_size(character->model) + (is_shared ? 0 : paint_bytes(character->painted));
+    return is_shared ? 0 : paint_bytes(character->painted);
 }
 
-static const char *title(const struct rig *rig) { return rig->character.model; }
-
 const struct rig_functions character_functions = {.word = "character",
-                                                  .load = load,
-                                                  .print = print,
+                                                  .fields = fields,
+                                                  .title = offsetof(struct rig, character.model),
                                                   .pin_key = "vertex",
-                                                  .input_count = input_count,
-                                                  .input = input,
-                                                  .references = references,
-                                                  .set_reference = set_reference,
+                                                  .reset = reset,
                                                   .copy = copy,
                                                   .release = release,
                                                   .bytes = bytes,
-                                                  .title = title};
+                                                  .equals = equals};

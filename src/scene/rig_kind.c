@@ -1,9 +1,11 @@
 /// The table of rig kinds, and what all kinds share.
 #include "scene/rig_kind.h"
 #include "base/need.h"
-#include "scene/rig_pins.h"
+#include <assert.h>
 #include <stdlib.h>
 #include <string.h>
+
+enum { KEYS = 16 }; ///< of a kind, and one more
 
 #define RIG_ROW(constant, name) [constant] = &name##_functions,
 static const struct rig_functions *const kinds[RIG_KINDS] = {RIG_KIND_LIST(RIG_ROW)};
@@ -14,19 +16,22 @@ _Static_assert(offsetof(struct tail, channels) == 0 && offsetof(struct chain, ch
 
 const char *rig_word(enum rig_kind kind) { return kinds[kind]->word; }
 
-const char *rig_title(const struct rig *rig) { return rig->name ? rig->name : kinds[rig->kind]->title(rig); }
+const char *rig_title(const struct rig *rig)
+{
+    return rig->name ? rig->name : *(char *const *)((const char *)rig + kinds[rig->kind]->title);
+}
 
 int rig_input_count(const struct rig *rig)
 {
-    const struct rig_functions *kind = kinds[rig->kind];
-    if (kind->is_bent) return rig->bent.channel_count;
-    return kind->input_count ? kind->input_count(rig) : 0;
+    if (rig->kind == RIG_CHARACTER) return rig->character.drive_count;
+    if (rig->kind == RIG_MEADOW) return 1;
+    return kinds[rig->kind]->is_bent ? rig->bent.channel_count : 0;
 }
 
 int rig_input(const struct rig *rig, int input)
 {
-    const struct rig_functions *kind = kinds[rig->kind];
-    return kind->is_bent ? rig->bent.channels[input].spline : kind->input(rig, input);
+    if (rig->kind == RIG_CHARACTER) return rig->character.drives[input].spline;
+    return rig->kind == RIG_MEADOW ? rig->meadow.spline : rig->bent.channels[input].spline;
 }
 
 int rig_point_input(const struct rig *rig, int input)
@@ -51,30 +56,6 @@ struct channel *rig_channels(const struct rig *rig, int *count)
     return is_bent ? rig->bent.channels : NULL;
 }
 
-void rig_references(const struct rig *rig, int index, reference_visitor *visit, void *context)
-{
-    const struct rig_functions *kind = kinds[rig->kind];
-    if (kind->references) kind->references(rig, index, visit, context);
-    for (int i = 0; kind->is_bent && i < rig->bent.channel_count; i++)
-        visit(&(struct reference){REFERENCE_CHANNEL, index, i, rig->bent.channels[i].spline}, context);
-}
-
-void rig_set_reference(struct rig *rig, const struct reference *reference, int spline)
-{
-    if (reference->kind == REFERENCE_CHANNEL) {
-        rig->bent.channels[reference->which].spline = spline;
-    } else {
-        kinds[rig->kind]->set_reference(rig, reference, spline);
-    }
-}
-
-void rig_own_texts(char **const *texts, int count)
-{
-    for (int i = 0; i < count; i++) {
-        if (*texts[i]) *texts[i] = need_text(*texts[i]);
-    }
-}
-
 const char *rig_pin_key(const struct rig *rig) { return kinds[rig->kind]->pin_key; }
 
 /// A copy of an array, for one more.
@@ -90,7 +71,7 @@ struct rig *rig_create(enum rig_kind kind)
     struct rig *rig = need_zeroed(1, sizeof *rig);
     atomic_init(&rig->holders, 1);
     rig->kind = kind;
-    if (kind == RIG_CHARACTER) rig->character.file = paint_file_create();
+    if (kinds[kind]->reset) kinds[kind]->reset(rig);
     return rig;
 }
 
@@ -102,6 +83,7 @@ struct rig *rig_clone(const struct rig *rig)
     atomic_init(&copy->holders, 1);
     copy->pins = copy_array(rig->pins, rig->pin_count, sizeof *rig->pins);
     copy->name = rig->name ? need_text(rig->name) : NULL;
+    copy_fields(kind->fields, copy);
     if (kind->copy) kind->copy(copy);
     if (kind->is_bent)
         copy->bent.channels = copy_array(rig->bent.channels, rig->bent.channel_count, sizeof *rig->bent.channels);
@@ -118,6 +100,7 @@ void rig_drop(struct rig *rig)
 {
     if (!rig || atomic_fetch_sub(&rig->holders, 1) > 1) return;
     const struct rig_functions *kind = kinds[rig->kind];
+    free_fields(kind->fields, rig);
     if (kind->release) kind->release(rig);
     if (kind->is_bent) free(rig->bent.channels);
     free(rig->pins);
@@ -125,10 +108,26 @@ void rig_drop(struct rig *rig)
     free(rig);
 }
 
+static bool same_channels(const struct rig *a, const struct rig *b)
+{
+    const int count = a->bent.channel_count;
+    return count == b->bent.channel_count &&
+           (count == 0 || memcmp(a->bent.channels, b->bent.channels, (size_t)count * sizeof *a->bent.channels) == 0);
+}
+
+bool rig_equals(const struct rig *a, const struct rig *b)
+{
+    const struct rig_functions *kind = kinds[a->kind];
+    if (a == b || a->kind != b->kind) return a == b;
+    return fields_equal(kind->fields, a, b) && (!kind->is_bent || same_channels(a, b)) &&
+           (!kind->equals || kind->equals(a, b));
+}
+
 size_t rig_bytes(const struct rig *rig, const struct rig *other)
 {
     const struct rig_functions *kind = kinds[rig->kind];
     size_t size = sizeof *rig + text_size(rig->name) + (size_t)rig->pin_count * sizeof *rig->pins;
+    size += fields_bytes(kind->fields, rig);
     if (kind->bytes) size += kind->bytes(rig, other);
     if (kind->is_bent) size += (size_t)rig->bent.channel_count * sizeof *rig->bent.channels;
     return size;
@@ -154,6 +153,21 @@ static int load_kind(struct reader *reader, struct value type)
     return reader_word(reader, type, words, -1);
 }
 
+static void load_rig(struct reader *reader, const struct value *object, struct rig *rig)
+{
+    const struct rig_functions *kind = kinds[rig->kind];
+    const struct value name = reader_member(object, "name");
+    const char *known[KEYS] = {"type", "name", "pins"};
+    int count = kind->pin_key ? 3 : 2;
+    for (const struct field *field = kind->fields; field->key; field++) known[count++] = field->key;
+    assert(count < KEYS);
+    rig->extra = reader_extra(reader, object, known);
+    if (kind->is_named || name.json) rig->name = reader_name(reader, name);
+    load_fields(reader, object, kind->fields, rig);
+    rig->extra = reader_keep(reader, rig->extra);
+    if (kind->pin_key) load_pins(reader, object, kind->pin_key, rig);
+}
+
 void load_rigs(struct reader *reader, const struct value *scene)
 {
     const struct value rigs = reader_member(scene, "rigs");
@@ -167,8 +181,7 @@ void load_rigs(struct reader *reader, const struct value *scene)
         struct rig *rig = rig_create(kind < 0 ? RIG_TAIL : (enum rig_kind)kind);
         rig->id = ++document->next_rig_id;
         document_insert_rig(document, document->rig_count, rig);
-        if (kind >= 0) kinds[kind]->load(reader, &object, rig);
-        if (kind >= 0 && kinds[kind]->pin_key) load_pins(reader, &object, kinds[kind]->pin_key, rig);
+        if (kind >= 0) load_rig(reader, &object, rig);
         check_name(reader, &object.at, i);
     }
     for (int i = 0; i < count; i++) {
@@ -184,7 +197,7 @@ static void print_rig(struct text *text, const struct document *document, const 
     struct members members = {text, "    {\n      ", ",\n      ", false};
     member_string(&members, "type", kind->word);
     if (rig->name) member_string(&members, "name", rig->name);
-    kind->print(&members, document, rig, folder);
+    print_fields(&members, document, rig, kind->fields, folder);
     if (kind->pin_key) print_pins(&members, rig, kind->pin_key);
     members_extra(&members, rig->extra, kind->has_tracks);
     text_string(text, "\n    }");

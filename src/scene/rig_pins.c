@@ -1,6 +1,6 @@
 /// Reads and writes the pins of rigs.
-#include "scene/rig_pins.h"
 #include "scene/pins.h"
+#include "scene/rig_kind.h"
 #include <limits.h>
 
 static bool load_pin(struct reader *reader, struct value object, const char *key, int points, struct pin *pin)

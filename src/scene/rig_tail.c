@@ -1,104 +1,94 @@
-/// Tails as a kind of rig: loading, printing, references and memory.
+/// Tails as a kind of rig.
 #include "base/need.h"
-#include "scene/rig_channels.h"
 #include "scene/rig_kind.h"
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
-static const char *const tail_keys[] = {"type",   "name", "joints", "length", "position", "rest", "channels",
-                                        "spline", "axis", "of",     "lag",    "gain",     "pins", NULL};
+static const char *const axes[] = {"side", "up", "look", "nod", "ears", "breath", "stretch", "blink", NULL};
 
 /// Each coordinate is in metres or follows a spline. Unknown keys of tracks are kept under the tail's extra key "position".
-static void load_position(struct reader *reader, struct value value, struct param position[3], json_t **extra)
+static void load_position(struct reader *reader, const struct value *object, struct rig *rig)
 {
+    const struct value value = reader_member(object, "position");
     json_t *tracks = NULL;
     if (!value.json || !reader_array(reader, value, 3, "[x, y, z]")) return;
     for (int i = 0; i < 3; i++) {
-        reader_param(reader, reader_element(&value, i), range_any, coordinate_name(i), false, &position[i], &tracks);
+        reader_param(reader, reader_element(&value, i), range_any, coordinate_name(i), false, &rig->tail.position[i],
+                     &tracks);
     }
-    reader_put(extra, value.at.key, tracks);
+    reader_put(&rig->extra, "position", tracks);
+}
+
+static void print_position(struct members *members, const struct document *document, const struct rig *rig,
+                           const char *folder)
+{
+    json_t *extras = json_object_get(rig->extra, "position");
+    member(members, "position");
+    for (int i = 0; i < 3; i++) {
+        text_string(members->text, i > 0 ? ", " : "[");
+        print_param(members->text, document, &rig->tail.position[i], extras, coordinate_name(i), folder);
+    }
+    text_string(members->text, "]");
+}
+
+static void load_rest(struct reader *reader, const struct value *object, struct rig *rig)
+{
+    load_angles(reader, reader_member(object, "rest"), rig->tail.joints, &rig->tail.rest, &rig->extra);
+}
+
+static void print_rest(struct members *members, const struct document *document, const struct rig *rig,
+                       const char *folder)
+{
+    (void)document, (void)folder;
+    print_angles(members, "rest", &rig->tail.rest, rig->extra);
 }
 
 /// From an array, or a single one from the tail's own object.
-static void load_tail_channels(struct reader *reader, const struct value *object, struct tail *tail)
+static void load_tail_channels(struct reader *reader, const struct value *object, struct rig *rig)
 {
+    struct tail *tail = &rig->tail;
     const struct value channels = reader_member(object, "channels");
     bool is_short = false;
     for (int i = 0; channel_keys[i]; i++) is_short |= json_object_get(object->json, channel_keys[i]) != NULL;
     if (is_short && channels.json) {
         reader_fail(reader, &channels.at, "expected either channels or one channel's keys, got both");
     } else if (!is_short) {
-        tail->channels = load_channels(reader, channels, tail_axes, tail->joints, &tail->channel_count);
+        load_channels(reader, object, axes, tail->joints, rig);
     } else {
         tail->channels = need_zeroed(1, sizeof *tail->channels);
         tail->channel_count = 1;
-        load_channel(reader, object, tail_axes, tail->joints, &tail->channels[0], NULL);
+        load_channel(reader, object, axes, tail->joints, &tail->channels[0], NULL);
     }
 }
 
-static void load(struct reader *reader, const struct value *object, struct rig *rig)
-{
-    struct tail *tail = &rig->tail;
-    struct range positive = {0, INFINITY, true};
-    json_t *unknown = reader_extra(reader, object, tail_keys);
-    tail->joints = TAIL_DEFAULT_JOINTS;
-    tail->length = TAIL_DEFAULT_LENGTH;
-    for (int i = 0; i < 3; i++) tail->position[i].track = -1;
-    rig->name = reader_name(reader, reader_member(object, "name"));
-    reader_number(reader, reader_member(object, "length"), false, positive, &tail->length);
-    load_position(reader, reader_member(object, "position"), tail->position, &unknown);
-    if (reader_integer(reader, reader_member(object, "joints"), 1, TAIL_MAX_JOINTS, &tail->joints)) {
-        load_angles(reader, reader_member(object, "rest"), tail->joints, &tail->rest, &unknown);
-        load_tail_channels(reader, object, tail);
-    }
-    rig->extra = reader_keep(reader, unknown);
-}
+static const struct field fields[] = {
+    {FIELD("joints", FIELD_WHOLE, tail.joints), .range = {1, TAIL_MAX_JOINTS, false}},
+    {FIELD("length", FIELD_NUMBER, tail.length), .range = FIELD_POSITIVE},
+    {FIELD("position", FIELD_OWN, tail.position), .load = load_position, .print = print_position},
+    {FIELD("rest", FIELD_OWN, tail.rest), .load = load_rest, .print = print_rest},
+    {"channels", .load = load_tail_channels, .print = print_channels},
+    {.key = "spline"}, // these of the only channel
+    {.key = "axis"},
+    {.key = "of"},
+    {.key = "lag"},
+    {.key = "gain"},
+    {.key = NULL},
+};
 
-static void print_position(struct text *text, const struct document *document, const struct rig *rig,
-                           const char *folder)
+static void reset(struct rig *rig)
 {
-    json_t *extras = json_object_get(rig->extra, "position");
-    for (int i = 0; i < 3; i++) {
-        text_string(text, i > 0 ? ", " : "[");
-        print_param(text, document, &rig->tail.position[i], extras, coordinate_name(i), folder);
-    }
-    text_string(text, "]");
-}
-
-static void print(struct members *members, const struct document *document, const struct rig *rig, const char *folder)
-{
-    const struct tail *tail = &rig->tail;
-    struct text *text = members->text;
-    member_number(members, "joints", tail->joints);
-    member_number(members, "length", tail->length);
-    member(members, "position");
-    print_position(text, document, rig, folder);
-    print_angles(members, "rest", &tail->rest, rig->extra);
-    print_channels(members, document, tail->channels, tail->channel_count);
+    rig->tail.joints = TAIL_DEFAULT_JOINTS;
+    rig->tail.length = TAIL_DEFAULT_LENGTH;
+    for (int i = 0; i < 3; i++) rig->tail.position[i].track = -1;
 }
 
 /// Of tracks, and of a ramp.
 static bool holds_keys(const char *key) { return strcmp(key, "position") == 0 || strcmp(key, "rest") == 0; }
 
-static void references(const struct rig *rig, int index, reference_visitor *visit, void *context)
-{
-    for (int i = 0; i < 3; i++) {
-        struct reference reference = {REFERENCE_POSITION, index, i, rig->tail.position[i].track};
-        if (reference.spline >= 0) visit(&reference, context);
-    }
-}
-
-static void set_reference(struct rig *rig, const struct reference *reference, int spline)
-{
-    rig->tail.position[reference->which].track = spline;
-}
-
 const struct rig_functions tail_functions = {.word = "tail",
-                                             .load = load,
-                                             .print = print,
+                                             .fields = fields,
+                                             .is_named = true,
                                              .pin_key = "joint",
-                                             .has_tracks = holds_keys,
                                              .is_bent = true,
-                                             .references = references,
-                                             .set_reference = set_reference};
+                                             .has_tracks = holds_keys,
+                                             .reset = reset};

@@ -1,7 +1,7 @@
 /// Checks a loaded document as a whole: cycles, limits, aliasing.
 #include "scene/order.h"
 #include "scene/reader.h"
-#include "scene/rig_pins.h"
+#include "scene/rig_kind.h"
 #include <math.h>
 
 static void check_cycles(struct reader *reader, const struct where *splines_at)

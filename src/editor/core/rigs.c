@@ -170,18 +170,14 @@ static bool goes(const struct removal *removal, int rig)
             document_find_model(removal->document, other->chain.model, other->chain.by_file) == removal->rig);
 }
 
-static void sort_reference(const struct reference *reference, void *context)
-{
-    struct removal *removal = context;
-    const bool stays = reference->kind == REFERENCE_TRACK || !goes(removal, reference->owner);
-    (stays ? removal->others : removal->mine)[reference->spline] = true;
-}
-
 static void survey(struct removal *removal, const struct document *document, int rig)
 {
     const size_t count = (size_t)document->spline_count + 1;
     *removal = (struct removal){document, rig, need_zeroed(count, sizeof(bool)), need_zeroed(count, sizeof(bool))};
-    reference_each(document, sort_reference, removal);
+    for (struct reference reference = {0}; reference_next(document, &reference);) {
+        const bool stays = reference.kind == REFERENCE_TRACK || !goes(removal, reference.owner);
+        (stays ? removal->others : removal->mine)[reference.spline] = true;
+    }
 }
 
 static void forget(struct removal *removal)

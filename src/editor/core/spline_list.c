@@ -100,19 +100,16 @@ double spline_list_present(const struct core *core, const struct editor_world *w
     return parameter_clamped(parameter, spline_mode(follower), value);
 }
 
-/// Finds the last place that follows a spline, so that letting go of it moves no other place.
-struct search {
-    int spline;
-    bool found;
-    struct reference reference;
-};
-
-static void find_reference(const struct reference *reference, void *context)
+/// Finds the last place that follows a spline, so that letting go of it moves no other place; false: there is none.
+static bool last_reference(const struct document *document, int spline, struct reference *last)
 {
-    struct search *search = context;
-    if (reference->spline != search->spline) return;
-    search->found = true;
-    search->reference = *reference;
+    bool found = false;
+    for (struct reference reference = {0}; reference_next(document, &reference);) {
+        if (reference.spline != spline) continue;
+        found = true;
+        *last = reference;
+    }
+    return found;
 }
 
 /// Ends that a place follows the active spline.
@@ -142,12 +139,10 @@ static bool release(struct core *core, const struct editor_world *world, const s
 static void spline_list_remove_now(struct core *core, const struct editor_world *world)
 {
     if (!core_active_spline(core, world) || !core_begin(core, world, "Delete spline", 0)) return;
+    struct reference reference;
     bool good = true;
-    for (struct search search = {.found = true}; good && search.found;) {
-        search = (struct search){.spline = core->active};
-        reference_each(world->document, find_reference, &search);
-        if (!search.found) break;
-        good = release(core, world, &search.reference);
+    while (good && last_reference(world->document, core->active, &reference)) {
+        good = release(core, world, &reference);
     }
     core_end(core, world, good && edit_spline_remove(world->document, core->active, &core->error));
 }
