@@ -7,8 +7,8 @@
 /// Frequency in Hz, ratios of damping and bandwidth; all else is the default.
 static inline struct spline spline_of(enum wiggly_mode mode, double frequency, double damping, double bandwidth)
 {
-    struct spline spline = {0};
-    spline_reset(&spline);
+    struct spline spline = {.color = -1};
+    for (int i = 0; i < PARAMETER_COUNT; i++) spline.parameter[i] = param_number(parameter_rows[i].standard);
     spline.parameter[PARAMETER_MODE].value = mode;
     spline.parameter[PARAMETER_FREQUENCY].value = frequency;
     spline.parameter[PARAMETER_DAMPING].value = damping;

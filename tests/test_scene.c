@@ -3,7 +3,7 @@
 
 #include "scene/evaluate.h"
 #include "scene/load.h"
-#include "scene/number.h"
+#include "scene/text.h"
 #include <dirent.h>
 #include <stdio.h>
 #include <stdlib.h>

@@ -6,7 +6,7 @@
 #include "commands/report.h"
 #include "rig/opened.h"
 #include "scene/evaluate.h"
-#include "scene/number.h"
+#include "scene/text.h"
 #include <errno.h>
 #include <stdio.h>
 #include <string.h>

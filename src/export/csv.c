@@ -2,7 +2,7 @@
 #include "base/error.h"
 #include "base/need.h"
 #include "export/form.h"
-#include "scene/number.h"
+#include "scene/text.h"
 #include <stdarg.h>
 #include <stdlib.h>
 

@@ -2,7 +2,7 @@
 #include "export/export.h"
 #include "base/file.h"
 #include "export/form.h"
-#include "scene/number.h"
+#include "scene/text.h"
 #include <math.h>
 #include <stdarg.h>
 #include <string.h>

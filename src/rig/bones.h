@@ -3,7 +3,7 @@
 #define RIG_BONES_H
 
 #include "model/gltf.h"
-#include "scene/angles.h"
+#include "scene/channel.h"
 
 struct chain_bones {
     int count;

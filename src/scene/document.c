@@ -13,14 +13,6 @@ const char *coordinate_name(int index)
     return names[index];
 }
 
-void spline_reset(struct spline *spline)
-{
-    spline->color = -1;
-    for (int i = 0; i < PARAMETER_COUNT; i++) {
-        spline->parameter[i] = param_number(parameter_rows[i].standard);
-    }
-}
-
 /// The document is about to be another value.
 void document_touch(struct document *document)
 {
@@ -107,7 +99,8 @@ struct spline *spline_create(void)
 {
     struct spline *spline = need_zeroed(1, sizeof *spline);
     atomic_init(&spline->holders, 1);
-    spline_reset(spline);
+    spline->color = -1;
+    for (int i = 0; i < PARAMETER_COUNT; i++) spline->parameter[i] = param_number(parameter_rows[i].standard);
     return spline;
 }
 
@@ -163,40 +156,34 @@ struct rig *document_own_rig(struct document *document, int rig)
 
 void document_insert_spline(struct document *document, int at, struct spline *spline)
 {
+    const int count = document->spline_count++;
     document_touch(document);
-    const size_t count = (size_t)document->spline_count;
-    document->splines = need_more(document->splines, count + 1, sizeof *document->splines);
-    struct spline **place = &document->splines[at];
-    memmove(place + 1, place, (count - (size_t)at) * sizeof *place);
-    *place = spline;
-    document->spline_count++;
+    document->splines = need_more(document->splines, (size_t)count + 1, sizeof *document->splines);
+    for (int i = count; i > at; i--) document->splines[i] = document->splines[i - 1];
+    document->splines[at] = spline;
 }
 
-void document_insert_rig(struct document *document, int at, struct rig *rig)
+void document_add_rig(struct document *document, struct rig *rig)
 {
     document_touch(document);
-    const size_t count = (size_t)document->rig_count;
-    document->rigs = need_more(document->rigs, count + 1, sizeof *document->rigs);
-    struct rig **place = &document->rigs[at];
-    memmove(place + 1, place, (count - (size_t)at) * sizeof *place);
-    *place = rig;
-    document->rig_count++;
+    document->rigs = need_more(document->rigs, (size_t)document->rig_count + 1, sizeof *document->rigs);
+    document->rigs[document->rig_count++] = rig;
 }
 
 void document_remove_spline(struct document *document, int at)
 {
     document_touch(document);
-    struct spline **place = &document->splines[at];
-    spline_drop(*place);
-    memmove(place, place + 1, (size_t)(--document->spline_count - at) * sizeof *place);
+    spline_drop(document->splines[at]);
+    document->spline_count--;
+    for (int i = at; i < document->spline_count; i++) document->splines[i] = document->splines[i + 1];
 }
 
 void document_remove_rig(struct document *document, int at)
 {
     document_touch(document);
-    struct rig **place = &document->rigs[at];
-    rig_drop(*place);
-    memmove(place, place + 1, (size_t)(--document->rig_count - at) * sizeof *place);
+    rig_drop(document->rigs[at]);
+    document->rig_count--;
+    for (int i = at; i < document->rig_count; i++) document->rigs[i] = document->rigs[i + 1];
 }
 
 void document_set_path(struct document *document, const char *path)

@@ -7,7 +7,6 @@
 
 #include "base/error.h"
 #include "scene/joint_motion.h"
-#include "scene/param.h"
 #include "scene/parameter.h"
 #include "scene/rig.h"
 #include <stdatomic.h>
@@ -117,9 +116,11 @@ void spline_drop(struct spline *spline);
 struct spline *document_own_spline(struct document *document, int spline);
 struct rig *document_own_rig(struct document *document, int rig);
 
-/// Puts a spline or rig, whose holder the document becomes, before the one at an index; and takes one out, which it lets go.
+/// Puts a spline, whose holder the document becomes, before the one at an index, and a rig behind all others.
 void document_insert_spline(struct document *document, int at, struct spline *spline);
-void document_insert_rig(struct document *document, int at, struct rig *rig);
+void document_add_rig(struct document *document, struct rig *rig);
+
+/// Takes one out, which the document lets go.
 void document_remove_spline(struct document *document, int at);
 void document_remove_rig(struct document *document, int at);
 
@@ -203,9 +204,6 @@ double spline_within(const struct spline *spline, double value);
 
 /// "x", "y" or "z".
 const char *coordinate_name(int index);
-
-/// Gives a spline the file format's defaults and no colour of its own; leaves name, knots and id alone.
-void spline_reset(struct spline *spline);
 
 #define KNOT_DEFAULT_STIFFNESS 1000.0 /* 1/s */
 

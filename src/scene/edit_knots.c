@@ -1,7 +1,7 @@
 /// Edits of knots.
 #include "base/need.h"
 #include "scene/editing.h"
-#include "scene/number.h"
+#include "scene/text.h"
 #include <math.h>
 #include <string.h>
 

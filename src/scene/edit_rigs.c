@@ -20,7 +20,7 @@ void edit_rig_append(struct document *document, struct rig *rig, char *name)
     free(rig->name);
     rig->name = name;
     rig->id = ++document->next_rig_id;
-    document_insert_rig(document, document->rig_count, rig);
+    document_add_rig(document, rig);
 }
 
 static bool is_taken(const struct document *document, const char *name, int own)

@@ -1,7 +1,7 @@
 /// Edits of a spline's mode, start and parameters.
 #include "scene/editing.h"
-#include "scene/number.h"
 #include "scene/order.h"
+#include "scene/text.h"
 #include <math.h>
 #include <string.h>
 

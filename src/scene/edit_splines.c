@@ -2,7 +2,6 @@
 #include "base/need.h"
 #include "scene/editing.h"
 #include "scene/order.h"
-#include "scene/reference.h"
 #include <ctype.h>
 #include <limits.h>
 #include <math.h>

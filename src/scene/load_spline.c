@@ -1,7 +1,7 @@
 /// Reads the splines of a scene.
 #include "base/need.h"
-#include "scene/color.h"
 #include "scene/reader.h"
+#include "scene/text.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

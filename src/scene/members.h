@@ -32,13 +32,6 @@ void members_extra(struct members *members, json_t *extra, holds_tracks *skips);
 /// A knot on one line, with the name of its spline unless that is NULL.
 void print_knot(struct text *text, const struct knot *knot, const char *spline);
 
-/// Knots as a spline has them.
-void print_knots(struct text *text, const struct knot *knots, int count);
-
-/// The whole document, with paths relative to `folder`, that of the file. With `places` all but the knots: places[s] is where in the text
-/// those of spline s belong.
-void print_document(struct text *text, const struct document *document, const char *folder, size_t *places);
-
 /// A number, a track or a motion, for a file in `folder`; `extras` holds the unknown keys of the latter two, by `key`.
 void print_param(struct text *text, const struct document *document, const struct param *param, json_t *extras,
                  const char *key, const char *folder);

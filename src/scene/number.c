@@ -1,5 +1,5 @@
 /// The shortest text that reads back as the same number.
-#include "scene/number.h"
+#include "scene/text.h"
 #include <assert.h>
 #include <ctype.h>
 #include <float.h>

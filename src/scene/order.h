@@ -1,4 +1,4 @@
-/// The order in which to solve splines: each after those that it follows by tracks.
+/// Which splines are named where, and the order in which to solve them: each after those that it follows by tracks.
 #ifndef SCENE_ORDER_H
 #define SCENE_ORDER_H
 
@@ -29,5 +29,31 @@ bool spline_uses(const struct spline *spline, enum parameter parameter, bool cub
 /// Marks, of the first `count` splines, this one and all that follow it, directly or not: those that it cannot follow itself.
 /// Allocates nothing; takes up to count² steps.
 void scene_followers(const struct document *document, int spline, bool *followers, int count);
+
+enum reference_kind {
+    REFERENCE_TRACK,    ///< a spline's parameter that follows
+    REFERENCE_POSITION, ///< a coordinate of a tail's position that follows
+    REFERENCE_CHANNEL,  ///< a tail's or chain's channel
+    REFERENCE_DRIVE,    ///< what moves a coordinate of a character
+    REFERENCE_MEADOW,   ///< what a meadow swings by
+};
+
+/// Zero before the first.
+struct reference {
+    enum reference_kind kind;
+    int owner;  ///< index of the spline or rig
+    int which;  ///< enum parameter, coordinate 0 … 2, channel, or drive
+    int spline; ///< index of the spline that it names
+    int number; ///< the next one's of this owner
+};
+
+/// Goes on to the next reference; false after the last.
+bool reference_next(const struct document *document, struct reference *reference);
+
+/// Makes a reference name another spline.
+void reference_set(struct document *document, const struct reference *reference, int spline);
+
+/// How many references there are to a spline.
+int reference_count(const struct document *document, int spline);
 
 #endif

@@ -1,5 +1,4 @@
 /// Finds groups of splines, and the order in which they are solved.
-#include "scene/pin_groups.h"
 #include "scene/pins.h"
 
 static void merge(int *group, int count, int into, int from)

@@ -2,12 +2,10 @@
 ///
 /// A tail or chain bends, so its points move by Σ Re(c x) only near a pose: Gauss-Newton, from the motion without pins on, each round with
 /// the pulls at the pose of the last one. No round is taken back, so that the motion is a continuous function of where pins are to be
-/// (pin_aim.h). A soft character needs one round.
+/// (pin_aim.c). A soft character needs one round.
 #include "scene/pinned.h"
 #include "base/need.h"
 #include "scene/evaluate.h"
-#include "scene/pin_aim.h"
-#include "scene/pin_groups.h"
 #include "scene/pins.h"
 #include "scene/storage.h"
 #include <math.h>

@@ -2,7 +2,6 @@
 #include "scene/pins.h"
 #include "base/need.h"
 #include "scene/order.h"
-#include "scene/pin_groups.h"
 #include <assert.h>
 #include <stdio.h>
 #include <stdlib.h>

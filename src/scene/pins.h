@@ -1,4 +1,4 @@
-/// The pins of a document's rigs (pin.h): looked up, put in order and checked.
+/// The pins of a document's rigs (rig.h): looked up, put in order and checked; and the groups of splines that they join.
 #ifndef SCENE_PINS_H
 #define SCENE_PINS_H
 
@@ -37,5 +37,25 @@ bool pins_check(const struct document *document, struct pin_trouble *trouble);
 
 /// Whether no spline of a pinned rig follows another that is solved together with it. Allocates.
 bool pins_check_order(const struct document *document, struct pin_trouble *trouble);
+
+/// Writes for each spline the first one of its group; -1: no pin moves it.
+void pin_groups_find(const struct document *document, int *group);
+
+/// Splines that cannot be in one group, or in groups that wait for each other: `spline` follows `leader`.
+struct pin_cycle {
+    int spline, leader;
+};
+
+/// Writes all splines into `order`, each after those that it follows, a group's in a row: `tracked` is scene_order()'s. A group also comes
+/// after what else moves its rigs, as what they stand on does, where that does not follow it in turn. `placed` has room for one a spline.
+/// false with the cycle if there is none.
+bool pin_groups_order(const struct document *document, const int *group, const int *tracked, bool *placed, int *order,
+                      struct pin_cycle *cycle);
+
+typedef void spline_visitor(int spline, void *context);
+
+/// Visits the splines that move a group's pinned rigs without being of the group; some perhaps more than once.
+void pin_groups_visit_bases(const struct document *document, const int *group, int which, spline_visitor *visit,
+                            void *context);
 
 #endif

@@ -1,8 +1,8 @@
 /// Writes a document as the text of a scene file.
-#include "scene/color.h"
 #include "scene/load.h"
 #include "scene/members.h"
 #include "scene/order.h"
+#include "scene/text.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -52,18 +52,17 @@ static void print_variation(struct members *members, const struct spline *spline
     text_string(members->text, " }");
 }
 
-void print_knots(struct text *text, const struct knot *knots, int count)
+static void print_knots(struct text *text, const struct spline *spline)
 {
-    for (int i = 0; i < count; i++) {
+    for (int i = 0; i < spline->knot_count; i++) {
         text_string(text, i > 0 ? ",\n        " : "[\n        ");
-        print_knot(text, &knots[i], NULL);
+        print_knot(text, &spline->knots[i], NULL);
     }
-    text_string(text, count > 0 ? "\n      ]" : "[]");
+    text_string(text, spline->knot_count > 0 ? "\n      ]" : "[]");
 }
 
-/// Without its knots if `place` is to say where they belong.
 static void print_spline(struct text *text, const struct document *document, const struct spline *spline,
-                         const char *folder, size_t *place)
+                         const char *folder)
 {
     struct members members = {text, "    {\n      ", ",\n      ", false};
     member_string(&members, "name", spline->name);
@@ -85,16 +84,12 @@ static void print_spline(struct text *text, const struct document *document, con
         print_param(text, document, &spline->parameter[p], spline->extra, name, folder);
     }
     member(&members, "knots");
-    if (place) {
-        *place = text->size;
-    } else {
-        print_knots(text, spline->knots, spline->knot_count);
-    }
+    print_knots(text, spline);
     members_extra(&members, spline->extra, is_parameter);
     text_string(text, "\n    }");
 }
 
-void print_document(struct text *text, const struct document *document, const char *folder, size_t *places)
+static void print_document(struct text *text, const struct document *document, const char *folder)
 {
     struct members members = {text, "{\n  ", ",\n  ", false};
     double frames[] = {document->first_frame, document->last_frame};
@@ -107,7 +102,7 @@ void print_document(struct text *text, const struct document *document, const ch
     member(&members, "splines");
     for (int i = 0; i < document->spline_count; i++) {
         text_string(text, i > 0 ? ",\n" : "[\n");
-        print_spline(text, document, document->splines[i], folder, places ? &places[i] : NULL);
+        print_spline(text, document, document->splines[i], folder);
     }
     text_string(text, document->spline_count > 0 ? "\n  ]" : "[]");
     member(&members, "rigs");
@@ -120,7 +115,7 @@ void scene_print_into(const struct document *document, const char *folder, char 
                       size_t *size)
 {
     struct text text = {.data = *buffer, .capacity = *capacity};
-    print_document(&text, document, folder, NULL);
+    print_document(&text, document, folder);
     *size = text.size;
     text_bytes(&text, "", 1);
     *buffer = text.data;

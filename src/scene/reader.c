@@ -1,7 +1,7 @@
 /// Reads single values and reports what is wrong with them.
 #include "scene/reader.h"
 #include "base/need.h"
-#include "scene/number.h"
+#include "scene/text.h"
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,5 +1,5 @@
 /// Goes through all places where a document names a spline, and sets them.
-#include "scene/reference.h"
+#include "scene/order.h"
 
 /// The n-th place of a rig that may name a spline, its inputs first; NULL: there are no more.
 static int *place_in_rig(struct rig *rig, int n)

@@ -3,14 +3,55 @@
 #ifndef SCENE_RIG_H
 #define SCENE_RIG_H
 
-#include "scene/chain.h"
+#include "scene/channel.h"
 #include "scene/character.h"
-#include "scene/meadow_rig.h"
-#include "scene/model_rig.h"
-#include "scene/pin.h"
 #include "scene/tail.h"
 #include <stdatomic.h>
 #include <stddef.h>
+
+/// An imported character: a glTF file, which is not read here and may be missing.
+struct model_rig {
+    char *model;        ///< the file, relative to the document's folder unless absolute
+    char *clip;         ///< of its animations, the one that it plays; NULL: it stands at rest
+    double position[3]; ///< metres
+    double scale;       ///< times the file's metres; above 0
+    double turn;        ///< degrees about world up
+};
+
+/// Joints of an imported character that splines bend on top of its clip.
+struct chain {
+    struct channel *channels; ///< first, as in every kind of rig that has some (rig.h)
+    int channel_count;
+    char *model;     ///< the name of a model rig, or its file
+    bool by_file;    ///< `model` is the file
+    char *from, *to; ///< names of the first joint and the last; not looked up here
+    double turn;     ///< degrees by which its axes are turned about its own direction
+    bool mirror;     ///< side and twist change sign
+};
+
+enum { MEADOW_MAX_REEDS = 4096 };
+
+/// Reeds that all swing by one spline, each by a variation of its own.
+struct meadow_rig {
+    int spline;
+    int count;        ///< reeds, 1 … MEADOW_MAX_REEDS
+    int seed;         ///< of their places and variations
+    double area[2];   ///< metres along x and z, round the origin
+    double height;    ///< of a reed, metres
+    double variation; ///< amount of each reed's
+    double lag, gain; ///< degrees a joint
+};
+
+enum { SCENE_MAX_PINS = 1024 }; ///< over all rigs together
+
+/// At one frame, a point of a rig is to be at a place. All splines that drive the rig are solved through it.
+struct pin {
+    double frame;         ///< as written; may be fractional
+    int point;            ///< of a character: a vertex of its model; of a tail or chain: a joint, whose end it is
+    double to[3];         ///< metres of the world
+    unsigned id;          ///< unique among the document's knots and pins, kept through edits and undo; not saved
+    struct json_t *extra; ///< unknown keys of the file, owned by the document, or NULL
+};
 
 /// Every kind: its constant RIG_… and the name that its rows of functions begin with. Layers make their tables from this list.
 #define RIG_KIND_LIST(KIND)                                                                                          \

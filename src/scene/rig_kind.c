@@ -180,7 +180,7 @@ void load_rigs(struct reader *reader, const struct value *scene)
         // any kind will do where it is unknown: the scene is refused
         struct rig *rig = rig_create(kind < 0 ? RIG_TAIL : (enum rig_kind)kind);
         rig->id = ++document->next_rig_id;
-        document_insert_rig(document, document->rig_count, rig);
+        document_add_rig(document, rig);
         if (kind >= 0) load_rig(reader, &object, rig);
         check_name(reader, &object.at, i);
     }

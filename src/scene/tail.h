@@ -3,7 +3,7 @@
 #define SCENE_TAIL_H
 
 #include "scene/channel.h"
-#include "scene/param.h"
+#include "scene/parameter.h"
 
 enum { TAIL_MAX_JOINTS = ANGLES_MAX_JOINTS };
 

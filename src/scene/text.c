@@ -1,7 +1,6 @@
-/// A growing text.
+/// A growing text, and colours: "#RRGGBB".
 #include "scene/text.h"
 #include "base/need.h"
-#include "scene/number.h"
 #include <jansson.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -112,3 +111,15 @@ void text_json(struct text *text, json_t *value)
 }
 
 size_t text_size(const char *string) { return string ? strlen(string) + 1 : 0; }
+
+bool color_parse(const char *text, int *color)
+{
+    if (text[0] != '#' || strlen(text) != 7 || strspn(text + 1, "0123456789abcdefABCDEF") != 6) return false;
+    *color = (int)strtol(text + 1, NULL, 16);
+    return true;
+}
+
+void color_print(int color, char text[COLOR_TEXT_SIZE])
+{
+    snprintf(text, COLOR_TEXT_SIZE, "#%06X", (unsigned)color & 0xFFFFFFu);
+}

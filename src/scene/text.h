@@ -1,7 +1,8 @@
-/// A growing text with the pieces that JSON is made of.
+/// A growing text with the pieces that JSON is made of; numbers and colours as files have them.
 #ifndef SCENE_TEXT_H
 #define SCENE_TEXT_H
 
+#include <stdbool.h>
 #include <stddef.h>
 
 struct json_t;
@@ -22,5 +23,19 @@ void text_quoted(struct text *text, const char *string);
 size_t text_size(const char *string);
 /// Any value on one line: { "a": [1, 2] }.
 void text_json(struct text *text, struct json_t *value);
+
+enum { NUMBER_TEXT_SIZE = 32 }; ///< room for any double
+
+/// Writes the fewest digits that read back equal, as plain decimals from 1e-5 up to 1e15 and with an exponent beyond:
+/// 0.1, 120, 1.5e-7. Both zeros are "0". The same in every locale. `value` must be finite. Returns the length.
+size_t number_print(double value, char text[NUMBER_TEXT_SIZE]);
+
+enum { COLOR_TEXT_SIZE = 8 };
+
+/// Reads "#RRGGBB" (six hexadecimal digits of either case) into 0xRRGGBB; false for anything else.
+bool color_parse(const char *text, int *color);
+
+/// Writes 0xRRGGBB as "#RRGGBB" with capital digits.
+void color_print(int color, char text[COLOR_TEXT_SIZE]);
 
 #endif

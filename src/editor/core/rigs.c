@@ -3,7 +3,7 @@
 #include "base/need.h"
 #include "editor/core/core.h"
 #include "editor/core/spline_list.h"
-#include "scene/reference.h"
+#include "scene/order.h"
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

@@ -3,7 +3,7 @@
 #include "editor/core/core.h"
 #include "editor/core/rigs.h"
 #include "editor/core/selection.h"
-#include "scene/reference.h"
+#include "scene/order.h"
 #include "ui/theme.h"
 #include <math.h>
 #include <stdlib.h>

@@ -4,7 +4,7 @@
 #include "editor/core/spline_list.h"
 #include "editor/dialogs/dialog.h"
 #include "editor/dialogs/dialogs.h"
-#include "scene/reference.h"
+#include "scene/order.h"
 #include "ui/theme.h"
 #include <math.h>
 #include <stdio.h>

@@ -4,7 +4,7 @@
 #include "editor/core/spline_list.h"
 #include "editor/inspector/inspection.h"
 #include "editor/inspector/inspector.h"
-#include "scene/color.h"
+#include "scene/text.h"
 #include <math.h>
 #include <stdio.h>
 
