@@ -6,7 +6,7 @@
 #   make test     builds and runs every test (TESTS="tests/test_timing.c tests/test_cli.sh" for some; JOBS=1 for one at a time)
 #   make test-all the same with all that takes long: failing allocations and system calls, other compilers, every size of screen
 #   make bench    the solver against LAPACKE (ARGS="--json FILE --large")
-#   make models   the generated characters, build/models/creature.obj and dog.glb
+#   make models   the generated characters, build/models/creature.obj, dog.glb and fox.glb
 #   make proof    has three.js, Blender and usd-core evaluate what wiggly exports
 #   make check    formatting, static analysis, include arrows, lengths
 #   make figures  the paper's figures as SVG and CSV, in FIGURES (build/figures)
@@ -61,7 +61,7 @@ SOURCES := $(sort $(shell find src -name '*.c'))
 LIBRARY_SOURCES := $(wildcard src/spline/*.c) src/base/status.c
 EMBEDDED := LICENSE $(wildcard shaders/*.vert shaders/*.frag assets/scenes/tail.json \
     assets/scenes/figure*.json assets/scenes/dog.json assets/scenes/hands.json \
-    assets/scenes/meadow.json assets/demo/demo.replay)
+    assets/scenes/meadow.json assets/models/fox.glb assets/demo/demo.replay)
 TOOLS := $(filter-out adversary,$(basename $(notdir $(wildcard tools/*.c))))
 TOOL_PARTS := $(wildcard tools/*/*.c)
 TESTS ?= $(sort $(wildcard tests/test_*.c tests/test_*.sh))
@@ -150,7 +150,7 @@ COUNT ?= 2000
 adversary: $(B)/adversary
 	$(Q)$< $(SEED) $(COUNT) $(JOBS)
 
-models: $(B)/models/creature.obj $(B)/models/dog.glb
+models: $(B)/models/creature.obj $(B)/models/dog.glb $(B)/models/fox.glb
 $(B)/models/%.obj: $(B)/%_obj
 	@mkdir -p $(@D)
 	$(Q)$< $@

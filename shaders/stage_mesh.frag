@@ -1,6 +1,6 @@
 #version 330 core
 // Wrapped key light, hemisphere, rim. Colours are linear until the last line.
-// FURRED is the fox, FACED what its face is on; PICTURED a soft character with pictures; SKIRT an imported one, and what hangs along outlines of both.
+// FURRED is a coat, FACED what a face is drawn on; PICTURED a soft character with pictures; SKIRT an imported one, and what hangs along outlines of both.
 #if defined(FACED)
 #define FURRED
 #endif
@@ -10,14 +10,17 @@
 in vec3 world;
 in vec3 world_normal;
 #ifdef FURRED
-in vec3 marking; // white, dark, brown: as in model/mesh.h
+in vec3 marking; // how deep in what is white and dark (metres), and how brown
 in vec4 place;   // in bind space, and how much of it is the tail's
 in float open_around; // share of the light from all around that reaches it
 #ifdef FACED
 uniform mat4 head_from_bind; // to the head's own space, which looks towards -z
 uniform float blink;         // how far the lids are closed
 #endif
-uniform vec3 orange, brown, white, dark;
+const vec3 ORANGE = vec3(0.69387, 0.25415, 0.07036); // #D98A4B
+const vec3 BROWN = vec3(0.19462, 0.05951, 0.02122);  // #7A4528
+const vec3 WHITE = vec3(0.90466, 0.87962, 0.80695);  // #F4F1E8
+const vec3 DARK = vec3(0.02416, 0.01229, 0.00913);   // #2B1D18
 #else
 in vec3 fur;
 in vec2 phase; // of the phase map: movement as a share of the largest, at the angle by which it leads
@@ -112,14 +115,14 @@ vec3 with_face(vec3 coat, float sharp, out float gloss)
     float ball = front * covered((1.0 - ring) * 0.031, sharp), tip = covered((1.0 - length(n)) * 0.022, sharp);
     // Amber that is lit through from below, around a pupil.
     float iris = 0.6 * clamp(0.55 - 0.6 * e.y, 0.0, 1.0) * clamp(4.5 * ring - 2.3, 0.0, 1.0) * clamp(5.0 - 5.0 * ring, 0.0, 1.0);
-    vec3 drawn = mix(coat, dark, 0.85 * front * lines);
+    vec3 drawn = mix(coat, DARK, 0.85 * front * lines);
     // The upper lid comes down to the lower one, its edge a lash line that bends from arch to smile, late: flat halfway down it would frown.
     float lid = mix(1.25, -0.55, blink) + (0.45 - 0.9 * blink * blink) * (1.0 - e.x * e.x) * 0.5 - e.y;
     float shut = covered(-0.0335 * lid, sharp) * step(0.01, blink);
     float lash = covered(0.0042 - 0.0335 * abs(lid), min(sharp, 330.0)) * step(0.01, blink);
-    vec3 eyeball = mix(0.25 * dark, vec3(0.42, 0.15, 0.03), iris), skin = mix(0.86, 0.97, -0.5 * lid) * coat;
-    drawn = mix(drawn, mix(mix(eyeball, skin, shut), dark, lash), ball);
-    drawn = mix(drawn, 0.4 * dark, tip);
+    vec3 eyeball = mix(0.25 * DARK, vec3(0.42, 0.15, 0.03), iris), skin = mix(0.86, 0.97, -0.5 * lid) * coat;
+    drawn = mix(drawn, mix(mix(eyeball, skin, shut), DARK, lash), ball);
+    drawn = mix(drawn, 0.4 * DARK, tip);
     ball *= 1.0 - max(shut, lash);
     gloss = max(ball, tip);
     // The lamp's images: fixed, as lamps are large and eyes are round; on the same side of both eyes.
@@ -136,9 +139,9 @@ vec3 coat_here(out float gloss)
     float grain = 0.6 * length(fwidth(place.xyz));
     float sharp = 1.0 / max(grain, 1e-5);
     float hair = strands(grain);
-    vec3 coat = mix(orange, brown, clamp(marking.z + 0.10 * hair * (0.4 + marking.z), 0.0, 1.0)) * (1.0 + 0.07 * hair);
-    coat = mix(coat, white * (1.0 + 0.05 * hair), marked(marking.x + TUFT * hair));
-    coat = mix(coat, dark * (1.0 + 0.3 * hair), marked(marking.y + TUFT * hair));
+    vec3 coat = mix(ORANGE, BROWN, clamp(marking.z + 0.10 * hair * (0.4 + marking.z), 0.0, 1.0)) * (1.0 + 0.07 * hair);
+    coat = mix(coat, WHITE * (1.0 + 0.05 * hair), marked(marking.x + TUFT * hair));
+    coat = mix(coat, DARK * (1.0 + 0.3 * hair), marked(marking.y + TUFT * hair));
 #ifdef FACED
     return with_face(coat, sharp, gloss);
 #else

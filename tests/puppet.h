@@ -3,7 +3,7 @@
 #define TESTS_PUPPET_H
 
 #include "model/figure.h"
-#include "model/isosurface.h"
+#include "models/isosurface.h"
 #include "near.h"
 #include <math.h>
 #include <stdlib.h>

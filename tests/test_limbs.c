@@ -1,7 +1,6 @@
 /// The fox lives: splines breathe, blink, turn its head, flick its ears and squash it, and its skin follows.
-#include "model/creature.h"
+#include "model/fox.h"
 #include "model/limbs.h"
-#include "model/tail_skin.h"
 #include "model/vector.h"
 #include "near.h"
 #include "rig/opened.h"
@@ -73,11 +72,12 @@ static void the_head_looks_where_the_tail_goes(void **state)
 }
 
 /// Lowest point of the skin.
-static float lowest(const struct pose *pose, const struct mesh *mesh, float (*place)[3])
+static float lowest(const struct pose *pose, const struct fox *fox, float (*place)[3])
 {
     float low = INFINITY;
-    tail_skin(pose, mesh, place, NULL);
-    for (int v = 0; v < mesh->vertex_count; v++) low = fminf(low, place[v][1]);
+    fox_pose(fox, pose);
+    fox_places(fox, place);
+    for (int v = 0; v < fox_vertex_count(fox); v++) low = fminf(low, place[v][1]);
     return low;
 }
 
@@ -85,20 +85,20 @@ static float lowest(const struct pose *pose, const struct mesh *mesh, float (*pl
 static void a_hop_is_anticipated_and_squashes(void **state)
 {
     (void)state;
-    struct mesh mesh = {0};
+    struct fox fox;
     open_scene("assets/scenes/follow.json");
-    mesh_creature(2, &mesh);
-    float(*place)[3] = calloc((size_t)mesh.vertex_count, sizeof *place);
+    fox_create(2, scene.document->rigs[0]->tail.joints, &fox);
+    float(*place)[3] = calloc((size_t)fox_vertex_count(&fox), sizeof *place);
     assert_non_null(place);
     assert_true(pose_at(5)->limbs.stretch < -0.1f);
     assert_true(pose_at(10)->limbs.stretch > 0.1f);
     assert_true(pose_at(19)->limbs.stretch < -0.1f);
     assert_true(fabsf(pose_at(42)->limbs.stretch) < 0.02f);
-    for (int f = 0; f <= 96; f++) assert_true(lowest(pose_at(f), &mesh, place) > -0.03f);
-    assert_true(lowest(pose_at(5), &mesh, place) < 0.02f);
-    assert_true(lowest(pose_at(12), &mesh, place) > 0.1f);
+    for (int f = 0; f <= 96; f++) assert_true(lowest(pose_at(f), &fox, place) > -0.03f);
+    assert_true(lowest(pose_at(5), &fox, place) < 0.02f);
+    assert_true(lowest(pose_at(12), &fox, place) > 0.1f);
     free(place);
-    mesh_free(&mesh);
+    fox_free(&fox);
     opened_free(&scene);
 }
 
@@ -112,24 +112,27 @@ static void bounds_hold_the_skin(void **state)
         {.breath = 0.25f, .stretch = 0.4f},
         {.breath = 0.25f, .stretch = -0.4f, .nod = 0.6f},
     };
-    struct mesh mesh = {0};
+    struct fox fox;
     open_scene("assets/scenes/tail.json");
-    mesh_creature(1, &mesh);
-    float(*place)[3] = calloc((size_t)mesh.vertex_count, sizeof *place);
+    fox_create(1, scene.document->rigs[0]->tail.joints, &fox);
+    const struct gltf_part *coat = &fox.gltf.meshes->parts[0], *face = coat + 1;
+    float(*place)[3] = calloc((size_t)fox_vertex_count(&fox), sizeof *place);
     assert_non_null(place);
     for (size_t w = 0; w < sizeof wild / sizeof *wild; w++) {
         struct pose pose = *pose_at(0);
         float lo[3], hi[3];
         pose.limbs = wild[w];
         pose_bounds(&pose, lo, hi);
-        tail_skin(&pose, &mesh, place, NULL);
-        for (int v = 0; v < mesh.vertex_count; v++) {
-            if (mesh.vertices[v].bend > 0) continue;
+        fox_pose(&fox, &pose);
+        fox_places(&fox, place);
+        assert_true(face->vertex_count > 0);
+        for (int v = 0; v < coat->vertex_count + face->vertex_count; v++) {
+            if (v < coat->vertex_count && coat->fur[v][0] > 0) continue;
             for (int k = 0; k < 3; k++) assert_true(place[v][k] > lo[k] - 0.005f && place[v][k] < hi[k] + 0.005f);
         }
     }
     free(place);
-    mesh_free(&mesh);
+    fox_free(&fox);
     opened_free(&scene);
 }
 
@@ -193,49 +196,6 @@ static void axes_are_edited_and_undone(void **state)
     opened_free(&scene);
 }
 
-/// A vertex as the stage draws it.
-static vec3s moved(const struct vertex *vertex, float matrix[LIMBS][16])
-{
-    const vec3s p = vec3_from(vertex->position);
-    const vec3s a = glms_mat4_mulv3(mat4_from(matrix[(int)vertex->limb[0]]), p, 1.0f);
-    const vec3s b = glms_mat4_mulv3(mat4_from(matrix[(int)vertex->limb[1]]), p, 1.0f);
-    return glms_vec3_lerp(a, b, vertex->limb[2]);
-}
-
-static bool is_ear(const struct vertex *vertex) { return (int)vertex->limb[1] >= LIMB_EAR; }
-
-/// The distance by which the pointer's ray is marched. Between body and head the skin is bent, there it need only be near.
-static void the_moved_skin_is_where_it_is_picked(void **state)
-{
-    static const struct limbs poses[] = {
-        {0}, {.look = 0.8f}, {.nod = 0.4f}, {.stretch = 0.2f}, {.look = -0.6f, .nod = -0.3f, .stretch = -0.15f}};
-    struct mesh mesh = {0};
-    (void)state;
-    mesh_torso(0.05f, 0.01f, 0, &mesh);
-    assert_true(mesh.vertex_count > 100);
-    for (size_t n = 0; n < sizeof poses / sizeof *poses; n++) {
-        const struct limbs_back back = limbs_back(&poses[n]);
-        float matrix[LIMBS][16];
-        int head = 0, off = 0, count = 0;
-        limbs_matrices(&poses[n], 1.0f, matrix);
-        for (int v = 0; v < mesh.vertex_count; v++) {
-            const struct vertex *vertex = &mesh.vertices[v];
-            const float alone = fabsf(creature_torso_distance(vertex->position));
-            if (is_ear(vertex)) continue;
-            const vec3s at = moved(vertex, matrix);
-            const float distance = fabsf(limbs_distance(&back, at.raw));
-            const bool is_bent = vertex->limb[2] > 0 && vertex->limb[2] < 1;
-            count++;
-            head += !is_bent && (int)vertex->limb[1] == LIMB_HEAD;
-            off += !is_bent && distance > alone + 1e-4f;
-            if (is_bent) assert_true(distance < 0.12f);
-        }
-        assert_true(head > 20);
-        if (off > 0) fail_msg("pose %zu: %d of %d vertices are off the skin", n, off, count);
-    }
-    mesh_free(&mesh);
-}
-
 /// The points of pins are those of the picture, however the body moves.
 static void pins_hold_what_is_drawn(void **state)
 {
@@ -258,39 +218,6 @@ static void pins_hold_what_is_drawn(void **state)
     opened_free(&scene);
 }
 
-/// The ears, laid back as far as they go and forward: each vertex of them is near the skin that the pointer's ray meets, and where they were at
-/// rest there is nothing.
-static void a_laid_ear_is_picked_where_it_is_drawn(void **state)
-{
-    static const struct limbs poses[] = {{.ears = {1.05f, 1.05f}},
-                                         {.ears = {-0.5f, -0.5f}, .look = 0.7f, .nod = 0.3f}};
-    struct mesh mesh = {0};
-    (void)state;
-    mesh_torso(0.05f, 0.01f, 0, &mesh);
-    for (size_t n = 0; n < sizeof poses / sizeof *poses; n++) {
-        const struct limbs_back back = limbs_back(&poses[n]);
-        struct limbs rest = poses[n];
-        float matrix[LIMBS][16], at_rest[LIMBS][16];
-        int gone = 0;
-        memset(rest.ears, 0, sizeof rest.ears);
-        limbs_matrices(&poses[n], 1.0f, matrix);
-        limbs_matrices(&rest, 1.0f, at_rest);
-        for (int v = 0; v < mesh.vertex_count; v++) {
-            const struct vertex *vertex = &mesh.vertices[v];
-            if (!is_ear(vertex)) continue;
-            const vec3s at = moved(vertex, matrix), was = moved(vertex, at_rest);
-            const bool is_bent = vertex->limb[2] < 1;
-            const float alone = fabsf(creature_torso_distance(vertex->position));
-            assert_true(fabsf(limbs_distance(&back, at.raw)) < (is_bent ? 0.05f : alone + 1e-4f));
-            if (is_bent || glms_vec3_distance(at, was) < 0.1f) continue;
-            gone++;
-            assert_true(limbs_distance(&back, was.raw) > 0.02f);
-        }
-        assert_true(gone >= 2);
-    }
-    mesh_free(&mesh);
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -301,8 +228,6 @@ int main(void)
         cmocka_unit_test(ears_bend_as_chains),
         cmocka_unit_test(the_body_leaves_the_tail_alone),
         cmocka_unit_test(axes_are_edited_and_undone),
-        cmocka_unit_test(the_moved_skin_is_where_it_is_picked),
-        cmocka_unit_test(a_laid_ear_is_picked_where_it_is_drawn),
         cmocka_unit_test(pins_hold_what_is_drawn),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,7 +1,8 @@
 /// The animal's mesh: closed, smooth, within its budget, and one animal where tail and body meet.
-#include "model/creature.h"
-#include "model/mesh.h"
+#include "model/fox.h"
+#include "models/fox_maker.h"
 #include "near.h"
+#include "temporary.h"
 #include <math.h>
 #include <stdlib.h>
 
@@ -52,7 +53,7 @@ static void the_body_is_closed(void **state)
 {
     (void)state;
     struct mesh mesh = {0};
-    mesh_torso(0.030f, 0.0028f, 3, &mesh);
+    mesh_fox_body(0.030f, 0.0028f, 3, &mesh);
     assert_int_equal(open_edges(&mesh), 0);
     mesh_free(&mesh);
 }
@@ -62,15 +63,15 @@ static void the_tail_is_open_only_inside_the_body(void **state)
     (void)state;
     enum { SEGMENTS = 40 };
     struct mesh mesh = {0};
-    mesh_tail(100, SEGMENTS, &mesh);
+    mesh_fox_tail(100, SEGMENTS, &mesh);
     assert_int_equal(open_edges(&mesh), SEGMENTS);
     float start = INFINITY, end = -INFINITY;
     for (int v = 0; v < mesh.vertex_count; v++) {
         start = fminf(start, mesh.vertices[v].position[2]);
         end = fmaxf(end, mesh.vertices[v].position[2]);
     }
-    assert_near(end, CREATURE_TAIL_LENGTH, 1e-5);
-    assert_true(start < -0.05f && start > creature_torso_lo[2]);
+    assert_near(end, FOX_TAIL_LENGTH, 1e-5);
+    assert_true(start < -0.05f && start > fox_body_lo[2]);
     mesh_free(&mesh);
 }
 
@@ -78,9 +79,9 @@ static void the_tail_is_open_only_inside_the_body(void **state)
 static void normals_are_unit_and_agree_with_the_triangles(void **state)
 {
     (void)state;
-    for (int level = 0; level < CREATURE_LEVELS; level++) {
+    for (int level = 0; level < FOX_LEVELS; level++) {
         struct mesh mesh = {0};
-        mesh_creature(level, &mesh);
+        mesh_fox(level, &mesh);
         int wrong = 0;
         for (int v = 0; v < mesh.vertex_count; v++) {
             assert_near(dot(mesh.vertices[v].normal, mesh.vertices[v].normal), 1.0, 1e-3);
@@ -105,7 +106,7 @@ static void silhouettes_have_no_corners(void **state)
 {
     (void)state;
     struct mesh mesh = {0};
-    mesh_creature(0, &mesh);
+    mesh_fox(0, &mesh);
     for (int i = 0; i < mesh.index_count; i++) {
         const struct vertex *a = &mesh.vertices[mesh.indices[i]];
         const struct vertex *b = &mesh.vertices[mesh.indices[i % 3 == 2 ? i - 2 : i + 1]];
@@ -124,7 +125,7 @@ static void the_stage_stays_within_its_triangles(void **state)
     (void)state;
     for (int animals = 1; animals <= 8; animals++) {
         struct mesh mesh = {0};
-        mesh_creature(creature_level(animals), &mesh);
+        mesh_fox(fox_level(animals), &mesh);
         assert_true(animals * mesh.index_count / 3 <= 20000);
         mesh_free(&mesh);
     }
@@ -134,10 +135,10 @@ static void the_body_stands_on_the_ground(void **state)
 {
     (void)state;
     struct mesh mesh = {0};
-    mesh_torso(0.030f, 0.0028f, 3, &mesh);
+    mesh_fox_body(0.030f, 0.0028f, 3, &mesh);
     float low = INFINITY;
     for (int v = 0; v < mesh.vertex_count; v++) low = fminf(low, mesh.vertices[v].position[1]);
-    assert_near(low, -CREATURE_BASE_HEIGHT, 0.02);
+    assert_near(low, -FOX_BASE_HEIGHT, 0.02);
     mesh_free(&mesh);
 }
 
@@ -146,14 +147,14 @@ static void tail_and_body_meet_smoothly(void **state)
 {
     (void)state;
     struct mesh mesh = {0};
-    mesh_torso(0.030f, 0.0028f, 3, &mesh);
+    mesh_fox_body(0.030f, 0.0028f, 3, &mesh);
     int seen = 0;
     for (int v = 0; v < mesh.vertex_count; v++) {
         const struct vertex *vertex = &mesh.vertices[v];
         const float z = vertex->position[2];
         if (z < 0.13f || z > 0.2f) continue;
         const float radius = hypotf(vertex->position[0], vertex->position[1]);
-        assert_near(radius, creature_tail_radius(z), 0.008);
+        assert_near(radius, fox_tail_radius(z), 0.008);
         assert_true(vertex->normal[2] < 0.15f);
         assert_near(vertex->bend, 1.0, 1e-6);
         seen++;
@@ -167,7 +168,7 @@ static void the_brush_swells_and_ends_white(void **state)
 {
     (void)state;
     struct mesh mesh = {0};
-    mesh_tail(100, 40, &mesh);
+    mesh_fox_tail(100, 40, &mesh);
     float thickest = 0.0f, at = 0.0f;
     int edges = 0;
     for (int ring = 0; ring < 100; ring++) {
@@ -176,8 +177,8 @@ static void the_brush_swells_and_ends_white(void **state)
         thickest = fmaxf(thickest, top->position[1]);
         edges += ring > 0 && (top->mark[MARK_WHITE] > 0) != (top[-40].mark[MARK_WHITE] > 0);
     }
-    assert_near(thickest / CREATURE_TAIL_RADIUS, 2.0, 0.1);
-    assert_true(at > 0.5f * CREATURE_TAIL_LENGTH && at < 0.75f * CREATURE_TAIL_LENGTH);
+    assert_near(thickest / FOX_TAIL_RADIUS, 2.0, 0.1);
+    assert_true(at > 0.5f * FOX_TAIL_LENGTH && at < 0.75f * FOX_TAIL_LENGTH);
     assert_int_equal(edges, 1);
     const struct vertex *tip = &mesh.vertices[mesh.vertex_count - 1];
     assert_true(tip->color[0] > 0.8f && tip->color[2] > 0.75f);
@@ -191,8 +192,8 @@ static void the_face_looks_where_the_stage_draws_it(void **state)
     struct mesh mesh = {0};
     float m[16];
     int nose = 0, eyes[2] = {0, 0};
-    creature_head_from_bind(m);
-    mesh_creature(0, &mesh);
+    fox_head_from_bind(m);
+    mesh_fox(0, &mesh);
     for (int v = 0; v < mesh.vertex_count; v++) {
         const float *p = mesh.vertices[v].position;
         float q[3];
@@ -203,6 +204,46 @@ static void the_face_looks_where_the_stage_draws_it(void **state)
     }
     assert_true(nose > 3 && eyes[0] > 3 && eyes[1] > 3);
     mesh_free(&mesh);
+}
+
+/// Of a part: both have as many vertices and triangles, and each vertex the same place, coat and weights, but for another machine's rounding.
+static void assert_alike(const struct gltf_part *is, const struct gltf_part *was)
+{
+    assert_int_equal(is->vertex_count, was->vertex_count);
+    assert_int_equal(is->index_count, was->index_count);
+    assert_true(is->mark && was->mark);
+    assert_memory_equal(is->indices, was->indices, (size_t)was->index_count * sizeof *was->indices);
+    for (int v = 0; v < was->vertex_count; v++) {
+        for (int k = 0; k < 3; k++) {
+            assert_near(is->position[v][k], was->position[v][k], 1e-4);
+            assert_near(is->normal[v][k], was->normal[v][k], 1e-2);
+            assert_near(is->mark[v][k], was->mark[v][k], 1e-3);
+        }
+        for (int k = 0; k < 2; k++) assert_near(is->fur[v][k], was->fur[v][k], 1e-2);
+        for (int k = 0; k < 4; k++) assert_near(is->weights[v][k], was->weights[v][k], 1e-2);
+    }
+}
+
+/// The tool still makes the file that is committed, and that the app has in it.
+static void the_file_is_what_its_tool_makes(void **state)
+{
+    (void)state;
+    char path[512], command[1100];
+    const char *build = getenv("B");
+    struct gltf made, committed;
+    struct error error = {0};
+    snprintf(path, sizeof path, "%s", temporary_path("fox.glb"));
+    snprintf(command, sizeof command, "%s/fox_glb '%s' >/dev/null", build ? build : "build", path);
+    assert_int_equal(system(command), 0);
+    if (!gltf_read(path, &made, &error) || !gltf_read("assets/models/fox.glb", &committed, &error))
+        fail_msg("%s", error.text);
+    assert_int_equal(made.mesh_count, FOX_LEVELS);
+    assert_int_equal(made.node_count, committed.node_count);
+    for (int m = 0; m < FOX_LEVELS; m++) {
+        for (int p = 0; p < 2; p++) assert_alike(&made.meshes[m].parts[p], &committed.meshes[m].parts[p]);
+    }
+    gltf_free(&made);
+    gltf_free(&committed);
 }
 
 int main(void)
@@ -217,6 +258,7 @@ int main(void)
         cmocka_unit_test(tail_and_body_meet_smoothly),
         cmocka_unit_test(the_brush_swells_and_ends_white),
         cmocka_unit_test(the_face_looks_where_the_stage_draws_it),
+        cmocka_unit_test(the_file_is_what_its_tool_makes),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,7 +1,6 @@
 /// The tail's pose: directions and units of the file format, lag (paper, section 7.1), and the default scene's
 /// motion.
-#include "model/creature.h"
-#include "model/tail_skin.h"
+#include "model/fox.h"
 #include "near.h"
 #include "rig/posing.h"
 #include "rig/shadow.h"
@@ -288,7 +287,7 @@ static void the_ground_is_below_the_base(void **state)
     struct tail tail = plain_tail(AXIS_SIDE);
     tail.channel_count = 0;
     pose_tail(&tail, NULL, LOOK_WIGGLY, &pose);
-    const double sunk = 0.2 - CREATURE_BASE_HEIGHT * 1.6 / CREATURE_TAIL_LENGTH;
+    const double sunk = 0.2 - FOX_BASE_HEIGHT * 1.6 / FOX_TAIL_LENGTH;
     assert_near(pose.ground, sunk, 1e-6);
     tail.position[0].track = 0;
     tail.position[2].track = 0;
@@ -304,9 +303,9 @@ static void bounds_hold_a_curled_tail(void **state)
 {
     (void)state;
     static struct pose pose;
-    struct mesh mesh = {0};
-    mesh_creature(1, &mesh);
-    float(*place)[3] = calloc((size_t)mesh.vertex_count, sizeof *place);
+    struct fox fox;
+    fox_create(1, JOINTS, &fox);
+    float(*place)[3] = calloc((size_t)fox_vertex_count(&fox), sizeof *place);
     assert_non_null(place);
     for (int up = 0; up < 2; up++) {
         struct tail tail = plain_tail(AXIS_SIDE);
@@ -315,13 +314,14 @@ static void bounds_hold_a_curled_tail(void **state)
         tail.rest.value[0] = up ? 15.0 : -15.0;
         pose_tail(&tail, NULL, LOOK_WIGGLY, &pose);
         pose_bounds(&pose, lo, hi);
-        tail_skin(&pose, &mesh, place, NULL);
-        for (int v = 0; v < mesh.vertex_count; v++) {
+        fox_pose(&fox, &pose);
+        fox_places(&fox, place);
+        for (int v = 0; v < fox_vertex_count(&fox); v++) {
             for (int k = 0; k < 3; k++) assert_true(place[v][k] > lo[k] - 0.005f && place[v][k] < hi[k] + 0.005f);
         }
     }
     free(place);
-    mesh_free(&mesh);
+    fox_free(&fox);
 }
 
 /// A tail that lies on the ground throws more shadow than one held up; both stay within the room given.
@@ -362,7 +362,7 @@ static void a_hop_takes_the_shadow_along(void **state)
     tail.length *= 0.2; // a small animal
     for (int high = 0; high < 2; high++) {
         pose_tail(&tail, NULL, LOOK_WIGGLY, &pose);
-        const float scale = pose_length(&pose) / CREATURE_TAIL_LENGTH;
+        const float scale = pose_length(&pose) / FOX_TAIL_LENGTH;
         if (high) {
             for (int n = 0; n < pose.count; n++) pose.matrix[n][13] += 0.35f * scale;
         }

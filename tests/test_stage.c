@@ -1,6 +1,6 @@
 /// What a person sees on the stage, drawn offscreen; and the skin that is drawn there.
-#include "model/creature.h"
-#include "model/tail_skin.h"
+#include "model/fox.h"
+#include "models/fox_maker.h"
 #include "offscreen.h"
 #include "rig/camera.h"
 #include "rig/posing.h"
@@ -13,6 +13,8 @@
 enum { WIDTH = 1000, HEIGHT = 400, JOINTS = 24 };
 
 static struct stage_view view;
+static struct pose posed;
+static struct fox fox;
 static unsigned char pixels[HEIGHT][WIDTH][4]; ///< bottom row first
 
 /// A tail lifted in a curve to the right side of its animal, its camera and its shadows.
@@ -21,7 +23,7 @@ static void arrange(double side)
     static struct channel channel;
     struct tail tail = {.joints = JOINTS,
                         .length = 1.6,
-                        .position = {{0.0, -1}, {CREATURE_BASE_HEIGHT, -1}, {0.0, -1}},
+                        .position = {{0.0, -1}, {FOX_BASE_HEIGHT, -1}, {0.0, -1}},
                         .channels = &channel,
                         .channel_count = 1};
     tail.rest.value[0] = 2.0;
@@ -29,16 +31,17 @@ static void arrange(double side)
     channel.gain.value[0] = side;
     memset(&view, 0, sizeof view);
     view.colors = theme()->stage;
-    view.tail_count = 1;
-    pose_tail(&tail, &(wiggly_value){.y = 1.0}, LOOK_WIGGLY, &view.tails[0].pose);
+    pose_tail(&tail, &(wiggly_value){.y = 1.0}, LOOK_WIGGLY, &posed);
+    if (fox.joints == 0) fox_create(0, JOINTS, &fox);
+    stage_add_fox(&view, &fox, &posed);
     float lo[3], hi[3];
     struct camera camera = camera_default();
-    pose_bounds(&view.tails[0].pose, lo, hi);
+    pose_bounds(&posed, lo, hi);
     camera_fit(&camera, lo, hi, (float)WIDTH / HEIGHT, 0);
     camera_matrices(&camera, (float)WIDTH / HEIGHT, view.view, view.projection, view.eye);
     camera_lamp(&camera, view.key_from);
     struct shadow_blob blobs[STAGE_MAX_BLOBS];
-    view.blob_count = pose_blobs(&view.tails[0].pose, view.key_from, blobs, STAGE_MAX_BLOBS);
+    view.blob_count = pose_blobs(&posed, view.key_from, blobs, STAGE_MAX_BLOBS);
     for (int b = 0; b < view.blob_count; b++) {
         view.blobs[b] = (struct stage_blob){blobs[b].x, blobs[b].z, blobs[b].radius, blobs[b].strength};
     }
@@ -74,9 +77,9 @@ static void the_tail_is_drawn_where_its_joints_are(void **state)
         arrange(side);
         draw();
         int fur = 0;
-        for (int n = 2; n < JOINTS - 4; n++) fur += is_fur(pixel_of(view.tails[0].pose.matrix[n] + 12));
+        for (int n = 2; n < JOINTS - 4; n++) fur += is_fur(pixel_of(posed.matrix[n] + 12));
         assert_true(fur >= JOINTS - 8); // a dark band may miss
-        const unsigned char *tip = pixel_of(view.tails[0].pose.matrix[JOINTS - 1] + 12);
+        const unsigned char *tip = pixel_of(posed.matrix[JOINTS - 1] + 12);
         assert_true(brightness(tip) > 300 && abs(tip[0] - tip[2]) < 60); // the white tip
     }
 }
@@ -159,19 +162,32 @@ struct skinned {
     float world[3], normal[3];
 };
 
-/// Bind-space vertices in, world positions and normals of the first tail out: as the stage draws them.
+/// Bind-space vertices in, world positions and normals out: as the stage draws them, on a coat of their own.
 static void skin(const struct vertex *vertices, int count, struct skinned *out)
 {
-    const struct mesh mesh = {.vertices = (struct vertex *)(uintptr_t)vertices, .vertex_count = count};
-    float(*place)[3] = calloc((size_t)count, sizeof *place), (*normal)[3] = calloc((size_t)count, sizeof *normal);
-    assert_true(place && normal);
-    tail_skin(&view.tails[0].pose, &mesh, place, normal);
+    struct fox own;
+    fox_create(FOX_LEVELS - 1, JOINTS, &own);
+    struct gltf_part *coat = &own.gltf.meshes->parts[0];
+    const size_t whole = (size_t)fox_vertex_count(&own);
+    float(*place)[3] = calloc(whole, sizeof *place), (*normal)[3] = calloc(whole, sizeof *normal);
+    assert_true(place && normal && count <= coat->vertex_count);
+    for (int i = 0; i < count; i++) {
+        memcpy(coat->position[i], vertices[i].position, sizeof coat->position[i]);
+        memcpy(coat->normal[i], vertices[i].normal, sizeof coat->normal[i]);
+        memset(coat->along[i], 0, sizeof coat->along[i]);
+        coat->fur[i][0] = vertices[i].bend;
+    }
+    coat->vertex_count = count;
+    fox_hang(coat, JOINTS);
+    fox_pose(&own, &posed);
+    gltf_pose_vertices(&own.gltf, &own.pose, own.gltf.node_count - 1, place, normal);
     for (int i = 0; i < count; i++) {
         memcpy(out[i].world, place[i], sizeof *place);
         memcpy(out[i].normal, normal[i], sizeof *normal);
     }
     free(place);
     free(normal);
+    fox_free(&own);
 }
 
 static void cross(const float a[3], const float b[3], float out[3])
@@ -193,7 +209,7 @@ static void skin_places(struct vertex places[3 * PLACES])
 {
     const float step = 1e-3f;
     struct mesh mesh = {0};
-    mesh_tail(100, 40, &mesh);
+    mesh_fox_tail(100, 40, &mesh);
     for (int p = 0; p < PLACES; p++) {
         const struct vertex *vertex = &mesh.vertices[(15 + p) * 40 + p * 7 % 40];
         float around[3] = {-vertex->normal[1], vertex->normal[0], 0.0f}, along[3];
@@ -232,40 +248,25 @@ static void normals_are_right_under_bending(void **state)
     }
 }
 
-/// The influences that files name are the skin that is drawn.
-static void influences_are_the_skin(void **state)
+/// Files have room for four influences a vertex, whose sum is 1, however many joints the tail has.
+static void influences_fit_files(void **state)
 {
     (void)state;
-    struct mesh mesh = {0};
-    mesh_creature(0, &mesh);
-    const size_t count = (size_t)mesh.vertex_count;
-    struct skinned *drawn = calloc(count, sizeof *drawn);
-    static float rows[TAIL_SLOTS][3][4];
-    assert_non_null(drawn);
-    arrange(9.0);
-    view.tails[0].pose.limbs =
-        (struct limbs){.look = 0.4f, .nod = -0.2f, .ears = {0.3f, 0.5f}, .breath = 0.05f, .stretch = -0.2f};
-    skin(mesh.vertices, mesh.vertex_count, drawn);
-    tail_slots(&view.tails[0].pose, rows);
-    for (int i = 0; i < mesh.vertex_count; i++) {
-        const struct vertex *v = &mesh.vertices[i];
-        uint16_t slot[TAIL_INFLUENCES];
-        float weight[TAIL_INFLUENCES], sum = 0.0f;
-        tail_influences(v, JOINTS, CREATURE_TAIL_LENGTH / JOINTS, slot, weight);
-        for (int n = 0; n < TAIL_INFLUENCES; n++) sum += weight[n];
-        assert_near(sum, 1.0, 1e-6);
-        for (int k = 0; k < 3; k++) {
-            float blended = 0.0f;
-            for (int n = 0; n < TAIL_INFLUENCES; n++) {
-                const float *row = rows[slot[n]][k];
-                blended += weight[n] *
-                           (row[0] * v->position[0] + row[1] * v->position[1] + row[2] * v->position[2] + row[3]);
+    static const int joints[] = {1, 2, 3, 24, 256};
+    for (size_t n = 0; n < sizeof joints / sizeof *joints; n++) {
+        struct fox own;
+        fox_create(1, joints[n], &own);
+        for (int p = 0; p < own.gltf.meshes->part_count; p++) {
+            const struct gltf_part *part = &own.gltf.meshes->parts[p];
+            for (int v = 0; v < part->vertex_count; v++) {
+                float sum = 0.0f;
+                for (int k = 0; k < 4; k++) sum += part->weights[v][k];
+                assert_near(sum, 1.0, 1e-6);
+                for (int k = 0; k < 4; k++) assert_true(part->joints[v][k] < own.gltf.joint_count);
             }
-            assert_near(blended, drawn[i].world[k], 1e-6);
         }
+        fox_free(&own);
     }
-    free(drawn);
-    mesh_free(&mesh);
 }
 
 /// However tight a bend, places are finite and normals unit vectors: the picture has no holes and no sparks.
@@ -300,7 +301,7 @@ static void skin_follows_the_joints(void **state)
         arrange(side);
         skin(axis, JOINTS, out);
         for (int n = 0; n < JOINTS; n++) {
-            const float *joint = view.tails[0].pose.matrix[n] + 12;
+            const float *joint = posed.matrix[n] + 12;
             for (int k = 0; k < 3; k++) assert_near(out[n].world[k], joint[k], 0.015);
         }
     }
@@ -315,7 +316,7 @@ int main(void)
         cmocka_unit_test(a_meadow_is_drawn_where_it_stands),
         cmocka_unit_test(silhouettes_are_soft),
         cmocka_unit_test(normals_are_right_under_bending),
-        cmocka_unit_test(influences_are_the_skin),
+        cmocka_unit_test(influences_fit_files),
         cmocka_unit_test(extreme_bends_stay_finite),
         cmocka_unit_test(skin_follows_the_joints),
     };

@@ -4,10 +4,10 @@
 /// 1.5 m high, looks towards +z and stands on y = 0; its arms stand well clear of the body, so that a lattice around the
 /// mesh does not glue them together.
 #include "base/need.h"
-#include "model/isosurface.h"
-#include "model/mesh.h"
 #include "model/obj.h"
 #include "model/vector.h"
+#include "models/isosurface.h"
+#include "models/mesh.h"
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

@@ -43,6 +43,13 @@ static void create_samplers(struct model_buffers *buffers, const struct gltf *gl
 
 static void look_at(const struct gltf *gltf, const struct gltf_part *part, int vertex, struct model_look *look)
 {
+    if (part->mark) {
+        const float *mark = part->mark[vertex], *place = part->position[vertex];
+        *look = (struct model_look){{place[0], place[1], place[2], part->fur[vertex][0]},
+                                    {mark[0], mark[1]},
+                                    {mark[2], part->fur[vertex][1]}};
+        return;
+    }
     memcpy(look->color, model_material(gltf, part)->color, sizeof look->color);
     for (int k = 0; part->color && k < 4; k++) look->color[k] *= part->color[vertex][k];
     if (part->uv) memcpy(look->uv, part->uv[vertex], sizeof look->uv);

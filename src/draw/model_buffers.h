@@ -5,7 +5,8 @@
 #include "draw/gl.h"
 #include "draw/model_surface.h"
 
-/// What a vertex looks like, which never changes: its material's colour times its own, and its place in the picture.
+/// What a vertex looks like, which never changes: its material's colour times its own, and its place in the picture. A coat's are as
+/// stage_skirt.vert has them.
 struct model_look {
     float color[4], uv[2], phase[2];
 };
@@ -19,6 +20,7 @@ struct model_shape {
 /// All zero is none.
 struct model_buffers {
     uint64_t id; ///< of the model that is in it, 0: none
+    long used;   ///< the picture that showed it last
     struct model_surface surface;
     struct model_look *looks; ///< of the surface's vertices
     struct model_shape *shapes;

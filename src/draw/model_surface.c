@@ -52,7 +52,7 @@ static void add_node(const struct model_surface *surface, uint32_t *look, const 
         for (int i = 0; i < part->index_count; i++, index++) {
             const uint32_t own = part->indices[i];
             surface->indices[index] = vertex + own;
-            look[index] = neighbours_look(part->material, part->color ? part->color[own] : white);
+            look[index] = part->mark ? 0 : neighbours_look(part->material, part->color ? part->color[own] : white);
         }
         vertex += (uint32_t)part->vertex_count;
     }

@@ -21,11 +21,11 @@ struct painter {
     void (*extent)(const struct stage_view *view, struct extent *extent);
 };
 
-enum { PAINTERS = 4 };
+enum { PAINTERS = 3 };
 
 /// One a kind of rigs, in the order in which they are drawn.
 extern const struct painter *const painters[PAINTERS];
-extern const struct painter tail_painter, character_painter, model_painter, meadow_painter;
+extern const struct painter character_painter, model_painter, meadow_painter;
 
 /// Uniforms that the program of every painter has.
 struct painter_uniforms {

@@ -4,7 +4,7 @@
 #include "draw/painter.h"
 #include <stdlib.h>
 
-const struct painter *const painters[PAINTERS] = {&tail_painter, &character_painter, &model_painter, &meadow_painter};
+const struct painter *const painters[PAINTERS] = {&character_painter, &model_painter, &meadow_painter};
 
 struct painter_uniforms painter_find_uniforms(GLuint program)
 {

@@ -1,23 +1,61 @@
-/// Draws imported characters with their own materials.
+/// Draws imported characters and foxes, with their own materials: pictures, a coat, and what a face is drawn on.
 #include "base/need.h"
 #include "draw/model_buffers.h"
 #include "draw/skirt.h"
 #include "draw/stage.h"
-#include <math.h>
+#include "model/fox.h"
 #include <stdlib.h>
 #include <string.h>
 
 enum { PICTURE_UNIT = 1, COVER = 5 }; ///< a location in stage_skirt.vert
+/// Models on the GPU, one more than a picture shows; and after how many pictures without it one goes.
+enum { MAX_KEPT = STAGE_MAX_MODELS + 1, FORGOTTEN = 1000 };
+
+enum look { LOOK_COAT, LOOK_FACE, LOOK_PICTURED, LOOKS };
+
+/// A program for coats. All draw surfaces and skirts alike.
+struct coat_program {
+    GLuint program;
+    GLint shade, blink;
+    struct painter_uniforms shared;
+};
 
 struct stage_models {
-    struct stage_skirt skirt;                       ///< whose program draws surfaces too
-    struct model_buffers buffers[STAGE_MAX_MODELS]; ///< one for each place in the view
+    struct coat_program coats[LOOK_PICTURED];
+    struct stage_skirt skirt; ///< whose program draws pictures
+    struct model_buffers buffers[MAX_KEPT];
+    long clock; ///< pictures
 };
+
+static bool coat_create(struct coat_program *coat, const char *define, struct error *error)
+{
+    float head_from_bind[16];
+    const GLuint program = coat->program = gl_program("stage_skirt.vert", "stage_mesh.frag", define, error);
+    if (!program) return false;
+    coat->shade = glGetUniformLocation(program, "shade");
+    coat->blink = glGetUniformLocation(program, "blink");
+    coat->shared = painter_find_uniforms(program);
+    fox_head_from_bind(head_from_bind);
+    glUseProgram(program);
+    glUniformMatrix4fv(glGetUniformLocation(program, "head_from_bind"), 1, GL_FALSE, head_from_bind);
+    return true;
+}
+
+static void free_coats(struct stage_models *models)
+{
+    for (int look = 0; look < LOOK_PICTURED; look++) glDeleteProgram(models->coats[look].program);
+}
 
 static void *create(struct error *error)
 {
     struct stage_models *models = need_zeroed(1, sizeof *models);
-    if (stage_skirt_create(&models->skirt, error)) return models;
+    if (stage_skirt_create(&models->skirt, error)) {
+        if (coat_create(&models->coats[LOOK_COAT], "FURRED", error) &&
+            coat_create(&models->coats[LOOK_FACE], "FACED", error))
+            return models;
+        stage_skirt_destroy(&models->skirt);
+    }
+    free_coats(models);
     free(models);
     return NULL;
 }
@@ -25,21 +63,43 @@ static void *create(struct error *error)
 static void destroy(void *state)
 {
     struct stage_models *models = state;
-    for (int m = 0; m < STAGE_MAX_MODELS; m++) model_buffers_free(&models->buffers[m]);
+    for (int m = 0; m < MAX_KEPT; m++) model_buffers_free(&models->buffers[m]);
     stage_skirt_destroy(&models->skirt);
+    free_coats(models);
     free(models);
+}
+
+/// Which buffers have a model, −1: none.
+static int find_buffers(const struct stage_models *models, uint64_t id)
+{
+    int m = MAX_KEPT;
+    while (--m >= 0 && models->buffers[m].id != id) continue;
+    return m;
+}
+
+/// Frees what has not been shown for long, and at least what was shown least recently.
+static struct model_buffers *make_room(struct stage_models *models)
+{
+    struct model_buffers *oldest = &models->buffers[0];
+    for (int m = 0; m < MAX_KEPT; m++) {
+        struct model_buffers *buffers = &models->buffers[m];
+        if (buffers->id && models->clock - buffers->used > FORGOTTEN) model_buffers_free(buffers);
+        if (buffers->used < oldest->used) oldest = buffers;
+    }
+    model_buffers_free(oldest);
+    return oldest;
 }
 
 static void upload(void *state, const struct stage_view *view, long *bytes)
 {
     struct stage_models *models = state;
+    models->clock++;
     for (int m = 0; m < view->model_count; m++) {
         const struct stage_model *shown = &view->models[m];
-        struct model_buffers *buffers = &models->buffers[m];
-        if (buffers->id != shown->gltf->id) {
-            model_buffers_free(buffers);
-            *bytes += model_buffers_create(buffers, shown->gltf);
-        }
+        const int kept = find_buffers(models, shown->gltf->id);
+        struct model_buffers *buffers = kept >= 0 ? &models->buffers[kept] : make_room(models);
+        if (kept < 0) *bytes += model_buffers_create(buffers, shown->gltf);
+        buffers->used = models->clock;
         *bytes += model_buffers_pose(buffers, shown->gltf, shown->pose, shown->root, view->eye);
     }
 }
@@ -47,6 +107,12 @@ static void upload(void *state, const struct stage_view *view, long *bytes)
 static const struct gltf_part *part_of(const struct gltf *gltf, const struct model_shape *shape)
 {
     return &gltf->meshes[gltf->nodes[shape->node].mesh].parts[shape->part];
+}
+
+static enum look look_of(const struct gltf *gltf, const struct gltf_part *part)
+{
+    if (!part->mark) return LOOK_PICTURED;
+    return strcmp(model_material(gltf, part)->name, "face") == 0 ? LOOK_FACE : LOOK_COAT;
 }
 
 static void use_material(const struct stage_models *models, const struct model_buffers *buffers,
@@ -66,8 +132,10 @@ static void draw_shape(const struct stage_models *models, const struct model_buf
     const struct gltf_part *part = part_of(shown->gltf, shape);
     const bool both_sides = model_material(shown->gltf, part)->double_sided;
     const struct skirt_mesh mesh = model_surface_mesh(&buffers->surface, shown->gltf, shown->pose, shape->node);
-    use_material(models, buffers, shown->gltf, part);
-    glUniform1i(models->skirt.at.both_sides, both_sides);
+    if (!part->mark) {
+        use_material(models, buffers, shown->gltf, part);
+        glUniform1i(models->skirt.at.both_sides, both_sides);
+    }
     glFrontFace(mesh.mirrored ? GL_CW : GL_CCW);
     if (both_sides) glDisable(GL_CULL_FACE);
     glDrawElements(GL_TRIANGLES, part->index_count, GL_UNSIGNED_INT,
@@ -84,26 +152,28 @@ static enum kind kind_of(const struct gltf_material *material)
 }
 
 static void draw_shapes(const struct stage_models *models, const struct model_buffers *buffers,
-                        const struct stage_model *shown, enum kind first, enum kind last)
+                        const struct stage_model *shown, enum look look, enum kind first, enum kind last)
 {
     for (int s = 0; s < buffers->shape_count; s++) {
-        const enum kind kind = kind_of(model_material(shown->gltf, part_of(shown->gltf, &buffers->shapes[s])));
-        if (kind >= first && kind <= last) draw_shape(models, buffers, shown, &buffers->shapes[s]);
+        const struct gltf_part *part = part_of(shown->gltf, &buffers->shapes[s]);
+        const enum kind kind = kind_of(model_material(shown->gltf, part));
+        if (look_of(shown->gltf, part) == look && kind >= first && kind <= last)
+            draw_shape(models, buffers, shown, &buffers->shapes[s]);
     }
 }
 
 /// In the second pass again what is masked, as there its edges fade out over what is behind.
 static void draw_surface(const struct stage_models *models, const struct model_buffers *buffers,
-                         const struct stage_model *shown, bool second)
+                         const struct stage_model *shown, enum look look, bool second)
 {
     glBindVertexArray(buffers->vertex_array);
     if (second) {
-        draw_shapes(models, buffers, shown, MASKED, MASKED);
+        draw_shapes(models, buffers, shown, look, MASKED, MASKED);
     } else {
-        draw_shapes(models, buffers, shown, SOLID, MASKED);
+        draw_shapes(models, buffers, shown, look, SOLID, MASKED);
         glEnable(GL_BLEND);
         glDepthMask(GL_FALSE);
-        draw_shapes(models, buffers, shown, BLENDED, BLENDED);
+        draw_shapes(models, buffers, shown, look, BLENDED, BLENDED);
         glDepthMask(GL_TRUE);
         glDisable(GL_BLEND);
     }
@@ -121,17 +191,29 @@ static void look_at(const void *context, uint32_t vertex, struct skirt_vertex *o
 }
 
 static void draw_skirts(const struct stage_models *models, const struct model_buffers *buffers,
-                        const struct stage_model *shown, const float eye[3], float seam)
+                        const struct stage_model *shown, enum look look, const float eye[3], float seam)
 {
-    glUniform1i(models->skirt.at.both_sides, 0);
+    if (look == LOOK_PICTURED) glUniform1i(models->skirt.at.both_sides, 0);
     for (int s = 0; s < buffers->shape_count; s++) {
         const struct model_shape *shape = &buffers->shapes[s];
         const struct gltf_part *part = part_of(shown->gltf, shape);
         const struct skirt_mesh mesh = model_surface_mesh(&buffers->surface, shown->gltf, shown->pose, shape->node);
-        use_material(models, buffers, shown->gltf, part);
+        if (look_of(shown->gltf, part) != look) continue;
+        if (look == LOOK_PICTURED) use_material(models, buffers, shown->gltf, part);
         stage_skirt_draw(&models->skirt, &mesh, shape->first, shape->first + part->index_count,
                          model_material(shown->gltf, part)->double_sided, eye, seam, look_at, buffers);
     }
+}
+
+/// Uses the program of a look; where its `shade` is.
+static GLint use_look(const struct stage_models *models, enum look look, const struct stage_view *view, float seam)
+{
+    if (look == LOOK_PICTURED) {
+        stage_skirt_use(&models->skirt, view, seam);
+        return models->skirt.at.shade;
+    }
+    painter_use(models->coats[look].program, &models->coats[look].shared, view, seam);
+    return models->coats[look].shade;
 }
 
 static void draw(const void *state, const struct stage_view *view, float scale, float seam)
@@ -139,14 +221,18 @@ static void draw(const void *state, const struct stage_view *view, float scale, 
     const struct stage_models *models = state;
     (void)scale;
     if (view->model_count == 0) return;
-    stage_skirt_use(&models->skirt, view, seam);
     glVertexAttrib1f(COVER, 1.0f);
-    for (int m = 0; m < view->model_count; m++) {
-        const struct stage_model *shown = &view->models[m];
-        const float height = fmaxf(0.3f * (shown->hi[1] - shown->lo[1]), 1e-6f);
-        glUniform2f(models->skirt.at.shade, shown->ground, height);
-        draw_surface(models, &models->buffers[m], shown, seam > 0.0f);
-        if (seam > 0.0f) draw_skirts(models, &models->buffers[m], shown, view->eye, seam);
+    for (enum look look = 0; look < LOOKS; look++) {
+        const GLint shade = use_look(models, look, view, seam);
+        for (int m = 0; m < view->model_count; m++) {
+            const struct stage_model *shown = &view->models[m];
+            const struct model_buffers *buffers = &models->buffers[find_buffers(models, shown->gltf->id)];
+            glUniform2f(shade, shown->ground, shown->dusk);
+            if (look == LOOK_FACE && shown->gltf->weight_count > 0)
+                glUniform1f(models->coats[look].blink, shown->pose->weights[0]);
+            draw_surface(models, buffers, shown, look, seam > 0.0f);
+            if (seam > 0.0f) draw_skirts(models, buffers, shown, look, view->eye, seam);
+        }
     }
     stage_skirt_leave();
     glBindVertexArray(0);

@@ -62,7 +62,11 @@ void reference_create(struct reference *reference)
     drawlist_create(&reference->list, 64, LINES * POINTS + 16, 1024);
 }
 
-void reference_destroy(struct reference *reference) { drawlist_destroy(&reference->list); }
+void reference_destroy(struct reference *reference)
+{
+    drawlist_destroy(&reference->list);
+    fox_free(&reference->fox);
+}
 
 static void arrange_lines(struct drawlist *list, struct rect panel)
 {
@@ -90,28 +94,26 @@ static void arrange_text(struct drawlist *list, struct rect panel)
 }
 
 /// A tail that rises and bends over by 4° a joint, seen from the side.
-static void arrange_stage(struct stage_view *stage, struct rect panel)
+static void arrange_stage(struct stage_view *stage, const struct fox *fox, struct rect panel)
 {
-    *stage = (struct stage_view){
-        .viewport = panel, .eye = {3.0f, 1.2f, 3.0f}, .colors = theme()->stage, .tail_count = 1, .hash = 1};
+    *stage = (struct stage_view){.viewport = panel, .eye = {3.0f, 1.2f, 3.0f}, .colors = theme()->stage, .hash = 1};
     mat4 view, projection, frame;
     memcpy(stage->key_from, (float[3]){0, 0.8f, 0.6f}, sizeof stage->key_from);
     glm_lookat(stage->eye, (vec3){0.0f, 0.7f, 0.0f}, (vec3){0.0f, 1.0f, 0.0f}, view);
     glm_perspective(glm_rad(30.0f), panel.w / fmaxf(panel.h, 1.0f), 0.1f, 20.0f, projection);
     memcpy(stage->view, view, sizeof stage->view);
     memcpy(stage->projection, projection, sizeof stage->projection);
-    struct stage_tail *tail = &stage->tails[0];
-    tail->joints = JOINTS;
-    tail->length = 1.6f;
-    tail->pose.count = JOINTS + 1;
-    tail->pose.ground = -0.26f;
+    static struct pose pose;
+    pose.count = JOINTS + 1;
+    pose.ground = -FOX_BASE_HEIGHT;
     glm_mat4_identity(frame);
     glm_rotate(frame, glm_rad(-80.0f), (vec3){1.0f, 0.0f, 0.0f});
     for (int i = 0; i <= JOINTS; i++) {
         glm_rotate(frame, glm_rad(4.0f), (vec3){1.0f, 0.0f, 0.0f});
-        memcpy(tail->pose.matrix[i], frame, sizeof tail->pose.matrix[i]);
-        glm_translate(frame, (vec3){0.0f, 0.0f, tail->length / JOINTS});
+        memcpy(pose.matrix[i], frame, sizeof pose.matrix[i]);
+        glm_translate(frame, (vec3){0.0f, 0.0f, FOX_TAIL_LENGTH / JOINTS});
     }
+    stage_add_fox(stage, fox, &pose);
 }
 
 void reference_arrange(struct reference *reference, float width, float height)
@@ -120,9 +122,10 @@ void reference_arrange(struct reference *reference, float width, float height)
     struct rect upper = {0.0f, 0.0f, width, floorf(0.5f * height)};
     struct rect lower = {0.0f, upper.h, width, height - upper.h};
     drawlist_clear(&reference->list, whole);
+    if (reference->fox.joints == 0) fox_create(0, JOINTS, &reference->fox);
     arrange_lines(&reference->list, lower);
     arrange_text(&reference->list, lower);
-    arrange_stage(&reference->stage, upper);
+    arrange_stage(&reference->stage, &reference->fox, upper);
 }
 
 static int ascending(const void *a, const void *b)

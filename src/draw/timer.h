@@ -39,6 +39,7 @@ enum { REFERENCE_RUNS_MAX = 64 };
 struct reference {
     struct drawlist list;
     struct stage_view stage;
+    struct fox fox; ///< made where it is first laid out
     double ms[REFERENCE_RUNS_MAX];
 };
 

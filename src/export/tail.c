@@ -1,47 +1,53 @@
 /// A tail as a form: the fox, skinned to the tail's joints.
 #include "base/need.h"
 #include "export/form.h"
-#include "model/creature.h"
-#include "model/tail_skin.h"
+#include "model/fox.h"
+#include "model/limbs.h"
 #include "model/vector.h"
 #include <stdio.h>
 #include <stdlib.h>
 
-_Static_assert((int)TAIL_INFLUENCES == (int)FORM_INFLUENCES, "a vertex of the fox fits");
-
-/// The fox at the size of its tail.
-struct fox {
-    struct mesh mesh;
+/// The fox, and what is scaled to its tail's length.
+struct scaled_fox {
+    struct fox fox;
     float (*position)[3], (*normal)[3], (*color)[3];
+    uint32_t *indices;
 };
 
-enum {
-    FIRST_LIMB = 1,
-    FIRST_BONE = FIRST_LIMB + LIMBS
-}; ///< of the joints: what carries all, the body's parts, the tail
+enum { FIRST_LIMB = FOX_FIRST_LIMB, FIRST_BONE = FOX_FIRST_JOINT };
 
-static int joint_of_slot(int slot, int joints)
+/// Appends a part's vertices and triangles; a vertex of ours hangs on four joints at most.
+static void add_part(struct form *form, struct scaled_fox *fox, const struct gltf_part *part, float scale)
 {
-    if (slot == 0) return FIRST_LIMB;
-    return slot <= joints ? FIRST_BONE + slot - 1 : FIRST_LIMB + slot - joints;
-}
-
-/// Copies what files want apart, scaled to the tail's length.
-static void copy_vertices(struct form *form, struct fox *fox, int joints, float length)
-{
-    const float scale = length / CREATURE_TAIL_LENGTH;
-    for (int i = 0; i < fox->mesh.vertex_count; i++) {
-        const struct vertex *vertex = &fox->mesh.vertices[i];
-        for (int k = 0; k < 3; k++) fox->position[i][k] = scale * vertex->position[k];
-        const vec3s normal = glms_vec3_normalize(vec3_from(vertex->normal));
-        memcpy(fox->normal[i], normal.raw, sizeof fox->normal[i]);
-        memcpy(fox->color[i], vertex->color, sizeof fox->color[i]);
-        tail_influences(vertex, joints, CREATURE_TAIL_LENGTH / (float)joints, form->slots[i], form->weights[i]);
-        for (int n = 0; n < TAIL_INFLUENCES; n++) {
-            const bool hangs = form->weights[i][n] > 0.0f;
-            form->slots[i][n] = hangs ? (uint16_t)joint_of_slot(form->slots[i][n], joints) : 0;
+    for (int i = 0; i < part->index_count; i++)
+        fox->indices[form->index_count++] = (uint32_t)form->vertex_count + part->indices[i];
+    for (int v = 0; v < part->vertex_count; v++) {
+        const int at = form->vertex_count++;
+        for (int k = 0; k < 3; k++) fox->position[at][k] = scale * part->position[v][k];
+        memcpy(fox->normal[at], part->normal[v], sizeof fox->normal[at]);
+        memcpy(fox->color[at], part->color[v], sizeof fox->color[at]);
+        for (int n = 0; n < FORM_INFLUENCES; n++) {
+            form->weights[at][n] = part->weights[v][n];
+            form->slots[at][n] = part->weights[v][n] > 0.0f ? (uint16_t)(FIRST_LIMB + part->joints[v][n]) : 0;
         }
     }
+}
+
+static void add_mesh(struct form *form, struct scaled_fox *fox, float scale)
+{
+    const struct gltf_mesh *mesh = fox->fox.gltf.meshes;
+    size_t vertices = 1, indices = 1;
+    for (int p = 0; p < mesh->part_count; p++) {
+        vertices += (size_t)mesh->parts[p].vertex_count;
+        indices += (size_t)mesh->parts[p].index_count;
+    }
+    form->position = (const float(*)[3])(fox->position = need(vertices, sizeof *fox->position));
+    form->normal = (const float(*)[3])(fox->normal = need(vertices, sizeof *fox->normal));
+    form->color = (const float(*)[3])(fox->color = need(vertices, sizeof *fox->color));
+    form->indices = fox->indices = need(indices, sizeof *fox->indices);
+    form->slots = need(vertices, sizeof *form->slots);
+    form->weights = need(vertices, sizeof *form->weights);
+    for (int p = 0; p < mesh->part_count; p++) add_part(form, fox, &mesh->parts[p], scale);
 }
 
 /// The joint that carries the animal, those of its body's parts, and those of the tail.
@@ -54,7 +60,7 @@ static void name_joints(struct form *form, int joints, const struct rig_pose *po
     snprintf(form->joints[0].name, FORM_NAME, "%.50s_base", form->name);
     form->tip[2] = segment;
     memcpy(form->joints[0].offset, pose->tail.matrix[0] + 12, 3 * sizeof(float));
-    limbs_pivots(length / CREATURE_TAIL_LENGTH, pivot);
+    limbs_pivots(pose_scale(&pose->tail), pivot);
     for (int l = 0; l < LIMBS; l++) {
         struct form_joint *joint = &form->joints[FIRST_LIMB + l];
         const int parent = limb_parents[l];
@@ -80,36 +86,25 @@ static bool open(const struct posing *posing, int rig, const struct rig_pose *po
     const struct document *document = posing->document;
     const int joints = document->rigs[rig]->tail.joints;
     (void)error;
-    struct fox *fox = form->owned = need_zeroed(1, sizeof *fox);
-    mesh_creature(creature_level(document_count_rigs(document, RIG_TAIL)), &fox->mesh);
-    const size_t count = (size_t)fox->mesh.vertex_count + 1;
-    fox->position = need(count, sizeof *fox->position);
-    fox->normal = need(count, sizeof *fox->normal);
-    fox->color = need(count, sizeof *fox->color);
-    form->slots = need(count, sizeof *form->slots);
-    form->weights = need(count, sizeof *form->weights);
+    struct scaled_fox *fox = form->owned = need_zeroed(1, sizeof *fox);
+    fox_create(fox_level(document_count_rigs(document, RIG_TAIL)), joints, &fox->fox);
+    add_mesh(form, fox, pose_scale(&pose->tail));
     form->joints = need_zeroed((size_t)(FIRST_BONE + joints), sizeof *form->joints);
-    form->vertex_count = fox->mesh.vertex_count;
-    form->position = (const float(*)[3])fox->position;
-    form->normal = (const float(*)[3])fox->normal;
-    form->color = (const float(*)[3])fox->color;
-    form->indices = fox->mesh.indices;
-    form->index_count = fox->mesh.index_count;
     form->joint_count = FIRST_BONE + joints;
     form->first_bone = FIRST_BONE;
-    copy_vertices(form, fox, joints, pose_length(&pose->tail));
     name_joints(form, joints, pose);
     return true;
 }
 
 static void close(struct form *form)
 {
-    struct fox *fox = form->owned;
+    struct scaled_fox *fox = form->owned;
     if (fox) {
-        mesh_free(&fox->mesh);
+        fox_free(&fox->fox);
         free(fox->position);
         free(fox->normal);
         free(fox->color);
+        free(fox->indices);
     }
     free(fox);
     free(form->slots);
@@ -141,8 +136,9 @@ static void key(const struct form *form, const struct rig_pose *pose, struct for
 
 static void vertices(const struct form *form, const struct rig_pose *pose, float (*positions)[3])
 {
-    const struct fox *fox = form->owned;
-    tail_skin(&pose->tail, &fox->mesh, positions, NULL);
+    const struct scaled_fox *fox = form->owned;
+    fox_pose(&fox->fox, &pose->tail);
+    fox_places(&fox->fox, positions);
 }
 
 static void columns(const struct export_range *range, int rig, const struct rig_pose *pose, double key,

@@ -77,6 +77,9 @@ static void free_vertices(struct gltf_part *part, int targets)
     free(part->color);
     free(part->joints);
     free(part->weights);
+    free(part->along);
+    free(part->mark);
+    free(part->fur);
 }
 
 static void free_mesh(struct gltf_mesh *mesh)

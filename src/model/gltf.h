@@ -88,6 +88,9 @@ struct gltf_part {
     float (*color)[4];                   ///< linear, NULL: white
     uint16_t (*joints)[GLTF_INFLUENCES]; ///< into the skin's joints; NULL: not skinned
     float (*weights)[GLTF_INFLUENCES];   ///< their sum is 1
+    float (*along)[GLTF_INFLUENCES]; ///< how weights change along the mesh's z, per metre, for normals; NULL: little
+    float (*mark)[3];                ///< _MARK: a coat's markings; NULL: it has no coat
+    float (*fur)[2];                 ///< _FUR: how far it follows a tail, and how much light reaches it, 0 … 1
     uint32_t *indices;
     int index_count;
     struct gltf_target *targets; ///< as many as the mesh has
@@ -176,6 +179,9 @@ bool gltf_read_stored(const char *path, struct gltf *gltf, struct error *error);
 /// The same as gltf_read() of a file's bytes, which it takes over; behind them is room for a NUL. `path` is for messages.
 bool gltf_read_bytes(const char *path, char *data, size_t size, struct gltf *gltf, struct error *error);
 void gltf_free(struct gltf *gltf);
+
+/// A number for gltf.id.
+uint64_t gltf_new_id(void);
 
 /// Copies the materials into empty looks, with their pictures where these are PNG or JPEG. False where memory is short.
 bool gltf_copy_looks(const struct gltf *gltf, struct looks *looks);

@@ -137,6 +137,18 @@ static void move(const float m[16], float v[3])
     for (int k = 0; k < 3; k++) v[k] = m[k] * x + m[4 + k] * y + m[8 + k] * z + m[12 + k];
 }
 
+/// Makes of a vertex's matrix the deformation's gradient: as weights change along z, so does where the vertex goes.
+static void stretch(const float (*joints)[16], const uint16_t *joint, const float *along, const float at[3],
+                    float m[16])
+{
+    for (int k = 0; k < GLTF_INFLUENCES; k++) {
+        const float *one = joints[joint[k]];
+        if (along[k] == 0) continue;
+        for (int r = 0; r < 3; r++)
+            m[8 + r] += along[k] * (one[r] * at[0] + one[4 + r] * at[1] + one[8 + r] * at[2] + one[12 + r]);
+    }
+}
+
 /// Turns a normal whatever the scale; a mirror turns it round, with the triangles.
 static void turn(const float m[16], float normal[3])
 {
@@ -165,9 +177,12 @@ void gltf_pose_vertices(const struct gltf *gltf, const struct gltf_pose *pose, i
         float m[16];
         memcpy(m, pose->world[node], sizeof m);
         for (int i = 0; i < part->vertex_count; i++) {
+            const vec3s at = vec3_from(positions[i]);
             if (skinned) blend(joints, part->joints[i], part->weights[i], m);
             move(m, positions[i]);
-            if (normals) turn(m, normals[i]);
+            if (!normals) continue;
+            if (skinned && part->along) stretch(joints, part->joints[i], part->along[i], at.raw, m);
+            turn(m, normals[i]);
         }
         positions += part->vertex_count;
         if (normals) normals += part->vertex_count;

@@ -220,15 +220,20 @@ static bool measure(struct gltf_reader *r)
     return true;
 }
 
-static bool read_all(struct gltf_reader *r)
+uint64_t gltf_new_id(void)
 {
     static atomic_uint_fast64_t last;
+    return atomic_fetch_add(&last, 1) + 1;
+}
+
+static bool read_all(struct gltf_reader *r)
+{
     if (!check_version(r) || !check_arrays(r) || !check_extensions(r)) return false;
     if (!glb_read_buffers(&r->file, r->error)) return false;
     r->pixel_room = PIXEL_ROOM + r->file.room;
     if (!check_vertices(r)) return false;
     r->gltf->path = strdup(r->file.path);
-    r->gltf->id = atomic_fetch_add(&last, 1) + 1;
+    r->gltf->id = gltf_new_id();
     if (!r->gltf->path) return fail_no_memory(r->error, r->file.path);
     return gltf_read_materials(r) && gltf_read_meshes(r) && gltf_read_nodes(r) && gltf_read_skins(r) &&
            gltf_read_clips(r) && measure(r);

@@ -4,6 +4,7 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 /// The numbers of an attribute, as many as the part has vertices in the file.
 static bool read_numbers(struct gltf_reader *r, const json_t *attributes, const char *name, int least, int most,
@@ -134,6 +135,27 @@ static bool read_targets(struct gltf_reader *r, const json_t *targets, const str
     return part->targets;
 }
 
+/// What the fox has and no standard names; in other files what is called so may be anything, and is left out unless it suits.
+static bool read_coat(struct gltf_reader *r, const json_t *attributes, const struct gltf_vertices *vertices,
+                      struct gltf_part *part)
+{
+    static const char *const names[] = {"_MARK", "_FUR"};
+    const json_t *accessors = gltf_array(r, "accessors");
+    float *rows[2] = {NULL, NULL};
+    for (int i = 0; i < 2; i++) {
+        const json_t *accessor = json_array_get(accessors, (size_t)glb_integer(attributes, names[i], -1));
+        const char *shape = json_string_value(json_object_get(accessor, "type"));
+        if (!shape || strcmp(shape, i ? "VEC2" : "VEC3") != 0 ||
+            glb_integer(accessor, "count", -1) != vertices->in_file)
+            return true;
+    }
+    const bool read = read_rows(r, attributes, names[0], 3, vertices, &rows[0]) &&
+                      read_rows(r, attributes, names[1], 2, vertices, &rows[1]);
+    part->mark = (float(*)[3])rows[0];
+    part->fur = (float(*)[2])rows[1];
+    return read;
+}
+
 bool gltf_read_vertices(struct gltf_reader *r, const json_t *primitive, const struct gltf_vertices *vertices,
                         int targets, struct gltf_part *part)
 {
@@ -148,7 +170,7 @@ bool gltf_read_vertices(struct gltf_reader *r, const json_t *primitive, const st
     part->color = (float(*)[4])color;
     if (!read || (vertices->order && !make_flat(r, part))) return false;
     normalise(part->normal, part->vertex_count);
-    return read_influences(r, attributes, vertices, part) &&
+    return read_coat(r, attributes, vertices, part) && read_influences(r, attributes, vertices, part) &&
            read_targets(r, json_object_get(primitive, "targets"), vertices, targets, part);
 }
 

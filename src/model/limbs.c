@@ -1,22 +1,20 @@
 /// Moves the parts of the fox's body.
 #include "model/limbs.h"
-#include "model/creature.h"
+#include "model/fox.h"
 #include "model/vector.h"
 #include <math.h>
 
 static const double FEET = -0.30;                      ///< z that the body stretches above, bind space
-static const float chest[3] = {0, 0.44f, -0.44f};      ///< standing, as all places here but those of ears
-static const float neck[3] = {0.005f, 0.66f, -0.385f}; ///< what the head turns about
-static const float CHEST_INNER = 0.05f,
-                   CHEST_OUTER = 0.18f;                 ///< metres from its middle: wholly part of it, and not at all
-static const float NECK_LOW = 0.57f, NECK_HIGH = 0.68f; ///< heights: not part of the head, and wholly
-static const float ear_root[3] = {0.088f, 0.10f, 0.015f},
-                   ear_tip[3] = {0.152f, 0.292f, 0.02f}; ///< in the head's own space
-static const float JOINT[2] = {0.15f, 0.65f};            ///< places along the ear where it bends
-static const float EAR_LENGTH = 0.202f;                  ///< from root to tip
-static const float HALF_BEND = 0.25f;                    ///< of an ear's length, over which it does
-static const float HEAD_RADIUS = 0.50f;                  ///< around the neck's joint, bind size: holds head and ears
-static const float SPLAY = 0.4f;                         ///< of an ear that is laid back
+static const float neck[3] = {0.005f, 0.66f, -0.385f}; ///< what the head turns about, standing
+static const float HEAD_RADIUS = 0.50f;                ///< around the neck's joint, bind size: holds head and ears
+static const float SPLAY = 0.4f;                       ///< of an ear that is laid back
+
+const float limbs_chest[3] = {0, 0.44f, -0.44f};
+const float limbs_ear_root[3] = {0.088f, 0.10f, 0.015f}, limbs_ear_tip[3] = {0.152f, 0.292f, 0.02f};
+const float limbs_ear_joint[2] = {0.15f, 0.65f};
+
+const float fox_body_lo[3] = {-0.36f, -FOX_BASE_HEIGHT, -0.68f};
+const float fox_body_hi[3] = {0.36f, 1.16f - FOX_BASE_HEIGHT, 0.38f};
 
 const int limb_parents[LIMBS] = {-1, LIMB_BODY, LIMB_BODY, LIMB_HEAD, LIMB_HEAD, LIMB_EAR, LIMB_EAR + 1};
 
@@ -29,7 +27,7 @@ static mat4s about(const float pivot[3], mat4s turn)
 /// Standing place → bind space at a scale.
 static void into_bind(const float standing[3], float scale, float bind[3])
 {
-    for (int k = 0; k < 3; k++) bind[k] = scale * (standing[k] - (k == 1 ? CREATURE_BASE_HEIGHT : 0.0f));
+    for (int k = 0; k < 3; k++) bind[k] = scale * (standing[k] - (k == 1 ? FOX_BASE_HEIGHT : 0.0f));
 }
 
 static vec3s size_of(const struct limbs *limbs)
@@ -41,21 +39,41 @@ static vec3s size_of(const struct limbs *limbs)
 void limbs_base(double stretch, double scale, double base[3])
 {
     base[0] = 0.0;
-    base[1] = scale * (double)CREATURE_BASE_HEIGHT * stretch;
+    base[1] = scale * (double)FOX_BASE_HEIGHT * stretch;
     base[2] = scale * FEET * (1.0 - 1.0 / sqrt(1.0 + stretch));
 }
 
 void limbs_base_slope(double stretch, double scale, double slope[3])
 {
     slope[0] = 0.0;
-    slope[1] = scale * (double)CREATURE_BASE_HEIGHT;
+    slope[1] = scale * (double)FOX_BASE_HEIGHT;
     slope[2] = 0.5 * scale * FEET * pow(1.0 + stretch, -1.5);
+}
+
+/// Middle of the head, how far it is turned to look back over its shoulder, and how far it is tilted (radians).
+static const float head_middle[3] = {0.01f, 0.80f, -0.385f};
+static const float HEAD_TURN = 1.35f; ///< about +y, towards the camera's first place
+static const float HEAD_TILT = 0.12f;
+
+void fox_head_from_bind(float matrix[16])
+{
+    const float ct = cosf(HEAD_TURN), st = sinf(HEAD_TURN), ci = cosf(HEAD_TILT), si = sinf(HEAD_TILT);
+    const float column[3][3] = {{ct * ci, -ct * si, -st}, {si, ci, 0}, {st * ci, -st * si, ct}};
+    const float middle[3] = {head_middle[0], head_middle[1] - FOX_BASE_HEIGHT, head_middle[2]};
+    memset(matrix, 0, 16 * sizeof *matrix);
+    for (int c = 0; c < 3; c++) {
+        for (int r = 0; r < 3; r++) {
+            matrix[4 * c + r] = column[c][r];
+            matrix[12 + r] -= column[c][r] * middle[c];
+        }
+    }
+    matrix[15] = 1;
 }
 
 static mat4s head_from_bind(void)
 {
     float matrix[16];
-    creature_head_from_bind(matrix);
+    fox_head_from_bind(matrix);
     return mat4_from(matrix);
 }
 
@@ -63,11 +81,11 @@ void limbs_pivots(float scale, float pivot[LIMBS][3])
 {
     const mat4s from_head = glms_mat4_inv(head_from_bind());
     memset(pivot, 0, LIMBS * sizeof *pivot);
-    into_bind(chest, 1.0f, pivot[LIMB_CHEST]);
+    into_bind(limbs_chest, 1.0f, pivot[LIMB_CHEST]);
     into_bind(neck, 1.0f, pivot[LIMB_HEAD]);
     for (int l = LIMB_EAR; l < LIMBS; l++) {
-        const float place = JOINT[l >= LIMB_EAR_TIP];
-        vec3s joint = glms_vec3_lerp(vec3_from(ear_root), vec3_from(ear_tip), place);
+        const float place = limbs_ear_joint[l >= LIMB_EAR_TIP];
+        vec3s joint = glms_vec3_lerp(vec3_from(limbs_ear_root), vec3_from(limbs_ear_tip), place);
         if ((l - LIMB_EAR) % 2 != 0) joint.x = -joint.x;
         joint = glms_mat4_mulv3(from_head, joint, 1.0f);
         memcpy(pivot[l], joint.raw, sizeof pivot[l]);
@@ -116,99 +134,8 @@ void limbs_bounds(const struct limbs *limbs, float lo[3], float hi[3])
     for (int k = 0; k < 3; k++) {
         const bool still =
             limbs->look == 0.0f && limbs->nod == 0.0f && limbs->ears[0] == 0.0f && limbs->ears[1] == 0.0f;
-        const float wider = fmaxf(limbs->breath, 0.0f) * CHEST_OUTER, reach = still ? 0.0f : HEAD_RADIUS;
-        lo[k] = size.raw[k] * fminf(creature_torso_lo[k] - wider, joint[k] - reach);
-        hi[k] = size.raw[k] * fmaxf(creature_torso_hi[k] + wider, joint[k] + reach);
-    }
-}
-
-struct limbs_back limbs_back(const struct limbs *limbs)
-{
-    float matrix[LIMBS][16];
-    struct limbs_back back = {.laid = limbs->ears[0] != 0.0f || limbs->ears[1] != 0.0f};
-    limbs_matrices(limbs, 1.0f, matrix);
-    for (int l = 0; l < LIMBS; l++) {
-        const mat4s part = glms_mat4_inv(mat4_from(matrix[l]));
-        memcpy(back.part[l], part.raw, sizeof back.part[l]);
-    }
-    const vec3s size = size_of(limbs);
-    back.step = fminf(1.0f, fminf(size.x, size.y));
-    return back;
-}
-
-/// How far along its ear a place in the head's own space is: 0 at the root, 1 at the tip.
-static float along_ear(vec3s in_head)
-{
-    const vec3s along = glms_vec3_sub(vec3_from(ear_tip), vec3_from(ear_root));
-    const vec3s up_ear = glms_vec3_sub((vec3s){{fabsf(in_head.x), in_head.y, in_head.z}}, vec3_from(ear_root));
-    return glms_vec3_dot(up_ear, along) / glms_vec3_norm2(along);
-}
-
-static vec3s place_in_head(const float p[3])
-{
-    vec3s in_head = {{0, 0, 0}};
-    creature_into_head(p, in_head.raw);
-    return in_head;
-}
-
-/// Distance to what of a part's skin lies between two places along an ear, where it is still.
-static float piece_distance(const struct limbs_back *back, int part, const float p[3], float from, float to)
-{
-    const vec3s own = glms_mat4_mulv3(mat4_from(back->part[part]), vec3_from(p), 1.0f);
-    const float place = along_ear(place_in_head(own.raw));
-    const float outside = EAR_LENGTH * fmaxf(from - place, place - to);
-    return fmaxf(creature_torso_distance(own.raw), outside);
-}
-
-/// Distance to the head with its ears as they are laid: they are each other's mirror image, so that the one on the point's side is nearer.
-static float head_distance(const struct limbs_back *back, const float p[3], vec3s on_head)
-{
-    if (!back->laid) return creature_torso_distance(on_head.raw);
-    const int side = place_in_head(on_head.raw).x < 0.0f;
-    const float head = fmaxf(creature_torso_distance(on_head.raw),
-                             EAR_LENGTH * (along_ear(place_in_head(on_head.raw)) - JOINT[0] - HALF_BEND));
-    const float ear = piece_distance(back, LIMB_EAR + side, p, JOINT[0], JOINT[1] + HALF_BEND);
-    return fminf(head, fminf(ear, piece_distance(back, LIMB_EAR_TIP + side, p, JOINT[1], INFINITY)));
-}
-
-/// Where parts are still they overlap, so that no cut shows: body and head between the neck's heights.
-float limbs_distance(const struct limbs_back *back, const float p[3])
-{
-    const vec3s on_body = glms_mat4_mulv3(mat4_from(back->part[LIMB_BODY]), vec3_from(p), 1.0f);
-    const vec3s on_head = glms_mat4_mulv3(mat4_from(back->part[LIMB_HEAD]), vec3_from(p), 1.0f);
-    const float above = on_body.y + CREATURE_BASE_HEIGHT - NECK_HIGH,
-                below = NECK_LOW - on_head.y - CREATURE_BASE_HEIGHT;
-    const float body = fmaxf(creature_torso_distance(on_body.raw), above);
-    return back->step * fminf(body, fmaxf(head_distance(back, p, on_head), below));
-}
-
-/// Between two parts, or wholly on the second.
-static void hang(struct vertex *vertex, enum limb from, enum limb to, float share)
-{
-    vertex->limb[0] = (float)from;
-    vertex->limb[1] = (float)to;
-    vertex->limb[2] = share;
-}
-
-void limbs_hang(struct vertex *vertex)
-{
-    const float *p = vertex->position, standing[3] = {p[0], p[1] + CREATURE_BASE_HEIGHT, p[2]};
-    const vec3s in_head = place_in_head(p);
-    const float place = along_ear(in_head);
-    const float root =
-        glm_clamp((place - JOINT[0]) / (2.0f * HALF_BEND) + 0.5f, 0.0f, 1.0f); // evenly, or it would crease
-    const float tip = glm_clamp((place - JOINT[1]) / (2.0f * HALF_BEND) + 0.5f, 0.0f, 1.0f);
-    const float of_head = glm_smoothstep(NECK_LOW, NECK_HIGH, standing[1]);
-    const int side = in_head.x < 0.0f;
-    const bool on_ear = in_head.y > 0.0f && root > 0.0f;
-    if (on_ear && tip > 0.0f && root == 1.0f) {
-        hang(vertex, (enum limb)(LIMB_EAR + side), (enum limb)(LIMB_EAR_TIP + side), tip);
-    } else if (on_ear) {
-        hang(vertex, LIMB_HEAD, (enum limb)(LIMB_EAR + side), root);
-    } else if (of_head > 0.0f) {
-        hang(vertex, LIMB_BODY, LIMB_HEAD, of_head);
-    } else {
-        const float distance = glms_vec3_distance(vec3_from(standing), vec3_from(chest));
-        hang(vertex, LIMB_BODY, LIMB_CHEST, glm_smoothstep(CHEST_OUTER, CHEST_INNER, distance));
+        const float wider = fmaxf(limbs->breath, 0.0f) * LIMBS_CHEST_RADIUS, reach = still ? 0.0f : HEAD_RADIUS;
+        lo[k] = size.raw[k] * fminf(fox_body_lo[k] - wider, joint[k] - reach);
+        hi[k] = size.raw[k] * fmaxf(fox_body_hi[k] + wider, joint[k] + reach);
     }
 }

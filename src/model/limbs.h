@@ -1,14 +1,18 @@
 /// The parts of the fox's body that move: chest, head and ears.
 ///
-/// A vertex of the torso hangs on two of them, `limb[0]` and `limb[1]`, by 1 − `limb[2]` and `limb[2]`. Each part moves with the one that it is
+/// Each part moves with the one that it is
 /// attached to: the ears' tips with their roots, these with the head, all with the body.
 #ifndef MODEL_LIMBS_H
 #define MODEL_LIMBS_H
 
-#include "model/mesh.h"
 #include "model/pose.h"
 
 enum limb { LIMB_BODY, LIMB_CHEST, LIMB_HEAD, LIMB_EAR, LIMB_EAR_TIP = LIMB_EAR + 2, LIMBS = LIMB_EAR_TIP + 2 };
+
+/// What the maker of the skin needs too: the middle of the chest and how far it reaches, standing (y = 0 is the ground); and an ear, in the
+/// head's own space, with the places along it where it bends.
+#define LIMBS_CHEST_RADIUS 0.18f
+extern const float limbs_chest[3], limbs_ear_root[3], limbs_ear_tip[3], limbs_ear_joint[2];
 
 /// Where the tail's base comes to as the body stretches from its feet, at a fox of that scale; metres.
 void limbs_base(double stretch, double scale, double base[3]);
@@ -30,19 +34,5 @@ void limbs_matrices(const struct limbs *limbs, float scale, float matrix[LIMBS][
 
 /// Where the box around the body comes to, bind size, from its tail's base.
 void limbs_bounds(const struct limbs *limbs, float lo[3], float hi[3]);
-
-/// The way back from where each part's skin is to bind space, and how much of a step there is one here at least.
-struct limbs_back {
-    float part[LIMBS][16], step;
-    bool laid; ///< the ears are turned
-};
-
-struct limbs_back limbs_back(const struct limbs *limbs);
-
-/// Distance from a point to the moved skin; bind size, from the tail's base. As creature_torso_distance().
-float limbs_distance(const struct limbs_back *back, const float p[3]);
-
-/// Says what a vertex of the torso hangs on.
-void limbs_hang(struct vertex *vertex);
 
 #endif

@@ -25,6 +25,9 @@ void pose_move(struct pose *pose, const double by[3]);
 /// Length of the tail that was posed, in metres.
 float pose_length(const struct pose *pose);
 
+/// Size of its animal against the one that is made (fox.h).
+float pose_scale(const struct pose *pose);
+
 /// The box around the skin of tail and torso (whose size follows the tail's length), metres.
 void pose_bounds(const struct pose *pose, float lo[3], float hi[3]);
 

@@ -1,4 +1,4 @@
-/// Intersects a ray with a posed figure.
+/// Intersects a ray with triangles.
 #include "rig/pick.h"
 #include "model/vector.h"
 #include <math.h>
@@ -6,9 +6,8 @@
 
 static const float SLACK = 1e-4f; ///< of a triangle: rounding must not leave gaps between neighbours
 
-/// Distance along the ray to the front of a triangle (Möller and Trumbore 1997), or a negative number; `uv` are the weights
-/// of the second and third corner.
-static float meet(const float *const corner[3], const float eye[3], const float direction[3], float uv[2])
+/// Möller and Trumbore 1997.
+float pick_triangle(const float *const corner[3], const float eye[3], const float direction[3], float uv[2])
 {
     const vec3s first = vec3_from(corner[0]), along = vec3_from(direction);
     const vec3s side = glms_vec3_sub(vec3_from(corner[1]), first), other = glms_vec3_sub(vec3_from(corner[2]), first);
@@ -35,7 +34,7 @@ bool pick_ray(const struct figure *figure, const float (*posed)[3], const float 
     for (int t = 0; t < figure->character.index_count; t += 3) {
         const float *const corner[3] = {posed[indices[t]], posed[indices[t + 1]], posed[indices[t + 2]]};
         float uv[2];
-        const float distance = meet(corner, eye, direction, uv);
+        const float distance = pick_triangle(corner, eye, direction, uv);
         if (!(distance > 0.0f && distance < nearest)) continue;
         nearest = distance;
         memcpy(spot->corner, indices + t, sizeof spot->corner);

@@ -1,5 +1,5 @@
 /// Points of tails: the ends of their joints.
-#include "model/creature.h"
+#include "model/fox.h"
 #include "model/limbs.h"
 #include "rig/pinning_kind.h"
 #include "rig/posing_kind.h"
@@ -53,7 +53,7 @@ static void add_bends(const struct tail *tail, const struct hinge *hinges, int c
 /// How the base moves with the body's stretch, metres a radian: pinning_add_channel() takes percent for degrees.
 static void find_stretch(const struct tail *tail, const struct limbs *limbs, double way[3])
 {
-    limbs_base_slope((double)limbs->stretch, tail->length / (double)CREATURE_TAIL_LENGTH, way);
+    limbs_base_slope((double)limbs->stretch, tail->length / (double)FOX_TAIL_LENGTH, way);
     for (int k = 0; k < 3; k++) way[k] *= 1.8 / 3.14159265358979323846;
 }
 

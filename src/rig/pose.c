@@ -1,5 +1,5 @@
 /// Bends a tail's joints by the values of its channels.
-#include "model/creature.h"
+#include "model/fox.h"
 #include "model/limbs.h"
 #include "rig/posing_kind.h"
 #include <math.h>
@@ -51,7 +51,7 @@ struct limbs tail_limbs(const struct tail *tail, const wiggly_value *values, enu
         .blink = (float)moved(tail, values, look, AXIS_BLINK, 1) / 100,
     };
     for (int n = 0; n < 2; n++) limbs.ears[n] = (float)radians(moved(tail, values, look, AXIS_EARS, n + 1));
-    limbs_base(stretch, tail->length / (double)CREATURE_TAIL_LENGTH, shift);
+    limbs_base(stretch, tail->length / (double)FOX_TAIL_LENGTH, shift);
     return limbs;
 }
 
@@ -83,7 +83,7 @@ void pose_tail(const struct tail *tail, const wiggly_value *values, enum look lo
 {
     double frame[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
     for (int k = 0; k < 3; k++) frame[12 + k] = tail->position[k].track < 0 ? tail->position[k].value : 0.0;
-    const double segment = tail->length / tail->joints, height = CREATURE_BASE_HEIGHT / CREATURE_TAIL_LENGTH;
+    const double segment = tail->length / tail->joints, height = FOX_BASE_HEIGHT / FOX_TAIL_LENGTH;
     pose->ground = tail->position[1].track < 0 ? (float)(tail->position[1].value - height * tail->length) : 0.0f;
     pose->count = tail->joints + 1;
     double shift[3];

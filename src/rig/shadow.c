@@ -1,6 +1,6 @@
 /// Finds where a posed tail and its animal keep the lamp from the ground.
 #include "rig/shadow.h"
-#include "model/creature.h"
+#include "model/fox.h"
 #include "model/vector.h"
 #include <math.h>
 
@@ -39,7 +39,7 @@ static struct shadow_blob tail_blob(const struct pose *pose, vec2s slope, float 
     const int n = (int)fminf(at, (float)(pose->count - 2));
     const float part = at - (float)n;
     const vec3s p = glms_vec3_lerp(vec3_from(pose->matrix[n] + 12), vec3_from(pose->matrix[n + 1] + 12), part);
-    const float radius = scale * creature_tail_radius(along * CREATURE_TAIL_LENGTH);
+    const float radius = scale * fox_tail_radius(along * FOX_TAIL_LENGTH);
     const float above = fmaxf(p.y - radius - ground, 0.0f), height = above / (scale * FADE_HEIGHT);
     return (struct shadow_blob){p.x + slope.x * above, p.z + slope.y * above,
                                 1.6f * radius + 0.12f * scale * (1.0f + height), 0.45f * expf(-height)};
@@ -47,8 +47,8 @@ static struct shadow_blob tail_blob(const struct pose *pose, vec2s slope, float 
 
 int pose_blobs(const struct pose *pose, const float from[3], struct shadow_blob *blobs, int capacity)
 {
-    const float scale = pose_length(pose) / CREATURE_TAIL_LENGTH, ground = pose->ground;
-    const float above = fmaxf(pose->matrix[0][13] - ground - scale * CREATURE_BASE_HEIGHT, 0.0f);
+    const float scale = pose_scale(pose), ground = pose->ground;
+    const float above = fmaxf(pose->matrix[0][13] - ground - scale * FOX_BASE_HEIGHT, 0.0f);
     const int body_count = (int)(sizeof body_blobs / sizeof *body_blobs);
     const vec2s slope = slope_of(from);
     int count = 0;

@@ -4,8 +4,8 @@
 
 #include "base/hash.h"
 #include "model/figure.h"
+#include "model/fox.h"
 #include "model/gltf.h"
-#include "model/pose.h"
 #include "ui/drawlist.h"
 #include "ui/theme.h"
 #include <stddef.h>
@@ -13,15 +13,13 @@
 enum {
     STAGE_MAX_TAILS = 8,
     STAGE_MAX_CHARACTERS = 4,
-    STAGE_MAX_MODELS = 4,
+    STAGE_MAX_MODELS = 4 + STAGE_MAX_TAILS, ///< imported characters, and the foxes of tails
     STAGE_MAX_REEDS = 4096,
     STAGE_MAX_BLOBS = 20 * STAGE_MAX_TAILS + 4 * STAGE_MAX_CHARACTERS + 4 * STAGE_MAX_MODELS,
 };
 
-/// One tail to draw; its mesh is rebuilt only when joints or length change.
+/// A tail as it stands; what is drawn of it is one of the models.
 struct stage_tail {
-    int joints;
-    float length;
     struct pose pose;
 };
 
@@ -37,12 +35,12 @@ struct stage_character {
     int map_axis;       ///< of movement, 0 … 2: x, y, z
 };
 
-/// One imported character to draw.
+/// One imported character, or fox, to draw.
 struct stage_model {
     const struct gltf *gltf;      ///< both live until the next frame at least
     const struct gltf_pose *pose; ///< as the file has it
     float root[16];               ///< its space → world
-    float ground;                 ///< height of what it stands on, metres
+    float ground, dusk;           ///< heights, metres: of what it stands on, and up to where that keeps light from it
     float lo[3], hi[3];           ///< the box around it, world
 };
 
@@ -87,6 +85,9 @@ struct stage_view {
     int blob_count;
     uint64_t hash; ///< of everything above: equal hash, equal pixels
 };
+
+/// Shows a fox, posed so.
+void stage_add_fox(struct stage_view *view, const struct fox *fox, const struct pose *pose);
 
 /// Hash of what all pictures of the stage share: viewport, camera, light and colours.
 static inline uint64_t stage_scenery_hash(const struct stage_view *view)

@@ -5,7 +5,7 @@
 #ifndef MODELS_DOG_H
 #define MODELS_DOG_H
 
-#include "model/mesh.h"
+#include "models/mesh.h"
 #include <stdbool.h>
 
 enum {

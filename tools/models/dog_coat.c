@@ -1,10 +1,10 @@
 /// The dog's coat: a smooth union of limbs, each of which is made of round cones and follows a chain of joints; its mesh and its colours.
 #include "base/need.h"
 #include "model/decimate.h"
-#include "model/isosurface.h"
-#include "model/mesh.h"
 #include "model/vector.h"
 #include "models/dog.h"
+#include "models/isosurface.h"
+#include "models/mesh.h"
 #include <math.h>
 #include <stdlib.h>
 

@@ -1,7 +1,7 @@
 /// What the dog wears on its coat: eyes with lids, a nose, a collar with a tag.
-#include "model/mesh.h"
 #include "model/vector.h"
 #include "models/dog.h"
+#include "models/mesh.h"
 #include <assert.h>
 #include <math.h>
 

@@ -5,7 +5,7 @@
 /// A tail that has no channel for a way gets one of these for it too.
 #include "editor/core/core.h"
 #include "editor/stage/parts.h"
-#include "model/creature.h"
+#include "model/fox.h"
 #include "scene/order.h"
 #include <math.h>
 #include <stdio.h>
@@ -81,7 +81,7 @@ double base_value(const struct editor_world *world, int tail, int coordinate, in
         return value.y + value.re;
     }
     // A height that is a number says where the ground is; one that follows a spline is above 0.
-    return coordinate == 1 ? moved->length * (double)(CREATURE_BASE_HEIGHT / CREATURE_TAIL_LENGTH) : param->value;
+    return coordinate == 1 ? moved->length * (double)(FOX_BASE_HEIGHT / FOX_TAIL_LENGTH) : param->value;
 }
 
 void base_follow(const struct stage *stage, struct core *core, const struct editor_world *world, int coordinate,

@@ -2,9 +2,10 @@
 #include "editor/core/core.h"
 #include "editor/core/drag.h"
 #include "editor/stage/parts.h"
-#include "model/creature.h"
+#include "model/fox.h"
 #include "model/limbs.h"
 #include "model/vector.h"
+#include "rig/pick.h"
 #include "ui/theme.h"
 #include <math.h>
 #include <stdio.h>
@@ -64,9 +65,8 @@ static bool lock(struct stage *stage, int key)
     return true;
 }
 
-enum { TRACE_STEPS = 64, RING_POINTS = 64 };
+enum { RING_POINTS = 64 };
 
-static const float TRACE_NEAR = 0.004f; ///< metres from the skin that count as touching it, bind size
 static const double LEAST_PITCH = 0.35; ///< sine of the camera's elevation below which depth follows the pointer less
 static const double LEAST_RISE = 0.3;   ///< cosine of it below which height does
 static const float ring_middle[2] = {0, -0.25f}; ///< x and z in bind size, metres
@@ -77,38 +77,53 @@ static const float *base_of(const struct stage *stage, int tail)
     return stage->view.tails[tail].pose.matrix[0] + 12;
 }
 
-static float scale_of(const struct pose *pose) { return pose_length(pose) / CREATURE_TAIL_LENGTH; }
-
-/// Where the ray from the eye meets the body as it is moved (metres along it, bind size), or a negative number: steps of the distance to
-/// the skin cannot pass through it.
-static float trace(const struct limbs *limbs, const float from[3], const float direction[3])
+/// Whether a ray passes through the box around a body.
+static bool passes_box(const struct pose *pose, const float eye[3], const float direction[3])
 {
-    const struct limbs_back back = limbs_back(limbs);
+    const float *base = pose->matrix[0] + 12, scale = pose_scale(pose);
     float near = 0, far = INFINITY, lo[3], hi[3];
-    limbs_bounds(limbs, lo, hi);
+    limbs_bounds(&pose->limbs, lo, hi);
     for (int k = 0; k < 3; k++) {
-        float a = (lo[k] - from[k]) / direction[k], b = (hi[k] - from[k]) / direction[k];
+        const float from = eye[k] - base[k];
+        const float a = (scale * lo[k] - from) / direction[k], b = (scale * hi[k] - from) / direction[k];
         near = fmaxf(near, fminf(a, b));
         far = fminf(far, fmaxf(a, b));
     }
-    for (int step = 0; step < TRACE_STEPS && near < far; step++) {
-        const vec3s p = glms_vec3_muladds(vec3_from(direction), near, vec3_from(from));
-        float distance = limbs_distance(&back, p.raw);
-        if (distance < TRACE_NEAR) return near;
-        near += 0.9f * distance;
-    }
-    return -1;
+    return near < far;
 }
 
-float body_distance(const struct stage *stage, const struct pose *pose, float x, float y)
+/// Where a ray meets the triangles of a part that are the body's, or `nearest`.
+static float meet(const struct gltf_part *part, const float (*place)[3], const float eye[3], const float direction[3],
+                  float nearest)
+{
+    for (int i = 0; i < part->index_count; i += 3) {
+        const uint32_t *own = part->indices + i;
+        const float *const corner[3] = {place[own[0]], place[own[1]], place[own[2]]};
+        float uv[2];
+        if (part->fur[own[0]][0] >= 1.0f) continue; // the tail's
+        const float distance = pick_triangle(corner, eye, direction, uv);
+        if (distance > 0.0f) nearest = fminf(nearest, distance);
+    }
+    return nearest;
+}
+
+float body_distance(const struct stage *stage, int tail, const struct pose *pose, float x, float y)
 {
     const struct stage_view *view = &stage->view;
+    const struct shown_fox *fox = &stage->foxes[tail];
     const float viewport[4] = {view->viewport.x, view->viewport.y, view->viewport.w, view->viewport.h};
-    const float scale = scale_of(pose);
-    float direction[3];
+    float direction[3], nearest = INFINITY;
     camera_ray(view->view, view->projection, viewport, (const float[2]){x, y}, direction);
-    const vec3s from = glms_vec3_divs(glms_vec3_sub(vec3_from(view->eye), vec3_from(pose->matrix[0] + 12)), scale);
-    return scale * trace(&pose->limbs, from.raw, direction);
+    if (fox->fox.joints != pose->count - 1 || !passes_box(pose, view->eye, direction)) return -1;
+    const float(*place)[3] = (const float(*)[3])fox->place;
+    const struct gltf_mesh *mesh = fox->fox.gltf.meshes;
+    fox_pose(&fox->fox, pose); // the next frame poses it again as it is shown
+    fox_places(&fox->fox, fox->place);
+    for (int p = 0; p < mesh->part_count; p++) {
+        nearest = meet(&mesh->parts[p], place, view->eye, direction, nearest);
+        place += mesh->parts[p].vertex_count;
+    }
+    return nearest < INFINITY ? nearest : -1;
 }
 
 struct hover body_hover(const struct stage *stage, float x, float y)
@@ -116,7 +131,7 @@ struct hover body_hover(const struct stage *stage, float x, float y)
     struct hover hover = {.kind = HOVER_NONE};
     float nearest = INFINITY;
     for (int t = 0; t < stage->view.tail_count; t++) {
-        const float distance = body_distance(stage, &stage->view.tails[t].pose, x, y);
+        const float distance = body_distance(stage, t, &stage->view.tails[t].pose, x, y);
         if (!(distance >= 0 && distance < nearest)) continue;
         nearest = distance;
         hover = (struct hover){.kind = HOVER_BODY, .tail = t, .x = x, .y = y};
@@ -134,7 +149,7 @@ bool body_point(const struct stage *stage, const struct core *core, int tail, in
     limbs_matrices(&pose->limbs, 1.0f, matrix);
     const mat4s moved = mat4_from(matrix[point == BODY_HEAD ? LIMB_HEAD : LIMB_BODY]);
     const vec3s at = glms_mat4_mulv3(moved, vec3_from(places[point]), 1.0f);
-    const vec3s place = glms_vec3_muladds(at, scale_of(pose), base);
+    const vec3s place = glms_vec3_muladds(at, pose_scale(pose), base);
     return stage_project_point(stage, core->layout.stage, place.raw, xy);
 }
 
@@ -150,7 +165,7 @@ void body_drag_show(struct stage *stage, struct core *core)
     if (!held && core->hover.kind != HOVER_BODY) return;
     int tail = held ? stage->body_drag.tail : core->hover.tail;
     if (tail >= stage->view.tail_count) return;
-    const float scale = scale_of(&stage->view.tails[tail].pose), *base = base_of(stage, tail);
+    const float scale = pose_scale(&stage->view.tails[tail].pose), *base = base_of(stage, tail);
     const uint32_t color = held ? theme()->accent : theme()->playhead;
     float point[RING_POINTS + 1][2];
     for (int i = 0; i <= RING_POINTS; i++) { // from the right side of the picture over the near half
@@ -227,7 +242,7 @@ void body_drag_begin(struct stage *stage, struct core *core, int tail, const str
     double pitch = sin((double)camera->elevation);
     hold->pitch = copysign(fmax(fabs(pitch), LEAST_PITCH), pitch);
     hold->rise = fmax(cos((double)camera->elevation), LEAST_RISE);
-    const float sitting = pose->ground + CREATURE_BASE_HEIGHT * scale_of(pose);
+    const float sitting = pose->ground + FOX_BASE_HEIGHT * pose_scale(pose);
     hold->lowest = fmin(0, (double)(sitting - base_of(stage, tail)[1]));
     hold->right[0] = -sin((double)camera->azimuth);
     hold->right[1] = -cos((double)camera->azimuth);

@@ -1,7 +1,6 @@
 /// A meadow on the stage: its reeds in their wind, pushed by bodies, and swinging after what was dragged through them.
 #include "base/hash.h"
 #include "editor/stage/parts.h"
-#include "model/creature.h"
 #include "model/vector.h"
 #include <math.h>
 #include <string.h>
@@ -25,7 +24,7 @@ static void push_of(const struct stage_view *view, const float place[3], double 
     for (int t = 0; t < view->tail_count; t++) {
         const struct pose *pose = &view->tails[t].pose;
         const float *base = pose->matrix[0] + 12;
-        const double scale = (double)(pose_length(pose) / CREATURE_TAIL_LENGTH);
+        const double scale = (double)pose_scale(pose);
         const double x = (double)(place[0] - base[0]), z = (double)(place[2] - base[2]) - MIDDLE * scale;
         const double far = hypot(x, 0.75 * z) / (REACH * scale); // longer than wide
         if (!(far < 1) || !(far > 0)) continue;

@@ -54,6 +54,7 @@ static void pose(struct stage *stage, const struct core *core, const struct edit
     memcpy(shown->root, posed.model.root, sizeof shown->root);
     bones_add(stage, rig, &posed);
     rig_bounds(&posed, shown->lo, shown->hi);
+    shown->dusk = fmaxf(0.3f * (shown->hi[1] - shown->lo[1]), 1e-6f);
     add_shadows(view, shown);
 }
 

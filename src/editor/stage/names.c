@@ -3,7 +3,6 @@
 #include "editor/core/spline_list.h"
 #include "editor/stage/parts.h"
 #include "editor/stage/stage.h"
-#include "model/creature.h"
 #include "ui/font.h"
 #include "ui/theme.h"
 #include <math.h>
@@ -20,7 +19,7 @@ static bool place_name(const struct stage *stage, const struct core *core, int t
 {
     const struct pose *pose = &stage->view.tails[tail].pose;
     const float *base = pose->matrix[0] + 12;
-    const float feet[3] = {base[0], pose->ground, base[2] + FEET * pose_length(pose) / CREATURE_TAIL_LENGTH};
+    const float feet[3] = {base[0], pose->ground, base[2] + FEET * pose_scale(pose)};
     const struct rect r = core->layout.stage;
     float xy[2];
     if (!stage_project_point(stage, r, feet, xy)) return false;

@@ -5,7 +5,7 @@
 #include "editor/core/spline_list.h"
 #include "editor/stage/parts.h"
 #include "editor/stage/stage.h"
-#include "model/creature.h"
+#include "model/fox.h"
 #include "model/vector.h"
 #include "rig/pick.h"
 #include "ui/font.h"
@@ -163,8 +163,7 @@ static bool station(const struct stage *stage, const struct core *core, const st
     const vec3s point = glms_vec3_lerp(from, to, (float)(at - joint));
     if (!stage_project_point(stage, core->layout.stage, point.raw, disc->middle)) return false;
     const float depth = camera_depth(view->view, view->eye, pose->matrix[joint] + 12);
-    float metres =
-        creature_tail_radius((float)share * CREATURE_TAIL_LENGTH) * pose_length(pose) / CREATURE_TAIL_LENGTH;
+    float metres = fox_tail_radius((float)share * FOX_TAIL_LENGTH) * pose_scale(pose);
     disc->radius = metres * 0.5f * view->viewport.h * view->projection[5] / fmaxf(depth, 0.1f);
     return true;
 }

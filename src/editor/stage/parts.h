@@ -34,6 +34,9 @@ void stage_click(void *room, struct core *core, const struct editor_world *world
 void stage_pose_tail(const struct stage *stage, const struct core *core, const struct editor_world *world, int tail,
                      double position, const struct what_if *change, struct rig_pose *pose);
 
+/// Frees what is drawn of tails.
+void foxes_free(struct stage *stage);
+
 /// Notes what hangs on the held body, before anything is edited.
 void base_begin(struct stage *stage, const struct editor_world *world);
 /// Where a coordinate is at a sample, metres, as a spline would have it.
@@ -161,7 +164,7 @@ void brush_show(struct stage *stage, struct core *core, const struct editor_worl
 /// The body under a point of the stage (HOVER_BODY), the nearest to the eye, or HOVER_NONE.
 struct hover body_hover(const struct stage *stage, float x, float y);
 /// How far from the eye a point of the stage meets the body of a posed tail, metres, or a negative number.
-float body_distance(const struct stage *stage, const struct pose *pose, float x, float y);
+float body_distance(const struct stage *stage, int tail, const struct pose *pose, float x, float y);
 /// What was under a point within the last third of a second of a scene that plays: who presses there aimed at that.
 struct hover body_moment_ago(const struct stage *stage, const struct core *core, const struct editor_world *world,
                              float x, float y);

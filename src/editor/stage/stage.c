@@ -24,6 +24,7 @@ void stage_destroy(struct stage *stage)
     if (!stage) return;
     brush_free(&stage->painting);
     skin_free(&stage->skin);
+    foxes_free(stage);
     free(stage);
 }
 
@@ -343,7 +344,7 @@ static struct hover hover_at(const struct stage *stage, const struct core *core,
     for (int t = 0; t < stage->view.tail_count && document_tail(document, t); t++) {
         struct rig_pose pose;
         stage_pose_tail(stage, core, world, t, position, NULL, &pose);
-        const float distance = body_distance(stage, &pose.tail, x, y);
+        const float distance = body_distance(stage, t, &pose.tail, x, y);
         if (!(distance >= 0 && distance < farthest)) continue;
         farthest = distance;
         body = (struct hover){.kind = HOVER_BODY, .tail = t, .x = x, .y = y};

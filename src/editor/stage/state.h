@@ -190,6 +190,12 @@ struct meadow_view {
     bool swings;
 };
 
+/// What is drawn of a tail.
+struct shown_fox {
+    struct fox fox;
+    float (*place)[3]; ///< of its vertices, for who points at it
+};
+
 struct stage {
     struct stage_view view;
     struct meadow_view meadow;
@@ -203,6 +209,7 @@ struct stage {
     struct tail_drag tail_drag;
     struct body_drag body_drag;
     struct record record;
+    struct shown_fox foxes[STAGE_MAX_TAILS]; ///< all zero: not yet
     struct drag_inertia inertia[STAGE_MAX_TAILS];
     struct trail_point trail[TRAILS][TRAIL_FRAMES];
     struct liveliest liveliest;

@@ -1,5 +1,5 @@
 /// Tails and chains on the stage: how they are posed, and where their joints are on the screen.
-#include "base/hash.h"
+#include "base/need.h"
 #include "editor/core/bones.h"
 #include "editor/stage/parts.h"
 #include "editor/stage/stage.h"
@@ -7,6 +7,7 @@
 #include "rig/shadow.h"
 #include <assert.h>
 #include <math.h>
+#include <stdlib.h>
 
 enum { BOUND_STEPS = 120, BLOBS_OF_ONE_TAIL = 20 };
 
@@ -45,6 +46,29 @@ static void add_blobs(struct stage_view *view, const struct pose *pose)
     }
 }
 
+static void free_fox(struct shown_fox *shown)
+{
+    fox_free(&shown->fox);
+    free(shown->place);
+    *shown = (struct shown_fox){0};
+}
+
+void foxes_free(struct stage *stage)
+{
+    for (int n = 0; n < STAGE_MAX_TAILS; n++) free_fox(&stage->foxes[n]);
+}
+
+/// The fox of the n-th tail, made anew where its joints or the number of tails have changed.
+static const struct fox *fox_of(struct stage *stage, int n, int level, int joints)
+{
+    struct shown_fox *shown = &stage->foxes[n];
+    if (shown->fox.level == level && shown->fox.joints == joints) return &shown->fox;
+    free_fox(shown);
+    fox_create(level, joints, &shown->fox);
+    shown->place = need((size_t)fox_vertex_count(&shown->fox), sizeof *shown->place);
+    return &shown->fox;
+}
+
 static void pose(struct stage *stage, const struct core *core, const struct editor_world *world, int rig, int n)
 {
     struct stage_view *view = &stage->view;
@@ -54,7 +78,9 @@ static void pose(struct stage *stage, const struct core *core, const struct edit
     struct stage_tail *shown = &view->tails[view->tail_count++];
     stage_pose_tail(stage, core, world, n, core->playback.position, NULL, &posed);
     strand_add(stage, rig, &posed);
-    *shown = (struct stage_tail){.joints = tail->joints, .length = (float)tail->length, .pose = posed.tail};
+    shown->pose = posed.tail;
+    stage_add_fox(view, fox_of(stage, n, fox_level(document_count_rigs(world->document, RIG_TAIL)), tail->joints),
+                  &shown->pose);
     add_blobs(view, &shown->pose);
 }
 
@@ -74,20 +100,14 @@ static bool bounds(const struct stage *stage, const struct core *core, const str
     return true;
 }
 
-static uint64_t hash(uint64_t sum, const struct stage_view *view)
+/// Tails and chains change what the models show, which is in the hash already.
+static uint64_t no_hash(uint64_t sum, const struct stage_view *view)
 {
-    for (int t = 0; t < view->tail_count; t++) {
-        const struct stage_tail *tail = &view->tails[t];
-        sum = hash_bytes(sum, &tail->joints, sizeof tail->joints);
-        sum = hash_bytes(sum, &tail->length, sizeof tail->length);
-        sum = hash_bytes(sum, &tail->pose.ground, sizeof tail->pose.ground);
-        sum = hash_bytes(sum, &tail->pose.limbs, sizeof tail->pose.limbs);
-        sum = hash_bytes(sum, tail->pose.matrix, (size_t)tail->pose.count * sizeof tail->pose.matrix[0]);
-    }
+    (void)view;
     return sum;
 }
 
-const struct stage_kind stage_tails = {pose, bounds, hash};
+const struct stage_kind stage_tails = {pose, bounds, no_hash};
 
 /// The points of a chain of a character that is shown.
 static void add_strand(struct stage *stage, const struct editor_world *world, int rig, int model,
@@ -123,13 +143,7 @@ static bool chain_bounds(const struct stage *stage, const struct core *core, con
     return false;
 }
 
-static uint64_t chain_hash(uint64_t sum, const struct stage_view *view)
-{
-    (void)view;
-    return sum;
-}
-
-const struct stage_kind stage_chains = {chain_pose, chain_bounds, chain_hash};
+const struct stage_kind stage_chains = {chain_pose, chain_bounds, no_hash};
 
 static void take_points(const struct rig_pose *pose, int rig, struct strand *strand)
 {

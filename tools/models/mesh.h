@@ -1,6 +1,6 @@
-/// Triangle meshes that are generated at start-up, and the colours and markings of the coat on them.
-#ifndef MODEL_MESH_H
-#define MODEL_MESH_H
+/// Triangle meshes that are made, and the colours and markings of the coat on them.
+#ifndef MODELS_MESH_H
+#define MODELS_MESH_H
 
 #include <stdbool.h>
 #include <stdint.h>

@@ -1,8 +1,8 @@
 /// Grows and frees triangle meshes, and colours the fox's coat.
-#include "model/mesh.h"
+#include "models/mesh.h"
 #include "base/need.h"
 #include "base/png.h"
-#include "model/creature.h"
+#include "model/fox.h"
 #include "model/vector.h"
 #include <stdlib.h>
 
@@ -60,8 +60,8 @@ void coat_marked(const float mark[MARKS], float rgb[3])
 
 void coat_tail(float z, float up, float mark[MARKS])
 {
-    const float u = z / CREATURE_TAIL_LENGTH;
-    mark[MARK_WHITE] = z - 0.79f * CREATURE_TAIL_LENGTH;
+    const float u = z / FOX_TAIL_LENGTH;
+    mark[MARK_WHITE] = z - 0.79f * FOX_TAIL_LENGTH;
     mark[MARK_DARK] = -1.0f;
     mark[MARK_BROWN] = glm_smoothstep(0.45f, 0.78f, u) * (0.45f + 0.2f * up);
 }

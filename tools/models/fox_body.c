@@ -1,9 +1,9 @@
 /// The fox without its tail, as a union of round cones.
-#include "model/creature.h"
-#include "model/isosurface.h"
+#include "model/fox.h"
 #include "model/limbs.h"
-#include "model/mesh.h"
 #include "model/vector.h"
+#include "models/fox_maker.h"
+#include "models/isosurface.h"
 #include <math.h>
 #include <stddef.h>
 
@@ -59,47 +59,36 @@ static const struct part face[] = {
     {{0, -0.046f, -0.262f}, {0, -0.050f, -0.272f}, 0.024f, 0.021f, 0.001f, COAT_DARK, false},
 };
 
-/// Middle of the head, how far it is turned to look back over its shoulder, and how far it is tilted (radians).
-static const float head_middle[3] = {0.01f, 0.80f, -0.385f};
-#define HEAD_TURN 1.35f /* about +y, towards the camera's first place */
-#define HEAD_TILT 0.12f
 #define HEAD_RADIUS 0.36f /* of the ball that holds the head */
 #define NECK_BLEND 0.12f
 #define STUMP_BLEND 0.14f
 #define EAR_BLEND 0.020f
 
-const float creature_torso_lo[3] = {-0.36f, -CREATURE_BASE_HEIGHT, -0.68f};
-const float creature_torso_hi[3] = {0.36f, 1.16f - CREATURE_BASE_HEIGHT, 0.38f};
+/// The box in the head's own space that eyes, nose and mouth are drawn in (stage_mesh.frag).
+static const float face_lo[3] = {-0.118f, -0.112f, -0.32f}, face_hi[3] = {0.118f, 0.066f, -0.035f};
 
-const float creature_face_lo[3] = {-0.118f, -0.112f, -0.32f};
-const float creature_face_hi[3] = {0.118f, 0.066f, -0.035f};
-
-/// Standing coordinates → the head's own, before it was turned and tilted.
-static void into_head(const float p[3], float q[3])
+/// Bind space → the head's own, before it was turned and tilted.
+static vec3s in_head(const float bind[3])
 {
-    const float x = p[0] - head_middle[0], y = p[1] - head_middle[1], z = p[2] - head_middle[2];
-    const float turned = x * cosf(HEAD_TURN) + z * sinf(HEAD_TURN);
-    q[0] = turned * cosf(HEAD_TILT) + y * sinf(HEAD_TILT);
-    q[1] = y * cosf(HEAD_TILT) - turned * sinf(HEAD_TILT);
-    q[2] = z * cosf(HEAD_TURN) - x * sinf(HEAD_TURN);
+    float matrix[16];
+    fox_head_from_bind(matrix);
+    return glms_mat4_mulv3(mat4_from(matrix), vec3_from(bind), 1.0f);
 }
 
-void creature_into_head(const float bind[3], float place[3])
+bool fox_is_face(const struct mesh *mesh, const uint32_t corners[3])
 {
-    into_head((const float[3]){bind[0], bind[1] + CREATURE_BASE_HEIGHT, bind[2]}, place);
-}
-
-void creature_head_from_bind(float matrix[16])
-{
-    static const float corner[4][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, CREATURE_BASE_HEIGHT, 0}};
-    float origin[3];
-    into_head(corner[3], origin);
-    for (int c = 0; c < 4; c++) {
-        const float standing[3] = {corner[c][0], corner[c][1] + (c < 3 ? CREATURE_BASE_HEIGHT : 0.0f), corner[c][2]};
-        into_head(standing, matrix + 4 * c);
-        for (int k = 0; k < 3 && c < 3; k++) matrix[4 * c + k] -= origin[k];
-        matrix[4 * c + 3] = c == 3;
+    vec3s lo = glms_vec3_fill(INFINITY), hi = glms_vec3_fill(-INFINITY);
+    for (int c = 0; c < 3; c++) {
+        const struct vertex *vertex = &mesh->vertices[corners[c]];
+        const vec3s place = in_head(vertex->position);
+        if (vertex->bend > 0.0f) return false;
+        lo = glms_vec3_minv(lo, place);
+        hi = glms_vec3_maxv(hi, place);
     }
+    for (int k = 0; k < 3; k++) {
+        if (lo.raw[k] > face_hi[k] || hi.raw[k] < face_lo[k]) return false;
+    }
+    return true;
 }
 
 /// The tail's stump: a hair thicker than the tail along the fillet, then sinking below the tail's own
@@ -107,20 +96,20 @@ void creature_head_from_bind(float matrix[16])
 static float stump_distance(const float p[3])
 {
     const float z = fminf(fmaxf(p[2], -0.14f), 0.25f);
-    const float radius = creature_tail_radius(z) + 0.0012f - 0.006f * glm_smoothstep(0.10f, 0.25f, z);
+    const float radius = fox_tail_radius(z) + 0.0012f - 0.006f * glm_smoothstep(0.10f, 0.25f, z);
     return sqrtf(p[0] * p[0] + p[1] * p[1] + (p[2] - z) * (p[2] - z)) - radius;
 }
 
-float creature_torso_distance(const float p[3])
+static float fox_body_distance(const float p[3])
 {
-    const float standing[3] = {p[0], p[1] + CREATURE_BASE_HEIGHT, p[2]};
-    float distance = parts_add(trunk, PARTS(trunk), standing, 1e3f, NULL), in_head[3];
+    const float standing[3] = {p[0], p[1] + FOX_BASE_HEIGHT, p[2]};
+    float distance = parts_add(trunk, PARTS(trunk), standing, 1e3f, NULL);
+    const vec3s of_head = in_head(p);
     distance = parts_union(distance, stump_distance(p), STUMP_BLEND, NULL, NULL);
-    into_head(standing, in_head);
-    const float bound = glm_vec3_norm(in_head) - HEAD_RADIUS;
+    const float bound = glms_vec3_norm(of_head) - HEAD_RADIUS;
     if (bound > distance + NECK_BLEND) return distance;
-    const float solid = parts_add(head, PARTS(head), in_head, 1e3f, NULL);
-    const float hollow = parts_add(ear_hollow, PARTS(ear_hollow), in_head, 1e3f, NULL);
+    const float solid = parts_add(head, PARTS(head), of_head.raw, 1e3f, NULL);
+    const float hollow = parts_add(ear_hollow, PARTS(ear_hollow), of_head.raw, 1e3f, NULL);
     return parts_union(distance, -parts_union(-solid, hollow, EAR_BLEND, NULL, NULL), NECK_BLEND, NULL, NULL);
 }
 
@@ -133,41 +122,87 @@ static float openness(const float position[3], const float normal[3])
     float shade = 0.0f;
     for (size_t i = 0; i < PARTS(looks); i++) {
         const vec3s out = glms_vec3_muladds(vec3_from(normal), looks[i].way, vec3_from(position));
-        const float free = fminf(creature_torso_distance(out.raw), out.y + CREATURE_BASE_HEIGHT);
+        const float free = fminf(fox_body_distance(out.raw), out.y + FOX_BASE_HEIGHT);
         shade += looks[i].weight * fmaxf(looks[i].way - free, 0.0f);
     }
     return expf(-shade);
 }
 
+static const float CHEST_INNER = 0.05f;                 ///< metres from its middle: wholly part of it
+static const float NECK_LOW = 0.57f, NECK_HIGH = 0.68f; ///< heights: not part of the head, and wholly
+static const float HALF_BEND = 0.25f;                   ///< of an ear's length, over which it bends
+
+/// How far along its ear a place in the head's own space is: 0 at the root, 1 at the tip.
+static float along_ear(vec3s of_head)
+{
+    const vec3s root = vec3_from(limbs_ear_root), along = glms_vec3_sub(vec3_from(limbs_ear_tip), root);
+    const vec3s up_ear = glms_vec3_sub((vec3s){{fabsf(of_head.x), of_head.y, of_head.z}}, root);
+    return glms_vec3_dot(up_ear, along) / glms_vec3_norm2(along);
+}
+
+/// Between two parts, or wholly on the second.
+static void hang_on(struct vertex *vertex, int from, int to, float share)
+{
+    vertex->limb[0] = (float)from;
+    vertex->limb[1] = (float)to;
+    vertex->limb[2] = share;
+}
+
+/// Evenly from 0 to 1 around a place where the ear bends, or it would crease.
+static float behind_joint(float place, int joint)
+{
+    return glm_clamp((place - limbs_ear_joint[joint]) / (2.0f * HALF_BEND) + 0.5f, 0.0f, 1.0f);
+}
+
+/// Says which parts of the body a vertex hangs on.
+static void hang(struct vertex *vertex, vec3s of_head)
+{
+    const float *p = vertex->position, standing[3] = {p[0], p[1] + FOX_BASE_HEIGHT, p[2]};
+    const float place = along_ear(of_head), root = behind_joint(place, 0), tip = behind_joint(place, 1);
+    const float on_head = glm_smoothstep(NECK_LOW, NECK_HIGH, standing[1]);
+    const int side = of_head.x < 0.0f;
+    const bool on_ear = of_head.y > 0.0f && root > 0.0f;
+    if (on_ear && tip > 0.0f && root == 1.0f) {
+        hang_on(vertex, LIMB_EAR + side, LIMB_EAR_TIP + side, tip);
+    } else if (on_ear) {
+        hang_on(vertex, LIMB_HEAD, LIMB_EAR + side, root);
+    } else if (on_head > 0.0f) {
+        hang_on(vertex, LIMB_BODY, LIMB_HEAD, on_head);
+    } else {
+        const float distance = glms_vec3_distance(vec3_from(standing), vec3_from(limbs_chest));
+        hang_on(vertex, LIMB_BODY, LIMB_CHEST, glm_smoothstep(LIMBS_CHEST_RADIUS, CHEST_INNER, distance));
+    }
+}
+
 /// Each marking has a volume; around the stump markings and bending go over into the tail's.
 static void torso_paint(struct vertex *vertex)
 {
-    const float *p = vertex->position, standing[3] = {p[0], p[1] + CREATURE_BASE_HEIGHT, p[2]};
-    float in_head[3], of_tail[MARKS];
-    into_head(standing, in_head);
-    const float on_head = glm_smoothstep(HEAD_RADIUS, 0.8f * HEAD_RADIUS, glm_vec3_norm(in_head));
+    const float *p = vertex->position, standing[3] = {p[0], p[1] + FOX_BASE_HEIGHT, p[2]};
+    const vec3s of_head = in_head(p);
+    float of_tail[MARKS];
+    const float on_head = glm_smoothstep(HEAD_RADIUS, 0.8f * HEAD_RADIUS, glms_vec3_norm(of_head));
     const float white = parts_add(white_trunk, PARTS(white_trunk), standing, 1e3f, NULL);
     const float dark = parts_add(dark_trunk, PARTS(dark_trunk), standing, 1e3f, NULL);
-    vertex->mark[MARK_WHITE] = -fminf(white, parts_add(white_head, PARTS(white_head), in_head, 1e3f, NULL));
-    vertex->mark[MARK_DARK] = -fminf(dark, parts_add(dark_head, PARTS(dark_head), in_head, 1e3f, NULL));
+    vertex->mark[MARK_WHITE] = -fminf(white, parts_add(white_head, PARTS(white_head), of_head.raw, 1e3f, NULL));
+    vertex->mark[MARK_DARK] = -fminf(dark, parts_add(dark_head, PARTS(dark_head), of_head.raw, 1e3f, NULL));
     vertex->mark[MARK_BROWN] = 0.25f * glm_smoothstep(0.2f, 1.0f, vertex->normal[2]) * (1.0f - on_head);
-    const float from_axis = hypotf(p[0], p[1]) / CREATURE_TAIL_RADIUS;
+    const float from_axis = hypotf(p[0], p[1]) / FOX_TAIL_RADIUS;
     const float near = glm_smoothstep(3.6f, 1.5f, from_axis);
     coat_tail(fmaxf(p[2], 0.0f), p[1] / fmaxf(hypotf(p[0], p[1]), 1e-6f), of_tail);
     const float share = near * glm_smoothstep(-0.10f, 0.05f, p[2]);
     glm_vec3_lerp(vertex->mark, of_tail, share, vertex->mark);
-    limbs_hang(vertex);
+    hang(vertex, of_head);
     vertex->bend = near * glm_smoothstep(-0.25f, -0.05f, p[2]);
     coat_marked(vertex->mark, vertex->color);
-    const float features = in_head[2] < 0.0f ? parts_add(face, PARTS(face), in_head, 1e3f, NULL) : 1.0f;
+    const float features = of_head.z < 0.0f ? parts_add(face, PARTS(face), of_head.raw, 1e3f, NULL) : 1.0f;
     coat_mix(vertex->color, COAT_DARK, glm_smoothstep(0.004f, -0.004f, features));
 }
 
-void mesh_torso(float cell, float tolerance, int rounds, struct mesh *mesh)
+void mesh_fox_body(float cell, float tolerance, int rounds, struct mesh *mesh)
 {
-    const struct solid torso = {creature_torso_distance, torso_paint};
+    const struct solid torso = {fox_body_distance, torso_paint};
     const int first = mesh->vertex_count, first_index = mesh->index_count;
-    isosurface(&torso, creature_torso_lo, creature_torso_hi, cell, mesh);
+    isosurface(&torso, fox_body_lo, fox_body_hi, cell, mesh);
     refine(&torso, tolerance, rounds, first_index, mesh);
     for (int v = first; v < mesh->vertex_count; v++) {
         struct vertex *vertex = &mesh->vertices[v];
@@ -176,27 +211,19 @@ void mesh_torso(float cell, float tolerance, int rounds, struct mesh *mesh)
 }
 
 static const struct level {
-    int animals;           ///< up to how many
-    float cell, tolerance; ///< of the torso, see mesh_torso()
+    float cell, tolerance; ///< of the body, see mesh_fox_body()
     int rounds;
     int rings, segments; ///< of the tail
-} levels[CREATURE_LEVELS] = {
-    {1, 0.030f, 0.0028f, 3, 72, 32},
-    {2, 0.036f, 0.0036f, 1, 68, 24},
-    {4, 0.047f, 0.0150f, 1, 48, 15},
-    {8, 0.059f, 0.0000f, 0, 30, 9},
+} levels[FOX_LEVELS] = {
+    {0.030f, 0.0028f, 3, 72, 32},
+    {0.036f, 0.0036f, 1, 68, 24},
+    {0.047f, 0.0150f, 1, 48, 15},
+    {0.059f, 0.0000f, 0, 30, 9},
 };
 
-int creature_level(int animals)
-{
-    int level = 0;
-    while (level + 1 < CREATURE_LEVELS && levels[level].animals < animals) level++;
-    return level;
-}
-
-void mesh_creature(int level, struct mesh *mesh)
+void mesh_fox(int level, struct mesh *mesh)
 {
     const struct level *l = &levels[level];
-    mesh_torso(l->cell, l->tolerance, l->rounds, mesh);
-    mesh_tail(l->rings, l->segments, mesh);
+    mesh_fox_body(l->cell, l->tolerance, l->rounds, mesh);
+    mesh_fox_tail(l->rings, l->segments, mesh);
 }

@@ -1,14 +1,11 @@
 /// The fox's tail, as a tube of rings with skinning weights.
-#include "model/creature.h"
-#include "model/mesh.h"
+#include "model/fox.h"
+#include "models/fox_maker.h"
 #include <math.h>
 
 /// Where the tube starts (inside the torso), where the brush begins to swell, and where its tip begins.
 #define TUBE_START (-0.10f)
-#define SWELL_START (0.10f * CREATURE_TAIL_LENGTH)
-#define TIP_START (0.66f * CREATURE_TAIL_LENGTH)
-#define TIP_LENGTH (CREATURE_TAIL_LENGTH - TIP_START)
-#define TIP_POINT 0.35f /* how much narrower than half an ellipsoid */
+#define TIP_LENGTH (FOX_TAIL_LENGTH - FOX_TIP_START)
 
 static const float half_turn = 3.14159265f;
 
@@ -19,28 +16,23 @@ struct ring {
 
 static struct ring swelling_ring(float z)
 {
-    const float swell = TIP_START - SWELL_START, by = CREATURE_BRUSH_RADIUS - CREATURE_TAIL_RADIUS;
-    const float t = fminf(fmaxf((z - SWELL_START) / swell, 0.0f), 1.0f);
+    const float swell = FOX_TIP_START - FOX_SWELL_START, by = FOX_BRUSH_RADIUS - FOX_TAIL_RADIUS;
+    const float t = fminf(fmaxf((z - FOX_SWELL_START) / swell, 0.0f), 1.0f);
     const float slope = by * 6.0f * t * (1.0f - t) / swell;
     const float length = hypotf(1.0f, slope);
-    return (struct ring){z, CREATURE_TAIL_RADIUS + by * t * t * (3.0f - 2.0f * t), 1.0f / length, slope / length};
+    return (struct ring){z, FOX_TAIL_RADIUS + by * t * t * (3.0f - 2.0f * t), 1.0f / length, slope / length};
 }
 
-static float tip_radius(float s) { return CREATURE_BRUSH_RADIUS * sqrtf(1.0f - s * s) * (1.0f - TIP_POINT * s * s); }
+static float tip_radius(float s) { return FOX_BRUSH_RADIUS * sqrtf(1.0f - s * s) * (1.0f - FOX_TIP_POINT * s * s); }
 
 /// `angle` runs from 0 where the tip begins to a quarter turn at its end: rings stand closer where it curves more.
 static struct ring tip_ring(float angle)
 {
     const float s = sinf(angle), c = cosf(angle);
     const float dz = TIP_LENGTH * c;
-    const float dr = -CREATURE_BRUSH_RADIUS * s * (1.0f - TIP_POINT * s * s + 2.0f * TIP_POINT * c * c);
+    const float dr = -FOX_BRUSH_RADIUS * s * (1.0f - FOX_TIP_POINT * s * s + 2.0f * FOX_TIP_POINT * c * c);
     const float length = hypotf(dz, dr);
-    return (struct ring){TIP_START + TIP_LENGTH * s, tip_radius(s), dz / length, dr / length};
-}
-
-float creature_tail_radius(float z)
-{
-    return z < TIP_START ? swelling_ring(z).radius : tip_radius(fminf((z - TIP_START) / TIP_LENGTH, 1.0f));
+    return (struct ring){FOX_TIP_START + TIP_LENGTH * s, tip_radius(s), dz / length, dr / length};
 }
 
 static void add_ring(struct ring ring, int segments, struct mesh *mesh)
@@ -73,20 +65,20 @@ static void join_rings(uint32_t first, uint32_t segments, struct mesh *mesh)
 static void close_tip(uint32_t last_ring, uint32_t segments, struct mesh *mesh)
 {
     struct vertex tip = {
-        .position = {0.0f, 0.0f, CREATURE_TAIL_LENGTH}, .normal = {0.0f, 0.0f, 1.0f}, .bend = 1.0f, .open = 1.0f};
-    coat_tail(CREATURE_TAIL_LENGTH, 0.0f, tip.mark);
+        .position = {0.0f, 0.0f, FOX_TAIL_LENGTH}, .normal = {0.0f, 0.0f, 1.0f}, .bend = 1.0f, .open = 1.0f};
+    coat_tail(FOX_TAIL_LENGTH, 0.0f, tip.mark);
     coat_marked(tip.mark, tip.color);
     const uint32_t end = mesh_vertex(mesh, &tip);
     for (uint32_t s = 0; s < segments; s++) mesh_triangle(mesh, last_ring + s, last_ring + (s + 1) % segments, end);
 }
 
-void mesh_tail(int rings, int segments, struct mesh *mesh)
+void mesh_fox_tail(int rings, int segments, struct mesh *mesh)
 {
     const int tip_rings = rings / 3, swelling_rings = rings - tip_rings;
     const uint32_t first = (uint32_t)mesh->vertex_count, around = (uint32_t)segments;
     for (int r = 0; r < swelling_rings; r++) {
-        add_ring(swelling_ring(TUBE_START + (TIP_START - TUBE_START) * (float)r / (float)swelling_rings), segments,
-                 mesh);
+        add_ring(swelling_ring(TUBE_START + (FOX_TIP_START - TUBE_START) * (float)r / (float)swelling_rings),
+                 segments, mesh);
     }
     for (int r = 0; r < tip_rings; r++) {
         add_ring(tip_ring(0.5f * half_turn * (float)r / (float)tip_rings), segments, mesh);

@@ -1,8 +1,8 @@
 /// Distances to round cones, and surface nets, which turn a distance into triangles.
-#include "model/isosurface.h"
+#include "models/isosurface.h"
 #include "base/need.h"
-#include "model/mesh.h"
 #include "model/vector.h"
+#include "models/mesh.h"
 #include <math.h>
 #include <stdlib.h>
 

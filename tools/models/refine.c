@@ -1,7 +1,7 @@
 /// Splits triangles that are too flat or too large.
 #include "base/need.h"
-#include "model/isosurface.h"
 #include "model/vector.h"
+#include "models/isosurface.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

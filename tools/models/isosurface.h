@@ -1,9 +1,9 @@
 /// Solids: soft shapes built of round cones (the hull of two balls) that blend into each other, each with its own colour, and the triangles of
 /// whatever has a distance function.
-#ifndef MODEL_ISOSURFACE_H
-#define MODEL_ISOSURFACE_H
+#ifndef MODELS_ISOSURFACE_H
+#define MODELS_ISOSURFACE_H
 
-#include "model/mesh.h"
+#include "models/mesh.h"
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
