@@ -6,7 +6,8 @@
 
 static double catmull_rom(double before, double from, double to, double after, double u)
 {
-    return cubic_at(cubic_through(before, from, to, after), u);
+    double c1 = 0.5 * (after - from), c0 = 0.5 * (to - before), step = to - from;
+    return from + u * (c0 + u * (3 * step - 2 * c0 - c1 + u * (c0 + c1 - 2 * step)));
 }
 
 /// The sample after the next; -1 where there is none, or where it is beyond a first knot that the interval is before: there x is

@@ -33,22 +33,4 @@ static inline int evaluate_locate(const wiggly_curve *curve, double position, do
     return i;
 }
 
-/// c0 + c1 u + c2 u² + c3 u³.
-typedef struct cubic {
-    double c0, c1, c2, c3;
-} cubic;
-
-/// Catmull-Rom between `from` at 0 and `to` at 1.
-static inline cubic cubic_through(double before, double from, double to, double after)
-{
-    double c1 = 0.5 * (after - from), c0 = 0.5 * (to - before), step = to - from;
-    return (cubic){from, c0, 3 * step - 2 * c0 - c1, c0 + c1 - 2 * step};
-}
-
-static inline double cubic_at(cubic p, double u) { return p.c0 + u * (p.c1 + u * (p.c2 + u * p.c3)); }
-
-/// A block of a row's values from number k on, each from its own interval; complex mode, at least four samples. Returns the number
-/// of the value after it.
-int evaluate_apart(const wiggly_curve *curve, double from, double by, int k, int count, float *out, size_t stride);
-
 #endif
