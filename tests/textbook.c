@@ -41,7 +41,7 @@ static void open_book(const wiggly_desc *desc, real calm, struct textbook *b)
         b->y[i] = wraps ? b->y[0] : textbook_param(desc->equilibrium, i);
     }
     textbook_fill_poles(desc, b->loop ? calm / 20 : 0, b->loop, b->at);
-    textbook_swing(desc, b);
+    textbook_forced_response(desc, b);
     size_t n = 2 * (size_t)(b->count > 2 ? b->count : 2);
     memset(b->band, 0, sizeof b->band[0] * n);
     memset(b->right, 0, sizeof(real) * n);

@@ -27,7 +27,7 @@ real textbook_y_before(const struct textbook *book, int sample);
 real textbook_y_after(const struct textbook *book, int sample);
 
 /// u, and the speed of y + Re u: what the oscillator does by itself as the equilibrium moves.
-void textbook_swing(const wiggly_desc *desc, struct textbook *book);
+void textbook_forced_response(const wiggly_desc *desc, struct textbook *book);
 
 /// All rows of the energy, squared, and the fixed unknowns; `level` adds a level slope at the earliest knot.
 void textbook_assemble(const wiggly_desc *desc, struct textbook *book, bool level);

@@ -2,8 +2,8 @@
 #include "base/need.h"
 #include "scene/evaluate.h"
 #include "scene/storage.h"
+#include "spline/forced_response.h"
 #include "spline/poles.h"
-#include "spline/swing.h"
 #include <stdlib.h>
 
 static const double LEAST_DAMPING = 0.05; ///< of a loop, times calm
@@ -61,13 +61,13 @@ static double speed_of_equilibrium(struct place *place)
 {
     const double *y = place->curve->y;
     const size_t n = (size_t)place->curve->samples;
-    swing u = {.total = place->answer, .im = place->answer + n, .speed = place->answer + 2 * n};
+    forced_response u = {.total = place->answer, .im = place->answer + n, .speed = place->answer + 2 * n};
     if (place->desc.mode == WIGGLY_CUBIC) {
         for (size_t i = 0; i < n; i++) u.total[i] = y[i];
     } else {
-        swing_answer(&place->desc, y, place->desc.calm, &u);
+        forced_response_find(&place->desc, y, place->desc.calm, &u);
     }
-    return swing_speed(&place->desc, y, &u, place->sample);
+    return forced_response_speed(&place->desc, y, &u, place->sample);
 }
 
 double evaluation_slope(const struct evaluation *evaluation, const struct document *document, int spline, int sample)

@@ -107,7 +107,7 @@ static void add_equilibrium(const problem *p, wiggly_curve *curve)
     if (p->start == WIGGLY_LOOP) curve->total[n - 1] = curve->total[0];
     if (p->y && !p->about) take_bend(curve->re, p->level, p->y, n);
     if (p->y && p->about && p->about != p->y) add_swing(curve->re, p->about, p->y, n);
-    if (p->swing.im) add(curve->im, p->swing.im, n);
+    if (p->response.im) add(curve->im, p->response.im, n);
 }
 
 static void add_floats(const wiggly_curve *curve, int count)

@@ -287,8 +287,8 @@ static bool find_alone(pulled *of, factorisation *factor, double *alone)
     read_pulled(of, alone);
     for (int i = 0; i < of->pulls.count; i++) {
         int sample = of->pulls.sample[i];
-        if (p->swing.total) alone[2 * i] += p->about[sample] - p->y[sample];
-        if (p->swing.im) alone[2 * i + 1] += p->swing.im[sample];
+        if (p->response.total) alone[2 * i] += p->about[sample] - p->y[sample];
+        if (p->response.im) alone[2 * i + 1] += p->response.im[sample];
     }
     return true;
 }

@@ -113,12 +113,12 @@ static void set_about(wiggly_solver *solver, problem *p)
     } else if (!problem_oscillates(p)) {
         p->about = p->y;
     } else {
-        p->swing = solver->swing;
-        p->about = p->swing.total;
+        p->response = solver->response;
+        p->about = p->response.total;
         if (desc->equilibrium.track) {
-            p->status = swing_answer(desc, p->y, p->calm, &p->swing);
+            p->status = forced_response_find(desc, p->y, p->calm, &p->response);
         } else {
-            swing_rest(desc, p->y, &p->swing);
+            forced_response_rest(desc, p->y, &p->response);
         }
         if (variation_is_set(desc)) variation_add(p);
     }

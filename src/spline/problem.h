@@ -2,8 +2,8 @@
 #ifndef SPLINE_PROBLEM_H
 #define SPLINE_PROBLEM_H
 
+#include "spline/forced_response.h"
 #include "spline/solver.h"
-#include "spline/swing.h"
 
 /// Values and equilibria beyond this are refused: sums of them must not overflow.
 #define LARGEST_VALUE 1e300
@@ -24,8 +24,8 @@ typedef struct problem {
     const double *y;     ///< equilibrium of the whole domain, where it moves; a loop's last is its first
     const double *about; ///< y + Re u of every sample, which w is measured from; NULL where that is `level`
     double level;
-    swing swing; ///< u, where there is one, with the noise of a variation; else its arrays are NULL
-    cplx held;   ///< the noise before `first`
+    forced_response response; ///< u, where there is one, with the noise of a variation; else its arrays are NULL
+    cplx held;                ///< the noise before `first`
     wiggly_start start;
     double calm;
     wiggly_status status;      ///< WIGGLY_CALMED where u is not that of the calm as asked
@@ -85,7 +85,7 @@ void problem_set_rows(wiggly_solver *solver, const problem *p);
 /// Slope row of a knot that has one, or of the implied one, without an oscillator's coefficients; weight 0 where it is without effect.
 slope_row problem_slope(const problem *p, int sample, double slope, double stiffness);
 
-/// Another calm, with the start's cost and a loop's swing for it.
+/// Another calm, with the start's cost and a loop's forced response for it.
 void problem_set_calm(wiggly_solver *solver, problem *p, double calm);
 
 /// w of `count` samples of the tail, the first of them `from` ≥ 1 samples behind the latest knot, from w there; im outside complex mode

@@ -179,7 +179,8 @@ static slope_row oscillator_slope(const problem *p, int k, double slope, double 
     const wiggly_desc *desc = p->desc;
     const sides from = sides_of(p, k);
     const int count = from.ahead + from.behind;
-    double h = desc->step, known = p->swing.speed ? swing_speed(desc, p->y, &p->swing, p->first + k) : 0;
+    double h = desc->step,
+           known = p->response.speed ? forced_response_speed(desc, p->y, &p->response, p->first + k) : 0;
     slope_row row = {.sample = k, .target = h * (slope - known), .weight = stiffness * h};
     if (!from.tied) {
         if (count == 0) return (slope_row){.sample = k};
@@ -298,10 +299,10 @@ static double farthest(const problem *p)
     return most;
 }
 
-/// Rounding of what knots are measured from; where there is no swing that is told otherwise.
+/// Rounding of what knots are measured from; where there is no response that is told otherwise.
 static double noise_of(const problem *p)
 {
-    return 4 * DBL_EPSILON * farthest(p) + (p->swing.error < INFINITY ? p->swing.error / 240 : 0);
+    return 4 * DBL_EPSILON * farthest(p) + (p->response.error < INFINITY ? p->response.error / 240 : 0);
 }
 
 void problem_set_rows(wiggly_solver *solver, const problem *p)

@@ -81,9 +81,9 @@ static void carve(wiggly_solver *solver)
     rows->gradient = take(&at, 2 * n * sizeof(double));
     rows->jet = take(&at, 4 * n * sizeof(double));
     solver->y = take(&at, n * sizeof(double));
-    solver->swing.total = take(&at, n * sizeof(double));
-    solver->swing.im = take(&at, n * sizeof(double));
-    solver->swing.speed = take(&at, n * sizeof(double));
+    solver->response.total = take(&at, n * sizeof(double));
+    solver->response.im = take(&at, n * sizeof(double));
+    solver->response.speed = take(&at, n * sizeof(double));
     limit_memory *limits = &solver->limits;
     double **const of_limits[] = {&limits->pull,    &limits->spare,   &limits->re,        &limits->im,
                                   &limits->free[0], &limits->free[1], &limits->pushed[0], &limits->pushed[1]};

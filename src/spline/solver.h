@@ -4,7 +4,7 @@
 
 #include "spline/chain.h"
 #include "spline/desc.h"
-#include "spline/swing.h"
+#include "spline/forced_response.h"
 #include "spline/system.h"
 
 /// The least damping ratio of the start's cost, and times calm of a loop.
@@ -50,10 +50,10 @@ struct wiggly_solver {
     constant_filter filter;
     chain chain; ///< its large arrays lie over the matrix's: a solve uses one of the two
     limit_memory limits;
-    swing swing;  ///< what moves by itself as the equilibrium does
-    double *y;    ///< equilibrium, where the curve has no array for it
-    int *order;   ///< indices of the description's knots by sample
-    int *knot_at; ///< scratch: index of the knot on each sample, or -1
+    forced_response response; ///< what moves by itself as the equilibrium does
+    double *y;                ///< equilibrium, where the curve has no array for it
+    int *order;               ///< indices of the description's knots by sample
+    int *knot_at;             ///< scratch: index of the knot on each sample, or -1
 };
 
 /// A factorisation: of the squared matrix, else of the rows.

@@ -236,7 +236,7 @@ wiggly_status wiggly_solve(wiggly_solver *solver, const wiggly_desc *desc, wiggl
         if (status >= WIGGLY_ERROR_ARGUMENT) return status;
         problem_complete(solver, &p, &all);
         if (limited) limits_clamp(solver, &p, &all);
-        result.error += p.swing.error;
+        result.error += p.response.error;
         status = judge(&all, &result, status);
         if (status != WIGGLY_INEXACT || !result.unrefined) break;
         p.strict = true;

@@ -148,7 +148,7 @@ static void let_go(walk *w, const wiggly_desc *desc)
     w->m = c.m, w->p = c.p, w->gain = (cplx){0, 0};
 }
 
-static void add_sample(const swing *u, int i, cplx n, double speed)
+static void add_sample(const forced_response *u, int i, cplx n, double speed)
 {
     u->total[i] += n.re;
     u->im[i] += n.im;
@@ -170,16 +170,16 @@ void variation_add(problem *p)
     if (p->start == WIGGLY_FREE) draw_start(&w, &s, &cost, size);
     if (p->start == WIGGLY_REST) w.e = cplx_mul(w.gain, force(&s, 0));
     p->held = w.n;
-    for (int i = 0; i < p->first; i++) add_sample(&p->swing, i, w.n, 0);
+    for (int i = 0; i < p->first; i++) add_sample(&p->response, i, w.n, 0);
     double before = w.e.re;
     for (int i = p->first; i < p->first + p->count; i++) {
-        add_sample(&p->swing, i, w.n, half_rate * (before + w.e.re));
+        add_sample(&p->response, i, w.n, half_rate * (before + w.e.re));
         before = w.e.re;
         if (!loops && p->latest >= 0 && i + 1 >= p->latest && i <= p->latest) let_go(&w, desc);
         advance(&w, force(&s, loops && i + 1 == p->count ? 0 : i + 1));
     }
     if (!loops) return;
-    p->swing.speed[0] += half_rate * (before - w.e.re); // w has come back to where it began
-    const swing *u = &p->swing;
+    p->response.speed[0] += half_rate * (before - w.e.re); // w has come back to where it began
+    const forced_response *u = &p->response;
     u->total[p->count] = u->total[0], u->im[p->count] = u->im[0], u->speed[p->count] = u->speed[0];
 }

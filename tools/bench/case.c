@@ -123,7 +123,7 @@ static double compare(struct work *w, const struct lapack *lapack)
         double ours = im ? w->curve.im[sample] : w->curve.total[sample];
         double theirs = solved[i] + rows->x[i];
         if (!im) theirs += w->about[sample];
-        if (im && swings) theirs += w->solver->swing.im[sample];
+        if (im && swings) theirs += w->solver->response.im[sample];
         worst = fmax(worst, fabs(theirs - ours)) + 0 * theirs;
         largest = fmax(largest, fabs(ours));
     }

@@ -111,7 +111,7 @@ static bool swing_at_calm(const wiggly_desc *desc, struct textbook *b, real calm
     return !b->loop || largest <= 10000 * range_of_y(b);
 }
 
-void textbook_swing(const wiggly_desc *desc, struct textbook *b)
+void textbook_forced_response(const wiggly_desc *desc, struct textbook *b)
 {
     for (int i = 0; i < b->samples; i++) {
         real before = i == 0 && !b->loop && b->samples > 1 ? 2 * b->y[0] - b->y[1] : textbook_y_before(b, i);

@@ -6,7 +6,7 @@
 //     q' ← e^{−dh} (−k (sinh(rh)/r) q + (cosh rh − d sinh(rh)/r) q').
 //
 // u is q with the imaginary part that an oscillation on one side of the axis has, u' = p u: Im u = −(q' + d q)/ω_d.
-#include "spline/swing.h"
+#include "spline/forced_response.h"
 #include "spline/oscillator.h"
 #include "spline/problem.h"
 #include "spline/wide.h"
@@ -79,7 +79,7 @@ static step_matrix next_step(path *p, int i)
 
 /// q into `total` and q' in the middle of its jumps into `speed`, from a state before sample 0, with the jumps in `im`; returns the
 /// state after the last step.
-static void run(const wiggly_desc *desc, double floor, double q, double v, const swing *u, double end[2])
+static void run(const wiggly_desc *desc, double floor, double q, double v, const forced_response *u, double end[2])
 {
     path p = begin(desc, floor);
     int n = desc->samples;
@@ -161,7 +161,7 @@ static void around(const wiggly_desc *desc, double floor, bool wide, wide_matrix
 
 /// run() in extended precision, with jumps that are not rounded to doubles; u's `im` is not read.
 static void run_wide(const wiggly_desc *desc, const double *y, double floor, const long double from[2],
-                     const swing *u, long double end[2])
+                     const forced_response *u, long double end[2])
 {
     path p = begin(desc, floor);
     wide_matrix s;
@@ -221,7 +221,7 @@ static bool close_circle(double seconds, forces f, const wide_matrix a, const lo
 }
 
 /// What the rounding of every step, of every jump and of the parameters, which a resonance shows, may make of the periodic q.
-static double error_of_circle(const swing *u, int period, double step, forces f, const wide_matrix a,
+static double error_of_circle(const forced_response *u, int period, double step, forces f, const wide_matrix a,
                               long double epsilon)
 {
     const long double seconds = period * (long double)step, rounding = 4 * epsilon;
@@ -246,7 +246,7 @@ static double range_of(const double *x, int count)
 static const double narrow = 1e-11;
 
 /// The periodic q, by the state that comes back to itself. false where there is none or one that is far too large.
-static bool run_loop(const wiggly_desc *desc, const double *y, double floor, swing *u)
+static bool run_loop(const wiggly_desc *desc, const double *y, double floor, forced_response *u)
 {
     const forces f = forces_of(desc, floor);
     const int period = desc->samples - 1;
@@ -286,7 +286,7 @@ WIDEST static void imaginary_constant(const double *restrict q, const double *re
     for (int i = 0; i < count; i++) im[i] = gain * (speed[i] + d * q[i]);
 }
 
-static void set_imaginary(const wiggly_desc *desc, double floor, const swing *u)
+static void set_imaginary(const wiggly_desc *desc, double floor, const forced_response *u)
 {
     double t = (desc->samples - 1) * desc->step;
     if (poles_are_constant(desc)) {
@@ -305,7 +305,7 @@ WIDEST static void add(double *restrict total, const double *restrict y, int cou
     for (int i = 0; i < count; i++) total[i] += y[i];
 }
 
-wiggly_status swing_answer(const wiggly_desc *desc, const double *y, double calm, swing *u)
+wiggly_status forced_response_find(const wiggly_desc *desc, const double *y, double calm, forced_response *u)
 {
     wiggly_status status = WIGGLY_OK;
     u->error = 0;
@@ -331,7 +331,7 @@ wiggly_status swing_answer(const wiggly_desc *desc, const double *y, double calm
     return status;
 }
 
-void swing_rest(const wiggly_desc *desc, const double *y, swing *u)
+void forced_response_rest(const wiggly_desc *desc, const double *y, forced_response *u)
 {
     const size_t size = sizeof(double) * (size_t)desc->samples;
     u->error = 0;
@@ -340,7 +340,7 @@ void swing_rest(const wiggly_desc *desc, const double *y, swing *u)
     memset(u->speed, 0, size);
 }
 
-double swing_speed(const wiggly_desc *desc, const double *y, const swing *u, int sample)
+double forced_response_speed(const wiggly_desc *desc, const double *y, const forced_response *u, int sample)
 {
     int n = desc->samples;
     if (n < 2) return 0;
