@@ -1,5 +1,5 @@
-/// assert_near(): doubles within a tolerance, which cmocka 1.1.5 lacks (its assert_float_equal casts to float).
-/// Includes cmocka with what it needs, so that tests include this first.
+/// TEST(): a test that is named once. assert_near(): doubles within a tolerance, which cmocka 1.1.5 lacks (its assert_float_equal casts to
+/// float). Includes cmocka with what it needs, so that tests include this first.
 #ifndef TESTS_NEAR_H
 #define TESTS_NEAR_H
 
@@ -18,6 +18,24 @@
 #undef fail
 #undef fail_msg
 #define fail_msg(...) (print_error("ERROR: " __VA_ARGS__), print_error("\n"), _fail(__FILE__, __LINE__))
+
+/// Adds a test that begins at that line.
+void tests_add(struct CMUnitTest test, int line);
+
+/// Runs all that were added, in the order of their lines, between a set-up and a tear-down of all; NULL: none. What main() returns.
+int tests_run(CMFixtureFunction set_up, CMFixtureFunction tear_down);
+
+/// A test with a set-up and a tear-down of its own: TEST_WITH(set_up, tear_down, name) { … }.
+#define TEST_WITH(set_up, tear_down, name)                                                                           \
+    static void name(void **state);                                                                                  \
+    __attribute__((constructor)) static void add_##name(void)                                                        \
+    {                                                                                                                \
+        tests_add((struct CMUnitTest){#name, name, set_up, tear_down, NULL}, __LINE__);                              \
+    }                                                                                                                \
+    static void name(__attribute__((unused)) void **state)
+
+/// A test: TEST(name) { … }.
+#define TEST(name) TEST_WITH(NULL, NULL, name)
 
 /// Whether this is `make test-all`, where a test may take all the time that it needs. Otherwise it does less of the same.
 static inline bool is_thorough(void) { return getenv("THOROUGH") && *getenv("THOROUGH"); }

@@ -110,9 +110,8 @@ static void check(const struct subject *c)
     assert_near(error, 0, tolerance);
 }
 
-static void every_mode_at_every_length(void **state)
+TEST(every_mode_at_every_length)
 {
-    (void)state;
     enum { LENGTHS = 6 };
     static const int lengths[LENGTHS][2] = {{240, 24},     {3000, 100},   {10000, 24},
                                             {10000, 9000}, {30000, 1000}, {100000, 30000}};
@@ -134,9 +133,8 @@ static void every_mode_at_every_length(void **state)
 }
 
 /// So slow that the imaginary rows matter: not for the chain. Beyond 1,000 samples the un-squared rows are factored.
-static void slow_complex_splines(void **state)
+TEST(slow_complex_splines)
 {
-    (void)state;
     static const struct subject subjects[] = {
         {.frequency = 0.1, .damping = 0.05, .bandwidth = 0.1, .calm = 1, .samples = 500, .gap = 60},
         {.frequency = 0.1, .damping = 0.05, .bandwidth = 0.1, .calm = 1, .samples = 990, .gap = 900},
@@ -155,9 +153,8 @@ static void slow_complex_splines(void **state)
 }
 
 /// So calm a start over gaps so long that the nodes' own system loses digits: refined, its curve is exact, or shown and said not to be.
-static void long_domains_that_lose_digits(void **state)
+TEST(long_domains_that_lose_digits)
 {
-    (void)state;
     static const struct {
         struct subject subject;
         wiggly_status status;
@@ -204,9 +201,8 @@ static struct subject some_subject(uint64_t seed)
 }
 
 /// Whatever is said to be solved is within the tolerance; what is not is estimated to within a few times.
-static void no_long_spline_is_called_exact_that_is_not(void **state)
+TEST(no_long_spline_is_called_exact_that_is_not)
 {
-    (void)state;
     int exact = 0;
     const int subjects = quick_or_all(40, 200);
     for (uint64_t seed = 0; seed < (uint64_t)subjects; seed++) {
@@ -224,13 +220,4 @@ static void no_long_spline_is_called_exact_that_is_not(void **state)
     assert_in_range(exact, subjects * 9 / 10, subjects);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_mode_at_every_length),
-        cmocka_unit_test(slow_complex_splines),
-        cmocka_unit_test(long_domains_that_lose_digits),
-        cmocka_unit_test(no_long_spline_is_called_exact_that_is_not),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return tests_run(NULL, NULL); }

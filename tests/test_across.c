@@ -29,9 +29,8 @@ static void box(struct session *s, const char *from, const char *to)
     session_release(s, BUTTON_LEFT);
 }
 
-static void test_all_of_one_and_of_all_that_are_shown(void **state)
+TEST(test_all_of_one_and_of_all_that_are_shown)
 {
-    (void)state;
     struct session s;
     session_open(&s, TWO);
     session_key(&s, 'A', MOD_CTRL);
@@ -46,9 +45,8 @@ static void test_all_of_one_and_of_all_that_are_shown(void **state)
     session_close(&s);
 }
 
-static void test_a_box_takes_knots_of_all_curves(void **state)
+TEST(test_a_box_takes_knots_of_all_curves)
 {
-    (void)state;
     struct session s;
     session_open(&s, TWO);
     box(&s, "curve(sway,17,1.1)", "curve(sway,26,0.1)");
@@ -60,9 +58,8 @@ static void test_a_box_takes_knots_of_all_curves(void **state)
     session_close(&s);
 }
 
-static void test_shift_clicks_add_knots_of_another_curve(void **state)
+TEST(test_shift_clicks_add_knots_of_another_curve)
 {
-    (void)state;
     struct session s;
     session_open(&s, TWO);
     session_click(&s, "knot(sway,1)");
@@ -76,9 +73,8 @@ static void test_shift_clicks_add_knots_of_another_curve(void **state)
     session_close(&s);
 }
 
-static void test_a_drag_moves_all_in_one_step(void **state)
+TEST(test_a_drag_moves_all_in_one_step)
 {
-    (void)state;
     struct session s;
     session_open(&s, TWO);
     char *original = session_saved(&s);
@@ -101,9 +97,8 @@ static void test_a_drag_moves_all_in_one_step(void **state)
 }
 
 /// The last knot of one spline stops them all; none is lost where another knot is in the way.
-static void test_what_one_meets_stops_all(void **state)
+TEST(test_what_one_meets_stops_all)
 {
-    (void)state;
     struct session s;
     session_open(&s, TWO);
     session_key(&s, 'A', MOD_CTRL | MOD_SHIFT);
@@ -123,9 +118,8 @@ static void test_what_one_meets_stops_all(void **state)
     session_close(&s);
 }
 
-static void test_normalised_curves_move_by_the_same_height(void **state)
+TEST(test_normalised_curves_move_by_the_same_height)
 {
-    (void)state;
     struct session s;
     session_open(&s, TWO);
     session_key(&s, 'N', 0);
@@ -142,9 +136,8 @@ static void test_normalised_curves_move_by_the_same_height(void **state)
     session_close(&s);
 }
 
-static void test_delete_and_slopes_are_one_step(void **state)
+TEST(test_delete_and_slopes_are_one_step)
 {
-    (void)state;
     struct session s;
     session_open(&s, TWO);
     session_key(&s, 'A', MOD_CTRL | MOD_SHIFT);
@@ -167,9 +160,8 @@ static void paste(struct session *s, const char *text)
     session_frame(s);
 }
 
-static void test_pasted_knots_go_to_their_splines(void **state)
+TEST(test_pasted_knots_go_to_their_splines)
 {
-    (void)state;
     struct session s;
     session_open(&s, TWO);
     session_key(&s, 'A', MOD_CTRL | MOD_SHIFT);
@@ -190,9 +182,8 @@ static void test_pasted_knots_go_to_their_splines(void **state)
 }
 
 /// What is of a spline that this scene lacks goes to the active one; of one spline alone, always.
-static void test_pasted_knots_of_unknown_splines_go_to_the_active_one(void **state)
+TEST(test_pasted_knots_of_unknown_splines_go_to_the_active_one)
 {
-    (void)state;
     struct session s;
     session_open(&s, TWO);
     session_click(&s, "ruler(70)");
@@ -208,9 +199,8 @@ static void test_pasted_knots_of_unknown_splines_go_to_the_active_one(void **sta
     session_close(&s);
 }
 
-static void test_copies_go_behind_the_end(void **state)
+TEST(test_copies_go_behind_the_end)
 {
-    (void)state;
     struct session s;
     session_open(&s, TWO);
     session_key(&s, 'A', MOD_CTRL | MOD_SHIFT);
@@ -226,9 +216,8 @@ static void test_copies_go_behind_the_end(void **state)
     session_close(&s);
 }
 
-static void test_scaling_about_the_equilibrium(void **state)
+TEST(test_scaling_about_the_equilibrium)
 {
-    (void)state;
     struct session s;
     session_open(&s, TWO);
     session_key(&s, 'A', MOD_CTRL | MOD_SHIFT);
@@ -247,9 +236,8 @@ static void test_scaling_about_the_equilibrium(void **state)
     session_close(&s);
 }
 
-static void test_two_factors_and_what_stops_them(void **state)
+TEST(test_two_factors_and_what_stops_them)
 {
-    (void)state;
     struct session s;
     session_open(&s, TWO);
     const struct scaling *scaling = &s.editor->curves->scaling;
@@ -298,9 +286,8 @@ static bool says(const struct session *s, const char *text)
 }
 
 /// The upper edge goes along with the pointer, the lower one stays; the factor is beside the pointer.
-static void test_an_edge_of_the_box_scales_about_the_other_side(void **state)
+TEST(test_an_edge_of_the_box_scales_about_the_other_side)
 {
-    (void)state;
     struct session s;
     session_open(&s, TWO);
     const float unit =
@@ -321,9 +308,8 @@ static void test_an_edge_of_the_box_scales_about_the_other_side(void **state)
 }
 
 /// With Alt about the equilibrium, or with P: the upper edge goes along, the lower one the other way.
-static void test_an_edge_of_the_box_scales_about_the_equilibrium(void **state)
+TEST(test_an_edge_of_the_box_scales_about_the_equilibrium)
 {
-    (void)state;
     for (int by_key = 0; by_key < 2; by_key++) {
         struct session s;
         session_open(&s, TWO);
@@ -340,9 +326,8 @@ static void test_an_edge_of_the_box_scales_about_the_equilibrium(void **state)
     }
 }
 
-static void test_a_corner_of_the_box_scales_both_and_says_what_stops_it(void **state)
+TEST(test_a_corner_of_the_box_scales_both_and_says_what_stops_it)
 {
-    (void)state;
     struct session s;
     session_open(&s, TWO);
     const struct curves *curves = s.editor->curves;
@@ -363,9 +348,8 @@ static void test_a_corner_of_the_box_scales_both_and_says_what_stops_it(void **s
 }
 
 /// A knot is where a handle would be, and a press there takes the knot; a single one, and knots on one frame, have fewer handles.
-static void test_the_box_has_the_handles_that_can_scale(void **state)
+TEST(test_the_box_has_the_handles_that_can_scale)
 {
-    (void)state;
     struct session s;
     float x, y;
     struct error error;
@@ -385,9 +369,8 @@ static void test_the_box_has_the_handles_that_can_scale(void **state)
 }
 
 /// With Alt, from the playhead; a system that sends the comma all the same goes no further.
-static void test_the_playhead_goes_to_the_next_knot(void **state)
+TEST(test_the_playhead_goes_to_the_next_knot)
 {
-    (void)state;
     struct session s;
     session_open(&s, TWO);
     const struct playback *playback = &s.editor->core.playback;
@@ -413,26 +396,4 @@ static void test_the_playhead_goes_to_the_next_knot(void **state)
     session_close(&s);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_all_of_one_and_of_all_that_are_shown),
-        cmocka_unit_test(test_a_box_takes_knots_of_all_curves),
-        cmocka_unit_test(test_shift_clicks_add_knots_of_another_curve),
-        cmocka_unit_test(test_a_drag_moves_all_in_one_step),
-        cmocka_unit_test(test_what_one_meets_stops_all),
-        cmocka_unit_test(test_normalised_curves_move_by_the_same_height),
-        cmocka_unit_test(test_delete_and_slopes_are_one_step),
-        cmocka_unit_test(test_pasted_knots_go_to_their_splines),
-        cmocka_unit_test(test_pasted_knots_of_unknown_splines_go_to_the_active_one),
-        cmocka_unit_test(test_copies_go_behind_the_end),
-        cmocka_unit_test(test_scaling_about_the_equilibrium),
-        cmocka_unit_test(test_an_edge_of_the_box_scales_about_the_other_side),
-        cmocka_unit_test(test_an_edge_of_the_box_scales_about_the_equilibrium),
-        cmocka_unit_test(test_a_corner_of_the_box_scales_both_and_says_what_stops_it),
-        cmocka_unit_test(test_the_box_has_the_handles_that_can_scale),
-        cmocka_unit_test(test_two_factors_and_what_stops_them),
-        cmocka_unit_test(test_the_playhead_goes_to_the_next_knot),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return tests_run(NULL, NULL); }

@@ -41,26 +41,26 @@ static void try_many(wiggly_solver *solver, adversary_kind kind, int problems)
         fail_msg("%d of %d problems are called INEXACT needlessly", needless, problems);
 }
 
-static void filters(void **state) { try_many(*state, ADVERSARY_FILTER, 800); }
+TEST(filters) { try_many(*state, ADVERSARY_FILTER, 800); }
 
-static void oscillators(void **state) { try_many(*state, ADVERSARY_OSCILLATOR, 800); }
+TEST(oscillators) { try_many(*state, ADVERSARY_OSCILLATOR, 800); }
 
-static void three_adjacent_knots(void **state) { try_many(*state, ADVERSARY_ADJACENT, 400); }
+TEST(three_adjacent_knots) { try_many(*state, ADVERSARY_ADJACENT, 400); }
 
-static void knots_at_half_periods(void **state) { try_many(*state, ADVERSARY_NODAL, 500); }
+TEST(knots_at_half_periods) { try_many(*state, ADVERSARY_NODAL, 500); }
 
-static void fast_poles(void **state) { try_many(*state, ADVERSARY_NYQUIST, 300); }
+TEST(fast_poles) { try_many(*state, ADVERSARY_NYQUIST, 300); }
 
-static void tracks_from_zero(void **state) { try_many(*state, ADVERSARY_FROM_ZERO, 300); }
+TEST(tracks_from_zero) { try_many(*state, ADVERSARY_FROM_ZERO, 300); }
 
-static void slow_loops(void **state) { try_many(*state, ADVERSARY_SLOW, 150); }
+TEST(slow_loops) { try_many(*state, ADVERSARY_SLOW, 150); }
 
-static void undamped_chains(void **state) { try_many(*state, ADVERSARY_CHAIN, 20); }
+TEST(undamped_chains) { try_many(*state, ADVERSARY_CHAIN, 20); }
 
-static void long_splines(void **state) { try_many(*state, ADVERSARY_LONG, 20); }
+TEST(long_splines) { try_many(*state, ADVERSARY_LONG, 20); }
 
 /// What make adversary once found wrong in silence: its seed and number.
-static void found_before(void **state)
+TEST(found_before)
 {
     static const struct {
         uint64_t seed, number;
@@ -107,7 +107,7 @@ static wiggly_param track_of(const double *values, int count)
 
 /// All totals are 0, so there is nothing that an error could be a part of: two knots at 0 on no equilibrium, and every sample a knot at 0
 /// on one that is elsewhere.
-static void nothing_at_all_is_exact(void **state)
+TEST(nothing_at_all_is_exact)
 {
     bool all = true;
     for (int kind = 0; kind < 36; kind++) {
@@ -129,7 +129,7 @@ static void nothing_at_all_is_exact(void **state)
 }
 
 /// The poles fade by e⁻⁸⁰ a sample, and jets there weigh e⁸⁰ times as much: b and the weights need all their digits.
-static void overdamped_loops_from_frequency_0(void **state)
+TEST(overdamped_loops_from_frequency_0)
 {
     static const double fast_in_the_middle[] = {0, 0, 39, 39, 39, 39, 0}, fast_at_first[] = {39, 39, 0, 0, 0, 39, 39};
     bool all = true;
@@ -151,7 +151,7 @@ static void overdamped_loops_from_frequency_0(void **state)
 }
 
 /// A friction without a spring: what it loses in speed comes back from the equilibrium, and its circle closes.
-static void loops_without_a_spring(void **state)
+TEST(loops_without_a_spring)
 {
     static const double y[] = {0, 1, 2, 1, 0, -1, -1, 0};
     for (int k = 0; k < 3; k++) {
@@ -169,7 +169,7 @@ static void loops_without_a_spring(void **state)
 }
 
 /// Of two samples, the earliest knot's: of the oscillator its total, of the filter its x.
-static void two_samples_of_a_cubic(void **state)
+TEST(two_samples_of_a_cubic)
 {
     static const double y[] = {0.5, 0.5, -3};
     for (int kind = 0; kind < 4; kind++) {
@@ -191,23 +191,4 @@ static int destroy(void **state)
     return 0;
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(filters),
-        cmocka_unit_test(oscillators),
-        cmocka_unit_test(three_adjacent_knots),
-        cmocka_unit_test(knots_at_half_periods),
-        cmocka_unit_test(fast_poles),
-        cmocka_unit_test(tracks_from_zero),
-        cmocka_unit_test(slow_loops),
-        cmocka_unit_test(undamped_chains),
-        cmocka_unit_test(long_splines),
-        cmocka_unit_test(found_before),
-        cmocka_unit_test(nothing_at_all_is_exact),
-        cmocka_unit_test(overdamped_loops_from_frequency_0),
-        cmocka_unit_test(loops_without_a_spring),
-        cmocka_unit_test(two_samples_of_a_cubic),
-    };
-    return cmocka_run_group_tests(tests, create, destroy);
-}
+int main(void) { return tests_run(create, destroy); }

@@ -51,9 +51,8 @@ static double reference_motion(int i, int j, void *state)
     return j + first + second + 0.02 * noise(state);
 }
 
-static void eigenvalues_agree_with_numpy(void **state)
+TEST(eigenvalues_agree_with_numpy)
 {
-    (void)state;
     static double gram[REFERENCE_FRAMES * REFERENCE_FRAMES], means[3 * REFERENCE_VERTICES];
     struct reference r;
     struct motion motion;
@@ -89,9 +88,8 @@ static double sine_between(const double complex *a, const double complex *b, int
     return sqrt(left / bb);
 }
 
-static void coordinates_agree_with_numpy(void **state)
+TEST(coordinates_agree_with_numpy)
 {
-    (void)state;
     static const double up[] = {0, 1, 0};
     struct reference r;
     struct motion motion;
@@ -158,9 +156,8 @@ static double transform_error(const struct ringing *r, int frames)
 
 /// Whatever the phase at which the record begins and ends, and whatever its rate, the imaginary part is the sine of the same
 /// oscillation to within 2.5 % over the whole record, ends included (as a periodic signal 24 %, with mirrored ends 10 to 40 %).
-static void the_transform_holds_to_the_ends(void **state)
+TEST(the_transform_holds_to_the_ends)
 {
-    (void)state;
     for (int phase = 0; phase < 8; phase++) {
         const struct ringing at_24 = {phase * M_PI / 4, 24}, at_120 = {phase * M_PI / 4, 120};
         assert_near(transform_error(&at_24, 96), 0, 0.025);
@@ -168,9 +165,8 @@ static void the_transform_holds_to_the_ends(void **state)
     }
 }
 
-static void frequency_damping_and_gauge(void **state)
+TEST(frequency_damping_and_gauge)
 {
-    (void)state;
     struct ringing r = {0.4, 24};
     struct motion motion;
     struct analysis analysis;
@@ -206,9 +202,8 @@ static double bobbing(int i, int j, void *user)
     return j % 3 == 1 ? 0.2 * exp(-0.3 * t) * cos(2 * M_PI * 1.5 * t - late) : 0.01 * j;
 }
 
-static void what_trails_has_a_negative_argument(void **state)
+TEST(what_trails_has_a_negative_argument)
 {
-    (void)state;
     static const double up[] = {0, 1, 0};
     double lag = M_PI / 3;
     struct motion motion;
@@ -227,9 +222,8 @@ static void what_trails_has_a_negative_argument(void **state)
 
 /// Of a hundred vertices that move alike and trail by 0 … 99 degrees, 5 lead by more than the first lag and 5 trail by more than the
 /// last; a vertex that hardly moves is not among them, however late.
-static void lags_leave_out_a_twentieth_at_each_end(void **state)
+TEST(lags_leave_out_a_twentieth_at_each_end)
 {
-    (void)state;
     enum { VERTICES = 101 };
     double complex shape[VERTICES][3] = {{0}};
     for (int v = 0; v < 100; v++) shape[(37 * v) % 100][1] = 0.2 * cexp(-I * (v * M_PI / 180));
@@ -242,9 +236,8 @@ static void lags_leave_out_a_twentieth_at_each_end(void **state)
 }
 
 /// A swing of 1 Hz that dies down for four seconds; what trembles on at 3 Hz, a hundredth as wide, says little.
-static void the_fit_goes_by_what_moves_most(void **state)
+TEST(the_fit_goes_by_what_moves_most)
 {
-    (void)state;
     enum { FRAMES = 240 };
     const double omega = 2 * M_PI, ratio = 0.1;
     double complex series[FRAMES];
@@ -269,9 +262,8 @@ static double wave(int i, int j)
 
 static double noisy_wave(int i, int j, void *state) { return wave(i, j) + 0.4 * noise(state); }
 
-static void one_complex_component_finds_a_travelling_wave(void **state)
+TEST(one_complex_component_finds_a_travelling_wave)
 {
-    (void)state;
     struct motion motion;
     struct analysis analysis;
     uint32_t seed = 7;
@@ -313,9 +305,8 @@ static double settling(int i, int j, void *user)
     return (1 + j) * exp(-0.1 * i);
 }
 
-static void what_cannot_be_analysed_gets_one_sentence(void **state)
+TEST(what_cannot_be_analysed_gets_one_sentence)
 {
-    (void)state;
     const struct {
         int frames;
         sample *at;
@@ -348,9 +339,8 @@ static double stopping(int i, int j, void *user)
     return j == 1 ? 0.1 * (i < 4 ? i : 4) : 0;
 }
 
-static void odd_motions_give_finite_numbers(void **state)
+TEST(odd_motions_give_finite_numbers)
 {
-    (void)state;
     struct motion motion;
     struct analysis analysis;
     make_motion(&motion, ANALYSIS_FRAMES_MIN, 1, stopping, NULL);
@@ -366,19 +356,4 @@ static void odd_motions_give_finite_numbers(void **state)
     motion_close(&motion);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(eigenvalues_agree_with_numpy),
-        cmocka_unit_test(coordinates_agree_with_numpy),
-        cmocka_unit_test(the_transform_holds_to_the_ends),
-        cmocka_unit_test(frequency_damping_and_gauge),
-        cmocka_unit_test(what_trails_has_a_negative_argument),
-        cmocka_unit_test(lags_leave_out_a_twentieth_at_each_end),
-        cmocka_unit_test(the_fit_goes_by_what_moves_most),
-        cmocka_unit_test(one_complex_component_finds_a_travelling_wave),
-        cmocka_unit_test(what_cannot_be_analysed_gets_one_sentence),
-        cmocka_unit_test(odd_motions_give_finite_numbers),
-    };
-    return cmocka_run_group_tests(tests, with_lapack_load, with_lapack_unload);
-}
+int main(void) { return tests_run(with_lapack_load, with_lapack_unload); }

@@ -122,9 +122,8 @@ static void hold(struct plant p, struct bars bars)
 static const double rates[] = {24, 48, 96};
 enum { RATES = sizeof rates / sizeof rates[0] };
 
-static void a_pole_at_any_rate_and_damping(void **state)
+TEST(a_pole_at_any_rate_and_damping)
 {
-    (void)state;
     static const double dampings[] = {0.02, 0.05, 0.1, 0.2, 0.3}, frequencies[] = {0.7, 2, 8};
     for (int r = 0; r < RATES; r += quick_or_all(2, 1)) {
         for (int d = 0; d < 5; d++) {
@@ -137,9 +136,8 @@ static void a_pole_at_any_rate_and_damping(void **state)
     }
 }
 
-static void two_poles_are_told_apart(void **state)
+TEST(two_poles_are_told_apart)
 {
-    (void)state;
     static const double frequencies[][MOST] = {{2, 2.3}, {2, 6}}, dampings[] = {0.02, 0.05, 0.1, 0.2};
     for (int r = 0; r < RATES; r += quick_or_all(2, 1)) {
         for (int f = 0; f < 2; f++) {
@@ -157,9 +155,8 @@ static void two_poles_are_told_apart(void **state)
     }
 }
 
-static void through_noise(void **state)
+TEST(through_noise)
 {
-    (void)state;
     static const double dampings[] = {0.02, 0.05, 0.1, 0.2, 0.3};
     for (int r = 0; r < RATES; r += quick_or_all(2, 1)) {
         for (int d = 0; d < 5; d++) {
@@ -171,9 +168,8 @@ static void through_noise(void **state)
     }
 }
 
-static void a_walk_is_taken_out_and_said(void **state)
+TEST(a_walk_is_taken_out_and_said)
 {
-    (void)state;
     struct plant p = {2, 96, 24, {1.3, 3}, {0.05, 0.1}, {0.05, 0.02}, .speed = 0.5};
     hold(p, (struct bars){1e-5, 1e-4, 1 - 1e-5});
     struct analysis a;
@@ -200,9 +196,8 @@ static double driven(int i, int j, void *user)
     return (1 + 0.3 * sin(j)) * (force - 0.3 * own);
 }
 
-static void few_knots_move_it_so(void **state)
+TEST(few_knots_move_it_so)
 {
-    (void)state;
     struct plant p = {1, 192, 48, {2}, {0.05}, {0.1}, .noise = 0.2};
     grow(&p, 1);
     for (int forced = 0; forced < 2; forced++) {
@@ -229,9 +224,8 @@ static void few_knots_move_it_so(void **state)
 
 /// A swing of 2 Hz that is kicked every ten frames, more often than there are knots: they are exchanged until that helps no more. One round
 /// would leave 0.220.
-static void knots_are_exchanged_more_than_once(void **state)
+TEST(knots_are_exchanged_more_than_once)
 {
-    (void)state;
     enum { FRAMES = 60 };
     double complex series[FRAMES], pull[FRAMES], shape[1][3] = {{1, -I, 0}}, x = 0;
     struct component c = {
@@ -301,9 +295,8 @@ static void analyse_kicked(struct analysis *a, struct kicked *body, int first)
     motion_close(&motion);
 }
 
-static void what_was_driven_has_its_poles_where_it_swings_freely(void **state)
+TEST(what_was_driven_has_its_poles_where_it_swings_freely)
 {
-    (void)state;
     struct kicked body = {.frequency = {1.04, 2.2, 4.1}};
     struct analysis a;
     analyse_kicked(&a, &body, KICKED_FREE);
@@ -321,9 +314,8 @@ static void what_was_driven_has_its_poles_where_it_swings_freely(void **state)
 }
 
 /// From the driven frames come three poles, two of them with shapes of 6 and 13 m in antiphase for a motion of 1.2 m.
-static void motions_that_cancel_are_left_out_and_said(void **state)
+TEST(motions_that_cancel_are_left_out_and_said)
 {
-    (void)state;
     struct kicked body = {.frequency = {1.04, 2.2, 6.5}};
     struct analysis a;
     analyse_kicked(&a, &body, 0);
@@ -340,9 +332,8 @@ static double quick(int i, int j, void *user)
     return cos(2 * M_PI * 22 * i / 48.0 + j) * exp(-0.02 * i) + cos(2 * M_PI * 3 * i / 48.0 - j) * exp(-0.01 * i);
 }
 
-static void motion_near_half_the_rate_is_told(void **state)
+TEST(motion_near_half_the_rate_is_told)
 {
-    (void)state;
     const struct analysis_plan plan = {ANALYSIS_POLES, 48, 2, NULL, 0};
     struct motion motion;
     struct analysis a;
@@ -355,18 +346,4 @@ static void motion_near_half_the_rate_is_told(void **state)
     motion_close(&motion);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_pole_at_any_rate_and_damping),
-        cmocka_unit_test(two_poles_are_told_apart),
-        cmocka_unit_test(through_noise),
-        cmocka_unit_test(a_walk_is_taken_out_and_said),
-        cmocka_unit_test(few_knots_move_it_so),
-        cmocka_unit_test(knots_are_exchanged_more_than_once),
-        cmocka_unit_test(what_was_driven_has_its_poles_where_it_swings_freely),
-        cmocka_unit_test(motions_that_cancel_are_left_out_and_said),
-        cmocka_unit_test(motion_near_half_the_rate_is_told),
-    };
-    return cmocka_run_group_tests(tests, with_lapack_load, with_lapack_unload);
-}
+int main(void) { return tests_run(with_lapack_load, with_lapack_unload); }

@@ -34,9 +34,8 @@ static void send_pointer(struct blind *blind, enum event_kind kind, float x, flo
 }
 
 /// Events happen in their order: a figure's key before the first movement of a drag ends the press, and the movement is no drag.
-static void a_figure_ends_a_press_that_began_in_its_frame(void **state)
+TEST(a_figure_ends_a_press_that_began_in_its_frame)
 {
-    (void)state;
     struct blind blind;
     blind_open(&blind, scene_file());
     blind_frame(&blind);
@@ -61,9 +60,8 @@ static void a_figure_ends_a_press_that_began_in_its_frame(void **state)
 }
 
 /// Figure 2 is of poles and response: both are in sight at once, from the command line and by its key.
-static void poles_of_figure_2_are_in_sight(void **state)
+TEST(poles_of_figure_2_are_in_sight)
 {
-    (void)state;
     for (int by_key = 0; by_key < 2; by_key++) {
         struct blind blind;
         float x, y;
@@ -138,9 +136,8 @@ static void save_and_close(struct blind *blind, const char *folder, const char *
 }
 
 /// A limit of the process stands for the disk that ends.
-static void work_outlives_a_full_disk(void **state)
+TEST(work_outlives_a_full_disk)
 {
-    (void)state;
     struct blind blind;
     char folder[64], path[96];
     open_edited(&blind, folder, path);
@@ -155,9 +152,8 @@ static void work_outlives_a_full_disk(void **state)
     save_and_close(&blind, folder, path);
 }
 
-static void work_outlives_a_folder_that_cannot_be_written(void **state)
+TEST(work_outlives_a_folder_that_cannot_be_written)
 {
-    (void)state;
     struct blind blind;
     char folder[64], path[96];
     open_edited(&blind, folder, path);
@@ -183,9 +179,8 @@ static void save_for_ever(struct blind *blind)
     }
 }
 
-static void a_file_outlives_a_program_that_is_killed_while_it_saves(void **state)
+TEST(a_file_outlives_a_program_that_is_killed_while_it_saves)
 {
-    (void)state;
     struct blind blind;
     char folder[64], path[96], command[96];
     open_edited(&blind, folder, path);
@@ -206,9 +201,8 @@ static void a_file_outlives_a_program_that_is_killed_while_it_saves(void **state
 }
 
 /// The last resort never writes through a link that somebody has put in its way.
-static void a_rescue_follows_no_link(void **state)
+TEST(a_rescue_follows_no_link)
 {
-    (void)state;
     struct blind blind;
     char folder[64], path[96], link[128], victim[128], rescued[128];
     open_edited(&blind, folder, path);
@@ -228,9 +222,8 @@ static void a_rescue_follows_no_link(void **state)
 }
 
 /// Where nothing else can be written, it is a folder that nobody could know of and that is the user's alone.
-static void the_last_place_is_ones_own(void **state)
+TEST(the_last_place_is_ones_own)
 {
-    (void)state;
     struct blind blind;
     struct stat about;
     char folder[64], path[96], *home = getenv("HOME") ? strdup(getenv("HOME")) : NULL;
@@ -256,16 +249,4 @@ static void the_last_place_is_ones_own(void **state)
     assert_int_equal(rmdir(folder), 0);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(poles_of_figure_2_are_in_sight),
-        cmocka_unit_test(a_figure_ends_a_press_that_began_in_its_frame),
-        cmocka_unit_test(work_outlives_a_full_disk),
-        cmocka_unit_test(work_outlives_a_folder_that_cannot_be_written),
-        cmocka_unit_test(a_rescue_follows_no_link),
-        cmocka_unit_test(the_last_place_is_ones_own),
-        cmocka_unit_test(a_file_outlives_a_program_that_is_killed_while_it_saves),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return tests_run(NULL, NULL); }

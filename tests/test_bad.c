@@ -86,9 +86,8 @@ static bool is_listed(const char *name)
     return found;
 }
 
-static void test_listed_scenes(void **state)
+TEST(test_listed_scenes)
 {
-    (void)state;
     char line[LINE_SIZE], path[LINE_SIZE];
     int count = 0;
     FILE *list = fopen("tests/bad/expected.txt", "r");
@@ -108,9 +107,8 @@ static void test_listed_scenes(void **state)
     assert_true(count >= 45);
 }
 
-static void test_no_scene_is_forgotten_in_the_list(void **state)
+TEST(test_no_scene_is_forgotten_in_the_list)
 {
-    (void)state;
     DIR *bad = opendir("tests/bad");
     assert_non_null(bad);
     for (struct dirent *entry; (entry = readdir(bad));) {
@@ -120,9 +118,8 @@ static void test_no_scene_is_forgotten_in_the_list(void **state)
     closedir(bad);
 }
 
-static void test_what_is_no_file(void **state)
+TEST(test_what_is_no_file)
 {
-    (void)state;
     assert_refused(folder, "got a directory");
     assert_refused(folder_path("missing.json"), "No such file");
     assert_refused("/dev/zero", "expected a file");
@@ -134,9 +131,8 @@ static void test_what_is_no_file(void **state)
     assert_refused(folder_path("loop"), "cannot be opened");
 }
 
-static void test_no_permission(void **state)
+TEST(test_no_permission)
 {
-    (void)state;
     write_file(folder_path("secret.json"), "{}", 2);
     assert_int_equal(chmod(folder_path("secret.json"), 0), 0);
     bool is_root = geteuid() == 0; // who may read anything
@@ -146,9 +142,8 @@ static void test_no_permission(void **state)
 }
 
 /// A sparse file: it takes no room on the disk, and must not be read at all.
-static void test_too_large(void **state)
+TEST(test_too_large)
 {
-    (void)state;
     int file = open(folder_path("large.json"), O_CREAT | O_WRONLY, 0600);
     assert_true(file >= 0);
     assert_int_equal(ftruncate(file, (off_t)1 << 40), 0);
@@ -170,9 +165,8 @@ static void assert_flood_refused(const char *pattern, const char *fragment)
     assert_int_equal(unlink(folder_path("flood.json")), 0);
 }
 
-static void test_floods(void **state)
+TEST(test_floods)
 {
-    (void)state;
     assert_flood_refused("[", "expected at most 64 levels");
     assert_flood_refused("{\"a\":", "expected at most 64 levels");
     assert_flood_refused("{},", "expected at most 2000000 objects");
@@ -180,9 +174,8 @@ static void test_floods(void **state)
     assert_flood_refused("\"", "expected '[' or '{'");
 }
 
-static void test_cut_off_anywhere(void **state)
+TEST(test_cut_off_anywhere)
 {
-    (void)state;
     size_t size;
     char *text = read_text("assets/scenes/figure5.json", &size);
     while (size > 0 && text[size - 1] != '}') size--;
@@ -196,9 +189,8 @@ static void test_cut_off_anywhere(void **state)
 }
 
 /// What survives damage must be a scene that can be saved and loaded again.
-static void test_damaged_bytes(void **state)
+TEST(test_damaged_bytes)
 {
-    (void)state;
     size_t size;
     char *text = read_text("assets/scenes/figure5.json", &size), *damaged = malloc(size);
     assert_non_null(damaged);
@@ -227,9 +219,8 @@ static void test_damaged_bytes(void **state)
 }
 
 /// Each of very many problems is named with its own line, in a time that does not grow with their square.
-static void test_many_problems(void **state)
+TEST(test_many_problems)
 {
-    (void)state;
     enum { KNOTS = 100000, KNOT_BYTES = 32 };
     char *text = malloc(KNOTS * KNOT_BYTES + 200);
     assert_non_null(text);
@@ -247,9 +238,8 @@ static void test_many_problems(void **state)
 }
 
 /// A chain of tracks as long as a scene may be: no recursion may follow it.
-static void test_long_chain_of_tracks(void **state)
+TEST(test_long_chain_of_tracks)
 {
-    (void)state;
     enum { SPLINES = 100000, SPLINE_BYTES = 64 };
     char *text = malloc(SPLINES * SPLINE_BYTES + 200);
     assert_non_null(text);
@@ -266,14 +256,4 @@ static void test_long_chain_of_tracks(void **state)
     free(text);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_listed_scenes),    cmocka_unit_test(test_no_scene_is_forgotten_in_the_list),
-        cmocka_unit_test(test_what_is_no_file),  cmocka_unit_test(test_no_permission),
-        cmocka_unit_test(test_too_large),        cmocka_unit_test(test_floods),
-        cmocka_unit_test(test_cut_off_anywhere), cmocka_unit_test(test_damaged_bytes),
-        cmocka_unit_test(test_many_problems),    cmocka_unit_test(test_long_chain_of_tracks),
-    };
-    return cmocka_run_group_tests(tests, folder_make, folder_remove);
-}
+int main(void) { return tests_run(folder_make, folder_remove); }

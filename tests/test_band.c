@@ -56,7 +56,7 @@ static void compare(pair *p, const wiggly_desc *desc)
 }
 
 /// A frequency that rises from 0, and knots hundreds of samples apart: the worst that a knot-free stretch can be.
-static void a_track_from_0_over_long_gaps(void **state)
+TEST(a_track_from_0_over_long_gaps)
 {
     static double rising[SAMPLES];
     const wiggly_knot knots[] = {{.sample = 0, .value = 0.5, .has_slope = true, .stiffness = 1000},
@@ -80,7 +80,7 @@ static void a_track_from_0_over_long_gaps(void **state)
 
 /// A frequency that rests at 0 between its waves, and one knot: what the squared matrix cannot settle is left to the rows, and a start
 /// that nothing determines is calmed.
-static void a_track_that_rests_at_0(void **state)
+TEST(a_track_that_rests_at_0)
 {
     static double waves[SAMPLES];
     static const struct {
@@ -108,7 +108,7 @@ static void a_track_that_rests_at_0(void **state)
     }
 }
 
-static void gaps_of_every_length(void **state)
+TEST(gaps_of_every_length)
 {
     static wiggly_knot knots[SAMPLES];
     for (int gap = 2; gap <= 800; gap *= 2) {
@@ -129,7 +129,7 @@ static void gaps_of_every_length(void **state)
 
 /// One to two periods in all, where the imaginary rows are felt and the band solves, against the factored rows: with slopes, knots side by
 /// side, pairs at the end, samples that run free.
-static void one_or_two_periods(void **state)
+TEST(one_or_two_periods)
 {
     pair *p = *state;
     for (int kind = 0; kind < 240; kind++) {
@@ -169,13 +169,4 @@ static void one_or_two_periods(void **state)
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_track_from_0_over_long_gaps),
-        cmocka_unit_test(a_track_that_rests_at_0),
-        cmocka_unit_test(gaps_of_every_length),
-        cmocka_unit_test(one_or_two_periods),
-    };
-    return cmocka_run_group_tests(tests, create, destroy);
-}
+int main(void) { return tests_run(create, destroy); }

@@ -48,9 +48,8 @@ static void make_splines(wiggly_desc *desc, wiggly_knot (*knots)[KNOTS])
     desc[77].calm = 7;
 }
 
-static void a_batch_is_the_same_to_the_bit(void **state)
+TEST(a_batch_is_the_same_to_the_bit)
 {
-    (void)state;
     static wiggly_desc desc[SPLINES];
     static wiggly_knot knots[SPLINES][KNOTS];
     static wiggly_curve curve[SPLINES];
@@ -192,9 +191,8 @@ static int check_company(const company *c, int threads)
     return refined;
 }
 
-static void every_kind_is_the_same_to_the_bit(void **state)
+TEST(every_kind_is_the_same_to_the_bit)
 {
-    (void)state;
     for (size_t c = 0; c < sizeof companies / sizeof *companies; c++) {
         for (int threads = 1; threads <= 2; threads++) {
             print_message("%s, %d threads\n", companies[c].what, threads);
@@ -206,9 +204,8 @@ static void every_kind_is_the_same_to_the_bit(void **state)
 
 /// The same knots over another number of samples, one solver after the other: in a loop the last gap is another one, and behind a
 /// real spline's last knot there is more to fill.
-static void lengths_do_not_mix(void **state)
+TEST(lengths_do_not_mix)
 {
-    (void)state;
     static const wiggly_knot keys[] = {
         {.sample = 1, .value = 0.3}, {.sample = 6, .value = -1}, {.sample = 9, .value = 2}};
     static const int lengths[] = {11, SAMPLES, 40, 41, 12, SAMPLES};
@@ -235,9 +232,8 @@ static void lengths_do_not_mix(void **state)
     curve_destroy(&other);
 }
 
-static void empty_and_wrong_calls(void **state)
+TEST(empty_and_wrong_calls)
 {
-    (void)state;
     wiggly_batch *batch = NULL;
     assert_int_equal(wiggly_batch_create(0, 1, 1, &batch), WIGGLY_ERROR_ARGUMENT);
     assert_int_equal(wiggly_batch_create(10, 1, 0, &batch), WIGGLY_ERROR_ARGUMENT);
@@ -252,9 +248,8 @@ static void empty_and_wrong_calls(void **state)
 }
 
 /// The bytes after it are left alone, and nothing else is allocated.
-static void a_batch_fits_the_callers_memory(void **state)
+TEST(a_batch_fits_the_callers_memory)
 {
-    (void)state;
     static wiggly_desc desc[SPLINES];
     static wiggly_knot knots[SPLINES][KNOTS];
     make_splines(desc, knots);
@@ -294,9 +289,8 @@ static void a_batch_fits_the_callers_memory(void **state)
 }
 
 /// The k-th allocation fails, for every k until none does: a status, and (under the sanitizers) no leak.
-static void running_out_of_memory_is_said(void **state)
+TEST(running_out_of_memory_is_said)
 {
-    (void)state;
     int failures = 0;
     for (long k = 0; k < 100; k++) {
         wiggly_batch *batch = NULL;
@@ -325,12 +319,4 @@ static void running_out_of_memory_is_said(void **state)
     assert_null(solver);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_batch_is_the_same_to_the_bit),  cmocka_unit_test(every_kind_is_the_same_to_the_bit),
-        cmocka_unit_test(empty_and_wrong_calls),           cmocka_unit_test(lengths_do_not_mix),
-        cmocka_unit_test(a_batch_fits_the_callers_memory), cmocka_unit_test(running_out_of_memory_is_said),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return tests_run(NULL, NULL); }

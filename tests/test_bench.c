@@ -30,9 +30,8 @@ static wiggly_desc describe(wiggly_mode mode, wiggly_start start)
 static struct bench bench;
 
 /// What is timed is right, and what LAPACK is timed on are the same systems: it could solve neither otherwise.
-static void every_kind_agrees_with_lapack(void **state)
+TEST(every_kind_agrees_with_lapack)
 {
-    (void)state;
     static const struct {
         wiggly_mode mode;
         wiggly_start start;
@@ -55,9 +54,8 @@ static void every_kind_agrees_with_lapack(void **state)
     lapack_unload(&bench.lapack);
 }
 
-static void what_cannot_be_solved_is_no_figure(void **state)
+TEST(what_cannot_be_solved_is_no_figure)
 {
-    (void)state;
     static char says[4096];
     int end[2], status;
     size_t length = 0;
@@ -82,11 +80,4 @@ static void what_cannot_be_solved_is_no_figure(void **state)
     assert_non_null(strstr(says, "twice"));
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_kind_agrees_with_lapack),
-        cmocka_unit_test(what_cannot_be_solved_is_no_figure),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return tests_run(NULL, NULL); }

@@ -59,17 +59,15 @@ static int check_reached(const struct binding *list, const struct layout_of *lay
     return count;
 }
 
-static void test_every_layout_has_a_key_for_every_action(void **state)
+TEST(test_every_layout_has_a_key_for_every_action)
 {
-    (void)state;
     for (size_t i = 0; i < sizeof layouts / sizeof *layouts; i++) {
         assert_true(check_reached(key_bindings, &layouts[i]) + check_reached(character_bindings, &layouts[i]) > 80);
     }
 }
 
-static void test_no_key_is_bound_twice(void **state)
+TEST(test_no_key_is_bound_twice)
 {
-    (void)state;
     for (const struct binding *b = key_bindings; b->key; b++) {
         for (const struct binding *other = key_bindings; other < b; other++) {
             assert_false(b->key == other->key && b->mods == other->mods);
@@ -79,9 +77,8 @@ static void test_no_key_is_bound_twice(void **state)
 }
 
 /// AZERTY has - on the key of the 6, and needs Shift for 1, 5 and the point.
-static void test_a_factor_is_what_is_typed(void **state)
+TEST(test_a_factor_is_what_is_typed)
 {
-    (void)state;
     struct session s;
     session_open(&s, scene);
     session_key(&s, 'A', MOD_CTRL);
@@ -99,9 +96,8 @@ static void test_a_factor_is_what_is_typed(void **state)
     session_close(&s);
 }
 
-static void test_punctuation_is_what_is_typed(void **state)
+TEST(test_punctuation_is_what_is_typed)
 {
-    (void)state;
     struct session s;
     session_open(&s, scene);
     const struct playback *playback = &s.editor->core.playback;
@@ -117,9 +113,8 @@ static void test_punctuation_is_what_is_typed(void **state)
     session_close(&s);
 }
 
-static void test_a_part_is_played_without_brackets(void **state)
+TEST(test_a_part_is_played_without_brackets)
 {
-    (void)state;
     struct session s;
     session_open(&s, scene);
     const struct playback *playback = &s.editor->core.playback;
@@ -133,9 +128,8 @@ static void test_a_part_is_played_without_brackets(void **state)
     session_close(&s);
 }
 
-static void test_a_key_kept_down_is_one_press_where_it_should(void **state)
+TEST(test_a_key_kept_down_is_one_press_where_it_should)
 {
-    (void)state;
     struct session s;
     session_open(&s, scene);
     session_hold(&s, '6', ACTION_PRESS);
@@ -148,9 +142,8 @@ static void test_a_key_kept_down_is_one_press_where_it_should(void **state)
     session_close(&s);
 }
 
-static void test_a_key_kept_down_goes_on_through_the_splines(void **state)
+TEST(test_a_key_kept_down_goes_on_through_the_splines)
 {
-    (void)state;
     static const struct {
         int key, after[3];
     } cases[] = {{KEY_PAGE_UP, {2, 1, 0}}, {KEY_PAGE_DOWN, {1, 2, 0}}};
@@ -166,9 +159,8 @@ static void test_a_key_kept_down_goes_on_through_the_splines(void **state)
     }
 }
 
-static void test_a_key_that_closes_something_types_nothing(void **state)
+TEST(test_a_key_that_closes_something_types_nothing)
 {
-    (void)state;
     struct session s;
     session_open(&s, scene);
     session_key(&s, KEY_F1, 0);
@@ -180,17 +172,4 @@ static void test_a_key_that_closes_something_types_nothing(void **state)
     session_close(&s);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_every_layout_has_a_key_for_every_action),
-        cmocka_unit_test(test_no_key_is_bound_twice),
-        cmocka_unit_test(test_a_factor_is_what_is_typed),
-        cmocka_unit_test(test_punctuation_is_what_is_typed),
-        cmocka_unit_test(test_a_part_is_played_without_brackets),
-        cmocka_unit_test(test_a_key_kept_down_is_one_press_where_it_should),
-        cmocka_unit_test(test_a_key_kept_down_goes_on_through_the_splines),
-        cmocka_unit_test(test_a_key_that_closes_something_types_nothing),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return tests_run(NULL, NULL); }

@@ -38,9 +38,8 @@ static const char *selected(const struct session *session)
     return node < 0 ? "" : bones_character(&session->world, model)->gltf.nodes[node].name;
 }
 
-static void test_the_bone_pointed_at_says_its_name_and_a_click_selects_it(void **state)
+TEST(test_the_bone_pointed_at_says_its_name_and_a_click_selects_it)
 {
-    (void)state;
     struct session s;
     open_beast(&s, "");
     assert_false(session_shows(&s, "neck"));
@@ -62,9 +61,8 @@ static void test_the_bone_pointed_at_says_its_name_and_a_click_selects_it(void *
 }
 
 /// A drag from a bone turns the camera; it is no click.
-static void test_a_drag_from_a_bone_selects_nothing(void **state)
+TEST(test_a_drag_from_a_bone_selects_nothing)
 {
-    (void)state;
     struct session s;
     open_beast(&s, "");
     session_pull(&s, "bone(neck)", 40, 0, 4);
@@ -74,9 +72,8 @@ static void test_a_drag_from_a_bone_selects_nothing(void **state)
 }
 
 /// Seen from the side both legs lie over each other: the near one is meant.
-static void test_of_bones_over_each_other_the_near_one_is_picked(void **state)
+TEST(test_of_bones_over_each_other_the_near_one_is_picked)
 {
-    (void)state;
     struct session s;
     open_beast(&s, "");
     const struct stage_view *view = editor_stage(s.editor);
@@ -97,9 +94,8 @@ static void test_of_bones_over_each_other_the_near_one_is_picked(void **state)
     session_close(&s);
 }
 
-static void test_a_key_makes_a_chain_to_the_tip_in_one_step(void **state)
+TEST(test_a_key_makes_a_chain_to_the_tip_in_one_step)
 {
-    (void)state;
     struct session s;
     open_beast(&s, "");
     char *before = session_saved(&s);
@@ -124,9 +120,8 @@ static void test_a_key_makes_a_chain_to_the_tip_in_one_step(void **state)
     session_close(&s);
 }
 
-static void test_a_bone_that_branches_is_refused_with_a_sentence(void **state)
+TEST(test_a_bone_that_branches_is_refused_with_a_sentence)
 {
-    (void)state;
     struct session s;
     open_beast(&s, "");
     char *before = session_saved(&s);
@@ -141,9 +136,8 @@ static void test_a_bone_that_branches_is_refused_with_a_sentence(void **state)
 }
 
 /// The grabbed point follows the pointer, by a knot at the playhead; one step, and Esc takes it back.
-static void test_dragging_a_chain_sets_a_knot(void **state)
+TEST(test_dragging_a_chain_sets_a_knot)
 {
-    (void)state;
     struct session s;
     open_beast(&s, TAIL);
     char *before = session_saved(&s);
@@ -167,9 +161,8 @@ static void test_dragging_a_chain_sets_a_knot(void **state)
 }
 
 /// With an axis each way the point comes to the pointer itself.
-static void test_a_chain_of_two_axes_comes_to_the_pointer(void **state)
+TEST(test_a_chain_of_two_axes_comes_to_the_pointer)
 {
-    (void)state;
     struct session s;
     open_beast(&s, TAIL);
     float tip[2];
@@ -188,9 +181,8 @@ static void test_a_chain_of_two_axes_comes_to_the_pointer(void **state)
     session_close(&s);
 }
 
-static void test_a_click_on_a_chain_selects_its_bone(void **state)
+TEST(test_a_click_on_a_chain_selects_its_bone)
 {
-    (void)state;
     struct session s;
     open_beast(&s, TAIL LEFT_EAR);
     char *before = session_saved(&s);
@@ -201,9 +193,8 @@ static void test_a_click_on_a_chain_selects_its_bone(void **state)
     session_close(&s);
 }
 
-static void test_the_inspector_chooses_the_clip(void **state)
+TEST(test_the_inspector_chooses_the_clip)
 {
-    (void)state;
     struct session s;
     open_beast(&s, "");
     char *before = session_saved(&s);
@@ -226,9 +217,8 @@ static void test_the_inspector_chooses_the_clip(void **state)
 }
 
 /// Each move of the drag makes its edit anew, of the chain as it was at the press.
-static void test_a_chains_turn_is_dragged(void **state)
+TEST(test_a_chains_turn_is_dragged)
 {
-    (void)state;
     struct session s;
     open_beast(&s, TAIL);
     char *before = session_saved(&s), *from = strdup(s.document->rigs[1]->chain.from);
@@ -243,9 +233,8 @@ static void test_a_chains_turn_is_dragged(void **state)
     session_close(&s);
 }
 
-static void test_a_chain_is_edited_in_the_inspector(void **state)
+TEST(test_a_chain_is_edited_in_the_inspector)
 {
-    (void)state;
     struct session s;
     open_beast(&s, TAIL);
     char *before = session_saved(&s);
@@ -277,9 +266,8 @@ static const struct angles *gain_of_tail(const struct session *s)
     return &s->document->rigs[1]->chain.channels[0].gain;
 }
 
-static void test_a_gain_becomes_a_ramp_whose_points_move(void **state)
+TEST(test_a_gain_becomes_a_ramp_whose_points_move)
 {
-    (void)state;
     struct session s;
     open_beast(&s, TAIL);
     char *before = session_saved(&s);
@@ -323,9 +311,8 @@ static double highest(const struct angles *ramp)
     return highest;
 }
 
-static void test_a_ramps_plot_is_as_high_as_its_points(void **state)
+TEST(test_a_ramps_plot_is_as_high_as_its_points)
 {
-    (void)state;
     struct session s;
     open_beast(&s, TAIL);
     panel_click(&s, "gain.ramp");
@@ -351,9 +338,8 @@ static void test_a_ramps_plot_is_as_high_as_its_points(void **state)
     session_close(&s);
 }
 
-static void test_a_chain_gets_a_twin_on_the_other_side(void **state)
+TEST(test_a_chain_gets_a_twin_on_the_other_side)
 {
-    (void)state;
     struct session s;
     open_beast(&s, LEFT_EAR);
     char *before = session_saved(&s);
@@ -371,9 +357,8 @@ static void test_a_chain_gets_a_twin_on_the_other_side(void **state)
     session_close(&s);
 }
 
-static void test_a_tail_has_no_twin(void **state)
+TEST(test_a_tail_has_no_twin)
 {
-    (void)state;
     struct session s;
     open_beast(&s, TAIL);
     assert_true(panel_shows(&s, "rig.delete"));
@@ -381,24 +366,4 @@ static void test_a_tail_has_no_twin(void **state)
     session_close(&s);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_the_bone_pointed_at_says_its_name_and_a_click_selects_it),
-        cmocka_unit_test(test_a_drag_from_a_bone_selects_nothing),
-        cmocka_unit_test(test_of_bones_over_each_other_the_near_one_is_picked),
-        cmocka_unit_test(test_a_key_makes_a_chain_to_the_tip_in_one_step),
-        cmocka_unit_test(test_a_bone_that_branches_is_refused_with_a_sentence),
-        cmocka_unit_test(test_dragging_a_chain_sets_a_knot),
-        cmocka_unit_test(test_a_chain_of_two_axes_comes_to_the_pointer),
-        cmocka_unit_test(test_a_click_on_a_chain_selects_its_bone),
-        cmocka_unit_test(test_the_inspector_chooses_the_clip),
-        cmocka_unit_test(test_a_chains_turn_is_dragged),
-        cmocka_unit_test(test_a_chain_is_edited_in_the_inspector),
-        cmocka_unit_test(test_a_gain_becomes_a_ramp_whose_points_move),
-        cmocka_unit_test(test_a_ramps_plot_is_as_high_as_its_points),
-        cmocka_unit_test(test_a_chain_gets_a_twin_on_the_other_side),
-        cmocka_unit_test(test_a_tail_has_no_twin),
-    };
-    return cmocka_run_group_tests(tests, folder_make, folder_remove);
-}
+int main(void) { return tests_run(folder_make, folder_remove); }

@@ -406,6 +406,7 @@ static void names_of_rescued_scenes(void **state)
     free(home);
 }
 
+#undef TEST
 #define TEST(name) cmocka_unit_test_setup_teardown(name, folder_make, folder_remove)
 
 int main(void)

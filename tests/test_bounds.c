@@ -173,22 +173,12 @@ static void check_groups(unsigned groups, int missing)
     wiggly_group_destroy(group);
 }
 
-static void pushes_alone_pull_and_only_where_they_touch(void **state)
-{
-    (void)state;
-    check_groups(40, 0);
-}
+TEST(pushes_alone_pull_and_only_where_they_touch) { check_groups(40, 0); }
 
-static void so_they_do_behind_the_last_knot(void **state)
+TEST(so_they_do_behind_the_last_knot)
 {
-    (void)state;
     check_groups(12, 1);
     check_groups(12, 2);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(pushes_alone_pull_and_only_where_they_touch),
-                                       cmocka_unit_test(so_they_do_behind_the_last_knot)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return tests_run(NULL, NULL); }

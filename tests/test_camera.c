@@ -21,9 +21,8 @@ static bool project(const struct view *view, const float world[3], float screen[
     return camera_project(view->view, view->projection, viewport, world, screen);
 }
 
-static void the_target_is_in_the_middle_with_y_up_and_z_to_the_left(void **state)
+TEST(the_target_is_in_the_middle_with_y_up_and_z_to_the_left)
 {
-    (void)state;
     struct camera camera = camera_default();
     camera.target[1] = 0.7f;
     const struct view view = look(&camera);
@@ -37,9 +36,8 @@ static void the_target_is_in_the_middle_with_y_up_and_z_to_the_left(void **state
     assert_true(project(&view, z, along) && along[0] < middle[0] - 10.0f); // the tail points to the left
 }
 
-static void points_behind_the_eye_are_not_projected(void **state)
+TEST(points_behind_the_eye_are_not_projected)
 {
-    (void)state;
     const struct camera camera = camera_default();
     const struct view view = look(&camera);
     const float behind[3] = {2.0f * view.eye[0], 2.0f * view.eye[1], 2.0f * view.eye[2]};
@@ -48,9 +46,8 @@ static void points_behind_the_eye_are_not_projected(void **state)
 }
 
 /// From a sixteenth of the distance to the target, where a hand reaches towards the eye, to far behind it, in a scene of any size.
-static void what_is_near_or_far_is_not_cut_off(void **state)
+TEST(what_is_near_or_far_is_not_cut_off)
 {
-    (void)state;
     static const float sizes[] = {0.01f, 4.0f, 1000.0f}, seen[] = {0.0625f, 1.0f, 19.0f};
     for (int s = 0; s < 3; s++) {
         struct camera camera = camera_default();
@@ -64,9 +61,8 @@ static void what_is_near_or_far_is_not_cut_off(void **state)
     }
 }
 
-static void a_fitted_box_fills_the_picture_from_any_side(void **state)
+TEST(a_fitted_box_fills_the_picture_from_any_side)
 {
-    (void)state;
     const float lo[3] = {-1.0f, 0.0f, -0.7f}, hi[3] = {1.1f, 1.3f, 1.5f};
     for (int step = 0; step < 24; step++) {
         struct camera camera = camera_default();
@@ -87,9 +83,8 @@ static void a_fitted_box_fills_the_picture_from_any_side(void **state)
     }
 }
 
-static void a_broken_box_changes_nothing(void **state)
+TEST(a_broken_box_changes_nothing)
 {
-    (void)state;
     const float lo[3] = {0.0f, 0.0f, 0.0f}, flat[3] = {1.0f, 0.0f, 1.0f}, endless[3] = {1.0f, INFINITY, 1.0f};
     struct camera camera = camera_default();
     camera_fit(&camera, lo, flat, 2.5f, 0);
@@ -99,9 +94,8 @@ static void a_broken_box_changes_nothing(void **state)
 }
 
 /// The point of the world under the pointer stays under it while the view is dragged.
-static void panning_follows_the_pointer(void **state)
+TEST(panning_follows_the_pointer)
 {
-    (void)state;
     struct camera camera = camera_default();
     const float target[3] = {camera.target[0], camera.target[1], camera.target[2]};
     camera_pan(&camera, 60.0f, -25.0f, viewport[3]);
@@ -112,9 +106,8 @@ static void panning_follows_the_pointer(void **state)
     assert_near(screen[1], 225.0, 0.1);
 }
 
-static void orbit_and_zoom_stay_in_range(void **state)
+TEST(orbit_and_zoom_stay_in_range)
 {
-    (void)state;
     struct camera camera = camera_default();
     camera_orbit(&camera, 100.0f, 100.0f);
     assert_near(camera.elevation, CAMERA_MAX_ELEVATION, 1e-6);
@@ -126,9 +119,8 @@ static void orbit_and_zoom_stay_in_range(void **state)
 }
 
 /// However one orbits, pans and zooms.
-static void the_eye_stays_above_the_floor(void **state)
+TEST(the_eye_stays_above_the_floor)
 {
-    (void)state;
     struct camera camera = camera_default();
     const float lo[3] = {-1.0f, -0.5f, -1.0f}, hi[3] = {1.0f, 1.0f, 1.0f};
     camera_fit(&camera, lo, hi, 1.6f, 0);
@@ -142,17 +134,4 @@ static void the_eye_stays_above_the_floor(void **state)
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_target_is_in_the_middle_with_y_up_and_z_to_the_left),
-        cmocka_unit_test(points_behind_the_eye_are_not_projected),
-        cmocka_unit_test(what_is_near_or_far_is_not_cut_off),
-        cmocka_unit_test(a_fitted_box_fills_the_picture_from_any_side),
-        cmocka_unit_test(a_broken_box_changes_nothing),
-        cmocka_unit_test(panning_follows_the_pointer),
-        cmocka_unit_test(orbit_and_zoom_stay_in_range),
-        cmocka_unit_test(the_eye_stays_above_the_floor),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return tests_run(NULL, NULL); }

@@ -47,9 +47,8 @@ static bool covers_a_character(const struct editor *editor, struct rect card)
     return false;
 }
 
-static void it_covers_no_character(void **state)
+TEST(it_covers_no_character)
 {
-    (void)state;
     for (size_t i = 0; i < sizeof scenes / sizeof *scenes; i++) {
         struct blind b;
         open_scene(&b, scenes[i]);
@@ -66,9 +65,8 @@ static void it_covers_no_character(void **state)
 }
 
 /// A click on it, upright at the right hand or in a band, takes it away; the description comes back where a band was.
-static void a_click_on_it_takes_it_away(void **state)
+TEST(a_click_on_it_takes_it_away)
 {
-    (void)state;
     for (float width = 640; width <= 1280; width += 640) {
         struct blind b;
         open_scene(&b, "compositing");
@@ -91,9 +89,4 @@ static void a_click_on_it_takes_it_away(void **state)
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(it_covers_no_character),
-                                       cmocka_unit_test(a_click_on_it_takes_it_away)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return tests_run(NULL, NULL); }

@@ -80,9 +80,8 @@ static struct channel channel_of(enum axis axis, double gain)
     return (struct channel){.axis = axis, .lag.value = {20}, .gain.value = {gain}};
 }
 
-static void test_bends_as_the_tail_does(void **state)
+TEST(test_bends_as_the_tail_does)
 {
-    (void)state;
     struct imported imported = make_character();
     struct channel channels[] = {channel_of(AXIS_SIDE, 9), channel_of(AXIS_UP, 6)};
     const wiggly_value values[] = {{.y = 0.2, .re = 1, .im = -0.5}, {.re = -0.7, .im = 0.9}};
@@ -101,9 +100,8 @@ static void test_bends_as_the_tail_does(void **state)
     free_character(&imported);
 }
 
-static void test_axes_turn_and_mirror(void **state)
+TEST(test_axes_turn_and_mirror)
 {
-    (void)state;
     struct imported imported = make_character();
     struct channel side = channel_of(AXIS_SIDE, 9);
     const wiggly_value value = {.re = 1};
@@ -123,9 +121,8 @@ static void test_axes_turn_and_mirror(void **state)
     free_character(&imported);
 }
 
-static void test_twist_turns_without_moving(void **state)
+TEST(test_twist_turns_without_moving)
 {
-    (void)state;
     struct imported imported = make_character();
     struct channel twist = channel_of(AXIS_TWIST, 9);
     const wiggly_value value = {.re = 1};
@@ -136,9 +133,8 @@ static void test_twist_turns_without_moving(void **state)
     free_character(&imported);
 }
 
-static void test_what_is_no_chain(void **state)
+TEST(test_what_is_no_chain)
 {
-    (void)state;
     struct imported imported = make_character();
     const struct gltf *gltf = &imported.gltf;
     struct chain_bones bones;
@@ -155,13 +151,4 @@ static void test_what_is_no_chain(void **state)
     free_character(&imported);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_bends_as_the_tail_does),
-        cmocka_unit_test(test_axes_turn_and_mirror),
-        cmocka_unit_test(test_twist_turns_without_moving),
-        cmocka_unit_test(test_what_is_no_chain),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return tests_run(NULL, NULL); }

@@ -54,9 +54,8 @@ static double height_at(const struct scene *scene, int sample)
     return (double)pose->world[gltf_find_node(&imported->gltf, hips)][13];
 }
 
-static void test_up_is_the_joints_height_less_its_mean(void **state)
+TEST(test_up_is_the_joints_height_less_its_mean)
 {
-    (void)state;
     struct scene scene = open_scene();
     double mean = 0, most = 0;
     read_motion(&scene, hips, MOTION_UP);
@@ -71,9 +70,8 @@ static void test_up_is_the_joints_height_less_its_mean(void **state)
 }
 
 /// A clip that no number of samples fits goes on in its own time, round after round.
-static void test_a_clip_between_samples_does_not_drift(void **state)
+TEST(test_a_clip_between_samples_does_not_drift)
 {
-    (void)state;
     struct scene scene = open_scene();
     double mean = 0;
     scene.document->fps = 23.375; // a round of one second is 93.5 samples
@@ -87,9 +85,8 @@ static void test_a_clip_between_samples_does_not_drift(void **state)
     close_scene(&scene);
 }
 
-static void test_every_cycle_is_the_same(void **state)
+TEST(test_every_cycle_is_the_same)
 {
-    (void)state;
     struct scene scene = open_scene();
     read_motion(&scene, head, MOTION_ACROSS);
     const int cycle = (scene.count - 1) / CYCLES;
@@ -98,9 +95,8 @@ static void test_every_cycle_is_the_same(void **state)
 }
 
 /// Straight lines from key to key would bend at every fourth sample only; a spline's second differences do not jump.
-static void test_corners_are_rounded(void **state)
+TEST(test_corners_are_rounded)
 {
-    (void)state;
     struct scene scene = open_scene();
     double largest = 0, jump = 0, before = 0;
     read_motion(&scene, hips, MOTION_ACROSS);
@@ -115,9 +111,8 @@ static void test_corners_are_rounded(void **state)
     close_scene(&scene);
 }
 
-static void test_turn_is_in_degrees(void **state)
+TEST(test_turn_is_in_degrees)
 {
-    (void)state;
     struct scene scene = open_scene();
     double most = 0;
     read_motion(&scene, hips, MOTION_TURN);
@@ -126,9 +121,8 @@ static void test_turn_is_in_degrees(void **state)
     close_scene(&scene);
 }
 
-static void test_what_is_not_there(void **state)
+TEST(test_what_is_not_there)
 {
-    (void)state;
     static char nobody[] = "nobody";
     struct scene scene = open_scene();
     const struct motion_source source = clip_motions(scene.models);
@@ -139,15 +133,4 @@ static void test_what_is_not_there(void **state)
     close_scene(&scene);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_up_is_the_joints_height_less_its_mean),
-        cmocka_unit_test(test_a_clip_between_samples_does_not_drift),
-        cmocka_unit_test(test_every_cycle_is_the_same),
-        cmocka_unit_test(test_corners_are_rounded),
-        cmocka_unit_test(test_turn_is_in_degrees),
-        cmocka_unit_test(test_what_is_not_there),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return tests_run(NULL, NULL); }

@@ -27,9 +27,8 @@ static char *copied(struct session *s, int key)
     return text;
 }
 
-static void test_text_reads_back_equal(void **state)
+TEST(test_text_reads_back_equal)
 {
-    (void)state;
     struct knot knots[] = {{.frame = -3.25, .value = 1.0 / 3, .stiffness = KNOT_DEFAULT_STIFFNESS},
                            {.frame = 7, .value = -2e-9, .has_slope = true, .slope = 0.1, .stiffness = 12}};
     struct knot_list list;
@@ -49,9 +48,8 @@ static void test_text_reads_back_equal(void **state)
     free(text);
 }
 
-static void test_csv_in_its_dialects(void **state)
+TEST(test_csv_in_its_dialects)
 {
-    (void)state;
     static const char *const texts[] = {
         "1,2\n3,4.5,0.25,80\n",
         "frame,value,slope,stiffness\r\n1,2\r\n3,4.5,0.25,80\r\n",
@@ -80,9 +78,8 @@ static void test_csv_in_its_dialects(void **state)
 }
 
 /// What `wiggly solve` writes has other columns after the first two; they are no slopes.
-static void test_solved_samples_are_knots(void **state)
+TEST(test_solved_samples_are_knots)
 {
-    (void)state;
     struct knot_list list;
     assert_true(knots_parse("clipboard", "frame,sway,sway.re,sway.im\n0,1,1,0.5\n1,2,2,0.25\n", &list, NULL));
     assert_int_equal(list.count, 2);
@@ -91,9 +88,8 @@ static void test_solved_samples_are_knots(void **state)
     knot_list_free(&list);
 }
 
-static void test_bad_text_is_refused_in_one_sentence(void **state)
+TEST(test_bad_text_is_refused_in_one_sentence)
 {
-    (void)state;
     static const struct {
         const char *text, *sentence;
     } cases[] = {
@@ -123,9 +119,8 @@ static void test_bad_text_is_refused_in_one_sentence(void **state)
     }
 }
 
-static void test_copy_and_paste_at_the_playhead(void **state)
+TEST(test_copy_and_paste_at_the_playhead)
 {
-    (void)state;
     struct session s;
     session_open(&s, FIVE);
     session_click(&s, "knot(sway,1)");
@@ -152,9 +147,8 @@ static void test_copy_and_paste_at_the_playhead(void **state)
     session_close(&s);
 }
 
-static void test_cut_is_one_step(void **state)
+TEST(test_cut_is_one_step)
 {
-    (void)state;
     struct session s;
     session_open(&s, FIVE);
     session_key(&s, 'A', MOD_CTRL);
@@ -173,9 +167,8 @@ static void test_cut_is_one_step(void **state)
 }
 
 /// The second knot would hit the one at 40, the third of the next text the end of the range.
-static void test_a_paste_that_does_not_fit_changes_nothing(void **state)
+TEST(test_a_paste_that_does_not_fit_changes_nothing)
 {
-    (void)state;
     struct session s;
     session_open(&s, FIVE);
     session_click(&s, "ruler(35)");
@@ -196,9 +189,8 @@ static void test_a_paste_that_does_not_fit_changes_nothing(void **state)
     session_close(&s);
 }
 
-static void test_copies_come_behind_and_pass_through(void **state)
+TEST(test_copies_come_behind_and_pass_through)
 {
-    (void)state;
     struct session s;
     session_open(&s, FIVE);
     session_click(&s, "knot(sway,2)");
@@ -231,17 +223,4 @@ static void test_copies_come_behind_and_pass_through(void **state)
     session_close(&s);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_text_reads_back_equal),
-        cmocka_unit_test(test_csv_in_its_dialects),
-        cmocka_unit_test(test_solved_samples_are_knots),
-        cmocka_unit_test(test_bad_text_is_refused_in_one_sentence),
-        cmocka_unit_test(test_copy_and_paste_at_the_playhead),
-        cmocka_unit_test(test_cut_is_one_step),
-        cmocka_unit_test(test_a_paste_that_does_not_fit_changes_nothing),
-        cmocka_unit_test(test_copies_come_behind_and_pass_through),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return tests_run(NULL, NULL); }

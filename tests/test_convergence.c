@@ -157,9 +157,8 @@ static void measure(const struct convergence *c, wiggly_mode mode, wiggly_passiv
 }
 
 /// Measured: 3.93 … 4.70 for a quarter, 1.92 … 2.04 for a half.
-static void every_doubling_of_the_rate_quarters_the_change(void **state)
+TEST(every_doubling_of_the_rate_quarters_the_change)
 {
-    (void)state;
     for (size_t c = 0; c < sizeof cases / sizeof *cases; c++) {
         for (wiggly_mode mode = WIGGLY_COMPLEX; mode <= WIGGLY_CUBIC; mode++) {
             double change[LEVELS - 1], wanted = cases[c].halves >> mode & 1 ? 1.8 : 3.7;
@@ -175,9 +174,8 @@ static void every_doubling_of_the_rate_quarters_the_change(void **state)
     }
 }
 
-static void the_papers_filter_is_slower_where_slopes_and_rest_are_asked_for(void **state)
+TEST(the_papers_filter_is_slower_where_slopes_and_rest_are_asked_for)
 {
-    (void)state;
     for (size_t c = 0; c < sizeof cases / sizeof *cases; c++) {
         for (wiggly_mode mode = WIGGLY_COMPLEX; mode <= WIGGLY_CUBIC && cases[c].by_filter == SLOWER; mode++) {
             double change[LEVELS - 1];
@@ -190,9 +188,8 @@ static void the_papers_filter_is_slower_where_slopes_and_rest_are_asked_for(void
 }
 
 /// A complex spline's two poles let a moving equilibrium, and a frequency on its way, in at the first order.
-static void the_papers_complex_filter_is_slower_as_things_move(void **state)
+TEST(the_papers_complex_filter_is_slower_as_things_move)
 {
-    (void)state;
     for (size_t c = 0; c < sizeof cases / sizeof *cases; c++) {
         bool moves = cases[c].equilibrium || cases[c].frequency;
         if (!moves || cases[c].start == WIGGLY_LOOP) continue;
@@ -203,12 +200,4 @@ static void the_papers_complex_filter_is_slower_as_things_move(void **state)
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_doubling_of_the_rate_quarters_the_change),
-        cmocka_unit_test(the_papers_filter_is_slower_where_slopes_and_rest_are_asked_for),
-        cmocka_unit_test(the_papers_complex_filter_is_slower_as_things_move),
-    };
-    return cmocka_run_group_tests(tests, set_up, tear_down);
-}
+int main(void) { return tests_run(set_up, tear_down); }

@@ -48,9 +48,8 @@ static void assert_walked(struct session *s)
     assert_int_equal(selected_count(core, s->document), expected);
 }
 
-static void edits_and_selections_are_found(void **state)
+TEST(edits_and_selections_are_found)
 {
-    (void)state;
     struct session s;
     open_crowd(&s, CROWD);
     struct core *core = &s.editor->core;
@@ -77,9 +76,8 @@ static void edits_and_selections_are_found(void **state)
 }
 
 /// While a knot is dragged past others, and after.
-static void a_drag_is_found(void **state)
+TEST(a_drag_is_found)
 {
-    (void)state;
     struct session s;
     open_crowd(&s, 300);
     session_pull(&s, "knot(many,150)", 5, 5, 2);
@@ -96,9 +94,8 @@ static void a_drag_is_found(void **state)
 }
 
 /// Of a crowd each pixel column shows one knot, and the highest and lowest value are reached by its stroke.
-static void a_crowd_is_drawn_as_columns(void **state)
+TEST(a_crowd_is_drawn_as_columns)
 {
-    (void)state;
     struct session s;
     open_crowd(&s, CROWD);
     session_frame(&s);
@@ -111,12 +108,4 @@ static void a_crowd_is_drawn_as_columns(void **state)
     session_close(&s);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(edits_and_selections_are_found),
-        cmocka_unit_test(a_drag_is_found),
-        cmocka_unit_test(a_crowd_is_drawn_as_columns),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return tests_run(NULL, NULL); }

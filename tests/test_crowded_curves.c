@@ -17,9 +17,8 @@ static void open_crowded(struct session *s, int knots, int gap, const int *value
 }
 
 /// 2,400 knots on 900 pixels, three of them a swing: some are marked, and each can still be clicked.
-static void of_crowded_knots_some_are_marked_and_each_is_hit(void **state)
+TEST(of_crowded_knots_some_are_marked_and_each_is_hit)
 {
-    (void)state;
     static const int values[] = {0, 1, 2};
     struct session s;
     open_crowded(&s, 2400, 1, values, 3);
@@ -39,9 +38,8 @@ static void of_crowded_knots_some_are_marked_and_each_is_hit(void **state)
 
 /// Swings finer than a pixel are drawn as the band that they fill, also where a swing takes two columns, half a swing each; and a
 /// curve that can be followed stays a line.
-static void swings_finer_than_a_column_are_a_band(void **state)
+TEST(swings_finer_than_a_column_are_a_band)
 {
-    (void)state;
     static const int values[] = {-1, -1, 1, 1};
     struct session s;
     open_crowded(&s, 3200, 2, values, 4);
@@ -71,11 +69,4 @@ static void swings_finer_than_a_column_are_a_band(void **state)
     session_close(&s);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(of_crowded_knots_some_are_marked_and_each_is_hit),
-        cmocka_unit_test(swings_finer_than_a_column_are_a_band),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return tests_run(NULL, NULL); }

@@ -36,9 +36,8 @@ static void box(struct session *s, const char *from, const char *to, unsigned mo
     s->mods = 0;
 }
 
-static void test_a_box_selects_adds_and_removes(void **state)
+TEST(test_a_box_selects_adds_and_removes)
 {
-    (void)state;
     struct session s;
     session_open(&s, FIVE);
     drag_box(&s, "curve(sway,15,1.4)", "curve(sway,35,-1.2)", 0);
@@ -57,9 +56,8 @@ static void test_a_box_selects_adds_and_removes(void **state)
     session_close(&s);
 }
 
-static void test_escape_takes_a_box_back_and_a_click_clears(void **state)
+TEST(test_escape_takes_a_box_back_and_a_click_clears)
 {
-    (void)state;
     struct session s;
     session_open(&s, FIVE);
     session_click(&s, "knot(sway,3)");
@@ -75,9 +73,8 @@ static void test_escape_takes_a_box_back_and_a_click_clears(void **state)
     session_close(&s);
 }
 
-static void test_a_knot_of_another_curve_makes_it_active(void **state)
+TEST(test_a_knot_of_another_curve_makes_it_active)
 {
-    (void)state;
     struct session s;
     session_open(&s, FIVE);
     assert_int_equal(s.editor->core.active, 0);
@@ -90,9 +87,8 @@ static void test_a_knot_of_another_curve_makes_it_active(void **state)
     session_close(&s);
 }
 
-static void test_scaling_by_a_typed_factor(void **state)
+TEST(test_scaling_by_a_typed_factor)
 {
-    (void)state;
     struct session s;
     session_open(&s, FIVE);
     box(&s, "curve(sway,7,1.4)", "curve(sway,35,-1.2)", 0);
@@ -117,9 +113,8 @@ static void test_scaling_by_a_typed_factor(void **state)
     session_close(&s);
 }
 
-static void test_scaling_by_pointer_about_the_playhead(void **state)
+TEST(test_scaling_by_pointer_about_the_playhead)
 {
-    (void)state;
     struct session s;
     session_open(&s, FIVE);
     session_click(&s, "ruler(20)");
@@ -137,9 +132,8 @@ static void test_scaling_by_pointer_about_the_playhead(void **state)
     session_close(&s);
 }
 
-static void test_scaling_can_mirror_and_be_taken_back(void **state)
+TEST(test_scaling_can_mirror_and_be_taken_back)
 {
-    (void)state;
     struct session s;
     session_open(&s, FIVE);
     box(&s, "curve(sway,7,1.4)", "curve(sway,35,-1.2)", 0);
@@ -158,9 +152,8 @@ static void test_scaling_can_mirror_and_be_taken_back(void **state)
 }
 
 /// 4 would lie on 40, which is not selected; 0 would put all on one frame; 9 leads out of the range.
-static void test_scaling_never_swallows_a_knot(void **state)
+TEST(test_scaling_never_swallows_a_knot)
 {
-    (void)state;
     struct session s;
     session_open(&s, FIVE);
     box(&s, "curve(sway,7,1.4)", "curve(sway,35,-1.2)", 0);
@@ -177,9 +170,8 @@ static void test_scaling_never_swallows_a_knot(void **state)
     session_close(&s);
 }
 
-static void test_a_ripple_moves_what_comes_after(void **state)
+TEST(test_a_ripple_moves_what_comes_after)
 {
-    (void)state;
     struct session s;
     session_open(&s, FIVE);
     char *original = session_saved(&s);
@@ -208,9 +200,8 @@ static void test_a_ripple_moves_what_comes_after(void **state)
     session_close(&s);
 }
 
-static void test_ruler_units_and_snap(void **state)
+TEST(test_ruler_units_and_snap)
 {
-    (void)state;
     struct session s;
     session_open(&s, FIVE);
     session_move(&s, s.editor->core.layout.ruler.x / 2, s.editor->core.layout.ruler.y + 8);
@@ -231,9 +222,8 @@ static void test_ruler_units_and_snap(void **state)
     session_close(&s);
 }
 
-static void test_normalised_curves_keep_their_picture(void **state)
+TEST(test_normalised_curves_keep_their_picture)
 {
-    (void)state;
     struct session s;
     session_open(&s, FIVE);
     session_key(&s, 'N', 0);
@@ -256,9 +246,8 @@ static void test_normalised_curves_keep_their_picture(void **state)
 }
 
 /// A knot where the curve is, and with the slope that it has there, leaves every sample where it was.
-static void test_double_click_on_the_curve_keeps_it(void **state)
+TEST(test_double_click_on_the_curve_keeps_it)
 {
-    (void)state;
     struct session s;
     session_open(&s, FIVE);
     for (unsigned mods = 0; mods <= MOD_SHIFT; mods += MOD_SHIFT) {
@@ -282,9 +271,8 @@ static void test_double_click_on_the_curve_keeps_it(void **state)
 
 /// The same in every mode, with a start of every kind, and on an equilibrium that moves. Behind the last knot an oscillation dies away
 /// and a cubic is held, until a knot is there.
-static void test_a_sloped_knot_on_the_curve_keeps_it(void **state)
+TEST(test_a_sloped_knot_on_the_curve_keeps_it)
 {
-    (void)state;
     static const struct kind {
         const char *settings;
         int last; ///< frame of a knot
@@ -321,9 +309,8 @@ static void test_a_sloped_knot_on_the_curve_keeps_it(void **state)
 }
 
 /// As a cubic, by its mode or shown as one, it stays behind its last knot where that put it: a tail does not wind through its body.
-static void test_a_cubic_holds_its_last_value(void **state)
+TEST(test_a_cubic_holds_its_last_value)
 {
-    (void)state;
     static const char *const ways[] = {"VV", "VV", "MM"};
     for (int way = 0; way < 3; way++) {
         struct session s;
@@ -341,9 +328,8 @@ static void test_a_cubic_holds_its_last_value(void **state)
 }
 
 /// The first and the last as well as those between, of the active curve and of the others.
-static void test_every_knot_is_drawn(void **state)
+TEST(test_every_knot_is_drawn)
 {
-    (void)state;
     struct session s;
     session_open(&s, FIVE);
     session_frame(&s);
@@ -369,9 +355,8 @@ static void test_every_knot_is_drawn(void **state)
 }
 
 /// Twelve curves that end at the same height in the lowest panel there is.
-static void test_labels_never_overlap(void **state)
+TEST(test_labels_never_overlap)
 {
-    (void)state;
     char scene[4096];
     size_t at = (size_t)snprintf(scene, sizeof scene, "{\"wiggly\":1,\"frames\":[0,48],\"splines\":[");
     for (int i = 0; i < 12; i++) {
@@ -407,9 +392,8 @@ static double height_of(const struct session *s, int i, int k)
 }
 
 /// What is inserted, pasted or nudged out of sight comes into it in small steps, and the panel keeps still under a drag.
-static void test_the_view_follows_edits_smoothly(void **state)
+TEST(test_the_view_follows_edits_smoothly)
 {
-    (void)state;
     struct session s;
     session_open(&s, FIVE);
     const struct view *view = &s.editor->curves->view;
@@ -463,9 +447,8 @@ static const char SWAY[] =
     "{\"frame\": 56, \"value\": 0.4}, {\"frame\": 82, \"value\": 0.2}, {\"frame\": 100, \"value\": -0.6}]}]}";
 
 /// A found frequency, a chosen feel and a roll of the dice may swing far beyond what was seen.
-static void test_the_view_follows_another_feel(void **state)
+TEST(test_the_view_follows_another_feel)
 {
-    (void)state;
     struct session s;
     panel_open(&s, SWAY, 1280, 2400);
     session_key(&s, 'F', MOD_SHIFT);
@@ -480,9 +463,8 @@ static void test_the_view_follows_another_feel(void **state)
 }
 
 /// What was copied behind the end is in sight, and so is all that was before.
-static void test_the_view_follows_a_longer_scene(void **state)
+TEST(test_the_view_follows_a_longer_scene)
 {
-    (void)state;
     struct session s;
     session_open(&s, FIVE);
     const struct view *view = &s.editor->curves->view;
@@ -497,9 +479,8 @@ static void test_the_view_follows_a_longer_scene(void **state)
 }
 
 /// The active spline's imaginary part, too, is inside of the panel at first.
-static void test_all_that_is_drawn_is_framed(void **state)
+TEST(test_all_that_is_drawn_is_framed)
 {
-    (void)state;
     struct session s;
     session_open(&s, "{\"wiggly\": 1, \"frames\": [0, 3], \"splines\": [{\"name\": \"sway\", \"frequency\": 1,"
                      "\"damping\": 0.02, \"knots\": [{\"frame\": 0, \"value\": 0}, {\"frame\": 1, \"value\": 0.3},"
@@ -515,28 +496,4 @@ static void test_all_that_is_drawn_is_framed(void **state)
     session_close(&s);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_a_box_selects_adds_and_removes),
-        cmocka_unit_test(test_escape_takes_a_box_back_and_a_click_clears),
-        cmocka_unit_test(test_a_knot_of_another_curve_makes_it_active),
-        cmocka_unit_test(test_scaling_by_a_typed_factor),
-        cmocka_unit_test(test_scaling_by_pointer_about_the_playhead),
-        cmocka_unit_test(test_scaling_can_mirror_and_be_taken_back),
-        cmocka_unit_test(test_scaling_never_swallows_a_knot),
-        cmocka_unit_test(test_a_ripple_moves_what_comes_after),
-        cmocka_unit_test(test_ruler_units_and_snap),
-        cmocka_unit_test(test_normalised_curves_keep_their_picture),
-        cmocka_unit_test(test_double_click_on_the_curve_keeps_it),
-        cmocka_unit_test(test_a_cubic_holds_its_last_value),
-        cmocka_unit_test(test_a_sloped_knot_on_the_curve_keeps_it),
-        cmocka_unit_test(test_every_knot_is_drawn),
-        cmocka_unit_test(test_labels_never_overlap),
-        cmocka_unit_test(test_the_view_follows_edits_smoothly),
-        cmocka_unit_test(test_the_view_follows_another_feel),
-        cmocka_unit_test(test_the_view_follows_a_longer_scene),
-        cmocka_unit_test(test_all_that_is_drawn_is_framed),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return tests_run(NULL, NULL); }

@@ -22,9 +22,8 @@ static const char *caption(struct blind *b) { return b->app.table.editor->dialog
 static uint64_t scene_now(const struct blind *b) { return scene_hash(b->app.table.document); }
 
 /// Every target is there (else a frame fails), every caption fits, every kind of thing is shown, and the second round is the first.
-static void test_all_of_it_plays_and_begins_anew(void **state)
+TEST(test_all_of_it_plays_and_begins_anew)
 {
-    (void)state;
     struct blind b;
     bool seen[RIG_KINDS] = {false}, light = false, presents = false, records = false;
     demo_open(&b);
@@ -80,25 +79,22 @@ static void plays_until(const struct event *event, bool stops)
     blind_close(&b);
 }
 
-static void test_the_first_touch_ends_it_with_the_start_scene(void **state)
+TEST(test_the_first_touch_ends_it_with_the_start_scene)
 {
-    (void)state;
     plays_until(&(struct event){.kind = EVENT_KEY, .key = 'V', .action = ACTION_PRESS}, true);
     plays_until(&(struct event){.kind = EVENT_BUTTON, .action = ACTION_PRESS, .x = 300, .y = 200}, true);
     plays_until(&(struct event){.kind = EVENT_WHEEL, .dy = 1, .x = 300, .y = 200}, true);
 }
 
-static void test_a_pointer_that_passes_does_not(void **state)
+TEST(test_a_pointer_that_passes_does_not)
 {
-    (void)state;
     plays_until(&(struct event){.kind = EVENT_POINTER, .x = 300, .y = 200}, false);
     plays_until(&(struct event){.kind = EVENT_SIZE, .x = 1600, .y = 900, .scale = 1}, false);
 }
 
 /// A slow display shows fewer pictures of the same demo.
-static void test_it_takes_its_time_whatever_the_display(void **state)
+TEST(test_it_takes_its_time_whatever_the_display)
 {
-    (void)state;
     struct blind b;
     struct error error = {0};
     demo_open(&b);
@@ -110,9 +106,8 @@ static void test_it_takes_its_time_whatever_the_display(void **state)
 }
 
 /// The window's close button loses nothing, and asks nothing.
-static void test_the_window_closes_at_once(void **state)
+TEST(test_the_window_closes_at_once)
 {
-    (void)state;
     struct blind b;
     demo_open(&b);
     for (int i = 0; i < 9 * 60; i++) blind_frame(&b);
@@ -122,14 +117,4 @@ static void test_the_window_closes_at_once(void **state)
     blind_close(&b);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_all_of_it_plays_and_begins_anew),
-        cmocka_unit_test(test_the_first_touch_ends_it_with_the_start_scene),
-        cmocka_unit_test(test_a_pointer_that_passes_does_not),
-        cmocka_unit_test(test_it_takes_its_time_whatever_the_display),
-        cmocka_unit_test(test_the_window_closes_at_once),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return tests_run(NULL, NULL); }

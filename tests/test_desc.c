@@ -66,9 +66,8 @@ static void compare(wiggly_solver *used, const wiggly_desc *before, const wiggly
     wiggly_destroy(fresh);
 }
 
-static void a_solver_notices_another_value_of_any_member(void **state)
+TEST_WITH(set_up, NULL, a_solver_notices_another_value_of_any_member)
 {
-    (void)state;
     wiggly_solver *solver;
     assert_int_equal(wiggly_create(SAMPLES, KNOTS, &solver), WIGGLY_OK);
     for (int c = 0; c < 9; c++) {
@@ -84,9 +83,8 @@ static void a_solver_notices_another_value_of_any_member(void **state)
     wiggly_destroy(solver);
 }
 
-static void the_filter_is_kept_where_every_member_that_it_is_of_is_the_same(void **state)
+TEST(the_filter_is_kept_where_every_member_that_it_is_of_is_the_same)
 {
-    (void)state;
     wiggly_desc desc = describe(WIGGLY_REAL, WIGGLY_REST), copy = desc_settings(&desc);
     assert_true(desc_same_filter(&desc, &copy));
     assert_null(copy.knots);
@@ -96,11 +94,4 @@ static void the_filter_is_kept_where_every_member_that_it_is_of_is_the_same(void
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup(a_solver_notices_another_value_of_any_member, set_up),
-        cmocka_unit_test(the_filter_is_kept_where_every_member_that_it_is_of_is_the_same),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return tests_run(NULL, NULL); }

@@ -25,9 +25,8 @@ static double frames_wide(struct session *s)
 }
 
 /// A turn of two notches is as much as two of one.
-static void notches_of_the_wheel_add_up(void **state)
+TEST(notches_of_the_wheel_add_up)
 {
-    (void)state;
     struct session s;
     double width[3];
     session_open(&s, tail);
@@ -46,9 +45,8 @@ static void notches_of_the_wheel_add_up(void **state)
 }
 
 /// More splines than the window is high: the wheel turns the open list, wherever on it the pointer is.
-static void a_long_list_turns_by_wheel(void **state)
+TEST(a_long_list_turns_by_wheel)
 {
-    (void)state;
     static char scene[8000];
     size_t end = (size_t)snprintf(scene, sizeof scene, "{\"wiggly\": 1, \"frames\": [0, 48], \"splines\": [");
     for (int i = 0; i < 60; i++)
@@ -75,9 +73,8 @@ static double lag_of(const struct session *s, int channel)
 }
 
 /// L and an arrow: the lag of the channel that the active spline drives, whichever it is.
-static void lag_is_the_active_splines(void **state)
+TEST(lag_is_the_active_splines)
 {
-    (void)state;
     for (int active = 0; active < 2; active++) {
         struct session s;
         session_open(&s, tail);
@@ -93,9 +90,8 @@ static void lag_is_the_active_splines(void **state)
 }
 
 /// In the list of rigs each has the colour of the spline that moves it first.
-static void a_rig_has_the_colour_of_its_first_spline(void **state)
+TEST(a_rig_has_the_colour_of_its_first_spline)
 {
-    (void)state;
     struct session s;
     float x, y;
     int found = 0;
@@ -128,9 +124,8 @@ static int lines_at(struct session *s, const char *widget)
     return count;
 }
 
-static void small_buttons_have_their_icons(void **state)
+TEST(small_buttons_have_their_icons)
 {
-    (void)state;
     struct session s;
     panel_open(&s, tail, 1280, 1400);
     assert_true(lines_at(&s, "eye.sway") > 0);
@@ -139,9 +134,8 @@ static void small_buttons_have_their_icons(void **state)
 }
 
 /// The lines of equal damping say which they are; the lowest, at the edge, needs no number.
-static void the_map_of_poles_has_its_numbers(void **state)
+TEST(the_map_of_poles_has_its_numbers)
 {
-    (void)state;
     struct session s;
     panel_open(&s, tail, 1280, 1400);
     inspector_unfold(s.editor->inspector, "section.poles");
@@ -152,9 +146,8 @@ static void the_map_of_poles_has_its_numbers(void **state)
 }
 
 /// A letter that is let go while a dialog is open is no longer held once that is closed.
-static void a_letter_let_go_in_a_dialog_is_not_held(void **state)
+TEST(a_letter_let_go_in_a_dialog_is_not_held)
 {
-    (void)state;
     struct session s;
     session_open(&s, tail);
     char *before = session_saved(&s);
@@ -170,9 +163,8 @@ static void a_letter_let_go_in_a_dialog_is_not_held(void **state)
     session_close(&s);
 }
 
-static void nothing_to_follow_is_an_error(void **state)
+TEST(nothing_to_follow_is_an_error)
 {
-    (void)state;
     struct session s;
     panel_open(
         &s, "{\"wiggly\": 1, \"frames\": [0, 48], \"splines\": [{\"name\": \"alone\", \"knots\": []}], \"rigs\": []}",
@@ -184,9 +176,8 @@ static void nothing_to_follow_is_an_error(void **state)
 }
 
 /// What a recording names and the scene does not have is said.
-static void targets_that_are_missing_are_said(void **state)
+TEST(targets_that_are_missing_are_said)
 {
-    (void)state;
     static const char *const missing[] = {"pin(tail,0)",  "pintime(tail,0)", "knot(sway,7)",
                                           "knot(none,0)", "tail(none,0.5)",  "divider(none)"};
     struct session s;
@@ -200,9 +191,8 @@ static void targets_that_are_missing_are_said(void **state)
     session_close(&s);
 }
 
-static void a_target_from_the_pointer(void **state)
+TEST(a_target_from_the_pointer)
 {
-    (void)state;
     struct session s;
     struct error error = {0};
     float x, y;
@@ -216,9 +206,8 @@ static void a_target_from_the_pointer(void **state)
 }
 
 /// Knots before a first frame are asked about, as those behind a last one are.
-static void a_first_frame_asks_for_its_knots(void **state)
+TEST(a_first_frame_asks_for_its_knots)
 {
-    (void)state;
     struct session s;
     panel_open(&s, tail, 1280, 1600);
     panel_click(&s, "section.scene");
@@ -232,9 +221,8 @@ static void a_first_frame_asks_for_its_knots(void **state)
 }
 
 /// A preset is no state that something is in: none of their buttons looks like the one that Enter presses.
-static void presets_look_alike_and_plain(void **state)
+TEST(presets_look_alike_and_plain)
 {
-    (void)state;
     static const char *const presets[] = {"preset.cat", "preset.whip", "preset.heavy", "preset.jelly",
                                           "preset.antenna"};
     struct session s;
@@ -252,21 +240,4 @@ static void presets_look_alike_and_plain(void **state)
     session_close(&s);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(notches_of_the_wheel_add_up),
-        cmocka_unit_test(a_long_list_turns_by_wheel),
-        cmocka_unit_test(lag_is_the_active_splines),
-        cmocka_unit_test(a_rig_has_the_colour_of_its_first_spline),
-        cmocka_unit_test(small_buttons_have_their_icons),
-        cmocka_unit_test(the_map_of_poles_has_its_numbers),
-        cmocka_unit_test(a_letter_let_go_in_a_dialog_is_not_held),
-        cmocka_unit_test(nothing_to_follow_is_an_error),
-        cmocka_unit_test(targets_that_are_missing_are_said),
-        cmocka_unit_test(a_target_from_the_pointer),
-        cmocka_unit_test(a_first_frame_asks_for_its_knots),
-        cmocka_unit_test(presets_look_alike_and_plain),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return tests_run(NULL, NULL); }

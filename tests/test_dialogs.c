@@ -55,9 +55,8 @@ static void click(struct session *session, const char *text, int clicks)
     }
 }
 
-static void test_recent_files(void **state)
+TEST(test_recent_files)
 {
-    (void)state;
     struct session s;
     open_session(&s);
     session_key(&s, 'O', MOD_CTRL);
@@ -79,9 +78,8 @@ static void test_recent_files(void **state)
 }
 
 /// They make room for the folder's names as soon as something is typed, and are not offered for saving.
-static void test_recent_files_give_way(void **state)
+TEST(test_recent_files_give_way)
 {
-    (void)state;
     struct session s;
     open_session(&s);
     session_key(&s, 'O', MOD_CTRL);
@@ -95,9 +93,8 @@ static void test_recent_files_give_way(void **state)
     session_close(&s);
 }
 
-static void test_mouse_in_the_list(void **state)
+TEST(test_mouse_in_the_list)
 {
-    (void)state;
     struct session s;
     open_session(&s);
     session_key(&s, 'O', MOD_CTRL);
@@ -127,9 +124,8 @@ static void open_offer(struct session *session)
     assert_non_null(shown_text(session->editor, "Recover unsaved work on walk.json?"));
 }
 
-static void test_recover(void **state)
+TEST(test_recover)
 {
-    (void)state;
     struct session s;
     open_offer(&s);
     session_key(&s, KEY_DELETE, 0); // the keys are the dialog's
@@ -151,9 +147,8 @@ static void test_recover(void **state)
     session_close(&s);
 }
 
-static void test_discard_and_later(void **state)
+TEST(test_discard_and_later)
 {
-    (void)state;
     struct session s;
     open_offer(&s);
     click(&s, "Discard", 1);
@@ -177,9 +172,8 @@ static void test_discard_and_later(void **state)
 }
 
 /// The card for new users goes with a click on it (and only there), Esc, the help, or an edit; not by itself.
-static void test_welcome(void **state)
+TEST(test_welcome)
 {
-    (void)state;
     struct session s;
     open_session(&s);
     assert_null(shown_text(s.editor, "Got it"));
@@ -209,9 +203,8 @@ static void test_welcome(void **state)
 }
 
 /// What the card says suits the scene: before and after a character of one's own is dropped on the window.
-static void test_welcome_with_a_character(void **state)
+TEST(test_welcome_with_a_character)
 {
-    (void)state;
     struct session s;
     open_session(&s);
     editor_welcome(s.editor);
@@ -243,9 +236,8 @@ static void expect_advice(const char *json, const char *first, const char *statu
     session_close(&s);
 }
 
-static void test_advice_names_what_is_there(void **state)
+TEST(test_advice_names_what_is_there)
 {
-    (void)state;
 #define SWING_BY(knots) "{\"frames\": [0, 24], \"splines\": [{\"name\": \"swing\", \"knots\": [" knots "]}]"
 #define SWING SWING_BY("{\"frame\": 0, \"value\": 1}")
 #define REX "{\"type\": \"model\", \"name\": \"rex\", \"model\": \"/home/ada/rex.glb\"}"
@@ -270,13 +262,4 @@ static void test_advice_names_what_is_there(void **state)
     expect_advice(SWING "}", "Double-click", "Drag a knot. Space plays, F1 shows all keys");
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_recent_files),      cmocka_unit_test(test_recent_files_give_way),
-        cmocka_unit_test(test_mouse_in_the_list), cmocka_unit_test(test_recover),
-        cmocka_unit_test(test_welcome),           cmocka_unit_test(test_welcome_with_a_character),
-        cmocka_unit_test(test_discard_and_later), cmocka_unit_test(test_advice_names_what_is_there),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return tests_run(NULL, NULL); }

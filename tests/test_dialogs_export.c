@@ -61,9 +61,8 @@ static struct request asked(struct session *s)
     return request;
 }
 
-static void test_enter_exports_the_scene(void **state)
+TEST(test_enter_exports_the_scene)
 {
-    (void)state;
     struct session s;
     open_session(&s, "work/walk.json", 1280, 720);
     assert_non_null(shown_text(s.editor, "Write walk.glb"));
@@ -76,9 +75,8 @@ static void test_enter_exports_the_scene(void **state)
 }
 
 /// A character's own file is not what Enter writes over, whether its scene has a file beside it or none.
-static void test_a_character_keeps_its_file(void **state)
+TEST(test_a_character_keeps_its_file)
 {
-    (void)state;
     static const char with_dog[] =
         "{\"frames\": [0, 24], \"splines\": [], \"rigs\": [{\"type\": \"model\", \"model\": "
         "\"/somewhere/rex.glb\"}]}";
@@ -103,9 +101,8 @@ static void test_a_character_keeps_its_file(void **state)
     }
 }
 
-static void test_the_ending_is_the_format(void **state)
+TEST(test_the_ending_is_the_format)
 {
-    (void)state;
     struct session s;
     open_session(&s, "walk.json", 1280, 720);
     panel_type(&s, "take.csv"); // over the selected name
@@ -123,9 +120,8 @@ static void test_the_ending_is_the_format(void **state)
     session_close(&s);
 }
 
-static void test_a_name_without_an_ending_gets_one(void **state)
+TEST(test_a_name_without_an_ending_gets_one)
 {
-    (void)state;
     struct session s;
     open_session(&s, "", 1280, 720);
     panel_type(&s, "v1.2");
@@ -134,9 +130,8 @@ static void test_a_name_without_an_ending_gets_one(void **state)
     session_close(&s);
 }
 
-static void test_choices_are_asked_for(void **state)
+TEST(test_choices_are_asked_for)
 {
-    (void)state;
     struct session s;
     open_session(&s, "walk.json", 1280, 720);
     enter(&s, "frames", 120, "12");
@@ -159,9 +154,8 @@ static void test_choices_are_asked_for(void **state)
 }
 
 /// A file that holds one rig is offered no other choice than one.
-static void test_one_rig_only(void **state)
+TEST(test_one_rig_only)
 {
-    (void)state;
     struct session s;
     open_session(&s, "walk.json", 1280, 720);
     click(&s, ".pc2");
@@ -173,7 +167,7 @@ static void test_one_rig_only(void **state)
 }
 
 /// Chains are rigs of their own only where joints alone are written; their character is none there.
-static void test_joints_are_tails_and_chains(void **state)
+TEST(test_joints_are_tails_and_chains)
 {
     static const char dog[] = "{\"frames\": [0, 48], \"splines\": [{\"name\": \"sway\"}], \"rigs\": [{\"type\": "
                               "\"model\", \"name\": \"dog\", "
@@ -182,7 +176,6 @@ static void test_joints_are_tails_and_chains(void **state)
                               "\"b\", \"channels\": [{\"spline\": \"sway\"}]}, {\"type\": \"chain\", \"name\": "
                               "\"ear\", \"model\": \"dog\", "
                               "\"from\": \"c\", \"to\": \"d\", \"channels\": [{\"spline\": \"sway\"}]}]}";
-    (void)state;
     struct session s;
     open_other(&s, dog, "dog.json", 1280, 720);
     click(&s, ".pc2");
@@ -193,9 +186,8 @@ static void test_joints_are_tails_and_chains(void **state)
     session_close(&s);
 }
 
-static void test_size_of_pictures(void **state)
+TEST(test_size_of_pictures)
 {
-    (void)state;
     struct session s;
     open_session(&s, "walk.json", 1280, 720);
     click(&s, ".gif");
@@ -208,9 +200,8 @@ static void test_size_of_pictures(void **state)
     session_close(&s);
 }
 
-static void test_cancelling(void **state)
+TEST(test_cancelling)
 {
-    (void)state;
     struct session s;
     open_session(&s, "walk.json", 1280, 720);
     session_key(&s, KEY_ENTER, 0);
@@ -235,9 +226,8 @@ static void test_cancelling(void **state)
 }
 
 /// Esc belongs to a number while it is typed.
-static void test_escape_in_a_number(void **state)
+TEST(test_escape_in_a_number)
 {
-    (void)state;
     struct session s;
     open_session(&s, "walk.json", 1280, 720);
     const struct draw_command *word = shown_text(s.editor, "frames");
@@ -249,9 +239,8 @@ static void test_escape_in_a_number(void **state)
     session_close(&s);
 }
 
-static void test_remembered(void **state)
+TEST(test_remembered)
 {
-    (void)state;
     struct session s;
     open_session(&s, "walk.json", 1280, 720);
     panel_type(&s, "films/first.webm");
@@ -276,9 +265,8 @@ static void test_remembered(void **state)
     session_close(&s);
 }
 
-static void test_small_windows(void **state)
+TEST(test_small_windows)
 {
-    (void)state;
     struct session s;
     open_session(&s, "walk.json", 640, 400);
     const struct draw_command *button = shown_text(s.editor, "Write walk.glb");
@@ -291,21 +279,4 @@ static void test_small_windows(void **state)
     session_close(&s);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_enter_exports_the_scene),
-        cmocka_unit_test(test_a_character_keeps_its_file),
-        cmocka_unit_test(test_the_ending_is_the_format),
-        cmocka_unit_test(test_a_name_without_an_ending_gets_one),
-        cmocka_unit_test(test_choices_are_asked_for),
-        cmocka_unit_test(test_one_rig_only),
-        cmocka_unit_test(test_joints_are_tails_and_chains),
-        cmocka_unit_test(test_size_of_pictures),
-        cmocka_unit_test(test_cancelling),
-        cmocka_unit_test(test_escape_in_a_number),
-        cmocka_unit_test(test_remembered),
-        cmocka_unit_test(test_small_windows),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return tests_run(NULL, NULL); }

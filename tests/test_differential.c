@@ -149,7 +149,7 @@ static void compare(wiggly_solver *solver, const struct example *e, uint64_t see
     curve_destroy(&exact);
 }
 
-static void every_pattern_to_10_samples(void **state)
+TEST(every_pattern_to_10_samples)
 {
     wiggly_solver *solver = *state;
     struct tally tally = {0};
@@ -167,7 +167,7 @@ static void every_pattern_to_10_samples(void **state)
     assert_true(tally.solved > quick_or_all(3000, 13000) && tally.lapack > quick_or_all(1500, 7000));
 }
 
-static void random_patterns_to_40_samples(void **state)
+TEST(random_patterns_to_40_samples)
 {
     wiggly_solver *solver = *state;
     struct tally tally = {0};
@@ -187,7 +187,7 @@ static void random_patterns_to_40_samples(void **state)
 }
 
 /// The same patterns through the factorisation that long domains get.
-static void without_squaring(void **state)
+TEST(without_squaring)
 {
     wiggly_solver *solver = *state;
     int usual = solver->longest_squared;
@@ -205,12 +205,4 @@ static int destroy(void **state)
     return 0;
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_pattern_to_10_samples),
-        cmocka_unit_test(random_patterns_to_40_samples),
-        cmocka_unit_test(without_squaring),
-    };
-    return cmocka_run_group_tests(tests, create, destroy);
-}
+int main(void) { return tests_run(create, destroy); }

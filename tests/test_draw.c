@@ -74,9 +74,8 @@ static unsigned at(int x, int y)
 /// How much of a white thing on black covers a pixel.
 static double coverage(int x, int y) { return pixels[4 * (y * WIDTH + x)] / 255.0; }
 
-static void test_rect_has_its_color_and_exact_edges(void **state)
+TEST(test_rect_has_its_color_and_exact_edges)
 {
-    (void)state;
     begin();
     drawlist_rect(&list, (struct rect){0.0f, 0.0f, WIDTH, HEIGHT}, BLACK);
     drawlist_rect(&list, (struct rect){10.0f, 20.0f, 30.0f, 40.0f}, theme()->accent);
@@ -94,9 +93,8 @@ static void test_rect_has_its_color_and_exact_edges(void **state)
     assert_near(coverage(110, 50), 0.5, 0.01);
 }
 
-static void test_later_commands_cover_earlier_ones(void **state)
+TEST(test_later_commands_cover_earlier_ones)
 {
-    (void)state;
     begin();
     drawlist_rect(&list, (struct rect){0.0f, 0.0f, 200.0f, 200.0f}, theme()->accent); // large enough to be a fill
     drawlist_rect(&list, (struct rect){20.0f, 20.0f, 10.0f, 10.0f}, WHITE);
@@ -120,9 +118,8 @@ static double ink(int x0, int y0, int x1, int y1)
 }
 
 // A line of width w crosses each pixel column with w / cos(slope) of ink, whatever its slope and thin ones included.
-static void test_line_has_its_width_at_every_slope(void **state)
+TEST(test_line_has_its_width_at_every_slope)
 {
-    (void)state;
     const float widths[] = {0.5f, 1.0f, 1.25f, 2.5f, 6.0f}, slopes[] = {0.0f, 0.1f, 0.5f, 1.0f};
     for (int i = 0; i < 20; i++) {
         float width = widths[i % 5], slope = slopes[i / 5];
@@ -135,9 +132,8 @@ static void test_line_has_its_width_at_every_slope(void **state)
     }
 }
 
-static void test_line_ends_where_it_is_told(void **state)
+TEST(test_line_ends_where_it_is_told)
 {
-    (void)state;
     begin();
     drawlist_rect(&list, (struct rect){0.0f, 0.0f, WIDTH, HEIGHT}, BLACK);
     drawlist_line(&list, (const float[]){20.0f, 30.5f, 60.0f, 30.5f}, 2, 1.0f, WHITE);
@@ -149,9 +145,8 @@ static void test_line_ends_where_it_is_told(void **state)
 }
 
 /// An end between two pixels covers its share of the last one, wherever on the screen and of however many points the line is.
-static void test_line_ends_between_pixels(void **state)
+TEST(test_line_ends_between_pixels)
 {
-    (void)state;
     const float from[] = {20.25f, 220.25f};
     for (int i = 0; i < 2; i++) {
         const float x = from[i];
@@ -170,9 +165,8 @@ static void test_line_ends_between_pixels(void **state)
 }
 
 // Where the quads of a translucent curve overlapped, it would be brighter; where they gaped, darker.
-static void test_translucent_curve_has_no_seams(void **state)
+TEST(test_translucent_curve_has_no_seams)
 {
-    (void)state;
     float xy[600];
     for (int i = 0; i < 300; i++) {
         xy[2 * i] = 10.0f + (float)i;
@@ -190,9 +184,8 @@ static void test_translucent_curve_has_no_seams(void **state)
     }
 }
 
-static void test_closed_line_has_all_its_corners(void **state)
+TEST(test_closed_line_has_all_its_corners)
 {
-    (void)state;
     begin();
     drawlist_rect(&list, (struct rect){0.0f, 0.0f, WIDTH, HEIGHT}, BLACK);
     drawlist_rounded_line(&list, (struct rect){20.0f, 20.0f, 40.0f, 30.0f}, 0.0f, 2.0f, WHITE);
@@ -201,9 +194,8 @@ static void test_closed_line_has_all_its_corners(void **state)
     assert_near(ink(0, 0, 100, 100), 2.0 * 2.0 * (40.0 + 30.0) - 16.0, 1.0);
 }
 
-static void test_convex_covers_its_area(void **state)
+TEST(test_convex_covers_its_area)
 {
-    (void)state;
     begin();
     drawlist_rect(&list, (struct rect){0.0f, 0.0f, WIDTH, HEIGHT}, BLACK);
     drawlist_convex(&list, (const float[]){60.0f, 40.0f, 75.0f, 55.0f, 60.0f, 70.0f, 45.0f, 55.0f}, 4, WHITE);
@@ -214,9 +206,8 @@ static void test_convex_covers_its_area(void **state)
     assert_near(coverage(60, 55), 1.0, 0.0);
 }
 
-static void test_nothing_shows_outside_its_clip(void **state)
+TEST(test_nothing_shows_outside_its_clip)
 {
-    (void)state;
     begin();
     drawlist_rect(&list, (struct rect){0.0f, 0.0f, WIDTH, HEIGHT}, BLACK);
     drawlist_push_clip(&list, (struct rect){40.0f, 40.0f, 60.0f, 50.0f});
@@ -230,9 +221,8 @@ static void test_nothing_shows_outside_its_clip(void **state)
     assert_near(all, inside, 0.0);
 }
 
-static void test_text_is_where_layout_says(void **state)
+TEST(test_text_is_where_layout_says)
 {
-    (void)state;
     begin();
     drawlist_rect(&list, (struct rect){0.0f, 0.0f, WIDTH, HEIGHT}, BLACK);
     drawlist_text(&list, 50.0f, 100.0f, FONT_LABEL, THEME_TEXT_TITLE, WHITE, "HHHH");
@@ -320,9 +310,8 @@ static struct stage_view some_stage(float turn)
 }
 
 // The promise of the damage grid, over frames in which things appear, vanish, move, and overlap each other and the stage.
-static void test_partial_redraw_equals_full_redraw(void **state)
+TEST(test_partial_redraw_equals_full_redraw)
 {
-    (void)state;
     enum { THINGS = 24, FRAMES = 120 };
     struct thing things[THINGS];
     struct stage_view stage = some_stage(0.0f);
@@ -345,9 +334,8 @@ static void test_partial_redraw_equals_full_redraw(void **state)
 }
 
 // While the stage is drawn smaller, what lies over it and beside it is as sharp as ever; afterwards every pixel is exact again.
-static void test_only_the_stage_loses_resolution(void **state)
+TEST(test_only_the_stage_loses_resolution)
 {
-    (void)state;
     static unsigned char reduced[sizeof pixels];
     struct stage_view stage = some_stage(0.0f);
     for (int pass = 0; pass < 3; pass++) {
@@ -397,9 +385,8 @@ static struct draw_cost move_playhead(const struct stage_view *stage)
     return show_on(stage, true, pixels);
 }
 
-static void test_moving_playhead_redraws_narrow_strips(void **state)
+TEST(test_moving_playhead_redraws_narrow_strips)
 {
-    (void)state;
     struct stage_view stage = some_stage(0.0f);
     struct draw_cost cost = move_playhead(&stage);
     assert_int_equal(cost.rectangles, 2);
@@ -408,9 +395,8 @@ static void test_moving_playhead_redraws_narrow_strips(void **state)
     assert_int_equal(at(50, 130), theme()->panel >> 8);
 }
 
-static void test_a_stage_out_of_the_way_is_not_uploaded(void **state)
+TEST(test_a_stage_out_of_the_way_is_not_uploaded)
 {
-    (void)state;
     struct stage_view stage = some_stage(0.0f);
     stage.viewport.h = 90.0f;
     long bytes = move_playhead(&stage).uploaded_bytes;
@@ -419,9 +405,8 @@ static void test_a_stage_out_of_the_way_is_not_uploaded(void **state)
 }
 
 // More than a buffer holds at once, in one line: drawn in several goes, its last point as well as its first.
-static void test_very_long_line_is_drawn_whole(void **state)
+TEST(test_very_long_line_is_drawn_whole)
 {
-    (void)state;
     enum { COUNT = 120000 };
     float *xy = calloc(2 * COUNT, sizeof *xy);
     assert_non_null(xy);
@@ -438,9 +423,8 @@ static void test_very_long_line_is_drawn_whole(void **state)
     for (int x = 11; x < 309; x++) assert_near(coverage(x, 120), 1.0, 0.01);
 }
 
-static void test_reference_frame_does_not_depend_on_the_scene(void **state)
+TEST(test_reference_frame_does_not_depend_on_the_scene)
 {
-    (void)state;
     begin();
     assert_true(draw_reference_ms(draw, WIDTH, HEIGHT, 3) > 0.0);
     draw_read(WIDTH, HEIGHT, expected);
@@ -451,9 +435,8 @@ static void test_reference_frame_does_not_depend_on_the_scene(void **state)
     assert_memory_equal(pixels, expected, sizeof pixels);
 }
 
-static void test_gpu_times_come_back_with_their_frames(void **state)
+TEST(test_gpu_times_come_back_with_their_frames)
 {
-    (void)state;
     begin();
     struct gpu_timer timer;
     long frame = 0;
@@ -476,9 +459,8 @@ static void test_gpu_times_come_back_with_their_frames(void **state)
 }
 
 /// Points in turn on an upper edge that rises and a lower one that jumps: everything between is covered once, and nothing beyond.
-static void test_band_covers_what_its_line_swings_through(void **state)
+TEST(test_band_covers_what_its_line_swings_through)
 {
-    (void)state;
     static const uint32_t half = 0xFFFFFF80u;
     float xy[201][2];
     begin();
@@ -505,27 +487,4 @@ static void test_band_covers_what_its_line_swings_through(void **state)
     assert_near(coverage(270, 100), 0, 0.01);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_gpu_times_come_back_with_their_frames),
-        cmocka_unit_test(test_band_covers_what_its_line_swings_through),
-        cmocka_unit_test(test_rect_has_its_color_and_exact_edges),
-        cmocka_unit_test(test_later_commands_cover_earlier_ones),
-        cmocka_unit_test(test_line_has_its_width_at_every_slope),
-        cmocka_unit_test(test_line_ends_where_it_is_told),
-        cmocka_unit_test(test_line_ends_between_pixels),
-        cmocka_unit_test(test_translucent_curve_has_no_seams),
-        cmocka_unit_test(test_closed_line_has_all_its_corners),
-        cmocka_unit_test(test_convex_covers_its_area),
-        cmocka_unit_test(test_nothing_shows_outside_its_clip),
-        cmocka_unit_test(test_text_is_where_layout_says),
-        cmocka_unit_test(test_partial_redraw_equals_full_redraw),
-        cmocka_unit_test(test_only_the_stage_loses_resolution),
-        cmocka_unit_test(test_moving_playhead_redraws_narrow_strips),
-        cmocka_unit_test(test_a_stage_out_of_the_way_is_not_uploaded),
-        cmocka_unit_test(test_very_long_line_is_drawn_whole),
-        cmocka_unit_test(test_reference_frame_does_not_depend_on_the_scene),
-    };
-    return cmocka_run_group_tests(tests, set_up, tear_down);
-}
+int main(void) { return tests_run(set_up, tear_down); }

@@ -46,7 +46,7 @@ static uint64_t line_hash(struct drawlist *list, float x, float width, float on,
 }
 
 // A change that the hash does not see would stay invisible on the screen.
-static void test_hash_sees_every_change(void **state)
+TEST(test_hash_sees_every_change)
 {
     struct drawlist *list = fresh(state);
     uint64_t hash = line_hash(list, 60.0f, 2.0f, 6.0f, theme()->text, WHOLE);
@@ -66,7 +66,7 @@ static uint64_t text_hash(struct drawlist *list, float x, float size, enum font 
     return list->commands[0].hash;
 }
 
-static void test_text_hash_sees_every_change(void **state)
+TEST(test_text_hash_sees_every_change)
 {
     struct drawlist *list = fresh(state);
     uint64_t hash = text_hash(list, 10.0f, 13.0f, FONT_LABEL, "frame 36");
@@ -77,7 +77,7 @@ static void test_text_hash_sees_every_change(void **state)
     assert_true(hash != text_hash(list, 10.0f, 13.0f, FONT_LABEL_BOLD, "frame 36"));
 }
 
-static void test_bounds_are_clipped_and_the_unseen_left_out(void **state)
+TEST(test_bounds_are_clipped_and_the_unseen_left_out)
 {
     struct drawlist *list = fresh(state);
     struct rect before = drawlist_push_clip(list, (struct rect){20.0f, 20.0f, 30.0f, 30.0f});
@@ -95,7 +95,7 @@ static void test_bounds_are_clipped_and_the_unseen_left_out(void **state)
     assert_int_equal(list->count, 2);
 }
 
-static void test_coordinates_that_are_not_finite_are_left_out(void **state)
+TEST(test_coordinates_that_are_not_finite_are_left_out)
 {
     struct drawlist *list = fresh(state);
     const float bad[6] = {10.0f, 10.0f, NAN, 20.0f, 40.0f, 50.0f},
@@ -109,7 +109,7 @@ static void test_coordinates_that_are_not_finite_are_left_out(void **state)
 }
 
 // The pools are all the memory there is: what does not fit must be missing whole, not in part.
-static void test_overflow_is_told_and_harmless(void **state)
+TEST(test_overflow_is_told_and_harmless)
 {
     struct drawlist *list = fresh(state);
     float xy[2 * 17] = {0};
@@ -131,7 +131,7 @@ static void test_overflow_is_told_and_harmless(void **state)
     assert_int_equal(list->count, 8);
 }
 
-static void test_long_text_is_cut_at_a_character_with_an_ellipsis(void **state)
+TEST(test_long_text_is_cut_at_a_character_with_an_ellipsis)
 {
     struct drawlist *list = fresh(state);
     const float width = 60.0f;
@@ -147,9 +147,8 @@ static void test_long_text_is_cut_at_a_character_with_an_ellipsis(void **state)
     assert_string_equal(list->text, "short");
 }
 
-static void test_utf8_survives_broken_bytes(void **state)
+TEST(test_utf8_survives_broken_bytes)
 {
-    (void)state;
     const char *broken[] = {"\x80", "\xC3", "\xE2\x82", "\xC0\x80", "\xED\xA0\x80", "\xF5\x80\x80\x80", "\xFF"};
     for (size_t i = 0; i < sizeof broken / sizeof broken[0]; i++) {
         const char *at = broken[i];
@@ -163,9 +162,8 @@ static void test_utf8_survives_broken_bytes(void **state)
     assert_int_equal(utf8_next(&at), 0);
 }
 
-static void test_number_font_is_tabular(void **state)
+TEST(test_number_font_is_tabular)
 {
-    (void)state;
     float one = font_width(FONT_NUMBER, 13.0f, "1");
     for (const char *c = "0123456789.-+"; *c; c++) {
         assert_near(font_width(FONT_NUMBER, 13.0f, (char[]){*c, '\0'}), one, 1.0e-6);
@@ -175,9 +173,8 @@ static void test_number_font_is_tabular(void **state)
 }
 
 // Layout and drawing must agree on where a text ends, at every scale.
-static void test_atlas_advances_match_layout(void **state)
+TEST(test_atlas_advances_match_layout)
 {
-    (void)state;
     const char *sample = "Wζ° → 0.5…";
     const float sizes[] = {THEME_TEXT_SMALL, THEME_TEXT_NORMAL, THEME_TEXT_TITLE}, scales[] = {1.0f, 1.5f, 2.0f};
     for (int i = 0; i < 9; i++) {
@@ -193,9 +190,8 @@ static void test_atlas_advances_match_layout(void **state)
 }
 
 // Every sign of the interface must be more than the '?' that stands for missing ones.
-static void test_atlas_has_the_signs_of_the_interface(void **state)
+TEST(test_atlas_has_the_signs_of_the_interface)
 {
-    (void)state;
     struct atlas atlas;
     struct error error;
     assert_true(atlas_build(1.0f, &atlas, &error));
@@ -211,9 +207,8 @@ static void test_atlas_has_the_signs_of_the_interface(void **state)
     atlas_free(&atlas);
 }
 
-static void test_key_names_read_back(void **state)
+TEST(test_key_names_read_back)
 {
-    (void)state;
     int named = 0;
     for (int key = KEY_NONE; key < KEY_COUNT; key++) {
         const char *name = key_name(key);
@@ -229,20 +224,4 @@ static void test_key_names_read_back(void **state)
     assert_int_equal(key_from_name(""), KEY_NONE);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_hash_sees_every_change),
-        cmocka_unit_test(test_text_hash_sees_every_change),
-        cmocka_unit_test(test_bounds_are_clipped_and_the_unseen_left_out),
-        cmocka_unit_test(test_coordinates_that_are_not_finite_are_left_out),
-        cmocka_unit_test(test_overflow_is_told_and_harmless),
-        cmocka_unit_test(test_long_text_is_cut_at_a_character_with_an_ellipsis),
-        cmocka_unit_test(test_utf8_survives_broken_bytes),
-        cmocka_unit_test(test_number_font_is_tabular),
-        cmocka_unit_test(test_atlas_advances_match_layout),
-        cmocka_unit_test(test_atlas_has_the_signs_of_the_interface),
-        cmocka_unit_test(test_key_names_read_back),
-    };
-    return cmocka_run_group_tests(tests, set_up, tear_down);
-}
+int main(void) { return tests_run(set_up, tear_down); }

@@ -11,18 +11,16 @@ static void find(const float (*position)[3], int vertices, const uint32_t other[
     neighbours_find(position, vertices, indices, 6, neighbours);
 }
 
-static void a_sheet_ends_at_its_border(void **state)
+TEST(a_sheet_ends_at_its_border)
 {
-    (void)state;
     static const int expected[6] = {NEIGHBOUR_NONE, NEIGHBOUR_NONE, 1, 0, NEIGHBOUR_NONE, NEIGHBOUR_NONE};
     int neighbours[6];
     find(square, 4, (const uint32_t[]){0, 2, 3}, neighbours);
     assert_memory_equal(neighbours, expected, sizeof neighbours);
 }
 
-static void vertices_at_one_place_are_one(void **state)
+TEST(vertices_at_one_place_are_one)
 {
-    (void)state;
     static const float split[][3] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {-1.7e-7f, 0, 0}, {1, 1, 0}, {0, 1, 0}};
     int neighbours[6];
     find(split, 6, (const uint32_t[]){3, 4, 5}, neighbours);
@@ -31,9 +29,8 @@ static void vertices_at_one_place_are_one(void **state)
 }
 
 /// The square's two triangles, and the same from behind.
-static void sheets_back_to_back_go_on_in_themselves(void **state)
+TEST(sheets_back_to_back_go_on_in_themselves)
 {
-    (void)state;
     static const uint32_t indices[12] = {0, 1, 2, 0, 2, 1, 0, 2, 3, 0, 3, 2};
     int neighbours[12];
     neighbours_find(square, 4, indices, 12, neighbours);
@@ -43,9 +40,8 @@ static void sheets_back_to_back_go_on_in_themselves(void **state)
 }
 
 /// A fan of more triangles than are looked at, around its middle.
-static void large_fans_are_whole(void **state)
+TEST(large_fans_are_whole)
 {
-    (void)state;
     enum { MANY = 500 };
     static float position[MANY + 1][3];
     static uint32_t indices[3 * MANY];
@@ -61,9 +57,8 @@ static void large_fans_are_whole(void **state)
 }
 
 /// The later of two triangles ends where materials or colours change, the earlier one goes on.
-static void looks_cut(void **state)
+TEST(looks_cut)
 {
-    (void)state;
     static const uint32_t indices[6] = {0, 1, 2, 0, 2, 3};
     static const float red[3] = {1, 0, 0}, blue[3] = {0, 0, 1};
     const uint32_t one = neighbours_look(0, red), others[] = {neighbours_look(1, red), neighbours_look(0, blue)};
@@ -80,14 +75,4 @@ static void looks_cut(void **state)
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_sheet_ends_at_its_border),
-        cmocka_unit_test(vertices_at_one_place_are_one),
-        cmocka_unit_test(sheets_back_to_back_go_on_in_themselves),
-        cmocka_unit_test(large_fans_are_whole),
-        cmocka_unit_test(looks_cut),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return tests_run(NULL, NULL); }

@@ -27,9 +27,8 @@ static float pixels_per_frame(struct session *s)
     return (s->x - x) / 10;
 }
 
-static void test_double_click_inserts_at_the_pointer(void **state)
+TEST(test_double_click_inserts_at_the_pointer)
 {
-    (void)state;
     struct session s;
     session_open(&s, SWAY);
     session_point(&s, "curve(sway,30,1.1)");
@@ -47,9 +46,8 @@ static void test_double_click_inserts_at_the_pointer(void **state)
     session_close(&s);
 }
 
-static void test_insert_at_playhead_keeps_the_curve(void **state)
+TEST(test_insert_at_playhead_keeps_the_curve)
 {
-    (void)state;
     struct session s;
     double before[49];
     session_open(&s, SWAY);
@@ -62,9 +60,8 @@ static void test_insert_at_playhead_keeps_the_curve(void **state)
     session_close(&s);
 }
 
-static void test_a_drag_is_one_step_and_snaps(void **state)
+TEST(test_a_drag_is_one_step_and_snaps)
 {
-    (void)state;
     struct session s;
     session_open(&s, SWAY);
     char *original = session_saved(&s);
@@ -85,9 +82,8 @@ static void test_a_drag_is_one_step_and_snaps(void **state)
     session_close(&s);
 }
 
-static void test_modifiers_of_a_drag(void **state)
+TEST(test_modifiers_of_a_drag)
 {
-    (void)state;
     struct session s;
     session_open(&s, SWAY);
     float frame = pixels_per_frame(&s);
@@ -116,9 +112,8 @@ static void test_modifiers_of_a_drag(void **state)
     session_close(&s);
 }
 
-static void test_a_drag_passes_through_an_occupied_frame(void **state)
+TEST(test_a_drag_passes_through_an_occupied_frame)
 {
-    (void)state;
     struct session s;
     session_open(&s, SWAY);
     float frame = pixels_per_frame(&s);
@@ -136,9 +131,8 @@ static void test_a_drag_passes_through_an_occupied_frame(void **state)
     session_close(&s);
 }
 
-static void test_a_group_keeps_its_shape_and_stays_inside(void **state)
+TEST(test_a_group_keeps_its_shape_and_stays_inside)
 {
-    (void)state;
     struct session s;
     session_open(&s, SWAY);
     session_key(&s, 'A', MOD_CTRL);
@@ -152,9 +146,8 @@ static void test_a_group_keeps_its_shape_and_stays_inside(void **state)
     session_close(&s);
 }
 
-static void test_escape_cancels_a_drag_then_drops_the_selection(void **state)
+TEST(test_escape_cancels_a_drag_then_drops_the_selection)
 {
-    (void)state;
     struct session s;
     session_open(&s, SWAY);
     char *original = session_saved(&s);
@@ -173,9 +166,8 @@ static void test_escape_cancels_a_drag_then_drops_the_selection(void **state)
     session_close(&s);
 }
 
-static void test_a_click_edits_nothing(void **state)
+TEST(test_a_click_edits_nothing)
 {
-    (void)state;
     struct session s;
     session_open(&s, SWAY);
     uint64_t revision = history_revision(s.history);
@@ -186,9 +178,8 @@ static void test_a_click_edits_nothing(void **state)
     session_close(&s);
 }
 
-static void test_selecting(void **state)
+TEST(test_selecting)
 {
-    (void)state;
     struct session s;
     session_open(&s, SWAY);
     session_click(&s, "knot(sway,1)");
@@ -214,9 +205,8 @@ static void test_selecting(void **state)
     session_close(&s);
 }
 
-static void test_nudges_merge(void **state)
+TEST(test_nudges_merge)
 {
-    (void)state;
     struct session s;
     session_open(&s, SWAY);
     char *original = session_saved(&s);
@@ -239,9 +229,8 @@ static void test_nudges_merge(void **state)
     session_close(&s);
 }
 
-static void test_a_nudge_passes_through(void **state)
+TEST(test_a_nudge_passes_through)
 {
-    (void)state;
     struct session s;
     session_open(&s, SWAY);
     session_click(&s, "knot(sway,2)");
@@ -255,9 +244,8 @@ static void test_a_nudge_passes_through(void **state)
     session_close(&s);
 }
 
-static void test_slopes(void **state)
+TEST(test_slopes)
 {
-    (void)state;
     struct session s;
     session_open(&s, SWAY);
     session_click(&s, "knot(sway,1)");
@@ -282,9 +270,8 @@ static void test_slopes(void **state)
 }
 
 /// However long the keys are held, a stiffness stays one that a scene may have.
-static void test_stiffness_stays_in_range(void **state)
+TEST(test_stiffness_stays_in_range)
 {
-    (void)state;
     struct session s;
     session_open(&s, SWAY);
     session_click(&s, "knot(sway,1)");
@@ -295,9 +282,8 @@ static void test_stiffness_stays_in_range(void **state)
     session_close(&s);
 }
 
-static void test_parameters_by_held_letters(void **state)
+TEST(test_parameters_by_held_letters)
 {
-    (void)state;
     struct session s;
     session_open(&s, SWAY);
     session_hold(&s, 'F', ACTION_PRESS);
@@ -318,9 +304,8 @@ static void test_parameters_by_held_letters(void **state)
     session_close(&s);
 }
 
-static void test_keys_during_a_drag_do_not_mix(void **state)
+TEST(test_keys_during_a_drag_do_not_mix)
 {
-    (void)state;
     struct session s;
     session_open(&s, SWAY);
     session_pull(&s, "knot(sway,1)", 30, -20, 3);
@@ -385,9 +370,8 @@ static void monkey(struct session *s)
     session_send(s, event);
 }
 
-static void test_a_monkey_can_be_undone(void **state)
+TEST(test_a_monkey_can_be_undone)
 {
-    (void)state;
     for (unsigned seed = 1; seed <= 12; seed++) {
         struct session s;
         srand(seed);
@@ -413,25 +397,4 @@ static void test_a_monkey_can_be_undone(void **state)
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_double_click_inserts_at_the_pointer),
-        cmocka_unit_test(test_insert_at_playhead_keeps_the_curve),
-        cmocka_unit_test(test_a_drag_is_one_step_and_snaps),
-        cmocka_unit_test(test_modifiers_of_a_drag),
-        cmocka_unit_test(test_a_drag_passes_through_an_occupied_frame),
-        cmocka_unit_test(test_a_group_keeps_its_shape_and_stays_inside),
-        cmocka_unit_test(test_escape_cancels_a_drag_then_drops_the_selection),
-        cmocka_unit_test(test_a_click_edits_nothing),
-        cmocka_unit_test(test_selecting),
-        cmocka_unit_test(test_nudges_merge),
-        cmocka_unit_test(test_a_nudge_passes_through),
-        cmocka_unit_test(test_slopes),
-        cmocka_unit_test(test_stiffness_stays_in_range),
-        cmocka_unit_test(test_parameters_by_held_letters),
-        cmocka_unit_test(test_keys_during_a_drag_do_not_mix),
-        cmocka_unit_test(test_a_monkey_can_be_undone),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return tests_run(NULL, NULL); }

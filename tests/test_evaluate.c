@@ -63,9 +63,8 @@ static void sweep(const wiggly_curve *curve)
     compare(curve, 3, 1, 0);
 }
 
-static void a_row_is_what_its_values_are(void **state)
+TEST(a_row_is_what_its_values_are)
 {
-    (void)state;
     for (int mode = 0; mode < 3; mode++) {
         for (int start = 0; start < 3; start++) {
             wiggly_curve curve = solved((wiggly_mode)mode, (wiggly_start)start, NULL, SAMPLES);
@@ -75,9 +74,8 @@ static void a_row_is_what_its_values_are(void **state)
     }
 }
 
-static void frequencies_that_change_are_followed(void **state)
+TEST(frequencies_that_change_are_followed)
 {
-    (void)state;
     double frequencies[SAMPLES];
     for (int i = 0; i < SAMPLES; i++) frequencies[i] = i < 100 ? 1 : i < 150 ? 1 + 0.01 * (i - 100) : 200;
     wiggly_curve curve = solved(WIGGLY_COMPLEX, WIGGLY_FREE, frequencies, SAMPLES);
@@ -85,9 +83,8 @@ static void frequencies_that_change_are_followed(void **state)
     curve_destroy(&curve);
 }
 
-static void a_frequency_that_changes_everywhere_is_followed(void **state)
+TEST(a_frequency_that_changes_everywhere_is_followed)
 {
-    (void)state;
     double frequencies[SAMPLES];
     for (int i = 0; i < SAMPLES; i++) frequencies[i] = 2 + sin(0.05 * i);
     for (int start = 0; start < 3; start++) {
@@ -97,9 +94,8 @@ static void a_frequency_that_changes_everywhere_is_followed(void **state)
     }
 }
 
-static void far_apart_a_value_is_the_same_in_every_row(void **state)
+TEST(far_apart_a_value_is_the_same_in_every_row)
 {
-    (void)state;
     wiggly_curve curve = solved(WIGGLY_COMPLEX, WIGGLY_FREE, NULL, SAMPLES);
     float near[2 * SAMPLES], far[SAMPLES];
     wiggly_evaluate_float(&curve, 0.125, 0.5, 2 * SAMPLES, near, 1);
@@ -113,9 +109,8 @@ static void far_apart_a_value_is_the_same_in_every_row(void **state)
     curve_destroy(&curve);
 }
 
-static void shortest_curves(void **state)
+TEST(shortest_curves)
 {
-    (void)state;
     for (int samples = 1; samples <= 5; samples++) {
         for (int start = samples == 1 ? 0 : 2; start >= 0; start--) {
             wiggly_curve curve = solved(WIGGLY_COMPLEX, (wiggly_start)start, NULL, samples);
@@ -126,9 +121,8 @@ static void shortest_curves(void **state)
 }
 
 /// A band that turns many times between two samples: beyond what the quick sines are for.
-static void a_band_far_above_the_sample_rate(void **state)
+TEST(a_band_far_above_the_sample_rate)
 {
-    (void)state;
     wiggly_curve curve = solved(WIGGLY_COMPLEX, WIGGLY_FREE, NULL, SAMPLES);
     for (int i = 0; i < SAMPLES; i++) curve.omega[i] = i < 100 ? 24 * 5000.0 : 24e9;
     compare(&curve, 0, 0.25, 800);
@@ -137,9 +131,8 @@ static void a_band_far_above_the_sample_rate(void **state)
     curve_destroy(&curve);
 }
 
-static void a_curve_that_was_never_solved_is_0(void **state)
+TEST(a_curve_that_was_never_solved_is_0)
 {
-    (void)state;
     wiggly_curve curve = {0};
     wiggly_value value = wiggly_evaluate(&curve, 3);
     assert_true(value.y == 0 && value.re == 0 && value.im == 0);
@@ -148,16 +141,4 @@ static void a_curve_that_was_never_solved_is_0(void **state)
     assert_true(out[0] == 0 && out[1] == 0);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_row_is_what_its_values_are),
-        cmocka_unit_test(frequencies_that_change_are_followed),
-        cmocka_unit_test(a_frequency_that_changes_everywhere_is_followed),
-        cmocka_unit_test(far_apart_a_value_is_the_same_in_every_row),
-        cmocka_unit_test(shortest_curves),
-        cmocka_unit_test(a_band_far_above_the_sample_rate),
-        cmocka_unit_test(a_curve_that_was_never_solved_is_0),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return tests_run(NULL, NULL); }

@@ -51,17 +51,15 @@ static int found(wiggly_mode mode)
     return good;
 }
 
-static void known_oscillations_are_found_again(void **state)
+TEST(known_oscillations_are_found_again)
 {
-    (void)state;
     assert_true(found(WIGGLY_COMPLEX) >= 0.9 * SEEDS);
     assert_true(found(WIGGLY_REAL) >= 0.9 * SEEDS);
 }
 
 /// Neither the order of knots, nor their scale, nor the rate, nor what they swing about.
-static void only_the_shape_counts(void **state)
+TEST(only_the_shape_counts)
 {
-    (void)state;
     wiggly_knot knots[MOST], other[MOST];
     wiggly_desc desc;
     plant(3, WIGGLY_COMPLEX, knots, &desc);
@@ -78,9 +76,8 @@ static void only_the_shape_counts(void **state)
     assert_near(again[0].damping, best[0].damping, 1e-9);
 }
 
-static void what_cannot_be_told_is_not(void **state)
+TEST(what_cannot_be_told_is_not)
 {
-    (void)state;
     wiggly_knot knots[MOST];
     wiggly_desc desc;
     wiggly_explanation best[2];
@@ -97,12 +94,4 @@ static void what_cannot_be_told_is_not(void **state)
     assert_near(best[0].frequency, 2, 0.02);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(known_oscillations_are_found_again),
-        cmocka_unit_test(only_the_shape_counts),
-        cmocka_unit_test(what_cannot_be_told_is_not),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return tests_run(NULL, NULL); }

@@ -7,10 +7,9 @@ static double glb_is_off(const char *path, const struct points *points)
     return glb_clip_is_off(path, NULL, points);
 }
 
-static void glb_moves_as_the_stage_does(void **state)
+TEST_WITH(folder_make, folder_remove, glb_moves_as_the_stage_does)
 {
     static const char *const scenes[] = {"tail", "follow", "character", "figure7"};
-    (void)state;
     for (size_t s = 0; s < (size_t)quick_or_all(3, sizeof scenes / sizeof *scenes); s++) {
         struct points points = read_points(export_scene(scenes[s], "points.npy", (struct export_options){0}));
         const char *glb = export_scene(scenes[s], "rig.glb", (struct export_options){0});
@@ -22,9 +21,8 @@ static void glb_moves_as_the_stage_does(void **state)
 }
 
 /// Half of the keys miss the swing between them; with tangents they miss much less.
-static void tangents_make_up_for_keys(void **state)
+TEST_WITH(folder_make, folder_remove, tangents_make_up_for_keys)
 {
-    (void)state;
     struct points points = read_points(export_scene("tail", "points.npy", (struct export_options){.substeps = 4}));
     const double dense = glb_is_off(export_scene("tail", "d.glb", (struct export_options){.substeps = 4}), &points);
     const double linear = glb_is_off(export_scene("tail", "l.glb", (struct export_options){.rate = 8}), &points);
@@ -69,9 +67,8 @@ static void assert_within_one(const struct gltf_channel *channel)
         assert_true(channel->values[i] >= 0 && channel->values[i] <= 1);
 }
 
-static void keys_loop_and_turn_the_short_way(void **state)
+TEST_WITH(folder_make, folder_remove, keys_loop_and_turn_the_short_way)
 {
-    (void)state;
     // 30 keys a second do not fall on the samples, but the last falls on the first.
     each_channel(export_scene("tail", "loop.glb", (struct export_options){.rate = 30}), assert_loops);
     each_channel(export_scene("character", "loop.glb", (struct export_options){0}), assert_loops);
@@ -87,11 +84,10 @@ static void keys_loop_and_turn_the_short_way(void **state)
     each_channel(folder_path("wild.glb"), assert_short_way);
 }
 
-static void weights_stay_within_one_unless_signed(void **state)
+TEST_WITH(folder_make, folder_remove, weights_stay_within_one_unless_signed)
 {
     struct gltf gltf;
     struct error error;
-    (void)state;
     const char *path = export_scene("character", "split.glb", (struct export_options){0});
     each_channel(path, assert_within_one);
     assert_true(gltf_read(path, &gltf, &error));
@@ -104,11 +100,10 @@ static void weights_stay_within_one_unless_signed(void **state)
 }
 
 /// What is exported can be exported again: our own reader finds the coordinates that moved, to their last digits.
-static void an_exported_creature_opens_as_one(void **state)
+TEST_WITH(folder_make, folder_remove, an_exported_creature_opens_as_one)
 {
     struct character original, again;
     struct error error;
-    (void)state;
     const char *path = export_scene("character", "again.glb", (struct export_options){0});
     if (!character_read(path, &again, &error)) fail_msg("%s", error.text);
     assert_true(character_read("assets/models/creature.glb", &original, &error));
@@ -128,9 +123,8 @@ static void an_exported_creature_opens_as_one(void **state)
     character_free(&again);
 }
 
-static void point_caches_hold_the_same(void **state)
+TEST_WITH(folder_make, folder_remove, point_caches_hold_the_same)
 {
-    (void)state;
     const struct export_options some = {.has_frames = true, .first = 12, .last = 24, .substeps = 2};
     struct points npy = read_points(export_scene("tail", "p.npy", some));
     struct points pc2 = read_points(export_scene("tail", "p.pc2", some));
@@ -154,9 +148,8 @@ static void point_caches_hold_the_same(void **state)
 }
 
 /// Where no key falls on the last frame, the report says where the last key is; else it says nothing of it.
-static void a_rate_that_misses_the_end_is_said(void **state)
+TEST_WITH(folder_make, folder_remove, a_rate_that_misses_the_end_is_said)
 {
-    (void)state;
     struct opened scene = open_scene("assets/scenes/tail.json"); // 24 frames a second
     for (int misses = 0; misses < 2; misses++) {
         const struct export_options options = {.rate = misses ? 18 : 12, .has_frames = true, .last = 22};
@@ -169,9 +162,8 @@ static void a_rate_that_misses_the_end_is_said(void **state)
 }
 
 /// A joint's path in a .usda begins with those that it hangs on.
-static void usd_joints_hang_on_each_other(void **state)
+TEST_WITH(folder_make, folder_remove, usd_joints_hang_on_each_other)
 {
-    (void)state;
     size_t size;
     char *text = bytes_of(export_scene("tail", "t.usda", (struct export_options){.substeps = 1}), &size);
     assert_non_null(strstr(text, "joints = [\"tail_base\", \"tail_base/tail_body\", "));
@@ -180,9 +172,8 @@ static void usd_joints_hang_on_each_other(void **state)
 }
 
 /// Each row has every spline's value and, over a channel's joints, the angles of the pose.
-static void a_table_has_splines_and_channels(void **state)
+TEST_WITH(folder_make, folder_remove, a_table_has_splines_and_channels)
 {
-    (void)state;
     char line[8192], expected[128];
     struct opened scene = open_scene("assets/scenes/tail.json");
     struct export_report report;
@@ -217,10 +208,9 @@ static bool stop_at_ten(void *user, long done, long total)
 }
 
 /// An export that is stopped leaves neither half a file nor a temporary one, and the old file as it was.
-static void stopping_leaves_nothing_behind(void **state)
+TEST_WITH(folder_make, folder_remove, stopping_leaves_nothing_behind)
 {
     static const char *const names[] = {"a.glb", "a.gltf", "a.usda", "a.bvh", "a.csv", "a.pc2", "a.mdd", "a.npy"};
-    (void)state;
     struct opened scene = open_scene("assets/scenes/tail.json");
     long total = 0;
     const struct export_options options = {.proceed = stop_at_ten, .user = &total};
@@ -253,9 +243,8 @@ static void assert_fails(const char *scene_path, const char *file, struct export
     close_scene(&scene);
 }
 
-static void refusals_say_what_to_do(void **state)
+TEST_WITH(folder_make, folder_remove, refusals_say_what_to_do)
 {
-    (void)state;
     const char *tail = "assets/scenes/tail.json", *two = "assets/scenes/compositing.json";
     const struct export_options usual = {0};
     assert_fails(tail, "a.fbx", usual, ".glb, .gltf, .usda, .bvh, .csv, .pc2, .mdd or .npy");
@@ -271,11 +260,10 @@ static void refusals_say_what_to_do(void **state)
 }
 
 /// Two rigs of a scene come out as two meshes that do not share a name.
-static void all_rigs_come_out(void **state)
+TEST_WITH(folder_make, folder_remove, all_rigs_come_out)
 {
     struct gltf gltf;
     struct error error;
-    (void)state;
     assert_true(gltf_read(export_scene("compositing", "two.glb", (struct export_options){0}), &gltf, &error));
     assert_int_equal(gltf.mesh_count, 2);
     assert_true(gltf_find_node(&gltf, "nodder") >= 0 && gltf_find_node(&gltf, "swayer") >= 0);
@@ -288,21 +276,4 @@ static void all_rigs_come_out(void **state)
     gltf_free(&gltf);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(glb_moves_as_the_stage_does, folder_make, folder_remove),
-        cmocka_unit_test_setup_teardown(tangents_make_up_for_keys, folder_make, folder_remove),
-        cmocka_unit_test_setup_teardown(keys_loop_and_turn_the_short_way, folder_make, folder_remove),
-        cmocka_unit_test_setup_teardown(weights_stay_within_one_unless_signed, folder_make, folder_remove),
-        cmocka_unit_test_setup_teardown(an_exported_creature_opens_as_one, folder_make, folder_remove),
-        cmocka_unit_test_setup_teardown(point_caches_hold_the_same, folder_make, folder_remove),
-        cmocka_unit_test_setup_teardown(a_rate_that_misses_the_end_is_said, folder_make, folder_remove),
-        cmocka_unit_test_setup_teardown(usd_joints_hang_on_each_other, folder_make, folder_remove),
-        cmocka_unit_test_setup_teardown(a_table_has_splines_and_channels, folder_make, folder_remove),
-        cmocka_unit_test_setup_teardown(stopping_leaves_nothing_behind, folder_make, folder_remove),
-        cmocka_unit_test_setup_teardown(refusals_say_what_to_do, folder_make, folder_remove),
-        cmocka_unit_test_setup_teardown(all_rigs_come_out, folder_make, folder_remove),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return tests_run(NULL, NULL); }

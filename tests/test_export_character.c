@@ -19,9 +19,8 @@ static struct opened open_dog_without_chains(void)
     return scene;
 }
 
-static void without_a_chain_the_file_stays_the_same(void **state)
+TEST_WITH(folder_make, folder_remove, without_a_chain_the_file_stays_the_same)
 {
-    (void)state;
     struct opened scene = open_dog_without_chains();
     struct export_report report;
     struct error error;
@@ -37,10 +36,9 @@ static void without_a_chain_the_file_stays_the_same(void **state)
 }
 
 /// The clip is replaced or added; the chunk begins with all bytes that it had.
-static void an_imported_character_gets_a_clip(void **state)
+TEST_WITH(folder_make, folder_remove, an_imported_character_gets_a_clip)
 {
     static const char *const names[] = {NULL, "Wag"};
-    (void)state;
     struct points points = read_points(export_scene("dog", "dog.npy", (struct export_options){.substeps = 2}));
     size_t size, larger;
     char *original = bytes_of("assets/models/dog.glb", &size);
@@ -66,7 +64,7 @@ static void an_imported_character_gets_a_clip(void **state)
 }
 
 /// A .gltf of ours goes in as a character, gets a chain, and comes out as a .gltf or .glb.
-static void text_files_get_a_clip_too(void **state)
+TEST_WITH(folder_make, folder_remove, text_files_get_a_clip_too)
 {
     static const char scene_text[] =
         "{\"wiggly\": 1, \"frames\": [0, 24], \"splines\": [{\"name\": \"s\", \"frequency\": 1, \"knots\": "
@@ -75,7 +73,6 @@ static void text_files_get_a_clip_too(void **state)
         "\"tail\"}, "
         "{\"type\": \"chain\", \"name\": \"end\", \"model\": \"fox\", \"from\": \"tail_12\", \"to\": \"tail_23\", "
         "\"channels\": [{\"spline\": \"s\"}]}]}";
-    (void)state;
     struct export_report report;
     struct error error = {0};
     const struct export_options usual = {0}, signed_weights = {.is_signed = true};
@@ -186,7 +183,7 @@ static void scatter_dog(void)
 }
 
 /// What wiggly does not know, numbers to the last bit, odd names and the order of members: all stays but what the clip adds.
-static void what_is_not_known_stays(void **state)
+TEST_WITH(folder_make, folder_remove, what_is_not_known_stays)
 {
     static const char text[] =
         "{\"extras\":{\"big\":9007199254740993,\"real\":0.1,\"whole\":2.0,\"tiny\":1e-300,\"odd\":[null,true,"
@@ -202,7 +199,6 @@ static void what_is_not_known_stays(void **state)
         "\"name\": \"c\", "
         "\"model\": \"it\", \"from\": \"a\", \"to\": \"b\", \"channels\": [{\"spline\": \"s\"}]}]}";
     static const char *const added[] = {"animations", "accessors", "bufferViews", "buffers"};
-    (void)state;
     struct error error = {0};
     struct export_report report;
     const struct export_options usual = {0};
@@ -225,9 +221,8 @@ static void what_is_not_known_stays(void **state)
 }
 
 /// A .gltf with files beside it becomes one .glb, and a .glb one .gltf; there and back nothing is lost.
-static void containers_change_and_hold_the_same(void **state)
+TEST_WITH(folder_make, folder_remove, containers_change_and_hold_the_same)
 {
-    (void)state;
     scatter_dog();
     assert_same_dog("assets/models/dog.glb", folder_path("dog.gltf"));
     convert("dog.gltf", "whole.glb");
@@ -244,9 +239,8 @@ static void containers_change_and_hold_the_same(void **state)
 }
 
 /// A .usda of an imported character names its textures, which are in a folder beside it, as the file had them.
-static void textures_are_written_beside(void **state)
+TEST_WITH(folder_make, folder_remove, textures_are_written_beside)
 {
-    (void)state;
     const char *path = export_scene("dog", "dog.usda", (struct export_options){.substeps = 1});
     size_t size, chunk;
     char *text = bytes_of(path, &size), *picture = bytes_of(folder_path("dog_textures/tag_0.png"), &size),
@@ -286,9 +280,8 @@ static bool next_number(const char *text, size_t *at, double *number)
 }
 
 /// Bound where the skin of the file says: a joint's bind matrix undoes its inverse bind matrix.
-static void usd_joints_are_bound_as_the_files(void **state)
+TEST_WITH(folder_make, folder_remove, usd_joints_are_bound_as_the_files)
 {
-    (void)state;
     size_t size;
     char *text = bytes_of(export_scene("dog", "dog.usda", (struct export_options){.substeps = 1}), &size);
     struct gltf dog;
@@ -316,9 +309,8 @@ static void usd_joints_are_bound_as_the_files(void **state)
 }
 
 /// Every face has one material.
-static void usd_materials_share_out_the_faces(void **state)
+TEST_WITH(folder_make, folder_remove, usd_materials_share_out_the_faces)
 {
-    (void)state;
     size_t size, at;
     char *text = bytes_of(export_scene("dog", "dog.usda", (struct export_options){.substeps = 1}), &size);
     int faces = 0, next = 0;
@@ -337,13 +329,12 @@ static void usd_materials_share_out_the_faces(void **state)
 static int compare_names(const void *a, const void *b) { return strcmp(*(char *const *)a, *(char *const *)b); }
 
 /// Prims may not share a name, however many joints of a file do.
-static void usd_tells_joints_of_one_name_apart(void **state)
+TEST_WITH(folder_make, folder_remove, usd_tells_joints_of_one_name_apart)
 {
     enum { JOINTS = 3000 };
     static const char scene_text[] =
         "{\"wiggly\": 1, \"frames\": [0, 1], \"splines\": [], \"rigs\": [{\"type\": \"model\", "
         "\"model\": \"many.gltf\"}]}";
-    (void)state;
     struct error error = {0};
     json_t *joints = json_pack("[i]", 0), *below = json_array(),
            *nodes = json_pack("[{s:s, s:O}]", "name", "b", "children", below);
@@ -382,9 +373,8 @@ static void usd_tells_joints_of_one_name_apart(void **state)
 }
 
 /// Where the textures cannot be written, nothing is: neither the file nor a part of them.
-static void without_its_textures_nothing_is_written(void **state)
+TEST_WITH(folder_make, folder_remove, without_its_textures_nothing_is_written)
 {
-    (void)state;
     struct opened scene = open_scene("assets/scenes/dog.json");
     struct export_report report;
     struct error error = {0};
@@ -397,9 +387,8 @@ static void without_its_textures_nothing_is_written(void **state)
 }
 
 /// A picture that cannot take its place in the end: that is said, and neither it nor its folder stays.
-static void a_texture_that_cannot_take_its_place_is_told(void **state)
+TEST_WITH(folder_make, folder_remove, a_texture_that_cannot_take_its_place_is_told)
 {
-    (void)state;
     struct sidecars sidecars = {0};
     struct error error = {0};
     char textures[PATH_LIMIT];
@@ -414,10 +403,9 @@ static void a_texture_that_cannot_take_its_place_is_told(void **state)
 }
 
 /// With few cubic keys only the chains are a little off: the body keeps the keys of its own clip, whole or cut out of it.
-static void a_body_keeps_the_keys_of_its_clip(void **state)
+TEST_WITH(folder_make, folder_remove, a_body_keeps_the_keys_of_its_clip)
 {
     const struct export_options parts[] = {{0}, {.has_frames = true, .first = 5.5, .last = 77.5}};
-    (void)state;
     for (int p = 0; p < 2; p++) {
         struct export_options options = parts[p];
         options.substeps = 4;
@@ -433,9 +421,8 @@ static void a_body_keeps_the_keys_of_its_clip(void **state)
 }
 
 /// Characters that others have written with a bone of scale 0, with a buffer longer than it says, and one that does not say how long it is.
-static void what_opens_is_exported_whole(void **state)
+TEST_WITH(folder_make, folder_remove, what_opens_is_exported_whole)
 {
-    (void)state;
     static const char *const models[] = {"flat.glb", "short.glb", "unsaid.glb"}, *const files[] = {"out.glb",
                                                                                                    "out.gltf"};
     char here[2048];
@@ -470,22 +457,4 @@ static void what_opens_is_exported_whole(void **state)
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(without_a_chain_the_file_stays_the_same, folder_make, folder_remove),
-        cmocka_unit_test_setup_teardown(an_imported_character_gets_a_clip, folder_make, folder_remove),
-        cmocka_unit_test_setup_teardown(text_files_get_a_clip_too, folder_make, folder_remove),
-        cmocka_unit_test_setup_teardown(what_is_not_known_stays, folder_make, folder_remove),
-        cmocka_unit_test_setup_teardown(containers_change_and_hold_the_same, folder_make, folder_remove),
-        cmocka_unit_test_setup_teardown(a_texture_that_cannot_take_its_place_is_told, folder_make, folder_remove),
-        cmocka_unit_test_setup_teardown(a_body_keeps_the_keys_of_its_clip, folder_make, folder_remove),
-        cmocka_unit_test_setup_teardown(usd_joints_are_bound_as_the_files, folder_make, folder_remove),
-        cmocka_unit_test_setup_teardown(usd_tells_joints_of_one_name_apart, folder_make, folder_remove),
-        cmocka_unit_test_setup_teardown(usd_materials_share_out_the_faces, folder_make, folder_remove),
-        cmocka_unit_test_setup_teardown(textures_are_written_beside, folder_make, folder_remove),
-        cmocka_unit_test_setup_teardown(without_its_textures_nothing_is_written, folder_make, folder_remove),
-        cmocka_unit_test_setup_teardown(what_opens_is_exported_whole, folder_make, folder_remove),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return tests_run(NULL, NULL); }

@@ -57,9 +57,8 @@ static void compare_frames(const char *scene)
     blind_close(&blind);
 }
 
-static void each_scene(void **state)
+TEST(each_scene)
 {
-    (void)state;
     DIR *folder = opendir("assets/scenes");
     assert_non_null(folder);
     int count = 0;
@@ -75,9 +74,8 @@ static void each_scene(void **state)
 }
 
 /// Few joints bend the most: the skin between them is farthest from where they are.
-static void tails_of_few_joints(void **state)
+TEST(tails_of_few_joints)
 {
-    (void)state;
     static const char text[] = "{\"wiggly\": 1, \"frames\": [0, 60], \"loop\": true, \"splines\": [{\"name\": \"s\", "
                                "\"frequency\": 1, \"knots\": "
                                "[{\"frame\": 0, \"value\": 3}, {\"frame\": 30, \"value\": -3}]}], \"tails\": "
@@ -90,8 +88,4 @@ static void tails_of_few_joints(void **state)
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(each_scene), cmocka_unit_test(tails_of_few_joints)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return tests_run(NULL, NULL); }

@@ -14,9 +14,8 @@ static const struct param *of(const struct session *s, enum parameter which)
     return &s->document->splines[s->editor->core.active]->parameter[which];
 }
 
-static void test_a_preset_is_one_step(void **state)
+TEST(test_a_preset_is_one_step)
 {
-    (void)state;
     struct session s;
     panel_open(&s, tail_scene, 1280, 720);
     char *before = session_saved(&s);
@@ -37,9 +36,8 @@ static void test_a_preset_is_one_step(void **state)
 }
 
 /// An exponential's envelope falls to 5 % after ln 20 / (2π f ζ).
-static void test_the_time_to_settle_is_set(void **state)
+TEST(test_the_time_to_settle_is_set)
 {
-    (void)state;
     struct session s;
     const double tau = 2 * acos(-1.0), ln20 = log(20);
     panel_open(&s, tail_scene, 1280, 720);
@@ -71,9 +69,8 @@ static float place_of(struct session *s, const char *name)
     return y;
 }
 
-static void test_selecting_knots_moves_nothing(void **state)
+TEST(test_selecting_knots_moves_nothing)
 {
-    (void)state;
     struct session s;
     panel_open(&s, tail_scene, 1280, 1600);
     const float before = place_of(&s, "mode.real");
@@ -92,9 +89,8 @@ static void wait(struct session *s, int frames)
 }
 
 /// It comes after half a second of rest, beside the pointer and inside the window, and goes with a press.
-static void test_a_tooltip_is_near_the_pointer(void **state)
+TEST(test_a_tooltip_is_near_the_pointer)
 {
-    (void)state;
     static const char *const names[] = {"frequency", "preset.cat", "look.cubic"};
     struct session s;
     panel_open(&s, tail_scene, 960, 600);
@@ -182,9 +178,8 @@ static void assert_all_explained(struct session *s)
     }
 }
 
-static void test_every_control_of_a_tail_explains_itself(void **state)
+TEST(test_every_control_of_a_tail_explains_itself)
 {
-    (void)state;
     struct session s;
     panel_open(&s, tail_scene, 1280, 3200);
     session_click(&s, "knot(sway,1)");
@@ -204,9 +199,8 @@ static void open_file(struct session *s, const char *scene)
     wait(s, 2);
 }
 
-static void test_every_control_of_characters_explains_itself(void **state)
+TEST(test_every_control_of_characters_explains_itself)
 {
-    (void)state;
     struct session s;
     open_file(
         &s,
@@ -228,9 +222,8 @@ static void test_every_control_of_characters_explains_itself(void **state)
     session_close(&s);
 }
 
-static void test_presets_can_be_read_on_a_small_window(void **state)
+TEST(test_presets_can_be_read_on_a_small_window)
 {
-    (void)state;
     static const char *const words[] = {"Cat", "Whip", "Heavy", "Jelly", "Antenna"};
     struct session s;
     panel_open(&s, tail_scene, 640, 360);
@@ -240,16 +233,4 @@ static void test_presets_can_be_read_on_a_small_window(void **state)
     session_close(&s);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_a_preset_is_one_step),
-        cmocka_unit_test(test_presets_can_be_read_on_a_small_window),
-        cmocka_unit_test(test_the_time_to_settle_is_set),
-        cmocka_unit_test(test_selecting_knots_moves_nothing),
-        cmocka_unit_test(test_a_tooltip_is_near_the_pointer),
-        cmocka_unit_test(test_every_control_of_a_tail_explains_itself),
-        cmocka_unit_test(test_every_control_of_characters_explains_itself),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return tests_run(NULL, NULL); }

@@ -37,22 +37,13 @@ static void late_press(const char *target, const char *x, const char *taken)
     session_close(&s);
 }
 
-static void test_a_tail_that_swings_is_caught(void **state)
-{
-    (void)state;
-    late_press("tail(tail,0.95)", "0", "Pull tail");
-}
+TEST(test_a_tail_that_swings_is_caught) { late_press("tail(tail,0.95)", "0", "Pull tail"); }
 
-static void test_a_body_that_runs_is_caught(void **state)
-{
-    (void)state;
-    late_press("body(tail)", "{\"spline\": \"run\"}", "Move body");
-}
+TEST(test_a_body_that_runs_is_caught) { late_press("body(tail)", "{\"spline\": \"run\"}", "Move body"); }
 
 /// While the scene stands, what is pressed is what is seen.
-static void test_nothing_is_caught_at_rest(void **state)
+TEST(test_nothing_is_caught_at_rest)
 {
-    (void)state;
     struct session s;
     open_swinging(&s, "0");
     session_point(&s, "tail(tail,0.95)");
@@ -84,9 +75,8 @@ static float highest(struct session *s)
     return y - s->editor->core.layout.stage.y;
 }
 
-static void test_figures_play_below_their_captions(void **state)
+TEST(test_figures_play_below_their_captions)
 {
-    (void)state;
     for (int figure = 1; figure <= 6; figure++) {
         char path[64];
         size_t size;
@@ -111,9 +101,8 @@ static void test_figures_play_below_their_captions(void **state)
 }
 
 /// Two tails have their names at their feet, each behind a dot in the colour of its curve.
-static void test_two_tails_are_told_apart(void **state)
+TEST(test_two_tails_are_told_apart)
 {
-    (void)state;
     struct session s;
     session_open(
         &s,
@@ -138,12 +127,4 @@ static void test_two_tails_are_told_apart(void **state)
     session_close(&s);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_a_tail_that_swings_is_caught), cmocka_unit_test(test_a_body_that_runs_is_caught),
-        cmocka_unit_test(test_nothing_is_caught_at_rest),    cmocka_unit_test(test_figures_play_below_their_captions),
-        cmocka_unit_test(test_two_tails_are_told_apart),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return tests_run(NULL, NULL); }

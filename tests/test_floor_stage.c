@@ -25,9 +25,8 @@ static void edge(struct session *s, float xy[2])
 }
 
 /// The edge stays under the pointer, and all is one step.
-static void test_the_edge_is_dragged_down(void **state)
+TEST(test_the_edge_is_dragged_down)
 {
-    (void)state;
     struct session s;
     open_creature(&s);
     char *before = session_saved(&s);
@@ -48,9 +47,8 @@ static void test_the_edge_is_dragged_down(void **state)
 }
 
 /// Whatever the pointer says, the floor is not above the feet; Esc puts it back.
-static void test_it_stops_at_the_feet_and_esc_cancels(void **state)
+TEST(test_it_stops_at_the_feet_and_esc_cancels)
 {
-    (void)state;
     struct session s;
     open_creature(&s);
     char *before = session_saved(&s);
@@ -64,9 +62,8 @@ static void test_it_stops_at_the_feet_and_esc_cancels(void **state)
 }
 
 /// The curve gives way while the floor is dragged, in the same frame.
-static void test_the_motion_follows(void **state)
+TEST(test_the_motion_follows)
 {
-    (void)state;
     struct session s;
     open_creature(&s);
     const double was = s.world.evaluation->curves[0].total[35];
@@ -78,9 +75,8 @@ static void test_the_motion_follows(void **state)
     session_close(&s);
 }
 
-static void test_without_a_floor_there_is_no_edge(void **state)
+TEST(test_without_a_floor_there_is_no_edge)
 {
-    (void)state;
     struct session s;
     open_creature(&s);
     float at[2];
@@ -94,10 +90,4 @@ static void test_without_a_floor_there_is_no_edge(void **state)
     session_close(&s);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_the_edge_is_dragged_down), cmocka_unit_test(test_it_stops_at_the_feet_and_esc_cancels),
-        cmocka_unit_test(test_the_motion_follows), cmocka_unit_test(test_without_a_floor_there_is_no_edge)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return tests_run(NULL, NULL); }

@@ -31,9 +31,8 @@ static double side_bend(const struct pose *pose, int n)
 }
 
 /// The first step is to +x: joints bend to −x one after the other, and the swing has nearly gone before the second.
-static void test_tail_lags_and_settles(void **state)
+TEST(test_tail_lags_and_settles)
 {
-    (void)state;
     struct session s;
     open_scene(&s);
     double least_near = 0, least_far = 0, first = 0, last = 0;
@@ -56,9 +55,8 @@ static void test_tail_lags_and_settles(void **state)
 }
 
 /// It stands on the ground between the hops, and on that of the scene while it hops.
-static void test_hops_over_the_ground(void **state)
+TEST(test_hops_over_the_ground)
 {
-    (void)state;
     struct session s;
     open_scene(&s);
     assert_near(pose_of(&s)->matrix[0][Y], 0.26, 1e-3);
@@ -70,9 +68,8 @@ static void test_hops_over_the_ground(void **state)
 }
 
 /// Playing, stepping and jumping show the same pose at the same time, to the last bit; the last frame is the first again.
-static void test_playing_is_scrubbing(void **state)
+TEST(test_playing_is_scrubbing)
 {
-    (void)state;
     static struct pose played[4 * FRAMES];
     struct session s;
     open_scene(&s);
@@ -98,12 +95,4 @@ static void test_playing_is_scrubbing(void **state)
     session_close(&s);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_tail_lags_and_settles),
-        cmocka_unit_test(test_hops_over_the_ground),
-        cmocka_unit_test(test_playing_is_scrubbing),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return tests_run(NULL, NULL); }

@@ -7,9 +7,8 @@
 #include <string.h>
 #include <unistd.h>
 
-static void wrong_calls_are_counted(void **state)
+TEST(wrong_calls_are_counted)
 {
-    (void)state;
     struct error error = {0};
     platform_debug_gl();
     struct platform *platform = platform_offscreen(64, 64, 1, &error);
@@ -38,8 +37,4 @@ static void wrong_calls_are_counted(void **state)
     platform_destroy(platform);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(wrong_calls_are_counted)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return tests_run(NULL, NULL); }

@@ -24,9 +24,8 @@ static void assert_uv(struct builder *b, const double expected[3][2])
     gltf_free(&gltf);
 }
 
-static void every_component_type(void **state)
+TEST(every_component_type)
 {
-    (void)state;
     const int8_t bytes[] = {-128, 127, 0, 1, -127, 64};
     const uint8_t ubytes[] = {255, 0, 51, 1, 2, 3};
     const int16_t shorts[] = {-32768, 32767, 0, 1, -5, 7};
@@ -61,9 +60,8 @@ static void every_component_type(void **state)
 }
 
 /// Positions and texture coordinates in turn in one view, with a gap, from a byte of their own.
-static void strides_and_offsets(void **state)
+TEST(strides_and_offsets)
 {
-    (void)state;
     const float rows[3][7] = {{9, 1, 2, 3, 0.5f, 0.25f, 9}, {9, 4, 5, 6, 1, 0, 9}, {9, 7, 8, 10, 0, 1, 9}};
     struct builder b = {0};
     struct gltf gltf;
@@ -82,9 +80,8 @@ static void strides_and_offsets(void **state)
 }
 
 /// Changes to a view, and to zeros where there is no view.
-static void sparse_accessors(void **state)
+TEST(sparse_accessors)
 {
-    (void)state;
     const uint8_t places[] = {2};
     const float by[] = {0.5f, 3, -1};
     struct builder b = {0};
@@ -114,9 +111,8 @@ static void sparse_accessors(void **state)
 }
 
 /// Five corners as triangles (the two left over are dropped), strip and fan; points and lines are named.
-static void strips_and_fans(void **state)
+TEST(strips_and_fans)
 {
-    (void)state;
     const float corners[5][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}, {0, 2, 0}};
     const uint8_t indices[] = {0, 1, 2, 3, 4};
     struct builder b = {0};
@@ -143,9 +139,8 @@ static void strips_and_fans(void **state)
 }
 
 /// Strips jump by triangles that name a vertex twice, which no reader keeps; a primitive of nothing else is not there.
-static void triangles_that_repeat_a_vertex_are_left_out(void **state)
+TEST(triangles_that_repeat_a_vertex_are_left_out)
 {
-    (void)state;
     const float corners[4][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}};
     const uint8_t strip[] = {0, 1, 2, 2, 1, 3}, flat[] = {0, 1, 0, 3, 3, 3};
     struct builder b = {0};
@@ -179,9 +174,8 @@ static void triangles_that_repeat_a_vertex_are_left_out(void **state)
 }
 
 /// Two triangles that share an edge at a right angle: without normals in the file each gets vertices of its own, and is flat.
-static void missing_normals_are_flat(void **state)
+TEST(missing_normals_are_flat)
 {
-    (void)state;
     const float corners[4][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
     const uint16_t indices[] = {0, 1, 2, 0, 3, 1};
     const uint8_t colors[4][4] = {{255, 0, 0, 255}, {0, 255, 0, 255}, {0, 0, 255, 255}, {0, 0, 0, 51}};
@@ -210,9 +204,8 @@ static void missing_normals_are_flat(void **state)
     gltf_free(&gltf);
 }
 
-static void eight_influences(void **state)
+TEST(eight_influences)
 {
-    (void)state;
     const uint8_t first[3][4] = {{0, 1, 2, 3}, {3, 0, 0, 0}, {1, 9, 0, 0}}, second[3][4] = {{4, 5, 6, 7}, {0}, {0}};
     const float weights[3][4] = {{0.2f, 0.2f, 0.2f, 0.2f}, {0, 0, 0, 0}, {0.5f, 0, 0, 0}};
     const float more[3][4] = {{0.2f, 0.2f, 0.2f, 0.6f}, {0}, {0}};
@@ -250,9 +243,8 @@ static void eight_influences(void **state)
     "AQEAAD8AAP/Z"
 
 /// PNG in a view, JPEG in a data URI, PNG in a file; one picture that is none.
-static void materials_and_images(void **state)
+TEST(materials_and_images)
 {
-    (void)state;
     unsigned char pixels[2 * 3 * 4];
     struct builder b = {0};
     struct gltf gltf;
@@ -325,9 +317,8 @@ static void materials_and_images(void **state)
 }
 
 /// The same file as .glb, as .gltf with a file beside it, and as one that counts on neither.
-static void containers(void **state)
+TEST(containers)
 {
-    (void)state;
     const char *json =
         "{\"asset\":{\"version\":\"2.0\"},\"buffers\":[{\"byteLength\":36%s}],\"bufferViews\":[{\"buffer\":0,"
         "\"byteLength\":36}],\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"count\":3,\"type\":"
@@ -353,9 +344,8 @@ static void containers(void **state)
 }
 
 /// Children may come before parents; what the scene leaves out has no mesh.
-static void nodes_and_scenes(void **state)
+TEST(nodes_and_scenes)
 {
-    (void)state;
     struct builder b = {0};
     struct gltf gltf;
     struct gltf_pose pose;
@@ -385,19 +375,4 @@ static void nodes_and_scenes(void **state)
     gltf_free(&gltf);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_component_type),
-        cmocka_unit_test(strides_and_offsets),
-        cmocka_unit_test(sparse_accessors),
-        cmocka_unit_test(strips_and_fans),
-        cmocka_unit_test(triangles_that_repeat_a_vertex_are_left_out),
-        cmocka_unit_test(missing_normals_are_flat),
-        cmocka_unit_test(eight_influences),
-        cmocka_unit_test(materials_and_images),
-        cmocka_unit_test(containers),
-        cmocka_unit_test(nodes_and_scenes),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return tests_run(NULL, NULL); }

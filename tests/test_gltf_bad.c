@@ -91,9 +91,8 @@ static const struct {
     {CLIP("", "scale"), "animations[0].channels[0].sampler: expected none"},
 };
 
-static void bad_files_get_one_sentence(void **state)
+TEST(bad_files_get_one_sentence)
 {
-    (void)state;
     const float triangle[3][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, turns[3][4] = {{0.5f}}, times[] = {2, 1};
     const float nan[3][3] = {{0}, {0, NAN, 0}}, weights[3][4] = {{1}, {1}, {1}};
     const uint8_t index = 7, joints[3][4] = {{2}, {1}, {0}};
@@ -110,9 +109,8 @@ static void bad_files_get_one_sentence(void **state)
 }
 
 /// Room that is filled up with zeros behind the text is no fault; a zero in it ends the text for some readers and not for others.
-static void zeros_may_only_follow_the_text(void **state)
+TEST(zeros_may_only_follow_the_text)
 {
-    (void)state;
     static const char padded[] = "{\"asset\":{\"version\":\"1.0\"}}\0\0",
                       split[] = "{\"asset\":\0{\"version\":\"1.0\"}}";
     struct gltf gltf;
@@ -123,9 +121,8 @@ static void zeros_may_only_follow_the_text(void **state)
     assert_non_null(strstr(error.text, "JSON: expected text, got a NUL byte"));
 }
 
-static void bad_containers(void **state)
+TEST(bad_containers)
 {
-    (void)state;
 #define ASSET "{\"asset\":{\"version\":\"2.0\"},"
     struct gltf gltf;
     struct error error;
@@ -182,9 +179,8 @@ static long memory_to_read(const char *text, bool *opened)
 }
 
 /// Small files with large claims: without views, sparse, again and again, and a picture of 200 million pixels.
-static void claims_take_little_memory(void **state)
+TEST(claims_take_little_memory)
 {
-    (void)state;
     static char many[1 << 16];
     unsigned char png[] = "\x89PNG\r\n\x1a\n\0\0\0\rIHDR\0\0\x38\0\0\0\x38\0\x08\x06\0\0\0";
     char picture[512], base64[128];
@@ -308,9 +304,8 @@ static uint32_t draw(size_t below)
 }
 
 /// Bytes and numbers of the JSON and bytes of the buffer are changed: the file is read or refused, never more (the sanitizers watch).
-static void changed_files_do_no_harm(void **state)
+TEST(changed_files_do_no_harm)
 {
-    (void)state;
     static char text[1 << 16];
     struct builder whole = {0}, b;
     const char *members;
@@ -365,18 +360,16 @@ static void decode_table(int codes, size_t cut, const char *says)
     }
 }
 
-static void tables_of_a_jpeg(void **state)
+TEST(tables_of_a_jpeg)
 {
-    (void)state;
     decode_table(256, 0, "unknown image type");
     decode_table(257, 0, "a part of it is larger than it may be");
     decode_table(300, 0, "a part of it is larger than it may be");
     decode_table(256, 1, "a part of it is larger than it may be");
 }
 
-static void chunks_of_a_png(void **state)
+TEST(chunks_of_a_png)
 {
-    (void)state;
     unsigned char file[] = "\x89PNG\r\n\x1a\n\0\0\0\x0DIHDR\0\0\0\1\0\0\0\1\x08\0\0\0\0crc!"
                            "\0\0\0\x0DIDAT\x78\1\1\2\0\xFD\xFF\0\x50\0\x52\0\x51"
                            "crc!\0\0\0\0IEND";
@@ -393,16 +386,4 @@ static void chunks_of_a_png(void **state)
     if (!strstr(error.text, "or empty")) fail_msg("%s", error.text);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(bad_files_get_one_sentence),
-        cmocka_unit_test(zeros_may_only_follow_the_text),
-        cmocka_unit_test(bad_containers),
-        cmocka_unit_test(claims_take_little_memory),
-        cmocka_unit_test(changed_files_do_no_harm),
-        cmocka_unit_test(tables_of_a_jpeg),
-        cmocka_unit_test(chunks_of_a_png),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return tests_run(NULL, NULL); }

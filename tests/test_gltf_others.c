@@ -51,9 +51,8 @@ static void open_all(const char *folder, int least)
     assert_true(opened >= least);
 }
 
-static void every_model_of_assimp_opens(void **state)
+TEST(every_model_of_assimp_opens)
 {
-    (void)state;
     if (there(MODELS, "assimp-testmodels is not installed")) open_all(MODELS, 30);
 }
 
@@ -92,9 +91,8 @@ static void assert_extent(float (*vertices)[3], int count, const double expected
     }
 }
 
-static void a_skin_moves_as_in_three_js(void **state)
+TEST(a_skin_moves_as_in_three_js)
 {
-    (void)state;
     const double strip[10][2] = {{-0.5, 0},
                                  {0.5, 0},
                                  {-0.320314, 0.456882},
@@ -118,9 +116,8 @@ static void a_skin_moves_as_in_three_js(void **state)
     }
 }
 
-static void morph_targets_move_as_in_three_js(void **state)
+TEST(morph_targets_move_as_in_three_js)
 {
-    (void)state;
     const double expected[3][3] = {{-1, -1, -1}, {1, 1, -0.718533}, {0, 0, -0.859267}};
     float vertices[24][3];
     if (!there(MODELS "glTF-Sample-Models", "assimp-testmodels is not installed")) return;
@@ -143,9 +140,8 @@ static bool fetch_profiles(char *folder, size_t size)
     return there(folder, "there are no models of @webxr-input-profiles/assets");
 }
 
-static void hands_and_controllers_open(void **state)
+TEST(hands_and_controllers_open)
 {
-    (void)state;
     const double expected[3][3] = {
         {-0.056579, -0.133697, -0.079510}, {0.020442, 0.078344, 0.066395}, {-0.021134, -0.036206, 0.006453}};
     static float vertices[1360][3];
@@ -157,13 +153,4 @@ static void hands_and_controllers_open(void **state)
     assert_extent(vertices, 1360, expected);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_model_of_assimp_opens),
-        cmocka_unit_test(a_skin_moves_as_in_three_js),
-        cmocka_unit_test(morph_targets_move_as_in_three_js),
-        cmocka_unit_test(hands_and_controllers_open),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return tests_run(NULL, NULL); }

@@ -19,9 +19,8 @@ static void assert_numbers(const float *actual, const double *expected, int coun
 #define CHANNEL(path, sampler) "{\"sampler\":" sampler ",\"target\":{\"node\":0,\"path\":\"" path "\"}}"
 
 /// Keys at 1, 2 and 4 seconds.
-static void step_and_linear(void **state)
+TEST(step_and_linear)
 {
-    (void)state;
     const float times[] = {1, 2, 4}, values[3][3] = {{0, 10, 4}, {2, 20, 4}, {6, 0, 8}};
     struct builder b = {0};
     struct gltf gltf;
@@ -56,9 +55,8 @@ static void step_and_linear(void **state)
 
 /// From no turn to 120° about z, whose key is written as −q; the short way is a third of it at a third of the time. And a pair of keys that
 /// are the same rotation with other signs: nothing moves.
-static void rotations_take_the_short_way(void **state)
+TEST(rotations_take_the_short_way)
 {
-    (void)state;
     const double turn = acos(-1) / 3; // half of 120°
     const float times[] = {0, 3, 4};
     const float q[3][4] = {
@@ -82,9 +80,8 @@ static void rotations_take_the_short_way(void **state)
 }
 
 /// The spline of glTF's appendix at a quarter of two seconds: s = 1/4 has the weights 27/32, 9/64, 5/32 and −3/64.
-static void cubic_splines(void **state)
+TEST(cubic_splines)
 {
-    (void)state;
     const float times[] = {1, 3};
     const float moves[6][3] = {{9, 9, 9}, {1, 2, 3}, {4, 0, -8}, {8, 16, 0}, {5, 6, 7}, {9, 9, 9}};
     const float turns[6][4] = {{0}, {0, 0, 0, 1}, {0, 0, 0.5f, 0}, {0}, {0, 0, 1, 0}, {0}};
@@ -121,9 +118,8 @@ static void cubic_splines(void **state)
 
 /// Two nodes show one mesh with two targets; weights at rest are the mesh's and the second node's own, a clip moves the second's. Times
 /// as normalised bytes, weights as normalised shorts.
-static void morph_weights(void **state)
+TEST(morph_weights)
 {
-    (void)state;
     const float corners[3][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, up[3][3] = {{0, 0, 1}, {0, 0, 2}, {0, 0, 3}};
     const float tilt[3][3] = {{1, 0, -1}, {1, 0, -1}, {1, 0, -1}}, normal[3][3] = {{0, 0, 1}, {0, 0, 1}, {0, 0, 1}};
     const uint8_t times[] = {0, 255};
@@ -268,9 +264,8 @@ static void read_tail(double angle, struct gltf *gltf)
 
 /// Every bone turns by the same angle about the world's y, which each sees another way because of its roll. Bone n carries the vertex at
 /// its own end: all lie on a circle's chords, in the plane y = 0.
-static void a_tail_with_rolls(void **state)
+TEST(a_tail_with_rolls)
 {
-    (void)state;
     const double angle = 0.2;
     struct gltf gltf;
     struct gltf_pose pose;
@@ -297,9 +292,8 @@ static void a_tail_with_rolls(void **state)
 }
 
 /// A mirrored and stretched node: normals stay across the surface.
-static void normals_of_a_stretched_node(void **state)
+TEST(normals_of_a_stretched_node)
 {
-    (void)state;
     const float corners[3][3] = {{0, 0, 0}, {1, 0, 1}, {0, 1, 0}};
     struct builder b = {0};
     struct gltf gltf;
@@ -318,12 +312,4 @@ static void normals_of_a_stretched_node(void **state)
     gltf_free(&gltf);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(step_and_linear),   cmocka_unit_test(rotations_take_the_short_way),
-        cmocka_unit_test(cubic_splines),     cmocka_unit_test(morph_weights),
-        cmocka_unit_test(a_tail_with_rolls), cmocka_unit_test(normals_of_a_stretched_node),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return tests_run(NULL, NULL); }

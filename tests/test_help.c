@@ -32,9 +32,8 @@ static void assert_whole(struct session *s)
     }
 }
 
-static void test_all_of_it_fits(void **state)
+TEST(test_all_of_it_fits)
 {
-    (void)state;
     static const float sizes[][2] = {{1280, 720}, {1920, 1080}, {3840, 2160}};
     for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++) {
         struct session s;
@@ -46,9 +45,8 @@ static void test_all_of_it_fits(void **state)
 }
 
 /// A row that is added must not be lost in the smallest usual window, be it by scrolling.
-static void test_all_of_it_is_reached_at_960_by_600(void **state)
+TEST(test_all_of_it_is_reached_at_960_by_600)
 {
-    (void)state;
     struct session s;
     open_help(&s, 960, 600);
     bool seen[HELP_GROUPS][HELP_MAX_ROWS] = {{false}};
@@ -68,9 +66,8 @@ static void test_all_of_it_is_reached_at_960_by_600(void **state)
     session_close(&s);
 }
 
-static void test_small_windows_scroll(void **state)
+TEST(test_small_windows_scroll)
 {
-    (void)state;
     struct session s;
     open_help(&s, 500, 360);
     assert_true(is_seen(shown_text(s.editor, "Double-click")));
@@ -85,9 +82,8 @@ static void test_small_windows_scroll(void **state)
     session_close(&s);
 }
 
-static void test_any_key_closes_the_help_and_does_nothing_else(void **state)
+TEST(test_any_key_closes_the_help_and_does_nothing_else)
 {
-    (void)state;
     struct session s;
     panel_open(&s, scene, 1280, 720);
     session_key(&s, KEY_F1, 0);
@@ -255,9 +251,8 @@ static void assert_has_every_key(const struct chords *chords, const char *where)
     assert_true(bound > 80);
 }
 
-static void test_every_key_is_in_the_help(void **state)
+TEST(test_every_key_is_in_the_help)
 {
-    (void)state;
     struct chords chords = {.count = 0};
     for (int g = 0; g < HELP_GROUPS; g++) {
         for (int i = 0; help_row(&help_groups[g], i).keys; i++) {
@@ -289,9 +284,8 @@ static void assert_does_something(const char *keys)
     if (chords.count > 0 && !any) fail_msg("%s does nothing", keys);
 }
 
-static void test_the_help_names_no_other_keys(void **state)
+TEST(test_the_help_names_no_other_keys)
 {
-    (void)state;
     for (int g = 0; g < HELP_GROUPS; g++) {
         for (int i = 0; help_row(&help_groups[g], i).keys; i++) {
             assert_does_something(help_row(&help_groups[g], i).keys);
@@ -322,9 +316,8 @@ static bool next_page_row(FILE *page, char *cell, size_t size)
     return false;
 }
 
-static void test_every_key_is_in_the_page_of_keys(void **state)
+TEST(test_every_key_is_in_the_page_of_keys)
 {
-    (void)state;
     FILE *page = fopen("docs/keys.md", "r");
     assert_non_null(page);
     struct chords chords = {.count = 0};
@@ -335,9 +328,8 @@ static void test_every_key_is_in_the_page_of_keys(void **state)
     assert_has_every_key(&chords, "docs/keys.md");
 }
 
-static void test_the_page_of_keys_names_no_others(void **state)
+TEST(test_the_page_of_keys_names_no_others)
 {
-    (void)state;
     FILE *page = fopen("docs/keys.md", "r");
     assert_non_null(page);
     char cell[256];
@@ -347,17 +339,4 @@ static void test_the_page_of_keys_names_no_others(void **state)
     assert_true(rows > 60);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_all_of_it_fits),
-        cmocka_unit_test(test_all_of_it_is_reached_at_960_by_600),
-        cmocka_unit_test(test_small_windows_scroll),
-        cmocka_unit_test(test_any_key_closes_the_help_and_does_nothing_else),
-        cmocka_unit_test(test_every_key_is_in_the_help),
-        cmocka_unit_test(test_the_help_names_no_other_keys),
-        cmocka_unit_test(test_every_key_is_in_the_page_of_keys),
-        cmocka_unit_test(test_the_page_of_keys_names_no_others),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return tests_run(NULL, NULL); }

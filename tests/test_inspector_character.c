@@ -50,9 +50,8 @@ static void open_puppet(struct puppetry *p)
 static void close_puppet(struct puppetry *p) { session_close(&p->session); }
 
 /// Of several rigs the character's own is edited, whichever comes first.
-static void a_character_behind_a_tail_is_edited(void **state)
+TEST(a_character_behind_a_tail_is_edited)
 {
-    (void)state;
     struct puppetry p;
     char scene[600];
     snprintf(
@@ -75,9 +74,8 @@ static const struct stage_character *on_stage(const struct puppetry *p, int inde
     return &view->characters[index];
 }
 
-static void amplitude_and_lag_are_live_and_one_step_each(void **state)
+TEST(amplitude_and_lag_are_live_and_one_step_each)
 {
-    (void)state;
     struct puppetry p;
     open_puppet(&p);
     const float before = on_stage(&p, 0)->morph.weight[0][0];
@@ -96,9 +94,8 @@ static void amplitude_and_lag_are_live_and_one_step_each(void **state)
     close_puppet(&p);
 }
 
-static void coordinates_come_and_go_and_change_their_spline(void **state)
+TEST(coordinates_come_and_go_and_change_their_spline)
 {
-    (void)state;
     struct puppetry p;
     open_puppet(&p);
     panel_click(&p.session, "drive.add.0");
@@ -120,9 +117,8 @@ static void coordinates_come_and_go_and_change_their_spline(void **state)
     close_puppet(&p);
 }
 
-static void phases_and_twin_are_views(void **state)
+TEST(phases_and_twin_are_views)
 {
-    (void)state;
     struct puppetry p;
     open_puppet(&p);
     assert_int_equal(on_stage(&p, 0)->map_coordinate, -1);
@@ -140,9 +136,8 @@ static void phases_and_twin_are_views(void **state)
     close_puppet(&p);
 }
 
-static void the_look_is_stiff_for_characters_too(void **state)
+TEST(the_look_is_stiff_for_characters_too)
 {
-    (void)state;
     struct puppetry p;
     open_puppet(&p);
     session_key(&p.session, KEY_RIGHT, 0);
@@ -152,14 +147,4 @@ static void the_look_is_stiff_for_characters_too(void **state)
     close_puppet(&p);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(amplitude_and_lag_are_live_and_one_step_each),
-        cmocka_unit_test(a_character_behind_a_tail_is_edited),
-        cmocka_unit_test(coordinates_come_and_go_and_change_their_spline),
-        cmocka_unit_test(phases_and_twin_are_views),
-        cmocka_unit_test(the_look_is_stiff_for_characters_too),
-    };
-    return cmocka_run_group_tests(tests, make_model, remove_model);
-}
+int main(void) { return tests_run(make_model, remove_model); }

@@ -10,9 +10,8 @@ static const char scene[] =
 
 static const char *active_name(const struct session *f) { return f->document->splines[f->editor->core.active]->name; }
 
-static void test_a_spline_is_added_at_the_playhead(void **state)
+TEST(test_a_spline_is_added_at_the_playhead)
 {
-    (void)state;
     struct session f;
     panel_open(&f, scene, 1280, 720);
     session_click(&f, "ruler(24)");
@@ -29,9 +28,8 @@ static void test_a_spline_is_added_at_the_playhead(void **state)
 }
 
 /// What is being edited stays what it is when the list around it changes, and when that is undone.
-static void test_the_active_spline_is_followed(void **state)
+TEST(test_the_active_spline_is_followed)
 {
-    (void)state;
     struct session f;
     panel_open(&f, scene, 1280, 720);
     panel_click(&f, "spline.pace");
@@ -53,9 +51,8 @@ static void test_the_active_spline_is_followed(void **state)
 }
 
 /// Deleting what others follow asks; then they keep the value of that frame, and the tail lets go of it.
-static void test_deleting_a_followed_spline_asks(void **state)
+TEST(test_deleting_a_followed_spline_asks)
 {
-    (void)state;
     struct session f;
     panel_open(&f, scene, 1280, 720);
     session_click(&f, "ruler(90)");
@@ -84,9 +81,8 @@ static void test_deleting_a_followed_spline_asks(void **state)
 }
 
 /// The only spline may go as well; what is left still draws, and can be added to.
-static void test_an_empty_list(void **state)
+TEST(test_an_empty_list)
 {
-    (void)state;
     struct session f;
     panel_open(&f, scene, 960, 600);
     for (int i = 0; i < 3; i++) {
@@ -102,9 +98,8 @@ static void test_an_empty_list(void **state)
     session_close(&f);
 }
 
-static void test_renaming(void **state)
+TEST(test_renaming)
 {
-    (void)state;
     struct session f;
     panel_open(&f, scene, 1280, 720);
     char *before = session_saved(&f);
@@ -136,9 +131,8 @@ static void test_renaming(void **state)
     session_close(&f);
 }
 
-static void test_rows_are_dragged_to_their_place(void **state)
+TEST(test_rows_are_dragged_to_their_place)
 {
-    (void)state;
     struct session f;
     panel_open(&f, scene, 1280, 720);
     char *before = session_saved(&f);
@@ -153,9 +147,8 @@ static void test_rows_are_dragged_to_their_place(void **state)
     session_close(&f);
 }
 
-static void test_colours(void **state)
+TEST(test_colours)
 {
-    (void)state;
     struct session f;
     panel_open(&f, scene, 1280, 720);
     char *before = session_saved(&f);
@@ -180,9 +173,8 @@ static void test_colours(void **state)
     session_close(&f);
 }
 
-static void test_hidden_and_solo_curves(void **state)
+TEST(test_hidden_and_solo_curves)
 {
-    (void)state;
     struct session f;
     panel_open(&f, scene, 1280, 720);
     assert_int_equal(f.editor->curves->cache.other_count, 2);
@@ -202,9 +194,8 @@ static void test_hidden_and_solo_curves(void **state)
 }
 
 /// Attached from the list, which has no spline that would make a cycle; detached, it keeps the value at the playhead.
-static void test_a_track_is_attached_and_detached(void **state)
+TEST(test_a_track_is_attached_and_detached)
 {
-    (void)state;
     struct session f;
     panel_open(&f, scene, 1280, 720);
     session_click(&f, "ruler(90)");
@@ -229,9 +220,8 @@ static void test_a_track_is_attached_and_detached(void **state)
     session_close(&f);
 }
 
-static void test_frames_per_second_ask(void **state)
+TEST(test_frames_per_second_ask)
 {
-    (void)state;
     struct session f;
     panel_open(&f, scene, 1280, 1600);
     panel_click(&f, "section.scene");
@@ -255,9 +245,8 @@ static void test_frames_per_second_ask(void **state)
     session_close(&f);
 }
 
-static void test_a_range_asks_for_its_knots(void **state)
+TEST(test_a_range_asks_for_its_knots)
 {
-    (void)state;
     struct session f;
     panel_open(&f, scene, 1280, 1600);
     panel_click(&f, "section.scene");
@@ -287,9 +276,8 @@ static void test_a_range_asks_for_its_knots(void **state)
 }
 
 /// More frames than the splines' samples allow are refused in the field, and nothing is asked about knots.
-static void a_range_has_an_end(void **state)
+TEST(a_range_has_an_end)
 {
-    (void)state;
     struct session f;
     panel_open(&f, scene, 1280, 2000);
     panel_click(&f, "section.scene");
@@ -343,9 +331,8 @@ static void random_input(struct session *f, unsigned *seed)
 }
 
 /// Whatever is pressed, dragged and typed: the document stays one that loads, and all of it can be undone.
-static void test_random_input_comes_back(void **state)
+TEST(test_random_input_comes_back)
 {
-    (void)state;
     int steps = 0;
     for (unsigned seed = 1; seed <= (unsigned)quick_or_all(2, 6); seed++) {
         struct session f;
@@ -372,22 +359,4 @@ static void test_random_input_comes_back(void **state)
     assert_true(steps >= quick_or_all(10, 60));
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_a_spline_is_added_at_the_playhead),
-        cmocka_unit_test(test_the_active_spline_is_followed),
-        cmocka_unit_test(test_deleting_a_followed_spline_asks),
-        cmocka_unit_test(test_an_empty_list),
-        cmocka_unit_test(test_renaming),
-        cmocka_unit_test(test_rows_are_dragged_to_their_place),
-        cmocka_unit_test(test_colours),
-        cmocka_unit_test(test_hidden_and_solo_curves),
-        cmocka_unit_test(test_a_track_is_attached_and_detached),
-        cmocka_unit_test(test_frames_per_second_ask),
-        cmocka_unit_test(test_a_range_asks_for_its_knots),
-        cmocka_unit_test(a_range_has_an_end),
-        cmocka_unit_test(test_random_input_comes_back),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return tests_run(NULL, NULL); }

@@ -28,9 +28,8 @@ static void close_undone(struct session *s, char *before)
     session_close(s);
 }
 
-static void test_place_and_size(void **state)
+TEST(test_place_and_size)
 {
-    (void)state;
     struct session s;
     char *before = open_tall(&s);
     panel_enter(&s, "position.x", "0.5");
@@ -54,9 +53,8 @@ static void test_place_and_size(void **state)
     close_undone(&s, before);
 }
 
-static void test_channels(void **state)
+TEST(test_channels)
 {
-    (void)state;
     struct session s;
     char *before = open_tall(&s);
     panel_click(&s, "axis.0");
@@ -80,9 +78,8 @@ static void test_channels(void **state)
     close_undone(&s, before);
 }
 
-static void test_angles_one_for_each_joint(void **state)
+TEST(test_angles_one_for_each_joint)
 {
-    (void)state;
     struct session s;
     char *before = open_tall(&s);
     panel_click(&s, "lag.each");
@@ -113,9 +110,8 @@ static void test_angles_one_for_each_joint(void **state)
 }
 
 /// The curve is drawn by a drag over the joints: one step, which Esc takes back; arrows go along it.
-static void test_angles_are_drawn(void **state)
+TEST(test_angles_are_drawn)
 {
-    (void)state;
     struct session s;
     char *before = open_tall(&s);
     panel_click(&s, "gain.each");
@@ -146,9 +142,8 @@ static void test_angles_are_drawn(void **state)
     close_undone(&s, before);
 }
 
-static void test_tails(void **state)
+TEST(test_tails)
 {
-    (void)state;
     struct session s;
     char *before = open_tall(&s);
     panel_click(&s, "tail.name");
@@ -175,9 +170,8 @@ static void test_tails(void **state)
 }
 
 /// View state is no edit.
-static void test_toggles(void **state)
+TEST(test_toggles)
 {
-    (void)state;
     struct session s;
     char *before = open_tall(&s);
     panel_click(&s, "onion");
@@ -188,15 +182,4 @@ static void test_toggles(void **state)
     close_undone(&s, before);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_place_and_size),
-        cmocka_unit_test(test_channels),
-        cmocka_unit_test(test_angles_one_for_each_joint),
-        cmocka_unit_test(test_angles_are_drawn),
-        cmocka_unit_test(test_tails),
-        cmocka_unit_test(test_toggles),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return tests_run(NULL, NULL); }

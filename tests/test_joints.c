@@ -37,9 +37,8 @@ static const struct param *equilibrium(const struct session *session)
 
 static const struct chain *tail(const struct session *session) { return &session->document->rigs[1]->chain; }
 
-static void test_an_equilibrium_comes_to_follow_the_tip_of_its_chain(void **state)
+TEST(test_an_equilibrium_comes_to_follow_the_tip_of_its_chain)
 {
-    (void)state;
     struct session s;
     open_beast(&s, "0");
     char *before = session_saved(&s);
@@ -58,9 +57,8 @@ static void test_an_equilibrium_comes_to_follow_the_tip_of_its_chain(void **stat
     session_close(&s);
 }
 
-static void test_a_joint_is_chosen_from_a_list(void **state)
+TEST(test_a_joint_is_chosen_from_a_list)
 {
-    (void)state;
     struct session s;
     open_beast(&s, FOLLOWS);
     char *before = session_saved(&s);
@@ -82,9 +80,8 @@ static void test_a_joint_is_chosen_from_a_list(void **state)
 }
 
 /// Tab to the field, Enter, a few letters, Enter.
-static void test_a_joint_is_found_by_typing(void **state)
+TEST(test_a_joint_is_found_by_typing)
 {
-    (void)state;
     struct session s;
     open_beast(&s, FOLLOWS);
     for (int tabs = 0; tabs < 100 && s.editor->inspector->ui.focus != ui_id("joint.0"); tabs++)
@@ -114,9 +111,8 @@ static int lines_on_stage(const struct session *session)
     return count;
 }
 
-static void test_a_joint_is_picked_on_the_stage(void **state)
+TEST(test_a_joint_is_picked_on_the_stage)
 {
-    (void)state;
     struct session s;
     open_beast(&s, FOLLOWS);
     char *before = session_saved(&s);
@@ -145,9 +141,8 @@ static void test_a_joint_is_picked_on_the_stage(void **state)
     session_close(&s);
 }
 
-static void test_the_ends_of_a_chain_are_chosen_from_lists(void **state)
+TEST(test_the_ends_of_a_chain_are_chosen_from_lists)
 {
-    (void)state;
     struct session s;
     open_beast(&s, "{\"model\": \"beast\", \"joint\": \"tail_8\", \"of\": \"up\", \"chain\": \"tail\"}");
     char *before = session_saved(&s);
@@ -169,9 +164,8 @@ static void test_the_ends_of_a_chain_are_chosen_from_lists(void **state)
     session_close(&s);
 }
 
-static void test_a_chain_goes_to_another_limb(void **state)
+TEST(test_a_chain_goes_to_another_limb)
 {
-    (void)state;
     struct session s;
     open_beast(&s, "0");
     char *before = session_saved(&s);
@@ -184,9 +178,8 @@ static void test_a_chain_goes_to_another_limb(void **state)
     session_close(&s);
 }
 
-static void test_ends_that_are_no_chain_are_refused(void **state)
+TEST(test_ends_that_are_no_chain_are_refused)
 {
-    (void)state;
     struct session s;
     open_beast(&s, "0");
     char *before = session_saved(&s);
@@ -204,9 +197,8 @@ static void test_ends_that_are_no_chain_are_refused(void **state)
 }
 
 /// Two beasts side by side: a bone goes by its character's name, and can be asked for by it.
-static void test_a_second_character_is_named(void **state)
+TEST(test_a_second_character_is_named)
 {
-    (void)state;
     struct session s;
     char scene[2048];
     int model;
@@ -239,9 +231,8 @@ static void test_a_second_character_is_named(void **state)
 }
 
 /// A chain that follows bends by many degrees a metre: its slider goes that far, and stays as it is while it is dragged.
-static void test_a_large_gain_is_on_its_slider(void **state)
+TEST(test_a_large_gain_is_on_its_slider)
 {
-    (void)state;
     struct session s;
     open_beast(&s, "0");
     panel_enter(&s, "gain", "86");
@@ -254,9 +245,8 @@ static void test_a_large_gain_is_on_its_slider(void **state)
     session_close(&s);
 }
 
-static void test_undoing_a_chain_activates_what_was_active(void **state)
+TEST(test_undoing_a_chain_activates_what_was_active)
 {
-    (void)state;
     struct session s;
     open_beast(&s, "0");
     session_key(&s, KEY_PAGE_UP, 0);
@@ -285,9 +275,8 @@ static bool knot_is_seen(const struct session *s)
     return y >= core->layout.plot.y && y <= core->layout.plot.y + core->layout.plot.h;
 }
 
-static void test_the_curves_show_a_knot_that_was_pulled(void **state)
+TEST(test_the_curves_show_a_knot_that_was_pulled)
 {
-    (void)state;
     struct session s;
     open_beast(&s, "0");
     panel_enter(&s, "gain", "0.1"); // so that a pull needs large values
@@ -300,20 +289,4 @@ static void test_the_curves_show_a_knot_that_was_pulled(void **state)
     session_close(&s);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_an_equilibrium_comes_to_follow_the_tip_of_its_chain),
-        cmocka_unit_test(test_a_joint_is_chosen_from_a_list),
-        cmocka_unit_test(test_a_joint_is_found_by_typing),
-        cmocka_unit_test(test_a_joint_is_picked_on_the_stage),
-        cmocka_unit_test(test_the_ends_of_a_chain_are_chosen_from_lists),
-        cmocka_unit_test(test_a_chain_goes_to_another_limb),
-        cmocka_unit_test(test_ends_that_are_no_chain_are_refused),
-        cmocka_unit_test(test_a_second_character_is_named),
-        cmocka_unit_test(test_a_large_gain_is_on_its_slider),
-        cmocka_unit_test(test_undoing_a_chain_activates_what_was_active),
-        cmocka_unit_test(test_the_curves_show_a_knot_that_was_pulled),
-    };
-    return cmocka_run_group_tests(tests, folder_make, folder_remove);
-}
+int main(void) { return tests_run(folder_make, folder_remove); }

@@ -20,9 +20,8 @@ static bool is_selected(const struct session *s, int knot)
     return selection_has(&s->editor->core.selection, s->document->splines[0]->knots[knot].id);
 }
 
-static void test_the_selection_grows_by_neighbours(void **state)
+TEST(test_the_selection_grows_by_neighbours)
 {
-    (void)state;
     struct session s;
     session_open(&s, scene);
     session_key(&s, KEY_LEFT, MOD_SHIFT); // to the first frame
@@ -37,9 +36,8 @@ static void test_the_selection_grows_by_neighbours(void **state)
     session_close(&s);
 }
 
-static void test_the_curves_pan_and_zoom(void **state)
+TEST(test_the_curves_pan_and_zoom)
 {
-    (void)state;
     struct session s;
     session_open(&s, scene);
     const struct view before = s.editor->curves->view;
@@ -58,9 +56,8 @@ static void test_the_curves_pan_and_zoom(void **state)
     session_close(&s);
 }
 
-static void test_the_camera_turns_and_comes_back(void **state)
+TEST(test_the_camera_turns_and_comes_back)
 {
-    (void)state;
     struct session s;
     session_open(&s, scene);
     const struct camera before = s.editor->stage->camera;
@@ -75,9 +72,8 @@ static void test_the_camera_turns_and_comes_back(void **state)
     session_close(&s);
 }
 
-static void test_panels_have_sizes_to_choose_from(void **state)
+TEST(test_panels_have_sizes_to_choose_from)
 {
-    (void)state;
     struct session s;
     double share, width, first_share, first_width;
     session_open(&s, scene);
@@ -93,9 +89,8 @@ static void test_panels_have_sizes_to_choose_from(void **state)
     session_close(&s);
 }
 
-static void test_a_warning_is_done_away_with(void **state)
+TEST(test_a_warning_is_done_away_with)
 {
-    (void)state;
     struct session s;
     session_open(&s, jump);
     assert_int_equal(s.editor->curves->warnings.count, 1);
@@ -107,9 +102,8 @@ static void test_a_warning_is_done_away_with(void **state)
     session_close(&s);
 }
 
-static void test_a_number_goes_to_its_default(void **state)
+TEST(test_a_number_goes_to_its_default)
 {
-    (void)state;
     struct session s;
     session_open(&s, scene);
     for (int i = 0; i < 40 && s.editor->inspector->ui.focus != ui_id("frequency"); i++) session_key(&s, KEY_TAB, 0);
@@ -163,9 +157,8 @@ static int tab_round(struct session *s)
     return count;
 }
 
-static void test_the_focus_is_seen_wherever_it_goes(void **state)
+TEST(test_the_focus_is_seen_wherever_it_goes)
 {
-    (void)state;
     struct session s;
     session_open(&s, scene);
     inspector_unfold(s.editor->inspector, "section.scene");
@@ -176,16 +169,4 @@ static void test_the_focus_is_seen_wherever_it_goes(void **state)
     session_close(&s);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_the_selection_grows_by_neighbours),
-        cmocka_unit_test(test_the_curves_pan_and_zoom),
-        cmocka_unit_test(test_the_camera_turns_and_comes_back),
-        cmocka_unit_test(test_panels_have_sizes_to_choose_from),
-        cmocka_unit_test(test_a_warning_is_done_away_with),
-        cmocka_unit_test(test_a_number_goes_to_its_default),
-        cmocka_unit_test(test_the_focus_is_seen_wherever_it_goes),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return tests_run(NULL, NULL); }

@@ -189,9 +189,8 @@ static void vary(struct layout *l, int start, int filter, int variant)
 }
 
 /// Half the rate is enough.
-static void the_conditions_hold_in_every_mode(void **state)
+TEST(the_conditions_hold_in_every_mode)
 {
-    (void)state;
     for (int kind = 0; kind < 3 * 3 * 2 * VARIANTS; kind++) {
         for (unsigned n = 0; n < 5; n++) {
             struct layout l;
@@ -245,9 +244,8 @@ static void make_any(struct layout *l, unsigned n)
     snprintf(l->what, sizeof l->what, "any spline %u", n);
 }
 
-static void the_conditions_hold_of_any_spline(void **state)
+TEST(the_conditions_hold_of_any_spline)
 {
-    (void)state;
     int held = 0, solved = 0;
     for (unsigned n = 0; n < 240; n++) {
         struct layout l;
@@ -264,9 +262,8 @@ static void the_conditions_hold_of_any_spline(void **state)
 }
 
 /// 200 layouts of 240 samples: within 1e-9, in few solves.
-static void few_solves_are_enough(void **state)
+TEST(few_solves_are_enough)
 {
-    (void)state;
     int rounds[LAYOUTS];
     double before = 0, after = 0;
     for (unsigned n = 0; n < LAYOUTS; n++) {
@@ -288,9 +285,8 @@ static void few_solves_are_enough(void **state)
 }
 
 /// An equilibrium that swings far beyond the limits, of every start, mode and filter: most of 240 samples are held.
-static void few_solves_are_enough_where_most_are_held(void **state)
+TEST(few_solves_are_enough_where_most_are_held)
 {
-    (void)state;
     enum { EACH = 20, COUNT = 18 * EACH };
     int rounds[COUNT], most_held = 0;
     for (int n = 0; n < COUNT; n++) {
@@ -324,9 +320,8 @@ static void make_swinging(struct layout *l)
 }
 
 /// The bits are those of the description alone, whatever was solved before and whichever arrays are asked for.
-static void bits_do_not_depend_on_the_way(void **state)
+TEST(bits_do_not_depend_on_the_way)
 {
-    (void)state;
     struct layout l;
     static double alone[SAMPLES], dragged[SAMPLES];
     make_swinging(&l);
@@ -345,9 +340,8 @@ static void bits_do_not_depend_on_the_way(void **state)
 
 /// Knots in another order are the same knots, also where one plain solve is not exact enough and all is solved again: slow, and far
 /// from the equilibrium.
-static void knots_need_no_order(void **state)
+TEST(knots_need_no_order)
 {
-    (void)state;
     static double ordered[SAMPLES];
     int again = 0;
     for (unsigned n = 0; n < 20; n++) {
@@ -369,9 +363,8 @@ static void knots_need_no_order(void **state)
 }
 
 /// Without a knot nothing but the equilibrium's motion moves it, and a limit stops that.
-static void what_moves_by_itself_is_limited_too(void **state)
+TEST(what_moves_by_itself_is_limited_too)
 {
-    (void)state;
     struct layout l;
     for (int mode = WIGGLY_COMPLEX; mode <= WIGGLY_REAL; mode++) {
         make_layout(&l, 3, (wiggly_mode)mode, 240, 1.0 / 24);
@@ -391,9 +384,8 @@ static void what_moves_by_itself_is_limited_too(void **state)
 }
 
 /// Once the tail has left its limit, its imaginary part goes on with the real one: x turns by its pole.
-static void what_leaves_a_limit_swings_whole(void **state)
+TEST(what_leaves_a_limit_swings_whole)
 {
-    (void)state;
     const wiggly_knot knots[] = {{.sample = 20}, {.sample = 40, .value = 1}};
     wiggly_desc desc = wiggly_default_desc();
     desc.samples = 160;
@@ -412,9 +404,8 @@ static void what_leaves_a_limit_swings_whole(void **state)
     }
 }
 
-static void what_cannot_be_is_an_error(void **state)
+TEST(what_cannot_be_is_an_error)
 {
-    (void)state;
     struct layout l;
     wiggly_solver *narrow;
     make_layout(&l, 5, WIGGLY_CUBIC, 240, 1.0 / 24);
@@ -431,9 +422,8 @@ static void what_cannot_be_is_an_error(void **state)
 }
 
 /// A wild equilibrium far beyond the limits: the search ends before it has found what to hold, and says so; the curve keeps within.
-static void a_search_that_tires_says_so(void **state)
+TEST(a_search_that_tires_says_so)
 {
-    (void)state;
     enum { LONG = 3000 };
     static double wild[LONG], room[3][1 + LONG]; // what is before them is no sample
     double *const now = room[0] + 1;
@@ -460,9 +450,8 @@ static void a_search_that_tires_says_so(void **state)
 
 /// An equilibrium far beyond the limits holds nearly all, the sample right behind the last knot too; in the last of these layouts
 /// with others before and behind it.
-static void what_is_right_behind_the_last_knot_is_held(void **state)
+TEST(what_is_right_behind_the_last_knot_is_held)
 {
-    (void)state;
     static const double parts[] = {0.8, 1, 1 - 1e-12, 1 - 1e-6};
     int held = 0;
     for (unsigned n = 219; n < 259; n++) {
@@ -495,18 +484,4 @@ static int destroy(void **state)
     return 0;
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(the_conditions_hold_in_every_mode),
-                                       cmocka_unit_test(the_conditions_hold_of_any_spline),
-                                       cmocka_unit_test(a_search_that_tires_says_so),
-                                       cmocka_unit_test(what_is_right_behind_the_last_knot_is_held),
-                                       cmocka_unit_test(few_solves_are_enough),
-                                       cmocka_unit_test(few_solves_are_enough_where_most_are_held),
-                                       cmocka_unit_test(bits_do_not_depend_on_the_way),
-                                       cmocka_unit_test(knots_need_no_order),
-                                       cmocka_unit_test(what_moves_by_itself_is_limited_too),
-                                       cmocka_unit_test(what_leaves_a_limit_swings_whole),
-                                       cmocka_unit_test(what_cannot_be_is_an_error)};
-    return cmocka_run_group_tests(tests, create, destroy);
-}
+int main(void) { return tests_run(create, destroy); }

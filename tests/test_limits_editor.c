@@ -33,9 +33,8 @@ static void pull(struct session *s, const char *from, const char *to)
     session_frame(s);
 }
 
-static void a_line_is_dragged_as_far_as_the_knots(void **state)
+TEST(a_line_is_dragged_as_far_as_the_knots)
 {
-    (void)state;
     struct session s;
     session_open(&s, swinging);
     char *original = session_saved(&s);
@@ -57,9 +56,8 @@ static void a_line_is_dragged_as_far_as_the_knots(void **state)
 }
 
 /// While a limit holds a knot the status line says so, and no longer; it stays after the release, to be read.
-static void what_holds_a_dragged_knot_is_said(void **state)
+TEST(what_holds_a_dragged_knot_is_said)
 {
-    (void)state;
     struct session s;
     session_open(&s, swinging);
     const char *said = s.editor->core.message.text;
@@ -77,9 +75,8 @@ static void what_holds_a_dragged_knot_is_said(void **state)
 }
 
 /// A knot cannot leave the range nor sit on another one: what stops it is said as it is where knots are scaled.
-static void what_stops_a_knot_in_time_is_said(void **state)
+TEST(what_stops_a_knot_in_time_is_said)
 {
-    (void)state;
     struct session s;
     session_open(&s, swinging);
     const char *said = s.editor->core.message.text;
@@ -104,9 +101,8 @@ static void what_stops_a_knot_in_time_is_said(void **state)
     session_close(&s);
 }
 
-static void a_nudge_goes_as_far_as_the_limit(void **state)
+TEST(a_nudge_goes_as_far_as_the_limit)
 {
-    (void)state;
     struct session s;
     session_open(&s, swinging);
     session_click(&s, "knot(sway,3)"); // 0.2 below it
@@ -118,9 +114,8 @@ static void a_nudge_goes_as_far_as_the_limit(void **state)
 }
 
 /// It bends as far as the limit; before, the pull was taken back as a whole.
-static void a_pulled_tail_stops_at_the_limit(void **state)
+TEST(a_pulled_tail_stops_at_the_limit)
 {
-    (void)state;
     struct session s;
     session_open(&s,
                  "{\"wiggly\": 1, \"frames\": [0, 48], \"splines\": [{\"name\": \"sway\", \"limits\": [-0.5, 0.5], "
@@ -136,9 +131,8 @@ static void a_pulled_tail_stops_at_the_limit(void **state)
     session_close(&s);
 }
 
-static void the_inspector_switches_each(void **state)
+TEST(the_inspector_switches_each)
 {
-    (void)state;
     struct session s;
     panel_open(&s, swinging, 1280, 900);
     panel_click(&s, "section.limits");
@@ -160,9 +154,8 @@ static void the_inspector_switches_each(void **state)
     session_close(&s);
 }
 
-static void a_file_with_wrong_limits_says_so(void **state)
+TEST(a_file_with_wrong_limits_says_so)
 {
-    (void)state;
     static const char *const wrong[][2] = {
         {"[1, -1]", "s:1: splines[0].limits: expected the low limit below the high one, got 1 and -1"},
         {"[null, 0.5]", "s:1: splines[0].knots[0].value: expected at most the high limit, 0.5, got 0.75"},
@@ -182,12 +175,4 @@ static void a_file_with_wrong_limits_says_so(void **state)
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_line_is_dragged_as_far_as_the_knots), cmocka_unit_test(what_holds_a_dragged_knot_is_said),
-        cmocka_unit_test(what_stops_a_knot_in_time_is_said),     cmocka_unit_test(a_nudge_goes_as_far_as_the_limit),
-        cmocka_unit_test(a_pulled_tail_stops_at_the_limit),      cmocka_unit_test(the_inspector_switches_each),
-        cmocka_unit_test(a_file_with_wrong_limits_says_so)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return tests_run(NULL, NULL); }

@@ -86,9 +86,8 @@ static void assert_looks(const struct character *c)
     free(png);
 }
 
-static void they_are_read_back(void **state)
+TEST(they_are_read_back)
 {
-    (void)state;
     struct character c = read_character("cube.glb");
     assert_looks(&c);
     struct error error;
@@ -100,11 +99,10 @@ static void they_are_read_back(void **state)
 }
 
 /// A model file can be a mesh again: simulate and analyze take it, with its quads.
-static void a_mesh_of_quads_comes_out_of_gltf(void **state)
+TEST(a_mesh_of_quads_comes_out_of_gltf)
 {
     struct surface surface;
     struct error error;
-    (void)state;
     if (!surface_read(folder_path("cube.glb"), &surface, &error)) fail_msg("%s", error.text);
     assert_int_equal(surface.index_count, 36);
     assert_non_null(surface.looks.joined);
@@ -126,9 +124,8 @@ static const char *export_cube(const char *name)
     return path;
 }
 
-static void they_are_exported_as_gltf(void **state)
+TEST(they_are_exported_as_gltf)
 {
-    (void)state;
     const char *const names[] = {"out.glb", "out.gltf"};
     for (int n = 0; n < 2; n++) {
         struct gltf gltf;
@@ -153,9 +150,8 @@ static void they_are_exported_as_gltf(void **state)
     }
 }
 
-static void they_are_exported_as_usd_with_quads(void **state)
+TEST(they_are_exported_as_usd_with_quads)
 {
-    (void)state;
     size_t size, picture_size, original_size;
     char *text = bytes_of(export_cube("out.usda"), &size);
     static const char *const expected[] = {
@@ -199,9 +195,8 @@ static int pixels_of(const picture pixels, int k)
     return count;
 }
 
-static void they_are_seen_on_the_stage(void **state)
+TEST(they_are_seen_on_the_stage)
 {
-    (void)state;
     static picture seen, mapped;
     if (!platform) skip();
     struct character c = read_character("cube.glb");
@@ -217,9 +212,8 @@ static void they_are_seen_on_the_stage(void **state)
 }
 
 /// Through a top of half an alpha the background is seen, on which it lies as on glass; the sides stay as they were.
-static void what_is_half_clear_is_seen_through(void **state)
+TEST(what_is_half_clear_is_seen_through)
 {
-    (void)state;
     static picture opaque, clear, none;
     if (!platform) skip();
     for (int i = 0; i < 3; i++) {
@@ -244,9 +238,8 @@ static void what_is_half_clear_is_seen_through(void **state)
 }
 
 /// Slopes of a picture that is drawn smaller than it is stay even, so that nothing glitters when it moves.
-static void a_far_picture_is_smooth(void **state)
+TEST(a_far_picture_is_smooth)
 {
-    (void)state;
     enum { SIDE = 128 };
     static unsigned char waves[SIDE][SIDE][4];
     static picture seen;
@@ -274,9 +267,8 @@ static void a_far_picture_is_smooth(void **state)
 }
 
 /// Of a ball, which is drawn coarser in a pair, the lower half stays red and the upper green.
-static void coarse_triangles_keep_their_material(void **state)
+TEST(coarse_triangles_keep_their_material)
 {
-    (void)state;
     struct character ball = puppet_character(0.017f, 0);
     const int triangles = ball.index_count / 3;
     ball.looks.material = malloc((size_t)triangles * sizeof *ball.looks.material);
@@ -302,18 +294,4 @@ static int close_all(void **state)
     return folder_remove(state);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(they_are_read_back),
-
-        cmocka_unit_test(a_mesh_of_quads_comes_out_of_gltf),
-        cmocka_unit_test(they_are_exported_as_gltf),
-        cmocka_unit_test(they_are_exported_as_usd_with_quads),
-        cmocka_unit_test(they_are_seen_on_the_stage),
-        cmocka_unit_test(a_far_picture_is_smooth),
-        cmocka_unit_test(what_is_half_clear_is_seen_through),
-        cmocka_unit_test(coarse_triangles_keep_their_material),
-    };
-    return cmocka_run_group_tests(tests, open_all, close_all);
-}
+int main(void) { return tests_run(open_all, close_all); }

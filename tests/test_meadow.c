@@ -26,9 +26,8 @@ static const char windy_scene[] =
     "\"channels\": [{\"spline\": \"tail\", \"axis\": \"side\", \"gain\": 4}]},"
     "{\"type\": \"meadow\", \"name\": \"reeds\", \"spline\": \"wind\", \"count\": 40, \"variation\": 0.4}]}";
 
-static void it_is_read_and_written(void **state)
+TEST(it_is_read_and_written)
 {
-    (void)state;
     struct session s;
     session_open(&s, scene);
     const struct meadow_rig *meadow = &s.document->rigs[1]->meadow;
@@ -47,9 +46,8 @@ static void it_is_read_and_written(void **state)
     session_close(&s);
 }
 
-static void every_reed_is_a_variation(void **state)
+TEST(every_reed_is_a_variation)
 {
-    (void)state;
     struct session s;
     struct models *models = panel_open_models(&s, scene);
     session_frame(&s);
@@ -65,9 +63,8 @@ static void every_reed_is_a_variation(void **state)
     session_close(&s);
 }
 
-static void its_numbers_are_set_in_the_inspector(void **state)
+TEST(its_numbers_are_set_in_the_inspector)
 {
-    (void)state;
     struct session s;
     panel_open(&s, scene, 1280, 2400);
     char *original = session_saved(&s);
@@ -90,9 +87,8 @@ static void its_numbers_are_set_in_the_inspector(void **state)
 }
 
 /// Played in a loop, the meadow that ships does not jump.
-static void the_meadow_of_the_app_loops(void **state)
+TEST(the_meadow_of_the_app_loops)
 {
-    (void)state;
     struct error error = {0};
     struct document *document = scene_load("assets/scenes/meadow.json", NULL, &error);
     if (!document) fail_msg("%s", error.text);
@@ -120,9 +116,8 @@ static int solved_by_dragging(struct session *s, const char *target)
     return most;
 }
 
-static void they_are_solved_only_where_their_curves_change(void **state)
+TEST(they_are_solved_only_where_their_curves_change)
 {
-    (void)state;
     static const struct {
         const char *target;
         int solved;
@@ -152,9 +147,8 @@ static double swing_of(const struct session *s)
     return most;
 }
 
-static void a_dragged_body_sets_them_swinging(void **state)
+TEST(a_dragged_body_sets_them_swinging)
 {
-    (void)state;
     struct session s;
     panel_open_models(&s, scene);
     session_frame(&s);
@@ -180,9 +174,8 @@ static void a_dragged_body_sets_them_swinging(void **state)
 }
 
 /// What a cubic moves has no swing of its own: its reeds are pushed aside, and that is all.
-static void reeds_that_nothing_pulls_back_do_not_swing(void **state)
+TEST(reeds_that_nothing_pulls_back_do_not_swing)
 {
-    (void)state;
     struct session s;
     panel_open_models(&s, scene);
     for (int mode = 0; mode < 2; mode++) session_key(&s, 'M', 0);
@@ -199,16 +192,4 @@ static void reeds_that_nothing_pulls_back_do_not_swing(void **state)
     session_close(&s);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(it_is_read_and_written),
-        cmocka_unit_test(every_reed_is_a_variation),
-        cmocka_unit_test(its_numbers_are_set_in_the_inspector),
-        cmocka_unit_test(the_meadow_of_the_app_loops),
-        cmocka_unit_test(they_are_solved_only_where_their_curves_change),
-        cmocka_unit_test(a_dragged_body_sets_them_swinging),
-        cmocka_unit_test(reeds_that_nothing_pulls_back_do_not_swing),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return tests_run(NULL, NULL); }

@@ -79,9 +79,8 @@ static void spread(const int column[4], const int row[4], unsigned char out[4][4
     for (int i = 0; i < 16; i++) memcpy(out[i / 4][i % 4], red_blue[row[i / 4]][column[i % 4]], 4);
 }
 
-static void textures_go_on_as_the_file_says(void **state)
+TEST(textures_go_on_as_the_file_says)
 {
-    (void)state;
     static const struct {
         const char *across, *down; ///< of the sampler
         int column[4], row[4];     ///< from one before the picture to one behind it, half a picture each
@@ -117,9 +116,8 @@ static int changes(const picture drawn)
     return count;
 }
 
-static void a_near_texture_has_edges_or_none(void **state)
+TEST(a_near_texture_has_edges_or_none)
 {
-    (void)state;
     if (!platform) skip();
     draw("{\"magFilter\": 9728}", 0, 1, red_blue[0][0], 2, one);
     draw("{\"magFilter\": 9729}", 0, 1, red_blue[0][0], 2, other);
@@ -129,11 +127,4 @@ static void a_near_texture_has_edges_or_none(void **state)
     assert_int_equal(differing(one, other), 0);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(textures_go_on_as_the_file_says),
-        cmocka_unit_test(a_near_texture_has_edges_or_none),
-    };
-    return cmocka_run_group_tests(tests, set_up, offscreen_close);
-}
+int main(void) { return tests_run(set_up, offscreen_close); }

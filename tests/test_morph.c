@@ -21,9 +21,8 @@ static void stir(struct character *character)
 }
 
 /// D(j) = Re(Σ A_k e^{−j·lag_k} x_k Ñ_{k,j}), computed as it is written.
-static void positions_are_those_of_equation_30(void **state)
+TEST(positions_are_those_of_equation_30)
 {
-    (void)state;
     struct character character = puppet_character(0.2f, 3);
     stir(&character);
     struct figure figure = puppet_figure(&character);
@@ -67,9 +66,8 @@ static void positions_are_those_of_equation_30(void **state)
 }
 
 /// What moves a quarter of a swing behind the spline has no real part at all: without its phase it stands still.
-static void real_parts_alone_lose_what_lags(void **state)
+TEST(real_parts_alone_lose_what_lags)
 {
-    (void)state;
     struct character character = puppet_character(0.2f, 1);
     for (int i = 0; i < character.vertex_count; i++) character.coordinates[0].im[i][1] = -1.0f;
     struct figure figure = puppet_figure(&character);
@@ -104,9 +102,8 @@ static void cofactors_times(double m[3][3], const float n[3], double out[3])
 }
 
 /// A deformation that is linear in space has the cofactors of 1 + Re(z M) everywhere: stretched, sheared and squeezed.
-static void normals_follow_the_deformation(void **state)
+TEST(normals_follow_the_deformation)
 {
-    (void)state;
     static const float re[3][3] = {{0.5f, 0.3f, 0}, {0, 0.8f, -0.2f}, {0.1f, 0, -0.4f}};
     static const float im[3][3] = {{0, -0.4f, 0.2f}, {0.3f, 0, 0}, {0, 0.5f, 0.1f}};
     struct character character = puppet_character(0.04f, 1);
@@ -133,9 +130,8 @@ static void normals_follow_the_deformation(void **state)
 }
 
 /// Twice the fine mesh' size is too much for two: the coarse one is as round, as closed, and uses the same vertices.
-static void the_coarse_mesh_is_the_same_surface(void **state)
+TEST(the_coarse_mesh_is_the_same_surface)
 {
-    (void)state;
     struct character character = puppet_character(0.017f, 1);
     struct figure figure = puppet_figure(&character);
     const struct character *c = &figure.character;
@@ -160,9 +156,8 @@ static void the_coarse_mesh_is_the_same_surface(void **state)
 }
 
 /// Vertices at one place and with one normal share their neighbours; where a triangle has two of them, they are no neighbours of themselves.
-static void a_triangle_between_vertices_at_one_place(void **state)
+TEST(a_triangle_between_vertices_at_one_place)
 {
-    (void)state;
     float position[4][3] = {{0}, {0}, {1, 0, 0}, {0}};
     uint32_t indices[] = {0, 1, 2, 1, 3, 0};
     struct surface surface = {.position = position, .vertex_count = 4, .indices = indices, .index_count = 6};
@@ -180,9 +175,8 @@ static void a_triangle_between_vertices_at_one_place(void **state)
     figure_free(&figure);
 }
 
-static void a_figure_knows_where_it_stands(void **state)
+TEST(a_figure_knows_where_it_stands)
 {
-    (void)state;
     struct character character = puppet_character(0.05f, 2);
     for (int i = 0; i < character.vertex_count; i++) {
         character.coordinates[1].re[i][2] = 3 * character.position[i][1];
@@ -217,9 +211,8 @@ static void oklab_of(const float rgb[3], double lab[3])
     for (int r = 0; r < 3; r++) lab[r] = to_lab[r][0] * lms[0] + to_lab[r][1] * lms[1] + to_lab[r][2] * lms[2];
 }
 
-static void the_phase_map_is_even_and_cyclic(void **state)
+TEST(the_phase_map_is_even_and_cyclic)
 {
-    (void)state;
     double before[3] = {0};
     for (int i = 0; i <= 360; i++) {
         const float angle = (float)(i * M_PI / 180);
@@ -255,9 +248,8 @@ static struct document *scene_with(const char *model)
 }
 
 /// The scene stays as it is; one sentence says what is the matter.
-static void a_model_that_is_missing_or_broken_is_said(void **state)
+TEST(a_model_that_is_missing_or_broken_is_said)
 {
-    (void)state;
     char path[] = "/tmp/wiggly-test-XXXXXX";
     const int file = mkstemp(path);
     assert_true(file >= 0);
@@ -280,9 +272,8 @@ static void a_model_that_is_missing_or_broken_is_said(void **state)
 }
 
 /// A coordinate that the model lacks is said, and what it has moves; a file that was written anew is read anew.
-static void a_model_is_read_once_and_again_when_it_changes(void **state)
+TEST(a_model_is_read_once_and_again_when_it_changes)
 {
-    (void)state;
     char path[] = "/tmp/wiggly-test-XXXXXX";
     close(mkstemp(path));
     struct character character = puppet_character(0.2f, 1), finer = puppet_character(0.1f, 1);
@@ -310,18 +301,4 @@ static void a_model_is_read_once_and_again_when_it_changes(void **state)
     character_free(&finer);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(positions_are_those_of_equation_30),
-        cmocka_unit_test(real_parts_alone_lose_what_lags),
-        cmocka_unit_test(normals_follow_the_deformation),
-        cmocka_unit_test(the_coarse_mesh_is_the_same_surface),
-        cmocka_unit_test(a_triangle_between_vertices_at_one_place),
-        cmocka_unit_test(a_figure_knows_where_it_stands),
-        cmocka_unit_test(the_phase_map_is_even_and_cyclic),
-        cmocka_unit_test(a_model_that_is_missing_or_broken_is_said),
-        cmocka_unit_test(a_model_is_read_once_and_again_when_it_changes),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return tests_run(NULL, NULL); }

@@ -73,18 +73,16 @@ static const char *npy(int version, const char *dictionary, int number_size, boo
     return temporary_file("motion.npy", b.data, b.size);
 }
 
-static void npy_of_every_type(void **state)
+TEST(npy_of_every_type)
 {
-    (void)state;
     assert_holds_numbers(npy(1, "{'descr': '<f4', 'fortran_order': False, 'shape': (5, 4, 3), }\n", 4, false), 0);
     assert_holds_numbers(npy(2, "{'descr': '<f8', 'fortran_order': False, 'shape': (5, 4, 3)}", 8, false), 0);
     assert_holds_numbers(npy(1, "{'shape': (5, 12), 'fortran_order': False, 'descr': '>f4'}", 4, true), 0);
     assert_holds_numbers(npy(1, "{'descr':'>f8','fortran_order':False,'shape':(5,12),}", 8, true), 0);
 }
 
-static void npy_in_fortran_order(void **state)
+TEST(npy_in_fortran_order)
 {
-    (void)state;
     static struct bytes b;
     add_npy(&b, 1, "{'descr': '<f4', 'fortran_order': True, 'shape': (5, 4, 3), }\n");
     for (int k = 0; k < 3; k++) { // the first index runs fastest
@@ -110,9 +108,8 @@ static const char *mdd(const double times[FRAMES])
     return temporary_file("motion.mdd", b.data, b.size);
 }
 
-static void mdd_carries_its_rate(void **state)
+TEST(mdd_carries_its_rate)
 {
-    (void)state;
     assert_holds_numbers(mdd((const double[]){2, 2 + 1.0 / 24, 2 + 2.0 / 24, 2 + 3.0 / 24, 2 + 4.0 / 24}), 24);
     assert_holds_numbers(mdd((const double[]){0, 1, 2, 3, 3.5}), 0); // uneven: nobody knows
     assert_holds_numbers(mdd((const double[]){0, 0, 0, 0, 0}), 0);
@@ -131,9 +128,8 @@ static void write_motion(const char *path)
     if (!motion_write_commit(&writer, &error)) fail_msg("%s", error.text);
 }
 
-static void what_is_written_reads_back(void **state)
+TEST(what_is_written_reads_back)
 {
-    (void)state;
     write_motion(temporary_path("written.npy"));
     assert_holds_numbers(temporary_path("written.npy"), 0);
     write_motion(temporary_path("written.pc2"));
@@ -144,9 +140,8 @@ static void what_is_written_reads_back(void **state)
     fclose(file);
 }
 
-static void an_abandoned_motion_leaves_nothing(void **state)
+TEST(an_abandoned_motion_leaves_nothing)
 {
-    (void)state;
     const char *path = temporary_path("abandoned.npy");
     float frame[VERTICES][3] = {{0}};
     struct motion_writer writer;
@@ -177,9 +172,8 @@ static void assert_refused(const char *path, const char *says)
     assert_int_equal(error.kind, ERROR_INPUT);
 }
 
-static void bad_files_get_one_sentence(void **state)
+TEST(bad_files_get_one_sentence)
 {
-    (void)state;
     assert_refused(npy(1, "{'descr': '<i4', 'fortran_order': False, 'shape': (5, 4, 3), }", 4, false),
                    "expected numbers of type float32 or float64, got '<i4'");
     assert_refused(npy(1, "{'descr': [('x', '<f4')], 'fortran_order': False, 'shape': (5, 4, 3), }", 4, false),
@@ -208,9 +202,8 @@ static void bad_files_get_one_sentence(void **state)
     assert_refused("/tmp", "/tmp: expected a file");
 }
 
-static void a_number_that_is_none_is_named(void **state)
+TEST(a_number_that_is_none_is_named)
 {
-    (void)state;
     static struct bytes b;
     double slab[FRAMES * COLUMNS];
     add_npy(&b, 1, "{'descr': '<f4', 'fortran_order': False, 'shape': (5, 4, 3), }");
@@ -225,9 +218,8 @@ static void a_number_that_is_none_is_named(void **state)
 }
 
 /// Headers changed at random: read or refused, never more (the sanitizers watch).
-static void changed_headers_do_no_harm(void **state)
+TEST(changed_headers_do_no_harm)
 {
-    (void)state;
     static struct bytes good, b;
     uint32_t seed = 4711;
     int refused = 0;
@@ -254,17 +246,4 @@ static void changed_headers_do_no_harm(void **state)
     assert_in_range(refused, 50, 999);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(npy_of_every_type),
-        cmocka_unit_test(npy_in_fortran_order),
-        cmocka_unit_test(mdd_carries_its_rate),
-        cmocka_unit_test(what_is_written_reads_back),
-        cmocka_unit_test(an_abandoned_motion_leaves_nothing),
-        cmocka_unit_test(bad_files_get_one_sentence),
-        cmocka_unit_test(a_number_that_is_none_is_named),
-        cmocka_unit_test(changed_headers_do_no_harm),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return tests_run(NULL, NULL); }

@@ -10,9 +10,8 @@ static bool read_text(const char *text, struct surface *surface, struct error *e
     return obj_read(temporary_file("form.obj", text, strlen(text)), surface, error);
 }
 
-static void all_forms_of_a_face(void **state)
+TEST(all_forms_of_a_face)
 {
-    (void)state;
     const char *text = "# a pyramid\r\nmtllib a.mtl\r\no thing\r\n"
                        "v 0 0 0\r\nv 1 0 0\nv 1 1e0 0\nv 0 1 0 1.0\nv .5 .5 \\\n 1\n"
                        "vt 0 0\nvn 0 0 1\ns off\nusemtl m\n"
@@ -32,9 +31,8 @@ static void all_forms_of_a_face(void **state)
 }
 
 /// Some vertices have a colour: it is sRGB, and the others are white.
-static void colours_become_linear(void **state)
+TEST(colours_become_linear)
 {
-    (void)state;
     struct surface s;
     struct error error;
     assert_true(read_text("v 0 0 0\nv 1 0 0 0.5 1 0\nv 0 1 0\nf 1 2 3\n", &s, &error));
@@ -47,9 +45,8 @@ static void colours_become_linear(void **state)
     surface_free(&s);
 }
 
-static void what_is_written_reads_back_equal(void **state)
+TEST(what_is_written_reads_back_equal)
 {
-    (void)state;
     float position[3][3] = {{0.1f, -1e-20f, 3.4e38f}, {1.0f / 3, 16777214, 0}, {-0.25f, 7, 1e10f}};
     float color[3][3] = {{0, 1, 0.5f}, {0.001f, 0.2f, 0.9f}, {1, 1, 1}};
     uint32_t indices[] = {2, 0, 1};
@@ -70,9 +67,8 @@ static void what_is_written_reads_back_equal(void **state)
 }
 
 /// A triangle that names a vertex twice has no area: it is left out, and what is left of its polygon stays a polygon where it is a fan.
-static void triangles_that_repeat_a_vertex_are_left_out(void **state)
+TEST(triangles_that_repeat_a_vertex_are_left_out)
 {
-    (void)state;
     static const struct {
         const char *faces;
         int index_count;
@@ -103,9 +99,8 @@ static void triangles_that_repeat_a_vertex_are_left_out(void **state)
 }
 
 /// What a triangle looks like goes with it where others before it are left out.
-static void looks_stay_with_their_triangles(void **state)
+TEST(looks_stay_with_their_triangles)
 {
-    (void)state;
     struct surface s;
     struct error error;
     assert_true(read_text("v 0 0 0\nv 1 0 0\nv 1 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nusemtl a\nf 1/1 2/2 1/3\n"
@@ -121,9 +116,8 @@ static void looks_stay_with_their_triangles(void **state)
     surface_free(&s);
 }
 
-static void bad_files_get_one_sentence(void **state)
+TEST(bad_files_get_one_sentence)
 {
-    (void)state;
     const struct {
         const char *text, *says;
     } cases[] = {
@@ -160,15 +154,4 @@ static void bad_files_get_one_sentence(void **state)
     assert_non_null(strstr(error.text, "/nowhere.obj: cannot be opened"));
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(all_forms_of_a_face),
-        cmocka_unit_test(colours_become_linear),
-        cmocka_unit_test(what_is_written_reads_back_equal),
-        cmocka_unit_test(triangles_that_repeat_a_vertex_are_left_out),
-        cmocka_unit_test(looks_stay_with_their_triangles),
-        cmocka_unit_test(bad_files_get_one_sentence),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return tests_run(NULL, NULL); }

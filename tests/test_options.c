@@ -48,9 +48,8 @@ static enum options_result parse(const char *line)
     return options_parse(&usage, argc, argv, operands);
 }
 
-static void test_values_in_every_spelling(void **state)
+TEST(test_values_in_every_spelling)
 {
-    (void)state;
     assert_int_equal(parse("a --loud -o x --frames=7 --scale 1.5 b --size 1280x720"), OPTIONS_RUN);
     assert_true(loud);
     assert_string_equal(out, "x");
@@ -67,9 +66,8 @@ static void test_values_in_every_spelling(void **state)
     assert_int_equal(method, SOLVER_CHAIN);
 }
 
-static void test_names_that_look_like_options(void **state)
+TEST(test_names_that_look_like_options)
 {
-    (void)state;
     assert_int_equal(parse("-- --loud"), OPTIONS_RUN);
     assert_false(loud);
     assert_string_equal(operands[0], "--loud");
@@ -80,9 +78,8 @@ static void test_names_that_look_like_options(void **state)
     assert_string_equal(out, "--loud");
 }
 
-static void test_what_is_refused(void **state)
+TEST(test_what_is_refused)
 {
-    (void)state;
     const char *lines[] = {
         "",
         "a b c",
@@ -118,9 +115,8 @@ static void test_what_is_refused(void **state)
     }
 }
 
-static void test_nearest_word(void **state)
+TEST(test_nearest_word)
 {
-    (void)state;
     const char *words[] = {"live", "solve", "check"};
     assert_string_equal(options_nearest("slove", words, 3), "solve");
     assert_string_equal(options_nearest("chek", words, 3), "check");
@@ -132,13 +128,4 @@ static void test_nearest_word(void **state)
     assert_null(options_nearest(longest, words, 3));
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_values_in_every_spelling),
-        cmocka_unit_test(test_names_that_look_like_options),
-        cmocka_unit_test(test_what_is_refused),
-        cmocka_unit_test(test_nearest_word),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return tests_run(NULL, NULL); }

@@ -55,9 +55,8 @@ static void expect_smooth(const char *scene, const int most[2])
     blind_close(&blind);
 }
 
-static void outlines_have_no_stairs(void **state)
+TEST(outlines_have_no_stairs)
 {
-    (void)state;
     static const struct {
         const char *scene;
         int most[2];
@@ -70,8 +69,4 @@ static void outlines_have_no_stairs(void **state)
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) expect_smooth(cases[i].scene, cases[i].most);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(outlines_have_no_stairs)};
-    return cmocka_run_group_tests(tests, set_up, offscreen_close);
-}
+int main(void) { return tests_run(set_up, offscreen_close); }

@@ -48,9 +48,8 @@ static void middle_of(const struct session *s, const struct draw_command *comman
     }
 }
 
-static void test_onion_shows_the_nearest_knots(void **state)
+TEST(test_onion_shows_the_nearest_knots)
 {
-    (void)state;
     struct session s;
     session_open(&s, scene);
     uint32_t color = theme()->spline[0];
@@ -77,9 +76,8 @@ static void test_onion_shows_the_nearest_knots(void **state)
 }
 
 /// A mark a frame, where the tip will be; the range's ends are the arc's.
-static void test_arc_is_where_the_tip_goes(void **state)
+TEST(test_arc_is_where_the_tip_goes)
 {
-    (void)state;
     struct session s;
     session_open(&s, scene);
     session_key(&s, 'P', 0);
@@ -99,9 +97,8 @@ static void test_arc_is_where_the_tip_goes(void **state)
     session_close(&s);
 }
 
-static void test_arc_follows_an_edit_at_once(void **state)
+TEST(test_arc_follows_an_edit_at_once)
 {
-    (void)state;
     struct session s;
     session_open(&s, scene);
     session_key(&s, 'P', 0);
@@ -119,9 +116,8 @@ static void test_arc_follows_an_edit_at_once(void **state)
 }
 
 /// Both stay as they are when another document comes, and neither minds one without tails.
-static void test_overlays_outlive_documents(void **state)
+TEST(test_overlays_outlive_documents)
 {
-    (void)state;
     struct session s;
     session_open(&s, "{\"frames\": [0, 9], \"splines\": [{\"name\": \"x\"}]}");
     session_key(&s, 'O', 0);
@@ -133,9 +129,8 @@ static void test_overlays_outlive_documents(void **state)
     session_close(&s);
 }
 
-static void test_the_ghost_is_the_pose_at_the_knot_in_hand(void **state)
+TEST(test_the_ghost_is_the_pose_at_the_knot_in_hand)
 {
-    (void)state;
     struct session s;
     session_open(&s, scene);
     const uint32_t color = theme()->spline[0];
@@ -179,9 +174,8 @@ static int crossings(const struct session *s, const struct draw_command *command
     return count;
 }
 
-static void test_outlines_do_not_fold_from_any_side(void **state)
+TEST(test_outlines_do_not_fold_from_any_side)
 {
-    (void)state;
     struct session s;
     session_open(&s, scene);
     session_key(&s, KEY_F4, 0);
@@ -220,9 +214,8 @@ static float way_of(const struct character *c, int vertex)
 }
 
 /// Onion skin and motion arc are not for tails alone: a scene of a soft character shows its outlines, and where it moves most.
-static void test_a_character_has_skins_and_an_arc(void **state)
+TEST(test_a_character_has_skins_and_an_arc)
 {
-    (void)state;
     struct session s;
     open_bear(&s);
     assert_int_equal(find(&s, DRAW_LINE, theme()->spline[0]).count, 0);
@@ -242,9 +235,8 @@ static void test_a_character_has_skins_and_an_arc(void **state)
 }
 
 /// At the height of the character: from its ears, above the middle of its head, to its feet.
-static void test_a_character_has_a_ghost(void **state)
+TEST(test_a_character_has_a_ghost)
 {
-    (void)state;
     struct session s;
     open_bear(&s);
     const uint32_t color = theme()->spline[0];
@@ -269,17 +261,4 @@ static void test_a_character_has_a_ghost(void **state)
     session_close(&s);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_onion_shows_the_nearest_knots),
-        cmocka_unit_test(test_the_ghost_is_the_pose_at_the_knot_in_hand),
-        cmocka_unit_test(test_outlines_do_not_fold_from_any_side),
-        cmocka_unit_test(test_a_character_has_a_ghost),
-        cmocka_unit_test(test_a_character_has_skins_and_an_arc),
-        cmocka_unit_test(test_arc_is_where_the_tip_goes),
-        cmocka_unit_test(test_arc_follows_an_edit_at_once),
-        cmocka_unit_test(test_overlays_outlive_documents),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return tests_run(NULL, NULL); }

@@ -23,9 +23,8 @@ static double run(struct pace *pace, double *now, int frames, double work, doubl
     return *now - start;
 }
 
-static void a_display_that_holds_keeps_the_time(void **state)
+TEST(a_display_that_holds_keeps_the_time)
 {
-    (void)state;
     const double rates[] = {60, 75, 90, 120, 144, 240};
     for (int i = 0; i < 18; i++) {
         struct pace pace = {0};
@@ -37,9 +36,8 @@ static void a_display_that_holds_keeps_the_time(void **state)
     }
 }
 
-static void without_one_the_app_does_at_the_display_s_rate(void **state)
+TEST(without_one_the_app_does_at_the_display_s_rate)
 {
-    (void)state;
     const double rates[] = {0, 60, 75, 144};
     for (int i = 0; i < 4; i++) {
         struct pace pace = {0};
@@ -51,9 +49,8 @@ static void without_one_the_app_does_at_the_display_s_rate(void **state)
     }
 }
 
-static void slow_frames_are_never_held_up(void **state)
+TEST(slow_frames_are_never_held_up)
 {
-    (void)state;
     struct pace pace = {0};
     double now = 1;
     pace_set_rate(&pace, 60);
@@ -63,9 +60,8 @@ static void slow_frames_are_never_held_up(void **state)
     assert_near(run(&pace, &now, 100, 0.03, 0, 0), 3, 1e-6);
 }
 
-static void another_display_is_judged_anew(void **state)
+TEST(another_display_is_judged_anew)
 {
-    (void)state;
     struct pace pace = {0};
     double now = 1;
     pace_set_rate(&pace, 60);
@@ -76,22 +72,11 @@ static void another_display_is_judged_anew(void **state)
     assert_false(pace.limits);
 }
 
-static void waiting_for_input_says_nothing(void **state)
+TEST(waiting_for_input_says_nothing)
 {
-    (void)state;
     struct pace pace = {0};
     for (int i = 0; i < 200; i++) pace_swapped(&pace, 0.004 * i, i % 5 != 0);
     assert_false(pace.limits);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_display_that_holds_keeps_the_time),
-        cmocka_unit_test(without_one_the_app_does_at_the_display_s_rate),
-        cmocka_unit_test(slow_frames_are_never_held_up),
-        cmocka_unit_test(another_display_is_judged_anew),
-        cmocka_unit_test(waiting_for_input_says_nothing),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return tests_run(NULL, NULL); }

@@ -4,9 +4,8 @@
 #include <string.h>
 
 /// Paint on a figure is e^{a + jψ} at each vertex; normals follow as if the model had been made so.
-static void paint_turns_and_scales_coordinates(void **state)
+TEST(paint_turns_and_scales_coordinates)
 {
-    (void)state;
     struct character character = puppet_character(0.1f, 1), made = puppet_character(0.1f, 1);
     const int vertices = character.vertex_count;
     float(*paint)[2] = calloc((size_t)vertices, sizeof *paint);
@@ -50,9 +49,8 @@ static void paint_turns_and_scales_coordinates(void **state)
 }
 
 /// Only the blocks of vertices around what has changed are noted for the GPU.
-static void changes_are_noted_where_they_are(void **state)
+TEST(changes_are_noted_where_they_are)
 {
-    (void)state;
     struct character character = puppet_character(0.06f, 2);
     struct figure plain = puppet_figure(&character);
     struct painted *painted = painted_create(&plain);
@@ -74,11 +72,4 @@ static void changes_are_noted_where_they_are(void **state)
     free(paint);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(paint_turns_and_scales_coordinates),
-        cmocka_unit_test(changes_are_noted_where_they_are),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return tests_run(NULL, NULL); }

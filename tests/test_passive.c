@@ -168,9 +168,8 @@ static void print_extrema(wiggly_passive passive, char *text, size_t size)
 }
 
 /// With the filter the swing grows; an oscillator's dies away by e^{−ζωt} from turning point to turning point.
-static void the_swing_dies_away(void **state)
+TEST(the_swing_dies_away)
 {
-    (void)state;
     char filter[64], oscillator[64];
     double extrema[5];
     print_extrema(WIGGLY_FILTER, filter, sizeof filter);
@@ -182,9 +181,8 @@ static void the_swing_dies_away(void **state)
     assert_true(fabs(extrema[2]) > fabs(extrema[0]));
 }
 
-static void an_equilibrium_that_moves(void **state)
+TEST(an_equilibrium_that_moves)
 {
-    (void)state;
     char filter[64], oscillator[64];
     const double exact = peak_of_differential_equation();
     double coarse = fabs(peak_of_step(WIGGLY_OSCILLATOR, 1) - exact),
@@ -195,18 +193,16 @@ static void an_equilibrium_that_moves(void **state)
     assert_true(coarse < 4e-3 && fine < 1e-4);
 }
 
-static void a_frequency_that_rises_from_zero(void **state)
+TEST(a_frequency_that_rises_from_zero)
 {
-    (void)state;
     char filter[64], oscillator[64];
     snprintf(filter, sizeof filter, "%.1f", largest_on_a_rising_frequency(WIGGLY_FILTER));
     snprintf(oscillator, sizeof oscillator, "%.1f", largest_on_a_rising_frequency(WIGGLY_OSCILLATOR));
     assert_row("largest total where the frequency rises", filter, oscillator);
 }
 
-static void slopes_at_twice_the_rate(void **state)
+TEST(slopes_at_twice_the_rate)
 {
-    (void)state;
     char text[2][64];
     double change[2][2];
     for (int passive = 0; passive < 2; passive++) {
@@ -218,13 +214,4 @@ static void slopes_at_twice_the_rate(void **state)
     assert_true(change[WIGGLY_FILTER][1] > 0.2 * change[WIGGLY_FILTER][0]);          // as h
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_swing_dies_away),
-        cmocka_unit_test(an_equilibrium_that_moves),
-        cmocka_unit_test(a_frequency_that_rises_from_zero),
-        cmocka_unit_test(slopes_at_twice_the_rate),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return tests_run(NULL, NULL); }

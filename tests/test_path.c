@@ -13,18 +13,16 @@ static void assert_resolved(const char *folder, const char *path, const char *ex
     assert_string_equal(absolute, expected);
 }
 
-static void dots_and_slashes_go(void **state)
+TEST(dots_and_slashes_go)
 {
-    (void)state;
     assert_resolved("/", "a//b/./../c.glb", "/a/c.glb");
     assert_resolved("/", "../../a.glb", "/a.glb");
     assert_resolved("nowhere", "/a/..", "/");
 }
 
 /// Where somebody saves into a folder that is not there.
-static void a_missing_folder_is_in_the_working_folder(void **state)
+TEST(a_missing_folder_is_in_the_working_folder)
 {
-    (void)state;
     char here[PATH_LIMIT], expected[PATH_LIMIT + 64], moved[PATH_LIMIT];
     assert_non_null(getcwd(here, sizeof here));
     snprintf(expected, sizeof expected, "%s/no such/models/a.glb", here);
@@ -35,9 +33,8 @@ static void a_missing_folder_is_in_the_working_folder(void **state)
     assert_string_equal(moved, "no such/a.glb");
 }
 
-static void what_is_too_long_is_refused(void **state)
+TEST(what_is_too_long_is_refused)
 {
-    (void)state;
     static char longest[PATH_LIMIT + 1];
     char absolute[PATH_LIMIT];
     memset(longest, 'a', PATH_LIMIT);
@@ -47,12 +44,4 @@ static void what_is_too_long_is_refused(void **state)
     assert_false(path_resolve(longest, "a.glb", absolute));
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(dots_and_slashes_go),
-        cmocka_unit_test(a_missing_folder_is_in_the_working_folder),
-        cmocka_unit_test(what_is_too_long_is_refused),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return tests_run(NULL, NULL); }

@@ -39,9 +39,8 @@ static struct settings *stored(void)
     return settings;
 }
 
-static void looks_and_panels_are_as_they_were_left(void **state)
+TEST_WITH(folder_make, folder_remove, looks_and_panels_are_as_they_were_left)
 {
-    (void)state;
     struct blind blind;
     double share, width;
     const enum theme_kind before = theme_in_use(),
@@ -65,9 +64,8 @@ static void looks_and_panels_are_as_they_were_left(void **state)
 }
 
 /// The card for new users comes until it has been closed once.
-static void the_welcome_comes_once(void **state)
+TEST_WITH(folder_make, folder_remove, the_welcome_comes_once)
 {
-    (void)state;
     struct blind blind;
     for (int run = 0; run < 3; run++) {
         start(&blind);
@@ -92,9 +90,8 @@ static const char *new_file(const char *name)
     return path;
 }
 
-static void files_and_the_last_export_are_remembered(void **state)
+TEST_WITH(folder_make, folder_remove, files_and_the_last_export_are_remembered)
 {
-    (void)state;
     struct blind blind;
     struct dialog_recent files[DIALOG_MAX_RECENT];
     struct request request = {.wish = {.is_cubic = true, .keys = 3, .width = 640, .height = 360}};
@@ -121,9 +118,8 @@ static void files_and_the_last_export_are_remembered(void **state)
     end(&blind);
 }
 
-static void settings_that_cannot_be_stored_are_said(void **state)
+TEST_WITH(folder_make, folder_remove, settings_that_cannot_be_stored_are_said)
 {
-    (void)state;
     struct blind blind;
     char command[256];
     start(&blind);
@@ -140,13 +136,4 @@ static void settings_that_cannot_be_stored_are_said(void **state)
     end(&blind);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(looks_and_panels_are_as_they_were_left, folder_make, folder_remove),
-        cmocka_unit_test_setup_teardown(the_welcome_comes_once, folder_make, folder_remove),
-        cmocka_unit_test_setup_teardown(files_and_the_last_export_are_remembered, folder_make, folder_remove),
-        cmocka_unit_test_setup_teardown(settings_that_cannot_be_stored_are_said, folder_make, folder_remove),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return tests_run(NULL, NULL); }

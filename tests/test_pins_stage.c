@@ -45,9 +45,8 @@ static void where(struct session *s, const char *target, float xy[2])
     if (!editor_target(s->editor, &s->world, target, &xy[0], &xy[1], &error)) fail_msg("%s", error.text);
 }
 
-static void test_ctrl_and_a_drag_pin_a_joint_which_follows_the_pointer(void **state)
+TEST(test_ctrl_and_a_drag_pin_a_joint_which_follows_the_pointer)
 {
-    (void)state;
     struct session s;
     open_tail(&s);
     for (int step = 0; step < 10; step++) session_key(&s, KEY_RIGHT, 0);
@@ -70,9 +69,8 @@ static void test_ctrl_and_a_drag_pin_a_joint_which_follows_the_pointer(void **st
     session_close(&s);
 }
 
-static void test_the_plain_drag_still_sets_knots(void **state)
+TEST(test_the_plain_drag_still_sets_knots)
 {
-    (void)state;
     struct session s;
     open_tail(&s);
     for (int step = 0; step < 10; step++) session_key(&s, KEY_RIGHT, 0);
@@ -83,9 +81,8 @@ static void test_the_plain_drag_still_sets_knots(void **state)
     session_close(&s);
 }
 
-static void test_an_axis_can_be_locked_and_esc_cancels(void **state)
+TEST(test_an_axis_can_be_locked_and_esc_cancels)
 {
-    (void)state;
     struct session s;
     open_tail(&s);
     char *before = session_saved(&s);
@@ -116,9 +113,8 @@ static void pin_the_tip(struct session *s)
     session_key(s, 'H', 0);
 }
 
-static void test_a_pin_is_moved_nudged_retimed_and_deleted_by_keys(void **state)
+TEST(test_a_pin_is_moved_nudged_retimed_and_deleted_by_keys)
 {
-    (void)state;
     struct session s;
     open_tail(&s);
     pin_the_tip(&s);
@@ -150,9 +146,8 @@ static void test_a_pin_is_moved_nudged_retimed_and_deleted_by_keys(void **state)
     session_close(&s);
 }
 
-static void test_a_marker_is_dragged_on_the_stage_and_on_the_ruler(void **state)
+TEST(test_a_marker_is_dragged_on_the_stage_and_on_the_ruler)
 {
-    (void)state;
     struct session s;
     open_tail(&s);
     pin_the_tip(&s);
@@ -188,9 +183,8 @@ static void test_a_marker_is_dragged_on_the_stage_and_on_the_ruler(void **state)
 }
 
 /// A pin that throws a rig far makes its curves high: they come into sight.
-static void test_the_curves_follow_a_pin(void **state)
+TEST(test_the_curves_follow_a_pin)
 {
-    (void)state;
     struct session s;
     panel_open_models(&s, creature);
     session_frame(&s);
@@ -209,9 +203,8 @@ static void test_the_curves_follow_a_pin(void **state)
     session_close(&s);
 }
 
-static void test_the_surface_of_a_character_is_pinned_and_follows_the_pointer(void **state)
+TEST(test_the_surface_of_a_character_is_pinned_and_follows_the_pointer)
 {
-    (void)state;
     struct session s;
     panel_open_models(&s, creature);
     session_frame(&s);
@@ -234,9 +227,8 @@ static void test_the_surface_of_a_character_is_pinned_and_follows_the_pointer(vo
 }
 
 /// The soles hardly move: pulling them would throw all else far.
-static void test_what_hardly_moves_does_not_light_up(void **state)
+TEST(test_what_hardly_moves_does_not_light_up)
 {
-    (void)state;
     struct session s;
     panel_open_models(&s, creature);
     session_frame(&s);
@@ -247,9 +239,8 @@ static void test_what_hardly_moves_does_not_light_up(void **state)
 }
 
 /// Without a mouse: H pins what moves most, Tab leads to its numbers.
-static void test_the_keyboard_alone_is_enough(void **state)
+TEST(test_the_keyboard_alone_is_enough)
 {
-    (void)state;
     struct session s;
     panel_open_models(&s, creature);
     session_move(&s, 2, 2);
@@ -267,9 +258,8 @@ static void test_the_keyboard_alone_is_enough(void **state)
 }
 
 /// So they do where its place is typed.
-static void test_the_curves_follow_a_typed_place(void **state)
+TEST(test_the_curves_follow_a_typed_place)
 {
-    (void)state;
     struct session s;
     panel_open_models(&s, creature);
     session_frame(&s);
@@ -284,9 +274,8 @@ static void test_the_curves_follow_a_typed_place(void **state)
     session_close(&s);
 }
 
-static void test_the_inspector_lists_pins_and_takes_numbers(void **state)
+TEST(test_the_inspector_lists_pins_and_takes_numbers)
 {
-    (void)state;
     struct session s;
     open_tail(&s);
     session_point(&s, "tail(tail,1)");
@@ -307,20 +296,4 @@ static void test_the_inspector_lists_pins_and_takes_numbers(void **state)
     session_close(&s);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_ctrl_and_a_drag_pin_a_joint_which_follows_the_pointer),
-        cmocka_unit_test(test_the_plain_drag_still_sets_knots),
-        cmocka_unit_test(test_an_axis_can_be_locked_and_esc_cancels),
-        cmocka_unit_test(test_a_pin_is_moved_nudged_retimed_and_deleted_by_keys),
-        cmocka_unit_test(test_the_curves_follow_a_pin),
-        cmocka_unit_test(test_a_marker_is_dragged_on_the_stage_and_on_the_ruler),
-        cmocka_unit_test(test_the_surface_of_a_character_is_pinned_and_follows_the_pointer),
-        cmocka_unit_test(test_what_hardly_moves_does_not_light_up),
-        cmocka_unit_test(test_the_keyboard_alone_is_enough),
-        cmocka_unit_test(test_the_curves_follow_a_typed_place),
-        cmocka_unit_test(test_the_inspector_lists_pins_and_takes_numbers),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return tests_run(NULL, NULL); }

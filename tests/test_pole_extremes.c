@@ -31,9 +31,8 @@ static void assert_poles(const wiggly_desc *desc)
     }
 }
 
-static void poles_are_the_textbooks(void **state)
+TEST(poles_are_the_textbooks)
 {
-    (void)state;
     static const double frequencies[] = {0, 1e-6, 1, 14.9, 60}, dampings[] = {0, 1e-9, 0.3, 1, 1.0001, 2};
     for (size_t f = 0; f < sizeof frequencies / sizeof *frequencies; f++) {
         for (size_t d = 0; d < sizeof dampings / sizeof *dampings; d++) {
@@ -46,9 +45,8 @@ static void poles_are_the_textbooks(void **state)
 }
 
 /// What is as good as infinite is no number that overflows later, and all of it the same.
-static void beyond_the_largest_nothing_changes(void **state)
+TEST(beyond_the_largest_nothing_changes)
 {
-    (void)state;
     static const double beyond[] = {1e70, 1e75, 1e140, 1e200, INFINITY};
     for (size_t b = 0; b < sizeof beyond / sizeof *beyond; b++) {
         wiggly_desc at = describe(WIGGLY_REAL, 1e70, 1e70), desc = describe(WIGGLY_REAL, beyond[b], beyond[b]);
@@ -70,9 +68,8 @@ static void assert_speed(const wiggly_desc *desc, double tolerance)
 }
 
 /// From poles that nearly are one to those that nearly alias.
-static void speeds_are_the_textbooks(void **state)
+TEST(speeds_are_the_textbooks)
 {
-    (void)state;
     for (double frequency = 1e-4; frequency < 14; frequency *= 1.3) {
         for (double damping = 0; damping < 1.5; damping += 0.24) {
             wiggly_desc desc = describe(WIGGLY_REAL, frequency, damping);
@@ -84,9 +81,8 @@ static void speeds_are_the_textbooks(void **state)
 }
 
 /// However slowly it fades, swing at the start costs something; only where it does not fade at all, nothing.
-static void the_start_costs_what_fades(void **state)
+TEST(the_start_costs_what_fades)
 {
-    (void)state;
     for (double decay = 1e-20; decay < 1; decay *= 1000) {
         const poles at = {.s = {{-decay, 5}, {-decay, -5}}, .natural = 5, .centre = 5, .decay = decay};
         const double expected = -expm1(-4 * step * decay);
@@ -97,9 +93,8 @@ static void the_start_costs_what_fades(void **state)
 }
 
 /// A spring and a friction, and the roots of s² + γs + k.
-static void a_spring_is_a_frequency_and_a_damping(void **state)
+TEST(a_spring_is_a_frequency_and_a_damping)
 {
-    (void)state;
     static const double springs[] = {1e-6, 1, 40, 4e4}, frictions[] = {0, 0.1, 12.6, 600};
     for (int n = 0; n < 16; n++) {
         const double k = springs[n / 4], gamma = frictions[n % 4];
@@ -119,14 +114,4 @@ static void a_spring_is_a_frequency_and_a_damping(void **state)
     assert_near(at.s[0][0], 0, 1e-15);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(poles_are_the_textbooks),
-        cmocka_unit_test(beyond_the_largest_nothing_changes),
-        cmocka_unit_test(a_spring_is_a_frequency_and_a_damping),
-        cmocka_unit_test(speeds_are_the_textbooks),
-        cmocka_unit_test(the_start_costs_what_fades),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return tests_run(NULL, NULL); }

@@ -34,9 +34,8 @@ static void drag(struct session *f, const char *name, float dx, float dy)
     session_frame(f);
 }
 
-static void test_centre_sets_frequency_and_damping(void **state)
+TEST(test_centre_sets_frequency_and_damping)
 {
-    (void)state;
     struct session f;
     open_poles(&f, 0);
     drag(&f, "pole.centre", 40, -15);
@@ -53,9 +52,8 @@ static void test_centre_sets_frequency_and_damping(void **state)
 }
 
 /// Whichever of the two is taken, away from the other one is wider.
-static void test_pole_opens_the_band(void **state)
+TEST(test_pole_opens_the_band)
 {
-    (void)state;
     const char *const poles[] = {"pole.lower", "pole.upper"};
     for (int i = 0; i < 2; i++) {
         struct session f;
@@ -77,9 +75,8 @@ static void test_pole_opens_the_band(void **state)
 }
 
 /// The poles of real mode mirror each other: there is one handle.
-static void test_real_poles(void **state)
+TEST(test_real_poles)
 {
-    (void)state;
     struct session f;
     open_poles(&f, 2);
     assert_false(panel_shows(&f, "pole.upper"));
@@ -94,9 +91,8 @@ static void test_real_poles(void **state)
 }
 
 /// A parameter that follows another spline is not torn off it.
-static void test_tracks_stay(void **state)
+TEST(test_tracks_stay)
 {
-    (void)state;
     struct session f;
     open_poles(&f, 3);
     drag(&f, "pole.centre", 30, -12);
@@ -106,9 +102,8 @@ static void test_tracks_stay(void **state)
     session_close(&f);
 }
 
-static void test_arrow_keys_move_a_focused_pole(void **state)
+TEST(test_arrow_keys_move_a_focused_pole)
 {
-    (void)state;
     struct session f;
     open_poles(&f, 0);
     f.editor->inspector->ui.focus = ui_id("pole.centre");
@@ -123,14 +118,4 @@ static void test_arrow_keys_move_a_focused_pole(void **state)
     session_close(&f);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_centre_sets_frequency_and_damping),
-        cmocka_unit_test(test_pole_opens_the_band),
-        cmocka_unit_test(test_real_poles),
-        cmocka_unit_test(test_tracks_stay),
-        cmocka_unit_test(test_arrow_keys_move_a_focused_pole),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return tests_run(NULL, NULL); }

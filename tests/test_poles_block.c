@@ -31,9 +31,8 @@ static void compare(const wiggly_desc *desc, double floor)
 }
 
 /// From slow at a high sample rate, where all digits are in the difference from 1, to beyond what the polynomials reach.
-static void blocks_are_samples(void **state)
+TEST(blocks_are_samples)
 {
-    (void)state;
     for (int kind = 0; kind < 24; kind++) {
         wiggly_desc desc = wiggly_default_desc();
         double highest = pow(10, kind / 3 - 3);
@@ -52,8 +51,4 @@ static void blocks_are_samples(void **state)
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(blocks_are_samples)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return tests_run(NULL, NULL); }

@@ -103,9 +103,8 @@ static void move(struct panel *p, float x, float y)
 static bool is_open(const struct panel *p) { return ui_popup_is_open(&p->ui, "kind"); }
 
 /// Picking closes the list and hands the choice over; the list knows what it was opened about.
-static void test_a_list_is_picked_from(void **state)
+TEST(test_a_list_is_picked_from)
 {
-    (void)state;
     struct panel p = make_panel();
     press(&p, "kind.7", 1);
     assert_true(is_open(&p));
@@ -118,9 +117,8 @@ static void test_a_list_is_picked_from(void **state)
 }
 
 /// It is not clipped by the panel's bottom, near which it hangs: it opens upwards, and its rows lie over other widgets.
-static void test_a_list_lies_over_the_panel(void **state)
+TEST(test_a_list_lies_over_the_panel)
 {
-    (void)state;
     struct panel p = make_panel();
     float x, y;
     p.items = 10;
@@ -138,9 +136,8 @@ static void test_a_list_lies_over_the_panel(void **state)
     assert_int_equal(p.pressed, 1);
 }
 
-static void test_escape_and_chords_close(void **state)
+TEST(test_escape_and_chords_close)
 {
-    (void)state;
     struct panel p = make_panel();
     press(&p, "kind.7", 1);
     assert_true(key(&p, KEY_ESCAPE, 0));
@@ -155,9 +152,8 @@ static void test_escape_and_chords_close(void **state)
 
 /// By keyboard alone: the list opens at what is chosen, arrows go through it and scroll it, Enter picks, and the field has
 /// the keyboard again.
-static void test_a_list_by_keyboard(void **state)
+TEST(test_a_list_by_keyboard)
 {
-    (void)state;
     struct panel p = make_panel();
     p.ui.focus = ui_id("kind.7");
     key(&p, KEY_ENTER, 0);
@@ -175,9 +171,8 @@ static void test_a_list_by_keyboard(void **state)
     assert_true(p.ui.focus == ui_id("item.21"));
 }
 
-static void test_the_wheel_scrolls_the_list_alone(void **state)
+TEST(test_the_wheel_scrolls_the_list_alone)
 {
-    (void)state;
     struct panel p = make_panel();
     press(&p, "kind.7", 1);
     float x, y;
@@ -190,9 +185,8 @@ static void test_the_wheel_scrolls_the_list_alone(void **state)
 }
 
 /// What the list was about may go while it is open (undo): it does not stay behind and swallow all input.
-static void test_a_list_that_is_not_built_closes(void **state)
+TEST(test_a_list_that_is_not_built_closes)
 {
-    (void)state;
     struct panel p = make_panel();
     press(&p, "kind.7", 1);
     struct event event = {.kind = EVENT_POINTER};
@@ -201,9 +195,8 @@ static void test_a_list_that_is_not_built_closes(void **state)
     assert_false(is_open(&p));
 }
 
-static void test_rows_are_dragged(void **state)
+TEST(test_rows_are_dragged)
 {
-    (void)state;
     struct panel p = make_panel();
     press(&p, "row.0", 1);
     release(&p);
@@ -227,9 +220,8 @@ static void type(struct panel *p, const char *text)
     while (*text) send(p, (struct event){.kind = EVENT_TEXT, .codepoint = utf8_next(&text)});
 }
 
-static void test_a_line_is_edited_in_place(void **state)
+TEST(test_a_line_is_edited_in_place)
 {
-    (void)state;
     struct panel p = make_panel();
     press(&p, "row.0", 2);
     type(&p, "new name");
@@ -248,17 +240,4 @@ static void test_a_line_is_edited_in_place(void **state)
     assert_int_equal(p.pressed, 1);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_a_list_is_picked_from),
-        cmocka_unit_test(test_a_list_lies_over_the_panel),
-        cmocka_unit_test(test_escape_and_chords_close),
-        cmocka_unit_test(test_a_list_by_keyboard),
-        cmocka_unit_test(test_the_wheel_scrolls_the_list_alone),
-        cmocka_unit_test(test_a_list_that_is_not_built_closes),
-        cmocka_unit_test(test_rows_are_dragged),
-        cmocka_unit_test(test_a_line_is_edited_in_place),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return tests_run(NULL, NULL); }

@@ -36,9 +36,8 @@ static char *saved(struct blind *b)
 
 enum { CTRL_SHIFT = MOD_CTRL | MOD_SHIFT };
 
-static void test_keys_make_everything_larger_and_smaller(void **state)
+TEST(test_keys_make_everything_larger_and_smaller)
 {
-    (void)state;
     struct blind b;
     blind_open(&b, NULL);
     key(&b, '=', CTRL_SHIFT);
@@ -59,9 +58,8 @@ static void test_keys_make_everything_larger_and_smaller(void **state)
 }
 
 /// What is on the screen under the pointer stays there.
-static void test_the_pointer_means_the_same_place(void **state)
+TEST(test_the_pointer_means_the_same_place)
 {
-    (void)state;
     struct blind b;
     blind_open(&b, NULL);
     point(&b, 640, 300);
@@ -73,9 +71,8 @@ static void test_the_pointer_means_the_same_place(void **state)
     blind_close(&b);
 }
 
-static void test_a_scale_without_room_is_refused(void **state)
+TEST(test_a_scale_without_room_is_refused)
 {
-    (void)state;
     struct blind b;
     blind_open(&b, NULL);
     for (int i = 0; i < 4; i++) key(&b, '=', CTRL_SHIFT);
@@ -93,9 +90,8 @@ static void test_a_scale_without_room_is_refused(void **state)
     blind_close(&b);
 }
 
-static void test_the_status_line_changes_it_by_mouse(void **state)
+TEST(test_the_status_line_changes_it_by_mouse)
 {
-    (void)state;
     struct blind b;
     blind_open(&b, NULL);
     const float x = 6 + 24 + 42 + 44 + 64 + 20;
@@ -111,9 +107,8 @@ static void test_the_status_line_changes_it_by_mouse(void **state)
     blind_close(&b);
 }
 
-static void test_presenting_gives_the_stage_the_window_and_changes_nothing(void **state)
+TEST(test_presenting_gives_the_stage_the_window_and_changes_nothing)
 {
-    (void)state;
     struct blind b;
     blind_open(&b, NULL);
     char *before = saved(&b);
@@ -137,9 +132,8 @@ static void test_presenting_gives_the_stage_the_window_and_changes_nothing(void 
     blind_close(&b);
 }
 
-static void test_a_panel_comes_when_the_pointer_does(void **state)
+TEST(test_a_panel_comes_when_the_pointer_does)
 {
-    (void)state;
     struct blind b;
     blind_open(&b, NULL);
     key(&b, KEY_F5, 0);
@@ -173,9 +167,8 @@ static void test_a_panel_comes_when_the_pointer_does(void **state)
     blind_close(&b);
 }
 
-static void test_what_is_pressed_is_shown_and_fades(void **state)
+TEST(test_what_is_pressed_is_shown_and_fades)
 {
-    (void)state;
     struct blind b;
     blind_open(&b, NULL);
     key(&b, 'Z', MOD_CTRL);
@@ -205,16 +198,4 @@ static void test_what_is_pressed_is_shown_and_fades(void **state)
     blind_close(&b);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_keys_make_everything_larger_and_smaller),
-        cmocka_unit_test(test_the_pointer_means_the_same_place),
-        cmocka_unit_test(test_a_scale_without_room_is_refused),
-        cmocka_unit_test(test_the_status_line_changes_it_by_mouse),
-        cmocka_unit_test(test_presenting_gives_the_stage_the_window_and_changes_nothing),
-        cmocka_unit_test(test_a_panel_comes_when_the_pointer_does),
-        cmocka_unit_test(test_what_is_pressed_is_shown_and_fades),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return tests_run(NULL, NULL); }

@@ -16,9 +16,8 @@ enum { JOINTS = 24, X = 12, DRAGGED = 60, WATCHED = 150 };
 
 static float joint_x(const struct session *s, int n) { return editor_stage(s->editor)->tails[0].pose.matrix[n][X]; }
 
-static void test_few_knots_keep_to_the_way(void **state)
+TEST(test_few_knots_keep_to_the_way)
 {
-    (void)state;
     enum { COUNT = 200, CAPACITY = 64 };
     double way[COUNT];
     int knots[CAPACITY];
@@ -57,9 +56,8 @@ static void perform(struct session *s, bool records, float base[WATCHED], float 
     }
 }
 
-static void test_recorded_is_what_was_seen(void **state)
+TEST(test_recorded_is_what_was_seen)
 {
-    (void)state;
     static float live_base[WATCHED], live_tip[WATCHED], base[WATCHED], tip[WATCHED];
     struct session s;
     session_open(&s, scene);
@@ -104,9 +102,8 @@ static void test_recorded_is_what_was_seen(void **state)
 }
 
 /// A second take keys the same spline anew where it passes, and adds no channels.
-static void test_a_second_take_replaces_the_first(void **state)
+TEST(test_a_second_take_replaces_the_first)
 {
-    (void)state;
     static float base[WATCHED], tip[WATCHED];
     struct session s;
     session_open(&s, scene);
@@ -129,9 +126,8 @@ static char *open_at_body(struct session *s)
     return session_saved(s);
 }
 
-static void test_escape_forgets_the_recording(void **state)
+TEST(test_escape_forgets_the_recording)
 {
-    (void)state;
     struct session s;
     char *before = open_at_body(&s);
     session_press(&s, BUTTON_LEFT, 1);
@@ -146,9 +142,8 @@ static void test_escape_forgets_the_recording(void **state)
 }
 
 /// A tail that only bends sideways is lifted while it records: it gets a channel that bends up, in the recording's own step.
-static void test_a_way_without_a_channel_gets_one(void **state)
+TEST(test_a_way_without_a_channel_gets_one)
 {
-    (void)state;
     struct session s;
     char *before = open_at_body(&s);
     s.mods = MOD_CTRL;
@@ -191,12 +186,4 @@ static void test_a_way_without_a_channel_gets_one(void **state)
     session_close(&s);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_few_knots_keep_to_the_way),        cmocka_unit_test(test_recorded_is_what_was_seen),
-        cmocka_unit_test(test_a_second_take_replaces_the_first), cmocka_unit_test(test_escape_forgets_the_recording),
-        cmocka_unit_test(test_a_way_without_a_channel_gets_one),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return tests_run(NULL, NULL); }

@@ -144,53 +144,37 @@ static void expect_slower(const struct plant *plant, const char *name, const cha
     if (status != 1 || !is_slower(name, number)) fail_msg("%s %s is not SLOWER:\n%s", name, number, output);
 }
 
-static void test_the_same_build_says_nothing(void **state)
+TEST(test_the_same_build_says_nothing)
 {
-    (void)state;
     for (unsigned seed = 1; seed <= (unsigned)quick_or_all(1, 3); seed++) {
         if (compare(seed, &(struct plant){0}) != 0) fail_msg("seed %u: a false alarm:\n%s", seed, output);
     }
 }
 
-static void test_three_percent_in_draw(void **state)
+TEST(test_three_percent_in_draw)
 {
-    (void)state;
     expect_slower(&(struct plant){.draw_factor = 1.03}, "draw_us", "p50");
     assert_false(is_slower("pose_us", "p50"));
     assert_false(is_slower("swap_us", "p50"));
 }
 
-static void test_a_hitch_every_thirtieth_frame(void **state)
+TEST(test_a_hitch_every_thirtieth_frame)
 {
-    (void)state;
     expect_slower(&(struct plant){.hitch = 25000, .period = 30}, "over 33.3 ms", "share");
     assert_true(is_slower("frame_ms", "p99"));
     assert_false(is_slower("frame_ms", "p50")); // which is why medians alone will not do
 }
 
-static void test_a_hitch_in_other_frames_of_every_run(void **state)
+TEST(test_a_hitch_in_other_frames_of_every_run)
 {
-    (void)state;
     expect_slower(&(struct plant){.hitch = 25000, .period = 30, .wanders = true}, "over 33.3 ms", "share");
 }
 
-static void test_a_millisecond_in_every_frame(void **state)
-{
-    (void)state;
-    expect_slower(&(struct plant){.every_frame = 1000}, "frame_ms", "p50");
-}
+TEST(test_a_millisecond_in_every_frame) { expect_slower(&(struct plant){.every_frame = 1000}, "frame_ms", "p50"); }
 
-static void test_a_stall_of_eight_frames(void **state)
-{
-    (void)state;
-    expect_slower(&(struct plant){.stall = 8}, "over 33.3 ms", "longest");
-}
+TEST(test_a_stall_of_eight_frames) { expect_slower(&(struct plant){.stall = 8}, "over 33.3 ms", "longest"); }
 
-static void test_faster_is_no_failure(void **state)
-{
-    (void)state;
-    assert_int_equal(compare(1, &(struct plant){.draw_factor = 0.9}), 0);
-}
+TEST(test_faster_is_no_failure) { assert_int_equal(compare(1, &(struct plant){.draw_factor = 0.9}), 0); }
 
 static int make_folder(void **state)
 {
@@ -210,16 +194,4 @@ static int remove_folder(void **state)
     return rmdir(folder);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_the_same_build_says_nothing),
-        cmocka_unit_test(test_three_percent_in_draw),
-        cmocka_unit_test(test_a_hitch_every_thirtieth_frame),
-        cmocka_unit_test(test_a_hitch_in_other_frames_of_every_run),
-        cmocka_unit_test(test_a_millisecond_in_every_frame),
-        cmocka_unit_test(test_a_stall_of_eight_frames),
-        cmocka_unit_test(test_faster_is_no_failure),
-    };
-    return cmocka_run_group_tests(tests, make_folder, remove_folder);
-}
+int main(void) { return tests_run(make_folder, remove_folder); }

@@ -29,9 +29,8 @@ static struct resolution adapting(void)
     return r;
 }
 
-static void slow_frames_lower_it_and_stillness_restores_it(void **state)
+TEST(slow_frames_lower_it_and_stillness_restores_it)
 {
-    (void)state;
     struct resolution r = adapting();
     double now = 10;
     assert_near(move(&r, &now, 30, 20, 1), 1, 0);
@@ -46,9 +45,8 @@ static void slow_frames_lower_it_and_stillness_restores_it(void **state)
     assert_true(resolution_choose(&r, r.hash + 1, now + 5 + frame) < 1);
 }
 
-static void it_does_not_flicker(void **state)
+TEST(it_does_not_flicker)
 {
-    (void)state;
     struct resolution r = adapting();
     double now = 10;
     int changes = 0;
@@ -62,9 +60,8 @@ static void it_does_not_flicker(void **state)
     assert_in_range(changes, 3, 15);
 }
 
-static void one_slow_frame_now_and_then_changes_nothing(void **state)
+TEST(one_slow_frame_now_and_then_changes_nothing)
 {
-    (void)state;
     struct resolution r = adapting();
     double now = 10;
     for (int i = 0; i < 50; i++) {
@@ -73,18 +70,16 @@ static void one_slow_frame_now_and_then_changes_nothing(void **state)
     }
 }
 
-static void a_slow_solver_does_not_blur_the_stage(void **state)
+TEST(a_slow_solver_does_not_blur_the_stage)
 {
-    (void)state;
     struct resolution r = adapting();
     double now = 10;
     assert_near(move(&r, &now, 100, 60, 50), 1, 0);
 }
 
 /// Without a clock on the graphics card, its work is in the swap; with one, the swap only waits for a slow display.
-static void waiting_for_the_display_is_no_work(void **state)
+TEST(waiting_for_the_display_is_no_work)
 {
-    (void)state;
     struct resolution r = adapting(), at_24_hz = adapting(), slow_card = adapting();
     double now = 10;
     assert_true(move_at(&r, &now, 100, (struct resolution_cost){.before = 1, .draw = 1, .swap = 40}) < 1);
@@ -95,9 +90,8 @@ static void waiting_for_the_display_is_no_work(void **state)
 }
 
 /// The card's clock still tells of the old resolution for a few frames: that is no reason for a second step.
-static void a_step_is_judged_by_its_own_frames(void **state)
+TEST(a_step_is_judged_by_its_own_frames)
 {
-    (void)state;
     struct resolution r = adapting();
     double now = 10;
     while (r.moving == 0) move(&r, &now, 1, 40, 1);
@@ -105,9 +99,8 @@ static void a_step_is_judged_by_its_own_frames(void **state)
     assert_near(move(&r, &now, 30, 28, 1), 0.5, 0);
 }
 
-static void a_busy_moment_is_forgotten(void **state)
+TEST(a_busy_moment_is_forgotten)
 {
-    (void)state;
     struct resolution r = adapting();
     double now = 10;
     assert_true(move(&r, &now, 20, 80, 1) < 1);
@@ -115,9 +108,8 @@ static void a_busy_moment_is_forgotten(void **state)
     assert_near(r.moving, 1, 0); // there is nothing sharper
 }
 
-static void words_of_the_command_line(void **state)
+TEST(words_of_the_command_line)
 {
-    (void)state;
     struct resolution r;
     assert_true(resolution_parse(&r, "0.5") && !r.adapts);
     double now = 0;
@@ -127,17 +119,4 @@ static void words_of_the_command_line(void **state)
     for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) assert_false(resolution_parse(&r, bad[i]));
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(slow_frames_lower_it_and_stillness_restores_it),
-        cmocka_unit_test(it_does_not_flicker),
-        cmocka_unit_test(one_slow_frame_now_and_then_changes_nothing),
-        cmocka_unit_test(a_slow_solver_does_not_blur_the_stage),
-        cmocka_unit_test(waiting_for_the_display_is_no_work),
-        cmocka_unit_test(a_step_is_judged_by_its_own_frames),
-        cmocka_unit_test(a_busy_moment_is_forgotten),
-        cmocka_unit_test(words_of_the_command_line),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return tests_run(NULL, NULL); }

@@ -14,9 +14,8 @@ static struct passband row(enum filter_kind kind)
 
 /// "There is significant response at zero frequency" of the two-pole real filter; four poles broaden the resonance, but it "is
 /// still unacceptably high"; the complex one is as wide "while keeping the response at zero frequency much lower".
-static void test_figure2(void **state)
+TEST(test_figure2)
 {
-    (void)state;
     struct passband two = row(FILTER_TWO_REAL), four = row(FILTER_FOUR_REAL), complex = row(FILTER_TWO_COMPLEX);
     assert_near(two.zero, -20.1, 0.05);
     assert_near(four.zero, -28.7, 0.05);
@@ -27,9 +26,8 @@ static void test_figure2(void **state)
 }
 
 /// The active filter's poles are those that the solver uses.
-static void test_same_poles_as_solver(void **state)
+TEST(test_same_poles_as_solver)
 {
-    (void)state;
     wiggly_desc desc = wiggly_default_desc();
     desc.samples = 100;
     desc.step = step;
@@ -57,9 +55,8 @@ static void test_same_poles_as_solver(void **state)
 }
 
 /// The gain is what a long run of the recurrence gives when it is driven at one frequency.
-static void test_gain_is_the_recurrences(void **state)
+TEST(test_gain_is_the_recurrences)
 {
-    (void)state;
     const double hz = 1.3, turn = 2 * M_PI * hz * step;
     struct filter filter = filter_of(FILTER_TWO_REAL, 1, 0.2, 0, step);
     double size = exp(filter.s[0][0] * step), a = 2 * size * cos(filter.s[0][1] * step), b = -size * size;
@@ -74,9 +71,8 @@ static void test_gain_is_the_recurrences(void **state)
 }
 
 /// Nothing that a slider can be set to gives a number that cannot be shown.
-static void test_finite_over_the_slider_box(void **state)
+TEST(test_finite_over_the_slider_box)
 {
-    (void)state;
     const double hz[] = {0, 0.01, 1, 11.9, 12, 40}, damping[] = {0, 0.001, 1, 3}, bandwidth[] = {0, 0.1, 1};
     for (int kind = 0; kind < FILTER_KINDS; kind++) {
         for (int i = 0; i < 6 * 4 * 3; i++) {
@@ -89,13 +85,4 @@ static void test_finite_over_the_slider_box(void **state)
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_figure2),
-        cmocka_unit_test(test_same_poles_as_solver),
-        cmocka_unit_test(test_gain_is_the_recurrences),
-        cmocka_unit_test(test_finite_over_the_slider_box),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return tests_run(NULL, NULL); }

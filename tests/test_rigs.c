@@ -10,9 +10,8 @@ static const char bear[] =
     "\"knots\": []}], \"rigs\": [{\"type\": \"character\", \"name\": \"bear\", \"model\": "
     "\"assets/models/creature.glb\", \"coordinates\": [{\"name\": \"up\", \"spline\": \"s\"}]}]}";
 
-static void test_the_menu_opens_by_its_key(void **state)
+TEST(test_the_menu_opens_by_its_key)
 {
-    (void)state;
     struct session s;
     panel_open(&s, "{\"frames\": [0, 48], \"splines\": []}", 1280, 720);
     char *before = session_saved(&s);
@@ -44,9 +43,8 @@ static void test_the_menu_opens_by_its_key(void **state)
     session_close(&s);
 }
 
-static void test_a_second_bear_stands_beside_the_first(void **state)
+TEST(test_a_second_bear_stands_beside_the_first)
 {
-    (void)state;
     struct session s;
     panel_open_models(&s, bear);
     session_frame(&s);
@@ -65,9 +63,8 @@ static void test_a_second_bear_stands_beside_the_first(void **state)
     session_close(&s);
 }
 
-static void test_a_rig_goes_with_its_splines_or_without(void **state)
+TEST(test_a_rig_goes_with_its_splines_or_without)
 {
-    (void)state;
     struct session s;
     panel_open_models(&s, bear);
     char *before = session_saved(&s);
@@ -95,9 +92,8 @@ static void test_a_rig_goes_with_its_splines_or_without(void **state)
 }
 
 /// A model goes with the chains on it; what followed its joints keeps its place.
-static void test_a_model_goes_with_its_chains(void **state)
+TEST(test_a_model_goes_with_its_chains)
 {
-    (void)state;
     struct session s;
     panel_open_models(&s,
                       "{\"frames\": [0, 48], \"splines\": [{\"name\": \"s\", \"equilibrium\": {\"model\": \"dog\", "
@@ -124,9 +120,8 @@ static void test_a_model_goes_with_its_chains(void **state)
 }
 
 /// The file dialog asks the app for it; a bad file leaves a sentence and the document as it was.
-static void test_a_file_is_asked_for(void **state)
+TEST(test_a_file_is_asked_for)
 {
-    (void)state;
     struct session s;
     panel_open(&s, "{\"frames\": [0, 48], \"splines\": []}", 1280, 720);
     while (editor_take_request(s.editor).kind != REQUEST_NONE) continue;
@@ -146,9 +141,8 @@ static void test_a_file_is_asked_for(void **state)
     session_close(&s);
 }
 
-static void test_files_are_told_apart(void **state)
+TEST(test_files_are_told_apart)
 {
-    (void)state;
     struct error error = {0};
     struct document *document = document_create();
     assert_true(import_add(document, "assets/models/creature.glb", -1, &error));
@@ -164,9 +158,8 @@ static void test_files_are_told_apart(void **state)
 }
 
 /// A .glb by another name is one, too; anything else is not.
-static void test_a_glb_is_told_by_its_beginning(void **state)
+TEST(test_a_glb_is_told_by_its_beginning)
 {
-    (void)state;
     char path[] = "/tmp/wiggly-test-XXXXXX", command[128];
     close(mkstemp(path));
     snprintf(command, sizeof command, "cp assets/models/dog.glb %s", path);
@@ -183,16 +176,4 @@ static void test_a_glb_is_told_by_its_beginning(void **state)
     unlink(path);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_the_menu_opens_by_its_key),
-        cmocka_unit_test(test_a_second_bear_stands_beside_the_first),
-        cmocka_unit_test(test_a_rig_goes_with_its_splines_or_without),
-        cmocka_unit_test(test_a_model_goes_with_its_chains),
-        cmocka_unit_test(test_a_file_is_asked_for),
-        cmocka_unit_test(test_files_are_told_apart),
-        cmocka_unit_test(test_a_glb_is_told_by_its_beginning),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return tests_run(NULL, NULL); }

@@ -241,9 +241,8 @@ static int walk_all(const char *scene, bool whole)
     return problems;
 }
 
-static void test_the_tail_on_every_screen(void **state)
+TEST(test_the_tail_on_every_screen)
 {
-    (void)state;
     char *scene;
     size_t size;
     struct error error;
@@ -252,17 +251,6 @@ static void test_the_tail_on_every_screen(void **state)
     free(scene);
 }
 
-static void test_crowded_on_every_screen(void **state)
-{
-    (void)state;
-    assert_int_equal(walk_all(crowded, false), 0);
-}
+TEST(test_crowded_on_every_screen) { assert_int_equal(walk_all(crowded, false), 0); }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_the_tail_on_every_screen),
-        cmocka_unit_test(test_crowded_on_every_screen),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return tests_run(NULL, NULL); }

@@ -48,9 +48,8 @@ static void assert_saved(const struct settings *settings, const char *expected)
 }
 
 /// What this program does not know, remarks included, is there again after a save.
-static void test_unknown_lines_stay(void **state)
+TEST_WITH(make_folder, folder_remove, test_unknown_lines_stay)
 {
-    (void)state;
     struct settings *settings = load("# mine\ntheme = dark\n\nfuture = 1 = 2\n");
     assert_string_equal(settings_get(settings, "future", 0), "1 = 2");
     assert_null(settings_get(settings, "future", 1));
@@ -60,9 +59,8 @@ static void test_unknown_lines_stay(void **state)
     settings_free(settings);
 }
 
-static void test_numbers(void **state)
+TEST_WITH(make_folder, folder_remove, test_numbers)
 {
-    (void)state;
     struct settings *settings = load("a = 0.25\nb = wide\nc =\nd = inf\n");
     assert_near(settings_number(settings, "a", 1), 0.25, 0);
     assert_near(settings_number(settings, "b", 1), 1, 0);
@@ -73,9 +71,8 @@ static void test_numbers(void **state)
 }
 
 /// One sentence about the first broken line; the others count.
-static void test_broken(void **state)
+TEST_WITH(make_folder, folder_remove, test_broken)
 {
-    (void)state;
     struct error error;
     write_text(path, "theme dark\n= x\ninspector_width = 300\n");
     struct settings *settings = settings_load(path, &error);
@@ -97,9 +94,8 @@ static void test_broken(void **state)
 }
 
 /// Values that a line cannot hold are left out, never written so that they read back as others.
-static void test_unstorable(void **state)
+TEST_WITH(make_folder, folder_remove, test_unstorable)
 {
-    (void)state;
     struct settings *settings = load("recent = /a\n");
     settings_push(settings, "recent", "/b\nrecent = /c", 12);
     settings_push(settings, "recent", " /d", 12);
@@ -108,9 +104,8 @@ static void test_unstorable(void **state)
     settings_free(settings);
 }
 
-static void test_recent(void **state)
+TEST_WITH(make_folder, folder_remove, test_recent)
 {
-    (void)state;
     struct settings *settings = load("theme = dark\n");
     struct dialog_recent files[DIALOG_MAX_RECENT + 4];
     char file[96];
@@ -155,9 +150,8 @@ static void open_files(int window)
 }
 
 /// Two windows change the file at the same time: it holds what both have changed.
-static void test_two_windows(void **state)
+TEST_WITH(make_folder, folder_remove, test_two_windows)
 {
-    (void)state;
     char file[96], settings_path[128];
     struct dialog_recent files[DIALOG_MAX_RECENT];
     snprintf(settings_path, sizeof settings_path, "%s/wiggly/settings", folder);
@@ -184,15 +178,4 @@ static void test_two_windows(void **state)
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(test_unknown_lines_stay, make_folder, folder_remove),
-        cmocka_unit_test_setup_teardown(test_numbers, make_folder, folder_remove),
-        cmocka_unit_test_setup_teardown(test_broken, make_folder, folder_remove),
-        cmocka_unit_test_setup_teardown(test_unstorable, make_folder, folder_remove),
-        cmocka_unit_test_setup_teardown(test_recent, make_folder, folder_remove),
-        cmocka_unit_test_setup_teardown(test_two_windows, make_folder, folder_remove),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return tests_run(NULL, NULL); }

@@ -26,9 +26,8 @@ static double textbook_real(double omega, double zeta)
     return last;
 }
 
-static void test_real_mode(void **state)
+TEST(test_real_mode)
 {
-    (void)state;
     static const double zeta[] = {0.08, 0.2, 0.5, 0.8, 1, 1.5, 3};
     for (int z = 0; z < 7; z++) {
         struct spline spline = spline_of(WIGGLY_REAL, 1, zeta[z], 0);
@@ -40,9 +39,8 @@ static void test_real_mode(void **state)
 }
 
 /// Poles alike: |x| = e^{−ζωt} |cos(βω t)|.
-static void test_complex_mode(void **state)
+TEST(test_complex_mode)
 {
-    (void)state;
     static const double cases[][3] = {{1, 0.1, 0}, {1, 0.1, 0.1}, {0.5, 0.05, 0.2}, {3, 0.3, 0.1}, {2, 0.9, 0.1}};
     for (int c = 0; c < 5; c++) {
         double omega = 2 * acos(-1.0) * cases[c][0], zeta = cases[c][1], beta = cases[c][2], expected = 0;
@@ -85,9 +83,8 @@ static struct settling settling_of(wiggly_passive passive, enum wiggly_mode mode
 }
 
 /// Behind the last knot an oscillator's swing is e^{−ζωt} of what it was; the filter's grows first.
-static void test_is_measured_from_the_motion(void **state)
+TEST(test_is_measured_from_the_motion)
 {
-    (void)state;
     const double expected = log(20) / (0.1 * 2 * acos(-1.0));
     struct settling seen = settling_of(WIGGLY_OSCILLATOR, WIGGLY_COMPLEX, 240);
     assert_int_equal(seen.kind, SETTLE_SEEN);
@@ -103,9 +100,8 @@ static void test_is_measured_from_the_motion(void **state)
     assert_near(cut.left, exp(-0.1 * 2 * acos(-1.0) * 50 / 24), 1e-6);
 }
 
-static void test_what_has_no_number(void **state)
+TEST(test_what_has_no_number)
 {
-    (void)state;
     struct spline spline = spline_of(WIGGLY_CUBIC, 1, 0.1, 0.1);
     assert_int_equal(settle_alone(&spline, 1.0 / 24).kind, SETTLE_CUBIC);
     spline = spline_of(WIGGLY_COMPLEX, 0, 0.1, 0.1);
@@ -123,13 +119,4 @@ static void test_what_has_no_number(void **state)
     assert_near(fine.seconds, log(20) / (0.01 * 2 * acos(-1.0)), 1e-9);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_real_mode),
-        cmocka_unit_test(test_complex_mode),
-        cmocka_unit_test(test_is_measured_from_the_motion),
-        cmocka_unit_test(test_what_has_no_number),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return tests_run(NULL, NULL); }

@@ -30,9 +30,8 @@ static void open_sheet(struct session *s, const char *scene)
     session_key(s, KEY_F3, 0);
 }
 
-static void test_it_takes_its_room_from_the_curves(void **state)
+TEST(test_it_takes_its_room_from_the_curves)
 {
-    (void)state;
     struct session s;
     session_open(&s, TWO);
     const struct layout *layout = &s.editor->core.layout;
@@ -51,9 +50,8 @@ static void test_it_takes_its_room_from_the_curves(void **state)
     session_close(&s);
 }
 
-static void test_marks_are_dragged_in_time_alone(void **state)
+TEST(test_marks_are_dragged_in_time_alone)
 {
-    (void)state;
     struct session s;
     open_sheet(&s, TWO);
     char *original = session_saved(&s);
@@ -67,9 +65,8 @@ static void test_marks_are_dragged_in_time_alone(void **state)
     session_close(&s);
 }
 
-static void test_a_box_takes_the_marks_of_its_rows(void **state)
+TEST(test_a_box_takes_the_marks_of_its_rows)
 {
-    (void)state;
     struct session s;
     open_sheet(&s, TWO);
     session_point(&s, "mark(sway,1)");
@@ -91,9 +88,8 @@ static void test_a_box_takes_the_marks_of_its_rows(void **state)
     session_close(&s);
 }
 
-static void test_rows_choose_and_insert(void **state)
+TEST(test_rows_choose_and_insert)
 {
-    (void)state;
     struct session s;
     open_sheet(&s, TWO);
     session_point(&s, "mark(up,1)");
@@ -111,9 +107,8 @@ static void test_rows_choose_and_insert(void **state)
 }
 
 /// Ten rows are more than it shows: the wheel scrolls, and the active spline's row comes into sight by itself.
-static void test_rows_scroll(void **state)
+TEST(test_rows_scroll)
 {
-    (void)state;
     char scene[2048] = "{\"wiggly\": 1, \"frames\": [0, 96], \"splines\": [";
     for (int i = 0; i < 10; i++) {
         size_t length = strlen(scene);
@@ -141,14 +136,4 @@ static void test_rows_scroll(void **state)
     session_close(&s);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_it_takes_its_room_from_the_curves),
-        cmocka_unit_test(test_marks_are_dragged_in_time_alone),
-        cmocka_unit_test(test_a_box_takes_the_marks_of_its_rows),
-        cmocka_unit_test(test_rows_choose_and_insert),
-        cmocka_unit_test(test_rows_scroll),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return tests_run(NULL, NULL); }

@@ -51,9 +51,8 @@ static void check_svd(const double f[3][3])
     if (sizes[2] > 1e-12 * sizes[0]) assert_true((svd.sigma[2] < 0) == turned);
 }
 
-static void svd_of_random_matrices(void **state)
+TEST(svd_of_random_matrices)
 {
-    (void)state;
     uint64_t seed = 1;
     for (int round = 0; round < 20000; round++) {
         double f[3][3];
@@ -68,9 +67,8 @@ static void svd_of_random_matrices(void **state)
     }
 }
 
-static void svd_of_singular_and_extreme_matrices(void **state)
+TEST(svd_of_singular_and_extreme_matrices)
 {
-    (void)state;
     static const double cases[][3][3] = {
         {{0}},
         {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}},
@@ -87,9 +85,8 @@ static void svd_of_singular_and_extreme_matrices(void **state)
 }
 
 /// Stress is the derivative of energy on both sides of the clamp, through zero and into the inverted.
-static void stress_is_the_slope_of_energy(void **state)
+TEST(stress_is_the_slope_of_energy)
 {
-    (void)state;
     const struct material material = material_from(3, 0.4);
     uint64_t seed = 2;
     for (int round = 0; round < 2000; round++) {
@@ -115,9 +112,8 @@ static void stress_is_the_slope_of_energy(void **state)
 }
 
 /// At rest the stiffness is that of linear elasticity; near it, the derivative of the forces; everywhere, definite.
-static void stiffness_is_the_slope_of_forces(void **state)
+TEST(stiffness_is_the_slope_of_forces)
 {
-    (void)state;
     struct beam beam;
     struct body body;
     uint64_t seed = 3;
@@ -151,9 +147,8 @@ static void stiffness_is_the_slope_of_forces(void **state)
 }
 
 /// However the nodes lie, dᵀKd ≥ 0, and conjugate gradients find what LAPACKE's Cholesky finds.
-static void conjugate_gradients_against_a_dense_solver(void **state)
+TEST(conjugate_gradients_against_a_dense_solver)
 {
-    (void)state;
     struct beam beam;
     struct body body;
     uint64_t seed = 4;
@@ -191,9 +186,8 @@ static void conjugate_gradients_against_a_dense_solver(void **state)
     beam_free(&beam);
 }
 
-static void eigenvalues_against_lapack(void **state)
+TEST(eigenvalues_against_lapack)
 {
-    (void)state;
     enum { LARGEST = 24 };
     uint64_t seed = 5;
     for (int n = 1; n <= LARGEST; n++) {
@@ -215,15 +209,4 @@ static void eigenvalues_against_lapack(void **state)
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(svd_of_random_matrices),
-        cmocka_unit_test(svd_of_singular_and_extreme_matrices),
-        cmocka_unit_test(stress_is_the_slope_of_energy),
-        cmocka_unit_test(stiffness_is_the_slope_of_forces),
-        cmocka_unit_test(conjugate_gradients_against_a_dense_solver),
-        cmocka_unit_test(eigenvalues_against_lapack),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return tests_run(NULL, NULL); }

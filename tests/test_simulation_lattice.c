@@ -81,9 +81,8 @@ static double filled_volume(const struct lattice *lattice)
     return sum;
 }
 
-static void voxels_inside_a_sphere(void **state)
+TEST(voxels_inside_a_sphere)
 {
-    (void)state;
     struct surface sphere = {0};
     add_sphere(&sphere, 1);
     for (int i = 0; i < sphere.vertex_count; i += 100) add_triangle(&sphere, i, i, i); // of no size: changes nothing
@@ -103,9 +102,8 @@ static void voxels_inside_a_sphere(void **state)
     surface_free(&sphere);
 }
 
-static void a_sphere_in_about_as_many_tetrahedra_as_asked(void **state)
+TEST(a_sphere_in_about_as_many_tetrahedra_as_asked)
 {
-    (void)state;
     struct surface sphere = {0};
     add_sphere(&sphere, 1);
     for (int target = 500; target <= 8000; target *= 4) {
@@ -119,9 +117,8 @@ static void a_sphere_in_about_as_many_tetrahedra_as_asked(void **state)
 }
 
 /// The vertices stay where they are at rest, and follow any affine map of the nodes exactly.
-static void embedding_reproduces_linear_fields(void **state)
+TEST(embedding_reproduces_linear_fields)
 {
-    (void)state;
     static const double map[3][4] = {{1.2, 0.3, -0.1, 5}, {-0.4, 0.8, 0.2, -1}, {0.1, 0.5, 1.5, 2}};
     struct surface sphere = {0};
     add_sphere(&sphere, 1);
@@ -152,9 +149,8 @@ static void embedding_reproduces_linear_fields(void **state)
 
 /// Two prongs closer together than a cube's edge share no node above the base that joins them. The fork is made of three
 /// boxes that run into each other, which are one solid.
-static void prongs_closer_than_a_cell_are_not_glued(void **state)
+TEST(prongs_closer_than_a_cell_are_not_glued)
 {
-    (void)state;
     const double gap = 0.1;
     struct surface fork = {0};
     add_box(&fork, (const double[3]){0, 0, 0}, (const double[3]){2 + gap, 1, 1});
@@ -192,9 +188,8 @@ static void prongs_closer_than_a_cell_are_not_glued(void **state)
     surface_free(&fork);
 }
 
-static void separate_solids_are_separate_parts(void **state)
+TEST(separate_solids_are_separate_parts)
 {
-    (void)state;
     struct surface two = {0};
     add_box(&two, (const double[3]){0, 0, 0}, (const double[3]){1, 1, 1});
     add_box(&two, (const double[3]){1.1, 0, 0}, (const double[3]){2.1, 1, 1});
@@ -208,9 +203,8 @@ static void separate_solids_are_separate_parts(void **state)
 }
 
 /// A mesh that is symmetric left and right gets a lattice that is.
-static void the_lattice_is_as_symmetric_as_the_mesh(void **state)
+TEST(the_lattice_is_as_symmetric_as_the_mesh)
 {
-    (void)state;
     struct surface sphere = {0};
     add_sphere(&sphere, 1);
     struct lattice lattice = lattice_of(&sphere, 700);
@@ -227,9 +221,8 @@ static void the_lattice_is_as_symmetric_as_the_mesh(void **state)
 }
 
 /// However thin it is, cutting it takes bounded memory, and where nothing is left of it that is said.
-static void a_needle_is_cut_within_bounds(void **state)
+TEST(a_needle_is_cut_within_bounds)
 {
-    (void)state;
     struct lattice lattice;
     struct error error = {0};
     struct surface needle = {0}, hair = {0};
@@ -252,9 +245,8 @@ static int open_edges(const struct surface *surface)
     return open;
 }
 
-static void open_edges_are_counted(void **state)
+TEST(open_edges_are_counted)
 {
-    (void)state;
     struct surface box = {0};
     add_box(&box, (const double[3]){0, 0, 0}, (const double[3]){1, 1, 1});
     assert_int_equal(open_edges(&box), 0);
@@ -278,9 +270,8 @@ static void flip(struct surface *surface, int triangle)
 }
 
 /// Every third triangle of a box seen from inside, all of another one that stands in it, and a cavity that faces rightly inwards.
-static void mixed_sides_are_made_to_agree(void **state)
+TEST(mixed_sides_are_made_to_agree)
 {
-    (void)state;
     struct surface three = {0};
     add_box(&three, (const double[3]){0, 0, 0}, (const double[3]){4, 4, 4});
     add_box(&three, (const double[3]){3, 1, 1}, (const double[3]){8, 2, 2});
@@ -298,9 +289,8 @@ static void mixed_sides_are_made_to_agree(void **state)
     surface_free(&three);
 }
 
-static void a_triangle_there_twice_counts_once(void **state)
+TEST(a_triangle_there_twice_counts_once)
 {
-    (void)state;
     struct surface sphere = {0};
     add_sphere(&sphere, 1);
     const int triangles = sphere.index_count / 3;
@@ -317,9 +307,8 @@ static void a_triangle_there_twice_counts_once(void **state)
 }
 
 /// Winding numbers against those of a plain sum over all triangles' solid angles, which for a closed sphere are 0 and 1.
-static void the_tree_sums_like_all_triangles(void **state)
+TEST(the_tree_sums_like_all_triangles)
 {
-    (void)state;
     struct surface sphere = {0};
     struct winding winding;
     add_sphere(&sphere, 1);
@@ -337,9 +326,8 @@ static void the_tree_sums_like_all_triangles(void **state)
 }
 
 /// So few triangles that they are no tree.
-static void four_triangles_are_summed_one_by_one(void **state)
+TEST(four_triangles_are_summed_one_by_one)
 {
-    (void)state;
     static const uint32_t corners[4][3] = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}};
     struct surface surface = {0};
     struct winding winding;
@@ -353,9 +341,8 @@ static void four_triangles_are_summed_one_by_one(void **state)
 }
 
 /// A bowl is closed by a flat lid, on which it takes up half of all directions.
-static void a_hole_is_closed_by_winding_numbers(void **state)
+TEST(a_hole_is_closed_by_winding_numbers)
 {
-    (void)state;
     struct surface sphere = {0};
     add_sphere(&sphere, 1);
     memmove(sphere.indices, sphere.indices + 3 * 2 * 64 * 10,
@@ -370,9 +357,8 @@ static void a_hole_is_closed_by_winding_numbers(void **state)
 }
 
 /// Vertices that no triangle has stay where they are, and do not widen the box.
-static void strays_stay(void **state)
+TEST(strays_stay)
 {
-    (void)state;
     struct surface box = {0};
     add_vertex(&box, 1000, 0, 0);
     add_box(&box, (const double[3]){0, 0, 0}, (const double[3]){1, 1, 1});
@@ -390,23 +376,4 @@ static void strays_stay(void **state)
     surface_free(&box);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(voxels_inside_a_sphere),
-        cmocka_unit_test(a_sphere_in_about_as_many_tetrahedra_as_asked),
-        cmocka_unit_test(embedding_reproduces_linear_fields),
-        cmocka_unit_test(prongs_closer_than_a_cell_are_not_glued),
-        cmocka_unit_test(separate_solids_are_separate_parts),
-        cmocka_unit_test(the_lattice_is_as_symmetric_as_the_mesh),
-        cmocka_unit_test(a_needle_is_cut_within_bounds),
-        cmocka_unit_test(open_edges_are_counted),
-        cmocka_unit_test(mixed_sides_are_made_to_agree),
-        cmocka_unit_test(a_triangle_there_twice_counts_once),
-        cmocka_unit_test(the_tree_sums_like_all_triangles),
-        cmocka_unit_test(four_triangles_are_summed_one_by_one),
-        cmocka_unit_test(a_hole_is_closed_by_winding_numbers),
-        cmocka_unit_test(strays_stay),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return tests_run(NULL, NULL); }

@@ -96,9 +96,8 @@ static double measure_frequency(struct integrator *integrator, double (*shape)[3
 }
 
 /// The lowest frequency of the simulated motion is that of the generalised eigenproblem of the same mesh.
-static void cantilever_swings_at_its_first_frequency(void **state)
+TEST(cantilever_swings_at_its_first_frequency)
 {
-    (void)state;
     const double young = 2e5, poisson = 0.3;
     struct beam beam;
     struct body body;
@@ -130,9 +129,8 @@ static void cantilever_swings_at_its_first_frequency(void **state)
 }
 
 /// Linear tetrahedra lock: they are too stiff in bending, by an error that falls with the square of their size.
-static void cantilever_converges_to_euler_and_bernoulli(void **state)
+TEST(cantilever_converges_to_euler_and_bernoulli)
 {
-    (void)state;
     const double young = 1e6, density = 1000, length = 10;
     // First bending frequency of a slender clamped beam of square section 1 × 1.
     double slender = 1.8751040687 * 1.8751040687 / (2 * pi * length * length) * sqrt(young / (12 * density));
@@ -174,9 +172,8 @@ static void follow_energy(struct integrator *integrator, double range[2])
 
 /// Swinging by a fifth of the length in its first mode the body keeps its energy; torn at so that nine tenths of the
 /// energy go into stretching that the steps are too long for, it loses energy and never gains any.
-static void energy_stays_over_many_periods(void **state)
+TEST(energy_stays_over_many_periods)
 {
-    (void)state;
     struct beam beam;
     struct body body;
     struct modes modes;
@@ -225,9 +222,8 @@ static void momenta(const struct integrator *integrator, double linear[3], doubl
 }
 
 /// A free body that is thrown, spins and wobbles keeps its linear momentum, and its angular one to the order of the steps.
-static void a_free_body_keeps_its_momenta(void **state)
+TEST(a_free_body_keeps_its_momenta)
 {
-    (void)state;
     struct beam beam;
     struct body body;
     struct integrator integrator;
@@ -262,9 +258,8 @@ static int count_inverted(const struct body *body)
 }
 
 /// Every vertex thrown at random, half of the tetrahedra inside out: the body untangles itself and comes to rest.
-static void a_scrambled_body_comes_back_to_rest(void **state)
+TEST(a_scrambled_body_comes_back_to_rest)
 {
-    (void)state;
     for (uint64_t seed = 1; seed <= 4; seed++) {
         struct beam beam;
         struct body body;
@@ -296,9 +291,8 @@ static void a_scrambled_body_comes_back_to_rest(void **state)
 }
 
 /// At rest Rayleigh's damping takes e^(−ζωt) off the first mode's swing.
-static void damping_is_the_ratio_asked_for(void **state)
+TEST(damping_is_the_ratio_asked_for)
 {
-    (void)state;
     const double ratio = 0.05;
     const int period = 100, periods = 5;
     struct beam beam;
@@ -331,9 +325,8 @@ static void damping_is_the_ratio_asked_for(void **state)
 }
 
 /// A free body's six rigid motions are no modes, and its first real one is that of dsygvd.
-static void modes_of_a_free_body_leave_out_the_rigid_ones(void **state)
+TEST(modes_of_a_free_body_leave_out_the_rigid_ones)
 {
-    (void)state;
     struct beam beam;
     struct body body;
     struct modes modes;
@@ -356,16 +349,4 @@ static void modes_of_a_free_body_leave_out_the_rigid_ones(void **state)
     beam_free(&beam);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(cantilever_swings_at_its_first_frequency),
-        cmocka_unit_test(cantilever_converges_to_euler_and_bernoulli),
-        cmocka_unit_test(energy_stays_over_many_periods),
-        cmocka_unit_test(a_free_body_keeps_its_momenta),
-        cmocka_unit_test(a_scrambled_body_comes_back_to_rest),
-        cmocka_unit_test(damping_is_the_ratio_asked_for),
-        cmocka_unit_test(modes_of_a_free_body_leave_out_the_rigid_ones),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return tests_run(NULL, NULL); }

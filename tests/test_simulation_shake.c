@@ -53,9 +53,8 @@ static double project(const struct soft *soft, int mode, const double direction[
 }
 
 /// Each mode of a body whose base moves a little is an oscillator that −Γ a(t) pushes: q'' + 2ζω q' + ω² q = −Γ a.
-static void a_moving_base_shakes_a_mode_as_it_shakes_an_oscillator(void **state)
+TEST(a_moving_base_shakes_a_mode_as_it_shakes_an_oscillator)
 {
-    (void)state;
     const double side[3] = {1, 0, 0}, h = 1e-3;
     struct box box;
     struct soft soft;
@@ -97,9 +96,8 @@ static void a_moving_base_shakes_a_mode_as_it_shakes_an_oscillator(void **state)
 }
 
 /// Under its weight a body rests where inner forces and weight balance, sunk and not moving.
-static void gravity_is_settled_before_the_start(void **state)
+TEST(gravity_is_settled_before_the_start)
 {
-    (void)state;
     struct box box;
     struct soft soft;
     struct integrator integrator;
@@ -159,9 +157,8 @@ static void free_loose(struct loose_box *loose)
 }
 
 /// It falls, bounces and comes to rest on the floor, no corner below it by more than a hundredth of the height.
-static void a_box_falls_on_the_floor_and_stays(void **state)
+TEST(a_box_falls_on_the_floor_and_stays)
 {
-    (void)state;
     struct loose_box loose;
     make_loose(&loose, -0.3, 0.01, 3);
     const struct integrator *integrator = &loose.integrator;
@@ -182,9 +179,8 @@ static void a_box_falls_on_the_floor_and_stays(void **state)
 }
 
 /// What lies on the floor and has hardly any damping of its own stays in touch: its vertices do not go in and out with every step.
-static void a_box_on_the_floor_does_not_chatter(void **state)
+TEST(a_box_on_the_floor_does_not_chatter)
 {
-    (void)state;
     enum { STEPS = 1800, LAST = 600, FEW = 60 };
     struct loose_box loose;
     if (!is_thorough()) skip();
@@ -214,9 +210,8 @@ static double swelling(const struct lattice *lattice)
 
 /// A clamped beam is as thick as its mesh and becomes softer with each doubling, towards Euler and Bernoulli's frequency, whatever the
 /// height of the clamp is.
-static void a_beam_is_monotone_under_refinement(void **state)
+TEST(a_beam_is_monotone_under_refinement)
 {
-    (void)state;
     const double young = 1e6, length = 7.6;
     const double slender = 1.8751040687 * 1.8751040687 / (2 * M_PI * length * length) * sqrt(young / (12 * 1000));
     struct box box;
@@ -255,9 +250,8 @@ static int count_pinned(struct box *box, const char *where)
 }
 
 /// Where nobody says what is held, the lowest twentieth of the height is, up to a layer of nodes that lies there.
-static void the_lowest_twentieth_is_held(void **state)
+TEST(the_lowest_twentieth_is_held)
 {
-    (void)state;
     struct box box;
     struct soft soft;
     struct soft_options options = soft_default_options();
@@ -275,9 +269,8 @@ static void the_lowest_twentieth_is_held(void **state)
     soft_free(&soft);
 }
 
-static void regions_hold_what_they_name(void **state)
+TEST(regions_hold_what_they_name)
 {
-    (void)state;
     struct box box;
     struct region region;
     make_box(&box, 0.5f, 1);
@@ -292,9 +285,8 @@ static void regions_hold_what_they_name(void **state)
 }
 
 /// By distance and by brightness alike the box is N times softer at its top than at its foot, and evenly in between.
-static void softness_falls_as_the_map_says(void **state)
+TEST(softness_falls_as_the_map_says)
 {
-    (void)state;
     static const char *const maps[] = {"distance", "color"};
     struct box box;
     make_box(&box, 0.3f, 1);
@@ -316,9 +308,8 @@ static void softness_falls_as_the_map_says(void **state)
 }
 
 /// A track's spline goes through its samples, and its second derivative is the acceleration.
-static void a_track_is_smooth(void **state)
+TEST(a_track_is_smooth)
 {
-    (void)state;
     double time[5] = {0, 0.1, 0.3, 0.4, 0.7}, value[5] = {0, 0.02, -0.01, 0.03, 0};
     char path[] = "/tmp/wiggly-track-XXXXXX";
     FILE *file = fdopen(mkstemp(path), "w");
@@ -340,9 +331,8 @@ static void a_track_is_smooth(void **state)
 }
 
 /// Numbers that a spline through them would leave the finite ones with are refused with their line.
-static void a_track_stays_finite(void **state)
+TEST(a_track_stays_finite)
 {
-    (void)state;
     static const struct {
         const char *text, *says; // no sentence: it is taken
     } cases[] = {
@@ -370,19 +360,4 @@ static void a_track_stays_finite(void **state)
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_moving_base_shakes_a_mode_as_it_shakes_an_oscillator),
-        cmocka_unit_test(gravity_is_settled_before_the_start),
-        cmocka_unit_test(a_box_falls_on_the_floor_and_stays),
-        cmocka_unit_test(a_box_on_the_floor_does_not_chatter),
-        cmocka_unit_test(a_beam_is_monotone_under_refinement),
-        cmocka_unit_test(the_lowest_twentieth_is_held),
-        cmocka_unit_test(regions_hold_what_they_name),
-        cmocka_unit_test(softness_falls_as_the_map_says),
-        cmocka_unit_test(a_track_is_smooth),
-        cmocka_unit_test(a_track_stays_finite),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return tests_run(NULL, NULL); }

@@ -2,9 +2,8 @@
 #include "five_knots.h"
 #include "panel_session.h"
 
-static void test_slopes_flat_and_smooth(void **state)
+TEST(test_slopes_flat_and_smooth)
 {
-    (void)state;
     struct session s;
     session_open(&s, FIVE);
     session_key(&s, 'A', MOD_CTRL);
@@ -30,9 +29,8 @@ static void test_slopes_flat_and_smooth(void **state)
     session_close(&s);
 }
 
-static void test_a_longer_handle_is_stiffer(void **state)
+TEST(test_a_longer_handle_is_stiffer)
 {
-    (void)state;
     struct session s;
     session_open(&s, FIVE);
     session_click(&s, "knot(sway,1)");
@@ -52,9 +50,8 @@ static void test_a_longer_handle_is_stiffer(void **state)
 }
 
 /// A handle that is pulled past its knot stays steep on its own side.
-static void test_a_handle_does_not_flip(void **state)
+TEST(test_a_handle_does_not_flip)
 {
-    (void)state;
     struct session s;
     session_open(&s, FIVE);
     session_click(&s, "knot(sway,1)");
@@ -68,9 +65,8 @@ static void test_a_handle_does_not_flip(void **state)
 }
 
 /// Of handles that nearly touch the one under the pointer is pulled.
-static void test_the_nearest_handle_is_pulled(void **state)
+TEST(test_the_nearest_handle_is_pulled)
 {
-    (void)state;
     static const char close[] =
         "{\"wiggly\": 1, \"frames\": [0, 240], \"splines\": [{\"name\": \"sway\", \"frequency\": 1,"
         "\"damping\": 0.1, \"knots\": [{\"frame\": 100, \"value\": 0, \"slope\": 0}, {\"frame\": 101, \"value\": 0,"
@@ -87,13 +83,4 @@ static void test_the_nearest_handle_is_pulled(void **state)
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_slopes_flat_and_smooth),
-        cmocka_unit_test(test_a_longer_handle_is_stiffer),
-        cmocka_unit_test(test_a_handle_does_not_flip),
-        cmocka_unit_test(test_the_nearest_handle_is_pulled),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return tests_run(NULL, NULL); }

@@ -82,37 +82,12 @@ static void leaves_nothing(void (*act)(int frame), bool allocates)
     blind_close(&blind);
 }
 
-static void playing(void **state)
-{
-    (void)state;
-    leaves_nothing(nothing, false);
-}
+TEST(playing) { leaves_nothing(nothing, false); }
 
-static void pointing(void **state)
-{
-    (void)state;
-    leaves_nothing(point_around, false);
-}
+TEST(pointing) { leaves_nothing(point_around, false); }
 
-static void dragging(void **state)
-{
-    (void)state;
-    leaves_nothing(drag_and_give_up, true);
-}
+TEST(dragging) { leaves_nothing(drag_and_give_up, true); }
 
-static void looking(void **state)
-{
-    (void)state;
-    leaves_nothing(open_and_close, true);
-}
+TEST(looking) { leaves_nothing(open_and_close, true); }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(playing),
-        cmocka_unit_test(pointing),
-        cmocka_unit_test(dragging),
-        cmocka_unit_test(looking),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return tests_run(NULL, NULL); }

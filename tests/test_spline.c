@@ -41,9 +41,8 @@ static wiggly_desc describe(int samples, wiggly_mode mode, wiggly_start start, c
     return desc;
 }
 
-static void knots_are_hit_to_the_bit(void **state)
+TEST(knots_are_hit_to_the_bit)
 {
-    (void)state;
     const wiggly_knot knots[] = {
         {.sample = 3, .value = 0.1}, {.sample = 40, .value = 1.0 / 3}, {.sample = 77, .value = -1e-3}};
     double wave[100];
@@ -54,9 +53,8 @@ static void knots_are_hit_to_the_bit(void **state)
     for (int k = 0; k < 3; k++) assert_true(curve.total[knots[k].sample] == knots[k].value);
 }
 
-static void before_the_first_knot_x_is_held(void **state)
+TEST(before_the_first_knot_x_is_held)
 {
-    (void)state;
     const wiggly_knot knots[] = {{.sample = 10, .value = 1}, {.sample = 40, .value = 0}};
     wiggly_desc desc = describe(60, WIGGLY_COMPLEX, WIGGLY_FREE, knots, 2);
     assert_int_equal(wiggly_solve(solver, &desc, &curve), WIGGLY_OK);
@@ -66,9 +64,8 @@ static void before_the_first_knot_x_is_held(void **state)
     assert_int_equal(curve.first, 10);
 }
 
-static void nothing_keyed_is_the_equilibrium(void **state)
+TEST(nothing_keyed_is_the_equilibrium)
 {
-    (void)state;
     for (int start = 0; start < 3; start++) {
         wiggly_desc desc = describe(50, WIGGLY_COMPLEX, (wiggly_start)start, NULL, 0);
         desc.equilibrium.value = 0.7;
@@ -77,18 +74,16 @@ static void nothing_keyed_is_the_equilibrium(void **state)
     }
 }
 
-static void one_knot_of_a_cubic_is_a_constant(void **state)
+TEST(one_knot_of_a_cubic_is_a_constant)
 {
-    (void)state;
     const wiggly_knot knot = {.sample = 20, .value = 2};
     wiggly_desc desc = describe(50, WIGGLY_CUBIC, WIGGLY_FREE, &knot, 1);
     assert_int_equal(wiggly_solve(solver, &desc, &curve), WIGGLY_OK);
     for (int i = 0; i < 50; i++) assert_near(curve.total[i], 2, 1e-12);
 }
 
-static void domains_of_one_and_two_samples(void **state)
+TEST(domains_of_one_and_two_samples)
 {
-    (void)state;
     const wiggly_knot knot = {.sample = 0, .value = 4, .has_slope = true, .slope = 1, .stiffness = 10};
     for (int samples = 1; samples <= 2; samples++) {
         for (int mode = 0; mode < 3; mode++) {
@@ -100,9 +95,8 @@ static void domains_of_one_and_two_samples(void **state)
 }
 
 /// Undamped, knots half a period apart, calm 0: any amount of swing that is 0 at the knots costs nothing.
-static void what_has_no_single_answer_is_calmed_and_said(void **state)
+TEST(what_has_no_single_answer_is_calmed_and_said)
 {
-    (void)state;
     const wiggly_knot knots[] = {{.sample = 0, .value = 0}, {.sample = 12, .value = 0}, {.sample = 24, .value = 0.3}};
     wiggly_desc desc = describe(100, WIGGLY_COMPLEX, WIGGLY_FREE, knots, 3);
     desc.damping.value = desc.bandwidth.value = desc.calm = 0;
@@ -123,9 +117,8 @@ static void what_has_no_single_answer_is_calmed_and_said(void **state)
     assert_int_equal(wiggly_solve(solver, &loop, &curve), WIGGLY_CALMED);
 }
 
-static void a_spring_that_starts_slack_is_levelled(void **state)
+TEST(a_spring_that_starts_slack_is_levelled)
 {
-    (void)state;
     double frequency[60];
     for (int i = 0; i < 60; i++) frequency[i] = i < 3 ? 0 : 1;
     // Two knots on the free stretch pin its line; with one alone on it and one where the spring already acts, nothing does.
@@ -138,9 +131,8 @@ static void a_spring_that_starts_slack_is_levelled(void **state)
 }
 
 /// A frequency as high as a number can be turns by no angle that could be told; the drive of a filter turns with it.
-static void a_frequency_without_bounds_is_solved(void **state)
+TEST(a_frequency_without_bounds_is_solved)
 {
-    (void)state;
     double frequency[12], y[12];
     for (int i = 0; i < 12; i++) frequency[i] = 1.7e308 - i * 1e306, y[i] = sin(i);
     const wiggly_knot knots[] = {{.sample = 0, .value = 1}, {.sample = 7, .value = -1}};
@@ -155,9 +147,8 @@ static void a_frequency_without_bounds_is_solved(void **state)
 }
 
 /// Numbers so large that their sums overflow: straight lines join the knots.
-static void what_cannot_be_solved_is_joined_by_lines(void **state)
+TEST(what_cannot_be_solved_is_joined_by_lines)
 {
-    (void)state;
     const wiggly_knot knots[] = {{.sample = 2, .value = -9e299},
                                  {.sample = 3, .value = 9e299},
                                  {.sample = 7, .value = 1e299},
@@ -173,9 +164,8 @@ static void what_cannot_be_solved_is_joined_by_lines(void **state)
 
 /// The paper's cubic goes straight on: two keys side by side throw it as far as it runs, and beyond 10⁴ times their scale that
 /// cannot be meant (and no level slope helps: it would lie between the two). The oscillator's holds its last value.
-static void a_thrown_cubic_is_said(void **state)
+TEST(a_thrown_cubic_is_said)
 {
-    (void)state;
     for (int samples = 9000; samples <= 11000; samples += 2000) {
         wiggly_knot knots[] = {{.sample = 0, .value = 0}, {.sample = 1, .value = 1}};
         wiggly_desc desc = wiggly_default_desc();
@@ -199,9 +189,8 @@ static void a_thrown_cubic_is_said(void **state)
     }
 }
 
-static void a_loop_closes(void **state)
+TEST(a_loop_closes)
 {
-    (void)state;
     const wiggly_knot knots[] = {{.sample = 10, .value = 1}, {.sample = 70, .value = -0.5}};
     for (int mode = 0; mode < 3; mode++) {
         wiggly_desc desc = describe(121, (wiggly_mode)mode, WIGGLY_LOOP, knots, 2);
@@ -216,9 +205,8 @@ static void a_loop_closes(void **state)
     }
 }
 
-static void between_samples_a_free_oscillation_is_followed(void **state)
+TEST(between_samples_a_free_oscillation_is_followed)
 {
-    (void)state;
     const wiggly_knot knot = {.sample = 0, .value = 1};
     wiggly_desc desc = describe(97, WIGGLY_COMPLEX, WIGGLY_FREE, &knot, 1);
     desc.frequency.value = 2; // 12 samples a turn
@@ -241,9 +229,8 @@ static void between_samples_a_free_oscillation_is_followed(void **state)
     assert_near(out[3], 0, 0);
 }
 
-static void wrong_descriptions_are_named_and_leave_the_curve_alone(void **state)
+TEST(wrong_descriptions_are_named_and_leave_the_curve_alone)
 {
-    (void)state;
     const wiggly_knot good = {.sample = 1, .value = 1}, twice[] = {good, good}, outside = {.sample = 50, .value = 1};
     const wiggly_knot seam = {.sample = 49, .value = 1}, nan = {.sample = 1, .value = NAN};
     const wiggly_knot slack = {.sample = 1, .has_slope = true, .stiffness = 0};
@@ -280,9 +267,8 @@ static void wrong_descriptions_are_named_and_leave_the_curve_alone(void **state)
     assert_int_equal(wiggly_solve(NULL, &ok, &curve), WIGGLY_ERROR_ARGUMENT);
 }
 
-static void every_status_has_a_text_of_its_own(void **state)
+TEST(every_status_has_a_text_of_its_own)
 {
-    (void)state;
     for (int a = 0; a < WIGGLY_STATUS_COUNT; a++) {
         assert_true(strlen(wiggly_status_text((wiggly_status)a)) > 1);
         for (int b = 0; b < a; b++) {
@@ -293,9 +279,8 @@ static void every_status_has_a_text_of_its_own(void **state)
 }
 
 /// A game's vertices: with no array of doubles at all, on every way of solving, and what lies between them is left alone.
-static void the_total_comes_as_floats(void **state)
+TEST(the_total_comes_as_floats)
 {
-    (void)state;
     enum { SAMPLES = 50, STRIDE = 3 };
     const wiggly_knot knots[] = {{.sample = 5, .value = 0.1}, {.sample = 40, .value = 2}};
     double wave[SAMPLES], slow[SAMPLES];
@@ -321,9 +306,8 @@ static void the_total_comes_as_floats(void **state)
     }
 }
 
-static void memory_may_be_the_callers(void **state)
+TEST(memory_may_be_the_callers)
 {
-    (void)state;
     assert_int_equal(wiggly_memsize(0, 0), 0);
     assert_int_equal(wiggly_memsize(10, -1), 0);
     size_t size = wiggly_memsize(60, 4);
@@ -351,9 +335,8 @@ static void memory_may_be_the_callers(void **state)
 }
 
 /// A solver that has just solved nearly the same spline uses what it kept: not a bit may differ from a fresh one.
-static void what_is_kept_changes_no_bit(void **state)
+TEST(what_is_kept_changes_no_bit)
 {
-    (void)state;
     wiggly_knot knots[] = {{.sample = 0, .value = 0.3, .has_slope = true, .slope = 1, .stiffness = 50},
                            {.sample = 30, .value = 1},
                            {.sample = 31, .value = 1.1},
@@ -380,9 +363,8 @@ static void what_is_kept_changes_no_bit(void **state)
 }
 
 /// Twice the frequency, sample rate and stiffness on the same samples is the same curve (docs/mathematics.md, Poles).
-static void the_whole_curve_scales(void **state)
+TEST(the_whole_curve_scales)
 {
-    (void)state;
     wiggly_knot knots[] = {{.sample = 0, .value = 0, .has_slope = true, .slope = 1, .stiffness = 50},
                            {.sample = 30, .value = 1},
                            {.sample = 80, .value = -0.4, .has_slope = true, .slope = -2, .stiffness = 9}};
@@ -407,9 +389,8 @@ static double pick(uint64_t *seed, const double *values, int count)
     pick(seed, (const double[]){__VA_ARGS__}, (int)(sizeof(double[]){__VA_ARGS__} / sizeof(double)))
 
 /// Every parameter at its ends and far beyond them, values up to 1e±150, any number of knots: never a NaN, never an infinity.
-static void extremes_stay_finite(void **state)
+TEST(extremes_stay_finite)
 {
-    (void)state;
     static wiggly_knot knots[400];
     uint64_t seed = 7;
     for (int n = 0; n < 6000; n++) {
@@ -443,28 +424,4 @@ static void extremes_stay_finite(void **state)
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(knots_are_hit_to_the_bit),
-        cmocka_unit_test(before_the_first_knot_x_is_held),
-        cmocka_unit_test(nothing_keyed_is_the_equilibrium),
-        cmocka_unit_test(one_knot_of_a_cubic_is_a_constant),
-        cmocka_unit_test(a_frequency_without_bounds_is_solved),
-        cmocka_unit_test(what_cannot_be_solved_is_joined_by_lines),
-        cmocka_unit_test(domains_of_one_and_two_samples),
-        cmocka_unit_test(what_has_no_single_answer_is_calmed_and_said),
-        cmocka_unit_test(a_spring_that_starts_slack_is_levelled),
-        cmocka_unit_test(a_thrown_cubic_is_said),
-        cmocka_unit_test(a_loop_closes),
-        cmocka_unit_test(between_samples_a_free_oscillation_is_followed),
-        cmocka_unit_test(wrong_descriptions_are_named_and_leave_the_curve_alone),
-        cmocka_unit_test(every_status_has_a_text_of_its_own),
-        cmocka_unit_test(the_total_comes_as_floats),
-        cmocka_unit_test(memory_may_be_the_callers),
-        cmocka_unit_test(what_is_kept_changes_no_bit),
-        cmocka_unit_test(the_whole_curve_scales),
-        cmocka_unit_test(extremes_stay_finite),
-    };
-    return cmocka_run_group_tests(tests, set_up, tear_down);
-}
+int main(void) { return tests_run(set_up, tear_down); }

@@ -66,9 +66,8 @@ static size_t make_ply(unsigned char *bytes, bool big)
     return size;
 }
 
-static void ply_in_both_byte_orders(void **state)
+TEST(ply_in_both_byte_orders)
 {
-    (void)state;
     unsigned char bytes[1024];
     for (int big = 0; big < 2; big++) {
         const size_t size = make_ply(bytes, big);
@@ -91,9 +90,8 @@ static void ply_in_both_byte_orders(void **state)
 
 #define PLY "ply\nformat ascii 1.0\n"
 
-static void ply_as_text(void **state)
+TEST(ply_as_text)
 {
-    (void)state;
     const char *text =
         PLY "obj_info made by hand\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
             "property float s\nproperty float t\nelement tristrips 1\n"
@@ -143,9 +141,8 @@ static size_t make_stl(unsigned char *bytes, uint32_t count)
     return size;
 }
 
-static void stl_merges_corners(void **state)
+TEST(stl_merges_corners)
 {
-    (void)state;
     unsigned char bytes[512] = {0};
     const uint32_t indices[] = {0, 1, 2, 0, 2, 3};
     struct surface s = read_good("a.stl", bytes, make_stl(bytes, 2));
@@ -172,9 +169,8 @@ static void stl_merges_corners(void **state)
     assert_refused_text("c.stl", "", "expected an STL file");
 }
 
-static void off_with_colours(void **state)
+TEST(off_with_colours)
 {
-    (void)state;
     const char *text =
         "COFF # coloured\n4 2 0\n0 0 0 255 0 0 255\n1 0 0 255 0 0 255\n1 1 0 0 0 0 255\n0 1 0 0 0 0 255\n"
         "4 0 1 2 3 0.5 0.5 0.5\n3 2 1 0\n";
@@ -197,9 +193,8 @@ static void off_with_colours(void **state)
 }
 
 /// Triangles that name a vertex twice are left out; in a strip they are how it jumps. A mesh of nothing else is refused.
-static void triangles_that_repeat_a_vertex_are_left_out(void **state)
+TEST(triangles_that_repeat_a_vertex_are_left_out)
 {
-    (void)state;
 #define THREE_OF_PLY "element vertex 3\nproperty float x\nproperty float y\nproperty float z\nelement "
 #define LISTS_OF_PLY "\nproperty list int int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n"
 #define FACET(a, b, c) "facet normal 0 0 1\nouter loop\nvertex " a "\nvertex " b "\nvertex " c "\nendloop\nendfacet\n"
@@ -227,9 +222,8 @@ static void triangles_that_repeat_a_vertex_are_left_out(void **state)
 }
 
 /// Two quads of two materials, one textured, with a seam between them: vertices 1 and 2 have two texture coordinates each.
-static void looks_come_through(void **state)
+TEST(looks_come_through)
 {
-    (void)state;
     static const unsigned char png[] = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n', 0};
     const char *mtl = "newmtl red one\nKd 1 0.5 0\nnewmtl wood\nKd 1 1 1\nmap_Kd -s 1 1 1 wood grain.png\n";
     const char *text =
@@ -277,9 +271,8 @@ static void looks_come_through(void **state)
 }
 
 /// A name may end in blanks in one of the two files, and in a backslash, which at the end of a line would join it to the next.
-static void names_of_materials_come_through(void **state)
+TEST(names_of_materials_come_through)
 {
-    (void)state;
     const char *mtl = "newmtl red \t\r\nKd 1 0.5 0\nnewmtl back\\\nKd 0 0 1\n";
     const char *text = "mtllib n.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl red\nf 1 2 3\nusemtl back\\ \nf 1 3 2\n";
     struct error error;
@@ -305,9 +298,8 @@ static void names_of_materials_come_through(void **state)
 static long calls_left;
 static void *stingy(size_t size) { return calls_left-- > 0 ? malloc(size) : NULL; }
 
-static void nothing_is_written_where_memory_is_short(void **state)
+TEST(nothing_is_written_where_memory_is_short)
 {
-    (void)state;
     float position[4][3];
     uint32_t indices[] = {0, 1, 2, 0, 2, 3};
     struct surface s = {.position = position, .vertex_count = 4, .indices = indices, .index_count = 6};
@@ -357,9 +349,8 @@ static const char *print_ply(int elements, int properties, double red)
     return text;
 }
 
-static void limits_of_a_ply(void **state)
+TEST(limits_of_a_ply)
 {
-    (void)state;
     const char *most = print_ply(14, 58, 1000);
     struct surface surface = read_good("most.ply", most, strlen(most));
     assert_int_equal(surface.index_count, 3);
@@ -371,18 +362,4 @@ static void limits_of_a_ply(void **state)
     assert_refused_text("dark.ply", print_ply(0, 0, -1001), "expected a colour from 0 to 1, got -1001");
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(ply_in_both_byte_orders),
-        cmocka_unit_test(ply_as_text),
-        cmocka_unit_test(stl_merges_corners),
-        cmocka_unit_test(off_with_colours),
-        cmocka_unit_test(triangles_that_repeat_a_vertex_are_left_out),
-        cmocka_unit_test(looks_come_through),
-        cmocka_unit_test(names_of_materials_come_through),
-        cmocka_unit_test(nothing_is_written_where_memory_is_short),
-        cmocka_unit_test(limits_of_a_ply),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return tests_run(NULL, NULL); }

@@ -63,9 +63,8 @@ static wiggly_value solved(const struct spline *spline)
     return (wiggly_value){y[SAMPLES - 1], re[SAMPLES - 1], im[SAMPLES - 1]};
 }
 
-static void test_is_what_the_solver_says(void **state)
+TEST(test_is_what_the_solver_says)
 {
-    (void)state;
     struct spline splines[] = {spline_of(WIGGLY_COMPLEX, 1, 0.08, 0.08), spline_of(WIGGLY_COMPLEX, 2, 0.2, 0),
                                spline_of(WIGGLY_REAL, 1.5, 0.1, 0), spline_of(WIGGLY_REAL, 1, 1, 0),
                                spline_of(WIGGLY_REAL, 1, 3, 0)};
@@ -82,9 +81,8 @@ static void test_is_what_the_solver_says(void **state)
 }
 
 /// Told of the same base at the same times, it is the solved curve, to the last bit.
-static void test_has_the_bits_of_the_solver(void **state)
+TEST(test_has_the_bits_of_the_solver)
 {
-    (void)state;
     const struct spline splines[] = {spline_of(WIGGLY_COMPLEX, 1, 0.08, 0.08), spline_of(WIGGLY_COMPLEX, 2, 0.2, 0),
                                      spline_of(WIGGLY_REAL, 1.5, 0.1, 0), spline_of(WIGGLY_REAL, 1, 3, 0)};
     for (size_t s = 0; s < sizeof splines / sizeof splines[0]; s++) {
@@ -101,9 +99,8 @@ static void test_has_the_bits_of_the_solver(void **state)
 
 /// A tail is no rod that starts to swing later: it has most of its swing while the base still moves, the largest within half a period
 /// of its stop, and dies away from there. With the filter it is the other way round: its two poles ring up together first.
-static void test_answers_at_once_and_does_not_grow(void **state)
+TEST(test_answers_at_once_and_does_not_grow)
 {
-    (void)state;
     enum { HZ = 60, STOP = HZ / 2, HALF_PERIOD = HZ / 2 };
     struct spline spline = spline_of(WIGGLY_COMPLEX, 1, 0.08, 0.1);
     for (int passive = 0; passive < 2; passive++) {
@@ -125,9 +122,8 @@ static void test_answers_at_once_and_does_not_grow(void **state)
 }
 
 /// The same way of the base, told at 30, 60 and 144 frames a second.
-static void test_frame_rate_does_not_matter(void **state)
+TEST(test_frame_rate_does_not_matter)
 {
-    (void)state;
     const struct spline spline = spline_of(WIGGLY_COMPLEX, 1.2, 0.1, 0.1);
     struct swing_filter filter = filter_of(&spline);
     struct swing slow = {{0}, {0}}, fast = slow;
@@ -140,9 +136,8 @@ static void test_frame_rate_does_not_matter(void **state)
 }
 
 /// Even a spline that rings forever lets its tail come to rest, and the base's step swings it no further than `peak`.
-static void test_comes_to_rest_within_its_peak(void **state)
+TEST(test_comes_to_rest_within_its_peak)
 {
-    (void)state;
     const struct spline splines[] = {spline_of(WIGGLY_COMPLEX, 1, 0, 0.1), spline_of(WIGGLY_COMPLEX, 3, 0.3, 0.2),
                                      spline_of(WIGGLY_REAL, 1, 0.1, 0)};
     for (size_t s = 0; s < sizeof splines / sizeof splines[0]; s++) {
@@ -161,9 +156,8 @@ static void test_comes_to_rest_within_its_peak(void **state)
     }
 }
 
-static void test_nothing_pulls_a_cubic_back(void **state)
+TEST(test_nothing_pulls_a_cubic_back)
 {
-    (void)state;
     struct swing_filter filter;
     const double parameter[PARAMETER_COUNT] = {0};
     struct spline spline = spline_of(WIGGLY_CUBIC, 1, 0.1, 0.1);
@@ -174,9 +168,8 @@ static void test_nothing_pulls_a_cubic_back(void **state)
 
 /// A channel of the total swings its tip about as far as the base goes; one of the displacement says itself how far, and then it
 /// alone hangs on the base.
-static void test_scale_and_direction(void **state)
+TEST(test_scale_and_direction)
 {
-    (void)state;
     struct channel channels[2];
     memset(channels, 0, sizeof channels);
     channels[0].gain.value[0] = 4;
@@ -203,16 +196,4 @@ static void test_scale_and_direction(void **state)
     assert_near(direction[2], -sin(turn / 12), 1e-6);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_is_what_the_solver_says),
-        cmocka_unit_test(test_has_the_bits_of_the_solver),
-        cmocka_unit_test(test_answers_at_once_and_does_not_grow),
-        cmocka_unit_test(test_frame_rate_does_not_matter),
-        cmocka_unit_test(test_comes_to_rest_within_its_peak),
-        cmocka_unit_test(test_nothing_pulls_a_cubic_back),
-        cmocka_unit_test(test_scale_and_direction),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return tests_run(NULL, NULL); }

@@ -130,9 +130,8 @@ static void check_spline(const struct scene *scene, const char *name, int s)
     assert_int_equal(status, resonant ? WIGGLY_CALMED : WIGGLY_OK);
 }
 
-static void the_textbook_meets_every_vector(void **state)
+TEST(the_textbook_meets_every_vector)
 {
-    (void)state;
     static struct scene scene;
     DIR *directory = opendir(folder);
     assert_non_null(directory);
@@ -189,9 +188,8 @@ static bool read_problem(FILE *file, wiggly_desc *desc, double tracks[4][TEXTBOO
 /// tests/textbook/small.txt: what the vectors lack. A problem is a line of samples, rate, mode, start, passive, calm, 0, and
 /// knots; its parameters (0: a number, 1: a track); its knots (sample, value, whether a slope, slope, stiffness); and total,
 /// Re x, Im x of every sample in 60-digit arithmetic.
-static void the_textbook_meets_every_small_problem(void **state)
+TEST(the_textbook_meets_every_small_problem)
 {
-    (void)state;
     static struct textbook book;
     static double tracks[4][TEXTBOOK_MAX], expected[TEXTBOOK_MAX][3];
     double total[TEXTBOOK_MAX], re[TEXTBOOK_MAX], im[TEXTBOOK_MAX];
@@ -213,11 +211,4 @@ static void the_textbook_meets_every_small_problem(void **state)
     assert_true(problems >= 24);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_textbook_meets_every_vector),
-        cmocka_unit_test(the_textbook_meets_every_small_problem),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return tests_run(NULL, NULL); }

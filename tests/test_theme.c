@@ -25,9 +25,8 @@ static void assert_contrast(uint32_t color, uint32_t background, float least)
 }
 
 // Black on white is 21, and a grey that the definition gives by hand: #777777 has luminance 0.1845.
-static void test_contrast_is_the_definition(void **state)
+TEST(test_contrast_is_the_definition)
 {
-    (void)state;
     assert_near((double)theme_contrast(0x000000FFu, 0xFFFFFFFFu), 21, 1e-5);
     assert_near((double)theme_contrast(0x777777FFu, 0xFFFFFFFFu), 1.05 / 0.2345, 0.01);
     assert_near((double)theme_contrast(0x123456FFu, 0x123456FFu), 1, 1e-6);
@@ -111,11 +110,7 @@ static void check_text(void)
     check_uses(uses, sizeof uses / sizeof *uses, 4.5f);
 }
 
-static void test_text_can_be_read(void **state)
-{
-    (void)state;
-    each_theme(check_text);
-}
+TEST(test_text_can_be_read) { each_theme(check_text); }
 
 /// What shows that there is a control, and its state: WCAG 2.2, success criterion 1.4.11. Grids and hairlines between sections
 /// are decoration.
@@ -138,11 +133,7 @@ static void check_controls(void)
     check_uses(uses, sizeof uses / sizeof *uses, 3);
 }
 
-static void test_controls_are_seen(void **state)
-{
-    (void)state;
-    each_theme(check_controls);
-}
+TEST(test_controls_are_seen) { each_theme(check_controls); }
 
 static void check_curves(void)
 {
@@ -159,16 +150,11 @@ static void check_curves(void)
     assert_contrast(theme_spline(0xFFFFF0), theme()->panel, 3);
 }
 
-static void test_curves_are_seen(void **state)
-{
-    (void)state;
-    each_theme(check_curves);
-}
+TEST(test_curves_are_seen) { each_theme(check_curves); }
 
 /// Table 1 of Sharma, Wu and Dalal 2005: pairs at which implementations of CIEDE2000 go wrong.
-static void test_differences_are_ciede2000(void **state)
+TEST(test_differences_are_ciede2000)
 {
-    (void)state;
     static const struct {
         double one[3], other[3], difference;
     } pairs[] = {
@@ -191,9 +177,8 @@ static void test_differences_are_ciede2000(void **state)
 }
 
 /// Greys stay what they are to all eyes; colours that one kind confuses come together.
-static void test_eyes_are_blind_to_what_they_should_be(void **state)
+TEST(test_eyes_are_blind_to_what_they_should_be)
 {
-    (void)state;
     static const struct {
         enum color_eyes eyes;
         uint32_t one, other;
@@ -239,17 +224,12 @@ static void check_splines(void)
     assert_apart(others, THEME_SPLINE_COLORS, "splines that are not active");
 }
 
-static void test_splines_are_apart(void **state)
-{
-    (void)state;
-    each_theme(check_splines);
-}
+TEST(test_splines_are_apart) { each_theme(check_splines); }
 
 /// All eighths of a turn, not only neighbours, where the amplitude is the largest. Between them the surface has lines:
 /// a_line_divides_eighths_of_a_turn in test_character_draw.c.
-static void test_phases_are_apart(void **state)
+TEST(test_phases_are_apart)
 {
-    (void)state;
     enum { PHASES = 8 };
     uint32_t colors[PHASES];
     for (int i = 0; i < PHASES; i++) {
@@ -259,26 +239,11 @@ static void test_phases_are_apart(void **state)
     assert_apart(colors, PHASES, "eighths of a turn");
 }
 
-static void test_names(void **state)
+TEST(test_names)
 {
-    (void)state;
     assert_int_equal(theme_find("dark"), THEME_DARK);
     assert_int_equal(theme_find("light"), THEME_LIGHT);
     assert_int_equal(theme_find("solarised"), -1);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_contrast_is_the_definition),
-        cmocka_unit_test(test_text_can_be_read),
-        cmocka_unit_test(test_controls_are_seen),
-        cmocka_unit_test(test_curves_are_seen),
-        cmocka_unit_test(test_differences_are_ciede2000),
-        cmocka_unit_test(test_eyes_are_blind_to_what_they_should_be),
-        cmocka_unit_test(test_splines_are_apart),
-        cmocka_unit_test(test_phases_are_apart),
-        cmocka_unit_test(test_names),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return tests_run(NULL, NULL); }

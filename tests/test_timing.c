@@ -52,9 +52,8 @@ static void write_log(const char *to, int count, int capacity, double base, char
     fclose(summary);
 }
 
-static void test_what_is_written_reads_back(void **state)
+TEST(test_what_is_written_reads_back)
 {
-    (void)state;
     char text[1024];
     write_log(path, 600, 4096, 10, text, sizeof text);
     struct timing_log log;
@@ -72,9 +71,8 @@ static void test_what_is_written_reads_back(void **state)
     timing_log_free(&log);
 }
 
-static void test_header_says_where_it_was_measured(void **state)
+TEST(test_header_says_where_it_was_measured)
 {
-    (void)state;
     char text[1024], file_text[4096] = "";
     write_log(path, 3, 256, 10, text, sizeof text);
     FILE *file = fopen(path, "r");
@@ -102,9 +100,8 @@ static void test_header_says_where_it_was_measured(void **state)
 }
 
 /// A switch in the middle of a session is said where it is made; reading finds both names, each once.
-static void test_a_log_names_every_solver(void **state)
+TEST(test_a_log_names_every_solver)
 {
-    (void)state;
     struct error error = {0};
     struct frame_header chain = header;
     chain.solver = "chain";
@@ -132,9 +129,8 @@ static void test_a_log_names_every_solver(void **state)
     timing_log_free(&read);
 }
 
-static void test_summary(void **state)
+TEST(test_summary)
 {
-    (void)state;
     char text[1024];
     // 500 frames 20 ms apart from the third on: 498 frames in 497·20 ms + the last one's 10.09 ms
     write_log(NULL, 500, 4096, 10, text, sizeof text);
@@ -154,9 +150,8 @@ static void test_summary(void **state)
     assert_non_null(strstr(text, "nothing to sum up"));
 }
 
-static void test_long_session_keeps_the_last_frames(void **state)
+TEST(test_long_session_keeps_the_last_frames)
 {
-    (void)state;
     char text[1024];
     write_log(path, 1000, 256, 10, text, sizeof text);
     assert_non_null(strstr(text, "256 in 5.11 s"));
@@ -167,9 +162,8 @@ static void test_long_session_keeps_the_last_frames(void **state)
     timing_log_free(&log);
 }
 
-static void test_pushing_allocates_nothing(void **state)
+TEST(test_pushing_allocates_nothing)
 {
-    (void)state;
     struct error error = {0};
     struct framelog *log = framelog_open(path, &header, 1024, &error);
     assert_non_null(log);
@@ -183,9 +177,8 @@ static void test_pushing_allocates_nothing(void **state)
     assert_true(framelog_close(log, NULL, &error));
 }
 
-static void test_failures_name_the_path(void **state)
+TEST(test_failures_name_the_path)
 {
-    (void)state;
     struct error error = {0};
     assert_null(framelog_open("/no/such/folder/a.csv", &header, 256, &error));
     assert_int_equal(error.kind, ERROR_ENVIRONMENT);
@@ -201,9 +194,8 @@ static void test_failures_name_the_path(void **state)
     assert_non_null(strstr(error.text, "/dev/full: the timing log could not be written: No space left on device"));
 }
 
-static void test_broken_logs_are_refused(void **state)
+TEST(test_broken_logs_are_refused)
 {
-    (void)state;
     const struct {
         const char *text, *says;
     } cases[] = {
@@ -228,9 +220,8 @@ static void test_broken_logs_are_refused(void **state)
     }
 }
 
-static void test_quantiles(void **state)
+TEST(test_quantiles)
 {
-    (void)state;
     double values[] = {4, 1, 3, 2};
     statistics_sort(values, 4);
     assert_near(statistics_quantile(values, 4, 0), 1, 0);
@@ -240,9 +231,8 @@ static void test_quantiles(void **state)
     assert_true(isnan(statistics_quantile(values, 0, 0.5)));
 }
 
-static void test_runs_of_frames_over_a_budget(void **state)
+TEST(test_runs_of_frames_over_a_budget)
 {
-    (void)state;
     const double ms[] = {20, 20, 10, 20, NAN, 20, 20, 20, 16};
     struct over_budget over = statistics_over(ms, 9, 17);
     assert_int_equal(over.frames, 6);
@@ -269,9 +259,8 @@ static double median_ratio(const int *old_weight, const int *new_weight, const v
     return weighted_quantile(sets[1], FRAMES, new_weight, 0.5) / weighted_quantile(sets[0], FRAMES, old_weight, 0.5);
 }
 
-static void test_interval_covers_the_true_ratio(void **state)
+TEST(test_interval_covers_the_true_ratio)
 {
-    (void)state;
     static struct observation old[FRAMES], new[FRAMES];
     const struct observation *sets[] = {old, new};
     struct segments segments = {FRAMES / 60, FRAMES / 60, false};
@@ -286,9 +275,8 @@ static void test_interval_covers_the_true_ratio(void **state)
     assert_memory_equal(&first, &again, sizeof first); // a fixed seed: the same logs, the same verdict
 }
 
-static void test_pairs_cancel_drift(void **state)
+TEST(test_pairs_cancel_drift)
 {
-    (void)state;
     static struct observation old[FRAMES], new[FRAMES];
     const struct observation *sets[] = {old, new};
     struct segments alone = {FRAMES / 60, FRAMES / 60, false}, together = {FRAMES / 60, FRAMES / 60, true};
@@ -301,9 +289,8 @@ static void test_pairs_cancel_drift(void **state)
     assert_true(paired.high - paired.low < 0.5 * (unpaired.high - unpaired.low));
 }
 
-static void test_gpu_time_is_in_the_row_of_its_frame(void **state)
+TEST(test_gpu_time_is_in_the_row_of_its_frame)
 {
-    (void)state;
     struct error error = {0};
     struct framelog *log = framelog_open(path, &header, 256, &error);
     assert_non_null(log);
@@ -325,9 +312,8 @@ static void test_gpu_time_is_in_the_row_of_its_frame(void **state)
     timing_log_free(&read);
 }
 
-static void test_logs_of_the_schema_before_are_read(void **state)
+TEST(test_logs_of_the_schema_before_are_read)
 {
-    (void)state;
     FILE *file = fopen(path, "w");
     assert_non_null(file);
     fputs("# schema: wiggly-frames 1\nframe,t_s,frame_ms,wait_us\n0,0.5,16.5,NA\n", file);
@@ -360,9 +346,8 @@ static int diff_status_of(double old_ms, double new_ms)
     return diff_status();
 }
 
-static void test_timing_diff_verdicts(void **state)
+TEST(test_timing_diff_verdicts)
 {
-    (void)state;
     assert_int_equal(diff_status_of(10, 10), 0);
     assert_int_equal(diff_status_of(10, 10.1), 0); // surely slower, but by less than 1.5 %
     assert_int_equal(diff_status_of(10, 10.3), 1);
@@ -370,9 +355,8 @@ static void test_timing_diff_verdicts(void **state)
     assert_int_equal(diff_status_of(11.5, 10), 0); // faster is no failure
 }
 
-static void test_timing_diff_compares_counters_exactly(void **state)
+TEST(test_timing_diff_compares_counters_exactly)
 {
-    (void)state;
     char text[1024];
     struct error error = {0};
     assert_int_equal(diff_status_of(10, 10), 0);
@@ -410,25 +394,4 @@ static int remove_folder(void **state)
     return rmdir(folder);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_what_is_written_reads_back),
-        cmocka_unit_test(test_header_says_where_it_was_measured),
-        cmocka_unit_test(test_a_log_names_every_solver),
-        cmocka_unit_test(test_summary),
-        cmocka_unit_test(test_long_session_keeps_the_last_frames),
-        cmocka_unit_test(test_pushing_allocates_nothing),
-        cmocka_unit_test(test_failures_name_the_path),
-        cmocka_unit_test(test_broken_logs_are_refused),
-        cmocka_unit_test(test_quantiles),
-        cmocka_unit_test(test_runs_of_frames_over_a_budget),
-        cmocka_unit_test(test_interval_covers_the_true_ratio),
-        cmocka_unit_test(test_pairs_cancel_drift),
-        cmocka_unit_test(test_gpu_time_is_in_the_row_of_its_frame),
-        cmocka_unit_test(test_logs_of_the_schema_before_are_read),
-        cmocka_unit_test(test_timing_diff_verdicts),
-        cmocka_unit_test(test_timing_diff_compares_counters_exactly),
-    };
-    return cmocka_run_group_tests(tests, make_folder, remove_folder);
-}
+int main(void) { return tests_run(make_folder, remove_folder); }

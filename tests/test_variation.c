@@ -50,9 +50,8 @@ static double apart(const double *a, const double *b, int from, int to)
     return most;
 }
 
-static void knots_are_hit_and_the_rest_is_another(void **state)
+TEST(knots_are_hit_and_the_rest_is_another)
 {
-    (void)state;
     static const wiggly_start starts[] = {WIGGLY_FREE, WIGGLY_REST, WIGGLY_LOOP};
     for (int mode = WIGGLY_COMPLEX; mode <= WIGGLY_REAL; mode++) {
         for (int s = 0; s < 3; s++) {
@@ -77,9 +76,8 @@ static void knots_are_hit_and_the_rest_is_another(void **state)
 }
 
 /// A seed alone is nothing, and neither are variations of what does not vary.
-static void without_one_the_bits_are_the_same(void **state)
+TEST(without_one_the_bits_are_the_same)
 {
-    (void)state;
     struct solved plain, seeded;
     wiggly_desc desc = varied(0, 0);
     solve(&plain, &desc, WIGGLY_CHAIN);
@@ -93,9 +91,8 @@ static void without_one_the_bits_are_the_same(void **state)
     assert_memory_equal(plain.total, seeded.total, sizeof(double) * 241);
 }
 
-static void loops_close(void **state)
+TEST(loops_close)
 {
-    (void)state;
     struct solved s;
     wiggly_desc desc = varied(3, 0.5);
     desc.start = WIGGLY_LOOP;
@@ -110,9 +107,8 @@ static void loops_close(void **state)
     assert_true(seam < 1.5 * bend);
 }
 
-static void it_settles_after_the_last_knot(void **state)
+TEST(it_settles_after_the_last_knot)
 {
-    (void)state;
     struct solved s;
     for (int seed = 0; seed < 20; seed++) {
         wiggly_desc desc = varied(seed, 1);
@@ -127,9 +123,8 @@ static void it_settles_after_the_last_knot(void **state)
 }
 
 /// Without knots it is the noise itself: of the spread that was asked for, whatever the rate.
-static void the_noise_is_as_wide_as_asked(void **state)
+TEST(the_noise_is_as_wide_as_asked)
 {
-    (void)state;
     static struct solved s, fine;
     double sum = 0, worst = 0;
     long count = 0;
@@ -152,9 +147,8 @@ static void the_noise_is_as_wide_as_asked(void **state)
 }
 
 /// With calm 1 the plain spline is the mean of all variations.
-static void their_mean_is_the_spline(void **state)
+TEST(their_mean_is_the_spline)
 {
-    (void)state;
     static struct solved s, plain;
     static double mean[241];
     wiggly_desc desc = varied(0, 0);
@@ -168,9 +162,8 @@ static void their_mean_is_the_spline(void **state)
     assert_true(apart(mean, plain.total, 0, 241) < 0.2);
 }
 
-static void before_the_first_knot_nothing_stirs(void **state)
+TEST(before_the_first_knot_nothing_stirs)
 {
-    (void)state;
     struct solved s;
     wiggly_desc desc = varied(7, 1);
     solve(&s, &desc, WIGGLY_CHAIN);
@@ -180,9 +173,8 @@ static void before_the_first_knot_nothing_stirs(void **state)
     }
 }
 
-static void limits_hold(void **state)
+TEST(limits_hold)
 {
-    (void)state;
     struct solved s;
     for (int seed = 0; seed < 20; seed++) {
         wiggly_desc desc = varied(seed, 1);
@@ -194,9 +186,8 @@ static void limits_hold(void **state)
 }
 
 /// In a batch, as by itself.
-static void a_batch_has_the_same_bits(void **state)
+TEST(a_batch_has_the_same_bits)
 {
-    (void)state;
     enum { COUNT = 37 };
     static struct solved many[COUNT], one;
     static wiggly_desc descs[COUNT];
@@ -213,18 +204,4 @@ static void a_batch_has_the_same_bits(void **state)
     wiggly_batch_destroy(batch);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(knots_are_hit_and_the_rest_is_another),
-        cmocka_unit_test(without_one_the_bits_are_the_same),
-        cmocka_unit_test(loops_close),
-        cmocka_unit_test(it_settles_after_the_last_knot),
-        cmocka_unit_test(the_noise_is_as_wide_as_asked),
-        cmocka_unit_test(their_mean_is_the_spline),
-        cmocka_unit_test(before_the_first_knot_nothing_stirs),
-        cmocka_unit_test(limits_hold),
-        cmocka_unit_test(a_batch_has_the_same_bits),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return tests_run(NULL, NULL); }

@@ -21,9 +21,8 @@ static double number(const struct session *s, enum parameter p)
     return s->document->splines[0]->parameter[p].value;
 }
 
-static void a_key_finds_the_frequency(void **state)
+TEST(a_key_finds_the_frequency)
 {
-    (void)state;
     struct session s;
     session_open(&s, swinging);
     session_frame(&s);
@@ -38,9 +37,8 @@ static void a_key_finds_the_frequency(void **state)
     session_close(&s);
 }
 
-static void too_few_knots_are_told(void **state)
+TEST(too_few_knots_are_told)
 {
-    (void)state;
     struct session s;
     session_open(&s, few);
     session_frame(&s);
@@ -50,9 +48,8 @@ static void too_few_knots_are_told(void **state)
     session_close(&s);
 }
 
-static void the_dice_rolls_another_motion(void **state)
+TEST(the_dice_rolls_another_motion)
 {
-    (void)state;
     struct session s;
     panel_open(&s, swinging, 1280, 1200);
     char *original = session_saved(&s);
@@ -85,9 +82,8 @@ static void load_fails(const char *variation, const char *sentence)
     if (!strstr(error.text, sentence)) fail_msg("%s", error.text);
 }
 
-static void the_file_has_both_numbers_and_what_else_is_there(void **state)
+TEST(the_file_has_both_numbers_and_what_else_is_there)
 {
-    (void)state;
     static const char scene[] =
         "{\"wiggly\": 1, \"frames\": [0, 24], \"splines\": [{\"name\": \"a\", \"frequency\": 1, "
         "\"variation\": {\"seed\": 7, \"amount\": 0.3, \"mood\": \"mild\"}, \"knots\": []}]}";
@@ -103,13 +99,4 @@ static void the_file_has_both_numbers_and_what_else_is_there(void **state)
     load_fails("{\"seed\": 1, \"amount\": -1}", "variation.amount: expected");
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_key_finds_the_frequency),
-        cmocka_unit_test(too_few_knots_are_told),
-        cmocka_unit_test(the_dice_rolls_another_motion),
-        cmocka_unit_test(the_file_has_both_numbers_and_what_else_is_there),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return tests_run(NULL, NULL); }

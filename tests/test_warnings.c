@@ -53,9 +53,8 @@ static void assert_remedied(struct session *s, const char *scene, enum warning_k
     free(original);
 }
 
-static void test_a_swing_is_tamed_by_what_helps(void **state)
+TEST(test_a_swing_is_tamed_by_what_helps)
 {
-    (void)state;
     struct session s;
     assert_remedied(&s, JUMP, WARNING_SWING);
     const struct spline *sway = s.document->splines[0];
@@ -68,9 +67,8 @@ static void test_a_swing_is_tamed_by_what_helps(void **state)
     session_close(&s);
 }
 
-static void test_a_fast_spline_gets_substeps(void **state)
+TEST(test_a_fast_spline_gets_substeps)
 {
-    (void)state;
     struct session s;
     assert_remedied(&s, FAST, WARNING_RATE);
     assert_int_equal(s.document->substeps, 2);
@@ -78,27 +76,24 @@ static void test_a_fast_spline_gets_substeps(void **state)
     session_close(&s);
 }
 
-static void test_a_slope_without_effect_is_switched_off(void **state)
+TEST(test_a_slope_without_effect_is_switched_off)
 {
-    (void)state;
     struct session s;
     assert_remedied(&s, IDLE, WARNING_SLOPE);
     assert_false(s.document->splines[0]->knots[1].has_slope);
     session_close(&s);
 }
 
-static void test_a_wide_band_is_narrowed_to_what_the_knots_hold(void **state)
+TEST(test_a_wide_band_is_narrowed_to_what_the_knots_hold)
 {
-    (void)state;
     struct session s;
     assert_remedied(&s, WIDE, WARNING_DRIFT);
     assert_near(s.document->splines[0]->parameter[PARAMETER_BANDWIDTH].value, 0.12, 1e-9); // 0.3 over 2.5 periods
     session_close(&s);
 }
 
-static void test_the_scenes_of_the_program_are_quiet(void **state)
+TEST(test_the_scenes_of_the_program_are_quiet)
 {
-    (void)state;
     static const char *const paths[] = {"assets/scenes/tail.json", "assets/scenes/figure1.json",
                                         "assets/scenes/figure3.json", "assets/scenes/figure5.json"};
     for (size_t i = 0; i < sizeof paths / sizeof paths[0]; i++) {
@@ -118,9 +113,8 @@ static void test_the_scenes_of_the_program_are_quiet(void **state)
     }
 }
 
-static void test_a_cubic_has_nothing_to_warn_of(void **state)
+TEST(test_a_cubic_has_nothing_to_warn_of)
 {
-    (void)state;
     struct session s;
     session_open(&s, WIDE);
     session_key(&s, 'V', 0);
@@ -130,15 +124,4 @@ static void test_a_cubic_has_nothing_to_warn_of(void **state)
     session_close(&s);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_a_swing_is_tamed_by_what_helps),
-        cmocka_unit_test(test_a_fast_spline_gets_substeps),
-        cmocka_unit_test(test_a_slope_without_effect_is_switched_off),
-        cmocka_unit_test(test_a_wide_band_is_narrowed_to_what_the_knots_hold),
-        cmocka_unit_test(test_the_scenes_of_the_program_are_quiet),
-        cmocka_unit_test(test_a_cubic_has_nothing_to_warn_of),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return tests_run(NULL, NULL); }

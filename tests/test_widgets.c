@@ -121,9 +121,8 @@ static void drag_to(struct panel *p, double value)
 
 static void release(struct panel *p) { button(p, BUTTON_LEFT, ACTION_RELEASE, 1, p->ui.pointer_x, p->ui.pointer_y); }
 
-static void test_slider_reaches_both_ends(void **state)
+TEST(test_slider_reaches_both_ends)
 {
-    (void)state;
     struct panel p = make_panel();
     drag_to(&p, 12);
     assert_near(p.speed, 12, 0);
@@ -141,9 +140,8 @@ static void test_slider_reaches_both_ends(void **state)
     release(&p);
 }
 
-static void test_drag_is_many_changes_and_one_drop(void **state)
+TEST(test_drag_is_many_changes_and_one_drop)
 {
-    (void)state;
     struct panel p = make_panel();
     drag_to(&p, 3);
     move(&p, p.ui.pointer_x + 20, 0, 0);
@@ -162,9 +160,8 @@ static void test_drag_is_many_changes_and_one_drop(void **state)
     assert_int_equal(p.ui.held, 0);
 }
 
-static void test_shift_drags_a_tenth(void **state)
+TEST(test_shift_drags_a_tenth)
 {
-    (void)state;
     struct panel p = make_panel();
     drag_to(&p, 6);
     float x = p.ui.pointer_x, y = p.ui.pointer_y;
@@ -178,9 +175,8 @@ static void test_shift_drags_a_tenth(void **state)
     assert_near(fine, coarse / 10, 0.011);
 }
 
-static void test_typing_takes_numbers_with_unit(void **state)
+TEST(test_typing_takes_numbers_with_unit)
 {
-    (void)state;
     static const struct {
         const char *text;
         double value;
@@ -199,9 +195,8 @@ static void test_typing_takes_numbers_with_unit(void **state)
     }
 }
 
-static void test_nonsense_says_why_and_keeps_the_value(void **state)
+TEST(test_nonsense_says_why_and_keeps_the_value)
 {
-    (void)state;
     static const char *const bad[] = {"abc",   "",    "1.2.3", "0x10", "nan",    "inf",
                                       "1e999", "3 m", "-1",    "--2",  "2 Hz Hz"};
     for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++) {
@@ -220,9 +215,8 @@ static void test_nonsense_says_why_and_keeps_the_value(void **state)
     }
 }
 
-static void test_press_elsewhere_takes_what_was_typed(void **state)
+TEST(test_press_elsewhere_takes_what_was_typed)
 {
-    (void)state;
     struct panel p = make_panel();
     click(&p, "offset", 2);
     type(&p, "2");
@@ -240,9 +234,8 @@ static void test_press_elsewhere_takes_what_was_typed(void **state)
     assert_near(p.offset, 4, 0);
 }
 
-static void test_tab_moves_the_focus_round(void **state)
+TEST(test_tab_moves_the_focus_round)
 {
-    (void)state;
     static const char *const order[] = {"speed", "offset", "kind", "on", "go", "speed"};
     struct panel p = make_panel();
     for (size_t i = 0; i < sizeof order / sizeof order[0]; i++) {
@@ -267,9 +260,8 @@ static void test_tab_moves_the_focus_round(void **state)
     assert_int_equal(p.ui.focus, 0);
 }
 
-static void test_focused_slider_takes_arrows_and_digits_only(void **state)
+TEST(test_focused_slider_takes_arrows_and_digits_only)
 {
-    (void)state;
     struct panel p = make_panel();
     key(&p, KEY_TAB, 0);
     key(&p, KEY_RIGHT, 0);
@@ -291,9 +283,8 @@ static void test_focused_slider_takes_arrows_and_digits_only(void **state)
     assert_int_equal(p.ui.focus, ui_id("offset"));
 }
 
-static void test_the_comma_of_a_keypad_is_a_point(void **state)
+TEST(test_the_comma_of_a_keypad_is_a_point)
 {
-    (void)state;
     struct panel p = make_panel();
     key(&p, KEY_TAB, 0);
     type(&p, ",5");
@@ -308,9 +299,8 @@ static void test_the_comma_of_a_keypad_is_a_point(void **state)
     assert_string_equal(p.ui.complaint, "speed: expected a number, got “1,000.5”");
 }
 
-static void test_typing_takes_all_keys_but_chords_and_f_keys(void **state)
+TEST(test_typing_takes_all_keys_but_chords_and_f_keys)
 {
-    (void)state;
     struct panel p = make_panel();
     click(&p, "speed", 2);
     assert_true(key(&p, 'V', 0));
@@ -322,9 +312,8 @@ static void test_typing_takes_all_keys_but_chords_and_f_keys(void **state)
     assert_false(key(&p, KEY_F12, 0));
 }
 
-static void test_right_click_goes_to_the_default(void **state)
+TEST(test_right_click_goes_to_the_default)
 {
-    (void)state;
     struct panel p = make_panel();
     p.speed = 9;
     float x, y;
@@ -339,9 +328,8 @@ static void test_right_click_goes_to_the_default(void **state)
     assert_near(p.offset, 0.5, 0);
 }
 
-static void test_segments_are_found_by_name(void **state)
+TEST(test_segments_are_found_by_name)
 {
-    (void)state;
     struct panel p = make_panel();
     click(&p, "kind.c", 1);
     assert_int_equal(p.choice, 2);
@@ -352,9 +340,8 @@ static void test_segments_are_found_by_name(void **state)
     assert_false(ui_end(&p.ui));
 }
 
-static void test_scrolling_is_limited_and_follows_the_focus(void **state)
+TEST(test_scrolling_is_limited_and_follows_the_focus)
 {
-    (void)state;
     struct panel p = make_panel();
     p.rows = 20; // 25 rows of 24 in 200 pixels
     move(&p, 1100, 100, 0);
@@ -379,9 +366,8 @@ static void press_text(struct ui_text *text, int code)
     ui_text_event(text, &(struct event){.kind = EVENT_KEY, .key = code, .action = ACTION_PRESS}, NULL);
 }
 
-static void test_text_is_edited_by_characters(void **state)
+TEST(test_text_is_edited_by_characters)
 {
-    (void)state;
     struct ui_text text;
     ui_text_set(&text, "aé…");
     press_text(&text, KEY_BACKSPACE);
@@ -410,9 +396,8 @@ static void test_text_is_edited_by_characters(void **state)
 }
 
 /// Two frames without an event between them are the same commands: nothing is redrawn.
-static void test_drawing_is_steady_and_fits(void **state)
+TEST(test_drawing_is_steady_and_fits)
 {
-    (void)state;
     struct panel p = make_panel();
     struct drawlist list;
     uint64_t hash[2] = {0, 0};
@@ -454,9 +439,8 @@ static bool has_middle(enum ui_icon icon)
     return found;
 }
 
-static void test_an_open_eye_has_a_pupil(void **state)
+TEST(test_an_open_eye_has_a_pupil)
 {
-    (void)state;
     assert_true(has_middle(UI_ICON_EYE));
     assert_false(has_middle(UI_ICON_EYE_CLOSED));
     assert_true(has_middle(UI_ICON_PICK));
@@ -475,9 +459,8 @@ static bool is_seen(const struct drawlist *list, struct rect r)
 }
 
 /// At rest, off and unfocused, each control has an outline or a fill of its own in both themes.
-static void test_controls_are_seen_where_they_are(void **state)
+TEST(test_controls_are_seen_where_they_are)
 {
-    (void)state;
     static const char *const names[] = {"speed", "offset", "kind", "on", "go"};
     struct drawlist list;
     drawlist_create(&list, 1000, 10000, 10000);
@@ -504,26 +487,4 @@ static int start(void **state)
     return font_init(&error) ? 0 : -1;
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_slider_reaches_both_ends),
-        cmocka_unit_test(test_drag_is_many_changes_and_one_drop),
-        cmocka_unit_test(test_shift_drags_a_tenth),
-        cmocka_unit_test(test_typing_takes_numbers_with_unit),
-        cmocka_unit_test(test_nonsense_says_why_and_keeps_the_value),
-        cmocka_unit_test(test_press_elsewhere_takes_what_was_typed),
-        cmocka_unit_test(test_tab_moves_the_focus_round),
-        cmocka_unit_test(test_focused_slider_takes_arrows_and_digits_only),
-        cmocka_unit_test(test_the_comma_of_a_keypad_is_a_point),
-        cmocka_unit_test(test_typing_takes_all_keys_but_chords_and_f_keys),
-        cmocka_unit_test(test_right_click_goes_to_the_default),
-        cmocka_unit_test(test_segments_are_found_by_name),
-        cmocka_unit_test(test_scrolling_is_limited_and_follows_the_focus),
-        cmocka_unit_test(test_text_is_edited_by_characters),
-        cmocka_unit_test(test_drawing_is_steady_and_fits),
-        cmocka_unit_test(test_an_open_eye_has_a_pupil),
-        cmocka_unit_test(test_controls_are_seen_where_they_are),
-    };
-    return cmocka_run_group_tests(tests, start, NULL);
-}
+int main(void) { return tests_run(start, NULL); }
