@@ -26,8 +26,8 @@ static inline void blind_open(struct blind *blind, const char *scene)
     app->platform = platform_blind(1280, 720, 1);
     app->table.history = history_create(NULL);
     app->table.models = models_create();
-    app->table.editor = font_init(&error) ? editor_create(&error) : NULL;
-    if (!app->table.editor) fail_msg("%s", error.text);
+    if (!font_init(&error)) fail_msg("%s", error.text);
+    app->table.editor = editor_create();
     app_connect_files(app);
     app_resize(app, 1280, 720, 1);
     if (!app_open(app, scene, &error)) fail_msg("%s", error.text);

@@ -181,8 +181,7 @@ static inline void session_open(struct session *session, const char *scene)
     if (!session->document) fail_msg("%s", error.text);
     session->history = history_create(session->document);
     assert_non_null(session->history);
-    session->editor = editor_create(&error);
-    if (!session->editor) fail_msg("%s", error.text);
+    session->editor = editor_create();
     session->table =
         (struct table){.editor = session->editor, .document = session->document, .history = session->history};
     session->world = table_world(&session->table);

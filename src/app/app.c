@@ -144,15 +144,13 @@ static bool set_resolution(struct app *app, struct error *error)
            fail(error, ERROR_USAGE, "--stage-scale: expected auto or a number from 0.25 to 1, got '%s'", scale);
 }
 
-bool app_open_editor(struct app *app, struct error *error)
+void app_open_editor(struct app *app)
 {
     editor_destroy(app->table.editor);
-    app->table.editor = editor_create(error);
-    if (!app->table.editor) return false;
+    app->table.editor = editor_create();
     app->table.evaluation.solver = app->options->solver;
     app_connect_files(app);
     ui_scale_fit(app);
-    return true;
 }
 
 /// Reads the replay that was asked for, or the demo's.
@@ -188,7 +186,7 @@ static bool start(struct app *app, struct error *error)
     app->display.scale = scale;
     app->ui_scale = o->ui_scale > 0 ? o->ui_scale : app->replay ? replay_get_header(app->replay)->ui_scale : 1;
     if (!o->no_draw && !(app->draw = draw_create(scale, error))) return false;
-    if (!app_open_editor(app, error)) return false;
+    app_open_editor(app);
     app->table.models = models_create();
     if (!(app->table.history = history_create(NULL))) return fail(error, ERROR_ENVIRONMENT, "out of memory");
     if (!app_open(app, o->scene, error)) return false;

@@ -15,7 +15,8 @@ struct replay *demo_replay(struct error *error)
 static bool start_anew(struct app *app, struct error *error)
 {
     theme_use(app->demo.theme);
-    return app_open_editor(app, error) && app_open(app, NULL, error);
+    app_open_editor(app);
+    return app_open(app, NULL, error);
 }
 
 bool demo_next(struct app *app, double dt, struct error *error)

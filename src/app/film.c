@@ -121,8 +121,8 @@ struct film *film_open(const struct editor_world *world, const char *path, const
     film->format = find_format(path);
     film->path = path;
     film->world = *world;
+    film->editor = editor_create();
     if (file_check_place(path, error) && choose_shape(film, options, error) && choose_frames(film, options, error) &&
-        (film->editor = editor_create(error)) &&
         (film->picture = picture_create(film->shape.width, film->shape.height, error)) &&
         (film->file = film->format->file->open(path, &film->shape, error))) {
         editor_open(film->editor, world);

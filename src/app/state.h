@@ -87,7 +87,7 @@ void app_free(struct app *app);
 void app_frame(struct app *app);
 
 /// Puts a new editor on the table, in place of the one that is there, for the display's size.
-bool app_open_editor(struct app *app, struct error *error);
+void app_open_editor(struct app *app);
 
 /// Opens a scene file, or the built-in one for NULL; on failure the document on the table stays.
 bool app_open(struct app *app, const char *path, struct error *error);

@@ -1,5 +1,6 @@
 /// The editor's public functions: who gets an event, and what happens once a frame.
 #include "editor/editor.h"
+#include "base/need.h"
 #include "editor/core/core.h"
 #include "editor/curves/curves.h"
 #include "editor/dialogs/dialog_files.h"
@@ -16,24 +17,15 @@
 
 enum { MAX_COMMANDS = 16384, MAX_POINTS = 1 << 18, MAX_TEXT = 1 << 16 };
 
-struct editor *editor_create(struct error *error)
+struct editor *editor_create(void)
 {
-    struct editor *editor = calloc(1, sizeof *editor);
-    bool good = editor != NULL;
-    if (good) {
-        drawlist_create(&editor->core.list, MAX_COMMANDS, MAX_POINTS, MAX_TEXT);
-        editor->curves = curves_create();
-        editor->stage = stage_create();
-        editor->inspector = inspector_create();
-        editor->dialogs = dialogs_create();
-        editor->transport = transport_create();
-        good = editor->curves && editor->stage && editor->inspector && editor->dialogs && editor->transport;
-    }
-    if (!good) {
-        editor_destroy(editor);
-        fail(error, ERROR_ENVIRONMENT, "out of memory for the editor");
-        return NULL;
-    }
+    struct editor *editor = need_zeroed(1, sizeof *editor);
+    drawlist_create(&editor->core.list, MAX_COMMANDS, MAX_POINTS, MAX_TEXT);
+    editor->curves = curves_create();
+    editor->stage = stage_create();
+    editor->inspector = inspector_create();
+    editor->dialogs = dialogs_create();
+    editor->transport = transport_create();
     editor->core.layout.stage_share = 400.0f / (720 - THEME_STATUS_HEIGHT);
     editor->core.layout.inspector_width = THEME_INSPECTOR_WIDTH;
     editor->core.visible = 2;

@@ -6,7 +6,7 @@
 
 struct editor;
 
-struct editor *editor_create(struct error *error);
+struct editor *editor_create(void);
 void editor_destroy(struct editor *editor);
 
 /// A new document is on the table: selection, view and playhead start anew; the camera is fitted to `document`'s

@@ -1,26 +1,22 @@
 /// Distances along a surface, by Dijkstra from a few starting points.
 #include "model/reach.h"
+#include "base/need.h"
 #include "model/vector.h"
 #include <math.h>
 #include <stdlib.h>
 
 static const float SHORTER = 0.86f; ///< 1/1.16
 
-bool reach_create(struct reach *reach, int vertices)
+void reach_create(struct reach *reach, int vertices)
 {
     const size_t room = (size_t)vertices + 1;
     *reach = (struct reach){.capacity = vertices};
-    reach->distance = malloc(room * sizeof *reach->distance);
-    reach->vertices = malloc(room * sizeof *reach->vertices);
-    reach->along = malloc(room * sizeof *reach->along);
-    reach->heap = malloc(room * sizeof *reach->heap);
-    reach->place = malloc(room * sizeof *reach->place);
-    if (!reach->distance || !reach->vertices || !reach->along || !reach->heap || !reach->place) {
-        reach_free(reach);
-        return false;
-    }
+    reach->distance = need(room, sizeof *reach->distance);
+    reach->vertices = need(room, sizeof *reach->vertices);
+    reach->along = need(room, sizeof *reach->along);
+    reach->heap = need(room, sizeof *reach->heap);
+    reach->place = need(room, sizeof *reach->place);
     for (int i = 0; i < vertices; i++) reach->distance[i] = reach->along[i] = INFINITY;
-    return true;
 }
 
 void reach_free(struct reach *reach)

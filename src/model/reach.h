@@ -28,8 +28,8 @@ struct reach {
     int heap_count;
 };
 
-/// For a figure of so many vertices; false where memory is short.
-bool reach_create(struct reach *reach, int vertices);
+/// For a figure of so many vertices.
+void reach_create(struct reach *reach, int vertices);
 
 /// Leaves an empty one, all zero.
 void reach_free(struct reach *reach);

@@ -1,6 +1,7 @@
 /// What lies over the panels and takes events first; among that the dialogs: open, save as, and the questions.
 #include "editor/dialogs/dialog.h"
 #include "base/file.h"
+#include "base/need.h"
 #include "editor/core/core.h"
 #include "editor/dialogs/dialogs.h"
 #include "editor/dialogs/help.h"
@@ -453,7 +454,7 @@ bool dialog_row(struct dialog *dialog, struct rect r, int match)
     return pressed;
 }
 
-struct dialogs *dialogs_create(void) { return calloc(1, sizeof(struct dialogs)); }
+struct dialogs *dialogs_create(void) { return need_zeroed(1, sizeof(struct dialogs)); }
 
 void dialogs_destroy(struct dialogs *dialogs) { free(dialogs); }
 

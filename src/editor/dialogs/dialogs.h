@@ -8,9 +8,7 @@
 
 struct dialogs;
 
-/// NULL where memory is short.
 struct dialogs *dialogs_create(void);
-/// NULL is fine.
 void dialogs_destroy(struct dialogs *dialogs);
 /// See editor_set_files().
 void dialogs_set_files(struct dialogs *dialogs, const struct dialog_files *files);

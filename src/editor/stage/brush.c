@@ -1,5 +1,6 @@
 /// The brush: strokes as an airbrush makes them. A stroke adds flow × time to every vertex under it.
 #include "base/error.h"
+#include "base/need.h"
 #include "editor/core/characters.h"
 #include "editor/core/core.h"
 #include "editor/core/drag.h"
@@ -31,28 +32,22 @@ static void free_work(struct brush_work *work)
 void brush_free(struct painting *painting) { free_work(&painting->work); }
 
 /// Memory for a figure; kept for the next one where that is no larger.
-static bool reserve(struct brush_work *work, int vertices)
+static void reserve(struct brush_work *work, int vertices)
 {
     const size_t room = (size_t)vertices + 1;
-    if (work->capacity >= vertices) return true;
+    if (work->capacity >= vertices) return;
     free_work(work);
-    work->vertices = malloc(room * sizeof *work->vertices);
-    work->values = malloc(room * sizeof *work->values);
-    work->steps = malloc(room * sizeof *work->steps);
-    work->turned = malloc(room * sizeof *work->turned);
-    work->spent = calloc(room, sizeof *work->spent);
-    const bool good = work->vertices && work->values && work->steps && work->turned && work->spent &&
-                      reach_create(&work->reach, vertices);
-    if (!good) {
-        free_work(work);
-        return false;
-    }
+    work->vertices = need(room, sizeof *work->vertices);
+    work->values = need(room, sizeof *work->values);
+    work->steps = need(room, sizeof *work->steps);
+    work->turned = need(room, sizeof *work->turned);
+    work->spent = need_zeroed(room, sizeof *work->spent);
+    reach_create(&work->reach, vertices);
     for (int i = 0; i < vertices; i++) {
         work->turned[i][0] = 1;
         work->turned[i][1] = 0;
     }
     work->capacity = vertices;
-    return true;
 }
 
 /// The figure that is painted on with the skin as the stage shows it; NULL where there is none.
@@ -60,7 +55,8 @@ static const struct figure *pose_figure(struct stage *stage, const struct core *
                                         const struct editor_world *world, int *coordinate)
 {
     const struct figure *figure = characters_figure(core, world, coordinate);
-    if (!figure || !reserve(&stage->painting.work, figure->character.vertex_count)) return NULL;
+    if (!figure) return NULL;
+    reserve(&stage->painting.work, figure->character.vertex_count);
     return skin_pose(stage, core->characters.character) ? figure : NULL;
 }
 
@@ -188,17 +184,6 @@ bool brush_wheel(struct core *core, const struct event *event)
     return true;
 }
 
-/// Memory for what is to be painted on; without it the brush is put away.
-static bool reserve_figure(struct stage *stage, struct core *core, const struct editor_world *world)
-{
-    int coordinate;
-    const struct figure *figure = characters_figure(core, world, &coordinate);
-    if (!figure || reserve(&stage->painting.work, figure->character.vertex_count)) return true;
-    core->brush.on = false;
-    core_message(core, true, "Not enough memory to paint.");
-    return false;
-}
-
 void brush_pose(struct stage *stage, struct core *core, const struct editor_world *world, bool covered)
 {
     const struct brush *brush = &core->brush;
@@ -207,7 +192,6 @@ void brush_pose(struct stage *stage, struct core *core, const struct editor_worl
     const bool free_hand = !core->drag.owner || brush_paints(core);
     int coordinate;
     painting->covers = false;
-    if (brush->on && !reserve_figure(stage, core, world)) return;
     if (!brush->on || !pointed || !free_hand || covered) return;
     const struct figure *figure = pose_figure(stage, core, world, &coordinate);
     if (!figure || !skin_spot(stage, figure, core->pointer_x, core->pointer_y, &painting->spot)) return;

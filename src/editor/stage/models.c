@@ -1,5 +1,6 @@
 /// Imported characters on the stage; and the surface of a soft one as it is shown, for who points at it.
 #include "base/hash.h"
+#include "base/need.h"
 #include "editor/stage/parts.h"
 #include "model/vector.h"
 #include "rig/pick.h"
@@ -108,8 +109,8 @@ void skin_reserve(struct stage *stage)
     }
     if (most <= skin->capacity) return;
     skin_free(skin);
-    skin->posed = malloc((size_t)most * sizeof *skin->posed);
-    skin->capacity = skin->posed ? most : 0;
+    skin->posed = need((size_t)most, sizeof *skin->posed);
+    skin->capacity = most;
 }
 
 bool skin_pose(struct stage *stage, int character)

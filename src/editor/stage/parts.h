@@ -211,7 +211,7 @@ bool record_has_motion(const struct stage *stage);
 /// Forgets the motion.
 void record_forget(struct stage *stage);
 /// Indices (from 0) of knots that a cubic through them, level at both ends, needs to stay within `tolerance` of `count` values a
-/// sample; at most `capacity` (at least 2). Returns how many, 0 where memory is short. Allocates.
+/// sample; at most `capacity` (at least 2). Returns how many. Allocates.
 int record_simplify(const double *values, int count, double tolerance, int *knots, int capacity);
 
 /// Makes the edits, in the open step: base splines for the coordinates that moved, and channels that follow them. Says how many

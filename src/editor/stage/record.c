@@ -1,4 +1,5 @@
 /// The motion of a body that is dragged while it is recorded: a place a sample, the knots that are made of it, and its path on the stage.
+#include "base/need.h"
 #include "editor/core/core.h"
 #include "editor/stage/parts.h"
 #include "ui/font.h"
@@ -86,13 +87,13 @@ static void insert_sorted(int *knots, int count, int sample)
 int record_simplify(const double *values, int count, double tolerance, int *knots, int capacity)
 {
     wiggly_solver *solver = NULL;
-    double *total = malloc((size_t)count * sizeof *total), miss = 0;
-    wiggly_knot *buffer = malloc((size_t)capacity * sizeof *buffer);
+    double *total = need((size_t)count, sizeof *total), miss = 0;
+    wiggly_knot *buffer = need((size_t)capacity, sizeof *buffer);
     int made = 2;
     knots[0] = 0;
     knots[1] = count - 1;
-    bool good = total && buffer && wiggly_create(count, capacity, &solver) == WIGGLY_OK;
-    while (good && solve_through(solver, values, count, knots, made, buffer, total)) {
+    if (wiggly_create(count, capacity, &solver) != WIGGLY_OK) need_failed();
+    while (solve_through(solver, values, count, knots, made, buffer, total)) {
         int at = farthest(values, total, count, &miss);
         if (miss <= tolerance || made == capacity) break;
         insert_sorted(knots, made++, at);
@@ -100,7 +101,7 @@ int record_simplify(const double *values, int count, double tolerance, int *knot
     wiggly_destroy(solver);
     free(buffer);
     free(total);
-    return good ? made : 0;
+    return made;
 }
 
 enum { MAX_KNOTS = 64 };

@@ -1,6 +1,7 @@
 /// The stage panel: its beginning and end, the mouse on it, what time does, and each frame its poses and what is drawn over them.
 #include "editor/stage/stage.h"
 #include "base/hash.h"
+#include "base/need.h"
 #include "editor/core/core.h"
 #include "editor/core/drag.h"
 #include "editor/core/pins.h"
@@ -14,14 +15,13 @@
 
 struct stage *stage_create(void)
 {
-    struct stage *stage = calloc(1, sizeof *stage);
-    if (stage) stage->camera = camera_default();
+    struct stage *stage = need_zeroed(1, sizeof *stage);
+    stage->camera = camera_default();
     return stage;
 }
 
 void stage_destroy(struct stage *stage)
 {
-    if (!stage) return;
     brush_free(&stage->painting);
     skin_free(&stage->skin);
     foxes_free(stage);

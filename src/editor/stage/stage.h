@@ -6,9 +6,7 @@
 
 struct stage;
 
-/// NULL where memory is short.
 struct stage *stage_create(void);
-/// NULL is fine.
 void stage_destroy(struct stage *stage);
 /// A point of the screen where body_hover() finds that tail's body; false where it is hidden.
 bool stage_body_point(struct stage *stage, const struct core *core, const struct document *document, int tail,

@@ -1,5 +1,6 @@
 /// The status line: the controls of playback, what was last said, and what the machine does.
 #include "editor/transport/transport.h"
+#include "base/need.h"
 #include "editor/core/core.h"
 #include "editor/core/drag.h"
 #include "editor/core/playback.h"
@@ -344,7 +345,7 @@ void transport_show(const struct transport *transport, struct core *core, const 
     show_unkept(core, bar);
 }
 
-struct transport *transport_create(void) { return calloc(1, sizeof(struct transport)); }
+struct transport *transport_create(void) { return need_zeroed(1, sizeof(struct transport)); }
 
 void transport_destroy(struct transport *transport) { free(transport); }
 

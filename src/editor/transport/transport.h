@@ -6,9 +6,7 @@
 
 struct transport;
 
-/// NULL where memory is short.
 struct transport *transport_create(void);
-/// NULL is fine.
 void transport_destroy(struct transport *transport);
 /// What is under a point of the status line.
 struct hover transport_hover(const struct core *core, float x, float y);
