@@ -381,43 +381,17 @@ int spline_find_knot(const struct document *document, const struct spline *splin
     return at;
 }
 
-static bool is_before(const struct document *document, const struct spline *spline, int knot, int sample)
+int spline_lower_bound(const struct document *document, const struct spline *spline, int sample)
 {
-    return document_sample(document, spline->knots[knot].frame) < sample;
-}
-
-/// The first knot on a sample or after it, of those from `low` on; `high` where all before that lie before the sample.
-static int bisect(const struct document *document, const struct spline *spline, int low, int high, int sample)
-{
+    int low = 0, high = spline->knot_count;
     while (low < high) {
         const int middle = low + (high - low) / 2;
-        if (is_before(document, spline, middle, sample))
+        if (document_sample(document, spline->knots[middle].frame) < sample)
             low = middle + 1;
         else
             high = middle;
     }
     return low;
-}
-
-int spline_lower_bound(const struct document *document, const struct spline *spline, int sample)
-{
-    return bisect(document, spline, 0, spline->knot_count, sample);
-}
-
-int spline_lower_bound_near(const struct document *document, const struct spline *spline, int guess, int sample)
-{
-    int low = guess < spline->knot_count ? guess : spline->knot_count, high = low, step = 1;
-    while (low > 0 && !is_before(document, spline, low - 1, sample)) {
-        high = low - 1;
-        low = low > step ? low - step : 0;
-        step *= 2;
-    }
-    while (high < spline->knot_count && is_before(document, spline, high, sample)) {
-        low = high + 1;
-        high = spline->knot_count - high > step ? high + step : spline->knot_count;
-        step *= 2;
-    }
-    return bisect(document, spline, low, high, sample);
 }
 
 bool spline_is_limited(const struct spline *spline)

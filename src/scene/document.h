@@ -188,8 +188,6 @@ int spline_find_knot(const struct document *document, const struct spline *splin
 
 /// Index of the first knot on that sample or after it, or the number of knots.
 int spline_lower_bound(const struct document *document, const struct spline *spline, int sample);
-/// The same, looked for outwards from a guess of at least 0: quicker where that is near.
-int spline_lower_bound_near(const struct document *document, const struct spline *spline, int guess, int sample);
 
 /// Whether it has a low or high limit.
 bool spline_is_limited(const struct spline *spline);

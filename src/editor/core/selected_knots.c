@@ -105,7 +105,7 @@ enum room originals_room(const struct core *core, const struct document *documen
     return room;
 }
 
-void room_say(enum room room, double stopped, char why[STOPPED_SIZE])
+void explain_blocked(enum room room, double stopped, char why[STOPPED_SIZE])
 {
     why[0] = 0;
     if (room == ROOM_OUTSIDE) snprintf(why, STOPPED_SIZE, "a knot would leave the range");

@@ -37,7 +37,7 @@ enum room { ROOM_FREE, ROOM_OCCUPIED, ROOM_OUTSIDE };
 enum room originals_room(const struct core *core, const struct document *document, retime *rule, const void *how,
                          double *stopped);
 /// Says why there is none: "a knot would leave the range"; "" where there is.
-void room_say(enum room room, double stopped, char why[STOPPED_SIZE]);
+void explain_blocked(enum room room, double stopped, char why[STOPPED_SIZE]);
 /// The rule that moves all of them by `*(const double *)frames`.
 double retime_shift(const void *frames, const struct original *original);
 

@@ -109,7 +109,6 @@ struct hover {
     enum hover_kind kind;
     int spline;
     unsigned knot;
-    int place; ///< HOVER_KNOT: its index, until the next edit
     int handle; ///< HOVER_SLOPE: which end, as in curves_handle(); HOVER_WARNING, HOVER_BOX: which one; HOVER_LIMIT: 1: the high one
     int tail;        ///< HOVER_BODY: its number among tails
     int rig, joint;  ///< HOVER_JOINT: of the tail or chain; HOVER_POINT: a joint whose end it is, or a vertex

@@ -33,15 +33,17 @@ static void hit_knots(struct curves *curves, const struct core *core, const stru
     const struct spline *spline = core_active_spline(core, world);
     if (!spline) return;
     int k = spline_lower_bound(world->document, spline, (int)fmax(floor(first - by), 0));
-    for (int next, passed = 1; k < spline->knot_count; passed = next - k, k = next) {
-        double sample = document_sample(world->document, spline->knots[k].frame);
-        double column = floor((sample - first) / by + 0.5);
+    for (double before = -1; k < spline->knot_count; k++) {
+        const double sample = document_sample(world->document, spline->knots[k].frame);
+        const double column = floor((sample - first) / by + 0.5);
         if (column >= cache->count) break;
-        next = spline_lower_bound_near(world->document, spline, k + passed,
-                                       (int)fmin(ceil(first + (column + 0.5) * by), INT_MAX));
-        next = next > k ? next : k + 1;
+        const double after =
+            k + 1 < spline->knot_count
+                ? floor((document_sample(world->document, spline->knots[k + 1].frame) - first) / by + 0.5)
+                : INFINITY;
         // Of several knots at a column none is hit: its lowest and highest samples say where they are.
-        if (column >= 0 && next == k + 1) cache->position[(int)column] = sample;
+        if (column >= 0 && column != before && column != after) cache->position[(int)column] = sample;
+        before = column;
     }
 }
 

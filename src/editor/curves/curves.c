@@ -1,5 +1,6 @@
 /// The curves panel: its beginning and end, what is under the pointer, presses, boxes round knots, and the active spline's limits.
 #include "editor/curves/curves.h"
+#include "base/need.h"
 #include "editor/core/core.h"
 #include "editor/core/drag.h"
 #include "editor/core/knots.h"
@@ -15,14 +16,13 @@
 
 struct curves *curves_create(void)
 {
-    struct curves *curves = calloc(1, sizeof *curves);
-    if (curves) curves->view = (struct view){0, 120, -1, 1};
+    struct curves *curves = need_zeroed(1, sizeof *curves);
+    curves->view = (struct view){0, 120, -1, 1};
     return curves;
 }
 
 void curves_destroy(struct curves *curves)
 {
-    if (!curves) return;
     free(curves->before_box.bits);
     free(curves);
 }
@@ -53,7 +53,7 @@ static float nearest_knot(const struct curves *curves, const struct core *core, 
         float distance = hypotf(x - at, y - curves_y_of(curves, core, of, knot->value));
         if (distance > best) continue;
         best = distance;
-        *hover = (struct hover){.kind = HOVER_KNOT, .spline = of, .knot = knot->id, .place = k};
+        *hover = (struct hover){.kind = HOVER_KNOT, .spline = of, .knot = knot->id};
     }
     return best;
 }

@@ -6,9 +6,7 @@
 
 struct curves;
 
-/// NULL where memory is short.
 struct curves *curves_create(void);
-/// NULL is fine.
 void curves_destroy(struct curves *curves);
 /// Lays the dope sheet out, which takes its room from the plot.
 void sheet_update(struct curves *curves, struct core *core, const struct document *document);

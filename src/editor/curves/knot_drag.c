@@ -78,7 +78,7 @@ static double wanted_frames(const struct curves *curves, const struct core *core
     }
     if (drag->snap) frames = fabs(frames) < 0.5 ? 0 : round(held->knot.frame + frames) - held->knot.frame;
     shift_limits(curves, originals, document, &least, &most);
-    if (frames < least || frames > most) room_say(ROOM_OUTSIDE, 0, why);
+    if (frames < least || frames > most) explain_blocked(ROOM_OUTSIDE, 0, why);
     if (curves->knot_drag.ripple && frames > most)
         snprintf(why, STOPPED_SIZE, "the last knot has reached the end of the range. Extend the range to make room");
     return fmax(fmin(frames, most), least);
@@ -119,7 +119,7 @@ static void apply_knots(void *of, struct core *core, const struct editor_world *
     double up = drag->lock_x ? 0 : -drag->moved_y / curves_pixels_per_value(curves, core);
     const enum room room = originals_room(core, world->document, retime_shift, &frames, &stopped);
     if (room != ROOM_FREE) {
-        room_say(room, stopped, why);
+        explain_blocked(room, stopped, why);
         frames = curves->knot_drag.free_frames;
     }
     if (!move_knots(curves, core, world, frames, up, why)) {
@@ -219,7 +219,7 @@ static double free_shift(const struct core *core, const struct document *documen
         enum room room = originals_room(core, document, retime_shift, &shift, NULL);
         if (room == ROOM_FREE) return shift;
         if (room != ROOM_OUTSIDE) continue;
-        room_say(room, 0, why);
+        explain_blocked(room, 0, why);
         break;
     }
     return 0;

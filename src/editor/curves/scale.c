@@ -202,7 +202,7 @@ static double free_time(struct curves *curves, const struct core *core, const st
     const struct retiming retiming = {curves, core, factor};
     double frame = 0;
     const enum room room = originals_room(core, document, scaled_frame, &retiming, &frame);
-    room_say(room, frame, scaling->stopped[0]);
+    explain_blocked(room, frame, scaling->stopped[0]);
     return room == ROOM_FREE ? scaling->free_time = factor : scaling->free_time;
 }
 

@@ -108,7 +108,7 @@ struct hover sheet_hover(const struct curves *curves, const struct core *core, c
         if (at > x + REACH) break;
         if (distance > best) continue;
         best = distance;
-        hover = (struct hover){.kind = HOVER_KNOT, .spline = s, .knot = knot->id, .place = k};
+        hover = (struct hover){.kind = HOVER_KNOT, .spline = s, .knot = knot->id};
     }
     return hover;
 }

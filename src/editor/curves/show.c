@@ -7,7 +7,6 @@
 #include "scene/pins.h"
 #include "ui/font.h"
 #include "ui/theme.h"
-#include <limits.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -164,44 +163,34 @@ static void show_tick(const struct curves *curves, struct core *core, const stru
     drawlist_line(&core->list, &ends[0][0], 2, 1.5f, theme_fade(color, 0.7f));
 }
 
-/// The first selected knot of first … end − 1, or `end`.
-static int first_selected(const struct core *core, const struct document *document, int spline, int first, int end)
+static bool is_hovered(const struct core *core, const struct knot *knot)
 {
-    const struct knot *knots = document->splines[spline]->knots;
-    for (int k = first; k < end; k++) {
-        if (selection_has(&core->selection, knots[k].id)) return k;
-    }
-    return end;
-}
-
-/// Index of the spline's knot under the pointer, or -1.
-static int hovered_knot(const struct core *core, const struct spline *spline)
-{
-    const struct hover *hover = &core->hover;
-    const bool known = hover->kind == HOVER_KNOT && hover->place < spline->knot_count;
-    return known && spline->knots[hover->place].id == hover->knot ? hover->place : -1;
+    return core->hover.kind == HOVER_KNOT && core->hover.knot == knot->id;
 }
 
 int crowd_next(const struct curves *curves, const struct core *core, const struct document *document, int spline,
                int knot, float gap)
 {
     const struct spline *of = document->splines[spline];
-    const float x = curves_knot_x(curves, core, document, &of->knots[knot]);
-    const int hovered = hovered_knot(core, of);
-    int next = curves_knot_from(curves, core, document, of, x + gap);
-    if (next <= knot) next = knot + 1;
-    while (next < of->knot_count && curves_knot_x(curves, core, document, &of->knots[next]) - x < gap) next++;
-    if (hovered > knot && hovered < next) next = hovered;
-    return first_selected(core, document, spline, knot + 1, next);
+    const float end = curves_knot_x(curves, core, document, &of->knots[knot]) + gap;
+    for (int next = knot + 1; next < of->knot_count; next++) {
+        const struct knot *other = &of->knots[next];
+        if (curves_knot_x(curves, core, document, other) >= end) return next;
+        if (is_hovered(core, other) || selection_has(&core->selection, other->id)) return next;
+    }
+    return of->knot_count;
 }
 
 /// The knot to draw of first … end − 1, all in one pixel column: the hovered one, else a selected one.
-static int column_knot(const struct core *core, const struct document *document, int first, int end)
+static int column_knot(const struct core *core, const struct knot *knots, int first, int end)
 {
-    const int hovered = hovered_knot(core, document->splines[core->active]);
-    if (hovered >= first && hovered < end) return hovered;
-    const int selected = first_selected(core, document, core->active, first, end);
-    return selected < end ? selected : first;
+    int shown = first;
+    for (int k = first; k < end; k++) {
+        if (is_hovered(core, &knots[k])) return k;
+        if (!selection_has(&core->selection, knots[shown].id) && selection_has(&core->selection, knots[k].id))
+            shown = k;
+    }
+    return shown;
 }
 
 /// The pixel column of a knot: columns begin at the scene's first frame, so that they stay as the view is moved.
@@ -210,17 +199,6 @@ static double column_of(const struct curves *curves, const struct core *core, co
 {
     const double pixels = curves_pixels_per_frame(curves, core) / document->substeps; // a sample
     return floor(document_sample(document, knot->frame) * pixels);
-}
-
-/// The end of the knots in one pixel column; the one before had `before` of them.
-static int column_end(const struct curves *curves, const struct core *core, const struct document *document,
-                      const struct spline *spline, int first, int before)
-{
-    const double pixels = curves_pixels_per_frame(curves, core) / document->substeps;
-    const double column = column_of(curves, core, document, &spline->knots[first]);
-    const int sample = (int)fmin(ceil((column + 1) / pixels), INT_MAX);
-    const int end = spline_lower_bound_near(document, spline, first + before, sample);
-    return end > first ? end : first + 1;
 }
 
 /// A stroke over the values of all knots in one pixel column, for those that are not drawn.
@@ -245,7 +223,7 @@ static void show_knot(const struct curves *curves, struct core *core, const stru
     } else {
         show_hollow(&core->list, x, y, color);
     }
-    if (core->hover.kind == HOVER_KNOT && core->hover.knot == knot->id) knot_ring(&core->list, x, y);
+    if (is_hovered(core, knot)) knot_ring(&core->list, x, y);
 }
 
 /// Whether the knots of one column go without a mark, because the marks of their neighbours would cover it: in a band, which goes through
@@ -255,8 +233,8 @@ static bool is_lost(const struct curves *curves, const struct core *core, const 
 {
     const struct knot *knots = document->splines[core->active]->knots;
     const double column = column_of(curves, core, document, &knots[first]);
-    const bool chosen = core->hover.kind == HOVER_KNOT && core->hover.knot == knots[shown].id;
-    if (!curves->cache.band || chosen || selection_has(&core->selection, knots[shown].id)) return false;
+    if (!curves->cache.band || is_hovered(core, &knots[shown]) || selection_has(&core->selection, knots[shown].id))
+        return false;
     const bool alone = first == 0 || column - column_of(curves, core, document, &knots[first - 1]) > MARK_STEP;
     return !alone && fmod(column, MARK_STEP) != 0;
 }
@@ -269,11 +247,13 @@ static void show_knots(const struct curves *curves, struct core *core, const str
     uint32_t color = spline_list_color(document, core->active);
     if (!spline) return;
     int k = curves_knot_from(curves, core, document, spline, plot->x - HANDLE_REACH);
-    for (int end, passed = 1; k < spline->knot_count; passed = end - k, k = end) {
-        float x = curves_knot_x(curves, core, document, &spline->knots[k]);
-        end = column_end(curves, core, document, spline, k, passed);
+    for (int end; k < spline->knot_count; k = end) {
+        const float x = curves_knot_x(curves, core, document, &spline->knots[k]);
+        const double column = column_of(curves, core, document, &spline->knots[k]);
         if (x > plot->x + plot->w + HANDLE_REACH) break;
-        const int shown = column_knot(core, document, k, end);
+        end = k + 1;
+        while (end < spline->knot_count && column_of(curves, core, document, &spline->knots[end]) == column) end++;
+        const int shown = column_knot(core, spline->knots, k, end);
         if (is_lost(curves, core, document, k, shown)) continue;
         if (!curves->cache.band) show_column(curves, core, document, k, end, x, color);
         show_knot(curves, core, document, &spline->knots[shown], x, color);
@@ -289,14 +269,13 @@ static void show_other_knots(const struct curves *curves, struct core *core, con
     int k = curves_knot_from(curves, core, document, spline, plot->x);
     for (; k < spline->knot_count; k = crowd_next(curves, core, document, s, k, OTHERS_CROWDED)) {
         const struct knot *knot = &spline->knots[k];
-        bool hovered = core->hover.kind == HOVER_KNOT && core->hover.knot == knot->id;
         bool selected = selection_has(&core->selection, knot->id);
         float x = curves_knot_x(curves, core, document, knot);
         float y = curves_y_of(curves, core, s, knot->value);
         if (x < plot->x) continue;
         if (x > plot->x + plot->w) break;
         knot_mark(&core->list, x, y, selected ? KNOT_RADIUS : OTHER_RADIUS, selected ? full : color, selected);
-        if (hovered) knot_ring(&core->list, x, y);
+        if (is_hovered(core, knot)) knot_ring(&core->list, x, y);
     }
 }
 
