@@ -41,16 +41,21 @@ static void scale_angles(struct angles *angles, double value)
     }
 }
 
-bool inspector_set_angles(struct inspection *in, const struct angle_row *row, const struct angles *angles)
+static bool set_angles(struct inspection *in, const struct angle_row *row, const struct angles *angles,
+                       struct error *error)
 {
     const int channel = row->kind == ANGLE_REST ? -1 : in->inspector->channel;
-    return edit_angles(in->document, (struct channel_place){in->inspector->rig, channel}, row->kind, angles,
-                       &in->core->error);
+    return edit_angles(in->document, (struct channel_place){in->inspector->rig, channel}, row->kind, angles, error);
+}
+
+bool inspector_set_angles(struct inspection *in, const struct angle_row *row, const struct angles *angles)
+{
+    return set_angles(in, row, angles, &in->core->error);
 }
 
 /// The same as a step of its own.
-static void set_angles(struct inspection *in, const struct angle_row *row, const char *label,
-                       const struct angles *angles)
+static void step_angles(struct inspection *in, const struct angle_row *row, const char *label,
+                        const struct angles *angles)
 {
     if (core_begin(in->core, in->world, label, 0))
         core_end(in->core, in->world, inspector_set_angles(in, row, angles));
@@ -88,35 +93,54 @@ static const struct angles *angles_of(const struct inspection *in, const struct 
     return row->kind == ANGLE_LAG ? &channel->lag : &channel->gain;
 }
 
+static const struct angle_row *const angle_rows[] = {
+    [ANGLE_REST] = &angle_row_rest, [ANGLE_LAG] = &angle_row_lag, [ANGLE_GAIN] = &angle_row_gain};
+
+/// The largest of them is what the slider shows.
+static double get_largest(const struct inspection *in, int kind)
+{
+    const struct angles *angles = angles_of(in, angle_rows[kind]);
+    return angles_number(angles, peak(angles));
+}
+
+static bool set_largest(struct inspection *in, int kind, double number, struct error *error)
+{
+    struct angles next = *angles_of(in, angle_rows[kind]);
+    scale_angles(&next, number);
+    return set_angles(in, angle_rows[kind], &next, error);
+}
+
+/// Of several, the first one and the last one.
+static const char *show_ends(const struct inspection *in, int kind, char text[64])
+{
+    const struct angles *angles = angles_of(in, angle_rows[kind]);
+    if (angles->form == ANGLES_ONE) return NULL;
+    snprintf(text, 64, "%.1f → %.1f%s", printable_number(angles_number(angles, 0), 0.1),
+             printable_number(angles_number(angles, angles->count - 1), 0.1),
+             inspector_angle_unit(in, angle_rows[kind]));
+    return text;
+}
+
 static void build_slider(struct inspection *in, const struct angle_row *row, const struct angles *angles,
                          struct rect r)
 {
-    char shown[64];
+    static const struct number_home home = {.get = get_largest, .set = set_largest, .shown = show_ends};
     const bool several = angles->form != ANGLES_ONE;
     bool lags = row->kind == ANGLE_LAG && several; // each joint's own lag: up to a few turns, not degrees a joint
-    double value = angles_number(angles, peak(angles));
-    const double reach = lags ? 1 : reach_of(in, row, value);
-    struct ui_number number = {.name = row->name,
-                               .label = row->name,
-                               .unit = inspector_angle_unit(in, row),
-                               .hint = row->hint,
-                               .minimum = reach * row->minimum,
-                               .maximum = lags ? 720 : reach * row->maximum,
-                               .lowest = -36000,
-                               .highest = 36000,
-                               .fallback = several ? NAN : row->fallback,
-                               .step = row->step,
-                               .decimals = 1};
-    if (several) {
-        snprintf(shown, sizeof shown, "%.1f → %.1f%s", printable_number(angles_number(angles, 0), 0.1),
-                 printable_number(angles_number(angles, angles->count - 1), 0.1), number.unit);
-        number.shown = shown;
-    }
-    enum ui_change change = ui_value(in->ui, r, &number, &value);
-    if (!inspector_begin(in, change, row->undo, row->name)) return;
-    struct angles next = *angles_of(in, row); // as the drag began, so that a drag through 0 loses no proportion
-    scale_angles(&next, value);
-    inspector_end(in, change, inspector_set_angles(in, row, &next));
+    const double reach = lags ? 1 : reach_of(in, row, get_largest(in, (int)row->kind));
+    const struct number_row number = {.name = row->name,
+                                      .label = row->name,
+                                      .unit = inspector_angle_unit(in, row),
+                                      .hint = row->hint,
+                                      .undo = row->undo,
+                                      .minimum = reach * row->minimum,
+                                      .maximum = lags ? 720 : reach * row->maximum,
+                                      .lowest = -36000,
+                                      .highest = 36000,
+                                      .fallback = several ? NAN : row->fallback,
+                                      .step = row->step,
+                                      .decimals = 1};
+    inspector_number(in, &number, &home, (int)row->kind, r);
 }
 
 /// An angle for each joint, as they are now.
@@ -152,7 +176,7 @@ static bool build_switch(struct inspection *in, const struct angle_row *row, con
     if (!ui_icon_button(in->ui, r, name, ramp ? UI_ICON_RAMP : UI_ICON_EACH, lit, hint)) return false;
     const int joints = bones_joints(in->world, in->inspector->rig);
     const struct angles one = one_angle(angles, row->kind, joints);
-    set_angles(in, row, row->undo, lit ? &one : next);
+    step_angles(in, row, row->undo, lit ? &one : next);
     return true;
 }
 
@@ -289,7 +313,7 @@ static void add_point(struct inspection *in, const struct ramp_view *view, struc
     if (close || next.count == RAMP_MAX_POINTS) return;
     for (int k = next.count++; k > i; k--) next.ramp[k] = next.ramp[k - 1];
     next.ramp[i] = point;
-    set_angles(in, view->row, "Add point", &next);
+    step_angles(in, view->row, "Add point", &next);
 }
 
 static void remove_point(struct inspection *in, const struct ramp_view *view, int which)
@@ -301,7 +325,7 @@ static void remove_point(struct inspection *in, const struct ramp_view *view, in
     }
     next.count--;
     for (int k = which; k < next.count; k++) next.ramp[k] = next.ramp[k + 1];
-    set_angles(in, view->row, "Remove point", &next);
+    step_angles(in, view->row, "Remove point", &next);
 }
 
 /// The point that the event is to remove: under a right click, or that has the focus when Del is pressed; −1: none.
@@ -503,25 +527,36 @@ static void build_curve(struct inspection *in, const struct each_view *view, str
     }
 }
 
-/// The selected joint's number.
-static void build_joint(struct inspection *in, const struct angle_row *row, const struct angles *angles)
+/// The number of the joint that is selected.
+static double get_joint(const struct inspection *in, int kind)
 {
-    const int joint = in->inspector->joint[row->kind];
+    return angles_of(in, angle_rows[kind])->value[in->inspector->joint[kind]];
+}
+
+static bool set_joint(struct inspection *in, int kind, double number, struct error *error)
+{
+    struct angles next = *angles_of(in, angle_rows[kind]);
+    next.value[in->inspector->joint[kind]] = number;
+    return set_angles(in, angle_rows[kind], &next, error);
+}
+
+static void build_joint(struct inspection *in, const struct angle_row *row)
+{
+    static const struct number_home home = {.get = get_joint, .set = set_joint};
     char name[NAME], label[NAME];
     snprintf(name, NAME, "%s.joint", row->name);
-    snprintf(label, NAME, "joint %d", joint + 1);
-    const struct ui_number number = {.name = name,
-                                     .label = label,
-                                     .unit = inspector_angle_unit(in, row),
-                                     .hint = "Angle of the joint that was touched last in the curve above",
-                                     .lowest = -36000,
-                                     .highest = 36000,
-                                     .fallback = NAN,
-                                     .step = row->step,
-                                     .decimals = 1};
-    struct angles next = *angles;
-    const enum ui_change change = ui_value(in->ui, ui_row(in->ui, UI_ROW), &number, &next.value[joint]);
-    change_angles(in, row, change, name, &next);
+    snprintf(label, NAME, "joint %d", in->inspector->joint[row->kind] + 1);
+    const struct number_row number = {.name = name,
+                                      .label = label,
+                                      .unit = inspector_angle_unit(in, row),
+                                      .hint = "Angle of the joint that was touched last in the curve above",
+                                      .undo = row->undo,
+                                      .lowest = -36000,
+                                      .highest = 36000,
+                                      .fallback = NAN,
+                                      .step = row->step,
+                                      .decimals = 1};
+    inspector_number(in, &number, &home, (int)row->kind, ui_row(in->ui, UI_ROW));
 }
 
 void inspector_each(struct inspection *in, const struct angle_row *row, const struct angles *angles)
@@ -529,5 +564,5 @@ void inspector_each(struct inspection *in, const struct angle_row *row, const st
     const struct rect line = ui_row(in->ui, HEIGHT), box = {line.x, line.y + 2, line.w, line.h - 6};
     const struct each_view view = each_lay_out(in, row, angles, box);
     build_curve(in, &view, box);
-    build_joint(in, row, angles);
+    build_joint(in, row);
 }

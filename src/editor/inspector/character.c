@@ -80,7 +80,7 @@ static bool set_drive_number(struct inspection *in, int which, double number, st
 
 void inspector_felt_drive(struct inspection *in)
 {
-    static const struct number_home home = {get_drive_number, set_drive_number};
+    static const struct number_home home = {.get = get_drive_number, .set = set_drive_number};
     if (felt_drive(in)) inspector_numbers(in, drive_rows, sizeof drive_rows / sizeof drive_rows[0], &home);
 }
 
@@ -184,7 +184,7 @@ static void build_floor(struct inspection *in, const struct character_rig *rig)
 {
     static const struct ui_choice choices[] = {{"off", "Off"}, {"on", "On"}};
     struct rect r = inspector_labelled(in, "floor");
-    static const struct number_home home = {get_floor, set_floor};
+    static const struct number_home home = {.get = get_floor, .set = set_floor};
     const int owner = characters_rig(in->core, in->world);
     int on = rig->has_floor;
     if (ui_hovered(in->ui, r)) in->ui->hint = "Keep the whole character above a height";
@@ -267,23 +267,44 @@ static void build_modes(struct inspection *in, const char *name, const char *hin
     if (ui_segments(in->ui, r, name, choices, count, &index)) brush->mode = (enum brush_mode)((int)first + index);
 }
 
-static void build_share(struct inspection *in, const char *name, const char *hint, double fallback, double minimum,
-                        double maximum, double *share)
+/// The brush's numbers are shares, shown in percent.
+static double *share_of(const struct inspection *in, int which)
 {
-    const struct ui_number row = {.name = name,
-                                  .label = name,
-                                  .unit = "%",
-                                  .hint = hint,
-                                  .minimum = 100 * minimum,
-                                  .maximum = 100 * maximum,
-                                  .lowest = 100 * minimum,
-                                  .highest = 100 * maximum,
-                                  .fallback = 100 * fallback,
-                                  .step = 1};
-    double percent = 100 * *share;
-    const enum ui_change change = ui_value(in->ui, ui_row(in->ui, UI_ROW), &row, &percent);
-    if (change == UI_DRAG || change == UI_SET || change == UI_NUDGE) *share = percent / 100;
+    struct brush *brush = &in->core->brush;
+    return which == 0 ? &brush->radius : &brush->strength;
 }
+
+static double get_share(const struct inspection *in, int which) { return 100 * *share_of(in, which); }
+
+static bool set_share(struct inspection *in, int which, double percent, struct error *error)
+{
+    (void)error;
+    *share_of(in, which) = percent / 100;
+    return true;
+}
+
+static const struct number_row brush_rows[] = {
+    {.name = "radius",
+     .label = "radius",
+     .unit = "%",
+     .hint = "Radius, relative to the character's height (Ctrl+wheel on the stage)",
+     .minimum = 1,
+     .maximum = 50,
+     .lowest = 1,
+     .highest = 50,
+     .fallback = 12,
+     .step = 1},
+    {.name = "strength",
+     .label = "strength",
+     .unit = "%",
+     .hint = "How fast paint flows (Shift+wheel on the stage)",
+     .minimum = 2,
+     .maximum = 100,
+     .lowest = 2,
+     .highest = 100,
+     .fallback = 40,
+     .step = 1},
+};
 
 void inspector_brush(struct inspection *in)
 {
@@ -292,6 +313,7 @@ void inspector_brush(struct inspection *in)
     static const struct ui_choice amplitude[] = {
         {"more", "Swing more"}, {"less", "Swing less"}, {"smooth", "Smooth"}};
     static const struct ui_choice erase[] = {{"all", "Erase"}};
+    static const struct number_home home = {.get = get_share, .set = set_share};
     struct brush *brush = &in->core->brush;
     struct rect r = inspector_labelled(in, "paint");
     int on = brush->on;
@@ -302,10 +324,7 @@ void inspector_brush(struct inspection *in)
         build_modes(in, "phase", "Move earlier, later, or blend with the surroundings", BRUSH_ADVANCE, phase, 3);
         build_modes(in, "swing", "Swing more, less, or blend with the surroundings", BRUSH_MORE, amplitude, 3);
         build_modes(in, "erase", "Remove paint and restore the model", BRUSH_ERASE, erase, 1);
-        build_share(in, "radius", "Radius, relative to the character's height (Ctrl+wheel on the stage)", 0.12, 0.01,
-                    0.5, &brush->radius);
-        build_share(in, "strength", "How fast paint flows (Shift+wheel on the stage)", 0.4, 0.02, 1,
-                    &brush->strength);
+        inspector_numbers(in, brush_rows, sizeof brush_rows / sizeof brush_rows[0], &home);
     }
     if (!rig || !rig->painted || paint_is_plain(rig->painted)) return;
     r = ui_row(in->ui, UI_ROW);

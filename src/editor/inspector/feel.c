@@ -105,32 +105,53 @@ static double damping_for(const struct spline *spline, double seconds, double st
     return high;
 }
 
-/// The time to settle as a field: to set it is to set the damping.
-static void build_settle(struct inspection *in)
+/// The time to settle as a number: to set it is to set the damping.
+static double get_settle(const struct inspection *in, int which)
+{
+    const struct settling alone = settle_alone(core_active_spline(in->core, in->world), document_step(in->document));
+    (void)which;
+    return alone.kind == SETTLE_ALONE ? alone.seconds : SETTLE_LIMIT;
+}
+
+static bool set_settle(struct inspection *in, int which, double seconds, struct error *error)
 {
     const struct spline *spline = core_active_spline(in->core, in->world);
+    const double damping = damping_for(spline, seconds, document_step(in->document));
+    const struct param param = param_number(round(damping * 1e4) / 1e4);
+    (void)which;
+    return edit_parameter(in->document, in->core->active, PARAMETER_DAMPING, &param, error);
+}
+
+static bool is_never(enum settle_kind kind) { return kind == SETTLE_NEVER || kind == SETTLE_LATE; }
+
+static const char *show_settle(const struct inspection *in, int which, char text[64])
+{
+    const struct spline *spline = core_active_spline(in->core, in->world);
+    (void)which, (void)text;
+    return is_never(settle_alone(spline, document_step(in->document)).kind) ? "never" : NULL;
+}
+
+static void build_settle(struct inspection *in)
+{
+    static const struct number_home home = {.get = get_settle, .set = set_settle, .shown = show_settle};
+    const struct spline *spline = core_active_spline(in->core, in->world);
     const double step = document_step(in->document);
-    const struct settling alone = settle_alone(spline, step);
-    const bool never = alone.kind == SETTLE_NEVER || alone.kind == SETTLE_LATE;
-    if (alone.kind != SETTLE_ALONE && !never) return;
-    const struct ui_number number = {.name = "settle",
-                                     .label = "settles in",
-                                     .unit = "s",
-                                     .hint =
-                                         "Time until 5 % of a swing is left; changes the damping, not the frequency",
-                                     .shown = never ? "never" : NULL,
-                                     .lowest = ceil(settles(spline, 1, step) * 100) / 100,
-                                     .highest = SETTLE_LIMIT,
-                                     .fallback = NAN,
-                                     .step = 0.05,
-                                     .decimals = 2};
+    const enum settle_kind kind = settle_alone(spline, step).kind;
+    if (kind != SETTLE_ALONE && !is_never(kind)) return;
+    const struct number_row number = {.name = "settle",
+                                      .label = "settles in",
+                                      .unit = "s",
+                                      .hint =
+                                          "Time until 5 % of a swing is left; changes the damping, not the frequency",
+                                      .undo = "Set settle time",
+                                      .lowest = ceil(settles(spline, 1, step) * 100) / 100,
+                                      .highest = SETTLE_LIMIT,
+                                      .fallback = NAN,
+                                      .step = 0.05,
+                                      .decimals = 2};
     struct rect r = ui_row(in->ui, UI_ROW);
-    double seconds = never ? SETTLE_LIMIT : alone.seconds;
     r.w -= UI_ROW + 2; // as the rows above, which have a button there
-    const enum ui_change change = ui_value(in->ui, r, &number, &seconds);
-    if (!inspector_begin(in, change, "Set settle time", number.name)) return;
-    const double damping = damping_for(core_active_spline(in->core, in->world), seconds, step);
-    inspector_end(in, change, set_parameter(in, PARAMETER_DAMPING, round(damping * 1e4) / 1e4));
+    inspector_number(in, &number, &home, 0, r);
 }
 
 /// What that means to this motion, in one plain sentence.

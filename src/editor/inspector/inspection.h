@@ -91,12 +91,15 @@ void inspector_end(struct inspection *in, enum ui_change change, bool done);
 struct number_home {
     double (*get)(const struct inspection *in, int which);
     bool (*set)(struct inspection *in, int which, double number, struct error *error);
+    bool settles; ///< they are set once a drag has ended, by a step of their own or none, because that may ask before
+    /// What is shown in place of a number; returns `text`, or NULL for the number. Itself NULL: none.
+    const char *(*shown)(const struct inspection *in, int which, char text[64]);
 };
 
-/// A row of a table: a number of the scene.
+/// A row of a table: a number.
 struct number_row {
     const char *name, *label, *unit, *hint; ///< as struct ui_number
-    const char *undo;                       ///< what its step of the history is called
+    const char *undo;                       ///< what its step of the history is called; NULL: set() makes no edit
     size_t at;                              ///< of the number in its struct, for number_at()
     bool is_whole;                          ///< it is an int there
     double minimum, maximum;                ///< ends of the bar

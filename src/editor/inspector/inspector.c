@@ -1,5 +1,6 @@
 /// The inspector: its sections, from top to bottom; and what they share: rows of numbers, lists of splines, steps of the history.
 #include "editor/inspector/inspector.h"
+#include "base/need.h"
 #include "editor/core/core.h"
 #include "editor/core/knots.h"
 #include "editor/core/pins.h"
@@ -148,7 +149,7 @@ static struct inspection inspection_of(struct inspector *inspector, struct core 
     return (struct inspection){core, inspector, world, world->document, &inspector->ui};
 }
 
-struct inspector *inspector_create(void) { return calloc(1, sizeof(struct inspector)); }
+struct inspector *inspector_create(void) { return need_zeroed(1, sizeof(struct inspector)); }
 
 void inspector_destroy(struct inspector *inspector) { free(inspector); }
 
@@ -365,27 +366,50 @@ static void drag(struct inspection *in, const struct number_home *home, int whic
     }
 }
 
-enum ui_change inspector_number(struct inspection *in, const struct number_row *row, const struct number_home *home,
-                                int which, struct rect r)
+/// Sets a number as a step of the history, which a drag makes anew in each frame.
+static void change_number(struct inspection *in, const struct number_row *row, const struct number_home *home,
+                          int which, enum ui_change change, double value)
 {
-    const struct ui_number number = {.name = row->name,
-                                     .label = row->label,
-                                     .unit = row->unit,
-                                     .hint = row->hint,
-                                     .minimum = row->minimum,
-                                     .maximum = row->maximum,
-                                     .lowest = row->lowest,
-                                     .highest = row->highest,
-                                     .fallback = row->fallback,
-                                     .step = row->step,
-                                     .decimals = row->decimals};
-    double value = home->get(in, which);
-    const enum ui_change change = ui_value(in->ui, r, &number, &value);
     const bool is_first = change == UI_DRAG && !history_is_open(in->world->history);
-    if (!inspector_begin(in, change, row->undo, row->name)) return change;
+    if (!inspector_begin(in, change, row->undo, row->name)) return;
     if (is_first) in->inspector->dragged = home->get(in, which);
     if (change == UI_DRAG) drag(in, home, which, value);
     inspector_end(in, change, change == UI_DRAG || home->set(in, which, value, &in->core->error));
+}
+
+enum ui_change inspector_number(struct inspection *in, const struct number_row *row, const struct number_home *home,
+                                int which, struct rect r)
+{
+    const bool waits = home->settles && ui_is_dragged(in->ui, row->name);
+    char shown[64];
+    double value = waits ? in->inspector->dragged : home->get(in, which);
+    struct ui_number number = {.name = row->name,
+                               .label = row->label,
+                               .unit = row->unit,
+                               .hint = row->hint,
+                               .shown = waits         ? shown
+                                        : home->shown ? home->shown(in, which, shown)
+                                                      : NULL,
+                               .minimum = row->minimum,
+                               .maximum = row->maximum,
+                               .lowest = row->lowest,
+                               .highest = row->highest,
+                               .fallback = row->fallback,
+                               .step = row->step,
+                               .decimals = row->decimals};
+    if (waits) snprintf(shown, sizeof shown, "%g%s%s", value, row->unit ? " " : "", row->unit ? row->unit : "");
+    const enum ui_change change = ui_value(in->ui, r, &number, &value);
+    if (change == UI_SET && row->is_whole && value != floor(value)) {
+        snprintf(in->ui->complaint, sizeof in->ui->complaint, "%s: expected a whole number, got %g", row->label,
+                 value);
+        return UI_NONE;
+    }
+    if (row->undo) {
+        change_number(in, row, home, which, change, value);
+    } else if (home->settles ? inspector_changed(change) : change != UI_NONE && change != UI_CANCEL) {
+        home->set(in, which, value, NULL);
+    }
+    if (home->settles && change == UI_DRAG) in->inspector->dragged = value;
     return change;
 }
 

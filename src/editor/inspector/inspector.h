@@ -7,9 +7,7 @@
 
 struct inspector;
 
-/// NULL where memory is short.
 struct inspector *inspector_create(void);
-/// NULL is fine.
 void inspector_destroy(struct inspector *inspector);
 /// F2: the active spline's name can be typed.
 void inspector_rename(struct inspector *inspector, const struct core *core, const struct editor_world *world);

@@ -37,6 +37,6 @@ static bool set(struct inspection *in, int which, double number, struct error *e
 
 void inspector_meadow(struct inspection *in)
 {
-    static const struct number_home home = {get, set};
+    static const struct number_home home = {.get = get, .set = set};
     inspector_numbers(in, rows, sizeof rows / sizeof rows[0], &home);
 }

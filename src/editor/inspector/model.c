@@ -117,7 +117,7 @@ void inspector_model(struct inspection *in)
 {
     const int model = shown_model(in);
     const struct imported *shown = bones_character(in->world, model);
-    static const struct number_home home = {get, set};
+    static const struct number_home home = {.get = get, .set = set};
     build_file(in, &in->document->rigs[model]->model, shown);
     build_clip(in, &in->document->rigs[model]->model, shown);
     inspector_numbers(in, place, sizeof place / sizeof place[0], &home);

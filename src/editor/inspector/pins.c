@@ -134,7 +134,7 @@ static void build_field(struct inspection *in, int field)
         row.label = word_of(pinned);
         row.highest = points_of(in, rig) - 1;
     }
-    static const struct number_home home = {get, set};
+    static const struct number_home home = {.get = get, .set = set};
     const enum ui_change change = inspector_number(in, &row, &home, field, ui_row(in->ui, UI_ROW));
     if (inspector_changed(change)) pins_tell(in->core, in->world, rig);
 }

@@ -41,7 +41,7 @@ static void build_slider(struct inspection *in, enum parameter parameter, struct
                                       .fallback = row->fresh,
                                       .step = row->step,
                                       .decimals = row->decimals};
-    static const struct number_home home = {get, set};
+    static const struct number_home home = {.get = get, .set = set};
     inspector_number(in, &number, &home, (int)parameter, r);
 }
 
@@ -352,7 +352,7 @@ static const struct number_row gain_row = {"joint.gain",
 void inspector_joint(struct inspection *in)
 {
     if (followed(in)->motion) build_of(in);
-    static const struct number_home home = {get_gain, set_gain};
+    static const struct number_home home = {.get = get_gain, .set = set_gain};
     if (followed(in)->motion) inspector_numbers(in, &gain_row, 1, &home);
 }
 

@@ -29,7 +29,6 @@ struct inspector {
     float drawn_x, drawn_y;               ///< where it was last
     struct bone_selection seen_bone;      ///< that was last shown
     const char *revealed;                 ///< section that is to be in sight, NULL: none
-    const char *dragged_name;             ///< number of the scene that is being dragged
     double dragged;                       ///< what it would be; of several knots, what was last possible
     char knot_title[32];                  ///< of the section on knots
     struct poles_view poles;

@@ -54,7 +54,7 @@ static void follow(struct inspection *in, int k, struct param param)
 static void build_coordinate(struct inspection *in, const struct tail *tail, int k)
 {
     struct rect r = ui_row(in->ui, UI_ROW), icon = {r.x + r.w - ICON, r.y, ICON, r.h};
-    static const struct number_home home = {get_position, set_position};
+    static const struct number_home home = {.get = get_position, .set = set_position};
     const struct param *param = &tail->position[k];
     char button[32];
     r.w -= ICON + 4;
@@ -145,7 +145,7 @@ static void build_shown(struct inspection *in)
 {
     struct inspector *inspector = in->inspector;
     const bool is_tail = inspector_shown(in)->kind == RIG_TAIL;
-    static const struct number_home home = {get_size, set_size};
+    static const struct number_home home = {.get = get_size, .set = set_size};
     if (inspector->channel >= rig_input_count(inspector_shown(in))) inspector->channel = 0;
     inspector_channels(in);
     if (is_tail) inspector_angles(in, &angle_row_rest, &inspector_shown(in)->tail.rest);
@@ -423,7 +423,7 @@ static void build_twin(struct inspection *in)
 
 void inspector_chain(struct inspection *in)
 {
-    static const struct number_home home = {get_turn, set_turn};
+    static const struct number_home home = {.get = get_turn, .set = set_turn};
     const struct chain *chain = &inspector_shown(in)->chain;
     build_end(in, &ends[0], chain->from);
     build_end(in, &ends[1], chain->to);
