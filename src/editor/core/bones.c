@@ -28,7 +28,8 @@ const char *bones_title(const struct document *document, int model, const char *
     return title;
 }
 
-void bones_select(struct core *core, const struct editor_world *world, int model, int node)
+/// Selects a bone of a model rig.
+static void bones_select(struct core *core, const struct editor_world *world, int model, int node)
 {
     const struct imported *shown = bones_character(world, model);
     if (!shown) return;

@@ -11,8 +11,6 @@ int bones_selected(const struct core *core, const struct editor_world *world, in
 enum { BONES_TITLE = 512 };
 /// What a bone is called: its name, and where there are several characters the rig's before it, as in "dog 2/tail_1".
 const char *bones_title(const struct document *document, int model, const char *name, char title[BONES_TITLE]);
-/// Selects a bone of a model rig.
-void bones_select(struct core *core, const struct editor_world *world, int model, int node);
 /// A click on a bone: it is what was asked for, or else becomes the selected one.
 void bones_clicked(struct core *core, const struct editor_world *world, int model, int node);
 /// Selects none.

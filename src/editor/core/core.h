@@ -74,7 +74,5 @@ bool presenter_event(struct core *core, const struct event *event);
 void presenter_advance(struct core *core, double dt, bool busy);
 /// Whether a panel is on its way.
 bool presenter_is_sliding(const struct core *core);
-/// Moves the panels of a layout to where they have slid to, and gives the stage the window.
-void presenter_arrange(const struct presenter *presenter, struct layout *layout);
 
 #endif

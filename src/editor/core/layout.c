@@ -8,6 +8,25 @@ static const float MIN_STAGE = 120, MIN_CURVES = 140, MIN_LEFT = 480, MIN_INSPEC
 
 static float clamped(float value, float lo, float hi) { return fmaxf(lo, fminf(value, hi)); }
 
+/// Slow at both ends.
+static float eased(float share) { return share * share * (3 - 2 * share); }
+
+/// Moves the panels of a layout to where they have slid to, and gives the stage the window.
+static void presenter_arrange(const struct presenter *presenter, struct layout *l)
+{
+    const float across = roundf((1 - eased(presenter->side)) * l->inspector.w);
+    const float down = roundf((1 - eased(presenter->below)) * (l->curves.h + l->status.h));
+    l->inspector.x += across;
+    l->curves.w += across;
+    l->ruler.w += across;
+    l->plot.w += across;
+    l->sheet.w += across;
+    l->open = (struct rect){0, 0, l->curves.w, l->curves.y + down};
+    struct rect *const lower[] = {&l->curves, &l->ruler, &l->sheet, &l->plot, &l->value_axis, &l->status};
+    l->stage = presenter->shares ? l->open : l->window;
+    for (int i = 0; i < (int)(sizeof lower / sizeof *lower); i++) lower[i]->y += down;
+}
+
 void core_layout(struct core *core)
 {
     struct layout *l = &core->layout;
@@ -120,22 +139,4 @@ bool presenter_is_sliding(const struct core *core)
 {
     const struct presenter *p = &core->presenter;
     return p->on && (p->side != (float)p->side_wanted || p->below != (float)p->below_wanted);
-}
-
-/// Slow at both ends.
-static float eased(float share) { return share * share * (3 - 2 * share); }
-
-void presenter_arrange(const struct presenter *presenter, struct layout *l)
-{
-    const float across = roundf((1 - eased(presenter->side)) * l->inspector.w);
-    const float down = roundf((1 - eased(presenter->below)) * (l->curves.h + l->status.h));
-    l->inspector.x += across;
-    l->curves.w += across;
-    l->ruler.w += across;
-    l->plot.w += across;
-    l->sheet.w += across;
-    l->open = (struct rect){0, 0, l->curves.w, l->curves.y + down};
-    struct rect *const lower[] = {&l->curves, &l->ruler, &l->sheet, &l->plot, &l->value_axis, &l->status};
-    l->stage = presenter->shares ? l->open : l->window;
-    for (int i = 0; i < (int)(sizeof lower / sizeof *lower); i++) lower[i]->y += down;
 }

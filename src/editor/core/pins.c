@@ -24,7 +24,8 @@ const struct pin *pins_selected(const struct core *core, const struct document *
     return NULL;
 }
 
-void pins_select(struct core *core, unsigned id)
+/// Selects a pin, and no knots.
+static void pins_select(struct core *core, unsigned id)
 {
     selection_clear(&core->selection);
     core->pin = (struct pin_selection){.any = true, .id = id};

@@ -6,8 +6,6 @@
 
 /// The selected pin and its rig, or NULL.
 const struct pin *pins_selected(const struct core *core, const struct document *document, int *rig);
-/// Selects a pin, and no knots.
-void pins_select(struct core *core, unsigned id);
 /// Selects a pin and goes to its frame.
 void pins_visit(struct core *core, const struct document *document, const struct pin *pin);
 /// Lets go of the selected pin.

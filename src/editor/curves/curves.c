@@ -69,6 +69,15 @@ static void nearest_other_knot(const struct curves *curves, const struct core *c
     }
 }
 
+/// A press that did not move was a click on empty; `keep` false brings the former selection back.
+static void end(void *room, struct core *core, const struct editor_world *world, bool keep)
+{
+    const struct curves *curves = room;
+    if (!keep) selection_copy(&core->selection, &curves->before_box);
+    if (keep && !core->drag.moved && curves->knot_drag.box == BOX_REPLACE) selection_clear(&core->selection);
+    if (keep) selected_settle(core, world);
+}
+
 static void nearest_handle(const struct curves *curves, const struct core *core, const struct document *document,
                            const struct spline *spline, float x, float y, struct hover *hover)
 {
@@ -114,6 +123,24 @@ static void nearest_curve(const struct curves *curves, const struct core *core, 
         if (distance >= best) continue;
         best = distance;
         *hover = (struct hover){.kind = HOVER_CURVE, .spline = s};
+    }
+}
+
+static const float REACH = 5; ///< pixels from a line at which it is hit
+
+static enum parameter limit_of(int handle) { return handle ? PARAMETER_HIGH : PARAMETER_LOW; }
+
+/// A line of a limit of the spline near that height.
+static void limits_hover(const struct curves *curves, const struct core *core, const struct spline *spline, float y,
+                         struct hover *hover)
+{
+    float best = REACH;
+    for (int i = 0; i < 2; i++) {
+        double value = spline->parameter[limit_of(i)].value;
+        float distance = isfinite(value) ? fabsf(y - curves_y(curves, core, value)) : INFINITY;
+        if (distance > best) continue;
+        best = distance;
+        *hover = (struct hover){.kind = HOVER_LIMIT, .spline = core->active, .handle = i};
     }
 }
 
@@ -205,6 +232,34 @@ static void press_ruler(struct curves *curves, struct core *core, const struct e
     double frame = curves_frame(curves, core, event->x);
     drag_begin(core, &owner, curves, NULL, event);
     playback_seek(core, world->document, drag_snaps(core, event->mods) ? round(frame) : frame);
+}
+
+/// The limit goes where the pointer is; knots stay within.
+static void apply(void *room, struct core *core, const struct editor_world *world)
+{
+    const struct curves *curves = room;
+    const struct limit_drag *drag = &curves->limit_drag;
+    const struct spline *spline = core_active_spline(core, world);
+    double by = -core->drag.moved_y / curves_pixels_per_value(curves, core);
+    double value = core_round(drag->value + by, 0.01 / curves_pixels_per_value(curves, core));
+    const double other = spline->parameter[limit_of(!drag->handle)].value;
+    for (int k = 0; k < spline->knot_count; k++) {
+        const double knot = spline->knots[k].value;
+        value = drag->handle ? fmax(value, knot) : fmin(value, knot);
+    }
+    if (drag->handle ? value <= other : value >= other) return; // without knots: they do not pass each other
+    core_set_parameter(core, world, core->active, limit_of(drag->handle), value);
+}
+
+/// Starts to drag the low limit (0) or the high one (1).
+static void limits_begin_drag(struct curves *curves, struct core *core, const struct editor_world *world, int handle,
+                              const struct event *event)
+{
+    static const struct drag_owner owner = {.cursor = CURSOR_VERTICAL, .apply = apply};
+    const struct spline *spline = core_active_spline(core, world);
+    drag_begin(core, &owner, curves, parameter_rows[limit_of(handle)].undo, event);
+    core->hover = (struct hover){.kind = HOVER_LIMIT, .spline = core->active, .handle = handle};
+    curves->limit_drag = (struct limit_drag){handle, spline->parameter[limit_of(handle)].value};
 }
 
 void curves_press(struct curves *curves, struct core *core, const struct editor_world *world,
@@ -304,15 +359,6 @@ static void move(void *room, struct core *core, const struct editor_world *world
     }
 }
 
-/// A press that did not move was a click on empty; `keep` false brings the former selection back.
-static void end(void *room, struct core *core, const struct editor_world *world, bool keep)
-{
-    const struct curves *curves = room;
-    if (!keep) selection_copy(&core->selection, &curves->before_box);
-    if (keep && !core->drag.moved && curves->knot_drag.box == BOX_REPLACE) selection_clear(&core->selection);
-    if (keep) selected_settle(core, world);
-}
-
 static void show(void *room, struct core *core, const struct editor_world *world)
 {
     const struct curves *curves = room;
@@ -336,50 +382,6 @@ void box_begin(struct curves *curves, struct core *core, const struct event *eve
     bool removes = event->mods & (MOD_CTRL | MOD_ALT);
     curves->knot_drag.box = removes ? BOX_REMOVE : event->mods & MOD_SHIFT ? BOX_ADD : BOX_REPLACE;
     selection_copy(&curves->before_box, &core->selection);
-}
-
-static const float REACH = 5; ///< pixels from a line at which it is hit
-
-static enum parameter limit_of(int handle) { return handle ? PARAMETER_HIGH : PARAMETER_LOW; }
-
-void limits_hover(const struct curves *curves, const struct core *core, const struct spline *spline, float y,
-                  struct hover *hover)
-{
-    float best = REACH;
-    for (int i = 0; i < 2; i++) {
-        double value = spline->parameter[limit_of(i)].value;
-        float distance = isfinite(value) ? fabsf(y - curves_y(curves, core, value)) : INFINITY;
-        if (distance > best) continue;
-        best = distance;
-        *hover = (struct hover){.kind = HOVER_LIMIT, .spline = core->active, .handle = i};
-    }
-}
-
-/// The limit goes where the pointer is; knots stay within.
-static void apply(void *room, struct core *core, const struct editor_world *world)
-{
-    const struct curves *curves = room;
-    const struct limit_drag *drag = &curves->limit_drag;
-    const struct spline *spline = core_active_spline(core, world);
-    double by = -core->drag.moved_y / curves_pixels_per_value(curves, core);
-    double value = core_round(drag->value + by, 0.01 / curves_pixels_per_value(curves, core));
-    const double other = spline->parameter[limit_of(!drag->handle)].value;
-    for (int k = 0; k < spline->knot_count; k++) {
-        const double knot = spline->knots[k].value;
-        value = drag->handle ? fmax(value, knot) : fmin(value, knot);
-    }
-    if (drag->handle ? value <= other : value >= other) return; // without knots: they do not pass each other
-    core_set_parameter(core, world, core->active, limit_of(drag->handle), value);
-}
-
-void limits_begin_drag(struct curves *curves, struct core *core, const struct editor_world *world, int handle,
-                       const struct event *event)
-{
-    static const struct drag_owner owner = {.cursor = CURSOR_VERTICAL, .apply = apply};
-    const struct spline *spline = core_active_spline(core, world);
-    drag_begin(core, &owner, curves, parameter_rows[limit_of(handle)].undo, event);
-    core->hover = (struct hover){.kind = HOVER_LIMIT, .spline = core->active, .handle = handle};
-    curves->limit_drag = (struct limit_drag){handle, spline->parameter[limit_of(handle)].value};
 }
 
 void limits_show(const struct curves *curves, struct core *core, const struct editor_world *world)

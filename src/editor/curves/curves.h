@@ -67,8 +67,6 @@ void curves_advance(struct curves *curves, struct core *core, const struct edito
 void curves_pan(struct curves *curves, struct core *core, double dx, double dy);
 /// Zooms about a point of the panel; factors below 1 come closer.
 void curves_zoom(struct curves *curves, struct core *core, float x, float y, double time_factor, double value_factor);
-/// Samples that are in sight.
-void curves_span(const struct curves *curves, const struct document *document, int *first, int *count);
 /// Where the mark of a pin is on the ruler; false where it is out of sight.
 bool curves_pin_point(const struct curves *curves, const struct core *core, const struct document *document,
                       const struct pin *pin, float xy[2]);

@@ -13,14 +13,8 @@ double curves_pixels_per_value(const struct curves *curves, const struct core *c
 double curves_frame(const struct curves *curves, const struct core *core, double x);
 /// Logical pixels to value.
 double curves_value(const struct curves *curves, const struct core *core, double y);
-/// Shows a part, within reason.
-void view_set(struct curves *curves, struct core *core, struct view view);
-/// The view stays where it is, whatever was edited.
-void follow_stop(struct curves *curves, struct core *core);
 /// Whether the view is on its way.
 bool follow_moves(const struct curves *curves);
-/// Shows the values v that were shown as scale·v + offset.
-void view_rescale(struct curves *curves, struct core *core, double scale, double offset);
 
 /// Where a spline's values are drawn.
 struct value_map normal_map(const struct curves *curves, const struct core *core, int spline);
@@ -50,12 +44,6 @@ void drag_begin_knots(struct curves *curves, struct core *core, const struct edi
 void drag_begin_slope(struct curves *curves, struct core *core, const struct editor_world *world, unsigned knot,
                       int handle, const struct event *event);
 
-/// A line of a limit of the spline near that height.
-void limits_hover(const struct curves *curves, const struct core *core, const struct spline *spline, float y,
-                  struct hover *hover);
-/// Starts to drag the low limit (0) or the high one (1).
-void limits_begin_drag(struct curves *curves, struct core *core, const struct editor_world *world, int handle,
-                       const struct event *event);
 /// The active spline's limits, dashed.
 void limits_show(const struct curves *curves, struct core *core, const struct editor_world *world);
 
@@ -85,8 +73,6 @@ bool sheet_wheel(struct curves *curves, struct core *core, const struct event *e
 /// Rows, marks, names, and its switch in the ruler's corner.
 void sheet_show(const struct curves *curves, struct core *core, const struct document *document);
 
-/// The pivot, the line from it to the pointer, and beside that both factors and what stopped them.
-void scale_show(void *room, struct core *core, const struct editor_world *world);
 /// Starts to scale by a handle of the box round the selected knots: about its other side or, with Alt, the equilibrium.
 void scale_begin_handle(struct curves *curves, struct core *core, const struct editor_world *world, int handle,
                         const struct event *event);
@@ -99,10 +85,6 @@ void scale_box_show(const struct curves *curves, struct core *core, const struct
 void box_begin(struct curves *curves, struct core *core, const struct event *event);
 /// Starts to choose the part that is played.
 void range_begin(struct curves *curves, struct core *core, const struct event *event);
-/// Marks the part on the ruler; nothing where all is played.
-void range_show_ruler(const struct curves *curves, struct core *core, const struct document *document);
-/// Tints the part in the plot.
-void range_show_plot(const struct curves *curves, struct core *core, const struct document *document);
 
 /// The handle's length in pixels says how firmly the slope is held, 12 for each power of ten.
 double handle_length(double stiffness);

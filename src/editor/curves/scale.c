@@ -126,6 +126,14 @@ static double along(double pivot, double start, double now)
 
 static double clamped(double factor) { return fmin(fmax(factor, -MOST), MOST); }
 
+/// What was scaled comes into sight.
+static void end(void *room, struct core *core, const struct editor_world *world, bool keep)
+{
+    (void)room;
+    (void)world;
+    if (keep && core->drag.moved) core_edited(core, -1);
+}
+
 /// Takes typed factors over: one for both axes, or one for time and one for value.
 static void read_typed(const char *typed, struct factors *by)
 {
@@ -338,12 +346,72 @@ static enum drag_answer take_event(void *room, struct core *core, const struct e
     }
 }
 
-/// What was scaled comes into sight.
-static void end(void *room, struct core *core, const struct editor_world *world, bool keep)
+enum { TAG_PAD = 8, LINE = 16, MARGIN = 4, MOST_LINES = 4 };
+
+/// The words beside the pointer.
+struct tag {
+    int count;
+    struct {
+        char text[STOPPED_SIZE];
+        bool is_stop;
+    } line[MOST_LINES];
+};
+
+/// A factor, and on a line of its own what stopped it.
+static void add_factor(struct tag *tag, const char *what, double factor, const char *stopped)
 {
-    (void)room;
-    (void)world;
-    if (keep && core->drag.moved) core_edited(core, -1);
+    snprintf(tag->line[tag->count++].text, sizeof tag->line[0].text, "%s × %.3g", what, factor);
+    if (!*stopped) return;
+    tag->line[tag->count].is_stop = true;
+    snprintf(tag->line[tag->count++].text, sizeof tag->line[0].text, "%s", stopped);
+}
+
+static const float BESIDE = 16, BELOW = 20; ///< of the pointer
+
+/// Beside the pointer, inside the panel.
+static void show_tag(struct core *core, const struct tag *tag)
+{
+    const struct rect panel = core->layout.curves;
+    float width = 0;
+    for (int i = 0; i < tag->count; i++)
+        width = fmaxf(width, ceilf(font_width(FONT_LABEL, THEME_TEXT_SMALL, tag->line[i].text)));
+    const float w = width + 2 * TAG_PAD, h = (float)(tag->count * LINE + TAG_PAD);
+    const float right = panel.x + panel.w - MARGIN - w, bottom = panel.y + panel.h - MARGIN - h;
+    const struct rect box = {roundf(fmaxf(panel.x + MARGIN, fminf(core->drag.x + BESIDE, right))),
+                             roundf(core->drag.y + BELOW <= bottom ? core->drag.y + BELOW : core->drag.y - BELOW - h),
+                             w, h};
+    drawlist_rounded(&core->list, box, 4, theme()->raised);
+    drawlist_rounded_line(&core->list, box, 4, 1, theme()->control);
+    for (int i = 0; i < tag->count; i++)
+        drawlist_text(&core->list, box.x + TAG_PAD, box.y + (float)((i + 1) * LINE), FONT_LABEL, THEME_TEXT_SMALL,
+                      tag->line[i].is_stop ? theme()->warning : theme()->text, tag->line[i].text);
+}
+
+static void show_pivot(const struct curves *curves, struct core *core)
+{
+    const struct scaling *scaling = &curves->scaling;
+    const float x = curves_x(curves, core, scaling->frame), y = curves_y(curves, core, scaling->value), arm = 7;
+    const float across[] = {x - arm, y, x + arm, y}, down[] = {x, y - arm, x, y + arm};
+    const float line[] = {x, y, core->drag.x, core->drag.y};
+    const bool pointed = scaling->handle < 0 && !scaling->typed[0];
+    if (pointed) drawlist_dashed(&core->list, line, 2, 1, 3, 4, theme_fade(theme()->playhead, 0.5f));
+    if (!core->drag.lock_y) drawlist_line(&core->list, across, 2, 1.5f, theme()->playhead);
+    if (!core->drag.lock_x) drawlist_line(&core->list, down, 2, 1.5f, theme()->playhead);
+}
+
+/// The pivot, the line from it to the pointer, and beside that both factors and what stopped them.
+static void scale_show(void *room, struct core *core, const struct editor_world *world)
+{
+    const struct curves *curves = room;
+    const struct scaling *scaling = &curves->scaling;
+    struct tag tag = {0};
+    const struct rect clip = drawlist_push_clip(&core->list, core->layout.plot);
+    scale_box_show(curves, core, world->document, true);
+    show_pivot(curves, core);
+    drawlist_set_clip(&core->list, clip);
+    if (!core->drag.lock_y) add_factor(&tag, "time", scaling->by.time, scaling->stopped[0]);
+    if (!core->drag.lock_x) add_factor(&tag, "value", scaling->by.value, scaling->stopped[1]);
+    show_tag(core, &tag);
 }
 
 /// Begun by S without a button and ended by a click or Enter, or of a handle of the box round the knots.
@@ -473,71 +541,4 @@ void scale_box_show(const struct curves *curves, struct core *core, const struct
         float xy[2];
         if (handle_place(&box, i, xy)) show_handle(core, i, xy);
     }
-}
-
-enum { TAG_PAD = 8, LINE = 16, MARGIN = 4, MOST_LINES = 4 };
-
-static const float BESIDE = 16, BELOW = 20; ///< of the pointer
-
-/// The words beside the pointer.
-struct tag {
-    int count;
-    struct {
-        char text[STOPPED_SIZE];
-        bool is_stop;
-    } line[MOST_LINES];
-};
-
-/// A factor, and on a line of its own what stopped it.
-static void add_factor(struct tag *tag, const char *what, double factor, const char *stopped)
-{
-    snprintf(tag->line[tag->count++].text, sizeof tag->line[0].text, "%s × %.3g", what, factor);
-    if (!*stopped) return;
-    tag->line[tag->count].is_stop = true;
-    snprintf(tag->line[tag->count++].text, sizeof tag->line[0].text, "%s", stopped);
-}
-
-/// Beside the pointer, inside the panel.
-static void show_tag(struct core *core, const struct tag *tag)
-{
-    const struct rect panel = core->layout.curves;
-    float width = 0;
-    for (int i = 0; i < tag->count; i++)
-        width = fmaxf(width, ceilf(font_width(FONT_LABEL, THEME_TEXT_SMALL, tag->line[i].text)));
-    const float w = width + 2 * TAG_PAD, h = (float)(tag->count * LINE + TAG_PAD);
-    const float right = panel.x + panel.w - MARGIN - w, bottom = panel.y + panel.h - MARGIN - h;
-    const struct rect box = {roundf(fmaxf(panel.x + MARGIN, fminf(core->drag.x + BESIDE, right))),
-                             roundf(core->drag.y + BELOW <= bottom ? core->drag.y + BELOW : core->drag.y - BELOW - h),
-                             w, h};
-    drawlist_rounded(&core->list, box, 4, theme()->raised);
-    drawlist_rounded_line(&core->list, box, 4, 1, theme()->control);
-    for (int i = 0; i < tag->count; i++)
-        drawlist_text(&core->list, box.x + TAG_PAD, box.y + (float)((i + 1) * LINE), FONT_LABEL, THEME_TEXT_SMALL,
-                      tag->line[i].is_stop ? theme()->warning : theme()->text, tag->line[i].text);
-}
-
-static void show_pivot(const struct curves *curves, struct core *core)
-{
-    const struct scaling *scaling = &curves->scaling;
-    const float x = curves_x(curves, core, scaling->frame), y = curves_y(curves, core, scaling->value), arm = 7;
-    const float across[] = {x - arm, y, x + arm, y}, down[] = {x, y - arm, x, y + arm};
-    const float line[] = {x, y, core->drag.x, core->drag.y};
-    const bool pointed = scaling->handle < 0 && !scaling->typed[0];
-    if (pointed) drawlist_dashed(&core->list, line, 2, 1, 3, 4, theme_fade(theme()->playhead, 0.5f));
-    if (!core->drag.lock_y) drawlist_line(&core->list, across, 2, 1.5f, theme()->playhead);
-    if (!core->drag.lock_x) drawlist_line(&core->list, down, 2, 1.5f, theme()->playhead);
-}
-
-void scale_show(void *room, struct core *core, const struct editor_world *world)
-{
-    const struct curves *curves = room;
-    const struct scaling *scaling = &curves->scaling;
-    struct tag tag = {0};
-    const struct rect clip = drawlist_push_clip(&core->list, core->layout.plot);
-    scale_box_show(curves, core, world->document, true);
-    show_pivot(curves, core);
-    drawlist_set_clip(&core->list, clip);
-    if (!core->drag.lock_y) add_factor(&tag, "time", scaling->by.time, scaling->stopped[0]);
-    if (!core->drag.lock_x) add_factor(&tag, "value", scaling->by.value, scaling->stopped[1]);
-    show_tag(core, &tag);
 }

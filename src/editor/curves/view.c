@@ -78,7 +78,8 @@ static void keep_sane(struct curves *curves, struct core *core)
     core->visible = view->value1 - view->value0;
 }
 
-void view_set(struct curves *curves, struct core *core, struct view view)
+/// Shows a part, within reason.
+static void view_set(struct curves *curves, struct core *core, struct view view)
 {
     curves->view = view;
     keep_sane(curves, core);
@@ -120,6 +121,13 @@ static void include_rest(struct curves *curves, const struct core *core, const s
     const double span = range[1] - range[0];
     if (range[0] < view->value0) view->value0 = range[0] - margin * span;
     if (range[1] > view->value1) view->value1 = range[1] + margin * span;
+}
+
+/// The view stays where it is, whatever was edited.
+static void follow_stop(struct curves *curves, struct core *core)
+{
+    curves->following = (struct following){0};
+    core->edited = (struct edited){0};
 }
 
 void curves_frame_all(struct curves *curves, struct core *core, const struct editor_world *world)
@@ -200,7 +208,8 @@ void curves_reveal(struct curves *curves, struct core *core, double frame, doubl
     keep_sane(curves, core);
 }
 
-void view_rescale(struct curves *curves, struct core *core, double scale, double offset)
+/// Shows the values v that were shown as scale·v + offset.
+static void view_rescale(struct curves *curves, struct core *core, double scale, double offset)
 {
     follow_stop(curves, core);
     curves->view.value0 = (curves->view.value0 - offset) / scale;
@@ -234,7 +243,8 @@ void curves_zoom(struct curves *curves, struct core *core, float x, float y, dou
     keep_sane(curves, core);
 }
 
-void curves_span(const struct curves *curves, const struct document *document, int *first, int *count)
+/// Samples that are in sight.
+static void curves_span(const struct curves *curves, const struct document *document, int *first, int *count)
 {
     double last = document_samples(document) - 1;
     double left = fmin(fmax(floor(core_position(document, curves->view.frame0)), 0), last);
@@ -306,12 +316,6 @@ static const double RATE = 14;     ///< of the way that is left, a second
 static const double CLOSE = 0.25;  ///< pixels: it is there
 static const double MARGIN = 0.06; ///< of what is seen, beyond what was edited
 static const double WIDEST = 1.7;  ///< of the visible frames: what needs more is panned to
-
-void follow_stop(struct curves *curves, struct core *core)
-{
-    curves->following = (struct following){0};
-    core->edited = (struct edited){0};
-}
 
 bool follow_moves(const struct curves *curves) { return curves->following.moves; }
 

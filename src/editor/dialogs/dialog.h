@@ -12,24 +12,6 @@ void dialog_close(struct dialogs *dialogs);
 void dialog_ask_open(struct dialogs *dialogs);
 /// Asks something of the app; the dialog takes nothing until dialogs_answer().
 void dialog_await(struct dialogs *dialogs, struct core *core, enum request_kind kind, const char *path);
-/// true for every event while a dialog is open, but for EVENT_SIZE and EVENT_EXPOSE.
-bool dialog_event(struct dialogs *dialogs, struct core *core, const struct editor_world *world,
-                  const struct event *event);
-/// Draws the dialog, where one is open.
-void dialog_show(struct dialogs *dialogs, struct core *core, const struct editor_world *world);
-
-/// Lists the folder of the path where it is a new one, and picks the names that fit what is typed after it.
-void dialog_match(struct dialog *dialog);
-/// Tab: adds what all matches have in common.
-void dialog_complete(struct dialog *dialog);
-/// The recent file that a match is, or NULL.
-const struct dialog_recent *dialog_recent_of(const struct dialog *dialog, int match);
-/// Puts the chosen match into the path; true where it is a file (a folder is listed instead, of one that is gone it is said).
-bool dialog_take(struct dialog *dialog, int match);
-/// Whether the path is one of the names listed.
-bool dialog_exists(const struct dialog *dialog);
-/// Lays out one match of the list; true where it was pressed.
-bool dialog_row(struct dialog *dialog, struct rect r, int match);
 
 /// The Export dialog's keys: true where it has used one. They also come while the app is at work, as all its events do.
 bool export_key(struct dialogs *dialogs, struct core *core, const struct editor_world *world, int key);

@@ -69,7 +69,8 @@ static void change_angles(struct inspection *in, const struct angle_row *row, en
         inspector_end(in, change, inspector_set_angles(in, row, angles));
 }
 
-const char *inspector_angle_unit(const struct inspection *in, const struct angle_row *row)
+/// What its numbers are in: the gain of what moves the body may be in percent.
+static const char *unit_of(const struct inspection *in, const struct angle_row *row)
 {
     return row->kind == ANGLE_GAIN ? axis_unit(inspector_felt_channel(in)->axis) : "°";
 }
@@ -116,8 +117,7 @@ static const char *show_ends(const struct inspection *in, int kind, char text[64
     const struct angles *angles = angles_of(in, angle_rows[kind]);
     if (angles->form == ANGLES_ONE) return NULL;
     snprintf(text, 64, "%.1f → %.1f%s", printable_number(angles_number(angles, 0), 0.1),
-             printable_number(angles_number(angles, angles->count - 1), 0.1),
-             inspector_angle_unit(in, angle_rows[kind]));
+             printable_number(angles_number(angles, angles->count - 1), 0.1), unit_of(in, angle_rows[kind]));
     return text;
 }
 
@@ -130,7 +130,7 @@ static void build_slider(struct inspection *in, const struct angle_row *row, con
     const double reach = lags ? 1 : reach_of(in, row, get_largest(in, (int)row->kind));
     const struct number_row number = {.name = row->name,
                                       .label = row->name,
-                                      .unit = inspector_angle_unit(in, row),
+                                      .unit = unit_of(in, row),
                                       .hint = row->hint,
                                       .undo = row->undo,
                                       .minimum = reach * row->minimum,
@@ -180,25 +180,7 @@ static bool build_switch(struct inspection *in, const struct angle_row *row, con
     return true;
 }
 
-void inspector_angles(struct inspection *in, const struct angle_row *row, const struct angles *angles)
-{
-    const int joints = bones_joints(in->world, in->inspector->rig);
-    struct rect r = ui_row(in->ui, UI_ROW), right = {r.x + r.w - SWITCH, r.y, SWITCH, r.h}, left = right;
-    left.x -= SWITCH;
-    build_slider(in, row, angles, (struct rect){r.x, r.y, left.x - r.x - 2, r.h});
-    angles = angles_of(in, row);
-    const struct angles ramp = inspector_as_ramp(angles, row->kind, joints),
-                        each = each_angle(angles, row->kind, joints);
-    if (build_switch(in, row, angles, &ramp, left) || build_switch(in, row, angles, &each, right)) return;
-    const struct angles now = *angles; // an edit may free them while they are shown
-    if (now.form == ANGLES_RAMP) inspector_ramp(in, row, &now);
-    if (now.form == ANGLES_EACH) inspector_each(in, row, &now);
-}
-
 enum { HEIGHT = 64, INSET = 7, NAME = 32, REACH = 11 }; ///< pixels; REACH: of a right click from its point
-
-static const double APART = 0.01;                          ///< between places of neighbouring points
-static const double PLACES = 100, SPARE = 1.2, LEAST = 10; ///< places in all; above the largest angle; degrees
 
 /// A ramp as it is laid out.
 struct ramp_view {
@@ -210,21 +192,15 @@ struct ramp_view {
     struct ui_handle handles[RAMP_MAX_POINTS];
 };
 
+static const double APART = 0.01;                          ///< between places of neighbouring points
+static const double PLACES = 100, SPARE = 1.2, LEAST = 10; ///< places in all; above the largest angle; degrees
+
 static float x_of(const struct ramp_view *view, double at) { return view->plot.x + (float)at * view->plot.w; }
 
 static float y_of(const struct ramp_view *view, double angle)
 {
     const struct rect *plot = &view->plot;
     return plot->y + plot->h * (float)((view->high - angle) / (view->high - view->low));
-}
-
-/// The point that a place of the plot stands for.
-static struct ramp_point point_at(const struct ramp_view *view, float x, float y)
-{
-    const double at = (double)((x - view->plot.x) / view->plot.w),
-                 share = (double)((y - view->plot.y) / view->plot.h);
-    const double angle = view->high - share * (view->high - view->low);
-    return (struct ramp_point){round(fmin(fmax(at, 0), 1) * PLACES) / PLACES, core_round(angle, view->row->step / 5)};
 }
 
 static bool is_held(const struct ramp_view *view, uint32_t held)
@@ -279,6 +255,15 @@ static void draw(const struct inspection *in, const struct ramp_view *view, stru
         const float diamond[4][2] = {{x - r, y}, {x, y - r}, {x + r, y}, {x, y + r}};
         drawlist_convex(list, diamond[0], 4, theme()->accent);
     }
+}
+
+/// The point that a place of the plot stands for.
+static struct ramp_point point_at(const struct ramp_view *view, float x, float y)
+{
+    const double at = (double)((x - view->plot.x) / view->plot.w),
+                 share = (double)((y - view->plot.y) / view->plot.h);
+    const double angle = view->high - share * (view->high - view->low);
+    return (struct ramp_point){round(fmin(fmax(at, 0), 1) * PLACES) / PLACES, core_round(angle, view->row->step / 5)};
 }
 
 /// Puts a point between its neighbours.
@@ -363,7 +348,8 @@ static void take_event(struct inspection *in, const struct ramp_view *view, stru
     }
 }
 
-void inspector_ramp(struct inspection *in, const struct angle_row *row, const struct angles *angles)
+/// Below the row of a ramp: its curve.
+static void build_ramp_row(struct inspection *in, const struct angle_row *row, const struct angles *angles)
 {
     struct ui *ui = in->ui;
     struct rect line = ui_row(ui, HEIGHT), box = {line.x, line.y + 2, line.w, line.h - 6};
@@ -380,7 +366,8 @@ void inspector_ramp(struct inspection *in, const struct angle_row *row, const st
     }
 }
 
-struct angles inspector_as_ramp(const struct angles *angles, enum angle_kind kind, int joints)
+/// A ramp of two points from the first joint's angle to the last one's.
+static struct angles as_ramp(const struct angles *angles, enum angle_kind kind, int joints)
 {
     struct angles ramp = {.form = ANGLES_RAMP, .count = 2};
     for (int i = 0; i < 2; i++) {
@@ -400,30 +387,6 @@ struct each_view {
     int joint;        ///< the selected one
     char name[NAME];  ///< of the curve
 };
-
-static float each_x_of(const struct each_view *view, int joint)
-{
-    const int last = view->angles->count - 1;
-    return view->plot.x + view->plot.w * (last > 0 ? (float)joint / (float)last : 0.5f);
-}
-
-static float each_y_of(const struct each_view *view, double angle)
-{
-    return view->plot.y + view->plot.h * (float)((view->high - angle) / (view->high - view->low));
-}
-
-static int joint_at(const struct each_view *view, float x)
-{
-    const int last = view->angles->count - 1;
-    const float joint = roundf((x - view->plot.x) / view->plot.w * (float)last);
-    return (int)fminf(fmaxf(joint, 0), (float)last);
-}
-
-static double angle_at(const struct each_view *view, float y)
-{
-    const double share = (double)((y - view->plot.y) / view->plot.h);
-    return core_round(view->high - share * (view->high - view->low), view->row->step / 5);
-}
 
 /// Its scale, which stays while it is drawn.
 static struct each_view each_lay_out(struct inspection *in, const struct angle_row *row, const struct angles *angles,
@@ -448,6 +411,17 @@ static struct each_view each_lay_out(struct inspection *in, const struct angle_r
     return view;
 }
 
+static float each_x_of(const struct each_view *view, int joint)
+{
+    const int last = view->angles->count - 1;
+    return view->plot.x + view->plot.w * (last > 0 ? (float)joint / (float)last : 0.5f);
+}
+
+static float each_y_of(const struct each_view *view, double angle)
+{
+    return view->plot.y + view->plot.h * (float)((view->high - angle) / (view->high - view->low));
+}
+
 static void each_draw(const struct inspection *in, const struct each_view *view, struct rect box)
 {
     struct drawlist *list = in->ui->list;
@@ -466,6 +440,13 @@ static void each_draw(const struct inspection *in, const struct each_view *view,
     drawlist_rounded(list, (struct rect){selected[0] - r, selected[1] - r, 2 * r, 2 * r}, r, theme()->accent);
 }
 
+static int joint_at(const struct each_view *view, float x)
+{
+    const int last = view->angles->count - 1;
+    const float joint = roundf((x - view->plot.x) / view->plot.w * (float)last);
+    return (int)fminf(fmaxf(joint, 0), (float)last);
+}
+
 /// A press takes the joint below it, from where the drag draws.
 static void take_press(struct inspection *in, const struct each_view *view, struct rect box, struct ui_handle *handle)
 {
@@ -476,6 +457,12 @@ static void take_press(struct inspection *in, const struct each_view *view, stru
     in->inspector->drawn = *view->angles;
     in->inspector->drawn_x = handle->x = event->x;
     in->inspector->drawn_y = handle->y = event->y;
+}
+
+static double angle_at(const struct each_view *view, float y)
+{
+    const double share = (double)((y - view->plot.y) / view->plot.h);
+    return core_round(view->high - share * (view->high - view->low), view->row->step / 5);
 }
 
 /// All joints between the last place and this one come to lie on the line between both.
@@ -548,7 +535,7 @@ static void build_joint(struct inspection *in, const struct angle_row *row)
     snprintf(label, NAME, "joint %d", in->inspector->joint[row->kind] + 1);
     const struct number_row number = {.name = name,
                                       .label = label,
-                                      .unit = inspector_angle_unit(in, row),
+                                      .unit = unit_of(in, row),
                                       .hint = "Angle of the joint that was touched last in the curve above",
                                       .undo = row->undo,
                                       .lowest = -36000,
@@ -559,10 +546,25 @@ static void build_joint(struct inspection *in, const struct angle_row *row)
     inspector_number(in, &number, &home, (int)row->kind, ui_row(in->ui, UI_ROW));
 }
 
-void inspector_each(struct inspection *in, const struct angle_row *row, const struct angles *angles)
+/// Below the row of angles of each joint: their curve, and the number of one.
+static void build_each_row(struct inspection *in, const struct angle_row *row, const struct angles *angles)
 {
     const struct rect line = ui_row(in->ui, HEIGHT), box = {line.x, line.y + 2, line.w, line.h - 6};
     const struct each_view view = each_lay_out(in, row, angles, box);
     build_curve(in, &view, box);
     build_joint(in, row);
+}
+
+void inspector_angles(struct inspection *in, const struct angle_row *row, const struct angles *angles)
+{
+    const int joints = bones_joints(in->world, in->inspector->rig);
+    struct rect r = ui_row(in->ui, UI_ROW), right = {r.x + r.w - SWITCH, r.y, SWITCH, r.h}, left = right;
+    left.x -= SWITCH;
+    build_slider(in, row, angles, (struct rect){r.x, r.y, left.x - r.x - 2, r.h});
+    angles = angles_of(in, row);
+    const struct angles ramp = as_ramp(angles, row->kind, joints), each = each_angle(angles, row->kind, joints);
+    if (build_switch(in, row, angles, &ramp, left) || build_switch(in, row, angles, &each, right)) return;
+    const struct angles now = *angles; // an edit may free them while they are shown
+    if (now.form == ANGLES_RAMP) build_ramp_row(in, row, &now);
+    if (now.form == ANGLES_EACH) build_each_row(in, row, &now);
 }

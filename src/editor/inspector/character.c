@@ -203,58 +203,6 @@ static void build_floor(struct inspection *in, const struct character_rig *rig)
     ui_paragraph(in->ui, text, theme()->text_dim);
 }
 
-void inspector_character(struct inspection *in)
-{
-    struct character_view *view = &in->core->characters;
-    if (!document_character(in->document, view->character)) view->character = 0;
-    const struct character_rig *rig = document_character(in->document, view->character);
-    struct ui_item items[MAX_ITEMS];
-    if (view->drive >= rig->drive_count) view->drive = 0;
-    build_drives(in, rig);
-    if (free_coordinates(in, rig, items) > 0 && in->document->spline_count > 0) {
-        const struct rect r = ui_row(in->ui, UI_ROW);
-        ui_hint(in->ui, r, "One more way for it to swing, by the active spline");
-        ui_dropdown(in->ui, r, add_list, 0, "Add a coordinate", 0);
-    }
-    ui_space(in->ui, 4);
-    if (view->drive < rig->drive_count) {
-        build_spline(in, &rig->drives[view->drive]);
-        build_facts(in);
-    }
-    build_floor(in, rig);
-    build_looks(in);
-    inspector_overlays(in);
-    inspector_brush(in);
-}
-
-static void spline_popup(struct inspection *in, const struct drive *drive)
-{
-    struct drive next = *drive;
-    next.spline = inspector_spline_list(in, spline_list, NULL, drive->spline);
-    if (next.spline < 0 || !core_begin(in->core, in->world, "Set spline", 0)) return;
-    if (core_end(in->core, in->world, set_drive(in, &next, &in->core->error))) choose(in, in->core->characters.drive);
-}
-
-void inspector_character_lists(struct inspection *in)
-{
-    const struct character_view *view = &in->core->characters;
-    const struct character_rig *rig = document_character(in->document, view->character);
-    if (!rig) return;
-    if (ui_popup_is_open(in->ui, spline_list) && view->drive < rig->drive_count) {
-        spline_popup(in, &rig->drives[view->drive]);
-    } else if (ui_popup_is_open(in->ui, add_list)) {
-        struct ui_item items[MAX_ITEMS];
-        const int picked = ui_popup_list(in->ui, add_list, items, free_coordinates(in, rig, items), -1);
-        if (picked < 0) return;
-        const int spline = in->core->active >= 0 ? in->core->active : 0;
-        const struct drive drive = {.spline = spline, .amplitude = DRIVE_DEFAULT_AMPLITUDE};
-        const int owner = characters_rig(in->core, in->world);
-        if (core_begin(in->core, in->world, "Add coordinate", 0))
-            core_end(in->core, in->world,
-                     edit_drive_add(in->document, owner, items[picked].name, &drive, &in->core->error));
-    }
-}
-
 /// Modes of one kind side by side; none is marked where the brush is set to another kind.
 static void build_modes(struct inspection *in, const char *name, const char *hint, enum brush_mode first,
                         const struct ui_choice *choices, int count)
@@ -306,7 +254,8 @@ static const struct number_row brush_rows[] = {
      .step = 1},
 };
 
-void inspector_brush(struct inspection *in)
+/// The rows on the brush, below "Character".
+static void build_brush(struct inspection *in)
 {
     static const struct ui_choice switches[] = {{"off", "Off"}, {"on", "Brush"}};
     static const struct ui_choice phase[] = {{"advance", "Advance"}, {"delay", "Delay"}, {"smooth", "Smooth"}};
@@ -330,4 +279,56 @@ void inspector_brush(struct inspection *in)
     r = ui_row(in->ui, UI_ROW);
     ui_hint(in->ui, r, "Back to what the model says, everywhere");
     if (ui_button(in->ui, r, "paint.clean", "Remove all paint", false)) characters_clean_paint(in->core, in->world);
+}
+
+void inspector_character(struct inspection *in)
+{
+    struct character_view *view = &in->core->characters;
+    if (!document_character(in->document, view->character)) view->character = 0;
+    const struct character_rig *rig = document_character(in->document, view->character);
+    struct ui_item items[MAX_ITEMS];
+    if (view->drive >= rig->drive_count) view->drive = 0;
+    build_drives(in, rig);
+    if (free_coordinates(in, rig, items) > 0 && in->document->spline_count > 0) {
+        const struct rect r = ui_row(in->ui, UI_ROW);
+        ui_hint(in->ui, r, "One more way for it to swing, by the active spline");
+        ui_dropdown(in->ui, r, add_list, 0, "Add a coordinate", 0);
+    }
+    ui_space(in->ui, 4);
+    if (view->drive < rig->drive_count) {
+        build_spline(in, &rig->drives[view->drive]);
+        build_facts(in);
+    }
+    build_floor(in, rig);
+    build_looks(in);
+    inspector_overlays(in);
+    build_brush(in);
+}
+
+static void spline_popup(struct inspection *in, const struct drive *drive)
+{
+    struct drive next = *drive;
+    next.spline = inspector_spline_list(in, spline_list, NULL, drive->spline);
+    if (next.spline < 0 || !core_begin(in->core, in->world, "Set spline", 0)) return;
+    if (core_end(in->core, in->world, set_drive(in, &next, &in->core->error))) choose(in, in->core->characters.drive);
+}
+
+void inspector_character_lists(struct inspection *in)
+{
+    const struct character_view *view = &in->core->characters;
+    const struct character_rig *rig = document_character(in->document, view->character);
+    if (!rig) return;
+    if (ui_popup_is_open(in->ui, spline_list) && view->drive < rig->drive_count) {
+        spline_popup(in, &rig->drives[view->drive]);
+    } else if (ui_popup_is_open(in->ui, add_list)) {
+        struct ui_item items[MAX_ITEMS];
+        const int picked = ui_popup_list(in->ui, add_list, items, free_coordinates(in, rig, items), -1);
+        if (picked < 0) return;
+        const int spline = in->core->active >= 0 ? in->core->active : 0;
+        const struct drive drive = {.spline = spline, .amplitude = DRIVE_DEFAULT_AMPLITUDE};
+        const int owner = characters_rig(in->core, in->world);
+        if (core_begin(in->core, in->world, "Add coordinate", 0))
+            core_end(in->core, in->world,
+                     edit_drive_add(in->document, owner, items[picked].name, &drive, &in->core->error));
+    }
 }

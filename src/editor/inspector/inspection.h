@@ -46,9 +46,6 @@ void inspector_parameter(struct inspection *in, enum parameter parameter);
 const struct channel *inspector_felt_channel(const struct inspection *in);
 void inspector_felt_drive(struct inspection *in);
 
-/// The rows on the brush, below "Character".
-void inspector_brush(struct inspection *in);
-
 /// The lists that open over the panel, built after all else: the splines' palette, and the splines that a parameter may follow.
 void inspector_palette(struct inspection *in);
 void inspector_track_list(struct inspection *in);
@@ -57,20 +54,7 @@ void inspector_tail_lists(struct inspection *in);
 
 /// The menu of what can be added.
 void inspector_add_list(struct inspection *in);
-/// Shows a rig, with what it feels like.
-void inspector_choose_rig(struct inspection *in, int rig);
 
-/// A row in which a parameter follows a spline, in place of its slider; and the button at its right that lets it follow one
-/// or lets go.
-void inspector_track(struct inspection *in, enum parameter parameter, const char *label, struct rect r);
-void inspector_track_button(struct inspection *in, enum parameter parameter, struct rect r);
-/// Below the row of an equilibrium that follows a joint: what of it, how much; and the list of joints to choose from.
-void inspector_joint(struct inspection *in);
-void inspector_joint_list(struct inspection *in);
-/// The joint, in the field where the spline would be that is followed.
-void inspector_joint_field(struct inspection *in, const struct joint_motion *motion, struct rect field);
-/// The lists of the bones that a chain can begin and end with.
-void inspector_chain_lists(struct inspection *in);
 /// An open list of the bones of a model rig below one (−1: all), by name; the node that was picked, or −1.
 int inspector_bone_list(struct inspection *in, const char *list, int model, int top, const char *chosen);
 /// The list of an imported character's clips.
@@ -140,8 +124,6 @@ void inspector_overlays(struct inspection *in);
 void inspector_find_rig(struct inspection *in);
 /// The tail or chain that is shown; NULL where there is none.
 const struct rig *inspector_shown(const struct inspection *in);
-/// What a chain is made of, its place in the list of chains aside; and the buttons that make its twin and take it away.
-void inspector_chain(struct inspection *in);
 
 /// One of a tail's three angles, as a slider shows it.
 struct angle_row {
@@ -155,22 +137,7 @@ extern const struct angle_row angle_row_lag, angle_row_gain, angle_row_rest;
 /// Rows for the angles of the tail or channel that the inspector shows.
 void inspector_angles(struct inspection *in, const struct angle_row *row, const struct angles *angles);
 
-/// What its numbers are in: the gain of what moves the body may be in percent.
-const char *inspector_angle_unit(const struct inspection *in, const struct angle_row *row);
 /// An edit: replaces them.
 bool inspector_set_angles(struct inspection *in, const struct angle_row *row, const struct angles *angles);
-/// Below the row of angles of each joint: their curve, and the number of one.
-void inspector_each(struct inspection *in, const struct angle_row *row, const struct angles *angles);
-/// Below the row of a ramp: its curve.
-void inspector_ramp(struct inspection *in, const struct angle_row *row, const struct angles *angles);
-/// A ramp of two points from the first joint's angle to the last one's.
-struct angles inspector_as_ramp(const struct angles *angles, enum angle_kind kind, int joints);
-
-/// Its channels: the list; and what the chosen one is made of.
-void inspector_channels(struct inspection *in);
-void inspector_channel(struct inspection *in);
-
-/// The list of splines that the channel can bend by, and of what it can move, where one is open.
-void inspector_channel_lists(struct inspection *in);
 
 #endif

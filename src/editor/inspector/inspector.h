@@ -20,7 +20,6 @@ void inspector_show_spline(struct inspector *inspector, struct core *core, const
                            int spline);
 /// A: the menu of what can be added, at the pointer over stage and curves, else on top of the inspector. And on something of the inspector.
 void inspector_add_menu(struct inspector *inspector, const struct core *core);
-void inspector_open_add(struct inspector *inspector, struct rect at);
 /// Shift+Del: asks whether to remove the rig that is shown, which is that of the active spline.
 void inspector_remove_rig(const struct inspector *inspector, struct core *core, const struct editor_world *world);
 /// What the pointer is over.

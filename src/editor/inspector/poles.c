@@ -20,7 +20,8 @@ static bool same_setting(const struct pole_setting *a, const struct pole_setting
            a->step == b->step;
 }
 
-void poles_update(struct poles_view *view, const struct pole_setting *setting)
+/// Brings the responses up to date with a setting whose frequency is above 0.
+static void poles_update(struct poles_view *view, const struct pole_setting *setting)
 {
     if (same_setting(&view->setting, setting)) return;
     view->setting = *setting;
@@ -36,7 +37,8 @@ void poles_update(struct poles_view *view, const struct pole_setting *setting)
     }
 }
 
-void poles_fit(struct poles_view *view, const struct pole_setting *setting)
+/// Chooses the inset's scale for a setting.
+static void poles_fit(struct poles_view *view, const struct pole_setting *setting)
 {
     static const double nice[] = {1, 1.5, 2, 3, 4, 6, 8, 10};
     double wanted = fmax(0.05, 1.3 * setting->hz * (1 + setting->bandwidth)), decade = pow(10, floor(log10(wanted)));
@@ -46,22 +48,23 @@ void poles_fit(struct poles_view *view, const struct pole_setting *setting)
     view->top = setting->damping > 1 ? 3 : 1;
 }
 
-float poles_x(const struct poles_view *view, struct rect inset, double hz)
+static float poles_x(const struct poles_view *view, struct rect inset, double hz)
 {
     return inset.x + inset.w * (float)(hz / view->reach);
 }
 
-float poles_y(const struct poles_view *view, struct rect inset, double damping)
+static float poles_y(const struct poles_view *view, struct rect inset, double damping)
 {
     return inset.y + inset.h * (1 - (float)sqrt(fmin(1, damping / view->top)));
 }
 
-double poles_hz(const struct poles_view *view, struct rect inset, float x)
+static double poles_hz(const struct poles_view *view, struct rect inset, float x)
 {
     return fmax(0, (x - inset.x) / inset.w) * view->reach;
 }
 
-double poles_damping(const struct poles_view *view, struct rect inset, float y)
+/// Where a frequency and a damping ratio are in the inset, and back. Damping is spread near 0, where it matters.
+static double poles_damping(const struct poles_view *view, struct rect inset, float y)
 {
     double part = fmax(0, fmin(1, 1 - (y - inset.y) / inset.h));
     return part * part * view->top;
@@ -80,7 +83,8 @@ static void draw_straight(struct drawlist *list, float x0, float y0, float x1, f
     drawlist_line(list, xy, 2, 1, color);
 }
 
-void poles_draw_circle(const struct pole_setting *setting, struct rect r, struct drawlist *list)
+/// The unit circle, true to scale, with the filter's poles.
+static void poles_draw_circle(const struct pole_setting *setting, struct rect r, struct drawlist *list)
 {
     enum { POINTS = 65 };
     float radius = fminf(r.w, r.h) / 2 - 6, cx = r.x + r.w / 2, cy = r.y + r.h / 2, circle[POINTS][2];
@@ -106,7 +110,8 @@ static uint32_t filter_color(const struct poles_view *view, enum filter_kind kin
     return view->setting.kind == kind ? theme()->accent : theme()->spline[spare[kind]];
 }
 
-void poles_draw_legend(const struct poles_view *view, struct rect r, struct drawlist *list)
+/// Name, response at zero frequency and width of the three filters.
+static void poles_draw_legend(const struct poles_view *view, struct rect r, struct drawlist *list)
 {
     static const enum filter_kind order[FILTER_KINDS] = {FILTER_TWO_COMPLEX, FILTER_TWO_REAL, FILTER_FOUR_REAL};
     const float row = 33;
@@ -137,8 +142,8 @@ static void draw_below(struct drawlist *list, struct rect r, float x, float y, c
     draw_number(list, fmaxf(r.x, fminf(r.x + r.w - width, x - width / 2)), y, text);
 }
 
-void poles_draw_inset(const struct poles_view *view, const struct pole_setting *setting, struct rect r,
-                      struct drawlist *list)
+static void poles_draw_inset(const struct poles_view *view, const struct pole_setting *setting, struct rect r,
+                             struct drawlist *list)
 {
     static const double dampings[] = {0, 0.05, 0.2, 0.5, 1, 2};
     char text[32];
@@ -181,7 +186,8 @@ static void draw_curve(const struct poles_view *view, enum filter_kind kind, str
     drawlist_line(list, xy[0], POLES_COLUMNS, own ? 2 : 1.25f, theme_fade(filter_color(view, kind), own ? 1 : 0.7f));
 }
 
-void poles_draw_response(const struct poles_view *view, struct rect r, struct drawlist *list)
+/// The inset's scales and poles, without the handles.
+static void poles_draw_response(const struct poles_view *view, struct rect r, struct drawlist *list)
 {
     struct rect plot = {r.x + margin_left, r.y + 4, r.w - margin_left, r.h - margin_bottom - 4};
     char text[32];

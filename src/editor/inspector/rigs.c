@@ -84,7 +84,8 @@ void inspector_show_spline(struct inspector *inspector, struct core *core, const
     if (document->rigs[found]->kind == RIG_CHARACTER) core->characters.drive = input;
 }
 
-void inspector_choose_rig(struct inspection *in, int rig)
+/// Shows a rig, with what it feels like.
+static void choose_rig(struct inspection *in, int rig)
 {
     static const char *const sections[] = {[RIG_TAIL] = "section.tail",
                                            [RIG_CHAIN] = "section.tail",
@@ -101,7 +102,7 @@ void inspector_choose_rig(struct inspection *in, int rig)
 void inspector_show_rig(struct inspector *inspector, struct core *core, const struct editor_world *world, int rig)
 {
     struct inspection in = {core, inspector, world, world->document, &inspector->ui};
-    inspector_choose_rig(&in, rig);
+    choose_rig(&in, rig);
 }
 
 static void build_row(struct inspection *in, int rig)
@@ -113,7 +114,17 @@ static void build_row(struct inspection *in, int rig)
     snprintf(text, sizeof text, "%.100s, %s", path_name(rig_title(shown)), rig_word(shown->kind));
     const uint32_t color = rig_input_count(shown) > 0 ? spline_list_color(in->document, rig_input(shown, 0)) : 0;
     ui_hint(in->ui, r, "Show what it is made of, and what moves it");
-    if (ui_list_row(in->ui, r, name, text, color, rig == in->inspector->selected)) inspector_choose_rig(in, rig);
+    if (ui_list_row(in->ui, r, name, text, color, rig == in->inspector->selected)) choose_rig(in, rig);
+}
+
+enum { MAX_COPIES = 4, MAX_ITEMS = 5 + MAX_COPIES, LABEL = 96, WIDTH = 244 };
+
+static const char add_list[] = "add";
+
+static void open_add(struct inspector *inspector, struct rect at)
+{
+    at.w = WIDTH;
+    ui_popup_open(&inspector->ui, add_list, 0, at);
 }
 
 static void build_buttons(struct inspection *in)
@@ -123,12 +134,12 @@ static void build_buttons(struct inspection *in)
     const bool any = in->document->rig_count > 0;
     const int rig = in->inspector->selected;
     if (ui_icon_button(in->ui, icon, "rig.add", UI_ICON_ADD, false, "Add a tail, a character, a chain … (A)"))
-        inspector_open_add(in->inspector, icon);
+        open_add(in->inspector, icon);
     icon.x += ICON + 6;
     if (any && ui_icon_button(in->ui, icon, "rig.copy", UI_ICON_COPY, false, "One more like it, beside it")) {
         const int before = in->document->rig_count;
         rigs_copy(in->core, in->world, rig);
-        if (in->document->rig_count > before) inspector_choose_rig(in, before);
+        if (in->document->rig_count > before) choose_rig(in, before);
         return;
     }
     icon.x += ICON + 6;
@@ -155,10 +166,6 @@ void inspector_rigs(struct inspection *in)
     }
     build_buttons(in);
 }
-
-enum { MAX_COPIES = 4, MAX_ITEMS = 5 + MAX_COPIES, LABEL = 96, WIDTH = 244 };
-
-static const char add_list[] = "add";
 
 /// A row of the menu.
 struct choice {
@@ -228,7 +235,7 @@ static void carry_out(struct inspection *in, struct choice choice)
         spline_list_add(in->core, in->world);
         break;
     }
-    if (in->document->rig_count > before) inspector_choose_rig(in, before);
+    if (in->document->rig_count > before) choose_rig(in, before);
 }
 
 void inspector_add_list(struct inspection *in)
@@ -240,20 +247,13 @@ void inspector_add_list(struct inspection *in)
     if (picked >= 0) carry_out(in, menu.choices[picked]);
 }
 
-void inspector_open_add(struct inspector *inspector, struct rect at)
-{
-    at.w = WIDTH;
-    ui_popup_open(&inspector->ui, add_list, 0, at);
-}
-
 void inspector_add_menu(struct inspector *inspector, const struct core *core)
 {
     const struct layout *layout = &core->layout;
     const float x = core->pointer_x, y = core->pointer_y;
     const bool beside = rect_contains(layout->stage, x, y) || rect_contains(layout->curves, x, y);
     const struct rect panel = layout->inspector;
-    inspector_open_add(inspector,
-                       beside ? (struct rect){x, y, 0, 0} : (struct rect){panel.x + UI_PAD, panel.y, 0, 4});
+    open_add(inspector, beside ? (struct rect){x, y, 0, 0} : (struct rect){panel.x + UI_PAD, panel.y, 0, 4});
     if (beside) inspector->ui.popup.room = (struct rect){0, 0, panel.x, layout->status.y};
     inspector->ui.focus = ui_id("item.tail");
 }

@@ -45,6 +45,166 @@ static void build_slider(struct inspection *in, enum parameter parameter, struct
     inspector_number(in, &number, &home, (int)parameter, r);
 }
 
+static const char track_list[] = "follow";
+
+enum { ICON = 24, MAX_BONES = 1024 }; ///< in a list
+
+static const char joint_list[] = "joint";
+
+/// The joint, in the field where the spline would be that is followed.
+static void build_joint_field(struct inspection *in, const struct joint_motion *motion, struct rect field)
+{
+    struct rect icon = {field.x + field.w - ICON, field.y, ICON, field.h};
+    const int active = in->core->active;
+    const int model = document_find_model(in->document, motion->model, motion->by_file);
+    char title[BONES_TITLE];
+    const char *text = model < 0 ? motion->joint : bones_title(in->document, model, motion->joint, title);
+    field.w -= ICON + 4;
+    ui_hint(in->ui, field, "The joint it follows through the clip");
+    ui_dropdown(in->ui, field, joint_list, 0, text, 0);
+    const bool picking = in->core->pick.use == BONE_FOLLOWED && in->core->pick.which == active;
+    if (ui_icon_button(in->ui, icon, "joint.pick", UI_ICON_PICK, picking, "Pick it on the stage"))
+        bones_pick(in->core, picking ? BONE_SELECTED : BONE_FOLLOWED, active);
+}
+
+static void build_track(struct inspection *in, enum parameter parameter, const char *label, struct rect r)
+{
+    const struct spline *spline = in->document->splines[in->core->active];
+    const struct param *param = &spline->parameter[parameter];
+    ui_label(in->ui, (struct rect){r.x, r.y, UI_LABEL, r.h}, label, theme()->text_dim);
+    struct rect field = {r.x + UI_LABEL + UI_GAP, r.y, r.w - UI_LABEL - UI_GAP, r.h};
+    if (param->motion) {
+        build_joint_field(in, param->motion, field);
+        return;
+    }
+    ui_hint(in->ui, field, "The spline it follows, sample by sample");
+    ui_dropdown(in->ui, field, track_list, (int)parameter, in->document->splines[param->track]->name,
+                spline_list_color(in->document, param->track));
+}
+
+static void set_track(struct inspection *in, enum parameter parameter, struct param param)
+{
+    const char *label = param_follows(&param) ? "Follow spline" : "Stop following";
+    if (!core_begin(in->core, in->world, label, 0)) return;
+    core_end(in->core, in->world,
+             edit_parameter(in->document, in->core->active, parameter, &param, &in->core->error));
+}
+
+/// Marks the splines that the active one cannot follow without a cycle; whether any is left.
+static bool find_leaders(const struct inspection *in, bool left_out[INSPECTOR_MAX_SPLINES])
+{
+    int count =
+        in->document->spline_count < INSPECTOR_MAX_SPLINES ? in->document->spline_count : INSPECTOR_MAX_SPLINES;
+    bool any = false;
+    scene_followers(in->document, in->core->active, left_out, count);
+    for (int s = 0; s < count; s++) any |= !left_out[s];
+    return any;
+}
+
+static void open_list(struct inspection *in, enum parameter parameter, struct rect r)
+{
+    bool left_out[INSPECTOR_MAX_SPLINES];
+    const bool joints = parameter == PARAMETER_EQUILIBRIUM && document_find_rig(in->document, RIG_MODEL, 0) >= 0;
+    if (find_leaders(in, left_out) || joints) {
+        ui_popup_open(in->ui, track_list, (int)parameter, r);
+        return;
+    }
+    char text[160];
+    snprintf(text, sizeof text, "There is no other spline for %.80s to follow.",
+             in->document->splines[in->core->active]->name);
+    core_message(in->core, true, text);
+}
+
+/// A row in which a parameter follows a spline, in place of its slider; and the button at its right that lets it follow one
+/// or lets go.
+static void build_track_button(struct inspection *in, enum parameter parameter, struct rect r)
+{
+    int active = in->core->active;
+    bool follows = param_follows(&in->document->splines[active]->parameter[parameter]);
+    enum ui_icon icon = follows ? UI_ICON_UNFOLLOW : UI_ICON_FOLLOW;
+    const bool joints = parameter == PARAMETER_EQUILIBRIUM && document_find_rig(in->document, RIG_MODEL, 0) >= 0;
+    const char *hint = follows  ? "Stop following; keep the value at the playhead"
+                       : joints ? "Follow another spline, or a joint of the character"
+                                : "Follow another spline";
+    char name[64];
+    snprintf(name, sizeof name, "follow.%s", parameter_rows[parameter].name);
+    if (!ui_icon_button(in->ui, r, name, icon, false, hint)) return;
+    if (follows) {
+        double value = spline_list_present(in->core, in->world, active, parameter);
+        set_track(in, parameter, param_number(value));
+    } else {
+        struct rect row = {in->ui->area.x + UI_PAD + UI_LABEL + UI_GAP, r.y, 0, r.h};
+        row.w = r.x - 2 - row.x;
+        open_list(in, parameter, row);
+    }
+}
+
+/// What the active spline's equilibrium follows.
+static const struct param *followed(const struct inspection *in)
+{
+    const struct spline *spline = core_active_spline(in->core, in->world);
+    return spline ? &spline->parameter[PARAMETER_EQUILIBRIUM] : NULL;
+}
+
+/// An edit: follows a joint like this.
+static bool follow_joint(struct inspection *in, const struct param *param, struct error *error)
+{
+    return edit_parameter(in->document, in->core->active, PARAMETER_EQUILIBRIUM, param, error);
+}
+
+static void build_of(struct inspection *in)
+{
+    static const struct ui_choice choices[] = {
+        [MOTION_TURN] = {"turn", "Turn"}, [MOTION_ACROSS] = {"across", "Across"}, [MOTION_UP] = {"up", "Up"}};
+    struct joint_motion motion = *followed(in)->motion;
+    int of = (int)motion.of;
+    struct rect r = inspector_labelled(in, "its");
+    ui_hint(in->ui, r, "Its turn in degrees, or its way across or up in metres");
+    if (!ui_segments(in->ui, r, "joint.of", choices, MOTION_KINDS, &of)) return;
+    struct param param = *followed(in);
+    motion.of = (enum motion_of)of;
+    param.motion = &motion;
+    if (core_begin(in->core, in->world, "Set joint's motion", 0))
+        core_end(in->core, in->world, follow_joint(in, &param, &in->core->error));
+}
+
+static double get_gain(const struct inspection *in, int which)
+{
+    (void)which;
+    return followed(in)->gain;
+}
+
+static bool set_gain(struct inspection *in, int which, double gain, struct error *error)
+{
+    struct joint_motion motion = *followed(in)->motion;
+    struct param param = *followed(in);
+    (void)which;
+    param.gain = gain;
+    param.motion = &motion;
+    return follow_joint(in, &param, error);
+}
+
+static const struct number_row gain_row = {"joint.gain",
+                                           "times",
+                                           NULL,
+                                           "How much of the joint's motion it follows",
+                                           "Set joint's gain",
+                                           NUMBER_AT(struct param, gain),
+                                           0,
+                                           0,
+                                           -1e6,
+                                           1e6,
+                                           1,
+                                           0.01,
+                                           2};
+
+static void build_joint(struct inspection *in)
+{
+    if (followed(in)->motion) build_of(in);
+    static const struct number_home home = {.get = get_gain, .set = set_gain};
+    if (followed(in)->motion) inspector_numbers(in, &gain_row, 1, &home);
+}
+
 static void build_number(struct inspection *in, enum parameter parameter)
 {
     const struct spline *spline = core_active_spline(in->core, in->world);
@@ -54,11 +214,11 @@ static void build_number(struct inspection *in, enum parameter parameter)
     if (!param_follows(&spline->parameter[parameter])) {
         build_slider(in, parameter, r);
     } else {
-        inspector_track(in, parameter, parameter_rows[parameter].name, r);
+        build_track(in, parameter, parameter_rows[parameter].name, r);
     }
     struct rect button = {r.x + r.w + 2, r.y, UI_ROW, UI_ROW};
-    if (may_follow) inspector_track_button(in, parameter, button);
-    if (spline->parameter[parameter].motion) inspector_joint(in);
+    if (may_follow) build_track_button(in, parameter, button);
+    if (spline->parameter[parameter].motion) build_joint(in);
 }
 
 static void build_choice(struct inspection *in, enum parameter parameter)
@@ -163,78 +323,6 @@ void inspector_variation(struct inspection *in)
 
 enum { MAX_MODELS = 16, MODEL_TEXT = 112 }; ///< whose joints are offered
 
-static const char track_list[] = "follow";
-
-/// Marks the splines that the active one cannot follow without a cycle; whether any is left.
-static bool find_leaders(const struct inspection *in, bool left_out[INSPECTOR_MAX_SPLINES])
-{
-    int count =
-        in->document->spline_count < INSPECTOR_MAX_SPLINES ? in->document->spline_count : INSPECTOR_MAX_SPLINES;
-    bool any = false;
-    scene_followers(in->document, in->core->active, left_out, count);
-    for (int s = 0; s < count; s++) any |= !left_out[s];
-    return any;
-}
-
-static void set_track(struct inspection *in, enum parameter parameter, struct param param)
-{
-    const char *label = param_follows(&param) ? "Follow spline" : "Stop following";
-    if (!core_begin(in->core, in->world, label, 0)) return;
-    core_end(in->core, in->world,
-             edit_parameter(in->document, in->core->active, parameter, &param, &in->core->error));
-}
-
-static void open_list(struct inspection *in, enum parameter parameter, struct rect r)
-{
-    bool left_out[INSPECTOR_MAX_SPLINES];
-    const bool joints = parameter == PARAMETER_EQUILIBRIUM && document_find_rig(in->document, RIG_MODEL, 0) >= 0;
-    if (find_leaders(in, left_out) || joints) {
-        ui_popup_open(in->ui, track_list, (int)parameter, r);
-        return;
-    }
-    char text[160];
-    snprintf(text, sizeof text, "There is no other spline for %.80s to follow.",
-             in->document->splines[in->core->active]->name);
-    core_message(in->core, true, text);
-}
-
-void inspector_track(struct inspection *in, enum parameter parameter, const char *label, struct rect r)
-{
-    const struct spline *spline = in->document->splines[in->core->active];
-    const struct param *param = &spline->parameter[parameter];
-    ui_label(in->ui, (struct rect){r.x, r.y, UI_LABEL, r.h}, label, theme()->text_dim);
-    struct rect field = {r.x + UI_LABEL + UI_GAP, r.y, r.w - UI_LABEL - UI_GAP, r.h};
-    if (param->motion) {
-        inspector_joint_field(in, param->motion, field);
-        return;
-    }
-    ui_hint(in->ui, field, "The spline it follows, sample by sample");
-    ui_dropdown(in->ui, field, track_list, (int)parameter, in->document->splines[param->track]->name,
-                spline_list_color(in->document, param->track));
-}
-
-void inspector_track_button(struct inspection *in, enum parameter parameter, struct rect r)
-{
-    int active = in->core->active;
-    bool follows = param_follows(&in->document->splines[active]->parameter[parameter]);
-    enum ui_icon icon = follows ? UI_ICON_UNFOLLOW : UI_ICON_FOLLOW;
-    const bool joints = parameter == PARAMETER_EQUILIBRIUM && document_find_rig(in->document, RIG_MODEL, 0) >= 0;
-    const char *hint = follows  ? "Stop following; keep the value at the playhead"
-                       : joints ? "Follow another spline, or a joint of the character"
-                                : "Follow another spline";
-    char name[64];
-    snprintf(name, sizeof name, "follow.%s", parameter_rows[parameter].name);
-    if (!ui_icon_button(in->ui, r, name, icon, false, hint)) return;
-    if (follows) {
-        double value = spline_list_present(in->core, in->world, active, parameter);
-        set_track(in, parameter, param_number(value));
-    } else {
-        struct rect row = {in->ui->area.x + UI_PAD + UI_LABEL + UI_GAP, r.y, 0, r.h};
-        row.w = r.x - 2 - row.x;
-        open_list(in, parameter, row);
-    }
-}
-
 /// The character whose joint the equilibrium is to follow: rows below the splines, called after their rigs. Returns how many.
 static int add_models(const struct inspection *in, struct ui_item *items, char texts[][MODEL_TEXT], int *models)
 {
@@ -249,11 +337,22 @@ static int add_models(const struct inspection *in, struct ui_item *items, char t
     return count;
 }
 
+/// Below the row of an equilibrium that follows a joint: what of it, how much; and the list of joints to choose from.
+static void build_joint_list(struct inspection *in)
+{
+    const struct param *param = followed(in);
+    if (!ui_popup_is_open(in->ui, joint_list) || !param || !param->motion) return;
+    const int model = document_find_model(in->document, param->motion->model, param->motion->by_file);
+    if (model < 0 || !bones_character(in->world, model)) return;
+    const int node = inspector_bone_list(in, joint_list, model, -1, param->motion->joint);
+    if (node >= 0) bones_follow(in->core, in->world, in->core->active, model, node);
+}
+
 void inspector_track_list(struct inspection *in)
 {
     struct ui *ui = in->ui;
     const struct spline *spline = core_active_spline(in->core, in->world);
-    inspector_joint_list(in);
+    build_joint_list(in);
     if (!ui_popup_is_open(ui, track_list) || !spline) return;
     enum parameter parameter = (enum parameter)ui->popup.which;
     bool left_out[INSPECTOR_MAX_SPLINES];
@@ -271,91 +370,6 @@ void inspector_track_list(struct inspection *in)
     }
 }
 
-enum { ICON = 24, MAX_BONES = 1024 }; ///< in a list
-
-static const char joint_list[] = "joint";
-
-/// What the active spline's equilibrium follows.
-static const struct param *followed(const struct inspection *in)
-{
-    const struct spline *spline = core_active_spline(in->core, in->world);
-    return spline ? &spline->parameter[PARAMETER_EQUILIBRIUM] : NULL;
-}
-
-/// An edit: follows a joint like this.
-static bool follow_joint(struct inspection *in, const struct param *param, struct error *error)
-{
-    return edit_parameter(in->document, in->core->active, PARAMETER_EQUILIBRIUM, param, error);
-}
-
-void inspector_joint_field(struct inspection *in, const struct joint_motion *motion, struct rect field)
-{
-    struct rect icon = {field.x + field.w - ICON, field.y, ICON, field.h};
-    const int active = in->core->active;
-    const int model = document_find_model(in->document, motion->model, motion->by_file);
-    char title[BONES_TITLE];
-    const char *text = model < 0 ? motion->joint : bones_title(in->document, model, motion->joint, title);
-    field.w -= ICON + 4;
-    ui_hint(in->ui, field, "The joint it follows through the clip");
-    ui_dropdown(in->ui, field, joint_list, 0, text, 0);
-    const bool picking = in->core->pick.use == BONE_FOLLOWED && in->core->pick.which == active;
-    if (ui_icon_button(in->ui, icon, "joint.pick", UI_ICON_PICK, picking, "Pick it on the stage"))
-        bones_pick(in->core, picking ? BONE_SELECTED : BONE_FOLLOWED, active);
-}
-
-static void build_of(struct inspection *in)
-{
-    static const struct ui_choice choices[] = {
-        [MOTION_TURN] = {"turn", "Turn"}, [MOTION_ACROSS] = {"across", "Across"}, [MOTION_UP] = {"up", "Up"}};
-    struct joint_motion motion = *followed(in)->motion;
-    int of = (int)motion.of;
-    struct rect r = inspector_labelled(in, "its");
-    ui_hint(in->ui, r, "Its turn in degrees, or its way across or up in metres");
-    if (!ui_segments(in->ui, r, "joint.of", choices, MOTION_KINDS, &of)) return;
-    struct param param = *followed(in);
-    motion.of = (enum motion_of)of;
-    param.motion = &motion;
-    if (core_begin(in->core, in->world, "Set joint's motion", 0))
-        core_end(in->core, in->world, follow_joint(in, &param, &in->core->error));
-}
-
-static double get_gain(const struct inspection *in, int which)
-{
-    (void)which;
-    return followed(in)->gain;
-}
-
-static bool set_gain(struct inspection *in, int which, double gain, struct error *error)
-{
-    struct joint_motion motion = *followed(in)->motion;
-    struct param param = *followed(in);
-    (void)which;
-    param.gain = gain;
-    param.motion = &motion;
-    return follow_joint(in, &param, error);
-}
-
-static const struct number_row gain_row = {"joint.gain",
-                                           "times",
-                                           NULL,
-                                           "How much of the joint's motion it follows",
-                                           "Set joint's gain",
-                                           NUMBER_AT(struct param, gain),
-                                           0,
-                                           0,
-                                           -1e6,
-                                           1e6,
-                                           1,
-                                           0.01,
-                                           2};
-
-void inspector_joint(struct inspection *in)
-{
-    if (followed(in)->motion) build_of(in);
-    static const struct number_home home = {.get = get_gain, .set = set_gain};
-    if (followed(in)->motion) inspector_numbers(in, &gain_row, 1, &home);
-}
-
 int inspector_bone_list(struct inspection *in, const char *list, int model, int top, const char *chosen)
 {
     const struct imported *character = bones_character(in->world, model);
@@ -369,14 +383,4 @@ int inspector_bone_list(struct inspection *in, const char *list, int model, int 
     }
     const int picked = ui_popup_list(in->ui, list, items, count, row);
     return picked < 0 ? -1 : nodes[picked];
-}
-
-void inspector_joint_list(struct inspection *in)
-{
-    const struct param *param = followed(in);
-    if (!ui_popup_is_open(in->ui, joint_list) || !param || !param->motion) return;
-    const int model = document_find_model(in->document, param->motion->model, param->motion->by_file);
-    if (model < 0 || !bones_character(in->world, model)) return;
-    const int node = inspector_bone_list(in, joint_list, model, -1, param->motion->joint);
-    if (node >= 0) bones_follow(in->core, in->world, in->core->active, model, node);
 }

@@ -6,6 +6,17 @@
 #include <math.h>
 #include <stdio.h>
 
+/// What a channel can do to a tail and its body, in the order of its list.
+static const struct {
+    enum axis axis;
+    struct ui_item item;
+} tail_axes[] = {
+    {AXIS_SIDE, {"side", "sideways", 0}},        {AXIS_UP, {"up", "up and down", 0}},
+    {AXIS_LOOK, {"look", "turns the head", 0}},  {AXIS_NOD, {"nod", "lifts the head", 0}},
+    {AXIS_EARS, {"ears", "lays ears back", 0}},  {AXIS_BREATH, {"breath", "widens the chest", 0}},
+    {AXIS_STRETCH, {"stretch", "stretches", 0}}, {AXIS_BLINK, {"blink", "closes the lids", 0}},
+};
+
 enum { ICON = 24 };
 
 static const char rename_line[] = "tail.rename", place_list[] = "place";
@@ -86,10 +97,100 @@ static void place_popup(struct inspection *in)
     if (picked >= 0) follow(in, k, param_track(picked));
 }
 
+static const char feed_list[] = "feed", axis_list[] = "axis";
+
+static struct channel_place place_of(const struct inspection *in)
+{
+    return (struct channel_place){in->inspector->rig, in->inspector->channel};
+}
+
+/// The channel that is chosen of the tail or chain; NULL where it has none.
+static const struct channel *chosen_channel(const struct inspection *in)
+{
+    int count = 0;
+    const struct rig *rig = inspector_shown(in);
+    const struct channel *channels = rig ? rig_channels(rig, &count) : NULL;
+    return in->inspector->channel < count ? &channels[in->inspector->channel] : NULL;
+}
+
+/// Shows a channel, and what it feels like.
+static void choose(struct inspection *in, int channel)
+{
+    in->inspector->channel = channel;
+    core_activate(in->core, in->world, chosen_channel(in)->spline);
+    in->inspector->channel = channel; // of two by the same spline
+}
+
+/// A gain that was never set becomes the new axis's.
+static void set_axis(struct inspection *in, enum axis axis)
+{
+    const struct channel *channel = chosen_channel(in);
+    const struct angles gain = {.value = {axis_gain(axis)}};
+    const bool untouched = channel->gain.form == ANGLES_ONE && channel->gain.value[0] == axis_gain(channel->axis);
+    if (!core_begin(in->core, in->world, "Set axis", 0)) return;
+    const bool done = edit_axis(in->document, place_of(in), axis, &in->core->error);
+    core_end(in->core, in->world, done && (!untouched || inspector_set_angles(in, &angle_row_gain, &gain)));
+}
+
+static void build_axis_list(struct inspection *in, const struct channel *channel)
+{
+    enum { COUNT = sizeof tail_axes / sizeof *tail_axes };
+    struct ui_item items[COUNT];
+    int row = -1;
+    if (!ui_popup_is_open(in->ui, axis_list)) return;
+    for (int a = 0; a < COUNT; a++) {
+        items[a] = tail_axes[a].item;
+        if (tail_axes[a].axis == channel->axis) row = a;
+    }
+    const int picked = ui_popup_list(in->ui, axis_list, items, COUNT, row);
+    if (picked >= 0) set_axis(in, tail_axes[picked].axis);
+}
+
+/// The list of splines that the channel can bend by, and of what it can move, where one is open.
+static void build_channel_lists(struct inspection *in)
+{
+    const struct channel *channel = chosen_channel(in);
+    if (channel) build_axis_list(in, channel);
+    if (!ui_popup_is_open(in->ui, feed_list) || !channel) return;
+    int picked = inspector_spline_list(in, feed_list, NULL, channel->spline);
+    if (picked < 0 || !core_begin(in->core, in->world, "Set channel's spline", 0)) return;
+    const struct channel_place at = place_of(in);
+    if (core_end(in->core, in->world, edit_feed(in->document, at, picked, &in->core->error))) choose(in, at.channel);
+}
+
+/// Where a chain begins and where it ends.
+static const struct end {
+    const char *label, *list, *pick, *hint;
+    enum bone_use use;
+} ends[2] = {
+    {"from", "chain.from", "chain.from.pick", "The bone that it begins with", BONE_FIRST},
+    {"to", "chain.to", "chain.to.pick", "The bone that it ends with", BONE_LAST},
+};
+
+static void end_list(struct inspection *in, const struct end *end, const struct chain *chain)
+{
+    const int model = bones_model_of(in->document, chain);
+    const struct imported *character = model >= 0 ? bones_character(in->world, model) : NULL;
+    if (!ui_popup_is_open(in->ui, end->list) || !character) return;
+    const bool first = end->use == BONE_FIRST;
+    const int top = first ? -1 : gltf_find_node(&character->gltf, chain->from);
+    const int node = inspector_bone_list(in, end->list, model, top, first ? chain->from : chain->to);
+    if (node >= 0) bones_set_end(in->core, in->world, in->inspector->rig, first, node);
+}
+
+/// The lists of the bones that a chain can begin and end with.
+static void build_chain_lists(struct inspection *in)
+{
+    for (int e = 0; e < 2; e++) {
+        const struct rig *rig = inspector_shown(in);
+        if (rig && rig->kind == RIG_CHAIN) end_list(in, &ends[e], &rig->chain);
+    }
+}
+
 void inspector_tail_lists(struct inspection *in)
 {
-    inspector_channel_lists(in);
-    inspector_chain_lists(in);
+    build_channel_lists(in);
+    build_chain_lists(in);
     place_popup(in);
 }
 
@@ -140,80 +241,11 @@ static void build_record(struct inspection *in)
     ui_toggle(in->ui, r, "record", &in->core->record_armed);
 }
 
-/// Buttons among these rows may make another list of channels, and more rigs: each looks what is shown up anew.
-static void build_shown(struct inspection *in)
-{
-    struct inspector *inspector = in->inspector;
-    const bool is_tail = inspector_shown(in)->kind == RIG_TAIL;
-    static const struct number_home home = {.get = get_size, .set = set_size};
-    if (inspector->channel >= rig_input_count(inspector_shown(in))) inspector->channel = 0;
-    inspector_channels(in);
-    if (is_tail) inspector_angles(in, &angle_row_rest, &inspector_shown(in)->tail.rest);
-    inspector_channel(in);
-    ui_space(in->ui, 4);
-    build_name(in);
-    if (!is_tail) {
-        inspector_chain(in);
-        return;
-    }
-    inspector_numbers(in, size, sizeof size / sizeof size[0], &home);
-    for (int k = 0; k < 3; k++) build_coordinate(in, &inspector_shown(in)->tail, k);
-}
-
-void inspector_tail(struct inspection *in)
-{
-    inspector_find_rig(in); // one may just have been removed
-    build_shown(in);
-    build_record(in);
-    inspector_overlays(in);
-}
-
-static const char feed_list[] = "feed", axis_list[] = "axis";
-
-/// What a channel can do to a tail and its body, in the order of its list.
-static const struct {
-    enum axis axis;
-    struct ui_item item;
-} tail_axes[] = {
-    {AXIS_SIDE, {"side", "sideways", 0}},        {AXIS_UP, {"up", "up and down", 0}},
-    {AXIS_LOOK, {"look", "turns the head", 0}},  {AXIS_NOD, {"nod", "lifts the head", 0}},
-    {AXIS_EARS, {"ears", "lays ears back", 0}},  {AXIS_BREATH, {"breath", "widens the chest", 0}},
-    {AXIS_STRETCH, {"stretch", "stretches", 0}}, {AXIS_BLINK, {"blink", "closes the lids", 0}},
-};
-
 static const char *axis_label(enum axis axis)
 {
     size_t a = 0;
     while (a < sizeof tail_axes / sizeof *tail_axes && tail_axes[a].axis != axis) a++;
     return a < sizeof tail_axes / sizeof *tail_axes ? tail_axes[a].item.label : "twist";
-}
-
-static struct channel_place place_of(const struct inspection *in)
-{
-    return (struct channel_place){in->inspector->rig, in->inspector->channel};
-}
-
-/// The channel that is chosen of the tail or chain; NULL where it has none.
-static const struct channel *chosen_channel(const struct inspection *in)
-{
-    int count = 0;
-    const struct rig *rig = inspector_shown(in);
-    const struct channel *channels = rig ? rig_channels(rig, &count) : NULL;
-    return in->inspector->channel < count ? &channels[in->inspector->channel] : NULL;
-}
-
-const struct channel *inspector_felt_channel(const struct inspection *in)
-{
-    const struct channel *channel = chosen_channel(in);
-    return channel && channel->spline == in->core->active ? channel : NULL;
-}
-
-/// Shows a channel, and what it feels like.
-static void choose(struct inspection *in, int channel)
-{
-    in->inspector->channel = channel;
-    core_activate(in->core, in->world, chosen_channel(in)->spline);
-    in->inspector->channel = channel; // of two by the same spline
 }
 
 static void build_list(struct inspection *in)
@@ -237,6 +269,12 @@ static void build_list(struct inspection *in)
     }
 }
 
+static void build_channels(struct inspection *in)
+{
+    build_list(in);
+    ui_space(in->ui, 4);
+}
+
 static void build_buttons(struct inspection *in)
 {
     struct rect r = inspector_labelled(in, "channel"), icon = {r.x - 2, r.y, ICON, r.h};
@@ -253,17 +291,6 @@ static void build_buttons(struct inspection *in)
     if (ui_icon_button(in->ui, icon, "channel.delete", UI_ICON_DELETE, false, "Delete this channel") &&
         core_begin(in->core, in->world, "Delete channel", 0))
         core_end(in->core, in->world, edit_channel_remove(in->document, place_of(in), &in->core->error));
-}
-
-/// A gain that was never set becomes the new axis's.
-static void set_axis(struct inspection *in, enum axis axis)
-{
-    const struct channel *channel = chosen_channel(in);
-    const struct angles gain = {.value = {axis_gain(axis)}};
-    const bool untouched = channel->gain.form == ANGLES_ONE && channel->gain.value[0] == axis_gain(channel->axis);
-    if (!core_begin(in->core, in->world, "Set axis", 0)) return;
-    const bool done = edit_axis(in->document, place_of(in), axis, &in->core->error);
-    core_end(in->core, in->world, done && (!untouched || inspector_set_angles(in, &angle_row_gain, &gain)));
 }
 
 static void build_choices(struct inspection *in, const struct channel *channel)
@@ -288,38 +315,8 @@ static void build_choices(struct inspection *in, const struct channel *channel)
                  edit_part(in->document, place_of(in), (enum channel_part)part, &in->core->error));
 }
 
-static void build_axis_list(struct inspection *in, const struct channel *channel)
-{
-    enum { COUNT = sizeof tail_axes / sizeof *tail_axes };
-    struct ui_item items[COUNT];
-    int row = -1;
-    if (!ui_popup_is_open(in->ui, axis_list)) return;
-    for (int a = 0; a < COUNT; a++) {
-        items[a] = tail_axes[a].item;
-        if (tail_axes[a].axis == channel->axis) row = a;
-    }
-    const int picked = ui_popup_list(in->ui, axis_list, items, COUNT, row);
-    if (picked >= 0) set_axis(in, tail_axes[picked].axis);
-}
-
-void inspector_channel_lists(struct inspection *in)
-{
-    const struct channel *channel = chosen_channel(in);
-    if (channel) build_axis_list(in, channel);
-    if (!ui_popup_is_open(in->ui, feed_list) || !channel) return;
-    int picked = inspector_spline_list(in, feed_list, NULL, channel->spline);
-    if (picked < 0 || !core_begin(in->core, in->world, "Set channel's spline", 0)) return;
-    const struct channel_place at = place_of(in);
-    if (core_end(in->core, in->world, edit_feed(in->document, at, picked, &in->core->error))) choose(in, at.channel);
-}
-
-void inspector_channels(struct inspection *in)
-{
-    build_list(in);
-    ui_space(in->ui, 4);
-}
-
-void inspector_channel(struct inspection *in)
+/// Its channels: the list; and what the chosen one is made of.
+static void build_channel(struct inspection *in)
 {
     const struct inspector *inspector = in->inspector;
     build_buttons(in);
@@ -333,15 +330,6 @@ void inspector_channel(struct inspection *in)
     build_choices(in, channel);
 }
 
-/// Where a chain begins and where it ends.
-static const struct end {
-    const char *label, *list, *pick, *hint;
-    enum bone_use use;
-} ends[2] = {
-    {"from", "chain.from", "chain.from.pick", "The bone that it begins with", BONE_FIRST},
-    {"to", "chain.to", "chain.to.pick", "The bone that it ends with", BONE_LAST},
-};
-
 /// The bone at one end: a list of those that it may be, and a button to pick it on the stage.
 static void build_end(struct inspection *in, const struct end *end, const char *bone)
 {
@@ -353,25 +341,6 @@ static void build_end(struct inspection *in, const struct end *end, const char *
     const bool picking = in->core->pick.use == end->use && in->core->pick.which == rig;
     if (ui_icon_button(in->ui, icon, end->pick, UI_ICON_PICK, picking, "Pick it on the stage"))
         bones_pick(in->core, picking ? BONE_SELECTED : end->use, rig);
-}
-
-static void end_list(struct inspection *in, const struct end *end, const struct chain *chain)
-{
-    const int model = bones_model_of(in->document, chain);
-    const struct imported *character = model >= 0 ? bones_character(in->world, model) : NULL;
-    if (!ui_popup_is_open(in->ui, end->list) || !character) return;
-    const bool first = end->use == BONE_FIRST;
-    const int top = first ? -1 : gltf_find_node(&character->gltf, chain->from);
-    const int node = inspector_bone_list(in, end->list, model, top, first ? chain->from : chain->to);
-    if (node >= 0) bones_set_end(in->core, in->world, in->inspector->rig, first, node);
-}
-
-void inspector_chain_lists(struct inspection *in)
-{
-    for (int e = 0; e < 2; e++) {
-        const struct rig *rig = inspector_shown(in);
-        if (rig && rig->kind == RIG_CHAIN) end_list(in, &ends[e], &rig->chain);
-    }
 }
 
 static const struct number_row turn_row = {"chain.turn",
@@ -421,7 +390,8 @@ static void build_twin(struct inspection *in)
     in->inspector->rig = in->document->rig_count - 1;
 }
 
-void inspector_chain(struct inspection *in)
+/// What a chain is made of, its place in the list of chains aside; and the buttons that make its twin and take it away.
+static void build_chain(struct inspection *in)
 {
     static const struct number_home home = {.get = get_turn, .set = set_turn};
     const struct chain *chain = &inspector_shown(in)->chain;
@@ -430,4 +400,38 @@ void inspector_chain(struct inspection *in)
     inspector_numbers(in, &turn_row, 1, &home);
     build_mirror(in);
     build_twin(in);
+}
+
+/// Buttons among these rows may make another list of channels, and more rigs: each looks what is shown up anew.
+static void build_shown(struct inspection *in)
+{
+    struct inspector *inspector = in->inspector;
+    const bool is_tail = inspector_shown(in)->kind == RIG_TAIL;
+    static const struct number_home home = {.get = get_size, .set = set_size};
+    if (inspector->channel >= rig_input_count(inspector_shown(in))) inspector->channel = 0;
+    build_channels(in);
+    if (is_tail) inspector_angles(in, &angle_row_rest, &inspector_shown(in)->tail.rest);
+    build_channel(in);
+    ui_space(in->ui, 4);
+    build_name(in);
+    if (!is_tail) {
+        build_chain(in);
+        return;
+    }
+    inspector_numbers(in, size, sizeof size / sizeof size[0], &home);
+    for (int k = 0; k < 3; k++) build_coordinate(in, &inspector_shown(in)->tail, k);
+}
+
+void inspector_tail(struct inspection *in)
+{
+    inspector_find_rig(in); // one may just have been removed
+    build_shown(in);
+    build_record(in);
+    inspector_overlays(in);
+}
+
+const struct channel *inspector_felt_channel(const struct inspection *in)
+{
+    const struct channel *channel = chosen_channel(in);
+    return channel && channel->spline == in->core->active ? channel : NULL;
 }

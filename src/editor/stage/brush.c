@@ -62,7 +62,7 @@ static const struct figure *pose_figure(struct stage *stage, const struct core *
 
 enum brush_mode brush_stroke(const struct brush *brush, unsigned mods)
 {
-    static const enum brush_mode smooth[] = {
+    static const enum brush_mode smoothed[] = {
         [BRUSH_ADVANCE] = BRUSH_SMOOTH_PHASE,  [BRUSH_DELAY] = BRUSH_SMOOTH_PHASE,
         [BRUSH_SMOOTH_PHASE] = BRUSH_ADVANCE,  [BRUSH_MORE] = BRUSH_SMOOTH_AMPLITUDE,
         [BRUSH_LESS] = BRUSH_SMOOTH_AMPLITUDE, [BRUSH_SMOOTH_AMPLITUDE] = BRUSH_MORE,
@@ -77,10 +77,11 @@ enum brush_mode brush_stroke(const struct brush *brush, unsigned mods)
         [BRUSH_SMOOTH_AMPLITUDE] = BRUSH_SMOOTH_AMPLITUDE,
         [BRUSH_ERASE] = BRUSH_ERASE,
     };
-    return mods & MOD_SHIFT ? smooth[brush->mode] : mods & MOD_CTRL ? other[brush->mode] : brush->mode;
+    return mods & MOD_SHIFT ? smoothed[brush->mode] : mods & MOD_CTRL ? other[brush->mode] : brush->mode;
 }
 
-const char *brush_label(enum brush_mode stroke)
+/// The name of a stroke.
+static const char *brush_label(enum brush_mode stroke)
 {
     static const char *const labels[] = {
         [BRUSH_ADVANCE] = "Advance phase",     [BRUSH_DELAY] = "Delay phase",
@@ -108,95 +109,11 @@ static int find_way(const struct stage *stage, const struct core *core, const st
     return count;
 }
 
-/// Goes on with the stroke for drag.dt seconds.
-static void apply(void *room, struct core *core, const struct editor_world *world)
+/// 1 in the middle, 0 at the rim, flat at both.
+static float falloff(float distance, float radius)
 {
-    struct stage *stage = room;
-    const struct brush *brush = &core->brush;
-    struct painting *painting = &stage->painting;
-    struct surface_spot spots[REACH_MAX_SPOTS];
-    int coordinate;
-    const struct figure *figure = pose_figure(stage, core, world, &coordinate);
-    const struct paint *paint = figure ? characters_selected(core, world)->painted : NULL;
-    if (!paint || !models_paint_fits(paint, figure)) return;
-    const int count = find_way(stage, core, figure, spots);
-    painting->x = core->pointer_x;
-    painting->y = core->pointer_y;
-    painting->has_dabbed = true;
-    if (count == 0) return;
-    reach_find(&painting->work.reach, figure, spots, count, brush_radius_of(brush, figure));
-    const struct dab dab = brush_dab(painting, paint, figure, coordinate, brush_radius_of(brush, figure),
-                                     brush->strength * core->drag.dt);
-    edit_paint(world->document, characters_rig(core, world), &dab, &core->error);
-}
-
-static void end(void *room, struct core *core, const struct editor_world *world, bool keep)
-{
-    const struct stage *stage = room;
-    if (!keep || stage->painting.has_dabbed) return;
-    core->drag.dt = SHORTEST;
-    apply(room, core, world);
-}
-
-static const struct drag_owner owner = {.cursor = CURSOR_ARROW, .goes_on = true, .apply = apply, .end = end};
-
-bool brush_paints(const struct core *core) { return core->drag.owner == &owner; }
-
-bool brush_press(struct stage *stage, struct core *core, const struct editor_world *world, const struct event *event)
-{
-    const struct brush *brush = &core->brush;
-    struct painting *painting = &stage->painting;
-    int coordinate;
-    if (!brush->on || event->button != BUTTON_LEFT || history_is_open(world->history)) return false;
-    const struct figure *figure = pose_figure(stage, core, world, &coordinate);
-    if (!figure || !skin_spot(stage, figure, event->x, event->y, &painting->spot)) return false;
-    const struct paint *paint = characters_selected(core, world)->painted;
-    if (paint && !models_paint_fits(paint, figure)) {
-        core_message(core, true, "The paint in this scene belongs to another model. Remove it first.");
-        return true;
-    }
-    painting->stroke = brush_stroke(brush, event->mods);
-    drag_begin(core, &owner, stage, brush_label(painting->stroke), event);
-    painting->x = event->x;
-    painting->y = event->y;
-    painting->has_dabbed = false;
-    memset(painting->work.spent, 0, (size_t)painting->work.capacity * sizeof *painting->work.spent);
-    drag_start_moving(core, world);
-    if (!paint) characters_blank_paint(core, world, figure);
-    core_settle(core, world);
-    return true;
-}
-
-bool brush_wheel(struct core *core, const struct event *event)
-{
-    struct brush *brush = &core->brush;
-    const double factor = exp(WHEEL_STEP * fmin(fmax(event->dy, -20), 20));
-    char text[64];
-    if (!brush->on || !(event->mods & (MOD_CTRL | MOD_SHIFT))) return false;
-    if (event->mods & MOD_CTRL) {
-        brush->radius = fmin(fmax(brush->radius * factor, RADIUS_LEAST), RADIUS_MOST);
-        snprintf(text, sizeof text, "Brush: radius %.0f %% of the character's height.", 100 * brush->radius);
-    } else {
-        brush->strength = fmin(fmax(brush->strength * factor, STRENGTH_LEAST), 1);
-        snprintf(text, sizeof text, "Brush: strength %.0f %%.", 100 * brush->strength);
-    }
-    core_message(core, false, text);
-    return true;
-}
-
-void brush_pose(struct stage *stage, struct core *core, const struct editor_world *world, bool covered)
-{
-    const struct brush *brush = &core->brush;
-    struct painting *painting = &stage->painting;
-    const bool pointed = rect_contains(core->layout.stage, core->pointer_x, core->pointer_y);
-    const bool free_hand = !core->drag.owner || brush_paints(core);
-    int coordinate;
-    painting->covers = false;
-    if (!brush->on || !pointed || !free_hand || covered) return;
-    const struct figure *figure = pose_figure(stage, core, world, &coordinate);
-    if (!figure || !skin_spot(stage, figure, core->pointer_x, core->pointer_y, &painting->spot)) return;
-    painting->covers = true;
-    reach_find(&painting->work.reach, figure, &painting->spot, 1, (1 + RIM) * brush_radius_of(brush, figure));
+    const float t = distance / radius;
+    return t < 1 ? (1 - t * t) * (1 - t * t) : 0;
 }
 
 enum { SMOOTHINGS = 4 }; ///< passes of a frame
@@ -210,13 +127,6 @@ static const double BLENDING_FLOW = 12;       ///< of smoothing and erasing, 1/s
 static const double MOST_BLEND = 0.5;         ///< of one pass; more would overshoot
 static const float MOST_LEAD = 12.5663706f, LEAST_SWELL = -4.60517f, MOST_SWELL = 1.3862944f; ///< ±720°; 0.01 … 4
 static const float STILL = 1e-4f; ///< of the largest amplitude: below this a phase means nothing
-
-/// 1 in the middle, 0 at the rim, flat at both.
-static float falloff(float distance, float radius)
-{
-    const float t = distance / radius;
-    return t < 1 ? (1 - t * t) * (1 - t * t) : 0;
-}
 
 static double blend(double flow) { return fmin(MOST_BLEND, BLENDING_FLOW * flow / SMOOTHINGS); }
 
@@ -324,8 +234,9 @@ static void change(enum brush_mode mode, double flow, float weight, float *spent
     for (int k = 0; k < 2; k++) value[k] = fabsf(value[k]) < 1e-3f ? 0 : kept * value[k];
 }
 
-struct dab brush_dab(struct painting *painting, const struct paint *paint, const struct figure *figure,
-                     int coordinate, float radius, double flow)
+/// A dab for what work.reach holds: `flow` is the strength times the time. Its arrays are the brush's own.
+static struct dab brush_dab(struct painting *painting, const struct paint *paint, const struct figure *figure,
+                            int coordinate, float radius, double flow)
 {
     struct brush_work *work = &painting->work;
     const bool smooths = painting->stroke == BRUSH_SMOOTH_PHASE || painting->stroke == BRUSH_SMOOTH_AMPLITUDE;
@@ -342,6 +253,98 @@ struct dab brush_dab(struct painting *painting, const struct paint *paint, const
     }
     if (smooths) smooth(painting, figure, coordinate, radius, count, flow);
     return (struct dab){coordinate, count, work->vertices, (const float(*)[2])work->values};
+}
+
+/// Goes on with the stroke for drag.dt seconds.
+static void apply(void *room, struct core *core, const struct editor_world *world)
+{
+    struct stage *stage = room;
+    const struct brush *brush = &core->brush;
+    struct painting *painting = &stage->painting;
+    struct surface_spot spots[REACH_MAX_SPOTS];
+    int coordinate;
+    const struct figure *figure = pose_figure(stage, core, world, &coordinate);
+    const struct paint *paint = figure ? characters_selected(core, world)->painted : NULL;
+    if (!paint || !models_paint_fits(paint, figure)) return;
+    const int count = find_way(stage, core, figure, spots);
+    painting->x = core->pointer_x;
+    painting->y = core->pointer_y;
+    painting->has_dabbed = true;
+    if (count == 0) return;
+    reach_find(&painting->work.reach, figure, spots, count, brush_radius_of(brush, figure));
+    const struct dab dab = brush_dab(painting, paint, figure, coordinate, brush_radius_of(brush, figure),
+                                     brush->strength * core->drag.dt);
+    edit_paint(world->document, characters_rig(core, world), &dab, &core->error);
+}
+
+static void end(void *room, struct core *core, const struct editor_world *world, bool keep)
+{
+    const struct stage *stage = room;
+    if (!keep || stage->painting.has_dabbed) return;
+    core->drag.dt = SHORTEST;
+    apply(room, core, world);
+}
+
+static const struct drag_owner owner = {.cursor = CURSOR_ARROW, .goes_on = true, .apply = apply, .end = end};
+
+/// Whether a stroke is running.
+static bool brush_paints(const struct core *core) { return core->drag.owner == &owner; }
+
+bool brush_press(struct stage *stage, struct core *core, const struct editor_world *world, const struct event *event)
+{
+    const struct brush *brush = &core->brush;
+    struct painting *painting = &stage->painting;
+    int coordinate;
+    if (!brush->on || event->button != BUTTON_LEFT || history_is_open(world->history)) return false;
+    const struct figure *figure = pose_figure(stage, core, world, &coordinate);
+    if (!figure || !skin_spot(stage, figure, event->x, event->y, &painting->spot)) return false;
+    const struct paint *paint = characters_selected(core, world)->painted;
+    if (paint && !models_paint_fits(paint, figure)) {
+        core_message(core, true, "The paint in this scene belongs to another model. Remove it first.");
+        return true;
+    }
+    painting->stroke = brush_stroke(brush, event->mods);
+    drag_begin(core, &owner, stage, brush_label(painting->stroke), event);
+    painting->x = event->x;
+    painting->y = event->y;
+    painting->has_dabbed = false;
+    memset(painting->work.spent, 0, (size_t)painting->work.capacity * sizeof *painting->work.spent);
+    drag_start_moving(core, world);
+    if (!paint) characters_blank_paint(core, world, figure);
+    core_settle(core, world);
+    return true;
+}
+
+bool brush_wheel(struct core *core, const struct event *event)
+{
+    struct brush *brush = &core->brush;
+    const double factor = exp(WHEEL_STEP * fmin(fmax(event->dy, -20), 20));
+    char text[64];
+    if (!brush->on || !(event->mods & (MOD_CTRL | MOD_SHIFT))) return false;
+    if (event->mods & MOD_CTRL) {
+        brush->radius = fmin(fmax(brush->radius * factor, RADIUS_LEAST), RADIUS_MOST);
+        snprintf(text, sizeof text, "Brush: radius %.0f %% of the character's height.", 100 * brush->radius);
+    } else {
+        brush->strength = fmin(fmax(brush->strength * factor, STRENGTH_LEAST), 1);
+        snprintf(text, sizeof text, "Brush: strength %.0f %%.", 100 * brush->strength);
+    }
+    core_message(core, false, text);
+    return true;
+}
+
+void brush_pose(struct stage *stage, struct core *core, const struct editor_world *world, bool covered)
+{
+    const struct brush *brush = &core->brush;
+    struct painting *painting = &stage->painting;
+    const bool pointed = rect_contains(core->layout.stage, core->pointer_x, core->pointer_y);
+    const bool free_hand = !core->drag.owner || brush_paints(core);
+    int coordinate;
+    painting->covers = false;
+    if (!brush->on || !pointed || !free_hand || covered) return;
+    const struct figure *figure = pose_figure(stage, core, world, &coordinate);
+    if (!figure || !skin_spot(stage, figure, core->pointer_x, core->pointer_y, &painting->spot)) return;
+    painting->covers = true;
+    reach_find(&painting->work.reach, figure, &painting->spot, 1, (1 + RIM) * brush_radius_of(brush, figure));
 }
 
 enum { MOST_PIECES = 512, RING_SMOOTHINGS = 3, STATE_HEIGHT = 46 };

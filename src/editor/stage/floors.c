@@ -20,9 +20,10 @@ bool floors_exist(const struct document *document, int rig)
     return rig >= 0 && rig < document->rig_count && rig_has_floor(document->rigs[rig]);
 }
 
-const struct character_rig *floors_find(const struct stage *stage, const struct core *core,
-                                        const struct document *document, const struct stage_character *shown,
-                                        struct shown_floor *floor)
+/// The floor of a character that is shown, and where it is on the screen; NULL where it has none, or it is not in sight.
+static const struct character_rig *floors_find(const struct stage *stage, const struct core *core,
+                                               const struct document *document, const struct stage_character *shown,
+                                               struct shown_floor *floor)
 {
     const struct character_rig *rig = document_character(document, shown->rig);
     if (!rig || !rig->has_floor || shown->is_twin) return NULL;

@@ -32,7 +32,8 @@ int overlay_rig(const struct stage *stage, const struct core *core, const struct
     return rig >= 0 && strand_of(stage, rig) ? rig : -1;
 }
 
-int overlay_pose_rig(const struct stage *stage, const struct core *core, const struct document *document)
+/// The character that the active spline moves, else that tail or chain, else the first character; -1: nothing.
+static int overlay_pose_rig(const struct stage *stage, const struct core *core, const struct document *document)
 {
     const int first = document_next_rig(document, RIG_CHARACTER, 0);
     for (int r = first; r >= 0; r = document_next_rig(document, RIG_CHARACTER, r + 1)) {
@@ -71,70 +72,6 @@ static int nearest_knots(const struct document *document, const struct spline *s
         }
     }
     return count;
-}
-
-void onion_show(struct stage *stage, struct core *core, const struct editor_world *world)
-{
-    const struct document *document = world->document;
-    const struct spline *spline = keyed_spline(core, world);
-    const int rig = overlay_pose_rig(stage, core, document);
-    int samples[MAX_SKINS];
-    if (!core->overlays.onion || !spline || rig < 0) return;
-    const int most = document->rigs[rig]->kind == RIG_CHARACTER ? CHARACTER_SKINS : MAX_SKINS;
-    const int count = nearest_knots(document, spline, core->playback.position, samples, most);
-    uint32_t color = spline_list_color(document, core->active);
-    const struct posing posing = stage_posing(core, world);
-    for (int i = count - 1; i >= 0; i--) {
-        float share = count > 1 ? (float)i / (float)(count - 1) : 0, tip[2];
-        proxy_show(stage, core, &posing, rig, samples[i], 1.25f,
-                   theme_fade(color, NEAREST + (FARTHEST - NEAREST) * share), tip);
-    }
-}
-
-/// The knot of the active spline that is being edited: held by the pointer, or the only one that is selected, just nudged.
-static const struct knot *edited_knot(const struct core *core, const struct editor_world *world)
-{
-    const struct drag *drag = &core->drag;
-    const struct spline *spline = core_active_spline(core, world);
-    int at = -1;
-    if (spline && drag->owner && drag->knot && drag->moved) at = spline_find_id(spline, drag->knot);
-    if (spline && !drag->owner && core->nudged_seconds > 0) at = selection_single(&core->selection, spline);
-    return at >= 0 ? &spline->knots[at] : NULL;
-}
-
-void ghost_show(struct stage *stage, struct core *core, const struct editor_world *world)
-{
-    const struct document *document = world->document;
-    const struct knot *knot = core->overlays.ghost ? edited_knot(core, world) : NULL;
-    const int rig = knot ? overlay_pose_rig(stage, core, document) : -1;
-    if (rig < 0) return;
-    const int sample = document_sample(document, knot->frame);
-    if (fabs(sample - core->playback.position) < 0.5) return;
-    const struct posing posing = stage_posing(core, world);
-    const double left = !core->drag.owner ? fmin(core->nudged_seconds / FADE, 1) : 1;
-    const uint32_t color = theme_fade(spline_list_color(document, core->active), GHOST * (float)left);
-    float tip[2];
-    if (!proxy_show(stage, core, &posing, rig, sample, 1.5f, color, tip)) return;
-    char text[32];
-    snprintf(text, sizeof text, "%.4g", knot->frame);
-    drawlist_text(&core->list, roundf(tip[0] + 8), roundf(tip[1] + 4), FONT_NUMBER, THEME_TEXT_SMALL,
-                  theme_fade(theme()->text_dim, (float)left), text);
-}
-
-void stage_toggle_ghost(struct core *core)
-{
-    core->overlays.ghost = !core->overlays.ghost;
-    core_message(core, false,
-                 core->overlays.ghost ? "Ghost on: the pose at the knot that is dragged or nudged (F4)."
-                                      : "Ghost off.");
-}
-
-void stage_toggle_onion(struct core *core)
-{
-    core->overlays.onion = !core->overlays.onion;
-    core_message(core, false,
-                 core->overlays.onion ? "Onion skin on: the pose at the knots around the playhead (O)."
-                                      : "Onion skin off.");
 }
 
 enum {
@@ -290,8 +227,9 @@ static bool show_character(struct stage *stage, struct core *core, const struct 
     return true;
 }
 
-bool proxy_show(struct stage *stage, struct core *core, const struct posing *posing, int rig, int sample, float width,
-                uint32_t color, float tip[2])
+/// Draws the rig as it is on a sample; `tip` is where words about it may stand. false where it cannot be seen.
+static bool proxy_show(struct stage *stage, struct core *core, const struct posing *posing, int rig, int sample,
+                       float width, uint32_t color, float tip[2])
 {
     struct rig_pose pose;
     if (!rig_pose(posing, rig, sample, NULL, &pose)) return false;
@@ -305,4 +243,68 @@ bool proxy_show(struct stage *stage, struct core *core, const struct posing *pos
     default:
         return false;
     }
+}
+
+void onion_show(struct stage *stage, struct core *core, const struct editor_world *world)
+{
+    const struct document *document = world->document;
+    const struct spline *spline = keyed_spline(core, world);
+    const int rig = overlay_pose_rig(stage, core, document);
+    int samples[MAX_SKINS];
+    if (!core->overlays.onion || !spline || rig < 0) return;
+    const int most = document->rigs[rig]->kind == RIG_CHARACTER ? CHARACTER_SKINS : MAX_SKINS;
+    const int count = nearest_knots(document, spline, core->playback.position, samples, most);
+    uint32_t color = spline_list_color(document, core->active);
+    const struct posing posing = stage_posing(core, world);
+    for (int i = count - 1; i >= 0; i--) {
+        float share = count > 1 ? (float)i / (float)(count - 1) : 0, tip[2];
+        proxy_show(stage, core, &posing, rig, samples[i], 1.25f,
+                   theme_fade(color, NEAREST + (FARTHEST - NEAREST) * share), tip);
+    }
+}
+
+/// The knot of the active spline that is being edited: held by the pointer, or the only one that is selected, just nudged.
+static const struct knot *edited_knot(const struct core *core, const struct editor_world *world)
+{
+    const struct drag *drag = &core->drag;
+    const struct spline *spline = core_active_spline(core, world);
+    int at = -1;
+    if (spline && drag->owner && drag->knot && drag->moved) at = spline_find_id(spline, drag->knot);
+    if (spline && !drag->owner && core->nudged_seconds > 0) at = selection_single(&core->selection, spline);
+    return at >= 0 ? &spline->knots[at] : NULL;
+}
+
+void ghost_show(struct stage *stage, struct core *core, const struct editor_world *world)
+{
+    const struct document *document = world->document;
+    const struct knot *knot = core->overlays.ghost ? edited_knot(core, world) : NULL;
+    const int rig = knot ? overlay_pose_rig(stage, core, document) : -1;
+    if (rig < 0) return;
+    const int sample = document_sample(document, knot->frame);
+    if (fabs(sample - core->playback.position) < 0.5) return;
+    const struct posing posing = stage_posing(core, world);
+    const double left = !core->drag.owner ? fmin(core->nudged_seconds / FADE, 1) : 1;
+    const uint32_t color = theme_fade(spline_list_color(document, core->active), GHOST * (float)left);
+    float tip[2];
+    if (!proxy_show(stage, core, &posing, rig, sample, 1.5f, color, tip)) return;
+    char text[32];
+    snprintf(text, sizeof text, "%.4g", knot->frame);
+    drawlist_text(&core->list, roundf(tip[0] + 8), roundf(tip[1] + 4), FONT_NUMBER, THEME_TEXT_SMALL,
+                  theme_fade(theme()->text_dim, (float)left), text);
+}
+
+void stage_toggle_ghost(struct core *core)
+{
+    core->overlays.ghost = !core->overlays.ghost;
+    core_message(core, false,
+                 core->overlays.ghost ? "Ghost on: the pose at the knot that is dragged or nudged (F4)."
+                                      : "Ghost off.");
+}
+
+void stage_toggle_onion(struct core *core)
+{
+    core->overlays.onion = !core->overlays.onion;
+    core_message(core, false,
+                 core->overlays.onion ? "Onion skin on: the pose at the knots around the playhead (O)."
+                                      : "Onion skin off.");
 }

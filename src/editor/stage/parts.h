@@ -103,11 +103,6 @@ struct shown_floor {
     int first; ///< the corner that is nearest to the eye
 };
 
-/// The floor of a character that is shown, and where it is on the screen; NULL where it has none, or it is not in sight.
-const struct character_rig *floors_find(const struct stage *stage, const struct core *core,
-                                        const struct document *document, const struct stage_character *shown,
-                                        struct shown_floor *floor);
-
 /// The edge of a floor under a point of the stage (HOVER_FLOOR), or HOVER_NONE.
 struct hover floors_hover(const struct stage *stage, const struct core *core, const struct document *document,
                           float x, float y);
@@ -124,17 +119,12 @@ void floors_show(const struct stage *stage, struct core *core, const struct edit
 /// that can be pinned (HOVER_POINT). HOVER_NONE: nothing.
 struct hover pins_hover(struct stage *stage, const struct core *core, const struct document *document,
                         const struct hover *found, float x, float y);
-/// The picture's directions in the world, and its scale at a place.
-void pins_take_plane(const struct stage *stage, const struct core *core, const double place[3],
-                     struct pin_drag *drag);
 /// Whether what was found is still in the document.
 bool pins_hover_exists(const struct editor_world *world, const struct hover *hover);
 
 /// Starts to drag what is under the pointer, a point or a marker; edits nothing until it moves.
 void pins_begin(struct stage *stage, struct core *core, const struct editor_world *world, const struct hover *hover,
                 const struct event *event);
-/// Draws the line along which a locked drag goes.
-void pins_show_axis(void *room, struct core *core, const struct editor_world *world);
 
 /// Draws all markers, what is lit up, and the path of the point that is held or selected.
 void pins_show(struct stage *stage, struct core *core, const struct editor_world *world);
@@ -143,20 +133,12 @@ void pins_show(struct stage *stage, struct core *core, const struct editor_world
 void brush_free(struct painting *painting);
 /// What a stroke that begins with these modifiers does: Shift smooths, Ctrl reverses.
 enum brush_mode brush_stroke(const struct brush *brush, unsigned mods);
-/// The name of a stroke.
-const char *brush_label(enum brush_mode stroke);
 /// Handles a press on the stage; true if it began a stroke.
 bool brush_press(struct stage *stage, struct core *core, const struct editor_world *world, const struct event *event);
-/// Whether a stroke is running.
-bool brush_paints(const struct core *core);
 /// Ctrl+wheel changes the radius, Shift+wheel the strength; true if it was one of these.
 bool brush_wheel(struct core *core, const struct event *event);
 /// Finds what is under the pointer once the stage is posed, and what the brush reaches from there.
 void brush_pose(struct stage *stage, struct core *core, const struct editor_world *world, bool covered);
-
-/// A dab for what work.reach holds: `flow` is the strength times the time. Its arrays are the brush's own.
-struct dab brush_dab(struct painting *painting, const struct paint *paint, const struct figure *figure,
-                     int coordinate, float radius, double flow);
 
 /// Draws the ring on the surface; above the legend, what the brush does and what is painted at the pointer.
 void brush_show(struct stage *stage, struct core *core, const struct editor_world *world);
@@ -226,8 +208,6 @@ void tail_drag_begin(struct stage *stage, struct core *core, const struct editor
 
 /// The tail or chain that the active spline moves, else the first; -1 where there is none to be seen.
 int overlay_rig(const struct stage *stage, const struct core *core, const struct document *document);
-/// The character that the active spline moves, else that tail or chain, else the first character; -1: nothing.
-int overlay_pose_rig(const struct stage *stage, const struct core *core, const struct document *document);
 /// Onion skin (O): the outline of the tail or the soft character, or the line of the chain, at the active spline's knots, those
 /// nearest to the playhead.
 void onion_show(struct stage *stage, struct core *core, const struct editor_world *world);
@@ -254,10 +234,6 @@ void names_show(const struct stage *stage, struct core *core, const struct docum
 struct rect characters_legend(const struct core *core);
 /// Legend of the phase map, and what the two of a pair are.
 void characters_show(const struct stage *stage, struct core *core, const struct editor_world *world);
-
-/// Draws the rig as it is on a sample; `tip` is where words about it may stand. false where it cannot be seen.
-bool proxy_show(struct stage *stage, struct core *core, const struct posing *posing, int rig, int sample, float width,
-                uint32_t color, float tip[2]);
 
 /// How far along the segment a … b the point nearest to p is, 0 … 1.
 static inline float segment_nearest(const float a[2], const float b[2], const float p[2])

@@ -120,7 +120,9 @@ bool pins_hover_exists(const struct editor_world *world, const struct hover *hov
     return hover->rig < document->rig_count && pins_find_id(document->rigs[hover->rig], hover->pin) >= 0;
 }
 
-void pins_take_plane(const struct stage *stage, const struct core *core, const double place[3], struct pin_drag *drag)
+/// The picture's directions in the world, and its scale at a place.
+static void pins_take_plane(const struct stage *stage, const struct core *core, const double place[3],
+                            struct pin_drag *drag)
 {
     const struct stage_view *view = &stage->view;
     const float at[3] = {(float)place[0], (float)place[1], (float)place[2]};
@@ -171,6 +173,27 @@ static enum drag_answer take_event(void *room, struct core *core, const struct e
     const bool key = event->kind == EVENT_KEY && event->action == ACTION_PRESS && !(event->mods & MOD_ALT);
     (void)world;
     return key && lock(room, &core->drag, event->key) ? DRAG_USED : DRAG_PASSES;
+}
+
+static const float HERE = 5, ELSEWHERE = 3.5f, RING = 8, LIT = 6.5f, END = 2; ///< radii, pixels
+static const float LEAST_LINE = 1.5f;                                         ///< pixels that are left to be seen
+static const float FAINT = 0.5f;                                              ///< opacity of markers of other frames
+static const float AXIS = 2; ///< metres of a locked axis to each side
+
+/// Draws the line along which a locked drag goes.
+static void pins_show_axis(void *room, struct core *core, const struct editor_world *world)
+{
+    const struct stage *stage = room;
+    const struct pin_drag *drag = &stage->pin_drag;
+    float ends[2][3], line[2][2];
+    (void)world;
+    if (drag->axis < 0) return;
+    for (int e = 0; e < 2; e++) {
+        for (int k = 0; k < 3; k++) ends[e][k] = (float)drag->start[k];
+        ends[e][drag->axis] += e ? AXIS : -AXIS;
+        if (!stage_project_point(stage, core->layout.stage, ends[e], line[e])) return;
+    }
+    drawlist_dashed(&core->list, line[0], 2, 1, 6, 4, theme_fade(theme()->playhead, 0.7f));
 }
 
 void pins_begin(struct stage *stage, struct core *core, const struct editor_world *world, const struct hover *hover,
@@ -242,11 +265,6 @@ void stage_hold_point(struct stage *stage, struct core *core, const struct edito
         hold(core, world, overlay_point(stage, core, world));
     }
 }
-
-static const float HERE = 5, ELSEWHERE = 3.5f, RING = 8, LIT = 6.5f, END = 2; ///< radii, pixels
-static const float LEAST_LINE = 1.5f;                                         ///< pixels that are left to be seen
-static const float FAINT = 0.5f;                                              ///< opacity of markers of other frames
-static const float AXIS = 2; ///< metres of a locked axis to each side
 
 /// The document as it is solved now.
 static uint64_t state_key(const struct core *core, const struct editor_world *world)
@@ -321,21 +339,6 @@ static void show_marker(const struct stage *stage, struct core *core, const stru
     show_disc(list, line[0], radius, color);
     if (selected || hot) show_circle(list, line[0], RING, theme()->playhead);
     if (selected || hot) show_frame(core, line[0], pin->frame);
-}
-
-void pins_show_axis(void *room, struct core *core, const struct editor_world *world)
-{
-    const struct stage *stage = room;
-    const struct pin_drag *drag = &stage->pin_drag;
-    float ends[2][3], line[2][2];
-    (void)world;
-    if (drag->axis < 0) return;
-    for (int e = 0; e < 2; e++) {
-        for (int k = 0; k < 3; k++) ends[e][k] = (float)drag->start[k];
-        ends[e][drag->axis] += e ? AXIS : -AXIS;
-        if (!stage_project_point(stage, core->layout.stage, ends[e], line[e])) return;
-    }
-    drawlist_dashed(&core->list, line[0], 2, 1, 6, 4, theme_fade(theme()->playhead, 0.7f));
 }
 
 /// What a press would take hold of.

@@ -30,7 +30,5 @@ struct transport {
 
 /// Where a control is.
 struct rect controls_rect(const struct core *core, enum control control);
-/// Returns the controls' right end.
-float controls_show(struct core *core);
 
 #endif

@@ -104,7 +104,8 @@ static void paint_screen(struct drawlist *list, struct rect r, bool on, bool hot
     drawlist_rect(list, (struct rect){x + 4, y + 11, 6, 1}, color);
 }
 
-float controls_show(struct core *core)
+/// Returns the controls' right end.
+static float controls_show(struct core *core)
 {
     const struct playback *playback = &core->playback;
     enum hover_kind hover = core->hover.kind;
