@@ -165,18 +165,6 @@ static void run_scale(struct editor *e, const struct editor_world *w, int argume
     curves_scale(e->curves, &e->core, w, argument);
 }
 
-static void run_overlay(struct editor *e, const struct editor_world *w, int argument)
-{
-    (void)w;
-    if (argument == 'O') {
-        stage_toggle_onion(&e->core);
-    } else if (argument == KEY_F4) {
-        stage_toggle_ghost(&e->core);
-    } else {
-        stage_toggle_trail(&e->core);
-    }
-}
-
 static void run_brush(struct editor *e, const struct editor_world *w, int argument)
 {
     (void)argument;
@@ -350,7 +338,7 @@ const struct binding key_bindings[] = {
     {.key = KEY_DELETE, .mods = MOD_SHIFT, .run = run_remove_rig},
     {.key = 'A', .mods = MOD_CTRL, .core = core_select_all, .argument = false},
     {.key = 'A', .mods = CTRL_SHIFT, .core = core_select_all, .argument = true},
-    {.key = 'A', .mods = MOD_SHIFT, .core = drag_toggle_auto_key},
+    {.key = 'A', .mods = MOD_SHIFT, .core = core_flip, .argument = SWITCH_AUTO_KEY},
     {.key = KEY_ESCAPE, .run = run_select_none},
     {.key = 'C', .mods = MOD_CTRL, .run = run_clipboard, .argument = CLIPBOARD_COPY},
     {.key = 'X', .mods = MOD_CTRL, .run = run_clipboard, .argument = CLIPBOARD_CUT},
@@ -376,14 +364,14 @@ const struct binding key_bindings[] = {
     {.key = 'N', .run = run_normalise},
     {.key = KEY_F3, .run = run_sheet},
     {.key = 'U', .any_time = true, .run = run_units},
-    {.key = 'G', .any_time = true, .core = drag_toggle_snap},
+    {.key = 'G', .any_time = true, .core = core_flip, .argument = SWITCH_SNAP},
     {.key = KEY_UP, .repeats = true, .core = core_nudge_parameter, .argument = 1},
     {.key = KEY_DOWN, .repeats = true, .core = core_nudge_parameter, .argument = -1},
     {.key = KEY_LEFT, .repeats = true, .core = playback_step, .argument = -1},
     {.key = KEY_RIGHT, .repeats = true, .core = playback_step, .argument = 1},
     {.key = KEY_LEFT, .mods = MOD_SHIFT, .core = playback_end, .argument = -1},
     {.key = KEY_RIGHT, .mods = MOD_SHIFT, .core = playback_end, .argument = 1},
-    {.key = 'L', .mods = MOD_CTRL, .core = playback_toggle_loop},
+    {.key = 'L', .mods = MOD_CTRL, .core = core_flip, .argument = SWITCH_LOOP},
     {.key = KEY_HOME, .mods = MOD_CTRL, .core = playback_mark, .argument = 0},
     {.key = KEY_END, .mods = MOD_CTRL, .core = playback_mark, .argument = 1},
     {.key = KEY_LEFT, .mods = MOD_CTRL, .repeats = true, .run = run_pan, .argument = WAY_LEFT},
@@ -408,9 +396,9 @@ const struct binding key_bindings[] = {
     {.key = KEY_HOME, .run = run_frame, .argument = 0},
     {.key = KEY_END, .run = run_frame, .argument = 1},
     {.key = 'V', .any_time = true, .run = run_look},
-    {.key = 'O', .any_time = true, .run = run_overlay, .argument = 'O'},
-    {.key = KEY_F4, .any_time = true, .run = run_overlay, .argument = KEY_F4},
-    {.key = 'P', .any_time = true, .run = run_overlay, .argument = 'P'},
+    {.key = 'O', .any_time = true, .core = core_flip, .argument = SWITCH_ONION},
+    {.key = KEY_F4, .any_time = true, .core = core_flip, .argument = SWITCH_GHOST},
+    {.key = 'P', .any_time = true, .core = core_flip, .argument = SWITCH_TRAIL},
     {.key = 'K', .run = run_brush},
     {.key = 'H', .run = run_hold},
     {.key = KEY_PAGE_UP, .mods = MOD_ALT, .repeats = true, .core = pins_retime, .argument = -1},

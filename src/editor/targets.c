@@ -17,16 +17,16 @@ struct target {
     double number[MAX_NUMBERS];
 };
 
-struct place {
+struct target_place {
     struct editor *editor; ///< as it was after all: inspector_target() lays its widgets out to find one
     const struct editor_world *world;
     const struct target *target;
     float xy[2];
 };
 
-typedef bool find_place(struct place *place, struct error *error);
+typedef bool find_place(struct target_place *place, struct error *error);
 
-static bool in_plot(struct place *place, double frame, double value, struct error *error)
+static bool in_plot(struct target_place *place, double frame, double value, struct error *error)
 {
     place->xy[0] = curves_x(place->editor->curves, &place->editor->core, frame);
     place->xy[1] = curves_y(place->editor->curves, &place->editor->core, value);
@@ -37,13 +37,13 @@ static bool in_plot(struct place *place, double frame, double value, struct erro
            fail(error, ERROR_INPUT, "frame %g, value %g is not in the visible part of the curves", frame, value);
 }
 
-static bool spline_named(const struct place *place, int *spline, struct error *error)
+static bool spline_named(const struct target_place *place, int *spline, struct error *error)
 {
     *spline = document_find_spline(place->world->document, place->target->name);
     return *spline >= 0 || fail(error, ERROR_INPUT, "there is no spline \"%s\"", place->target->name);
 }
 
-static bool knot_named(struct place *place, const struct knot **knot, struct error *error)
+static bool knot_named(struct target_place *place, const struct knot **knot, struct error *error)
 {
     int spline;
     if (!spline_named(place, &spline, error)) return false;
@@ -57,7 +57,7 @@ static bool knot_named(struct place *place, const struct knot **knot, struct err
     return true;
 }
 
-static bool find_knot(struct place *place, struct error *error)
+static bool find_knot(struct target_place *place, struct error *error)
 {
     const struct document *document = place->world->document;
     const struct knot *knot;
@@ -66,7 +66,7 @@ static bool find_knot(struct place *place, struct error *error)
 }
 
 /// A knot's mark on the dope sheet: mark(sway,2).
-static bool find_mark(struct place *place, struct error *error)
+static bool find_mark(struct target_place *place, struct error *error)
 {
     const struct document *document = place->world->document;
     const struct knot *knot;
@@ -78,7 +78,7 @@ static bool find_mark(struct place *place, struct error *error)
 }
 
 /// The end of a knot's slope handle: handle(sway,2,1), 0 before and 1 after the knot.
-static bool find_handle(struct place *place, struct error *error)
+static bool find_handle(struct target_place *place, struct error *error)
 {
     const struct knot *knot;
     if (!knot_named(place, &knot, error)) return false;
@@ -88,7 +88,7 @@ static bool find_handle(struct place *place, struct error *error)
     return true;
 }
 
-static bool find_curve(struct place *place, struct error *error)
+static bool find_curve(struct target_place *place, struct error *error)
 {
     int spline;
     if (!spline_named(place, &spline, error)) return false;
@@ -96,7 +96,7 @@ static bool find_curve(struct place *place, struct error *error)
 }
 
 /// A handle of the box round the selected knots: box(1,0) is the middle of its right edge, box(-1,-1) the upper left corner.
-static bool find_box(struct place *place, struct error *error)
+static bool find_box(struct target_place *place, struct error *error)
 {
     const int column = (int)place->target->number[0], row = (int)place->target->number[1];
     return curves_box_point(place->editor->curves, &place->editor->core, place->world->document, column, row,
@@ -104,14 +104,14 @@ static bool find_box(struct place *place, struct error *error)
            fail(error, ERROR_INPUT, "the selected knots have no such handle");
 }
 
-static bool find_warning(struct place *place, struct error *error)
+static bool find_warning(struct target_place *place, struct error *error)
 {
     double number = place->target->number[0];
     return curves_warning(place->editor->curves, &place->editor->core, number, place->xy) ||
            fail(error, ERROR_INPUT, "no warning %g is to be seen", number);
 }
 
-static bool find_ruler(struct place *place, struct error *error)
+static bool find_ruler(struct target_place *place, struct error *error)
 {
     const struct rect *ruler = &place->editor->core.layout.ruler;
     place->xy[0] = curves_x(place->editor->curves, &place->editor->core, place->target->number[0]);
@@ -120,7 +120,7 @@ static bool find_ruler(struct place *place, struct error *error)
            fail(error, ERROR_INPUT, "frame %g is not on the visible part of the ruler", place->target->number[0]);
 }
 
-static bool find_stage(struct place *place, struct error *error)
+static bool find_stage(struct target_place *place, struct error *error)
 {
     (void)error;
     const struct rect *stage = &place->editor->core.layout.stage;
@@ -130,7 +130,7 @@ static bool find_stage(struct place *place, struct error *error)
 }
 
 /// From where the pointer is, in heights of the stage: pointer(0.1,0).
-static bool find_pointer(struct place *place, struct error *error)
+static bool find_pointer(struct target_place *place, struct error *error)
 {
     (void)error;
     const struct core *core = &place->editor->core;
@@ -141,7 +141,7 @@ static bool find_pointer(struct place *place, struct error *error)
 
 /// The rig of a kind that has the target's name, and which of its kind it is; NULL where there is none. A character without a
 /// name goes by its model.
-static const struct rig *rig_named(const struct place *place, enum rig_kind kind, int *n)
+static const struct rig *rig_named(const struct target_place *place, enum rig_kind kind, int *n)
 {
     const struct document *document = place->world->document;
     int r = document_next_rig(document, kind, 0);
@@ -153,7 +153,7 @@ static const struct rig *rig_named(const struct place *place, enum rig_kind kind
 }
 
 /// A place along a row of joints: 0 is the first, 1 the tip.
-static bool find_along(struct place *place, enum rig_kind kind, const char *word, struct error *error)
+static bool find_along(struct target_place *place, enum rig_kind kind, const char *word, struct error *error)
 {
     int n;
     const struct rig *rig = rig_named(place, kind, &n);
@@ -168,15 +168,18 @@ static bool find_along(struct place *place, enum rig_kind kind, const char *word
     return fail(error, ERROR_INPUT, "there is no %s \"%s\" to be seen", word, place->target->name);
 }
 
-static bool find_tail(struct place *place, struct error *error) { return find_along(place, RIG_TAIL, "tail", error); }
+static bool find_tail(struct target_place *place, struct error *error)
+{
+    return find_along(place, RIG_TAIL, "tail", error);
+}
 
-static bool find_chain(struct place *place, struct error *error)
+static bool find_chain(struct target_place *place, struct error *error)
 {
     return find_along(place, RIG_CHAIN, "chain", error);
 }
 
 /// The name of a bone on a character: all of the target's, or what is behind the character's own name and a slash. NULL: another one's.
-static const char *bone_name(const struct place *place, const struct rig *character, bool whole)
+static const char *bone_name(const struct target_place *place, const struct rig *character, bool whole)
 {
     const char *name = place->target->name, *title = rig_title(character);
     const size_t length = strlen(title);
@@ -185,7 +188,7 @@ static const char *bone_name(const struct place *place, const struct rig *charac
 }
 
 /// A bone of the imported characters: bone(tail_1), the first that there is, or bone(dog 2/tail_1).
-static bool find_bone(struct place *place, struct error *error)
+static bool find_bone(struct target_place *place, struct error *error)
 {
     const struct document *document = place->world->document;
     for (int whole = 1; whole >= 0; whole--) {
@@ -201,7 +204,7 @@ static bool find_bone(struct place *place, struct error *error)
     return fail(error, ERROR_INPUT, "there is no bone \"%s\" to be seen", place->target->name);
 }
 
-static bool find_body(struct place *place, struct error *error)
+static bool find_body(struct target_place *place, struct error *error)
 {
     int n;
     struct editor *editor = place->editor;
@@ -212,7 +215,7 @@ static bool find_body(struct place *place, struct error *error)
 
 /// A point of a character's surface: character(up,0.5,0.8), where it is now. u goes across and v up the box of the character
 /// at rest, seen from the front.
-static bool find_character(struct place *place, struct error *error)
+static bool find_character(struct target_place *place, struct error *error)
 {
     int n;
     bool known = rig_named(place, RIG_CHARACTER, &n);
@@ -221,7 +224,7 @@ static bool find_character(struct place *place, struct error *error)
 }
 
 /// The n-th pin of a rig, in the order of frames.
-static const struct pin *pin_named(const struct place *place, struct error *error)
+static const struct pin *pin_named(const struct target_place *place, struct error *error)
 {
     const struct document *document = place->world->document;
     const double n = place->target->number[0];
@@ -235,7 +238,7 @@ static const struct pin *pin_named(const struct place *place, struct error *erro
 }
 
 /// The edge of a character's floor: floor(creature).
-static bool find_floor(struct place *place, struct error *error)
+static bool find_floor(struct target_place *place, struct error *error)
 {
     int n;
     const struct editor *editor = place->editor;
@@ -245,7 +248,7 @@ static bool find_floor(struct place *place, struct error *error)
 }
 
 /// The marker of a pin on the stage: pin(tail,0).
-static bool find_pin(struct place *place, struct error *error)
+static bool find_pin(struct target_place *place, struct error *error)
 {
     const struct pin *pin = pin_named(place, error);
     if (!pin) return false;
@@ -254,7 +257,7 @@ static bool find_pin(struct place *place, struct error *error)
 }
 
 /// Its mark on the ruler: pintime(tail,0).
-static bool find_pin_time(struct place *place, struct error *error)
+static bool find_pin_time(struct target_place *place, struct error *error)
 {
     const struct editor *editor = place->editor;
     const struct pin *pin = pin_named(place, error);
@@ -264,7 +267,7 @@ static bool find_pin_time(struct place *place, struct error *error)
                 place->target->name);
 }
 
-static bool find_divider(struct place *place, struct error *error)
+static bool find_divider(struct target_place *place, struct error *error)
 {
     const struct layout *l = &place->editor->core.layout;
     bool inspector = strcmp(place->target->name, "inspector") == 0;
@@ -277,7 +280,7 @@ static bool find_divider(struct place *place, struct error *error)
     return true;
 }
 
-static bool find_widget(struct place *place, struct error *error)
+static bool find_widget(struct target_place *place, struct error *error)
 {
     return inspector_target(place->editor->inspector, &place->editor->core, place->world, place->target->name,
                             &place->xy[0], &place->xy[1]) ||
@@ -350,7 +353,7 @@ bool editor_target(struct editor *editor, const struct editor_world *world, cons
     struct target parts;
     const struct target_kind *kind = parse(target, &parts);
     if (!kind) return fail(error, ERROR_INPUT, "\"%s\" is no target such as knot(sway,2) or stage(0.5,0.5)", target);
-    struct place place = {.editor = editor, .world = world, .target = &parts};
+    struct target_place place = {.editor = editor, .world = world, .target = &parts};
     if (!kind->find(&place, error)) return false;
     *x = place.xy[0];
     *y = place.xy[1];

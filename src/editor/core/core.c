@@ -191,6 +191,33 @@ void core_activate(struct core *core, const struct editor_world *world, int spli
     core_turn_to(core, world, spline);
 }
 
+void core_flip(struct core *core, const struct editor_world *world, int which)
+{
+    const struct {
+        bool *on;
+        const char *said[2]; ///< off, on
+    } switches[] = {
+        [SWITCH_SNAP] = {&core->no_snap,
+                         {"Snapping on: hold Ctrl to place knots between frames.",
+                          "Snapping off: hold Ctrl to snap to frames."}},
+        [SWITCH_AUTO_KEY] = {&core->auto_key,
+                             {"Auto-key off: dragging a body moves it for the whole shot.",
+                              "Auto-key on: dragging a body sets knots at the playhead."}},
+        [SWITCH_LOOP] = {&core->playback.looping, {"Playback stops at the end.", "Playback loops."}},
+        [SWITCH_ONION] = {&core->overlays.onion,
+                          {"Onion skin off.", "Onion skin on: the pose at the knots around the playhead (O)."}},
+        [SWITCH_TRAIL] = {&core->overlays.trail,
+                          {"Motion arc off.",
+                           "Motion arc on: the path of the tip or liveliest point, one mark per frame (P)."}},
+        [SWITCH_GHOST] = {&core->overlays.ghost,
+                          {"Ghost off.", "Ghost on: the pose at the knot that is dragged or nudged (F4)."}},
+    };
+    bool *on = switches[which].on;
+    (void)world;
+    *on = !*on;
+    core_message(core, false, switches[which].said[*on]);
+}
+
 void core_set_look(struct core *core, enum look look)
 {
     static const char *const texts[] = {

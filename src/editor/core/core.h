@@ -48,6 +48,10 @@ struct spline *core_active_spline(const struct core *core, const struct editor_w
 void core_activate(struct core *core, const struct editor_world *world, int spline);
 /// The same, but keeps the selection.
 void core_turn_to(struct core *core, const struct editor_world *world, int spline);
+/// What is switched on and off, by keys and on the screen.
+enum core_switch { SWITCH_SNAP, SWITCH_AUTO_KEY, SWITCH_LOOP, SWITCH_ONION, SWITCH_TRAIL, SWITCH_GHOST };
+/// Flips one of them, and says so.
+void core_flip(struct core *core, const struct editor_world *world, int which);
 /// Chooses how the knots are shown, and says so.
 void core_set_look(struct core *core, enum look look);
 /// Frame (fractional) that is shown.

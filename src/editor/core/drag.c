@@ -10,26 +10,6 @@ static const double FINE = 0.1;     ///< of the pointer's way, with Shift
 
 bool drag_snaps(const struct core *core, unsigned mods) { return core->no_snap == !!(mods & MOD_CTRL); }
 
-void drag_toggle_snap(struct core *core, const struct editor_world *world, int unused)
-{
-    (void)world;
-    (void)unused;
-    core->no_snap = !core->no_snap;
-    core_message(core, false,
-                 core->no_snap ? "Snapping off: hold Ctrl to snap to frames."
-                               : "Snapping on: hold Ctrl to place knots between frames.");
-}
-
-void drag_toggle_auto_key(struct core *core, const struct editor_world *world, int unused)
-{
-    (void)world;
-    (void)unused;
-    core->auto_key = !core->auto_key;
-    core_message(core, false,
-                 core->auto_key ? "Auto-key on: dragging a body sets knots at the playhead."
-                                : "Auto-key off: dragging a body moves it for the whole shot.");
-}
-
 void drag_begin(struct core *core, const struct drag_owner *owner, void *room, const char *label,
                 const struct event *event)
 {

@@ -27,10 +27,6 @@ struct drag_owner {
 
 /// Whether knots go to whole frames: Ctrl turns around what the panel is set to.
 bool drag_snaps(const struct core *core, unsigned mods);
-/// Snapping to frames on, off; Ctrl means the other.
-void drag_toggle_snap(struct core *core, const struct editor_world *world, int unused);
-/// Whether dragging a body sets knots, on, off.
-void drag_toggle_auto_key(struct core *core, const struct editor_world *world, int unused);
 /// Starts a drag at a press; its history step, called `label` (NULL: it edits nothing), is opened only once the pointer has moved.
 void drag_begin(struct core *core, const struct drag_owner *owner, void *room, const char *label,
                 const struct event *event);

@@ -148,11 +148,3 @@ void playback_change_speed(struct core *core, const struct editor_world *world, 
     snprintf(text, sizeof text, *speed == 1 ? "Playback in real time." : "Playback at %g× speed.", *speed);
     core_message(core, false, text);
 }
-
-void playback_toggle_loop(struct core *core, const struct editor_world *world, int unused)
-{
-    (void)world;
-    (void)unused;
-    core->playback.looping = !core->playback.looping;
-    core_message(core, false, core->playback.looping ? "Playback loops." : "Playback stops at the end.");
-}

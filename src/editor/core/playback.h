@@ -16,8 +16,6 @@ void playback_step(struct core *core, const struct editor_world *world, int dire
 void playback_end(struct core *core, const struct editor_world *world, int direction);
 /// The next faster (direction 1) or slower speed, 0.1 … 4 times real time; 0: real time.
 void playback_change_speed(struct core *core, const struct editor_world *world, int direction);
-/// Loop on, off.
-void playback_toggle_loop(struct core *core, const struct editor_world *world, int unused);
 
 /// First and last frame that are played: the part that was chosen, as far as the scene has it, else all.
 void playback_range(const struct core *core, const struct document *document, double range[2]);

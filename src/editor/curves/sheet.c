@@ -38,7 +38,7 @@ static int active_row(const struct core *core, const struct document *document)
 
 void sheet_update(struct curves *curves, struct core *core, const struct document *document)
 {
-    struct sheet *sheet = &curves->sheet;
+    struct dope_sheet *sheet = &curves->sheet;
     const float room = core->layout.curves.h - core->layout.ruler.h - LEAST_PLOT - 2 * PAD;
     const int total = sheet->shown ? list_rows(core, document, 0, NULL, 0) : 0;
     int rows = total < MOST_ROWS ? total : MOST_ROWS;
@@ -148,7 +148,7 @@ void sheet_take_inside(const struct curves *curves, struct core *core, const str
 
 bool sheet_wheel(struct curves *curves, struct core *core, const struct event *event)
 {
-    struct sheet *sheet = &curves->sheet;
+    struct dope_sheet *sheet = &curves->sheet;
     if (!rect_contains(sheet_area(core), event->x, event->y)) return false;
     if (event->mods || sheet->total <= sheet->rows) return false;
     sheet->first += event->dy > 0 ? -1 : 1;
@@ -214,7 +214,7 @@ static void show_row(const struct curves *curves, struct core *core, const struc
 /// Says that there are more rows above or below.
 static void show_more(const struct curves *curves, struct core *core)
 {
-    const struct sheet *sheet = &curves->sheet;
+    const struct dope_sheet *sheet = &curves->sheet;
     const struct rect *area = &core->layout.sheet;
     if (sheet->total <= sheet->rows) return;
     const float track = area->h - 2 * PAD, length = track * (float)sheet->rows / (float)sheet->total;

@@ -26,7 +26,7 @@ struct value_map {
 enum { SHEET_MAX_ROWS = 16 };
 
 /// The dope sheet.
-struct sheet {
+struct dope_sheet {
     bool shown;
     int first, rows, total; ///< first row in sight, how many are, and how many there are
     int spline[SHEET_MAX_ROWS];
@@ -157,7 +157,7 @@ struct ghost {
 struct curves {
     struct view view;
     struct following following;
-    struct sheet sheet;
+    struct dope_sheet sheet;
     struct curve_options options;
     struct selection before_box; ///< the selection when a box was begun
     struct knot_drag knot_drag;

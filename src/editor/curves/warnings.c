@@ -50,12 +50,12 @@ static void find_rate(const struct document *document, const struct evaluation *
 }
 
 /// Samples from one knot to the next one, around the end of a loop.
-struct span {
+struct knot_span {
     int first, length;
     const struct knot *from, *to;
 };
 
-static bool take_span(const struct document *document, const struct spline *spline, int k, struct span *span)
+static bool take_span(const struct document *document, const struct spline *spline, int k, struct knot_span *span)
 {
     bool loop = spline_start(spline) == WIGGLY_LOOP;
     int next = k + 1;
@@ -72,7 +72,7 @@ static bool take_span(const struct document *document, const struct spline *spli
 static double height(const wiggly_curve *curve, int sample) { return fabs(curve->total[sample] - curve->y[sample]); }
 
 /// The sample of a span that is furthest from the equilibrium.
-static int furthest(const wiggly_curve *curve, const struct span *span)
+static int furthest(const wiggly_curve *curve, const struct knot_span *span)
 {
     int best = span->first, period = curve->samples - 1;
     for (int i = 1; i <= span->length; i++) {
@@ -82,7 +82,7 @@ static int furthest(const wiggly_curve *curve, const struct span *span)
     return best;
 }
 
-static void find_swing(const struct document *document, const wiggly_curve *curve, const struct span *span,
+static void find_swing(const struct document *document, const wiggly_curve *curve, const struct knot_span *span,
                        double highest, struct warnings *found)
 {
     int last = document_sample(document, span->to->frame), peak = furthest(curve, span);
@@ -109,7 +109,7 @@ static void find_idle_slope(const struct document *document, const struct spline
 }
 
 /// The worst drift alone is kept: its remedy is the others' too.
-static void find_drift(const struct document *document, const wiggly_curve *curve, const struct span *span,
+static void find_drift(const struct document *document, const wiggly_curve *curve, const struct knot_span *span,
                        double frequency, double bandwidth, struct warning *drift)
 {
     double periods = frequency * span->length * document_step(document);
@@ -142,7 +142,7 @@ void warnings_find(const struct document *document, const struct evaluation *eva
         find_idle_slope(document, spline, k, found);
     }
     for (int k = 0; k < spline->knot_count; k++) {
-        struct span span;
+        struct knot_span span;
         if (!take_span(document, spline, k, &span)) continue;
         find_swing(document, &evaluation->curves[of], &span, highest, found);
         find_drift(document, &evaluation->curves[of], &span, frequency, bandwidth, &drift);

@@ -121,16 +121,13 @@ static void build_looks(struct inspection *in)
     static const struct ui_choice maps[] = {{"off", "Off"}, {"x", "x"}, {"y", "y"}, {"z", "z"}};
     static const struct ui_choice pairs[] = {{"off", "Off"}, {"on", "Beside it"}};
     struct character_view *view = &in->core->characters;
-    struct rect r = inspector_labelled(in, "phases");
     int map = view->mapped ? 1 + view->axis : 0, pair = view->compare;
-    ui_hint(in->ui, r, "Colour each point by its phase along x, y or z");
-    if (ui_segments(in->ui, r, "phases", maps, 4, &map)) {
+    if (inspector_choice(in, "phases", "Colour each point by its phase along x, y or z", "phases", maps, 4, &map)) {
         view->mapped = map > 0;
         if (map > 0) view->axis = map - 1;
     }
-    r = inspector_labelled(in, "stiff twin");
-    ui_hint(in->ui, r, "Show the character with real parts only: every point moves in step");
-    if (ui_segments(in->ui, r, "twin", pairs, 2, &pair)) {
+    if (inspector_choice(in, "stiff twin", "Show the character with real parts only: every point moves in step",
+                         "twin", pairs, 2, &pair)) {
         view->compare = pair;
         in->core->refit_stage = true;
     }
@@ -183,12 +180,10 @@ static const struct number_row floor_row = {"floor.height",
 static void build_floor(struct inspection *in, const struct character_rig *rig)
 {
     static const struct ui_choice choices[] = {{"off", "Off"}, {"on", "On"}};
-    struct rect r = inspector_labelled(in, "floor");
     static const struct number_home home = {.get = get_floor, .set = set_floor};
     const int owner = characters_rig(in->core, in->world);
     int on = rig->has_floor;
-    if (ui_hovered(in->ui, r)) in->ui->hint = "Keep the whole character above a height";
-    if (ui_segments(in->ui, r, "floor", choices, 2, &on)) {
+    if (inspector_choice(in, "floor", "Keep the whole character above a height", "floor", choices, 2, &on)) {
         if (core_begin(in->core, in->world, on ? "Set floor" : "Remove floor", 0))
             core_end(in->core, in->world, edit_floor(in->document, owner, on, get_floor(in, 0), &in->core->error));
         return;
@@ -264,10 +259,9 @@ static void build_brush(struct inspection *in)
     static const struct ui_choice erase[] = {{"all", "Erase"}};
     static const struct number_home home = {.get = get_share, .set = set_share};
     struct brush *brush = &in->core->brush;
-    struct rect r = inspector_labelled(in, "paint");
     int on = brush->on;
-    ui_hint(in->ui, r, "Paint phase and amplitude onto the character (K)");
-    if (ui_segments(in->ui, r, "paint", switches, 2, &on)) characters_set_brush(in->core, in->world, on);
+    if (inspector_choice(in, "paint", "Paint phase and amplitude onto the character (K)", "paint", switches, 2, &on))
+        characters_set_brush(in->core, in->world, on);
     const struct character_rig *rig = characters_selected(in->core, in->world);
     if (brush->on) {
         build_modes(in, "phase", "Move earlier, later, or blend with the surroundings", BRUSH_ADVANCE, phase, 3);
@@ -276,7 +270,7 @@ static void build_brush(struct inspection *in)
         inspector_numbers(in, brush_rows, sizeof brush_rows / sizeof brush_rows[0], &home);
     }
     if (!rig || !rig->painted || paint_is_plain(rig->painted)) return;
-    r = ui_row(in->ui, UI_ROW);
+    const struct rect r = ui_row(in->ui, UI_ROW);
     ui_hint(in->ui, r, "Back to what the model says, everywhere");
     if (ui_button(in->ui, r, "paint.clean", "Remove all paint", false)) characters_clean_paint(in->core, in->world);
 }

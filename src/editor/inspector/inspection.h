@@ -117,6 +117,22 @@ int inspector_spline_list(struct inspection *in, const char *list, const bool *l
 /// A row with a label; returns what is right of it.
 struct rect inspector_labelled(struct inspection *in, const char *label);
 
+/// A row of segments with a label; true if `*chosen` changed.
+bool inspector_choice(struct inspection *in, const char *label, const char *hint, const char *name,
+                      const struct ui_choice *choices, int count, int *chosen);
+
+/// A small button of a row of them.
+struct icon_button {
+    const char *name, *hint;
+    enum ui_icon icon;
+};
+enum { INSPECTOR_ICON = 24 };
+/// Icon buttons from the left of a rectangle on; the one that was pressed, or -1.
+int inspector_icons(struct inspection *in, struct rect r, const struct icon_button *buttons, int count);
+
+/// The first of `most` rows to show of a list, the chosen one among them.
+int inspector_first_row(int count, int chosen, int most);
+
 /// Switches for what is drawn over the stage: onion skin, motion arc, ghost.
 void inspector_overlays(struct inspection *in);
 

@@ -449,3 +449,27 @@ struct rect inspector_labelled(struct inspection *in, const char *label)
     ui_label(in->ui, (struct rect){r.x, r.y, UI_LABEL, r.h}, label, theme()->text_dim);
     return (struct rect){r.x + UI_LABEL + UI_GAP, r.y, r.w - UI_LABEL - UI_GAP, r.h};
 }
+
+bool inspector_choice(struct inspection *in, const char *label, const char *hint, const char *name,
+                      const struct ui_choice *choices, int count, int *chosen)
+{
+    const struct rect r = inspector_labelled(in, label);
+    ui_hint(in->ui, r, hint);
+    return ui_segments(in->ui, r, name, choices, count, chosen);
+}
+
+int inspector_icons(struct inspection *in, struct rect r, const struct icon_button *buttons, int count)
+{
+    int pressed = -1;
+    for (int i = 0; i < count; i++) {
+        const struct rect icon = {r.x - 2 + (float)(i * (INSPECTOR_ICON + 6)), r.y, INSPECTOR_ICON, r.h};
+        if (ui_icon_button(in->ui, icon, buttons[i].name, buttons[i].icon, false, buttons[i].hint)) pressed = i;
+    }
+    return pressed;
+}
+
+int inspector_first_row(int count, int chosen, int most)
+{
+    const int first = chosen - most / 2, last = count - most;
+    return first > last ? (last > 0 ? last : 0) : first > 0 ? first : 0;
+}

@@ -10,15 +10,15 @@
 enum { MAX_ROWS = 8 }; ///< pins listed at once
 
 /// A pin in the list of all, rig by rig.
-struct place {
+struct pin_row {
     int rig, at;
 };
 
-static struct place place_of(const struct document *document, int row)
+static struct pin_row place_of(const struct document *document, int row)
 {
     int rig = 0;
     while (row >= document->rigs[rig]->pin_count) row -= document->rigs[rig++]->pin_count;
-    return (struct place){rig, row};
+    return (struct pin_row){rig, row};
 }
 
 /// The row of the selected pin, 0 where none is.
@@ -45,7 +45,7 @@ static const char *word_of(const struct rig *rig) { return rig->kind == RIG_CHAR
 static bool build_row(struct inspection *in, int row)
 {
     struct ui *ui = in->ui;
-    const struct place place = place_of(in->document, row);
+    const struct pin_row place = place_of(in->document, row);
     const struct rig *rig = in->document->rigs[place.rig];
     const struct pin *pin = &rig->pins[place.at];
     struct rect r = ui_row(ui, UI_ROW), button = {r.x + r.w - r.h, r.y, r.h, r.h};
@@ -71,9 +71,7 @@ static bool build_row(struct inspection *in, int row)
 static void build_list(struct inspection *in, int count)
 {
     const int rows = count < MAX_ROWS ? count : MAX_ROWS;
-    int first = selected_row(in) - MAX_ROWS / 2;
-    first = first > count - rows ? count - rows : first;
-    first = first < 0 ? 0 : first;
+    const int first = inspector_first_row(count, selected_row(in), MAX_ROWS);
     for (int row = first; row < first + rows; row++) {
         if (build_row(in, row)) return;
     }

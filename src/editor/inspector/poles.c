@@ -1,5 +1,4 @@
 /// The inspector's view of the active spline's poles: dragged in an inset, seen on the unit circle and in their response.
-#include "editor/inspector/poles.h"
 #include "editor/core/core.h"
 #include "editor/core/knots.h"
 #include "editor/inspector/inspection.h"

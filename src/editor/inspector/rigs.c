@@ -8,7 +8,7 @@
 #include "editor/inspector/inspector.h"
 #include <stdio.h>
 
-enum { ICON = 24, MAX_ROWS = 12 }; ///< rows from the top
+enum { MAX_ROWS = 12 }; ///< rows from the top
 
 static bool is_tail_or_chain(const struct document *document, int rig)
 {
@@ -129,23 +129,18 @@ static void open_add(struct inspector *inspector, struct rect at)
 
 static void build_buttons(struct inspection *in)
 {
+    static const struct icon_button buttons[] = {
+        {"rig.add", "Add a tail, a character, a chain … (A)", UI_ICON_ADD},
+        {"rig.copy", "One more like it, beside it", UI_ICON_COPY},
+        {"rig.delete", "Remove it, with its splines or without (Shift+Del)", UI_ICON_DELETE},
+    };
     const struct rect r = ui_row(in->ui, UI_ROW);
-    struct rect icon = {r.x - 2, r.y, ICON, r.h};
-    const bool any = in->document->rig_count > 0;
-    const int rig = in->inspector->selected;
-    if (ui_icon_button(in->ui, icon, "rig.add", UI_ICON_ADD, false, "Add a tail, a character, a chain … (A)"))
-        open_add(in->inspector, icon);
-    icon.x += ICON + 6;
-    if (any && ui_icon_button(in->ui, icon, "rig.copy", UI_ICON_COPY, false, "One more like it, beside it")) {
-        const int before = in->document->rig_count;
-        rigs_copy(in->core, in->world, rig);
-        if (in->document->rig_count > before) choose_rig(in, before);
-        return;
-    }
-    icon.x += ICON + 6;
-    if (any && ui_icon_button(in->ui, icon, "rig.delete", UI_ICON_DELETE, false,
-                              "Remove it, with its splines or without (Shift+Del)"))
-        rigs_ask_remove(in->core, in->world, rig);
+    const int before = in->document->rig_count, rig = in->inspector->selected;
+    const int pressed = inspector_icons(in, r, buttons, before > 0 ? 3 : 1);
+    if (pressed == 0) open_add(in->inspector, (struct rect){r.x - 2, r.y, INSPECTOR_ICON, r.h});
+    if (pressed == 1) rigs_copy(in->core, in->world, rig);
+    if (pressed == 2) rigs_ask_remove(in->core, in->world, rig);
+    if (in->document->rig_count > before) choose_rig(in, before);
 }
 
 void inspector_remove_rig(const struct inspector *inspector, struct core *core, const struct editor_world *world)

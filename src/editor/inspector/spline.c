@@ -47,19 +47,19 @@ static void build_slider(struct inspection *in, enum parameter parameter, struct
 
 static const char track_list[] = "follow";
 
-enum { ICON = 24, MAX_BONES = 1024 }; ///< in a list
+enum { MAX_BONES = 1024 }; ///< in a list
 
 static const char joint_list[] = "joint";
 
 /// The joint, in the field where the spline would be that is followed.
 static void build_joint_field(struct inspection *in, const struct joint_motion *motion, struct rect field)
 {
-    struct rect icon = {field.x + field.w - ICON, field.y, ICON, field.h};
+    struct rect icon = {field.x + field.w - INSPECTOR_ICON, field.y, INSPECTOR_ICON, field.h};
     const int active = in->core->active;
     const int model = document_find_model(in->document, motion->model, motion->by_file);
     char title[BONES_TITLE];
     const char *text = model < 0 ? motion->joint : bones_title(in->document, model, motion->joint, title);
-    field.w -= ICON + 4;
+    field.w -= INSPECTOR_ICON + 4;
     ui_hint(in->ui, field, "The joint it follows through the clip");
     ui_dropdown(in->ui, field, joint_list, 0, text, 0);
     const bool picking = in->core->pick.use == BONE_FOLLOWED && in->core->pick.which == active;
@@ -158,9 +158,9 @@ static void build_of(struct inspection *in)
         [MOTION_TURN] = {"turn", "Turn"}, [MOTION_ACROSS] = {"across", "Across"}, [MOTION_UP] = {"up", "Up"}};
     struct joint_motion motion = *followed(in)->motion;
     int of = (int)motion.of;
-    struct rect r = inspector_labelled(in, "its");
-    ui_hint(in->ui, r, "Its turn in degrees, or its way across or up in metres");
-    if (!ui_segments(in->ui, r, "joint.of", choices, MOTION_KINDS, &of)) return;
+    if (!inspector_choice(in, "its", "Its turn in degrees, or its way across or up in metres", "joint.of", choices,
+                          MOTION_KINDS, &of))
+        return;
     struct param param = *followed(in);
     motion.of = (enum motion_of)of;
     param.motion = &motion;

@@ -8,7 +8,7 @@
 #include <math.h>
 #include <stdio.h>
 
-enum { MAX_ROWS = 8, ICON = 24, SWATCH = 22 }; ///< splines listed at once; widths in pixels
+enum { MAX_ROWS = 8, SWATCH = 22 }; ///< splines listed at once; widths in pixels
 
 static const char rename_line[] = "rename";
 
@@ -34,12 +34,12 @@ static void build_visibility(struct inspection *in, int s, struct rect r)
     const struct spline *spline = in->document->splines[s];
     char name[192];
     bool solo = selection_has(&core->solo, spline->id), shown = spline_list_shows(core, in->document, s);
-    struct rect icon = {r.x + r.w - 2 * ICON, r.y, ICON, r.h};
+    struct rect icon = {r.x + r.w - 2 * INSPECTOR_ICON, r.y, INSPECTOR_ICON, r.h};
     snprintf(name, sizeof name, "solo.%s", spline->name);
     if (ui_icon_button(in->ui, icon, name, UI_ICON_SOLO, solo, "Show only this curve")) {
         flip(core, &core->solo, spline->id);
     }
-    icon.x += ICON;
+    icon.x += INSPECTOR_ICON;
     snprintf(name, sizeof name, "eye.%s", spline->name);
     enum ui_icon eye = shown ? UI_ICON_EYE : UI_ICON_EYE_CLOSED;
     if (ui_icon_button(in->ui, icon, name, eye, false, "Show or hide this curve")) {
@@ -70,7 +70,7 @@ static bool build_row(struct inspection *in, int s, struct rect r)
     bool active = s == in->core->active, dropped = false;
     char name[192];
     snprintf(name, sizeof name, "spline.%s", spline->name);
-    struct rect label = {r.x + SWATCH, r.y, r.w - SWATCH - 2 * ICON, r.h};
+    struct rect label = {r.x + SWATCH, r.y, r.w - SWATCH - 2 * INSPECTOR_ICON, r.h};
     if (active && ui_line_is_open(ui, rename_line)) {
         build_rename(in, s, label);
     } else {
@@ -93,23 +93,15 @@ static bool build_row(struct inspection *in, int s, struct rect r)
 
 static void build_buttons(struct inspection *in)
 {
-    static const struct {
-        const char *name, *hint;
-        enum ui_icon icon;
-    } buttons[] = {
+    static const struct icon_button buttons[] = {
         {"spline.add", "Add a spline with a knot at the playhead", UI_ICON_ADD},
         {"spline.copy", "Duplicate this spline", UI_ICON_COPY},
         {"spline.delete", "Delete this spline", UI_ICON_DELETE},
         {"spline.up", "Move this spline up", UI_ICON_UP},
         {"spline.down", "Move this spline down", UI_ICON_DOWN},
     };
-    struct rect r = ui_row(in->ui, UI_ROW);
     struct core *core = in->core;
-    int pressed = -1, count = sizeof buttons / sizeof buttons[0];
-    for (int i = 0; i < count; i++) {
-        struct rect icon = {r.x - 2 + (float)(i * (ICON + 6)), r.y, ICON, r.h};
-        if (ui_icon_button(in->ui, icon, buttons[i].name, buttons[i].icon, false, buttons[i].hint)) pressed = i;
-    }
+    const int pressed = inspector_icons(in, ui_row(in->ui, UI_ROW), buttons, sizeof buttons / sizeof buttons[0]);
     if (pressed == 0) spline_list_add(core, in->world);
     if (pressed == 1) spline_list_copy(core, in->world);
     if (pressed == 2) spline_list_remove(core, in->world);
@@ -127,12 +119,9 @@ static void show_drop(struct inspection *in, int from, int to, float y)
 void inspector_splines(struct inspection *in)
 {
     struct ui *ui = in->ui;
-    int count = in->document->spline_count, first = 0, from = -1, dropped = -1;
+    const int count = in->document->spline_count, first = inspector_first_row(count, in->core->active, MAX_ROWS);
+    int from = -1, dropped = -1;
     if (count == 0) ui_paragraph(ui, "This scene has no splines yet.", theme()->text_dim);
-    if (count > MAX_ROWS) {
-        first = in->core->active - MAX_ROWS / 2;
-        first = first < 0 ? 0 : first > count - MAX_ROWS ? count - MAX_ROWS : first;
-    }
     int rows = count < MAX_ROWS ? count : MAX_ROWS;
     float top = ui->y;
     for (int i = 0; i < rows; i++) {

@@ -17,8 +17,6 @@ static const struct {
     {AXIS_STRETCH, {"stretch", "stretches", 0}}, {AXIS_BLINK, {"blink", "closes the lids", 0}},
 };
 
-enum { ICON = 24 };
-
 static const char rename_line[] = "tail.rename", place_list[] = "place";
 
 static void build_name(struct inspection *in)
@@ -64,11 +62,11 @@ static void follow(struct inspection *in, int k, struct param param)
 /// A coordinate: a number, or the spline that it follows, and the button from one to the other.
 static void build_coordinate(struct inspection *in, const struct tail *tail, int k)
 {
-    struct rect r = ui_row(in->ui, UI_ROW), icon = {r.x + r.w - ICON, r.y, ICON, r.h};
+    struct rect r = ui_row(in->ui, UI_ROW), icon = {r.x + r.w - INSPECTOR_ICON, r.y, INSPECTOR_ICON, r.h};
     static const struct number_home home = {.get = get_position, .set = set_position};
     const struct param *param = &tail->position[k];
     char button[32];
-    r.w -= ICON + 4;
+    r.w -= INSPECTOR_ICON + 4;
     snprintf(button, sizeof button, "position.%s.follow", coordinate_name(k));
     struct rect field = {r.x + UI_LABEL + UI_GAP, r.y, r.w - UI_LABEL - UI_GAP, r.h};
     if (param->track >= 0) {
@@ -277,20 +275,18 @@ static void build_channels(struct inspection *in)
 
 static void build_buttons(struct inspection *in)
 {
-    struct rect r = inspector_labelled(in, "channel"), icon = {r.x - 2, r.y, ICON, r.h};
-    if (ui_icon_button(in->ui, icon, "channel.add", UI_ICON_ADD, false, "Bend it by the active spline too")) {
-        const int rig = in->inspector->rig, spline = in->core->active;
-        if (!core_begin(in->core, in->world, "Add channel", 0)) return;
-        if (core_end(in->core, in->world,
-                     edit_channel_add(in->document, rig, spline, AXIS_SIDE, PART_TOTAL, &in->core->error)))
-            in->inspector->channel = rig_input_count(in->document->rigs[rig]) - 1;
-        return;
-    }
-    icon.x += ICON + 6;
-    if (!chosen_channel(in)) return;
-    if (ui_icon_button(in->ui, icon, "channel.delete", UI_ICON_DELETE, false, "Delete this channel") &&
-        core_begin(in->core, in->world, "Delete channel", 0))
-        core_end(in->core, in->world, edit_channel_remove(in->document, place_of(in), &in->core->error));
+    static const struct icon_button buttons[] = {
+        {"channel.add", "Bend it by the active spline too", UI_ICON_ADD},
+        {"channel.delete", "Delete this channel", UI_ICON_DELETE},
+    };
+    struct error *error = &in->core->error;
+    const int rig = in->inspector->rig, spline = in->core->active;
+    const int pressed = inspector_icons(in, inspector_labelled(in, "channel"), buttons, chosen_channel(in) ? 2 : 1);
+    if (pressed < 0 || !core_begin(in->core, in->world, pressed == 0 ? "Add channel" : "Delete channel", 0)) return;
+    const bool done = pressed == 0 ? edit_channel_add(in->document, rig, spline, AXIS_SIDE, PART_TOTAL, error)
+                                   : edit_channel_remove(in->document, place_of(in), error);
+    if (core_end(in->core, in->world, done) && pressed == 0)
+        in->inspector->channel = rig_input_count(in->document->rigs[rig]) - 1;
 }
 
 static void build_choices(struct inspection *in, const struct channel *channel)
@@ -308,9 +304,9 @@ static void build_choices(struct inspection *in, const struct channel *channel)
     } else if (ui_segments(ui, row, "axis", chain, 3, &axis)) {
         set_axis(in, (enum axis)axis);
     }
-    struct rect r = inspector_labelled(in, "bends by");
-    ui_hint(ui, r, "Total, or displacement only: use that for a tail on a moving base");
-    if (ui_segments(ui, r, "part", parts, 2, &part) && core_begin(in->core, in->world, "Set what bends", 0))
+    if (inspector_choice(in, "bends by", "Total, or displacement only: use that for a tail on a moving base", "part",
+                         parts, 2, &part) &&
+        core_begin(in->core, in->world, "Set what bends", 0))
         core_end(in->core, in->world,
                  edit_part(in->document, place_of(in), (enum channel_part)part, &in->core->error));
 }
@@ -333,8 +329,9 @@ static void build_channel(struct inspection *in)
 /// The bone at one end: a list of those that it may be, and a button to pick it on the stage.
 static void build_end(struct inspection *in, const struct end *end, const char *bone)
 {
-    struct rect field = inspector_labelled(in, end->label), icon = {field.x + field.w - ICON, field.y, ICON, field.h};
-    field.w -= ICON + 4;
+    struct rect field = inspector_labelled(in, end->label),
+                icon = {field.x + field.w - INSPECTOR_ICON, field.y, INSPECTOR_ICON, field.h};
+    field.w -= INSPECTOR_ICON + 4;
     const int rig = in->inspector->rig;
     ui_hint(in->ui, field, end->hint);
     ui_dropdown(in->ui, field, end->list, rig, bone, 0);

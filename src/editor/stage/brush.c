@@ -356,7 +356,7 @@ static const uint32_t RING = 0xFFFFFFFFu, SHADE = 0x00000060u; ///< on the colou
 static const float CLOSE = 2;                                  ///< pixels: points nearer to the last one are left out
 
 /// Pieces of the ring on the screen: two points each, which neighbours share exactly.
-struct ring {
+struct brush_ring {
     float xy[MOST_PIECES][2][2];
     int count;
 };
@@ -381,7 +381,7 @@ static bool faces_eye(const struct stage *stage, const uint32_t *corner)
     return (xy[1][0] - xy[0][0]) * (xy[2][1] - xy[0][1]) < (xy[1][1] - xy[0][1]) * (xy[2][0] - xy[0][0]);
 }
 
-static void add_piece(struct stage *stage, const uint32_t *corner, float radius, struct ring *ring)
+static void add_piece(struct stage *stage, const uint32_t *corner, float radius, struct brush_ring *ring)
 {
     float ends[3][3];
     int count = 0;
@@ -396,7 +396,7 @@ static void add_piece(struct stage *stage, const uint32_t *corner, float radius,
 static bool is_same(const float a[2], const float b[2]) { return a[0] == b[0] && a[1] == b[1]; }
 
 /// Takes a piece that begins or ends at a point out of the ring, and moves the point to its other end.
-static bool take_piece(struct ring *ring, float at[2])
+static bool take_piece(struct brush_ring *ring, float at[2])
 {
     for (int i = 0; i < ring->count; i++) {
         for (int end = 0; end < 2; end++) {
@@ -410,7 +410,7 @@ static bool take_piece(struct ring *ring, float at[2])
 }
 
 /// Follows a line from one of its ends as far as it goes.
-static int extend(struct ring *ring, const float from[2], float (*line)[2], int count)
+static int extend(struct brush_ring *ring, const float from[2], float (*line)[2], int count)
 {
     float at[2] = {from[0], from[1]};
     while (take_piece(ring, at)) {
@@ -423,7 +423,7 @@ static int extend(struct ring *ring, const float from[2], float (*line)[2], int 
 
 /// Takes a piece and all that go on from it out of the ring, as one line: from the piece's first end backwards, turned round, and
 /// then from its second end on.
-static int take_line(struct ring *ring, float (*line)[2])
+static int take_line(struct brush_ring *ring, float (*line)[2])
 {
     float first[2][2];
     memcpy(first, ring->xy[--ring->count], sizeof first);
@@ -456,7 +456,7 @@ static void smooth_line(float (*line)[2], int count)
 
 static void show_ring(struct stage *stage, struct core *core, const struct figure *figure)
 {
-    struct ring ring;
+    struct brush_ring ring;
     ring.count = 0;
     const float radius = brush_radius_of(&core->brush, figure);
     for (int t = 0; t < figure->character.index_count; t += 3)

@@ -292,19 +292,3 @@ void ghost_show(struct stage *stage, struct core *core, const struct editor_worl
     drawlist_text(&core->list, roundf(tip[0] + 8), roundf(tip[1] + 4), FONT_NUMBER, THEME_TEXT_SMALL,
                   theme_fade(theme()->text_dim, (float)left), text);
 }
-
-void stage_toggle_ghost(struct core *core)
-{
-    core->overlays.ghost = !core->overlays.ghost;
-    core_message(core, false,
-                 core->overlays.ghost ? "Ghost on: the pose at the knot that is dragged or nudged (F4)."
-                                      : "Ghost off.");
-}
-
-void stage_toggle_onion(struct core *core)
-{
-    core->overlays.onion = !core->overlays.onion;
-    core_message(core, false,
-                 core->overlays.onion ? "Onion skin on: the pose at the knots around the playhead (O)."
-                                      : "Onion skin off.");
-}

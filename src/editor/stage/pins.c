@@ -1,6 +1,5 @@
 /// Pins on the stage: what is pointed at, drags in the plane that faces the eye, keys, and their markers.
 #include "editor/core/pins.h"
-#include "base/hash.h"
 #include "editor/core/bones.h"
 #include "editor/core/core.h"
 #include "editor/core/drag.h"
@@ -266,14 +265,6 @@ void stage_hold_point(struct stage *stage, struct core *core, const struct edito
     }
 }
 
-/// The document as it is solved now.
-static uint64_t state_key(const struct core *core, const struct editor_world *world)
-{
-    const uint64_t solved = world->evaluation ? world->evaluation->revision : 0;
-    const uint64_t edited = world->history ? history_revision(world->history) : 0; // a film has none
-    return hash_word(hash_word(hash_word(HASH_START, edited), solved), (uint64_t)core->look);
-}
-
 static void add_pin(struct stage *stage, const struct editor_world *world, int rig, int at)
 {
     const struct document *document = world->document;
@@ -292,9 +283,6 @@ static void add_pin(struct stage *stage, const struct editor_world *world, int r
 static void update(struct stage *stage, const struct core *core, const struct editor_world *world)
 {
     const struct document *document = world->document;
-    const uint64_t key = hash_word(state_key(core, world), (uint64_t)theme_in_use() << 32 | document->serial);
-    if (stage->pins_key == key) return;
-    stage->pins_key = key;
     stage->pin_count = 0;
     for (int r = 0; r < document->rig_count; r++) {
         if (document->rigs[r]->kind == RIG_CHARACTER && core->characters.compare) continue; // they stand aside

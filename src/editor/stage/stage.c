@@ -33,7 +33,6 @@ void stage_open(struct stage *stage)
     memset(stage->inertia, 0, sizeof stage->inertia);
     memset(&stage->meadow, 0, sizeof stage->meadow);
     stage->strand_count = stage->bone_count = stage->pin_count = 0;
-    stage->pins_key = 0;
 }
 
 const struct stage_view *stage_seen(const struct stage *stage) { return &stage->view; }

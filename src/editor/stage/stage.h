@@ -20,10 +20,6 @@ bool stage_character_point(const struct stage *stage, int character, const doubl
 bool stage_bone_point(const struct stage *stage, const struct core *core, int model, int node, float xy[2]);
 /// Whether anything still swings.
 bool stage_is_moving(const struct stage *stage);
-/// Onion skin on, off.
-void stage_toggle_onion(struct core *core);
-/// Ghost pose of the edited knot on, off.
-void stage_toggle_ghost(struct core *core);
 /// Time passes: recordings and what swings go on.
 void stage_advance(struct stage *stage, struct core *core, const struct editor_world *world, double dt);
 /// A new document is on the table.
@@ -63,7 +59,5 @@ bool stage_pin_point(const struct stage *stage, const struct core *core, unsigne
 /// The middle of a near edge of a character's floor on the screen (its number among characters); false where it is not in sight.
 bool stage_floor_point(const struct stage *stage, const struct core *core, const struct document *document,
                        int character, float xy[2]);
-/// Motion arc on, off.
-void stage_toggle_trail(struct core *core);
 
 #endif

@@ -218,7 +218,6 @@ struct stage {
     struct pointed pointed;
     struct shown_pin pins[STAGE_MAX_PINS];
     int pin_count;
-    uint64_t pins_key; ///< of what they were found in
     struct pin_drag pin_drag;
     struct floor_drag floor_drag;
     struct painting painting;

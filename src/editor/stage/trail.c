@@ -173,12 +173,3 @@ void trail_show(struct stage *stage, struct core *core, const struct editor_worl
     path_show(stage, core, world, TRAIL_OF_TIP, point);
     show_now(stage, core, world, point);
 }
-
-void stage_toggle_trail(struct core *core)
-{
-    core->overlays.trail = !core->overlays.trail;
-    core_message(core, false,
-                 core->overlays.trail
-                     ? "Motion arc on: the path of the tip or liveliest point, one mark per frame (P)."
-                     : "Motion arc off.");
-}

@@ -65,8 +65,8 @@ bool transport_event(struct core *core, const struct editor_world *world, const 
     bool left = event->button == BUTTON_LEFT;
     const int step = !left ? 0 : event->mods & MOD_SHIFT ? -1 : 1;
     if (control == TRANSPORT_PLAY && left) playback_toggle(core, world);
-    if (control == TRANSPORT_LOOP && left) playback_toggle_loop(core, world, 0);
-    if (control == TRANSPORT_AUTO_KEY && left) drag_toggle_auto_key(core, world, 0);
+    if (control == TRANSPORT_LOOP && left) core_flip(core, world, SWITCH_LOOP);
+    if (control == TRANSPORT_AUTO_KEY && left) core_flip(core, world, SWITCH_AUTO_KEY);
     if (control == TRANSPORT_SPEED) playback_change_speed(core, world, step);
     if (control == TRANSPORT_UI_SCALE) core_request_number(core, REQUEST_UI_SCALE, step);
     if (control == TRANSPORT_PRESENT && left) presenter_toggle(core, world, 0);
