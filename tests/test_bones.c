@@ -60,7 +60,7 @@ TEST(test_the_bone_pointed_at_says_its_name_and_a_click_selects_it)
     session_close(&s);
 }
 
-/// A drag from a bone turns the camera; it is no click.
+/// A drag from a bone moves the character; it is no click.
 TEST(test_a_drag_from_a_bone_selects_nothing)
 {
     struct session s;
@@ -68,6 +68,50 @@ TEST(test_a_drag_from_a_bone_selects_nothing)
     session_pull(&s, "bone(neck)", 40, 0, 4);
     session_release(&s, BUTTON_LEFT);
     assert_string_equal(selected(&s), "");
+    session_close(&s);
+}
+
+/// How far a bone is turned from its rest, as a chord.
+static float turned(const struct session *s, const char *name)
+{
+    const struct imported *beast = models_imported(s->world.models, 0);
+    const int node = gltf_find_node(&beast->gltf, name);
+    const float *now = editor_stage(s->editor)->models[0].pose->world[node], *rest = beast->rest.world[node];
+    float square = 0;
+    for (int k = 0; k < 12; k++) square += (now[k] - rest[k]) * (now[k] - rest[k]);
+    return sqrtf(square);
+}
+
+/// It goes where the pointer takes it, its chain swings after it and comes to rest; one step, and Esc takes it back.
+TEST(test_a_dragged_character_moves_and_its_chain_follows_through)
+{
+    struct session s;
+    open_beast(&s, TAIL);
+    char *before = session_saved(&s);
+    const float *root = editor_stage(s.editor)->models[0].root;
+    const float start[2] = {root[12], root[14]};
+    session_pull(&s, "bone(neck)", 80, 0, 6);
+    assert_true(hypotf(root[12] - start[0], root[14] - start[1]) > 0.1f);
+    assert_true(turned(&s, "tail_8") > 0.02f);
+    assert_near(turned(&s, "neck"), 0, 1e-6);
+    const float held[2] = {root[12], root[14]};
+    session_release(&s, BUTTON_LEFT);
+    session_frame(&s);
+    const struct model_rig *moved = &s.document->rigs[0]->model;
+    assert_near(root[12], held[0], 1e-3);
+    assert_near(root[14], held[1], 1e-3);
+    assert_true(hypot(moved->position[0], moved->position[2]) > 0.1);
+    assert_near(moved->position[1], 0, 0);
+    assert_string_equal(selected(&s), "");
+    for (int frame = 0; frame < 1200; frame++) session_frame(&s);
+    assert_near(turned(&s, "tail_8"), 0, 1e-6);
+    assert_one_step(&s, before);
+    session_key(&s, 'Z', MOD_CTRL);
+    session_pull(&s, "bone(neck)", 0, 40, 4);
+    session_key(&s, KEY_ESCAPE, 0);
+    session_release(&s, BUTTON_LEFT);
+    assert_saved(&s, before);
+    free(before);
     session_close(&s);
 }
 

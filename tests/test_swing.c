@@ -177,21 +177,23 @@ TEST(test_scale_and_direction)
     struct tail tail = {.joints = 40, .length = 1.6, .channels = channels, .channel_count = 1};
     const struct spline spline = spline_of(WIGGLY_COMPLEX, 1, 0.1, 0.1);
     struct swing_filter filter = filter_of(&spline);
-    double scale = swing_scale(&tail, &channels[0], &filter), bend = 4 * turn / 360 * scale * filter.peak, tip = 0;
+    struct swing_arm arm;
+    swing_arm_of_tail(&tail, &arm);
+    double scale = swing_scale(&arm, &channels[0], &filter), bend = 4 * turn / 360 * scale * filter.peak, tip = 0;
     for (int n = 0; n < 40; n++) tip += bend * 1.6 * (40 - n) / 40;
     assert_near(tip, 1, 1e-12);
-    assert_true(swing_hangs(&tail, &channels[0]));
-    tail.channel_count = 2;
-    assert_false(swing_hangs(&tail, &channels[0]));
-    assert_true(swing_hangs(&tail, &channels[1]));
-    assert_near(swing_scale(&tail, &channels[1], &filter), 1, 0);
+    assert_true(swing_hangs(channels, 1, &channels[0]));
+    assert_false(swing_hangs(channels, 2, &channels[0]));
+    assert_true(swing_hangs(channels, 2, &channels[1]));
+    assert_near(swing_scale(&arm, &channels[1], &filter), 1, 0);
     double direction[3];
-    swing_direction(&tail, AXIS_SIDE, direction);
+    swing_direction(&arm, AXIS_SIDE, direction);
     assert_near(direction[0], 1, 0);
     tail.rest.form = ANGLES_EACH;
     tail.rest.count = tail.joints;
     tail.rest.value[0] = 30; // lifted by 30 degrees: moving away in front of it presses it down
-    swing_direction(&tail, AXIS_UP, direction);
+    swing_arm_of_tail(&tail, &arm);
+    swing_direction(&arm, AXIS_UP, direction);
     assert_near(direction[1], cos(turn / 12), 1e-6);
     assert_near(direction[2], -sin(turn / 12), 1e-6);
 }

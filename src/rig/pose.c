@@ -113,10 +113,11 @@ static bool pose(const struct posing *posing, int rig, double position, const wi
                  const struct by_hand *by_hand, struct rig_pose *posed)
 {
     const struct tail *tail = &posing->document->rigs[rig]->tail;
-    double base[3];
+    double base[3], moved[3];
     pose_tail(tail, values, posing->look, &posed->tail);
     base_at(posing, tail, position, base);
-    for (int k = 0; k < 3 && by_hand; k++) base[k] += by_hand->base[k];
+    posing_base(posing, rig, by_hand, moved);
+    for (int k = 0; k < 3; k++) base[k] += moved[k];
     pose_move(&posed->tail, base);
     return true;
 }

@@ -30,12 +30,11 @@ static void add_chain(const struct posing *posing, const struct imported *import
 }
 
 /// Where it stands: its lowest point at rest on the rig's position.
-static void place(const struct model_rig *rig, const struct imported *imported, const struct by_hand *by_hand,
-                  float root[16])
+static void place(const struct model_rig *rig, const struct imported *imported, const double moved[3], float root[16])
 {
     const float scale = (float)rig->scale;
     vec3s at = {.raw = {0, -scale * imported->gltf.lo[1], 0}};
-    for (int k = 0; k < 3; k++) at.raw[k] += (float)(rig->position[k] + (by_hand ? by_hand->base[k] : 0));
+    for (int k = 0; k < 3; k++) at.raw[k] += (float)(rig->position[k] + moved[k]);
     const mat4s turned = glms_rotate_y(glms_translate_make(at), (float)(rig->turn * 3.14159265358979323846 / 180.0));
     const mat4s scaled = glms_scale_uni(turned, scale);
     memcpy(root, scaled.raw, sizeof scaled.raw);
@@ -62,7 +61,9 @@ bool posing_model(const struct posing *posing, int rig, double position, int han
     posed->model.imported = imported;
     posed->model.pose = pose;
     posed->model.ground = (float)model->position[1];
-    place(model, imported, rig == hand ? by_hand : NULL, posed->model.root);
+    double moved[3];
+    posing_base(posing, rig, rig == hand ? by_hand : NULL, moved);
+    place(model, imported, moved, posed->model.root);
     return true;
 }
 

@@ -10,6 +10,12 @@
 /// How the same knots are shown: by the paper's method, without lag, or as classical cubics (the splines are then solved so).
 enum look { LOOK_WIGGLY, LOOK_STIFF, LOOK_CUBIC };
 
+/// What moves a rig besides the document, as a drag does.
+struct by_hand {
+    wiggly_value input[RIG_MAX_INPUTS]; ///< added to each of its inputs (rig.h)
+    double base[3];                     ///< metres
+};
+
 /// What rigs are posed from.
 struct posing {
     const struct document *document;
@@ -17,12 +23,9 @@ struct posing {
     const struct models *models;         ///< the characters' models; NULL: none
     enum look look;
     bool shown; ///< an imported character's pose is the one that stays until its next like that; else until any other
-};
-
-/// What moves a rig besides the document, as a drag does.
-struct by_hand {
-    wiggly_value input[RIG_MAX_INPUTS]; ///< added to each of its inputs (rig.h)
-    double base[3];                     ///< metres
+    /// Adds to `hand` how a rig of the document is moved by hand; NULL: none is.
+    void (*move)(const void *context, int rig, struct by_hand *hand);
+    const void *context; ///< for `move`
 };
 
 /// Where the bones of a chain begin, and its tip, in the world.
@@ -55,7 +58,7 @@ struct rig_pose {
     };
 };
 
-/// Poses a rig of the document at a position in samples; `by_hand` may be NULL. false if there is no such rig, or its model
+/// Poses a rig of the document at a position in samples; `by_hand` (may be NULL) moves it besides what `posing` says. false if there is no such rig, or its model
 /// could not be read. Allocates nothing.
 bool rig_pose(const struct posing *posing, int rig, double position, const struct by_hand *by_hand,
               struct rig_pose *pose);

@@ -19,9 +19,12 @@ bool posing_model(const struct posing *posing, int rig, double position, int han
 /// Seconds into a clip, which starts at frame 0 and repeats, at a position in samples.
 double posing_clip_time(const struct document *document, double position, double duration);
 
-/// The values of a rig's inputs, with what `by_hand` (may be NULL) adds.
+/// The values of a rig's inputs, with what moves it by hand.
 void posing_values(const struct posing *posing, int rig, double position, const struct by_hand *by_hand,
                    wiggly_value values[RIG_MAX_INPUTS]);
+
+/// How far it is moved by hand, metres.
+void posing_base(const struct posing *posing, int rig, const struct by_hand *by_hand, double base[3]);
 
 /// The angles by which joint n of a tail turns about +y (`side`) and lifts (`up`), in radians.
 void tail_bend_at(const struct tail *tail, const wiggly_value *values, enum look look, int n, double *side,

@@ -1,6 +1,8 @@
 /// Steps what a spline answers while its base is moved by hand.
 #include "rig/swing.h"
-#include "rig/posing.h"
+#include "model/vector.h"
+#include "rig/chain_bones.h"
+#include "rig/posing_kind.h"
 #include "spline/poles.h"
 #include <math.h>
 
@@ -88,34 +90,34 @@ bool swing_settled(const struct swing *swing, const struct swing_filter *filter)
     return hypot(swing->x[0], swing->x[1]) + to_come < STILL;
 }
 
-bool swing_hangs(const struct tail *tail, const struct channel *channel)
+bool swing_hangs(const struct channel *channels, int count, const struct channel *channel)
 {
     if (channel->of == PART_DISPLACEMENT) return true;
     if (!axis_bends(channel->axis)) return false;
-    for (int c = 0; c < tail->channel_count; c++) {
-        if (tail->channels[c].axis == channel->axis && tail->channels[c].of == PART_DISPLACEMENT) return false;
+    for (int c = 0; c < count; c++) {
+        if (channels[c].axis == channel->axis && channels[c].of == PART_DISPLACEMENT) return false;
     }
     return true;
 }
 
 /// Metres that the tip of a straight tail moves for a unit of the channel's spline: each joint turns what is behind it.
-static double lever(const struct tail *tail, const struct channel *channel)
+static double lever(const struct swing_arm *arm, const struct channel *channel)
 {
     double sum = 0;
-    for (int n = 0; n < tail->joints; n++) {
-        sum += RADIANS * angles_at(&channel->gain, n, tail->joints) * (1 - (double)n / tail->joints);
+    for (int n = 0; n < arm->joints; n++) {
+        sum += RADIANS * angles_at(&channel->gain, n, arm->joints) * (1 - (double)n / arm->joints);
     }
-    return sum * tail->length;
+    return sum * arm->length;
 }
 
-double swing_scale(const struct tail *tail, const struct channel *channel, const struct swing_filter *filter)
+double swing_scale(const struct swing_arm *arm, const struct channel *channel, const struct swing_filter *filter)
 {
     if (channel->of == PART_DISPLACEMENT) return 1;
-    const double metres = lever(tail, channel);
+    const double metres = lever(arm, channel);
     return fabs(metres) > 1e-6 ? 1 / (metres * filter->peak) : 0;
 }
 
-void swing_direction(const struct tail *tail, enum axis axis, double direction[3])
+void swing_arm_of_tail(const struct tail *tail, struct swing_arm *arm)
 {
     struct tail still = *tail;
     struct pose pose;
@@ -123,8 +125,50 @@ void swing_direction(const struct tail *tail, enum axis axis, double direction[3
     pose_tail(&still, NULL, LOOK_WIGGLY, &pose);
     const float *base = pose.matrix[0] + 12, *tip = pose.matrix[pose.count - 1] + 12;
     const double along = (double)(tip[2] - base[2]), above = (double)(tip[1] - base[1]), length = hypot(along, above);
+    *arm = (struct swing_arm){.joints = tail->joints, .length = tail->length, .direction = {{1, 0, 0}}};
+    arm->direction[AXIS_UP][1] = length > 0 ? along / length : 1;
+    arm->direction[AXIS_UP][2] = length > 0 ? -above / length : 0;
+}
+
+/// At rest, as its character stands.
+static void arm_of_chain(const struct imported *imported, const struct chain *chain, const struct chain_bones *bones,
+                         const float root[16], struct swing_arm *arm)
+{
+    const struct chain_axes axes = chain_axes_at_rest(imported, bones, chain->turn);
+    const float *const about[] = {[AXIS_SIDE] = axes.side, [AXIS_UP] = axes.up};
+    struct chain_pose points;
+    chain_points(imported, bones, &imported->rest, root, &points);
+    *arm = (struct swing_arm){.joints = bones->count};
+    for (int n = 1; n < points.count; n++)
+        arm->length += (double)glms_vec3_distance(vec3_from(points.point[n - 1]), vec3_from(points.point[n]));
+    const vec3s out = glms_vec3_sub(vec3_from(points.point[bones->count]), vec3_from(points.point[0]));
+    for (enum axis axis = AXIS_SIDE; axis <= AXIS_UP; axis++) {
+        const vec3s turned = glms_mat4_mulv3(mat4_from(root), vec3_from(about[axis]), 0.0f);
+        const vec3s way = glms_vec3_normalize(glms_vec3_cross(turned, out));
+        for (int k = 0; k < 3; k++) arm->direction[axis][k] = chain_sign(chain, axis) * (double)way.raw[k];
+    }
+}
+
+bool swing_arm(const struct posing *posing, int rig, struct swing_arm *arm)
+{
+    const struct document *document = posing->document;
+    struct chain_bones bones;
+    struct rig_pose whole;
+    if (document->rigs[rig]->kind == RIG_TAIL) {
+        swing_arm_of_tail(&document->rigs[rig]->tail, arm);
+        return true;
+    }
+    const struct chain *chain = &document->rigs[rig]->chain;
+    const int model = document_find_model(document, chain->model, chain->by_file);
+    if (model < 0 || !posing_model(posing, model, 0, -1, NULL, &whole)) return false;
+    if (!chain_find(&whole.model.imported->gltf, chain->from, chain->to, &bones, NULL)) return false;
+    arm_of_chain(whole.model.imported, chain, &bones, whole.model.root, arm);
+    return true;
+}
+
+void swing_direction(const struct swing_arm *arm, enum axis axis, double direction[3])
+{
     const bool is_side = axis == AXIS_SIDE || axis == AXIS_LOOK;
-    direction[0] = is_side;
-    direction[1] = is_side ? 0 : length > 0 ? along / length : 1;
-    direction[2] = !is_side && length > 0 ? -above / length : 0;
+    for (int k = 0; k < 3; k++)
+        direction[k] = axis == AXIS_TWIST ? 0 : arm->direction[is_side ? AXIS_SIDE : AXIS_UP][k];
 }

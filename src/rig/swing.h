@@ -8,7 +8,7 @@
 #ifndef RIG_SWING_H
 #define RIG_SWING_H
 
-#include "scene/document.h"
+#include "rig/posing.h"
 #include "spline/oscillator.h"
 
 /// x in metres of the base's motion, and z; zero is rest.
@@ -35,14 +35,26 @@ void swing_step(struct swing *swing, const struct swing_filter *filter, double k
 /// Whether less than a tenth of a millimetre of swing is left.
 bool swing_settled(const struct swing *swing, const struct swing_filter *filter);
 
-/// Whether a channel hangs on the base: those of the displacement do or, if a tail has none for an axis, all of that axis.
-bool swing_hangs(const struct tail *tail, const struct channel *channel);
+/// What of a tail or chain follows through: straight, where its tip goes as its joints bend.
+struct swing_arm {
+    int joints;
+    double length;          ///< metres
+    double direction[2][3]; ///< for AXIS_SIDE and AXIS_UP: unit vectors along which the base must move to bend it so
+};
+
+void swing_arm_of_tail(const struct tail *tail, struct swing_arm *arm);
+
+/// Of a rig that is a tail or chain; false where its model is missing.
+bool swing_arm(const struct posing *posing, int rig, struct swing_arm *arm);
+
+/// Whether a channel, one of `count`, hangs on the base: those of the displacement do or, if there is none for an axis, all of that axis.
+bool swing_hangs(const struct channel *channels, int count, const struct channel *channel);
 
 /// Units of a channel's spline for a metre of x. A channel of the displacement takes metres as they are; for another the swing
 /// after a sudden move of the base takes the tip about as far as the base went.
-double swing_scale(const struct tail *tail, const struct channel *channel, const struct swing_filter *filter);
+double swing_scale(const struct swing_arm *arm, const struct channel *channel, const struct swing_filter *filter);
 
-/// Unit vector along which the base must move to drive channels of an axis: where these bend the tip of the tail at rest.
-void swing_direction(const struct tail *tail, enum axis axis, double direction[3]);
+/// Unit vector along which the base must move to drive channels of an axis; 0 for a twist.
+void swing_direction(const struct swing_arm *arm, enum axis axis, double direction[3]);
 
 #endif

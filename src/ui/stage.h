@@ -20,6 +20,7 @@ enum {
 
 /// A tail as it stands; what is drawn of it is one of the models.
 struct stage_tail {
+    int rig; ///< in the document
     struct pose pose;
 };
 

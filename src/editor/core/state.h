@@ -110,8 +110,8 @@ struct hover {
     int spline;
     unsigned knot;
     int handle; ///< HOVER_SLOPE: which end, as in curves_handle(); HOVER_WARNING, HOVER_BOX: which one; HOVER_LIMIT: 1: the high one
-    int tail;        ///< HOVER_BODY: its number among tails
-    int rig, joint;  ///< HOVER_JOINT: of the tail or chain; HOVER_POINT: a joint whose end it is, or a vertex
+    int rig,
+        joint; ///< HOVER_BODY: of the tail; HOVER_JOINT: of the tail or chain; HOVER_POINT: a joint whose end it is, or a vertex
     unsigned pin;    ///< HOVER_PIN: its id
     double fraction; ///< of the segment after the joint
     int model, node; ///< of HOVER_BONE and of a chain's HOVER_JOINT: the character's rig and the bone

@@ -48,23 +48,21 @@ void base_put_knot(struct core *core, const struct editor_world *world, int spli
 void base_begin(struct stage *stage, const struct editor_world *world)
 {
     struct body_drag *hold = &stage->body_drag;
-    const struct tail *tail = document_tail(world->document, hold->tail);
+    const struct tail *tail = tail_of(world->document, hold->rig);
     hold->loops = tail->channel_count > 0;
     for (int c = 0; c < tail->channel_count; c++) {
-        hold->hangs[c] = swing_hangs(tail, &tail->channels[c]);
+        hold->hangs[c] = swing_hangs(tail->channels, tail->channel_count, &tail->channels[c]);
         hold->loops &= spline_start(world->document->splines[tail->channels[c].spline]) == WIGGLY_LOOP;
     }
 }
 
 int base_spline(const struct stage *stage, struct core *core, const struct editor_world *world, int coordinate)
 {
-    const int tail = stage->body_drag.tail;
-    const struct tail *moved = document_tail(world->document, tail);
+    const int rig = stage->body_drag.rig;
+    const struct tail *moved = tail_of(world->document, rig);
     char name[NAME_SIZE];
     if (moved->position[coordinate].track >= 0) return moved->position[coordinate].track;
-    snprintf(name, sizeof name, "%.250s %s",
-             world->document->rigs[document_find_rig(world->document, RIG_TAIL, tail)]->name,
-             coordinate_name(coordinate));
+    snprintf(name, sizeof name, "%.250s %s", world->document->rigs[rig]->name, coordinate_name(coordinate));
     int spline = add_spline(core, world, name);
     if (spline < 0) return -1;
     core_set_parameter(core, world, spline, PARAMETER_MODE, WIGGLY_CUBIC);
@@ -72,9 +70,9 @@ int base_spline(const struct stage *stage, struct core *core, const struct edito
     return spline;
 }
 
-double base_value(const struct editor_world *world, int tail, int coordinate, int sample)
+double base_value(const struct editor_world *world, int rig, int coordinate, int sample)
 {
-    const struct tail *moved = document_tail(world->document, tail);
+    const struct tail *moved = tail_of(world->document, rig);
     const struct param *param = &moved->position[coordinate];
     if (param->track >= 0) {
         const wiggly_value value = evaluation_at(world->evaluation, param->track, sample);
@@ -87,7 +85,7 @@ double base_value(const struct editor_world *world, int tail, int coordinate, in
 void base_follow(const struct stage *stage, struct core *core, const struct editor_world *world, int coordinate,
                  int base)
 {
-    const int rig = document_find_rig(world->document, RIG_TAIL, stage->body_drag.tail);
+    const int rig = stage->body_drag.rig;
     const struct param param = param_track(base);
     edit_position(world->document, rig, coordinate, &param, &core->error);
 }
@@ -126,7 +124,7 @@ static int add_channel(const struct stage *stage, struct core *core, const struc
     if (spline < 0) return -1;
     for (int i = 0; i < angles_count(&gain); i++)
         angles_set_number(&gain, i, round(angles_number(&gain, i) * scale * 1e4) / 1e4);
-    const int rig = document_find_rig(document, RIG_TAIL, stage->body_drag.tail);
+    const int rig = stage->body_drag.rig;
     if (!edit_channel_add(document, rig, spline, axis, PART_DISPLACEMENT, &core->error)) return -1;
     const struct channel_place added = {rig, document->rigs[rig]->tail.channel_count - 1};
     edit_angles(document, added, ANGLE_LAG, &lag, &core->error);
@@ -137,12 +135,11 @@ static int add_channel(const struct stage *stage, struct core *core, const struc
 /// The axis about which a tail bends when its base goes along a coordinate, where no channel of its does; else AXES.
 static enum axis missing_axis(const struct tail *tail, int coordinate, double *share)
 {
-    double direction[2][3];
-    swing_direction(tail, AXIS_SIDE, direction[0]);
-    swing_direction(tail, AXIS_UP, direction[1]);
-    const bool up = fabs(direction[1][coordinate]) > fabs(direction[0][coordinate]);
+    struct swing_arm arm;
+    swing_arm_of_tail(tail, &arm);
+    const bool up = fabs(arm.direction[AXIS_UP][coordinate]) > fabs(arm.direction[AXIS_SIDE][coordinate]);
     const enum axis axis = up ? AXIS_UP : AXIS_SIDE;
-    *share = direction[up][coordinate];
+    *share = arm.direction[axis][coordinate];
     for (int c = 0; c < tail->channel_count; c++) {
         if (tail->channels[c].axis == axis) return AXES;
     }
@@ -154,17 +151,15 @@ static int add_missing(const struct stage *stage, struct core *core, const struc
                        int base)
 {
     const struct document *document = world->document;
-    const struct tail *tail = document_tail(document, stage->body_drag.tail);
+    const struct tail *tail = tail_of(document, stage->body_drag.rig);
     double share;
     const enum axis axis = missing_axis(tail, coordinate, &share);
     char name[NAME_SIZE];
     if (axis == AXES) return -1;
-    snprintf(name, sizeof name, "%.250s %s",
-             rig_title(document->rigs[document_find_rig(document, RIG_TAIL, stage->body_drag.tail)]),
-             axis_word(axis));
+    snprintf(name, sizeof name, "%.250s %s", rig_title(document->rigs[stage->body_drag.rig]), axis_word(axis));
     for (int c = 0; c < tail->channel_count; c++) {
         const struct channel model = tail->channels[c];
-        const double scale = stage->inertia[stage->body_drag.tail].scale[c];
+        const double scale = drag_inertia_scale(stage, document, stage->body_drag.rig, c);
         if (axis_bends(model.axis) && stage->body_drag.hangs[c] && scale != 0)
             return add_channel(stage, core, world, &model, axis, name, scale * share, base);
     }
@@ -174,13 +169,15 @@ static int add_missing(const struct stage *stage, struct core *core, const struc
 int base_hang_channels(const struct stage *stage, struct core *core, const struct editor_world *world, int coordinate,
                        int base)
 {
-    int index = stage->body_drag.tail, count = document_tail(world->document, index)->channel_count;
+    const int rig = stage->body_drag.rig, count = tail_of(world->document, rig)->channel_count;
     for (int c = 0; c < count; c++) {
-        const struct tail *tail = document_tail(world->document, index);
+        const struct tail *tail = tail_of(world->document, rig);
         const struct channel channel = tail->channels[c];
         const struct param *equilibrium = &world->document->splines[channel.spline]->parameter[PARAMETER_EQUILIBRIUM];
-        double direction[3], scale = stage->inertia[index].scale[c];
-        swing_direction(tail, channel.axis, direction);
+        double direction[3], scale = drag_inertia_scale(stage, world->document, rig, c);
+        struct swing_arm arm;
+        swing_arm_of_tail(tail, &arm);
+        swing_direction(&arm, channel.axis, direction);
         bool swung = stage->body_drag.hangs[c] && fabs(direction[coordinate]) > LEAST_SHARE && scale != 0;
         if (!swung) continue;
         if (channel.of == PART_TOTAL) {

@@ -51,9 +51,10 @@ void body_drag_advance(struct stage *stage, const struct core *core, const struc
     place_within(stage, core, world, stage->body_drag.offset);
 }
 
-void body_drag_offset(const struct stage *stage, const struct core *core, int tail, double offset[3])
+void body_drag_offset(const struct stage *stage, const struct core *core, const struct document *document, int rig,
+                      double offset[3])
 {
-    const bool held = body_is_held(core) && stage->body_drag.tail == tail;
+    const bool held = body_is_held(core) && body_carries(document, stage->body_drag.rig, rig);
     for (int k = 0; k < 3; k++) offset[k] = held ? stage->body_drag.offset[k] : 0;
 }
 
@@ -72,9 +73,50 @@ static const double LEAST_RISE = 0.3;   ///< cosine of it below which height doe
 static const float ring_middle[2] = {0, -0.25f}; ///< x and z in bind size, metres
 static const float RING_RADIUS = 0.6f;
 
-static const float *base_of(const struct stage *stage, int tail)
+struct tail *tail_of(const struct document *document, int rig)
 {
-    return stage->view.tails[tail].pose.matrix[0] + 12;
+    const bool is_tail = rig >= 0 && rig < document->rig_count && document->rigs[rig]->kind == RIG_TAIL;
+    return is_tail ? &document->rigs[rig]->tail : NULL;
+}
+
+bool body_carries(const struct document *document, int body, int rig)
+{
+    const struct rig *carried = document->rigs[rig];
+    return rig == body || (carried->kind == RIG_CHAIN &&
+                           document_find_model(document, carried->chain.model, carried->chain.by_file) == body);
+}
+
+/// Where a body stands now.
+struct stand {
+    float base[3], middle[2]; ///< what the pointer holds; x and z
+    float ground, radius;     ///< of a ring around it
+};
+
+/// False where there is no such body, or nothing to see of it.
+static bool find_stand(const struct stage *stage, const struct core *core, const struct editor_world *world, int rig,
+                       struct stand *stand)
+{
+    const struct stage_hand by = {stage, core, world->document};
+    const struct posing posing = stage_posing_by_hand(&by, world);
+    struct rig_pose pose;
+    float lo[3], hi[3];
+    if (!rig_pose(&posing, rig, core->playback.position, NULL, &pose)) return false;
+    if (pose.kind == RIG_TAIL) {
+        const float *base = pose.tail.matrix[0] + 12, scale = pose_scale(&pose.tail);
+        *stand = (struct stand){{base[0], base[1], base[2]},
+                                {base[0] + scale * ring_middle[0], base[2] + scale * ring_middle[1]},
+                                pose.tail.ground,
+                                scale * RING_RADIUS};
+        return true;
+    }
+    if (pose.kind != RIG_MODEL) return false;
+    rig_bounds(&pose, lo, hi);
+    const float *at = pose.model.root + 12, middle[2] = {0.5f * (lo[0] + hi[0]), 0.5f * (lo[2] + hi[2])};
+    *stand = (struct stand){{at[0], 0.5f * (lo[1] + hi[1]), at[2]},
+                            {middle[0], middle[1]},
+                            pose.model.ground,
+                            0.5f * hypotf(hi[0] - lo[0], hi[2] - lo[2])};
+    return true;
 }
 
 /// Whether a ray passes through the box around a body.
@@ -134,7 +176,7 @@ struct hover body_hover(const struct stage *stage, float x, float y)
         const float distance = body_distance(stage, t, &stage->view.tails[t].pose, x, y);
         if (!(distance >= 0 && distance < nearest)) continue;
         nearest = distance;
-        hover = (struct hover){.kind = HOVER_BODY, .tail = t, .x = x, .y = y};
+        hover = (struct hover){.kind = HOVER_BODY, .rig = stage->view.tails[t].rig, .x = x, .y = y};
     }
     return hover;
 }
@@ -144,7 +186,7 @@ bool body_point(const struct stage *stage, const struct core *core, int tail, in
     static const float places[BODY_POINTS][3] = {
         {0, 0.18f, -0.45f}, {0, 0.54f, -0.385f}, {0, 0.05f, -0.25f}, {0, 0, -0.5f}}; // chest, head, rump, paws
     const struct pose *pose = &stage->view.tails[tail].pose;
-    const vec3s base = vec3_from(base_of(stage, tail));
+    const vec3s base = vec3_from(pose->matrix[0] + 12);
     float matrix[LIMBS][16];
     limbs_matrices(&pose->limbs, 1.0f, matrix);
     const mat4s moved = mat4_from(matrix[point == BODY_HEAD ? LIMB_HEAD : LIMB_BODY]);
@@ -159,21 +201,20 @@ static void show_arc(struct core *core, const float point[RING_POINTS + 1][2], i
     drawlist_line(&core->list, point[from], to - from + 1, 1.5f, color);
 }
 
-void body_drag_show(struct stage *stage, struct core *core)
+void body_drag_show(struct stage *stage, struct core *core, const struct editor_world *world)
 {
-    bool held = body_is_held(core);
+    const bool held = body_is_held(core);
+    const int rig = held ? stage->body_drag.rig : core->hover.rig;
+    struct stand stand;
     if (!held && core->hover.kind != HOVER_BODY) return;
-    int tail = held ? stage->body_drag.tail : core->hover.tail;
-    if (tail >= stage->view.tail_count) return;
-    const float scale = pose_scale(&stage->view.tails[tail].pose), *base = base_of(stage, tail);
+    if (!find_stand(stage, core, world, rig, &stand)) return;
     const uint32_t color = held ? theme()->accent : theme()->playhead;
     float point[RING_POINTS + 1][2];
     for (int i = 0; i <= RING_POINTS; i++) { // from the right side of the picture over the near half
         float angle = 6.2831853f * (float)i / RING_POINTS - stage->camera.azimuth;
-        const float world[3] = {base[0] + scale * (ring_middle[0] - RING_RADIUS * sinf(-angle)),
-                                stage->view.tails[tail].pose.ground,
-                                base[2] + scale * (ring_middle[1] - RING_RADIUS * cosf(-angle))};
-        if (!stage_project_point(stage, core->layout.stage, world, point[i])) return;
+        const float place[3] = {stand.middle[0] - stand.radius * sinf(-angle), stand.ground,
+                                stand.middle[1] - stand.radius * cosf(-angle)};
+        if (!stage_project_point(stage, core->layout.stage, place, point[i])) return;
     }
     show_arc(core, (const float(*)[2])point, 0, RING_POINTS / 2, color);
     show_arc(core, (const float(*)[2])point, RING_POINTS / 2, RING_POINTS, theme_fade(color, 0.3f));
@@ -182,17 +223,17 @@ void body_drag_show(struct stage *stage, struct core *core)
 /// Inside the open step the document gets the recorded motion or the new place.
 static void release(struct stage *stage, struct core *core, const struct editor_world *world, bool keep)
 {
-    int tail = stage->body_drag.tail;
+    const int body = stage->body_drag.rig;
     double offset[3];
-    keep = keep && document_tail(world->document, tail); // an edit may have taken the tail out of the hand
+    keep = keep && body < world->document->rig_count; // an edit may have taken the body out of the hand
     body_drag_way(stage, core, offset);
-    if (keep && record_has_motion(stage)) {
+    if (keep && record_has_motion(stage) && tail_of(world->document, body)) {
         record_keep(stage, core, world);
-        drag_inertia_stop(stage, tail);
+        drag_inertia_stop(stage, world->document, body);
     } else if (keep) {
         place_body(stage, core, world, offset);
     } else {
-        drag_inertia_stop(stage, tail);
+        drag_inertia_stop(stage, world->document, body);
     }
     record_forget(stage);
 }
@@ -201,10 +242,9 @@ static void release(struct stage *stage, struct core *core, const struct editor_
 static void move(void *room, struct core *core, const struct editor_world *world)
 {
     struct stage *stage = room;
-    (void)world;
     if (stage->body_drag.begun) return;
     stage->body_drag.begun = true;
-    if (core->record_armed) record_begin(stage, core);
+    if (core->record_armed && tail_of(world->document, stage->body_drag.rig)) record_begin(stage, core);
 }
 
 static enum drag_answer take_event(void *room, struct core *core, const struct editor_world *world,
@@ -214,6 +254,12 @@ static enum drag_answer take_event(void *room, struct core *core, const struct e
     const bool key = event->kind == EVENT_KEY && event->action == ACTION_PRESS && !(event->mods & MOD_ALT);
     if (!key) return DRAG_PASSES;
     if (event->key != 'R') return lock(room, event->key) ? DRAG_USED : DRAG_PASSES;
+    const struct stage *stage = room;
+    if (!tail_of(world->document, stage->body_drag.rig)) {
+        core_message(core, false,
+                     "An imported character stands in one place for the whole shot: its motion is its clip's.");
+        return DRAG_USED;
+    }
     drag_start_moving(core, world);
     move(room, core, world);
     record_begin(room, core);
@@ -230,22 +276,27 @@ static const struct drag_owner body_owner = {.cursor = CURSOR_MOVE, .move = move
 
 bool body_is_held(const struct core *core) { return core->drag.owner == &body_owner; }
 
-void body_drag_begin(struct stage *stage, struct core *core, int tail, const struct event *event)
+void body_drag_begin(struct stage *stage, struct core *core, const struct editor_world *world, int rig,
+                     const struct event *event)
 {
     struct body_drag *hold = &stage->body_drag;
     const struct camera *camera = &stage->camera;
-    const struct pose *pose = &stage->view.tails[tail].pose;
+    struct stand stand = {.radius = 0};
     drag_begin(core, &body_owner, stage, "Move body", event);
-    *hold = (struct body_drag){.tail = tail, .lifts = event->mods & MOD_CTRL, .axis = -1};
-    const float depth = camera_depth(stage->view.view, stage->view.eye, base_of(stage, tail));
+    *hold = (struct body_drag){.rig = rig, .axis = -1};
+    find_stand(stage, core, world, rig, &stand);
+    const float depth = camera_depth(stage->view.view, stage->view.eye, stand.base);
     hold->pixels_per_metre = 0.5 * (double)(core->layout.stage.h * stage->view.projection[5] / fmaxf(depth, 0.1f));
     double pitch = sin((double)camera->elevation);
     hold->pitch = copysign(fmax(fabs(pitch), LEAST_PITCH), pitch);
     hold->rise = fmax(cos((double)camera->elevation), LEAST_RISE);
-    const float sitting = pose->ground + FOX_BASE_HEIGHT * pose_scale(pose);
-    hold->lowest = fmin(0, (double)(sitting - base_of(stage, tail)[1]));
     hold->right[0] = -sin((double)camera->azimuth);
     hold->right[1] = -cos((double)camera->azimuth);
+    const struct tail *tail = tail_of(world->document, rig);
+    if (!tail) return; // a character stays on its ground
+    hold->lifts = event->mods & MOD_CTRL;
+    const float sitting = stand.ground + FOX_BASE_HEIGHT * (float)tail->length / FOX_TAIL_LENGTH;
+    hold->lowest = fmin(0, (double)(sitting - stand.base[1]));
 }
 
 static const double RESOLUTION = 1e-3; ///< metres that the document gets
@@ -284,12 +335,12 @@ static int key_coordinate(const struct stage *stage, struct core *core, const st
                           int coordinate, double by, char why[STOPPED_SIZE])
 {
     const struct document *document = world->document;
-    const int tail = stage->body_drag.tail;
-    const bool is_new = document_tail(document, tail)->position[coordinate].track < 0;
+    const int rig = stage->body_drag.rig;
+    const bool is_new = tail_of(document, rig)->position[coordinate].track < 0;
     const int spline = base_spline(stage, core, world, coordinate);
     if (spline < 0) return -1;
     const int sample = sample_of(core, document, spline);
-    const double before = base_value(world, tail, coordinate, sample);
+    const double before = base_value(world, rig, coordinate, sample);
     if (!is_new) {
         struct knot knot = core_knot_at(document, spline, sample);
         knot.value = core_round(before + by, RESOLUTION);
@@ -318,7 +369,7 @@ static void key_body(struct stage *stage, struct core *core, const struct editor
         if (offset[k] == 0) continue;
         const int made = key_coordinate(stage, core, world, k, offset[k], report.why);
         if (made >= 0) swings = made;
-        const int track = document_tail(world->document, stage->body_drag.tail)->position[k].track;
+        const int track = tail_of(world->document, stage->body_drag.rig)->position[k].track;
         if (track < 0) continue;
         say_name(&report, is_first, world->document->splines[track]->name);
         is_first = false;
@@ -348,14 +399,15 @@ void place_within(const struct stage *stage, const struct core *core, const stru
                   double offset[3])
 {
     const struct document *document = world->document;
-    const struct tail *tail = document_tail(document, stage->body_drag.tail);
+    const struct tail *tail = tail_of(document, stage->body_drag.rig);
     const bool keys = core->auto_key || stage->record.running || record_has_motion(stage);
+    if (!tail) offset[1] = 0; // a character stays on its ground
     for (int k = 0; tail && k < 3; k++) {
         const int track = tail->position[k].track;
         if (offset[k] == 0 || track < 0) continue;
         const struct spline *spline = document->splines[track];
         if (keys) {
-            const double before = base_value(world, stage->body_drag.tail, k, sample_of(core, document, track));
+            const double before = base_value(world, stage->body_drag.rig, k, sample_of(core, document, track));
             offset[k] = spline_within(spline, before + offset[k]) - before;
         } else {
             const struct knot *stops;
@@ -386,15 +438,24 @@ static double shift_spline(struct core *core, const struct editor_world *world, 
     return by;
 }
 
+/// Of an imported character.
+static double shift_model(struct core *core, const struct editor_world *world, int rig, int coordinate, double by)
+{
+    struct model_rig moved = world->document->rigs[rig]->model;
+    moved.position[coordinate] = core_round(moved.position[coordinate] + by, RESOLUTION);
+    return edit_place(world->document, rig, &moved, &core->error) ? by : 0;
+}
+
 /// A height that is a number says where the ground is, which stays. How far the coordinate went.
-static double shift_coordinate(struct core *core, const struct editor_world *world, int tail, int coordinate,
+static double shift_coordinate(struct core *core, const struct editor_world *world, int rig, int coordinate,
                                double by, char why[STOPPED_SIZE])
 {
-    const struct param *param = &document_tail(world->document, tail)->position[coordinate];
+    const struct tail *tail = tail_of(world->document, rig);
+    if (coordinate == 1 && (!tail || tail->position[1].track < 0)) return 0;
+    if (!tail) return shift_model(core, world, rig, coordinate, by);
+    const struct param *param = &tail->position[coordinate];
     if (param->track >= 0) return shift_spline(core, world, param->track, by, why);
-    if (coordinate == 1) return 0;
     const struct param moved = param_number(core_round(param->value + by, RESOLUTION));
-    const int rig = document_find_rig(world->document, RIG_TAIL, tail);
     edit_position(world->document, rig, coordinate, &moved, &core->error);
     return by;
 }
@@ -408,7 +469,7 @@ static void shift_body(struct stage *stage, struct core *core, const struct edit
     for (int k = 0; k < 3; k++) {
         char part[32];
         if (offset[k] == 0) continue;
-        const double by = shift_coordinate(core, world, stage->body_drag.tail, k, offset[k], report.why);
+        const double by = shift_coordinate(core, world, stage->body_drag.rig, k, offset[k], report.why);
         if (by == 0) continue;
         snprintf(part, sizeof part, "%s %+.2f m", coordinate_name(k), by);
         say_name(&report, is_first, part);
@@ -419,7 +480,8 @@ static void shift_body(struct stage *stage, struct core *core, const struct edit
     } else if (is_first) {
         core_message(core, false, "It sits on the ground again: auto-key (Shift+A) or R keeps a height.");
     } else {
-        say(&report, report.why[0] ? "." : ". Auto-key (Shift+A) sets knots instead.");
+        const bool keys = tail_of(world->document, stage->body_drag.rig) && !report.why[0];
+        say(&report, keys ? ". Auto-key (Shift+A) sets knots instead." : ".");
         core_add_stopped(report.why, report.text, sizeof report.text);
         core_message(core, false, report.text);
     }
@@ -427,10 +489,10 @@ static void shift_body(struct stage *stage, struct core *core, const struct edit
 
 void place_body(struct stage *stage, struct core *core, const struct editor_world *world, const double offset[3])
 {
-    if (core->auto_key) {
+    if (core->auto_key && tail_of(world->document, stage->body_drag.rig)) {
         key_body(stage, core, world, offset);
     } else {
         shift_body(stage, core, world, offset);
     }
-    drag_inertia_land(stage, stage->body_drag.tail);
+    drag_inertia_land(stage);
 }

@@ -1,4 +1,4 @@
-/// Tails that follow through while their body is moved by hand, outside of the document's solve and on top of it.
+/// Tails and chains that follow through while their body is moved by hand, outside of the document's solve and on top of it.
 #include "editor/stage/parts.h"
 #include "editor/stage/stage.h"
 #include <math.h>
@@ -19,85 +19,112 @@ static bool filter_now(const struct core *core, const struct editor_world *world
     return swing_filter(spline, parameter, filter);
 }
 
-/// Drives one tail's channels by a change of its base's velocity; whether any of them still swings.
-static bool drive(struct stage *stage, const struct core *core, const struct editor_world *world, int tail,
+/// Drives a rig's channels by a change of its base's velocity; whether any of them still swings.
+static bool drive(struct drag_inertia *inertia, const struct core *core, const struct editor_world *world, int rig,
                   const double kick[3], double dt)
 {
-    const struct tail *driven = document_tail(world->document, tail);
-    struct drag_inertia *inertia = &stage->inertia[tail];
+    const struct posing posing = stage_posing(core, world);
+    struct swing_arm arm;
+    int count;
+    const struct channel *channels = rig_channels(world->document->rigs[rig], &count);
     bool swings = false;
-    for (int c = 0; c < driven->channel_count; c++) {
-        const struct channel *channel = &driven->channels[c];
+    if (!swing_arm(&posing, rig, &arm)) return false;
+    for (int c = 0; c < count; c++) {
+        const struct channel *channel = &channels[c];
         struct swing_filter filter;
         double direction[3];
         inertia->scale[c] = 0;
-        if (!swing_hangs(driven, channel) || !filter_now(core, world, channel->spline, &filter)) {
+        if (!swing_hangs(channels, count, channel) || !filter_now(core, world, channel->spline, &filter)) {
             inertia->channel[c] = (struct swing){0};
             continue;
         }
-        swing_direction(driven, channel->axis, direction);
+        swing_direction(&arm, channel->axis, direction);
         double along = kick[0] * direction[0] + kick[1] * direction[1] + kick[2] * direction[2];
         swing_step(&inertia->channel[c], &filter, along, dt);
-        inertia->scale[c] = swing_scale(driven, channel, &filter);
+        inertia->scale[c] = swing_scale(&arm, channel, &filter);
         swings |= !swing_settled(&inertia->channel[c], &filter);
     }
     return swings;
 }
 
-static void advance_tail(struct stage *stage, const struct core *core, const struct editor_world *world, int tail,
-                         double dt)
+/// Where the swing of a rig is kept, 0: of none; −1: nowhere.
+static int find(const struct stage *stage, unsigned id)
 {
-    struct drag_inertia *inertia = &stage->inertia[tail];
-    double offset[3], kick[3];
+    int i = STAGE_MAX_STRANDS;
+    while (--i >= 0 && stage->inertia[i].rig != id) continue;
+    return i;
+}
+
+/// False where it is at rest, and nothing need be kept of it.
+static bool advance(struct drag_inertia *inertia, const struct core *core, const struct editor_world *world, int rig,
+                    const double offset[3], double dt)
+{
+    double kick[3];
     bool moves = false;
-    body_drag_offset(stage, core, tail, offset);
     for (int k = 0; k < 3; k++) {
         double velocity = (offset[k] - inertia->offset[k]) / dt;
         kick[k] = velocity - inertia->velocity[k];
-        moves |= velocity != 0 || kick[k] != 0;
+        moves |= velocity != 0 || kick[k] != 0 || offset[k] != 0;
         inertia->velocity[k] = velocity;
         inertia->offset[k] = offset[k];
     }
-    if (!moves && !inertia->swings) return;
-    inertia->swings = drive(stage, core, world, tail, kick, dt) || moves;
-    if (!inertia->swings) memset(inertia->channel, 0, sizeof inertia->channel);
+    if (!moves && !inertia->swings) return false;
+    inertia->swings = drive(inertia, core, world, rig, kick, dt) || moves;
+    return inertia->swings;
 }
 
 void drag_inertia_advance(struct stage *stage, const struct core *core, const struct editor_world *world, double dt)
 {
+    const struct document *document = world->document;
     if (!(dt > 0)) return;
-    const int count = document_count_rigs(world->document, RIG_TAIL);
-    for (int t = 0; t < count && t < STAGE_MAX_TAILS; t++) {
-        if (core->look == LOOK_CUBIC) {
-            drag_inertia_stop(stage, t); // nothing pulls a cubic back
-        } else {
-            advance_tail(stage, core, world, t, dt);
-        }
+    if (core->look == LOOK_CUBIC) memset(stage->inertia, 0, sizeof stage->inertia); // nothing pulls a cubic back
+    for (int r = 0; r < document->rig_count && core->look != LOOK_CUBIC; r++) {
+        const unsigned id = document->rigs[r]->id;
+        double offset[3];
+        if (document->rigs[r]->kind != RIG_TAIL && document->rigs[r]->kind != RIG_CHAIN) continue;
+        body_drag_offset(stage, core, document, r, offset);
+        int at = find(stage, id);
+        if (at < 0 && (offset[0] != 0 || offset[1] != 0 || offset[2] != 0)) at = find(stage, 0);
+        if (at < 0) continue;
+        stage->inertia[at].rig = id;
+        if (!advance(&stage->inertia[at], core, world, r, offset, dt)) stage->inertia[at] = (struct drag_inertia){0};
     }
 }
 
-void drag_inertia_land(struct stage *stage, int tail)
+void drag_inertia_land(struct stage *stage)
 {
-    memset(stage->inertia[tail].offset, 0, sizeof stage->inertia[tail].offset);
+    for (int i = 0; i < STAGE_MAX_STRANDS; i++) memset(stage->inertia[i].offset, 0, sizeof stage->inertia[i].offset);
 }
 
-void drag_inertia_stop(struct stage *stage, int tail)
+void drag_inertia_stop(struct stage *stage, const struct document *document, int body)
 {
-    if (tail < STAGE_MAX_TAILS) stage->inertia[tail] = (struct drag_inertia){0};
+    for (int r = 0; r < document->rig_count; r++) {
+        const int at = body_carries(document, body, r) ? find(stage, document->rigs[r]->id) : -1;
+        if (at >= 0) stage->inertia[at] = (struct drag_inertia){0};
+    }
+}
+
+double drag_inertia_scale(const struct stage *stage, const struct document *document, int rig, int channel)
+{
+    const int at = find(stage, document->rigs[rig]->id);
+    return at >= 0 ? stage->inertia[at].scale[channel] : 0;
 }
 
 bool stage_is_moving(const struct stage *stage)
 {
-    for (int t = 0; t < STAGE_MAX_TAILS; t++) {
-        if (stage->inertia[t].swings) return true;
+    for (int i = 0; i < STAGE_MAX_STRANDS; i++) {
+        if (stage->inertia[i].swings) return true;
     }
     return stage->meadow.swings;
 }
 
-wiggly_value drag_inertia_value(const struct stage *stage, int tail, int channel)
+void drag_inertia_add(const struct stage *stage, const struct document *document, int rig,
+                      wiggly_value values[RIG_MAX_INPUTS])
 {
-    if (tail >= STAGE_MAX_TAILS || !stage->inertia[tail].swings) return (wiggly_value){0};
-    const struct drag_inertia *inertia = &stage->inertia[tail];
-    const struct swing *swing = &inertia->channel[channel];
-    return (wiggly_value){.re = inertia->scale[channel] * swing->x[0], .im = inertia->scale[channel] * swing->x[1]};
+    const int at = find(stage, document->rigs[rig]->id);
+    const struct drag_inertia *inertia = &stage->inertia[at < 0 ? 0 : at];
+    for (int c = 0; at >= 0 && inertia->swings && c < SCENE_MAX_CHANNELS; c++) {
+        values[c].re += inertia->scale[c] * inertia->channel[c].x[0];
+        values[c].im += inertia->scale[c] * inertia->channel[c].x[1];
+    }
 }

@@ -43,7 +43,8 @@ static void add_shadows(struct stage_view *view, const struct stage_model *shown
 static void pose(struct stage *stage, const struct core *core, const struct editor_world *world, int rig, int n)
 {
     struct stage_view *view = &stage->view;
-    struct posing posing = stage_posing(core, world);
+    const struct stage_hand by = {stage, core, world->document};
+    struct posing posing = stage_posing_by_hand(&by, world);
     struct rig_pose posed;
     (void)n;
     posing.shown = true;

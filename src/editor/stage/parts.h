@@ -30,9 +30,17 @@ void stage_ring(struct core *core, const float xy[2]);
 /// The end of a drag that never moved: a click, on a bone or beside all.
 void stage_click(void *room, struct core *core, const struct editor_world *world, bool keep);
 
-/// Poses one tail with what is moved by hand; `change` may be NULL.
-void stage_pose_tail(const struct stage *stage, const struct core *core, const struct editor_world *world, int tail,
-                     double position, const struct what_if *change, struct rig_pose *pose);
+/// What moves rigs by hand: the body that is held, and what swings after it.
+struct stage_hand {
+    const struct stage *stage;
+    const struct core *core;
+    const struct document *document;
+};
+/// The same with that, which must outlive it.
+struct posing stage_posing_by_hand(const struct stage_hand *hand, const struct editor_world *world);
+/// Poses a tail or chain with what is moved by hand; `change` may be NULL. False if its model is missing.
+bool stage_pose_strand(const struct stage *stage, const struct core *core, const struct editor_world *world, int rig,
+                       double position, const struct what_if *change, struct rig_pose *pose);
 
 /// Frees what is drawn of tails.
 void foxes_free(struct stage *stage);
@@ -40,7 +48,7 @@ void foxes_free(struct stage *stage);
 /// Notes what hangs on the held body, before anything is edited.
 void base_begin(struct stage *stage, const struct editor_world *world);
 /// Where a coordinate is at a sample, metres, as a spline would have it.
-double base_value(const struct editor_world *world, int tail, int coordinate, int sample);
+double base_value(const struct editor_world *world, int rig, int coordinate, int sample);
 /// The spline that a coordinate follows, a new cubic where it is a number yet; -1 on failure.
 int base_spline(const struct stage *stage, struct core *core, const struct editor_world *world, int coordinate);
 /// Sets or inserts a knot, within the limits of its spline (see core_hold()); a level one stands still there.
@@ -153,8 +161,11 @@ struct hover body_moment_ago(const struct stage *stage, const struct core *core,
 /// Points of a body that are likely to be in sight, the likeliest first, on the screen; false where one is behind the eye.
 enum { BODY_HEAD = 1, BODY_POINTS = 4 };
 bool body_point(const struct stage *stage, const struct core *core, int tail, int point, float xy[2]);
+/// The tail of a rig; NULL: it is none, or gone.
+struct tail *tail_of(const struct document *document, int rig);
 /// Starts to drag a body, over the ground or, with Ctrl, up and across. X, Y and Z lock an axis, R records.
-void body_drag_begin(struct stage *stage, struct core *core, int tail, const struct event *event);
+void body_drag_begin(struct stage *stage, struct core *core, const struct editor_world *world, int rig,
+                     const struct event *event);
 /// Whether a body is dragged.
 bool body_is_held(const struct core *core);
 /// Keeps the way of the held body, metres, where the limits of the splines that it follows will keep what place_body() or a recording
@@ -164,23 +175,29 @@ void place_within(const struct stage *stage, const struct core *core, const stru
 /// The new place, metres from the old one: knots at the playhead with auto-key, else all of the shot moves. Says which.
 void place_body(struct stage *stage, struct core *core, const struct editor_world *world, const double offset[3]);
 /// A ring on the ground round the body that is held or can be.
-void body_drag_show(struct stage *stage, struct core *core);
+void body_drag_show(struct stage *stage, struct core *core, const struct editor_world *world);
 
 /// How far the pointer has taken the held body, metres, whatever holds it; 0 where none is held.
 void body_drag_way(const struct stage *stage, const struct core *core, double offset[3]);
 /// The held body goes as far as the pointer and limits have it: before what else advances.
 void body_drag_advance(struct stage *stage, const struct core *core, const struct editor_world *world);
-/// How far the running drag has moved a tail's base from where the document has it, metres; 0 for all others.
-void body_drag_offset(const struct stage *stage, const struct core *core, int tail, double offset[3]);
+/// Whether a body's motion takes a rig along: itself, or the chains of an imported character.
+bool body_carries(const struct document *document, int body, int rig);
+/// How far the running drag has moved a rig from where the document has it, metres; 0 where the body that is held does not carry it.
+void body_drag_offset(const struct stage *stage, const struct core *core, const struct document *document, int rig,
+                      double offset[3]);
 
 /// Advances by `dt` seconds: the bases go where body_drag_offset() says, and what hangs on them swings.
 void drag_inertia_advance(struct stage *stage, const struct core *core, const struct editor_world *world, double dt);
 /// The document now holds the offset: the base has not moved by that.
-void drag_inertia_land(struct stage *stage, int tail);
-/// Stops a tail's swing at once.
-void drag_inertia_stop(struct stage *stage, int tail);
-/// What follow-through adds to a channel's value now (y is 0).
-wiggly_value drag_inertia_value(const struct stage *stage, int tail, int channel);
+void drag_inertia_land(struct stage *stage);
+/// Stops what a body carries at once.
+void drag_inertia_stop(struct stage *stage, const struct document *document, int body);
+/// swing_scale() of a channel that swings; else 0.
+double drag_inertia_scale(const struct stage *stage, const struct document *document, int rig, int channel);
+/// Adds to the values of a rig's channels what follow-through adds now.
+void drag_inertia_add(const struct stage *stage, const struct document *document, int rig,
+                      wiggly_value values[RIG_MAX_INPUTS]);
 
 /// Starts to record at the playhead, and plays; the body must be held.
 void record_begin(struct stage *stage, struct core *core);

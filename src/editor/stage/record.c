@@ -135,8 +135,8 @@ static int key_coordinate(const struct stage *stage, struct core *core, const st
 {
     const struct record *record = &stage->record;
     const struct document *document = world->document;
-    const int tail = stage->body_drag.tail, last = document_samples(document) - 1;
-    const bool is_new = document_tail(document, tail)->position[coordinate].track < 0;
+    const int rig = stage->body_drag.rig, last = document_samples(document) - 1;
+    const bool is_new = tail_of(document, rig)->position[coordinate].track < 0;
     double way[RECORD_SAMPLES];
     int knots[MAX_KNOTS];
     int spline = base_spline(stage, core, world, coordinate);
@@ -144,7 +144,7 @@ static int key_coordinate(const struct stage *stage, struct core *core, const st
     int count = record->count, end = document_last_knot_sample(document, document->splines[spline]);
     if (record->first + count - 1 > end) count = end - record->first + 1;
     for (int i = 0; i < count; i++)
-        way[i] = base_value(world, tail, coordinate, record->first + i) + record->way[coordinate][i];
+        way[i] = base_value(world, rig, coordinate, record->first + i) + record->way[coordinate][i];
     int made = count >= 2 ? record_simplify(way, count, TOLERANCE, knots, MAX_KNOTS) : 0;
     if (made == 0) return 0;
     if (!is_new) clear_knots(core, world, spline, record->first, record->first + count - 1);
@@ -203,15 +203,15 @@ static void show_sign(struct core *core, const struct document *document, bool r
 static void show_way(const struct stage *stage, struct core *core, const struct editor_world *world)
 {
     const struct record *record = &stage->record;
-    const int tail = stage->body_drag.tail, step = record->count / MAX_POINTS + 1;
+    const int rig = stage->body_drag.rig, step = record->count / MAX_POINTS + 1;
     float points[MAX_POINTS][2];
     int count = 0;
     for (int i = 0; i < record->count; i += step) {
         float place[3];
         for (int k = 0; k < 3; k++) {
-            const struct param *param = &document_tail(world->document, tail)->position[k];
+            const struct param *param = &tail_of(world->document, rig)->position[k];
             double value = param->value;
-            if (param->track >= 0) value = base_value(world, tail, k, record->first + i);
+            if (param->track >= 0) value = base_value(world, rig, k, record->first + i);
             place[k] = (float)(value + record->way[k][i]);
         }
         if (!stage_project_point(stage, core->layout.stage, place, points[count++])) return;
@@ -223,13 +223,12 @@ void record_show(struct stage *stage, struct core *core, const struct editor_wor
 {
     const struct document *document = world->document;
     const bool is_held = body_is_held(core);
-    const int tail = is_held ? stage->body_drag.tail : core->hover.tail;
-    const struct tail *shown = is_held || core->hover.kind == HOVER_BODY ? document_tail(document, tail) : NULL;
+    const int rig = is_held ? stage->body_drag.rig : core->hover.rig;
+    const struct tail *shown = is_held || core->hover.kind == HOVER_BODY ? tail_of(document, rig) : NULL;
     bool moves = false;
     for (int k = 0; shown && k < 3; k++) moves |= shown->position[k].track >= 0;
     if (moves && !core->overlays.trail)
-        path_show(stage, core, world, TRAIL_OF_BODY,
-                  (struct rig_point){document_find_rig(document, RIG_TAIL, tail), POINT_BASE});
+        path_show(stage, core, world, TRAIL_OF_BODY, (struct rig_point){rig, POINT_BASE});
     if (is_held && stage->record.running) {
         char text[32];
         show_way(stage, core, world);

@@ -67,7 +67,7 @@ static struct hover hover_now(struct stage *stage, const struct core *core, cons
     struct hover hover = stage_hover(stage, core, document, x, y);
     if (hover.kind == HOVER_JOINT && !tail_drag_holds(document, hover.rig, hover.joint)) hover.kind = HOVER_NONE;
     if (hover.kind == HOVER_BONE && !bone_exists(document, hover.model)) hover.kind = HOVER_NONE;
-    if (hover.kind == HOVER_BODY && !document_tail(document, hover.tail)) hover.kind = HOVER_NONE;
+    if (hover.kind == HOVER_BODY && !tail_of(document, hover.rig)) hover.kind = HOVER_NONE;
     if ((hover.kind == HOVER_POINT || hover.kind == HOVER_PIN) && !pins_hover_exists(world, &hover))
         hover.kind = HOVER_NONE;
     if (hover.kind == HOVER_FLOOR && !floors_exist(document, hover.rig)) hover.kind = HOVER_NONE;
@@ -77,10 +77,11 @@ static struct hover hover_now(struct stage *stage, const struct core *core, cons
 bool stage_body_point(struct stage *stage, const struct core *core, const struct document *document, int tail,
                       float xy[2])
 {
+    const int rig = document_find_rig(document, RIG_TAIL, tail);
     for (int i = 0; i < BODY_POINTS; i++) {
         if (!body_point(stage, core, tail, i, xy)) continue;
         struct hover hover = stage_hover(stage, core, document, xy[0], xy[1]);
-        if (hover.kind == HOVER_BODY && hover.tail == tail) return true;
+        if (hover.kind == HOVER_BODY && hover.rig == rig) return true;
     }
     return false;
 }
@@ -128,8 +129,8 @@ void stage_press(struct stage *stage, struct core *core, const struct editor_wor
         pins_begin(stage, core, world, &hover, event);
     } else if (holds && hover.kind == HOVER_FLOOR) {
         floors_begin(stage, core, world, &hover, event);
-    } else if (holds && hover.kind == HOVER_BODY) {
-        body_drag_begin(stage, core, hover.tail, event);
+    } else if (holds && (hover.kind == HOVER_BODY || hover.kind == HOVER_BONE)) {
+        body_drag_begin(stage, core, world, hover.kind == HOVER_BODY ? hover.rig : hover.model, event);
     } else if (holds && hover.kind == HOVER_JOINT) {
         tail_drag_begin(stage, core, world, &hover, event);
     } else {
@@ -303,7 +304,7 @@ void stage_show(struct stage *stage, struct core *core, const struct editor_worl
     characters_show(stage, core, world);
     names_show(stage, core, world->document);
     brush_show(stage, core, world);
-    body_drag_show(stage, core);
+    body_drag_show(stage, core, world);
     record_show(stage, core, world);
     bones_show(stage, core, world);
     if (!core->drag.owner && core->hover.kind == HOVER_JOINT)
@@ -340,13 +341,15 @@ static struct hover hover_at(const struct stage *stage, const struct core *core,
         if (!strand_pose(stage, core, world, rig, position, NULL, &strand)) continue;
         strand_nearer(stage, core, &strand, (const float[2]){x, y}, &nearest, &joint);
     }
-    for (int t = 0; t < stage->view.tail_count && document_tail(document, t); t++) {
+    for (int t = 0; t < stage->view.tail_count; t++) {
+        const int rig = stage->view.tails[t].rig;
         struct rig_pose pose;
-        stage_pose_tail(stage, core, world, t, position, NULL, &pose);
+        if (!tail_of(document, rig)) continue;
+        stage_pose_strand(stage, core, world, rig, position, NULL, &pose);
         const float distance = body_distance(stage, t, &pose.tail, x, y);
         if (!(distance >= 0 && distance < farthest)) continue;
         farthest = distance;
-        body = (struct hover){.kind = HOVER_BODY, .tail = t, .x = x, .y = y};
+        body = (struct hover){.kind = HOVER_BODY, .rig = rig, .x = x, .y = y};
     }
     return joint.kind != HOVER_NONE ? joint : body;
 }

@@ -58,7 +58,7 @@ struct tail_drag {
 
 /// The body held by the pointer, and how the pointer's way becomes one over the ground, or up.
 struct body_drag {
-    int tail;
+    int rig;                        ///< a tail or an imported character
     bool begun;                     ///< the pointer has moved
     bool lifts;                     ///< up the screen is up, not away
     int axis;                       ///< the only one along which it moves; −1: as the pointer does
@@ -82,8 +82,9 @@ struct record {
     double seen_position, seen[3]; ///< at the last frame
 };
 
-/// A tail whose body is or was moved by hand.
+/// A tail or chain whose body is or was moved by hand.
 struct drag_inertia {
+    unsigned rig; ///< its id; 0: none
     bool swings;
     double offset[3], velocity[3]; ///< of the base from where the document has it, metres and metres per second
     struct swing channel[SCENE_MAX_CHANNELS]; ///< in metres
@@ -210,7 +211,7 @@ struct stage {
     struct body_drag body_drag;
     struct record record;
     struct shown_fox foxes[STAGE_MAX_TAILS]; ///< all zero: not yet
-    struct drag_inertia inertia[STAGE_MAX_TAILS];
+    struct drag_inertia inertia[STAGE_MAX_STRANDS];
     struct trail_point trail[TRAILS][TRAIL_FRAMES];
     struct liveliest liveliest;
     struct skin skin;

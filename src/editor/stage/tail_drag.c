@@ -204,7 +204,7 @@ void tail_drag_begin(struct stage *stage, struct core *core, const struct editor
     if (grab->axis[AXIS_SIDE].active && grab->axis[AXIS_SIDE].spline == grab->axis[AXIS_UP].spline) {
         grab->axis[AXIS_UP].active = false;
     }
-    if (rig->kind == RIG_TAIL) drag_inertia_stop(stage, document_rig_number(world->document, grab->rig));
+    drag_inertia_stop(stage, world->document, grab->rig);
     grab->sample = sample_for(stage, core, world->document);
     core->playback.playing = false;
     core->playback.position = grab->sample;

@@ -11,28 +11,35 @@
 
 enum { BOUND_STEPS = 120, BLOBS_OF_ONE_TAIL = 20 };
 
-/// Its body in the hand, what swings after it, and `change` (may be NULL).
-static struct by_hand by_hand(const struct stage *stage, const struct core *core, const struct tail *shown, int tail,
-                              const struct what_if *change)
+static void move_by_hand(const void *context, int rig, struct by_hand *hand)
 {
-    struct by_hand hand = {0};
-    for (int c = 0; c < shown->channel_count; c++) {
-        hand.input[c] = drag_inertia_value(stage, tail, c);
-        if (!change || change->spline != shown->channels[c].spline) continue;
-        hand.input[c].re += change->re;
-        hand.input[c].im += change->im;
-    }
-    body_drag_offset(stage, core, tail, hand.base);
-    return hand;
+    const struct stage_hand *by = context;
+    double offset[3];
+    body_drag_offset(by->stage, by->core, by->document, rig, offset);
+    for (int k = 0; k < 3; k++) hand->base[k] += offset[k];
+    drag_inertia_add(by->stage, by->document, rig, hand->input);
 }
 
-void stage_pose_tail(const struct stage *stage, const struct core *core, const struct editor_world *world, int tail,
-                     double position, const struct what_if *change, struct rig_pose *pose)
+struct posing stage_posing_by_hand(const struct stage_hand *hand, const struct editor_world *world)
 {
-    const struct posing posing = stage_posing(core, world);
-    const int rig = document_find_rig(world->document, RIG_TAIL, tail);
-    const struct by_hand hand = by_hand(stage, core, &world->document->rigs[rig]->tail, tail, change);
-    rig_pose(&posing, rig, position, &hand, pose);
+    struct posing posing = stage_posing(hand->core, world);
+    posing.move = move_by_hand;
+    posing.context = hand;
+    return posing;
+}
+
+bool stage_pose_strand(const struct stage *stage, const struct core *core, const struct editor_world *world, int rig,
+                       double position, const struct what_if *change, struct rig_pose *pose)
+{
+    const struct stage_hand by = {stage, core, world->document};
+    const struct posing posing = stage_posing_by_hand(&by, world);
+    struct by_hand hand = {0};
+    int count;
+    const struct channel *channels = rig_channels(world->document->rigs[rig], &count);
+    for (int c = 0; change && c < count; c++) {
+        if (channels[c].spline == change->spline) hand.input[c] = (wiggly_value){.re = change->re, .im = change->im};
+    }
+    return rig_pose(&posing, rig, position, &hand, pose);
 }
 
 static void add_blobs(struct stage_view *view, const struct pose *pose)
@@ -76,9 +83,9 @@ static void pose(struct stage *stage, const struct core *core, const struct edit
     struct rig_pose posed;
     if (view->tail_count == STAGE_MAX_TAILS) return;
     struct stage_tail *shown = &view->tails[view->tail_count++];
-    stage_pose_tail(stage, core, world, n, core->playback.position, NULL, &posed);
+    stage_pose_strand(stage, core, world, rig, core->playback.position, NULL, &posed);
     strand_add(stage, rig, &posed);
-    shown->pose = posed.tail;
+    *shown = (struct stage_tail){rig, posed.tail};
     stage_add_fox(view, fox_of(stage, n, fox_level(document_count_rigs(world->document, RIG_TAIL)), tail->joints),
                   &shown->pose);
     add_blobs(view, &shown->pose);
@@ -88,11 +95,10 @@ static bool bounds(const struct stage *stage, const struct core *core, const str
                    int n, float lo[3], float hi[3])
 {
     const double last = document_samples(world->document) - 1;
-    (void)rig;
     for (int step = 0; step <= BOUND_STEPS && n < STAGE_MAX_TAILS; step++) {
         struct rig_pose posed;
         float low[3], high[3];
-        stage_pose_tail(stage, core, world, n, last * step / BOUND_STEPS, NULL, &posed);
+        stage_pose_strand(stage, core, world, rig, last * step / BOUND_STEPS, NULL, &posed);
         rig_bounds(&posed, low, high);
         glm_vec3_minv(low, lo, lo);
         glm_vec3_maxv(high, hi, hi);
@@ -170,36 +176,14 @@ const struct strand *strand_of(const struct stage *stage, int rig)
     return NULL;
 }
 
-/// A chain, its splines changed by `change` (may be NULL).
-static bool pose_chain(const struct core *core, const struct editor_world *world, int rig, double position,
-                       const struct what_if *change, struct rig_pose *pose)
-{
-    const struct posing posing = stage_posing(core, world);
-    const struct chain *chain = &world->document->rigs[rig]->chain;
-    struct by_hand hand = {0};
-    for (int c = 0; change && c < chain->channel_count; c++) {
-        if (chain->channels[c].spline != change->spline) continue;
-        hand.input[c] = (wiggly_value){.re = change->re, .im = change->im};
-    }
-    return rig_pose(&posing, rig, position, &hand, pose);
-}
-
 bool strand_pose(const struct stage *stage, const struct core *core, const struct editor_world *world, int rig,
                  double position, const struct what_if *change, struct strand *strand)
 {
     const struct document *document = world->document;
     struct rig_pose pose;
     if (rig >= document->rig_count) return false;
-    switch (document->rigs[rig]->kind) {
-    case RIG_TAIL:
-        stage_pose_tail(stage, core, world, document_rig_number(document, rig), position, change, &pose);
-        break;
-    case RIG_CHAIN:
-        if (!pose_chain(core, world, rig, position, change, &pose)) return false;
-        break;
-    default:
-        return false;
-    }
+    if (document->rigs[rig]->kind != RIG_TAIL && document->rigs[rig]->kind != RIG_CHAIN) return false;
+    if (!stage_pose_strand(stage, core, world, rig, position, change, &pose)) return false;
     take_points(&pose, rig, strand);
     return true;
 }

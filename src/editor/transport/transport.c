@@ -194,7 +194,7 @@ static const char *hover_hint(const struct core *core, const struct document *do
                      "the bone"
                    : "Drag the tail to set the knot at the playhead; Ctrl+drag or H pins a joint";
     case HOVER_BONE:
-        return "Click to select this bone";
+        return "Click to select this bone; drag to move the character, and its chains follow through";
     case HOVER_BODY:
         return "Drag the body and the tail follows through (Ctrl: lift it, X, Y or Z locks an axis, R records)";
     case HOVER_PLAY:
