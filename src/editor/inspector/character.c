@@ -227,26 +227,10 @@ static bool set_share(struct inspection *in, int which, double percent, struct e
 }
 
 static const struct number_row brush_rows[] = {
-    {.name = "radius",
-     .label = "radius",
-     .unit = "%",
-     .hint = "Radius, relative to the character's height (Ctrl+wheel on the stage)",
-     .minimum = 1,
-     .maximum = 50,
-     .lowest = 1,
-     .highest = 50,
-     .fallback = 12,
-     .step = 1},
-    {.name = "strength",
-     .label = "strength",
-     .unit = "%",
-     .hint = "How fast paint flows (Shift+wheel on the stage)",
-     .minimum = 2,
-     .maximum = 100,
-     .lowest = 2,
-     .highest = 100,
-     .fallback = 40,
-     .step = 1},
+    {"radius", "radius", "%", "Radius, relative to the character's height (Ctrl+wheel on the stage)", NULL, 0, false,
+     1, 50, 1, 50, 12, 1, 0},
+    {"strength", "strength", "%", "How fast paint flows (Shift+wheel on the stage)", NULL, 0, false, 2, 100, 2, 100,
+     40, 1, 0},
 };
 
 /// The rows on the brush, below "Character".

@@ -12,6 +12,7 @@ struct inspection {
     const struct editor_world *world;
     struct document *document;
     struct ui *ui;
+    enum ui_change change; ///< that a number is being set by
 };
 
 /// A number's limits where there are none.

@@ -146,7 +146,7 @@ static void build(struct inspection *in, struct rect area)
 static struct inspection inspection_of(struct inspector *inspector, struct core *core,
                                        const struct editor_world *world)
 {
-    return (struct inspection){core, inspector, world, world->document, &inspector->ui};
+    return (struct inspection){core, inspector, world, world->document, &inspector->ui, UI_NONE};
 }
 
 struct inspector *inspector_create(void) { return need_zeroed(1, sizeof(struct inspector)); }
@@ -362,6 +362,7 @@ static void drag(struct inspection *in, const struct number_home *home, int whic
     if (home->set(in, which, value, NULL)) {
         *possible = value;
     } else {
+        history_restart(in->world->history);
         home->set(in, which, *possible, NULL);
     }
 }
@@ -371,6 +372,7 @@ static void change_number(struct inspection *in, const struct number_row *row, c
                           int which, enum ui_change change, double value)
 {
     const bool is_first = change == UI_DRAG && !history_is_open(in->world->history);
+    in->change = change;
     if (!inspector_begin(in, change, row->undo, row->name)) return;
     if (is_first) in->inspector->dragged = home->get(in, which);
     if (change == UI_DRAG) drag(in, home, which, value);

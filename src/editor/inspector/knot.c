@@ -7,171 +7,103 @@
 #include <math.h>
 #include <stddef.h>
 #include <stdio.h>
-#include <string.h>
-
-struct knot_field {
-    struct ui_number number;
-    const char *undo, *undo_one, *hint_one; ///< the last two where one knot alone is selected
-    size_t offset;                          ///< of the number in struct knot
-    bool moves; ///< what is typed is the first knot's; the others keep their distance to it
-};
 
 enum { FIELD_FRAME, FIELD_VALUE, FIELD_SLOPE, FIELD_STIFFNESS, FIELDS };
 
-static const struct knot_field fields[FIELDS] = {
-    [FIELD_FRAME] = {.number = {.name = "frame",
-                                .label = "frame",
-                                .hint = "Frame of the first selected knot; the others move with it",
-                                .lowest = -SCENE_MAX_FRAME,
-                                .highest = SCENE_MAX_FRAME,
-                                .fallback = NAN,
-                                .step = 1},
-                     .undo = "Move knots",
-                     .undo_one = "Move knot",
-                     .hint_one = "Frame of the knot",
-                     .offset = offsetof(struct knot, frame),
-                     .moves = true},
-    [FIELD_VALUE] = {.number = {.name = "value",
-                                .label = "value",
-                                .hint = "Type to set all selected knots; drag to shift each by the same amount",
-                                .lowest = -INSPECTOR_NO_LIMIT,
-                                .highest = INSPECTOR_NO_LIMIT,
-                                .fallback = 0,
-                                .step = 0.01,
-                                .decimals = 3},
-                     .undo = "Set values",
-                     .undo_one = "Set value",
-                     .hint_one = "Value of the knot; the curve hits it exactly",
-                     .offset = offsetof(struct knot, value)},
-    [FIELD_SLOPE] = {.number = {.name = "slope",
-                                .label = "slope",
-                                .unit = "/s",
-                                .hint = "Type to set all selected knots; drag to shift each by the same amount",
-                                .lowest = -INSPECTOR_NO_LIMIT,
-                                .highest = INSPECTOR_NO_LIMIT,
-                                .fallback = 0,
-                                .step = 0.05,
-                                .decimals = 2},
-                     .undo = "Set slopes",
-                     .undo_one = "Set slope",
-                     .hint_one = "Change per second (D, E)",
-                     .offset = offsetof(struct knot, slope)},
-    [FIELD_STIFFNESS] = {.number = {.name = "stiffness",
-                                    .label = "stiffness",
-                                    .unit = "1/s",
-                                    .hint = "How firmly the slopes hold; 1000 is firm",
-                                    .lowest = 0.001,
-                                    .highest = INSPECTOR_NO_LIMIT,
-                                    .fallback = KNOT_DEFAULT_STIFFNESS,
-                                    .step = 10,
-                                    .decimals = 1},
-                         .undo = "Set stiffness",
-                         .undo_one = "Set stiffness",
-                         .hint_one = "How firmly the slope holds; 1000 is firm (Shift+D, Shift+E)",
-                         .offset = offsetof(struct knot, stiffness)},
+static const struct number_row rows[FIELDS] = {
+    [FIELD_FRAME] = {"frame", "frame", NULL, "Frame of the first selected knot; the others move with it",
+                     "Move knots", NUMBER_AT(struct knot, frame), 0, 0, -SCENE_MAX_FRAME, SCENE_MAX_FRAME, NAN, 1, 0},
+    [FIELD_VALUE] = {"value", "value", NULL, "Type to set all selected knots; drag to shift each by the same amount",
+                     "Set values", NUMBER_AT(struct knot, value), 0, 0, -INSPECTOR_NO_LIMIT, INSPECTOR_NO_LIMIT, 0,
+                     0.01, 3},
+    [FIELD_SLOPE] = {"slope", "slope", "/s", "Type to set all selected knots; drag to shift each by the same amount",
+                     "Set slopes", NUMBER_AT(struct knot, slope), 0, 0, -INSPECTOR_NO_LIMIT, INSPECTOR_NO_LIMIT, 0,
+                     0.05, 2},
+    [FIELD_STIFFNESS] = {"stiffness", "stiffness", "1/s", "How firmly the slopes hold; 1000 is firm", "Set stiffness",
+                         NUMBER_AT(struct knot, stiffness), 0, 0, 0.001, INSPECTOR_NO_LIMIT, KNOT_DEFAULT_STIFFNESS,
+                         10, 1},
 };
 
-static double number_of(const struct knot_field *field, const struct knot *knot)
-{
-    double number;
-    memcpy(&number, (const char *)knot + field->offset, sizeof number);
-    return number;
-}
-
-static void set_number(const struct knot_field *field, struct knot *knot, double number)
-{
-    memcpy((char *)knot + field->offset, &number, sizeof number);
-}
-
-/// Gives every collected knot the number, or moves it by what the first one moves; in the order in which no knot meets
-/// another of them. false with a sentence where one cannot go there.
-static bool set_all(struct inspection *in, const struct knot_field *field, double value, bool together,
-                    struct error *error)
-{
-    struct originals *originals = &in->core->originals;
-    double by = value - number_of(field, &originals->list[0].knot);
-    for (int i = 0; i < originals->count; i++) {
-        const struct original *original = &originals->list[by > 0 ? originals->count - 1 - i : i];
-        struct knot knot = original->knot;
-        const double number = together ? number_of(field, &knot) + by : value;
-        set_number(field, &knot, fmax(field->number.lowest, number));
-        if (!edit_knot_set(in->document, original->spline, &knot, error)) return false;
-    }
-    return true;
-}
-
-/// A drag stays where it last was possible; anything else that is not possible is said and changes nothing.
-static void change_all(struct inspection *in, enum ui_change change, const struct knot_field *field, const char *undo,
-                       double value)
-{
-    double *possible = &in->inspector->dragged;
-    const bool is_drag = change == UI_DRAG, is_first = is_drag && !history_is_open(in->world->history);
-    const bool together = change != UI_SET || field->moves;
-    if (!inspector_begin(in, change, undo, field->number.name)) return;
-    core_collect(in->core, in->document, false);
-    if (is_first) *possible = number_of(field, &in->core->originals.list[0].knot);
-    const bool done = set_all(in, field, value, together, is_drag ? NULL : &in->core->error);
-    if (done) {
-        *possible = value;
-    } else if (is_drag) {
-        history_restart(in->world->history);
-        set_all(in, field, *possible, together, NULL);
-    }
-    inspector_end(in, change, done);
-}
+/// Where one knot alone is selected.
+static const struct {
+    const char *undo, *hint;
+} of_one[FIELDS] = {
+    [FIELD_FRAME] = {"Move knot", "Frame of the knot"},
+    [FIELD_VALUE] = {"Set value", "Value of the knot; the curve hits it exactly"},
+    [FIELD_SLOPE] = {"Set slope", "Change per second (D, E)"},
+    [FIELD_STIFFNESS] = {"Set stiffness", "How firmly the slope holds; 1000 is firm (Shift+D, Shift+E)"},
+};
 
 /// What the selected knots have in a field: the first one's number, and whether others have another.
-struct numbers {
+struct knot_numbers {
     int count;
     double first;
     bool mixed;
 };
 
-static struct numbers survey(const struct inspection *in, const struct knot_field *field)
+static struct knot_numbers survey(const struct inspection *in, int field)
 {
-    struct numbers numbers = {.first = NAN};
+    struct knot_numbers numbers = {.first = NAN};
     for (struct knot_place at = SELECTED_START; selected_next(in->core, in->document, &at); numbers.count++) {
-        double number = number_of(field, knot_at(in->document, at));
+        const double number = number_at(&rows[field], knot_at(in->document, at));
         if (isnan(numbers.first)) numbers.first = number;
         numbers.mixed |= number != numbers.first;
     }
     return numbers;
 }
 
-/// Where one knot alone is selected, its field knows more.
-static void fit_to_one(const struct inspection *in, int which, double value, struct ui_number *number)
+static double get(const struct inspection *in, int field) { return survey(in, field).first; }
+
+/// Gives every selected knot the number, or moves it by what the first one moves; in the order in which no knot meets
+/// another of them. false with a sentence where one cannot go there.
+static bool set(struct inspection *in, int field, double value, struct error *error)
 {
-    number->hint = fields[which].hint_one;
-    if (which == FIELD_FRAME) {
-        const struct spline *spline = core_active_spline(in->core, in->world);
-        number->lowest = in->document->first_frame;
-        number->highest = document_frame(in->document, document_last_knot_sample(in->document, spline));
-        number->decimals = value == floor(value) ? 0 : 2;
+    const struct originals *originals = &in->core->originals;
+    core_collect(in->core, in->document, false);
+    const double by = value - number_at(&rows[field], &originals->list[0].knot);
+    const bool together = in->change != UI_SET || field == FIELD_FRAME;
+    for (int i = 0; i < originals->count; i++) {
+        const struct original *original = &originals->list[by > 0 ? originals->count - 1 - i : i];
+        struct knot knot = original->knot;
+        const double number = together ? number_at(&rows[field], &knot) + by : value;
+        number_put(&rows[field], &knot, fmax(rows[field].lowest, number));
+        if (!edit_knot_set(in->document, original->spline, &knot, error)) return false;
     }
-    if (which == FIELD_SLOPE) number->label = NULL; // before its switch
-    if (which == FIELD_STIFFNESS && value < 10) number->decimals = 3;
+    return true;
 }
 
-static void build_field(struct inspection *in, int which, struct rect r)
+static const char *show_several(const struct inspection *in, int field, char text[64])
 {
-    const struct knot_field *field = &fields[which];
-    const struct numbers numbers = survey(in, field); // as the field before left the document
-    struct ui_number number = field->number;
-    double value = numbers.first;
-    char shown[64];
-    if (numbers.count == 0) return;
-    if (numbers.count == 1) {
-        fit_to_one(in, which, value, &number);
-    } else if (field->moves) {
-        snprintf(shown, sizeof shown, "%.6g …", value);
-        number.shown = shown;
-    } else if (numbers.mixed) {
-        number.shown = "mixed";
+    const struct knot_numbers numbers = survey(in, field);
+    if (numbers.count == 1) return NULL;
+    if (field != FIELD_FRAME) return numbers.mixed ? "mixed" : NULL;
+    snprintf(text, 64, "%.6g …", numbers.first);
+    return text;
+}
+
+/// Where one knot alone is selected, its field knows more.
+static void fit_to_one(const struct inspection *in, int field, double value, struct number_row *row)
+{
+    row->hint = of_one[field].hint;
+    row->undo = of_one[field].undo;
+    if (field == FIELD_FRAME) {
+        const struct spline *spline = core_active_spline(in->core, in->world);
+        row->lowest = in->document->first_frame;
+        row->highest = document_frame(in->document, document_last_knot_sample(in->document, spline));
+        row->decimals = value == floor(value) ? 0 : 2;
     }
-    const char *undo = numbers.count == 1 ? field->undo_one : field->undo;
-    const enum ui_change change = ui_value(in->ui, r, &number, &value);
-    change_all(in, change, field, undo, value);
-    if (inspector_changed(change)) core_edited(in->core, -1);
+    if (field == FIELD_SLOPE) row->label = NULL; // before its switch
+    if (field == FIELD_STIFFNESS && value < 10) row->decimals = 3;
+}
+
+static void build_field(struct inspection *in, int field, struct rect r)
+{
+    static const struct number_home home = {.get = get, .set = set, .shown = show_several};
+    const struct knot_numbers numbers = survey(in, field); // as the field before left the document
+    struct number_row row = rows[field];
+    if (numbers.count == 0) return;
+    if (numbers.count == 1) fit_to_one(in, field, numbers.first, &row);
+    if (inspector_changed(inspector_number(in, &row, &home, field, r))) core_edited(in->core, -1);
 }
 
 static bool all_sloped(const struct inspection *in)
@@ -193,7 +125,7 @@ static void build_several(struct inspection *in)
     const bool sloped = all_sloped(in);
     for (int i = 0; i < FIELDS; i++) {
         if (i >= FIELD_SLOPE && !sloped) {
-            build_idle(in, fields[i].number.label, i == FIELD_SLOPE ? "not all have one" : "–");
+            build_idle(in, rows[i].label, i == FIELD_SLOPE ? "not all have one" : "–");
         } else {
             build_field(in, i, ui_row(in->ui, UI_ROW));
         }

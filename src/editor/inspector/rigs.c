@@ -101,7 +101,7 @@ static void choose_rig(struct inspection *in, int rig)
 
 void inspector_show_rig(struct inspector *inspector, struct core *core, const struct editor_world *world, int rig)
 {
-    struct inspection in = {core, inspector, world, world->document, &inspector->ui};
+    struct inspection in = {core, inspector, world, world->document, &inspector->ui, UI_NONE};
     choose_rig(&in, rig);
 }
 
