@@ -251,13 +251,13 @@ static void show_inspector_divider(struct editor *editor)
 }
 
 /// A control that the pointer is on explains itself; else the one that has the keyboard.
-static void show_tooltip(struct editor *editor, const struct editor_world *world)
+static void show_tooltip(struct editor *editor)
 {
     struct core *core = &editor->core;
     const struct rect cursor = {core->pointer_x, core->pointer_y - 4, 14, 22};
     struct rect at = cursor;
     const char *text = inspector_hint(editor->inspector);
-    if (!text) text = transport_hint(core, world->document);
+    if (!text) text = transport_hint(core);
     if (!text) text = inspector_focus_hint(editor->inspector, &at);
     if (dialogs_cover(editor->dialogs) || core->drag.owner) text = NULL;
     tooltip_offer(&editor->tooltip, text, core->pointer_x, core->pointer_y, at);
@@ -288,7 +288,7 @@ void editor_show(struct editor *editor, const struct editor_world *world)
     show_panels(editor, world);
     dialogs_show_input(editor->dialogs, &editor->core);
     dialogs_show(editor->dialogs, &editor->core, world);
-    show_tooltip(editor, world);
+    show_tooltip(editor);
     editor->core.unshown = false;
 }
 

@@ -161,6 +161,35 @@ static const char *lead_hint(const struct document *document)
     return hints[lead][rigs_have_knots(document)];
 }
 
+/// What can be done with what the pointer is on.
+static const char *const hover_hints[] = {
+    [HOVER_KNOT] = "Drag it (X, Y: one axis, R: later ones too, Shift: fine, Ctrl: off frames)",
+    [HOVER_SLOPE] = "Drag to turn the slope, pull to make it firmer; T removes it",
+    [HOVER_CURVE] = "Click to edit this spline",
+    [HOVER_RULER] = "Drag to scrub; Shift+drag to play part of the range, Shift+click to play it all",
+    [HOVER_UNITS] = "Click to switch between frames and seconds (U)",
+    [HOVER_SHEET] = "Click to open or close the dope sheet (F3)",
+    [HOVER_ROW] = "Click to edit this spline; double-click to insert a knot on its curve; drag to select with a box",
+    [HOVER_WARNING] = "Click to fix; Ctrl+Z undoes it",
+    [HOVER_JOINT] = "Drag the tail to set the knot at the playhead; Ctrl+drag or H pins a joint",
+    [HOVER_BONE] = "Click to select this bone; drag to move the character, and its chains follow through",
+    [HOVER_BODY] = "Drag the body and the tail follows through (Ctrl: lift it, X, Y or Z locks an axis, R records)",
+    [HOVER_PLAY] = "Play, pause (Space)",
+    [HOVER_LOOP] = "Loop or stop at the end (Ctrl+L)",
+    [HOVER_SPEED] = "Click: faster; Shift+click: slower; right-click: real time (- and =, or the wheel)",
+    [HOVER_AUTO_KEY] = "Whether dragging the body sets knots at the playhead, or moves the whole shot (Shift+A)",
+    [HOVER_UI_SCALE] =
+        "How large everything is. Click: larger; Shift+click: smaller; right-click: 100 % (Ctrl+Shift+=, -, 0)",
+    [HOVER_PRESENT] = "Present: large type, keys as they are pressed, panels that slide away (F5); Esc leaves",
+    [HOVER_LIMIT] = "Drag the limit; the curve stays on this side of it",
+    [HOVER_BOX] =
+        "Drag to scale the selected knots about the other side; with Alt about the equilibrium (P while you drag)",
+    [HOVER_POINT] =
+        "Drag to pin this point at the playhead (X, Y or Z locks an axis, Shift: fine); H pins it where it is",
+    [HOVER_PIN] = "Drag the pin (X, Y or Z locks an axis, Shift: fine); Del removes it; Alt+arrows nudge it",
+    [HOVER_FLOOR] = "Drag the floor up or down (Shift: fine); the whole character stays above it",
+};
+
 static const char *hover_hint(const struct core *core, const struct document *document)
 {
     static const char *const picks[] = {
@@ -168,80 +197,26 @@ static const char *hover_hint(const struct core *core, const struct document *do
         [BONE_FIRST] = "Click the bone that the chain is to begin with; Esc: none",
         [BONE_LAST] = "Click the bone that the chain is to end with; Esc: none",
     };
+    const struct hover *hover = &core->hover;
     if (core->pick.use != BONE_SELECTED) return picks[core->pick.use];
-    switch (core->hover.kind) {
-    case HOVER_KNOT:
-        return "Drag it (X, Y: one axis, R: later ones too, Shift: fine, Ctrl: off frames)";
-    case HOVER_SLOPE:
-        return "Drag to turn the slope, pull to make it firmer; T removes it";
-    case HOVER_CURVE:
-        return core->hover.spline == core->active
-                   ? "Double-click to insert a knot without changing the curve; drag to select with a box"
-                   : "Click to edit this spline";
-    case HOVER_RULER:
-        return "Drag to scrub; Shift+drag to play part of the range, Shift+click to play it all";
-    case HOVER_WARNING:
-        return "Click to fix; Ctrl+Z undoes it";
-    case HOVER_SHEET:
-        return "Click to open or close the dope sheet (F3)";
-    case HOVER_ROW:
-        return "Click to edit this spline; double-click to insert a knot on its curve; drag to select with a box";
-    case HOVER_UNITS:
-        return "Click to switch between frames and seconds (U)";
-    case HOVER_JOINT:
-        return document->rigs[core->hover.rig]->kind == RIG_CHAIN
-                   ? "Drag the chain to set the knot at the playhead; Ctrl+drag or H pins a joint; click to select "
-                     "the bone"
-                   : "Drag the tail to set the knot at the playhead; Ctrl+drag or H pins a joint";
-    case HOVER_BONE:
-        return "Click to select this bone; drag to move the character, and its chains follow through";
-    case HOVER_BODY:
-        return "Drag the body and the tail follows through (Ctrl: lift it, X, Y or Z locks an axis, R records)";
-    case HOVER_PLAY:
-        return "Play, pause (Space)";
-    case HOVER_LOOP:
-        return "Loop or stop at the end (Ctrl+L)";
-    case HOVER_SPEED:
-        return "Click: faster; Shift+click: slower; right-click: real time (- and =, or the wheel)";
-    case HOVER_AUTO_KEY:
-        return "Whether dragging the body sets knots at the playhead, or moves the whole shot (Shift+A)";
-    case HOVER_UI_SCALE:
-        return "How large everything is. Click: larger; Shift+click: smaller; right-click: 100 % (Ctrl+Shift+=, -, "
-               "0)";
-    case HOVER_PRESENT:
-        return "Present: large type, keys as they are pressed, panels that slide away (F5); Esc leaves";
-    case HOVER_LIMIT:
-        return "Drag the limit; the curve stays on this side of it";
-    case HOVER_BOX:
-        return "Drag to scale the selected knots about the other side; with Alt about the equilibrium (P while you "
-               "drag)";
-    case HOVER_POINT:
-        return "Drag to pin this point at the playhead (X, Y or Z locks an axis, Shift: fine); H pins it where it is";
-    case HOVER_PIN:
-        if (core_panel_at(core, core->pointer_x, core->pointer_y) == PANEL_CURVES)
-            return "Drag to move the pin in time (Ctrl: off frames); Del removes it; Alt+PgUp, Alt+PgDn: by a frame";
-        return "Drag the pin (X, Y or Z locks an axis, Shift: fine); Del removes it; Alt+arrows nudge it";
-    case HOVER_FLOOR:
-        return "Drag the floor up or down (Shift: fine); the whole character stays above it";
-    case HOVER_NONE:
-        break;
-    }
+    if (hover->kind == HOVER_CURVE && hover->spline == core->active)
+        return "Double-click to insert a knot without changing the curve; drag to select with a box";
+    if (hover->kind == HOVER_JOINT && document->rigs[hover->rig]->kind == RIG_CHAIN)
+        return "Drag the chain to set the knot at the playhead; Ctrl+drag or H pins a joint; click to select the "
+               "bone";
+    if (hover->kind == HOVER_PIN && core_panel_at(core, core->pointer_x, core->pointer_y) == PANEL_CURVES)
+        return "Drag to move the pin in time (Ctrl: off frames); Del removes it; Alt+PgUp, Alt+PgDn: by a frame";
+    if (hover->kind != HOVER_NONE) return hover_hints[hover->kind];
     if (core->bone.any)
         return "J makes a chain from this bone to its tip, Shift+J one that follows through; Esc lets go";
     return lead_hint(document);
 }
 
-const char *transport_hint(const struct core *core, const struct document *document)
+const char *transport_hint(const struct core *core)
 {
-    switch (core->hover.kind) {
-    case HOVER_PLAY:
-    case HOVER_LOOP:
-    case HOVER_SPEED:
-    case HOVER_UNITS:
-        return hover_hint(core, document);
-    default:
-        return NULL;
-    }
+    const enum hover_kind kind = core->hover.kind;
+    const bool is_control = kind == HOVER_PLAY || kind == HOVER_LOOP || kind == HOVER_SPEED || kind == HOVER_UNITS;
+    return is_control ? hover_hints[kind] : NULL;
 }
 
 static void paint_text(struct drawlist *list, struct rect r, enum font font, uint32_t color, const char *text)

@@ -15,7 +15,7 @@ bool transport_event(struct core *core, const struct editor_world *world, const 
 /// Time passes (editor_advance): the figures change at most twice a second, so that they cost no redraws.
 void transport_advance(struct transport *transport, const struct core *core, double dt);
 /// A sentence on the control that the pointer is on: of playback, of the ruler's units. NULL: none.
-const char *transport_hint(const struct core *core, const struct document *document);
+const char *transport_hint(const struct core *core);
 /// Draws the status line; `hint` is what it says where there is no message, NULL: what the pointer is over.
 void transport_show(const struct transport *transport, struct core *core, const struct editor_world *world,
                     const char *hint);
