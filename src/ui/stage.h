@@ -87,6 +87,13 @@ struct stage_view {
     uint64_t hash; ///< of everything above: equal hash, equal pixels
 };
 
+/// Adds one where there is room.
+static inline void stage_add_blob(struct stage_view *view, float x, float z, float radius, float strength)
+{
+    if (view->blob_count < STAGE_MAX_BLOBS)
+        view->blobs[view->blob_count++] = (struct stage_blob){x, z, radius, strength};
+}
+
 /// Shows a fox, posed so.
 void stage_add_fox(struct stage_view *view, const struct fox *fox, const struct pose *pose);
 

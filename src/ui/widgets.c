@@ -250,3 +250,15 @@ bool ui_activated(struct ui *ui, uint32_t id)
     ui->used = true;
     return true;
 }
+
+enum ui_change ui_held_change(struct ui *ui)
+{
+    const struct event *event = ui->event;
+    const bool key = event->kind == EVENT_KEY, button = event->kind == EVENT_BUTTON;
+    const bool cancels = key && event->key == KEY_ESCAPE && event->action == ACTION_PRESS;
+    const bool drops = button && event->button == BUTTON_LEFT && event->action == ACTION_RELEASE;
+    if (key || button) ui->used = true;
+    if (!cancels && !drops) return UI_NONE;
+    ui->held = 0;
+    return !ui->moved ? UI_NONE : drops ? UI_DROP : UI_CANCEL;
+}

@@ -138,24 +138,30 @@ bool ui_toggle(struct ui *ui, struct rect r, const char *name, bool *on)
     return pressed;
 }
 
+/// What is behind the row of a list.
+static void paint_row(struct ui *ui, uint32_t id, struct rect r, bool selected, bool lit)
+{
+    const struct rect back = {r.x - 4, r.y + 1, r.w + 8, r.h - 2};
+    if (selected || lit) drawlist_rounded(ui->list, back, UI_RADIUS, selected ? theme()->fill : theme()->raised);
+    if (selected) drawlist_rect(ui->list, (struct rect){back.x, back.y + 4, 2, back.h - 8}, theme()->accent);
+    ui_focus_ring(ui, id, rect_inset(back, 1));
+}
+
 bool ui_list_row(struct ui *ui, struct rect r, const char *name, const char *text, uint32_t color, bool selected)
 {
     uint32_t id = ui_id(name);
     ui_register(ui, id, r);
     bool pressed = ui_pressed(ui, r, BUTTON_LEFT) || ui_activated(ui, id);
     if (ui->pass == UI_PASS_DRAW) {
-        bool hot = ui_hovered(ui, r);
-        struct rect back = {r.x - 4, r.y + 1, r.w + 8, r.h - 2};
-        if (selected || hot) drawlist_rounded(ui->list, back, UI_RADIUS, selected ? theme()->fill : theme()->raised);
-        if (selected) drawlist_rect(ui->list, (struct rect){back.x, back.y + 4, 2, back.h - 8}, theme()->accent);
+        const bool hot = ui_hovered(ui, r);
         float left = r.x + 6;
+        paint_row(ui, id, r, selected, hot);
         if (color) {
             drawlist_rounded(ui->list, (struct rect){left, r.y + (r.h - 10) / 2, 10, 10}, 3, color);
             left += 18;
         }
         struct rect label = {left, r.y, r.x + r.w - left, r.h};
         paint_label(ui, label, FONT_LABEL, text, selected || hot ? theme()->text : theme()->text_dim);
-        ui_focus_ring(ui, id, rect_inset(back, 1));
     }
     return pressed;
 }
@@ -250,12 +256,8 @@ enum ui_row_event ui_sort_row(struct ui *ui, struct rect row, struct rect label,
     ui_register(ui, id, label);
     enum ui_row_event event = row_event(ui, label, id);
     if (ui->pass != UI_PASS_DRAW) return event;
-    bool hot = ui_hovered(ui, row), dragged = ui_is_dragged(ui, name);
-    struct rect back = {row.x - 4, row.y + 1, row.w + 8, row.h - 2};
-    if (selected || hot || dragged)
-        drawlist_rounded(ui->list, back, UI_RADIUS, selected ? theme()->fill : theme()->raised);
-    if (selected) drawlist_rect(ui->list, (struct rect){back.x, back.y + 4, 2, back.h - 8}, theme()->accent);
+    const bool hot = ui_hovered(ui, row);
+    paint_row(ui, id, row, selected, hot || ui_is_dragged(ui, name));
     ui_label(ui, label, text, selected || hot ? theme()->text : theme()->text_dim);
-    ui_focus_ring(ui, id, rect_inset(back, 1));
     return event;
 }

@@ -24,21 +24,8 @@ static int nearest(const struct ui_handle *handles, int count, float x, float y)
 static enum ui_change held_event(struct ui *ui, struct ui_handle *handle)
 {
     const struct event *event = ui->event;
+    if (event->kind != EVENT_POINTER) return ui_held_change(ui);
     ui->used = true;
-    if (event->kind == EVENT_KEY) {
-        if (event->key != KEY_ESCAPE || event->action != ACTION_PRESS) return UI_NONE;
-        ui->held = 0;
-        return ui->moved ? UI_CANCEL : UI_NONE;
-    }
-    if (event->kind == EVENT_BUTTON) {
-        if (event->button != BUTTON_LEFT || event->action != ACTION_RELEASE) return UI_NONE;
-        ui->held = 0;
-        return ui->moved ? UI_DROP : UI_NONE;
-    }
-    if (event->kind != EVENT_POINTER) {
-        ui->used = false;
-        return UI_NONE;
-    }
     if (!ui->moved && hypotf(event->x - ui->press_x, event->y - ui->press_y) < DRAG_THRESHOLD) return UI_NONE;
     float rate = event->mods & MOD_SHIFT ? 0.1f : 1;
     ui->moved = true;

@@ -171,19 +171,7 @@ static double dragged(const struct ui *ui, struct rect field, const struct ui_nu
 static enum ui_change held_event(struct ui *ui, struct rect field, const struct ui_number *number, double *value)
 {
     const struct event *event = ui->event;
-    if (event->kind == EVENT_KEY) {
-        ui->used = true;
-        if (event->key != KEY_ESCAPE || event->action != ACTION_PRESS) return UI_NONE;
-        ui->held = 0;
-        return ui->moved ? UI_CANCEL : UI_NONE;
-    }
-    if (event->kind == EVENT_BUTTON) {
-        ui->used = true;
-        if (event->button != BUTTON_LEFT || event->action != ACTION_RELEASE) return UI_NONE;
-        ui->held = 0;
-        return ui->moved ? UI_DROP : UI_NONE;
-    }
-    if (event->kind != EVENT_POINTER) return UI_NONE;
+    if (event->kind != EVENT_POINTER) return ui_held_change(ui);
     ui->used = true;
     if (!ui->moved && fabsf(event->x - ui->press_x) < DRAG_THRESHOLD) return UI_NONE;
     bool fine = event->mods & MOD_SHIFT;

@@ -23,16 +23,11 @@ static void add_soles(struct stage_view *view, const struct stage_character *sho
     const struct figure *figure = shown->figure;
     const float width = figure->hi[0] - figure->lo[0], depth = figure->hi[2] - figure->lo[2];
     const float *p = shown->position;
-    if (view->blob_count < STAGE_MAX_BLOBS) {
-        view->blobs[view->blob_count++] =
-            (struct stage_blob){p[0] + 0.5f * (figure->lo[0] + figure->hi[0]),
-                                p[2] + 0.5f * (figure->lo[2] + figure->hi[2]), 0.32f * (width + depth), 0.5f};
-    }
-    for (int s = 0; s < FIGURE_SOLES && view->blob_count < STAGE_MAX_BLOBS; s++) {
+    stage_add_blob(view, p[0] + 0.5f * (figure->lo[0] + figure->hi[0]), p[2] + 0.5f * (figure->lo[2] + figure->hi[2]),
+                   0.32f * (width + depth), 0.5f);
+    for (int s = 0; s < FIGURE_SOLES; s++) {
         const struct sole *sole = &figure->soles[s];
-        if (sole->radius <= 0.0f) continue;
-        view->blobs[view->blob_count++] =
-            (struct stage_blob){p[0] + sole->x, p[2] + sole->z, 1.35f * sole->radius, 0.7f};
+        if (sole->radius > 0.0f) stage_add_blob(view, p[0] + sole->x, p[2] + sole->z, 1.35f * sole->radius, 0.7f);
     }
 }
 

@@ -94,10 +94,9 @@ static void add_shadow(struct stage_view *view, const double area[2])
 {
     enum { ACROSS = 3, DEEP = 2 };
     const float wide = (float)area[0] / ACROSS, deep = (float)area[1] / DEEP, radius = 0.68f * hypotf(wide, deep);
-    for (int b = 0; b < ACROSS * DEEP && view->blob_count < STAGE_MAX_BLOBS; b++)
-        view->blobs[view->blob_count++] =
-            (struct stage_blob){wide * ((float)(b % ACROSS) - 0.5f * (ACROSS - 1)),
-                                deep * ((float)(b / ACROSS) - 0.5f * (DEEP - 1)), radius, SHADOW};
+    for (int b = 0; b < ACROSS * DEEP; b++)
+        stage_add_blob(view, wide * ((float)(b % ACROSS) - 0.5f * (ACROSS - 1)),
+                       deep * ((float)(b / ACROSS) - 0.5f * (DEEP - 1)), radius, SHADOW);
 }
 
 static void pose(struct stage *stage, const struct core *core, const struct editor_world *world, int rig, int n)

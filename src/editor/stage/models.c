@@ -12,12 +12,6 @@ enum { BOUND_STEPS = 60, FEET = 8 };
 static const float FOOT_HEIGHT = 0.1f, FOOT_RADIUS = 0.085f; ///< in heights of the character
 static const float FOOT_STRENGTH = 0.55f, BODY_STRENGTH = 0.4f;
 
-static void add_blob(struct stage_view *view, float x, float z, float radius, float strength)
-{
-    if (view->blob_count < STAGE_MAX_BLOBS)
-        view->blobs[view->blob_count++] = (struct stage_blob){x, z, radius, strength};
-}
-
 /// A shadow under the whole, and one under each joint that is near the ground.
 static void add_shadows(struct stage_view *view, const struct stage_model *shown)
 {
@@ -25,8 +19,8 @@ static void add_shadows(struct stage_view *view, const struct stage_model *shown
     const mat4s root = mat4_from(shown->root);
     const float height = fmaxf(shown->hi[1] - shown->lo[1], 1e-6f);
     const float width = shown->hi[0] - shown->lo[0], depth = shown->hi[2] - shown->lo[2];
-    add_blob(view, 0.5f * (shown->lo[0] + shown->hi[0]), 0.5f * (shown->lo[2] + shown->hi[2]),
-             0.28f * (width + depth), BODY_STRENGTH);
+    stage_add_blob(view, 0.5f * (shown->lo[0] + shown->hi[0]), 0.5f * (shown->lo[2] + shown->hi[2]),
+                   0.28f * (width + depth), BODY_STRENGTH);
     int feet = 0;
     for (int s = 0; s < gltf->skin_count; s++) {
         for (int j = 0; j < gltf->skins[s].joint_count && feet < FEET; j++) {
@@ -34,7 +28,7 @@ static void add_shadows(struct stage_view *view, const struct stage_model *shown
             const vec3s joint = glms_mat4_mulv3(root, vec3_from(at), 1.0f);
             const float near = 1.0f - (joint.y - shown->ground) / (FOOT_HEIGHT * height);
             if (near <= 0.0f) continue;
-            add_blob(view, joint.x, joint.z, FOOT_RADIUS * height, FOOT_STRENGTH * fminf(near, 1.0f));
+            stage_add_blob(view, joint.x, joint.z, FOOT_RADIUS * height, FOOT_STRENGTH * fminf(near, 1.0f));
             feet++;
         }
     }
