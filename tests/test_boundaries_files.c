@@ -15,7 +15,7 @@
 #include "model/obj.h"
 #include "scene/knots.h"
 #include "scene/load.h"
-#include "scene/paint_file.h"
+#include "scene/paint.h"
 #include "scene/text.h"
 #include <jansson.h>
 #include <stdio.h>
@@ -94,10 +94,6 @@ static void work_of_a_size(void **state)
     (void)state;
     const size_t above = ((size_t)1 << 30) + 1;
     struct error error = {0};
-    struct recovery_slot slot = {.lock = -1};
-    snprintf(slot.path, sizeof slot.path, "%s", hole("recovery-1", "", 0, above));
-    assert_null(recovery_read(&slot, &error));
-    says(&error, "recovery-1: expected at most 1024 MiB, got a larger file");
     assert_null(paint_read(hole("paint.npy", "", 0, above), &error));
     says(&error, "paint.npy: expected at most 1024 MiB, got a larger file");
 }
@@ -351,30 +347,6 @@ static void names_of_temporary_files(void **state)
     free(data);
 }
 
-static void names_of_paint(void **state)
-{
-    (void)state;
-    if (!is_thorough()) skip();
-    static const char scene[] =
-        "{\"wiggly\": 1, \"frames\": [0, 1], \"splines\": [{\"name\": \"s\"}], \"rigs\": [{\"type\": \"character\", "
-        "\"model\": \"m.glb\", \"coordinates\": [{\"name\": \"a\", \"spline\": \"s\"}]}]}";
-    struct error error = {0};
-    for (int last = 9998; last <= 9999; last++) {
-        struct document *document = scene_parse("s", scene, strlen(scene), NULL, &error);
-        if (!document) fail_msg("%s", error.text);
-        struct character_rig *rig = document_character(document, 0);
-        assert_true(document->folder || (document->folder = strdup(folder)));
-        rig->painted = paint_create(1, 1);
-        rig->painted->values[0][0] = 1;
-        for (int i = last == 9998 ? 2 : last; i <= last; i++) take_name("walk-paint-%d.npy", i);
-        if (last == 9998) take_name("walk-paint.npy", 0);
-        const bool saved = scene_save(document, folder_path("walk.json"), &error);
-        assert_int_equal(saved, last == 9998);
-        if (!saved) says(&error, "walk.json: there is no name left for its paint");
-        document_destroy(document);
-    }
-}
-
 /// Rescued scenes beside the scene's own file; with a thousand there, the next goes to the home folder.
 static void names_of_rescued_scenes(void **state)
 {
@@ -412,19 +384,10 @@ static void names_of_rescued_scenes(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        TEST(settings_of_a_size),
-        TEST(settings_of_many_lines),
-        TEST(work_of_a_size),
-        TEST(pictures_of_a_size),
-        TEST(pictures_of_a_width),
-        TEST(vertices_of_a_model),
-        TEST(vertices_of_a_character),
-        TEST(text_on_the_clipboard),
-        TEST(frames_of_a_replay),
-        TEST(letters_of_a_number),
-        TEST(unknown_keys),
-        TEST(names_of_temporary_files),
-        TEST(names_of_paint),
+        TEST(settings_of_a_size),      TEST(settings_of_many_lines), TEST(work_of_a_size),
+        TEST(pictures_of_a_size),      TEST(pictures_of_a_width),    TEST(vertices_of_a_model),
+        TEST(vertices_of_a_character), TEST(text_on_the_clipboard),  TEST(frames_of_a_replay),
+        TEST(letters_of_a_number),     TEST(unknown_keys),           TEST(names_of_temporary_files),
         TEST(names_of_rescued_scenes),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -36,7 +36,7 @@ static void a_character_is_read(void **state)
     assert_int_equal(document_count_rigs(document, RIG_TAIL), 1);
     const struct character_rig *rig = document_character(document, 0);
     assert_string_equal(rig->model, "../models/a.glb");
-    assert_string_equal(rig->file->path, "a.npy");
+    assert_string_equal(rig->paint_file, "a.npy");
     assert_int_equal(rig->drive_count, 2);
     assert_string_equal(rig->drives[0].name, "up");
     assert_near(rig->drives[0].amplitude, 0.5, 0);

@@ -153,9 +153,8 @@ static void paths_lead_to_the_same_models_from_another_folder(void **state)
     (void)state;
     struct document *document = parse(whole);
     document->folder = strdup("/films");
-    char *text = NULL;
-    size_t capacity = 0, size;
-    scene_print_into(document, "/films/new", &text, &capacity, &size);
+    size_t size;
+    char *text = scene_print_for(document, "/films/new", NULL, &size);
     struct document *moved = parse(text);
     assert_string_equal(moved->rigs[WALK]->model.model, "../walk.glb");
     assert_string_equal(moved->rigs[CAT]->model.model, "../models/cat.glb");

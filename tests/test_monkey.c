@@ -168,33 +168,22 @@ static char *printed(const struct document *document)
     return text;
 }
 
-/// What its first character's paint is saved in.
-static const char *paint_file(const struct document *document)
-{
-    const struct character_rig *rig = document_character(document, 0);
-    const char *file = rig ? rig->file->path : NULL;
-    return file ? file : "";
-}
-
 static void remember(struct origin *origin, const struct document *document)
 {
     free(origin->text);
     free(origin->folder);
-    free(origin->paint);
     origin->serial = document->serial;
     origin->text = printed(document);
     origin->folder = strdup(document->folder ? document->folder : "");
-    origin->paint = strdup(paint_file(document));
 }
 
 /// Notices a document that was put on the table: it has no history. (A figure is a step of the one before.) One that was saved
-/// elsewhere calls its characters' files by other names, and has its paint in a file of its own.
+/// elsewhere calls its characters' files by other names.
 static void watch_origin(struct origin *origin, const struct app *app)
 {
     const struct document *d = app->table.document;
     bool fresh = history_count(app->table.history) == 0 && d->serial != origin->serial;
-    bool moved = d->serial == origin->serial && (strcmp(origin->folder, d->folder ? d->folder : "") != 0 ||
-                                                 strcmp(origin->paint, paint_file(d)) != 0);
+    bool moved = d->serial == origin->serial && strcmp(origin->folder, d->folder ? d->folder : "") != 0;
     if (!origin->text || fresh) remember(origin, d);
     if (moved) origin->serial = 0;
 }
@@ -269,20 +258,23 @@ static void assert_undone(struct monkey *m, struct origin *origin)
     free(again);
 }
 
+/// With absolute paths, wherever the document is from.
+static char *printed_anywhere(const struct document *document)
+{
+    size_t size;
+    return scene_print_for(document, "/", NULL, &size);
+}
+
 /// As when the display is lost: the work is in a recovery file, and that gives the document.
 static void assert_rescued(struct app *app)
 {
     struct error error = {0};
-    struct recovery_slot slot = {.lock = -1};
     if (history_is_saved(app->table.history)) return;
     const char *path = personal_rescue(app);
     assert_non_null(path);
-    snprintf(slot.path, sizeof slot.path, "%s", path);
-    struct document *rescued = recovery_read(&slot, &error);
+    struct document *rescued = scene_load(path, NULL, &error);
     if (!rescued) fail_msg("%s", error.text);
-    char *own = NULL, *again = printed(rescued);
-    size_t capacity = 0, size;
-    scene_print_into(app->table.document, RECOVERY_FOLDER, &own, &capacity, &size);
+    char *own = printed_anywhere(app->table.document), *again = printed_anywhere(rescued);
     assert_string_equal(again, own);
     document_destroy(rescued);
     free(again);
@@ -320,7 +312,6 @@ static void forget_origin(struct origin *origin)
 {
     free(origin->text);
     free(origin->folder);
-    free(origin->paint);
     *origin = (struct origin){0};
 }
 
@@ -423,21 +414,13 @@ static void nor_in_a_long_scene(void **state)
     run_seed(number("MONKEY_SEED", 1), event_count() / LONG_PART, "long.json");
 }
 
-static char *in_recovery(const struct document *document)
-{
-    char *text = NULL;
-    size_t capacity = 0, size;
-    scene_print_into(document, RECOVERY_FOLDER, &text, &capacity, &size);
-    return text;
-}
-
 /// The display is lost, and the app is started again: it offers what was not saved, and nothing else, while the other one runs.
 static void lose_display(struct run *run)
 {
     struct app *app = &run->blind.app;
     const bool unsaved = !history_is_saved(app->table.history);
     if (unsaved && !personal_rescue(app)) fail_msg("the work is lost");
-    char *lost = in_recovery(app->table.document);
+    char *lost = printed_anywhere(app->table.document);
     end(run, true);
     start(run, NULL);
     run->checked = 0;
@@ -447,7 +430,7 @@ static void lose_display(struct run *run)
     if (offered) monkey_key(&run->monkey, recover ? 'R' : 'D', 0);
     blind_frame(&run->blind);
     if (offered && recover) {
-        char *again = in_recovery(app->table.document);
+        char *again = printed_anywhere(app->table.document);
         assert_string_equal(again, lost);
         assert_false(history_is_saved(app->table.history));
         free(again);

@@ -275,9 +275,7 @@ static void a_motion_keeps_to_its_joint(void **state)
                    "dog.glb is the file by which a model is found");
     document->folder = strdup("/films");
     size_t size;
-    char *text = NULL;
-    size_t capacity = 0;
-    scene_print_into(document, "/films/deeper", &text, &capacity, &size);
+    char *text = scene_print_for(document, "/films/deeper", NULL, &size);
     assert_non_null(strstr(text, "{ \"model\": \"../dog.glb\", \"joint\": \"head\""));
     free(text);
     stand_close(&stand);

@@ -1,11 +1,13 @@
 /// Paint on characters as data: strokes and their undo, files that are saved, read and refused, what a recovery file keeps.
 #include "app/recovery.h"
 #include "base/npy.h"
+#include "commands/commands.h"
 #include "puppet.h"
 #include "rig/models.h"
 #include "scene/edit.h"
 #include "scene/history.h"
 #include "scene/load.h"
+#include "scene/paint.h"
 #include "temporary.h"
 #include <string.h>
 
@@ -177,13 +179,10 @@ static void settle_in(struct studio *s, const char *folder)
     assert_non_null(s->document->folder);
 }
 
-/// Saves as the app does.
 static void save(struct studio *s, const char *folder, const char *name)
 {
     struct error error = {0};
-    const char *path = in(folder, name);
-    if (!scene_save(s->document, path, &error)) fail_msg("%s", error.text);
-    history_set_path(s->history, path);
+    if (!scene_save(s->document, in(folder, name), &error)) fail_msg("%s", error.text);
 }
 
 static struct document *load(const char *folder, const char *name)
@@ -195,11 +194,14 @@ static struct document *load(const char *folder, const char *name)
     return document;
 }
 
-static void assert_loads(const struct studio *s, const char *folder, const char *name, const char *file)
+/// The file has the paint of the studio inside.
+static void assert_holds_paint(const struct studio *s, const char *path)
 {
-    struct document *document = load(folder, name);
+    struct error error = {0};
+    struct document *document = scene_load(path, NULL, &error);
+    if (!document) fail_msg("%s", error.text);
     const struct paint *paint = document_character(document, 0)->painted;
-    assert_string_equal(document_character(document, 0)->file->path, file);
+    assert_null(document_character(document, 0)->paint_file);
     assert_non_null(paint);
     assert_int_equal(paint->coordinates, COORDINATES);
     assert_int_equal(paint->vertices, VERTICES);
@@ -207,157 +209,99 @@ static void assert_loads(const struct studio *s, const char *folder, const char 
     document_destroy(document);
 }
 
-static void paint_is_saved_beside_its_scene(void **state)
+static char *printed(const struct document *document)
+{
+    size_t size;
+    return scene_print(document, &size);
+}
+
+/// Saved text reads back as itself, and only paint makes it version 2. A coordinate without paint is null.
+static void paint_is_saved_in_its_scene(void **state)
 {
     (void)state;
     const char *folder = fresh_folder();
+    struct error error = {0};
     struct studio s = studio_open(scene);
-    save(&s, folder, "plain.json");
-    assert_false(is_there(folder, "plain-paint.npy"));
+    char *plain = printed(s.document);
+    assert_non_null(strstr(plain, "\"wiggly\": 1,"));
+    assert_null(strstr(plain, "paint"));
     paint_stroke(&s);
     save(&s, folder, "walk.json");
-    assert_loads(&s, folder, "walk.json", "walk-paint.npy");
-    history_begin(s.history, "Paint", 0);
-    dab(&s, 30, 3, 0, 3);
-    history_end(s.history);
-    save(&s, folder, "walk.json"); // a new file takes the place of its own
-    assert_loads(&s, folder, "walk.json", "walk-paint-2.npy");
-    assert_false(is_there(folder, "walk-paint.npy"));
-    save(&s, folder, "run.json"); // save as: the old one stays
-    assert_loads(&s, folder, "run.json", "run-paint.npy");
-    history_begin(s.history, "Paint", 0);
-    dab(&s, 30, 3, 0, -3);
-    history_end(s.history);
-    save(&s, folder, "run.json");
-    assert_loads(&s, folder, "run.json", "run-paint-2.npy");
-    struct document *walk = load(folder, "walk.json");
-    assert_near((double)document_character(walk, 0)->painted->values[VERTICES + 30][1], 3, 0);
-    document_destroy(walk);
+    assert_holds_paint(&s, in(folder, "walk.json"));
+    char *text = printed(s.document);
+    assert_non_null(strstr(text, "\"wiggly\": 2,"));
+    assert_non_null(strstr(text, "\"vertices\": 50,\n      \"paint\": [\n        null,\n        \"AAAA"));
+    struct document *again = scene_parse("again", text, strlen(text), NULL, &error);
+    if (!again) fail_msg("%s", error.text);
+    char *second = printed(again);
+    assert_string_equal(second, text);
     while (history_undo(s.history)) continue;
-    save(&s, folder, "run.json"); // nothing is painted any more
-    struct document *run = load(folder, "run.json");
-    assert_null(document_character(run, 0)->file->path);
-    document_destroy(run);
-    while (history_redo(s.history)) continue;
-    save(&s, folder, "run.json");
-    assert_loads(&s, folder, "run.json", "run-paint-2.npy");
+    char *undone = printed(s.document);
+    assert_string_equal(undone, plain);
+    document_destroy(again);
+    free(plain);
+    free(text);
+    free(second);
+    free(undone);
     studio_close(&s);
     remove_folder(folder);
 }
 
-/// What is in the way is left alone; a scene that cannot be written leaves no paint behind and the document as it was.
-static void saving_loses_nothing(void **state)
+/// A scene of before: its file of paint is read, put into the scene with the next save, and left where it is.
+static void paint_beside_a_scene_is_read_and_stays(void **state)
 {
     (void)state;
     const char *folder = fresh_folder();
-    struct studio s = studio_open(scene);
-    struct error error;
-    settle_in(&s, folder);
+    struct studio s = studio_open(scene), old = studio_open(scene);
+    struct error error = {0};
     paint_stroke(&s);
-    FILE *other = fopen(in(folder, "walk-paint.npy"), "w");
-    fputs("another's", other);
-    fclose(other);
-    save(&s, folder, "walk.json");
-    assert_loads(&s, folder, "walk.json", "walk-paint-2.npy");
-    mkdir(in(folder, "taken.json"), 0777);
-    assert_false(scene_save(s.document, in(folder, "taken.json"), &error));
-    assert_false(is_there(folder, "taken-paint.npy"));
-    assert_string_equal(rig_of(&s)->file->path, "walk-paint-2.npy");
-    assert_false(scene_save(s.document, "/nowhere/at/all.json", &error));
-    assert_string_equal(rig_of(&s)->file->path, "walk-paint-2.npy");
-    save(&s, folder, "walk.json");
-    assert_loads(&s, folder, "walk.json", "walk-paint-2.npy");
-    studio_close(&s);
-    remove_folder(folder);
-}
-
-static void paint_more(struct studio *s, float lead)
-{
-    history_begin(s->history, "Paint", 0);
-    dab(s, 30, 3, 0, lead);
-    history_end(s->history);
-}
-
-/// A scene that cannot be saved keeps the paint that it had, not what is new since.
-static void paint_and_scene_are_saved_together(void **state)
-{
-    (void)state;
-    const char *folder = fresh_folder();
-    struct studio s = studio_open(scene);
-    struct error error;
-    paint_stroke(&s);
-    save(&s, folder, "walk.json");
-    assert_int_equal(rename(in(folder, "walk.json"), in(folder, "old.json")), 0);
-    assert_int_equal(mkdir(in(folder, "walk.json"), 0777), 0);
-    paint_more(&s, 3);
-    assert_false(scene_save(s.document, in(folder, "walk.json"), &error));
-    assert_int_equal(rmdir(in(folder, "walk.json")), 0);
-    while (history_undo(s.history)) continue;
-    paint_stroke(&s);
-    assert_loads(&s, folder, "old.json", "walk-paint.npy");
-    assert_false(is_there(folder, "walk-paint-2.npy"));
-    assert_int_equal(rename(in(folder, "old.json"), in(folder, "walk.json")), 0);
-    paint_more(&s, 2);
-    save(&s, folder, "walk.json");
-    assert_loads(&s, folder, "walk.json", "walk-paint-2.npy");
-    studio_close(&s);
-    remove_folder(folder);
-}
-
-/// A copy of the scene names the same paint, and goes on doing so.
-static void a_copy_keeps_its_paint(void **state)
-{
-    (void)state;
-    const char *folder = fresh_folder();
-    struct studio s = studio_open(scene);
-    char command[600];
-    paint_stroke(&s);
-    save(&s, folder, "walk.json");
-    snprintf(command, sizeof command, "cp %s %s", in(folder, "walk.json"), in(folder, "copy.json"));
-    assert_int_equal(system(command), 0);
-    assert_loads(&s, folder, "copy.json", "walk-paint.npy");
-    struct document *before = load(folder, "copy.json");
-    paint_more(&s, 3);
-    save(&s, folder, "walk.json");
-    assert_loads(&s, folder, "walk.json", "walk-paint-2.npy");
-    struct document *copy = load(folder, "copy.json");
-    assert_memory_equal(document_character(copy, 0)->painted->values, document_character(before, 0)->painted->values,
+    assert_true(paint_write(rig_of(&s)->painted, in(folder, "walk-paint.npy"), &error));
+    rig_of(&old)->paint_file = strdup("walk-paint.npy");
+    settle_in(&old, folder);
+    save(&old, folder, "walk.json");
+    struct document *document = load(folder, "walk.json");
+    assert_memory_equal(document_character(document, 0)->painted->values, rig_of(&s)->painted->values,
                         sizeof(float[COORDINATES * VERTICES][2]));
-    document_destroy(before);
-    document_destroy(copy);
+    assert_true(scene_save(document, in(folder, "walk.json"), &error));
+    assert_holds_paint(&s, in(folder, "walk.json"));
+    assert_true(is_there(folder, "walk-paint.npy"));
+    document_destroy(document);
     studio_close(&s);
+    studio_close(&old);
     remove_folder(folder);
+}
+
+static void paint_that_is_broken_in_its_scene_is_refused(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *members, *says;
+    } cases[] = {
+        {"\"paint\": [\"AAAA\"]", "expected \"vertices\", how many there are, beside it, got nothing"},
+        {"\"vertices\": 0, \"paint\": [\"AAAA\"]", "expected a whole number from 1 to "},
+        {"\"vertices\": 1, \"paint\": []", "expected a string for each coordinate, got none"},
+        {"\"vertices\": 1, \"paint\": [null, 7]", "paint[1]: expected a string in base64 or null, got a number"},
+        {"\"vertices\": 1, \"paint\": [\"AA*A\"]", "paint[0]: expected base64, got something else"},
+        {"\"vertices\": 2, \"paint\": [\"AAAAAAAAAAA=\"]", "paint[0]: expected the 16 bytes of 2 vertices, got 8"},
+        {"\"vertices\": 1, \"paint\": [\"AADAfwAAAAA=\"]",
+         "paint[0]: coordinate 0, vertex 0: expected the logarithm of an amplitude within ±10, got "},
+        {"\"vertices\": 134217728, \"paint\": [null, null]",
+         "vertices: expected at most 134217728 vertices over all"},
+        {"\"paint\": {}", "paint: expected a string, got an object"},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        char text[512];
+        struct error error = {0};
+        snprintf(text, sizeof text,
+                 "{\"wiggly\": 2, \"frames\": [0, 48], \"splines\": [], \"rigs\": [{\"type\": \"character\", "
+                 "\"model\": \"m.glb\", \"coordinates\": [], %s}]}",
+                 cases[i].members);
+        assert_null(scene_parse("test", text, strlen(text), NULL, &error));
+        if (!strstr(error.text, cases[i].says)) fail_msg("'%s' lacks '%s'", error.text, cases[i].says);
+    }
 }
 
 /// An .npy file with this dictionary, and `size` bytes of numbers.
-/// Characters that name one file, as a scene written by hand may, have a file each from the first save on.
-static void shared_paint_is_parted(void **state)
-{
-    (void)state;
-#define NAMING "{\"type\": \"character\", \"model\": \"m.glb\", \"paint\": \"walk-paint.npy\", \"coordinates\": []}"
-    static const char two[] =
-        "{\"wiggly\": 1, \"frames\": [0, 48], \"splines\": [], \"rigs\": [" NAMING ", " NAMING "]}";
-    const char *folder = fresh_folder();
-    struct studio s = studio_open(scene);
-    paint_stroke(&s);
-    save(&s, folder, "walk.json");
-    FILE *file = fopen(in(folder, "two.json"), "w");
-    assert_true(file && fputs(two, file) >= 0 && fclose(file) == 0);
-    struct document *document = load(folder, "two.json");
-    struct error error;
-    document_set_path(document, in(folder, "two.json"));
-    if (!scene_save(document, in(folder, "two.json"), &error)) fail_msg("%s", error.text);
-    document_destroy(document);
-    document = load(folder, "two.json");
-    assert_string_equal(document_character(document, 0)->file->path, "walk-paint.npy");
-    assert_string_equal(document_character(document, 1)->file->path, "two-paint.npy");
-    assert_memory_equal(document_character(document, 1)->painted->values, rig_of(&s)->painted->values,
-                        sizeof(float[COORDINATES * VERTICES][2]));
-    document_destroy(document);
-    studio_close(&s);
-    remove_folder(folder);
-}
-
 static void write_npy(const char *path, const char *dictionary, const void *numbers, size_t size)
 {
     FILE *file = fopen(path, "wb");
@@ -393,28 +337,27 @@ static void broken_paint_is_said_and_stays_named(void **state)
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         struct studio s = studio_open(scene);
         struct error error = {0};
-        rig_of(&s)->file->path = strdup("x.npy");
+        rig_of(&s)->paint_file = strdup("x.npy");
         settle_in(&s, folder);
         write_npy(in(folder, "x.npy"), cases[i].dictionary, numbers, cases[i].size);
         assert_false(scene_read_paint(s.document, &error));
         if (!strstr(error.text, cases[i].says)) fail_msg("'%s' lacks '%s'", error.text, cases[i].says);
         assert_non_null(strstr(error.text, in(folder, "x.npy")));
         save(&s, folder, "walk.json");
-        paint_stroke(&s); // goes to a file of its own: the broken one may be worth mending
+        paint_stroke(&s); // goes into the scene: the broken file may be worth mending
         save(&s, folder, "walk.json");
-        assert_loads(&s, folder, "walk.json", "walk-paint.npy");
+        assert_holds_paint(&s, in(folder, "walk.json"));
         assert_true(is_there(folder, "x.npy"));
         studio_close(&s);
-        unlink(in(folder, "walk-paint.npy"));
     }
     struct studio s = studio_open(scene);
     struct error error = {0};
-    rig_of(&s)->file->path = strdup("missing.npy");
+    rig_of(&s)->paint_file = strdup("missing.npy");
     settle_in(&s, folder);
     assert_false(scene_read_paint(s.document, &error));
     save(&s, folder, "walk.json");
     struct document *again = scene_load(in(folder, "walk.json"), NULL, &error);
-    assert_string_equal(document_character(again, 0)->file->path, "missing.npy");
+    assert_string_equal(document_character(again, 0)->paint_file, "missing.npy");
     document_destroy(again);
     studio_close(&s);
     remove_folder(folder);
@@ -431,7 +374,7 @@ static void other_layouts_are_read(void **state)
     for (int kind = 0; kind < 2; kind++) {
         struct studio s = studio_open(scene);
         struct error error = {0};
-        rig_of(&s)->file->path = strdup("x.npy");
+        rig_of(&s)->paint_file = strdup("x.npy");
         settle_in(&s, folder);
         write_npy(in(folder, "x.npy"),
                   kind ? "{'descr': '>f8', 'fortran_order': True, 'shape': (1, 4, 2), }"
@@ -447,7 +390,7 @@ static void other_layouts_are_read(void **state)
     remove_folder(folder);
 }
 
-/// What is not saved is in the recovery file, and the document that comes out of it saves into the file it had.
+/// What is not saved is in the recovery file.
 static void a_recovery_file_keeps_paint(void **state)
 {
     (void)state;
@@ -455,33 +398,12 @@ static void a_recovery_file_keeps_paint(void **state)
     struct studio s = studio_open(scene);
     struct recovery_slot slot;
     struct error error = {0};
-    char *text = NULL;
-    size_t capacity = 0, size;
     paint_stroke(&s);
-    save(&s, folder, "walk.json");
-    history_begin(s.history, "Paint", 0);
-    dab(&s, 40, 3, 0, 1);
-    history_end(s.history);
-    scene_print_into(s.document, RECOVERY_FOLDER, &text, &capacity, &size);
-    scene_print_paint(s.document, &text, &capacity, &size);
     if (!recovery_claim(folder, &slot, &error)) fail_msg("%s", error.text);
-    assert_true(recovery_write(&slot, in(folder, "walk.json"), NULL, text, size, &error));
-    struct studio t = {recovery_read(&slot, &error), NULL};
-    if (!t.document) fail_msg("%s", error.text);
-    t.history = history_create(t.document);
-    assert_true(scene_read_paint(t.document, &error)); // has nothing to do: the saved file is older
-    assert_memory_equal(rig_of(&t)->painted->values, rig_of(&s)->painted->values,
-                        sizeof(float[COORDINATES * VERTICES][2]));
-    document_set_path(t.document, in(folder, "walk.json"));
-    save(&t, folder, "walk.json");
-    assert_loads(&s, folder, "walk.json", "walk-paint-2.npy");
-    assert_false(is_there(folder, "walk-paint.npy"));
-    assert_true(recovery_write(&slot, "", NULL, text, size - 1, &error)); // cut off
-    assert_null(recovery_read(&slot, &error));
+    assert_true(recovery_write(&slot, s.document, &(struct scene_origin){.path = "/walk.json"}, &error));
+    assert_holds_paint(&s, slot.path);
     recovery_release(&slot);
-    free(text);
     studio_close(&s);
-    studio_close(&t);
     remove_folder(folder);
 }
 
@@ -502,8 +424,38 @@ static void paint_for_another_model_is_kept(void **state)
     assert_non_null(models_figure(models, 0));
     assert_true(models_figure(models, 0)->version == 0);
     save(&s, folder, "walk.json");
-    assert_loads(&s, folder, "walk.json", "walk-paint.npy");
+    assert_holds_paint(&s, in(folder, "walk.json"));
     models_destroy(models);
+    character_free(&character);
+    studio_close(&s);
+    remove_folder(folder);
+}
+
+/// NumPy gets what the scene has, and can give it back.
+static void paint_goes_out_and_in_as_npy(void **state)
+{
+    (void)state;
+    const char *folder = fresh_folder();
+    struct character character = puppet_character(0.2f, 1);
+    struct studio s = studio_open(scene);
+    struct error error = {0};
+    assert_true(character_write(in(folder, "m.glb"), &character, true, &error));
+    settle_in(&s, folder);
+    assert_true(edit_paint_new(s.document, 0, 1, character.vertex_count, &error));
+    rig_of(&s)->painted->values[3][1] = 0.5f;
+    save(&s, folder, "walk.json");
+    char *words[] = {
+        "export", "--quiet", "--paint", "-o", strdup(in(folder, "out.npy")), strdup(in(folder, "walk.json")), NULL};
+    assert_int_equal(command_export(6, words), 0);
+    struct paint *paint = paint_read(words[4], &error);
+    assert_non_null(paint);
+    assert_int_equal(paint->vertices, character.vertex_count);
+    assert_near((double)paint->values[3][1], 0.5, 0);
+    words[4][strlen(words[4]) - 3] = 'x';
+    assert_int_equal(command_export(6, words), 2);
+    paint_drop(paint);
+    free(words[4]);
+    free(words[5]);
     character_free(&character);
     studio_close(&s);
     remove_folder(folder);
@@ -515,15 +467,14 @@ int main(void)
         cmocka_unit_test(a_stroke_is_one_step_and_comes_back_byte_by_byte),
         cmocka_unit_test(a_stroke_goes_on_or_is_cancelled),
         cmocka_unit_test(paint_that_is_no_number_is_refused),
-        cmocka_unit_test(paint_is_saved_beside_its_scene),
-        cmocka_unit_test(saving_loses_nothing),
-        cmocka_unit_test(paint_and_scene_are_saved_together),
-        cmocka_unit_test(a_copy_keeps_its_paint),
-        cmocka_unit_test(shared_paint_is_parted),
+        cmocka_unit_test(paint_is_saved_in_its_scene),
+        cmocka_unit_test(paint_beside_a_scene_is_read_and_stays),
+        cmocka_unit_test(paint_that_is_broken_in_its_scene_is_refused),
         cmocka_unit_test(broken_paint_is_said_and_stays_named),
         cmocka_unit_test(other_layouts_are_read),
         cmocka_unit_test(a_recovery_file_keeps_paint),
         cmocka_unit_test(paint_for_another_model_is_kept),
+        cmocka_unit_test(paint_goes_out_and_in_as_npy),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -37,7 +37,7 @@ xdotool key ctrl+shift+0
 edit_and_kill shift+Left Right Right Right
 cmp "$scratch/mine.json" assets/scenes/tail.json
 ok "the scene's own file is as it was" $?
-says "it says whose work it is" "wiggly-recovery 1 $scratch/mine.json" "$(head -1 "$state/recovery-1")"
+says "it says whose work it is" "\"file\": \"$scratch/mine.json\"" "$(grep recovers "$state/recovery-1")"
 
 start_app wiggly
 xdotool key l # later

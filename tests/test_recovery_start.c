@@ -6,6 +6,7 @@
 #include "app/recovery.h"
 #include "base/file.h"
 #include "folder.h"
+#include "scene/load.h"
 #include "shown.h"
 #include <fcntl.h>
 #include <string.h>
@@ -37,7 +38,11 @@ static void leave(const char *original, const char *name)
     snprintf(text, sizeof text,
              "{\"wiggly\": 1, \"frames\": [0, 48], \"splines\": [{\"name\": \"%s\", \"knots\": []}]}", name);
     if (!recovery_claim(state_folder(), &slot, &error)) fail_msg("%s", error.text);
-    assert_true(recovery_write(&slot, original, NULL, text, strlen(text), &error));
+    struct document *document = scene_parse("left", text, strlen(text), NULL, &error);
+    struct scene_origin origin = {0};
+    snprintf(origin.path, sizeof origin.path, "%s", original);
+    assert_true(recovery_write(&slot, document, &origin, &error));
+    document_destroy(document);
     recovery_release(&slot);
 }
 

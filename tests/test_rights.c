@@ -3,8 +3,6 @@
 
 #include "base/file.h"
 #include "folder.h"
-#include "scene/load.h"
-#include "scene/paint.h"
 #include <errno.h>
 #include <grp.h>
 #include <string.h>
@@ -138,46 +136,10 @@ static void are_kept_or_fewer(void **state)
     }
 }
 
-static mode_t mode_of(const char *path)
-{
-    struct stat about;
-    assert_int_equal(stat(path, &about), 0);
-    return about.st_mode & 07777;
-}
-
-/// It goes to a file of a new name with each save that changes it.
-static void paint_stays_as_private(void **state)
-{
-    (void)state;
-    static const char scene[] =
-        "{\"wiggly\": 1, \"frames\": [0, 48], \"splines\": [{\"name\": \"s\", \"knots\": []}], \"rigs\": "
-        "[{\"type\": \"character\", \"name\": \"c\", \"model\": \"m.glb\", \"coordinates\": "
-        "[{\"name\": \"a\", \"spline\": \"s\"}]}]}";
-    struct error error;
-    char path[80];
-    snprintf(path, sizeof path, "%s/walk.json", folder);
-    struct document *document = scene_parse(path, scene, sizeof scene - 1, NULL, &error);
-    if (!document) fail_msg("%s", error.text);
-    document->folder = strdup(folder);
-    document_set_path(document, path);
-    struct character_rig *rig = document_character(document, 0);
-    rig->painted = paint_create(1, 8);
-    rig->painted->values[0][1] = 1;
-    rig->painted->version++;
-    if (!scene_save(document, path, &error)) fail_msg("%s", error.text);
-    assert_int_equal(chmod(folder_path("walk-paint.npy"), 0600), 0);
-    rig->painted->version++;
-    if (!scene_save(document, path, &error)) fail_msg("%s", error.text);
-    assert_int_not_equal(access(folder_path("walk-paint.npy"), F_OK), 0);
-    assert_int_equal(mode_of(folder_path(rig->file->path)), 0600);
-    document_destroy(document);
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(are_kept_or_fewer, folder_make, folder_remove),
-        cmocka_unit_test_setup_teardown(paint_stays_as_private, folder_make, folder_remove),
     };
     umask(022);
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -76,7 +76,7 @@ static int saved_version(void)
 {
     struct error error = {0};
     struct document *document = scene_load(work("walk.json"), NULL, &error);
-    if (!document || !scene_read_paint(document, &error)) fail_msg("%s", error.text);
+    if (!document) fail_msg("%s", error.text);
     const int version = (int)document->fps;
     const struct paint *paint = document_character(document, 0)->painted;
     assert_non_null(paint);
@@ -85,20 +85,20 @@ static int saved_version(void)
     return version;
 }
 
-/// Saves once more: there is one scene then, one file of paint, and nothing that an earlier save left.
+/// Saves once more: there is the scene then, and nothing that an earlier save left.
 static void save_next(void)
 {
     struct error error = {0};
     assert_true(
         file_write_atomic(folder_path("elsewhere"), "", 0, &error)); // for a program looks once for what is left
     struct document *document = scene_load(work("walk.json"), NULL, &error);
-    if (!document || !scene_read_paint(document, &error)) fail_msg("%s", error.text);
+    if (!document) fail_msg("%s", error.text);
     document_set_path(document, work("walk.json"));
     mark(document, NEXT);
     if (!scene_save(document, document->path, &error)) fail_msg("%s", error.text);
     document_destroy(document);
     assert_int_equal(saved_version(), NEXT);
-    command("test $(ls -A %s/work | wc -l) = 2 || { ls -A %s/work >&2; false; }");
+    command("test $(ls -A %s/work | wc -l) = 1 || { ls -A %s/work >&2; false; }");
 }
 
 /// Of hundreds of writes of one large file those in the middle differ in nothing: some of them are tried, and all with TRACE_ALL. `make test`
@@ -163,43 +163,13 @@ static void a_save_with_paint(void **state)
     document_destroy(job.document);
 }
 
-static int keep(void *user)
-{
-    struct job *job = user;
-    struct error error = {0};
-    char text[32];
-    snprintf(text, sizeof text, "version %d", NEW);
-    return recovery_write(&job->slot, "/walk.json", NULL, text, strlen(text), &error) ? 0 : error.text[0] ? 3 : 9;
-}
-
-static int kept_version(void)
-{
-    char text[128] = "";
-    int version = 0;
-    FILE *file = fopen(work("recovery-1"), "r");
-    if (!file) return OLD; // there was none
-    text[fread(text, 1, sizeof text - 1, file)] = '\0';
-    fclose(file);
-    return sscanf(text, "wiggly-recovery 1 /walk.json\nversion %d", &version) == 1 ? version : 0;
-}
-
-static void unsaved_work(void **state)
-{
-    (void)state;
-    struct job job = {keep, kept_version, NULL, NULL, {0}};
-    command("rm -rf %s/old && mkdir %s/old");
-    snprintf(job.slot.path, sizeof job.slot.path, "%s", work("recovery-1"));
-    torment("unsaved work", &job);
-}
-
-/// The same by autosave, whose thread writes it: whoever waits for that is told.
+/// Unsaved work, by autosave: whoever waits for that is told.
 static int autosave(void *user)
 {
     struct job *job = user;
     struct error error = {0};
     const struct autosave_work unsaved = {.document = job->document, .path = "/walk.json", .revision = 7};
-    struct autosave *autosave = autosave_open(&job->slot, &error);
-    if (!autosave) return 9;
+    struct autosave *autosave = autosave_open(&job->slot);
     const bool good = autosave_flush(autosave, &unsaved, &error);
     autosave_close(autosave, true);
     return good ? 0 : error.text[0] ? 3 : 9;
@@ -208,16 +178,14 @@ static int autosave(void *user)
 static int autosaved_version(void)
 {
     struct error error = {0};
-    struct recovery_slot slot = {.lock = -1};
-    snprintf(slot.path, sizeof slot.path, "%s", work("recovery-1"));
-    struct document *document = recovery_read(&slot, &error);
+    struct document *document = scene_load(work("recovery-1"), NULL, &error);
     if (!document) fail_msg("%s", error.text);
     const int version = (int)document->fps;
     document_destroy(document);
     return version;
 }
 
-static void unsaved_work_in_a_thread(void **state)
+static void unsaved_work(void **state)
 {
     (void)state;
     struct job job = {autosave, autosaved_version, NULL, painted_scene(), {.lock = -1}};
@@ -228,7 +196,7 @@ static void unsaved_work_in_a_thread(void **state)
     assert_int_equal(autosave(&job), 0);
     command("cp %s/work/recovery-1 %s/old");
     job.document->fps = NEW;
-    torment("unsaved work in a thread", &job);
+    torment("unsaved work", &job);
     document_destroy(job.document);
 }
 
@@ -342,7 +310,6 @@ int main(void)
 #else
         cmocka_unit_test(a_save_with_paint),
         cmocka_unit_test(unsaved_work),
-        cmocka_unit_test(unsaved_work_in_a_thread),
         cmocka_unit_test(exports),
 #endif
     };

@@ -248,8 +248,8 @@ int app_run(const struct app_options *options, struct error *error)
     struct error late = {0};
     if (!finish(&app, good ? error : &late)) good = false;
     platform_on_lost(NULL, NULL); // what there is to rescue goes now
+    personal_end(&app, !good);    // autosave's thread may still run out of memory
     need_keep(0, NULL, NULL);
-    personal_end(&app, !good);
     app_free(&app);
     mtx_destroy(&app.working);
     int complaints = platform_gl_complaints();

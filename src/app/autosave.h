@@ -1,5 +1,5 @@
-/// Autosave: unsaved work is in a recovery file within two seconds of an edit, and no frame waits for the disk: a thread prints a
-/// copy, which shares splines and rigs with the document, and writes it.
+/// Autosave: unsaved work is in a recovery file within two seconds of an edit. No frame waits for the disk: a thread holds a copy of the
+/// document, which shares splines and rigs with it, and writes that.
 #ifndef APP_AUTOSAVE_H
 #define APP_AUTOSAVE_H
 
@@ -10,17 +10,17 @@ struct autosave;
 /// The work to keep safe.
 struct autosave_work {
     const struct document *document;
-    const char *path;        ///< of the document's own file, or ""
-    uint64_t revision;       ///< changes with the document
-    bool saved;              ///< nothing would be lost
-    struct file_stamp stamp; ///< the document's own file as it was read or written last; nothing there: unknown
+    const char *path;  ///< of the document's own file, or ""
+    uint64_t content;  ///< what was in it when it was read or written last; 0: unknown
+    uint64_t revision; ///< changes with the document
+    bool saved;        ///< nothing would be lost
 };
 
-/// Takes over the slot, and starts the thread. On failure NULL with a sentence; the slot is then released.
-struct autosave *autosave_open(const struct recovery_slot *slot, struct error *error);
+/// Takes over the slot.
+struct autosave *autosave_open(const struct recovery_slot *slot);
 
-/// Call it once a frame, with the time `now` in seconds. Copies the work if it has changed and the last copy is a second ago, and has it
-/// written; removes the file once the work is saved. false with a sentence, once, if the file cannot be written.
+/// Call it once a frame, with the time `now` in seconds. Has the work written if it has changed and the last write began a second
+/// ago; removes the file once the work is saved. false with a sentence, once, if the file cannot be written.
 bool autosave_update(struct autosave *autosave, const struct autosave_work *work, double now, struct error *error);
 
 /// Whether there is unsaved work that is not with the thread yet: then update it at the frames' rate even where none is drawn.
@@ -38,7 +38,7 @@ void autosave_move(struct autosave *autosave, const struct recovery_slot *slot);
 /// Path of the recovery file.
 const char *autosave_path(const struct autosave *autosave);
 
-/// Ends the thread and releases the slot; removes the file unless `keep`.
+/// Waits for the thread and releases the slot; removes the file unless `keep`.
 void autosave_close(struct autosave *autosave, bool keep);
 
 #endif

@@ -106,7 +106,7 @@ bool exporting_start(struct app *app, const struct request *request, struct erro
     struct export_job *job = need_zeroed(1, sizeof *job);
     job->request = *request;
     struct opened *opened = &job->opened;
-    opened->document = document_copy_apart(app->table.document);
+    opened->document = document_copy(app->table.document);
     opened->models = models_create();
     job->threaded = thrd_create(&job->thread, work, job) == thrd_success;
     if (!job->threaded) {

@@ -86,11 +86,7 @@ bool app_open(struct app *app, const char *path, struct error *error)
                     strlen(path), path);
     }
     const bool imports = path && import_suits(path);
-    struct own_file read = {0}; // before it is read: what is written meanwhile is theirs
-    if (path && !imports) {
-        memcpy(read.path, path, strlen(path) + 1);
-        read.stamp = file_stamp(path);
-    }
+    const uint64_t content = path && !imports ? file_content(path) : 0; // what is written while it is read is theirs
     if (imports) {
         document = import_scene(path, error);
     } else if (path) {
@@ -104,7 +100,7 @@ bool app_open(struct app *app, const char *path, struct error *error)
     if (is_users) document_set_path(document, path);
     app_adopt(app, document);
     if (path && !is_users) show_subject(app, path_name(path));
-    app->own_file = read;
+    file_watch_note(app, content);
     personal_note_file(app, app_path(app));
     return true;
 }
@@ -151,7 +147,7 @@ static bool take_theirs(struct app *app, struct error *error)
     document_set_path(document, app_path(app));
     replace_document(app, document, "Take theirs");
     history_mark_saved(app->table.history);
-    theirs_note(app);
+    file_watch_note_now(app);
     return true;
 }
 
@@ -176,7 +172,7 @@ static bool save(struct app *app, const char *path, struct error *error)
     if (!file_check_place(path, error) || !scene_save(app->table.document, path, error)) return false;
     history_set_path(app->table.history, path);
     history_mark_saved(app->table.history);
-    theirs_note(app);
+    file_watch_note_now(app);
     editor_set_path(app->table.editor, app_path(app));
     show_title(app);
     personal_note_file(app, app_path(app));
@@ -261,7 +257,7 @@ static bool carry_out(struct app *app, const struct request *request, struct err
     case REQUEST_SAVE_AS:
         return may_replace(app, request->path, error) && save(app, request->path, error);
     case REQUEST_KEEP_MINE:
-        theirs_note(app);
+        file_watch_note_now(app);
         history_mark_unsaved(app->table.history);
         return true;
     case REQUEST_THEIRS:
@@ -300,7 +296,7 @@ static bool is_asked_about(struct app *app, const struct request *request)
 {
     const bool saves = request->kind == REQUEST_SAVE ||
                        (request->kind == REQUEST_SAVE_AS && strcmp(request->path, app_path(app)) == 0);
-    return saves && theirs_stop(app);
+    return saves && file_watch_stops_save(app);
 }
 
 void app_requests(struct app *app)

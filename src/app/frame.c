@@ -33,7 +33,7 @@ static void handle_event(struct app *app, const struct event *event)
     if (app->recording) recording_event(app->recording, app->frame, event);
     if (event->kind == EVENT_EXPOSE) app->lost = true;
     if (event->kind == EVENT_FOCUS) {
-        theirs_look(app);
+        file_watch_look(app);
         return;
     }
     struct editor_world world = table_world(&app->table);

@@ -9,6 +9,7 @@
 #include "base/file.h"
 #include "base/need.h"
 #include "base/progress.h"
+#include "scene/load.h"
 #include "ui/theme.h"
 #include <math.h>
 #include <stdio.h>
@@ -176,7 +177,7 @@ int personal_recent(void *user, struct dialog_recent *files, int most)
 /// What the document was called whose work a file has.
 static const char *name_of(const struct recovery_entry *entry)
 {
-    return entry->original[0] ? path_name(entry->original) : "an untitled scene";
+    return entry->origin.path[0] ? path_name(entry->origin.path) : "an untitled scene";
 }
 
 /// Says what else is there, for a start without a scene.
@@ -220,10 +221,11 @@ static void start_autosave(struct app *app)
     struct error error = {0};
     struct recovery_slot slot;
     if (!folder_make(FOLDER_STATE, personal->state_folder, sizeof personal->state_folder, &error) ||
-        !recovery_claim(personal->state_folder, &slot, &error) ||
-        !(personal->autosave = autosave_open(&slot, &error))) {
+        !recovery_claim(personal->state_folder, &slot, &error)) {
         complain(app, &error);
+        return;
     }
+    personal->autosave = autosave_open(&slot);
 }
 
 void personal_start(struct app *app)
@@ -239,13 +241,11 @@ void personal_start(struct app *app)
 
 static struct autosave_work work_of(const struct app *app)
 {
-    const struct own_file *own = &app->own_file;
-    const bool is_own = strcmp(own->path, app_path(app)) == 0;
     return (struct autosave_work){.document = app->table.document,
                                   .path = app_path(app),
                                   .revision = history_revision(app->table.history),
-                                  .saved = history_is_saved(app->table.history),
-                                  .stamp = is_own ? own->stamp : (struct file_stamp){0}};
+                                  .content = file_watch_known(app),
+                                  .saved = history_is_saved(app->table.history)};
 }
 
 void personal_update(struct app *app)
@@ -272,12 +272,11 @@ bool personal_recover(struct app *app, struct error *error)
 {
     struct personal *personal = app->personal;
     if (!personal || !personal->is_offered) return true;
-    struct document *document = recovery_read(&personal->offered.slot, error);
+    struct document *document = scene_load(personal->offered.slot.path, NULL, error);
     if (!document) return false;
-    document_set_path(document, personal->offered.original);
+    document_set_path(document, personal->offered.origin.path);
     app_adopt(app, document);
-    app->own_file = (struct own_file){.stamp = personal->offered.stamp}; // what was written since is theirs
-    snprintf(app->own_file.path, sizeof app->own_file.path, "%s", app_path(app));
+    file_watch_note(app, personal->offered.origin.content); // what was written since is theirs
     history_mark_unsaved(app->table.history);
     autosave_move(personal->autosave, &personal->offered.slot);
     personal->is_offered = false;

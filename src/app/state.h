@@ -31,9 +31,8 @@ struct demo {
 /// The document's own file as it was last seen: another program, or a second window, may write it.
 struct own_file {
     char path[PATH_LIMIT];
-    struct file_stamp stamp; ///< when it was read or written last
-    struct file_stamp asked; ///< what the user was asked about at the window's focus
-    uint64_t asked_paint;    ///< the same: scene_paint_theirs()
+    uint64_t content; ///< when it was read or written last (file_content())
+    uint64_t asked;   ///< what the user was asked about at the window's focus
 };
 
 struct app {
@@ -113,14 +112,18 @@ void app_rescue_without_memory(struct app *app);
 /// A new size of the window, in logical pixels of the display.
 void app_resize(struct app *app, float width, float height, float scale);
 
-/// The document and its own file say the same now, or the user has seen what is in it.
-void theirs_note(struct app *app);
+/// The document has to do with that content of its own file, or with what is in it now: it says the same, or the user has seen it.
+void file_watch_note(struct app *app, uint64_t content);
+void file_watch_note_now(struct app *app);
+
+/// The content of the document's own file that was noted; 0: unknown.
+uint64_t file_watch_known(const struct app *app);
 
 /// Whether saving has to wait, for somebody else has changed the file: the user is asked.
-bool theirs_stop(struct app *app);
+bool file_watch_stops_save(struct app *app);
 
 /// The window has the focus again: asks what to do about a changed file, once for each change.
-void theirs_look(struct app *app);
+void file_watch_look(struct app *app);
 
 /// Lays the editor out anew for the display's size, as large as is chosen and as leaves room.
 void ui_scale_fit(struct app *app);

@@ -1,4 +1,4 @@
-/// Reads whole files, writes them by a temporary file and a rename, and tells whether somebody else has written one since.
+/// Reads whole files, writes them by a temporary file and a rename, and tells what is in one by a number.
 #include "base/file.h"
 #include "base/hash.h"
 #include "base/need.h"
@@ -14,6 +14,8 @@
 #include <sys/stat.h>
 #include <sys/xattr.h>
 #include <unistd.h>
+
+static const size_t LARGEST = (size_t)1 << 30;
 
 enum { READ_BLOCK = 1 << 16, MAX_LINKS = 32, MAX_NAMES = 100 };
 
@@ -273,7 +275,7 @@ bool file_check_place(const char *path, struct error *error)
 }
 
 /// Opens what is to be written: a file beside the target, or the target itself where it is a device or a pipe.
-static int open_output(const char *path, const char *like, struct file_output *output)
+static int open_output(const char *path, struct file_output *output)
 {
     struct stat old;
     const bool exists = stat(path, &old) == 0;
@@ -286,31 +288,25 @@ static int open_output(const char *path, const char *like, struct file_output *o
     output->target = resolve_links(path);
     if (!output->target) return -1;
     sweep(output->target);
-    const bool keeps = stat(like, &old) == 0;
-    int file = create_beside(output->target, false, keeps ? 0600 : 0666, &output->temporary);
+    int file = create_beside(output->target, false, exists ? 0600 : 0666, &output->temporary);
     if (file >= 0) replace_unfinished(NULL, output->temporary);
-    if (file >= 0 && keeps && !keep_rights(file, like, &old)) {
+    if (file >= 0 && exists && !keep_rights(file, path, &old)) {
         close(file);
         return -1;
     }
     return file;
 }
 
-bool file_output_open_like(struct file_output *output, const char *path, const char *like, struct error *error)
+bool file_output_open(struct file_output *output, const char *path, struct error *error)
 {
     *output = (struct file_output){.path = path};
-    int file = open_output(path, like, output);
+    int file = open_output(path, output);
     if (file >= 0) output->stream = fdopen(file, "wb");
     if (output->stream) return true;
     int cause = errno;
     if (file >= 0) close(file);
     file_output_discard(output);
     return fail_to(error, ERROR_ENVIRONMENT, "be written", path, cause);
-}
-
-bool file_output_open(struct file_output *output, const char *path, struct error *error)
-{
-    return file_output_open_like(output, path, path, error);
 }
 
 /// The folder's entry must reach the disk too. Where a file system cannot do that, the content is safe all the same.
@@ -390,45 +386,12 @@ bool file_write_atomic(const char *path, const void *data, size_t size, struct e
     return file_output_commit(&output, error);
 }
 
-// --- whether somebody else has written it
-
-static const size_t LARGEST = (size_t)1 << 30;
-
-static struct file_stamp look(const char *path)
+uint64_t file_content(const char *path)
 {
-    struct stat about;
-    if (stat(path, &about) != 0) return (struct file_stamp){0};
-    return (struct file_stamp){.is_there = true,
-                               .device = about.st_dev,
-                               .inode = about.st_ino,
-                               .size = about.st_size,
-                               .modified = about.st_mtim};
-}
-
-static bool same_file(const struct file_stamp *a, const struct file_stamp *b)
-{
-    return a->is_there == b->is_there && a->device == b->device && a->inode == b->inode && a->size == b->size &&
-           a->modified.tv_sec == b->modified.tv_sec && a->modified.tv_nsec == b->modified.tv_nsec;
-}
-
-struct file_stamp file_stamp(const char *path)
-{
-    struct file_stamp stamp = look(path);
-    struct error error;
     char *data;
     size_t size;
-    if (!stamp.is_there || !file_read(path, LARGEST, &data, &size, &error)) return stamp;
-    stamp.content = hash_bytes(HASH_START, data, size);
+    if (!file_read(path, LARGEST, &data, &size, NULL)) return 0;
+    const uint64_t content = hash_bytes(HASH_START, data, size);
     free(data);
-    return stamp;
-}
-
-bool file_stamp_differs(const char *path, struct file_stamp *stamp)
-{
-    struct file_stamp now = look(path);
-    if (!now.is_there || same_file(&now, stamp)) return false;
-    now = file_stamp(path);
-    if (!stamp->is_there || now.size != stamp->size || now.content != stamp->content) return true;
-    *stamp = now;
-    return false;
+    return content ? content : 1;
 }

@@ -7,8 +7,6 @@
 #include <stddef.h>
 #include <stdint.h>
 #include <stdio.h>
-#include <sys/types.h>
-#include <time.h>
 
 /// Reads a regular file of at most `limit` bytes into memory that the caller frees, with a terminating NUL that
 /// `size` does not count. Errors name the path and say: no such file, a directory, no permission, too large.
@@ -28,9 +26,6 @@ struct file_output {
 
 /// Opens the temporary file. `path` must live until the end.
 bool file_output_open(struct file_output *output, const char *path, struct error *error);
-
-/// The same with the rights of the file `like`, if there is one: for content that goes from one name to another.
-bool file_output_open_like(struct file_output *output, const char *path, const char *like, struct error *error);
 
 /// Checks what was written, fsyncs, renames, and closes; on failure the old file is intact and the temporary one is
 /// gone.
@@ -56,22 +51,8 @@ void file_remove_unfinished(void);
 /// which the caller frees; −1 with errno set.
 int file_folder_beside(const char *path, char **folder);
 
-/// A file as it was at some time.
-struct file_stamp {
-    bool is_there;
-    dev_t device;
-    ino_t inode;
-    off_t size;
-    struct timespec modified;
-    uint64_t content; ///< its hash
-};
-
-/// The file as it is now.
-struct file_stamp file_stamp(const char *path);
-
-/// Whether there is a file with another content now. One that was only touched or copied over itself is not another; the stamp then
-/// becomes its own.
-bool file_stamp_differs(const char *path, struct file_stamp *stamp);
+/// A hash of what is in a file now, to tell whether somebody else has written it; 0 where it cannot be read.
+uint64_t file_content(const char *path);
 
 // Paths relative to a folder. Absolute paths stay as they are; "" and NULL mean the working folder.
 

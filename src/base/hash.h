@@ -1,4 +1,4 @@
-/// A fast 64-bit hash that tells whether something on the screen has changed. Not for files, not against adversaries.
+/// A fast 64-bit hash that tells whether something has changed. Not against adversaries.
 #ifndef BASE_HASH_H
 #define BASE_HASH_H
 

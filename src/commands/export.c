@@ -2,11 +2,13 @@
 #include "export/export.h"
 #include "app/film.h"
 #include "base/error.h"
+#include "base/file.h"
 #include "base/progress.h"
 #include "commands/commands.h"
 #include "commands/options.h"
 #include "commands/progress.h"
 #include "rig/opened.h"
+#include "scene/paint.h"
 #include "ui/theme.h"
 #include <stdio.h>
 #include <stdlib.h>
@@ -17,7 +19,7 @@ struct job {
     struct export_options options;
     struct film_options film;
     int size[2];
-    bool quiet;
+    bool quiet, paint;
     struct progress progress;
 };
 
@@ -60,15 +62,38 @@ static bool write_export(struct job *job, const struct editor_world *world, stru
     return done;
 }
 
+/// Writes the paint of the first character that has some, or of the one that was asked for.
+static bool write_paint(const struct job *job, const struct document *document, struct error *error)
+{
+    const char *name = job->options.rig;
+    int i = document_next_rig(document, RIG_CHARACTER, 0);
+    for (; i >= 0; i = document_next_rig(document, RIG_CHARACTER, i + 1)) {
+        const struct rig *rig = document->rigs[i];
+        const struct paint *paint = rig->character.painted;
+        if (!paint || (name && strcmp(rig_title(rig), name) != 0)) continue;
+        if (!paint_write(paint, job->output, error)) return false;
+        if (!job->quiet)
+            print_line(stdout, "wrote %s: paint on %d coordinates of %d vertices", job->output, paint->coordinates,
+                       paint->vertices);
+        return true;
+    }
+    return fail(error, ERROR_INPUT, "%s: expected paint on %s, got none", job->scene, name ? name : "a character");
+}
+
+static bool write_motion(struct job *job, struct opened *opened, struct error *error)
+{
+    document_set_path(opened->document, job->scene);
+    opened_solve(opened, SOLVER_BY_LENGTH);
+    const struct editor_world world = {
+        .document = opened->document, .evaluation = &opened->evaluation, .models = opened->models};
+    return write_export(job, &world, error);
+}
+
 static bool run(struct job *job, struct error *error)
 {
     struct opened opened;
     if (!opened_read(&opened, job->scene, error)) return false;
-    document_set_path(opened.document, job->scene);
-    opened_solve(&opened, SOLVER_BY_LENGTH);
-    const struct editor_world world = {
-        .document = opened.document, .evaluation = &opened.evaluation, .models = opened.models};
-    const bool done = write_export(job, &world, error);
+    const bool done = job->paint ? write_paint(job, opened.document, error) : write_motion(job, &opened, error);
     opened_free(&opened);
     return done;
 }
@@ -91,6 +116,8 @@ static enum options_result check(const struct usage *usage, struct job *job)
     if (!export_knows(job->output) && !film_knows(job->output))
         return options_wrong(usage, "--output: expected a name ending in %s, or %s, got '%s'", endings, films,
                              job->output);
+    if (job->paint && !path_has_end(job->output, ".npy"))
+        return options_wrong(usage, "--paint: expected an output that ends in .npy, got '%s'", job->output);
     if (job->theme && theme_find(job->theme) < 0)
         return options_wrong(usage, "--theme: expected dark or light, got '%s'", job->theme);
     if (job->frames && !read_frames(job->frames, &job->options))
@@ -129,6 +156,8 @@ int command_export(int argc, char **argv)
          &job.film.loops, 1, 10000},
         {"--transparent", NULL, NULL, "the rigs alone, without ground and shadows (.png, .webm)", OPTION_FLAG,
          &job.film.transparent, 0, 0},
+        {"--paint", NULL, NULL, "the paint of a character in place of its motion (.npy)", OPTION_FLAG, &job.paint, 0,
+         0},
         {"--quiet", NULL, NULL, "print nothing but errors and warnings", OPTION_FLAG, &job.quiet, 0, 0},
     };
     const struct usage usage = {

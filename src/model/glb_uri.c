@@ -1,4 +1,5 @@
 /// Bytes that a glTF file keeps outside of its chunk: in files beside it and in data URIs.
+#include "base/base64.h"
 #include "base/file.h"
 #include "base/progress.h"
 #include "model/glb.h"
@@ -7,41 +8,15 @@
 #include <stdlib.h>
 #include <string.h>
 
-static int base64_digit(char c)
-{
-    if (c >= 'A' && c <= 'Z') return c - 'A';
-    if (c >= 'a' && c <= 'z') return c - 'a' + 26;
-    if (c >= '0' && c <= '9') return c - '0' + 52;
-    return c == '+' ? 62 : c == '/' ? 63 : -1;
-}
-
-/// Decodes up to the padding. False where something else is between.
-static bool decode_base64(const char *text, unsigned char *bytes, size_t *size)
-{
-    uint32_t bits = 0;
-    int pending = 0;
-    *size = 0;
-    for (; *text && *text != '='; text++) {
-        int digit = base64_digit(*text);
-        if (digit < 0) return false;
-        bits = bits << 6 | (uint32_t)digit;
-        pending += 6;
-        if (pending < 8) continue;
-        pending -= 8;
-        bytes[(*size)++] = (unsigned char)(bits >> pending);
-    }
-    return pending < 6 && strspn(text, "=") == strlen(text);
-}
-
 static bool read_data(const char *uri, struct glb_buffer *buffer, struct error *error)
 {
     const char *comma = strchr(uri, ',');
-    bool base64 = comma && comma - uri >= 7 && strncmp(comma - 7, ";base64", 7) == 0;
-    if (!base64) return fail(error, ERROR_INPUT, "expected a data URI in base64, got another");
-    unsigned char *bytes = malloc(strlen(comma) / 4 * 3 + 3);
+    const bool is_base64 = comma && comma - uri >= 7 && strncmp(comma - 7, ";base64", 7) == 0;
+    if (!is_base64) return fail(error, ERROR_INPUT, "expected a data URI in base64, got another");
+    unsigned char *bytes = malloc(base64_capacity(strlen(comma)));
     if (!bytes) return fail_no_memory(error, "a data URI");
     *buffer = (struct glb_buffer){.bytes = {.at = bytes}, .owned = bytes};
-    if (decode_base64(comma + 1, bytes, &buffer->bytes.size)) return true;
+    if (base64_decode(comma + 1, bytes, &buffer->bytes.size)) return true;
     free(bytes);
     *buffer = (struct glb_buffer){0};
     return fail(error, ERROR_INPUT, "expected base64, got something else");

@@ -1,5 +1,6 @@
 /// Puts glTF files together.
 #include "model/gltf_file.h"
+#include "base/base64.h"
 #include "base/json.h"
 #include <math.h>
 #include <stdint.h>
@@ -134,18 +135,9 @@ static void write_binary(const struct gltf_file *file, const char *text, FILE *o
 /// The bytes as a data URI; the caller frees it. NULL if memory is short.
 static char *address_of(const struct gltf_file *file)
 {
-    static const char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
     static const char start[] = "data:application/octet-stream;base64,";
-    const size_t groups = (file->size + 2) / 3;
-    char *text = malloc(sizeof start + 4 * groups), *at = text;
-    if (!text) return NULL;
-    at = stpcpy(at, start);
-    for (size_t i = 0; i < file->size; i += 3) {
-        uint32_t bits = 0;
-        for (size_t k = 0; k < 3; k++) bits = bits << 8 | (i + k < file->size ? (unsigned char)file->data[i + k] : 0);
-        for (size_t k = 0; k < 4; k++) *at++ = i + k > file->size ? '=' : digits[bits >> (18 - 6 * k) & 63];
-    }
-    *at = '\0';
+    char *text = malloc(sizeof start + base64_length(file->size));
+    if (text) base64_encode(file->data, file->size, stpcpy(text, start));
     return text;
 }
 

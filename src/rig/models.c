@@ -94,7 +94,7 @@ static bool check_paint(const struct character_rig *rig, const struct figure *fi
     const struct paint *paint = rig->painted;
     if (!paint || models_paint_fits(paint, figure)) return true;
     return fail(error, ERROR_INPUT, "%s: expected paint for the %d coordinates of %d vertices of %s, got %d of %d",
-                rig->file->path ? rig->file->path : "paint", figure->character.coordinate_count,
+                rig->paint_file ? rig->paint_file : "paint", figure->character.coordinate_count,
                 figure->character.vertex_count, rig->model, paint->coordinates, paint->vertices);
 }
 

@@ -68,15 +68,6 @@ struct document *document_copy(const struct document *document)
     return copy;
 }
 
-struct document *document_copy_apart(const struct document *document)
-{
-    struct document *copy = document_copy(document);
-    for (int i = 0; i < copy->rig_count; i++) {
-        if (copy->rigs[i]->kind == RIG_CHARACTER) paint_file_part(&document_own_rig(copy, i)->character.file);
-    }
-    return copy;
-}
-
 void document_become(struct document *document, struct document *other)
 {
     empty(document);

@@ -84,11 +84,8 @@ struct document *document_create(void);
 /// NULL is fine.
 void document_destroy(struct document *document);
 
-/// A copy that shares splines and rigs.
+/// A copy that shares splines and rigs, for another thread too.
 struct document *document_copy(const struct document *document);
-
-/// The same for a thread: what a save notes of paint files stays apart, too.
-struct document *document_copy_apart(const struct document *document);
 
 /// Makes a document what another one is, which ends.
 void document_become(struct document *document, struct document *other);

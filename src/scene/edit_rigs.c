@@ -226,7 +226,6 @@ bool edit_rig_add(struct document *document, const struct rig *contents, struct 
     struct document *before = edit_begin(document);
     struct rig *rig = rig_clone(contents);
     rig->extra = NULL;
-    if (rig->kind == RIG_CHARACTER) paint_file_part(&rig->character.file);
     if (rig->kind == RIG_CHAIN) rig->chain.by_file = document_find_model(document, rig->chain.model, false) < 0;
     edit_rig_append(document, rig, new_name(document, contents));
     return edit_end(document, before, true, error);

@@ -2,6 +2,7 @@
 #ifndef SCENE_LOAD_H
 #define SCENE_LOAD_H
 
+#include "base/file.h"
 #include "scene/document.h"
 #include <stddef.h>
 
@@ -24,34 +25,29 @@ struct document *scene_parse(const char *name, const char *text, size_t size, st
 /// reads back equal. scene_parse() of it gives an equal document. The caller frees it.
 char *scene_print(const struct document *document, size_t *size);
 
-/// The same for a file in `folder` (document.h), into `*buffer` of `*capacity` bytes (at first NULL and 0), which grows as needed and
-/// which the caller frees: printing the same document repeatedly allocates nothing.
-void scene_print_into(const struct document *document, const char *folder, char **buffer, size_t *capacity,
+/// Whose work a recovery file has, as its last member says:
+///
+///     "recovers": { "file": "/home/me/walk.json", "content": "5f3a91c07be2d846" }
+///
+/// An untitled document's file has none, nor has one whose path is no UTF-8, which JSON cannot hold.
+struct scene_origin {
+    char path[PATH_LIMIT]; ///< of the document's own file, or ""
+    uint64_t content;      ///< of that when it was read or written last (file_content()); 0: unknown
+};
+
+/// Reads that member of a file; all zeros if there is none.
+struct scene_origin scene_read_origin(const char *path);
+
+/// scene_print() for a file in `folder` (document.h), with its `origin` unless that is NULL.
+char *scene_print_for(const struct document *document, const char *folder, const struct scene_origin *origin,
                       size_t *size);
 
-/// Saves the paint of the document's characters, each as an .npy file beside the scene (which the document then names), and then the
-/// scene, in one step: on failure, and after a crash at any time, the old scene is intact with its old paint, or the new one is
-/// there with the new. A failure leaves no new file.
-bool scene_save(struct document *document, const char *path, struct error *error);
+/// Writes the canonical text into a file, whole or not at all; paths in it are relative to the file's folder.
+bool scene_save(const struct document *document, const char *path, struct error *error);
 
-/// Reads the paint that the document's characters name and do not have yet. If a file is missing or broken, it reads the others
+/// Reads the paint that a scene names as .npy files and has not inside. If a file is missing or broken, it reads the others
 /// and returns false with the first error; the character then moves as its model does, and the name stays in the document.
 bool scene_read_paint(struct document *document, struct error *error);
-
-/// What other programs have made of the document's paint files since they were read or written here: a number that changes with their
-/// content; 0: they are as they were, or gone. `name` then is the first of those files, as the document has it.
-uint64_t scene_paint_theirs(struct document *document, const char **name);
-
-/// The user has seen that: the next save writes the document's own paint again.
-void scene_keep_paint(struct document *document);
-
-/// Appends a NUL and all paint, if there is any, to a text of scene_print_into(), for a recovery file.
-void scene_print_paint(const struct document *document, char **buffer, size_t *capacity, size_t *size);
-
-/// Gives the document the paint that scene_print_paint() printed: `text` is what follows the NUL, and must end with one itself.
-/// `name` stands for the path in messages.
-bool scene_parse_paint(struct document *document, const char *name, const char *text, size_t size,
-                       struct error *error);
 
 /// Hash of the canonical text, for replays (64-bit FNV-1a).
 uint64_t scene_hash(const struct document *document);

@@ -8,9 +8,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { FORMAT_VERSION = 1 };
+enum { FORMAT_VERSION = 2 };
 
-static const char *const scene_keys[] = {"wiggly", "about", "fps", "substeps", "frames", "splines", "rigs", NULL};
+static const char *const scene_keys[] = {"wiggly",  "about", "fps",      "substeps", "frames",
+                                         "splines", "rigs",  "recovers", NULL};
 
 /// Rewords jansson's "X expected near Y" or "Z near Y".
 static void compose_syntax(const char *text, char *sentence, size_t size)
@@ -199,6 +200,24 @@ struct document *scene_load(const char *path, struct problems *problems, struct 
     reader_report(&outside, &trouble);
     document_destroy(document);
     return NULL;
+}
+
+struct scene_origin scene_read_origin(const char *path)
+{
+    struct scene_origin origin = {0};
+    char *text;
+    size_t size;
+    if (!file_read(path, SOURCE_MAX_BYTES, &text, &size, NULL)) return origin;
+    json_t *scene = json_read(text, size, 0, &(json_error_t){0}), *recovers = json_object_get(scene, "recovers");
+    const char *file = json_string_value(json_object_get(recovers, "file"));
+    const char *content = json_string_value(json_object_get(recovers, "content"));
+    if (file && content && strlen(file) < PATH_LIMIT) {
+        memcpy(origin.path, file, strlen(file) + 1);
+        origin.content = strtoull(content, NULL, 16);
+    }
+    json_decref(scene);
+    free(text);
+    return origin;
 }
 
 struct document *scene_parse(const char *name, const char *text, size_t size, struct problems *problems,

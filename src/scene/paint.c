@@ -1,6 +1,6 @@
 /// Makes paint and changes it.
+#include "scene/paint.h"
 #include "base/need.h"
-#include "scene/character.h"
 #include <stdlib.h>
 #include <string.h>
 
@@ -35,11 +35,20 @@ void paint_drop(struct paint *paint)
     free(paint);
 }
 
+bool paint_is_plain_at(const struct paint *paint, int coordinate)
+{
+    const size_t count = (size_t)paint->vertices;
+    const float(*values)[2] = (const float(*)[2])paint->values + (size_t)coordinate * count;
+    for (size_t i = 0; i < count; i++) {
+        if (values[i][0] != 0 || values[i][1] != 0) return false;
+    }
+    return true;
+}
+
 bool paint_is_plain(const struct paint *paint)
 {
-    const size_t count = (size_t)paint->coordinates * (size_t)paint->vertices;
-    for (size_t i = 0; i < count; i++) {
-        if (paint->values[i][0] != 0 || paint->values[i][1] != 0) return false;
+    for (int c = 0; c < paint->coordinates; c++) {
+        if (!paint_is_plain_at(paint, c)) return false;
     }
     return true;
 }
@@ -72,36 +81,4 @@ void paint_dab(struct paint **paint, const struct dab *dab)
     for (int i = 0; i < dab->count; i++)
         memcpy((*paint)->values[first + (size_t)dab->vertices[i]], dab->values[i], sizeof *dab->values);
     touch(*paint);
-}
-
-struct paint_file *paint_file_create(void)
-{
-    struct paint_file *file = need_zeroed(1, sizeof *file);
-    atomic_init(&file->holders, 1);
-    return file;
-}
-
-struct paint_file *paint_file_hold(struct paint_file *file)
-{
-    if (file) atomic_fetch_add(&file->holders, 1);
-    return file;
-}
-
-void paint_file_drop(struct paint_file *file)
-{
-    if (!file || atomic_fetch_sub(&file->holders, 1) > 1) return;
-    free(file->path);
-    free(file);
-}
-
-void paint_file_part(struct paint_file **file)
-{
-    struct paint_file *old = *file, *copy = paint_file_create();
-    if (old) {
-        copy->path = old->path ? need_text(old->path) : NULL;
-        copy->version = old->version;
-        copy->stamp = old->stamp;
-    }
-    paint_file_drop(old);
-    *file = copy;
 }

@@ -28,8 +28,9 @@ struct paint *paint_hold(struct paint *paint);
 /// NULL is fine.
 void paint_drop(struct paint *paint);
 
-/// Whether it changes nothing at all.
+/// Whether it changes nothing at all; and on one coordinate.
 bool paint_is_plain(const struct paint *paint);
+bool paint_is_plain_at(const struct paint *paint, int coordinate);
 
 /// Bytes that it takes; 0 for NULL.
 size_t paint_bytes(const struct paint *paint);
@@ -43,5 +44,12 @@ struct dab {
 
 /// Puts a dab into the paint; where that has another holder, a copy takes its place.
 void paint_dab(struct paint **paint, const struct dab *dab);
+
+/// Reads an .npy file of shape (coordinates, vertices, 2). float64, big endian and Fortran order are read, too. NULL with a sentence that names the file, what was
+/// expected and what was there.
+struct paint *paint_read(const char *path, struct error *error);
+
+/// Writes an .npy file, whole or not at all.
+bool paint_write(const struct paint *paint, const char *path, struct error *error);
 
 #endif

@@ -1,6 +1,8 @@
-/// Reads and writes paint as .npy.
+/// Reads and writes paint: inside of scenes, and as .npy.
 #include "scene/paint_file.h"
+#include "base/base64.h"
 #include "base/file.h"
+#include "base/need.h"
 #include "base/npy.h"
 #include <limits.h>
 #include <math.h>
@@ -8,6 +10,14 @@
 #include <string.h>
 
 static const size_t LARGEST = (size_t)1 << 30;
+
+enum { MOST_VALUES = 1 << 27 }; ///< pairs: as much as a file of the largest size
+
+/// Where the values of a coordinate start.
+static float (*values_of(const struct paint *paint, int coordinate))[2]
+{
+    return paint->values + (size_t)coordinate * (size_t)paint->vertices;
+}
 
 static bool check_shape(const char *name, const struct npy *npy, size_t size, struct error *error)
 {
@@ -31,21 +41,31 @@ static double number_at(const struct npy *npy, const char *data, int64_t coordin
     return npy_number(npy, data + npy->data + index * npy->number_size);
 }
 
+/// Whether a coordinate's values are within the limits; NaN is not.
+static bool check_values(const struct paint *paint, int coordinate, struct error *error)
+{
+    static const float most[2] = {PAINT_MOST_SWELL, PAINT_MOST_LEAD};
+    static const char *const what[2] = {"the logarithm of an amplitude", "a phase in radians"};
+    const float(*values)[2] = (const float(*)[2])values_of(paint, coordinate);
+    for (int v = 0; v < paint->vertices; v++) {
+        for (int k = 0; k < 2; k++) {
+            if (!(fabsf(values[v][k]) <= most[k]))
+                return fail(error, ERROR_INPUT, "coordinate %d, vertex %d: expected %s within ±%g, got %g",
+                            coordinate, v, what[k], (double)most[k], (double)values[v][k]);
+        }
+    }
+    return true;
+}
+
 static bool read_values(const char *name, const struct npy *npy, const char *data, struct paint *paint,
                         struct error *error)
 {
-    static const double most[2] = {PAINT_MOST_SWELL, PAINT_MOST_LEAD};
-    static const char *const what[2] = {"the logarithm of an amplitude", "a phase in radians"};
+    struct error why;
     for (int c = 0; c < paint->coordinates; c++) {
         for (int v = 0; v < paint->vertices; v++) {
-            for (int k = 0; k < 2; k++) {
-                const double number = number_at(npy, data, c, v, k);
-                if (!(fabs(number) <= most[k]))
-                    return fail(error, ERROR_INPUT, "%s: coordinate %d, vertex %d: expected %s within ±%g, got %g",
-                                name, c, v, what[k], most[k], number);
-                paint->values[(size_t)c * (size_t)paint->vertices + (size_t)v][k] = (float)number;
-            }
+            for (int k = 0; k < 2; k++) values_of(paint, c)[v][k] = (float)number_at(npy, data, c, v, k);
         }
+        if (!check_values(paint, c, &why)) return fail(error, ERROR_INPUT, "%s: %s", name, why.text);
     }
     return true;
 }
@@ -63,7 +83,7 @@ static bool read_header(struct npy *npy, const char *name, const char *data, siz
     return npy_dictionary(npy, name, text, error) && check_shape(name, npy, size, error);
 }
 
-struct paint *paint_parse(const char *name, const char *data, size_t size, struct error *error)
+static struct paint *paint_parse(const char *name, const char *data, size_t size, struct error *error)
 {
     struct npy npy;
     if (!read_header(&npy, name, data, size, error)) return NULL;
@@ -83,33 +103,126 @@ struct paint *paint_read(const char *path, struct error *error)
     return paint;
 }
 
-static size_t values_size(const struct paint *paint)
-{
-    return (size_t)paint->coordinates * (size_t)paint->vertices * sizeof *paint->values;
-}
-
-static void header_of(const struct paint *paint, char header[NPY_HEADER])
-{
-    npy_print_header((const int[]){paint->coordinates, paint->vertices, 2}, 3, header);
-}
-
-size_t paint_file_size(const struct paint *paint) { return NPY_HEADER + values_size(paint); }
-
-void paint_print(struct text *text, const struct paint *paint)
-{
-    char header[NPY_HEADER];
-    header_of(paint, header);
-    text_bytes(text, header, sizeof header);
-    text_bytes(text, (const char *)paint->values, values_size(paint));
-}
-
-bool paint_write(const struct paint *paint, const char *path, const char *like, struct error *error)
+bool paint_write(const struct paint *paint, const char *path, struct error *error)
 {
     struct file_output output;
     char header[NPY_HEADER];
-    header_of(paint, header);
-    if (!file_output_open_like(&output, path, like, error)) return false;
+    if (!file_output_open(&output, path, error)) return false;
+    npy_print_header((const int[]){paint->coordinates, paint->vertices, 2}, 3, header);
     fwrite(header, 1, sizeof header, output.stream);
-    fwrite(paint->values, 1, values_size(paint), output.stream);
+    fwrite(paint->values, 1, paint_bytes(paint) - sizeof *paint, output.stream);
     return file_output_commit(&output, error);
+}
+
+bool scene_read_paint(struct document *document, struct error *error)
+{
+    struct error first = {0};
+    int i = document_next_rig(document, RIG_CHARACTER, 0);
+    for (; i >= 0; i = document_next_rig(document, RIG_CHARACTER, i + 1)) {
+        const struct character_rig *character = &document->rigs[i]->character;
+        if (!character->paint_file || character->painted) continue;
+        struct error trouble = {0};
+        char path[PATH_LIMIT];
+        struct paint *paint = NULL;
+        if (path_resolve(document->folder, character->paint_file, path)) {
+            paint = paint_read(path, &trouble);
+        } else {
+            fail(&trouble, ERROR_INPUT, "%s: the path is too long", character->paint_file);
+        }
+        if (paint) document_own_rig(document, i)->character.painted = paint;
+        if (first.kind == ERROR_NONE) first = trouble;
+    }
+    if (first.kind != ERROR_NONE && error) *error = first;
+    return first.kind == ERROR_NONE;
+}
+
+// --- inside of a scene
+
+/// Reads a coordinate's string.
+static void load_coordinate(struct reader *reader, struct value value, struct paint *paint, int coordinate)
+{
+    const char *text = json_string_value(value.json);
+    const size_t expected = (size_t)paint->vertices * sizeof *paint->values;
+    size_t size = 0;
+    if (json_is_null(value.json)) return;
+    if (!text) {
+        reader_unexpected(reader, value, "a string in base64 or null");
+        return;
+    }
+    char *bytes = need(base64_capacity(json_string_length(value.json)), 1);
+    if (!base64_decode(text, bytes, &size)) {
+        reader_fail(reader, &value.at, "expected base64, got something else");
+    } else if (size != expected) {
+        reader_fail(reader, &value.at, "expected the %zu bytes of %d vertices, got %zu", expected, paint->vertices,
+                    size);
+    } else {
+        struct error error;
+        memcpy(values_of(paint, coordinate), bytes, size);
+        if (!check_values(paint, coordinate, &error)) reader_fail(reader, &value.at, "%s", error.text);
+    }
+    free(bytes);
+}
+
+static void load_inside(struct reader *reader, const struct value *object, struct value value,
+                        struct character_rig *character)
+{
+    const struct value vertices = reader_member(object, "vertices");
+    const size_t coordinates = json_array_size(value.json);
+    int count = 0;
+    if (!vertices.json) {
+        reader_fail(reader, &value.at, "expected \"vertices\", how many there are, beside it, got nothing");
+        return;
+    }
+    if (coordinates == 0 || !reader_integer(reader, vertices, 1, MOST_VALUES, &count)) {
+        if (coordinates == 0) reader_fail(reader, &value.at, "expected a string for each coordinate, got none");
+        return;
+    }
+    if (coordinates > (size_t)(MOST_VALUES / count) ||
+        !need_has_room(coordinates * (size_t)count * sizeof *character->painted->values)) {
+        reader_fail(reader, &vertices.at, "expected at most %d vertices over all coordinates, and memory for them",
+                    MOST_VALUES);
+        return;
+    }
+    character->painted = paint_create((int)coordinates, count);
+    for (int i = 0; i < (int)coordinates; i++)
+        load_coordinate(reader, reader_element(&value, i), character->painted, i);
+}
+
+void paint_load(struct reader *reader, const struct value *object, struct rig *rig)
+{
+    const struct value paint = reader_member(object, "paint");
+    if (json_is_array(paint.json)) {
+        load_inside(reader, object, paint, &rig->character);
+    } else if (paint.json) {
+        rig->character.paint_file = reader_name(reader, paint);
+    }
+}
+
+/// A coordinate's values as a string, or null where they change nothing.
+static void print_coordinate(struct text *text, const struct paint *paint, int coordinate)
+{
+    const size_t size = (size_t)paint->vertices * sizeof *paint->values;
+    if (paint_is_plain_at(paint, coordinate)) {
+        text_string(text, "null");
+        return;
+    }
+    char *base64 = need(base64_length(size) + 1, 1);
+    base64_encode(values_of(paint, coordinate), size, base64);
+    text_quoted(text, base64);
+    free(base64);
+}
+
+void paint_print(struct members *members, const struct document *document, const struct rig *rig, const char *folder)
+{
+    const struct character_rig *character = &rig->character;
+    const struct paint *paint = character->painted;
+    if (!paint && character->paint_file) member_path(members, "paint", document, character->paint_file, folder);
+    if (!paint || paint_is_plain(paint)) return;
+    member_number(members, "vertices", paint->vertices);
+    member(members, "paint");
+    for (int i = 0; i < paint->coordinates; i++) {
+        text_string(members->text, i > 0 ? ",\n        " : "[\n        ");
+        print_coordinate(members->text, paint, i);
+    }
+    text_string(members->text, "\n      ]");
 }

@@ -1,4 +1,5 @@
 /// Writes a document as the text of a scene file.
+#include "base/file.h"
 #include "scene/load.h"
 #include "scene/members.h"
 #include "scene/order.h"
@@ -89,11 +90,37 @@ static void print_spline(struct text *text, const struct document *document, con
     text_string(text, "\n    }");
 }
 
-static void print_document(struct text *text, const struct document *document, const char *folder)
+/// The version of the format that has what the document has: only paint needs the second.
+static int version_for(const struct document *document)
+{
+    for (int i = 0; i < document->rig_count; i++) {
+        const struct rig *rig = document->rigs[i];
+        if (rig->kind == RIG_CHARACTER && rig->character.painted && !paint_is_plain(rig->character.painted)) return 2;
+    }
+    return 1;
+}
+
+static void print_origin(struct members *members, const struct scene_origin *origin)
+{
+    char absolute[PATH_LIMIT], content[32]; // the next start may have another working folder
+    if (!origin->path[0] || !path_resolve(NULL, origin->path, absolute)) return;
+    json_t *is_utf8 = json_string(absolute);
+    if (!is_utf8) return;
+    json_decref(is_utf8);
+    struct members pair = {members->text, "{ ", ", ", false};
+    snprintf(content, sizeof content, "%016llx", (unsigned long long)origin->content);
+    member(members, "recovers");
+    member_string(&pair, "file", absolute);
+    member_string(&pair, "content", content);
+    text_string(members->text, " }");
+}
+
+static void print_document(struct text *text, const struct document *document, const char *folder,
+                           const struct scene_origin *origin)
 {
     struct members members = {text, "{\n  ", ",\n  ", false};
     double frames[] = {document->first_frame, document->last_frame};
-    member_number(&members, "wiggly", 1);
+    member_number(&members, "wiggly", version_for(document));
     if (document->about) member_string(&members, "about", document->about);
     member_number(&members, "fps", document->fps);
     member_number(&members, "substeps", document->substeps);
@@ -108,26 +135,34 @@ static void print_document(struct text *text, const struct document *document, c
     member(&members, "rigs");
     print_rigs(text, document, folder);
     members_extra(&members, document->extra, NULL);
+    if (origin) print_origin(&members, origin);
     text_string(text, "\n}\n");
 }
 
-void scene_print_into(const struct document *document, const char *folder, char **buffer, size_t *capacity,
+char *scene_print_for(const struct document *document, const char *folder, const struct scene_origin *origin,
                       size_t *size)
 {
-    struct text text = {.data = *buffer, .capacity = *capacity};
-    print_document(&text, document, folder);
+    struct text text = {0};
+    print_document(&text, document, folder, origin);
     *size = text.size;
     text_bytes(&text, "", 1);
-    *buffer = text.data;
-    *capacity = text.capacity;
+    return text.data;
 }
 
 char *scene_print(const struct document *document, size_t *size)
 {
-    char *text = NULL;
-    size_t capacity = 0;
-    scene_print_into(document, document->folder, &text, &capacity, size);
-    return text;
+    return scene_print_for(document, document->folder, NULL, size);
+}
+
+bool scene_save(const struct document *document, const char *path, struct error *error)
+{
+    char folder[PATH_LIMIT];
+    size_t size;
+    if (!path_folder(path, folder)) return fail(error, ERROR_ENVIRONMENT, "%s: the path is too long", path);
+    char *text = scene_print_for(document, folder, NULL, &size);
+    const bool saved = file_write_atomic(path, text, size, error);
+    free(text);
+    return saved;
 }
 
 uint64_t scene_hash(const struct document *document)

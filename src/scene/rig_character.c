@@ -1,5 +1,6 @@
 /// Characters as a kind of rig.
 #include "base/need.h"
+#include "scene/paint_file.h"
 #include "scene/rig_kind.h"
 #include <math.h>
 #include <stdlib.h>
@@ -80,40 +81,18 @@ static void print_floor(struct members *members, const struct document *document
     if (rig->character.has_floor) member_number(members, "floor", rig->character.floor);
 }
 
-static void load_paint(struct reader *reader, const struct value *object, struct rig *rig)
-{
-    const struct value paint = reader_member(object, "paint");
-    if (paint.json) rig->character.file->path = reader_name(reader, paint);
-}
-
-/// Whether the scene names a paint file: not for paint that changes nothing, but still for a file that could not be read.
-static bool is_painted(const struct character_rig *character)
-{
-    if (!character->file->path) return false;
-    return character->painted ? !paint_is_plain(character->painted) : character->file->version == 0;
-}
-
-static void print_paint(struct members *members, const struct document *document, const struct rig *rig,
-                        const char *folder)
-{
-    if (is_painted(&rig->character)) member_path(members, "paint", document, rig->character.file->path, folder);
-}
-
 static const struct field fields[] = {
     {FIELD("model", FIELD_PATH, character.model)},
     {FIELD("position", FIELD_NUMBERS, character.position), .range = FIELD_ANY},
     {"coordinates", .load = load_drives, .print = print_drives},
     {"phases", .load = load_phases, .print = print_phases},
     {FIELD("floor", FIELD_OWN, character.floor), .load = load_floor, .print = print_floor},
-    {"paint", .load = load_paint, .print = print_paint},
+    {"paint", .load = paint_load, .print = paint_print},
+    {.key = "vertices"}, // the paint's
     {.key = NULL},
 };
 
-static void reset(struct rig *rig)
-{
-    rig->character.phases = -1;
-    rig->character.file = paint_file_create();
-}
+static void reset(struct rig *rig) { rig->character.phases = -1; }
 
 static void copy(struct rig *copy)
 {
@@ -122,8 +101,8 @@ static void copy(struct rig *copy)
         struct drive *drive = &character->drives[i];
         if (drive->name) drive->name = need_text(drive->name);
     }
+    if (character->paint_file) character->paint_file = need_text(character->paint_file);
     paint_hold(character->painted);
-    paint_file_hold(character->file);
 }
 
 static void release(struct rig *rig)
@@ -131,7 +110,7 @@ static void release(struct rig *rig)
     struct character_rig *character = &rig->character;
     for (int i = 0; i < character->drive_count; i++) free(character->drives[i].name);
     paint_drop(character->painted);
-    paint_file_drop(character->file);
+    free(character->paint_file);
 }
 
 /// What its drives and paint say.

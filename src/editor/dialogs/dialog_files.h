@@ -59,7 +59,7 @@ void editor_set_export(struct editor *editor, const struct export_memory *memory
 /// How far the export is that was asked for; without an end in sight `total` is 0.
 void editor_tell_export(struct editor *editor, long done, long total);
 
-/// Somebody else has written the document's file, or its paint's, of that name: asks whether to keep mine, take theirs or save under
+/// Somebody else has written the document's file, of that name: asks whether to keep mine, take theirs or save under
 /// another name. `saving`: the user has just asked to save, and that request needs no other answer. false where something else
 /// lies over the panels, or a drag goes on.
 bool editor_ask_changed(struct editor *editor, const char *name, bool saving);

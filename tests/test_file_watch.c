@@ -48,11 +48,6 @@ static bool holds(const char *path, const char *name)
     return strstr(text, quoted) != NULL;
 }
 
-static const char *title(const struct blind *blind)
-{
-    return blind->app.table.editor->dialogs->dialog.question.title;
-}
-
 static enum dialog_kind asked(const struct blind *blind) { return blind->app.table.editor->dialogs->dialog.kind; }
 
 /// A scene with a knot that is not saved.
@@ -71,6 +66,7 @@ static void open_changed(struct blind *blind)
     write_scene(theirs);
     press(blind, 'S', MOD_CTRL);
     assert_int_equal(asked(blind), DIALOG_CHANGED);
+    assert_string_equal(blind->app.table.editor->dialogs->dialog.question.title, "walk.json has changed on the disk");
     assert_true(holds(scene(), "theirs"));
 }
 
@@ -245,151 +241,6 @@ static void the_content_counts(void **state)
     blind_close(&blind);
 }
 
-enum { COORDINATES = 1, VERTICES = 8 };
-
-static void paint_mark(struct document *document, float mark)
-{
-    struct character_rig *rig = document_character(document, 0);
-    rig->painted = paint_create(COORDINATES, VERTICES);
-    assert_non_null(rig->painted);
-    for (int v = 0; v < VERTICES; v++) rig->painted->values[v][1] = mark;
-}
-
-static void print_character(char text[512], int last_frame, const char *paint)
-{
-    snprintf(text, 512,
-             "{\"wiggly\": 1, \"frames\": [0, %d], \"splines\": [{\"name\": \"s\", \"knots\": []}], \"rigs\": "
-             "[{\"type\": \"character\", \"name\": \"c\", \"model\": \"m.glb\", %s\"coordinates\": "
-             "[{\"name\": \"a\", \"spline\": \"s\"}]}]}",
-             last_frame, paint);
-}
-
-/// Another program writes the scene's file and leaves the paint alone.
-static void write_painted_scene(int last_frame)
-{
-    char text[512];
-    print_character(text, last_frame, "\"paint\": \"walk-paint.npy\", ");
-    write_scene(text);
-}
-
-/// A scene with a painted character, saved.
-static void write_painted(float mark)
-{
-    char text[512];
-    print_character(text, 48, "");
-    struct error error = {0};
-    struct document *document = scene_parse("walk", text, strlen(text), NULL, &error);
-    if (!document) fail_msg("%s", error.text);
-    document->folder = strdup(folder);
-    document_set_path(document, scene());
-    paint_mark(document, mark);
-    if (!scene_save(document, scene(), &error)) fail_msg("%s", error.text);
-    document_destroy(document);
-}
-
-/// The mark of the scene's paint on disk.
-static float paint_on_disk(void)
-{
-    struct error error = {0};
-    struct document *document = scene_load(scene(), NULL, &error);
-    if (!document || !scene_read_paint(document, &error)) fail_msg("%s", error.text);
-    const float mark = document_character(document, 0)->painted->values[VERTICES - 1][1];
-    document_destroy(document);
-    return mark;
-}
-
-/// Another program writes the paint file and leaves the scene's alone.
-static void write_paint(float mark)
-{
-    FILE *file = fopen(folder_path("walk-paint.npy"), "r+");
-    assert_non_null(file);
-    assert_int_equal(fseek(file, -(long)sizeof mark, SEEK_END), 0);
-    assert_int_equal(fwrite(&mark, sizeof mark, 1, file), 1);
-    assert_int_equal(fclose(file), 0);
-}
-
-static void open_painted(struct blind *blind)
-{
-    unlink(folder_path("walk-paint.npy"));
-    write_painted(1);
-    blind_open(blind, scene());
-    blind_frame(blind);
-    focus(blind);
-    assert_int_equal(asked(blind), DIALOG_NONE);
-    write_paint(2);
-    focus(blind);
-    assert_int_equal(asked(blind), DIALOG_CHANGED);
-}
-
-static void paint_alone_is_noticed_and_mine_kept(void **state)
-{
-    (void)state;
-    struct blind blind;
-    open_painted(&blind);
-    press(&blind, KEY_ESCAPE, 0);
-    focus(&blind);
-    assert_int_equal(asked(&blind), DIALOG_NONE); // once a change
-    press(&blind, 'S', MOD_CTRL);
-    assert_int_equal(asked(&blind), DIALOG_CHANGED);
-    assert_near(paint_on_disk(), 2, 0);
-    press(&blind, 'K', 0);
-    assert_near(paint_on_disk(), 1, 0);
-    press(&blind, 'S', MOD_CTRL);
-    assert_int_equal(asked(&blind), DIALOG_NONE);
-    blind_close(&blind);
-    unlink(folder_path("walk-paint-2.npy"));
-}
-
-static void paint_that_is_kept_at_focus_is_saved_later(void **state)
-{
-    (void)state;
-    struct blind blind;
-    open_painted(&blind);
-    press(&blind, 'K', 0);
-    assert_near(paint_on_disk(), 2, 0);
-    press(&blind, 'S', MOD_CTRL);
-    assert_int_equal(asked(&blind), DIALOG_NONE);
-    assert_near(paint_on_disk(), 1, 0);
-    blind_close(&blind);
-    unlink(folder_path("walk-paint-2.npy"));
-}
-
-/// The file that has changed is named; where both have, the scene.
-static void the_question_names_the_file(void **state)
-{
-    (void)state;
-    struct blind blind;
-    open_painted(&blind);
-    assert_string_equal(title(&blind), "walk-paint.npy has changed on the disk");
-    press(&blind, KEY_ESCAPE, 0);
-    press(&blind, 'S', MOD_CTRL);
-    assert_string_equal(title(&blind), "walk-paint.npy has changed on the disk");
-    press(&blind, KEY_ESCAPE, 0);
-    write_painted_scene(72);
-    focus(&blind);
-    assert_string_equal(title(&blind), "walk.json has changed on the disk");
-    press(&blind, KEY_ESCAPE, 0);
-    press(&blind, 'S', MOD_CTRL);
-    assert_string_equal(title(&blind), "walk.json has changed on the disk");
-    blind_close(&blind);
-}
-
-static void their_paint_is_taken(void **state)
-{
-    (void)state;
-    struct blind blind;
-    open_painted(&blind);
-    press(&blind, 'T', 0);
-    blind_frame(&blind);
-    const struct paint *paint = document_character(blind.app.table.document, 0)->painted;
-    assert_non_null(paint);
-    assert_near(paint->values[VERTICES - 1][1], 2, 0);
-    assert_true(history_is_saved(blind.app.table.history));
-    focus(&blind);
-    assert_int_equal(asked(&blind), DIALOG_NONE);
-    blind_close(&blind);
-}
-
 static void the_mouse_answers(void **state)
 {
     (void)state;
@@ -414,29 +265,6 @@ static void the_mouse_answers(void **state)
     }
 }
 
-/// Whoever writes a file, and when: before the work was kept, or between the crash and the next start.
-static void nobody(bool kept) { (void)kept; }
-
-static void paint_once_kept(bool kept)
-{
-    if (kept) write_paint(2);
-}
-
-static void paint_before(bool kept)
-{
-    if (!kept) write_paint(2);
-}
-
-static void scene_once_kept(bool kept)
-{
-    if (kept) write_painted_scene(72);
-}
-
-static void scene_before(bool kept)
-{
-    if (!kept) write_painted_scene(72);
-}
-
 static void open_at_desk(struct blind *blind)
 {
     blind_open(blind, scene());
@@ -451,27 +279,20 @@ static void crash(struct blind *blind)
     blind_close(blind);
 }
 
-/// What is recovered began with files that may be others by now. It is asked about once more where a second crash follows.
+/// What is recovered began with a file that may be another by now: written before the work was kept, or between the crash and the next
+/// start. It is asked about once more where a second crash follows.
 static void what_others_wrote_before_recovery_is_noticed(void **state)
 {
     (void)state;
-    static const struct {
-        void (*theirs)(bool kept);
-        bool asks;
-    } cases[] = {{nobody, false},
-                 {paint_once_kept, true},
-                 {paint_before, true},
-                 {scene_once_kept, true},
-                 {scene_before, true}};
-    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+    enum { NEVER, ONCE_KEPT, BEFORE };
+    for (int when = NEVER; when <= BEFORE; when++) {
         struct blind blind;
-        unlink(folder_path("walk-paint.npy"));
-        write_painted(1);
+        write_scene("{\"wiggly\": 1, \"frames\": [0, 48], \"splines\": [{\"name\": \"mine\", \"knots\": []}]}");
         open_at_desk(&blind);
         press(&blind, 'I', 0);
-        cases[i].theirs(false);
+        if (when == BEFORE) write_scene(theirs);
         crash(&blind);
-        cases[i].theirs(true);
+        if (when == ONCE_KEPT) write_scene(theirs);
         for (int crashes = 0; crashes < 2; crashes++) {
             open_at_desk(&blind);
             assert_int_equal(asked(&blind), DIALOG_RECOVER);
@@ -480,16 +301,14 @@ static void what_others_wrote_before_recovery_is_noticed(void **state)
             if (crashes == 0) crash(&blind);
         }
         press(&blind, 'S', MOD_CTRL);
-        assert_int_equal(asked(&blind), cases[i].asks ? DIALOG_CHANGED : DIALOG_NONE);
-        assert_near(paint_on_disk(), cases[i].theirs == paint_once_kept || cases[i].theirs == paint_before ? 2 : 1,
-                    0);
-        if (cases[i].asks) press(&blind, 'K', 0);
+        assert_int_equal(asked(&blind), when == NEVER ? DIALOG_NONE : DIALOG_CHANGED);
+        assert_int_equal(holds(scene(), "theirs"), when != NEVER);
+        if (when != NEVER) press(&blind, 'K', 0);
         assert_int_equal(asked(&blind), DIALOG_NONE);
-        assert_near(paint_on_disk(), 1, 0);
+        assert_true(holds(scene(), "mine"));
         assert_true(history_is_saved(blind.app.table.history));
         personal_end(&blind.app, false);
         blind_close(&blind);
-        unlink(folder_path("walk-paint-2.npy"));
     }
 }
 
@@ -566,10 +385,6 @@ int main(void)
         cmocka_unit_test(focus_asks_once_a_change),
         cmocka_unit_test(the_same_content_is_no_change),
         cmocka_unit_test(the_content_counts),
-        cmocka_unit_test(paint_alone_is_noticed_and_mine_kept),
-        cmocka_unit_test(paint_that_is_kept_at_focus_is_saved_later),
-        cmocka_unit_test(the_question_names_the_file),
-        cmocka_unit_test(their_paint_is_taken),
         cmocka_unit_test(the_mouse_answers),
         cmocka_unit_test(what_others_wrote_before_recovery_is_noticed),
         cmocka_unit_test(a_pipe_is_neither_read_nor_written),

@@ -1,0 +1,42 @@
+/// Turns bytes into base64 and back.
+#include "base/base64.h"
+#include <stdint.h>
+#include <string.h>
+
+void base64_encode(const void *bytes, size_t size, char *text)
+{
+    static const char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    const unsigned char *from = bytes;
+    for (size_t i = 0; i < size; i += 3) {
+        uint32_t bits = 0;
+        for (size_t k = 0; k < 3; k++) bits = bits << 8 | (i + k < size ? from[i + k] : 0);
+        for (size_t k = 0; k < 4; k++) *text++ = i + k > size ? '=' : digits[bits >> (18 - 6 * k) & 63];
+    }
+    *text = '\0';
+}
+
+static int digit_of(char c)
+{
+    if (c >= 'A' && c <= 'Z') return c - 'A';
+    if (c >= 'a' && c <= 'z') return c - 'a' + 26;
+    if (c >= '0' && c <= '9') return c - '0' + 52;
+    return c == '+' ? 62 : c == '/' ? 63 : -1;
+}
+
+bool base64_decode(const char *text, void *bytes, size_t *size)
+{
+    unsigned char *to = bytes;
+    uint32_t bits = 0;
+    int pending = 0;
+    *size = 0;
+    for (; *text && *text != '='; text++) {
+        const int digit = digit_of(*text);
+        if (digit < 0) return false;
+        bits = bits << 6 | (uint32_t)digit;
+        pending += 6;
+        if (pending < 8) continue;
+        pending -= 8;
+        to[(*size)++] = (unsigned char)(bits >> pending);
+    }
+    return pending < 6 && strspn(text, "=") == strlen(text);
+}
