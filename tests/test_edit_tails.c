@@ -25,7 +25,8 @@ static void test_places(void **state)
     assert_refused(&world, set_position(&world, 0, NAN, -1), "t: the position must be finite");
     assert_refused(&world, set_position(&world, 1, 0, 3), "t: there is no spline to follow");
     assert_refused(&world, set_position(&world, 3, 0, -1), "there is no such coordinate");
-    assert_refused(&world, edit_length(world_edit(&world), 0, 0, &world.error), "t: the length must be above 0");
+    assert_refused(&world, edit_length(world_edit(&world), 0, 0, &world.error),
+                   "the length must be above 0 and finite");
     assert_refused(&world, edit_length(world_edit(&world), 1, 1, &world.error), "there is no such tail");
     world_close(&world);
 }

@@ -267,7 +267,7 @@ static void models_and_chains_are_set(void **state)
                    "a chain needs the names of its first joint and its last");
     place.model.turn = NAN;
     assert_refused(&world, edit_place(world_edit(&world), WALK, &place.model, &world.error),
-                   "position and turn must be finite");
+                   "the turn must be finite");
     assert_refused(&world, edit_place(world_edit(&world), TAIL, &place.model, &world.error),
                    "there is no such model");
     world_undo_all(&world);

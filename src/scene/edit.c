@@ -47,3 +47,17 @@ const struct rig *edit_find_rig(const struct document *document, int rig, unsign
     fail(error, ERROR_INPUT, "there is no such %s", word_for(kinds));
     return NULL;
 }
+
+bool edit_replace_rig(struct document *document, int rig, struct rig *changed, struct error *error)
+{
+    const bool good = rig_check(changed, error);
+    if (!good || rig_equals(document->rigs[rig], changed)) {
+        rig_drop(changed);
+        return good;
+    }
+    struct document *before = edit_begin(document);
+    rig_drop(document->rigs[rig]);
+    document->rigs[rig] = changed;
+    document_touch(document);
+    return edit_end(document, before, true, error);
+}

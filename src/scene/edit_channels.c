@@ -14,11 +14,6 @@ static const struct channel *find(const struct document *document, struct channe
     return NULL;
 }
 
-static struct channel *own_channel(struct document *document, struct channel_place at)
-{
-    return &document_own_rig(document, at.rig)->bent.channels[at.channel];
-}
-
 static bool check_ramp(const struct angles *ramp, struct error *error)
 {
     if (ramp->count < 2 || ramp->count > RAMP_MAX_POINTS) {
@@ -99,30 +94,26 @@ bool edit_check_part(enum channel_part part, struct error *error)
 
 bool edit_axis(struct document *document, struct channel_place at, enum axis axis, struct error *error)
 {
-    const struct channel *channel = find(document, at, error);
-    if (!channel || !edit_check_axis(document->rigs[at.rig]->kind, axis, error)) return false;
-    if (channel->axis == axis) return true;
-    struct document *before = edit_begin(document);
-    own_channel(document, at)->axis = axis;
-    return edit_end(document, before, true, error);
+    if (!find(document, at, error) || !edit_check_axis(document->rigs[at.rig]->kind, axis, error)) return false;
+    struct rig *changed = rig_clone(document->rigs[at.rig]);
+    changed->bent.channels[at.channel].axis = axis;
+    return edit_replace_rig(document, at.rig, changed, error);
 }
 
 bool edit_part(struct document *document, struct channel_place at, enum channel_part of, struct error *error)
 {
-    const struct channel *channel = find(document, at, error);
-    if (!channel || !edit_check_part(of, error)) return false;
-    if (channel->of != of) own_channel(document, at)->of = of;
-    return true;
+    if (!find(document, at, error) || !edit_check_part(of, error)) return false;
+    struct rig *changed = rig_clone(document->rigs[at.rig]);
+    changed->bent.channels[at.channel].of = of;
+    return edit_replace_rig(document, at.rig, changed, error);
 }
 
 bool edit_feed(struct document *document, struct channel_place at, int spline, struct error *error)
 {
-    const struct channel *channel = find(document, at, error);
-    if (!channel || !edit_has_spline(document, spline, error)) return false;
-    if (channel->spline == spline) return true;
-    struct document *before = edit_begin(document);
-    own_channel(document, at)->spline = spline;
-    return edit_end(document, before, true, error);
+    if (!find(document, at, error) || !edit_has_spline(document, spline, error)) return false;
+    struct rig *changed = rig_clone(document->rigs[at.rig]);
+    changed->bent.channels[at.channel].spline = spline;
+    return edit_replace_rig(document, at.rig, changed, error);
 }
 
 void edit_append_channel(struct rig *rig, int spline, enum axis axis, enum channel_part of)
@@ -147,17 +138,16 @@ bool edit_channel_add(struct document *document, int rig, int spline, enum axis 
         return fail(error, ERROR_INPUT, "%s: there are %d channels, and no more fit", rig_title(old),
                     SCENE_MAX_CHANNELS);
     }
-    struct document *before = edit_begin(document);
-    edit_append_channel(document_own_rig(document, rig), spline, axis, of);
-    return edit_end(document, before, true, error);
+    struct rig *changed = rig_clone(old);
+    edit_append_channel(changed, spline, axis, of);
+    return edit_replace_rig(document, rig, changed, error);
 }
 
 bool edit_channel_remove(struct document *document, struct channel_place at, struct error *error)
 {
     if (!find(document, at, error)) return false;
-    struct document *before = edit_begin(document);
-    struct rig *rig = document_own_rig(document, at.rig);
-    struct channel *gone = &rig->bent.channels[at.channel];
-    memmove(gone, gone + 1, (size_t)(--rig->bent.channel_count - at.channel) * sizeof *gone);
-    return edit_end(document, before, true, error);
+    struct rig *changed = rig_clone(document->rigs[at.rig]);
+    struct channel *gone = &changed->bent.channels[at.channel];
+    memmove(gone, gone + 1, (size_t)(--changed->bent.channel_count - at.channel) * sizeof *gone);
+    return edit_replace_rig(document, at.rig, changed, error);
 }

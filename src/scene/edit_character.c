@@ -29,15 +29,13 @@ static bool check_drive(const struct document *document, const struct drive *dri
 
 bool edit_drive(struct document *document, int rig, int index, const struct drive *drive, struct error *error)
 {
-    const struct drive *old = find_drive(document, rig, index, error);
-    if (!old || !check_drive(document, drive, error)) return false;
-    if (old->spline == drive->spline && old->amplitude == drive->amplitude && old->lag == drive->lag) return true;
-    struct document *before = edit_begin(document);
-    struct drive *own = &document_own_rig(document, rig)->character.drives[index];
+    if (!find_drive(document, rig, index, error) || !check_drive(document, drive, error)) return false;
+    struct rig *changed = rig_clone(document->rigs[rig]);
+    struct drive *own = &changed->character.drives[index];
     own->spline = drive->spline;
     own->amplitude = drive->amplitude + 0.0;
     own->lag = drive->lag + 0.0;
-    return edit_end(document, before, true, error);
+    return edit_replace_rig(document, rig, changed, error);
 }
 
 bool edit_drive_add(struct document *document, int rig, const char *name, const struct drive *drive,
@@ -50,38 +48,35 @@ bool edit_drive_add(struct document *document, int rig, const char *name, const 
     if (old->drive_count == CHARACTER_MAX_DRIVES) {
         return fail(error, ERROR_INPUT, "a character has at most %d coordinates", CHARACTER_MAX_DRIVES);
     }
-    struct document *before = edit_begin(document);
-    struct character_rig *own = &document_own_rig(document, rig)->character;
+    struct rig *changed = rig_clone(document->rigs[rig]);
+    struct character_rig *own = &changed->character;
     own->drives[own->drive_count] = (struct drive){.name = need_text(name),
                                                    .spline = drive->spline,
                                                    .amplitude = drive->amplitude + 0.0,
                                                    .lag = drive->lag + 0.0};
     own->drive_count++;
-    return edit_end(document, before, true, error);
+    return edit_replace_rig(document, rig, changed, error);
 }
 
 bool edit_drive_remove(struct document *document, int rig, int index, struct error *error)
 {
     if (!find_drive(document, rig, index, error)) return false;
-    struct document *before = edit_begin(document);
-    struct character_rig *own = &document_own_rig(document, rig)->character;
+    struct rig *changed = rig_clone(document->rigs[rig]);
+    struct character_rig *own = &changed->character;
     struct drive *gone = &own->drives[index];
     free(gone->name);
     memmove(gone, gone + 1, (size_t)(--own->drive_count - index) * sizeof *gone);
-    return edit_end(document, before, true, error);
+    return edit_replace_rig(document, rig, changed, error);
 }
 
 bool edit_floor(struct document *document, int rig, bool on, double height, struct error *error)
 {
-    const struct character_rig *old = find(document, rig, error);
-    if (!old) return false;
+    if (!find(document, rig, error)) return false;
     if (!isfinite(height)) return fail(error, ERROR_INPUT, "a floor's height must be finite");
-    if (old->has_floor == on && old->floor == height) return true;
-    struct document *before = edit_begin(document);
-    struct character_rig *own = &document_own_rig(document, rig)->character;
-    own->has_floor = on;
-    own->floor = height + 0.0;
-    return edit_end(document, before, true, error);
+    struct rig *changed = rig_clone(document->rigs[rig]);
+    changed->character.has_floor = on;
+    changed->character.floor = height + 0.0;
+    return edit_replace_rig(document, rig, changed, error);
 }
 
 bool edit_paint_new(struct document *document, int rig, int coordinates, int vertices, struct error *error)

@@ -148,21 +148,12 @@ bool edit_rig_name(struct document *document, int rig, const char *name, struct 
     return true;
 }
 
-static bool check_place(const struct model_rig *model, struct error *error)
-{
-    bool finite = isfinite(model->turn);
-    for (int k = 0; k < 3; k++) finite &= isfinite(model->position[k]) != 0;
-    if (!finite) return fail(error, ERROR_INPUT, "position and turn must be finite");
-    return (isfinite(model->scale) && model->scale > 0) ||
-           fail(error, ERROR_INPUT, "the scale must be above 0 and finite");
-}
-
 static bool check_ends(const struct chain *chain, struct error *error)
 {
     if (!chain->from || !chain->from[0] || !chain->to || !chain->to[0]) {
         return fail(error, ERROR_INPUT, "a chain needs the names of its first joint and its last");
     }
-    return isfinite(chain->turn) || fail(error, ERROR_INPUT, "the turn must be finite");
+    return true;
 }
 
 static bool check_chain(const struct document *document, const struct rig *rig, struct error *error)
@@ -189,9 +180,6 @@ static bool check_chain(const struct document *document, const struct rig *rig, 
 static bool check_character(const struct document *document, const struct character_rig *rig, struct error *error)
 {
     if (!rig->model || !rig->model[0]) return fail(error, ERROR_INPUT, "a character needs a file");
-    bool finite = true;
-    for (int k = 0; k < 3; k++) finite &= isfinite(rig->position[k]) != 0;
-    if (!finite) return fail(error, ERROR_INPUT, "the position must be finite");
     for (int i = 0; i < rig->drive_count; i++) {
         if (!edit_has_spline(document, rig->drives[i].spline, error)) return false;
     }
@@ -203,8 +191,7 @@ static bool check_contents(const struct document *document, const struct rig *ri
     if (rig->kind == RIG_CHARACTER) return check_character(document, &rig->character, error);
     if (rig->kind == RIG_MEADOW) return edit_has_spline(document, rig->meadow.spline, error);
     if (rig->kind == RIG_CHAIN) return check_chain(document, rig, error);
-    if (!rig->model.model || !rig->model.model[0]) return fail(error, ERROR_INPUT, "a model needs a file");
-    return check_place(&rig->model, error);
+    return (rig->model.model && rig->model.model[0]) || fail(error, ERROR_INPUT, "a model needs a file");
 }
 
 /// Its name, or what it goes by: a file without folders and ending, or a joint.
@@ -223,8 +210,12 @@ static char *new_name(const struct document *document, const struct rig *rig)
 bool edit_rig_add(struct document *document, const struct rig *contents, struct error *error)
 {
     if (!edit_rig_fits(document, error) || !check_contents(document, contents, error)) return false;
-    struct document *before = edit_begin(document);
     struct rig *rig = rig_clone(contents);
+    if (!rig_check(rig, error)) {
+        rig_drop(rig);
+        return false;
+    }
+    struct document *before = edit_begin(document);
     rig->extra = NULL;
     if (rig->kind == RIG_CHAIN) rig->chain.by_file = document_find_model(document, rig->chain.model, false) < 0;
     edit_rig_append(document, rig, new_name(document, contents));
@@ -235,67 +226,40 @@ bool edit_clip(struct document *document, int rig, const char *clip, struct erro
 {
     const struct rig *found = edit_find_rig(document, rig, EDIT_KIND(RIG_MODEL), error);
     if (!found) return false;
-    const char *old = found->model.clip;
-    if (clip && !clip[0]) clip = NULL;
-    if (old == clip || (old && clip && strcmp(old, clip) == 0)) return true;
-    set_text(&document_own_rig(document, rig)->model.clip, clip);
-    return true;
+    struct rig *changed = rig_clone(found);
+    set_text(&changed->model.clip, clip && clip[0] ? clip : NULL);
+    return edit_replace_rig(document, rig, changed, error);
 }
 
 bool edit_place(struct document *document, int rig, const struct model_rig *wanted, struct error *error)
 {
     const struct rig *found = edit_find_rig(document, rig, EDIT_KIND(RIG_MODEL), error);
-    if (!found || !check_place(wanted, error)) return false;
-    const struct model_rig *old = &found->model;
-    bool same = old->scale == wanted->scale && old->turn == wanted->turn;
-    for (int k = 0; k < 3; k++) same &= old->position[k] == wanted->position[k];
-    if (same) return true;
-    struct document *before = edit_begin(document);
-    struct model_rig *own = &document_own_rig(document, rig)->model;
-    for (int k = 0; k < 3; k++) own->position[k] = wanted->position[k] + 0.0;
-    own->scale = wanted->scale;
-    own->turn = wanted->turn + 0.0;
-    return edit_end(document, before, true, error);
+    if (!found) return false;
+    struct rig *changed = rig_clone(found);
+    memcpy(changed->model.position, wanted->position, sizeof wanted->position);
+    changed->model.scale = wanted->scale;
+    changed->model.turn = wanted->turn;
+    return edit_replace_rig(document, rig, changed, error);
 }
 
 bool edit_chain(struct document *document, int rig, const struct chain *wanted, struct error *error)
 {
     const struct rig *found = edit_find_rig(document, rig, EDIT_KIND(RIG_CHAIN), error);
     if (!found || !check_ends(wanted, error)) return false;
-    const struct chain *old = &found->chain;
-    if (strcmp(old->from, wanted->from) == 0 && strcmp(old->to, wanted->to) == 0 && old->turn == wanted->turn &&
-        old->mirror == wanted->mirror)
-        return true;
-    struct document *before = edit_begin(document);
-    struct chain *own = &document_own_rig(document, rig)->chain;
-    char *from = need_text(wanted->from), *to = need_text(wanted->to); // `wanted` may have the old ones
-    free(own->from);
-    free(own->to);
-    own->from = from;
-    own->to = to;
-    own->turn = wanted->turn + 0.0;
-    own->mirror = wanted->mirror;
-    return edit_end(document, before, true, error);
-}
-
-static bool same_meadow(const struct meadow_rig *a, const struct meadow_rig *b)
-{
-    return a->count == b->count && a->seed == b->seed && a->area[0] == b->area[0] && a->area[1] == b->area[1] &&
-           a->height == b->height && a->variation == b->variation && a->lag == b->lag && a->gain == b->gain;
+    struct rig *changed = rig_clone(found);
+    set_text(&changed->chain.from, wanted->from);
+    set_text(&changed->chain.to, wanted->to);
+    changed->chain.turn = wanted->turn;
+    changed->chain.mirror = wanted->mirror;
+    return edit_replace_rig(document, rig, changed, error);
 }
 
 bool edit_meadow(struct document *document, int rig, const struct meadow_rig *wanted, struct error *error)
 {
     const struct rig *found = edit_find_rig(document, rig, EDIT_KIND(RIG_MEADOW), error);
     if (!found) return false;
-    const bool fits = wanted->count >= 1 && wanted->count <= MEADOW_MAX_REEDS && wanted->seed >= 0 &&
-                      wanted->height > 0 && wanted->area[0] > 0 && wanted->area[1] > 0 && wanted->variation >= 0;
-    if (!fits) return fail(error, ERROR_INPUT, "a meadow has 1 to %d reeds, an area and a height", MEADOW_MAX_REEDS);
-    if (same_meadow(&found->meadow, wanted)) return true;
-    struct meadow_rig *own = &document_own_rig(document, rig)->meadow;
-    const int spline = own->spline;
-    *own = *wanted;
-    own->spline = spline;
-    own->lag += 0.0, own->gain += 0.0;
-    return true;
+    struct rig *changed = rig_clone(found);
+    changed->meadow = *wanted;
+    changed->meadow.spline = found->meadow.spline;
+    return edit_replace_rig(document, rig, changed, error);
 }

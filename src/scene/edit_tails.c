@@ -109,23 +109,21 @@ bool edit_position(struct document *document, int rig, int coordinate, const str
     if (!old) return false;
     if (coordinate < 0 || coordinate > 2) return fail(error, ERROR_INPUT, "there is no such coordinate");
     if (param->motion) return fail(error, ERROR_INPUT, "only an equilibrium follows a joint");
-    const struct param *was = &old->tail.position[coordinate];
     const struct param wanted = param->track >= 0 ? param_track(param->track) : param_number(param->value + 0.0);
     if (wanted.track >= document->spline_count)
         return fail(error, ERROR_INPUT, "%s: there is no spline to follow", old->name);
     if (!isfinite(wanted.value)) return fail(error, ERROR_INPUT, "%s: the position must be finite", old->name);
-    if (was->track == wanted.track && was->value == wanted.value) return true;
-    struct document *before = edit_begin(document);
-    document_own_rig(document, rig)->tail.position[coordinate] = wanted;
-    return edit_end(document, before, true, error);
+    struct rig *changed = rig_clone(old);
+    changed->tail.position[coordinate].track = wanted.track;
+    changed->tail.position[coordinate].value = wanted.value;
+    return edit_replace_rig(document, rig, changed, error);
 }
 
 bool edit_length(struct document *document, int rig, double metres, struct error *error)
 {
     const struct rig *old = edit_find_rig(document, rig, EDIT_KIND(RIG_TAIL), error);
     if (!old) return false;
-    if (!isfinite(metres) || metres <= 0)
-        return fail(error, ERROR_INPUT, "%s: the length must be above 0", old->name);
-    if (old->tail.length != metres) document_own_rig(document, rig)->tail.length = metres;
-    return true;
+    struct rig *changed = rig_clone(old);
+    changed->tail.length = metres;
+    return edit_replace_rig(document, rig, changed, error);
 }

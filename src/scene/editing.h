@@ -22,6 +22,9 @@ bool edit_has_spline(const struct document *document, int spline, struct error *
 /// The rig at that index if it is of one of those kinds; NULL refuses the edit.
 const struct rig *edit_find_rig(const struct document *document, int rig, unsigned kinds, struct error *error);
 
+/// Puts a changed clone, which is taken over, in the place of a rig, if its numbers may be saved and it differs in more than name and pins.
+bool edit_replace_rig(struct document *document, int rig, struct rig *changed, struct error *error);
+
 /// Whether one more rig fits, and adds one with an id and a name that it takes over.
 bool edit_rig_fits(const struct document *document, struct error *error);
 void edit_rig_append(struct document *document, struct rig *rig, char *name);

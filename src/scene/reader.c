@@ -115,8 +115,7 @@ bool reader_number(struct reader *reader, struct value value, bool required, str
     if (!value.json && !required) return true;
     if (!json_is_number(value.json)) return reader_unexpected(reader, value, "a number");
     double number = json_number_value(value.json);
-    bool low = range.above ? number <= range.minimum : number < range.minimum;
-    if (low || number > range.maximum) return fail_range(reader, &value.at, range, number);
+    if (!range_has(range, number)) return fail_range(reader, &value.at, range, number);
     *target = number + 0.0; // −0 becomes 0, as it is saved
     return true;
 }

@@ -39,6 +39,11 @@ struct range {
 
 extern const struct range range_any;
 
+static inline bool range_has(struct range range, double number)
+{
+    return (range.above ? number > range.minimum : number >= range.minimum) && number <= range.maximum;
+}
+
 /// Reports "file:line: path: sentence" as an error; returns false.
 bool reader_fail(struct reader *reader, const struct where *where, const char *format, ...)
     __attribute__((format(printf, 3, 4)));

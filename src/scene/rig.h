@@ -119,6 +119,9 @@ struct rig *rig_clone(const struct rig *rig);
 struct rig *rig_hold(struct rig *rig);
 void rig_drop(struct rig *rig);
 
+/// Whether the numbers of what an edit changed may be saved; −0 becomes 0.
+bool rig_check(struct rig *rig, struct error *error);
+
 /// Whether two are the same but for name, pins and unknown keys.
 bool rig_equals(const struct rig *a, const struct rig *b);
 

@@ -1,6 +1,7 @@
 /// Members of rigs that are rows of a table: read, printed, copied, counted and freed.
 #include "base/need.h"
 #include "scene/rig_kind.h"
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -114,6 +115,35 @@ size_t fields_bytes(const struct field *fields, const struct rig *rig)
         if (is_text(field)) bytes += text_size(*(char *const *)((const char *)rig + field->place));
     }
     return bytes;
+}
+
+static bool fail_range(const struct field *field, struct error *error)
+{
+    const struct range range = field->range;
+    if (isfinite(range.maximum))
+        return fail(error, ERROR_INPUT, "the %s must be from %g to %g", field->key, range.minimum, range.maximum);
+    if (range.above) return fail(error, ERROR_INPUT, "the %s must be above %g and finite", field->key, range.minimum);
+    return fail(error, ERROR_INPUT, "the %s must be finite", field->key);
+}
+
+static bool check_numbers(const struct field *field, double *numbers, struct error *error)
+{
+    for (int i = 0; i < count_of(field); i++) {
+        if (!isfinite(numbers[i]) || !range_has(field->range, numbers[i])) return fail_range(field, error);
+        numbers[i] += 0.0;
+    }
+    return true;
+}
+
+bool fields_check(const struct field *fields, struct rig *rig, struct error *error)
+{
+    bool good = true;
+    for (const struct field *field = fields; good && field->key; field++) {
+        void *at = (char *)rig + field->place;
+        if (field->kind == FIELD_NUMBER || field->kind == FIELD_NUMBERS) good = check_numbers(field, at, error);
+        if (field->kind == FIELD_WHOLE && !range_has(field->range, *(int *)at)) good = fail_range(field, error);
+    }
+    return good;
 }
 
 static bool same_text(const char *a, const char *b) { return a == b || (a && b && strcmp(a, b) == 0); }

@@ -115,6 +115,8 @@ static bool same_channels(const struct rig *a, const struct rig *b)
            (count == 0 || memcmp(a->bent.channels, b->bent.channels, (size_t)count * sizeof *a->bent.channels) == 0);
 }
 
+bool rig_check(struct rig *rig, struct error *error) { return fields_check(kinds[rig->kind]->fields, rig, error); }
+
 bool rig_equals(const struct rig *a, const struct rig *b)
 {
     const struct rig_functions *kind = kinds[a->kind];

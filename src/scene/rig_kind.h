@@ -73,6 +73,9 @@ void copy_fields(const struct field *fields, struct rig *copy);
 void free_fields(const struct field *fields, struct rig *rig);
 size_t fields_bytes(const struct field *fields, const struct rig *rig);
 
+/// Whether all numbers are finite and in their ranges; −0 becomes 0, as it is saved.
+bool fields_check(const struct field *fields, struct rig *rig, struct error *error);
+
 /// Whether two rigs of a kind have the same in them.
 bool fields_equal(const struct field *fields, const struct rig *a, const struct rig *b);
 
