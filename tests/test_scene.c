@@ -91,30 +91,6 @@ static void test_numbers_read_back(void **state)
     }
 }
 
-/// Plain numbers are made in integers; that finds what printf() and strtod() find. Values of an edit, of any double, and those beside
-/// powers of two and ten, where the next double is nearer on one side.
-static void test_plain_numbers(void **state)
-{
-    (void)state;
-    srand(11);
-    for (int i = 0; i < 20000; i++) {
-        double value = ldexp(1 + ldexp(rand(), -31) + ldexp(rand(), -52), rand() % 66 - 16);
-        if (i % 4 == 0) value = rand() / pow(10, rand() % 10);
-        if (i % 4 == 1) value = nextafter(ldexp(1, i / 4 % 66 - 16), i / 4 % 2 ? 0 : INFINITY);
-        if (i % 4 == 2) value = nextafter(pow(10, i / 4 % 20 - 4), i / 4 % 3 ? 0 : INFINITY);
-        char text[NUMBER_TEXT_SIZE], found[PATH_SIZE];
-        int digits = 15;
-        do snprintf(found, sizeof found, "%.*g", digits, value);
-        while (digits++ < 17 && strtod(found, NULL) != value);
-        number_print(value, text);
-        if (fabs(value) < 1e-4 || fabs(value) >= 1e15) { // one of the two has an exponent there
-            if (strtod(text, NULL) != value) fail_msg("%.17g was written as %s", value, text);
-        } else {
-            assert_string_equal(text, found);
-        }
-    }
-}
-
 // --- load and print
 
 static void test_defaults(void **state)
@@ -568,7 +544,6 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_numbers),
         cmocka_unit_test(test_numbers_read_back),
-        cmocka_unit_test(test_plain_numbers),
         cmocka_unit_test(test_defaults),
         cmocka_unit_test(test_unknown_keys_are_kept),
         cmocka_unit_test(test_moving_bases_are_kept),
