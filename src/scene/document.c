@@ -270,6 +270,18 @@ int document_last_knot_sample(const struct document *document, const struct spli
     return document_samples(document) - (spline_start(spline) == WIGGLY_LOOP ? 2 : 1);
 }
 
+bool document_has_frame(const struct document *document, double frame, int last, struct error *error)
+{
+    const int sample = document_sample(document, frame);
+    if (sample >= 0 && sample <= last) return true;
+    if (sample < 0 || sample >= document_samples(document))
+        return fail(error, ERROR_INPUT, "expected a frame from %d to %d, got %.10g", document->first_frame,
+                    document->last_frame, frame);
+    return fail(error, ERROR_INPUT,
+                "expected a frame before %d, because the last frame of a loop repeats the first, got %.10g",
+                document->last_frame, frame);
+}
+
 int document_find_spline(const struct document *document, const char *name)
 {
     for (int i = 0; i < document->spline_count; i++) {

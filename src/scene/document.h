@@ -148,6 +148,9 @@ double document_frame(const struct document *document, int sample);
 /// The last sample that may have a knot; in a loop the very last sample repeats the first.
 int document_last_knot_sample(const struct document *document, const struct spline *spline);
 
+/// Whether a knot or pin may be on that frame, if `last` is the last sample that may have one; if not, `error` says why.
+bool document_has_frame(const struct document *document, double frame, int last, struct error *error);
+
 /// Index of the spline with that name, or -1.
 int document_find_spline(const struct document *document, const char *name);
 

@@ -12,7 +12,7 @@ static bool suits_pins(const struct document *document, struct error *error)
         return true;
     const struct rig *rig = document->rigs[trouble.rig];
     return fail(error, ERROR_INPUT, "%s: %s: %s", rig_title(rig), trouble.pin >= 0 ? "pins" : trouble.member,
-                trouble.sentence);
+                trouble.error.text);
 }
 
 bool edit_end(struct document *document, struct document *before, bool good, struct error *error)

@@ -114,17 +114,10 @@ static int compare_knots(const void *a, const void *b, void *document)
 
 static void check_domain(struct reader *reader, const struct where *at, const struct spline *spline, double frame)
 {
-    const struct document *document = reader->document;
-    int sample = document_sample(document, frame), last = document_samples(document) - 1;
-    struct where frame_at = {.parent = at, .key = "frame"};
-    if (sample < 0 || sample > last) {
-        reader_fail(reader, &frame_at, "expected a frame from %d to %d, got %.10g", document->first_frame,
-                    document->last_frame, frame);
-    } else if (sample > document_last_knot_sample(document, spline)) {
-        reader_fail(reader, &frame_at,
-                    "expected a frame before %d, because the last frame of a loop repeats the first, got %.10g",
-                    document->last_frame, frame);
-    }
+    const struct where frame_at = {.parent = at, .key = "frame"};
+    const int last = document_last_knot_sample(reader->document, spline);
+    struct error error;
+    if (!document_has_frame(reader->document, frame, last, &error)) reader_fail(reader, &frame_at, "%s", error.text);
 }
 
 /// Whether the neighbouring sample that a knot's slope is measured to (eq. 9) has a knot, too.

@@ -32,45 +32,37 @@ void pin_groups_find(const struct document *document, int *group)
     }
 }
 
-static void visit_chains(const struct document *document, const struct chain *pinned, spline_visitor *visit,
-                         void *context)
+/// Marks a spline (−1: none) that is not of the group.
+static void mark(const int *group, int which, int spline, bool *bases)
+{
+    if (spline >= 0 && group[spline] != which) bases[spline] = true;
+}
+
+/// All that bends the model of a chain.
+static void mark_chains(const struct document *document, const struct chain *pinned, const int *group, int which,
+                        bool *bases)
 {
     const int model = document_find_model(document, pinned->model, pinned->by_file);
     for (int r = document_next_rig(document, RIG_CHAIN, 0); r >= 0;
          r = document_next_rig(document, RIG_CHAIN, r + 1)) {
         const struct chain *chain = &document->rigs[r]->chain;
         if (document_find_model(document, chain->model, chain->by_file) != model) continue;
-        for (int c = 0; c < chain->channel_count; c++) visit(chain->channels[c].spline, context);
+        for (int c = 0; c < chain->channel_count; c++) mark(group, which, chain->channels[c].spline, bases);
     }
 }
 
-/// A visitor that passes on what is not of a group.
-struct outside {
-    const int *group;
-    int which;
-    spline_visitor *visit;
-    void *context;
-};
-
-static void visit_outside(int spline, void *context)
+void pin_groups_find_bases(const struct document *document, const int *group, int which, bool *bases)
 {
-    const struct outside *outside = context;
-    if (spline >= 0 && outside->group[spline] != outside->which) outside->visit(spline, outside->context);
-}
-
-void pin_groups_visit_bases(const struct document *document, const int *group, int which, spline_visitor *visit,
-                            void *context)
-{
-    struct outside outside = {group, which, visit, context};
+    for (int s = 0; s < document->spline_count; s++) bases[s] = false;
     for (int r = 0; r < document->rig_count; r++) {
         const struct rig *rig = document->rigs[r];
         const int spline = pins_hold_rig(rig) ? rig_point_spline(rig) : -1;
         if (spline < 0 || group[spline] != which) continue;
-        for (int k = 0; rig->kind == RIG_TAIL && k < 3; k++) visit_outside(rig->tail.position[k].track, &outside);
+        for (int k = 0; rig->kind == RIG_TAIL && k < 3; k++) mark(group, which, rig->tail.position[k].track, bases);
         for (int c = 0; rig->kind == RIG_TAIL && c < rig->tail.channel_count; c++) {
-            if (rig->tail.channels[c].axis == AXIS_STRETCH) visit_outside(rig->tail.channels[c].spline, &outside);
+            if (rig->tail.channels[c].axis == AXIS_STRETCH) mark(group, which, rig->tail.channels[c].spline, bases);
         }
-        if (rig->kind == RIG_CHAIN) visit_chains(document, &rig->chain, visit_outside, &outside);
+        if (rig->kind == RIG_CHAIN) mark_chains(document, &rig->chain, group, which, bases);
     }
 }
 
@@ -78,10 +70,9 @@ void pin_groups_visit_bases(const struct document *document, const int *group, i
 struct ordering {
     const struct document *document;
     const int *group;
-    bool *placed;
+    bool *placed, *bases;
     int *order, count;
     bool is_lenient; ///< what else moves a group's rigs need not be placed
-    bool waits;
     struct pin_cycle cycle;
 };
 
@@ -97,20 +88,17 @@ static bool is_ready(struct ordering *o, int spline)
     return true;
 }
 
-static void wait_for(int spline, void *context)
-{
-    struct ordering *o = context;
-    if (!o->placed[spline]) o->waits = true;
-}
-
 static bool is_group_ready(struct ordering *o, int which)
 {
     for (int s = 0; s < o->document->spline_count; s++) {
         if (o->group[s] == which && !is_ready(o, s)) return false;
     }
-    o->waits = false;
-    if (!o->is_lenient) pin_groups_visit_bases(o->document, o->group, which, wait_for, o);
-    return !o->waits;
+    if (o->is_lenient) return true;
+    pin_groups_find_bases(o->document, o->group, which, o->bases);
+    for (int s = 0; s < o->document->spline_count; s++) {
+        if (o->bases[s] && !o->placed[s]) return false;
+    }
+    return true;
 }
 
 static void place(struct ordering *o, int spline)
@@ -131,11 +119,11 @@ static void try_to_place(struct ordering *o, int spline)
     o->is_lenient = false;
 }
 
-bool pin_groups_order(const struct document *document, const int *group, const int *tracked, bool *placed, int *order,
-                      struct pin_cycle *cycle)
+bool pin_groups_order(const struct document *document, const int *group, const int *tracked, bool *placed,
+                      bool *bases, int *order, struct pin_cycle *cycle)
 {
     const int count = document->spline_count;
-    struct ordering o = {.document = document, .group = group, .placed = placed, .order = order};
+    struct ordering o = {.document = document, .group = group, .placed = placed, .bases = bases, .order = order};
     for (int s = 0; s < count; s++) placed[s] = false;
     while (o.count < count) {
         const int before = o.count;

@@ -33,6 +33,7 @@ static void free_splines(struct pinned *pinned)
     free(pinned->which);
     free(pinned->order);
     free(pinned->placed);
+    free(pinned->bases);
     free(pinned->was);
     free(pinned->weight);
 }
@@ -65,6 +66,7 @@ static void resize_splines(struct pinned *pinned, int splines)
     pinned->which = need_zeroed(count, sizeof *pinned->which);
     pinned->order = need_zeroed(count, sizeof *pinned->order);
     pinned->placed = need_zeroed(count, sizeof *pinned->placed);
+    pinned->bases = need_zeroed(count, sizeof *pinned->bases);
     pinned->was = need_zeroed(count, sizeof *pinned->was);
     pinned->weight = need_zeroed(count, sizeof *pinned->weight);
     pinned->served = false;
@@ -213,34 +215,33 @@ bool pinned_begin(struct evaluation *evaluation, const struct document *document
     pinned->served = serves;
     pinned->version = evaluation->pins.version;
     hold_rigs(pinned, document->rigs, serves ? document->rig_count : 0);
-    if (!serves || !pin_groups_order(document, pinned->which, storage->order, pinned->placed, pinned->order, &cycle))
+    if (!serves || !pin_groups_order(document, pinned->which, storage->order, pinned->placed, pinned->bases,
+                                     pinned->order, &cycle))
         return false;
     for (int s = 0; s < count; s++) pinned->placed[s] = false;
     return true;
 }
 
-static void note_moved(int spline, void *context)
-{
-    struct storage *storage = context;
-    if (storage->pinned.placed[spline] && storage->state[spline].solved) storage->pinned.base_moved = true;
-}
-
 bool pinned_base_moved(struct evaluation *evaluation, const struct document *document, int which)
 {
-    struct storage *storage = evaluation->storage;
-    storage->pinned.base_moved = false;
-    pin_groups_visit_bases(document, storage->pinned.which, which, note_moved, storage);
-    return storage->pinned.base_moved;
+    const struct storage *storage = evaluation->storage;
+    const struct pinned *pinned = &storage->pinned;
+    pin_groups_find_bases(document, pinned->which, which, pinned->bases);
+    for (int s = 0; s < evaluation->count; s++) {
+        if (pinned->bases[s] && pinned->placed[s] && storage->state[s].solved) return true;
+    }
+    return false;
 }
 
 /// What comes after the group although it moves its rigs follows it: it counts as still, whatever it was before.
-static void still(int spline, void *context)
+static void still_bases(struct evaluation *evaluation)
 {
-    struct evaluation *evaluation = context;
     const struct pinned *pinned = &evaluation->storage->pinned;
-    if (pinned->placed[spline]) return;
-    storage_flatten(&evaluation->curves[spline], &pinned->descs[0]);
-    evaluation->storage->state[spline].forced = true;
+    for (int s = 0; s < evaluation->count; s++) {
+        if (!pinned->bases[s] || pinned->placed[s]) continue;
+        storage_flatten(&evaluation->curves[s], &pinned->descs[0]);
+        evaluation->storage->state[s].forced = true;
+    }
 }
 
 /// The splines of a group and what is asked of each.
@@ -413,7 +414,7 @@ bool pinned_solve(struct evaluation *evaluation, const struct document *document
     for (int i = 0; has_floor && i < pinned->count; i++) { // as where pins pull: they are passed over, pressed or not
         pinned->descs[i].low = -INFINITY, pinned->descs[i].high = INFINITY;
     }
-    pin_groups_visit_bases(document, pinned->which, which, still, evaluation);
+    still_bases(evaluation);
     find_held(pinned, document, which);
     *status = solve_round(evaluation, &pinned->round, false);
     if (*status >= WIGGLY_ERROR_ARGUMENT) return false;

@@ -31,9 +31,9 @@ struct pinned {
     wiggly_knot *knots; ///< of the group in hand
     int *which;         ///< for each spline, pin_groups_find()
     int *order;
-    bool *placed; ///< by pin_groups_order(), then: solved, if need be, in this update
-    bool *was;    ///< it was solved in a group
-    bool base_moved;
+    bool *placed;   ///< by pin_groups_order(), then: solved, if need be, in this update
+    bool *was;      ///< it was solved in a group
+    bool *bases;    ///< of the group in hand, pin_groups_find_bases()
     double *weight; ///< for each spline
     int *members;   ///< of the group in hand
     int count;

@@ -3,7 +3,6 @@
 #include "base/need.h"
 #include "scene/order.h"
 #include <assert.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -98,24 +97,11 @@ int pins_last_sample(const struct document *document, const struct rig *rig)
 static bool check_frame(const struct document *document, const struct rig *rig, int at, struct pin_trouble *trouble)
 {
     const double frame = rig->pins[at].frame;
-    const int sample = document_sample(document, frame), last = document_samples(document) - 1;
-    const size_t size = sizeof trouble->sentence;
     trouble->member = "frame";
-    if (sample < 0 || sample > last) {
-        snprintf(trouble->sentence, size, "expected a frame from %d to %d, got %.10g", document->first_frame,
-                 document->last_frame, frame);
-        return false;
-    }
-    if (sample > pins_last_sample(document, rig)) {
-        snprintf(trouble->sentence, size,
-                 "expected a frame before %d, because the last frame of a loop repeats the first, got %.10g",
-                 document->last_frame, frame);
-        return false;
-    }
-    if (find_same(document, rig, at) < 0) return true;
-    snprintf(trouble->sentence, size, "expected a sample of its own for each pin of a point, got frame %.10g again",
-             frame);
-    return false;
+    if (!document_has_frame(document, frame, pins_last_sample(document, rig), &trouble->error)) return false;
+    return find_same(document, rig, at) < 0 ||
+           fail(&trouble->error, ERROR_INPUT,
+                "expected a sample of its own for each pin of a point, got frame %.10g again", frame);
 }
 
 /// Why pins cannot pull a spline; NULL: they can.
@@ -135,10 +121,9 @@ static bool check_floor(const struct rig *rig, struct pin_trouble *trouble)
     if (rig->kind != RIG_CHARACTER || !character->has_floor || character->floor <= character->position[1])
         return true;
     trouble->member = "floor";
-    snprintf(trouble->sentence, sizeof trouble->sentence,
-             "expected a height of at most %.10g, which is what the character stands on, got %.10g",
-             character->position[1], character->floor);
-    return false;
+    return fail(&trouble->error, ERROR_INPUT,
+                "expected a height of at most %.10g, which is what the character stands on, got %.10g",
+                character->position[1], character->floor);
 }
 
 static const char *member_that_holds(const struct rig *rig) { return rig->pin_count > 0 ? "pins" : "floor"; }
@@ -149,10 +134,9 @@ static bool check_splines(const struct document *document, const struct rig *rig
         if (rig_point_input(rig, i) < 0) continue;
         const struct spline *spline = document->splines[rig_input(rig, i)];
         const char *why = stiffness_of(spline);
-        if (!why) continue;
-        snprintf(trouble->sentence, sizeof trouble->sentence,
-                 "expected splines with a swing of their own, got \"%s\", %s", spline->name, why);
-        return false;
+        if (why)
+            return fail(&trouble->error, ERROR_INPUT, "expected splines with a swing of their own, got \"%s\", %s",
+                        spline->name, why);
     }
     return true;
 }
@@ -191,14 +175,9 @@ static void name_cycle(const struct document *document, const int *group, const 
     const bool is_pinned = group[cycle->spline] >= 0;
     trouble->rig = pinned_rig_of(document, is_pinned ? cycle->spline : cycle->leader);
     trouble->member = member_that_holds(document->rigs[trouble->rig]);
-    if (is_pinned && group[cycle->spline] == group[cycle->leader]) {
-        snprintf(trouble->sentence, sizeof trouble->sentence,
-                 "expected splines that do not follow each other, got \"%s\", which follows \"%s\"", name, leader);
-    } else {
-        snprintf(trouble->sentence, sizeof trouble->sentence,
-                 "expected splines that are not solved before and after each other, got \"%s\", which follows \"%s\"",
-                 name, leader);
-    }
+    const bool together = is_pinned && group[cycle->spline] == group[cycle->leader];
+    fail(&trouble->error, ERROR_INPUT, "expected splines that %s each other, got \"%s\", which follows \"%s\"",
+         together ? "do not follow" : "are not solved before and after", name, leader);
 }
 
 bool pins_check_order(const struct document *document, struct pin_trouble *trouble)
@@ -209,11 +188,11 @@ bool pins_check_order(const struct document *document, struct pin_trouble *troub
     const size_t count = (size_t)document->spline_count;
     int *group = need(4 * count, sizeof *group), *tracked = group + count, *order = tracked + count;
     unsigned char *next = need(count, 1);
-    bool *placed = need(count, sizeof *placed), good = true;
+    bool *placed = need(2 * count, sizeof *placed), good = true;
     *trouble = (struct pin_trouble){.pin = -1};
     if (scene_order(document, (struct order_space){order + count, next}, tracked, &tracks)) {
         pin_groups_find(document, group);
-        good = pin_groups_order(document, group, tracked, placed, order, &cycle);
+        good = pin_groups_order(document, group, tracked, placed, placed + count, order, &cycle);
         if (!good) name_cycle(document, group, &cycle, trouble);
     }
     free(group);

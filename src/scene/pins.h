@@ -29,7 +29,7 @@ struct pin pins_remove(struct rig *rig, unsigned id);
 struct pin_trouble {
     int rig, pin;
     const char *member; ///< of the pin, else of the rig
-    char sentence[512];
+    struct error error;
 };
 
 /// Whether all pins are inside the frames, each alone on its sample, and on splines that have a motion of their own.
@@ -47,15 +47,12 @@ struct pin_cycle {
 };
 
 /// Writes all splines into `order`, each after those that it follows, a group's in a row: `tracked` is scene_order()'s. A group also comes
-/// after what else moves its rigs, as what they stand on does, where that does not follow it in turn. `placed` has room for one a spline.
-/// false with the cycle if there is none.
-bool pin_groups_order(const struct document *document, const int *group, const int *tracked, bool *placed, int *order,
-                      struct pin_cycle *cycle);
+/// after what else moves its rigs, as what they stand on does, where that does not follow it in turn. `placed` and `bases` have room
+/// for one a spline. false with the cycle if there is none.
+bool pin_groups_order(const struct document *document, const int *group, const int *tracked, bool *placed,
+                      bool *bases, int *order, struct pin_cycle *cycle);
 
-typedef void spline_visitor(int spline, void *context);
-
-/// Visits the splines that move a group's pinned rigs without being of the group; some perhaps more than once.
-void pin_groups_visit_bases(const struct document *document, const int *group, int which, spline_visitor *visit,
-                            void *context);
+/// Marks the splines that move a group's pinned rigs without being of the group.
+void pin_groups_find_bases(const struct document *document, const int *group, int which, bool *bases);
 
 #endif

@@ -71,5 +71,5 @@ void validate_pins(struct reader *reader, const struct where *scene_at)
     const struct where pins_at = {.parent = &rig_at, .key = trouble.pin >= 0 ? "pins" : trouble.member};
     const struct where at = {.parent = &pins_at, .index = trouble.pin >= 0 ? index_in_file(rig, trouble.pin) : 0};
     const struct where member_at = {.parent = &at, .key = trouble.member};
-    reader_fail(reader, trouble.pin >= 0 ? &member_at : &pins_at, "%s", trouble.sentence);
+    reader_fail(reader, trouble.pin >= 0 ? &member_at : &pins_at, "%s", trouble.error.text);
 }
