@@ -100,11 +100,4 @@ void print_channels(struct members *members, const struct document *document, co
 /// Keys of a channel's object.
 extern const char *const channel_keys[];
 
-/// Reads the member "pins"; `key` is what a point is called.
-void load_pins(struct reader *reader, const struct value *object, const char *key, struct rig *rig);
-void print_pins(struct members *members, const struct rig *rig, const char *key);
-
-/// Checks the pins of all rigs, all of which are read.
-void validate_pins(struct reader *reader, const struct where *scene_at);
-
 #endif

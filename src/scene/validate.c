@@ -1,7 +1,7 @@
-/// Checks a loaded document as a whole: cycles, limits, aliasing.
+/// Checks a loaded document as a whole: cycles, limits, aliasing, pins.
 #include "scene/order.h"
+#include "scene/pins.h"
 #include "scene/reader.h"
-#include "scene/rig_kind.h"
 #include <math.h>
 
 static void check_cycles(struct reader *reader, const struct where *splines_at)
@@ -40,10 +40,32 @@ static void check_aliasing(struct reader *reader, const struct where *splines_at
     }
 }
 
+/// Where a pin is in its file, in which ids rise: the index of a rig's pin in order of frames is another.
+static size_t index_in_file(const struct rig *rig, int pin)
+{
+    size_t index = 0;
+    for (int i = 0; i < rig->pin_count; i++) index += rig->pins[i].id < rig->pins[pin].id;
+    return index;
+}
+
+static void check_pins(struct reader *reader, const struct where *scene_at)
+{
+    struct pin_trouble trouble;
+    const struct document *document = reader->document;
+    if (pins_check(document, &trouble) && pins_check_order(document, &trouble)) return;
+    const struct rig *rig = document->rigs[trouble.rig];
+    const struct where rigs_at = {.parent = scene_at, .key = "rigs"};
+    const struct where rig_at = {.parent = &rigs_at, .index = (size_t)trouble.rig};
+    const struct where pins_at = {.parent = &rig_at, .key = trouble.pin >= 0 ? "pins" : trouble.member};
+    const struct where at = {.parent = &pins_at, .index = trouble.pin >= 0 ? index_in_file(rig, trouble.pin) : 0};
+    const struct where member_at = {.parent = &at, .key = trouble.member};
+    reader_fail(reader, trouble.pin >= 0 ? &member_at : &pins_at, "%s", trouble.error.text);
+}
+
 void validate_scene(struct reader *reader, const struct where *scene_at)
 {
     struct where splines_at = {.parent = scene_at, .key = "splines"};
     check_cycles(reader, &splines_at);
     check_aliasing(reader, &splines_at);
-    if (reader->has_domain && !reader->failed) validate_pins(reader, scene_at);
+    if (reader->has_domain && !reader->failed) check_pins(reader, scene_at);
 }

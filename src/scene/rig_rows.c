@@ -1,4 +1,4 @@
-/// Imported characters, and chains on them, as kinds of rig.
+/// Kinds of rig that are all rows: imported characters, chains on them, and meadows.
 #include "scene/rig_kind.h"
 #include <math.h>
 
@@ -11,10 +11,10 @@ static const struct field model_fields[] = {
     {.key = NULL},
 };
 
-static void reset(struct rig *rig) { rig->model.scale = 1; }
+static void reset_model(struct rig *rig) { rig->model.scale = 1; }
 
 const struct rig_functions model_functions = {
-    .word = "model", .fields = model_fields, .title = offsetof(struct rig, model.model), .reset = reset};
+    .word = "model", .fields = model_fields, .title = offsetof(struct rig, model.model), .reset = reset_model};
 
 static const char *const axes[] = {"side", "up", "twist", NULL};
 
@@ -59,3 +59,24 @@ const struct rig_functions chain_functions = {.word = "chain",
                                               .pin_key = "joint",
                                               .is_bent = true,
                                               .resolve = resolve};
+
+static const struct field meadow_fields[] = {
+    {FIELD("spline", FIELD_SPLINE, meadow.spline)},
+    {FIELD("count", FIELD_WHOLE, meadow.count), .range = {1, MEADOW_MAX_REEDS, false}},
+    {FIELD("seed", FIELD_WHOLE, meadow.seed), .range = {0, 999999, false}},
+    {FIELD("area", FIELD_NUMBERS, meadow.area), .range = FIELD_POSITIVE},
+    {FIELD("height", FIELD_NUMBER, meadow.height), .range = FIELD_POSITIVE},
+    {FIELD("variation", FIELD_NUMBER, meadow.variation), .range = {0, 100, false}},
+    {FIELD("lag", FIELD_NUMBER, meadow.lag), .range = FIELD_ANY},
+    {FIELD("gain", FIELD_NUMBER, meadow.gain), .range = FIELD_ANY},
+    {.key = NULL},
+};
+
+static void reset_meadow(struct rig *rig)
+{
+    rig->meadow =
+        (struct meadow_rig){.count = 1000, .area = {6, 4}, .height = 0.8, .variation = 0.5, .lag = 12, .gain = 6};
+}
+
+const struct rig_functions meadow_functions = {
+    .word = "meadow", .fields = meadow_fields, .is_named = true, .reset = reset_meadow};
