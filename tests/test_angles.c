@@ -10,18 +10,16 @@ enum { JOINTS = 5 };
 
 static const struct angles ramp = {.form = ANGLES_RAMP, .count = 3, .ramp = {{0.25, 10}, {0.5, 40}, {1, 120}}};
 
-static void a_ramp_is_straight_between_its_points(void **state)
+TEST(a_ramp_is_straight_between_its_points)
 {
-    (void)state;
     static const double expected[JOINTS] = {10, 10, 40, 80, 120};
     for (int n = 0; n < JOINTS; n++) assert_near(angles_at(&ramp, n, JOINTS), expected[n], 1e-12);
     assert_near(angles_at(&ramp, 3, 9), 25, 1e-12);
     assert_near(angles_at(&ramp, 0, 1), 10, 0);
 }
 
-static void only_a_lag_of_one_number_grows_by_itself(void **state)
+TEST(only_a_lag_of_one_number_grows_by_itself)
 {
-    (void)state;
     const struct angles one = {.value = {6}}, each = {.form = ANGLES_EACH, .count = 3, .value = {1, 5, 2}};
     assert_near(angles_at(&one, 4, JOINTS), 6, 0);
     assert_near(angles_lag(&one, 4, JOINTS), 24, 0);
@@ -43,9 +41,8 @@ static struct document *parse(const char *json)
     return document;
 }
 
-static void ramps_are_printed_as_they_were_read(void **state)
+TEST(ramps_are_printed_as_they_were_read)
 {
-    (void)state;
     struct document *document = parse(text);
     assert_memory_equal(&document->rigs[0]->tail.channels[0].lag.ramp, &ramp.ramp, 3 * sizeof *ramp.ramp);
     size_t size;
@@ -63,9 +60,8 @@ static void ramps_are_printed_as_they_were_read(void **state)
 }
 
 /// A ramp poses a tail exactly as the numbers that it stands for.
-static void a_ramp_poses_like_its_numbers(void **state)
+TEST(a_ramp_poses_like_its_numbers)
 {
-    (void)state;
     static struct pose posed[2];
     struct document *document = parse(text);
     struct tail *tail = &document->rigs[0]->tail;
@@ -89,9 +85,8 @@ static bool edit_lag(struct world *world, const struct angles *angles)
     return edit_angles(world_edit(world), second, ANGLE_LAG, angles, &world->error);
 }
 
-static void forms_are_edited_and_undone(void **state)
+TEST(forms_are_edited_and_undone)
 {
-    (void)state;
     struct world world;
     world_open(&world);
     const struct angles one = {.value = {3}}, each = {.form = ANGLES_EACH, .count = 3, .value = {1, 2, 9}};
@@ -115,9 +110,8 @@ static void forms_are_edited_and_undone(void **state)
 }
 
 /// With twice the joints each bends half as much; where along the tail is where it was.
-static void a_ramp_stays_as_joints_are_added(void **state)
+TEST(a_ramp_stays_as_joints_are_added)
 {
-    (void)state;
     struct world world;
     world_open(&world);
     world_must(&world, edit_lag(&world, &ramp));
@@ -133,15 +127,4 @@ static void a_ramp_stays_as_joints_are_added(void **state)
     world_close(&world);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_ramp_is_straight_between_its_points),
-        cmocka_unit_test(only_a_lag_of_one_number_grows_by_itself),
-        cmocka_unit_test(ramps_are_printed_as_they_were_read),
-        cmocka_unit_test(a_ramp_poses_like_its_numbers),
-        cmocka_unit_test(forms_are_edited_and_undone),
-        cmocka_unit_test(a_ramp_stays_as_joints_are_added),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return tests_run(NULL, NULL); }

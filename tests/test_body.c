@@ -24,9 +24,8 @@ static void hold_and_drag(struct session *s, float dx, float dy, int steps)
     session_drag(s, dx, dy, steps);
 }
 
-static void test_tail_follows_through_and_settles(void **state)
+TEST(test_tail_follows_through_and_settles)
 {
-    (void)state;
     struct session s;
     session_open(&s, scene);
     char *before = session_saved(&s);
@@ -57,9 +56,8 @@ static void test_tail_follows_through_and_settles(void **state)
 }
 
 /// Lagged joints come later: each extremum of the bend is at the base first and at the tip last.
-static void test_swing_runs_along_the_tail(void **state)
+TEST(test_swing_runs_along_the_tail)
 {
-    (void)state;
     struct session s;
     session_open(&s, scene);
     hold_and_drag(&s, -150, 0, 3); // so fast that the base has not swung out yet
@@ -80,9 +78,8 @@ static void test_swing_runs_along_the_tail(void **state)
     session_close(&s);
 }
 
-static void test_escape_takes_it_back(void **state)
+TEST(test_escape_takes_it_back)
 {
-    (void)state;
     struct session s;
     session_open(&s, scene);
     char *before = session_saved(&s);
@@ -100,9 +97,8 @@ static void test_escape_takes_it_back(void **state)
 }
 
 /// A held body may lose its tail, to an edit made meanwhile; letting go of it then changes nothing.
-static void test_a_tail_that_goes_while_held(void **state)
+TEST(test_a_tail_that_goes_while_held)
 {
-    (void)state;
     struct session s;
     struct error error;
     session_open(&s, scene);
@@ -136,16 +132,14 @@ static void press_as_it_goes(const char *target)
     session_close(&s);
 }
 
-static void test_a_press_as_the_tail_goes(void **state)
+TEST(test_a_press_as_the_tail_goes)
 {
-    (void)state;
     press_as_it_goes("tail(tail,0.5)");
     press_as_it_goes("body(tail)");
 }
 
-static void test_axes_lock_and_shift_is_fine(void **state)
+TEST(test_axes_lock_and_shift_is_fine)
 {
-    (void)state;
     struct session s;
     session_open(&s, scene);
     hold_and_drag(&s, -60, 40, 4);
@@ -196,22 +190,20 @@ static void drag_a_tracked_body(const char *text, int track)
     session_close(&s);
 }
 
-static void test_a_tracked_body_gets_a_knot(void **state)
+TEST(test_a_tracked_body_gets_a_knot)
 {
     static const char walk_first[] =
         "{\"frames\": [0, 48], \"splines\": [{\"name\": \"walk\", \"mode\": \"cubic\", \"knots\": [{\"frame\": 0, "
         "\"value\": 0.1}, {\"frame\": 48, \"value\": 0.1}]}, {\"name\": \"sway\", \"frequency\": 1.5}],"
         "\"rigs\": [{\"type\": \"tail\", \"name\": \"tail\", \"position\": [0, 0.26, 0], "
         "\"channels\": [{\"spline\": \"sway\"}]}]}";
-    (void)state;
     drag_a_tracked_body(scene, 1);
     drag_a_tracked_body(walk_first, 0);
 }
 
 /// Without auto-key all of the shot moves: every knot of what the place follows.
-static void test_without_auto_key_the_shot_moves(void **state)
+TEST(test_without_auto_key_the_shot_moves)
 {
-    (void)state;
     struct session s;
     session_open(&s, scene);
     document_tail(s.document, 0)->position[0] = param_track(1);
@@ -228,9 +220,8 @@ static void test_without_auto_key_the_shot_moves(void **state)
 }
 
 /// A limit of what the place follows: all knots stop where the first does, so that the motion stays what it was.
-static void test_a_limit_holds_the_body(void **state)
+TEST(test_a_limit_holds_the_body)
 {
-    (void)state;
     static const char limited[] =
         "{\"frames\": [0, 48], \"splines\": [{\"name\": \"sway\", \"frequency\": 1.5}, {\"name\": \"walk\", "
         "\"mode\": \"cubic\", \"limits\": [-1, 0.25], \"knots\": [{\"frame\": 0, \"value\": 0.1}, {\"frame\": 24, "
@@ -265,9 +256,8 @@ static void test_a_limit_holds_the_body(void **state)
 }
 
 /// With it a place that was a number gets a spline, which begins where the body was, and the tail follows that through.
-static void test_auto_key_makes_a_place_follow(void **state)
+TEST(test_auto_key_makes_a_place_follow)
 {
-    (void)state;
     struct session s;
     session_open(&s, scene);
     char *before = session_saved(&s);
@@ -297,9 +287,8 @@ static void test_auto_key_makes_a_place_follow(void **state)
 }
 
 /// Ctrl lifts it; it never sinks into the ground, and its height is keyed above that.
-static void test_a_body_is_lifted(void **state)
+TEST(test_a_body_is_lifted)
 {
-    (void)state;
     struct session s;
     session_open(&s, scene);
     session_key(&s, 'A', MOD_SHIFT);
@@ -320,9 +309,8 @@ static void test_a_body_is_lifted(void **state)
 }
 
 /// A click, or a press beside the body, moves nothing.
-static void test_clicks_leave_the_body_alone(void **state)
+TEST(test_clicks_leave_the_body_alone)
 {
-    (void)state;
     struct session s;
     session_open(&s, scene);
     session_click(&s, "body(tail)");
@@ -341,9 +329,8 @@ static void strike(struct session *s, int key, unsigned mods)
 }
 
 /// What is shown is of the last frame: a tail that an event before the press took away is not taken hold of.
-static void test_a_press_right_after_a_rig_went(void **state)
+TEST(test_a_press_right_after_a_rig_went)
 {
-    (void)state;
     struct session s;
     session_open(
         &s, "{\"frames\": [0, 48], \"splines\": [{\"name\": \"sway\", \"frequency\": 1, \"knots\": [{\"frame\": 0, "
@@ -363,22 +350,4 @@ static void test_a_press_right_after_a_rig_went(void **state)
     session_close(&s);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_tail_follows_through_and_settles),
-        cmocka_unit_test(test_swing_runs_along_the_tail),
-        cmocka_unit_test(test_escape_takes_it_back),
-        cmocka_unit_test(test_a_tail_that_goes_while_held),
-        cmocka_unit_test(test_a_press_as_the_tail_goes),
-        cmocka_unit_test(test_axes_lock_and_shift_is_fine),
-        cmocka_unit_test(test_a_tracked_body_gets_a_knot),
-        cmocka_unit_test(test_without_auto_key_the_shot_moves),
-        cmocka_unit_test(test_a_limit_holds_the_body),
-        cmocka_unit_test(test_auto_key_makes_a_place_follow),
-        cmocka_unit_test(test_a_body_is_lifted),
-        cmocka_unit_test(test_clicks_leave_the_body_alone),
-        cmocka_unit_test(test_a_press_right_after_a_rig_went),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return tests_run(NULL, NULL); }

@@ -58,9 +58,8 @@ static const struct number {
      "from 0 to 999999"},
 };
 
-static void numbers_of_a_scene(void **state)
+TEST(numbers_of_a_scene)
 {
-    (void)state;
     for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++) {
         const struct number *n = &numbers[i];
         const long good[] = {n->least, n->least + (n->least < n->most), n->most - (n->most > n->least), n->most};
@@ -112,9 +111,8 @@ static void print_count(char *text, const struct count *c, int count)
     sprintf(at, "%s%s", c->tail, nested ? "}" : "");
 }
 
-static void counts_of_a_scene(void **state)
+TEST(counts_of_a_scene)
 {
-    (void)state;
     char *text = malloc(TEXT);
     assert_non_null(text);
     for (size_t i = 0; i < sizeof counts / sizeof *counts; i++) {
@@ -135,9 +133,8 @@ static void counts_of_a_scene(void **state)
 }
 
 /// Pins count over all rigs together.
-static void pins_of_two_rigs(void **state)
+TEST(pins_of_two_rigs)
 {
-    (void)state;
     char *text = malloc(TEXT);
     assert_non_null(text);
     for (int most = 1023; most <= 1025; most++) {
@@ -159,9 +156,8 @@ static void pins_of_two_rigs(void **state)
 }
 
 /// Each parameter of a spline: its own least and most number, and the next number beyond.
-static void parameters_of_a_spline(void **state)
+TEST(parameters_of_a_spline)
 {
-    (void)state;
     static const char scene[] = "{" FRAMES ", \"splines\": [{\"name\": \"s\", \"%s\": %.17g}]}";
     int tried = 0;
     for (int p = 0; p < PARAMETER_COUNT; p++) {
@@ -183,9 +179,8 @@ static void parameters_of_a_spline(void **state)
 }
 
 /// A hundred thousand knots: loaded, one taken away and put back, and no other. In a file one more is refused.
-static void knots_of_a_scene(void **state)
+TEST(knots_of_a_scene)
 {
-    (void)state;
     enum { MOST = 100000, EACH = MOST / 2 };
     struct error error;
     char *text = malloc((size_t)40 * MOST);
@@ -228,9 +223,8 @@ static void assert_taken(struct world *world, bool done, const char *says)
 }
 
 /// The same limits, where an edit would go beyond.
-static void limits_of_edits(void **state)
+TEST(limits_of_edits)
 {
-    (void)state;
     static const char rate[] = "frames per second must be above 0 and at most 100000";
     static const char subs[] = "substeps must be from 1 to 1024";
     static const char far[] = "frames must be from -1000000000 to 1000000000";
@@ -269,9 +263,8 @@ static void limits_of_edits(void **state)
     }
 }
 
-static void rigs_of_an_edit(void **state)
+TEST(rigs_of_an_edit)
 {
-    (void)state;
     struct world world;
     world_open(&world);
     while (world.document->rig_count < 1024) {
@@ -297,9 +290,8 @@ static void write_long(char *text, int splines, int samples, bool limited)
     sprintf(at, "]}");
 }
 
-static void samples_of_a_scene(void **state)
+TEST(samples_of_a_scene)
 {
-    (void)state;
     static const struct {
         int splines, samples;
         bool limited;
@@ -323,9 +315,8 @@ static void samples_of_a_scene(void **state)
 }
 
 /// A limited spline in a longer scene, and a longer scene with a limited spline.
-static void samples_of_limits(void **state)
+TEST(samples_of_limits)
 {
-    (void)state;
     static const char *const says = "at most 20000 samples where a spline has a low or high limit, got 20001";
     struct world world;
     world_open(&world);
@@ -339,9 +330,8 @@ static void samples_of_limits(void **state)
 }
 
 /// A name has no limit: a long one comes back from its file byte by byte.
-static void names_of_any_length(void **state)
+TEST(names_of_any_length)
 {
-    (void)state;
     static const int lengths[] = {1, 63, 64, 65, 255, 256, 257, 1023, 1024, 1025, 100000};
     char *text = malloc(TEXT), *name = malloc(TEXT);
     assert_true(text && name);
@@ -371,9 +361,8 @@ static void names_of_any_length(void **state)
 }
 
 /// A file of exactly as many bytes as are read, one less, one more; sparse where it is large.
-static void bytes_of_a_file(void **state)
+TEST_WITH(folder_make, folder_remove, bytes_of_a_file)
 {
-    (void)state;
     struct error error = {0};
     char *data;
     size_t size;
@@ -389,9 +378,8 @@ static void bytes_of_a_file(void **state)
     }
 }
 
-static void pins_and_bounds_of_a_group(void **state)
+TEST(pins_and_bounds_of_a_group)
 {
-    (void)state;
     wiggly_group *group;
     for (int pins = 4095; pins <= 4097; pins++) {
         const wiggly_status expected = pins <= WIGGLY_MOST_PINS ? WIGGLY_OK : WIGGLY_ERROR_ARGUMENT;
@@ -407,21 +395,4 @@ static void pins_and_bounds_of_a_group(void **state)
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(numbers_of_a_scene),
-        cmocka_unit_test(counts_of_a_scene),
-        cmocka_unit_test(pins_of_two_rigs),
-        cmocka_unit_test(parameters_of_a_spline),
-        cmocka_unit_test(knots_of_a_scene),
-        cmocka_unit_test(samples_of_a_scene),
-        cmocka_unit_test(samples_of_limits),
-        cmocka_unit_test(limits_of_edits),
-        cmocka_unit_test(rigs_of_an_edit),
-        cmocka_unit_test(names_of_any_length),
-        cmocka_unit_test_setup_teardown(bytes_of_a_file, folder_make, folder_remove),
-        cmocka_unit_test(pins_and_bounds_of_a_group),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return tests_run(NULL, NULL); }

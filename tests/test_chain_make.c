@@ -44,9 +44,8 @@ static const struct chain *make(struct stand *stand, const char *from, bool foll
     return make_with_lag(stand, from, follows, 0);
 }
 
-static void test_a_character_opens_as_a_scene(void **state)
+TEST(test_a_character_opens_as_a_scene)
 {
-    (void)state;
     struct error error;
     struct document *document = import_scene(dog, &error);
     assert_non_null(document);
@@ -62,9 +61,8 @@ static void test_a_character_opens_as_a_scene(void **state)
 }
 
 /// One in centimetres, or as small as a thumb, comes about as tall as others, by a number that one would write; the rest stay.
-static void test_a_character_of_any_size_fits_the_stage(void **state)
+TEST(test_a_character_of_any_size_fits_the_stage)
 {
-    (void)state;
     static const struct {
         float height;
         double scale;
@@ -83,9 +81,8 @@ static void test_a_character_of_any_size_fits_the_stage(void **state)
     }
 }
 
-static void test_a_chosen_clip_gives_the_scene_its_length(void **state)
+TEST(test_a_chosen_clip_gives_the_scene_its_length)
 {
-    (void)state;
     struct stand stand;
     struct error error;
     open_stand(&stand);
@@ -100,9 +97,8 @@ static void test_a_chosen_clip_gives_the_scene_its_length(void **state)
     close_stand(&stand);
 }
 
-static void test_a_tail_swings_with_the_walk_and_loops(void **state)
+TEST(test_a_tail_swings_with_the_walk_and_loops)
 {
-    (void)state;
     struct stand stand;
     open_stand(&stand);
     const struct chain *tail = make(&stand, "tail_1", true);
@@ -136,9 +132,8 @@ static double tip_off(const struct stand *stand, int sample)
 }
 
 /// For a tail that points to the back, side × along is -x; its spline is in metres that way.
-static void test_the_tip_moves_as_far_as_its_spline(void **state)
+TEST(test_the_tip_moves_as_far_as_its_spline)
 {
-    (void)state;
     struct stand stand;
     double most = 0;
     open_stand(&stand);
@@ -153,9 +148,8 @@ static void test_the_tip_moves_as_far_as_its_spline(void **state)
     close_stand(&stand);
 }
 
-static void test_ears_share_splines(void **state)
+TEST(test_ears_share_splines)
 {
-    (void)state;
     struct stand stand;
     open_stand(&stand);
     make(&stand, "ear_1_L", false);
@@ -168,9 +162,8 @@ static void test_ears_share_splines(void **state)
     close_stand(&stand);
 }
 
-static void test_undo_takes_all_of_it_back(void **state)
+TEST(test_undo_takes_all_of_it_back)
 {
-    (void)state;
     struct stand stand;
     open_stand(&stand);
     make(&stand, "tail_1", true);
@@ -183,9 +176,8 @@ static void test_undo_takes_all_of_it_back(void **state)
     close_stand(&stand);
 }
 
-static void test_what_cannot_be_a_chain(void **state)
+TEST(test_what_cannot_be_a_chain)
 {
-    (void)state;
     struct stand stand;
     struct error error;
     int rig;
@@ -200,9 +192,8 @@ static void test_what_cannot_be_a_chain(void **state)
     close_stand(&stand);
 }
 
-static void test_sides_of_names(void **state)
+TEST(test_sides_of_names)
 {
-    (void)state;
     static const char *const pairs[][2] = {{"ear_1_L", "ear_1_R"},
                                            {"mixamorig:LeftHand", "mixamorig:RightHand"},
                                            {"arm.l.002", "arm.r.002"},
@@ -218,18 +209,4 @@ static void test_sides_of_names(void **state)
     assert_false(chain_other_side("Roll", other));
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_a_character_opens_as_a_scene),
-        cmocka_unit_test(test_a_character_of_any_size_fits_the_stage),
-        cmocka_unit_test(test_a_chosen_clip_gives_the_scene_its_length),
-        cmocka_unit_test(test_a_tail_swings_with_the_walk_and_loops),
-        cmocka_unit_test(test_the_tip_moves_as_far_as_its_spline),
-        cmocka_unit_test(test_ears_share_splines),
-        cmocka_unit_test(test_undo_takes_all_of_it_back),
-        cmocka_unit_test(test_what_cannot_be_a_chain),
-        cmocka_unit_test(test_sides_of_names),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return tests_run(NULL, NULL); }

@@ -33,9 +33,8 @@ static void read_good(const char *path, struct character *c)
     if (!character_read(path, c, &error)) fail_msg("%s", error.text);
 }
 
-static void what_is_written_reads_back_equal(void **state)
+TEST(what_is_written_reads_back_equal)
 {
-    (void)state;
     struct character out, in;
     struct error error;
     make_character(&out);
@@ -64,9 +63,8 @@ static void what_is_written_reads_back_equal(void **state)
 }
 
 /// The deformation that a viewer makes of the morph targets is Re(z Ñ): the imaginary target is −Im Ñ.
-static void the_imaginary_target_is_negated(void **state)
+TEST(the_imaginary_target_is_negated)
 {
-    (void)state;
     struct character c;
     struct error error;
     make_character(&c);
@@ -81,9 +79,8 @@ static void the_imaginary_target_is_negated(void **state)
     character_free(&c);
 }
 
-static void normals_point_outwards(void **state)
+TEST(normals_point_outwards)
 {
-    (void)state;
     struct character c;
     make_character(&c);
     for (int i = 0; i < 4; i++) {
@@ -116,9 +113,8 @@ static const char *glb(const char *json, const void *bin, size_t bin_size)
 
 /// What another exporter may write: interleaved positions and byte colours with alpha, short indices, two primitives, a
 /// target that is sparse and one that is left out, and other targets between ours.
-static void a_file_of_another_program(void **state)
+TEST(a_file_of_another_program)
 {
-    (void)state;
     struct {
         struct {
             float position[3];
@@ -162,9 +158,8 @@ static void a_file_of_another_program(void **state)
 }
 
 /// A mesh whose node is scaled and mirrored, under a parent that turns it by a quarter about y and lifts it.
-static void a_mesh_stands_where_its_node_puts_it(void **state)
+TEST(a_mesh_stands_where_its_node_puts_it)
 {
-    (void)state;
     const float bin[9] = {0, 0, 0, 1, 0, 0, 0, 0, 1};
     struct character c;
     read_good(
@@ -196,9 +191,8 @@ static void assert_refused(const char *path, const char *says)
 }
 
 /// They have no area, and edges from a vertex to itself; what is left keeps its material.
-static void triangles_that_repeat_a_vertex_are_left_out(void **state)
+TEST(triangles_that_repeat_a_vertex_are_left_out)
 {
-    (void)state;
     const struct {
         float places[9];
         uint16_t indices[6];
@@ -227,9 +221,8 @@ static void triangles_that_repeat_a_vertex_are_left_out(void **state)
 #define MESH "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0}}]}]"
 #define VIEW "\"bufferViews\":[{\"buffer\":0,\"byteLength\":36}]"
 
-static void bad_files_get_one_sentence(void **state)
+TEST(bad_files_get_one_sentence)
 {
-    (void)state;
     float bin[9] = {0, 0, 0, 1, 0, 0, 0, (float)NAN, 0};
     assert_refused("/nowhere.glb", "/nowhere.glb: cannot be opened");
     assert_refused(temporary_file("text.glb", "{\"asset\": {\"version\": \"2.0\"}}", 29),
@@ -292,9 +285,8 @@ static void bad_files_get_one_sentence(void **state)
 }
 
 /// Bytes of a good file changed at random: read or refused, never more (the sanitizers watch).
-static void changed_bytes_do_no_harm(void **state)
+TEST(changed_bytes_do_no_harm)
 {
-    (void)state;
     struct character c;
     struct error error;
     unsigned char whole[8192], changed[8192];
@@ -322,17 +314,4 @@ static void changed_bytes_do_no_harm(void **state)
     assert_in_range(refused, 50, 999);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(what_is_written_reads_back_equal),
-        cmocka_unit_test(the_imaginary_target_is_negated),
-        cmocka_unit_test(normals_point_outwards),
-        cmocka_unit_test(a_file_of_another_program),
-        cmocka_unit_test(a_mesh_stands_where_its_node_puts_it),
-        cmocka_unit_test(triangles_that_repeat_a_vertex_are_left_out),
-        cmocka_unit_test(bad_files_get_one_sentence),
-        cmocka_unit_test(changed_bytes_do_no_harm),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return tests_run(NULL, NULL); }

@@ -45,9 +45,8 @@ static picture one, other;
 
 /// Weights work on re and im with their signs: z Ñ = (3 + 4j)(0.12 − 0.16j) = 1 moves as far as another place does; the
 /// second coordinate, at other rows of the texture, adds to it.
-static void coordinates_move_it(void **state)
+TEST(coordinates_move_it)
 {
-    (void)state;
     if (!platform) skip();
     struct character character = puppet_character(0.03f, 3);
     for (int i = 0; i < character.vertex_count; i++) {
@@ -70,9 +69,8 @@ static void coordinates_move_it(void **state)
 }
 
 /// A ball that is stretched by its coordinate looks like one that was made so, light and all.
-static void normals_follow_on_the_stage(void **state)
+TEST(normals_follow_on_the_stage)
 {
-    (void)state;
     if (!platform) skip();
     struct character soft = puppet_character(0.03f, 1), firm = puppet_character(0.03f, 0);
     for (int i = 0; i < soft.vertex_count; i++) {
@@ -96,9 +94,8 @@ static void normals_follow_on_the_stage(void **state)
 
 /// What is painted after a figure was drawn reaches the GPU: the picture is that of a figure which was made so, and of the plain
 /// one when the paint is gone.
-static void paint_shows_on_the_stage(void **state)
+TEST(paint_shows_on_the_stage)
 {
-    (void)state;
     if (!platform) skip();
     struct character plain = puppet_character(0.03f, 2), made = puppet_character(0.03f, 2);
     float(*paint)[2] = calloc(2 * (size_t)plain.vertex_count, sizeof *paint);
@@ -161,9 +158,8 @@ static void draw_mapped(const struct figure *figure)
 }
 
 /// The shader's phase map has the legend's colours, all around; where nothing moves it is grey.
-static void phases_are_the_legends_colours(void **state)
+TEST(phases_are_the_legends_colours)
 {
-    (void)state;
     if (!platform) skip();
     for (int eighth = 0; eighth < 8; eighth++) {
         struct character mapped = phased((float)eighth * 0.785398163f - 0.15f, 0.3f);
@@ -196,9 +192,8 @@ static void draw_with_eyes(float coat, float eyes, picture map, picture plain)
 }
 
 /// Dark eyes on a coat stay as they are; a coat that is dark all over has phases all over.
-static void eyes_stay_on_the_phase_map(void **state)
+TEST(eyes_stay_on_the_phase_map)
 {
-    (void)state;
     if (!platform) skip();
     static picture bare;
     draw_with_eyes(0.4f, 0.4f, bare, other);
@@ -218,9 +213,8 @@ static void eyes_stay_on_the_phase_map(void **state)
 
 /// Between two eighths of a turn there is a thin dark line, wherever on the circle; it has no gap to either side of where half
 /// a turn ahead is half a turn behind.
-static void a_line_divides_eighths_of_a_turn(void **state)
+TEST(a_line_divides_eighths_of_a_turn)
 {
-    (void)state;
     if (!platform) skip();
     for (int eighth = 0; eighth < 8; eighth++) {
         struct character mapped = phased(((float)eighth + 0.5f) * 0.785398163f - 0.45f, 0.7f);
@@ -243,9 +237,8 @@ static void a_line_divides_eighths_of_a_turn(void **state)
 }
 
 /// The texture has a row for 128 vertices of a coordinate, and a last one that stays empty.
-static void what_is_too_large_says_so(void **state)
+TEST(what_is_too_large_says_so)
 {
-    (void)state;
     struct character character = puppet_character(0.03f, 3);
     struct figure figure = puppet_figure(&character);
     struct error error = {0};
@@ -264,13 +257,4 @@ static void what_is_too_large_says_so(void **state)
     figure_free(&figure);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(coordinates_move_it),        cmocka_unit_test(normals_follow_on_the_stage),
-        cmocka_unit_test(paint_shows_on_the_stage),   cmocka_unit_test(phases_are_the_legends_colours),
-        cmocka_unit_test(eyes_stay_on_the_phase_map), cmocka_unit_test(a_line_divides_eighths_of_a_turn),
-        cmocka_unit_test(what_is_too_large_says_so),
-    };
-    return cmocka_run_group_tests(tests, set_up, offscreen_close);
-}
+int main(void) { return tests_run(set_up, offscreen_close); }

@@ -40,9 +40,8 @@ static int compare_edges(const void *a, const void *b)
 }
 
 /// Every directed edge is there once, and so is its reverse; V − E + F = 2 then says that it is one ball.
-static void it_is_one_closed_manifold(void **state)
+TEST(it_is_one_closed_manifold)
 {
-    (void)state;
     static uint64_t edges[3 * MOST_TRIANGLES];
     const size_t count = (size_t)creature.index_count;
     const uint32_t *index = creature.indices;
@@ -61,15 +60,10 @@ static void it_is_one_closed_manifold(void **state)
 
 /// A coordinate is six numbers a vertex in the file. Six coordinates of 14,000 triangles take 1.4 MB; of the 19,000 that there were
 /// while it had two, they would take 2 MB.
-static void it_keeps_to_its_budget(void **state)
-{
-    (void)state;
-    assert_in_range(creature.index_count / 3, 12000, MOST_TRIANGLES);
-}
+TEST(it_keeps_to_its_budget) { assert_in_range(creature.index_count / 3, 12000, MOST_TRIANGLES); }
 
-static void it_stands_on_the_ground(void **state)
+TEST(it_stands_on_the_ground)
 {
-    (void)state;
     int soles[2] = {0, 0};
     for (int i = 0; i < creature.vertex_count; i++) {
         assert_true(creature.position[i][1] > -0.002f);
@@ -79,9 +73,8 @@ static void it_stands_on_the_ground(void **state)
 }
 
 /// Triangles have a size, and no vertex' normal points away from a side that it belongs to.
-static void its_normals_are_the_surfaces(void **state)
+TEST(its_normals_are_the_surfaces)
 {
-    (void)state;
     int off = 0;
     for (int t = 0; t < creature.index_count / 3; t++) {
         const uint32_t *index = creature.indices + 3 * t;
@@ -100,9 +93,8 @@ static void its_normals_are_the_surfaces(void **state)
 }
 
 /// Under the armpits there is nothing beside the flanks: a lattice of 6 cm cells leaves at least two of them empty.
-static void the_arms_stand_clear_of_the_body(void **state)
+TEST(the_arms_stand_clear_of_the_body)
 {
-    (void)state;
     int hand = 0;
     for (int i = 0; i < creature.vertex_count; i++) {
         const float x = fabsf(creature.position[i][0]), y = creature.position[i][1];
@@ -112,12 +104,4 @@ static void the_arms_stand_clear_of_the_body(void **state)
     assert_true(hand > 600);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(it_is_one_closed_manifold),        cmocka_unit_test(it_keeps_to_its_budget),
-        cmocka_unit_test(it_stands_on_the_ground),          cmocka_unit_test(its_normals_are_the_surfaces),
-        cmocka_unit_test(the_arms_stand_clear_of_the_body),
-    };
-    return cmocka_run_group_tests(tests, read_creature, free_creature);
-}
+int main(void) { return tests_run(read_creature, free_creature); }

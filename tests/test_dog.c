@@ -36,9 +36,8 @@ static int node(const char *name)
     return found;
 }
 
-static void is_small_and_fully_shown(void **state)
+TEST(is_small_and_fully_shown)
 {
-    (void)state;
     struct stat file;
     assert_int_equal(stat(DOG, &file), 0);
     assert_true(file.st_size <= 1000000);
@@ -50,9 +49,8 @@ static void is_small_and_fully_shown(void **state)
 }
 
 /// A chain is a row of joints, each the child of the one before.
-static void has_chains(void **state)
+TEST(has_chains)
 {
-    (void)state;
     static const struct {
         const char *name, *above, *suffix;
         int joints;
@@ -71,9 +69,8 @@ static void has_chains(void **state)
     for (size_t n = 0; n < sizeof others / sizeof *others; n++) node(others[n]);
 }
 
-static void clips_loop(void **state)
+TEST(clips_loop)
 {
-    (void)state;
     static const char *const names[] = {"Walk", "Trot", "Idle"};
     for (size_t n = 0; n < sizeof names / sizeof *names; n++) {
         const int number = gltf_find_clip(&dog, names[n]);
@@ -99,9 +96,8 @@ static void clips_loop(void **state)
 
 /// In the walk each paw stands for well over half of the time, and all the while moves back at one pace: it would not slip on a
 /// moving ground.
-static void paws_stay_planted(void **state)
+TEST(paws_stay_planted)
 {
-    (void)state;
     static const char *const toes[LEGS] = {"toe_front_L", "toe_front_R", "toe_back_L", "toe_back_R"};
     struct gltf_pose pose;
     assert_true(gltf_pose_create(&dog, &pose));
@@ -128,9 +124,8 @@ static void paws_stay_planted(void **state)
 }
 
 /// Nothing sinks into the ground, between keys either.
-static void stays_above_the_ground(void **state)
+TEST(stays_above_the_ground)
 {
-    (void)state;
     struct gltf_pose pose;
     const int body = node("dog"), count = gltf_vertex_count(&dog, body);
     float(*positions)[3] = malloc((size_t)count * sizeof *positions);
@@ -185,9 +180,8 @@ static void add_part(const struct gltf_part *part, double *sums)
 }
 
 /// The tool still makes the file that is committed, but for another machine's rounding.
-static void is_what_its_tool_makes(void **state)
+TEST(is_what_its_tool_makes)
 {
-    (void)state;
     char path[512], command[1100];
     const char *build = getenv("B");
     struct gltf made;
@@ -225,15 +219,4 @@ static void is_what_its_tool_makes(void **state)
     gltf_free(&made);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(is_small_and_fully_shown),
-        cmocka_unit_test(has_chains),
-        cmocka_unit_test(clips_loop),
-        cmocka_unit_test(paws_stay_planted),
-        cmocka_unit_test(stays_above_the_ground),
-        cmocka_unit_test(is_what_its_tool_makes),
-    };
-    return cmocka_run_group_tests(tests, open_dog, close_dog);
-}
+int main(void) { return tests_run(open_dog, close_dog); }

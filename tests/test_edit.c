@@ -6,9 +6,8 @@
 #include <string.h>
 
 /// A knot may pass others: it is found by its id, and knots stay by sample; its unknown keys go with it.
-static void test_knots(void **state)
+TEST(test_knots)
 {
-    (void)state;
     struct world world;
     world_open(&world);
     unsigned id = world.document->splines[SWAY]->knots[0].id;
@@ -28,9 +27,8 @@ static void test_knots(void **state)
 }
 
 /// A file has no −0, so neither has the document: as it is saved it is loaded.
-static void test_negative_zeros(void **state)
+TEST(test_negative_zeros)
 {
-    (void)state;
     struct world world;
     world_open(&world);
     struct knot minus = world.document->splines[SWAY]->knots[0];
@@ -43,9 +41,8 @@ static void test_negative_zeros(void **state)
     world_close(&world);
 }
 
-static void test_refused_knots(void **state)
+TEST(test_refused_knots)
 {
-    (void)state;
     struct world world;
     world_open(&world);
     assert_refused(&world, edit_insert(&world, SWAY, 12.4, 0), "sway: there is already a knot at frame 12.4");
@@ -67,9 +64,8 @@ static void test_refused_knots(void **state)
     world_close(&world);
 }
 
-static void test_refused_parameters(void **state)
+TEST(test_refused_parameters)
 {
-    (void)state;
     struct world world;
     world_open(&world);
     assert_refused(&world, edit_number(&world, SWAY, PARAMETER_FREQUENCY, -1), "sway: frequency must be at least 0");
@@ -88,9 +84,8 @@ static void test_refused_parameters(void **state)
 }
 
 /// What is out of the new mode's range is clamped, so that what is saved loads.
-static void test_modes_clamp(void **state)
+TEST(test_modes_clamp)
 {
-    (void)state;
     struct world world;
     world_open(&world);
     world_must(&world, edit_number(&world, PLUCK, PARAMETER_DAMPING, 2.4));
@@ -104,9 +99,8 @@ static void test_modes_clamp(void **state)
 }
 
 /// The paper's pair in a file (eq. 12) is read as what it is: ω = √k, ζ = γ/2√k.
-static void test_a_spring_is_saved_as_frequency_and_damping(void **state)
+TEST(test_a_spring_is_saved_as_frequency_and_damping)
 {
-    (void)state;
     struct world world;
     world_open(&world);
     assert_near(world.document->splines[PLUCK]->parameter[PARAMETER_FREQUENCY].value, sqrt(40) / (8 * atan(1)),
@@ -120,9 +114,8 @@ static void test_a_spring_is_saved_as_frequency_and_damping(void **state)
     world_close(&world);
 }
 
-static void test_range_and_loops(void **state)
+TEST(test_range_and_loops)
 {
-    (void)state;
     struct world world;
     world_open(&world);
     assert_refused(&world, edit_frames(&world, 1, 48), "sway: the knot at frame 0 would fall outside the range");
@@ -142,9 +135,8 @@ static void test_range_and_loops(void **state)
     world_close(&world);
 }
 
-static void test_angles(void **state)
+TEST(test_angles)
 {
-    (void)state;
     struct world world;
     world_open(&world);
     char *before = world_print(&world);
@@ -172,13 +164,4 @@ static void test_angles(void **state)
     world_close(&world);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_knots),           cmocka_unit_test(test_negative_zeros),
-        cmocka_unit_test(test_refused_knots),   cmocka_unit_test(test_refused_parameters),
-        cmocka_unit_test(test_modes_clamp),     cmocka_unit_test(test_a_spring_is_saved_as_frequency_and_damping),
-        cmocka_unit_test(test_range_and_loops), cmocka_unit_test(test_angles),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return tests_run(NULL, NULL); }

@@ -28,9 +28,8 @@ static void open(struct world *world)
     assert_non_null(world->history);
 }
 
-static void test_saves_what_it_reads(void **state)
+TEST(test_saves_what_it_reads)
 {
-    (void)state;
     struct world world;
     open(&world);
     const struct rig *rig = world.document->rigs[0];
@@ -50,9 +49,8 @@ static void test_saves_what_it_reads(void **state)
     world_close(&world);
 }
 
-static void test_every_edit_is_undone(void **state)
+TEST(test_every_edit_is_undone)
 {
-    (void)state;
     struct world world;
     open(&world);
     char *before = world_print(&world);
@@ -82,9 +80,8 @@ static void test_every_edit_is_undone(void **state)
     world_close(&world);
 }
 
-static void test_what_would_not_load_is_refused(void **state)
+TEST(test_what_would_not_load_is_refused)
 {
-    (void)state;
     struct world world;
     open(&world);
     struct pin pin = world.document->rigs[0]->pins[1];
@@ -122,10 +119,4 @@ static void test_what_would_not_load_is_refused(void **state)
     world_close(&world);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_saves_what_it_reads),
-                                       cmocka_unit_test(test_every_edit_is_undone),
-                                       cmocka_unit_test(test_what_would_not_load_is_refused)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return tests_run(NULL, NULL); }

@@ -6,9 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-static void test_a_new_spline(void **state)
+TEST(test_a_new_spline)
 {
-    (void)state;
     struct world world;
     world_open(&world);
     const struct knot first = {.frame = 7, .value = 0.5};
@@ -37,9 +36,8 @@ static void test_a_new_spline(void **state)
     world_close(&world);
 }
 
-static void test_a_copy(void **state)
+TEST(test_a_copy)
 {
-    (void)state;
     struct world world;
     world_open(&world);
     assert_reversible(&world, edit_spline_copy(world_edit(&world), LOOP, &world.error));
@@ -55,9 +53,8 @@ static void test_a_copy(void **state)
     world_close(&world);
 }
 
-static void test_removal_needs_no_followers(void **state)
+TEST(test_removal_needs_no_followers)
 {
-    (void)state;
     struct world world;
     world_open(&world);
     assert_refused(&world, edit_spline_remove(world_edit(&world), SWAY, &world.error),
@@ -74,9 +71,8 @@ static void test_removal_needs_no_followers(void **state)
     world_close(&world);
 }
 
-static void test_order(void **state)
+TEST(test_order)
 {
-    (void)state;
     struct world world;
     world_open(&world);
     assert_reversible(&world, edit_spline_move(world_edit(&world), SWAY, 2, &world.error));
@@ -92,9 +88,8 @@ static void test_order(void **state)
     world_close(&world);
 }
 
-static void test_names_and_colours(void **state)
+TEST(test_names_and_colours)
 {
-    (void)state;
     struct world world;
     world_open(&world);
     assert_reversible(&world, edit_spline_name(world_edit(&world), SWAY, "Schwung · 1", &world.error));
@@ -121,9 +116,8 @@ static void test_names_and_colours(void **state)
 }
 
 /// 24 to 30 frames a second: kept seconds put the knot of frame 12 on 15, and a slope per second stays what it is.
-static void test_frames_per_second(void **state)
+TEST(test_frames_per_second)
 {
-    (void)state;
     struct world world;
     world_open(&world);
     assert_reversible(&world, edit_fps(world_edit(&world), 30, false, &world.error));
@@ -144,9 +138,8 @@ static void test_frames_per_second(void **state)
     world_close(&world);
 }
 
-static void test_substeps(void **state)
+TEST(test_substeps)
 {
-    (void)state;
     struct world world;
     world_open(&world);
     assert_reversible(&world, edit_substeps(world_edit(&world), 4, &world.error));
@@ -156,9 +149,8 @@ static void test_substeps(void **state)
     world_close(&world);
 }
 
-static void test_a_range_that_knots_do_not_fit(void **state)
+TEST(test_a_range_that_knots_do_not_fit)
 {
-    (void)state;
     struct world world;
     world_open(&world);
     world_must(&world, edit_insert(&world, SWAY, 28, 4));
@@ -217,9 +209,8 @@ static bool random_edit(struct world *world, unsigned *seed)
 
 /// Many edits in a row, some of them refused, some undone on the way: whatever there is loads, undoing all gives the
 /// first document and redoing all the last one.
-static void test_random_sessions_come_back(void **state)
+TEST(test_random_sessions_come_back)
 {
-    (void)state;
     for (unsigned seed = 1; seed <= 40; seed++) {
         struct world world;
         unsigned random = seed;
@@ -246,9 +237,8 @@ static void test_random_sessions_come_back(void **state)
 }
 
 /// A drag takes its step back at every movement: what it adds then has the same ids again.
-static void test_ids_of_a_restarted_step(void **state)
+TEST(test_ids_of_a_restarted_step)
 {
-    (void)state;
     struct world world;
     world_open(&world);
     history_begin(world.history, "Copy", 0);
@@ -263,19 +253,4 @@ static void test_ids_of_a_restarted_step(void **state)
     world_close(&world);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_a_new_spline),
-        cmocka_unit_test(test_a_copy),
-        cmocka_unit_test(test_removal_needs_no_followers),
-        cmocka_unit_test(test_order),
-        cmocka_unit_test(test_names_and_colours),
-        cmocka_unit_test(test_frames_per_second),
-        cmocka_unit_test(test_substeps),
-        cmocka_unit_test(test_a_range_that_knots_do_not_fit),
-        cmocka_unit_test(test_random_sessions_come_back),
-        cmocka_unit_test(test_ids_of_a_restarted_step),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return tests_run(NULL, NULL); }

@@ -49,9 +49,8 @@ static int selected_from(const struct session *s, unsigned id)
     return count;
 }
 
-static void test_a_pull_taken_back_leaves_nothing_selected(void **state)
+TEST(test_a_pull_taken_back_leaves_nothing_selected)
 {
-    (void)state;
     struct session s;
     float at[2];
     session_open(&s, TAIL);
@@ -68,9 +67,8 @@ static void test_a_pull_taken_back_leaves_nothing_selected(void **state)
     session_close(&s);
 }
 
-static void test_the_tail_follows_the_hand(void **state)
+TEST(test_the_tail_follows_the_hand)
 {
-    (void)state;
     struct session s;
     session_open(&s, TAIL);
     session_click(&s, "ruler(60)");
@@ -89,9 +87,8 @@ static void test_the_tail_follows_the_hand(void **state)
     session_close(&s);
 }
 
-static void test_a_pull_out_of_reach_stays_calm(void **state)
+TEST(test_a_pull_out_of_reach_stays_calm)
 {
-    (void)state;
     struct session s;
     float at[2];
     session_open(&s, TAIL);
@@ -108,9 +105,8 @@ static void test_a_pull_out_of_reach_stays_calm(void **state)
 }
 
 /// However often the hand goes around the root, the tail winds up once.
-static void test_a_pull_in_circles_winds_up_once(void **state)
+TEST(test_a_pull_in_circles_winds_up_once)
 {
-    (void)state;
     struct session s;
     float at[2], root[2];
     session_open(&s, TAIL);
@@ -130,9 +126,8 @@ static void test_a_pull_in_circles_winds_up_once(void **state)
 }
 
 /// The hand has it soon wherever the tail's swing stands: how that answers to the knot is learnt while pulling.
-static void test_a_pull_arrives_within_twelve_frames(void **state)
+TEST(test_a_pull_arrives_within_twelve_frames)
 {
-    (void)state;
     for (int frame = 5; frame < 100; frame += 12) {
         struct session s;
         float at[2];
@@ -160,9 +155,8 @@ static bool is_in(const uint64_t *hashes, int count, uint64_t hash)
     return false;
 }
 
-static void test_playing_redraws_the_playhead_only(void **state)
+TEST(test_playing_redraws_the_playhead_only)
 {
-    (void)state;
     struct session s;
     session_open(&s, TAIL);
     session_key(&s, KEY_SPACE, 0);
@@ -186,9 +180,8 @@ static void test_playing_redraws_the_playhead_only(void **state)
     session_close(&s);
 }
 
-static void test_nothing_changes_while_nothing_happens(void **state)
+TEST(test_nothing_changes_while_nothing_happens)
 {
-    (void)state;
     struct session s;
     session_open(&s, TAIL);
     for (int i = 0; i < 400; i++) session_frame(&s);
@@ -208,9 +201,8 @@ static void test_nothing_changes_while_nothing_happens(void **state)
     session_close(&s);
 }
 
-static void test_steady_frames_allocate_nothing(void **state)
+TEST(test_steady_frames_allocate_nothing)
 {
-    (void)state;
     struct session s;
     session_open(&s, TAIL);
     session_key(&s, KEY_SPACE, 0);
@@ -240,9 +232,8 @@ static const float *active_line(const struct session *s, int *count)
     return NULL;
 }
 
-static void test_the_drawn_curve_goes_through_its_knots(void **state)
+TEST(test_the_drawn_curve_goes_through_its_knots)
 {
-    (void)state;
     struct session s;
     session_open(&s, TAIL);
     for (int k = 0; k < 3; k++) {
@@ -263,9 +254,8 @@ static void test_the_drawn_curve_goes_through_its_knots(void **state)
     session_close(&s);
 }
 
-static void test_fine_oscillations_are_drawn_as_their_band(void **state)
+TEST(test_fine_oscillations_are_drawn_as_their_band)
 {
-    (void)state;
     static const char scene[] = "{\"wiggly\": 1, \"frames\": [0, 24000], \"splines\": [{\"name\": \"hum\", \"mode\": "
                                 "\"real\", \"frequency\": 3,"
                                 "\"damping\": 0, \"knots\": [{\"frame\": 0, \"value\": 1}]}]}";
@@ -283,9 +273,8 @@ static void test_fine_oscillations_are_drawn_as_their_band(void **state)
     session_close(&s);
 }
 
-static void test_playing_and_scrubbing(void **state)
+TEST(test_playing_and_scrubbing)
 {
-    (void)state;
     struct session s;
     session_open(&s, TAIL);
     const struct stage_view *stage = editor_stage(s.editor);
@@ -310,9 +299,8 @@ static void test_playing_and_scrubbing(void **state)
     session_close(&s);
 }
 
-static void test_space_and_drag_pans_without_playing(void **state)
+TEST(test_space_and_drag_pans_without_playing)
 {
-    (void)state;
     struct session s;
     session_open(&s, TAIL);
     session_point(&s, "curve(sway,60,0)");
@@ -332,9 +320,8 @@ static void test_space_and_drag_pans_without_playing(void **state)
     session_close(&s);
 }
 
-static void test_the_wheel_zooms_about_the_pointer(void **state)
+TEST(test_the_wheel_zooms_about_the_pointer)
 {
-    (void)state;
     struct session s;
     session_open(&s, TAIL);
     const unsigned mods[] = {0, MOD_CTRL, MOD_SHIFT};
@@ -351,9 +338,8 @@ static void test_the_wheel_zooms_about_the_pointer(void **state)
     session_close(&s);
 }
 
-static void test_the_stage_turns_only_by_hand(void **state)
+TEST(test_the_stage_turns_only_by_hand)
 {
-    (void)state;
     struct session s;
     session_open(&s, TAIL);
     float before[16], lamp[3];
@@ -384,9 +370,8 @@ static bool shows_text(const struct session *s, const char *text)
 }
 
 /// Paused between two frames, the playhead names the frame on which I sets a knot.
-static void test_the_playhead_names_the_frame_of_the_next_knot(void **state)
+TEST(test_the_playhead_names_the_frame_of_the_next_knot)
 {
-    (void)state;
     struct session s;
     session_open(&s, TAIL);
     session_click(&s, "ruler(50)");
@@ -400,9 +385,8 @@ static void test_the_playhead_names_the_frame_of_the_next_knot(void **state)
 }
 
 /// V: which way the curves are shown stands beside them for as long as they are; Im x is named where it is drawn.
-static void test_the_curves_say_how_they_are_shown(void **state)
+TEST(test_the_curves_say_how_they_are_shown)
 {
-    (void)state;
     struct session s;
     session_open(&s, TAIL);
     assert_true(shows_text(&s, "Im"));
@@ -414,9 +398,8 @@ static void test_the_curves_say_how_they_are_shown(void **state)
 }
 
 /// Home puts everything back into sight where the pointer is: the camera over the stage, else the curves.
-static void test_home_brings_the_tail_back(void **state)
+TEST(test_home_brings_the_tail_back)
 {
-    (void)state;
     struct session s;
     float before[2], after[2];
     session_open(&s, TAIL);
@@ -437,9 +420,8 @@ static void test_home_brings_the_tail_back(void **state)
     session_close(&s);
 }
 
-static void test_small_windows(void **state)
+TEST(test_small_windows)
 {
-    (void)state;
     const float sizes[][2] = {{1280, 720}, {960, 600}, {3000, 1700}, {200, 100}, {1, 1}};
     struct session s;
     session_open(&s, TAIL);
@@ -453,9 +435,8 @@ static void test_small_windows(void **state)
     session_close(&s);
 }
 
-static void test_dividers(void **state)
+TEST(test_dividers)
 {
-    (void)state;
     struct session s;
     session_open(&s, TAIL);
     float height = editor_stage(s.editor)->viewport.h;
@@ -508,9 +489,8 @@ static void assert_finite_at(struct session *s, enum wiggly_mode mode, enum wigg
     assert_true(count > 100);
 }
 
-static void test_finite_curves_at_every_extreme(void **state)
+TEST(test_finite_curves_at_every_extreme)
 {
-    (void)state;
     const int knots[] = {0, 1, 2, 400};
     for (int i = 0; i < 4; i++) {
         char *scene = scene_with_knots(knots[i]);
@@ -528,9 +508,8 @@ static void test_finite_curves_at_every_extreme(void **state)
     }
 }
 
-static void test_targets_that_are_not_there(void **state)
+TEST(test_targets_that_are_not_there)
 {
-    (void)state;
     const char *const wrong[] = {"",
                                  "knot",
                                  "knot()",
@@ -557,30 +536,4 @@ static void test_targets_that_are_not_there(void **state)
     session_close(&s);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_a_pull_taken_back_leaves_nothing_selected),
-        cmocka_unit_test(test_the_tail_follows_the_hand),
-        cmocka_unit_test(test_a_pull_out_of_reach_stays_calm),
-        cmocka_unit_test(test_a_pull_in_circles_winds_up_once),
-        cmocka_unit_test(test_a_pull_arrives_within_twelve_frames),
-        cmocka_unit_test(test_playing_redraws_the_playhead_only),
-        cmocka_unit_test(test_nothing_changes_while_nothing_happens),
-        cmocka_unit_test(test_steady_frames_allocate_nothing),
-        cmocka_unit_test(test_the_drawn_curve_goes_through_its_knots),
-        cmocka_unit_test(test_fine_oscillations_are_drawn_as_their_band),
-        cmocka_unit_test(test_playing_and_scrubbing),
-        cmocka_unit_test(test_space_and_drag_pans_without_playing),
-        cmocka_unit_test(test_the_wheel_zooms_about_the_pointer),
-        cmocka_unit_test(test_the_stage_turns_only_by_hand),
-        cmocka_unit_test(test_the_playhead_names_the_frame_of_the_next_knot),
-        cmocka_unit_test(test_the_curves_say_how_they_are_shown),
-        cmocka_unit_test(test_home_brings_the_tail_back),
-        cmocka_unit_test(test_small_windows),
-        cmocka_unit_test(test_dividers),
-        cmocka_unit_test(test_finite_curves_at_every_extreme),
-        cmocka_unit_test(test_targets_that_are_not_there),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return tests_run(NULL, NULL); }

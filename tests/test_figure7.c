@@ -50,9 +50,8 @@ static const float left_hand[2][3] = {{0.6f, 0, -1}, {1, 2, 1}}, right_hand[2][3
 
 /// "The phase varies smoothly over the character, with the motion of the arms and hands being delayed significantly
 /// compared to the body."
-static void hands_follow_the_body(void **state)
+TEST(hands_follow_the_body)
 {
-    (void)state;
     struct scene scene = open_scene("assets/scenes/figure7.json");
     const double body = lead(scene.figure, "up", 1, head[0], head[1]);
     const double left = lead(scene.figure, "up", 1, left_hand[0], left_hand[1]);
@@ -65,9 +64,8 @@ static void hands_follow_the_body(void **state)
 }
 
 /// Over no edge of the mesh does the movement turn by more than a few degrees where there is any to speak of.
-static void phases_are_smooth(void **state)
+TEST(phases_are_smooth)
 {
-    (void)state;
     struct scene scene = open_scene("assets/scenes/figure7.json");
     const struct character *character = &scene.figure->character;
     const struct coordinate *up = &character->coordinates[figure_find(scene.figure, "up")];
@@ -83,9 +81,8 @@ static void phases_are_smooth(void **state)
 }
 
 /// Eq. 30: one spline of nine knots moves both coordinates, one a quarter of a swing behind the other.
-static void two_coordinates_follow_one_spline_of_nine_knots(void **state)
+TEST(two_coordinates_follow_one_spline_of_nine_knots)
 {
-    (void)state;
     struct scene scene = open_scene("assets/scenes/character.json");
     const struct character_rig *rig = document_character(scene.document, 0);
     assert_int_equal(scene.document->spline_count, 1);
@@ -97,9 +94,8 @@ static void two_coordinates_follow_one_spline_of_nine_knots(void **state)
 }
 
 /// Feet stay where they are, whatever the spline does, and the character stays in one piece: within reach of where it rests.
-static void it_stands_on_its_feet(void **state)
+TEST(it_stands_on_its_feet)
 {
-    (void)state;
     static const char *const paths[] = {"assets/scenes/figure7.json", "assets/scenes/up-down.json",
                                         "assets/scenes/side-to-side.json", "assets/scenes/character.json",
                                         "assets/scenes/compositing.json"};
@@ -143,9 +139,8 @@ static double volume_at(const struct character *c, const struct coordinate *n, d
 }
 
 /// Flesh keeps its volume: at amplitude 1 to 5 % in every phase, of every coordinate that the model has.
-static void it_keeps_its_volume(void **state)
+TEST(it_keeps_its_volume)
 {
-    (void)state;
     enum { PHASES = 36 };
     struct scene scene = open_scene("assets/scenes/figure7.json");
     const struct character *c = &scene.figure->character;
@@ -164,12 +159,4 @@ static void it_keeps_its_volume(void **state)
     close_scene(&scene);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(hands_follow_the_body), cmocka_unit_test(it_keeps_its_volume),
-        cmocka_unit_test(phases_are_smooth),     cmocka_unit_test(two_coordinates_follow_one_spline_of_nine_knots),
-        cmocka_unit_test(it_stands_on_its_feet),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return tests_run(NULL, NULL); }

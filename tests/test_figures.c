@@ -70,9 +70,8 @@ static void assert_hits_knots(const char *name)
 
 /// Figure 1: with the resonance at zero on the left the curve is a familiar cubic, rising without a swing; where the
 /// resonance has jumped up it oscillates on its way to the third knot.
-static void test_figure1(void **state)
+TEST_WITH(NULL, close_figure, test_figure1)
 {
-    (void)state;
     double smallest;
     open_figure("assets/scenes/figure1.json");
     const double *total = curve("curve")->total;
@@ -83,9 +82,8 @@ static void test_figure1(void **state)
 }
 
 /// Figure 3: three keyed knots on the real part; the imaginary part is computed, and turns a quarter of a period with it.
-static void test_figure3(void **state)
+TEST_WITH(NULL, close_figure, test_figure3)
 {
-    (void)state;
     open_figure("assets/scenes/figure3.json");
     const wiggly_curve *shown = curve("curve");
     double re = 0, im = 0, cross = 0;
@@ -100,9 +98,8 @@ static void test_figure3(void **state)
 }
 
 /// Figure 4: the third knot moves by a tenth of its span, and the curve stretches: as many swings, none of them lost.
-static void test_figure4(void **state)
+TEST_WITH(NULL, close_figure, test_figure4)
 {
-    (void)state;
     double before_smallest, moved_smallest;
     open_figure("assets/scenes/figure4.json");
     assert_hits_knots("before");
@@ -141,9 +138,8 @@ static void assert_forward_response(const wiggly_curve *shown, const struct spli
 
 /// Figure 5: the passive response follows the step of the equilibrium late, overshoots and dies down; the edited curve goes
 /// through the knot and is the same kind of motion.
-static void test_figure5(void **state)
+TEST_WITH(NULL, close_figure, test_figure5)
 {
-    (void)state;
     double smallest, largest = 0;
     open_figure("assets/scenes/figure5.json");
     const wiggly_curve *still = curve("equilibrium"), *loose = curve("free"), *edited = curve("edited");
@@ -170,9 +166,8 @@ static double heading(const struct pose *pose, int joint)
 }
 
 /// Figure 6: each joint bends as the first one does, later by its lag: the tip reaches its turning point well after the base.
-static void test_figure6(void **state)
+TEST_WITH(NULL, close_figure, test_figure6)
 {
-    (void)state;
     enum { BASE = 0, LATE = 18 };
     open_figure("assets/scenes/figure6.json");
     const struct tail *tail = document_tail(document, 0);
@@ -227,9 +222,8 @@ static double cubic_error(int substeps, double stiffness, const double *expected
 }
 
 /// Without tangents the classical spline is the natural C² cubic (scipy.interpolate.CubicSpline, bc_type="natural").
-static void test_cubic_is_the_natural_spline(void **state)
+TEST(test_cubic_is_the_natural_spline)
 {
-    (void)state;
     static const double natural[] = {
         0,
         0.4902902902902902,
@@ -252,9 +246,8 @@ static void test_cubic_is_the_natural_spline(void **state)
 
 /// With tangents that are held more and more firmly it becomes the Hermite cubic (scipy.interpolate.CubicHermiteSpline): global
 /// smoothness at one end of the scale, local support at the other.
-static void test_stiff_tangents_make_the_hermite_cubic(void **state)
+TEST(test_stiff_tangents_make_the_hermite_cubic)
 {
-    (void)state;
     static const double hermite[] = {
         0,
         0.33333333333333326,
@@ -280,16 +273,4 @@ static void test_stiff_tangents_make_the_hermite_cubic(void **state)
     assert_true(coarse < 0.01 && fine < 0.3 * coarse); // as h: eq. 9 holds the slope half a sample late
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test_teardown(test_figure1, close_figure),
-        cmocka_unit_test_teardown(test_figure3, close_figure),
-        cmocka_unit_test_teardown(test_figure4, close_figure),
-        cmocka_unit_test_teardown(test_figure5, close_figure),
-        cmocka_unit_test_teardown(test_figure6, close_figure),
-        cmocka_unit_test(test_cubic_is_the_natural_spline),
-        cmocka_unit_test(test_stiff_tangents_make_the_hermite_cubic),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return tests_run(NULL, NULL); }

@@ -62,12 +62,11 @@ static void check_knots(const struct opened *opened)
     }
 }
 
-static void nothing_is_below_the_floor(void **state)
+TEST(nothing_is_below_the_floor)
 {
     static const char *const starts[] = {"free", "loop", "rest"};
     static const char knots[] =
         "{ \"frame\": 0, \"value\": 0 }, { \"frame\": 20, \"value\": 5 }, { \"frame\": 40, \"value\": 2 }";
-    (void)state;
     for (int s = 0; s < 3; s++) {
         double before = INFINITY;
         struct opened free_to_go = open_scene(starts[s], knots, ""),
@@ -85,13 +84,12 @@ static void nothing_is_below_the_floor(void **state)
 }
 
 /// Solved again after a knot was elsewhere meanwhile.
-static void the_same_document_gives_the_same_bits(void **state)
+TEST(the_same_document_gives_the_same_bits)
 {
     struct opened opened = open_scene("free", "{ \"frame\": 20, \"value\": 5 }", ", \"floor\": 0");
     struct evaluation *evaluation = &opened.evaluation;
     const size_t size = (size_t)evaluation->samples * sizeof(double);
     double *was = malloc(size), *value = &opened.document->splines[0]->knots[0].value;
-    (void)state;
     assert_non_null(was);
     memcpy(was, evaluation->curves[0].im, size);
     for (*value = 5.5; *value >= 5; *value -= 0.25) evaluation_update(evaluation, opened.document, false);
@@ -101,11 +99,10 @@ static void the_same_document_gives_the_same_bits(void **state)
 }
 
 /// A floor that nothing touches changes no bit, and it is said where knots hold the character below.
-static void an_untouched_floor_is_none_and_a_missed_one_is_told(void **state)
+TEST(an_untouched_floor_is_none_and_a_missed_one_is_told)
 {
     static const char knot[] = "{ \"frame\": 20, \"value\": 2 }";
     struct opened plain = open_scene("free", knot, ""), floored = open_scene("free", knot, ", \"floor\": -1");
-    (void)state;
     assert_memory_equal(plain.evaluation.curves[0].im, floored.evaluation.curves[0].im,
                         (size_t)plain.evaluation.samples * sizeof(double));
     assert_true(evaluation_floor(&floored.evaluation, 0)->depth == 0);
@@ -113,12 +110,11 @@ static void an_untouched_floor_is_none_and_a_missed_one_is_told(void **state)
     opened_free(&floored);
 }
 
-static void a_floor_above_the_feet_is_refused(void **state)
+TEST(a_floor_above_the_feet_is_refused)
 {
     struct opened opened = open_scene("free", "", ", \"floor\": -1");
     struct history *history = history_create(opened.document);
     struct error error = {0};
-    (void)state;
     history_begin(history, "Floor", 0);
     assert_false(edit_floor(opened.document, 0, true, 0.5, &error));
     assert_non_null(strstr(error.text, "floor: expected a height of at most 0"));
@@ -154,10 +150,9 @@ static int low_vertex(const struct opened *opened, int sample, double at[3])
 }
 
 /// Pins are met, in and out of the floor; where one holds the character below, the floor sinks there and nowhere else.
-static void pins_come_first_and_the_floor_sinks_to_them(void **state)
+TEST(pins_come_first_and_the_floor_sinks_to_them)
 {
     static const char knots[] = "{ \"frame\": 0, \"value\": 0 }, { \"frame\": 20, \"value\": 5 }";
-    (void)state;
     struct opened free_to_go = open_scene("free", knots, "");
     double at[3] = {0};
     const int vertex = low_vertex(&free_to_go, 60, at);
@@ -188,7 +183,7 @@ static void pins_come_first_and_the_floor_sinks_to_them(void **state)
 }
 
 /// A variation is of the motion that pins and the floor then change; limits are passed over.
-static void all_that_a_spline_may_have_at_once(void **state)
+TEST(all_that_a_spline_may_have_at_once)
 {
     static const char knots[] = "{ \"frame\": 0, \"value\": 0 }, { \"frame\": 20, \"value\": 5 }",
                       pin[] = ", \"floor\": 0, \"pins\": [ { \"frame\": 60, \"vertex\": 500, \"to\": [0, 1, 0] } ]";
@@ -197,7 +192,6 @@ static void all_that_a_spline_may_have_at_once(void **state)
                                           "\"limits\": [-6, 6]"};
     double seen[3][121];
     struct error error = {0};
-    (void)state;
     for (int n = 0; n < 3; n++) {
         struct opened opened;
         if (!read_scene(&opened, "free", knots, splines[n], pin, &error)) fail_msg("%s", error.text);
@@ -216,11 +210,10 @@ static void all_that_a_spline_may_have_at_once(void **state)
     assert_memory_equal(seen[1], seen[2], sizeof seen[1]);
 }
 
-static void splines_without_a_swing_are_refused(void **state)
+TEST(splines_without_a_swing_are_refused)
 {
     static const char *const splines[][2] = {{", \"mode\": \"cubic\"", "which is cubic"},
                                              {", \"calm\": 0", "whose calm is 0"}};
-    (void)state;
     for (int n = 0; n < 2; n++) {
         struct opened opened;
         struct error error = {0};
@@ -230,12 +223,11 @@ static void splines_without_a_swing_are_refused(void **state)
     }
 }
 
-static void a_floor_is_saved_with_what_is_not_known(void **state)
+TEST(a_floor_is_saved_with_what_is_not_known)
 {
     struct opened opened = open_scene("free", "", ", \"floor\": -0.5, \"carpet\": \"red\"");
     size_t size;
     char *text = scene_print(opened.document, &size);
-    (void)state;
     assert_non_null(text);
     assert_non_null(strstr(text, "\"floor\": -0.5"));
     assert_non_null(strstr(text, "\"carpet\": \"red\""));
@@ -247,15 +239,4 @@ static void a_floor_is_saved_with_what_is_not_known(void **state)
     opened_free(&opened);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(nothing_is_below_the_floor),
-                                       cmocka_unit_test(the_same_document_gives_the_same_bits),
-                                       cmocka_unit_test(an_untouched_floor_is_none_and_a_missed_one_is_told),
-                                       cmocka_unit_test(a_floor_above_the_feet_is_refused),
-                                       cmocka_unit_test(pins_come_first_and_the_floor_sinks_to_them),
-                                       cmocka_unit_test(all_that_a_spline_may_have_at_once),
-                                       cmocka_unit_test(splines_without_a_swing_are_refused),
-                                       cmocka_unit_test(a_floor_is_saved_with_what_is_not_known)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return tests_run(NULL, NULL); }

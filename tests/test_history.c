@@ -9,9 +9,8 @@
 
 /// A drag re-applies its edits from the same state each frame, gives an inserted knot the same id again, and is one
 /// step.
-static void test_restart(void **state)
+TEST(test_restart)
 {
-    (void)state;
     struct world world;
     world_open(&world);
     char *before = world_print(&world);
@@ -37,9 +36,8 @@ static void test_restart(void **state)
 }
 
 /// Esc in a drag: nothing is left, not even of the steps that could be done again.
-static void test_cancelled_step(void **state)
+TEST(test_cancelled_step)
 {
-    (void)state;
     struct world world;
     world_open(&world);
     world_must(&world, edit_insert(&world, SWAY, 5, 5));
@@ -68,9 +66,8 @@ static void nudge(struct world *world, double value, uint64_t merge)
     history_end(world->history);
 }
 
-static void test_merge(void **state)
+TEST(test_merge)
 {
-    (void)state;
     struct world world;
     world_open(&world);
     char *before = world_print(&world);
@@ -101,9 +98,8 @@ static void test_merge(void **state)
     world_close(&world);
 }
 
-static void test_saved(void **state)
+TEST(test_saved)
 {
-    (void)state;
     struct world world;
     world_open(&world);
     assert_true(history_is_saved(world.history));
@@ -128,9 +124,8 @@ static void test_saved(void **state)
     world_close(&world);
 }
 
-static void test_revision(void **state)
+TEST(test_revision)
 {
-    (void)state;
     struct world world;
     world_open(&world);
     uint64_t revision = history_revision(world.history);
@@ -244,9 +239,8 @@ static void assert_loads(const struct world *world)
 
 /// Whatever was done: undo all gives the first document byte by byte, redo all the last; all between can be saved and
 /// loaded.
-static void test_random_walks(void **state)
+TEST(test_random_walks)
 {
-    (void)state;
     for (unsigned seed = 1; seed <= 12; seed++) {
         struct world world;
         srand(seed);
@@ -270,9 +264,8 @@ static void test_random_walks(void **state)
 }
 
 /// More than the history may keep: the oldest steps go, the rest still leads back and forth.
-static void test_history_is_bounded(void **state)
+TEST(test_history_is_bounded)
 {
-    (void)state;
     enum { STEPS = 3000, LIMIT = 100000 };
     struct world world;
     world_open(&world);
@@ -299,9 +292,8 @@ static void test_history_is_bounded(void **state)
 }
 
 /// What was undone and then written over is counted no longer; a run of nudges counts as what it holds.
-static void test_bytes(void **state)
+TEST(test_bytes)
 {
-    (void)state;
     struct world world;
     world_open(&world);
     nudge(&world, 1, 0);
@@ -327,9 +319,8 @@ static void test_bytes(void **state)
 }
 
 /// Any step of the list can be gone to directly, from either side.
-static void test_jump(void **state)
+TEST(test_jump)
 {
-    (void)state;
     struct world world;
     world_open(&world);
     char *first = world_print(&world);
@@ -355,9 +346,8 @@ static void test_jump(void **state)
 }
 
 /// A whole document may come as one step; what was there before, and what is done to it, goes and comes back with it.
-static void test_another_document(void **state)
+TEST(test_another_document)
 {
-    (void)state;
     static const char text[] =
         "{\"about\": \"Another. One.\", \"frames\": [3, 9], \"splines\": [{\"name\": \"only\", "
         "\"knots\": [{\"frame\": 4, \"value\": 1}]}]}";
@@ -389,19 +379,4 @@ static void test_another_document(void **state)
     world_close(&world);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_restart),
-        cmocka_unit_test(test_cancelled_step),
-        cmocka_unit_test(test_merge),
-        cmocka_unit_test(test_saved),
-        cmocka_unit_test(test_revision),
-        cmocka_unit_test(test_random_walks),
-        cmocka_unit_test(test_history_is_bounded),
-        cmocka_unit_test(test_bytes),
-        cmocka_unit_test(test_jump),
-        cmocka_unit_test(test_another_document),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return tests_run(NULL, NULL); }

@@ -22,9 +22,8 @@ static void open_list(struct session *session, int steps)
     assert_int_equal(knots(session), 1 + steps);
 }
 
-static void test_click(void **state)
+TEST(test_click)
 {
-    (void)state;
     struct session s;
     open_list(&s, 4);
     assert_true(panel_shows(&s, "history.4"));
@@ -40,9 +39,8 @@ static void test_click(void **state)
     session_close(&s);
 }
 
-static void test_keys(void **state)
+TEST(test_keys)
 {
-    (void)state;
     struct session s;
     open_list(&s, 4);
     panel_click(&s, "section.history"); // a press gives no keyboard focus; Tab does
@@ -63,9 +61,8 @@ static void test_keys(void **state)
 }
 
 /// More steps than rows: the list follows the present one, and the wheel shows the others.
-static void test_long_list(void **state)
+TEST(test_long_list)
 {
-    (void)state;
     struct session s;
     open_list(&s, 40);
     assert_true(panel_shows(&s, "history.40"));
@@ -85,9 +82,8 @@ static void test_long_list(void **state)
 }
 
 /// Over the list the wheel moves only that, until it is at its end; then the panel.
-static void test_wheel(void **state)
+TEST(test_wheel)
 {
-    (void)state;
     struct session s;
     open_list(&s, 40);
     editor_resize(s.editor, 1280, 600, 1);
@@ -110,9 +106,8 @@ static void test_wheel(void **state)
 }
 
 /// The list says what it does not have any more.
-static void test_dropped(void **state)
+TEST(test_dropped)
 {
-    (void)state;
     struct session s;
     panel_open(&s, scene, 1280, 720);
     panel_click(&s, "section.history");
@@ -137,9 +132,8 @@ static void test_dropped(void **state)
 }
 
 /// A drag holds a step open: the list does nothing meanwhile.
-static void test_not_in_a_drag(void **state)
+TEST(test_not_in_a_drag)
 {
-    (void)state;
     struct session s;
     open_list(&s, 2);
     history_begin(s.history, "Drag", 0);
@@ -149,11 +143,4 @@ static void test_not_in_a_drag(void **state)
     session_close(&s);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_click),   cmocka_unit_test(test_keys),          cmocka_unit_test(test_long_list),
-        cmocka_unit_test(test_dropped), cmocka_unit_test(test_not_in_a_drag), cmocka_unit_test(test_wheel),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return tests_run(NULL, NULL); }

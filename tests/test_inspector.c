@@ -14,9 +14,8 @@ static const struct param *parameter(const struct session *f, int spline, enum p
     return &f->document->splines[spline]->parameter[which];
 }
 
-static void test_drag_is_one_undo_step(void **state)
+TEST(test_drag_is_one_undo_step)
 {
-    (void)state;
     struct session f;
     panel_open(&f, scene, 1280, 720);
     panel_drag(&f, "frequency", 2.5);
@@ -33,9 +32,8 @@ static void test_drag_is_one_undo_step(void **state)
     session_close(&f);
 }
 
-static void test_escape_takes_a_drag_back(void **state)
+TEST(test_escape_takes_a_drag_back)
 {
-    (void)state;
     struct session f;
     panel_open(&f, scene, 1280, 720);
     panel_drag(&f, "damping", 1);
@@ -49,9 +47,8 @@ static void test_escape_takes_a_drag_back(void **state)
 }
 
 /// Closing the window in the middle of a drag must not leave a half-open step behind.
-static void test_closing_ends_a_drag(void **state)
+TEST(test_closing_ends_a_drag)
 {
-    (void)state;
     struct session f;
     panel_open(&f, scene, 1280, 720);
     panel_drag(&f, "frequency", 3);
@@ -61,9 +58,8 @@ static void test_closing_ends_a_drag(void **state)
     session_close(&f);
 }
 
-static void test_typed_nonsense_is_said_and_refused(void **state)
+TEST(test_typed_nonsense_is_said_and_refused)
 {
-    (void)state;
     struct session f;
     panel_open(&f, scene, 1280, 720);
     panel_enter(&f, "damping", "lots");
@@ -78,9 +74,8 @@ static void test_typed_nonsense_is_said_and_refused(void **state)
     session_close(&f);
 }
 
-static void test_typing_keeps_keys_from_the_editor(void **state)
+TEST(test_typing_keeps_keys_from_the_editor)
 {
-    (void)state;
     struct session f;
     panel_open(&f, scene, 1280, 720);
     panel_press(&f, "frequency", 2);
@@ -109,9 +104,8 @@ static void test_typing_keeps_keys_from_the_editor(void **state)
     session_close(&f);
 }
 
-static void test_arrows_belong_to_the_focus(void **state)
+TEST(test_arrows_belong_to_the_focus)
 {
-    (void)state;
     struct session f;
     panel_open(&f, scene, 1280, 720);
     f.editor->inspector->ui.focus = ui_id("frequency");
@@ -128,9 +122,8 @@ static void test_arrows_belong_to_the_focus(void **state)
     session_close(&f);
 }
 
-static void test_only_what_counts_is_shown(void **state)
+TEST(test_only_what_counts_is_shown)
 {
-    (void)state;
     struct session f;
     panel_open(&f, scene, 1280, 1600);
     assert_false(panel_shows(&f, "bandwidth"));
@@ -152,9 +145,8 @@ static void test_only_what_counts_is_shown(void **state)
     session_close(&f);
 }
 
-static void test_knot_is_edited_in_place(void **state)
+TEST(test_knot_is_edited_in_place)
 {
-    (void)state;
     struct session f;
     panel_open(&f, scene, 1280, 1600);
     unsigned id = f.document->splines[0]->knots[1].id;
@@ -181,9 +173,8 @@ static void test_knot_is_edited_in_place(void **state)
     session_close(&f);
 }
 
-static void test_one_knot_has_one_frame(void **state)
+TEST(test_one_knot_has_one_frame)
 {
-    (void)state;
     struct session f;
     panel_open(&f, scene, 1280, 1400);
     assert_non_null(shown_text(f.editor, "3, frames 0 … 60"));
@@ -193,9 +184,8 @@ static void test_one_knot_has_one_frame(void **state)
 }
 
 /// Nothing is selected: the section says what knots there are and works without pointing at one; what is below stays where it is.
-static void test_the_knot_section_without_a_knot(void **state)
+TEST(test_the_knot_section_without_a_knot)
 {
-    (void)state;
     struct session f;
     float x, y[2];
     panel_open(&f, scene, 1280, 1400);
@@ -217,9 +207,8 @@ static void test_the_knot_section_without_a_knot(void **state)
 }
 
 /// Several knots at once: typed numbers are set, drags and frames move, and what is not possible changes nothing.
-static void test_several_knots(void **state)
+TEST(test_several_knots)
 {
-    (void)state;
     struct session f;
     panel_open(&f, scene, 1280, 1600);
     session_key(&f, 'A', MOD_CTRL);
@@ -254,9 +243,8 @@ static void test_several_knots(void **state)
     session_close(&f);
 }
 
-static void test_frame_drag_passes_through_a_neighbour(void **state)
+TEST(test_frame_drag_passes_through_a_neighbour)
 {
-    (void)state;
     struct session f;
     panel_open(&f, scene, 1280, 720);
     selection_set(&f.editor->core.selection, f.document->splines[0]->knots[1].id, true);
@@ -272,9 +260,8 @@ static void test_frame_drag_passes_through_a_neighbour(void **state)
 }
 
 /// The pointer's shape says that a number is dragged, and where a text is typed.
-static void test_the_pointer_says_what_it_does(void **state)
+TEST(test_the_pointer_says_what_it_does)
 {
-    (void)state;
     struct session f;
     panel_open(&f, scene, 1280, 720);
     assert_int_equal(editor_cursor(f.editor), CURSOR_ARROW);
@@ -291,9 +278,8 @@ static void test_the_pointer_says_what_it_does(void **state)
     session_close(&f);
 }
 
-static void test_tail_array_scales_as_a_whole(void **state)
+TEST(test_tail_array_scales_as_a_whole)
 {
-    (void)state;
     struct session f;
     panel_open(&f, scene, 1280, 1600);
     panel_drag(&f, "gain", 18);
@@ -330,9 +316,8 @@ static bool shows_text(struct session *f, const char *part)
 }
 
 /// Which way splines go follows from the document's length alone.
-static void test_the_solver_is_said(void **state)
+TEST(test_the_solver_is_said)
 {
-    (void)state;
     struct session f;
     static const struct {
         const char *scene, *solver;
@@ -347,9 +332,8 @@ static void test_the_solver_is_said(void **state)
     }
 }
 
-static void test_says_what_the_solver_and_the_poles_mean(void **state)
+TEST(test_says_what_the_solver_and_the_poles_mean)
 {
-    (void)state;
     struct session f;
     panel_open(
         &f,
@@ -435,9 +419,8 @@ static int try_all_sliders(struct session *f)
     return tried;
 }
 
-static void test_extremes_stay_finite_and_loadable(void **state)
+TEST(test_extremes_stay_finite_and_loadable)
 {
-    (void)state;
     static const int knots[] = {0, 1, 2, 400};
     static const char *const modes[] = {"complex", "real", "cubic"};
     static const char *const starts[] = {"free", "rest", "loop"};
@@ -455,9 +438,8 @@ static void test_extremes_stay_finite_and_loadable(void **state)
 }
 
 /// The status line shows it after the panel was laid out.
-static void test_the_hint_of_a_position_outlives_the_panel(void **state)
+TEST(test_the_hint_of_a_position_outlives_the_panel)
 {
-    (void)state;
     static const char tail[] =
         "{\"wiggly\": 1, \"frames\": [0, 48], \"splines\": [{\"name\": \"s\", \"knots\": []}], "
         "\"rigs\": [{\"type\": \"tail\", \"name\": \"t\", \"spline\": \"s\"}]}";
@@ -471,27 +453,4 @@ static void test_the_hint_of_a_position_outlives_the_panel(void **state)
     session_close(&s);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_the_hint_of_a_position_outlives_the_panel),
-        cmocka_unit_test(test_drag_is_one_undo_step),
-        cmocka_unit_test(test_escape_takes_a_drag_back),
-        cmocka_unit_test(test_closing_ends_a_drag),
-        cmocka_unit_test(test_typed_nonsense_is_said_and_refused),
-        cmocka_unit_test(test_typing_keeps_keys_from_the_editor),
-        cmocka_unit_test(test_arrows_belong_to_the_focus),
-        cmocka_unit_test(test_only_what_counts_is_shown),
-        cmocka_unit_test(test_the_solver_is_said),
-        cmocka_unit_test(test_knot_is_edited_in_place),
-        cmocka_unit_test(test_one_knot_has_one_frame),
-        cmocka_unit_test(test_the_knot_section_without_a_knot),
-        cmocka_unit_test(test_several_knots),
-        cmocka_unit_test(test_frame_drag_passes_through_a_neighbour),
-        cmocka_unit_test(test_the_pointer_says_what_it_does),
-        cmocka_unit_test(test_tail_array_scales_as_a_whole),
-        cmocka_unit_test(test_says_what_the_solver_and_the_poles_mean),
-        cmocka_unit_test(test_extremes_stay_finite_and_loadable),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return tests_run(NULL, NULL); }

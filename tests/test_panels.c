@@ -146,9 +146,8 @@ static int list_names(void *user, const char *folder, char names[][256], int max
     return count;
 }
 
-static void test_no_text_leaves_its_panel_or_overlaps(void **state)
+TEST(test_no_text_leaves_its_panel_or_overlaps)
 {
-    (void)state;
     static const float sizes[][2] = {{1280, 720}, {960, 600}, {2000, 1200}};
     static const char *const scenes[] = {small_scene, crowded_scene};
     for (int i = 0; i < 6; i++) {
@@ -182,9 +181,8 @@ static void answer_saved(struct session *f, enum request_kind kind, const char *
     panel_answer(f, kind, true, "");
 }
 
-static void test_save_as_stays_until_it_succeeds(void **state)
+TEST(test_save_as_stays_until_it_succeeds)
 {
-    (void)state;
     struct session f;
     panel_open(&f, small_scene, 1280, 720);
     editor_set_path(f.editor, "");
@@ -223,9 +221,8 @@ static void open_unsaved(struct session *f, bool has_path)
     assert_int_equal(f->editor->dialogs->dialog.kind, DIALOG_UNSAVED);
 }
 
-static void test_quitting_asks_for_unsaved_work(void **state)
+TEST(test_quitting_asks_for_unsaved_work)
 {
-    (void)state;
     struct session f;
     open_unsaved(&f, true);
     session_key(&f, KEY_ESCAPE, 0);
@@ -248,9 +245,8 @@ static void test_quitting_asks_for_unsaved_work(void **state)
     session_close(&f);
 }
 
-static void test_quit_waits_for_the_save(void **state)
+TEST(test_quit_waits_for_the_save)
 {
-    (void)state;
     struct session f;
     open_unsaved(&f, true);
     panel_type(&f, "s");
@@ -277,9 +273,8 @@ static void test_quit_waits_for_the_save(void **state)
     session_close(&f);
 }
 
-static void test_cancelled_save_as_forgets_what_was_to_follow(void **state)
+TEST(test_cancelled_save_as_forgets_what_was_to_follow)
 {
-    (void)state;
     struct session f;
     open_unsaved(&f, false);
     panel_type(&f, "s");
@@ -292,9 +287,8 @@ static void test_cancelled_save_as_forgets_what_was_to_follow(void **state)
     session_close(&f);
 }
 
-static void test_open_completes_paths(void **state)
+TEST(test_open_completes_paths)
 {
-    (void)state;
     int calls = 0;
     struct session f;
     panel_open(&f, small_scene, 1280, 720);
@@ -331,9 +325,8 @@ static void test_open_completes_paths(void **state)
     session_close(&f);
 }
 
-static void test_dialog_takes_every_key(void **state)
+TEST(test_dialog_takes_every_key)
 {
-    (void)state;
     struct session f;
     panel_open(&f, small_scene, 1280, 720);
     session_key(&f, 'O', MOD_CTRL);
@@ -349,9 +342,8 @@ static void test_dialog_takes_every_key(void **state)
 }
 
 /// The figures at the right must not cost a redraw every frame.
-static void test_figures_change_twice_a_second(void **state)
+TEST(test_figures_change_twice_a_second)
 {
-    (void)state;
     struct session f;
     panel_open(&f, small_scene, 1280, 720);
     double last = 0;
@@ -366,17 +358,4 @@ static void test_figures_change_twice_a_second(void **state)
     session_close(&f);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_no_text_leaves_its_panel_or_overlaps),
-        cmocka_unit_test(test_save_as_stays_until_it_succeeds),
-        cmocka_unit_test(test_quitting_asks_for_unsaved_work),
-        cmocka_unit_test(test_quit_waits_for_the_save),
-        cmocka_unit_test(test_cancelled_save_as_forgets_what_was_to_follow),
-        cmocka_unit_test(test_open_completes_paths),
-        cmocka_unit_test(test_dialog_takes_every_key),
-        cmocka_unit_test(test_figures_change_twice_a_second),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return tests_run(NULL, NULL); }

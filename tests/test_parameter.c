@@ -36,9 +36,8 @@ static const struct parameter_row *row_at(size_t place)
     return NULL;
 }
 
-static void every_setting_of_the_solver_has_a_row(void **state)
+TEST(every_setting_of_the_solver_has_a_row)
 {
-    (void)state;
     static const char *const others[] = {"samples", "step"}; // the scene's
     int found = 0;
     for (const desc_member *m = desc_members; m->name; m++) {
@@ -54,9 +53,8 @@ static void every_setting_of_the_solver_has_a_row(void **state)
     assert_int_equal(found, PARAMETER_COUNT);
 }
 
-static void every_row_is_whole(void **state)
+TEST(every_row_is_whole)
 {
-    (void)state;
     for (enum parameter p = 0; p < PARAMETER_COUNT; p++) {
         const struct parameter_row *row = &parameter_rows[p];
         assert_true(row->name && row->hint && row->undo && row->modes);
@@ -146,9 +144,8 @@ static void try_edit(int spline, enum parameter parameter, struct param param)
     world_close(&world);
 }
 
-static void an_edit_of_each_is_seen_and_saved(void **state)
+TEST(an_edit_of_each_is_seen_and_saved)
 {
-    (void)state;
     struct error error;
     struct document *document = scene_parse("scene", scene, sizeof scene - 1, NULL, &error);
     for (int s = 0; s < document->spline_count; s++) {
@@ -165,9 +162,8 @@ static void an_edit_of_each_is_seen_and_saved(void **state)
     document_destroy(document);
 }
 
-static void each_is_described(void **state)
+TEST(each_is_described)
 {
-    (void)state;
     char *text, quoted[64];
     size_t size;
     struct error error;
@@ -179,13 +175,4 @@ static void each_is_described(void **state)
     free(text);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_setting_of_the_solver_has_a_row),
-        cmocka_unit_test(every_row_is_whole),
-        cmocka_unit_test(an_edit_of_each_is_seen_and_saved),
-        cmocka_unit_test(each_is_described),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return tests_run(NULL, NULL); }

@@ -161,9 +161,8 @@ static void check_file(const char *name)
     json_decref(file);
 }
 
-static void every_vector_is_met(void **state)
+TEST(every_vector_is_met)
 {
-    (void)state;
     DIR *directory = opendir(folder);
     assert_non_null(directory);
     int files = 0;
@@ -313,9 +312,8 @@ static void turn_round(struct random_group *g)
     }
 }
 
-static void the_order_of_splines_and_pins_is_no_matter(void **state)
+TEST(the_order_of_splines_and_pins_is_no_matter)
 {
-    (void)state;
     static double memory[2][5 * SAMPLES * MOST_SPLINES];
     wiggly_curve curves[2][MOST_SPLINES];
     double worst = 0;
@@ -350,9 +348,8 @@ static void the_order_of_splines_and_pins_is_no_matter(void **state)
 // --- what a user would miss ------------------------------------------------------------------------------------------
 
 /// A group without pins is its splines, and one that has solved others before gives the same bits as a new one.
-static void nothing_that_is_kept_changes_a_bit(void **state)
+TEST(nothing_that_is_kept_changes_a_bit)
 {
-    (void)state;
     static double memory[3][5 * SAMPLES * MOST_SPLINES];
     wiggly_curve curves[3][MOST_SPLINES];
     wiggly_group *group;
@@ -376,9 +373,8 @@ static void nothing_that_is_kept_changes_a_bit(void **state)
 }
 
 /// One spline that moves a point along a line: what is across it cannot be had, and is said.
-static void what_is_out_of_reach_is_left(void **state)
+TEST(what_is_out_of_reach_is_left)
 {
-    (void)state;
     static double memory[5 * SAMPLES * MOST_SPLINES];
     wiggly_curve curve;
     struct random_group *g = make_group(1, 1, 1);
@@ -393,9 +389,8 @@ static void what_is_out_of_reach_is_left(void **state)
 
 /// A spline that the pins do not move is to the bit what it is alone, also where they name it and where it is one that could not be
 /// pulled.
-static void who_is_not_pulled_is_as_alone(void **state)
+TEST(who_is_not_pulled_is_as_alone)
 {
-    (void)state;
     static double memory[2][5 * SAMPLES * MOST_SPLINES];
     wiggly_curve curves[MOST_SPLINES], alone = curve_of(memory[1], SAMPLES);
     wiggly_solver *solver;
@@ -412,9 +407,8 @@ static void who_is_not_pulled_is_as_alone(void **state)
 }
 
 /// A pin that is where its point passes in any case changes nothing, whatever the spline's frequency does.
-static void a_pin_on_the_way_changes_nothing(void **state)
+TEST(a_pin_on_the_way_changes_nothing)
 {
-    (void)state;
     static double memory[2][5 * SAMPLES * MOST_SPLINES], frequency[SAMPLES];
     wiggly_curve curves[MOST_SPLINES], alone = curve_of(memory[1], SAMPLES);
     wiggly_solver *solver;
@@ -449,9 +443,8 @@ static wiggly_status status_of(struct random_group *g)
     return status;
 }
 
-static void what_cannot_be_held_is_refused(void **state)
+TEST(what_cannot_be_held_is_refused)
 {
-    (void)state;
     struct random_group *g = make_group(2, 2, 1);
     g->pin[0].sample = SAMPLES;
     assert_int_equal(status_of(g), WIGGLY_ERROR_PIN);
@@ -481,9 +474,8 @@ static void what_cannot_be_held_is_refused(void **state)
 }
 
 /// In a scene of two samples there is nothing to pull.
-static void pins_of_a_scene_too_short_are_passed_over(void **state)
+TEST(pins_of_a_scene_too_short_are_passed_over)
 {
-    (void)state;
     struct random_group *g = make_group(3, 2, 1);
     g->samples = 2;
     g->pin[0].sample = 1;
@@ -494,9 +486,8 @@ static void pins_of_a_scene_too_short_are_passed_over(void **state)
 }
 
 /// A spline that is too short to be pulled, if large, keeps no pin from those that can reach it.
-static void a_spline_too_short_bars_no_other(void **state)
+TEST(a_spline_too_short_bars_no_other)
 {
-    (void)state;
     static double memory[5 * SAMPLES * MOST_SPLINES];
     wiggly_curve curves[MOST_SPLINES];
     struct random_group *g = make_group(3, 2, 1);
@@ -514,16 +505,4 @@ static void a_spline_too_short_bars_no_other(void **state)
     assert_near(g->pin[0].left[1], 0, 1e-9);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(every_vector_is_met),
-                                       cmocka_unit_test(the_order_of_splines_and_pins_is_no_matter),
-                                       cmocka_unit_test(nothing_that_is_kept_changes_a_bit),
-                                       cmocka_unit_test(what_is_out_of_reach_is_left),
-                                       cmocka_unit_test(who_is_not_pulled_is_as_alone),
-                                       cmocka_unit_test(a_pin_on_the_way_changes_nothing),
-                                       cmocka_unit_test(what_cannot_be_held_is_refused),
-                                       cmocka_unit_test(pins_of_a_scene_too_short_are_passed_over),
-                                       cmocka_unit_test(a_spline_too_short_bars_no_other)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return tests_run(NULL, NULL); }

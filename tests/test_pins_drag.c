@@ -125,9 +125,8 @@ static const struct drag drags[] = {
     {"assets/scenes/dog.json", 2, 1, 30, {0}, {1, 1, 1}, {0}, true},
 };
 
-static void far_drags_do_not_jump(void **state)
+TEST(far_drags_do_not_jump)
 {
-    (void)state;
     static struct stand stand;
     for (size_t i = 0; i < sizeof drags / sizeof *drags; i++) {
         const struct drag *drag = &drags[i];
@@ -165,9 +164,8 @@ static void move_within_reach(struct stand *stand, const struct drag *drag, doub
 }
 
 /// Most directions in which a tail gives way by design are in these places too: so it is how many that counts.
-static void what_can_be_reached_is_reached(void **state)
+TEST(what_can_be_reached_is_reached)
 {
-    (void)state;
     static struct stand stand;
     int met = 0, near = 0, count = 0;
     srand(1);
@@ -184,9 +182,4 @@ static void what_can_be_reached_is_reached(void **state)
         fail_msg("of %d places %d are met, and %d nearly: expected 40 and 75 percent", count, met, near);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(far_drags_do_not_jump),
-                                       cmocka_unit_test(what_can_be_reached_is_reached)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return tests_run(NULL, NULL); }

@@ -79,9 +79,8 @@ static struct pin_point find(struct stand *stand, int rig, int point, double fra
 }
 
 /// A vertex moves as far as x, however far: one round of solving is enough for its pins.
-static void a_characters_point_moves_by_its_pull_however_far(void **state)
+TEST(a_characters_point_moves_by_its_pull_however_far)
 {
-    (void)state;
     struct stand stand = {0};
     pin_pull c[64], ignored[64];
     stand_open(&stand, "assets/scenes/character.json");
@@ -135,9 +134,8 @@ static void check_pulls(const char *path, int rig, int point, double frame, doub
     stand_close(&stand);
 }
 
-static void test_pulls_are_derivatives(void **state)
+TEST(test_pulls_are_derivatives)
 {
-    (void)state;
     check_pulls("assets/scenes/tail.json", 0, 23, 30, 1e-4, 1e-6);
     check_pulls("assets/scenes/follow.json", 0, 11, 40, 1e-4, 1e-6);
     check_pulls("assets/scenes/character.json", 0, 100, 30, 1e-2, 1e-9);
@@ -308,9 +306,8 @@ static void assert_same_as_whole(struct stand *stand)
     evaluation_free(&whole);
 }
 
-static void test_a_character_meets_its_pins(void **state)
+TEST(test_a_character_meets_its_pins)
 {
-    (void)state;
     struct stand stand = {0};
     open_zoo(&stand);
     const int vertex = free_vertex(&stand);
@@ -322,9 +319,8 @@ static void test_a_character_meets_its_pins(void **state)
     stand_close(&stand);
 }
 
-static void test_a_tail_meets_its_pins(void **state)
+TEST(test_a_tail_meets_its_pins)
 {
-    (void)state;
     struct stand stand = {0};
     stand_open(&stand, "assets/scenes/tail.json");
     solve(&stand);
@@ -347,9 +343,8 @@ static double part_left(struct stand *stand, int rig, int point, double frame, d
     return left_of(stand, rig, 0) / way;
 }
 
-static void test_a_chain_on_a_clip_is_pinned(void **state)
+TEST(test_a_chain_on_a_clip_is_pinned)
 {
-    (void)state;
     struct stand stand = {0};
     stand_open(&stand, "assets/scenes/dog.json");
     solve(&stand);
@@ -362,9 +357,8 @@ static void test_a_chain_on_a_clip_is_pinned(void **state)
     stand_close(&stand);
 }
 
-static void test_a_tail_on_a_moving_base_is_pinned(void **state)
+TEST(test_a_tail_on_a_moving_base_is_pinned)
 {
-    (void)state;
     struct stand stand = {0};
     stand_open(&stand, "assets/scenes/follow.json");
     solve(&stand);
@@ -379,9 +373,8 @@ static void test_a_tail_on_a_moving_base_is_pinned(void **state)
 }
 
 /// The creature and a tail share a spline; another tail, pinned itself, follows a third that is pinned.
-static void test_rigs_that_share_splines(void **state)
+TEST(test_rigs_that_share_splines)
 {
-    (void)state;
     struct stand stand = {0};
     open_zoo(&stand);
     const double own = find(&stand, OWN, 11, 20, (pin_pull[64]){{{0}}}).at[1];
@@ -423,9 +416,8 @@ static bool edit_once(struct stand *stand, int i)
 }
 
 /// Whatever was edited, undone and looked at in between, the curves are those of the document.
-static void test_edits_give_the_same_bits(void **state)
+TEST(test_edits_give_the_same_bits)
 {
-    (void)state;
     struct stand stand = {0};
     open_zoo(&stand);
     struct document *document = document_of(&stand);
@@ -450,9 +442,8 @@ static void test_edits_give_the_same_bits(void **state)
     stand_close(&stand);
 }
 
-static void test_a_point_that_the_model_lacks(void **state)
+TEST(test_a_point_that_the_model_lacks)
 {
-    (void)state;
     struct stand stand = {0};
     struct error error = {0};
     char path[512];
@@ -466,16 +457,4 @@ static void test_a_point_that_the_model_lacks(void **state)
     assert_non_null(strstr(error.text, " in the pin at frame 4, got 9999999"));
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(a_characters_point_moves_by_its_pull_however_far),
-                                       cmocka_unit_test(test_pulls_are_derivatives),
-                                       cmocka_unit_test(test_a_character_meets_its_pins),
-                                       cmocka_unit_test(test_a_tail_meets_its_pins),
-                                       cmocka_unit_test(test_a_chain_on_a_clip_is_pinned),
-                                       cmocka_unit_test(test_a_tail_on_a_moving_base_is_pinned),
-                                       cmocka_unit_test(test_rigs_that_share_splines),
-                                       cmocka_unit_test(test_edits_give_the_same_bits),
-                                       cmocka_unit_test(test_a_point_that_the_model_lacks)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return tests_run(NULL, NULL); }

@@ -23,9 +23,8 @@ static void open_at(struct session *session, double frame)
     playback_seek(&session->editor->core, session->document, frame);
 }
 
-static void test_real_time(void **state)
+TEST(test_real_time)
 {
-    (void)state;
     struct session s;
     open_at(&s, 10);
     session_key(&s, KEY_SPACE, 0); // its frame is 1/60 s
@@ -35,9 +34,8 @@ static void test_real_time(void **state)
     session_close(&s);
 }
 
-static void test_speed(void **state)
+TEST(test_speed)
 {
-    (void)state;
     struct session s;
     open_at(&s, 10);
     static const double slower[] = {0.5, 0.25, 0.1, 0.1}, faster[] = {0.25, 0.5, 1, 2, 4, 4};
@@ -61,9 +59,8 @@ static void test_speed(void **state)
 }
 
 /// Whatever the time between pictures, the clock is kept; whole frames without a picture are counted.
-static void test_dropped_frames(void **state)
+TEST(test_dropped_frames)
 {
-    (void)state;
     struct session s;
     open_at(&s, 0);
     session_key(&s, KEY_SPACE, 0);
@@ -81,9 +78,8 @@ static void test_dropped_frames(void **state)
 }
 
 /// What a display of 60 pictures a second cannot show at four times the speed was not dropped.
-static void test_fast_is_not_dropped(void **state)
+TEST(test_fast_is_not_dropped)
 {
-    (void)state;
     struct session s;
     open_at(&s, 0);
     s.editor->core.playback.speed = 4;
@@ -93,9 +89,8 @@ static void test_fast_is_not_dropped(void **state)
     session_close(&s);
 }
 
-static void test_part(void **state)
+TEST(test_part)
 {
-    (void)state;
     struct session s;
     open_at(&s, 20);
     session_type(&s, "[");
@@ -137,9 +132,8 @@ static void assert_range(const struct session *session, double first, double las
     assert_near(range[1], last, 0);
 }
 
-static void test_part_on_the_ruler(void **state)
+TEST(test_part_on_the_ruler)
 {
-    (void)state;
     struct session s;
     open_at(&s, 5);
     s.mods = MOD_SHIFT;
@@ -168,9 +162,8 @@ static void test_part_on_the_ruler(void **state)
 }
 
 /// A part without an end, or with all of the scene in it, is all of it.
-static void test_no_part(void **state)
+TEST(test_no_part)
 {
-    (void)state;
     struct session s;
     open_at(&s, 40);
     session_type(&s, "]");
@@ -186,9 +179,8 @@ static void test_no_part(void **state)
 }
 
 /// Scrubbing shows frames exactly, and what lies between them with Ctrl, from the press on.
-static void test_scrubbing(void **state)
+TEST(test_scrubbing)
 {
-    (void)state;
     struct session s;
     open_at(&s, 0);
     for (double frame = 7; frame < 90; frame += 13) {
@@ -217,9 +209,8 @@ static void click_on(struct session *session, enum control control, enum event_b
     session_release(session, button);
 }
 
-static void test_controls(void **state)
+TEST(test_controls)
 {
-    (void)state;
     struct session s;
     open_at(&s, 10);
     click_on(&s, TRANSPORT_PLAY, BUTTON_LEFT);
@@ -243,14 +234,4 @@ static void test_controls(void **state)
     session_close(&s);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_real_time),      cmocka_unit_test(test_speed),
-        cmocka_unit_test(test_dropped_frames), cmocka_unit_test(test_fast_is_not_dropped),
-        cmocka_unit_test(test_part),           cmocka_unit_test(test_part_on_the_ruler),
-        cmocka_unit_test(test_no_part),        cmocka_unit_test(test_scrubbing),
-        cmocka_unit_test(test_controls),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return tests_run(NULL, NULL); }

@@ -20,9 +20,8 @@ static int outline(const struct model_surface *surface, const struct gltf *gltf,
     return count;
 }
 
-static void nodes_stand_for_themselves(void **state)
+TEST(nodes_stand_for_themselves)
 {
-    (void)state;
     const float normals[4][3] = {{0, 0, 1}, {0, 0, 1}, {0, 0, 1}, {0, 0, 1}}, eye[3] = {0, 0, 10};
     const float root[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 2, 0, 0, 1};
     const uint8_t indices[] = {0, 1, 2, 0, 2, 3};
@@ -57,8 +56,4 @@ static void nodes_stand_for_themselves(void **state)
     gltf_free(&gltf);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(nodes_stand_for_themselves)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return tests_run(NULL, NULL); }

@@ -105,9 +105,8 @@ static void check_scene(const char *name)
     document_destroy(document);
 }
 
-static void chain_and_band_meet_every_vector(void **state)
+TEST(chain_and_band_meet_every_vector)
 {
-    (void)state;
     DIR *directory = opendir(folder);
     assert_non_null(directory);
     int scenes = 0;
@@ -123,8 +122,4 @@ static void chain_and_band_meet_every_vector(void **state)
     assert_true(scenes >= 35);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(chain_and_band_meet_every_vector)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return tests_run(NULL, NULL); }
