@@ -190,4 +190,16 @@ static inline void session_open(struct session *session, const char *scene)
     session_frame(session);
 }
 
+/// A test in a session that `opens` opens and that is closed at its end: SESSION_TEST(name, session_open(s, scene)) { … }.
+#define SESSION_TEST(name, opens)                                                                                    \
+    static void name##_in(struct session *s);                                                                        \
+    TEST(name)                                                                                                       \
+    {                                                                                                                \
+        struct session session, *s = &session;                                                                       \
+        opens;                                                                                                       \
+        name##_in(s);                                                                                                \
+        session_close(s);                                                                                            \
+    }                                                                                                                \
+    static void name##_in(struct session *s)
+
 #endif

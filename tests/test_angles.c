@@ -85,46 +85,40 @@ static bool edit_lag(struct world *world, const struct angles *angles)
     return edit_angles(world_edit(world), second, ANGLE_LAG, angles, &world->error);
 }
 
-TEST(forms_are_edited_and_undone)
+WORLD_TEST(forms_are_edited_and_undone, world_open(world))
 {
-    struct world world;
-    world_open(&world);
     const struct angles one = {.value = {3}}, each = {.form = ANGLES_EACH, .count = 3, .value = {1, 2, 9}};
     struct angles longer = ramp;
     longer.ramp[longer.count++] = (struct ramp_point){1, 7};
     longer.ramp[2].at = 0.75;
     const struct angles *const turns[] = {&ramp, &longer, &each, &ramp, &one, &each};
-    for (size_t i = 0; i < sizeof turns / sizeof *turns; i++) assert_reversible(&world, edit_lag(&world, turns[i]));
+    for (size_t i = 0; i < sizeof turns / sizeof *turns; i++) assert_reversible(world, edit_lag(world, turns[i]));
     struct angles wrong = ramp;
     wrong.ramp[1].at = 0.25;
-    assert_refused(&world, edit_lag(&world, &wrong), "the places of a ramp must ascend");
+    assert_refused(world, edit_lag(world, &wrong), "the places of a ramp must ascend");
     wrong.ramp[1].at = 2;
-    assert_refused(&world, edit_lag(&world, &wrong), "the places of a ramp are from 0 to 1");
+    assert_refused(world, edit_lag(world, &wrong), "the places of a ramp are from 0 to 1");
     wrong.count = 1;
-    assert_refused(&world, edit_lag(&world, &wrong), "a ramp has from 2 to 32 points");
+    assert_refused(world, edit_lag(world, &wrong), "a ramp has from 2 to 32 points");
     wrong = each;
     wrong.count = 2;
-    assert_refused(&world, edit_lag(&world, &wrong), "t: there must be one angle for each of the 3 joints");
-    world_undo_all(&world);
-    world_close(&world);
+    assert_refused(world, edit_lag(world, &wrong), "t: there must be one angle for each of the 3 joints");
+    world_undo_all(world);
 }
 
 /// With twice the joints each bends half as much; where along the tail is where it was.
-TEST(a_ramp_stays_as_joints_are_added)
+WORLD_TEST(a_ramp_stays_as_joints_are_added, world_open(world))
 {
-    struct world world;
-    world_open(&world);
-    world_must(&world, edit_lag(&world, &ramp));
-    world_must(&world, edit_angles(world_edit(&world), second, ANGLE_GAIN, &ramp, &world.error));
-    assert_reversible(&world, edit_joints(world_edit(&world), 0, 6, &world.error));
-    const struct channel *channel = &document_tail(world.document, 0)->channels[1];
+    world_must(world, edit_lag(world, &ramp));
+    world_must(world, edit_angles(world_edit(world), second, ANGLE_GAIN, &ramp, &world->error));
+    assert_reversible(world, edit_joints(world_edit(world), 0, 6, &world->error));
+    const struct channel *channel = &document_tail(world->document, 0)->channels[1];
     assert_int_equal(channel->gain.form, ANGLES_RAMP);
     for (int i = 0; i < ramp.count; i++) {
         assert_near(channel->gain.ramp[i].at, ramp.ramp[i].at, 0);
         assert_near(channel->gain.ramp[i].angle, ramp.ramp[i].angle / 2, 1e-6);
         assert_near(channel->lag.ramp[i].angle, ramp.ramp[i].angle, 0);
     }
-    world_close(&world);
 }
 
 int main(void) { return tests_run(NULL, NULL); }

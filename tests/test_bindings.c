@@ -77,69 +77,57 @@ TEST(test_no_key_is_bound_twice)
 }
 
 /// AZERTY has - on the key of the 6, and needs Shift for 1, 5 and the point.
-TEST(test_a_factor_is_what_is_typed)
+SESSION_TEST(test_a_factor_is_what_is_typed, session_open(s, scene))
 {
-    struct session s;
-    session_open(&s, scene);
-    session_key(&s, 'A', MOD_CTRL);
-    session_type(&s, "sy");
-    session_strike(&s, '6', 0, '-');
-    session_strike(&s, '1', MOD_SHIFT, '1');
-    session_strike(&s, ';', MOD_SHIFT, '.');
-    session_strike(&s, '7', MOD_SHIFT, '7');
-    session_key(&s, KEY_BACKSPACE, 0);
-    session_strike(&s, '5', MOD_SHIFT, '5');
-    session_key(&s, KEY_ENTER, 0);
-    const struct knot *knots = s.document->splines[0]->knots;
+    session_key(s, 'A', MOD_CTRL);
+    session_type(s, "sy");
+    session_strike(s, '6', 0, '-');
+    session_strike(s, '1', MOD_SHIFT, '1');
+    session_strike(s, ';', MOD_SHIFT, '.');
+    session_strike(s, '7', MOD_SHIFT, '7');
+    session_key(s, KEY_BACKSPACE, 0);
+    session_strike(s, '5', MOD_SHIFT, '5');
+    session_key(s, KEY_ENTER, 0);
+    const struct knot *knots = s->document->splines[0]->knots;
     assert_near(knots[0].value, 1.25, 1e-9);
     assert_near(knots[1].value, -0.25, 1e-9);
-    session_close(&s);
 }
 
-TEST(test_punctuation_is_what_is_typed)
+SESSION_TEST(test_punctuation_is_what_is_typed, session_open(s, scene))
 {
-    struct session s;
-    session_open(&s, scene);
-    const struct playback *playback = &s.editor->core.playback;
-    session_strike(&s, '6', 0, '-'); // AZERTY
+    const struct playback *playback = &s->editor->core.playback;
+    session_strike(s, '6', 0, '-'); // AZERTY
     assert_near(playback->speed, 0.5, 0);
-    session_strike(&s, '0', MOD_SHIFT, '='); // QWERTZ
+    session_strike(s, '0', MOD_SHIFT, '='); // QWERTZ
     assert_near(playback->speed, 1, 0);
-    session_strike(&s, '8', 0, '[');         // with AltGr
-    session_strike(&s, ';', MOD_SHIFT, '.'); // AZERTY
-    assert_int_equal(selection_count(&s.editor->core.selection, s.document->splines[0]), 1);
-    session_strike(&s, '<', MOD_SHIFT, '>');
-    assert_int_equal(selection_count(&s.editor->core.selection, s.document->splines[0]), 2);
-    session_close(&s);
+    session_strike(s, '8', 0, '[');         // with AltGr
+    session_strike(s, ';', MOD_SHIFT, '.'); // AZERTY
+    assert_int_equal(selection_count(&s->editor->core.selection, s->document->splines[0]), 1);
+    session_strike(s, '<', MOD_SHIFT, '>');
+    assert_int_equal(selection_count(&s->editor->core.selection, s->document->splines[0]), 2);
 }
 
-TEST(test_a_part_is_played_without_brackets)
+SESSION_TEST(test_a_part_is_played_without_brackets, session_open(s, scene))
 {
-    struct session s;
-    session_open(&s, scene);
-    const struct playback *playback = &s.editor->core.playback;
-    playback_seek(&s.editor->core, s.document, 20);
-    session_key(&s, KEY_HOME, MOD_CTRL);
-    playback_seek(&s.editor->core, s.document, 50);
-    session_key(&s, KEY_END, MOD_CTRL);
+    const struct playback *playback = &s->editor->core.playback;
+    playback_seek(&s->editor->core, s->document, 20);
+    session_key(s, KEY_HOME, MOD_CTRL);
+    playback_seek(&s->editor->core, s->document, 50);
+    session_key(s, KEY_END, MOD_CTRL);
     assert_true(playback->has_range);
     assert_near(playback->range[0], 20, 0);
     assert_near(playback->range[1], 50, 0);
-    session_close(&s);
 }
 
-TEST(test_a_key_kept_down_is_one_press_where_it_should)
+SESSION_TEST(test_a_key_kept_down_is_one_press_where_it_should, session_open(s, scene))
 {
-    struct session s;
-    session_open(&s, scene);
-    session_hold(&s, '6', ACTION_PRESS);
+    session_hold(s, '6', ACTION_PRESS);
     for (int i = 0; i < 3; i++) {
-        session_send(&s, (struct event){.kind = EVENT_TEXT, .codepoint = '-'});
-        session_frame(&s);
-        session_hold(&s, '6', ACTION_REPEAT);
+        session_send(s, (struct event){.kind = EVENT_TEXT, .codepoint = '-'});
+        session_frame(s);
+        session_hold(s, '6', ACTION_REPEAT);
     }
-    assert_near(s.editor->core.playback.speed, 0.5, 0);
-    session_close(&s);
+    assert_near(s->editor->core.playback.speed, 0.5, 0);
 }
 
 TEST(test_a_key_kept_down_goes_on_through_the_splines)
@@ -159,17 +147,14 @@ TEST(test_a_key_kept_down_goes_on_through_the_splines)
     }
 }
 
-TEST(test_a_key_that_closes_something_types_nothing)
+SESSION_TEST(test_a_key_that_closes_something_types_nothing, session_open(s, scene))
 {
-    struct session s;
-    session_open(&s, scene);
-    session_key(&s, KEY_F1, 0);
-    session_type(&s, ".");
-    assert_false(s.editor->dialogs->help.open);
-    assert_int_equal(selection_count(&s.editor->core.selection, s.document->splines[0]), 0);
-    session_type(&s, ".");
-    assert_int_equal(selection_count(&s.editor->core.selection, s.document->splines[0]), 1);
-    session_close(&s);
+    session_key(s, KEY_F1, 0);
+    session_type(s, ".");
+    assert_false(s->editor->dialogs->help.open);
+    assert_int_equal(selection_count(&s->editor->core.selection, s->document->splines[0]), 0);
+    session_type(s, ".");
+    assert_int_equal(selection_count(&s->editor->core.selection, s->document->splines[0]), 1);
 }
 
 int main(void) { return tests_run(NULL, NULL); }

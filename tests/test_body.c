@@ -24,76 +24,67 @@ static void hold_and_drag(struct session *s, float dx, float dy, int steps)
     session_drag(s, dx, dy, steps);
 }
 
-TEST(test_tail_follows_through_and_settles)
+SESSION_TEST(test_tail_follows_through_and_settles, session_open(s, scene))
 {
-    struct session s;
-    session_open(&s, scene);
-    char *before = session_saved(&s);
-    hold_and_drag(&s, -150, 0, 12);
-    float base = joint(&s, 0)[X], trailing = joint(&s, JOINTS)[X] - base;
+    char *before = session_saved(s);
+    hold_and_drag(s, -150, 0, 12);
+    float base = joint(s, 0)[X], trailing = joint(s, JOINTS)[X] - base;
     assert_true(base > 0.1f);       // the pointer went to the left, where +x is
     assert_true(trailing < -0.05f); // the tip stayed behind
-    assert_saved(&s, before);       // the document waits
-    session_release(&s, BUTTON_LEFT);
-    assert_near(joint(&s, 0)[X], base, 1e-3);
-    assert_near(document_tail(s.document, 0)->position[0].value, base, 1e-3);
+    assert_saved(s, before);        // the document waits
+    session_release(s, BUTTON_LEFT);
+    assert_near(joint(s, 0)[X], base, 1e-3);
+    assert_near(document_tail(s->document, 0)->position[0].value, base, 1e-3);
     float overshoot = -1;
     for (int i = 0; i < 60; i++) {
-        session_frame(&s);
-        overshoot = fmaxf(overshoot, joint(&s, JOINTS)[X] - joint(&s, 0)[X]);
+        session_frame(s);
+        overshoot = fmaxf(overshoot, joint(s, JOINTS)[X] - joint(s, 0)[X]);
     }
     assert_true(overshoot > 0.05f); // and swung past
-    assert_true(editor_wants_frames(s.editor));
-    for (int i = 0; i < 60 * 20; i++) session_frame(&s);
-    assert_false(editor_wants_frames(s.editor));
-    assert_near(joint(&s, JOINTS)[X], joint(&s, 0)[X], 0); // hangs still: exactly nothing is left
-    assert_string_equal(history_undo_label(s.history), "Move body");
-    session_key(&s, 'Z', MOD_CTRL);
-    assert_null(history_undo_label(s.history));
-    assert_saved(&s, before);
+    assert_true(editor_wants_frames(s->editor));
+    for (int i = 0; i < 60 * 20; i++) session_frame(s);
+    assert_false(editor_wants_frames(s->editor));
+    assert_near(joint(s, JOINTS)[X], joint(s, 0)[X], 0); // hangs still: exactly nothing is left
+    assert_string_equal(history_undo_label(s->history), "Move body");
+    session_key(s, 'Z', MOD_CTRL);
+    assert_null(history_undo_label(s->history));
+    assert_saved(s, before);
     free(before);
-    session_close(&s);
 }
 
 /// Lagged joints come later: each extremum of the bend is at the base first and at the tip last.
-TEST(test_swing_runs_along_the_tail)
+SESSION_TEST(test_swing_runs_along_the_tail, session_open(s, scene))
 {
-    struct session s;
-    session_open(&s, scene);
-    hold_and_drag(&s, -150, 0, 3); // so fast that the base has not swung out yet
-    session_release(&s, BUTTON_LEFT);
+    hold_and_drag(s, -150, 0, 3); // so fast that the base has not swung out yet
+    session_release(s, BUTTON_LEFT);
     float least_near = 0, least_far = 0;
     int near_at = 0, far_at = 0;
     for (int i = 0; i < 40; i++) {
-        float near = atan2f(joint(&s, 4)[8], joint(&s, 4)[10]) - atan2f(joint(&s, 3)[8], joint(&s, 3)[10]);
-        float far = atan2f(joint(&s, 20)[8], joint(&s, 20)[10]) - atan2f(joint(&s, 19)[8], joint(&s, 19)[10]);
+        float near = atan2f(joint(s, 4)[8], joint(s, 4)[10]) - atan2f(joint(s, 3)[8], joint(s, 3)[10]);
+        float far = atan2f(joint(s, 20)[8], joint(s, 20)[10]) - atan2f(joint(s, 19)[8], joint(s, 19)[10]);
         if (near < least_near) near_at = i;
         if (far < least_far) far_at = i;
         least_near = fminf(least_near, near);
         least_far = fminf(least_far, far);
-        session_frame(&s);
+        session_frame(s);
     }
     // 16 joints × 6.5° of a swing of 1.5 Hz: 0.19 s, 11.6 frames
     assert_in_range(far_at - near_at, 8, 15);
-    session_close(&s);
 }
 
-TEST(test_escape_takes_it_back)
+SESSION_TEST(test_escape_takes_it_back, session_open(s, scene))
 {
-    struct session s;
-    session_open(&s, scene);
-    char *before = session_saved(&s);
-    hold_and_drag(&s, 80, 30, 6);
-    session_key(&s, KEY_ESCAPE, 0);
-    session_button(&s, BUTTON_LEFT, ACTION_RELEASE, 1);
-    session_frame(&s);
-    assert_near(joint(&s, 0)[X], 0, 0);
-    assert_near(joint(&s, JOINTS)[X], 0, 0);
-    assert_false(editor_wants_frames(s.editor));
-    assert_saved(&s, before);
-    assert_null(history_undo_label(s.history));
+    char *before = session_saved(s);
+    hold_and_drag(s, 80, 30, 6);
+    session_key(s, KEY_ESCAPE, 0);
+    session_button(s, BUTTON_LEFT, ACTION_RELEASE, 1);
+    session_frame(s);
+    assert_near(joint(s, 0)[X], 0, 0);
+    assert_near(joint(s, JOINTS)[X], 0, 0);
+    assert_false(editor_wants_frames(s->editor));
+    assert_saved(s, before);
+    assert_null(history_undo_label(s->history));
     free(before);
-    session_close(&s);
 }
 
 /// A held body may lose its tail, to an edit made meanwhile; letting go of it then changes nothing.
@@ -138,27 +129,24 @@ TEST(test_a_press_as_the_tail_goes)
     press_as_it_goes("body(tail)");
 }
 
-TEST(test_axes_lock_and_shift_is_fine)
+SESSION_TEST(test_axes_lock_and_shift_is_fine, session_open(s, scene))
 {
-    struct session s;
-    session_open(&s, scene);
-    hold_and_drag(&s, -60, 40, 4);
-    assert_true(fabsf(joint(&s, 0)[Z]) > 0.05f);
-    session_key(&s, 'X', 0);
-    assert_near(joint(&s, 0)[Z], 0, 0);
-    assert_true(fabsf(joint(&s, 0)[X]) > 0.05f);
-    session_key(&s, 'Y', 0);
-    assert_near(joint(&s, 0)[X], 0, 0);
-    session_key(&s, 'Y', 0);
-    float x = joint(&s, 0)[X];
-    s.mods = MOD_SHIFT;
-    session_drag(&s, -60, 0, 4);
-    float fine = joint(&s, 0)[X] - x;
-    s.mods = 0;
-    session_drag(&s, -60, 0, 4);
-    assert_near(joint(&s, 0)[X] - x - fine, 10 * fine, 1e-3);
-    session_release(&s, BUTTON_LEFT);
-    session_close(&s);
+    hold_and_drag(s, -60, 40, 4);
+    assert_true(fabsf(joint(s, 0)[Z]) > 0.05f);
+    session_key(s, 'X', 0);
+    assert_near(joint(s, 0)[Z], 0, 0);
+    assert_true(fabsf(joint(s, 0)[X]) > 0.05f);
+    session_key(s, 'Y', 0);
+    assert_near(joint(s, 0)[X], 0, 0);
+    session_key(s, 'Y', 0);
+    float x = joint(s, 0)[X];
+    s->mods = MOD_SHIFT;
+    session_drag(s, -60, 0, 4);
+    float fine = joint(s, 0)[X] - x;
+    s->mods = 0;
+    session_drag(s, -60, 0, 4);
+    assert_near(joint(s, 0)[X] - x - fine, 10 * fine, 1e-3);
+    session_release(s, BUTTON_LEFT);
 }
 
 /// Where a spline is followed, the drag leaves a knot at the playhead; the other coordinates stay numbers.
@@ -202,21 +190,18 @@ TEST(test_a_tracked_body_gets_a_knot)
 }
 
 /// Without auto-key all of the shot moves: every knot of what the place follows.
-TEST(test_without_auto_key_the_shot_moves)
+SESSION_TEST(test_without_auto_key_the_shot_moves, session_open(s, scene))
 {
-    struct session s;
-    session_open(&s, scene);
-    document_tail(s.document, 0)->position[0] = param_track(1);
-    session_key(&s, KEY_RIGHT, 0);
-    hold_and_drag(&s, -60, 0, 4);
-    session_key(&s, 'X', 0);
-    float x = joint(&s, 0)[X];
-    session_release(&s, BUTTON_LEFT);
-    const struct spline *walk = s.document->splines[1];
+    document_tail(s->document, 0)->position[0] = param_track(1);
+    session_key(s, KEY_RIGHT, 0);
+    hold_and_drag(s, -60, 0, 4);
+    session_key(s, 'X', 0);
+    float x = joint(s, 0)[X];
+    session_release(s, BUTTON_LEFT);
+    const struct spline *walk = s->document->splines[1];
     assert_int_equal(walk->knot_count, 2);
     for (int i = 0; i < 2; i++) assert_near(walk->knots[i].value, x, 1e-3);
-    assert_non_null(strstr(s.editor->core.message.text, "whole shot: x +"));
-    session_close(&s);
+    assert_non_null(strstr(s->editor->core.message.text, "whole shot: x +"));
 }
 
 /// A limit of what the place follows: all knots stop where the first does, so that the motion stays what it was.
@@ -256,70 +241,61 @@ TEST(test_a_limit_holds_the_body)
 }
 
 /// With it a place that was a number gets a spline, which begins where the body was, and the tail follows that through.
-TEST(test_auto_key_makes_a_place_follow)
+SESSION_TEST(test_auto_key_makes_a_place_follow, session_open(s, scene))
 {
-    struct session s;
-    session_open(&s, scene);
-    char *before = session_saved(&s);
-    session_key(&s, 'A', MOD_SHIFT);
-    for (int i = 0; i < 12; i++) session_key(&s, KEY_RIGHT, 0);
-    hold_and_drag(&s, -60, 0, 4);
-    session_key(&s, 'X', 0);
-    float x = joint(&s, 0)[X];
-    session_release(&s, BUTTON_LEFT);
-    int track = document_tail(s.document, 0)->position[0].track;
+    char *before = session_saved(s);
+    session_key(s, 'A', MOD_SHIFT);
+    for (int i = 0; i < 12; i++) session_key(s, KEY_RIGHT, 0);
+    hold_and_drag(s, -60, 0, 4);
+    session_key(s, 'X', 0);
+    float x = joint(s, 0)[X];
+    session_release(s, BUTTON_LEFT);
+    int track = document_tail(s->document, 0)->position[0].track;
     assert_true(track >= 0);
-    const struct spline *made = s.document->splines[track];
+    const struct spline *made = s->document->splines[track];
     assert_string_equal(made->name, "tail x");
     assert_int_equal(made->knot_count, 2);
     assert_near(made->knots[0].value, 0, 0);
     assert_near(made->knots[1].frame, 12, 0);
     assert_near(made->knots[1].value, x, 1e-3);
-    const struct tail *tail = document_tail(s.document, 0);
+    const struct tail *tail = document_tail(s->document, 0);
     assert_int_equal(tail->channel_count, 2);
-    assert_int_equal(s.document->splines[tail->channels[1].spline]->parameter[PARAMETER_EQUILIBRIUM].track, track);
-    assert_int_equal(document_tail(s.document, 0)->position[2].track, -1);
-    assert_string_equal(s.editor->core.message.text, "Keyed tail x at frame 12.");
-    session_key(&s, 'Z', MOD_CTRL);
-    assert_saved(&s, before);
+    assert_int_equal(s->document->splines[tail->channels[1].spline]->parameter[PARAMETER_EQUILIBRIUM].track, track);
+    assert_int_equal(document_tail(s->document, 0)->position[2].track, -1);
+    assert_string_equal(s->editor->core.message.text, "Keyed tail x at frame 12.");
+    session_key(s, 'Z', MOD_CTRL);
+    assert_saved(s, before);
     free(before);
-    session_close(&s);
 }
 
 /// Ctrl lifts it; it never sinks into the ground, and its height is keyed above that.
-TEST(test_a_body_is_lifted)
+SESSION_TEST(test_a_body_is_lifted, session_open(s, scene))
 {
-    struct session s;
-    session_open(&s, scene);
-    session_key(&s, 'A', MOD_SHIFT);
-    session_point(&s, "body(tail)");
-    session_frame(&s);
-    s.mods = MOD_CTRL;
-    session_press(&s, BUTTON_LEFT, 1);
-    session_drag(&s, 0, 80, 4);
-    assert_near(joint(&s, 0)[Y], 0.26, 1e-6);
-    session_drag(&s, 0, -200, 8);
-    float y = joint(&s, 0)[Y];
+    session_key(s, 'A', MOD_SHIFT);
+    session_point(s, "body(tail)");
+    session_frame(s);
+    s->mods = MOD_CTRL;
+    session_press(s, BUTTON_LEFT, 1);
+    session_drag(s, 0, 80, 4);
+    assert_near(joint(s, 0)[Y], 0.26, 1e-6);
+    session_drag(s, 0, -200, 8);
+    float y = joint(s, 0)[Y];
     assert_true(y > 0.35f);
-    s.mods = 0;
-    session_release(&s, BUTTON_LEFT);
-    assert_near(joint(&s, 0)[Y], y, 1e-3);
-    assert_near(editor_stage(s.editor)->tails[0].pose.ground, 0, 0);
-    session_close(&s);
+    s->mods = 0;
+    session_release(s, BUTTON_LEFT);
+    assert_near(joint(s, 0)[Y], y, 1e-3);
+    assert_near(editor_stage(s->editor)->tails[0].pose.ground, 0, 0);
 }
 
 /// A click, or a press beside the body, moves nothing.
-TEST(test_clicks_leave_the_body_alone)
+SESSION_TEST(test_clicks_leave_the_body_alone, session_open(s, scene))
 {
-    struct session s;
-    session_open(&s, scene);
-    session_click(&s, "body(tail)");
-    assert_null(history_undo_label(s.history));
-    session_pull(&s, "stage(0.03,0.1)", 40, 0, 3);
-    session_release(&s, BUTTON_LEFT);
-    assert_near(joint(&s, 0)[X], 0, 0);
-    assert_null(history_undo_label(s.history));
-    session_close(&s);
+    session_click(s, "body(tail)");
+    assert_null(history_undo_label(s->history));
+    session_pull(s, "stage(0.03,0.1)", 40, 0, 3);
+    session_release(s, BUTTON_LEFT);
+    assert_near(joint(s, 0)[X], 0, 0);
+    assert_null(history_undo_label(s->history));
 }
 
 static void strike(struct session *s, int key, unsigned mods)

@@ -263,20 +263,17 @@ TEST(limits_of_edits)
     }
 }
 
-TEST(rigs_of_an_edit)
+WORLD_TEST(rigs_of_an_edit, world_open(world))
 {
-    struct world world;
-    world_open(&world);
-    while (world.document->rig_count < 1024) {
-        world_must(&world, edit_tail_add(world_edit(&world), world.document->rig_count - 1, -1, AXIS_SIDE, PART_TOTAL,
-                                         &world.error));
+    while (world->document->rig_count < 1024) {
+        world_must(world, edit_tail_add(world_edit(world), world->document->rig_count - 1, -1, AXIS_SIDE, PART_TOTAL,
+                                        &world->error));
     }
-    assert_false(world_step(&world, edit_tail_add(world_edit(&world), 0, -1, AXIS_SIDE, PART_TOTAL, &world.error)));
-    assert_string_equal(world.error.text, "there are 1024 rigs, and no more fit");
-    char *text = world_print(&world);
+    assert_false(world_step(world, edit_tail_add(world_edit(world), 0, -1, AXIS_SIDE, PART_TOTAL, &world->error)));
+    assert_string_equal(world->error.text, "there are 1024 rigs, and no more fit");
+    char *text = world_print(world);
     takes(text);
     free(text);
-    world_close(&world);
 }
 
 /// So many samples each of so many splines, the first with a limit or none.

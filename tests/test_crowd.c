@@ -48,49 +48,43 @@ static void assert_walked(struct session *s)
     assert_int_equal(selected_count(core, s->document), expected);
 }
 
-TEST(edits_and_selections_are_found)
+SESSION_TEST(edits_and_selections_are_found, open_crowd(s, CROWD))
 {
-    struct session s;
-    open_crowd(&s, CROWD);
-    struct core *core = &s.editor->core;
-    assert_walked(&s);
-    selection_set(&core->selection, spline(&s, 1)->knots[CROWD - 1].id, true);
-    assert_walked(&s);
-    session_key(&s, KEY_UP, 0); // its value
-    assert_walked(&s);
-    selection_set(&core->selection, spline(&s, 1)->knots[100].id, true);
-    selection_set(&core->selection, spline(&s, 0)->knots[1].id, true);
-    assert_walked(&s);
-    core_activate(core, &s.world, 0);
-    assert_walked(&s);
-    core_activate(core, &s.world, 1);
-    selection_set(&core->selection, spline(&s, 1)->knots[100].id, true);
-    core_delete_knots(core, &s.world, 0); // indices move
-    assert_true(spline(&s, 1)->knot_count < CROWD);
-    assert_walked(&s);
-    session_key(&s, 'Z', MOD_CTRL);
-    assert_walked(&s);
-    session_key(&s, 'A', MOD_CTRL);
-    assert_walked(&s);
-    session_close(&s);
+    struct core *core = &s->editor->core;
+    assert_walked(s);
+    selection_set(&core->selection, spline(s, 1)->knots[CROWD - 1].id, true);
+    assert_walked(s);
+    session_key(s, KEY_UP, 0); // its value
+    assert_walked(s);
+    selection_set(&core->selection, spline(s, 1)->knots[100].id, true);
+    selection_set(&core->selection, spline(s, 0)->knots[1].id, true);
+    assert_walked(s);
+    core_activate(core, &s->world, 0);
+    assert_walked(s);
+    core_activate(core, &s->world, 1);
+    selection_set(&core->selection, spline(s, 1)->knots[100].id, true);
+    core_delete_knots(core, &s->world, 0); // indices move
+    assert_true(spline(s, 1)->knot_count < CROWD);
+    assert_walked(s);
+    session_key(s, 'Z', MOD_CTRL);
+    assert_walked(s);
+    session_key(s, 'A', MOD_CTRL);
+    assert_walked(s);
 }
 
 /// While a knot is dragged past others, and after.
-TEST(a_drag_is_found)
+SESSION_TEST(a_drag_is_found, open_crowd(s, 300))
 {
-    struct session s;
-    open_crowd(&s, 300);
-    session_pull(&s, "knot(many,150)", 5, 5, 2);
+    session_pull(s, "knot(many,150)", 5, 5, 2);
     for (int i = 0; i < 30; i++) {
-        session_drag(&s, i < 20 ? 7 : -21, i % 2 ? 30 : -28, 1);
-        assert_walked(&s);
+        session_drag(s, i < 20 ? 7 : -21, i % 2 ? 30 : -28, 1);
+        assert_walked(s);
     }
-    assert_true(selected_count(&s.editor->core, s.document) == 1);
-    session_release(&s, BUTTON_LEFT);
-    assert_walked(&s);
-    session_key(&s, 'Z', MOD_CTRL);
-    assert_walked(&s);
-    session_close(&s);
+    assert_true(selected_count(&s->editor->core, s->document) == 1);
+    session_release(s, BUTTON_LEFT);
+    assert_walked(s);
+    session_key(s, 'Z', MOD_CTRL);
+    assert_walked(s);
 }
 
 /// Of a crowd each pixel column shows one knot, and the highest and lowest value are reached by its stroke.

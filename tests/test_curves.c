@@ -36,237 +36,204 @@ static void box(struct session *s, const char *from, const char *to, unsigned mo
     s->mods = 0;
 }
 
-TEST(test_a_box_selects_adds_and_removes)
+SESSION_TEST(test_a_box_selects_adds_and_removes, session_open(s, FIVE))
 {
-    struct session s;
-    session_open(&s, FIVE);
-    drag_box(&s, "curve(sway,15,1.4)", "curve(sway,35,-1.2)", 0);
-    assert_selected(&s, "01100"); // already while the box grows
-    session_point(&s, "curve(sway,25,-1.2)");
-    session_frame(&s);
-    assert_selected(&s, "01000"); // and where it shrinks again
-    session_release(&s, BUTTON_LEFT);
-    box(&s, "curve(sway,45,1.4)", "curve(sway,65,-1.2)", MOD_SHIFT);
-    assert_selected(&s, "01001");
-    box(&s, "curve(sway,16,1.4)", "curve(sway,24,-1.2)", MOD_CTRL);
-    assert_selected(&s, "00001");
-    box(&s, "curve(sway,55,0.3)", "curve(sway,66,-0.4)", MOD_ALT);
-    assert_selected(&s, "00000");
-    assert_null(history_undo_label(s.history));
-    session_close(&s);
+    drag_box(s, "curve(sway,15,1.4)", "curve(sway,35,-1.2)", 0);
+    assert_selected(s, "01100"); // already while the box grows
+    session_point(s, "curve(sway,25,-1.2)");
+    session_frame(s);
+    assert_selected(s, "01000"); // and where it shrinks again
+    session_release(s, BUTTON_LEFT);
+    box(s, "curve(sway,45,1.4)", "curve(sway,65,-1.2)", MOD_SHIFT);
+    assert_selected(s, "01001");
+    box(s, "curve(sway,16,1.4)", "curve(sway,24,-1.2)", MOD_CTRL);
+    assert_selected(s, "00001");
+    box(s, "curve(sway,55,0.3)", "curve(sway,66,-0.4)", MOD_ALT);
+    assert_selected(s, "00000");
+    assert_null(history_undo_label(s->history));
 }
 
-TEST(test_escape_takes_a_box_back_and_a_click_clears)
+SESSION_TEST(test_escape_takes_a_box_back_and_a_click_clears, session_open(s, FIVE))
 {
-    struct session s;
-    session_open(&s, FIVE);
-    session_click(&s, "knot(sway,3)");
-    drag_box(&s, "curve(sway,7,1.4)", "curve(sway,35,-1.2)", 0);
-    assert_selected(&s, "11100");
-    session_key(&s, KEY_ESCAPE, 0);
-    assert_selected(&s, "00010");
-    session_release(&s, BUTTON_LEFT);
-    session_point(&s, "curve(sway,66,-1.2)");
-    session_press(&s, BUTTON_LEFT, 1);
-    session_release(&s, BUTTON_LEFT);
-    assert_selected(&s, "00000");
-    session_close(&s);
+    session_click(s, "knot(sway,3)");
+    drag_box(s, "curve(sway,7,1.4)", "curve(sway,35,-1.2)", 0);
+    assert_selected(s, "11100");
+    session_key(s, KEY_ESCAPE, 0);
+    assert_selected(s, "00010");
+    session_release(s, BUTTON_LEFT);
+    session_point(s, "curve(sway,66,-1.2)");
+    session_press(s, BUTTON_LEFT, 1);
+    session_release(s, BUTTON_LEFT);
+    assert_selected(s, "00000");
 }
 
-TEST(test_a_knot_of_another_curve_makes_it_active)
+SESSION_TEST(test_a_knot_of_another_curve_makes_it_active, session_open(s, FIVE))
 {
-    struct session s;
-    session_open(&s, FIVE);
-    assert_int_equal(s.editor->core.active, 0);
-    session_point(&s, "knot(up,1)");
-    session_press(&s, BUTTON_LEFT, 1);
-    assert_int_equal(s.editor->core.active, 1);
-    session_drag(&s, 0, -20, 4); // and the same press drags it
-    session_release(&s, BUTTON_LEFT);
-    assert_true(spline(&s, 1)->knots[1].value > 0.8);
-    session_close(&s);
+    assert_int_equal(s->editor->core.active, 0);
+    session_point(s, "knot(up,1)");
+    session_press(s, BUTTON_LEFT, 1);
+    assert_int_equal(s->editor->core.active, 1);
+    session_drag(s, 0, -20, 4); // and the same press drags it
+    session_release(s, BUTTON_LEFT);
+    assert_true(spline(s, 1)->knots[1].value > 0.8);
 }
 
-TEST(test_scaling_by_a_typed_factor)
+SESSION_TEST(test_scaling_by_a_typed_factor, session_open(s, FIVE))
 {
-    struct session s;
-    session_open(&s, FIVE);
-    box(&s, "curve(sway,7,1.4)", "curve(sway,35,-1.2)", 0);
-    char *original = session_saved(&s);
-    session_type(&s, "sx1.3");
-    session_key(&s, KEY_ENTER, 0);
+    box(s, "curve(sway,7,1.4)", "curve(sway,35,-1.2)", 0);
+    char *original = session_saved(s);
+    session_type(s, "sx1.3");
+    session_key(s, KEY_ENTER, 0);
     const double frames[] = {7, 20, 33, 40, 60}; // about the middle of 10 … 30
-    assert_frames(&s, frames);
-    assert_near(spline(&s, 0)->knots[1].value, 1, 0);
-    assert_near(spline(&s, 0)->knots[1].slope, 2 / 1.3, 1e-5); // the shape is stretched with the knots
-    assert_one_step(&s, original);
+    assert_frames(s, frames);
+    assert_near(spline(s, 0)->knots[1].value, 1, 0);
+    assert_near(spline(s, 0)->knots[1].slope, 2 / 1.3, 1e-5); // the shape is stretched with the knots
+    assert_one_step(s, original);
     free(original);
-    original = session_saved(&s);
-    session_type(&s, "sy-2");
-    session_key(&s, KEY_ENTER, 0);
-    assert_frames(&s, frames);
-    assert_near(spline(&s, 0)->knots[1].value, -2, 1e-9);
-    assert_near(spline(&s, 0)->knots[2].value, 2, 1e-9);
-    assert_near(spline(&s, 0)->knots[1].slope, -4 / 1.3, 1e-5);
-    assert_one_step(&s, original);
+    original = session_saved(s);
+    session_type(s, "sy-2");
+    session_key(s, KEY_ENTER, 0);
+    assert_frames(s, frames);
+    assert_near(spline(s, 0)->knots[1].value, -2, 1e-9);
+    assert_near(spline(s, 0)->knots[2].value, 2, 1e-9);
+    assert_near(spline(s, 0)->knots[1].slope, -4 / 1.3, 1e-5);
+    assert_one_step(s, original);
     free(original);
-    session_close(&s);
 }
 
-TEST(test_scaling_by_pointer_about_the_playhead)
+SESSION_TEST(test_scaling_by_pointer_about_the_playhead, session_open(s, FIVE))
 {
-    struct session s;
-    session_open(&s, FIVE);
-    session_click(&s, "ruler(20)");
-    session_key(&s, 'A', MOD_CTRL);
-    session_point(&s, "curve(sway,40,0)");
-    session_type(&s, "spx");
-    session_point(&s, "curve(sway,50,0.7)"); // one and a half times as far
-    session_frame(&s);
+    session_click(s, "ruler(20)");
+    session_key(s, 'A', MOD_CTRL);
+    session_point(s, "curve(sway,40,0)");
+    session_type(s, "spx");
+    session_point(s, "curve(sway,50,0.7)"); // one and a half times as far
+    session_frame(s);
     const double frames[] = {5, 20, 35, 50, 80};
-    assert_frames(&s, frames);
-    session_press(&s, BUTTON_LEFT, 1); // a click keeps it
-    session_release(&s, BUTTON_LEFT);
-    assert_false(history_is_open(s.history));
-    assert_frames(&s, frames);
-    session_close(&s);
+    assert_frames(s, frames);
+    session_press(s, BUTTON_LEFT, 1); // a click keeps it
+    session_release(s, BUTTON_LEFT);
+    assert_false(history_is_open(s->history));
+    assert_frames(s, frames);
 }
 
-TEST(test_scaling_can_mirror_and_be_taken_back)
+SESSION_TEST(test_scaling_can_mirror_and_be_taken_back, session_open(s, FIVE))
 {
-    struct session s;
-    session_open(&s, FIVE);
-    box(&s, "curve(sway,7,1.4)", "curve(sway,35,-1.2)", 0);
-    char *original = session_saved(&s);
-    session_type(&s, "sx-1");
-    session_frame(&s);
-    assert_near(spline(&s, 0)->knots[0].value, -1, 0); // in reverse order
-    assert_near(spline(&s, 0)->knots[1].slope, -2, 1e-5);
-    assert_near(spline(&s, 0)->knots[2].value, 0, 0);
-    assert_selected(&s, "11100");
-    session_key(&s, KEY_ESCAPE, 0);
-    assert_saved(&s, original);
-    assert_null(history_undo_label(s.history));
+    box(s, "curve(sway,7,1.4)", "curve(sway,35,-1.2)", 0);
+    char *original = session_saved(s);
+    session_type(s, "sx-1");
+    session_frame(s);
+    assert_near(spline(s, 0)->knots[0].value, -1, 0); // in reverse order
+    assert_near(spline(s, 0)->knots[1].slope, -2, 1e-5);
+    assert_near(spline(s, 0)->knots[2].value, 0, 0);
+    assert_selected(s, "11100");
+    session_key(s, KEY_ESCAPE, 0);
+    assert_saved(s, original);
+    assert_null(history_undo_label(s->history));
     free(original);
-    session_close(&s);
 }
 
 /// 4 would lie on 40, which is not selected; 0 would put all on one frame; 9 leads out of the range.
-TEST(test_scaling_never_swallows_a_knot)
+SESSION_TEST(test_scaling_never_swallows_a_knot, session_open(s, FIVE))
 {
-    struct session s;
-    session_open(&s, FIVE);
-    box(&s, "curve(sway,7,1.4)", "curve(sway,35,-1.2)", 0);
+    box(s, "curve(sway,7,1.4)", "curve(sway,35,-1.2)", 0);
     const char *const bad[] = {"2", "0", "9"};
     for (int i = 0; i < 3; i++) {
-        char *original = session_saved(&s);
-        session_type(&s, "sx");
-        session_type(&s, bad[i]);
-        session_key(&s, KEY_ENTER, 0);
-        assert_int_equal(spline(&s, 0)->knot_count, 5);
-        assert_saved(&s, original);
+        char *original = session_saved(s);
+        session_type(s, "sx");
+        session_type(s, bad[i]);
+        session_key(s, KEY_ENTER, 0);
+        assert_int_equal(spline(s, 0)->knot_count, 5);
+        assert_saved(s, original);
         free(original);
     }
-    session_close(&s);
 }
 
-TEST(test_a_ripple_moves_what_comes_after)
+SESSION_TEST(test_a_ripple_moves_what_comes_after, session_open(s, FIVE))
 {
-    struct session s;
-    session_open(&s, FIVE);
-    char *original = session_saved(&s);
+    char *original = session_saved(s);
     float frame =
-        (float)(s.editor->core.layout.plot.w / (s.editor->curves->view.frame1 - s.editor->curves->view.frame0));
-    session_point(&s, "knot(sway,2)");
-    session_press(&s, BUTTON_LEFT, 1);
-    session_key(&s, 'R', 0);
-    session_key(&s, 'X', 0);
-    session_drag(&s, 7 * frame, 0, 7);
+        (float)(s->editor->core.layout.plot.w / (s->editor->curves->view.frame1 - s->editor->curves->view.frame0));
+    session_point(s, "knot(sway,2)");
+    session_press(s, BUTTON_LEFT, 1);
+    session_key(s, 'R', 0);
+    session_key(s, 'X', 0);
+    session_drag(s, 7 * frame, 0, 7);
     const double later[] = {10, 20, 37, 47, 67}, alone[] = {10, 20, 37, 40, 60}, sooner[] = {10, 20, 21, 31, 51};
-    assert_frames(&s, later);
-    session_key(&s, 'R', 0);
-    assert_frames(&s, alone);
-    session_key(&s, 'R', 0);
-    session_drag(&s, -30 * frame, 0, 10);
-    assert_frames(&s, sooner); // it stops behind the knot that stays
-    session_drag(&s, 200 * frame, 0, 10);
+    assert_frames(s, later);
+    session_key(s, 'R', 0);
+    assert_frames(s, alone);
+    session_key(s, 'R', 0);
+    session_drag(s, -30 * frame, 0, 10);
+    assert_frames(s, sooner); // it stops behind the knot that stays
+    session_drag(s, 200 * frame, 0, 10);
     const double end[] = {10, 20, 66, 76, 96};
-    assert_frames(&s, end); // and at the end of the range
-    assert_non_null(strstr(s.editor->core.message.text, "end of the range"));
-    session_release(&s, BUTTON_LEFT);
-    assert_near(spline(&s, 0)->knots[3].value, 0.5, 0);
-    assert_one_step(&s, original);
+    assert_frames(s, end); // and at the end of the range
+    assert_non_null(strstr(s->editor->core.message.text, "end of the range"));
+    session_release(s, BUTTON_LEFT);
+    assert_near(spline(s, 0)->knots[3].value, 0.5, 0);
+    assert_one_step(s, original);
     free(original);
-    session_close(&s);
 }
 
-TEST(test_ruler_units_and_snap)
+SESSION_TEST(test_ruler_units_and_snap, session_open(s, FIVE))
 {
-    struct session s;
-    session_open(&s, FIVE);
-    session_move(&s, s.editor->core.layout.ruler.x / 2, s.editor->core.layout.ruler.y + 8);
-    session_press(&s, BUTTON_LEFT, 1);
-    session_release(&s, BUTTON_LEFT);
-    assert_true(s.editor->curves->options.seconds);
-    session_key(&s, 'U', 0);
-    assert_false(s.editor->curves->options.seconds);
+    session_move(s, s->editor->core.layout.ruler.x / 2, s->editor->core.layout.ruler.y + 8);
+    session_press(s, BUTTON_LEFT, 1);
+    session_release(s, BUTTON_LEFT);
+    assert_true(s->editor->curves->options.seconds);
+    session_key(s, 'U', 0);
+    assert_false(s->editor->curves->options.seconds);
     float frame =
-        (float)(s.editor->core.layout.plot.w / (s.editor->curves->view.frame1 - s.editor->curves->view.frame0));
-    session_key(&s, 'G', 0); // off the frames
-    session_pull(&s, "knot(sway,0)", 2.25f * frame, 0, 3);
-    assert_near(spline(&s, 0)->knots[0].frame, 12.25, 1e-3);
-    s.mods = MOD_CTRL;
-    session_drag(&s, 0.1f * frame, 0, 1);
-    assert_near(spline(&s, 0)->knots[0].frame, 12, 1e-9);
-    session_release(&s, BUTTON_LEFT);
-    session_close(&s);
+        (float)(s->editor->core.layout.plot.w / (s->editor->curves->view.frame1 - s->editor->curves->view.frame0));
+    session_key(s, 'G', 0); // off the frames
+    session_pull(s, "knot(sway,0)", 2.25f * frame, 0, 3);
+    assert_near(spline(s, 0)->knots[0].frame, 12.25, 1e-3);
+    s->mods = MOD_CTRL;
+    session_drag(s, 0.1f * frame, 0, 1);
+    assert_near(spline(s, 0)->knots[0].frame, 12, 1e-9);
+    session_release(s, BUTTON_LEFT);
 }
 
-TEST(test_normalised_curves_keep_their_picture)
+SESSION_TEST(test_normalised_curves_keep_their_picture, session_open(s, FIVE))
 {
-    struct session s;
-    session_open(&s, FIVE);
-    session_key(&s, 'N', 0);
-    const float(*line)[2] = (const float(*)[2])s.editor->curves->cache.others[0];
-    int count = s.editor->curves->cache.count;
+    session_key(s, 'N', 0);
+    const float(*line)[2] = (const float(*)[2])s->editor->curves->cache.others[0];
+    int count = s->editor->curves->cache.count;
     float low = line[0][1], high = line[0][1], own_low = 1e9f, own_high = -1e9f;
     for (int c = 0; c < count; c++) {
         low = fminf(low, line[c][1]);
         high = fmaxf(high, line[c][1]);
-        own_low = fminf(own_low, s.editor->curves->cache.re[c][1]);
-        own_high = fmaxf(own_high, s.editor->curves->cache.re[c][1]);
+        own_low = fminf(own_low, s->editor->curves->cache.re[c][1]);
+        own_high = fmaxf(own_high, s->editor->curves->cache.re[c][1]);
     }
     assert_near(low, own_low, 1.5); // as high as the active one
     assert_near(high, own_high, 1.5);
     float before = line[count / 2][1];
-    session_key(&s, KEY_PAGE_DOWN, 0);
-    assert_int_equal(s.editor->core.active, 1);
-    assert_near(s.editor->curves->cache.re[count / 2][1], before, 1.5); // nothing jumps
-    session_close(&s);
+    session_key(s, KEY_PAGE_DOWN, 0);
+    assert_int_equal(s->editor->core.active, 1);
+    assert_near(s->editor->curves->cache.re[count / 2][1], before, 1.5); // nothing jumps
 }
 
 /// A knot where the curve is, and with the slope that it has there, leaves every sample where it was.
-TEST(test_double_click_on_the_curve_keeps_it)
+SESSION_TEST(test_double_click_on_the_curve_keeps_it, session_open(s, FIVE))
 {
-    struct session s;
-    session_open(&s, FIVE);
     for (unsigned mods = 0; mods <= MOD_SHIFT; mods += MOD_SHIFT) {
         double before[97];
         char target[64];
-        int frame = mods ? 52 : 24, count = spline(&s, 0)->knot_count;
-        memcpy(before, s.table.evaluation.curves[0].total, sizeof before);
+        int frame = mods ? 52 : 24, count = spline(s, 0)->knot_count;
+        memcpy(before, s->table.evaluation.curves[0].total, sizeof before);
         snprintf(target, sizeof target, "curve(sway,%d,%.9g)", frame, before[frame]);
-        s.mods = mods;
-        session_click(&s, target);
-        session_press(&s, BUTTON_LEFT, 2);
-        session_release(&s, BUTTON_LEFT);
-        assert_int_equal(spline(&s, 0)->knot_count, count + 1);
-        int k = selection_single(&s.editor->core.selection, spline(&s, 0));
-        assert_near(spline(&s, 0)->knots[k].frame, frame, 0);
-        assert_int_equal(spline(&s, 0)->knots[k].has_slope, mods != 0);
-        for (int i = 0; i < 97; i++) assert_near(s.table.evaluation.curves[0].total[i], before[i], 1e-6);
+        s->mods = mods;
+        session_click(s, target);
+        session_press(s, BUTTON_LEFT, 2);
+        session_release(s, BUTTON_LEFT);
+        assert_int_equal(spline(s, 0)->knot_count, count + 1);
+        int k = selection_single(&s->editor->core.selection, spline(s, 0));
+        assert_near(spline(s, 0)->knots[k].frame, frame, 0);
+        assert_int_equal(spline(s, 0)->knots[k].has_slope, mods != 0);
+        for (int i = 0; i < 97; i++) assert_near(s->table.evaluation.curves[0].total[i], before[i], 1e-6);
     }
-    session_close(&s);
 }
 
 /// The same in every mode, with a start of every kind, and on an equilibrium that moves. Behind the last knot an oscillation dies away
@@ -328,20 +295,18 @@ TEST(test_a_cubic_holds_its_last_value)
 }
 
 /// The first and the last as well as those between, of the active curve and of the others.
-TEST(test_every_knot_is_drawn)
+SESSION_TEST(test_every_knot_is_drawn, session_open(s, FIVE))
 {
-    struct session s;
-    session_open(&s, FIVE);
-    session_frame(&s);
-    const struct drawlist *list = editor_drawlist(s.editor);
+    session_frame(s);
+    const struct drawlist *list = editor_drawlist(s->editor);
     for (int i = 0; i < 2; i++) {
-        for (int k = 0; k < spline(&s, i)->knot_count; k++) {
+        for (int k = 0; k < spline(s, i)->knot_count; k++) {
             char target[32];
             struct error error;
             float x, y;
             int drawn = 0;
-            snprintf(target, sizeof target, "knot(%s,%d)", spline(&s, i)->name, k);
-            if (!editor_target(s.editor, &s.world, target, &x, &y, &error)) fail_msg("%s", error.text);
+            snprintf(target, sizeof target, "knot(%s,%d)", spline(s, i)->name, k);
+            if (!editor_target(s->editor, &s->world, target, &x, &y, &error)) fail_msg("%s", error.text);
             for (int c = 0; c < list->count; c++) {
                 const struct draw_command *command = &list->commands[c];
                 if (command->kind != DRAW_CONVEX || command->count != 4) continue;
@@ -351,7 +316,6 @@ TEST(test_every_knot_is_drawn)
             if (drawn != 1) fail_msg("%s is drawn %d times", target, drawn);
         }
     }
-    session_close(&s);
 }
 
 /// Twelve curves that end at the same height in the lowest panel there is.
@@ -392,40 +356,37 @@ static double height_of(const struct session *s, int i, int k)
 }
 
 /// What is inserted, pasted or nudged out of sight comes into it in small steps, and the panel keeps still under a drag.
-TEST(test_the_view_follows_edits_smoothly)
+SESSION_TEST(test_the_view_follows_edits_smoothly, session_open(s, FIVE))
 {
-    struct session s;
-    session_open(&s, FIVE);
-    const struct view *view = &s.editor->curves->view;
+    const struct view *view = &s->editor->curves->view;
     struct view before = *view;
-    session_click(&s, "ruler(80)");
-    session_send(&s, (struct event){.kind = EVENT_PASTE, .text = "0,6\n"});
-    session_frame(&s);
+    session_click(s, "ruler(80)");
+    session_send(s, (struct event){.kind = EVENT_PASTE, .text = "0,6\n"});
+    session_frame(s);
     assert_near(view->value1, before.value1, 1e-9); // it is solved now, and only then the way begins
     double last = view->value1, largest = 0;
     int frames = 0;
-    for (; frames < 120 && follow_moves(s.editor->curves); frames++) {
-        session_frame(&s);
+    for (; frames < 120 && follow_moves(s->editor->curves); frames++) {
+        session_frame(s);
         assert_true(view->value1 >= last);
         largest = fmax(largest, view->value1 - last);
         last = view->value1;
     }
     assert_true(frames > 10 && frames < 60);
     assert_true(largest < 0.35 * (last - before.value1));
-    assert_true(height_of(&s, 0, 5) < 0.97);
+    assert_true(height_of(s, 0, 5) < 0.97);
     assert_near(view->frame1, before.frame1, 1e-9);
     before = *view;
-    session_pull(&s, "knot(sway,5)", 0, -60, 6); // out at the top
-    assert_true(height_of(&s, 0, 5) > 1);
+    session_pull(s, "knot(sway,5)", 0, -60, 6); // out at the top
+    assert_true(height_of(s, 0, 5) > 1);
     assert_near(view->value1, before.value1, 0);
-    session_release(&s, BUTTON_LEFT);
-    for (int i = 0; i < 60; i++) session_frame(&s);
-    assert_true(height_of(&s, 0, 5) < 0.97);
+    session_release(s, BUTTON_LEFT);
+    for (int i = 0; i < 60; i++) session_frame(s);
+    assert_true(height_of(s, 0, 5) < 0.97);
     before = *view;
-    session_key(&s, KEY_DOWN, MOD_ALT); // what stays in sight moves nothing
-    for (int i = 0; i < 10; i++) session_frame(&s);
+    session_key(s, KEY_DOWN, MOD_ALT); // what stays in sight moves nothing
+    for (int i = 0; i < 10; i++) session_frame(s);
     assert_near(view->value1, before.value1, 0);
-    session_close(&s);
 }
 
 /// The whole of the spline's curve is in sight once the view has come to rest.
@@ -447,53 +408,46 @@ static const char SWAY[] =
     "{\"frame\": 56, \"value\": 0.4}, {\"frame\": 82, \"value\": 0.2}, {\"frame\": 100, \"value\": -0.6}]}]}";
 
 /// A found frequency, a chosen feel and a roll of the dice may swing far beyond what was seen.
-TEST(test_the_view_follows_another_feel)
+SESSION_TEST(test_the_view_follows_another_feel, panel_open(s, SWAY, 1280, 2400))
 {
-    struct session s;
-    panel_open(&s, SWAY, 1280, 2400);
-    session_key(&s, 'F', MOD_SHIFT);
-    assert_in_sight(&s, 0);
-    panel_click(&s, "preset.antenna");
-    assert_in_sight(&s, 0);
-    panel_click(&s, "section.variation");
-    panel_enter(&s, "variation", "1");
-    panel_click(&s, "variation.roll");
-    assert_in_sight(&s, 0);
-    session_close(&s);
+    session_key(s, 'F', MOD_SHIFT);
+    assert_in_sight(s, 0);
+    panel_click(s, "preset.antenna");
+    assert_in_sight(s, 0);
+    panel_click(s, "section.variation");
+    panel_enter(s, "variation", "1");
+    panel_click(s, "variation.roll");
+    assert_in_sight(s, 0);
 }
 
 /// What was copied behind the end is in sight, and so is all that was before.
-TEST(test_the_view_follows_a_longer_scene)
+SESSION_TEST(test_the_view_follows_a_longer_scene, session_open(s, FIVE))
 {
-    struct session s;
-    session_open(&s, FIVE);
-    const struct view *view = &s.editor->curves->view;
+    const struct view *view = &s->editor->curves->view;
     const double left = view->frame0;
-    session_key(&s, 'A', MOD_CTRL);
-    session_key(&s, 'D', MOD_CTRL);
-    assert_true(s.document->last_frame > 96);
-    for (int i = 0; i < 60; i++) session_frame(&s);
-    assert_true(view->frame1 > s.document->last_frame);
+    session_key(s, 'A', MOD_CTRL);
+    session_key(s, 'D', MOD_CTRL);
+    assert_true(s->document->last_frame > 96);
+    for (int i = 0; i < 60; i++) session_frame(s);
+    assert_true(view->frame1 > s->document->last_frame);
     assert_near(view->frame0, left, 1e-9);
-    session_close(&s);
 }
 
 /// The active spline's imaginary part, too, is inside of the panel at first.
-TEST(test_all_that_is_drawn_is_framed)
+SESSION_TEST(
+    test_all_that_is_drawn_is_framed,
+    session_open(s, "{\"wiggly\": 1, \"frames\": [0, 3], \"splines\": [{\"name\": \"sway\", \"frequency\": 1,"
+                    "\"damping\": 0.02, \"knots\": [{\"frame\": 0, \"value\": 0}, {\"frame\": 1, \"value\": 0.3},"
+                    "{\"frame\": 2, \"value\": 0.58}]}]}"))
 {
-    struct session s;
-    session_open(&s, "{\"wiggly\": 1, \"frames\": [0, 3], \"splines\": [{\"name\": \"sway\", \"frequency\": 1,"
-                     "\"damping\": 0.02, \"knots\": [{\"frame\": 0, \"value\": 0}, {\"frame\": 1, \"value\": 0.3},"
-                     "{\"frame\": 2, \"value\": 0.58}]}]}");
-    const struct curve_cache *cache = &s.editor->curves->cache;
-    const struct rect *plot = &s.editor->core.layout.plot;
-    session_key(&s, KEY_HOME, 0);
+    const struct curve_cache *cache = &s->editor->curves->cache;
+    const struct rect *plot = &s->editor->core.layout.plot;
+    session_key(s, KEY_HOME, 0);
     assert_true(cache->count > 100);
     for (int c = 0; c < cache->count; c++) {
         assert_true(cache->im[c][1] > plot->y + 4 && cache->im[c][1] < plot->y + plot->h - 4);
         assert_true(cache->re[c][1] > plot->y + 4 && cache->re[c][1] < plot->y + plot->h - 4);
     }
-    session_close(&s);
 }
 
 int main(void) { return tests_run(NULL, NULL); }

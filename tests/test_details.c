@@ -124,43 +124,34 @@ static int lines_at(struct session *s, const char *widget)
     return count;
 }
 
-TEST(small_buttons_have_their_icons)
+SESSION_TEST(small_buttons_have_their_icons, panel_open(s, tail, 1280, 1400))
 {
-    struct session s;
-    panel_open(&s, tail, 1280, 1400);
-    assert_true(lines_at(&s, "eye.sway") > 0);
-    assert_true(lines_at(&s, "solo.sway") > 0);
-    session_close(&s);
+    assert_true(lines_at(s, "eye.sway") > 0);
+    assert_true(lines_at(s, "solo.sway") > 0);
 }
 
 /// The lines of equal damping say which they are; the lowest, at the edge, needs no number.
-TEST(the_map_of_poles_has_its_numbers)
+SESSION_TEST(the_map_of_poles_has_its_numbers, panel_open(s, tail, 1280, 1400))
 {
-    struct session s;
-    panel_open(&s, tail, 1280, 1400);
-    inspector_unfold(s.editor->inspector, "section.poles");
-    session_frame(&s);
-    assert_non_null(shown_text(s.editor, "ζ 0.2"));
-    assert_null(shown_text(s.editor, "ζ 0"));
-    session_close(&s);
+    inspector_unfold(s->editor->inspector, "section.poles");
+    session_frame(s);
+    assert_non_null(shown_text(s->editor, "ζ 0.2"));
+    assert_null(shown_text(s->editor, "ζ 0"));
 }
 
 /// A letter that is let go while a dialog is open is no longer held once that is closed.
-TEST(a_letter_let_go_in_a_dialog_is_not_held)
+SESSION_TEST(a_letter_let_go_in_a_dialog_is_not_held, session_open(s, tail))
 {
-    struct session s;
-    session_open(&s, tail);
-    char *before = session_saved(&s);
-    session_hold(&s, 'F', ACTION_PRESS);
-    editor_offer_recovery(s.editor, &(struct recovery_offer){.name = "walk.json"}); // by no key
-    assert_int_equal(s.editor->dialogs->dialog.kind, DIALOG_RECOVER);
-    session_hold(&s, 'F', ACTION_RELEASE);
-    session_key(&s, KEY_ESCAPE, 0);
-    assert_int_equal(s.editor->dialogs->dialog.kind, DIALOG_NONE);
-    session_key(&s, KEY_UP, 0);
-    assert_saved(&s, before);
+    char *before = session_saved(s);
+    session_hold(s, 'F', ACTION_PRESS);
+    editor_offer_recovery(s->editor, &(struct recovery_offer){.name = "walk.json"}); // by no key
+    assert_int_equal(s->editor->dialogs->dialog.kind, DIALOG_RECOVER);
+    session_hold(s, 'F', ACTION_RELEASE);
+    session_key(s, KEY_ESCAPE, 0);
+    assert_int_equal(s->editor->dialogs->dialog.kind, DIALOG_NONE);
+    session_key(s, KEY_UP, 0);
+    assert_saved(s, before);
     free(before);
-    session_close(&s);
 }
 
 TEST(nothing_to_follow_is_an_error)
@@ -206,18 +197,15 @@ TEST(a_target_from_the_pointer)
 }
 
 /// Knots before a first frame are asked about, as those behind a last one are.
-TEST(a_first_frame_asks_for_its_knots)
+SESSION_TEST(a_first_frame_asks_for_its_knots, panel_open(s, tail, 1280, 1600))
 {
-    struct session s;
-    panel_open(&s, tail, 1280, 1600);
-    panel_click(&s, "section.scene");
-    panel_enter(&s, "scene.first", "30");
-    assert_int_equal(s.editor->dialogs->dialog.kind, DIALOG_ASK);
-    session_key(&s, 'T', 0);
-    assert_int_equal(s.document->first_frame, 30);
-    assert_int_equal(s.document->splines[0]->knot_count, 1);
-    assert_int_equal(s.document->splines[1]->knot_count, 0);
-    session_close(&s);
+    panel_click(s, "section.scene");
+    panel_enter(s, "scene.first", "30");
+    assert_int_equal(s->editor->dialogs->dialog.kind, DIALOG_ASK);
+    session_key(s, 'T', 0);
+    assert_int_equal(s->document->first_frame, 30);
+    assert_int_equal(s->document->splines[0]->knot_count, 1);
+    assert_int_equal(s->document->splines[1]->knot_count, 0);
 }
 
 /// A preset is no state that something is in: none of their buttons looks like the one that Enter presses.

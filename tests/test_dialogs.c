@@ -55,63 +55,54 @@ static void click(struct session *session, const char *text, int clicks)
     }
 }
 
-TEST(test_recent_files)
+SESSION_TEST(test_recent_files, open_session(s))
 {
-    struct session s;
-    open_session(&s);
-    session_key(&s, 'O', MOD_CTRL);
-    assert_int_equal(s.editor->dialogs->dialog.match_count, 5);
-    assert_non_null(shown_text(s.editor, "/home/me/scenes"));
-    assert_non_null(shown_text(s.editor, "no longer exists"));
-    session_key(&s, KEY_DOWN, 0);
-    session_key(&s, KEY_DOWN, 0);
-    session_key(&s, KEY_ENTER, 0);
-    expect_request(&s, REQUEST_NONE, "");
-    assert_non_null(strstr(s.editor->dialogs->dialog.error, "/home/me/gone.json no longer exists"));
-    panel_type(&s, "x"); // another file: what was wrong with that one is off the screen
-    assert_string_equal(s.editor->dialogs->dialog.error, "");
-    session_key(&s, KEY_BACKSPACE, 0);
-    session_key(&s, KEY_UP, 0);
-    session_key(&s, KEY_ENTER, 0);
-    expect_request(&s, REQUEST_OPEN, "/home/me/scenes/walk.json");
-    session_close(&s);
+    session_key(s, 'O', MOD_CTRL);
+    assert_int_equal(s->editor->dialogs->dialog.match_count, 5);
+    assert_non_null(shown_text(s->editor, "/home/me/scenes"));
+    assert_non_null(shown_text(s->editor, "no longer exists"));
+    session_key(s, KEY_DOWN, 0);
+    session_key(s, KEY_DOWN, 0);
+    session_key(s, KEY_ENTER, 0);
+    expect_request(s, REQUEST_NONE, "");
+    assert_non_null(strstr(s->editor->dialogs->dialog.error, "/home/me/gone.json no longer exists"));
+    panel_type(s, "x"); // another file: what was wrong with that one is off the screen
+    assert_string_equal(s->editor->dialogs->dialog.error, "");
+    session_key(s, KEY_BACKSPACE, 0);
+    session_key(s, KEY_UP, 0);
+    session_key(s, KEY_ENTER, 0);
+    expect_request(s, REQUEST_OPEN, "/home/me/scenes/walk.json");
 }
 
 /// They make room for the folder's names as soon as something is typed, and are not offered for saving.
-TEST(test_recent_files_give_way)
+SESSION_TEST(test_recent_files_give_way, open_session(s))
 {
-    struct session s;
-    open_session(&s);
-    session_key(&s, 'O', MOD_CTRL);
-    panel_type(&s, "t");
-    assert_int_equal(s.editor->dialogs->dialog.match_count, 1);
-    session_key(&s, KEY_TAB, 0);
-    assert_string_equal(s.editor->dialogs->dialog.ui.text.bytes, "two.json");
-    session_key(&s, KEY_ESCAPE, 0);
-    session_key(&s, 'S', MOD_CTRL | MOD_SHIFT);
-    assert_int_equal(s.editor->dialogs->dialog.recent_count, 0);
-    session_close(&s);
+    session_key(s, 'O', MOD_CTRL);
+    panel_type(s, "t");
+    assert_int_equal(s->editor->dialogs->dialog.match_count, 1);
+    session_key(s, KEY_TAB, 0);
+    assert_string_equal(s->editor->dialogs->dialog.ui.text.bytes, "two.json");
+    session_key(s, KEY_ESCAPE, 0);
+    session_key(s, 'S', MOD_CTRL | MOD_SHIFT);
+    assert_int_equal(s->editor->dialogs->dialog.recent_count, 0);
 }
 
-TEST(test_mouse_in_the_list)
+SESSION_TEST(test_mouse_in_the_list, open_session(s))
 {
-    struct session s;
-    open_session(&s);
-    session_key(&s, 'O', MOD_CTRL);
-    click(&s, "two.json", 1); // a name is chosen first
-    expect_request(&s, REQUEST_NONE, "");
-    assert_string_equal(s.editor->dialogs->dialog.ui.text.bytes, "two.json");
-    session_key(&s, KEY_ESCAPE, 0);
-    session_key(&s, 'O', MOD_CTRL);
-    click(&s, "two.json", 2);
-    expect_request(&s, REQUEST_OPEN, "two.json");
-    editor_open(s.editor, &s.world);
-    panel_answer(&s, REQUEST_OPEN, true, "");
-    session_key(&s, 'O', MOD_CTRL);
-    session_frame(&s);
-    click(&s, "walk.json", 1); // one click opens a recent file
-    expect_request(&s, REQUEST_OPEN, "/home/me/scenes/walk.json");
-    session_close(&s);
+    session_key(s, 'O', MOD_CTRL);
+    click(s, "two.json", 1); // a name is chosen first
+    expect_request(s, REQUEST_NONE, "");
+    assert_string_equal(s->editor->dialogs->dialog.ui.text.bytes, "two.json");
+    session_key(s, KEY_ESCAPE, 0);
+    session_key(s, 'O', MOD_CTRL);
+    click(s, "two.json", 2);
+    expect_request(s, REQUEST_OPEN, "two.json");
+    editor_open(s->editor, &s->world);
+    panel_answer(s, REQUEST_OPEN, true, "");
+    session_key(s, 'O', MOD_CTRL);
+    session_frame(s);
+    click(s, "walk.json", 1); // one click opens a recent file
+    expect_request(s, REQUEST_OPEN, "/home/me/scenes/walk.json");
 }
 
 static const struct recovery_offer offer = {.name = "walk.json", .when = "21 November 2026, 10:00:00", .others = 1};
@@ -124,82 +115,73 @@ static void open_offer(struct session *session)
     assert_non_null(shown_text(session->editor, "Recover unsaved work on walk.json?"));
 }
 
-TEST(test_recover)
+SESSION_TEST(test_recover, open_offer(s))
 {
-    struct session s;
-    open_offer(&s);
-    session_key(&s, KEY_DELETE, 0); // the keys are the dialog's
-    assert_int_equal(s.document->splines[0]->knot_count, 2);
-    session_key(&s, KEY_ENTER, 0);
-    expect_request(&s, REQUEST_RECOVER, "");
-    panel_answer(&s, REQUEST_RECOVER, false,
+    session_key(s, KEY_DELETE, 0); // the keys are the dialog's
+    assert_int_equal(s->document->splines[0]->knot_count, 2);
+    session_key(s, KEY_ENTER, 0);
+    expect_request(s, REQUEST_RECOVER, "");
+    panel_answer(s, REQUEST_RECOVER, false,
                  "recovery-1:3: expected a number"); // it is broken: the choice is open again
-    assert_int_equal(s.editor->dialogs->dialog.kind, DIALOG_RECOVER);
-    session_key(&s, 'R', 0);
-    expect_request(&s, REQUEST_RECOVER, "");
-    editor_message(s.editor, true, "Unsaved work cannot be kept."); // no answer to it
-    assert_int_equal(s.editor->dialogs->dialog.kind, DIALOG_RECOVER);
-    panel_answer(&s, REQUEST_SCREENSHOT, true, ""); // nor is this one
-    assert_int_equal(s.editor->dialogs->dialog.kind, DIALOG_RECOVER);
-    editor_open(s.editor, &s.world);
-    panel_answer(&s, REQUEST_RECOVER, true, "");
-    assert_int_equal(s.editor->dialogs->dialog.kind, DIALOG_NONE);
-    session_close(&s);
+    assert_int_equal(s->editor->dialogs->dialog.kind, DIALOG_RECOVER);
+    session_key(s, 'R', 0);
+    expect_request(s, REQUEST_RECOVER, "");
+    editor_message(s->editor, true, "Unsaved work cannot be kept."); // no answer to it
+    assert_int_equal(s->editor->dialogs->dialog.kind, DIALOG_RECOVER);
+    panel_answer(s, REQUEST_SCREENSHOT, true, ""); // nor is this one
+    assert_int_equal(s->editor->dialogs->dialog.kind, DIALOG_RECOVER);
+    editor_open(s->editor, &s->world);
+    panel_answer(s, REQUEST_RECOVER, true, "");
+    assert_int_equal(s->editor->dialogs->dialog.kind, DIALOG_NONE);
 }
 
-TEST(test_discard_and_later)
+SESSION_TEST(test_discard_and_later, open_offer(s))
 {
-    struct session s;
-    open_offer(&s);
-    click(&s, "Discard", 1);
-    expect_request(&s, REQUEST_FORGET, "");
-    editor_offer_recovery(s.editor, &offer); // there is another one
-    panel_answer(&s, REQUEST_FORGET, true, "");
-    assert_int_equal(s.editor->dialogs->dialog.kind, DIALOG_RECOVER);
-    session_key(&s, KEY_ESCAPE, 0);
-    assert_int_equal(s.editor->dialogs->dialog.kind, DIALOG_NONE);
-    expect_request(&s, REQUEST_NONE, "");
-    editor_offer_recovery(s.editor, &offer);
-    session_frame(&s);
-    click(&s, "Discard", 1);
-    expect_request(&s, REQUEST_FORGET, "");
-    panel_answer(&s, REQUEST_FORGET, true, ""); // that was the last one
-    assert_int_equal(s.editor->dialogs->dialog.kind, DIALOG_NONE);
-    editor_offer_recovery(s.editor, &offer);
-    session_send(&s, (struct event){.kind = EVENT_CLOSE}); // closing the window decides it later
-    expect_request(&s, REQUEST_QUIT, "");
-    session_close(&s);
+    click(s, "Discard", 1);
+    expect_request(s, REQUEST_FORGET, "");
+    editor_offer_recovery(s->editor, &offer); // there is another one
+    panel_answer(s, REQUEST_FORGET, true, "");
+    assert_int_equal(s->editor->dialogs->dialog.kind, DIALOG_RECOVER);
+    session_key(s, KEY_ESCAPE, 0);
+    assert_int_equal(s->editor->dialogs->dialog.kind, DIALOG_NONE);
+    expect_request(s, REQUEST_NONE, "");
+    editor_offer_recovery(s->editor, &offer);
+    session_frame(s);
+    click(s, "Discard", 1);
+    expect_request(s, REQUEST_FORGET, "");
+    panel_answer(s, REQUEST_FORGET, true, ""); // that was the last one
+    assert_int_equal(s->editor->dialogs->dialog.kind, DIALOG_NONE);
+    editor_offer_recovery(s->editor, &offer);
+    session_send(s, (struct event){.kind = EVENT_CLOSE}); // closing the window decides it later
+    expect_request(s, REQUEST_QUIT, "");
 }
 
 /// The card for new users goes with a click on it (and only there), Esc, the help, or an edit; not by itself.
-TEST(test_welcome)
+SESSION_TEST(test_welcome, open_session(s))
 {
-    struct session s;
-    open_session(&s);
-    assert_null(shown_text(s.editor, "Got it"));
-    editor_welcome(s.editor);
-    session_frame(&s);
-    session_key(&s, KEY_RIGHT, 0);
-    assert_non_null(shown_text(s.editor, "Got it"));
-    click(&s, "Got it", 1);
-    assert_false(editor_is_welcoming(s.editor));
-    editor_welcome(s.editor);
-    session_key(&s, KEY_ESCAPE, 0);
-    assert_false(editor_is_welcoming(s.editor));
-    editor_welcome(s.editor);
-    session_key(&s, KEY_F1, 0);
-    assert_false(editor_is_welcoming(s.editor));
-    session_key(&s, KEY_F1, 0);
-    editor_welcome(s.editor);
-    session_hold(&s, KEY_F1, ACTION_PRESS); // and Esc within the same slow frame
-    session_key(&s, KEY_ESCAPE, 0);
-    assert_false(editor_is_welcoming(s.editor));
-    editor_welcome(s.editor);
-    session_key(&s, 'I', 0);
-    assert_int_equal(s.document->splines[0]->knot_count, 3);
-    assert_false(editor_is_welcoming(s.editor));
-    assert_null(shown_text(s.editor, "Got it"));
-    session_close(&s);
+    assert_null(shown_text(s->editor, "Got it"));
+    editor_welcome(s->editor);
+    session_frame(s);
+    session_key(s, KEY_RIGHT, 0);
+    assert_non_null(shown_text(s->editor, "Got it"));
+    click(s, "Got it", 1);
+    assert_false(editor_is_welcoming(s->editor));
+    editor_welcome(s->editor);
+    session_key(s, KEY_ESCAPE, 0);
+    assert_false(editor_is_welcoming(s->editor));
+    editor_welcome(s->editor);
+    session_key(s, KEY_F1, 0);
+    assert_false(editor_is_welcoming(s->editor));
+    session_key(s, KEY_F1, 0);
+    editor_welcome(s->editor);
+    session_hold(s, KEY_F1, ACTION_PRESS); // and Esc within the same slow frame
+    session_key(s, KEY_ESCAPE, 0);
+    assert_false(editor_is_welcoming(s->editor));
+    editor_welcome(s->editor);
+    session_key(s, 'I', 0);
+    assert_int_equal(s->document->splines[0]->knot_count, 3);
+    assert_false(editor_is_welcoming(s->editor));
+    assert_null(shown_text(s->editor, "Got it"));
 }
 
 /// What the card says suits the scene: before and after a character of one's own is dropped on the window.

@@ -61,17 +61,14 @@ static struct request asked(struct session *s)
     return request;
 }
 
-TEST(test_enter_exports_the_scene)
+SESSION_TEST(test_enter_exports_the_scene, open_session(s, "work/walk.json", 1280, 720))
 {
-    struct session s;
-    open_session(&s, "work/walk.json", 1280, 720);
-    assert_non_null(shown_text(s.editor, "Write walk.glb"));
-    session_key(&s, KEY_ENTER, 0);
-    struct request request = asked(&s);
+    assert_non_null(shown_text(s->editor, "Write walk.glb"));
+    session_key(s, KEY_ENTER, 0);
+    struct request request = asked(s);
     assert_string_equal(request.path, "work/walk.glb");
     assert_false(request.wish.part);
     assert_int_equal(request.wish.keys, 0);
-    session_close(&s);
 }
 
 /// A character's own file is not what Enter writes over, whether its scene has a file beside it or none.
@@ -101,69 +98,57 @@ TEST(test_a_character_keeps_its_file)
     }
 }
 
-TEST(test_the_ending_is_the_format)
+SESSION_TEST(test_the_ending_is_the_format, open_session(s, "walk.json", 1280, 720))
 {
-    struct session s;
-    open_session(&s, "walk.json", 1280, 720);
-    panel_type(&s, "take.csv"); // over the selected name
-    assert_string_equal(exporting_formats[of(&s)->format].ending, ".csv");
-    assert_null(shown_text(s.editor, "clip"));
-    session_key(&s, KEY_DOWN, 0);
-    assert_string_equal(of(&s)->memory.path, "take.pc2");
-    click(&s, ".mp4");
-    assert_non_null(shown_text(s.editor, "Write take.mp4"));
+    panel_type(s, "take.csv"); // over the selected name
+    assert_string_equal(exporting_formats[of(s)->format].ending, ".csv");
+    assert_null(shown_text(s->editor, "clip"));
+    session_key(s, KEY_DOWN, 0);
+    assert_string_equal(of(s)->memory.path, "take.pc2");
+    click(s, ".mp4");
+    assert_non_null(shown_text(s->editor, "Write take.mp4"));
     assert_non_null(
-        shown_text(s.editor, "49 pictures, 24 a second. ↑ ↓ choose the format, Tab goes to the choices."));
-    click(&s, "take.mp4"); // back in the name, where typing goes on
-    panel_type(&s, "2");
-    assert_non_null(shown_text(s.editor, "Write take.mp42.mp4"));
-    session_close(&s);
+        shown_text(s->editor, "49 pictures, 24 a second. ↑ ↓ choose the format, Tab goes to the choices."));
+    click(s, "take.mp4"); // back in the name, where typing goes on
+    panel_type(s, "2");
+    assert_non_null(shown_text(s->editor, "Write take.mp42.mp4"));
 }
 
-TEST(test_a_name_without_an_ending_gets_one)
+SESSION_TEST(test_a_name_without_an_ending_gets_one, open_session(s, "", 1280, 720))
 {
-    struct session s;
-    open_session(&s, "", 1280, 720);
-    panel_type(&s, "v1.2");
-    session_key(&s, KEY_ENTER, 0);
-    assert_string_equal(asked(&s).path, "v1.2.glb");
-    session_close(&s);
+    panel_type(s, "v1.2");
+    session_key(s, KEY_ENTER, 0);
+    assert_string_equal(asked(s).path, "v1.2.glb");
 }
 
-TEST(test_choices_are_asked_for)
+SESSION_TEST(test_choices_are_asked_for, open_session(s, "walk.json", 1280, 720))
 {
-    struct session s;
-    open_session(&s, "walk.json", 1280, 720);
-    enter(&s, "frames", 120, "12");
-    enter(&s, "keys a frame", 130, "1");
-    assert_int_equal(of(&s)->memory.wish.keys, 1);
-    enter(&s, "keys a frame", 130, "4");
-    click(&s, "as the scene");
-    panel_type(&s, "Swing");
-    assert_string_equal(of(&s)->memory.path, "walk.glb"); // the name is another line of text
-    click(&s, "all rigs");
-    assert_non_null(shown_text(s.editor, "145 keys, 96 a second. ↑ ↓ choose the format, Tab goes to the choices."));
-    click(&s, "Write walk.glb");
-    struct request request = asked(&s);
+    enter(s, "frames", 120, "12");
+    enter(s, "keys a frame", 130, "1");
+    assert_int_equal(of(s)->memory.wish.keys, 1);
+    enter(s, "keys a frame", 130, "4");
+    click(s, "as the scene");
+    panel_type(s, "Swing");
+    assert_string_equal(of(s)->memory.path, "walk.glb"); // the name is another line of text
+    click(s, "all rigs");
+    assert_non_null(shown_text(s->editor, "145 keys, 96 a second. ↑ ↓ choose the format, Tab goes to the choices."));
+    click(s, "Write walk.glb");
+    struct request request = asked(s);
     assert_true(request.wish.part && request.wish.first == 12 && request.wish.last == 48);
     assert_int_equal(request.wish.keys, 4);
     assert_string_equal(request.wish.clip, "Swing");
     assert_string_equal(request.wish.rig, "fox");
-    assert_null(shown_text(s.editor, "signed morph targets")); // tails have none
-    session_close(&s);
+    assert_null(shown_text(s->editor, "signed morph targets")); // tails have none
 }
 
 /// A file that holds one rig is offered no other choice than one.
-TEST(test_one_rig_only)
+SESSION_TEST(test_one_rig_only, open_session(s, "walk.json", 1280, 720))
 {
-    struct session s;
-    open_session(&s, "walk.json", 1280, 720);
-    click(&s, ".pc2");
-    assert_null(shown_text(s.editor, "all rigs"));
-    click(&s, "fox");
-    click(&s, "cat");
-    assert_non_null(shown_text(s.editor, "fox"));
-    session_close(&s);
+    click(s, ".pc2");
+    assert_null(shown_text(s->editor, "all rigs"));
+    click(s, "fox");
+    click(s, "cat");
+    assert_non_null(shown_text(s->editor, "fox"));
 }
 
 /// Chains are rigs of their own only where joints alone are written; their character is none there.
@@ -186,97 +171,82 @@ TEST(test_joints_are_tails_and_chains)
     session_close(&s);
 }
 
-TEST(test_size_of_pictures)
+SESSION_TEST(test_size_of_pictures, open_session(s, "walk.json", 1280, 720))
 {
-    struct session s;
-    open_session(&s, "walk.json", 1280, 720);
-    click(&s, ".gif");
-    assert_non_null(shown_text(s.editor, "640"));
-    enter(&s, "size", 120, "320");
-    click(&s, "Write walk.gif");
-    struct request request = asked(&s);
+    click(s, ".gif");
+    assert_non_null(shown_text(s->editor, "640"));
+    enter(s, "size", 120, "320");
+    click(s, "Write walk.gif");
+    struct request request = asked(s);
     assert_int_equal(request.wish.width, 320);
     assert_int_equal(request.wish.height, 360);
-    session_close(&s);
 }
 
-TEST(test_cancelling)
+SESSION_TEST(test_cancelling, open_session(s, "walk.json", 1280, 720))
 {
-    struct session s;
-    open_session(&s, "walk.json", 1280, 720);
-    session_key(&s, KEY_ENTER, 0);
-    asked(&s);
-    editor_tell_export(s.editor, 30, 97);
-    session_frame(&s);
-    assert_non_null(shown_text(s.editor, "30 of 97. Esc cancels, and leaves nothing behind."));
-    session_key(&s, KEY_DELETE, 0); // nothing else is done meanwhile
-    panel_type(&s, "x");
-    assert_string_equal(of(&s)->memory.path, "walk.glb");
-    session_key(&s, KEY_ESCAPE, 0);
-    assert_int_equal(editor_take_request(s.editor).kind, REQUEST_EXPORT_STOP);
-    click(&s, "Cancel");
-    assert_int_equal(editor_take_request(s.editor).kind, REQUEST_EXPORT_STOP);
-    panel_answer(&s, REQUEST_EXPORT, false, "Cancelled. Nothing was written.");
-    session_frame(&s);
-    assert_non_null(shown_text(s.editor, "Cancelled. Nothing was written."));
-    session_key(&s, KEY_ESCAPE, 0);
-    assert_int_equal(dialog_of(&s)->kind, DIALOG_NONE);
-    assert_int_equal(editor_take_request(s.editor).kind, REQUEST_NONE);
-    session_close(&s);
+    session_key(s, KEY_ENTER, 0);
+    asked(s);
+    editor_tell_export(s->editor, 30, 97);
+    session_frame(s);
+    assert_non_null(shown_text(s->editor, "30 of 97. Esc cancels, and leaves nothing behind."));
+    session_key(s, KEY_DELETE, 0); // nothing else is done meanwhile
+    panel_type(s, "x");
+    assert_string_equal(of(s)->memory.path, "walk.glb");
+    session_key(s, KEY_ESCAPE, 0);
+    assert_int_equal(editor_take_request(s->editor).kind, REQUEST_EXPORT_STOP);
+    click(s, "Cancel");
+    assert_int_equal(editor_take_request(s->editor).kind, REQUEST_EXPORT_STOP);
+    panel_answer(s, REQUEST_EXPORT, false, "Cancelled. Nothing was written.");
+    session_frame(s);
+    assert_non_null(shown_text(s->editor, "Cancelled. Nothing was written."));
+    session_key(s, KEY_ESCAPE, 0);
+    assert_int_equal(dialog_of(s)->kind, DIALOG_NONE);
+    assert_int_equal(editor_take_request(s->editor).kind, REQUEST_NONE);
 }
 
 /// Esc belongs to a number while it is typed.
-TEST(test_escape_in_a_number)
+SESSION_TEST(test_escape_in_a_number, open_session(s, "walk.json", 1280, 720))
 {
-    struct session s;
-    open_session(&s, "walk.json", 1280, 720);
-    const struct draw_command *word = shown_text(s.editor, "frames");
-    click_at(&s, word->x + 120, word->y - 4, 2);
-    panel_type(&s, "5");
-    session_key(&s, KEY_ESCAPE, 0);
-    assert_int_equal(dialog_of(&s)->kind, DIALOG_EXPORT);
-    assert_true(of(&s)->memory.wish.first == 0);
-    session_close(&s);
+    const struct draw_command *word = shown_text(s->editor, "frames");
+    click_at(s, word->x + 120, word->y - 4, 2);
+    panel_type(s, "5");
+    session_key(s, KEY_ESCAPE, 0);
+    assert_int_equal(dialog_of(s)->kind, DIALOG_EXPORT);
+    assert_true(of(s)->memory.wish.first == 0);
 }
 
-TEST(test_remembered)
+SESSION_TEST(test_remembered, open_session(s, "walk.json", 1280, 720))
 {
-    struct session s;
-    open_session(&s, "walk.json", 1280, 720);
-    panel_type(&s, "films/first.webm");
-    click(&s, "transparent");
-    session_key(&s, KEY_ESCAPE, 0);
-    session_key(&s, 'E', MOD_CTRL);
-    assert_non_null(shown_text(s.editor, "films/first.webm"));
-    session_key(&s, KEY_ESCAPE, 0);
-    editor_open(s.editor, &s.world);
-    editor_set_path(s.editor, "work/run.json");
-    session_key(&s, 'E', MOD_CTRL);
-    assert_non_null(shown_text(s.editor, "work/run.webm")); // its own name, in the format of last time
-    for (int format = 0; format < s.editor->dialogs->dialog.files.format_count; format++) { // whichever that was
-        const char *ending = s.editor->dialogs->dialog.files.formats[format].ending;
+    panel_type(s, "films/first.webm");
+    click(s, "transparent");
+    session_key(s, KEY_ESCAPE, 0);
+    session_key(s, 'E', MOD_CTRL);
+    assert_non_null(shown_text(s->editor, "films/first.webm"));
+    session_key(s, KEY_ESCAPE, 0);
+    editor_open(s->editor, &s->world);
+    editor_set_path(s->editor, "work/run.json");
+    session_key(s, 'E', MOD_CTRL);
+    assert_non_null(shown_text(s->editor, "work/run.webm")); // its own name, in the format of last time
+    for (int format = 0; format < s->editor->dialogs->dialog.files.format_count; format++) { // whichever that was
+        const char *ending = s->editor->dialogs->dialog.files.formats[format].ending;
         struct export_memory memory = {.path = "films/first"};
         strncat(memory.path, ending, 16);
-        session_key(&s, KEY_ESCAPE, 0);
-        editor_set_export(s.editor, &memory);
-        session_key(&s, 'E', MOD_CTRL);
-        assert_string_equal(strrchr(s.editor->dialogs->exporting.memory.path, '.'), ending);
+        session_key(s, KEY_ESCAPE, 0);
+        editor_set_export(s->editor, &memory);
+        session_key(s, 'E', MOD_CTRL);
+        assert_string_equal(strrchr(s->editor->dialogs->exporting.memory.path, '.'), ending);
     }
-    session_close(&s);
 }
 
-TEST(test_small_windows)
+SESSION_TEST(test_small_windows, open_session(s, "walk.json", 640, 400))
 {
-    struct session s;
-    open_session(&s, "walk.json", 640, 400);
-    const struct draw_command *button = shown_text(s.editor, "Write walk.glb");
+    const struct draw_command *button = shown_text(s->editor, "Write walk.glb");
     assert_non_null(button);
     assert_true(button->y < 400);
-    panel_type(&s, "walk.png"); // the last of the list comes into sight
-    const struct draw_command *row = shown_text(s.editor, ".png");
+    panel_type(s, "walk.png"); // the last of the list comes into sight
+    const struct draw_command *row = shown_text(s->editor, ".png");
     assert_non_null(row);
     assert_true(row->y > row->clip.y && row->y < row->clip.y + row->clip.h);
-    session_close(&s);
 }
 
 int main(void) { return tests_run(NULL, NULL); }

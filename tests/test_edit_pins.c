@@ -49,74 +49,68 @@ TEST(test_saves_what_it_reads)
     world_close(&world);
 }
 
-TEST(test_every_edit_is_undone)
+WORLD_TEST(test_every_edit_is_undone, open(world))
 {
-    struct world world;
-    open(&world);
-    char *before = world_print(&world);
-    assert_reversible(&world, edit_pin_add(world_edit(&world), 0,
-                                           &(struct pin){.frame = 20, .point = 3, .to = {1, 2, 3}}, &world.error));
-    assert_int_equal(world.document->rigs[0]->pin_count, 3);
-    struct pin moved = world.document->rigs[0]->pins[1];
+    char *before = world_print(world);
+    assert_reversible(world, edit_pin_add(world_edit(world), 0,
+                                          &(struct pin){.frame = 20, .point = 3, .to = {1, 2, 3}}, &world->error));
+    assert_int_equal(world->document->rigs[0]->pin_count, 3);
+    struct pin moved = world->document->rigs[0]->pins[1];
     moved.frame = 40; // past the other
     moved.to[1] = -2;
-    assert_reversible(&world, edit_pin_set(world_edit(&world), 0, &moved, &world.error));
-    assert_int_equal(world.document->rigs[0]->pins[2].id, moved.id);
-    assert_reversible(&world,
-                      edit_pin_remove(world_edit(&world), 0, world.document->rigs[0]->pins[0].id, &world.error));
-    assert_reversible(&world, edit_joints(world_edit(&world), 0, 24, &world.error));
-    assert_int_equal(world.document->rigs[0]->pins[0].point, 23);
-    assert_reversible(&world, edit_fps(world_edit(&world), 48, true, &world.error));
-    assert_near(world.document->rigs[0]->pins[1].frame, 80, 0);
-    assert_reversible(&world, edit_tail_add(world_edit(&world), 0, 0, AXIS_SIDE, PART_TOTAL, &world.error));
-    assert_int_equal(world.document->rigs[2]->pin_count, 0);
-    assert_reversible(&world, edit_range(world_edit(&world), 0, 70, RANGE_MOVE, &world.error));
-    assert_near(world.document->rigs[0]->pins[1].frame, 70, 0);
-    assert_reversible(&world, edit_range(world_edit(&world), 0, 65, RANGE_TRIM, &world.error));
-    assert_int_equal(world.document->rigs[0]->pin_count, 1);
-    world_undo_all(&world);
-    assert_document(&world, before);
+    assert_reversible(world, edit_pin_set(world_edit(world), 0, &moved, &world->error));
+    assert_int_equal(world->document->rigs[0]->pins[2].id, moved.id);
+    assert_reversible(world,
+                      edit_pin_remove(world_edit(world), 0, world->document->rigs[0]->pins[0].id, &world->error));
+    assert_reversible(world, edit_joints(world_edit(world), 0, 24, &world->error));
+    assert_int_equal(world->document->rigs[0]->pins[0].point, 23);
+    assert_reversible(world, edit_fps(world_edit(world), 48, true, &world->error));
+    assert_near(world->document->rigs[0]->pins[1].frame, 80, 0);
+    assert_reversible(world, edit_tail_add(world_edit(world), 0, 0, AXIS_SIDE, PART_TOTAL, &world->error));
+    assert_int_equal(world->document->rigs[2]->pin_count, 0);
+    assert_reversible(world, edit_range(world_edit(world), 0, 70, RANGE_MOVE, &world->error));
+    assert_near(world->document->rigs[0]->pins[1].frame, 70, 0);
+    assert_reversible(world, edit_range(world_edit(world), 0, 65, RANGE_TRIM, &world->error));
+    assert_int_equal(world->document->rigs[0]->pin_count, 1);
+    world_undo_all(world);
+    assert_document(world, before);
     free(before);
-    world_close(&world);
 }
 
-TEST(test_what_would_not_load_is_refused)
+WORLD_TEST(test_what_would_not_load_is_refused, open(world))
 {
-    struct world world;
-    open(&world);
-    struct pin pin = world.document->rigs[0]->pins[1];
-    assert_refused(&world, edit_pin_add(world_edit(&world), 0, &pin, &world.error),
+    struct pin pin = world->document->rigs[0]->pins[1];
+    assert_refused(world, edit_pin_add(world_edit(world), 0, &pin, &world->error),
                    "t: pins: expected a sample of its own for each pin of a point, got frame 30 again");
     pin.frame = 49;
-    assert_refused(&world, edit_pin_set(world_edit(&world), 0, &pin, &world.error),
+    assert_refused(world, edit_pin_set(world_edit(world), 0, &pin, &world->error),
                    "t: pins: expected a frame from 0 to 48, got 49");
     pin.to[1] = NAN;
-    assert_refused(&world, edit_pin_set(world_edit(&world), 0, &pin, &world.error),
+    assert_refused(world, edit_pin_set(world_edit(world), 0, &pin, &world->error),
                    "t: a pin's numbers must be finite");
     pin = (struct pin){.frame = 2, .point = 12};
-    assert_refused(&world, edit_pin_add(world_edit(&world), 0, &pin, &world.error), "t: there is no point 12 to pin");
-    assert_refused(&world, edit_pin_remove(world_edit(&world), 0, pin.id, &world.error),
+    assert_refused(world, edit_pin_add(world_edit(world), 0, &pin, &world->error), "t: there is no point 12 to pin");
+    assert_refused(world, edit_pin_remove(world_edit(world), 0, pin.id, &world->error),
                    "t: this pin no longer exists");
-    assert_refused(&world, edit_mode(&world, SIDE, WIGGLY_CUBIC),
+    assert_refused(world, edit_mode(world, SIDE, WIGGLY_CUBIC),
                    "t: pins: expected splines with a swing of their own, got \"side\", which is cubic");
-    assert_refused(&world, edit_number(&world, UP, PARAMETER_FREQUENCY, 0),
+    assert_refused(world, edit_number(world, UP, PARAMETER_FREQUENCY, 0),
                    "t: pins: expected splines with a swing of their own, got \"up\", whose frequency is 0");
-    assert_refused(&world, edit_number(&world, UP, PARAMETER_CALM, 0),
+    assert_refused(world, edit_number(world, UP, PARAMETER_CALM, 0),
                    "t: pins: expected splines with a swing of their own, got \"up\", whose calm is 0");
-    assert_refused(&world, edit_track(&world, UP, PARAMETER_EQUILIBRIUM, SIDE),
+    assert_refused(world, edit_track(world, UP, PARAMETER_EQUILIBRIUM, SIDE),
                    "t: pins: expected splines that do not follow each other, got \"up\", which follows \"side\"");
-    assert_refused(&world, edit_track(&world, BASE, PARAMETER_EQUILIBRIUM, SIDE),
+    assert_refused(world, edit_track(world, BASE, PARAMETER_EQUILIBRIUM, SIDE),
                    "t: pins: expected splines that are not solved before and after each other, got \"up\", which "
                    "follows \"base\"");
-    assert_refused(&world, edit_feed(world_edit(&world), (struct channel_place){0, 1}, BASE, &world.error),
+    assert_refused(world, edit_feed(world_edit(world), (struct channel_place){0, 1}, BASE, &world->error),
                    "t: pins: expected splines with a swing of their own, got \"base\", which is cubic");
-    assert_refused(&world, edit_frames(&world, 0, 20), "t: pins: expected a frame from 0 to 20, got 30");
+    assert_refused(world, edit_frames(world, 0, 20), "t: pins: expected a frame from 0 to 20, got 30");
     pin.frame = 48;
     pin.point = 1;
-    world_must(&world, edit_pin_add(world_edit(&world), 0, &pin, &world.error));
-    assert_refused(&world, edit_start(&world, UP, WIGGLY_LOOP),
+    world_must(world, edit_pin_add(world_edit(world), 0, &pin, &world->error));
+    assert_refused(world, edit_start(world, UP, WIGGLY_LOOP),
                    "t: pins: expected a frame before 48, because the last frame of a loop repeats the first, got 48");
-    world_close(&world);
 }
 
 int main(void) { return tests_run(NULL, NULL); }

@@ -27,23 +27,20 @@ static float pixels_per_frame(struct session *s)
     return (s->x - x) / 10;
 }
 
-TEST(test_double_click_inserts_at_the_pointer)
+SESSION_TEST(test_double_click_inserts_at_the_pointer, session_open(s, SWAY))
 {
-    struct session s;
-    session_open(&s, SWAY);
-    session_point(&s, "curve(sway,30,1.1)");
-    session_press(&s, BUTTON_LEFT, 1);
-    session_release(&s, BUTTON_LEFT);
-    session_press(&s, BUTTON_LEFT, 2);
-    session_release(&s, BUTTON_LEFT);
-    assert_int_equal(sway(&s)->knot_count, 5);
-    assert_near(sway(&s)->knots[3].frame, 30, 0);
-    assert_near(sway(&s)->knots[3].value, 1.1, 1e-5);
-    assert_near(s.table.evaluation.curves[0].total[30], sway(&s)->knots[3].value,
+    session_point(s, "curve(sway,30,1.1)");
+    session_press(s, BUTTON_LEFT, 1);
+    session_release(s, BUTTON_LEFT);
+    session_press(s, BUTTON_LEFT, 2);
+    session_release(s, BUTTON_LEFT);
+    assert_int_equal(sway(s)->knot_count, 5);
+    assert_near(sway(s)->knots[3].frame, 30, 0);
+    assert_near(sway(s)->knots[3].value, 1.1, 1e-5);
+    assert_near(s->table.evaluation.curves[0].total[30], sway(s)->knots[3].value,
                 0); // hit exactly, in the same frame
-    session_key(&s, 'Z', MOD_CTRL);
-    assert_int_equal(sway(&s)->knot_count, 4);
-    session_close(&s);
+    session_key(s, 'Z', MOD_CTRL);
+    assert_int_equal(sway(s)->knot_count, 4);
 }
 
 TEST(test_insert_at_playhead_keeps_the_curve)
@@ -60,265 +57,226 @@ TEST(test_insert_at_playhead_keeps_the_curve)
     session_close(&s);
 }
 
-TEST(test_a_drag_is_one_step_and_snaps)
+SESSION_TEST(test_a_drag_is_one_step_and_snaps, session_open(s, SWAY))
 {
-    struct session s;
-    session_open(&s, SWAY);
-    char *original = session_saved(&s);
-    float frame = pixels_per_frame(&s);
-    session_pull(&s, "knot(sway,1)", 2.3f * frame, -20, 8);
-    assert_near(sway(&s)->knots[1].frame, 14, 0); // already while dragging
-    session_release(&s, BUTTON_LEFT);
-    assert_near(sway(&s)->knots[1].frame, 14, 0);
-    assert_true(sway(&s)->knots[1].value > 1.05);
-    char *moved = session_saved(&s);
-    session_key(&s, 'Z', MOD_CTRL);
-    assert_saved(&s, original);
-    assert_null(history_undo_label(s.history));
-    session_key(&s, 'Y', MOD_CTRL);
-    assert_saved(&s, moved);
+    char *original = session_saved(s);
+    float frame = pixels_per_frame(s);
+    session_pull(s, "knot(sway,1)", 2.3f * frame, -20, 8);
+    assert_near(sway(s)->knots[1].frame, 14, 0); // already while dragging
+    session_release(s, BUTTON_LEFT);
+    assert_near(sway(s)->knots[1].frame, 14, 0);
+    assert_true(sway(s)->knots[1].value > 1.05);
+    char *moved = session_saved(s);
+    session_key(s, 'Z', MOD_CTRL);
+    assert_saved(s, original);
+    assert_null(history_undo_label(s->history));
+    session_key(s, 'Y', MOD_CTRL);
+    assert_saved(s, moved);
     free(original);
     free(moved);
-    session_close(&s);
 }
 
-TEST(test_modifiers_of_a_drag)
+SESSION_TEST(test_modifiers_of_a_drag, session_open(s, SWAY))
 {
-    struct session s;
-    session_open(&s, SWAY);
-    float frame = pixels_per_frame(&s);
-    session_point(&s, "knot(sway,1)");
-    session_press(&s, BUTTON_LEFT, 1);
-    s.mods = MOD_CTRL;
-    session_drag(&s, 2.25f * frame, 0, 4);
-    assert_near(sway(&s)->knots[1].frame, 14.25, 1e-4); // no snap
-    s.mods = 0;
-    session_key(&s, 'Y', 0);
-    session_drag(&s, 3 * frame, -30, 4);
-    assert_near(sway(&s)->knots[1].frame, 12, 0); // locked to its frame
-    assert_true(sway(&s)->knots[1].value > 1.05);
-    session_key(&s, 'X', 0);
-    session_frame(&s);
-    assert_near(sway(&s)->knots[1].value, 1, 0); // locked to its value
-    s.mods = MOD_SHIFT;
-    session_key(&s, 'X', 0);
-    float before = (float)sway(&s)->knots[1].value;
-    session_drag(&s, 0, -100, 4);
-    double fine = sway(&s)->knots[1].value - before;
-    s.mods = 0;
-    session_drag(&s, 0, -100, 4);
-    assert_near((sway(&s)->knots[1].value - before - fine) / fine, 10, 0.01);
-    session_release(&s, BUTTON_LEFT);
-    session_close(&s);
+    float frame = pixels_per_frame(s);
+    session_point(s, "knot(sway,1)");
+    session_press(s, BUTTON_LEFT, 1);
+    s->mods = MOD_CTRL;
+    session_drag(s, 2.25f * frame, 0, 4);
+    assert_near(sway(s)->knots[1].frame, 14.25, 1e-4); // no snap
+    s->mods = 0;
+    session_key(s, 'Y', 0);
+    session_drag(s, 3 * frame, -30, 4);
+    assert_near(sway(s)->knots[1].frame, 12, 0); // locked to its frame
+    assert_true(sway(s)->knots[1].value > 1.05);
+    session_key(s, 'X', 0);
+    session_frame(s);
+    assert_near(sway(s)->knots[1].value, 1, 0); // locked to its value
+    s->mods = MOD_SHIFT;
+    session_key(s, 'X', 0);
+    float before = (float)sway(s)->knots[1].value;
+    session_drag(s, 0, -100, 4);
+    double fine = sway(s)->knots[1].value - before;
+    s->mods = 0;
+    session_drag(s, 0, -100, 4);
+    assert_near((sway(s)->knots[1].value - before - fine) / fine, 10, 0.01);
+    session_release(s, BUTTON_LEFT);
 }
 
-TEST(test_a_drag_passes_through_an_occupied_frame)
+SESSION_TEST(test_a_drag_passes_through_an_occupied_frame, session_open(s, SWAY))
 {
-    struct session s;
-    session_open(&s, SWAY);
-    float frame = pixels_per_frame(&s);
-    session_pull(&s, "knot(sway,1)", 11 * frame, 0, 11);
-    assert_near(sway(&s)->knots[1].frame, 23, 0);
-    session_drag(&s, frame, 0, 1);
-    assert_near(sway(&s)->knots[1].frame, 23, 0); // 24 is taken: it waits in front
-    assert_near(sway(&s)->knots[2].frame, 24, 0);
-    session_drag(&s, frame, 0, 1);
-    assert_near(sway(&s)->knots[2].frame, 25, 0); // and is past it
-    assert_near(sway(&s)->knots[2].value, 1, 1e-9);
-    assert_knot(&s, 1, 24, -1);
-    session_release(&s, BUTTON_LEFT);
-    assert_int_equal(sway(&s)->knot_count, 4);
-    session_close(&s);
+    float frame = pixels_per_frame(s);
+    session_pull(s, "knot(sway,1)", 11 * frame, 0, 11);
+    assert_near(sway(s)->knots[1].frame, 23, 0);
+    session_drag(s, frame, 0, 1);
+    assert_near(sway(s)->knots[1].frame, 23, 0); // 24 is taken: it waits in front
+    assert_near(sway(s)->knots[2].frame, 24, 0);
+    session_drag(s, frame, 0, 1);
+    assert_near(sway(s)->knots[2].frame, 25, 0); // and is past it
+    assert_near(sway(s)->knots[2].value, 1, 1e-9);
+    assert_knot(s, 1, 24, -1);
+    session_release(s, BUTTON_LEFT);
+    assert_int_equal(sway(s)->knot_count, 4);
 }
 
-TEST(test_a_group_keeps_its_shape_and_stays_inside)
+SESSION_TEST(test_a_group_keeps_its_shape_and_stays_inside, session_open(s, SWAY))
 {
-    struct session s;
-    session_open(&s, SWAY);
-    session_key(&s, 'A', MOD_CTRL);
-    session_point(&s, "knot(sway,2)");
-    session_press(&s, BUTTON_LEFT, 1);
-    session_key(&s, 'X', 0);
-    session_drag(&s, 3000, 0, 6);
-    session_release(&s, BUTTON_LEFT);
+    session_key(s, 'A', MOD_CTRL);
+    session_point(s, "knot(sway,2)");
+    session_press(s, BUTTON_LEFT, 1);
+    session_key(s, 'X', 0);
+    session_drag(s, 3000, 0, 6);
+    session_release(s, BUTTON_LEFT);
     const double frames[] = {12, 24, 36, 48}, values[] = {0, 1, -1, 0.5};
-    for (int k = 0; k < 4; k++) assert_knot(&s, k, frames[k], values[k]);
-    session_close(&s);
+    for (int k = 0; k < 4; k++) assert_knot(s, k, frames[k], values[k]);
 }
 
-TEST(test_escape_cancels_a_drag_then_drops_the_selection)
+SESSION_TEST(test_escape_cancels_a_drag_then_drops_the_selection, session_open(s, SWAY))
 {
-    struct session s;
-    session_open(&s, SWAY);
-    char *original = session_saved(&s);
-    session_pull(&s, "knot(sway,1)", 60, -20, 5);
-    session_key(&s, KEY_ESCAPE, 0);
-    assert_saved(&s, original);
-    assert_false(history_is_open(s.history));
-    assert_null(history_undo_label(s.history));
-    session_drag(&s, 60, -20, 5);
-    session_release(&s, BUTTON_LEFT);
-    assert_saved(&s, original);
-    session_key(&s, KEY_ESCAPE, 0);
-    session_key(&s, KEY_DELETE, 0); // nothing is selected any more
-    assert_saved(&s, original);
+    char *original = session_saved(s);
+    session_pull(s, "knot(sway,1)", 60, -20, 5);
+    session_key(s, KEY_ESCAPE, 0);
+    assert_saved(s, original);
+    assert_false(history_is_open(s->history));
+    assert_null(history_undo_label(s->history));
+    session_drag(s, 60, -20, 5);
+    session_release(s, BUTTON_LEFT);
+    assert_saved(s, original);
+    session_key(s, KEY_ESCAPE, 0);
+    session_key(s, KEY_DELETE, 0); // nothing is selected any more
+    assert_saved(s, original);
     free(original);
-    session_close(&s);
 }
 
-TEST(test_a_click_edits_nothing)
+SESSION_TEST(test_a_click_edits_nothing, session_open(s, SWAY))
 {
-    struct session s;
-    session_open(&s, SWAY);
-    uint64_t revision = history_revision(s.history);
-    session_click(&s, "knot(sway,1)");
-    session_pull(&s, "knot(sway,2)", 1, 1, 2); // a hand that trembles
-    session_release(&s, BUTTON_LEFT);
-    assert_true(history_revision(s.history) == revision);
-    session_close(&s);
+    uint64_t revision = history_revision(s->history);
+    session_click(s, "knot(sway,1)");
+    session_pull(s, "knot(sway,2)", 1, 1, 2); // a hand that trembles
+    session_release(s, BUTTON_LEFT);
+    assert_true(history_revision(s->history) == revision);
 }
 
-TEST(test_selecting)
+SESSION_TEST(test_selecting, session_open(s, SWAY))
 {
-    struct session s;
-    session_open(&s, SWAY);
-    session_click(&s, "knot(sway,1)");
-    s.mods = MOD_SHIFT;
-    session_click(&s, "knot(sway,2)");
-    session_click(&s, "knot(sway,3)");
-    session_click(&s, "knot(sway,3)"); // taken out again
-    s.mods = 0;
-    session_key(&s, KEY_DELETE, 0);
-    assert_int_equal(sway(&s)->knot_count, 2);
-    assert_knot(&s, 1, 36, 0.5);
-    session_key(&s, 'Z', MOD_CTRL);
-    session_click(&s, "knot(sway,1)");
-    session_type(&s, ".");
-    session_key(&s, KEY_BACKSPACE, 0);
-    assert_int_equal(sway(&s)->knot_count, 3);
-    assert_knot(&s, 2, 36, 0.5);
-    session_key(&s, KEY_PAGE_DOWN, 0);
-    session_key(&s, 'A', MOD_CTRL);
-    session_key(&s, KEY_DELETE, 0);
-    assert_int_equal(s.document->splines[1]->knot_count, 0); // of the other spline now
-    assert_int_equal(sway(&s)->knot_count, 3);
-    session_close(&s);
+    session_click(s, "knot(sway,1)");
+    s->mods = MOD_SHIFT;
+    session_click(s, "knot(sway,2)");
+    session_click(s, "knot(sway,3)");
+    session_click(s, "knot(sway,3)"); // taken out again
+    s->mods = 0;
+    session_key(s, KEY_DELETE, 0);
+    assert_int_equal(sway(s)->knot_count, 2);
+    assert_knot(s, 1, 36, 0.5);
+    session_key(s, 'Z', MOD_CTRL);
+    session_click(s, "knot(sway,1)");
+    session_type(s, ".");
+    session_key(s, KEY_BACKSPACE, 0);
+    assert_int_equal(sway(s)->knot_count, 3);
+    assert_knot(s, 2, 36, 0.5);
+    session_key(s, KEY_PAGE_DOWN, 0);
+    session_key(s, 'A', MOD_CTRL);
+    session_key(s, KEY_DELETE, 0);
+    assert_int_equal(s->document->splines[1]->knot_count, 0); // of the other spline now
+    assert_int_equal(sway(s)->knot_count, 3);
 }
 
-TEST(test_nudges_merge)
+SESSION_TEST(test_nudges_merge, session_open(s, SWAY))
 {
-    struct session s;
-    session_open(&s, SWAY);
-    char *original = session_saved(&s);
-    session_click(&s, "knot(sway,1)");
-    for (int i = 0; i < 3; i++) session_key(&s, KEY_RIGHT, MOD_ALT);
-    assert_near(sway(&s)->knots[1].frame, 15, 0);
-    session_key(&s, KEY_RIGHT, MOD_ALT | MOD_CTRL);
-    assert_near(sway(&s)->knots[1].frame, 15.1, 1e-9);
-    session_key(&s, 'Z', MOD_CTRL);
-    assert_saved(&s, original); // one run, one step
-    session_click(&s, "knot(sway,1)");
-    session_key(&s, KEY_UP, MOD_ALT);
-    session_click(&s, "knot(sway,2)");
-    session_key(&s, KEY_UP, MOD_ALT);
-    session_key(&s, 'Z', MOD_CTRL);
-    assert_true(sway(&s)->knots[1].value > 1); // another selection was another step
-    session_key(&s, 'Z', MOD_CTRL);
-    assert_saved(&s, original);
+    char *original = session_saved(s);
+    session_click(s, "knot(sway,1)");
+    for (int i = 0; i < 3; i++) session_key(s, KEY_RIGHT, MOD_ALT);
+    assert_near(sway(s)->knots[1].frame, 15, 0);
+    session_key(s, KEY_RIGHT, MOD_ALT | MOD_CTRL);
+    assert_near(sway(s)->knots[1].frame, 15.1, 1e-9);
+    session_key(s, 'Z', MOD_CTRL);
+    assert_saved(s, original); // one run, one step
+    session_click(s, "knot(sway,1)");
+    session_key(s, KEY_UP, MOD_ALT);
+    session_click(s, "knot(sway,2)");
+    session_key(s, KEY_UP, MOD_ALT);
+    session_key(s, 'Z', MOD_CTRL);
+    assert_true(sway(s)->knots[1].value > 1); // another selection was another step
+    session_key(s, 'Z', MOD_CTRL);
+    assert_saved(s, original);
     free(original);
-    session_close(&s);
 }
 
-TEST(test_a_nudge_passes_through)
+SESSION_TEST(test_a_nudge_passes_through, session_open(s, SWAY))
 {
-    struct session s;
-    session_open(&s, SWAY);
-    session_click(&s, "knot(sway,2)");
-    session_key(&s, KEY_RIGHT, MOD_ALT | MOD_SHIFT);
-    assert_near(sway(&s)->knots[2].frame, 34, 0);
-    session_key(&s, KEY_RIGHT, MOD_ALT);
-    session_key(&s, KEY_RIGHT, MOD_ALT); // 36 is taken
-    assert_near(sway(&s)->knots[2].frame, 36, 0);
-    assert_near(sway(&s)->knots[3].frame, 37, 0);
-    assert_near(sway(&s)->knots[3].value, -1, 0);
-    session_close(&s);
+    session_click(s, "knot(sway,2)");
+    session_key(s, KEY_RIGHT, MOD_ALT | MOD_SHIFT);
+    assert_near(sway(s)->knots[2].frame, 34, 0);
+    session_key(s, KEY_RIGHT, MOD_ALT);
+    session_key(s, KEY_RIGHT, MOD_ALT); // 36 is taken
+    assert_near(sway(s)->knots[2].frame, 36, 0);
+    assert_near(sway(s)->knots[3].frame, 37, 0);
+    assert_near(sway(s)->knots[3].value, -1, 0);
 }
 
-TEST(test_slopes)
+SESSION_TEST(test_slopes, session_open(s, SWAY))
 {
-    struct session s;
-    session_open(&s, SWAY);
-    session_click(&s, "knot(sway,1)");
-    session_key(&s, 'T', 0);
-    assert_true(sway(&s)->knots[1].has_slope);
-    double slope = sway(&s)->knots[1].slope;
-    session_key(&s, 'E', 0);
-    assert_true(sway(&s)->knots[1].slope > slope);
-    session_key(&s, 'D', 0);
-    assert_near(sway(&s)->knots[1].slope, slope, 1e-12);
-    session_key(&s, 'E', MOD_SHIFT);
-    assert_near(sway(&s)->knots[1].stiffness, 1250, 1e-9);
-    session_pull(&s, "handle(sway,1,1)", 0, -60, 5);
-    session_release(&s, BUTTON_LEFT);
-    assert_true(sway(&s)->knots[1].slope > slope + 0.1);
-    assert_near(sway(&s)->knots[1].value, 1, 0);
-    session_key(&s, 'Z', MOD_CTRL);
-    assert_near(sway(&s)->knots[1].slope, slope, 1e-12);
-    session_key(&s, 'T', 0);
-    assert_false(sway(&s)->knots[1].has_slope);
-    session_close(&s);
+    session_click(s, "knot(sway,1)");
+    session_key(s, 'T', 0);
+    assert_true(sway(s)->knots[1].has_slope);
+    double slope = sway(s)->knots[1].slope;
+    session_key(s, 'E', 0);
+    assert_true(sway(s)->knots[1].slope > slope);
+    session_key(s, 'D', 0);
+    assert_near(sway(s)->knots[1].slope, slope, 1e-12);
+    session_key(s, 'E', MOD_SHIFT);
+    assert_near(sway(s)->knots[1].stiffness, 1250, 1e-9);
+    session_pull(s, "handle(sway,1,1)", 0, -60, 5);
+    session_release(s, BUTTON_LEFT);
+    assert_true(sway(s)->knots[1].slope > slope + 0.1);
+    assert_near(sway(s)->knots[1].value, 1, 0);
+    session_key(s, 'Z', MOD_CTRL);
+    assert_near(sway(s)->knots[1].slope, slope, 1e-12);
+    session_key(s, 'T', 0);
+    assert_false(sway(s)->knots[1].has_slope);
 }
 
 /// However long the keys are held, a stiffness stays one that a scene may have.
-TEST(test_stiffness_stays_in_range)
+SESSION_TEST(test_stiffness_stays_in_range, session_open(s, SWAY))
 {
-    struct session s;
-    session_open(&s, SWAY);
-    session_click(&s, "knot(sway,1)");
-    for (int i = 0; i < 80; i++) session_key(&s, 'E', MOD_SHIFT);
-    assert_near(sway(&s)->knots[1].stiffness, 1e9, 0);
-    for (int i = 0; i < 160; i++) session_key(&s, 'D', MOD_SHIFT);
-    assert_near(sway(&s)->knots[1].stiffness, 1e-3, 0);
-    session_close(&s);
+    session_click(s, "knot(sway,1)");
+    for (int i = 0; i < 80; i++) session_key(s, 'E', MOD_SHIFT);
+    assert_near(sway(s)->knots[1].stiffness, 1e9, 0);
+    for (int i = 0; i < 160; i++) session_key(s, 'D', MOD_SHIFT);
+    assert_near(sway(s)->knots[1].stiffness, 1e-3, 0);
 }
 
-TEST(test_parameters_by_held_letters)
+SESSION_TEST(test_parameters_by_held_letters, session_open(s, SWAY))
 {
-    struct session s;
-    session_open(&s, SWAY);
-    session_hold(&s, 'F', ACTION_PRESS);
-    for (int i = 0; i < 4; i++) session_key(&s, KEY_UP, 0);
-    session_hold(&s, 'F', ACTION_RELEASE);
-    session_key(&s, KEY_UP, 0); // nothing is held: nothing happens
-    assert_near(sway(&s)->parameter[PARAMETER_FREQUENCY].value, 1.2, 1e-12);
-    session_hold(&s, 'Z', ACTION_PRESS);
-    for (int i = 0; i < 30; i++) session_key(&s, KEY_DOWN, 0);
-    session_hold(&s, 'Z', ACTION_RELEASE);
-    assert_near(sway(&s)->parameter[PARAMETER_DAMPING].value, 0, 0);
-    session_key(&s, 'Z', MOD_CTRL);
-    assert_near(sway(&s)->parameter[PARAMETER_DAMPING].value, 0.1, 0);
-    session_key(&s, 'Z', MOD_CTRL);
-    assert_near(sway(&s)->parameter[PARAMETER_FREQUENCY].value, 1, 0);
-    session_key(&s, 'M', 0);
-    assert_int_equal(spline_mode(sway(&s)), WIGGLY_REAL);
-    session_close(&s);
+    session_hold(s, 'F', ACTION_PRESS);
+    for (int i = 0; i < 4; i++) session_key(s, KEY_UP, 0);
+    session_hold(s, 'F', ACTION_RELEASE);
+    session_key(s, KEY_UP, 0); // nothing is held: nothing happens
+    assert_near(sway(s)->parameter[PARAMETER_FREQUENCY].value, 1.2, 1e-12);
+    session_hold(s, 'Z', ACTION_PRESS);
+    for (int i = 0; i < 30; i++) session_key(s, KEY_DOWN, 0);
+    session_hold(s, 'Z', ACTION_RELEASE);
+    assert_near(sway(s)->parameter[PARAMETER_DAMPING].value, 0, 0);
+    session_key(s, 'Z', MOD_CTRL);
+    assert_near(sway(s)->parameter[PARAMETER_DAMPING].value, 0.1, 0);
+    session_key(s, 'Z', MOD_CTRL);
+    assert_near(sway(s)->parameter[PARAMETER_FREQUENCY].value, 1, 0);
+    session_key(s, 'M', 0);
+    assert_int_equal(spline_mode(sway(s)), WIGGLY_REAL);
 }
 
-TEST(test_keys_during_a_drag_do_not_mix)
+SESSION_TEST(test_keys_during_a_drag_do_not_mix, session_open(s, SWAY))
 {
-    struct session s;
-    session_open(&s, SWAY);
-    session_pull(&s, "knot(sway,1)", 30, -20, 3);
-    session_key(&s, KEY_DELETE, 0);
-    session_key(&s, 'Z', MOD_CTRL);
-    session_key(&s, KEY_PAGE_DOWN, 0);
-    session_drag(&s, 5, 0, 1);
-    session_release(&s, BUTTON_LEFT);
-    assert_int_equal(sway(&s)->knot_count, 4);
-    assert_true(sway(&s)->knots[1].frame > 12);
-    session_key(&s, 'Z', MOD_CTRL);
-    assert_knot(&s, 1, 12, 1);
-    session_close(&s);
+    session_pull(s, "knot(sway,1)", 30, -20, 3);
+    session_key(s, KEY_DELETE, 0);
+    session_key(s, 'Z', MOD_CTRL);
+    session_key(s, KEY_PAGE_DOWN, 0);
+    session_drag(s, 5, 0, 1);
+    session_release(s, BUTTON_LEFT);
+    assert_int_equal(sway(s)->knot_count, 4);
+    assert_true(sway(s)->knots[1].frame > 12);
+    session_key(s, 'Z', MOD_CTRL);
+    assert_knot(s, 1, 12, 1);
 }
 
 static int below(int limit) { return rand() % limit; }

@@ -67,24 +67,21 @@ TEST(test_a_pull_taken_back_leaves_nothing_selected)
     session_close(&s);
 }
 
-TEST(test_the_tail_follows_the_hand)
+SESSION_TEST(test_the_tail_follows_the_hand, session_open(s, TAIL))
 {
-    struct session s;
-    session_open(&s, TAIL);
-    session_click(&s, "ruler(60)");
-    char *original = session_saved(&s);
-    pull(&s, 0.95f, 60, -40);
-    assert_int_equal(s.document->splines[0]->knot_count, 4); // one knot in each channel, at the playhead
-    assert_int_equal(s.document->splines[1]->knot_count, 3);
-    assert_near(s.document->splines[0]->knots[2].frame, 60, 0);
-    pull(&s, 0.5f, -20, 10); // moves the knots that are there now
-    assert_int_equal(s.document->splines[0]->knot_count, 4);
-    session_key(&s, 'Z', MOD_CTRL);
-    session_key(&s, 'Z', MOD_CTRL);
-    assert_null(history_undo_label(s.history)); // a pull is one step
-    assert_saved(&s, original);
+    session_click(s, "ruler(60)");
+    char *original = session_saved(s);
+    pull(s, 0.95f, 60, -40);
+    assert_int_equal(s->document->splines[0]->knot_count, 4); // one knot in each channel, at the playhead
+    assert_int_equal(s->document->splines[1]->knot_count, 3);
+    assert_near(s->document->splines[0]->knots[2].frame, 60, 0);
+    pull(s, 0.5f, -20, 10); // moves the knots that are there now
+    assert_int_equal(s->document->splines[0]->knot_count, 4);
+    session_key(s, 'Z', MOD_CTRL);
+    session_key(s, 'Z', MOD_CTRL);
+    assert_null(history_undo_label(s->history)); // a pull is one step
+    assert_saved(s, original);
     free(original);
-    session_close(&s);
 }
 
 TEST(test_a_pull_out_of_reach_stays_calm)
@@ -155,17 +152,15 @@ static bool is_in(const uint64_t *hashes, int count, uint64_t hash)
     return false;
 }
 
-TEST(test_playing_redraws_the_playhead_only)
+SESSION_TEST(test_playing_redraws_the_playhead_only, session_open(s, TAIL))
 {
-    struct session s;
-    session_open(&s, TAIL);
-    session_key(&s, KEY_SPACE, 0);
-    for (int i = 0; i < 400; i++) session_frame(&s); // messages are gone by then
-    const struct drawlist *list = editor_drawlist(s.editor);
+    session_key(s, KEY_SPACE, 0);
+    for (int i = 0; i < 400; i++) session_frame(s); // messages are gone by then
+    const struct drawlist *list = editor_drawlist(s->editor);
     int count = list->count;
     uint64_t *before = malloc((size_t)count * sizeof *before);
     for (int i = 0; i < count; i++) before[i] = list->commands[i].hash;
-    session_frame(&s);
+    session_frame(s);
     assert_int_equal(list->count, count);
     int changed = 0;
     for (int i = 0; i < count; i++) {
@@ -177,46 +172,39 @@ TEST(test_playing_redraws_the_playhead_only)
     }
     assert_in_range(changed, 1, 6);
     free(before);
-    session_close(&s);
 }
 
-TEST(test_nothing_changes_while_nothing_happens)
+SESSION_TEST(test_nothing_changes_while_nothing_happens, session_open(s, TAIL))
 {
-    struct session s;
-    session_open(&s, TAIL);
-    for (int i = 0; i < 400; i++) session_frame(&s);
-    const struct drawlist *list = editor_drawlist(s.editor);
+    for (int i = 0; i < 400; i++) session_frame(s);
+    const struct drawlist *list = editor_drawlist(s->editor);
     uint64_t first = list->commands[0].hash, sum = 0, again = 0;
     for (int i = 0; i < list->count; i++) sum += list->commands[i].hash * (uint64_t)(i + 1);
-    uint64_t stage = editor_stage(s.editor)->hash;
-    session_frame(&s);
+    uint64_t stage = editor_stage(s->editor)->hash;
+    session_frame(s);
     for (int i = 0; i < list->count; i++) again += list->commands[i].hash * (uint64_t)(i + 1);
     assert_true(first == list->commands[0].hash && sum == again);
-    assert_true(stage == editor_stage(s.editor)->hash);
-    assert_false(editor_wants_frames(s.editor));
-    editor_message(s.editor, true, "The disk is full."); // said between two frames, and to be seen in the next one
-    assert_true(editor_wants_frames(s.editor));
-    session_frame(&s);
-    assert_false(editor_wants_frames(s.editor));
-    session_close(&s);
+    assert_true(stage == editor_stage(s->editor)->hash);
+    assert_false(editor_wants_frames(s->editor));
+    editor_message(s->editor, true, "The disk is full."); // said between two frames, and to be seen in the next one
+    assert_true(editor_wants_frames(s->editor));
+    session_frame(s);
+    assert_false(editor_wants_frames(s->editor));
 }
 
-TEST(test_steady_frames_allocate_nothing)
+SESSION_TEST(test_steady_frames_allocate_nothing, session_open(s, TAIL))
 {
-    struct session s;
-    session_open(&s, TAIL);
-    session_key(&s, KEY_SPACE, 0);
-    session_frame(&s);
+    session_key(s, KEY_SPACE, 0);
+    session_frame(s);
     long before = allocation_count();
-    for (int i = 0; i < 60; i++) session_frame(&s);
+    for (int i = 0; i < 60; i++) session_frame(s);
     assert_int_equal(allocation_count() - before, 0); // playing
-    session_pull(&s, "knot(sway,1)", 10, -20, 5);
-    session_frame(&s);
+    session_pull(s, "knot(sway,1)", 10, -20, 5);
+    session_frame(s);
     before = allocation_count();
-    for (int i = 0; i < 60; i++) session_frame(&s);
+    for (int i = 0; i < 60; i++) session_frame(s);
     assert_int_equal(allocation_count() - before, 0); // a knot is held while it plays
-    session_release(&s, BUTTON_LEFT);
-    session_close(&s);
+    session_release(s, BUTTON_LEFT);
 }
 
 /// Vertices of the active curve (the widest line, or band) in the list.
@@ -232,26 +220,23 @@ static const float *active_line(const struct session *s, int *count)
     return NULL;
 }
 
-TEST(test_the_drawn_curve_goes_through_its_knots)
+SESSION_TEST(test_the_drawn_curve_goes_through_its_knots, session_open(s, TAIL))
 {
-    struct session s;
-    session_open(&s, TAIL);
     for (int k = 0; k < 3; k++) {
         char target[32];
         int count;
         float nearest = 1e9f;
         snprintf(target, sizeof target, "knot(sway,%d)", k);
-        session_point(&s, target);
-        session_frame(&s);
-        const float *xy = active_line(&s, &count);
+        session_point(s, target);
+        session_frame(s);
+        const float *xy = active_line(s, &count);
         assert_non_null(xy);
         assert_true(count <= 1280); // a vertex a column at most
         for (int i = 0; i < count; i++) {
-            nearest = fminf(nearest, hypotf(xy[2 * i] - s.x, xy[2 * i + 1] - s.y));
+            nearest = fminf(nearest, hypotf(xy[2 * i] - s->x, xy[2 * i + 1] - s->y));
         }
         assert_near(nearest, 0, PLOT_TOLERANCE);
     }
-    session_close(&s);
 }
 
 TEST(test_fine_oscillations_are_drawn_as_their_band)
@@ -273,88 +258,76 @@ TEST(test_fine_oscillations_are_drawn_as_their_band)
     session_close(&s);
 }
 
-TEST(test_playing_and_scrubbing)
+SESSION_TEST(test_playing_and_scrubbing, session_open(s, TAIL))
 {
-    struct session s;
-    session_open(&s, TAIL);
-    const struct stage_view *stage = editor_stage(s.editor);
-    session_click(&s, "ruler(30)");
-    assert_false(editor_is_playing(s.editor));
+    const struct stage_view *stage = editor_stage(s->editor);
+    session_click(s, "ruler(30)");
+    assert_false(editor_is_playing(s->editor));
     uint64_t at_30 = stage->hash;
-    session_key(&s, KEY_RIGHT, 0);
+    session_key(s, KEY_RIGHT, 0);
     assert_true(stage->hash != at_30);
-    session_key(&s, KEY_LEFT, 0);
+    session_key(s, KEY_LEFT, 0);
     assert_true(stage->hash == at_30); // a pose is a function of the frame alone
-    session_key(&s, KEY_RIGHT, MOD_SHIFT);
+    session_key(s, KEY_RIGHT, MOD_SHIFT);
     uint64_t at_end = stage->hash;
-    session_key(&s, KEY_LEFT, MOD_SHIFT);
+    session_key(s, KEY_LEFT, MOD_SHIFT);
     assert_true(stage->hash == at_end); // a loop ends where it starts
-    session_click(&s, "ruler(30)");
-    session_key(&s, KEY_SPACE, 0);
-    for (int i = 0; i < 299; i++) session_frame(&s);
-    assert_true(editor_is_playing(s.editor));
-    session_key(&s, KEY_SPACE, 0); // 300 frames of 1/60 s are the whole loop of 5 s
-    session_click(&s, "ruler(30)");
+    session_click(s, "ruler(30)");
+    session_key(s, KEY_SPACE, 0);
+    for (int i = 0; i < 299; i++) session_frame(s);
+    assert_true(editor_is_playing(s->editor));
+    session_key(s, KEY_SPACE, 0); // 300 frames of 1/60 s are the whole loop of 5 s
+    session_click(s, "ruler(30)");
     assert_true(stage->hash == at_30);
-    session_close(&s);
 }
 
-TEST(test_space_and_drag_pans_without_playing)
+SESSION_TEST(test_space_and_drag_pans_without_playing, session_open(s, TAIL))
 {
-    struct session s;
-    session_open(&s, TAIL);
-    session_point(&s, "curve(sway,60,0)");
-    float x = s.x, y = s.y;
-    session_hold(&s, KEY_SPACE, ACTION_PRESS);
-    session_press(&s, BUTTON_LEFT, 1);
-    session_drag(&s, 35, -12, 4);
-    session_release(&s, BUTTON_LEFT);
-    session_hold(&s, KEY_SPACE, ACTION_RELEASE);
-    assert_false(editor_is_playing(s.editor));
-    session_point(&s, "curve(sway,60,0)");
-    assert_near(s.x, x + 35, 0.1);
-    assert_near(s.y, y - 12, 0.1);
-    session_key(&s, KEY_HOME, 0);
-    session_point(&s, "curve(sway,60,0)");
-    assert_near(s.x, x, 0.1);
-    session_close(&s);
+    session_point(s, "curve(sway,60,0)");
+    float x = s->x, y = s->y;
+    session_hold(s, KEY_SPACE, ACTION_PRESS);
+    session_press(s, BUTTON_LEFT, 1);
+    session_drag(s, 35, -12, 4);
+    session_release(s, BUTTON_LEFT);
+    session_hold(s, KEY_SPACE, ACTION_RELEASE);
+    assert_false(editor_is_playing(s->editor));
+    session_point(s, "curve(sway,60,0)");
+    assert_near(s->x, x + 35, 0.1);
+    assert_near(s->y, y - 12, 0.1);
+    session_key(s, KEY_HOME, 0);
+    session_point(s, "curve(sway,60,0)");
+    assert_near(s->x, x, 0.1);
 }
 
-TEST(test_the_wheel_zooms_about_the_pointer)
+SESSION_TEST(test_the_wheel_zooms_about_the_pointer, session_open(s, TAIL))
 {
-    struct session s;
-    session_open(&s, TAIL);
     const unsigned mods[] = {0, MOD_CTRL, MOD_SHIFT};
     for (int i = 0; i < 3; i++) {
-        session_point(&s, "knot(sway,1)");
-        float x = s.x, y = s.y;
-        s.mods = mods[i];
-        session_wheel(&s, 3);
-        s.mods = 0;
-        session_point(&s, "knot(sway,1)");
-        assert_near(s.x, x, 0.1);
-        assert_near(s.y, y, 0.1);
+        session_point(s, "knot(sway,1)");
+        float x = s->x, y = s->y;
+        s->mods = mods[i];
+        session_wheel(s, 3);
+        s->mods = 0;
+        session_point(s, "knot(sway,1)");
+        assert_near(s->x, x, 0.1);
+        assert_near(s->y, y, 0.1);
     }
-    session_close(&s);
 }
 
-TEST(test_the_stage_turns_only_by_hand)
+SESSION_TEST(test_the_stage_turns_only_by_hand, session_open(s, TAIL))
 {
-    struct session s;
-    session_open(&s, TAIL);
     float before[16], lamp[3];
-    memcpy(lamp, editor_stage(s.editor)->key_from, sizeof lamp);
-    memcpy(before, editor_stage(s.editor)->view, sizeof before);
-    session_click(&s, "knot(sway,1)");
-    session_key(&s, KEY_UP, MOD_ALT);
-    assert_memory_equal(before, editor_stage(s.editor)->view, sizeof before);
-    session_point(&s, "stage(0.05,0.1)");
-    session_press(&s, BUTTON_RIGHT, 1);
-    session_drag(&s, 50, 0, 3);
-    session_release(&s, BUTTON_RIGHT);
-    assert_memory_not_equal(before, editor_stage(s.editor)->view, sizeof before);
-    assert_memory_equal(lamp, editor_stage(s.editor)->key_from, sizeof lamp); // the light stays with the world
-    session_close(&s);
+    memcpy(lamp, editor_stage(s->editor)->key_from, sizeof lamp);
+    memcpy(before, editor_stage(s->editor)->view, sizeof before);
+    session_click(s, "knot(sway,1)");
+    session_key(s, KEY_UP, MOD_ALT);
+    assert_memory_equal(before, editor_stage(s->editor)->view, sizeof before);
+    session_point(s, "stage(0.05,0.1)");
+    session_press(s, BUTTON_RIGHT, 1);
+    session_drag(s, 50, 0, 3);
+    session_release(s, BUTTON_RIGHT);
+    assert_memory_not_equal(before, editor_stage(s->editor)->view, sizeof before);
+    assert_memory_equal(lamp, editor_stage(s->editor)->key_from, sizeof lamp); // the light stays with the world
 }
 
 /// Whether a text stands in the curves panel.
@@ -370,31 +343,25 @@ static bool shows_text(const struct session *s, const char *text)
 }
 
 /// Paused between two frames, the playhead names the frame on which I sets a knot.
-TEST(test_the_playhead_names_the_frame_of_the_next_knot)
+SESSION_TEST(test_the_playhead_names_the_frame_of_the_next_knot, session_open(s, TAIL))
 {
-    struct session s;
-    session_open(&s, TAIL);
-    session_click(&s, "ruler(50)");
-    session_key(&s, KEY_SPACE, 0);
-    for (int i = 0; i < 3; i++) session_frame(&s); // at 24 fps four frames of 1/60 s are 1.6 of the scene's
-    session_key(&s, KEY_SPACE, 0);
-    assert_true(shows_text(&s, "52"));
-    session_key(&s, 'I', 0);
-    assert_near(s.document->splines[0]->knots[2].frame, 52, 0);
-    session_close(&s);
+    session_click(s, "ruler(50)");
+    session_key(s, KEY_SPACE, 0);
+    for (int i = 0; i < 3; i++) session_frame(s); // at 24 fps four frames of 1/60 s are 1.6 of the scene's
+    session_key(s, KEY_SPACE, 0);
+    assert_true(shows_text(s, "52"));
+    session_key(s, 'I', 0);
+    assert_near(s->document->splines[0]->knots[2].frame, 52, 0);
 }
 
 /// V: which way the curves are shown stands beside them for as long as they are; Im x is named where it is drawn.
-TEST(test_the_curves_say_how_they_are_shown)
+SESSION_TEST(test_the_curves_say_how_they_are_shown, session_open(s, TAIL))
 {
-    struct session s;
-    session_open(&s, TAIL);
-    assert_true(shows_text(&s, "Im"));
-    session_key(&s, 'V', 0);
-    session_key(&s, 'V', 0);
-    assert_true(shows_text(&s, "Cubic"));
-    assert_false(shows_text(&s, "Im"));
-    session_close(&s);
+    assert_true(shows_text(s, "Im"));
+    session_key(s, 'V', 0);
+    session_key(s, 'V', 0);
+    assert_true(shows_text(s, "Cubic"));
+    assert_false(shows_text(s, "Im"));
 }
 
 /// Home puts everything back into sight where the pointer is: the camera over the stage, else the curves.
@@ -435,17 +402,14 @@ TEST(test_small_windows)
     session_close(&s);
 }
 
-TEST(test_dividers)
+SESSION_TEST(test_dividers, session_open(s, TAIL))
 {
-    struct session s;
-    session_open(&s, TAIL);
-    float height = editor_stage(s.editor)->viewport.h;
-    session_pull(&s, "divider(stage)", 0, -100, 4);
-    session_release(&s, BUTTON_LEFT);
-    assert_near(editor_stage(s.editor)->viewport.h, height - 100, 1);
-    session_drag(&s, 0, -100, 4); // let go
-    assert_near(editor_stage(s.editor)->viewport.h, height - 100, 1);
-    session_close(&s);
+    float height = editor_stage(s->editor)->viewport.h;
+    session_pull(s, "divider(stage)", 0, -100, 4);
+    session_release(s, BUTTON_LEFT);
+    assert_near(editor_stage(s->editor)->viewport.h, height - 100, 1);
+    session_drag(s, 0, -100, 4); // let go
+    assert_near(editor_stage(s->editor)->viewport.h, height - 100, 1);
 }
 
 /// A scene with that many knots of alternating values.

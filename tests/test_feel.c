@@ -14,25 +14,22 @@ static const struct param *of(const struct session *s, enum parameter which)
     return &s->document->splines[s->editor->core.active]->parameter[which];
 }
 
-TEST(test_a_preset_is_one_step)
+SESSION_TEST(test_a_preset_is_one_step, panel_open(s, tail_scene, 1280, 720))
 {
-    struct session s;
-    panel_open(&s, tail_scene, 1280, 720);
-    char *before = session_saved(&s);
-    panel_click(&s, "preset.whip");
-    assert_near(of(&s, PARAMETER_FREQUENCY)->value, 1.8, 0);
-    assert_near(of(&s, PARAMETER_DAMPING)->value, 0.12, 0);
-    assert_near(document_tail(s.document, 0)->channels[0].lag.value[0], 130, 0); // 260° over two joints
-    assert_near(document_tail(s.document, 0)->channels[1].lag.value[0], 5, 0);
-    assert_one_step(&s, before);
-    session_key(&s, 'Z', MOD_CTRL);
-    panel_click(&s, "spline.pace"); // a cubic begins to swing; it bends nothing
-    panel_click(&s, "preset.antenna");
-    assert_int_equal(spline_mode(s.document->splines[1]), WIGGLY_COMPLEX);
-    assert_near(of(&s, PARAMETER_FREQUENCY)->value, 5, 0);
-    assert_near(document_tail(s.document, 0)->channels[0].lag.value[0], 6.5, 0);
+    char *before = session_saved(s);
+    panel_click(s, "preset.whip");
+    assert_near(of(s, PARAMETER_FREQUENCY)->value, 1.8, 0);
+    assert_near(of(s, PARAMETER_DAMPING)->value, 0.12, 0);
+    assert_near(document_tail(s->document, 0)->channels[0].lag.value[0], 130, 0); // 260° over two joints
+    assert_near(document_tail(s->document, 0)->channels[1].lag.value[0], 5, 0);
+    assert_one_step(s, before);
+    session_key(s, 'Z', MOD_CTRL);
+    panel_click(s, "spline.pace"); // a cubic begins to swing; it bends nothing
+    panel_click(s, "preset.antenna");
+    assert_int_equal(spline_mode(s->document->splines[1]), WIGGLY_COMPLEX);
+    assert_near(of(s, PARAMETER_FREQUENCY)->value, 5, 0);
+    assert_near(document_tail(s->document, 0)->channels[0].lag.value[0], 6.5, 0);
     free(before);
-    session_close(&s);
 }
 
 /// An exponential's envelope falls to 5 % after ln 20 / (2π f ζ).
@@ -69,18 +66,15 @@ static float place_of(struct session *s, const char *name)
     return y;
 }
 
-TEST(test_selecting_knots_moves_nothing)
+SESSION_TEST(test_selecting_knots_moves_nothing, panel_open(s, tail_scene, 1280, 1600))
 {
-    struct session s;
-    panel_open(&s, tail_scene, 1280, 1600);
-    const float before = place_of(&s, "mode.real");
-    session_click(&s, "knot(sway,1)");
-    assert_near((double)place_of(&s, "mode.real"), (double)before, 0);
-    session_key(&s, 'T', 0);
-    assert_near((double)place_of(&s, "mode.real"), (double)before, 0);
-    session_key(&s, 'A', MOD_CTRL);
-    assert_near((double)place_of(&s, "mode.real"), (double)before, 0);
-    session_close(&s);
+    const float before = place_of(s, "mode.real");
+    session_click(s, "knot(sway,1)");
+    assert_near((double)place_of(s, "mode.real"), (double)before, 0);
+    session_key(s, 'T', 0);
+    assert_near((double)place_of(s, "mode.real"), (double)before, 0);
+    session_key(s, 'A', MOD_CTRL);
+    assert_near((double)place_of(s, "mode.real"), (double)before, 0);
 }
 
 static void wait(struct session *s, int frames)
@@ -178,17 +172,14 @@ static void assert_all_explained(struct session *s)
     }
 }
 
-TEST(test_every_control_of_a_tail_explains_itself)
+SESSION_TEST(test_every_control_of_a_tail_explains_itself, panel_open(s, tail_scene, 1280, 3200))
 {
-    struct session s;
-    panel_open(&s, tail_scene, 1280, 3200);
-    session_click(&s, "knot(sway,1)");
-    session_key(&s, 'T', 0);
-    assert_all_explained(&s);
-    panel_click(&s, "mode.real");
-    panel_click(&s, "spline.lift");
-    assert_all_explained(&s);
-    session_close(&s);
+    session_click(s, "knot(sway,1)");
+    session_key(s, 'T', 0);
+    assert_all_explained(s);
+    panel_click(s, "mode.real");
+    panel_click(s, "spline.lift");
+    assert_all_explained(s);
 }
 
 static void open_file(struct session *s, const char *scene)

@@ -42,17 +42,14 @@ TEST(test_a_tail_that_swings_is_caught) { late_press("tail(tail,0.95)", "0", "Pu
 TEST(test_a_body_that_runs_is_caught) { late_press("body(tail)", "{\"spline\": \"run\"}", "Move body"); }
 
 /// While the scene stands, what is pressed is what is seen.
-TEST(test_nothing_is_caught_at_rest)
+SESSION_TEST(test_nothing_is_caught_at_rest, open_swinging(s, "0"))
 {
-    struct session s;
-    open_swinging(&s, "0");
-    session_point(&s, "tail(tail,0.95)");
-    for (int i = 0; i < 15; i++) session_frame(&s);
-    session_key(&s, KEY_SPACE, 0);
-    session_press(&s, BUTTON_LEFT, 1);
-    assert_null(s.editor->core.drag.label); // the camera turns
-    session_release(&s, BUTTON_LEFT);
-    session_close(&s);
+    session_point(s, "tail(tail,0.95)");
+    for (int i = 0; i < 15; i++) session_frame(s);
+    session_key(s, KEY_SPACE, 0);
+    session_press(s, BUTTON_LEFT, 1);
+    assert_null(s->editor->core.drag.label); // the camera turns
+    session_release(s, BUTTON_LEFT);
 }
 
 /// The highest point of any tail or body over the whole scene, pixels from the stage's upper edge.

@@ -25,69 +25,57 @@ static void edge(struct session *s, float xy[2])
 }
 
 /// The edge stays under the pointer, and all is one step.
-TEST(test_the_edge_is_dragged_down)
+SESSION_TEST(test_the_edge_is_dragged_down, open_creature(s))
 {
-    struct session s;
-    open_creature(&s);
-    char *before = session_saved(&s);
-    session_point(&s, "floor(c)");
-    session_frame(&s);
-    assert_int_equal(s.editor->core.hover.kind, HOVER_FLOOR);
-    assert_int_equal(editor_cursor(s.editor), CURSOR_VERTICAL);
+    char *before = session_saved(s);
+    session_point(s, "floor(c)");
+    session_frame(s);
+    assert_int_equal(s->editor->core.hover.kind, HOVER_FLOOR);
+    assert_int_equal(editor_cursor(s->editor), CURSOR_VERTICAL);
     float from[2], to[2];
-    edge(&s, from);
-    session_pull(&s, "floor(c)", 0, 30, 4);
-    edge(&s, to);
-    session_release(&s, BUTTON_LEFT);
-    assert_true(floor_of(&s) < -0.02);
+    edge(s, from);
+    session_pull(s, "floor(c)", 0, 30, 4);
+    edge(s, to);
+    session_release(s, BUTTON_LEFT);
+    assert_true(floor_of(s) < -0.02);
     if (!(fabsf(to[1] - from[1] - 30) < 6)) fail_msg("the edge moved by %g pixels of 30", (double)(to[1] - from[1]));
-    assert_one_step(&s, before);
+    assert_one_step(s, before);
     free(before);
-    session_close(&s);
 }
 
 /// Whatever the pointer says, the floor is not above the feet; Esc puts it back.
-TEST(test_it_stops_at_the_feet_and_esc_cancels)
+SESSION_TEST(test_it_stops_at_the_feet_and_esc_cancels, open_creature(s))
 {
-    struct session s;
-    open_creature(&s);
-    char *before = session_saved(&s);
-    session_pull(&s, "floor(c)", 0, -300, 4);
-    assert_near(floor_of(&s), 0.2, 1e-12);
-    session_key(&s, KEY_ESCAPE, 0);
-    session_release(&s, BUTTON_LEFT);
-    assert_saved(&s, before);
+    char *before = session_saved(s);
+    session_pull(s, "floor(c)", 0, -300, 4);
+    assert_near(floor_of(s), 0.2, 1e-12);
+    session_key(s, KEY_ESCAPE, 0);
+    session_release(s, BUTTON_LEFT);
+    assert_saved(s, before);
     free(before);
-    session_close(&s);
 }
 
 /// The curve gives way while the floor is dragged, in the same frame.
-TEST(test_the_motion_follows)
+SESSION_TEST(test_the_motion_follows, open_creature(s))
 {
-    struct session s;
-    open_creature(&s);
-    const double was = s.world.evaluation->curves[0].total[35];
-    session_pull(&s, "floor(c)", 0, -30, 4);
-    const double now = s.world.evaluation->curves[0].total[35];
-    session_release(&s, BUTTON_LEFT);
-    assert_true(floor_of(&s) > 0.02);
+    const double was = s->world.evaluation->curves[0].total[35];
+    session_pull(s, "floor(c)", 0, -30, 4);
+    const double now = s->world.evaluation->curves[0].total[35];
+    session_release(s, BUTTON_LEFT);
+    assert_true(floor_of(s) > 0.02);
     assert_true(fabs(now - was) > 1e-3);
-    session_close(&s);
 }
 
-TEST(test_without_a_floor_there_is_no_edge)
+SESSION_TEST(test_without_a_floor_there_is_no_edge, open_creature(s))
 {
-    struct session s;
-    open_creature(&s);
     float at[2];
     struct error error;
-    edge(&s, at);
-    s.document->rigs[0]->character.has_floor = false;
-    session_move(&s, at[0], at[1]);
-    session_frame(&s);
-    assert_int_not_equal(s.editor->core.hover.kind, HOVER_FLOOR);
-    assert_false(editor_target(s.editor, &s.world, "floor(c)", &at[0], &at[1], &error));
-    session_close(&s);
+    edge(s, at);
+    s->document->rigs[0]->character.has_floor = false;
+    session_move(s, at[0], at[1]);
+    session_frame(s);
+    assert_int_not_equal(s->editor->core.hover.kind, HOVER_FLOOR);
+    assert_false(editor_target(s->editor, &s->world, "floor(c)", &at[0], &at[1], &error));
 }
 
 int main(void) { return tests_run(NULL, NULL); }

@@ -31,14 +31,12 @@ static double side_bend(const struct pose *pose, int n)
 }
 
 /// The first step is to +x: joints bend to −x one after the other, and the swing has nearly gone before the second.
-TEST(test_tail_lags_and_settles)
+SESSION_TEST(test_tail_lags_and_settles, open_scene(s))
 {
-    struct session s;
-    open_scene(&s);
     double least_near = 0, least_far = 0, first = 0, last = 0;
     int near_at = 0, far_at = 0, tip_stays_behind = 0;
     for (int frame = 0; frame < FRAMES; frame++) {
-        const struct pose *pose = pose_of(&s);
+        const struct pose *pose = pose_of(s);
         double near = side_bend(pose, 3), far = side_bend(pose, 21);
         double tip = (double)(pose->matrix[JOINTS][X] - pose->matrix[0][X]);
         if (frame >= 8 && frame < 30 && near < least_near) least_near = near, near_at = frame;
@@ -46,25 +44,21 @@ TEST(test_tail_lags_and_settles)
         if (frame >= 8 && frame <= 18 && tip < 0) tip_stays_behind++;
         if (frame > 18 && frame < 34) first = fmax(first, fabs(tip));
         if (frame >= 42 && frame < 48) last = fmax(last, fabs(tip));
-        session_key(&s, KEY_RIGHT, 0);
+        session_key(s, KEY_RIGHT, 0);
     }
     assert_in_range(far_at - near_at, 3, 7); // 18 joints × 5° of 1.2 Hz: 5 frames
     assert_true(tip_stays_behind >= 4);
     assert_true(last < 0.75 * first);
-    session_close(&s);
 }
 
 /// It stands on the ground between the hops, and on that of the scene while it hops.
-TEST(test_hops_over_the_ground)
+SESSION_TEST(test_hops_over_the_ground, open_scene(s))
 {
-    struct session s;
-    open_scene(&s);
-    assert_near(pose_of(&s)->matrix[0][Y], 0.26, 1e-3);
-    assert_near(pose_of(&s)->ground, 0, 0);
-    for (int i = 0; i < 12; i++) session_key(&s, KEY_RIGHT, 0);
-    assert_near(pose_of(&s)->matrix[0][Y], 0.45, 0.02); // stretched, too
-    assert_near(pose_of(&s)->ground, 0, 0);
-    session_close(&s);
+    assert_near(pose_of(s)->matrix[0][Y], 0.26, 1e-3);
+    assert_near(pose_of(s)->ground, 0, 0);
+    for (int i = 0; i < 12; i++) session_key(s, KEY_RIGHT, 0);
+    assert_near(pose_of(s)->matrix[0][Y], 0.45, 0.02); // stretched, too
+    assert_near(pose_of(s)->ground, 0, 0);
 }
 
 /// Playing, stepping and jumping show the same pose at the same time, to the last bit; the last frame is the first again.

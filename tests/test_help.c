@@ -45,57 +45,48 @@ TEST(test_all_of_it_fits)
 }
 
 /// A row that is added must not be lost in the smallest usual window, be it by scrolling.
-TEST(test_all_of_it_is_reached_at_960_by_600)
+SESSION_TEST(test_all_of_it_is_reached_at_960_by_600, open_help(s, 960, 600))
 {
-    struct session s;
-    open_help(&s, 960, 600);
     bool seen[HELP_GROUPS][HELP_MAX_ROWS] = {{false}};
     for (int page = 0; page < 6; page++) {
         for (int g = 0; g < HELP_GROUPS; g++) {
             for (int i = 0; help_row(&help_groups[g], i).keys; i++) {
-                seen[g][i] |= is_seen(shown_text(s.editor, help_row(&help_groups[g], i).what));
+                seen[g][i] |= is_seen(shown_text(s->editor, help_row(&help_groups[g], i).what));
             }
         }
-        session_wheel(&s, -1);
+        session_wheel(s, -1);
     }
     for (int g = 0; g < HELP_GROUPS; g++) {
         for (int i = 0; help_row(&help_groups[g], i).keys; i++) {
             if (!seen[g][i]) fail_msg("“%s” is never to be seen", help_row(&help_groups[g], i).what);
         }
     }
-    session_close(&s);
 }
 
-TEST(test_small_windows_scroll)
+SESSION_TEST(test_small_windows_scroll, open_help(s, 500, 360))
 {
-    struct session s;
-    open_help(&s, 500, 360);
-    assert_true(is_seen(shown_text(s.editor, "Double-click")));
-    assert_false(is_seen(shown_text(s.editor, "Ctrl+Q")));
-    for (int i = 0; i < 40; i++) session_key(&s, KEY_DOWN, 0);
-    assert_true(is_seen(shown_text(s.editor, "Ctrl+Q")));
-    assert_false(is_seen(shown_text(s.editor, "Double-click")));
-    session_wheel(&s, 1000);
-    assert_true(is_seen(shown_text(s.editor, "Double-click")));
-    session_key(&s, 'V', 0);
-    assert_false(s.editor->dialogs->help.open);
-    session_close(&s);
+    assert_true(is_seen(shown_text(s->editor, "Double-click")));
+    assert_false(is_seen(shown_text(s->editor, "Ctrl+Q")));
+    for (int i = 0; i < 40; i++) session_key(s, KEY_DOWN, 0);
+    assert_true(is_seen(shown_text(s->editor, "Ctrl+Q")));
+    assert_false(is_seen(shown_text(s->editor, "Double-click")));
+    session_wheel(s, 1000);
+    assert_true(is_seen(shown_text(s->editor, "Double-click")));
+    session_key(s, 'V', 0);
+    assert_false(s->editor->dialogs->help.open);
 }
 
-TEST(test_any_key_closes_the_help_and_does_nothing_else)
+SESSION_TEST(test_any_key_closes_the_help_and_does_nothing_else, panel_open(s, scene, 1280, 720))
 {
-    struct session s;
-    panel_open(&s, scene, 1280, 720);
-    session_key(&s, KEY_F1, 0);
-    assert_true(s.editor->dialogs->help.open);
-    session_key(&s, 'V', 0);
-    assert_false(s.editor->dialogs->help.open);
-    assert_int_equal(s.editor->core.look, LOOK_WIGGLY);
-    session_key(&s, KEY_F1, 0);
-    session_move(&s, 500, 500);
-    session_press(&s, BUTTON_LEFT, 1);
-    assert_false(s.editor->dialogs->help.open);
-    session_close(&s);
+    session_key(s, KEY_F1, 0);
+    assert_true(s->editor->dialogs->help.open);
+    session_key(s, 'V', 0);
+    assert_false(s->editor->dialogs->help.open);
+    assert_int_equal(s->editor->core.look, LOOK_WIGGLY);
+    session_key(s, KEY_F1, 0);
+    session_move(s, 500, 500);
+    session_press(s, BUTTON_LEFT, 1);
+    assert_false(s->editor->dialogs->help.open);
 }
 
 // --- the table against the keys -------------------------------------------------------------------------------------------

@@ -9,54 +9,48 @@
 
 /// A drag re-applies its edits from the same state each frame, gives an inserted knot the same id again, and is one
 /// step.
-TEST(test_restart)
+WORLD_TEST(test_restart, world_open(world))
 {
-    struct world world;
-    world_open(&world);
-    char *before = world_print(&world);
+    char *before = world_print(world);
     unsigned id = 0;
-    history_begin(world.history, "Drag", 0);
+    history_begin(world->history, "Drag", 0);
     for (int frame = 0; frame < 20; frame++) {
-        history_restart(world.history);
-        assert_true(edit_insert(&world, SWAY, 2 + frame % 3, frame));
-        assert_true(edit_move(&world, SWAY, 2, 20 + frame, 0));
-        int at = spline_find_knot(world.document, world.document->splines[SWAY], 2 + frame % 3);
+        history_restart(world->history);
+        assert_true(edit_insert(world, SWAY, 2 + frame % 3, frame));
+        assert_true(edit_move(world, SWAY, 2, 20 + frame, 0));
+        int at = spline_find_knot(world->document, world->document->splines[SWAY], 2 + frame % 3);
         assert_true(at >= 0);
-        if (frame > 0) assert_int_equal(world.document->splines[SWAY]->knots[at].id, id);
-        id = world.document->splines[SWAY]->knots[at].id;
+        if (frame > 0) assert_int_equal(world->document->splines[SWAY]->knots[at].id, id);
+        id = world->document->splines[SWAY]->knots[at].id;
         if (frame == 9) break; // the second knot would land on the third
     }
-    history_end(world.history);
-    assert_string_equal(history_undo_label(world.history), "Drag");
-    assert_true(history_undo(world.history));
-    assert_document(&world, before);
-    assert_false(history_undo(world.history));
+    history_end(world->history);
+    assert_string_equal(history_undo_label(world->history), "Drag");
+    assert_true(history_undo(world->history));
+    assert_document(world, before);
+    assert_false(history_undo(world->history));
     free(before);
-    world_close(&world);
 }
 
 /// Esc in a drag: nothing is left, not even of the steps that could be done again.
-TEST(test_cancelled_step)
+WORLD_TEST(test_cancelled_step, world_open(world))
 {
-    struct world world;
-    world_open(&world);
-    world_must(&world, edit_insert(&world, SWAY, 5, 5));
-    char *after = world_print(&world);
-    assert_true(history_undo(world.history));
-    history_begin(world.history, "Cancelled", 0);
-    assert_true(edit_insert(&world, SWAY, 6, 6));
-    history_restart(world.history);
-    assert_true(history_is_open(world.history));
-    history_end(world.history);
-    assert_null(history_undo_label(world.history));
-    assert_true(history_redo(world.history));
-    assert_document(&world, after);
-    world_must(&world, edit_move(&world, SWAY, 0, 0, 0)); // what changes nothing is no step either
-    assert_false(history_redo(world.history));
-    assert_true(history_undo(world.history));
-    assert_null(history_undo_label(world.history));
+    world_must(world, edit_insert(world, SWAY, 5, 5));
+    char *after = world_print(world);
+    assert_true(history_undo(world->history));
+    history_begin(world->history, "Cancelled", 0);
+    assert_true(edit_insert(world, SWAY, 6, 6));
+    history_restart(world->history);
+    assert_true(history_is_open(world->history));
+    history_end(world->history);
+    assert_null(history_undo_label(world->history));
+    assert_true(history_redo(world->history));
+    assert_document(world, after);
+    world_must(world, edit_move(world, SWAY, 0, 0, 0)); // what changes nothing is no step either
+    assert_false(history_redo(world->history));
+    assert_true(history_undo(world->history));
+    assert_null(history_undo_label(world->history));
     free(after);
-    world_close(&world);
 }
 
 static void nudge(struct world *world, double value, uint64_t merge)
@@ -66,81 +60,72 @@ static void nudge(struct world *world, double value, uint64_t merge)
     history_end(world->history);
 }
 
-TEST(test_merge)
+WORLD_TEST(test_merge, world_open(world))
 {
-    struct world world;
-    world_open(&world);
-    char *before = world_print(&world);
-    for (int i = 1; i <= 3; i++) nudge(&world, i, 77);
-    nudge(&world, 4, 78);
-    nudge(&world, 5, 0);
-    nudge(&world, 6, 0);
-    assert_int_equal(world_undo_all(&world), 4);
-    assert_document(&world, before);
-    nudge(&world, 1, 77);
-    nudge(&world, 2, 77);
-    assert_true(history_undo(world.history));
-    assert_true(history_redo(world.history));
-    nudge(&world, 3, 77); // what was done again is done
-    assert_int_equal(world_undo_all(&world), 2);
-    nudge(&world, 1, 77);
-    nudge(&world, 2, 78);
-    assert_true(history_undo(world.history));
-    nudge(&world, 3, 77); // an undo ends a run
-    assert_int_equal(world_undo_all(&world), 2);
-    nudge(&world, 1, 77);
-    history_mark_saved(world.history);
-    nudge(&world, 2, 77); // and so does saving: the saved state can be reached again
-    assert_true(history_undo(world.history));
-    assert_true(history_is_saved(world.history));
-    assert_int_equal(world_undo_all(&world), 1);
+    char *before = world_print(world);
+    for (int i = 1; i <= 3; i++) nudge(world, i, 77);
+    nudge(world, 4, 78);
+    nudge(world, 5, 0);
+    nudge(world, 6, 0);
+    assert_int_equal(world_undo_all(world), 4);
+    assert_document(world, before);
+    nudge(world, 1, 77);
+    nudge(world, 2, 77);
+    assert_true(history_undo(world->history));
+    assert_true(history_redo(world->history));
+    nudge(world, 3, 77); // what was done again is done
+    assert_int_equal(world_undo_all(world), 2);
+    nudge(world, 1, 77);
+    nudge(world, 2, 78);
+    assert_true(history_undo(world->history));
+    nudge(world, 3, 77); // an undo ends a run
+    assert_int_equal(world_undo_all(world), 2);
+    nudge(world, 1, 77);
+    history_mark_saved(world->history);
+    nudge(world, 2, 77); // and so does saving: the saved state can be reached again
+    assert_true(history_undo(world->history));
+    assert_true(history_is_saved(world->history));
+    assert_int_equal(world_undo_all(world), 1);
     free(before);
-    world_close(&world);
 }
 
-TEST(test_saved)
+WORLD_TEST(test_saved, world_open(world))
 {
-    struct world world;
-    world_open(&world);
-    assert_true(history_is_saved(world.history));
-    world_must(&world, edit_insert(&world, SWAY, 5, 5));
-    assert_false(history_is_saved(world.history));
-    history_mark_saved(world.history);
-    world_must(&world, edit_insert(&world, SWAY, 6, 6));
-    assert_true(history_undo(world.history));
-    assert_true(history_is_saved(world.history));
-    assert_true(history_undo(world.history));
-    assert_false(history_is_saved(world.history));
-    world_must(&world, edit_insert(&world, SWAY, 5, 5)); // the same document by another way counts as changed
-    assert_false(history_is_saved(world.history));
-    history_begin(world.history, "Drag", 0);
-    history_mark_saved(world.history);
-    assert_true(history_is_saved(world.history));
-    assert_true(edit_insert(&world, SWAY, 7, 7));
-    assert_false(history_is_saved(world.history));
-    history_restart(world.history);
-    assert_true(history_is_saved(world.history));
-    history_end(world.history);
-    world_close(&world);
+    assert_true(history_is_saved(world->history));
+    world_must(world, edit_insert(world, SWAY, 5, 5));
+    assert_false(history_is_saved(world->history));
+    history_mark_saved(world->history);
+    world_must(world, edit_insert(world, SWAY, 6, 6));
+    assert_true(history_undo(world->history));
+    assert_true(history_is_saved(world->history));
+    assert_true(history_undo(world->history));
+    assert_false(history_is_saved(world->history));
+    world_must(world, edit_insert(world, SWAY, 5, 5)); // the same document by another way counts as changed
+    assert_false(history_is_saved(world->history));
+    history_begin(world->history, "Drag", 0);
+    history_mark_saved(world->history);
+    assert_true(history_is_saved(world->history));
+    assert_true(edit_insert(world, SWAY, 7, 7));
+    assert_false(history_is_saved(world->history));
+    history_restart(world->history);
+    assert_true(history_is_saved(world->history));
+    history_end(world->history);
 }
 
-TEST(test_revision)
+WORLD_TEST(test_revision, world_open(world))
 {
-    struct world world;
-    world_open(&world);
-    uint64_t revision = history_revision(world.history);
-    world_must(&world, edit_insert(&world, SWAY, 5, 5));
-    assert_true(history_revision(world.history) > revision);
-    revision = history_revision(world.history);
-    assert_true(history_undo(world.history));
-    assert_true(history_revision(world.history) > revision);
-    revision = history_revision(world.history);
-    assert_true(history_redo(world.history));
-    assert_true(history_revision(world.history) > revision);
-    revision = history_revision(world.history);
-    assert_false(history_redo(world.history));
-    assert_true(history_revision(world.history) == revision);
-    world_close(&world);
+    uint64_t revision = history_revision(world->history);
+    world_must(world, edit_insert(world, SWAY, 5, 5));
+    assert_true(history_revision(world->history) > revision);
+    revision = history_revision(world->history);
+    assert_true(history_undo(world->history));
+    assert_true(history_revision(world->history) > revision);
+    revision = history_revision(world->history);
+    assert_true(history_redo(world->history));
+    assert_true(history_revision(world->history) > revision);
+    revision = history_revision(world->history);
+    assert_false(history_redo(world->history));
+    assert_true(history_revision(world->history) == revision);
 }
 
 // --- everything at once
@@ -292,57 +277,51 @@ TEST(test_history_is_bounded)
 }
 
 /// What was undone and then written over is counted no longer; a run of nudges counts as what it holds.
-TEST(test_bytes)
+WORLD_TEST(test_bytes, world_open(world))
 {
-    struct world world;
-    world_open(&world);
-    nudge(&world, 1, 0);
-    size_t one = history_bytes(world.history);
+    nudge(world, 1, 0);
+    size_t one = history_bytes(world->history);
     assert_true(one > 0);
-    nudge(&world, 2, 0);
-    assert_int_equal(history_bytes(world.history), 2 * one);
-    assert_true(history_undo(world.history));
-    nudge(&world, 3, 0);
-    assert_int_equal(history_bytes(world.history), 2 * one);
-    nudge(&world, 4, 9);
-    nudge(&world, 5, 9);
-    assert_int_equal(history_bytes(world.history), 3 * one);
-    world_must(&world, edit_insert(&world, PLUCK, 5, 1));
-    size_t before = history_bytes(world.history);
-    world_must(&world,
-               edit_spline_remove(world_edit(&world), PLUCK, &world.error)); // is kept, with its knots, for undo
-    assert_true(history_bytes(world.history) > before + one + sizeof(struct spline));
-    history_clear(world.history, world.document);
-    assert_int_equal(history_bytes(world.history), 0);
-    assert_int_equal(history_dropped(world.history), 0);
-    world_close(&world);
+    nudge(world, 2, 0);
+    assert_int_equal(history_bytes(world->history), 2 * one);
+    assert_true(history_undo(world->history));
+    nudge(world, 3, 0);
+    assert_int_equal(history_bytes(world->history), 2 * one);
+    nudge(world, 4, 9);
+    nudge(world, 5, 9);
+    assert_int_equal(history_bytes(world->history), 3 * one);
+    world_must(world, edit_insert(world, PLUCK, 5, 1));
+    size_t before = history_bytes(world->history);
+    world_must(world,
+               edit_spline_remove(world_edit(world), PLUCK, &world->error)); // is kept, with its knots, for undo
+    assert_true(history_bytes(world->history) > before + one + sizeof(struct spline));
+    history_clear(world->history, world->document);
+    assert_int_equal(history_bytes(world->history), 0);
+    assert_int_equal(history_dropped(world->history), 0);
 }
 
 /// Any step of the list can be gone to directly, from either side.
-TEST(test_jump)
+WORLD_TEST(test_jump, world_open(world))
 {
-    struct world world;
-    world_open(&world);
-    char *first = world_print(&world);
-    for (int i = 1; i <= 6; i++) nudge(&world, i, 0);
-    history_mark_saved(world.history);
-    assert_false(history_jump(world.history, 6));
-    assert_true(history_jump(world.history, 2));
-    assert_near(world.document->splines[SWAY]->knots[0].value, 2, 0);
-    assert_int_equal(history_done(world.history), 2);
-    assert_int_equal(history_count(world.history), 6);
-    assert_true(history_step_is_saved(world.history, 6));
-    assert_false(history_step_is_saved(world.history, 2));
-    assert_true(history_jump(world.history, 5));
-    assert_near(world.document->splines[SWAY]->knots[0].value, 5, 0);
-    assert_true(history_jump(world.history, 0));
-    assert_document(&world, first);
-    assert_false(history_jump(world.history, 7));
-    assert_string_equal(history_label(world.history, 5), "Nudge");
-    history_mark_unsaved(world.history);
-    for (size_t done = 0; done <= 6; done++) assert_false(history_step_is_saved(world.history, done));
+    char *first = world_print(world);
+    for (int i = 1; i <= 6; i++) nudge(world, i, 0);
+    history_mark_saved(world->history);
+    assert_false(history_jump(world->history, 6));
+    assert_true(history_jump(world->history, 2));
+    assert_near(world->document->splines[SWAY]->knots[0].value, 2, 0);
+    assert_int_equal(history_done(world->history), 2);
+    assert_int_equal(history_count(world->history), 6);
+    assert_true(history_step_is_saved(world->history, 6));
+    assert_false(history_step_is_saved(world->history, 2));
+    assert_true(history_jump(world->history, 5));
+    assert_near(world->document->splines[SWAY]->knots[0].value, 5, 0);
+    assert_true(history_jump(world->history, 0));
+    assert_document(world, first);
+    assert_false(history_jump(world->history, 7));
+    assert_string_equal(history_label(world->history, 5), "Nudge");
+    history_mark_unsaved(world->history);
+    for (size_t done = 0; done <= 6; done++) assert_false(history_step_is_saved(world->history, done));
     free(first);
-    world_close(&world);
 }
 
 /// A whole document may come as one step; what was there before, and what is done to it, goes and comes back with it.

@@ -22,125 +22,107 @@ static void open_list(struct session *session, int steps)
     assert_int_equal(knots(session), 1 + steps);
 }
 
-TEST(test_click)
+SESSION_TEST(test_click, open_list(s, 4))
 {
-    struct session s;
-    open_list(&s, 4);
-    assert_true(panel_shows(&s, "history.4"));
-    assert_false(panel_shows(&s, "history.5"));
-    panel_click(&s, "history.1");
-    assert_int_equal(knots(&s), 2);
-    assert_true(panel_shows(&s, "history.4")); // what was undone stays in the list
-    panel_click(&s, "history.3");
-    assert_int_equal(knots(&s), 4);
-    panel_click(&s, "history.0");
-    assert_int_equal(knots(&s), 1);
-    assert_true(history_is_saved(s.history));
-    session_close(&s);
+    assert_true(panel_shows(s, "history.4"));
+    assert_false(panel_shows(s, "history.5"));
+    panel_click(s, "history.1");
+    assert_int_equal(knots(s), 2);
+    assert_true(panel_shows(s, "history.4")); // what was undone stays in the list
+    panel_click(s, "history.3");
+    assert_int_equal(knots(s), 4);
+    panel_click(s, "history.0");
+    assert_int_equal(knots(s), 1);
+    assert_true(history_is_saved(s->history));
 }
 
-TEST(test_keys)
+SESSION_TEST(test_keys, open_list(s, 4))
 {
-    struct session s;
-    open_list(&s, 4);
-    panel_click(&s, "section.history"); // a press gives no keyboard focus; Tab does
-    panel_click(&s, "section.history");
-    for (int i = 0; i < 60 && s.editor->inspector->ui.focus != ui_id("history.4"); i++) session_key(&s, KEY_TAB, 0);
-    assert_int_equal(s.editor->inspector->ui.focus, ui_id("history.4"));
-    session_key(&s, KEY_UP, 0);
-    session_key(&s, KEY_UP, 0);
-    assert_int_equal(knots(&s), 3);
-    session_key(&s, KEY_DOWN, 0);
-    assert_int_equal(knots(&s), 4);
-    for (int i = 0; i < 9; i++) session_key(&s, KEY_UP, 0);
-    assert_int_equal(knots(&s), 1);
-    session_key(&s, KEY_TAB, 0);
-    session_key(&s, KEY_ENTER, 0); // the row after it
-    assert_int_equal(knots(&s), 2);
-    session_close(&s);
+    panel_click(s, "section.history"); // a press gives no keyboard focus; Tab does
+    panel_click(s, "section.history");
+    for (int i = 0; i < 60 && s->editor->inspector->ui.focus != ui_id("history.4"); i++) session_key(s, KEY_TAB, 0);
+    assert_int_equal(s->editor->inspector->ui.focus, ui_id("history.4"));
+    session_key(s, KEY_UP, 0);
+    session_key(s, KEY_UP, 0);
+    assert_int_equal(knots(s), 3);
+    session_key(s, KEY_DOWN, 0);
+    assert_int_equal(knots(s), 4);
+    for (int i = 0; i < 9; i++) session_key(s, KEY_UP, 0);
+    assert_int_equal(knots(s), 1);
+    session_key(s, KEY_TAB, 0);
+    session_key(s, KEY_ENTER, 0); // the row after it
+    assert_int_equal(knots(s), 2);
 }
 
 /// More steps than rows: the list follows the present one, and the wheel shows the others.
-TEST(test_long_list)
+SESSION_TEST(test_long_list, open_list(s, 40))
 {
-    struct session s;
-    open_list(&s, 40);
-    assert_true(panel_shows(&s, "history.40"));
-    assert_false(panel_shows(&s, "history.0"));
-    panel_press(&s, "history.36", 1);
-    session_release(&s, BUTTON_LEFT);
-    assert_int_equal(knots(&s), 37);
-    for (int i = 0; i < 20; i++) session_wheel(&s, 1);
-    assert_true(panel_shows(&s, "history.0"));
-    assert_int_equal(knots(&s), 37); // looking is not going
-    panel_click(&s, "history.2");
-    assert_int_equal(knots(&s), 3);
-    session_key(&s, 'Y', MOD_CTRL);
-    for (int i = 0; i < 25; i++) session_key(&s, 'Y', MOD_CTRL);
-    assert_true(panel_shows(&s, "history.28"));
-    session_close(&s);
+    assert_true(panel_shows(s, "history.40"));
+    assert_false(panel_shows(s, "history.0"));
+    panel_press(s, "history.36", 1);
+    session_release(s, BUTTON_LEFT);
+    assert_int_equal(knots(s), 37);
+    for (int i = 0; i < 20; i++) session_wheel(s, 1);
+    assert_true(panel_shows(s, "history.0"));
+    assert_int_equal(knots(s), 37); // looking is not going
+    panel_click(s, "history.2");
+    assert_int_equal(knots(s), 3);
+    session_key(s, 'Y', MOD_CTRL);
+    for (int i = 0; i < 25; i++) session_key(s, 'Y', MOD_CTRL);
+    assert_true(panel_shows(s, "history.28"));
 }
 
 /// Over the list the wheel moves only that, until it is at its end; then the panel.
-TEST(test_wheel)
+SESSION_TEST(test_wheel, open_list(s, 40))
 {
-    struct session s;
-    open_list(&s, 40);
-    editor_resize(s.editor, 1280, 600, 1);
-    inspector_unfold(s.editor->inspector, "section.history");
-    session_frame(&s);
-    const struct inspector *inspector = s.editor->inspector;
+    editor_resize(s->editor, 1280, 600, 1);
+    inspector_unfold(s->editor->inspector, "section.history");
+    session_frame(s);
+    const struct inspector *inspector = s->editor->inspector;
     float x, y;
-    assert_true(inspector_target(s.editor->inspector, &s.editor->core, &s.world, "section.history", &x, &y));
-    session_move(&s, x, y + 60);
+    assert_true(inspector_target(s->editor->inspector, &s->editor->core, &s->world, "section.history", &x, &y));
+    session_move(s, x, y + 60);
     const float offset = inspector->scroll.offset;
     assert_true(offset > 100);
     for (size_t top = inspector->history.top; top > 0; top = inspector->history.top) {
-        session_wheel(&s, 1);
+        session_wheel(s, 1);
         assert_true(inspector->history.top < top);
         assert_near(inspector->scroll.offset, offset, 0);
     }
-    session_wheel(&s, 1);
+    session_wheel(s, 1);
     assert_true(inspector->scroll.offset < offset);
-    session_close(&s);
 }
 
 /// The list says what it does not have any more.
-TEST(test_dropped)
+SESSION_TEST(test_dropped, panel_open(s, scene, 1280, 720))
 {
-    struct session s;
-    panel_open(&s, scene, 1280, 720);
-    panel_click(&s, "section.history");
-    history_set_limit(s.history, 2000);
+    panel_click(s, "section.history");
+    history_set_limit(s->history, 2000);
     for (int i = 0; i < 40; i++) {
-        session_key(&s, KEY_RIGHT, 0);
-        session_key(&s, 'I', 0);
+        session_key(s, KEY_RIGHT, 0);
+        session_key(s, 'I', 0);
     }
-    assert_true(history_dropped(s.history) > 10);
+    assert_true(history_dropped(s->history) > 10);
     for (int i = 0; i < 20; i++) {
         float x, y;
-        assert_true(inspector_target(s.editor->inspector, &s.editor->core, &s.world, "section.history", &x, &y));
-        session_move(&s, x, y + 40);
-        session_wheel(&s, 1);
+        assert_true(inspector_target(s->editor->inspector, &s->editor->core, &s->world, "section.history", &x, &y));
+        session_move(s, x, y + 40);
+        session_wheel(s, 1);
     }
-    panel_click(&s, "history.0");
-    assert_int_equal(knots(&s), 1 + (int)history_dropped(s.history));
+    panel_click(s, "history.0");
+    assert_int_equal(knots(s), 1 + (int)history_dropped(s->history));
     char text[64];
-    snprintf(text, sizeof text, "%zu older steps were dropped", history_dropped(s.history));
-    assert_non_null(shown_text(s.editor, text));
-    session_close(&s);
+    snprintf(text, sizeof text, "%zu older steps were dropped", history_dropped(s->history));
+    assert_non_null(shown_text(s->editor, text));
 }
 
 /// A drag holds a step open: the list does nothing meanwhile.
-TEST(test_not_in_a_drag)
+SESSION_TEST(test_not_in_a_drag, open_list(s, 2))
 {
-    struct session s;
-    open_list(&s, 2);
-    history_begin(s.history, "Drag", 0);
-    panel_click(&s, "history.0");
-    assert_int_equal(knots(&s), 3);
-    history_end(s.history);
-    session_close(&s);
+    history_begin(s->history, "Drag", 0);
+    panel_click(s, "history.0");
+    assert_int_equal(knots(s), 3);
+    history_end(s->history);
 }
 
 int main(void) { return tests_run(NULL, NULL); }

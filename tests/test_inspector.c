@@ -14,173 +14,146 @@ static const struct param *parameter(const struct session *f, int spline, enum p
     return &f->document->splines[spline]->parameter[which];
 }
 
-TEST(test_drag_is_one_undo_step)
+SESSION_TEST(test_drag_is_one_undo_step, panel_open(s, scene, 1280, 720))
 {
-    struct session f;
-    panel_open(&f, scene, 1280, 720);
-    panel_drag(&f, "frequency", 2.5);
-    assert_near(parameter(&f, 0, PARAMETER_FREQUENCY)->value, 2.5, 0);
-    assert_true(inspector_is_dragging(f.editor->inspector));
-    panel_release(&f);
-    assert_false(history_is_open(f.history));
-    assert_string_equal(history_undo_label(f.history), "Set frequency");
-    session_key(&f, 'Z', MOD_CTRL);
-    assert_near(parameter(&f, 0, PARAMETER_FREQUENCY)->value, 1, 0);
-    assert_null(history_undo_label(f.history));
-    session_key(&f, 'Y', MOD_CTRL);
-    assert_near(parameter(&f, 0, PARAMETER_FREQUENCY)->value, 2.5, 0);
-    session_close(&f);
+    panel_drag(s, "frequency", 2.5);
+    assert_near(parameter(s, 0, PARAMETER_FREQUENCY)->value, 2.5, 0);
+    assert_true(inspector_is_dragging(s->editor->inspector));
+    panel_release(s);
+    assert_false(history_is_open(s->history));
+    assert_string_equal(history_undo_label(s->history), "Set frequency");
+    session_key(s, 'Z', MOD_CTRL);
+    assert_near(parameter(s, 0, PARAMETER_FREQUENCY)->value, 1, 0);
+    assert_null(history_undo_label(s->history));
+    session_key(s, 'Y', MOD_CTRL);
+    assert_near(parameter(s, 0, PARAMETER_FREQUENCY)->value, 2.5, 0);
 }
 
-TEST(test_escape_takes_a_drag_back)
+SESSION_TEST(test_escape_takes_a_drag_back, panel_open(s, scene, 1280, 720))
 {
-    struct session f;
-    panel_open(&f, scene, 1280, 720);
-    panel_drag(&f, "damping", 1);
-    assert_near(parameter(&f, 0, PARAMETER_DAMPING)->value, 1, 0);
-    session_key(&f, KEY_ESCAPE, 0);
-    assert_near(parameter(&f, 0, PARAMETER_DAMPING)->value, 0.1, 0);
-    assert_false(history_is_open(f.history));
-    assert_null(history_undo_label(f.history));
-    panel_release(&f);
-    session_close(&f);
+    panel_drag(s, "damping", 1);
+    assert_near(parameter(s, 0, PARAMETER_DAMPING)->value, 1, 0);
+    session_key(s, KEY_ESCAPE, 0);
+    assert_near(parameter(s, 0, PARAMETER_DAMPING)->value, 0.1, 0);
+    assert_false(history_is_open(s->history));
+    assert_null(history_undo_label(s->history));
+    panel_release(s);
 }
 
 /// Closing the window in the middle of a drag must not leave a half-open step behind.
-TEST(test_closing_ends_a_drag)
+SESSION_TEST(test_closing_ends_a_drag, panel_open(s, scene, 1280, 720))
 {
-    struct session f;
-    panel_open(&f, scene, 1280, 720);
-    panel_drag(&f, "frequency", 3);
-    session_send(&f, (struct event){.kind = EVENT_CLOSE});
-    assert_false(history_is_open(f.history));
-    assert_int_equal(f.editor->dialogs->dialog.kind, DIALOG_UNSAVED);
-    session_close(&f);
+    panel_drag(s, "frequency", 3);
+    session_send(s, (struct event){.kind = EVENT_CLOSE});
+    assert_false(history_is_open(s->history));
+    assert_int_equal(s->editor->dialogs->dialog.kind, DIALOG_UNSAVED);
 }
 
-TEST(test_typed_nonsense_is_said_and_refused)
+SESSION_TEST(test_typed_nonsense_is_said_and_refused, panel_open(s, scene, 1280, 720))
 {
-    struct session f;
-    panel_open(&f, scene, 1280, 720);
-    panel_enter(&f, "damping", "lots");
-    assert_true(f.editor->core.message.is_error);
-    assert_non_null(strstr(f.editor->core.message.text, "damping: expected a number"));
-    session_key(&f, 'A', 0);
-    session_key(&f, KEY_ESCAPE, 0);
-    panel_enter(&f, "damping", "1.5"); // more than complex mode takes
-    assert_non_null(strstr(f.editor->core.message.text, "damping: expected 0 … 1"));
-    assert_near(parameter(&f, 0, PARAMETER_DAMPING)->value, 0.1, 0);
-    assert_null(history_undo_label(f.history));
-    session_close(&f);
+    panel_enter(s, "damping", "lots");
+    assert_true(s->editor->core.message.is_error);
+    assert_non_null(strstr(s->editor->core.message.text, "damping: expected a number"));
+    session_key(s, 'A', 0);
+    session_key(s, KEY_ESCAPE, 0);
+    panel_enter(s, "damping", "1.5"); // more than complex mode takes
+    assert_non_null(strstr(s->editor->core.message.text, "damping: expected 0 … 1"));
+    assert_near(parameter(s, 0, PARAMETER_DAMPING)->value, 0.1, 0);
+    assert_null(history_undo_label(s->history));
 }
 
-TEST(test_typing_keeps_keys_from_the_editor)
+SESSION_TEST(test_typing_keeps_keys_from_the_editor, panel_open(s, scene, 1280, 720))
 {
-    struct session f;
-    panel_open(&f, scene, 1280, 720);
-    panel_press(&f, "frequency", 2);
-    panel_release(&f);
-    assert_true(inspector_is_typing(f.editor->inspector));
-    session_key(&f, 'A', MOD_CTRL); // all of what is typed, not all knots
-    panel_type(&f, "v m.");
-    assert_int_equal(selection_count(&f.editor->core.selection, f.document->splines[0]), 0);
-    session_key(&f, KEY_END, 0);
-    session_key(&f, 'A', MOD_CTRL);
-    panel_type(&f, "x");
-    assert_string_equal(f.editor->inspector->ui.text.bytes, "x");
-    session_key(&f, KEY_DELETE, 0);
-    session_key(&f, KEY_SPACE, 0);
-    assert_int_equal(f.editor->core.look, LOOK_WIGGLY);
-    assert_int_equal(spline_mode(f.document->splines[0]), WIGGLY_COMPLEX);
-    assert_int_equal(f.document->splines[0]->knot_count, 3);
-    assert_false(f.editor->core.playback.playing);
-    session_key(&f, KEY_F1, 0);
-    assert_true(f.editor->dialogs->help.open);
-    session_key(&f, KEY_ESCAPE, 0);
-    session_key(&f, KEY_ESCAPE, 0);
-    assert_false(inspector_is_typing(f.editor->inspector));
-    session_key(&f, 'V', 0);
-    assert_int_equal(f.editor->core.look, LOOK_STIFF);
-    session_close(&f);
+    panel_press(s, "frequency", 2);
+    panel_release(s);
+    assert_true(inspector_is_typing(s->editor->inspector));
+    session_key(s, 'A', MOD_CTRL); // all of what is typed, not all knots
+    panel_type(s, "v m.");
+    assert_int_equal(selection_count(&s->editor->core.selection, s->document->splines[0]), 0);
+    session_key(s, KEY_END, 0);
+    session_key(s, 'A', MOD_CTRL);
+    panel_type(s, "x");
+    assert_string_equal(s->editor->inspector->ui.text.bytes, "x");
+    session_key(s, KEY_DELETE, 0);
+    session_key(s, KEY_SPACE, 0);
+    assert_int_equal(s->editor->core.look, LOOK_WIGGLY);
+    assert_int_equal(spline_mode(s->document->splines[0]), WIGGLY_COMPLEX);
+    assert_int_equal(s->document->splines[0]->knot_count, 3);
+    assert_false(s->editor->core.playback.playing);
+    session_key(s, KEY_F1, 0);
+    assert_true(s->editor->dialogs->help.open);
+    session_key(s, KEY_ESCAPE, 0);
+    session_key(s, KEY_ESCAPE, 0);
+    assert_false(inspector_is_typing(s->editor->inspector));
+    session_key(s, 'V', 0);
+    assert_int_equal(s->editor->core.look, LOOK_STIFF);
 }
 
-TEST(test_arrows_belong_to_the_focus)
+SESSION_TEST(test_arrows_belong_to_the_focus, panel_open(s, scene, 1280, 720))
 {
-    struct session f;
-    panel_open(&f, scene, 1280, 720);
-    f.editor->inspector->ui.focus = ui_id("frequency");
-    session_key(&f, KEY_RIGHT, 0);
-    session_key(&f, KEY_RIGHT, 0);
-    assert_near(parameter(&f, 0, PARAMETER_FREQUENCY)->value, 1.1, 0);
-    assert_near(f.editor->core.playback.position, 0, 0);
-    session_key(&f, 'Z', MOD_CTRL); // the run of nudges is one step
-    assert_near(parameter(&f, 0, PARAMETER_FREQUENCY)->value, 1, 0);
-    session_key(&f, KEY_ESCAPE, 0);
-    session_key(&f, KEY_RIGHT, 0);
-    assert_near(f.editor->core.playback.position, 1, 0);
-    assert_near(parameter(&f, 0, PARAMETER_FREQUENCY)->value, 1, 0);
-    session_close(&f);
+    s->editor->inspector->ui.focus = ui_id("frequency");
+    session_key(s, KEY_RIGHT, 0);
+    session_key(s, KEY_RIGHT, 0);
+    assert_near(parameter(s, 0, PARAMETER_FREQUENCY)->value, 1.1, 0);
+    assert_near(s->editor->core.playback.position, 0, 0);
+    session_key(s, 'Z', MOD_CTRL); // the run of nudges is one step
+    assert_near(parameter(s, 0, PARAMETER_FREQUENCY)->value, 1, 0);
+    session_key(s, KEY_ESCAPE, 0);
+    session_key(s, KEY_RIGHT, 0);
+    assert_near(s->editor->core.playback.position, 1, 0);
+    assert_near(parameter(s, 0, PARAMETER_FREQUENCY)->value, 1, 0);
 }
 
-TEST(test_only_what_counts_is_shown)
+SESSION_TEST(test_only_what_counts_is_shown, panel_open(s, scene, 1280, 1600))
 {
-    struct session f;
-    panel_open(&f, scene, 1280, 1600);
-    assert_false(panel_shows(&f, "bandwidth"));
-    panel_click(&f, "section.advanced");
-    assert_true(panel_shows(&f, "bandwidth"));
-    panel_click(&f, "mode.real");
-    assert_int_equal(spline_mode(f.document->splines[0]), WIGGLY_REAL);
-    assert_false(panel_shows(&f, "bandwidth"));
-    panel_click(&f, "mode.cubic");
-    assert_false(panel_shows(&f, "frequency"));
-    panel_click(&f, "spline.lift");
-    assert_int_equal(f.editor->core.active, 2);
-    assert_false(panel_shows(&f, "frequency")); // a track drives it
-    assert_true(panel_shows(&f, "damping"));
-    panel_click(&f, "start.loop");
-    assert_int_equal(spline_start(f.document->splines[2]), WIGGLY_LOOP);
-    panel_click(&f, "look.cubic");
-    assert_int_equal(f.editor->core.look, LOOK_CUBIC);
-    session_close(&f);
+    assert_false(panel_shows(s, "bandwidth"));
+    panel_click(s, "section.advanced");
+    assert_true(panel_shows(s, "bandwidth"));
+    panel_click(s, "mode.real");
+    assert_int_equal(spline_mode(s->document->splines[0]), WIGGLY_REAL);
+    assert_false(panel_shows(s, "bandwidth"));
+    panel_click(s, "mode.cubic");
+    assert_false(panel_shows(s, "frequency"));
+    panel_click(s, "spline.lift");
+    assert_int_equal(s->editor->core.active, 2);
+    assert_false(panel_shows(s, "frequency")); // a track drives it
+    assert_true(panel_shows(s, "damping"));
+    panel_click(s, "start.loop");
+    assert_int_equal(spline_start(s->document->splines[2]), WIGGLY_LOOP);
+    panel_click(s, "look.cubic");
+    assert_int_equal(s->editor->core.look, LOOK_CUBIC);
 }
 
-TEST(test_knot_is_edited_in_place)
+SESSION_TEST(test_knot_is_edited_in_place, panel_open(s, scene, 1280, 1600))
 {
-    struct session f;
-    panel_open(&f, scene, 1280, 1600);
-    unsigned id = f.document->splines[0]->knots[1].id;
-    selection_set(&f.editor->core.selection, id, true);
-    panel_enter(&f, "value", "0.75");
-    assert_near(f.document->splines[0]->knots[1].value, 0.75, 0);
-    panel_enter(&f, "value", "8"); // above all that was in sight
-    for (int frame = 0; frame < 90; frame++) session_frame(&f);
-    assert_true(f.editor->curves->view.value1 > 8);
-    panel_enter(&f, "frame", "70"); // past its neighbour
-    assert_near(f.document->splines[0]->knots[2].frame, 70, 0);
-    assert_int_equal(f.document->splines[0]->knots[2].id, id);
-    panel_enter(&f, "frame", "60"); // where another knot sits
-    assert_near(f.document->splines[0]->knots[2].frame, 70, 0);
-    assert_true(f.editor->core.message.is_error);
-    panel_press(&f, "frame", 1);
-    session_drag(&f, 600, 0, 1); // far beyond the scene: it stops at the last frame
-    panel_release(&f);
-    assert_near(f.document->splines[0]->knots[2].frame, 96, 0);
-    panel_click(&f, "has_slope");
-    assert_true(f.document->splines[0]->knots[2].has_slope);
-    panel_enter(&f, "stiffness", "50");
-    assert_near(f.document->splines[0]->knots[2].stiffness, 50, 0);
-    session_close(&f);
+    unsigned id = s->document->splines[0]->knots[1].id;
+    selection_set(&s->editor->core.selection, id, true);
+    panel_enter(s, "value", "0.75");
+    assert_near(s->document->splines[0]->knots[1].value, 0.75, 0);
+    panel_enter(s, "value", "8"); // above all that was in sight
+    for (int frame = 0; frame < 90; frame++) session_frame(s);
+    assert_true(s->editor->curves->view.value1 > 8);
+    panel_enter(s, "frame", "70"); // past its neighbour
+    assert_near(s->document->splines[0]->knots[2].frame, 70, 0);
+    assert_int_equal(s->document->splines[0]->knots[2].id, id);
+    panel_enter(s, "frame", "60"); // where another knot sits
+    assert_near(s->document->splines[0]->knots[2].frame, 70, 0);
+    assert_true(s->editor->core.message.is_error);
+    panel_press(s, "frame", 1);
+    session_drag(s, 600, 0, 1); // far beyond the scene: it stops at the last frame
+    panel_release(s);
+    assert_near(s->document->splines[0]->knots[2].frame, 96, 0);
+    panel_click(s, "has_slope");
+    assert_true(s->document->splines[0]->knots[2].has_slope);
+    panel_enter(s, "stiffness", "50");
+    assert_near(s->document->splines[0]->knots[2].stiffness, 50, 0);
 }
 
-TEST(test_one_knot_has_one_frame)
+SESSION_TEST(test_one_knot_has_one_frame, panel_open(s, scene, 1280, 1400))
 {
-    struct session f;
-    panel_open(&f, scene, 1280, 1400);
-    assert_non_null(shown_text(f.editor, "3, frames 0 … 60"));
-    panel_click(&f, "spline.lift");
-    assert_non_null(shown_text(f.editor, "1, frame 10"));
-    session_close(&f);
+    assert_non_null(shown_text(s->editor, "3, frames 0 … 60"));
+    panel_click(s, "spline.lift");
+    assert_non_null(shown_text(s->editor, "1, frame 10"));
 }
 
 /// Nothing is selected: the section says what knots there are and works without pointing at one; what is below stays where it is.
@@ -207,75 +180,66 @@ TEST(test_the_knot_section_without_a_knot)
 }
 
 /// Several knots at once: typed numbers are set, drags and frames move, and what is not possible changes nothing.
-TEST(test_several_knots)
+SESSION_TEST(test_several_knots, panel_open(s, scene, 1280, 1600))
 {
-    struct session f;
-    panel_open(&f, scene, 1280, 1600);
-    session_key(&f, 'A', MOD_CTRL);
-    assert_false(panel_shows(&f, "stiffness")); // no slopes yet
-    panel_enter(&f, "value", "0.25");
-    for (int k = 0; k < 3; k++) assert_near(f.document->splines[0]->knots[k].value, 0.25, 0);
-    session_key(&f, 'Z', MOD_CTRL); // one step
-    assert_near(f.document->splines[0]->knots[1].value, 1, 0);
-    panel_press(&f, "value", 1);
-    session_drag(&f, 50, 0, 5);
-    panel_release(&f);
-    assert_near(f.document->splines[0]->knots[0].value, 0.5, 1e-12);
-    assert_near(f.document->splines[0]->knots[2].value, 0, 1e-12);
-    session_key(&f, 'Z', MOD_CTRL);
-    assert_null(history_undo_label(f.history));
-    panel_enter(&f, "frame", "10");
-    assert_near(f.document->splines[0]->knots[0].frame, 10, 0);
-    assert_near(f.document->splines[0]->knots[2].frame, 70, 0);
-    panel_enter(&f, "frame", "40"); // the last one would leave the scene
-    assert_near(f.document->splines[0]->knots[0].frame, 10, 0);
-    assert_non_null(strstr(f.editor->core.message.text, "frame 100 is outside 0 to 96"));
-    panel_press(&f, "frame", 1);
-    session_drag(&f, 60, 0, 60); // as far as it goes
-    panel_release(&f);
-    assert_near(f.document->splines[0]->knots[2].frame, 96, 0);
-    assert_near(f.document->splines[0]->knots[1].frame, 72, 0);
-    session_key(&f, 'T', 0);
-    panel_enter(&f, "stiffness", "50");
-    for (int k = 0; k < 3; k++) assert_near(f.document->splines[0]->knots[k].stiffness, 50, 0);
-    panel_enter(&f, "slope", "steep");
-    assert_non_null(strstr(f.editor->core.message.text, "slope: expected a number"));
-    session_close(&f);
+    session_key(s, 'A', MOD_CTRL);
+    assert_false(panel_shows(s, "stiffness")); // no slopes yet
+    panel_enter(s, "value", "0.25");
+    for (int k = 0; k < 3; k++) assert_near(s->document->splines[0]->knots[k].value, 0.25, 0);
+    session_key(s, 'Z', MOD_CTRL); // one step
+    assert_near(s->document->splines[0]->knots[1].value, 1, 0);
+    panel_press(s, "value", 1);
+    session_drag(s, 50, 0, 5);
+    panel_release(s);
+    assert_near(s->document->splines[0]->knots[0].value, 0.5, 1e-12);
+    assert_near(s->document->splines[0]->knots[2].value, 0, 1e-12);
+    session_key(s, 'Z', MOD_CTRL);
+    assert_null(history_undo_label(s->history));
+    panel_enter(s, "frame", "10");
+    assert_near(s->document->splines[0]->knots[0].frame, 10, 0);
+    assert_near(s->document->splines[0]->knots[2].frame, 70, 0);
+    panel_enter(s, "frame", "40"); // the last one would leave the scene
+    assert_near(s->document->splines[0]->knots[0].frame, 10, 0);
+    assert_non_null(strstr(s->editor->core.message.text, "frame 100 is outside 0 to 96"));
+    panel_press(s, "frame", 1);
+    session_drag(s, 60, 0, 60); // as far as it goes
+    panel_release(s);
+    assert_near(s->document->splines[0]->knots[2].frame, 96, 0);
+    assert_near(s->document->splines[0]->knots[1].frame, 72, 0);
+    session_key(s, 'T', 0);
+    panel_enter(s, "stiffness", "50");
+    for (int k = 0; k < 3; k++) assert_near(s->document->splines[0]->knots[k].stiffness, 50, 0);
+    panel_enter(s, "slope", "steep");
+    assert_non_null(strstr(s->editor->core.message.text, "slope: expected a number"));
 }
 
-TEST(test_frame_drag_passes_through_a_neighbour)
+SESSION_TEST(test_frame_drag_passes_through_a_neighbour, panel_open(s, scene, 1280, 720))
 {
-    struct session f;
-    panel_open(&f, scene, 1280, 720);
-    selection_set(&f.editor->core.selection, f.document->splines[0]->knots[1].id, true);
-    panel_press(&f, "frame", 1);
-    float x = f.x;
-    for (int moved = 3; moved <= 30; moved++) session_move(&f, x + (float)moved, f.y);
-    assert_near(f.document->splines[0]->knots[2].frame, 66, 0);
-    assert_near(f.document->splines[0]->knots[1].frame, 60, 0);
-    panel_release(&f);
-    session_key(&f, 'Z', MOD_CTRL);
-    assert_near(f.document->splines[0]->knots[1].frame, 36, 0);
-    session_close(&f);
+    selection_set(&s->editor->core.selection, s->document->splines[0]->knots[1].id, true);
+    panel_press(s, "frame", 1);
+    float x = s->x;
+    for (int moved = 3; moved <= 30; moved++) session_move(s, x + (float)moved, s->y);
+    assert_near(s->document->splines[0]->knots[2].frame, 66, 0);
+    assert_near(s->document->splines[0]->knots[1].frame, 60, 0);
+    panel_release(s);
+    session_key(s, 'Z', MOD_CTRL);
+    assert_near(s->document->splines[0]->knots[1].frame, 36, 0);
 }
 
 /// The pointer's shape says that a number is dragged, and where a text is typed.
-TEST(test_the_pointer_says_what_it_does)
+SESSION_TEST(test_the_pointer_says_what_it_does, panel_open(s, scene, 1280, 720))
 {
-    struct session f;
-    panel_open(&f, scene, 1280, 720);
-    assert_int_equal(editor_cursor(f.editor), CURSOR_ARROW);
-    panel_drag(&f, "damping", 0.3);
-    assert_int_equal(editor_cursor(f.editor), CURSOR_HORIZONTAL);
-    panel_release(&f);
-    assert_int_equal(editor_cursor(f.editor), CURSOR_HORIZONTAL);
-    panel_press(&f, "damping", 2);
-    panel_release(&f);
-    assert_int_equal(editor_cursor(f.editor), CURSOR_TEXT);
-    session_key(&f, KEY_ESCAPE, 0);
-    panel_click(&f, "section.knot");
-    assert_int_equal(editor_cursor(f.editor), CURSOR_ARROW);
-    session_close(&f);
+    assert_int_equal(editor_cursor(s->editor), CURSOR_ARROW);
+    panel_drag(s, "damping", 0.3);
+    assert_int_equal(editor_cursor(s->editor), CURSOR_HORIZONTAL);
+    panel_release(s);
+    assert_int_equal(editor_cursor(s->editor), CURSOR_HORIZONTAL);
+    panel_press(s, "damping", 2);
+    panel_release(s);
+    assert_int_equal(editor_cursor(s->editor), CURSOR_TEXT);
+    session_key(s, KEY_ESCAPE, 0);
+    panel_click(s, "section.knot");
+    assert_int_equal(editor_cursor(s->editor), CURSOR_ARROW);
 }
 
 TEST(test_tail_array_scales_as_a_whole)

@@ -37,66 +37,57 @@ static const struct param *equilibrium(const struct session *session)
 
 static const struct chain *tail(const struct session *session) { return &session->document->rigs[1]->chain; }
 
-TEST(test_an_equilibrium_comes_to_follow_the_tip_of_its_chain)
+SESSION_TEST(test_an_equilibrium_comes_to_follow_the_tip_of_its_chain, open_beast(s, "0"))
 {
-    struct session s;
-    open_beast(&s, "0");
-    char *before = session_saved(&s);
-    panel_click(&s, "follow.equilibrium");
-    panel_click(&s, "item.A joint of beast");
-    assert_non_null(equilibrium(&s)->motion);
-    assert_string_equal(equilibrium(&s)->motion->joint, "tail_8");
-    assert_string_equal(equilibrium(&s)->motion->chain, "tail");
-    assert_int_equal(equilibrium(&s)->motion->of, MOTION_UP);
-    assert_true(equilibrium(&s)->gain > 1); // a metre is more of the tip than 1 of what knots directed
-    assert_int_equal(tail(&s)->channels[0].of, PART_DISPLACEMENT);
-    assert_one_step(&s, before);
-    panel_click(&s, "follow.equilibrium");
-    assert_null(equilibrium(&s)->motion);
+    char *before = session_saved(s);
+    panel_click(s, "follow.equilibrium");
+    panel_click(s, "item.A joint of beast");
+    assert_non_null(equilibrium(s)->motion);
+    assert_string_equal(equilibrium(s)->motion->joint, "tail_8");
+    assert_string_equal(equilibrium(s)->motion->chain, "tail");
+    assert_int_equal(equilibrium(s)->motion->of, MOTION_UP);
+    assert_true(equilibrium(s)->gain > 1); // a metre is more of the tip than 1 of what knots directed
+    assert_int_equal(tail(s)->channels[0].of, PART_DISPLACEMENT);
+    assert_one_step(s, before);
+    panel_click(s, "follow.equilibrium");
+    assert_null(equilibrium(s)->motion);
     free(before);
-    session_close(&s);
 }
 
-TEST(test_a_joint_is_chosen_from_a_list)
+SESSION_TEST(test_a_joint_is_chosen_from_a_list, open_beast(s, FOLLOWS))
 {
-    struct session s;
-    open_beast(&s, FOLLOWS);
-    char *before = session_saved(&s);
-    panel_click(&s, "joint.0");
-    panel_click(&s, "item.neck");
-    assert_string_equal(equilibrium(&s)->motion->joint, "neck");
-    assert_int_equal(equilibrium(&s)->motion->of, MOTION_TURN);
-    assert_near(equilibrium(&s)->gain, 2, 0);
-    assert_one_step(&s, before);
-    panel_click(&s, "joint.of.across");
-    assert_int_equal(equilibrium(&s)->motion->of, MOTION_ACROSS);
-    panel_enter(&s, "joint.gain", "-3");
-    assert_near(equilibrium(&s)->gain, -3, 0);
-    assert_string_equal(equilibrium(&s)->motion->joint, "neck");
-    for (int step = 0; step < 3; step++) session_key(&s, 'Z', MOD_CTRL);
-    assert_saved(&s, before);
+    char *before = session_saved(s);
+    panel_click(s, "joint.0");
+    panel_click(s, "item.neck");
+    assert_string_equal(equilibrium(s)->motion->joint, "neck");
+    assert_int_equal(equilibrium(s)->motion->of, MOTION_TURN);
+    assert_near(equilibrium(s)->gain, 2, 0);
+    assert_one_step(s, before);
+    panel_click(s, "joint.of.across");
+    assert_int_equal(equilibrium(s)->motion->of, MOTION_ACROSS);
+    panel_enter(s, "joint.gain", "-3");
+    assert_near(equilibrium(s)->gain, -3, 0);
+    assert_string_equal(equilibrium(s)->motion->joint, "neck");
+    for (int step = 0; step < 3; step++) session_key(s, 'Z', MOD_CTRL);
+    assert_saved(s, before);
     free(before);
-    session_close(&s);
 }
 
 /// Tab to the field, Enter, a few letters, Enter.
-TEST(test_a_joint_is_found_by_typing)
+SESSION_TEST(test_a_joint_is_found_by_typing, open_beast(s, FOLLOWS))
 {
-    struct session s;
-    open_beast(&s, FOLLOWS);
-    for (int tabs = 0; tabs < 100 && s.editor->inspector->ui.focus != ui_id("joint.0"); tabs++)
-        session_key(&s, KEY_TAB, 0);
-    assert_int_equal(s.editor->inspector->ui.focus, ui_id("joint.0"));
-    session_key(&s, KEY_ENTER, 0);
-    session_type(&s, "fr_2");
-    assert_true(panel_shows(&s, "item.leg_FR_2"));
-    assert_false(panel_shows(&s, "item.leg_FL_2"));
-    session_key(&s, KEY_BACKSPACE, 0);
-    assert_true(panel_shows(&s, "item.leg_FR_1"));
-    session_key(&s, KEY_DOWN, 0);
-    session_key(&s, KEY_ENTER, 0);
-    assert_string_equal(equilibrium(&s)->motion->joint, "leg_FR_2");
-    session_close(&s);
+    for (int tabs = 0; tabs < 100 && s->editor->inspector->ui.focus != ui_id("joint.0"); tabs++)
+        session_key(s, KEY_TAB, 0);
+    assert_int_equal(s->editor->inspector->ui.focus, ui_id("joint.0"));
+    session_key(s, KEY_ENTER, 0);
+    session_type(s, "fr_2");
+    assert_true(panel_shows(s, "item.leg_FR_2"));
+    assert_false(panel_shows(s, "item.leg_FL_2"));
+    session_key(s, KEY_BACKSPACE, 0);
+    assert_true(panel_shows(s, "item.leg_FR_1"));
+    session_key(s, KEY_DOWN, 0);
+    session_key(s, KEY_ENTER, 0);
+    assert_string_equal(equilibrium(s)->motion->joint, "leg_FR_2");
 }
 
 static int lines_on_stage(const struct session *session)
@@ -111,89 +102,78 @@ static int lines_on_stage(const struct session *session)
     return count;
 }
 
-TEST(test_a_joint_is_picked_on_the_stage)
+SESSION_TEST(test_a_joint_is_picked_on_the_stage, open_beast(s, FOLLOWS))
 {
-    struct session s;
-    open_beast(&s, FOLLOWS);
-    char *before = session_saved(&s);
-    session_move(&s, 2, 2); // over no model
-    session_frame(&s);
-    const int without = lines_on_stage(&s);
-    panel_click(&s, "joint.pick");
-    session_move(&s, 2, 2);
-    session_frame(&s);
-    assert_true(lines_on_stage(&s) > without + 8); // all bones, to choose from
-    session_key(&s, KEY_ESCAPE, 0);
-    session_click(&s, "bone(leg_FL_2)");
-    assert_saved(&s, before); // Esc had let go: the click only selected the bone
-    panel_click(&s, "joint.pick");
-    session_pull(&s, "bone(tail_4)", 30, 20, 4); // a drag turns the camera, also over a chain
-    session_release(&s, BUTTON_LEFT);
-    assert_saved(&s, before);
-    session_click(&s, "bone(neck)");
-    assert_string_equal(equilibrium(&s)->motion->joint, "neck");
-    assert_one_step(&s, before);
-    char *after = session_saved(&s);
-    session_click(&s, "bone(spine)");
-    assert_saved(&s, after); // one click is what was asked for
+    char *before = session_saved(s);
+    session_move(s, 2, 2); // over no model
+    session_frame(s);
+    const int without = lines_on_stage(s);
+    panel_click(s, "joint.pick");
+    session_move(s, 2, 2);
+    session_frame(s);
+    assert_true(lines_on_stage(s) > without + 8); // all bones, to choose from
+    session_key(s, KEY_ESCAPE, 0);
+    session_click(s, "bone(leg_FL_2)");
+    assert_saved(s, before); // Esc had let go: the click only selected the bone
+    panel_click(s, "joint.pick");
+    session_pull(s, "bone(tail_4)", 30, 20, 4); // a drag turns the camera, also over a chain
+    session_release(s, BUTTON_LEFT);
+    assert_saved(s, before);
+    session_click(s, "bone(neck)");
+    assert_string_equal(equilibrium(s)->motion->joint, "neck");
+    assert_one_step(s, before);
+    char *after = session_saved(s);
+    session_click(s, "bone(spine)");
+    assert_saved(s, after); // one click is what was asked for
     free(after);
     free(before);
-    session_close(&s);
 }
 
-TEST(test_the_ends_of_a_chain_are_chosen_from_lists)
+SESSION_TEST(test_the_ends_of_a_chain_are_chosen_from_lists,
+             open_beast(s, "{\"model\": \"beast\", \"joint\": \"tail_8\", \"of\": \"up\", \"chain\": \"tail\"}"))
 {
-    struct session s;
-    open_beast(&s, "{\"model\": \"beast\", \"joint\": \"tail_8\", \"of\": \"up\", \"chain\": \"tail\"}");
-    char *before = session_saved(&s);
-    panel_click(&s, "chain.to.1");
-    assert_false(panel_shows(&s, "item.neck")); // not below the first bone
-    panel_click(&s, "item.tail_6");
-    assert_string_equal(tail(&s)->to, "tail_6");
-    assert_string_equal(equilibrium(&s)->motion->joint, "tail_6"); // it still follows the tip
-    assert_one_step(&s, before);
-    panel_click(&s, "chain.from.1");
-    session_type(&s, "tail_2");
-    session_key(&s, KEY_ENTER, 0);
-    assert_string_equal(tail(&s)->from, "tail_2");
-    assert_string_equal(tail(&s)->to, "tail_6");
-    session_key(&s, 'Z', MOD_CTRL);
-    session_key(&s, 'Z', MOD_CTRL);
-    assert_saved(&s, before);
+    char *before = session_saved(s);
+    panel_click(s, "chain.to.1");
+    assert_false(panel_shows(s, "item.neck")); // not below the first bone
+    panel_click(s, "item.tail_6");
+    assert_string_equal(tail(s)->to, "tail_6");
+    assert_string_equal(equilibrium(s)->motion->joint, "tail_6"); // it still follows the tip
+    assert_one_step(s, before);
+    panel_click(s, "chain.from.1");
+    session_type(s, "tail_2");
+    session_key(s, KEY_ENTER, 0);
+    assert_string_equal(tail(s)->from, "tail_2");
+    assert_string_equal(tail(s)->to, "tail_6");
+    session_key(s, 'Z', MOD_CTRL);
+    session_key(s, 'Z', MOD_CTRL);
+    assert_saved(s, before);
     free(before);
-    session_close(&s);
 }
 
-TEST(test_a_chain_goes_to_another_limb)
+SESSION_TEST(test_a_chain_goes_to_another_limb, open_beast(s, "0"))
 {
-    struct session s;
-    open_beast(&s, "0");
-    char *before = session_saved(&s);
-    panel_click(&s, "chain.from.pick");
-    session_click(&s, "bone(ear_L_1)");
-    assert_string_equal(tail(&s)->from, "ear_L_1");
-    assert_string_equal(tail(&s)->to, "ear_L_2");
-    assert_one_step(&s, before);
+    char *before = session_saved(s);
+    panel_click(s, "chain.from.pick");
+    session_click(s, "bone(ear_L_1)");
+    assert_string_equal(tail(s)->from, "ear_L_1");
+    assert_string_equal(tail(s)->to, "ear_L_2");
+    assert_one_step(s, before);
     free(before);
-    session_close(&s);
 }
 
-TEST(test_ends_that_are_no_chain_are_refused)
+SESSION_TEST(test_ends_that_are_no_chain_are_refused, open_beast(s, "0"))
 {
-    struct session s;
-    open_beast(&s, "0");
-    char *before = session_saved(&s);
-    panel_click(&s, "chain.to.pick");
-    session_click(&s, "bone(neck)");
-    assert_saved(&s, before);
-    assert_true(s.editor->core.message.is_error);
-    assert_non_null(strstr(s.editor->core.message.text, "expected \"neck\" below \"tail_1\""));
-    panel_click(&s, "chain.from.pick");
-    session_click(&s, "bone(head)");
-    assert_saved(&s, before);
-    assert_non_null(strstr(s.editor->core.message.text, "\"head\" branches into"));
+    char *before = session_saved(s);
+    panel_click(s, "chain.to.pick");
+    session_click(s, "bone(neck)");
+    assert_saved(s, before);
+    assert_true(s->editor->core.message.is_error);
+    assert_non_null(strstr(s->editor->core.message.text, "expected \"neck\" below \"tail_1\""));
+    panel_click(s, "chain.from.pick");
+    session_click(s, "bone(head)");
+    assert_saved(s, before);
+    assert_non_null(strstr(s->editor->core.message.text, "\"head\" branches into"));
     free(before);
-    session_close(&s);
 }
 
 /// Two beasts side by side: a bone goes by its character's name, and can be asked for by it.
@@ -231,38 +211,32 @@ TEST(test_a_second_character_is_named)
 }
 
 /// A chain that follows bends by many degrees a metre: its slider goes that far, and stays as it is while it is dragged.
-TEST(test_a_large_gain_is_on_its_slider)
+SESSION_TEST(test_a_large_gain_is_on_its_slider, open_beast(s, "0"))
 {
-    struct session s;
-    open_beast(&s, "0");
-    panel_enter(&s, "gain", "86");
-    panel_drag(&s, "gain", 120);
-    assert_near(tail(&s)->channels[0].gain.value[0], 120, 2);
-    panel_release(&s);
-    panel_drag(&s, "gain", 30);
-    assert_near(tail(&s)->channels[0].gain.value[0], 30, 2);
-    panel_release(&s);
-    session_close(&s);
+    panel_enter(s, "gain", "86");
+    panel_drag(s, "gain", 120);
+    assert_near(tail(s)->channels[0].gain.value[0], 120, 2);
+    panel_release(s);
+    panel_drag(s, "gain", 30);
+    assert_near(tail(s)->channels[0].gain.value[0], 30, 2);
+    panel_release(s);
 }
 
-TEST(test_undoing_a_chain_activates_what_was_active)
+SESSION_TEST(test_undoing_a_chain_activates_what_was_active, open_beast(s, "0"))
 {
-    struct session s;
-    open_beast(&s, "0");
-    session_key(&s, KEY_PAGE_UP, 0);
-    assert_int_equal(s.editor->core.active, 1);
-    session_click(&s, "bone(ear_L_1)");
-    session_key(&s, 'J', 0);
-    session_click(&s, "bone(leg_FL_1)");
-    session_key(&s, 'J', 0);
-    assert_int_equal(s.editor->core.active, 4);
-    session_key(&s, 'Z', MOD_CTRL);
-    assert_int_equal(s.editor->core.active, 2);
-    assert_int_equal(s.editor->inspector->rig, 2);
-    session_key(&s, 'Z', MOD_CTRL);
-    assert_int_equal(s.editor->core.active, 1);
-    assert_int_equal(s.editor->inspector->rig, 1);
-    session_close(&s);
+    session_key(s, KEY_PAGE_UP, 0);
+    assert_int_equal(s->editor->core.active, 1);
+    session_click(s, "bone(ear_L_1)");
+    session_key(s, 'J', 0);
+    session_click(s, "bone(leg_FL_1)");
+    session_key(s, 'J', 0);
+    assert_int_equal(s->editor->core.active, 4);
+    session_key(s, 'Z', MOD_CTRL);
+    assert_int_equal(s->editor->core.active, 2);
+    assert_int_equal(s->editor->inspector->rig, 2);
+    session_key(s, 'Z', MOD_CTRL);
+    assert_int_equal(s->editor->core.active, 1);
+    assert_int_equal(s->editor->inspector->rig, 1);
 }
 
 /// Where the knot of the first spline is in the curves, against the plot.
@@ -275,18 +249,15 @@ static bool knot_is_seen(const struct session *s)
     return y >= core->layout.plot.y && y <= core->layout.plot.y + core->layout.plot.h;
 }
 
-TEST(test_the_curves_show_a_knot_that_was_pulled)
+SESSION_TEST(test_the_curves_show_a_knot_that_was_pulled, open_beast(s, "0"))
 {
-    struct session s;
-    open_beast(&s, "0");
-    panel_enter(&s, "gain", "0.1"); // so that a pull needs large values
-    session_pull(&s, "chain(tail,0.95)", 0, -40, 12);
-    for (int frame = 0; frame < 90; frame++) session_frame(&s);
-    assert_true(knot_is_seen(&s)); // already while it is pulled
-    session_release(&s, BUTTON_LEFT);
-    for (int frame = 0; frame < 30; frame++) session_frame(&s);
-    assert_true(knot_is_seen(&s));
-    session_close(&s);
+    panel_enter(s, "gain", "0.1"); // so that a pull needs large values
+    session_pull(s, "chain(tail,0.95)", 0, -40, 12);
+    for (int frame = 0; frame < 90; frame++) session_frame(s);
+    assert_true(knot_is_seen(s)); // already while it is pulled
+    session_release(s, BUTTON_LEFT);
+    for (int frame = 0; frame < 30; frame++) session_frame(s);
+    assert_true(knot_is_seen(s));
 }
 
 int main(void) { return tests_run(folder_make, folder_remove); }

@@ -20,56 +20,47 @@ static bool is_selected(const struct session *s, int knot)
     return selection_has(&s->editor->core.selection, s->document->splines[0]->knots[knot].id);
 }
 
-TEST(test_the_selection_grows_by_neighbours)
+SESSION_TEST(test_the_selection_grows_by_neighbours, session_open(s, scene))
 {
-    struct session s;
-    session_open(&s, scene);
-    session_key(&s, KEY_LEFT, MOD_SHIFT); // to the first frame
-    session_type(&s, ">");
-    assert_true(is_selected(&s, 1));
-    session_type(&s, ">");
-    session_type(&s, "<");
-    for (int k = 0; k < 3; k++) assert_true(is_selected(&s, k));
-    assert_false(is_selected(&s, 3));
-    for (int i = 0; i < 3; i++) session_type(&s, "<"); // there is nothing before the first
-    assert_int_equal(selection_count(&s.editor->core.selection, s.document->splines[0]), 3);
-    session_close(&s);
+    session_key(s, KEY_LEFT, MOD_SHIFT); // to the first frame
+    session_type(s, ">");
+    assert_true(is_selected(s, 1));
+    session_type(s, ">");
+    session_type(s, "<");
+    for (int k = 0; k < 3; k++) assert_true(is_selected(s, k));
+    assert_false(is_selected(s, 3));
+    for (int i = 0; i < 3; i++) session_type(s, "<"); // there is nothing before the first
+    assert_int_equal(selection_count(&s->editor->core.selection, s->document->splines[0]), 3);
 }
 
-TEST(test_the_curves_pan_and_zoom)
+SESSION_TEST(test_the_curves_pan_and_zoom, session_open(s, scene))
 {
-    struct session s;
-    session_open(&s, scene);
-    const struct view before = s.editor->curves->view;
-    session_key(&s, KEY_RIGHT, MOD_CTRL);
-    session_key(&s, KEY_UP, MOD_CTRL);
-    assert_true(s.editor->curves->view.frame0 > before.frame0 && s.editor->curves->view.value0 > before.value0);
-    session_key(&s, KEY_LEFT, MOD_CTRL);
-    session_key(&s, KEY_DOWN, MOD_CTRL);
-    assert_near(s.editor->curves->view.frame0, before.frame0, 1e-3);
-    assert_near(s.editor->curves->view.value1, before.value1, 1e-3);
-    session_key(&s, '=', MOD_CTRL);
-    assert_near(s.editor->curves->view.frame1 - s.editor->curves->view.frame0, 0.8 * (before.frame1 - before.frame0),
-                1e-3);
-    session_key(&s, '-', MOD_CTRL);
-    assert_near(s.editor->curves->view.frame1, before.frame1, 1e-3);
-    session_close(&s);
+    const struct view before = s->editor->curves->view;
+    session_key(s, KEY_RIGHT, MOD_CTRL);
+    session_key(s, KEY_UP, MOD_CTRL);
+    assert_true(s->editor->curves->view.frame0 > before.frame0 && s->editor->curves->view.value0 > before.value0);
+    session_key(s, KEY_LEFT, MOD_CTRL);
+    session_key(s, KEY_DOWN, MOD_CTRL);
+    assert_near(s->editor->curves->view.frame0, before.frame0, 1e-3);
+    assert_near(s->editor->curves->view.value1, before.value1, 1e-3);
+    session_key(s, '=', MOD_CTRL);
+    assert_near(s->editor->curves->view.frame1 - s->editor->curves->view.frame0,
+                0.8 * (before.frame1 - before.frame0), 1e-3);
+    session_key(s, '-', MOD_CTRL);
+    assert_near(s->editor->curves->view.frame1, before.frame1, 1e-3);
 }
 
-TEST(test_the_camera_turns_and_comes_back)
+SESSION_TEST(test_the_camera_turns_and_comes_back, session_open(s, scene))
 {
-    struct session s;
-    session_open(&s, scene);
-    const struct camera before = s.editor->stage->camera;
-    session_key(&s, KEY_RIGHT, MOD_CTRL | MOD_SHIFT);
-    session_key(&s, KEY_UP, MOD_CTRL | MOD_SHIFT);
-    session_key(&s, KEY_PAGE_UP, MOD_CTRL | MOD_SHIFT);
-    assert_true(s.editor->stage->camera.azimuth > before.azimuth &&
-                s.editor->stage->camera.elevation > before.elevation);
-    assert_true(s.editor->stage->camera.distance < before.distance);
-    session_key(&s, KEY_HOME, MOD_SHIFT);
-    assert_memory_equal(&before, &s.editor->stage->camera, sizeof before);
-    session_close(&s);
+    const struct camera before = s->editor->stage->camera;
+    session_key(s, KEY_RIGHT, MOD_CTRL | MOD_SHIFT);
+    session_key(s, KEY_UP, MOD_CTRL | MOD_SHIFT);
+    session_key(s, KEY_PAGE_UP, MOD_CTRL | MOD_SHIFT);
+    assert_true(s->editor->stage->camera.azimuth > before.azimuth &&
+                s->editor->stage->camera.elevation > before.elevation);
+    assert_true(s->editor->stage->camera.distance < before.distance);
+    session_key(s, KEY_HOME, MOD_SHIFT);
+    assert_memory_equal(&before, &s->editor->stage->camera, sizeof before);
 }
 
 TEST(test_panels_have_sizes_to_choose_from)
@@ -89,30 +80,24 @@ TEST(test_panels_have_sizes_to_choose_from)
     session_close(&s);
 }
 
-TEST(test_a_warning_is_done_away_with)
+SESSION_TEST(test_a_warning_is_done_away_with, session_open(s, jump))
 {
-    struct session s;
-    session_open(&s, jump);
-    assert_int_equal(s.editor->curves->warnings.count, 1);
-    session_key(&s, 'W', 0);
-    session_frame(&s);
-    assert_int_equal(s.editor->curves->warnings.count, 0);
-    session_key(&s, 'Z', MOD_CTRL);
-    assert_int_equal(s.editor->curves->warnings.count, 1);
-    session_close(&s);
+    assert_int_equal(s->editor->curves->warnings.count, 1);
+    session_key(s, 'W', 0);
+    session_frame(s);
+    assert_int_equal(s->editor->curves->warnings.count, 0);
+    session_key(s, 'Z', MOD_CTRL);
+    assert_int_equal(s->editor->curves->warnings.count, 1);
 }
 
-TEST(test_a_number_goes_to_its_default)
+SESSION_TEST(test_a_number_goes_to_its_default, session_open(s, scene))
 {
-    struct session s;
-    session_open(&s, scene);
-    for (int i = 0; i < 40 && s.editor->inspector->ui.focus != ui_id("frequency"); i++) session_key(&s, KEY_TAB, 0);
-    session_key(&s, KEY_DELETE, 0);
-    assert_near(s.document->splines[0]->parameter[PARAMETER_FREQUENCY].value, 1, 1e-12);
-    assert_int_equal(s.document->splines[0]->knot_count, 4);
-    session_key(&s, 'Z', MOD_CTRL);
-    assert_near(s.document->splines[0]->parameter[PARAMETER_FREQUENCY].value, 0.5, 1e-12);
-    session_close(&s);
+    for (int i = 0; i < 40 && s->editor->inspector->ui.focus != ui_id("frequency"); i++) session_key(s, KEY_TAB, 0);
+    session_key(s, KEY_DELETE, 0);
+    assert_near(s->document->splines[0]->parameter[PARAMETER_FREQUENCY].value, 1, 1e-12);
+    assert_int_equal(s->document->splines[0]->knot_count, 4);
+    session_key(s, 'Z', MOD_CTRL);
+    assert_near(s->document->splines[0]->parameter[PARAMETER_FREQUENCY].value, 0.5, 1e-12);
 }
 
 /// Whether a line of the accent's colour, as the focus is drawn, lies around a widget or the part of it that is set.
@@ -157,16 +142,13 @@ static int tab_round(struct session *s)
     return count;
 }
 
-TEST(test_the_focus_is_seen_wherever_it_goes)
+SESSION_TEST(test_the_focus_is_seen_wherever_it_goes, session_open(s, scene))
 {
-    struct session s;
-    session_open(&s, scene);
-    inspector_unfold(s.editor->inspector, "section.scene");
-    inspector_unfold(s.editor->inspector, "section.poles");
-    inspector_unfold(s.editor->inspector, "section.history");
-    session_click(&s, "knot(sway,1)");
-    assert_true(tab_round(&s) > 45);
-    session_close(&s);
+    inspector_unfold(s->editor->inspector, "section.scene");
+    inspector_unfold(s->editor->inspector, "section.poles");
+    inspector_unfold(s->editor->inspector, "section.history");
+    session_click(s, "knot(sway,1)");
+    assert_true(tab_round(s) > 45);
 }
 
 int main(void) { return tests_run(NULL, NULL); }

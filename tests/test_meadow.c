@@ -26,15 +26,13 @@ static const char windy_scene[] =
     "\"channels\": [{\"spline\": \"tail\", \"axis\": \"side\", \"gain\": 4}]},"
     "{\"type\": \"meadow\", \"name\": \"reeds\", \"spline\": \"wind\", \"count\": 40, \"variation\": 0.4}]}";
 
-TEST(it_is_read_and_written)
+SESSION_TEST(it_is_read_and_written, session_open(s, scene))
 {
-    struct session s;
-    session_open(&s, scene);
-    const struct meadow_rig *meadow = &s.document->rigs[1]->meadow;
+    const struct meadow_rig *meadow = &s->document->rigs[1]->meadow;
     assert_int_equal(meadow->count, 300);
     assert_near(meadow->area[1], 3, 0);
     assert_near(meadow->variation, 0.4, 0);
-    char *saved = session_saved(&s);
+    char *saved = session_saved(s);
     assert_non_null(strstr(saved, "\"count\": 300"));
     assert_non_null(strstr(saved, "\"mood\": \"mild\""));
     struct error error = {0};
@@ -43,7 +41,6 @@ TEST(it_is_read_and_written)
     assert_memory_equal(&again->rigs[1]->meadow, meadow, sizeof *meadow);
     document_destroy(again);
     free(saved);
-    session_close(&s);
 }
 
 TEST(every_reed_is_a_variation)
@@ -63,27 +60,24 @@ TEST(every_reed_is_a_variation)
     session_close(&s);
 }
 
-TEST(its_numbers_are_set_in_the_inspector)
+SESSION_TEST(its_numbers_are_set_in_the_inspector, panel_open(s, scene, 1280, 2400))
 {
-    struct session s;
-    panel_open(&s, scene, 1280, 2400);
-    char *original = session_saved(&s);
-    panel_enter(&s, "meadow.count", "120");
-    assert_int_equal(s.document->rigs[1]->meadow.count, 120);
-    assert_one_step(&s, original);
-    panel_enter(&s, "meadow.wide", "2.5");
-    panel_enter(&s, "meadow.gain", "-3");
-    panel_enter(&s, "meadow.seed", "9");
-    const struct meadow_rig *meadow = &s.document->rigs[1]->meadow;
+    char *original = session_saved(s);
+    panel_enter(s, "meadow.count", "120");
+    assert_int_equal(s->document->rigs[1]->meadow.count, 120);
+    assert_one_step(s, original);
+    panel_enter(s, "meadow.wide", "2.5");
+    panel_enter(s, "meadow.gain", "-3");
+    panel_enter(s, "meadow.seed", "9");
+    const struct meadow_rig *meadow = &s->document->rigs[1]->meadow;
     assert_near(meadow->area[0], 2.5, 0);
     assert_near(meadow->area[1], 3, 0);
     assert_near(meadow->gain, -3, 0);
     assert_int_equal(meadow->seed, 9);
     assert_int_equal(meadow->count, 120);
-    for (int i = 0; i < 4; i++) session_key(&s, 'Z', MOD_CTRL);
-    assert_saved(&s, original);
+    for (int i = 0; i < 4; i++) session_key(s, 'Z', MOD_CTRL);
+    assert_saved(s, original);
     free(original);
-    session_close(&s);
 }
 
 /// Played in a loop, the meadow that ships does not jump.
@@ -147,49 +141,43 @@ static double swing_of(const struct session *s)
     return most;
 }
 
-TEST(a_dragged_body_sets_them_swinging)
+SESSION_TEST(a_dragged_body_sets_them_swinging, panel_open_models(s, scene))
 {
-    struct session s;
-    panel_open_models(&s, scene);
-    session_frame(&s);
-    assert_near(swing_of(&s), 0, 0);
-    session_point(&s, "body(fox)");
-    session_press(&s, BUTTON_LEFT, 1);
+    session_frame(s);
+    assert_near(swing_of(s), 0, 0);
+    session_point(s, "body(fox)");
+    session_press(s, BUTTON_LEFT, 1);
     for (int i = 1; i <= 10; i++) {
-        const double swing = swing_of(&s);
-        editor_pose(s.editor, &s.world); // as a window's first frame after a rest: no time has passed
-        assert_near(swing_of(&s), swing, 0);
-        session_move(&s, 12, 0);
-        session_frame(&s);
+        const double swing = swing_of(s);
+        editor_pose(s->editor, &s->world); // as a window's first frame after a rest: no time has passed
+        assert_near(swing_of(s), swing, 0);
+        session_move(s, 12, 0);
+        session_frame(s);
     }
-    assert_true(swing_of(&s) > 0.05);
-    session_release(&s, BUTTON_LEFT);
-    for (int i = 0; i < 40; i++) session_frame(&s);
-    const double later = swing_of(&s);
-    assert_true(later > 0.001 && stage_is_moving(s.editor->stage));
-    for (int i = 0; i < 2000; i++) session_frame(&s);
-    assert_near(swing_of(&s), 0, 0);
-    assert_false(stage_is_moving(s.editor->stage));
-    session_close(&s);
+    assert_true(swing_of(s) > 0.05);
+    session_release(s, BUTTON_LEFT);
+    for (int i = 0; i < 40; i++) session_frame(s);
+    const double later = swing_of(s);
+    assert_true(later > 0.001 && stage_is_moving(s->editor->stage));
+    for (int i = 0; i < 2000; i++) session_frame(s);
+    assert_near(swing_of(s), 0, 0);
+    assert_false(stage_is_moving(s->editor->stage));
 }
 
 /// What a cubic moves has no swing of its own: its reeds are pushed aside, and that is all.
-TEST(reeds_that_nothing_pulls_back_do_not_swing)
+SESSION_TEST(reeds_that_nothing_pulls_back_do_not_swing, panel_open_models(s, scene))
 {
-    struct session s;
-    panel_open_models(&s, scene);
-    for (int mode = 0; mode < 2; mode++) session_key(&s, 'M', 0);
-    assert_int_equal(spline_mode(s.document->splines[0]), WIGGLY_CUBIC);
-    session_point(&s, "body(fox)");
-    session_press(&s, BUTTON_LEFT, 1);
-    session_drag(&s, 120, 0, 10);
-    assert_near(swing_of(&s), 0, 0);
+    for (int mode = 0; mode < 2; mode++) session_key(s, 'M', 0);
+    assert_int_equal(spline_mode(s->document->splines[0]), WIGGLY_CUBIC);
+    session_point(s, "body(fox)");
+    session_press(s, BUTTON_LEFT, 1);
+    session_drag(s, 120, 0, 10);
+    assert_near(swing_of(s), 0, 0);
     double pushed = 0;
-    const struct stage_meadow *meadow = &editor_stage(s.editor)->meadow;
+    const struct stage_meadow *meadow = &editor_stage(s->editor)->meadow;
     for (int r = 0; r < meadow->count; r++) pushed = fmax(pushed, (double)fabsf(meadow->reeds[r].pushed[0]));
     assert_true(pushed > 0.5);
-    session_release(&s, BUTTON_LEFT);
-    session_close(&s);
+    session_release(s, BUTTON_LEFT);
 }
 
 int main(void) { return tests_run(NULL, NULL); }

@@ -48,111 +48,97 @@ static void middle_of(const struct session *s, const struct draw_command *comman
     }
 }
 
-TEST(test_onion_shows_the_nearest_knots)
+SESSION_TEST(test_onion_shows_the_nearest_knots, session_open(s, scene))
 {
-    struct session s;
-    session_open(&s, scene);
     uint32_t color = theme()->spline[0];
-    assert_int_equal(find(&s, DRAW_LINE, color).count, 0);
-    session_key(&s, KEY_F4, 0); // no ghost besides
-    session_key(&s, 'O', 0);
-    struct found skins = find(&s, DRAW_LINE, color);
+    assert_int_equal(find(s, DRAW_LINE, color).count, 0);
+    session_key(s, KEY_F4, 0); // no ghost besides
+    session_key(s, 'O', 0);
+    struct found skins = find(s, DRAW_LINE, color);
     assert_int_equal(skins.count, 8); // of nine knots, the ninth is the farthest
     const struct draw_command *nearest = skins.command[7], *farthest = skins.command[0];
     assert_true((nearest->color & 0xFF) > (farthest->color & 0xFF));
     uint64_t before = nearest->hash;
-    session_click(&s, "knot(sway,0)");
-    session_key(&s, KEY_UP, MOD_ALT);
-    skins = find(&s, DRAW_LINE, color);
+    session_click(s, "knot(sway,0)");
+    session_key(s, KEY_UP, MOD_ALT);
+    skins = find(s, DRAW_LINE, color);
     assert_int_equal(skins.count, 8);
     assert_true(skins.command[7]->hash != before); // in the frame of the nudge
-    session_key(&s, KEY_DELETE, 0);
-    session_key(&s, 'A', MOD_CTRL);
-    session_key(&s, KEY_DELETE, 0);
-    assert_int_equal(find(&s, DRAW_LINE, color).count, 0);
-    session_key(&s, 'O', 0);
-    assert_false(s.editor->core.overlays.onion);
-    session_close(&s);
+    session_key(s, KEY_DELETE, 0);
+    session_key(s, 'A', MOD_CTRL);
+    session_key(s, KEY_DELETE, 0);
+    assert_int_equal(find(s, DRAW_LINE, color).count, 0);
+    session_key(s, 'O', 0);
+    assert_false(s->editor->core.overlays.onion);
 }
 
 /// A mark a frame, where the tip will be; the range's ends are the arc's.
-TEST(test_arc_is_where_the_tip_goes)
+SESSION_TEST(test_arc_is_where_the_tip_goes, session_open(s, scene))
 {
-    struct session s;
-    session_open(&s, scene);
-    session_key(&s, 'P', 0);
-    struct found marks = find(&s, DRAW_RECT, theme()->playhead);
+    session_key(s, 'P', 0);
+    struct found marks = find(s, DRAW_RECT, theme()->playhead);
     assert_in_range(marks.count, 44, 49); // two seconds ahead of the first frame, less what has faded
     for (int step = 1; step <= 3; step++) {
         float expected[2], tip[2];
-        middle_of(&s, find(&s, DRAW_RECT, theme()->playhead).command[step], expected);
+        middle_of(s, find(s, DRAW_RECT, theme()->playhead).command[step], expected);
         assert_true(isfinite(expected[0]));
-        for (int i = 0; i < step; i++) session_key(&s, KEY_RIGHT, 0);
+        for (int i = 0; i < step; i++) session_key(s, KEY_RIGHT, 0);
         struct error error = {0};
-        assert_true(editor_target(s.editor, &s.world, "tail(tail,1)", &tip[0], &tip[1], &error));
+        assert_true(editor_target(s->editor, &s->world, "tail(tail,1)", &tip[0], &tip[1], &error));
         assert_near(tip[0], expected[0], 0.1);
         assert_near(tip[1], expected[1], 0.1);
-        session_key(&s, KEY_LEFT, MOD_SHIFT);
+        session_key(s, KEY_LEFT, MOD_SHIFT);
     }
-    session_close(&s);
 }
 
-TEST(test_arc_follows_an_edit_at_once)
+SESSION_TEST(test_arc_follows_an_edit_at_once, session_open(s, scene))
 {
-    struct session s;
-    session_open(&s, scene);
-    session_key(&s, 'P', 0);
+    session_key(s, 'P', 0);
     float before[2], after[2], again[2];
-    middle_of(&s, find(&s, DRAW_RECT, theme()->playhead).command[14], before);
-    session_click(&s, "knot(sway,1)");
-    session_key(&s, KEY_UP, MOD_ALT | MOD_SHIFT);
-    middle_of(&s, find(&s, DRAW_RECT, theme()->playhead).command[14], after);
+    middle_of(s, find(s, DRAW_RECT, theme()->playhead).command[14], before);
+    session_click(s, "knot(sway,1)");
+    session_key(s, KEY_UP, MOD_ALT | MOD_SHIFT);
+    middle_of(s, find(s, DRAW_RECT, theme()->playhead).command[14], after);
     assert_true(hypotf(after[0] - before[0], after[1] - before[1]) > 2);
-    session_key(&s, 'Z', MOD_CTRL);
-    middle_of(&s, find(&s, DRAW_RECT, theme()->playhead).command[14], again);
+    session_key(s, 'Z', MOD_CTRL);
+    middle_of(s, find(s, DRAW_RECT, theme()->playhead).command[14], again);
     assert_near(again[0], before[0], 1e-4);
     assert_near(again[1], before[1], 1e-4);
-    session_close(&s);
 }
 
 /// Both stay as they are when another document comes, and neither minds one without tails.
-TEST(test_overlays_outlive_documents)
+SESSION_TEST(test_overlays_outlive_documents,
+             session_open(s, "{\"frames\": [0, 9], \"splines\": [{\"name\": \"x\"}]}"))
 {
-    struct session s;
-    session_open(&s, "{\"frames\": [0, 9], \"splines\": [{\"name\": \"x\"}]}");
-    session_key(&s, 'O', 0);
-    session_key(&s, 'P', 0);
-    editor_open(s.editor, &s.world);
-    session_frame(&s);
-    assert_true(s.editor->core.overlays.onion);
-    assert_true(s.editor->core.overlays.trail);
-    session_close(&s);
+    session_key(s, 'O', 0);
+    session_key(s, 'P', 0);
+    editor_open(s->editor, &s->world);
+    session_frame(s);
+    assert_true(s->editor->core.overlays.onion);
+    assert_true(s->editor->core.overlays.trail);
 }
 
-TEST(test_the_ghost_is_the_pose_at_the_knot_in_hand)
+SESSION_TEST(test_the_ghost_is_the_pose_at_the_knot_in_hand, session_open(s, scene))
 {
-    struct session s;
-    session_open(&s, scene);
     const uint32_t color = theme()->spline[0];
-    session_pull(&s, "knot(sway,2)", 0, 20, 2);
-    struct found ghost = find(&s, DRAW_LINE, color);
+    session_pull(s, "knot(sway,2)", 0, 20, 2);
+    struct found ghost = find(s, DRAW_LINE, color);
     assert_int_equal(ghost.count, 1);
     const uint64_t before = ghost.command[0]->hash;
-    session_drag(&s, 0, 20, 1);
-    ghost = find(&s, DRAW_LINE, color);
+    session_drag(s, 0, 20, 1);
+    ghost = find(s, DRAW_LINE, color);
     assert_int_equal(ghost.count, 1);
     assert_true(ghost.command[0]->hash != before); // as the curve is in this frame
-    session_release(&s, BUTTON_LEFT);
-    assert_int_equal(find(&s, DRAW_LINE, color).count, 0);
-    session_key(&s, KEY_UP, MOD_ALT); // and for a moment after a nudge
-    assert_int_equal(find(&s, DRAW_LINE, color).count, 1);
-    for (int i = 0; i < 90; i++) session_frame(&s);
-    assert_int_equal(find(&s, DRAW_LINE, color).count, 0);
-    session_key(&s, KEY_F4, 0);
-    session_pull(&s, "knot(sway,2)", 0, 20, 2);
-    assert_int_equal(find(&s, DRAW_LINE, color).count, 0);
-    session_release(&s, BUTTON_LEFT);
-    session_close(&s);
+    session_release(s, BUTTON_LEFT);
+    assert_int_equal(find(s, DRAW_LINE, color).count, 0);
+    session_key(s, KEY_UP, MOD_ALT); // and for a moment after a nudge
+    assert_int_equal(find(s, DRAW_LINE, color).count, 1);
+    for (int i = 0; i < 90; i++) session_frame(s);
+    assert_int_equal(find(s, DRAW_LINE, color).count, 0);
+    session_key(s, KEY_F4, 0);
+    session_pull(s, "knot(sway,2)", 0, 20, 2);
+    assert_int_equal(find(s, DRAW_LINE, color).count, 0);
+    session_release(s, BUTTON_LEFT);
 }
 
 static float turn(const float a[2], const float b[2], const float c[2])
@@ -174,20 +160,17 @@ static int crossings(const struct session *s, const struct draw_command *command
     return count;
 }
 
-TEST(test_outlines_do_not_fold_from_any_side)
+SESSION_TEST(test_outlines_do_not_fold_from_any_side, session_open(s, scene))
 {
-    struct session s;
-    session_open(&s, scene);
-    session_key(&s, KEY_F4, 0);
-    session_key(&s, 'O', 0);
+    session_key(s, KEY_F4, 0);
+    session_key(s, 'O', 0);
     for (int a = 0; a < 24; a++) {
-        s.editor->stage->camera.azimuth = 6.2831853f * (float)a / 24;
-        session_frame(&s);
-        const struct found skins = find(&s, DRAW_LINE, theme()->spline[0]);
+        s->editor->stage->camera.azimuth = 6.2831853f * (float)a / 24;
+        session_frame(s);
+        const struct found skins = find(s, DRAW_LINE, theme()->spline[0]);
         assert_int_equal(skins.count, 8);
-        for (int i = 0; i < skins.count; i++) assert_int_equal(crossings(&s, skins.command[i]), 0);
+        for (int i = 0; i < skins.count; i++) assert_int_equal(crossings(s, skins.command[i]), 0);
     }
-    session_close(&s);
 }
 
 static void open_bear(struct session *s)
@@ -214,36 +197,31 @@ static float way_of(const struct character *c, int vertex)
 }
 
 /// Onion skin and motion arc are not for tails alone: a scene of a soft character shows its outlines, and where it moves most.
-TEST(test_a_character_has_skins_and_an_arc)
+SESSION_TEST(test_a_character_has_skins_and_an_arc, open_bear(s))
 {
-    struct session s;
-    open_bear(&s);
-    assert_int_equal(find(&s, DRAW_LINE, theme()->spline[0]).count, 0);
-    session_key(&s, 'O', 0);
-    assert_true(find(&s, DRAW_LINE, theme()->spline[0]).count >= 2); // of two knots
-    assert_int_equal(find(&s, DRAW_RECT, theme()->playhead).count, 0);
-    session_key(&s, 'P', 0);
-    assert_in_range(find(&s, DRAW_RECT, theme()->playhead).count, 44, 49);
-    const struct character *bear = &models_figure(s.world.models, 0)->character;
-    const int point = overlay_point(s.editor->stage, &s.editor->core, &s.world).at;
+    assert_int_equal(find(s, DRAW_LINE, theme()->spline[0]).count, 0);
+    session_key(s, 'O', 0);
+    assert_true(find(s, DRAW_LINE, theme()->spline[0]).count >= 2); // of two knots
+    assert_int_equal(find(s, DRAW_RECT, theme()->playhead).count, 0);
+    session_key(s, 'P', 0);
+    assert_in_range(find(s, DRAW_RECT, theme()->playhead).count, 44, 49);
+    const struct character *bear = &models_figure(s->world.models, 0)->character;
+    const int point = overlay_point(s->editor->stage, &s->editor->core, &s->world).at;
     for (int i = 0; i < bear->vertex_count; i++) assert_true(way_of(bear, i) <= way_of(bear, point) + 1e-6f);
-    panel_click(&s, "onion");
-    panel_click(&s, "trail");
-    assert_int_equal(find(&s, DRAW_LINE, theme()->spline[0]).count, 0);
-    assert_int_equal(find(&s, DRAW_RECT, theme()->playhead).count, 0);
-    session_close(&s);
+    panel_click(s, "onion");
+    panel_click(s, "trail");
+    assert_int_equal(find(s, DRAW_LINE, theme()->spline[0]).count, 0);
+    assert_int_equal(find(s, DRAW_RECT, theme()->playhead).count, 0);
 }
 
 /// At the height of the character: from its ears, above the middle of its head, to its feet.
-TEST(test_a_character_has_a_ghost)
+SESSION_TEST(test_a_character_has_a_ghost, open_bear(s))
 {
-    struct session s;
-    open_bear(&s);
     const uint32_t color = theme()->spline[0];
-    session_pull(&s, "knot(swing,1)", 0, 8, 2);
-    const struct found ghost = find(&s, DRAW_LINE, color);
+    session_pull(s, "knot(swing,1)", 0, 8, 2);
+    const struct found ghost = find(s, DRAW_LINE, color);
     assert_true(ghost.count >= 1);
-    const float *points = editor_drawlist(s.editor)->points + 2 * ghost.command[0]->first;
+    const float *points = editor_drawlist(s->editor)->points + 2 * ghost.command[0]->first;
     float low = INFINITY, high = -INFINITY;
     for (int i = 0; i < ghost.command[0]->count; i++) {
         low = fminf(low, points[2 * i + 1]);
@@ -251,14 +229,13 @@ TEST(test_a_character_has_a_ghost)
     }
     struct error error;
     float head[2], foot[2];
-    session_release(&s, BUTTON_LEFT);
-    session_click(&s, "ruler(40)");
-    session_frame(&s);
-    assert_true(editor_target(s.editor, &s.world, "character(bear,0.5,1)", &head[0], &head[1], &error));
-    assert_true(editor_target(s.editor, &s.world, "character(bear,0.4,0)", &foot[0], &foot[1], &error));
+    session_release(s, BUTTON_LEFT);
+    session_click(s, "ruler(40)");
+    session_frame(s);
+    assert_true(editor_target(s->editor, &s->world, "character(bear,0.5,1)", &head[0], &head[1], &error));
+    assert_true(editor_target(s->editor, &s->world, "character(bear,0.4,0)", &foot[0], &foot[1], &error));
     assert_in_range((int)(head[1] - low), 0, 60);
     assert_near(high, foot[1], 60);
-    session_close(&s);
 }
 
 int main(void) { return tests_run(NULL, NULL); }

@@ -181,34 +181,31 @@ static void answer_saved(struct session *f, enum request_kind kind, const char *
     panel_answer(f, kind, true, "");
 }
 
-TEST(test_save_as_stays_until_it_succeeds)
+SESSION_TEST(test_save_as_stays_until_it_succeeds, panel_open(s, small_scene, 1280, 720))
 {
-    struct session f;
-    panel_open(&f, small_scene, 1280, 720);
-    editor_set_path(f.editor, "");
-    session_key(&f, 'S', MOD_CTRL); // has no file yet, so it asks
-    assert_int_equal(f.editor->dialogs->dialog.kind, DIALOG_SAVE_AS);
-    assert_string_equal(f.editor->dialogs->dialog.ui.text.bytes, "untitled.json");
-    panel_type(&f, "no/such/dog");
-    session_key(&f, KEY_ENTER, 0);
-    expect_request(&f, REQUEST_SAVE_AS, "no/such/dog.json");
-    panel_answer(&f, REQUEST_SAVE_AS, false, "no/such/dog.json: there is no such folder");
-    assert_int_equal(f.editor->dialogs->dialog.kind, DIALOG_SAVE_AS);
-    assert_non_null(strstr(f.editor->dialogs->dialog.error, "no such folder"));
-    assert_string_equal(f.editor->core.message.text, "");
-    for (int i = 0; i < 20; i++) session_key(&f, KEY_BACKSPACE, 0);
-    session_key(&f, KEY_ENTER, 0); // nothing typed
-    expect_request(&f, REQUEST_NONE, "");
-    panel_type(&f, "untitled.json");
-    session_key(&f, KEY_ENTER, 0);
-    expect_request(&f, REQUEST_SAVE_AS, "untitled.json");
-    answer_saved(&f, REQUEST_SAVE_AS, "pets/dog.json");
-    assert_int_equal(f.editor->dialogs->dialog.kind, DIALOG_NONE);
-    session_key(&f, 'S', MOD_CTRL);
-    expect_request(&f, REQUEST_SAVE, "");
-    session_key(&f, 'S', MOD_CTRL | MOD_SHIFT); // starts from where the file is, not from its bare name
-    assert_string_equal(f.editor->dialogs->dialog.ui.text.bytes, "pets/dog.json");
-    session_close(&f);
+    editor_set_path(s->editor, "");
+    session_key(s, 'S', MOD_CTRL); // has no file yet, so it asks
+    assert_int_equal(s->editor->dialogs->dialog.kind, DIALOG_SAVE_AS);
+    assert_string_equal(s->editor->dialogs->dialog.ui.text.bytes, "untitled.json");
+    panel_type(s, "no/such/dog");
+    session_key(s, KEY_ENTER, 0);
+    expect_request(s, REQUEST_SAVE_AS, "no/such/dog.json");
+    panel_answer(s, REQUEST_SAVE_AS, false, "no/such/dog.json: there is no such folder");
+    assert_int_equal(s->editor->dialogs->dialog.kind, DIALOG_SAVE_AS);
+    assert_non_null(strstr(s->editor->dialogs->dialog.error, "no such folder"));
+    assert_string_equal(s->editor->core.message.text, "");
+    for (int i = 0; i < 20; i++) session_key(s, KEY_BACKSPACE, 0);
+    session_key(s, KEY_ENTER, 0); // nothing typed
+    expect_request(s, REQUEST_NONE, "");
+    panel_type(s, "untitled.json");
+    session_key(s, KEY_ENTER, 0);
+    expect_request(s, REQUEST_SAVE_AS, "untitled.json");
+    answer_saved(s, REQUEST_SAVE_AS, "pets/dog.json");
+    assert_int_equal(s->editor->dialogs->dialog.kind, DIALOG_NONE);
+    session_key(s, 'S', MOD_CTRL);
+    expect_request(s, REQUEST_SAVE, "");
+    session_key(s, 'S', MOD_CTRL | MOD_SHIFT); // starts from where the file is, not from its bare name
+    assert_string_equal(s->editor->dialogs->dialog.ui.text.bytes, "pets/dog.json");
 }
 
 /// Changes something, then asks to quit.
@@ -325,37 +322,31 @@ TEST(test_open_completes_paths)
     session_close(&f);
 }
 
-TEST(test_dialog_takes_every_key)
+SESSION_TEST(test_dialog_takes_every_key, panel_open(s, small_scene, 1280, 720))
 {
-    struct session f;
-    panel_open(&f, small_scene, 1280, 720);
-    session_key(&f, 'O', MOD_CTRL);
-    panel_type(&f, "vim. ");
-    session_key(&f, 'Z', MOD_CTRL);
-    session_key(&f, KEY_F1, 0);
-    session_key(&f, KEY_DELETE, 0);
-    assert_int_equal(f.editor->core.look, LOOK_WIGGLY);
-    assert_false(f.editor->dialogs->help.open);
-    assert_int_equal(f.document->splines[0]->knot_count, 2);
-    assert_string_equal(f.editor->dialogs->dialog.ui.text.bytes, "vim. ");
-    session_close(&f);
+    session_key(s, 'O', MOD_CTRL);
+    panel_type(s, "vim. ");
+    session_key(s, 'Z', MOD_CTRL);
+    session_key(s, KEY_F1, 0);
+    session_key(s, KEY_DELETE, 0);
+    assert_int_equal(s->editor->core.look, LOOK_WIGGLY);
+    assert_false(s->editor->dialogs->help.open);
+    assert_int_equal(s->document->splines[0]->knot_count, 2);
+    assert_string_equal(s->editor->dialogs->dialog.ui.text.bytes, "vim. ");
 }
 
 /// The figures at the right must not cost a redraw every frame.
-TEST(test_figures_change_twice_a_second)
+SESSION_TEST(test_figures_change_twice_a_second, panel_open(s, small_scene, 1280, 720))
 {
-    struct session f;
-    panel_open(&f, small_scene, 1280, 720);
     double last = 0;
     int changes = 0;
     for (int frame = 0; frame < 120; frame++) {
-        editor_set_stats(f.editor, 50 + frame % 7, 200 + frame);
-        transport_advance(f.editor->transport, &f.editor->core, 1.0 / 60);
-        changes += f.editor->transport->status.solve_us != last;
-        last = f.editor->transport->status.solve_us;
+        editor_set_stats(s->editor, 50 + frame % 7, 200 + frame);
+        transport_advance(s->editor->transport, &s->editor->core, 1.0 / 60);
+        changes += s->editor->transport->status.solve_us != last;
+        last = s->editor->transport->status.solve_us;
     }
     assert_in_range(changes, 3, 5);
-    session_close(&f);
 }
 
 int main(void) { return tests_run(NULL, NULL); }

@@ -45,63 +45,54 @@ static void where(struct session *s, const char *target, float xy[2])
     if (!editor_target(s->editor, &s->world, target, &xy[0], &xy[1], &error)) fail_msg("%s", error.text);
 }
 
-TEST(test_ctrl_and_a_drag_pin_a_joint_which_follows_the_pointer)
+SESSION_TEST(test_ctrl_and_a_drag_pin_a_joint_which_follows_the_pointer, open_tail(s))
 {
-    struct session s;
-    open_tail(&s);
-    for (int step = 0; step < 10; step++) session_key(&s, KEY_RIGHT, 0);
-    char *before = session_saved(&s);
-    pull_with_ctrl(&s, "tail(tail,1)", 0, -30);
+    for (int step = 0; step < 10; step++) session_key(s, KEY_RIGHT, 0);
+    char *before = session_saved(s);
+    pull_with_ctrl(s, "tail(tail,1)", 0, -30);
     float tip[2], marker[2];
-    where(&s, "tail(tail,1)", tip);
-    where(&s, "pin(tail,0)", marker);
-    const float x = s.x, y = s.y;
-    session_release(&s, BUTTON_LEFT);
-    assert_int_equal(pins_of(&s), 1);
-    assert_int_equal(pin_of(&s, 0)->point, 23);
-    assert_near(pin_of(&s, 0)->frame, 10, 0);
+    where(s, "tail(tail,1)", tip);
+    where(s, "pin(tail,0)", marker);
+    const float x = s->x, y = s->y;
+    session_release(s, BUTTON_LEFT);
+    assert_int_equal(pins_of(s), 1);
+    assert_int_equal(pin_of(s, 0)->point, 23);
+    assert_near(pin_of(s, 0)->frame, 10, 0);
     assert_true(hypotf(marker[0] - x, marker[1] - y) < 1);
     const float apart = hypotf(tip[0] - marker[0], tip[1] - marker[1]);
     if (!(apart < 8)) fail_msg("the tip is %g pixels from the pointer", (double)apart);
-    assert_int_equal(s.document->splines[0]->knot_count, 1);
-    assert_one_step(&s, before);
+    assert_int_equal(s->document->splines[0]->knot_count, 1);
+    assert_one_step(s, before);
     free(before);
-    session_close(&s);
 }
 
-TEST(test_the_plain_drag_still_sets_knots)
+SESSION_TEST(test_the_plain_drag_still_sets_knots, open_tail(s))
 {
-    struct session s;
-    open_tail(&s);
-    for (int step = 0; step < 10; step++) session_key(&s, KEY_RIGHT, 0);
-    session_pull(&s, "tail(tail,0.9)", 20, 20, 4);
-    session_release(&s, BUTTON_LEFT);
-    assert_int_equal(pins_of(&s), 0);
-    assert_int_equal(s.document->splines[0]->knot_count, 2);
-    session_close(&s);
+    for (int step = 0; step < 10; step++) session_key(s, KEY_RIGHT, 0);
+    session_pull(s, "tail(tail,0.9)", 20, 20, 4);
+    session_release(s, BUTTON_LEFT);
+    assert_int_equal(pins_of(s), 0);
+    assert_int_equal(s->document->splines[0]->knot_count, 2);
 }
 
-TEST(test_an_axis_can_be_locked_and_esc_cancels)
+SESSION_TEST(test_an_axis_can_be_locked_and_esc_cancels, open_tail(s))
 {
-    struct session s;
-    open_tail(&s);
-    char *before = session_saved(&s);
-    pull_with_ctrl(&s, "tail(tail,1)", 30, 25);
-    const struct pin free_pin = *pin_of(&s, 0);
-    session_key(&s, 'Y', 0);
-    const struct pin locked = *pin_of(&s, 0);
+    char *before = session_saved(s);
+    pull_with_ctrl(s, "tail(tail,1)", 30, 25);
+    const struct pin free_pin = *pin_of(s, 0);
+    session_key(s, 'Y', 0);
+    const struct pin locked = *pin_of(s, 0);
     assert_true(locked.to[1] != free_pin.to[1] || locked.to[0] != free_pin.to[0]);
-    session_key(&s, 'X', 0);
-    const struct pin other = *pin_of(&s, 0);
+    session_key(s, 'X', 0);
+    const struct pin other = *pin_of(s, 0);
     assert_true(locked.to[0] != other.to[0]);
     assert_near(locked.to[2], other.to[2], 1e-9); // neither moves along z
-    session_key(&s, KEY_ESCAPE, 0);
-    assert_saved(&s, before);
-    session_release(&s, BUTTON_LEFT);
-    session_key(&s, KEY_DELETE, 0); // nothing is selected now
-    assert_saved(&s, before);
+    session_key(s, KEY_ESCAPE, 0);
+    assert_saved(s, before);
+    session_release(s, BUTTON_LEFT);
+    session_key(s, KEY_DELETE, 0); // nothing is selected now
+    assert_saved(s, before);
     free(before);
-    session_close(&s);
 }
 
 /// Pins the tip where it is, at frame 10.
@@ -113,129 +104,115 @@ static void pin_the_tip(struct session *s)
     session_key(s, 'H', 0);
 }
 
-TEST(test_a_pin_is_moved_nudged_retimed_and_deleted_by_keys)
+SESSION_TEST(test_a_pin_is_moved_nudged_retimed_and_deleted_by_keys, open_tail(s))
 {
-    struct session s;
-    open_tail(&s);
-    pin_the_tip(&s);
-    assert_int_equal(pins_of(&s), 1);
-    char *placed = session_saved(&s);
-    const struct pin first = *pin_of(&s, 0);
-    session_key(&s, KEY_UP, MOD_ALT);
-    session_key(&s, KEY_UP, MOD_ALT);
-    assert_true(pin_of(&s, 0)->to[1] > first.to[1] + 0.01);
-    assert_one_step(&s, placed); // both nudges
-    session_key(&s, KEY_PAGE_DOWN, MOD_ALT);
-    assert_near(pin_of(&s, 0)->frame, 11, 0);
-    assert_near(core_frame(&s.editor->core, s.document), 11, 0);
-    session_move(&s, 2, 2);
-    session_frame(&s);
-    for (int step = 0; step < 9; step++) session_key(&s, KEY_RIGHT, 0);
-    session_key(&s, 'H', 0); // the same point, once more
+    pin_the_tip(s);
+    assert_int_equal(pins_of(s), 1);
+    char *placed = session_saved(s);
+    const struct pin first = *pin_of(s, 0);
+    session_key(s, KEY_UP, MOD_ALT);
+    session_key(s, KEY_UP, MOD_ALT);
+    assert_true(pin_of(s, 0)->to[1] > first.to[1] + 0.01);
+    assert_one_step(s, placed); // both nudges
+    session_key(s, KEY_PAGE_DOWN, MOD_ALT);
+    assert_near(pin_of(s, 0)->frame, 11, 0);
+    assert_near(core_frame(&s->editor->core, s->document), 11, 0);
+    session_move(s, 2, 2);
+    session_frame(s);
+    for (int step = 0; step < 9; step++) session_key(s, KEY_RIGHT, 0);
+    session_key(s, 'H', 0); // the same point, once more
     assert_non_null(
-        shown_text(s.editor, "Pinned at frame 20. Drag the marker, or type its place in the section Pins."));
-    assert_int_equal(pins_of(&s), 2);
-    assert_near(pin_of(&s, 1)->frame, 20, 0);
-    assert_near(pin_of(&s, 1)->to[1], pin_of(&s, 0)->to[1], 0);
-    session_type(&s, ",");
-    assert_near(core_frame(&s.editor->core, s.document), 11, 0);
-    session_key(&s, KEY_DELETE, 0);
-    assert_int_equal(pins_of(&s), 1);
-    assert_near(pin_of(&s, 0)->frame, 20, 0);
+        shown_text(s->editor, "Pinned at frame 20. Drag the marker, or type its place in the section Pins."));
+    assert_int_equal(pins_of(s), 2);
+    assert_near(pin_of(s, 1)->frame, 20, 0);
+    assert_near(pin_of(s, 1)->to[1], pin_of(s, 0)->to[1], 0);
+    session_type(s, ",");
+    assert_near(core_frame(&s->editor->core, s->document), 11, 0);
+    session_key(s, KEY_DELETE, 0);
+    assert_int_equal(pins_of(s), 1);
+    assert_near(pin_of(s, 0)->frame, 20, 0);
     free(placed);
-    session_close(&s);
 }
 
-TEST(test_a_marker_is_dragged_on_the_stage_and_on_the_ruler)
+SESSION_TEST(test_a_marker_is_dragged_on_the_stage_and_on_the_ruler, open_tail(s))
 {
-    struct session s;
-    open_tail(&s);
-    pin_the_tip(&s);
-    session_key(&s, KEY_ESCAPE, 0);
-    char *placed = session_saved(&s);
-    session_pull(&s, "pin(tail,0)", 0, -25, 4);
-    session_release(&s, BUTTON_LEFT);
-    assert_int_equal(pins_of(&s), 1);
-    assert_one_step(&s, placed);
-    char *moved = session_saved(&s);
+    pin_the_tip(s);
+    session_key(s, KEY_ESCAPE, 0);
+    char *placed = session_saved(s);
+    session_pull(s, "pin(tail,0)", 0, -25, 4);
+    session_release(s, BUTTON_LEFT);
+    assert_int_equal(pins_of(s), 1);
+    assert_one_step(s, placed);
+    char *moved = session_saved(s);
     float from[2], to[2];
-    where(&s, "ruler(10)", from);
-    where(&s, "ruler(25)", to);
-    session_pull(&s, "pintime(tail,0)", to[0] - from[0], 0, 4);
-    session_release(&s, BUTTON_LEFT);
-    assert_near(pin_of(&s, 0)->frame, 25, 0);
-    assert_near(core_frame(&s.editor->core, s.document), 25, 0);
-    assert_one_step(&s, moved);
+    where(s, "ruler(10)", from);
+    where(s, "ruler(25)", to);
+    session_pull(s, "pintime(tail,0)", to[0] - from[0], 0, 4);
+    session_release(s, BUTTON_LEFT);
+    assert_near(pin_of(s, 0)->frame, 25, 0);
+    assert_near(core_frame(&s->editor->core, s->document), 25, 0);
+    assert_one_step(s, moved);
     float mark[2];
-    where(&s, "pintime(tail,0)", mark); // it hangs over the ruler's edge, and is taken there, too
-    session_move(&s, mark[0], mark[1] + 4);
-    while (s.editor->core.message.text[0]) session_frame(&s);
-    session_frame(&s);
-    assert_non_null(shown_text(s.editor, "Drag to move the pin in time (Ctrl: off frames); Del removes it; Alt+PgUp, "
-                                         "Alt+PgDn: by a frame"));
-    session_press(&s, BUTTON_LEFT, 1);
-    session_drag(&s, to[0] - from[0], 0, 4);
-    session_release(&s, BUTTON_LEFT);
-    assert_near(pin_of(&s, 0)->frame, 40, 0);
+    where(s, "pintime(tail,0)", mark); // it hangs over the ruler's edge, and is taken there, too
+    session_move(s, mark[0], mark[1] + 4);
+    while (s->editor->core.message.text[0]) session_frame(s);
+    session_frame(s);
+    assert_non_null(shown_text(s->editor,
+                               "Drag to move the pin in time (Ctrl: off frames); Del removes it; Alt+PgUp, "
+                               "Alt+PgDn: by a frame"));
+    session_press(s, BUTTON_LEFT, 1);
+    session_drag(s, to[0] - from[0], 0, 4);
+    session_release(s, BUTTON_LEFT);
+    assert_near(pin_of(s, 0)->frame, 40, 0);
     free(moved);
     free(placed);
-    session_close(&s);
 }
 
 /// A pin that throws a rig far makes its curves high: they come into sight.
-TEST(test_the_curves_follow_a_pin)
+SESSION_TEST(test_the_curves_follow_a_pin, panel_open_models(s, creature))
 {
-    struct session s;
-    panel_open_models(&s, creature);
-    session_frame(&s);
-    for (int step = 0; step < 10; step++) session_key(&s, KEY_RIGHT, 0);
-    session_pull(&s, "character(c,0.5,0.8)", 120, -80, 4);
-    session_release(&s, BUTTON_LEFT);
-    assert_int_equal(pins_of(&s), 1);
-    for (int frame = 0; frame < 90; frame++) session_frame(&s);
-    const struct view *view = &s.editor->curves->view;
+    session_frame(s);
+    for (int step = 0; step < 10; step++) session_key(s, KEY_RIGHT, 0);
+    session_pull(s, "character(c,0.5,0.8)", 120, -80, 4);
+    session_release(s, BUTTON_LEFT);
+    assert_int_equal(pins_of(s), 1);
+    for (int frame = 0; frame < 90; frame++) session_frame(s);
+    const struct view *view = &s->editor->curves->view;
     for (int i = 0; i < 2; i++) {
         for (int sample = 0; sample <= 60; sample++) {
-            const double total = s.world.evaluation->curves[i].total[sample];
+            const double total = s->world.evaluation->curves[i].total[sample];
             assert_true(total < view->value1 && total > view->value0);
         }
     }
-    session_close(&s);
 }
 
-TEST(test_the_surface_of_a_character_is_pinned_and_follows_the_pointer)
+SESSION_TEST(test_the_surface_of_a_character_is_pinned_and_follows_the_pointer, panel_open_models(s, creature))
 {
-    struct session s;
-    panel_open_models(&s, creature);
-    session_frame(&s);
-    for (int step = 0; step < 10; step++) session_key(&s, KEY_RIGHT, 0);
-    char *before = session_saved(&s);
-    session_point(&s, "character(c,0.5,0.9)");
-    session_frame(&s);
-    assert_int_equal(s.editor->core.hover.kind, HOVER_POINT);
-    session_press(&s, BUTTON_LEFT, 1);
-    session_drag(&s, 25, 8, 4);
-    session_release(&s, BUTTON_LEFT);
-    assert_int_equal(pins_of(&s), 1);
-    const struct pin_left *left = evaluation_pin(&s.table.evaluation, s.document, 0, 0);
+    session_frame(s);
+    for (int step = 0; step < 10; step++) session_key(s, KEY_RIGHT, 0);
+    char *before = session_saved(s);
+    session_point(s, "character(c,0.5,0.9)");
+    session_frame(s);
+    assert_int_equal(s->editor->core.hover.kind, HOVER_POINT);
+    session_press(s, BUTTON_LEFT, 1);
+    session_drag(s, 25, 8, 4);
+    session_release(s, BUTTON_LEFT);
+    assert_int_equal(pins_of(s), 1);
+    const struct pin_left *left = evaluation_pin(&s->table.evaluation, s->document, 0, 0);
     assert_non_null(left);
     assert_true(left->is_found);
     assert_true(fabs(left->way[0]) < 0.05 && fabs(left->way[1]) < 0.05);
-    assert_one_step(&s, before);
+    assert_one_step(s, before);
     free(before);
-    session_close(&s);
 }
 
 /// The soles hardly move: pulling them would throw all else far.
-TEST(test_what_hardly_moves_does_not_light_up)
+SESSION_TEST(test_what_hardly_moves_does_not_light_up, panel_open_models(s, creature))
 {
-    struct session s;
-    panel_open_models(&s, creature);
-    session_frame(&s);
-    session_point(&s, "character(c,0.4,0.01)");
-    session_frame(&s);
-    assert_int_equal(s.editor->core.hover.kind, HOVER_NONE);
-    session_close(&s);
+    session_frame(s);
+    session_point(s, "character(c,0.4,0.01)");
+    session_frame(s);
+    assert_int_equal(s->editor->core.hover.kind, HOVER_NONE);
 }
 
 /// Without a mouse: H pins what moves most, Tab leads to its numbers.
@@ -258,42 +235,36 @@ TEST(test_the_keyboard_alone_is_enough)
 }
 
 /// So they do where its place is typed.
-TEST(test_the_curves_follow_a_typed_place)
+SESSION_TEST(test_the_curves_follow_a_typed_place, panel_open_models(s, creature))
 {
-    struct session s;
-    panel_open_models(&s, creature);
-    session_frame(&s);
-    for (int step = 0; step < 10; step++) session_key(&s, KEY_RIGHT, 0);
-    session_pull(&s, "character(c,0.5,0.8)", 20, -10, 4);
-    session_release(&s, BUTTON_LEFT);
-    for (int frame = 0; frame < 90; frame++) session_frame(&s);
-    panel_enter(&s, "pin.y", "3");
-    for (int frame = 0; frame < 90; frame++) session_frame(&s);
-    const wiggly_curve *curve = s.world.evaluation->curves;
-    for (int sample = 0; sample <= 60; sample++) assert_true(curve->total[sample] < s.editor->curves->view.value1);
-    session_close(&s);
+    session_frame(s);
+    for (int step = 0; step < 10; step++) session_key(s, KEY_RIGHT, 0);
+    session_pull(s, "character(c,0.5,0.8)", 20, -10, 4);
+    session_release(s, BUTTON_LEFT);
+    for (int frame = 0; frame < 90; frame++) session_frame(s);
+    panel_enter(s, "pin.y", "3");
+    for (int frame = 0; frame < 90; frame++) session_frame(s);
+    const wiggly_curve *curve = s->world.evaluation->curves;
+    for (int sample = 0; sample <= 60; sample++) assert_true(curve->total[sample] < s->editor->curves->view.value1);
 }
 
-TEST(test_the_inspector_lists_pins_and_takes_numbers)
+SESSION_TEST(test_the_inspector_lists_pins_and_takes_numbers, open_tail(s))
 {
-    struct session s;
-    open_tail(&s);
-    session_point(&s, "tail(tail,1)");
-    session_frame(&s);
-    session_key(&s, 'H', 0);
-    session_key(&s, KEY_ESCAPE, 0);
-    assert_false(panel_shows(&s, "pin.x"));
-    panel_click(&s, "pin.0");
-    assert_true(panel_shows(&s, "pin.x"));
-    panel_enter(&s, "pin.x", "0.25");
-    assert_near(pin_of(&s, 0)->to[0], 0.25, 0);
-    panel_enter(&s, "pin.frame", "12");
-    assert_near(pin_of(&s, 0)->frame, 12, 0);
-    panel_enter(&s, "pin.point", "11");
-    assert_int_equal(pin_of(&s, 0)->point, 11);
-    panel_click(&s, "pin.0.remove");
-    assert_int_equal(pins_of(&s), 0);
-    session_close(&s);
+    session_point(s, "tail(tail,1)");
+    session_frame(s);
+    session_key(s, 'H', 0);
+    session_key(s, KEY_ESCAPE, 0);
+    assert_false(panel_shows(s, "pin.x"));
+    panel_click(s, "pin.0");
+    assert_true(panel_shows(s, "pin.x"));
+    panel_enter(s, "pin.x", "0.25");
+    assert_near(pin_of(s, 0)->to[0], 0.25, 0);
+    panel_enter(s, "pin.frame", "12");
+    assert_near(pin_of(s, 0)->frame, 12, 0);
+    panel_enter(s, "pin.point", "11");
+    assert_int_equal(pin_of(s, 0)->point, 11);
+    panel_click(s, "pin.0.remove");
+    assert_int_equal(pins_of(s), 0);
 }
 
 int main(void) { return tests_run(NULL, NULL); }

@@ -23,93 +23,78 @@ static void open_at(struct session *session, double frame)
     playback_seek(&session->editor->core, session->document, frame);
 }
 
-TEST(test_real_time)
+SESSION_TEST(test_real_time, open_at(s, 10))
 {
-    struct session s;
-    open_at(&s, 10);
-    session_key(&s, KEY_SPACE, 0); // its frame is 1/60 s
-    pass(&s, 0.5);
-    pass(&s, 0.25);
-    assert_near(frame_of(&s), 10 + 24 * (0.75 + 1.0 / 60), 1e-9);
-    session_close(&s);
+    session_key(s, KEY_SPACE, 0); // its frame is 1/60 s
+    pass(s, 0.5);
+    pass(s, 0.25);
+    assert_near(frame_of(s), 10 + 24 * (0.75 + 1.0 / 60), 1e-9);
 }
 
-TEST(test_speed)
+SESSION_TEST(test_speed, open_at(s, 10))
 {
-    struct session s;
-    open_at(&s, 10);
     static const double slower[] = {0.5, 0.25, 0.1, 0.1}, faster[] = {0.25, 0.5, 1, 2, 4, 4};
     for (int i = 0; i < 4; i++) {
-        session_type(&s, "-");
-        assert_near(s.editor->core.playback.speed, slower[i], 0);
+        session_type(s, "-");
+        assert_near(s->editor->core.playback.speed, slower[i], 0);
     }
-    s.editor->core.playback.playing = true;
-    pass(&s, 1);
-    assert_near(frame_of(&s), 12.4, 1e-9);
+    s->editor->core.playback.playing = true;
+    pass(s, 1);
+    assert_near(frame_of(s), 12.4, 1e-9);
     for (int i = 0; i < 6; i++) {
-        session_type(&s, i % 2 ? "+" : "=");
-        assert_near(s.editor->core.playback.speed, faster[i], 0);
+        session_type(s, i % 2 ? "+" : "=");
+        assert_near(s->editor->core.playback.speed, faster[i], 0);
     }
-    playback_seek(&s.editor->core, s.document, 0);
-    s.editor->core.playback.playing = true;
-    pass(&s, 0.5);
-    assert_near(frame_of(&s), 48, 1e-9);
-    assert_true(history_is_saved(s.history)); // a matter of the view
-    session_close(&s);
+    playback_seek(&s->editor->core, s->document, 0);
+    s->editor->core.playback.playing = true;
+    pass(s, 0.5);
+    assert_near(frame_of(s), 48, 1e-9);
+    assert_true(history_is_saved(s->history)); // a matter of the view
 }
 
 /// Whatever the time between pictures, the clock is kept; whole frames without a picture are counted.
-TEST(test_dropped_frames)
+SESSION_TEST(test_dropped_frames, open_at(s, 0))
 {
-    struct session s;
-    open_at(&s, 0);
-    session_key(&s, KEY_SPACE, 0);
-    for (int i = 0; i < 119; i++) pass(&s, 1.0 / 60);
-    assert_int_equal(s.editor->core.playback.dropped, 0);
-    assert_near(frame_of(&s), 48, 1e-9);
-    pass(&s, 0.25); // from 48 to 54: 49 … 53 were not shown
-    assert_int_equal(s.editor->core.playback.dropped, 5);
-    pass(&s, 0.3125); // to 61.5: nor 55 … 60
-    assert_int_equal(s.editor->core.playback.dropped, 11);
-    session_key(&s, KEY_SPACE, 0);
-    session_key(&s, KEY_SPACE, 0); // counted from the start of playing
-    assert_int_equal(s.editor->core.playback.dropped, 0);
-    session_close(&s);
+    session_key(s, KEY_SPACE, 0);
+    for (int i = 0; i < 119; i++) pass(s, 1.0 / 60);
+    assert_int_equal(s->editor->core.playback.dropped, 0);
+    assert_near(frame_of(s), 48, 1e-9);
+    pass(s, 0.25); // from 48 to 54: 49 … 53 were not shown
+    assert_int_equal(s->editor->core.playback.dropped, 5);
+    pass(s, 0.3125); // to 61.5: nor 55 … 60
+    assert_int_equal(s->editor->core.playback.dropped, 11);
+    session_key(s, KEY_SPACE, 0);
+    session_key(s, KEY_SPACE, 0); // counted from the start of playing
+    assert_int_equal(s->editor->core.playback.dropped, 0);
 }
 
 /// What a display of 60 pictures a second cannot show at four times the speed was not dropped.
-TEST(test_fast_is_not_dropped)
+SESSION_TEST(test_fast_is_not_dropped, open_at(s, 0))
 {
-    struct session s;
-    open_at(&s, 0);
-    s.editor->core.playback.speed = 4;
-    session_key(&s, KEY_SPACE, 0);
-    for (int i = 0; i < 200; i++) pass(&s, 1.0 / 60);
-    assert_int_equal(s.editor->core.playback.dropped, 0);
-    session_close(&s);
+    s->editor->core.playback.speed = 4;
+    session_key(s, KEY_SPACE, 0);
+    for (int i = 0; i < 200; i++) pass(s, 1.0 / 60);
+    assert_int_equal(s->editor->core.playback.dropped, 0);
 }
 
-TEST(test_part)
+SESSION_TEST(test_part, open_at(s, 20))
 {
-    struct session s;
-    open_at(&s, 20);
-    session_type(&s, "[");
-    playback_seek(&s.editor->core, s.document, 30);
-    session_type(&s, "]");
-    playback_seek(&s.editor->core, s.document, 80);
-    session_key(&s, KEY_SPACE, 0); // from outside it begins at the start
-    assert_near(frame_of(&s), 20 + 0.4, 1e-9);
-    pass(&s, 0.25);
-    assert_near(frame_of(&s), 26.4, 1e-9);
-    pass(&s, 0.25); // 32.4: around
-    assert_near(frame_of(&s), 22.4, 1e-9);
-    session_key(&s, 'L', MOD_CTRL);
-    pass(&s, 1);
-    assert_near(frame_of(&s), 30, 1e-9); // no loop: stops at its end
-    assert_false(editor_is_playing(s.editor));
-    session_key(&s, KEY_SPACE, 0);
-    assert_near(frame_of(&s), 20.4, 1e-9);
-    session_close(&s);
+    session_type(s, "[");
+    playback_seek(&s->editor->core, s->document, 30);
+    session_type(s, "]");
+    playback_seek(&s->editor->core, s->document, 80);
+    session_key(s, KEY_SPACE, 0); // from outside it begins at the start
+    assert_near(frame_of(s), 20 + 0.4, 1e-9);
+    pass(s, 0.25);
+    assert_near(frame_of(s), 26.4, 1e-9);
+    pass(s, 0.25); // 32.4: around
+    assert_near(frame_of(s), 22.4, 1e-9);
+    session_key(s, 'L', MOD_CTRL);
+    pass(s, 1);
+    assert_near(frame_of(s), 30, 1e-9); // no loop: stops at its end
+    assert_false(editor_is_playing(s->editor));
+    session_key(s, KEY_SPACE, 0);
+    assert_near(frame_of(s), 20.4, 1e-9);
 }
 
 static float x_of(const struct session *s, double frame)
@@ -132,73 +117,64 @@ static void assert_range(const struct session *session, double first, double las
     assert_near(range[1], last, 0);
 }
 
-TEST(test_part_on_the_ruler)
+SESSION_TEST(test_part_on_the_ruler, open_at(s, 5))
 {
-    struct session s;
-    open_at(&s, 5);
-    s.mods = MOD_SHIFT;
-    ruler_at(&s, 60.2);
-    session_press(&s, BUTTON_LEFT, 1);
-    ruler_at(&s, 40.3);
-    assert_range(&s, 40, 60);
-    session_release(&s, BUTTON_LEFT);
-    assert_near(frame_of(&s), 5, 0); // the playhead stays
-    session_press(&s, BUTTON_LEFT, 1);
-    ruler_at(&s, 90);
-    assert_range(&s, 40, 90);
-    session_key(&s, KEY_ESCAPE, 0); // takes the drag back
-    assert_range(&s, 40, 60);
-    session_release(&s, BUTTON_LEFT);
+    s->mods = MOD_SHIFT;
+    ruler_at(s, 60.2);
+    session_press(s, BUTTON_LEFT, 1);
+    ruler_at(s, 40.3);
+    assert_range(s, 40, 60);
+    session_release(s, BUTTON_LEFT);
+    assert_near(frame_of(s), 5, 0); // the playhead stays
+    session_press(s, BUTTON_LEFT, 1);
+    ruler_at(s, 90);
+    assert_range(s, 40, 90);
+    session_key(s, KEY_ESCAPE, 0); // takes the drag back
+    assert_range(s, 40, 60);
+    session_release(s, BUTTON_LEFT);
     struct error error = {0};
-    history_begin(s.history, "Range", 0);
-    assert_true(edit_range(s.document, 0, 50, RANGE_REFUSE, &error));
-    history_end(s.history);
-    assert_range(&s, 40, 50); // what the scene still has of it
-    history_undo(s.history);
-    session_press(&s, BUTTON_LEFT, 1);
-    session_release(&s, BUTTON_LEFT);
-    assert_range(&s, 0, 100);
-    session_close(&s);
+    history_begin(s->history, "Range", 0);
+    assert_true(edit_range(s->document, 0, 50, RANGE_REFUSE, &error));
+    history_end(s->history);
+    assert_range(s, 40, 50); // what the scene still has of it
+    history_undo(s->history);
+    session_press(s, BUTTON_LEFT, 1);
+    session_release(s, BUTTON_LEFT);
+    assert_range(s, 0, 100);
 }
 
 /// A part without an end, or with all of the scene in it, is all of it.
-TEST(test_no_part)
+SESSION_TEST(test_no_part, open_at(s, 40))
 {
-    struct session s;
-    open_at(&s, 40);
-    session_type(&s, "]");
-    assert_range(&s, 0, 40);
-    playback_seek(&s.editor->core, s.document, 60);
-    session_type(&s, "["); // after its end: to the scene's end
-    assert_range(&s, 60, 100);
-    playback_seek(&s.editor->core, s.document, 0);
-    session_type(&s, "[");
-    assert_range(&s, 0, 100);
-    assert_false(s.editor->core.playback.has_range);
-    session_close(&s);
+    session_type(s, "]");
+    assert_range(s, 0, 40);
+    playback_seek(&s->editor->core, s->document, 60);
+    session_type(s, "["); // after its end: to the scene's end
+    assert_range(s, 60, 100);
+    playback_seek(&s->editor->core, s->document, 0);
+    session_type(s, "[");
+    assert_range(s, 0, 100);
+    assert_false(s->editor->core.playback.has_range);
 }
 
 /// Scrubbing shows frames exactly, and what lies between them with Ctrl, from the press on.
-TEST(test_scrubbing)
+SESSION_TEST(test_scrubbing, open_at(s, 0))
 {
-    struct session s;
-    open_at(&s, 0);
     for (double frame = 7; frame < 90; frame += 13) {
-        ruler_at(&s, frame + 0.3);
-        session_press(&s, BUTTON_LEFT, 1);
-        assert_true(s.editor->core.playback.position == 2 * frame); // bit for bit a sample
-        ruler_at(&s, frame + 1.4);
-        assert_true(s.editor->core.playback.position == 2 * (frame + 1));
-        session_release(&s, BUTTON_LEFT);
+        ruler_at(s, frame + 0.3);
+        session_press(s, BUTTON_LEFT, 1);
+        assert_true(s->editor->core.playback.position == 2 * frame); // bit for bit a sample
+        ruler_at(s, frame + 1.4);
+        assert_true(s->editor->core.playback.position == 2 * (frame + 1));
+        session_release(s, BUTTON_LEFT);
     }
-    s.mods = MOD_CTRL;
-    ruler_at(&s, 33.4);
-    session_press(&s, BUTTON_LEFT, 1);
-    assert_near(frame_of(&s), 33.4, 0.01);
-    ruler_at(&s, 35.6);
-    assert_near(frame_of(&s), 35.6, 0.01);
-    session_release(&s, BUTTON_LEFT);
-    session_close(&s);
+    s->mods = MOD_CTRL;
+    ruler_at(s, 33.4);
+    session_press(s, BUTTON_LEFT, 1);
+    assert_near(frame_of(s), 33.4, 0.01);
+    ruler_at(s, 35.6);
+    assert_near(frame_of(s), 35.6, 0.01);
+    session_release(s, BUTTON_LEFT);
 }
 
 static void click_on(struct session *session, enum control control, enum event_button button)
@@ -209,29 +185,26 @@ static void click_on(struct session *session, enum control control, enum event_b
     session_release(session, button);
 }
 
-TEST(test_controls)
+SESSION_TEST(test_controls, open_at(s, 10))
 {
-    struct session s;
-    open_at(&s, 10);
-    click_on(&s, TRANSPORT_PLAY, BUTTON_LEFT);
-    assert_true(editor_is_playing(s.editor));
-    click_on(&s, TRANSPORT_PLAY, BUTTON_LEFT);
-    assert_false(editor_is_playing(s.editor));
-    click_on(&s, TRANSPORT_LOOP, BUTTON_LEFT);
-    assert_false(s.editor->core.playback.looping);
-    click_on(&s, TRANSPORT_SPEED, BUTTON_LEFT);
-    assert_near(s.editor->core.playback.speed, 2, 0);
-    s.mods = MOD_SHIFT;
-    click_on(&s, TRANSPORT_SPEED, BUTTON_LEFT);
-    click_on(&s, TRANSPORT_SPEED, BUTTON_LEFT);
-    assert_near(s.editor->core.playback.speed, 0.5, 0);
-    s.mods = 0;
-    session_wheel(&s, -1);
-    assert_near(s.editor->core.playback.speed, 0.25, 0);
-    click_on(&s, TRANSPORT_SPEED, BUTTON_RIGHT);
-    assert_near(s.editor->core.playback.speed, 1, 0);
-    assert_int_equal(s.document->splines[0]->knot_count, 2);
-    session_close(&s);
+    click_on(s, TRANSPORT_PLAY, BUTTON_LEFT);
+    assert_true(editor_is_playing(s->editor));
+    click_on(s, TRANSPORT_PLAY, BUTTON_LEFT);
+    assert_false(editor_is_playing(s->editor));
+    click_on(s, TRANSPORT_LOOP, BUTTON_LEFT);
+    assert_false(s->editor->core.playback.looping);
+    click_on(s, TRANSPORT_SPEED, BUTTON_LEFT);
+    assert_near(s->editor->core.playback.speed, 2, 0);
+    s->mods = MOD_SHIFT;
+    click_on(s, TRANSPORT_SPEED, BUTTON_LEFT);
+    click_on(s, TRANSPORT_SPEED, BUTTON_LEFT);
+    assert_near(s->editor->core.playback.speed, 0.5, 0);
+    s->mods = 0;
+    session_wheel(s, -1);
+    assert_near(s->editor->core.playback.speed, 0.25, 0);
+    click_on(s, TRANSPORT_SPEED, BUTTON_RIGHT);
+    assert_near(s->editor->core.playback.speed, 1, 0);
+    assert_int_equal(s->document->splines[0]->knot_count, 2);
 }
 
 int main(void) { return tests_run(NULL, NULL); }

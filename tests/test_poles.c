@@ -34,21 +34,18 @@ static void drag(struct session *f, const char *name, float dx, float dy)
     session_frame(f);
 }
 
-TEST(test_centre_sets_frequency_and_damping)
+SESSION_TEST(test_centre_sets_frequency_and_damping, open_poles(s, 0))
 {
-    struct session f;
-    open_poles(&f, 0);
-    drag(&f, "pole.centre", 40, -15);
-    assert_true(value(&f, PARAMETER_FREQUENCY) > 1.1 && value(&f, PARAMETER_FREQUENCY) < 2);
-    assert_true(value(&f, PARAMETER_DAMPING) > 0.15 && value(&f, PARAMETER_DAMPING) < 0.5);
-    assert_near(value(&f, PARAMETER_BANDWIDTH), 0.1234, 0);
-    panel_release(&f);
-    assert_string_equal(history_undo_label(f.history), "Move poles");
-    session_key(&f, 'Z', MOD_CTRL);
-    assert_near(value(&f, PARAMETER_FREQUENCY), 1, 0);
-    assert_near(value(&f, PARAMETER_DAMPING), 0.1, 0);
-    assert_null(history_undo_label(f.history));
-    session_close(&f);
+    drag(s, "pole.centre", 40, -15);
+    assert_true(value(s, PARAMETER_FREQUENCY) > 1.1 && value(s, PARAMETER_FREQUENCY) < 2);
+    assert_true(value(s, PARAMETER_DAMPING) > 0.15 && value(s, PARAMETER_DAMPING) < 0.5);
+    assert_near(value(s, PARAMETER_BANDWIDTH), 0.1234, 0);
+    panel_release(s);
+    assert_string_equal(history_undo_label(s->history), "Move poles");
+    session_key(s, 'Z', MOD_CTRL);
+    assert_near(value(s, PARAMETER_FREQUENCY), 1, 0);
+    assert_near(value(s, PARAMETER_DAMPING), 0.1, 0);
+    assert_null(history_undo_label(s->history));
 }
 
 /// Whichever of the two is taken, away from the other one is wider.
@@ -75,47 +72,38 @@ TEST(test_pole_opens_the_band)
 }
 
 /// The poles of real mode mirror each other: there is one handle.
-TEST(test_real_poles)
+SESSION_TEST(test_real_poles, open_poles(s, 2))
 {
-    struct session f;
-    open_poles(&f, 2);
-    assert_false(panel_shows(&f, "pole.upper"));
-    drag(&f, "pole.centre", 30, -10);
-    panel_release(&f);
-    assert_true(value(&f, PARAMETER_FREQUENCY) > 1.05);
-    assert_true(value(&f, PARAMETER_DAMPING) > 0.08);
-    session_key(&f, 'Z', MOD_CTRL);
-    assert_near(value(&f, PARAMETER_FREQUENCY), 1, 0);
-    assert_near(value(&f, PARAMETER_DAMPING), 0.08, 0);
-    session_close(&f);
+    assert_false(panel_shows(s, "pole.upper"));
+    drag(s, "pole.centre", 30, -10);
+    panel_release(s);
+    assert_true(value(s, PARAMETER_FREQUENCY) > 1.05);
+    assert_true(value(s, PARAMETER_DAMPING) > 0.08);
+    session_key(s, 'Z', MOD_CTRL);
+    assert_near(value(s, PARAMETER_FREQUENCY), 1, 0);
+    assert_near(value(s, PARAMETER_DAMPING), 0.08, 0);
 }
 
 /// A parameter that follows another spline is not torn off it.
-TEST(test_tracks_stay)
+SESSION_TEST(test_tracks_stay, open_poles(s, 3))
 {
-    struct session f;
-    open_poles(&f, 3);
-    drag(&f, "pole.centre", 30, -12);
-    panel_release(&f);
-    assert_int_equal(f.document->splines[3]->parameter[PARAMETER_FREQUENCY].track, 1);
-    assert_true(value(&f, PARAMETER_DAMPING) > 0.25);
-    session_close(&f);
+    drag(s, "pole.centre", 30, -12);
+    panel_release(s);
+    assert_int_equal(s->document->splines[3]->parameter[PARAMETER_FREQUENCY].track, 1);
+    assert_true(value(s, PARAMETER_DAMPING) > 0.25);
 }
 
-TEST(test_arrow_keys_move_a_focused_pole)
+SESSION_TEST(test_arrow_keys_move_a_focused_pole, open_poles(s, 0))
 {
-    struct session f;
-    open_poles(&f, 0);
-    f.editor->inspector->ui.focus = ui_id("pole.centre");
-    session_key(&f, KEY_RIGHT, 0);
-    session_key(&f, KEY_RIGHT, 0);
-    assert_near(value(&f, PARAMETER_FREQUENCY), 1.1, 1e-12);
-    session_key(&f, 'Z', MOD_CTRL);
-    assert_near(value(&f, PARAMETER_FREQUENCY), 1, 0);
-    f.editor->inspector->ui.focus = ui_id("pole.lower");
-    session_key(&f, KEY_LEFT, 0);
-    assert_near(value(&f, PARAMETER_BANDWIDTH), 0.133, 1e-12);
-    session_close(&f);
+    s->editor->inspector->ui.focus = ui_id("pole.centre");
+    session_key(s, KEY_RIGHT, 0);
+    session_key(s, KEY_RIGHT, 0);
+    assert_near(value(s, PARAMETER_FREQUENCY), 1.1, 1e-12);
+    session_key(s, 'Z', MOD_CTRL);
+    assert_near(value(s, PARAMETER_FREQUENCY), 1, 0);
+    s->editor->inspector->ui.focus = ui_id("pole.lower");
+    session_key(s, KEY_LEFT, 0);
+    assert_near(value(s, PARAMETER_BANDWIDTH), 0.133, 1e-12);
 }
 
 int main(void) { return tests_run(NULL, NULL); }

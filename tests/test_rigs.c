@@ -10,135 +10,121 @@ static const char bear[] =
     "\"knots\": []}], \"rigs\": [{\"type\": \"character\", \"name\": \"bear\", \"model\": "
     "\"assets/models/creature.glb\", \"coordinates\": [{\"name\": \"up\", \"spline\": \"s\"}]}]}";
 
-TEST(test_the_menu_opens_by_its_key)
+SESSION_TEST(test_the_menu_opens_by_its_key, panel_open(s, "{\"frames\": [0, 48], \"splines\": []}", 1280, 720))
 {
-    struct session s;
-    panel_open(&s, "{\"frames\": [0, 48], \"splines\": []}", 1280, 720);
-    char *before = session_saved(&s);
-    session_move(&s, 300, 200);
-    session_key(&s, 'A', 0);
+    char *before = session_saved(s);
+    session_move(s, 300, 200);
+    session_key(s, 'A', 0);
     float x, y;
-    assert_true(inspector_target(s.editor->inspector, &s.editor->core, &s.world, "item.tail", &x, &y));
+    assert_true(inspector_target(s->editor->inspector, &s->editor->core, &s->world, "item.tail", &x, &y));
     assert_true(x > 300 && x < 600 && y > 200 && y < 260); // at the pointer
-    session_key(&s, KEY_ENTER, 0);
-    assert_int_equal(document_count_rigs(s.document, RIG_TAIL), 1);
-    assert_int_equal(s.document->spline_count, 1); // that bends it
-    assert_int_equal(s.document->splines[0]->knot_count, 1);
-    assert_int_equal(document_tail(s.document, 0)->channels[0].spline, 0);
-    assert_one_step(&s, before);
-    session_key(&s, 'A', 0);
-    session_key(&s, KEY_ESCAPE, 0);
-    session_key(&s, 'A', 0);
-    panel_click(&s, "item.meadow");
-    assert_int_equal(document_count_rigs(s.document, RIG_MEADOW), 1);
-    session_key(&s, 'A', 0);
-    assert_false(panel_shows(&s, "item.meadow"));
-    session_key(&s, KEY_ESCAPE, 0);
-    session_move(&s, 1100, 600); // over the inspector it opens there
-    session_key(&s, 'A', 0);
-    panel_click(&s, "item.tail");
-    assert_int_equal(document_count_rigs(s.document, RIG_TAIL), 2);
-    assert_true(document_tail(s.document, 1)->position[0].value > 1);
+    session_key(s, KEY_ENTER, 0);
+    assert_int_equal(document_count_rigs(s->document, RIG_TAIL), 1);
+    assert_int_equal(s->document->spline_count, 1); // that bends it
+    assert_int_equal(s->document->splines[0]->knot_count, 1);
+    assert_int_equal(document_tail(s->document, 0)->channels[0].spline, 0);
+    assert_one_step(s, before);
+    session_key(s, 'A', 0);
+    session_key(s, KEY_ESCAPE, 0);
+    session_key(s, 'A', 0);
+    panel_click(s, "item.meadow");
+    assert_int_equal(document_count_rigs(s->document, RIG_MEADOW), 1);
+    session_key(s, 'A', 0);
+    assert_false(panel_shows(s, "item.meadow"));
+    session_key(s, KEY_ESCAPE, 0);
+    session_move(s, 1100, 600); // over the inspector it opens there
+    session_key(s, 'A', 0);
+    panel_click(s, "item.tail");
+    assert_int_equal(document_count_rigs(s->document, RIG_TAIL), 2);
+    assert_true(document_tail(s->document, 1)->position[0].value > 1);
     free(before);
-    session_close(&s);
 }
 
-TEST(test_a_second_bear_stands_beside_the_first)
+SESSION_TEST(test_a_second_bear_stands_beside_the_first, panel_open_models(s, bear))
 {
-    struct session s;
-    panel_open_models(&s, bear);
-    session_frame(&s);
-    char *before = session_saved(&s);
-    session_key(&s, 'A', 0);
-    panel_click(&s, "item.copy.0");
-    session_frame(&s);
-    const struct character_rig *second = document_character(s.document, 1);
+    session_frame(s);
+    char *before = session_saved(s);
+    session_key(s, 'A', 0);
+    panel_click(s, "item.copy.0");
+    session_frame(s);
+    const struct character_rig *second = document_character(s->document, 1);
     assert_non_null(second);
     assert_true(second->position[0] > 0.5);
     assert_int_equal(second->drives[0].spline, 0);
-    assert_int_equal(editor_stage(s.editor)->character_count, 2);
-    assert_int_equal(s.editor->core.characters.character, 1);
-    assert_one_step(&s, before);
+    assert_int_equal(editor_stage(s->editor)->character_count, 2);
+    assert_int_equal(s->editor->core.characters.character, 1);
+    assert_one_step(s, before);
     free(before);
-    session_close(&s);
 }
 
-TEST(test_a_rig_goes_with_its_splines_or_without)
+SESSION_TEST(test_a_rig_goes_with_its_splines_or_without, panel_open_models(s, bear))
 {
-    struct session s;
-    panel_open_models(&s, bear);
-    char *before = session_saved(&s);
-    session_key(&s, KEY_DELETE, MOD_SHIFT);
-    assert_int_equal(s.editor->dialogs->dialog.kind, DIALOG_ASK);
-    assert_non_null(strstr(s.editor->dialogs->dialog.question.title, "Remove bear"));
-    session_key(&s, KEY_ESCAPE, 0);
-    assert_saved(&s, before);
-    session_key(&s, KEY_DELETE, MOD_SHIFT);
-    session_key(&s, 'K', 0);
-    assert_int_equal(s.document->rig_count, 0);
-    assert_int_equal(s.document->spline_count, 2);
-    assert_one_step(&s, before);
-    session_key(&s, 'Z', MOD_CTRL);
-    session_key(&s, KEY_DELETE, MOD_SHIFT);
-    session_key(&s, 'W', 0);
-    assert_int_equal(s.document->rig_count, 0);
-    assert_int_equal(s.document->spline_count, 1);
-    assert_string_equal(s.document->splines[0]->name, "t");
-    assert_one_step(&s, before);
-    session_key(&s, KEY_DELETE, MOD_SHIFT);
-    assert_non_null(strstr(s.editor->core.message.text, "nothing on the stage"));
+    char *before = session_saved(s);
+    session_key(s, KEY_DELETE, MOD_SHIFT);
+    assert_int_equal(s->editor->dialogs->dialog.kind, DIALOG_ASK);
+    assert_non_null(strstr(s->editor->dialogs->dialog.question.title, "Remove bear"));
+    session_key(s, KEY_ESCAPE, 0);
+    assert_saved(s, before);
+    session_key(s, KEY_DELETE, MOD_SHIFT);
+    session_key(s, 'K', 0);
+    assert_int_equal(s->document->rig_count, 0);
+    assert_int_equal(s->document->spline_count, 2);
+    assert_one_step(s, before);
+    session_key(s, 'Z', MOD_CTRL);
+    session_key(s, KEY_DELETE, MOD_SHIFT);
+    session_key(s, 'W', 0);
+    assert_int_equal(s->document->rig_count, 0);
+    assert_int_equal(s->document->spline_count, 1);
+    assert_string_equal(s->document->splines[0]->name, "t");
+    assert_one_step(s, before);
+    session_key(s, KEY_DELETE, MOD_SHIFT);
+    assert_non_null(strstr(s->editor->core.message.text, "nothing on the stage"));
     free(before);
-    session_close(&s);
 }
 
 /// A model goes with the chains on it; what followed its joints keeps its place.
-TEST(test_a_model_goes_with_its_chains)
+SESSION_TEST(test_a_model_goes_with_its_chains,
+             panel_open_models(
+                 s, "{\"frames\": [0, 48], \"splines\": [{\"name\": \"s\", \"equilibrium\": {\"model\": \"dog\", "
+                    "\"joint\": \"hips\", \"of\": \"turn\"}, "
+                    "\"knots\": []}, {\"name\": \"u\", \"knots\": []}], \"rigs\": [{\"type\": \"tail\", \"name\": "
+                    "\"t\", \"spline\": \"s\"}, {\"type\": \"model\", \"name\": \"dog\", \"model\": "
+                    "\"assets/models/dog.glb\"}, {\"type\": \"chain\", \"name\": \"ear\", \"model\": \"dog\", "
+                    "\"from\": \"ear_1_L\", \"to\": \"ear_2_L\", \"channels\": [{\"spline\": \"u\"}]}]}"))
 {
-    struct session s;
-    panel_open_models(&s,
-                      "{\"frames\": [0, 48], \"splines\": [{\"name\": \"s\", \"equilibrium\": {\"model\": \"dog\", "
-                      "\"joint\": \"hips\", \"of\": \"turn\"}, "
-                      "\"knots\": []}, {\"name\": \"u\", \"knots\": []}], \"rigs\": [{\"type\": \"tail\", \"name\": "
-                      "\"t\", \"spline\": \"s\"}, {\"type\": \"model\", \"name\": \"dog\", \"model\": "
-                      "\"assets/models/dog.glb\"}, {\"type\": \"chain\", \"name\": \"ear\", \"model\": \"dog\", "
-                      "\"from\": \"ear_1_L\", \"to\": \"ear_2_L\", \"channels\": [{\"spline\": \"u\"}]}]}");
-    char *before = session_saved(&s);
-    panel_click(&s, "model.0");
-    panel_click(&s, "rig.copy"); // with its chain
-    assert_int_equal(document_count_rigs(s.document, RIG_CHAIN), 2);
-    assert_one_step(&s, before);
-    session_key(&s, 'Z', MOD_CTRL);
-    panel_click(&s, "model.0");
-    panel_click(&s, "rig.delete");
-    session_key(&s, 'W', 0);
-    assert_int_equal(s.document->rig_count, 1);
-    assert_int_equal(s.document->spline_count, 1);
-    assert_null(s.document->splines[0]->parameter[PARAMETER_EQUILIBRIUM].motion);
-    assert_one_step(&s, before);
+    char *before = session_saved(s);
+    panel_click(s, "model.0");
+    panel_click(s, "rig.copy"); // with its chain
+    assert_int_equal(document_count_rigs(s->document, RIG_CHAIN), 2);
+    assert_one_step(s, before);
+    session_key(s, 'Z', MOD_CTRL);
+    panel_click(s, "model.0");
+    panel_click(s, "rig.delete");
+    session_key(s, 'W', 0);
+    assert_int_equal(s->document->rig_count, 1);
+    assert_int_equal(s->document->spline_count, 1);
+    assert_null(s->document->splines[0]->parameter[PARAMETER_EQUILIBRIUM].motion);
+    assert_one_step(s, before);
     free(before);
-    session_close(&s);
 }
 
 /// The file dialog asks the app for it; a bad file leaves a sentence and the document as it was.
-TEST(test_a_file_is_asked_for)
+SESSION_TEST(test_a_file_is_asked_for, panel_open(s, "{\"frames\": [0, 48], \"splines\": []}", 1280, 720))
 {
-    struct session s;
-    panel_open(&s, "{\"frames\": [0, 48], \"splines\": []}", 1280, 720);
-    while (editor_take_request(s.editor).kind != REQUEST_NONE) continue;
-    char *before = session_saved(&s);
-    session_key(&s, 'A', 0);
-    panel_click(&s, "item.file");
-    assert_int_equal(s.editor->dialogs->dialog.kind, DIALOG_ADD);
-    session_type(&s, "no.glb");
-    session_key(&s, KEY_ENTER, 0);
-    const struct request request = editor_take_request(s.editor);
+    while (editor_take_request(s->editor).kind != REQUEST_NONE) continue;
+    char *before = session_saved(s);
+    session_key(s, 'A', 0);
+    panel_click(s, "item.file");
+    assert_int_equal(s->editor->dialogs->dialog.kind, DIALOG_ADD);
+    session_type(s, "no.glb");
+    session_key(s, KEY_ENTER, 0);
+    const struct request request = editor_take_request(s->editor);
     assert_int_equal(request.kind, REQUEST_ADD);
     assert_string_equal(request.path, "no.glb");
-    panel_answer(&s, REQUEST_ADD, false, "no.glb: cannot be read");
-    assert_string_equal(s.editor->dialogs->dialog.error, "no.glb: cannot be read");
-    assert_saved(&s, before);
+    panel_answer(s, REQUEST_ADD, false, "no.glb: cannot be read");
+    assert_string_equal(s->editor->dialogs->dialog.error, "no.glb: cannot be read");
+    assert_saved(s, before);
     free(before);
-    session_close(&s);
 }
 
 TEST(test_files_are_told_apart)

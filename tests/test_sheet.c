@@ -30,80 +30,68 @@ static void open_sheet(struct session *s, const char *scene)
     session_key(s, KEY_F3, 0);
 }
 
-TEST(test_it_takes_its_room_from_the_curves)
+SESSION_TEST(test_it_takes_its_room_from_the_curves, session_open(s, TWO))
 {
-    struct session s;
-    session_open(&s, TWO);
-    const struct layout *layout = &s.editor->core.layout;
+    const struct layout *layout = &s->editor->core.layout;
     const struct rect plot = layout->plot;
     assert_near(layout->sheet.h, 0, 0);
-    session_key(&s, KEY_F3, 0);
+    session_key(s, KEY_F3, 0);
     assert_true(layout->sheet.h > 20);
     assert_near(layout->plot.h, plot.h - layout->sheet.h, 0.01);
     assert_near(layout->sheet.y, layout->ruler.y + layout->ruler.h, 0.01);
     assert_near(layout->sheet.x, plot.x, 0); // marks are under their frames on the ruler
     assert_near(layout->sheet.w, plot.w, 0);
-    session_move(&s, 6, layout->ruler.y + 10); // the triangle
-    session_press(&s, BUTTON_LEFT, 1);
-    session_release(&s, BUTTON_LEFT);
+    session_move(s, 6, layout->ruler.y + 10); // the triangle
+    session_press(s, BUTTON_LEFT, 1);
+    session_release(s, BUTTON_LEFT);
     assert_near(layout->plot.h, plot.h, 0);
-    session_close(&s);
 }
 
-TEST(test_marks_are_dragged_in_time_alone)
+SESSION_TEST(test_marks_are_dragged_in_time_alone, open_sheet(s, TWO))
 {
-    struct session s;
-    open_sheet(&s, TWO);
-    char *original = session_saved(&s);
-    session_pull(&s, "mark(up,1)", frames(&s, 7), 40, 4);
-    session_release(&s, BUTTON_LEFT);
-    assert_int_equal(s.editor->core.active, 1);
-    assert_near(knot(&s, 1, 1)->frame, 47, 0);
-    assert_near(knot(&s, 1, 1)->value, -0.5, 0);
-    assert_one_step(&s, original);
+    char *original = session_saved(s);
+    session_pull(s, "mark(up,1)", frames(s, 7), 40, 4);
+    session_release(s, BUTTON_LEFT);
+    assert_int_equal(s->editor->core.active, 1);
+    assert_near(knot(s, 1, 1)->frame, 47, 0);
+    assert_near(knot(s, 1, 1)->value, -0.5, 0);
+    assert_one_step(s, original);
     free(original);
-    session_close(&s);
 }
 
-TEST(test_a_box_takes_the_marks_of_its_rows)
+SESSION_TEST(test_a_box_takes_the_marks_of_its_rows, open_sheet(s, TWO))
 {
-    struct session s;
-    open_sheet(&s, TWO);
-    session_point(&s, "mark(sway,1)");
-    session_move(&s, s.x - frames(&s, 3), s.y);
-    session_press(&s, BUTTON_LEFT, 1);
-    session_drag(&s, frames(&s, 6), 2, 2);
-    assert_int_equal(count(&s), 1);
-    session_drag(&s, 0, 14, 2); // into the next row
-    assert_int_equal(count(&s), 2);
-    session_release(&s, BUTTON_LEFT);
-    char *original = session_saved(&s);
-    session_pull(&s, "mark(sway,1)", frames(&s, 5), 0, 3);
-    session_release(&s, BUTTON_LEFT);
-    assert_near(knot(&s, 0, 1)->frame, 25, 0);
-    assert_near(knot(&s, 1, 0)->frame, 25, 0);
-    assert_near(knot(&s, 0, 1)->value, 1, 0);
-    assert_one_step(&s, original);
+    session_point(s, "mark(sway,1)");
+    session_move(s, s->x - frames(s, 3), s->y);
+    session_press(s, BUTTON_LEFT, 1);
+    session_drag(s, frames(s, 6), 2, 2);
+    assert_int_equal(count(s), 1);
+    session_drag(s, 0, 14, 2); // into the next row
+    assert_int_equal(count(s), 2);
+    session_release(s, BUTTON_LEFT);
+    char *original = session_saved(s);
+    session_pull(s, "mark(sway,1)", frames(s, 5), 0, 3);
+    session_release(s, BUTTON_LEFT);
+    assert_near(knot(s, 0, 1)->frame, 25, 0);
+    assert_near(knot(s, 1, 0)->frame, 25, 0);
+    assert_near(knot(s, 0, 1)->value, 1, 0);
+    assert_one_step(s, original);
     free(original);
-    session_close(&s);
 }
 
-TEST(test_rows_choose_and_insert)
+SESSION_TEST(test_rows_choose_and_insert, open_sheet(s, TWO))
 {
-    struct session s;
-    open_sheet(&s, TWO);
-    session_point(&s, "mark(up,1)");
-    session_move(&s, s.x + frames(&s, 10), s.y);
-    session_press(&s, BUTTON_LEFT, 1);
-    session_release(&s, BUTTON_LEFT);
-    assert_int_equal(s.editor->core.active, 1);
-    const wiggly_value there = evaluation_at(s.world.evaluation, 1, 50);
-    session_press(&s, BUTTON_LEFT, 2);
-    session_release(&s, BUTTON_LEFT);
-    assert_int_equal(s.document->splines[1]->knot_count, 3);
-    assert_near(knot(&s, 1, 2)->frame, 50, 0);
-    assert_near(knot(&s, 1, 2)->value, there.y + there.re, 1e-6);
-    session_close(&s);
+    session_point(s, "mark(up,1)");
+    session_move(s, s->x + frames(s, 10), s->y);
+    session_press(s, BUTTON_LEFT, 1);
+    session_release(s, BUTTON_LEFT);
+    assert_int_equal(s->editor->core.active, 1);
+    const wiggly_value there = evaluation_at(s->world.evaluation, 1, 50);
+    session_press(s, BUTTON_LEFT, 2);
+    session_release(s, BUTTON_LEFT);
+    assert_int_equal(s->document->splines[1]->knot_count, 3);
+    assert_near(knot(s, 1, 2)->frame, 50, 0);
+    assert_near(knot(s, 1, 2)->value, there.y + there.re, 1e-6);
 }
 
 /// Ten rows are more than it shows: the wheel scrolls, and the active spline's row comes into sight by itself.

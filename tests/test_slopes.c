@@ -2,66 +2,57 @@
 #include "five_knots.h"
 #include "panel_session.h"
 
-TEST(test_slopes_flat_and_smooth)
+SESSION_TEST(test_slopes_flat_and_smooth, session_open(s, FIVE))
 {
-    struct session s;
-    session_open(&s, FIVE);
-    session_key(&s, 'A', MOD_CTRL);
-    char *original = session_saved(&s);
-    session_key(&s, 'T', MOD_CTRL);
-    assert_near(spline(&s, 0)->knots[0].slope, (1.0 - 0) / 10 * 24, 1e-2); // only one neighbour
-    assert_near(spline(&s, 0)->knots[2].slope, (0.5 - 1) / 20 * 24, 1e-2);
-    assert_near(spline(&s, 0)->knots[3].slope, (0.0 + 1) / 30 * 24, 1e-2);
-    assert_one_step(&s, original);
+    session_key(s, 'A', MOD_CTRL);
+    char *original = session_saved(s);
+    session_key(s, 'T', MOD_CTRL);
+    assert_near(spline(s, 0)->knots[0].slope, (1.0 - 0) / 10 * 24, 1e-2); // only one neighbour
+    assert_near(spline(s, 0)->knots[2].slope, (0.5 - 1) / 20 * 24, 1e-2);
+    assert_near(spline(s, 0)->knots[3].slope, (0.0 + 1) / 30 * 24, 1e-2);
+    assert_one_step(s, original);
     free(original);
-    original = session_saved(&s);
-    session_key(&s, 'T', MOD_SHIFT);
+    original = session_saved(s);
+    session_key(s, 'T', MOD_SHIFT);
     for (int k = 0; k < 5; k++) {
-        assert_true(spline(&s, 0)->knots[k].has_slope);
-        assert_near(spline(&s, 0)->knots[k].slope, 0, 0);
+        assert_true(spline(s, 0)->knots[k].has_slope);
+        assert_near(spline(s, 0)->knots[k].slope, 0, 0);
     }
-    assert_one_step(&s, original);
+    assert_one_step(s, original);
     free(original);
-    panel_click(&s, "slope.smooth"); // the same by the inspector's buttons
-    assert_near(spline(&s, 0)->knots[0].slope, (1.0 - 0) / 10 * 24, 1e-2);
-    panel_click(&s, "slope.switch");
-    for (int k = 0; k < 5; k++) assert_false(spline(&s, 0)->knots[k].has_slope);
-    session_close(&s);
+    panel_click(s, "slope.smooth"); // the same by the inspector's buttons
+    assert_near(spline(s, 0)->knots[0].slope, (1.0 - 0) / 10 * 24, 1e-2);
+    panel_click(s, "slope.switch");
+    for (int k = 0; k < 5; k++) assert_false(spline(s, 0)->knots[k].has_slope);
 }
 
-TEST(test_a_longer_handle_is_stiffer)
+SESSION_TEST(test_a_longer_handle_is_stiffer, session_open(s, FIVE))
 {
-    struct session s;
-    session_open(&s, FIVE);
-    session_click(&s, "knot(sway,1)");
-    float x = s.x, y = s.y;
-    session_point(&s, "handle(sway,1,1)");
-    float along[2] = {(s.x - x) / hypotf(s.x - x, s.y - y), (s.y - y) / hypotf(s.x - x, s.y - y)};
-    session_press(&s, BUTTON_LEFT, 1);
-    session_drag(&s, 6 * along[0], 6 * along[1], 3);
-    assert_near(spline(&s, 0)->knots[1].stiffness, 1000, 0); // a hand is not that steady
-    session_drag(&s, 26 * along[0], 26 * along[1], 5);
-    assert_near(spline(&s, 0)->knots[1].stiffness, 100000, 10000); // 24 pixels are two powers of ten
-    assert_near(spline(&s, 0)->knots[1].slope, 2, 0.05);
-    session_drag(&s, -64 * along[0], -64 * along[1], 5);
-    assert_true(spline(&s, 0)->knots[1].stiffness < 50);
-    session_release(&s, BUTTON_LEFT);
-    session_close(&s);
+    session_click(s, "knot(sway,1)");
+    float x = s->x, y = s->y;
+    session_point(s, "handle(sway,1,1)");
+    float along[2] = {(s->x - x) / hypotf(s->x - x, s->y - y), (s->y - y) / hypotf(s->x - x, s->y - y)};
+    session_press(s, BUTTON_LEFT, 1);
+    session_drag(s, 6 * along[0], 6 * along[1], 3);
+    assert_near(spline(s, 0)->knots[1].stiffness, 1000, 0); // a hand is not that steady
+    session_drag(s, 26 * along[0], 26 * along[1], 5);
+    assert_near(spline(s, 0)->knots[1].stiffness, 100000, 10000); // 24 pixels are two powers of ten
+    assert_near(spline(s, 0)->knots[1].slope, 2, 0.05);
+    session_drag(s, -64 * along[0], -64 * along[1], 5);
+    assert_true(spline(s, 0)->knots[1].stiffness < 50);
+    session_release(s, BUTTON_LEFT);
 }
 
 /// A handle that is pulled past its knot stays steep on its own side.
-TEST(test_a_handle_does_not_flip)
+SESSION_TEST(test_a_handle_does_not_flip, session_open(s, FIVE))
 {
-    struct session s;
-    session_open(&s, FIVE);
-    session_click(&s, "knot(sway,1)");
-    session_pull(&s, "handle(sway,1,1)", -150, -40, 8);
-    assert_true(spline(&s, 0)->knots[1].slope > 20);
-    session_release(&s, BUTTON_LEFT);
-    session_pull(&s, "handle(sway,1,0)", 150, 100, 8);
-    assert_true(spline(&s, 0)->knots[1].slope > 20);
-    session_release(&s, BUTTON_LEFT);
-    session_close(&s);
+    session_click(s, "knot(sway,1)");
+    session_pull(s, "handle(sway,1,1)", -150, -40, 8);
+    assert_true(spline(s, 0)->knots[1].slope > 20);
+    session_release(s, BUTTON_LEFT);
+    session_pull(s, "handle(sway,1,0)", 150, 100, 8);
+    assert_true(spline(s, 0)->knots[1].slope > 20);
+    session_release(s, BUTTON_LEFT);
 }
 
 /// Of handles that nearly touch the one under the pointer is pulled.

@@ -21,52 +21,43 @@ static double number(const struct session *s, enum parameter p)
     return s->document->splines[0]->parameter[p].value;
 }
 
-TEST(a_key_finds_the_frequency)
+SESSION_TEST(a_key_finds_the_frequency, session_open(s, swinging))
 {
-    struct session s;
-    session_open(&s, swinging);
-    session_frame(&s);
-    char *original = session_saved(&s);
-    session_key(&s, 'F', MOD_SHIFT);
-    session_frame(&s);
-    assert_near(number(&s, PARAMETER_FREQUENCY), 1.26, 0.06);
-    assert_true(number(&s, PARAMETER_DAMPING) < 0.1);
-    session_key(&s, 'Z', MOD_CTRL);
-    assert_saved(&s, original);
+    session_frame(s);
+    char *original = session_saved(s);
+    session_key(s, 'F', MOD_SHIFT);
+    session_frame(s);
+    assert_near(number(s, PARAMETER_FREQUENCY), 1.26, 0.06);
+    assert_true(number(s, PARAMETER_DAMPING) < 0.1);
+    session_key(s, 'Z', MOD_CTRL);
+    assert_saved(s, original);
     free(original);
-    session_close(&s);
 }
 
-TEST(too_few_knots_are_told)
+SESSION_TEST(too_few_knots_are_told, session_open(s, few))
 {
-    struct session s;
-    session_open(&s, few);
-    session_frame(&s);
-    session_key(&s, 'F', MOD_SHIFT);
-    assert_non_null(strstr(s.editor->core.message.text, "Four knots"));
-    assert_near(number(&s, PARAMETER_FREQUENCY), 3, 0);
-    session_close(&s);
+    session_frame(s);
+    session_key(s, 'F', MOD_SHIFT);
+    assert_non_null(strstr(s->editor->core.message.text, "Four knots"));
+    assert_near(number(s, PARAMETER_FREQUENCY), 3, 0);
 }
 
-TEST(the_dice_rolls_another_motion)
+SESSION_TEST(the_dice_rolls_another_motion, panel_open(s, swinging, 1280, 1200))
 {
-    struct session s;
-    panel_open(&s, swinging, 1280, 1200);
-    char *original = session_saved(&s);
-    panel_click(&s, "section.variation");
-    const double before = s.world.evaluation->curves[0].total[20];
-    panel_click(&s, "variation.roll");
-    session_frame(&s);
-    assert_near(number(&s, PARAMETER_VARIATION), 0.3, 0);
-    assert_true(s.world.evaluation->curves[0].total[20] != before);
-    assert_true(s.world.evaluation->curves[0].total[15] == -0.9);
-    const double seed = number(&s, PARAMETER_SEED);
-    panel_click(&s, "variation.roll");
-    assert_true(number(&s, PARAMETER_SEED) != seed);
-    for (int i = 0; i < 2; i++) session_key(&s, 'Z', MOD_CTRL);
-    assert_saved(&s, original);
+    char *original = session_saved(s);
+    panel_click(s, "section.variation");
+    const double before = s->world.evaluation->curves[0].total[20];
+    panel_click(s, "variation.roll");
+    session_frame(s);
+    assert_near(number(s, PARAMETER_VARIATION), 0.3, 0);
+    assert_true(s->world.evaluation->curves[0].total[20] != before);
+    assert_true(s->world.evaluation->curves[0].total[15] == -0.9);
+    const double seed = number(s, PARAMETER_SEED);
+    panel_click(s, "variation.roll");
+    assert_true(number(s, PARAMETER_SEED) != seed);
+    for (int i = 0; i < 2; i++) session_key(s, 'Z', MOD_CTRL);
+    assert_saved(s, original);
     free(original);
-    session_close(&s);
 }
 
 static void load_fails(const char *variation, const char *sentence)

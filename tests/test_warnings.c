@@ -67,29 +67,20 @@ TEST(test_a_swing_is_tamed_by_what_helps)
     session_close(&s);
 }
 
-TEST(test_a_fast_spline_gets_substeps)
+SESSION_TEST(test_a_fast_spline_gets_substeps, assert_remedied(s, FAST, WARNING_RATE))
 {
-    struct session s;
-    assert_remedied(&s, FAST, WARNING_RATE);
-    assert_int_equal(s.document->substeps, 2);
-    assert_near(s.document->splines[0]->parameter[PARAMETER_FREQUENCY].value, 9, 0);
-    session_close(&s);
+    assert_int_equal(s->document->substeps, 2);
+    assert_near(s->document->splines[0]->parameter[PARAMETER_FREQUENCY].value, 9, 0);
 }
 
-TEST(test_a_slope_without_effect_is_switched_off)
+SESSION_TEST(test_a_slope_without_effect_is_switched_off, assert_remedied(s, IDLE, WARNING_SLOPE))
 {
-    struct session s;
-    assert_remedied(&s, IDLE, WARNING_SLOPE);
-    assert_false(s.document->splines[0]->knots[1].has_slope);
-    session_close(&s);
+    assert_false(s->document->splines[0]->knots[1].has_slope);
 }
 
-TEST(test_a_wide_band_is_narrowed_to_what_the_knots_hold)
+SESSION_TEST(test_a_wide_band_is_narrowed_to_what_the_knots_hold, assert_remedied(s, WIDE, WARNING_DRIFT))
 {
-    struct session s;
-    assert_remedied(&s, WIDE, WARNING_DRIFT);
-    assert_near(s.document->splines[0]->parameter[PARAMETER_BANDWIDTH].value, 0.12, 1e-9); // 0.3 over 2.5 periods
-    session_close(&s);
+    assert_near(s->document->splines[0]->parameter[PARAMETER_BANDWIDTH].value, 0.12, 1e-9); // 0.3 over 2.5 periods
 }
 
 TEST(test_the_scenes_of_the_program_are_quiet)
@@ -113,15 +104,12 @@ TEST(test_the_scenes_of_the_program_are_quiet)
     }
 }
 
-TEST(test_a_cubic_has_nothing_to_warn_of)
+SESSION_TEST(test_a_cubic_has_nothing_to_warn_of, session_open(s, WIDE))
 {
-    struct session s;
-    session_open(&s, WIDE);
-    session_key(&s, 'V', 0);
-    assert_int_equal(s.editor->curves->warnings.count, 1); // stiff: the same curve
-    session_key(&s, 'V', 0);
-    assert_int_equal(s.editor->curves->warnings.count, 0);
-    session_close(&s);
+    session_key(s, 'V', 0);
+    assert_int_equal(s->editor->curves->warnings.count, 1); // stiff: the same curve
+    session_key(s, 'V', 0);
+    assert_int_equal(s->editor->curves->warnings.count, 0);
 }
 
 int main(void) { return tests_run(NULL, NULL); }

@@ -2,6 +2,8 @@
 #ifndef TESTS_WORLD_H
 #define TESTS_WORLD_H
 
+#include "near.h"
+
 #include "scene/edit.h"
 #include "scene/history.h"
 #include "scene/load.h"
@@ -49,5 +51,17 @@ bool edit_track(struct world *world, int spline, enum parameter parameter, int t
 bool edit_mode(struct world *world, int spline, enum wiggly_mode mode);
 bool edit_start(struct world *world, int spline, enum wiggly_start start);
 bool edit_frames(struct world *world, int first, int last);
+
+/// A test of a world that `opens` opens and that is closed at its end: WORLD_TEST(name, world_open(world)) { … }.
+#define WORLD_TEST(name, opens)                                                                                      \
+    static void name##_in(struct world *world);                                                                      \
+    TEST(name)                                                                                                       \
+    {                                                                                                                \
+        struct world a_world, *world = &a_world;                                                                     \
+        opens;                                                                                                       \
+        name##_in(world);                                                                                            \
+        world_close(world);                                                                                          \
+    }                                                                                                                \
+    static void name##_in(struct world *world)
 
 #endif
