@@ -1,4 +1,4 @@
-# wiggly log: what it says of a log, its picture, and what it refuses. live --turns: two programs draw in turn.
+# wiggly log: what it says of a log, and what it refuses. live --turns: two programs draw in turn.
 . tests/check.sh
 WIGGLY=${WIGGLY:-build/wiggly}
 unset DISPLAY WAYLAND_DISPLAY
@@ -25,16 +25,8 @@ ok "and nothing of what was not" $?
 
 write_run "$scratch/b.csv" 20
 cat "$scratch/a.csv" "$scratch/b.csv" >"$scratch/both.csv"
-expect 0 "a log of two runs, with a picture" "$WIGGLY" log "$scratch/both.csv" -o "$scratch/both.svg"
+expect 0 "a log of two runs" "$WIGGLY" log "$scratch/both.csv"
 says "counts both" "120 frames of 2 runs," "$out"
-[ "$(grep -o '<[^>]*stroke-linecap="round"[^>]*>' "$scratch/both.svg" | grep -o M | wc -l)" = 120 ]
-ok "the picture has a dot a frame" $?
-[ "$(tail -n 1 "$scratch/both.svg")" = "</svg>" ]
-ok "and is whole" $?
-says "its words are plain" ">16.7 ms: 60 a second<" "$(cat "$scratch/both.svg")"
-cp "$scratch/a.csv" "$scratch/a<b&c.csv"
-expect 0 "a log whose name means something in SVG" "$WIGGLY" log "$scratch/a<b&c.csv" -o "$scratch/name.svg"
-says "is written so that it means nothing" "a&#60;b&#38;c.csv" "$(cat "$scratch/name.svg")"
 
 cat "$scratch/b.csv" "$scratch/b.csv" >"$scratch/twice.csv"
 expect 0 "a log of two slow runs" "$WIGGLY" log "$scratch/twice.csv"
@@ -44,8 +36,6 @@ expect 1 "a log that is not there" "$WIGGLY" log "$scratch/none.csv"
 says "is named" "none.csv" "$err"
 expect 1 "a file that is no log" "$WIGGLY" log tests/replays/session.json
 says "says the line" "session.json:1: expected a timing log's '# schema:' line first" "$err"
-expect 3 "a picture in a folder that is not there" "$WIGGLY" log "$scratch/a.csv" -o "$scratch/no/a.svg"
-says "is named, too" "no/a.svg" "$err"
 expect 2 "no log at all" "$WIGGLY" log
 
 # --- frames in turn

@@ -9,7 +9,16 @@
 
 enum { BAR = 50, SLOWEST = 5, LOW_NEEDS_FRAMES = 1000 };
 
-int column_values(const struct timing_log *log, int column, double *values)
+/// Histogram of sorted values in steps that read well (1, 2 or 5 times a power of ten), at most 24 up to p99 and one for the rest.
+struct histogram {
+    double start, step;
+    int bins;       ///< the last one takes all that is above
+    int counts[26]; ///< values in [start + i·step, start + (i + 1)·step)
+    int most;       ///< largest count
+};
+
+/// The measured values of a column in the order of the log; `values` has room for all rows. Returns how many.
+static int column_values(const struct timing_log *log, int column, double *values)
 {
     int count = 0;
     for (int row = 0; row < log->rows; row++) {
@@ -19,14 +28,15 @@ int column_values(const struct timing_log *log, int column, double *values)
     return count;
 }
 
-double round_step(double least)
+/// The smallest of 1, 2 and 5 times a power of ten that is not below `least`.
+static double round_step(double least)
 {
     double power = pow(10, floor(log10(least)));
     double times = least / power;
     return power * (times <= 1 ? 1 : times <= 2 ? 2 : times <= 5 ? 5 : 10);
 }
 
-struct histogram histogram_of(const double *sorted, int count)
+static struct histogram histogram_of(const double *sorted, int count)
 {
     struct histogram h = {.bins = 1};
     double high = statistics_quantile(sorted, count, 0.99);
