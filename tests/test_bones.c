@@ -38,37 +38,31 @@ static const char *selected(const struct session *session)
     return node < 0 ? "" : bones_character(&session->world, model)->gltf.nodes[node].name;
 }
 
-TEST(test_the_bone_pointed_at_says_its_name_and_a_click_selects_it)
+SESSION_TEST(test_the_bone_pointed_at_says_its_name_and_a_click_selects_it, open_beast(s, ""))
 {
-    struct session s;
-    open_beast(&s, "");
-    assert_false(session_shows(&s, "neck"));
-    session_point(&s, "bone(neck)");
-    session_frame(&s);
-    assert_int_equal(s.editor->core.hover.kind, HOVER_BONE);
-    assert_true(session_shows(&s, "neck"));
-    assert_string_equal(selected(&s), "");
-    session_click(&s, "bone(neck)");
-    assert_string_equal(selected(&s), "neck");
-    session_click(&s, "bone(leg_FL_2)");
-    assert_string_equal(selected(&s), "leg_FL_2");
-    session_key(&s, KEY_ESCAPE, 0);
-    assert_string_equal(selected(&s), "");
-    session_click(&s, "bone(neck)");
-    session_click(&s, "stage(0.02,0.95)");
-    assert_string_equal(selected(&s), "");
-    session_close(&s);
+    assert_false(session_shows(s, "neck"));
+    session_point(s, "bone(neck)");
+    session_frame(s);
+    assert_int_equal(s->editor->core.hover.kind, HOVER_BONE);
+    assert_true(session_shows(s, "neck"));
+    assert_string_equal(selected(s), "");
+    session_click(s, "bone(neck)");
+    assert_string_equal(selected(s), "neck");
+    session_click(s, "bone(leg_FL_2)");
+    assert_string_equal(selected(s), "leg_FL_2");
+    session_key(s, KEY_ESCAPE, 0);
+    assert_string_equal(selected(s), "");
+    session_click(s, "bone(neck)");
+    session_click(s, "stage(0.02,0.95)");
+    assert_string_equal(selected(s), "");
 }
 
 /// A drag from a bone moves the character; it is no click.
-TEST(test_a_drag_from_a_bone_selects_nothing)
+SESSION_TEST(test_a_drag_from_a_bone_selects_nothing, open_beast(s, ""))
 {
-    struct session s;
-    open_beast(&s, "");
-    session_pull(&s, "bone(neck)", 40, 0, 4);
-    session_release(&s, BUTTON_LEFT);
-    assert_string_equal(selected(&s), "");
-    session_close(&s);
+    session_pull(s, "bone(neck)", 40, 0, 4);
+    session_release(s, BUTTON_LEFT);
+    assert_string_equal(selected(s), "");
 }
 
 /// How far a bone is turned from its rest, as a chord.
@@ -83,226 +77,196 @@ static float turned(const struct session *s, const char *name)
 }
 
 /// It goes where the pointer takes it, its chain swings after it and comes to rest; one step, and Esc takes it back.
-TEST(test_a_dragged_character_moves_and_its_chain_follows_through)
+SESSION_TEST(test_a_dragged_character_moves_and_its_chain_follows_through, open_beast(s, TAIL))
 {
-    struct session s;
-    open_beast(&s, TAIL);
-    char *before = session_saved(&s);
-    const float *root = editor_stage(s.editor)->models[0].root;
+    char *before = session_saved(s);
+    const float *root = editor_stage(s->editor)->models[0].root;
     const float start[2] = {root[12], root[14]};
-    session_pull(&s, "bone(neck)", 80, 0, 6);
+    session_pull(s, "bone(neck)", 80, 0, 6);
     assert_true(hypotf(root[12] - start[0], root[14] - start[1]) > 0.1f);
-    assert_true(turned(&s, "tail_8") > 0.02f);
-    assert_near(turned(&s, "neck"), 0, 1e-6);
+    assert_true(turned(s, "tail_8") > 0.02f);
+    assert_near(turned(s, "neck"), 0, 1e-6);
     const float held[2] = {root[12], root[14]};
-    session_release(&s, BUTTON_LEFT);
-    session_frame(&s);
-    const struct model_rig *moved = &s.document->rigs[0]->model;
+    session_release(s, BUTTON_LEFT);
+    session_frame(s);
+    const struct model_rig *moved = &s->document->rigs[0]->model;
     assert_near(root[12], held[0], 1e-3);
     assert_near(root[14], held[1], 1e-3);
     assert_true(hypot(moved->position[0], moved->position[2]) > 0.1);
     assert_near(moved->position[1], 0, 0);
-    assert_string_equal(selected(&s), "");
-    for (int frame = 0; frame < 1200; frame++) session_frame(&s);
-    assert_near(turned(&s, "tail_8"), 0, 1e-6);
-    assert_one_step(&s, before);
-    session_key(&s, 'Z', MOD_CTRL);
-    session_pull(&s, "bone(neck)", 0, 40, 4);
-    session_key(&s, KEY_ESCAPE, 0);
-    session_release(&s, BUTTON_LEFT);
-    assert_saved(&s, before);
+    assert_string_equal(selected(s), "");
+    for (int frame = 0; frame < 1200; frame++) session_frame(s);
+    assert_near(turned(s, "tail_8"), 0, 1e-6);
+    assert_one_step(s, before);
+    session_key(s, 'Z', MOD_CTRL);
+    session_pull(s, "bone(neck)", 0, 40, 4);
+    session_key(s, KEY_ESCAPE, 0);
+    session_release(s, BUTTON_LEFT);
+    assert_saved(s, before);
     free(before);
-    session_close(&s);
 }
 
 /// Seen from the side both legs lie over each other: the near one is meant.
-TEST(test_of_bones_over_each_other_the_near_one_is_picked)
+SESSION_TEST(test_of_bones_over_each_other_the_near_one_is_picked, open_beast(s, ""))
 {
-    struct session s;
-    open_beast(&s, "");
-    const struct stage_view *view = editor_stage(s.editor);
+    const struct stage_view *view = editor_stage(s->editor);
     for (int turn = 0; turn < 16; turn++) {
         float left[2], right[2];
         struct error error;
-        session_key(&s, KEY_LEFT, MOD_CTRL | MOD_SHIFT);
-        if (!editor_target(s.editor, &s.world, "bone(leg_FL_1)", &left[0], &left[1], &error)) continue;
-        if (!editor_target(s.editor, &s.world, "bone(leg_FR_1)", &right[0], &right[1], &error)) continue;
+        session_key(s, KEY_LEFT, MOD_CTRL | MOD_SHIFT);
+        if (!editor_target(s->editor, &s->world, "bone(leg_FL_1)", &left[0], &left[1], &error)) continue;
+        if (!editor_target(s->editor, &s->world, "bone(leg_FR_1)", &right[0], &right[1], &error)) continue;
         if (fabsf(left[0] - right[0]) > 2) continue;
-        session_move(&s, (left[0] + right[0]) / 2, (left[1] + right[1]) / 2);
-        session_frame(&s);
-        session_press(&s, BUTTON_LEFT, 1);
-        session_release(&s, BUTTON_LEFT);
-        assert_string_equal(selected(&s), view->eye[0] > 0 ? "leg_FL_1" : "leg_FR_1");
+        session_move(s, (left[0] + right[0]) / 2, (left[1] + right[1]) / 2);
+        session_frame(s);
+        session_press(s, BUTTON_LEFT, 1);
+        session_release(s, BUTTON_LEFT);
+        assert_string_equal(selected(s), view->eye[0] > 0 ? "leg_FL_1" : "leg_FR_1");
     }
-    session_move(&s, 2, 2);
-    session_close(&s);
+    session_move(s, 2, 2);
 }
 
-TEST(test_a_key_makes_a_chain_to_the_tip_in_one_step)
+SESSION_TEST(test_a_key_makes_a_chain_to_the_tip_in_one_step, open_beast(s, ""))
 {
-    struct session s;
-    open_beast(&s, "");
-    char *before = session_saved(&s);
-    session_key(&s, 'J', 0);
-    assert_saved(&s, before);
-    session_click(&s, "bone(tail_3)");
-    session_key(&s, 'J', 0);
-    assert_int_equal(s.document->rig_count, 2);
-    const struct rig *made = s.document->rigs[1];
+    char *before = session_saved(s);
+    session_key(s, 'J', 0);
+    assert_saved(s, before);
+    session_click(s, "bone(tail_3)");
+    session_key(s, 'J', 0);
+    assert_int_equal(s->document->rig_count, 2);
+    const struct rig *made = s->document->rigs[1];
     assert_int_equal(made->kind, RIG_CHAIN);
     assert_string_equal(made->chain.from, "tail_3");
     assert_string_equal(made->chain.to, "tail_8");
     assert_true(made->chain.channel_count >= 1);
-    assert_int_equal(s.editor->core.active, made->chain.channels[0].spline);
-    assert_int_equal(s.editor->inspector->rig, 1);
-    assert_one_step(&s, before);
-    session_key(&s, 'Z', MOD_CTRL);
-    assert_string_equal(selected(&s), "tail_3");
-    panel_click(&s, "bone.chain");
-    assert_int_equal(s.document->rig_count, 2);
+    assert_int_equal(s->editor->core.active, made->chain.channels[0].spline);
+    assert_int_equal(s->editor->inspector->rig, 1);
+    assert_one_step(s, before);
+    session_key(s, 'Z', MOD_CTRL);
+    assert_string_equal(selected(s), "tail_3");
+    panel_click(s, "bone.chain");
+    assert_int_equal(s->document->rig_count, 2);
     free(before);
-    session_close(&s);
 }
 
-TEST(test_a_bone_that_branches_is_refused_with_a_sentence)
+SESSION_TEST(test_a_bone_that_branches_is_refused_with_a_sentence, open_beast(s, ""))
 {
-    struct session s;
-    open_beast(&s, "");
-    char *before = session_saved(&s);
-    session_click(&s, "bone(head)");
-    assert_string_equal(selected(&s), "head");
-    session_key(&s, 'J', 0);
-    assert_saved(&s, before);
-    assert_true(s.editor->core.message.is_error);
-    assert_non_null(strstr(s.editor->core.message.text, "\"head\" branches into \"ear_L_1\" and \"ear_R_1\""));
+    char *before = session_saved(s);
+    session_click(s, "bone(head)");
+    assert_string_equal(selected(s), "head");
+    session_key(s, 'J', 0);
+    assert_saved(s, before);
+    assert_true(s->editor->core.message.is_error);
+    assert_non_null(strstr(s->editor->core.message.text, "\"head\" branches into \"ear_L_1\" and \"ear_R_1\""));
     free(before);
-    session_close(&s);
 }
 
 /// The grabbed point follows the pointer, by a knot at the playhead; one step, and Esc takes it back.
-TEST(test_dragging_a_chain_sets_a_knot)
+SESSION_TEST(test_dragging_a_chain_sets_a_knot, open_beast(s, TAIL))
 {
-    struct session s;
-    open_beast(&s, TAIL);
-    char *before = session_saved(&s);
+    char *before = session_saved(s);
     float tip[2];
     struct error error;
-    session_pull(&s, "chain(tail,0.95)", 0, -30, 12);
-    for (int frame = 0; frame < 60; frame++) session_frame(&s);
-    const float x = s.x, y = s.y;
-    session_release(&s, BUTTON_LEFT);
-    assert_int_equal(s.document->splines[0]->knot_count, 1);
-    assert_true(editor_target(s.editor, &s.world, "chain(tail,0.95)", &tip[0], &tip[1], &error));
+    session_pull(s, "chain(tail,0.95)", 0, -30, 12);
+    for (int frame = 0; frame < 60; frame++) session_frame(s);
+    const float x = s->x, y = s->y;
+    session_release(s, BUTTON_LEFT);
+    assert_int_equal(s->document->splines[0]->knot_count, 1);
+    assert_true(editor_target(s->editor, &s->world, "chain(tail,0.95)", &tip[0], &tip[1], &error));
     assert_true(hypotf(tip[0] - x, tip[1] - y) < 30); // one axis only: as near as it gets
-    assert_one_step(&s, before);
-    session_key(&s, 'Z', MOD_CTRL);
-    session_pull(&s, "chain(tail,0.8)", 25, 0, 6);
-    session_key(&s, KEY_ESCAPE, 0);
-    assert_saved(&s, before);
-    session_release(&s, BUTTON_LEFT);
+    assert_one_step(s, before);
+    session_key(s, 'Z', MOD_CTRL);
+    session_pull(s, "chain(tail,0.8)", 25, 0, 6);
+    session_key(s, KEY_ESCAPE, 0);
+    assert_saved(s, before);
+    session_release(s, BUTTON_LEFT);
     free(before);
-    session_close(&s);
 }
 
 /// With an axis each way the point comes to the pointer itself.
-TEST(test_a_chain_of_two_axes_comes_to_the_pointer)
+SESSION_TEST(test_a_chain_of_two_axes_comes_to_the_pointer, open_beast(s, TAIL))
 {
-    struct session s;
-    open_beast(&s, TAIL);
     float tip[2];
     struct error error;
-    session_click(&s, "chain(tail,0.5)");
-    panel_click(&s, "spline.add");
-    panel_click(&s, "channel.add");
-    panel_click(&s, "axis.up");
-    assert_int_equal(s.document->rigs[1]->chain.channels[1].axis, AXIS_UP);
-    session_pull(&s, "chain(tail,0.9)", 12, 18, 12);
-    for (int frame = 0; frame < 60; frame++) session_frame(&s);
-    const float x = s.x, y = s.y;
-    session_release(&s, BUTTON_LEFT);
-    assert_true(editor_target(s.editor, &s.world, "chain(tail,0.9)", &tip[0], &tip[1], &error));
+    session_click(s, "chain(tail,0.5)");
+    panel_click(s, "spline.add");
+    panel_click(s, "channel.add");
+    panel_click(s, "axis.up");
+    assert_int_equal(s->document->rigs[1]->chain.channels[1].axis, AXIS_UP);
+    session_pull(s, "chain(tail,0.9)", 12, 18, 12);
+    for (int frame = 0; frame < 60; frame++) session_frame(s);
+    const float x = s->x, y = s->y;
+    session_release(s, BUTTON_LEFT);
+    assert_true(editor_target(s->editor, &s->world, "chain(tail,0.9)", &tip[0], &tip[1], &error));
     assert_true(hypotf(tip[0] - x, tip[1] - y) < 1.5f);
-    session_close(&s);
 }
 
-TEST(test_a_click_on_a_chain_selects_its_bone)
+SESSION_TEST(test_a_click_on_a_chain_selects_its_bone, open_beast(s, TAIL LEFT_EAR))
 {
-    struct session s;
-    open_beast(&s, TAIL LEFT_EAR);
-    char *before = session_saved(&s);
-    session_click(&s, "bone(tail_4)");
-    assert_string_equal(selected(&s), "tail_4");
-    assert_saved(&s, before);
+    char *before = session_saved(s);
+    session_click(s, "bone(tail_4)");
+    assert_string_equal(selected(s), "tail_4");
+    assert_saved(s, before);
     free(before);
-    session_close(&s);
 }
 
-TEST(test_the_inspector_chooses_the_clip)
+SESSION_TEST(test_the_inspector_chooses_the_clip, open_beast(s, ""))
 {
-    struct session s;
-    open_beast(&s, "");
-    char *before = session_saved(&s);
-    panel_click(&s, "model.clips.0");
-    panel_click(&s, "item.Nod");
-    assert_string_equal(s.document->rigs[0]->model.clip, "Nod");
-    assert_one_step(&s, before);
-    panel_click(&s, "model.clips.0");
-    panel_click(&s, "item.none");
-    assert_null(s.document->rigs[0]->model.clip);
-    assert_saved(&s, before);
-    panel_enter(&s, "model.scale", "2");
-    panel_enter(&s, "model.turn", "90");
-    panel_enter(&s, "model.x", "0.5");
-    assert_near(s.document->rigs[0]->model.scale, 2, 0);
-    assert_near(s.document->rigs[0]->model.turn, 90, 0);
-    assert_near(s.document->rigs[0]->model.position[0], 0.5, 0);
+    char *before = session_saved(s);
+    panel_click(s, "model.clips.0");
+    panel_click(s, "item.Nod");
+    assert_string_equal(s->document->rigs[0]->model.clip, "Nod");
+    assert_one_step(s, before);
+    panel_click(s, "model.clips.0");
+    panel_click(s, "item.none");
+    assert_null(s->document->rigs[0]->model.clip);
+    assert_saved(s, before);
+    panel_enter(s, "model.scale", "2");
+    panel_enter(s, "model.turn", "90");
+    panel_enter(s, "model.x", "0.5");
+    assert_near(s->document->rigs[0]->model.scale, 2, 0);
+    assert_near(s->document->rigs[0]->model.turn, 90, 0);
+    assert_near(s->document->rigs[0]->model.position[0], 0.5, 0);
     free(before);
-    session_close(&s);
 }
 
 /// Each move of the drag makes its edit anew, of the chain as it was at the press.
-TEST(test_a_chains_turn_is_dragged)
+SESSION_TEST(test_a_chains_turn_is_dragged, open_beast(s, TAIL))
 {
-    struct session s;
-    open_beast(&s, TAIL);
-    char *before = session_saved(&s), *from = strdup(s.document->rigs[1]->chain.from);
-    panel_press(&s, "chain.turn", 1);
-    session_drag(&s, 40, 0, 6);
-    panel_release(&s);
-    assert_true(s.document->rigs[1]->chain.turn > 0);
-    assert_string_equal(s.document->rigs[1]->chain.from, from);
-    assert_one_step(&s, before);
+    char *before = session_saved(s), *from = strdup(s->document->rigs[1]->chain.from);
+    panel_press(s, "chain.turn", 1);
+    session_drag(s, 40, 0, 6);
+    panel_release(s);
+    assert_true(s->document->rigs[1]->chain.turn > 0);
+    assert_string_equal(s->document->rigs[1]->chain.from, from);
+    assert_one_step(s, before);
     free(from);
     free(before);
-    session_close(&s);
 }
 
-TEST(test_a_chain_is_edited_in_the_inspector)
+SESSION_TEST(test_a_chain_is_edited_in_the_inspector, open_beast(s, TAIL))
 {
-    struct session s;
-    open_beast(&s, TAIL);
-    char *before = session_saved(&s);
-    panel_click(&s, "axis.twist");
-    assert_int_equal(s.document->rigs[1]->chain.channels[0].axis, AXIS_TWIST);
-    panel_click(&s, "chain.mirror");
-    panel_enter(&s, "chain.turn", "30");
-    panel_enter(&s, "gain", "11");
-    panel_click(&s, "tail.name");
-    session_key(&s, 'A', MOD_CTRL);
-    panel_type(&s, "brush");
-    session_key(&s, KEY_ENTER, 0);
-    const struct rig *rig = s.document->rigs[1];
+    char *before = session_saved(s);
+    panel_click(s, "axis.twist");
+    assert_int_equal(s->document->rigs[1]->chain.channels[0].axis, AXIS_TWIST);
+    panel_click(s, "chain.mirror");
+    panel_enter(s, "chain.turn", "30");
+    panel_enter(s, "gain", "11");
+    panel_click(s, "tail.name");
+    session_key(s, 'A', MOD_CTRL);
+    panel_type(s, "brush");
+    session_key(s, KEY_ENTER, 0);
+    const struct rig *rig = s->document->rigs[1];
     assert_true(rig->chain.mirror);
     assert_near(rig->chain.turn, 30, 0);
     assert_near(rig->chain.channels[0].gain.value[0], 11, 0);
     assert_string_equal(rig->name, "brush");
-    panel_click(&s, "rig.delete");
-    session_key(&s, 'K', 0); // its spline stays
-    assert_int_equal(s.document->rig_count, 1);
-    for (int step = 0; step < 6; step++) session_key(&s, 'Z', MOD_CTRL);
-    assert_saved(&s, before);
+    panel_click(s, "rig.delete");
+    session_key(s, 'K', 0); // its spline stays
+    assert_int_equal(s->document->rig_count, 1);
+    for (int step = 0; step < 6; step++) session_key(s, 'Z', MOD_CTRL);
+    assert_saved(s, before);
     free(before);
-    session_close(&s);
 }
 
 static const struct angles *gain_of_tail(const struct session *s)
@@ -310,42 +274,39 @@ static const struct angles *gain_of_tail(const struct session *s)
     return &s->document->rigs[1]->chain.channels[0].gain;
 }
 
-TEST(test_a_gain_becomes_a_ramp_whose_points_move)
+SESSION_TEST(test_a_gain_becomes_a_ramp_whose_points_move, open_beast(s, TAIL))
 {
-    struct session s;
-    open_beast(&s, TAIL);
-    char *before = session_saved(&s);
-    panel_click(&s, "gain.ramp");
-    assert_int_equal(gain_of_tail(&s)->form, ANGLES_RAMP);
-    assert_int_equal(gain_of_tail(&s)->count, 2);
-    assert_near(gain_of_tail(&s)->ramp[1].angle, 8, 0);
-    char *flat = session_saved(&s);
-    panel_press(&s, "gain.point.1", 1);
-    session_drag(&s, -40, -12, 4);
-    panel_release(&s);
-    assert_true(gain_of_tail(&s)->ramp[1].angle > 8);
-    assert_true(gain_of_tail(&s)->ramp[1].at < 1);
-    assert_one_step(&s, flat);
-    panel_press(&s, "gain.point.0", 1);
-    session_move(&s, s.x + 60, s.y - 8);
-    session_release(&s, BUTTON_LEFT);
-    session_move(&s, s.x + 8, s.y + 16); // beside the line
-    session_press(&s, BUTTON_LEFT, 2);
-    session_release(&s, BUTTON_LEFT);
-    assert_int_equal(gain_of_tail(&s)->count, 3);
-    panel_press(&s, "gain.point.1", 1);
-    session_release(&s, BUTTON_LEFT);
-    session_key(&s, KEY_DELETE, 0);
-    assert_int_equal(gain_of_tail(&s)->count, 2);
-    session_key(&s, KEY_DELETE, 0);
-    assert_int_equal(gain_of_tail(&s)->count, 2); // a ramp needs them
-    panel_click(&s, "gain.ramp");                 // lit: back to one
-    assert_int_equal(gain_of_tail(&s)->form, ANGLES_ONE);
-    for (int step = 0; step < 6; step++) session_key(&s, 'Z', MOD_CTRL);
-    assert_saved(&s, before);
+    char *before = session_saved(s);
+    panel_click(s, "gain.ramp");
+    assert_int_equal(gain_of_tail(s)->form, ANGLES_RAMP);
+    assert_int_equal(gain_of_tail(s)->count, 2);
+    assert_near(gain_of_tail(s)->ramp[1].angle, 8, 0);
+    char *flat = session_saved(s);
+    panel_press(s, "gain.point.1", 1);
+    session_drag(s, -40, -12, 4);
+    panel_release(s);
+    assert_true(gain_of_tail(s)->ramp[1].angle > 8);
+    assert_true(gain_of_tail(s)->ramp[1].at < 1);
+    assert_one_step(s, flat);
+    panel_press(s, "gain.point.0", 1);
+    session_move(s, s->x + 60, s->y - 8);
+    session_release(s, BUTTON_LEFT);
+    session_move(s, s->x + 8, s->y + 16); // beside the line
+    session_press(s, BUTTON_LEFT, 2);
+    session_release(s, BUTTON_LEFT);
+    assert_int_equal(gain_of_tail(s)->count, 3);
+    panel_press(s, "gain.point.1", 1);
+    session_release(s, BUTTON_LEFT);
+    session_key(s, KEY_DELETE, 0);
+    assert_int_equal(gain_of_tail(s)->count, 2);
+    session_key(s, KEY_DELETE, 0);
+    assert_int_equal(gain_of_tail(s)->count, 2); // a ramp needs them
+    panel_click(s, "gain.ramp");                 // lit: back to one
+    assert_int_equal(gain_of_tail(s)->form, ANGLES_ONE);
+    for (int step = 0; step < 6; step++) session_key(s, 'Z', MOD_CTRL);
+    assert_saved(s, before);
     free(flat);
     free(before);
-    session_close(&s);
 }
 
 static double highest(const struct angles *ramp)
@@ -355,59 +316,50 @@ static double highest(const struct angles *ramp)
     return highest;
 }
 
-TEST(test_a_ramps_plot_is_as_high_as_its_points)
+SESSION_TEST(test_a_ramps_plot_is_as_high_as_its_points, open_beast(s, TAIL))
 {
-    struct session s;
-    open_beast(&s, TAIL);
-    panel_click(&s, "gain.ramp");
-    const double *scale = s.editor->inspector->ramp_scale[ANGLE_GAIN];
-    panel_press(&s, "gain.point.0", 1);
-    session_drag(&s, 0, -30, 2);
-    panel_release(&s);
-    assert_true(gain_of_tail(&s)->ramp[0].angle > 10);
-    assert_near(scale[1], 1.2 * gain_of_tail(&s)->ramp[0].angle, 1e-9);
-    session_move(&s, s.x + 60, s.y + 50);
-    session_press(&s, BUTTON_LEFT, 2); // a point between
-    session_release(&s, BUTTON_LEFT);
-    panel_press(&s, "gain.point.2", 1);
-    session_drag(&s, 0, -80, 2);
-    panel_release(&s);
-    assert_int_equal(gain_of_tail(&s)->count, 3);
-    const double last = gain_of_tail(&s)->ramp[2].angle;
+    panel_click(s, "gain.ramp");
+    const double *scale = s->editor->inspector->ramp_scale[ANGLE_GAIN];
+    panel_press(s, "gain.point.0", 1);
+    session_drag(s, 0, -30, 2);
+    panel_release(s);
+    assert_true(gain_of_tail(s)->ramp[0].angle > 10);
+    assert_near(scale[1], 1.2 * gain_of_tail(s)->ramp[0].angle, 1e-9);
+    session_move(s, s->x + 60, s->y + 50);
+    session_press(s, BUTTON_LEFT, 2); // a point between
+    session_release(s, BUTTON_LEFT);
+    panel_press(s, "gain.point.2", 1);
+    session_drag(s, 0, -80, 2);
+    panel_release(s);
+    assert_int_equal(gain_of_tail(s)->count, 3);
+    const double last = gain_of_tail(s)->ramp[2].angle;
     assert_near(scale[1], 1.2 * last, 1e-9);
-    session_key(&s, KEY_DELETE, 0); // the highest
-    assert_int_equal(gain_of_tail(&s)->count, 2);
-    assert_true(highest(gain_of_tail(&s)) < last);
-    assert_near(scale[1], 1.2 * highest(gain_of_tail(&s)), 1e-9);
-    session_close(&s);
+    session_key(s, KEY_DELETE, 0); // the highest
+    assert_int_equal(gain_of_tail(s)->count, 2);
+    assert_true(highest(gain_of_tail(s)) < last);
+    assert_near(scale[1], 1.2 * highest(gain_of_tail(s)), 1e-9);
 }
 
-TEST(test_a_chain_gets_a_twin_on_the_other_side)
+SESSION_TEST(test_a_chain_gets_a_twin_on_the_other_side, open_beast(s, LEFT_EAR))
 {
-    struct session s;
-    open_beast(&s, LEFT_EAR);
-    char *before = session_saved(&s);
-    panel_click(&s, "chain.twin");
-    assert_int_equal(s.document->rig_count, 3);
-    const struct rig *twin = s.document->rigs[2];
+    char *before = session_saved(s);
+    panel_click(s, "chain.twin");
+    assert_int_equal(s->document->rig_count, 3);
+    const struct rig *twin = s->document->rigs[2];
     assert_string_equal(twin->name, "ear_R");
     assert_string_equal(twin->chain.from, "ear_R_1");
     assert_string_equal(twin->chain.to, "ear_R_2");
     assert_true(twin->chain.mirror);
-    assert_int_equal(twin->chain.channels[0].spline, s.document->rigs[1]->chain.channels[0].spline);
-    assert_false(panel_shows(&s, "chain.twin")); // there is one now
-    assert_one_step(&s, before);
+    assert_int_equal(twin->chain.channels[0].spline, s->document->rigs[1]->chain.channels[0].spline);
+    assert_false(panel_shows(s, "chain.twin")); // there is one now
+    assert_one_step(s, before);
     free(before);
-    session_close(&s);
 }
 
-TEST(test_a_tail_has_no_twin)
+SESSION_TEST(test_a_tail_has_no_twin, open_beast(s, TAIL))
 {
-    struct session s;
-    open_beast(&s, TAIL);
-    assert_true(panel_shows(&s, "rig.delete"));
-    assert_false(panel_shows(&s, "chain.twin"));
-    session_close(&s);
+    assert_true(panel_shows(s, "rig.delete"));
+    assert_false(panel_shows(s, "chain.twin"));
 }
 
 int main(void) { return tests_run(folder_make, folder_remove); }

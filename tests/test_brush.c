@@ -109,9 +109,8 @@ static const float *value_of(const struct studio *s, int coordinate, int vertex)
     return rig_of(s)->painted->values[coordinate * rig_of(s)->painted->vertices + vertex];
 }
 
-static void a_stroke_changes_phase_where_it_is_and_nowhere_else(void **state)
+TEST(a_stroke_changes_phase_where_it_is_and_nowhere_else)
 {
-    (void)state;
     struct studio s;
     studio_open(&s);
     session_key(&s.session, 'K', 0);
@@ -134,9 +133,8 @@ static void a_stroke_changes_phase_where_it_is_and_nowhere_else(void **state)
     studio_close(&s);
 }
 
-static void undo_and_redo_are_exact(void **state)
+TEST(undo_and_redo_are_exact)
 {
-    (void)state;
     struct studio s;
     studio_open(&s);
     session_key(&s.session, 'K', 0);
@@ -177,9 +175,8 @@ static void undo_and_redo_are_exact(void **state)
 }
 
 /// Only the press, which makes room for the stroke, may allocate.
-static void a_stroke_allocates_nothing_as_it_goes_on(void **state)
+TEST(a_stroke_allocates_nothing_as_it_goes_on)
 {
-    (void)state;
     struct studio s;
     studio_open(&s);
     session_key(&s.session, 'K', 0);
@@ -205,9 +202,8 @@ static double mean_lead(const struct studio *s)
     return sum / rig_of(s)->painted->vertices;
 }
 
-static void modes_and_modifiers_do_what_they_say(void **state)
+TEST(modes_and_modifiers_do_what_they_say)
 {
-    (void)state;
     struct studio s;
     studio_open(&s);
     panel_click(&s.session, "paint.on");
@@ -241,9 +237,8 @@ static void modes_and_modifiers_do_what_they_say(void **state)
 }
 
 /// Soft at the rim: half way out a moment of the brush does about half of what it does in the middle, near the rim hardly anything.
-static void a_dab_fades_towards_its_rim(void **state)
+TEST(a_dab_fades_towards_its_rim)
 {
-    (void)state;
     struct studio s;
     studio_open(&s);
     session_key(&s.session, 'K', 0);
@@ -273,9 +268,8 @@ static void a_dab_fades_towards_its_rim(void **state)
 
 /// However long a stroke is held, phases in its reach differ by a quarter of a turn at most, and amplitudes by a factor of four; another
 /// stroke goes on from there.
-static void a_long_stroke_saturates(void **state)
+TEST(a_long_stroke_saturates)
 {
-    (void)state;
     struct studio s;
     studio_open(&s);
     session_key(&s.session, 'K', 0);
@@ -339,9 +333,8 @@ static void make_rough(struct studio *s)
     free(values);
 }
 
-static void smoothing_reduces_variation(void **state)
+TEST(smoothing_reduces_variation)
 {
-    (void)state;
     struct studio s;
     studio_open(&s);
     make_rough(&s);
@@ -363,9 +356,8 @@ static void smoothing_reduces_variation(void **state)
     studio_close(&s);
 }
 
-static void the_map_is_shown_and_the_rest_of_the_stage_still_turns(void **state)
+TEST(the_map_is_shown_and_the_rest_of_the_stage_still_turns)
 {
-    (void)state;
     struct studio s;
     studio_open(&s);
     const struct editor *editor = s.session.editor;
@@ -401,9 +393,8 @@ static void the_map_is_shown_and_the_rest_of_the_stage_still_turns(void **state)
 }
 
 /// A press that is released before a frame came paints all the same; paint for another model is left alone.
-static void a_click_paints_and_foreign_paint_is_left_alone(void **state)
+TEST(a_click_paints_and_foreign_paint_is_left_alone)
 {
-    (void)state;
     struct studio s;
     studio_open(&s);
     session_key(&s.session, 'K', 0);
@@ -424,9 +415,8 @@ static void a_click_paints_and_foreign_paint_is_left_alone(void **state)
 }
 
 /// On a ball the way over the surface is radius times angle.
-static void distances_follow_the_surface(void **state)
+TEST(distances_follow_the_surface)
 {
-    (void)state;
     struct character ball = puppet_character(0.05f, 0);
     struct figure figure = puppet_figure(&ball);
     struct reach reach;
@@ -452,19 +442,4 @@ static void distances_follow_the_surface(void **state)
     figure_free(&figure);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_stroke_changes_phase_where_it_is_and_nowhere_else),
-        cmocka_unit_test(undo_and_redo_are_exact),
-        cmocka_unit_test(a_stroke_allocates_nothing_as_it_goes_on),
-        cmocka_unit_test(modes_and_modifiers_do_what_they_say),
-        cmocka_unit_test(a_dab_fades_towards_its_rim),
-        cmocka_unit_test(a_long_stroke_saturates),
-        cmocka_unit_test(smoothing_reduces_variation),
-        cmocka_unit_test(the_map_is_shown_and_the_rest_of_the_stage_still_turns),
-        cmocka_unit_test(a_click_paints_and_foreign_paint_is_left_alone),
-        cmocka_unit_test(distances_follow_the_surface),
-    };
-    return cmocka_run_group_tests(tests, make_model, remove_model);
-}
+int main(void) { return tests_run(make_model, remove_model); }

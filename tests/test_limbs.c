@@ -28,9 +28,8 @@ static const struct pose *pose_at(double frame)
     return &pose.tail;
 }
 
-static void the_start_scene_breathes_and_blinks(void **state)
+TEST(the_start_scene_breathes_and_blinks)
 {
-    (void)state;
     open_scene("assets/scenes/tail.json");
     float in = 0, out = 0;
     int blinks = 0, shut = 0;
@@ -49,9 +48,8 @@ static void the_start_scene_breathes_and_blinks(void **state)
 }
 
 /// The head turns the way that the tip swings, and later than the tail's root.
-static void the_head_looks_where_the_tail_goes(void **state)
+TEST(the_head_looks_where_the_tail_goes)
 {
-    (void)state;
     static const char *const paths[] = {"assets/scenes/tail.json", "assets/scenes/follow.json"};
     for (int p = 0; p < 2; p++) {
         open_scene(paths[p]);
@@ -82,9 +80,8 @@ static float lowest(const struct pose *pose, const struct fox *fox, float (*plac
 }
 
 /// It crouches before it leaves the ground, stretches as it rises, gives way as it lands, and its feet never sink in.
-static void a_hop_is_anticipated_and_squashes(void **state)
+TEST(a_hop_is_anticipated_and_squashes)
 {
-    (void)state;
     struct fox fox;
     open_scene("assets/scenes/follow.json");
     fox_create(2, scene.document->rigs[0]->tail.joints, &fox);
@@ -103,9 +100,8 @@ static void a_hop_is_anticipated_and_squashes(void **state)
 }
 
 /// However far the parts move, the skin stays in the pose's bounds, which cameras and redraws go by.
-static void bounds_hold_the_skin(void **state)
+TEST(bounds_hold_the_skin)
 {
-    (void)state;
     static const struct limbs wild[] = {
         {.look = 1.2f, .nod = 0.6f, .ears = {1, 1}},
         {.look = -1.2f, .nod = -0.6f, .ears = {-0.5f, -0.5f}},
@@ -137,9 +133,8 @@ static void bounds_hold_the_skin(void **state)
 }
 
 /// An ear bends as a chain: its tip by more than its root. What is no ear stays with the head.
-static void ears_bend_as_chains(void **state)
+TEST(ears_bend_as_chains)
 {
-    (void)state;
     const struct limbs back = {.ears = {0.3f, 0.5f}};
     float matrix[LIMBS][16];
     limbs_matrices(&back, 1.0f, matrix);
@@ -149,9 +144,8 @@ static void ears_bend_as_chains(void **state)
 }
 
 /// What moves the body bends no joint: a wild spline on the lids leaves the tail as it is.
-static void the_body_leaves_the_tail_alone(void **state)
+TEST(the_body_leaves_the_tail_alone)
 {
-    (void)state;
     open_scene("assets/scenes/tail.json");
     const struct pose before = *pose_at(30);
     struct tail *tail = &scene.document->rigs[0]->tail;
@@ -172,9 +166,8 @@ static bool try_axis(struct history *history, int rig, int channel, enum axis ax
 }
 
 /// A channel can be given to a part of the body and back; bending chains have none, and more joints leave it as it is.
-static void axes_are_edited_and_undone(void **state)
+TEST(axes_are_edited_and_undone)
 {
-    (void)state;
     open_scene("assets/scenes/tail.json");
     struct history *history = history_create(scene.document);
     assert_true(try_axis(history, 0, 1, AXIS_NOD));
@@ -197,9 +190,8 @@ static void axes_are_edited_and_undone(void **state)
 }
 
 /// The points of pins are those of the picture, however the body moves.
-static void pins_hold_what_is_drawn(void **state)
+TEST(pins_hold_what_is_drawn)
 {
-    (void)state;
     open_scene("assets/scenes/follow.json");
     const struct pin_source source = pin_points(NULL);
     const struct tail *tail = &scene.document->rigs[0]->tail;
@@ -218,17 +210,4 @@ static void pins_hold_what_is_drawn(void **state)
     opened_free(&scene);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_start_scene_breathes_and_blinks),
-        cmocka_unit_test(the_head_looks_where_the_tail_goes),
-        cmocka_unit_test(a_hop_is_anticipated_and_squashes),
-        cmocka_unit_test(bounds_hold_the_skin),
-        cmocka_unit_test(ears_bend_as_chains),
-        cmocka_unit_test(the_body_leaves_the_tail_alone),
-        cmocka_unit_test(axes_are_edited_and_undone),
-        cmocka_unit_test(pins_hold_what_is_drawn),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return tests_run(NULL, NULL); }

@@ -49,18 +49,16 @@ static int open_edges(const struct mesh *mesh)
     return open;
 }
 
-static void the_body_is_closed(void **state)
+TEST(the_body_is_closed)
 {
-    (void)state;
     struct mesh mesh = {0};
     mesh_fox_body(0.030f, 0.0028f, 3, &mesh);
     assert_int_equal(open_edges(&mesh), 0);
     mesh_free(&mesh);
 }
 
-static void the_tail_is_open_only_inside_the_body(void **state)
+TEST(the_tail_is_open_only_inside_the_body)
 {
-    (void)state;
     enum { SEGMENTS = 40 };
     struct mesh mesh = {0};
     mesh_fox_tail(100, SEGMENTS, &mesh);
@@ -76,9 +74,8 @@ static void the_tail_is_open_only_inside_the_body(void **state)
 }
 
 /// Lighting and culling rely on it.
-static void normals_are_unit_and_agree_with_the_triangles(void **state)
+TEST(normals_are_unit_and_agree_with_the_triangles)
 {
-    (void)state;
     for (int level = 0; level < FOX_LEVELS; level++) {
         struct mesh mesh = {0};
         mesh_fox(level, &mesh);
@@ -102,9 +99,8 @@ static void normals_are_unit_and_agree_with_the_triangles(void **state)
 }
 
 /// What an eye sees as round is nowhere cut off by an edge: at 250 pixels a metre not by a pixel.
-static void silhouettes_have_no_corners(void **state)
+TEST(silhouettes_have_no_corners)
 {
-    (void)state;
     struct mesh mesh = {0};
     mesh_fox(0, &mesh);
     for (int i = 0; i < mesh.index_count; i++) {
@@ -120,9 +116,8 @@ static void silhouettes_have_no_corners(void **state)
     mesh_free(&mesh);
 }
 
-static void the_stage_stays_within_its_triangles(void **state)
+TEST(the_stage_stays_within_its_triangles)
 {
-    (void)state;
     for (int animals = 1; animals <= 8; animals++) {
         struct mesh mesh = {0};
         mesh_fox(fox_level(animals), &mesh);
@@ -131,9 +126,8 @@ static void the_stage_stays_within_its_triangles(void **state)
     }
 }
 
-static void the_body_stands_on_the_ground(void **state)
+TEST(the_body_stands_on_the_ground)
 {
-    (void)state;
     struct mesh mesh = {0};
     mesh_fox_body(0.030f, 0.0028f, 3, &mesh);
     float low = INFINITY;
@@ -143,9 +137,8 @@ static void the_body_stands_on_the_ground(void **state)
 }
 
 /// Where the tail leaves the body both skins coincide, in place, colour and bending, so that no line shows.
-static void tail_and_body_meet_smoothly(void **state)
+TEST(tail_and_body_meet_smoothly)
 {
-    (void)state;
     struct mesh mesh = {0};
     mesh_fox_body(0.030f, 0.0028f, 3, &mesh);
     int seen = 0;
@@ -164,9 +157,8 @@ static void tail_and_body_meet_smoothly(void **state)
 }
 
 /// From the root it swells to about twice as much, and its pointed tip is white.
-static void the_brush_swells_and_ends_white(void **state)
+TEST(the_brush_swells_and_ends_white)
 {
-    (void)state;
     struct mesh mesh = {0};
     mesh_fox_tail(100, 40, &mesh);
     float thickest = 0.0f, at = 0.0f;
@@ -186,9 +178,8 @@ static void the_brush_swells_and_ends_white(void **state)
 }
 
 /// The stage draws eyes and nose in the head's own space, from the front.
-static void the_face_looks_where_the_stage_draws_it(void **state)
+TEST(the_face_looks_where_the_stage_draws_it)
 {
-    (void)state;
     struct mesh mesh = {0};
     float m[16];
     int nose = 0, eyes[2] = {0, 0};
@@ -225,9 +216,8 @@ static void assert_alike(const struct gltf_part *is, const struct gltf_part *was
 }
 
 /// The tool still makes the file that is committed, and that the app has in it.
-static void the_file_is_what_its_tool_makes(void **state)
+TEST(the_file_is_what_its_tool_makes)
 {
-    (void)state;
     char path[512], command[1100];
     const char *build = getenv("B");
     struct gltf made, committed;
@@ -246,19 +236,4 @@ static void the_file_is_what_its_tool_makes(void **state)
     gltf_free(&committed);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_body_is_closed),
-        cmocka_unit_test(the_tail_is_open_only_inside_the_body),
-        cmocka_unit_test(normals_are_unit_and_agree_with_the_triangles),
-        cmocka_unit_test(silhouettes_have_no_corners),
-        cmocka_unit_test(the_stage_stays_within_its_triangles),
-        cmocka_unit_test(the_body_stands_on_the_ground),
-        cmocka_unit_test(tail_and_body_meet_smoothly),
-        cmocka_unit_test(the_brush_swells_and_ends_white),
-        cmocka_unit_test(the_face_looks_where_the_stage_draws_it),
-        cmocka_unit_test(the_file_is_what_its_tool_makes),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return tests_run(NULL, NULL); }

@@ -50,9 +50,8 @@ static double side_bend(const struct pose *pose, int n)
 
 static wiggly_value oscillation(double phase) { return (wiggly_value){.re = cos(phase), .im = sin(phase)}; }
 
-static void side_turns_about_y_and_up_lifts(void **state)
+TEST(side_turns_about_y_and_up_lifts)
 {
-    (void)state;
     static struct pose pose;
     const wiggly_value one = {.y = 1.0};
     struct tail tail = plain_tail(AXIS_SIDE);
@@ -67,9 +66,8 @@ static void side_turns_about_y_and_up_lifts(void **state)
     assert_near(pose.matrix[JOINTS][12], 0.1, 1e-5);
 }
 
-static void rest_bends_without_any_channel(void **state)
+TEST(rest_bends_without_any_channel)
 {
-    (void)state;
     static struct pose pose;
     struct tail tail = plain_tail(AXIS_SIDE);
     tail.channel_count = 0;
@@ -82,9 +80,8 @@ static void rest_bends_without_any_channel(void **state)
     assert_near(pose.matrix[JOINTS][14], 0.3, 1e-5);
 }
 
-static void segments_keep_their_length_and_frames_stay_square(void **state)
+TEST(segments_keep_their_length_and_frames_stay_square)
 {
-    (void)state;
     static struct pose pose;
     struct tail tail = plain_tail(AXIS_SIDE);
     channels[1] = channels[0];
@@ -109,9 +106,8 @@ static void segments_keep_their_length_and_frames_stay_square(void **state)
 }
 
 /// A channel of the displacement leaves the equilibrium, the base's own motion, out; moving takes the whole pose along.
-static void displacement_leaves_out_what_the_base_does(void **state)
+TEST(displacement_leaves_out_what_the_base_does)
 {
-    (void)state;
     static struct pose pose, moved;
     struct tail tail = plain_tail(AXIS_SIDE);
     const wiggly_value value = {.y = 7.0, .re = 0.4, .im = 0.3}, apart = {.re = 0.4, .im = 0.3};
@@ -126,9 +122,8 @@ static void displacement_leaves_out_what_the_base_does(void **state)
 }
 
 /// Joint n now bends as the base did n·lag earlier.
-static void every_joint_lags_behind_the_base(void **state)
+TEST(every_joint_lags_behind_the_base)
 {
-    (void)state;
     static struct pose now, before;
     const struct tail tail = plain_tail(AXIS_SIDE);
     const double phase = 1.1, lag = 6.5 * turn / 360.0;
@@ -142,9 +137,8 @@ static void every_joint_lags_behind_the_base(void **state)
     assert_true(fabs(side_bend(&now, JOINTS - 1) - side_bend(&now, 0)) > 0.02);
 }
 
-static void the_stiff_look_moves_all_joints_in_phase(void **state)
+TEST(the_stiff_look_moves_all_joints_in_phase)
 {
-    (void)state;
     static struct pose pose;
     const struct tail tail = plain_tail(AXIS_SIDE);
     const wiggly_value value = oscillation(1.1);
@@ -152,9 +146,8 @@ static void the_stiff_look_moves_all_joints_in_phase(void **state)
     for (int n = 1; n < JOINTS; n++) assert_near(side_bend(&pose, n), side_bend(&pose, 0), 1e-6);
 }
 
-static void arrays_give_each_joint_its_own_lag_and_gain(void **state)
+TEST(arrays_give_each_joint_its_own_lag_and_gain)
 {
-    (void)state;
     static struct pose pose;
     const struct tail tail = plain_tail(AXIS_SIDE);
     channels[0].lag.form = channels[0].gain.form = ANGLES_EACH;
@@ -167,9 +160,8 @@ static void arrays_give_each_joint_its_own_lag_and_gain(void **state)
     assert_near(side_bend(&pose, 8), 0.0, 1e-6);
 }
 
-static void the_longest_chain_fits(void **state)
+TEST(the_longest_chain_fits)
 {
-    (void)state;
     static struct pose pose;
     struct tail tail = plain_tail(AXIS_SIDE);
     tail.joints = TAIL_MAX_JOINTS;
@@ -221,7 +213,7 @@ static double distance(const float a[3], const float b[3])
     return sqrt(pow(a[0] - b[0], 2.0) + pow(a[1] - b[1], 2.0) + pow(a[2] - b[2], 2.0));
 }
 
-static void the_default_scene_is_made_of_few_knots(void **state)
+TEST_WITH(open_scene, close_scene, the_default_scene_is_made_of_few_knots)
 {
     const struct scene *scene = *state;
     int knots = 0;
@@ -233,7 +225,7 @@ static void the_default_scene_is_made_of_few_knots(void **state)
 }
 
 /// Positions and velocities from frame to frame change no more where the loop closes than elsewhere.
-static void the_default_scene_loops_without_a_pop(void **state)
+TEST_WITH(open_scene, close_scene, the_default_scene_loops_without_a_pop)
 {
     static struct pose poses[LOOP_FRAMES];
     for (int f = 0; f < LOOP_FRAMES; f++) pose_at(*state, f, &poses[f]);
@@ -258,7 +250,7 @@ static void the_default_scene_loops_without_a_pop(void **state)
     assert_near(distance(last.matrix[JOINTS] + 12, poses[0].matrix[JOINTS] + 12), 0.0, 1e-5);
 }
 
-static void the_default_scene_swings_widely_above_the_ground(void **state)
+TEST_WITH(open_scene, close_scene, the_default_scene_swings_widely_above_the_ground)
 {
     static struct pose pose;
     float low = INFINITY, left = INFINITY, right = -INFINITY;
@@ -280,9 +272,8 @@ static void the_default_scene_swings_widely_above_the_ground(void **state)
 }
 
 /// The body stands where its height says, on 0 where that follows a spline, wherever it is to the side.
-static void the_ground_is_below_the_base(void **state)
+TEST(the_ground_is_below_the_base)
 {
-    (void)state;
     static struct pose pose;
     struct tail tail = plain_tail(AXIS_SIDE);
     tail.channel_count = 0;
@@ -299,9 +290,8 @@ static void the_ground_is_below_the_base(void **state)
 }
 
 /// Curled into a ring over the back, or into one below the feet: what redraws and cameras go by holds the skin.
-static void bounds_hold_a_curled_tail(void **state)
+TEST(bounds_hold_a_curled_tail)
 {
-    (void)state;
     static struct pose pose;
     struct fox fox;
     fox_create(1, JOINTS, &fox);
@@ -325,9 +315,8 @@ static void bounds_hold_a_curled_tail(void **state)
 }
 
 /// A tail that lies on the ground throws more shadow than one held up; both stay within the room given.
-static void shadows_are_stronger_near_the_ground(void **state)
+TEST(shadows_are_stronger_near_the_ground)
 {
-    (void)state;
     static struct pose pose;
     struct shadow_blob blobs[32];
     struct tail tail = plain_tail(AXIS_SIDE);
@@ -351,9 +340,8 @@ static void shadows_are_stronger_near_the_ground(void **state)
 }
 
 /// The higher an animal hops, the weaker the shadow under its body: what is left falls to 1 : e in a third of its size.
-static void a_hop_takes_the_shadow_along(void **state)
+TEST(a_hop_takes_the_shadow_along)
 {
-    (void)state;
     static struct pose pose;
     static const float overhead[3] = {0, 1, 0};
     struct shadow_blob blobs[2][32];
@@ -371,24 +359,4 @@ static void a_hop_takes_the_shadow_along(void **state)
     for (int b = 0; b < 3; b++) assert_near((double)(blobs[1][b].strength / blobs[0][b].strength), exp(-1), 0.02);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(side_turns_about_y_and_up_lifts),
-        cmocka_unit_test(rest_bends_without_any_channel),
-        cmocka_unit_test(segments_keep_their_length_and_frames_stay_square),
-        cmocka_unit_test(displacement_leaves_out_what_the_base_does),
-        cmocka_unit_test(every_joint_lags_behind_the_base),
-        cmocka_unit_test(the_stiff_look_moves_all_joints_in_phase),
-        cmocka_unit_test(arrays_give_each_joint_its_own_lag_and_gain),
-        cmocka_unit_test(the_longest_chain_fits),
-        cmocka_unit_test_setup_teardown(the_default_scene_is_made_of_few_knots, open_scene, close_scene),
-        cmocka_unit_test_setup_teardown(the_default_scene_loops_without_a_pop, open_scene, close_scene),
-        cmocka_unit_test_setup_teardown(the_default_scene_swings_widely_above_the_ground, open_scene, close_scene),
-        cmocka_unit_test(the_ground_is_below_the_base),
-        cmocka_unit_test(bounds_hold_a_curled_tail),
-        cmocka_unit_test(shadows_are_stronger_near_the_ground),
-        cmocka_unit_test(a_hop_takes_the_shadow_along),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return tests_run(NULL, NULL); }

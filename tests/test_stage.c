@@ -69,9 +69,8 @@ static int set_up(void **state)
     return offscreen_open(WIDTH, HEIGHT);
 }
 
-static void the_tail_is_drawn_where_its_joints_are(void **state)
+TEST(the_tail_is_drawn_where_its_joints_are)
 {
-    (void)state;
     if (!platform) skip();
     for (int side = -3; side <= 3; side += 2) {
         arrange(side);
@@ -84,9 +83,8 @@ static void the_tail_is_drawn_where_its_joints_are(void **state)
     }
 }
 
-static void where_nothing_is_the_background_is_dark_and_even(void **state)
+TEST(where_nothing_is_the_background_is_dark_and_even)
 {
-    (void)state;
     if (!platform) skip();
     arrange(1.0);
     draw();
@@ -98,9 +96,8 @@ static void where_nothing_is_the_background_is_dark_and_even(void **state)
     }
 }
 
-static void the_ground_is_darker_under_the_animal(void **state)
+TEST(the_ground_is_darker_under_the_animal)
 {
-    (void)state;
     if (!platform) skip();
     arrange(1.0);
     const float beside[3] = {0.32f, 0.0f, -0.25f}; // on the near side of the body, nothing in front
@@ -114,12 +111,11 @@ static void the_ground_is_darker_under_the_animal(void **state)
 }
 
 /// Reeds stand where they are planted, and nothing else of the picture changes.
-static void a_meadow_is_drawn_where_it_stands(void **state)
+TEST(a_meadow_is_drawn_where_it_stands)
 {
     static unsigned char without[HEIGHT][WIDTH][4];
     static const struct stage_reed reed = {.place = {0.5f, 0, -0.4f}, .height = 0.5f, .shade = 0.5f, .width = 0.06f};
     const float middle[3] = {0.5f, 0.2f, -0.4f};
-    (void)state;
     if (!platform) skip();
     arrange(1.0);
     draw();
@@ -137,9 +133,8 @@ static void a_meadow_is_drawn_where_it_stands(void **state)
 
 /// Without multisampling: coming from the left, edges of the animal cross rows of pixels at any fraction of a pixel, so
 /// that the first pixel that differs from the background is as often weak as strong.
-static void silhouettes_are_soft(void **state)
+TEST(silhouettes_are_soft)
 {
-    (void)state;
     if (!platform) skip();
     arrange(0.0);
     draw();
@@ -225,9 +220,8 @@ static void skin_places(struct vertex places[3 * PLACES])
 }
 
 /// The normal of the skin is that of its surface, by finite differences.
-static void normals_are_right_under_bending(void **state)
+TEST(normals_are_right_under_bending)
 {
-    (void)state;
     static struct vertex places[3 * PLACES];
     static struct skinned out[3 * PLACES];
     skin_places(places);
@@ -249,9 +243,8 @@ static void normals_are_right_under_bending(void **state)
 }
 
 /// Files have room for four influences a vertex, whose sum is 1, however many joints the tail has.
-static void influences_fit_files(void **state)
+TEST(influences_fit_files)
 {
-    (void)state;
     static const int joints[] = {1, 2, 3, 24, 256};
     for (size_t n = 0; n < sizeof joints / sizeof *joints; n++) {
         struct fox own;
@@ -270,9 +263,8 @@ static void influences_fit_files(void **state)
 }
 
 /// However tight a bend, places are finite and normals unit vectors: the picture has no holes and no sparks.
-static void extreme_bends_stay_finite(void **state)
+TEST(extreme_bends_stay_finite)
 {
-    (void)state;
     static struct vertex places[3 * PLACES];
     static struct skinned out[3 * PLACES];
     skin_places(places);
@@ -289,9 +281,8 @@ static void extreme_bends_stay_finite(void **state)
 }
 
 /// A straight tail is where it was made; a bent one keeps to its chain of joints.
-static void skin_follows_the_joints(void **state)
+TEST(skin_follows_the_joints)
 {
-    (void)state;
     static struct vertex axis[JOINTS];
     static struct skinned out[JOINTS];
     for (int n = 0; n < JOINTS; n++) {
@@ -307,18 +298,4 @@ static void skin_follows_the_joints(void **state)
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_tail_is_drawn_where_its_joints_are),
-        cmocka_unit_test(where_nothing_is_the_background_is_dark_and_even),
-        cmocka_unit_test(the_ground_is_darker_under_the_animal),
-        cmocka_unit_test(a_meadow_is_drawn_where_it_stands),
-        cmocka_unit_test(silhouettes_are_soft),
-        cmocka_unit_test(normals_are_right_under_bending),
-        cmocka_unit_test(influences_fit_files),
-        cmocka_unit_test(extreme_bends_stay_finite),
-        cmocka_unit_test(skin_follows_the_joints),
-    };
-    return cmocka_run_group_tests(tests, set_up, offscreen_close);
-}
+int main(void) { return tests_run(set_up, offscreen_close); }
