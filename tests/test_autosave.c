@@ -66,9 +66,8 @@ static char *recovered_text(struct recovery_entry *entry)
 }
 
 /// Nothing while nothing is unsaved; the first edit at once, later ones a second apart; gone with the save.
-static void test_when(void **state)
+TEST_WITH(folder_make, folder_remove, test_when)
 {
-    (void)state;
     struct world world;
     world_open(&world);
     struct autosave *autosave = open_autosave();
@@ -96,9 +95,8 @@ static void test_when(void **state)
 }
 
 /// What is left behind is the document, byte for byte, with its path; it is offered once nobody runs on it any more.
-static void test_left_behind(void **state)
+TEST_WITH(folder_make, folder_remove, test_left_behind)
 {
-    (void)state;
     struct world world;
     struct error error = {0};
     struct recovery_entry entry;
@@ -128,9 +126,8 @@ static void test_left_behind(void **state)
 }
 
 /// Several left behind: the newest comes first, and the number is told.
-static void test_newest_first(void **state)
+TEST_WITH(folder_make, folder_remove, test_newest_first)
 {
-    (void)state;
     struct recovery_slot slots[3];
     struct recovery_entry entry;
     struct error error = {0};
@@ -157,9 +154,8 @@ static void test_newest_first(void **state)
 }
 
 /// The document's own path comes back whole, up to the longest that the system takes, with whatever a name may hold.
-static void test_paths(void **state)
+TEST_WITH(folder_make, folder_remove, test_paths)
 {
-    (void)state;
     static const struct {
         size_t length;
         const char *end;
@@ -197,9 +193,8 @@ static void test_paths(void **state)
 }
 
 /// A path that is no text is left out; the work is kept.
-static void test_path_that_is_no_text(void **state)
+TEST_WITH(folder_make, folder_remove, test_path_that_is_no_text)
 {
-    (void)state;
     struct world world;
     struct error error = {0};
     struct recovery_entry entry;
@@ -219,9 +214,8 @@ static void test_path_that_is_no_text(void **state)
 }
 
 /// A folder that cannot be written any more is said once, and tried again.
-static void test_cannot_write(void **state)
+TEST_WITH(folder_make, folder_remove, test_cannot_write)
 {
-    (void)state;
     struct world world;
     struct error error = {0};
     world_open(&world);
@@ -258,9 +252,8 @@ static void save_for_ever(const char *path, struct document *small, struct docum
 }
 
 /// kill −9 at any moment of a save leaves the old document or the new one, whole.
-static void test_killed_while_saving(void **state)
+TEST_WITH(folder_make, folder_remove, test_killed_while_saving)
 {
-    (void)state;
     struct world small, large;
     char path[80];
     struct error error = {0};
@@ -298,16 +291,4 @@ static void test_killed_while_saving(void **state)
     world_close(&large);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(test_when, folder_make, folder_remove),
-        cmocka_unit_test_setup_teardown(test_left_behind, folder_make, folder_remove),
-        cmocka_unit_test_setup_teardown(test_newest_first, folder_make, folder_remove),
-        cmocka_unit_test_setup_teardown(test_paths, folder_make, folder_remove),
-        cmocka_unit_test_setup_teardown(test_path_that_is_no_text, folder_make, folder_remove),
-        cmocka_unit_test_setup_teardown(test_cannot_write, folder_make, folder_remove),
-        cmocka_unit_test_setup_teardown(test_killed_while_saving, folder_make, folder_remove),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return tests_run(NULL, NULL); }

@@ -150,9 +150,8 @@ static void assert_of_one_moment(struct session *session)
     free(after);
 }
 
-static void edits(void **state)
+TEST_WITH(folder_make, folder_remove, edits)
 {
-    (void)state;
     struct session session;
     open_session(&session);
     assert_edit_is_kept(&session);
@@ -162,9 +161,8 @@ static void edits(void **state)
 }
 
 /// A program that is killed before the next copy leaves the last ones that were written.
-static void a_kill(void **state)
+TEST_WITH(folder_make, folder_remove, a_kill)
 {
-    (void)state;
     struct recovery_entry entry;
     struct error error = {0};
     int status;
@@ -191,11 +189,4 @@ static void a_kill(void **state)
     document_destroy(document);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(edits, folder_make, folder_remove),
-        cmocka_unit_test_setup_teardown(a_kill, folder_make, folder_remove),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return tests_run(NULL, NULL); }

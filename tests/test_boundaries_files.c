@@ -51,9 +51,8 @@ static char *filled(size_t size, char with)
 }
 
 /// A file of 1 MiB, in lines of 2,048 bytes.
-static void settings_of_a_size(void **state)
+TEST_WITH(folder_make, folder_remove, settings_of_a_size)
 {
-    (void)state;
     enum { MOST = 1 << 20 };
     for (size_t size = MOST - 1; size <= MOST + 1; size++) {
         struct error error;
@@ -72,9 +71,8 @@ static void settings_of_a_size(void **state)
 }
 
 /// The line above the limit is not dropped without a word.
-static void settings_of_many_lines(void **state)
+TEST_WITH(folder_make, folder_remove, settings_of_many_lines)
 {
-    (void)state;
     for (int lines = 999; lines <= 1001; lines++) {
         struct error error;
         char *text = filled(2 * (size_t)lines, '#');
@@ -89,9 +87,8 @@ static void settings_of_many_lines(void **state)
 }
 
 /// At 1 GiB they are read and refused for what they hold; that is not done here.
-static void work_of_a_size(void **state)
+TEST_WITH(folder_make, folder_remove, work_of_a_size)
 {
-    (void)state;
     const size_t above = ((size_t)1 << 30) + 1;
     struct error error = {0};
     assert_null(paint_read(hole("paint.npy", "", 0, above), &error));
@@ -99,9 +96,8 @@ static void work_of_a_size(void **state)
 }
 
 /// The pictures of an OBJ's materials: one of 256 MiB, and one of a byte more.
-static void pictures_of_a_size(void **state)
+TEST_WITH(folder_make, folder_remove, pictures_of_a_size)
 {
-    (void)state;
     enum { MOST = 256 << 20 };
     static const char obj[] = "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl a\nf 1 2 3\n",
                       mtl[] = "newmtl a\nmap_Kd a.png\n", png[] = "\x89PNG\r\n\x1a\n";
@@ -126,9 +122,8 @@ static void store(void *user, const void *bytes, size_t size)
 }
 
 /// 16,384 pixels a side, read and written.
-static void pictures_of_a_width(void **state)
+TEST_WITH(folder_make, folder_remove, pictures_of_a_width)
 {
-    (void)state;
     enum { MOST = 16384 };
     static const char gltf[] = "{\"asset\":{\"version\":\"2.0\"},\"nodes\":[{}],\"images\":[{\"uri\":\"a.png\"}],"
                                "\"textures\":[{\"source\":0}],\"materials\":[{\"pbrMetallicRoughness\":"
@@ -181,9 +176,8 @@ static bool read_nodes(size_t bytes, int nodes, bool more, struct error *error)
 }
 
 /// 2^24 − 1 vertices together, and with another triangle 2^24 + 2; triangles have three. In a small file 2^23 and 32 for each of its bytes.
-static void vertices_of_a_model(void **state)
+TEST_WITH(folder_make, folder_remove, vertices_of_a_model)
 {
-    (void)state;
     struct error error = {0};
     if (!is_thorough()) skip();
     if (!read_nodes(2 << 20, 4097, false, &error)) fail_msg("%s", error.text);
@@ -196,9 +190,8 @@ static void vertices_of_a_model(void **state)
 }
 
 /// Coordinates that move no vertex take no byte of the file: a small one has few.
-static void vertices_of_a_character(void **state)
+TEST_WITH(folder_make, folder_remove, vertices_of_a_character)
 {
-    (void)state;
     enum { VERTICES = 1 << 18, BYTES = 12 * VERTICES, FEW = 8 };
     for (int coordinates = FEW; coordinates <= 8 * FEW; coordinates *= 8) {
         struct character character;
@@ -229,9 +222,8 @@ static void vertices_of_a_character(void **state)
 }
 
 /// 16 MiB of text on the clipboard.
-static void text_on_the_clipboard(void **state)
+TEST_WITH(folder_make, folder_remove, text_on_the_clipboard)
 {
-    (void)state;
     enum { MOST = 16 << 20 };
     struct blind blind;
     blind_open(&blind, NULL);
@@ -258,9 +250,8 @@ static void replay_says(const char *rest, const char *fragment)
     replay_destroy(replay);
 }
 
-static void frames_of_a_replay(void **state)
+TEST_WITH(folder_make, folder_remove, frames_of_a_replay)
 {
-    (void)state;
     replay_says("frames 9999999\n", NULL);
     replay_says("frames 10000000\n9999999 close\n", NULL);
     replay_says("frames 10000001\n", "r:4: expected a number of frames up to 10000000, got \"10000001\"");
@@ -269,9 +260,8 @@ static void frames_of_a_replay(void **state)
 }
 
 /// A letter beyond what is kept of a field of CSV would change its number without a word.
-static void letters_of_a_number(void **state)
+TEST_WITH(folder_make, folder_remove, letters_of_a_number)
 {
-    (void)state;
     for (int zeros = 58; zeros <= 60; zeros++) {
         char text[128];
         struct knot_list list;
@@ -296,9 +286,8 @@ static void count_warning(void *user, bool is_error, const char *sentence)
     last_warning += strstr(sentence, "further unknown keys are kept silently") != NULL;
 }
 
-static void unknown_keys(void **state)
+TEST_WITH(folder_make, folder_remove, unknown_keys)
 {
-    (void)state;
     for (int keys = 63; keys <= 65; keys++) {
         struct text text = {0};
         struct error error = {0};
@@ -329,9 +318,8 @@ static void take_name(const char *format, int number)
 }
 
 /// The temporary files of a save: this process has written a hundred there already.
-static void names_of_temporary_files(void **state)
+TEST_WITH(folder_make, folder_remove, names_of_temporary_files)
 {
-    (void)state;
     struct error error = {0};
     char format[64];
     snprintf(format, sizeof format, ".wiggly-%ld-%%d.tmp", (long)getpid());
@@ -348,9 +336,8 @@ static void names_of_temporary_files(void **state)
 }
 
 /// Rescued scenes beside the scene's own file; with a thousand there, the next goes to the home folder.
-static void names_of_rescued_scenes(void **state)
+TEST_WITH(folder_make, folder_remove, names_of_rescued_scenes)
 {
-    (void)state;
     static const char scene[] =
         "{\"wiggly\": 1, \"frames\": [0, 48], \"splines\": [{\"name\": \"s\", \"knots\": []}]}";
     char *home = getenv("HOME") ? strdup(getenv("HOME")) : NULL, own[80];
@@ -378,17 +365,4 @@ static void names_of_rescued_scenes(void **state)
     free(home);
 }
 
-#undef TEST
-#define TEST(name) cmocka_unit_test_setup_teardown(name, folder_make, folder_remove)
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        TEST(settings_of_a_size),      TEST(settings_of_many_lines), TEST(work_of_a_size),
-        TEST(pictures_of_a_size),      TEST(pictures_of_a_width),    TEST(vertices_of_a_model),
-        TEST(vertices_of_a_character), TEST(text_on_the_clipboard),  TEST(frames_of_a_replay),
-        TEST(letters_of_a_number),     TEST(unknown_keys),           TEST(names_of_temporary_files),
-        TEST(names_of_rescued_scenes),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return tests_run(NULL, NULL); }

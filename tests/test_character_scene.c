@@ -28,9 +28,8 @@ static const char whole[] = SCENE(
     " \"spline\": \"s\", \"amplitude\": 0.5, \"lag\": 30, \"tint\": \"red\"}, {\"name\": \"side\", \"spline\":"
     " \"t\"}], \"paint\": \"a.npy\"}, {\"type\": \"tail\", \"name\": \"tail\"}");
 
-static void a_character_is_read(void **state)
+TEST(a_character_is_read)
 {
-    (void)state;
     struct document *document = parse(whole);
     assert_int_equal(document_count_rigs(document, RIG_CHARACTER), 1);
     assert_int_equal(document_count_rigs(document, RIG_TAIL), 1);
@@ -48,9 +47,8 @@ static void a_character_is_read(void **state)
 }
 
 /// The order of the rigs and what the file says beyond what we know are kept, and printing is stable.
-static void it_is_printed_as_it_was_read(void **state)
+TEST(it_is_printed_as_it_was_read)
 {
-    (void)state;
     struct document *document = parse(whole);
     size_t size;
     char *text = scene_print(document, &size);
@@ -67,9 +65,8 @@ static void it_is_printed_as_it_was_read(void **state)
     document_destroy(again);
 }
 
-static void bad_characters_are_refused(void **state)
+TEST(bad_characters_are_refused)
 {
-    (void)state;
     static const struct {
         const char *text, *sentence;
     } cases[] = {
@@ -111,9 +108,8 @@ static void end(struct history *history, bool done)
     history_end(history);
 }
 
-static void edits_are_undone_to_the_byte(void **state)
+TEST(edits_are_undone_to_the_byte)
 {
-    (void)state;
     struct document *document = parse(whole);
     struct history *history = history_create(document);
     size_t size;
@@ -159,9 +155,8 @@ static void assert_order(const struct document *document, const char *order)
 }
 
 /// Tails come and go before and behind a character, which keeps its place in the file and what moves it.
-static void rigs_keep_their_order(void **state)
+TEST(rigs_keep_their_order)
 {
-    (void)state;
     struct document *document =
         parse(SCENE("{\"type\": \"tail\", \"name\": \"a\"}, {\"type\": \"character\", \"model\":"
                     " \"a.glb\"}, {\"type\": \"tail\", \"name\": \"b\"}"));
@@ -186,9 +181,8 @@ static void rigs_keep_their_order(void **state)
     document_destroy(document);
 }
 
-static void impossible_edits_are_refused(void **state)
+TEST(impossible_edits_are_refused)
 {
-    (void)state;
     struct document *document = parse(whole);
     struct history *history = history_create(document);
     const struct drive good = {.amplitude = 1}, other = {.spline = 2}, endless = {.amplitude = (double)INFINITY};
@@ -213,9 +207,8 @@ static void impossible_edits_are_refused(void **state)
 }
 
 /// Splines move in their list, and what moves the character goes with them; one that moves it stays.
-static void drives_follow_their_splines(void **state)
+TEST(drives_follow_their_splines)
 {
-    (void)state;
     struct document *document = parse(whole);
     struct history *history = history_create(document);
     end(history, edit_spline_move(begin(history, document), 0, 1, NULL));
@@ -229,9 +222,8 @@ static void drives_follow_their_splines(void **state)
     document_destroy(document);
 }
 
-static void paths_are_rebased(void **state)
+TEST(paths_are_rebased)
 {
-    (void)state;
     static const struct {
         const char *path, *from, *to, *moved;
     } cases[] = {
@@ -250,9 +242,8 @@ static void paths_are_rebased(void **state)
 }
 
 /// "Save as" into another folder: the file there leads to the same model; the document that goes on keeps its folder.
-static void a_scene_saved_elsewhere_finds_its_model(void **state)
+TEST(a_scene_saved_elsewhere_finds_its_model)
 {
-    (void)state;
     char folder[] = "/tmp/wiggly-test-XXXXXX", deeper[64], path[128], absolute[PATH_LIMIT];
     assert_non_null(mkdtemp(folder));
     snprintf(deeper, sizeof deeper, "%s/deeper", folder);
@@ -279,18 +270,4 @@ static void a_scene_saved_elsewhere_finds_its_model(void **state)
     rmdir(folder);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_character_is_read),
-        cmocka_unit_test(it_is_printed_as_it_was_read),
-        cmocka_unit_test(bad_characters_are_refused),
-        cmocka_unit_test(edits_are_undone_to_the_byte),
-        cmocka_unit_test(rigs_keep_their_order),
-        cmocka_unit_test(impossible_edits_are_refused),
-        cmocka_unit_test(drives_follow_their_splines),
-        cmocka_unit_test(paths_are_rebased),
-        cmocka_unit_test(a_scene_saved_elsewhere_finds_its_model),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return tests_run(NULL, NULL); }

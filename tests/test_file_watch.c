@@ -70,9 +70,8 @@ static void open_changed(struct blind *blind)
     assert_true(holds(scene(), "theirs"));
 }
 
-static void keep_mine_writes_it(void **state)
+TEST(keep_mine_writes_it)
 {
-    (void)state;
     struct blind blind;
     open_changed(&blind);
     press(&blind, 'K', 0);
@@ -85,9 +84,8 @@ static void keep_mine_writes_it(void **state)
     blind_close(&blind);
 }
 
-static void take_theirs_can_be_undone(void **state)
+TEST(take_theirs_can_be_undone)
 {
-    (void)state;
     struct blind blind;
     open_changed(&blind);
     press(&blind, 'T', 0);
@@ -103,9 +101,8 @@ static void take_theirs_can_be_undone(void **state)
 }
 
 /// Theirs is no scene any more: the sentence says so, and mine stays on the table.
-static void broken_theirs_is_not_taken(void **state)
+TEST(broken_theirs_is_not_taken)
 {
-    (void)state;
     struct blind blind;
     open_changed(&blind);
     write_scene("{");
@@ -118,9 +115,8 @@ static void broken_theirs_is_not_taken(void **state)
     blind_close(&blind);
 }
 
-static void save_as_keeps_both(void **state)
+TEST(save_as_keeps_both)
 {
-    (void)state;
     struct blind blind;
     open_changed(&blind);
     press(&blind, KEY_ENTER, 0); // the one that loses nothing
@@ -134,9 +130,8 @@ static void save_as_keeps_both(void **state)
 }
 
 /// "Save as" under the same name is a save, too.
-static void save_as_over_theirs_asks(void **state)
+TEST(save_as_over_theirs_asks)
 {
-    (void)state;
     struct blind blind;
     open_mine(&blind);
     write_scene(theirs);
@@ -147,9 +142,8 @@ static void save_as_over_theirs_asks(void **state)
     blind_close(&blind);
 }
 
-static void cancel_writes_nothing(void **state)
+TEST(cancel_writes_nothing)
 {
-    (void)state;
     struct blind blind;
     open_changed(&blind);
     press(&blind, KEY_ESCAPE, 0);
@@ -162,9 +156,8 @@ static void cancel_writes_nothing(void **state)
 }
 
 /// Saving on the way out asks as well, and the way out goes on afterwards.
-static void quitting_asks_as_well(void **state)
+TEST(quitting_asks_as_well)
 {
-    (void)state;
     struct blind blind;
     open_mine(&blind);
     write_scene(theirs);
@@ -179,9 +172,8 @@ static void quitting_asks_as_well(void **state)
     blind_close(&blind);
 }
 
-static void focus_asks_once_a_change(void **state)
+TEST(focus_asks_once_a_change)
 {
-    (void)state;
     struct blind blind;
     open_mine(&blind);
     focus(&blind);
@@ -204,9 +196,8 @@ static void focus_asks_once_a_change(void **state)
 }
 
 /// Touched, written over with the same content, or copied onto itself: that is no other file.
-static void the_same_content_is_no_change(void **state)
+TEST(the_same_content_is_no_change)
 {
-    (void)state;
     struct blind blind;
     open_mine(&blind);
     press(&blind, 'S', MOD_CTRL);
@@ -226,9 +217,8 @@ static void the_same_content_is_no_change(void **state)
 }
 
 /// The same size, and the same time to the second: what is in it tells.
-static void the_content_counts(void **state)
+TEST(the_content_counts)
 {
-    (void)state;
     struct blind blind;
     open_mine(&blind);
     struct stat about;
@@ -241,9 +231,8 @@ static void the_content_counts(void **state)
     blind_close(&blind);
 }
 
-static void the_mouse_answers(void **state)
+TEST(the_mouse_answers)
 {
-    (void)state;
     static const char *const labels[] = {"Take theirs", "Save as", "Cancel", "Keep mine"};
     for (int i = 0; i < 4; i++) {
         struct blind blind;
@@ -281,9 +270,8 @@ static void crash(struct blind *blind)
 
 /// What is recovered began with a file that may be another by now: written before the work was kept, or between the crash and the next
 /// start. It is asked about once more where a second crash follows.
-static void what_others_wrote_before_recovery_is_noticed(void **state)
+TEST(what_others_wrote_before_recovery_is_noticed)
 {
-    (void)state;
     enum { NEVER, ONCE_KEPT, BEFORE };
     for (int when = NEVER; when <= BEFORE; when++) {
         struct blind blind;
@@ -333,9 +321,8 @@ static const char *said(struct blind *blind, enum request_kind kind, const char 
 }
 
 /// Opening one would wait for whoever is at its other end; the app goes on, and the work stays unsaved.
-static void a_pipe_is_neither_read_nor_written(void **state)
+TEST(a_pipe_is_neither_read_nor_written)
 {
-    (void)state;
     static const struct {
         enum request_kind kind;
         const char *name;
@@ -372,22 +359,4 @@ static void a_pipe_is_neither_read_nor_written(void **state)
     blind_close(&blind);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(keep_mine_writes_it),
-        cmocka_unit_test(take_theirs_can_be_undone),
-        cmocka_unit_test(broken_theirs_is_not_taken),
-        cmocka_unit_test(save_as_keeps_both),
-        cmocka_unit_test(save_as_over_theirs_asks),
-        cmocka_unit_test(cancel_writes_nothing),
-        cmocka_unit_test(quitting_asks_as_well),
-        cmocka_unit_test(focus_asks_once_a_change),
-        cmocka_unit_test(the_same_content_is_no_change),
-        cmocka_unit_test(the_content_counts),
-        cmocka_unit_test(the_mouse_answers),
-        cmocka_unit_test(what_others_wrote_before_recovery_is_noticed),
-        cmocka_unit_test(a_pipe_is_neither_read_nor_written),
-    };
-    return cmocka_run_group_tests(tests, prepare, folder_remove);
-}
+int main(void) { return tests_run(prepare, folder_remove); }

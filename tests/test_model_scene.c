@@ -89,9 +89,8 @@ static void assert_prints(const struct document *document, const char *expected)
     free(text);
 }
 
-static void what_is_printed_is_read_again(void **state)
+TEST(what_is_printed_is_read_again)
 {
-    (void)state;
     struct document *document = parse(whole);
     assert_prints(document, whole);
     const struct chain *chain = &document->rigs[TAIL]->chain;
@@ -104,9 +103,8 @@ static void what_is_printed_is_read_again(void **state)
     document_destroy(document);
 }
 
-static void a_file_may_leave_out_what_is_usual(void **state)
+TEST(a_file_may_leave_out_what_is_usual)
 {
-    (void)state;
     struct document *document =
         parse("{\"frames\": [0, 9], \"rigs\": [{\"type\": \"chain\", \"model\": \"a.glb\","
               " \"from\": \"b\", \"to\": \"b\"}, {\"type\": \"model\", \"model\": \"a.glb\"}]}");
@@ -120,9 +118,8 @@ static void a_file_may_leave_out_what_is_usual(void **state)
 }
 
 /// A copy of each kind of rig prints alike, and shares nothing with its original.
-static void every_kind_of_rig_can_be_copied(void **state)
+TEST(every_kind_of_rig_can_be_copied)
 {
-    (void)state;
     static const char character[] =
         "{\"frames\": [0, 9], \"splines\": [{\"name\": \"s\"}], \"rigs\": [{\"type\": \"character\", \"model\":"
         " \"a.glb\", \"paint\": \"a.npy\", \"coordinates\": [{\"name\": \"up\", \"spline\": \"s\"}]},"
@@ -148,9 +145,8 @@ static void every_kind_of_rig_can_be_copied(void **state)
 }
 
 /// A chain that names its model by the file follows it; one that goes by the name keeps that.
-static void paths_lead_to_the_same_models_from_another_folder(void **state)
+TEST(paths_lead_to_the_same_models_from_another_folder)
 {
-    (void)state;
     struct document *document = parse(whole);
     document->folder = strdup("/films");
     size_t size;
@@ -178,124 +174,108 @@ static void open_whole(struct world *world)
     history_clear(world->history, world->document);
 }
 
-static void channels_of_a_chain_are_edited_as_those_of_a_tail(void **state)
+WORLD_TEST(channels_of_a_chain_are_edited_as_those_of_a_tail, open_whole(world))
 {
-    (void)state;
-    struct world world;
-    open_whole(&world);
     const struct angles ramp = {.form = ANGLES_RAMP, .count = 2, .ramp = {{0, 1}, {1, 30}}};
     const struct angles many = {.form = ANGLES_EACH, .count = 7, .value = {1, 2, 3, 4, 5, 6, 7}};
     assert_reversible(
-        &world, edit_angles(world_edit(&world), (struct channel_place){TAIL, 0}, ANGLE_LAG, &ramp, &world.error));
+        world, edit_angles(world_edit(world), (struct channel_place){TAIL, 0}, ANGLE_LAG, &ramp, &world->error));
     assert_reversible(
-        &world, edit_angles(world_edit(&world), (struct channel_place){TAIL, 0}, ANGLE_GAIN, &many, &world.error));
-    assert_reversible(&world,
-                      edit_axis(world_edit(&world), (struct channel_place){TAIL, 0}, AXIS_TWIST, &world.error));
+        world, edit_angles(world_edit(world), (struct channel_place){TAIL, 0}, ANGLE_GAIN, &many, &world->error));
+    assert_reversible(world,
+                      edit_axis(world_edit(world), (struct channel_place){TAIL, 0}, AXIS_TWIST, &world->error));
     assert_reversible(
-        &world, edit_part(world_edit(&world), (struct channel_place){TAIL, 0}, PART_DISPLACEMENT, &world.error));
-    assert_reversible(&world, edit_channel_add(world_edit(&world), EAR, 0, AXIS_TWIST, PART_TOTAL, &world.error));
-    assert_reversible(&world, edit_spline_add(world_edit(&world), 0, "first", NULL, &world.error));
-    assert_int_equal(document_find_spline(world.document, "s"), world.document->rigs[TAIL]->chain.channels[1].spline);
-    assert_reversible(&world, edit_feed(world_edit(&world), (struct channel_place){TAIL, 1}, 0, &world.error));
-    assert_reversible(&world, edit_channel_remove(world_edit(&world), (struct channel_place){TAIL, 0}, &world.error));
-    assert_int_equal(world.document->rigs[TAIL]->chain.channel_count, 1);
-    assert_refused(&world,
-                   edit_angles(world_edit(&world), (struct channel_place){TAIL, 0}, ANGLE_REST, &ramp, &world.error),
+        world, edit_part(world_edit(world), (struct channel_place){TAIL, 0}, PART_DISPLACEMENT, &world->error));
+    assert_reversible(world, edit_channel_add(world_edit(world), EAR, 0, AXIS_TWIST, PART_TOTAL, &world->error));
+    assert_reversible(world, edit_spline_add(world_edit(world), 0, "first", NULL, &world->error));
+    assert_int_equal(document_find_spline(world->document, "s"),
+                     world->document->rigs[TAIL]->chain.channels[1].spline);
+    assert_reversible(world, edit_feed(world_edit(world), (struct channel_place){TAIL, 1}, 0, &world->error));
+    assert_reversible(world, edit_channel_remove(world_edit(world), (struct channel_place){TAIL, 0}, &world->error));
+    assert_int_equal(world->document->rigs[TAIL]->chain.channel_count, 1);
+    assert_refused(world,
+                   edit_angles(world_edit(world), (struct channel_place){TAIL, 0}, ANGLE_REST, &ramp, &world->error),
                    "only a tail has angles at rest");
-    assert_refused(&world, edit_axis(world_edit(&world), (struct channel_place){WALK, 0}, AXIS_SIDE, &world.error),
+    assert_refused(world, edit_axis(world_edit(world), (struct channel_place){WALK, 0}, AXIS_SIDE, &world->error),
                    "there is no such rig");
-    assert_refused(&world, edit_length(world_edit(&world), TAIL, 1, &world.error), "there is no such tail");
-    assert_refused(&world, edit_spline_remove(world_edit(&world), 1, &world.error),
+    assert_refused(world, edit_length(world_edit(world), TAIL, 1, &world->error), "there is no such tail");
+    assert_refused(world, edit_spline_remove(world_edit(world), 1, &world->error),
                    "s: still used in 1 place; remove those first");
-    world_close(&world);
 }
 
-static void models_and_chains_are_added(void **state)
+WORLD_TEST(models_and_chains_are_added, open_whole(world))
 {
-    (void)state;
-    struct world world;
-    open_whole(&world);
     char file[] = "../films/walk.glb", from[] = "leg", to[] = "foot";
     struct channel channel = {.axis = AXIS_UP, .lag = {.value = {3}}, .gain = {.value = {4}}};
     struct rig model = {.kind = RIG_MODEL, .model = {.model = file, .clip = from, .scale = 2}};
     struct rig chain = {.kind = RIG_CHAIN,
                         .chain = {.model = file, .from = from, .to = to, .channels = &channel, .channel_count = 1}};
-    assert_refused(&world, edit_rig_add(world_edit(&world), &chain, &world.error),
+    assert_refused(world, edit_rig_add(world_edit(world), &chain, &world->error),
                    "there is no model \"../films/walk.glb\" in the scene");
-    assert_reversible(&world, edit_rig_add(world_edit(&world), &model, &world.error));
-    assert_string_equal(world.document->rigs[4]->name, "walk 2");
-    assert_reversible(&world, edit_rig_add(world_edit(&world), &chain, &world.error));
-    assert_string_equal(world.document->rigs[5]->name, "leg");
-    assert_true(world.document->rigs[5]->chain.by_file);
-    chain.chain.model = world.document->rigs[4]->name;
-    assert_reversible(&world, edit_rig_add(world_edit(&world), &chain, &world.error));
-    assert_string_equal(world.document->rigs[6]->name, "leg 2");
+    assert_reversible(world, edit_rig_add(world_edit(world), &model, &world->error));
+    assert_string_equal(world->document->rigs[4]->name, "walk 2");
+    assert_reversible(world, edit_rig_add(world_edit(world), &chain, &world->error));
+    assert_string_equal(world->document->rigs[5]->name, "leg");
+    assert_true(world->document->rigs[5]->chain.by_file);
+    chain.chain.model = world->document->rigs[4]->name;
+    assert_reversible(world, edit_rig_add(world_edit(world), &chain, &world->error));
+    assert_string_equal(world->document->rigs[6]->name, "leg 2");
     memset(file, 'x', sizeof file - 1);
     memset(from, 'x', sizeof from - 1);
     channel.gain.value[0] = 100;
-    assert_string_equal(world.document->rigs[4]->model.clip, "leg");
-    assert_string_equal(world.document->rigs[4]->model.model, "../films/walk.glb");
-    assert_near(world.document->rigs[6]->chain.channels[0].gain.value[0], 4, 0);
+    assert_string_equal(world->document->rigs[4]->model.clip, "leg");
+    assert_string_equal(world->document->rigs[4]->model.model, "../films/walk.glb");
+    assert_near(world->document->rigs[6]->chain.channels[0].gain.value[0], 4, 0);
     model.model.scale = 0;
-    assert_refused(&world, edit_rig_add(world_edit(&world), &model, &world.error),
+    assert_refused(world, edit_rig_add(world_edit(world), &model, &world->error),
                    "the scale must be above 0 and finite");
     channel.spline = 1;
-    assert_refused(&world, edit_rig_add(world_edit(&world), &chain, &world.error), "there is no such spline");
-    world_undo_all(&world);
-    assert_document(&world, whole);
-    world_close(&world);
+    assert_refused(world, edit_rig_add(world_edit(world), &chain, &world->error), "there is no such spline");
+    world_undo_all(world);
+    assert_document(world, whole);
 }
 
-static void models_and_chains_are_set(void **state)
+WORLD_TEST(models_and_chains_are_set, open_whole(world))
 {
-    (void)state;
-    struct world world;
-    open_whole(&world);
     char from[] = "a", to[] = "b", nothing[] = "";
     struct rig place = {.model = {.position = {1, 2, 3}, .scale = 4, .turn = -5}};
     struct rig ends = {.chain = {.from = from, .to = to, .turn = 7}};
-    assert_reversible(&world, edit_place(world_edit(&world), WALK, &place.model, &world.error));
-    assert_near(world.document->rigs[WALK]->model.position[2], 3, 0);
-    assert_reversible(&world, edit_clip(world_edit(&world), WALK, "Run", &world.error));
-    assert_reversible(&world, edit_clip(world_edit(&world), WALK, NULL, &world.error));
-    assert_null(world.document->rigs[WALK]->model.clip);
-    assert_reversible(&world, edit_chain(world_edit(&world), TAIL, &ends.chain, &world.error));
-    assert_string_equal(world.document->rigs[TAIL]->chain.to, "b");
-    assert_false(world.document->rigs[TAIL]->chain.mirror);
+    assert_reversible(world, edit_place(world_edit(world), WALK, &place.model, &world->error));
+    assert_near(world->document->rigs[WALK]->model.position[2], 3, 0);
+    assert_reversible(world, edit_clip(world_edit(world), WALK, "Run", &world->error));
+    assert_reversible(world, edit_clip(world_edit(world), WALK, NULL, &world->error));
+    assert_null(world->document->rigs[WALK]->model.clip);
+    assert_reversible(world, edit_chain(world_edit(world), TAIL, &ends.chain, &world->error));
+    assert_string_equal(world->document->rigs[TAIL]->chain.to, "b");
+    assert_false(world->document->rigs[TAIL]->chain.mirror);
     ends.chain.to = nothing;
-    assert_refused(&world, edit_chain(world_edit(&world), TAIL, &ends.chain, &world.error),
+    assert_refused(world, edit_chain(world_edit(world), TAIL, &ends.chain, &world->error),
                    "a chain needs the names of its first joint and its last");
     place.model.turn = NAN;
-    assert_refused(&world, edit_place(world_edit(&world), WALK, &place.model, &world.error),
+    assert_refused(world, edit_place(world_edit(world), WALK, &place.model, &world->error),
                    "the turn must be finite");
-    assert_refused(&world, edit_place(world_edit(&world), TAIL, &place.model, &world.error),
-                   "there is no such model");
-    world_undo_all(&world);
-    assert_document(&world, whole);
-    world_close(&world);
+    assert_refused(world, edit_place(world_edit(world), TAIL, &place.model, &world->error), "there is no such model");
+    world_undo_all(world);
+    assert_document(world, whole);
 }
 
-static void chains_keep_to_their_model(void **state)
+WORLD_TEST(chains_keep_to_their_model, open_whole(world))
 {
-    (void)state;
-    struct world world;
-    open_whole(&world);
-    assert_refused(&world, edit_rig_remove(world_edit(&world), WALK, &world.error),
+    assert_refused(world, edit_rig_remove(world_edit(world), WALK, &world->error),
                    "walk: still needed by tail; remove those first");
-    assert_reversible(&world, edit_rig_name(world_edit(&world), WALK, "dog", &world.error));
-    assert_string_equal(world.document->rigs[TAIL]->chain.model, "dog");
-    assert_reversible(&world, edit_rig_name(world_edit(&world), CAT, "cat", &world.error));
-    assert_string_equal(world.document->rigs[EAR]->chain.model, "models/cat.glb");
-    assert_refused(&world, edit_rig_name(world_edit(&world), WALK, "models/cat.glb", &world.error),
+    assert_reversible(world, edit_rig_name(world_edit(world), WALK, "dog", &world->error));
+    assert_string_equal(world->document->rigs[TAIL]->chain.model, "dog");
+    assert_reversible(world, edit_rig_name(world_edit(world), CAT, "cat", &world->error));
+    assert_string_equal(world->document->rigs[EAR]->chain.model, "models/cat.glb");
+    assert_refused(world, edit_rig_name(world_edit(world), WALK, "models/cat.glb", &world->error),
                    "models/cat.glb is the file by which a model is found");
-    assert_refused(&world, edit_rig_name(world_edit(&world), EAR, "tail", &world.error),
+    assert_refused(world, edit_rig_name(world_edit(world), EAR, "tail", &world->error),
                    "there is a rig called tail already");
-    assert_refused(&world, edit_rig_name(world_edit(&world), EAR, NULL, &world.error), "a chain needs a name");
-    assert_reversible(&world, edit_rig_remove(world_edit(&world), EAR, &world.error));
-    assert_reversible(&world, edit_rig_remove(world_edit(&world), CAT, &world.error));
-    world_undo_all(&world);
-    assert_document(&world, whole);
-    world_close(&world);
+    assert_refused(world, edit_rig_name(world_edit(world), EAR, NULL, &world->error), "a chain needs a name");
+    assert_reversible(world, edit_rig_remove(world_edit(world), EAR, &world->error));
+    assert_reversible(world, edit_rig_remove(world_edit(world), CAT, &world->error));
+    world_undo_all(world);
+    assert_document(world, whole);
 }
 
 /// One of few names, so that they meet.
@@ -364,9 +344,8 @@ static bool random_edit(struct world *world)
 }
 
 /// Whatever was done: what is there holds together, all of it can be saved, and undo gives back the first document to the byte.
-static void random_walks_lead_back(void **state)
+TEST(random_walks_lead_back)
 {
-    (void)state;
     for (unsigned seed = 1; seed <= 20; seed++) {
         struct world world;
         srand(seed);
@@ -392,18 +371,4 @@ static void random_walks_lead_back(void **state)
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(what_is_printed_is_read_again),
-        cmocka_unit_test(a_file_may_leave_out_what_is_usual),
-        cmocka_unit_test(every_kind_of_rig_can_be_copied),
-        cmocka_unit_test(paths_lead_to_the_same_models_from_another_folder),
-        cmocka_unit_test(channels_of_a_chain_are_edited_as_those_of_a_tail),
-        cmocka_unit_test(models_and_chains_are_added),
-        cmocka_unit_test(models_and_chains_are_set),
-        cmocka_unit_test(chains_keep_to_their_model),
-        cmocka_unit_test(random_walks_lead_back),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return tests_run(NULL, NULL); }

@@ -396,9 +396,8 @@ static void run_seed(int seed, int events, const char *scene)
     free(run);
 }
 
-static void nothing_a_monkey_does_breaks_anything(void **state)
+TEST(nothing_a_monkey_does_breaks_anything)
 {
-    (void)state;
     const int seed = number("MONKEY_SEED", 0), events = event_count();
     atexit(say_where);
     for (int s = 1; s <= SEEDS; s++) {
@@ -407,9 +406,8 @@ static void nothing_a_monkey_does_breaks_anything(void **state)
     if (seed > SEEDS) run_seed(seed, events, NULL);
 }
 
-static void nor_in_a_long_scene(void **state)
+TEST(nor_in_a_long_scene)
 {
-    (void)state;
     make_long(); // the other monkey may have written something else over it
     run_seed(number("MONKEY_SEED", 1), event_count() / LONG_PART, "long.json");
 }
@@ -439,9 +437,8 @@ static void lose_display(struct run *run)
 }
 
 /// Two windows on the same files, settings and recovery files, one of which has the focus, and either loses its display now and then.
-static void nor_do_two_with_the_same_files(void **state)
+TEST(nor_do_two_with_the_same_files)
 {
-    (void)state;
     const int seed = number("MONKEY_SEED", 1), events = event_count();
     restore("tail.json");
     struct run *runs[] = {new_run(seed, NULL), new_run(seed + 1, "tail.json")};
@@ -463,12 +460,4 @@ static void nor_do_two_with_the_same_files(void **state)
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(nothing_a_monkey_does_breaks_anything),
-        cmocka_unit_test(nor_in_a_long_scene),
-        cmocka_unit_test(nor_do_two_with_the_same_files),
-    };
-    return cmocka_run_group_tests(tests, make_files, remove_files);
-}
+int main(void) { return tests_run(make_files, remove_files); }

@@ -124,9 +124,8 @@ static void assert_solved(struct stand *stand, int index, double gain)
     free(rows);
 }
 
-static void motions_are_printed_as_they_were_read(void **state)
+TEST(motions_are_printed_as_they_were_read)
 {
-    (void)state;
     struct document *document = parse(scene);
     size_t size;
     char *first = scene_print(document, &size);
@@ -142,9 +141,8 @@ static void motions_are_printed_as_they_were_read(void **state)
     document_destroy(again);
 }
 
-static void a_motion_is_solved_as_a_track_is(void **state)
+TEST(a_motion_is_solved_as_a_track_is)
 {
-    (void)state;
     struct stand stand;
     stand_open(&stand);
     assert_true(stand_update(&stand));
@@ -157,9 +155,8 @@ static void a_motion_is_solved_as_a_track_is(void **state)
 }
 
 /// Each motion is read again only when something that it depends on has changed; then its splines and their followers are solved.
-static void a_motion_is_read_when_it_has_changed(void **state)
+TEST(a_motion_is_read_when_it_has_changed)
 {
-    (void)state;
     struct stand stand;
     stand_open(&stand);
     struct world *world = &stand.world;
@@ -198,9 +195,8 @@ static void a_motion_is_read_when_it_has_changed(void **state)
     stand_close(&stand);
 }
 
-static void without_a_source_it_stays_at_0(void **state)
+TEST(without_a_source_it_stays_at_0)
 {
-    (void)state;
     struct stand stand;
     stand_open(&stand);
     stand.source = (struct motion_source){0};
@@ -215,9 +211,8 @@ static bool follow(struct world *world, enum parameter parameter, struct joint_m
     return edit_parameter(world_edit(world), ALONE, parameter, &param, &world->error);
 }
 
-static void following_is_edited_and_undone(void **state)
+TEST(following_is_edited_and_undone)
 {
-    (void)state;
     struct stand stand;
     stand_open(&stand);
     struct world *world = &stand.world;
@@ -255,9 +250,8 @@ static void following_is_edited_and_undone(void **state)
 }
 
 /// Names that motions go by are renamed with what they name, which is not removed before them; files move with the scene.
-static void a_motion_keeps_to_its_joint(void **state)
+TEST(a_motion_keeps_to_its_joint)
 {
-    (void)state;
     struct stand stand;
     stand_open(&stand);
     struct world *world = &stand.world;
@@ -281,12 +275,4 @@ static void a_motion_keeps_to_its_joint(void **state)
     stand_close(&stand);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(motions_are_printed_as_they_were_read), cmocka_unit_test(a_motion_is_solved_as_a_track_is),
-        cmocka_unit_test(a_motion_is_read_when_it_has_changed),  cmocka_unit_test(without_a_source_it_stays_at_0),
-        cmocka_unit_test(following_is_edited_and_undone),        cmocka_unit_test(a_motion_keeps_to_its_joint),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return tests_run(NULL, NULL); }

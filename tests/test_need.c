@@ -59,9 +59,8 @@ static void use_all(void)
     for (;;) need(MIB, 1);
 }
 
-static void memory_is_what_was_asked_for(void **state)
+TEST(memory_is_what_was_asked_for)
 {
-    (void)state;
     char *text = need_text("wiggly");
     assert_string_equal(text, "wiggly");
     text = need_more(text, 100, 1);
@@ -82,9 +81,8 @@ static void overflow(void)
     need(SIZE_MAX / 2, 3);
 }
 
-static void a_sentence_and_nothing_half_written(void **state)
+TEST(a_sentence_and_nothing_half_written)
 {
-    (void)state;
     char command[160];
     assert_int_equal(run_apart(overflow), 3);
     assert_string_equal(said, "wiggly: out of memory\n");
@@ -106,9 +104,8 @@ static void run_with_reserve(void)
     use_all();
 }
 
-static void the_rescue_has_the_reserve(void **state)
+TEST(the_rescue_has_the_reserve)
 {
-    (void)state;
     if (!CAN_LIMIT) skip();
     assert_int_equal(run_apart(run_with_reserve), 3);
     assert_string_equal(said, "wiggly: out of memory, but kept\n");
@@ -127,9 +124,8 @@ static void run_twice_short(void)
     need(SIZE_MAX, 2);
 }
 
-static void a_rescue_that_runs_out_ends_there(void **state)
+TEST(a_rescue_that_runs_out_ends_there)
 {
-    (void)state;
     assert_int_equal(run_apart(run_twice_short), 3);
     assert_string_equal(said, "wiggly: out of memory; work since the last autosave is lost\n");
 }
@@ -158,9 +154,8 @@ static void run_threads(void)
     need(SIZE_MAX, 2);
 }
 
-static void the_first_thread_ends_it(void **state)
+TEST(the_first_thread_ends_it)
 {
-    (void)state;
     if (!CAN_LIMIT) skip();
     assert_int_equal(run_apart(run_threads), 3);
     assert_string_equal(said, "wiggly: out of memory, first\n");
@@ -199,9 +194,8 @@ static void run_app(int (*run)(void *user), bool apart)
 static void run_in_frame(void) { run_app(need_too_much, false); }
 static void run_in_thread(void) { run_app(need_too_much, true); }
 
-static void the_work_is_kept(void **state)
+TEST(the_work_is_kept)
 {
-    (void)state;
     char command[512];
     void (*const runs[])(void) = {run_in_frame, run_in_thread};
     for (size_t i = 0; i < sizeof runs / sizeof *runs; i++) {
@@ -218,12 +212,4 @@ static void the_work_is_kept(void **state)
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(memory_is_what_was_asked_for), cmocka_unit_test(a_sentence_and_nothing_half_written),
-        cmocka_unit_test(the_rescue_has_the_reserve),   cmocka_unit_test(a_rescue_that_runs_out_ends_there),
-        cmocka_unit_test(the_first_thread_ends_it),     cmocka_unit_test(the_work_is_kept),
-    };
-    return cmocka_run_group_tests(tests, folder_make, folder_remove);
-}
+int main(void) { return tests_run(folder_make, folder_remove); }

@@ -71,9 +71,8 @@ static const float *value_of(const struct studio *s, int coordinate, int vertex)
     return rig_of(s)->painted->values[coordinate * VERTICES + vertex];
 }
 
-static void a_stroke_is_one_step_and_comes_back_byte_by_byte(void **state)
+TEST(a_stroke_is_one_step_and_comes_back_byte_by_byte)
 {
-    (void)state;
     struct studio s = studio_open(scene);
     float before[COORDINATES * VERTICES][2], after[COORDINATES * VERTICES][2];
     paint_stroke(&s);
@@ -101,9 +100,8 @@ static void a_stroke_is_one_step_and_comes_back_byte_by_byte(void **state)
 }
 
 /// A stroke that is cancelled leaves nothing; one that goes on for long goes on from its last frame.
-static void a_stroke_goes_on_or_is_cancelled(void **state)
+TEST(a_stroke_goes_on_or_is_cancelled)
 {
-    (void)state;
     struct studio s = studio_open(scene);
     paint_stroke(&s);
     history_begin(s.history, "Paint", 0);
@@ -119,9 +117,8 @@ static void a_stroke_goes_on_or_is_cancelled(void **state)
     studio_close(&s);
 }
 
-static void paint_that_is_no_number_is_refused(void **state)
+TEST(paint_that_is_no_number_is_refused)
 {
-    (void)state;
     struct studio s = studio_open(scene);
     const float broken[][2] = {{NAN, 0}, {0, INFINITY}, {11, 0}, {0, -2000}};
     struct error error;
@@ -216,9 +213,8 @@ static char *printed(const struct document *document)
 }
 
 /// Saved text reads back as itself, and only paint makes it version 2. A coordinate without paint is null.
-static void paint_is_saved_in_its_scene(void **state)
+TEST(paint_is_saved_in_its_scene)
 {
-    (void)state;
     const char *folder = fresh_folder();
     struct error error = {0};
     struct studio s = studio_open(scene);
@@ -248,9 +244,8 @@ static void paint_is_saved_in_its_scene(void **state)
 }
 
 /// A scene of before: its file of paint is read, put into the scene with the next save, and left where it is.
-static void paint_beside_a_scene_is_read_and_stays(void **state)
+TEST(paint_beside_a_scene_is_read_and_stays)
 {
-    (void)state;
     const char *folder = fresh_folder();
     struct studio s = studio_open(scene), old = studio_open(scene);
     struct error error = {0};
@@ -271,9 +266,8 @@ static void paint_beside_a_scene_is_read_and_stays(void **state)
     remove_folder(folder);
 }
 
-static void paint_that_is_broken_in_its_scene_is_refused(void **state)
+TEST(paint_that_is_broken_in_its_scene_is_refused)
 {
-    (void)state;
     static const struct {
         const char *members, *says;
     } cases[] = {
@@ -316,9 +310,8 @@ static void write_npy(const char *path, const char *dictionary, const void *numb
 
 #define F4 "{'descr': '<f4', 'fortran_order': False, 'shape': "
 
-static void broken_paint_is_said_and_stays_named(void **state)
+TEST(broken_paint_is_said_and_stays_named)
 {
-    (void)state;
     const char *folder = fresh_folder();
     static const float numbers[8] = {0, 1, 0, 1, 0, NAN, 0, 1};
     static const struct {
@@ -364,9 +357,8 @@ static void broken_paint_is_said_and_stays_named(void **state)
 }
 
 /// Paint that NumPy's users write: float64, big endian, Fortran order.
-static void other_layouts_are_read(void **state)
+TEST(other_layouts_are_read)
 {
-    (void)state;
     const char *folder = fresh_folder();
     const double doubles[8] = {0.5, 1, 1.5, 2, 2.5, 3, 3.5, 4}; // a of vertices 0 … 3, then their ψ
     unsigned char swapped[8][8];
@@ -391,9 +383,8 @@ static void other_layouts_are_read(void **state)
 }
 
 /// What is not saved is in the recovery file.
-static void a_recovery_file_keeps_paint(void **state)
+TEST(a_recovery_file_keeps_paint)
 {
-    (void)state;
     const char *folder = fresh_folder();
     struct studio s = studio_open(scene);
     struct recovery_slot slot;
@@ -408,9 +399,8 @@ static void a_recovery_file_keeps_paint(void **state)
 }
 
 /// Paint of another model is said, kept, and not put on.
-static void paint_for_another_model_is_kept(void **state)
+TEST(paint_for_another_model_is_kept)
 {
-    (void)state;
     const char *folder = fresh_folder();
     struct character character = puppet_character(0.2f, 1);
     struct studio s = studio_open(scene);
@@ -432,9 +422,8 @@ static void paint_for_another_model_is_kept(void **state)
 }
 
 /// NumPy gets what the scene has, and can give it back.
-static void paint_goes_out_and_in_as_npy(void **state)
+TEST(paint_goes_out_and_in_as_npy)
 {
-    (void)state;
     const char *folder = fresh_folder();
     struct character character = puppet_character(0.2f, 1);
     struct studio s = studio_open(scene);
@@ -461,20 +450,4 @@ static void paint_goes_out_and_in_as_npy(void **state)
     remove_folder(folder);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_stroke_is_one_step_and_comes_back_byte_by_byte),
-        cmocka_unit_test(a_stroke_goes_on_or_is_cancelled),
-        cmocka_unit_test(paint_that_is_no_number_is_refused),
-        cmocka_unit_test(paint_is_saved_in_its_scene),
-        cmocka_unit_test(paint_beside_a_scene_is_read_and_stays),
-        cmocka_unit_test(paint_that_is_broken_in_its_scene_is_refused),
-        cmocka_unit_test(broken_paint_is_said_and_stays_named),
-        cmocka_unit_test(other_layouts_are_read),
-        cmocka_unit_test(a_recovery_file_keeps_paint),
-        cmocka_unit_test(paint_for_another_model_is_kept),
-        cmocka_unit_test(paint_goes_out_and_in_as_npy),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return tests_run(NULL, NULL); }

@@ -84,9 +84,8 @@ static const char *message(const struct blind *blind) { return blind->app.table.
 static const char *shown(const struct blind *blind) { return blind->app.table.document->splines[0]->name; }
 
 /// Enter would recover: it is not asked about, so that nothing comes in place of the scene.
-static void another_scene_is_shown_and_the_work_kept(void **state)
+TEST_WITH(forget_all, NULL, another_scene_is_shown_and_the_work_kept)
 {
-    (void)state;
     struct blind blind;
     struct recovery_entry entry;
     write_scene(folder_path("asked.json"), "asked for");
@@ -103,9 +102,8 @@ static void another_scene_is_shown_and_the_work_kept(void **state)
 }
 
 /// The newest one of several scenes is not the one asked for; its own work is offered, and comes once it is wanted.
-static void its_own_work_is_offered(void **state)
+TEST_WITH(forget_all, NULL, its_own_work_is_offered)
 {
-    (void)state;
     struct blind blind;
     write_scene(folder_path("asked.json"), "asked for");
     leave(folder_path("asked.json"), "recovered");
@@ -120,9 +118,8 @@ static void its_own_work_is_offered(void **state)
     end(&blind);
 }
 
-static void discarded_work_of_its_own_leaves_the_other(void **state)
+TEST_WITH(forget_all, NULL, discarded_work_of_its_own_leaves_the_other)
 {
-    (void)state;
     struct blind blind;
     write_scene(folder_path("asked.json"), "asked for");
     leave(folder_path("asked.json"), "recovered");
@@ -139,9 +136,8 @@ static void discarded_work_of_its_own_leaves_the_other(void **state)
 }
 
 /// Named from its own folder before the kill, and from elsewhere after it.
-static void a_relative_name_is_the_same_scene(void **state)
+TEST_WITH(forget_all, NULL, a_relative_name_is_the_same_scene)
 {
-    (void)state;
     struct blind blind;
     const int here = open(".", O_RDONLY | O_DIRECTORY);
     write_scene(folder_path("asked.json"), "asked for");
@@ -157,9 +153,8 @@ static void a_relative_name_is_the_same_scene(void **state)
 }
 
 /// A path of more than 1,023 bytes, with line breaks: the work goes back where it came from, by Ctrl+S, and the dialogs show where that is.
-static void a_long_path_is_the_same_scene(void **state)
+TEST_WITH(forget_all, NULL, a_long_path_is_the_same_scene)
 {
-    (void)state;
     struct blind blind;
     struct recovery_entry entry;
     char path[PATH_LIMIT], *text;
@@ -208,9 +203,8 @@ static void go_on_until(struct blind *blind, bool marked)
 }
 
 /// Its sentence goes with the next key, the mark stays until there is a recovery file, or nothing to lose.
-static void autosave_that_fails_is_marked(void **state)
+TEST_WITH(forget_all, NULL, autosave_that_fails_is_marked)
 {
-    (void)state;
     struct blind blind;
     char away[sizeof folder + 16];
     snprintf(away, sizeof away, "%s/away", folder);
@@ -235,9 +229,8 @@ static void autosave_that_fails_is_marked(void **state)
     assert_int_equal(rename(away, state_folder()), 0);
 }
 
-static void no_autosave_is_marked(void **state)
+TEST_WITH(forget_all, NULL, no_autosave_is_marked)
 {
-    (void)state;
     struct blind blind;
     char folder_of_state[160];
     snprintf(folder_of_state, sizeof folder_of_state, "%s", getenv("XDG_STATE_HOME"));
@@ -257,16 +250,4 @@ static int prepare(void **state)
     return mkdir(state_folder(), 0700);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup(another_scene_is_shown_and_the_work_kept, forget_all),
-        cmocka_unit_test_setup(its_own_work_is_offered, forget_all),
-        cmocka_unit_test_setup(discarded_work_of_its_own_leaves_the_other, forget_all),
-        cmocka_unit_test_setup(a_relative_name_is_the_same_scene, forget_all),
-        cmocka_unit_test_setup(autosave_that_fails_is_marked, forget_all),
-        cmocka_unit_test_setup(no_autosave_is_marked, forget_all),
-        cmocka_unit_test_setup(a_long_path_is_the_same_scene, forget_all),
-    };
-    return cmocka_run_group_tests(tests, prepare, folder_remove);
-}
+int main(void) { return tests_run(prepare, folder_remove); }

@@ -97,9 +97,8 @@ static void write_as(uid_t user, gid_t more, const char *path)
     assert_int_equal(status, 0);
 }
 
-static void are_kept_or_fewer(void **state)
+TEST_WITH(folder_make, folder_remove, are_kept_or_fewer)
 {
-    (void)state;
     if (geteuid() != 0) {
         print_message("skip - only root can be several users\n");
         skip();
@@ -138,9 +137,6 @@ static void are_kept_or_fewer(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(are_kept_or_fewer, folder_make, folder_remove),
-    };
     umask(022);
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return tests_run(NULL, NULL);
 }

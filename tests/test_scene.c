@@ -32,9 +32,8 @@ static void assert_prints(const struct document *document, const char *expected)
 
 // --- numbers
 
-static void test_numbers(void **state)
+TEST(test_numbers)
 {
-    (void)state;
     static const struct {
         double value;
         const char *text;
@@ -68,9 +67,8 @@ static void test_numbers(void **state)
 }
 
 /// Random bit patterns: every exponent is as likely, subnormals and the neighbours of powers of two among them.
-static void test_numbers_read_back(void **state)
+TEST(test_numbers_read_back)
 {
-    (void)state;
     srand(7);
     for (int i = 0; i < 200000; i++) {
         uint64_t bits = 0;
@@ -93,9 +91,8 @@ static void test_numbers_read_back(void **state)
 
 // --- load and print
 
-static void test_defaults(void **state)
+TEST(test_defaults)
 {
-    (void)state;
     struct document *document =
         parse("{\"frames\": [0, 120], \"splines\": [{\"name\": \"x\", \"knots\": [{\"frame\": 3, "
               "\"value\": 2}]}], \"rigs\": [{\"type\": \"tail\", \"name\": \"t\", \"spline\": \"x\"}]}");
@@ -142,9 +139,8 @@ static void test_defaults(void **state)
 
 /// Unknown keys stay, wherever they are, behind the known ones and in their own order; those named like parameters as
 /// well.
-static void test_unknown_keys_are_kept(void **state)
+TEST(test_unknown_keys_are_kept)
 {
-    (void)state;
     struct document *document = parse(
         "{\"z\": [1, 2.50, {\"k\": null}, []], \"frames\": [0, 9], \"a\": 9007199254740993, \"splines\": [\n"
         "{\"name\": \"q\\\"\\\\\\u0001\\u00e9\", \"mode\": \"real\", \"note\": true, \"frequency\": {\"by\": \"me\", "
@@ -170,9 +166,8 @@ static void test_unknown_keys_are_kept(void **state)
 }
 
 /// A tail on a moving base: coordinates that follow splines, a channel without the base's part, and what only others know.
-static void test_moving_bases_are_kept(void **state)
+TEST(test_moving_bases_are_kept)
 {
-    (void)state;
     struct document *document = parse(
         "{\"frames\": [0, 9], \"splines\": [{\"name\": \"walk\", \"position\": 3}], \"rigs\": [{\"type\": \"tail\", "
         "\"name\": \"t\", \"frequency\": 1, \"position\": [{\"by\": \"me\", \"spline\": \"walk\"}, 0.26, "
@@ -229,9 +224,8 @@ static void assert_round_trip(const char *path)
     document_destroy(document);
 }
 
-static void test_round_trips(void **state)
+TEST(test_round_trips)
 {
-    (void)state;
     static const char *const folders[] = {"tests/vectors", "assets/scenes"};
     int count = 0;
     for (int i = 0; i < 2; i++) {
@@ -249,9 +243,8 @@ static void test_round_trips(void **state)
     assert_true(count > 30);
 }
 
-static void test_knots_on_samples(void **state)
+TEST(test_knots_on_samples)
 {
-    (void)state;
     struct document *document =
         parse("{\"frames\": [-10, 10], \"substeps\": 4, \"fps\": 25, \"splines\": [{\"name\": \"x\", "
               "\"knots\": [{\"frame\": 10.12, \"value\": 3}, {\"frame\": -10.125, \"value\": 1}, "
@@ -289,9 +282,8 @@ static void assert_heard(const char *text, const char *expected)
     assert_string_equal(heard, expected);
 }
 
-static void test_warnings(void **state)
+TEST(test_warnings)
 {
-    (void)state;
     assert_heard("{\"frames\": [0, 9],\n\"hey\": 1,\n\"splines\": [{\"name\": \"x\",\n\"hey\": 2}]}",
                  "s.json:4: splines[0].hey: unknown key: kept, but it has no effect\n");
     assert_heard("{\"frames\": [0, 9], \"splines\": [{\"name\": \"x\", \"frequency\":\n11, \"bandwidth\": 0.2}]}",
@@ -320,9 +312,8 @@ static void test_warnings(void **state)
 }
 
 /// All of a file's problems are reported, each with its line, whatever came before.
-static void test_every_error_is_reported(void **state)
+TEST(test_every_error_is_reported)
 {
-    (void)state;
     assert_heard("{\"fps\": 0,\n\"frames\": [0, 9],\n\"splines\": [{\"name\": 1,\n\"mode\": \"x\",\n\"calm\": 2,\n"
                  "\"knots\": [{\"frame\": 1}]}, {}],\n\"rigs\": [1]}",
                  "error: s.json:1: fps: expected a number above 0 and at most 100000, got 0\n"
@@ -335,9 +326,8 @@ static void test_every_error_is_reported(void **state)
 }
 
 /// A key written with escapes is the same key, and its line is found.
-static void test_escaped_keys(void **state)
+TEST(test_escaped_keys)
 {
-    (void)state;
     assert_heard("{\"fr\\u0061mes\":\n[0, \"9\"]}",
                  "error: s.json:2: frames[1]: expected a whole number, got a string\n");
 }
@@ -366,9 +356,8 @@ static int count_files(const char *folder)
 }
 
 /// A link stays a link, the mode stays, nothing is left beside the file, and a failure leaves the old content.
-static void test_save(void **state)
+TEST(test_save)
 {
-    (void)state;
     char folder[] = "/tmp/wiggly-save-XXXXXX", path[PATH_SIZE], link[PATH_SIZE], expected[PATH_SIZE];
     assert_non_null(mkdtemp(folder));
     snprintf(path, sizeof path, "%s/scene.json", folder);
@@ -419,9 +408,8 @@ static const char chain[] =
     "{\"frame\": 48, \"value\": 2}]},"
     "{\"name\": \"a\", \"mode\": \"cubic\", \"knots\": [{\"frame\": 9, \"value\": 3}]}]}";
 
-static void test_a_scene_without_splines(void **state)
+TEST(test_a_scene_without_splines)
 {
-    (void)state;
     struct document *document = parse("{\"frames\": [0, 120]}");
     struct evaluation evaluation = {0};
     evaluation_resize(&evaluation, document);
@@ -431,9 +419,8 @@ static void test_a_scene_without_splines(void **state)
     document_destroy(document);
 }
 
-static void test_only_followers_are_solved(void **state)
+TEST(test_only_followers_are_solved)
 {
-    (void)state;
     struct document *document = parse(chain);
     struct evaluation evaluation = {0};
     evaluation_resize(&evaluation, document);
@@ -471,9 +458,8 @@ static void test_only_followers_are_solved(void **state)
 }
 
 /// What is solved bit by bit, as edits come, is what is solved at once: a curve is a function of the document.
-static void test_partial_solves_agree(void **state)
+TEST(test_partial_solves_agree)
 {
-    (void)state;
     struct document *document = parse(chain);
     struct evaluation partial = {0}, whole = {0};
     evaluation_resize(&partial, document);
@@ -491,9 +477,8 @@ static void test_partial_solves_agree(void **state)
     document_destroy(document);
 }
 
-static void test_evaluation_fits_the_document(void **state)
+TEST(test_evaluation_fits_the_document)
 {
-    (void)state;
     struct document *small = parse("{\"frames\": [0, 5], \"splines\": [{\"name\": \"x\"}]}"), *large = parse(chain);
     struct evaluation evaluation = {0};
     evaluation_resize(&evaluation, small);
@@ -515,9 +500,8 @@ static void test_evaluation_fits_the_document(void **state)
 }
 
 /// A value that no curve can pass: nothing moves any more, the status says why, and nothing that reads the curve falls over.
-static void test_a_value_beyond_reach_is_flat(void **state)
+TEST(test_a_value_beyond_reach_is_flat)
 {
-    (void)state;
     static const char text[] = "{\"wiggly\": 1, \"frames\": [0, 40], \"splines\": [{\"name\": \"a\", \"knots\": "
                                "[{\"frame\": 0, \"value\": 1}, {\"frame\": 30, \"value\": -1.7e308}]}]}";
     struct error error = {0};
@@ -539,25 +523,4 @@ static void test_a_value_beyond_reach_is_flat(void **state)
     document_destroy(document);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_numbers),
-        cmocka_unit_test(test_numbers_read_back),
-        cmocka_unit_test(test_defaults),
-        cmocka_unit_test(test_unknown_keys_are_kept),
-        cmocka_unit_test(test_moving_bases_are_kept),
-        cmocka_unit_test(test_round_trips),
-        cmocka_unit_test(test_knots_on_samples),
-        cmocka_unit_test(test_warnings),
-        cmocka_unit_test(test_every_error_is_reported),
-        cmocka_unit_test(test_escaped_keys),
-        cmocka_unit_test(test_save),
-        cmocka_unit_test(test_a_scene_without_splines),
-        cmocka_unit_test(test_only_followers_are_solved),
-        cmocka_unit_test(test_partial_solves_agree),
-        cmocka_unit_test(test_evaluation_fits_the_document),
-        cmocka_unit_test(test_a_value_beyond_reach_is_flat),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+int main(void) { return tests_run(NULL, NULL); }

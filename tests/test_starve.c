@@ -45,15 +45,10 @@ static int write_picture(void *user)
     return access(path, F_OK) != 0 && strstr(error.text, "emory") ? 3 : 5;
 }
 
-static void fonts(void **state)
-{
-    (void)state;
-    starve("fonts", read_fonts, NULL, 300);
-}
+TEST(fonts) { starve("fonts", read_fonts, NULL, 300); }
 
-static void pictures(void **state)
+TEST(pictures)
 {
-    (void)state;
     char path[128];
     snprintf(path, sizeof path, "%s", folder_path("picture.png"));
     starve("a picture", write_picture, path, 300);
@@ -76,11 +71,7 @@ static int read_tokens(void *user)
 }
 
 /// Each allocation, for only some fill the reader's buffer.
-static void json(void **state)
-{
-    (void)state;
-    starve("JSON", read_tokens, NULL, 1000);
-}
+TEST(json) { starve("JSON", read_tokens, NULL, 1000); }
 
 /// A command line, what it writes, and what is in that with all of its memory.
 struct job {
@@ -156,17 +147,15 @@ static void starve_command(int (*run)(int argc, char **argv), const char *output
     free(job.expected);
 }
 
-static void check(void **state)
+TEST(check)
 {
-    (void)state;
     starve_command(command_check, NULL, "check assets/scenes/tail.json", 1100);
     starve_command(command_check, NULL, "check assets/scenes/hands.json", 150);
     starve_command(command_check, NULL, "check assets/scenes/dog.json", 100);
 }
 
-static void solve(void **state)
+TEST(solve)
 {
-    (void)state;
     starve_command(command_solve, "out.csv", "solve assets/scenes/tail.json -o %s/out.csv", 400);
     starve_command(command_solve, "out.csv", "solve assets/scenes/hands.json -o %s/out.csv", 2000);
 }
@@ -235,9 +224,8 @@ static int read_model(void *user)
     return whole ? 0 : 5;
 }
 
-static void models(void **state)
+TEST(models)
 {
-    (void)state;
     char path[128];
     snprintf(path, sizeof path, "%s", folder_path("ribbon.gltf"));
     write_ribbon(path);
@@ -250,9 +238,8 @@ static void starve_dog(int (*run)(int argc, char **argv), const char *output, co
     if (!getenv("STARVE_ALL")) starve_command(run, output, format, 100);
 }
 
-static void export_(void **state)
+TEST(export_)
 {
-    (void)state;
     static const char *const endings[] = {"glb", "gltf", "usda", "bvh", "csv", "npy"};
     for (size_t i = 0; i < sizeof endings / sizeof *endings; i += (size_t)quick_or_all(2, 1)) {
         char name[16], line[128];
@@ -262,9 +249,8 @@ static void export_(void **state)
     }
 }
 
-static void export_character(void **state)
+TEST(export_character)
 {
-    (void)state;
     starve_dog(command_export, "out.glb", "export assets/scenes/dog.json --frames 0:3 -o %s/out.glb");
     starve_dog(command_export, "out.usda", "export assets/scenes/dog.json --frames 0:3 -o %s/out.usda");
     static char rig[] = "rig", chain[] = "--chain=tail_1:tail_3", to[] = "-o", ribbon[128], ribbon_scene[128];
@@ -276,9 +262,8 @@ static void export_character(void **state)
     starve_command(command_export, "out.usda", "export %s/ribbon.json --frames 0:3 -o %s/out.usda", 200);
 }
 
-static void rig(void **state)
+TEST(rig)
 {
-    (void)state;
     starve_dog(command_rig, "dog.json", "rig assets/models/dog.glb --chain tail_1:tail_8 -o %s/dog.json");
     starve_dog(command_rig, "dog.glb", "rig assets/models/dog.glb --chain ear_1_L -o %s/dog.glb");
     write_ribbon(folder_path("ribbon.gltf"));
@@ -286,9 +271,8 @@ static void rig(void **state)
     starve_command(command_rig, "out.glb", "rig %s/ribbon.gltf --chain tail_1:tail_3 -o %s/out.glb", 2000);
 }
 
-static void simulate_and_analyze(void **state)
+TEST(simulate_and_analyze)
 {
-    (void)state;
     static const char box[] = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\n"
                               "f 1 4 3 2\nf 5 6 7 8\nf 1 2 6 5\nf 4 8 7 3\nf 1 5 8 4\nf 2 3 7 6\n";
     assert_true(file_write_atomic(folder_path("box.obj"), box, sizeof box - 1, NULL));
@@ -390,9 +374,8 @@ static void check_session(void *user, int status)
     unlink(path);
 }
 
-static void a_session(void **state)
+TEST(a_session)
 {
-    (void)state;
     static const char scene[] = "{\"wiggly\": 1, \"frames\": [0, 48], \"splines\": [{\"name\": \"s\", \"knots\": "
                                 "[{\"frame\": 0, \"value\": 0}, {\"frame\": 36, \"value\": 1}]}], \"rigs\": "
                                 "[{\"type\": \"tail\", \"name\": \"tail\", \"spline\": \"s\"}]}";
@@ -438,9 +421,8 @@ static int keep_work(void *user)
     return strcmp(text_of(kept), text) == 0 ? told ? 3 : 0 : 7;
 }
 
-static void unsaved_work(void **state)
+TEST(unsaved_work)
 {
-    (void)state;
     char path[128];
     snprintf(path, sizeof path, "%s", folder_path("recovery-1"));
     starve("unsaved work", keep_work, path, 300);
@@ -448,18 +430,10 @@ static void unsaved_work(void **state)
 
 int main(int argc, char **argv)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(fonts),     cmocka_unit_test(pictures),
-        cmocka_unit_test(json),      cmocka_unit_test(check),
-        cmocka_unit_test(solve),     cmocka_unit_test(models),
-        cmocka_unit_test(export_),   cmocka_unit_test(export_character),
-        cmocka_unit_test(rig),       cmocka_unit_test(simulate_and_analyze),
-        cmocka_unit_test(a_session), cmocka_unit_test(unsaved_work),
-    };
     if (!CAN_STARVE) {
         puts("skip - what allocates here cannot be interposed");
         return 0;
     }
     if (argc > 1) cmocka_set_test_filter(argv[1]); // one of them, where all allocations fail
-    return cmocka_run_group_tests(tests, folder_make, folder_remove);
+    return tests_run(folder_make, folder_remove);
 }
