@@ -1,11 +1,8 @@
 #version 330 core
 // Wrapped key light, hemisphere, rim. Colours are linear until the last line.
-// FURRED is a coat, FACED what a face is drawn on; PICTURED a soft character with pictures; SKIRT an imported one, and what hangs along outlines of both.
+// FURRED is a coat, FACED what a face is drawn on, PICTURED any other character; else it is a reed.
 #if defined(FACED)
 #define FURRED
-#endif
-#if defined(SKIRT)
-#define PICTURED
 #endif
 in vec3 world;
 in vec3 world_normal;
@@ -26,7 +23,7 @@ in vec3 fur;
 in vec2 phase; // of the phase map: movement as a share of the largest, at the angle by which it leads
 #endif
 in float open_sky;
-#if defined(FURRED) || defined(SKIRT)
+#if defined(FURRED) || defined(PICTURED)
 in float skirt; // how much it covers: 1 but on the skirt
 #else
 const float skirt = 1.0;

@@ -1,5 +1,5 @@
 #version 330 core
-// An imported character, and the skirts of that and of a soft one: they come as they stand (draw/skirt.h).
+// Characters, imported and soft, and their skirts: they come as they stand (draw/skirt.h).
 // FURRED: in `color` come the place in bind space and how much of it is the tail's, in `uv` and `movement` markings (white, dark, brown) and
 // the share of the light from all around.
 #ifdef FACED
@@ -12,12 +12,13 @@ layout(location = 3) in vec2 uv;
 layout(location = 4) in vec2 movement;
 layout(location = 5) in float cover;
 uniform mat4 clip_from_world;
-uniform vec2 shade; // as in stage_character.vert
+uniform vec2 shade; // heights: of the ground, and how far above it its shade reaches
 #ifdef FURRED
 out vec3 marking;
 out vec4 place;
 out float open_around;
 #else
+uniform vec4 base; // the material's colour
 out vec3 fur;
 out vec2 phase;
 out vec2 at;
@@ -37,8 +38,8 @@ void main()
     marking = vec3(uv, movement.x);
     open_around = movement.y;
 #else
-    fur = color.rgb;
-    opacity = color.a;
+    fur = base.rgb * color.rgb;
+    opacity = base.a * color.a;
     phase = movement;
     at = uv;
 #endif

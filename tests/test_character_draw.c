@@ -1,5 +1,5 @@
-/// The character's vertex shader, by what a person sees: the same picture as of a figure that already has the shape, the place
-/// or the colours that the shader should give it.
+/// Soft characters by what a person sees: the same picture as of a figure that already has the shape, the place or the colours that it
+/// should be given.
 #include "draw/stage.h"
 #include "model/figure.h"
 #include "offscreen.h"
@@ -44,7 +44,7 @@ static int differing(const picture a, const picture b, int tolerance)
 static picture one, other;
 
 /// Weights work on re and im with their signs: z Ñ = (3 + 4j)(0.12 − 0.16j) = 1 moves as far as another place does; the
-/// second coordinate, at other rows of the texture, adds to it.
+/// second coordinate adds to it.
 TEST(coordinates_move_it)
 {
     if (!platform) skip();
@@ -234,27 +234,6 @@ TEST(a_line_divides_eighths_of_a_turn)
         assert_in_range(rows, 1, HEIGHT / 4);
         figure_free(&figure);
     }
-}
-
-/// The texture has a row for 128 vertices of a coordinate, and a last one that stays empty.
-TEST(what_is_too_large_says_so)
-{
-    struct character character = puppet_character(0.03f, 3);
-    struct figure figure = puppet_figure(&character);
-    struct error error = {0};
-    const int rows = 3 * ((figure.character.vertex_count + 127) / 128) + 1, large = rows > 640 ? rows : 640;
-    char needed[64];
-    assert_true(stage_morph_fits(&figure, large, &error));
-    assert_true(rows > 9);
-    assert_false(stage_morph_fits(&figure, 639, &error));
-    snprintf(needed, sizeof needed, "640 × %d, this OpenGL driver takes 639", rows);
-    assert_non_null(strstr(error.text, needed));
-    const int vertices = figure.character.vertex_count;
-    figure.character.vertex_count = 128 * 333; // 1,000 rows
-    assert_true(stage_morph_fits(&figure, 1000, &error));
-    assert_false(stage_morph_fits(&figure, 999, &error));
-    figure.character.vertex_count = vertices;
-    figure_free(&figure);
 }
 
 int main(void) { return tests_run(set_up, offscreen_close); }

@@ -154,21 +154,6 @@ static double step(struct app *app)
     return starts ? 0 : dt;
 }
 
-/// Says which characters are too large for the graphics driver.
-static void check_sizes(struct app *app)
-{
-    struct error error, full;
-    app->sized_serial = app->table.models_serial;
-    int r = document_next_rig(app->table.document, RIG_CHARACTER, 0);
-    for (int c = 0; app->draw && r >= 0; c++, r = document_next_rig(app->table.document, RIG_CHARACTER, r + 1)) {
-        const struct figure *figure = models_figure(app->table.models, c);
-        if (!figure || draw_can_move(figure, &error)) continue;
-        const struct rig *rig = app->table.document->rigs[r];
-        fail(&full, error.kind, "%s: %s", rig_title(rig), error.text);
-        editor_message(app->table.editor, true, full.text);
-    }
-}
-
 /// How large the stage is drawn, which the status line says.
 static void choose_resolution(struct app *app)
 {
@@ -280,7 +265,6 @@ void app_frame(struct app *app)
     if (app->failed) return;
     table_solve(table, row);
     table_pose(table, row);
-    if (app->sized_serial != table->models_serial) check_sizes(app);
     choose_resolution(app);
     table_show(table, row);
     row->upload_us = row->draw_us = row->gpu_us = row->swap_us = NAN;

@@ -42,8 +42,7 @@ struct app {
     struct table table;
     char replaceable[PATH_LIMIT]; ///< "save as" was asked for this existing file once
     struct own_file own_file;
-    unsigned last_serial;  ///< of the documents that were on the table
-    unsigned sized_serial; ///< of the document whose models were measured
+    unsigned last_serial; ///< of the documents that were on the table
 
     thrd_t main_thread;
     mtx_t working; ///< locked while a frame is made, for a thread that runs out of memory and saves the work

@@ -177,11 +177,6 @@ void draw_frame(struct draw *draw, const struct draw_input *input, struct draw_c
     cost->draw_us += compared;
 }
 
-bool draw_can_move(const struct figure *figure, struct error *error)
-{
-    return stage_morph_fits(figure, gl_largest_texture(), error);
-}
-
 void draw_read(int width, int height, unsigned char *rgba)
 {
     size_t stride = (size_t)width * 4;

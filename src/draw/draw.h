@@ -40,10 +40,6 @@ struct draw_cost {
 
 void draw_frame(struct draw *draw, const struct draw_input *input, struct draw_cost *cost);
 
-/// Whether the driver can move a character's figure; if not, false with a sentence that says why, and it is
-/// drawn at rest.
-bool draw_can_move(const struct figure *figure, struct error *error);
-
 /// Reads the framebuffer back: width·height·4 bytes, top row first, alpha 255.
 void draw_read(int width, int height, unsigned char *rgba);
 

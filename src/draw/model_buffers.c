@@ -4,8 +4,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { PLACE, NORMAL, COLOR, UV, PHASE, COVER }; // locations in stage_skirt.vert
-
 const struct gltf_material *model_material(const struct gltf *gltf, const struct gltf_part *part)
 {
     static const struct gltf_material plain = {.color = {1, 1, 1, 1}, .image = -1};
@@ -41,13 +39,13 @@ static void create_samplers(struct model_buffers *buffers, const struct gltf *gl
     buffers->material_count = gltf->material_count;
 }
 
-static void look_at(const struct gltf *gltf, const struct gltf_part *part, int vertex, struct model_look *look)
+static void look_at(const struct gltf *gltf, const struct gltf_part *part, int vertex, struct surface_look *look)
 {
     if (part->mark) {
         const float *mark = part->mark[vertex], *place = part->position[vertex];
-        *look = (struct model_look){{place[0], place[1], place[2], part->fur[vertex][0]},
-                                    {mark[0], mark[1]},
-                                    {mark[2], part->fur[vertex][1]}};
+        *look = (struct surface_look){{place[0], place[1], place[2], part->fur[vertex][0]},
+                                      {mark[0], mark[1]},
+                                      {mark[2], part->fur[vertex][1]}};
         return;
     }
     memcpy(look->color, model_material(gltf, part)->color, sizeof look->color);
@@ -59,7 +57,7 @@ static void look_at(const struct gltf *gltf, const struct gltf_part *part, int v
 static void add_shapes(struct model_buffers *buffers, const struct gltf *gltf, int node)
 {
     const struct gltf_mesh *mesh = &gltf->meshes[gltf->nodes[node].mesh];
-    struct model_look *look = buffers->looks + buffers->surface.first_vertex[node];
+    struct surface_look *look = buffers->looks + buffers->surface.first_vertex[node];
     int first = buffers->surface.first_index[node];
     for (int p = 0; p < mesh->part_count; p++) {
         const struct gltf_part *part = &mesh->parts[p];
@@ -82,34 +80,17 @@ static void make_looks(struct model_buffers *buffers, const struct gltf *gltf)
     }
 }
 
-static void floats(GLuint index, GLint size, size_t stride, size_t offset)
-{
-    glEnableVertexAttribArray(index);
-    glVertexAttribPointer(index, size, GL_FLOAT, GL_FALSE, (GLsizei)stride, (const void *)offset);
-}
-
 static long upload_surface(struct model_buffers *buffers)
 {
     const struct model_surface *surface = &buffers->surface;
-    const size_t vertices = (size_t)surface->vertex_count, stride = sizeof *buffers->looks;
-    const size_t index_bytes = (size_t)surface->index_count * sizeof *surface->indices;
-    glGenVertexArrays(1, &buffers->vertex_array);
-    glBindVertexArray(buffers->vertex_array);
-    glGenBuffers(1, &buffers->moving);
-    glBindBuffer(GL_ARRAY_BUFFER, buffers->moving);
-    floats(PLACE, 3, 0, 0);
-    floats(NORMAL, 3, 0, vertices * sizeof *surface->place);
-    glGenBuffers(1, &buffers->looks_buffer);
-    glBindBuffer(GL_ARRAY_BUFFER, buffers->looks_buffer);
-    glBufferData(GL_ARRAY_BUFFER, (GLsizeiptr)(vertices * stride), buffers->looks, GL_STATIC_DRAW);
-    floats(COLOR, 4, stride, offsetof(struct model_look, color));
-    floats(UV, 2, stride, offsetof(struct model_look, uv));
-    floats(PHASE, 2, stride, offsetof(struct model_look, phase));
+    const size_t bytes = (size_t)surface->index_count * sizeof *surface->indices;
+    stage_surface_create(&buffers->drawn, surface->vertex_count, buffers->looks);
+    glBindVertexArray(buffers->drawn.vertex_array);
     glGenBuffers(1, &buffers->indices);
     glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, buffers->indices);
-    glBufferData(GL_ELEMENT_ARRAY_BUFFER, (GLsizeiptr)index_bytes, surface->indices, GL_STATIC_DRAW);
+    glBufferData(GL_ELEMENT_ARRAY_BUFFER, (GLsizeiptr)bytes, surface->indices, GL_STATIC_DRAW);
     glBindVertexArray(0);
-    return (long)(vertices * stride + index_bytes);
+    return (long)((size_t)surface->vertex_count * sizeof *buffers->looks + bytes);
 }
 
 long model_buffers_create(struct model_buffers *buffers, const struct gltf *gltf)
@@ -125,9 +106,8 @@ long model_buffers_create(struct model_buffers *buffers, const struct gltf *gltf
 
 void model_buffers_free(struct model_buffers *buffers)
 {
-    const GLuint owned[] = {buffers->moving, buffers->looks_buffer, buffers->indices};
-    glDeleteVertexArrays(1, &buffers->vertex_array);
-    glDeleteBuffers(sizeof owned / sizeof *owned, owned);
+    stage_surface_free(&buffers->drawn);
+    glDeleteBuffers(1, &buffers->indices);
     glDeleteTextures(buffers->image_count, buffers->pictures);
     glDeleteTextures(1, &buffers->white);
     glDeleteSamplers(buffers->material_count, buffers->samplers);
@@ -143,11 +123,6 @@ long model_buffers_pose(const struct model_buffers *buffers, const struct gltf *
                         const float root[16], const float eye[3])
 {
     const struct model_surface *surface = &buffers->surface;
-    const GLsizeiptr half = (GLsizeiptr)((size_t)surface->vertex_count * sizeof *surface->place);
     model_surface_pose(surface, gltf, pose, root, eye);
-    glBindBuffer(GL_ARRAY_BUFFER, buffers->moving);
-    glBufferData(GL_ARRAY_BUFFER, 2 * half, NULL, GL_STREAM_DRAW);
-    glBufferSubData(GL_ARRAY_BUFFER, 0, half, surface->place);
-    glBufferSubData(GL_ARRAY_BUFFER, half, half, surface->normal);
-    return 2 * (long)half;
+    return stage_surface_move(&buffers->drawn, (const float(*)[3])surface->place, (const float(*)[3])surface->normal);
 }

@@ -5,12 +5,6 @@
 #include "draw/gl.h"
 #include "draw/model_surface.h"
 
-/// What a vertex looks like, which never changes: its material's colour times its own, and its place in the picture. A coat's are as
-/// stage_skirt.vert has them.
-struct model_look {
-    float color[4], uv[2], phase[2];
-};
-
 /// One part of a mesh as one node shows it.
 struct model_shape {
     int node, part;
@@ -22,11 +16,11 @@ struct model_buffers {
     uint64_t id; ///< of the model that is in it, 0: none
     long used;   ///< the picture that showed it last
     struct model_surface surface;
-    struct model_look *looks; ///< of the surface's vertices
+    struct surface_look *looks; ///< of the surface's vertices
+    struct stage_surface drawn;
     struct model_shape *shapes;
     int shape_count;
-    GLuint vertex_array, looks_buffer, indices;
-    GLuint moving;    ///< all places, then all normals
+    GLuint indices;
     GLuint *pictures; ///< of each image
     GLuint white;     ///< for materials without one
     int image_count;

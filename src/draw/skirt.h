@@ -45,7 +45,7 @@ struct stage_skirt {
     GLuint program, vertex_array, buffer, indices, white;
     struct painter_uniforms shared;
     struct {
-        GLint shade, line, cutoff, blended, both_sides;
+        GLint shade, line, cutoff, blended, both_sides, base;
     } at;
     struct skirt_vertex *vertices;
 };
@@ -66,24 +66,44 @@ typedef void skirt_look(const void *context, uint32_t vertex, struct skirt_verte
 void stage_skirt_draw(const struct stage_skirt *skirt, const struct skirt_mesh *mesh, int first, int end,
                       bool both_sides, const float eye[3], float seam, skirt_look *look, const void *context);
 
-// The skirts of soft characters.
+// Surfaces that come as they stand.
 
-/// What of a figure's outlines is kept.
+/// What a vertex looks like: its colour, linear, with opacity; its place in a picture; and its phase, as in stage_mesh.frag. A coat's are as
+/// stage_skirt.vert has them.
+struct surface_look {
+    float color[4], uv[2], phase[2];
+};
+
+struct stage_surface {
+    GLuint vertex_array;  ///< without indices
+    GLuint moving, looks; ///< all places, then all normals; what vertices look like
+    int count;            ///< vertices
+};
+
+void stage_surface_create(struct stage_surface *surface, int count, const struct surface_look *looks);
+void stage_surface_free(struct stage_surface *surface);
+
+/// Both return the bytes.
+long stage_surface_move(const struct stage_surface *surface, const float (*place)[3], const float (*normal)[3]);
+long stage_surface_show(const struct stage_surface *surface, const struct surface_look *looks);
+
+// The outlines of soft characters.
+
+/// What of a figure's outlines is kept, and how it stands.
 struct morph_skirt {
     uint32_t *sorted
         [2]; ///< of the fine and of the coarse triangles, as morph_looks_sort() has them; NULL: as the figure has them
     int *neighbours[2];
-    float (*place)[3]; ///< of each vertex
-    bool *front;       ///< of each triangle
+    float (*place)[3], (*normal)[3]; ///< of each vertex
+    bool *front;                     ///< of each triangle
 };
 
 /// `sorted` are set, and stay its own.
 void morph_skirt_create(struct morph_skirt *skirt, const struct figure *figure, const struct morph_looks *looks);
 void morph_skirt_free(struct morph_skirt *skirt);
 
-/// Draws those of a character; with pictures where it has ranges.
-void morph_skirt_draw(const struct morph_skirt *skirt, const struct stage_skirt *program,
-                      const struct stage_view *view, const struct stage_character *shown,
-                      const struct morph_looks *looks, float seam);
+/// The figure as it stands, its fine or its coarse triangles; and how many indices these are.
+struct skirt_mesh morph_skirt_mesh(const struct morph_skirt *skirt, const struct figure *figure, bool coarse);
+int morph_skirt_count(const struct figure *figure, bool coarse);
 
 #endif

@@ -23,10 +23,6 @@ void stage_draw(struct stage_renderer *renderer, const struct stage_view *view, 
 /// The rigs alone, over the whole of a framebuffer, without the soft edges that blend into what is behind.
 void stage_draw_rigs(struct stage_renderer *renderer, const struct stage_view *view, int width, int height);
 
-/// Whether a figure's coordinates fit a texture of at most `largest` texels a side; if not, false with a sentence that
-/// gives the numbers.
-bool stage_morph_fits(const struct figure *figure, int largest, struct error *error);
-
 // A smaller picture of the stage, drawn first and then enlarged onto the panel.
 
 struct stage_target {

@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { PICTURE_UNIT = 1, COVER = 5 }; ///< a location in stage_skirt.vert
+enum { PICTURE_UNIT = 1 };
 /// Models on the GPU, one more than a picture shows; and after how many pictures without it one goes.
 enum { MAX_KEPT = STAGE_MAX_MODELS + 1, FORGOTTEN = 1000 };
 
@@ -166,7 +166,7 @@ static void draw_shapes(const struct stage_models *models, const struct model_bu
 static void draw_surface(const struct stage_models *models, const struct model_buffers *buffers,
                          const struct stage_model *shown, enum look look, bool second)
 {
-    glBindVertexArray(buffers->vertex_array);
+    glBindVertexArray(buffers->drawn.vertex_array);
     if (second) {
         draw_shapes(models, buffers, shown, look, MASKED, MASKED);
     } else {
@@ -183,7 +183,7 @@ static void draw_surface(const struct stage_models *models, const struct model_b
 static void look_at(const void *context, uint32_t vertex, struct skirt_vertex *out)
 {
     const struct model_buffers *buffers = context;
-    const struct model_look *look = &buffers->looks[vertex];
+    const struct surface_look *look = &buffers->looks[vertex];
     memcpy(out->normal, buffers->surface.normal[vertex], sizeof out->normal);
     memcpy(out->color, look->color, sizeof out->color);
     memcpy(out->uv, look->uv, sizeof out->uv);
@@ -221,7 +221,7 @@ static void draw(const void *state, const struct stage_view *view, float scale, 
     const struct stage_models *models = state;
     (void)scale;
     if (view->model_count == 0) return;
-    glVertexAttrib1f(COVER, 1.0f);
+    glVertexAttrib1f(5, 1.0f); // opaque, but skirts
     for (enum look look = 0; look < LOOKS; look++) {
         const GLint shade = use_look(models, look, view, seam);
         for (int m = 0; m < view->model_count; m++) {

@@ -9,14 +9,15 @@
 
 enum { EDGES = 8192, CORNERS = 4 }; ///< that are drawn at once; of an edge
 enum { PICTURE_UNIT = 1 };
+enum { PLACE, NORMAL, COLOR, UV, PHASE, COVER }; ///< locations in stage_skirt.vert
 
 /// Pixels that the skirt is nearer to the eye where the surface goes on: it may lean towards the eye.
 static const float LIFT = 2.0f;
 
-static void attribute(GLuint index, GLint size, size_t offset)
+static void attribute(GLuint index, GLint size, size_t stride, size_t offset)
 {
     glEnableVertexAttribArray(index);
-    glVertexAttribPointer(index, size, GL_FLOAT, GL_FALSE, sizeof(struct skirt_vertex), (const void *)offset);
+    glVertexAttribPointer(index, size, GL_FLOAT, GL_FALSE, (GLsizei)stride, (const void *)offset);
 }
 
 /// Two triangles an edge.
@@ -29,16 +30,17 @@ static void upload_indices(uint16_t *indices)
 
 static void create_buffers(struct stage_skirt *skirt, uint16_t *indices)
 {
+    const size_t stride = sizeof(struct skirt_vertex);
     glGenVertexArrays(1, &skirt->vertex_array);
     glBindVertexArray(skirt->vertex_array);
     glGenBuffers(1, &skirt->buffer);
     glBindBuffer(GL_ARRAY_BUFFER, skirt->buffer);
-    attribute(0, 3, offsetof(struct skirt_vertex, place));
-    attribute(1, 3, offsetof(struct skirt_vertex, normal));
-    attribute(2, 4, offsetof(struct skirt_vertex, color));
-    attribute(3, 2, offsetof(struct skirt_vertex, uv));
-    attribute(4, 2, offsetof(struct skirt_vertex, phase));
-    attribute(5, 1, offsetof(struct skirt_vertex, cover));
+    attribute(PLACE, 3, stride, offsetof(struct skirt_vertex, place));
+    attribute(NORMAL, 3, stride, offsetof(struct skirt_vertex, normal));
+    attribute(COLOR, 4, stride, offsetof(struct skirt_vertex, color));
+    attribute(UV, 2, stride, offsetof(struct skirt_vertex, uv));
+    attribute(PHASE, 2, stride, offsetof(struct skirt_vertex, phase));
+    attribute(COVER, 1, stride, offsetof(struct skirt_vertex, cover));
     glGenBuffers(1, &skirt->indices);
     glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, skirt->indices);
     upload_indices(indices);
@@ -49,13 +51,13 @@ bool stage_skirt_create(struct stage_skirt *skirt, struct error *error)
 {
     uint16_t *indices = need(6 * EDGES, sizeof *indices);
     *skirt = (struct stage_skirt){.vertices = need(CORNERS * EDGES, sizeof *skirt->vertices)};
-    skirt->program = gl_program("stage_skirt.vert", "stage_mesh.frag", "SKIRT", error);
+    skirt->program = gl_program("stage_skirt.vert", "stage_mesh.frag", "PICTURED", error);
     if (skirt->program) {
         skirt->shared = painter_find_uniforms(skirt->program);
         const struct gl_uniform uniforms[] = {
             {&skirt->at.shade, "shade"},           {&skirt->at.line, "line"},
             {&skirt->at.cutoff, "cutoff"},         {&skirt->at.blended, "blended"},
-            {&skirt->at.both_sides, "both_sides"},
+            {&skirt->at.both_sides, "both_sides"}, {&skirt->at.base, "base"},
         };
         gl_find_uniforms(skirt->program, uniforms, sizeof uniforms / sizeof *uniforms);
         glUseProgram(skirt->program);
@@ -86,6 +88,8 @@ void stage_skirt_use(const struct stage_skirt *skirt, const struct stage_view *v
     glUniform1i(skirt->at.both_sides, 0);
     glUniform1f(skirt->at.cutoff, 0.0f);
     glUniform1f(skirt->at.line, 0.0f);
+    glUniform4f(skirt->at.base, 1.0f, 1.0f, 1.0f, 1.0f);
+    glVertexAttrib1f(COVER, 1.0f);
     glActiveTexture(GL_TEXTURE0 + PICTURE_UNIT);
     glBindTexture(GL_TEXTURE_2D, skirt->white);
 }
@@ -171,4 +175,47 @@ void stage_skirt_draw(const struct stage_skirt *skirt, const struct skirt_mesh *
     }
     draw_edges(skirt, count);
     glEnable(GL_CULL_FACE);
+}
+
+void stage_surface_create(struct stage_surface *surface, int count, const struct surface_look *looks)
+{
+    const size_t stride = sizeof *looks;
+    surface->count = count;
+    glGenVertexArrays(1, &surface->vertex_array);
+    glBindVertexArray(surface->vertex_array);
+    glGenBuffers(1, &surface->moving);
+    glBindBuffer(GL_ARRAY_BUFFER, surface->moving);
+    attribute(PLACE, 3, 0, 0);
+    attribute(NORMAL, 3, 0, (size_t)count * sizeof(float[3]));
+    glGenBuffers(1, &surface->looks);
+    stage_surface_show(surface, looks);
+    attribute(COLOR, 4, stride, offsetof(struct surface_look, color));
+    attribute(UV, 2, stride, offsetof(struct surface_look, uv));
+    attribute(PHASE, 2, stride, offsetof(struct surface_look, phase));
+    glBindVertexArray(0);
+}
+
+void stage_surface_free(struct stage_surface *surface)
+{
+    glDeleteVertexArrays(1, &surface->vertex_array);
+    glDeleteBuffers(1, &surface->moving);
+    glDeleteBuffers(1, &surface->looks);
+}
+
+long stage_surface_move(const struct stage_surface *surface, const float (*place)[3], const float (*normal)[3])
+{
+    const GLsizeiptr half = (GLsizeiptr)((size_t)surface->count * sizeof *place);
+    glBindBuffer(GL_ARRAY_BUFFER, surface->moving);
+    glBufferData(GL_ARRAY_BUFFER, 2 * half, NULL, GL_STREAM_DRAW);
+    glBufferSubData(GL_ARRAY_BUFFER, 0, half, place);
+    glBufferSubData(GL_ARRAY_BUFFER, half, half, normal);
+    return 2 * (long)half;
+}
+
+long stage_surface_show(const struct stage_surface *surface, const struct surface_look *looks)
+{
+    const GLsizeiptr bytes = (GLsizeiptr)((size_t)surface->count * sizeof *looks);
+    glBindBuffer(GL_ARRAY_BUFFER, surface->looks);
+    glBufferData(GL_ARRAY_BUFFER, bytes, looks, GL_STATIC_DRAW);
+    return (long)bytes;
 }

@@ -12,7 +12,6 @@
 enum {
     FIGURE_SOLES = 2,
     FIGURE_COARSE = 10000, ///< triangles of the coarse mesh
-    FIGURE_BLOCK = 128,    ///< vertices whose changes are tracked together
 };
 
 /// Derivatives of one coordinate at one vertex, along t₁ (u) and t₂ (v), per metre.
@@ -39,8 +38,6 @@ struct figure {
     struct sole soles[FIGURE_SOLES];
     uint64_t id;      ///< unique in this run
     uint64_t version; ///< grows whenever coordinates and slopes change; 0: they never do
-    /// The version at which vertices FIGURE_BLOCK·b … of coordinate k changed last, at k·figure_blocks() + b; NULL: never.
-    uint64_t *changed;
 };
 
 /// Whether there is memory for the figure of a character that a file claims.
@@ -57,12 +54,6 @@ void figure_forget(struct figure *figure);
 /// How the real or the imaginary part of a coordinate turns normals, to first order, as morph targets have it: n = t₁ × t₂, and the
 /// coordinate moves both tangents; −Im for the imaginary part.
 void figure_turn_normals(const struct figure *figure, int coordinate, bool imaginary, float (*turn)[3]);
-
-/// Blocks of FIGURE_BLOCK vertices that it has, the last one may be smaller.
-static inline int figure_blocks(const struct figure *figure)
-{
-    return (figure->character.vertex_count + FIGURE_BLOCK - 1) / FIGURE_BLOCK;
-}
 
 /// For a copy of a figure with other coordinates: an id; refits the slope of one coordinate at one vertex after it or a
 /// neighbour has changed; measures its largest amplitudes.
@@ -114,7 +105,7 @@ struct painted *painted_create(const struct figure *plain);
 void painted_destroy(struct painted *painted);
 
 /// Applies the paint (NULL: none; laid out as `applied`). Recomputes only what changed since the last time, and marks it in
-/// figure.version and figure.changed. Allocates nothing.
+/// figure.version. Allocates nothing.
 void painted_update(struct painted *painted, const float (*paint)[2]);
 
 #endif

@@ -10,10 +10,8 @@ static void reserve(struct painted *painted)
     const struct character *plain = &painted->plain->character;
     struct figure *figure = &painted->figure;
     const size_t vertices = (size_t)plain->vertex_count, coordinates = (size_t)plain->coordinate_count;
-    const size_t blocks = (size_t)figure_blocks(painted->plain);
     figure->slopes = need(vertices * coordinates + 1, sizeof *figure->slopes);
     figure->largest = need(coordinates + 1, sizeof *figure->largest);
-    figure->changed = need_zeroed(coordinates * blocks + 1, sizeof *figure->changed);
     figure->character.coordinates = need_zeroed(coordinates + 1, sizeof *figure->character.coordinates);
     painted->applied = need_zeroed(vertices * coordinates + 1, sizeof *painted->applied);
     painted->stale = need_zeroed(vertices + 1, sizeof *painted->stale);
@@ -64,7 +62,6 @@ void painted_destroy(struct painted *painted)
     free(coordinates);
     free(painted->figure.slopes);
     free(painted->figure.largest);
-    free(painted->figure.changed);
     free(painted->applied);
     free(painted->stale);
     free(painted);
@@ -105,7 +102,6 @@ static bool apply(struct painted *painted, int coordinate, const float (*paint)[
 void painted_update(struct painted *painted, const float (*paint)[2])
 {
     struct figure *figure = &painted->figure;
-    const int blocks = figure_blocks(figure);
     const uint64_t next = figure->version + 1;
     for (int k = 0; k < figure->character.coordinate_count; k++) {
         if (!apply(painted, k, paint)) continue;
@@ -113,7 +109,6 @@ void painted_update(struct painted *painted, const float (*paint)[2])
             if (!painted->stale[i]) continue;
             painted->stale[i] = false;
             figure_fit(figure, k, i);
-            figure->changed[k * blocks + i / FIGURE_BLOCK] = next;
         }
         figure_measure(figure, k);
         figure->version = next;

@@ -132,7 +132,7 @@ uint32_t theme_spline(uint32_t rgb)
 }
 
 /// Lightness of grey; radius of the circle of hues; added lightness at re = 1 and at im = 1; exponent of the amplitude, which
-/// makes small movements visible. stage_character.vert has the same.
+/// makes small movements visible.
 static const float LIGHTNESS = 0.70f, CHROMA = 0.10f, SWING_RE = 0.09298f, SWING_IM = 0.19939f, SPREAD = 0.6f;
 
 /// Oklab → cube roots of cone responses → linear RGB.
