@@ -48,6 +48,11 @@ struct stage_skirt {
         GLint shade, line, cutoff, blended, both_sides, base;
     } at;
     struct skirt_vertex *vertices;
+    struct {
+        GLuint program;
+        GLint shade, line;
+        struct painter_uniforms shared;
+    } plain; ///< for surfaces alone
 };
 
 /// False with a sentence; then there is nothing to free.
@@ -58,6 +63,11 @@ void stage_skirt_destroy(struct stage_skirt *skirt);
 void stage_skirt_use(const struct stage_skirt *skirt, const struct stage_view *view, float seam);
 
 void stage_skirt_leave(void);
+
+/// Uses a program for surfaces of which nothing is left out, has a picture or is seen through: its pixels are cheaper. `shade` as in
+/// stage_skirt.vert, `line` as in stage_mesh.frag.
+void stage_plain_use(const struct stage_skirt *skirt, const struct stage_view *view, const float shade[2],
+                     float line);
 
 /// Says all but place and cover of a vertex.
 typedef void skirt_look(const void *context, uint32_t vertex, struct skirt_vertex *out);

@@ -11,7 +11,7 @@ enum { PICTURE_UNIT = 1 };
 /// Models on the GPU, one more than a picture shows; and after how many pictures without it one goes.
 enum { MAX_KEPT = STAGE_MAX_MODELS + 1, FORGOTTEN = 1000 };
 
-enum look { LOOK_COAT, LOOK_FACE, LOOK_PICTURED, LOOKS };
+enum look { LOOK_COAT, LOOK_FACE, COATS, LOOK_PLAIN = COATS, LOOK_PICTURED, LOOKS };
 
 /// A program for coats. All draw surfaces and skirts alike.
 struct coat_program {
@@ -21,7 +21,7 @@ struct coat_program {
 };
 
 struct stage_models {
-    struct coat_program coats[LOOK_PICTURED];
+    struct coat_program coats[COATS];
     struct stage_skirt skirt; ///< whose program draws pictures
     struct model_buffers buffers[MAX_KEPT];
     long clock; ///< pictures
@@ -43,7 +43,7 @@ static bool coat_create(struct coat_program *coat, const char *define, struct er
 
 static void free_coats(struct stage_models *models)
 {
-    for (int look = 0; look < LOOK_PICTURED; look++) glDeleteProgram(models->coats[look].program);
+    for (int look = 0; look < COATS; look++) glDeleteProgram(models->coats[look].program);
 }
 
 static void *create(struct error *error)
@@ -109,10 +109,14 @@ static const struct gltf_part *part_of(const struct gltf *gltf, const struct mod
     return &gltf->meshes[gltf->nodes[shape->node].mesh].parts[shape->part];
 }
 
-static enum look look_of(const struct gltf *gltf, const struct gltf_part *part)
+/// What draws a part: its surface, or its skirts.
+static enum look look_of(const struct gltf *gltf, const struct gltf_part *part, bool skirts)
 {
-    if (!part->mark) return LOOK_PICTURED;
-    return strcmp(model_material(gltf, part)->name, "face") == 0 ? LOOK_FACE : LOOK_COAT;
+    const struct gltf_material *material = model_material(gltf, part);
+    if (part->mark) return strcmp(material->name, "face") == 0 ? LOOK_FACE : LOOK_COAT;
+    const bool plain =
+        material->image < 0 && material->cutoff <= 0.0f && !material->blended && !material->double_sided;
+    return plain && !skirts ? LOOK_PLAIN : LOOK_PICTURED;
 }
 
 static void use_material(const struct stage_models *models, const struct model_buffers *buffers,
@@ -127,12 +131,12 @@ static void use_material(const struct stage_models *models, const struct model_b
 }
 
 static void draw_shape(const struct stage_models *models, const struct model_buffers *buffers,
-                       const struct stage_model *shown, const struct model_shape *shape)
+                       const struct stage_model *shown, const struct model_shape *shape, enum look look)
 {
     const struct gltf_part *part = part_of(shown->gltf, shape);
     const bool both_sides = model_material(shown->gltf, part)->double_sided;
     const struct skirt_mesh mesh = model_surface_mesh(&buffers->surface, shown->gltf, shown->pose, shape->node);
-    if (!part->mark) {
+    if (look == LOOK_PICTURED) {
         use_material(models, buffers, shown->gltf, part);
         glUniform1i(models->skirt.at.both_sides, both_sides);
     }
@@ -157,8 +161,8 @@ static void draw_shapes(const struct stage_models *models, const struct model_bu
     for (int s = 0; s < buffers->shape_count; s++) {
         const struct gltf_part *part = part_of(shown->gltf, &buffers->shapes[s]);
         const enum kind kind = kind_of(model_material(shown->gltf, part));
-        if (look_of(shown->gltf, part) == look && kind >= first && kind <= last)
-            draw_shape(models, buffers, shown, &buffers->shapes[s]);
+        if (look_of(shown->gltf, part, false) == look && kind >= first && kind <= last)
+            draw_shape(models, buffers, shown, &buffers->shapes[s], look);
     }
 }
 
@@ -198,40 +202,54 @@ static void draw_skirts(const struct stage_models *models, const struct model_bu
         const struct model_shape *shape = &buffers->shapes[s];
         const struct gltf_part *part = part_of(shown->gltf, shape);
         const struct skirt_mesh mesh = model_surface_mesh(&buffers->surface, shown->gltf, shown->pose, shape->node);
-        if (look_of(shown->gltf, part) != look) continue;
+        if (look_of(shown->gltf, part, true) != look) continue;
         if (look == LOOK_PICTURED) use_material(models, buffers, shown->gltf, part);
         stage_skirt_draw(&models->skirt, &mesh, shape->first, shape->first + part->index_count,
                          model_material(shown->gltf, part)->double_sided, eye, seam, look_at, buffers);
     }
 }
 
-/// Uses the program of a look; where its `shade` is.
-static GLint use_look(const struct stage_models *models, enum look look, const struct stage_view *view, float seam)
+/// Uses the program of a look for a model, and sets its light.
+static void use_look(const struct stage_models *models, enum look look, const struct stage_view *view,
+                     const struct stage_model *shown, float seam)
 {
-    if (look == LOOK_PICTURED) {
+    const float shade[2] = {shown->ground, shown->dusk};
+    if (look == LOOK_PLAIN) {
+        stage_plain_use(&models->skirt, view, shade, 0.0f);
+    } else if (look == LOOK_PICTURED) {
         stage_skirt_use(&models->skirt, view, seam);
-        return models->skirt.at.shade;
+        glUniform2fv(models->skirt.at.shade, 1, shade);
+    } else {
+        const struct coat_program *coat = &models->coats[look];
+        painter_use(coat->program, &coat->shared, view, seam);
+        glUniform2fv(coat->shade, 1, shade);
+        if (look == LOOK_FACE && shown->gltf->weight_count > 0) glUniform1f(coat->blink, shown->pose->weights[0]);
     }
-    painter_use(models->coats[look].program, &models->coats[look].shared, view, seam);
-    return models->coats[look].shade;
+}
+
+/// Whether any part of a model has that look.
+static bool has_look(const struct model_buffers *buffers, const struct gltf *gltf, enum look look, bool skirts)
+{
+    int s = buffers->shape_count;
+    while (--s >= 0 && look_of(gltf, part_of(gltf, &buffers->shapes[s]), skirts) != look) continue;
+    return s >= 0;
 }
 
 static void draw(const void *state, const struct stage_view *view, float scale, float seam)
 {
     const struct stage_models *models = state;
+    const bool second = seam > 0.0f;
     (void)scale;
     if (view->model_count == 0) return;
     glVertexAttrib1f(5, 1.0f); // opaque, but skirts
     for (enum look look = 0; look < LOOKS; look++) {
-        const GLint shade = use_look(models, look, view, seam);
         for (int m = 0; m < view->model_count; m++) {
             const struct stage_model *shown = &view->models[m];
             const struct model_buffers *buffers = &models->buffers[find_buffers(models, shown->gltf->id)];
-            glUniform2f(shade, shown->ground, shown->dusk);
-            if (look == LOOK_FACE && shown->gltf->weight_count > 0)
-                glUniform1f(models->coats[look].blink, shown->pose->weights[0]);
-            draw_surface(models, buffers, shown, look, seam > 0.0f);
-            if (seam > 0.0f) draw_skirts(models, buffers, shown, look, view->eye, seam);
+            if (!has_look(buffers, shown->gltf, look, second)) continue;
+            use_look(models, look, view, shown, seam);
+            draw_surface(models, buffers, shown, look, second);
+            if (second) draw_skirts(models, buffers, shown, look, view->eye, seam);
         }
     }
     stage_skirt_leave();

@@ -26,35 +26,15 @@ struct model {
 };
 
 struct stage_morph {
-    struct stage_skirt skirt; ///< whose program draws surfaces with pictures too
-    struct {
-        GLuint program;
-        GLint shade, line;
-        struct painter_uniforms shared;
-    } plain; ///< for surfaces without: pixels that nothing discards are cheaper
+    struct stage_skirt skirt; ///< whose programs draw surfaces too
     struct model models[MAX_KEPT];
     long clock;
 };
 
-static bool plain_create(struct stage_morph *morph, struct error *error)
-{
-    const GLuint program = morph->plain.program = gl_program("stage_skirt.vert", "stage_mesh.frag", NULL, error);
-    if (!program) return false;
-    morph->plain.shade = glGetUniformLocation(program, "shade");
-    morph->plain.line = glGetUniformLocation(program, "line");
-    morph->plain.shared = painter_find_uniforms(program);
-    glUseProgram(program);
-    glUniform4f(glGetUniformLocation(program, "base"), 1.0f, 1.0f, 1.0f, 1.0f);
-    return true;
-}
-
 static void *create(struct error *error)
 {
     struct stage_morph *morph = need_zeroed(1, sizeof *morph);
-    if (stage_skirt_create(&morph->skirt, error)) {
-        if (plain_create(morph, error)) return morph;
-        stage_skirt_destroy(&morph->skirt);
-    }
+    if (stage_skirt_create(&morph->skirt, error)) return morph;
     free(morph);
     return NULL;
 }
@@ -74,7 +54,6 @@ static void destroy(void *state)
     struct stage_morph *morph = state;
     for (int i = 0; i < MAX_KEPT; i++) model_free(&morph->models[i]);
     stage_skirt_destroy(&morph->skirt);
-    glDeleteProgram(morph->plain.program);
     free(morph);
 }
 
@@ -269,14 +248,14 @@ static void draw_skirts(const struct stage_skirt *program, const struct model *m
 static void use_program(const struct stage_morph *morph, const struct stage_view *view,
                         const struct stage_character *shown, bool plain, float line, float seam)
 {
-    const float height = shown->figure->hi[1] - shown->figure->lo[1];
+    const float shade[2] = {shown->position[1], 0.3f * (shown->figure->hi[1] - shown->figure->lo[1])};
     if (plain) {
-        painter_use(morph->plain.program, &morph->plain.shared, view, seam);
-    } else {
-        stage_skirt_use(&morph->skirt, view, seam);
+        stage_plain_use(&morph->skirt, view, shade, line);
+        return;
     }
-    glUniform2f(plain ? morph->plain.shade : morph->skirt.at.shade, shown->position[1], 0.3f * height);
-    glUniform1f(plain ? morph->plain.line : morph->skirt.at.line, line);
+    stage_skirt_use(&morph->skirt, view, seam);
+    glUniform2fv(morph->skirt.at.shade, 1, shade);
+    glUniform1f(morph->skirt.at.line, line);
 }
 
 static void draw(const void *state, const struct stage_view *view, float scale, float seam)

@@ -47,11 +47,31 @@ static void create_buffers(struct stage_skirt *skirt, uint16_t *indices)
     glBindVertexArray(0);
 }
 
+static bool create_plain(struct stage_skirt *skirt, struct error *error)
+{
+    const GLuint program = skirt->plain.program = gl_program("stage_skirt.vert", "stage_mesh.frag", NULL, error);
+    if (!program) return false;
+    skirt->plain.shade = glGetUniformLocation(program, "shade");
+    skirt->plain.line = glGetUniformLocation(program, "line");
+    skirt->plain.shared = painter_find_uniforms(program);
+    glUseProgram(program);
+    glUniform4f(glGetUniformLocation(program, "base"), 1.0f, 1.0f, 1.0f, 1.0f);
+    return true;
+}
+
+void stage_plain_use(const struct stage_skirt *skirt, const struct stage_view *view, const float shade[2], float line)
+{
+    painter_use(skirt->plain.program, &skirt->plain.shared, view, 0.0f);
+    glUniform2fv(skirt->plain.shade, 1, shade);
+    glUniform1f(skirt->plain.line, line);
+}
+
 bool stage_skirt_create(struct stage_skirt *skirt, struct error *error)
 {
     uint16_t *indices = need(6 * EDGES, sizeof *indices);
     *skirt = (struct stage_skirt){.vertices = need(CORNERS * EDGES, sizeof *skirt->vertices)};
-    skirt->program = gl_program("stage_skirt.vert", "stage_mesh.frag", "PICTURED", error);
+    if (create_plain(skirt, error))
+        skirt->program = gl_program("stage_skirt.vert", "stage_mesh.frag", "PICTURED", error);
     if (skirt->program) {
         skirt->shared = painter_find_uniforms(skirt->program);
         const struct gl_uniform uniforms[] = {
@@ -65,6 +85,7 @@ bool stage_skirt_create(struct stage_skirt *skirt, struct error *error)
         skirt->white = gl_white();
         create_buffers(skirt, indices);
     } else {
+        glDeleteProgram(skirt->plain.program);
         free(skirt->vertices);
     }
     free(indices);
@@ -74,6 +95,7 @@ bool stage_skirt_create(struct stage_skirt *skirt, struct error *error)
 void stage_skirt_destroy(struct stage_skirt *skirt)
 {
     glDeleteProgram(skirt->program);
+    glDeleteProgram(skirt->plain.program);
     glDeleteTextures(1, &skirt->white);
     glDeleteVertexArrays(1, &skirt->vertex_array);
     glDeleteBuffers(1, &skirt->buffer);
