@@ -72,26 +72,9 @@ static void pose(struct stage *stage, const struct core *core, const struct edit
     }
 }
 
-static bool bounds(const struct stage *stage, const struct core *core, const struct editor_world *world, int rig,
-                   int n, float lo[3], float hi[3])
+static float aside(const struct core *core, const struct editor_world *world, int n)
 {
-    const struct posing posing = stage_posing(core, world);
-    const double last = document_samples(world->document) - 1;
-    const struct figure *figure = models_figure(world->models, n);
-    struct rig_pose posed;
-    (void)stage;
-    if (!figure) return false;
-    for (int step = 0; step <= BOUND_STEPS; step++) {
-        float low[3], high[3];
-        rig_pose(&posing, rig, last * step / BOUND_STEPS, NULL, &posed);
-        rig_bounds(&posed, low, high);
-        for (int k = 0; k < 3; k++) {
-            const float aside = k == 0 && core->characters.compare ? pair_offset(figure) : 0.0f;
-            lo[k] = fminf(lo[k], low[k] - aside);
-            hi[k] = fmaxf(hi[k], high[k] + aside);
-        }
-    }
-    return true;
+    return core->characters.compare ? pair_offset(models_figure(world->models, n)) : 0.0f;
 }
 
 static uint64_t hash(uint64_t sum, const struct stage_view *view)
@@ -109,7 +92,7 @@ static uint64_t hash(uint64_t sum, const struct stage_view *view)
     return sum;
 }
 
-const struct stage_kind stage_characters = {pose, bounds, hash};
+const struct stage_kind stage_characters = {.pose = pose, .bound_steps = BOUND_STEPS, .aside = aside, .hash = hash};
 
 /// The vertex that is seen there from the front of the character at rest.
 static int front_vertex(const struct figure *figure, const double uv[2])

@@ -134,20 +134,6 @@ static void pose(struct stage *stage, const struct core *core, const struct edit
     add_shadow(&stage->view, of->area);
 }
 
-static bool bounds(const struct stage *stage, const struct core *core, const struct editor_world *world, int rig,
-                   int n, float lo[3], float hi[3])
-{
-    const struct posing posing = stage_posing(core, world);
-    struct rig_pose posed;
-    float low[3], high[3];
-    (void)stage;
-    if (n > 0 || !rig_pose(&posing, rig, 0, NULL, &posed)) return false;
-    rig_bounds(&posed, low, high);
-    glm_vec3_minv(low, lo, lo);
-    glm_vec3_maxv(high, hi, hi);
-    return true;
-}
-
 static uint64_t hash(uint64_t sum, const struct stage_view *view)
 {
     const struct stage_meadow *meadow = &view->meadow;
@@ -156,4 +142,4 @@ static uint64_t hash(uint64_t sum, const struct stage_view *view)
     return hash_bytes(sum, meadow->reeds, (size_t)meadow->count * sizeof *meadow->reeds);
 }
 
-const struct stage_kind stage_meadows = {pose, bounds, hash};
+const struct stage_kind stage_meadows = {.pose = pose, .bound_steps = 1, .hash = hash};

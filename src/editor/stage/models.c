@@ -54,25 +54,6 @@ static void pose(struct stage *stage, const struct core *core, const struct edit
     add_shadows(view, shown);
 }
 
-static bool bounds(const struct stage *stage, const struct core *core, const struct editor_world *world, int rig,
-                   int n, float lo[3], float hi[3])
-{
-    const struct posing posing = stage_posing(core, world);
-    const double last = document_samples(world->document) - 1;
-    bool any = false;
-    (void)stage, (void)n;
-    for (int step = 0; step <= BOUND_STEPS; step++) {
-        struct rig_pose posed;
-        float low[3], high[3];
-        if (!rig_pose(&posing, rig, last * step / BOUND_STEPS, NULL, &posed)) break;
-        rig_bounds(&posed, low, high);
-        glm_vec3_minv(low, lo, lo);
-        glm_vec3_maxv(high, hi, hi);
-        any = true;
-    }
-    return any;
-}
-
 static uint64_t hash(uint64_t sum, const struct stage_view *view)
 {
     for (int m = 0; m < view->model_count; m++) {
@@ -86,7 +67,7 @@ static uint64_t hash(uint64_t sum, const struct stage_view *view)
     return sum;
 }
 
-const struct stage_kind stage_models = {pose, bounds, hash};
+const struct stage_kind stage_models = {.pose = pose, .bound_steps = BOUND_STEPS, .hash = hash};
 
 void skin_free(struct skin *skin)
 {

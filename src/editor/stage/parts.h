@@ -11,10 +11,11 @@
 struct stage_kind {
     /// Poses it into the editor's stage view, with its shadow.
     void (*pose)(struct stage *stage, const struct core *core, const struct editor_world *world, int rig, int n);
-    /// Adds its motion over the whole scene to the box lo … hi; false where it is not to be seen.
-    bool (*bounds)(const struct stage *stage, const struct core *core, const struct editor_world *world, int rig,
-                   int n, float lo[3], float hi[3]);
-    /// Of all that are in the view.
+    /// Steps through the scene at which the box around its motion is measured; 0: it has none of its own.
+    int bound_steps;
+    /// Metres that this is wider to both sides; NULL: as it is.
+    float (*aside)(const struct core *core, const struct editor_world *world, int n);
+    /// Of all that are in the view; NULL: what they show is another kind's.
     uint64_t (*hash)(uint64_t hash, const struct stage_view *view);
 };
 

@@ -175,6 +175,30 @@ static const struct stage_kind *const kinds[RIG_KINDS] = {
     [RIG_CHAIN] = &stage_chains, [RIG_MEADOW] = &stage_meadows,
 };
 
+/// Adds the motion of one over the whole scene to the box lo … hi; false where it is not to be seen.
+static bool add_motion(const struct stage *stage, const struct core *core, const struct editor_world *world, int rig,
+                       int n, float lo[3], float hi[3])
+{
+    const struct stage_kind *kind = kinds[world->document->rigs[rig]->kind];
+    const struct stage_hand by = {stage, core, world->document};
+    const struct posing posing = stage_posing_by_hand(&by, world);
+    const double last = document_samples(world->document) - 1;
+    bool any = false;
+    for (int step = 0; kind->bound_steps > 0 && step <= kind->bound_steps; step++) {
+        struct rig_pose posed;
+        float low[3], high[3];
+        if (!rig_pose(&posing, rig, last * step / kind->bound_steps, NULL, &posed)) break;
+        const float aside = kind->aside ? kind->aside(core, world, n) : 0.0f;
+        rig_bounds(&posed, low, high);
+        for (int k = 0; k < 3; k++) {
+            lo[k] = fminf(lo[k], low[k] - (k == 0 ? aside : 0.0f));
+            hi[k] = fmaxf(hi[k], high[k] + (k == 0 ? aside : 0.0f));
+        }
+        any = true;
+    }
+    return any;
+}
+
 /// Adds all motion of a kind to the box lo … hi; false where nothing of it is to be seen.
 static bool add_bounds(const struct stage *stage, const struct core *core, const struct editor_world *world,
                        enum rig_kind kind, float lo[3], float hi[3])
@@ -183,7 +207,7 @@ static bool add_bounds(const struct stage *stage, const struct core *core, const
     bool any = false;
     int rig = document_next_rig(document, kind, 0);
     for (int n = 0; rig >= 0; n++, rig = document_next_rig(document, kind, rig + 1)) {
-        any |= kinds[kind]->bounds(stage, core, world, rig, n, lo, hi);
+        any |= add_motion(stage, core, world, rig, n, lo, hi);
     }
     return any;
 }
@@ -238,7 +262,9 @@ void stage_fit(struct stage *stage, const struct core *core, const struct editor
 static uint64_t view_hash(const struct stage_view *view)
 {
     uint64_t hash = stage_scenery_hash(view);
-    for (int kind = 0; kind < RIG_KINDS; kind++) hash = kinds[kind]->hash(hash, view);
+    for (int kind = 0; kind < RIG_KINDS; kind++) {
+        if (kinds[kind]->hash) hash = kinds[kind]->hash(hash, view);
+    }
     return hash_bytes(hash, view->blobs, (size_t)view->blob_count * sizeof view->blobs[0]);
 }
 

@@ -91,29 +91,7 @@ static void pose(struct stage *stage, const struct core *core, const struct edit
     add_blobs(view, &shown->pose);
 }
 
-static bool bounds(const struct stage *stage, const struct core *core, const struct editor_world *world, int rig,
-                   int n, float lo[3], float hi[3])
-{
-    const double last = document_samples(world->document) - 1;
-    for (int step = 0; step <= BOUND_STEPS && n < STAGE_MAX_TAILS; step++) {
-        struct rig_pose posed;
-        float low[3], high[3];
-        stage_pose_strand(stage, core, world, rig, last * step / BOUND_STEPS, NULL, &posed);
-        rig_bounds(&posed, low, high);
-        glm_vec3_minv(low, lo, lo);
-        glm_vec3_maxv(high, hi, hi);
-    }
-    return true;
-}
-
-/// Tails and chains change what the models show, which is in the hash already.
-static uint64_t no_hash(uint64_t sum, const struct stage_view *view)
-{
-    (void)view;
-    return sum;
-}
-
-const struct stage_kind stage_tails = {pose, bounds, no_hash};
+const struct stage_kind stage_tails = {.pose = pose, .bound_steps = BOUND_STEPS};
 
 /// The points of a chain of a character that is shown.
 static void add_strand(struct stage *stage, const struct editor_world *world, int rig, int model,
@@ -142,14 +120,7 @@ static void chain_pose(struct stage *stage, const struct core *core, const struc
     add_strand(stage, world, rig, model, &bones);
 }
 
-static bool chain_bounds(const struct stage *stage, const struct core *core, const struct editor_world *world,
-                         int rig, int n, float lo[3], float hi[3])
-{
-    (void)stage, (void)core, (void)world, (void)rig, (void)n, (void)lo, (void)hi;
-    return false;
-}
-
-const struct stage_kind stage_chains = {chain_pose, chain_bounds, no_hash};
+const struct stage_kind stage_chains = {.pose = chain_pose};
 
 static void take_points(const struct rig_pose *pose, int rig, struct strand *strand)
 {
