@@ -3,9 +3,8 @@
 #include "folder.h"
 #include "inside.h"
 
-#include "app/export_memory.h"
 #include "app/personal.h"
-#include "app/recent.h"
+#include "app/remembered.h"
 #include "ui/theme.h"
 #include <stdio.h>
 #include <string.h>

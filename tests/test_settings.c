@@ -2,7 +2,7 @@
 #include "blind.h"
 
 #include "app/personal.h"
-#include "app/recent.h"
+#include "app/remembered.h"
 #include "base/file.h"
 #include "folder.h"
 #include <stdio.h>

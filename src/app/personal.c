@@ -1,10 +1,8 @@
 /// The user's settings, recent files and recovery, for interactive windows.
 #include "app/personal.h"
 #include "app/autosave.h"
-#include "app/export_memory.h"
 #include "app/folders.h"
-#include "app/recent.h"
-#include "app/settings.h"
+#include "app/remembered.h"
 #include "app/state.h"
 #include "base/file.h"
 #include "base/need.h"
@@ -36,17 +34,36 @@ static void complain(struct app *app, const struct error *error)
     if (error->kind != ERROR_NONE) editor_message(app->table.editor, true, error->text);
 }
 
-/// Another window may have changed the file meanwhile: it is read again for every change, and that one waits until it is written.
-static struct settings *open_settings(const struct personal *personal, struct error *error)
+/// Another window may have changed the file meanwhile: it is read again for every change, and that one waits until it is written. NULL if
+/// there is no file to change.
+static struct settings *open_settings(const struct app *app)
 {
-    return personal->settings_path[0] ? settings_open(personal->settings_path, error) : NULL;
+    const struct personal *personal = app->personal;
+    struct error ignored;
+    return personal && personal->settings_path[0] ? settings_open(personal->settings_path, &ignored) : NULL;
 }
 
 static void store_settings(struct app *app, struct settings *settings)
 {
     struct error error = {0};
-    if (settings && !settings_save(settings, app->personal->settings_path, &error)) complain(app, &error);
+    if (!settings_save(settings, app->personal->settings_path, &error)) complain(app, &error);
     settings_free(settings);
+}
+
+static void store_text(struct app *app, const char *key, const char *value)
+{
+    struct settings *settings = open_settings(app);
+    if (!settings) return;
+    settings_set(settings, key, value);
+    store_settings(app, settings);
+}
+
+static void store_number(struct app *app, const char *key, double value)
+{
+    struct settings *settings = open_settings(app);
+    if (!settings) return;
+    settings_set_number(settings, key, value);
+    store_settings(app, settings);
 }
 
 static void start_theme(struct app *app, const struct settings *settings)
@@ -73,7 +90,7 @@ static void start_settings(struct app *app)
     if (folder_make(FOLDER_CONFIG, folder, sizeof folder, &error)) {
         snprintf(personal->settings_path, sizeof personal->settings_path, "%s/%s", folder, settings_name);
     }
-    struct settings *settings = open_settings(personal, &error);
+    struct settings *settings = personal->settings_path[0] ? settings_open(personal->settings_path, &error) : NULL;
     editor_panels(app->table.editor, &personal->stage_share, &personal->panels_width);
     if (settings) {
         personal->stage_share = settings_number(settings, "stage_share", personal->stage_share);
@@ -94,40 +111,25 @@ static void start_settings(struct app *app)
 /// Stores the theme once its key has changed it.
 static void note_theme(struct app *app)
 {
-    struct personal *personal = app->personal;
-    struct error error = {0};
-    if (personal->theme == theme_in_use()) return;
-    personal->theme = theme_in_use();
-    struct settings *settings = open_settings(personal, &error);
-    if (!settings) return;
-    settings_set(settings, "theme", theme()->name);
-    store_settings(app, settings);
+    if (app->personal->theme == theme_in_use()) return;
+    app->personal->theme = theme_in_use();
+    store_text(app, "theme", theme()->name);
 }
 
 /// Stores the scale once it has been changed.
 static void note_ui_scale(struct app *app)
 {
-    struct personal *personal = app->personal;
-    struct error error = {0};
-    if (personal->ui_scale == app->ui_scale || app->options->record || app->options->frames) return;
-    personal->ui_scale = app->ui_scale;
-    struct settings *settings = open_settings(personal, &error);
-    if (!settings) return;
-    settings_set_number(settings, "ui_scale", app->ui_scale);
-    store_settings(app, settings);
+    if (app->personal->ui_scale == app->ui_scale || app->options->record || app->options->frames) return;
+    app->personal->ui_scale = app->ui_scale;
+    store_number(app, "ui_scale", app->ui_scale);
 }
 
 /// Once closed, the card for new users does not come back.
 static void note_welcomed(struct app *app)
 {
-    struct personal *personal = app->personal;
-    struct error error = {0};
-    if (!personal->is_new || editor_is_welcoming(app->table.editor)) return;
-    personal->is_new = false;
-    struct settings *settings = open_settings(personal, &error);
-    if (!settings) return;
-    settings_set(settings, "welcomed", "yes");
-    store_settings(app, settings);
+    if (!app->personal->is_new || editor_is_welcoming(app->table.editor)) return;
+    app->personal->is_new = false;
+    store_text(app, "welcomed", "yes");
 }
 
 static void end_settings(struct app *app)
@@ -136,19 +138,13 @@ static void end_settings(struct app *app)
     double share, width;
     editor_panels(app->table.editor, &share, &width);
     if (share == personal->stage_share && width == personal->panels_width) return;
-    struct error error = {0};
-    struct settings *settings = open_settings(personal, &error);
-    if (!settings) return;
-    settings_set_number(settings, "stage_share", share);
-    settings_set_number(settings, "inspector_width", width);
-    store_settings(app, settings);
+    store_number(app, "stage_share", share);
+    store_number(app, "inspector_width", width);
 }
 
 void personal_note_file(struct app *app, const char *path)
 {
-    struct error error = {0};
-    if (!app->personal || !path[0]) return;
-    struct settings *settings = open_settings(app->personal, &error);
+    struct settings *settings = path[0] ? open_settings(app) : NULL;
     if (!settings) return;
     recent_note(settings, path);
     store_settings(app, settings);
@@ -156,9 +152,7 @@ void personal_note_file(struct app *app, const char *path)
 
 void personal_note_export(struct app *app, const struct request *request)
 {
-    struct error error = {0};
-    if (!app->personal) return;
-    struct settings *settings = open_settings(app->personal, &error);
+    struct settings *settings = open_settings(app);
     if (!settings) return;
     export_memory_write(settings, request, app_path(app));
     store_settings(app, settings);

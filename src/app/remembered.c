@@ -1,9 +1,32 @@
-/// The last export in the settings: where to, from which scene, and the choices that suit another scene too.
-#include "app/export_memory.h"
+/// The files that the settings remember.
+#include "app/remembered.h"
 #include "base/file.h"
+#include <limits.h>
 #include <stddef.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
+
+void recent_note(struct settings *settings, const char *path)
+{
+    char full[PATH_MAX];
+    if (realpath(path, full)) settings_push(settings, "recent", full, DIALOG_MAX_RECENT);
+}
+
+int recent_list(const struct settings *settings, struct dialog_recent *files, int most)
+{
+    int count = 0;
+    const char *path;
+    for (int n = 0; count < most && (path = settings_get(settings, "recent", n)) != NULL; n++) {
+        struct dialog_recent *file = &files[count];
+        if (strlen(path) >= sizeof file->path) continue;
+        snprintf(file->path, sizeof file->path, "%s", path);
+        file->missing = access(path, R_OK) != 0;
+        count++;
+    }
+    return count;
+}
 
 static const struct {
     const char *key;
