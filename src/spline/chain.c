@@ -199,8 +199,7 @@ static void fill_run(const chain *c, const cplx weight[4], int at, int count, do
     }
 }
 
-/// State and costate that the run from sample k of a stretch begins with. ν is that of the stretch's end, set with the second run.
-static void begin_run(const chain *c, const chain_node *p, const chain_node *q, int k, cplx nu[2], cplx weight[4])
+void chain_begin_run(const chain *c, const chain_node *p, const chain_node *q, int k, cplx nu[2], cplx weight[4])
 {
     if (k > 0) {
         if (k == c->run) costate_at_end(c, p, q, nu);
@@ -222,7 +221,7 @@ static bool fill_stretch(const chain *c, const chain_node *p, const chain_node *
     for (int k = 0; k < n; k += c->run) {
         int at = p->sample + c->turned + k, count = n - k < c->run ? n - k : c->run;
         if (c->cyclic && at >= c->count) at -= c->count;
-        begin_run(c, p, q, k, nu, weight);
+        chain_begin_run(c, p, q, k, nu, weight);
         for (int i = 0; i < 4; i++) tame = tame && is_tame(weight[i]);
         fill_run(c, weight, at, count, re, im);
     }
@@ -390,6 +389,11 @@ bool chain_solve(chain *c, double *x_re, double *x_im)
     if (c->rank == CHAIN_WEAK && c->count <= LONGEST_FOR_BAND) return false;
     if (chain_must_refine(c) && !refine(c, size)) return false;
     if (c->rank == CHAIN_WEAK || (c->loose && c->lost > TELLING_LOSS)) c->error += sensitivity(c);
+    if (c->im_weight > 0) {
+        chain_pull_imaginary(c);
+        chain_solve_nodes(c);
+        take_solution(c);
+    }
     c->size = size;
     c->error = fmax(c->error, chain_error(c, size));
     return chain_fill(c, x_re, x_im);

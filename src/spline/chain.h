@@ -93,6 +93,7 @@ typedef struct chain {
     int turned;          ///< a loop's: sample of its first node
     cplx lambda, delta2; ///< mean of the poles, square of half their difference
     start_cost start;    ///< times calm; on the first node
+    double im_weight;    ///< of (Im x)² at every sample, to first order; 0 where that is next to nothing
     chain_speed speed[VIEW_COUNT];
     cplx tail;       ///< d / x of a settled node
     bool oscillates; ///< whether the speeds are those that the poles see
@@ -181,9 +182,15 @@ void chain_pull_known(chain *chain);
 void chain_gradient(chain *chain);
 /// Adds a pull on a node's x and d to rows' right: Re x is known and takes none.
 void chain_pull(const chain *chain, int j, cplx on_x, cplx on_d);
+/// Takes it from what is known, and lets a tied d follow Im x.
+void chain_hold_known(const chain *chain, int j);
+/// The same of the imaginary rows alone.
+void chain_pull_imaginary(chain *chain);
 /// Samples of the stretch after node j, and the node at its end.
 int chain_length_after(const chain *chain, int j);
 static inline int chain_next(const chain *c, int j) { return j + 1 < c->node_count ? j + 1 : 0; }
 /// How many stretches there are: one less than nodes, in a loop as many.
 static inline int chain_stretches(const chain *c) { return c->cyclic ? c->node_count : c->node_count - 1; }
+/// State and costate that the run from sample k of a stretch begins with. ν is that of the stretch's end, set with the second run.
+void chain_begin_run(const chain *chain, const chain_node *p, const chain_node *q, int k, cplx nu[2], cplx weight[4]);
 #endif

@@ -86,8 +86,7 @@ static void pull_form(const chain *c, int j, const state_form *h)
     chain_pull(c, j, cplx_scale(-1, on_x), cplx_scale(-1, on_d));
 }
 
-/// Takes a pull from what is known, and lets a tied d follow Im x.
-static void hold_known(const chain *c, int j)
+void chain_hold_known(const chain *c, int j)
 {
     double *right = c->rows[j].right;
     const unsigned fixed = c->nodes[j].fixed;
@@ -114,6 +113,6 @@ void chain_gradient(chain *c)
         pull_form(c, c->node_count - 1, &end);
     }
     for (int j = 0; j < c->node_count; j++) {
-        if (c->nodes[j].fixed) hold_known(c, j);
+        if (c->nodes[j].fixed) chain_hold_known(c, j);
     }
 }

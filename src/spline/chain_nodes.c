@@ -209,7 +209,7 @@ bool chain_must_refine(const chain *c)
 
 double chain_error(const chain *c, double size)
 {
-    if (c->rank == CHAIN_WEAK || (c->loose && c->is_complex && c->lost > TELLING_LOSS))
+    if (c->rank == CHAIN_WEAK || (c->im_weight > 0 && c->lost > TELLING_LOSS))
         return 16 * DBL_EPSILON * sqrt(c->lost) * size; // refined: what is left is the coefficients' rounding
     if (c->loose) return 100 * DBL_EPSILON * c->lost * size;
     return c->lost > TELLING_LOSS ? 16 * DBL_EPSILON * c->lost * size : 0;

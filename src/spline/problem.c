@@ -3,11 +3,15 @@
 #include <float.h>
 #include <math.h>
 
-/// Below this many radians of the natural frequency over the domain, two periods, the imaginary rows hold Im x and may not be left out. Above, what
+/// Below this many radians of the natural frequency over the domain the imaginary rows hold Im x and may not be left out. Above, what
 /// they change is below 1e-9 of x; twice as high up and more it is about 1e-14. Where next to nothing holds the start it takes more.
-static const double least_phase = 12.5, least_phase_of_loose_start = 48;
+static const double least_unpulled_phase = 12.6, least_phase_of_loose_start = 48;
 
-/// The most that was left out, as a part of x; from `least_phase` on it falls with the eighth power.
+/// Below that and above this, the chain lets them pull on its nodes, if (radians² · domain / longest gap)⁴ is so large that what it
+/// leaves out, how they bend the gaps, is no more than `most_omitted`.
+static const double least_phase = 6, least_stiffness_of_gaps = 1e7;
+
+/// The most that was left out, as a part of x; from `least_unpulled_phase` on it falls with the eighth power.
 static const double most_omitted = 2e-10;
 
 /// The jet at a sample and what is behind it are far apart where a row's b all but vanishes: speeds seen from there are not for the chain.
@@ -65,10 +69,34 @@ static double phase_of(wiggly_solver *solver, const problem *p)
     return problem_filter(solver, p)->at.natural * (intervals * p->desc->step);
 }
 
-/// Whether the imaginary rows may be left out.
+/// Whether a chain takes the imaginary rows as a pull on its nodes: they are felt.
+static bool pulls_imaginary(wiggly_solver *solver, const problem *p)
+{
+    return p->desc->mode == WIGGLY_COMPLEX && (problem_is_loose(p) || phase_of(solver, p) < least_unpulled_phase);
+}
+
+/// Samples of the longest stretch. One that ends freely bends as one that is two and a half times as long.
+static double longest_gap(const wiggly_solver *solver, const problem *p)
+{
+    const int before = p->start == WIGGLY_LOOP ? p->latest - p->count : p->first;
+    double longest = 0;
+    if (p->start != WIGGLY_LOOP && !p->settles) longest = 2.5 * (p->first + p->count - 1 - p->latest);
+    for (int n = 0, from = before; n < p->desc->knot_count; n++) {
+        const int sample = knot_at(solver, p, n)->sample;
+        longest = fmax(longest, sample - from);
+        from = sample;
+    }
+    return longest;
+}
+
+/// Whether the imaginary rows may be left out, or pull on the nodes alone.
 static bool imaginary_fit(wiggly_solver *solver, const problem *p)
 {
-    return phase_of(solver, p) >= (problem_is_loose(p) ? least_phase_of_loose_start : least_phase);
+    const double phase = phase_of(solver, p), phase2 = phase * phase;
+    if (problem_is_loose(p)) return phase >= least_phase_of_loose_start;
+    if (!pulls_imaginary(solver, p)) return true;
+    const double stiffness = phase2 * (p->count / longest_gap(solver, p)), stiffness2 = stiffness * stiffness;
+    return phase >= least_phase && stiffness2 * stiffness2 >= least_stiffness_of_gaps;
 }
 
 bool problem_fits_chain(wiggly_solver *solver, const problem *p)
@@ -83,11 +111,11 @@ bool problem_fits_chain(wiggly_solver *solver, const problem *p)
     return begin >= 0 && slopes_fit(solver, p, begin);
 }
 
-/// What a chain may be off by without the imaginary rows, as a part of x; 0 where that is next to nothing.
+/// What a chain without the imaginary rows, or with no more than their pull on the nodes, may be off by, as a part of x; 0 where that is next to nothing.
 static double omission(wiggly_solver *solver, const problem *p)
 {
     if (p->desc->mode != WIGGLY_COMPLEX) return 0;
-    double ratio = fmin(1, least_phase / phase_of(solver, p)), r2 = ratio * ratio, r4 = r2 * r2;
+    double ratio = fmin(1, least_unpulled_phase / phase_of(solver, p)), r2 = ratio * ratio, r4 = r2 * r2;
     return ratio > 0.5 ? most_omitted * r4 * r4 : 0;
 }
 
@@ -230,6 +258,8 @@ static void set_chain(wiggly_solver *solver, const problem *p)
     c->delta2 = f->delta2;
     c->run = f->run;
     c->rounding = DBL_EPSILON * (1 + fmax(cplx_size(f->at.s[0]), cplx_size(f->at.s[1])) * p->desc->step);
+    c->im_weight = 0;
+    if (pulls_imaginary(solver, p)) c->im_weight = p->unit * problem_im_weight(p, f->at.natural);
     set_speeds(c, p, f);
 }
 
