@@ -141,6 +141,7 @@ static void draw_below(struct drawlist *list, struct rect r, float x, float y, c
     draw_number(list, fmaxf(r.x, fminf(r.x + r.w - width, x - width / 2)), y, text);
 }
 
+/// The inset's scales and poles, without the handles.
 static void poles_draw_inset(const struct poles_view *view, const struct pole_setting *setting, struct rect r,
                              struct drawlist *list)
 {
@@ -185,7 +186,6 @@ static void draw_curve(const struct poles_view *view, enum filter_kind kind, str
     drawlist_line(list, xy[0], POLES_COLUMNS, own ? 2 : 1.25f, theme_fade(filter_color(view, kind), own ? 1 : 0.7f));
 }
 
-/// The inset's scales and poles, without the handles.
 static void poles_draw_response(const struct poles_view *view, struct rect r, struct drawlist *list)
 {
     struct rect plot = {r.x + margin_left, r.y + 4, r.w - margin_left, r.h - margin_bottom - 4};
@@ -304,7 +304,7 @@ static void build_inset(struct inspection *in, const struct pole_setting *settin
     int which = 0, count = setting->kind == FILTER_TWO_COMPLEX ? HANDLES : 1;
     if (in->ui->pass == UI_PASS_DRAW) poles_draw_inset(view, setting, inset, in->ui->list);
     enum ui_change change = ui_handles(in->ui, row, handles, count, &which);
-    if (!inspector_begin(in, change, "Move poles", handles[which].name)) return;
+    if (change == UI_NONE || !inspector_begin(in, change, "Move poles", handles[which].name)) return;
     const struct pole_setting wanted = moved_to(in, *setting, inset, which, change, &handles[which]);
     inspector_end(in, change, set_poles(in, &wanted, which));
 }
