@@ -1,5 +1,77 @@
-/// Reads imported characters.
+/// Reads imported characters, and finds their bones.
 #include "rig/imported.h"
+#include "base/need.h"
+#include "model/vector.h"
+#include <stdlib.h>
+
+static const float SHORT_TIP = 0.1f;     ///< of the character's height: a lone joint's
+static const float SHORT_SIBLING = 0.4f; ///< of the way from its parent: one of several, as an eye of a head
+
+static void mark_joints(const struct gltf *gltf, bool *is_bone)
+{
+    for (int s = 0; s < gltf->skin_count; s++) {
+        for (int j = 0; j < gltf->skins[s].joint_count; j++) is_bone[gltf->skins[s].joints[j]] = true;
+    }
+    for (int n = 0; n < gltf->node_count && gltf->skin_count == 0; n++) is_bone[n] = gltf->nodes[n].parent >= 0;
+}
+
+static vec3s place_of(const struct gltf_pose *pose, int node) { return vec3_from(pose->world[node] + 12); }
+
+/// Where a bone without a child ends: as far on as the one before is long, if that is one of a row.
+static struct bone tip_bone(const struct gltf *gltf, const struct gltf_pose *rest, int node, int parent_children)
+{
+    const vec3s at = place_of(rest, node);
+    vec3s on = {.raw = {0, SHORT_TIP * (gltf->hi[1] - gltf->lo[1]), 0}};
+    if (parent_children > 0) on = glms_vec3_sub(at, place_of(rest, gltf->nodes[node].parent));
+    if (parent_children > 1) on = glms_vec3_scale(on, SHORT_SIBLING);
+    const vec3s tip = glms_mat3_mulv(mat3_inverse(glms_mat4_pick3(mat4_from(rest->world[node]))), on);
+    struct bone bone = {.node = node, .child = -1};
+    memcpy(bone.tip, tip.raw, sizeof bone.tip);
+    return bone;
+}
+
+/// In the order of the file, so that a chain's are in a row.
+static void list_bones(const struct gltf *gltf, const struct gltf_pose *rest, const bool *is_bone, int *children,
+                       struct skeleton *skeleton)
+{
+    for (int n = 0; n < gltf->node_count; n++) {
+        const int parent = gltf->nodes[n].parent;
+        if (!is_bone[n] || parent < 0 || !is_bone[parent]) continue;
+        children[parent]++;
+        skeleton->bones[skeleton->count++] = (struct bone){.node = parent, .child = n};
+    }
+    for (int n = 0; n < gltf->node_count; n++) {
+        const int parent = gltf->nodes[n].parent;
+        if (!is_bone[n] || children[n] > 0) continue;
+        skeleton->bones[skeleton->count++] = tip_bone(gltf, rest, n, parent >= 0 ? children[parent] : 0);
+    }
+}
+
+static void skeleton_create(const struct gltf *gltf, const struct gltf_pose *rest, struct skeleton *skeleton)
+{
+    const size_t count = (size_t)gltf->node_count + 1;
+    bool *is_bone = need_zeroed(count, sizeof *is_bone);
+    int *children = need_zeroed(count, sizeof *children); // that are bones
+    *skeleton = (struct skeleton){.bones = need_zeroed(2 * count, sizeof *skeleton->bones)};
+    mark_joints(gltf, is_bone);
+    list_bones(gltf, rest, is_bone, children, skeleton);
+    free(is_bone);
+    free(children);
+}
+
+static void skeleton_free(struct skeleton *skeleton)
+{
+    free(skeleton->bones);
+    *skeleton = (struct skeleton){0};
+}
+
+void skeleton_ends(const struct bone *bone, const struct gltf_pose *pose, float ends[2][3])
+{
+    vec3s end = bone->child >= 0 ? place_of(pose, bone->child)
+                                 : glms_mat4_mulv3(mat4_from(pose->world[bone->node]), vec3_from(bone->tip), 1.0f);
+    memcpy(ends[0], pose->world[bone->node] + 12, sizeof ends[0]);
+    memcpy(ends[1], end.raw, sizeof ends[1]);
+}
 
 bool imported_read(struct imported *imported, const char *path, struct error *error)
 {

@@ -1,9 +1,23 @@
 /// An imported character made ready for posing: its file, its rest pose, the boxes that its poses are bounded
-/// by, and its bones.
+/// by, and its bones as one sees and points at them: a line from each joint to the next.
+///
+/// Bones are the joints of skins; in a file without skins all nodes that have a parent.
 #ifndef RIG_IMPORTED_H
 #define RIG_IMPORTED_H
 
-#include "rig/skeleton.h"
+#include "model/gltf.h"
+
+/// From a node to a child that is a bone too; where there is none, on to a tip.
+struct bone {
+    int node;     ///< that turns it
+    int child;    ///< −1: it ends in a tip
+    float tip[3]; ///< in the node's own space
+};
+
+struct skeleton {
+    struct bone *bones;
+    int count; ///< one for each pair of joints, one for each tip
+};
 
 struct imported {
     struct gltf gltf;
@@ -15,5 +29,8 @@ struct imported {
 /// Reads a .glb or .gltf. On error nothing is left to free.
 bool imported_read(struct imported *imported, const char *path, struct error *error);
 void imported_free(struct imported *imported);
+
+/// Where a bone begins and ends in a pose, in the character's space.
+void skeleton_ends(const struct bone *bone, const struct gltf_pose *pose, float ends[2][3]);
 
 #endif
