@@ -287,7 +287,7 @@ FUZZED := $(wildcard src/base/*.c src/spline/*.c src/scene/*.c src/model/*.c) sr
     $(wildcard src/rig/*.c src/export/*.c) src/draw/skirt.c src/draw/model_surface.c $(addprefix src/simulation/,\
     drive.c softness.c lattice.c tiling.c voxels.c solid.c winding.c element.c material.c eigen.c)
 fuzzers: $(FUZZERS:%=$(B)/%)
-$(B)/fuzzed.a: $(FUZZED:%.c=$(B)/obj/%.o) $(FUZZ_SUPPORT:%.c=$(B)/obj/%.o)
+$(B)/fuzzed.a: $(FUZZED:%.c=$(B)/obj/%.o) $(B)/obj/embedded_table.o $(B)/obj/embedded_data.o $(FUZZ_SUPPORT:%.c=$(B)/obj/%.o)
 	$(Q)rm -f $@ && ar rcs $@ $^
 $(FUZZERS:%=$(B)/%): $(B)/%: $(B)/obj/tests/fuzz/%.o $(B)/fuzzed.a
 	$(Q)$(CC) -fsanitize=fuzzer$(comma)address$(comma)undefined -Wl,--as-needed $^ $(LIBS) -o $@
