@@ -104,6 +104,7 @@ void drag_end(struct core *core, const struct editor_world *world, bool keep)
         if (!keep) selection_drop_from(&core->selection, world->document->next_id);
         if (!keep && core->pin.id >= world->document->next_id) pins_clear(core);
         history_end(world->history);
+        core_settle(core, world); // a body's last edits may have added the first splines
     }
     *drag = (struct drag){0};
 }
