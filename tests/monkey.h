@@ -78,8 +78,7 @@ static inline bool find_thing(struct monkey *m, float *x, float *y)
 {
     struct app *app = &m->blind->app;
     const struct document *d = app->table.document;
-    struct editor_world world = table_world(&app->table);
-    const struct spline *spline = core_active_spline(&app->table.editor->core, &world);
+    const struct spline *spline = core_active_spline(&app->table.editor->core);
     const int tails = document_count_rigs(d, RIG_TAIL);
     const char *tail = tails > 0 ? d->rigs[document_find_rig(d, RIG_TAIL, below(m, tails))]->name : NULL;
     char target[512] = "";
@@ -87,7 +86,7 @@ static inline bool find_thing(struct monkey *m, float *x, float *y)
     if (document_find_rig(d, RIG_MODEL, 0) >= 0 && one_in(m, 2)) {
         static const char *const bones[] = {"tail_1", "tail_5", "ear_L_1", "ear_R_1", "head", "leg_FL_1"};
         snprintf(target, sizeof target, "bone(%s)", bones[below(m, 6)]);
-        return editor_target(app->table.editor, &world, target, x, y, NULL);
+        return editor_target(app->table.editor, target, x, y, NULL);
     }
     if (which < 3 && spline && spline->knot_count > 0) {
         const int knot = below(m, spline->knot_count);
@@ -104,7 +103,7 @@ static inline bool find_thing(struct monkey *m, float *x, float *y)
     } else {
         snprintf(target, sizeof target, "ruler(%d)", d->first_frame + below(m, d->last_frame - d->first_frame + 1));
     }
-    return editor_target(app->table.editor, &world, target, x, y, NULL);
+    return editor_target(app->table.editor, target, x, y, NULL);
 }
 
 /// A widget of the inspector or of the open dialog.

@@ -24,7 +24,7 @@ struct session {
 
 static inline void session_send(struct session *session, struct event event)
 {
-    editor_event(session->editor, &session->world, &event);
+    editor_event(session->editor, &event);
 }
 
 static inline void session_close(struct session *session) { table_free(&session->table); }
@@ -62,7 +62,7 @@ static inline void session_point(struct session *session, const char *target)
 {
     struct error error = {0};
     float x, y;
-    if (!editor_target(session->editor, &session->world, target, &x, &y, &error)) fail_msg("%s", error.text);
+    if (!editor_target(session->editor, target, &x, &y, &error)) fail_msg("%s", error.text);
     session_move(session, x, y);
 }
 

@@ -17,7 +17,7 @@ static const struct knot *knot(const struct session *s, int spline, int k)
     return &s->document->splines[spline]->knots[k];
 }
 
-static int count(const struct session *s) { return selected_count(&s->editor->core, s->document); }
+static int count(const struct session *s) { return selected_count(&s->editor->core); }
 
 /// A box from one place of the plot to another, by frames and values.
 static void box(struct session *s, const char *from, const char *to)
@@ -313,13 +313,13 @@ TEST(test_the_box_has_the_handles_that_can_scale)
     struct error error;
     session_open(&s, TWO);
     session_click(&s, "knot(sway,1)");
-    assert_false(editor_target(s.editor, &s.world, "box(0,-1)", &x, &y, &error));
+    assert_false(editor_target(s.editor, "box(0,-1)", &x, &y, &error));
     s.mods = MOD_SHIFT;
     session_click(&s, "knot(up,0)"); // on the same frame
     s.mods = 0;
-    assert_true(editor_target(s.editor, &s.world, "box(0,-1)", &x, &y, &error));
-    assert_false(editor_target(s.editor, &s.world, "box(1,0)", &x, &y, &error));
-    assert_false(editor_target(s.editor, &s.world, "box(1,-1)", &x, &y, &error));
+    assert_true(editor_target(s.editor, "box(0,-1)", &x, &y, &error));
+    assert_false(editor_target(s.editor, "box(1,0)", &x, &y, &error));
+    assert_false(editor_target(s.editor, "box(1,-1)", &x, &y, &error));
     session_point(&s, "knot(sway,1)");
     session_frame(&s);
     assert_int_equal(s.editor->core.hover.kind, HOVER_KNOT);

@@ -40,10 +40,9 @@ TEST(a_figure_ends_a_press_that_began_in_its_frame)
     blind_open(&blind, scene_file());
     blind_frame(&blind);
     struct app *app = &blind.app;
-    struct editor_world world = table_world(&app->table);
     const double before = app->table.document->splines[0]->knots[1].value;
     float x, y;
-    assert_true(editor_target(app->table.editor, &world, "knot(s,1)", &x, &y, NULL));
+    assert_true(editor_target(app->table.editor, "knot(s,1)", &x, &y, NULL));
     send_pointer(&blind, EVENT_POINTER, x, y);
     send_pointer(&blind, EVENT_BUTTON, x, y);
     send_key(&blind, '3', MOD_CTRL);
@@ -70,8 +69,7 @@ TEST(poles_of_figure_2_are_in_sight)
         blind_frame(&blind);
         blind_frame(&blind);
         struct editor *editor = blind.app.table.editor;
-        struct editor_world world = table_world(&blind.app.table);
-        assert_true(inspector_target(editor->inspector, &editor->core, &world, "pole.centre", &x, &y));
+        assert_true(inspector_target(editor->inspector, &editor->core, "pole.centre", &x, &y));
         const struct draw_command *axis = shown_text(editor, "-1 Hz"); // below the response
         assert_non_null(axis);
         assert_true(axis->y < editor->core.layout.inspector.y + editor->core.layout.inspector.h - 40);

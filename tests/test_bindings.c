@@ -110,9 +110,9 @@ SESSION_TEST(test_punctuation_is_what_is_typed, session_open(s, scene))
 SESSION_TEST(test_a_part_is_played_without_brackets, session_open(s, scene))
 {
     const struct playback *playback = &s->editor->core.playback;
-    playback_seek(&s->editor->core, s->document, 20);
+    playback_seek(&s->editor->core, 20);
     session_key(s, KEY_HOME, MOD_CTRL);
-    playback_seek(&s->editor->core, s->document, 50);
+    playback_seek(&s->editor->core, 50);
     session_key(s, KEY_END, MOD_CTRL);
     assert_true(playback->has_range);
     assert_near(playback->range[0], 20, 0);

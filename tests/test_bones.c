@@ -34,8 +34,8 @@ static void open_beast(struct session *session, const char *chains)
 static const char *selected(const struct session *session)
 {
     int model;
-    const int node = bones_selected(&session->editor->core, &session->world, &model);
-    return node < 0 ? "" : bones_character(&session->world, model)->gltf.nodes[node].name;
+    const int node = bones_selected(&session->editor->core, &model);
+    return node < 0 ? "" : bones_character(&session->editor->core, model)->gltf.nodes[node].name;
 }
 
 SESSION_TEST(test_the_bone_pointed_at_says_its_name_and_a_click_selects_it, open_beast(s, ""))
@@ -114,8 +114,8 @@ SESSION_TEST(test_of_bones_over_each_other_the_near_one_is_picked, open_beast(s,
         float left[2], right[2];
         struct error error;
         session_key(s, KEY_LEFT, MOD_CTRL | MOD_SHIFT);
-        if (!editor_target(s->editor, &s->world, "bone(leg_FL_1)", &left[0], &left[1], &error)) continue;
-        if (!editor_target(s->editor, &s->world, "bone(leg_FR_1)", &right[0], &right[1], &error)) continue;
+        if (!editor_target(s->editor, "bone(leg_FL_1)", &left[0], &left[1], &error)) continue;
+        if (!editor_target(s->editor, "bone(leg_FR_1)", &right[0], &right[1], &error)) continue;
         if (fabsf(left[0] - right[0]) > 2) continue;
         session_move(s, (left[0] + right[0]) / 2, (left[1] + right[1]) / 2);
         session_frame(s);
@@ -172,7 +172,7 @@ SESSION_TEST(test_dragging_a_chain_sets_a_knot, open_beast(s, TAIL))
     const float x = s->x, y = s->y;
     session_release(s, BUTTON_LEFT);
     assert_int_equal(s->document->splines[0]->knot_count, 1);
-    assert_true(editor_target(s->editor, &s->world, "chain(tail,0.95)", &tip[0], &tip[1], &error));
+    assert_true(editor_target(s->editor, "chain(tail,0.95)", &tip[0], &tip[1], &error));
     assert_true(hypotf(tip[0] - x, tip[1] - y) < 30); // one axis only: as near as it gets
     assert_one_step(s, before);
     session_key(s, 'Z', MOD_CTRL);
@@ -197,7 +197,7 @@ SESSION_TEST(test_a_chain_of_two_axes_comes_to_the_pointer, open_beast(s, TAIL))
     for (int frame = 0; frame < 60; frame++) session_frame(s);
     const float x = s->x, y = s->y;
     session_release(s, BUTTON_LEFT);
-    assert_true(editor_target(s->editor, &s->world, "chain(tail,0.9)", &tip[0], &tip[1], &error));
+    assert_true(editor_target(s->editor, "chain(tail,0.9)", &tip[0], &tip[1], &error));
     assert_true(hypotf(tip[0] - x, tip[1] - y) < 1.5f);
 }
 

@@ -24,7 +24,7 @@ static void open_crowd(struct session *s, int knots)
         at += (size_t)sprintf(scene + at, "%s{\"frame\": %d, \"value\": %d}", k ? "," : "", k, k * 7919 % 1009);
     strcpy(scene + at, "]}]}");
     panel_open(s, scene, 1280, 900);
-    core_activate(&s->editor->core, &s->world, 1);
+    core_activate(&s->editor->core, 1);
     free(scene);
 }
 
@@ -39,13 +39,13 @@ static void assert_walked(struct session *s)
         for (int k = 0; k < spline(s, of)->knot_count; k++) {
             if (!selection_has(&core->selection, spline(s, of)->knots[k].id)) continue;
             expected++;
-            assert_true(selected_next(core, s->document, &at));
+            assert_true(selected_next(core, &at));
             assert_int_equal(at.spline, of);
             assert_int_equal(at.knot, k);
         }
     }
-    assert_false(selected_next(core, s->document, &at));
-    assert_int_equal(selected_count(core, s->document), expected);
+    assert_false(selected_next(core, &at));
+    assert_int_equal(selected_count(core), expected);
 }
 
 SESSION_TEST(edits_and_selections_are_found, open_crowd(s, CROWD))
@@ -59,11 +59,11 @@ SESSION_TEST(edits_and_selections_are_found, open_crowd(s, CROWD))
     selection_set(&core->selection, spline(s, 1)->knots[100].id, true);
     selection_set(&core->selection, spline(s, 0)->knots[1].id, true);
     assert_walked(s);
-    core_activate(core, &s->world, 0);
+    core_activate(core, 0);
     assert_walked(s);
-    core_activate(core, &s->world, 1);
+    core_activate(core, 1);
     selection_set(&core->selection, spline(s, 1)->knots[100].id, true);
-    core_delete_knots(core, &s->world, 0); // indices move
+    core_delete_knots(core, 0); // indices move
     assert_true(spline(s, 1)->knot_count < CROWD);
     assert_walked(s);
     session_key(s, 'Z', MOD_CTRL);
@@ -80,7 +80,7 @@ SESSION_TEST(a_drag_is_found, open_crowd(s, 300))
         session_drag(s, i < 20 ? 7 : -21, i % 2 ? 30 : -28, 1);
         assert_walked(s);
     }
-    assert_true(selected_count(&s->editor->core, s->document) == 1);
+    assert_true(selected_count(&s->editor->core) == 1);
     session_release(s, BUTTON_LEFT);
     assert_walked(s);
     session_key(s, 'Z', MOD_CTRL);

@@ -306,7 +306,7 @@ SESSION_TEST(test_every_knot_is_drawn, session_open(s, FIVE))
             float x, y;
             int drawn = 0;
             snprintf(target, sizeof target, "knot(%s,%d)", spline(s, i)->name, k);
-            if (!editor_target(s->editor, &s->world, target, &x, &y, &error)) fail_msg("%s", error.text);
+            if (!editor_target(s->editor, target, &x, &y, &error)) fail_msg("%s", error.text);
             for (int c = 0; c < list->count; c++) {
                 const struct draw_command *command = &list->commands[c];
                 if (command->kind != DRAW_CONVEX || command->count != 4) continue;

@@ -17,8 +17,8 @@ static double frames_wide(struct session *s)
 {
     float x[2], y;
     struct error error = {0};
-    if (!editor_target(s->editor, &s->world, "curve(sway,38,-0.5)", &x[0], &y, &error) ||
-        !editor_target(s->editor, &s->world, "curve(sway,42,-0.5)", &x[1], &y, &error)) {
+    if (!editor_target(s->editor, "curve(sway,38,-0.5)", &x[0], &y, &error) ||
+        !editor_target(s->editor, "curve(sway,42,-0.5)", &x[1], &y, &error)) {
         fail_msg("%s", error.text);
     }
     return 4 / (double)(x[1] - x[0]);
@@ -59,7 +59,7 @@ TEST(a_long_list_turns_by_wheel)
     assert_true(panel_shows(&s, "item.s1"));
     assert_false(panel_shows(&s, "item.s59"));
     float x, y;
-    assert_true(inspector_target(s.editor->inspector, &s.editor->core, &s.world, "item.s3", &x, &y));
+    assert_true(inspector_target(s.editor->inspector, &s.editor->core, "item.s3", &x, &y));
     session_move(&s, x, y);
     for (int i = 0; i < 20; i++) session_wheel(&s, -5);
     assert_true(panel_shows(&s, "item.s59"));
@@ -78,7 +78,7 @@ TEST(lag_is_the_active_splines)
     for (int active = 0; active < 2; active++) {
         struct session s;
         session_open(&s, tail);
-        core_activate(&s.editor->core, &s.world, active);
+        core_activate(&s.editor->core, active);
         const double before[2] = {lag_of(&s, 0), lag_of(&s, 1)};
         session_hold(&s, 'L', ACTION_PRESS);
         session_key(&s, KEY_UP, 0);
@@ -98,7 +98,7 @@ TEST(a_rig_has_the_colour_of_its_first_spline)
     panel_open(&s, tail, 1280, 1400);
     inspector_unfold(s.editor->inspector, "section.rigs");
     session_frame(&s);
-    assert_true(inspector_target(s.editor->inspector, &s.editor->core, &s.world, "tail.0", &x, &y));
+    assert_true(inspector_target(s.editor->inspector, &s.editor->core, "tail.0", &x, &y));
     const struct drawlist *list = editor_drawlist(s.editor);
     for (int i = 0; i < list->count; i++) {
         const struct draw_command *c = &list->commands[i];
@@ -115,7 +115,7 @@ static int lines_at(struct session *s, const char *widget)
     const struct drawlist *list = editor_drawlist(s->editor);
     float x, y;
     int count = 0;
-    assert_true(inspector_target(s->editor->inspector, &s->editor->core, &s->world, widget, &x, &y));
+    assert_true(inspector_target(s->editor->inspector, &s->editor->core, widget, &x, &y));
     for (int i = 0; i < list->count; i++) {
         const struct rect *b = &list->commands[i].bounds;
         const bool is_inside = b->x > x - 10 && b->x + b->w < x + 10 && b->y > y - 10 && b->y + b->h < y + 10;
@@ -176,7 +176,7 @@ TEST(targets_that_are_missing_are_said)
     for (size_t i = 0; i < sizeof missing / sizeof *missing; i++) {
         struct error error = {0};
         float x, y;
-        if (editor_target(s.editor, &s.world, missing[i], &x, &y, &error)) fail_msg("%s is there", missing[i]);
+        if (editor_target(s.editor, missing[i], &x, &y, &error)) fail_msg("%s is there", missing[i]);
         assert_true(error.text[0]);
     }
     session_close(&s);
@@ -190,7 +190,7 @@ TEST(a_target_from_the_pointer)
     session_open(&s, tail);
     session_move(&s, 300, 200);
     const float height = s.editor->core.layout.stage.h;
-    assert_true(editor_target(s.editor, &s.world, "pointer(0.1,-0.2)", &x, &y, &error));
+    assert_true(editor_target(s.editor, "pointer(0.1,-0.2)", &x, &y, &error));
     assert_near(x, 300 + 0.1f * height, 1e-3);
     assert_near(y, 200 - 0.2f * height, 1e-3);
     session_close(&s);
@@ -218,7 +218,7 @@ TEST(presets_look_alike_and_plain)
     const struct drawlist *list = editor_drawlist(s.editor);
     for (size_t p = 0; p < sizeof presets / sizeof *presets; p++) {
         float x, y;
-        assert_true(inspector_target(s.editor->inspector, &s.editor->core, &s.world, presets[p], &x, &y));
+        assert_true(inspector_target(s.editor->inspector, &s.editor->core, presets[p], &x, &y));
         for (int i = 0; i < list->count; i++) {
             const struct draw_command *c = &list->commands[i];
             const bool covers = c->kind != DRAW_TEXT && c->bounds.w < 200 && rect_contains(c->bounds, x, y);

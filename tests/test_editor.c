@@ -302,7 +302,7 @@ static void monkey(struct session *s)
     case 3:
         if (sway(s)->knot_count == 0) return;
         snprintf(target, sizeof target, "knot(sway,%d)", below(sway(s)->knot_count));
-        if (!editor_target(s->editor, &s->world, target, &event.x, &event.y, NULL)) return;
+        if (!editor_target(s->editor, target, &event.x, &event.y, NULL)) return;
         session_move(s, event.x, event.y);
         event.kind = EVENT_BUTTON;
         event.action = ACTION_PRESS;

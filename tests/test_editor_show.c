@@ -24,7 +24,7 @@ static void point_at_tail(struct session *s, float share, float xy[2])
     struct error error = {0};
     char target[32];
     snprintf(target, sizeof target, "tail(tail,%g)", share);
-    if (!editor_target(s->editor, &s->world, target, &xy[0], &xy[1], &error)) fail_msg("%s", error.text);
+    if (!editor_target(s->editor, target, &xy[0], &xy[1], &error)) fail_msg("%s", error.text);
 }
 
 /// Pulls the tail at `share` by (dx, dy) and waits; asserts that it follows the pointer.
@@ -494,7 +494,7 @@ TEST(test_targets_that_are_not_there)
     for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++) {
         struct error error = {0};
         float x, y;
-        assert_false(editor_target(s.editor, &s.world, wrong[i], &x, &y, &error));
+        assert_false(editor_target(s.editor, wrong[i], &x, &y, &error));
         assert_true(error.text[0] != 0);
     }
     session_close(&s);

@@ -21,7 +21,7 @@ static double floor_of(const struct session *s) { return s->document->rigs[0]->c
 static void edge(struct session *s, float xy[2])
 {
     struct error error;
-    if (!editor_target(s->editor, &s->world, "floor(c)", &xy[0], &xy[1], &error)) fail_msg("%s", error.text);
+    if (!editor_target(s->editor, "floor(c)", &xy[0], &xy[1], &error)) fail_msg("%s", error.text);
 }
 
 /// The edge stays under the pointer, and all is one step.
@@ -75,7 +75,7 @@ SESSION_TEST(test_without_a_floor_there_is_no_edge, open_creature(s))
     session_move(s, at[0], at[1]);
     session_frame(s);
     assert_int_not_equal(s->editor->core.hover.kind, HOVER_FLOOR);
-    assert_false(editor_target(s->editor, &s->world, "floor(c)", &at[0], &at[1], &error));
+    assert_false(editor_target(s->editor, "floor(c)", &at[0], &at[1], &error));
 }
 
 int main(void) { return tests_run(NULL, NULL); }

@@ -216,7 +216,7 @@ static bool try_chord(int key, unsigned mods)
     if (!is_open) session_open(&s, scene);
     const struct event press = {.kind = EVENT_KEY, .key = key, .mods = mods, .action = ACTION_PRESS};
     const struct event text = {.kind = EVENT_TEXT, .codepoint = (uint32_t)key};
-    bool bound = keys_event(s.editor, &s.world, &press) || (mods == 0 && keys_event(s.editor, &s.world, &text));
+    bool bound = keys_event(s.editor, &press) || (mods == 0 && keys_event(s.editor, &text));
     is_open = !bound;
     if (bound) session_close(&s);
     return bound;

@@ -162,10 +162,10 @@ SESSION_TEST(test_hidden_and_solo_curves, panel_open(s, scene, 1280, 720))
     assert_int_equal(s->editor->curves->cache.other_count, 1);
     panel_click(s, "spline.pace"); // the order of the list does not matter to what is hidden
     panel_click(s, "spline.up");
-    assert_false(spline_list_shows(&s->editor->core, s->document, 0));
+    assert_false(spline_list_shows(&s->editor->core, 0));
     panel_click(s, "solo.lift");
-    assert_true(spline_list_shows(&s->editor->core, s->document, 2));
-    assert_false(spline_list_shows(&s->editor->core, s->document, 1));
+    assert_true(spline_list_shows(&s->editor->core, 2));
+    assert_false(spline_list_shows(&s->editor->core, 1));
     panel_click(s, "solo.lift");
     panel_click(s, "eye.pace");
     assert_int_equal(s->editor->curves->cache.other_count, 2);
@@ -240,7 +240,7 @@ SESSION_TEST(test_a_range_asks_for_its_knots, panel_open(s, scene, 1280, 1600))
     panel_enter(s, "scene.first", "-10"); // the playhead stays on its frame
     assert_near(s->editor->core.playback.position, 60, 0);
     panel_enter(s, "scene.substeps", "4");
-    assert_near(core_frame(&s->editor->core, s->document), 50, 0);
+    assert_near(core_frame(&s->editor->core), 50, 0);
     assert_int_equal(s->document->substeps, 4);
     free(before);
 }

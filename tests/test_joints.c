@@ -198,14 +198,14 @@ TEST(test_a_second_character_is_named)
         session_frame(&s);
         assert_non_null(shown_text(s.editor, bone));
         session_click(&s, target);
-        assert_true(bones_selected(&s.editor->core, &s.world, &model) >= 0);
+        assert_true(bones_selected(&s.editor->core, &model) >= 0);
         assert_int_equal(model, rig);
     }
     session_click(&s, "bone(right/tail_3)");
     session_key(&s, 'J', 0);
     assert_non_null(strstr(s.editor->core.message.text, "from right/tail_3 to tail_8"));
     session_click(&s, "bone(neck)"); // the first that there is
-    assert_true(bones_selected(&s.editor->core, &s.world, &model) >= 0);
+    assert_true(bones_selected(&s.editor->core, &model) >= 0);
     assert_int_equal(model, 0);
     session_close(&s);
 }

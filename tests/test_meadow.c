@@ -149,7 +149,7 @@ SESSION_TEST(a_dragged_body_sets_them_swinging, panel_open_models(s, scene))
     session_press(s, BUTTON_LEFT, 1);
     for (int i = 1; i <= 10; i++) {
         const double swing = swing_of(s);
-        editor_pose(s->editor, &s->world); // as a window's first frame after a rest: no time has passed
+        editor_pose(s->editor); // as a window's first frame after a rest: no time has passed
         assert_near(swing_of(s), swing, 0);
         session_move(s, 12, 0);
         session_frame(s);

@@ -238,21 +238,20 @@ static void assert_undone(struct monkey *m, struct origin *origin)
     struct app *app = &m->blind->app;
     hands_off(m);
     watch_origin(origin, app);
-    struct editor_world world = table_world(&app->table);
     const size_t all = history_count(app->table.history), done = history_done(app->table.history);
-    core_jump(&app->table.editor->core, &world, all);
+    core_jump(&app->table.editor->core, all);
     char *last = printed(app->table.document);
-    core_jump(&app->table.editor->core, &world, 0);
+    core_jump(&app->table.editor->core, 0);
     blind_frame(m->blind);
     if (history_dropped(app->table.history) > 0 || app->table.document->serial != origin->serial)
         remember(origin, app->table.document);
     char *first = printed(app->table.document);
     assert_string_equal(first, origin->text);
-    core_jump(&app->table.editor->core, &world, all);
+    core_jump(&app->table.editor->core, all);
     blind_frame(m->blind);
     char *again = printed(app->table.document);
     assert_string_equal(again, last);
-    core_jump(&app->table.editor->core, &world, done);
+    core_jump(&app->table.editor->core, done);
     free(first);
     free(last);
     free(again);
@@ -285,8 +284,7 @@ static void assert_rescued(struct app *app)
 static void keep_small(struct app *app)
 {
     while (document_samples(app->table.document) * (app->table.document->spline_count + 1) > MOST_SAMPLES) {
-        struct editor_world world = table_world(&app->table);
-        core_undo(&app->table.editor->core, &world, -1);
+        core_undo(&app->table.editor->core, -1);
         if (!history_redo_label(app->table.history)) return;
     }
 }

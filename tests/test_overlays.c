@@ -84,7 +84,7 @@ SESSION_TEST(test_arc_is_where_the_tip_goes, session_open(s, scene))
         assert_true(isfinite(expected[0]));
         for (int i = 0; i < step; i++) session_key(s, KEY_RIGHT, 0);
         struct error error = {0};
-        assert_true(editor_target(s->editor, &s->world, "tail(tail,1)", &tip[0], &tip[1], &error));
+        assert_true(editor_target(s->editor, "tail(tail,1)", &tip[0], &tip[1], &error));
         assert_near(tip[0], expected[0], 0.1);
         assert_near(tip[1], expected[1], 0.1);
         session_key(s, KEY_LEFT, MOD_SHIFT);
@@ -206,7 +206,7 @@ SESSION_TEST(test_a_character_has_skins_and_an_arc, open_bear(s))
     session_key(s, 'P', 0);
     assert_in_range(find(s, DRAW_RECT, theme()->playhead).count, 44, 49);
     const struct character *bear = &models_figure(s->world.models, 0)->character;
-    const int point = overlay_point(s->editor->stage, &s->editor->core, &s->world).at;
+    const int point = overlay_point(s->editor->stage, &s->editor->core).at;
     for (int i = 0; i < bear->vertex_count; i++) assert_true(way_of(bear, i) <= way_of(bear, point) + 1e-6f);
     panel_click(s, "onion");
     panel_click(s, "trail");
@@ -232,8 +232,8 @@ SESSION_TEST(test_a_character_has_a_ghost, open_bear(s))
     session_release(s, BUTTON_LEFT);
     session_click(s, "ruler(40)");
     session_frame(s);
-    assert_true(editor_target(s->editor, &s->world, "character(bear,0.5,1)", &head[0], &head[1], &error));
-    assert_true(editor_target(s->editor, &s->world, "character(bear,0.4,0)", &foot[0], &foot[1], &error));
+    assert_true(editor_target(s->editor, "character(bear,0.5,1)", &head[0], &head[1], &error));
+    assert_true(editor_target(s->editor, "character(bear,0.4,0)", &foot[0], &foot[1], &error));
     assert_in_range((int)(head[1] - low), 0, 60);
     assert_near(high, foot[1], 60);
 }

@@ -72,7 +72,7 @@ static void show(struct session *f) { drawlist_clear(&f->editor->core.list, f->e
 
 static void check_inspector(struct session *f)
 {
-    const struct spline *spline = core_active_spline(&f->editor->core, &f->world);
+    const struct spline *spline = core_active_spline(&f->editor->core);
     for (int selected = 0; selected < 2; selected++) {
         if (selected && spline->knot_count > 0) {
             selection_set(&f->editor->core.selection, spline->knots[0].id, true);
@@ -80,7 +80,7 @@ static void check_inspector(struct session *f)
         for (int page = 0; page < 3; page++) {
             f->editor->inspector->scroll.offset = 150.0f * (float)page;
             show(f);
-            inspector_show(f->editor->inspector, &f->editor->core, &f->world, false);
+            inspector_show(f->editor->inspector, &f->editor->core, false);
             assert_true(assert_texts_apart(&f->editor->core.list, 0, f->editor->core.layout.inspector) > 15);
         }
     }
@@ -97,7 +97,7 @@ static void check_status(struct session *f)
     for (size_t m = 0; m < sizeof messages / sizeof messages[0]; m++) {
         editor_message(f->editor, true, messages[m]);
         show(f);
-        transport_show(f->editor->transport, &f->editor->core, &f->world, NULL);
+        transport_show(f->editor->transport, &f->editor->core, NULL);
         const int texts = assert_texts_apart(&f->editor->core.list, 0, f->editor->core.layout.status);
         // The figures and the scene's name may give way to a long message.
         assert_in_range(texts, messages[m] == long_message ? 6 : 8, 8);
@@ -108,17 +108,17 @@ static void check_dialogs(struct session *f)
 {
     const struct request quit = {.kind = REQUEST_QUIT};
     struct core *core = &f->editor->core;
-    assert_true(core_begin(core, &f->world, "Change start", 0));
-    assert_true(core_end(core, &f->world, core_set_parameter(core, &f->world, 0, PARAMETER_START, WIGGLY_REST)));
+    assert_true(core_begin(core, "Change start", 0));
+    assert_true(core_end(core, core_set_parameter(core, 0, PARAMETER_START, WIGGLY_REST)));
     for (int kind = 0; kind < 4; kind++) {
         if (kind == 0) dialog_ask_open(f->editor->dialogs);
         if (kind == 1) dialogs_save_as(f->editor->dialogs, &f->editor->core);
-        if (kind == 2) dialogs_leave(f->editor->dialogs, &f->editor->core, &f->world, &quit);
+        if (kind == 2) dialogs_leave(f->editor->dialogs, &f->editor->core, &quit);
         if (kind == 3)
             editor_offer_recovery(f->editor, &(struct recovery_offer){"walk.json", "1 May 2026, 10:00", 2});
         for (int failed = 0; failed < 2; failed++) {
             show(f);
-            dialogs_show(f->editor->dialogs, &f->editor->core, &f->world);
+            dialogs_show(f->editor->dialogs, &f->editor->core);
             assert_true(assert_texts_apart(&f->editor->core.list, 0, f->editor->core.layout.window) >= 4);
             f->editor->dialogs->dialog.awaited = REQUEST_SAVE;
             panel_answer(
@@ -157,7 +157,7 @@ TEST(test_no_text_leaves_its_panel_or_overlaps)
         editor_set_path(f.editor, i % 2 ? "a scene with a name that is rather too long to show.json" : "x.json");
         editor_set_files(f.editor, &(struct dialog_files){.list = list_names, .user = &calls});
         for (int s = 0; s < f.document->spline_count; s++) {
-            core_activate(&f.editor->core, &f.world, s);
+            core_activate(&f.editor->core, s);
             check_inspector(&f);
         }
         check_status(&f);

@@ -42,7 +42,7 @@ static void pull_with_ctrl(struct session *s, const char *target, float dx, floa
 static void where(struct session *s, const char *target, float xy[2])
 {
     struct error error;
-    if (!editor_target(s->editor, &s->world, target, &xy[0], &xy[1], &error)) fail_msg("%s", error.text);
+    if (!editor_target(s->editor, target, &xy[0], &xy[1], &error)) fail_msg("%s", error.text);
 }
 
 SESSION_TEST(test_ctrl_and_a_drag_pin_a_joint_which_follows_the_pointer, open_tail(s))
@@ -116,7 +116,7 @@ SESSION_TEST(test_a_pin_is_moved_nudged_retimed_and_deleted_by_keys, open_tail(s
     assert_one_step(s, placed); // both nudges
     session_key(s, KEY_PAGE_DOWN, MOD_ALT);
     assert_near(pin_of(s, 0)->frame, 11, 0);
-    assert_near(core_frame(&s->editor->core, s->document), 11, 0);
+    assert_near(core_frame(&s->editor->core), 11, 0);
     session_move(s, 2, 2);
     session_frame(s);
     for (int step = 0; step < 9; step++) session_key(s, KEY_RIGHT, 0);
@@ -127,7 +127,7 @@ SESSION_TEST(test_a_pin_is_moved_nudged_retimed_and_deleted_by_keys, open_tail(s
     assert_near(pin_of(s, 1)->frame, 20, 0);
     assert_near(pin_of(s, 1)->to[1], pin_of(s, 0)->to[1], 0);
     session_type(s, ",");
-    assert_near(core_frame(&s->editor->core, s->document), 11, 0);
+    assert_near(core_frame(&s->editor->core), 11, 0);
     session_key(s, KEY_DELETE, 0);
     assert_int_equal(pins_of(s), 1);
     assert_near(pin_of(s, 0)->frame, 20, 0);
@@ -150,7 +150,7 @@ SESSION_TEST(test_a_marker_is_dragged_on_the_stage_and_on_the_ruler, open_tail(s
     session_pull(s, "pintime(tail,0)", to[0] - from[0], 0, 4);
     session_release(s, BUTTON_LEFT);
     assert_near(pin_of(s, 0)->frame, 25, 0);
-    assert_near(core_frame(&s->editor->core, s->document), 25, 0);
+    assert_near(core_frame(&s->editor->core), 25, 0);
     assert_one_step(s, moved);
     float mark[2];
     where(s, "pintime(tail,0)", mark); // it hangs over the ruler's edge, and is taken there, too

@@ -9,18 +9,15 @@ static const char scene[] =
     "{\"frames\": [0, 100], \"substeps\": 2, \"splines\": [{\"name\": \"sway\", \"frequency\": 1, "
     "\"damping\": 0.1, \"knots\": [{\"frame\": 0, \"value\": 0}, {\"frame\": 40, \"value\": 1}]}]}";
 
-static double frame_of(const struct session *session)
-{
-    return core_frame(&session->editor->core, session->document);
-}
+static double frame_of(const struct session *session) { return core_frame(&session->editor->core); }
 
 /// One picture after `dt` seconds.
-static void pass(struct session *session, double dt) { editor_advance(session->editor, &session->world, dt); }
+static void pass(struct session *session, double dt) { editor_advance(session->editor, dt); }
 
 static void open_at(struct session *session, double frame)
 {
     panel_open(session, scene, 1280, 720);
-    playback_seek(&session->editor->core, session->document, frame);
+    playback_seek(&session->editor->core, frame);
 }
 
 SESSION_TEST(test_real_time, open_at(s, 10))
@@ -45,7 +42,7 @@ SESSION_TEST(test_speed, open_at(s, 10))
         session_type(s, i % 2 ? "+" : "=");
         assert_near(s->editor->core.playback.speed, faster[i], 0);
     }
-    playback_seek(&s->editor->core, s->document, 0);
+    playback_seek(&s->editor->core, 0);
     s->editor->core.playback.playing = true;
     pass(s, 0.5);
     assert_near(frame_of(s), 48, 1e-9);
@@ -80,9 +77,9 @@ SESSION_TEST(test_fast_is_not_dropped, open_at(s, 0))
 SESSION_TEST(test_part, open_at(s, 20))
 {
     session_type(s, "[");
-    playback_seek(&s->editor->core, s->document, 30);
+    playback_seek(&s->editor->core, 30);
     session_type(s, "]");
-    playback_seek(&s->editor->core, s->document, 80);
+    playback_seek(&s->editor->core, 80);
     session_key(s, KEY_SPACE, 0); // from outside it begins at the start
     assert_near(frame_of(s), 20 + 0.4, 1e-9);
     pass(s, 0.25);
@@ -112,7 +109,7 @@ static void ruler_at(struct session *session, double frame)
 static void assert_range(const struct session *session, double first, double last)
 {
     double range[2];
-    playback_range(&session->editor->core, session->document, range);
+    playback_range(&session->editor->core, range);
     assert_near(range[0], first, 0);
     assert_near(range[1], last, 0);
 }
@@ -148,10 +145,10 @@ SESSION_TEST(test_no_part, open_at(s, 40))
 {
     session_type(s, "]");
     assert_range(s, 0, 40);
-    playback_seek(&s->editor->core, s->document, 60);
+    playback_seek(&s->editor->core, 60);
     session_type(s, "["); // after its end: to the scene's end
     assert_range(s, 60, 100);
-    playback_seek(&s->editor->core, s->document, 0);
+    playback_seek(&s->editor->core, 0);
     session_type(s, "[");
     assert_range(s, 0, 100);
     assert_false(s->editor->core.playback.has_range);

@@ -19,7 +19,7 @@ static double value(const struct session *f, enum parameter which)
 static void open_poles(struct session *f, int spline)
 {
     panel_open(f, scene, 1280, 1400);
-    core_activate(&f->editor->core, &f->world, spline);
+    core_activate(&f->editor->core, spline);
     panel_click(f, "section.poles");
     session_frame(f);
 }
@@ -28,7 +28,7 @@ static void open_poles(struct session *f, int spline)
 static void drag(struct session *f, const char *name, float dx, float dy)
 {
     float x, y;
-    assert_true(inspector_target(f->editor->inspector, &f->editor->core, &f->world, name, &x, &y));
+    assert_true(inspector_target(f->editor->inspector, &f->editor->core, name, &x, &y));
     panel_press(f, name, 1);
     session_move(f, x + dx, y + dy);
     session_frame(f);

@@ -16,7 +16,7 @@ static const struct knot *knot(const struct session *s, int spline, int k)
     return &s->document->splines[spline]->knots[k];
 }
 
-static int count(const struct session *s) { return selected_count(&s->editor->core, s->document); }
+static int count(const struct session *s) { return selected_count(&s->editor->core); }
 
 static float frames(const struct session *s, double count)
 {
@@ -110,17 +110,17 @@ TEST(test_rows_scroll)
     float x, y;
     open_sheet(&s, scene);
     session_point(&s, "mark(s0,0)");
-    assert_false(editor_target(s.editor, &s.world, "mark(s9,0)", &x, &y, &error));
+    assert_false(editor_target(s.editor, "mark(s9,0)", &x, &y, &error));
     session_wheel(&s, -1);
     session_wheel(&s, -1);
     session_frame(&s);
-    assert_false(editor_target(s.editor, &s.world, "mark(s0,0)", &x, &y, &error));
+    assert_false(editor_target(s.editor, "mark(s0,0)", &x, &y, &error));
     session_key(&s, KEY_PAGE_UP, 0); // round to the last one
     session_frame(&s);
     session_point(&s, "mark(s9,0)");
     selection_set(&s.editor->core.hidden, s.document->splines[9]->id, true);
     session_frame(&s);
-    assert_false(editor_target(s.editor, &s.world, "mark(s9,0)", &x, &y, &error));
+    assert_false(editor_target(s.editor, "mark(s9,0)", &x, &y, &error));
     session_close(&s);
 }
 

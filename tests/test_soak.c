@@ -45,11 +45,10 @@ static void drag_and_give_up(int frame)
 {
     static float x, y;
     struct app *app = &blind.app;
-    const struct editor_world world = table_world(&app->table);
     if (frame % 50 == 0) {
         char target[64];
         snprintf(target, sizeof target, "knot(%s,0)", app->table.document->splines[0]->name);
-        if (!editor_target(app->table.editor, &world, target, &x, &y, NULL)) fail_msg("no %s", target);
+        if (!editor_target(app->table.editor, target, &x, &y, NULL)) fail_msg("no %s", target);
         blind_send(&blind, (struct event){.kind = EVENT_POINTER, .x = x, .y = y});
         button(ACTION_PRESS, x, y);
     }

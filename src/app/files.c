@@ -116,12 +116,11 @@ static const struct {
 static void replace_document(struct app *app, struct document *document, const char *label)
 {
     document->serial = ++app->last_serial;
-    struct editor_world world = table_world(&app->table);
-    editor_let_go(app->table.editor, &world); // a drag may have begun since the request
+    editor_let_go(app->table.editor); // a drag may have begun since the request
     history_begin(app->table.history, label, 0);
     edit_document(app->table.document, document);
     history_end(app->table.history);
-    editor_refresh(app->table.editor, &world);
+    editor_refresh(app->table.editor);
     show_title(app);
 }
 
@@ -155,15 +154,14 @@ static bool take_theirs(struct app *app, struct error *error)
 static bool add_file(struct app *app, const char *path, struct error *error)
 {
     struct table *table = &app->table;
-    struct editor_world world = table_world(table);
-    editor_let_go(table->editor, &world);
+    editor_let_go(table->editor);
     history_begin(table->history, "Add character", 0);
-    const int spline = editor_active(table->editor, table->document);
+    const int spline = editor_active(table->editor);
     const bool added = import_add(table->document, path, spline, error);
     if (!added) history_restart(table->history);
     history_end(table->history);
-    editor_refresh(table->editor, &world);
-    if (added) editor_show_last(table->editor, &world);
+    editor_refresh(table->editor);
+    if (added) editor_show_last(table->editor);
     return added;
 }
 

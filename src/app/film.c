@@ -34,7 +34,6 @@ struct film {
     struct film_shape shape;
     double first, spacing,
         period; ///< in frames: of the first picture, from one to the next, after which it begins anew (0: never)
-    struct editor_world world;
     struct editor *editor;
     struct picture *picture;
     struct film_file *file;
@@ -71,9 +70,9 @@ static bool loops(const struct document *document)
     return document_find_rig(document, RIG_MODEL, 0) >= 0;
 }
 
-static bool choose_frames(struct film *film, const struct film_options *options, struct error *error)
+static bool choose_frames(struct film *film, const struct document *document, const struct film_options *options,
+                          struct error *error)
 {
-    const struct document *document = film->world.document;
     const double first = options->has_frames ? options->first : document->first_frame;
     const double last = options->has_frames ? options->last : document->last_frame;
     const bool in_rounds = options->loops > 0 || (film->format->repeats && loops(document));
@@ -120,9 +119,9 @@ struct film *film_open(const struct editor_world *world, const char *path, const
     struct film *film = need_zeroed(1, sizeof *film);
     film->format = find_format(path);
     film->path = path;
-    film->world = *world;
     film->editor = editor_create();
-    if (file_check_place(path, error) && choose_shape(film, options, error) && choose_frames(film, options, error) &&
+    if (file_check_place(path, error) && choose_shape(film, options, error) &&
+        choose_frames(film, world->document, options, error) &&
         (film->picture = picture_create(film->shape.width, film->shape.height, error)) &&
         (film->file = film->format->file->open(path, &film->shape, error))) {
         editor_open(film->editor, world);
@@ -144,8 +143,7 @@ enum film_state film_step(struct film *film, bool wait, struct error *error)
     const struct film_file_kind *kind = film->format->file;
     if (film->done == film->shape.count) return kind->finish(film->file, wait, &film->bytes, error);
     if (!film->pixels) {
-        editor_pose_alone(film->editor, &film->world, next_frame(film), (float)film->shape.width,
-                          (float)film->shape.height);
+        editor_pose_alone(film->editor, next_frame(film), (float)film->shape.width, (float)film->shape.height);
         film->pixels = picture_draw(film->picture, editor_stage(film->editor), film->shape.transparent);
     }
     enum film_state state = kind->put(film->file, film->pixels, wait, error);

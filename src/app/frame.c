@@ -16,8 +16,7 @@ static double microseconds(double from, double to) { return 1e6 * (to - from); }
 static bool locate(void *user, const char *target, float *x, float *y, struct error *error)
 {
     struct app *app = user;
-    struct editor_world world = table_world(&app->table);
-    return editor_target(app->table.editor, &world, target, x, y, error);
+    return editor_target(app->table.editor, target, x, y, error);
 }
 
 void app_resize(struct app *app, float width, float height, float scale)
@@ -36,13 +35,12 @@ static void handle_event(struct app *app, const struct event *event)
         file_watch_look(app);
         return;
     }
-    struct editor_world world = table_world(&app->table);
     struct event seen = *event;
     if (event->kind == EVENT_SIZE) {
         app_resize(app, event->x, event->y, event->scale);
         ui_scale_to_ui(app, &seen);
     }
-    editor_event(app->table.editor, &world, &seen);
+    editor_event(app->table.editor, &seen);
     app_requests(app);
 }
 

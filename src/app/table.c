@@ -50,8 +50,7 @@ static void read_models(struct table *table)
 void table_edit(struct table *table, double dt, struct frame_row *row)
 {
     const double start = clock_now();
-    const struct editor_world world = table_world(table);
-    editor_advance(table->editor, &world, dt);
+    editor_advance(table->editor, dt);
     row->edit_us = since(start);
 }
 
@@ -69,16 +68,14 @@ void table_solve(struct table *table, struct frame_row *row)
 void table_pose(struct table *table, struct frame_row *row)
 {
     const double start = clock_now();
-    const struct editor_world world = table_world(table);
-    editor_pose(table->editor, &world);
+    editor_pose(table->editor);
     row->pose_us = since(start);
 }
 
 void table_show(struct table *table, struct frame_row *row)
 {
     const double start = clock_now();
-    const struct editor_world world = table_world(table);
-    editor_show(table->editor, &world);
+    editor_show(table->editor);
     row->pose_us += since(start);
 }
 

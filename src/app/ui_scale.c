@@ -45,8 +45,7 @@ void ui_scale_fit(struct app *app)
 void ui_scale_update(struct app *app)
 {
     if (app->ui_scale_shown == fitting(app)) return;
-    struct editor_world world = table_world(&app->table);
-    editor_let_go(app->table.editor, &world); // what is held would jump
+    editor_let_go(app->table.editor); // what is held would jump
     ui_scale_fit(app);
 }
 

@@ -80,33 +80,37 @@ void editor_set_panels(struct editor *editor, double stage_share, double inspect
 }
 
 /// The panels start anew with a document.
-static void open_panels(struct editor *editor, const struct editor_world *world)
+static void open_panels(struct editor *editor)
 {
     editor->seen.serial = editor->core.serial;
     editor->fitted = false;
     curves_open(editor->curves);
     stage_open(editor->stage);
     inspector_reset(editor->inspector);
-    inspector_show_spline(editor->inspector, &editor->core, world->document, editor->core.active);
+    inspector_show_spline(editor->inspector, &editor->core, editor->core.active);
     editor->seen.active = editor->core.active_id;
 }
 
 void editor_open(struct editor *editor, const struct editor_world *world)
 {
-    core_open(&editor->core, world->document);
-    open_panels(editor, world);
+    editor->core.document = world->document;
+    editor->core.history = world->history;
+    editor->core.evaluation = world->evaluation;
+    editor->core.models = world->models;
+    core_open(&editor->core);
+    open_panels(editor);
 }
 
-void editor_settle(struct editor *editor, const struct editor_world *world)
+void editor_settle(struct editor *editor)
 {
     struct core *core = &editor->core;
-    if (editor->seen.serial != core->serial) open_panels(editor, world);
+    if (editor->seen.serial != core->serial) open_panels(editor);
     if (editor->seen.active == core->active_id) return;
-    const int before = document_find_spline_id(world->document, editor->seen.active);
+    const int before = document_find_spline_id(editor->core.document, editor->seen.active);
     editor->seen.active = core->active_id;
     if (core->active < 0) return;
     if (before >= 0) curves_activate(editor->curves, core, before);
-    inspector_show_spline(editor->inspector, core, world->document, core->active);
+    inspector_show_spline(editor->inspector, core, core->active);
 }
 
 void editor_show_poles(struct editor *editor) { inspector_unfold(editor->inspector, "section.poles"); }
@@ -165,15 +169,15 @@ void editor_tell_unkept(struct editor *editor, bool unkept)
     editor->core.unkept = unkept;
 }
 
-void editor_refresh(struct editor *editor, const struct editor_world *world)
+void editor_refresh(struct editor *editor)
 {
-    core_refresh(&editor->core, world);
-    editor_settle(editor, world);
+    core_refresh(&editor->core);
+    editor_settle(editor);
 }
 
-void editor_show_last(struct editor *editor, const struct editor_world *world)
+void editor_show_last(struct editor *editor)
 {
-    inspector_show_rig(editor->inspector, &editor->core, world, world->document->rig_count - 1);
+    inspector_show_rig(editor->inspector, &editor->core, editor->core.document->rig_count - 1);
     editor->core.refit_stage = true;
 }
 
@@ -212,7 +216,7 @@ void editor_welcome(struct editor *editor) { dialogs_welcome(editor->dialogs); }
 
 bool editor_is_welcoming(const struct editor *editor) { return dialogs_is_welcoming(editor->dialogs); }
 
-int editor_active(const struct editor *editor, const struct document *document)
+int editor_active(const struct editor *editor)
 {
-    return editor->core.active < document->spline_count ? editor->core.active : -1;
+    return editor->core.active < editor->core.document->spline_count ? editor->core.active : -1;
 }

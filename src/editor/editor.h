@@ -9,23 +9,23 @@ struct editor;
 struct editor *editor_create(void);
 void editor_destroy(struct editor *editor);
 
-/// A new document is on the table: selection, view and playhead start anew; the camera is fitted to `document`'s
-/// motion at the first editor_pose(). The first spline that moves a tail is active.
+/// A new document is on the table, and what is here is worked on until the next one is: it is not copied. Selection, view and playhead
+/// start anew; the camera is fitted to the motion at the first editor_pose(). The first spline that moves a tail is active.
 void editor_open(struct editor *editor, const struct editor_world *world);
 
 /// Brings the editor up to date after each edit, undo and redo, before anything else is done with the document. If another
 /// document has taken its place (a figure, or its undo: document.serial), starts anew as editor_open() does; if not, finds the
 /// active spline and the shown frame again, wherever they are now.
-void editor_refresh(struct editor *editor, const struct editor_world *world);
+void editor_refresh(struct editor *editor);
 
 /// The last rig was added by the app: it is shown, in the inspector and on the stage.
-void editor_show_last(struct editor *editor, const struct editor_world *world);
+void editor_show_last(struct editor *editor);
 
 /// Unfolds poles and response in the inspector and scrolls there.
 void editor_show_poles(struct editor *editor);
 
 /// Ends any drag where it is: before the app itself makes an edit.
-void editor_let_go(struct editor *editor, const struct editor_world *world);
+void editor_let_go(struct editor *editor);
 
 /// Sets the path of the document's own file, "" for none (Ctrl+S then asks for one): after saving.
 void editor_set_path(struct editor *editor, const char *path);
@@ -50,22 +50,21 @@ void editor_tell_ui_scale(struct editor *editor, double scale);
 void editor_resize(struct editor *editor, float width, float height, float scale);
 
 /// One event → edits through the history. Events arrive in order; nothing is solved here.
-void editor_event(struct editor *editor, const struct editor_world *world, const struct event *event);
+void editor_event(struct editor *editor, const struct event *event);
 
 /// After the frame's events: playback advances by `dt` seconds, running drags (and the grab on the stage) are
 /// applied.
-void editor_advance(struct editor *editor, const struct editor_world *world, double dt);
+void editor_advance(struct editor *editor, double dt);
 
 /// The active spline, or -1.
-int editor_active(const struct editor *editor, const struct document *document);
+int editor_active(const struct editor *editor);
 
 /// After the solve: poses rigs, builds this frame's draw list and stage, both valid until the next call. Allocates
 /// nothing.
-void editor_pose(struct editor *editor, const struct editor_world *world);
-void editor_show(struct editor *editor, const struct editor_world *world);
+void editor_pose(struct editor *editor);
+void editor_show(struct editor *editor);
 /// For films: poses the rigs at a frame, on a stage that is all there is, of width × height logical pixels; without the draw list.
-void editor_pose_alone(struct editor *editor, const struct editor_world *world, double frame, float width,
-                       float height);
+void editor_pose_alone(struct editor *editor, double frame, float width, float height);
 const struct drawlist *editor_drawlist(const struct editor *editor);
 const struct stage_view *editor_stage(const struct editor *editor);
 
@@ -101,7 +100,6 @@ enum mouse_cursor editor_cursor(const struct editor *editor);
 
 /// Finds a replay's target on the screen: "knot(sway,2)", "curve(sway,36,1)", "slider(frequency)",
 /// "stage(0.5,0.5)", "tail(tail,0.9)", "warning(0)". false where there is no such thing (with a sentence).
-bool editor_target(struct editor *editor, const struct editor_world *world, const char *target, float *x, float *y,
-                   struct error *error);
+bool editor_target(struct editor *editor, const char *target, float *x, float *y, struct error *error);
 
 #endif

@@ -16,17 +16,15 @@
 #include <stdio.h>
 
 /// A divider between the panels follows the pointer.
-static void move_stage_divider(void *room, struct core *core, const struct editor_world *world)
+static void move_stage_divider(void *room, struct core *core)
 {
     (void)room;
-    (void)world;
     core_divider_move(core, DIVIDER_STAGE, core->drag.x, core->drag.y);
 }
 
-static void move_inspector_divider(void *room, struct core *core, const struct editor_world *world)
+static void move_inspector_divider(void *room, struct core *core)
 {
     (void)room;
-    (void)world;
     core_divider_move(core, DIVIDER_INSPECTOR, core->drag.x, core->drag.y);
 }
 
@@ -35,60 +33,60 @@ static const struct drag_owner divider_drags[] = {
     [DIVIDER_INSPECTOR] = {.cursor = CURSOR_HORIZONTAL, .move = move_inspector_divider},
 };
 
-static void press(struct editor *editor, const struct editor_world *world, const struct event *event)
+static void press(struct editor *editor, const struct event *event)
 {
     enum divider divider = core_divider_at(&editor->core, event->x, event->y);
     const enum panel panel = core_panel_at(&editor->core, event->x, event->y);
     if (divider != DIVIDER_NONE && event->button == BUTTON_LEFT) {
         drag_begin(&editor->core, &divider_drags[divider], NULL, NULL, event);
     } else if (panel == PANEL_CURVES) {
-        curves_press(editor->curves, &editor->core, world, event);
+        curves_press(editor->curves, &editor->core, event);
     } else if (panel == PANEL_STAGE) {
-        stage_press(editor->stage, &editor->core, world, event);
+        stage_press(editor->stage, &editor->core, event);
     } else {
-        transport_event(&editor->core, world, event);
+        transport_event(&editor->core, event);
     }
 }
 
 /// Ends what the inspector is in the middle of, before the document changes or the app quits.
-void editor_leave(struct editor *editor, const struct editor_world *world, const struct request *request)
+void editor_leave(struct editor *editor, const struct request *request)
 {
-    inspector_let_go(editor->inspector, world);
-    dialogs_leave(editor->dialogs, &editor->core, world, request);
+    inspector_let_go(editor->inspector, &editor->core);
+    dialogs_leave(editor->dialogs, &editor->core, request);
 }
 
-static void turn_wheel(struct editor *editor, const struct editor_world *world, const struct event *event)
+static void turn_wheel(struct editor *editor, const struct event *event)
 {
     const enum panel panel = core_panel_at(&editor->core, event->x, event->y);
     if (panel == PANEL_CURVES) curves_wheel(editor->curves, &editor->core, event);
-    if (panel == PANEL_STATUS) transport_event(&editor->core, world, event);
+    if (panel == PANEL_STATUS) transport_event(&editor->core, event);
     if (panel == PANEL_STAGE) stage_wheel(editor->stage, &editor->core, event);
 }
 
 /// Events that neither a dialog nor a running drag nor the inspector wanted.
-static void dispatch(struct editor *editor, const struct editor_world *world, const struct event *event)
+static void dispatch(struct editor *editor, const struct event *event)
 {
     struct request request = {.kind = event->kind == EVENT_CLOSE ? REQUEST_QUIT : REQUEST_OPEN};
     switch (event->kind) {
     case EVENT_KEY:
     case EVENT_TEXT:
-        keys_event(editor, world, event);
+        keys_event(editor, event);
         break;
     case EVENT_BUTTON:
-        if (event->action == ACTION_PRESS) press(editor, world, event);
+        if (event->action == ACTION_PRESS) press(editor, event);
         break;
     case EVENT_WHEEL:
-        turn_wheel(editor, world, event);
+        turn_wheel(editor, event);
         break;
     case EVENT_PASTE:
-        core_paste_knots(&editor->core, world, event->text);
+        core_paste_knots(&editor->core, event->text);
         break;
     case EVENT_CLOSE:
-        editor_leave(editor, world, &request);
+        editor_leave(editor, &request);
         break;
     case EVENT_DROP:
         snprintf(request.path, sizeof request.path, "%s", event->path ? event->path : "");
-        editor_leave(editor, world, &request);
+        editor_leave(editor, &request);
         break;
     default:
         break;
@@ -111,26 +109,26 @@ static void note(struct editor *editor, const struct event *event)
     }
 }
 
-void editor_let_go(struct editor *editor, const struct editor_world *world)
+void editor_let_go(struct editor *editor)
 {
-    drag_end(&editor->core, world, true);
-    inspector_let_go(editor->inspector, world);
+    drag_end(&editor->core, true);
+    inspector_let_go(editor->inspector, &editor->core);
 }
 
 /// Asks about an edit that core wants confirmed.
-static void ask(struct editor *editor, const struct editor_world *world)
+static void ask(struct editor *editor)
 {
     if (editor->core.ask.kind == ASK_NOTHING) return;
-    dialogs_ask(editor->dialogs, &editor->core, world, &editor->core.ask);
+    dialogs_ask(editor->dialogs, &editor->core, &editor->core.ask);
     editor->core.ask.kind = ASK_NOTHING;
-    inspector_let_go(editor->inspector, world);
+    inspector_let_go(editor->inspector, &editor->core);
 }
 
 /// When something opens over the panels, ends any drag and lets go of held keys.
-static void let_go(struct editor *editor, const struct editor_world *world)
+static void let_go(struct editor *editor)
 {
     if (!dialogs_cover(editor->dialogs)) return;
-    drag_end(&editor->core, world, true);
+    drag_end(&editor->core, true);
     editor->core.held_key = 0;
     editor->core.space_down = false;
 }
@@ -144,27 +142,26 @@ static bool is_interruption(const struct event *event)
 
 /// Events go to what lies over the panels first, then to a running drag, then to the inspector. A field that is typed in takes
 /// all keys but Ctrl chords and F keys, a focused slider the arrows, Enter and digits, an open dialog all.
-void editor_event(struct editor *editor, const struct editor_world *world, const struct event *event)
+void editor_event(struct editor *editor, const struct event *event)
 {
     note(editor, event);
     if (is_interruption(event)) tooltip_dismiss(&editor->tooltip);
     if (event->kind == EVENT_SIZE) editor_resize(editor, event->x, event->y, event->scale);
     dialogs_note(editor->dialogs, event);
-    bool used =
-        dialogs_event(editor->dialogs, &editor->core, world, event, inspector_is_dragging(editor->inspector)) ||
-        drag_event(&editor->core, world, event) ||
-        (!inspector_is_typing(editor->inspector) && presenter_event(&editor->core, event)) ||
-        (!editor->core.drag.owner && inspector_event(editor->inspector, &editor->core, world, event));
+    bool used = dialogs_event(editor->dialogs, &editor->core, event, inspector_is_dragging(editor->inspector)) ||
+                drag_event(&editor->core, event) ||
+                (!inspector_is_typing(editor->inspector) && presenter_event(&editor->core, event)) ||
+                (!editor->core.drag.owner && inspector_event(editor->inspector, &editor->core, event));
     if (event->kind == EVENT_KEY && event->action != ACTION_RELEASE) {
         editor->press = (struct press){.used = used, .repeated = event->action == ACTION_REPEAT};
     }
-    if (!used) dispatch(editor, world, event);
-    editor_settle(editor, world);
-    ask(editor, world);
-    let_go(editor, world);
+    if (!used) dispatch(editor, event);
+    editor_settle(editor);
+    ask(editor);
+    let_go(editor);
 }
 
-void editor_advance(struct editor *editor, const struct editor_world *world, double dt)
+void editor_advance(struct editor *editor, double dt)
 {
     struct message *message = &editor->core.message;
     const bool busy = inspector_is_typing(editor->inspector) || inspector_is_dragging(editor->inspector) ||
@@ -179,46 +176,45 @@ void editor_advance(struct editor *editor, const struct editor_world *world, dou
     editor->core.nudged_seconds = fmax(editor->core.nudged_seconds - dt, 0);
     transport_advance(editor->transport, &editor->core, dt);
     tooltip_advance(&editor->tooltip, dt);
-    playback_advance(&editor->core, world, dt);
-    curves_advance(editor->curves, &editor->core, world, dt);
-    drag_apply(&editor->core, world, dt);
-    stage_advance(editor->stage, &editor->core, world, dt);
-    editor_settle(editor, world);
+    playback_advance(&editor->core, dt);
+    curves_advance(editor->curves, &editor->core, dt);
+    drag_apply(&editor->core, dt);
+    stage_advance(editor->stage, &editor->core, dt);
+    editor_settle(editor);
 }
 
-void editor_pose(struct editor *editor, const struct editor_world *world)
+void editor_pose(struct editor *editor)
 {
-    sheet_update(editor->curves, &editor->core, world->document);
+    sheet_update(editor->curves, &editor->core);
     if (!editor->fitted) {
         editor->fitted = true;
-        curves_frame_all(editor->curves, &editor->core, world);
-        stage_fit(editor->stage, &editor->core, world);
+        curves_frame_all(editor->curves, &editor->core);
+        stage_fit(editor->stage, &editor->core);
     }
-    if (editor->core.refit_curves) curves_frame_all(editor->curves, &editor->core, world);
+    if (editor->core.refit_curves) curves_frame_all(editor->curves, &editor->core);
     editor->core.refit_curves = false;
-    follow_edits(editor->curves, &editor->core, world);
-    stage_pose(editor->stage, &editor->core, world, dialogs_cover(editor->dialogs));
+    follow_edits(editor->curves, &editor->core);
+    stage_pose(editor->stage, &editor->core, dialogs_cover(editor->dialogs));
 }
 
-void editor_pose_alone(struct editor *editor, const struct editor_world *world, double frame, float width,
-                       float height)
+void editor_pose_alone(struct editor *editor, double frame, float width, float height)
 {
     editor->core.layout.stage = (struct rect){0, 0, width, height};
     editor->core.plain = true;
-    editor->core.playback.position = core_position(world->document, frame);
-    editor_pose(editor, world);
+    editor->core.playback.position = core_position(editor->core.document, frame);
+    editor_pose(editor);
 }
 
 /// Finds what the pointer is over now, because things move under it.
-static void update_hover(struct editor *editor, const struct editor_world *world)
+static void update_hover(struct editor *editor)
 {
     if (editor->core.drag.owner) return;
     float x = editor->core.pointer_x, y = editor->core.pointer_y;
     editor->core.hover = (struct hover){.kind = HOVER_NONE};
     if (dialogs_cover(editor->dialogs) || core_divider_at(&editor->core, x, y) != DIVIDER_NONE) return;
     const enum panel panel = core_panel_at(&editor->core, x, y);
-    if (panel == PANEL_CURVES) editor->core.hover = curves_hover(editor->curves, &editor->core, world, x, y);
-    if (panel == PANEL_STAGE) editor->core.hover = stage_hover(editor->stage, &editor->core, world->document, x, y);
+    if (panel == PANEL_CURVES) editor->core.hover = curves_hover(editor->curves, &editor->core, x, y);
+    if (panel == PANEL_STAGE) editor->core.hover = stage_hover(editor->stage, &editor->core, x, y);
     if (panel == PANEL_STATUS) editor->core.hover = transport_hover(&editor->core, x, y);
 }
 
@@ -265,29 +261,29 @@ static void show_tooltip(struct editor *editor)
 }
 
 /// All panels; while presenting, those that have not slid away.
-static void show_panels(struct editor *editor, const struct editor_world *world)
+static void show_panels(struct editor *editor)
 {
     const struct presenter *presenter = &editor->core.presenter;
     const bool below = !presenter->on || presenter->below > 0, side = !presenter->on || presenter->side > 0;
     const char *hint = inspector_hint(editor->inspector);
-    if (below) curves_show(editor->curves, &editor->core, world);
+    if (below) curves_show(editor->curves, &editor->core);
     if (below) show_stage_divider(editor); // below the inspector's menus
-    if (side) inspector_show(editor->inspector, &editor->core, world, dialogs_cover(editor->dialogs));
+    if (side) inspector_show(editor->inspector, &editor->core, dialogs_cover(editor->dialogs));
     if (side) show_inspector_divider(editor);
     if (!hint) hint = editor->core.drag.hint;
-    if (below) transport_show(editor->transport, &editor->core, world, hint);
+    if (below) transport_show(editor->transport, &editor->core, hint);
 }
 
-void editor_show(struct editor *editor, const struct editor_world *world)
+void editor_show(struct editor *editor)
 {
     drawlist_clear(&editor->core.list, editor->core.layout.window);
-    update_hover(editor, world);
-    stage_show(editor->stage, &editor->core, world);
-    dialogs_show_welcome(editor->dialogs, &editor->core, world, stage_figure(editor->stage, &editor->core));
-    stage_show_caption(&editor->core, world->document, dialogs_bottom(editor->dialogs, &editor->core));
-    show_panels(editor, world);
+    update_hover(editor);
+    stage_show(editor->stage, &editor->core);
+    dialogs_show_welcome(editor->dialogs, &editor->core, stage_figure(editor->stage, &editor->core));
+    stage_show_caption(&editor->core, dialogs_bottom(editor->dialogs, &editor->core));
+    show_panels(editor);
     dialogs_show_input(editor->dialogs, &editor->core);
-    dialogs_show(editor->dialogs, &editor->core, world);
+    dialogs_show(editor->dialogs, &editor->core);
     show_tooltip(editor);
     editor->core.unshown = false;
 }

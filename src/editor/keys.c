@@ -18,15 +18,14 @@
 #include "ui/theme.h"
 #include <math.h>
 
-static void run_leave(struct editor *e, const struct editor_world *w, int argument)
+static void run_leave(struct editor *e, int argument)
 {
     struct request request = {.kind = (enum request_kind)argument};
-    editor_leave(e, w, &request);
+    editor_leave(e, &request);
 }
 
-static void run_save(struct editor *e, const struct editor_world *w, int argument)
+static void run_save(struct editor *e, int argument)
 {
-    (void)w;
     if (argument == REQUEST_SAVE && e->core.path[0]) {
         core_request(&e->core, REQUEST_SAVE, NULL);
     } else {
@@ -34,55 +33,46 @@ static void run_save(struct editor *e, const struct editor_world *w, int argumen
     }
 }
 
-static void run_export(struct editor *e, const struct editor_world *w, int argument)
+static void run_export(struct editor *e, int argument)
 {
     (void)argument;
-    dialogs_export(e->dialogs, &e->core, w);
+    dialogs_export(e->dialogs, &e->core);
 }
 
-static void run_request(struct editor *e, const struct editor_world *w, int argument)
-{
-    (void)w;
-    core_request(&e->core, (enum request_kind)argument, NULL);
-}
+static void run_request(struct editor *e, int argument) { core_request(&e->core, (enum request_kind)argument, NULL); }
 
-static void run_ui_scale(struct editor *e, const struct editor_world *w, int direction)
+static void run_ui_scale(struct editor *e, int direction)
 {
-    (void)w;
     core_request_number(&e->core, REQUEST_UI_SCALE, direction);
 }
 
-static void run_figure(struct editor *e, const struct editor_world *w, int argument)
-{
-    (void)w;
-    core_request_number(&e->core, REQUEST_FIGURE, argument);
-}
+static void run_figure(struct editor *e, int argument) { core_request_number(&e->core, REQUEST_FIGURE, argument); }
 
-static void run_insert(struct editor *e, const struct editor_world *w, int argument)
+static void run_insert(struct editor *e, int argument)
 {
-    core_insert_on_curve(&e->core, w, core_frame(&e->core, w->document), true, argument);
+    core_insert_on_curve(&e->core, core_frame(&e->core), true, argument);
 }
 
 /// Whether a pin is selected that has not been undone.
-static bool has_pin(const struct editor *editor, const struct editor_world *world)
+static bool has_pin(const struct editor *editor)
 {
     int rig;
-    return pins_selected(&editor->core, world->document, &rig) != NULL;
+    return pins_selected(&editor->core, &rig) != NULL;
 }
 
 /// Puts the brush away; without one, stops to pick a bone, ends presenting, lets go of the bone or pin that is selected, or clears the selection.
-static void run_select_none(struct editor *e, const struct editor_world *w, int argument)
+static void run_select_none(struct editor *e, int argument)
 {
     (void)argument;
     if (e->core.brush.on) {
-        characters_set_brush(&e->core, w, false);
+        characters_set_brush(&e->core, false);
     } else if (e->core.pick.use != BONE_SELECTED) {
         e->core.pick = (struct bone_pick){0};
     } else if (e->core.presenter.on) {
-        presenter_toggle(&e->core, w, 0);
+        presenter_toggle(&e->core, 0);
     } else if (e->core.bone.any) {
         bones_clear(&e->core);
-    } else if (has_pin(e, w)) {
+    } else if (has_pin(e)) {
         pins_clear(&e->core);
     } else {
         selection_clear(&e->core.selection);
@@ -90,37 +80,36 @@ static void run_select_none(struct editor *e, const struct editor_world *w, int 
 }
 
 /// The selected pin, else the selected knots.
-static void run_delete(struct editor *e, const struct editor_world *w, int argument)
+static void run_delete(struct editor *e, int argument)
 {
-    if (has_pin(e, w)) {
-        pins_delete(&e->core, w);
+    if (has_pin(e)) {
+        pins_delete(&e->core);
     } else {
-        core_delete_knots(&e->core, w, argument);
+        core_delete_knots(&e->core, argument);
     }
 }
 
-static void run_hold(struct editor *e, const struct editor_world *w, int argument)
+static void run_hold(struct editor *e, int argument)
 {
     (void)argument;
-    stage_hold_point(e->stage, &e->core, w);
+    stage_hold_point(e->stage, &e->core);
 }
 
-static void run_frame(struct editor *e, const struct editor_world *w, int argument)
+static void run_frame(struct editor *e, int argument)
 {
     if (!argument && core_panel_at(&e->core, e->core.pointer_x, e->core.pointer_y) == PANEL_STAGE) {
-        stage_fit(e->stage, &e->core, w);
+        stage_fit(e->stage, &e->core);
     } else if (argument) {
-        curves_frame_selection(e->curves, &e->core, w);
+        curves_frame_selection(e->curves, &e->core);
     } else {
-        curves_frame_all(e->curves, &e->core, w);
+        curves_frame_all(e->curves, &e->core);
     }
 }
 
-static void run_look(struct editor *e, const struct editor_world *w, int argument)
+static void run_look(struct editor *e, int argument)
 {
     static const enum look next[] = {
         [LOOK_WIGGLY] = LOOK_STIFF, [LOOK_STIFF] = LOOK_CUBIC, [LOOK_CUBIC] = LOOK_WIGGLY};
-    (void)w;
     (void)argument;
     core_set_look(&e->core, next[e->core.look]);
 }
@@ -128,73 +117,66 @@ static void run_look(struct editor *e, const struct editor_world *w, int argumen
 enum clipboard_use { CLIPBOARD_COPY, CLIPBOARD_CUT, CLIPBOARD_PASTE, CLIPBOARD_DUPLICATE };
 
 /// Not while a value is typed: knots are not what is meant then.
-static void run_clipboard(struct editor *e, const struct editor_world *w, int argument)
+static void run_clipboard(struct editor *e, int argument)
 {
     if (inspector_is_typing(e->inspector)) return;
     if (argument == CLIPBOARD_DUPLICATE) {
-        core_duplicate_knots(&e->core, w);
+        core_duplicate_knots(&e->core);
     } else if (argument == CLIPBOARD_PASTE) {
         core_request(&e->core, REQUEST_PASTE, NULL);
-    } else if (core_copy_knots(&e->core, w, argument == CLIPBOARD_CUT)) {
+    } else if (core_copy_knots(&e->core, argument == CLIPBOARD_CUT)) {
         core_request(&e->core, REQUEST_COPY, NULL);
     }
 }
 
-static void run_normalise(struct editor *e, const struct editor_world *w, int argument)
+static void run_normalise(struct editor *e, int argument)
 {
     (void)argument;
-    curves_toggle_normal(e->curves, &e->core, w);
+    curves_toggle_normal(e->curves, &e->core);
 }
 
-static void run_sheet(struct editor *e, const struct editor_world *w, int argument)
+static void run_sheet(struct editor *e, int argument)
 {
-    (void)w;
     (void)argument;
     curves_toggle_sheet(e->curves, &e->core);
 }
 
-static void run_units(struct editor *e, const struct editor_world *w, int argument)
+static void run_units(struct editor *e, int argument)
 {
-    (void)w;
     (void)argument;
     curves_toggle_units(e->curves, &e->core);
 }
 
-static void run_scale(struct editor *e, const struct editor_world *w, int argument)
-{
-    curves_scale(e->curves, &e->core, w, argument);
-}
+static void run_scale(struct editor *e, int argument) { curves_scale(e->curves, &e->core, argument); }
 
-static void run_brush(struct editor *e, const struct editor_world *w, int argument)
+static void run_brush(struct editor *e, int argument)
 {
     (void)argument;
-    characters_set_brush(&e->core, w, !e->core.brush.on);
+    characters_set_brush(&e->core, !e->core.brush.on);
     if (e->core.brush.on) inspector_unfold(e->inspector, "section.character");
 }
 
-static void run_rename(struct editor *e, const struct editor_world *w, int argument)
+static void run_rename(struct editor *e, int argument)
 {
     (void)argument;
-    inspector_rename(e->inspector, &e->core, w);
+    inspector_rename(e->inspector, &e->core);
 }
 
-static void run_add(struct editor *e, const struct editor_world *w, int argument)
+static void run_add(struct editor *e, int argument)
 {
-    (void)w;
     (void)argument;
     inspector_add_menu(e->inspector, &e->core);
 }
 
-static void run_remove_rig(struct editor *e, const struct editor_world *w, int argument)
+static void run_remove_rig(struct editor *e, int argument)
 {
     (void)argument;
-    inspector_remove_rig(e->inspector, &e->core, w);
+    inspector_remove_rig(e->inspector, &e->core);
 }
 
-static void run_theme(struct editor *e, const struct editor_world *w, int argument)
+static void run_theme(struct editor *e, int argument)
 {
     (void)e;
-    (void)w;
     (void)argument;
     theme_use((theme_in_use() + 1) % THEME_COUNT);
 }
@@ -208,43 +190,39 @@ static const float TURN = 0.1f; ///< radians
 static const int way_sign[][2] = {
     [WAY_LEFT] = {-1, 0}, [WAY_RIGHT] = {1, 0}, [WAY_UP] = {0, -1}, [WAY_DOWN] = {0, 1}};
 
-static void run_pan(struct editor *editor, const struct editor_world *world, int way)
+static void run_pan(struct editor *editor, int way)
 {
     const struct rect *plot = &editor->core.layout.plot;
-    (void)world;
     curves_pan(editor->curves, &editor->core, -PAN * way_sign[way][0] * plot->w, -PAN * way_sign[way][1] * plot->h);
 }
 
-static void run_zoom(struct editor *editor, const struct editor_world *world, int direction)
+static void run_zoom(struct editor *editor, int direction)
 {
     const struct rect *plot = &editor->core.layout.plot;
     double factor = direction > 0 ? ZOOM : 1 / ZOOM;
-    (void)world;
     curves_zoom(editor->curves, &editor->core, plot->x + plot->w / 2, plot->y + plot->h / 2, factor, factor);
 }
 
-static void run_orbit(struct editor *editor, const struct editor_world *world, int way)
+static void run_orbit(struct editor *editor, int way)
 {
-    (void)world;
     stage_orbit(editor->stage, TURN * (float)way_sign[way][0], -TURN * (float)way_sign[way][1]);
 }
 
-static void run_approach(struct editor *editor, const struct editor_world *world, int direction)
+static void run_approach(struct editor *editor, int direction)
 {
-    (void)world;
     stage_approach(editor->stage, (float)(direction > 0 ? ZOOM : 1 / ZOOM));
 }
 
-static void run_fit_stage(struct editor *editor, const struct editor_world *world, int argument)
+static void run_fit_stage(struct editor *editor, int argument)
 {
     (void)argument;
-    stage_fit(editor->stage, &editor->core, world);
+    stage_fit(editor->stage, &editor->core);
 }
 
-static void run_remedy(struct editor *editor, const struct editor_world *world, int argument)
+static void run_remedy(struct editor *editor, int argument)
 {
     (void)argument;
-    curves_remedy_first(editor->curves, &editor->core, world);
+    curves_remedy_first(editor->curves, &editor->core);
 }
 
 /// What was selected is to be seen.
@@ -253,27 +231,27 @@ static void reveal(struct editor *editor, const struct knot *knot)
     if (knot) curves_reveal(editor->curves, &editor->core, knot->frame, knot->value);
 }
 
-static void run_neighbour(struct editor *editor, const struct editor_world *world, int direction)
+static void run_neighbour(struct editor *editor, int direction)
 {
-    if (has_pin(editor, world)) {
-        pins_select_neighbour(&editor->core, world, direction);
+    if (has_pin(editor)) {
+        pins_select_neighbour(&editor->core, direction);
         return;
     }
-    reveal(editor, core_select_neighbour(&editor->core, world, direction));
+    reveal(editor, core_select_neighbour(&editor->core, direction));
 }
 
-static void run_visit(struct editor *editor, const struct editor_world *world, int direction)
+static void run_visit(struct editor *editor, int direction)
 {
-    if (has_pin(editor, world)) {
-        pins_select_neighbour(&editor->core, world, direction);
+    if (has_pin(editor)) {
+        pins_select_neighbour(&editor->core, direction);
         return;
     }
-    reveal(editor, core_visit_neighbour(&editor->core, world, direction));
+    reveal(editor, core_visit_neighbour(&editor->core, direction));
 }
 
-static void run_extend(struct editor *editor, const struct editor_world *world, int direction)
+static void run_extend(struct editor *editor, int direction)
 {
-    reveal(editor, core_extend_selection(&editor->core, world, direction));
+    reveal(editor, core_extend_selection(&editor->core, direction));
 }
 
 /// The first of the sizes that is clearly larger than the present one, round the end.
@@ -284,11 +262,10 @@ static double next_size(const double sizes[3], double present)
     return sizes[next % 3];
 }
 
-static void run_panel(struct editor *editor, const struct editor_world *world, int inspector)
+static void run_panel(struct editor *editor, int inspector)
 {
     static const double shares[3] = {0.35, 0.575, 0.75}, widths[3] = {280, 360, 440};
     double share, width;
-    (void)world;
     editor_panels(editor, &share, &width);
     if (inspector) {
         width = next_size(widths, width);
@@ -436,17 +413,17 @@ static const struct nudge_key {
 };
 
 /// Alt+arrows; Shift ten times, Ctrl a tenth.
-static bool nudge_event(struct editor *editor, const struct editor_world *world, const struct event *event)
+static bool nudge_event(struct editor *editor, const struct event *event)
 {
     if (!(event->mods & MOD_ALT)) return false;
     double factor = event->mods & MOD_SHIFT ? 10 : event->mods & MOD_CTRL ? 0.1 : 1;
     for (size_t i = 0; i < sizeof nudge_keys / sizeof nudge_keys[0]; i++) {
         if (nudge_keys[i].key != event->key) continue;
         const double across = nudge_keys[i].frames * factor, up = nudge_keys[i].values * factor;
-        if (has_pin(editor, world)) {
-            stage_nudge_pin(editor->stage, &editor->core, world, across, up);
+        if (has_pin(editor)) {
+            stage_nudge_pin(editor->stage, &editor->core, across, up);
         } else {
-            curves_nudge(editor->curves, &editor->core, world, across, up);
+            curves_nudge(editor->curves, &editor->core, across, up);
         }
         return true;
     }
@@ -454,44 +431,43 @@ static bool nudge_event(struct editor *editor, const struct editor_world *world,
 }
 
 /// Space plays on release, unless it was used to pan.
-static void space_event(struct editor *editor, const struct editor_world *world, const struct event *event)
+static void space_event(struct editor *editor, const struct event *event)
 {
     if (event->action == ACTION_PRESS) {
         editor->core.space_down = true;
         editor->core.space_used = false;
     } else if (event->action == ACTION_RELEASE && editor->core.space_down) {
         editor->core.space_down = false;
-        if (!editor->core.space_used) playback_toggle(&editor->core, world);
+        if (!editor->core.space_used) playback_toggle(&editor->core);
     }
 }
 
 static bool is_held_letter(int key) { return key == 'L' || parameter_of_letter(key) != PARAMETER_COUNT; }
 
 /// Runs what is bound, unless it excludes key repeats or running drags; true if anything is bound.
-static bool run(struct editor *editor, const struct editor_world *world, const struct binding *list, int key,
-                unsigned mods, bool repeated)
+static bool run(struct editor *editor, const struct binding *list, int key, unsigned mods, bool repeated)
 {
     const struct binding *binding = list;
     while (binding->key && (binding->key != key || binding->mods != mods)) binding++;
-    bool idle = (repeated && !binding->repeats) || (history_is_open(world->history) && !binding->any_time);
-    if (!idle && binding->run) binding->run(editor, world, binding->argument);
-    if (!idle && binding->core) binding->core(&editor->core, world, binding->argument);
+    bool idle = (repeated && !binding->repeats) || (history_is_open(editor->core.history) && !binding->any_time);
+    if (!idle && binding->run) binding->run(editor, binding->argument);
+    if (!idle && binding->core) binding->core(&editor->core, binding->argument);
     return binding->key != 0;
 }
 
 /// The character of a key that was used elsewhere, say to close the help, is no command.
-static bool text_event(struct editor *editor, const struct editor_world *world, const struct event *event)
+static bool text_event(struct editor *editor, const struct event *event)
 {
     const struct press *press = &editor->press;
-    return !press->used && run(editor, world, character_bindings, (int)event->codepoint, 0, press->repeated);
+    return !press->used && run(editor, character_bindings, (int)event->codepoint, 0, press->repeated);
 }
 
-bool keys_event(struct editor *editor, const struct editor_world *world, const struct event *event)
+bool keys_event(struct editor *editor, const struct event *event)
 {
-    if (event->kind == EVENT_TEXT) return text_event(editor, world, event);
+    if (event->kind == EVENT_TEXT) return text_event(editor, event);
     unsigned mods = event->mods & (MOD_SHIFT | MOD_CTRL | MOD_ALT);
     if (event->key == KEY_SPACE && (mods == 0 || event->action == ACTION_RELEASE)) {
-        space_event(editor, world, event);
+        space_event(editor, event);
         return true;
     }
     if (event->action == ACTION_RELEASE) {
@@ -499,8 +475,8 @@ bool keys_event(struct editor *editor, const struct editor_world *world, const s
         return false;
     }
     if (mods == 0 && event->action == ACTION_PRESS && is_held_letter(event->key)) editor->core.held_key = event->key;
-    if (nudge_event(editor, world, event)) return true;
-    const bool bound = run(editor, world, key_bindings, event->key, mods, event->action == ACTION_REPEAT);
+    if (nudge_event(editor, event)) return true;
+    const bool bound = run(editor, key_bindings, event->key, mods, event->action == ACTION_REPEAT);
     editor->press.used |= bound && mods & MOD_ALT; // some systems still send the character of such a key
     return bound;
 }

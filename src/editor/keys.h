@@ -5,8 +5,8 @@
 #include "editor/state.h"
 
 /// What a key does to the panels, and what it does to what they share alone.
-typedef void key_action(struct editor *editor, const struct editor_world *world, int argument);
-typedef void core_action(struct core *core, const struct editor_world *world, int argument);
+typedef void key_action(struct editor *editor, int argument);
+typedef void core_action(struct core *core, int argument);
 
 struct binding {
     int key;         ///< or character
@@ -25,6 +25,6 @@ extern const struct binding key_bindings[];
 extern const struct binding character_bindings[];
 
 /// Keys and characters; true where the event is used up.
-bool keys_event(struct editor *editor, const struct editor_world *world, const struct event *event);
+bool keys_event(struct editor *editor, const struct event *event);
 
 #endif

@@ -28,8 +28,8 @@ struct editor {
 };
 
 /// Does what leaves the document, but asks first where work would be lost.
-void editor_leave(struct editor *editor, const struct editor_world *world, const struct request *request);
+void editor_leave(struct editor *editor, const struct request *request);
 /// After each event and edit: the panels follow another document and another active spline.
-void editor_settle(struct editor *editor, const struct editor_world *world);
+void editor_settle(struct editor *editor);
 
 #endif

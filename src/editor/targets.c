@@ -19,7 +19,6 @@ struct target {
 
 struct target_place {
     struct editor *editor; ///< as it was after all: inspector_target() lays its widgets out to find one
-    const struct editor_world *world;
     const struct target *target;
     float xy[2];
 };
@@ -39,7 +38,7 @@ static bool in_plot(struct target_place *place, double frame, double value, stru
 
 static bool spline_named(const struct target_place *place, int *spline, struct error *error)
 {
-    *spline = document_find_spline(place->world->document, place->target->name);
+    *spline = document_find_spline(place->editor->core.document, place->target->name);
     return *spline >= 0 || fail(error, ERROR_INPUT, "there is no spline \"%s\"", place->target->name);
 }
 
@@ -48,7 +47,7 @@ static bool knot_named(struct target_place *place, const struct knot **knot, str
     int spline;
     if (!spline_named(place, &spline, error)) return false;
     double k = place->target->number[0];
-    const struct spline *owner = place->world->document->splines[spline];
+    const struct spline *owner = place->editor->core.document->splines[spline];
     if (!(k >= 0 && k < owner->knot_count)) {
         return fail(error, ERROR_INPUT, "the spline \"%s\" has %d knots, no knot %g", owner->name, owner->knot_count,
                     k);
@@ -59,7 +58,7 @@ static bool knot_named(struct target_place *place, const struct knot **knot, str
 
 static bool find_knot(struct target_place *place, struct error *error)
 {
-    const struct document *document = place->world->document;
+    const struct document *document = place->editor->core.document;
     const struct knot *knot;
     if (!knot_named(place, &knot, error)) return false;
     return in_plot(place, document_frame(document, document_sample(document, knot->frame)), knot->value, error);
@@ -68,12 +67,12 @@ static bool find_knot(struct target_place *place, struct error *error)
 /// A knot's mark on the dope sheet: mark(sway,2).
 static bool find_mark(struct target_place *place, struct error *error)
 {
-    const struct document *document = place->world->document;
+    const struct document *document = place->editor->core.document;
     const struct knot *knot;
     if (!knot_named(place, &knot, error)) return false;
     const int spline = document_find_spline(document, place->target->name);
-    return curves_mark_point(place->editor->curves, &place->editor->core, document, spline,
-                             (int)place->target->number[0], place->xy) ||
+    return curves_mark_point(place->editor->curves, &place->editor->core, spline, (int)place->target->number[0],
+                             place->xy) ||
            fail(error, ERROR_INPUT, "the dope sheet does not show that knot of \"%s\"", place->target->name);
 }
 
@@ -83,8 +82,7 @@ static bool find_handle(struct target_place *place, struct error *error)
     const struct knot *knot;
     if (!knot_named(place, &knot, error)) return false;
     if (!knot->has_slope) return fail(error, ERROR_INPUT, "that knot of \"%s\" has no slope", place->target->name);
-    curves_handle(place->editor->curves, &place->editor->core, place->world->document, knot,
-                  place->target->number[1] > 0, place->xy);
+    curves_handle(place->editor->curves, &place->editor->core, knot, place->target->number[1] > 0, place->xy);
     return true;
 }
 
@@ -99,8 +97,7 @@ static bool find_curve(struct target_place *place, struct error *error)
 static bool find_box(struct target_place *place, struct error *error)
 {
     const int column = (int)place->target->number[0], row = (int)place->target->number[1];
-    return curves_box_point(place->editor->curves, &place->editor->core, place->world->document, column, row,
-                            place->xy) ||
+    return curves_box_point(place->editor->curves, &place->editor->core, column, row, place->xy) ||
            fail(error, ERROR_INPUT, "the selected knots have no such handle");
 }
 
@@ -143,7 +140,7 @@ static bool find_pointer(struct target_place *place, struct error *error)
 /// name goes by its model.
 static const struct rig *rig_named(const struct target_place *place, enum rig_kind kind, int *n)
 {
-    const struct document *document = place->world->document;
+    const struct document *document = place->editor->core.document;
     int r = document_next_rig(document, kind, 0);
     for (*n = 0; r >= 0; (*n)++, r = document_next_rig(document, kind, r + 1)) {
         const struct rig *rig = document->rigs[r];
@@ -158,8 +155,8 @@ static bool find_along(struct target_place *place, enum rig_kind kind, const cha
     int n;
     const struct rig *rig = rig_named(place, kind, &n);
     if (rig) {
-        const int index = document_find_rig_id(place->world->document, rig->id),
-                  joints = bones_joints(place->world, index);
+        const int index = document_find_rig_id(place->editor->core.document, rig->id),
+                  joints = bones_joints(&place->editor->core, index);
         double along = fmin(fmax(place->target->number[0], 0), 1) * joints;
         int joint = (int)fmin(floor(along), joints - 1);
         if (stage_project(place->editor->stage, &place->editor->core, index, joint, along - joint, place->xy))
@@ -190,11 +187,11 @@ static const char *bone_name(const struct target_place *place, const struct rig 
 /// A bone of the imported characters: bone(tail_1), the first that there is, or bone(dog 2/tail_1).
 static bool find_bone(struct target_place *place, struct error *error)
 {
-    const struct document *document = place->world->document;
+    const struct document *document = place->editor->core.document;
     for (int whole = 1; whole >= 0; whole--) {
         for (int r = document_next_rig(document, RIG_MODEL, 0); r >= 0;
              r = document_next_rig(document, RIG_MODEL, r + 1)) {
-            const struct imported *shown = bones_character(place->world, r);
+            const struct imported *shown = bones_character(&place->editor->core, r);
             const char *name = bone_name(place, document->rigs[r], whole);
             const int node = shown && name ? gltf_find_node(&shown->gltf, name) : -1;
             if (node >= 0 && stage_bone_point(place->editor->stage, &place->editor->core, r, node, place->xy))
@@ -209,7 +206,7 @@ static bool find_body(struct target_place *place, struct error *error)
     int n;
     struct editor *editor = place->editor;
     bool shown = rig_named(place, RIG_TAIL, &n) && n < stage_seen(editor->stage)->tail_count;
-    return (shown && stage_body_point(editor->stage, &editor->core, place->world->document, n, place->xy)) ||
+    return (shown && stage_body_point(editor->stage, &editor->core, n, place->xy)) ||
            fail(error, ERROR_INPUT, "there is no body of a tail \"%s\" to be seen", place->target->name);
 }
 
@@ -226,7 +223,7 @@ static bool find_character(struct target_place *place, struct error *error)
 /// The n-th pin of a rig, in the order of frames.
 static const struct pin *pin_named(const struct target_place *place, struct error *error)
 {
-    const struct document *document = place->world->document;
+    const struct document *document = place->editor->core.document;
     const double n = place->target->number[0];
     for (int r = 0; r < document->rig_count; r++) {
         const struct rig *rig = document->rigs[r];
@@ -242,8 +239,7 @@ static bool find_floor(struct target_place *place, struct error *error)
 {
     int n;
     const struct editor *editor = place->editor;
-    return (rig_named(place, RIG_CHARACTER, &n) &&
-            stage_floor_point(editor->stage, &editor->core, place->world->document, n, place->xy)) ||
+    return (rig_named(place, RIG_CHARACTER, &n) && stage_floor_point(editor->stage, &editor->core, n, place->xy)) ||
            fail(error, ERROR_INPUT, "there is no floor of \"%s\" to be seen", place->target->name);
 }
 
@@ -262,7 +258,7 @@ static bool find_pin_time(struct target_place *place, struct error *error)
     const struct editor *editor = place->editor;
     const struct pin *pin = pin_named(place, error);
     if (!pin) return false;
-    return curves_pin_point(editor->curves, &editor->core, place->world->document, pin, place->xy) ||
+    return curves_pin_point(editor->curves, &editor->core, pin, place->xy) ||
            fail(error, ERROR_INPUT, "that pin of \"%s\" is not on the visible part of the ruler",
                 place->target->name);
 }
@@ -282,8 +278,8 @@ static bool find_divider(struct target_place *place, struct error *error)
 
 static bool find_widget(struct target_place *place, struct error *error)
 {
-    return inspector_target(place->editor->inspector, &place->editor->core, place->world, place->target->name,
-                            &place->xy[0], &place->xy[1]) ||
+    return inspector_target(place->editor->inspector, &place->editor->core, place->target->name, &place->xy[0],
+                            &place->xy[1]) ||
            fail(error, ERROR_INPUT, "the inspector does not show \"%s\"", place->target->name);
 }
 
@@ -347,13 +343,12 @@ static const struct target_kind *parse(const char *text, struct target *target)
     return NULL;
 }
 
-bool editor_target(struct editor *editor, const struct editor_world *world, const char *target, float *x, float *y,
-                   struct error *error)
+bool editor_target(struct editor *editor, const char *target, float *x, float *y, struct error *error)
 {
     struct target parts;
     const struct target_kind *kind = parse(target, &parts);
     if (!kind) return fail(error, ERROR_INPUT, "\"%s\" is no target such as knot(sway,2) or stage(0.5,0.5)", target);
-    struct target_place place = {.editor = editor, .world = world, .target = &parts};
+    struct target_place place = {.editor = editor, .target = &parts};
     if (!kind->find(&place, error)) return false;
     *x = place.xy[0];
     *y = place.xy[1];

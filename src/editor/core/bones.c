@@ -8,16 +8,16 @@
 #include <stdio.h>
 #include <string.h>
 
-const struct imported *bones_character(const struct editor_world *world, int model)
+const struct imported *bones_character(const struct core *core, int model)
 {
-    return models_imported(world->models, document_rig_number(world->document, model));
+    return models_imported(core->models, document_rig_number(core->document, model));
 }
 
-int bones_selected(const struct core *core, const struct editor_world *world, int *model)
+int bones_selected(const struct core *core, int *model)
 {
     const struct bone_selection *bone = &core->bone;
-    *model = bone->any ? document_find_rig(world->document, RIG_MODEL, bone->model) : -1;
-    const struct imported *shown = *model >= 0 ? bones_character(world, *model) : NULL;
+    *model = bone->any ? document_find_rig(core->document, RIG_MODEL, bone->model) : -1;
+    const struct imported *shown = *model >= 0 ? bones_character(core, *model) : NULL;
     return shown && shown->gltf.id == bone->file ? bone->node : -1;
 }
 
@@ -29,33 +29,33 @@ const char *bones_title(const struct document *document, int model, const char *
 }
 
 /// Selects a bone of a model rig.
-static void bones_select(struct core *core, const struct editor_world *world, int model, int node)
+static void bones_select(struct core *core, int model, int node)
 {
-    const struct imported *shown = bones_character(world, model);
+    const struct imported *shown = bones_character(core, model);
     if (!shown) return;
     core->bone = (struct bone_selection){
-        .any = true, .model = document_rig_number(world->document, model), .file = shown->gltf.id, .node = node};
+        .any = true, .model = document_rig_number(core->document, model), .file = shown->gltf.id, .node = node};
 }
 
 void bones_clear(struct core *core) { core->bone.any = false; }
 
-int bones_joints(const struct editor_world *world, int rig)
+int bones_joints(const struct core *core, int rig)
 {
-    const struct rig *bent = world->document->rigs[rig];
+    const struct rig *bent = core->document->rigs[rig];
     if (bent->kind == RIG_TAIL) return bent->tail.joints;
-    const int model = document_find_model(world->document, bent->chain.model, bent->chain.by_file);
-    const struct imported *shown = model >= 0 ? bones_character(world, model) : NULL;
+    const int model = document_find_model(core->document, bent->chain.model, bent->chain.by_file);
+    const struct imported *shown = model >= 0 ? bones_character(core, model) : NULL;
     struct chain_bones bones;
     return shown && chain_find(&shown->gltf, bent->chain.from, bent->chain.to, &bones, NULL) ? bones.count : 1;
 }
 
 /// Says what was made.
-static void tell(struct core *core, const struct document *document, const struct rig *made, int model, bool follows)
+static void tell(struct core *core, const struct rig *made, int model, bool follows)
 {
-    const char *clip = document->rigs[model]->model.clip;
+    const char *clip = core->document->rigs[model]->model.clip;
     char text[512], title[BONES_TITLE];
     const int length = snprintf(text, sizeof text, "Made the chain %.80s, from %.160s to %.80s.", rig_title(made),
-                                bones_title(document, model, made->chain.from, title), made->chain.to);
+                                bones_title(core->document, model, made->chain.from, title), made->chain.to);
     if (!follows) {
         snprintf(text + length, sizeof text - (size_t)length, " Drag it on the stage to set knots.");
     } else if (clip) {
@@ -66,31 +66,31 @@ static void tell(struct core *core, const struct document *document, const struc
     core_message(core, false, text);
 }
 
-void bones_choose_clip(struct core *core, const struct editor_world *world, int model, const char *clip)
+void bones_choose_clip(struct core *core, int model, const char *clip)
 {
-    const struct imported *character = bones_character(world, model);
-    if (!character || !core_begin(core, world, "Choose clip", 0)) return;
-    core_end(core, world, import_choose_clip(world->document, model, &character->gltf, clip, &core->error));
-    core->refit_curves = world->document->spline_count == 0;
+    const struct imported *character = bones_character(core, model);
+    if (!character || !core_begin(core, "Choose clip", 0)) return;
+    core_end(core, import_choose_clip(core->document, model, &character->gltf, clip, &core->error));
+    core->refit_curves = core->document->spline_count == 0;
 }
 
-void bones_make_chain(struct core *core, const struct editor_world *world, int follow)
+void bones_make_chain(struct core *core, int follow)
 {
     int model, rig;
-    const int node = bones_selected(core, world, &model);
-    const bool has_splines = world->document->spline_count > 0;
-    if (history_is_open(world->history)) return;
+    const int node = bones_selected(core, &model);
+    const bool has_splines = core->document->spline_count > 0;
+    if (history_is_open(core->history)) return;
     if (node < 0) {
         core_message(core, false, "Click a bone of an imported character first.");
         return;
     }
     const struct chain_wish wish = {
-        .model = model, .from = bones_character(world, model)->gltf.nodes[node].name, .follows = follow};
-    core_begin(core, world, follow ? "Make chain that follows" : "Make chain", 0);
-    if (!core_end(core, world, chain_make(world->document, world->models, &wish, &rig, &core->error))) return;
-    core_activate(core, world, rig_input(world->document->rigs[rig], 0));
+        .model = model, .from = bones_character(core, model)->gltf.nodes[node].name, .follows = follow};
+    core_begin(core, follow ? "Make chain that follows" : "Make chain", 0);
+    if (!core_end(core, chain_make(core->document, core->models, &wish, &rig, &core->error))) return;
+    core_activate(core, rig_input(core->document->rigs[rig], 0));
     core->refit_curves = !has_splines;
-    tell(core, world->document, world->document->rigs[rig], model, follow);
+    tell(core, core->document->rigs[rig], model, follow);
 }
 
 int bones_model_of(const struct document *document, const struct chain *chain)
@@ -123,17 +123,17 @@ int bones_below(const struct imported *character, int top, int *nodes, int most)
 
 void bones_pick(struct core *core, enum bone_use use, int which) { core->pick = (struct bone_pick){use, which}; }
 
-void bones_clicked(struct core *core, const struct editor_world *world, int model, int node)
+void bones_clicked(struct core *core, int model, int node)
 {
     const struct bone_pick pick = core->pick;
-    const struct document *document = world->document;
+    const struct document *document = core->document;
     core->pick = (struct bone_pick){0};
     if (pick.use == BONE_SELECTED) {
-        bones_select(core, world, model, node);
+        bones_select(core, model, node);
     } else if (pick.use == BONE_FOLLOWED) {
-        bones_follow(core, world, pick.which, model, node);
+        bones_follow(core, pick.which, model, node);
     } else if (bones_model_of(document, &document->rigs[pick.which]->chain) == model) {
-        bones_set_end(core, world, pick.which, pick.use == BONE_FIRST, node);
+        bones_set_end(core, pick.which, pick.use == BONE_FIRST, node);
     } else {
         core_message(core, true, "This bone is another character's: a chain stays on its own.");
     }
@@ -156,13 +156,12 @@ static const struct rig *bent_by(const struct document *document, int spline, in
 }
 
 /// The gain with which a chain's channel bends as far as its joint has moved, as chains do that are made to follow.
-static double gain_for(const struct editor_world *world, int model, const struct chain *chain,
-                       const struct channel *channel)
+static double gain_for(const struct core *core, int model, const struct chain *chain, const struct channel *channel)
 {
-    const struct imported *character = bones_character(world, model);
+    const struct imported *character = bones_character(core, model);
     struct chain_bones bones;
     if (!chain_find(&character->gltf, chain->from, chain->to, &bones, NULL)) return 1;
-    const double wanted = chain_bend_a_metre(character, &bones, world->document->rigs[model]->model.scale);
+    const double wanted = chain_bend_a_metre(character, &bones, core->document->rigs[model]->model.scale);
     const double bend = angles_at(&channel->gain, 0, bones.count);
     const double gain = wanted / bend;
     return isfinite(gain) && gain > 0 ? core_round(gain, 0.01 * gain) : 1;
@@ -175,9 +174,9 @@ static enum motion_of motion_along(enum axis axis)
 }
 
 /// Has the chains' channels bend by what the spline adds to what it follows: they are carried by that already.
-static bool bend_by_the_rest(struct core *core, const struct editor_world *world, int spline, int model)
+static bool bend_by_the_rest(struct core *core, int spline, int model)
 {
-    const struct document *document = world->document;
+    const struct document *document = core->document;
     bool done = true;
     for (int r = document_next_rig(document, RIG_CHAIN, 0); r >= 0;
          r = document_next_rig(document, RIG_CHAIN, r + 1)) {
@@ -186,18 +185,18 @@ static bool bend_by_the_rest(struct core *core, const struct editor_world *world
         for (int c = 0; c < count; c++) {
             if (document->rigs[r]->chain.channels[c].spline != spline) continue;
             const struct channel_place at = {r, c};
-            done &= edit_part(world->document, at, PART_DISPLACEMENT, &core->error);
+            done &= edit_part(core->document, at, PART_DISPLACEMENT, &core->error);
         }
     }
     return done;
 }
 
-void bones_follow(struct core *core, const struct editor_world *world, int spline, int model, int node)
+void bones_follow(struct core *core, int spline, int model, int node)
 {
-    const struct document *document = world->document;
+    const struct document *document = core->document;
     const struct param *old = &document->splines[spline]->parameter[PARAMETER_EQUILIBRIUM];
-    const struct imported *character = bones_character(world, model);
-    if (!character || history_is_open(world->history)) return;
+    const struct imported *character = bones_character(core, model);
+    if (!character || history_is_open(core->history)) return;
     const struct channel *channel = NULL;
     const struct rig *bent = bent_by(document, spline, model, &channel), *rig = document->rigs[model];
     struct joint_motion motion = {.model = rig->name ? rig->name : rig->model.model, .of = MOTION_TURN};
@@ -206,7 +205,7 @@ void bones_follow(struct core *core, const struct editor_world *world, int splin
         motion.chain = bent->name;
         motion.joint = bent->chain.to;
         motion.of = motion_along(channel->axis);
-        if (motion.of != MOTION_TURN) param.gain = gain_for(world, model, &bent->chain, channel);
+        if (motion.of != MOTION_TURN) param.gain = gain_for(core, model, &bent->chain, channel);
     }
     const bool goes_on =
         old->motion && document_find_model(document, old->motion->model, old->motion->by_file) == model;
@@ -215,14 +214,14 @@ void bones_follow(struct core *core, const struct editor_world *world, int splin
         param.gain = old->gain;
     }
     int chosen_on;
-    const int chosen = bones_selected(core, world, &chosen_on);
+    const int chosen = bones_selected(core, &chosen_on);
     if (node < 0 && !bent && chosen_on == model) node = chosen;
     if (node < 0 && !bent && bones_below(character, -1, &node, 1) == 0) return;
     if (node >= 0) motion.joint = character->gltf.nodes[node].name;
     const bool is_new = !old->motion;
-    core_begin(core, world, "Follow joint", 0);
-    const bool done = edit_parameter(world->document, spline, PARAMETER_EQUILIBRIUM, &param, &core->error);
-    core_end(core, world, done && (!is_new || bend_by_the_rest(core, world, spline, model)));
+    core_begin(core, "Follow joint", 0);
+    const bool done = edit_parameter(core->document, spline, PARAMETER_EQUILIBRIUM, &param, &core->error);
+    core_end(core, done && (!is_new || bend_by_the_rest(core, spline, model)));
 }
 
 /// The names of a chain's ends with another bone at one of them; false with a sentence.
@@ -240,10 +239,9 @@ static bool find_ends(const struct gltf *gltf, const struct chain *chain, bool f
 }
 
 /// Splines that follow a chain's last bone go on to follow its new one.
-static bool follow_end(struct core *core, const struct editor_world *world, const char *chain, const char *old,
-                       char *new)
+static bool follow_end(struct core *core, const char *chain, const char *old, char *new)
 {
-    const struct document *document = world->document;
+    const struct document *document = core->document;
     bool done = true;
     for (int s = 0; s < document->spline_count; s++) {
         struct param param = document->splines[s]->parameter[PARAMETER_EQUILIBRIUM];
@@ -252,19 +250,19 @@ static bool follow_end(struct core *core, const struct editor_world *world, cons
         if (strcmp(motion.chain, chain) != 0 || strcmp(motion.joint, old) != 0) continue;
         motion.joint = new;
         param.motion = &motion;
-        done &= edit_parameter(world->document, s, PARAMETER_EQUILIBRIUM, &param, &core->error);
+        done &= edit_parameter(core->document, s, PARAMETER_EQUILIBRIUM, &param, &core->error);
     }
     return done;
 }
 
-void bones_set_end(struct core *core, const struct editor_world *world, int chain, bool first, int node)
+void bones_set_end(struct core *core, int chain, bool first, int node)
 {
-    struct rig contents = *world->document->rigs[chain];
-    const int model = bones_model_of(world->document, &contents.chain);
-    const struct imported *character = model >= 0 ? bones_character(world, model) : NULL;
+    struct rig contents = *core->document->rigs[chain];
+    const int model = bones_model_of(core->document, &contents.chain);
+    const struct imported *character = model >= 0 ? bones_character(core, model) : NULL;
     struct error error = {0};
     char *ends[2];
-    if (!character || history_is_open(world->history)) return;
+    if (!character || history_is_open(core->history)) return;
     if (!find_ends(&character->gltf, &contents.chain, first, node, ends, &error)) {
         core_message(core, true, error.text);
         return;
@@ -273,11 +271,11 @@ void bones_set_end(struct core *core, const struct editor_world *world, int chai
     snprintf(old, sizeof old, "%s", contents.chain.to);
     contents.chain.from = ends[0];
     contents.chain.to = ends[1];
-    core_begin(core, world, "Set chain's bones", 0);
-    const bool done = edit_chain(world->document, chain, &contents.chain, &core->error) &&
-                      follow_end(core, world, contents.name, old, ends[1]);
-    if (!core_end(core, world, done)) return;
-    const struct rig *rig = world->document->rigs[chain];
+    core_begin(core, "Set chain's bones", 0);
+    const bool done = edit_chain(core->document, chain, &contents.chain, &core->error) &&
+                      follow_end(core, contents.name, old, ends[1]);
+    if (!core_end(core, done)) return;
+    const struct rig *rig = core->document->rigs[chain];
     snprintf(text, sizeof text, "%.80s goes from %.100s to %.100s.", rig_title(rig), rig->chain.from, rig->chain.to);
     core_message(core, false, text);
 }
@@ -295,34 +293,34 @@ static bool begins_at(const struct document *document, int model, const char *fr
 }
 
 /// The names of both ends of the twin; false where it has none, or is there already.
-static bool find_twin(const struct editor_world *world, int rig, char from[BONE_NAME_SIZE], char to[BONE_NAME_SIZE])
+static bool find_twin(const struct core *core, int rig, char from[BONE_NAME_SIZE], char to[BONE_NAME_SIZE])
 {
-    const struct chain *chain = &world->document->rigs[rig]->chain;
-    const int model = document_find_model(world->document, chain->model, chain->by_file);
-    const struct imported *shown = model >= 0 ? bones_character(world, model) : NULL;
+    const struct chain *chain = &core->document->rigs[rig]->chain;
+    const int model = document_find_model(core->document, chain->model, chain->by_file);
+    const struct imported *shown = model >= 0 ? bones_character(core, model) : NULL;
     if (!shown || !chain_other_side(chain->from, from) || !chain_other_side(chain->to, to)) return false;
     return gltf_find_node(&shown->gltf, from) >= 0 && gltf_find_node(&shown->gltf, to) >= 0 &&
-           !begins_at(world->document, model, from);
+           !begins_at(core->document, model, from);
 }
 
-bool bones_has_twin(const struct editor_world *world, int chain)
+bool bones_has_twin(const struct core *core, int chain)
 {
     char from[BONE_NAME_SIZE], to[BONE_NAME_SIZE];
-    return find_twin(world, chain, from, to);
+    return find_twin(core, chain, from, to);
 }
 
-void bones_make_twin(struct core *core, const struct editor_world *world, int chain)
+void bones_make_twin(struct core *core, int chain)
 {
     char from[BONE_NAME_SIZE], to[BONE_NAME_SIZE], name[BONE_NAME_SIZE], text[2 * BONE_NAME_SIZE];
-    if (!find_twin(world, chain, from, to)) return;
-    struct rig twin = *world->document->rigs[chain];
+    if (!find_twin(core, chain, from, to)) return;
+    struct rig twin = *core->document->rigs[chain];
     twin.name = twin.name && chain_other_side(twin.name, name) ? name : NULL;
     twin.chain.from = from;
     twin.chain.to = to;
     twin.chain.mirror = !twin.chain.mirror;
-    if (!core_begin(core, world, "Mirror chain", 0)) return;
-    if (!core_end(core, world, edit_rig_add(world->document, &twin, &core->error))) return;
+    if (!core_begin(core, "Mirror chain", 0)) return;
+    if (!core_end(core, edit_rig_add(core->document, &twin, &core->error))) return;
     snprintf(text, sizeof text, "Made the chain %s, mirrored, by the same splines.",
-             rig_title(world->document->rigs[world->document->rig_count - 1]));
+             rig_title(core->document->rigs[core->document->rig_count - 1]));
     core_message(core, false, text);
 }

@@ -5,22 +5,22 @@
 #include "editor/core/state.h"
 
 /// What a model rig shows, NULL where it could not be read.
-const struct imported *bones_character(const struct editor_world *world, int model);
+const struct imported *bones_character(const struct core *core, int model);
 /// The selected bone's node, and the rig of its character; −1 where none is selected or its character is gone.
-int bones_selected(const struct core *core, const struct editor_world *world, int *model);
+int bones_selected(const struct core *core, int *model);
 enum { BONES_TITLE = 512 };
 /// What a bone is called: its name, and where there are several characters the rig's before it, as in "dog 2/tail_1".
 const char *bones_title(const struct document *document, int model, const char *name, char title[BONES_TITLE]);
 /// A click on a bone: it is what was asked for, or else becomes the selected one.
-void bones_clicked(struct core *core, const struct editor_world *world, int model, int node);
+void bones_clicked(struct core *core, int model, int node);
 /// Selects none.
 void bones_clear(struct core *core);
 
 /// The joints of a tail or chain; 1 for a chain whose bones are not there.
-int bones_joints(const struct editor_world *world, int rig);
+int bones_joints(const struct core *core, int rig);
 
 /// Has a model rig (by its index) play a clip, NULL: none, as one step; import_choose_clip() says what it does to the scene's length.
-void bones_choose_clip(struct core *core, const struct editor_world *world, int model, const char *clip);
+void bones_choose_clip(struct core *core, int model, const char *clip);
 
 /// The bones of a character to choose from, in the order of its file, those below `top` (−1: all); at most `most`. Returns how many.
 int bones_below(const struct imported *character, int top, int *nodes, int most);
@@ -29,20 +29,20 @@ int bones_model_of(const struct document *document, const struct chain *chain);
 
 /// Has a spline's equilibrium follow a joint of a model rig (−1: the one that suits best), as one step. What of it, how much of it and along
 /// which chain's axes stays as it was; at first it is what a chain that the spline bends wants.
-void bones_follow(struct core *core, const struct editor_world *world, int spline, int model, int node);
+void bones_follow(struct core *core, int spline, int model, int node);
 /// Has a chain begin (or end) at another bone, as one step. One that begins beside its old end goes on to its own tip. Its splines that
 /// follow its last bone go on to do so.
-void bones_set_end(struct core *core, const struct editor_world *world, int chain, bool first, int node);
+void bones_set_end(struct core *core, int chain, bool first, int node);
 /// The next click on a bone is what `use` says.
 void bones_pick(struct core *core, enum bone_use use, int which);
 
 /// Makes the selected bone, and those behind it to the tip, a chain; where `follow` is set one that swings after its motion in the clip.
 /// Its first spline becomes the active one.
-void bones_make_chain(struct core *core, const struct editor_world *world, int follow);
+void bones_make_chain(struct core *core, int follow);
 
 /// Whether a chain's bones have twins on the other side (ear_L and ear_R, LeftEar and RightEar) that no chain begins at.
-bool bones_has_twin(const struct editor_world *world, int chain);
+bool bones_has_twin(const struct core *core, int chain);
 /// Makes the chain of the twins, mirrored, by the same splines.
-void bones_make_twin(struct core *core, const struct editor_world *world, int chain);
+void bones_make_twin(struct core *core, int chain);
 
 #endif

@@ -3,33 +3,33 @@
 #include "editor/core/core.h"
 #include "rig/models.h"
 
-const struct character_rig *characters_selected(const struct core *core, const struct editor_world *world)
+const struct character_rig *characters_selected(const struct core *core)
 {
-    return document_character(world->document, core->characters.character);
+    return document_character(core->document, core->characters.character);
 }
 
-const struct coordinate *characters_coordinate(const struct core *core, const struct editor_world *world)
+const struct coordinate *characters_coordinate(const struct core *core)
 {
-    const struct character_rig *rig = characters_selected(core, world);
-    const struct figure *figure = models_figure(world->models, core->characters.character);
+    const struct character_rig *rig = characters_selected(core);
+    const struct figure *figure = models_figure(core->models, core->characters.character);
     if (!rig || !figure || core->characters.drive >= rig->drive_count) return NULL;
     const int at = figure_find(figure, rig->drives[core->characters.drive].name);
     return at >= 0 ? &figure->character.coordinates[at] : NULL;
 }
 
-void characters_open(struct core *core, const struct document *document)
+void characters_open(struct core *core)
 {
-    const struct character_rig *first = document_character(document, 0);
+    const struct character_rig *first = document_character(core->document, 0);
     const int phases = first ? first->phases : -1;
     core->brush.on = false;
     core->characters = (struct character_view){.mapped = phases >= 0, .axis = phases >= 0 ? phases : 1};
 }
 
-const struct figure *characters_figure(const struct core *core, const struct editor_world *world, int *coordinate)
+const struct figure *characters_figure(const struct core *core, int *coordinate)
 {
-    const struct coordinate *selected = characters_coordinate(core, world);
+    const struct coordinate *selected = characters_coordinate(core);
     if (!selected) return NULL;
-    const struct figure *figure = models_figure(world->models, core->characters.character);
+    const struct figure *figure = models_figure(core->models, core->characters.character);
     *coordinate = (int)(selected - figure->character.coordinates);
     return figure;
 }
@@ -46,10 +46,10 @@ static void choose_axis(struct core *core, const struct figure *figure, int coor
     core->characters.axis = axis;
 }
 
-void characters_set_brush(struct core *core, const struct editor_world *world, bool on)
+void characters_set_brush(struct core *core, bool on)
 {
     int coordinate;
-    const struct figure *figure = on ? characters_figure(core, world, &coordinate) : NULL;
+    const struct figure *figure = on ? characters_figure(core, &coordinate) : NULL;
     core->brush.on = figure != NULL;
     if (!on) return;
     if (!figure) {
@@ -60,22 +60,22 @@ void characters_set_brush(struct core *core, const struct editor_world *world, b
     core_message(core, false, "Drag over the character to paint. Ctrl reverses, Shift smooths, Esc ends.");
 }
 
-int characters_rig(const struct core *core, const struct editor_world *world)
+int characters_rig(const struct core *core)
 {
-    return document_find_rig(world->document, RIG_CHARACTER, core->characters.character);
+    return document_find_rig(core->document, RIG_CHARACTER, core->characters.character);
 }
 
-bool characters_blank_paint(struct core *core, const struct editor_world *world, const struct figure *figure)
+bool characters_blank_paint(struct core *core, const struct figure *figure)
 {
     const struct character *character = &figure->character;
-    return edit_paint_new(world->document, characters_rig(core, world), character->coordinate_count,
-                          character->vertex_count, &core->error);
+    return edit_paint_new(core->document, characters_rig(core), character->coordinate_count, character->vertex_count,
+                          &core->error);
 }
 
-void characters_clean_paint(struct core *core, const struct editor_world *world)
+void characters_clean_paint(struct core *core)
 {
     int coordinate;
-    const struct figure *figure = characters_figure(core, world, &coordinate);
-    if (!figure || !core_begin(core, world, "Remove paint", 0)) return;
-    core_end(core, world, characters_blank_paint(core, world, figure));
+    const struct figure *figure = characters_figure(core, &coordinate);
+    if (!figure || !core_begin(core, "Remove paint", 0)) return;
+    core_end(core, characters_blank_paint(core, figure));
 }

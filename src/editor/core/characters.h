@@ -6,21 +6,21 @@
 #include "rig/models.h"
 
 /// The rig that is selected, or NULL; and its coordinate.
-const struct character_rig *characters_selected(const struct core *core, const struct editor_world *world);
+const struct character_rig *characters_selected(const struct core *core);
 /// The coordinate that is selected of it, or NULL.
-const struct coordinate *characters_coordinate(const struct core *core, const struct editor_world *world);
+const struct coordinate *characters_coordinate(const struct core *core);
 /// A new document is on the table: what its first character shows at first.
-void characters_open(struct core *core, const struct document *document);
+void characters_open(struct core *core);
 /// The figure that is painted on, or NULL; and its coordinate.
-const struct figure *characters_figure(const struct core *core, const struct editor_world *world, int *coordinate);
+const struct figure *characters_figure(const struct core *core, int *coordinate);
 /// Takes the brush up or puts it away. It cannot be taken up where no character with a coordinate is selected.
-void characters_set_brush(struct core *core, const struct editor_world *world, bool on);
+void characters_set_brush(struct core *core, bool on);
 /// The rig of the selected character.
-int characters_rig(const struct core *core, const struct editor_world *world);
+int characters_rig(const struct core *core);
 /// An edit: gives the selected character blank paint of the figure's shape.
-bool characters_blank_paint(struct core *core, const struct editor_world *world, const struct figure *figure);
+bool characters_blank_paint(struct core *core, const struct figure *figure);
 /// Takes all paint off the selected character, as a step of the history.
-void characters_clean_paint(struct core *core, const struct editor_world *world);
+void characters_clean_paint(struct core *core);
 
 /// The radius of the brush on a figure, metres.
 static inline float brush_radius_of(const struct brush *brush, const struct figure *figure)

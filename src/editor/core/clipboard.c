@@ -19,10 +19,10 @@ static void say_count(struct core *core, const char *what, int count)
 }
 
 /// The selected knots in core's originals, which no drag needs now; how many there are.
-static int collect(struct core *core, const struct editor_world *world)
+static int collect(struct core *core)
 {
-    if (history_is_open(world->history)) return 0;
-    core_collect(core, world->document, false);
+    if (history_is_open(core->history)) return 0;
+    core_collect(core, false);
     if (core->originals.count == 0) core_message(core, false, "No knots are selected.");
     return core->originals.count;
 }
@@ -43,55 +43,54 @@ static char *print_originals(const struct originals *originals, const struct doc
     return text;
 }
 
-bool core_copy_knots(struct core *core, const struct editor_world *world, bool cut)
+bool core_copy_knots(struct core *core, bool cut)
 {
-    int count = collect(core, world);
+    int count = collect(core);
     if (count == 0) return false;
-    char *text = print_originals(&core->originals, world->document);
+    char *text = print_originals(&core->originals, core->document);
     free(core->clipboard);
     core->clipboard = text;
-    if (cut) core_remove_knots(core, world, count == 1 ? "Cut knot" : "Cut knots");
+    if (cut) core_remove_knots(core, count == 1 ? "Cut knot" : "Cut knots");
     say_count(core, cut ? "Cut" : "Copied", count);
     return true;
 }
 
 /// Inserts a copy of a knot in the open step.
-static bool insert(struct core *core, const struct editor_world *world, int spline, const struct knot *knot,
-                   double shift)
+static bool insert(struct core *core, int spline, const struct knot *knot, double shift)
 {
     struct knot copy = *knot;
     copy.id = 0;
     copy.frame += shift;
-    return core_put_knot(core, world, spline, &copy);
+    return core_put_knot(core, spline, &copy);
 }
 
 /// Closes the step that inserted knots from an id on, and selects them; takes it back where it is not `good`.
-static bool end_insertion(struct core *core, const struct editor_world *world, unsigned first_id, bool good)
+static bool end_insertion(struct core *core, unsigned first_id, bool good)
 {
-    struct document *document = world->document;
-    if (!core_end(core, world, good)) return false;
+    struct document *document = core->document;
+    if (!core_end(core, good)) return false;
     selection_clear(&core->selection);
     pins_clear(core);
     for (unsigned id = first_id; id < document->next_id; id++) selection_set(&core->selection, id, true);
-    selected_settle(core, world);
+    selected_settle(core);
     core_edited(core, -1);
     return true;
 }
 
 /// The spline that a knot of a list goes to: the one that it is of, or else the active one.
-static int target_of(const struct core *core, const struct document *document, const struct knot_list *list, int k)
+static int target_of(const struct core *core, const struct knot_list *list, int k)
 {
     const char *name = list->splines ? list->splines[k] : NULL;
-    const int found = name ? document_find_spline(document, name) : -1;
+    const int found = name ? document_find_spline(core->document, name) : -1;
     return found >= 0 ? found : core->active;
 }
 
-void core_paste_knots(struct core *core, const struct editor_world *world, const char *text)
+void core_paste_knots(struct core *core, const char *text)
 {
-    const struct document *document = world->document;
+    const struct document *document = core->document;
     struct knot_list list;
     struct error error;
-    if (!core_active_spline(core, world) || history_is_open(world->history)) return;
+    if (!core_active_spline(core) || history_is_open(core->history)) return;
     if (!text || !text[strspn(text, " \t\r\n")]) {
         core_message(core, false, "The clipboard has no text.");
         return;
@@ -104,11 +103,11 @@ void core_paste_knots(struct core *core, const struct editor_world *world, const
     double first = list.knots[0].frame;
     bool good = true;
     for (int k = 1; k < list.count; k++) first = fmin(first, list.knots[k].frame);
-    const double shift = round(core_frame(core, document)) - first;
-    core_begin(core, world, list.count == 1 ? "Paste knot" : "Paste knots", 0);
+    const double shift = round(core_frame(core)) - first;
+    core_begin(core, list.count == 1 ? "Paste knot" : "Paste knots", 0);
     for (int k = 0; k < list.count && good; k++)
-        good = insert(core, world, target_of(core, document, &list, k), &list.knots[k], shift);
-    if (end_insertion(core, world, first_id, good)) say_count(core, "Pasted", list.count);
+        good = insert(core, target_of(core, &list, k), &list.knots[k], shift);
+    if (end_insertion(core, first_id, good)) say_count(core, "Pasted", list.count);
     knot_list_free(&list);
 }
 
@@ -153,21 +152,21 @@ static int copies_end(const struct originals *originals, const struct document *
     return (int)fmin(ceil(end), SCENE_MAX_FRAME);
 }
 
-void core_duplicate_knots(struct core *core, const struct editor_world *world)
+void core_duplicate_knots(struct core *core)
 {
-    struct document *document = world->document;
+    struct document *document = core->document;
     const struct originals *originals = &core->originals;
-    const int count = collect(core, world);
+    const int count = collect(core);
     if (count == 0) return;
     const double shift = copies_shift(originals, document);
     const unsigned first_id = document->next_id;
     const int end = copies_end(originals, document, shift);
     const bool longer = end > document->last_frame;
-    core_begin(core, world, count == 1 ? "Duplicate knot" : "Duplicate knots", 0);
+    core_begin(core, count == 1 ? "Duplicate knot" : "Duplicate knots", 0);
     bool good = !longer || edit_range(document, document->first_frame, end, RANGE_REFUSE, &core->error);
     for (int i = 0; i < count && good; i++)
-        good = insert(core, world, originals->list[i].spline, &originals->list[i].knot, shift);
-    if (!end_insertion(core, world, first_id, good)) return;
+        good = insert(core, originals->list[i].spline, &originals->list[i].knot, shift);
+    if (!end_insertion(core, first_id, good)) return;
     say_count(core, "Duplicated", count);
     if (!longer) return;
     char text[96];

@@ -27,42 +27,41 @@ void core_edited(struct core *core, int spline)
     if (spline >= 0 && edited->count < CORE_MAX_EDITED) edited->spline[edited->count++] = spline;
 }
 
-bool core_begin(struct core *core, const struct editor_world *world, const char *label, uint64_t merge)
+bool core_begin(struct core *core, const char *label, uint64_t merge)
 {
-    if (history_is_open(world->history)) return false;
-    history_begin(world->history, label, merge);
+    if (history_is_open(core->history)) return false;
+    history_begin(core->history, label, merge);
     core->error = (struct error){0};
     return true;
 }
 
-bool core_end(struct core *core, const struct editor_world *world, bool done)
+bool core_end(struct core *core, bool done)
 {
-    if (!done) history_restart(world->history);
-    history_end(world->history);
-    core_settle(core, world);
+    if (!done) history_restart(core->history);
+    history_end(core->history);
+    core_settle(core);
     return done;
 }
 
-void core_settle(struct core *core, const struct editor_world *world)
+void core_settle(struct core *core)
 {
-    core_refresh(core, world);
+    core_refresh(core);
     if (core->error.kind == ERROR_NONE) return;
     core_message(core, true, core->error.text);
     core->error = (struct error){0};
-    selection_drop_from(&core->selection, world->document->next_id); // what the drag had inserted a moment ago
+    selection_drop_from(&core->selection, core->document->next_id); // what the drag had inserted a moment ago
 }
 
-bool core_set_parameter(struct core *core, const struct editor_world *world, int spline, enum parameter parameter,
-                        double value)
+bool core_set_parameter(struct core *core, int spline, enum parameter parameter, double value)
 {
     const struct param param = param_number(value);
-    return edit_parameter(world->document, spline, parameter, &param, &core->error);
+    return edit_parameter(core->document, spline, parameter, &param, &core->error);
 }
 
-bool core_put_knot(struct core *core, const struct editor_world *world, int spline, const struct knot *knot)
+bool core_put_knot(struct core *core, int spline, const struct knot *knot)
 {
-    return knot->id == 0 ? edit_knot_insert(world->document, spline, knot, &core->error)
-                         : edit_knot_set(world->document, spline, knot, &core->error);
+    return knot->id == 0 ? edit_knot_insert(core->document, spline, knot, &core->error)
+                         : edit_knot_set(core->document, spline, knot, &core->error);
 }
 
 struct knot core_knot_at(const struct document *document, int spline, int sample)
@@ -73,19 +72,19 @@ struct knot core_knot_at(const struct document *document, int spline, int sample
                   : edited->knots[at];
 }
 
-void core_refresh(struct core *core, const struct editor_world *world)
+void core_refresh(struct core *core)
 {
-    if (core->serial != world->document->serial) {
-        core_open(core, world->document);
+    if (core->serial != core->document->serial) {
+        core_open(core);
     } else {
-        spline_list_refresh(core, world);
+        spline_list_refresh(core);
     }
 }
 
 /// Where undo has taken the active spline away, the one that was active before it is so again.
-static void return_to_active(struct core *core, const struct editor_world *world)
+static void return_to_active(struct core *core)
 {
-    const struct document *document = world->document;
+    const struct document *document = core->document;
     const bool gone = document_find_spline_id(document, core->active_id) < 0;
     for (int r = 0; r < CORE_MAX_RECENT && gone; r++) {
         if (core->recent[r] == 0 || document_find_spline_id(document, core->recent[r]) < 0) continue;
@@ -93,12 +92,12 @@ static void return_to_active(struct core *core, const struct editor_world *world
         selection_clear(&core->selection);
         break;
     }
-    core_refresh(core, world);
+    core_refresh(core);
 }
 
-void core_undo(struct core *core, const struct editor_world *world, int direction)
+void core_undo(struct core *core, int direction)
 {
-    struct history *history = world->history;
+    struct history *history = core->history;
     if (history_is_open(history)) return;
     const char *label = direction < 0 ? history_undo_label(history) : history_redo_label(history);
     char text[128];
@@ -112,16 +111,16 @@ void core_undo(struct core *core, const struct editor_world *world, int directio
     } else {
         history_redo(history);
     }
-    return_to_active(core, world);
+    return_to_active(core);
     core_message(core, false, text);
 }
 
-void core_jump(struct core *core, const struct editor_world *world, size_t done)
+void core_jump(struct core *core, size_t done)
 {
-    if (history_is_open(world->history)) return;
-    size_t before = history_done(world->history), steps = before > done ? before - done : done - before;
-    if (!history_jump(world->history, done)) return;
-    return_to_active(core, world);
+    if (history_is_open(core->history)) return;
+    size_t before = history_done(core->history), steps = before > done ? before - done : done - before;
+    if (!history_jump(core->history, done)) return;
+    return_to_active(core);
     char text[64];
     snprintf(text, sizeof text, "%s %zu step%s", before > done ? "Undone:" : "Redone:", steps, steps == 1 ? "" : "s");
     core_message(core, false, text);
@@ -169,29 +168,29 @@ void core_stopped(struct core *core, const char *why)
     core_message(core, false, text);
 }
 
-struct spline *core_active_spline(const struct core *core, const struct editor_world *world)
+struct spline *core_active_spline(const struct core *core)
 {
-    bool exists = core->active >= 0 && core->active < world->document->spline_count;
-    return exists ? world->document->splines[core->active] : NULL;
+    bool exists = core->active >= 0 && core->active < core->document->spline_count;
+    return exists ? core->document->splines[core->active] : NULL;
 }
 
-void core_turn_to(struct core *core, const struct editor_world *world, int spline)
+void core_turn_to(struct core *core, int spline)
 {
-    if (spline == core->active || spline < 0 || spline >= world->document->spline_count) return;
+    if (spline == core->active || spline < 0 || spline >= core->document->spline_count) return;
     memmove(core->recent + 1, core->recent, (CORE_MAX_RECENT - 1) * sizeof *core->recent);
     core->recent[0] = core->active_id;
     core->active = spline;
-    core->active_id = world->document->splines[spline]->id;
+    core->active_id = core->document->splines[spline]->id;
 }
 
-void core_activate(struct core *core, const struct editor_world *world, int spline)
+void core_activate(struct core *core, int spline)
 {
-    if (spline == core->active || spline < 0 || spline >= world->document->spline_count) return;
+    if (spline == core->active || spline < 0 || spline >= core->document->spline_count) return;
     selection_clear(&core->selection);
-    core_turn_to(core, world, spline);
+    core_turn_to(core, spline);
 }
 
-void core_flip(struct core *core, const struct editor_world *world, int which)
+void core_flip(struct core *core, int which)
 {
     const struct {
         bool *on;
@@ -213,7 +212,6 @@ void core_flip(struct core *core, const struct editor_world *world, int which)
                           {"Ghost off.", "Ghost on: the pose at the knot that is dragged or nudged (F4)."}},
     };
     bool *on = switches[which].on;
-    (void)world;
     *on = !*on;
     core_message(core, false, switches[which].said[*on]);
 }
@@ -229,9 +227,9 @@ void core_set_look(struct core *core, enum look look)
     core_message(core, false, texts[look]);
 }
 
-double core_frame(const struct core *core, const struct document *document)
+double core_frame(const struct core *core)
 {
-    return document->first_frame + core->playback.position / document->substeps;
+    return core->document->first_frame + core->playback.position / core->document->substeps;
 }
 
 double core_position(const struct document *document, double frame)

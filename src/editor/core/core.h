@@ -5,31 +5,30 @@
 #include "editor/core/state.h"
 
 /// A new document is on the table: selection, playhead and what is looked at start anew.
-void core_open(struct core *core, const struct document *document);
+void core_open(struct core *core);
 /// The path of the document's own file, "" for none.
 void core_set_path(struct core *core, const char *path);
 /// A spline was edited, or where it is -1, its selected knots were.
 void core_edited(struct core *core, int spline);
 /// Opens a step, whose edits say why they fail in core->error; `merge` as in history_begin(). false while another step is open: that of a
 /// drag is not to be mixed with others.
-bool core_begin(struct core *core, const struct editor_world *world, const char *label, uint64_t merge);
+bool core_begin(struct core *core, const char *label, uint64_t merge);
 /// Closes the step, taken back where it is not `done`, which is returned.
-bool core_end(struct core *core, const struct editor_world *world, bool done);
+bool core_end(struct core *core, bool done);
 /// After edits: the editor follows the document, and core->error goes to the status line.
-void core_settle(struct core *core, const struct editor_world *world);
+void core_settle(struct core *core);
 /// An edit: gives a parameter of a spline a value, which stops it from following another.
-bool core_set_parameter(struct core *core, const struct editor_world *world, int spline, enum parameter parameter,
-                        double value);
+bool core_set_parameter(struct core *core, int spline, enum parameter parameter, double value);
 /// An edit: sets a knot, or inserts it where its id is 0.
-bool core_put_knot(struct core *core, const struct editor_world *world, int spline, const struct knot *knot);
+bool core_put_knot(struct core *core, int spline, const struct knot *knot);
 /// The knot on a sample, or a new one with id 0 for it.
 struct knot core_knot_at(const struct document *document, int spline, int sample);
 /// After undo, redo and another document: see editor_refresh().
-void core_refresh(struct core *core, const struct editor_world *world);
+void core_refresh(struct core *core);
 /// Undoes the last step (direction -1), or does the next one again (1).
-void core_undo(struct core *core, const struct editor_world *world, int direction);
+void core_undo(struct core *core, int direction);
 /// Undoes or redoes until `done` of the history's steps are done.
-void core_jump(struct core *core, const struct editor_world *world, size_t done);
+void core_jump(struct core *core, size_t done);
 /// Asks the app for something; `path` may be NULL.
 void core_request(struct core *core, enum request_kind kind, const char *path);
 /// The same with a number.
@@ -43,19 +42,19 @@ void core_add_stopped(const char *why, char *text, size_t size);
 /// What stopped an edit, as a sentence of the status line.
 void core_stopped(struct core *core, const char *why);
 /// The active spline, or NULL.
-struct spline *core_active_spline(const struct core *core, const struct editor_world *world);
+struct spline *core_active_spline(const struct core *core);
 /// Makes a spline the active one, which drops the selection.
-void core_activate(struct core *core, const struct editor_world *world, int spline);
+void core_activate(struct core *core, int spline);
 /// The same, but keeps the selection.
-void core_turn_to(struct core *core, const struct editor_world *world, int spline);
+void core_turn_to(struct core *core, int spline);
 /// What is switched on and off, by keys and on the screen.
 enum core_switch { SWITCH_SNAP, SWITCH_AUTO_KEY, SWITCH_LOOP, SWITCH_ONION, SWITCH_TRAIL, SWITCH_GHOST };
 /// Flips one of them, and says so.
-void core_flip(struct core *core, const struct editor_world *world, int which);
+void core_flip(struct core *core, int which);
 /// Chooses how the knots are shown, and says so.
 void core_set_look(struct core *core, enum look look);
 /// Frame (fractional) that is shown.
-double core_frame(const struct core *core, const struct document *document);
+double core_frame(const struct core *core);
 /// Position in samples (fractional) of a frame.
 double core_position(const struct document *document, double frame);
 /// Rounds to a multiple of the power of ten at or below `resolution` (> 0): no more decimals than a mouse can mean, so that
@@ -71,7 +70,7 @@ enum divider core_divider_at(const struct core *core, float x, float y);
 void core_divider_move(struct core *core, enum divider divider, float x, float y);
 
 /// Begins or ends it (F5).
-void presenter_toggle(struct core *core, const struct editor_world *world, int argument);
+void presenter_toggle(struct core *core, int argument);
 /// Tab shows all panels or lets them go; true where the event is used up.
 bool presenter_event(struct core *core, const struct event *event);
 /// Time passes: panels slide; `busy`: those in sight stay.

@@ -24,21 +24,21 @@ void drag_begin(struct core *core, const struct drag_owner *owner, void *room, c
                                .snap = drag_snaps(core, event->mods)};
 }
 
-void drag_start_moving(struct core *core, const struct editor_world *world)
+void drag_start_moving(struct core *core)
 {
     struct drag *drag = &core->drag;
     if (drag->moved) return;
     drag->moved = true;
-    if (drag->label) history_begin(world->history, drag->label, 0);
+    if (drag->label) history_begin(core->history, drag->label, 0);
 }
 
-void drag_restart(const struct core *core, const struct editor_world *world)
+void drag_restart(const struct core *core)
 {
-    if (core->drag.moved && core->drag.label) history_restart(world->history);
+    if (core->drag.moved && core->drag.label) history_restart(core->history);
 }
 
 /// Adds up the pointer's way; a press that hardly moves stays a click.
-static void move(struct core *core, const struct editor_world *world, const struct event *event)
+static void move(struct core *core, const struct event *event)
 {
     struct drag *drag = &core->drag;
     float dx = event->x - drag->x, dy = event->y - drag->y;
@@ -51,8 +51,8 @@ static void move(struct core *core, const struct editor_world *world, const stru
     drag->snap = drag_snaps(core, event->mods);
     drag->stale = true;
     if (!drag->moved && hypotf(event->x - drag->start_x, event->y - drag->start_y) < CLICK_REACH) return;
-    drag_start_moving(core, world);
-    if (drag->owner->move) drag->owner->move(drag->room, core, world);
+    drag_start_moving(core);
+    if (drag->owner->move) drag->owner->move(drag->room, core);
 }
 
 /// What the buttons and Esc mean to all drags.
@@ -65,54 +65,54 @@ static enum drag_answer answer_of_all(const struct drag *drag, const struct even
     return escape ? DRAG_TAKE_BACK : DRAG_PASSES;
 }
 
-bool drag_event(struct core *core, const struct editor_world *world, const struct event *event)
+bool drag_event(struct core *core, const struct event *event)
 {
     struct drag *drag = &core->drag;
     enum drag_answer answer = DRAG_PASSES;
     if (!drag->owner) return false;
     if (event->kind == EVENT_POINTER) {
-        move(core, world, event);
+        move(core, event);
         return true;
     }
-    if (drag->owner->event) answer = drag->owner->event(drag->room, core, world, event);
+    if (drag->owner->event) answer = drag->owner->event(drag->room, core, event);
     if (answer == DRAG_PASSES) answer = answer_of_all(drag, event);
-    if (answer == DRAG_KEEP || answer == DRAG_TAKE_BACK) drag_end(core, world, answer == DRAG_KEEP);
+    if (answer == DRAG_KEEP || answer == DRAG_TAKE_BACK) drag_end(core, answer == DRAG_KEEP);
     return answer != DRAG_PASSES;
 }
 
-void drag_apply(struct core *core, const struct editor_world *world, double dt)
+void drag_apply(struct core *core, double dt)
 {
     struct drag *drag = &core->drag;
     const struct drag_owner *owner = drag->owner;
     if (!owner || !owner->apply || !drag->moved || !(drag->stale || owner->goes_on)) return;
     drag->stale = false;
     drag->dt = dt;
-    if (!owner->goes_on) drag_restart(core, world);
+    if (!owner->goes_on) drag_restart(core);
     core->error = (struct error){0};
-    owner->apply(drag->room, core, world);
-    if (history_is_open(world->history)) core_settle(core, world);
+    owner->apply(drag->room, core);
+    if (history_is_open(core->history)) core_settle(core);
 }
 
-void drag_end(struct core *core, const struct editor_world *world, bool keep)
+void drag_end(struct core *core, bool keep)
 {
     struct drag *drag = &core->drag;
     if (!drag->owner) return;
-    if (keep && !drag->owner->goes_on) drag_apply(core, world, 0);
-    if (drag->owner->end) drag->owner->end(drag->room, core, world, keep);
+    if (keep && !drag->owner->goes_on) drag_apply(core, 0);
+    if (drag->owner->end) drag->owner->end(drag->room, core, keep);
     if (drag->moved && drag->label) {
-        if (!keep) drag_restart(core, world);
-        if (!keep) selection_drop_from(&core->selection, world->document->next_id);
-        if (!keep && core->pin.id >= world->document->next_id) pins_clear(core);
-        history_end(world->history);
-        core_settle(core, world); // a body's last edits may have added the first splines
+        if (!keep) drag_restart(core);
+        if (!keep) selection_drop_from(&core->selection, core->document->next_id);
+        if (!keep && core->pin.id >= core->document->next_id) pins_clear(core);
+        history_end(core->history);
+        core_settle(core); // a body's last edits may have added the first splines
     }
     *drag = (struct drag){0};
 }
 
-void drag_show(const void *room, struct core *core, const struct editor_world *world)
+void drag_show(const void *room, struct core *core)
 {
     const struct drag_owner *owner = core->drag.owner;
-    if (owner && owner->show && core->drag.room == room) owner->show(core->drag.room, core, world);
+    if (owner && owner->show && core->drag.room == room) owner->show(core->drag.room, core);
 }
 
 bool drag_lock(struct drag *drag, int key)

@@ -13,16 +13,15 @@ struct drag_owner {
     bool goes_on; ///< apply() is called in every frame, and goes on from the edits of the last one
 
     /// The pointer has moved.
-    void (*move)(void *room, struct core *core, const struct editor_world *world);
+    void (*move)(void *room, struct core *core);
     /// Once in a frame with movements: makes the edits, on the document as it was when the drag began.
-    void (*apply)(void *room, struct core *core, const struct editor_world *world);
+    void (*apply)(void *room, struct core *core);
     /// Events but the pointer's; what passes means the same to all drags.
-    enum drag_answer (*event)(void *room, struct core *core, const struct editor_world *world,
-                              const struct event *event);
+    enum drag_answer (*event)(void *room, struct core *core, const struct event *event);
     /// Before its step is closed; `keep` false: before its edits are taken back.
-    void (*end)(void *room, struct core *core, const struct editor_world *world, bool keep);
+    void (*end)(void *room, struct core *core, bool keep);
     /// Draws what only shows while it runs.
-    void (*show)(void *room, struct core *core, const struct editor_world *world);
+    void (*show)(void *room, struct core *core);
 };
 
 /// Whether knots go to whole frames: Ctrl turns around what the panel is set to.
@@ -31,17 +30,17 @@ bool drag_snaps(const struct core *core, unsigned mods);
 void drag_begin(struct core *core, const struct drag_owner *owner, void *room, const char *label,
                 const struct event *event);
 /// This is a drag, not a click. Opens its history step.
-void drag_start_moving(struct core *core, const struct editor_world *world);
+void drag_start_moving(struct core *core);
 /// Hands an event to the running drag; true where that uses it up.
-bool drag_event(struct core *core, const struct editor_world *world, const struct event *event);
+bool drag_event(struct core *core, const struct event *event);
 /// Once a frame, after its events: the running drag makes its edits.
-void drag_apply(struct core *core, const struct editor_world *world, double dt);
+void drag_apply(struct core *core, double dt);
 /// Takes the edits back that the drag has made so far.
-void drag_restart(const struct core *core, const struct editor_world *world);
+void drag_restart(const struct core *core);
 /// Ends the running drag and its step; `keep` false takes the edits back. Nothing where none runs.
-void drag_end(struct core *core, const struct editor_world *world, bool keep);
+void drag_end(struct core *core, bool keep);
 /// Draws what the running drag shows, if this room began it.
-void drag_show(const void *room, struct core *core, const struct editor_world *world);
+void drag_show(const void *room, struct core *core);
 /// X and Y: only the frame, only the value may change. false for other keys.
 bool drag_lock(struct drag *drag, int key);
 /// The status line says what stops a drag for as long as that does; "": nothing.

@@ -18,17 +18,16 @@ static const char *obstacle(const struct spline *spline)
 }
 
 /// How many explanations the knots have.
-static int explain(const struct core *core, const struct editor_world *world, const struct spline *spline,
-                   wiggly_explanation found[2])
+static int explain(const struct core *core, const struct spline *spline, wiggly_explanation found[2])
 {
-    const struct evaluation *evaluation = world->evaluation;
+    const struct evaluation *evaluation = core->evaluation;
     wiggly_desc desc = wiggly_default_desc();
     wiggly_knot *knots = need((size_t)spline->knot_count, sizeof *knots);
     for (int k = 0; k < spline->knot_count; k++) {
-        const int sample = document_sample(world->document, spline->knots[k].frame);
+        const int sample = document_sample(core->document, spline->knots[k].frame);
         knots[k] = (wiggly_knot){.sample = sample, .value = spline->knots[k].value};
     }
-    desc.step = document_step(world->document);
+    desc.step = document_step(core->document);
     desc.mode = spline_mode(spline);
     desc.knots = knots;
     desc.knot_count = spline->knot_count;
@@ -51,24 +50,24 @@ static bool is_set(const struct spline *spline, const wiggly_explanation *found)
            spline->parameter[PARAMETER_DAMPING].value == damping_of(found);
 }
 
-void core_find_frequency(struct core *core, const struct editor_world *world, int unused)
+void core_find_frequency(struct core *core, int unused)
 {
     (void)unused;
-    const struct spline *spline = core_active_spline(core, world);
-    if (!spline || history_is_open(world->history)) return;
+    const struct spline *spline = core_active_spline(core);
+    if (!spline || history_is_open(core->history)) return;
     const char *reason = obstacle(spline);
     wiggly_explanation found[2];
-    const int count = reason ? 0 : explain(core, world, spline, found);
+    const int count = reason ? 0 : explain(core, spline, found);
     if (count <= 0) {
         core_message(core, false, reason ? reason : "These knots do not swing: no frequency explains them.");
         return;
     }
     char text[160];
     const int active = core->active, chosen = count == 2 && is_set(spline, &found[0]) ? 1 : 0;
-    core_begin(core, world, "Find frequency", 0);
-    const bool good = core_set_parameter(core, world, active, PARAMETER_FREQUENCY, frequency_of(&found[chosen])) &&
-                      core_set_parameter(core, world, active, PARAMETER_DAMPING, damping_of(&found[chosen]));
-    if (!core_end(core, world, good)) return;
+    core_begin(core, "Find frequency", 0);
+    const bool good = core_set_parameter(core, active, PARAMETER_FREQUENCY, frequency_of(&found[chosen])) &&
+                      core_set_parameter(core, active, PARAMETER_DAMPING, damping_of(&found[chosen]));
+    if (!core_end(core, good)) return;
     core_edited(core, core->active);
     const int length = snprintf(text, sizeof text, "%s: %.2f Hz, damping %.3g.", chosen ? "Runner-up" : "Best",
                                 found[chosen].frequency, found[chosen].damping);

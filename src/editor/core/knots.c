@@ -9,12 +9,12 @@
 #include "editor/core/spline_list.h"
 #include <math.h>
 
-uint64_t core_merge_key(const struct core *core, const struct editor_world *world, uint64_t kind)
+uint64_t core_merge_key(const struct core *core, uint64_t kind)
 {
     uint64_t key = hash_bytes(HASH_START, &kind, sizeof kind);
     key = hash_bytes(key, &core->active, sizeof core->active);
-    for (struct knot_place at = SELECTED_START; selected_next(core, world->document, &at);) {
-        unsigned id = knot_at(world->document, at)->id;
+    for (struct knot_place at = SELECTED_START; selected_next(core, &at);) {
+        unsigned id = knot_at(core->document, at)->id;
         key = hash_bytes(key, &id, sizeof id);
     }
     return key ? key : 1;
@@ -28,81 +28,81 @@ static void select_only(struct core *core, unsigned id)
 }
 
 /// Inserts and selects a knot; where there is one on that sample already, that one is selected.
-static void insert_at(struct core *core, const struct editor_world *world, const struct knot *knot)
+static void insert_at(struct core *core, const struct knot *knot)
 {
-    const struct document *document = world->document;
+    const struct document *document = core->document;
     int sample = document_sample(document, knot->frame);
-    int at = spline_find_knot(document, core_active_spline(core, world), sample);
+    int at = spline_find_knot(document, core_active_spline(core), sample);
     if (at < 0) {
-        if (!core_begin(core, world, "Insert knot", 0)) return;
-        if (!core_end(core, world, core_put_knot(core, world, core->active, knot))) return;
-        at = spline_find_knot(document, core_active_spline(core, world), sample);
+        if (!core_begin(core, "Insert knot", 0)) return;
+        if (!core_end(core, core_put_knot(core, core->active, knot))) return;
+        at = spline_find_knot(document, core_active_spline(core), sample);
     }
     if (at < 0) return;
-    select_only(core, core_active_spline(core, world)->knots[at].id);
+    select_only(core, core_active_spline(core)->knots[at].id);
     core_edited(core, -1);
 }
 
 /// The frame for a knot of the active spline: a whole one when `snap`, inside the range.
-static double knot_frame(const struct core *core, const struct editor_world *world, double frame, bool snap)
+static double knot_frame(const struct core *core, double frame, bool snap)
 {
-    const struct document *document = world->document;
-    const struct spline *spline = core_active_spline(core, world);
+    const struct document *document = core->document;
+    const struct spline *spline = core_active_spline(core);
     double last = document_frame(document, document_last_knot_sample(document, spline));
     return fmin(fmax(snap ? round(frame) : frame, document->first_frame), last);
 }
 
-void core_insert_knot(struct core *core, const struct editor_world *world, double frame, double value, bool snap)
+void core_insert_knot(struct core *core, double frame, double value, bool snap)
 {
-    if (!core_active_spline(core, world) || !isfinite(frame)) return;
+    if (!core_active_spline(core) || !isfinite(frame)) return;
     const struct knot knot = {
-        .frame = knot_frame(core, world, frame, snap), .value = value, .stiffness = KNOT_DEFAULT_STIFFNESS};
-    insert_at(core, world, &knot);
+        .frame = knot_frame(core, frame, snap), .value = value, .stiffness = KNOT_DEFAULT_STIFFNESS};
+    insert_at(core, &knot);
 }
 
-void core_insert_on_curve(struct core *core, const struct editor_world *world, double frame, bool snap, bool slope)
+void core_insert_on_curve(struct core *core, double frame, bool snap, bool slope)
 {
-    const struct document *document = world->document;
-    if (!core_active_spline(core, world) || !isfinite(frame)) return;
+    const struct document *document = core->document;
+    if (!core_active_spline(core) || !isfinite(frame)) return;
     struct knot knot = {
-        .frame = knot_frame(core, world, frame, snap), .stiffness = KNOT_DEFAULT_STIFFNESS, .has_slope = slope};
+        .frame = knot_frame(core, frame, snap), .stiffness = KNOT_DEFAULT_STIFFNESS, .has_slope = slope};
     int sample = document_sample(document, knot.frame);
-    wiggly_value here = evaluation_at(world->evaluation, core->active, sample);
+    wiggly_value here = evaluation_at(core->evaluation, core->active, sample);
     knot.value = here.y + here.re;
-    if (slope) knot.slope = evaluation_slope(world->evaluation, document, core->active, sample);
-    insert_at(core, world, &knot);
+    if (slope) knot.slope = evaluation_slope(core->evaluation, document, core->active, sample);
+    insert_at(core, &knot);
 }
 
-void core_remove_knots(struct core *core, const struct editor_world *world, const char *label)
+void core_remove_knots(struct core *core, const char *label)
 {
     const struct originals *originals = &core->originals;
-    if (!core_begin(core, world, label, 0)) return;
-    core_collect(core, world->document, false);
+    if (!core_begin(core, label, 0)) return;
+    core_collect(core, false);
     for (int i = originals->count - 1; i >= 0; i--) {
         const struct original *original = &originals->list[i];
-        edit_knot_remove(world->document, original->spline, original->knot.id, &core->error);
+        edit_knot_remove(core->document, original->spline, original->knot.id, &core->error);
     }
-    core_end(core, world, true);
+    core_end(core, true);
     selection_clear(&core->selection);
 }
 
-void core_delete_knots(struct core *core, const struct editor_world *world, int unused)
+void core_delete_knots(struct core *core, int unused)
 {
     (void)unused;
-    core_remove_knots(core, world, selected_count(core, world->document) == 1 ? "Delete knot" : "Delete knots");
+    core_remove_knots(core, selected_count(core) == 1 ? "Delete knot" : "Delete knots");
 }
 
-void core_select_all(struct core *core, const struct editor_world *world, int all_splines)
+void core_select_all(struct core *core, int all_splines)
 {
-    const struct document *document = world->document;
+    const struct document *document = core->document;
     pins_clear(core);
     selection_clear(&core->selection);
     for (int s = 0; s < document->spline_count; s++) {
         const struct spline *spline = document->splines[s];
-        if (all_splines ? !spline_list_shows(core, document, s) : s != core->active) continue;
+        if (all_splines ? !spline_list_shows(core, s) : s != core->active) continue;
         for (int k = 0; k < spline->knot_count; k++) selection_set(&core->selection, spline->knots[k].id, true);
     }
-    selected_settle(core, world);
+    selected_settle(core);
 }
 
 /// Index of the first knot after, or last one before, a position; -1 where there is none.
@@ -117,22 +117,22 @@ static int beside(const struct document *document, const struct spline *spline, 
     return found;
 }
 
-const struct knot *core_select_neighbour(struct core *core, const struct editor_world *world, int direction)
+const struct knot *core_select_neighbour(struct core *core, int direction)
 {
-    const struct spline *spline = core_active_spline(core, world);
+    const struct spline *spline = core_active_spline(core);
     if (!spline || spline->knot_count == 0) return NULL;
     int single = selection_single(&core->selection, spline);
     int next = single + direction;
-    if (single < 0) next = beside(world->document, spline, core->playback.position, direction);
+    if (single < 0) next = beside(core->document, spline, core->playback.position, direction);
     if (next < 0 || next >= spline->knot_count) return NULL;
     select_only(core, spline->knots[next].id);
     return &spline->knots[next];
 }
 
-const struct knot *core_visit_neighbour(struct core *core, const struct editor_world *world, int direction)
+const struct knot *core_visit_neighbour(struct core *core, int direction)
 {
-    const struct document *document = world->document;
-    const struct spline *spline = core_active_spline(core, world);
+    const struct document *document = core->document;
+    const struct spline *spline = core_active_spline(core);
     const int next = spline ? beside(document, spline, core->playback.position, direction) : -1;
     if (next < 0) {
         core_message(core, false,
@@ -141,26 +141,26 @@ const struct knot *core_visit_neighbour(struct core *core, const struct editor_w
     }
     const struct knot *knot = &spline->knots[next];
     select_only(core, knot->id);
-    playback_seek(core, document, document_frame(document, document_sample(document, knot->frame)));
+    playback_seek(core, document_frame(document, document_sample(document, knot->frame)));
     return knot;
 }
 
-const struct knot *core_extend_selection(struct core *core, const struct editor_world *world, int direction)
+const struct knot *core_extend_selection(struct core *core, int direction)
 {
-    const struct spline *spline = core_active_spline(core, world);
+    const struct spline *spline = core_active_spline(core);
     int end = -1;
     for (int k = 0; spline && k < spline->knot_count; k++) {
         if (selection_has(&core->selection, spline->knots[k].id) && (end < 0 || direction > 0)) end = k;
     }
-    if (end < 0) return core_select_neighbour(core, world, direction);
+    if (end < 0) return core_select_neighbour(core, direction);
     int next = end + direction;
     if (next < 0 || next >= spline->knot_count) return NULL;
     selection_set(&core->selection, spline->knots[next].id, true);
     return &spline->knots[next];
 }
 
-void core_activate_neighbour(struct core *core, const struct editor_world *world, int direction)
+void core_activate_neighbour(struct core *core, int direction)
 {
-    int count = world->document->spline_count;
-    if (count > 0) core_activate(core, world, ((core->active + direction) % count + count) % count);
+    int count = core->document->spline_count;
+    if (count > 0) core_activate(core, ((core->active + direction) % count + count) % count);
 }

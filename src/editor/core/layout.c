@@ -93,9 +93,8 @@ static bool is_wanted(const struct core *core, enum panel panel)
     return at == PANEL_CURVES || at == PANEL_STATUS || y > l->window.h - NEAR;
 }
 
-void presenter_toggle(struct core *core, const struct editor_world *world, int argument)
+void presenter_toggle(struct core *core, int argument)
 {
-    (void)world;
     (void)argument;
     core->presenter = (struct presenter){.on = !core->presenter.on, .side = 1, .below = 1};
     core_layout(core);

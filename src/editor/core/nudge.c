@@ -8,13 +8,12 @@
 
 enum { NUDGE_PARAMETER = 100 }; ///< a kind of nudges for core_merge_key()
 
-const struct channel *core_active_channel(const struct core *core, const struct document *document, int *rig,
-                                          int *channel)
+const struct channel *core_active_channel(const struct core *core, int *rig, int *channel)
 {
     const struct channel *first = NULL;
-    for (int r = document->rig_count - 1; r >= 0; r--) {
+    for (int r = core->document->rig_count - 1; r >= 0; r--) {
         int count;
-        const struct channel *channels = rig_channels(document->rigs[r], &count);
+        const struct channel *channels = rig_channels(core->document->rigs[r], &count);
         for (int c = count - 1; c >= 0; c--) {
             const struct channel *candidate = &channels[c];
             if (first && first->spline == core->active && candidate->spline != core->active) continue;
@@ -26,24 +25,24 @@ const struct channel *core_active_channel(const struct core *core, const struct 
     return first;
 }
 
-static void nudge_lag(struct core *core, const struct editor_world *world, double degrees)
+static void nudge_lag(struct core *core, double degrees)
 {
     int rig = -1, channel = -1;
-    const struct channel *active = core_active_channel(core, world->document, &rig, &channel);
+    const struct channel *active = core_active_channel(core, &rig, &channel);
     if (!active) {
         core_message(core, false, "This scene has no tail to lag.");
         return;
     }
     struct angles lag = active->lag;
-    const int joints = bones_joints(world, rig);
+    const int joints = bones_joints(core, rig);
     for (int i = 0; i < angles_count(&lag); i++) {
         double behind = lag.form == ANGLES_ONE ? 1 : lag.form == ANGLES_EACH ? i : lag.ramp[i].at * (joints - 1);
         angles_set_number(&lag, i, angles_number(&lag, i) + behind * degrees);
     }
     const struct channel_place at = {rig, channel};
     const uint64_t kind = NUDGE_PARAMETER + PARAMETER_COUNT + (uint64_t)(rig * 4096 + channel);
-    if (!core_begin(core, world, "Change lag", core_merge_key(core, world, kind))) return;
-    core_end(core, world, edit_angles(world->document, at, ANGLE_LAG, &lag, &core->error));
+    if (!core_begin(core, "Change lag", core_merge_key(core, kind))) return;
+    core_end(core, edit_angles(core->document, at, ANGLE_LAG, &lag, &core->error));
 }
 
 /// Of the largest knot.
@@ -85,15 +84,14 @@ static bool say_idle(struct core *core, const struct spline *spline, enum parame
     return true;
 }
 
-static void nudge_one(struct core *core, const struct editor_world *world, const struct spline *spline,
-                      enum parameter parameter, double step)
+static void nudge_one(struct core *core, const struct spline *spline, enum parameter parameter, double step)
 {
     if (say_idle(core, spline, parameter)) return;
     const struct param *before = &spline->parameter[parameter];
     if (before->track >= 0) {
         char text[160];
         snprintf(text, sizeof text, "The %s follows the spline \"%.60s\".", parameter_rows[parameter].name,
-                 world->document->splines[before->track]->name);
+                 core->document->splines[before->track]->name);
         core_message(core, false, text);
         return;
     }
@@ -101,32 +99,30 @@ static void nudge_one(struct core *core, const struct editor_world *world, const
     param.value = round((param.value + step) * 1e6) / 1e6; /* 0.30000000000000004 is no number to save */
     double most = parameter_maximum(parameter, spline_mode(spline));
     if (parameter_rows[parameter].usual > 0)
-        most = fmax(core_slider_end(world->document, spline, parameter), before->value);
+        most = fmax(core_slider_end(core->document, spline, parameter), before->value);
     param.value = fmin(fmax(param.value, parameter_rows[parameter].minimum), most);
     if (param.value == before->value) return;
-    if (!core_begin(core, world, "Change parameter", core_merge_key(core, world, NUDGE_PARAMETER + parameter)))
-        return;
-    core_end(core, world, edit_parameter(world->document, core->active, parameter, &param, &core->error));
+    if (!core_begin(core, "Change parameter", core_merge_key(core, NUDGE_PARAMETER + parameter))) return;
+    core_end(core, edit_parameter(core->document, core->active, parameter, &param, &core->error));
 }
 
-void core_nudge_parameter(struct core *core, const struct editor_world *world, int direction)
+void core_nudge_parameter(struct core *core, int direction)
 {
-    const struct spline *spline = core_active_spline(core, world);
+    const struct spline *spline = core_active_spline(core);
     if (core->held_key == 0) return;
-    if (core->held_key == 'L') nudge_lag(core, world, 0.5 * direction);
+    if (core->held_key == 'L') nudge_lag(core, 0.5 * direction);
     enum parameter parameter = parameter_of_letter(core->held_key);
     if (!spline || parameter == PARAMETER_COUNT) return;
-    nudge_one(core, world, spline, parameter, parameter_rows[parameter].step * direction);
+    nudge_one(core, spline, parameter, parameter_rows[parameter].step * direction);
 }
 
-void core_cycle_choice(struct core *core, const struct editor_world *world, int parameter)
+void core_cycle_choice(struct core *core, int parameter)
 {
     const struct parameter_row *row = &parameter_rows[parameter];
-    const struct spline *spline = core_active_spline(core, world);
+    const struct spline *spline = core_active_spline(core);
     if (!spline) return;
     double next = spline->parameter[parameter].value + 1;
-    if (!core_begin(core, world, row->undo, 0)) return;
-    core_end(
-        core, world,
-        core_set_parameter(core, world, core->active, (enum parameter)parameter, next <= row->maximum ? next : 0));
+    if (!core_begin(core, row->undo, 0)) return;
+    core_end(core,
+             core_set_parameter(core, core->active, (enum parameter)parameter, next <= row->maximum ? next : 0));
 }

@@ -19,8 +19,9 @@ static int first_spline(const struct document *document)
 }
 
 /// Plays from the start what goes round, runs or explains itself; who animates a body goes on to.
-static void open_playback(struct core *core, const struct document *document)
+static void open_playback(struct core *core)
 {
+    const struct document *document = core->document;
     core->seen_first = document->first_frame;
     core->seen_substeps = document->substeps;
     core->playback = (struct playback){.looping = true, .speed = 1, .playing = document->about != NULL};
@@ -34,8 +35,9 @@ static void open_playback(struct core *core, const struct document *document)
     }
 }
 
-void core_open(struct core *core, const struct document *document)
+void core_open(struct core *core)
 {
+    const struct document *document = core->document;
     selection_clear(&core->selection);
     selection_clear(&core->hidden);
     selection_clear(&core->solo);
@@ -43,7 +45,7 @@ void core_open(struct core *core, const struct document *document)
     core->hover = (struct hover){0};
     core->edited = (struct edited){0};
     core->look = LOOK_WIGGLY;
-    characters_open(core, document);
+    characters_open(core);
     bones_clear(core);
     pins_clear(core);
     core->pick = (struct bone_pick){0};
@@ -53,7 +55,7 @@ void core_open(struct core *core, const struct document *document)
     core->held_key = 0;
     core->space_down = false;
     core->message = (struct message){0};
-    open_playback(core, document);
+    open_playback(core);
     core->serial = document->serial;
     core_set_path(core, document->path ? document->path : "");
 }

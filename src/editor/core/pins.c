@@ -13,8 +13,9 @@ enum pin_nudge { NUDGE_PLACE, NUDGE_FRAME };
 
 static const double RESOLUTION = 1e-4; ///< metres that the document gets
 
-const struct pin *pins_selected(const struct core *core, const struct document *document, int *rig)
+const struct pin *pins_selected(const struct core *core, int *rig)
 {
+    const struct document *document = core->document;
     for (int r = 0; r < document->rig_count && core->pin.any; r++) {
         const int at = pins_find_id(document->rigs[r], core->pin.id);
         if (at < 0) continue;
@@ -31,10 +32,10 @@ static void pins_select(struct core *core, unsigned id)
     core->pin = (struct pin_selection){.any = true, .id = id};
 }
 
-void pins_visit(struct core *core, const struct document *document, const struct pin *pin)
+void pins_visit(struct core *core, const struct pin *pin)
 {
     core->playback.playing = false;
-    playback_seek(core, document, pin->frame);
+    playback_seek(core, pin->frame);
     pins_select(core, pin->id);
 }
 
@@ -45,9 +46,10 @@ bool pins_suit(const struct rig *rig)
     return rig->kind == RIG_TAIL || rig->kind == RIG_CHAIN || rig->kind == RIG_CHARACTER;
 }
 
-double pins_frame_here(const struct core *core, const struct document *document, int rig)
+double pins_frame_here(const struct core *core, int rig)
 {
-    const int sample = document_sample(document, round(core_frame(core, document)));
+    const struct document *document = core->document;
+    const int sample = document_sample(document, round(core_frame(core)));
     const int last = pins_last_sample(document, document->rigs[rig]);
     return document_frame(document, sample < 0 ? 0 : sample > last ? last : sample);
 }
@@ -59,40 +61,39 @@ bool pins_set(struct document *document, int rig, const struct pin *pin, struct 
     return pin->id == 0 ? edit_pin_add(document, rig, &rounded, error) : edit_pin_set(document, rig, &rounded, error);
 }
 
-void pins_tell(struct core *core, const struct editor_world *world, int rig)
+void pins_tell(struct core *core, int rig)
 {
-    const struct rig *moved = world->document->rigs[rig];
+    const struct rig *moved = core->document->rigs[rig];
     for (int i = 0; i < rig_input_count(moved); i++) {
         if (rig_point_input(moved, i) >= 0) core_edited(core, rig_point_input(moved, i));
     }
 }
 
-bool pins_put(struct core *core, const struct editor_world *world, int rig, int point, double frame,
-              const double to[3])
+bool pins_put(struct core *core, int rig, int point, double frame, const double to[3])
 {
-    const struct document *document = world->document;
+    const struct document *document = core->document;
     const int sample = document_sample(document, frame);
     const int there = pins_find(document, document->rigs[rig], point, sample);
     struct pin pin = {.frame = frame, .point = point};
     if (there >= 0) pin = document->rigs[rig]->pins[there];
     for (int k = 0; k < 3; k++) pin.to[k] = to[k];
-    if (!pins_set(world->document, rig, &pin, &core->error)) return false;
+    if (!pins_set(core->document, rig, &pin, &core->error)) return false;
     pins_select(core, document->rigs[rig]->pins[pins_find(document, document->rigs[rig], point, sample)].id);
-    pins_tell(core, world, rig);
+    pins_tell(core, rig);
     return true;
 }
 
-void pins_put_here(struct core *core, const struct editor_world *world, int rig, int point, const double to[3])
+void pins_put_here(struct core *core, int rig, int point, const double to[3])
 {
-    const double frame = pins_frame_here(core, world->document, rig);
-    if (!core_begin(core, world, "Pin", 0)) return;
-    if (!core_end(core, world, pins_put(core, world, rig, point, frame, to))) return;
+    const double frame = pins_frame_here(core, rig);
+    if (!core_begin(core, "Pin", 0)) return;
+    if (!core_end(core, pins_put(core, rig, point, frame, to))) return;
     char text[96];
     snprintf(text, sizeof text, "Pinned at frame %.6g. Drag the marker, or type its place in the section Pins.",
              frame);
     core_message(core, false, text);
     core->playback.playing = false;
-    playback_seek(core, world->document, frame);
+    playback_seek(core, frame);
 }
 
 /// Equal nudges of the same pin are one step.
@@ -101,22 +102,22 @@ static uint64_t merge_key(const struct pin *pin, enum pin_nudge kind)
     return hash_word(hash_word(HASH_START, (uint64_t)kind), pin->id);
 }
 
-void pins_nudge(struct core *core, const struct editor_world *world, const double by[3])
+void pins_nudge(struct core *core, const double by[3])
 {
     int rig;
-    const struct pin *pin = pins_selected(core, world->document, &rig);
+    const struct pin *pin = pins_selected(core, &rig);
     if (!pin) return;
     struct pin moved = *pin;
     for (int k = 0; k < 3; k++) moved.to[k] += by[k];
-    if (!core_begin(core, world, "Nudge pin", merge_key(pin, NUDGE_PLACE))) return;
-    if (core_end(core, world, pins_set(world->document, rig, &moved, &core->error))) pins_tell(core, world, rig);
+    if (!core_begin(core, "Nudge pin", merge_key(pin, NUDGE_PLACE))) return;
+    if (core_end(core, pins_set(core->document, rig, &moved, &core->error))) pins_tell(core, rig);
 }
 
-void pins_retime(struct core *core, const struct editor_world *world, int frames)
+void pins_retime(struct core *core, int frames)
 {
     int rig;
-    const struct document *document = world->document;
-    const struct pin *pin = pins_selected(core, document, &rig);
+    const struct document *document = core->document;
+    const struct pin *pin = pins_selected(core, &rig);
     if (!pin) return;
     struct pin moved = *pin;
     int sample;
@@ -125,18 +126,18 @@ void pins_retime(struct core *core, const struct editor_world *world, int frames
         sample = document_sample(document, moved.frame);
         if (sample < 0 || sample > pins_last_sample(document, document->rigs[rig])) return;
     } while (pins_find(document, document->rigs[rig], pin->point, sample) >= 0);
-    if (!core_begin(core, world, "Move pin in time", merge_key(pin, NUDGE_FRAME))) return;
-    if (!core_end(core, world, pins_set(world->document, rig, &moved, &core->error))) return;
-    playback_seek(core, document, moved.frame);
-    pins_tell(core, world, rig);
+    if (!core_begin(core, "Move pin in time", merge_key(pin, NUDGE_FRAME))) return;
+    if (!core_end(core, pins_set(core->document, rig, &moved, &core->error))) return;
+    playback_seek(core, moved.frame);
+    pins_tell(core, rig);
 }
 
-void pins_delete(struct core *core, const struct editor_world *world)
+void pins_delete(struct core *core)
 {
     int rig;
-    const struct pin *pin = pins_selected(core, world->document, &rig);
-    if (!pin || !core_begin(core, world, "Delete pin", 0)) return;
-    if (core_end(core, world, edit_pin_remove(world->document, rig, pin->id, &core->error))) pins_clear(core);
+    const struct pin *pin = pins_selected(core, &rig);
+    if (!pin || !core_begin(core, "Delete pin", 0)) return;
+    if (core_end(core, edit_pin_remove(core->document, rig, pin->id, &core->error))) pins_clear(core);
 }
 
 /// Whether a pin comes before another: by frames, then by ids.
@@ -145,11 +146,11 @@ static bool is_before(const struct pin *a, const struct pin *b)
     return a->frame != b->frame ? a->frame < b->frame : a->id < b->id;
 }
 
-void pins_select_neighbour(struct core *core, const struct editor_world *world, int direction)
+void pins_select_neighbour(struct core *core, int direction)
 {
     int rig;
-    const struct document *document = world->document;
-    const struct pin *from = pins_selected(core, document, &rig), *best = NULL;
+    const struct document *document = core->document;
+    const struct pin *from = pins_selected(core, &rig), *best = NULL;
     for (int r = 0; from && r < document->rig_count; r++) {
         for (int i = 0; i < document->rigs[r]->pin_count; i++) {
             const struct pin *pin = &document->rigs[r]->pins[i];
@@ -157,5 +158,5 @@ void pins_select_neighbour(struct core *core, const struct editor_world *world, 
             if (!best || is_before(pin, best) == (direction > 0)) best = pin;
         }
     }
-    if (best) pins_visit(core, document, best);
+    if (best) pins_visit(core, best);
 }

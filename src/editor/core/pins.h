@@ -5,31 +5,30 @@
 #include "editor/core/state.h"
 
 /// The selected pin and its rig, or NULL.
-const struct pin *pins_selected(const struct core *core, const struct document *document, int *rig);
+const struct pin *pins_selected(const struct core *core, int *rig);
 /// Selects a pin and goes to its frame.
-void pins_visit(struct core *core, const struct document *document, const struct pin *pin);
+void pins_visit(struct core *core, const struct pin *pin);
 /// Lets go of the selected pin.
 void pins_clear(struct core *core);
 /// Whether a rig is of a kind that takes pins.
 bool pins_suit(const struct rig *rig);
 /// The frame on which a pin of the rig at the playhead is: a whole one, inside the scene.
-double pins_frame_here(const struct core *core, const struct document *document, int rig);
+double pins_frame_here(const struct core *core, int rig);
 /// Pins a point inside the open step, or moves the pin that it has on the frame; selects it.
-bool pins_put(struct core *core, const struct editor_world *world, int rig, int point, double frame,
-              const double to[3]);
+bool pins_put(struct core *core, int rig, int point, double frame, const double to[3]);
 /// The same at the playhead, as a step of its own.
-void pins_put_here(struct core *core, const struct editor_world *world, int rig, int point, const double to[3]);
+void pins_put_here(struct core *core, int rig, int point, const double to[3]);
 /// The splines that a pin of the rig moves have been edited.
-void pins_tell(struct core *core, const struct editor_world *world, int rig);
+void pins_tell(struct core *core, int rig);
 /// An edit: gives the pin of that id, or where it is 0 a new one, these numbers.
 bool pins_set(struct document *document, int rig, const struct pin *pin, struct error *error);
 /// Moves the selected pin by metres; repeated nudges are one undo step.
-void pins_nudge(struct core *core, const struct editor_world *world, const double by[3]);
+void pins_nudge(struct core *core, const double by[3]);
 /// Moves it to the next frame that its point has no pin on, so many frames on; repeated ones are one undo step.
-void pins_retime(struct core *core, const struct editor_world *world, int frames);
+void pins_retime(struct core *core, int frames);
 /// Removes the selected pin.
-void pins_delete(struct core *core, const struct editor_world *world);
+void pins_delete(struct core *core);
 /// Selects the pin after the selected one (1) or before it (-1), in the order of frames.
-void pins_select_neighbour(struct core *core, const struct editor_world *world, int direction);
+void pins_select_neighbour(struct core *core, int direction);
 
 #endif

@@ -5,11 +5,11 @@
 #include <math.h>
 #include <stdio.h>
 
-void playback_range(const struct core *core, const struct document *document, double range[2])
+void playback_range(const struct core *core, double range[2])
 {
     const struct playback *playback = &core->playback;
-    range[0] = document->first_frame;
-    range[1] = document->last_frame;
+    range[0] = core->document->first_frame;
+    range[1] = core->document->last_frame;
     if (!playback->has_range) return;
     double first = fmax(playback->range[0], range[0]), last = fmin(playback->range[1], range[1]);
     if (first >= last) return; // nothing of it is left in the scene
@@ -17,15 +17,16 @@ void playback_range(const struct core *core, const struct document *document, do
     range[1] = last;
 }
 
-bool playback_is_part(const struct core *core, const struct document *document)
+bool playback_is_part(const struct core *core)
 {
     double range[2];
-    playback_range(core, document, range);
-    return range[0] > document->first_frame || range[1] < document->last_frame;
+    playback_range(core, range);
+    return range[0] > core->document->first_frame || range[1] < core->document->last_frame;
 }
 
-void playback_choose(struct core *core, const struct document *document, double first, double last)
+void playback_choose(struct core *core, double first, double last)
 {
+    const struct document *document = core->document;
     struct playback *playback = &core->playback;
     first = fmax(first, document->first_frame);
     last = fmin(last, document->last_frame);
@@ -34,26 +35,26 @@ void playback_choose(struct core *core, const struct document *document, double 
     playback->range[1] = last;
 }
 
-void playback_say_range(struct core *core, const struct document *document)
+void playback_say_range(struct core *core)
 {
     char text[96];
     double range[2];
-    playback_range(core, document, range);
-    bool part = playback_is_part(core, document);
+    playback_range(core, range);
+    bool part = playback_is_part(core);
     snprintf(text, sizeof text, part ? "Playing frames %.0f to %.0f." : "Playing the whole scene.", range[0],
              range[1]);
     core_message(core, false, text);
 }
 
-void playback_mark(struct core *core, const struct editor_world *world, int end)
+void playback_mark(struct core *core, int end)
 {
-    const struct document *document = world->document;
-    double range[2], frame = round(core_frame(core, document));
-    playback_range(core, document, range);
+    const struct document *document = core->document;
+    double range[2], frame = round(core_frame(core));
+    playback_range(core, range);
     range[end] = frame;
     if (range[0] >= range[1]) range[1 - end] = end ? document->first_frame : document->last_frame;
-    playback_choose(core, document, range[0], range[1]);
-    playback_say_range(core, document);
+    playback_choose(core, range[0], range[1]);
+    playback_say_range(core);
 }
 
 static const double REFRESH = 60; ///< pictures a second that a display shows at least
@@ -64,25 +65,25 @@ enum { SPEEDS = sizeof speeds / sizeof speeds[0] };
 
 static double last_position(const struct document *document) { return fmax(document_samples(document) - 1, 0); }
 
-static void go_to(struct core *core, const struct document *document, double position)
+static void go_to(struct core *core, double position)
 {
-    core->playback.position = fmin(fmax(position, 0), last_position(document));
+    core->playback.position = fmin(fmax(position, 0), last_position(core->document));
 }
 
 /// The range that is played, in samples.
-static void range_positions(const struct core *core, const struct document *document, double range[2])
+static void range_positions(const struct core *core, double range[2])
 {
-    playback_range(core, document, range);
-    for (int end = 0; end < 2; end++) range[end] = core_position(document, range[end]);
+    playback_range(core, range);
+    for (int end = 0; end < 2; end++) range[end] = core_position(core->document, range[end]);
 }
 
-void playback_toggle(struct core *core, const struct editor_world *world)
+void playback_toggle(struct core *core)
 {
     struct playback *playback = &core->playback;
     double range[2];
     playback->playing = !playback->playing;
     if (!playback->playing) return;
-    range_positions(core, world->document, range);
+    range_positions(core, range);
     playback->dropped = 0;
     bool at_end = !playback->looping && playback->position >= range[1];
     if (at_end || playback->position < range[0] || playback->position > range[1]) playback->position = range[0];
@@ -97,16 +98,16 @@ static long frames_dropped(const struct document *document, double from, double 
     return passed > expected ? (long)(passed - expected) : 0;
 }
 
-void playback_advance(struct core *core, const struct editor_world *world, double dt)
+void playback_advance(struct core *core, double dt)
 {
     struct playback *playback = &core->playback;
-    const struct document *document = world->document;
+    const struct document *document = core->document;
     double range[2], from = playback->position;
     if (!playback->playing) {
-        go_to(core, document, from); /* an edit may have shortened the scene */
+        go_to(core, from); /* an edit may have shortened the scene */
         return;
     }
-    range_positions(core, document, range);
+    range_positions(core, range);
     double to = from + dt * document->fps * document->substeps * playback->speed;
     playback->dropped += frames_dropped(document, from, to, playback->speed);
     playback->position = fmax(to, range[0]);
@@ -119,26 +120,25 @@ void playback_advance(struct core *core, const struct editor_world *world, doubl
     }
 }
 
-void playback_seek(struct core *core, const struct document *document, double frame)
+void playback_seek(struct core *core, double frame)
 {
     core->playback.playing = false;
-    go_to(core, document, core_position(document, frame));
+    go_to(core, core_position(core->document, frame));
 }
 
-void playback_step(struct core *core, const struct editor_world *world, int direction)
+void playback_step(struct core *core, int direction)
 {
-    double frame = core_frame(core, world->document);
-    playback_seek(core, world->document, direction > 0 ? floor(frame + 1e-6) + 1 : ceil(frame - 1e-6) - 1);
+    double frame = core_frame(core);
+    playback_seek(core, direction > 0 ? floor(frame + 1e-6) + 1 : ceil(frame - 1e-6) - 1);
 }
 
-void playback_end(struct core *core, const struct editor_world *world, int direction)
+void playback_end(struct core *core, int direction)
 {
-    playback_seek(core, world->document, direction > 0 ? world->document->last_frame : world->document->first_frame);
+    playback_seek(core, direction > 0 ? core->document->last_frame : core->document->first_frame);
 }
 
-void playback_change_speed(struct core *core, const struct editor_world *world, int direction)
+void playback_change_speed(struct core *core, int direction)
 {
-    (void)world;
     double *speed = &core->playback.speed;
     int at = 0;
     char text[64];

@@ -29,18 +29,15 @@ bool rigs_have_knots(const struct document *document)
 }
 
 /// Ends the open step, and has all of the stage in sight.
-static void finish(struct core *core, const struct editor_world *world, bool done)
-{
-    core->refit_stage = core_end(core, world, done);
-}
+static void finish(struct core *core, bool done) { core->refit_stage = core_end(core, done); }
 
 /// Where a rig stands along x, and how wide it is.
-static double place_of(const struct editor_world *world, int rig, double *width)
+static double place_of(const struct core *core, int rig, double *width)
 {
-    const struct rig *at = world->document->rigs[rig];
-    const int number = document_rig_number(world->document, rig);
-    const struct figure *figure = at->kind == RIG_CHARACTER ? models_figure(world->models, number) : NULL;
-    const struct imported *imported = at->kind == RIG_MODEL ? models_imported(world->models, number) : NULL;
+    const struct rig *at = core->document->rigs[rig];
+    const int number = document_rig_number(core->document, rig);
+    const struct figure *figure = at->kind == RIG_CHARACTER ? models_figure(core->models, number) : NULL;
+    const struct imported *imported = at->kind == RIG_MODEL ? models_imported(core->models, number) : NULL;
     *width = ROOM;
     if (figure) *width = (double)(figure->hi[0] - figure->lo[0]);
     if (imported) *width = (double)(imported->gltf.hi[0] - imported->gltf.lo[0]) * at->model.scale;
@@ -50,84 +47,84 @@ static double place_of(const struct editor_world *world, int rig, double *width)
 }
 
 /// A free place along x, to the right of all that stands there, for something as wide.
-static double free_place(const struct editor_world *world, double wide)
+static double free_place(const struct core *core, double wide)
 {
     double right = -INFINITY;
-    for (int r = 0; r < world->document->rig_count; r++) {
-        const enum rig_kind kind = world->document->rigs[r]->kind;
+    for (int r = 0; r < core->document->rig_count; r++) {
+        const enum rig_kind kind = core->document->rigs[r]->kind;
         double width;
-        const double at = place_of(world, r, &width);
+        const double at = place_of(core, r, &width);
         if (kind != RIG_CHAIN && kind != RIG_MEADOW) right = fmax(right, at + APART * (width + wide) / 2);
     }
     return isfinite(right) ? core_round(right, 0.01) : 0;
 }
 
 /// The active spline, or a new one with a knot at the playhead; -1 where that cannot be.
-static int spline_to_use(struct core *core, const struct editor_world *world)
+static int spline_to_use(struct core *core)
 {
-    if (core_active_spline(core, world)) return core->active;
-    const struct knot first = {.frame = round(core_frame(core, world->document))};
-    const bool done = edit_spline_add(world->document, -1, NULL, &first, &core->error);
-    return done ? world->document->spline_count - 1 : -1;
+    if (core_active_spline(core)) return core->active;
+    const struct knot first = {.frame = round(core_frame(core))};
+    const bool done = edit_spline_add(core->document, -1, NULL, &first, &core->error);
+    return done ? core->document->spline_count - 1 : -1;
 }
 
-void rigs_add_tail(struct core *core, const struct editor_world *world)
+void rigs_add_tail(struct core *core)
 {
-    struct document *document = world->document;
-    const struct param place = param_number(free_place(world, ROOM));
-    if (!core_begin(core, world, "Add tail", 0)) return;
-    const int spline = spline_to_use(core, world);
+    struct document *document = core->document;
+    const struct param place = param_number(free_place(core, ROOM));
+    if (!core_begin(core, "Add tail", 0)) return;
+    const int spline = spline_to_use(core);
     const bool done = spline >= 0 && edit_tail_add(document, -1, spline, AXIS_SIDE, PART_TOTAL, &core->error);
-    finish(core, world, done && edit_position(document, document->rig_count - 1, 0, &place, &core->error));
-    if (done) core_activate(core, world, spline);
+    finish(core, done && edit_position(document, document->rig_count - 1, 0, &place, &core->error));
+    if (done) core_activate(core, spline);
 }
 
-void rigs_add_meadow(struct core *core, const struct editor_world *world)
+void rigs_add_meadow(struct core *core)
 {
-    if (document_find_rig(world->document, RIG_MEADOW, 0) >= 0) {
+    if (document_find_rig(core->document, RIG_MEADOW, 0) >= 0) {
         core_message(core, false, "There is a meadow already.");
         return;
     }
-    if (!core_begin(core, world, "Add meadow", 0)) return;
+    if (!core_begin(core, "Add meadow", 0)) return;
     struct rig meadow = {.kind = RIG_MEADOW,
                          .name = NULL,
-                         .meadow = {.spline = spline_to_use(core, world),
+                         .meadow = {.spline = spline_to_use(core),
                                     .count = 1000,
                                     .area = {4.6, 3.2},
                                     .height = 0.42,
                                     .variation = 0.45,
                                     .lag = 14,
                                     .gain = 7}};
-    finish(core, world, meadow.meadow.spline >= 0 && edit_rig_add(world->document, &meadow, &core->error));
+    finish(core, meadow.meadow.spline >= 0 && edit_rig_add(core->document, &meadow, &core->error));
 }
 
 /// Copies of the chains on a model, on its copy, the last rig.
-static bool copy_chains(struct core *core, const struct editor_world *world, int model, const char *copy)
+static bool copy_chains(struct core *core, int model, const char *copy)
 {
-    const int count = world->document->rig_count;
+    const int count = core->document->rig_count;
     bool done = true;
     for (int r = 0; r < count && done; r++) {
-        const struct rig *rig = world->document->rigs[r];
+        const struct rig *rig = core->document->rigs[r];
         if (rig->kind != RIG_CHAIN) continue;
-        if (document_find_model(world->document, rig->chain.model, rig->chain.by_file) != model) continue;
+        if (document_find_model(core->document, rig->chain.model, rig->chain.by_file) != model) continue;
         struct rig chain = *rig;
         char name[256];
         snprintf(name, sizeof name, "%s", copy);
         chain.chain.model = name;
         chain.pin_count = 0;
-        done = edit_rig_add(world->document, &chain, &core->error);
+        done = edit_rig_add(core->document, &chain, &core->error);
     }
     return done;
 }
 
-void rigs_copy(struct core *core, const struct editor_world *world, int rig)
+void rigs_copy(struct core *core, int rig)
 {
-    struct document *document = world->document;
+    struct document *document = core->document;
     double width;
-    if (rig < 0 || rig >= document->rig_count || history_is_open(world->history)) return;
+    if (rig < 0 || rig >= document->rig_count || history_is_open(core->history)) return;
     struct rig copy = *document->rigs[rig];
-    place_of(world, rig, &width);
-    const double place = free_place(world, width);
+    place_of(core, rig, &width);
+    const double place = free_place(core, width);
     copy.pin_count = 0; // what is pinned drives both
     switch (copy.kind) {
     case RIG_TAIL:
@@ -146,13 +143,12 @@ void rigs_copy(struct core *core, const struct editor_world *world, int rig)
                                             : "There is a meadow already.");
         return;
     }
-    core_begin(core, world, "Add one more", 0);
+    core_begin(core, "Add one more", 0);
     bool done = copy.kind == RIG_TAIL
                     ? edit_tail_add(document, rig, core->active, AXIS_SIDE, PART_TOTAL, &core->error)
                     : edit_rig_add(document, &copy, &core->error);
-    if (done && copy.kind == RIG_MODEL)
-        done = copy_chains(core, world, rig, document->rigs[document->rig_count - 1]->name);
-    finish(core, world, done);
+    if (done && copy.kind == RIG_MODEL) done = copy_chains(core, rig, document->rigs[document->rig_count - 1]->name);
+    finish(core, done);
 }
 
 /// Which rigs and splines go with a rig: the chains on it; what moves nothing else.
@@ -205,59 +201,59 @@ int rigs_own_splines(const struct document *document, int rig, char *names, size
 }
 
 /// Splines that follow a joint of what goes keep the value at the playhead.
-static bool let_go(struct core *core, const struct editor_world *world, const struct removal *removal)
+static bool let_go(struct core *core, const struct removal *removal)
 {
-    const struct document *document = world->document;
+    const struct document *document = core->document;
     bool done = true;
     for (int s = 0; s < document->spline_count && done; s++) {
         bool follows = false;
         for (int r = 0; r < document->rig_count; r++) follows |= goes(removal, r) && document_follows(document, s, r);
         if (!follows) continue;
-        const double present = spline_list_present(core, world, s, PARAMETER_EQUILIBRIUM);
-        done = core_set_parameter(core, world, s, PARAMETER_EQUILIBRIUM, core_round(present, 1e-3));
+        const double present = spline_list_present(core, s, PARAMETER_EQUILIBRIUM);
+        done = core_set_parameter(core, s, PARAMETER_EQUILIBRIUM, core_round(present, 1e-3));
     }
     return done;
 }
 
-static bool remove_rigs(struct core *core, const struct editor_world *world, struct removal *removal)
+static bool remove_rigs(struct core *core, struct removal *removal)
 {
     bool done = true;
-    for (int r = world->document->rig_count - 1; r >= 0 && done; r--) {
+    for (int r = core->document->rig_count - 1; r >= 0 && done; r--) {
         if (r == removal->rig || !goes(removal, r)) continue;
-        done = edit_rig_remove(world->document, r, &core->error);
+        done = edit_rig_remove(core->document, r, &core->error);
         if (r < removal->rig) removal->rig--;
     }
-    return done && edit_rig_remove(world->document, removal->rig, &core->error);
+    return done && edit_rig_remove(core->document, removal->rig, &core->error);
 }
 
-static bool remove_splines(struct core *core, const struct editor_world *world, const struct removal *removal)
+static bool remove_splines(struct core *core, const struct removal *removal)
 {
     bool done = true;
-    for (int s = world->document->spline_count - 1; s >= 0 && done; s--) {
-        if (removal->mine[s] && !removal->others[s]) done = edit_spline_remove(world->document, s, &core->error);
+    for (int s = core->document->spline_count - 1; s >= 0 && done; s--) {
+        if (removal->mine[s] && !removal->others[s]) done = edit_spline_remove(core->document, s, &core->error);
     }
     return done;
 }
 
-void rigs_remove(struct core *core, const struct editor_world *world, int rig, bool with_splines)
+void rigs_remove(struct core *core, int rig, bool with_splines)
 {
     struct removal removal;
-    if (rig < 0 || rig >= world->document->rig_count || history_is_open(world->history)) return;
-    survey(&removal, world->document, rig);
-    core_begin(core, world, with_splines ? "Remove with splines" : "Remove", 0);
-    const bool done = let_go(core, world, &removal) && remove_rigs(core, world, &removal) &&
-                      (!with_splines || remove_splines(core, world, &removal));
+    if (rig < 0 || rig >= core->document->rig_count || history_is_open(core->history)) return;
+    survey(&removal, core->document, rig);
+    core_begin(core, with_splines ? "Remove with splines" : "Remove", 0);
+    const bool done =
+        let_go(core, &removal) && remove_rigs(core, &removal) && (!with_splines || remove_splines(core, &removal));
     forget(&removal);
-    core_end(core, world, done);
+    core_end(core, done);
 }
 
-void rigs_ask_remove(struct core *core, const struct editor_world *world, int rig)
+void rigs_ask_remove(struct core *core, int rig)
 {
     char names[64];
-    if (rig < 0 || rig >= world->document->rig_count) {
+    if (rig < 0 || rig >= core->document->rig_count) {
         core_message(core, false, "There is nothing on the stage to remove.");
-    } else if (rigs_own_splines(world->document, rig, names, sizeof names) == 0) {
-        rigs_remove(core, world, rig, false);
+    } else if (rigs_own_splines(core->document, rig, names, sizeof names) == 0) {
+        rigs_remove(core, rig, false);
     } else {
         core->ask = (struct ask){.kind = ASK_RIG, .rig = rig};
     }

@@ -7,17 +7,17 @@
 #include <stdio.h>
 
 /// Knots that cannot be seen are not edited, unless their spline is the one that is worked on.
-static bool is_open(const struct core *core, const struct document *document, int spline)
+static bool is_open(const struct core *core, int spline)
 {
-    return spline == core->active || spline_list_shows(core, document, spline);
+    return spline == core->active || spline_list_shows(core, spline);
 }
 
-bool selected_next(const struct core *core, const struct document *document, struct knot_place *at)
+bool selected_next(const struct core *core, struct knot_place *at)
 {
     if (at->spline < 0) *at = (struct knot_place){0, -1};
-    for (; at->spline < document->spline_count; at->spline++, at->knot = -1) {
-        const struct spline *spline = document->splines[at->spline];
-        bool open = at->knot >= 0 || is_open(core, document, at->spline);
+    for (; at->spline < core->document->spline_count; at->spline++, at->knot = -1) {
+        const struct spline *spline = core->document->splines[at->spline];
+        bool open = at->knot >= 0 || is_open(core, at->spline);
         while (open && ++at->knot < spline->knot_count) {
             if (selection_has(&core->selection, spline->knots[at->knot].id)) return true;
         }
@@ -25,18 +25,18 @@ bool selected_next(const struct core *core, const struct document *document, str
     return false;
 }
 
-int selected_count(const struct core *core, const struct document *document)
+int selected_count(const struct core *core)
 {
     int count = 0;
-    for (struct knot_place at = SELECTED_START; selected_next(core, document, &at);) count++;
+    for (struct knot_place at = SELECTED_START; selected_next(core, &at);) count++;
     return count;
 }
 
-void selected_settle(struct core *core, const struct editor_world *world)
+void selected_settle(struct core *core)
 {
     struct knot_place first = SELECTED_START;
-    if (selection_count(&core->selection, core_active_spline(core, world)) > 0) return;
-    if (selected_next(core, world->document, &first)) core_turn_to(core, world, first.spline);
+    if (selection_count(&core->selection, core_active_spline(core)) > 0) return;
+    if (selected_next(core, &first)) core_turn_to(core, first.spline);
 }
 
 void originals_add(struct originals *originals, int spline, const struct knot *knot)
@@ -48,14 +48,14 @@ void originals_add(struct originals *originals, int spline, const struct knot *k
     originals->list[originals->count++] = (struct original){.spline = spline, .knot = *knot};
 }
 
-void core_collect(struct core *core, const struct document *document, bool later)
+void core_collect(struct core *core, bool later)
 {
     struct originals *originals = &core->originals;
     originals->count = 0;
-    for (int s = 0; s < document->spline_count; s++) {
-        const struct spline *spline = document->splines[s];
+    for (int s = 0; s < core->document->spline_count; s++) {
+        const struct spline *spline = core->document->splines[s];
         bool begun = false;
-        if (!is_open(core, document, s)) continue;
+        if (!is_open(core, s)) continue;
         for (int k = 0; k < spline->knot_count; k++) {
             bool selected = selection_has(&core->selection, spline->knots[k].id);
             begun |= selected;
@@ -83,9 +83,9 @@ static bool is_original(const struct originals *originals, const struct document
     return false;
 }
 
-enum room originals_room(const struct core *core, const struct document *document, retime *rule, const void *how,
-                         double *stopped)
+enum room originals_room(const struct core *core, retime *rule, const void *how, double *stopped)
 {
+    const struct document *document = core->document;
     const struct originals *originals = &core->originals;
     enum room room = ROOM_FREE;
     for (int i = 0, before = 0; i < originals->count; i++) {

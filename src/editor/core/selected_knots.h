@@ -15,16 +15,16 @@ static inline const struct knot *knot_at(const struct document *document, struct
 }
 
 /// Goes on to the next selected knot, by spline and in each by sample; false behind the last one.
-bool selected_next(const struct core *core, const struct document *document, struct knot_place *at);
+bool selected_next(const struct core *core, struct knot_place *at);
 /// How many there are.
-int selected_count(const struct core *core, const struct document *document);
+int selected_count(const struct core *core);
 /// Where none of the active spline's knots is selected, but another's, that spline becomes the active one.
-void selected_settle(struct core *core, const struct editor_world *world);
+void selected_settle(struct core *core);
 
 /// Adds a knot as it is.
 void originals_add(struct originals *originals, int spline, const struct knot *knot);
 /// Takes them into `originals`; `later` also takes what comes behind the first one of each spline.
-void core_collect(struct core *core, const struct document *document, bool later);
+void core_collect(struct core *core, bool later);
 
 /// A new frame for an original.
 typedef double retime(const void *how, const struct original *original);
@@ -34,8 +34,7 @@ enum room { ROOM_FREE, ROOM_OCCUPIED, ROOM_OUTSIDE };
 
 /// Whether the originals can go where a rule, which keeps or reverses their order, puts them: inside the range, apart, and off the
 /// knots that stay. The document is as it was when they were collected. `stopped` (or NULL) is the frame that one cannot have.
-enum room originals_room(const struct core *core, const struct document *document, retime *rule, const void *how,
-                         double *stopped);
+enum room originals_room(const struct core *core, retime *rule, const void *how, double *stopped);
 /// Says why there is none: "a knot would leave the range"; "" where there is.
 void explain_blocked(enum room room, double stopped, char why[STOPPED_SIZE]);
 /// The rule that moves all of them by `*(const double *)frames`.

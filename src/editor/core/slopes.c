@@ -12,10 +12,10 @@ static const double TURN = 0.05, FIRMER = 1.25; ///< of the visible values, a se
 static const double SLOPE_RESOLUTION = 1e-3;    ///< of the visible values, a second
 
 /// The curve's slope at a knot, in values a second: one that leaves it as it is.
-static double slope_at(const struct editor_world *world, int spline, const struct knot *knot)
+static double slope_at(const struct core *core, int spline, const struct knot *knot)
 {
-    int sample = document_sample(world->document, knot->frame);
-    double slope = evaluation_slope(world->evaluation, world->document, spline, sample);
+    int sample = document_sample(core->document, knot->frame);
+    double slope = evaluation_slope(core->evaluation, core->document, spline, sample);
     return isfinite(slope) ? slope : 0;
 }
 
@@ -55,61 +55,61 @@ struct knot_change {
     double stiffness; ///< multiplied
 };
 
-static void change_knots(struct core *core, const struct editor_world *world, const struct knot_change *change)
+static void change_knots(struct core *core, const struct knot_change *change)
 {
-    const struct document *document = world->document;
-    const uint64_t merge = change->kind ? core_merge_key(core, world, change->kind) : 0;
-    if (selected_count(core, document) == 0 || !core_begin(core, world, change->label, merge)) return;
-    for (struct knot_place at = SELECTED_START; selected_next(core, document, &at);) {
+    const struct document *document = core->document;
+    const uint64_t merge = change->kind ? core_merge_key(core, change->kind) : 0;
+    if (selected_count(core) == 0 || !core_begin(core, change->label, merge)) return;
+    for (struct knot_place at = SELECTED_START; selected_next(core, &at);) {
         const struct knot *before = knot_at(document, at);
         const bool fresh = change->on && !before->has_slope;
         struct knot knot = *before;
-        if (fresh) knot.slope = slope_at(world, at.spline, before);
+        if (fresh) knot.slope = slope_at(core, at.spline, before);
         if (!(before->stiffness > 0)) knot.stiffness = FIRM;
         knot.has_slope = change->on;
         if (change->rule) knot.slope = change->rule(document, document->splines[at.spline], at.knot);
         if (change->rule || change->slope != 0 || fresh)
             knot.slope = core_round(knot.slope + change->slope, SLOPE_RESOLUTION * core->visible);
         knot.stiffness = fmin(fmax(knot.stiffness * change->stiffness, 1e-3), 1e9);
-        core_put_knot(core, world, at.spline, &knot);
+        core_put_knot(core, at.spline, &knot);
     }
-    core_end(core, world, true);
+    core_end(core, true);
     core_edited(core, -1);
 }
 
-void slopes_turn(struct core *core, const struct editor_world *world, int direction)
+void slopes_turn(struct core *core, int direction)
 {
     struct knot_change change = {.label = "Change slope",
                                  .kind = NUDGE_SLOPE,
                                  .on = true,
                                  .slope = TURN * direction * core->visible,
                                  .stiffness = 1};
-    change_knots(core, world, &change);
+    change_knots(core, &change);
 }
 
-void slopes_stiffen(struct core *core, const struct editor_world *world, int direction)
+void slopes_stiffen(struct core *core, int direction)
 {
     struct knot_change change = {
         .label = "Change stiffness", .kind = NUDGE_STIFFNESS, .on = true, .stiffness = pow(FIRMER, direction)};
-    change_knots(core, world, &change);
+    change_knots(core, &change);
 }
 
-static bool all_sloped(const struct core *core, const struct document *document)
+static bool all_sloped(const struct core *core)
 {
     bool all = true;
-    for (struct knot_place at = SELECTED_START; selected_next(core, document, &at);) {
-        all &= knot_at(document, at)->has_slope;
+    for (struct knot_place at = SELECTED_START; selected_next(core, &at);) {
+        all &= knot_at(core->document, at)->has_slope;
     }
     return all;
 }
 
-void slopes_set(struct core *core, const struct editor_world *world, int how)
+void slopes_set(struct core *core, int how)
 {
-    const bool off = how == SLOPES_TOGGLE && all_sloped(core, world->document);
+    const bool off = how == SLOPES_TOGGLE && all_sloped(core);
     const struct knot_change changes[] = {
         [SLOPES_TOGGLE] = {.label = off ? "Slope off" : "Slope on", .on = !off, .stiffness = 1},
         [SLOPES_FLAT] = {.label = "Slope flat", .on = true, .rule = flat, .stiffness = 1},
         [SLOPES_SMOOTH] = {.label = "Slope smooth", .on = true, .rule = catmull_rom, .stiffness = 1},
     };
-    change_knots(core, world, &changes[how]);
+    change_knots(core, &changes[how]);
 }

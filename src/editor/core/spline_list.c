@@ -15,29 +15,30 @@ uint32_t spline_list_color(const struct document *document, int spline)
     return color < 0 ? theme()->spline[spline % THEME_SPLINE_COLORS] : theme_spline((uint32_t)color);
 }
 
-static bool any_solo(const struct core *core, const struct document *document)
+static bool any_solo(const struct core *core)
 {
-    for (int s = 0; s < document->spline_count; s++) {
-        if (selection_has(&core->solo, document->splines[s]->id)) return true;
+    for (int s = 0; s < core->document->spline_count; s++) {
+        if (selection_has(&core->solo, core->document->splines[s]->id)) return true;
     }
     return false;
 }
 
-bool spline_list_shows(const struct core *core, const struct document *document, int spline)
+bool spline_list_shows(const struct core *core, int spline)
 {
-    if (spline < 0 || spline >= document->spline_count) return false;
-    unsigned id = document->splines[spline]->id;
-    if (any_solo(core, document)) return selection_has(&core->solo, id);
+    if (spline < 0 || spline >= core->document->spline_count) return false;
+    unsigned id = core->document->splines[spline]->id;
+    if (any_solo(core)) return selection_has(&core->solo, id);
     return !selection_has(&core->hidden, id);
 }
 
-const struct spline *spline_list_seen(const struct core *core, const struct editor_world *world)
+const struct spline *spline_list_seen(const struct core *core)
 {
-    return spline_list_shows(core, world->document, core->active) ? core_active_spline(core, world) : NULL;
+    return spline_list_shows(core, core->active) ? core_active_spline(core) : NULL;
 }
 
-static void find_active(struct core *core, const struct document *document)
+static void find_active(struct core *core)
 {
+    const struct document *document = core->document;
     int found = document_find_spline_id(document, core->active_id);
     if (found < 0) {
         int last = document->spline_count - 1;
@@ -48,13 +49,13 @@ static void find_active(struct core *core, const struct document *document)
     core->active = found;
 }
 
-void spline_list_refresh(struct core *core, const struct editor_world *world)
+void spline_list_refresh(struct core *core)
 {
-    const struct document *document = world->document;
-    const struct spline *active = core_active_spline(core, world);
-    bool same = world->evaluation && world->evaluation->count == document->spline_count;
+    const struct document *document = core->document;
+    const struct spline *active = core_active_spline(core);
+    bool same = core->evaluation && core->evaluation->count == document->spline_count;
     if (!same || !active || active->id != core->active_id) {
-        find_active(core, document);
+        find_active(core);
         core->hover = (struct hover){0};
     }
     double frame = core->seen_first + core->playback.position / core->seen_substeps;
@@ -66,36 +67,35 @@ void spline_list_refresh(struct core *core, const struct editor_world *world)
     core->pick = (struct bone_pick){0};
 }
 
-void spline_list_add(struct core *core, const struct editor_world *world)
+void spline_list_add(struct core *core)
 {
-    struct document *document = world->document;
-    const double frame = round(core_frame(core, document));
+    struct document *document = core->document;
+    const double frame = round(core_frame(core));
     const struct knot first = {.frame = fmax(document->first_frame, fmin(frame, document->last_frame))};
-    if (!core_begin(core, world, "Add spline", 0)) return;
-    if (!core_end(core, world, edit_spline_add(document, -1, NULL, &first, &core->error))) return;
-    core_activate(core, world, document->spline_count - 1);
+    if (!core_begin(core, "Add spline", 0)) return;
+    if (!core_end(core, edit_spline_add(document, -1, NULL, &first, &core->error))) return;
+    core_activate(core, document->spline_count - 1);
 }
 
-void spline_list_copy(struct core *core, const struct editor_world *world)
+void spline_list_copy(struct core *core)
 {
-    if (!core_active_spline(core, world) || !core_begin(core, world, "Duplicate spline", 0)) return;
-    if (core_end(core, world, edit_spline_copy(world->document, core->active, &core->error)))
-        core_activate(core, world, core->active + 1);
+    if (!core_active_spline(core) || !core_begin(core, "Duplicate spline", 0)) return;
+    if (core_end(core, edit_spline_copy(core->document, core->active, &core->error)))
+        core_activate(core, core->active + 1);
 }
 
-void spline_list_move(struct core *core, const struct editor_world *world, int spline, int to)
+void spline_list_move(struct core *core, int spline, int to)
 {
-    if (to == spline || to < 0 || to >= world->document->spline_count) return;
-    if (!core_begin(core, world, "Reorder splines", 0)) return;
-    core_end(core, world, edit_spline_move(world->document, spline, to, &core->error));
+    if (to == spline || to < 0 || to >= core->document->spline_count) return;
+    if (!core_begin(core, "Reorder splines", 0)) return;
+    core_end(core, edit_spline_move(core->document, spline, to, &core->error));
 }
 
-double spline_list_present(const struct core *core, const struct editor_world *world, int spline,
-                           enum parameter parameter)
+double spline_list_present(const struct core *core, int spline, enum parameter parameter)
 {
-    const struct spline *follower = world->document->splines[spline];
+    const struct spline *follower = core->document->splines[spline];
     const struct param *param = &follower->parameter[parameter];
-    wiggly_value v = evaluation_at(world->evaluation, param->motion ? spline : param->track, core->playback.position);
+    wiggly_value v = evaluation_at(core->evaluation, param->motion ? spline : param->track, core->playback.position);
     double now = param->motion ? v.y : v.y + v.re, value = isfinite(now) ? now : parameter_rows[parameter].standard;
     return parameter_clamped(parameter, spline_mode(follower), value);
 }
@@ -113,16 +113,16 @@ static bool last_reference(const struct document *document, int spline, struct r
 }
 
 /// Ends that a place follows the active spline.
-static bool release(struct core *core, const struct editor_world *world, const struct reference *reference)
+static bool release(struct core *core, const struct reference *reference)
 {
-    struct document *document = world->document;
+    struct document *document = core->document;
     const int owner = reference->owner, which = reference->which;
-    const wiggly_value now = evaluation_at(world->evaluation, core->active, core->playback.position);
+    const wiggly_value now = evaluation_at(core->evaluation, core->active, core->playback.position);
     const struct param stays = param_number(now.y + now.re);
     switch (reference->kind) {
     case REFERENCE_TRACK: {
         const enum parameter parameter = (enum parameter)which;
-        return core_set_parameter(core, world, owner, parameter, spline_list_present(core, world, owner, parameter));
+        return core_set_parameter(core, owner, parameter, spline_list_present(core, owner, parameter));
     }
     case REFERENCE_POSITION:
         return edit_position(document, owner, which, &stays, &core->error);
@@ -136,22 +136,22 @@ static bool release(struct core *core, const struct editor_world *world, const s
     return false;
 }
 
-static void spline_list_remove_now(struct core *core, const struct editor_world *world)
+static void spline_list_remove_now(struct core *core)
 {
-    if (!core_active_spline(core, world) || !core_begin(core, world, "Delete spline", 0)) return;
+    if (!core_active_spline(core) || !core_begin(core, "Delete spline", 0)) return;
     struct reference reference;
     bool good = true;
-    while (good && last_reference(world->document, core->active, &reference)) {
-        good = release(core, world, &reference);
+    while (good && last_reference(core->document, core->active, &reference)) {
+        good = release(core, &reference);
     }
-    core_end(core, world, good && edit_spline_remove(world->document, core->active, &core->error));
+    core_end(core, good && edit_spline_remove(core->document, core->active, &core->error));
 }
 
-void spline_list_remove(struct core *core, const struct editor_world *world)
+void spline_list_remove(struct core *core)
 {
-    if (!core_active_spline(core, world)) return;
-    if (reference_count(world->document, core->active) == 0) {
-        spline_list_remove_now(core, world);
+    if (!core_active_spline(core)) return;
+    if (reference_count(core->document, core->active) == 0) {
+        spline_list_remove_now(core);
         return;
     }
     core->ask = (struct ask){.kind = ASK_REMOVE};
@@ -164,23 +164,23 @@ static int knot_count(const struct document *document)
     return count;
 }
 
-static void set_fps(struct core *core, const struct editor_world *world, double fps, bool keeps_seconds)
+static void set_fps(struct core *core, double fps, bool keeps_seconds)
 {
-    if (!core_begin(core, world, "Set frames per second", 0)) return;
-    core_end(core, world, edit_fps(world->document, fps, keeps_seconds, &core->error));
+    if (!core_begin(core, "Set frames per second", 0)) return;
+    core_end(core, edit_fps(core->document, fps, keeps_seconds, &core->error));
 }
 
-static void set_range(struct core *core, const struct editor_world *world, int first, int last, enum range_fit fit)
+static void set_range(struct core *core, int first, int last, enum range_fit fit)
 {
-    if (!core_begin(core, world, "Set range", 0)) return;
-    core_end(core, world, edit_range(world->document, first, last, fit, &core->error));
+    if (!core_begin(core, "Set range", 0)) return;
+    core_end(core, edit_range(core->document, first, last, fit, &core->error));
 }
 
-void spline_list_fps(struct core *core, const struct editor_world *world, double fps)
+void spline_list_fps(struct core *core, double fps)
 {
-    if (fps == world->document->fps) return;
-    if (knot_count(world->document) == 0 || !(fps > 0 && fps <= SCENE_MAX_FPS)) {
-        set_fps(core, world, fps, false);
+    if (fps == core->document->fps) return;
+    if (knot_count(core->document) == 0 || !(fps > 0 && fps <= SCENE_MAX_FPS)) {
+        set_fps(core, fps, false);
     } else {
         core->ask = (struct ask){.kind = ASK_FPS, .number = fps};
     }
@@ -203,34 +203,34 @@ int spline_list_outside(const struct document *document, int first, int last)
     return count;
 }
 
-void spline_list_range(struct core *core, const struct editor_world *world, int first, int last)
+void spline_list_range(struct core *core, int first, int last)
 {
     bool possible = last >= first && last <= SCENE_MAX_FRAME && first >= -SCENE_MAX_FRAME &&
-                    (long long)last - first <= document_longest(world->document);
-    if (possible && spline_list_outside(world->document, first, last) > 0) {
+                    (long long)last - first <= document_longest(core->document);
+    if (possible && spline_list_outside(core->document, first, last) > 0) {
         core->ask = (struct ask){.kind = ASK_RANGE, .first = first, .last = last};
     } else {
-        set_range(core, world, first, last, RANGE_REFUSE);
+        set_range(core, first, last, RANGE_REFUSE);
     }
 }
 
-void spline_list_answer(struct core *core, const struct editor_world *world, const struct ask *ask, int answer)
+void spline_list_answer(struct core *core, const struct ask *ask, int answer)
 {
     switch (ask->kind) {
     case ASK_NOTHING:
     case ASK_ADD:
         break;
     case ASK_RIG:
-        rigs_remove(core, world, ask->rig, answer == 0);
+        rigs_remove(core, ask->rig, answer == 0);
         break;
     case ASK_FPS:
-        set_fps(core, world, ask->number, answer == 1);
+        set_fps(core, ask->number, answer == 1);
         break;
     case ASK_RANGE:
-        set_range(core, world, ask->first, ask->last, answer == 0 ? RANGE_MOVE : RANGE_TRIM);
+        set_range(core, ask->first, ask->last, answer == 0 ? RANGE_MOVE : RANGE_TRIM);
         break;
     case ASK_REMOVE:
-        spline_list_remove_now(core, world);
+        spline_list_remove_now(core);
         break;
     }
 }

@@ -1,6 +1,6 @@
 /// What the panels share: layout, selection, playback, what is under the pointer, how things are looked at, requests to the app.
 ///
-/// Nothing here keeps the document: each call is handed the world. Knots are remembered by id, splines and tails by index.
+/// Knots are remembered by id, splines and tails by index.
 #ifndef EDITOR_CORE_STATE_H
 #define EDITOR_CORE_STATE_H
 
@@ -213,6 +213,11 @@ struct knot_place {
 };
 
 struct core {
+    struct document *document; ///< what is worked on, the app's, as the next three (world.h): set by editor_open()
+    struct history *history;
+    const struct evaluation *evaluation;
+    const struct models *models;
+
     struct layout layout;
     float scale;
     double ui_scale; ///< part of it that the user has chosen

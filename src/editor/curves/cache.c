@@ -11,9 +11,9 @@
 #include <string.h>
 
 /// What the polylines depend on.
-static uint64_t cache_key(const struct curves *curves, const struct core *core, const struct editor_world *world)
+static uint64_t cache_key(const struct curves *curves, const struct core *core)
 {
-    uint64_t revision[2] = {history_revision(world->history), world->evaluation ? world->evaluation->revision : 0};
+    uint64_t revision[2] = {history_revision(core->history), core->evaluation ? core->evaluation->revision : 0};
     int choice[3] = {core->active, (int)core->look, curves->options.normalise};
     bool held = curves->options.normalise && core->drag.owner != NULL;
     uint64_t key = hash_bytes(HASH_START, revision, sizeof revision);
@@ -26,20 +26,19 @@ static uint64_t cache_key(const struct curves *curves, const struct core *core, 
 }
 
 /// Puts the column next to each knot of the active spline exactly on it, if it is next to no other.
-static void hit_knots(struct curves *curves, const struct core *core, const struct editor_world *world, double first,
-                      double by)
+static void hit_knots(struct curves *curves, const struct core *core, double first, double by)
 {
     struct curve_cache *cache = &curves->cache;
-    const struct spline *spline = core_active_spline(core, world);
+    const struct spline *spline = core_active_spline(core);
     if (!spline) return;
-    int k = spline_lower_bound(world->document, spline, (int)fmax(floor(first - by), 0));
+    int k = spline_lower_bound(core->document, spline, (int)fmax(floor(first - by), 0));
     for (double before = -1; k < spline->knot_count; k++) {
-        const double sample = document_sample(world->document, spline->knots[k].frame);
+        const double sample = document_sample(core->document, spline->knots[k].frame);
         const double column = floor((sample - first) / by + 0.5);
         if (column >= cache->count) break;
         const double after =
             k + 1 < spline->knot_count
-                ? floor((document_sample(world->document, spline->knots[k + 1].frame) - first) / by + 0.5)
+                ? floor((document_sample(core->document, spline->knots[k + 1].frame) - first) / by + 0.5)
                 : INFINITY;
         // Of several knots at a column none is hit: its lowest and highest samples say where they are.
         if (column >= 0 && column != before && column != after) cache->position[(int)column] = sample;
@@ -58,10 +57,10 @@ static double outermost(const struct evaluation *evaluation, int spline, double 
 }
 
 /// Columns of the part of the scene's range that can be seen.
-static void place_columns(struct curves *curves, const struct core *core, const struct editor_world *world)
+static void place_columns(struct curves *curves, const struct core *core)
 {
     struct curve_cache *cache = &curves->cache;
-    const struct document *document = world->document;
+    const struct document *document = core->document;
     double left = fmax(curves->view.frame0, document->first_frame);
     double right = fmin(curves->view.frame1, document->last_frame);
     cache->count = 0;
@@ -73,9 +72,9 @@ static void place_columns(struct curves *curves, const struct core *core, const 
     cache->first = first;
     cache->by = by;
     for (int c = 0; c < cache->count; c++) {
-        cache->position[c] = outermost(world->evaluation, core->active, first + by * c, by, c % 2);
+        cache->position[c] = outermost(core->evaluation, core->active, first + by * c, by, c % 2);
     }
-    hit_knots(curves, core, world, first, by);
+    hit_knots(curves, core, first, by);
 }
 
 static double frame_of(const struct document *document, double position)
@@ -84,12 +83,12 @@ static double frame_of(const struct document *document, double position)
 }
 
 /// Lags (radians) that the fan shows: evenly along the tail or chain that the active spline moves. How many there are.
-static int fan_lags(const struct core *core, const struct editor_world *world, double lags[CURVES_FAN])
+static int fan_lags(const struct core *core, double lags[CURVES_FAN])
 {
     int rig, number;
-    const struct channel *channel = core_active_channel(core, world->document, &rig, &number);
+    const struct channel *channel = core_active_channel(core, &rig, &number);
     if (!channel || channel->spline != core->active || !axis_bends(channel->axis)) return 0;
-    const int joints = bones_joints(world, rig);
+    const int joints = bones_joints(core, rig);
     for (int i = 0; i < CURVES_FAN; i++) {
         int joint = (joints - 1) * (i + 1) / CURVES_FAN;
         lags[i] = angles_lag(&channel->lag, joint, joints) * (acos(-1.0) / 180);
@@ -115,29 +114,29 @@ static bool is_band(const struct curve_cache *cache, const polyline line)
 static double widened(const struct curve_cache *cache) { return 2 * cache->by; }
 
 /// A spline's total as a band: the highest and the lowest sample about each column in turn.
-static void draw_band(const struct curves *curves, const struct core *core, const struct editor_world *world,
-                      int spline, struct value_map map, polyline line)
+static void draw_band(const struct curves *curves, const struct core *core, int spline, struct value_map map,
+                      polyline line)
 {
     const struct curve_cache *cache = &curves->cache;
     for (int c = 0; c < cache->count; c++) {
         const double middle = cache->first + cache->by * c;
-        const double position = outermost(world->evaluation, spline, middle, widened(cache), c % 2);
-        const wiggly_value v = evaluation_at(world->evaluation, spline, position);
-        line[c][0] = curves_x(curves, core, frame_of(world->document, middle));
+        const double position = outermost(core->evaluation, spline, middle, widened(cache), c % 2);
+        const wiggly_value v = evaluation_at(core->evaluation, spline, position);
+        line[c][0] = curves_x(curves, core, frame_of(core->document, middle));
         line[c][1] = curves_y(curves, core, map.scale * (v.y + v.re) + map.offset);
     }
 }
 
 /// Im x as a band: of every sample, or of sixteen or so where there are more.
-static void draw_imaginary_band(struct curves *curves, const struct core *core, const struct editor_world *world)
+static void draw_imaginary_band(struct curves *curves, const struct core *core)
 {
     struct curve_cache *cache = &curves->cache;
-    const double reach = widened(cache) / 2, step = 1 + floor(reach / 8), last = world->evaluation->samples - 1;
+    const double reach = widened(cache) / 2, step = 1 + floor(reach / 8), last = core->evaluation->samples - 1;
     for (int c = 0; c < cache->count; c++) {
         const double middle = cache->first + cache->by * c;
         double most = c % 2 ? -INFINITY : INFINITY;
         for (double at = fmax(ceil(middle - reach), 0); at <= fmin(middle + reach, last); at += step) {
-            const wiggly_value v = evaluation_at(world->evaluation, core->active, at);
+            const wiggly_value v = evaluation_at(core->evaluation, core->active, at);
             most = c % 2 ? fmax(most, v.y + v.im) : fmin(most, v.y + v.im);
         }
         cache->im[c][0] = cache->re[c][0];
@@ -146,31 +145,31 @@ static void draw_imaginary_band(struct curves *curves, const struct core *core, 
 }
 
 /// Whether the active spline's knots in sight are nearer to each other than its lagged copies could be told apart.
-static bool is_crowded(const struct curves *curves, const struct core *core, const struct editor_world *world)
+static bool is_crowded(const struct curves *curves, const struct core *core)
 {
     static const int apart = 3; // columns
     const struct curve_cache *cache = &curves->cache;
-    const struct spline *spline = core_active_spline(core, world);
+    const struct spline *spline = core_active_spline(core);
     if (!spline) return false;
     const double end = fmin(cache->first + cache->by * cache->count, INT_MAX);
-    const int knots = spline_lower_bound(world->document, spline, (int)end) -
-                      spline_lower_bound(world->document, spline, (int)cache->first);
+    const int knots = spline_lower_bound(core->document, spline, (int)end) -
+                      spline_lower_bound(core->document, spline, (int)cache->first);
     return knots > cache->count / apart;
 }
 
-static void draw_active(struct curves *curves, const struct core *core, const struct editor_world *world)
+static void draw_active(struct curves *curves, const struct core *core)
 {
     struct curve_cache *cache = &curves->cache;
     double lags[CURVES_FAN], turn[CURVES_FAN][2];
-    const bool fans = core->look == LOOK_WIGGLY && !is_crowded(curves, core, world);
-    cache->fan_count = fans ? fan_lags(core, world, lags) : 0;
+    const bool fans = core->look == LOOK_WIGGLY && !is_crowded(curves, core);
+    cache->fan_count = fans ? fan_lags(core, lags) : 0;
     for (int i = 0; i < cache->fan_count; i++) {
         turn[i][0] = cos(lags[i]);
         turn[i][1] = sin(lags[i]);
     }
     for (int c = 0; c < cache->count; c++) {
-        wiggly_value v = evaluation_at(world->evaluation, core->active, cache->position[c]);
-        float x = curves_x(curves, core, frame_of(world->document, cache->position[c]));
+        wiggly_value v = evaluation_at(core->evaluation, core->active, cache->position[c]);
+        float x = curves_x(curves, core, frame_of(core->document, cache->position[c]));
         memcpy(cache->re[c], (float[2]){x, curves_y(curves, core, v.y + v.re)}, sizeof cache->re[c]);
         memcpy(cache->im[c], (float[2]){x, curves_y(curves, core, v.y + v.im)}, sizeof cache->im[c]);
         memcpy(cache->equilibrium[c], (float[2]){x, curves_y(curves, core, v.y)}, sizeof cache->equilibrium[c]);
@@ -182,28 +181,28 @@ static void draw_active(struct curves *curves, const struct core *core, const st
     cache->band = is_band(cache, cache->re);
     if (!cache->band) return;
     cache->fan_count = 0; // its copies would fill the same band
-    draw_band(curves, core, world, core->active, (struct value_map){1, 0}, cache->re);
-    draw_imaginary_band(curves, core, world);
+    draw_band(curves, core, core->active, (struct value_map){1, 0}, cache->re);
+    draw_imaginary_band(curves, core);
 }
 
-static void draw_others(struct curves *curves, const struct core *core, const struct editor_world *world)
+static void draw_others(struct curves *curves, const struct core *core)
 {
     struct curve_cache *cache = &curves->cache;
     cache->other_count = 0;
-    for (int s = 0; s < world->document->spline_count && cache->other_count < CURVES_MAX_OTHERS; s++) {
-        if (s == core->active || !spline_list_shows(core, world->document, s)) continue;
+    for (int s = 0; s < core->document->spline_count && cache->other_count < CURVES_MAX_OTHERS; s++) {
+        if (s == core->active || !spline_list_shows(core, s)) continue;
         polyline *line = &cache->others[cache->other_count];
         const struct value_map map = normal_map(curves, core, s);
         cache->other_spline[cache->other_count] = s;
-        cache->other_id[cache->other_count] = world->document->splines[s]->id;
+        cache->other_id[cache->other_count] = core->document->splines[s]->id;
         for (int c = 0; c < cache->count; c++) {
-            double position = outermost(world->evaluation, s, cache->position[c], cache->by, c % 2);
-            wiggly_value v = evaluation_at(world->evaluation, s, position);
-            (*line)[c][0] = curves_x(curves, core, frame_of(world->document, position));
+            double position = outermost(core->evaluation, s, cache->position[c], cache->by, c % 2);
+            wiggly_value v = evaluation_at(core->evaluation, s, position);
+            (*line)[c][0] = curves_x(curves, core, frame_of(core->document, position));
             (*line)[c][1] = curves_y(curves, core, map.scale * (v.y + v.re) + map.offset);
         }
         const bool band = cache->other_band[cache->other_count++] = is_band(cache, *line);
-        if (band) draw_band(curves, core, world, s, map, *line);
+        if (band) draw_band(curves, core, s, map, *line);
     }
 }
 
@@ -215,18 +214,18 @@ int curves_other(const struct curves *curves, const struct document *document, i
     return same ? spline : -1;
 }
 
-void curves_update(struct curves *curves, struct core *core, const struct editor_world *world)
+void curves_update(struct curves *curves, struct core *core)
 {
-    uint64_t key = cache_key(curves, core, world);
+    uint64_t key = cache_key(curves, core);
     if (key == curves->cache.key) return;
     curves->cache.key = key;
-    place_columns(curves, core, world);
-    draw_active(curves, core, world);
-    normal_update(curves, core, world);
-    draw_others(curves, core, world);
+    place_columns(curves, core);
+    draw_active(curves, core);
+    normal_update(curves, core);
+    draw_others(curves, core);
 }
 
-void keep_ghost(struct curves *curves, const struct core *core, const struct editor_world *world)
+void keep_ghost(struct curves *curves, const struct core *core)
 {
     struct ghost *ghost = &curves->ghost;
     const bool was_shown = ghost->is_shown;
@@ -236,8 +235,8 @@ void keep_ghost(struct curves *curves, const struct core *core, const struct edi
     ghost->count = cache->count;
     ghost->band = cache->band;
     for (int c = 0; c < cache->count; c++) {
-        wiggly_value v = evaluation_at(world->evaluation, core->active, cache->position[c]);
-        ghost->frame[c] = frame_of(world->document, cache->position[c]);
+        wiggly_value v = evaluation_at(core->evaluation, core->active, cache->position[c]);
+        ghost->frame[c] = frame_of(core->document, cache->position[c]);
         ghost->value[c] = v.y + v.re;
         if (!cache->band) continue;
         ghost->frame[c] = curves_frame(curves, core, cache->re[c][0]);

@@ -41,14 +41,14 @@ static const float CURVE_REACH = 7, OTHER_REACH = 7, WARNING_REACH = 9;
 static const double ZOOM_STEP = 0.15; ///< of a wheel's notch, as a power of e
 
 /// The nearest knot of one spline, where it is nearer than `reach`; returns its distance, else `reach`.
-static float nearest_knot(const struct curves *curves, const struct core *core, const struct document *document,
-                          int of, float x, float y, float reach, struct hover *hover)
+static float nearest_knot(const struct curves *curves, const struct core *core, int of, float x, float y, float reach,
+                          struct hover *hover)
 {
-    const struct spline *spline = document->splines[of];
+    const struct spline *spline = core->document->splines[of];
     float best = reach;
-    for (int k = curves_knot_from(curves, core, document, spline, x - reach); k < spline->knot_count; k++) {
+    for (int k = curves_knot_from(curves, core, spline, x - reach); k < spline->knot_count; k++) {
         const struct knot *knot = &spline->knots[k];
-        float at = curves_knot_x(curves, core, document, knot);
+        float at = curves_knot_x(curves, core, knot);
         if (at > x + reach) break;
         float distance = hypotf(x - at, y - curves_y_of(curves, core, of, knot->value));
         if (distance > best) continue;
@@ -59,27 +59,27 @@ static float nearest_knot(const struct curves *curves, const struct core *core, 
 }
 
 /// Knots of the other curves that are drawn: a press on one makes its spline the active one.
-static void nearest_other_knot(const struct curves *curves, const struct core *core, const struct document *document,
-                               float x, float y, struct hover *hover)
+static void nearest_other_knot(const struct curves *curves, const struct core *core, float x, float y,
+                               struct hover *hover)
 {
     float best = OTHER_REACH;
     for (int i = 0; i < curves->cache.other_count; i++) {
-        const int spline = curves_other(curves, document, i);
-        if (spline >= 0) best = nearest_knot(curves, core, document, spline, x, y, best, hover);
+        const int spline = curves_other(curves, core->document, i);
+        if (spline >= 0) best = nearest_knot(curves, core, spline, x, y, best, hover);
     }
 }
 
 /// A press that did not move was a click on empty; `keep` false brings the former selection back.
-static void end(void *room, struct core *core, const struct editor_world *world, bool keep)
+static void end(void *room, struct core *core, bool keep)
 {
     const struct curves *curves = room;
     if (!keep) selection_copy(&core->selection, &curves->before_box);
     if (keep && !core->drag.moved && curves->knot_drag.box == BOX_REPLACE) selection_clear(&core->selection);
-    if (keep) selected_settle(core, world);
+    if (keep) selected_settle(core);
 }
 
-static void nearest_handle(const struct curves *curves, const struct core *core, const struct document *document,
-                           const struct spline *spline, float x, float y, struct hover *hover)
+static void nearest_handle(const struct curves *curves, const struct core *core, const struct spline *spline, float x,
+                           float y, struct hover *hover)
 {
     float best = CURVES_HIT_RADIUS;
     for (int k = 0; k < spline->knot_count; k++) {
@@ -87,7 +87,7 @@ static void nearest_handle(const struct curves *curves, const struct core *core,
         if (!knot->has_slope || !selection_has(&core->selection, knot->id)) continue;
         for (int end = 0; end < 2; end++) {
             float xy[2];
-            curves_handle(curves, core, document, knot, end, xy);
+            curves_handle(curves, core, knot, end, xy);
             float distance = hypotf(x - xy[0], y - xy[1]);
             if (distance > best) continue;
             best = distance;
@@ -110,15 +110,14 @@ static void nearest_warning(const struct curves *curves, const struct core *core
 }
 
 /// The nearest curve straight above or below, the active one first.
-static void nearest_curve(const struct curves *curves, const struct core *core, const struct editor_world *world,
-                          float x, float y, struct hover *hover)
+static void nearest_curve(const struct curves *curves, const struct core *core, float x, float y, struct hover *hover)
 {
-    double position = core_position(world->document, curves_frame(curves, core, x));
+    double position = core_position(core->document, curves_frame(curves, core, x));
     float best = CURVE_REACH;
-    for (int i = 0; i < world->document->spline_count; i++) {
+    for (int i = 0; i < core->document->spline_count; i++) {
         int s = i == 0 ? core->active : i <= core->active ? i - 1 : i;
-        if (!spline_list_shows(core, world->document, s)) continue;
-        wiggly_value v = evaluation_at(world->evaluation, s, position);
+        if (!spline_list_shows(core, s)) continue;
+        wiggly_value v = evaluation_at(core->evaluation, s, position);
         float distance = fabsf(y - curves_y_of(curves, core, s, v.y + v.re));
         if (distance >= best) continue;
         best = distance;
@@ -144,85 +143,78 @@ static void limits_hover(const struct curves *curves, const struct core *core, c
     }
 }
 
-struct hover curves_hover(const struct curves *curves, const struct core *core, const struct editor_world *world,
-                          float x, float y)
+struct hover curves_hover(const struct curves *curves, const struct core *core, float x, float y)
 {
-    struct hover hover = ruler_pins_hover(curves, core, world->document, x, y);
-    const struct spline *spline = core_active_spline(core, world);
+    struct hover hover = ruler_pins_hover(curves, core, x, y);
+    const struct spline *spline = core_active_spline(core);
     if (hover.kind == HOVER_PIN) return hover;
     if (rect_contains(core->layout.ruler, x, y)) hover.kind = HOVER_RULER;
     if (rect_contains(ruler_corner(core), x, y)) hover.kind = HOVER_UNITS;
     if (rect_contains(sheet_switch(core), x, y)) hover.kind = HOVER_SHEET;
-    if (rect_contains(sheet_area(core), x, y)) return sheet_hover(curves, core, world->document, x, y);
+    if (rect_contains(sheet_area(core), x, y)) return sheet_hover(curves, core, x, y);
     if (!rect_contains(core->layout.plot, x, y) || !spline) return hover;
-    bool seen = spline_list_seen(core, world) != NULL;
-    if (seen) nearest_knot(curves, core, world->document, core->active, x, y, CURVES_HIT_RADIUS, &hover);
-    if (seen && hover.kind == HOVER_NONE) nearest_handle(curves, core, world->document, spline, x, y, &hover);
+    bool seen = spline_list_seen(core) != NULL;
+    if (seen) nearest_knot(curves, core, core->active, x, y, CURVES_HIT_RADIUS, &hover);
+    if (seen && hover.kind == HOVER_NONE) nearest_handle(curves, core, spline, x, y, &hover);
     if (hover.kind == HOVER_NONE) nearest_warning(curves, core, x, y, &hover);
-    if (hover.kind == HOVER_NONE) nearest_other_knot(curves, core, world->document, x, y, &hover);
-    if (hover.kind == HOVER_NONE) scale_box_hover(curves, core, world->document, x, y, &hover);
+    if (hover.kind == HOVER_NONE) nearest_other_knot(curves, core, x, y, &hover);
+    if (hover.kind == HOVER_NONE) scale_box_hover(curves, core, x, y, &hover);
     if (hover.kind == HOVER_NONE && seen) limits_hover(curves, core, spline, y, &hover);
-    if (hover.kind == HOVER_NONE) nearest_curve(curves, core, world, x, y, &hover);
+    if (hover.kind == HOVER_NONE) nearest_curve(curves, core, x, y, &hover);
     return hover;
 }
 
 /// A press on a knot: Shift adds or removes it, else it is dragged with all that are selected.
-static void press_knot(struct curves *curves, struct core *core, const struct editor_world *world,
-                       const struct hover *hover, const struct event *event)
+static void press_knot(struct curves *curves, struct core *core, const struct hover *hover, const struct event *event)
 {
     unsigned id = hover->knot;
     bool selected = selection_has(&core->selection, id);
-    core_turn_to(core, world, hover->spline);
+    core_turn_to(core, hover->spline);
     if (event->clicks == 2) {
-        const struct spline *spline = world->document->splines[hover->spline];
-        playback_seek(core, world->document, spline->knots[spline_find_id(spline, id)].frame);
+        const struct spline *spline = core->document->splines[hover->spline];
+        playback_seek(core, spline->knots[spline_find_id(spline, id)].frame);
         return;
     }
     if (event->mods & MOD_SHIFT) {
         selection_set(&core->selection, id, !selected);
-        selected_settle(core, world);
+        selected_settle(core);
         if (selected) return;
     } else if (!selected) {
         selection_clear(&core->selection);
         selection_set(&core->selection, id, true);
     }
-    drag_begin_knots(curves, core, world, id, event);
+    drag_begin_knots(curves, core, id, event);
     core->drag.lock_x = rect_contains(core->layout.sheet, event->x, event->y); // marks are dragged in time alone
     curves->knot_drag.collapse = selected && !(event->mods & MOD_SHIFT);
 }
 
-static void press_empty(struct curves *curves, struct core *core, const struct editor_world *world,
-                        const struct hover *hover, const struct event *event)
+static void press_empty(struct curves *curves, struct core *core, const struct hover *hover,
+                        const struct event *event)
 {
     if (event->clicks == 2 && hover->kind == HOVER_CURVE) {
-        core_insert_on_curve(core, world, curves_frame(curves, core, event->x), drag_snaps(core, event->mods),
+        core_insert_on_curve(core, curves_frame(curves, core, event->x), drag_snaps(core, event->mods),
                              event->mods & MOD_SHIFT);
         return;
     }
     if (event->clicks == 2) {
         double value = core_round(curves_value(curves, core, event->y), 0.01 / curves_pixels_per_value(curves, core));
-        core_insert_knot(core, world, curves_frame(curves, core, event->x), value, drag_snaps(core, event->mods));
+        core_insert_knot(core, curves_frame(curves, core, event->x), value, drag_snaps(core, event->mods));
         return;
     }
     const bool keeps = event->mods & (MOD_SHIFT | MOD_CTRL | MOD_ALT);
-    if (hover->kind == HOVER_CURVE && !keeps) core_activate(core, world, hover->spline);
+    if (hover->kind == HOVER_CURVE && !keeps) core_activate(core, hover->spline);
     box_begin(curves, core, event);
 }
 
-static void scrub(void *room, struct core *core, const struct editor_world *world)
+static void scrub(void *room, struct core *core)
 {
     const double frame = curves_frame(room, core, core->drag.x);
-    playback_seek(core, world->document, core->drag.snap ? round(frame) : frame);
+    playback_seek(core, core->drag.snap ? round(frame) : frame);
 }
 
-static void pan(void *room, struct core *core, const struct editor_world *world)
-{
-    (void)world;
-    curves_pan(room, core, core->drag.moved_x, core->drag.moved_y);
-}
+static void pan(void *room, struct core *core) { curves_pan(room, core, core->drag.moved_x, core->drag.moved_y); }
 
-static void press_ruler(struct curves *curves, struct core *core, const struct editor_world *world,
-                        const struct event *event)
+static void press_ruler(struct curves *curves, struct core *core, const struct event *event)
 {
     static const struct drag_owner owner = {.cursor = CURSOR_HORIZONTAL, .move = scrub};
     if (event->mods & MOD_SHIFT) {
@@ -231,15 +223,15 @@ static void press_ruler(struct curves *curves, struct core *core, const struct e
     }
     double frame = curves_frame(curves, core, event->x);
     drag_begin(core, &owner, curves, NULL, event);
-    playback_seek(core, world->document, drag_snaps(core, event->mods) ? round(frame) : frame);
+    playback_seek(core, drag_snaps(core, event->mods) ? round(frame) : frame);
 }
 
 /// The limit goes where the pointer is; knots stay within.
-static void apply(void *room, struct core *core, const struct editor_world *world)
+static void apply(void *room, struct core *core)
 {
     const struct curves *curves = room;
     const struct limit_drag *drag = &curves->limit_drag;
-    const struct spline *spline = core_active_spline(core, world);
+    const struct spline *spline = core_active_spline(core);
     double by = -core->drag.moved_y / curves_pixels_per_value(curves, core);
     double value = core_round(drag->value + by, 0.01 / curves_pixels_per_value(curves, core));
     const double other = spline->parameter[limit_of(!drag->handle)].value;
@@ -248,22 +240,20 @@ static void apply(void *room, struct core *core, const struct editor_world *worl
         value = drag->handle ? fmax(value, knot) : fmin(value, knot);
     }
     if (drag->handle ? value <= other : value >= other) return; // without knots: they do not pass each other
-    core_set_parameter(core, world, core->active, limit_of(drag->handle), value);
+    core_set_parameter(core, core->active, limit_of(drag->handle), value);
 }
 
 /// Starts to drag the low limit (0) or the high one (1).
-static void limits_begin_drag(struct curves *curves, struct core *core, const struct editor_world *world, int handle,
-                              const struct event *event)
+static void limits_begin_drag(struct curves *curves, struct core *core, int handle, const struct event *event)
 {
     static const struct drag_owner owner = {.cursor = CURSOR_VERTICAL, .apply = apply};
-    const struct spline *spline = core_active_spline(core, world);
+    const struct spline *spline = core_active_spline(core);
     drag_begin(core, &owner, curves, parameter_rows[limit_of(handle)].undo, event);
     core->hover = (struct hover){.kind = HOVER_LIMIT, .spline = core->active, .handle = handle};
     curves->limit_drag = (struct limit_drag){handle, spline->parameter[limit_of(handle)].value};
 }
 
-void curves_press(struct curves *curves, struct core *core, const struct editor_world *world,
-                  const struct event *event)
+void curves_press(struct curves *curves, struct core *core, const struct event *event)
 {
     static const struct drag_owner panning = {.cursor = CURSOR_MOVE, .move = pan};
     const bool pans = event->button == BUTTON_MIDDLE || (event->button == BUTTON_LEFT && core->space_down);
@@ -273,17 +263,17 @@ void curves_press(struct curves *curves, struct core *core, const struct editor_
         return;
     }
     if (event->button != BUTTON_LEFT) return;
-    struct hover hover = curves_hover(curves, core, world, event->x, event->y);
+    struct hover hover = curves_hover(curves, core, event->x, event->y);
     if (hover.kind != HOVER_PIN && hover.kind != HOVER_RULER) pins_clear(core);
     switch (hover.kind) {
     case HOVER_PIN:
-        ruler_pins_begin(curves, core, world, &hover, event);
+        ruler_pins_begin(curves, core, &hover, event);
         break;
     case HOVER_RULER:
-        press_ruler(curves, core, world, event);
+        press_ruler(curves, core, event);
         break;
     case HOVER_WARNING:
-        warning_remedy(curves, core, world, &curves->warnings.list[hover.handle]);
+        warning_remedy(curves, core, &curves->warnings.list[hover.handle]);
         break;
     case HOVER_UNITS:
         curves_toggle_units(curves, core);
@@ -292,22 +282,22 @@ void curves_press(struct curves *curves, struct core *core, const struct editor_
         curves_toggle_sheet(curves, core);
         break;
     case HOVER_ROW:
-        sheet_press_row(curves, core, world, hover.spline, event);
+        sheet_press_row(curves, core, hover.spline, event);
         break;
     case HOVER_KNOT:
-        press_knot(curves, core, world, &hover, event);
+        press_knot(curves, core, &hover, event);
         break;
     case HOVER_BOX:
-        scale_begin_handle(curves, core, world, hover.handle, event);
+        scale_begin_handle(curves, core, hover.handle, event);
         break;
     case HOVER_LIMIT:
-        limits_begin_drag(curves, core, world, hover.handle, event);
+        limits_begin_drag(curves, core, hover.handle, event);
         break;
     case HOVER_SLOPE:
-        drag_begin_slope(curves, core, world, hover.knot, hover.handle, event);
+        drag_begin_slope(curves, core, hover.knot, hover.handle, event);
         break;
     default:
-        if (rect_contains(core->layout.plot, event->x, event->y)) press_empty(curves, core, world, &hover, event);
+        if (rect_contains(core->layout.plot, event->x, event->y)) press_empty(curves, core, &hover, event);
     }
 }
 
@@ -329,41 +319,40 @@ static struct rect box_rect(const struct drag *drag)
 }
 
 /// Selects or deselects what of one spline is in the box.
-static void take_inside(const struct curves *curves, struct core *core, const struct document *document, int s)
+static void take_inside(const struct curves *curves, struct core *core, int s)
 {
     const struct rect box = box_rect(&core->drag);
-    const struct spline *spline = document->splines[s];
-    for (int k = curves_knot_from(curves, core, document, spline, box.x); k < spline->knot_count; k++) {
+    const struct spline *spline = core->document->splines[s];
+    for (int k = curves_knot_from(curves, core, spline, box.x); k < spline->knot_count; k++) {
         const struct knot *knot = &spline->knots[k];
-        const float x = curves_knot_x(curves, core, document, knot), y = curves_y_of(curves, core, s, knot->value);
+        const float x = curves_knot_x(curves, core, knot), y = curves_y_of(curves, core, s, knot->value);
         if (x > box.x + box.w) break;
         if (rect_contains(box, x, y)) selection_set(&core->selection, knot->id, curves->knot_drag.box != BOX_REMOVE);
     }
 }
 
 /// Selects what is in the box as it is now.
-static void move(void *room, struct core *core, const struct editor_world *world)
+static void move(void *room, struct core *core)
 {
     const struct curves *curves = room;
-    const struct document *document = world->document;
+    const struct document *document = core->document;
     selection_copy(&core->selection, &curves->before_box);
     if (curves->knot_drag.box == BOX_REPLACE) selection_clear(&core->selection);
     if (curves->knot_drag.in_sheet) {
-        sheet_take_inside(curves, core, document, box_rect(&core->drag));
+        sheet_take_inside(curves, core, box_rect(&core->drag));
         return;
     }
-    if (spline_list_seen(core, world)) take_inside(curves, core, document, core->active);
+    if (spline_list_seen(core)) take_inside(curves, core, core->active);
     for (int i = 0; i < curves->cache.other_count; i++) {
         const int other = curves_other(curves, document, i);
-        if (other >= 0) take_inside(curves, core, document, other);
+        if (other >= 0) take_inside(curves, core, other);
     }
 }
 
-static void show(void *room, struct core *core, const struct editor_world *world)
+static void show(void *room, struct core *core)
 {
     const struct curves *curves = room;
     const struct rect r = box_rect(&core->drag);
-    (void)world;
     if (!core->drag.moved) return;
     const float outline[] = {r.x, r.y, r.x + r.w, r.y, r.x + r.w, r.y + r.h, r.x, r.y + r.h, r.x, r.y};
     uint32_t color = curves->knot_drag.box == BOX_REMOVE ? theme()->error : theme()->playhead;
@@ -384,9 +373,9 @@ void box_begin(struct curves *curves, struct core *core, const struct event *eve
     selection_copy(&curves->before_box, &core->selection);
 }
 
-void limits_show(const struct curves *curves, struct core *core, const struct editor_world *world)
+void limits_show(const struct curves *curves, struct core *core)
 {
-    const struct spline *spline = spline_list_seen(core, world);
+    const struct spline *spline = spline_list_seen(core);
     const struct rect *plot = &core->layout.plot;
     if (!spline) return;
     for (int i = 0; i < 2; i++) {
@@ -396,6 +385,6 @@ void limits_show(const struct curves *curves, struct core *core, const struct ed
         float y = curves_y(curves, core, value);
         const float line[2][2] = {{plot->x, y}, {plot->x + plot->w, y}};
         drawlist_dashed(&core->list, &line[0][0], 2, hot ? 2 : 1.25f, 10, 6,
-                        theme_fade(spline_list_color(world->document, core->active), hot ? 1 : 0.6f));
+                        theme_fade(spline_list_color(core->document, core->active), hot ? 1 : 0.6f));
     }
 }

@@ -15,21 +15,21 @@ static const double SLOPE_RESOLUTION = 1e-3; ///< of the visible values, a secon
 static const double LENGTH_SLACK = 8; ///< pixels by which a handle may be pulled before it says more than a slope
 
 /// Copies all knots that move: the edits of the drag start from them.
-static void collect(const struct curves *curves, struct core *core, const struct document *document)
+static void collect(const struct curves *curves, struct core *core)
 {
-    core_collect(core, document, curves->knot_drag.ripple);
+    core_collect(core, curves->knot_drag.ripple);
     core->drag.label = core->originals.count == 1 ? "Move knot" : "Move knots";
 }
 
 /// R: the later knots keep their distances to the dragged ones.
-static void toggle_ripple(struct curves *curves, struct core *core, const struct editor_world *world)
+static void toggle_ripple(struct curves *curves, struct core *core)
 {
     struct knot_drag *drag = &curves->knot_drag;
-    drag_restart(core, world);
+    drag_restart(core);
     drag->ripple = !drag->ripple;
     drag->free_frames = 0;
     core->drag.stale = true;
-    collect(curves, core, world->document);
+    collect(curves, core);
     core_message(core, false,
                  drag->ripple ? "Ripple on: later knots move too (R turns it off)."
                               : "Ripple off: later knots stay.");
@@ -65,8 +65,7 @@ static void shift_limits(const struct curves *curves, const struct originals *or
 
 /// The shift in frames that the pointer asks for: whole frames for the knot that is held, inside the range for all; `why` it is
 /// no more.
-static double wanted_frames(const struct curves *curves, const struct core *core, const struct document *document,
-                            char why[STOPPED_SIZE])
+static double wanted_frames(const struct curves *curves, const struct core *core, char why[STOPPED_SIZE])
 {
     const struct drag *drag = &core->drag;
     const struct originals *originals = &core->originals;
@@ -77,7 +76,7 @@ static double wanted_frames(const struct curves *curves, const struct core *core
         if (originals->list[i].knot.id == drag->knot) held = &originals->list[i];
     }
     if (drag->snap) frames = fabs(frames) < 0.5 ? 0 : round(held->knot.frame + frames) - held->knot.frame;
-    shift_limits(curves, originals, document, &least, &most);
+    shift_limits(curves, originals, core->document, &least, &most);
     if (frames < least || frames > most) explain_blocked(ROOM_OUTSIDE, 0, why);
     if (curves->knot_drag.ripple && frames > most)
         snprintf(why, STOPPED_SIZE, "the last knot has reached the end of the range. Extend the range to make room");
@@ -94,8 +93,8 @@ static double moved_value(const struct curves *curves, const struct core *core, 
 }
 
 /// Moves all originals; from the far end on, so that they do not run into each other. `why` says which one a limit held.
-static bool move_knots(const struct curves *curves, const struct core *core, const struct editor_world *world,
-                       double frames, double up, char why[STOPPED_SIZE])
+static bool move_knots(const struct curves *curves, const struct core *core, double frames, double up,
+                       char why[STOPPED_SIZE])
 {
     for (int i = 0; i < core->originals.count; i++) {
         const struct original *original = &core->originals.list[frames > 0 ? core->originals.count - 1 - i : i];
@@ -103,47 +102,47 @@ static bool move_knots(const struct curves *curves, const struct core *core, con
         knot.frame += frames;
         if (up != 0 && selection_has(&core->selection, original->knot.id))
             knot.value = moved_value(curves, core, original, up);
-        core_hold(world->document->splines[original->spline], &knot, why);
-        if (!edit_knot_set(world->document, original->spline, &knot, NULL)) return false;
+        core_hold(core->document->splines[original->spline], &knot, why);
+        if (!edit_knot_set(core->document, original->spline, &knot, NULL)) return false;
     }
     return true;
 }
 
-static void apply_knots(void *of, struct core *core, const struct editor_world *world)
+static void apply_knots(void *of, struct core *core)
 {
     struct curves *curves = of;
     const struct drag *drag = &core->drag;
     if (core->originals.count == 0) return;
     char why[STOPPED_SIZE] = "";
-    double frames = wanted_frames(curves, core, world->document, why), stopped = 0;
+    double frames = wanted_frames(curves, core, why), stopped = 0;
     double up = drag->lock_x ? 0 : -drag->moved_y / curves_pixels_per_value(curves, core);
-    const enum room room = originals_room(core, world->document, retime_shift, &frames, &stopped);
+    const enum room room = originals_room(core, retime_shift, &frames, &stopped);
     if (room != ROOM_FREE) {
         explain_blocked(room, stopped, why);
         frames = curves->knot_drag.free_frames;
     }
-    if (!move_knots(curves, core, world, frames, up, why)) {
-        drag_restart(core, world);
+    if (!move_knots(curves, core, frames, up, why)) {
+        drag_restart(core);
         frames = curves->knot_drag.free_frames;
-        move_knots(curves, core, world, frames, up, why);
+        move_knots(curves, core, frames, up, why);
     }
     curves->knot_drag.free_frames = frames;
     drag_say_stopped(core, why);
 }
 
 /// The slope that lets the held end of the handle point at the pointer; pulled out or pushed in, also the stiffness.
-static void apply_slope(void *of, struct core *core, const struct editor_world *world)
+static void apply_slope(void *of, struct core *core)
 {
     const struct curves *curves = of;
     const struct drag *drag = &core->drag;
     const struct knot *knot = &core->originals.list[0].knot;
     float end[2];
-    curves_handle(curves, core, world->document, knot, curves->knot_drag.handle, end);
-    double x = curves_knot_x(curves, core, world->document, knot);
+    curves_handle(curves, core, knot, curves->knot_drag.handle, end);
+    double x = curves_knot_x(curves, core, knot);
     double across = end[0] + drag->moved_x - x;
     double down = end[1] + drag->moved_y - curves_y(curves, core, knot->value);
     across = curves->knot_drag.handle ? fmax(across, 2) : fmin(across, -2);
-    double seconds = across / curves_pixels_per_frame(curves, core) / world->document->fps;
+    double seconds = across / curves_pixels_per_frame(curves, core) / core->document->fps;
     struct knot turned = *knot;
     turned.slope =
         core_round(-down / curves_pixels_per_value(curves, core) / seconds, SLOPE_RESOLUTION * core->visible);
@@ -151,23 +150,21 @@ static void apply_slope(void *of, struct core *core, const struct editor_world *
     if (fabs(longer) > LENGTH_SLACK) {
         turned.stiffness = handle_stiffness(length + longer - copysign(LENGTH_SLACK, longer));
     }
-    core_put_knot(core, world, core->active, &turned);
+    core_put_knot(core, core->active, &turned);
 }
 
-static enum drag_answer knots_event(void *room, struct core *core, const struct editor_world *world,
-                                    const struct event *event)
+static enum drag_answer knots_event(void *room, struct core *core, const struct event *event)
 {
     bool key = event->kind == EVENT_KEY && event->action == ACTION_PRESS && !(event->mods & (MOD_CTRL | MOD_ALT));
     if (!key) return DRAG_PASSES;
-    if (event->key == 'R') toggle_ripple(room, core, world);
+    if (event->key == 'R') toggle_ripple(room, core);
     return event->key == 'R' || drag_lock(&core->drag, event->key) ? DRAG_USED : DRAG_PASSES;
 }
 
 /// What was dragged comes into sight. The click on a knot that was selected already selects it alone.
-static void end_knots(void *room, struct core *core, const struct editor_world *world, bool keep)
+static void end_knots(void *room, struct core *core, bool keep)
 {
     struct curves *curves = room;
-    (void)world;
     if (!keep) return;
     if (core->drag.moved) {
         core_edited(core, -1);
@@ -177,27 +174,22 @@ static void end_knots(void *room, struct core *core, const struct editor_world *
     }
 }
 
-static void show_knots(void *room, struct core *core, const struct editor_world *world)
-{
-    scale_box_show(room, core, world->document, false);
-}
+static void show_knots(void *room, struct core *core) { scale_box_show(room, core, false); }
 
-void drag_begin_knots(struct curves *curves, struct core *core, const struct editor_world *world, unsigned knot,
-                      const struct event *event)
+void drag_begin_knots(struct curves *curves, struct core *core, unsigned knot, const struct event *event)
 {
     static const struct drag_owner owner = {
         .cursor = CURSOR_MOVE, .apply = apply_knots, .event = knots_event, .end = end_knots, .show = show_knots};
     drag_begin(core, &owner, curves, NULL, event);
     core->drag.knot = knot;
     curves->knot_drag = (struct knot_drag){0};
-    collect(curves, core, world->document);
+    collect(curves, core);
 }
 
-void drag_begin_slope(struct curves *curves, struct core *core, const struct editor_world *world, unsigned knot,
-                      int handle, const struct event *event)
+void drag_begin_slope(struct curves *curves, struct core *core, unsigned knot, int handle, const struct event *event)
 {
     static const struct drag_owner owner = {.cursor = CURSOR_MOVE, .apply = apply_slope, .end = end_knots};
-    const struct spline *spline = core_active_spline(core, world);
+    const struct spline *spline = core_active_spline(core);
     assert(spline);
     drag_begin(core, &owner, curves, "Change slope", event);
     core->drag.knot = knot;
@@ -212,11 +204,10 @@ static const double GHOST_SECONDS = 1.2;
 enum nudge_kind { NUDGE_FRAMES = 1, NUDGE_VALUE };
 
 /// The shift itself, or the next multiple of it behind the knots that are in the way; 0 where there is no room, and why.
-static double free_shift(const struct core *core, const struct document *document, double frames,
-                         char why[STOPPED_SIZE])
+static double free_shift(const struct core *core, double frames, char why[STOPPED_SIZE])
 {
     for (double shift = frames; frames != 0; shift += frames) {
-        enum room room = originals_room(core, document, retime_shift, &shift, NULL);
+        enum room room = originals_room(core, retime_shift, &shift, NULL);
         if (room == ROOM_FREE) return shift;
         if (room != ROOM_OUTSIDE) continue;
         explain_blocked(room, 0, why);
@@ -225,17 +216,16 @@ static double free_shift(const struct core *core, const struct document *documen
     return 0;
 }
 
-void curves_nudge(const struct curves *curves, struct core *core, const struct editor_world *world, double frames,
-                  double hundredths)
+void curves_nudge(const struct curves *curves, struct core *core, double frames, double hundredths)
 {
     const struct originals *originals = &core->originals;
-    if (history_is_open(world->history)) return;
+    if (history_is_open(core->history)) return;
     char why[STOPPED_SIZE] = "";
-    core_collect(core, world->document, false);
-    double shift = free_shift(core, world->document, frames, why), up = 0.01 * hundredths * core->visible;
+    core_collect(core, false);
+    double shift = free_shift(core, frames, why), up = 0.01 * hundredths * core->visible;
     if (*why) core_stopped(core, why);
     if (originals->count == 0 || (shift == 0 && up == 0)) return;
-    core_begin(core, world, "Nudge knots", core_merge_key(core, world, frames != 0 ? NUDGE_FRAMES : NUDGE_VALUE));
+    core_begin(core, "Nudge knots", core_merge_key(core, frames != 0 ? NUDGE_FRAMES : NUDGE_VALUE));
     for (int i = 0; i < originals->count; i++) {
         // from the far end, so that they do not run into each other
         const struct original *original = &originals->list[shift > 0 ? originals->count - 1 - i : i];
@@ -243,10 +233,10 @@ void curves_nudge(const struct curves *curves, struct core *core, const struct e
         struct knot knot = original->knot;
         knot.frame += shift;
         if (value != 0) knot.value = core_round(knot.value + value, 0.01 * fabs(value));
-        core_hold(world->document->splines[original->spline], &knot, why);
-        core_put_knot(core, world, original->spline, &knot);
+        core_hold(core->document->splines[original->spline], &knot, why);
+        core_put_knot(core, original->spline, &knot);
     }
-    core_end(core, world, true);
+    core_end(core, true);
     if (*why) core_stopped(core, why);
     core->nudged_seconds = GHOST_SECONDS;
     core_edited(core, -1);

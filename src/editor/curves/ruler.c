@@ -63,12 +63,12 @@ static void horizontal(const struct curves *curves, struct core *core, double va
 }
 
 /// Darkens what lies before and after the scene's range.
-static void shade_outside(const struct curves *curves, struct core *core, const struct document *document)
+static void shade_outside(const struct curves *curves, struct core *core)
 {
     const struct rect field = field_of(core);
     const float right = field.x + field.w;
-    float first = fmaxf(curves_x(curves, core, document->first_frame), field.x);
-    float last = fminf(curves_x(curves, core, document->last_frame), right);
+    float first = fmaxf(curves_x(curves, core, core->document->first_frame), field.x);
+    float last = fminf(curves_x(curves, core, core->document->last_frame), right);
     if (first > field.x)
         drawlist_rect(&core->list, (struct rect){field.x, field.y, first - field.x, field.h}, theme()->outside);
     if (last < right)
@@ -143,12 +143,11 @@ static double ruler_unit(const struct curves *curves, const struct document *doc
 }
 
 /// Numbers of the ruler, centred over their grid lines; the one under the playhead's tag makes room for it.
-static void number_frames(const struct curves *curves, struct core *core, const struct document *document,
-                          struct grid_step step)
+static void number_frames(const struct curves *curves, struct core *core, struct grid_step step)
 {
     const struct rect *ruler = &core->layout.ruler;
-    const struct rect tag = playhead_tag(curves, core, document);
-    double unit = ruler_unit(curves, document);
+    const struct rect tag = playhead_tag(curves, core);
+    double unit = ruler_unit(curves, core->document);
     for (double i = ceil(curves->view.frame0 / unit / step.size); i * step.size <= curves->view.frame1 / unit; i++) {
         char text[32];
         snprintf(text, sizeof text, "%.*f", step.decimals, i * step.size + 0.0);
@@ -161,11 +160,10 @@ static void number_frames(const struct curves *curves, struct core *core, const 
 }
 
 /// A press that did not move plays all again; `keep` false brings the former part back.
-static void end(void *room, struct core *core, const struct editor_world *world, bool keep)
+static void end(void *room, struct core *core, bool keep)
 {
     struct playback *playback = &core->playback;
     (void)room;
-    (void)world;
     if (!keep) {
         playback->has_range = playback->had_range;
         playback->range[0] = playback->old_range[0];
@@ -177,23 +175,23 @@ static void end(void *room, struct core *core, const struct editor_world *world,
 }
 
 /// Where the part lies on the screen.
-static void edges(const struct curves *curves, const struct core *core, const struct document *document, float x[2])
+static void edges(const struct curves *curves, const struct core *core, float x[2])
 {
     const struct rect *plot = &core->layout.plot;
     double range[2];
-    playback_range(core, document, range);
+    playback_range(core, range);
     for (int end = 0; end < 2; end++) {
         x[end] = fminf(fmaxf(curves_x(curves, core, range[end]), plot->x), plot->x + plot->w);
     }
 }
 
 /// Marks the part on the ruler; nothing where all is played.
-static void range_show_ruler(const struct curves *curves, struct core *core, const struct document *document)
+static void range_show_ruler(const struct curves *curves, struct core *core)
 {
     const struct rect *ruler = &core->layout.ruler;
     float x[2];
-    if (!playback_is_part(core, document)) return;
-    edges(curves, core, document, x);
+    if (!playback_is_part(core)) return;
+    edges(curves, core, x);
     struct rect band = {x[0], ruler->y, x[1] - x[0], ruler->h};
     drawlist_rect(&core->list, band, theme_fade(theme()->accent, 0.14f));
     drawlist_rect(&core->list, (struct rect){band.x, ruler->y, 2, ruler->h}, theme()->accent);
@@ -201,33 +199,33 @@ static void range_show_ruler(const struct curves *curves, struct core *core, con
 }
 
 /// Tints the part in the plot.
-static void range_show_plot(const struct curves *curves, struct core *core, const struct document *document)
+static void range_show_plot(const struct curves *curves, struct core *core)
 {
     const struct rect *plot = &core->layout.plot;
     float x[2];
-    if (!playback_is_part(core, document)) return;
-    edges(curves, core, document, x);
+    if (!playback_is_part(core)) return;
+    edges(curves, core, x);
     drawlist_rect(&core->list, (struct rect){x[0], plot->y, x[1] - x[0], plot->h},
                   theme_fade(theme()->accent, 0.05f));
 }
 
-void grid_show(const struct curves *curves, struct core *core, const struct editor_world *world)
+void grid_show(const struct curves *curves, struct core *core)
 {
     const struct layout *layout = &core->layout;
-    double unit = ruler_unit(curves, world->document);
+    double unit = ruler_unit(curves, core->document);
     struct grid_step times = round_step(MIN_FRAME_STEP / (curves_pixels_per_frame(curves, core) * unit));
     struct grid_step values = round_step(MIN_VALUE_STEP / curves_pixels_per_value(curves, core));
     drawlist_rect(&core->list, layout->curves, theme()->panel);
     struct rect clip = drawlist_push_clip(&core->list, field_of(core));
-    shade_outside(curves, core, world->document);
+    shade_outside(curves, core);
     draw_lines(curves, core, times, unit, values);
-    range_show_plot(curves, core, world->document);
+    range_show_plot(curves, core);
     drawlist_set_clip(&core->list, clip);
     drawlist_rect(&core->list, (struct rect){layout->ruler.x, layout->sheet.y - 1, layout->ruler.w, 1},
                   theme()->border);
     clip = drawlist_push_clip(&core->list, layout->ruler);
-    range_show_ruler(curves, core, world->document);
-    number_frames(curves, core, world->document, times);
+    range_show_ruler(curves, core);
+    number_frames(curves, core, times);
     drawlist_set_clip(&core->list, clip);
     show_units(curves, core);
     clip = drawlist_push_clip(&core->list, layout->value_axis);
@@ -236,12 +234,12 @@ void grid_show(const struct curves *curves, struct core *core, const struct edit
 }
 
 /// The part goes from where the drag began to the pointer.
-static void move(void *room, struct core *core, const struct editor_world *world)
+static void move(void *room, struct core *core)
 {
     const double from = round(curves_frame(room, core, core->drag.start_x));
     const double to = round(curves_frame(room, core, core->drag.x));
-    playback_choose(core, world->document, fmin(from, to), fmax(from, to));
-    playback_say_range(core, world->document);
+    playback_choose(core, fmin(from, to), fmax(from, to));
+    playback_say_range(core);
 }
 
 void range_begin(struct curves *curves, struct core *core, const struct event *event)
@@ -258,17 +256,16 @@ static const float REACH = 6;                        ///< pixels beside a mark
 static const float RADIUS = 4, ABOVE = 9, BELOW = 6; ///< of a mark on the ruler's lower edge: how far it is taken
 
 /// Where its mark is.
-static void place(const struct curves *curves, const struct core *core, const struct document *document,
-                  const struct pin *pin, float xy[2])
+static void place(const struct curves *curves, const struct core *core, const struct pin *pin, float xy[2])
 {
     const struct rect *ruler = &core->layout.ruler;
-    xy[0] = curves_x(curves, core, document_frame(document, document_sample(document, pin->frame)));
+    xy[0] = curves_x(curves, core, document_frame(core->document, document_sample(core->document, pin->frame)));
     xy[1] = ruler->y + ruler->h - 1;
 }
 
-struct hover ruler_pins_hover(const struct curves *curves, const struct core *core, const struct document *document,
-                              float x, float y)
+struct hover ruler_pins_hover(const struct curves *curves, const struct core *core, float x, float y)
 {
+    const struct document *document = core->document;
     const struct rect *ruler = &core->layout.ruler;
     struct hover hover = {.kind = HOVER_NONE};
     float best = REACH;
@@ -278,7 +275,7 @@ struct hover ruler_pins_hover(const struct curves *curves, const struct core *co
         for (int i = 0; i < document->rigs[r]->pin_count; i++) {
             const struct pin *pin = &document->rigs[r]->pins[i];
             float xy[2];
-            place(curves, core, document, pin, xy);
+            place(curves, core, pin, xy);
             float distance = fabsf(x - xy[0]);
             if (distance < REACH && core->pin.any && core->pin.id == pin->id) distance = 0;
             if (distance >= best) continue;
@@ -290,13 +287,13 @@ struct hover ruler_pins_hover(const struct curves *curves, const struct core *co
 }
 
 /// The pin goes to the pointer's frame, and the playhead goes along.
-static void apply(void *room, struct core *core, const struct editor_world *world)
+static void apply(void *room, struct core *core)
 {
     struct curves *curves = room;
     struct pin_time_drag *drag = &curves->pin_drag;
-    const struct document *document = world->document;
+    const struct document *document = core->document;
     int rig;
-    const struct pin *pin = pins_selected(core, document, &rig);
+    const struct pin *pin = pins_selected(core, &rig);
     if (!pin || pin->id != drag->id) return;
     struct pin moved = *pin;
     double frame = drag->frame + core->drag.moved_x / curves_pixels_per_frame(curves, core);
@@ -307,27 +304,27 @@ static void apply(void *room, struct core *core, const struct editor_world *worl
     if (there < 0 || document->rigs[rig]->pins[there].id == pin->id)
         drag->free_frame = document_frame(document, sample); // else it stays where it last was free
     moved.frame = drag->free_frame;
-    if (!pins_set(world->document, rig, &moved, &core->error)) return;
-    playback_seek(core, document, moved.frame);
-    pins_tell(core, world, rig);
+    if (!pins_set(core->document, rig, &moved, &core->error)) return;
+    playback_seek(core, moved.frame);
+    pins_tell(core, rig);
 }
 
-void ruler_pins_begin(struct curves *curves, struct core *core, const struct editor_world *world,
-                      const struct hover *hover, const struct event *event)
+void ruler_pins_begin(struct curves *curves, struct core *core, const struct hover *hover, const struct event *event)
 {
     static const struct drag_owner owner = {.cursor = CURSOR_HORIZONTAL, .apply = apply};
-    const struct document *document = world->document;
+    const struct document *document = core->document;
     const struct rig *rig = document->rigs[hover->rig];
     const int at = pins_find_id(rig, hover->pin);
     if (at < 0) return;
     drag_begin(core, &owner, curves, "Move pin in time", event);
     curves->pin_drag = (struct pin_time_drag){.id = hover->pin, .frame = rig->pins[at].frame};
     curves->pin_drag.free_frame = curves->pin_drag.frame;
-    pins_visit(core, document, &rig->pins[at]);
+    pins_visit(core, &rig->pins[at]);
 }
 
-void ruler_pins_show(const struct curves *curves, struct core *core, const struct document *document)
+void ruler_pins_show(const struct curves *curves, struct core *core)
 {
+    const struct document *document = core->document;
     for (int r = 0; r < document->rig_count; r++) {
         const struct rig *rig = document->rigs[r];
         const int spline = rig_point_spline(rig);
@@ -338,7 +335,7 @@ void ruler_pins_show(const struct curves *curves, struct core *core, const struc
             const bool hot = core->hover.kind == HOVER_PIN && core->hover.pin == pin->id;
             const float radius = RADIUS + (selected || hot ? 1 : 0);
             float xy[2];
-            place(curves, core, document, pin, xy);
+            place(curves, core, pin, xy);
             if (xy[0] < core->layout.ruler.x || xy[0] > core->layout.ruler.x + core->layout.ruler.w) continue;
             const struct rect disc = {xy[0] - radius, xy[1] - radius, 2 * radius, 2 * radius};
             drawlist_rounded(&core->list, disc, radius, selected ? theme()->playhead : color);
@@ -347,9 +344,8 @@ void ruler_pins_show(const struct curves *curves, struct core *core, const struc
     }
 }
 
-bool curves_pin_point(const struct curves *curves, const struct core *core, const struct document *document,
-                      const struct pin *pin, float xy[2])
+bool curves_pin_point(const struct curves *curves, const struct core *core, const struct pin *pin, float xy[2])
 {
-    place(curves, core, document, pin, xy);
+    place(curves, core, pin, xy);
     return rect_contains(core->layout.ruler, xy[0], xy[1]);
 }

@@ -37,22 +37,22 @@ static void measure(const struct curves *curves, const struct core *core, double
 }
 
 /// Keeps the equilibria as they are before any edit.
-static void note_equilibria(struct curves *curves, struct core *core, const struct editor_world *world)
+static void note_equilibria(struct curves *curves, struct core *core)
 {
     struct scaling *scaling = &curves->scaling;
-    const struct evaluation *evaluation = world->evaluation;
+    const struct evaluation *evaluation = core->evaluation;
     double frames[2], values[2];
     measure(curves, core, frames, values);
     for (int i = 0; i < core->originals.count; i++) {
         struct original *original = &core->originals.list[i];
-        const int sample = document_sample(world->document, original->knot.frame);
+        const int sample = document_sample(core->document, original->knot.frame);
         original->equilibrium = evaluation_at(evaluation, original->spline, sample).y;
     }
     const double position = round(core->playback.position), middle = (frames[0] + frames[1]) / 2;
-    scaling->playhead[0] = document_frame(world->document, (int)position);
+    scaling->playhead[0] = document_frame(core->document, (int)position);
     scaling->playhead[1] = evaluation_at(evaluation, core->active, position).y;
     scaling->balance[0] = middle;
-    scaling->balance[1] = evaluation_at(evaluation, core->active, core_position(world->document, middle)).y;
+    scaling->balance[1] = evaluation_at(evaluation, core->active, core_position(core->document, middle)).y;
 }
 
 /// The equilibrium, as it is drawn, of the knot that is as high as the held edge: that one stays under the pointer.
@@ -127,10 +127,9 @@ static double along(double pivot, double start, double now)
 static double clamped(double factor) { return fmin(fmax(factor, -MOST), MOST); }
 
 /// What was scaled comes into sight.
-static void end(void *room, struct core *core, const struct editor_world *world, bool keep)
+static void end(void *room, struct core *core, bool keep)
 {
     (void)room;
-    (void)world;
     if (keep && core->drag.moved) core_edited(core, -1);
 }
 
@@ -203,13 +202,12 @@ static double scaled_frame(const void *how, const struct original *original)
 }
 
 /// The factor of time, or the last one by which all knots found room, and why.
-static double free_time(struct curves *curves, const struct core *core, const struct document *document,
-                        double factor)
+static double free_time(struct curves *curves, const struct core *core, double factor)
 {
     struct scaling *scaling = &curves->scaling;
     const struct retiming retiming = {curves, core, factor};
     double frame = 0;
-    const enum room room = originals_room(core, document, scaled_frame, &retiming, &frame);
+    const enum room room = originals_room(core, scaled_frame, &retiming, &frame);
     explain_blocked(room, frame, scaling->stopped[0]);
     return room == ROOM_FREE ? scaling->free_time = factor : scaling->free_time;
 }
@@ -226,8 +224,7 @@ static double scaled_value(const struct curves *curves, const struct core *core,
     return core_round(pivot + factor * (original->knot.value - pivot), resolution);
 }
 
-static struct knot scaled(struct curves *curves, const struct core *core, const struct document *document,
-                          const struct original *original)
+static struct knot scaled(struct curves *curves, const struct core *core, const struct original *original)
 {
     const struct factors by = curves->scaling.by;
     const struct retiming retiming = {curves, core, by.time};
@@ -235,17 +232,17 @@ static struct knot scaled(struct curves *curves, const struct core *core, const 
     double visible = curves->view.value1 - curves->view.value0, steeper = by.value / by.time;
     to.frame = scaled_frame(&retiming, original);
     if (by.value != 1) to.value = scaled_value(curves, core, original, by.value);
-    core_hold(document->splines[original->spline], &to, curves->scaling.stopped[1]);
+    core_hold(core->document->splines[original->spline], &to, curves->scaling.stopped[1]);
     if (steeper != 1) to.slope = core_round(original->knot.slope * steeper, SLOPE_RESOLUTION * visible);
     return to;
 }
 
 /// Takes the knots out and puts them in anew, so that they do not run into each other, whatever their order becomes.
-static void move_all(struct curves *curves, struct core *core, const struct editor_world *world)
+static void move_all(struct curves *curves, struct core *core)
 {
     struct scaling *scaling = &curves->scaling;
     const struct originals *originals = &core->originals;
-    struct document *document = world->document;
+    struct document *document = core->document;
     const bool moves = scaling->by.time != 1;
     bool changes = moves;
     scaling->stopped[1][0] = 0;
@@ -255,12 +252,12 @@ static void move_all(struct curves *curves, struct core *core, const struct edit
     }
     for (int i = 0; i < originals->count; i++) {
         const struct original *original = &originals->list[i];
-        const struct knot knot = scaled(curves, core, document, original);
+        const struct knot knot = scaled(curves, core, original);
         changes |= knot.value != original->knot.value;
         const bool done = moves ? edit_knot_insert(document, original->spline, &knot, &core->error)
                                 : edit_knot_set(document, original->spline, &knot, &core->error);
         if (done) continue;
-        drag_restart(core, world);
+        drag_restart(core);
         return;
     }
     if (!scaling->stopped[1][0] && !changes && scaling->by.value != 1)
@@ -268,13 +265,13 @@ static void move_all(struct curves *curves, struct core *core, const struct edit
                  pivot_name(scaling, scaling->pivot));
 }
 
-static void apply(void *room, struct core *core, const struct editor_world *world)
+static void apply(void *room, struct core *core)
 {
     struct curves *curves = room;
     struct scaling *scaling = &curves->scaling;
     scaling->by = wanted(curves, core);
-    scaling->by.time = free_time(curves, core, world->document, scaling->by.time);
-    move_all(curves, core, world);
+    scaling->by.time = free_time(curves, core, scaling->by.time);
+    move_all(curves, core);
     say(curves, core);
 }
 
@@ -299,20 +296,19 @@ static void erase(struct scaling *scaling)
     if (length > 0) scaling->typed[length - 1] = 0;
 }
 
-static void change(struct core *core, const struct editor_world *world)
+static void change(struct core *core)
 {
-    drag_start_moving(core, world);
+    drag_start_moving(core);
     core->drag.stale = true;
 }
 
-static enum drag_answer press_key(struct curves *curves, struct core *core, const struct editor_world *world,
-                                  const struct event *event)
+static enum drag_answer press_key(struct curves *curves, struct core *core, const struct event *event)
 {
     struct scaling *scaling = &curves->scaling;
     if (event->key == KEY_ESCAPE) return DRAG_TAKE_BACK;
     if (event->key == KEY_ENTER) return DRAG_KEEP;
     if (event->key == 'P') {
-        drag_restart(core, world);
+        drag_restart(core);
         scaling->pivot = next_pivot(scaling);
         place_pivot(curves, core);
     } else if (event->key == KEY_BACKSPACE) {
@@ -320,13 +316,12 @@ static enum drag_answer press_key(struct curves *curves, struct core *core, cons
     } else if ((scaling->handle >= 0 && !box_corner(scaling->handle)) || !drag_lock(&core->drag, event->key)) {
         return DRAG_USED;
     }
-    change(core, world);
+    change(core);
     return DRAG_USED;
 }
 
 /// Events while it runs, but the pointer's: axes, pivot, a typed factor, the end.
-static enum drag_answer take_event(void *room, struct core *core, const struct editor_world *world,
-                                   const struct event *event)
+static enum drag_answer take_event(void *room, struct core *core, const struct event *event)
 {
     struct curves *curves = room;
     bool press = event->action != ACTION_RELEASE;
@@ -335,10 +330,10 @@ static enum drag_answer take_event(void *room, struct core *core, const struct e
         if (curves->scaling.handle >= 0) return DRAG_PASSES;
         return !press ? DRAG_USED : event->button == BUTTON_LEFT ? DRAG_KEEP : DRAG_TAKE_BACK;
     case EVENT_KEY:
-        return press ? press_key(curves, core, world, event)
+        return press ? press_key(curves, core, event)
                      : DRAG_PASSES; /* of a key that was held before, the release is somebody else's */
     case EVENT_TEXT:
-        if (type(&curves->scaling, event->codepoint)) change(core, world);
+        if (type(&curves->scaling, event->codepoint)) change(core);
         return DRAG_USED;
     default:
         return event->kind == EVENT_WHEEL ? DRAG_USED
@@ -400,13 +395,13 @@ static void show_pivot(const struct curves *curves, struct core *core)
 }
 
 /// The pivot, the line from it to the pointer, and beside that both factors and what stopped them.
-static void scale_show(void *room, struct core *core, const struct editor_world *world)
+static void scale_show(void *room, struct core *core)
 {
     const struct curves *curves = room;
     const struct scaling *scaling = &curves->scaling;
     struct tag tag = {0};
     const struct rect clip = drawlist_push_clip(&core->list, core->layout.plot);
-    scale_box_show(curves, core, world->document, true);
+    scale_box_show(curves, core, true);
     show_pivot(curves, core);
     drawlist_set_clip(&core->list, clip);
     if (!core->drag.lock_y) add_factor(&tag, "time", scaling->by.time, scaling->stopped[0]);
@@ -419,21 +414,20 @@ static const struct drag_owner owner = {
     .cursor = CURSOR_MOVE, .apply = apply, .event = take_event, .end = end, .show = scale_show};
 
 /// The drag has begun: about what, and by which handle of the box (-1: none).
-static void begin(struct curves *curves, struct core *core, const struct editor_world *world, enum pivot pivot,
-                  int handle)
+static void begin(struct curves *curves, struct core *core, enum pivot pivot, int handle)
 {
     curves->scaling = (struct scaling){.pivot = pivot, .handle = handle, .by = {1, 1}, .free_time = 1};
     core->message.text[0] = 0;
     core->hover = (struct hover){.kind = HOVER_NONE};
-    note_equilibria(curves, core, world);
+    note_equilibria(curves, core);
     place_pivot(curves, core);
     core->drag.hint = curves->scaling.sentence;
     say(curves, core);
 }
 
-void curves_scale(struct curves *curves, struct core *core, const struct editor_world *world, bool about_equilibrium)
+void curves_scale(struct curves *curves, struct core *core, bool about_equilibrium)
 {
-    core_collect(core, world->document, false);
+    core_collect(core, false);
     if (core->originals.count == 0) {
         core_message(core, false, "Select the knots to scale first.");
         return;
@@ -442,17 +436,16 @@ void curves_scale(struct curves *curves, struct core *core, const struct editor_
     drag_begin(core, &owner, curves, "Scale knots", &event);
     core->drag.lock_y = about_equilibrium;
     const enum pivot pivot = core->originals.count == 1 ? PIVOT_PLAYHEAD : PIVOT_MIDDLE;
-    begin(curves, core, world, about_equilibrium ? PIVOT_EQUILIBRIUM : pivot, -1);
+    begin(curves, core, about_equilibrium ? PIVOT_EQUILIBRIUM : pivot, -1);
 }
 
-void scale_begin_handle(struct curves *curves, struct core *core, const struct editor_world *world, int handle,
-                        const struct event *event)
+void scale_begin_handle(struct curves *curves, struct core *core, int handle, const struct event *event)
 {
-    core_collect(core, world->document, false);
+    core_collect(core, false);
     drag_begin(core, &owner, curves, "Scale knots", event);
     core->drag.lock_x = box_row(handle) == 0;
     core->drag.lock_y = box_column(handle) == 0;
-    begin(curves, core, world, event->mods & MOD_ALT ? PIVOT_EQUILIBRIUM : PIVOT_SIDE, handle);
+    begin(curves, core, event->mods & MOD_ALT ? PIVOT_EQUILIBRIUM : PIVOT_SIDE, handle);
     core->hover = (struct hover){.kind = HOVER_BOX, .spline = core->active, .handle = handle};
 }
 
@@ -469,14 +462,13 @@ struct knot_box {
 };
 
 /// false where fewer than two knots are selected, or none of them is in sight.
-static bool find_knot_box(const struct curves *curves, const struct core *core, const struct document *document,
-                          struct knot_box *box)
+static bool find_knot_box(const struct curves *curves, const struct core *core, struct knot_box *box)
 {
     float left = INFINITY, right = -INFINITY, top = INFINITY, bottom = -INFINITY;
     int count = 0;
-    for (struct knot_place at = SELECTED_START; selected_next(core, document, &at); count++) {
-        const struct knot *knot = knot_at(document, at);
-        const float x = curves_knot_x(curves, core, document, knot);
+    for (struct knot_place at = SELECTED_START; selected_next(core, &at); count++) {
+        const struct knot *knot = knot_at(core->document, at);
+        const float x = curves_knot_x(curves, core, knot);
         const float y = curves_y_of(curves, core, at.spline, knot->value);
         left = fminf(left, x);
         right = fmaxf(right, x);
@@ -500,20 +492,18 @@ static bool handle_place(const struct knot_box *box, int handle, float xy[2])
     return true;
 }
 
-bool curves_box_point(const struct curves *curves, const struct core *core, const struct document *document,
-                      int column, int row, float xy[2])
+bool curves_box_point(const struct curves *curves, const struct core *core, int column, int row, float xy[2])
 {
     struct knot_box box;
-    const bool known = abs(column) <= 1 && abs(row) <= 1 && find_knot_box(curves, core, document, &box);
+    const bool known = abs(column) <= 1 && abs(row) <= 1 && find_knot_box(curves, core, &box);
     return known && handle_place(&box, 3 * (row + 1) + column + 1, xy);
 }
 
-void scale_box_hover(const struct curves *curves, const struct core *core, const struct document *document, float x,
-                     float y, struct hover *hover)
+void scale_box_hover(const struct curves *curves, const struct core *core, float x, float y, struct hover *hover)
 {
     struct knot_box box;
     float best = REACH, xy[2];
-    if (!find_knot_box(curves, core, document, &box)) return;
+    if (!find_knot_box(curves, core, &box)) return;
     for (int i = 0; i < BOX_HANDLES; i++) {
         if (!handle_place(&box, i, xy)) continue;
         const float distance = hypotf(x - xy[0], y - xy[1]);
@@ -532,10 +522,10 @@ static void show_handle(struct core *core, int handle, const float xy[2])
     drawlist_rounded_line(&core->list, r, 1.5f, 1, theme_fade(theme()->playhead, hot ? 1 : 0.75f));
 }
 
-void scale_box_show(const struct curves *curves, struct core *core, const struct document *document, bool handles)
+void scale_box_show(const struct curves *curves, struct core *core, bool handles)
 {
     struct knot_box box;
-    if (!find_knot_box(curves, core, document, &box)) return;
+    if (!find_knot_box(curves, core, &box)) return;
     drawlist_rounded_line(&core->list, rect_inset(box.area, -0.5f), 0, 1, theme_fade(theme()->playhead, 0.3f));
     for (int i = 0; i < BOX_HANDLES && handles; i++) {
         float xy[2];

@@ -16,11 +16,11 @@ static const float REACH = 7, RADIUS = 3.5f; ///< of a mark
 static const float CROWDED = 3;              ///< pixels between marks below which one stands for several
 
 /// The splines of all rows that are shown; how many there are.
-static int list_rows(const struct core *core, const struct document *document, int first, int *splines, int most)
+static int list_rows(const struct core *core, int first, int *splines, int most)
 {
     int count = 0;
-    for (int s = 0; s < document->spline_count; s++) {
-        if (!spline_list_shows(core, document, s)) continue;
+    for (int s = 0; s < core->document->spline_count; s++) {
+        if (!spline_list_shows(core, s)) continue;
         if (count >= first && count - first < most) splines[count - first] = s;
         count++;
     }
@@ -28,23 +28,23 @@ static int list_rows(const struct core *core, const struct document *document, i
 }
 
 /// Which of all rows the active spline has, or -1.
-static int active_row(const struct core *core, const struct document *document)
+static int active_row(const struct core *core)
 {
     int row = 0;
-    if (!spline_list_shows(core, document, core->active)) return -1;
-    for (int s = 0; s < core->active; s++) row += spline_list_shows(core, document, s);
+    if (!spline_list_shows(core, core->active)) return -1;
+    for (int s = 0; s < core->active; s++) row += spline_list_shows(core, s);
     return row;
 }
 
-void sheet_update(struct curves *curves, struct core *core, const struct document *document)
+void sheet_update(struct curves *curves, struct core *core)
 {
     struct dope_sheet *sheet = &curves->sheet;
     const float room = core->layout.curves.h - core->layout.ruler.h - LEAST_PLOT - 2 * PAD;
-    const int total = sheet->shown ? list_rows(core, document, 0, NULL, 0) : 0;
+    const int total = sheet->shown ? list_rows(core, 0, NULL, 0) : 0;
     int rows = total < MOST_ROWS ? total : MOST_ROWS;
     if (rows > (int)(room / ROW)) rows = (int)fmaxf(room / ROW, 0);
     if (sheet->active != core->active_id) { // which may be out of sight
-        const int active = active_row(core, document);
+        const int active = active_row(core);
         if (active >= 0 && active < sheet->first) sheet->first = active;
         if (active >= sheet->first + rows) sheet->first = active - rows + 1;
         sheet->active = core->active_id;
@@ -52,7 +52,7 @@ void sheet_update(struct curves *curves, struct core *core, const struct documen
     if (sheet->first > total - rows) sheet->first = total - rows;
     sheet->rows = rows;
     sheet->total = total;
-    list_rows(core, document, sheet->first, sheet->spline, rows);
+    list_rows(core, sheet->first, sheet->spline, rows);
     const float height = rows > 0 ? (float)(rows * ROW + 2 * PAD) : 0;
     if (core->layout.sheet_height == height) return;
     core->layout.sheet_height = height;
@@ -74,12 +74,12 @@ static float row_y(const struct core *core, int row)
 }
 
 /// The spline of the row at a height, or -1.
-static int row_spline(const struct curves *curves, const struct core *core, const struct document *document, float y)
+static int row_spline(const struct curves *curves, const struct core *core, float y)
 {
     const int row = (int)floorf((y - core->layout.sheet.y - PAD) / ROW);
     const int at = row < 0 ? 0 : row >= curves->sheet.rows ? curves->sheet.rows - 1 : row;
     const int spline = at >= 0 ? curves->sheet.spline[at] : -1;
-    return spline < document->spline_count ? spline : -1;
+    return spline < core->document->spline_count ? spline : -1;
 }
 
 struct rect sheet_area(const struct core *core)
@@ -94,17 +94,16 @@ struct rect sheet_switch(const struct core *core)
     return (struct rect){corner.x, corner.y, 13, corner.h};
 }
 
-struct hover sheet_hover(const struct curves *curves, const struct core *core, const struct document *document,
-                         float x, float y)
+struct hover sheet_hover(const struct curves *curves, const struct core *core, float x, float y)
 {
-    const int s = row_spline(curves, core, document, y);
+    const int s = row_spline(curves, core, y);
     struct hover hover = {.kind = s >= 0 ? HOVER_ROW : HOVER_NONE, .spline = s};
     float best = REACH;
     if (s < 0 || !rect_contains(core->layout.sheet, x, y)) return hover;
-    const struct spline *spline = document->splines[s];
-    for (int k = curves_knot_from(curves, core, document, spline, x - REACH); k < spline->knot_count; k++) {
+    const struct spline *spline = core->document->splines[s];
+    for (int k = curves_knot_from(curves, core, spline, x - REACH); k < spline->knot_count; k++) {
         const struct knot *knot = &spline->knots[k];
-        const float at = curves_knot_x(curves, core, document, knot), distance = fabsf(x - at);
+        const float at = curves_knot_x(curves, core, knot), distance = fabsf(x - at);
         if (at > x + REACH) break;
         if (distance > best) continue;
         best = distance;
@@ -113,33 +112,31 @@ struct hover sheet_hover(const struct curves *curves, const struct core *core, c
     return hover;
 }
 
-void sheet_press_row(struct curves *curves, struct core *core, const struct editor_world *world, int spline,
-                     const struct event *event)
+void sheet_press_row(struct curves *curves, struct core *core, int spline, const struct event *event)
 {
     const bool keeps = event->mods & (MOD_SHIFT | MOD_CTRL | MOD_ALT);
     const bool inside = rect_contains(core->layout.sheet, event->x, event->y);
-    if (!keeps) core_activate(core, world, spline);
+    if (!keeps) core_activate(core, spline);
     if (!inside) return;
     if (event->clicks == 2) {
-        core_insert_on_curve(core, world, curves_frame(curves, core, event->x), drag_snaps(core, event->mods), false);
+        core_insert_on_curve(core, curves_frame(curves, core, event->x), drag_snaps(core, event->mods), false);
         return;
     }
     box_begin(curves, core, event);
     curves->knot_drag.in_sheet = true;
 }
 
-void sheet_take_inside(const struct curves *curves, struct core *core, const struct document *document,
-                       struct rect box)
+void sheet_take_inside(const struct curves *curves, struct core *core, struct rect box)
 {
     for (int row = 0; row < curves->sheet.rows; row++) {
         const int s = curves->sheet.spline[row];
-        if (s >= document->spline_count) continue;
+        if (s >= core->document->spline_count) continue;
         const float top = row_y(core, row) - ROW / 2.0f;
         if (top + ROW <= box.y || top >= box.y + box.h) continue;
-        const struct spline *spline = document->splines[s];
-        for (int k = curves_knot_from(curves, core, document, spline, box.x); k < spline->knot_count; k++) {
+        const struct spline *spline = core->document->splines[s];
+        for (int k = curves_knot_from(curves, core, spline, box.x); k < spline->knot_count; k++) {
             const struct knot *knot = &spline->knots[k];
-            const float x = curves_knot_x(curves, core, document, knot);
+            const float x = curves_knot_x(curves, core, knot);
             if (x >= box.x + box.w) break;
             if (x >= box.x) selection_set(&core->selection, knot->id, curves->knot_drag.box != BOX_REMOVE);
         }
@@ -156,28 +153,26 @@ bool sheet_wheel(struct curves *curves, struct core *core, const struct event *e
     return true;
 }
 
-bool curves_mark_point(const struct curves *curves, const struct core *core, const struct document *document,
-                       int spline, int knot, float xy[2])
+bool curves_mark_point(const struct curves *curves, const struct core *core, int spline, int knot, float xy[2])
 {
     for (int row = 0; row < curves->sheet.rows; row++) {
         if (curves->sheet.spline[row] != spline) continue;
-        xy[0] = curves_knot_x(curves, core, document, &document->splines[spline]->knots[knot]);
+        xy[0] = curves_knot_x(curves, core, &core->document->splines[spline]->knots[knot]);
         xy[1] = row_y(core, row);
         return rect_contains(core->layout.sheet, xy[0], xy[1]);
     }
     return false;
 }
 
-static void show_marks(const struct curves *curves, struct core *core, const struct document *document, int s,
-                       float y)
+static void show_marks(const struct curves *curves, struct core *core, int s, float y)
 {
-    const struct spline *spline = document->splines[s];
-    const uint32_t color = spline_list_color(document, s);
+    const struct spline *spline = core->document->splines[s];
+    const uint32_t color = spline_list_color(core->document, s);
     const struct rect *sheet = &core->layout.sheet;
-    int k = curves_knot_from(curves, core, document, spline, sheet->x - RADIUS - 1);
-    for (; k < spline->knot_count; k = crowd_next(curves, core, document, s, k, CROWDED)) {
+    int k = curves_knot_from(curves, core, spline, sheet->x - RADIUS - 1);
+    for (; k < spline->knot_count; k = crowd_next(curves, core, s, k, CROWDED)) {
         const struct knot *knot = &spline->knots[k];
-        const float x = curves_knot_x(curves, core, document, knot);
+        const float x = curves_knot_x(curves, core, knot);
         const bool selected = selection_has(&core->selection, knot->id);
         const bool hovered = core->hover.kind == HOVER_KNOT && core->hover.knot == knot->id;
         if (x > sheet->x + sheet->w + RADIUS + 1) break;
@@ -187,8 +182,9 @@ static void show_marks(const struct curves *curves, struct core *core, const str
 }
 
 /// A row: its band where it is the active one, a line from the first mark to the last one, the marks, and the name behind them.
-static void show_row(const struct curves *curves, struct core *core, const struct document *document, int row)
+static void show_row(const struct curves *curves, struct core *core, int row)
 {
+    const struct document *document = core->document;
     const int s = curves->sheet.spline[row];
     if (s >= document->spline_count) return; // undone in this frame
     const struct spline *spline = document->splines[s];
@@ -200,11 +196,11 @@ static void show_row(const struct curves *curves, struct core *core, const struc
     if (active || hot) drawlist_rect(&core->list, band, theme_fade(theme()->text, active ? 0.07f : 0.035f));
     struct rect clip = drawlist_push_clip(&core->list, *sheet);
     if (spline->knot_count > 1) {
-        const float from = curves_knot_x(curves, core, document, &spline->knots[0]);
-        const float to = curves_knot_x(curves, core, document, &spline->knots[spline->knot_count - 1]);
+        const float from = curves_knot_x(curves, core, &spline->knots[0]);
+        const float to = curves_knot_x(curves, core, &spline->knots[spline->knot_count - 1]);
         drawlist_rect(&core->list, (struct rect){from, roundf(y) - 0.5f, to - from, 1}, theme_fade(color, 0.35f));
     }
-    show_marks(curves, core, document, s, y);
+    show_marks(curves, core, s, y);
     drawlist_set_clip(&core->list, clip);
     drawlist_text_fit(&core->list, left, roundf(y + 4), panel->x + panel->w - 6 - left,
                       active ? FONT_LABEL_BOLD : FONT_LABEL, THEME_TEXT_SMALL,
@@ -233,12 +229,12 @@ static void show_switch(const struct curves *curves, struct core *core)
                     core->hover.kind == HOVER_SHEET ? theme()->text : theme()->text_dim);
 }
 
-void sheet_show(const struct curves *curves, struct core *core, const struct document *document)
+void sheet_show(const struct curves *curves, struct core *core)
 {
     const struct rect *area = &core->layout.sheet;
     show_switch(curves, core);
     if (area->h <= 0) return;
-    for (int row = 0; row < curves->sheet.rows; row++) show_row(curves, core, document, row);
+    for (int row = 0; row < curves->sheet.rows; row++) show_row(curves, core, row);
     show_more(curves, core);
     drawlist_rect(&core->list, (struct rect){area->x, area->y + area->h - 1, area->w, 1}, theme()->border);
 }

@@ -56,16 +56,16 @@ static bool shows_imaginary(const struct core *core, const struct spline *spline
 }
 
 /// Lines in painter's order, the active one last.
-static void show_lines(struct curves *curves, struct core *core, const struct editor_world *world)
+static void show_lines(struct curves *curves, struct core *core)
 {
     const struct curve_cache *cache = &curves->cache;
-    const struct spline *spline = spline_list_seen(core, world);
-    uint32_t color = spline_list_color(world->document, core->active);
+    const struct spline *spline = spline_list_seen(core);
+    uint32_t color = spline_list_color(core->document, core->active);
     if (cache->count < 2) return;
     for (int i = 0; i < cache->other_count; i++) {
         const bool hot = core->hover.kind == HOVER_CURVE && core->hover.spline == cache->other_spline[i];
         show_line(core, &cache->others[i][0][0], cache->count, cache->other_band[i], 1.25f,
-                  theme_fade(spline_list_color(world->document, cache->other_spline[i]), hot ? 1 : THEME_OTHERS));
+                  theme_fade(spline_list_color(core->document, cache->other_spline[i]), hot ? 1 : THEME_OTHERS));
     }
     if (!spline) return;
     show_ghost(curves, core);
@@ -101,23 +101,22 @@ double handle_stiffness(double length)
     return core_round(stiffness, 0.05 * stiffness);
 }
 
-void curves_handle(const struct curves *curves, const struct core *core, const struct document *document,
-                   const struct knot *knot, int end, float xy[2])
+void curves_handle(const struct curves *curves, const struct core *core, const struct knot *knot, int end,
+                   float xy[2])
 {
-    double across = curves_pixels_per_frame(curves, core) * document->fps; /* pixels a second */
+    double across = curves_pixels_per_frame(curves, core) * core->document->fps; /* pixels a second */
     double down = -curves_pixels_per_value(curves, core) * knot->slope;
     double length = hypot(across, down);
     double factor = (end ? 1 : -1) * handle_length(knot->stiffness) / (isfinite(length) && length > 0 ? length : 1);
-    xy[0] = curves_knot_x(curves, core, document, knot) + (float)fmin(fmax(across * factor, -1e3), 1e3);
+    xy[0] = curves_knot_x(curves, core, knot) + (float)fmin(fmax(across * factor, -1e3), 1e3);
     xy[1] = curves_y(curves, core, knot->value) + (float)fmin(fmax(down * factor, -1e3), 1e3);
 }
 
-static void show_handle(const struct curves *curves, struct core *core, const struct document *document,
-                        const struct knot *knot, uint32_t color)
+static void show_handle(const struct curves *curves, struct core *core, const struct knot *knot, uint32_t color)
 {
     float ends[2][2];
-    curves_handle(curves, core, document, knot, 0, ends[0]);
-    curves_handle(curves, core, document, knot, 1, ends[1]);
+    curves_handle(curves, core, knot, 0, ends[0]);
+    curves_handle(curves, core, knot, 1, ends[1]);
     drawlist_line(&core->list, &ends[0][0], 2, 1, theme_fade(color, 0.8f));
     for (int end = 0; end < 2; end++) {
         struct rect dot = {ends[end][0] - HANDLE_RADIUS, ends[end][1] - HANDLE_RADIUS, 2 * HANDLE_RADIUS,
@@ -150,13 +149,12 @@ static void show_hollow(struct drawlist *list, float x, float y, uint32_t color)
 }
 
 /// A short stroke that says "this knot has a slope" without the handle's length.
-static void show_tick(const struct curves *curves, struct core *core, const struct document *document,
-                      const struct knot *knot, uint32_t color)
+static void show_tick(const struct curves *curves, struct core *core, const struct knot *knot, uint32_t color)
 {
-    float ends[2][2], x = curves_knot_x(curves, core, document, knot);
+    float ends[2][2], x = curves_knot_x(curves, core, knot);
     float y = curves_y(curves, core, knot->value);
     for (int end = 0; end < 2; end++) {
-        curves_handle(curves, core, document, knot, end, ends[end]);
+        curves_handle(curves, core, knot, end, ends[end]);
         ends[end][0] = x + 0.3f * (ends[end][0] - x);
         ends[end][1] = y + 0.3f * (ends[end][1] - y);
     }
@@ -168,14 +166,13 @@ static bool is_hovered(const struct core *core, const struct knot *knot)
     return core->hover.kind == HOVER_KNOT && core->hover.knot == knot->id;
 }
 
-int crowd_next(const struct curves *curves, const struct core *core, const struct document *document, int spline,
-               int knot, float gap)
+int crowd_next(const struct curves *curves, const struct core *core, int spline, int knot, float gap)
 {
-    const struct spline *of = document->splines[spline];
-    const float end = curves_knot_x(curves, core, document, &of->knots[knot]) + gap;
+    const struct spline *of = core->document->splines[spline];
+    const float end = curves_knot_x(curves, core, &of->knots[knot]) + gap;
     for (int next = knot + 1; next < of->knot_count; next++) {
         const struct knot *other = &of->knots[next];
-        if (curves_knot_x(curves, core, document, other) >= end) return next;
+        if (curves_knot_x(curves, core, other) >= end) return next;
         if (is_hovered(core, other) || selection_has(&core->selection, other->id)) return next;
     }
     return of->knot_count;
@@ -194,30 +191,28 @@ static int column_knot(const struct core *core, const struct knot *knots, int fi
 }
 
 /// The pixel column of a knot: columns begin at the scene's first frame, so that they stay as the view is moved.
-static double column_of(const struct curves *curves, const struct core *core, const struct document *document,
-                        const struct knot *knot)
+static double column_of(const struct curves *curves, const struct core *core, const struct knot *knot)
 {
-    const double pixels = curves_pixels_per_frame(curves, core) / document->substeps; // a sample
-    return floor(document_sample(document, knot->frame) * pixels);
+    const double pixels = curves_pixels_per_frame(curves, core) / core->document->substeps; // a sample
+    return floor(document_sample(core->document, knot->frame) * pixels);
 }
 
 /// A stroke over the values of all knots in one pixel column, for those that are not drawn.
-static void show_column(const struct curves *curves, struct core *core, const struct document *document, int first,
-                        int end, float x, uint32_t color)
+static void show_column(const struct curves *curves, struct core *core, int first, int end, float x, uint32_t color)
 {
     double range[2];
-    spline_values(document->splines[core->active], first, end, range);
+    spline_values(core->document->splines[core->active], first, end, range);
     const float xy[] = {x, curves_y(curves, core, range[0]), x, curves_y(curves, core, range[1])};
     if (range[1] > range[0]) drawlist_line(&core->list, xy, 2, 1.5f, theme_fade(color, 0.7f));
 }
 
-static void show_knot(const struct curves *curves, struct core *core, const struct document *document,
-                      const struct knot *knot, float x, uint32_t color)
+static void show_knot(const struct curves *curves, struct core *core, const struct knot *knot, float x,
+                      uint32_t color)
 {
     bool selected = selection_has(&core->selection, knot->id);
     float y = curves_y(curves, core, knot->value);
-    if (knot->has_slope && selected) show_handle(curves, core, document, knot, color);
-    if (knot->has_slope && !selected) show_tick(curves, core, document, knot, color);
+    if (knot->has_slope && selected) show_handle(curves, core, knot, color);
+    if (knot->has_slope && !selected) show_tick(curves, core, knot, color);
     if (selected) {
         knot_mark(&core->list, x, y, KNOT_RADIUS, color, true);
     } else {
@@ -228,49 +223,48 @@ static void show_knot(const struct curves *curves, struct core *core, const stru
 
 /// Whether the knots of one column go without a mark, because the marks of their neighbours would cover it: in a band, which goes through
 /// all of them, only some columns have one.
-static bool is_lost(const struct curves *curves, const struct core *core, const struct document *document, int first,
-                    int shown)
+static bool is_lost(const struct curves *curves, const struct core *core, int first, int shown)
 {
-    const struct knot *knots = document->splines[core->active]->knots;
-    const double column = column_of(curves, core, document, &knots[first]);
+    const struct knot *knots = core->document->splines[core->active]->knots;
+    const double column = column_of(curves, core, &knots[first]);
     if (!curves->cache.band || is_hovered(core, &knots[shown]) || selection_has(&core->selection, knots[shown].id))
         return false;
-    const bool alone = first == 0 || column - column_of(curves, core, document, &knots[first - 1]) > MARK_STEP;
+    const bool alone = first == 0 || column - column_of(curves, core, &knots[first - 1]) > MARK_STEP;
     return !alone && fmod(column, MARK_STEP) != 0;
 }
 
-static void show_knots(const struct curves *curves, struct core *core, const struct editor_world *world)
+static void show_knots(const struct curves *curves, struct core *core)
 {
-    const struct document *document = world->document;
-    const struct spline *spline = spline_list_seen(core, world);
+    const struct document *document = core->document;
+    const struct spline *spline = spline_list_seen(core);
     const struct rect *plot = &core->layout.plot;
     uint32_t color = spline_list_color(document, core->active);
     if (!spline) return;
-    int k = curves_knot_from(curves, core, document, spline, plot->x - HANDLE_REACH);
+    int k = curves_knot_from(curves, core, spline, plot->x - HANDLE_REACH);
     for (int end; k < spline->knot_count; k = end) {
-        const float x = curves_knot_x(curves, core, document, &spline->knots[k]);
-        const double column = column_of(curves, core, document, &spline->knots[k]);
+        const float x = curves_knot_x(curves, core, &spline->knots[k]);
+        const double column = column_of(curves, core, &spline->knots[k]);
         if (x > plot->x + plot->w + HANDLE_REACH) break;
         end = k + 1;
-        while (end < spline->knot_count && column_of(curves, core, document, &spline->knots[end]) == column) end++;
+        while (end < spline->knot_count && column_of(curves, core, &spline->knots[end]) == column) end++;
         const int shown = column_knot(core, spline->knots, k, end);
-        if (is_lost(curves, core, document, k, shown)) continue;
-        if (!curves->cache.band) show_column(curves, core, document, k, end, x, color);
-        show_knot(curves, core, document, &spline->knots[shown], x, color);
+        if (is_lost(curves, core, k, shown)) continue;
+        if (!curves->cache.band) show_column(curves, core, k, end, x, color);
+        show_knot(curves, core, &spline->knots[shown], x, color);
     }
 }
 
 /// Knots of the other curves, small unless they are selected: a click on one makes its spline the active one.
-static void show_other_knots(const struct curves *curves, struct core *core, const struct document *document, int s)
+static void show_other_knots(const struct curves *curves, struct core *core, int s)
 {
-    const struct spline *spline = document->splines[s];
+    const struct spline *spline = core->document->splines[s];
     const struct rect *plot = &core->layout.plot;
-    const uint32_t full = spline_list_color(document, s), color = theme_fade(full, THEME_OTHERS);
-    int k = curves_knot_from(curves, core, document, spline, plot->x);
-    for (; k < spline->knot_count; k = crowd_next(curves, core, document, s, k, OTHERS_CROWDED)) {
+    const uint32_t full = spline_list_color(core->document, s), color = theme_fade(full, THEME_OTHERS);
+    int k = curves_knot_from(curves, core, spline, plot->x);
+    for (; k < spline->knot_count; k = crowd_next(curves, core, s, k, OTHERS_CROWDED)) {
         const struct knot *knot = &spline->knots[k];
         bool selected = selection_has(&core->selection, knot->id);
-        float x = curves_knot_x(curves, core, document, knot);
+        float x = curves_knot_x(curves, core, knot);
         float y = curves_y_of(curves, core, s, knot->value);
         if (x < plot->x) continue;
         if (x > plot->x + plot->w) break;
@@ -295,18 +289,17 @@ static void spread_labels(struct label *labels, int count, float top, float bott
 }
 
 /// A spline's colour, as far as it can be read as text.
-static uint32_t label_color(const struct editor_world *world, int spline)
+static uint32_t label_color(const struct core *core, int spline)
 {
-    return theme_readable(spline_list_color(world->document, spline), theme()->panel, 4.5f);
+    return theme_readable(spline_list_color(core->document, spline), theme()->panel, 4.5f);
 }
 
 /// Labels of the curves that are drawn, at most `most`, the active one's first; by height. How many there are.
-static int place_labels(const struct curves *curves, const struct core *core, const struct editor_world *world,
-                        struct label *labels, int most)
+static int place_labels(const struct curves *curves, const struct core *core, struct label *labels, int most)
 {
     const struct curve_cache *cache = &curves->cache;
-    const struct spline *active = spline_list_seen(core, world);
-    uint32_t color = label_color(world, core->active);
+    const struct spline *active = spline_list_seen(core);
+    uint32_t color = label_color(core, core->active);
     int count = 0, end = cache->count - 1;
     if (active) {
         insert_label(labels, &count, (struct label){cache->re[end][1], FONT_LABEL_BOLD, color, active->name});
@@ -317,20 +310,20 @@ static int place_labels(const struct curves *curves, const struct core *core, co
     for (int i = 0; i < cache->other_count && count < most; i++) {
         int spline = cache->other_spline[i];
         insert_label(labels, &count,
-                     (struct label){cache->others[i][end][1], FONT_LABEL, label_color(world, spline),
-                                    world->document->splines[spline]->name});
+                     (struct label){cache->others[i][end][1], FONT_LABEL, label_color(core, spline),
+                                    core->document->splines[spline]->name});
     }
     return count;
 }
 
-static void show_labels(const struct curves *curves, struct core *core, const struct editor_world *world)
+static void show_labels(const struct curves *curves, struct core *core)
 {
     const struct rect *plot = &core->layout.plot;
     struct label labels[MAX_LABELS];
     if (curves->cache.count < 2) return;
     const float top = plot->y + 8, bottom = plot->y + plot->h - 8;
     int most = (int)fmaxf(2, (bottom - top) / LABEL_STEP + 1);
-    int count = place_labels(curves, core, world, labels, most);
+    int count = place_labels(curves, core, labels, most);
     spread_labels(labels, count, top, bottom);
     float x = plot->x + plot->w + 6;
     float width = core->layout.curves.x + core->layout.curves.w - 6 - x;
@@ -340,49 +333,48 @@ static void show_labels(const struct curves *curves, struct core *core, const st
     }
 }
 
-static void tag_text(const struct curves *curves, const struct core *core, const struct document *document,
-                     char text[32])
+static void tag_text(const struct curves *curves, const struct core *core, char text[32])
 {
-    double frame = round(core_frame(core, document)) + 0.0; /* the one that I would insert at */
+    double frame = round(core_frame(core)) + 0.0; /* the one that I would insert at */
     snprintf(text, 32, curves->options.seconds ? "%.2f" : "%.0f",
-             curves->options.seconds ? frame / document->fps : frame);
+             curves->options.seconds ? frame / core->document->fps : frame);
 }
 
-struct rect playhead_tag(const struct curves *curves, const struct core *core, const struct document *document)
+struct rect playhead_tag(const struct curves *curves, const struct core *core)
 {
     const struct rect *ruler = &core->layout.ruler;
-    float x = curves_x(curves, core, core_frame(core, document));
+    float x = curves_x(curves, core, core_frame(core));
     if (x < ruler->x || x > ruler->x + ruler->w) return (struct rect){0};
     char text[32];
-    tag_text(curves, core, document, text);
+    tag_text(curves, core, text);
     float width = roundf(font_width(FONT_NUMBER, THEME_TEXT_SMALL, text)) + 10;
     float left = fminf(fmaxf(roundf(x - width / 2), ruler->x), ruler->x + ruler->w - width);
     return (struct rect){left, ruler->y + 3, width, 16};
 }
 
 /// The line at the playhead and its frame number; drawn alone, so that playing redraws nothing else.
-static void show_playhead(const struct curves *curves, struct core *core, const struct document *document)
+static void show_playhead(const struct curves *curves, struct core *core)
 {
     const struct rect *plot = &core->layout.plot, *sheet = &core->layout.sheet;
-    float x = curves_x(curves, core, core_frame(core, document));
-    const struct rect tag = playhead_tag(curves, core, document);
+    float x = curves_x(curves, core, core_frame(core));
+    const struct rect tag = playhead_tag(curves, core);
     if (tag.w <= 0) return;
     char text[32];
-    tag_text(curves, core, document, text);
+    tag_text(curves, core, text);
     drawlist_rect(&core->list, (struct rect){x - 0.5f, sheet->y, 1, sheet->h + plot->h}, theme()->playhead);
     drawlist_rounded(&core->list, tag, 3, theme()->playhead);
     drawlist_text(&core->list, tag.x + 5, tag.y + 12, FONT_NUMBER, THEME_TEXT_SMALL, theme()->panel, text);
 }
 
 /// What to do where there is nothing to edit yet, and no swing of the equilibrium's that the text would cover.
-static void show_empty(struct core *core, const struct editor_world *world)
+static void show_empty(struct core *core)
 {
-    const struct spline *spline = core_active_spline(core, world);
+    const struct spline *spline = core_active_spline(core);
     bool flat = spline && spline->knot_count == 0 && !param_follows(&spline->parameter[PARAMETER_EQUILIBRIUM]) &&
-                !pins_move_spline(world->document, core->active);
-    bool hidden = spline && !spline_list_seen(core, world);
+                !pins_move_spline(core->document, core->active);
+    bool hidden = spline && !spline_list_seen(core);
     if (spline && !flat && !hidden) return;
-    const bool has_bones = document_find_rig(world->document, RIG_MODEL, 0) >= 0;
+    const bool has_bones = document_find_rig(core->document, RIG_MODEL, 0) >= 0;
     const char *text = hidden      ? "This spline is hidden. Click its eye in the list to show it."
                        : flat      ? "Double-click to set the first knot."
                        : has_bones ? "This scene has no splines. Click a bone and press Shift+J to let it swing."
@@ -408,29 +400,29 @@ static void show_state(const struct curves *curves, struct core *core)
                   theme()->text, text);
 }
 
-void curves_show(struct curves *curves, struct core *core, const struct editor_world *world)
+void curves_show(struct curves *curves, struct core *core)
 {
     struct rect clip = drawlist_push_clip(&core->list, core->layout.curves);
-    curves_update(curves, core, world);
-    warnings_update(curves, core, world);
-    grid_show(curves, core, world);
+    curves_update(curves, core);
+    warnings_update(curves, core);
+    grid_show(curves, core);
     struct rect panel = drawlist_push_clip(&core->list, core->layout.plot);
-    limits_show(curves, core, world);
-    show_lines(curves, core, world);
+    limits_show(curves, core);
+    show_lines(curves, core);
     for (int i = 0; i < curves->cache.other_count; i++) {
-        show_other_knots(curves, core, world->document, curves->cache.other_spline[i]);
+        show_other_knots(curves, core, curves->cache.other_spline[i]);
     }
-    show_knots(curves, core, world);
-    if (!core->drag.owner) scale_box_show(curves, core, world->document, true);
+    show_knots(curves, core);
+    if (!core->drag.owner) scale_box_show(curves, core, true);
     warnings_show(curves, core);
-    show_empty(core, world);
+    show_empty(core);
     drawlist_set_clip(&core->list, panel);
-    sheet_show(curves, core, world->document);
+    sheet_show(curves, core);
     show_state(curves, core);
-    show_labels(curves, core, world);
-    show_playhead(curves, core, world->document);
-    ruler_pins_show(curves, core, world->document);
-    drag_show(curves, core, world);
+    show_labels(curves, core);
+    show_playhead(curves, core);
+    ruler_pins_show(curves, core);
+    drag_show(curves, core);
     warnings_show_words(curves, core);
     drawlist_set_clip(&core->list, clip);
 }

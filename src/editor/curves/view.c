@@ -35,17 +35,15 @@ float curves_x(const struct curves *curves, const struct core *core, double fram
     return (float)bounded(x, plot->x, plot->x + plot->w);
 }
 
-float curves_knot_x(const struct curves *curves, const struct core *core, const struct document *document,
-                    const struct knot *knot)
+float curves_knot_x(const struct curves *curves, const struct core *core, const struct knot *knot)
 {
-    return curves_x(curves, core, document_frame(document, document_sample(document, knot->frame)));
+    return curves_x(curves, core, document_frame(core->document, document_sample(core->document, knot->frame)));
 }
 
-int curves_knot_from(const struct curves *curves, const struct core *core, const struct document *document,
-                     const struct spline *spline, double x)
+int curves_knot_from(const struct curves *curves, const struct core *core, const struct spline *spline, double x)
 {
-    const double sample = floor(core_position(document, curves_frame(curves, core, x)));
-    return spline_lower_bound(document, spline, (int)fmin(fmax(sample, INT_MIN), INT_MAX));
+    const double sample = floor(core_position(core->document, curves_frame(curves, core, x)));
+    return spline_lower_bound(core->document, spline, (int)fmin(fmax(sample, INT_MIN), INT_MAX));
 }
 
 float curves_y(const struct curves *curves, const struct core *core, double value)
@@ -107,14 +105,14 @@ static void show_values(struct view *view, const double range[2])
 }
 
 /// Makes room for what else is drawn of the active spline: its imaginary part, and what it swings about.
-static void include_rest(struct curves *curves, const struct core *core, const struct editor_world *world)
+static void include_rest(struct curves *curves, const struct core *core)
 {
     enum { COLUMNS = 200 };
-    const double margin = 0.06, last = document_samples(world->document) - 1;
+    const double margin = 0.06, last = document_samples(core->document) - 1;
     struct view *view = &curves->view;
     double range[2] = {view->value0, view->value1};
     for (int column = 0; column <= COLUMNS && core->active >= 0; column++) {
-        const wiggly_value v = evaluation_at(world->evaluation, core->active, last * column / COLUMNS);
+        const wiggly_value v = evaluation_at(core->evaluation, core->active, last * column / COLUMNS);
         include_value(range, v.y);
         include_value(range, v.y + v.im);
     }
@@ -130,11 +128,11 @@ static void follow_stop(struct curves *curves, struct core *core)
     core->edited = (struct edited){0};
 }
 
-void curves_frame_all(struct curves *curves, struct core *core, const struct editor_world *world)
+void curves_frame_all(struct curves *curves, struct core *core)
 {
     follow_stop(curves, core);
-    const struct document *document = world->document;
-    const struct evaluation *evaluation = world->evaluation;
+    const struct document *document = core->document;
+    const struct evaluation *evaluation = core->evaluation;
     double range[2] = {INFINITY, -INFINITY};
     for (int s = 0; s < document->spline_count; s++) {
         const struct spline *spline = document->splines[s];
@@ -147,7 +145,7 @@ void curves_frame_all(struct curves *curves, struct core *core, const struct edi
         }
     }
     show_values(&curves->view, range);
-    include_rest(curves, core, world);
+    include_rest(curves, core);
     double frames = document->last_frame - document->first_frame;
     curves->view.frame0 = document->first_frame - fmax(0.02 * frames, 0.5);
     curves->view.frame1 = document->last_frame + fmax(0.02 * frames, 0.5);
@@ -155,30 +153,29 @@ void curves_frame_all(struct curves *curves, struct core *core, const struct edi
 }
 
 /// Widens a range to what a curve does in the frames that are in sight.
-static void include_part(const struct curves *curves, const struct core *core, const struct editor_world *world,
-                         int spline, double range[2])
+static void include_part(const struct curves *curves, const struct core *core, int spline, double range[2])
 {
     enum { COLUMNS = 200 };
     const struct value_map map = normal_map(curves, core, spline);
     for (int column = 0; column <= COLUMNS; column++) {
         double frame = curves->view.frame0 + (curves->view.frame1 - curves->view.frame0) * column / COLUMNS;
-        wiggly_value v = evaluation_at(world->evaluation, spline, core_position(world->document, frame));
+        wiggly_value v = evaluation_at(core->evaluation, spline, core_position(core->document, frame));
         include_value(range, map.scale * (v.y + v.re) + map.offset);
     }
 }
 
-void curves_frame_selection(struct curves *curves, struct core *core, const struct editor_world *world)
+void curves_frame_selection(struct curves *curves, struct core *core)
 {
-    const struct document *document = world->document;
+    const struct document *document = core->document;
     double values[2] = {INFINITY, -INFINITY};
     double frames[2] = {INFINITY, -INFINITY};
-    for (struct knot_place at = SELECTED_START; selected_next(core, document, &at);) {
+    for (struct knot_place at = SELECTED_START; selected_next(core, &at);) {
         const struct value_map map = normal_map(curves, core, at.spline);
         include_value(values, map.scale * knot_at(document, at)->value + map.offset);
         include_value(frames, knot_at(document, at)->frame);
     }
     if (frames[0] > frames[1]) {
-        curves_frame_all(curves, core, world);
+        curves_frame_all(curves, core);
         return;
     }
     double margin = fmax(0.25 * (frames[1] - frames[0]), 6);
@@ -186,8 +183,8 @@ void curves_frame_selection(struct curves *curves, struct core *core, const stru
     curves->view.frame0 = frames[0] - margin;
     curves->view.frame1 = frames[1] + margin;
     int seen = -1;
-    for (struct knot_place at = SELECTED_START; selected_next(core, document, &at); seen = at.spline) {
-        if (at.spline != seen) include_part(curves, core, world, at.spline, values);
+    for (struct knot_place at = SELECTED_START; selected_next(core, &at); seen = at.spline) {
+        if (at.spline != seen) include_part(curves, core, at.spline, values);
     }
     show_values(&curves->view, values);
     keep_sane(curves, core);
@@ -280,10 +277,10 @@ float curves_y_of(const struct curves *curves, const struct core *core, int spli
     return curves_y(curves, core, map.scale * value + map.offset);
 }
 
-void normal_update(struct curves *curves, const struct core *core, const struct editor_world *world)
+void normal_update(struct curves *curves, const struct core *core)
 {
     struct curve_cache *cache = &curves->cache;
-    const struct evaluation *evaluation = world->evaluation;
+    const struct evaluation *evaluation = core->evaluation;
     if (!curves->options.normalise || core->drag.owner || !evaluation) return;
     cache->range_count = evaluation->count < CURVES_MAX_RANGES ? evaluation->count : CURVES_MAX_RANGES;
     for (int s = 0; s < cache->range_count; s++) {
@@ -294,11 +291,11 @@ void normal_update(struct curves *curves, const struct core *core, const struct 
     }
 }
 
-void curves_toggle_normal(struct curves *curves, struct core *core, const struct editor_world *world)
+void curves_toggle_normal(struct curves *curves, struct core *core)
 {
     curves->options.normalise = !curves->options.normalise;
-    normal_update(curves, core, world);
-    curves_frame_all(curves, core, world);
+    normal_update(curves, core);
+    curves_frame_all(curves, core);
     core_message(
         core, false,
         curves->options.normalise
@@ -320,14 +317,14 @@ static const double WIDEST = 1.7;  ///< of the visible frames: what needs more i
 bool follow_moves(const struct curves *curves) { return curves->following.moves; }
 
 /// Widens a range to the values, as they are drawn, that a curve takes from a sample to another, as far as these are in sight.
-static void include_curve(const struct curves *curves, const struct core *core, const struct editor_world *world,
-                          int spline, int first, int last, struct view *edited)
+static void include_curve(const struct curves *curves, const struct core *core, int spline, int first, int last,
+                          struct view *edited)
 {
-    const struct evaluation *evaluation = world->evaluation;
+    const struct evaluation *evaluation = core->evaluation;
     const struct value_map map = normal_map(curves, core, spline);
     int seen, count;
     if (!evaluation || spline >= evaluation->count || evaluation->samples == 0) return;
-    curves_span(curves, world->document, &seen, &count);
+    curves_span(curves, core->document, &seen, &count);
     const int end = seen + count < evaluation->samples ? seen + count - 1 : evaluation->samples - 1;
     first = first > seen ? first : seen;
     last = last < end ? last : end;
@@ -341,10 +338,10 @@ static void include_curve(const struct curves *curves, const struct core *core, 
 }
 
 /// Widens a range to a knot, and the curve from the knot before to the one after it.
-static void include_knot(const struct curves *curves, const struct core *core, const struct editor_world *world,
-                         struct knot_place at, struct view *edited)
+static void include_knot(const struct curves *curves, const struct core *core, struct knot_place at,
+                         struct view *edited)
 {
-    const struct document *document = world->document;
+    const struct document *document = core->document;
     const struct spline *spline = document->splines[at.spline];
     const struct knot *knot = &spline->knots[at.knot];
     const struct value_map map = normal_map(curves, core, at.spline);
@@ -354,19 +351,19 @@ static void include_knot(const struct curves *curves, const struct core *core, c
     const int last = has_next ? document_sample(document, knot[1].frame) : document_samples(document) - 1;
     *edited = (struct view){fmin(edited->frame0, knot->frame), fmax(edited->frame1, knot->frame),
                             fmin(edited->value0, value), fmax(edited->value1, value)};
-    include_curve(curves, core, world, at.spline, first, last, edited);
+    include_curve(curves, core, at.spline, first, last, edited);
 }
 
 /// The frames and values of all that was edited since the last picture; of splines only values, where they are in sight.
-static struct view edited_part(const struct curves *curves, const struct core *core, const struct editor_world *world)
+static struct view edited_part(const struct curves *curves, const struct core *core)
 {
     const struct edited *edited = &core->edited;
-    const struct document *document = world->document;
+    const struct document *document = core->document;
     struct view part = {INFINITY, -INFINITY, INFINITY, -INFINITY};
-    for (struct knot_place at = SELECTED_START; edited->selection && selected_next(core, document, &at);)
-        include_knot(curves, core, world, at, &part);
+    for (struct knot_place at = SELECTED_START; edited->selection && selected_next(core, &at);)
+        include_knot(curves, core, at, &part);
     for (int i = 0; i < edited->count; i++)
-        include_curve(curves, core, world, edited->spline[i], 0, document_samples(document) - 1, &part);
+        include_curve(curves, core, edited->spline[i], 0, document_samples(document) - 1, &part);
     return part;
 }
 
@@ -386,11 +383,11 @@ static void widen(double *low, double *high, const double part[2], double widest
     *high += by;
 }
 
-void follow_edits(struct curves *curves, struct core *core, const struct editor_world *world)
+void follow_edits(struct curves *curves, struct core *core)
 {
     struct following *following = &curves->following;
     if (!core->edited.selection && core->edited.count == 0) return;
-    const struct view edited = edited_part(curves, core, world);
+    const struct view edited = edited_part(curves, core);
     struct view goal = following->moves ? following->goal : curves->view;
     if (edited.frame0 <= edited.frame1)
         widen(&goal.frame0, &goal.frame1, (double[2]){edited.frame0, edited.frame1}, WIDEST);
@@ -402,9 +399,9 @@ void follow_edits(struct curves *curves, struct core *core, const struct editor_
     core->edited = (struct edited){0};
 }
 
-void curves_advance(struct curves *curves, struct core *core, const struct editor_world *world, double dt)
+void curves_advance(struct curves *curves, struct core *core, double dt)
 {
-    keep_ghost(curves, core, world);
+    keep_ghost(curves, core);
     struct following *following = &curves->following;
     const bool is_measured = core->drag.owner && core->drag.room == curves; // which must hold still then
     if (!following->moves || is_measured) return;

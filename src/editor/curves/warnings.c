@@ -150,19 +150,19 @@ void warnings_find(const struct document *document, const struct evaluation *eva
     if (drift.amount > 0) add(found, &drift);
 }
 
-void warnings_update(struct curves *curves, const struct core *core, const struct editor_world *world)
+void warnings_update(struct curves *curves, const struct core *core)
 {
     struct warnings *warnings = &curves->warnings;
-    const struct spline *spline = spline_list_seen(core, world);
-    const struct evaluation *evaluation = world->evaluation;
-    bool solved = spline && evaluation && evaluation->samples == document_samples(world->document);
-    const uint64_t state[] = {history_revision(world->history), (uint64_t)(core->active + 1), (uint64_t)core->look,
+    const struct spline *spline = spline_list_seen(core);
+    const struct evaluation *evaluation = core->evaluation;
+    bool solved = spline && evaluation && evaluation->samples == document_samples(core->document);
+    const uint64_t state[] = {history_revision(core->history), (uint64_t)(core->active + 1), (uint64_t)core->look,
                               solved, evaluation ? evaluation->revision : 0};
     uint64_t key = hash_bytes(HASH_START, state, sizeof state);
     if (key == warnings->key) return;
     warnings->count = 0;
     warnings->key = key;
-    if (solved) warnings_find(world->document, evaluation, core->active, warnings);
+    if (solved) warnings_find(core->document, evaluation, core->active, warnings);
 }
 
 enum { LOWER_STEPS = 8 };
@@ -170,13 +170,13 @@ enum { LOWER_STEPS = 8 };
 static const double LOWER = 0.9; ///< factor of the frequency from try to try
 
 /// Swings that the spline has too many of with the document as it is now.
-static int count_swings(const struct core *core, const struct editor_world *world)
+static int count_swings(const struct core *core)
 {
-    const struct document *document = world->document;
-    struct evaluation trial = {.solver = world->evaluation->solver, .pins = world->evaluation->pins};
+    const struct document *document = core->document;
+    struct evaluation trial = {.solver = core->evaluation->solver, .pins = core->evaluation->pins};
     struct warnings found = {0};
     evaluation_resize(&trial, document);
-    motions_copy(&trial, world->evaluation);
+    motions_copy(&trial, core->evaluation);
     evaluation_update(&trial, document, false);
     warnings_find(document, &trial, core->active, &found);
     int count = 0;
@@ -186,24 +186,23 @@ static int count_swings(const struct core *core, const struct editor_world *worl
 }
 
 /// Says whether an edit in the open step, if it was `done`, has left fewer swings than `before`; if not, it is taken back.
-static bool helps(struct core *core, const struct editor_world *world, bool done, int before)
+static bool helps(struct core *core, bool done, int before)
 {
-    if (done && count_swings(core, world) < before) return true;
+    if (done && count_swings(core) < before) return true;
     core->error = (struct error){0};
-    history_restart(world->history);
+    history_restart(core->history);
     return false;
 }
 
-static bool lower_frequency(struct core *core, const struct editor_world *world, const struct spline *spline,
-                            int before, char text[96])
+static bool lower_frequency(struct core *core, const struct spline *spline, int before, char text[96])
 {
     const struct param *frequency = &spline->parameter[PARAMETER_FREQUENCY];
     double value = frequency->value;
     if (frequency->track >= 0) return false;
     for (int i = 0; i < LOWER_STEPS; i++) {
         value = core_round(value * LOWER, 0.01);
-        const bool done = core_set_parameter(core, world, core->active, PARAMETER_FREQUENCY, value);
-        if (!helps(core, world, done, before)) continue;
+        const bool done = core_set_parameter(core, core->active, PARAMETER_FREQUENCY, value);
+        if (!helps(core, done, before)) continue;
         snprintf(text, 96, "Lowered the frequency to %.3g Hz to tame the swing.", value);
         return true;
     }
@@ -211,77 +210,73 @@ static bool lower_frequency(struct core *core, const struct editor_world *world,
 }
 
 /// A limit on the side of the swing, a little beyond the knots.
-static bool limit_curve(struct core *core, const struct editor_world *world, const struct spline *spline,
-                        const struct warning *warning, int before, char text[96])
+static bool limit_curve(struct core *core, const struct spline *spline, const struct warning *warning, int before,
+                        char text[96])
 {
     const enum parameter side = warning->value > warning->remedy ? PARAMETER_HIGH : PARAMETER_LOW;
     const double value = core_fresh_limit(spline, side);
     if (isfinite(spline->parameter[side].value)) return false;
-    if (!helps(core, world, core_set_parameter(core, world, core->active, side, value), before)) return false;
+    if (!helps(core, core_set_parameter(core, core->active, side, value), before)) return false;
     snprintf(text, 96, "Set the %s to %.6g to tame the swing.", parameter_rows[side].name, value);
     return true;
 }
 
-static bool tame(const struct curves *curves, struct core *core, const struct editor_world *world,
-                 const struct warning *warning, char text[96])
+static bool tame(const struct curves *curves, struct core *core, const struct warning *warning, char text[96])
 {
-    const struct spline *spline = core_active_spline(core, world);
-    const int active = core->active, before = count_swings(core, world);
+    const struct spline *spline = core_active_spline(core);
+    const int active = core->active, before = count_swings(core);
     const double resolution = 0.01 / curves_pixels_per_value(curves, core);
     const struct knot hold = {.frame = warning->frame,
                               .value = core_round(warning->remedy, resolution),
                               .stiffness = KNOT_DEFAULT_STIFFNESS};
     if (spline->parameter[PARAMETER_CALM].value < 1 &&
-        helps(core, world, core_set_parameter(core, world, active, PARAMETER_CALM, 1), before)) {
+        helps(core, core_set_parameter(core, active, PARAMETER_CALM, 1), before)) {
         snprintf(text, 96, "Raised calm to 1 to tame the swing.");
         return true;
     }
-    if (helps(core, world, core_put_knot(core, world, active, &hold), before)) {
+    if (helps(core, core_put_knot(core, active, &hold), before)) {
         snprintf(text, 96, "Added a knot at frame %.6g to tame the swing.", warning->frame);
         return true;
     }
-    if (limit_curve(core, world, spline, warning, before, text)) return true;
-    return lower_frequency(core, world, spline, before, text);
+    if (limit_curve(core, spline, warning, before, text)) return true;
+    return lower_frequency(core, spline, before, text);
 }
 
 /// More substeps keep the motion as it is; where there is no room for them the frequency gives way.
-static bool resolve_rate(struct core *core, const struct editor_world *world, const struct warning *warning,
-                         char text[96])
+static bool resolve_rate(struct core *core, const struct warning *warning, char text[96])
 {
     const int substeps = (int)fmin(warning->remedy, SCENE_MAX_SUBSTEPS);
     snprintf(text, 96, "%d substeps a frame.", substeps);
-    if (warning->remedy <= SCENE_MAX_SUBSTEPS && edit_substeps(world->document, substeps, NULL)) return true;
-    const struct spline *spline = core_active_spline(core, world);
+    if (warning->remedy <= SCENE_MAX_SUBSTEPS && edit_substeps(core->document, substeps, NULL)) return true;
+    const struct spline *spline = core_active_spline(core);
     const double value = spline->parameter[PARAMETER_FREQUENCY].value * warning->limit / warning->amount;
     const double lower = core_round(0.99 * value, 0.01);
     snprintf(text, 96, "%.3g Hz.", lower);
-    return core_set_parameter(core, world, core->active, PARAMETER_FREQUENCY, lower);
+    return core_set_parameter(core, core->active, PARAMETER_FREQUENCY, lower);
 }
 
-static bool switch_off(struct core *core, const struct editor_world *world, const struct warning *warning,
-                       char text[96])
+static bool switch_off(struct core *core, const struct warning *warning, char text[96])
 {
-    const struct spline *spline = core_active_spline(core, world);
-    int k = spline_find_knot(world->document, spline, document_sample(world->document, warning->frame));
+    const struct spline *spline = core_active_spline(core);
+    int k = spline_find_knot(core->document, spline, document_sample(core->document, warning->frame));
     if (k < 0) return false;
     struct knot knot = spline->knots[k];
     knot.has_slope = false;
     snprintf(text, 96, "The slope at frame %.6g is off.", warning->frame);
-    return core_put_knot(core, world, core->active, &knot);
+    return core_put_knot(core, core->active, &knot);
 }
 
-void curves_remedy_first(struct curves *curves, struct core *core, const struct editor_world *world)
+void curves_remedy_first(struct curves *curves, struct core *core)
 {
-    warnings_update(curves, core, world);
+    warnings_update(curves, core);
     if (curves->warnings.count > 0) {
-        warning_remedy(curves, core, world, &curves->warnings.list[0]);
+        warning_remedy(curves, core, &curves->warnings.list[0]);
     } else {
         core_message(core, false, "This spline has no warnings.");
     }
 }
 
-void warning_remedy(const struct curves *curves, struct core *core, const struct editor_world *world,
-                    const struct warning *warning)
+void warning_remedy(const struct curves *curves, struct core *core, const struct warning *warning)
 {
     static const char *const labels[] = {[WARNING_SWING] = "Tame swing",
                                          [WARNING_RATE] = "Add substeps",
@@ -290,15 +285,15 @@ void warning_remedy(const struct curves *curves, struct core *core, const struct
     const struct warning chosen = *warning;
     char text[96] = "";
     bool good = false;
-    if (!core_active_spline(core, world) || !core_begin(core, world, labels[chosen.kind], 0)) return;
-    if (chosen.kind == WARNING_SWING) good = tame(curves, core, world, &chosen, text);
-    if (chosen.kind == WARNING_RATE) good = resolve_rate(core, world, &chosen, text);
+    if (!core_active_spline(core) || !core_begin(core, labels[chosen.kind], 0)) return;
+    if (chosen.kind == WARNING_SWING) good = tame(curves, core, &chosen, text);
+    if (chosen.kind == WARNING_RATE) good = resolve_rate(core, &chosen, text);
     if (chosen.kind == WARNING_DRIFT) {
-        good = core_set_parameter(core, world, core->active, PARAMETER_BANDWIDTH, chosen.remedy);
+        good = core_set_parameter(core, core->active, PARAMETER_BANDWIDTH, chosen.remedy);
         snprintf(text, sizeof text, "Bandwidth %.3g.", chosen.remedy);
     }
-    if (chosen.kind == WARNING_SLOPE) good = switch_off(core, world, &chosen, text);
-    if (core_end(core, world, good)) {
+    if (chosen.kind == WARNING_SLOPE) good = switch_off(core, &chosen, text);
+    if (core_end(core, good)) {
         core_message(core, false, text);
     } else if (chosen.kind == WARNING_SWING) {
         core_message(core, false, "Calm, a limit, a knot or a lower frequency would not help here. Move the knots.");

@@ -102,10 +102,9 @@ static void go_on(struct dialogs *dialogs, struct core *core, const struct reque
     }
 }
 
-void dialogs_leave(struct dialogs *dialogs, struct core *core, const struct editor_world *world,
-                   const struct request *after)
+void dialogs_leave(struct dialogs *dialogs, struct core *core, const struct request *after)
 {
-    if (history_is_saved(world->history)) {
+    if (history_is_saved(core->history)) {
         go_on(dialogs, core, after);
         return;
     }
@@ -180,11 +179,11 @@ static void confirm(struct dialogs *dialogs, struct core *core)
                  path);
 }
 
-static void answer(struct dialogs *dialogs, struct core *core, const struct editor_world *world, int given)
+static void answer(struct dialogs *dialogs, struct core *core, int given)
 {
     if (given < 0) return;
     if (dialogs->dialog.kind == DIALOG_ASK) {
-        dialog_ask_answer(dialogs, core, world, given);
+        dialog_ask_answer(dialogs, core, given);
     } else if (dialogs->dialog.kind == DIALOG_UNSAVED) {
         decide(dialogs, core, given);
     } else if (dialogs->dialog.kind == DIALOG_CHANGED) {
@@ -195,12 +194,12 @@ static void answer(struct dialogs *dialogs, struct core *core, const struct edit
 }
 
 /// A letter that answers brings its character along, which is no part of a path that is typed next.
-static bool question_event(struct dialogs *dialogs, struct core *core, const struct editor_world *world, int key)
+static bool question_event(struct dialogs *dialogs, struct core *core, int key)
 {
     int given = question_key(&dialogs->dialog, key);
     if (given == QUESTION_UNUSED) return false;
     dialogs->dialog.skip_text = true;
-    answer(dialogs, core, world, given);
+    answer(dialogs, core, given);
     return true;
 }
 
@@ -387,15 +386,15 @@ static void build_path(struct dialogs *dialogs, struct core *core)
     if (cancelled) dialog_close(dialogs);
 }
 
-static void build(struct dialogs *dialogs, struct core *core, const struct editor_world *world)
+static void build(struct dialogs *dialogs, struct core *core)
 {
     struct dialog *dialog = &dialogs->dialog;
     struct ui *ui = &dialog->ui;
     ui_space(ui, 8);
     if (is_question(dialog)) {
-        answer(dialogs, core, world, question_build(dialog));
+        answer(dialogs, core, question_build(dialog));
     } else if (dialog->kind == DIALOG_EXPORT) {
-        export_build(dialogs, core, world);
+        export_build(dialogs, core);
     } else {
         ui->focus = ui_id("dialog.path"); // the path is all there is to type in
         build_path(dialogs, core);
@@ -404,22 +403,21 @@ static void build(struct dialogs *dialogs, struct core *core, const struct edito
 }
 
 /// The dialog's rectangle: as high as its content, in the middle of the window.
-static struct rect dialog_box(struct dialogs *dialogs, struct core *core, const struct editor_world *world)
+static struct rect dialog_box(struct dialogs *dialogs, struct core *core)
 {
     struct rect window = core->layout.window;
     struct ui *ui = &dialogs->dialog.ui;
     const bool narrow = is_question(&dialogs->dialog) && dialogs->dialog.question.count < 4;
     float w = fminf(narrow ? 440 : 560, window.w - 48);
     ui_begin_find(ui, (struct rect){0, 0, w, window.h}, "", NULL);
-    build(dialogs, core, world);
+    build(dialogs, core);
     float h = fminf(ui->y, window.h - 16);
     ui_end(ui);
     return (struct rect){roundf(window.x + (window.w - w) / 2), roundf(window.y + (window.h - h) / 3), w, h};
 }
 
 /// true for every event while a dialog is open, but for EVENT_SIZE and EVENT_EXPOSE.
-static bool dialog_event(struct dialogs *dialogs, struct core *core, const struct editor_world *world,
-                         const struct event *event)
+static bool dialog_event(struct dialogs *dialogs, struct core *core, const struct event *event)
 {
     struct dialog *dialog = &dialogs->dialog;
     if (dialog->kind == DIALOG_NONE || event->kind == EVENT_SIZE || event->kind == EVENT_EXPOSE) return false;
@@ -435,30 +433,30 @@ static bool dialog_event(struct dialogs *dialogs, struct core *core, const struc
     if ((dialog->awaited != REQUEST_NONE && !exports) || typed_by_answer) return true;
     bool chord = event->mods & (MOD_CTRL | MOD_ALT | MOD_SUPER);
     if (key && !chord) {
-        bool done = is_question(dialog) ? question_event(dialogs, core, world, event->key)
-                    : exports           ? export_key(dialogs, core, world, event->key)
+        bool done = is_question(dialog) ? question_event(dialogs, core, event->key)
+                    : exports           ? export_key(dialogs, core, event->key)
                                         : path_key(dialogs, core, event->key);
         if (done) return true;
     }
-    struct rect box = dialog_box(dialogs, core, world);
+    struct rect box = dialog_box(dialogs, core);
     ui_begin_event(&dialog->ui, box, event);
-    build(dialogs, core, world);
+    build(dialogs, core);
     ui_end(&dialog->ui);
     return true;
 }
 
 /// Draws the dialog, where one is open.
-static void dialog_show(struct dialogs *dialogs, struct core *core, const struct editor_world *world)
+static void dialog_show(struct dialogs *dialogs, struct core *core)
 {
     struct dialog *dialog = &dialogs->dialog;
     if (dialog->kind == DIALOG_NONE) return;
     struct drawlist *list = &core->list;
-    struct rect box = dialog_box(dialogs, core, world);
+    struct rect box = dialog_box(dialogs, core);
     drawlist_rect(list, core->layout.window, theme()->veil);
     drawlist_rounded(list, box, 8, theme()->panel);
     drawlist_rounded_line(list, box, 8, 1, theme()->zero);
     ui_begin_draw(&dialog->ui, box, list);
-    build(dialogs, core, world);
+    build(dialogs, core);
     ui_end(&dialog->ui);
 }
 
@@ -468,17 +466,16 @@ void dialogs_destroy(struct dialogs *dialogs) { free(dialogs); }
 
 void dialogs_set_files(struct dialogs *dialogs, const struct dialog_files *files) { dialogs->dialog.files = *files; }
 
-bool dialogs_event(struct dialogs *dialogs, struct core *core, const struct editor_world *world,
-                   const struct event *event, bool busy)
+bool dialogs_event(struct dialogs *dialogs, struct core *core, const struct event *event, bool busy)
 {
-    return dialog_event(dialogs, core, world, event) || help_event(dialogs, core, event, busy) ||
+    return dialog_event(dialogs, core, event) || help_event(dialogs, core, event, busy) ||
            welcome_event(dialogs, event);
 }
 
-void dialogs_show(struct dialogs *dialogs, struct core *core, const struct editor_world *world)
+void dialogs_show(struct dialogs *dialogs, struct core *core)
 {
     help_show(dialogs, core);
-    dialog_show(dialogs, core, world);
+    dialog_show(dialogs, core);
 }
 
 bool dialogs_cover(const struct dialogs *dialogs)

@@ -14,9 +14,9 @@ void dialog_ask_open(struct dialogs *dialogs);
 void dialog_await(struct dialogs *dialogs, struct core *core, enum request_kind kind, const char *path);
 
 /// The Export dialog's keys: true where it has used one. They also come while the app is at work, as all its events do.
-bool export_key(struct dialogs *dialogs, struct core *core, const struct editor_world *world, int key);
+bool export_key(struct dialogs *dialogs, struct core *core, int key);
 /// Lays it out.
-void export_build(struct dialogs *dialogs, struct core *core, const struct editor_world *world);
+void export_build(struct dialogs *dialogs, struct core *core);
 
 enum { QUESTION_UNUSED = -2, QUESTION_OPEN = -1 };
 
@@ -26,7 +26,7 @@ int question_build(struct dialog *dialog);
 int question_key(struct dialog *dialog, int key);
 
 /// DIALOG_ASK: does what was asked about as the answer says.
-void dialog_ask_answer(struct dialogs *dialogs, struct core *core, const struct editor_world *world, int answer);
+void dialog_ask_answer(struct dialogs *dialogs, struct core *core, int answer);
 
 enum unsaved_answer { UNSAVED_SAVE, UNSAVED_DISCARD, UNSAVED_CANCEL };
 

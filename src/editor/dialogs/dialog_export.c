@@ -64,8 +64,9 @@ static bool stem_of(const char *folder, const char *path, char stem[PATH_LIMIT])
 }
 
 /// Beside the scene's file and called like it, or else like its character; but never like that character's own file.
-static void name_export(char path[PATH_LIMIT], const struct core *core, const struct document *document)
+static void name_export(char path[PATH_LIMIT], const struct core *core)
 {
+    const struct document *document = core->document;
     char scene[PATH_LIMIT], own[PATH_LIMIT];
     const int model = document_find_rig(document, RIG_MODEL, 0);
     const bool has_model = model >= 0 && stem_of(document->folder, document->rigs[model]->model.model, own);
@@ -77,17 +78,17 @@ static void name_export(char path[PATH_LIMIT], const struct core *core, const st
 }
 
 /// Another scene: in the format of last time.
-static void begin_memory(struct dialogs *dialogs, const struct core *core, const struct document *document)
+static void begin_memory(struct dialogs *dialogs, const struct core *core)
 {
     struct export_memory *memory = &dialogs->exporting.memory;
     snprintf(memory->scene, sizeof memory->scene, "%s", core->path);
-    name_export(memory->path, core, document);
+    name_export(memory->path, core);
     choose_format(dialogs, dialogs->exporting.format);
     memory->wish.part = false;
     memory->wish.rig[0] = memory->wish.clip[0] = '\0';
 }
 
-void dialogs_export(struct dialogs *dialogs, const struct core *core, const struct editor_world *world)
+void dialogs_export(struct dialogs *dialogs, const struct core *core)
 {
     struct exporting *exporting = &dialogs->exporting;
     struct export_memory *memory = &exporting->memory;
@@ -96,13 +97,13 @@ void dialogs_export(struct dialogs *dialogs, const struct core *core, const stru
     const int last = format_by_ending(files, memory->path);
     if (last >= 0) exporting->format = last;
     const bool same = core->path[0] ? strcmp(memory->scene, core->path) == 0 : exporting->serial == core->serial;
-    if (!same || !memory->path[0]) begin_memory(dialogs, core, world->document);
+    if (!same || !memory->path[0]) begin_memory(dialogs, core);
     exporting->serial = core->serial;
     exporting->typed = 0;
     exporting->dragged = NULL;
     exporting->done = exporting->total = 0;
     struct export_wish *wish = &memory->wish;
-    const struct document *document = world->document;
+    const struct document *document = core->document;
     if (!wish->part || wish->first < document->first_frame || wish->last > document->last_frame) {
         wish->part = false;
         wish->first = document->first_frame;
@@ -152,12 +153,11 @@ static void stop(struct dialogs *dialogs, struct core *core)
     }
 }
 
-bool export_key(struct dialogs *dialogs, struct core *core, const struct editor_world *world, int key)
+bool export_key(struct dialogs *dialogs, struct core *core, int key)
 {
     const struct ui *ui = &dialogs->dialog.ui;
     const bool in_text = ui->focus == ui_id(path_field) || ui->focus == ui_id(clip_field);
     const int format = dialogs->exporting.format, last = dialogs->dialog.files.format_count - 1;
-    (void)world;
     if (key == KEY_ESCAPE && !ui->typing && !ui->held) {
         stop(dialogs, core);
     } else if (is_running(&dialogs->dialog)) {
@@ -466,7 +466,7 @@ static void build_buttons(struct dialogs *dialogs, struct core *core)
     if (stopped) stop(dialogs, core);
 }
 
-void export_build(struct dialogs *dialogs, struct core *core, const struct editor_world *world)
+void export_build(struct dialogs *dialogs, struct core *core)
 {
     struct export_memory *memory = &dialogs->exporting.memory;
     struct ui *ui = &dialogs->dialog.ui;
@@ -482,9 +482,9 @@ void export_build(struct dialogs *dialogs, struct core *core, const struct edito
         ui_space(ui, 8);
         build_formats(dialogs, core->layout.window.h - FRAME_HEIGHT);
         ui_space(ui, 8);
-        build_choices(dialogs, world->document);
+        build_choices(dialogs, core->document);
         ui_space(ui, 4);
     }
-    build_note(dialogs, world->document);
+    build_note(dialogs, core->document);
     build_buttons(dialogs, core);
 }

@@ -134,8 +134,7 @@ static void ask_rig(struct question *question, const struct document *document, 
              names, count == 1 ? "it stays" : "they stay");
 }
 
-void dialogs_ask(struct dialogs *dialogs, const struct core *core, const struct editor_world *world,
-                 const struct ask *ask)
+void dialogs_ask(struct dialogs *dialogs, const struct core *core, const struct ask *ask)
 {
     struct question *question = &dialogs->dialog.question;
     if (ask->kind == ASK_ADD) {
@@ -143,19 +142,19 @@ void dialogs_ask(struct dialogs *dialogs, const struct core *core, const struct 
         return;
     }
     dialogs->dialog.ask = *ask;
-    if (ask->kind == ASK_RIG) ask_rig(question, world->document, ask->rig);
-    if (ask->kind == ASK_FPS) ask_fps(question, world->document, ask);
-    if (ask->kind == ASK_RANGE) ask_range(question, world->document, ask);
-    if (ask->kind == ASK_REMOVE) ask_remove(question, world->document, core->active);
+    if (ask->kind == ASK_RIG) ask_rig(question, core->document, ask->rig);
+    if (ask->kind == ASK_FPS) ask_fps(question, core->document, ask);
+    if (ask->kind == ASK_RANGE) ask_range(question, core->document, ask);
+    if (ask->kind == ASK_REMOVE) ask_remove(question, core->document, core->active);
     dialog_open(dialogs, DIALOG_ASK);
 }
 
-void dialog_ask_answer(struct dialogs *dialogs, struct core *core, const struct editor_world *world, int answer)
+void dialog_ask_answer(struct dialogs *dialogs, struct core *core, int answer)
 {
     const struct ask ask = dialogs->dialog.ask;
     bool cancelled = answer == dialogs->dialog.question.count - 1;
     dialog_close(dialogs);
-    if (!cancelled) spline_list_answer(core, world, &ask, answer);
+    if (!cancelled) spline_list_answer(core, &ask, answer);
 }
 
 void dialog_ask_unsaved(struct dialogs *dialogs, const struct core *core)

@@ -76,12 +76,12 @@ static void measure(const struct document *document, int count, float *what, flo
 }
 
 /// A card in a lower corner of the stage.
-static struct card corner_card(const struct core *core, const struct document *document, enum form form, bool right)
+static struct card corner_card(const struct core *core, enum form form, bool right)
 {
     const struct rect *stage = &core->layout.stage;
     struct card card = {.form = form, .hints = HINTS};
     float what, why;
-    measure(document, HINTS, &what, &why);
+    measure(core->document, HINTS, &what, &why);
     card.before = form == FORM_WIDE ? what + GAP : 0;
     const float closes = width_of(FONT_LABEL, more) + GAP + width_of(FONT_LABEL_BOLD, closing);
     const float width = 2 * PAD + ceilf(fmaxf(fmaxf(card.before + why, what), closes));
@@ -92,12 +92,12 @@ static struct card corner_card(const struct core *core, const struct document *d
 }
 
 /// Hints across the upper edge, in place of the description: the camera leaves so much free.
-static struct card band_card(const struct core *core, const struct document *document)
+static struct card band_card(const struct core *core)
 {
     const struct rect *stage = &core->layout.stage;
-    struct card card = {.form = FORM_BAND, .hints = stage->h < TALL || !document->about ? 1 : 2};
+    struct card card = {.form = FORM_BAND, .hints = stage->h < TALL || !core->document->about ? 1 : 2};
     float what, why;
-    measure(document, card.hints, &what, &why);
+    measure(core->document, card.hints, &what, &why);
     card.before = what + GAP;
     const float closes = width_of(card.hints > 1 ? FONT_LABEL : FONT_LABEL_BOLD, card.hints > 1 ? more : closing);
     card.rect = (struct rect){stage->x + BAND_MARGIN, stage->y + BAND_MARGIN,
@@ -114,20 +114,20 @@ static bool is_clear(const struct core *core, const struct card *card, struct re
 }
 
 /// Tails swing to and fro over a wide stage, but high above its corners.
-static struct card place_card(const struct core *core, const struct document *document, struct rect figure)
+static struct card place_card(const struct core *core, struct rect figure)
 {
     static const struct {
         enum form form;
         bool right;
     } places[] = {{FORM_WIDE, false}, {FORM_UPRIGHT, false}, {FORM_UPRIGHT, true}, {FORM_WIDE, true}};
     const bool legend = core->characters.mapped || core->brush.on; // that of the phase map is at the left hand
-    const bool roomy = core->layout.stage.w >= WIDE && rigs_lead(document) != LEAD_CHARACTER;
+    const bool roomy = core->layout.stage.w >= WIDE && rigs_lead(core->document) != LEAD_CHARACTER;
     for (size_t i = 0; i < sizeof places / sizeof *places; i++) {
-        const struct card card = corner_card(core, document, places[i].form, places[i].right);
+        const struct card card = corner_card(core, places[i].form, places[i].right);
         if (legend && !places[i].right) continue;
         if (roomy || is_clear(core, &card, figure)) return card;
     }
-    return band_card(core, document);
+    return band_card(core);
 }
 
 bool welcome_event(struct dialogs *dialogs, const struct event *event)
@@ -163,12 +163,11 @@ static void show_closing(struct core *core, const struct card *card, float y)
     show_right(core, card, y, FONT_LABEL_BOLD, theme()->accent, closing);
 }
 
-void dialogs_show_welcome(struct dialogs *dialogs, struct core *core, const struct editor_world *world,
-                          struct rect figure)
+void dialogs_show_welcome(struct dialogs *dialogs, struct core *core, struct rect figure)
 {
-    if (!history_is_saved(world->history)) dialogs->welcome = false;
+    if (!history_is_saved(core->history)) dialogs->welcome = false;
     if (!dialogs->welcome) return;
-    const struct card card = place_card(core, world->document, figure);
+    const struct card card = place_card(core, figure);
     struct drawlist *list = &core->list;
     struct rect clip = drawlist_push_clip(list, core->layout.stage);
     drawlist_rounded(list, card.rect, 8, theme()->panel);
@@ -176,7 +175,7 @@ void dialogs_show_welcome(struct dialogs *dialogs, struct core *core, const stru
     const float left = card.rect.x + PAD;
     float y = card.rect.y + (card.form == FORM_BAND ? PAD / 2 : PAD) + 12;
     for (int i = 0; i < card.hints; i++, y += LINE) {
-        const struct hint *hint = hint_of(world->document, i);
+        const struct hint *hint = hint_of(core->document, i);
         show_text(core, left, y, FONT_LABEL_BOLD, theme()->text, hint->what);
         if (card.form == FORM_UPRIGHT) y += LINE;
         show_text(core, left + card.before, y, FONT_LABEL, theme()->text_dim, hint->why);

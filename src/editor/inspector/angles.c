@@ -57,8 +57,7 @@ bool inspector_set_angles(struct inspection *in, const struct angle_row *row, co
 static void step_angles(struct inspection *in, const struct angle_row *row, const char *label,
                         const struct angles *angles)
 {
-    if (core_begin(in->core, in->world, label, 0))
-        core_end(in->core, in->world, inspector_set_angles(in, row, angles));
+    if (core_begin(in->core, label, 0)) core_end(in->core, inspector_set_angles(in, row, angles));
 }
 
 /// The same as what a widget's change is.
@@ -174,7 +173,7 @@ static bool build_switch(struct inspection *in, const struct angle_row *row, con
                        : ramp ? "Draw the angles along the joints as a curve through a few points"
                               : "Give each joint an angle of its own";
     if (!ui_icon_button(in->ui, r, name, ramp ? UI_ICON_RAMP : UI_ICON_EACH, lit, hint)) return false;
-    const int joints = bones_joints(in->world, in->inspector->rig);
+    const int joints = bones_joints(in->core, in->inspector->rig);
     const struct angles one = one_angle(angles, row->kind, joints);
     step_angles(in, row, row->undo, lit ? &one : next);
     return true;
@@ -557,7 +556,7 @@ static void build_each_row(struct inspection *in, const struct angle_row *row, c
 
 void inspector_angles(struct inspection *in, const struct angle_row *row, const struct angles *angles)
 {
-    const int joints = bones_joints(in->world, in->inspector->rig);
+    const int joints = bones_joints(in->core, in->inspector->rig);
     struct rect r = ui_row(in->ui, UI_ROW), right = {r.x + r.w - SWITCH, r.y, SWITCH, r.h}, left = right;
     left.x -= SWITCH;
     build_slider(in, row, angles, (struct rect){r.x, r.y, left.x - r.x - 2, r.h});

@@ -16,7 +16,7 @@ static void choose(struct inspection *in, int drive)
 {
     const struct character_view *view = &in->core->characters;
     const struct character_rig *rig = document_character(in->document, view->character);
-    core_activate(in->core, in->world, rig->drives[drive].spline);
+    core_activate(in->core, rig->drives[drive].spline);
     in->core->characters.drive = drive; // of two by the same spline
 }
 
@@ -36,9 +36,9 @@ static void build_drives(struct inspection *in, const struct character_rig *rig)
         const uint32_t color = spline_list_color(in->document, drive->spline);
         if (ui_list_row(ui, r, name, text, color, k == in->core->characters.drive)) choose(in, k);
         if (!ui_icon_button(ui, button, remove, UI_ICON_DELETE, false, "Remove this coordinate")) continue;
-        const int owner = characters_rig(in->core, in->world);
-        if (core_begin(in->core, in->world, "Remove coordinate", 0))
-            core_end(in->core, in->world, edit_drive_remove(in->document, owner, k, &in->core->error));
+        const int owner = characters_rig(in->core);
+        if (core_begin(in->core, "Remove coordinate", 0))
+            core_end(in->core, edit_drive_remove(in->document, owner, k, &in->core->error));
         return;
     }
 }
@@ -63,7 +63,7 @@ static const struct number_row drive_rows[] = {
 /// An edit: the selected coordinate's drive.
 static bool set_drive(struct inspection *in, const struct drive *drive, struct error *error)
 {
-    return edit_drive(in->document, characters_rig(in->core, in->world), in->core->characters.drive, drive, error);
+    return edit_drive(in->document, characters_rig(in->core), in->core->characters.drive, drive, error);
 }
 
 static double get_drive_number(const struct inspection *in, int which)
@@ -105,7 +105,7 @@ static bool is_driven(const struct character_rig *rig, const char *name)
 static int free_coordinates(const struct inspection *in, const struct character_rig *rig,
                             struct ui_item items[MAX_ITEMS])
 {
-    const struct figure *figure = models_figure(in->world->models, in->core->characters.character);
+    const struct figure *figure = models_figure(in->core->models, in->core->characters.character);
     int count = 0;
     if (!figure || rig->drive_count == CHARACTER_MAX_DRIVES) return 0;
     for (int k = 0; k < figure->character.coordinate_count && count < MAX_ITEMS; k++) {
@@ -136,7 +136,7 @@ static void build_looks(struct inspection *in)
 /// What the analysis found out about the selected coordinate.
 static void build_facts(struct inspection *in)
 {
-    const struct coordinate *c = characters_coordinate(in->core, in->world);
+    const struct coordinate *c = characters_coordinate(in->core);
     char text[200];
     if (!c) {
         ui_paragraph(in->ui, "The model lacks this coordinate.", theme()->text_dim);
@@ -151,7 +151,7 @@ static void build_facts(struct inspection *in)
 
 static double get_floor(const struct inspection *in, int which)
 {
-    const struct character_rig *rig = characters_selected(in->core, in->world);
+    const struct character_rig *rig = characters_selected(in->core);
     (void)which;
     return rig->has_floor ? rig->floor : rig->position[1];
 }
@@ -159,7 +159,7 @@ static double get_floor(const struct inspection *in, int which)
 static bool set_floor(struct inspection *in, int which, double height, struct error *error)
 {
     (void)which;
-    return edit_floor(in->document, characters_rig(in->core, in->world), true, height, error);
+    return edit_floor(in->document, characters_rig(in->core), true, height, error);
 }
 
 static const struct number_row floor_row = {"floor.height",
@@ -181,16 +181,16 @@ static void build_floor(struct inspection *in, const struct character_rig *rig)
 {
     static const struct ui_choice choices[] = {{"off", "Off"}, {"on", "On"}};
     static const struct number_home home = {.get = get_floor, .set = set_floor};
-    const int owner = characters_rig(in->core, in->world);
+    const int owner = characters_rig(in->core);
     int on = rig->has_floor;
     if (inspector_choice(in, "floor", "Keep the whole character above a height", "floor", choices, 2, &on)) {
-        if (core_begin(in->core, in->world, on ? "Set floor" : "Remove floor", 0))
-            core_end(in->core, in->world, edit_floor(in->document, owner, on, get_floor(in, 0), &in->core->error));
+        if (core_begin(in->core, on ? "Set floor" : "Remove floor", 0))
+            core_end(in->core, edit_floor(in->document, owner, on, get_floor(in, 0), &in->core->error));
         return;
     }
     if (!rig->has_floor) return;
     inspector_numbers(in, &floor_row, 1, &home);
-    const struct floor_left *left = evaluation_floor(in->world->evaluation, owner);
+    const struct floor_left *left = evaluation_floor(in->core->evaluation, owner);
     if (!left || left->depth < 1e-4) return;
     char text[120];
     snprintf(text, sizeof text, "Up to %.3g m below it, deepest at frame %.6g: knots and pins come first.",
@@ -245,8 +245,8 @@ static void build_brush(struct inspection *in)
     struct brush *brush = &in->core->brush;
     int on = brush->on;
     if (inspector_choice(in, "paint", "Paint phase and amplitude onto the character (K)", "paint", switches, 2, &on))
-        characters_set_brush(in->core, in->world, on);
-    const struct character_rig *rig = characters_selected(in->core, in->world);
+        characters_set_brush(in->core, on);
+    const struct character_rig *rig = characters_selected(in->core);
     if (brush->on) {
         build_modes(in, "phase", "Move earlier, later, or blend with the surroundings", BRUSH_ADVANCE, phase, 3);
         build_modes(in, "swing", "Swing more, less, or blend with the surroundings", BRUSH_MORE, amplitude, 3);
@@ -256,7 +256,7 @@ static void build_brush(struct inspection *in)
     if (!rig || !rig->painted || paint_is_plain(rig->painted)) return;
     const struct rect r = ui_row(in->ui, UI_ROW);
     ui_hint(in->ui, r, "Back to what the model says, everywhere");
-    if (ui_button(in->ui, r, "paint.clean", "Remove all paint", false)) characters_clean_paint(in->core, in->world);
+    if (ui_button(in->ui, r, "paint.clean", "Remove all paint", false)) characters_clean_paint(in->core);
 }
 
 void inspector_character(struct inspection *in)
@@ -287,8 +287,8 @@ static void spline_popup(struct inspection *in, const struct drive *drive)
 {
     struct drive next = *drive;
     next.spline = inspector_spline_list(in, spline_list, NULL, drive->spline);
-    if (next.spline < 0 || !core_begin(in->core, in->world, "Set spline", 0)) return;
-    if (core_end(in->core, in->world, set_drive(in, &next, &in->core->error))) choose(in, in->core->characters.drive);
+    if (next.spline < 0 || !core_begin(in->core, "Set spline", 0)) return;
+    if (core_end(in->core, set_drive(in, &next, &in->core->error))) choose(in, in->core->characters.drive);
 }
 
 void inspector_character_lists(struct inspection *in)
@@ -304,9 +304,8 @@ void inspector_character_lists(struct inspection *in)
         if (picked < 0) return;
         const int spline = in->core->active >= 0 ? in->core->active : 0;
         const struct drive drive = {.spline = spline, .amplitude = DRIVE_DEFAULT_AMPLITUDE};
-        const int owner = characters_rig(in->core, in->world);
-        if (core_begin(in->core, in->world, "Add coordinate", 0))
-            core_end(in->core, in->world,
-                     edit_drive_add(in->document, owner, items[picked].name, &drive, &in->core->error));
+        const int owner = characters_rig(in->core);
+        if (core_begin(in->core, "Add coordinate", 0))
+            core_end(in->core, edit_drive_add(in->document, owner, items[picked].name, &drive, &in->core->error));
     }
 }

@@ -25,7 +25,7 @@ enum { PRESETS = sizeof presets / sizeof presets[0], PRESET_GAP = 4, PRESET_MARG
 
 static bool set_parameter(struct inspection *in, enum parameter parameter, double value)
 {
-    return core_set_parameter(in->core, in->world, in->core->active, parameter, value);
+    return core_set_parameter(in->core, in->core->active, parameter, value);
 }
 
 /// The lag of the channel by which the spline bends: the same for each joint.
@@ -33,7 +33,7 @@ static bool set_lag(struct inspection *in, double whole)
 {
     const struct channel *channel = inspector_felt_channel(in);
     if (!channel) return true;
-    const int joints = bones_joints(in->world, in->inspector->rig);
+    const int joints = bones_joints(in->core, in->inspector->rig);
     const double lag = joints > 1 ? core_round(whole / (joints - 1), 0.1) : 0;
     const struct angles angles = {.value = {lag}};
     return inspector_set_angles(in, &angle_row_lag, &angles);
@@ -41,12 +41,12 @@ static bool set_lag(struct inspection *in, double whole)
 
 static void apply(struct inspection *in, const struct preset *preset)
 {
-    const struct spline *spline = core_active_spline(in->core, in->world);
-    if (!core_begin(in->core, in->world, "Choose a feel", 0)) return;
+    const struct spline *spline = core_active_spline(in->core);
+    if (!core_begin(in->core, "Choose a feel", 0)) return;
     bool good = spline_mode(spline) != WIGGLY_CUBIC || set_parameter(in, PARAMETER_MODE, WIGGLY_COMPLEX);
     good = good && set_parameter(in, PARAMETER_FREQUENCY, preset->frequency) &&
            set_parameter(in, PARAMETER_DAMPING, preset->damping);
-    core_end(in->core, in->world, good && set_lag(in, preset->lag));
+    core_end(in->core, good && set_lag(in, preset->lag));
     core_edited(in->core, in->core->active);
 }
 
@@ -108,14 +108,14 @@ static double damping_for(const struct spline *spline, double seconds, double st
 /// The time to settle as a number: to set it is to set the damping.
 static double get_settle(const struct inspection *in, int which)
 {
-    const struct settling alone = settle_alone(core_active_spline(in->core, in->world), document_step(in->document));
+    const struct settling alone = settle_alone(core_active_spline(in->core), document_step(in->document));
     (void)which;
     return alone.kind == SETTLE_ALONE ? alone.seconds : SETTLE_LIMIT;
 }
 
 static bool set_settle(struct inspection *in, int which, double seconds, struct error *error)
 {
-    const struct spline *spline = core_active_spline(in->core, in->world);
+    const struct spline *spline = core_active_spline(in->core);
     const double damping = damping_for(spline, seconds, document_step(in->document));
     const struct param param = param_number(round(damping * 1e4) / 1e4);
     (void)which;
@@ -126,7 +126,7 @@ static bool is_never(enum settle_kind kind) { return kind == SETTLE_NEVER || kin
 
 static const char *show_settle(const struct inspection *in, int which, char text[64])
 {
-    const struct spline *spline = core_active_spline(in->core, in->world);
+    const struct spline *spline = core_active_spline(in->core);
     (void)which, (void)text;
     return is_never(settle_alone(spline, document_step(in->document)).kind) ? "never" : NULL;
 }
@@ -134,7 +134,7 @@ static const char *show_settle(const struct inspection *in, int which, char text
 static void build_settle(struct inspection *in)
 {
     static const struct number_home home = {.get = get_settle, .set = set_settle, .shown = show_settle};
-    const struct spline *spline = core_active_spline(in->core, in->world);
+    const struct spline *spline = core_active_spline(in->core);
     const double step = document_step(in->document);
     const enum settle_kind kind = settle_alone(spline, step).kind;
     if (kind != SETTLE_ALONE && !is_never(kind)) return;
@@ -157,8 +157,8 @@ static void build_settle(struct inspection *in)
 /// What that means to this motion, in one plain sentence.
 static void build_sentence(struct inspection *in)
 {
-    const struct spline *spline = core_active_spline(in->core, in->world);
-    const struct evaluation *evaluation = in->world->evaluation;
+    const struct spline *spline = core_active_spline(in->core);
+    const struct evaluation *evaluation = in->core->evaluation;
     const int active = in->core->active;
     char text[128];
     struct settling settling = settle_alone(spline, document_step(in->document));
@@ -196,8 +196,8 @@ static void build_sentence(struct inspection *in)
 
 static void build_warnings(struct inspection *in)
 {
-    const struct spline *spline = core_active_spline(in->core, in->world);
-    const struct evaluation *evaluation = in->world->evaluation;
+    const struct spline *spline = core_active_spline(in->core);
+    const struct evaluation *evaluation = in->core->evaluation;
     const int active = in->core->active;
     char sentence[EVALUATION_SENTENCE];
     if (evaluation && active < evaluation->count && evaluation_sentence(evaluation, active, sentence))
@@ -218,8 +218,7 @@ static void build_find(struct inspection *in)
 {
     const struct rect row = ui_row(in->ui, UI_ROW), r = {row.x, row.y + 1, row.w, row.h - 2};
     ui_hint(in->ui, r, "Frequency and damping that explain the knots best (Shift+F); again: the runner-up");
-    if (ui_button(in->ui, r, "frequency.find", "Find the frequency", false))
-        core_find_frequency(in->core, in->world, 0);
+    if (ui_button(in->ui, r, "frequency.find", "Find the frequency", false)) core_find_frequency(in->core, 0);
 }
 
 void inspector_feel(struct inspection *in)
@@ -232,6 +231,6 @@ void inspector_feel(struct inspection *in)
     if (inspector_felt_channel(in)) inspector_angles(in, &angle_row_lag, &inspector_felt_channel(in)->lag);
     if (inspector_felt_channel(in)) inspector_angles(in, &angle_row_gain, &inspector_felt_channel(in)->gain);
     inspector_felt_drive(in);
-    if (spline_mode(core_active_spline(in->core, in->world)) != WIGGLY_CUBIC) build_find(in);
+    if (spline_mode(core_active_spline(in->core)) != WIGGLY_CUBIC) build_find(in);
     build_warnings(in);
 }

@@ -41,7 +41,7 @@ static void go_to(struct inspection *in, size_t row)
     char name[32];
     name_of(row, name);
     if (in->ui->focus) in->ui->focus = ui_id(name);
-    core_jump(in->core, in->world, row);
+    core_jump(in->core, row);
 }
 
 /// The wheel scrolls the list where it is longer than what is shown.
@@ -78,7 +78,7 @@ static void step_by_key(struct inspection *in, size_t first, size_t end)
 
 static bool build_row(struct inspection *in, size_t row)
 {
-    const struct history *history = in->world->history;
+    const struct history *history = in->core->history;
     const struct history_view *view = &in->inspector->history;
     struct ui *ui = in->ui;
     struct rect r = ui_row(ui, UI_ROW);
@@ -95,7 +95,7 @@ static bool build_row(struct inspection *in, size_t row)
 
 void inspector_history(struct inspection *in)
 {
-    const struct history *history = in->world->history;
+    const struct history *history = in->core->history;
     struct history_view *view = &in->inspector->history;
     size_t count = history_count(history);
     keep_in_sight(view, count, history_done(history));

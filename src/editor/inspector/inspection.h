@@ -9,7 +9,6 @@
 struct inspection {
     struct core *core;
     struct inspector *inspector;
-    const struct editor_world *world;
     struct document *document;
     struct ui *ui;
     enum ui_change change; ///< that a number is being set by

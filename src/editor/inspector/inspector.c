@@ -13,11 +13,11 @@
 
 enum { FOOTER = 40 }; ///< height of the look switch, which never scrolls away
 
-static bool has_spline(const struct inspection *in) { return core_active_spline(in->core, in->world) != NULL; }
+static bool has_spline(const struct inspection *in) { return core_active_spline(in->core) != NULL; }
 
 static bool may_vary(const struct inspection *in)
 {
-    const struct spline *spline = core_active_spline(in->core, in->world);
+    const struct spline *spline = core_active_spline(in->core);
     return spline && spline_mode(spline) != WIGGLY_CUBIC;
 }
 
@@ -143,10 +143,9 @@ static void build(struct inspection *in, struct rect area)
     }
 }
 
-static struct inspection inspection_of(struct inspector *inspector, struct core *core,
-                                       const struct editor_world *world)
+static struct inspection inspection_of(struct inspector *inspector, struct core *core)
 {
-    return (struct inspection){core, inspector, world, world->document, &inspector->ui, UI_NONE};
+    return (struct inspection){core, inspector, core->document, &inspector->ui, UI_NONE};
 }
 
 struct inspector *inspector_create(void) { return need_zeroed(1, sizeof(struct inspector)); }
@@ -201,10 +200,9 @@ static void event_elsewhere(struct ui *ui, const struct event *event)
     if (event->kind == EVENT_BUTTON && event->action == ACTION_PRESS) ui->focus = 0;
 }
 
-bool inspector_event(struct inspector *inspector, struct core *core, const struct editor_world *world,
-                     const struct event *event)
+bool inspector_event(struct inspector *inspector, struct core *core, const struct event *event)
 {
-    struct inspection in = inspection_of(inspector, core, world);
+    struct inspection in = inspection_of(inspector, core);
     struct ui *ui = in.ui;
     struct rect area = core->layout.inspector;
     if (!concerns(inspector, core, event)) {
@@ -215,7 +213,7 @@ bool inspector_event(struct inspector *inspector, struct core *core, const struc
     ui_begin_event(ui, area, event);
     build(&in, area);
     bool used = ui_end(ui);
-    if (was_dragging && !ui->held && history_is_open(world->history)) history_end(world->history);
+    if (was_dragging && !ui->held && history_is_open(core->history)) history_end(core->history);
     if (ui->complaint[0]) {
         core_message(core, true, ui->complaint);
         ui->complaint[0] = '\0';
@@ -236,9 +234,9 @@ static void show_bone(struct inspection *in)
     inspector_unfold(in->inspector, "section.model");
 }
 
-void inspector_show(struct inspector *inspector, struct core *core, const struct editor_world *world, bool covered)
+void inspector_show(struct inspector *inspector, struct core *core, bool covered)
 {
-    struct inspection in = inspection_of(inspector, core, world);
+    struct inspection in = inspection_of(inspector, core);
     struct rect area = core->layout.inspector;
     if (covered) in.ui->pointer_x = area.x - 1; // nothing here is under the pointer
     show_bone(&in);
@@ -252,9 +250,9 @@ void inspector_show(struct inspector *inspector, struct core *core, const struct
     drawlist_rect(&core->list, (struct rect){area.x, area.y, 1, area.h}, theme()->border);
 }
 
-void inspector_let_go(struct inspector *inspector, const struct editor_world *world)
+void inspector_let_go(struct inspector *inspector, const struct core *core)
 {
-    if (inspector_is_dragging(inspector) && history_is_open(world->history)) history_end(world->history);
+    if (inspector_is_dragging(inspector) && history_is_open(core->history)) history_end(core->history);
     ui_release(&inspector->ui);
 }
 
@@ -272,10 +270,9 @@ const char *inspector_focus_hint(const struct inspector *inspector, struct rect 
     return inspector->ui.focus ? inspector->ui.focus_hint : NULL;
 }
 
-bool inspector_target(struct inspector *inspector, struct core *core, const struct editor_world *world,
-                      const char *name, float *x, float *y)
+bool inspector_target(struct inspector *inspector, struct core *core, const char *name, float *x, float *y)
 {
-    struct inspection in = inspection_of(inspector, core, world);
+    struct inspection in = inspection_of(inspector, core);
     char widget[128];
     snprintf(widget, sizeof widget, "%s", name);
     char *comma = strrchr(widget, ',');
@@ -298,7 +295,7 @@ bool inspector_changed(enum ui_change change) { return change == UI_DROP || chan
 
 bool inspector_begin(struct inspection *in, enum ui_change change, const char *label, const char *what)
 {
-    struct history *history = in->world->history;
+    struct history *history = in->core->history;
     switch (change) {
     case UI_NONE:
         return false;
@@ -312,12 +309,11 @@ bool inspector_begin(struct inspection *in, enum ui_change change, const char *l
         return true;
     case UI_CANCEL:
     case UI_DROP:
-        if (history_is_open(history)) core_end(in->core, in->world, change == UI_DROP);
+        if (history_is_open(history)) core_end(in->core, change == UI_DROP);
         return false;
     case UI_NUDGE:
     case UI_SET:
-        return core_begin(in->core, in->world, label,
-                          change == UI_NUDGE ? core_merge_key(in->core, in->world, ui_id(what)) : 0);
+        return core_begin(in->core, label, change == UI_NUDGE ? core_merge_key(in->core, ui_id(what)) : 0);
     }
     return false;
 }
@@ -325,9 +321,9 @@ bool inspector_begin(struct inspection *in, enum ui_change change, const char *l
 void inspector_end(struct inspection *in, enum ui_change change, bool done)
 {
     if (change == UI_DRAG) {
-        core_settle(in->core, in->world);
+        core_settle(in->core);
     } else {
-        core_end(in->core, in->world, done);
+        core_end(in->core, done);
     }
 }
 
@@ -362,7 +358,7 @@ static void drag(struct inspection *in, const struct number_home *home, int whic
     if (home->set(in, which, value, NULL)) {
         *possible = value;
     } else {
-        history_restart(in->world->history);
+        history_restart(in->core->history);
         home->set(in, which, *possible, NULL);
     }
 }
@@ -371,7 +367,7 @@ static void drag(struct inspection *in, const struct number_home *home, int whic
 static void change_number(struct inspection *in, const struct number_row *row, const struct number_home *home,
                           int which, enum ui_change change, double value)
 {
-    const bool is_first = change == UI_DRAG && !history_is_open(in->world->history);
+    const bool is_first = change == UI_DRAG && !history_is_open(in->core->history);
     in->change = change;
     if (!inspector_begin(in, change, row->undo, row->name)) return;
     if (is_first) in->inspector->dragged = home->get(in, which);

@@ -10,29 +10,27 @@ struct inspector;
 struct inspector *inspector_create(void);
 void inspector_destroy(struct inspector *inspector);
 /// F2: the active spline's name can be typed.
-void inspector_rename(struct inspector *inspector, const struct core *core, const struct editor_world *world);
+void inspector_rename(struct inspector *inspector, const struct core *core);
 /// Opens a section, with all of it in sight where there is room.
 void inspector_unfold(struct inspector *inspector, const char *name);
 /// Shows a rig, with what it feels like.
-void inspector_show_rig(struct inspector *inspector, struct core *core, const struct editor_world *world, int rig);
+void inspector_show_rig(struct inspector *inspector, struct core *core, int rig);
 /// Shows what a spline bends or drives: of the rig that is shown, if it is one of these.
-void inspector_show_spline(struct inspector *inspector, struct core *core, const struct document *document,
-                           int spline);
+void inspector_show_spline(struct inspector *inspector, struct core *core, int spline);
 /// A: the menu of what can be added, at the pointer over stage and curves, else on top of the inspector. And on something of the inspector.
 void inspector_add_menu(struct inspector *inspector, const struct core *core);
 /// Shift+Del: asks whether to remove the rig that is shown, which is that of the active spline.
-void inspector_remove_rig(const struct inspector *inspector, struct core *core, const struct editor_world *world);
+void inspector_remove_rig(const struct inspector *inspector, struct core *core);
 /// What the pointer is over.
 enum ui_over inspector_over(const struct inspector *inspector);
 /// A new document is on the table: forgets focus, running drag (without touching the history), scrolling and channel.
 void inspector_reset(struct inspector *inspector);
 /// An event for the inspector; true where it used it up.
-bool inspector_event(struct inspector *inspector, struct core *core, const struct editor_world *world,
-                     const struct event *event);
+bool inspector_event(struct inspector *inspector, struct core *core, const struct event *event);
 /// Draws it; `covered`: something lies over the panels.
-void inspector_show(struct inspector *inspector, struct core *core, const struct editor_world *world, bool covered);
+void inspector_show(struct inspector *inspector, struct core *core, bool covered);
 /// Ends a running drag where it is, and drops focus and typing: something opens over the panel, or the document goes.
-void inspector_let_go(struct inspector *inspector, const struct editor_world *world);
+void inspector_let_go(struct inspector *inspector, const struct core *core);
 /// Whether a slider is being dragged (a history step is open).
 bool inspector_is_dragging(const struct inspector *inspector);
 /// Whether a value is being typed.
@@ -45,7 +43,6 @@ const char *inspector_hint(const struct inspector *inspector);
 const char *inspector_focus_hint(const struct inspector *inspector, struct rect *at);
 /// Where the widget `name` is: "frequency", "frequency,2.5" (where its bar shows 2.5), "mode.real", "spline.sway",
 /// "channel.0", "look.stiff", "section.knot". false where it is not shown or scrolled out of sight.
-bool inspector_target(struct inspector *inspector, struct core *core, const struct editor_world *world,
-                      const char *name, float *x, float *y);
+bool inspector_target(struct inspector *inspector, struct core *core, const char *name, float *x, float *y);
 
 #endif

@@ -44,7 +44,7 @@ struct knot_numbers {
 static struct knot_numbers survey(const struct inspection *in, int field)
 {
     struct knot_numbers numbers = {.first = NAN};
-    for (struct knot_place at = SELECTED_START; selected_next(in->core, in->document, &at); numbers.count++) {
+    for (struct knot_place at = SELECTED_START; selected_next(in->core, &at); numbers.count++) {
         const double number = number_at(&rows[field], knot_at(in->document, at));
         if (isnan(numbers.first)) numbers.first = number;
         numbers.mixed |= number != numbers.first;
@@ -59,7 +59,7 @@ static double get(const struct inspection *in, int field) { return survey(in, fi
 static bool set(struct inspection *in, int field, double value, struct error *error)
 {
     const struct originals *originals = &in->core->originals;
-    core_collect(in->core, in->document, false);
+    core_collect(in->core, false);
     const double by = value - number_at(&rows[field], &originals->list[0].knot);
     const bool together = in->change != UI_SET || field == FIELD_FRAME;
     for (int i = 0; i < originals->count; i++) {
@@ -87,7 +87,7 @@ static void fit_to_one(const struct inspection *in, int field, double value, str
     row->hint = of_one[field].hint;
     row->undo = of_one[field].undo;
     if (field == FIELD_FRAME) {
-        const struct spline *spline = core_active_spline(in->core, in->world);
+        const struct spline *spline = core_active_spline(in->core);
         row->lowest = in->document->first_frame;
         row->highest = document_frame(in->document, document_last_knot_sample(in->document, spline));
         row->decimals = value == floor(value) ? 0 : 2;
@@ -109,7 +109,7 @@ static void build_field(struct inspection *in, int field, struct rect r)
 static bool all_sloped(const struct inspection *in)
 {
     bool sloped = true;
-    for (struct knot_place at = SELECTED_START; selected_next(in->core, in->document, &at);)
+    for (struct knot_place at = SELECTED_START; selected_next(in->core, &at);)
         sloped &= knot_at(in->document, at)->has_slope;
     return sloped;
 }
@@ -134,7 +134,7 @@ static void build_several(struct inspection *in)
 
 static bool has_slope(const struct inspection *in, unsigned id)
 {
-    const struct spline *spline = core_active_spline(in->core, in->world);
+    const struct spline *spline = core_active_spline(in->core);
     return spline->knots[spline_find_id(spline, id)].has_slope;
 }
 
@@ -145,7 +145,7 @@ static void build_slope(struct inspection *in, unsigned id)
     bool sloped = has_slope(in, id);
     ui_hint(ui, r, "Give the knot a slope (T); D and E turn it");
     if (ui_toggle(ui, r, "has_slope", &sloped)) {
-        slopes_set(in->core, in->world, SLOPES_TOGGLE); // the knot is the only selected one
+        slopes_set(in->core, SLOPES_TOGGLE); // the knot is the only selected one
         return;
     }
     r = (struct rect){r.x + 36, r.y, r.w - 36, r.h};
@@ -184,7 +184,7 @@ static void build_slopes(struct inspection *in, bool sloped)
                 {"slope.smooth", "Smooth", "Aim the slopes at the neighbours, as Catmull-Rom does (Ctrl+T)"},
                 {"slope.switch", sloped ? "Remove" : "Add",
                  sloped ? "Let go of the slopes (T)" : "Give the knots the slope that the curve has there (T)"}});
-    if (pressed >= 0) slopes_set(in->core, in->world, (int)how[pressed]);
+    if (pressed >= 0) slopes_set(in->core, (int)how[pressed]);
 }
 
 /// Nothing is selected: what knots there are, and what can be done without pointing at one.
@@ -208,15 +208,15 @@ static void build_overview(struct inspection *in, const struct spline *spline)
                               {"knot.next", "Next", "Go to the next knot after the playhead (Alt+.)"},
                               {"knot.all", "All", "Select all knots of the spline (Ctrl+A)"},
                           });
-    if (pressed == 0) core_insert_on_curve(in->core, in->world, core_frame(in->core, in->document), true, false);
-    if (pressed == 1 && !core_visit_neighbour(in->core, in->world, 1))
+    if (pressed == 0) core_insert_on_curve(in->core, core_frame(in->core), true, false);
+    if (pressed == 1 && !core_visit_neighbour(in->core, 1))
         core_message(in->core, false, "There is no knot after the playhead.");
-    if (pressed == 2) core_select_all(in->core, in->world, false);
+    if (pressed == 2) core_select_all(in->core, false);
 }
 
 const char *inspector_knot_title(struct inspection *in)
 {
-    const int count = selected_count(in->core, in->document);
+    const int count = selected_count(in->core);
     if (count < 2) return "Knot";
     snprintf(in->inspector->knot_title, sizeof in->inspector->knot_title, "%d knots", count);
     return in->inspector->knot_title;
@@ -226,10 +226,10 @@ const char *inspector_knot_title(struct inspection *in)
 void inspector_knot(struct inspection *in)
 {
     struct ui *ui = in->ui;
-    const struct spline *spline = core_active_spline(in->core, in->world);
-    const int count = selected_count(in->core, in->document);
+    const struct spline *spline = core_active_spline(in->core);
+    const int count = selected_count(in->core);
     struct knot_place only = SELECTED_START;
-    const bool one = count == 1 && selected_next(in->core, in->document, &only) && only.spline == in->core->active;
+    const bool one = count == 1 && selected_next(in->core, &only) && only.spline == in->core->active;
     const float end = ui->y + (FIELDS + 1) * UI_ROW;
     if (count > 1) {
         build_several(in);

@@ -15,7 +15,7 @@ static int shown_model(const struct inspection *in)
 {
     int model;
     struct inspector *inspector = in->inspector;
-    if (bones_selected(in->core, in->world, &model) >= 0) inspector->model = in->core->bone.model;
+    if (bones_selected(in->core, &model) >= 0) inspector->model = in->core->bone.model;
     model = document_find_rig(in->document, RIG_MODEL, inspector->model);
     if (model < 0) inspector->model = 0;
     return model < 0 ? document_find_rig(in->document, RIG_MODEL, 0) : model;
@@ -44,7 +44,7 @@ static void build_clip(struct inspection *in, const struct model_rig *rig, const
 void inspector_model_lists(struct inspection *in)
 {
     const int model = shown_model(in);
-    const struct imported *shown = model >= 0 ? bones_character(in->world, model) : NULL;
+    const struct imported *shown = model >= 0 ? bones_character(in->core, model) : NULL;
     if (!ui_popup_is_open(in->ui, clip_list) || !shown) return;
     const struct gltf *gltf = &shown->gltf;
     const char *clip = in->document->rigs[model]->model.clip;
@@ -54,7 +54,7 @@ void inspector_model_lists(struct inspection *in)
         items[count++] = (struct ui_item){gltf->clips[c].name, gltf->clips[c].name, 0};
     const int picked = ui_popup_list(in->ui, clip_list, items, count, clip ? gltf_find_clip(gltf, clip) + 1 : 0);
     if (picked < 0) return;
-    bones_choose_clip(in->core, in->world, model, picked > 0 ? gltf->clips[picked - 1].name : NULL);
+    bones_choose_clip(in->core, model, picked > 0 ? gltf->clips[picked - 1].name : NULL);
 }
 
 static const struct number_row place[] = {
@@ -94,13 +94,13 @@ static void build_bone(struct inspection *in)
         {"bone.follow", "With follow-through", "The same, swinging after the motion of the clip (Shift+J)", true},
     };
     int model;
-    const int node = bones_selected(in->core, in->world, &model);
+    const int node = bones_selected(in->core, &model);
     struct rect r = inspector_labelled(in, "bone");
     if (node < 0) {
         ui_label(in->ui, r, "click one on the stage", theme()->text_dim);
         return;
     }
-    ui_label(in->ui, r, bones_character(in->world, model)->gltf.nodes[node].name, theme()->text);
+    ui_label(in->ui, r, bones_character(in->core, model)->gltf.nodes[node].name, theme()->text);
     struct rect row = ui_row(in->ui, UI_ROW);
     const float widths[2] = {row.w * 0.38f, row.w * 0.62f - 6};
     row.w = 0;
@@ -109,14 +109,14 @@ static void build_bone(struct inspection *in)
         row.x += widths[i] + 6;
         ui_hint(in->ui, button, buttons[i].hint);
         if (ui_button(in->ui, button, buttons[i].name, buttons[i].label, false))
-            bones_make_chain(in->core, in->world, buttons[i].follow);
+            bones_make_chain(in->core, buttons[i].follow);
     }
 }
 
 void inspector_model(struct inspection *in)
 {
     const int model = shown_model(in);
-    const struct imported *shown = bones_character(in->world, model);
+    const struct imported *shown = bones_character(in->core, model);
     static const struct number_home home = {.get = get, .set = set};
     build_file(in, &in->document->rigs[model]->model, shown);
     build_clip(in, &in->document->rigs[model]->model, shown);

@@ -25,7 +25,7 @@ static struct pin_row place_of(const struct document *document, int row)
 static int selected_row(const struct inspection *in)
 {
     int rig, row = 0;
-    const struct pin *pin = pins_selected(in->core, in->document, &rig);
+    const struct pin *pin = pins_selected(in->core, &rig);
     if (!pin) return 0;
     for (int r = 0; r < rig; r++) row += in->document->rigs[r]->pin_count;
     return row + (int)(pin - in->document->rigs[rig]->pins);
@@ -34,7 +34,7 @@ static int selected_row(const struct inspection *in)
 /// Millimetres that are left; NAN where that is not known.
 static double left_of(const struct inspection *in, int rig, int at)
 {
-    const struct pin_left *left = evaluation_pin(in->world->evaluation, in->document, rig, at);
+    const struct pin_left *left = evaluation_pin(in->core->evaluation, in->document, rig, at);
     if (!left || !left->is_found) return NAN;
     return 1e3 * sqrt(left->way[0] * left->way[0] + left->way[1] * left->way[1] + left->way[2] * left->way[2]);
 }
@@ -62,10 +62,10 @@ static bool build_row(struct inspection *in, int row)
     ui_label(ui, (struct rect){label.x + 6, label.y, label.w - 6, label.h}, text, theme()->text);
     ui_label_right(ui, (struct rect){r.x, r.y, r.w - 4, r.h}, left, theme()->text_dim);
     ui_hint(ui, r, "Frame and point of a pin, and how far the point is from it");
-    if (pressed) pins_visit(in->core, in->document, pin);
+    if (pressed) pins_visit(in->core, pin);
     if (!ui_icon_button(ui, button, remove, UI_ICON_DELETE, false, "Remove this pin")) return false;
-    return core_begin(in->core, in->world, "Delete pin", 0) &&
-           core_end(in->core, in->world, edit_pin_remove(in->document, place.rig, pin->id, &in->core->error));
+    return core_begin(in->core, "Delete pin", 0) &&
+           core_end(in->core, edit_pin_remove(in->document, place.rig, pin->id, &in->core->error));
 }
 
 static void build_list(struct inspection *in, int count)
@@ -85,8 +85,8 @@ static void build_list(struct inspection *in, int count)
 static int points_of(const struct inspection *in, int rig)
 {
     const struct rig *pinned = in->document->rigs[rig];
-    if (pinned->kind != RIG_CHARACTER) return bones_joints(in->world, rig);
-    const struct figure *figure = models_figure(in->world->models, document_rig_number(in->document, rig));
+    if (pinned->kind != RIG_CHARACTER) return bones_joints(in->core, rig);
+    const struct figure *figure = models_figure(in->core->models, document_rig_number(in->document, rig));
     return figure ? figure->character.vertex_count : 1;
 }
 
@@ -108,13 +108,13 @@ static const struct number_row rows[ROWS] = {
 static double get(const struct inspection *in, int which)
 {
     int rig;
-    return number_at(&rows[which], pins_selected(in->core, in->document, &rig));
+    return number_at(&rows[which], pins_selected(in->core, &rig));
 }
 
 static bool set(struct inspection *in, int which, double number, struct error *error)
 {
     int rig;
-    struct pin pin = *pins_selected(in->core, in->document, &rig);
+    struct pin pin = *pins_selected(in->core, &rig);
     number_put(&rows[which], &pin, number);
     return pins_set(in->document, rig, &pin, error);
 }
@@ -123,7 +123,7 @@ static void build_field(struct inspection *in, int field)
 {
     int rig;
     struct number_row row = rows[field];
-    if (!pins_selected(in->core, in->document, &rig)) return;
+    if (!pins_selected(in->core, &rig)) return;
     const struct rig *pinned = in->document->rigs[rig];
     if (field == ROW_FRAME) {
         row.lowest = in->document->first_frame;
@@ -134,7 +134,7 @@ static void build_field(struct inspection *in, int field)
     }
     static const struct number_home home = {.get = get, .set = set};
     const enum ui_change change = inspector_number(in, &row, &home, field, ui_row(in->ui, UI_ROW));
-    if (inspector_changed(change)) pins_tell(in->core, in->world, rig);
+    if (inspector_changed(change)) pins_tell(in->core, rig);
 }
 
 void inspector_pins(struct inspection *in)
@@ -145,7 +145,7 @@ void inspector_pins(struct inspection *in)
         ui_paragraph(in->ui, "Drag a character's surface on the stage to pin it; on tails and chains, hold Ctrl.",
                      theme()->text_dim);
     build_list(in, count);
-    if (!pins_selected(in->core, in->document, &rig)) return;
+    if (!pins_selected(in->core, &rig)) return;
     ui_space(in->ui, 4);
     for (int field = 0; field < ROWS; field++) build_field(in, field);
 }

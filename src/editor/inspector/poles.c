@@ -219,11 +219,11 @@ enum { CIRCLE = 112, INSET = 92, TICKS = 18, RESPONSE = 112 }; ///< heights
 static double value_now(const struct inspection *in, const struct spline *spline, enum parameter parameter)
 {
     const struct param *param = &spline->parameter[parameter];
-    const struct evaluation *evaluation = in->world->evaluation;
+    const struct evaluation *evaluation = in->core->evaluation;
     double value = param->value;
     if (param->track >= 0) {
         if (!evaluation || param->track >= evaluation->count) return 0;
-        int sample = document_sample(in->document, core_frame(in->core, in->document));
+        int sample = document_sample(in->document, core_frame(in->core));
         if (sample < 0 || sample >= evaluation->samples) return 0;
         value = evaluation->curves[param->track].total[sample];
     }
@@ -247,9 +247,9 @@ static double rounded(double value, double steps) { return round(value * steps) 
 /// Gives the spline a number; one that follows a track is left alone.
 static bool set(struct inspection *in, enum parameter parameter, double number)
 {
-    const struct spline *spline = core_active_spline(in->core, in->world);
+    const struct spline *spline = core_active_spline(in->core);
     return spline->parameter[parameter].track >= 0 ||
-           core_set_parameter(in->core, in->world, in->core->active, parameter, number);
+           core_set_parameter(in->core, in->core->active, parameter, number);
 }
 
 /// Makes a setting the spline's, where a handle was moved.
@@ -319,7 +319,7 @@ void inspector_poles(struct inspection *in)
 {
     struct ui *ui = in->ui;
     struct poles_view *view = &in->inspector->poles;
-    struct spline *spline = core_active_spline(in->core, in->world);
+    struct spline *spline = core_active_spline(in->core);
     struct pole_setting setting = setting_of(in, spline);
     if (spline_mode(spline) == WIGGLY_CUBIC || !(setting.hz > 0)) {
         ui_paragraph(ui, "Both poles are at 1 (frequency 0): a cubic does not swing by itself.", theme()->text_dim);

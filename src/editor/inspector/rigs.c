@@ -38,11 +38,11 @@ void inspector_find_rig(struct inspection *in)
 }
 
 /// Has the section of its kind show a rig.
-static void show_rig(struct inspector *inspector, struct core *core, const struct document *document, int rig)
+static void show_rig(struct inspector *inspector, struct core *core, int rig)
 {
-    const int number = document_rig_number(document, rig);
+    const int number = document_rig_number(core->document, rig);
     inspector->selected = rig;
-    switch (document->rigs[rig]->kind) {
+    switch (core->document->rigs[rig]->kind) {
     case RIG_TAIL:
     case RIG_CHAIN:
         inspector->channel = rig == inspector->rig ? inspector->channel : 0;
@@ -69,9 +69,9 @@ static int input_of(const struct rig *rig, int spline)
     return -1;
 }
 
-void inspector_show_spline(struct inspector *inspector, struct core *core, const struct document *document,
-                           int spline)
+void inspector_show_spline(struct inspector *inspector, struct core *core, int spline)
 {
+    const struct document *document = core->document;
     int found = inspector->selected < document->rig_count ? inspector->selected : -1;
     if (found >= 0 && input_of(document->rigs[found], spline) < 0) found = -1;
     for (int r = 0; r < document->rig_count && found < 0; r++) {
@@ -79,7 +79,7 @@ void inspector_show_spline(struct inspector *inspector, struct core *core, const
     }
     if (found < 0) return;
     const int input = input_of(document->rigs[found], spline);
-    show_rig(inspector, core, document, found);
+    show_rig(inspector, core, found);
     if (is_tail_or_chain(document, found)) inspector->channel = input;
     if (document->rigs[found]->kind == RIG_CHARACTER) core->characters.drive = input;
 }
@@ -94,14 +94,14 @@ static void choose_rig(struct inspection *in, int rig)
                                            [RIG_MEADOW] = "section.meadow"};
     const struct rig *chosen = in->document->rigs[rig];
     if (chosen->kind == RIG_MODEL) bones_clear(in->core);
-    show_rig(in->inspector, in->core, in->document, rig);
+    show_rig(in->inspector, in->core, rig);
     inspector_unfold(in->inspector, sections[chosen->kind]);
-    if (rig_input_count(chosen) > 0) core_activate(in->core, in->world, rig_input(chosen, 0));
+    if (rig_input_count(chosen) > 0) core_activate(in->core, rig_input(chosen, 0));
 }
 
-void inspector_show_rig(struct inspector *inspector, struct core *core, const struct editor_world *world, int rig)
+void inspector_show_rig(struct inspector *inspector, struct core *core, int rig)
 {
-    struct inspection in = {core, inspector, world, world->document, &inspector->ui, UI_NONE};
+    struct inspection in = {core, inspector, core->document, &inspector->ui, UI_NONE};
     choose_rig(&in, rig);
 }
 
@@ -138,14 +138,14 @@ static void build_buttons(struct inspection *in)
     const int before = in->document->rig_count, rig = in->inspector->selected;
     const int pressed = inspector_icons(in, r, buttons, before > 0 ? 3 : 1);
     if (pressed == 0) open_add(in->inspector, (struct rect){r.x - 2, r.y, INSPECTOR_ICON, r.h});
-    if (pressed == 1) rigs_copy(in->core, in->world, rig);
-    if (pressed == 2) rigs_ask_remove(in->core, in->world, rig);
+    if (pressed == 1) rigs_copy(in->core, rig);
+    if (pressed == 2) rigs_ask_remove(in->core, rig);
     if (in->document->rig_count > before) choose_rig(in, before);
 }
 
-void inspector_remove_rig(const struct inspector *inspector, struct core *core, const struct editor_world *world)
+void inspector_remove_rig(const struct inspector *inspector, struct core *core)
 {
-    rigs_ask_remove(core, world, inspector->selected);
+    rigs_ask_remove(core, inspector->selected);
 }
 
 void inspector_rigs(struct inspection *in)
@@ -212,22 +212,22 @@ static void carry_out(struct inspection *in, struct choice choice)
     const int before = in->document->rig_count;
     switch (choice.what) {
     case ADD_TAIL:
-        rigs_add_tail(in->core, in->world);
+        rigs_add_tail(in->core);
         break;
     case ADD_FILE:
         in->core->ask = (struct ask){.kind = ASK_ADD};
         break;
     case ADD_COPY:
-        rigs_copy(in->core, in->world, choice.rig);
+        rigs_copy(in->core, choice.rig);
         break;
     case ADD_CHAIN:
-        bones_make_chain(in->core, in->world, false);
+        bones_make_chain(in->core, false);
         break;
     case ADD_MEADOW:
-        rigs_add_meadow(in->core, in->world);
+        rigs_add_meadow(in->core);
         break;
     case ADD_SPLINE:
-        spline_list_add(in->core, in->world);
+        spline_list_add(in->core);
         break;
     }
     if (in->document->rig_count > before) choose_rig(in, before);

@@ -20,11 +20,11 @@ static bool set(struct inspection *in, int which, double number, struct error *e
     const struct document *document = in->document;
     const int whole = (int)lround(number);
     (void)error;
-    if (which == ROW_RATE) spline_list_fps(in->core, in->world, number);
-    if (which == ROW_FIRST) spline_list_range(in->core, in->world, whole, document->last_frame);
-    if (which == ROW_LAST) spline_list_range(in->core, in->world, document->first_frame, whole);
-    if (which == ROW_SUBSTEPS && core_begin(in->core, in->world, "Set substeps", 0))
-        core_end(in->core, in->world, edit_substeps(in->document, whole, &in->core->error));
+    if (which == ROW_RATE) spline_list_fps(in->core, number);
+    if (which == ROW_FIRST) spline_list_range(in->core, whole, document->last_frame);
+    if (which == ROW_LAST) spline_list_range(in->core, document->first_frame, whole);
+    if (which == ROW_SUBSTEPS && core_begin(in->core, "Set substeps", 0))
+        core_end(in->core, edit_substeps(in->document, whole, &in->core->error));
     return true;
 }
 
@@ -44,7 +44,7 @@ static void build_solver(struct inspection *in)
     const struct rect r = inspector_labelled(in, "solver");
     ui_hint(in->ui, r,
             "Band: all samples at once, as in the paper. Chain: stretches between knots, beyond 4096 samples");
-    if (in->world->evaluation) ui_label(in->ui, r, evaluation_solver(in->world->evaluation), theme()->text);
+    if (in->core->evaluation) ui_label(in->ui, r, evaluation_solver(in->core->evaluation), theme()->text);
 }
 
 void inspector_scene(struct inspection *in)

@@ -10,7 +10,7 @@
 
 static double get(const struct inspection *in, int parameter)
 {
-    return core_active_spline(in->core, in->world)->parameter[parameter].value;
+    return core_active_spline(in->core)->parameter[parameter].value;
 }
 
 static bool set(struct inspection *in, int parameter, double number, struct error *error)
@@ -22,13 +22,13 @@ static bool set(struct inspection *in, int parameter, double number, struct erro
 /// A step of its own.
 static void set_parameter(struct inspection *in, enum parameter parameter, double number)
 {
-    if (core_begin(in->core, in->world, parameter_rows[parameter].undo, 0))
-        core_end(in->core, in->world, set(in, (int)parameter, number, &in->core->error));
+    if (core_begin(in->core, parameter_rows[parameter].undo, 0))
+        core_end(in->core, set(in, (int)parameter, number, &in->core->error));
 }
 
 static void build_slider(struct inspection *in, enum parameter parameter, struct rect r)
 {
-    const struct spline *spline = core_active_spline(in->core, in->world);
+    const struct spline *spline = core_active_spline(in->core);
     const struct parameter_row *row = &parameter_rows[parameter];
     const struct number_row number = {.name = row->name,
                                       .label = row->name,
@@ -85,9 +85,8 @@ static void build_track(struct inspection *in, enum parameter parameter, const c
 static void set_track(struct inspection *in, enum parameter parameter, struct param param)
 {
     const char *label = param_follows(&param) ? "Follow spline" : "Stop following";
-    if (!core_begin(in->core, in->world, label, 0)) return;
-    core_end(in->core, in->world,
-             edit_parameter(in->document, in->core->active, parameter, &param, &in->core->error));
+    if (!core_begin(in->core, label, 0)) return;
+    core_end(in->core, edit_parameter(in->document, in->core->active, parameter, &param, &in->core->error));
 }
 
 /// Marks the splines that the active one cannot follow without a cycle; whether any is left.
@@ -130,7 +129,7 @@ static void build_track_button(struct inspection *in, enum parameter parameter, 
     snprintf(name, sizeof name, "follow.%s", parameter_rows[parameter].name);
     if (!ui_icon_button(in->ui, r, name, icon, false, hint)) return;
     if (follows) {
-        double value = spline_list_present(in->core, in->world, active, parameter);
+        double value = spline_list_present(in->core, active, parameter);
         set_track(in, parameter, param_number(value));
     } else {
         struct rect row = {in->ui->area.x + UI_PAD + UI_LABEL + UI_GAP, r.y, 0, r.h};
@@ -142,7 +141,7 @@ static void build_track_button(struct inspection *in, enum parameter parameter, 
 /// What the active spline's equilibrium follows.
 static const struct param *followed(const struct inspection *in)
 {
-    const struct spline *spline = core_active_spline(in->core, in->world);
+    const struct spline *spline = core_active_spline(in->core);
     return spline ? &spline->parameter[PARAMETER_EQUILIBRIUM] : NULL;
 }
 
@@ -164,8 +163,7 @@ static void build_of(struct inspection *in)
     struct param param = *followed(in);
     motion.of = (enum motion_of)of;
     param.motion = &motion;
-    if (core_begin(in->core, in->world, "Set joint's motion", 0))
-        core_end(in->core, in->world, follow_joint(in, &param, &in->core->error));
+    if (core_begin(in->core, "Set joint's motion", 0)) core_end(in->core, follow_joint(in, &param, &in->core->error));
 }
 
 static double get_gain(const struct inspection *in, int which)
@@ -207,7 +205,7 @@ static void build_joint(struct inspection *in)
 
 static void build_number(struct inspection *in, enum parameter parameter)
 {
-    const struct spline *spline = core_active_spline(in->core, in->world);
+    const struct spline *spline = core_active_spline(in->core);
     struct rect r = ui_row(in->ui, UI_ROW);
     bool may_follow = parameter_rows[parameter].kind == PARAMETER_TRACK;
     if (may_follow) r.w -= UI_ROW + 2;
@@ -223,7 +221,7 @@ static void build_number(struct inspection *in, enum parameter parameter)
 
 static void build_choice(struct inspection *in, enum parameter parameter)
 {
-    const struct spline *spline = core_active_spline(in->core, in->world);
+    const struct spline *spline = core_active_spline(in->core);
     const struct parameter_row *row = &parameter_rows[parameter];
     struct ui_choice choices[PARAMETER_MAX_WORDS];
     int chosen = (int)spline->parameter[parameter].value, count = 0;
@@ -235,7 +233,7 @@ static void build_choice(struct inspection *in, enum parameter parameter)
 
 void inspector_parameter(struct inspection *in, enum parameter parameter)
 {
-    if (!spline_uses(core_active_spline(in->core, in->world), parameter, false)) return;
+    if (!spline_uses(core_active_spline(in->core), parameter, false)) return;
     if (parameter_rows[parameter].kind == PARAMETER_CHOICE) {
         build_choice(in, parameter);
     } else {
@@ -274,7 +272,7 @@ static void build_limit(struct inspection *in, const struct spline *spline, enum
 
 void inspector_limits(struct inspection *in)
 {
-    const struct spline *spline = core_active_spline(in->core, in->world);
+    const struct spline *spline = core_active_spline(in->core);
     build_limit(in, spline, PARAMETER_HIGH);
     build_limit(in, spline, PARAMETER_LOW);
 }
@@ -289,10 +287,10 @@ static void roll(struct inspection *in, const struct spline *spline)
     const long long seed = (long long)spline->parameter[PARAMETER_SEED].value;
     const bool is_new = spline->parameter[PARAMETER_VARIATION].value == 0;
     const int active = in->core->active;
-    if (!core_begin(in->core, in->world, "Roll variation", 0)) return;
-    core_set_parameter(in->core, in->world, active, PARAMETER_SEED, (double)((seed * 7 + 1) % 1000 % most));
-    if (is_new) core_set_parameter(in->core, in->world, active, PARAMETER_VARIATION, FRESH_VARIATION);
-    core_end(in->core, in->world, true);
+    if (!core_begin(in->core, "Roll variation", 0)) return;
+    core_set_parameter(in->core, active, PARAMETER_SEED, (double)((seed * 7 + 1) % 1000 % most));
+    if (is_new) core_set_parameter(in->core, active, PARAMETER_VARIATION, FRESH_VARIATION);
+    core_end(in->core, true);
     core_edited(in->core, in->core->active);
 }
 
@@ -310,7 +308,7 @@ static const char *stillness(const struct spline *spline)
 
 void inspector_variation(struct inspection *in)
 {
-    const struct spline *spline = core_active_spline(in->core, in->world);
+    const struct spline *spline = core_active_spline(in->core);
     const char *reason = stillness(spline);
     build_slider(in, PARAMETER_VARIATION, ui_row(in->ui, UI_ROW));
     struct rect r = ui_row(in->ui, UI_ROW), button = {r.x + r.w - 64, r.y + 2, 64, r.h - 4};
@@ -329,7 +327,7 @@ static int add_models(const struct inspection *in, struct ui_item *items, char t
     int count = 0;
     for (int r = document_next_rig(in->document, RIG_MODEL, 0); r >= 0 && count < MAX_MODELS;
          r = document_next_rig(in->document, RIG_MODEL, r + 1)) {
-        if (!bones_character(in->world, r)) continue;
+        if (!bones_character(in->core, r)) continue;
         snprintf(texts[count], MODEL_TEXT, "A joint of %.80s", rig_title(in->document->rigs[r]));
         items[count] = (struct ui_item){texts[count], texts[count], 0};
         models[count++] = r;
@@ -343,15 +341,15 @@ static void build_joint_list(struct inspection *in)
     const struct param *param = followed(in);
     if (!ui_popup_is_open(in->ui, joint_list) || !param || !param->motion) return;
     const int model = document_find_model(in->document, param->motion->model, param->motion->by_file);
-    if (model < 0 || !bones_character(in->world, model)) return;
+    if (model < 0 || !bones_character(in->core, model)) return;
     const int node = inspector_bone_list(in, joint_list, model, -1, param->motion->joint);
-    if (node >= 0) bones_follow(in->core, in->world, in->core->active, model, node);
+    if (node >= 0) bones_follow(in->core, in->core->active, model, node);
 }
 
 void inspector_track_list(struct inspection *in)
 {
     struct ui *ui = in->ui;
-    const struct spline *spline = core_active_spline(in->core, in->world);
+    const struct spline *spline = core_active_spline(in->core);
     build_joint_list(in);
     if (!ui_popup_is_open(ui, track_list) || !spline) return;
     enum parameter parameter = (enum parameter)ui->popup.which;
@@ -364,7 +362,7 @@ void inspector_track_list(struct inspection *in)
     const int more = parameter == PARAMETER_EQUILIBRIUM ? add_models(in, items + count, texts, models) : 0;
     const int picked = ui_popup_list(ui, track_list, items, count + more, row);
     if (picked >= count) {
-        bones_follow(in->core, in->world, in->core->active, models[picked - count], -1);
+        bones_follow(in->core, in->core->active, models[picked - count], -1);
     } else if (picked >= 0) {
         set_track(in, parameter, param_track(splines[picked]));
     }
@@ -372,7 +370,7 @@ void inspector_track_list(struct inspection *in)
 
 int inspector_bone_list(struct inspection *in, const char *list, int model, int top, const char *chosen)
 {
-    const struct imported *character = bones_character(in->world, model);
+    const struct imported *character = bones_character(in->core, model);
     int nodes[MAX_BONES], row = -1;
     struct ui_item items[MAX_BONES];
     const int count = bones_below(character, top, nodes, MAX_BONES), node = gltf_find_node(&character->gltf, chosen);

@@ -12,9 +12,9 @@ enum { MAX_ROWS = 8, SWATCH = 22 }; ///< splines listed at once; widths in pixel
 
 static const char rename_line[] = "rename";
 
-void inspector_rename(struct inspector *inspector, const struct core *core, const struct editor_world *world)
+void inspector_rename(struct inspector *inspector, const struct core *core)
 {
-    const struct spline *spline = core_active_spline(core, world);
+    const struct spline *spline = core_active_spline(core);
     if (!spline) return;
     inspector_unfold(inspector, "section.splines");
     inspector->scroll.offset = 0; // the list is near the top
@@ -33,7 +33,7 @@ static void build_visibility(struct inspection *in, int s, struct rect r)
     struct core *core = in->core;
     const struct spline *spline = in->document->splines[s];
     char name[192];
-    bool solo = selection_has(&core->solo, spline->id), shown = spline_list_shows(core, in->document, s);
+    bool solo = selection_has(&core->solo, spline->id), shown = spline_list_shows(core, s);
     struct rect icon = {r.x + r.w - 2 * INSPECTOR_ICON, r.y, INSPECTOR_ICON, r.h};
     snprintf(name, sizeof name, "solo.%s", spline->name);
     if (ui_icon_button(in->ui, icon, name, UI_ICON_SOLO, solo, "Show only this curve")) {
@@ -51,8 +51,8 @@ static void build_visibility(struct inspection *in, int s, struct rect r)
 static void build_rename(struct inspection *in, int s, struct rect r)
 {
     if (ui_line(in->ui, r, rename_line) != UI_LINE_DONE) return;
-    if (core_begin(in->core, in->world, "Rename spline", 0))
-        core_end(in->core, in->world, edit_spline_name(in->document, s, in->ui->text.bytes, &in->core->error));
+    if (core_begin(in->core, "Rename spline", 0))
+        core_end(in->core, edit_spline_name(in->document, s, in->ui->text.bytes, &in->core->error));
 }
 
 /// The place where a dragged row would go, told from the pointer.
@@ -76,10 +76,10 @@ static bool build_row(struct inspection *in, int s, struct rect r)
     } else {
         ui_hint(ui, label, "Click to edit (PgUp, PgDn), F2 to rename, drag to reorder");
         enum ui_row_event event = ui_sort_row(ui, r, label, name, spline->name, active);
-        if (event == UI_ROW_PRESSED) core_activate(in->core, in->world, s);
+        if (event == UI_ROW_PRESSED) core_activate(in->core, s);
         if (event == UI_ROW_TWICE) {
-            core_activate(in->core, in->world, s);
-            inspector_rename(in->inspector, in->core, in->world);
+            core_activate(in->core, s);
+            inspector_rename(in->inspector, in->core);
         }
         dropped = event == UI_ROW_DROPPED;
     }
@@ -102,10 +102,10 @@ static void build_buttons(struct inspection *in)
     };
     struct core *core = in->core;
     const int pressed = inspector_icons(in, ui_row(in->ui, UI_ROW), buttons, sizeof buttons / sizeof buttons[0]);
-    if (pressed == 0) spline_list_add(core, in->world);
-    if (pressed == 1) spline_list_copy(core, in->world);
-    if (pressed == 2) spline_list_remove(core, in->world);
-    if (pressed >= 3) spline_list_move(core, in->world, core->active, core->active + (pressed == 3 ? -1 : 1));
+    if (pressed == 0) spline_list_add(core);
+    if (pressed == 1) spline_list_copy(core);
+    if (pressed == 2) spline_list_remove(core);
+    if (pressed >= 3) spline_list_move(core, core->active, core->active + (pressed == 3 ? -1 : 1));
 }
 
 /// The line between rows where a dragged one would go.
@@ -132,7 +132,7 @@ void inspector_splines(struct inspection *in)
     }
     int to = drop_place(in, first, rows, top);
     if (from >= 0) show_drop(in, from, to, top + (float)((to - first + (to > from ? 1 : 0)) * UI_ROW));
-    if (dropped >= 0) spline_list_move(in->core, in->world, dropped, to);
+    if (dropped >= 0) spline_list_move(in->core, dropped, to);
     if (count > MAX_ROWS) {
         char text[64];
         snprintf(text, sizeof text, "%d of %d splines; PgUp and PgDn show more", MAX_ROWS, count);
@@ -147,8 +147,8 @@ static const char palette[] = "palette", hex_line[] = "color.hex";
 
 static void set_color(struct inspection *in, int spline, int color)
 {
-    if (core_begin(in->core, in->world, "Set colour", 0))
-        core_end(in->core, in->world, edit_spline_color(in->document, spline, color, &in->core->error));
+    if (core_begin(in->core, "Set colour", 0))
+        core_end(in->core, edit_spline_color(in->document, spline, color, &in->core->error));
 }
 
 /// true where one of the theme's was picked.

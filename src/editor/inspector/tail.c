@@ -29,9 +29,9 @@ static void build_name(struct inspection *in)
         if (ui_button(in->ui, field, "tail.name", rig_title(rig), false))
             ui_line_begin(in->ui, rename_line, rig_title(rig));
     } else if (ui_line(in->ui, r, rename_line) == UI_LINE_DONE) {
-        if (!core_begin(in->core, in->world, rig->kind == RIG_TAIL ? "Rename tail" : "Rename chain", 0)) return;
+        if (!core_begin(in->core, rig->kind == RIG_TAIL ? "Rename tail" : "Rename chain", 0)) return;
         const char *name = in->ui->text.bytes;
-        core_end(in->core, in->world, edit_rig_name(in->document, in->inspector->rig, name, &in->core->error));
+        core_end(in->core, edit_rig_name(in->document, in->inspector->rig, name, &in->core->error));
     }
 }
 
@@ -55,8 +55,8 @@ static bool set_position(struct inspection *in, int k, double metres, struct err
 /// A step of its own: lets the body follow a spline, or stay.
 static void follow(struct inspection *in, int k, struct param param)
 {
-    if (core_begin(in->core, in->world, param.track < 0 ? "Stop following" : "Follow spline", 0))
-        core_end(in->core, in->world, edit_position(in->document, in->inspector->rig, k, &param, &in->core->error));
+    if (core_begin(in->core, param.track < 0 ? "Stop following" : "Follow spline", 0))
+        core_end(in->core, edit_position(in->document, in->inspector->rig, k, &param, &in->core->error));
 }
 
 /// A coordinate: a number, or the spline that it follows, and the button from one to the other.
@@ -73,7 +73,7 @@ static void build_coordinate(struct inspection *in, const struct tail *tail, int
         ui_label(in->ui, (struct rect){r.x, r.y, UI_LABEL, r.h}, coordinate_name(k), theme()->text_dim);
         ui_dropdown(in->ui, field, place_list, k, in->document->splines[param->track]->name,
                     spline_list_color(in->document, param->track));
-        wiggly_value now = evaluation_at(in->world->evaluation, param->track, in->core->playback.position);
+        wiggly_value now = evaluation_at(in->core->evaluation, param->track, in->core->playback.position);
         if (ui_icon_button(in->ui, icon, button, UI_ICON_UNFOLLOW, false,
                            "Stop following; stay at the current position"))
             follow(in, k, param_number(core_round(now.y + now.re, 1e-3)));
@@ -115,7 +115,7 @@ static const struct channel *chosen_channel(const struct inspection *in)
 static void choose(struct inspection *in, int channel)
 {
     in->inspector->channel = channel;
-    core_activate(in->core, in->world, chosen_channel(in)->spline);
+    core_activate(in->core, chosen_channel(in)->spline);
     in->inspector->channel = channel; // of two by the same spline
 }
 
@@ -125,9 +125,9 @@ static void set_axis(struct inspection *in, enum axis axis)
     const struct channel *channel = chosen_channel(in);
     const struct angles gain = {.value = {axis_gain(axis)}};
     const bool untouched = channel->gain.form == ANGLES_ONE && channel->gain.value[0] == axis_gain(channel->axis);
-    if (!core_begin(in->core, in->world, "Set axis", 0)) return;
+    if (!core_begin(in->core, "Set axis", 0)) return;
     const bool done = edit_axis(in->document, place_of(in), axis, &in->core->error);
-    core_end(in->core, in->world, done && (!untouched || inspector_set_angles(in, &angle_row_gain, &gain)));
+    core_end(in->core, done && (!untouched || inspector_set_angles(in, &angle_row_gain, &gain)));
 }
 
 static void build_axis_list(struct inspection *in, const struct channel *channel)
@@ -151,9 +151,9 @@ static void build_channel_lists(struct inspection *in)
     if (channel) build_axis_list(in, channel);
     if (!ui_popup_is_open(in->ui, feed_list) || !channel) return;
     int picked = inspector_spline_list(in, feed_list, NULL, channel->spline);
-    if (picked < 0 || !core_begin(in->core, in->world, "Set channel's spline", 0)) return;
+    if (picked < 0 || !core_begin(in->core, "Set channel's spline", 0)) return;
     const struct channel_place at = place_of(in);
-    if (core_end(in->core, in->world, edit_feed(in->document, at, picked, &in->core->error))) choose(in, at.channel);
+    if (core_end(in->core, edit_feed(in->document, at, picked, &in->core->error))) choose(in, at.channel);
 }
 
 /// Where a chain begins and where it ends.
@@ -168,12 +168,12 @@ static const struct end {
 static void end_list(struct inspection *in, const struct end *end, const struct chain *chain)
 {
     const int model = bones_model_of(in->document, chain);
-    const struct imported *character = model >= 0 ? bones_character(in->world, model) : NULL;
+    const struct imported *character = model >= 0 ? bones_character(in->core, model) : NULL;
     if (!ui_popup_is_open(in->ui, end->list) || !character) return;
     const bool first = end->use == BONE_FIRST;
     const int top = first ? -1 : gltf_find_node(&character->gltf, chain->from);
     const int node = inspector_bone_list(in, end->list, model, top, first ? chain->from : chain->to);
-    if (node >= 0) bones_set_end(in->core, in->world, in->inspector->rig, first, node);
+    if (node >= 0) bones_set_end(in->core, in->inspector->rig, first, node);
 }
 
 /// The lists of the bones that a chain can begin and end with.
@@ -282,10 +282,10 @@ static void build_buttons(struct inspection *in)
     struct error *error = &in->core->error;
     const int rig = in->inspector->rig, spline = in->core->active;
     const int pressed = inspector_icons(in, inspector_labelled(in, "channel"), buttons, chosen_channel(in) ? 2 : 1);
-    if (pressed < 0 || !core_begin(in->core, in->world, pressed == 0 ? "Add channel" : "Delete channel", 0)) return;
+    if (pressed < 0 || !core_begin(in->core, pressed == 0 ? "Add channel" : "Delete channel", 0)) return;
     const bool done = pressed == 0 ? edit_channel_add(in->document, rig, spline, AXIS_SIDE, PART_TOTAL, error)
                                    : edit_channel_remove(in->document, place_of(in), error);
-    if (core_end(in->core, in->world, done) && pressed == 0)
+    if (core_end(in->core, done) && pressed == 0)
         in->inspector->channel = rig_input_count(in->document->rigs[rig]) - 1;
 }
 
@@ -306,9 +306,8 @@ static void build_choices(struct inspection *in, const struct channel *channel)
     }
     if (inspector_choice(in, "bends by", "Total, or displacement only: use that for a tail on a moving base", "part",
                          parts, 2, &part) &&
-        core_begin(in->core, in->world, "Set what bends", 0))
-        core_end(in->core, in->world,
-                 edit_part(in->document, place_of(in), (enum channel_part)part, &in->core->error));
+        core_begin(in->core, "Set what bends", 0))
+        core_end(in->core, edit_part(in->document, place_of(in), (enum channel_part)part, &in->core->error));
 }
 
 /// Its channels: the list; and what the chosen one is made of.
@@ -373,17 +372,17 @@ static void build_mirror(struct inspection *in)
     struct chain chain = inspector_shown(in)->chain;
     struct rect r = inspector_labelled(in, "mirror");
     ui_hint(in->ui, r, "Bend to the other side, as a left ear does to a right one");
-    if (ui_toggle(in->ui, r, "chain.mirror", &chain.mirror) && core_begin(in->core, in->world, "Mirror chain", 0))
-        core_end(in->core, in->world, edit_chain(in->document, in->inspector->rig, &chain, &in->core->error));
+    if (ui_toggle(in->ui, r, "chain.mirror", &chain.mirror) && core_begin(in->core, "Mirror chain", 0))
+        core_end(in->core, edit_chain(in->document, in->inspector->rig, &chain, &in->core->error));
 }
 
 static void build_twin(struct inspection *in)
 {
-    if (!bones_has_twin(in->world, in->inspector->rig)) return;
+    if (!bones_has_twin(in->core, in->inspector->rig)) return;
     const struct rect row = ui_row(in->ui, UI_ROW), button = {row.x, row.y + 2, row.w, row.h - 4};
     ui_hint(in->ui, button, "The same chain on the other side, mirrored, by the same splines");
     if (!ui_button(in->ui, button, "chain.twin", "Mirror to other side", false)) return;
-    bones_make_twin(in->core, in->world, in->inspector->rig);
+    bones_make_twin(in->core, in->inspector->rig);
     in->inspector->rig = in->document->rig_count - 1;
 }
 

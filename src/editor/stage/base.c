@@ -25,100 +25,98 @@ static void free_name(const struct document *document, const char *base, char na
 }
 
 /// Adds a spline behind all others; its index, or -1.
-static int add_spline(struct core *core, const struct editor_world *world, const char *base)
+static int add_spline(struct core *core, const char *base)
 {
     char name[NAME_SIZE];
-    free_name(world->document, base, name);
-    const bool done = edit_spline_add(world->document, -1, name, NULL, &core->error);
-    return done ? world->document->spline_count - 1 : -1;
+    free_name(core->document, base, name);
+    const bool done = edit_spline_add(core->document, -1, name, NULL, &core->error);
+    return done ? core->document->spline_count - 1 : -1;
 }
 
-void base_put_knot(struct core *core, const struct editor_world *world, int spline, int sample, double value,
-                   bool level, char why[STOPPED_SIZE])
+void base_put_knot(struct core *core, int spline, int sample, double value, bool level, char why[STOPPED_SIZE])
 {
-    struct knot knot = core_knot_at(world->document, spline, sample);
+    struct knot knot = core_knot_at(core->document, spline, sample);
     knot.value = core_round(value, RESOLUTION);
-    core_hold(world->document->splines[spline], &knot, why);
+    core_hold(core->document->splines[spline], &knot, why);
     knot.has_slope = level;
     knot.slope = 0;
     knot.stiffness = level ? RECORD_STIFFNESS : KNOT_DEFAULT_STIFFNESS;
-    core_put_knot(core, world, spline, &knot);
+    core_put_knot(core, spline, &knot);
 }
 
-void base_begin(struct stage *stage, const struct editor_world *world)
+void base_begin(struct stage *stage, const struct core *core)
 {
     struct body_drag *hold = &stage->body_drag;
-    const struct tail *tail = tail_of(world->document, hold->rig);
+    const struct tail *tail = tail_of(core->document, hold->rig);
     hold->loops = tail->channel_count > 0;
     for (int c = 0; c < tail->channel_count; c++) {
         hold->hangs[c] = swing_hangs(tail->channels, tail->channel_count, &tail->channels[c]);
-        hold->loops &= spline_start(world->document->splines[tail->channels[c].spline]) == WIGGLY_LOOP;
+        hold->loops &= spline_start(core->document->splines[tail->channels[c].spline]) == WIGGLY_LOOP;
     }
 }
 
-int base_spline(const struct stage *stage, struct core *core, const struct editor_world *world, int coordinate)
+int base_spline(const struct stage *stage, struct core *core, int coordinate)
 {
     const int rig = stage->body_drag.rig;
-    const struct tail *moved = tail_of(world->document, rig);
+    const struct tail *moved = tail_of(core->document, rig);
     char name[NAME_SIZE];
     if (moved->position[coordinate].track >= 0) return moved->position[coordinate].track;
-    snprintf(name, sizeof name, "%.250s %s", world->document->rigs[rig]->name, coordinate_name(coordinate));
-    int spline = add_spline(core, world, name);
+    snprintf(name, sizeof name, "%.250s %s", core->document->rigs[rig]->name, coordinate_name(coordinate));
+    int spline = add_spline(core, name);
     if (spline < 0) return -1;
-    core_set_parameter(core, world, spline, PARAMETER_MODE, WIGGLY_CUBIC);
-    if (stage->body_drag.loops) core_set_parameter(core, world, spline, PARAMETER_START, WIGGLY_LOOP);
+    core_set_parameter(core, spline, PARAMETER_MODE, WIGGLY_CUBIC);
+    if (stage->body_drag.loops) core_set_parameter(core, spline, PARAMETER_START, WIGGLY_LOOP);
     return spline;
 }
 
-double base_value(const struct editor_world *world, int rig, int coordinate, int sample)
+double base_value(const struct core *core, int rig, int coordinate, int sample)
 {
-    const struct tail *moved = tail_of(world->document, rig);
+    const struct tail *moved = tail_of(core->document, rig);
     const struct param *param = &moved->position[coordinate];
     if (param->track >= 0) {
-        const wiggly_value value = evaluation_at(world->evaluation, param->track, sample);
+        const wiggly_value value = evaluation_at(core->evaluation, param->track, sample);
         return value.y + value.re;
     }
     // A height that is a number says where the ground is; one that follows a spline is above 0.
     return coordinate == 1 ? moved->length * (double)(FOX_BASE_HEIGHT / FOX_TAIL_LENGTH) : param->value;
 }
 
-void base_follow(const struct stage *stage, struct core *core, const struct editor_world *world, int coordinate,
-                 int base)
+void base_follow(const struct stage *stage, struct core *core, int coordinate, int base)
 {
     const int rig = stage->body_drag.rig;
     const struct param param = param_track(base);
-    edit_position(world->document, rig, coordinate, &param, &core->error);
+    edit_position(core->document, rig, coordinate, &param, &core->error);
 }
 
-static void follow_base(struct core *core, const struct editor_world *world, int spline, int base)
+static void follow_base(struct core *core, int spline, int base)
 {
     const struct param param = param_track(base);
-    edit_parameter(world->document, spline, PARAMETER_EQUILIBRIUM, &param, &core->error);
+    edit_parameter(core->document, spline, PARAMETER_EQUILIBRIUM, &param, &core->error);
 }
 
 /// A spline with the poles of another and no knots, driven by the base from rest (or round the loop); its index, or -1.
-static int add_follower(struct core *core, const struct editor_world *world, int model, const char *name, int base)
+static int add_follower(struct core *core, int model, const char *name, int base)
 {
-    int spline = add_spline(core, world, name);
+    int spline = add_spline(core, name);
     if (spline < 0) return -1;
-    const struct spline *copied = world->document->splines[model];
+    const struct spline *copied = core->document->splines[model];
     const bool loops = spline_start(copied) == WIGGLY_LOOP;
-    core_set_parameter(core, world, spline, PARAMETER_MODE, spline_mode(copied));
+    core_set_parameter(core, spline, PARAMETER_MODE, spline_mode(copied));
     for (enum parameter p = 0; p < PARAMETER_COUNT; p++) {
         if (p != PARAMETER_EQUILIBRIUM && p != PARAMETER_START)
-            edit_parameter(world->document, spline, p, &copied->parameter[p], &core->error);
+            edit_parameter(core->document, spline, p, &copied->parameter[p], &core->error);
     }
-    core_set_parameter(core, world, spline, PARAMETER_START, loops ? WIGGLY_LOOP : WIGGLY_REST);
-    follow_base(core, world, spline, base);
+    core_set_parameter(core, spline, PARAMETER_START, loops ? WIGGLY_LOOP : WIGGLY_REST);
+    follow_base(core, spline, base);
     return spline;
 }
 
 /// Adds a channel of the displacement that bends about an axis as another does about its own: its spline, or -1.
-static int add_channel(const struct stage *stage, struct core *core, const struct editor_world *world,
-                       const struct channel *model, enum axis axis, const char *name, double scale, int base)
+static int add_channel(const struct stage *stage, struct core *core, const struct channel *model, enum axis axis,
+                       const char *name, double scale, int base)
 {
-    struct document *document = world->document;
-    const int spline = add_follower(core, world, model->spline, name, base);
+    struct document *document = core->document;
+    const int spline = add_follower(core, model->spline, name, base);
     struct angles gain = model->gain;
     const struct angles lag = model->lag;
     if (spline < 0) return -1;
@@ -147,10 +145,9 @@ static enum axis missing_axis(const struct tail *tail, int coordinate, double *s
 }
 
 /// Lets a tail that did not swing with a coordinate do so, as it does with another one; the new spline, or -1.
-static int add_missing(const struct stage *stage, struct core *core, const struct editor_world *world, int coordinate,
-                       int base)
+static int add_missing(const struct stage *stage, struct core *core, int coordinate, int base)
 {
-    const struct document *document = world->document;
+    const struct document *document = core->document;
     const struct tail *tail = tail_of(document, stage->body_drag.rig);
     double share;
     const enum axis axis = missing_axis(tail, coordinate, &share);
@@ -161,20 +158,19 @@ static int add_missing(const struct stage *stage, struct core *core, const struc
         const struct channel model = tail->channels[c];
         const double scale = drag_inertia_scale(stage, document, stage->body_drag.rig, c);
         if (axis_bends(model.axis) && stage->body_drag.hangs[c] && scale != 0)
-            return add_channel(stage, core, world, &model, axis, name, scale * share, base);
+            return add_channel(stage, core, &model, axis, name, scale * share, base);
     }
     return -1;
 }
 
-int base_hang_channels(const struct stage *stage, struct core *core, const struct editor_world *world, int coordinate,
-                       int base)
+int base_hang_channels(const struct stage *stage, struct core *core, int coordinate, int base)
 {
-    const int rig = stage->body_drag.rig, count = tail_of(world->document, rig)->channel_count;
+    const int rig = stage->body_drag.rig, count = tail_of(core->document, rig)->channel_count;
     for (int c = 0; c < count; c++) {
-        const struct tail *tail = tail_of(world->document, rig);
+        const struct tail *tail = tail_of(core->document, rig);
         const struct channel channel = tail->channels[c];
-        const struct param *equilibrium = &world->document->splines[channel.spline]->parameter[PARAMETER_EQUILIBRIUM];
-        double direction[3], scale = drag_inertia_scale(stage, world->document, rig, c);
+        const struct param *equilibrium = &core->document->splines[channel.spline]->parameter[PARAMETER_EQUILIBRIUM];
+        double direction[3], scale = drag_inertia_scale(stage, core->document, rig, c);
         struct swing_arm arm;
         swing_arm_of_tail(tail, &arm);
         swing_direction(&arm, channel.axis, direction);
@@ -182,21 +178,21 @@ int base_hang_channels(const struct stage *stage, struct core *core, const struc
         if (!swung) continue;
         if (channel.of == PART_TOTAL) {
             char name[NAME_SIZE];
-            snprintf(name, sizeof name, "%.280s follow", world->document->splines[channel.spline]->name);
-            add_channel(stage, core, world, &channel, channel.axis, name, scale * direction[coordinate], base);
+            snprintf(name, sizeof name, "%.280s follow", core->document->splines[channel.spline]->name);
+            add_channel(stage, core, &channel, channel.axis, name, scale * direction[coordinate], base);
         } else if (!param_follows(equilibrium)) {
-            follow_base(core, world, channel.spline, base);
+            follow_base(core, channel.spline, base);
         }
     }
-    return add_missing(stage, core, world, coordinate, base);
+    return add_missing(stage, core, coordinate, base);
 }
 
-void base_say_channel(const struct editor_world *world, int spline, char *text, size_t size)
+void base_say_channel(const struct core *core, int spline, char *text, size_t size)
 {
     if (spline < 0) return;
-    const struct spline *made = world->document->splines[spline];
+    const struct spline *made = core->document->splines[spline];
     const int base = made->parameter[PARAMETER_EQUILIBRIUM].track;
     const size_t length = strlen(text);
     snprintf(text + length, size - length, " New: %s, by which the tail swings after %s.", made->name,
-             base >= 0 ? world->document->splines[base]->name : "it");
+             base >= 0 ? core->document->splines[base]->name : "it");
 }

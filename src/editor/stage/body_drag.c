@@ -45,16 +45,15 @@ void body_drag_way(const struct stage *stage, const struct core *core, double of
     if (hold->axis == AXIS_Y || (hold->axis < 0 && hold->lifts)) offset[1] = fmax(up / hold->rise, hold->lowest);
 }
 
-void body_drag_advance(struct stage *stage, const struct core *core, const struct editor_world *world)
+void body_drag_advance(struct stage *stage, const struct core *core)
 {
     body_drag_way(stage, core, stage->body_drag.offset);
-    place_within(stage, core, world, stage->body_drag.offset);
+    place_within(stage, core, stage->body_drag.offset);
 }
 
-void body_drag_offset(const struct stage *stage, const struct core *core, const struct document *document, int rig,
-                      double offset[3])
+void body_drag_offset(const struct stage *stage, const struct core *core, int rig, double offset[3])
 {
-    const bool held = body_is_held(core) && body_carries(document, stage->body_drag.rig, rig);
+    const bool held = body_is_held(core) && body_carries(core->document, stage->body_drag.rig, rig);
     for (int k = 0; k < 3; k++) offset[k] = held ? stage->body_drag.offset[k] : 0;
 }
 
@@ -93,11 +92,10 @@ struct stand {
 };
 
 /// False where there is no such body, or nothing to see of it.
-static bool find_stand(const struct stage *stage, const struct core *core, const struct editor_world *world, int rig,
-                       struct stand *stand)
+static bool find_stand(const struct stage *stage, const struct core *core, int rig, struct stand *stand)
 {
-    const struct stage_hand by = {stage, core, world->document};
-    const struct posing posing = stage_posing_by_hand(&by, world);
+    const struct stage_hand by = {stage, core, core->document};
+    const struct posing posing = stage_posing_by_hand(&by);
     struct rig_pose pose;
     float lo[3], hi[3];
     if (!rig_pose(&posing, rig, core->playback.position, NULL, &pose)) return false;
@@ -201,13 +199,13 @@ static void show_arc(struct core *core, const float point[RING_POINTS + 1][2], i
     drawlist_line(&core->list, point[from], to - from + 1, 1.5f, color);
 }
 
-void body_drag_show(struct stage *stage, struct core *core, const struct editor_world *world)
+void body_drag_show(struct stage *stage, struct core *core)
 {
     const bool held = body_is_held(core);
     const int rig = held ? stage->body_drag.rig : core->hover.rig;
     struct stand stand;
     if (!held && core->hover.kind != HOVER_BODY) return;
-    if (!find_stand(stage, core, world, rig, &stand)) return;
+    if (!find_stand(stage, core, rig, &stand)) return;
     const uint32_t color = held ? theme()->accent : theme()->playhead;
     float point[RING_POINTS + 1][2];
     for (int i = 0; i <= RING_POINTS; i++) { // from the right side of the picture over the near half
@@ -221,70 +219,68 @@ void body_drag_show(struct stage *stage, struct core *core, const struct editor_
 }
 
 /// Inside the open step the document gets the recorded motion or the new place.
-static void release(struct stage *stage, struct core *core, const struct editor_world *world, bool keep)
+static void release(struct stage *stage, struct core *core, bool keep)
 {
     const int body = stage->body_drag.rig;
     double offset[3];
-    keep = keep && body < world->document->rig_count; // an edit may have taken the body out of the hand
+    keep = keep && body < core->document->rig_count; // an edit may have taken the body out of the hand
     body_drag_way(stage, core, offset);
-    if (keep && record_has_motion(stage) && tail_of(world->document, body)) {
-        record_keep(stage, core, world);
-        drag_inertia_stop(stage, world->document, body);
+    if (keep && record_has_motion(stage) && tail_of(core->document, body)) {
+        record_keep(stage, core);
+        drag_inertia_stop(stage, core->document, body);
     } else if (keep) {
-        place_body(stage, core, world, offset);
+        place_body(stage, core, offset);
     } else {
-        drag_inertia_stop(stage, world->document, body);
+        drag_inertia_stop(stage, core->document, body);
     }
     record_forget(stage);
 }
 
 /// A body that is to be recorded is so from the first movement on.
-static void move(void *room, struct core *core, const struct editor_world *world)
+static void move(void *room, struct core *core)
 {
     struct stage *stage = room;
     if (stage->body_drag.begun) return;
     stage->body_drag.begun = true;
-    if (core->record_armed && tail_of(world->document, stage->body_drag.rig)) record_begin(stage, core);
+    if (core->record_armed && tail_of(core->document, stage->body_drag.rig)) record_begin(stage, core);
 }
 
-static enum drag_answer take_event(void *room, struct core *core, const struct editor_world *world,
-                                   const struct event *event)
+static enum drag_answer take_event(void *room, struct core *core, const struct event *event)
 {
     // Ctrl may still be down, which lifts bodies.
     const bool key = event->kind == EVENT_KEY && event->action == ACTION_PRESS && !(event->mods & MOD_ALT);
     if (!key) return DRAG_PASSES;
     if (event->key != 'R') return lock(room, event->key) ? DRAG_USED : DRAG_PASSES;
     const struct stage *stage = room;
-    if (!tail_of(world->document, stage->body_drag.rig)) {
+    if (!tail_of(core->document, stage->body_drag.rig)) {
         core_message(core, false,
                      "An imported character stands in one place for the whole shot: its motion is its clip's.");
         return DRAG_USED;
     }
-    drag_start_moving(core, world);
-    move(room, core, world);
+    drag_start_moving(core);
+    move(room, core);
     record_begin(room, core);
     return DRAG_USED;
 }
 
-static void end(void *room, struct core *core, const struct editor_world *world, bool keep)
+static void end(void *room, struct core *core, bool keep)
 {
-    if (core->drag.moved) release(room, core, world, keep);
-    stage_click(room, core, world, keep);
+    if (core->drag.moved) release(room, core, keep);
+    stage_click(room, core, keep);
 }
 
 static const struct drag_owner body_owner = {.cursor = CURSOR_MOVE, .move = move, .event = take_event, .end = end};
 
 bool body_is_held(const struct core *core) { return core->drag.owner == &body_owner; }
 
-void body_drag_begin(struct stage *stage, struct core *core, const struct editor_world *world, int rig,
-                     const struct event *event)
+void body_drag_begin(struct stage *stage, struct core *core, int rig, const struct event *event)
 {
     struct body_drag *hold = &stage->body_drag;
     const struct camera *camera = &stage->camera;
     struct stand stand = {.radius = 0};
     drag_begin(core, &body_owner, stage, "Move body", event);
     *hold = (struct body_drag){.rig = rig, .axis = -1};
-    find_stand(stage, core, world, rig, &stand);
+    find_stand(stage, core, rig, &stand);
     const float depth = camera_depth(stage->view.view, stage->view.eye, stand.base);
     hold->pixels_per_metre = 0.5 * (double)(core->layout.stage.h * stage->view.projection[5] / fmaxf(depth, 0.1f));
     double pitch = sin((double)camera->elevation);
@@ -292,7 +288,7 @@ void body_drag_begin(struct stage *stage, struct core *core, const struct editor
     hold->rise = fmax(cos((double)camera->elevation), LEAST_RISE);
     hold->right[0] = -sin((double)camera->azimuth);
     hold->right[1] = -cos((double)camera->azimuth);
-    const struct tail *tail = tail_of(world->document, rig);
+    const struct tail *tail = tail_of(core->document, rig);
     if (!tail) return; // a character stays on its ground
     hold->lifts = event->mods & MOD_CTRL;
     const float sitting = stand.ground + FOX_BASE_HEIGHT * (float)tail->length / FOX_TAIL_LENGTH;
@@ -322,62 +318,63 @@ static void say_name(struct report *report, bool is_first, const char *name)
 }
 
 /// The sample of the playhead, or the last one where a spline has knots.
-static int sample_of(const struct core *core, const struct document *document, int spline)
+static int sample_of(const struct core *core, int spline)
 {
-    const int sample = document_sample(document, round(core_frame(core, document)));
+    const struct document *document = core->document;
+    const int sample = document_sample(document, round(core_frame(core)));
     const int last = document_last_knot_sample(document, document->splines[spline]);
     return sample > last ? last : sample < 0 ? 0 : sample;
 }
 
 /// A knot at the playhead. A coordinate that was a number gets a spline, which begins where the body was. The spline by which the
 /// tail swings with that from now on where it did not, else -1.
-static int key_coordinate(const struct stage *stage, struct core *core, const struct editor_world *world,
-                          int coordinate, double by, char why[STOPPED_SIZE])
+static int key_coordinate(const struct stage *stage, struct core *core, int coordinate, double by,
+                          char why[STOPPED_SIZE])
 {
-    const struct document *document = world->document;
+    const struct document *document = core->document;
     const int rig = stage->body_drag.rig;
     const bool is_new = tail_of(document, rig)->position[coordinate].track < 0;
-    const int spline = base_spline(stage, core, world, coordinate);
+    const int spline = base_spline(stage, core, coordinate);
     if (spline < 0) return -1;
-    const int sample = sample_of(core, document, spline);
-    const double before = base_value(world, rig, coordinate, sample);
+    const int sample = sample_of(core, spline);
+    const double before = base_value(core, rig, coordinate, sample);
     if (!is_new) {
         struct knot knot = core_knot_at(document, spline, sample);
         knot.value = core_round(before + by, RESOLUTION);
         core_hold(document->splines[spline], &knot, why);
-        core_put_knot(core, world, spline, &knot);
+        core_put_knot(core, spline, &knot);
         core_edited(core, spline);
         return -1;
     }
-    if (sample > 1) base_put_knot(core, world, spline, 0, before, true, why);
-    base_put_knot(core, world, spline, sample, before + by, true, why);
-    base_follow(stage, core, world, coordinate, spline);
-    const int swings = base_hang_channels(stage, core, world, coordinate, spline);
+    if (sample > 1) base_put_knot(core, spline, 0, before, true, why);
+    base_put_knot(core, spline, sample, before + by, true, why);
+    base_follow(stage, core, coordinate, spline);
+    const int swings = base_hang_channels(stage, core, coordinate, spline);
     core_edited(core, spline);
     return swings;
 }
 
-static void key_body(struct stage *stage, struct core *core, const struct editor_world *world, const double offset[3])
+static void key_body(struct stage *stage, struct core *core, const double offset[3])
 {
     struct report report = {.length = 0};
     char frame[64];
     bool is_first = true;
     int swings = -1;
-    base_begin(stage, world);
+    base_begin(stage, core);
     say(&report, "Keyed ");
     for (int k = 0; k < 3; k++) {
         if (offset[k] == 0) continue;
-        const int made = key_coordinate(stage, core, world, k, offset[k], report.why);
+        const int made = key_coordinate(stage, core, k, offset[k], report.why);
         if (made >= 0) swings = made;
-        const int track = tail_of(world->document, stage->body_drag.rig)->position[k].track;
+        const int track = tail_of(core->document, stage->body_drag.rig)->position[k].track;
         if (track < 0) continue;
-        say_name(&report, is_first, world->document->splines[track]->name);
+        say_name(&report, is_first, core->document->splines[track]->name);
         is_first = false;
     }
-    snprintf(frame, sizeof frame, " at frame %.0f.", round(core_frame(core, world->document)));
+    snprintf(frame, sizeof frame, " at frame %.0f.", round(core_frame(core)));
     say(&report, frame);
     core_add_stopped(report.why, report.text, sizeof report.text);
-    base_say_channel(world, swings, report.text, sizeof report.text);
+    base_say_channel(core, swings, report.text, sizeof report.text);
     if (!is_first) core_message(core, false, report.text);
 }
 
@@ -395,10 +392,9 @@ static double room_for(const struct spline *spline, double by, const struct knot
     return room;
 }
 
-void place_within(const struct stage *stage, const struct core *core, const struct editor_world *world,
-                  double offset[3])
+void place_within(const struct stage *stage, const struct core *core, double offset[3])
 {
-    const struct document *document = world->document;
+    const struct document *document = core->document;
     const struct tail *tail = tail_of(document, stage->body_drag.rig);
     const bool keys = core->auto_key || stage->record.running || record_has_motion(stage);
     if (!tail) offset[1] = 0; // a character stays on its ground
@@ -407,7 +403,7 @@ void place_within(const struct stage *stage, const struct core *core, const stru
         if (offset[k] == 0 || track < 0) continue;
         const struct spline *spline = document->splines[track];
         if (keys) {
-            const double before = base_value(world, stage->body_drag.rig, k, sample_of(core, document, track));
+            const double before = base_value(core, stage->body_drag.rig, k, sample_of(core, track));
             offset[k] = spline_within(spline, before + offset[k]) - before;
         } else {
             const struct knot *stops;
@@ -417,51 +413,48 @@ void place_within(const struct stage *stage, const struct core *core, const stru
 }
 
 /// All knots of a spline, so that what follows it moves as it did, elsewhere: all by as much as each can go. How far that was.
-static double shift_spline(struct core *core, const struct editor_world *world, int spline, double way,
-                           char why[STOPPED_SIZE])
+static double shift_spline(struct core *core, int spline, double way, char why[STOPPED_SIZE])
 {
-    const int count = world->document->splines[spline]->knot_count;
+    const int count = core->document->splines[spline]->knot_count;
     const struct knot *stops;
-    const double by = room_for(world->document->splines[spline], way, &stops);
+    const double by = room_for(core->document->splines[spline], way, &stops);
     if (stops) {
         struct knot moved = *stops;
         moved.value += way;
-        core_hold(world->document->splines[spline], &moved, why);
+        core_hold(core->document->splines[spline], &moved, why);
     }
     if (by == 0) return 0;
     for (int i = 0; i < count; i++) {
-        struct knot knot = world->document->splines[spline]->knots[i];
-        knot.value = spline_within(world->document->splines[spline], core_round(knot.value + by, RESOLUTION));
-        core_put_knot(core, world, spline, &knot);
+        struct knot knot = core->document->splines[spline]->knots[i];
+        knot.value = spline_within(core->document->splines[spline], core_round(knot.value + by, RESOLUTION));
+        core_put_knot(core, spline, &knot);
     }
     core_edited(core, spline);
     return by;
 }
 
 /// Of an imported character.
-static double shift_model(struct core *core, const struct editor_world *world, int rig, int coordinate, double by)
+static double shift_model(struct core *core, int rig, int coordinate, double by)
 {
-    struct model_rig moved = world->document->rigs[rig]->model;
+    struct model_rig moved = core->document->rigs[rig]->model;
     moved.position[coordinate] = core_round(moved.position[coordinate] + by, RESOLUTION);
-    return edit_place(world->document, rig, &moved, &core->error) ? by : 0;
+    return edit_place(core->document, rig, &moved, &core->error) ? by : 0;
 }
 
 /// A height that is a number says where the ground is, which stays. How far the coordinate went.
-static double shift_coordinate(struct core *core, const struct editor_world *world, int rig, int coordinate,
-                               double by, char why[STOPPED_SIZE])
+static double shift_coordinate(struct core *core, int rig, int coordinate, double by, char why[STOPPED_SIZE])
 {
-    const struct tail *tail = tail_of(world->document, rig);
+    const struct tail *tail = tail_of(core->document, rig);
     if (coordinate == 1 && (!tail || tail->position[1].track < 0)) return 0;
-    if (!tail) return shift_model(core, world, rig, coordinate, by);
+    if (!tail) return shift_model(core, rig, coordinate, by);
     const struct param *param = &tail->position[coordinate];
-    if (param->track >= 0) return shift_spline(core, world, param->track, by, why);
+    if (param->track >= 0) return shift_spline(core, param->track, by, why);
     const struct param moved = param_number(core_round(param->value + by, RESOLUTION));
-    edit_position(world->document, rig, coordinate, &moved, &core->error);
+    edit_position(core->document, rig, coordinate, &moved, &core->error);
     return by;
 }
 
-static void shift_body(struct stage *stage, struct core *core, const struct editor_world *world,
-                       const double offset[3])
+static void shift_body(struct stage *stage, struct core *core, const double offset[3])
 {
     struct report report = {.length = 0};
     bool is_first = true;
@@ -469,7 +462,7 @@ static void shift_body(struct stage *stage, struct core *core, const struct edit
     for (int k = 0; k < 3; k++) {
         char part[32];
         if (offset[k] == 0) continue;
-        const double by = shift_coordinate(core, world, stage->body_drag.rig, k, offset[k], report.why);
+        const double by = shift_coordinate(core, stage->body_drag.rig, k, offset[k], report.why);
         if (by == 0) continue;
         snprintf(part, sizeof part, "%s %+.2f m", coordinate_name(k), by);
         say_name(&report, is_first, part);
@@ -480,19 +473,19 @@ static void shift_body(struct stage *stage, struct core *core, const struct edit
     } else if (is_first) {
         core_message(core, false, "It sits on the ground again: auto-key (Shift+A) or R keeps a height.");
     } else {
-        const bool keys = tail_of(world->document, stage->body_drag.rig) && !report.why[0];
+        const bool keys = tail_of(core->document, stage->body_drag.rig) && !report.why[0];
         say(&report, keys ? ". Auto-key (Shift+A) sets knots instead." : ".");
         core_add_stopped(report.why, report.text, sizeof report.text);
         core_message(core, false, report.text);
     }
 }
 
-void place_body(struct stage *stage, struct core *core, const struct editor_world *world, const double offset[3])
+void place_body(struct stage *stage, struct core *core, const double offset[3])
 {
-    if (core->auto_key && tail_of(world->document, stage->body_drag.rig)) {
-        key_body(stage, core, world, offset);
+    if (core->auto_key && tail_of(core->document, stage->body_drag.rig)) {
+        key_body(stage, core, offset);
     } else {
-        shift_body(stage, core, world, offset);
+        shift_body(stage, core, offset);
     }
     drag_inertia_land(stage);
 }

@@ -41,10 +41,9 @@ static int spline_of(const struct core *core, const struct chain *chain)
     return chain->channel_count > 0 ? chain->channels[0].spline : -1;
 }
 
-void bones_mark(struct stage *stage, const struct core *core, const struct document *document, int rig, int model,
-                const struct chain_bones *bones)
+void bones_mark(struct stage *stage, const struct core *core, int rig, int model, const struct chain_bones *bones)
 {
-    const int spline = spline_of(core, &document->rigs[rig]->chain);
+    const int spline = spline_of(core, &core->document->rigs[rig]->chain);
     for (int b = 0; b < stage->bone_count; b++) {
         struct shown_bone *bone = &stage->bones[b];
         if (bone->model != model || (bone->chain >= 0 && spline != core->active)) continue;
@@ -52,7 +51,7 @@ void bones_mark(struct stage *stage, const struct core *core, const struct docum
             if (bones->node[n] != bone->node) continue;
             bone->chain = rig;
             bone->joint = n;
-            bone->color = spline >= 0 ? spline_list_color(document, spline) : 0;
+            bone->color = spline >= 0 ? spline_list_color(core->document, spline) : 0;
         }
     }
 }
@@ -120,14 +119,14 @@ bool bone_exists(const struct document *document, int model)
     return model < document->rig_count && document->rigs[model]->kind == RIG_MODEL;
 }
 
-void bone_click(const struct stage *stage, struct core *core, const struct editor_world *world)
+void bone_click(const struct stage *stage, struct core *core)
 {
     const struct hover *pressed = &stage->pressed;
-    const struct document *document = world->document;
+    const struct document *document = core->document;
     const bool on_chain = pressed->kind == HOVER_JOINT && pressed->rig < document->rig_count &&
                           document->rigs[pressed->rig]->kind == RIG_CHAIN;
     if ((pressed->kind == HOVER_BONE || on_chain) && bone_exists(document, pressed->model)) {
-        bones_clicked(core, world, pressed->model, pressed->node);
+        bones_clicked(core, pressed->model, pressed->node);
     } else if (core->pick.use == BONE_SELECTED) {
         bones_clear(core);
     }
@@ -170,14 +169,14 @@ static bool is_over(const struct stage *stage, const struct core *core, const st
 }
 
 /// The character's rig whose bones are to be seen because the pointer is over it, −1: none.
-static int model_under(const struct stage *stage, const struct core *core, const struct editor_world *world)
+static int model_under(const struct stage *stage, const struct core *core)
 {
     const struct stage_view *view = &stage->view;
     if (core->hover.kind == HOVER_BONE) return core->hover.model;
     if (core->brush.on || !rect_contains(view->viewport, core->pointer_x, core->pointer_y)) return -1;
-    int rig = document_next_rig(world->document, RIG_MODEL, 0);
-    for (int n = 0; rig >= 0; n++, rig = document_next_rig(world->document, RIG_MODEL, rig + 1)) {
-        const struct gltf_pose *pose = models_pose(world->models, n, true);
+    int rig = document_next_rig(core->document, RIG_MODEL, 0);
+    for (int n = 0; rig >= 0; n++, rig = document_next_rig(core->document, RIG_MODEL, rig + 1)) {
+        const struct gltf_pose *pose = models_pose(core->models, n, true);
         for (int m = 0; pose && m < view->model_count; m++) {
             if (view->models[m].pose == pose && is_over(stage, core, &view->models[m])) return rig;
         }
@@ -253,15 +252,15 @@ static void show_all(const struct stage *stage, struct core *core, const struct 
     }
 }
 
-void bones_show(const struct stage *stage, struct core *core, const struct editor_world *world)
+void bones_show(const struct stage *stage, struct core *core)
 {
     const struct hover *hover = &core->hover;
     struct showing showing = {
-        .all = core->pick.use != BONE_SELECTED, .model = model_under(stage, core, world), .tip = -1, .meant = -1};
-    showing.chosen = bones_selected(core, world, &showing.chosen_model);
-    const struct imported *chosen = showing.chosen >= 0 ? bones_character(world, showing.chosen_model) : NULL;
+        .all = core->pick.use != BONE_SELECTED, .model = model_under(stage, core), .tip = -1, .meant = -1};
+    showing.chosen = bones_selected(core, &showing.chosen_model);
+    const struct imported *chosen = showing.chosen >= 0 ? bones_character(core, showing.chosen_model) : NULL;
     if (chosen) showing.tip = chain_end(&chosen->gltf, showing.chosen, NULL);
-    const bool on_chain = hover->kind == HOVER_JOINT && world->document->rigs[hover->rig]->kind == RIG_CHAIN;
+    const bool on_chain = hover->kind == HOVER_JOINT && core->document->rigs[hover->rig]->kind == RIG_CHAIN;
     if (!core->drag.owner && (hover->kind == HOVER_BONE || on_chain)) {
         showing.meant_model = hover->model;
         showing.meant = hover->node;
@@ -269,6 +268,6 @@ void bones_show(const struct stage *stage, struct core *core, const struct edito
     show_all(stage, core, &showing, chosen ? &chosen->gltf : NULL);
     if (showing.meant < 0) return;
     char title[BONES_TITLE];
-    const char *name = bones_character(world, hover->model)->gltf.nodes[hover->node].name;
-    show_name(core, bones_title(world->document, hover->model, name, title));
+    const char *name = bones_character(core, hover->model)->gltf.nodes[hover->node].name;
+    show_name(core, bones_title(core->document, hover->model, name, title));
 }

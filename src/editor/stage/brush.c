@@ -51,10 +51,9 @@ static void reserve(struct brush_work *work, int vertices)
 }
 
 /// The figure that is painted on with the skin as the stage shows it; NULL where there is none.
-static const struct figure *pose_figure(struct stage *stage, const struct core *core,
-                                        const struct editor_world *world, int *coordinate)
+static const struct figure *pose_figure(struct stage *stage, const struct core *core, int *coordinate)
 {
-    const struct figure *figure = characters_figure(core, world, coordinate);
+    const struct figure *figure = characters_figure(core, coordinate);
     if (!figure) return NULL;
     reserve(&stage->painting.work, figure->character.vertex_count);
     return skin_pose(stage, core->characters.character) ? figure : NULL;
@@ -256,15 +255,15 @@ static struct dab brush_dab(struct painting *painting, const struct paint *paint
 }
 
 /// Goes on with the stroke for drag.dt seconds.
-static void apply(void *room, struct core *core, const struct editor_world *world)
+static void apply(void *room, struct core *core)
 {
     struct stage *stage = room;
     const struct brush *brush = &core->brush;
     struct painting *painting = &stage->painting;
     struct surface_spot spots[REACH_MAX_SPOTS];
     int coordinate;
-    const struct figure *figure = pose_figure(stage, core, world, &coordinate);
-    const struct paint *paint = figure ? characters_selected(core, world)->painted : NULL;
+    const struct figure *figure = pose_figure(stage, core, &coordinate);
+    const struct paint *paint = figure ? characters_selected(core)->painted : NULL;
     if (!paint || !models_paint_fits(paint, figure)) return;
     const int count = find_way(stage, core, figure, spots);
     painting->x = core->pointer_x;
@@ -274,15 +273,15 @@ static void apply(void *room, struct core *core, const struct editor_world *worl
     reach_find(&painting->work.reach, figure, spots, count, brush_radius_of(brush, figure));
     const struct dab dab = brush_dab(painting, paint, figure, coordinate, brush_radius_of(brush, figure),
                                      brush->strength * core->drag.dt);
-    edit_paint(world->document, characters_rig(core, world), &dab, &core->error);
+    edit_paint(core->document, characters_rig(core), &dab, &core->error);
 }
 
-static void end(void *room, struct core *core, const struct editor_world *world, bool keep)
+static void end(void *room, struct core *core, bool keep)
 {
     const struct stage *stage = room;
     if (!keep || stage->painting.has_dabbed) return;
     core->drag.dt = SHORTEST;
-    apply(room, core, world);
+    apply(room, core);
 }
 
 static const struct drag_owner owner = {.cursor = CURSOR_ARROW, .goes_on = true, .apply = apply, .end = end};
@@ -290,15 +289,15 @@ static const struct drag_owner owner = {.cursor = CURSOR_ARROW, .goes_on = true,
 /// Whether a stroke is running.
 static bool brush_paints(const struct core *core) { return core->drag.owner == &owner; }
 
-bool brush_press(struct stage *stage, struct core *core, const struct editor_world *world, const struct event *event)
+bool brush_press(struct stage *stage, struct core *core, const struct event *event)
 {
     const struct brush *brush = &core->brush;
     struct painting *painting = &stage->painting;
     int coordinate;
-    if (!brush->on || event->button != BUTTON_LEFT || history_is_open(world->history)) return false;
-    const struct figure *figure = pose_figure(stage, core, world, &coordinate);
+    if (!brush->on || event->button != BUTTON_LEFT || history_is_open(core->history)) return false;
+    const struct figure *figure = pose_figure(stage, core, &coordinate);
     if (!figure || !skin_spot(stage, figure, event->x, event->y, &painting->spot)) return false;
-    const struct paint *paint = characters_selected(core, world)->painted;
+    const struct paint *paint = characters_selected(core)->painted;
     if (paint && !models_paint_fits(paint, figure)) {
         core_message(core, true, "The paint in this scene belongs to another model. Remove it first.");
         return true;
@@ -309,9 +308,9 @@ bool brush_press(struct stage *stage, struct core *core, const struct editor_wor
     painting->y = event->y;
     painting->has_dabbed = false;
     memset(painting->work.spent, 0, (size_t)painting->work.capacity * sizeof *painting->work.spent);
-    drag_start_moving(core, world);
-    if (!paint) characters_blank_paint(core, world, figure);
-    core_settle(core, world);
+    drag_start_moving(core);
+    if (!paint) characters_blank_paint(core, figure);
+    core_settle(core);
     return true;
 }
 
@@ -332,7 +331,7 @@ bool brush_wheel(struct core *core, const struct event *event)
     return true;
 }
 
-void brush_pose(struct stage *stage, struct core *core, const struct editor_world *world, bool covered)
+void brush_pose(struct stage *stage, struct core *core, bool covered)
 {
     const struct brush *brush = &core->brush;
     struct painting *painting = &stage->painting;
@@ -341,7 +340,7 @@ void brush_pose(struct stage *stage, struct core *core, const struct editor_worl
     int coordinate;
     painting->covers = false;
     if (!brush->on || !pointed || !free_hand || covered) return;
-    const struct figure *figure = pose_figure(stage, core, world, &coordinate);
+    const struct figure *figure = pose_figure(stage, core, &coordinate);
     if (!figure || !skin_spot(stage, figure, core->pointer_x, core->pointer_y, &painting->spot)) return;
     painting->covers = true;
     reach_find(&painting->work.reach, figure, &painting->spot, 1, (1 + RIM) * brush_radius_of(brush, figure));
@@ -504,12 +503,12 @@ static void show_state(const struct stage *stage, struct core *core, const struc
                       theme()->text_dim, text);
 }
 
-void brush_show(struct stage *stage, struct core *core, const struct editor_world *world)
+void brush_show(struct stage *stage, struct core *core)
 {
     int coordinate;
-    const struct figure *figure = core->brush.on ? characters_figure(core, world, &coordinate) : NULL;
+    const struct figure *figure = core->brush.on ? characters_figure(core, &coordinate) : NULL;
     if (!figure) return;
-    const struct paint *paint = characters_selected(core, world)->painted;
+    const struct paint *paint = characters_selected(core)->painted;
     if (stage->painting.covers) show_ring(stage, core, figure);
     show_state(stage, core, paint && models_paint_fits(paint, figure) ? paint : NULL, coordinate);
 }

@@ -32,14 +32,13 @@ static void add_soles(struct stage_view *view, const struct stage_character *sho
 }
 
 /// One figure on the stage, `aside` metres from where its rig stands.
-static void add_character(struct stage *stage, const struct core *core, const struct editor_world *world, int rig,
-                          int n, enum look look, float aside)
+static void add_character(struct stage *stage, const struct core *core, int rig, int n, enum look look, float aside)
 {
     struct stage_view *view = &stage->view;
     const struct character_view *how = &core->characters;
-    const struct character_rig *character = &world->document->rigs[rig]->character;
+    const struct character_rig *character = &core->document->rigs[rig]->character;
     const struct posing posing = {
-        .document = world->document, .evaluation = world->evaluation, .models = world->models, .look = look};
+        .document = core->document, .evaluation = core->evaluation, .models = core->models, .look = look};
     struct rig_pose posed;
     if (view->character_count == STAGE_MAX_CHARACTERS) return;
     if (!rig_pose(&posing, rig, core->playback.position, NULL, &posed)) return;
@@ -49,7 +48,7 @@ static void add_character(struct stage *stage, const struct core *core, const st
                                  .morph = posed.character.morph,
                                  .rig = n,
                                  .is_twin = aside > 0,
-                                 .coarse = how->compare || document_count_rigs(world->document, RIG_CHARACTER) > 1,
+                                 .coarse = how->compare || document_count_rigs(core->document, RIG_CHARACTER) > 1,
                                  .map_coordinate = -1,
                                  .map_axis = how->axis};
     for (int k = 0; k < 3; k++) shown->position[k] = posed.character.position[k] + (k == 0 ? aside : 0.0f);
@@ -60,21 +59,21 @@ static void add_character(struct stage *stage, const struct core *core, const st
     add_soles(view, shown);
 }
 
-static void pose(struct stage *stage, const struct core *core, const struct editor_world *world, int rig, int n)
+static void pose(struct stage *stage, const struct core *core, int rig, int n)
 {
-    const struct figure *figure = models_figure(world->models, n);
+    const struct figure *figure = models_figure(core->models, n);
     if (!figure) return;
     if (!core->characters.compare) {
-        add_character(stage, core, world, rig, n, core->look, 0.0f);
+        add_character(stage, core, rig, n, core->look, 0.0f);
     } else {
-        add_character(stage, core, world, rig, n, core->look, -pair_offset(figure));
-        add_character(stage, core, world, rig, n, LOOK_STIFF, pair_offset(figure));
+        add_character(stage, core, rig, n, core->look, -pair_offset(figure));
+        add_character(stage, core, rig, n, LOOK_STIFF, pair_offset(figure));
     }
 }
 
-static float aside(const struct core *core, const struct editor_world *world, int n)
+static float aside(const struct core *core, int n)
 {
-    return core->characters.compare ? pair_offset(models_figure(world->models, n)) : 0.0f;
+    return core->characters.compare ? pair_offset(models_figure(core->models, n)) : 0.0f;
 }
 
 static uint64_t hash(uint64_t sum, const struct stage_view *view)
@@ -204,9 +203,9 @@ static void show_pair(const struct stage *stage, struct core *core)
     }
 }
 
-void characters_show(const struct stage *stage, struct core *core, const struct editor_world *world)
+void characters_show(const struct stage *stage, struct core *core)
 {
-    const struct coordinate *coordinate = characters_coordinate(core, world);
+    const struct coordinate *coordinate = characters_coordinate(core);
     if ((core->characters.mapped || core->brush.on) && coordinate) show_legend(core, coordinate);
     if (core->characters.compare) show_pair(stage, core);
 }

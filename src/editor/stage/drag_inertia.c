@@ -5,28 +5,26 @@
 #include <string.h>
 
 /// The filter of a spline at the time shown: parameters that follow others are where those are now.
-static bool filter_now(const struct core *core, const struct editor_world *world, int index,
-                       struct swing_filter *filter)
+static bool filter_now(const struct core *core, int index, struct swing_filter *filter)
 {
-    const struct spline *spline = world->document->splines[index];
+    const struct spline *spline = core->document->splines[index];
     double parameter[PARAMETER_COUNT];
     for (int p = 0; p < PARAMETER_COUNT; p++) {
         const struct param *param = &spline->parameter[p];
         wiggly_value value = {.y = param->value};
-        if (param->track >= 0) value = evaluation_at(world->evaluation, param->track, core->playback.position);
+        if (param->track >= 0) value = evaluation_at(core->evaluation, param->track, core->playback.position);
         parameter[p] = value.y + value.re;
     }
     return swing_filter(spline, parameter, filter);
 }
 
 /// Drives a rig's channels by a change of its base's velocity; whether any of them still swings.
-static bool drive(struct drag_inertia *inertia, const struct core *core, const struct editor_world *world, int rig,
-                  const double kick[3], double dt)
+static bool drive(struct drag_inertia *inertia, const struct core *core, int rig, const double kick[3], double dt)
 {
-    const struct posing posing = stage_posing(core, world);
+    const struct posing posing = stage_posing(core);
     struct swing_arm arm;
     int count;
-    const struct channel *channels = rig_channels(world->document->rigs[rig], &count);
+    const struct channel *channels = rig_channels(core->document->rigs[rig], &count);
     bool swings = false;
     if (!swing_arm(&posing, rig, &arm)) return false;
     for (int c = 0; c < count; c++) {
@@ -34,7 +32,7 @@ static bool drive(struct drag_inertia *inertia, const struct core *core, const s
         struct swing_filter filter;
         double direction[3];
         inertia->scale[c] = 0;
-        if (!swing_hangs(channels, count, channel) || !filter_now(core, world, channel->spline, &filter)) {
+        if (!swing_hangs(channels, count, channel) || !filter_now(core, channel->spline, &filter)) {
             inertia->channel[c] = (struct swing){0};
             continue;
         }
@@ -56,8 +54,7 @@ static int find(const struct stage *stage, unsigned id)
 }
 
 /// False where it is at rest, and nothing need be kept of it.
-static bool advance(struct drag_inertia *inertia, const struct core *core, const struct editor_world *world, int rig,
-                    const double offset[3], double dt)
+static bool advance(struct drag_inertia *inertia, const struct core *core, int rig, const double offset[3], double dt)
 {
     double kick[3];
     bool moves = false;
@@ -69,25 +66,25 @@ static bool advance(struct drag_inertia *inertia, const struct core *core, const
         inertia->offset[k] = offset[k];
     }
     if (!moves && !inertia->swings) return false;
-    inertia->swings = drive(inertia, core, world, rig, kick, dt) || moves;
+    inertia->swings = drive(inertia, core, rig, kick, dt) || moves;
     return inertia->swings;
 }
 
-void drag_inertia_advance(struct stage *stage, const struct core *core, const struct editor_world *world, double dt)
+void drag_inertia_advance(struct stage *stage, const struct core *core, double dt)
 {
-    const struct document *document = world->document;
+    const struct document *document = core->document;
     if (!(dt > 0)) return;
     if (core->look == LOOK_CUBIC) memset(stage->inertia, 0, sizeof stage->inertia); // nothing pulls a cubic back
     for (int r = 0; r < document->rig_count && core->look != LOOK_CUBIC; r++) {
         const unsigned id = document->rigs[r]->id;
         double offset[3];
         if (document->rigs[r]->kind != RIG_TAIL && document->rigs[r]->kind != RIG_CHAIN) continue;
-        body_drag_offset(stage, core, document, r, offset);
+        body_drag_offset(stage, core, r, offset);
         int at = find(stage, id);
         if (at < 0 && (offset[0] != 0 || offset[1] != 0 || offset[2] != 0)) at = find(stage, 0);
         if (at < 0) continue;
         stage->inertia[at].rig = id;
-        if (!advance(&stage->inertia[at], core, world, r, offset, dt)) stage->inertia[at] = (struct drag_inertia){0};
+        if (!advance(&stage->inertia[at], core, r, offset, dt)) stage->inertia[at] = (struct drag_inertia){0};
     }
 }
 

@@ -22,10 +22,9 @@ bool floors_exist(const struct document *document, int rig)
 
 /// The floor of a character that is shown, and where it is on the screen; NULL where it has none, or it is not in sight.
 static const struct character_rig *floors_find(const struct stage *stage, const struct core *core,
-                                               const struct document *document, const struct stage_character *shown,
-                                               struct shown_floor *floor)
+                                               const struct stage_character *shown, struct shown_floor *floor)
 {
-    const struct character_rig *rig = document_character(document, shown->rig);
+    const struct character_rig *rig = document_character(core->document, shown->rig);
     if (!rig || !rig->has_floor || shown->is_twin) return NULL;
     static const float sides[4][2] = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};
     const float *lo = shown->figure->lo, *hi = shown->figure->hi;
@@ -50,8 +49,7 @@ static float distance_to(const float a[2], const float b[2], float x, float y)
     return hypotf(a[0] + along * (b[0] - a[0]) - x, a[1] + along * (b[1] - a[1]) - y);
 }
 
-struct hover floors_hover(const struct stage *stage, const struct core *core, const struct document *document,
-                          float x, float y)
+struct hover floors_hover(const struct stage *stage, const struct core *core, float x, float y)
 {
     struct hover hover = {.kind = HOVER_NONE};
     float best = EDGE_REACH;
@@ -59,34 +57,33 @@ struct hover floors_hover(const struct stage *stage, const struct core *core, co
     for (int c = 0; c < stage->view.character_count; c++) {
         const struct stage_character *shown = &stage->view.characters[c];
         struct shown_floor floor = {0};
-        if (!floors_find(stage, core, document, shown, &floor)) continue;
+        if (!floors_find(stage, core, shown, &floor)) continue;
         for (int side = 1; side < 4; side += 2) { // those behind the character are not in the way of its surface
             const float distance = distance_to(floor.xy[floor.first], floor.xy[(floor.first + side) % 4], x, y);
             if (distance >= best) continue;
             best = distance;
             hover = (struct hover){.kind = HOVER_FLOOR, .x = x, .y = y};
-            hover.rig = document_find_rig(document, RIG_CHARACTER, shown->rig);
+            hover.rig = document_find_rig(core->document, RIG_CHARACTER, shown->rig);
         }
     }
     return hover;
 }
 
 /// The floor goes where the pointer is now.
-static void apply(void *room, struct core *core, const struct editor_world *world)
+static void apply(void *room, struct core *core)
 {
     const struct floor_drag *drag = &((const struct stage *)room)->floor_drag;
-    if (!floors_exist(world->document, drag->rig)) return;
-    const double highest = world->document->rigs[drag->rig]->character.position[1];
+    if (!floors_exist(core->document, drag->rig)) return;
+    const double highest = core->document->rigs[drag->rig]->character.position[1];
     const double height = drag->start - core->drag.moved_y / drag->pixels_per_metre;
     const double rounded = fmin(core_round(height, 0.5 / drag->pixels_per_metre), highest);
-    edit_floor(world->document, drag->rig, true, rounded, &core->error);
+    edit_floor(core->document, drag->rig, true, rounded, &core->error);
 }
 
-void floors_begin(struct stage *stage, struct core *core, const struct editor_world *world, const struct hover *hover,
-                  const struct event *event)
+void floors_begin(struct stage *stage, struct core *core, const struct hover *hover, const struct event *event)
 {
     static const struct drag_owner owner = {.cursor = CURSOR_VERTICAL, .apply = apply, .end = stage_click};
-    const struct character_rig *rig = &world->document->rigs[hover->rig]->character;
+    const struct character_rig *rig = &core->document->rigs[hover->rig]->character;
     const float at[3] = {(float)rig->position[0], (float)rig->floor, (float)rig->position[2]};
     const float depth = fmaxf(camera_depth(stage->view.view, stage->view.eye, at), 0.1f);
     const double rise = fmax(cos((double)stage->camera.elevation), LEAST_RISE);
@@ -182,13 +179,13 @@ static void show_floor(const struct stage *stage, struct core *core, const struc
     show_height(core, floor, height, is_missed ? below : 0, is_missed ? color : theme()->text_dim);
 }
 
-void floors_show(const struct stage *stage, struct core *core, const struct editor_world *world)
+void floors_show(const struct stage *stage, struct core *core)
 {
-    const struct document *document = world->document;
+    const struct document *document = core->document;
     for (int c = 0; c < stage->view.character_count; c++) {
         const struct stage_character *shown = &stage->view.characters[c];
         struct shown_floor floor = {0};
-        const struct character_rig *rig = floors_find(stage, core, document, shown, &floor);
+        const struct character_rig *rig = floors_find(stage, core, shown, &floor);
         if (!rig) continue;
         const int index = document_find_rig(document, RIG_CHARACTER, shown->rig);
         const bool is_hot = core->hover.kind == HOVER_FLOOR && core->hover.rig == index;
@@ -196,13 +193,12 @@ void floors_show(const struct stage *stage, struct core *core, const struct edit
     }
 }
 
-bool stage_floor_point(const struct stage *stage, const struct core *core, const struct document *document,
-                       int character, float xy[2])
+bool stage_floor_point(const struct stage *stage, const struct core *core, int character, float xy[2])
 {
     for (int c = 0; c < stage->view.character_count; c++) {
         const struct stage_character *shown = &stage->view.characters[c];
         struct shown_floor floor = {0};
-        if (shown->rig != character || !floors_find(stage, core, document, shown, &floor)) continue;
+        if (shown->rig != character || !floors_find(stage, core, shown, &floor)) continue;
         for (int k = 0; k < 2; k++) xy[k] = 0.5f * (floor.xy[floor.first][k] + floor.xy[(floor.first + 1) % 4][k]);
         return true;
     }

@@ -99,11 +99,11 @@ static void add_shadow(struct stage_view *view, const double area[2])
                        deep * ((float)(b / ACROSS) - 0.5f * (DEEP - 1)), radius, SHADOW);
 }
 
-static void pose(struct stage *stage, const struct core *core, const struct editor_world *world, int rig, int n)
+static void pose(struct stage *stage, const struct core *core, int rig, int n)
 {
-    const struct posing posing = stage_posing(core, world);
-    const struct meadow *meadow = models_meadow(world->models);
-    const struct meadow_rig *of = &world->document->rigs[rig]->meadow;
+    const struct posing posing = stage_posing(core);
+    const struct meadow *meadow = models_meadow(core->models);
+    const struct meadow_rig *of = &core->document->rigs[rig]->meadow;
     struct meadow_view *shown = &stage->meadow;
     struct stage_meadow *view = &stage->view.meadow;
     struct rig_pose posed;
@@ -122,7 +122,7 @@ static void pose(struct stage *stage, const struct core *core, const struct edit
                                               .width = WIDTH * (0.5f + 0.5f * reed->height)};
         memcpy(shown->reeds[r].place, reed->place, sizeof reed->place);
     }
-    brush_all(shown, core, &stage->view, world->document->splines[of->spline], count);
+    brush_all(shown, core, &stage->view, core->document->splines[of->spline], count);
     for (int r = 0; r < count; r++) {
         for (int k = 0; k < 2; k++)
             shown->reeds[r].pushed[k] = (float)(shown->brushed[r].pushed[k] + shown->brushed[r].q[k]);

@@ -34,11 +34,11 @@ static void add_shadows(struct stage_view *view, const struct stage_model *shown
     }
 }
 
-static void pose(struct stage *stage, const struct core *core, const struct editor_world *world, int rig, int n)
+static void pose(struct stage *stage, const struct core *core, int rig, int n)
 {
     struct stage_view *view = &stage->view;
-    const struct stage_hand by = {stage, core, world->document};
-    struct posing posing = stage_posing_by_hand(&by, world);
+    const struct stage_hand by = {stage, core, core->document};
+    struct posing posing = stage_posing_by_hand(&by);
     struct rig_pose posed;
     (void)n;
     posing.shown = true;

@@ -45,8 +45,9 @@ static void show_name(struct core *core, const struct rect *place, uint32_t colo
 }
 
 /// A name that would lie over another one is left out.
-void names_show(const struct stage *stage, struct core *core, const struct document *document)
+void names_show(const struct stage *stage, struct core *core)
 {
+    const struct document *document = core->document;
     struct rect shown[STAGE_MAX_TAILS], place;
     int count = 0, rig = document_next_rig(document, RIG_TAIL, 0);
     for (int t = 0; rig >= 0 && t < stage->view.tail_count && stage->view.tail_count > 1; t++) {
@@ -106,12 +107,12 @@ float caption_height(struct rect place, const struct document *document)
     return (float)(MARGIN + lines * LINE);
 }
 
-void stage_show_caption(struct core *core, const struct document *document, float bottom)
+void stage_show_caption(struct core *core, float bottom)
 {
-    if (!document->about || core->layout.stage.y + MARGIN + TOP >= bottom) return;
+    if (!core->document->about || core->layout.stage.y + MARGIN + TOP >= bottom) return;
     const struct rect place = core->layout.stage;
     const float width = caption_width(place);
-    const struct caption caption = caption_of(document);
+    const struct caption caption = caption_of(core->document);
     struct rect clip = drawlist_push_clip(&core->list, place);
     const char *rest = caption.rest;
     float y = place.y + MARGIN + TOP;

@@ -24,17 +24,17 @@ static const float NEAREST = 0.75f, FARTHEST = 0.22f; ///< opacity of the first 
 static const float GHOST = 0.85f;
 static const double FADE = 0.4; ///< seconds in which a nudged knot's ghost goes
 
-int overlay_rig(const struct stage *stage, const struct core *core, const struct document *document)
+int overlay_rig(const struct stage *stage, const struct core *core)
 {
     int rig, channel;
-    if (!core_active_channel(core, document, &rig, &channel))
-        rig = stage->strand_count > 0 ? stage->strands[0].rig : -1;
+    if (!core_active_channel(core, &rig, &channel)) rig = stage->strand_count > 0 ? stage->strands[0].rig : -1;
     return rig >= 0 && strand_of(stage, rig) ? rig : -1;
 }
 
 /// The character that the active spline moves, else that tail or chain, else the first character; -1: nothing.
-static int overlay_pose_rig(const struct stage *stage, const struct core *core, const struct document *document)
+static int overlay_pose_rig(const struct stage *stage, const struct core *core)
 {
+    const struct document *document = core->document;
     const int first = document_next_rig(document, RIG_CHARACTER, 0);
     for (int r = first; r >= 0; r = document_next_rig(document, RIG_CHARACTER, r + 1)) {
         const struct rig *rig = document->rigs[r];
@@ -42,17 +42,17 @@ static int overlay_pose_rig(const struct stage *stage, const struct core *core, 
             if (rig_input(rig, i) == core->active) return r;
         }
     }
-    const int strand = overlay_rig(stage, core, document);
+    const int strand = overlay_rig(stage, core);
     return strand >= 0 ? strand : first;
 }
 
 /// The spline whose knots are shown: the active one, or where it has none, the one that it swings about.
-static const struct spline *keyed_spline(const struct core *core, const struct editor_world *world)
+static const struct spline *keyed_spline(const struct core *core)
 {
-    const struct spline *spline = core_active_spline(core, world);
+    const struct spline *spline = core_active_spline(core);
     if (!spline || spline->knot_count > 0) return spline;
     int track = spline->parameter[PARAMETER_EQUILIBRIUM].track;
-    return track >= 0 ? world->document->splines[track] : spline;
+    return track >= 0 ? core->document->splines[track] : spline;
 }
 
 /// Samples of the knots nearest to a position, the nearest first; returns how many.
@@ -245,17 +245,17 @@ static bool proxy_show(struct stage *stage, struct core *core, const struct posi
     }
 }
 
-void onion_show(struct stage *stage, struct core *core, const struct editor_world *world)
+void onion_show(struct stage *stage, struct core *core)
 {
-    const struct document *document = world->document;
-    const struct spline *spline = keyed_spline(core, world);
-    const int rig = overlay_pose_rig(stage, core, document);
+    const struct document *document = core->document;
+    const struct spline *spline = keyed_spline(core);
+    const int rig = overlay_pose_rig(stage, core);
     int samples[MAX_SKINS];
     if (!core->overlays.onion || !spline || rig < 0) return;
     const int most = document->rigs[rig]->kind == RIG_CHARACTER ? CHARACTER_SKINS : MAX_SKINS;
     const int count = nearest_knots(document, spline, core->playback.position, samples, most);
     uint32_t color = spline_list_color(document, core->active);
-    const struct posing posing = stage_posing(core, world);
+    const struct posing posing = stage_posing(core);
     for (int i = count - 1; i >= 0; i--) {
         float share = count > 1 ? (float)i / (float)(count - 1) : 0, tip[2];
         proxy_show(stage, core, &posing, rig, samples[i], 1.25f,
@@ -264,25 +264,25 @@ void onion_show(struct stage *stage, struct core *core, const struct editor_worl
 }
 
 /// The knot of the active spline that is being edited: held by the pointer, or the only one that is selected, just nudged.
-static const struct knot *edited_knot(const struct core *core, const struct editor_world *world)
+static const struct knot *edited_knot(const struct core *core)
 {
     const struct drag *drag = &core->drag;
-    const struct spline *spline = core_active_spline(core, world);
+    const struct spline *spline = core_active_spline(core);
     int at = -1;
     if (spline && drag->owner && drag->knot && drag->moved) at = spline_find_id(spline, drag->knot);
     if (spline && !drag->owner && core->nudged_seconds > 0) at = selection_single(&core->selection, spline);
     return at >= 0 ? &spline->knots[at] : NULL;
 }
 
-void ghost_show(struct stage *stage, struct core *core, const struct editor_world *world)
+void ghost_show(struct stage *stage, struct core *core)
 {
-    const struct document *document = world->document;
-    const struct knot *knot = core->overlays.ghost ? edited_knot(core, world) : NULL;
-    const int rig = knot ? overlay_pose_rig(stage, core, document) : -1;
+    const struct document *document = core->document;
+    const struct knot *knot = core->overlays.ghost ? edited_knot(core) : NULL;
+    const int rig = knot ? overlay_pose_rig(stage, core) : -1;
     if (rig < 0) return;
     const int sample = document_sample(document, knot->frame);
     if (fabs(sample - core->playback.position) < 0.5) return;
-    const struct posing posing = stage_posing(core, world);
+    const struct posing posing = stage_posing(core);
     const double left = !core->drag.owner ? fmin(core->nudged_seconds / FADE, 1) : 1;
     const uint32_t color = theme_fade(spline_list_color(document, core->active), GHOST * (float)left);
     float tip[2];

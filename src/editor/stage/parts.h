@@ -10,11 +10,11 @@
 /// `rig` is the index in the document, `n` that among its kind.
 struct stage_kind {
     /// Poses it into the editor's stage view, with its shadow.
-    void (*pose)(struct stage *stage, const struct core *core, const struct editor_world *world, int rig, int n);
+    void (*pose)(struct stage *stage, const struct core *core, int rig, int n);
     /// Steps through the scene at which the box around its motion is measured; 0: it has none of its own.
     int bound_steps;
     /// Metres that this is wider to both sides; NULL: as it is.
-    float (*aside)(const struct core *core, const struct editor_world *world, int n);
+    float (*aside)(const struct core *core, int n);
     /// Of all that are in the view; NULL: what they show is another kind's.
     uint64_t (*hash)(uint64_t hash, const struct stage_view *view);
 };
@@ -22,14 +22,14 @@ struct stage_kind {
 extern const struct stage_kind stage_tails, stage_characters, stage_models, stage_chains, stage_meadows;
 
 /// What rigs are posed from: the world, in the editor's look.
-struct posing stage_posing(const struct core *core, const struct editor_world *world);
+struct posing stage_posing(const struct core *core);
 /// Where a point of the world is on the screen, the stage being drawn in `r`; false where it is behind the eye.
 bool stage_project_point(const struct stage *stage, struct rect r, const float point[3], float xy[2]);
 
 /// A ring where a tail or chain is held, or can be taken hold of.
 void stage_ring(struct core *core, const float xy[2]);
 /// The end of a drag that never moved: a click, on a bone or beside all.
-void stage_click(void *room, struct core *core, const struct editor_world *world, bool keep);
+void stage_click(void *room, struct core *core, bool keep);
 
 /// What moves rigs by hand: the body that is held, and what swings after it.
 struct stage_hand {
@@ -38,39 +38,36 @@ struct stage_hand {
     const struct document *document;
 };
 /// The same with that, which must outlive it.
-struct posing stage_posing_by_hand(const struct stage_hand *hand, const struct editor_world *world);
+struct posing stage_posing_by_hand(const struct stage_hand *hand);
 /// Poses a tail or chain with what is moved by hand; `change` may be NULL. False if its model is missing.
-bool stage_pose_strand(const struct stage *stage, const struct core *core, const struct editor_world *world, int rig,
-                       double position, const struct what_if *change, struct rig_pose *pose);
+bool stage_pose_strand(const struct stage *stage, const struct core *core, int rig, double position,
+                       const struct what_if *change, struct rig_pose *pose);
 
 /// Frees what is drawn of tails.
 void foxes_free(struct stage *stage);
 
 /// Notes what hangs on the held body, before anything is edited.
-void base_begin(struct stage *stage, const struct editor_world *world);
+void base_begin(struct stage *stage, const struct core *core);
 /// Where a coordinate is at a sample, metres, as a spline would have it.
-double base_value(const struct editor_world *world, int rig, int coordinate, int sample);
+double base_value(const struct core *core, int rig, int coordinate, int sample);
 /// The spline that a coordinate follows, a new cubic where it is a number yet; -1 on failure.
-int base_spline(const struct stage *stage, struct core *core, const struct editor_world *world, int coordinate);
+int base_spline(const struct stage *stage, struct core *core, int coordinate);
 /// Sets or inserts a knot, within the limits of its spline (see core_hold()); a level one stands still there.
-void base_put_knot(struct core *core, const struct editor_world *world, int spline, int sample, double value,
-                   bool level, char why[STOPPED_SIZE]);
+void base_put_knot(struct core *core, int spline, int sample, double value, bool level, char why[STOPPED_SIZE]);
 /// The coordinate follows the spline from now on.
-void base_follow(const struct stage *stage, struct core *core, const struct editor_world *world, int coordinate,
-                 int base);
+void base_follow(const struct stage *stage, struct core *core, int coordinate, int base);
 /// Lets the channels that swung with a coordinate follow its spline. A tail that has none that would gets one: its spline, else -1.
-int base_hang_channels(const struct stage *stage, struct core *core, const struct editor_world *world, int coordinate,
-                       int base);
+int base_hang_channels(const struct stage *stage, struct core *core, int coordinate, int base);
 /// Adds a sentence on that spline to what is said; nothing for -1.
-void base_say_channel(const struct editor_world *world, int spline, char *text, size_t size);
+void base_say_channel(const struct core *core, int spline, char *text, size_t size);
 
 /// Adds one that is shown.
 void strand_add(struct stage *stage, int rig, const struct rig_pose *pose);
 /// The one of a rig as it was last shown, or NULL.
 const struct strand *strand_of(const struct stage *stage, int rig);
 /// Poses one with what is moved by hand; `change` may be NULL. false if its model is missing.
-bool strand_pose(const struct stage *stage, const struct core *core, const struct editor_world *world, int rig,
-                 double position, const struct what_if *change, struct strand *strand);
+bool strand_pose(const struct stage *stage, const struct core *core, int rig, double position,
+                 const struct what_if *change, struct strand *strand);
 /// Where a point of it is on the screen: `fraction` 0 … 1 of the way from joint to joint + 1. false where it is behind the eye.
 bool strand_project(const struct stage *stage, const struct core *core, const struct strand *strand, int joint,
                     double fraction, float xy[2]);
@@ -85,26 +82,24 @@ struct hover strand_hover(const struct stage *stage, const struct core *core, fl
 struct hover strand_end(const struct stage *stage, const struct core *core, const struct hover *between);
 
 /// Whether the document has it and, of a character, its model.
-bool point_exists(const struct editor_world *world, struct rig_point point);
+bool point_exists(const struct core *core, struct rig_point point);
 /// Where the document has it at a position in samples, world; false where its model is missing.
-bool point_place(const struct core *core, const struct editor_world *world, struct rig_point point, double position,
-                 float place[3]);
+bool point_place(const struct core *core, struct rig_point point, double position, float place[3]);
 
 /// Adds the bones of a character that is shown.
 void bones_add(struct stage *stage, int model, const struct rig_pose *pose);
 /// Marks those of a chain of a model rig.
-void bones_mark(struct stage *stage, const struct core *core, const struct document *document, int rig, int model,
-                const struct chain_bones *bones);
+void bones_mark(struct stage *stage, const struct core *core, int rig, int model, const struct chain_bones *bones);
 
 /// The bone that is meant by a point of the stage: HOVER_JOINT of its chain, else HOVER_BONE, or HOVER_NONE.
 struct hover bone_hover(const struct stage *stage, const struct core *core, float x, float y);
 /// Whether a rig is still an imported character.
 bool bone_exists(const struct document *document, int model);
 /// A click where the pointer went down: selects the bone there, or none.
-void bone_click(const struct stage *stage, struct core *core, const struct editor_world *world);
+void bone_click(const struct stage *stage, struct core *core);
 
 /// Draws them: all of the character under the pointer, those behind the selected bone.
-void bones_show(const struct stage *stage, struct core *core, const struct editor_world *world);
+void bones_show(const struct stage *stage, struct core *core);
 
 /// A floor as it is seen: corners in turn, on the screen.
 struct shown_floor {
@@ -113,83 +108,75 @@ struct shown_floor {
 };
 
 /// The edge of a floor under a point of the stage (HOVER_FLOOR), or HOVER_NONE.
-struct hover floors_hover(const struct stage *stage, const struct core *core, const struct document *document,
-                          float x, float y);
+struct hover floors_hover(const struct stage *stage, const struct core *core, float x, float y);
 /// Whether a rig of the document has a floor.
 bool floors_exist(const struct document *document, int rig);
 
 /// Starts to drag a floor; edits nothing until the pointer moves.
-void floors_begin(struct stage *stage, struct core *core, const struct editor_world *world, const struct hover *hover,
-                  const struct event *event);
+void floors_begin(struct stage *stage, struct core *core, const struct hover *hover, const struct event *event);
 /// Draws all floors: brighter where a character stands on one, in the colour of warnings where it is below.
-void floors_show(const struct stage *stage, struct core *core, const struct editor_world *world);
+void floors_show(const struct stage *stage, struct core *core);
 
 /// What of pins is under a point of the stage: a marker (HOVER_PIN), else, where nothing else was `found` there, a point of a surface
 /// that can be pinned (HOVER_POINT). HOVER_NONE: nothing.
-struct hover pins_hover(struct stage *stage, const struct core *core, const struct document *document,
-                        const struct hover *found, float x, float y);
+struct hover pins_hover(struct stage *stage, const struct core *core, const struct hover *found, float x, float y);
 /// Whether what was found is still in the document.
-bool pins_hover_exists(const struct editor_world *world, const struct hover *hover);
+bool pins_hover_exists(const struct core *core, const struct hover *hover);
 
 /// Starts to drag what is under the pointer, a point or a marker; edits nothing until it moves.
-void pins_begin(struct stage *stage, struct core *core, const struct editor_world *world, const struct hover *hover,
-                const struct event *event);
+void pins_begin(struct stage *stage, struct core *core, const struct hover *hover, const struct event *event);
 
 /// Draws all markers, what is lit up, and the path of the point that is held or selected.
-void pins_show(struct stage *stage, struct core *core, const struct editor_world *world);
+void pins_show(struct stage *stage, struct core *core);
 
 /// Frees its memory.
 void brush_free(struct painting *painting);
 /// What a stroke that begins with these modifiers does: Shift smooths, Ctrl reverses.
 enum brush_mode brush_stroke(const struct brush *brush, unsigned mods);
 /// Handles a press on the stage; true if it began a stroke.
-bool brush_press(struct stage *stage, struct core *core, const struct editor_world *world, const struct event *event);
+bool brush_press(struct stage *stage, struct core *core, const struct event *event);
 /// Ctrl+wheel changes the radius, Shift+wheel the strength; true if it was one of these.
 bool brush_wheel(struct core *core, const struct event *event);
 /// Finds what is under the pointer once the stage is posed, and what the brush reaches from there.
-void brush_pose(struct stage *stage, struct core *core, const struct editor_world *world, bool covered);
+void brush_pose(struct stage *stage, struct core *core, bool covered);
 
 /// Draws the ring on the surface; above the legend, what the brush does and what is painted at the pointer.
-void brush_show(struct stage *stage, struct core *core, const struct editor_world *world);
+void brush_show(struct stage *stage, struct core *core);
 
 /// The body under a point of the stage (HOVER_BODY), the nearest to the eye, or HOVER_NONE.
 struct hover body_hover(const struct stage *stage, float x, float y);
 /// How far from the eye a point of the stage meets the body of a posed tail, metres, or a negative number.
 float body_distance(const struct stage *stage, int tail, const struct pose *pose, float x, float y);
 /// What was under a point within the last third of a second of a scene that plays: who presses there aimed at that.
-struct hover body_moment_ago(const struct stage *stage, const struct core *core, const struct editor_world *world,
-                             float x, float y);
+struct hover body_moment_ago(const struct stage *stage, const struct core *core, float x, float y);
 /// Points of a body that are likely to be in sight, the likeliest first, on the screen; false where one is behind the eye.
 enum { BODY_HEAD = 1, BODY_POINTS = 4 };
 bool body_point(const struct stage *stage, const struct core *core, int tail, int point, float xy[2]);
 /// The tail of a rig; NULL: it is none, or gone.
 struct tail *tail_of(const struct document *document, int rig);
 /// Starts to drag a body, over the ground or, with Ctrl, up and across. X, Y and Z lock an axis, R records.
-void body_drag_begin(struct stage *stage, struct core *core, const struct editor_world *world, int rig,
-                     const struct event *event);
+void body_drag_begin(struct stage *stage, struct core *core, int rig, const struct event *event);
 /// Whether a body is dragged.
 bool body_is_held(const struct core *core);
 /// Keeps the way of the held body, metres, where the limits of the splines that it follows will keep what place_body() or a recording
 /// makes of it.
-void place_within(const struct stage *stage, const struct core *core, const struct editor_world *world,
-                  double offset[3]);
+void place_within(const struct stage *stage, const struct core *core, double offset[3]);
 /// The new place, metres from the old one: knots at the playhead with auto-key, else all of the shot moves. Says which.
-void place_body(struct stage *stage, struct core *core, const struct editor_world *world, const double offset[3]);
+void place_body(struct stage *stage, struct core *core, const double offset[3]);
 /// A ring on the ground round the body that is held or can be.
-void body_drag_show(struct stage *stage, struct core *core, const struct editor_world *world);
+void body_drag_show(struct stage *stage, struct core *core);
 
 /// How far the pointer has taken the held body, metres, whatever holds it; 0 where none is held.
 void body_drag_way(const struct stage *stage, const struct core *core, double offset[3]);
 /// The held body goes as far as the pointer and limits have it: before what else advances.
-void body_drag_advance(struct stage *stage, const struct core *core, const struct editor_world *world);
+void body_drag_advance(struct stage *stage, const struct core *core);
 /// Whether a body's motion takes a rig along: itself, or the chains of an imported character.
 bool body_carries(const struct document *document, int body, int rig);
 /// How far the running drag has moved a rig from where the document has it, metres; 0 where the body that is held does not carry it.
-void body_drag_offset(const struct stage *stage, const struct core *core, const struct document *document, int rig,
-                      double offset[3]);
+void body_drag_offset(const struct stage *stage, const struct core *core, int rig, double offset[3]);
 
 /// Advances by `dt` seconds: the bases go where body_drag_offset() says, and what hangs on them swings.
-void drag_inertia_advance(struct stage *stage, const struct core *core, const struct editor_world *world, double dt);
+void drag_inertia_advance(struct stage *stage, const struct core *core, double dt);
 /// The document now holds the offset: the base has not moved by that.
 void drag_inertia_land(struct stage *stage);
 /// Stops what a body carries at once.
@@ -203,9 +190,9 @@ void drag_inertia_add(const struct stage *stage, const struct document *document
 /// Starts to record at the playhead, and plays; the body must be held.
 void record_begin(struct stage *stage, struct core *core);
 /// Records where the body is, up to the playhead; stops at the end of what is played.
-void record_advance(struct stage *stage, const struct core *core, const struct editor_world *world);
+void record_advance(struct stage *stage, const struct core *core);
 /// The path of the body that is pointed at or held, and the way that is being recorded.
-void record_show(struct stage *stage, struct core *core, const struct editor_world *world);
+void record_show(struct stage *stage, struct core *core);
 /// Whether a motion was recorded.
 bool record_has_motion(const struct stage *stage);
 /// Forgets the motion.
@@ -216,42 +203,40 @@ int record_simplify(const double *values, int count, double tolerance, int *knot
 
 /// Makes the edits, in the open step: base splines for the coordinates that moved, and channels that follow them. Says how many
 /// knots that took, then forgets the motion.
-void record_keep(struct stage *stage, struct core *core, const struct editor_world *world);
+void record_keep(struct stage *stage, struct core *core);
 
 /// Whether a tail or chain is in the document and has the joint.
 bool tail_drag_holds(const struct document *document, int rig, int joint);
 /// Starts to pull a tail or chain; edits nothing until the pointer moves.
-void tail_drag_begin(struct stage *stage, struct core *core, const struct editor_world *world,
-                     const struct hover *hover, const struct event *event);
+void tail_drag_begin(struct stage *stage, struct core *core, const struct hover *hover, const struct event *event);
 
 /// The tail or chain that the active spline moves, else the first; -1 where there is none to be seen.
-int overlay_rig(const struct stage *stage, const struct core *core, const struct document *document);
+int overlay_rig(const struct stage *stage, const struct core *core);
 /// Onion skin (O): the outline of the tail or the soft character, or the line of the chain, at the active spline's knots, those
 /// nearest to the playhead.
-void onion_show(struct stage *stage, struct core *core, const struct editor_world *world);
+void onion_show(struct stage *stage, struct core *core);
 
 /// Ghost (F4): the same at the knot that is dragged, or was just nudged, where that is not the
 /// pose that is shown.
-void ghost_show(struct stage *stage, struct core *core, const struct editor_world *world);
+void ghost_show(struct stage *stage, struct core *core);
 
 /// What stands for a rig where nothing is pointed at: the tip of the tail or chain that the active spline moves, else the liveliest
 /// vertex of the selected character. It may not exist (point_exists()).
-struct rig_point overlay_point(struct stage *stage, const struct core *core, const struct editor_world *world);
+struct rig_point overlay_point(struct stage *stage, const struct core *core);
 /// Motion arc (P): where that point goes within two seconds of the playhead, with a mark at each frame.
-void trail_show(struct stage *stage, struct core *core, const struct editor_world *world);
+void trail_show(struct stage *stage, struct core *core);
 /// The same of any point of a rig.
-void path_show(struct stage *stage, struct core *core, const struct editor_world *world, enum trail which,
-               struct rig_point point);
+void path_show(struct stage *stage, struct core *core, enum trail which, struct rig_point point);
 
 /// How much of the upper edge of a stage the scene's description takes, pixels; 0 without one.
 float caption_height(struct rect place, const struct document *document);
 /// The names of tails at their feet, in the colour of the spline that moves them, where there are several.
-void names_show(const struct stage *stage, struct core *core, const struct document *document);
+void names_show(const struct stage *stage, struct core *core);
 
 /// Where the legend is, when it is shown.
 struct rect characters_legend(const struct core *core);
 /// Legend of the phase map, and what the two of a pair are.
-void characters_show(const struct stage *stage, struct core *core, const struct editor_world *world);
+void characters_show(const struct stage *stage, struct core *core);
 
 /// How far along the segment a … b the point nearest to p is, 0 … 1.
 static inline float segment_nearest(const float a[2], const float b[2], const float p[2])

@@ -69,8 +69,7 @@ static struct hover find_vertex(struct stage *stage, const struct document *docu
 }
 
 /// The same, from memory while neither pointer nor picture have moved. Nothing lights up by playing on under a still pointer.
-static struct hover surface_hover(struct stage *stage, const struct core *core, const struct document *document,
-                                  float x, float y)
+static struct hover surface_hover(struct stage *stage, const struct core *core, float x, float y)
 {
     struct pointed *pointed = &stage->pointed;
     const bool still = pointed->x == x && pointed->y == y;
@@ -78,7 +77,7 @@ static struct hover surface_hover(struct stage *stage, const struct core *core, 
         return (struct hover){.kind = HOVER_NONE};
     if (still && pointed->hash == stage->view.hash) return pointed->hover;
     if (still && core->playback.playing) return (struct hover){.kind = HOVER_NONE};
-    *pointed = (struct pointed){x, y, stage->view.hash, find_vertex(stage, document, x, y)};
+    *pointed = (struct pointed){x, y, stage->view.hash, find_vertex(stage, core->document, x, y)};
     return pointed->hover;
 }
 
@@ -102,20 +101,18 @@ static struct hover marker_hover(const struct stage *stage, const struct core *c
     return hover;
 }
 
-struct hover pins_hover(struct stage *stage, const struct core *core, const struct document *document,
-                        const struct hover *found, float x, float y)
+struct hover pins_hover(struct stage *stage, const struct core *core, const struct hover *found, float x, float y)
 {
     if (core->brush.on || core->pick.use != BONE_SELECTED) return (struct hover){.kind = HOVER_NONE};
     const struct hover marker = marker_hover(stage, core, x, y);
     if (marker.kind != HOVER_NONE) return marker;
-    return found->kind == HOVER_NONE ? surface_hover(stage, core, document, x, y)
-                                     : (struct hover){.kind = HOVER_NONE};
+    return found->kind == HOVER_NONE ? surface_hover(stage, core, x, y) : (struct hover){.kind = HOVER_NONE};
 }
 
-bool pins_hover_exists(const struct editor_world *world, const struct hover *hover)
+bool pins_hover_exists(const struct core *core, const struct hover *hover)
 {
-    if (hover->kind == HOVER_POINT) return point_exists(world, (struct rig_point){hover->rig, hover->joint});
-    const struct document *document = world->document;
+    if (hover->kind == HOVER_POINT) return point_exists(core, (struct rig_point){hover->rig, hover->joint});
+    const struct document *document = core->document;
     return hover->rig < document->rig_count && pins_find_id(document->rigs[hover->rig], hover->pin) >= 0;
 }
 
@@ -157,20 +154,18 @@ static void drag_to(const struct pin_drag *drag, double dx, double dy, double to
 }
 
 /// The point, or the marker, goes where the pointer is now.
-static void apply(void *room, struct core *core, const struct editor_world *world)
+static void apply(void *room, struct core *core)
 {
     const struct pin_drag *drag = &((const struct stage *)room)->pin_drag;
     double to[3];
     drag_to(drag, core->drag.moved_x, core->drag.moved_y, to);
-    pins_put(core, world, drag->point.rig, drag->point.at, drag->frame, to);
+    pins_put(core, drag->point.rig, drag->point.at, drag->frame, to);
 }
 
-static enum drag_answer take_event(void *room, struct core *core, const struct editor_world *world,
-                                   const struct event *event)
+static enum drag_answer take_event(void *room, struct core *core, const struct event *event)
 {
     // Ctrl may still be down, which takes joints.
     const bool key = event->kind == EVENT_KEY && event->action == ACTION_PRESS && !(event->mods & MOD_ALT);
-    (void)world;
     return key && lock(room, &core->drag, event->key) ? DRAG_USED : DRAG_PASSES;
 }
 
@@ -180,12 +175,11 @@ static const float FAINT = 0.5f;                                              //
 static const float AXIS = 2; ///< metres of a locked axis to each side
 
 /// Draws the line along which a locked drag goes.
-static void pins_show_axis(void *room, struct core *core, const struct editor_world *world)
+static void pins_show_axis(void *room, struct core *core)
 {
     const struct stage *stage = room;
     const struct pin_drag *drag = &stage->pin_drag;
     float ends[2][3], line[2][2];
-    (void)world;
     if (drag->axis < 0) return;
     for (int e = 0; e < 2; e++) {
         for (int k = 0; k < 3; k++) ends[e][k] = (float)drag->start[k];
@@ -195,26 +189,25 @@ static void pins_show_axis(void *room, struct core *core, const struct editor_wo
     drawlist_dashed(&core->list, line[0], 2, 1, 6, 4, theme_fade(theme()->playhead, 0.7f));
 }
 
-void pins_begin(struct stage *stage, struct core *core, const struct editor_world *world, const struct hover *hover,
-                const struct event *event)
+void pins_begin(struct stage *stage, struct core *core, const struct hover *hover, const struct event *event)
 {
     static const struct drag_owner owner = {
         .cursor = CURSOR_HAND, .apply = apply, .event = take_event, .end = stage_click, .show = pins_show_axis};
     struct pin_drag *drag = &stage->pin_drag;
-    const struct document *document = world->document;
+    const struct document *document = core->document;
     drag_begin(core, &owner, stage, hover->kind == HOVER_PIN ? "Move pin" : "Pin", event);
     *drag = (struct pin_drag){.point = {hover->rig, hover->joint}, .axis = -1};
     if (hover->kind == HOVER_PIN) {
         const struct rig *rig = document->rigs[hover->rig];
         const struct pin *pin = &rig->pins[pins_find_id(rig, hover->pin)];
-        pins_visit(core, document, pin);
+        pins_visit(core, pin);
         drag->frame = pin->frame;
         memcpy(drag->start, pin->to, sizeof drag->start);
     } else {
         float place[3] = {0};
-        drag->frame = pins_frame_here(core, document, hover->rig);
-        playback_seek(core, document, drag->frame);
-        point_place(core, world, drag->point, core->playback.position, place);
+        drag->frame = pins_frame_here(core, hover->rig);
+        playback_seek(core, drag->frame);
+        point_place(core, drag->point, core->playback.position, place);
         for (int k = 0; k < 3; k++) drag->start[k] = (double)place[k];
     }
     pins_take_plane(stage, core, drag->start, drag);
@@ -222,54 +215,53 @@ void pins_begin(struct stage *stage, struct core *core, const struct editor_worl
 
 static const double NUDGE = 0.01; ///< of the height of what is seen
 
-void stage_nudge_pin(struct stage *stage, struct core *core, const struct editor_world *world, double right,
-                     double up)
+void stage_nudge_pin(struct stage *stage, struct core *core, double right, double up)
 {
     int rig;
     struct pin_drag plane;
-    const struct pin *pin = pins_selected(core, world->document, &rig);
+    const struct pin *pin = pins_selected(core, &rig);
     if (!pin) return;
     pins_take_plane(stage, core, pin->to, &plane);
     const double step = core_round(NUDGE * (double)core->layout.stage.h / plane.pixels_per_metre, 0.01);
     double by[3];
     for (int k = 0; k < 3; k++) by[k] = step * (right * plane.right[k] + up * plane.up[k]);
-    pins_nudge(core, world, by);
+    pins_nudge(core, by);
 }
 
 /// Pins a point at the playhead where it is.
-static void hold(struct core *core, const struct editor_world *world, struct rig_point point)
+static void hold(struct core *core, struct rig_point point)
 {
     float place[3];
-    if (!point_exists(world, point)) {
+    if (!point_exists(core, point)) {
         core_message(core, false, "There is no tail, chain or character to pin.");
         return;
     }
-    const double frame = pins_frame_here(core, world->document, point.rig);
-    if (!point_place(core, world, point, core_position(world->document, frame), place)) return;
-    pins_put_here(core, world, point.rig, point.at, (const double[3]){place[0], place[1], place[2]});
+    const double frame = pins_frame_here(core, point.rig);
+    if (!point_place(core, point, core_position(core->document, frame), place)) return;
+    pins_put_here(core, point.rig, point.at, (const double[3]){place[0], place[1], place[2]});
 }
 
-void stage_hold_point(struct stage *stage, struct core *core, const struct editor_world *world)
+void stage_hold_point(struct stage *stage, struct core *core)
 {
     int rig;
     struct hover hover = core->hover;
     if (hover.kind == HOVER_JOINT) hover = strand_end(stage, core, &hover);
-    const struct pin *selected = pins_selected(core, world->document, &rig);
+    const struct pin *selected = pins_selected(core, &rig);
     if (hover.kind == HOVER_POINT) {
-        hold(core, world, (struct rig_point){hover.rig, hover.joint});
+        hold(core, (struct rig_point){hover.rig, hover.joint});
     } else if (selected) {
         const struct pin pin = *selected;
-        pins_put_here(core, world, rig, pin.point, pin.to);
+        pins_put_here(core, rig, pin.point, pin.to);
     } else {
-        hold(core, world, overlay_point(stage, core, world));
+        hold(core, overlay_point(stage, core));
     }
 }
 
-static void add_pin(struct stage *stage, const struct editor_world *world, int rig, int at)
+static void add_pin(struct stage *stage, const struct core *core, int rig, int at)
 {
-    const struct document *document = world->document;
+    const struct document *document = core->document;
     const struct pin *pin = &document->rigs[rig]->pins[at];
-    const struct pin_left *left = evaluation_pin(world->evaluation, document, rig, at);
+    const struct pin_left *left = evaluation_pin(core->evaluation, document, rig, at);
     const int spline = rig_point_spline(document->rigs[rig]);
     struct shown_pin *shown = &stage->pins[stage->pin_count++];
     *shown = (struct shown_pin){.id = pin->id, .point = {rig, pin->point}, .frame = pin->frame};
@@ -280,13 +272,13 @@ static void add_pin(struct stage *stage, const struct editor_world *world, int r
 }
 
 /// Finds all markers for the document as it is solved now.
-static void update(struct stage *stage, const struct core *core, const struct editor_world *world)
+static void update(struct stage *stage, const struct core *core)
 {
-    const struct document *document = world->document;
+    const struct document *document = core->document;
     stage->pin_count = 0;
     for (int r = 0; r < document->rig_count; r++) {
         if (document->rigs[r]->kind == RIG_CHARACTER && core->characters.compare) continue; // they stand aside
-        for (int i = 0; i < document->rigs[r]->pin_count; i++) add_pin(stage, world, r, i);
+        for (int i = 0; i < document->rigs[r]->pin_count; i++) add_pin(stage, core, r, i);
     }
 }
 
@@ -339,15 +331,15 @@ static void show_lit(struct core *core)
     show_disc(&core->list, xy, END, theme()->playhead);
 }
 
-void pins_show(struct stage *stage, struct core *core, const struct editor_world *world)
+void pins_show(struct stage *stage, struct core *core)
 {
-    const struct document *document = world->document;
+    const struct document *document = core->document;
     int rig;
-    update(stage, core, world);
-    const struct pin *selected = pins_selected(core, document, &rig);
-    if (selected && point_exists(world, (struct rig_point){rig, selected->point}))
-        path_show(stage, core, world, TRAIL_OF_PIN, (struct rig_point){rig, selected->point});
-    const int now = document_sample(document, core_frame(core, document));
+    update(stage, core);
+    const struct pin *selected = pins_selected(core, &rig);
+    if (selected && point_exists(core, (struct rig_point){rig, selected->point}))
+        path_show(stage, core, TRAIL_OF_PIN, (struct rig_point){rig, selected->point});
+    const int now = document_sample(document, core_frame(core));
     for (int i = 0; i < stage->pin_count; i++) {
         const struct shown_pin *pin = &stage->pins[i];
         show_marker(stage, core, pin, document_sample(document, pin->frame) == now);
@@ -363,15 +355,15 @@ bool stage_pin_point(const struct stage *stage, const struct core *core, unsigne
     return false;
 }
 
-bool point_exists(const struct editor_world *world, struct rig_point point)
+bool point_exists(const struct core *core, struct rig_point point)
 {
-    const struct document *document = world->document;
+    const struct document *document = core->document;
     if (point.rig < 0 || point.rig >= document->rig_count) return false;
     const enum rig_kind kind = document->rigs[point.rig]->kind;
     if (point.at < 0) return point.at == POINT_BASE && kind == RIG_TAIL;
-    if (kind == RIG_TAIL || kind == RIG_CHAIN) return point.at < bones_joints(world, point.rig);
+    if (kind == RIG_TAIL || kind == RIG_CHAIN) return point.at < bones_joints(core, point.rig);
     const int n = document_rig_number(document, point.rig);
-    const struct figure *figure = kind == RIG_CHARACTER ? models_figure(world->models, n) : NULL;
+    const struct figure *figure = kind == RIG_CHARACTER ? models_figure(core->models, n) : NULL;
     return figure && point.at < figure->character.vertex_count;
 }
 
@@ -388,12 +380,11 @@ static void take_place(const struct rig_pose *pose, int at, float place[3])
     }
 }
 
-bool point_place(const struct core *core, const struct editor_world *world, struct rig_point point, double position,
-                 float place[3])
+bool point_place(const struct core *core, struct rig_point point, double position, float place[3])
 {
     struct rig_pose pose;
-    const struct posing posing = stage_posing(core, world);
-    if (!point_exists(world, point) || !rig_pose(&posing, point.rig, position, NULL, &pose)) return false;
+    const struct posing posing = stage_posing(core);
+    if (!point_exists(core, point) || !rig_pose(&posing, point.rig, position, NULL, &pose)) return false;
     take_place(&pose, point.at, place);
     return true;
 }

@@ -17,7 +17,7 @@ void record_begin(struct stage *stage, struct core *core)
     core_message(core, false, "Recording the body: release to keep it.");
 }
 
-void record_advance(struct stage *stage, const struct core *core, const struct editor_world *world)
+void record_advance(struct stage *stage, const struct core *core)
 {
     struct record *record = &stage->record;
     if (!record->running || !body_is_held(core)) return;
@@ -25,7 +25,7 @@ void record_advance(struct stage *stage, const struct core *core, const struct e
     body_drag_way(stage, core, offset);
     int next = record->first + record->count;
     bool ended = position < next - 1 || !core->playback.playing || record->count == RECORD_SAMPLES ||
-                 next >= document_samples(world->document);
+                 next >= document_samples(core->document);
     if (ended) {
         record->running = false;
         return;
@@ -116,65 +116,64 @@ static double largest(const double *values, int count)
     return most;
 }
 
-static void clear_knots(struct core *core, const struct editor_world *world, int spline, int from, int to)
+static void clear_knots(struct core *core, int spline, int from, int to)
 {
-    const struct document *document = world->document;
+    const struct document *document = core->document;
     for (;;) {
         int at = spline_lower_bound(document, document->splines[spline], from);
         const struct spline *cleared = document->splines[spline];
         if (at == cleared->knot_count || document_sample(document, cleared->knots[at].frame) > to) return;
-        if (!edit_knot_remove(world->document, spline, cleared->knots[at].id, &core->error)) return;
+        if (!edit_knot_remove(core->document, spline, cleared->knots[at].id, &core->error)) return;
     }
 }
 
 /// Keys a coordinate's motion; returns how many knots that took. `swings` is the spline by which the tail swings with that from now
 /// on, where it did not; `why` is what held a knot. Before and after it the body stands still, unless the scene is a loop, in which
 /// it comes back by itself.
-static int key_coordinate(const struct stage *stage, struct core *core, const struct editor_world *world,
-                          int coordinate, int *swings, char why[STOPPED_SIZE])
+static int key_coordinate(const struct stage *stage, struct core *core, int coordinate, int *swings,
+                          char why[STOPPED_SIZE])
 {
     const struct record *record = &stage->record;
-    const struct document *document = world->document;
+    const struct document *document = core->document;
     const int rig = stage->body_drag.rig, last = document_samples(document) - 1;
     const bool is_new = tail_of(document, rig)->position[coordinate].track < 0;
     double way[RECORD_SAMPLES];
     int knots[MAX_KNOTS];
-    int spline = base_spline(stage, core, world, coordinate);
+    int spline = base_spline(stage, core, coordinate);
     if (spline < 0) return 0;
     int count = record->count, end = document_last_knot_sample(document, document->splines[spline]);
     if (record->first + count - 1 > end) count = end - record->first + 1;
     for (int i = 0; i < count; i++)
-        way[i] = base_value(world, rig, coordinate, record->first + i) + record->way[coordinate][i];
+        way[i] = base_value(core, rig, coordinate, record->first + i) + record->way[coordinate][i];
     int made = count >= 2 ? record_simplify(way, count, TOLERANCE, knots, MAX_KNOTS) : 0;
     if (made == 0) return 0;
-    if (!is_new) clear_knots(core, world, spline, record->first, record->first + count - 1);
+    if (!is_new) clear_knots(core, spline, record->first, record->first + count - 1);
     for (int i = 0; i < made; i++) {
-        base_put_knot(core, world, spline, record->first + knots[i], way[knots[i]], i == 0 || i == made - 1, why);
+        base_put_knot(core, spline, record->first + knots[i], way[knots[i]], i == 0 || i == made - 1, why);
     }
     if (is_new && !stage->body_drag.loops) {
-        if (record->first > 1) base_put_knot(core, world, spline, 0, way[0], true, why);
-        if (record->first + count < last) base_put_knot(core, world, spline, last, way[count - 1], true, why);
+        if (record->first > 1) base_put_knot(core, spline, 0, way[0], true, why);
+        if (record->first + count < last) base_put_knot(core, spline, last, way[count - 1], true, why);
     }
-    if (is_new) base_follow(stage, core, world, coordinate, spline);
-    const int hung = base_hang_channels(stage, core, world, coordinate, spline);
+    if (is_new) base_follow(stage, core, coordinate, spline);
+    const int hung = base_hang_channels(stage, core, coordinate, spline);
     if (hung >= 0) *swings = hung;
     core_edited(core, spline);
     return made;
 }
 
-void record_keep(struct stage *stage, struct core *core, const struct editor_world *world)
+void record_keep(struct stage *stage, struct core *core)
 {
     struct record *record = &stage->record;
     char text[768], why[STOPPED_SIZE] = "";
     int made = 0, swings = -1;
-    base_begin(stage, world);
+    base_begin(stage, core);
     for (int k = 0; k < 3; k++) {
-        if (largest(record->way[k], record->count) >= STILL)
-            made += key_coordinate(stage, core, world, k, &swings, why);
+        if (largest(record->way[k], record->count) >= STILL) made += key_coordinate(stage, core, k, &swings, why);
     }
     snprintf(text, sizeof text, made == 0 ? "Nothing moved: nothing is recorded." : "%d knots recorded.", made);
     core_add_stopped(why, text, sizeof text);
-    base_say_channel(world, swings, text, sizeof text);
+    base_say_channel(core, swings, text, sizeof text);
     core_message(core, false, text);
     record_forget(stage);
 }
@@ -182,12 +181,12 @@ void record_keep(struct stage *stage, struct core *core, const struct editor_wor
 enum { MARGIN = 12, HEIGHT = 22, PAD = 8, DOT = 10, MAX_POINTS = 256 };
 
 /// In the upper right corner, below the caption.
-static void show_sign(struct core *core, const struct document *document, bool runs, const char *text)
+static void show_sign(struct core *core, bool runs, const char *text)
 {
     const struct rect stage = core->layout.stage;
     const float width = ceilf(font_width(FONT_LABEL_BOLD, THEME_TEXT_NORMAL, text)) + DOT + 3 * PAD;
     const struct rect sign = {stage.x + stage.w - MARGIN - width,
-                              stage.y + fmaxf(MARGIN, caption_height(stage, document)), width, HEIGHT};
+                              stage.y + fmaxf(MARGIN, caption_height(stage, core->document)), width, HEIGHT};
     const struct rect dot = {sign.x + PAD, sign.y + (HEIGHT - DOT) / 2.0f, DOT, DOT};
     drawlist_rounded(&core->list, sign, HEIGHT / 2.0f, theme()->panel);
     if (runs) {
@@ -200,7 +199,7 @@ static void show_sign(struct core *core, const struct document *document, bool r
 }
 
 /// The way so far, where the hand took the base at each sample.
-static void show_way(const struct stage *stage, struct core *core, const struct editor_world *world)
+static void show_way(const struct stage *stage, struct core *core)
 {
     const struct record *record = &stage->record;
     const int rig = stage->body_drag.rig, step = record->count / MAX_POINTS + 1;
@@ -209,9 +208,9 @@ static void show_way(const struct stage *stage, struct core *core, const struct 
     for (int i = 0; i < record->count; i += step) {
         float place[3];
         for (int k = 0; k < 3; k++) {
-            const struct param *param = &tail_of(world->document, rig)->position[k];
+            const struct param *param = &tail_of(core->document, rig)->position[k];
             double value = param->value;
-            if (param->track >= 0) value = base_value(world, rig, k, record->first + i);
+            if (param->track >= 0) value = base_value(core, rig, k, record->first + i);
             place[k] = (float)(value + record->way[k][i]);
         }
         if (!stage_project_point(stage, core->layout.stage, place, points[count++])) return;
@@ -219,22 +218,21 @@ static void show_way(const struct stage *stage, struct core *core, const struct 
     if (count > 1) drawlist_line(&core->list, (const float *)points, count, 2, theme()->error);
 }
 
-void record_show(struct stage *stage, struct core *core, const struct editor_world *world)
+void record_show(struct stage *stage, struct core *core)
 {
-    const struct document *document = world->document;
+    const struct document *document = core->document;
     const bool is_held = body_is_held(core);
     const int rig = is_held ? stage->body_drag.rig : core->hover.rig;
     const struct tail *shown = is_held || core->hover.kind == HOVER_BODY ? tail_of(document, rig) : NULL;
     bool moves = false;
     for (int k = 0; shown && k < 3; k++) moves |= shown->position[k].track >= 0;
-    if (moves && !core->overlays.trail)
-        path_show(stage, core, world, TRAIL_OF_BODY, (struct rig_point){rig, POINT_BASE});
+    if (moves && !core->overlays.trail) path_show(stage, core, TRAIL_OF_BODY, (struct rig_point){rig, POINT_BASE});
     if (is_held && stage->record.running) {
         char text[32];
-        show_way(stage, core, world);
+        show_way(stage, core);
         snprintf(text, sizeof text, "REC %.1f s", stage->record.count / (document->fps * document->substeps));
-        show_sign(core, document, true, text);
+        show_sign(core, true, text);
     } else if (core->record_armed && document_tail(document, 0)) {
-        show_sign(core, document, false, "Drag the body to record it");
+        show_sign(core, false, "Drag the body to record it");
     }
 }

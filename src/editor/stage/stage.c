@@ -46,71 +46,66 @@ static struct hover nearer(struct hover a, struct hover b, float x, float y)
     return a.kind == HOVER_NONE || hypotf(b.x - x, b.y - y) < hypotf(a.x - x, a.y - y) ? b : a;
 }
 
-struct hover stage_hover(struct stage *stage, const struct core *core, const struct document *document, float x,
-                         float y)
+struct hover stage_hover(struct stage *stage, const struct core *core, float x, float y)
 {
     struct hover joint = nearer(strand_hover(stage, core, x, y), bone_hover(stage, core, x, y), x, y);
     const bool pins = core->mods & MOD_CTRL && !core->brush.on && core->pick.use == BONE_SELECTED;
     if (pins && joint.kind == HOVER_JOINT) joint = strand_end(stage, core, &joint);
     struct hover found = joint;
-    if (found.kind == HOVER_NONE) found = floors_hover(stage, core, document, x, y);
+    if (found.kind == HOVER_NONE) found = floors_hover(stage, core, x, y);
     if (found.kind == HOVER_NONE) found = body_hover(stage, x, y);
-    const struct hover pin = pins_hover(stage, core, document, &found, x, y);
+    const struct hover pin = pins_hover(stage, core, &found, x, y);
     return pin.kind == HOVER_NONE ? found : pin;
 }
 
 /// What is under a point and still in the document: an edit in the same frame may have taken away what was last shown.
-static struct hover hover_now(struct stage *stage, const struct core *core, const struct editor_world *world, float x,
-                              float y)
+static struct hover hover_now(struct stage *stage, const struct core *core, float x, float y)
 {
-    const struct document *document = world->document;
-    struct hover hover = stage_hover(stage, core, document, x, y);
+    const struct document *document = core->document;
+    struct hover hover = stage_hover(stage, core, x, y);
     if (hover.kind == HOVER_JOINT && !tail_drag_holds(document, hover.rig, hover.joint)) hover.kind = HOVER_NONE;
     if (hover.kind == HOVER_BONE && !bone_exists(document, hover.model)) hover.kind = HOVER_NONE;
     if (hover.kind == HOVER_BODY && !tail_of(document, hover.rig)) hover.kind = HOVER_NONE;
-    if ((hover.kind == HOVER_POINT || hover.kind == HOVER_PIN) && !pins_hover_exists(world, &hover))
+    if ((hover.kind == HOVER_POINT || hover.kind == HOVER_PIN) && !pins_hover_exists(core, &hover))
         hover.kind = HOVER_NONE;
     if (hover.kind == HOVER_FLOOR && !floors_exist(document, hover.rig)) hover.kind = HOVER_NONE;
     return hover;
 }
 
-bool stage_body_point(struct stage *stage, const struct core *core, const struct document *document, int tail,
-                      float xy[2])
+bool stage_body_point(struct stage *stage, const struct core *core, int tail, float xy[2])
 {
-    const int rig = document_find_rig(document, RIG_TAIL, tail);
+    const int rig = document_find_rig(core->document, RIG_TAIL, tail);
     for (int i = 0; i < BODY_POINTS; i++) {
         if (!body_point(stage, core, tail, i, xy)) continue;
-        struct hover hover = stage_hover(stage, core, document, xy[0], xy[1]);
+        struct hover hover = stage_hover(stage, core, xy[0], xy[1]);
         if (hover.kind == HOVER_BODY && hover.rig == rig) return true;
     }
     return false;
 }
 
-void stage_click(void *room, struct core *core, const struct editor_world *world, bool keep)
+void stage_click(void *room, struct core *core, bool keep)
 {
-    if (!core->drag.moved && core->drag.button == BUTTON_LEFT && keep) bone_click(room, core, world);
+    if (!core->drag.moved && core->drag.button == BUTTON_LEFT && keep) bone_click(room, core);
 }
 
 static const float ORBIT_SPEED = 0.008f; ///< radians a pixel
 
-static void orbit(void *room, struct core *core, const struct editor_world *world)
+static void orbit(void *room, struct core *core)
 {
     struct stage *stage = room;
-    (void)world;
     camera_orbit(&stage->camera, -(float)core->drag.moved_x * ORBIT_SPEED, (float)core->drag.moved_y * ORBIT_SPEED);
 }
 
-static void pan(void *room, struct core *core, const struct editor_world *world)
+static void pan(void *room, struct core *core)
 {
     struct stage *stage = room;
-    (void)world;
     camera_pan(&stage->camera, (float)core->drag.moved_x, (float)core->drag.moved_y, core->layout.stage.h);
 }
 
 static const struct drag_owner panning = {.cursor = CURSOR_MOVE, .move = pan, .end = stage_click};
 static const struct drag_owner orbiting = {.cursor = CURSOR_ARROW, .move = orbit, .end = stage_click};
 
-void stage_press(struct stage *stage, struct core *core, const struct editor_world *world, const struct event *event)
+void stage_press(struct stage *stage, struct core *core, const struct event *event)
 {
     const bool pans = event->button == BUTTON_MIDDLE || (event->button == BUTTON_LEFT && core->space_down);
     if (pans) {
@@ -118,21 +113,21 @@ void stage_press(struct stage *stage, struct core *core, const struct editor_wor
         drag_begin(core, &panning, stage, NULL, event);
         return;
     }
-    if (brush_press(stage, core, world, event)) return;
+    if (brush_press(stage, core, event)) return;
     stage->pointed.hash = 0; // a press means what is there now, even while all moves
-    struct hover hover = hover_now(stage, core, world, event->x, event->y);
+    struct hover hover = hover_now(stage, core, event->x, event->y);
     const bool holds = event->button == BUTTON_LEFT && core->pick.use == BONE_SELECTED;
-    if (holds && hover.kind == HOVER_NONE) hover = body_moment_ago(stage, core, world, event->x, event->y);
+    if (holds && hover.kind == HOVER_NONE) hover = body_moment_ago(stage, core, event->x, event->y);
     stage->pressed = hover;
     if (event->button == BUTTON_LEFT && hover.kind != HOVER_PIN) pins_clear(core);
     if (holds && (hover.kind == HOVER_POINT || hover.kind == HOVER_PIN)) {
-        pins_begin(stage, core, world, &hover, event);
+        pins_begin(stage, core, &hover, event);
     } else if (holds && hover.kind == HOVER_FLOOR) {
-        floors_begin(stage, core, world, &hover, event);
+        floors_begin(stage, core, &hover, event);
     } else if (holds && (hover.kind == HOVER_BODY || hover.kind == HOVER_BONE)) {
-        body_drag_begin(stage, core, world, hover.kind == HOVER_BODY ? hover.rig : hover.model, event);
+        body_drag_begin(stage, core, hover.kind == HOVER_BODY ? hover.rig : hover.model, event);
     } else if (holds && hover.kind == HOVER_JOINT) {
-        tail_drag_begin(stage, core, world, &hover, event);
+        tail_drag_begin(stage, core, &hover, event);
     } else {
         drag_begin(core, &orbiting, stage, NULL, event);
     }
@@ -144,18 +139,18 @@ void stage_wheel(struct stage *stage, struct core *core, const struct event *eve
     camera_zoom(&stage->camera, (float)exp(-ZOOM_STEP * fmin(fmax(event->dy, -20), 20)));
 }
 
-void stage_advance(struct stage *stage, struct core *core, const struct editor_world *world, double dt)
+void stage_advance(struct stage *stage, struct core *core, double dt)
 {
-    body_drag_advance(stage, core, world);
-    drag_inertia_advance(stage, core, world, dt);
+    body_drag_advance(stage, core);
+    drag_inertia_advance(stage, core, dt);
     stage->meadow.dt += dt;
-    record_advance(stage, core, world);
+    record_advance(stage, core);
 }
 
-struct posing stage_posing(const struct core *core, const struct editor_world *world)
+struct posing stage_posing(const struct core *core)
 {
     return (struct posing){
-        .document = world->document, .evaluation = world->evaluation, .models = world->models, .look = core->look};
+        .document = core->document, .evaluation = core->evaluation, .models = core->models, .look = core->look};
 }
 
 bool stage_project_point(const struct stage *stage, struct rect r, const float point[3], float xy[2])
@@ -176,19 +171,18 @@ static const struct stage_kind *const kinds[RIG_KINDS] = {
 };
 
 /// Adds the motion of one over the whole scene to the box lo … hi; false where it is not to be seen.
-static bool add_motion(const struct stage *stage, const struct core *core, const struct editor_world *world, int rig,
-                       int n, float lo[3], float hi[3])
+static bool add_motion(const struct stage *stage, const struct core *core, int rig, int n, float lo[3], float hi[3])
 {
-    const struct stage_kind *kind = kinds[world->document->rigs[rig]->kind];
-    const struct stage_hand by = {stage, core, world->document};
-    const struct posing posing = stage_posing_by_hand(&by, world);
-    const double last = document_samples(world->document) - 1;
+    const struct stage_kind *kind = kinds[core->document->rigs[rig]->kind];
+    const struct stage_hand by = {stage, core, core->document};
+    const struct posing posing = stage_posing_by_hand(&by);
+    const double last = document_samples(core->document) - 1;
     bool any = false;
     for (int step = 0; kind->bound_steps > 0 && step <= kind->bound_steps; step++) {
         struct rig_pose posed;
         float low[3], high[3];
         if (!rig_pose(&posing, rig, last * step / kind->bound_steps, NULL, &posed)) break;
-        const float aside = kind->aside ? kind->aside(core, world, n) : 0.0f;
+        const float aside = kind->aside ? kind->aside(core, n) : 0.0f;
         rig_bounds(&posed, low, high);
         for (int k = 0; k < 3; k++) {
             lo[k] = fminf(lo[k], low[k] - (k == 0 ? aside : 0.0f));
@@ -200,14 +194,14 @@ static bool add_motion(const struct stage *stage, const struct core *core, const
 }
 
 /// Adds all motion of a kind to the box lo … hi; false where nothing of it is to be seen.
-static bool add_bounds(const struct stage *stage, const struct core *core, const struct editor_world *world,
-                       enum rig_kind kind, float lo[3], float hi[3])
+static bool add_bounds(const struct stage *stage, const struct core *core, enum rig_kind kind, float lo[3],
+                       float hi[3])
 {
-    const struct document *document = world->document;
+    const struct document *document = core->document;
     bool any = false;
     int rig = document_next_rig(document, kind, 0);
     for (int n = 0; rig >= 0; n++, rig = document_next_rig(document, kind, rig + 1)) {
-        any |= add_motion(stage, core, world, rig, n, lo, hi);
+        any |= add_motion(stage, core, rig, n, lo, hi);
     }
     return any;
 }
@@ -238,12 +232,12 @@ struct rect stage_figure(const struct stage *stage, const struct core *core)
                          figure->w * place->h, figure->h * place->h};
 }
 
-void stage_fit(struct stage *stage, const struct core *core, const struct editor_world *world)
+void stage_fit(struct stage *stage, const struct core *core)
 {
     float lo[3] = {INFINITY, INFINITY, INFINITY}, hi[3] = {-INFINITY, -INFINITY, -INFINITY};
     bool seen[RIG_KINDS], any = false;
     for (int kind = 0; kind < RIG_KINDS; kind++) {
-        seen[kind] = add_bounds(stage, core, world, (enum rig_kind)kind, lo, hi);
+        seen[kind] = add_bounds(stage, core, (enum rig_kind)kind, lo, hi);
         any |= seen[kind];
     }
     stage->camera = camera_default();
@@ -254,7 +248,7 @@ void stage_fit(struct stage *stage, const struct core *core, const struct editor
     if (!any) return;
     for (int k = 0; k < 2; k++) stage->view.middle[k] = 0.5f * (lo[2 * k] + hi[2 * k]);
     const struct rect place = core->layout.stage;
-    const float caption = core->plain ? 0 : caption_height(place, world->document);
+    const float caption = core->plain ? 0 : caption_height(place, core->document);
     camera_fit(&stage->camera, lo, hi, place.w / place.h, caption / place.h);
     note_figure(stage, place, lo, hi);
 }
@@ -272,19 +266,19 @@ void stage_orbit(struct stage *stage, float across, float up) { camera_orbit(&st
 
 void stage_approach(struct stage *stage, float factor) { camera_zoom(&stage->camera, factor); }
 
-void stage_pose(struct stage *stage, struct core *core, const struct editor_world *world, bool covered)
+void stage_pose(struct stage *stage, struct core *core, bool covered)
 {
-    if (core->refit_stage) stage_fit(stage, core, world);
+    if (core->refit_stage) stage_fit(stage, core);
     core->refit_stage = false;
     struct stage_view *view = &stage->view;
-    const struct document *document = world->document;
+    const struct document *document = core->document;
     view->tail_count = view->character_count = view->model_count = view->blob_count = 0;
     view->meadow.count = 0;
     stage->strand_count = stage->bone_count = 0;
     for (int kind = 0; kind < RIG_KINDS; kind++) {
         int rig = document_next_rig(document, (enum rig_kind)kind, 0);
         for (int n = 0; rig >= 0; n++, rig = document_next_rig(document, (enum rig_kind)kind, rig + 1)) {
-            kinds[kind]->pose(stage, core, world, rig, n);
+            kinds[kind]->pose(stage, core, rig, n);
         }
     }
     view->viewport = core->layout.stage;
@@ -292,7 +286,7 @@ void stage_pose(struct stage *stage, struct core *core, const struct editor_worl
     camera_matrices(&stage->camera, view->viewport.w / view->viewport.h, view->view, view->projection, view->eye);
     view->hash = view_hash(view);
     skin_reserve(stage);
-    brush_pose(stage, core, world, covered);
+    brush_pose(stage, core, covered);
 }
 
 void stage_ring(struct core *core, const float xy[2])
@@ -302,51 +296,52 @@ void stage_ring(struct core *core, const float xy[2])
 }
 
 /// What an empty stage says, or NULL.
-static const char *empty_text(const struct stage *stage, const struct core *core, const struct editor_world *world)
+static const char *empty_text(const struct stage *stage, const struct core *core)
 {
     const struct stage_view *view = &stage->view;
     if (view->tail_count > 0 || view->character_count > 0 || view->model_count > 0 || view->meadow.count > 0)
         return NULL;
-    if (document_character(world->document, 0) || document_find_rig(world->document, RIG_MODEL, 0) >= 0)
+    if (document_character(core->document, 0) || document_find_rig(core->document, RIG_MODEL, 0) >= 0)
         return "wiggly could not read this scene's character. Its curves are below.";
     return core->active < 0 ? "This scene is empty." : "This scene has no tail. Its curves are below.";
 }
 
-void stage_show(struct stage *stage, struct core *core, const struct editor_world *world)
+void stage_show(struct stage *stage, struct core *core)
 {
     const struct stage_view *view = &stage->view;
     struct rect clip = drawlist_push_clip(&core->list, view->viewport);
-    const char *text = empty_text(stage, core, world);
+    const char *text = empty_text(stage, core);
     if (text) {
         float room = view->viewport.w - 16, width = font_width(FONT_LABEL, THEME_TEXT_NORMAL, text);
         float x = view->viewport.x + 8 + fmaxf(room - width, 0) / 2;
         drawlist_text_fit(&core->list, x, view->viewport.y + view->viewport.h / 2, room, FONT_LABEL,
                           THEME_TEXT_NORMAL, theme()->text_dim, text);
     }
-    onion_show(stage, core, world);
-    ghost_show(stage, core, world);
-    trail_show(stage, core, world);
-    floors_show(stage, core, world);
-    characters_show(stage, core, world);
-    names_show(stage, core, world->document);
-    brush_show(stage, core, world);
-    body_drag_show(stage, core, world);
-    record_show(stage, core, world);
-    bones_show(stage, core, world);
+    onion_show(stage, core);
+    ghost_show(stage, core);
+    trail_show(stage, core);
+    floors_show(stage, core);
+    characters_show(stage, core);
+    names_show(stage, core);
+    brush_show(stage, core);
+    body_drag_show(stage, core);
+    record_show(stage, core);
+    bones_show(stage, core);
     if (!core->drag.owner && core->hover.kind == HOVER_JOINT)
         stage_ring(core, (float[2]){core->hover.x, core->hover.y});
-    drag_show(stage, core, world);
-    pins_show(stage, core, world);
+    drag_show(stage, core);
+    pins_show(stage, core);
     drawlist_set_clip(&core->list, clip);
 }
 
 static const double MOMENT = 0.35, STEP = 1.0 / 60; ///< seconds; between two steps a tail moves less than its reach
 
 /// The position that was shown some seconds ago, round the end of what is played.
-static double position_ago(const struct core *core, const struct document *document, double seconds)
+static double position_ago(const struct core *core, double seconds)
 {
+    const struct document *document = core->document;
     double range[2];
-    playback_range(core, document, range);
+    playback_range(core, range);
     const double first = core_position(document, range[0]), last = core_position(document, range[1]);
     const double back = seconds * document->fps * document->substeps * core->playback.speed;
     const double position = core->playback.position - back;
@@ -355,23 +350,22 @@ static double position_ago(const struct core *core, const struct document *docum
 }
 
 /// The tail, chain or body that was under the point at a position, or HOVER_NONE.
-static struct hover hover_at(const struct stage *stage, const struct core *core, const struct editor_world *world,
-                             double position, float x, float y)
+static struct hover hover_at(const struct stage *stage, const struct core *core, double position, float x, float y)
 {
-    const struct document *document = world->document;
+    const struct document *document = core->document;
     struct hover joint = {.kind = HOVER_NONE}, body = joint;
     float nearest = STRAND_REACH, farthest = INFINITY;
     for (int s = 0; s < stage->strand_count; s++) {
         const int rig = stage->strands[s].rig;
         struct strand strand;
-        if (!strand_pose(stage, core, world, rig, position, NULL, &strand)) continue;
+        if (!strand_pose(stage, core, rig, position, NULL, &strand)) continue;
         strand_nearer(stage, core, &strand, (const float[2]){x, y}, &nearest, &joint);
     }
     for (int t = 0; t < stage->view.tail_count; t++) {
         const int rig = stage->view.tails[t].rig;
         struct rig_pose pose;
         if (!tail_of(document, rig)) continue;
-        stage_pose_strand(stage, core, world, rig, position, NULL, &pose);
+        stage_pose_strand(stage, core, rig, position, NULL, &pose);
         const float distance = body_distance(stage, t, &pose.tail, x, y);
         if (!(distance >= 0 && distance < farthest)) continue;
         farthest = distance;
@@ -380,12 +374,11 @@ static struct hover hover_at(const struct stage *stage, const struct core *core,
     return joint.kind != HOVER_NONE ? joint : body;
 }
 
-struct hover body_moment_ago(const struct stage *stage, const struct core *core, const struct editor_world *world,
-                             float x, float y)
+struct hover body_moment_ago(const struct stage *stage, const struct core *core, float x, float y)
 {
     struct hover hover = {.kind = HOVER_NONE};
     for (double ago = STEP; core->playback.playing && ago <= MOMENT && hover.kind == HOVER_NONE; ago += STEP) {
-        hover = hover_at(stage, core, world, position_ago(core, world->document, ago), x, y);
+        hover = hover_at(stage, core, position_ago(core, ago), x, y);
     }
     return hover;
 }

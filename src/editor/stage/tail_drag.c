@@ -47,9 +47,10 @@ static struct tail_drag_axis axis_for(const struct core *core, const struct rig 
 }
 
 /// The sample nearest to the playhead that may carry knots of all steered splines, on a whole frame.
-static int sample_for(const struct stage *stage, const struct core *core, const struct document *document)
+static int sample_for(const struct stage *stage, const struct core *core)
 {
-    int sample = document_sample(document, round(core_frame(core, document)));
+    const struct document *document = core->document;
+    int sample = document_sample(document, round(core_frame(core)));
     for (int a = 0; a < 2; a++) {
         const struct tail_drag_axis *axis = &stage->tail_drag.axis[a];
         if (!axis->active) continue;
@@ -67,9 +68,9 @@ bool tail_drag_holds(const struct document *document, int rig, int joint)
 }
 
 /// Takes the present value over and learns from the last step how Im x follows it.
-static void observe(struct tail_drag_axis *axis, const struct editor_world *world, int sample)
+static void observe(struct tail_drag_axis *axis, const struct core *core, int sample)
 {
-    wiggly_value v = evaluation_at(world->evaluation, axis->spline, sample);
+    wiggly_value v = evaluation_at(core->evaluation, axis->spline, sample);
     double value = v.y + v.re;
     double change = value - axis->seen_value;
     if (axis->seen_value != axis->value && fabs(change) > 1e-3 * axis->values_per_radian) {
@@ -80,15 +81,15 @@ static void observe(struct tail_drag_axis *axis, const struct editor_world *worl
 }
 
 /// Derivative of the grabbed point by radians of bend through one axis.
-static void derivative(const struct stage *stage, const struct core *core, const struct editor_world *world,
-                       const struct tail_drag_axis *axis, const float at[2], double response[2])
+static void derivative(const struct stage *stage, const struct core *core, const struct tail_drag_axis *axis,
+                       const float at[2], double response[2])
 {
     const struct tail_drag *grab = &stage->tail_drag;
     struct strand strand;
     float moved[2] = {at[0], at[1]};
     double change = PROBE * axis->values_per_radian;
     const struct what_if what_if = {axis->spline, change, change * axis->turn};
-    if (strand_pose(stage, core, world, grab->rig, core->playback.position, &what_if, &strand))
+    if (strand_pose(stage, core, grab->rig, core->playback.position, &what_if, &strand))
         strand_project(stage, core, &strand, grab->joint, grab->fraction, moved);
     response[0] = (moved[0] - at[0]) / PROBE;
     response[1] = (moved[1] - at[1]) / PROBE;
@@ -113,25 +114,25 @@ static void damped_step(const double column[2][2], const double miss[2], double 
 }
 
 /// Sets the knot of one axis at the grabbed sample, or inserts it, as far as the limits of its spline allow.
-static void set_knot(const struct stage *stage, struct core *core, const struct editor_world *world,
-                     struct tail_drag_axis *axis, char why[STOPPED_SIZE])
+static void set_knot(const struct stage *stage, struct core *core, struct tail_drag_axis *axis,
+                     char why[STOPPED_SIZE])
 {
-    struct knot knot = core_knot_at(world->document, axis->spline, stage->tail_drag.sample);
+    struct knot knot = core_knot_at(core->document, axis->spline, stage->tail_drag.sample);
     knot.value = axis->value;
-    core_hold(world->document->splines[axis->spline], &knot, why);
+    core_hold(core->document->splines[axis->spline], &knot, why);
     axis->value = knot.value;
-    core_put_knot(core, world, axis->spline, &knot);
+    core_put_knot(core, axis->spline, &knot);
 }
 
 /// Makes the knot that is pulled the selected one.
-static void select_knot(const struct stage *stage, struct core *core, const struct editor_world *world)
+static void select_knot(const struct stage *stage, struct core *core)
 {
     const struct tail_drag *grab = &stage->tail_drag;
     bool steered = false;
     for (int a = 0; a < 2; a++) steered |= grab->axis[a].active && grab->axis[a].spline == core->active;
-    if (!steered) core_activate(core, world, grab->axis[grab->axis[AXIS_SIDE].active ? AXIS_SIDE : AXIS_UP].spline);
-    const struct spline *spline = core_active_spline(core, world);
-    int at = spline ? spline_find_knot(world->document, spline, grab->sample) : -1;
+    if (!steered) core_activate(core, grab->axis[grab->axis[AXIS_SIDE].active ? AXIS_SIDE : AXIS_UP].spline);
+    const struct spline *spline = core_active_spline(core);
+    int at = spline ? spline_find_knot(core->document, spline, grab->sample) : -1;
     if (at < 0) return;
     pins_clear(core);
     selection_clear(&core->selection);
@@ -144,72 +145,70 @@ static void select_knot(const struct stage *stage, struct core *core, const stru
 }
 
 /// One step towards the pointer; needs the pose of the last solved frame.
-static void apply(void *room, struct core *core, const struct editor_world *world)
+static void apply(void *room, struct core *core)
 {
     struct stage *stage = room;
     struct tail_drag *grab = &stage->tail_drag;
     const struct drag *drag = &core->drag;
     if (!grab->axis[AXIS_SIDE].active && !grab->axis[AXIS_UP].active) return;
-    if (!tail_drag_holds(world->document, grab->rig, grab->joint)) return;
+    if (!tail_drag_holds(core->document, grab->rig, grab->joint)) return;
     struct strand strand;
     float at[2];
-    if (!strand_pose(stage, core, world, grab->rig, core->playback.position, NULL, &strand)) return;
+    if (!strand_pose(stage, core, grab->rig, core->playback.position, NULL, &strand)) return;
     if (!strand_project(stage, core, &strand, grab->joint, grab->fraction, at)) return;
     double miss[2] = {grab->start[0] + drag->moved_x - at[0], grab->start[1] + drag->moved_y - at[1]};
     if (grab->applied && hypot(miss[0], miss[1]) < CLOSE) return;
     double column[2][2] = {{0}}, step[2];
     for (int a = 0; a < 2; a++) {
         if (!grab->axis[a].active) continue;
-        observe(&grab->axis[a], world, grab->sample);
-        derivative(stage, core, world, &grab->axis[a], at, column[a]);
+        observe(&grab->axis[a], core, grab->sample);
+        derivative(stage, core, &grab->axis[a], at, column[a]);
     }
     char why[STOPPED_SIZE] = "";
     damped_step(column, miss, step);
-    drag_restart(core, world);
+    drag_restart(core);
     for (int a = 0; a < 2; a++) {
         struct tail_drag_axis *axis = &grab->axis[a];
         if (!axis->active) continue;
         double most = fmax(LARGEST_BEND * axis->values_per_radian, fabs(axis->value));
         double value = fmax(-most, fmin(most, axis->value + step[a] * axis->values_per_radian));
         axis->value = core_round(value, RESOLUTION * axis->values_per_radian);
-        set_knot(stage, core, world, axis, why);
+        set_knot(stage, core, axis, why);
     }
     drag_say_stopped(core, why);
     grab->applied = true;
-    select_knot(stage, core, world);
+    select_knot(stage, core);
 }
 
-static void show(void *room, struct core *core, const struct editor_world *world)
+static void show(void *room, struct core *core)
 {
     const struct tail_drag *grab = &((const struct stage *)room)->tail_drag;
     float xy[2];
-    (void)world;
     if (stage_project(room, core, grab->rig, grab->joint, grab->fraction, xy)) stage_ring(core, xy);
 }
 
 static const struct drag_owner owner = {
     .cursor = CURSOR_HAND, .goes_on = true, .apply = apply, .end = stage_click, .show = show};
 
-void tail_drag_begin(struct stage *stage, struct core *core, const struct editor_world *world,
-                     const struct hover *hover, const struct event *event)
+void tail_drag_begin(struct stage *stage, struct core *core, const struct hover *hover, const struct event *event)
 {
-    const struct rig *rig = world->document->rigs[hover->rig];
+    const struct rig *rig = core->document->rigs[hover->rig];
     struct tail_drag *grab = &stage->tail_drag;
     struct strand strand;
     drag_begin(core, &owner, stage, rig->kind == RIG_CHAIN ? "Pull chain" : "Pull tail", event);
     *grab = (struct tail_drag){.rig = hover->rig, .joint = hover->joint, .fraction = hover->fraction};
-    if (!strand_pose(stage, core, world, grab->rig, core->playback.position, NULL, &strand)) return;
+    if (!strand_pose(stage, core, grab->rig, core->playback.position, NULL, &strand)) return;
     grab->axis[AXIS_SIDE] = axis_for(core, rig, &strand, grab->joint, AXIS_SIDE);
     grab->axis[AXIS_UP] = axis_for(core, rig, &strand, grab->joint, AXIS_UP);
     if (grab->axis[AXIS_SIDE].active && grab->axis[AXIS_SIDE].spline == grab->axis[AXIS_UP].spline) {
         grab->axis[AXIS_UP].active = false;
     }
-    drag_inertia_stop(stage, world->document, grab->rig);
-    grab->sample = sample_for(stage, core, world->document);
+    drag_inertia_stop(stage, core->document, grab->rig);
+    grab->sample = sample_for(stage, core);
     core->playback.playing = false;
     core->playback.position = grab->sample;
     grab->start[0] = hover->x;
     grab->start[1] = hover->y;
-    if (!strand_pose(stage, core, world, grab->rig, core->playback.position, NULL, &strand)) return;
+    if (!strand_pose(stage, core, grab->rig, core->playback.position, NULL, &strand)) return;
     strand_project(stage, core, &strand, grab->joint, grab->fraction, grab->start);
 }

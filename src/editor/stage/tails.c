@@ -15,27 +15,27 @@ static void move_by_hand(const void *context, int rig, struct by_hand *hand)
 {
     const struct stage_hand *by = context;
     double offset[3];
-    body_drag_offset(by->stage, by->core, by->document, rig, offset);
+    body_drag_offset(by->stage, by->core, rig, offset);
     for (int k = 0; k < 3; k++) hand->base[k] += offset[k];
     drag_inertia_add(by->stage, by->document, rig, hand->input);
 }
 
-struct posing stage_posing_by_hand(const struct stage_hand *hand, const struct editor_world *world)
+struct posing stage_posing_by_hand(const struct stage_hand *hand)
 {
-    struct posing posing = stage_posing(hand->core, world);
+    struct posing posing = stage_posing(hand->core);
     posing.move = move_by_hand;
     posing.context = hand;
     return posing;
 }
 
-bool stage_pose_strand(const struct stage *stage, const struct core *core, const struct editor_world *world, int rig,
-                       double position, const struct what_if *change, struct rig_pose *pose)
+bool stage_pose_strand(const struct stage *stage, const struct core *core, int rig, double position,
+                       const struct what_if *change, struct rig_pose *pose)
 {
-    const struct stage_hand by = {stage, core, world->document};
-    const struct posing posing = stage_posing_by_hand(&by, world);
+    const struct stage_hand by = {stage, core, core->document};
+    const struct posing posing = stage_posing_by_hand(&by);
     struct by_hand hand = {0};
     int count;
-    const struct channel *channels = rig_channels(world->document->rigs[rig], &count);
+    const struct channel *channels = rig_channels(core->document->rigs[rig], &count);
     for (int c = 0; change && c < count; c++) {
         if (channels[c].spline == change->spline) hand.input[c] = (wiggly_value){.re = change->re, .im = change->im};
     }
@@ -76,17 +76,17 @@ static const struct fox *fox_of(struct stage *stage, int n, int level, int joint
     return &shown->fox;
 }
 
-static void pose(struct stage *stage, const struct core *core, const struct editor_world *world, int rig, int n)
+static void pose(struct stage *stage, const struct core *core, int rig, int n)
 {
     struct stage_view *view = &stage->view;
-    const struct tail *tail = &world->document->rigs[rig]->tail;
+    const struct tail *tail = &core->document->rigs[rig]->tail;
     struct rig_pose posed;
     if (view->tail_count == STAGE_MAX_TAILS) return;
     struct stage_tail *shown = &view->tails[view->tail_count++];
-    stage_pose_strand(stage, core, world, rig, core->playback.position, NULL, &posed);
+    stage_pose_strand(stage, core, rig, core->playback.position, NULL, &posed);
     strand_add(stage, rig, &posed);
     *shown = (struct stage_tail){rig, posed.tail};
-    stage_add_fox(view, fox_of(stage, n, fox_level(document_count_rigs(world->document, RIG_TAIL)), tail->joints),
+    stage_add_fox(view, fox_of(stage, n, fox_level(document_count_rigs(core->document, RIG_TAIL)), tail->joints),
                   &shown->pose);
     add_blobs(view, &shown->pose);
 }
@@ -94,30 +94,30 @@ static void pose(struct stage *stage, const struct core *core, const struct edit
 const struct stage_kind stage_tails = {.pose = pose, .bound_steps = BOUND_STEPS};
 
 /// The points of a chain of a character that is shown.
-static void add_strand(struct stage *stage, const struct editor_world *world, int rig, int model,
+static void add_strand(struct stage *stage, const struct core *core, int rig, int model,
                        const struct chain_bones *bones)
 {
     const struct stage_view *view = &stage->view;
-    const int number = document_rig_number(world->document, model);
-    const struct gltf_pose *chain_pose = models_pose(world->models, number, true);
+    const int number = document_rig_number(core->document, model);
+    const struct gltf_pose *chain_pose = models_pose(core->models, number, true);
     for (int m = 0; m < view->model_count; m++) {
         if (view->models[m].pose != chain_pose) continue;
         struct rig_pose posed = {.kind = RIG_CHAIN};
-        chain_points(models_imported(world->models, number), bones, chain_pose, view->models[m].root, &posed.chain);
+        chain_points(models_imported(core->models, number), bones, chain_pose, view->models[m].root, &posed.chain);
         strand_add(stage, rig, &posed);
     }
 }
 
-static void chain_pose(struct stage *stage, const struct core *core, const struct editor_world *world, int rig, int n)
+static void chain_pose(struct stage *stage, const struct core *core, int rig, int n)
 {
-    const struct chain *chain = &world->document->rigs[rig]->chain;
-    const int model = document_find_model(world->document, chain->model, chain->by_file);
-    const struct imported *shown = model >= 0 ? bones_character(world, model) : NULL;
+    const struct chain *chain = &core->document->rigs[rig]->chain;
+    const int model = document_find_model(core->document, chain->model, chain->by_file);
+    const struct imported *shown = model >= 0 ? bones_character(core, model) : NULL;
     struct chain_bones bones;
     (void)n;
     if (!shown || !chain_find(&shown->gltf, chain->from, chain->to, &bones, NULL)) return;
-    bones_mark(stage, core, world->document, rig, model, &bones);
-    add_strand(stage, world, rig, model, &bones);
+    bones_mark(stage, core, rig, model, &bones);
+    add_strand(stage, core, rig, model, &bones);
 }
 
 const struct stage_kind stage_chains = {.pose = chain_pose};
@@ -147,14 +147,14 @@ const struct strand *strand_of(const struct stage *stage, int rig)
     return NULL;
 }
 
-bool strand_pose(const struct stage *stage, const struct core *core, const struct editor_world *world, int rig,
-                 double position, const struct what_if *change, struct strand *strand)
+bool strand_pose(const struct stage *stage, const struct core *core, int rig, double position,
+                 const struct what_if *change, struct strand *strand)
 {
-    const struct document *document = world->document;
+    const struct document *document = core->document;
     struct rig_pose pose;
     if (rig >= document->rig_count) return false;
     if (document->rigs[rig]->kind != RIG_TAIL && document->rigs[rig]->kind != RIG_CHAIN) return false;
-    if (!stage_pose_strand(stage, core, world, rig, position, change, &pose)) return false;
+    if (!stage_pose_strand(stage, core, rig, position, change, &pose)) return false;
     take_points(&pose, rig, strand);
     return true;
 }

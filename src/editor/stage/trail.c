@@ -38,14 +38,14 @@ static int liveliest_vertex(struct liveliest *known, const struct figure *figure
     return found;
 }
 
-struct rig_point overlay_point(struct stage *stage, const struct core *core, const struct editor_world *world)
+struct rig_point overlay_point(struct stage *stage, const struct core *core)
 {
-    const int rig = overlay_rig(stage, core, world->document);
-    if (rig >= 0) return (struct rig_point){rig, bones_joints(world, rig) - 1};
+    const int rig = overlay_rig(stage, core);
+    if (rig >= 0) return (struct rig_point){rig, bones_joints(core, rig) - 1};
     const int n = core->characters.character;
-    const struct figure *figure = models_figure(world->models, n);
+    const struct figure *figure = models_figure(core->models, n);
     if (!figure) return (struct rig_point){-1, -1};
-    return (struct rig_point){document_find_rig(world->document, RIG_CHARACTER, n),
+    return (struct rig_point){document_find_rig(core->document, RIG_CHARACTER, n),
                               liveliest_vertex(&stage->liveliest, figure)};
 }
 
@@ -64,16 +64,15 @@ static bool rig_loops(const struct document *document, const struct rig *rig)
 }
 
 /// The point at a frame counted from the first, world; from memory while nothing was edited.
-static const float *place_at(struct trail_point *trail, const struct core *core, const struct editor_world *world,
-                             struct rig_point point, int frame)
+static const float *place_at(struct trail_point *trail, const struct core *core, struct rig_point point, int frame)
 {
-    uint64_t solved = world->evaluation ? world->evaluation->revision : 0;
-    uint64_t key = hash_word(hash_word(HASH_START, history_revision(world->history)), solved);
+    uint64_t solved = core->evaluation ? core->evaluation->revision : 0;
+    uint64_t key = hash_word(hash_word(HASH_START, history_revision(core->history)), solved);
     key = hash_word(hash_word(key, (uint64_t)point.rig << 8 | (uint64_t)core->look), (uint64_t)point.at);
     struct trail_point *kept = &trail[(frame % TRAIL_FRAMES + TRAIL_FRAMES) % TRAIL_FRAMES];
     if (kept->known && kept->key == key && kept->frame == frame) return kept->place;
     *kept = (struct trail_point){.known = true, .key = key, .frame = frame};
-    point_place(core, world, point, (double)frame * world->document->substeps, kept->place);
+    point_place(core, point, (double)frame * core->document->substeps, kept->place);
     return kept->place;
 }
 
@@ -124,28 +123,26 @@ static void show_line(struct core *core, float points[][2], int first, int count
 }
 
 /// Where the point is shown now: a tip goes along with a body that is being dragged.
-static bool project_now(struct stage *stage, const struct core *core, const struct editor_world *world,
-                        struct rig_point point, float xy[2])
+static bool project_now(struct stage *stage, const struct core *core, struct rig_point point, float xy[2])
 {
     float place[3];
     if (strand_of(stage, point.rig)) return stage_project(stage, core, point.rig, point.at + 1, 0, xy);
-    return point_place(core, world, point, core->playback.position, place) &&
+    return point_place(core, point, core->playback.position, place) &&
            stage_project_point(stage, core->layout.stage, place, xy);
 }
 
 /// A ring round the point as it is now.
-static void show_now(struct stage *stage, struct core *core, const struct editor_world *world, struct rig_point point)
+static void show_now(struct stage *stage, struct core *core, struct rig_point point)
 {
     float xy[2];
-    if (!project_now(stage, core, world, point, xy)) return;
+    if (!project_now(stage, core, point, xy)) return;
     struct rect ring = {xy[0] - NOW, xy[1] - NOW, 2 * NOW, 2 * NOW};
     drawlist_rounded_line(&core->list, ring, NOW, 1.5f, theme()->playhead);
 }
 
-void path_show(struct stage *stage, struct core *core, const struct editor_world *world, enum trail which,
-               struct rig_point point)
+void path_show(struct stage *stage, struct core *core, enum trail which, struct rig_point point)
 {
-    const struct document *document = world->document;
+    const struct document *document = core->document;
     double now = core->playback.position / document->substeps;
     double reach = fmin(fmax(REACH * document->fps, 1), MAX_REACH);
     int first = (int)ceil(now - reach), last = (int)floor(now + reach);
@@ -157,7 +154,7 @@ void path_show(struct stage *stage, struct core *core, const struct editor_world
     float screen[TRAIL_FRAMES][2], points[PIECES * TRAIL_FRAMES][2];
     int count = 0;
     for (int frame = first; frame <= last; frame++) {
-        const float *place = place_at(stage->trail[which], core, world, point, frame);
+        const float *place = place_at(stage->trail[which], core, point, frame);
         if (!stage_project_point(stage, core->layout.stage, place, screen[count++])) return;
     }
     if (count == 0) return;
@@ -165,11 +162,11 @@ void path_show(struct stage *stage, struct core *core, const struct editor_world
     show_marks(core, screen, first, count, now, reach);
 }
 
-void trail_show(struct stage *stage, struct core *core, const struct editor_world *world)
+void trail_show(struct stage *stage, struct core *core)
 {
     if (!core->overlays.trail) return;
-    const struct rig_point point = overlay_point(stage, core, world);
-    if (!point_exists(world, point)) return;
-    path_show(stage, core, world, TRAIL_OF_TIP, point);
-    show_now(stage, core, world, point);
+    const struct rig_point point = overlay_point(stage, core);
+    if (!point_exists(core, point)) return;
+    path_show(stage, core, TRAIL_OF_TIP, point);
+    show_now(stage, core, point);
 }

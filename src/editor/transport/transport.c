@@ -50,7 +50,7 @@ struct hover transport_hover(const struct core *core, float x, float y)
     return (struct hover){.kind = kinds[control_at(core, x, y)]};
 }
 
-bool transport_event(struct core *core, const struct editor_world *world, const struct event *event)
+bool transport_event(struct core *core, const struct event *event)
 {
     enum control control = control_at(core, event->x, event->y);
     if (event->kind == EVENT_WHEEL) {
@@ -58,18 +58,18 @@ bool transport_event(struct core *core, const struct editor_world *world, const 
         if (turns && control == TRANSPORT_UI_SCALE) {
             core_request_number(core, REQUEST_UI_SCALE, event->dy > 0 ? 1 : -1);
         } else if (turns)
-            playback_change_speed(core, world, event->dy > 0 ? 1 : -1);
+            playback_change_speed(core, event->dy > 0 ? 1 : -1);
         return turns;
     }
     if (control == TRANSPORT_COUNT || event->button == BUTTON_MIDDLE) return false;
     bool left = event->button == BUTTON_LEFT;
     const int step = !left ? 0 : event->mods & MOD_SHIFT ? -1 : 1;
-    if (control == TRANSPORT_PLAY && left) playback_toggle(core, world);
-    if (control == TRANSPORT_LOOP && left) core_flip(core, world, SWITCH_LOOP);
-    if (control == TRANSPORT_AUTO_KEY && left) core_flip(core, world, SWITCH_AUTO_KEY);
-    if (control == TRANSPORT_SPEED) playback_change_speed(core, world, step);
+    if (control == TRANSPORT_PLAY && left) playback_toggle(core);
+    if (control == TRANSPORT_LOOP && left) core_flip(core, SWITCH_LOOP);
+    if (control == TRANSPORT_AUTO_KEY && left) core_flip(core, SWITCH_AUTO_KEY);
+    if (control == TRANSPORT_SPEED) playback_change_speed(core, step);
     if (control == TRANSPORT_UI_SCALE) core_request_number(core, REQUEST_UI_SCALE, step);
-    if (control == TRANSPORT_PRESENT && left) presenter_toggle(core, world, 0);
+    if (control == TRANSPORT_PRESENT && left) presenter_toggle(core, 0);
     return true;
 }
 
@@ -190,7 +190,7 @@ static const char *const hover_hints[] = {
     [HOVER_FLOOR] = "Drag the floor up or down (Shift: fine); the whole character stays above it",
 };
 
-static const char *hover_hint(const struct core *core, const struct document *document)
+static const char *hover_hint(const struct core *core)
 {
     static const char *const picks[] = {
         [BONE_FOLLOWED] = "Click the bone that the equilibrium is to follow; Esc: none",
@@ -201,7 +201,7 @@ static const char *hover_hint(const struct core *core, const struct document *do
     if (core->pick.use != BONE_SELECTED) return picks[core->pick.use];
     if (hover->kind == HOVER_CURVE && hover->spline == core->active)
         return "Double-click to insert a knot without changing the curve; drag to select with a box";
-    if (hover->kind == HOVER_JOINT && document->rigs[hover->rig]->kind == RIG_CHAIN)
+    if (hover->kind == HOVER_JOINT && core->document->rigs[hover->rig]->kind == RIG_CHAIN)
         return "Drag the chain to set the knot at the playhead; Ctrl+drag or H pins a joint; click to select the "
                "bone";
     if (hover->kind == HOVER_PIN && core_panel_at(core, core->pointer_x, core->pointer_y) == PANEL_CURVES)
@@ -209,7 +209,7 @@ static const char *hover_hint(const struct core *core, const struct document *do
     if (hover->kind != HOVER_NONE) return hover_hints[hover->kind];
     if (core->bone.any)
         return "J makes a chain from this bone to its tip, Shift+J one that follows through; Esc lets go";
-    return lead_hint(document);
+    return lead_hint(core->document);
 }
 
 const char *transport_hint(const struct core *core)
@@ -227,11 +227,11 @@ static void paint_text(struct drawlist *list, struct rect r, enum font font, uin
 }
 
 /// Frame and time, in a column whose width does not depend on them; returns the column's right end.
-static float show_time(struct core *core, const struct document *document, struct rect bar, float x)
+static float show_time(struct core *core, struct rect bar, float x)
 {
     char text[64];
-    double frame = core_frame(core, document);
-    snprintf(text, sizeof text, "%5.0f  %6.2f s", round(frame), frame / document->fps);
+    double frame = core_frame(core);
+    snprintf(text, sizeof text, "%5.0f  %6.2f s", round(frame), frame / core->document->fps);
     float width = font_width(FONT_NUMBER, THEME_TEXT_SMALL, text);
     paint_text(&core->list, (struct rect){x, bar.y, width, bar.h}, FONT_NUMBER, theme()->text, text);
     return x + width;
@@ -289,21 +289,20 @@ static void show_unkept(struct core *core, struct rect bar)
     paint_text(&core->list, (struct rect){r.x, bar.y, r.w, bar.h}, FONT_LABEL, theme()->error, unkept);
 }
 
-void transport_show(const struct transport *transport, struct core *core, const struct editor_world *world,
-                    const char *hint)
+void transport_show(const struct transport *transport, struct core *core, const char *hint)
 {
     struct rect bar = core->layout.status;
     const struct message *message = &core->message;
     drawlist_rect(&core->list, bar, theme()->panel);
     drawlist_rect(&core->list, (struct rect){bar.x, bar.y, bar.w, 1}, theme()->border);
-    float x = show_time(core, world->document, bar, controls_show(core)) + GAP;
+    float x = show_time(core, bar, controls_show(core)) + GAP;
     char figures[160];
-    figures_text(transport, core, world->evaluation, figures, sizeof figures);
+    figures_text(transport, core, core->evaluation, figures, sizeof figures);
     const float end = core->unkept ? unkept_rect(bar).x - GAP : bar.x + bar.w - STATUS_MARGIN;
     const float width = font_width(FONT_NUMBER, THEME_TEXT_SMALL, figures);
     // What has happened is said in full: the figures give way to it, and the name of the scene.
     const float needed = GAP + font_width(FONT_LABEL, THEME_TEXT_NORMAL, message->text);
-    const bool saved = history_is_saved(world->history);
+    const bool saved = history_is_saved(core->history);
     const struct title title = title_of(core, saved, bar);
     const bool tight = message->text[0] && x + title.width + needed > end - width - GAP;
     const float right = tight ? end : end - width;
@@ -314,7 +313,7 @@ void transport_show(const struct transport *transport, struct core *core, const 
                    saved ? theme()->text_dim : theme()->text, title.text);
         x += title.width + GAP;
     }
-    const char *text = message->text[0] ? message->text : hint ? hint : hover_hint(core, world->document);
+    const char *text = message->text[0] ? message->text : hint ? hint : hover_hint(core);
     uint32_t color = !message->text[0] ? theme()->text_dim : message->is_error ? theme()->error : theme()->text;
     struct rect middle = {x, bar.y, right - (tight ? 0 : GAP) - x, bar.h};
     if (middle.w > 40) paint_text(&core->list, middle, FONT_LABEL, color, text);
