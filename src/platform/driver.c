@@ -53,19 +53,20 @@ static bool shows(int x, int y, int red, int blue)
     return pixel[0] == red && pixel[2] == blue;
 }
 
-bool probe_keeps(struct window *window)
+bool probe_keeps(struct platform *platform)
 {
     // On a GPU the standard leaves the content undefined, whatever one trial shows.
     if (!is_software()) return false;
-    struct surface_size size = window_size(window);
+    struct surface_size size;
+    platform_size(platform, &size.width, &size.height, &size.scale);
     int half = size.width / 2, y = size.height / 2;
     if (half < 1 || y < 1) return false;
     glEnable(GL_SCISSOR_TEST);
     fill(0, size.width, size.height, 1.0f, 0.0f);
-    window_swap(window);
+    platform_swap(platform);
     bool kept = shows(0, y, 255, 0) && shows(half, y, 255, 0);
     fill(0, half, size.height, 0.0f, 1.0f);
-    window_swap(window);
+    platform_swap(platform);
     kept = kept && shows(0, y, 0, 255) && shows(half, y, 255, 0);
     fill(0, size.width, size.height, 0.0f, 0.0f);
     glDisable(GL_SCISSOR_TEST);

@@ -1,7 +1,5 @@
 /// Ends the process in order when the X display is gone.
-#include "platform/platform.h"
 #include "platform/surface.h"
-#include "platform/wayland.h"
 #include <unistd.h>
 
 enum { EXIT_LOST = 3 };

@@ -13,7 +13,7 @@ void platform_debug_gl(void);
 int platform_gl_complaints(void);
 
 /// A window (GLX under X11) with a current 3.3 core context. Swap interval `vsync` 0 or 1.
-/// NULL with a sentence: no display answers or takes us in, no GLX, version.
+/// NULL with a sentence: no display takes us in, no GLX, version.
 struct platform *platform_window(int width, int height, const char *title, int vsync, struct error *error);
 
 /// An offscreen framebuffer object of width × height device pixels with a current context (EGL surfaceless or device).

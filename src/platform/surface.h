@@ -5,6 +5,8 @@
 #include "base/error.h"
 #include "platform/events.h"
 #include "platform/platform.h"
+#include <dlfcn.h>
+#include <string.h>
 
 struct window;
 struct offscreen;
@@ -25,17 +27,10 @@ struct platform {
     char *clipboard; ///< what stands for the system's where there is no window
 };
 
-/// Whether somebody listens at $DISPLAY or $WAYLAND_DISPLAY.
-bool display_answers(void);
-
 /// Events go to `queue`, which must outlive the window.
 struct window *window_create(int width, int height, const char *title, int vsync, struct event_queue *queue,
                              struct error *error);
 void window_destroy(struct window *window);
-struct surface_size window_size(const struct window *window);
-void window_wait(struct window *window, double seconds);
-void window_swap(struct window *window);
-double window_refresh_rate(struct window *window);
 /// What the X server calls the window; 0 where there is none.
 unsigned long window_number(const struct window *window);
 /// Asks the display where the window is: an error where it does not exist any more.
@@ -43,18 +38,12 @@ void window_ask_place(const struct window *window);
 /// Has the process end as platform_on_lost() says when another program has destroyed the window: errors of the display show that
 /// or, while nothing is drawn (`idle`), asking for the window.
 void window_check(const struct window *window, bool idle);
-void window_title(struct window *window, const char *title);
-void window_fullscreen(struct window *window, bool on);
-bool window_is_fullscreen(const struct window *window);
-void window_cursor(struct window *window, enum mouse_cursor cursor);
-const char *window_clipboard(struct window *window);
-void window_set_clipboard(struct window *window, const char *text);
 
 struct offscreen *offscreen_create(int width, int height, struct error *error);
 void offscreen_destroy(struct offscreen *offscreen);
 
 /// Whether a swap of the current context keeps the back buffer: found out by swapping twice.
-bool probe_keeps(struct window *window);
+bool probe_keeps(struct platform *platform);
 
 /// A software driver allocates and frees the memory of a frame's triangles in each frame. Makes the C library keep it: passing
 /// it back to the system and out again costs a tenth of the processor.
@@ -62,6 +51,23 @@ void keep_freed_memory(void);
 
 /// In builds with the address sanitizer: keeps the loaded graphics driver in memory until the process ends.
 void keep_driver_loaded(void);
+
+// What GLFW does not report about a Wayland display.
+
+/// Whether the window's Wayland connection has ended.
+bool wayland_is_lost(void);
+
+/// Whether cursors may be made: GLFW 3.3 crashes on a Wayland display without a pointer. Asks the display.
+bool wayland_allows_cursors(void);
+
+/// Puts the address of a symbol of a library that GLFW may have loaded, which the program itself need not depend on, into a pointer; false
+/// if nothing of that name is loaded.
+static inline bool symbol_find(const char *name, void *pointer)
+{
+    void *symbol = dlsym(RTLD_DEFAULT, name);
+    if (symbol) memcpy(pointer, &symbol, sizeof symbol);
+    return symbol != NULL;
+}
 
 // The graphics driver's messages (--gl-debug).
 

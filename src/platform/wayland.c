@@ -1,5 +1,5 @@
 /// Asks a Wayland compositor what GLFW does not report.
-#include "platform/wayland.h"
+#include "platform/surface.h"
 #include <poll.h>
 #include <stdint.h>
 #include <string.h>

@@ -1,9 +1,8 @@
-/// A GLFW window and its callbacks, which only translate and queue.
+/// A GLFW window, its callbacks, which only translate and queue, and what is asked of a surface, window or not.
 #include "base/need.h"
 #include "base/progress.h"
-#include "platform/events.h"
+#include "platform/process.h"
 #include "platform/surface.h"
-#include "platform/wayland.h"
 #include <epoxy/gl.h>
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
@@ -247,10 +246,6 @@ static void create_cursors(struct window *window)
 struct window *window_create(int width, int height, const char *title, int vsync, struct event_queue *queue,
                              struct error *error)
 {
-    if (!display_answers()) {
-        fail(error, ERROR_ENVIRONMENT, "no display");
-        return NULL;
-    }
     if (!glfwInit()) {
         fail_glfw(error, "no window opens");
         return NULL;
@@ -286,18 +281,6 @@ void window_destroy(struct window *window)
     free(window);
 }
 
-struct surface_size window_size(const struct window *window) { return window->size; }
-
-void window_wait(struct window *window, double seconds)
-{
-    (void)window;
-    if (seconds > 0.0) {
-        glfwWaitEventsTimeout(seconds);
-    } else {
-        glfwPollEvents();
-    }
-}
-
 unsigned long window_number(const struct window *window)
 {
     static unsigned long (*number)(GLFWwindow *);
@@ -310,13 +293,67 @@ void window_ask_place(const struct window *window)
     glfwGetWindowPos(window->handle, &x, &y);
 }
 
-void window_swap(struct window *window) { glfwSwapBuffers(window->handle); }
+/// Waits for GLFW's callbacks.
+static void wait(double seconds)
+{
+    if (seconds > 0.0) {
+        glfwWaitEventsTimeout(seconds);
+    } else {
+        glfwPollEvents();
+    }
+}
 
-const char *window_clipboard(struct window *window) { return glfwGetClipboardString(window->handle); }
+const struct event *platform_events(struct platform *platform, double seconds, int *count)
+{
+    static const double idle = 0.1; ///< seconds; no animation waits as long
+    if (platform->window) {
+        wait(seconds);
+    } else {
+        process_sleep(seconds);
+    }
+    const struct event *events = event_queue_take(&platform->queue, count);
+    if (platform->window) window_check(platform->window, *count == 0 && seconds > idle);
+    return events;
+}
 
-void window_set_clipboard(struct window *window, const char *text) { glfwSetClipboardString(window->handle, text); }
+void platform_size(const struct platform *platform, int *width, int *height, float *scale)
+{
+    const struct surface_size size = platform->window ? platform->window->size : platform->size;
+    *width = size.width;
+    *height = size.height;
+    *scale = size.scale;
+}
 
-void window_title(struct window *window, const char *title) { glfwSetWindowTitle(window->handle, title); }
+void platform_swap(struct platform *platform)
+{
+    if (platform->window) {
+        glfwSwapBuffers(platform->window->handle);
+    } else {
+        glFinish();
+    }
+}
+
+bool platform_is_window(const struct platform *platform) { return platform->window != NULL; }
+
+void platform_title(struct platform *platform, const char *title)
+{
+    if (platform->window) glfwSetWindowTitle(platform->window->handle, title);
+}
+
+const char *platform_clipboard(struct platform *platform)
+{
+    return platform->window ? glfwGetClipboardString(platform->window->handle) : platform->clipboard;
+}
+
+void platform_set_clipboard(struct platform *platform, const char *text)
+{
+    if (platform->window) {
+        glfwSetClipboardString(platform->window->handle, text);
+    } else {
+        free(platform->clipboard);
+        platform->clipboard = need_text(text);
+    }
+}
 
 /// The monitor that shows most of the window.
 static GLFWmonitor *nearest_monitor(struct window *window)
@@ -341,16 +378,17 @@ static GLFWmonitor *nearest_monitor(struct window *window)
     return best;
 }
 
-double window_refresh_rate(struct window *window)
+double platform_refresh_rate(struct platform *platform)
 {
-    GLFWmonitor *monitor = nearest_monitor(window);
+    GLFWmonitor *monitor = platform->window ? nearest_monitor(platform->window) : NULL;
     const GLFWvidmode *mode = monitor ? glfwGetVideoMode(monitor) : NULL;
     return mode ? mode->refreshRate : 0.0;
 }
 
-void window_fullscreen(struct window *window, bool on)
+void platform_fullscreen(struct platform *platform, bool on)
 {
-    if (on == window->is_fullscreen) return;
+    struct window *window = platform->window;
+    if (!window || on == window->is_fullscreen) return;
     if (on) {
         GLFWmonitor *monitor = nearest_monitor(window);
         const GLFWvidmode *mode = monitor ? glfwGetVideoMode(monitor) : NULL;
@@ -365,11 +403,15 @@ void window_fullscreen(struct window *window, bool on)
     window->is_fullscreen = on;
 }
 
-bool window_is_fullscreen(const struct window *window) { return window->is_fullscreen; }
-
-void window_cursor(struct window *window, enum mouse_cursor cursor)
+bool platform_is_fullscreen(const struct platform *platform)
 {
-    if (cursor == window->cursor) return;
+    return platform->window && platform->window->is_fullscreen;
+}
+
+void platform_cursor(struct platform *platform, enum mouse_cursor cursor)
+{
+    struct window *window = platform->window;
+    if (!window || cursor == window->cursor) return;
     window->cursor = cursor;
     if (window->cursors[cursor]) glfwSetCursor(window->handle, window->cursors[cursor]);
 }
