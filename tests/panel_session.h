@@ -56,14 +56,14 @@ static inline void panel_type(struct session *session, const char *text)
 static inline bool panel_shows(struct session *session, const char *name)
 {
     float x, y;
-    return inspector_target(session->editor->inspector, &session->editor->core, name, &x, &y);
+    return inspector_target(session->editor->inspector, name, &x, &y);
 }
 
 /// Presses a widget of the inspector; the button stays down.
 static inline void panel_press(struct session *session, const char *name, int clicks)
 {
     float x, y;
-    if (!inspector_target(session->editor->inspector, &session->editor->core, name, &x, &y)) {
+    if (!inspector_target(session->editor->inspector, name, &x, &y)) {
         fail_msg("the inspector does not show %s", name);
     }
     session_move(session, x, y);
@@ -92,7 +92,7 @@ static inline void panel_drag(struct session *session, const char *name, double 
     float x, y;
     panel_press(session, name, 1);
     snprintf(target, sizeof target, "%s,%.17g", name, value);
-    assert_true(inspector_target(session->editor->inspector, &session->editor->core, target, &x, &y));
+    assert_true(inspector_target(session->editor->inspector, target, &x, &y));
     session_move(session, x + 3, y); // so that the drag is one where the value is at the handle already
     session_move(session, x, y);
     session_frame(session);

@@ -69,7 +69,7 @@ TEST(poles_of_figure_2_are_in_sight)
         blind_frame(&blind);
         blind_frame(&blind);
         struct editor *editor = blind.app.table.editor;
-        assert_true(inspector_target(editor->inspector, &editor->core, "pole.centre", &x, &y));
+        assert_true(inspector_target(editor->inspector, "pole.centre", &x, &y));
         const struct draw_command *axis = shown_text(editor, "-1 Hz"); // below the response
         assert_non_null(axis);
         assert_true(axis->y < editor->core.layout.inspector.y + editor->core.layout.inspector.h - 40);

@@ -59,7 +59,7 @@ TEST(a_long_list_turns_by_wheel)
     assert_true(panel_shows(&s, "item.s1"));
     assert_false(panel_shows(&s, "item.s59"));
     float x, y;
-    assert_true(inspector_target(s.editor->inspector, &s.editor->core, "item.s3", &x, &y));
+    assert_true(inspector_target(s.editor->inspector, "item.s3", &x, &y));
     session_move(&s, x, y);
     for (int i = 0; i < 20; i++) session_wheel(&s, -5);
     assert_true(panel_shows(&s, "item.s59"));
@@ -98,7 +98,7 @@ TEST(a_rig_has_the_colour_of_its_first_spline)
     panel_open(&s, tail, 1280, 1400);
     inspector_unfold(s.editor->inspector, "section.rigs");
     session_frame(&s);
-    assert_true(inspector_target(s.editor->inspector, &s.editor->core, "tail.0", &x, &y));
+    assert_true(inspector_target(s.editor->inspector, "tail.0", &x, &y));
     const struct drawlist *list = editor_drawlist(s.editor);
     for (int i = 0; i < list->count; i++) {
         const struct draw_command *c = &list->commands[i];
@@ -115,7 +115,7 @@ static int lines_at(struct session *s, const char *widget)
     const struct drawlist *list = editor_drawlist(s->editor);
     float x, y;
     int count = 0;
-    assert_true(inspector_target(s->editor->inspector, &s->editor->core, widget, &x, &y));
+    assert_true(inspector_target(s->editor->inspector, widget, &x, &y));
     for (int i = 0; i < list->count; i++) {
         const struct rect *b = &list->commands[i].bounds;
         const bool is_inside = b->x > x - 10 && b->x + b->w < x + 10 && b->y > y - 10 && b->y + b->h < y + 10;
@@ -218,7 +218,7 @@ TEST(presets_look_alike_and_plain)
     const struct drawlist *list = editor_drawlist(s.editor);
     for (size_t p = 0; p < sizeof presets / sizeof *presets; p++) {
         float x, y;
-        assert_true(inspector_target(s.editor->inspector, &s.editor->core, presets[p], &x, &y));
+        assert_true(inspector_target(s.editor->inspector, presets[p], &x, &y));
         for (int i = 0; i < list->count; i++) {
             const struct draw_command *c = &list->commands[i];
             const bool covers = c->kind != DRAW_TEXT && c->bounds.w < 200 && rect_contains(c->bounds, x, y);

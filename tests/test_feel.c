@@ -62,7 +62,7 @@ TEST(test_the_time_to_settle_is_set)
 static float place_of(struct session *s, const char *name)
 {
     float x, y;
-    assert_true(inspector_target(s->editor->inspector, &s->editor->core, name, &x, &y));
+    assert_true(inspector_target(s->editor->inspector, name, &x, &y));
     return y;
 }
 
@@ -92,7 +92,7 @@ TEST(test_a_tooltip_is_near_the_pointer)
     const struct tooltip *tooltip = &s.editor->tooltip;
     for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
         float x, y;
-        assert_true(inspector_target(s.editor->inspector, &s.editor->core, names[i], &x, &y));
+        assert_true(inspector_target(s.editor->inspector, names[i], &x, &y));
         session_move(&s, x, y);
         session_frame(&s);
         assert_false(tooltip_is_shown(tooltip));

@@ -80,7 +80,7 @@ SESSION_TEST(test_wheel, open_list(s, 40))
     session_frame(s);
     const struct inspector *inspector = s->editor->inspector;
     float x, y;
-    assert_true(inspector_target(s->editor->inspector, &s->editor->core, "section.history", &x, &y));
+    assert_true(inspector_target(s->editor->inspector, "section.history", &x, &y));
     session_move(s, x, y + 60);
     const float offset = inspector->scroll.offset;
     assert_true(offset > 100);
@@ -105,7 +105,7 @@ SESSION_TEST(test_dropped, panel_open(s, scene, 1280, 720))
     assert_true(history_dropped(s->history) > 10);
     for (int i = 0; i < 20; i++) {
         float x, y;
-        assert_true(inspector_target(s->editor->inspector, &s->editor->core, "section.history", &x, &y));
+        assert_true(inspector_target(s->editor->inspector, "section.history", &x, &y));
         session_move(s, x, y + 40);
         session_wheel(s, 1);
     }

@@ -162,12 +162,12 @@ TEST(test_the_knot_section_without_a_knot)
     struct session f;
     float x, y[2];
     panel_open(&f, scene, 1280, 1400);
-    assert_true(inspector_target(f.editor->inspector, &f.editor->core, "section.splines", &x, &y[0]));
+    assert_true(inspector_target(f.editor->inspector, "section.splines", &x, &y[0]));
     f.editor->core.playback.position = 20;
     panel_click(&f, "knot.insert");
     assert_int_equal(f.document->splines[0]->knot_count, 4);
     assert_near(f.document->splines[0]->knots[1].frame, 20, 0);
-    assert_true(inspector_target(f.editor->inspector, &f.editor->core, "section.splines", &x, &y[1]));
+    assert_true(inspector_target(f.editor->inspector, "section.splines", &x, &y[1]));
     assert_near(y[1], y[0], 0);
     assert_false(panel_shows(&f, "knot.insert"));
     session_key(&f, KEY_ESCAPE, 0);
@@ -272,7 +272,7 @@ static bool shows_text(struct session *f, const char *part)
 {
     struct drawlist *list = &f->editor->core.list;
     drawlist_clear(list, f->editor->core.layout.window);
-    inspector_show(f->editor->inspector, &f->editor->core, false);
+    inspector_show(f->editor->inspector, false);
     for (int i = 0; i < list->count; i++) {
         if (list->commands[i].kind == DRAW_TEXT && strstr(list->text + list->commands[i].first, part)) return true;
     }
@@ -410,7 +410,7 @@ TEST(test_the_hint_of_a_position_outlives_the_panel)
     struct session s;
     float x, y;
     panel_open(&s, tail, 1280, 1400);
-    assert_true(inspector_target(s.editor->inspector, &s.editor->core, "position.y", &x, &y));
+    assert_true(inspector_target(s.editor->inspector, "position.y", &x, &y));
     session_move(&s, x, y);
     session_frame(&s);
     assert_string_equal(inspector_hint(s.editor->inspector), "Position of the body along y");

@@ -80,7 +80,7 @@ static void check_inspector(struct session *f)
         for (int page = 0; page < 3; page++) {
             f->editor->inspector->scroll.offset = 150.0f * (float)page;
             show(f);
-            inspector_show(f->editor->inspector, &f->editor->core, false);
+            inspector_show(f->editor->inspector, false);
             assert_true(assert_texts_apart(&f->editor->core.list, 0, f->editor->core.layout.inspector) > 15);
         }
     }

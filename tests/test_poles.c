@@ -28,7 +28,7 @@ static void open_poles(struct session *f, int spline)
 static void drag(struct session *f, const char *name, float dx, float dy)
 {
     float x, y;
-    assert_true(inspector_target(f->editor->inspector, &f->editor->core, name, &x, &y));
+    assert_true(inspector_target(f->editor->inspector, name, &x, &y));
     panel_press(f, name, 1);
     session_move(f, x + dx, y + dy);
     session_frame(f);

@@ -16,7 +16,7 @@ SESSION_TEST(test_the_menu_opens_by_its_key, panel_open(s, "{\"frames\": [0, 48]
     session_move(s, 300, 200);
     session_key(s, 'A', 0);
     float x, y;
-    assert_true(inspector_target(s->editor->inspector, &s->editor->core, "item.tail", &x, &y));
+    assert_true(inspector_target(s->editor->inspector, "item.tail", &x, &y));
     assert_true(x > 300 && x < 600 && y > 200 && y < 260); // at the pointer
     session_key(s, KEY_ENTER, 0);
     assert_int_equal(document_count_rigs(s->document, RIG_TAIL), 1);

@@ -23,7 +23,7 @@ struct editor *editor_create(void)
     drawlist_create(&editor->core.list, MAX_COMMANDS, MAX_POINTS, MAX_TEXT);
     editor->curves = curves_create();
     editor->stage = stage_create();
-    editor->inspector = inspector_create();
+    editor->inspector = inspector_create(&editor->core);
     editor->dialogs = dialogs_create();
     editor->transport = transport_create();
     editor->core.layout.stage_share = 400.0f / (720 - THEME_STATUS_HEIGHT);
@@ -87,7 +87,7 @@ static void open_panels(struct editor *editor)
     curves_open(editor->curves);
     stage_open(editor->stage);
     inspector_reset(editor->inspector);
-    inspector_show_spline(editor->inspector, &editor->core, editor->core.active);
+    inspector_show_spline(editor->inspector, editor->core.active);
     editor->seen.active = editor->core.active_id;
 }
 
@@ -110,7 +110,7 @@ void editor_settle(struct editor *editor)
     editor->seen.active = core->active_id;
     if (core->active < 0) return;
     if (before >= 0) curves_activate(editor->curves, core, before);
-    inspector_show_spline(editor->inspector, core, core->active);
+    inspector_show_spline(editor->inspector, core->active);
 }
 
 void editor_show_poles(struct editor *editor) { inspector_unfold(editor->inspector, "section.poles"); }
@@ -177,7 +177,7 @@ void editor_refresh(struct editor *editor)
 
 void editor_show_last(struct editor *editor)
 {
-    inspector_show_rig(editor->inspector, &editor->core, editor->core.document->rig_count - 1);
+    inspector_show_rig(editor->inspector, editor->core.document->rig_count - 1);
     editor->core.refit_stage = true;
 }
 

@@ -51,7 +51,7 @@ static void press(struct editor *editor, const struct event *event)
 /// Ends what the inspector is in the middle of, before the document changes or the app quits.
 void editor_leave(struct editor *editor, const struct request *request)
 {
-    inspector_let_go(editor->inspector, &editor->core);
+    inspector_let_go(editor->inspector);
     dialogs_leave(editor->dialogs, &editor->core, request);
 }
 
@@ -112,7 +112,7 @@ static void note(struct editor *editor, const struct event *event)
 void editor_let_go(struct editor *editor)
 {
     drag_end(&editor->core, true);
-    inspector_let_go(editor->inspector, &editor->core);
+    inspector_let_go(editor->inspector);
 }
 
 /// Asks about an edit that core wants confirmed.
@@ -121,7 +121,7 @@ static void ask(struct editor *editor)
     if (editor->core.ask.kind == ASK_NOTHING) return;
     dialogs_ask(editor->dialogs, &editor->core, &editor->core.ask);
     editor->core.ask.kind = ASK_NOTHING;
-    inspector_let_go(editor->inspector, &editor->core);
+    inspector_let_go(editor->inspector);
 }
 
 /// When something opens over the panels, ends any drag and lets go of held keys.
@@ -151,7 +151,7 @@ void editor_event(struct editor *editor, const struct event *event)
     bool used = dialogs_event(editor->dialogs, &editor->core, event, inspector_is_dragging(editor->inspector)) ||
                 drag_event(&editor->core, event) ||
                 (!inspector_is_typing(editor->inspector) && presenter_event(&editor->core, event)) ||
-                (!editor->core.drag.owner && inspector_event(editor->inspector, &editor->core, event));
+                (!editor->core.drag.owner && inspector_event(editor->inspector, event));
     if (event->kind == EVENT_KEY && event->action != ACTION_RELEASE) {
         editor->press = (struct press){.used = used, .repeated = event->action == ACTION_REPEAT};
     }
@@ -268,7 +268,7 @@ static void show_panels(struct editor *editor)
     const char *hint = inspector_hint(editor->inspector);
     if (below) curves_show(editor->curves, &editor->core);
     if (below) show_stage_divider(editor); // below the inspector's menus
-    if (side) inspector_show(editor->inspector, &editor->core, dialogs_cover(editor->dialogs));
+    if (side) inspector_show(editor->inspector, dialogs_cover(editor->dialogs));
     if (side) show_inspector_divider(editor);
     if (!hint) hint = editor->core.drag.hint;
     if (below) transport_show(editor->transport, &editor->core, hint);

@@ -159,19 +159,19 @@ static void run_brush(struct editor *e, int argument)
 static void run_rename(struct editor *e, int argument)
 {
     (void)argument;
-    inspector_rename(e->inspector, &e->core);
+    inspector_rename(e->inspector);
 }
 
 static void run_add(struct editor *e, int argument)
 {
     (void)argument;
-    inspector_add_menu(e->inspector, &e->core);
+    inspector_add_menu(e->inspector);
 }
 
 static void run_remove_rig(struct editor *e, int argument)
 {
     (void)argument;
-    inspector_remove_rig(e->inspector, &e->core);
+    inspector_remove_rig(e->inspector);
 }
 
 static void run_theme(struct editor *e, int argument)

@@ -278,8 +278,7 @@ static bool find_divider(struct target_place *place, struct error *error)
 
 static bool find_widget(struct target_place *place, struct error *error)
 {
-    return inspector_target(place->editor->inspector, &place->editor->core, place->target->name, &place->xy[0],
-                            &place->xy[1]) ||
+    return inspector_target(place->editor->inspector, place->target->name, &place->xy[0], &place->xy[1]) ||
            fail(error, ERROR_INPUT, "the inspector does not show \"%s\"", place->target->name);
 }
 

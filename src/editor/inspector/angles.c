@@ -3,7 +3,7 @@
 #include "base/error.h"
 #include "editor/core/bones.h"
 #include "editor/core/core.h"
-#include "editor/inspector/inspection.h"
+#include "editor/inspector/parts.h"
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -41,27 +41,27 @@ static void scale_angles(struct angles *angles, double value)
     }
 }
 
-static bool set_angles(struct inspection *in, const struct angle_row *row, const struct angles *angles,
+static bool set_angles(struct inspector *in, const struct angle_row *row, const struct angles *angles,
                        struct error *error)
 {
-    const int channel = row->kind == ANGLE_REST ? -1 : in->inspector->channel;
-    return edit_angles(in->document, (struct channel_place){in->inspector->rig, channel}, row->kind, angles, error);
+    const int channel = row->kind == ANGLE_REST ? -1 : in->channel;
+    return edit_angles(in->core->document, (struct channel_place){in->rig, channel}, row->kind, angles, error);
 }
 
-bool inspector_set_angles(struct inspection *in, const struct angle_row *row, const struct angles *angles)
+bool inspector_set_angles(struct inspector *in, const struct angle_row *row, const struct angles *angles)
 {
     return set_angles(in, row, angles, &in->core->error);
 }
 
 /// The same as a step of its own.
-static void step_angles(struct inspection *in, const struct angle_row *row, const char *label,
+static void step_angles(struct inspector *in, const struct angle_row *row, const char *label,
                         const struct angles *angles)
 {
     if (core_begin(in->core, label, 0)) core_end(in->core, inspector_set_angles(in, row, angles));
 }
 
 /// The same as what a widget's change is.
-static void change_angles(struct inspection *in, const struct angle_row *row, enum ui_change change, const char *what,
+static void change_angles(struct inspector *in, const struct angle_row *row, enum ui_change change, const char *what,
                           const struct angles *angles)
 {
     if (inspector_begin(in, change, row->undo, what))
@@ -69,27 +69,27 @@ static void change_angles(struct inspection *in, const struct angle_row *row, en
 }
 
 /// What its numbers are in: the gain of what moves the body may be in percent.
-static const char *unit_of(const struct inspection *in, const struct angle_row *row)
+static const char *unit_of(const struct inspector *in, const struct angle_row *row)
 {
     return row->kind == ANGLE_GAIN ? axis_unit(inspector_felt_channel(in)->axis) : "°";
 }
 
 /// By how much a slider's ends are taken further out, so that it has the angle on it; the same as long as it is dragged.
-static double reach_of(struct inspection *in, const struct angle_row *row, double angle)
+static double reach_of(struct inspector *in, const struct angle_row *row, double angle)
 {
-    double *reach = &in->inspector->angle_reach[row->kind];
-    if (*reach >= 1 && in->ui->held == ui_id(row->name)) return *reach;
+    double *reach = &in->angle_reach[row->kind];
+    if (*reach >= 1 && in->ui.held == ui_id(row->name)) return *reach;
     *reach = 1;
     while (fabs(angle) > *reach * row->maximum && *reach < MOST_REACH) *reach *= 2;
     return *reach;
 }
 
 /// The angles of a row, as the document has them now.
-static const struct angles *angles_of(const struct inspection *in, const struct angle_row *row)
+static const struct angles *angles_of(const struct inspector *in, const struct angle_row *row)
 {
     const struct rig *rig = inspector_shown(in);
     if (row->kind == ANGLE_REST) return &rig->tail.rest;
-    const struct channel *channel = &rig->bent.channels[in->inspector->channel];
+    const struct channel *channel = &rig->bent.channels[in->channel];
     return row->kind == ANGLE_LAG ? &channel->lag : &channel->gain;
 }
 
@@ -97,13 +97,13 @@ static const struct angle_row *const angle_rows[] = {
     [ANGLE_REST] = &angle_row_rest, [ANGLE_LAG] = &angle_row_lag, [ANGLE_GAIN] = &angle_row_gain};
 
 /// The largest of them is what the slider shows.
-static double get_largest(const struct inspection *in, int kind)
+static double get_largest(const struct inspector *in, int kind)
 {
     const struct angles *angles = angles_of(in, angle_rows[kind]);
     return angles_number(angles, peak(angles));
 }
 
-static bool set_largest(struct inspection *in, int kind, double number, struct error *error)
+static bool set_largest(struct inspector *in, int kind, double number, struct error *error)
 {
     struct angles next = *angles_of(in, angle_rows[kind]);
     scale_angles(&next, number);
@@ -111,7 +111,7 @@ static bool set_largest(struct inspection *in, int kind, double number, struct e
 }
 
 /// Of several, the first one and the last one.
-static const char *show_ends(const struct inspection *in, int kind, char text[64])
+static const char *show_ends(const struct inspector *in, int kind, char text[64])
 {
     const struct angles *angles = angles_of(in, angle_rows[kind]);
     if (angles->form == ANGLES_ONE) return NULL;
@@ -120,7 +120,7 @@ static const char *show_ends(const struct inspection *in, int kind, char text[64
     return text;
 }
 
-static void build_slider(struct inspection *in, const struct angle_row *row, const struct angles *angles,
+static void build_slider(struct inspector *in, const struct angle_row *row, const struct angles *angles,
                          struct rect r)
 {
     static const struct number_home home = {.get = get_largest, .set = set_largest, .shown = show_ends};
@@ -163,7 +163,7 @@ static struct angles one_angle(const struct angles *angles, enum angle_kind kind
 
 /// The button at the right end of a row that makes its angles of a form, or one for all joints where they have it already; true if it
 /// changed them.
-static bool build_switch(struct inspection *in, const struct angle_row *row, const struct angles *angles,
+static bool build_switch(struct inspector *in, const struct angle_row *row, const struct angles *angles,
                          const struct angles *next, struct rect r)
 {
     const bool ramp = next->form == ANGLES_RAMP, lit = angles->form == next->form;
@@ -172,8 +172,8 @@ static bool build_switch(struct inspection *in, const struct angle_row *row, con
     const char *hint = lit    ? "Back to one angle for all joints"
                        : ramp ? "Draw the angles along the joints as a curve through a few points"
                               : "Give each joint an angle of its own";
-    if (!ui_icon_button(in->ui, r, name, ramp ? UI_ICON_RAMP : UI_ICON_EACH, lit, hint)) return false;
-    const int joints = bones_joints(in->core, in->inspector->rig);
+    if (!ui_icon_button(&in->ui, r, name, ramp ? UI_ICON_RAMP : UI_ICON_EACH, lit, hint)) return false;
+    const int joints = bones_joints(in->core, in->rig);
     const struct angles one = one_angle(angles, row->kind, joints);
     step_angles(in, row, row->undo, lit ? &one : next);
     return true;
@@ -211,11 +211,11 @@ static bool is_held(const struct ramp_view *view, uint32_t held)
 }
 
 /// Its scale, which stays while a point is dragged; and where its points are.
-static void lay_out(struct inspection *in, struct ramp_view *view)
+static void lay_out(struct inspector *in, struct ramp_view *view)
 {
-    double *scale = in->inspector->ramp_scale[view->row->kind];
+    double *scale = in->ramp_scale[view->row->kind];
     for (int i = 0; i < view->angles->count; i++) snprintf(view->names[i], NAME, "%s.point.%d", view->row->name, i);
-    if (!is_held(view, in->ui->held)) {
+    if (!is_held(view, in->ui.held)) {
         scale[0] = 0;
         scale[1] = LEAST;
         for (int i = 0; i < view->angles->count; i++) {
@@ -235,9 +235,9 @@ static void lay_out(struct inspection *in, struct ramp_view *view)
     }
 }
 
-static void draw(const struct inspection *in, const struct ramp_view *view, struct rect box)
+static void draw(const struct inspector *in, const struct ramp_view *view, struct rect box)
 {
-    struct drawlist *list = in->ui->list;
+    struct drawlist *list = in->ui.list;
     const int count = view->angles->count;
     float line[RAMP_MAX_POINTS + 2][2] = {{view->plot.x, view->handles[0].y}};
     drawlist_rounded(list, box, 4, theme()->raised);
@@ -273,7 +273,7 @@ static void move_point(struct angles *angles, int i, struct ramp_point point)
     angles->ramp[i] = (struct ramp_point){fmin(fmax(point.at, low), high), point.angle};
 }
 
-static void change_point(struct inspection *in, const struct ramp_view *view, enum ui_change change, int which)
+static void change_point(struct inspector *in, const struct ramp_view *view, enum ui_change change, int which)
 {
     const struct ui_handle *handle = &view->handles[which];
     struct angles next = *view->angles;
@@ -287,7 +287,7 @@ static void change_point(struct inspection *in, const struct ramp_view *view, en
     change_angles(in, view->row, change, handle->name, &next);
 }
 
-static void add_point(struct inspection *in, const struct ramp_view *view, struct ramp_point point)
+static void add_point(struct inspector *in, const struct ramp_view *view, struct ramp_point point)
 {
     struct angles next = *view->angles;
     int i = 0;
@@ -300,7 +300,7 @@ static void add_point(struct inspection *in, const struct ramp_view *view, struc
     step_angles(in, view->row, "Add point", &next);
 }
 
-static void remove_point(struct inspection *in, const struct ramp_view *view, int which)
+static void remove_point(struct inspector *in, const struct ramp_view *view, int which)
 {
     struct angles next = *view->angles;
     if (next.count <= 2) {
@@ -313,25 +313,25 @@ static void remove_point(struct inspection *in, const struct ramp_view *view, in
 }
 
 /// The point that the event is to remove: under a right click, or that has the focus when Del is pressed; −1: none.
-static int removed_point(const struct inspection *in, const struct ramp_view *view, struct rect box)
+static int removed_point(const struct inspector *in, const struct ramp_view *view, struct rect box)
 {
-    const struct event *event = in->ui->event;
+    const struct event *event = in->ui.event;
     const bool key = event->kind == EVENT_KEY && event->action == ACTION_PRESS &&
                      (event->key == KEY_DELETE || event->key == KEY_BACKSPACE);
     const bool click = event->kind == EVENT_BUTTON && event->action == ACTION_PRESS &&
-                       event->button == BUTTON_RIGHT && ui_hovered(in->ui, box);
+                       event->button == BUTTON_RIGHT && ui_hovered(&in->ui, box);
     for (int i = 0; i < view->angles->count; i++) {
         const struct ui_handle *handle = &view->handles[i];
-        if (key && in->ui->focus == ui_id(handle->name)) return i;
+        if (key && in->ui.focus == ui_id(handle->name)) return i;
         if (click && hypotf(event->x - handle->x, event->y - handle->y) < REACH) return i;
     }
     return -1;
 }
 
 /// What adds and removes points; a press on one also gives it the focus, so that arrows and Del mean it.
-static void take_event(struct inspection *in, const struct ramp_view *view, struct rect box)
+static void take_event(struct inspector *in, const struct ramp_view *view, struct rect box)
 {
-    struct ui *ui = in->ui;
+    struct ui *ui = &in->ui;
     const struct event *event = ui->event;
     const bool press = event->kind == EVENT_BUTTON && event->action == ACTION_PRESS && event->button == BUTTON_LEFT;
     if (press && is_held(view, ui->held)) ui->focus = ui->held;
@@ -348,9 +348,9 @@ static void take_event(struct inspection *in, const struct ramp_view *view, stru
 }
 
 /// Below the row of a ramp: its curve.
-static void build_ramp_row(struct inspection *in, const struct angle_row *row, const struct angles *angles)
+static void build_ramp_row(struct inspector *in, const struct angle_row *row, const struct angles *angles)
 {
-    struct ui *ui = in->ui;
+    struct ui *ui = &in->ui;
     struct rect line = ui_row(ui, HEIGHT), box = {line.x, line.y + 2, line.w, line.h - 6};
     struct ramp_view view = {.row = row, .angles = angles, .plot = rect_inset(box, INSET)};
     int which = 0;
@@ -388,14 +388,14 @@ struct each_view {
 };
 
 /// Its scale, which stays while it is drawn.
-static struct each_view each_lay_out(struct inspection *in, const struct angle_row *row, const struct angles *angles,
+static struct each_view each_lay_out(struct inspector *in, const struct angle_row *row, const struct angles *angles,
                                      struct rect box)
 {
     struct each_view view = {.row = row, .angles = angles, .plot = rect_inset(box, INSET)};
-    double *scale = in->inspector->ramp_scale[row->kind];
-    int *joint = &in->inspector->joint[row->kind];
+    double *scale = in->ramp_scale[row->kind];
+    int *joint = &in->joint[row->kind];
     snprintf(view.name, NAME, "%s.curve", row->name);
-    if (in->ui->held != ui_id(view.name)) {
+    if (in->ui.held != ui_id(view.name)) {
         scale[0] = 0;
         scale[1] = LEAST;
         for (int n = 0; n < angles->count; n++) {
@@ -421,9 +421,9 @@ static float each_y_of(const struct each_view *view, double angle)
     return view->plot.y + view->plot.h * (float)((view->high - angle) / (view->high - view->low));
 }
 
-static void each_draw(const struct inspection *in, const struct each_view *view, struct rect box)
+static void each_draw(const struct inspector *in, const struct each_view *view, struct rect box)
 {
-    struct drawlist *list = in->ui->list;
+    struct drawlist *list = in->ui.list;
     const int count = view->angles->count;
     float line[ANGLES_MAX_JOINTS][2];
     drawlist_rounded(list, box, 4, theme()->raised);
@@ -447,15 +447,15 @@ static int joint_at(const struct each_view *view, float x)
 }
 
 /// A press takes the joint below it, from where the drag draws.
-static void take_press(struct inspection *in, const struct each_view *view, struct rect box, struct ui_handle *handle)
+static void take_press(struct inspector *in, const struct each_view *view, struct rect box, struct ui_handle *handle)
 {
-    const struct event *event = in->ui->event;
+    const struct event *event = in->ui.event;
     const bool press = event->kind == EVENT_BUTTON && event->action == ACTION_PRESS && event->button == BUTTON_LEFT;
-    if (!press || in->ui->used || in->ui->held || !ui_hovered(in->ui, box)) return;
-    in->inspector->joint[view->row->kind] = joint_at(view, event->x);
-    in->inspector->drawn = *view->angles;
-    in->inspector->drawn_x = handle->x = event->x;
-    in->inspector->drawn_y = handle->y = event->y;
+    if (!press || in->ui.used || in->ui.held || !ui_hovered(&in->ui, box)) return;
+    in->joint[view->row->kind] = joint_at(view, event->x);
+    in->drawn = *view->angles;
+    in->drawn_x = handle->x = event->x;
+    in->drawn_y = handle->y = event->y;
 }
 
 static double angle_at(const struct each_view *view, float y)
@@ -465,25 +465,25 @@ static double angle_at(const struct each_view *view, float y)
 }
 
 /// All joints between the last place and this one come to lie on the line between both.
-static void draw_to(struct inspector *inspector, const struct each_view *view, const struct ui_handle *handle)
+static void draw_to(struct inspector *in, const struct each_view *view, const struct ui_handle *handle)
 {
-    const int from = joint_at(view, inspector->drawn_x), to = joint_at(view, handle->x), way = to >= from ? 1 : -1;
+    const int from = joint_at(view, in->drawn_x), to = joint_at(view, handle->x), way = to >= from ? 1 : -1;
     for (int n = from;; n += way) {
         const float share = to == from ? 1 : (float)(n - from) / (float)(to - from);
-        const float y = inspector->drawn_y + share * (handle->y - inspector->drawn_y);
-        inspector->drawn.value[n] = angle_at(view, y);
+        const float y = in->drawn_y + share * (handle->y - in->drawn_y);
+        in->drawn.value[n] = angle_at(view, y);
         if (n == to) break;
     }
-    inspector->drawn_x = handle->x;
-    inspector->drawn_y = handle->y;
-    inspector->joint[view->row->kind] = to;
+    in->drawn_x = handle->x;
+    in->drawn_y = handle->y;
+    in->joint[view->row->kind] = to;
 }
 
 /// ← and → go along the joints, ↑ and ↓ change one.
-static void nudge(struct inspection *in, const struct each_view *view, const struct ui_handle *handle)
+static void nudge(struct inspector *in, const struct each_view *view, const struct ui_handle *handle)
 {
     const int last = view->angles->count - 1, next = view->joint + handle->step_x;
-    in->inspector->joint[view->row->kind] = next < 0 ? 0 : next > last ? last : next;
+    in->joint[view->row->kind] = next < 0 ? 0 : next > last ? last : next;
     if (handle->step_y == 0) return;
     struct angles angles = *view->angles;
     char what[NAME];
@@ -492,9 +492,9 @@ static void nudge(struct inspection *in, const struct each_view *view, const str
     change_angles(in, view->row, UI_NUDGE, what, &angles);
 }
 
-static void build_curve(struct inspection *in, const struct each_view *view, struct rect box)
+static void build_curve(struct inspector *in, const struct each_view *view, struct rect box)
 {
-    struct ui *ui = in->ui;
+    struct ui *ui = &in->ui;
     struct ui_handle handle = {.name = view->name,
                                .hint = "Drag over the joints to draw their angles; a click selects one",
                                .x = each_x_of(view, view->joint),
@@ -508,30 +508,30 @@ static void build_curve(struct inspection *in, const struct each_view *view, str
     if (change == UI_NUDGE) {
         nudge(in, view, &handle);
     } else if (change != UI_NONE) {
-        if (change == UI_DRAG) draw_to(in->inspector, view, &handle);
-        change_angles(in, view->row, change, view->name, &in->inspector->drawn);
+        if (change == UI_DRAG) draw_to(in, view, &handle);
+        change_angles(in, view->row, change, view->name, &in->drawn);
     }
 }
 
 /// The number of the joint that is selected.
-static double get_joint(const struct inspection *in, int kind)
+static double get_joint(const struct inspector *in, int kind)
 {
-    return angles_of(in, angle_rows[kind])->value[in->inspector->joint[kind]];
+    return angles_of(in, angle_rows[kind])->value[in->joint[kind]];
 }
 
-static bool set_joint(struct inspection *in, int kind, double number, struct error *error)
+static bool set_joint(struct inspector *in, int kind, double number, struct error *error)
 {
     struct angles next = *angles_of(in, angle_rows[kind]);
-    next.value[in->inspector->joint[kind]] = number;
+    next.value[in->joint[kind]] = number;
     return set_angles(in, angle_rows[kind], &next, error);
 }
 
-static void build_joint(struct inspection *in, const struct angle_row *row)
+static void build_joint(struct inspector *in, const struct angle_row *row)
 {
     static const struct number_home home = {.get = get_joint, .set = set_joint};
     char name[NAME], label[NAME];
     snprintf(name, NAME, "%s.joint", row->name);
-    snprintf(label, NAME, "joint %d", in->inspector->joint[row->kind] + 1);
+    snprintf(label, NAME, "joint %d", in->joint[row->kind] + 1);
     const struct number_row number = {.name = name,
                                       .label = label,
                                       .unit = unit_of(in, row),
@@ -542,22 +542,22 @@ static void build_joint(struct inspection *in, const struct angle_row *row)
                                       .fallback = NAN,
                                       .step = row->step,
                                       .decimals = 1};
-    inspector_number(in, &number, &home, (int)row->kind, ui_row(in->ui, UI_ROW));
+    inspector_number(in, &number, &home, (int)row->kind, ui_row(&in->ui, UI_ROW));
 }
 
 /// Below the row of angles of each joint: their curve, and the number of one.
-static void build_each_row(struct inspection *in, const struct angle_row *row, const struct angles *angles)
+static void build_each_row(struct inspector *in, const struct angle_row *row, const struct angles *angles)
 {
-    const struct rect line = ui_row(in->ui, HEIGHT), box = {line.x, line.y + 2, line.w, line.h - 6};
+    const struct rect line = ui_row(&in->ui, HEIGHT), box = {line.x, line.y + 2, line.w, line.h - 6};
     const struct each_view view = each_lay_out(in, row, angles, box);
     build_curve(in, &view, box);
     build_joint(in, row);
 }
 
-void inspector_angles(struct inspection *in, const struct angle_row *row, const struct angles *angles)
+void inspector_angles(struct inspector *in, const struct angle_row *row, const struct angles *angles)
 {
-    const int joints = bones_joints(in->core, in->inspector->rig);
-    struct rect r = ui_row(in->ui, UI_ROW), right = {r.x + r.w - SWITCH, r.y, SWITCH, r.h}, left = right;
+    const int joints = bones_joints(in->core, in->rig);
+    struct rect r = ui_row(&in->ui, UI_ROW), right = {r.x + r.w - SWITCH, r.y, SWITCH, r.h}, left = right;
     left.x -= SWITCH;
     build_slider(in, row, angles, (struct rect){r.x, r.y, left.x - r.x - 2, r.h});
     angles = angles_of(in, row);

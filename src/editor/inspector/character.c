@@ -2,7 +2,7 @@
 #include "editor/core/characters.h"
 #include "editor/core/core.h"
 #include "editor/core/spline_list.h"
-#include "editor/inspector/inspection.h"
+#include "editor/inspector/parts.h"
 #include "rig/models.h"
 #include <stdio.h>
 #include <string.h>
@@ -12,42 +12,42 @@ enum { MAX_ITEMS = 32 }; ///< coordinates that may be added
 static const char spline_list[] = "drive.splines", add_list[] = "drive.add";
 
 /// Shows a coordinate, and what it feels like.
-static void choose(struct inspection *in, int drive)
+static void choose(struct inspector *in, int drive)
 {
     const struct character_view *view = &in->core->characters;
-    const struct character_rig *rig = document_character(in->document, view->character);
+    const struct character_rig *rig = document_character(in->core->document, view->character);
     core_activate(in->core, rig->drives[drive].spline);
     in->core->characters.drive = drive; // of two by the same spline
 }
 
 /// A row for each coordinate that is driven, with what takes it away.
-static void build_drives(struct inspection *in, const struct character_rig *rig)
+static void build_drives(struct inspector *in, const struct character_rig *rig)
 {
-    struct ui *ui = in->ui;
+    struct ui *ui = &in->ui;
     for (int k = 0; k < rig->drive_count; k++) {
         const struct drive *drive = &rig->drives[k];
         char name[32], remove[32], text[160];
         struct rect r = ui_row(ui, UI_ROW), button = {r.x + r.w - r.h, r.y, r.h, r.h};
         snprintf(name, sizeof name, "drive.%d", k);
         snprintf(remove, sizeof remove, "drive.%d.remove", k);
-        snprintf(text, sizeof text, "%.60s, by %.60s", drive->name, in->document->splines[drive->spline]->name);
+        snprintf(text, sizeof text, "%.60s, by %.60s", drive->name, in->core->document->splines[drive->spline]->name);
         r.w -= r.h + 4;
         ui_hint(ui, r, "One of the ways this character swings");
-        const uint32_t color = spline_list_color(in->document, drive->spline);
+        const uint32_t color = spline_list_color(in->core->document, drive->spline);
         if (ui_list_row(ui, r, name, text, color, k == in->core->characters.drive)) choose(in, k);
         if (!ui_icon_button(ui, button, remove, UI_ICON_DELETE, false, "Remove this coordinate")) continue;
         const int owner = characters_rig(in->core);
         if (core_begin(in->core, "Remove coordinate", 0))
-            core_end(in->core, edit_drive_remove(in->document, owner, k, &in->core->error));
+            core_end(in->core, edit_drive_remove(in->core->document, owner, k, &in->core->error));
         return;
     }
 }
 
 /// The coordinate of the shown character that the active spline drives, where that is the selected one.
-static const struct drive *felt_drive(const struct inspection *in)
+static const struct drive *felt_drive(const struct inspector *in)
 {
     const struct character_view *view = &in->core->characters;
-    const struct character_rig *rig = document_character(in->document, view->character);
+    const struct character_rig *rig = document_character(in->core->document, view->character);
     if (!rig || view->drive >= rig->drive_count) return NULL;
     return rig->drives[view->drive].spline == in->core->active ? &rig->drives[view->drive] : NULL;
 }
@@ -61,35 +61,35 @@ static const struct number_row drive_rows[] = {
 };
 
 /// An edit: the selected coordinate's drive.
-static bool set_drive(struct inspection *in, const struct drive *drive, struct error *error)
+static bool set_drive(struct inspector *in, const struct drive *drive, struct error *error)
 {
-    return edit_drive(in->document, characters_rig(in->core), in->core->characters.drive, drive, error);
+    return edit_drive(in->core->document, characters_rig(in->core), in->core->characters.drive, drive, error);
 }
 
-static double get_drive_number(const struct inspection *in, int which)
+static double get_drive_number(const struct inspector *in, int which)
 {
     return number_at(&drive_rows[which], felt_drive(in));
 }
 
-static bool set_drive_number(struct inspection *in, int which, double number, struct error *error)
+static bool set_drive_number(struct inspector *in, int which, double number, struct error *error)
 {
     struct drive drive = *felt_drive(in);
     number_put(&drive_rows[which], &drive, number);
     return set_drive(in, &drive, error);
 }
 
-void inspector_felt_drive(struct inspection *in)
+void inspector_felt_drive(struct inspector *in)
 {
     static const struct number_home home = {.get = get_drive_number, .set = set_drive_number};
     if (felt_drive(in)) inspector_numbers(in, drive_rows, sizeof drive_rows / sizeof drive_rows[0], &home);
 }
 
-static void build_spline(struct inspection *in, const struct drive *drive)
+static void build_spline(struct inspector *in, const struct drive *drive)
 {
     struct rect r = inspector_labelled(in, "spline");
-    const uint32_t color = spline_list_color(in->document, drive->spline);
-    ui_hint(in->ui, r, "The spline that drives this coordinate");
-    ui_dropdown(in->ui, r, spline_list, 0, in->document->splines[drive->spline]->name, color);
+    const uint32_t color = spline_list_color(in->core->document, drive->spline);
+    ui_hint(&in->ui, r, "The spline that drives this coordinate");
+    ui_dropdown(&in->ui, r, spline_list, 0, in->core->document->splines[drive->spline]->name, color);
 }
 
 /// Whether the rig drives the coordinate already.
@@ -102,7 +102,7 @@ static bool is_driven(const struct character_rig *rig, const char *name)
 }
 
 /// The figure's coordinates that nothing drives yet; returns how many.
-static int free_coordinates(const struct inspection *in, const struct character_rig *rig,
+static int free_coordinates(const struct inspector *in, const struct character_rig *rig,
                             struct ui_item items[MAX_ITEMS])
 {
     const struct figure *figure = models_figure(in->core->models, in->core->characters.character);
@@ -116,7 +116,7 @@ static int free_coordinates(const struct inspection *in, const struct character_
 }
 
 /// Phases as colours, by direction of movement; and the stiff twin beside it.
-static void build_looks(struct inspection *in)
+static void build_looks(struct inspector *in)
 {
     static const struct ui_choice maps[] = {{"off", "Off"}, {"x", "x"}, {"y", "y"}, {"z", "z"}};
     static const struct ui_choice pairs[] = {{"off", "Off"}, {"on", "Beside it"}};
@@ -134,32 +134,32 @@ static void build_looks(struct inspection *in)
 }
 
 /// What the analysis found out about the selected coordinate.
-static void build_facts(struct inspection *in)
+static void build_facts(struct inspector *in)
 {
     const struct coordinate *c = characters_coordinate(in->core);
     char text[200];
     if (!c) {
-        ui_paragraph(in->ui, "The model lacks this coordinate.", theme()->text_dim);
+        ui_paragraph(&in->ui, "The model lacks this coordinate.", theme()->text_dim);
     } else if (c->frequency > 0) {
         snprintf(text, sizeof text,
                  "Found at %.2f Hz, damping %.3f. It explains %.0f %% of this motion; without phases (real PCA) one "
                  "component explains %.0f %%, two %.0f %%.",
                  c->frequency, c->damping, 100 * c->explained, 100 * c->pca1, 100 * c->pca2);
-        ui_paragraph(in->ui, text, theme()->text_dim);
+        ui_paragraph(&in->ui, text, theme()->text_dim);
     }
 }
 
-static double get_floor(const struct inspection *in, int which)
+static double get_floor(const struct inspector *in, int which)
 {
     const struct character_rig *rig = characters_selected(in->core);
     (void)which;
     return rig->has_floor ? rig->floor : rig->position[1];
 }
 
-static bool set_floor(struct inspection *in, int which, double height, struct error *error)
+static bool set_floor(struct inspector *in, int which, double height, struct error *error)
 {
     (void)which;
-    return edit_floor(in->document, characters_rig(in->core), true, height, error);
+    return edit_floor(in->core->document, characters_rig(in->core), true, height, error);
 }
 
 static const struct number_row floor_row = {"floor.height",
@@ -177,7 +177,7 @@ static const struct number_row floor_row = {"floor.height",
                                             3};
 
 /// Whether nothing of it may be below a height, and which.
-static void build_floor(struct inspection *in, const struct character_rig *rig)
+static void build_floor(struct inspector *in, const struct character_rig *rig)
 {
     static const struct ui_choice choices[] = {{"off", "Off"}, {"on", "On"}};
     static const struct number_home home = {.get = get_floor, .set = set_floor};
@@ -185,7 +185,7 @@ static void build_floor(struct inspection *in, const struct character_rig *rig)
     int on = rig->has_floor;
     if (inspector_choice(in, "floor", "Keep the whole character above a height", "floor", choices, 2, &on)) {
         if (core_begin(in->core, on ? "Set floor" : "Remove floor", 0))
-            core_end(in->core, edit_floor(in->document, owner, on, get_floor(in, 0), &in->core->error));
+            core_end(in->core, edit_floor(in->core->document, owner, on, get_floor(in, 0), &in->core->error));
         return;
     }
     if (!rig->has_floor) return;
@@ -194,32 +194,32 @@ static void build_floor(struct inspection *in, const struct character_rig *rig)
     if (!left || left->depth < 1e-4) return;
     char text[120];
     snprintf(text, sizeof text, "Up to %.3g m below it, deepest at frame %.6g: knots and pins come first.",
-             left->depth, document_frame(in->document, left->sample));
-    ui_paragraph(in->ui, text, theme()->text_dim);
+             left->depth, document_frame(in->core->document, left->sample));
+    ui_paragraph(&in->ui, text, theme()->text_dim);
 }
 
 /// Modes of one kind side by side; none is marked where the brush is set to another kind.
-static void build_modes(struct inspection *in, const char *name, const char *hint, enum brush_mode first,
+static void build_modes(struct inspector *in, const char *name, const char *hint, enum brush_mode first,
                         const struct ui_choice *choices, int count)
 {
     struct brush *brush = &in->core->brush;
-    const struct rect r = ui_row(in->ui, UI_ROW);
+    const struct rect r = ui_row(&in->ui, UI_ROW);
     const int chosen = (int)brush->mode - (int)first;
     int index = chosen >= 0 && chosen < count ? chosen : -1;
-    ui_hint(in->ui, r, hint);
-    if (ui_segments(in->ui, r, name, choices, count, &index)) brush->mode = (enum brush_mode)((int)first + index);
+    ui_hint(&in->ui, r, hint);
+    if (ui_segments(&in->ui, r, name, choices, count, &index)) brush->mode = (enum brush_mode)((int)first + index);
 }
 
 /// The brush's numbers are shares, shown in percent.
-static double *share_of(const struct inspection *in, int which)
+static double *share_of(const struct inspector *in, int which)
 {
     struct brush *brush = &in->core->brush;
     return which == 0 ? &brush->radius : &brush->strength;
 }
 
-static double get_share(const struct inspection *in, int which) { return 100 * *share_of(in, which); }
+static double get_share(const struct inspector *in, int which) { return 100 * *share_of(in, which); }
 
-static bool set_share(struct inspection *in, int which, double percent, struct error *error)
+static bool set_share(struct inspector *in, int which, double percent, struct error *error)
 {
     (void)error;
     *share_of(in, which) = percent / 100;
@@ -234,7 +234,7 @@ static const struct number_row brush_rows[] = {
 };
 
 /// The rows on the brush, below "Character".
-static void build_brush(struct inspection *in)
+static void build_brush(struct inspector *in)
 {
     static const struct ui_choice switches[] = {{"off", "Off"}, {"on", "Brush"}};
     static const struct ui_choice phase[] = {{"advance", "Advance"}, {"delay", "Delay"}, {"smooth", "Smooth"}};
@@ -254,25 +254,25 @@ static void build_brush(struct inspection *in)
         inspector_numbers(in, brush_rows, sizeof brush_rows / sizeof brush_rows[0], &home);
     }
     if (!rig || !rig->painted || paint_is_plain(rig->painted)) return;
-    const struct rect r = ui_row(in->ui, UI_ROW);
-    ui_hint(in->ui, r, "Back to what the model says, everywhere");
-    if (ui_button(in->ui, r, "paint.clean", "Remove all paint", false)) characters_clean_paint(in->core);
+    const struct rect r = ui_row(&in->ui, UI_ROW);
+    ui_hint(&in->ui, r, "Back to what the model says, everywhere");
+    if (ui_button(&in->ui, r, "paint.clean", "Remove all paint", false)) characters_clean_paint(in->core);
 }
 
-void inspector_character(struct inspection *in)
+void inspector_character(struct inspector *in)
 {
     struct character_view *view = &in->core->characters;
-    if (!document_character(in->document, view->character)) view->character = 0;
-    const struct character_rig *rig = document_character(in->document, view->character);
+    if (!document_character(in->core->document, view->character)) view->character = 0;
+    const struct character_rig *rig = document_character(in->core->document, view->character);
     struct ui_item items[MAX_ITEMS];
     if (view->drive >= rig->drive_count) view->drive = 0;
     build_drives(in, rig);
-    if (free_coordinates(in, rig, items) > 0 && in->document->spline_count > 0) {
-        const struct rect r = ui_row(in->ui, UI_ROW);
-        ui_hint(in->ui, r, "One more way for it to swing, by the active spline");
-        ui_dropdown(in->ui, r, add_list, 0, "Add a coordinate", 0);
+    if (free_coordinates(in, rig, items) > 0 && in->core->document->spline_count > 0) {
+        const struct rect r = ui_row(&in->ui, UI_ROW);
+        ui_hint(&in->ui, r, "One more way for it to swing, by the active spline");
+        ui_dropdown(&in->ui, r, add_list, 0, "Add a coordinate", 0);
     }
-    ui_space(in->ui, 4);
+    ui_space(&in->ui, 4);
     if (view->drive < rig->drive_count) {
         build_spline(in, &rig->drives[view->drive]);
         build_facts(in);
@@ -283,7 +283,7 @@ void inspector_character(struct inspection *in)
     build_brush(in);
 }
 
-static void spline_popup(struct inspection *in, const struct drive *drive)
+static void spline_popup(struct inspector *in, const struct drive *drive)
 {
     struct drive next = *drive;
     next.spline = inspector_spline_list(in, spline_list, NULL, drive->spline);
@@ -291,21 +291,22 @@ static void spline_popup(struct inspection *in, const struct drive *drive)
     if (core_end(in->core, set_drive(in, &next, &in->core->error))) choose(in, in->core->characters.drive);
 }
 
-void inspector_character_lists(struct inspection *in)
+void inspector_character_lists(struct inspector *in)
 {
     const struct character_view *view = &in->core->characters;
-    const struct character_rig *rig = document_character(in->document, view->character);
+    const struct character_rig *rig = document_character(in->core->document, view->character);
     if (!rig) return;
-    if (ui_popup_is_open(in->ui, spline_list) && view->drive < rig->drive_count) {
+    if (ui_popup_is_open(&in->ui, spline_list) && view->drive < rig->drive_count) {
         spline_popup(in, &rig->drives[view->drive]);
-    } else if (ui_popup_is_open(in->ui, add_list)) {
+    } else if (ui_popup_is_open(&in->ui, add_list)) {
         struct ui_item items[MAX_ITEMS];
-        const int picked = ui_popup_list(in->ui, add_list, items, free_coordinates(in, rig, items), -1);
+        const int picked = ui_popup_list(&in->ui, add_list, items, free_coordinates(in, rig, items), -1);
         if (picked < 0) return;
         const int spline = in->core->active >= 0 ? in->core->active : 0;
         const struct drive drive = {.spline = spline, .amplitude = DRIVE_DEFAULT_AMPLITUDE};
         const int owner = characters_rig(in->core);
         if (core_begin(in->core, "Add coordinate", 0))
-            core_end(in->core, edit_drive_add(in->document, owner, items[picked].name, &drive, &in->core->error));
+            core_end(in->core,
+                     edit_drive_add(in->core->document, owner, items[picked].name, &drive, &in->core->error));
     }
 }

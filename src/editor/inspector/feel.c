@@ -2,7 +2,7 @@
 #include "editor/core/bones.h"
 #include "editor/core/core.h"
 #include "editor/core/knots.h"
-#include "editor/inspector/inspection.h"
+#include "editor/inspector/parts.h"
 #include "editor/inspector/settle.h"
 #include "scene/order.h"
 #include <math.h>
@@ -23,23 +23,23 @@ static const struct preset {
 
 enum { PRESETS = sizeof presets / sizeof presets[0], PRESET_GAP = 4, PRESET_MARGINS = 8 };
 
-static bool set_parameter(struct inspection *in, enum parameter parameter, double value)
+static bool set_parameter(struct inspector *in, enum parameter parameter, double value)
 {
     return core_set_parameter(in->core, in->core->active, parameter, value);
 }
 
 /// The lag of the channel by which the spline bends: the same for each joint.
-static bool set_lag(struct inspection *in, double whole)
+static bool set_lag(struct inspector *in, double whole)
 {
     const struct channel *channel = inspector_felt_channel(in);
     if (!channel) return true;
-    const int joints = bones_joints(in->core, in->inspector->rig);
+    const int joints = bones_joints(in->core, in->rig);
     const double lag = joints > 1 ? core_round(whole / (joints - 1), 0.1) : 0;
     const struct angles angles = {.value = {lag}};
     return inspector_set_angles(in, &angle_row_lag, &angles);
 }
 
-static void apply(struct inspection *in, const struct preset *preset)
+static void apply(struct inspector *in, const struct preset *preset)
 {
     const struct spline *spline = core_active_spline(in->core);
     if (!core_begin(in->core, "Choose a feel", 0)) return;
@@ -58,27 +58,27 @@ static float presets_width(int first, int end)
 }
 
 /// Buttons side by side, each as wide as its word asks for.
-static void build_preset_row(struct inspection *in, struct rect row, int first, int end)
+static void build_preset_row(struct inspector *in, struct rect row, int first, int end)
 {
     const float spare = (row.w - presets_width(first, end)) / (float)(end - first);
     float x = row.x;
     for (int i = first; i < end; i++) {
         const float right = x + ui_text_width(presets[i].label) + spare;
         const struct rect r = {roundf(x), row.y + 1, roundf(right) - roundf(x), row.h - 2};
-        ui_hint(in->ui, r, presets[i].hint);
-        if (ui_button(in->ui, r, presets[i].name, presets[i].label, false)) apply(in, &presets[i]);
+        ui_hint(&in->ui, r, presets[i].hint);
+        if (ui_button(&in->ui, r, presets[i].name, presets[i].label, false)) apply(in, &presets[i]);
         x = right + PRESET_GAP;
     }
 }
 
 /// In two rows where one would cut words.
-static void build_presets(struct inspection *in)
+static void build_presets(struct inspector *in)
 {
-    const struct rect row = ui_row(in->ui, UI_ROW);
+    const struct rect row = ui_row(&in->ui, UI_ROW);
     const bool fit = presets_width(0, PRESETS) + PRESETS * PRESET_MARGINS <= row.w;
     const int in_first = fit ? PRESETS : (PRESETS + 1) / 2;
     build_preset_row(in, row, 0, in_first);
-    if (!fit) build_preset_row(in, ui_row(in->ui, UI_ROW), in_first, PRESETS);
+    if (!fit) build_preset_row(in, ui_row(&in->ui, UI_ROW), in_first, PRESETS);
 }
 
 /// When the spline would settle with another damping; INFINITY: never, or too late.
@@ -106,36 +106,36 @@ static double damping_for(const struct spline *spline, double seconds, double st
 }
 
 /// The time to settle as a number: to set it is to set the damping.
-static double get_settle(const struct inspection *in, int which)
+static double get_settle(const struct inspector *in, int which)
 {
-    const struct settling alone = settle_alone(core_active_spline(in->core), document_step(in->document));
+    const struct settling alone = settle_alone(core_active_spline(in->core), document_step(in->core->document));
     (void)which;
     return alone.kind == SETTLE_ALONE ? alone.seconds : SETTLE_LIMIT;
 }
 
-static bool set_settle(struct inspection *in, int which, double seconds, struct error *error)
+static bool set_settle(struct inspector *in, int which, double seconds, struct error *error)
 {
     const struct spline *spline = core_active_spline(in->core);
-    const double damping = damping_for(spline, seconds, document_step(in->document));
+    const double damping = damping_for(spline, seconds, document_step(in->core->document));
     const struct param param = param_number(round(damping * 1e4) / 1e4);
     (void)which;
-    return edit_parameter(in->document, in->core->active, PARAMETER_DAMPING, &param, error);
+    return edit_parameter(in->core->document, in->core->active, PARAMETER_DAMPING, &param, error);
 }
 
 static bool is_never(enum settle_kind kind) { return kind == SETTLE_NEVER || kind == SETTLE_LATE; }
 
-static const char *show_settle(const struct inspection *in, int which, char text[64])
+static const char *show_settle(const struct inspector *in, int which, char text[64])
 {
     const struct spline *spline = core_active_spline(in->core);
     (void)which, (void)text;
-    return is_never(settle_alone(spline, document_step(in->document)).kind) ? "never" : NULL;
+    return is_never(settle_alone(spline, document_step(in->core->document)).kind) ? "never" : NULL;
 }
 
-static void build_settle(struct inspection *in)
+static void build_settle(struct inspector *in)
 {
     static const struct number_home home = {.get = get_settle, .set = set_settle, .shown = show_settle};
     const struct spline *spline = core_active_spline(in->core);
-    const double step = document_step(in->document);
+    const double step = document_step(in->core->document);
     const enum settle_kind kind = settle_alone(spline, step).kind;
     if (kind != SETTLE_ALONE && !is_never(kind)) return;
     const struct number_row number = {.name = "settle",
@@ -149,24 +149,24 @@ static void build_settle(struct inspection *in)
                                       .fallback = NAN,
                                       .step = 0.05,
                                       .decimals = 2};
-    struct rect r = ui_row(in->ui, UI_ROW);
+    struct rect r = ui_row(&in->ui, UI_ROW);
     r.w -= UI_ROW + 2; // as the rows above, which have a button there
     inspector_number(in, &number, &home, 0, r);
 }
 
 /// What that means to this motion, in one plain sentence.
-static void build_sentence(struct inspection *in)
+static void build_sentence(struct inspector *in)
 {
     const struct spline *spline = core_active_spline(in->core);
     const struct evaluation *evaluation = in->core->evaluation;
     const int active = in->core->active;
     char text[128];
-    struct settling settling = settle_alone(spline, document_step(in->document));
+    struct settling settling = settle_alone(spline, document_step(in->core->document));
     if (evaluation && active < evaluation->count && spline->knot_count > 0) {
-        const int last = document_sample(in->document, spline->knots[spline->knot_count - 1].frame);
+        const int last = document_sample(in->core->document, spline->knots[spline->knot_count - 1].frame);
         settling = settle_measure(spline, &evaluation->curves[active], last);
     }
-    const double frames = settling.seconds * in->document->fps;
+    const double frames = settling.seconds * in->core->document->fps;
     switch (settling.kind) {
     case SETTLE_UNKNOWN:
         return;
@@ -191,37 +191,37 @@ static void build_sentence(struct inspection *in)
         snprintf(text, sizeof text, "At the end %.0f %% of the swing is left.", 100 * settling.left);
         break;
     }
-    ui_paragraph(in->ui, text, theme()->text_dim);
+    ui_paragraph(&in->ui, text, theme()->text_dim);
 }
 
-static void build_warnings(struct inspection *in)
+static void build_warnings(struct inspector *in)
 {
     const struct spline *spline = core_active_spline(in->core);
     const struct evaluation *evaluation = in->core->evaluation;
     const int active = in->core->active;
     char sentence[EVALUATION_SENTENCE];
     if (evaluation && active < evaluation->count && evaluation_sentence(evaluation, active, sentence))
-        ui_paragraph(in->ui, sentence, theme()->warning);
+        ui_paragraph(&in->ui, sentence, theme()->warning);
     const struct param *p = spline->parameter;
     const double beta = spline_mode(spline) == WIGGLY_COMPLEX ? p[PARAMETER_BANDWIDTH].value : 0;
     const double highest = p[PARAMETER_FREQUENCY].value * (1 + beta);
-    const double limit = in->document->fps * in->document->substeps / 2;
+    const double limit = in->core->document->fps * in->core->document->substeps / 2;
     const bool poles = spline_mode(spline) != WIGGLY_CUBIC && p[PARAMETER_FREQUENCY].track < 0;
     if (poles && highest > limit) {
         char text[128];
         snprintf(text, sizeof text, "Faster than half the sample rate (%g Hz): the swing aliases.", limit);
-        ui_paragraph(in->ui, text, theme()->warning);
+        ui_paragraph(&in->ui, text, theme()->warning);
     }
 }
 
-static void build_find(struct inspection *in)
+static void build_find(struct inspector *in)
 {
-    const struct rect row = ui_row(in->ui, UI_ROW), r = {row.x, row.y + 1, row.w, row.h - 2};
-    ui_hint(in->ui, r, "Frequency and damping that explain the knots best (Shift+F); again: the runner-up");
-    if (ui_button(in->ui, r, "frequency.find", "Find the frequency", false)) core_find_frequency(in->core, 0);
+    const struct rect row = ui_row(&in->ui, UI_ROW), r = {row.x, row.y + 1, row.w, row.h - 2};
+    ui_hint(&in->ui, r, "Frequency and damping that explain the knots best (Shift+F); again: the runner-up");
+    if (ui_button(&in->ui, r, "frequency.find", "Find the frequency", false)) core_find_frequency(in->core, 0);
 }
 
-void inspector_feel(struct inspection *in)
+void inspector_feel(struct inspector *in)
 {
     static const enum parameter pace[] = {PARAMETER_FREQUENCY, PARAMETER_DAMPING};
     build_presets(in);

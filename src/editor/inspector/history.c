@@ -2,7 +2,7 @@
 ///
 /// It has to be the last section: going to a step changes the document under what is laid out after it.
 #include "editor/core/core.h"
-#include "editor/inspector/inspection.h"
+#include "editor/inspector/parts.h"
 #include "ui/theme.h"
 #include <stdio.h>
 
@@ -36,19 +36,19 @@ static void keep_in_sight(struct history_view *view, size_t count, size_t done)
     if (view->top > last_top) view->top = last_top;
 }
 
-static void go_to(struct inspection *in, size_t row)
+static void go_to(struct inspector *in, size_t row)
 {
     char name[32];
     name_of(row, name);
-    if (in->ui->focus) in->ui->focus = ui_id(name);
+    if (in->ui.focus) in->ui.focus = ui_id(name);
     core_jump(in->core, row);
 }
 
 /// The wheel scrolls the list where it is longer than what is shown.
-static void scroll(struct inspection *in, struct rect list)
+static void scroll(struct inspector *in, struct rect list)
 {
-    struct ui *ui = in->ui;
-    struct history_view *view = &in->inspector->history;
+    struct ui *ui = &in->ui;
+    struct history_view *view = &in->history;
     bool wheel = ui->pass == UI_PASS_EVENT && ui->event->kind == EVENT_WHEEL && !ui->used && ui_hovered(ui, list);
     if (!wheel || view->count < ROWS) return;
     bool up = ui->event->dy > 0;
@@ -59,12 +59,12 @@ static void scroll(struct inspection *in, struct rect list)
 }
 
 /// ↑ and ↓ on a row that has the keyboard: one step back, one forward.
-static void step_by_key(struct inspection *in, size_t first, size_t end)
+static void step_by_key(struct inspector *in, size_t first, size_t end)
 {
-    struct ui *ui = in->ui;
+    struct ui *ui = &in->ui;
     bool key = ui->pass == UI_PASS_EVENT && ui->event->kind == EVENT_KEY && ui->event->action != ACTION_RELEASE;
     if (!key || ui->used || (ui->event->key != KEY_UP && ui->event->key != KEY_DOWN)) return;
-    const struct history_view *view = &in->inspector->history;
+    const struct history_view *view = &in->history;
     for (size_t row = first; row < end; row++) {
         char name[32];
         name_of(row, name);
@@ -76,11 +76,11 @@ static void step_by_key(struct inspection *in, size_t first, size_t end)
     }
 }
 
-static bool build_row(struct inspection *in, size_t row)
+static bool build_row(struct inspector *in, size_t row)
 {
     const struct history *history = in->core->history;
-    const struct history_view *view = &in->inspector->history;
-    struct ui *ui = in->ui;
+    const struct history_view *view = &in->history;
+    struct ui *ui = &in->ui;
     struct rect r = ui_row(ui, UI_ROW);
     char name[32], text[96];
     name_of(row, name);
@@ -93,21 +93,21 @@ static bool build_row(struct inspection *in, size_t row)
     return pressed;
 }
 
-void inspector_history(struct inspection *in)
+void inspector_history(struct inspector *in)
 {
     const struct history *history = in->core->history;
-    struct history_view *view = &in->inspector->history;
+    struct history_view *view = &in->history;
     size_t count = history_count(history);
     keep_in_sight(view, count, history_done(history));
     size_t first = view->top, end = first + ROWS < count + 1 ? first + ROWS : count + 1, pressed = end;
-    struct rect list = {in->ui->area.x, in->ui->y, in->ui->area.w, (float)(end - first) * UI_ROW};
+    struct rect list = {in->ui.area.x, in->ui.y, in->ui.area.w, (float)(end - first) * UI_ROW};
     for (size_t row = first; row < end; row++) {
         if (build_row(in, row)) pressed = row;
     }
     if (count + 1 > ROWS) {
         char text[96];
         snprintf(text, sizeof text, "Steps %zu to %zu of %zu", first > 0 ? first : 1, end - 1, count);
-        ui_paragraph(in->ui, text, theme()->text_dim);
+        ui_paragraph(&in->ui, text, theme()->text_dim);
     }
     scroll(in, list);
     step_by_key(in, first, end);

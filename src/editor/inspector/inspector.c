@@ -5,7 +5,7 @@
 #include "editor/core/knots.h"
 #include "editor/core/pins.h"
 #include "editor/core/spline_list.h"
-#include "editor/inspector/inspection.h"
+#include "editor/inspector/parts.h"
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -13,47 +13,50 @@
 
 enum { FOOTER = 40 }; ///< height of the look switch, which never scrolls away
 
-static bool has_spline(const struct inspection *in) { return core_active_spline(in->core) != NULL; }
+static bool has_spline(const struct inspector *in) { return core_active_spline(in->core) != NULL; }
 
-static bool may_vary(const struct inspection *in)
+static bool may_vary(const struct inspector *in)
 {
     const struct spline *spline = core_active_spline(in->core);
     return spline && spline_mode(spline) != WIGGLY_CUBIC;
 }
 
-static bool has_tail(const struct inspection *in)
+static bool has_tail(const struct inspector *in)
 {
-    const struct document *document = in->document;
+    const struct document *document = in->core->document;
     return document_find_rig(document, RIG_TAIL, 0) >= 0 || document_find_rig(document, RIG_CHAIN, 0) >= 0;
 }
 
-static bool has_model(const struct inspection *in) { return document_find_rig(in->document, RIG_MODEL, 0) >= 0; }
+static bool has_model(const struct inspector *in) { return document_find_rig(in->core->document, RIG_MODEL, 0) >= 0; }
 
-static const char *tail_title(struct inspection *in)
+static const char *tail_title(struct inspector *in)
 {
     const struct rig *shown = inspector_shown(in);
     return shown && shown->kind == RIG_CHAIN ? "Chain set-up" : "Tail set-up";
 }
 
-static bool has_character(const struct inspection *in) { return document_character(in->document, 0) != NULL; }
+static bool has_character(const struct inspector *in) { return document_character(in->core->document, 0) != NULL; }
 
-static bool has_meadow(const struct inspection *in) { return document_find_rig(in->document, RIG_MEADOW, 0) >= 0; }
+static bool has_meadow(const struct inspector *in)
+{
+    return document_find_rig(in->core->document, RIG_MEADOW, 0) >= 0;
+}
 
-static bool takes_pins(const struct inspection *in)
+static bool takes_pins(const struct inspector *in)
 {
     bool any = false;
-    for (int r = 0; r < in->document->rig_count; r++) any |= pins_suit(in->document->rigs[r]);
+    for (int r = 0; r < in->core->document->rig_count; r++) any |= pins_suit(in->core->document->rigs[r]);
     return any;
 }
 
 /// From the top down; `name` is what replays call the header.
 static const struct section {
     const char *name, *title;
-    const char *(*titled)(struct inspection *in); ///< in place of a title
-    void (*build)(struct inspection *in);
-    void (*lists)(struct inspection *in);       ///< that it has opened over the panel; NULL: none
-    bool (*shown)(const struct inspection *in); ///< NULL: always
-    bool closed;                                ///< at first
+    const char *(*titled)(struct inspector *in); ///< in place of a title
+    void (*build)(struct inspector *in);
+    void (*lists)(struct inspector *in);       ///< that it has opened over the panel; NULL: none
+    bool (*shown)(const struct inspector *in); ///< NULL: always
+    bool closed;                               ///< at first
 } sections[] = {
     {"section.feel", "Feel", NULL, inspector_feel, inspector_track_list, has_spline, false},
     {"section.knot", NULL, inspector_knot_title, inspector_knot, NULL, has_spline, false},
@@ -76,49 +79,49 @@ static const struct section {
 _Static_assert(sizeof sections / sizeof sections[0] <= INSPECTOR_MAX_SECTIONS, "each has a flag in struct inspector");
 
 /// Scrolls just so far that what was built from `top` on is in sight, and remembers it as done.
-static void reveal(struct inspection *in, float top)
+static void reveal(struct inspector *in, float top)
 {
-    const struct ui *ui = in->ui;
-    struct ui_scroll *scroll = &in->inspector->scroll;
+    const struct ui *ui = &in->ui;
+    struct ui_scroll *scroll = &in->scroll;
     const float below = ui->y - (ui->scroll_area.y + ui->scroll_area.h), above = top - ui->scroll_area.y;
-    in->inspector->revealed = NULL;
+    in->revealed = NULL;
     if (below > 0) scroll->offset += fminf(below, above);
     if (above < 0) scroll->offset += above;
 }
 
-static void build_sections(struct inspection *in)
+static void build_sections(struct inspector *in)
 {
     inspector_find_rig(in);
     for (size_t i = 0; i < sizeof sections / sizeof sections[0]; i++) {
         const struct section *section = &sections[i];
-        bool *flipped = &in->inspector->flipped[i];
+        bool *flipped = &in->flipped[i];
         if (section->shown && !section->shown(in)) continue;
         bool closed = *flipped != section->closed;
-        const float top = in->ui->y;
+        const float top = in->ui.y;
         bool open =
-            ui_section(in->ui, section->name, section->titled ? section->titled(in) : section->title, &closed);
+            ui_section(&in->ui, section->name, section->titled ? section->titled(in) : section->title, &closed);
         *flipped = closed != section->closed;
         if (!open) continue;
         section->build(in);
-        ui_space(in->ui, 4);
-        if (in->inspector->revealed && strcmp(in->inspector->revealed, section->name) == 0) reveal(in, top);
+        ui_space(&in->ui, 4);
+        if (in->revealed && strcmp(in->revealed, section->name) == 0) reveal(in, top);
     }
 }
 
-void inspector_unfold(struct inspector *inspector, const char *name)
+void inspector_unfold(struct inspector *in, const char *name)
 {
     for (size_t i = 0; i < sizeof sections / sizeof sections[0]; i++) {
         if (strcmp(sections[i].name, name) != 0) continue;
-        inspector->flipped[i] = sections[i].closed;
-        inspector->revealed = sections[i].name; // the pass that measures scrolls there
+        in->flipped[i] = sections[i].closed;
+        in->revealed = sections[i].name; // the pass that measures scrolls there
     }
 }
 
-static void build_look(struct inspection *in, struct rect footer)
+static void build_look(struct inspector *in, struct rect footer)
 {
     static const struct ui_choice looks[] = {
         [LOOK_WIGGLY] = {"wiggly", "Wiggly"}, [LOOK_STIFF] = {"stiff", "Stiff"}, [LOOK_CUBIC] = {"cubic", "Cubic"}};
-    struct ui *ui = in->ui;
+    struct ui *ui = &in->ui;
     struct rect r = {footer.x + UI_PAD, footer.y + 8, footer.w - 2 * UI_PAD, UI_ROW};
     if (ui->pass == UI_PASS_DRAW) {
         drawlist_rect(ui->list, footer, theme()->panel);
@@ -129,11 +132,11 @@ static void build_look(struct inspection *in, struct rect footer)
     if (ui_segments(ui, r, "look", looks, 3, &look)) core_set_look(in->core, (enum look)look);
 }
 
-static void build(struct inspection *in, struct rect area)
+static void build(struct inspector *in, struct rect area)
 {
-    struct ui *ui = in->ui;
+    struct ui *ui = &in->ui;
     struct rect view = {area.x, area.y, area.w, fmaxf(0, area.h - FOOTER)};
-    ui_scroll_begin(ui, &in->inspector->scroll, view);
+    ui_scroll_begin(ui, &in->scroll, view);
     build_sections(in);
     ui_space(ui, 4);
     ui_scroll_end(ui);
@@ -143,38 +146,38 @@ static void build(struct inspection *in, struct rect area)
     }
 }
 
-static struct inspection inspection_of(struct inspector *inspector, struct core *core)
+struct inspector *inspector_create(struct core *core)
 {
-    return (struct inspection){core, inspector, core->document, &inspector->ui, UI_NONE};
+    struct inspector *in = need_zeroed(1, sizeof *in);
+    in->core = core;
+    return in;
 }
 
-struct inspector *inspector_create(void) { return need_zeroed(1, sizeof(struct inspector)); }
+void inspector_destroy(struct inspector *in) { free(in); }
 
-void inspector_destroy(struct inspector *inspector) { free(inspector); }
+enum ui_over inspector_over(const struct inspector *in) { return in->ui.over; }
 
-enum ui_over inspector_over(const struct inspector *inspector) { return inspector->ui.over; }
-
-void inspector_reset(struct inspector *inspector)
+void inspector_reset(struct inspector *in)
 {
-    ui_release(&inspector->ui);
-    inspector->scroll.offset = 0;
-    inspector->rig = 0;
-    inspector->selected = 0;
-    inspector->model = 0;
-    inspector->channel = 0;
+    ui_release(&in->ui);
+    in->scroll.offset = 0;
+    in->rig = 0;
+    in->selected = 0;
+    in->model = 0;
+    in->channel = 0;
 }
 
 /// Whether the panel's code has to run for the event at all; keys are the editor's where nothing here has the keyboard.
-static bool concerns(const struct inspector *inspector, const struct core *core, const struct event *event)
+static bool concerns(const struct inspector *in, const struct event *event)
 {
-    const struct ui *ui = &inspector->ui;
-    struct rect area = core->layout.inspector;
+    const struct ui *ui = &in->ui;
+    struct rect area = in->core->layout.inspector;
     bool input = event->kind <= EVENT_WHEEL;
     if (event->kind == EVENT_KEY && event->action == ACTION_RELEASE) return false;
     if (ui->popup.id) return input;
     switch (event->kind) {
     case EVENT_KEY:
-        if (core->held_key && !ui->typing) return false; // F and an arrow is the editor's, whatever has the focus
+        if (in->core->held_key && !ui->typing) return false; // F and an arrow is the editor's, whatever has the focus
         return ui->held || ui->typing || ui->focus || event->key == KEY_TAB;
     case EVENT_TEXT:
         return ui->typing || ui->focus;
@@ -200,22 +203,21 @@ static void event_elsewhere(struct ui *ui, const struct event *event)
     if (event->kind == EVENT_BUTTON && event->action == ACTION_PRESS) ui->focus = 0;
 }
 
-bool inspector_event(struct inspector *inspector, struct core *core, const struct event *event)
+bool inspector_event(struct inspector *in, const struct event *event)
 {
-    struct inspection in = inspection_of(inspector, core);
-    struct ui *ui = in.ui;
-    struct rect area = core->layout.inspector;
-    if (!concerns(inspector, core, event)) {
+    struct ui *ui = &in->ui;
+    struct rect area = in->core->layout.inspector;
+    if (!concerns(in, event)) {
         event_elsewhere(ui, event);
         return false;
     }
     bool was_dragging = ui->held && ui->moved;
     ui_begin_event(ui, area, event);
-    build(&in, area);
+    build(in, area);
     bool used = ui_end(ui);
-    if (was_dragging && !ui->held && history_is_open(core->history)) history_end(core->history);
+    if (was_dragging && !ui->held && history_is_open(in->core->history)) history_end(in->core->history);
     if (ui->complaint[0]) {
-        core_message(core, true, ui->complaint);
+        core_message(in->core, true, ui->complaint);
         ui->complaint[0] = '\0';
     }
     bool inside = rect_contains(area, ui->pointer_x, ui->pointer_y);
@@ -225,54 +227,52 @@ bool inspector_event(struct inspector *inspector, struct core *core, const struc
 }
 
 /// A bone that was just selected is to be seen, with what can be made of it.
-static void show_bone(struct inspection *in)
+static void show_bone(struct inspector *in)
 {
-    const struct bone_selection *bone = &in->core->bone, *seen = &in->inspector->seen_bone;
+    const struct bone_selection *bone = &in->core->bone, *seen = &in->seen_bone;
     const bool same = bone->any == seen->any && bone->node == seen->node && bone->file == seen->file;
-    in->inspector->seen_bone = *bone;
+    in->seen_bone = *bone;
     if (same || !bone->any) return;
-    inspector_unfold(in->inspector, "section.model");
+    inspector_unfold(in, "section.model");
 }
 
-void inspector_show(struct inspector *inspector, struct core *core, bool covered)
+void inspector_show(struct inspector *in, bool covered)
 {
-    struct inspection in = inspection_of(inspector, core);
-    struct rect area = core->layout.inspector;
-    if (covered) in.ui->pointer_x = area.x - 1; // nothing here is under the pointer
-    show_bone(&in);
-    ui_begin_find(in.ui, area, "", NULL); // measures, so that a shorter panel is not drawn scrolled past its end
-    build(&in, area);
-    ui_end(in.ui);
-    drawlist_rect(&core->list, area, theme()->panel);
-    ui_begin_draw(in.ui, area, &core->list);
-    build(&in, area);
-    ui_end(in.ui);
-    drawlist_rect(&core->list, (struct rect){area.x, area.y, 1, area.h}, theme()->border);
+    struct rect area = in->core->layout.inspector;
+    if (covered) in->ui.pointer_x = area.x - 1; // nothing here is under the pointer
+    show_bone(in);
+    ui_begin_find(&in->ui, area, "", NULL); // measures, so that a shorter panel is not drawn scrolled past its end
+    build(in, area);
+    ui_end(&in->ui);
+    drawlist_rect(&in->core->list, area, theme()->panel);
+    ui_begin_draw(&in->ui, area, &in->core->list);
+    build(in, area);
+    ui_end(&in->ui);
+    drawlist_rect(&in->core->list, (struct rect){area.x, area.y, 1, area.h}, theme()->border);
 }
 
-void inspector_let_go(struct inspector *inspector, const struct core *core)
+void inspector_let_go(struct inspector *in)
 {
-    if (inspector_is_dragging(inspector) && history_is_open(core->history)) history_end(core->history);
-    ui_release(&inspector->ui);
+    if (inspector_is_dragging(in) && history_is_open(in->core->history)) history_end(in->core->history);
+    ui_release(&in->ui);
 }
 
-bool inspector_is_dragging(const struct inspector *inspector) { return inspector->ui.held && inspector->ui.moved; }
+bool inspector_is_dragging(const struct inspector *in) { return in->ui.held && in->ui.moved; }
 
-bool inspector_is_typing(const struct inspector *inspector) { return inspector->ui.typing != 0; }
+bool inspector_is_typing(const struct inspector *in) { return in->ui.typing != 0; }
 
-bool inspector_has_menu(const struct inspector *inspector) { return inspector->ui.popup.id != 0; }
+bool inspector_has_menu(const struct inspector *in) { return in->ui.popup.id != 0; }
 
-const char *inspector_hint(const struct inspector *inspector) { return inspector->ui.hint; }
+const char *inspector_hint(const struct inspector *in) { return in->ui.hint; }
 
-const char *inspector_focus_hint(const struct inspector *inspector, struct rect *at)
+const char *inspector_focus_hint(const struct inspector *in, struct rect *at)
 {
-    *at = inspector->ui.focus_rect;
-    return inspector->ui.focus ? inspector->ui.focus_hint : NULL;
+    *at = in->ui.focus_rect;
+    return in->ui.focus ? in->ui.focus_hint : NULL;
 }
 
-bool inspector_target(struct inspector *inspector, struct core *core, const char *name, float *x, float *y)
+bool inspector_target(struct inspector *in, const char *name, float *x, float *y)
 {
-    struct inspection in = inspection_of(inspector, core);
     char widget[128];
     snprintf(widget, sizeof widget, "%s", name);
     char *comma = strrchr(widget, ',');
@@ -283,17 +283,17 @@ bool inspector_target(struct inspector *inspector, struct core *core, const char
         if (end == comma + 1 || *end || !isfinite(value)) return false;
         *comma = '\0';
     }
-    ui_begin_find(in.ui, core->layout.inspector, widget, comma ? &value : NULL);
-    build(&in, core->layout.inspector);
-    bool found = ui_end(in.ui);
-    *x = in.ui->found_x;
-    *y = in.ui->found_y;
+    ui_begin_find(&in->ui, in->core->layout.inspector, widget, comma ? &value : NULL);
+    build(in, in->core->layout.inspector);
+    bool found = ui_end(&in->ui);
+    *x = in->ui.found_x;
+    *y = in->ui.found_y;
     return found;
 }
 
 bool inspector_changed(enum ui_change change) { return change == UI_DROP || change == UI_SET || change == UI_NUDGE; }
 
-bool inspector_begin(struct inspection *in, enum ui_change change, const char *label, const char *what)
+bool inspector_begin(struct inspector *in, enum ui_change change, const char *label, const char *what)
 {
     struct history *history = in->core->history;
     switch (change) {
@@ -318,7 +318,7 @@ bool inspector_begin(struct inspection *in, enum ui_change change, const char *l
     return false;
 }
 
-void inspector_end(struct inspection *in, enum ui_change change, bool done)
+void inspector_end(struct inspector *in, enum ui_change change, bool done)
 {
     if (change == UI_DRAG) {
         core_settle(in->core);
@@ -352,9 +352,9 @@ void number_put(const struct number_row *row, void *of, double number)
 }
 
 /// A drag stays where it last was possible.
-static void drag(struct inspection *in, const struct number_home *home, int which, double value)
+static void drag(struct inspector *in, const struct number_home *home, int which, double value)
 {
-    double *possible = &in->inspector->dragged;
+    double *possible = &in->dragged;
     if (home->set(in, which, value, NULL)) {
         *possible = value;
     } else {
@@ -364,23 +364,23 @@ static void drag(struct inspection *in, const struct number_home *home, int whic
 }
 
 /// Sets a number as a step of the history, which a drag makes anew in each frame.
-static void change_number(struct inspection *in, const struct number_row *row, const struct number_home *home,
+static void change_number(struct inspector *in, const struct number_row *row, const struct number_home *home,
                           int which, enum ui_change change, double value)
 {
     const bool is_first = change == UI_DRAG && !history_is_open(in->core->history);
     in->change = change;
     if (!inspector_begin(in, change, row->undo, row->name)) return;
-    if (is_first) in->inspector->dragged = home->get(in, which);
+    if (is_first) in->dragged = home->get(in, which);
     if (change == UI_DRAG) drag(in, home, which, value);
     inspector_end(in, change, change == UI_DRAG || home->set(in, which, value, &in->core->error));
 }
 
-enum ui_change inspector_number(struct inspection *in, const struct number_row *row, const struct number_home *home,
+enum ui_change inspector_number(struct inspector *in, const struct number_row *row, const struct number_home *home,
                                 int which, struct rect r)
 {
-    const bool waits = home->settles && ui_is_dragged(in->ui, row->name);
+    const bool waits = home->settles && ui_is_dragged(&in->ui, row->name);
     char shown[64];
-    double value = waits ? in->inspector->dragged : home->get(in, which);
+    double value = waits ? in->dragged : home->get(in, which);
     struct ui_number number = {.name = row->name,
                                .label = row->label,
                                .unit = row->unit,
@@ -396,10 +396,9 @@ enum ui_change inspector_number(struct inspection *in, const struct number_row *
                                .step = row->step,
                                .decimals = row->decimals};
     if (waits) snprintf(shown, sizeof shown, "%g%s%s", value, row->unit ? " " : "", row->unit ? row->unit : "");
-    const enum ui_change change = ui_value(in->ui, r, &number, &value);
+    const enum ui_change change = ui_value(&in->ui, r, &number, &value);
     if (change == UI_SET && row->is_whole && value != floor(value)) {
-        snprintf(in->ui->complaint, sizeof in->ui->complaint, "%s: expected a whole number, got %g", row->label,
-                 value);
+        snprintf(in->ui.complaint, sizeof in->ui.complaint, "%s: expected a whole number, got %g", row->label, value);
         return UI_NONE;
     }
     if (row->undo) {
@@ -407,61 +406,60 @@ enum ui_change inspector_number(struct inspection *in, const struct number_row *
     } else if (home->settles ? inspector_changed(change) : change != UI_NONE && change != UI_CANCEL) {
         home->set(in, which, value, NULL);
     }
-    if (home->settles && change == UI_DRAG) in->inspector->dragged = value;
+    if (home->settles && change == UI_DRAG) in->dragged = value;
     return change;
 }
 
-void inspector_numbers(struct inspection *in, const struct number_row *rows, int count,
-                       const struct number_home *home)
+void inspector_numbers(struct inspector *in, const struct number_row *rows, int count, const struct number_home *home)
 {
-    for (int i = 0; i < count; i++) inspector_number(in, &rows[i], home, i, ui_row(in->ui, UI_ROW));
+    for (int i = 0; i < count; i++) inspector_number(in, &rows[i], home, i, ui_row(&in->ui, UI_ROW));
 }
 
-int inspector_spline_items(const struct inspection *in, const bool *left_out, int chosen, struct ui_item *items,
+int inspector_spline_items(const struct inspector *in, const bool *left_out, int chosen, struct ui_item *items,
                            int *splines, int *row)
 {
     int count = 0;
     *row = -1;
-    for (int s = 0; s < in->document->spline_count && s < INSPECTOR_MAX_SPLINES; s++) {
+    for (int s = 0; s < in->core->document->spline_count && s < INSPECTOR_MAX_SPLINES; s++) {
         if (left_out && left_out[s]) continue;
-        const char *name = in->document->splines[s]->name;
+        const char *name = in->core->document->splines[s]->name;
         if (s == chosen) *row = count;
-        items[count] = (struct ui_item){name, name, spline_list_color(in->document, s)};
+        items[count] = (struct ui_item){name, name, spline_list_color(in->core->document, s)};
         splines[count++] = s;
     }
     return count;
 }
 
-int inspector_spline_list(struct inspection *in, const char *list, const bool *left_out, int chosen)
+int inspector_spline_list(struct inspector *in, const char *list, const bool *left_out, int chosen)
 {
     struct ui_item items[INSPECTOR_MAX_SPLINES];
     int splines[INSPECTOR_MAX_SPLINES] = {0}, row;
     const int count = inspector_spline_items(in, left_out, chosen, items, splines, &row);
-    int picked = ui_popup_list(in->ui, list, items, count, row);
+    int picked = ui_popup_list(&in->ui, list, items, count, row);
     return picked < 0 ? -1 : splines[picked];
 }
 
-struct rect inspector_labelled(struct inspection *in, const char *label)
+struct rect inspector_labelled(struct inspector *in, const char *label)
 {
-    struct rect r = ui_row(in->ui, UI_ROW);
-    ui_label(in->ui, (struct rect){r.x, r.y, UI_LABEL, r.h}, label, theme()->text_dim);
+    struct rect r = ui_row(&in->ui, UI_ROW);
+    ui_label(&in->ui, (struct rect){r.x, r.y, UI_LABEL, r.h}, label, theme()->text_dim);
     return (struct rect){r.x + UI_LABEL + UI_GAP, r.y, r.w - UI_LABEL - UI_GAP, r.h};
 }
 
-bool inspector_choice(struct inspection *in, const char *label, const char *hint, const char *name,
+bool inspector_choice(struct inspector *in, const char *label, const char *hint, const char *name,
                       const struct ui_choice *choices, int count, int *chosen)
 {
     const struct rect r = inspector_labelled(in, label);
-    ui_hint(in->ui, r, hint);
-    return ui_segments(in->ui, r, name, choices, count, chosen);
+    ui_hint(&in->ui, r, hint);
+    return ui_segments(&in->ui, r, name, choices, count, chosen);
 }
 
-int inspector_icons(struct inspection *in, struct rect r, const struct icon_button *buttons, int count)
+int inspector_icons(struct inspector *in, struct rect r, const struct icon_button *buttons, int count)
 {
     int pressed = -1;
     for (int i = 0; i < count; i++) {
         const struct rect icon = {r.x - 2 + (float)(i * (INSPECTOR_ICON + 6)), r.y, INSPECTOR_ICON, r.h};
-        if (ui_icon_button(in->ui, icon, buttons[i].name, buttons[i].icon, false, buttons[i].hint)) pressed = i;
+        if (ui_icon_button(&in->ui, icon, buttons[i].name, buttons[i].icon, false, buttons[i].hint)) pressed = i;
     }
     return pressed;
 }

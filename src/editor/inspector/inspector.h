@@ -7,42 +7,42 @@
 
 struct inspector;
 
-struct inspector *inspector_create(void);
-void inspector_destroy(struct inspector *inspector);
+struct inspector *inspector_create(struct core *core);
+void inspector_destroy(struct inspector *in);
 /// F2: the active spline's name can be typed.
-void inspector_rename(struct inspector *inspector, const struct core *core);
+void inspector_rename(struct inspector *in);
 /// Opens a section, with all of it in sight where there is room.
-void inspector_unfold(struct inspector *inspector, const char *name);
+void inspector_unfold(struct inspector *in, const char *name);
 /// Shows a rig, with what it feels like.
-void inspector_show_rig(struct inspector *inspector, struct core *core, int rig);
+void inspector_show_rig(struct inspector *in, int rig);
 /// Shows what a spline bends or drives: of the rig that is shown, if it is one of these.
-void inspector_show_spline(struct inspector *inspector, struct core *core, int spline);
+void inspector_show_spline(struct inspector *in, int spline);
 /// A: the menu of what can be added, at the pointer over stage and curves, else on top of the inspector. And on something of the inspector.
-void inspector_add_menu(struct inspector *inspector, const struct core *core);
+void inspector_add_menu(struct inspector *in);
 /// Shift+Del: asks whether to remove the rig that is shown, which is that of the active spline.
-void inspector_remove_rig(const struct inspector *inspector, struct core *core);
+void inspector_remove_rig(const struct inspector *in);
 /// What the pointer is over.
-enum ui_over inspector_over(const struct inspector *inspector);
+enum ui_over inspector_over(const struct inspector *in);
 /// A new document is on the table: forgets focus, running drag (without touching the history), scrolling and channel.
-void inspector_reset(struct inspector *inspector);
+void inspector_reset(struct inspector *in);
 /// An event for the inspector; true where it used it up.
-bool inspector_event(struct inspector *inspector, struct core *core, const struct event *event);
+bool inspector_event(struct inspector *in, const struct event *event);
 /// Draws it; `covered`: something lies over the panels.
-void inspector_show(struct inspector *inspector, struct core *core, bool covered);
+void inspector_show(struct inspector *in, bool covered);
 /// Ends a running drag where it is, and drops focus and typing: something opens over the panel, or the document goes.
-void inspector_let_go(struct inspector *inspector, const struct core *core);
+void inspector_let_go(struct inspector *in);
 /// Whether a slider is being dragged (a history step is open).
-bool inspector_is_dragging(const struct inspector *inspector);
+bool inspector_is_dragging(const struct inspector *in);
 /// Whether a value is being typed.
-bool inspector_is_typing(const struct inspector *inspector);
+bool inspector_is_typing(const struct inspector *in);
 /// Whether a menu is open, which may lie beside the panel.
-bool inspector_has_menu(const struct inspector *inspector);
+bool inspector_has_menu(const struct inspector *in);
 /// A sentence on what the pointer is over in the inspector, or NULL.
-const char *inspector_hint(const struct inspector *inspector);
+const char *inspector_hint(const struct inspector *in);
 /// The same on what has the keyboard there, and where that is.
-const char *inspector_focus_hint(const struct inspector *inspector, struct rect *at);
+const char *inspector_focus_hint(const struct inspector *in, struct rect *at);
 /// Where the widget `name` is: "frequency", "frequency,2.5" (where its bar shows 2.5), "mode.real", "spline.sway",
 /// "channel.0", "look.stiff", "section.knot". false where it is not shown or scrolled out of sight.
-bool inspector_target(struct inspector *inspector, struct core *core, const char *name, float *x, float *y);
+bool inspector_target(struct inspector *in, const char *name, float *x, float *y);
 
 #endif

@@ -3,7 +3,7 @@
 #include "editor/core/core.h"
 #include "editor/core/knots.h"
 #include "editor/core/selected_knots.h"
-#include "editor/inspector/inspection.h"
+#include "editor/inspector/parts.h"
 #include <math.h>
 #include <stddef.h>
 #include <stdio.h>
@@ -41,22 +41,22 @@ struct knot_numbers {
     bool mixed;
 };
 
-static struct knot_numbers survey(const struct inspection *in, int field)
+static struct knot_numbers survey(const struct inspector *in, int field)
 {
     struct knot_numbers numbers = {.first = NAN};
     for (struct knot_place at = SELECTED_START; selected_next(in->core, &at); numbers.count++) {
-        const double number = number_at(&rows[field], knot_at(in->document, at));
+        const double number = number_at(&rows[field], knot_at(in->core->document, at));
         if (isnan(numbers.first)) numbers.first = number;
         numbers.mixed |= number != numbers.first;
     }
     return numbers;
 }
 
-static double get(const struct inspection *in, int field) { return survey(in, field).first; }
+static double get(const struct inspector *in, int field) { return survey(in, field).first; }
 
 /// Gives every selected knot the number, or moves it by what the first one moves; in the order in which no knot meets
 /// another of them. false with a sentence where one cannot go there.
-static bool set(struct inspection *in, int field, double value, struct error *error)
+static bool set(struct inspector *in, int field, double value, struct error *error)
 {
     const struct originals *originals = &in->core->originals;
     core_collect(in->core, false);
@@ -67,12 +67,12 @@ static bool set(struct inspection *in, int field, double value, struct error *er
         struct knot knot = original->knot;
         const double number = together ? number_at(&rows[field], &knot) + by : value;
         number_put(&rows[field], &knot, fmax(rows[field].lowest, number));
-        if (!edit_knot_set(in->document, original->spline, &knot, error)) return false;
+        if (!edit_knot_set(in->core->document, original->spline, &knot, error)) return false;
     }
     return true;
 }
 
-static const char *show_several(const struct inspection *in, int field, char text[64])
+static const char *show_several(const struct inspector *in, int field, char text[64])
 {
     const struct knot_numbers numbers = survey(in, field);
     if (numbers.count == 1) return NULL;
@@ -82,21 +82,21 @@ static const char *show_several(const struct inspection *in, int field, char tex
 }
 
 /// Where one knot alone is selected, its field knows more.
-static void fit_to_one(const struct inspection *in, int field, double value, struct number_row *row)
+static void fit_to_one(const struct inspector *in, int field, double value, struct number_row *row)
 {
     row->hint = of_one[field].hint;
     row->undo = of_one[field].undo;
     if (field == FIELD_FRAME) {
         const struct spline *spline = core_active_spline(in->core);
-        row->lowest = in->document->first_frame;
-        row->highest = document_frame(in->document, document_last_knot_sample(in->document, spline));
+        row->lowest = in->core->document->first_frame;
+        row->highest = document_frame(in->core->document, document_last_knot_sample(in->core->document, spline));
         row->decimals = value == floor(value) ? 0 : 2;
     }
     if (field == FIELD_SLOPE) row->label = NULL; // before its switch
     if (field == FIELD_STIFFNESS && value < 10) row->decimals = 3;
 }
 
-static void build_field(struct inspection *in, int field, struct rect r)
+static void build_field(struct inspector *in, int field, struct rect r)
 {
     static const struct number_home home = {.get = get, .set = set, .shown = show_several};
     const struct knot_numbers numbers = survey(in, field); // as the field before left the document
@@ -106,41 +106,41 @@ static void build_field(struct inspection *in, int field, struct rect r)
     if (inspector_changed(inspector_number(in, &row, &home, field, r))) core_edited(in->core, -1);
 }
 
-static bool all_sloped(const struct inspection *in)
+static bool all_sloped(const struct inspector *in)
 {
     bool sloped = true;
     for (struct knot_place at = SELECTED_START; selected_next(in->core, &at);)
-        sloped &= knot_at(in->document, at)->has_slope;
+        sloped &= knot_at(in->core->document, at)->has_slope;
     return sloped;
 }
 
 /// A row without anything to set yet.
-static void build_idle(struct inspection *in, const char *label, const char *text)
+static void build_idle(struct inspector *in, const char *label, const char *text)
 {
-    ui_label(in->ui, inspector_labelled(in, label), text, theme()->text_dim);
+    ui_label(&in->ui, inspector_labelled(in, label), text, theme()->text_dim);
 }
 
-static void build_several(struct inspection *in)
+static void build_several(struct inspector *in)
 {
     const bool sloped = all_sloped(in);
     for (int i = 0; i < FIELDS; i++) {
         if (i >= FIELD_SLOPE && !sloped) {
             build_idle(in, rows[i].label, i == FIELD_SLOPE ? "not all have one" : "–");
         } else {
-            build_field(in, i, ui_row(in->ui, UI_ROW));
+            build_field(in, i, ui_row(&in->ui, UI_ROW));
         }
     }
 }
 
-static bool has_slope(const struct inspection *in, unsigned id)
+static bool has_slope(const struct inspector *in, unsigned id)
 {
     const struct spline *spline = core_active_spline(in->core);
     return spline->knots[spline_find_id(spline, id)].has_slope;
 }
 
-static void build_slope(struct inspection *in, unsigned id)
+static void build_slope(struct inspector *in, unsigned id)
 {
-    struct ui *ui = in->ui;
+    struct ui *ui = &in->ui;
     struct rect r = inspector_labelled(in, "slope");
     bool sloped = has_slope(in, id);
     ui_hint(ui, r, "Give the knot a slope (T); D and E turn it");
@@ -161,21 +161,21 @@ struct knot_button {
 };
 
 /// A row of three buttons; the one that was pressed, or -1.
-static int build_buttons(struct inspection *in, const struct knot_button buttons[3])
+static int build_buttons(struct inspector *in, const struct knot_button buttons[3])
 {
     enum { GAP = 4 };
-    struct rect r = ui_row(in->ui, UI_ROW);
+    struct rect r = ui_row(&in->ui, UI_ROW);
     int pressed = -1;
     r.w = (r.w - 2 * GAP) / 3;
     for (int i = 0; i < 3; i++, r.x += r.w + GAP) {
-        ui_hint(in->ui, r, buttons[i].hint);
-        if (ui_button(in->ui, r, buttons[i].name, buttons[i].label, false)) pressed = i;
+        ui_hint(&in->ui, r, buttons[i].hint);
+        if (ui_button(&in->ui, r, buttons[i].name, buttons[i].label, false)) pressed = i;
     }
     return pressed;
 }
 
 /// What can be done with the slopes of all selected knots.
-static void build_slopes(struct inspection *in, bool sloped)
+static void build_slopes(struct inspector *in, bool sloped)
 {
     static const enum slopes how[] = {SLOPES_FLAT, SLOPES_SMOOTH, SLOPES_TOGGLE};
     const int pressed = build_buttons(
@@ -188,7 +188,7 @@ static void build_slopes(struct inspection *in, bool sloped)
 }
 
 /// Nothing is selected: what knots there are, and what can be done without pointing at one.
-static void build_overview(struct inspection *in, const struct spline *spline)
+static void build_overview(struct inspector *in, const struct spline *spline)
 {
     char frames[64] = "none", values[64] = "–";
     double range[2];
@@ -199,7 +199,7 @@ static void build_overview(struct inspection *in, const struct spline *spline)
                  spline->knots[0].frame, spline->knots[spline->knot_count - 1].frame);
         snprintf(values, sizeof values, one ? "%.4g" : "%.4g … %.4g", range[0], range[1]);
     }
-    ui_paragraph(in->ui, "Click a knot to edit it. Double-click the curve to insert one.", theme()->text_dim);
+    ui_paragraph(&in->ui, "Click a knot to edit it. Double-click the curve to insert one.", theme()->text_dim);
     build_idle(in, "knots", frames);
     build_idle(in, "values", values);
     const int pressed =
@@ -214,18 +214,18 @@ static void build_overview(struct inspection *in, const struct spline *spline)
     if (pressed == 2) core_select_all(in->core, false);
 }
 
-const char *inspector_knot_title(struct inspection *in)
+const char *inspector_knot_title(struct inspector *in)
 {
     const int count = selected_count(in->core);
     if (count < 2) return "Knot";
-    snprintf(in->inspector->knot_title, sizeof in->inspector->knot_title, "%d knots", count);
-    return in->inspector->knot_title;
+    snprintf(in->knot_title, sizeof in->knot_title, "%d knots", count);
+    return in->knot_title;
 }
 
 /// Takes the same room whatever is selected, so that nothing below it moves.
-void inspector_knot(struct inspection *in)
+void inspector_knot(struct inspector *in)
 {
-    struct ui *ui = in->ui;
+    struct ui *ui = &in->ui;
     const struct spline *spline = core_active_spline(in->core);
     const int count = selected_count(in->core);
     struct knot_place only = SELECTED_START;

@@ -1,6 +1,6 @@
 /// The inspector's section on the meadow: how many reeds, where, how tall, and how they bend.
 #include "editor/core/core.h"
-#include "editor/inspector/inspection.h"
+#include "editor/inspector/parts.h"
 
 static const struct number_row rows[] = {
     {"meadow.count", "reeds", NULL, "How many reeds there are", "Change meadow", WHOLE_AT(struct meadow_rig, count),
@@ -21,21 +21,21 @@ static const struct number_row rows[] = {
      WHOLE_AT(struct meadow_rig, seed), 0, 999, 0, 999999, 0, 1, 0},
 };
 
-static const struct meadow_rig *shown(const struct inspection *in)
+static const struct meadow_rig *shown(const struct inspector *in)
 {
-    return &in->document->rigs[document_find_rig(in->document, RIG_MEADOW, 0)]->meadow;
+    return &in->core->document->rigs[document_find_rig(in->core->document, RIG_MEADOW, 0)]->meadow;
 }
 
-static double get(const struct inspection *in, int which) { return number_at(&rows[which], shown(in)); }
+static double get(const struct inspector *in, int which) { return number_at(&rows[which], shown(in)); }
 
-static bool set(struct inspection *in, int which, double number, struct error *error)
+static bool set(struct inspector *in, int which, double number, struct error *error)
 {
     struct meadow_rig meadow = *shown(in);
     number_put(&rows[which], &meadow, number);
-    return edit_meadow(in->document, document_find_rig(in->document, RIG_MEADOW, 0), &meadow, error);
+    return edit_meadow(in->core->document, document_find_rig(in->core->document, RIG_MEADOW, 0), &meadow, error);
 }
 
-void inspector_meadow(struct inspection *in)
+void inspector_meadow(struct inspector *in)
 {
     static const struct number_home home = {.get = get, .set = set};
     inspector_numbers(in, rows, sizeof rows / sizeof rows[0], &home);

@@ -2,7 +2,7 @@
 #include "base/file.h"
 #include "editor/core/bones.h"
 #include "editor/core/core.h"
-#include "editor/inspector/inspection.h"
+#include "editor/inspector/parts.h"
 #include <stdio.h>
 #include <string.h>
 
@@ -11,48 +11,46 @@ enum { MAX_CLIPS = 256 }; ///< in the list to choose from
 static const char clip_list[] = "model.clips";
 
 /// The rig that is shown: that of the selected bone, else the one chosen here.
-static int shown_model(const struct inspection *in)
+static int shown_model(const struct inspector *in)
 {
     int model;
-    struct inspector *inspector = in->inspector;
-    if (bones_selected(in->core, &model) >= 0) inspector->model = in->core->bone.model;
-    model = document_find_rig(in->document, RIG_MODEL, inspector->model);
-    if (model < 0) inspector->model = 0;
-    return model < 0 ? document_find_rig(in->document, RIG_MODEL, 0) : model;
+    if (bones_selected(in->core, &model) >= 0) return model;
+    model = document_find_rig(in->core->document, RIG_MODEL, in->model);
+    return model < 0 ? document_find_rig(in->core->document, RIG_MODEL, 0) : model;
 }
 
-static void build_file(struct inspection *in, const struct model_rig *rig, const struct imported *shown)
+static void build_file(struct inspector *in, const struct model_rig *rig, const struct imported *shown)
 {
     struct rect r = inspector_labelled(in, "file");
-    ui_hint(in->ui, r, "The glTF file that shows this character");
-    ui_label(in->ui, r, path_name(rig->model), theme()->text);
-    if (!shown) ui_paragraph(in->ui, "wiggly could not read this file.", theme()->warning);
+    ui_hint(&in->ui, r, "The glTF file that shows this character");
+    ui_label(&in->ui, r, path_name(rig->model), theme()->text);
+    if (!shown) ui_paragraph(&in->ui, "wiggly could not read this file.", theme()->warning);
     if (!shown || !shown->gltf.not_shown) return;
     char text[512];
     snprintf(text, sizeof text, "Not shown: %.400s.", shown->gltf.not_shown);
-    ui_paragraph(in->ui, text, theme()->text_dim);
+    ui_paragraph(&in->ui, text, theme()->text_dim);
 }
 
-static void build_clip(struct inspection *in, const struct model_rig *rig, const struct imported *shown)
+static void build_clip(struct inspector *in, const struct model_rig *rig, const struct imported *shown)
 {
     if (!shown || shown->gltf.clip_count == 0) return;
     struct rect r = inspector_labelled(in, "clip");
-    ui_hint(in->ui, r, "The animation in the file that it plays, over and over");
-    ui_dropdown(in->ui, r, clip_list, in->inspector->model, rig->clip ? rig->clip : "None", 0);
+    ui_hint(&in->ui, r, "The animation in the file that it plays, over and over");
+    ui_dropdown(&in->ui, r, clip_list, in->model, rig->clip ? rig->clip : "None", 0);
 }
 
-void inspector_model_lists(struct inspection *in)
+void inspector_model_lists(struct inspector *in)
 {
     const int model = shown_model(in);
     const struct imported *shown = model >= 0 ? bones_character(in->core, model) : NULL;
-    if (!ui_popup_is_open(in->ui, clip_list) || !shown) return;
+    if (!ui_popup_is_open(&in->ui, clip_list) || !shown) return;
     const struct gltf *gltf = &shown->gltf;
-    const char *clip = in->document->rigs[model]->model.clip;
+    const char *clip = in->core->document->rigs[model]->model.clip;
     struct ui_item items[MAX_CLIPS + 1] = {{"none", "None", 0}};
     int count = 1;
     for (int c = 0; c < gltf->clip_count && c < MAX_CLIPS; c++)
         items[count++] = (struct ui_item){gltf->clips[c].name, gltf->clips[c].name, 0};
-    const int picked = ui_popup_list(in->ui, clip_list, items, count, clip ? gltf_find_clip(gltf, clip) + 1 : 0);
+    const int picked = ui_popup_list(&in->ui, clip_list, items, count, clip ? gltf_find_clip(gltf, clip) + 1 : 0);
     if (picked < 0) return;
     bones_choose_clip(in->core, model, picked > 0 ? gltf->clips[picked - 1].name : NULL);
 }
@@ -70,21 +68,21 @@ static const struct number_row place[] = {
      -36000, 36000, 0, 1, 0},
 };
 
-static double get(const struct inspection *in, int which)
+static double get(const struct inspector *in, int which)
 {
-    return number_at(&place[which], &in->document->rigs[shown_model(in)]->model);
+    return number_at(&place[which], &in->core->document->rigs[shown_model(in)]->model);
 }
 
-static bool set(struct inspection *in, int which, double number, struct error *error)
+static bool set(struct inspector *in, int which, double number, struct error *error)
 {
     const int rig = shown_model(in);
-    struct model_rig model = in->document->rigs[rig]->model;
+    struct model_rig model = in->core->document->rigs[rig]->model;
     number_put(&place[which], &model, number);
-    return edit_place(in->document, rig, &model, error);
+    return edit_place(in->core->document, rig, &model, error);
 }
 
 /// The selected bone, and what can be made of it.
-static void build_bone(struct inspection *in)
+static void build_bone(struct inspector *in)
 {
     static const struct {
         const char *name, *label, *hint;
@@ -97,29 +95,30 @@ static void build_bone(struct inspection *in)
     const int node = bones_selected(in->core, &model);
     struct rect r = inspector_labelled(in, "bone");
     if (node < 0) {
-        ui_label(in->ui, r, "click one on the stage", theme()->text_dim);
+        ui_label(&in->ui, r, "click one on the stage", theme()->text_dim);
         return;
     }
-    ui_label(in->ui, r, bones_character(in->core, model)->gltf.nodes[node].name, theme()->text);
-    struct rect row = ui_row(in->ui, UI_ROW);
+    ui_label(&in->ui, r, bones_character(in->core, model)->gltf.nodes[node].name, theme()->text);
+    struct rect row = ui_row(&in->ui, UI_ROW);
     const float widths[2] = {row.w * 0.38f, row.w * 0.62f - 6};
     row.w = 0;
     for (size_t i = 0; i < 2; i++) {
         struct rect button = {row.x, row.y + 2, widths[i], row.h - 4};
         row.x += widths[i] + 6;
-        ui_hint(in->ui, button, buttons[i].hint);
-        if (ui_button(in->ui, button, buttons[i].name, buttons[i].label, false))
+        ui_hint(&in->ui, button, buttons[i].hint);
+        if (ui_button(&in->ui, button, buttons[i].name, buttons[i].label, false))
             bones_make_chain(in->core, buttons[i].follow);
     }
 }
 
-void inspector_model(struct inspection *in)
+void inspector_model(struct inspector *in)
 {
     const int model = shown_model(in);
     const struct imported *shown = bones_character(in->core, model);
     static const struct number_home home = {.get = get, .set = set};
-    build_file(in, &in->document->rigs[model]->model, shown);
-    build_clip(in, &in->document->rigs[model]->model, shown);
+    in->model = document_rig_number(in->core->document, model);
+    build_file(in, &in->core->document->rigs[model]->model, shown);
+    build_clip(in, &in->core->document->rigs[model]->model, shown);
     inspector_numbers(in, place, sizeof place / sizeof place[0], &home);
     if (shown) build_bone(in);
 }

@@ -2,7 +2,7 @@
 #include "editor/core/pins.h"
 #include "editor/core/bones.h"
 #include "editor/core/core.h"
-#include "editor/inspector/inspection.h"
+#include "editor/inspector/parts.h"
 #include "scene/pins.h"
 #include <math.h>
 #include <stdio.h>
@@ -22,19 +22,19 @@ static struct pin_row place_of(const struct document *document, int row)
 }
 
 /// The row of the selected pin, 0 where none is.
-static int selected_row(const struct inspection *in)
+static int selected_row(const struct inspector *in)
 {
     int rig, row = 0;
     const struct pin *pin = pins_selected(in->core, &rig);
     if (!pin) return 0;
-    for (int r = 0; r < rig; r++) row += in->document->rigs[r]->pin_count;
-    return row + (int)(pin - in->document->rigs[rig]->pins);
+    for (int r = 0; r < rig; r++) row += in->core->document->rigs[r]->pin_count;
+    return row + (int)(pin - in->core->document->rigs[rig]->pins);
 }
 
 /// Millimetres that are left; NAN where that is not known.
-static double left_of(const struct inspection *in, int rig, int at)
+static double left_of(const struct inspector *in, int rig, int at)
 {
-    const struct pin_left *left = evaluation_pin(in->core->evaluation, in->document, rig, at);
+    const struct pin_left *left = evaluation_pin(in->core->evaluation, in->core->document, rig, at);
     if (!left || !left->is_found) return NAN;
     return 1e3 * sqrt(left->way[0] * left->way[0] + left->way[1] * left->way[1] + left->way[2] * left->way[2]);
 }
@@ -42,11 +42,11 @@ static double left_of(const struct inspection *in, int rig, int at)
 static const char *word_of(const struct rig *rig) { return rig->kind == RIG_CHARACTER ? "vertex" : "joint"; }
 
 /// true if the pin was removed.
-static bool build_row(struct inspection *in, int row)
+static bool build_row(struct inspector *in, int row)
 {
-    struct ui *ui = in->ui;
-    const struct pin_row place = place_of(in->document, row);
-    const struct rig *rig = in->document->rigs[place.rig];
+    struct ui *ui = &in->ui;
+    const struct pin_row place = place_of(in->core->document, row);
+    const struct rig *rig = in->core->document->rigs[place.rig];
     const struct pin *pin = &rig->pins[place.at];
     struct rect r = ui_row(ui, UI_ROW), button = {r.x + r.w - r.h, r.y, r.h, r.h};
     char name[32], remove[32], text[160], left[32] = "";
@@ -65,10 +65,10 @@ static bool build_row(struct inspection *in, int row)
     if (pressed) pins_visit(in->core, pin);
     if (!ui_icon_button(ui, button, remove, UI_ICON_DELETE, false, "Remove this pin")) return false;
     return core_begin(in->core, "Delete pin", 0) &&
-           core_end(in->core, edit_pin_remove(in->document, place.rig, pin->id, &in->core->error));
+           core_end(in->core, edit_pin_remove(in->core->document, place.rig, pin->id, &in->core->error));
 }
 
-static void build_list(struct inspection *in, int count)
+static void build_list(struct inspector *in, int count)
 {
     const int rows = count < MAX_ROWS ? count : MAX_ROWS;
     const int first = inspector_first_row(count, selected_row(in), MAX_ROWS);
@@ -78,15 +78,15 @@ static void build_list(struct inspection *in, int count)
     if (count <= MAX_ROWS) return;
     char text[64];
     snprintf(text, sizeof text, "%d of %d pins; , and . show more", MAX_ROWS, count);
-    ui_paragraph(in->ui, text, theme()->text_dim);
+    ui_paragraph(&in->ui, text, theme()->text_dim);
 }
 
 /// How many points the rig has.
-static int points_of(const struct inspection *in, int rig)
+static int points_of(const struct inspector *in, int rig)
 {
-    const struct rig *pinned = in->document->rigs[rig];
+    const struct rig *pinned = in->core->document->rigs[rig];
     if (pinned->kind != RIG_CHARACTER) return bones_joints(in->core, rig);
-    const struct figure *figure = models_figure(in->core->models, document_rig_number(in->document, rig));
+    const struct figure *figure = models_figure(in->core->models, document_rig_number(in->core->document, rig));
     return figure ? figure->character.vertex_count : 1;
 }
 
@@ -105,47 +105,47 @@ static const struct number_row rows[ROWS] = {
      -INSPECTOR_NO_LIMIT, INSPECTOR_NO_LIMIT, NAN, 0.005, 3},
 };
 
-static double get(const struct inspection *in, int which)
+static double get(const struct inspector *in, int which)
 {
     int rig;
     return number_at(&rows[which], pins_selected(in->core, &rig));
 }
 
-static bool set(struct inspection *in, int which, double number, struct error *error)
+static bool set(struct inspector *in, int which, double number, struct error *error)
 {
     int rig;
     struct pin pin = *pins_selected(in->core, &rig);
     number_put(&rows[which], &pin, number);
-    return pins_set(in->document, rig, &pin, error);
+    return pins_set(in->core->document, rig, &pin, error);
 }
 
-static void build_field(struct inspection *in, int field)
+static void build_field(struct inspector *in, int field)
 {
     int rig;
     struct number_row row = rows[field];
     if (!pins_selected(in->core, &rig)) return;
-    const struct rig *pinned = in->document->rigs[rig];
+    const struct rig *pinned = in->core->document->rigs[rig];
     if (field == ROW_FRAME) {
-        row.lowest = in->document->first_frame;
-        row.highest = document_frame(in->document, pins_last_sample(in->document, pinned));
+        row.lowest = in->core->document->first_frame;
+        row.highest = document_frame(in->core->document, pins_last_sample(in->core->document, pinned));
     } else if (field == ROW_POINT) {
         row.label = word_of(pinned);
         row.highest = points_of(in, rig) - 1;
     }
     static const struct number_home home = {.get = get, .set = set};
-    const enum ui_change change = inspector_number(in, &row, &home, field, ui_row(in->ui, UI_ROW));
+    const enum ui_change change = inspector_number(in, &row, &home, field, ui_row(&in->ui, UI_ROW));
     if (inspector_changed(change)) pins_tell(in->core, rig);
 }
 
-void inspector_pins(struct inspection *in)
+void inspector_pins(struct inspector *in)
 {
     int rig;
-    const int count = pins_count(in->document);
+    const int count = pins_count(in->core->document);
     if (count == 0)
-        ui_paragraph(in->ui, "Drag a character's surface on the stage to pin it; on tails and chains, hold Ctrl.",
+        ui_paragraph(&in->ui, "Drag a character's surface on the stage to pin it; on tails and chains, hold Ctrl.",
                      theme()->text_dim);
     build_list(in, count);
     if (!pins_selected(in->core, &rig)) return;
-    ui_space(in->ui, 4);
+    ui_space(&in->ui, 4);
     for (int field = 0; field < ROWS; field++) build_field(in, field);
 }

@@ -1,7 +1,7 @@
 /// The inspector's view of the active spline's poles: dragged in an inset, seen on the unit circle and in their response.
 #include "editor/core/core.h"
 #include "editor/core/knots.h"
-#include "editor/inspector/inspection.h"
+#include "editor/inspector/parts.h"
 #include "editor/inspector/response.h"
 #include "ui/font.h"
 #include "ui/theme.h"
@@ -216,25 +216,25 @@ static void poles_draw_response(const struct poles_view *view, struct rect r, st
 enum { CIRCLE = 112, INSET = 92, TICKS = 18, RESPONSE = 112 }; ///< heights
 
 /// A parameter's value at the playhead, in its range.
-static double value_now(const struct inspection *in, const struct spline *spline, enum parameter parameter)
+static double value_now(const struct inspector *in, const struct spline *spline, enum parameter parameter)
 {
     const struct param *param = &spline->parameter[parameter];
     const struct evaluation *evaluation = in->core->evaluation;
     double value = param->value;
     if (param->track >= 0) {
         if (!evaluation || param->track >= evaluation->count) return 0;
-        int sample = document_sample(in->document, core_frame(in->core));
+        int sample = document_sample(in->core->document, core_frame(in->core));
         if (sample < 0 || sample >= evaluation->samples) return 0;
         value = evaluation->curves[param->track].total[sample];
     }
     return parameter_clamped(parameter, spline_mode(spline), value);
 }
 
-static struct pole_setting setting_of(const struct inspection *in, const struct spline *spline)
+static struct pole_setting setting_of(const struct inspector *in, const struct spline *spline)
 {
     struct pole_setting setting = {.kind = spline_mode(spline) == WIGGLY_REAL ? FILTER_TWO_REAL : FILTER_TWO_COMPLEX,
                                    .bandwidth = value_now(in, spline, PARAMETER_BANDWIDTH),
-                                   .step = document_step(in->document)};
+                                   .step = document_step(in->core->document)};
     setting.hz = value_now(in, spline, PARAMETER_FREQUENCY);
     setting.damping = value_now(in, spline, PARAMETER_DAMPING);
     return setting;
@@ -245,7 +245,7 @@ enum { HANDLE_CENTRE, HANDLE_LOWER, HANDLE_UPPER, HANDLES };
 static double rounded(double value, double steps) { return round(value * steps) / steps; }
 
 /// Gives the spline a number; one that follows a track is left alone.
-static bool set(struct inspection *in, enum parameter parameter, double number)
+static bool set(struct inspector *in, enum parameter parameter, double number)
 {
     const struct spline *spline = core_active_spline(in->core);
     return spline->parameter[parameter].track >= 0 ||
@@ -253,7 +253,7 @@ static bool set(struct inspection *in, enum parameter parameter, double number)
 }
 
 /// Makes a setting the spline's, where a handle was moved.
-static bool set_poles(struct inspection *in, const struct pole_setting *setting, int which)
+static bool set_poles(struct inspector *in, const struct pole_setting *setting, int which)
 {
     return (which != HANDLE_CENTRE || set(in, PARAMETER_FREQUENCY, rounded(setting->hz, 100))) &&
            set(in, PARAMETER_DAMPING, rounded(setting->damping, 1000)) &&
@@ -261,10 +261,10 @@ static bool set_poles(struct inspection *in, const struct pole_setting *setting,
 }
 
 /// What the setting becomes when a handle was moved.
-static struct pole_setting moved_to(const struct inspection *in, struct pole_setting setting, struct rect inset,
+static struct pole_setting moved_to(const struct inspector *in, struct pole_setting setting, struct rect inset,
                                     int which, enum ui_change change, const struct ui_handle *handle)
 {
-    const struct poles_view *view = &in->inspector->poles;
+    const struct poles_view *view = &in->poles;
     double highest = fmin(12, 0.5 / setting.step), most = setting.kind == FILTER_TWO_REAL ? 3 : 1;
     double hz = setting.hz, side = which == HANDLE_LOWER ? -1 : 1;
     if (change == UI_NUDGE) {
@@ -288,10 +288,10 @@ static struct pole_setting moved_to(const struct inspection *in, struct pole_set
     return setting;
 }
 
-static void build_inset(struct inspection *in, const struct pole_setting *setting)
+static void build_inset(struct inspector *in, const struct pole_setting *setting)
 {
-    struct poles_view *view = &in->inspector->poles;
-    struct rect row = ui_row(in->ui, INSET + TICKS), inset = {row.x, row.y, row.w, INSET};
+    struct poles_view *view = &in->poles;
+    struct rect row = ui_row(&in->ui, INSET + TICKS), inset = {row.x, row.y, row.w, INSET};
     float y = poles_y(view, inset, setting->damping);
     double spread = setting->hz * setting->bandwidth;
     struct ui_handle handles[HANDLES] = {
@@ -302,8 +302,8 @@ static void build_inset(struct inspection *in, const struct pole_setting *settin
         [HANDLE_UPPER] = {"pole.upper", "Pole: drag sideways for bandwidth, up for damping",
                           poles_x(view, inset, setting->hz + spread), y, 0, 0}};
     int which = 0, count = setting->kind == FILTER_TWO_COMPLEX ? HANDLES : 1;
-    if (in->ui->pass == UI_PASS_DRAW) poles_draw_inset(view, setting, inset, in->ui->list);
-    enum ui_change change = ui_handles(in->ui, row, handles, count, &which);
+    if (in->ui.pass == UI_PASS_DRAW) poles_draw_inset(view, setting, inset, in->ui.list);
+    enum ui_change change = ui_handles(&in->ui, row, handles, count, &which);
     if (change == UI_NONE || !inspector_begin(in, change, "Move poles", handles[which].name)) return;
     const struct pole_setting wanted = moved_to(in, *setting, inset, which, change, &handles[which]);
     inspector_end(in, change, set_poles(in, &wanted, which));
@@ -315,10 +315,10 @@ static bool is_held(const struct ui *ui)
            (ui->held == ui_id("pole.centre") || ui->held == ui_id("pole.lower") || ui->held == ui_id("pole.upper"));
 }
 
-void inspector_poles(struct inspection *in)
+void inspector_poles(struct inspector *in)
 {
-    struct ui *ui = in->ui;
-    struct poles_view *view = &in->inspector->poles;
+    struct ui *ui = &in->ui;
+    struct poles_view *view = &in->poles;
     struct spline *spline = core_active_spline(in->core);
     struct pole_setting setting = setting_of(in, spline);
     if (spline_mode(spline) == WIGGLY_CUBIC || !(setting.hz > 0)) {

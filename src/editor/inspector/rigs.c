@@ -4,8 +4,8 @@
 #include "editor/core/bones.h"
 #include "editor/core/core.h"
 #include "editor/core/spline_list.h"
-#include "editor/inspector/inspection.h"
 #include "editor/inspector/inspector.h"
+#include "editor/inspector/parts.h"
 #include <stdio.h>
 
 enum { MAX_ROWS = 12 }; ///< rows from the top
@@ -16,44 +16,44 @@ static bool is_tail_or_chain(const struct document *document, int rig)
            (document->rigs[rig]->kind == RIG_TAIL || document->rigs[rig]->kind == RIG_CHAIN);
 }
 
-const struct rig *inspector_shown(const struct inspection *in)
+const struct rig *inspector_shown(const struct inspector *in)
 {
-    const int rig = in->inspector->rig;
-    return is_tail_or_chain(in->document, rig) ? in->document->rigs[rig] : NULL;
+    const int rig = in->rig;
+    return is_tail_or_chain(in->core->document, rig) ? in->core->document->rigs[rig] : NULL;
 }
 
-void inspector_find_rig(struct inspection *in)
+void inspector_find_rig(struct inspector *in)
 {
-    struct inspector *inspector = in->inspector;
     if (!inspector_shown(in)) {
-        const int tail = document_find_rig(in->document, RIG_TAIL, 0),
-                  chain = document_find_rig(in->document, RIG_CHAIN, 0);
-        inspector->rig = tail >= 0 ? tail : chain >= 0 ? chain : 0;
-        inspector->channel = 0;
+        const int tail = document_find_rig(in->core->document, RIG_TAIL, 0),
+                  chain = document_find_rig(in->core->document, RIG_CHAIN, 0);
+        in->rig = tail >= 0 ? tail : chain >= 0 ? chain : 0;
+        in->channel = 0;
     }
     const struct rig *shown = inspector_shown(in);
-    if (shown && inspector->channel >= rig_input_count(shown)) inspector->channel = 0;
-    if (inspector->selected >= in->document->rig_count) inspector->selected = in->document->rig_count - 1;
-    if (inspector->selected < 0) inspector->selected = 0;
+    if (shown && in->channel >= rig_input_count(shown)) in->channel = 0;
+    if (in->selected >= in->core->document->rig_count) in->selected = in->core->document->rig_count - 1;
+    if (in->selected < 0) in->selected = 0;
 }
 
 /// Has the section of its kind show a rig.
-static void show_rig(struct inspector *inspector, struct core *core, int rig)
+static void show_rig(struct inspector *in, int rig)
 {
+    struct core *core = in->core;
     const int number = document_rig_number(core->document, rig);
-    inspector->selected = rig;
+    in->selected = rig;
     switch (core->document->rigs[rig]->kind) {
     case RIG_TAIL:
     case RIG_CHAIN:
-        inspector->channel = rig == inspector->rig ? inspector->channel : 0;
-        inspector->rig = rig;
+        in->channel = rig == in->rig ? in->channel : 0;
+        in->rig = rig;
         break;
     case RIG_CHARACTER:
         core->characters.drive = number == core->characters.character ? core->characters.drive : 0;
         core->characters.character = number;
         break;
     case RIG_MODEL:
-        inspector->model = number;
+        in->model = number;
         break;
     case RIG_MEADOW:
     case RIG_KINDS:
@@ -69,95 +69,86 @@ static int input_of(const struct rig *rig, int spline)
     return -1;
 }
 
-void inspector_show_spline(struct inspector *inspector, struct core *core, int spline)
+void inspector_show_spline(struct inspector *in, int spline)
 {
-    const struct document *document = core->document;
-    int found = inspector->selected < document->rig_count ? inspector->selected : -1;
+    const struct document *document = in->core->document;
+    int found = in->selected < document->rig_count ? in->selected : -1;
     if (found >= 0 && input_of(document->rigs[found], spline) < 0) found = -1;
     for (int r = 0; r < document->rig_count && found < 0; r++) {
         if (input_of(document->rigs[r], spline) >= 0) found = r;
     }
     if (found < 0) return;
     const int input = input_of(document->rigs[found], spline);
-    show_rig(inspector, core, found);
-    if (is_tail_or_chain(document, found)) inspector->channel = input;
-    if (document->rigs[found]->kind == RIG_CHARACTER) core->characters.drive = input;
+    show_rig(in, found);
+    if (is_tail_or_chain(document, found)) in->channel = input;
+    if (document->rigs[found]->kind == RIG_CHARACTER) in->core->characters.drive = input;
 }
 
-/// Shows a rig, with what it feels like.
-static void choose_rig(struct inspection *in, int rig)
+void inspector_show_rig(struct inspector *in, int rig)
 {
     static const char *const sections[] = {[RIG_TAIL] = "section.tail",
                                            [RIG_CHAIN] = "section.tail",
                                            [RIG_CHARACTER] = "section.character",
                                            [RIG_MODEL] = "section.model",
                                            [RIG_MEADOW] = "section.meadow"};
-    const struct rig *chosen = in->document->rigs[rig];
+    const struct rig *chosen = in->core->document->rigs[rig];
     if (chosen->kind == RIG_MODEL) bones_clear(in->core);
-    show_rig(in->inspector, in->core, rig);
-    inspector_unfold(in->inspector, sections[chosen->kind]);
+    show_rig(in, rig);
+    inspector_unfold(in, sections[chosen->kind]);
     if (rig_input_count(chosen) > 0) core_activate(in->core, rig_input(chosen, 0));
 }
 
-void inspector_show_rig(struct inspector *inspector, struct core *core, int rig)
+static void build_row(struct inspector *in, int rig)
 {
-    struct inspection in = {core, inspector, core->document, &inspector->ui, UI_NONE};
-    choose_rig(&in, rig);
-}
-
-static void build_row(struct inspection *in, int rig)
-{
-    const struct rig *shown = in->document->rigs[rig];
-    const struct rect r = ui_row(in->ui, UI_ROW);
+    const struct rig *shown = in->core->document->rigs[rig];
+    const struct rect r = ui_row(&in->ui, UI_ROW);
     char name[32], text[160];
-    snprintf(name, sizeof name, "%s.%d", rig_word(shown->kind), document_rig_number(in->document, rig));
+    snprintf(name, sizeof name, "%s.%d", rig_word(shown->kind), document_rig_number(in->core->document, rig));
     snprintf(text, sizeof text, "%.100s, %s", path_name(rig_title(shown)), rig_word(shown->kind));
-    const uint32_t color = rig_input_count(shown) > 0 ? spline_list_color(in->document, rig_input(shown, 0)) : 0;
-    ui_hint(in->ui, r, "Show what it is made of, and what moves it");
-    if (ui_list_row(in->ui, r, name, text, color, rig == in->inspector->selected)) choose_rig(in, rig);
+    const uint32_t color =
+        rig_input_count(shown) > 0 ? spline_list_color(in->core->document, rig_input(shown, 0)) : 0;
+    ui_hint(&in->ui, r, "Show what it is made of, and what moves it");
+    if (ui_list_row(&in->ui, r, name, text, color, rig == in->selected)) inspector_show_rig(in, rig);
 }
 
 enum { MAX_COPIES = 4, MAX_ITEMS = 5 + MAX_COPIES, LABEL = 96, WIDTH = 244 };
 
 static const char add_list[] = "add";
 
-static void open_add(struct inspector *inspector, struct rect at)
+static void open_add(struct inspector *in, struct rect at)
 {
     at.w = WIDTH;
-    ui_popup_open(&inspector->ui, add_list, 0, at);
+    ui_popup_open(&in->ui, add_list, 0, at);
 }
 
-static void build_buttons(struct inspection *in)
+static void build_buttons(struct inspector *in)
 {
     static const struct icon_button buttons[] = {
         {"rig.add", "Add a tail, a character, a chain … (A)", UI_ICON_ADD},
         {"rig.copy", "One more like it, beside it", UI_ICON_COPY},
         {"rig.delete", "Remove it, with its splines or without (Shift+Del)", UI_ICON_DELETE},
     };
-    const struct rect r = ui_row(in->ui, UI_ROW);
-    const int before = in->document->rig_count, rig = in->inspector->selected;
+    const struct rect r = ui_row(&in->ui, UI_ROW);
+    const int before = in->core->document->rig_count, rig = in->selected;
     const int pressed = inspector_icons(in, r, buttons, before > 0 ? 3 : 1);
-    if (pressed == 0) open_add(in->inspector, (struct rect){r.x - 2, r.y, INSPECTOR_ICON, r.h});
+    if (pressed == 0) open_add(in, (struct rect){r.x - 2, r.y, INSPECTOR_ICON, r.h});
     if (pressed == 1) rigs_copy(in->core, rig);
     if (pressed == 2) rigs_ask_remove(in->core, rig);
-    if (in->document->rig_count > before) choose_rig(in, before);
+    if (in->core->document->rig_count > before) inspector_show_rig(in, before);
 }
 
-void inspector_remove_rig(const struct inspector *inspector, struct core *core)
-{
-    rigs_ask_remove(core, inspector->selected);
-}
+void inspector_remove_rig(const struct inspector *in) { rigs_ask_remove(in->core, in->selected); }
 
-void inspector_rigs(struct inspection *in)
+void inspector_rigs(struct inspector *in)
 {
-    const int count = in->document->rig_count, chosen = in->inspector->selected;
+    const int count = in->core->document->rig_count, chosen = in->selected;
     const int first = count <= MAX_ROWS || chosen < MAX_ROWS ? 0 : chosen - MAX_ROWS + 1;
-    if (count == 0) ui_paragraph(in->ui, "Nothing is on the stage yet.", theme()->text_dim);
+    if (count == 0) ui_paragraph(&in->ui, "Nothing is on the stage yet.", theme()->text_dim);
     for (int r = first; r < count && r < first + MAX_ROWS; r++) build_row(in, r);
     if (count > MAX_ROWS) {
         char text[64];
         snprintf(text, sizeof text, "%d of %d", MAX_ROWS, count);
-        ui_paragraph(in->ui, text, theme()->text_dim);
+        ui_paragraph(&in->ui, text, theme()->text_dim);
     }
     build_buttons(in);
 }
@@ -181,11 +172,11 @@ static void add_item(struct menu *menu, struct choice choice, const char *name, 
     menu->items[menu->count++] = (struct ui_item){name, label, 0};
 }
 
-static void add_copies(const struct inspection *in, struct menu *menu)
+static void add_copies(const struct inspector *in, struct menu *menu)
 {
     int copies = 0;
-    for (int r = 0; r < in->document->rig_count && copies < MAX_COPIES; r++) {
-        const struct rig *rig = in->document->rigs[r];
+    for (int r = 0; r < in->core->document->rig_count && copies < MAX_COPIES; r++) {
+        const struct rig *rig = in->core->document->rigs[r];
         if (rig->kind != RIG_CHARACTER && rig->kind != RIG_MODEL) continue;
         snprintf(menu->names[copies], sizeof menu->names[0], "copy.%d", r);
         snprintf(menu->labels[copies], LABEL, "One more %.80s", path_name(rig_title(rig)));
@@ -194,9 +185,9 @@ static void add_copies(const struct inspection *in, struct menu *menu)
     }
 }
 
-static void fill(const struct inspection *in, struct menu *menu)
+static void fill(const struct inspector *in, struct menu *menu)
 {
-    const struct document *document = in->document;
+    const struct document *document = in->core->document;
     add_item(menu, (struct choice){ADD_TAIL, 0}, "tail", "Tail");
     add_item(menu, (struct choice){ADD_FILE, 0}, "file", "Character or model from a file …");
     add_copies(in, menu);
@@ -207,9 +198,9 @@ static void fill(const struct inspection *in, struct menu *menu)
     add_item(menu, (struct choice){ADD_SPLINE, 0}, "spline", "Spline");
 }
 
-static void carry_out(struct inspection *in, struct choice choice)
+static void carry_out(struct inspector *in, struct choice choice)
 {
-    const int before = in->document->rig_count;
+    const int before = in->core->document->rig_count;
     switch (choice.what) {
     case ADD_TAIL:
         rigs_add_tail(in->core);
@@ -230,25 +221,25 @@ static void carry_out(struct inspection *in, struct choice choice)
         spline_list_add(in->core);
         break;
     }
-    if (in->document->rig_count > before) choose_rig(in, before);
+    if (in->core->document->rig_count > before) inspector_show_rig(in, before);
 }
 
-void inspector_add_list(struct inspection *in)
+void inspector_add_list(struct inspector *in)
 {
     struct menu menu = {.count = 0};
-    if (!ui_popup_is_open(in->ui, add_list)) return;
+    if (!ui_popup_is_open(&in->ui, add_list)) return;
     fill(in, &menu);
-    const int picked = ui_popup_list(in->ui, add_list, menu.items, menu.count, -1);
+    const int picked = ui_popup_list(&in->ui, add_list, menu.items, menu.count, -1);
     if (picked >= 0) carry_out(in, menu.choices[picked]);
 }
 
-void inspector_add_menu(struct inspector *inspector, const struct core *core)
+void inspector_add_menu(struct inspector *in)
 {
-    const struct layout *layout = &core->layout;
-    const float x = core->pointer_x, y = core->pointer_y;
+    const struct layout *layout = &in->core->layout;
+    const float x = in->core->pointer_x, y = in->core->pointer_y;
     const bool beside = rect_contains(layout->stage, x, y) || rect_contains(layout->curves, x, y);
     const struct rect panel = layout->inspector;
-    open_add(inspector, beside ? (struct rect){x, y, 0, 0} : (struct rect){panel.x + UI_PAD, panel.y, 0, 4});
-    if (beside) inspector->ui.popup.room = (struct rect){0, 0, panel.x, layout->status.y};
-    inspector->ui.focus = ui_id("item.tail");
+    open_add(in, beside ? (struct rect){x, y, 0, 0} : (struct rect){panel.x + UI_PAD, panel.y, 0, 4});
+    if (beside) in->ui.popup.room = (struct rect){0, 0, panel.x, layout->status.y};
+    in->ui.focus = ui_id("item.tail");
 }

@@ -1,30 +1,30 @@
 /// The inspector's section on the scene: frames per second, range and substeps; and how it is solved.
 #include "editor/core/core.h"
 #include "editor/core/spline_list.h"
-#include "editor/inspector/inspection.h"
+#include "editor/inspector/parts.h"
 #include <math.h>
 #include <stdio.h>
 
 enum { ROW_RATE, ROW_FIRST, ROW_LAST, ROW_SUBSTEPS, ROWS };
 
-static double get(const struct inspection *in, int which)
+static double get(const struct inspector *in, int which)
 {
-    const struct document *document = in->document;
+    const struct document *document = in->core->document;
     const double numbers[ROWS] = {document->fps, document->first_frame, document->last_frame, document->substeps};
     return numbers[which];
 }
 
 /// Rate and range ask before they move knots.
-static bool set(struct inspection *in, int which, double number, struct error *error)
+static bool set(struct inspector *in, int which, double number, struct error *error)
 {
-    const struct document *document = in->document;
+    const struct document *document = in->core->document;
     const int whole = (int)lround(number);
     (void)error;
     if (which == ROW_RATE) spline_list_fps(in->core, number);
     if (which == ROW_FIRST) spline_list_range(in->core, whole, document->last_frame);
     if (which == ROW_LAST) spline_list_range(in->core, document->first_frame, whole);
     if (which == ROW_SUBSTEPS && core_begin(in->core, "Set substeps", 0))
-        core_end(in->core, edit_substeps(in->document, whole, &in->core->error));
+        core_end(in->core, edit_substeps(in->core->document, whole, &in->core->error));
     return true;
 }
 
@@ -39,24 +39,24 @@ static const struct number_row rows[ROWS] = {
                       1, SCENE_MAX_SUBSTEPS, 1, 1, 0},
 };
 
-static void build_solver(struct inspection *in)
+static void build_solver(struct inspector *in)
 {
     const struct rect r = inspector_labelled(in, "solver");
-    ui_hint(in->ui, r,
+    ui_hint(&in->ui, r,
             "Band: all samples at once, as in the paper. Chain: stretches between knots, beyond 4096 samples");
-    if (in->core->evaluation) ui_label(in->ui, r, evaluation_solver(in->core->evaluation), theme()->text);
+    if (in->core->evaluation) ui_label(&in->ui, r, evaluation_solver(in->core->evaluation), theme()->text);
 }
 
-void inspector_scene(struct inspection *in)
+void inspector_scene(struct inspector *in)
 {
     static const struct number_home home = {.get = get, .set = set, .settles = true};
     for (int i = 0; i < ROWS; i++) {
         struct number_row row = rows[i];
-        const double longest = document_longest(in->document);
-        if (i == ROW_RATE && in->document->fps != floor(in->document->fps)) row.decimals = 3;
-        if (i == ROW_FIRST) row.lowest = fmax(row.lowest, in->document->last_frame - longest);
-        if (i == ROW_LAST) row.highest = fmin(row.highest, in->document->first_frame + longest);
-        inspector_number(in, &row, &home, i, ui_row(in->ui, UI_ROW));
+        const double longest = document_longest(in->core->document);
+        if (i == ROW_RATE && in->core->document->fps != floor(in->core->document->fps)) row.decimals = 3;
+        if (i == ROW_FIRST) row.lowest = fmax(row.lowest, in->core->document->last_frame - longest);
+        if (i == ROW_LAST) row.highest = fmin(row.highest, in->core->document->first_frame + longest);
+        inspector_number(in, &row, &home, i, ui_row(&in->ui, UI_ROW));
     }
     build_solver(in);
 }

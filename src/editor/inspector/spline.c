@@ -3,30 +3,30 @@
 #include "editor/core/core.h"
 #include "editor/core/knots.h"
 #include "editor/core/spline_list.h"
-#include "editor/inspector/inspection.h"
+#include "editor/inspector/parts.h"
 #include "scene/order.h"
 #include <math.h>
 #include <stdio.h>
 
-static double get(const struct inspection *in, int parameter)
+static double get(const struct inspector *in, int parameter)
 {
     return core_active_spline(in->core)->parameter[parameter].value;
 }
 
-static bool set(struct inspection *in, int parameter, double number, struct error *error)
+static bool set(struct inspector *in, int parameter, double number, struct error *error)
 {
     const struct param param = param_number(number);
-    return edit_parameter(in->document, in->core->active, (enum parameter)parameter, &param, error);
+    return edit_parameter(in->core->document, in->core->active, (enum parameter)parameter, &param, error);
 }
 
 /// A step of its own.
-static void set_parameter(struct inspection *in, enum parameter parameter, double number)
+static void set_parameter(struct inspector *in, enum parameter parameter, double number)
 {
     if (core_begin(in->core, parameter_rows[parameter].undo, 0))
         core_end(in->core, set(in, (int)parameter, number, &in->core->error));
 }
 
-static void build_slider(struct inspection *in, enum parameter parameter, struct rect r)
+static void build_slider(struct inspector *in, enum parameter parameter, struct rect r)
 {
     const struct spline *spline = core_active_spline(in->core);
     const struct parameter_row *row = &parameter_rows[parameter];
@@ -35,7 +35,7 @@ static void build_slider(struct inspection *in, enum parameter parameter, struct
                                       .unit = row->unit,
                                       .hint = row->hint,
                                       .undo = row->undo,
-                                      .maximum = core_slider_end(in->document, spline, parameter),
+                                      .maximum = core_slider_end(in->core->document, spline, parameter),
                                       .lowest = row->minimum,
                                       .highest = parameter_maximum(parameter, spline_mode(spline)),
                                       .fallback = row->fresh,
@@ -52,106 +52,108 @@ enum { MAX_BONES = 1024 }; ///< in a list
 static const char joint_list[] = "joint";
 
 /// The joint, in the field where the spline would be that is followed.
-static void build_joint_field(struct inspection *in, const struct joint_motion *motion, struct rect field)
+static void build_joint_field(struct inspector *in, const struct joint_motion *motion, struct rect field)
 {
     struct rect icon = {field.x + field.w - INSPECTOR_ICON, field.y, INSPECTOR_ICON, field.h};
     const int active = in->core->active;
-    const int model = document_find_model(in->document, motion->model, motion->by_file);
+    const int model = document_find_model(in->core->document, motion->model, motion->by_file);
     char title[BONES_TITLE];
-    const char *text = model < 0 ? motion->joint : bones_title(in->document, model, motion->joint, title);
+    const char *text = model < 0 ? motion->joint : bones_title(in->core->document, model, motion->joint, title);
     field.w -= INSPECTOR_ICON + 4;
-    ui_hint(in->ui, field, "The joint it follows through the clip");
-    ui_dropdown(in->ui, field, joint_list, 0, text, 0);
+    ui_hint(&in->ui, field, "The joint it follows through the clip");
+    ui_dropdown(&in->ui, field, joint_list, 0, text, 0);
     const bool picking = in->core->pick.use == BONE_FOLLOWED && in->core->pick.which == active;
-    if (ui_icon_button(in->ui, icon, "joint.pick", UI_ICON_PICK, picking, "Pick it on the stage"))
+    if (ui_icon_button(&in->ui, icon, "joint.pick", UI_ICON_PICK, picking, "Pick it on the stage"))
         bones_pick(in->core, picking ? BONE_SELECTED : BONE_FOLLOWED, active);
 }
 
-static void build_track(struct inspection *in, enum parameter parameter, const char *label, struct rect r)
+static void build_track(struct inspector *in, enum parameter parameter, const char *label, struct rect r)
 {
-    const struct spline *spline = in->document->splines[in->core->active];
+    const struct spline *spline = in->core->document->splines[in->core->active];
     const struct param *param = &spline->parameter[parameter];
-    ui_label(in->ui, (struct rect){r.x, r.y, UI_LABEL, r.h}, label, theme()->text_dim);
+    ui_label(&in->ui, (struct rect){r.x, r.y, UI_LABEL, r.h}, label, theme()->text_dim);
     struct rect field = {r.x + UI_LABEL + UI_GAP, r.y, r.w - UI_LABEL - UI_GAP, r.h};
     if (param->motion) {
         build_joint_field(in, param->motion, field);
         return;
     }
-    ui_hint(in->ui, field, "The spline it follows, sample by sample");
-    ui_dropdown(in->ui, field, track_list, (int)parameter, in->document->splines[param->track]->name,
-                spline_list_color(in->document, param->track));
+    ui_hint(&in->ui, field, "The spline it follows, sample by sample");
+    ui_dropdown(&in->ui, field, track_list, (int)parameter, in->core->document->splines[param->track]->name,
+                spline_list_color(in->core->document, param->track));
 }
 
-static void set_track(struct inspection *in, enum parameter parameter, struct param param)
+static void set_track(struct inspector *in, enum parameter parameter, struct param param)
 {
     const char *label = param_follows(&param) ? "Follow spline" : "Stop following";
     if (!core_begin(in->core, label, 0)) return;
-    core_end(in->core, edit_parameter(in->document, in->core->active, parameter, &param, &in->core->error));
+    core_end(in->core, edit_parameter(in->core->document, in->core->active, parameter, &param, &in->core->error));
 }
 
 /// Marks the splines that the active one cannot follow without a cycle; whether any is left.
-static bool find_leaders(const struct inspection *in, bool left_out[INSPECTOR_MAX_SPLINES])
+static bool find_leaders(const struct inspector *in, bool left_out[INSPECTOR_MAX_SPLINES])
 {
-    int count =
-        in->document->spline_count < INSPECTOR_MAX_SPLINES ? in->document->spline_count : INSPECTOR_MAX_SPLINES;
+    int count = in->core->document->spline_count < INSPECTOR_MAX_SPLINES ? in->core->document->spline_count
+                                                                         : INSPECTOR_MAX_SPLINES;
     bool any = false;
-    scene_followers(in->document, in->core->active, left_out, count);
+    scene_followers(in->core->document, in->core->active, left_out, count);
     for (int s = 0; s < count; s++) any |= !left_out[s];
     return any;
 }
 
-static void open_list(struct inspection *in, enum parameter parameter, struct rect r)
+static void open_list(struct inspector *in, enum parameter parameter, struct rect r)
 {
     bool left_out[INSPECTOR_MAX_SPLINES];
-    const bool joints = parameter == PARAMETER_EQUILIBRIUM && document_find_rig(in->document, RIG_MODEL, 0) >= 0;
+    const bool joints =
+        parameter == PARAMETER_EQUILIBRIUM && document_find_rig(in->core->document, RIG_MODEL, 0) >= 0;
     if (find_leaders(in, left_out) || joints) {
-        ui_popup_open(in->ui, track_list, (int)parameter, r);
+        ui_popup_open(&in->ui, track_list, (int)parameter, r);
         return;
     }
     char text[160];
     snprintf(text, sizeof text, "There is no other spline for %.80s to follow.",
-             in->document->splines[in->core->active]->name);
+             in->core->document->splines[in->core->active]->name);
     core_message(in->core, true, text);
 }
 
 /// A row in which a parameter follows a spline, in place of its slider; and the button at its right that lets it follow one
 /// or lets go.
-static void build_track_button(struct inspection *in, enum parameter parameter, struct rect r)
+static void build_track_button(struct inspector *in, enum parameter parameter, struct rect r)
 {
     int active = in->core->active;
-    bool follows = param_follows(&in->document->splines[active]->parameter[parameter]);
+    bool follows = param_follows(&in->core->document->splines[active]->parameter[parameter]);
     enum ui_icon icon = follows ? UI_ICON_UNFOLLOW : UI_ICON_FOLLOW;
-    const bool joints = parameter == PARAMETER_EQUILIBRIUM && document_find_rig(in->document, RIG_MODEL, 0) >= 0;
+    const bool joints =
+        parameter == PARAMETER_EQUILIBRIUM && document_find_rig(in->core->document, RIG_MODEL, 0) >= 0;
     const char *hint = follows  ? "Stop following; keep the value at the playhead"
                        : joints ? "Follow another spline, or a joint of the character"
                                 : "Follow another spline";
     char name[64];
     snprintf(name, sizeof name, "follow.%s", parameter_rows[parameter].name);
-    if (!ui_icon_button(in->ui, r, name, icon, false, hint)) return;
+    if (!ui_icon_button(&in->ui, r, name, icon, false, hint)) return;
     if (follows) {
         double value = spline_list_present(in->core, active, parameter);
         set_track(in, parameter, param_number(value));
     } else {
-        struct rect row = {in->ui->area.x + UI_PAD + UI_LABEL + UI_GAP, r.y, 0, r.h};
+        struct rect row = {in->ui.area.x + UI_PAD + UI_LABEL + UI_GAP, r.y, 0, r.h};
         row.w = r.x - 2 - row.x;
         open_list(in, parameter, row);
     }
 }
 
 /// What the active spline's equilibrium follows.
-static const struct param *followed(const struct inspection *in)
+static const struct param *followed(const struct inspector *in)
 {
     const struct spline *spline = core_active_spline(in->core);
     return spline ? &spline->parameter[PARAMETER_EQUILIBRIUM] : NULL;
 }
 
 /// An edit: follows a joint like this.
-static bool follow_joint(struct inspection *in, const struct param *param, struct error *error)
+static bool follow_joint(struct inspector *in, const struct param *param, struct error *error)
 {
-    return edit_parameter(in->document, in->core->active, PARAMETER_EQUILIBRIUM, param, error);
+    return edit_parameter(in->core->document, in->core->active, PARAMETER_EQUILIBRIUM, param, error);
 }
 
-static void build_of(struct inspection *in)
+static void build_of(struct inspector *in)
 {
     static const struct ui_choice choices[] = {
         [MOTION_TURN] = {"turn", "Turn"}, [MOTION_ACROSS] = {"across", "Across"}, [MOTION_UP] = {"up", "Up"}};
@@ -166,13 +168,13 @@ static void build_of(struct inspection *in)
     if (core_begin(in->core, "Set joint's motion", 0)) core_end(in->core, follow_joint(in, &param, &in->core->error));
 }
 
-static double get_gain(const struct inspection *in, int which)
+static double get_gain(const struct inspector *in, int which)
 {
     (void)which;
     return followed(in)->gain;
 }
 
-static bool set_gain(struct inspection *in, int which, double gain, struct error *error)
+static bool set_gain(struct inspector *in, int which, double gain, struct error *error)
 {
     struct joint_motion motion = *followed(in)->motion;
     struct param param = *followed(in);
@@ -196,17 +198,17 @@ static const struct number_row gain_row = {"joint.gain",
                                            0.01,
                                            2};
 
-static void build_joint(struct inspection *in)
+static void build_joint(struct inspector *in)
 {
     if (followed(in)->motion) build_of(in);
     static const struct number_home home = {.get = get_gain, .set = set_gain};
     if (followed(in)->motion) inspector_numbers(in, &gain_row, 1, &home);
 }
 
-static void build_number(struct inspection *in, enum parameter parameter)
+static void build_number(struct inspector *in, enum parameter parameter)
 {
     const struct spline *spline = core_active_spline(in->core);
-    struct rect r = ui_row(in->ui, UI_ROW);
+    struct rect r = ui_row(&in->ui, UI_ROW);
     bool may_follow = parameter_rows[parameter].kind == PARAMETER_TRACK;
     if (may_follow) r.w -= UI_ROW + 2;
     if (!param_follows(&spline->parameter[parameter])) {
@@ -219,19 +221,19 @@ static void build_number(struct inspection *in, enum parameter parameter)
     if (spline->parameter[parameter].motion) build_joint(in);
 }
 
-static void build_choice(struct inspection *in, enum parameter parameter)
+static void build_choice(struct inspector *in, enum parameter parameter)
 {
     const struct spline *spline = core_active_spline(in->core);
     const struct parameter_row *row = &parameter_rows[parameter];
     struct ui_choice choices[PARAMETER_MAX_WORDS];
     int chosen = (int)spline->parameter[parameter].value, count = 0;
     for (; row->words[count]; count++) choices[count] = (struct ui_choice){row->words[count], row->labels[count]};
-    struct rect r = parameter == PARAMETER_MODE ? ui_row(in->ui, UI_ROW) : inspector_labelled(in, row->name);
-    ui_hint(in->ui, r, row->hint);
-    if (ui_segments(in->ui, r, row->name, choices, count, &chosen)) set_parameter(in, parameter, chosen);
+    struct rect r = parameter == PARAMETER_MODE ? ui_row(&in->ui, UI_ROW) : inspector_labelled(in, row->name);
+    ui_hint(&in->ui, r, row->hint);
+    if (ui_segments(&in->ui, r, row->name, choices, count, &chosen)) set_parameter(in, parameter, chosen);
 }
 
-void inspector_parameter(struct inspection *in, enum parameter parameter)
+void inspector_parameter(struct inspector *in, enum parameter parameter)
 {
     if (!spline_uses(core_active_spline(in->core), parameter, false)) return;
     if (parameter_rows[parameter].kind == PARAMETER_CHOICE) {
@@ -241,36 +243,36 @@ void inspector_parameter(struct inspection *in, enum parameter parameter)
     }
 }
 
-void inspector_spline(struct inspection *in)
+void inspector_spline(struct inspector *in)
 {
     static const enum parameter shown[] = {PARAMETER_MODE, PARAMETER_EQUILIBRIUM, PARAMETER_START};
     for (size_t i = 0; i < sizeof shown / sizeof shown[0]; i++) inspector_parameter(in, shown[i]);
 }
 
-void inspector_advanced(struct inspection *in)
+void inspector_advanced(struct inspector *in)
 {
     static const enum parameter shown[] = {PARAMETER_BANDWIDTH, PARAMETER_CALM, PARAMETER_PASSIVE};
     for (size_t i = 0; i < sizeof shown / sizeof shown[0]; i++) inspector_parameter(in, shown[i]);
 }
 
 /// A number and a switch beside it; off, the name alone.
-static void build_limit(struct inspection *in, const struct spline *spline, enum parameter parameter)
+static void build_limit(struct inspector *in, const struct spline *spline, enum parameter parameter)
 {
     const struct parameter_row *row = &parameter_rows[parameter];
-    const struct rect r = ui_row(in->ui, UI_ROW);
+    const struct rect r = ui_row(&in->ui, UI_ROW);
     const struct rect name = {r.x, r.y, r.w - 34, r.h}, at = {r.x + r.w - 28, r.y, 28, r.h};
     bool on = isfinite(spline->parameter[parameter].value);
     if (on) {
         build_slider(in, parameter, name);
     } else {
-        ui_label(in->ui, name, row->name, theme()->text_dim);
+        ui_label(&in->ui, name, row->name, theme()->text_dim);
     }
-    ui_hint(in->ui, r, row->hint);
-    if (ui_toggle(in->ui, at, parameter == PARAMETER_HIGH ? "limit.high" : "limit.low", &on))
+    ui_hint(&in->ui, r, row->hint);
+    if (ui_toggle(&in->ui, at, parameter == PARAMETER_HIGH ? "limit.high" : "limit.low", &on))
         set_parameter(in, parameter, on ? core_fresh_limit(spline, parameter) : row->standard);
 }
 
-void inspector_limits(struct inspection *in)
+void inspector_limits(struct inspector *in)
 {
     const struct spline *spline = core_active_spline(in->core);
     build_limit(in, spline, PARAMETER_HIGH);
@@ -281,7 +283,7 @@ void inspector_limits(struct inspection *in)
 static const double FRESH_VARIATION = 0.3;
 
 /// Another seed, and an amount where there was none, as one step.
-static void roll(struct inspection *in, const struct spline *spline)
+static void roll(struct inspector *in, const struct spline *spline)
 {
     const int most = (int)parameter_rows[PARAMETER_SEED].maximum + 1;
     const long long seed = (long long)spline->parameter[PARAMETER_SEED].value;
@@ -306,29 +308,29 @@ static const char *stillness(const struct spline *spline)
     return p[PARAMETER_FREQUENCY].value > 0 ? NULL : "What does not swing has no variations.";
 }
 
-void inspector_variation(struct inspection *in)
+void inspector_variation(struct inspector *in)
 {
     const struct spline *spline = core_active_spline(in->core);
     const char *reason = stillness(spline);
-    build_slider(in, PARAMETER_VARIATION, ui_row(in->ui, UI_ROW));
-    struct rect r = ui_row(in->ui, UI_ROW), button = {r.x + r.w - 64, r.y + 2, 64, r.h - 4};
+    build_slider(in, PARAMETER_VARIATION, ui_row(&in->ui, UI_ROW));
+    struct rect r = ui_row(&in->ui, UI_ROW), button = {r.x + r.w - 64, r.y + 2, 64, r.h - 4};
     r.w -= 70;
     build_slider(in, PARAMETER_SEED, r);
-    ui_hint(in->ui, button, "Another motion through the same knots");
-    if (ui_button(in->ui, button, "variation.roll", "Roll", false)) roll(in, spline);
-    if (reason) ui_paragraph(in->ui, reason, theme()->text_dim);
+    ui_hint(&in->ui, button, "Another motion through the same knots");
+    if (ui_button(&in->ui, button, "variation.roll", "Roll", false)) roll(in, spline);
+    if (reason) ui_paragraph(&in->ui, reason, theme()->text_dim);
 }
 
 enum { MAX_MODELS = 16, MODEL_TEXT = 112 }; ///< whose joints are offered
 
 /// The character whose joint the equilibrium is to follow: rows below the splines, called after their rigs. Returns how many.
-static int add_models(const struct inspection *in, struct ui_item *items, char texts[][MODEL_TEXT], int *models)
+static int add_models(const struct inspector *in, struct ui_item *items, char texts[][MODEL_TEXT], int *models)
 {
     int count = 0;
-    for (int r = document_next_rig(in->document, RIG_MODEL, 0); r >= 0 && count < MAX_MODELS;
-         r = document_next_rig(in->document, RIG_MODEL, r + 1)) {
+    for (int r = document_next_rig(in->core->document, RIG_MODEL, 0); r >= 0 && count < MAX_MODELS;
+         r = document_next_rig(in->core->document, RIG_MODEL, r + 1)) {
         if (!bones_character(in->core, r)) continue;
-        snprintf(texts[count], MODEL_TEXT, "A joint of %.80s", rig_title(in->document->rigs[r]));
+        snprintf(texts[count], MODEL_TEXT, "A joint of %.80s", rig_title(in->core->document->rigs[r]));
         items[count] = (struct ui_item){texts[count], texts[count], 0};
         models[count++] = r;
     }
@@ -336,19 +338,19 @@ static int add_models(const struct inspection *in, struct ui_item *items, char t
 }
 
 /// Below the row of an equilibrium that follows a joint: what of it, how much; and the list of joints to choose from.
-static void build_joint_list(struct inspection *in)
+static void build_joint_list(struct inspector *in)
 {
     const struct param *param = followed(in);
-    if (!ui_popup_is_open(in->ui, joint_list) || !param || !param->motion) return;
-    const int model = document_find_model(in->document, param->motion->model, param->motion->by_file);
+    if (!ui_popup_is_open(&in->ui, joint_list) || !param || !param->motion) return;
+    const int model = document_find_model(in->core->document, param->motion->model, param->motion->by_file);
     if (model < 0 || !bones_character(in->core, model)) return;
     const int node = inspector_bone_list(in, joint_list, model, -1, param->motion->joint);
     if (node >= 0) bones_follow(in->core, in->core->active, model, node);
 }
 
-void inspector_track_list(struct inspection *in)
+void inspector_track_list(struct inspector *in)
 {
-    struct ui *ui = in->ui;
+    struct ui *ui = &in->ui;
     const struct spline *spline = core_active_spline(in->core);
     build_joint_list(in);
     if (!ui_popup_is_open(ui, track_list) || !spline) return;
@@ -368,7 +370,7 @@ void inspector_track_list(struct inspection *in)
     }
 }
 
-int inspector_bone_list(struct inspection *in, const char *list, int model, int top, const char *chosen)
+int inspector_bone_list(struct inspector *in, const char *list, int model, int top, const char *chosen)
 {
     const struct imported *character = bones_character(in->core, model);
     int nodes[MAX_BONES], row = -1;
@@ -379,6 +381,6 @@ int inspector_bone_list(struct inspection *in, const char *list, int model, int 
         if (nodes[b] == node) row = b;
         items[b] = (struct ui_item){name, name, 0};
     }
-    const int picked = ui_popup_list(in->ui, list, items, count, row);
+    const int picked = ui_popup_list(&in->ui, list, items, count, row);
     return picked < 0 ? -1 : nodes[picked];
 }

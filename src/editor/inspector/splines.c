@@ -2,8 +2,8 @@
 #include "editor/core/core.h"
 #include "editor/core/selection.h"
 #include "editor/core/spline_list.h"
-#include "editor/inspector/inspection.h"
 #include "editor/inspector/inspector.h"
+#include "editor/inspector/parts.h"
 #include "scene/text.h"
 #include <math.h>
 #include <stdio.h>
@@ -12,13 +12,13 @@ enum { MAX_ROWS = 8, SWATCH = 22 }; ///< splines listed at once; widths in pixel
 
 static const char rename_line[] = "rename";
 
-void inspector_rename(struct inspector *inspector, const struct core *core)
+void inspector_rename(struct inspector *in)
 {
-    const struct spline *spline = core_active_spline(core);
+    const struct spline *spline = core_active_spline(in->core);
     if (!spline) return;
-    inspector_unfold(inspector, "section.splines");
-    inspector->scroll.offset = 0; // the list is near the top
-    ui_line_begin(&inspector->ui, rename_line, spline->name);
+    inspector_unfold(in, "section.splines");
+    in->scroll.offset = 0; // the list is near the top
+    ui_line_begin(&in->ui, rename_line, spline->name);
 }
 
 static void flip(struct core *core, struct selection *set, unsigned id)
@@ -28,45 +28,45 @@ static void flip(struct core *core, struct selection *set, unsigned id)
 }
 
 /// Solo and eye at the right end of a row.
-static void build_visibility(struct inspection *in, int s, struct rect r)
+static void build_visibility(struct inspector *in, int s, struct rect r)
 {
     struct core *core = in->core;
-    const struct spline *spline = in->document->splines[s];
+    const struct spline *spline = in->core->document->splines[s];
     char name[192];
     bool solo = selection_has(&core->solo, spline->id), shown = spline_list_shows(core, s);
     struct rect icon = {r.x + r.w - 2 * INSPECTOR_ICON, r.y, INSPECTOR_ICON, r.h};
     snprintf(name, sizeof name, "solo.%s", spline->name);
-    if (ui_icon_button(in->ui, icon, name, UI_ICON_SOLO, solo, "Show only this curve")) {
+    if (ui_icon_button(&in->ui, icon, name, UI_ICON_SOLO, solo, "Show only this curve")) {
         flip(core, &core->solo, spline->id);
     }
     icon.x += INSPECTOR_ICON;
     snprintf(name, sizeof name, "eye.%s", spline->name);
     enum ui_icon eye = shown ? UI_ICON_EYE : UI_ICON_EYE_CLOSED;
-    if (ui_icon_button(in->ui, icon, name, eye, false, "Show or hide this curve")) {
+    if (ui_icon_button(&in->ui, icon, name, eye, false, "Show or hide this curve")) {
         flip(core, &core->hidden, spline->id);
     }
 }
 
 /// The name in place, while it is typed.
-static void build_rename(struct inspection *in, int s, struct rect r)
+static void build_rename(struct inspector *in, int s, struct rect r)
 {
-    if (ui_line(in->ui, r, rename_line) != UI_LINE_DONE) return;
+    if (ui_line(&in->ui, r, rename_line) != UI_LINE_DONE) return;
     if (core_begin(in->core, "Rename spline", 0))
-        core_end(in->core, edit_spline_name(in->document, s, in->ui->text.bytes, &in->core->error));
+        core_end(in->core, edit_spline_name(in->core->document, s, in->ui.text.bytes, &in->core->error));
 }
 
 /// The place where a dragged row would go, told from the pointer.
-static int drop_place(const struct inspection *in, int first, int rows, float top)
+static int drop_place(const struct inspector *in, int first, int rows, float top)
 {
-    int row = (int)floorf((in->ui->pointer_y - top) / UI_ROW);
+    int row = (int)floorf((in->ui.pointer_y - top) / UI_ROW);
     return first + (row < 0 ? 0 : row >= rows ? rows - 1 : row);
 }
 
 /// A row; returns whether it was dropped after a drag.
-static bool build_row(struct inspection *in, int s, struct rect r)
+static bool build_row(struct inspector *in, int s, struct rect r)
 {
-    struct ui *ui = in->ui;
-    const struct spline *spline = in->document->splines[s];
+    struct ui *ui = &in->ui;
+    const struct spline *spline = in->core->document->splines[s];
     bool active = s == in->core->active, dropped = false;
     char name[192];
     snprintf(name, sizeof name, "spline.%s", spline->name);
@@ -79,19 +79,19 @@ static bool build_row(struct inspection *in, int s, struct rect r)
         if (event == UI_ROW_PRESSED) core_activate(in->core, s);
         if (event == UI_ROW_TWICE) {
             core_activate(in->core, s);
-            inspector_rename(in->inspector, in->core);
+            inspector_rename(in);
         }
         dropped = event == UI_ROW_DROPPED;
     }
     struct rect swatch = {r.x, r.y, SWATCH, r.h};
     snprintf(name, sizeof name, "color.%s", spline->name);
     ui_hint(ui, swatch, "Colour of this spline");
-    ui_swatch(ui, swatch, name, "palette", (int)spline->id, spline_list_color(in->document, s));
+    ui_swatch(ui, swatch, name, "palette", (int)spline->id, spline_list_color(in->core->document, s));
     build_visibility(in, s, r);
     return dropped;
 }
 
-static void build_buttons(struct inspection *in)
+static void build_buttons(struct inspector *in)
 {
     static const struct icon_button buttons[] = {
         {"spline.add", "Add a spline with a knot at the playhead", UI_ICON_ADD},
@@ -101,7 +101,7 @@ static void build_buttons(struct inspection *in)
         {"spline.down", "Move this spline down", UI_ICON_DOWN},
     };
     struct core *core = in->core;
-    const int pressed = inspector_icons(in, ui_row(in->ui, UI_ROW), buttons, sizeof buttons / sizeof buttons[0]);
+    const int pressed = inspector_icons(in, ui_row(&in->ui, UI_ROW), buttons, sizeof buttons / sizeof buttons[0]);
     if (pressed == 0) spline_list_add(core);
     if (pressed == 1) spline_list_copy(core);
     if (pressed == 2) spline_list_remove(core);
@@ -109,24 +109,25 @@ static void build_buttons(struct inspection *in)
 }
 
 /// The line between rows where a dragged one would go.
-static void show_drop(struct inspection *in, int from, int to, float y)
+static void show_drop(struct inspector *in, int from, int to, float y)
 {
-    struct ui *ui = in->ui;
+    struct ui *ui = &in->ui;
     if (ui->pass != UI_PASS_DRAW || to == from) return;
     drawlist_rect(ui->list, (struct rect){ui->area.x + UI_PAD, y - 1, ui->area.w - 2 * UI_PAD, 2}, theme()->accent);
 }
 
-void inspector_splines(struct inspection *in)
+void inspector_splines(struct inspector *in)
 {
-    struct ui *ui = in->ui;
-    const int count = in->document->spline_count, first = inspector_first_row(count, in->core->active, MAX_ROWS);
+    struct ui *ui = &in->ui;
+    const int count = in->core->document->spline_count,
+              first = inspector_first_row(count, in->core->active, MAX_ROWS);
     int from = -1, dropped = -1;
     if (count == 0) ui_paragraph(ui, "This scene has no splines yet.", theme()->text_dim);
     int rows = count < MAX_ROWS ? count : MAX_ROWS;
     float top = ui->y;
     for (int i = 0; i < rows; i++) {
         char name[192];
-        snprintf(name, sizeof name, "spline.%s", in->document->splines[first + i]->name);
+        snprintf(name, sizeof name, "spline.%s", in->core->document->splines[first + i]->name);
         if (ui_is_dragged(ui, name)) from = first + i;
         if (build_row(in, first + i, ui_row(ui, UI_ROW))) dropped = first + i;
     }
@@ -145,22 +146,22 @@ enum { COLOR = 28, WIDTH = THEME_SPLINE_COLORS * COLOR + 20 };
 
 static const char palette[] = "palette", hex_line[] = "color.hex";
 
-static void set_color(struct inspection *in, int spline, int color)
+static void set_color(struct inspector *in, int spline, int color)
 {
     if (core_begin(in->core, "Set colour", 0))
-        core_end(in->core, edit_spline_color(in->document, spline, color, &in->core->error));
+        core_end(in->core, edit_spline_color(in->core->document, spline, color, &in->core->error));
 }
 
 /// true where one of the theme's was picked.
-static bool build_theme(struct inspection *in, int spline, struct rect r)
+static bool build_theme(struct inspector *in, int spline, struct rect r)
 {
-    uint32_t present = spline_list_color(in->document, spline);
+    uint32_t present = spline_list_color(in->core->document, spline);
     bool picked = false;
     for (int i = 0; i < THEME_SPLINE_COLORS; i++) {
         char name[24];
         snprintf(name, sizeof name, "color.%d", i);
         struct rect field = {r.x + (float)(i * COLOR), r.y, COLOR, COLOR};
-        if (!ui_color(in->ui, field, name, theme()->spline[i], theme()->spline[i] == present)) continue;
+        if (!ui_color(&in->ui, field, name, theme()->spline[i], theme()->spline[i] == present)) continue;
         set_color(in, spline, (int)theme_spline_rgb(i));
         picked = true;
     }
@@ -168,12 +169,12 @@ static bool build_theme(struct inspection *in, int spline, struct rect r)
 }
 
 /// "#RRGGBB", typed over; nonsense is said and changes nothing.
-static void build_typed(struct inspection *in, int spline, struct rect r)
+static void build_typed(struct inspector *in, int spline, struct rect r)
 {
-    struct ui *ui = in->ui;
+    struct ui *ui = &in->ui;
     char text[COLOR_TEXT_SIZE];
     int color;
-    int stored = in->document->splines[spline]->color;
+    int stored = in->core->document->splines[spline]->color;
     color_print(stored < 0 ? (int)theme_spline_rgb(spline % THEME_SPLINE_COLORS) : stored, text);
     if (!ui_line_is_open(ui, hex_line)) {
         if (ui_button(ui, r, "color.type", text, false)) ui_line_begin(ui, hex_line, text);
@@ -188,11 +189,11 @@ static void build_typed(struct inspection *in, int spline, struct rect r)
     }
 }
 
-void inspector_palette(struct inspection *in)
+void inspector_palette(struct inspector *in)
 {
-    struct ui *ui = in->ui;
+    struct ui *ui = &in->ui;
     if (!ui_popup_is_open(ui, palette)) return;
-    int spline = document_find_spline_id(in->document, (unsigned)ui->popup.which);
+    int spline = document_find_spline_id(in->core->document, (unsigned)ui->popup.which);
     if (spline < 0) return;
     ui_popup_begin(ui, WIDTH, COLOR + UI_ROW + 8);
     struct rect r = {ui->scroll_area.x + 6, ui->y + 2, THEME_SPLINE_COLORS * COLOR, COLOR};

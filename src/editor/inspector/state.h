@@ -31,9 +31,11 @@ struct history_view {
     size_t count, done; ///< of the history, when it was last laid out
 };
 
-/// The inspector's own view state; zero is a valid start.
+/// The inspector's own view state; zero but for `core` is a valid start.
 struct inspector {
+    struct core *core;
     struct ui ui;
+    enum ui_change change; ///< that a number is being set by
     struct ui_scroll scroll;
     bool flipped[INSPECTOR_MAX_SECTIONS]; ///< sections that are not as they are at first, open or closed
     int rig, channel;                     ///< the tail or chain that is shown, and its channel

@@ -2,7 +2,7 @@
 #include "editor/core/bones.h"
 #include "editor/core/core.h"
 #include "editor/core/spline_list.h"
-#include "editor/inspector/inspection.h"
+#include "editor/inspector/parts.h"
 #include <math.h>
 #include <stdio.h>
 
@@ -19,19 +19,19 @@ static const struct {
 
 static const char rename_line[] = "tail.rename", place_list[] = "place";
 
-static void build_name(struct inspection *in)
+static void build_name(struct inspector *in)
 {
     const struct rig *rig = inspector_shown(in);
     struct rect r = inspector_labelled(in, "name");
-    if (!ui_line_is_open(in->ui, rename_line)) {
+    if (!ui_line_is_open(&in->ui, rename_line)) {
         struct rect field = {r.x, r.y + 2, r.w, r.h - 4};
-        ui_hint(in->ui, field, "Click to rename");
-        if (ui_button(in->ui, field, "tail.name", rig_title(rig), false))
-            ui_line_begin(in->ui, rename_line, rig_title(rig));
-    } else if (ui_line(in->ui, r, rename_line) == UI_LINE_DONE) {
+        ui_hint(&in->ui, field, "Click to rename");
+        if (ui_button(&in->ui, field, "tail.name", rig_title(rig), false))
+            ui_line_begin(&in->ui, rename_line, rig_title(rig));
+    } else if (ui_line(&in->ui, r, rename_line) == UI_LINE_DONE) {
         if (!core_begin(in->core, rig->kind == RIG_TAIL ? "Rename tail" : "Rename chain", 0)) return;
-        const char *name = in->ui->text.bytes;
-        core_end(in->core, edit_rig_name(in->document, in->inspector->rig, name, &in->core->error));
+        const char *name = in->ui.text.bytes;
+        core_end(in->core, edit_rig_name(in->core->document, in->rig, name, &in->core->error));
     }
 }
 
@@ -44,25 +44,25 @@ static const struct number_row position[] = {
      1e6, 0, 0.01, 3},
 };
 
-static double get_position(const struct inspection *in, int k) { return inspector_shown(in)->tail.position[k].value; }
+static double get_position(const struct inspector *in, int k) { return inspector_shown(in)->tail.position[k].value; }
 
-static bool set_position(struct inspection *in, int k, double metres, struct error *error)
+static bool set_position(struct inspector *in, int k, double metres, struct error *error)
 {
     const struct param param = param_number(metres);
-    return edit_position(in->document, in->inspector->rig, k, &param, error);
+    return edit_position(in->core->document, in->rig, k, &param, error);
 }
 
 /// A step of its own: lets the body follow a spline, or stay.
-static void follow(struct inspection *in, int k, struct param param)
+static void follow(struct inspector *in, int k, struct param param)
 {
     if (core_begin(in->core, param.track < 0 ? "Stop following" : "Follow spline", 0))
-        core_end(in->core, edit_position(in->document, in->inspector->rig, k, &param, &in->core->error));
+        core_end(in->core, edit_position(in->core->document, in->rig, k, &param, &in->core->error));
 }
 
 /// A coordinate: a number, or the spline that it follows, and the button from one to the other.
-static void build_coordinate(struct inspection *in, const struct tail *tail, int k)
+static void build_coordinate(struct inspector *in, const struct tail *tail, int k)
 {
-    struct rect r = ui_row(in->ui, UI_ROW), icon = {r.x + r.w - INSPECTOR_ICON, r.y, INSPECTOR_ICON, r.h};
+    struct rect r = ui_row(&in->ui, UI_ROW), icon = {r.x + r.w - INSPECTOR_ICON, r.y, INSPECTOR_ICON, r.h};
     static const struct number_home home = {.get = get_position, .set = set_position};
     const struct param *param = &tail->position[k];
     char button[32];
@@ -70,90 +70,90 @@ static void build_coordinate(struct inspection *in, const struct tail *tail, int
     snprintf(button, sizeof button, "position.%s.follow", coordinate_name(k));
     struct rect field = {r.x + UI_LABEL + UI_GAP, r.y, r.w - UI_LABEL - UI_GAP, r.h};
     if (param->track >= 0) {
-        ui_label(in->ui, (struct rect){r.x, r.y, UI_LABEL, r.h}, coordinate_name(k), theme()->text_dim);
-        ui_dropdown(in->ui, field, place_list, k, in->document->splines[param->track]->name,
-                    spline_list_color(in->document, param->track));
+        ui_label(&in->ui, (struct rect){r.x, r.y, UI_LABEL, r.h}, coordinate_name(k), theme()->text_dim);
+        ui_dropdown(&in->ui, field, place_list, k, in->core->document->splines[param->track]->name,
+                    spline_list_color(in->core->document, param->track));
         wiggly_value now = evaluation_at(in->core->evaluation, param->track, in->core->playback.position);
-        if (ui_icon_button(in->ui, icon, button, UI_ICON_UNFOLLOW, false,
+        if (ui_icon_button(&in->ui, icon, button, UI_ICON_UNFOLLOW, false,
                            "Stop following; stay at the current position"))
             follow(in, k, param_number(core_round(now.y + now.re, 1e-3)));
         return;
     }
     inspector_number(in, &position[k], &home, k, r);
-    if (in->document->spline_count == 0) return;
-    if (ui_icon_button(in->ui, icon, button, UI_ICON_FOLLOW, false, "Follow a spline (in metres)")) {
-        ui_popup_open(in->ui, place_list, k, field);
+    if (in->core->document->spline_count == 0) return;
+    if (ui_icon_button(&in->ui, icon, button, UI_ICON_FOLLOW, false, "Follow a spline (in metres)")) {
+        ui_popup_open(&in->ui, place_list, k, field);
     }
 }
 
-static void place_popup(struct inspection *in)
+static void place_popup(struct inspector *in)
 {
     const struct rig *rig = inspector_shown(in);
-    if (!ui_popup_is_open(in->ui, place_list) || !rig || rig->kind != RIG_TAIL) return;
-    int k = in->ui->popup.which;
+    if (!ui_popup_is_open(&in->ui, place_list) || !rig || rig->kind != RIG_TAIL) return;
+    int k = in->ui.popup.which;
     int picked = inspector_spline_list(in, place_list, NULL, rig->tail.position[k].track);
     if (picked >= 0) follow(in, k, param_track(picked));
 }
 
 static const char feed_list[] = "feed", axis_list[] = "axis";
 
-static struct channel_place place_of(const struct inspection *in)
+static struct channel_place place_of(const struct inspector *in)
 {
-    return (struct channel_place){in->inspector->rig, in->inspector->channel};
+    return (struct channel_place){in->rig, in->channel};
 }
 
 /// The channel that is chosen of the tail or chain; NULL where it has none.
-static const struct channel *chosen_channel(const struct inspection *in)
+static const struct channel *chosen_channel(const struct inspector *in)
 {
     int count = 0;
     const struct rig *rig = inspector_shown(in);
     const struct channel *channels = rig ? rig_channels(rig, &count) : NULL;
-    return in->inspector->channel < count ? &channels[in->inspector->channel] : NULL;
+    return in->channel < count ? &channels[in->channel] : NULL;
 }
 
 /// Shows a channel, and what it feels like.
-static void choose(struct inspection *in, int channel)
+static void choose(struct inspector *in, int channel)
 {
-    in->inspector->channel = channel;
+    in->channel = channel;
     core_activate(in->core, chosen_channel(in)->spline);
-    in->inspector->channel = channel; // of two by the same spline
+    in->channel = channel; // of two by the same spline
 }
 
 /// A gain that was never set becomes the new axis's.
-static void set_axis(struct inspection *in, enum axis axis)
+static void set_axis(struct inspector *in, enum axis axis)
 {
     const struct channel *channel = chosen_channel(in);
     const struct angles gain = {.value = {axis_gain(axis)}};
     const bool untouched = channel->gain.form == ANGLES_ONE && channel->gain.value[0] == axis_gain(channel->axis);
     if (!core_begin(in->core, "Set axis", 0)) return;
-    const bool done = edit_axis(in->document, place_of(in), axis, &in->core->error);
+    const bool done = edit_axis(in->core->document, place_of(in), axis, &in->core->error);
     core_end(in->core, done && (!untouched || inspector_set_angles(in, &angle_row_gain, &gain)));
 }
 
-static void build_axis_list(struct inspection *in, const struct channel *channel)
+static void build_axis_list(struct inspector *in, const struct channel *channel)
 {
     enum { COUNT = sizeof tail_axes / sizeof *tail_axes };
     struct ui_item items[COUNT];
     int row = -1;
-    if (!ui_popup_is_open(in->ui, axis_list)) return;
+    if (!ui_popup_is_open(&in->ui, axis_list)) return;
     for (int a = 0; a < COUNT; a++) {
         items[a] = tail_axes[a].item;
         if (tail_axes[a].axis == channel->axis) row = a;
     }
-    const int picked = ui_popup_list(in->ui, axis_list, items, COUNT, row);
+    const int picked = ui_popup_list(&in->ui, axis_list, items, COUNT, row);
     if (picked >= 0) set_axis(in, tail_axes[picked].axis);
 }
 
 /// The list of splines that the channel can bend by, and of what it can move, where one is open.
-static void build_channel_lists(struct inspection *in)
+static void build_channel_lists(struct inspector *in)
 {
     const struct channel *channel = chosen_channel(in);
     if (channel) build_axis_list(in, channel);
-    if (!ui_popup_is_open(in->ui, feed_list) || !channel) return;
+    if (!ui_popup_is_open(&in->ui, feed_list) || !channel) return;
     int picked = inspector_spline_list(in, feed_list, NULL, channel->spline);
     if (picked < 0 || !core_begin(in->core, "Set channel's spline", 0)) return;
     const struct channel_place at = place_of(in);
-    if (core_end(in->core, edit_feed(in->document, at, picked, &in->core->error))) choose(in, at.channel);
+    if (core_end(in->core, edit_feed(in->core->document, at, picked, &in->core->error))) choose(in, at.channel);
 }
 
 /// Where a chain begins and where it ends.
@@ -165,19 +165,19 @@ static const struct end {
     {"to", "chain.to", "chain.to.pick", "The bone that it ends with", BONE_LAST},
 };
 
-static void end_list(struct inspection *in, const struct end *end, const struct chain *chain)
+static void end_list(struct inspector *in, const struct end *end, const struct chain *chain)
 {
-    const int model = bones_model_of(in->document, chain);
+    const int model = bones_model_of(in->core->document, chain);
     const struct imported *character = model >= 0 ? bones_character(in->core, model) : NULL;
-    if (!ui_popup_is_open(in->ui, end->list) || !character) return;
+    if (!ui_popup_is_open(&in->ui, end->list) || !character) return;
     const bool first = end->use == BONE_FIRST;
     const int top = first ? -1 : gltf_find_node(&character->gltf, chain->from);
     const int node = inspector_bone_list(in, end->list, model, top, first ? chain->from : chain->to);
-    if (node >= 0) bones_set_end(in->core, in->inspector->rig, first, node);
+    if (node >= 0) bones_set_end(in->core, in->rig, first, node);
 }
 
 /// The lists of the bones that a chain can begin and end with.
-static void build_chain_lists(struct inspection *in)
+static void build_chain_lists(struct inspector *in)
 {
     for (int e = 0; e < 2; e++) {
         const struct rig *rig = inspector_shown(in);
@@ -185,7 +185,7 @@ static void build_chain_lists(struct inspection *in)
     }
 }
 
-void inspector_tail_lists(struct inspection *in)
+void inspector_tail_lists(struct inspector *in)
 {
     build_channel_lists(in);
     build_chain_lists(in);
@@ -199,19 +199,19 @@ static const struct number_row size[] = {
      NUMBER_AT(struct tail, length), 0.2, 4, 1e-3, 1e6, TAIL_DEFAULT_LENGTH, 0.05, 2},
 };
 
-static double get_size(const struct inspection *in, int which)
+static double get_size(const struct inspector *in, int which)
 {
     return number_at(&size[which], &inspector_shown(in)->tail);
 }
 
-static bool set_size(struct inspection *in, int which, double number, struct error *error)
+static bool set_size(struct inspector *in, int which, double number, struct error *error)
 {
-    const int rig = in->inspector->rig;
-    return which == 0 ? edit_joints(in->document, rig, (int)lround(number), error)
-                      : edit_length(in->document, rig, number, error);
+    const int rig = in->rig;
+    return which == 0 ? edit_joints(in->core->document, rig, (int)lround(number), error)
+                      : edit_length(in->core->document, rig, number, error);
 }
 
-void inspector_overlays(struct inspection *in)
+void inspector_overlays(struct inspector *in)
 {
     struct core *core = in->core;
     const struct {
@@ -225,18 +225,18 @@ void inspector_overlays(struct inspection *in)
     };
     for (size_t i = 0; i < sizeof toggles / sizeof toggles[0]; i++) {
         struct rect r = inspector_labelled(in, toggles[i].label);
-        ui_hint(in->ui, r, toggles[i].hint);
-        ui_toggle(in->ui, r, toggles[i].name, toggles[i].on);
+        ui_hint(&in->ui, r, toggles[i].hint);
+        ui_toggle(&in->ui, r, toggles[i].name, toggles[i].on);
     }
 }
 
 /// Whether the next drag of a body is recorded; without a body nothing is.
-static void build_record(struct inspection *in)
+static void build_record(struct inspector *in)
 {
-    if (!document_tail(in->document, 0)) return;
+    if (!document_tail(in->core->document, 0)) return;
     const struct rect r = inspector_labelled(in, "record");
-    ui_hint(in->ui, r, "Record the next drag of the body as knots (or press R while dragging)");
-    ui_toggle(in->ui, r, "record", &in->core->record_armed);
+    ui_hint(&in->ui, r, "Record the next drag of the body as knots (or press R while dragging)");
+    ui_toggle(&in->ui, r, "record", &in->core->record_armed);
 }
 
 static const char *axis_label(enum axis axis)
@@ -246,96 +246,94 @@ static const char *axis_label(enum axis axis)
     return a < sizeof tail_axes / sizeof *tail_axes ? tail_axes[a].item.label : "twist";
 }
 
-static void build_list(struct inspection *in)
+static void build_list(struct inspector *in)
 {
-    struct ui *ui = in->ui;
+    struct ui *ui = &in->ui;
     int count;
     const struct channel *channels = rig_channels(inspector_shown(in), &count);
     for (int c = 0; c < count; c++) {
         const struct channel *channel = &channels[c];
         char name[32], text[192];
         snprintf(name, sizeof name, "channel.%d", c);
-        snprintf(text, sizeof text, "%s, %s", in->document->splines[channel->spline]->name,
+        snprintf(text, sizeof text, "%s, %s", in->core->document->splines[channel->spline]->name,
                  axis_label(channel->axis));
         struct rect r = ui_row(ui, UI_ROW);
         ui_hint(ui, r, "One of the splines that bend it");
-        uint32_t color = spline_list_color(in->document, channel->spline);
-        if (ui_list_row(ui, r, name, text, color, c == in->inspector->channel)) {
+        uint32_t color = spline_list_color(in->core->document, channel->spline);
+        if (ui_list_row(ui, r, name, text, color, c == in->channel)) {
             choose(in, c);
             return;
         }
     }
 }
 
-static void build_channels(struct inspection *in)
+static void build_channels(struct inspector *in)
 {
     build_list(in);
-    ui_space(in->ui, 4);
+    ui_space(&in->ui, 4);
 }
 
-static void build_buttons(struct inspection *in)
+static void build_buttons(struct inspector *in)
 {
     static const struct icon_button buttons[] = {
         {"channel.add", "Bend it by the active spline too", UI_ICON_ADD},
         {"channel.delete", "Delete this channel", UI_ICON_DELETE},
     };
     struct error *error = &in->core->error;
-    const int rig = in->inspector->rig, spline = in->core->active;
+    const int rig = in->rig, spline = in->core->active;
     const int pressed = inspector_icons(in, inspector_labelled(in, "channel"), buttons, chosen_channel(in) ? 2 : 1);
     if (pressed < 0 || !core_begin(in->core, pressed == 0 ? "Add channel" : "Delete channel", 0)) return;
-    const bool done = pressed == 0 ? edit_channel_add(in->document, rig, spline, AXIS_SIDE, PART_TOTAL, error)
-                                   : edit_channel_remove(in->document, place_of(in), error);
-    if (core_end(in->core, done) && pressed == 0)
-        in->inspector->channel = rig_input_count(in->document->rigs[rig]) - 1;
+    const bool done = pressed == 0 ? edit_channel_add(in->core->document, rig, spline, AXIS_SIDE, PART_TOTAL, error)
+                                   : edit_channel_remove(in->core->document, place_of(in), error);
+    if (core_end(in->core, done) && pressed == 0) in->channel = rig_input_count(in->core->document->rigs[rig]) - 1;
 }
 
-static void build_choices(struct inspection *in, const struct channel *channel)
+static void build_choices(struct inspector *in, const struct channel *channel)
 {
     static const struct ui_choice chain[] = {
         [AXIS_SIDE] = {"side", "Side"}, [AXIS_UP] = {"up", "Up"}, [AXIS_TWIST] = {"twist", "Twist"}};
     static const struct ui_choice parts[] = {
         [PART_TOTAL] = {"total", "Total"}, [PART_DISPLACEMENT] = {"displacement", "Displaced"}};
-    struct ui *ui = in->ui;
+    struct ui *ui = &in->ui;
     int axis = (int)channel->axis, part = (int)channel->of;
     struct rect row = inspector_labelled(in, "axis");
     ui_hint(ui, row, "The way it bends, or moves the body");
     if (inspector_shown(in)->kind == RIG_TAIL) {
-        ui_dropdown(ui, row, axis_list, in->inspector->channel, axis_label(channel->axis), 0);
+        ui_dropdown(ui, row, axis_list, in->channel, axis_label(channel->axis), 0);
     } else if (ui_segments(ui, row, "axis", chain, 3, &axis)) {
         set_axis(in, (enum axis)axis);
     }
     if (inspector_choice(in, "bends by", "Total, or displacement only: use that for a tail on a moving base", "part",
                          parts, 2, &part) &&
         core_begin(in->core, "Set what bends", 0))
-        core_end(in->core, edit_part(in->document, place_of(in), (enum channel_part)part, &in->core->error));
+        core_end(in->core, edit_part(in->core->document, place_of(in), (enum channel_part)part, &in->core->error));
 }
 
 /// Its channels: the list; and what the chosen one is made of.
-static void build_channel(struct inspection *in)
+static void build_channel(struct inspector *in)
 {
-    const struct inspector *inspector = in->inspector;
     build_buttons(in);
     const struct channel *channel = chosen_channel(in);
     if (!channel) return;
-    const char *spline = in->document->splines[channel->spline]->name;
+    const char *spline = in->core->document->splines[channel->spline]->name;
     const struct rect field = inspector_labelled(in, "spline");
-    ui_hint(in->ui, field, "The spline that bends it");
-    ui_dropdown(in->ui, field, feed_list, inspector->channel, spline,
-                spline_list_color(in->document, channel->spline));
+    ui_hint(&in->ui, field, "The spline that bends it");
+    ui_dropdown(&in->ui, field, feed_list, in->channel, spline,
+                spline_list_color(in->core->document, channel->spline));
     build_choices(in, channel);
 }
 
 /// The bone at one end: a list of those that it may be, and a button to pick it on the stage.
-static void build_end(struct inspection *in, const struct end *end, const char *bone)
+static void build_end(struct inspector *in, const struct end *end, const char *bone)
 {
     struct rect field = inspector_labelled(in, end->label),
                 icon = {field.x + field.w - INSPECTOR_ICON, field.y, INSPECTOR_ICON, field.h};
     field.w -= INSPECTOR_ICON + 4;
-    const int rig = in->inspector->rig;
-    ui_hint(in->ui, field, end->hint);
-    ui_dropdown(in->ui, field, end->list, rig, bone, 0);
+    const int rig = in->rig;
+    ui_hint(&in->ui, field, end->hint);
+    ui_dropdown(&in->ui, field, end->list, rig, bone, 0);
     const bool picking = in->core->pick.use == end->use && in->core->pick.which == rig;
-    if (ui_icon_button(in->ui, icon, end->pick, UI_ICON_PICK, picking, "Pick it on the stage"))
+    if (ui_icon_button(&in->ui, icon, end->pick, UI_ICON_PICK, picking, "Pick it on the stage"))
         bones_pick(in->core, picking ? BONE_SELECTED : end->use, rig);
 }
 
@@ -353,41 +351,41 @@ static const struct number_row turn_row = {"chain.turn",
                                            1,
                                            0};
 
-static double get_turn(const struct inspection *in, int which)
+static double get_turn(const struct inspector *in, int which)
 {
     (void)which;
     return inspector_shown(in)->chain.turn;
 }
 
-static bool set_turn(struct inspection *in, int which, double degrees, struct error *error)
+static bool set_turn(struct inspector *in, int which, double degrees, struct error *error)
 {
     struct chain chain = inspector_shown(in)->chain;
     (void)which;
     chain.turn = degrees;
-    return edit_chain(in->document, in->inspector->rig, &chain, error);
+    return edit_chain(in->core->document, in->rig, &chain, error);
 }
 
-static void build_mirror(struct inspection *in)
+static void build_mirror(struct inspector *in)
 {
     struct chain chain = inspector_shown(in)->chain;
     struct rect r = inspector_labelled(in, "mirror");
-    ui_hint(in->ui, r, "Bend to the other side, as a left ear does to a right one");
-    if (ui_toggle(in->ui, r, "chain.mirror", &chain.mirror) && core_begin(in->core, "Mirror chain", 0))
-        core_end(in->core, edit_chain(in->document, in->inspector->rig, &chain, &in->core->error));
+    ui_hint(&in->ui, r, "Bend to the other side, as a left ear does to a right one");
+    if (ui_toggle(&in->ui, r, "chain.mirror", &chain.mirror) && core_begin(in->core, "Mirror chain", 0))
+        core_end(in->core, edit_chain(in->core->document, in->rig, &chain, &in->core->error));
 }
 
-static void build_twin(struct inspection *in)
+static void build_twin(struct inspector *in)
 {
-    if (!bones_has_twin(in->core, in->inspector->rig)) return;
-    const struct rect row = ui_row(in->ui, UI_ROW), button = {row.x, row.y + 2, row.w, row.h - 4};
-    ui_hint(in->ui, button, "The same chain on the other side, mirrored, by the same splines");
-    if (!ui_button(in->ui, button, "chain.twin", "Mirror to other side", false)) return;
-    bones_make_twin(in->core, in->inspector->rig);
-    in->inspector->rig = in->document->rig_count - 1;
+    if (!bones_has_twin(in->core, in->rig)) return;
+    const struct rect row = ui_row(&in->ui, UI_ROW), button = {row.x, row.y + 2, row.w, row.h - 4};
+    ui_hint(&in->ui, button, "The same chain on the other side, mirrored, by the same splines");
+    if (!ui_button(&in->ui, button, "chain.twin", "Mirror to other side", false)) return;
+    bones_make_twin(in->core, in->rig);
+    in->rig = in->core->document->rig_count - 1;
 }
 
 /// What a chain is made of, its place in the list of chains aside; and the buttons that make its twin and take it away.
-static void build_chain(struct inspection *in)
+static void build_chain(struct inspector *in)
 {
     static const struct number_home home = {.get = get_turn, .set = set_turn};
     const struct chain *chain = &inspector_shown(in)->chain;
@@ -399,16 +397,15 @@ static void build_chain(struct inspection *in)
 }
 
 /// Buttons among these rows may make another list of channels, and more rigs: each looks what is shown up anew.
-static void build_shown(struct inspection *in)
+static void build_shown(struct inspector *in)
 {
-    struct inspector *inspector = in->inspector;
     const bool is_tail = inspector_shown(in)->kind == RIG_TAIL;
     static const struct number_home home = {.get = get_size, .set = set_size};
-    if (inspector->channel >= rig_input_count(inspector_shown(in))) inspector->channel = 0;
+    if (in->channel >= rig_input_count(inspector_shown(in))) in->channel = 0;
     build_channels(in);
     if (is_tail) inspector_angles(in, &angle_row_rest, &inspector_shown(in)->tail.rest);
     build_channel(in);
-    ui_space(in->ui, 4);
+    ui_space(&in->ui, 4);
     build_name(in);
     if (!is_tail) {
         build_chain(in);
@@ -418,7 +415,7 @@ static void build_shown(struct inspection *in)
     for (int k = 0; k < 3; k++) build_coordinate(in, &inspector_shown(in)->tail, k);
 }
 
-void inspector_tail(struct inspection *in)
+void inspector_tail(struct inspector *in)
 {
     inspector_find_rig(in); // one may just have been removed
     build_shown(in);
@@ -426,7 +423,7 @@ void inspector_tail(struct inspection *in)
     inspector_overlays(in);
 }
 
-const struct channel *inspector_felt_channel(const struct inspection *in)
+const struct channel *inspector_felt_channel(const struct inspector *in)
 {
     const struct channel *channel = chosen_channel(in);
     return channel && channel->spline == in->core->active ? channel : NULL;

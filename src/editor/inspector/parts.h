@@ -1,18 +1,9 @@
-/// What the inspector's sections share. Private to inspector*.c.
-#ifndef EDITOR_INSPECTOR_INSPECTION_H
-#define EDITOR_INSPECTOR_INSPECTION_H
+/// What the inspector's sections share. Private to the room.
+#ifndef EDITOR_INSPECTOR_PARTS_H
+#define EDITOR_INSPECTOR_PARTS_H
 
 #include "editor/inspector/state.h"
 #include "ui/theme.h"
-
-/// One run through the inspector's code: an event, a frame, or a search.
-struct inspection {
-    struct core *core;
-    struct inspector *inspector;
-    struct document *document;
-    struct ui *ui;
-    enum ui_change change; ///< that a number is being set by
-};
 
 /// A number's limits where there are none.
 #define INSPECTOR_NO_LIMIT 1e300
@@ -20,64 +11,64 @@ struct inspection {
 enum { INSPECTOR_MAX_SPLINES = 256 }; ///< in a list to choose from, from the top
 
 /// The sections; inspector.c has the table. Each builds what is below its header.
-void inspector_scene(struct inspection *in);
-void inspector_splines(struct inspection *in);
-void inspector_feel(struct inspection *in);
-void inspector_rigs(struct inspection *in);
-void inspector_spline(struct inspection *in);
-void inspector_advanced(struct inspection *in);
-void inspector_limits(struct inspection *in);
-void inspector_variation(struct inspection *in);
-void inspector_poles(struct inspection *in);
-void inspector_knot(struct inspection *in);
-void inspector_tail(struct inspection *in);
-void inspector_character(struct inspection *in);
-void inspector_pins(struct inspection *in);
-void inspector_meadow(struct inspection *in);
-void inspector_model(struct inspection *in);
-void inspector_history(struct inspection *in);
+void inspector_scene(struct inspector *in);
+void inspector_splines(struct inspector *in);
+void inspector_feel(struct inspector *in);
+void inspector_rigs(struct inspector *in);
+void inspector_spline(struct inspector *in);
+void inspector_advanced(struct inspector *in);
+void inspector_limits(struct inspector *in);
+void inspector_variation(struct inspector *in);
+void inspector_poles(struct inspector *in);
+void inspector_knot(struct inspector *in);
+void inspector_tail(struct inspector *in);
+void inspector_character(struct inspector *in);
+void inspector_pins(struct inspector *in);
+void inspector_meadow(struct inspector *in);
+void inspector_model(struct inspector *in);
+void inspector_history(struct inspector *in);
 /// What the section on knots is called: how many are selected.
-const char *inspector_knot_title(struct inspection *in);
+const char *inspector_knot_title(struct inspector *in);
 
 /// A row for a parameter of the active spline, where its mode uses it.
-void inspector_parameter(struct inspection *in, enum parameter parameter);
+void inspector_parameter(struct inspector *in, enum parameter parameter);
 
 /// The channel that is shown, where it bends by the active spline; and rows for the coordinate of the shown character that it drives.
-const struct channel *inspector_felt_channel(const struct inspection *in);
-void inspector_felt_drive(struct inspection *in);
+const struct channel *inspector_felt_channel(const struct inspector *in);
+void inspector_felt_drive(struct inspector *in);
 
 /// The lists that open over the panel, built after all else: the splines' palette, and the splines that a parameter may follow.
-void inspector_palette(struct inspection *in);
-void inspector_track_list(struct inspection *in);
+void inspector_palette(struct inspector *in);
+void inspector_track_list(struct inspector *in);
 /// The list of splines that may bend a tail or chain, and the one that its body may follow.
-void inspector_tail_lists(struct inspection *in);
+void inspector_tail_lists(struct inspector *in);
 
 /// The menu of what can be added.
-void inspector_add_list(struct inspection *in);
+void inspector_add_list(struct inspector *in);
 
 /// An open list of the bones of a model rig below one (−1: all), by name; the node that was picked, or −1.
-int inspector_bone_list(struct inspection *in, const char *list, int model, int top, const char *chosen);
+int inspector_bone_list(struct inspector *in, const char *list, int model, int top, const char *chosen);
 /// The list of an imported character's clips.
-void inspector_model_lists(struct inspection *in);
+void inspector_model_lists(struct inspector *in);
 /// The lists that open over the section on a character; built after all else in the panel.
-void inspector_character_lists(struct inspection *in);
+void inspector_character_lists(struct inspector *in);
 
 /// Whether that is the end of a change, and no step of a drag: the curves may follow.
 bool inspector_changed(enum ui_change change);
 /// What a number's change means for the history: a drag is one step, made anew at each movement; a run of nudges of `what`
 /// (the number's name, with the same selection) is one; Esc takes the drag back. true where edits are due, on the document as it was
 /// before the drag; inspector_end() comes after them.
-bool inspector_begin(struct inspection *in, enum ui_change change, const char *label, const char *what);
+bool inspector_begin(struct inspector *in, enum ui_change change, const char *label, const char *what);
 /// After the edits. Not `done`: they are taken back.
-void inspector_end(struct inspection *in, enum ui_change change, bool done);
+void inspector_end(struct inspector *in, enum ui_change change, bool done);
 
 /// Where the numbers of a table are: what number `which` is, and the edit that makes it another.
 struct number_home {
-    double (*get)(const struct inspection *in, int which);
-    bool (*set)(struct inspection *in, int which, double number, struct error *error);
+    double (*get)(const struct inspector *in, int which);
+    bool (*set)(struct inspector *in, int which, double number, struct error *error);
     bool settles; ///< they are set once a drag has ended, by a step of their own or none, because that may ask before
     /// What is shown in place of a number; returns `text`, or NULL for the number. Itself NULL: none.
-    const char *(*shown)(const struct inspection *in, int which, char text[64]);
+    const char *(*shown)(const struct inspector *in, int which, char text[64]);
 };
 
 /// A row of a table: a number.
@@ -101,24 +92,24 @@ double number_at(const struct number_row *row, const void *of);
 void number_put(const struct number_row *row, void *of, double number);
 
 /// A row on the panel, and its edit where it changes.
-enum ui_change inspector_number(struct inspection *in, const struct number_row *row, const struct number_home *home,
+enum ui_change inspector_number(struct inspector *in, const struct number_row *row, const struct number_home *home,
                                 int which, struct rect r);
 /// All rows of a table, each with its place in it as `which`.
-void inspector_numbers(struct inspection *in, const struct number_row *rows, int count,
+void inspector_numbers(struct inspector *in, const struct number_row *rows, int count,
                        const struct number_home *home);
 
 /// Rows for the splines of the document, without those that are left out (by index; NULL: none), in room for INSPECTOR_MAX_SPLINES;
 /// returns how many. `row`: that of the chosen spline, or -1.
-int inspector_spline_items(const struct inspection *in, const bool *left_out, int chosen, struct ui_item *items,
+int inspector_spline_items(const struct inspector *in, const bool *left_out, int chosen, struct ui_item *items,
                            int *splines, int *row);
 /// The open list of them; the one that was picked, or -1.
-int inspector_spline_list(struct inspection *in, const char *list, const bool *left_out, int chosen);
+int inspector_spline_list(struct inspector *in, const char *list, const bool *left_out, int chosen);
 
 /// A row with a label; returns what is right of it.
-struct rect inspector_labelled(struct inspection *in, const char *label);
+struct rect inspector_labelled(struct inspector *in, const char *label);
 
 /// A row of segments with a label; true if `*chosen` changed.
-bool inspector_choice(struct inspection *in, const char *label, const char *hint, const char *name,
+bool inspector_choice(struct inspector *in, const char *label, const char *hint, const char *name,
                       const struct ui_choice *choices, int count, int *chosen);
 
 /// A small button of a row of them.
@@ -128,18 +119,18 @@ struct icon_button {
 };
 enum { INSPECTOR_ICON = 24 };
 /// Icon buttons from the left of a rectangle on; the one that was pressed, or -1.
-int inspector_icons(struct inspection *in, struct rect r, const struct icon_button *buttons, int count);
+int inspector_icons(struct inspector *in, struct rect r, const struct icon_button *buttons, int count);
 
 /// The first of `most` rows to show of a list, the chosen one among them.
 int inspector_first_row(int count, int chosen, int most);
 
 /// Switches for what is drawn over the stage: onion skin, motion arc, ghost.
-void inspector_overlays(struct inspection *in);
+void inspector_overlays(struct inspector *in);
 
 /// Finds the rigs that are shown among those that there are.
-void inspector_find_rig(struct inspection *in);
+void inspector_find_rig(struct inspector *in);
 /// The tail or chain that is shown; NULL where there is none.
-const struct rig *inspector_shown(const struct inspection *in);
+const struct rig *inspector_shown(const struct inspector *in);
 
 /// One of a tail's three angles, as a slider shows it.
 struct angle_row {
@@ -151,9 +142,9 @@ struct angle_row {
 extern const struct angle_row angle_row_lag, angle_row_gain, angle_row_rest;
 
 /// Rows for the angles of the tail or channel that the inspector shows.
-void inspector_angles(struct inspection *in, const struct angle_row *row, const struct angles *angles);
+void inspector_angles(struct inspector *in, const struct angle_row *row, const struct angles *angles);
 
 /// An edit: replaces them.
-bool inspector_set_angles(struct inspection *in, const struct angle_row *row, const struct angles *angles);
+bool inspector_set_angles(struct inspector *in, const struct angle_row *row, const struct angles *angles);
 
 #endif
