@@ -1,15 +1,16 @@
 /// The command line's table: what is understood, what is refused, and that a refused value leaves its target alone.
 #include "commands/options.h"
 #include "near.h"
-#include "scene/evaluate.h"
 #include <string.h>
 
 static bool loud;
 static const char *out;
 static int frames, size[2];
 static double scale;
-static enum solver_choice method;
+static int method;
 static const char *operands[2];
+
+enum { SOLVER_CHAIN = 1, SOLVER_BAND };
 
 static const struct option_spec specs[] = {
     {"--loud", NULL, NULL, "a flag", OPTION_FLAG, &loud, 0, 0},
@@ -17,7 +18,7 @@ static const struct option_spec specs[] = {
     {"--frames", NULL, "N", "a whole number", OPTION_INT, &frames, 1, 100},
     {"--scale", NULL, "S", "a number", OPTION_REAL, &scale, 0.5, 4},
     {"--size", NULL, "WxH", "a size", OPTION_SIZE, size, 16, 8192},
-    {"--solver", NULL, "METHOD", "a method", OPTION_SOLVER, &method, 0, 0},
+    {"--solver", NULL, "chain|band", "a method", OPTION_WORD, &method, 0, 0},
 };
 
 static const struct usage usage = {

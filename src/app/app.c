@@ -175,7 +175,7 @@ static bool check_scene(const struct app *app, uint64_t hash, struct error *erro
 static bool start(struct app *app, struct error *error)
 {
     const struct app_options *o = app->options;
-    if (o->theme) theme_use((enum theme_kind)theme_find(o->theme));
+    if (o->theme) theme_use((enum theme_kind)(o->theme - 1));
     if (!open_replay(app, error)) return false;
     if (!font_init(error) || !open_platform(app, error) || !set_resolution(app, error)) return false;
     int width, height;
@@ -228,7 +228,7 @@ void app_free(struct app *app)
 int app_run(const struct app_options *options, struct error *error)
 {
     struct app app = {.options = options, .last_swap = NAN};
-    if (options->turns && !turns_open(strcmp(options->turns, "first") == 0)) {
+    if (options->turns && !turns_open(options->turns == 1)) {
         fail(error, ERROR_USAGE, "--turns: descriptors 3 and 4 must be pipes to and from the other program");
         return ERROR_USAGE;
     }

@@ -18,7 +18,7 @@ struct app_options {
         ui_scale; ///< how large everything is, on top of that; 0: the replay's, else the user's own in a window, else 1
     double scale;              ///< device pixels a logical pixel; 0: the replay's, else the display's (headless 1)
     const char *stage_scale;   ///< of the stage while it moves: "auto" or a number; NULL: auto in a window, else 1
-    const char *theme;         ///< a theme's name, or NULL: the user's own in a window, else dark
+    int theme;                 ///< 1 + an enum theme_kind; 0: the user's own in a window, else dark
     enum solver_choice solver; ///< how the splines are solved
     bool gl_debug;             ///< prints the OpenGL driver's messages; a complaint among them is a failure
     bool welcome;              ///< shows what to try first
@@ -29,7 +29,7 @@ struct app_options {
     const char *replay;        ///< events from this file; its clock is its own
     const char *record;        ///< events to this file
     const char *result;        ///< the document at the end
-    const char *turns; ///< "first" or "second": draws frames in turn with another program (platform/process.h)
+    int turns; ///< 1: first, 2: second: draws frames in turn with another program (platform/process.h)
 };
 
 /// Runs until the user quits or the frames are done; prints the timing summary if frames were counted. Without a display

@@ -23,10 +23,10 @@ static const double fast_pole = 0.8;             ///< of half the frame rate: a 
 /// What the command line asks for.
 struct job {
     const char *files[FILES_MAX + 1]; ///< NULL behind the last
-    const char *rest, *output, *scene, *coordinates, *shake, *method_name;
+    const char *rest, *output, *scene, *coordinates, *shake;
     struct mesh_options opening; ///< of `rest`
     double fps;                  ///< 0: what the files say
-    enum analysis_method method;
+    int method;                  ///< 0: not given, else as in method_of()
     int modes;
     bool no_normals;
     double from; ///< seconds
@@ -40,6 +40,12 @@ struct result {
     struct analyzed *analyzed; ///< one a coordinate
     int filled;                ///< how many coordinates are there so far
 };
+
+static enum analysis_method method_of(const struct job *job)
+{
+    enum { CPCA = 2 }; // of the option's words
+    return job->method == CPCA ? ANALYSIS_CPCA : ANALYSIS_POLES;
+}
 
 /// Splits --shake at its colons. False if a part is no direction or their number is wrong.
 static bool read_directions(struct job *job, int files)
@@ -235,7 +241,7 @@ static bool analyse(const struct job *job, int file, const struct lapack *lapack
     if (!motion_open(&motion, job->files[file], error)) return false;
     bool done = check_motion(job, &motion, rest, &fps, error);
     const struct analysis_plan plan = {
-        .method = job->method,
+        .method = method_of(job),
         .fps = fps,
         .modes = job->modes,
         .first = (int)fmin(ceil(job->from * fps), ANALYSIS_FRAMES_MAX),
@@ -308,13 +314,6 @@ static bool run(const struct job *job, struct error *error)
     return done;
 }
 
-/// False if --method is neither of the two.
-static bool read_method(struct job *job)
-{
-    job->method = strcmp(job->method_name, "cpca") == 0 ? ANALYSIS_CPCA : ANALYSIS_POLES;
-    return job->method == ANALYSIS_CPCA || strcmp(job->method_name, "poles") == 0;
-}
-
 /// Checks what the table of options cannot; NULL or what is wrong.
 static const char *check(struct job *job)
 {
@@ -322,9 +321,7 @@ static const char *check(struct job *job)
     while (job->files[files]) files++;
     if (!job->rest) return "--rest mesh.obj is missing: name the mesh at rest";
     if (!job->output) return "-o creature.glb is missing: name the file to write";
-    if (mesh_options_check(&job->opening)) return mesh_options_check(&job->opening);
-    if (!read_method(job)) return "--method: expected poles or cpca";
-    if (job->from > 0 && job->method == ANALYSIS_CPCA)
+    if (job->from > 0 && method_of(job) == ANALYSIS_CPCA)
         return "--from says where poles are looked for, and --method cpca looks for none";
     if (!read_directions(job, files))
         return "--shake: expected up, side, front or a vector x,y,z, one for all files or one each with : between";
@@ -333,7 +330,7 @@ static const char *check(struct job *job)
 
 int command_analyze(int argc, char **argv)
 {
-    struct job job = {.modes = 1, .method_name = "poles", .opening = {.up = "y", .scale = 1}};
+    struct job job = {.modes = 1, .opening = {.scale = 1}};
     const struct option_spec options[] = {
         {"--rest", NULL, "FILE",
          "required: the mesh at rest (OBJ, STL, PLY, OFF, glTF), with the same vertices in the same order",
@@ -348,8 +345,8 @@ int command_analyze(int argc, char **argv)
         {"--shake", NULL, "DIR",
          "direction of the shake: up, side, front or x,y,z; one for all or one per file (up:side)", OPTION_TEXT,
          &job.shake, 0, 0},
-        {"--method", NULL, "NAME", "poles: a coordinate a pole (default); cpca: complex principal components",
-         OPTION_TEXT, &job.method_name, 0, 0},
+        {"--method", NULL, "poles|cpca", "a coordinate a pole (default), or complex principal components",
+         OPTION_WORD, &job.method, 0, 0},
         {"--from", NULL, "S", "the second from which on nothing drives the motion: poles are found there (0)",
          OPTION_REAL, &job.from, 0, 1e6},
         {"--scene", NULL, "FILE", "write a scene too, with knots that move the character as the motions did",
@@ -372,7 +369,5 @@ int command_analyze(int argc, char **argv)
     if (wrong) return (int)options_wrong(&usage, "%s", wrong);
     progress_end_when_interrupted();
     struct error error;
-    if (run(&job, &error)) return 0;
-    fprintf(stderr, "%s\n", error.text);
-    return (int)error.kind;
+    return options_end(run(&job, &error), &error);
 }

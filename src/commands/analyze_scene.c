@@ -3,68 +3,44 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "base/need.h"
-#include "scene/document.h"
-#include "scene/text.h"
-#include <errno.h>
-#include <limits.h>
+#include "scene/edit.h"
+#include "scene/load.h"
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
-/// A file's real path: its folder without symbolic links, "/", its name. NULL with errno set.
-static char *real_place(const char *path)
-{
-    const char *slash = strrchr(path, '/');
-    char *folder = slash ? strndup(path, (size_t)(slash - path) + 1) : need_text(".");
-    char *real = folder ? realpath(folder, NULL) : NULL;
-    const char *name = slash ? slash + 1 : path;
-    char *place = real ? need(strlen(real) + strlen(name) + 2, 1) : NULL;
-    if (place) sprintf(place, "%s/%s", strcmp(real, "/") == 0 ? "" : real, name);
-    free(folder);
-    free(real);
-    return place;
-}
-
-/// `to` as a scene at `from` names it. Both are real paths.
-static void add_relative(struct text *text, const char *from, const char *to)
-{
-    size_t common = 0;
-    for (size_t i = 0; from[i] && from[i] == to[i]; i++) {
-        if (from[i] == '/') common = i + 1;
-    }
-    char relative[PATH_MAX] = "";
-    for (const char *c = from + common; *c; c++) {
-        if (*c == '/') strncat(relative, "../", sizeof relative - strlen(relative) - 1);
-    }
-    strncat(relative, to + common, sizeof relative - strlen(relative) - 1);
-    text_quoted(text, relative);
-}
-
-static void add_member(struct text *text, const char *before, double value)
-{
-    text_string(text, before);
-    text_number(text, value);
-}
-
-static void add_spline(struct text *text, const struct coordinate *coordinate, const struct analyzed *analyzed,
-                       double fps)
+static bool add_knots(struct document *document, int spline, const struct analyzed *analyzed, struct error *error)
 {
     const struct knots *knots = &analyzed->knots;
-    text_string(text, "{ \"name\": ");
-    text_quoted(text, coordinate->name);
-    text_string(text, knots->mode == WIGGLY_REAL ? ", \"mode\": \"real\"" : ", \"mode\": \"complex\"");
-    add_member(text, ", \"frequency\": ", knots->frequency);
-    add_member(text, ", \"damping\": ", knots->damping);
-    if (knots->mode == WIGGLY_COMPLEX) add_member(text, ", \"bandwidth\": ", knots->bandwidth);
-    text_string(text, ",\n      \"knots\": [");
     for (int i = 0; i < knots->count; i++) {
-        double frame = knots->frame[i] * fps / analyzed->fps;
-        add_member(text, i > 0 ? ",\n                { \"frame\": " : "{ \"frame\": ", round(frame * 1000) / 1000);
-        add_member(text, ", \"value\": ", knots->value[i]);
-        if (knots->sloped) add_member(text, ", \"slope\": ", knots->slope[i]);
-        text_string(text, " }");
+        const double frame = knots->frame[i] * document->fps / analyzed->fps;
+        const struct knot knot = {.frame = round(frame * 1000) / 1000,
+                                  .value = knots->value[i],
+                                  .slope = knots->sloped ? knots->slope[i] : 0,
+                                  .has_slope = knots->sloped,
+                                  .stiffness = KNOT_DEFAULT_STIFFNESS};
+        if (!edit_knot_insert(document, spline, &knot, error)) return false;
     }
-    text_string(text, "] }");
+    return true;
+}
+
+static bool add_spline(struct document *document, const char *name, const struct analyzed *analyzed,
+                       struct error *error)
+{
+    const struct knots *knots = &analyzed->knots;
+    const struct {
+        enum parameter parameter;
+        double value;
+    } set[] = {{PARAMETER_MODE, knots->mode},
+               {PARAMETER_FREQUENCY, knots->frequency},
+               {PARAMETER_DAMPING, knots->damping},
+               {PARAMETER_BANDWIDTH, knots->bandwidth}};
+    const int spline = document->spline_count, count = knots->mode == WIGGLY_COMPLEX ? 4 : 3;
+    if (!edit_spline_add(document, -1, name, NULL, error)) return false;
+    for (int i = 0; i < count; i++) {
+        const struct param value = param_number(set[i].value);
+        if (!edit_parameter(document, spline, set[i].parameter, &value, error)) return false;
+    }
+    return add_knots(document, spline, analyzed, error);
 }
 
 /// The coordinates that the scene drives; returns their number.
@@ -79,51 +55,39 @@ static int choose(const struct character *character, const struct analyzed *anal
     return count;
 }
 
-static void add_scene(struct text *text, const struct character *character, const struct analyzed *analyzed,
-                      const char *from, const char *model)
+static bool fill(struct document *document, const char *model, const struct character *character,
+                 const struct analyzed *analyzed, struct error *error)
 {
     int chosen[CHARACTER_MAX_DRIVES], count = choose(character, analyzed, chosen);
+    char name[] = "character", *file = need_text(path_name(model));
+    struct rig rig = {.kind = RIG_CHARACTER, .name = name, .character = {.model = file, .phases = -1}};
     double fps = 0, seconds = 0;
     for (int i = 0; i < count; i++) {
-        fps = fmax(fps, analyzed[chosen[i]].fps);
-        seconds = fmax(seconds, (analyzed[chosen[i]].frames - 1) / analyzed[chosen[i]].fps);
+        const struct analyzed *each = &analyzed[chosen[i]];
+        fps = fmax(fps, each->fps);
+        seconds = fmax(seconds, (each->frames - 1) / each->fps);
     }
-    add_member(text, "{\n  \"wiggly\": 1, \"fps\": ", fps);
-    add_member(text, ", \"frames\": [0, ", round(fps * seconds));
-    text_string(text, "],\n  \"splines\": [");
-    for (int i = 0; i < count; i++) {
-        text_string(text, i > 0 ? ",\n    " : "\n    ");
-        add_spline(text, &character->coordinates[chosen[i]], &analyzed[chosen[i]], fps);
+    bool done = edit_fps(document, fps, false, error) &&
+                edit_range(document, 0, (int)round(fps * seconds), RANGE_REFUSE, error);
+    for (int i = 0; done && i < count; i++) {
+        char *driver = character->coordinates[chosen[i]].name;
+        rig.character.drives[rig.character.drive_count++] =
+            (struct drive){.name = driver, .spline = i, .amplitude = 1};
+        done = add_spline(document, driver, &analyzed[chosen[i]], error);
     }
-    text_string(text, "\n  ],\n  \"rigs\": [\n    { \"type\": \"character\", \"name\": \"character\", \"model\": ");
-    add_relative(text, from, model);
-    text_string(text, ",\n      \"coordinates\": [");
-    for (int i = 0; i < count; i++) {
-        const char *name = character->coordinates[chosen[i]].name;
-        text_string(text, i > 0 ? ",\n        { \"name\": " : "\n        { \"name\": ");
-        text_quoted(text, name);
-        text_string(text, ", \"spline\": ");
-        text_quoted(text, name);
-        text_string(text, ", \"amplitude\": 1, \"lag\": 0 }");
-    }
-    text_string(text, "] }\n  ]\n}\n");
+    done = done && edit_rig_add(document, &rig, error);
+    free(file);
+    return done;
 }
 
 bool analyze_scene_write(const char *path, const char *model, const struct character *character,
                          const struct analyzed *analyzed, struct error *error)
 {
-    struct text text = {0};
-    char *from = real_place(path), *to = from ? real_place(model) : NULL;
-    bool done;
-    if (!to) {
-        done = fail(error, ERROR_ENVIRONMENT, "%s: cannot be written: %s", path, strerror(errno));
-    } else {
-        add_scene(&text, character, analyzed, from, to);
-        done = file_write_atomic(path, text.data, text.size, error);
-    }
-    free(text.data);
-    free(from);
-    free(to);
+    char folder[PATH_LIMIT];
+    struct document *document = document_create();
+    if (path_folder(model, folder) && folder[0]) document->folder = need_text(folder);
+    const bool done = fill(document, model, character, analyzed, error) && scene_save(document, path, error);
+    document_destroy(document);
     return done;
 }
 

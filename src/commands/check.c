@@ -21,28 +21,10 @@ static void print_problem(void *user, bool is_error, const char *sentence)
     print_line(stdout, "%s%s", is_error ? "" : "warning: ", sentence);
 }
 
-static void print_warning(struct problems *problems, const char *path, const struct document *document, int spline,
-                          const char *what)
+static void warn(void *user, const char *sentence)
 {
-    struct error warning; // a name may hold anything: fail() makes it printable
-    fail(&warning, ERROR_INPUT, "%s: splines[%d]: \"%s\": %s", path, spline, document->splines[spline]->name, what);
-    problems->warnings++;
-    problems->report(problems->user, false, warning.text);
-}
-
-/// Where problems are reported, and of which file.
-struct checked {
-    struct problems *problems;
-    const char *path;
-};
-
-static void warn_of_pin(void *user, const char *sentence)
-{
-    const struct checked *checked = user;
-    struct error warning;
-    fail(&warning, ERROR_INPUT, "%s: %s", checked->path, sentence);
-    checked->problems->warnings++;
-    checked->problems->report(checked->problems->user, false, warning.text);
+    const char *const *path = user;
+    print_line(stdout, "warning: %s: %s", *path, sentence);
 }
 
 /// A loop's last sample is its first, so an equilibrium that ends elsewhere jumps there.
@@ -59,8 +41,7 @@ static bool jumps(const struct document *document, const struct evaluation *eval
 }
 
 /// Checks what only a solve can show.
-static void check_solution(const char *path, const struct document *document, struct models *models,
-                           struct problems *problems)
+static void check_solution(const char *path, const struct document *document, struct models *models)
 {
     const struct motion_source motions = clip_motions(models);
     struct evaluation evaluation = {.pins = pin_points(models)};
@@ -68,34 +49,23 @@ static void check_solution(const char *path, const struct document *document, st
     motions_bake(&evaluation, document, &motions);
     evaluation_update(&evaluation, document, false);
     for (int i = 0; i < evaluation.count; i++) {
-        if (jumps(document, &evaluation, i)) {
-            print_warning(problems, path, document, i, "the equilibrium of this loop does not end where it starts");
-        }
-        char sentence[EVALUATION_SENTENCE];
-        if (evaluation_sentence(&evaluation, i, sentence)) print_warning(problems, path, document, i, sentence);
+        if (!jumps(document, &evaluation, i)) continue;
+        print_line(stdout,
+                   "warning: %s: splines[%d]: \"%s\": the equilibrium of this loop does not end where it starts",
+                   path, i, document->splines[i]->name);
     }
-    pin_warnings(document, &evaluation, warn_of_pin, &(struct checked){problems, path});
+    solution_warnings(document, &evaluation, warn, &path);
     evaluation_free(&evaluation);
 }
 
-/// Checks the characters: their paint, their models, and what the scene names in them.
-static bool check_models(const char *path, struct document *document, struct models *models,
-                         struct problems *problems)
+/// Checks its files and its solution. False where paint, a model, or what the scene names in one cannot be had.
+static bool check_document(const char *path, struct document *document)
 {
-    struct error error = {0}, problem;
-    if (scene_read_paint(document, &error) && models_update(models, document, &error)) return true;
-    fail(&problem, error.kind, "%s: %s", path, error.text);
-    problems->errors++;
-    problems->report(problems->user, true, problem.text);
-    return false;
-}
-
-/// Whether its files can be read, too.
-static bool check_document(const char *path, struct document *document, struct problems *problems)
-{
+    struct error error = {0};
     struct models *models = models_create();
-    const bool good = check_models(path, document, models, problems);
-    check_solution(path, document, models, problems);
+    const bool good = scene_read_paint(document, &error) && models_update(models, document, &error);
+    if (!good) print_line(stdout, "%s: %s", path, error.text);
+    check_solution(path, document, models);
     models_destroy(models);
     return good;
 }
@@ -105,10 +75,7 @@ static int check_character(const char *path)
     struct gltf gltf;
     struct error error;
     int triangles = 0;
-    if (!gltf_read(path, &gltf, &error)) {
-        fprintf(stderr, "%s\n", error.text);
-        return (int)error.kind;
-    }
+    if (!gltf_read(path, &gltf, &error)) return options_end(false, &error);
     for (int m = 0; m < gltf.mesh_count; m++) {
         for (int p = 0; p < gltf.meshes[m].part_count; p++) triangles += gltf.meshes[m].parts[p].index_count / 3;
     }
@@ -125,7 +92,7 @@ static int check_scene(const char *path)
     struct error error = {0};
     struct document *document = scene_load(path, &problems, &error);
     if (!document) return (int)error.kind;
-    const bool good = check_document(path, document, &problems);
+    const bool good = check_document(path, document);
     document_destroy(document);
     return good ? 0 : ERROR_INPUT;
 }

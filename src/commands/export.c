@@ -14,11 +14,13 @@
 #include <stdlib.h>
 #include <string.h>
 
+enum { LINEAR = 1, CUBIC };
+
 struct job {
-    const char *scene, *output, *frames, *keys, *theme;
+    const char *scene, *output, *frames;
     struct export_options options;
     struct film_options film;
-    int size[2];
+    int keys, theme, size[2]; ///< the first two: which word was given, from 1
     bool quiet, paint;
     struct progress progress;
 };
@@ -42,7 +44,7 @@ static bool write_film(struct job *job, const struct editor_world *world, struct
     options.last = job->options.last;
     options.proceed = proceed;
     options.user = job;
-    if (job->theme) theme_use((enum theme_kind)theme_find(job->theme));
+    if (job->theme) theme_use((enum theme_kind)(job->theme - 1));
     return film_write(world, job->output, &options, report, error);
 }
 
@@ -118,21 +120,17 @@ static enum options_result check(const struct usage *usage, struct job *job)
                              job->output);
     if (job->paint && !path_has_end(job->output, ".npy"))
         return options_wrong(usage, "--paint: expected an output that ends in .npy, got '%s'", job->output);
-    if (job->theme && theme_find(job->theme) < 0)
-        return options_wrong(usage, "--theme: expected dark or light, got '%s'", job->theme);
     if (job->frames && !read_frames(job->frames, &job->options))
         return options_wrong(usage, "--frames: expected FIRST:LAST, such as 0:48, got '%s'", job->frames);
     if (job->options.rate > 0 && job->options.substeps > 0)
         return options_wrong(usage, "--fps and --substeps both say how many keys there are: give one");
-    job->options.is_cubic = strcmp(job->keys, "cubic") == 0;
-    if (!job->options.is_cubic && strcmp(job->keys, "linear") != 0)
-        return options_wrong(usage, "--keys: expected linear or cubic, got '%s'", job->keys);
+    job->options.is_cubic = job->keys == CUBIC;
     return OPTIONS_RUN;
 }
 
 int command_export(int argc, char **argv)
 {
-    struct job job = {.keys = "linear"};
+    struct job job = {0};
     struct export_options *o = &job.options;
     const struct option_spec options[] = {
         {"--output", "-o", "FILE",
@@ -148,10 +146,9 @@ int command_export(int argc, char **argv)
         {"--rig", NULL, "NAME", "that rig alone (default: all that the format can hold)", OPTION_TEXT, &o->rig, 0, 0},
         {"--signed", NULL, NULL, "one morph target instead of two, with weights of either sign; Blender clamps them",
          OPTION_FLAG, &o->is_signed, 0, 0},
-        {"--keys", NULL, "KIND", "linear (default) or cubic, with tangents (.glb, .gltf)", OPTION_TEXT, &job.keys, 0,
-         0},
+        {"--keys", NULL, "linear|cubic", "cubic: with tangents (.glb, .gltf)", OPTION_WORD, &job.keys, 0, 0},
         {"--size", NULL, "WxH", "of films and pictures (1280x720; .gif 640x360)", OPTION_SIZE, job.size, 16, 8192},
-        {"--theme", NULL, "NAME", "of films and pictures: dark (default) or light", OPTION_TEXT, &job.theme, 0, 0},
+        OPTION_THEME(&job.theme, "of films and pictures (dark)"),
         {"--loops", NULL, "N", "films: play a looping scene N times, each time without its last frame", OPTION_INT,
          &job.film.loops, 1, 10000},
         {"--transparent", NULL, NULL, "the rigs alone, without ground and shadows (.png, .webm)", OPTION_FLAG,
@@ -174,7 +171,5 @@ int command_export(int argc, char **argv)
     if (result != OPTIONS_RUN) return (int)result;
     progress_catch_interrupts();
     struct error error;
-    if (run(&job, &error)) return 0;
-    fprintf(stderr, "%s\n", error.text);
-    return (int)error.kind;
+    return options_end(run(&job, &error), &error);
 }

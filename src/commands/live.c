@@ -1,12 +1,9 @@
 /// `wiggly live`: the live app, in a window or headless.
 #include "app/app.h"
-#include "base/error.h"
 #include "base/progress.h"
 #include "commands/commands.h"
 #include "commands/options.h"
-#include "ui/theme.h"
 #include <stdio.h>
-#include <string.h>
 
 /// Says of a file that takes seconds that it is being read, once.
 static void tell_large(const char *doing, long done, long bytes)
@@ -37,11 +34,10 @@ int command_live(int argc, char **argv)
         {"--stage-scale", NULL, "S",
          "stage resolution while it moves: auto or 0.25 to 1 (default: auto in a window, else 1)", OPTION_TEXT,
          &options.stage_scale, 0, 0},
-        {"--theme", NULL, "NAME", "dark or light (default: as last chosen with F10, else dark)", OPTION_TEXT,
-         &options.theme, 0, 0},
+        OPTION_THEME(&options.theme, "as last chosen with F10, else dark"),
         {"--welcome", NULL, NULL, "show what to try first, as on the first start in a window", OPTION_FLAG,
          &options.welcome, 0, 0},
-        options_solver(&options.solver),
+        OPTION_SOLVER(&options.solver),
         {"--gl-debug", NULL, NULL, "print the OpenGL driver's messages; fail if it complains", OPTION_FLAG,
          &options.gl_debug, 0, 0},
         {"--log", NULL, "FILE.csv", "write a timing log, one row per frame", OPTION_OUTPUT, &options.log, 0, 0},
@@ -53,8 +49,8 @@ int command_live(int argc, char **argv)
          &options.demo, 0, 0},
         {"--replay", NULL, "FILE", "play recorded input", OPTION_TEXT, &options.replay, 0, 0},
         {"--record", NULL, "FILE", "record all input", OPTION_OUTPUT, &options.record, 0, 0},
-        {"--turns", NULL, "WHICH", "first or second: draw frames in turn with another program (docs/measuring.md)",
-         OPTION_TEXT, &options.turns, 0, 0},
+        {"--turns", NULL, "first|second", "draw frames in turn with another program (docs/measuring.md)", OPTION_WORD,
+         &options.turns, 0, 0},
         {"--result", NULL, "FILE.json", "write the document at the end", OPTION_OUTPUT, &options.result, 0, 0},
     };
     const struct usage usage = {
@@ -67,23 +63,11 @@ int command_live(int argc, char **argv)
     };
     enum options_result result = options_parse(&usage, argc, argv, &options.scene);
     if (result != OPTIONS_RUN) return (int)result;
-    if (options.theme && theme_find(options.theme) < 0) {
-        print_line(stderr, "wiggly live: --theme: expected dark or light, got '%s'", options.theme);
-        return OPTIONS_WRONG;
-    }
-    if (options.turns && strcmp(options.turns, "first") != 0 && strcmp(options.turns, "second") != 0) {
-        print_line(stderr, "wiggly live: --turns: expected first or second, got '%s'", options.turns);
-        return OPTIONS_WRONG;
-    }
-    if (options.demo && (options.scene || options.replay || options.record)) {
-        fprintf(stderr,
-                "wiggly live: --demo brings its own scene and input: expected no scene, --replay or --record\n");
-        return OPTIONS_WRONG;
-    }
-    if (options.no_draw && (options.screenshot || options.frames_dir || options.gl_debug)) {
-        fprintf(stderr, "wiggly live: --no-draw: expected no --screenshot, --frames-dir or --gl-debug\n");
-        return OPTIONS_WRONG;
-    }
+    if (options.demo && (options.scene || options.replay || options.record))
+        return (int)options_wrong(&usage,
+                                  "--demo brings its own scene and input: expected no scene, --replay or --record");
+    if (options.no_draw && (options.screenshot || options.frames_dir || options.gl_debug))
+        return (int)options_wrong(&usage, "--no-draw: expected no --screenshot, --frames-dir or --gl-debug");
     options.width = size[0];
     options.height = size[1];
     stage_listen(tell_large);

@@ -18,11 +18,8 @@ int command_log(int argc, char **argv)
     if (result != OPTIONS_RUN) return (int)result;
     struct timing_log log;
     struct error error = {0};
-    if (!timing_log_read(path, &log, &error)) {
-        fprintf(stderr, "%s\n", error.text);
-        return (int)error.kind;
-    }
-    distribution_print(&log, path, stdout);
+    const bool done = timing_log_read(path, &log, &error);
+    if (done) distribution_print(&log, path, stdout);
     timing_log_free(&log);
-    return 0;
+    return options_end(done, &error);
 }

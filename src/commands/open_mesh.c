@@ -6,19 +6,13 @@
 #include <stdlib.h>
 #include <string.h>
 
-const char *mesh_options_check(const struct mesh_options *options)
-{
-    const bool known = strlen(options->up) == 1 && strchr("xyz", options->up[0]);
-    return known ? NULL : "--up: expected x, y or z";
-}
-
 /// z up becomes y up as Blender's exporters do it: x stays, y becomes −z. x up: z stays, x becomes y, y becomes −x.
 static bool place(const struct mesh_options *options, struct surface *surface)
 {
     static const struct {
         int from[3], sign[3]; // of each axis of ours
     } turns[] = {{{1, 0, 2}, {-1, 1, 1}}, {{0, 1, 2}, {1, 1, 1}}, {{0, 2, 1}, {1, 1, -1}}};
-    const int up = options->up[0] - 'x';
+    const int up = options->up ? options->up - 1 : 1;
     for (int i = 0; i < surface->vertex_count; i++) {
         const float *p = surface->position[i];
         float placed[3];

@@ -1,8 +1,6 @@
 /// Parses options by a table, prints help, and suggests the nearest word.
 #include "commands/options.h"
-#include "base/error.h"
 #include "base/file.h"
-#include "scene/evaluate.h"
 #include <errno.h>
 #include <limits.h>
 #include <math.h>
@@ -121,12 +119,26 @@ static bool read_size(const char *text, double minimum, double maximum, int size
     return true;
 }
 
-static bool read_solver(const char *text, enum solver_choice *solver)
+/// One of "a|b|c", by its number from 1.
+static enum options_result read_word(const struct usage *usage, const struct option_spec *option, const char *text)
 {
-    const bool chain = strcmp(text, "chain") == 0;
-    if (!chain && strcmp(text, "band") != 0) return false;
-    *solver = chain ? SOLVER_CHAIN : SOLVER_BAND;
-    return true;
+    char list[2 * WORD_MAX] = "";
+    const size_t length = strlen(text);
+    int number = 0;
+    for (const char *word = option->argument; *word;) {
+        const size_t span = strcspn(word, "|"), used = strlen(list);
+        number++;
+        if (span == length && strncmp(word, text, span) == 0) {
+            *(int *)option->target = number;
+            return OPTIONS_RUN;
+        }
+        const char *next = word + span + (word[span] == '|'), *joint = !*next              ? ""
+                                                                       : strchr(next, '|') ? ", "
+                                                                                           : " or ";
+        snprintf(list + used, sizeof list - used, "%.*s%s", (int)span, word, joint);
+        word = next;
+    }
+    return options_wrong(usage, "%s: expected %s, got '%s'", option->name, list, text);
 }
 
 static enum options_result store(const struct usage *usage, const struct option_spec *option, const char *text)
@@ -162,9 +174,8 @@ static enum options_result store(const struct usage *usage, const struct option_
         if (read_size(text, low, high, option->target)) return OPTIONS_RUN;
         return options_wrong(usage, "%s: expected WIDTHxHEIGHT, each from %.10g to %.10g, got '%s'", option->name,
                              low, high, text);
-    case OPTION_SOLVER:
-        if (read_solver(text, option->target)) return OPTIONS_RUN;
-        return options_wrong(usage, "%s: expected chain or band, got '%s'", option->name, text);
+    case OPTION_WORD:
+        return read_word(usage, option, text);
     }
     return OPTIONS_WRONG;
 }
@@ -253,14 +264,10 @@ enum options_result options_parse(const struct usage *usage, int argc, char **ar
     return check_outputs(usage);
 }
 
-struct option_spec options_solver(void *solver)
+int options_end(bool done, const struct error *error)
 {
-    return (struct option_spec){.name = "--solver",
-                                .argument = "METHOD",
-                                .help = "band or chain: factors all samples, or condenses stretches between knots "
-                                        "(default: band to 4096 samples)",
-                                .kind = OPTION_SOLVER,
-                                .target = solver};
+    if (!done) fprintf(stderr, "%s\n", error->text);
+    return done ? 0 : (int)error->kind;
 }
 
 bool options_direction(const char *text, double direction[3])

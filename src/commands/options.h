@@ -2,8 +2,8 @@
 #ifndef COMMANDS_OPTIONS_H
 #define COMMANDS_OPTIONS_H
 
+#include "base/error.h"
 #include <stdbool.h>
-#include <wiggly/wiggly.h>
 
 enum option_kind {
     OPTION_FLAG,   ///< bool: set to true; takes no value
@@ -13,7 +13,7 @@ enum option_kind {
     OPTION_INT,    ///< int in [minimum, maximum]
     OPTION_REAL,   ///< double in [minimum, maximum]
     OPTION_SIZE,   ///< int[2] from "1280x720", each in [minimum, maximum]
-    OPTION_SOLVER, ///< enum solver_choice, by its name
+    OPTION_WORD,   ///< int: which of the words of its argument, "dark|light", from 1
 };
 
 enum { OPTION_LIST_MOST = 32 };
@@ -27,7 +27,7 @@ struct option_list {
 struct option_spec {
     const char *name;     ///< "--frames"
     const char *alias;    ///< "-f", or NULL
-    const char *argument; ///< what help calls the value: "N"; NULL for a flag
+    const char *argument; ///< what help calls the value: "N", or the words that it may be; NULL for a flag
     const char *help;     ///< one line
     enum option_kind kind;
     void *target;
@@ -44,8 +44,20 @@ struct usage {
     int operand_minimum, operand_maximum;
 };
 
-/// "--solver", the same for every command that has it; of an enum solver_choice.
-struct option_spec options_solver(void *solver);
+// Options that several commands have; 0: not given.
+
+/// Of an enum solver_choice.
+#define OPTION_SOLVER(solver)                                                                                        \
+    {                                                                                                                \
+        "--solver", NULL, "chain|band",                                                                              \
+            "condenses stretches between knots, or factors all samples (default: band to 4096 samples)",             \
+            OPTION_WORD, solver, 0, 0                                                                                \
+    }
+/// Of 1 + an enum theme_kind.
+#define OPTION_THEME(theme, help)                                                                                    \
+    {                                                                                                                \
+        "--theme", NULL, "dark|light", help, OPTION_WORD, theme, 0, 0                                                \
+    }
 
 /// What options_parse() returns: whether to go on, or the exit status at once.
 enum options_result {
@@ -61,6 +73,9 @@ enum options_result options_parse(const struct usage *usage, int argc, char **ar
 /// Prints "wiggly COMMAND: sentence; see wiggly COMMAND --help" on stderr.
 enum options_result options_wrong(const struct usage *usage, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
+
+/// Ends a command: prints the error's sentence if it is not done. Returns the exit status.
+int options_end(bool done, const struct error *error);
 
 /// The candidate with the smallest edit distance to `word`, or NULL if none is close.
 const char *options_nearest(const char *word, const char *const *candidates, int count);

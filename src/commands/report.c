@@ -1,4 +1,4 @@
-/// Puts what pins do not reach into words, and prints what a glTF character holds.
+/// Puts what a solution misses into words, and prints what a glTF character holds.
 #include "commands/report.h"
 #include "base/error.h"
 #include "rig/bones.h"
@@ -9,8 +9,7 @@
 static const double BELOW = 1e-4; ///< metres below a floor that are told
 static const double MET = 1e-4;   ///< of the rig's size: a chain is posed in floats
 
-static void tell_pin(const struct pin_left *left, int rig, int pin, void (*tell)(void *user, const char *sentence),
-                     void *user)
+static void tell_pin(const struct pin_left *left, int rig, int pin, report_tell *tell, void *user)
 {
     char sentence[160];
     const double away = left ? hypot(hypot(left->way[0], left->way[1]), left->way[2]) : 0;
@@ -25,8 +24,8 @@ static void tell_pin(const struct pin_left *left, int rig, int pin, void (*tell)
     tell(user, sentence);
 }
 
-static void tell_floor(const struct document *document, const struct floor_left *left, int rig,
-                       void (*tell)(void *user, const char *sentence), void *user)
+static void tell_floor(const struct document *document, const struct floor_left *left, int rig, report_tell *tell,
+                       void *user)
 {
     char sentence[160];
     if (!rig_has_floor(document->rigs[rig]) || !left || left->depth < BELOW) return;
@@ -36,28 +35,35 @@ static void tell_floor(const struct document *document, const struct floor_left 
     tell(user, sentence);
 }
 
-static void tell_passed_over(int spline, const char *what, void (*tell)(void *user, const char *sentence), void *user)
+static void tell_spline(const struct document *document, const struct evaluation *evaluation, int spline,
+                        report_tell *tell, void *user)
+{
+    char sentence[EVALUATION_SENTENCE];
+    struct error warning; // a name may hold anything: fail() makes it printable
+    if (!evaluation_sentence(evaluation, spline, sentence)) return;
+    fail(&warning, ERROR_INPUT, "splines[%d]: \"%s\": %s", spline, document->splines[spline]->name, sentence);
+    tell(user, warning.text);
+}
+
+static void tell_passed_over(const struct document *document, int spline, report_tell *tell, void *user)
 {
     char sentence[80];
-    snprintf(sentence, sizeof sentence, "splines[%d].%s", spline, what);
+    if (!pins_move_spline(document, spline) || !spline_is_limited(document->splines[spline])) return;
+    snprintf(sentence, sizeof sentence, "splines[%d].limits: pins and floors pass over them", spline);
     tell(user, sentence);
 }
 
-void pin_warnings(const struct document *document, const struct evaluation *evaluation,
-                  void (*tell)(void *user, const char *sentence), void *user)
+void solution_warnings(const struct document *document, const struct evaluation *evaluation, report_tell *tell,
+                       void *user)
 {
+    for (int s = 0; s < evaluation->count; s++) tell_spline(document, evaluation, s, tell, user);
     for (int r = 0; r < document->rig_count; r++) {
         for (int i = 0; i < document->rigs[r]->pin_count; i++)
             tell_pin(evaluation_pin(evaluation, document, r, i), r, i, tell, user);
     }
     for (int r = 0; r < document->rig_count; r++)
         tell_floor(document, evaluation_floor(evaluation, r), r, tell, user);
-    for (int s = 0; s < document->spline_count; s++) {
-        if (!pins_move_spline(document, s)) continue;
-        const struct param *parameter = document->splines[s]->parameter;
-        if (isfinite(parameter[PARAMETER_LOW].value) || isfinite(parameter[PARAMETER_HIGH].value))
-            tell_passed_over(s, "limits: pins and floors pass over them", tell, user);
-    }
+    for (int s = 0; s < document->spline_count; s++) tell_passed_over(document, s, tell, user);
 }
 
 enum { DEEPEST_INDENTED = 64 };

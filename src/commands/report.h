@@ -5,15 +5,15 @@
 #include "model/gltf.h"
 #include "scene/evaluate.h"
 
-// What there is to say about a scene's pins once it is solved.
+/// Who is told something; its sentence is printable.
+typedef void report_tell(void *user, const char *sentence);
 
-/// Calls `tell` with a sentence for each pin that is not met, for each floor that is not, and for what of each spline they pass over.
-void pin_warnings(const struct document *document, const struct evaluation *evaluation,
-                  void (*tell)(void *user, const char *sentence), void *user);
+/// Tells what there is to say once a scene is solved: of each spline, each pin that is not met, each floor that is not, and what of each
+/// spline they pass over.
+void solution_warnings(const struct document *document, const struct evaluation *evaluation, report_tell *tell,
+                       void *user);
 
-// What a glTF character holds, printed for a user who does not know the file.
-
-/// Its clips, its bones and other nodes, each under its parent, the ways down to a tip that chains can be made of, and what is not shown.
+/// Prints what a glTF character holds, for a user who does not know the file: its clips, its bones and other nodes, each under its parent, the ways down to a tip that chains can be made of, and what is not shown.
 void contents_print(const struct gltf *gltf);
 
 #endif

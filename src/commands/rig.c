@@ -135,7 +135,5 @@ int command_rig(int argc, char **argv)
     if (result == OPTIONS_RUN) result = check(&usage, &job);
     if (result != OPTIONS_RUN) return (int)result;
     struct error error;
-    if (run(&job, &error)) return 0;
-    fprintf(stderr, "%s\n", error.text);
-    return (int)error.kind;
+    return options_end(run(&job, &error), &error);
 }

@@ -14,7 +14,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <strings.h>
 
 struct job {
     const char *mesh, *output;
@@ -111,6 +110,8 @@ static bool run(struct job *job, struct error *error)
 {
     struct surface surface = {0};
     struct soft soft;
+    progress_end_when_interrupted();
+    progress_show_stages(job->shake.verbose);
     if (!open_mesh(job->mesh, &job->opening, &surface, error)) return false;
     bool good = soft_create(&soft, &surface, job->mesh, &job->soft, error);
     if (good) {
@@ -122,23 +123,6 @@ static bool run(struct job *job, struct error *error)
     }
     surface_free(&surface);
     return good;
-}
-
-/// Returns the exit status.
-static int run_watched(struct job *job)
-{
-    struct error error;
-    progress_end_when_interrupted();
-    progress_show_stages(job->shake.verbose);
-    if (run(job, &error)) return 0;
-    fprintf(stderr, "wiggly simulate: %s\n", error.text);
-    return (int)error.kind;
-}
-
-static bool ends_in(const char *path, const char *extension)
-{
-    size_t length = strlen(path), tail = strlen(extension);
-    return length > tail && strcasecmp(path + length - tail, extension) == 0;
 }
 
 /// Sets stiffness and mass, 0 meaning not given. NULL or what is wrong.
@@ -169,7 +153,7 @@ static const char *set_drive(struct job *job)
         if (strcmp(job->drive_text, kinds[kind]) == 0) job->drive.kind = kind;
     }
     if (job->drive.kind != DRIVE_NONE) return NULL;
-    if (!ends_in(job->drive_text, ".csv")) return "--drive: expected sine, burst, sweep or a track's FILE.csv";
+    if (!path_has_end(job->drive_text, ".csv")) return "--drive: expected sine, burst, sweep or a track's FILE.csv";
     if (amplitude_given || job->drive.frequency > 0)
         return "--drive: a track has its own size in metres and time: leave out --amplitude and --drive-frequency";
     return NULL;
@@ -179,8 +163,9 @@ static const char *set_drive(struct job *job)
 static const char *check(struct job *job)
 {
     if (!job->output) return "-o FILE is missing: name the file to write";
-    if (job->modal && !ends_in(job->output, ".npy")) return "--output: expected a name ending in .npy for --modal";
-    if (!ends_in(job->output, ".npy") && !ends_in(job->output, ".pc2"))
+    if (job->modal && !path_has_end(job->output, ".npy"))
+        return "--output: expected a name ending in .npy for --modal";
+    if (!path_has_end(job->output, ".npy") && !path_has_end(job->output, ".pc2"))
         return "--output: expected a name ending in .npy or .pc2";
     if (strlen(job->output) + 16 > sizeof job->rest) return "--output: the name is too long";
     if (!options_direction(job->shake_text, job->shake.shake.direction))
@@ -191,8 +176,7 @@ static const char *check(struct job *job)
     job->shake.mesh = job->mesh;
     job->shake.output = job->output;
     job->shake.budget = 1e6 * job->budget;
-    const char *wrong = mesh_options_check(&job->opening);
-    if (!wrong) wrong = set_drive(job);
+    const char *wrong = set_drive(job);
     return wrong ? wrong : set_material(&job->soft);
 }
 
@@ -202,7 +186,7 @@ enum { MODES_SEARCHED = 24 };
 int command_simulate(int argc, char **argv)
 {
     struct job job = {.soft = soft_default_options(),
-                      .opening = {.up = "y", .scale = 1},
+                      .opening = {.scale = 1},
                       .shake = {.shake = {.amplitude = NAN}, .seconds = 4, .fps = 24, .accuracy = 0.02},
                       .budget = 20,
                       .shake_text = "up",
@@ -277,5 +261,6 @@ int command_simulate(int argc, char **argv)
     if (!job.modal) job.soft.shake = &shake->shake;
     const char *wrong = check(&job);
     if (wrong) return (int)options_wrong(&usage, "%s", wrong);
-    return run_watched(&job);
+    struct error error;
+    return options_end(run(&job, &error), &error);
 }

@@ -56,19 +56,7 @@ static bool write_output(const char *path, const struct document *document, cons
     return file_output_commit(&output, error);
 }
 
-static void warn_statuses(const char *path, const struct document *document, const struct evaluation *evaluation)
-{
-    for (int i = 0; i < evaluation->count; i++) {
-        char sentence[EVALUATION_SENTENCE];
-        if (!evaluation_sentence(evaluation, i, sentence)) continue;
-        struct error warning; // a name may hold anything: fail() makes it printable
-        fail(&warning, ERROR_INPUT, "%s: splines[%d]: warning: \"%s\": %s", path, i, document->splines[i]->name,
-             sentence);
-        fprintf(stderr, "%s\n", warning.text);
-    }
-}
-
-static void warn_of_pin(void *user, const char *sentence)
+static void warn(void *user, const char *sentence)
 {
     const char *const *scene = user;
     print_line(stderr, "%s: warning: %s", *scene, sentence);
@@ -79,8 +67,7 @@ static bool solve(const char *scene, enum solver_choice solver, const char *out,
     struct opened opened;
     if (!opened_read_splines(&opened, scene, error)) return false;
     opened_solve(&opened, solver);
-    warn_statuses(scene, opened.document, &opened.evaluation);
-    pin_warnings(opened.document, &opened.evaluation, warn_of_pin, &scene);
+    solution_warnings(opened.document, &opened.evaluation, warn, &scene);
     const bool done = write_output(out, opened.document, &opened.evaluation, error);
     opened_free(&opened);
     return done;
@@ -92,7 +79,7 @@ int command_solve(int argc, char **argv)
     enum solver_choice solver = SOLVER_BY_LENGTH;
     const struct option_spec options[] = {
         {"--output", "-o", "FILE", "file to write (default: standard output)", OPTION_TEXT, &out, 0, 0},
-        options_solver(&solver),
+        OPTION_SOLVER(&solver),
     };
     const struct usage usage = {
         .command = "solve",
@@ -106,7 +93,5 @@ int command_solve(int argc, char **argv)
     enum options_result result = options_parse(&usage, argc, argv, &scene);
     if (result != OPTIONS_RUN) return (int)result;
     struct error error;
-    if (solve(scene, solver, out, &error)) return 0;
-    fprintf(stderr, "%s\n", error.text);
-    return (int)error.kind;
+    return options_end(solve(scene, solver, out, &error), &error);
 }
