@@ -49,18 +49,24 @@ static inline void close_scene(struct opened *scene)
     document_destroy(scene->document);
 }
 
-/// Exports a scene of assets/scenes; returns the file's path, of the same storage at each second call.
-static inline const char *export_scene(const char *name, const char *file, struct export_options options)
+/// Exports a scene; returns the file's path, of the same storage at each second call.
+static inline const char *export_file(const char *scene_path, const char *file, struct export_options options)
 {
-    char scene_path[128];
     struct error error = {0};
     struct export_report report;
-    const char *path = folder_path(file);
-    snprintf(scene_path, sizeof scene_path, "assets/scenes/%s.json", name);
     struct opened scene = open_scene(scene_path);
+    const char *path = folder_path(file);
     if (!export_write(posing_of(&scene), path, &options, &report, &error)) fail_msg("%s", error.text);
     close_scene(&scene);
     return path;
+}
+
+/// Exports a scene of assets/scenes.
+static inline const char *export_scene(const char *name, const char *file, struct export_options options)
+{
+    char scene_path[128];
+    snprintf(scene_path, sizeof scene_path, "assets/scenes/%s.json", name);
+    return export_file(scene_path, file, options);
 }
 
 /// All numbers of a motion, as floats.

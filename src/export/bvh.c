@@ -1,5 +1,4 @@
 /// Joints as .bvh. Metres, y up; a joint turns by R_y · R_x · R_z, so that a tail's side and up are the first two of its channels.
-#include "export/form.h"
 #include "export/keys.h"
 #include <ctype.h>
 #include <math.h>
@@ -70,7 +69,7 @@ static void to_angles(const float q[4], double angle[3])
 static void write_key(FILE *out, const struct form *form, const struct keys *keys, int j, int key)
 {
     double angle[3];
-    to_angles(keys->at.rotation[j * keys->count + key], angle);
+    to_angles(keys_at(keys, key, keys_rotation(j)), angle);
     fprintf(out, " %.9g %.9g %.9g", angle[0], angle[1], angle[2]);
     for (int child = j + 1; child < form->joint_count; child++) {
         if (form->joints[child].parent == j) write_key(out, form, keys, child, key);
@@ -90,7 +89,7 @@ bool bvh_write(struct export_range *range, FILE *out, char summary[FORMAT_SUMMAR
         write_joint(out, &form, form.first_bone, 0);
         fprintf(out, "MOTION\nFrames: %d\nFrame Time: %.12g\n", keys.count, range_seconds(range, 1));
         for (int k = 0; k < keys.count; k++) {
-            const float *place = keys.at.translation[k];
+            const float *place = keys_at(&keys, k, 0);
             fprintf(out, "%.9g %.9g %.9g", (double)place[0], (double)place[1], (double)place[2]);
             write_key(out, &form, &keys, form.first_bone, k);
             fputc('\n', out);

@@ -49,6 +49,7 @@ struct form_key {
     float translation[3]; ///< of the root, metres
     float (*rotation)[4]; ///< of each joint in its parent, unit quaternions x y z w
     float (*scale)[3];    ///< of each joint, along its own axes; 1 unless its kind sets it
+    float (*offset)[3];   ///< of each joint in its parent, as at rest unless its kind sets it
     float *weight;        ///< of each target
 };
 
@@ -85,11 +86,14 @@ const char *form_name(const struct rig *rig);
 bool form_open(const struct export_range *range, int rig, struct form *form, struct error *error);
 void form_close(struct form *form);
 
-/// What the form of an imported character knows besides, in form.owned: its joints are the bones that chains bend.
-struct model_bones {
+/// What the form of an imported character knows besides, in form.owned. Its joints are the nodes that move, first the bones that chains
+/// bend, and its targets are those of all nodes.
+struct model_body {
     const struct gltf *gltf;
-    int *node;     ///< of each joint of the form
-    bool *is_bone; ///< of each node: some chain bends it
+    const struct gltf_clip *clip; ///< that plays; NULL: none
+    int *node;                    ///< of each joint
+    int *joint_of;                ///< of each node, −1: none
+    int bone_count;
 };
 
 #endif

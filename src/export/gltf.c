@@ -1,11 +1,135 @@
 /// Rigs as glTF 2.0: meshes with skins or morph targets, and one clip that moves them all.
-#include "export/form.h"
-#include "export/gltf_motion.h"
-#include "export/keys.h"
-#include "export/targets.h"
+#include "export/gltf.h"
+#include "base/need.h"
 #include "model/gltf_shape.h"
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
+
+// --- the targets of a file: those of a form, or each in a positive and a negative one whose weights are 0 … 1, because Blender clamps
+// --- weights to that
+
+/// `scale` times a target of the form.
+struct file_target {
+    int source;
+    float scale;          ///< negative for the negative ones
+    char name[FORM_NAME]; ///< "up.re"; "up.-re" for the negative one
+};
+
+struct file_targets {
+    struct file_target *list; ///< first all of the form's in their order, then the negative ones
+    int count;
+    bool clamped; ///< weights are 0 … 1
+};
+
+/// The largest |weight| of a group's targets over all keys, at least 1: what weights are divided by.
+static float largest_of(const struct form *form, const struct keys *keys, int group)
+{
+    float largest = 1.0f;
+    for (int t = 0; t < form->target_count; t++) {
+        if (form->targets[t].group != group) continue;
+        for (int k = 0; k < keys->count; k++)
+            largest = fmaxf(largest, fabsf(*keys_at(keys, k, keys_weight(keys, t))));
+    }
+    return largest;
+}
+
+static bool is_ever_negative(const struct keys *keys, int target)
+{
+    for (int k = 0; k < keys->count; k++) {
+        if (*keys_at(keys, k, keys_weight(keys, target)) < 0) return true;
+    }
+    return false;
+}
+
+/// "up.re" → "up.-re", "smile" → "-smile"
+static void name_negative(const char *name, char negative[FORM_NAME])
+{
+    const char *dot = strrchr(name, '.');
+    const int before = dot ? (int)(dot - name) + 1 : 0;
+    snprintf(negative, FORM_NAME, "%.*s-%s", before < FORM_NAME ? before : FORM_NAME, name, name + before);
+}
+
+static void make_targets(const struct form *form, const struct keys *keys, bool clamped, struct file_targets *targets)
+{
+    const int count = form->target_count;
+    *targets = (struct file_targets){.clamped = clamped, .count = count};
+    targets->list = need_zeroed(2 * (size_t)count, sizeof *targets->list);
+    for (int t = 0; t < count; t++) {
+        struct file_target *target = &targets->list[t];
+        *target = (struct file_target){.source = t, .scale = 1.0f};
+        if (clamped) target->scale = largest_of(form, keys, form->targets[t].group);
+        snprintf(target->name, FORM_NAME, "%s", form->targets[t].name);
+    }
+    for (int t = 0; clamped && t < count; t++) {
+        if (!is_ever_negative(keys, t)) continue;
+        struct file_target *target = &targets->list[targets->count++];
+        *target = (struct file_target){.source = t, .scale = -targets->list[t].scale};
+        name_negative(form->targets[t].name, target->name);
+    }
+}
+
+// --- one animation
+
+void gltf_motion_begin(struct gltf_motion *motion, struct gltf_file *file, const struct export_range *range)
+{
+    const int count = range->key_count;
+    float *times = need((size_t)count, sizeof *times);
+    *motion =
+        (struct gltf_motion){.file = file, .samplers = json_array(), .channels = json_array(), .key_count = count};
+    for (int k = 0; k < count; k++) times[k] = (float)range_seconds(range, k);
+    motion->times = gltf_file_add(file, ELEMENTS_KEYS, times, (size_t)count, true);
+    free(times);
+}
+
+void gltf_motion_free(struct gltf_motion *motion)
+{
+    json_decref(motion->samplers);
+    json_decref(motion->channels);
+}
+
+void gltf_motion_add(struct gltf_motion *motion, json_int_t node, enum gltf_path path, const float *values,
+                     const float *slopes, int width, int stride)
+{
+    static const struct {
+        const char *name;
+        enum gltf_elements elements;
+    } paths[] = {{"translation", ELEMENTS_KEY_VECTORS},
+                 {"rotation", ELEMENTS_TURNS},
+                 {"scale", ELEMENTS_KEY_VECTORS},
+                 {"weights", ELEMENTS_KEYS}};
+    const size_t size = (size_t)width * sizeof *values, count = (size_t)motion->key_count * (slopes ? 3 : 1);
+    float *const keys = need(count, size), *at = keys;
+    for (size_t from = 0; at < keys + count * (size_t)width; from += (size_t)stride) {
+        if (slopes)
+            at = mempcpy(at, slopes + from, size); // the tangent into it, the value, and the tangent out of it
+        at = mempcpy(at, values + from, size);
+        if (slopes) at = mempcpy(at, slopes + from, size);
+    }
+    const json_int_t output = gltf_file_add(motion->file, paths[path].elements, keys,
+                                            count * (path == GLTF_WEIGHTS ? (size_t)width : 1), false);
+    free(keys);
+    const json_int_t sampler = gltf_append(motion->file, motion->samplers,
+                                           json_pack("{s:I, s:I, s:s}", "input", motion->times, "output", output,
+                                                     "interpolation", slopes ? "CUBICSPLINE" : "LINEAR"));
+    gltf_append(
+        motion->file, motion->channels,
+        json_pack("{s:I, s:{s:I, s:s}}", "sampler", sampler, "target", "node", node, "path", paths[path].name));
+}
+
+void gltf_motion_add_keys(struct gltf_motion *motion, json_int_t node, enum gltf_path path, const struct keys *keys,
+                          int column, int width)
+{
+    gltf_motion_add(motion, node, path, keys_at(keys, 0, column), keys->slopes ? keys->slopes + column : NULL, width,
+                    keys->width);
+}
+
+json_t *gltf_motion_json(const struct gltf_motion *motion, const char *name)
+{
+    return json_pack("{s:s, s:O, s:O}", "name", name, "samplers", motion->samplers, "channels", motion->channels);
+}
+
+// --- a scene
 
 struct scene {
     struct export_range *range;
@@ -49,11 +173,7 @@ static json_int_t add_mesh(struct scene *scene, const struct part *part)
                                .looks = form->looks,
                                .target_count = part->targets->count,
                                .character = form->character};
-    shape.targets = calloc((size_t)shape.target_count + 1, sizeof *shape.targets);
-    if (!shape.targets) {
-        scene->file.without_memory = true;
-        return 0;
-    }
+    shape.targets = need((size_t)shape.target_count, sizeof *shape.targets);
     for (int t = 0; t < shape.target_count; t++) {
         const struct file_target *target = &part->targets->list[t];
         const struct form_target *of = &form->targets[target->source];
@@ -75,23 +195,22 @@ static json_int_t add_skin(struct scene *scene, struct part *part)
     part->first_joint = (json_int_t)json_array_size(scene->nodes);
     for (int j = 0; j < form->joint_count; j++) {
         const struct form_joint *joint = &form->joints[j];
-        const float *place = joint->parent < 0 ? part->keys->at.translation[0] : joint->offset;
+        const float *place = joint->parent < 0 ? part->keys->rows : joint->offset;
         json_t *node = json_pack("{s:s, s:o, s:o}", "name", joint->name, "translation", numbers(scene, place, 3),
-                                 "rotation", numbers(scene, part->keys->at.rotation[j * part->keys->count], 4));
+                                 "rotation", numbers(scene, part->keys->rows + keys_rotation(j), 4));
         gltf_append(&scene->file, joints, json_integer(gltf_append(&scene->file, scene->nodes, node)));
         if (joint->parent < 0) continue;
         json_t *parent = json_array_get(scene->nodes, (size_t)(part->first_joint + joint->parent));
         gltf_append_to(&scene->file, parent, "children", json_integer(part->first_joint + j));
     }
     gltf_append(&scene->file, scene->roots, json_integer(part->first_joint));
-    float(*inverse)[16] = calloc((size_t)form->joint_count, sizeof *inverse);
-    for (int j = 0; inverse && j < form->joint_count; j++) {
+    float(*inverse)[16] = need_zeroed((size_t)form->joint_count, sizeof *inverse);
+    for (int j = 0; j < form->joint_count; j++) {
         for (int k = 0; k < 4; k++) inverse[j][5 * k] = 1;
         for (int k = 0; k < 3; k++) inverse[j][12 + k] = -form->joints[j].bind[k];
     }
-    if (!inverse) scene->file.without_memory = true;
     const json_int_t matrices =
-        inverse ? gltf_file_add(&scene->file, ELEMENTS_MATRICES, inverse, (size_t)form->joint_count, false) : 0;
+        gltf_file_add(&scene->file, ELEMENTS_MATRICES, inverse, (size_t)form->joint_count, false);
     free(inverse);
     return gltf_append(&scene->file, scene->skins,
                        json_pack("{s:o, s:I, s:I}", "joints", joints, "inverseBindMatrices", matrices, "skeleton",
@@ -107,7 +226,7 @@ static void add_nodes(struct scene *scene, struct part *part, json_int_t mesh)
     if (form->joint_count > 0) {
         gltf_set(&scene->file, node, "skin", json_integer(add_skin(scene, part)));
     } else {
-        gltf_set(&scene->file, node, "translation", numbers(scene, part->keys->at.translation[0], 3));
+        gltf_set(&scene->file, node, "translation", numbers(scene, part->keys->rows, 3));
     }
 }
 
@@ -116,28 +235,31 @@ static void add_nodes(struct scene *scene, struct part *part, json_int_t mesh)
 static void add_weights(struct scene *scene, const struct part *part)
 {
     const struct keys *keys = part->keys;
-    const int width = part->targets->count, count = keys->count;
+    const int width = part->targets->count;
     if (width == 0) return;
-    float *values = malloc((size_t)(width * count) * sizeof *values);
-    float *slopes = keys->slope.translation ? malloc((size_t)(width * count) * sizeof *slopes) : NULL;
-    if (!values || (keys->slope.translation && !slopes)) {
-        scene->file.without_memory = true;
-    } else {
-        for (int i = 0; i < width * count; i++) {
-            values[i] = targets_weight(part->targets, i % width, keys, i / width);
-            if (slopes) slopes[i] = targets_slope(part->targets, i % width, keys, i / width);
-        }
-        gltf_motion_add(&scene->motion, part->mesh_node, GLTF_WEIGHTS, values, slopes, width);
+    const size_t count = (size_t)width * (size_t)keys->count;
+    float *values = need(count, sizeof *values);
+    float *slopes = keys->slopes ? need_zeroed(count, sizeof *slopes) : NULL;
+    for (int i = 0; i < width * keys->count; i++) {
+        const struct file_target *target = &part->targets->list[i % width];
+        const int column = keys_weight(keys, target->source);
+        const float weight = *keys_at(keys, i / width, column) / target->scale;
+        values[i] = part->targets->clamped ? fminf(fmaxf(weight, 0.0f), 1.0f) : weight;
+        if (!slopes || (part->targets->clamped && weight <= 0)) continue;
+        slopes[i] = keys->slopes[(size_t)(i / width) * (size_t)keys->width + (size_t)column] / target->scale;
     }
+    gltf_motion_add(&scene->motion, part->mesh_node, GLTF_WEIGHTS, values, slopes, width, width);
     free(values);
     free(slopes);
 }
 
 /// Whether any key is other than at rest.
-static bool differs(const float *keys, int width, int count, const float *rest)
+static bool differs(const struct keys *keys, int column, int width, const float *rest)
 {
-    for (int i = 0; i < width * count; i++) {
-        if (keys[i] != rest[i % width]) return true;
+    for (int k = 0; k < keys->count; k++) {
+        for (int i = 0; i < width; i++) {
+            if (keys_at(keys, k, column)[i] != rest[i]) return true;
+        }
     }
     return false;
 }
@@ -146,20 +268,14 @@ static void add_animation(struct scene *scene, const struct part *part)
 {
     const struct form *form = part->form;
     const struct keys *keys = part->keys;
-    if (keys->travels) {
-        const float *slopes = keys->slope.translation ? keys->slope.translation[0] : NULL;
-        gltf_motion_add(&scene->motion, form->joint_count > 0 ? part->first_joint : part->mesh_node, GLTF_TRANSLATION,
-                        keys->at.translation[0], slopes, 3);
-    }
+    if (keys->travels)
+        gltf_motion_add_keys(&scene->motion, form->joint_count > 0 ? part->first_joint : part->mesh_node,
+                             GLTF_TRANSLATION, keys, 0, 3);
     for (int j = 0; j < form->joint_count; j++) {
-        const int at = j * keys->count;
-        const float *turns = keys->at.rotation[at], *sizes = keys->at.scale[at];
-        if (j >= form->first_bone || differs(turns, 4, keys->count, (const float[]){0, 0, 0, 1}))
-            gltf_motion_add(&scene->motion, part->first_joint + j, GLTF_ROTATION, turns,
-                            keys->slope.translation ? keys->slope.rotation[at] : NULL, 4);
-        if (differs(sizes, 3, keys->count, (const float[]){1, 1, 1}))
-            gltf_motion_add(&scene->motion, part->first_joint + j, GLTF_SCALE, sizes,
-                            keys->slope.translation ? keys->slope.scale[at] : NULL, 3);
+        if (j >= form->first_bone || differs(keys, keys_rotation(j), 4, (const float[]){0, 0, 0, 1}))
+            gltf_motion_add_keys(&scene->motion, part->first_joint + j, GLTF_ROTATION, keys, keys_rotation(j), 4);
+        if (differs(keys, keys_scale(keys, j), 3, (const float[]){1, 1, 1}))
+            gltf_motion_add_keys(&scene->motion, part->first_joint + j, GLTF_SCALE, keys, keys_scale(keys, j), 3);
     }
     add_weights(scene, part);
 }
@@ -173,7 +289,7 @@ static bool add_rig(struct scene *scene, int rig, struct error *error)
     struct file_targets targets = {0};
     if (!form_open(scene->range, rig, &form, error)) return false;
     bool done = keys_collect(scene->range, rig, &form, &keys, error);
-    if (done) targets_create(scene->range, &form, &keys, &targets);
+    if (done) make_targets(&form, &keys, !scene->range->is_signed, &targets);
     if (done) {
         struct part part = {.form = &form, .keys = &keys, .targets = &targets};
         add_nodes(scene, &part, add_mesh(scene, &part));
@@ -181,7 +297,7 @@ static bool add_rig(struct scene *scene, int rig, struct error *error)
         scene->joints += form.joint_count - form.first_bone;
         scene->targets += targets.count;
     }
-    targets_free(&targets);
+    free(targets.list);
     keys_free(&keys);
     form_close(&form);
     return done;

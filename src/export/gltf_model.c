@@ -1,8 +1,6 @@
 /// Writes an imported character's own file with a clip more: parses its JSON, adds to it, and prints it.
 #include "base/file.h"
-#include "export/form.h"
-#include "export/gltf_motion.h"
-#include "export/keys.h"
+#include "export/gltf.h"
 #include "model/glb.h"
 #include <stdlib.h>
 #include <string.h>
@@ -146,32 +144,34 @@ static bool write_same(const char *path, FILE *out, struct error *error)
 
 // --- the clip
 
-/// The bones with tangents, and all else with the keys of its own clip.
-static bool add_cubic(struct export_range *range, const struct form *form, const struct gltf_body *body,
-                      struct gltf_motion *motion, struct error *error)
+static void add_channel(struct gltf_motion *motion, const struct model_body *body, const struct keys *all,
+                        const struct gltf_channel *channel)
 {
-    struct keys keys;
-    if (!keys_collect(range, range->rigs[0], form, &keys, error)) return false;
-    const bool done = !body->clip || gltf_body_keep(body, range, motion, error);
-    for (int j = 0; done && j < form->joint_count; j++) {
-        const size_t at = (size_t)j * (size_t)keys.count;
-        gltf_motion_add(motion, body->bones[j], GLTF_ROTATION, keys.at.rotation[at],
-                        keys.slope.rotation ? keys.slope.rotation[at] : NULL, 4);
-    }
-    keys_free(&keys);
-    return done;
+    const int joint = body->joint_of[channel->node];
+    const int columns[] = {keys_offset(all, joint), keys_rotation(joint), keys_scale(all, joint),
+                           keys_weight(all, body->gltf->nodes[channel->node].first_weight)};
+    struct keys keys = *all;
+    if (channel->interpolation != GLTF_CUBIC) keys.slopes = NULL;           // it has corners, or jumps
+    if (channel->path == GLTF_ROTATION && joint < body->bone_count) return; // a chain has it
+    gltf_motion_add_keys(motion, channel->node, channel->path, &keys, columns[channel->path], channel->components);
 }
 
-/// Adds the clip; one of the same name it replaces.
-static bool put_clip(struct export_range *range, const struct form *form, const struct gltf_body *body,
-                     struct original *o, struct error *error)
+/// Adds the clip, with keys for all that the one that plays or chains move; one of the same name it replaces.
+static bool put_clip(struct export_range *range, const struct form *form, struct original *o, struct error *error)
 {
+    const struct model_body *body = form->owned;
     struct gltf_motion motion;
+    struct keys keys;
     json_t *root = o->source.json;
+    const char *plays = range->posing->document->rigs[range->rigs[0]]->model.clip;
+    if (!range->clip) range->clip = plays ? plays : range->title;
+    if (!keys_collect(range, range->rigs[0], form, &keys, error)) return false;
     gltf_motion_begin(&motion, &o->file, range);
-    const bool done = range->is_cubic ? add_cubic(range, form, body, &motion, error)
-                                      : gltf_body_sample(body, range, &motion, error);
-    json_t *clip = done ? gltf_motion_json(&motion, range->clip) : NULL;
+    for (int c = 0; body->clip && c < body->clip->channel_count; c++)
+        add_channel(&motion, body, &keys, &body->clip->channels[c]);
+    for (int j = 0; j < body->bone_count; j++)
+        gltf_motion_add_keys(&motion, body->node[j], GLTF_ROTATION, &keys, keys_rotation(j), 4);
+    json_t *clip = gltf_motion_json(&motion, range->clip);
     const int known = gltf_find_clip(body->gltf, range->clip);
     if (known < 0) {
         gltf_append_to(&o->file, root, "animations", clip);
@@ -179,42 +179,28 @@ static bool put_clip(struct export_range *range, const struct form *form, const 
         o->file.without_memory = true;
     }
     gltf_motion_free(&motion);
-    return done;
+    keys_free(&keys);
+    return true;
 }
 
-static bool write_file(struct export_range *range, const struct form *form, const struct gltf_body *body, bool binary,
-                       FILE *out, struct error *error)
+static bool write_file(struct export_range *range, const struct form *form, bool binary, FILE *out,
+                       struct error *error)
 {
     struct original o = {0};
-    const char *path = body->gltf->path;
-    if (!glb_open(&o.source, path, error)) return false;
+    const struct model_body *body = form->owned;
+    const bool has_clip = body->bone_count > 0;
+    if (!glb_open(&o.source, body->gltf->path, error)) return false;
     o.is_same = (memcmp(o.source.data, "glTF", 4) == 0) == binary;
     bool done;
-    if (form->joint_count == 0 && o.is_same) {
-        done = check_place(range, &o.source, error) && write_same(path, out, error);
+    if (!has_clip && o.is_same) {
+        done = check_place(range, &o.source, error) && write_same(body->gltf->path, out, error);
     } else {
-        done = take_bytes(range, binary, &o, error) &&
-               (form->joint_count == 0 || put_clip(range, form, body, &o, error)) &&
+        done = take_bytes(range, binary, &o, error) && (!has_clip || put_clip(range, form, &o, error)) &&
                gltf_file_write(&o.file, json_incref(o.source.json), binary, out, error);
     }
     gltf_file_free(&o.file);
     glb_close(&o.source);
     return done;
-}
-
-static bool write_model(struct export_range *range, const struct form *form, bool binary, FILE *out,
-                        struct error *error)
-{
-    const struct model_bones *own = form->owned;
-    const struct model_rig *model = &range->posing->document->rigs[range->rigs[0]]->model;
-    const int clip = model->clip ? gltf_find_clip(own->gltf, model->clip) : -1;
-    const struct gltf_body body = {.gltf = own->gltf,
-                                   .clip = clip >= 0 ? &own->gltf->clips[clip] : NULL,
-                                   .bones = own->node,
-                                   .bone_count = form->joint_count,
-                                   .is_bone = own->is_bone};
-    if (!range->clip) range->clip = model->clip ? model->clip : range->title;
-    return write_file(range, form, &body, binary, out, error);
 }
 
 bool gltf_model_write(struct export_range *range, bool binary, FILE *out, char summary[FORMAT_SUMMARY],
@@ -223,9 +209,10 @@ bool gltf_model_write(struct export_range *range, bool binary, FILE *out, char s
     struct form form;
     range->total = range->key_count;
     if (!form_open(range, range->rigs[0], &form, error)) return false;
-    const bool done = write_model(range, &form, binary, out, error);
-    if (form.joint_count > 0) {
-        snprintf(summary, FORMAT_SUMMARY, "%d bones bent by chains, %d keys", form.joint_count, range->key_count);
+    const bool done = write_file(range, &form, binary, out, error);
+    const int bones = ((const struct model_body *)form.owned)->bone_count;
+    if (bones > 0) {
+        snprintf(summary, FORMAT_SUMMARY, "%d bones bent by chains, %d keys", bones, range->key_count);
     } else {
         snprintf(summary, FORMAT_SUMMARY, "what is in the file as it was, because no chain moves it");
     }

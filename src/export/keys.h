@@ -4,20 +4,25 @@
 
 #include "export/form.h"
 
-/// Values at all keys; or how fast they change there, by second.
-struct key_values {
-    float (*translation)[3]; ///< of the root
-    float (*rotation)[4];    ///< [joint · count + key], the short way from key to key
-    float (*scale)[3];       ///< [joint · count + key]
-    float *weight;           ///< [target · count + key]
+/// A row of numbers for each key: the translation of the root, the rotations of all joints, their scales, their offsets, the weights of all
+/// targets. Rotations go the short way from key to key.
+struct keys {
+    int count, width, joints;
+    float *rows;
+    float *slopes; ///< how fast the curves change at the keys, by second; NULL unless the range is cubic
+    bool travels;  ///< the translation changes
 };
 
-struct keys {
-    int count;
-    struct key_values at;
-    struct key_values slope; ///< of the curve itself; all NULL unless the range is cubic
-    bool travels;            ///< the translation changes
-};
+// Columns of a row.
+static inline int keys_rotation(int joint) { return 3 + 4 * joint; }
+static inline int keys_scale(const struct keys *keys, int joint) { return 3 + 4 * keys->joints + 3 * joint; }
+static inline int keys_offset(const struct keys *keys, int joint) { return 3 + 7 * keys->joints + 3 * joint; }
+static inline int keys_weight(const struct keys *keys, int target) { return 3 + 10 * keys->joints + target; }
+
+static inline const float *keys_at(const struct keys *keys, int key, int column)
+{
+    return keys->rows + (size_t)key * (size_t)keys->width + column;
+}
 
 /// Poses the rig at each key. False with a sentence, and nothing to free.
 bool keys_collect(struct export_range *range, int rig, const struct form *form, struct keys *keys,

@@ -1,64 +1,80 @@
-/// An imported character as a form: its vertices, and the bones that its chains bend, as joints. All in the space of its file.
+/// An imported character as a form: its vertices, and its moving nodes as joints. All in the space of its file.
 #include "base/need.h"
 #include "export/form.h"
 #include "rig/chain_bones.h"
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-static void add_bones(struct form *form, const struct gltf *gltf, const struct chain_bones *bones)
+static void add_joint(struct form *form, int node)
 {
-    struct model_bones *own = form->owned;
-    for (int n = 0; n < bones->count; n++) {
-        if (own->is_bone[bones->node[n]]) continue;
-        own->is_bone[bones->node[n]] = true;
-        own->node[form->joint_count] = bones->node[n];
-        struct form_joint *joint = &form->joints[form->joint_count++];
-        *joint = (struct form_joint){.parent = -1};
-        snprintf(joint->name, FORM_NAME, "%s", gltf->nodes[bones->node[n]].name);
-    }
+    struct model_body *body = form->owned;
+    if (body->joint_of[node] >= 0) return;
+    body->joint_of[node] = form->joint_count;
+    body->node[form->joint_count++] = node;
 }
 
-static bool open(const struct posing *posing, int rig, const struct rig_pose *pose, struct form *form,
-                 struct error *error)
+/// Adds the bones of all chains that bend the rig.
+static bool add_bones(struct form *form, const struct document *document, int rig, struct error *error)
 {
-    const struct document *document = posing->document;
-    const struct gltf *gltf = &pose->model.imported->gltf;
-    const size_t nodes = (size_t)gltf->node_count + 1;
-    struct model_bones *own = form->owned = need_zeroed(1, sizeof *own);
-    own->gltf = gltf;
-    own->node = need_zeroed(nodes, sizeof *own->node);
-    own->is_bone = need_zeroed(nodes, sizeof *own->is_bone);
-    form->joints = need_zeroed(nodes, sizeof *form->joints);
+    struct model_body *body = form->owned;
     for (int r = 0; r < document->rig_count; r++) {
         const struct chain *chain = &document->rigs[r]->chain;
         struct chain_bones bones;
         if (document->rigs[r]->kind != RIG_CHAIN) continue;
         if (document_find_model(document, chain->model, chain->by_file) != rig) continue;
-        if (!chain_find(gltf, chain->from, chain->to, &bones, error)) return false;
-        add_bones(form, gltf, &bones);
+        if (!chain_find(body->gltf, chain->from, chain->to, &bones, error)) return false;
+        for (int n = 0; n < bones.count; n++) add_joint(form, bones.node[n]);
     }
+    body->bone_count = form->joint_count;
+    return true;
+}
+
+static bool open(const struct posing *posing, int rig, const struct rig_pose *pose, struct form *form,
+                 struct error *error)
+{
+    const struct model_rig *model = &posing->document->rigs[rig]->model;
+    const struct gltf *gltf = &pose->model.imported->gltf;
+    const int clip = model->clip ? gltf_find_clip(gltf, model->clip) : -1;
+    const size_t nodes = (size_t)gltf->node_count;
+    struct model_body *body = form->owned = need_zeroed(1, sizeof *body);
+    body->gltf = gltf;
+    body->clip = clip >= 0 ? &gltf->clips[clip] : NULL;
+    body->node = need(nodes, sizeof *body->node);
+    body->joint_of = need(nodes, sizeof *body->joint_of);
+    form->joints = need_zeroed(nodes, sizeof *form->joints);
+    for (size_t n = 0; n < nodes; n++) body->joint_of[n] = -1;
+    if (!add_bones(form, posing->document, rig, error)) return false;
+    for (int c = 0; body->clip && c < body->clip->channel_count; c++) {
+        if (body->clip->channels[c].path != GLTF_WEIGHTS) add_joint(form, body->clip->channels[c].node);
+    }
+    form->target_count = gltf->weight_count;
     for (int n = 0; n < gltf->node_count; n++) form->vertex_count += gltf_vertex_count(gltf, n);
     return true;
 }
 
 static void close(struct form *form)
 {
-    struct model_bones *own = form->owned;
-    if (own) {
-        free(own->node);
-        free(own->is_bone);
+    struct model_body *body = form->owned;
+    if (body) {
+        free(body->node);
+        free(body->joint_of);
     }
-    free(own);
+    free(body);
     free(form->joints);
 }
 
 static void key(const struct form *form, const struct rig_pose *pose, struct form_key *key)
 {
-    const struct model_bones *own = form->owned;
+    const struct model_body *body = form->owned;
+    const struct gltf_pose *now = pose->model.pose;
     memset(key->translation, 0, sizeof key->translation);
-    for (int j = 0; j < form->joint_count; j++)
-        memcpy(key->rotation[j], pose->model.pose->place[own->node[j]].rotation, sizeof key->rotation[j]);
+    for (int j = 0; j < form->joint_count; j++) {
+        const struct gltf_place *place = &now->place[body->node[j]];
+        memcpy(key->offset[j], place->translation, sizeof place->translation);
+        memcpy(key->rotation[j], place->rotation, sizeof place->rotation);
+        memcpy(key->scale[j], place->scale, sizeof place->scale);
+    }
+    memcpy(key->weight, now->weights, (size_t)form->target_count * sizeof *key->weight);
 }
 
 /// Node after node.

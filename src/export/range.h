@@ -55,11 +55,6 @@ bool gltf_write(struct export_range *range, FILE *out, char summary[FORMAT_SUMMA
 bool bvh_write(struct export_range *range, FILE *out, char summary[FORMAT_SUMMARY], struct error *error);
 bool usda_write(struct export_range *range, FILE *out, char summary[FORMAT_SUMMARY], struct error *error);
 
-/// Writes the file that the range's only rig came from, with a clip added or, where it has one of that name, replaced. All else stays as it
-/// was; in the other container, .glb or .gltf, it says the same. Without a chain there is no new clip.
-bool gltf_model_write(struct export_range *range, bool binary, FILE *out, char summary[FORMAT_SUMMARY],
-                      struct error *error);
-
 /// Writes a rig that is no imported character as a .glb of its own.
 bool gltf_write_rig(struct export_range *range, int rig, FILE *out, struct error *error);
 

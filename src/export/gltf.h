@@ -1,0 +1,37 @@
+/// What the writers of glTF files share: one animation. Private to src/export.
+#ifndef EXPORT_GLTF_H
+#define EXPORT_GLTF_H
+
+#include "export/keys.h"
+#include "model/gltf.h"
+#include "model/gltf_file.h"
+
+struct gltf_motion {
+    struct gltf_file *file;
+    json_t *samplers, *channels;
+    json_int_t times; ///< the accessor of the keys' times
+    int key_count;
+};
+
+/// Starts an animation with a range's keys. `file` must outlive it.
+void gltf_motion_begin(struct gltf_motion *motion, struct gltf_file *file, const struct export_range *range);
+void gltf_motion_free(struct gltf_motion *motion);
+
+/// Adds what moves a node: `width` numbers a key, `stride` from one key to the next, and how fast they change by second (NULL: straight
+/// lines between keys).
+void gltf_motion_add(struct gltf_motion *motion, json_int_t node, enum gltf_path path, const float *values,
+                     const float *slopes, int width, int stride);
+
+/// Adds a column of a rig's keys, with tangents if they have some.
+void gltf_motion_add_keys(struct gltf_motion *motion, json_int_t node, enum gltf_path path, const struct keys *keys,
+                          int column, int width);
+
+/// The animation; the caller's.
+json_t *gltf_motion_json(const struct gltf_motion *motion, const char *name);
+
+/// Writes the file that the range's only rig came from, with a clip added or, where it has one of that name, replaced. All else stays as it
+/// was; in the other container, .glb or .gltf, it says the same. Without a chain there is no new clip.
+bool gltf_model_write(struct export_range *range, bool binary, FILE *out, char summary[FORMAT_SUMMARY],
+                      struct error *error);
+
+#endif
