@@ -215,7 +215,7 @@ static const struct output {
     {"assets/scenes/tail.json", {"out.mdd"}, NULL, true},
     {"assets/scenes/tail.json", {"out.npy"}, NULL, false},
     {NULL, {"out-0001.png", "out-0002.png"}, &film_png, false},
-    {NULL, {"out.gif"}, &film_gif, false}, // .mp4 and .webm but for the words to ffmpeg
+    {NULL, {"out.gif"}, &film_ffmpeg, false}, // .mp4 and .webm but for the words to ffmpeg
 };
 
 enum { SIDE = 16, MOST_FILES = 2 };
@@ -232,7 +232,7 @@ static int make_film(const struct film_file_kind *kind, const char *path)
     struct error error = {0};
     off_t bytes;
     for (size_t i = 0; i < sizeof pixels; i++) pixels[i] = (unsigned char)(i * i / 97);
-    struct film_file *film = kind->open(path, &(struct film_shape){SIDE, SIDE, 24, 2, false}, &error);
+    struct film_file *film = kind->open(path, &(struct film_shape){SIDE, SIDE, 24, 2, film_gif}, &error);
     if (!film) return error.text[0] ? 3 : 9;
     enum film_state state = FILM_DONE;
     for (int i = 0; i < 2 && state == FILM_DONE; i++) {
@@ -282,7 +282,7 @@ static void exports(void **state)
     struct job job = {export_it, exported_version, NULL, NULL, {0}};
     for (size_t o = 0; o < sizeof outputs / sizeof *outputs; o++) {
         output = &outputs[o];
-        if (output->film == &film_gif && !has_ffmpeg) continue;
+        if (output->film == &film_ffmpeg && !has_ffmpeg) continue;
         if (output->is_like_another && !getenv("TRACE_ALL")) continue;
         if (output->film && !is_thorough()) continue;
         command("rm -rf %s/old %s/work && mkdir %s/work");

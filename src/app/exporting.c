@@ -54,21 +54,28 @@ static bool proceed(void *user, long done, long total)
     return !atomic_load(&job->stop);
 }
 
-static bool write_motion(struct export_job *job)
+static struct export_options options_of(struct export_job *job)
 {
     const struct export_wish *wish = &job->request.wish;
+    return (struct export_options){.rig = wish->rig[0] ? wish->rig : NULL,
+                                   .rig_choice = "\"rig\"",
+                                   .clip = wish->clip[0] ? wish->clip : NULL,
+                                   .has_frames = wish->part,
+                                   .first = wish->first,
+                                   .last = wish->last,
+                                   .substeps = wish->keys,
+                                   .is_signed = wish->is_signed,
+                                   .is_cubic = wish->is_cubic,
+                                   .size = {wish->width, wish->height},
+                                   .transparent = wish->transparent,
+                                   .proceed = proceed,
+                                   .user = job};
+}
+
+static bool write_motion(struct export_job *job)
+{
     const struct posing posing = opened_posing(&job->opened);
-    const struct export_options options = {.rig = wish->rig[0] ? wish->rig : NULL,
-                                           .rig_choice = "\"rig\"",
-                                           .clip = wish->clip[0] ? wish->clip : NULL,
-                                           .has_frames = wish->part,
-                                           .first = wish->first,
-                                           .last = wish->last,
-                                           .substeps = wish->keys,
-                                           .is_signed = wish->is_signed,
-                                           .is_cubic = wish->is_cubic,
-                                           .proceed = proceed,
-                                           .user = job};
+    const struct export_options options = options_of(job);
     return export_write(&posing, job->request.path, &options, &job->report, &job->error);
 }
 
@@ -124,16 +131,10 @@ void exporting_stop(struct app *app)
 
 static enum film_state begin_film(struct export_job *job)
 {
-    const struct export_wish *wish = &job->request.wish;
     const struct opened *opened = &job->opened;
     const struct editor_world world = {
         .document = opened->document, .evaluation = &opened->evaluation, .models = opened->models};
-    const struct film_options options = {.width = wish->width,
-                                         .height = wish->height,
-                                         .has_frames = wish->part,
-                                         .first = wish->first,
-                                         .last = wish->last,
-                                         .transparent = wish->transparent};
+    const struct export_options options = options_of(job);
     job->film = film_open(&world, job->request.path, &options, &job->error);
     return job->film ? FILM_RUNS : FILM_FAILED;
 }

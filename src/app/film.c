@@ -14,16 +14,16 @@ enum { MAX_PICTURES = 10000000, MAX_SIDE = 8192 };
 
 static const struct film_format {
     const char *ending;
-    const struct film_file_kind *file;
-    int width, height; ///< where none is asked for
-    bool is_even;      ///< it holds only even sizes
+    char *const *coding, *const *alpha; ///< of a film (film_file.h), and of one with transparency
+    int width, height;                  ///< where none is asked for
+    bool is_even;                       ///< it holds only even sizes
     bool has_alpha;
     bool repeats; ///< whoever shows it begins again at its end
 } formats[] = {
-    {".mp4", &film_mp4, 1280, 720, .is_even = true},
-    {".webm", &film_webm, 1280, 720, .is_even = true, .has_alpha = true},
-    {".gif", &film_gif, 640, 360, .repeats = true},
-    {".png", &film_png, 1280, 720, .has_alpha = true},
+    {".mp4", film_mp4, NULL, 1280, 720, .is_even = true},
+    {".webm", film_webm, film_webm_alpha, 1280, 720, .is_even = true, .has_alpha = true},
+    {".gif", film_gif, NULL, 640, 360, .repeats = true},
+    {".png", NULL, NULL, 1280, 720, .has_alpha = true},
 };
 
 enum { FORMATS = sizeof formats / sizeof *formats };
@@ -31,7 +31,9 @@ enum { FORMATS = sizeof formats / sizeof *formats };
 struct film {
     const struct film_format *format;
     const char *path;
+    const struct film_file_kind *kind;
     struct film_shape shape;
+    bool transparent;
     double first, spacing,
         period; ///< in frames: of the first picture, from one to the next, after which it begins anew (0: never)
     struct editor *editor;
@@ -70,7 +72,7 @@ static bool loops(const struct document *document)
     return document_find_rig(document, RIG_MODEL, 0) >= 0;
 }
 
-static bool choose_frames(struct film *film, const struct document *document, const struct film_options *options,
+static bool choose_frames(struct film *film, const struct document *document, const struct export_options *options,
                           struct error *error)
 {
     const double first = options->has_frames ? options->first : document->first_frame;
@@ -95,11 +97,11 @@ static bool choose_frames(struct film *film, const struct document *document, co
     return true;
 }
 
-static bool choose_shape(struct film *film, const struct film_options *options, struct error *error)
+static bool choose_shape(struct film *film, const struct export_options *options, struct error *error)
 {
     struct film_shape *shape = &film->shape;
-    shape->width = options->width > 0 ? options->width : film->format->width;
-    shape->height = options->height > 0 ? options->height : film->format->height;
+    shape->width = options->size[0] > 0 ? options->size[0] : film->format->width;
+    shape->height = options->size[1] > 0 ? options->size[1] : film->format->height;
     if (film->format->is_even) {
         shape->width = (shape->width + 1) / 2 * 2;
         shape->height = (shape->height + 1) / 2 * 2;
@@ -107,23 +109,25 @@ static bool choose_shape(struct film *film, const struct film_options *options, 
     if (shape->width > MAX_SIDE || shape->height > MAX_SIDE)
         return fail(error, ERROR_INPUT, "--size: expected at most %d pixels a side, got %d × %d", MAX_SIDE,
                     shape->width, shape->height);
-    shape->transparent = options->transparent;
+    film->transparent = options->transparent;
+    shape->coding = film->transparent ? film->format->alpha : film->format->coding;
     return !options->transparent || film->format->has_alpha ||
            fail(error, ERROR_USAGE, "--transparent: a %s file has no transparency: .webm and .png have",
                 film->format->ending);
 }
 
-struct film *film_open(const struct editor_world *world, const char *path, const struct film_options *options,
+struct film *film_open(const struct editor_world *world, const char *path, const struct export_options *options,
                        struct error *error)
 {
     struct film *film = need_zeroed(1, sizeof *film);
     film->format = find_format(path);
+    film->kind = film->format->coding ? &film_ffmpeg : &film_png;
     film->path = path;
     film->editor = editor_create();
     if (file_check_place(path, error) && choose_shape(film, options, error) &&
         choose_frames(film, world->document, options, error) &&
         (film->picture = picture_create(film->shape.width, film->shape.height, error)) &&
-        (film->file = film->format->file->open(path, &film->shape, error))) {
+        (film->file = film->kind->open(path, &film->shape, error))) {
         editor_open(film->editor, world);
         return film;
     }
@@ -140,13 +144,12 @@ static double next_frame(const struct film *film)
 
 enum film_state film_step(struct film *film, bool wait, struct error *error)
 {
-    const struct film_file_kind *kind = film->format->file;
-    if (film->done == film->shape.count) return kind->finish(film->file, wait, &film->bytes, error);
+    if (film->done == film->shape.count) return film->kind->finish(film->file, wait, &film->bytes, error);
     if (!film->pixels) {
         editor_pose_alone(film->editor, next_frame(film), (float)film->shape.width, (float)film->shape.height);
-        film->pixels = picture_draw(film->picture, editor_stage(film->editor), film->shape.transparent);
+        film->pixels = picture_draw(film->picture, editor_stage(film->editor), film->transparent);
     }
-    enum film_state state = kind->put(film->file, film->pixels, wait, error);
+    enum film_state state = film->kind->put(film->file, film->pixels, wait, error);
     if (state != FILM_DONE) return state;
     film->pixels = NULL;
     film->done++;
@@ -163,7 +166,7 @@ void film_progress(const struct film *film, long *done, long *total)
 static const char *print_names(const struct film *film, char text[64])
 {
     const char *name = path_name(film->path);
-    const bool numbered = film->format->file == &film_png && film->shape.count > 1 && !strchr(name, '%');
+    const bool numbered = film->kind == &film_png && film->shape.count > 1 && !strchr(name, '%');
     text[0] = '\0';
     if (numbered) snprintf(text, 64, ", as %.*s-0001.png and so on", (int)fmin(30, (double)strlen(name) - 4), name);
     return text;
@@ -182,13 +185,13 @@ void film_report(const struct film *film, struct export_report *report)
 void film_close(struct film *film)
 {
     if (!film) return;
-    if (film->file) film->format->file->close(film->file);
+    if (film->file) film->kind->close(film->file);
     picture_destroy(film->picture);
     editor_destroy(film->editor);
     free(film);
 }
 
-static bool run(struct film *film, const struct film_options *options, struct error *error)
+static bool run(struct film *film, const struct export_options *options, struct error *error)
 {
     for (;;) {
         enum film_state state = film_step(film, true, error);
@@ -198,7 +201,7 @@ static bool run(struct film *film, const struct film_options *options, struct er
     }
 }
 
-bool film_write(const struct editor_world *world, const char *path, const struct film_options *options,
+bool film_write(const struct editor_world *world, const char *path, const struct export_options *options,
                 struct export_report *report, struct error *error)
 {
     struct platform *platform = platform_offscreen(1, 1, 1, error);

@@ -5,18 +5,6 @@
 #include "editor/editor.h"
 #include "export/export.h"
 
-/// What to film; all zero: every frame, at the scene's own rate and the format's own size.
-struct film_options {
-    int width, height;  ///< pixels; 0: 1280 × 720, for .gif 640 × 360
-    double rate;        ///< pictures a second; 0: the scene's frames
-    bool has_frames;    ///< else all
-    double first, last; ///< frames
-    int loops;          ///< rounds, each without its last frame, which is the next one's first; 0: once with it
-    bool transparent;   ///< the rigs alone (.png, .webm)
-    bool (*proceed)(void *user, long done, long total); ///< called after each picture; false: stop. May be NULL
-    void *user;
-};
-
 enum { FILM_ENDINGS = 64 };
 
 /// Whether a file of that name is a film or a picture, and the endings that are: ".mp4, .webm, .gif and .png".
@@ -26,14 +14,14 @@ void film_endings(char text[FILM_ENDINGS]);
 /// Draws and writes it all, whole or not at all, without a display. A .png name with %d in it, as walk-%04d.png, is that of a sequence,
 /// and walk.png is short for that if there is more than one picture. The world's splines must be solved and its models read; it has no
 /// need of a history.
-bool film_write(const struct editor_world *world, const char *path, const struct film_options *options,
+bool film_write(const struct editor_world *world, const char *path, const struct export_options *options,
                 struct export_report *report, struct error *error);
 
 struct film;
 
 /// The same in steps, for a program that has an OpenGL context and other things to do. World and path must live as long; NULL with a
 /// sentence.
-struct film *film_open(const struct editor_world *world, const char *path, const struct film_options *options,
+struct film *film_open(const struct editor_world *world, const char *path, const struct export_options *options,
                        struct error *error);
 
 enum film_state { FILM_RUNS, FILM_DONE, FILM_FAILED };

@@ -10,7 +10,7 @@ struct film_shape {
     int width, height; ///< pixels, each picture of four bytes a pixel
     double rate;       ///< a second
     long count;
-    bool transparent;
+    char *const *coding; ///< a film's, below; NULL: pictures
 };
 
 struct film_file;
@@ -27,6 +27,9 @@ struct film_file_kind {
     void (*close)(struct film_file *file);
 };
 
-extern const struct film_file_kind film_mp4, film_webm, film_gif, film_png;
+extern const struct film_file_kind film_ffmpeg, film_png;
+
+/// What is said to ffmpeg, NULL behind the last.
+extern char *const film_mp4[], *const film_webm[], *const film_webm_alpha[], *const film_gif[];
 
 #endif

@@ -19,8 +19,7 @@ enum { LINEAR = 1, CUBIC };
 struct job {
     const char *scene, *output, *frames;
     struct export_options options;
-    struct film_options film;
-    int keys, theme, size[2]; ///< the first two: which word was given, from 1
+    int keys, theme; ///< which word was given, from 1
     bool quiet, paint;
     struct progress progress;
 };
@@ -32,22 +31,6 @@ static bool proceed(void *user, long done, long total)
     return !progress_interrupted();
 }
 
-static bool write_film(struct job *job, const struct editor_world *world, struct export_report *report,
-                       struct error *error)
-{
-    struct film_options options = job->film;
-    options.width = job->size[0];
-    options.height = job->size[1];
-    options.rate = job->options.rate;
-    options.has_frames = job->options.has_frames;
-    options.first = job->options.first;
-    options.last = job->options.last;
-    options.proceed = proceed;
-    options.user = job;
-    if (job->theme) theme_use((enum theme_kind)(job->theme - 1));
-    return film_write(world, job->output, &options, report, error);
-}
-
 static bool write_export(struct job *job, const struct editor_world *world, struct error *error)
 {
     struct export_report report;
@@ -56,7 +39,8 @@ static bool write_export(struct job *job, const struct editor_world *world, stru
     job->options.proceed = proceed;
     job->options.user = job;
     job->progress.started = clock_now();
-    const bool done = film_knows(job->output) ? write_film(job, world, &report, error)
+    if (job->theme) theme_use((enum theme_kind)(job->theme - 1));
+    const bool done = film_knows(job->output) ? film_write(world, job->output, &job->options, &report, error)
                                               : export_write(&posing, job->output, &job->options, &report, error);
     if (!done) progress_clear(&job->progress);
     if (done && *report.note) print_line(stderr, "%s: warning: %s", job->output, report.note);
@@ -147,12 +131,12 @@ int command_export(int argc, char **argv)
         {"--signed", NULL, NULL, "one morph target instead of two, with weights of either sign; Blender clamps them",
          OPTION_FLAG, &o->is_signed, 0, 0},
         {"--keys", NULL, "linear|cubic", "cubic: with tangents (.glb, .gltf)", OPTION_WORD, &job.keys, 0, 0},
-        {"--size", NULL, "WxH", "of films and pictures (1280x720; .gif 640x360)", OPTION_SIZE, job.size, 16, 8192},
+        {"--size", NULL, "WxH", "of films and pictures (1280x720; .gif 640x360)", OPTION_SIZE, o->size, 16, 8192},
         OPTION_THEME(&job.theme, "of films and pictures (dark)"),
         {"--loops", NULL, "N", "films: play a looping scene N times, each time without its last frame", OPTION_INT,
-         &job.film.loops, 1, 10000},
+         &o->loops, 1, 10000},
         {"--transparent", NULL, NULL, "the rigs alone, without ground and shadows (.png, .webm)", OPTION_FLAG,
-         &job.film.transparent, 0, 0},
+         &o->transparent, 0, 0},
         {"--paint", NULL, NULL, "the paint of a character in place of its motion (.npy)", OPTION_FLAG, &job.paint, 0,
          0},
         {"--quiet", NULL, NULL, "print nothing but errors and warnings", OPTION_FLAG, &job.quiet, 0, 0},

@@ -11,10 +11,14 @@ struct export_options {
     const char *clip;       ///< what the animation is called; NULL: as the scene
     bool has_frames;        ///< else all
     double first, last;     ///< frames
-    double rate;            ///< keys a second, or 0
+    double rate;            ///< keys or pictures a second; 0: one a sample or, of a film, a frame
     int substeps;           ///< keys a frame, or 0
     bool is_signed;         ///< morph weights may be negative, which takes half as many targets
     bool is_cubic;          ///< keys have tangents (glTF)
+    // of films and pictures (app/film.h)
+    int size[2];      ///< pixels; 0: 1280 × 720, for .gif 640 × 360
+    int loops;        ///< rounds, each without its last frame, which is the next one's first; 0: once with it
+    bool transparent; ///< the rigs alone (.png, .webm)
     bool (*proceed)(void *user, long done, long total); ///< called as it goes on; false: stop. May be NULL
     void *user;
 };
