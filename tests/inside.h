@@ -8,12 +8,11 @@
 #include "editor/curves/state.h"
 #include "editor/dialogs/dialogs.h"
 #include "editor/dialogs/state.h"
+#include "editor/editor.h"
 #include "editor/inspector/inspector.h"
 #include "editor/inspector/state.h"
 #include "editor/stage/stage.h"
 #include "editor/stage/state.h"
-#include "editor/state.h"
-#include "editor/transport/state.h"
 #include "editor/transport/transport.h"
 
 #endif

@@ -109,7 +109,7 @@ static inline void panel_answer(struct session *session, enum request_kind kind,
 /// Whether the editor draws this text, whole.
 static inline bool session_shows(const struct session *s, const char *text)
 {
-    const struct drawlist *list = editor_drawlist(s->editor);
+    const struct drawlist *list = &s->editor->core.list;
     for (int i = 0; i < list->count; i++) {
         const struct draw_command *c = &list->commands[i];
         if (c->kind == DRAW_TEXT && c->clip.w > 0 && strcmp(list->text + c->first, text) == 0) return true;

@@ -186,7 +186,7 @@ static inline void session_open(struct session *session, const char *scene)
         (struct table){.editor = session->editor, .document = session->document, .history = session->history};
     session->world = table_world(&session->table);
     editor_open(session->editor, &session->world);
-    if (editor_is_playing(session->editor)) session_key(session, KEY_SPACE, 0);
+    if (session->editor->core.playback.playing) session_key(session, KEY_SPACE, 0);
     session_frame(session);
 }
 

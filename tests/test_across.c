@@ -143,7 +143,7 @@ SESSION_TEST(test_pasted_knots_go_to_their_splines, session_open(s, TWO))
 {
     session_key(s, 'A', MOD_CTRL | MOD_SHIFT);
     session_key(s, 'C', MOD_CTRL);
-    char *text = strdup(editor_clipboard(s->editor)), *original = session_saved(s);
+    char *text = strdup(s->editor->core.clipboard), *original = session_saved(s);
     assert_non_null(strstr(text, "\"spline\": \"up\""));
     session_click(s, "ruler(21)");
     paste(s, text);
@@ -167,7 +167,7 @@ SESSION_TEST(test_pasted_knots_of_unknown_splines_go_to_the_active_one, session_
     assert_near(knot(s, 1, 2)->frame, 70, 0);
     session_click(s, "knot(sway,1)");
     session_key(s, 'C', MOD_CTRL);
-    assert_null(strstr(editor_clipboard(s->editor), "spline"));
+    assert_null(strstr(s->editor->core.clipboard, "spline"));
     paste(s, "[{\"spline\": 3, \"frame\": 0, \"value\": 1}]");
     assert_non_null(strstr(s->editor->core.message.text, "[0].spline: expected"));
 }
@@ -241,7 +241,7 @@ SESSION_TEST(test_two_factors_and_what_stops_them, session_open(s, TWO))
 /// The words of a draw list, one a line.
 static bool says(const struct session *s, const char *text)
 {
-    const struct drawlist *list = editor_drawlist(s->editor);
+    const struct drawlist *list = &s->editor->core.list;
     for (int i = 0; i < list->count; i++) {
         if (list->commands[i].kind == DRAW_TEXT && strcmp(list->text + list->commands[i].first, text) == 0)
             return true;

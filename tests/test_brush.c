@@ -81,7 +81,7 @@ static void studio_open(struct studio *s)
              "\"spline\": \"s\"}]}]}",
              model);
     s->models = panel_open_models(&s->session, scene);
-    if (editor_is_playing(s->session.editor)) session_key(&s->session, KEY_SPACE, 0);
+    if (s->session.editor->core.playback.playing) session_key(&s->session, KEY_SPACE, 0);
     s->plain = models_figure(s->models, 0);
     s->session.editor->stage->camera.azimuth = -1.5708f; // from the front
     frame(s);

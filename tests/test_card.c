@@ -2,8 +2,8 @@
 #include "blind.h"
 #include "shown.h"
 
+#include "editor/editor.h"
 #include "editor/stage/stage.h"
-#include "editor/state.h"
 #include <stdio.h>
 #include <string.h>
 
@@ -22,7 +22,7 @@ static void welcome(struct blind *b, float width)
 {
     app_resize(&b->app, width, roundf(width * 9 / 16), 1);
     b->app.table.editor->core.refit_stage = true; // as in a window of that size
-    editor_welcome(b->app.table.editor);
+    dialogs_welcome(b->app.table.editor->dialogs);
     for (int i = 0; i < 2; i++) blind_frame(b);
 }
 
@@ -83,7 +83,7 @@ TEST(a_click_on_it_takes_it_away)
                                           .x = card.x + card.w / 2,
                                           .y = card.y + card.h / 2});
         blind_frame(&b);
-        assert_false(editor_is_welcoming(editor));
+        assert_false(dialogs_is_welcoming(editor->dialogs));
         assert_non_null(shown_text(editor, "Compositing"));
         blind_close(&b);
     }

@@ -22,7 +22,7 @@ static char *copied(struct session *s, int key)
 {
     session_key(s, key, MOD_CTRL);
     assert_int_equal(editor_take_request(s->editor).kind, REQUEST_COPY);
-    char *text = strdup(editor_clipboard(s->editor));
+    char *text = strdup(s->editor->core.clipboard);
     assert_non_null(text);
     return text;
 }

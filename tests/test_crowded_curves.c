@@ -1,5 +1,5 @@
 /// Curves whose swings are finer than a pixel column, and the marks of knots that are.
-#include "editor/curves/parts.h"
+#include "editor/curves/state.h"
 #include "five_knots.h"
 #include "inside.h"
 #include "panel_session.h"
@@ -23,7 +23,7 @@ TEST(of_crowded_knots_some_are_marked_and_each_is_hit)
     struct session s;
     open_crowded(&s, 2400, 1, values, 3);
     int diamonds = 0;
-    const struct drawlist *list = editor_drawlist(s.editor);
+    const struct drawlist *list = &s.editor->core.list;
     for (int i = 0; i < list->count; i++) diamonds += list->commands[i].kind == DRAW_CONVEX;
     assert_true(diamonds < 150);
     assert_true(diamonds > 50);
@@ -47,7 +47,7 @@ TEST(swings_finer_than_a_column_are_a_band)
     for (double frames = 6400; frames > 3200; frames *= 0.97) {
         s.editor->curves->view = (struct view){0, frames, -2, 2};
         session_frame(&s);
-        const struct drawlist *list = editor_drawlist(s.editor);
+        const struct drawlist *list = &s.editor->core.list;
         const struct draw_command *band = NULL;
         for (int i = 0; i < list->count; i++) {
             if (list->commands[i].kind == DRAW_BAND && list->commands[i].width > 2.4f) band = &list->commands[i];
@@ -64,7 +64,7 @@ TEST(swings_finer_than_a_column_are_a_band)
     }
     s.editor->curves->view = (struct view){0, 240, -2, 2};
     session_frame(&s);
-    const struct drawlist *list = editor_drawlist(s.editor);
+    const struct drawlist *list = &s.editor->core.list;
     for (int i = 0; i < list->count; i++) assert_int_not_equal(list->commands[i].kind, DRAW_BAND);
     session_close(&s);
 }

@@ -1,5 +1,5 @@
 /// The curves panel as an animator uses it: boxes, scaling, retiming, other curves, ruler. Events in, document out.
-#include "editor/curves/parts.h"
+#include "editor/curves/state.h"
 #include "five_knots.h"
 #include "inside.h"
 #include "panel_session.h"
@@ -298,7 +298,7 @@ TEST(test_a_cubic_holds_its_last_value)
 SESSION_TEST(test_every_knot_is_drawn, session_open(s, FIVE))
 {
     session_frame(s);
-    const struct drawlist *list = editor_drawlist(s->editor);
+    const struct drawlist *list = &s->editor->core.list;
     for (int i = 0; i < 2; i++) {
         for (int k = 0; k < spline(s, i)->knot_count; k++) {
             char target[32];
@@ -331,7 +331,7 @@ TEST(test_labels_never_overlap)
     snprintf(scene + at, sizeof scene - at, "]}");
     struct session s;
     panel_open(&s, scene, 640, 300);
-    const struct drawlist *list = editor_drawlist(s.editor);
+    const struct drawlist *list = &s.editor->core.list;
     const struct rect plot = s.editor->core.layout.plot;
     float last = plot.y - 20;
     int labels = 0;

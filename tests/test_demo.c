@@ -1,7 +1,7 @@
 /// The demo: all of it can be played, it begins anew by itself, and the first touch ends it.
 #include "blind.h"
 #include "editor/dialogs/state.h"
-#include "editor/state.h"
+#include "editor/editor.h"
 #include "inside.h"
 #include "scene/load.h"
 #include "shown.h"
@@ -38,7 +38,7 @@ TEST(test_all_of_it_plays_and_begins_anew)
         const struct document *document = b.app.table.document;
         for (int r = 0; r < document->rig_count; r++) seen[document->rigs[r]->kind] = true;
         light |= theme_in_use() == THEME_LIGHT;
-        presents |= editor_is_presenting(b.app.table.editor);
+        presents |= b.app.table.editor->core.presenter.on;
         records |= strstr(b.app.table.editor->core.message.text, "knots recorded") != NULL;
         if (strcmp(last, caption(&b)) == 0) continue;
         snprintf(last, sizeof last, "%s", caption(&b));

@@ -99,7 +99,7 @@ TEST(a_rig_has_the_colour_of_its_first_spline)
     inspector_unfold(s.editor->inspector, "section.rigs");
     session_frame(&s);
     assert_true(inspector_target(s.editor->inspector, "tail.0", &x, &y));
-    const struct drawlist *list = editor_drawlist(s.editor);
+    const struct drawlist *list = &s.editor->core.list;
     for (int i = 0; i < list->count; i++) {
         const struct draw_command *c = &list->commands[i];
         found +=
@@ -112,7 +112,7 @@ TEST(a_rig_has_the_colour_of_its_first_spline)
 /// Lines that are drawn within 10 pixels of a widget's middle.
 static int lines_at(struct session *s, const char *widget)
 {
-    const struct drawlist *list = editor_drawlist(s->editor);
+    const struct drawlist *list = &s->editor->core.list;
     float x, y;
     int count = 0;
     assert_true(inspector_target(s->editor->inspector, widget, &x, &y));
@@ -144,7 +144,7 @@ SESSION_TEST(a_letter_let_go_in_a_dialog_is_not_held, session_open(s, tail))
 {
     char *before = session_saved(s);
     session_hold(s, 'F', ACTION_PRESS);
-    editor_offer_recovery(s->editor, &(struct recovery_offer){.name = "walk.json"}); // by no key
+    dialogs_offer_recovery(s->editor->dialogs, &(struct recovery_offer){.name = "walk.json"}); // by no key
     assert_int_equal(s->editor->dialogs->dialog.kind, DIALOG_RECOVER);
     session_hold(s, 'F', ACTION_RELEASE);
     session_key(s, KEY_ESCAPE, 0);
@@ -215,7 +215,7 @@ TEST(presets_look_alike_and_plain)
                                           "preset.antenna"};
     struct session s;
     panel_open(&s, tail, 1280, 1400);
-    const struct drawlist *list = editor_drawlist(s.editor);
+    const struct drawlist *list = &s.editor->core.list;
     for (size_t p = 0; p < sizeof presets / sizeof *presets; p++) {
         float x, y;
         assert_true(inspector_target(s.editor->inspector, presets[p], &x, &y));

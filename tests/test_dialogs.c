@@ -34,7 +34,7 @@ static int list_recent(void *user, struct dialog_recent *files, int most)
 static void open_session(struct session *session)
 {
     panel_open(session, scene, 960, 600);
-    editor_set_files(session->editor, &(struct dialog_files){.list = list_names, .recent = list_recent});
+    dialogs_set_files(session->editor->dialogs, &(struct dialog_files){.list = list_names, .recent = list_recent});
 }
 
 static void expect_request(struct session *session, enum request_kind kind, const char *path)
@@ -110,7 +110,7 @@ static const struct recovery_offer offer = {.name = "walk.json", .when = "21 Nov
 static void open_offer(struct session *session)
 {
     open_session(session);
-    editor_offer_recovery(session->editor, &offer);
+    dialogs_offer_recovery(session->editor->dialogs, &offer);
     session_frame(session);
     assert_non_null(shown_text(session->editor, "Recover unsaved work on walk.json?"));
 }
@@ -126,7 +126,7 @@ SESSION_TEST(test_recover, open_offer(s))
     assert_int_equal(s->editor->dialogs->dialog.kind, DIALOG_RECOVER);
     session_key(s, 'R', 0);
     expect_request(s, REQUEST_RECOVER, "");
-    editor_message(s->editor, true, "Unsaved work cannot be kept."); // no answer to it
+    core_message(&s->editor->core, true, "Unsaved work cannot be kept."); // no answer to it
     assert_int_equal(s->editor->dialogs->dialog.kind, DIALOG_RECOVER);
     panel_answer(s, REQUEST_SCREENSHOT, true, ""); // nor is this one
     assert_int_equal(s->editor->dialogs->dialog.kind, DIALOG_RECOVER);
@@ -139,19 +139,19 @@ SESSION_TEST(test_discard_and_later, open_offer(s))
 {
     click(s, "Discard", 1);
     expect_request(s, REQUEST_FORGET, "");
-    editor_offer_recovery(s->editor, &offer); // there is another one
+    dialogs_offer_recovery(s->editor->dialogs, &offer); // there is another one
     panel_answer(s, REQUEST_FORGET, true, "");
     assert_int_equal(s->editor->dialogs->dialog.kind, DIALOG_RECOVER);
     session_key(s, KEY_ESCAPE, 0);
     assert_int_equal(s->editor->dialogs->dialog.kind, DIALOG_NONE);
     expect_request(s, REQUEST_NONE, "");
-    editor_offer_recovery(s->editor, &offer);
+    dialogs_offer_recovery(s->editor->dialogs, &offer);
     session_frame(s);
     click(s, "Discard", 1);
     expect_request(s, REQUEST_FORGET, "");
     panel_answer(s, REQUEST_FORGET, true, ""); // that was the last one
     assert_int_equal(s->editor->dialogs->dialog.kind, DIALOG_NONE);
-    editor_offer_recovery(s->editor, &offer);
+    dialogs_offer_recovery(s->editor->dialogs, &offer);
     session_send(s, (struct event){.kind = EVENT_CLOSE}); // closing the window decides it later
     expect_request(s, REQUEST_QUIT, "");
 }
@@ -160,27 +160,27 @@ SESSION_TEST(test_discard_and_later, open_offer(s))
 SESSION_TEST(test_welcome, open_session(s))
 {
     assert_null(shown_text(s->editor, "Got it"));
-    editor_welcome(s->editor);
+    dialogs_welcome(s->editor->dialogs);
     session_frame(s);
     session_key(s, KEY_RIGHT, 0);
     assert_non_null(shown_text(s->editor, "Got it"));
     click(s, "Got it", 1);
-    assert_false(editor_is_welcoming(s->editor));
-    editor_welcome(s->editor);
+    assert_false(dialogs_is_welcoming(s->editor->dialogs));
+    dialogs_welcome(s->editor->dialogs);
     session_key(s, KEY_ESCAPE, 0);
-    assert_false(editor_is_welcoming(s->editor));
-    editor_welcome(s->editor);
+    assert_false(dialogs_is_welcoming(s->editor->dialogs));
+    dialogs_welcome(s->editor->dialogs);
     session_key(s, KEY_F1, 0);
-    assert_false(editor_is_welcoming(s->editor));
+    assert_false(dialogs_is_welcoming(s->editor->dialogs));
     session_key(s, KEY_F1, 0);
-    editor_welcome(s->editor);
+    dialogs_welcome(s->editor->dialogs);
     session_hold(s, KEY_F1, ACTION_PRESS); // and Esc within the same slow frame
     session_key(s, KEY_ESCAPE, 0);
-    assert_false(editor_is_welcoming(s->editor));
-    editor_welcome(s->editor);
+    assert_false(dialogs_is_welcoming(s->editor->dialogs));
+    dialogs_welcome(s->editor->dialogs);
     session_key(s, 'I', 0);
     assert_int_equal(s->document->splines[0]->knot_count, 3);
-    assert_false(editor_is_welcoming(s->editor));
+    assert_false(dialogs_is_welcoming(s->editor->dialogs));
     assert_null(shown_text(s->editor, "Got it"));
 }
 
@@ -189,7 +189,7 @@ TEST(test_welcome_with_a_character)
 {
     struct session s;
     open_session(&s);
-    editor_welcome(s.editor);
+    dialogs_welcome(s.editor->dialogs);
     session_frame(&s);
     assert_non_null(shown_text(s.editor, "Drop a .glb"));
     session_send(&s, (struct event){.kind = EVENT_DROP, .path = "/home/ada/rex.glb"});
@@ -199,7 +199,7 @@ TEST(test_welcome_with_a_character)
         &s,
         "{\"frames\": [0, 24], \"splines\": [], \"rigs\": [{\"type\": \"model\", \"model\": \"/home/ada/rex.glb\"}]}",
         1280, 720);
-    editor_welcome(s.editor);
+    dialogs_welcome(s.editor->dialogs);
     session_frame(&s);
     assert_non_null(shown_text(s.editor, "Press Shift+J"));
     assert_null(shown_text(s.editor, "Drop a .glb"));
@@ -211,7 +211,7 @@ static void expect_advice(const char *json, const char *first, const char *statu
 {
     struct session s;
     panel_open(&s, json, 1280, 720);
-    editor_welcome(s.editor);
+    dialogs_welcome(s.editor->dialogs);
     session_frame(&s);
     assert_non_null(shown_text(s.editor, first));
     assert_non_null(shown_text(s.editor, status));

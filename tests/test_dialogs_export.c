@@ -18,9 +18,9 @@ static struct exporting *of(struct session *s) { return &s->editor->dialogs->exp
 static void open_other(struct session *s, const char *text, const char *path, float width, float height)
 {
     panel_open(s, text, width, height);
-    editor_set_files(s->editor,
-                     &(struct dialog_files){.formats = exporting_formats, .format_count = exporting_format_count});
-    editor_set_path(s->editor, path);
+    dialogs_set_files(s->editor->dialogs,
+                      &(struct dialog_files){.formats = exporting_formats, .format_count = exporting_format_count});
+    core_set_path(&s->editor->core, path);
     session_key(s, 'E', MOD_CTRL);
     assert_int_equal(dialog_of(s)->kind, DIALOG_EXPORT);
 }
@@ -88,9 +88,9 @@ TEST(test_a_character_keeps_its_file)
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         struct session s;
         panel_open(&s, with_dog, 1280, 720);
-        editor_set_files(
-            s.editor, &(struct dialog_files){.formats = exporting_formats, .format_count = exporting_format_count});
-        editor_set_path(s.editor, cases[i].path);
+        dialogs_set_files(s.editor->dialogs, &(struct dialog_files){.formats = exporting_formats,
+                                                                    .format_count = exporting_format_count});
+        core_set_path(&s.editor->core, cases[i].path);
         session_key(&s, 'E', MOD_CTRL);
         session_key(&s, KEY_ENTER, 0);
         assert_string_equal(asked(&s).path, cases[i].expected);
@@ -186,7 +186,7 @@ SESSION_TEST(test_cancelling, open_session(s, "walk.json", 1280, 720))
 {
     session_key(s, KEY_ENTER, 0);
     asked(s);
-    editor_tell_export(s->editor, 30, 97);
+    dialogs_tell_export(s->editor->dialogs, 30, 97);
     session_frame(s);
     assert_non_null(shown_text(s->editor, "30 of 97. Esc cancels, and leaves nothing behind."));
     session_key(s, KEY_DELETE, 0); // nothing else is done meanwhile
@@ -224,7 +224,7 @@ SESSION_TEST(test_remembered, open_session(s, "walk.json", 1280, 720))
     assert_non_null(shown_text(s->editor, "films/first.webm"));
     session_key(s, KEY_ESCAPE, 0);
     editor_open(s->editor, &s->world);
-    editor_set_path(s->editor, "work/run.json");
+    core_set_path(&s->editor->core, "work/run.json");
     session_key(s, 'E', MOD_CTRL);
     assert_non_null(shown_text(s->editor, "work/run.webm")); // its own name, in the format of last time
     for (int format = 0; format < s->editor->dialogs->dialog.files.format_count; format++) { // whichever that was
@@ -232,7 +232,7 @@ SESSION_TEST(test_remembered, open_session(s, "walk.json", 1280, 720))
         struct export_memory memory = {.path = "films/first"};
         strncat(memory.path, ending, 16);
         session_key(s, KEY_ESCAPE, 0);
-        editor_set_export(s->editor, &memory);
+        dialogs_set_export(s->editor->dialogs, &memory);
         session_key(s, 'E', MOD_CTRL);
         assert_string_equal(strrchr(s->editor->dialogs->exporting.memory.path, '.'), ending);
     }

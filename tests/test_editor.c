@@ -316,7 +316,7 @@ static void monkey(struct session *s)
         break;
     case 5:
         event.kind = below(4) ? EVENT_WHEEL : below(2) ? EVENT_TEXT : EVENT_PASTE;
-        event.text = below(2) ? editor_clipboard(s->editor) : "0,0.5\n2,-1,3\n7,1e9\n";
+        event.text = below(2) ? s->editor->core.clipboard : "0,0.5\n2,-1,3\n7,1e9\n";
         event.dy = (float)below(9) - 4;
         event.codepoint = (uint32_t) "0123456789-+.,<>[]"[below(18)];
         break;

@@ -27,7 +27,7 @@ static void draw_whole(struct app *app)
     const struct draw_input input = {.width = WIDTH,
                                      .height = HEIGHT,
                                      .scale = 1,
-                                     .list = editor_drawlist(app->table.editor),
+                                     .list = &app->table.editor->core.list,
                                      .stage = editor_stage(app->table.editor)};
     draw_frame(app->draw, &input, &cost);
     draw_read(WIDTH, HEIGHT, whole);

@@ -85,7 +85,7 @@ TEST(test_figures_play_below_their_captions)
         session_open(&s, text);
         editor_open(s.editor, &s.world);
         session_frame(&s);
-        assert_true(editor_is_playing(s.editor));
+        assert_true(s.editor->core.playback.playing);
         const float caption = caption_height(s.editor->core.layout.stage, s.document);
         assert_true(caption > 30);
         for (int i = 0; i < 120; i++) {
@@ -109,7 +109,7 @@ TEST(test_two_tails_are_told_apart)
         "{\"type\": \"tail\", \"name\": \"new\", \"position\": [2, 0, 0], \"channels\": [{\"spline\": \"b\"}]}]}");
     session_frame(&s);
     const struct rect stage = s.editor->core.layout.stage;
-    const struct drawlist *list = editor_drawlist(s.editor);
+    const struct drawlist *list = &s.editor->core.list;
     float x[2] = {0};
     for (int i = 1; i < list->count; i++) {
         const struct draw_command *command = &list->commands[i];

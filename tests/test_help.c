@@ -1,6 +1,6 @@
 /// The overlay with all keys: whole in every usual window, scrolled in small ones, and true: it names each key that the editor
 /// answers to, and no other.
-#include "editor/dialogs/help.h"
+#include "editor/dialogs/state.h"
 #include "editor/keys.h"
 #include "inside.h"
 #include "panel_session.h"

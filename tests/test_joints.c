@@ -23,7 +23,7 @@ static void open_beast(struct session *session, const char *equilibrium)
         "\"lag\": 20, \"gain\": 8}]}]}",
         equilibrium, folder_path("beast.glb"));
     panel_open_models(session, scene);
-    if (editor_is_playing(session->editor)) session_key(session, KEY_SPACE, 0);
+    if (session->editor->core.playback.playing) session_key(session, KEY_SPACE, 0);
     session_move(session, 2, 2);
     session_frame(session);
 }
@@ -92,7 +92,7 @@ SESSION_TEST(test_a_joint_is_found_by_typing, open_beast(s, FOLLOWS))
 
 static int lines_on_stage(const struct session *session)
 {
-    const struct drawlist *list = editor_drawlist(session->editor);
+    const struct drawlist *list = &session->editor->core.list;
     const struct rect stage = session->editor->core.layout.stage;
     int count = 0;
     for (int i = 0; i < list->count; i++) {

@@ -66,17 +66,15 @@ SESSION_TEST(test_the_camera_turns_and_comes_back, session_open(s, scene))
 TEST(test_panels_have_sizes_to_choose_from)
 {
     struct session s;
-    double share, width, first_share, first_width;
     session_open(&s, scene);
-    editor_panels(s.editor, &first_share, &first_width);
+    const struct layout *layout = &s.editor->core.layout, first = *layout;
     session_key(&s, KEY_F6, 0);
     session_key(&s, KEY_F6, MOD_SHIFT);
-    editor_panels(s.editor, &share, &width);
-    assert_true(share > first_share && width > first_width);
+    assert_true(layout->stage_share > first.stage_share && layout->inspector_width > first.inspector_width);
     session_key(&s, KEY_F6, 0);
     session_key(&s, KEY_F6, MOD_SHIFT);
-    editor_panels(s.editor, &share, &width);
-    assert_true(share < first_share && width < 480 && width > first_width);
+    assert_true(layout->stage_share < first.stage_share);
+    assert_true(layout->inspector_width < 480 && layout->inspector_width > first.inspector_width);
     session_close(&s);
 }
 
@@ -103,7 +101,7 @@ SESSION_TEST(test_a_number_goes_to_its_default, session_open(s, scene))
 /// Whether a line of the accent's colour, as the focus is drawn, lies around a widget or the part of it that is set.
 static bool is_ringed(const struct session *s, struct rect r)
 {
-    const struct drawlist *list = editor_drawlist(s->editor);
+    const struct drawlist *list = &s->editor->core.list;
     for (int i = 0; i < list->count; i++) {
         const struct draw_command *c = &list->commands[i];
         struct rect both = rect_intersect(c->bounds, r);

@@ -3,7 +3,7 @@
 
 #include "panel_session.h"
 
-#include "editor/curves/parts.h"
+#include "editor/curves/state.h"
 #include "scene/load.h"
 #include <stdlib.h>
 #include <string.h>

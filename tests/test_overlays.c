@@ -25,7 +25,7 @@ struct found {
 static struct found find(const struct session *s, enum draw_kind kind, uint32_t color)
 {
     struct found found = {.count = 0};
-    const struct drawlist *list = editor_drawlist(s->editor);
+    const struct drawlist *list = &s->editor->core.list;
     const struct rect *stage = &s->editor->core.layout.stage;
     for (int i = 0; i < list->count && found.count < MAX_FOUND; i++) {
         const struct draw_command *command = &list->commands[i];
@@ -40,7 +40,7 @@ static struct found find(const struct session *s, enum draw_kind kind, uint32_t 
 
 static void middle_of(const struct session *s, const struct draw_command *command, float xy[2])
 {
-    const float *points = editor_drawlist(s->editor)->points + 2 * command->first;
+    const float *points = s->editor->core.list.points + 2 * command->first;
     xy[0] = xy[1] = 0;
     for (int i = 0; i < command->count; i++) {
         xy[0] += points[2 * i] / (float)command->count;
@@ -149,7 +149,7 @@ static float turn(const float a[2], const float b[2], const float c[2])
 /// How often a line crosses itself.
 static int crossings(const struct session *s, const struct draw_command *command)
 {
-    const float(*p)[2] = (const float(*)[2])(editor_drawlist(s->editor)->points + 2 * command->first);
+    const float(*p)[2] = (const float(*)[2])(s->editor->core.list.points + 2 * command->first);
     int count = 0;
     for (int i = 0; i + 1 < command->count; i++) {
         for (int k = i + 2; k + 1 < command->count; k++) {
@@ -221,7 +221,7 @@ SESSION_TEST(test_a_character_has_a_ghost, open_bear(s))
     session_pull(s, "knot(swing,1)", 0, 8, 2);
     const struct found ghost = find(s, DRAW_LINE, color);
     assert_true(ghost.count >= 1);
-    const float *points = editor_drawlist(s->editor)->points + 2 * ghost.command[0]->first;
+    const float *points = s->editor->core.list.points + 2 * ghost.command[0]->first;
     float low = INFINITY, high = -INFINITY;
     for (int i = 0; i < ghost.command[0]->count; i++) {
         low = fminf(low, points[2 * i + 1]);

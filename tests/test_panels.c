@@ -1,5 +1,5 @@
 /// Status line and dialogs; and of all panels: no text leaves its panel, none lies over another.
-#include "editor/dialogs/dialog.h"
+#include "editor/dialogs/state.h"
 #include "inside.h"
 #include "panel_session.h"
 
@@ -92,12 +92,12 @@ static void check_status(struct session *f)
         "a sentence that goes on and on about what is wrong with this file until there is no room left for it "
         "in the line, whatever the width of the window may be, and then some more";
     static const char *const messages[] = {"", "Saved.", long_message};
-    editor_set_stats(f->editor, 1234, 123456);
-    transport_advance(f->editor->transport, &f->editor->core, 1);
+    f->editor->core.status.told = (struct figures){1234, 123456};
+    transport_advance(&f->editor->core, 1);
     for (size_t m = 0; m < sizeof messages / sizeof messages[0]; m++) {
-        editor_message(f->editor, true, messages[m]);
+        core_message(&f->editor->core, true, messages[m]);
         show(f);
-        transport_show(f->editor->transport, &f->editor->core, NULL);
+        transport_show(&f->editor->core, NULL);
         const int texts = assert_texts_apart(&f->editor->core.list, 0, f->editor->core.layout.status);
         // The figures and the scene's name may give way to a long message.
         assert_in_range(texts, messages[m] == long_message ? 6 : 8, 8);
@@ -115,7 +115,7 @@ static void check_dialogs(struct session *f)
         if (kind == 1) dialogs_save_as(f->editor->dialogs, &f->editor->core);
         if (kind == 2) dialogs_leave(f->editor->dialogs, &f->editor->core, &quit);
         if (kind == 3)
-            editor_offer_recovery(f->editor, &(struct recovery_offer){"walk.json", "1 May 2026, 10:00", 2});
+            dialogs_offer_recovery(f->editor->dialogs, &(struct recovery_offer){"walk.json", "1 May 2026, 10:00", 2});
         for (int failed = 0; failed < 2; failed++) {
             show(f);
             dialogs_show(f->editor->dialogs, &f->editor->core);
@@ -154,8 +154,8 @@ TEST(test_no_text_leaves_its_panel_or_overlaps)
         int calls = 0;
         struct session f;
         panel_open(&f, scenes[i % 2], sizes[i / 2][0], sizes[i / 2][1]);
-        editor_set_path(f.editor, i % 2 ? "a scene with a name that is rather too long to show.json" : "x.json");
-        editor_set_files(f.editor, &(struct dialog_files){.list = list_names, .user = &calls});
+        core_set_path(&f.editor->core, i % 2 ? "a scene with a name that is rather too long to show.json" : "x.json");
+        dialogs_set_files(f.editor->dialogs, &(struct dialog_files){.list = list_names, .user = &calls});
         for (int s = 0; s < f.document->spline_count; s++) {
             core_activate(&f.editor->core, s);
             check_inspector(&f);
@@ -177,13 +177,13 @@ static void expect_request(struct session *f, enum request_kind kind, const char
 
 static void answer_saved(struct session *f, enum request_kind kind, const char *path)
 {
-    editor_set_path(f->editor, path);
+    core_set_path(&f->editor->core, path);
     panel_answer(f, kind, true, "");
 }
 
 SESSION_TEST(test_save_as_stays_until_it_succeeds, panel_open(s, small_scene, 1280, 720))
 {
-    editor_set_path(s->editor, "");
+    core_set_path(&s->editor->core, "");
     session_key(s, 'S', MOD_CTRL); // has no file yet, so it asks
     assert_int_equal(s->editor->dialogs->dialog.kind, DIALOG_SAVE_AS);
     assert_string_equal(s->editor->dialogs->dialog.ui.text.bytes, "untitled.json");
@@ -212,7 +212,7 @@ SESSION_TEST(test_save_as_stays_until_it_succeeds, panel_open(s, small_scene, 12
 static void open_unsaved(struct session *f, bool has_path)
 {
     panel_open(f, small_scene, 1280, 720);
-    editor_set_path(f->editor, has_path ? "pets/dog.json" : "");
+    core_set_path(&f->editor->core, has_path ? "pets/dog.json" : "");
     panel_click(f, "mode.real");
     session_key(f, 'Q', MOD_CTRL);
     assert_int_equal(f->editor->dialogs->dialog.kind, DIALOG_UNSAVED);
@@ -289,7 +289,7 @@ TEST(test_open_completes_paths)
     int calls = 0;
     struct session f;
     panel_open(&f, small_scene, 1280, 720);
-    editor_set_files(f.editor, &(struct dialog_files){.list = list_names, .user = &calls});
+    dialogs_set_files(f.editor->dialogs, &(struct dialog_files){.list = list_names, .user = &calls});
     session_key(&f, 'O', MOD_CTRL);
     struct dialog *dialog = &f.editor->dialogs->dialog;
     assert_int_equal(dialog->match_count, 5);
@@ -341,10 +341,10 @@ SESSION_TEST(test_figures_change_twice_a_second, panel_open(s, small_scene, 1280
     double last = 0;
     int changes = 0;
     for (int frame = 0; frame < 120; frame++) {
-        editor_set_stats(s->editor, 50 + frame % 7, 200 + frame);
-        transport_advance(s->editor->transport, &s->editor->core, 1.0 / 60);
-        changes += s->editor->transport->status.solve_us != last;
-        last = s->editor->transport->status.solve_us;
+        s->editor->core.status.told = (struct figures){50 + frame % 7, 200 + frame};
+        transport_advance(&s->editor->core, 1.0 / 60);
+        changes += s->editor->core.status.shown.solve_us != last;
+        last = s->editor->core.status.shown.solve_us;
     }
     assert_in_range(changes, 3, 5);
 }

@@ -41,13 +41,12 @@ static struct settings *stored(void)
 TEST_WITH(folder_make, folder_remove, looks_and_panels_are_as_they_were_left)
 {
     struct blind blind;
-    double share, width;
     const enum theme_kind before = theme_in_use(),
                           other = theme_find("light") == (int)before ? theme_find("dark") : theme_find("light");
     start(&blind);
     theme_use(other);
     blind.app.ui_scale = 1.5;
-    editor_set_panels(blind.app.table.editor, 0.4, 333);
+    core_set_panels(&blind.app.table.editor->core, 0.4, 333);
     personal_update(&blind.app);
     end(&blind);
     theme_use(before);
@@ -55,9 +54,8 @@ TEST_WITH(folder_make, folder_remove, looks_and_panels_are_as_they_were_left)
     start(&blind);
     assert_int_equal(theme_in_use(), other);
     assert_near(blind.app.ui_scale, 1.5, 0);
-    editor_panels(blind.app.table.editor, &share, &width);
-    assert_near(share, 0.4, 1e-6);
-    assert_near(width, 333, 1e-9);
+    assert_near(blind.app.table.editor->core.layout.stage_share, 0.4, 1e-6);
+    assert_near(blind.app.table.editor->core.layout.inspector_width, 333, 1e-9);
     end(&blind);
     theme_use(before);
 }
@@ -69,7 +67,7 @@ TEST_WITH(folder_make, folder_remove, the_welcome_comes_once)
     for (int run = 0; run < 3; run++) {
         start(&blind);
         personal_update(&blind.app);
-        assert_int_equal(editor_is_welcoming(blind.app.table.editor), run < 2);
+        assert_int_equal(dialogs_is_welcoming(blind.app.table.editor->dialogs), run < 2);
         blind_frame(&blind);
         if (run == 1) {
             blind_send(&blind, (struct event){.kind = EVENT_KEY, .key = KEY_ESCAPE, .action = ACTION_PRESS});

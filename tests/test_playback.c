@@ -1,6 +1,6 @@
 /// Playback: the real clock, speed, the part that is played, and scrubbing.
 #include "editor/core/playback.h"
-#include "editor/transport/state.h"
+#include "editor/transport/transport.h"
 #include "inside.h"
 #include "panel_session.h"
 
@@ -89,7 +89,7 @@ SESSION_TEST(test_part, open_at(s, 20))
     session_key(s, 'L', MOD_CTRL);
     pass(s, 1);
     assert_near(frame_of(s), 30, 1e-9); // no loop: stops at its end
-    assert_false(editor_is_playing(s->editor));
+    assert_false(s->editor->core.playback.playing);
     session_key(s, KEY_SPACE, 0);
     assert_near(frame_of(s), 20.4, 1e-9);
 }
@@ -174,7 +174,7 @@ SESSION_TEST(test_scrubbing, open_at(s, 0))
     session_release(s, BUTTON_LEFT);
 }
 
-static void click_on(struct session *session, enum control control, enum event_button button)
+static void click_on(struct session *session, enum hover_kind control, enum event_button button)
 {
     struct rect r = controls_rect(&session->editor->core, control);
     session_move(session, r.x + r.w / 2, r.y + r.h / 2);
@@ -184,22 +184,22 @@ static void click_on(struct session *session, enum control control, enum event_b
 
 SESSION_TEST(test_controls, open_at(s, 10))
 {
-    click_on(s, TRANSPORT_PLAY, BUTTON_LEFT);
-    assert_true(editor_is_playing(s->editor));
-    click_on(s, TRANSPORT_PLAY, BUTTON_LEFT);
-    assert_false(editor_is_playing(s->editor));
-    click_on(s, TRANSPORT_LOOP, BUTTON_LEFT);
+    click_on(s, HOVER_PLAY, BUTTON_LEFT);
+    assert_true(s->editor->core.playback.playing);
+    click_on(s, HOVER_PLAY, BUTTON_LEFT);
+    assert_false(s->editor->core.playback.playing);
+    click_on(s, HOVER_LOOP, BUTTON_LEFT);
     assert_false(s->editor->core.playback.looping);
-    click_on(s, TRANSPORT_SPEED, BUTTON_LEFT);
+    click_on(s, HOVER_SPEED, BUTTON_LEFT);
     assert_near(s->editor->core.playback.speed, 2, 0);
     s->mods = MOD_SHIFT;
-    click_on(s, TRANSPORT_SPEED, BUTTON_LEFT);
-    click_on(s, TRANSPORT_SPEED, BUTTON_LEFT);
+    click_on(s, HOVER_SPEED, BUTTON_LEFT);
+    click_on(s, HOVER_SPEED, BUTTON_LEFT);
     assert_near(s->editor->core.playback.speed, 0.5, 0);
     s->mods = 0;
     session_wheel(s, -1);
     assert_near(s->editor->core.playback.speed, 0.25, 0);
-    click_on(s, TRANSPORT_SPEED, BUTTON_RIGHT);
+    click_on(s, HOVER_SPEED, BUTTON_RIGHT);
     assert_near(s->editor->core.playback.speed, 1, 0);
     assert_int_equal(s->document->splines[0]->knot_count, 2);
 }

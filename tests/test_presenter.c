@@ -1,7 +1,7 @@
 /// Larger type, and presenting: how large everything is, panels that slide away, keys as they are pressed.
 #include "blind.h"
 #include "editor/core/core.h"
-#include "editor/state.h"
+#include "editor/editor.h"
 #include "inside.h"
 #include "scene/load.h"
 #include "shown.h"

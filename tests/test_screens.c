@@ -83,7 +83,7 @@ static int list_recent(void *user, struct dialog_recent *files, int most)
 
 // --- screens ------------------------------------------------------------------------------------------------------------
 
-static void open_start(struct session *s) { editor_welcome(s->editor); }
+static void open_start(struct session *s) { dialogs_welcome(s->editor->dialogs); }
 
 static void open_drag(struct session *s)
 {
@@ -113,7 +113,8 @@ static void open_quit(struct session *s)
 
 static void open_recover(struct session *s)
 {
-    editor_offer_recovery(s->editor, &(struct recovery_offer){"walk.json", "21 November 2026, 10:00:00", 2});
+    dialogs_offer_recovery(s->editor->dialogs,
+                           &(struct recovery_offer){"walk.json", "21 November 2026, 10:00:00", 2});
 }
 
 static void open_failed(struct session *s)
@@ -157,9 +158,9 @@ static void open_history(struct session *s)
 
 static void open_message(struct session *s)
 {
-    editor_set_path(s->editor, "/home/somebody/a scene with a name that is rather too long to show.json");
-    editor_message(s->editor, true, long_message);
-    editor_set_stats(s->editor, 1234, 123456);
+    core_set_path(&s->editor->core, "/home/somebody/a scene with a name that is rather too long to show.json");
+    core_message(&s->editor->core, true, long_message);
+    s->editor->core.status.told = (struct figures){1234, 123456};
 }
 
 static void open_overlays(struct session *s)
@@ -189,7 +190,7 @@ static int problems_of(struct session *s, const char *where, bool whole)
 {
     const struct layout *layout = &s->editor->core.layout;
     struct legible_ground ground = {layout->window, layout->stage, whole};
-    return legible_problems(editor_drawlist(s->editor), &ground, where);
+    return legible_problems(&s->editor->core.list, &ground, where);
 }
 
 /// The panel scrolled all the way down, page by page.
@@ -213,7 +214,7 @@ static int walk(const char *scene, const struct screen *screen, const float size
              (double)size[1], (double)size[2]);
     session_open(&s, scene);
     editor_resize(s.editor, size[0], size[1], size[2]);
-    editor_set_files(s.editor, &(struct dialog_files){.list = list_names, .recent = list_recent});
+    dialogs_set_files(s.editor->dialogs, &(struct dialog_files){.list = list_names, .recent = list_recent});
     session_frame(&s);
     screen->open(&s);
     session_frame(&s);

@@ -1,6 +1,6 @@
 /// Warnings in the curves panel: said where something is wrong, silent where nothing is, and gone after one click.
 #include "base/file.h"
-#include "editor/curves/parts.h"
+#include "editor/curves/state.h"
 #include "inside.h"
 #include "panel_session.h"
 

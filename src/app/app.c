@@ -212,7 +212,7 @@ static bool start(struct app *app, struct error *error)
         personal_start(app);
         app_rescue_without_memory(app);
     }
-    if (o->welcome) editor_welcome(app->table.editor);
+    if (o->welcome) dialogs_welcome(app->table.editor->dialogs);
     return true;
 }
 

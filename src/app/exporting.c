@@ -174,7 +174,7 @@ static void answer(struct app *app, bool done)
     if (!done) return;
     snprintf(text, sizeof text, "Wrote %s: %s.%s%s%s", request->path, report->text, *report->note ? " Note: " : "",
              report->note, *report->note ? "." : "");
-    editor_message(app->table.editor, false, text);
+    core_message(&app->table.editor->core, false, text);
     personal_note_export(app, request);
 }
 
@@ -184,7 +184,7 @@ void exporting_step(struct app *app)
     if (!job) return;
     enum film_state state = go_on(job, app->fixed_clock);
     while (app->fixed_clock && state == FILM_RUNS) state = go_on(job, true);
-    editor_tell_export(app->table.editor, atomic_load(&job->done), atomic_load(&job->total));
+    dialogs_tell_export(app->table.editor->dialogs, atomic_load(&job->done), atomic_load(&job->total));
     if (state == FILM_RUNS) return;
     answer(app, state == FILM_DONE);
     app_stop_export(app);

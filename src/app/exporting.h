@@ -3,7 +3,7 @@
 #ifndef APP_EXPORTING_H
 #define APP_EXPORTING_H
 
-#include "editor/dialogs/dialog_files.h"
+#include "editor/editor.h"
 
 struct app;
 struct export_job;

@@ -1,7 +1,7 @@
 /// Notices that somebody else has written the document's file.
 #include "app/state.h"
 #include "base/file.h"
-#include "editor/dialogs/dialog_files.h"
+#include "editor/editor.h"
 #include <stdio.h>
 #include <string.h>
 
@@ -30,12 +30,14 @@ static uint64_t changed_content(const struct app *app)
 
 bool file_watch_stops_save(struct app *app)
 {
-    return changed_content(app) && editor_ask_changed(app->table.editor, path_name(app_path(app)), true);
+    return changed_content(app) &&
+           dialogs_ask_changed(app->table.editor->dialogs, &app->table.editor->core, path_name(app_path(app)), true);
 }
 
 void file_watch_look(struct app *app)
 {
     const uint64_t now = changed_content(app);
     if (now == 0 || now == app->own_file.asked) return;
-    if (editor_ask_changed(app->table.editor, path_name(app_path(app)), false)) app->own_file.asked = now;
+    if (dialogs_ask_changed(app->table.editor->dialogs, &app->table.editor->core, path_name(app_path(app)), false))
+        app->own_file.asked = now;
 }

@@ -7,7 +7,7 @@
 #include "base/file.h"
 #include "base/need.h"
 #include "base/png.h"
-#include "editor/dialogs/dialog_files.h"
+#include "editor/editor.h"
 #include "rig/import.h"
 #include "scene/load.h"
 #include <dirent.h>
@@ -156,8 +156,7 @@ static bool add_file(struct app *app, const char *path, struct error *error)
     struct table *table = &app->table;
     editor_let_go(table->editor);
     history_begin(table->history, "Add character", 0);
-    const int spline = editor_active(table->editor);
-    const bool added = import_add(table->document, path, spline, error);
+    const bool added = import_add(table->document, path, table->editor->core.active, error);
     if (!added) history_restart(table->history);
     history_end(table->history);
     editor_refresh(table->editor);
@@ -171,10 +170,10 @@ static bool save(struct app *app, const char *path, struct error *error)
     history_set_path(app->table.history, path);
     history_mark_saved(app->table.history);
     file_watch_note_now(app);
-    editor_set_path(app->table.editor, app_path(app));
+    core_set_path(&app->table.editor->core, app_path(app));
     show_title(app);
     personal_note_file(app, app_path(app));
-    editor_message(app->table.editor, false, "Saved.");
+    core_message(&app->table.editor->core, false, "Saved.");
     return true;
 }
 
@@ -204,7 +203,7 @@ static bool take_picture(struct app *app, struct error *error)
     } while (access(path, F_OK) == 0);
     if (!app_screenshot(app, path, error)) return false;
     snprintf(text, sizeof text, "Saved %s.", path);
-    editor_message(app->table.editor, false, text);
+    core_message(&app->table.editor->core, false, text);
     return true;
 }
 
@@ -341,9 +340,9 @@ static int list_folder(void *user, const char *folder, char names[][256], int ma
 
 void app_connect_files(struct app *app)
 {
-    editor_set_files(app->table.editor, &(struct dialog_files){.list = list_folder,
-                                                               .recent = personal_recent,
-                                                               .formats = exporting_formats,
-                                                               .format_count = exporting_format_count,
-                                                               .user = app});
+    dialogs_set_files(app->table.editor->dialogs, &(struct dialog_files){.list = list_folder,
+                                                                         .recent = personal_recent,
+                                                                         .formats = exporting_formats,
+                                                                         .format_count = exporting_format_count,
+                                                                         .user = app});
 }

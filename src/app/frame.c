@@ -157,14 +157,14 @@ static void choose_resolution(struct app *app)
 {
     struct editor *editor = app->table.editor;
     const float scale = resolution_choose(&app->resolution, editor_stage(editor)->hash, resolution_now(app));
-    editor_set_stage_scale(editor, scale);
+    editor->core.status.stage_scale = scale;
 }
 
 static struct draw_input draw_input(const struct app *app, float stage_scale)
 {
     struct draw_input input = {
         .keeps = !app->lost && platform_keeps(app->platform),
-        .list = editor_drawlist(app->table.editor),
+        .list = &app->table.editor->core.list,
         .stage = editor_stage(app->table.editor),
         .frame = app->frame,
         .stage_scale = stage_scale,
@@ -236,7 +236,7 @@ static void log_frame(struct app *app)
     if (now - app->stats_time >= 0.5) {
         bool seen = app->stats_time > 0 && platform_is_window(app->platform); // offscreen nothing keeps time
         double fps = seen ? (double)(app->frame - app->stats_frame) / (now - app->stats_time) : 0;
-        editor_set_stats(app->table.editor, fps, app->row.solve_us);
+        app->table.editor->core.status.told = (struct figures){fps, app->row.solve_us};
         app->stats_time = now;
         app->stats_frame = app->frame;
         pace_set_rate(&app->pace, platform_refresh_rate(app->platform));

@@ -31,7 +31,7 @@ struct personal {
 
 static void complain(struct app *app, const struct error *error)
 {
-    if (error->kind != ERROR_NONE) editor_message(app->table.editor, true, error->text);
+    if (error->kind != ERROR_NONE) core_message(&app->table.editor->core, true, error->text);
 }
 
 /// Another window may have changed the file meanwhile: it is read again for every change, and that one waits until it is written. NULL if
@@ -91,18 +91,20 @@ static void start_settings(struct app *app)
         snprintf(personal->settings_path, sizeof personal->settings_path, "%s/%s", folder, settings_name);
     }
     struct settings *settings = personal->settings_path[0] ? settings_open(personal->settings_path, &error) : NULL;
-    editor_panels(app->table.editor, &personal->stage_share, &personal->panels_width);
+    const struct layout *layout = &app->table.editor->core.layout;
+    personal->stage_share = (double)layout->stage_share;
+    personal->panels_width = (double)layout->inspector_width;
     if (settings) {
         personal->stage_share = settings_number(settings, "stage_share", personal->stage_share);
         personal->panels_width = settings_number(settings, "inspector_width", personal->panels_width);
-        editor_set_panels(app->table.editor, personal->stage_share, personal->panels_width);
+        core_set_panels(&app->table.editor->core, personal->stage_share, personal->panels_width);
         start_theme(app, settings);
         start_ui_scale(app, settings);
         struct export_memory memory;
         export_memory_read(settings, app_path(app), &memory);
-        editor_set_export(app->table.editor, &memory);
+        dialogs_set_export(app->table.editor->dialogs, &memory);
         personal->is_new = !settings_get(settings, "welcomed", 0);
-        if (personal->is_new) editor_welcome(app->table.editor);
+        if (personal->is_new) dialogs_welcome(app->table.editor->dialogs);
     }
     settings_free(settings);
     complain(app, &error);
@@ -127,7 +129,7 @@ static void note_ui_scale(struct app *app)
 /// Once closed, the card for new users does not come back.
 static void note_welcomed(struct app *app)
 {
-    if (!app->personal->is_new || editor_is_welcoming(app->table.editor)) return;
+    if (!app->personal->is_new || dialogs_is_welcoming(app->table.editor->dialogs)) return;
     app->personal->is_new = false;
     store_text(app, "welcomed", "yes");
 }
@@ -135,8 +137,8 @@ static void note_welcomed(struct app *app)
 static void end_settings(struct app *app)
 {
     struct personal *personal = app->personal;
-    double share, width;
-    editor_panels(app->table.editor, &share, &width);
+    const struct layout *layout = &app->table.editor->core.layout;
+    const double share = (double)layout->stage_share, width = (double)layout->inspector_width;
     if (share == personal->stage_share && width == personal->panels_width) return;
     store_number(app, "stage_share", share);
     store_number(app, "inspector_width", width);
@@ -182,7 +184,7 @@ static void mention(struct app *app)
     if (!recovery_find(app->personal->state_folder, NULL, &entry, NULL)) return;
     snprintf(sentence, sizeof sentence, "Unsaved work on %.255s is kept: start wiggly without a scene to recover it.",
              name_of(&entry));
-    editor_message(app->table.editor, false, sentence);
+    core_message(&app->table.editor->core, false, sentence);
     recovery_release(&entry.slot);
 }
 
@@ -206,7 +208,7 @@ static void offer(struct app *app)
         snprintf(shown.when, sizeof shown.when, "an unknown day");
     }
     shown.others = count - 1;
-    editor_offer_recovery(app->table.editor, &shown);
+    dialogs_offer_recovery(app->table.editor->dialogs, &shown);
 }
 
 static void start_autosave(struct app *app)

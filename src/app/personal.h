@@ -4,7 +4,7 @@
 #define APP_PERSONAL_H
 
 #include "base/error.h"
-#include "editor/dialogs/dialog_files.h"
+#include "editor/editor.h"
 #include <stdbool.h>
 
 struct app;

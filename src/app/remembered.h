@@ -3,7 +3,7 @@
 #define APP_REMEMBERED_H
 
 #include "app/settings.h"
-#include "editor/dialogs/dialog_files.h"
+#include "editor/editor.h"
 
 /// Moves a file's absolute path to the top of the recent files, of which there are at most DIALOG_MAX_RECENT.
 void recent_note(struct settings *settings, const char *path);

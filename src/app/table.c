@@ -12,7 +12,7 @@ static void solve(struct table *table, struct frame_row *row)
 {
     const struct document *document = table->document;
     const struct evaluation *evaluation = &table->evaluation;
-    bool cubic = editor_look(table->editor) == LOOK_CUBIC;
+    bool cubic = table->editor->core.look == LOOK_CUBIC;
     bool resized = evaluation->count != document->spline_count || evaluation->samples != document_samples(document) ||
                    table->solved_revision == 0;
     uint64_t revision = history_revision(table->history);
@@ -41,10 +41,10 @@ static void read_models(struct table *table)
     if (!is_new && models_suit(table->models, table->document)) return;
     table->models_serial = table->document->serial;
     if (is_new) {
-        if (!scene_read_paint(table->document, &error)) editor_message(table->editor, true, error.text);
+        if (!scene_read_paint(table->document, &error)) core_message(&table->editor->core, true, error.text);
         if (!history_is_open(table->history)) history_amend(table->history);
     }
-    if (!models_update(table->models, table->document, &error)) editor_message(table->editor, true, error.text);
+    if (!models_update(table->models, table->document, &error)) core_message(&table->editor->core, true, error.text);
 }
 
 void table_edit(struct table *table, double dt, struct frame_row *row)

@@ -20,7 +20,7 @@ static bool has_room(const struct app *app, double scale)
 
 static double wanted(const struct app *app, double chosen)
 {
-    return chosen * (editor_is_presenting(app->table.editor) ? PRESENTING : 1);
+    return chosen * (app->table.editor->core.presenter.on ? PRESENTING : 1);
 }
 
 /// What is wanted, or the largest step below it that leaves room; a window too small for any is left as it is.
@@ -39,7 +39,7 @@ void ui_scale_fit(struct app *app)
     const float shown = (float)app->ui_scale_shown;
     editor_resize(app->table.editor, fmaxf(app->display.width / shown, UI_LEAST_WIDTH),
                   fmaxf(app->display.height / shown, UI_LEAST_HEIGHT), app->display.scale * shown);
-    editor_tell_ui_scale(app->table.editor, app->ui_scale);
+    app->table.editor->core.ui_scale = app->ui_scale;
 }
 
 void ui_scale_update(struct app *app)

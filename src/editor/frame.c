@@ -9,7 +9,6 @@
 #include "editor/inspector/inspector.h"
 #include "editor/keys.h"
 #include "editor/stage/stage.h"
-#include "editor/state.h"
 #include "editor/transport/transport.h"
 #include "ui/theme.h"
 #include <math.h>
@@ -174,7 +173,7 @@ void editor_advance(struct editor *editor, double dt)
     presenter_advance(&editor->core, dt, busy);
     dialogs_advance(editor->dialogs, &editor->core, dt);
     editor->core.nudged_seconds = fmax(editor->core.nudged_seconds - dt, 0);
-    transport_advance(editor->transport, &editor->core, dt);
+    transport_advance(&editor->core, dt);
     tooltip_advance(&editor->tooltip, dt);
     playback_advance(&editor->core, dt);
     curves_advance(editor->curves, &editor->core, dt);
@@ -271,7 +270,7 @@ static void show_panels(struct editor *editor)
     if (side) inspector_show(editor->inspector, dialogs_cover(editor->dialogs));
     if (side) show_inspector_divider(editor);
     if (!hint) hint = editor->core.drag.hint;
-    if (below) transport_show(editor->transport, &editor->core, hint);
+    if (below) transport_show(&editor->core, hint);
 }
 
 void editor_show(struct editor *editor)

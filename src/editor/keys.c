@@ -14,7 +14,6 @@
 #include "editor/editor.h"
 #include "editor/inspector/inspector.h"
 #include "editor/stage/stage.h"
-#include "editor/state.h"
 #include "ui/theme.h"
 #include <math.h>
 
@@ -265,14 +264,13 @@ static double next_size(const double sizes[3], double present)
 static void run_panel(struct editor *editor, int inspector)
 {
     static const double shares[3] = {0.35, 0.575, 0.75}, widths[3] = {280, 360, 440};
-    double share, width;
-    editor_panels(editor, &share, &width);
+    double share = (double)editor->core.layout.stage_share, width = (double)editor->core.layout.inspector_width;
     if (inspector) {
         width = next_size(widths, width);
     } else {
         share = next_size(shares, share);
     }
-    editor_set_panels(editor, share, width);
+    core_set_panels(&editor->core, share, width);
 }
 
 enum { CTRL_SHIFT = MOD_CTRL | MOD_SHIFT };

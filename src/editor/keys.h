@@ -2,7 +2,7 @@
 #ifndef EDITOR_KEYS_H
 #define EDITOR_KEYS_H
 
-#include "editor/state.h"
+#include "editor/editor.h"
 
 /// What a key does to the panels, and what it does to what they share alone.
 typedef void key_action(struct editor *editor, int argument);

@@ -1,9 +1,9 @@
 /// Names for places on the screen, for replays; they survive a new layout: "knot(sway,2)", "tail(tail,0.9)".
 #include "editor/core/bones.h"
 #include "editor/curves/curves.h"
+#include "editor/editor.h"
 #include "editor/inspector/inspector.h"
 #include "editor/stage/stage.h"
-#include "editor/state.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

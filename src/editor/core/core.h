@@ -33,7 +33,7 @@ void core_jump(struct core *core, size_t done);
 void core_request(struct core *core, enum request_kind kind, const char *path);
 /// The same with a number.
 void core_request_number(struct core *core, enum request_kind kind, int number);
-/// See editor_message().
+/// Shows a sentence in the status line (an error until the next key or click, else for some seconds of `dt`).
 void core_message(struct core *core, bool is_error, const char *text);
 /// Puts a knot within the limits of its spline. Where one holds it, says so: "held by the limit 1.2 of sway at frame 14".
 void core_hold(const struct spline *spline, struct knot *knot, char why[STOPPED_SIZE]);
@@ -62,6 +62,8 @@ double core_position(const struct document *document, double frame);
 double core_round(double value, double resolution);
 /// The panel that is uppermost at a point.
 enum panel core_panel_at(const struct core *core, float x, float y);
+/// Sets the panels' sizes: the stage's share of the height, the inspector's width.
+void core_set_panels(struct core *core, double stage_share, double inspector_width);
 /// Rectangles of all panels for the window's size.
 void core_layout(struct core *core);
 /// Which divider is under a point, or DIVIDER_NONE.

@@ -49,6 +49,13 @@ void core_layout(struct core *core)
     if (core->presenter.on) presenter_arrange(&core->presenter, l);
 }
 
+void core_set_panels(struct core *core, double stage_share, double inspector_width)
+{
+    core->layout.stage_share = (float)fmin(fmax(stage_share, 0), 1);
+    core->layout.inspector_width = (float)fmin(fmax(inspector_width, 0), 1e4);
+    core_layout(core);
+}
+
 enum panel core_panel_at(const struct core *core, float x, float y)
 {
     const struct layout *l = &core->layout;

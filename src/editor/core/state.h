@@ -1,13 +1,79 @@
-/// What the panels share: layout, selection, playback, what is under the pointer, how things are looked at, requests to the app.
+/// What the editor is handed, and what its panels share: layout, selection, playback, what is under the pointer, how things are looked at,
+/// requests to the app.
 ///
 /// Knots are remembered by id, splines and tails by index.
 #ifndef EDITOR_CORE_STATE_H
 #define EDITOR_CORE_STATE_H
 
-#include "editor/core/world.h"
+#include "base/file.h"
+#include "rig/models.h"
+#include "rig/posing.h"
+#include "scene/edit.h"
+#include "scene/evaluate.h"
+#include "scene/history.h"
+#include "ui/drawlist.h"
+#include "ui/event.h"
+#include "ui/stage.h"
 #include <stdint.h>
 
 enum { CORE_MAX_RECENT = 16, STOPPED_SIZE = 96 /* of what stops an edit, in words */ };
+
+/// What the editor works on, owned by the app.
+struct editor_world {
+    struct document *document;
+    struct history *history;
+    const struct evaluation *evaluation; ///< as of the last solve: the frame before, until editor_show()
+    const struct models *models;         ///< the characters' models; NULL: none
+};
+
+/// What the editor asks of the app after a frame's events (files and windows are not its business).
+enum request_kind {
+    REQUEST_NONE,
+    REQUEST_NEW,
+    REQUEST_OPEN,      ///< path
+    REQUEST_ADD,       ///< path: a character or model, to the scene on the table
+    REQUEST_SAVE,      ///< to the document's own path, or ask
+    REQUEST_SAVE_AS,   ///< path
+    REQUEST_OVERWRITE, ///< the document's own file, which somebody else has changed
+    REQUEST_KEEP_MINE, ///< the same, but not before the next REQUEST_SAVE
+    REQUEST_THEIRS,    ///< the document's file as it is now in place of the document, as a step of the history
+    REQUEST_FIGURE,    ///< number: a figure of the paper in place of the document, as a step of the history
+    REQUEST_QUIT,
+    REQUEST_RECOVER, ///< the work that was offered
+    REQUEST_FORGET,  ///< the same, for good
+    REQUEST_SCREENSHOT,
+    REQUEST_FULLSCREEN,
+    REQUEST_UI_SCALE,    ///< number: 1 larger, -1 smaller, 0 as the display's own
+    REQUEST_COPY,        ///< editor_clipboard() onto the clipboard
+    REQUEST_PASTE,       ///< an EVENT_PASTE with what is there
+    REQUEST_EXPORT,      ///< path, wish; answered once it is done
+    REQUEST_EXPORT_STOP, ///< the running one; that answers then
+};
+
+/// How motion is to be exported. What a format has no use for is ignored; all zero is a good start.
+struct export_wish {
+    bool part; ///< these frames alone
+    double first, last;
+    int keys;          ///< a frame; 0: the scene's substeps
+    int width, height; ///< of pictures; 0: as the format likes
+    char rig[64];      ///< by its name; "": all
+    char clip[64];     ///< what the animation is called; "": as the scene
+    bool is_cubic, is_signed, transparent;
+};
+
+struct request {
+    enum request_kind kind;
+    int number;
+    char path[PATH_LIMIT];
+    struct export_wish wish;
+};
+
+/// Unsaved work that an earlier run left behind.
+struct recovery_offer {
+    char name[256]; ///< what its document was called
+    char when[64];  ///< date and time, as text
+    int others;     ///< older ones there are besides
+};
 
 /// Rectangles of the panels, in logical pixels; made by core_layout().
 struct layout {
@@ -136,6 +202,18 @@ struct message {
     double seconds_left; ///< of a message that is not an error
 };
 
+/// Figures of the status line.
+struct figures {
+    double fps, solve_us; ///< frames a second, microseconds of solving
+};
+
+struct status {
+    struct figures told, shown; ///< by the app last, and as taken over for a while
+    double age;                 ///< seconds since that
+    long dropped;               ///< as shown
+    float stage_scale;          ///< the stage's resolution relative to the window's, per side; 0 means 1
+};
+
 enum { CORE_MAX_EDITED = 8 };
 
 /// What was edited since the curves last looked, and is not solved yet: their view follows it.
@@ -213,7 +291,7 @@ struct knot_place {
 };
 
 struct core {
-    struct document *document; ///< what is worked on, the app's, as the next three (world.h): set by editor_open()
+    struct document *document; ///< what is worked on, the app's, as the next three: set by editor_open()
     struct history *history;
     const struct evaluation *evaluation;
     const struct models *models;
@@ -259,6 +337,7 @@ struct core {
     char title[256];       ///< the file's name, or "untitled"
     char path[PATH_LIMIT]; ///< of the document's own file, or ""
     struct message message;
+    struct status status;
     struct error error;     ///< of the last edit that failed, until core_settle()
     bool unkept;            ///< unsaved work has no recovery file
     bool unshown;           ///< something of the status line has changed since it was drawn

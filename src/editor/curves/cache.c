@@ -4,8 +4,7 @@
 #include "editor/core/core.h"
 #include "editor/core/knots.h"
 #include "editor/core/spline_list.h"
-#include "editor/curves/curves.h"
-#include "editor/curves/parts.h"
+#include "editor/curves/state.h"
 #include <limits.h>
 #include <math.h>
 #include <string.h>

@@ -1,15 +1,13 @@
 /// The curves panel: its beginning and end, what is under the pointer, presses, boxes round knots, and the active spline's limits.
-#include "editor/curves/curves.h"
 #include "base/need.h"
 #include "editor/core/core.h"
-#include "editor/core/drag.h"
 #include "editor/core/knots.h"
 #include "editor/core/pins.h"
 #include "editor/core/playback.h"
 #include "editor/core/selected_knots.h"
 #include "editor/core/selection.h"
 #include "editor/core/spline_list.h"
-#include "editor/curves/parts.h"
+#include "editor/curves/state.h"
 #include "ui/theme.h"
 #include <math.h>
 #include <stdlib.h>

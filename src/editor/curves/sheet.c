@@ -3,8 +3,7 @@
 #include "editor/core/knots.h"
 #include "editor/core/selection.h"
 #include "editor/core/spline_list.h"
-#include "editor/curves/curves.h"
-#include "editor/curves/parts.h"
+#include "editor/curves/state.h"
 #include "ui/font.h"
 #include "ui/theme.h"
 #include <math.h>

@@ -5,8 +5,7 @@
 /// active one's a + (v − c)·(b − a)/(d − c) is.
 #include "editor/core/core.h"
 #include "editor/core/selected_knots.h"
-#include "editor/curves/curves.h"
-#include "editor/curves/parts.h"
+#include "editor/curves/state.h"
 #include <limits.h>
 #include <math.h>
 

@@ -1,10 +1,8 @@
 /// What lies over the panels and takes events first; among that the dialogs: open, save as, and the questions.
-#include "editor/dialogs/dialog.h"
 #include "base/file.h"
 #include "base/need.h"
 #include "editor/core/core.h"
-#include "editor/dialogs/dialogs.h"
-#include "editor/dialogs/help.h"
+#include "editor/dialogs/state.h"
 #include "ui/theme.h"
 #include <math.h>
 #include <stdio.h>

@@ -1,8 +1,7 @@
 /// The Export dialog: a file name whose extension is the format, the frames, and the format's options.
 #include "base/file.h"
 #include "editor/core/core.h"
-#include "editor/dialogs/dialog.h"
-#include "editor/dialogs/dialogs.h"
+#include "editor/dialogs/state.h"
 #include "ui/theme.h"
 #include <math.h>
 #include <stdio.h>

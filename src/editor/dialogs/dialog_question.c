@@ -2,8 +2,7 @@
 #include "base/file.h"
 #include "editor/core/rigs.h"
 #include "editor/core/spline_list.h"
-#include "editor/dialogs/dialog.h"
-#include "editor/dialogs/dialogs.h"
+#include "editor/dialogs/state.h"
 #include "scene/order.h"
 #include "ui/theme.h"
 #include <math.h>
@@ -167,10 +166,10 @@ void dialog_ask_unsaved(struct dialogs *dialogs, const struct core *core)
     dialog_open(dialogs, DIALOG_UNSAVED);
 }
 
-bool dialogs_ask_changed(struct dialogs *dialogs, const char *name, bool saving)
+bool dialogs_ask_changed(struct dialogs *dialogs, const struct core *core, const char *name, bool saving)
 {
     struct dialog *dialog = &dialogs->dialog;
-    if (!saving && dialogs_cover(dialogs)) return false;
+    if (!saving && (core->drag.owner || dialogs_cover(dialogs))) return false;
     dialog->question = QUESTION(changed_answers);
     snprintf(dialog->question.title, sizeof dialog->question.title, "%.255s has changed on the disk", name);
     snprintf(dialog->question.note, sizeof dialog->question.note,

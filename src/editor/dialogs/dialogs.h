@@ -3,21 +3,70 @@
 #define EDITOR_DIALOGS_DIALOGS_H
 
 #include "editor/core/state.h"
-#include "editor/dialogs/dialog_files.h"
 #include "ui/widgets.h"
+
+// How the dialogs see folders: through functions that the app provides. The editor itself opens no files.
+
+enum { DIALOG_MAX_RECENT = 12 };
+
+/// A file that was opened or saved before.
+struct dialog_recent {
+    char path[PATH_LIMIT]; ///< absolute
+    bool missing;          ///< it is not there any more, or cannot be read
+};
+
+/// Writes at most `most` recent files, newest first; returns how many.
+typedef int dialog_list_recent(void *user, struct dialog_recent *files, int most);
+
+/// What an export to a format has to choose, besides name and frames.
+enum dialog_choice {
+    CHOICE_KEYS = 1,   ///< keys a frame
+    CHOICE_RIG = 2,    ///< one rig or all
+    CHOICE_ONE = 4,    ///< the file holds but one
+    CHOICE_CLIP = 8,   ///< the animation's name
+    CHOICE_CUBIC = 16, ///< linear or cubic keys
+    CHOICE_SIGNED = 32,
+    CHOICE_SIZE = 64, ///< it is pictures
+    CHOICE_ALPHA = 128,
+    CHOICE_JOINTS = 256, ///< it holds tails and chains
+};
+
+/// A file format that motion is exported to.
+struct dialog_format {
+    const char *ending, *holds; ///< ".glb", and a line on what such a file is for
+    unsigned choices;           ///< of enum dialog_choice
+    int width, height;          ///< CHOICE_SIZE: the size it likes
+};
+
+struct dialog_files {
+    /// Names in `folder` that a scene can be in: *.json, and folders with a trailing '/'; sorted. Writes at most `max`,
+    /// returns how many, or -1 where the folder cannot be read. NULL: the dialogs are plain text fields.
+    int (*list)(void *user, const char *folder, char names[][256], int max);
+    dialog_list_recent *recent; ///< NULL: there are none
+    const struct dialog_format *formats;
+    int format_count; ///< 0: nothing is exported
+    void *user;
+};
+
+/// What was exported last, and from which scene's file.
+struct export_memory {
+    char path[PATH_LIMIT], scene[PATH_LIMIT];
+    struct export_wish wish;
+};
 
 struct dialogs;
 
 struct dialogs *dialogs_create(void);
 void dialogs_destroy(struct dialogs *dialogs);
-/// See editor_set_files().
+/// Gives the dialogs access to folders; copied.
 void dialogs_set_files(struct dialogs *dialogs, const struct dialog_files *files);
 /// Asks where to save.
 void dialogs_save_as(struct dialogs *dialogs, const struct core *core);
 /// Asks what to export, and where to.
 void dialogs_export(struct dialogs *dialogs, const struct core *core);
-/// See editor_set_export() and editor_tell_export().
+/// What the Export dialog begins with.
 void dialogs_set_export(struct dialogs *dialogs, const struct export_memory *memory);
+/// How far the export is that was asked for; without an end in sight `total` is 0.
 void dialogs_tell_export(struct dialogs *dialogs, long done, long total);
 /// Does `after` (REQUEST_NEW, REQUEST_OPEN with a path, or without: asks for one, REQUEST_QUIT), but asks first where work
 /// would be lost: Save, Discard, Cancel. `after` then follows only when the save has succeeded.
@@ -30,9 +79,11 @@ bool dialogs_answer(struct dialogs *dialogs, struct core *core, const struct req
 void dialogs_show(struct dialogs *dialogs, struct core *core);
 /// Asks before an edit.
 void dialogs_ask(struct dialogs *dialogs, const struct core *core, const struct ask *ask);
-/// See editor_ask_changed().
-bool dialogs_ask_changed(struct dialogs *dialogs, const char *name, bool saving);
-/// See editor_offer_recovery().
+/// Somebody else has written the document's file, of that name: asks whether to keep mine, take theirs or save under
+/// another name. `saving`: the user has just asked to save, and that request needs no other answer. false where something else
+/// lies over the panels, or a drag goes on.
+bool dialogs_ask_changed(struct dialogs *dialogs, const struct core *core, const char *name, bool saving);
+/// Asks what to do with unsaved work of an earlier run: REQUEST_RECOVER, REQUEST_FORGET, or nothing yet.
 void dialogs_offer_recovery(struct dialogs *dialogs, const struct recovery_offer *offer);
 /// true where an open dialog, the help or the card for new users takes the event; `busy`: no help now.
 bool dialogs_event(struct dialogs *dialogs, struct core *core, const struct event *event, bool busy);

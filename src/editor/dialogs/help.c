@@ -1,7 +1,6 @@
 /// The overlay with all keys (F1): as many columns as the window has room for, rows closer together where it is low, and
 /// scrolled where that is not enough.
-#include "editor/dialogs/help.h"
-#include "editor/dialogs/dialogs.h"
+#include "editor/dialogs/state.h"
 #include "scene/parameter.h"
 #include "ui/font.h"
 #include "ui/theme.h"

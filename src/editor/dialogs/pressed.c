@@ -1,7 +1,6 @@
 /// What an audience sees of a user's hands: keys and buttons as they are pressed, in a pill that fades; in a demo a pointer and a
 /// caption as well.
 #include "editor/core/core.h"
-#include "editor/dialogs/dialogs.h"
 #include "editor/dialogs/state.h"
 #include "ui/font.h"
 #include "ui/theme.h"

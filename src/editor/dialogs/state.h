@@ -1,10 +1,9 @@
-/// The state of what lies over the panels: dialogs, help, the card for newcomers. Private to the room.
+/// What lies over the panels: dialogs, help, the card for newcomers; their state, and what their files give each other. Private to the room,
+/// and to tests.
 #ifndef EDITOR_DIALOGS_STATE_H
 #define EDITOR_DIALOGS_STATE_H
 
-#include "editor/core/state.h"
-#include "editor/dialogs/dialog_files.h"
-#include "ui/widgets.h"
+#include "editor/dialogs/dialogs.h"
 
 struct help {
     bool open;
@@ -95,5 +94,64 @@ struct dialogs {
     bool welcome;      ///< the card for newcomers is shown
     struct rect card;  ///< where it is
 };
+
+/// Shows a dialog that has no text.
+void dialog_open(struct dialogs *dialogs, enum dialog_kind kind);
+/// Closes whichever is shown.
+void dialog_close(struct dialogs *dialogs);
+/// Asks which file to open.
+void dialog_ask_open(struct dialogs *dialogs);
+/// Asks something of the app; the dialog takes nothing until dialogs_answer().
+void dialog_await(struct dialogs *dialogs, struct core *core, enum request_kind kind, const char *path);
+
+/// The Export dialog's keys: true where it has used one. They also come while the app is at work, as all its events do.
+bool export_key(struct dialogs *dialogs, struct core *core, int key);
+/// Lays it out.
+void export_build(struct dialogs *dialogs, struct core *core);
+
+enum { QUESTION_UNUSED = -2, QUESTION_OPEN = -1 };
+
+/// Lays the dialog's question out; returns the answer that was pressed, or QUESTION_OPEN.
+int question_build(struct dialog *dialog);
+/// What a key does: an answer, QUESTION_OPEN where it moved the choice, or QUESTION_UNUSED.
+int question_key(struct dialog *dialog, int key);
+
+/// DIALOG_ASK: does what was asked about as the answer says.
+void dialog_ask_answer(struct dialogs *dialogs, struct core *core, int answer);
+
+enum unsaved_answer { UNSAVED_SAVE, UNSAVED_DISCARD, UNSAVED_CANCEL };
+
+/// DIALOG_UNSAVED: asks what to do with unsaved changes.
+void dialog_ask_unsaved(struct dialogs *dialogs, const struct core *core);
+/// DIALOG_CHANGED: what an answer does.
+void dialog_changed_answer(struct dialogs *dialogs, struct core *core, int answer);
+/// DIALOG_RECOVER: what an answer does.
+void dialog_recover_answer(struct dialogs *dialogs, struct core *core, int answer);
+
+/// F1 opens it; wheel, ↑ ↓ and PgUp PgDn scroll it; any other key or a click closes it. While it is open help_event() is true
+/// for keys, text, buttons and the wheel.
+bool help_event(struct dialogs *dialogs, const struct core *core, const struct event *event, bool busy);
+/// Draws it, where it is open.
+void help_show(const struct dialogs *dialogs, struct core *core);
+
+enum { HELP_MAX_ROWS = 14, HELP_GROUPS = 10, HELP_HELD = 5 };
+
+/// Keys are separated by ", ", "; " or two spaces; one without Ctrl+ or Shift+ may share that of the key before it.
+struct help_row {
+    const char *keys, *what;
+};
+
+struct help_group {
+    const char *title;
+    struct help_row rows[HELP_MAX_ROWS]; ///< up to the first without keys
+};
+
+extern const struct help_group help_groups[HELP_GROUPS];
+
+/// A row of a group, from 0; without keys beyond the last one. HELP_HELD begins with the letters of the parameters.
+struct help_row help_row(const struct help_group *group, int index);
+
+/// A press on the card takes it away and is used up; so do Esc, an edit and the help.
+bool welcome_event(struct dialogs *dialogs, const struct event *event);
 
 #endif

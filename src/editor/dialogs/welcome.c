@@ -1,7 +1,6 @@
 /// What to try first: a card on the stage that goes away with the first edit, the first look at the help, Esc, or a click.
 #include "editor/core/rigs.h"
-#include "editor/dialogs/dialogs.h"
-#include "editor/dialogs/help.h"
+#include "editor/dialogs/state.h"
 #include "ui/font.h"
 #include "ui/theme.h"
 #include <math.h>

@@ -1,17 +1,14 @@
 /// The status line: the controls of playback, what was last said, and what the machine does.
 #include "editor/transport/transport.h"
-#include "base/need.h"
 #include "editor/core/core.h"
 #include "editor/core/drag.h"
 #include "editor/core/playback.h"
 #include "editor/core/rigs.h"
-#include "editor/transport/state.h"
 #include "ui/font.h"
 #include "ui/theme.h"
 #include "ui/widgets.h"
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 enum {
@@ -24,52 +21,38 @@ enum {
     PRESENT_WIDTH = 28
 };
 
-struct rect controls_rect(const struct core *core, enum control control)
+struct rect controls_rect(const struct core *core, enum hover_kind control)
 {
-    static const float width[TRANSPORT_COUNT] = {PLAY_WIDTH,     LOOP_WIDTH,     SPEED_WIDTH,
-                                                 AUTO_KEY_WIDTH, UI_SCALE_WIDTH, PRESENT_WIDTH};
+    static const float width[] = {PLAY_WIDTH, LOOP_WIDTH, SPEED_WIDTH, AUTO_KEY_WIDTH, UI_SCALE_WIDTH, PRESENT_WIDTH};
     struct rect bar = core->layout.status, r = {bar.x + MARGIN, bar.y + 2, width[0], bar.h - 3};
-    for (int i = 1; i <= (int)control; i++) {
+    for (int i = 1; i <= (int)control - HOVER_PLAY; i++) {
         r.x += r.w;
         r.w = width[i];
     }
     return r;
 }
 
-static enum control control_at(const struct core *core, float x, float y)
-{
-    int control = 0;
-    while (control < TRANSPORT_COUNT && !rect_contains(controls_rect(core, (enum control)control), x, y)) control++;
-    return (enum control)control;
-}
-
 struct hover transport_hover(const struct core *core, float x, float y)
 {
-    static const enum hover_kind kinds[] = {HOVER_PLAY,     HOVER_LOOP,    HOVER_SPEED, HOVER_AUTO_KEY,
-                                            HOVER_UI_SCALE, HOVER_PRESENT, HOVER_NONE};
-    return (struct hover){.kind = kinds[control_at(core, x, y)]};
+    for (enum hover_kind control = HOVER_PLAY; control <= HOVER_PRESENT; control++) {
+        if (rect_contains(controls_rect(core, control), x, y)) return (struct hover){.kind = control};
+    }
+    return (struct hover){.kind = HOVER_NONE};
 }
 
 bool transport_event(struct core *core, const struct event *event)
 {
-    enum control control = control_at(core, event->x, event->y);
-    if (event->kind == EVENT_WHEEL) {
-        const bool turns = (control == TRANSPORT_SPEED || control == TRANSPORT_UI_SCALE) && event->dy != 0;
-        if (turns && control == TRANSPORT_UI_SCALE) {
-            core_request_number(core, REQUEST_UI_SCALE, event->dy > 0 ? 1 : -1);
-        } else if (turns)
-            playback_change_speed(core, event->dy > 0 ? 1 : -1);
-        return turns;
-    }
-    if (control == TRANSPORT_COUNT || event->button == BUTTON_MIDDLE) return false;
-    bool left = event->button == BUTTON_LEFT;
-    const int step = !left ? 0 : event->mods & MOD_SHIFT ? -1 : 1;
-    if (control == TRANSPORT_PLAY && left) playback_toggle(core);
-    if (control == TRANSPORT_LOOP && left) core_flip(core, SWITCH_LOOP);
-    if (control == TRANSPORT_AUTO_KEY && left) core_flip(core, SWITCH_AUTO_KEY);
-    if (control == TRANSPORT_SPEED) playback_change_speed(core, step);
-    if (control == TRANSPORT_UI_SCALE) core_request_number(core, REQUEST_UI_SCALE, step);
-    if (control == TRANSPORT_PRESENT && left) presenter_toggle(core, 0);
+    const enum hover_kind control = transport_hover(core, event->x, event->y).kind;
+    const bool turns = event->kind == EVENT_WHEEL, left = event->button == BUTTON_LEFT;
+    if (control == HOVER_NONE || (turns ? event->dy == 0 : event->button == BUTTON_MIDDLE)) return false;
+    const int step = turns ? (event->dy > 0 ? 1 : -1) : !left ? 0 : event->mods & MOD_SHIFT ? -1 : 1;
+    if (control == HOVER_SPEED) playback_change_speed(core, step);
+    if (control == HOVER_UI_SCALE) core_request_number(core, REQUEST_UI_SCALE, step);
+    if (turns || !left) return true;
+    if (control == HOVER_PLAY) playback_toggle(core);
+    if (control == HOVER_LOOP) core_flip(core, SWITCH_LOOP);
+    if (control == HOVER_AUTO_KEY) core_flip(core, SWITCH_AUTO_KEY);
+    if (control == HOVER_PRESENT) presenter_toggle(core, 0);
     return true;
 }
 
@@ -109,17 +92,16 @@ static float controls_show(struct core *core)
 {
     const struct playback *playback = &core->playback;
     enum hover_kind hover = core->hover.kind;
-    struct rect play = controls_rect(core, TRANSPORT_PLAY), loop = controls_rect(core, TRANSPORT_LOOP);
-    struct rect speed = controls_rect(core, TRANSPORT_SPEED);
+    struct rect play = controls_rect(core, HOVER_PLAY), loop = controls_rect(core, HOVER_LOOP);
+    struct rect speed = controls_rect(core, HOVER_SPEED);
     char text[16];
     snprintf(text, sizeof text, "%g×", playback->speed);
     paint_play_state(&core->list, play.x + 6, play.y + play.h / 2, playback->playing, hover == HOVER_PLAY);
     paint_word(core, loop, FONT_LABEL, "Loop", playback->looping, hover == HOVER_LOOP);
     paint_word(core, speed, FONT_NUMBER, text, playback->speed != 1, hover == HOVER_SPEED);
-    const struct rect auto_key = controls_rect(core, TRANSPORT_AUTO_KEY);
+    const struct rect auto_key = controls_rect(core, HOVER_AUTO_KEY);
     paint_word(core, auto_key, FONT_LABEL, "Auto-key", core->auto_key, hover == HOVER_AUTO_KEY);
-    const struct rect scale = controls_rect(core, TRANSPORT_UI_SCALE),
-                      present = controls_rect(core, TRANSPORT_PRESENT);
+    const struct rect scale = controls_rect(core, HOVER_UI_SCALE), present = controls_rect(core, HOVER_PRESENT);
     snprintf(text, sizeof text, "%.0f %%", 100 * core->ui_scale);
     paint_word(core, scale, FONT_NUMBER, text, core->ui_scale != 1, hover == HOVER_UI_SCALE);
     paint_screen(&core->list, present, core->presenter.on, hover == HOVER_PRESENT);
@@ -129,14 +111,13 @@ static float controls_show(struct core *core)
 static const double REFRESH = 0.5; ///< seconds between changes of the figures at the right
 static const double SOLVED = 5;    ///< µs; what took less was only a look for something to solve
 
-void transport_advance(struct transport *transport, const struct core *core, double dt)
+void transport_advance(struct core *core, double dt)
 {
-    struct status *status = &transport->status;
+    struct status *status = &core->status;
     status->age += dt;
-    if (status->fps > 0 && status->age < REFRESH) return;
+    if (status->shown.fps > 0 && status->age < REFRESH) return;
     status->age = 0;
-    status->fps = transport->fps;
-    status->solve_us = transport->solve_us;
+    status->shown = status->told;
     status->dropped = core->playback.dropped;
 }
 
@@ -252,19 +233,17 @@ static struct title title_of(const struct core *core, bool saved, struct rect ba
 }
 
 /// Frames a second only while it plays: at rest frames come as events do, and their number would say nothing.
-static void figures_text(const struct transport *transport, const struct core *core,
-                         const struct evaluation *evaluation, char *text, size_t size)
+static void figures_text(const struct core *core, char *text, size_t size)
 {
-    const struct status *status = &transport->status;
+    const struct status *status = &core->status;
     char stage[32] = "", fps[64] = "", solve[32] = "";
-    if (core->playback.playing && status->fps > 0) {
-        snprintf(fps, sizeof fps, "%.0f fps  %ld dropped", status->fps, status->dropped);
-    }
-    if (status->solve_us >= SOLVED && evaluation)
-        snprintf(solve, sizeof solve, "solve %.0f µs (%s)", status->solve_us, evaluation_solver(evaluation));
-    if (transport->stage_scale > 0 && transport->stage_scale < 1) {
-        snprintf(stage, sizeof stage, "stage at %.0f %%", 100 * (double)transport->stage_scale);
-    }
+    if (core->playback.playing && status->shown.fps > 0)
+        snprintf(fps, sizeof fps, "%.0f fps  %ld dropped", status->shown.fps, status->dropped);
+    if (status->shown.solve_us >= SOLVED && core->evaluation)
+        snprintf(solve, sizeof solve, "solve %.0f µs (%s)", status->shown.solve_us,
+                 evaluation_solver(core->evaluation));
+    if (status->stage_scale > 0 && status->stage_scale < 1)
+        snprintf(stage, sizeof stage, "stage at %.0f %%", 100 * (double)status->stage_scale);
     snprintf(text, size, "%s%s%s%s%s", stage, stage[0] && (fps[0] || solve[0]) ? "  " : "", fps,
              fps[0] && solve[0] ? "  " : "", solve);
 }
@@ -289,7 +268,7 @@ static void show_unkept(struct core *core, struct rect bar)
     paint_text(&core->list, (struct rect){r.x, bar.y, r.w, bar.h}, FONT_LABEL, theme()->error, unkept);
 }
 
-void transport_show(const struct transport *transport, struct core *core, const char *hint)
+void transport_show(struct core *core, const char *hint)
 {
     struct rect bar = core->layout.status;
     const struct message *message = &core->message;
@@ -297,7 +276,7 @@ void transport_show(const struct transport *transport, struct core *core, const 
     drawlist_rect(&core->list, (struct rect){bar.x, bar.y, bar.w, 1}, theme()->border);
     float x = show_time(core, bar, controls_show(core)) + GAP;
     char figures[160];
-    figures_text(transport, core, core->evaluation, figures, sizeof figures);
+    figures_text(core, figures, sizeof figures);
     const float end = core->unkept ? unkept_rect(bar).x - GAP : bar.x + bar.w - STATUS_MARGIN;
     const float width = font_width(FONT_NUMBER, THEME_TEXT_SMALL, figures);
     // What has happened is said in full: the figures give way to it, and the name of the scene.
@@ -319,15 +298,3 @@ void transport_show(const struct transport *transport, struct core *core, const 
     if (middle.w > 40) paint_text(&core->list, middle, FONT_LABEL, color, text);
     show_unkept(core, bar);
 }
-
-struct transport *transport_create(void) { return need_zeroed(1, sizeof(struct transport)); }
-
-void transport_destroy(struct transport *transport) { free(transport); }
-
-void transport_tell(struct transport *transport, double fps, double solve_us)
-{
-    transport->fps = fps;
-    transport->solve_us = solve_us;
-}
-
-void transport_tell_scale(struct transport *transport, float scale) { transport->stage_scale = scale; }

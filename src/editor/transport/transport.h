@@ -4,23 +4,17 @@
 
 #include "editor/core/state.h"
 
-struct transport;
-
-struct transport *transport_create(void);
-void transport_destroy(struct transport *transport);
+/// Where a control is: HOVER_PLAY … HOVER_PRESENT.
+struct rect controls_rect(const struct core *core, enum hover_kind control);
 /// What is under a point of the status line.
 struct hover transport_hover(const struct core *core, float x, float y);
 /// A press or the wheel on a control; true where there is one.
 bool transport_event(struct core *core, const struct event *event);
 /// Time passes (editor_advance): the figures change at most twice a second, so that they cost no redraws.
-void transport_advance(struct transport *transport, const struct core *core, double dt);
+void transport_advance(struct core *core, double dt);
 /// A sentence on the control that the pointer is on: of playback, of the ruler's units. NULL: none.
 const char *transport_hint(const struct core *core);
 /// Draws the status line; `hint` is what it says where there is no message, NULL: what the pointer is over.
-void transport_show(const struct transport *transport, struct core *core, const char *hint);
-/// Figures for the status line.
-void transport_tell(struct transport *transport, double fps, double solve_us);
-/// See editor_set_stage_scale().
-void transport_tell_scale(struct transport *transport, float scale);
+void transport_show(struct core *core, const char *hint);
 
 #endif
