@@ -30,7 +30,6 @@ static inline struct opened open_scene(const char *path)
     if (!scene.document) fail_msg("%s", error.text);
     document_set_path(scene.document, path);
     assert_true(models_update(scene.models, scene.document, &error));
-    evaluation_resize(&scene.evaluation, scene.document);
     evaluation_update(&scene.evaluation, scene.document, false);
     return scene;
 }

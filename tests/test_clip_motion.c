@@ -1,7 +1,7 @@
 /// What joints do in clips, as equilibria follow it: against the clip itself, without its corners, again and again.
 #include "near.h"
-#include "rig/clip_motion.h"
 #include "rig/import.h"
+#include "rig/pinning.h"
 #include <math.h>
 #include <stdlib.h>
 
@@ -38,9 +38,9 @@ static char dog_name[] = "dog", hips[] = "hips", head[] = "head";
 
 static void read_motion(struct scene *scene, char *joint, enum motion_of of)
 {
-    const struct motion_source source = clip_motions(scene->models);
+    const struct model_source source = models_source(scene->models);
     const struct joint_motion motion = {.model = dog_name, .joint = joint, .of = of};
-    assert_true(source.read(source.context, scene->document, &motion, scene->samples));
+    assert_true(source.follow(source.context, scene->document, &motion, scene->samples));
 }
 
 /// Height of the hips in the clip at a sample, metres.
@@ -125,11 +125,11 @@ TEST(test_what_is_not_there)
 {
     static char nobody[] = "nobody";
     struct scene scene = open_scene();
-    const struct motion_source source = clip_motions(scene.models);
+    const struct model_source source = models_source(scene.models);
     const struct joint_motion no_joint = {.model = dog_name, .joint = nobody},
                               no_model = {.model = nobody, .joint = hips};
-    assert_false(source.read(source.context, scene.document, &no_joint, scene.samples));
-    assert_false(source.read(source.context, scene.document, &no_model, scene.samples));
+    assert_false(source.follow(source.context, scene.document, &no_joint, scene.samples));
+    assert_false(source.follow(source.context, scene.document, &no_model, scene.samples));
     close_scene(&scene);
 }
 

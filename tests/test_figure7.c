@@ -103,7 +103,6 @@ TEST(it_stands_on_its_feet)
         struct scene scene = open_scene(paths[s]);
         struct evaluation evaluation = {0};
         const struct posing posing = {.document = scene.document, .evaluation = &evaluation, .models = scene.models};
-        evaluation_resize(&evaluation, scene.document);
         evaluation_update(&evaluation, scene.document, false);
         for (int i = 0; i < evaluation.samples; i++) {
             struct rig_pose pose;

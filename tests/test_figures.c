@@ -14,7 +14,6 @@ static void open_figure(const char *path)
     struct error error = {0};
     document = scene_load(path, NULL, &error);
     if (!document) fail_msg("%s", error.text);
-    evaluation_resize(&evaluation, document);
     evaluation_update(&evaluation, document, false);
     for (int i = 0; i < evaluation.count; i++) assert_int_equal(evaluation.status[i], WIGGLY_OK);
 }

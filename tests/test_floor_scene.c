@@ -89,10 +89,13 @@ TEST(the_same_document_gives_the_same_bits)
     struct opened opened = open_scene("free", "{ \"frame\": 20, \"value\": 5 }", ", \"floor\": 0");
     struct evaluation *evaluation = &opened.evaluation;
     const size_t size = (size_t)evaluation->samples * sizeof(double);
-    double *was = malloc(size), *value = &opened.document->splines[0]->knots[0].value;
+    double *was = malloc(size);
     assert_non_null(was);
     memcpy(was, evaluation->curves[0].im, size);
-    for (*value = 5.5; *value >= 5; *value -= 0.25) evaluation_update(evaluation, opened.document, false);
+    for (double value = 5.5; value >= 5; value -= 0.25) {
+        document_own_spline(opened.document, 0)->knots[0].value = value;
+        evaluation_update(evaluation, opened.document, false);
+    }
     assert_memory_equal(was, evaluation->curves[0].im, size);
     free(was);
     opened_free(&opened);
@@ -131,7 +134,7 @@ TEST(a_floor_above_the_feet_is_refused)
 /// A vertex low down that both splines move, and where it is at a sample.
 static int low_vertex(const struct opened *opened, int sample, double at[3])
 {
-    const struct pin_source source = pin_points(opened->models);
+    const struct model_source source = models_source(opened->models);
     const int splines[2] = {0, 1};
     int lowest = -1;
     struct pin_point found;

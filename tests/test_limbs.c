@@ -193,7 +193,7 @@ TEST(axes_are_edited_and_undone)
 TEST(pins_hold_what_is_drawn)
 {
     open_scene("assets/scenes/follow.json");
-    const struct pin_source source = pin_points(NULL);
+    const struct model_source source = models_source(NULL);
     const struct tail *tail = &scene.document->rigs[0]->tail;
     float stretched = 0;
     for (int f = 0; f <= 120; f += 3) {

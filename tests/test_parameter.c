@@ -125,8 +125,6 @@ static void try_edit(int spline, enum parameter parameter, struct param param)
     world.document = scene_parse("scene", scene, sizeof scene - 1, NULL, &world.error);
     world.history = history_create(world.document);
     assert_non_null(world.document);
-    evaluation_resize(&kept, world.document);
-    evaluation_resize(&fresh, world.document);
     evaluation_update(&kept, world.document, false);
     int samples = kept.samples;
     double *before = malloc(sizeof *before * (size_t)samples);

@@ -5,7 +5,6 @@
 #include "base/file.h"
 #include "scene/evaluate.h"
 #include "scene/load.h"
-#include "scene/storage.h"
 #include "temporary.h"
 #include <dirent.h>
 #include <jansson.h>
@@ -113,7 +112,6 @@ static void check_group(const char *name, struct sheet *sheet, const struct docu
 {
     struct evaluation evaluation = {0};
     const int samples = document_samples(document);
-    evaluation_resize(&evaluation, document);
     evaluation_update(&evaluation, document, false);
     wiggly_group *group;
     assert_int_equal(wiggly_group_create(samples, 16, sheet->splines, sheet->pins, &group), WIGGLY_OK);
@@ -123,8 +121,7 @@ static void check_group(const char *name, struct sheet *sheet, const struct docu
     wiggly_knot knots[MOST_SPLINES][16];
     double *memory = calloc((size_t)(5 * samples * sheet->splines), sizeof *memory);
     for (int s = 0; s < sheet->splines; s++) {
-        descs[s] = storage_describe(evaluation.storage, evaluation.curves, document, sheet->spline[s], false);
-        storage_add_knots(&descs[s], document, sheet->spline[s], knots[s]);
+        descs[s] = evaluation_describe(&evaluation, document, sheet->spline[s], knots[s]);
         curves[s] = curve_of(memory + 5 * samples * s, samples);
     }
     wiggly_status status =

@@ -27,7 +27,7 @@ struct stand {
 
 static struct pin *pin_of(struct stand *stand, const struct drag *drag)
 {
-    return &stand->opened.document->rigs[drag->rig]->pins[0];
+    return &document_own_rig(stand->opened.document, drag->rig)->pins[0];
 }
 
 static void open_drag(struct stand *stand, const struct drag *drag)
@@ -36,7 +36,7 @@ static void open_drag(struct stand *stand, const struct drag *drag)
     memset(&stand->opened, 0, sizeof stand->opened);
     if (!opened_read(&stand->opened, drag->scene, &error)) fail_msg("%s", error.text);
     opened_solve(&stand->opened, SOLVER_BY_LENGTH);
-    const struct pin_source source = pin_points(stand->opened.models);
+    const struct model_source source = models_source(stand->opened.models);
     struct pin pin = {.frame = drag->frame, .point = drag->point};
     struct pin_point at;
     assert_true(source.find(source.context, &stand->opened.evaluation, stand->opened.document, drag->rig, &pin, NULL,
@@ -49,7 +49,6 @@ static void open_drag(struct stand *stand, const struct drag *drag)
     if (!edit_pin_add(stand->opened.document, drag->rig, &pin, &error)) fail_msg("%s", error.text);
     history_end(history);
     history_destroy(history);
-    evaluation_resize(&stand->opened.evaluation, stand->opened.document);
 }
 
 /// What is left of the pin, of the size.
@@ -145,7 +144,7 @@ static void move_within_reach(struct stand *stand, const struct drag *drag, doub
 {
     const struct document *document = stand->opened.document;
     struct evaluation *evaluation = &stand->opened.evaluation;
-    const struct pin_source source = pin_points(stand->opened.models);
+    const struct model_source source = models_source(stand->opened.models);
     const int sample = document_sample(document, drag->frame);
     struct pin_point at;
     memcpy(pin_of(stand, drag)->to, stand->from, sizeof stand->from);

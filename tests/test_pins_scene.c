@@ -52,8 +52,7 @@ static void solve(struct stand *stand)
 {
     struct document *document = document_of(stand);
     struct evaluation *evaluation = &stand->opened.evaluation;
-    evaluation->pins = pin_points(stand->opened.models);
-    evaluation_resize(evaluation, document);
+    evaluation->models = models_source(stand->opened.models);
     evaluation_update(evaluation, document, false);
 }
 
@@ -68,7 +67,7 @@ static void solve_whole(struct stand *stand)
 static struct pin_point find(struct stand *stand, int rig, int point, double frame, pin_pull *c)
 {
     const struct document *document = document_of(stand);
-    const struct pin_source source = pin_points(stand->opened.models);
+    const struct model_source source = models_source(stand->opened.models);
     struct pin_point found;
     struct pin pin = {.frame = frame, .point = point};
     int splines[64];
@@ -294,9 +293,8 @@ static void assert_met(struct stand *stand, int rig, double tolerance)
 /// Bit by bit what a solve from nothing gives.
 static void assert_same_as_whole(struct stand *stand)
 {
-    struct evaluation whole = {.pins = pin_points(stand->opened.models)};
+    struct evaluation whole = {.models = models_source(stand->opened.models)};
     const struct evaluation *seen = &stand->opened.evaluation;
-    evaluation_resize(&whole, document_of(stand));
     evaluation_update(&whole, document_of(stand), false);
     for (int s = 0; s < whole.count; s++) {
         const size_t size = (size_t)whole.samples * sizeof(double);

@@ -186,7 +186,6 @@ static int open_scene(void **state)
         print_error("%s\n", error.text);
         return -1;
     }
-    evaluation_resize(&scene.evaluation, scene.document);
     evaluation_update(&scene.evaluation, scene.document, false);
     *state = &scene;
     return 0;

@@ -412,7 +412,6 @@ TEST(test_a_scene_without_splines)
 {
     struct document *document = parse("{\"frames\": [0, 120]}");
     struct evaluation evaluation = {0};
-    evaluation_resize(&evaluation, document);
     evaluation_update(&evaluation, document, false);
     assert_int_equal(evaluation.solved_splines, 0);
     evaluation_free(&evaluation);
@@ -423,7 +422,6 @@ TEST(test_only_followers_are_solved)
 {
     struct document *document = parse(chain);
     struct evaluation evaluation = {0};
-    evaluation_resize(&evaluation, document);
     evaluation_update(&evaluation, document, false);
     assert_int_equal(evaluation.solved_splines, 4);
     assert_int_equal(evaluation.solved_samples, 4 * 49);
@@ -462,11 +460,9 @@ TEST(test_partial_solves_agree)
 {
     struct document *document = parse(chain);
     struct evaluation partial = {0}, whole = {0};
-    evaluation_resize(&partial, document);
     evaluation_update(&partial, document, false);
     document_own_spline(document, 2)->knots[1].value = 0.25;
     evaluation_update(&partial, document, false);
-    evaluation_resize(&whole, document);
     evaluation_update(&whole, document, false);
     for (int i = 0; i < 4; i++) {
         assert_memory_equal(partial.curves[i].total, whole.curves[i].total, 49 * sizeof(double));
@@ -481,17 +477,15 @@ TEST(test_evaluation_fits_the_document)
 {
     struct document *small = parse("{\"frames\": [0, 5], \"splines\": [{\"name\": \"x\"}]}"), *large = parse(chain);
     struct evaluation evaluation = {0};
-    evaluation_resize(&evaluation, small);
     evaluation_update(&evaluation, small, false);
-    evaluation_resize(&evaluation, large);
-    const double *kept = evaluation.curves[0].total;
     evaluation_update(&evaluation, large, false);
     assert_int_equal(evaluation.solved_splines, 4); // nothing was solved before
-    evaluation_resize(&evaluation, large);
+    const double *kept = evaluation.curves[0].total;
+    document_touch(large);
+    evaluation_update(&evaluation, large, false);
     assert_ptr_equal(evaluation.curves[0].total, kept);
     evaluation_update(&evaluation, large, false);
     assert_int_equal(evaluation.solved_splines, 0);
-    evaluation_resize(&evaluation, small);
     evaluation_update(&evaluation, small, false);
     assert_int_equal(evaluation.solved_splines, 1);
     evaluation_free(&evaluation);
@@ -508,7 +502,6 @@ TEST(test_a_value_beyond_reach_is_flat)
     struct document *document = scene_parse("huge.json", text, sizeof text - 1, NULL, &error);
     assert_non_null(document);
     struct evaluation evaluation = {0};
-    evaluation_resize(&evaluation, document);
     evaluation_update(&evaluation, document, false);
     assert_int_equal(evaluation.status[0], WIGGLY_ERROR_NUMBER);
     document_own_spline(document, 0)->knots[1].value = -1;

@@ -76,8 +76,6 @@ static double difference(const wiggly_curve *a, const wiggly_curve *b)
 static void check_document(const char *name, const struct document *document, const double *expected)
 {
     struct evaluation chain = {.solver = SOLVER_CHAIN}, band = {.solver = SOLVER_BAND};
-    evaluation_resize(&chain, document);
-    evaluation_resize(&band, document);
     evaluation_update(&chain, document, false);
     evaluation_update(&band, document, false);
     for (int s = 0; s < document->spline_count; s++) {

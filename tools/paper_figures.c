@@ -80,7 +80,6 @@ static struct solved solve(const char *name)
     snprintf(path, sizeof path, "assets/scenes/%s.json", name);
     s.document = scene_load(path, NULL, &error);
     if (!s.document) stop(1, error.text);
-    evaluation_resize(&s.evaluation, s.document);
     evaluation_update(&s.evaluation, s.document, false);
     for (int i = 0; i < s.evaluation.count; i++) {
         if (s.evaluation.status[i] != WIGGLY_OK) stop(1, wiggly_status_text(s.evaluation.status[i]));

@@ -48,7 +48,6 @@ void app_adopt(struct app *app, struct document *document)
     document->serial = ++app->last_serial;
     history_clear(app->table.history, document);
     history_mark_saved(app->table.history);
-    app->table.solved_revision = 0;
     struct editor_world world = table_world(&app->table);
     editor_open(app->table.editor, &world);
     show_title(app);

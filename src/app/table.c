@@ -1,7 +1,6 @@
 /// A frame of the document on the table: edit, solve, pose, show.
 #include "app/table.h"
 #include "base/progress.h"
-#include "rig/clip_motion.h"
 #include "rig/pinning.h"
 #include "scene/load.h"
 #include <stdlib.h>
@@ -10,26 +9,14 @@ static double since(double start) { return 1e6 * (clock_now() - start); }
 
 static void solve(struct table *table, struct frame_row *row)
 {
-    const struct document *document = table->document;
-    const struct evaluation *evaluation = &table->evaluation;
-    bool cubic = table->editor->core.look == LOOK_CUBIC;
-    bool resized = evaluation->count != document->spline_count || evaluation->samples != document_samples(document) ||
-                   table->solved_revision == 0;
-    uint64_t revision = history_revision(table->history);
-    row->edited = revision != table->solved_revision;
-    if (resized || row->edited) evaluation_resize(&table->evaluation, document);
-    const struct motion_source motions = table->motions.read ? table->motions : clip_motions(table->models);
-    bool moved = motions_bake(&table->evaluation, document, &motions);
-    bool same_way = cubic == table->solved_cubic;
+    struct evaluation *evaluation = &table->evaluation;
+    row->edited = !evaluation_is_of(evaluation, table->document);
+    evaluation->models = models_source(table->models);
+    evaluation_update(evaluation, table->document, table->editor->core.look == LOOK_CUBIC);
     row->solver = evaluation_solver(evaluation);
-    if (!resized && !row->edited && same_way && !moved) return;
-    table->evaluation.pins = pin_points(table->models);
-    evaluation_update(&table->evaluation, document, cubic);
     row->splines_solved = evaluation->solved_splines;
     row->samples = evaluation->solved_samples;
     row->knots = evaluation->solved_knots;
-    table->solved_revision = revision;
-    table->solved_cubic = cubic;
 }
 
 /// Reads the models of a document that is new on the table, or back by undo, or has other models since the last edit.

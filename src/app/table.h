@@ -3,7 +3,7 @@
 #define APP_TABLE_H
 
 #include "editor/editor.h"
-#include "scene/motion.h"
+#include "scene/evaluate.h"
 #include "timing/framelog.h"
 
 /// All zero but what a frame works on.
@@ -11,12 +11,9 @@ struct table {
     struct editor *editor;
     struct document *document;
     struct history *history;
-    struct models *models;        ///< NULL: the characters have no models
-    struct motion_source motions; ///< where equilibria that follow joints are read from; zero: the models' clips
+    struct models *models; ///< NULL: the characters have no models
     struct evaluation evaluation;
-    unsigned models_serial;   ///< of the document whose models were read last
-    uint64_t solved_revision; ///< 0: nothing is solved
-    bool solved_cubic;
+    unsigned models_serial; ///< of the document whose models were read last
 };
 
 static inline struct editor_world table_world(const struct table *table)

@@ -4,11 +4,9 @@
 #include "commands/commands.h"
 #include "commands/options.h"
 #include "commands/report.h"
-#include "rig/clip_motion.h"
 #include "rig/pinning.h"
 #include "scene/evaluate.h"
 #include "scene/load.h"
-#include "scene/motion.h"
 #include <math.h>
 #include <stdio.h>
 
@@ -33,7 +31,7 @@ static bool jumps(const struct document *document, const struct evaluation *eval
     const struct spline *spline = document->splines[index];
     const struct param *equilibrium = &spline->parameter[PARAMETER_EQUILIBRIUM];
     const double *y = equilibrium->track >= 0 ? evaluation->curves[equilibrium->track].total
-                      : equilibrium->motion   ? motions_samples(evaluation, index)
+                      : equilibrium->motion   ? evaluation_motion(evaluation, index)
                                               : NULL;
     if (spline_start(spline) != WIGGLY_LOOP || !y) return false;
     const double slack = equilibrium->motion ? MOTION_SLACK * fabs(equilibrium->gain) : 0;
@@ -43,10 +41,7 @@ static bool jumps(const struct document *document, const struct evaluation *eval
 /// Checks what only a solve can show.
 static void check_solution(const char *path, const struct document *document, struct models *models)
 {
-    const struct motion_source motions = clip_motions(models);
-    struct evaluation evaluation = {.pins = pin_points(models)};
-    evaluation_resize(&evaluation, document);
-    motions_bake(&evaluation, document, &motions);
+    struct evaluation evaluation = {.models = models_source(models)};
     evaluation_update(&evaluation, document, false);
     for (int i = 0; i < evaluation.count; i++) {
         if (!jumps(document, &evaluation, i)) continue;

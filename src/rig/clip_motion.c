@@ -1,7 +1,7 @@
 /// Follows joints through clips.
-#include "rig/clip_motion.h"
 #include "model/vector.h"
 #include "rig/chain_bones.h"
+#include "rig/pinning_kind.h"
 #include "rig/posing_kind.h"
 #include <math.h>
 #include <stdlib.h>
@@ -121,7 +121,7 @@ static double smoothed(struct smoothing *smoothing, int sample)
     return sum / s / s;
 }
 
-static bool read(void *context, const struct document *document, const struct joint_motion *motion, double *samples)
+bool clip_follow(void *context, const struct document *document, const struct joint_motion *motion, double *samples)
 {
     struct followed followed;
     struct smoothing smoothing = {.substeps = document->substeps};
@@ -138,9 +138,4 @@ static bool read(void *context, const struct document *document, const struct jo
         samples[s] = smoothed(&smoothing, s) - mean;
     }
     return true;
-}
-
-struct motion_source clip_motions(struct models *models)
-{
-    return (struct motion_source){.read = models ? read : NULL, .context = models, .version = models_version(models)};
 }

@@ -1,6 +1,5 @@
 /// Opens and solves scenes for commands.
 #include "rig/opened.h"
-#include "rig/clip_motion.h"
 #include "rig/import.h"
 #include "rig/pinning.h"
 #include "scene/load.h"
@@ -35,11 +34,8 @@ bool opened_read_splines(struct opened *opened, const char *path, struct error *
 
 void opened_solve(struct opened *opened, enum solver_choice solver)
 {
-    const struct motion_source source = clip_motions(opened->models);
     opened->evaluation.solver = solver;
-    opened->evaluation.pins = pin_points(opened->models);
-    evaluation_resize(&opened->evaluation, opened->document);
-    motions_bake(&opened->evaluation, opened->document, &source);
+    opened->evaluation.models = models_source(opened->models);
     evaluation_update(&opened->evaluation, opened->document, false);
     if (opened->models) models_grow(opened->models, opened->document, &opened->evaluation);
 }

@@ -49,8 +49,12 @@ static bool lowest(void *context, const struct evaluation *evaluation, const str
     return character_lowest(&posing, rig, ceiling, room, low);
 }
 
-struct pin_source pin_points(struct models *models)
+struct model_source models_source(struct models *models)
 {
-    return (struct pin_source){
-        .find = find, .weigh = weigh, .lowest = lowest, .context = models, .version = models_version(models)};
+    return (struct model_source){.find = find,
+                                 .weigh = weigh,
+                                 .lowest = lowest,
+                                 .follow = models ? clip_follow : NULL,
+                                 .context = models,
+                                 .version = models_version(models)};
 }

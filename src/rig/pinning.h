@@ -1,10 +1,10 @@
-/// Where pinned points of rigs are, and how splines move them: what the scene solves pins from (scene/pin_source.h).
+/// What the scene solves pins, floors and motions from (scene/model_source.h).
 #ifndef RIG_PINNING_H
 #define RIG_PINNING_H
 
 #include "rig/posing.h"
 
-/// Where an evaluation's pinned points come from: the document's models, which must stay where they are. `models` may be NULL.
-struct pin_source pin_points(struct models *models);
+/// Of the document's models, which must stay where they are. `models` may be NULL.
+struct model_source models_source(struct models *models);
 
 #endif

@@ -5,14 +5,15 @@
 #include "rig/posing.h"
 
 struct pinning_functions {
-    /// As pin_source.find() and weigh(). `posing` is as the paper has it, and `sample` a pin's.
+    /// As model_source.find() and weigh(). `posing` is as the paper has it, and `sample` a pin's.
     bool (*find)(const struct posing *posing, int rig, double sample, int which, const int *splines, int count,
                  pin_pull *c, struct pin_point *point);
     void (*weigh)(const struct posing *posing, int rig, const int *splines, int count, double *weights);
 };
 
-/// As pin_source.lowest().
+/// As model_source.lowest() and follow().
 bool character_lowest(const struct posing *posing, int rig, double ceiling, double *room, struct low_point *low);
+bool clip_follow(void *context, const struct document *document, const struct joint_motion *motion, double *samples);
 
 extern const struct pinning_functions tail_pinning, character_pinning, chain_pinning;
 

@@ -1,5 +1,4 @@
 /// Solves the splines that have changed and their followers in dependency order.
-#include "scene/evaluate.h"
 #include "base/need.h"
 #include "scene/storage.h"
 #include <assert.h>
@@ -7,60 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { FIRST_KNOTS = 256 };
-
-static void free_splines(struct evaluation *evaluation, struct storage *storage)
-{
-    for (int s = 0; s < storage->spline_capacity; s++) {
-        spline_drop(storage->state[s].held);
-        free(storage->state[s].baked.raw);
-    }
-    free(storage->state);
-    free(storage->order);
-    free(storage->space.stack);
-    free(storage->space.next);
-    free(evaluation->curves);
-    free(evaluation->status);
-    free(evaluation->revisions);
-}
-
-static void resize_splines(struct evaluation *evaluation, struct storage *storage, int splines)
-{
-    if (splines <= storage->spline_capacity) return;
-    size_t count = (size_t)splines;
-    free_splines(evaluation, storage);
-    evaluation->curves = need_zeroed(count, sizeof *evaluation->curves);
-    evaluation->status = need_zeroed(count, sizeof *evaluation->status);
-    evaluation->revisions = need_zeroed(count, sizeof *evaluation->revisions);
-    storage->state = need_zeroed(count, sizeof *storage->state);
-    storage->order = need(count, sizeof *storage->order);
-    storage->space.stack = need(count, sizeof *storage->space.stack);
-    storage->space.next = need(count, sizeof *storage->space.next);
-    storage->spline_capacity = splines;
-    storage->is_new = true;
-}
-
-static void resize_numbers(struct storage *storage, int splines, int samples)
-{
-    const size_t needed = (size_t)splines * ROWS * (size_t)samples;
-    if (needed <= storage->number_capacity) return;
-    free(storage->numbers);
-    storage->numbers = need_zeroed(needed, sizeof *storage->numbers);
-    storage->number_capacity = needed;
-    storage->is_new = true;
-}
-
-/// Room for the motions that splines follow.
-static void resize_baked(struct storage *storage, const struct document *document, int samples)
-{
-    for (int s = 0; s < document->spline_count; s++) {
-        struct baked *baked = &storage->state[s].baked;
-        if (!document->splines[s]->parameter[PARAMETER_EQUILIBRIUM].motion || samples <= baked->capacity) continue;
-        free(baked->raw);
-        *baked = (struct baked){.raw = need(2 * (size_t)samples, sizeof *baked->raw), .capacity = samples};
-        baked->samples = baked->raw + samples;
-    }
-}
+enum { FIRST_KNOTS = 256, ROWS = 5 }; ///< rows of each curve: total, y, re, im, omega
 
 bool evaluation_sentence(const struct evaluation *evaluation, int spline, char *text)
 {
@@ -77,61 +23,68 @@ bool evaluation_sentence(const struct evaluation *evaluation, int spline, char *
     return true;
 }
 
-static void resize_solver(struct storage *storage, int samples, int knots)
+static void free_storage(struct evaluation *evaluation)
 {
-    if (storage->solver && samples <= storage->solver_samples && knots <= storage->solver_knots) return;
-    int room = storage->solver_knots > FIRST_KNOTS ? storage->solver_knots : FIRST_KNOTS;
-    while (room < knots) room *= 2;
-    if (samples < storage->solver_samples) samples = storage->solver_samples;
+    struct storage *storage = evaluation->storage;
+    if (!storage) return;
+    for (int s = 0; s < evaluation->count; s++) spline_drop(storage->state[s].held);
     wiggly_destroy(storage->solver);
-    free(storage->knots);
-    storage->knots = need((size_t)room, sizeof *storage->knots);
-    if (wiggly_create(samples, room, &storage->solver) != WIGGLY_OK) need_failed();
-    storage->solver_samples = samples;
-    storage->solver_knots = room;
+    pinned_free(&storage->pinned);
+    pool_free(&storage->pool);
+    free(storage);
+    evaluation->storage = NULL;
 }
 
-/// Gives each curve its place. Until it is solved, its numbers are zeros or left over from another layout: finite in any case.
-static void lay_out(struct evaluation *evaluation, struct storage *storage, int splines, int samples)
+static void create_storage(struct evaluation *evaluation, int splines, int samples, int knots)
 {
+    struct storage *storage = evaluation->storage = need_zeroed(1, sizeof *storage);
+    struct pool *pool = &storage->pool;
+    const size_t count = (size_t)splines, n = (size_t)samples;
+    double *numbers = pool_take(pool, count * ROWS * n, sizeof *numbers);
+    evaluation->curves = pool_take(pool, count, sizeof *evaluation->curves);
+    evaluation->status = pool_take(pool, count, sizeof *evaluation->status);
+    evaluation->revisions = pool_take(pool, count, sizeof *evaluation->revisions);
     evaluation->count = splines;
     evaluation->samples = samples;
+    storage->state = pool_take(pool, count, sizeof *storage->state);
+    storage->order = pool_take(pool, count, sizeof *storage->order);
+    storage->space.stack = pool_take(pool, count, sizeof *storage->space.stack);
+    storage->space.next = pool_take(pool, count, sizeof *storage->space.next);
+    storage->knots = pool_take(pool, (size_t)knots, sizeof *storage->knots);
+    if (wiggly_create(samples, knots, &storage->solver) != WIGGLY_OK) need_failed();
+    storage->solver_knots = knots;
     storage->is_new = true;
-    for (int i = 0; i < splines; i++) {
-        storage_place(&evaluation->curves[i], storage->numbers + (size_t)i * ROWS * (size_t)samples, samples);
-        evaluation->status[i] = WIGGLY_OK;
+    for (int i = 0; i < splines; i++, numbers += ROWS * n) {
+        evaluation->curves[i] = (wiggly_curve){.total = numbers,
+                                               .y = numbers + n,
+                                               .re = numbers + 2 * n,
+                                               .im = numbers + 3 * n,
+                                               .omega = numbers + 4 * n,
+                                               .samples = samples,
+                                               .mode = WIGGLY_CUBIC};
     }
 }
 
-void evaluation_resize(struct evaluation *evaluation, const struct document *document)
+/// Makes room for the document's splines.
+static void resize(struct evaluation *evaluation, const struct document *document)
 {
-    int splines = document->spline_count, samples = document_samples(document), knots = 0;
+    const int splines = document->spline_count, samples = document_samples(document);
+    int needed = 0, knots = FIRST_KNOTS;
     for (int i = 0; i < splines; i++) {
-        int room = storage_knot_room(document->splines[i], samples);
-        if (room > knots) knots = room;
+        const int room = storage_knot_room(document->splines[i], samples);
+        if (room > needed) needed = room;
     }
-    if (!evaluation->storage) evaluation->storage = need_zeroed(1, sizeof *evaluation->storage);
-    struct storage *storage = evaluation->storage;
-    resize_splines(evaluation, storage, splines);
-    resize_numbers(storage, splines, samples);
-    resize_solver(storage, samples, knots);
-    resize_baked(storage, document, samples);
-    pinned_resize(storage, document);
-    bool same = evaluation->count == splines && evaluation->samples == samples && !storage->is_new;
-    if (!same) lay_out(evaluation, storage, splines, samples);
+    while (knots < needed) knots *= 2;
+    if (evaluation->storage && evaluation->count == splines && evaluation->samples == samples &&
+        evaluation->storage->solver_knots >= needed)
+        return;
+    free_storage(evaluation);
+    create_storage(evaluation, splines, samples, knots);
 }
 
 void evaluation_free(struct evaluation *evaluation)
 {
-    struct storage *storage = evaluation->storage;
-    if (storage) {
-        free_splines(evaluation, storage);
-        free(storage->numbers);
-        free(storage->knots);
-        wiggly_destroy(storage->solver);
-        pinned_free(&storage->pinned);
-        free(storage);
-    }
+    free_storage(evaluation);
     *evaluation = (struct evaluation){0};
 }
 
@@ -159,7 +112,7 @@ static void solve(struct evaluation *evaluation, const struct document *document
 {
     struct storage *storage = evaluation->storage;
     wiggly_curve *curve = &evaluation->curves[spline];
-    wiggly_desc desc = storage_describe(storage, evaluation->curves, document, spline, cubic);
+    wiggly_desc desc = storage_describe(evaluation, document, spline, cubic);
     assert(document->splines[spline]->knot_count <= storage->solver_knots);
     storage_add_knots(&desc, document, spline, storage->knots);
     wiggly_set_method(storage->solver, evaluation_method(evaluation));
@@ -188,32 +141,22 @@ static void mark_solved(struct storage *storage, const struct document *document
     state->baked.is_new = state->forced = false;
 }
 
-/// Whether all splines are to be solved: another way, or at other times.
-static bool has_changed(const struct evaluation *evaluation, const struct document *document, bool cubic)
-{
-    const struct storage *storage = evaluation->storage;
-    return cubic != evaluation->cubic || document->fps != storage->fps || document->substeps != storage->substeps ||
-           document->first_frame != storage->first_frame;
-}
-
 /// Solves the splines of a group, which are in a row from `order` on, if one of them is out of date. Returns how many they are.
 static int update_group(struct evaluation *evaluation, const struct document *document, const int *order)
 {
-    struct storage *storage = evaluation->storage;
-    const struct pinned *pinned = &storage->pinned;
-    const int which = pinned->which[order[0]];
+    struct pinned *pinned = &evaluation->storage->pinned;
     int count = 0;
     wiggly_status status;
-    bool due = pinned_base_moved(evaluation, document, which);
+    bool due = pinned_take(pinned, pinned->which[order[0]]);
     for (int s = 0; s < evaluation->count; s++) {
-        if (pinned->which[s] != which) continue;
+        if (pinned->which[s] != pinned->group) continue;
         count++;
         due |= is_due(evaluation, document, s);
     }
-    const bool together = due && pinned_solve(evaluation, document, which, &status);
+    const bool together = due && pinned_solve(pinned, &status);
     for (int i = 0; i < count; i++) {
         pinned->placed[order[i]] = true;
-        if (due) mark_solved(storage, document, order[i]);
+        if (due) mark_solved(evaluation->storage, document, order[i]);
         if (together) count_solved(evaluation, document, order[i], status);
         if (due && !together) solve(evaluation, document, order[i], false);
     }
@@ -230,36 +173,57 @@ static void update_alone(struct evaluation *evaluation, const struct document *d
 wiggly_desc evaluation_describe(const struct evaluation *evaluation, const struct document *document, int spline,
                                 wiggly_knot *knots)
 {
-    wiggly_desc desc = storage_describe(evaluation->storage, evaluation->curves, document, spline, evaluation->cubic);
+    wiggly_desc desc = storage_describe(evaluation, document, spline, evaluation->cubic);
     storage_add_knots(&desc, document, spline, knots);
     return desc;
 }
 
-void evaluation_update(struct evaluation *evaluation, const struct document *document, bool cubic)
+bool evaluation_is_of(const struct evaluation *evaluation, const struct document *document)
+{
+    return evaluation->storage && evaluation->storage->edits == document->edits;
+}
+
+/// Notes what the update is of; all splines are to be solved if that is another way, or at other times.
+static void note(struct evaluation *evaluation, const struct document *document, bool cubic)
 {
     struct storage *storage = evaluation->storage;
-    struct order_cycle cycle;
-    evaluation->solved_splines = evaluation->solved_samples = evaluation->solved_knots = 0;
-    assert(evaluation->count == document->spline_count && evaluation->samples == document_samples(document));
-    storage->is_new |= has_changed(evaluation, document, cubic);
+    storage->is_new |= cubic != evaluation->cubic || document->fps != storage->fps ||
+                       document->substeps != storage->substeps || document->first_frame != storage->first_frame;
     evaluation->cubic = cubic;
     storage->fps = document->fps;
     storage->substeps = document->substeps;
     storage->first_frame = document->first_frame;
+    storage->edits = document->edits;
+    storage->version = evaluation->models.version;
+}
+
+void evaluation_update(struct evaluation *evaluation, const struct document *document, bool cubic)
+{
+    struct order_cycle cycle;
+    evaluation->solved_splines = evaluation->solved_samples = evaluation->solved_knots = 0;
+    if (evaluation_is_of(evaluation, document) && evaluation->cubic == cubic &&
+        evaluation->storage->version == evaluation->models.version)
+        return;
+    resize(evaluation, document);
+    note(evaluation, document, cubic);
+    motions_bake(evaluation, document);
+    struct storage *storage = evaluation->storage;
+    struct pinned *pinned = &storage->pinned;
     if (!scene_order(document, storage->space, storage->order, &cycle)) return; // a document has no cycles
+    pinned_resize(evaluation, document);
     const bool grouped = pinned_begin(evaluation, document);
-    const int *order = grouped ? storage->pinned.order : storage->order;
+    const int *order = grouped ? pinned->order : storage->order;
     for (int i = 0; i < evaluation->count; i++) storage->state[i].solved = false;
     for (int i = 0; i < evaluation->count;) {
-        if (grouped && storage->pinned.which[order[i]] >= 0) {
+        if (grouped && pinned->which[order[i]] >= 0) {
             i += update_group(evaluation, document, &order[i]);
             continue;
         }
         update_alone(evaluation, document, order[i]);
-        if (grouped) storage->pinned.placed[order[i]] = true;
+        if (grouped) pinned->placed[order[i]] = true;
         i++;
     }
-    if (storage->pinned.pins > 0) pinned_measure(evaluation, document);
+    pinned_measure(pinned);
     storage->is_new = false;
 }
 

@@ -3,7 +3,7 @@
 #define SCENE_EVALUATE_H
 
 #include "scene/document.h"
-#include "scene/pin_source.h"
+#include "scene/model_source.h"
 
 /// How splines are solved. The curves are the same but for rounding; a document has the same bits each time.
 enum solver_choice {
@@ -26,8 +26,8 @@ struct evaluation {
     long solved_splines;       ///< solved by the last update
     long solved_samples;
     long solved_knots;
-    struct pin_source pins;  ///< where pinned points are; set it before each update. Zero: pins are passed over
-    struct storage *storage; ///< private (storage.h)
+    struct model_source models; ///< set it before each update. Zero: pins are passed over, and motions are 0
+    struct storage *storage;    ///< private (storage.h)
 };
 
 enum { EVALUATION_SENTENCE = 200 };
@@ -36,14 +36,14 @@ enum { EVALUATION_SENTENCE = 200 };
 /// why; false where there is nothing to tell.
 bool evaluation_sentence(const struct evaluation *evaluation, int spline, char *text);
 
-/// Makes room for a document's splines. Call it again whenever the number of splines, samples or knots may have changed; it costs next
-/// to nothing if they fit. A new number of splines or samples makes every curve unsolved.
-void evaluation_resize(struct evaluation *evaluation, const struct document *document);
+/// Solves the splines that are not the ones solved last, and those that follow them by tracks; a new number of splines or samples solves
+/// all. Allocates nothing where what it has room for fits. `cubic` solves every spline as a cubic on the same knots, keeping its
+/// equilibrium and, behind the last knot, its value; changing it solves all.
+void evaluation_update(struct evaluation *evaluation, const struct document *document, bool cubic);
 void evaluation_free(struct evaluation *evaluation);
 
-/// Solves the splines that are not the ones solved last, and those that follow them by tracks. Allocates nothing. `cubic` solves every
-/// spline as a cubic on the same knots, keeping its equilibrium and, behind the last knot, its value; changing it solves all.
-void evaluation_update(struct evaluation *evaluation, const struct document *document, bool cubic);
+/// Whether the last update was of the document as it is.
+bool evaluation_is_of(const struct evaluation *evaluation, const struct document *document);
 
 /// What is solved for one spline, with its knots, for which `knots` has room.
 wiggly_desc evaluation_describe(const struct evaluation *evaluation, const struct document *document, int spline,
@@ -52,6 +52,9 @@ wiggly_desc evaluation_describe(const struct evaluation *evaluation, const struc
 /// Which way its splines go, and what that is called: "chain" or "band".
 wiggly_method evaluation_method(const struct evaluation *evaluation);
 const char *evaluation_solver(const struct evaluation *evaluation);
+
+/// What the joint does that a spline's equilibrium follows, with gain: one number a sample. NULL if it follows none.
+const double *evaluation_motion(const struct evaluation *evaluation, int spline);
 
 /// A spline's value at a position in samples, possibly between two. Zeros if there is no such spline or `evaluation` is NULL.
 wiggly_value evaluation_at(const struct evaluation *evaluation, int spline, double position);
@@ -67,6 +70,12 @@ struct pin_left {
 /// Of the pin at an index of a rig's; NULL where nothing is known, as in a document that has changed since.
 const struct pin_left *evaluation_pin(const struct evaluation *evaluation, const struct document *document, int rig,
                                       int pin);
+
+/// Where a character is deepest below its floor; `depth` 0: nowhere.
+struct floor_left {
+    double depth; ///< metres
+    int sample;
+};
 
 /// Where a rig was deepest below its floor in the last update; NULL where nothing is known.
 const struct floor_left *evaluation_floor(const struct evaluation *evaluation, int rig);

@@ -5,8 +5,7 @@
 ///
 /// Knots and pins come first. Where they hold a character below its floor, the floor sinks as deep there, and rises again over a quarter
 /// of a period: otherwise the curve would have to jump up to it in one sample.
-#include "scene/floors.h"
-#include "base/need.h"
+#include "scene/storage.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -18,110 +17,98 @@ static const double HELD =
     0.04; ///< reach below which knots and pins leave a point no way (docs/mathematics.md, Pins, Reach)
 static const double RISE = 0.25; ///< periods
 
-void floors_free(struct floors *floors)
+void floors_resize(struct pinned *pinned, int samples)
 {
-    free(floors->bounds);
-    free(floors->rig);
-    free(floors->vertex);
-    free(floors->c);
-    free(floors->low);
-    free(floors->room);
-    free(floors->sunk);
-    free(floors->left);
-    *floors = (struct floors){0};
+    struct floors *floors = &pinned->floors;
+    struct pool *pool = &pinned->pool;
+    const size_t n = (size_t)samples, bounds = (size_t)pinned->room.bounds, rigs = (size_t)pinned->room.rigs;
+    floors->bounds = pool_take(pool, bounds, sizeof *floors->bounds);
+    floors->rig = pool_take(pool, bounds, sizeof *floors->rig);
+    floors->vertex = pool_take(pool, bounds, sizeof *floors->vertex);
+    floors->c = pool_take(pool, bounds * (size_t)pinned->room.group, sizeof *floors->c);
+    floors->low = pool_take(pool, n, sizeof *floors->low);
+    floors->room = pool_take(pool, LOW_POINT_ROOM * (size_t)low_point_samples(samples), sizeof *floors->room);
+    floors->sunk = pool_take(pool, n * rigs, sizeof *floors->sunk);
+    floors->left = pool_take(pool, rigs, sizeof *floors->left);
 }
 
-bool floors_any(const struct document *document)
+/// Whether a rig of the group in hand has a floor.
+static bool concerns(const struct pinned *pinned, int index)
 {
-    for (int r = 0; r < document->rig_count; r++) {
-        if (rig_has_floor(document->rigs[r])) return true;
-    }
-    return false;
+    const struct rig *rig = pinned->document->rigs[index];
+    return rig_has_floor(rig) && rig_input_count(rig) > 0 && pinned->which[rig_input(rig, 0)] == pinned->group;
 }
 
-void floors_resize(struct floors *floors, const struct document *document, int group)
+bool floors_concern(const struct pinned *pinned)
 {
-    const int samples = document_samples(document), rigs = document->rig_count;
-    if (!floors_any(document)) return;
-    if (floors->bounds && samples <= floors->samples && group <= floors->splines && rigs <= floors->rigs) return;
-    floors_free(floors);
-    const size_t n = (size_t)samples, bounds = FLOORS_MOST_BOUNDS;
-    floors->bounds = need_zeroed(bounds, sizeof *floors->bounds);
-    floors->rig = need_zeroed(bounds, sizeof *floors->rig);
-    floors->vertex = need_zeroed(bounds, sizeof *floors->vertex);
-    floors->c = need_zeroed(bounds * (size_t)group, sizeof *floors->c);
-    floors->low = need_zeroed(n, sizeof *floors->low);
-    floors->room = need_zeroed(LOW_POINT_ROOM * (size_t)low_point_samples(samples), sizeof *floors->room);
-    floors->sunk = need_zeroed(n * (size_t)rigs, sizeof *floors->sunk);
-    floors->left = need_zeroed((size_t)rigs, sizeof *floors->left);
-    floors->samples = samples;
-    floors->splines = group;
-    floors->rigs = rigs;
+    bool any = false;
+    for (int r = 0; r < pinned->document->rig_count; r++) any |= concerns(pinned, r);
+    return any;
 }
 
-static bool concerns(const int *which, const struct rig *rig, int group)
-{
-    return rig_has_floor(rig) && rig_input_count(rig) > 0 && which[rig_input(rig, 0)] == group;
-}
+static double floor_of(const struct pinned *pinned, int rig) { return pinned->document->rigs[rig]->character.floor; }
 
-bool floors_concern(const int *which, const struct document *document, int group)
+/// How far a rig's floor has sunk, at each sample.
+static double *sunk_of(const struct pinned *pinned, int rig)
 {
-    for (int r = 0; r < document->rig_count; r++) {
-        if (concerns(which, document->rigs[r], group)) return true;
-    }
-    return false;
+    return pinned->floors.sunk + rig * pinned->evaluation->samples;
 }
 
 /// Where the floor in hand is at a sample.
-static double level(const struct floors *floors, const struct document *document, int rig, int sample)
+static double level(const struct pinned *pinned, int rig, int sample)
 {
-    return document->rigs[rig]->character.floor - floors->sunk[rig * floors->samples + sample];
+    return floor_of(pinned, rig) - sunk_of(pinned, rig)[sample];
 }
 
-static double depth(const struct floors *floors, const struct document *document, int rig, int sample)
+static double depth(const struct pinned *pinned, int rig, int sample)
 {
-    return level(floors, document, rig, sample) - floors->low[sample].height;
+    return level(pinned, rig, sample) - pinned->floors.low[sample].height;
 }
 
-static bool find_low(struct floors *floors, const struct floor_group *group, const struct document *document, int rig)
+static bool find_low(struct pinned *pinned, int rig)
 {
-    const struct pin_source *source = group->source;
+    const struct model_source *source = &pinned->evaluation->models;
+    struct floors *floors = &pinned->floors;
     if (floors->in_hand == rig) return true;
-    if (!source->lowest(source->context, group->evaluation, document, rig, document->rigs[rig]->character.floor,
+    if (!source->lowest(source->context, pinned->evaluation, pinned->document, rig, floor_of(pinned, rig),
                         floors->room, floors->low))
         return false;
     floors->in_hand = rig;
     return true;
 }
 
-/// Writes the bound of a vertex that is to be no lower than `height`; returns the size of its rig.
-static double put_bound(const struct floor_group *group, const struct document *document, int rig, int sample,
-                        struct low_point low, double height, wiggly_bound *bound, double (*c)[2])
+/// Writes bound `b`, that the lowest vertex at a sample is to be no lower than `height`; returns the size of its rig.
+static double put_bound(struct pinned *pinned, int b, int rig, int sample, double height)
 {
-    const struct pin_source *source = group->source;
-    const struct pin pin = {.frame = document_frame(document, sample), .point = low.vertex};
+    const struct model_source *source = &pinned->evaluation->models;
+    struct floors *floors = &pinned->floors;
+    wiggly_bound *bound = &floors->bounds[b];
+    double(*c)[2] = floors->c + b * pinned->count;
+    const struct pin pin = {.frame = document_frame(pinned->document, sample), .point = floors->low[sample].vertex};
     struct pin_point point = {.size = 1};
-    source->find(source->context, group->evaluation, document, rig, &pin, group->members, group->count, group->c,
-                 &point);
+    source->find(source->context, pinned->evaluation, pinned->document, rig, &pin, pinned->members, pinned->count,
+                 pinned->c, &point);
     *bound = (wiggly_bound){.sample = sample, .c = (const double(*)[2])c, .least = height - point.at[1]};
-    for (int i = 0; i < group->count; i++) {
-        const wiggly_curve *curve = &group->curves[i];
-        memcpy(c[i], group->c[i][1], sizeof c[i]);
+    for (int i = 0; i < pinned->count; i++) {
+        const wiggly_curve *curve = &pinned->curves[i];
+        memcpy(c[i], pinned->c[i][1], sizeof c[i]);
         bound->least += c[i][0] * curve->re[sample] - c[i][1] * curve->im[sample];
     }
+    floors->rig[b] = rig;
+    floors->vertex[b] = pin.point;
     return point.size;
 }
 
 /// Samples of a quarter of a period of the slowest member.
-static double samples_to_rise(const struct floor_group *group, int sample)
+static double samples_to_rise(const struct pinned *pinned, int sample)
 {
     double slowest = INFINITY;
-    for (int i = 0; i < group->count; i++) {
-        const wiggly_desc *desc = &group->descs[i];
+    for (int i = 0; i < pinned->count; i++) {
+        const wiggly_desc *desc = &pinned->descs[i];
         const double frequency = desc->frequency.track ? desc->frequency.track[sample] : desc->frequency.value;
         if (frequency > 0) slowest = fmin(slowest, frequency);
     }
-    return RISE / (slowest * group->descs[0].step);
+    return RISE / (slowest * pinned->descs[0].step);
 }
 
 /// Lets the floor sink around a sample.
@@ -133,61 +120,60 @@ static void sink(double *sunk, int samples, int at, double by, double rise)
     }
 }
 
-static bool is_held(const struct floor_group *group, int sample)
+static bool is_held(const struct pinned *pinned, int sample)
 {
-    for (int i = 0; i < group->count; i++) {
-        for (int k = 0; k < group->descs[i].knot_count; k++) {
-            if (group->descs[i].knots[k].sample == sample) return true;
+    for (int i = 0; i < pinned->count; i++) {
+        for (int k = 0; k < pinned->descs[i].knot_count; k++) {
+            if (pinned->descs[i].knots[k].sample == sample) return true;
         }
     }
-    for (int h = 0; h < group->pin_count; h++) {
-        if (group->pins[h].sample == sample) return true;
+    for (int h = 0; h < pinned->held_count; h++) {
+        if (pinned->pins[h].sample == sample) return true;
     }
     return false;
 }
 
 /// Lets a rig's floor sink where knots and pins hold it lower.
-static void find_sunk(struct floors *floors, const struct floor_group *group, const struct document *document,
-                      int rig)
+static void find_sunk(struct pinned *pinned, int rig)
 {
-    double *sunk = floors->sunk + rig * floors->samples;
-    memset(sunk, 0, sizeof *sunk * (size_t)group->samples);
-    if (!find_low(floors, group, document, rig)) return;
-    for (int i = 0; i < group->samples; i++) {
-        const double by = document->rigs[rig]->character.floor - floors->low[i].height;
-        if (!(by > 0) || !is_held(group, i)) continue;
-        put_bound(group, document, rig, i, floors->low[i], 0, &floors->bounds[0], floors->c);
-        const double held = 1 - wiggly_group_reach(group->solver, &floors->bounds[0]) / HELD;
-        if (held > 0) sink(sunk, group->samples, i, by * held, samples_to_rise(group, i));
+    const int samples = pinned->evaluation->samples;
+    double *sunk = sunk_of(pinned, rig);
+    memset(sunk, 0, sizeof *sunk * (size_t)samples);
+    if (!find_low(pinned, rig)) return;
+    for (int i = 0; i < samples; i++) {
+        const double by = floor_of(pinned, rig) - pinned->floors.low[i].height;
+        if (!(by > 0) || !is_held(pinned, i)) continue;
+        put_bound(pinned, 0, rig, i, 0);
+        const double held = 1 - wiggly_group_reach(pinned->solver, &pinned->floors.bounds[0]) / HELD;
+        if (held > 0) sink(sunk, samples, i, by * held, samples_to_rise(pinned, i));
     }
 }
 
-static bool is_bound(const struct floors *floors, int rig, int sample, int vertex)
+/// Whether the bound behind the last is among those before.
+static bool is_bound(const struct floors *floors)
 {
-    for (int b = 0; b < floors->count; b++) {
-        if (floors->rig[b] == rig && floors->bounds[b].sample == sample && floors->vertex[b] == vertex) return true;
+    const int last = floors->count;
+    for (int b = 0; b < last; b++) {
+        if (floors->rig[b] == floors->rig[last] && floors->bounds[b].sample == floors->bounds[last].sample &&
+            floors->vertex[b] == floors->vertex[last])
+            return true;
     }
     return false;
 }
 
 /// Adds the deepest vertex of every dip; whether there was any.
-static bool add_bounds(struct floors *floors, const struct floor_group *group, const struct document *document,
-                       int rig)
+static bool add_bounds(struct pinned *pinned, int rig)
 {
-    const int samples = group->samples;
+    const int samples = pinned->evaluation->samples;
+    struct floors *floors = &pinned->floors;
     bool any = false;
-    if (!find_low(floors, group, document, rig)) return false;
+    if (!find_low(pinned, rig)) return false;
     for (int i = 0; i < samples && floors->count < FLOORS_MOST_BOUNDS; i++) {
-        const double deep = depth(floors, document, rig, i);
-        if (!(deep > 0) || (i > 0 && depth(floors, document, rig, i - 1) > deep)) continue;
-        if (i + 1 < samples && depth(floors, document, rig, i + 1) >= deep) continue;
-        const int b = floors->count;
-        const struct low_point low = floors->low[i];
-        const double size = put_bound(group, document, rig, i, low, level(floors, document, rig, i),
-                                      &floors->bounds[b], floors->c + b * group->count);
-        if (!(deep > DEEP * size) || is_bound(floors, rig, i, low.vertex)) continue;
-        floors->rig[b] = rig;
-        floors->vertex[b] = low.vertex;
+        const double deep = depth(pinned, rig, i);
+        if (!(deep > 0) || (i > 0 && depth(pinned, rig, i - 1) > deep)) continue;
+        if (i + 1 < samples && depth(pinned, rig, i + 1) >= deep) continue;
+        const double size = put_bound(pinned, floors->count, rig, i, level(pinned, rig, i));
+        if (!(deep > DEEP * size) || is_bound(floors)) continue;
         floors->count++;
         any = true;
     }
@@ -195,36 +181,46 @@ static bool add_bounds(struct floors *floors, const struct floor_group *group, c
 }
 
 /// What the floor misses after all.
-static void measure(struct floors *floors, const struct document *document, int rig, int samples)
+static void measure(struct pinned *pinned, int rig)
 {
-    struct floor_left *left = &floors->left[rig];
+    struct floor_left *left = &pinned->floors.left[rig];
     *left = (struct floor_left){.sample = -1};
-    for (int i = 0; i < samples; i++) {
-        const double by = document->rigs[rig]->character.floor - floors->low[i].height;
+    for (int i = 0; i < pinned->evaluation->samples; i++) {
+        const double by = floor_of(pinned, rig) - pinned->floors.low[i].height;
         if (by > left->depth) *left = (struct floor_left){by, i};
     }
 }
 
-wiggly_status floors_solve(struct floors *floors, const struct floor_group *group, const struct document *document,
-                           wiggly_status status)
+wiggly_status floors_solve(struct pinned *pinned, wiggly_status status)
 {
+    struct floors *floors = &pinned->floors;
+    const int rigs = pinned->document->rig_count;
     floors->count = 0;
     floors->in_hand = -1;
-    for (int r = 0; r < document->rig_count; r++) {
-        if (concerns(group->which, document->rigs[r], group->group)) find_sunk(floors, group, document, r);
+    for (int r = 0; r < rigs; r++) {
+        if (concerns(pinned, r)) find_sunk(pinned, r);
     }
     for (int n = 0; n < MOST_ROUNDS && status < WIGGLY_ERROR_ARGUMENT; n++) {
         bool any = false;
-        for (int r = 0; r < document->rig_count; r++) {
-            if (!concerns(group->which, document->rigs[r], group->group)) continue;
-            any = add_bounds(floors, group, document, r) || any;
-            measure(floors, document, r, group->samples);
+        for (int r = 0; r < rigs; r++) {
+            if (!concerns(pinned, r)) continue;
+            any |= add_bounds(pinned, r);
+            measure(pinned, r);
         }
         if (!any) break;
-        status = wiggly_group_solve_bounded(group->solver, group->descs, group->weights, group->curves, group->count,
-                                            group->pins, group->pin_count, floors->bounds, floors->count);
-        for (int i = 0; i < group->count; i++) group->shown[group->members[i]] = group->curves[i];
+        status =
+            wiggly_group_solve_bounded(pinned->solver, pinned->descs, pinned->weights, pinned->curves, pinned->count,
+                                       pinned->pins, pinned->held_count, floors->bounds, floors->count);
+        for (int i = 0; i < pinned->count; i++) pinned->evaluation->curves[pinned->members[i]] = pinned->curves[i];
         floors->in_hand = -1;
     }
     return status;
+}
+
+const struct floor_left *evaluation_floor(const struct evaluation *evaluation, int rig)
+{
+    const struct storage *storage = evaluation->storage;
+    return storage && storage->pinned.floors.left && rig < storage->pinned.room.rigs
+               ? &storage->pinned.floors.left[rig]
+               : NULL;
 }

@@ -4,7 +4,7 @@
 ///     rows ← L⁻¹ rows,  L Lᵀ = C + 0.3 |c⁰|²             a curled rig does not count as easily moved in all directions alike
 ///
 /// where |c⁰| is of the motion without pins. The place itself is taken no farther from the base than r.
-#include "scene/pinned.h"
+#include "scene/storage.h"
 #include <math.h>
 
 static const double STEP = 0.5;     ///< of the reach

@@ -3,40 +3,13 @@
 /// A tail or chain bends, so its points move by Σ Re(c x) only near a pose: Gauss-Newton, from the motion without pins on, each round with
 /// the pulls at the pose of the last one. No round is taken back, so that the motion is a continuous function of where pins are to be
 /// (pin_aim.c). A soft character needs one round.
-#include "scene/pinned.h"
 #include "base/need.h"
-#include "scene/evaluate.h"
 #include "scene/pins.h"
 #include "scene/storage.h"
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 enum { MOST_ROUNDS = 8, FIRST_ROOM = 8 };
-
-static void free_solver(struct pinned *pinned)
-{
-    wiggly_group_destroy(pinned->solver);
-    free(pinned->descs);
-    free(pinned->curves);
-    free(pinned->weights);
-    free(pinned->members);
-    free(pinned->c);
-    free(pinned->held);
-    free(pinned->left);
-    free(pinned->round.pins);
-    free(pinned->round.pulls);
-}
-
-static void free_splines(struct pinned *pinned)
-{
-    free(pinned->which);
-    free(pinned->order);
-    free(pinned->placed);
-    free(pinned->bases);
-    free(pinned->was);
-    free(pinned->weight);
-}
 
 /// Holds the rigs as they are, so that none that differs has the address of one of them.
 static void hold_rigs(struct pinned *pinned, struct rig *const *rigs, int count)
@@ -50,134 +23,90 @@ static void hold_rigs(struct pinned *pinned, struct rig *const *rigs, int count)
 void pinned_free(struct pinned *pinned)
 {
     hold_rigs(pinned, NULL, 0);
-    free(pinned->rigs);
-    free_solver(pinned);
-    free_splines(pinned);
-    floors_free(&pinned->floors);
-    free(pinned->knots);
+    wiggly_group_destroy(pinned->solver);
+    pool_free(&pinned->pool);
     *pinned = (struct pinned){0};
 }
 
-static void resize_splines(struct pinned *pinned, int splines)
+static void create(struct pinned *pinned, int splines, int samples)
 {
-    const size_t count = (size_t)splines;
-    if (splines <= pinned->splines) return;
-    free_splines(pinned);
-    pinned->which = need_zeroed(count, sizeof *pinned->which);
-    pinned->order = need_zeroed(count, sizeof *pinned->order);
-    pinned->placed = need_zeroed(count, sizeof *pinned->placed);
-    pinned->bases = need_zeroed(count, sizeof *pinned->bases);
-    pinned->was = need_zeroed(count, sizeof *pinned->was);
-    pinned->weight = need_zeroed(count, sizeof *pinned->weight);
-    pinned->served = false;
-    pinned->splines = splines;
-}
-
-/// What a group takes.
-struct room {
-    int samples, knots, group, pins, bounds;
-};
-
-static void create_solver(struct pinned *pinned, const struct room *room)
-{
-    const size_t splines = (size_t)room->group, pins = (size_t)room->pins;
-    free_solver(pinned);
-    pinned->descs = need_zeroed(splines, sizeof *pinned->descs);
-    pinned->curves = need_zeroed(splines, sizeof *pinned->curves);
-    pinned->weights = need_zeroed(splines, sizeof *pinned->weights);
-    pinned->members = need_zeroed(splines, sizeof *pinned->members);
-    pinned->c = need_zeroed(splines, sizeof *pinned->c);
-    pinned->held = need_zeroed(pins, sizeof *pinned->held);
-    pinned->left = need_zeroed(pins, sizeof *pinned->left);
-    pinned->round.pins = need_zeroed(pins, sizeof *pinned->round.pins);
-    pinned->round.pulls = need_zeroed(pins * splines, sizeof *pinned->round.pulls);
-    if (wiggly_group_create_bounded(room->samples, room->knots, room->group, room->pins, room->bounds,
-                                    &pinned->solver) != WIGGLY_OK)
+    struct pool *pool = &pinned->pool;
+    const struct pinned_room *room = &pinned->room;
+    const size_t count = (size_t)splines, group = (size_t)room->group, pins = (size_t)room->pins;
+    pinned->rigs = pool_take(pool, (size_t)room->rigs, sizeof *pinned->rigs);
+    pinned->left = pool_take(pool, pins, sizeof *pinned->left);
+    pinned->which = pool_take(pool, count, sizeof *pinned->which);
+    pinned->order = pool_take(pool, count, sizeof *pinned->order);
+    pinned->placed = pool_take(pool, count, sizeof *pinned->placed);
+    pinned->was = pool_take(pool, count, sizeof *pinned->was);
+    pinned->bases = pool_take(pool, count, sizeof *pinned->bases);
+    pinned->weight = pool_take(pool, count, sizeof *pinned->weight);
+    pinned->members = pool_take(pool, group, sizeof *pinned->members);
+    pinned->descs = pool_take(pool, group, sizeof *pinned->descs);
+    pinned->curves = pool_take(pool, group, sizeof *pinned->curves);
+    pinned->weights = pool_take(pool, group, sizeof *pinned->weights);
+    pinned->knots = pool_take(pool, (size_t)room->all_knots, sizeof *pinned->knots);
+    pinned->c = pool_take(pool, group, sizeof *pinned->c);
+    pinned->held = pool_take(pool, pins, sizeof *pinned->held);
+    pinned->pins = pool_take(pool, pins, sizeof *pinned->pins);
+    pinned->pulls = pool_take(pool, pins * group, sizeof *pinned->pulls);
+    if (room->bounds > 0) floors_resize(pinned, samples);
+    if (room->group > 0 && wiggly_group_create_bounded(samples, room->knots, room->group, room->pins, room->bounds,
+                                                       &pinned->solver) != WIGGLY_OK)
         need_failed();
-    pinned->samples = room->samples;
-    pinned->most_knots = room->knots;
-    pinned->group = room->group;
-    pinned->pins = room->pins;
-    pinned->bounds = room->bounds;
 }
 
-static int doubled(int had, int needed)
+/// How many splines the largest group has, that of each written to `which`.
+static int find_groups(const struct document *document, int *which)
 {
-    int room = had > FIRST_ROOM ? had : FIRST_ROOM;
-    while (room < needed) room *= 2;
-    return room;
-}
-
-static void resize_solver(struct pinned *pinned, const struct room *needed)
-{
-    if (pinned->solver && needed->samples <= pinned->samples && needed->knots <= pinned->most_knots &&
-        needed->group <= pinned->group && needed->pins <= pinned->pins && needed->bounds <= pinned->bounds)
-        return;
-    const struct room room = {
-        needed->samples > pinned->samples ? needed->samples : pinned->samples,
-        doubled(pinned->most_knots, needed->knots), needed->group > pinned->group ? needed->group : pinned->group,
-        doubled(pinned->pins, needed->pins), needed->bounds > pinned->bounds ? needed->bounds : pinned->bounds};
-    pinned->served = false;
-    create_solver(pinned, &room);
-}
-
-static void resize_knots(struct pinned *pinned, int knots)
-{
-    if (knots <= pinned->knot_capacity) return;
-    pinned->knot_capacity = doubled(pinned->knot_capacity, knots);
-    pinned->knots = need_more(pinned->knots, (size_t)pinned->knot_capacity, sizeof *pinned->knots);
-}
-
-static void resize_rigs(struct pinned *pinned, int rigs)
-{
-    if (rigs <= pinned->rig_capacity) return;
-    pinned->rigs = need_more(pinned->rigs, (size_t)rigs, sizeof *pinned->rigs);
-    pinned->rig_capacity = rigs;
-}
-
-static int count_members(const struct pinned *pinned, int splines, int which)
-{
-    int count = 0;
-    for (int s = 0; s < splines; s++) count += pinned->which[s] == which;
-    return count;
-}
-
-void pinned_resize(struct storage *storage, const struct document *document)
-{
-    struct pinned *pinned = &storage->pinned;
-    struct room room = {.samples = document_samples(document), .pins = pins_count(document)};
-    int knots = 0;
-    if (!pins_hold_any(document)) return;
-    resize_splines(pinned, document->spline_count);
-    resize_rigs(pinned, document->rig_count);
-    pin_groups_find(document, pinned->which);
+    int largest = 0;
+    pin_groups_find(document, which);
     for (int s = 0; s < document->spline_count; s++) {
-        const int own = storage_knot_room(document->splines[s], room.samples);
-        const int group = pinned->which[s] == s ? count_members(pinned, document->spline_count, s) : 0;
-        knots += document->splines[s]->knot_count;
-        if (pinned->which[s] >= 0 && own > room.knots) room.knots = own;
-        if (group > room.group) room.group = group;
+        int count = 0;
+        for (int i = s; which[s] == s && i < document->spline_count; i++) count += which[i] == s;
+        if (count > largest) largest = count;
     }
-    room.bounds = floors_any(document) ? FLOORS_MOST_BOUNDS : 0;
-    if (room.group == 0) return;
-    resize_solver(pinned, &room);
-    resize_knots(pinned, knots);
-    floors_resize(&pinned->floors, document, pinned->group);
+    return largest;
 }
 
-/// Marks what was solved in a group, or is to be.
-static void force_all(struct storage *storage, int splines)
+static void grow(int *room, int needed)
 {
-    const struct pinned *pinned = &storage->pinned;
-    for (int s = 0; s < splines; s++) storage->state[s].forced |= pinned->was[s] || pinned->which[s] >= 0;
+    if (*room < FIRST_ROOM) *room = FIRST_ROOM;
+    while (*room < needed) *room *= 2;
+}
+
+void pinned_resize(struct evaluation *evaluation, const struct document *document)
+{
+    struct storage *storage = evaluation->storage;
+    struct pinned *pinned = &storage->pinned;
+    struct pinned_room room = pinned->room;
+    int knots = 0, *which = storage->space.stack;
+    if (!pins_hold_any(document)) return;
+    const int largest = find_groups(document, which);
+    if (largest > room.group) room.group = largest;
+    for (int s = 0; s < document->spline_count; s++) {
+        knots += document->splines[s]->knot_count;
+        if (which[s] >= 0) grow(&room.knots, storage_knot_room(document->splines[s], evaluation->samples));
+    }
+    grow(&room.all_knots, knots);
+    grow(&room.pins, pins_count(document));
+    grow(&room.rigs, document->rig_count);
+    for (int r = 0; r < document->rig_count; r++) {
+        if (rig_has_floor(document->rigs[r])) room.bounds = FLOORS_MOST_BOUNDS;
+    }
+    if (memcmp(&room, &pinned->room, sizeof room) == 0) return;
+    for (int s = 0; pinned->was && s < evaluation->count; s++) storage->state[s].forced |= pinned->was[s];
+    pinned_free(pinned);
+    pinned->room = room;
+    create(pinned, evaluation->count, evaluation->samples);
 }
 
 /// Weighs the splines that are new in groups, or all of these.
-static void weigh(struct evaluation *evaluation, const struct document *document, bool all)
+static void weigh(struct pinned *pinned, bool all)
 {
-    struct pinned *pinned = &evaluation->storage->pinned;
-    const struct pin_source *source = &evaluation->pins;
-    for (int s = 0; s < evaluation->count; s++) {
+    const struct document *document = pinned->document;
+    const struct model_source *source = &pinned->evaluation->models;
+    for (int s = 0; s < pinned->evaluation->count; s++) {
         if (pinned->which[s] < 0 || (pinned->was[s] && !all)) continue;
         pinned->weight[s] = 0;
         for (int r = 0; r < document->rig_count; r++)
@@ -187,8 +116,9 @@ static void weigh(struct evaluation *evaluation, const struct document *document
 }
 
 /// Whether a rig is not the one that was solved; `beside_pins`: in more than its pins.
-static bool rigs_differ(const struct pinned *pinned, const struct document *document, bool beside_pins)
+static bool rigs_differ(const struct pinned *pinned, bool beside_pins)
 {
+    const struct document *document = pinned->document;
     bool differ = pinned->rig_count != document->rig_count;
     for (int r = 0; !differ && r < document->rig_count; r++) {
         const struct rig *solved = pinned->rigs[r], *rig = document->rigs[r];
@@ -202,18 +132,20 @@ bool pinned_begin(struct evaluation *evaluation, const struct document *document
     struct storage *storage = evaluation->storage;
     struct pinned *pinned = &storage->pinned;
     struct pin_cycle cycle;
-    const int count = evaluation->count, pins = pins_count(document);
-    const bool serves =
-        pins_hold_any(document) && pinned->pins >= pins && evaluation->pins.find && !evaluation->cubic;
-    if (pinned->splines < count || (!serves && !pinned->served)) return false;
+    const int count = evaluation->count;
+    const bool serves = pins_hold_any(document) && evaluation->models.find && !evaluation->cubic;
+    pinned->evaluation = evaluation;
+    pinned->document = document;
+    if (!serves && !pinned->served) return false;
     for (int s = 0; s < count; s++) pinned->which[s] = -1;
     if (serves) pin_groups_find(document, pinned->which);
-    const bool anew = serves != pinned->served || pinned->version != evaluation->pins.version;
-    if (anew || rigs_differ(pinned, document, false)) force_all(storage, count);
-    weigh(evaluation, document, anew || rigs_differ(pinned, document, true));
+    const bool anew = serves != pinned->served || pinned->version != evaluation->models.version;
+    const bool differs = anew || rigs_differ(pinned, false);
+    for (int s = 0; s < count && differs; s++) storage->state[s].forced |= pinned->was[s] || pinned->which[s] >= 0;
+    weigh(pinned, anew || rigs_differ(pinned, true));
     for (int s = 0; s < count; s++) pinned->was[s] = pinned->which[s] >= 0;
     pinned->served = serves;
-    pinned->version = evaluation->pins.version;
+    pinned->version = evaluation->models.version;
     hold_rigs(pinned, document->rigs, serves ? document->rig_count : 0);
     if (!serves || !pin_groups_order(document, pinned->which, storage->order, pinned->placed, pinned->bases,
                                      pinned->order, &cycle))
@@ -222,71 +154,72 @@ bool pinned_begin(struct evaluation *evaluation, const struct document *document
     return true;
 }
 
-bool pinned_base_moved(struct evaluation *evaluation, const struct document *document, int which)
+bool pinned_take(struct pinned *pinned, int which)
 {
-    const struct storage *storage = evaluation->storage;
-    const struct pinned *pinned = &storage->pinned;
-    pin_groups_find_bases(document, pinned->which, which, pinned->bases);
-    for (int s = 0; s < evaluation->count; s++) {
-        if (pinned->bases[s] && pinned->placed[s] && storage->state[s].solved) return true;
-    }
-    return false;
+    const struct evaluation *evaluation = pinned->evaluation;
+    bool moved = false;
+    pinned->group = which;
+    pin_groups_find_bases(pinned->document, pinned->which, which, pinned->bases);
+    for (int s = 0; s < evaluation->count; s++)
+        moved |= pinned->bases[s] && pinned->placed[s] && evaluation->storage->state[s].solved;
+    return moved;
 }
 
 /// What comes after the group although it moves its rigs follows it: it counts as still, whatever it was before.
-static void still_bases(struct evaluation *evaluation)
+static void still_bases(const struct pinned *pinned)
 {
-    const struct pinned *pinned = &evaluation->storage->pinned;
-    for (int s = 0; s < evaluation->count; s++) {
+    for (int s = 0; s < pinned->evaluation->count; s++) {
         if (!pinned->bases[s] || pinned->placed[s]) continue;
-        storage_flatten(&evaluation->curves[s], &pinned->descs[0]);
-        evaluation->storage->state[s].forced = true;
+        storage_flatten(&pinned->evaluation->curves[s], &pinned->descs[0]);
+        pinned->evaluation->storage->state[s].forced = true;
     }
 }
 
-/// The splines of a group and what is asked of each.
-static void find_members(struct evaluation *evaluation, const struct document *document, int which)
+/// The splines of the group and what is asked of each.
+static void find_members(struct pinned *pinned)
 {
-    struct storage *storage = evaluation->storage;
-    struct pinned *pinned = &storage->pinned;
+    const struct evaluation *evaluation = pinned->evaluation;
     wiggly_knot *knots = pinned->knots;
     pinned->count = 0;
     for (int s = 0; s < evaluation->count; s++) {
-        if (pinned->which[s] != which) continue;
+        if (pinned->which[s] != pinned->group) continue;
         const int i = pinned->count++;
         pinned->members[i] = s;
         pinned->weights[i] = pinned->weight[s];
         pinned->curves[i] = evaluation->curves[s];
-        pinned->descs[i] = storage_describe(storage, evaluation->curves, document, s, false);
-        storage_add_knots(&pinned->descs[i], document, s, knots);
-        knots += document->splines[s]->knot_count;
+        pinned->descs[i] = storage_describe(evaluation, pinned->document, s, false);
+        storage_add_knots(&pinned->descs[i], pinned->document, s, knots);
+        knots += pinned->descs[i].knot_count;
     }
 }
 
-static void find_held(struct pinned *pinned, const struct document *document, int which)
+static void find_held(struct pinned *pinned)
 {
     pinned->held_count = 0;
-    for (int r = 0; r < document->rig_count; r++) {
-        const struct rig *rig = document->rigs[r];
+    for (int r = 0; r < pinned->document->rig_count; r++) {
+        const struct rig *rig = pinned->document->rigs[r];
         const int spline = rig_point_spline(rig);
-        const bool is_held = spline >= 0 && pinned->which[spline] == which;
+        const bool is_held = spline >= 0 && pinned->which[spline] == pinned->group;
         for (int i = 0; is_held && i < rig->pin_count; i++)
-            pinned->held[pinned->held_count++] = (struct held_pin){.rig = r, .pin = i};
+            pinned->held[pinned->held_count++] = (struct held_pin){.rig = r, .pin = &rig->pins[i]};
     }
 }
 
-static const struct pin *pin_of(const struct document *document, const struct held_pin *held)
+/// Finds a pin's point as the curves are now, and, unless `c` is NULL, the members' pulls on it.
+static bool find_point(const struct pinned *pinned, int rig, const struct pin *pin, pin_pull *c,
+                       struct pin_point *point)
 {
-    return &document->rigs[held->rig]->pins[held->pin];
+    const struct model_source *source = &pinned->evaluation->models;
+    return source->find(source->context, pinned->evaluation, pinned->document, rig, pin, pinned->members,
+                        c ? pinned->count : 0, c, point);
 }
 
-/// Solves the group with a round's pins, or without any, and shows the curves to whoever finds points.
-static wiggly_status solve_round(struct evaluation *evaluation, struct pin_round *round, bool with_pins)
+/// Solves the group with its pins, or without any, and shows the curves to whoever finds points.
+static wiggly_status solve_round(struct pinned *pinned, bool with_pins)
 {
-    struct pinned *pinned = &evaluation->storage->pinned;
     const wiggly_status status = wiggly_group_solve(pinned->solver, pinned->descs, pinned->weights, pinned->curves,
-                                                    pinned->count, round->pins, with_pins ? pinned->held_count : 0);
-    for (int i = 0; i < pinned->count; i++) evaluation->curves[pinned->members[i]] = pinned->curves[i];
+                                                    pinned->count, pinned->pins, with_pins ? pinned->held_count : 0);
+    for (int i = 0; i < pinned->count; i++) pinned->evaluation->curves[pinned->members[i]] = pinned->curves[i];
     return status;
 }
 
@@ -303,18 +236,14 @@ static void pass(const struct pinned *pinned, const wiggly_pull *pulls, int samp
 }
 
 /// Finds the points, and the pulls on them as the splines are now, first without pins.
-static void find_pulls(struct evaluation *evaluation, const struct document *document, struct pin_round *round,
-                       bool is_first)
+static void find_pulls(struct pinned *pinned, bool is_first)
 {
-    struct pinned *pinned = &evaluation->storage->pinned;
-    const struct pin_source *source = &evaluation->pins;
     for (int h = 0; h < pinned->held_count; h++) {
         struct held_pin *held = &pinned->held[h];
-        wiggly_pin *pin = &round->pins[h];
-        wiggly_pull *pulls = &round->pulls[h * pinned->count];
-        *pin = (wiggly_pin){.sample = document_sample(document, pin_of(document, held)->frame), .pulls = pulls};
-        held->is_found = source->find(source->context, evaluation, document, held->rig, pin_of(document, held),
-                                      pinned->members, pinned->count, pinned->c, &held->from);
+        wiggly_pin *pin = &pinned->pins[h];
+        wiggly_pull *pulls = &pinned->pulls[h * pinned->count];
+        *pin = (wiggly_pin){.sample = document_sample(pinned->document, held->pin->frame), .pulls = pulls};
+        held->is_found = find_point(pinned, held->rig, held->pin, pinned->c, &held->from);
         if (!held->is_found) continue;
         pin->pull_count = pinned->count;
         for (int i = 0; i < pinned->count; i++) {
@@ -327,13 +256,12 @@ static void find_pulls(struct evaluation *evaluation, const struct document *doc
 }
 
 /// Sets how far x is to take each point.
-static void aim(const struct pinned *pinned, const struct document *document, const struct pin_round *round)
+static void aim(const struct pinned *pinned)
 {
     for (int h = 0; h < pinned->held_count; h++) {
         const struct held_pin *held = &pinned->held[h];
-        wiggly_pull *pulls = &round->pulls[h * pinned->count];
-        if (held->is_found)
-            pin_aim(&held->from, held->ease, pin_of(document, held)->to, held->passed, &round->pins[h], pulls);
+        wiggly_pull *pulls = &pinned->pulls[h * pinned->count];
+        if (held->is_found) pin_aim(&held->from, held->ease, held->pin->to, held->passed, &pinned->pins[h], pulls);
     }
 }
 
@@ -343,18 +271,15 @@ static double distance(const double a[3], const double b[3])
 }
 
 /// Whether each point is at its place, or where it was before.
-static bool look(struct evaluation *evaluation, const struct document *document)
+static bool look(const struct pinned *pinned)
 {
-    struct pinned *pinned = &evaluation->storage->pinned;
-    const struct pin_source *source = &evaluation->pins;
     bool there = true;
     for (int h = 0; h < pinned->held_count; h++) {
         const struct held_pin *held = &pinned->held[h];
         struct pin_point now;
         if (!held->is_found) continue;
-        const struct pin *pin = pin_of(document, held);
-        source->find(source->context, evaluation, document, held->rig, pin, NULL, 0, NULL, &now);
-        there &= held->from.is_linear || distance(pin->to, now.at) <= now.slack ||
+        find_point(pinned, held->rig, held->pin, NULL, &now);
+        there &= held->from.is_linear || distance(held->pin->to, now.at) <= now.slack ||
                  distance(now.at, held->from.at) <= now.slack;
     }
     return there;
@@ -368,75 +293,48 @@ static bool all_linear(const struct pinned *pinned)
 }
 
 /// Rounds from the motion without pins on, which has been solved.
-static wiggly_status approach(struct evaluation *evaluation, const struct document *document, struct pin_round *round)
+static wiggly_status approach(struct pinned *pinned)
 {
-    const struct pinned *pinned = &evaluation->storage->pinned;
     wiggly_status status = WIGGLY_OK;
     const int most = all_linear(pinned) ? 1 : MOST_ROUNDS;
     for (int n = 0; n < most; n++) {
-        aim(pinned, document, round);
-        status = solve_round(evaluation, round, true);
-        if (status >= WIGGLY_ERROR_ARGUMENT || n + 1 == most || look(evaluation, document)) break;
-        find_pulls(evaluation, document, round, false);
+        aim(pinned);
+        status = solve_round(pinned, true);
+        if (status >= WIGGLY_ERROR_ARGUMENT || n + 1 == most || look(pinned)) break;
+        find_pulls(pinned, false);
     }
     return status;
 }
 
-/// Solves the group once more, above its floors.
-static wiggly_status lift(struct evaluation *evaluation, const struct document *document, int which,
-                          wiggly_status status)
+bool pinned_solve(struct pinned *pinned, wiggly_status *status)
 {
-    struct pinned *pinned = &evaluation->storage->pinned;
-    const struct floor_group group = {.solver = pinned->solver,
-                                      .source = &evaluation->pins,
-                                      .evaluation = evaluation,
-                                      .shown = evaluation->curves,
-                                      .samples = evaluation->samples,
-                                      .which = pinned->which,
-                                      .group = which,
-                                      .members = pinned->members,
-                                      .count = pinned->count,
-                                      .descs = pinned->descs,
-                                      .weights = pinned->weights,
-                                      .curves = pinned->curves,
-                                      .c = pinned->c,
-                                      .pins = pinned->round.pins,
-                                      .pin_count = pinned->held_count};
-    return floors_solve(&pinned->floors, &group, document, status);
-}
-
-bool pinned_solve(struct evaluation *evaluation, const struct document *document, int which, wiggly_status *status)
-{
-    struct pinned *pinned = &evaluation->storage->pinned;
-    const bool has_floor = floors_concern(pinned->which, document, which);
-    wiggly_group_set_method(pinned->solver, evaluation->solver == SOLVER_BAND ? WIGGLY_BAND : WIGGLY_CHAIN);
-    find_members(evaluation, document, which);
+    const bool has_floor = floors_concern(pinned);
+    wiggly_group_set_method(pinned->solver, pinned->evaluation->solver == SOLVER_BAND ? WIGGLY_BAND : WIGGLY_CHAIN);
+    find_members(pinned);
     for (int i = 0; has_floor && i < pinned->count; i++) { // as where pins pull: they are passed over, pressed or not
         pinned->descs[i].low = -INFINITY, pinned->descs[i].high = INFINITY;
     }
-    still_bases(evaluation);
-    find_held(pinned, document, which);
-    *status = solve_round(evaluation, &pinned->round, false);
+    still_bases(pinned);
+    find_held(pinned);
+    *status = solve_round(pinned, false);
     if (*status >= WIGGLY_ERROR_ARGUMENT) return false;
-    find_pulls(evaluation, document, &pinned->round, true);
-    if (pinned->held_count > 0) *status = approach(evaluation, document, &pinned->round);
-    if (has_floor) *status = lift(evaluation, document, which, *status);
+    find_pulls(pinned, true);
+    if (pinned->held_count > 0) *status = approach(pinned);
+    if (has_floor) *status = floors_solve(pinned, *status);
     return *status < WIGGLY_ERROR_ARGUMENT;
 }
 
-void pinned_measure(struct evaluation *evaluation, const struct document *document)
+void pinned_measure(struct pinned *pinned)
 {
-    struct pinned *pinned = &evaluation->storage->pinned;
-    const struct pin_source *source = &evaluation->pins;
+    const struct document *document = pinned->document;
     pinned->left_count = 0;
-    if (!source->find || pins_count(document) > pinned->pins) return;
+    if (!pinned->solver || !pinned->evaluation->models.find) return;
     for (int r = 0; r < document->rig_count; r++) {
         for (int i = 0; i < document->rigs[r]->pin_count; i++) {
             const struct pin *pin = &document->rigs[r]->pins[i];
             struct pin_left *left = &pinned->left[pinned->left_count++];
             struct pin_point now;
-            *left = (struct pin_left){
-                .is_found = source->find(source->context, evaluation, document, r, pin, NULL, 0, NULL, &now)};
+            *left = (struct pin_left){.is_found = find_point(pinned, r, pin, NULL, &now)};
             if (!left->is_found) continue;
             left->size = now.size;
             for (int k = 0; k < 3; k++) {
@@ -454,12 +352,4 @@ const struct pin_left *evaluation_pin(const struct evaluation *evaluation, const
     int number = pin;
     for (int r = 0; r < rig; r++) number += document->rigs[r]->pin_count;
     return storage && number < storage->pinned.left_count ? &storage->pinned.left[number] : NULL;
-}
-
-const struct floor_left *evaluation_floor(const struct evaluation *evaluation, int rig)
-{
-    const struct storage *storage = evaluation->storage;
-    return storage && storage->pinned.floors.bounds && rig < storage->pinned.floors.rigs
-               ? &storage->pinned.floors.left[rig]
-               : NULL;
 }

@@ -1,6 +1,5 @@
 /// The slope that a knot would find at a sample of a solved spline: with it, and the curve's value, it leaves the curve as it is.
 #include "base/need.h"
-#include "scene/evaluate.h"
 #include "scene/storage.h"
 #include "spline/forced_response.h"
 #include "spline/poles.h"
@@ -75,10 +74,9 @@ double evaluation_slope(const struct evaluation *evaluation, const struct docume
     bool solved =
         evaluation && spline >= 0 && spline < evaluation->count && evaluation->samples > sample && sample >= 0;
     if (!solved) return 0;
-    struct place place = {
-        .desc = storage_describe(evaluation->storage, evaluation->curves, document, spline, evaluation->cubic),
-        .curve = &evaluation->curves[spline],
-        .sample = sample};
+    struct place place = {.desc = storage_describe(evaluation, document, spline, evaluation->cubic),
+                          .curve = &evaluation->curves[spline],
+                          .sample = sample};
     const struct spline *of = document->splines[spline];
     const bool loop = place.desc.start == WIGGLY_LOOP;
     if (place.desc.passive == WIGGLY_FILTER) return step_ahead(place.curve, sample, place.desc.step);

@@ -1,41 +1,46 @@
-/// Lays curves out in memory, and describes a spline to the solver.
+/// An evaluation's memory, and how a spline is described to the solver.
 #include "scene/storage.h"
-#include <math.h>
+#include "base/need.h"
+#include <stdlib.h>
 #include <string.h>
 
-void storage_place(wiggly_curve *curve, double *numbers, int samples)
+void *pool_take(struct pool *pool, size_t count, size_t size)
 {
-    size_t n = (size_t)samples;
-    *curve = (wiggly_curve){.total = numbers,
-                            .y = numbers + n,
-                            .re = numbers + 2 * n,
-                            .im = numbers + 3 * n,
-                            .omega = numbers + 4 * n,
-                            .samples = samples,
-                            .mode = WIGGLY_CUBIC};
+    pool->blocks = need_more(pool->blocks, pool->count + 1, sizeof *pool->blocks);
+    return pool->blocks[pool->count++] = need_zeroed(count, size);
+}
+
+void pool_free(struct pool *pool)
+{
+    for (size_t i = 0; i < pool->count; i++) free(pool->blocks[i]);
+    free(pool->blocks);
+    *pool = (struct pool){0};
 }
 
 /// What the spline follows in a parameter, sample by sample; NULL: a constant, or a motion that is not baked.
-static const double *track_of(const struct storage *storage, const wiggly_curve *curves,
-                              const struct document *document, int spline, enum parameter parameter)
+static const double *track_of(const struct evaluation *evaluation, const struct document *document, int spline,
+                              enum parameter parameter)
 {
     const struct param *param = &document->splines[spline]->parameter[parameter];
-    if (param->track >= 0) return curves[param->track].total;
-    if (!param->motion) return NULL;
-    const struct baked *baked = &storage->state[spline].baked;
+    if (param->track >= 0) return evaluation->curves[param->track].total;
+    return param->motion ? evaluation_motion(evaluation, spline) : NULL;
+}
+
+const double *evaluation_motion(const struct evaluation *evaluation, int spline)
+{
+    const struct baked *baked = &evaluation->storage->state[spline].baked;
     return baked->key != 0 ? baked->samples : NULL;
 }
 
-wiggly_desc storage_describe(const struct storage *storage, const wiggly_curve *curves,
-                             const struct document *document, int spline_index, bool cubic)
+wiggly_desc storage_describe(const struct evaluation *evaluation, const struct document *document, int spline,
+                             bool cubic)
 {
-    const struct spline *spline = document->splines[spline_index];
     wiggly_desc desc = wiggly_default_desc();
     desc.samples = document_samples(document);
     desc.step = document_step(document);
     for (enum parameter p = 0; p < PARAMETER_COUNT; p++) {
-        parameter_describe(p, spline->parameter[p].value, track_of(storage, curves, document, spline_index, p),
-                           &desc);
+        parameter_describe(p, document->splines[spline]->parameter[p].value,
+                           track_of(evaluation, document, spline, p), &desc);
     }
     if (cubic && desc.mode != WIGGLY_CUBIC) {
         desc.mode = WIGGLY_CUBIC;
@@ -44,19 +49,17 @@ wiggly_desc storage_describe(const struct storage *storage, const wiggly_curve *
     return desc;
 }
 
-wiggly_knot storage_knot(const struct document *document, const struct knot *knot)
-{
-    return (wiggly_knot){.sample = document_sample(document, knot->frame),
-                         .has_slope = knot->has_slope,
-                         .value = knot->value,
-                         .slope = knot->slope,
-                         .stiffness = knot->stiffness};
-}
-
 void storage_add_knots(wiggly_desc *desc, const struct document *document, int spline, wiggly_knot *knots)
 {
     const struct spline *of = document->splines[spline];
-    for (int i = 0; i < of->knot_count; i++) knots[i] = storage_knot(document, &of->knots[i]);
+    for (int i = 0; i < of->knot_count; i++) {
+        const struct knot *knot = &of->knots[i];
+        knots[i] = (wiggly_knot){.sample = document_sample(document, knot->frame),
+                                 .has_slope = knot->has_slope,
+                                 .value = knot->value,
+                                 .slope = knot->slope,
+                                 .stiffness = knot->stiffness};
+    }
     desc->knots = knots;
     desc->knot_count = of->knot_count;
 }
@@ -69,7 +72,8 @@ int storage_knot_room(const struct spline *spline, int samples)
 void storage_flatten(wiggly_curve *curve, const wiggly_desc *desc)
 {
     double *const rows[] = {curve->total, curve->y, curve->re, curve->im, curve->omega};
-    for (int r = 0; r < ROWS; r++) memset(rows[r], 0, sizeof(double) * (size_t)desc->samples);
+    for (size_t r = 0; r < sizeof rows / sizeof *rows; r++)
+        memset(rows[r], 0, sizeof(double) * (size_t)desc->samples);
     curve->samples = desc->samples;
     curve->step = desc->step;
     curve->first = 0;

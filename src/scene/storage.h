@@ -1,19 +1,24 @@
-/// The curves' memory, and how a spline is described to the solver. Private to src/scene.
+/// What an evaluation keeps: its memory, what was solved, and the groups of splines that pins and floors have solved together. Private to
+/// src/scene.
 #ifndef SCENE_STORAGE_H
 #define SCENE_STORAGE_H
 
-#include "scene/document.h"
+#include "scene/evaluate.h"
 #include "scene/order.h"
-#include "scene/pinned.h"
 
-enum { ROWS = 5 }; ///< of each curve: total, y, re, im, omega
+/// Memory that is freed together. Starts as zeros.
+struct pool {
+    void **blocks;
+    size_t count;
+};
+void *pool_take(struct pool *pool, size_t count, size_t size);
+void pool_free(struct pool *pool);
 
-/// The motion of a joint that a spline's equilibrium follows, read for every sample (motion.h).
+/// The motion of a joint that a spline's equilibrium follows, read for every sample.
 struct baked {
     uint64_t key; ///< of what was read; 0: nothing yet
     double gain;
-    double *raw, *samples; ///< without gain and with it; one block of memory, from `raw` on
-    int capacity;          ///< samples there is room for
+    double *raw, *samples; ///< without gain and with it
     bool is_new;           ///< the spline is to be solved again
 };
 
@@ -24,32 +29,94 @@ struct spline_state {
     bool forced; ///< to be solved whether edited or not: what moves its pinned rigs has changed
 };
 
+enum { FLOORS_MOST_BOUNDS = 256 }; ///< points that a group keeps above floors
+
+struct floors {
+    wiggly_bound *bounds;
+    int *rig, *vertex;       ///< of each bound
+    double (*c)[2];          ///< of each bound, for each member
+    struct low_point *low;   ///< of the rig in hand, at each sample
+    int in_hand;             ///< that rig, where nothing has been solved since; else -1
+    double *room;            ///< to find them in
+    double *sunk;            ///< for each rig and sample: how far below its floor knots and pins hold it
+    struct floor_left *left; ///< of each rig
+    int count;               ///< bounds
+};
+
+/// A pin of the group in hand.
+struct held_pin {
+    int rig;
+    const struct pin *pin;
+    bool is_found;
+    struct pin_point from; ///< where its pulls are those of
+    double passed[3];      ///< Σ Re(c x) there
+    double ease;           ///< pin_ease() without pins
+};
+
+/// How much there is room for.
+struct pinned_room {
+    int knots;      ///< of one spline, as the solver needs them
+    int all_knots;  ///< of all splines
+    int group;      ///< splines of the largest
+    int pins, rigs; ///< of the document
+    int bounds;     ///< 0: no rig has a floor
+};
+
+struct pinned {
+    struct pool pool;
+    struct pinned_room room;
+    wiggly_group *solver;
+    struct floors floors;
+    bool served;       ///< groups were solved in the last update
+    uint64_t version;  ///< of the source then
+    struct rig **rigs; ///< as they were solved
+    int rig_count;
+    struct pin_left *left; ///< of all pins of the document
+    int left_count;
+
+    // of each spline
+    int *which; ///< pin_groups_find()
+    int *order;
+    bool *placed;   ///< by pin_groups_order(), then: solved, if need be, in this update
+    bool *was;      ///< it was solved in a group
+    bool *bases;    ///< of the group in hand, pin_groups_find_bases()
+    double *weight; ///< of pulling it
+
+    // in hand, in an update
+    struct evaluation *evaluation;
+    const struct document *document;
+    int group; ///< as `which` has it
+    int *members;
+    int count;
+    wiggly_desc *descs; ///< of the members, as the next two
+    wiggly_curve *curves;
+    double *weights;
+    wiggly_knot *knots;
+    pin_pull *c; ///< of a pin, for each member
+    struct held_pin *held;
+    int held_count;
+    wiggly_pin *pins;   ///< one a held pin
+    wiggly_pull *pulls; ///< of all pins, as many for each as the group has splines
+};
+
 struct storage {
-    double *numbers; ///< ROWS · N for each spline
-    size_t number_capacity;
+    struct pool pool;
     wiggly_solver *solver;
-    int solver_samples, solver_knots;
-    double fps; ///< of the last update, as the next two
+    int solver_knots;
+    double fps; ///< of the last update, as the next three
     int substeps, first_frame;
+    uint64_t edits, version;
     wiggly_knot *knots; ///< of the spline being solved; solver_knots
     int *order;         ///< one for each spline, as the next two
     struct order_space space;
     struct spline_state *state;
-    int spline_capacity;
     bool is_new; ///< the curves have a new layout, and none is solved
     struct pinned pinned;
 };
 
-/// Lays a curve's rows out in ROWS · samples numbers.
-void storage_place(wiggly_curve *curve, double *numbers, int samples);
-
-/// What is to be solved for one spline, its knots left out; tracks point into `curves`, which has one for each spline,
-/// and into baked motions.
-wiggly_desc storage_describe(const struct storage *storage, const wiggly_curve *curves,
-                             const struct document *document, int spline, bool cubic);
-
-/// A knot as the solver has it.
-wiggly_knot storage_knot(const struct document *document, const struct knot *knot);
+/// What is to be solved for one spline, its knots left out; tracks point into the curves and into baked motions.
+wiggly_desc storage_describe(const struct evaluation *evaluation, const struct document *document, int spline,
+                             bool cubic);
 
 /// Adds the spline's knots, for which `knots` must have room.
 void storage_add_knots(wiggly_desc *desc, const struct document *document, int spline, wiggly_knot *knots);
@@ -59,5 +126,42 @@ int storage_knot_room(const struct spline *spline, int samples);
 
 /// A curve at rest, for where there is no solution.
 void storage_flatten(wiggly_curve *curve, const wiggly_desc *desc);
+
+/// Reads again the motions for which the document's frames, model, clip or chain or the source's version have changed, so that their
+/// splines are solved. What cannot be read is 0 throughout.
+void motions_bake(struct evaluation *evaluation, const struct document *document);
+
+/// Makes room for the document's groups. Without pins it costs nothing.
+void pinned_resize(struct evaluation *evaluation, const struct document *document);
+void pinned_free(struct pinned *pinned);
+
+/// Begins an update: puts the splines into an order for groups, and finds what is to be solved again because rigs or pins have changed.
+/// Whether there are groups: if not, storage->order is the order.
+bool pinned_begin(struct evaluation *evaluation, const struct document *document);
+
+/// Takes a group in hand. Whether it moves with something that was solved in this update.
+bool pinned_take(struct pinned *pinned, int which);
+
+/// Solves the group in hand into the members' curves. false if it cannot be solved together.
+bool pinned_solve(struct pinned *pinned, wiggly_status *status);
+
+/// Measures what is left of all pins.
+void pinned_measure(struct pinned *pinned);
+
+/// How far splines move a point: |c| over all of a pin's pulls.
+double pin_ease(const wiggly_pin *pin);
+
+/// Sets where x is to take a point that is at `from`, where Σ Re(c x) is `passed`; `ease` is pin_ease() without pins. A tail's or chain's is
+/// taken only part of its way where it is far or hard to move, and its conditions (also in `pulls`, which are the pin's) are weighed so
+/// that what hardly moves it, as the motion is without pins, gives way. All of it is continuous in `to` and `from`.
+void pin_aim(const struct pin_point *from, double ease, const double to[3], const double passed[3], wiggly_pin *pin,
+             wiggly_pull *pulls);
+
+/// Makes room for floors. And whether a rig of the group in hand has one.
+void floors_resize(struct pinned *pinned, int samples);
+bool floors_concern(const struct pinned *pinned);
+
+/// Solves the group in hand once more, above its floors; `status` is what solving it without them gave.
+wiggly_status floors_solve(struct pinned *pinned, wiggly_status status);
 
 #endif

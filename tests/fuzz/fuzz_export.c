@@ -81,7 +81,6 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     if (!document) return 0;
     struct models *models = models_create();
     if (models_update(models, document, &error)) {
-        evaluation_resize(&evaluation, document);
         evaluation_update(&evaluation, document, false);
         const struct posing posing = {.document = document, .evaluation = &evaluation, .models = models};
         export_to(&posing, fuzz_file(outputs[output], "", 0), output < GLTF_OUTPUTS);

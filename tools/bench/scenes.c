@@ -3,7 +3,7 @@
 #include "base/need.h"
 #include "bench/bench.h"
 #include "rig/opened.h"
-#include "scene/storage.h"
+#include "scene/evaluate.h"
 #include <glob.h>
 #include <math.h>
 #include <stdlib.h>
@@ -29,9 +29,8 @@ static void time_spline(struct bench *bench, const struct opened *opened, int sp
     const struct spline *of = opened->document->splines[spline];
     const struct evaluation *evaluation = &opened->evaluation;
     struct bench_result result = bench_blank(WIGGLY_COMPLEX, 0);
-    wiggly_desc desc = storage_describe(evaluation->storage, evaluation->curves, opened->document, spline, false);
     wiggly_knot *knots = need_zeroed((size_t)of->knot_count, sizeof *knots);
-    storage_add_knots(&desc, opened->document, spline, knots);
+    wiggly_desc desc = evaluation_describe(evaluation, opened->document, spline, knots);
     snprintf(result.name, sizeof result.name, "%.19s: %.18s", path, of->name);
     bench_case(bench, &desc, false, &result);
     for (int f = 0; f < FIGURES; f++) {

@@ -4,7 +4,6 @@
 #include "editor/core/knots.h"
 #include "editor/core/spline_list.h"
 #include "editor/curves/state.h"
-#include "scene/motion.h"
 #include "ui/font.h"
 #include "ui/theme.h"
 #include <limits.h>
@@ -172,10 +171,8 @@ static const double LOWER = 0.9; ///< factor of the frequency from try to try
 static int count_swings(const struct core *core)
 {
     const struct document *document = core->document;
-    struct evaluation trial = {.solver = core->evaluation->solver, .pins = core->evaluation->pins};
+    struct evaluation trial = {.solver = core->evaluation->solver, .models = core->evaluation->models};
     struct warnings found = {0};
-    evaluation_resize(&trial, document);
-    motions_copy(&trial, core->evaluation);
     evaluation_update(&trial, document, false);
     warnings_find(document, &trial, core->active, &found);
     int count = 0;

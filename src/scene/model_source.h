@@ -1,6 +1,7 @@
-/// Where pinned points are, and how splines move them. Read by a layer above, which knows models, as motions are (motion.h).
-#ifndef SCENE_PIN_SOURCE_H
-#define SCENE_PIN_SOURCE_H
+/// What solving asks of models: where pinned points and floors are, how splines move them, and what joints do in clips. Answered by a
+/// layer above, which knows models.
+#ifndef SCENE_MODEL_SOURCE_H
+#define SCENE_MODEL_SOURCE_H
 
 #include "scene/document.h"
 
@@ -24,12 +25,6 @@ struct low_point {
     int vertex;
 };
 
-/// Where a character is deepest below its floor; `depth` 0: nowhere.
-struct floor_left {
-    double depth; ///< metres
-    int sample;
-};
-
 enum { LOW_POINT_ROW = 128 }; ///< samples in which lowest points are found together
 
 /// Samples of so many whole rows that all samples are in one.
@@ -40,7 +35,7 @@ static inline int low_point_samples(int samples)
 
 enum { LOW_POINT_ROOM = 3 * (CHARACTER_MAX_DRIVES + 1) }; ///< numbers that finding them takes, for each of these
 
-struct pin_source {
+struct model_source {
     /// Finds a pin's point as the splines are in `evaluation`, and how `count` splines move it from there (`c` may be NULL if
     /// there are none). false: its model is missing, or has no such point. NULL: pins are passed over.
     bool (*find)(void *context, const struct evaluation *evaluation, const struct document *document, int rig,
@@ -52,6 +47,9 @@ struct pin_source {
     /// and the vertex -1). `room` is for LOW_POINT_ROOM numbers for each of low_point_samples(). false: its model is missing.
     bool (*lowest)(void *context, const struct evaluation *evaluation, const struct document *document, int rig,
                    double ceiling, double *room, struct low_point *low);
+    /// Writes what a joint does at each of the document's samples, in degrees or metres, without gain. false, or NULL: it is 0.
+    bool (*follow)(void *context, const struct document *document, const struct joint_motion *motion,
+                   double *samples);
     void *context;
     uint64_t version; ///< changes when they may give something else for the same document
 };
