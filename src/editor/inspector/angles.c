@@ -11,14 +11,15 @@
 
 enum { SWITCH = 24, MOST_REACH = 1024 }; ///< width of a button for a form
 
-const struct angle_row angle_row_lag = {
-    ANGLE_LAG, "lag", "How far each joint lags behind the last, in degrees of swing (hold L and press ↑ ↓)",
-    "Set lag", 0,     30,
-    6.5,       0.5};
-const struct angle_row angle_row_gain = {
-    ANGLE_GAIN, "gain", "How far each joint bends when the spline is 1", "Set gain", 0, 20, 5, 0.5};
-const struct angle_row angle_row_rest = {
-    ANGLE_REST, "rest", "Upward bend of each joint at rest", "Set rest pose", -15, 15, 0, 0.5};
+static const struct number_row rows[] = {
+    [ANGLE_REST] = {"rest", "rest", "°", "Upward bend of each joint at rest", "Set rest pose", 0, false, -15, 15,
+                    -36000, 36000, 0, 0.5, 1},
+    [ANGLE_LAG] = {"lag", "lag", "°",
+                   "How far each joint lags behind the last, in degrees of swing (hold L and press ↑ ↓)", "Set lag",
+                   0, false, 0, 30, -36000, 36000, 6.5, 0.5, 1},
+    [ANGLE_GAIN] = {"gain", "gain", "°", "How far each joint bends when the spline is 1", "Set gain", 0, false, 0, 20,
+                    -36000, 36000, 5, 0.5, 1},
+};
 
 /// Which of them is the largest: what a slider shows and sets where there are several.
 static int peak(const struct angles *angles)
@@ -41,105 +42,85 @@ static void scale_angles(struct angles *angles, double value)
     }
 }
 
-static bool set_angles(struct inspector *in, const struct angle_row *row, const struct angles *angles,
-                       struct error *error)
+static bool set_angles(struct inspector *in, enum angle_kind kind, const struct angles *angles, struct error *error)
 {
-    const int channel = row->kind == ANGLE_REST ? -1 : in->channel;
-    return edit_angles(in->core->document, (struct channel_place){in->rig, channel}, row->kind, angles, error);
+    const int channel = kind == ANGLE_REST ? -1 : in->channel;
+    return edit_angles(in->core->document, (struct channel_place){in->rig, channel}, kind, angles, error);
 }
 
-bool inspector_set_angles(struct inspector *in, const struct angle_row *row, const struct angles *angles)
+bool inspector_set_angles(struct inspector *in, enum angle_kind kind, const struct angles *angles)
 {
-    return set_angles(in, row, angles, &in->core->error);
-}
-
-/// The same as a step of its own.
-static void step_angles(struct inspector *in, const struct angle_row *row, const char *label,
-                        const struct angles *angles)
-{
-    if (core_begin(in->core, label, 0)) core_end(in->core, inspector_set_angles(in, row, angles));
+    return set_angles(in, kind, angles, &in->core->error);
 }
 
 /// The same as what a widget's change is.
-static void change_angles(struct inspector *in, const struct angle_row *row, enum ui_change change, const char *what,
-                          const struct angles *angles)
+static void change_angles(struct inspector *in, enum angle_kind kind, enum ui_change change, const char *label,
+                          const char *what, const struct angles *angles)
 {
-    if (inspector_begin(in, change, row->undo, what))
-        inspector_end(in, change, inspector_set_angles(in, row, angles));
-}
-
-/// What its numbers are in: the gain of what moves the body may be in percent.
-static const char *unit_of(const struct inspector *in, const struct angle_row *row)
-{
-    return row->kind == ANGLE_GAIN ? axis_unit(inspector_felt_channel(in)->axis) : "°";
+    if (inspector_begin(in, change, label, what)) inspector_end(in, change, inspector_set_angles(in, kind, angles));
 }
 
 /// By how much a slider's ends are taken further out, so that it has the angle on it; the same as long as it is dragged.
-static double reach_of(struct inspector *in, const struct angle_row *row, double angle)
+static double reach_of(struct inspector *in, enum angle_kind kind, double angle)
 {
-    double *reach = &in->angle_reach[row->kind];
-    if (*reach >= 1 && in->ui.held == ui_id(row->name)) return *reach;
+    double *reach = &in->angle_reach[kind];
+    if (*reach >= 1 && in->ui.held == ui_id(rows[kind].name)) return *reach;
     *reach = 1;
-    while (fabs(angle) > *reach * row->maximum && *reach < MOST_REACH) *reach *= 2;
+    while (fabs(angle) > *reach * rows[kind].maximum && *reach < MOST_REACH) *reach *= 2;
     return *reach;
 }
 
-/// The angles of a row, as the document has them now.
-static const struct angles *angles_of(const struct inspector *in, const struct angle_row *row)
+/// The angles as the document has them now.
+static const struct angles *angles_of(const struct inspector *in, int kind)
 {
     const struct rig *rig = inspector_shown(in);
-    if (row->kind == ANGLE_REST) return &rig->tail.rest;
+    if (kind == ANGLE_REST) return &rig->tail.rest;
     const struct channel *channel = &rig->bent.channels[in->channel];
-    return row->kind == ANGLE_LAG ? &channel->lag : &channel->gain;
+    return kind == ANGLE_LAG ? &channel->lag : &channel->gain;
 }
-
-static const struct angle_row *const angle_rows[] = {
-    [ANGLE_REST] = &angle_row_rest, [ANGLE_LAG] = &angle_row_lag, [ANGLE_GAIN] = &angle_row_gain};
 
 /// The largest of them is what the slider shows.
 static double get_largest(const struct inspector *in, int kind)
 {
-    const struct angles *angles = angles_of(in, angle_rows[kind]);
+    const struct angles *angles = angles_of(in, kind);
     return angles_number(angles, peak(angles));
 }
 
 static bool set_largest(struct inspector *in, int kind, double number, struct error *error)
 {
-    struct angles next = *angles_of(in, angle_rows[kind]);
+    struct angles next = *angles_of(in, kind);
     scale_angles(&next, number);
-    return set_angles(in, angle_rows[kind], &next, error);
+    return set_angles(in, (enum angle_kind)kind, &next, error);
+}
+
+/// What the numbers are in: the gain of what moves the body may be in percent.
+static const char *unit_of(const struct inspector *in, int kind)
+{
+    return kind == ANGLE_GAIN ? axis_unit(inspector_felt_channel(in)->axis) : rows[kind].unit;
 }
 
 /// Of several, the first one and the last one.
 static const char *show_ends(const struct inspector *in, int kind, char text[64])
 {
-    const struct angles *angles = angles_of(in, angle_rows[kind]);
+    const struct angles *angles = angles_of(in, kind);
     if (angles->form == ANGLES_ONE) return NULL;
     snprintf(text, 64, "%.1f → %.1f%s", printable_number(angles_number(angles, 0), 0.1),
-             printable_number(angles_number(angles, angles->count - 1), 0.1), unit_of(in, angle_rows[kind]));
+             printable_number(angles_number(angles, angles->count - 1), 0.1), unit_of(in, kind));
     return text;
 }
 
-static void build_slider(struct inspector *in, const struct angle_row *row, const struct angles *angles,
-                         struct rect r)
+static void build_slider(struct inspector *in, enum angle_kind kind, struct rect r)
 {
     static const struct number_home home = {.get = get_largest, .set = set_largest, .shown = show_ends};
-    const bool several = angles->form != ANGLES_ONE;
-    bool lags = row->kind == ANGLE_LAG && several; // each joint's own lag: up to a few turns, not degrees a joint
-    const double reach = lags ? 1 : reach_of(in, row, get_largest(in, (int)row->kind));
-    const struct number_row number = {.name = row->name,
-                                      .label = row->name,
-                                      .unit = unit_of(in, row),
-                                      .hint = row->hint,
-                                      .undo = row->undo,
-                                      .minimum = reach * row->minimum,
-                                      .maximum = lags ? 720 : reach * row->maximum,
-                                      .lowest = -36000,
-                                      .highest = 36000,
-                                      .fallback = several ? NAN : row->fallback,
-                                      .step = row->step,
-                                      .decimals = 1};
-    inspector_number(in, &number, &home, (int)row->kind, r);
+    const bool several = angles_of(in, (int)kind)->form != ANGLES_ONE;
+    const bool lags = kind == ANGLE_LAG && several; // each joint's own lag: up to a few turns, not degrees a joint
+    const double reach = lags ? 1 : reach_of(in, kind, get_largest(in, (int)kind));
+    struct number_row number = rows[kind];
+    number.unit = unit_of(in, (int)kind);
+    number.minimum *= reach;
+    number.maximum = lags ? 720 : reach * number.maximum;
+    if (several) number.fallback = NAN;
+    inspector_number(in, &number, &home, (int)kind, r);
 }
 
 /// An angle for each joint, as they are now.
@@ -163,30 +144,32 @@ static struct angles one_angle(const struct angles *angles, enum angle_kind kind
 
 /// The button at the right end of a row that makes its angles of a form, or one for all joints where they have it already; true if it
 /// changed them.
-static bool build_switch(struct inspector *in, const struct angle_row *row, const struct angles *angles,
+static bool build_switch(struct inspector *in, enum angle_kind kind, const struct angles *angles,
                          const struct angles *next, struct rect r)
 {
     const bool ramp = next->form == ANGLES_RAMP, lit = angles->form == next->form;
     char name[32];
-    snprintf(name, sizeof name, "%s.%s", row->name, ramp ? "ramp" : "each");
+    snprintf(name, sizeof name, "%s.%s", rows[kind].name, ramp ? "ramp" : "each");
     const char *hint = lit    ? "Back to one angle for all joints"
                        : ramp ? "Draw the angles along the joints as a curve through a few points"
                               : "Give each joint an angle of its own";
     if (!ui_icon_button(&in->ui, r, name, ramp ? UI_ICON_RAMP : UI_ICON_EACH, lit, hint)) return false;
     const int joints = bones_joints(in->core, in->rig);
-    const struct angles one = one_angle(angles, row->kind, joints);
-    step_angles(in, row, row->undo, lit ? &one : next);
+    const struct angles one = one_angle(angles, kind, joints);
+    change_angles(in, kind, UI_SET, rows[kind].undo, NULL, lit ? &one : next);
     return true;
 }
 
 enum { HEIGHT = 64, INSET = 7, NAME = 32, REACH = 11 }; ///< pixels; REACH: of a right click from its point
 
-/// A ramp as it is laid out.
-struct ramp_view {
-    const struct angle_row *row;
+/// The curve of several angles as it is laid out. A ramp has a handle for each point, angles of each joint one at the selected joint.
+struct angle_view {
+    enum angle_kind kind;
     const struct angles *angles;
-    struct rect plot;
+    struct rect box, plot;
     double low, high; ///< degrees at its bottom and top
+    int selected;     ///< joint
+    int handle_count;
     char names[RAMP_MAX_POINTS][NAME];
     struct ui_handle handles[RAMP_MAX_POINTS];
 };
@@ -194,75 +177,102 @@ struct ramp_view {
 static const double APART = 0.01;                          ///< between places of neighbouring points
 static const double PLACES = 100, SPARE = 1.2, LEAST = 10; ///< places in all; above the largest angle; degrees
 
-static float x_of(const struct ramp_view *view, double at) { return view->plot.x + (float)at * view->plot.w; }
-
-static float y_of(const struct ramp_view *view, double angle)
+/// Where one of the angles is on the screen.
+static void place_angle(const struct angle_view *view, int i, float xy[2])
 {
-    const struct rect *plot = &view->plot;
-    return plot->y + plot->h * (float)((view->high - angle) / (view->high - view->low));
+    const struct angles *angles = view->angles;
+    const double each = angles->count > 1 ? (double)i / (angles->count - 1) : 0.5;
+    const double at = angles->form == ANGLES_RAMP ? angles->ramp[i].at : each;
+    xy[0] = view->plot.x + (float)at * view->plot.w;
+    xy[1] = view->plot.y + view->plot.h * (float)((view->high - angles_number(angles, i)) / (view->high - view->low));
 }
 
-static bool is_held(const struct ramp_view *view, uint32_t held)
+/// The angle that a height of the plot stands for.
+static double angle_at(const struct angle_view *view, float y)
 {
-    for (int i = 0; held && i < view->angles->count; i++) {
+    const double share = (double)((y - view->plot.y) / view->plot.h);
+    return core_round(view->high - share * (view->high - view->low), rows[view->kind].step / 5);
+}
+
+static bool is_held(const struct angle_view *view, uint32_t held)
+{
+    for (int i = 0; held && i < view->handle_count; i++) {
         if (ui_id(view->names[i]) == held) return true;
     }
     return false;
 }
 
-/// Its scale, which stays while a point is dragged; and where its points are.
-static void lay_out(struct inspector *in, struct ramp_view *view)
+/// Its scale, which stays while it is dragged; and where its handles are.
+static void lay_out(struct inspector *in, struct angle_view *view)
 {
-    double *scale = in->ramp_scale[view->row->kind];
-    for (int i = 0; i < view->angles->count; i++) snprintf(view->names[i], NAME, "%s.point.%d", view->row->name, i);
+    const struct angles *angles = view->angles;
+    const bool is_ramp = angles->form == ANGLES_RAMP;
+    const struct rect line = ui_row(&in->ui, HEIGHT);
+    double *scale = in->ramp_scale[view->kind];
+    view->box = (struct rect){line.x, line.y + 2, line.w, line.h - 6};
+    view->plot = rect_inset(view->box, INSET);
+    view->selected = in->joint[view->kind];
+    view->handle_count = is_ramp ? angles->count : 1;
+    snprintf(view->names[0], NAME, "%s.curve", rows[view->kind].name);
+    for (int i = 0; is_ramp && i < angles->count; i++)
+        snprintf(view->names[i], NAME, "%s.point.%d", rows[view->kind].name, i);
     if (!is_held(view, in->ui.held)) {
         scale[0] = 0;
         scale[1] = LEAST;
-        for (int i = 0; i < view->angles->count; i++) {
-            scale[0] = fmin(scale[0], SPARE * view->angles->ramp[i].angle);
-            scale[1] = fmax(scale[1], SPARE * view->angles->ramp[i].angle);
+        for (int i = 0; i < angles->count; i++) {
+            scale[0] = fmin(scale[0], SPARE * angles_number(angles, i));
+            scale[1] = fmax(scale[1], SPARE * angles_number(angles, i));
         }
     }
     view->low = scale[0];
     view->high = scale[1];
-    for (int i = 0; i < view->angles->count; i++) {
-        const struct ramp_point *point = &view->angles->ramp[i];
-        view->handles[i] =
-            (struct ui_handle){.name = view->names[i],
-                               .hint = "Drag; double-click beside it adds a point, right-click or Del removes one",
-                               .x = x_of(view, point->at),
-                               .y = y_of(view, point->angle)};
+    for (int i = 0; i < view->handle_count; i++) {
+        float at[2];
+        place_angle(view, is_ramp ? i : view->selected, at);
+        view->handles[i] = (struct ui_handle){
+            .name = view->names[i],
+            .hint = is_ramp ? "Drag; double-click beside it adds a point, right-click or Del removes one"
+                            : "Drag over the joints to draw their angles; a click selects one",
+            .x = at[0],
+            .y = at[1]};
     }
 }
 
-static void draw(const struct inspector *in, const struct ramp_view *view, struct rect box)
+/// A ramp is level outside of its points.
+static void draw(const struct inspector *in, const struct angle_view *view)
 {
     struct drawlist *list = in->ui.list;
+    const bool is_ramp = view->angles->form == ANGLES_RAMP;
     const int count = view->angles->count;
-    float line[RAMP_MAX_POINTS + 2][2] = {{view->plot.x, view->handles[0].y}};
-    drawlist_rounded(list, box, 4, theme()->raised);
-    drawlist_rect(list, (struct rect){view->plot.x, roundf(y_of(view, 0)), view->plot.w, 1}, theme()->grid_major);
+    const double zero = view->high / (view->high - view->low);
+    float line[ANGLES_MAX_JOINTS + 2][2];
+    drawlist_rounded(list, view->box, 4, theme()->raised);
+    drawlist_rect(list,
+                  (struct rect){view->plot.x, roundf(view->plot.y + view->plot.h * (float)zero), view->plot.w, 1},
+                  theme()->grid_major);
     for (int i = 0; i < count; i++) {
-        line[i + 1][0] = view->handles[i].x;
-        line[i + 1][1] = view->handles[i].y;
+        float *at = line[i + 1];
+        place_angle(view, i, at);
+        const float r = 4,
+                    diamond[4][2] = {{at[0] - r, at[1]}, {at[0], at[1] - r}, {at[0] + r, at[1]}, {at[0], at[1] + r}};
+        if (is_ramp) drawlist_convex(list, diamond[0], 4, theme()->accent);
+        if (!is_ramp) drawlist_rect(list, (struct rect){at[0] - 1.5f, at[1] - 1.5f, 3, 3}, theme()->accent);
     }
+    line[0][0] = view->plot.x;
+    line[0][1] = line[1][1];
     line[count + 1][0] = view->plot.x + view->plot.w;
-    line[count + 1][1] = view->handles[count - 1].y;
-    drawlist_line(list, line[0], count + 2, 1.5f, theme()->accent);
-    for (int i = 0; i < count; i++) {
-        const float x = view->handles[i].x, y = view->handles[i].y, r = 4;
-        const float diamond[4][2] = {{x - r, y}, {x, y - r}, {x + r, y}, {x, y + r}};
-        drawlist_convex(list, diamond[0], 4, theme()->accent);
-    }
+    line[count + 1][1] = line[count][1];
+    drawlist_line(list, line[is_ramp ? 0 : 1], is_ramp ? count + 2 : count, 1.5f, theme()->accent);
+    const float *selected = line[view->selected + 1], r = 3.5f;
+    const struct rect mark = {selected[0] - r, selected[1] - r, 2 * r, 2 * r};
+    if (!is_ramp) drawlist_rounded(list, mark, r, theme()->accent);
 }
 
 /// The point that a place of the plot stands for.
-static struct ramp_point point_at(const struct ramp_view *view, float x, float y)
+static struct ramp_point point_at(const struct angle_view *view, float x, float y)
 {
-    const double at = (double)((x - view->plot.x) / view->plot.w),
-                 share = (double)((y - view->plot.y) / view->plot.h);
-    const double angle = view->high - share * (view->high - view->low);
-    return (struct ramp_point){round(fmin(fmax(at, 0), 1) * PLACES) / PLACES, core_round(angle, view->row->step / 5)};
+    const double at = (double)((x - view->plot.x) / view->plot.w);
+    return (struct ramp_point){round(fmin(fmax(at, 0), 1) * PLACES) / PLACES, angle_at(view, y)};
 }
 
 /// Puts a point between its neighbours.
@@ -273,7 +283,7 @@ static void move_point(struct angles *angles, int i, struct ramp_point point)
     angles->ramp[i] = (struct ramp_point){fmin(fmax(point.at, low), high), point.angle};
 }
 
-static void change_point(struct inspector *in, const struct ramp_view *view, enum ui_change change, int which)
+static void change_point(struct inspector *in, const struct angle_view *view, enum ui_change change, int which)
 {
     const struct ui_handle *handle = &view->handles[which];
     struct angles next = *view->angles;
@@ -281,13 +291,13 @@ static void change_point(struct inspector *in, const struct ramp_view *view, enu
     if (change == UI_NUDGE) {
         point = next.ramp[which];
         point.at += handle->step_x / PLACES;
-        point.angle += handle->step_y * view->row->step;
+        point.angle += handle->step_y * rows[view->kind].step;
     }
     move_point(&next, which, point);
-    change_angles(in, view->row, change, handle->name, &next);
+    change_angles(in, view->kind, change, rows[view->kind].undo, handle->name, &next);
 }
 
-static void add_point(struct inspector *in, const struct ramp_view *view, struct ramp_point point)
+static void add_point(struct inspector *in, const struct angle_view *view, struct ramp_point point)
 {
     struct angles next = *view->angles;
     int i = 0;
@@ -297,10 +307,10 @@ static void add_point(struct inspector *in, const struct ramp_view *view, struct
     if (close || next.count == RAMP_MAX_POINTS) return;
     for (int k = next.count++; k > i; k--) next.ramp[k] = next.ramp[k - 1];
     next.ramp[i] = point;
-    step_angles(in, view->row, "Add point", &next);
+    change_angles(in, view->kind, UI_SET, "Add point", NULL, &next);
 }
 
-static void remove_point(struct inspector *in, const struct ramp_view *view, int which)
+static void remove_point(struct inspector *in, const struct angle_view *view, int which)
 {
     struct angles next = *view->angles;
     if (next.count <= 2) {
@@ -309,17 +319,17 @@ static void remove_point(struct inspector *in, const struct ramp_view *view, int
     }
     next.count--;
     for (int k = which; k < next.count; k++) next.ramp[k] = next.ramp[k + 1];
-    step_angles(in, view->row, "Remove point", &next);
+    change_angles(in, view->kind, UI_SET, "Remove point", NULL, &next);
 }
 
 /// The point that the event is to remove: under a right click, or that has the focus when Del is pressed; −1: none.
-static int removed_point(const struct inspector *in, const struct ramp_view *view, struct rect box)
+static int removed_point(const struct inspector *in, const struct angle_view *view)
 {
     const struct event *event = in->ui.event;
     const bool key = event->kind == EVENT_KEY && event->action == ACTION_PRESS &&
                      (event->key == KEY_DELETE || event->key == KEY_BACKSPACE);
     const bool click = event->kind == EVENT_BUTTON && event->action == ACTION_PRESS &&
-                       event->button == BUTTON_RIGHT && ui_hovered(&in->ui, box);
+                       event->button == BUTTON_RIGHT && ui_hovered(&in->ui, view->box);
     for (int i = 0; i < view->angles->count; i++) {
         const struct ui_handle *handle = &view->handles[i];
         if (key && in->ui.focus == ui_id(handle->name)) return i;
@@ -329,15 +339,15 @@ static int removed_point(const struct inspector *in, const struct ramp_view *vie
 }
 
 /// What adds and removes points; a press on one also gives it the focus, so that arrows and Del mean it.
-static void take_event(struct inspector *in, const struct ramp_view *view, struct rect box)
+static void take_event(struct inspector *in, const struct angle_view *view)
 {
     struct ui *ui = &in->ui;
     const struct event *event = ui->event;
     const bool press = event->kind == EVENT_BUTTON && event->action == ACTION_PRESS && event->button == BUTTON_LEFT;
     if (press && is_held(view, ui->held)) ui->focus = ui->held;
     if (ui->used) return;
-    const int removed = removed_point(in, view, box);
-    const bool adds = press && event->clicks == 2 && ui_hovered(ui, box);
+    const int removed = removed_point(in, view);
+    const bool adds = press && event->clicks == 2 && ui_hovered(ui, view->box);
     if (removed < 0 && !adds) return;
     ui->used = true;
     if (adds) {
@@ -347,21 +357,15 @@ static void take_event(struct inspector *in, const struct ramp_view *view, struc
     }
 }
 
-/// Below the row of a ramp: its curve.
-static void build_ramp_row(struct inspector *in, const struct angle_row *row, const struct angles *angles)
+static void build_ramp(struct inspector *in, struct angle_view *view)
 {
-    struct ui *ui = &in->ui;
-    struct rect line = ui_row(ui, HEIGHT), box = {line.x, line.y + 2, line.w, line.h - 6};
-    struct ramp_view view = {.row = row, .angles = angles, .plot = rect_inset(box, INSET)};
     int which = 0;
-    lay_out(in, &view);
-    ui_hint(ui, box, "From the first joint to the tip; double-click adds a point");
-    if (ui->pass == UI_PASS_DRAW) draw(in, &view, box);
-    const enum ui_change change = ui_handles(ui, box, view.handles, angles->count, &which);
+    ui_hint(&in->ui, view->box, "From the first joint to the tip; double-click adds a point");
+    const enum ui_change change = ui_handles(&in->ui, view->box, view->handles, view->handle_count, &which);
     if (change != UI_NONE) {
-        change_point(in, &view, change, which);
-    } else if (ui->pass == UI_PASS_EVENT) {
-        take_event(in, &view, box);
+        change_point(in, view, change, which);
+    } else if (in->ui.pass == UI_PASS_EVENT) {
+        take_event(in, view);
     }
 }
 
@@ -377,69 +381,7 @@ static struct angles as_ramp(const struct angles *angles, enum angle_kind kind, 
     return ramp;
 }
 
-/// The angles as they are laid out.
-struct each_view {
-    const struct angle_row *row;
-    const struct angles *angles;
-    struct rect plot;
-    double low, high; ///< degrees at its bottom and top
-    int joint;        ///< the selected one
-    char name[NAME];  ///< of the curve
-};
-
-/// Its scale, which stays while it is drawn.
-static struct each_view each_lay_out(struct inspector *in, const struct angle_row *row, const struct angles *angles,
-                                     struct rect box)
-{
-    struct each_view view = {.row = row, .angles = angles, .plot = rect_inset(box, INSET)};
-    double *scale = in->ramp_scale[row->kind];
-    int *joint = &in->joint[row->kind];
-    snprintf(view.name, NAME, "%s.curve", row->name);
-    if (in->ui.held != ui_id(view.name)) {
-        scale[0] = 0;
-        scale[1] = LEAST;
-        for (int n = 0; n < angles->count; n++) {
-            scale[0] = fmin(scale[0], SPARE * angles->value[n]);
-            scale[1] = fmax(scale[1], SPARE * angles->value[n]);
-        }
-    }
-    view.low = scale[0];
-    view.high = scale[1];
-    if (*joint >= angles->count) *joint = angles->count - 1;
-    view.joint = *joint;
-    return view;
-}
-
-static float each_x_of(const struct each_view *view, int joint)
-{
-    const int last = view->angles->count - 1;
-    return view->plot.x + view->plot.w * (last > 0 ? (float)joint / (float)last : 0.5f);
-}
-
-static float each_y_of(const struct each_view *view, double angle)
-{
-    return view->plot.y + view->plot.h * (float)((view->high - angle) / (view->high - view->low));
-}
-
-static void each_draw(const struct inspector *in, const struct each_view *view, struct rect box)
-{
-    struct drawlist *list = in->ui.list;
-    const int count = view->angles->count;
-    float line[ANGLES_MAX_JOINTS][2];
-    drawlist_rounded(list, box, 4, theme()->raised);
-    drawlist_rect(list, (struct rect){view->plot.x, roundf(each_y_of(view, 0)), view->plot.w, 1},
-                  theme()->grid_major);
-    for (int n = 0; n < count; n++) {
-        line[n][0] = each_x_of(view, n);
-        line[n][1] = each_y_of(view, view->angles->value[n]);
-        drawlist_rect(list, (struct rect){line[n][0] - 1.5f, line[n][1] - 1.5f, 3, 3}, theme()->accent);
-    }
-    drawlist_line(list, line[0], count, 1.5f, theme()->accent);
-    const float *selected = line[view->joint], r = 3.5f;
-    drawlist_rounded(list, (struct rect){selected[0] - r, selected[1] - r, 2 * r, 2 * r}, r, theme()->accent);
-}
-
-static int joint_at(const struct each_view *view, float x)
+static int joint_at(const struct angle_view *view, float x)
 {
     const int last = view->angles->count - 1;
     const float joint = roundf((x - view->plot.x) / view->plot.w * (float)last);
@@ -447,26 +389,21 @@ static int joint_at(const struct each_view *view, float x)
 }
 
 /// A press takes the joint below it, from where the drag draws.
-static void take_press(struct inspector *in, const struct each_view *view, struct rect box, struct ui_handle *handle)
+static void take_press(struct inspector *in, struct angle_view *view)
 {
     const struct event *event = in->ui.event;
     const bool press = event->kind == EVENT_BUTTON && event->action == ACTION_PRESS && event->button == BUTTON_LEFT;
-    if (!press || in->ui.used || in->ui.held || !ui_hovered(&in->ui, box)) return;
-    in->joint[view->row->kind] = joint_at(view, event->x);
+    if (!press || in->ui.used || in->ui.held || !ui_hovered(&in->ui, view->box)) return;
+    in->joint[view->kind] = joint_at(view, event->x);
     in->drawn = *view->angles;
-    in->drawn_x = handle->x = event->x;
-    in->drawn_y = handle->y = event->y;
-}
-
-static double angle_at(const struct each_view *view, float y)
-{
-    const double share = (double)((y - view->plot.y) / view->plot.h);
-    return core_round(view->high - share * (view->high - view->low), view->row->step / 5);
+    in->drawn_x = view->handles->x = event->x;
+    in->drawn_y = view->handles->y = event->y;
 }
 
 /// All joints between the last place and this one come to lie on the line between both.
-static void draw_to(struct inspector *in, const struct each_view *view, const struct ui_handle *handle)
+static void draw_to(struct inspector *in, const struct angle_view *view)
 {
+    const struct ui_handle *handle = view->handles;
     const int from = joint_at(view, in->drawn_x), to = joint_at(view, handle->x), way = to >= from ? 1 : -1;
     for (int n = from;; n += way) {
         const float share = to == from ? 1 : (float)(n - from) / (float)(to - from);
@@ -476,94 +413,90 @@ static void draw_to(struct inspector *in, const struct each_view *view, const st
     }
     in->drawn_x = handle->x;
     in->drawn_y = handle->y;
-    in->joint[view->row->kind] = to;
+    in->joint[view->kind] = to;
 }
 
 /// ← and → go along the joints, ↑ and ↓ change one.
-static void nudge(struct inspector *in, const struct each_view *view, const struct ui_handle *handle)
+static void nudge(struct inspector *in, const struct angle_view *view)
 {
-    const int last = view->angles->count - 1, next = view->joint + handle->step_x;
-    in->joint[view->row->kind] = next < 0 ? 0 : next > last ? last : next;
+    const struct ui_handle *handle = view->handles;
+    const int last = view->angles->count - 1, next = view->selected + handle->step_x;
+    in->joint[view->kind] = next < 0 ? 0 : next > last ? last : next;
     if (handle->step_y == 0) return;
     struct angles angles = *view->angles;
     char what[NAME];
-    snprintf(what, NAME, "%s.joint.%d", view->row->name, view->joint);
-    angles.value[view->joint] += handle->step_y * view->row->step;
-    change_angles(in, view->row, UI_NUDGE, what, &angles);
+    snprintf(what, NAME, "%s.joint.%d", rows[view->kind].name, view->selected);
+    angles.value[view->selected] += handle->step_y * rows[view->kind].step;
+    change_angles(in, view->kind, UI_NUDGE, rows[view->kind].undo, what, &angles);
 }
 
-static void build_curve(struct inspector *in, const struct each_view *view, struct rect box)
+static void build_each(struct inspector *in, struct angle_view *view)
 {
     struct ui *ui = &in->ui;
-    struct ui_handle handle = {.name = view->name,
-                               .hint = "Drag over the joints to draw their angles; a click selects one",
-                               .x = each_x_of(view, view->joint),
-                               .y = each_y_of(view, view->angles->value[view->joint])};
     int which;
-    ui_hint(ui, box, handle.hint);
-    if (ui->pass == UI_PASS_DRAW) each_draw(in, view, box);
-    if (ui->pass == UI_PASS_EVENT) take_press(in, view, box, &handle);
-    const enum ui_change change = ui_handles(ui, box, &handle, 1, &which);
-    if (ui->held == ui_id(view->name)) ui->focus = ui->held; // so that arrows mean what was pressed
+    ui_hint(ui, view->box, view->handles->hint);
+    if (ui->pass == UI_PASS_EVENT) take_press(in, view);
+    const enum ui_change change = ui_handles(ui, view->box, view->handles, 1, &which);
+    if (is_held(view, ui->held)) ui->focus = ui->held; // so that arrows mean what was pressed
     if (change == UI_NUDGE) {
-        nudge(in, view, &handle);
+        nudge(in, view);
     } else if (change != UI_NONE) {
-        if (change == UI_DRAG) draw_to(in, view, &handle);
-        change_angles(in, view->row, change, view->name, &in->drawn);
+        if (change == UI_DRAG) draw_to(in, view);
+        change_angles(in, view->kind, change, rows[view->kind].undo, view->names[0], &in->drawn);
     }
 }
 
 /// The number of the joint that is selected.
-static double get_joint(const struct inspector *in, int kind)
-{
-    return angles_of(in, angle_rows[kind])->value[in->joint[kind]];
-}
+static double get_joint(const struct inspector *in, int kind) { return angles_of(in, kind)->value[in->joint[kind]]; }
 
 static bool set_joint(struct inspector *in, int kind, double number, struct error *error)
 {
-    struct angles next = *angles_of(in, angle_rows[kind]);
+    struct angles next = *angles_of(in, kind);
     next.value[in->joint[kind]] = number;
-    return set_angles(in, angle_rows[kind], &next, error);
+    return set_angles(in, (enum angle_kind)kind, &next, error);
 }
 
-static void build_joint(struct inspector *in, const struct angle_row *row)
+static void build_joint(struct inspector *in, enum angle_kind kind)
 {
     static const struct number_home home = {.get = get_joint, .set = set_joint};
+    struct number_row number = rows[kind];
     char name[NAME], label[NAME];
-    snprintf(name, NAME, "%s.joint", row->name);
-    snprintf(label, NAME, "joint %d", in->joint[row->kind] + 1);
-    const struct number_row number = {.name = name,
-                                      .label = label,
-                                      .unit = unit_of(in, row),
-                                      .hint = "Angle of the joint that was touched last in the curve above",
-                                      .undo = row->undo,
-                                      .lowest = -36000,
-                                      .highest = 36000,
-                                      .fallback = NAN,
-                                      .step = row->step,
-                                      .decimals = 1};
-    inspector_number(in, &number, &home, (int)row->kind, ui_row(&in->ui, UI_ROW));
+    snprintf(name, NAME, "%s.joint", number.name);
+    snprintf(label, NAME, "joint %d", in->joint[kind] + 1);
+    number.name = name;
+    number.label = label;
+    number.unit = unit_of(in, (int)kind);
+    number.hint = "Angle of the joint that was touched last in the curve above";
+    number.minimum = number.maximum = 0; // a field
+    number.fallback = NAN;
+    inspector_number(in, &number, &home, (int)kind, ui_row(&in->ui, UI_ROW));
 }
 
-/// Below the row of angles of each joint: their curve, and the number of one.
-static void build_each_row(struct inspector *in, const struct angle_row *row, const struct angles *angles)
+/// Below the row of several angles: their curve, and of each joint's the number of one.
+static void build_curve(struct inspector *in, enum angle_kind kind, const struct angles *angles)
 {
-    const struct rect line = ui_row(&in->ui, HEIGHT), box = {line.x, line.y + 2, line.w, line.h - 6};
-    const struct each_view view = each_lay_out(in, row, angles, box);
-    build_curve(in, &view, box);
-    build_joint(in, row);
+    struct angle_view view = {.kind = kind, .angles = angles};
+    int *joint = &in->joint[kind];
+    if (angles->form == ANGLES_EACH && *joint >= angles->count) *joint = angles->count - 1;
+    lay_out(in, &view);
+    if (in->ui.pass == UI_PASS_DRAW) draw(in, &view);
+    if (angles->form == ANGLES_RAMP) {
+        build_ramp(in, &view);
+    } else {
+        build_each(in, &view);
+        build_joint(in, kind);
+    }
 }
 
-void inspector_angles(struct inspector *in, const struct angle_row *row, const struct angles *angles)
+void inspector_angles(struct inspector *in, enum angle_kind kind)
 {
     const int joints = bones_joints(in->core, in->rig);
     struct rect r = ui_row(&in->ui, UI_ROW), right = {r.x + r.w - SWITCH, r.y, SWITCH, r.h}, left = right;
     left.x -= SWITCH;
-    build_slider(in, row, angles, (struct rect){r.x, r.y, left.x - r.x - 2, r.h});
-    angles = angles_of(in, row);
-    const struct angles ramp = as_ramp(angles, row->kind, joints), each = each_angle(angles, row->kind, joints);
-    if (build_switch(in, row, angles, &ramp, left) || build_switch(in, row, angles, &each, right)) return;
+    build_slider(in, kind, (struct rect){r.x, r.y, left.x - r.x - 2, r.h});
+    const struct angles *angles = angles_of(in, (int)kind);
+    const struct angles ramp = as_ramp(angles, kind, joints), each = each_angle(angles, kind, joints);
+    if (build_switch(in, kind, angles, &ramp, left) || build_switch(in, kind, angles, &each, right)) return;
     const struct angles now = *angles; // an edit may free them while they are shown
-    if (now.form == ANGLES_RAMP) build_ramp_row(in, row, &now);
-    if (now.form == ANGLES_EACH) build_each_row(in, row, &now);
+    if (now.form != ANGLES_ONE) build_curve(in, kind, &now);
 }

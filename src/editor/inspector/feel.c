@@ -36,7 +36,7 @@ static bool set_lag(struct inspector *in, double whole)
     const int joints = bones_joints(in->core, in->rig);
     const double lag = joints > 1 ? core_round(whole / (joints - 1), 0.1) : 0;
     const struct angles angles = {.value = {lag}};
-    return inspector_set_angles(in, &angle_row_lag, &angles);
+    return inspector_set_angles(in, ANGLE_LAG, &angles);
 }
 
 static void apply(struct inspector *in, const struct preset *preset)
@@ -228,8 +228,8 @@ void inspector_feel(struct inspector *in)
     for (size_t i = 0; i < sizeof pace / sizeof pace[0]; i++) inspector_parameter(in, pace[i]);
     build_settle(in);
     build_sentence(in);
-    if (inspector_felt_channel(in)) inspector_angles(in, &angle_row_lag, &inspector_felt_channel(in)->lag);
-    if (inspector_felt_channel(in)) inspector_angles(in, &angle_row_gain, &inspector_felt_channel(in)->gain);
+    if (inspector_felt_channel(in)) inspector_angles(in, ANGLE_LAG);
+    if (inspector_felt_channel(in)) inspector_angles(in, ANGLE_GAIN);
     inspector_felt_drive(in);
     if (spline_mode(core_active_spline(in->core)) != WIGGLY_CUBIC) build_find(in);
     build_warnings(in);

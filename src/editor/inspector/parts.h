@@ -132,19 +132,9 @@ void inspector_find_rig(struct inspector *in);
 /// The tail or chain that is shown; NULL where there is none.
 const struct rig *inspector_shown(const struct inspector *in);
 
-/// One of a tail's three angles, as a slider shows it.
-struct angle_row {
-    enum angle_kind kind;
-    const char *name, *hint, *undo;
-    double minimum, maximum, fallback, step;
-};
-
-extern const struct angle_row angle_row_lag, angle_row_gain, angle_row_rest;
-
 /// Rows for the angles of the tail or channel that the inspector shows.
-void inspector_angles(struct inspector *in, const struct angle_row *row, const struct angles *angles);
-
+void inspector_angles(struct inspector *in, enum angle_kind kind);
 /// An edit: replaces them.
-bool inspector_set_angles(struct inspector *in, const struct angle_row *row, const struct angles *angles);
+bool inspector_set_angles(struct inspector *in, enum angle_kind kind, const struct angles *angles);
 
 #endif

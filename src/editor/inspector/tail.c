@@ -127,7 +127,7 @@ static void set_axis(struct inspector *in, enum axis axis)
     const bool untouched = channel->gain.form == ANGLES_ONE && channel->gain.value[0] == axis_gain(channel->axis);
     if (!core_begin(in->core, "Set axis", 0)) return;
     const bool done = edit_axis(in->core->document, place_of(in), axis, &in->core->error);
-    core_end(in->core, done && (!untouched || inspector_set_angles(in, &angle_row_gain, &gain)));
+    core_end(in->core, done && (!untouched || inspector_set_angles(in, ANGLE_GAIN, &gain)));
 }
 
 static void build_axis_list(struct inspector *in, const struct channel *channel)
@@ -403,7 +403,7 @@ static void build_shown(struct inspector *in)
     static const struct number_home home = {.get = get_size, .set = set_size};
     if (in->channel >= rig_input_count(inspector_shown(in))) in->channel = 0;
     build_channels(in);
-    if (is_tail) inspector_angles(in, &angle_row_rest, &inspector_shown(in)->tail.rest);
+    if (is_tail) inspector_angles(in, ANGLE_REST);
     build_channel(in);
     ui_space(&in->ui, 4);
     build_name(in);
