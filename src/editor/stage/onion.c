@@ -74,14 +74,10 @@ static int nearest_knots(const struct document *document, const struct spline *s
     return count;
 }
 
-enum {
-    STATIONS = 48,     ///< along the tail
-    LEAST_POINTS = 12, ///< of an outline that can be told from a speck
-};
+enum { STATIONS = 48 }; ///< along the tail
 
 static const double FROM = 0.16,
                     TO = 0.985; ///< shares of the length: outside of the body, and where the rounded tip begins
-static const float AROUND = 8;  ///< pixels beside the stage that outlines reach, so that their edge is not seen
 static const float OPEN = 1.5f; ///< cells from the root's disc, within which a tail's outline is left open
 
 /// A disc of a tail on the screen.
@@ -105,21 +101,6 @@ static bool station(const struct stage *stage, const struct core *core, const st
     return true;
 }
 
-/// The part of the stage, and a little beside it, that holds a box.
-static struct rect part_of_stage(const struct core *core, const float low[2], const float high[2])
-{
-    const struct rect box = {low[0], low[1], high[0] - low[0], high[1] - low[1]};
-    return rect_intersect(rect_inset(core->layout.stage, -AROUND), rect_inset(box, -AROUND));
-}
-
-static void widen(float low[2], float high[2], const float xy[2], float radius)
-{
-    for (int k = 0; k < 2; k++) {
-        low[k] = fminf(low[k], xy[k] - radius);
-        high[k] = fmaxf(high[k], xy[k] + radius);
-    }
-}
-
 /// Draws an outline without what is at the root, where the tail grows out of the body: without the longest such part.
 static void show_open(struct stage *stage, struct core *core, int count, const struct disc *root, float width,
                       uint32_t color)
@@ -140,19 +121,17 @@ static bool show_tail(struct stage *stage, struct core *core, const struct pose 
                       float tip[2])
 {
     struct disc discs[STATIONS];
-    float low[2] = {INFINITY, INFINITY}, high[2] = {-INFINITY, -INFINITY};
+    struct silhouette *silhouette = &stage->silhouette;
+    silhouette_clear(silhouette);
     for (int i = 0; i < STATIONS; i++) {
         if (!station(stage, core, pose, FROM + (TO - FROM) * i / (STATIONS - 1), &discs[i])) return false;
-        widen(low, high, discs[i].middle, discs[i].radius);
+        silhouette_widen(silhouette, discs[i].middle, discs[i].radius);
     }
-    const struct rect area = part_of_stage(core, low, high);
-    if (area.w <= 0 || area.h <= 0) return false;
-    silhouette_clear(&stage->silhouette, area);
+    if (!silhouette_open(silhouette, core->layout.stage)) return false;
     for (int i = 1; i < STATIONS; i++)
-        silhouette_add_link(&stage->silhouette, discs[i - 1].middle, discs[i - 1].radius, discs[i].middle,
-                            discs[i].radius);
-    const int count = silhouette_follow(&stage->silhouette);
-    if (count > LEAST_POINTS) show_open(stage, core, count, &discs[0], width, color);
+        silhouette_add_link(silhouette, discs[i - 1].middle, discs[i - 1].radius, discs[i].middle, discs[i].radius);
+    const int count = silhouette_follow(silhouette);
+    if (count > 0) show_open(stage, core, count, &discs[0], width, color);
     const struct disc *last = &discs[STATIONS - 1], *before = &discs[STATIONS - 3];
     const float dx = last->middle[0] - before->middle[0], dy = last->middle[1] - before->middle[1];
     const float share = last->radius / fmaxf(hypotf(dx, dy), 1);
@@ -186,17 +165,18 @@ static const struct stage_character *find_shown(const struct stage *stage, int c
 
 /// Poses its surface and puts that on the screen, in the memory for what is pointed at, which is posed anew then.
 static bool project_surface(struct stage *stage, const struct core *core, const struct figure *figure,
-                            const struct morph *morph, const float position[3], float low[2], float high[2])
+                            const struct morph *morph, const float position[3])
 {
     float(*posed)[3] = stage->skin.posed;
     if (figure->character.vertex_count > stage->skin.capacity) return false;
     stage->skin.hash = 0;
+    silhouette_clear(&stage->silhouette);
     morph_places(figure, morph, position, posed);
     for (int i = 0; i < figure->character.vertex_count; i++) {
         float xy[2];
         if (!stage_project_point(stage, core->layout.stage, posed[i], xy)) return false;
         memcpy(posed[i], xy, sizeof xy);
-        widen(low, high, xy, 0);
+        silhouette_widen(&stage->silhouette, xy, 0);
     }
     return true;
 }
@@ -207,21 +187,20 @@ static bool show_character(struct stage *stage, struct core *core, const struct 
     const struct figure *figure = pose->character.figure;
     const struct stage_character *shown = find_shown(stage, character);
     struct silhouette *silhouette = &stage->silhouette;
-    float low[2] = {INFINITY, INFINITY}, high[2] = {-INFINITY, -INFINITY};
-    if (!shown || !project_surface(stage, core, figure, &pose->character.morph, shown->position, low, high))
+    if (!shown || !project_surface(stage, core, figure, &pose->character.morph, shown->position) ||
+        !silhouette_open(silhouette, core->layout.stage))
         return false;
-    const struct rect area = part_of_stage(core, low, high);
-    if (area.w <= 0 || area.h <= 0) return false;
-    silhouette_clear(silhouette, area);
+    const float all[3] = {1e6f, 1e6f, 1e6f};
     for (int t = 0; t < figure->character.index_count; t += 3) {
         float corner[3][2];
         for (int k = 0; k < 3; k++)
             memcpy(corner[k], stage->skin.posed[figure->character.indices[t + k]], sizeof corner[k]);
-        silhouette_add_triangle(silhouette, (const float(*)[2])corner);
+        silhouette_add_triangle(silhouette, (const float(*)[2])corner, all);
     }
     silhouette_soften(silhouette);
     for (int count; (count = silhouette_follow(silhouette)) > 0;)
-        if (count > LEAST_POINTS) drawlist_line(&core->list, silhouette->points[0], count, width, color);
+        drawlist_line(&core->list, silhouette->points[0], count, width, color);
+    const float *low = silhouette->low, *high = silhouette->high;
     tip[0] = fminf(high[0], core->layout.stage.x + 0.9f * core->layout.stage.w);
     tip[1] = fmaxf(0.7f * low[1] + 0.3f * high[1], core->layout.stage.y + 20);
     return true;

@@ -4,12 +4,33 @@
 #include <math.h>
 #include <string.h>
 
+enum { LEAST_POINTS = 12 }; ///< of an outline that is no speck
+
 static const float FINEST = 2;   ///< pixels from node to node
+static const float AROUND = 8;   ///< pixels beside the stage that outlines reach, so that their edge is not seen
 static const float OUTSIDE = -2; ///< cells; what is farther away makes no difference
 
-void silhouette_clear(struct silhouette *silhouette, struct rect area)
+void silhouette_clear(struct silhouette *silhouette)
 {
+    silhouette->low[0] = silhouette->low[1] = INFINITY;
+    silhouette->high[0] = silhouette->high[1] = -INFINITY;
+}
+
+void silhouette_widen(struct silhouette *silhouette, const float middle[2], float radius)
+{
+    for (int k = 0; k < 2; k++) {
+        silhouette->low[k] = fminf(silhouette->low[k], middle[k] - radius);
+        silhouette->high[k] = fmaxf(silhouette->high[k], middle[k] + radius);
+    }
+}
+
+bool silhouette_open(struct silhouette *silhouette, struct rect stage)
+{
+    const float *low = silhouette->low, *high = silhouette->high;
+    const struct rect box = {low[0], low[1], high[0] - low[0], high[1] - low[1]};
+    const struct rect area = rect_intersect(rect_inset(stage, -AROUND), rect_inset(box, -AROUND));
     const float across = fmaxf(area.w, area.h) / (SILHOUETTE_SIDE - 3);
+    if (area.w <= 0 || area.h <= 0) return false;
     silhouette->cell = fmaxf(FINEST, across);
     silhouette->area = rect_inset(area, -silhouette->cell);
     silhouette->columns = (int)(silhouette->area.w / silhouette->cell) + 1;
@@ -19,6 +40,7 @@ void silhouette_clear(struct silhouette *silhouette, struct rect area)
             silhouette->inside[row][column] = OUTSIDE * silhouette->cell;
         memset(silhouette->followed[row], 0, sizeof silhouette->followed[row]);
     }
+    return true;
 }
 
 /// The nodes between two places of an axis, all but the outermost, which stay outside so that every outline closes.
@@ -84,7 +106,7 @@ static float turn(const float a[2], const float b[2], const float c[2])
     return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
 }
 
-void silhouette_add_triangle(struct silhouette *silhouette, const float corner[3][2])
+void silhouette_add_triangle(struct silhouette *silhouette, const float corner[3][2], const float inside[3])
 {
     float low[2], high[2];
     int columns[2], rows[2];
@@ -93,15 +115,16 @@ void silhouette_add_triangle(struct silhouette *silhouette, const float corner[3
         high[k] = fmaxf(corner[0][k], fmaxf(corner[1][k], corner[2][k]));
     }
     find_nodes(silhouette, low, high, columns, rows);
-    const float sign = turn(corner[0], corner[1], corner[2]) < 0 ? -1 : 1, covered = -OUTSIDE * silhouette->cell;
-    for (int row = rows[0]; row <= rows[1]; row++) {
+    const float area = turn(corner[0], corner[1], corner[2]), most = -OUTSIDE * silhouette->cell;
+    for (int row = rows[0]; row <= rows[1] && area != 0; row++) {
         for (int column = columns[0]; column <= columns[1]; column++) {
             const float p[2] = {node_x(silhouette, column), node_y(silhouette, row)};
-            if (silhouette->inside[row][column] >= covered) continue; // by another one, as on a body's far side
-            const bool covers = sign * turn(corner[0], corner[1], p) >= 0 &&
-                                sign * turn(corner[1], corner[2], p) >= 0 &&
-                                sign * turn(corner[2], corner[0], p) >= 0;
-            if (covers) silhouette->inside[row][column] = covered;
+            float *node = &silhouette->inside[row][column], share[3];
+            if (*node >= most) continue; // by another one, as on a body's far side
+            for (int k = 0; k < 3; k++) share[k] = turn(corner[(k + 1) % 3], corner[(k + 2) % 3], p) / area;
+            if (!(share[0] >= 0 && share[1] >= 0 && share[2] >= 0)) continue;
+            const float depth = share[0] * inside[0] + share[1] * inside[1] + share[2] * inside[2];
+            *node = larger(*node, depth < most ? depth : most);
         }
     }
 }
@@ -186,7 +209,8 @@ int silhouette_follow(struct silhouette *silhouette)
     for (int row = 1; row + 1 < silhouette->rows; row++) {
         for (int column = 0; column + 1 < silhouette->columns; column++) {
             if (silhouette->followed[row][column] || !crosses(silhouette, row, column, SIDE_TOP)) continue;
-            return follow_from(silhouette, row, column);
+            const int count = follow_from(silhouette, row, column);
+            if (count > LEAST_POINTS) return count;
         }
     }
     return 0;

@@ -8,6 +8,7 @@ enum { SILHOUETTE_SIDE = 208, SILHOUETTE_POINTS = 4096 };
 
 /// How far inside each node of the grid is, pixels; negative outside.
 struct silhouette {
+    float low[2], high[2]; ///< of what is to be painted
     struct rect area;
     float cell; ///< pixels from node to node
     int columns, rows;
@@ -17,15 +18,21 @@ struct silhouette {
     float points[2 * SILHOUETTE_POINTS][2]; ///< of the outline that was followed last, and as much room again
 };
 
-/// Nothing yet, in a part of the screen.
-void silhouette_clear(struct silhouette *silhouette, struct rect area);
+/// Nothing yet.
+void silhouette_clear(struct silhouette *silhouette);
+/// A disc will be painted within what this widens.
+void silhouette_widen(struct silhouette *silhouette, const float middle[2], float radius);
+/// Opens the grid for all that; false where nothing of it is on the stage.
+bool silhouette_open(struct silhouette *silhouette, struct rect stage);
 /// Two discs and what is between them.
 void silhouette_add_link(struct silhouette *silhouette, const float from[2], float from_radius, const float to[2],
                          float to_radius);
-void silhouette_add_triangle(struct silhouette *silhouette, const float corner[3][2]);
+/// A triangle whose corners are that far inside, pixels.
+void silhouette_add_triangle(struct silhouette *silhouette, const float corner[3][2], const float inside[3]);
 /// Rounds the steps of triangles off.
 void silhouette_soften(struct silhouette *silhouette);
-/// Follows the next outline into `points`, closed: the last point is the first. How many, 0 after the last outline.
+/// Follows the next outline that can be told from a speck into `points`, closed: the last point is the first. How many, 0 after the
+/// last outline.
 int silhouette_follow(struct silhouette *silhouette);
 
 #endif
