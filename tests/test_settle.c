@@ -2,7 +2,7 @@
 #include "near.h"
 
 #include "curve.h"
-#include "editor/inspector/settle.h"
+#include "editor/inspector/response.h"
 #include "spline_of.h"
 #include <math.h>
 

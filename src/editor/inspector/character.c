@@ -44,7 +44,7 @@ static void build_drives(struct inspector *in, const struct character_rig *rig)
 }
 
 /// The coordinate of the shown character that the active spline drives, where that is the selected one.
-static const struct drive *felt_drive(const struct inspector *in)
+static const void *felt_drive(const struct inspector *in)
 {
     const struct character_view *view = &in->core->characters;
     const struct character_rig *rig = document_character(in->core->document, view->character);
@@ -66,21 +66,16 @@ static bool set_drive(struct inspector *in, const struct drive *drive, struct er
     return edit_drive(in->core->document, characters_rig(in->core), in->core->characters.drive, drive, error);
 }
 
-static double get_drive_number(const struct inspector *in, int which)
-{
-    return number_at(&drive_rows[which], felt_drive(in));
-}
-
 static bool set_drive_number(struct inspector *in, int which, double number, struct error *error)
 {
-    struct drive drive = *felt_drive(in);
+    struct drive drive = *(const struct drive *)felt_drive(in);
     number_put(&drive_rows[which], &drive, number);
     return set_drive(in, &drive, error);
 }
 
 void inspector_felt_drive(struct inspector *in)
 {
-    static const struct number_home home = {.get = get_drive_number, .set = set_drive_number};
+    static const struct number_home home = {.of = felt_drive, .set = set_drive_number};
     if (felt_drive(in)) inspector_numbers(in, drive_rows, sizeof drive_rows / sizeof drive_rows[0], &home);
 }
 
@@ -149,12 +144,7 @@ static void build_facts(struct inspector *in)
     }
 }
 
-static double get_floor(const struct inspector *in, int which)
-{
-    const struct character_rig *rig = characters_selected(in->core);
-    (void)which;
-    return rig->has_floor ? rig->floor : rig->position[1];
-}
+static const void *selected(const struct inspector *in) { return characters_selected(in->core); }
 
 static bool set_floor(struct inspector *in, int which, double height, struct error *error)
 {
@@ -162,34 +152,26 @@ static bool set_floor(struct inspector *in, int which, double height, struct err
     return edit_floor(in->core->document, characters_rig(in->core), true, height, error);
 }
 
-static const struct number_row floor_row = {"floor.height",
-                                            "height",
-                                            "m",
-                                            "No point of the character goes lower",
-                                            "Set floor",
-                                            NUMBER_AT(struct character_rig, floor),
-                                            -1,
-                                            0,
-                                            -INSPECTOR_NO_LIMIT,
-                                            INSPECTOR_NO_LIMIT,
-                                            0,
-                                            0.01,
-                                            3};
+static const struct number_row floor_rows[] = {
+    {"floor.height", "height", "m", "No point of the character goes lower", "Set floor",
+     NUMBER_AT(struct character_rig, floor), -1, 0, -INSPECTOR_NO_LIMIT, INSPECTOR_NO_LIMIT, 0, 0.01, 3},
+};
 
 /// Whether nothing of it may be below a height, and which.
 static void build_floor(struct inspector *in, const struct character_rig *rig)
 {
     static const struct ui_choice choices[] = {{"off", "Off"}, {"on", "On"}};
-    static const struct number_home home = {.get = get_floor, .set = set_floor};
+    static const struct number_home home = {.of = selected, .set = set_floor};
     const int owner = characters_rig(in->core);
     int on = rig->has_floor;
     if (inspector_choice(in, "floor", "Keep the whole character above a height", "floor", choices, 2, &on)) {
         if (core_begin(in->core, on ? "Set floor" : "Remove floor", 0))
-            core_end(in->core, edit_floor(in->core->document, owner, on, get_floor(in, 0), &in->core->error));
+            core_end(in->core, edit_floor(in->core->document, owner, on,
+                                          rig->has_floor ? rig->floor : rig->position[1], &in->core->error));
         return;
     }
     if (!rig->has_floor) return;
-    inspector_numbers(in, &floor_row, 1, &home);
+    inspector_numbers(in, floor_rows, 1, &home);
     const struct floor_left *left = evaluation_floor(in->core->evaluation, owner);
     if (!left || left->depth < 1e-4) return;
     char text[120];

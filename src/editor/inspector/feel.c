@@ -3,7 +3,6 @@
 #include "editor/core/core.h"
 #include "editor/core/knots.h"
 #include "editor/inspector/parts.h"
-#include "editor/inspector/settle.h"
 #include "scene/order.h"
 #include <math.h>
 #include <stdio.h>

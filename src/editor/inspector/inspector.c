@@ -351,6 +351,12 @@ void number_put(const struct number_row *row, void *of, double number)
     }
 }
 
+static double get_number(const struct inspector *in, const struct number_row *row, const struct number_home *home,
+                         int which)
+{
+    return home->of ? number_at(row, home->of(in)) : home->get(in, which);
+}
+
 /// A drag stays where it last was possible.
 static void drag(struct inspector *in, const struct number_home *home, int which, double value)
 {
@@ -370,7 +376,7 @@ static void change_number(struct inspector *in, const struct number_row *row, co
     const bool is_first = change == UI_DRAG && !history_is_open(in->core->history);
     in->change = change;
     if (!inspector_begin(in, change, row->undo, row->name)) return;
-    if (is_first) in->dragged = home->get(in, which);
+    if (is_first) in->dragged = get_number(in, row, home, which);
     if (change == UI_DRAG) drag(in, home, which, value);
     inspector_end(in, change, change == UI_DRAG || home->set(in, which, value, &in->core->error));
 }
@@ -380,7 +386,7 @@ enum ui_change inspector_number(struct inspector *in, const struct number_row *r
 {
     const bool waits = home->settles && ui_is_dragged(&in->ui, row->name);
     char shown[64];
-    double value = waits ? in->dragged : home->get(in, which);
+    double value = waits ? in->dragged : get_number(in, row, home, which);
     struct ui_number number = {.name = row->name,
                                .label = row->label,
                                .unit = row->unit,

@@ -21,22 +21,20 @@ static const struct number_row rows[] = {
      WHOLE_AT(struct meadow_rig, seed), 0, 999, 0, 999999, 0, 1, 0},
 };
 
-static const struct meadow_rig *shown(const struct inspector *in)
+static const void *shown(const struct inspector *in)
 {
     return &in->core->document->rigs[document_find_rig(in->core->document, RIG_MEADOW, 0)]->meadow;
 }
 
-static double get(const struct inspector *in, int which) { return number_at(&rows[which], shown(in)); }
-
 static bool set(struct inspector *in, int which, double number, struct error *error)
 {
-    struct meadow_rig meadow = *shown(in);
+    struct meadow_rig meadow = *(const struct meadow_rig *)shown(in);
     number_put(&rows[which], &meadow, number);
     return edit_meadow(in->core->document, document_find_rig(in->core->document, RIG_MEADOW, 0), &meadow, error);
 }
 
 void inspector_meadow(struct inspector *in)
 {
-    static const struct number_home home = {.get = get, .set = set};
+    static const struct number_home home = {.of = shown, .set = set};
     inspector_numbers(in, rows, sizeof rows / sizeof rows[0], &home);
 }

@@ -68,10 +68,7 @@ static const struct number_row place[] = {
      -36000, 36000, 0, 1, 0},
 };
 
-static double get(const struct inspector *in, int which)
-{
-    return number_at(&place[which], &in->core->document->rigs[shown_model(in)]->model);
-}
+static const void *shown_rig(const struct inspector *in) { return &in->core->document->rigs[shown_model(in)]->model; }
 
 static bool set(struct inspector *in, int which, double number, struct error *error)
 {
@@ -115,7 +112,7 @@ void inspector_model(struct inspector *in)
 {
     const int model = shown_model(in);
     const struct imported *shown = bones_character(in->core, model);
-    static const struct number_home home = {.get = get, .set = set};
+    static const struct number_home home = {.of = shown_rig, .set = set};
     in->model = document_rig_number(in->core->document, model);
     build_file(in, &in->core->document->rigs[model]->model, shown);
     build_clip(in, &in->core->document->rigs[model]->model, shown);

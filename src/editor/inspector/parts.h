@@ -62,8 +62,10 @@ bool inspector_begin(struct inspector *in, enum ui_change change, const char *la
 /// After the edits. Not `done`: they are taken back.
 void inspector_end(struct inspector *in, enum ui_change change, bool done);
 
-/// Where the numbers of a table are: what number `which` is, and the edit that makes it another.
+/// Where the numbers of a table are: the struct that holds number `which` (or, without one, what it is), and the edit that makes it
+/// another.
 struct number_home {
+    const void *(*of)(const struct inspector *in);
     double (*get)(const struct inspector *in, int which);
     bool (*set)(struct inspector *in, int which, double number, struct error *error);
     bool settles; ///< they are set once a drag has ended, by a step of their own or none, because that may ask before

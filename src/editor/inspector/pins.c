@@ -105,10 +105,10 @@ static const struct number_row rows[ROWS] = {
      -INSPECTOR_NO_LIMIT, INSPECTOR_NO_LIMIT, NAN, 0.005, 3},
 };
 
-static double get(const struct inspector *in, int which)
+static const void *selected(const struct inspector *in)
 {
     int rig;
-    return number_at(&rows[which], pins_selected(in->core, &rig));
+    return pins_selected(in->core, &rig);
 }
 
 static bool set(struct inspector *in, int which, double number, struct error *error)
@@ -132,7 +132,7 @@ static void build_field(struct inspector *in, int field)
         row.label = word_of(pinned);
         row.highest = points_of(in, rig) - 1;
     }
-    static const struct number_home home = {.get = get, .set = set};
+    static const struct number_home home = {.of = selected, .set = set};
     const enum ui_change change = inspector_number(in, &row, &home, field, ui_row(&in->ui, UI_ROW));
     if (inspector_changed(change)) pins_tell(in->core, rig);
 }

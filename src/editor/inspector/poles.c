@@ -2,7 +2,6 @@
 #include "editor/core/core.h"
 #include "editor/core/knots.h"
 #include "editor/inspector/parts.h"
-#include "editor/inspector/response.h"
 #include "ui/font.h"
 #include "ui/theme.h"
 #include <math.h>

@@ -168,11 +168,7 @@ static void build_of(struct inspector *in)
     if (core_begin(in->core, "Set joint's motion", 0)) core_end(in->core, follow_joint(in, &param, &in->core->error));
 }
 
-static double get_gain(const struct inspector *in, int which)
-{
-    (void)which;
-    return followed(in)->gain;
-}
+static const void *followed_gain(const struct inspector *in) { return followed(in); }
 
 static bool set_gain(struct inspector *in, int which, double gain, struct error *error)
 {
@@ -184,25 +180,16 @@ static bool set_gain(struct inspector *in, int which, double gain, struct error 
     return follow_joint(in, &param, error);
 }
 
-static const struct number_row gain_row = {"joint.gain",
-                                           "times",
-                                           NULL,
-                                           "How much of the joint's motion it follows",
-                                           "Set joint's gain",
-                                           NUMBER_AT(struct param, gain),
-                                           0,
-                                           0,
-                                           -1e6,
-                                           1e6,
-                                           1,
-                                           0.01,
-                                           2};
+static const struct number_row gain_rows[] = {
+    {"joint.gain", "times", NULL, "How much of the joint's motion it follows", "Set joint's gain",
+     NUMBER_AT(struct param, gain), 0, 0, -1e6, 1e6, 1, 0.01, 2},
+};
 
 static void build_joint(struct inspector *in)
 {
     if (followed(in)->motion) build_of(in);
-    static const struct number_home home = {.get = get_gain, .set = set_gain};
-    if (followed(in)->motion) inspector_numbers(in, &gain_row, 1, &home);
+    static const struct number_home home = {.of = followed_gain, .set = set_gain};
+    if (followed(in)->motion) inspector_numbers(in, gain_rows, 1, &home);
 }
 
 static void build_number(struct inspector *in, enum parameter parameter)

@@ -199,10 +199,7 @@ static const struct number_row size[] = {
      NUMBER_AT(struct tail, length), 0.2, 4, 1e-3, 1e6, TAIL_DEFAULT_LENGTH, 0.05, 2},
 };
 
-static double get_size(const struct inspector *in, int which)
-{
-    return number_at(&size[which], &inspector_shown(in)->tail);
-}
+static const void *shown_tail(const struct inspector *in) { return &inspector_shown(in)->tail; }
 
 static bool set_size(struct inspector *in, int which, double number, struct error *error)
 {
@@ -337,25 +334,12 @@ static void build_end(struct inspector *in, const struct end *end, const char *b
         bones_pick(in->core, picking ? BONE_SELECTED : end->use, rig);
 }
 
-static const struct number_row turn_row = {"chain.turn",
-                                           "turn",
-                                           "°",
-                                           "Turns the axes of side and up about the chain's own direction",
-                                           "Turn chain's axes",
-                                           NUMBER_AT(struct chain, turn),
-                                           -180,
-                                           180,
-                                           -36000,
-                                           36000,
-                                           0,
-                                           1,
-                                           0};
+static const struct number_row turn_rows[] = {
+    {"chain.turn", "turn", "°", "Turns the axes of side and up about the chain's own direction", "Turn chain's axes",
+     NUMBER_AT(struct chain, turn), -180, 180, -36000, 36000, 0, 1, 0},
+};
 
-static double get_turn(const struct inspector *in, int which)
-{
-    (void)which;
-    return inspector_shown(in)->chain.turn;
-}
+static const void *shown_chain(const struct inspector *in) { return &inspector_shown(in)->chain; }
 
 static bool set_turn(struct inspector *in, int which, double degrees, struct error *error)
 {
@@ -387,11 +371,11 @@ static void build_twin(struct inspector *in)
 /// What a chain is made of, its place in the list of chains aside; and the buttons that make its twin and take it away.
 static void build_chain(struct inspector *in)
 {
-    static const struct number_home home = {.get = get_turn, .set = set_turn};
+    static const struct number_home home = {.of = shown_chain, .set = set_turn};
     const struct chain *chain = &inspector_shown(in)->chain;
     build_end(in, &ends[0], chain->from);
     build_end(in, &ends[1], chain->to);
-    inspector_numbers(in, &turn_row, 1, &home);
+    inspector_numbers(in, turn_rows, 1, &home);
     build_mirror(in);
     build_twin(in);
 }
@@ -400,7 +384,7 @@ static void build_chain(struct inspector *in)
 static void build_shown(struct inspector *in)
 {
     const bool is_tail = inspector_shown(in)->kind == RIG_TAIL;
-    static const struct number_home home = {.get = get_size, .set = set_size};
+    static const struct number_home home = {.of = shown_tail, .set = set_size};
     if (in->channel >= rig_input_count(inspector_shown(in))) in->channel = 0;
     build_channels(in);
     if (is_tail) inspector_angles(in, ANGLE_REST);
