@@ -15,10 +15,11 @@ static const char first_line[] = "wiggly-replay 1";
 static const char size_limits[] = "a width and a height from 64 to 16384";
 
 struct replay {
-    char *path, *text;
-    char *at; ///< the next line
-    int next_line;
-    int line; ///< the last one that was looked at, for messages
+    char *path, *text, *end;
+    char *at;    ///< what is still to be cut into lines
+    int number;  ///< of the last line that was cut off
+    char *event; ///< the next event's line; NULL: there is none
+    int line;    ///< the one that is being read, for messages
     struct replay_header header;
 };
 
@@ -34,37 +35,18 @@ static bool bad_line(const struct replay *replay, struct error *error, const cha
                 got ? "\"" : "", got ? got : "the end of the line", got ? "\"" : "");
 }
 
-/// Skips blank lines and `#` comments and returns where the next line begins; NULL at the end of the text.
-static char *seek_line(struct replay *replay)
+/// Cuts off the next line that is neither blank nor a `#` comment; NULL at the end of the text. The line ends are gone already.
+static char *next_line(struct replay *replay)
 {
-    for (; *replay->at; replay->at++, replay->next_line++) {
-        replay->at += strspn(replay->at, " \t\r\v\f");
-        if (*replay->at && *replay->at != '\n' && *replay->at != '#') break;
-        replay->at = strchrnul(replay->at, '\n');
-        if (!*replay->at) break;
+    while (replay->at < replay->end) {
+        char *line = replay->at, *end = line + strlen(line);
+        replay->at = end + 1;
+        replay->number++;
+        line += strspn(line, " \t\r\v\f");
+        while (end > line && isspace((unsigned char)end[-1])) *--end = '\0';
+        if (*line && *line != '#') return line;
     }
-    replay->line = replay->next_line;
-    return *replay->at ? replay->at : NULL;
-}
-
-/// Goes past the line that seek_line() found; returns where it ends.
-static char *pass_line(struct replay *replay)
-{
-    char *end = strchrnul(replay->at, '\n');
-    replay->at = *end ? end + 1 : end;
-    replay->next_line++;
-    return end;
-}
-
-/// Cuts the next line off; NULL at the end of the text.
-static char *take_line(struct replay *replay)
-{
-    char *line = seek_line(replay);
-    if (!line) return NULL;
-    char *end = pass_line(replay);
-    while (isspace((unsigned char)end[-1])) end--; // a line begins with something else
-    *end = '\0';
-    return line;
+    return NULL;
 }
 
 /// Words are separated by spaces; within a target's brackets spaces belong to it.
@@ -133,12 +115,15 @@ static bool read_header_line(struct replay *replay, const struct words *w, struc
 
 static bool read_header(struct replay *replay, struct error *error)
 {
-    char *line = take_line(replay);
-    if (!line || strcmp(line, first_line) != 0) return bad_line(replay, error, "\"wiggly-replay 1\"", line);
-    while ((line = seek_line(replay)) != NULL && !isdigit((unsigned char)*line)) {
-        struct words words = split(take_line(replay));
+    const char *first = next_line(replay);
+    replay->line = replay->number;
+    if (!first || strcmp(first, first_line) != 0) return bad_line(replay, error, "\"wiggly-replay 1\"", first);
+    while ((replay->event = next_line(replay)) && !isdigit((unsigned char)*replay->event)) {
+        struct words words = split(replay->event);
+        replay->line = replay->number;
         if (!read_header_line(replay, &words, error)) return false;
     }
+    replay->line = replay->number;
     if (replay->header.width > 0 && replay->header.frames >= 0) return true;
     return fail(error, ERROR_INPUT, "%s:%d: expected a header with size and frames", replay->path, replay->line);
 }
@@ -148,30 +133,32 @@ static bool read_header(struct replay *replay, struct error *error)
 static bool check_frames(struct replay *replay, struct error *error)
 {
     char *at = replay->at;
-    int next_line = replay->next_line;
+    int number = replay->number;
     long last = 0, limit = replay->header.frames ? replay->header.frames : MAX_FRAMES;
-    for (char *line; (line = seek_line(replay)) != NULL; pass_line(replay)) {
+    for (char *line = replay->event; line; line = next_line(replay)) {
         char *end;
         long frame = strtol(line, &end, 10);
         if (end == line || !isspace((unsigned char)*end) || frame < last || frame >= limit) {
-            struct words words = split(take_line(replay));
+            struct words words = split(line);
             return fail(error, ERROR_INPUT, "%s:%d: expected an event in a frame from %ld to %ld, got \"%.40s\"",
-                        replay->path, replay->line, last, limit - 1, words.word[0]);
+                        replay->path, replay->number, last, limit - 1, words.word[0]);
         }
         last = frame;
     }
     if (replay->header.frames == 0) replay->header.frames = last + 1;
     replay->at = at;
-    replay->next_line = next_line;
+    replay->number = number;
     return true;
 }
 
 /// Reads the text that a replay was made for, and checks it.
 static struct replay *finish(struct replay *replay, size_t size, struct error *error)
 {
-    replay->at = replay->text;
     const bool whole =
         strlen(replay->text) == size || fail(error, ERROR_INPUT, "%s: expected text, got a NUL byte", replay->path);
+    replay->at = replay->text;
+    replay->end = replay->text + size;
+    for (char *end = replay->text; (end = strchr(end, '\n'));) *end++ = '\0';
     if (whole && read_header(replay, error) && check_frames(replay, error)) return replay;
     replay_destroy(replay);
     return NULL;
@@ -183,7 +170,6 @@ static struct replay *create(const char *path)
     replay->path = need_text(path);
     replay->header.scale = replay->header.ui_scale = 1;
     replay->header.frames = -1;
-    replay->next_line = 1;
     return replay;
 }
 
@@ -393,14 +379,11 @@ static bool read_event(struct event_line *c, struct event *event)
 bool replay_next(struct replay *replay, long frame, replay_locate *locate, void *user, struct event *event,
                  struct error *error)
 {
-    char *line = seek_line(replay);
-    if (!line || strtol(line, NULL, 10) > frame) return false;
-    struct event_line c = {.replay = replay,
-                           .words = split(take_line(replay)),
-                           .next = 1,
-                           .locate = locate,
-                           .user = user,
-                           .error = error};
+    if (!replay->event || strtol(replay->event, NULL, 10) > frame) return false;
+    replay->line = replay->number;
+    struct event_line c = {
+        .replay = replay, .words = split(replay->event), .next = 1, .locate = locate, .user = user, .error = error};
+    replay->event = next_line(replay);
     return read_event(&c, event);
 }
 
