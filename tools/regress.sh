@@ -1,7 +1,6 @@
 #!/bin/sh
 # Frame times of two builds on the committed session, compared. Both play it at once and draw their frames in turn, so that
-# frame n of one is measured milliseconds from frame n of the other, and whatever else the machine does hits both. A build
-# that knows no --turns plays whole sessions in turn, which says far less.
+# frame n of one is measured milliseconds from frame n of the other, and whatever else the machine does hits both.
 # Usage: tools/regress.sh <old wiggly> <new wiggly> <timing_diff> <output folder>   (PAIRS, at least 11, from the environment)
 set -eu
 old=$1 new=$2 timing_diff=$3 out=$4
@@ -36,22 +35,9 @@ in_turn() { # <pair> <old's turn> <new's turn>; the pipes open in this order or 
     [ "$new_failed" -eq 0 ] || stop "$new" "$out/new.txt"
 }
 
-one_by_one() { # <pair>
-    play "$old" "$out/old-$1.csv" "$out/old.txt" || stop "$old" "$out/old.txt"
-    play "$new" "$out/new-$1.csv" "$out/new.txt" || stop "$new" "$out/new.txt"
-}
-
-takes_turns=1
-for program in "$old" "$new"; do
-    "$program" live --help | grep -q -e '--turns' || takes_turns=0
-done
-[ "$takes_turns" -eq 1 ] || echo "regress: a build without --turns: whole sessions are played in turn, a change of less than 10 % may be missed"
-
 pair=1
 while [ "$pair" -le "$pairs" ]; do
-    if [ "$takes_turns" -eq 0 ]; then
-        one_by_one "$pair"
-    elif [ $((pair % 2)) -eq 1 ]; then
+    if [ $((pair % 2)) -eq 1 ]; then
         in_turn "$pair" first second
     else
         in_turn "$pair" second first

@@ -1,7 +1,7 @@
 /// timing_diff old.csv new.csv: what became slower or faster, number by number, and how sure that is.
 ///
-/// Exit status 1 where something became worse by more than its limit or a counter differs in any frame; 2 where the logs cannot be compared;
-/// else 0.
+/// The logs are of the same frames, so frame n of one is compared with frame n of the other. Exit status 1 where something became worse by
+/// more than its limit or a counter differs in any frame; 2 where the logs cannot be compared; else 0.
 #include "base/need.h"
 #include "regress/bootstrap.h"
 #include "timing/columns.h"
@@ -32,10 +32,8 @@ struct tally {
 /// Two logs and room to compare them.
 struct comparison {
     const struct timing_log *old, *new;
-    struct segments segments;
-    bool by_run; ///< segments are runs: at least eight in both; else stretches of 60 frames
-    bool
-        same_shape; ///< as many runs of as many frames in both: frame n did the same work, so frames are compared one by one
+    int segments;
+    bool by_run; ///< segments are runs: at least eight; else stretches of 60 frames
     struct observation *old_items, *new_items, *ratios; ///< private
     struct tally *old_tallies, *new_tallies;            ///< private
 };
@@ -63,6 +61,7 @@ static int segment_of(const struct comparison *c, const struct timing_log *log, 
     return c->by_run ? log->run[row] : row / STRETCH_FRAMES;
 }
 
+/// As many runs of as many frames in both: frame n did the same work.
 static bool has_same_shape(const struct timing_log *old, const struct timing_log *new)
 {
     if (old->rows != new->rows) return false;
@@ -75,15 +74,14 @@ static bool has_same_shape(const struct timing_log *old, const struct timing_log
 
 static struct comparison comparison_open(const struct timing_log *old, const struct timing_log *new)
 {
-    struct comparison c = {.old = old, .new = new, .same_shape = has_same_shape(old, new)};
-    c.by_run = old->runs >= RUNS_ENOUGH && new->runs >= RUNS_ENOUGH;
-    c.segments = (struct segments){segment_of(&c, old, old->rows - 1) + 1, segment_of(&c, new, new->rows - 1) + 1,
-                                   c.same_shape};
-    c.old_items = need_zeroed((size_t)old->rows, sizeof *c.old_items);
-    c.new_items = need_zeroed((size_t) new->rows, sizeof *c.new_items);
-    c.ratios = need_zeroed((size_t)old->rows, sizeof *c.ratios);
-    c.old_tallies = need_zeroed((size_t)old->rows, sizeof *c.old_tallies); // at most a run or a stretch a frame
-    c.new_tallies = need_zeroed((size_t) new->rows, sizeof *c.new_tallies);
+    const size_t rows = (size_t)old->rows;
+    struct comparison c = {.old = old, .new = new, .by_run = old->runs >= RUNS_ENOUGH};
+    c.segments = segment_of(&c, old, old->rows - 1) + 1;
+    c.old_items = need_zeroed(rows, sizeof *c.old_items);
+    c.new_items = need_zeroed(rows, sizeof *c.new_items);
+    c.ratios = need_zeroed(rows, sizeof *c.ratios);
+    c.old_tallies = need_zeroed(rows, sizeof *c.old_tallies); // at most a run or a stretch a frame
+    c.new_tallies = need_zeroed(rows, sizeof *c.new_tallies);
     return c;
 }
 
@@ -128,20 +126,19 @@ struct question {
     double p;
 };
 
-static double quantile_growth(const int *old_weight, const int *new_weight, const void *user)
+static double quantile_growth(const int *weight, const void *user)
 {
     const struct question *q = user;
-    return ratio_of(weighted_quantile(q->new, q->new_count, new_weight, q->p),
-                    weighted_quantile(q->old, q->old_count, old_weight, q->p)) -
+    return ratio_of(weighted_quantile(q->new, q->new_count, weight, q->p),
+                    weighted_quantile(q->old, q->old_count, weight, q->p)) -
            1;
 }
 
 /// The median of ratios, which are in `new`.
-static double frame_growth(const int *old_weight, const int *new_weight, const void *user)
+static double frame_growth(const int *weight, const void *user)
 {
-    (void)old_weight;
     const struct question *q = user;
-    return weighted_quantile(q->new, q->new_count, new_weight, 0.5) - 1;
+    return weighted_quantile(q->new, q->new_count, weight, 0.5) - 1;
 }
 
 static bool is_past(const struct estimate *change, struct limit limit)
@@ -156,20 +153,20 @@ static double plain_quantile(const struct observation *sorted, int count, double
     return sorted[below].value + (position - below) * (sorted[above].value - sorted[below].value);
 }
 
-/// Quantiles of a column. The change of p50 is the median of new over old frame by frame where the logs have the same shape,
-/// which detects a few percent; else the ratio of the medians. False if one of the logs has no measurement: no change then.
+/// Quantiles of a column. The change of p50 is the median of new over old frame by frame, which detects a few percent. False if no frame
+/// was measured in both logs: no change then.
 static bool compare_times(struct comparison *c, int column, struct change changes[QUANTILE_COUNT])
 {
     const struct column *about = &timing_columns[column];
     int old_count = observe(c, c->old, column, c->old_items), new_count = observe(c, c->new, column, c->new_items);
-    int ratios = c->same_shape ? observe_ratios(c, column) : 0;
-    if (old_count == 0 || new_count == 0) return false;
+    int ratios = observe_ratios(c, column);
+    if (ratios == 0) return false;
     for (int i = 0; i < QUANTILE_COUNT; i++) {
         struct change *change = &changes[i];
-        bool by_frame = i == QUANTILE_P50 && ratios > 0;
+        bool by_frame = i == QUANTILE_P50;
         struct question question = {c->old_items, c->new_items, old_count, new_count, compared_quantiles[i]};
         if (by_frame) question.new = c->ratios, question.new_count = ratios;
-        change->change = bootstrap(&c->segments, by_frame ? frame_growth : quantile_growth, &question);
+        change->change = bootstrap(c->segments, by_frame ? frame_growth : quantile_growth, &question);
         change->old = plain_quantile(c->old_items, old_count, compared_quantiles[i]);
         change->new = plain_quantile(c->new_items, new_count, compared_quantiles[i]);
         double grew = by_frame && change->old > 0 ? change->change.value * change->old : change->new - change->old;
@@ -189,23 +186,26 @@ static double mean(const struct tally *tallies, const int *weight, int count)
     return sum / of;
 }
 
-static double mean_growth(const int *old_weight, const int *new_weight, const void *user)
+static double mean_growth(const int *weight, const void *user)
 {
     const struct comparison *c = user;
-    return mean(c->new_tallies, new_weight, c->segments.new_count) -
-           mean(c->old_tallies, old_weight, c->segments.old_count);
+    return mean(c->new_tallies, weight, c->segments) - mean(c->old_tallies, weight, c->segments);
 }
 
-/// Frames over the budget in every segment.
-static void tally_share(const struct comparison *c, const struct timing_log *log, double budget,
-                        struct tally *tallies)
+/// Frames over the budget in every segment; returns their share of all.
+static double tally_share(const struct comparison *c, const struct timing_log *log, double budget,
+                          struct tally *tallies)
 {
+    double sum = 0;
     for (int row = 0; row < log->rows; row++) {
         struct tally *tally = &tallies[segment_of(c, log, row)];
         if (row == 0 || tally != &tallies[segment_of(c, log, row - 1)]) *tally = (struct tally){0, 0};
-        tally->sum += value_at(log, row, COLUMN_FRAME_MS) > budget;
+        const bool over = value_at(log, row, COLUMN_FRAME_MS) > budget;
+        tally->sum += over;
         tally->of += 1;
+        sum += over;
     }
+    return sum / log->rows;
 }
 
 /// The longest run of frames over the budget in every run of the program; returns the mean over these.
@@ -224,27 +224,18 @@ static double tally_longest(const struct timing_log *log, double budget, struct 
     return sum / log->runs;
 }
 
-static double all_of(const struct tally *tallies, int count)
-{
-    double sum = 0, of = 0;
-    for (int i = 0; i < count; i++) sum += tallies[i].sum, of += tallies[i].of;
-    return sum / of;
-}
-
 /// Share of frames over a budget, and the mean over the runs of the longest run of them; without an interval unless segments are runs.
 static void compare_budget(struct comparison *c, double budget_ms, struct change *share, struct change *longest)
 {
-    tally_share(c, c->old, budget_ms, c->old_tallies);
-    tally_share(c, c->new, budget_ms, c->new_tallies);
-    share->old = all_of(c->old_tallies, c->segments.old_count);
-    share->new = all_of(c->new_tallies, c->segments.new_count);
-    share->change = bootstrap(&c->segments, mean_growth, c);
+    share->old = tally_share(c, c->old, budget_ms, c->old_tallies);
+    share->new = tally_share(c, c->new, budget_ms, c->new_tallies);
+    share->change = bootstrap(c->segments, mean_growth, c);
     share->worse = is_past(&share->change, share_limit);
 
     longest->old = tally_longest(c->old, budget_ms, c->old_tallies);
     longest->new = tally_longest(c->new, budget_ms, c->new_tallies);
     longest->change = (struct estimate){longest->new - longest->old, NAN, NAN};
-    if (c->by_run) longest->change = bootstrap(&c->segments, mean_growth, c);
+    if (c->by_run) longest->change = bootstrap(c->segments, mean_growth, c);
     longest->worse = is_past(&longest->change, longest_limit) && longest->new > LONGER * longest->old;
 }
 
@@ -254,12 +245,11 @@ static void compare_budget(struct comparison *c, double budget_ms, struct change
 static bool compare_counter(const struct timing_log *old, const struct timing_log *new, int column)
 {
     const char *name = timing_columns[column].name;
-    for (int row = 0; row < old->rows && row < new->rows; row++) {
-        double before = old->values[(size_t)row * COLUMN_COUNT + (size_t)column];
-        double after = new->values[(size_t)row * COLUMN_COUNT + (size_t)column];
+    for (int row = 0; row < old->rows; row++) {
+        double before = value_at(old, row, column), after = value_at(new, row, column);
         if (before == after || (isnan(before) && isnan(after))) continue;
         printf("%-18s DIFFERS first in run %d, frame %g: %g, now %g\n", name, old->run[row] + 1,
-               old->values[(size_t)row * COLUMN_COUNT + COLUMN_FRAME], before, after);
+               value_at(old, row, COLUMN_FRAME), before, after);
         return false;
     }
     printf("%-18s the same in every frame\n", name);
@@ -302,7 +292,6 @@ static bool compare_budgets(struct comparison *comparison)
 
 static bool compare(struct comparison *comparison)
 {
-    const struct timing_log *old = comparison->old, *new = comparison->new;
     bool good = true;
     printf("%-18s %4s %12s %12s %10s  99 %% interval\n", "", "", "old", "new", "change");
     for (int c = 0; c < COLUMN_COUNT; c++) {
@@ -310,13 +299,8 @@ static bool compare(struct comparison *comparison)
         if (use == COLUMN_COST || use == COLUMN_WAIT) good &= compare_column(comparison, c);
     }
     good &= compare_budgets(comparison);
-    if (!comparison->same_shape) {
-        printf("counters           NOT COMPARED over all frames: %d frames of %d runs, now %d of %d\n", old->rows,
-               old->runs, new->rows, new->runs);
-        good = false;
-    }
     for (int c = 0; c < COLUMN_COUNT; c++) {
-        if (timing_columns[c].use == COLUMN_COUNTER) good &= compare_counter(old, new, c);
+        if (timing_columns[c].use == COLUMN_COUNTER) good &= compare_counter(comparison->old, comparison->new, c);
     }
     return good;
 }
@@ -330,7 +314,11 @@ int main(int argc, char **argv)
     struct timing_log old = {0}, new = {0};
     struct error error = {0};
     int status = 2;
-    if (timing_log_read(argv[1], &old, &error) && timing_log_read(argv[2], &new, &error)) {
+    const bool read = timing_log_read(argv[1], &old, &error) && timing_log_read(argv[2], &new, &error);
+    if (read && !has_same_shape(&old, &new)) {
+        fprintf(stderr, "timing_diff: expected two logs of the same frames, got %d frames of %d runs and %d of %d\n",
+                old.rows, old.runs, new.rows, new.runs);
+    } else if (read) {
         struct comparison comparison = comparison_open(&old, &new);
         status = compare(&comparison) ? 0 : 1;
         comparison_close(&comparison);

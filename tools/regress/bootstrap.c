@@ -4,7 +4,6 @@
 #include "regress/bootstrap.h"
 #include "base/need.h"
 #include "timing/columns.h"
-#include <assert.h>
 #include <math.h>
 #include <stdint.h>
 #include <stdlib.h>
@@ -52,35 +51,22 @@ static void draw_segments(int *weight, int segments, uint64_t *random)
     for (int i = 0; i < segments; i++) weight[next_random(random) % (uint64_t)segments]++;
 }
 
-static void resample(const struct segments *segments, bootstrap_quantity *quantity, const void *user, int *old_weight,
-                     int *new_weight, double *values, struct estimate *result)
+struct estimate bootstrap(int segments, bootstrap_quantity *quantity, const void *user)
 {
+    int *weight = need((size_t)segments, sizeof *weight), count = 0;
+    double *values = need(RESAMPLES, sizeof *values);
     uint64_t random = 1;
-    int count = 0;
+    for (int i = 0; i < segments; i++) weight[i] = 1;
+    struct estimate result = {.value = quantity(weight, user)};
     for (int i = 0; i < RESAMPLES; i++) {
-        draw_segments(old_weight, segments->old_count, &random);
-        if (!segments->paired) draw_segments(new_weight, segments->new_count, &random);
-        double value = quantity(old_weight, segments->paired ? old_weight : new_weight, user);
+        draw_segments(weight, segments, &random);
+        const double value = quantity(weight, user);
         if (!isnan(value)) values[count++] = value;
     }
     statistics_sort(values, count);
-    result->low = statistics_quantile(values, count, 0.005);
-    result->high = statistics_quantile(values, count, 0.995);
-}
-
-struct estimate bootstrap(const struct segments *segments, bootstrap_quantity *quantity, const void *user)
-{
-    assert(!segments->paired || segments->old_count == segments->new_count);
-    int *old_weight = need((size_t)segments->old_count, sizeof *old_weight);
-    int *new_weight = need((size_t)segments->new_count, sizeof *new_weight);
-    double *values = need(RESAMPLES, sizeof *values);
-    struct estimate result;
-    for (int i = 0; i < segments->old_count; i++) old_weight[i] = 1;
-    for (int i = 0; i < segments->new_count; i++) new_weight[i] = 1;
-    result.value = quantity(old_weight, new_weight, user);
-    resample(segments, quantity, user, old_weight, new_weight, values, &result);
-    free(old_weight);
-    free(new_weight);
+    result.low = statistics_quantile(values, count, 0.005);
+    result.high = statistics_quantile(values, count, 0.995);
+    free(weight);
     free(values);
     return result;
 }
