@@ -1,7 +1,5 @@
 /// Angles along a tail: looked up, read, printed, edited, and resampled for another number of joints.
-#include "near.h"
-
-#include "rig/posing.h"
+#include "posed_tail.h"
 #include "world.h"
 #include <stdlib.h>
 #include <string.h>

@@ -1,6 +1,6 @@
 /// Chains: bones of imported characters, whatever their rolls, bend as the tail does.
-#include "near.h"
-#include "rig/chain_bones.h"
+#include "posed_tail.h"
+#include "rig/strand.h"
 
 #include "model/vector.h"
 #include <math.h>
@@ -58,22 +58,27 @@ static void free_character(struct imported *imported)
     gltf_pose_free(&imported->rest);
 }
 
-static const float still[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+struct points {
+    float point[BONES + 1][3];
+};
 
-/// The points of bone_1 … bone_8 bent by the chain's channels, at rest otherwise.
+/// Where bone_1 … bone_8 begin, bent by the chain's channels and at rest otherwise, and the tip.
 static void bend(const struct imported *imported, const struct chain *chain, const wiggly_value *values,
-                 struct chain_pose *points)
+                 struct points *points)
 {
-    struct chain_bones bones;
+    struct strand strand;
     struct gltf_pose pose;
-    assert_true(chain_find(&imported->gltf, "bone_1", "bone_8", &bones, NULL));
+    assert_true(strand_of_chain(chain, imported, &strand));
+    assert_int_equal(strand.joints, BONES);
     assert_true(gltf_pose_create(&imported->gltf, &pose));
     gltf_pose_clip(&imported->gltf, -1, 0, &pose);
-    chain_bend(imported, chain, &bones, values, LOOK_WIGGLY, &pose);
+    strand_bend(&strand, values, LOOK_WIGGLY, &pose);
     gltf_pose_world(&imported->gltf, &pose);
-    chain_points(imported, &bones, &pose, still, points);
+    for (int n = 0; n <= BONES; n++) memcpy(points->point[n], pose.world[n + 1] + 12, sizeof points->point[n]);
     gltf_pose_free(&pose);
 }
+
+static char first[] = "bone_1", last[] = "bone_8";
 
 static struct channel channel_of(enum axis axis, double gain)
 {
@@ -85,15 +90,15 @@ TEST(test_bends_as_the_tail_does)
     struct imported imported = make_character();
     struct channel channels[] = {channel_of(AXIS_SIDE, 9), channel_of(AXIS_UP, 6)};
     const wiggly_value values[] = {{.y = 0.2, .re = 1, .im = -0.5}, {.re = -0.7, .im = 0.9}};
-    const struct chain chain = {.channels = channels, .channel_count = 2};
+    const struct chain chain = {.from = first, .to = last, .channels = channels, .channel_count = 2};
     struct tail tail = {.joints = BONES, .length = LENGTH, .channels = channels, .channel_count = 2};
     for (int k = 0; k < 3; k++) tail.position[k] = param_number(k == 1 ? 1 : 0);
-    struct chain_pose points;
+    struct points points;
     struct pose expected;
     bend(&imported, &chain, values, &points);
     pose_tail(&tail, values, LOOK_WIGGLY, &expected);
-    assert_int_equal(points.count, expected.count);
-    for (int n = 0; n < points.count; n++) {
+    assert_int_equal(expected.count, BONES + 1);
+    for (int n = 0; n <= BONES; n++) {
         for (int k = 0; k < 3; k++) assert_near(points.point[n][k], expected.matrix[n][12 + k], 2e-6);
     }
     assert_true(fabsf(points.point[BONES][0]) > 0.1f);
@@ -105,8 +110,8 @@ TEST(test_axes_turn_and_mirror)
     struct imported imported = make_character();
     struct channel side = channel_of(AXIS_SIDE, 9);
     const wiggly_value value = {.re = 1};
-    struct chain chain = {.channels = &side, .channel_count = 1};
-    struct chain_pose plain, mirrored, turned;
+    struct chain chain = {.from = first, .to = last, .channels = &side, .channel_count = 1};
+    struct points plain, mirrored, turned;
     bend(&imported, &chain, &value, &plain);
     chain.mirror = true;
     bend(&imported, &chain, &value, &mirrored);
@@ -126,8 +131,8 @@ TEST(test_twist_turns_without_moving)
     struct imported imported = make_character();
     struct channel twist = channel_of(AXIS_TWIST, 9);
     const wiggly_value value = {.re = 1};
-    const struct chain chain = {.channels = &twist, .channel_count = 1};
-    struct chain_pose points;
+    const struct chain chain = {.from = first, .to = last, .channels = &twist, .channel_count = 1};
+    struct points points;
     bend(&imported, &chain, &value, &points);
     for (int n = 0; n <= BONES; n++) assert_near(points.point[n][0], 0, 2e-6);
     free_character(&imported);

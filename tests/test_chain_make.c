@@ -127,8 +127,8 @@ static double tip_off(const struct stand *stand, int sample)
     struct rig_pose still, swung;
     assert_true(rig_pose(&unsolved, rig, sample, NULL, &still));
     assert_true(rig_pose(&posing, rig, sample, NULL, &swung));
-    const int tip = swung.chain.count - 1;
-    return (double)(swung.chain.point[tip][0] - still.chain.point[tip][0]);
+    const int tip = swung.strand.count - 1;
+    return (double)(swung.strand.matrix[tip][12] - still.strand.matrix[tip][12]);
 }
 
 /// For a tail that points to the back, side × along is -x; its spline is in metres that way.

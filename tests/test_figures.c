@@ -177,8 +177,8 @@ TEST_WITH(NULL, close_figure, test_figure6)
     for (int i = 0; i < count; i++) {
         struct rig_pose pose;
         assert_true(rig_pose(&posing, 0, i, NULL, &pose));
-        bend[0][i] = heading(&pose.tail, BASE);
-        bend[1][i] = heading(&pose.tail, LATE) - heading(&pose.tail, LATE - 1);
+        bend[0][i] = heading(&pose.strand, BASE);
+        bend[1][i] = heading(&pose.strand, LATE) - heading(&pose.strand, LATE - 1);
     }
     for (int shift = 0; shift < 24; shift++) {
         double sum = 0;

@@ -25,7 +25,7 @@ static const struct pose *pose_at(double frame)
     static struct rig_pose pose;
     const struct posing posing = {.document = scene.document, .evaluation = &scene.evaluation};
     assert_true(rig_pose(&posing, 0, frame * scene.document->substeps, NULL, &pose));
-    return &pose.tail;
+    return &pose.strand;
 }
 
 TEST(the_start_scene_breathes_and_blinks)

@@ -262,10 +262,8 @@ static void stage_point(const struct stand *stand, int rig, int point, double fr
         const struct figure *figure = pose.character.figure;
         morph_vertex(figure, &pose.character.morph, point, at, NULL);
         for (int k = 0; k < 3; k++) at[k] += pose.character.position[k] - (k == 1 ? figure->lo[1] : 0);
-    } else if (pose.kind == RIG_TAIL) {
-        memcpy(at, pose.tail.matrix[point + 1] + 12, 3 * sizeof *at);
     } else {
-        memcpy(at, pose.chain.point[point + 1], 3 * sizeof *at);
+        memcpy(at, pose.strand.matrix[point + 1] + 12, 3 * sizeof *at);
     }
 }
 

@@ -1,8 +1,7 @@
 /// The tail's pose: directions and units of the file format, lag (paper, section 7.1), and the default scene's
 /// motion.
 #include "model/fox.h"
-#include "near.h"
-#include "rig/posing.h"
+#include "posed_tail.h"
 #include "rig/shadow.h"
 #include "scene/load.h"
 #include <math.h>
@@ -115,7 +114,8 @@ TEST(displacement_leaves_out_what_the_base_does)
     channels[0].of = PART_DISPLACEMENT;
     pose_tail(&tail, &value, LOOK_WIGGLY, &moved);
     assert_memory_equal(pose.matrix, moved.matrix, (size_t)pose.count * sizeof pose.matrix[0]);
-    pose_move(&moved, (const double[3]){1.0, -2.0, 0.5});
+    for (int k = 0; k < 3; k++) tail.position[k].value += (const double[3]){1.0, -2.0, 0.5}[k];
+    pose_tail(&tail, &value, LOOK_WIGGLY, &moved);
     assert_near(moved.matrix[JOINTS][12], pose.matrix[JOINTS][12] + 1.0, 1e-6);
     assert_near(moved.matrix[0][13], pose.matrix[0][13] - 2.0, 1e-6);
     assert_near(moved.matrix[5][14], pose.matrix[5][14] + 0.5, 1e-6);
@@ -204,7 +204,7 @@ static void pose_at(const struct scene *scene, double frame, struct pose *pose)
     const struct posing posing = {.document = scene->document, .evaluation = &scene->evaluation};
     struct rig_pose posed;
     assert_true(rig_pose(&posing, 0, frame, NULL, &posed));
-    *pose = posed.tail;
+    *pose = posed.strand;
 }
 
 static double distance(const float a[3], const float b[3])

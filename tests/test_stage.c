@@ -2,8 +2,8 @@
 #include "model/fox.h"
 #include "models/fox_maker.h"
 #include "offscreen.h"
+#include "posed_tail.h"
 #include "rig/camera.h"
-#include "rig/posing.h"
 #include "rig/shadow.h"
 #include "ui/theme.h"
 #include <math.h>

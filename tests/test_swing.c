@@ -166,6 +166,14 @@ TEST(test_nothing_pulls_a_cubic_back)
     assert_false(swing_filter(&spline, parameter, &filter));
 }
 
+static void find_arm(const struct tail *tail, struct swing_arm *arm)
+{
+    struct rig rig = {.kind = RIG_TAIL, .tail = *tail};
+    struct rig *rigs[] = {&rig};
+    struct document document = {.rigs = rigs, .rig_count = 1};
+    assert_true(swing_arm(&(struct posing){.document = &document}, 0, arm));
+}
+
 /// A channel of the total swings its tip about as far as the base goes; one of the displacement says itself how far, and then it
 /// alone hangs on the base.
 TEST(test_scale_and_direction)
@@ -178,7 +186,7 @@ TEST(test_scale_and_direction)
     const struct spline spline = spline_of(WIGGLY_COMPLEX, 1, 0.1, 0.1);
     struct swing_filter filter = filter_of(&spline);
     struct swing_arm arm;
-    swing_arm_of_tail(&tail, &arm);
+    find_arm(&tail, &arm);
     double scale = swing_scale(&arm, &channels[0], &filter), bend = 4 * turn / 360 * scale * filter.peak, tip = 0;
     for (int n = 0; n < 40; n++) tip += bend * 1.6 * (40 - n) / 40;
     assert_near(tip, 1, 1e-12);
@@ -192,7 +200,7 @@ TEST(test_scale_and_direction)
     tail.rest.form = ANGLES_EACH;
     tail.rest.count = tail.joints;
     tail.rest.value[0] = 30; // lifted by 30 degrees: moving away in front of it presses it down
-    swing_arm_of_tail(&tail, &arm);
+    find_arm(&tail, &arm);
     swing_direction(&arm, AXIS_UP, direction);
     assert_near(direction[1], cos(turn / 12), 1e-6);
     assert_near(direction[2], -sin(turn / 12), 1e-6);

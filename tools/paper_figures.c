@@ -284,8 +284,8 @@ static void write_tail(const char *folder)
     fputs("frame,joint,x,y,z\n", csv);
     for (int sample = 0; sample < s.evaluation.samples; sample++) {
         rig_pose(&posing, 0, sample, NULL, &pose);
-        for (int j = 0; j < pose.tail.count; j++) {
-            const float *at = &pose.tail.matrix[j][12];
+        for (int j = 0; j < pose.strand.count; j++) {
+            const float *at = &pose.strand.matrix[j][12];
             fprintf(csv, "%g,%d,%.9g,%.9g,%.9g\n", document_frame(s.document, sample), j, at[0], at[1], at[2]);
         }
     }
@@ -295,14 +295,14 @@ static void write_tail(const char *folder)
             wide * (i % PER_ROW) + 30, TOP + i / PER_ROW * (ROW + GAP), wide - 60, ROW, -0.35, 2.15, -1.1, 1.1};
         char text[32];
         rig_pose(&posing, 0, 24 + i * EVERY, NULL, &pose);
-        for (int j = 0; j < pose.tail.count; j++) {
-            x[j] = pose.tail.matrix[j][14];
-            z[j] = pose.tail.matrix[j][12];
+        for (int j = 0; j < pose.strand.count; j++) {
+            x[j] = pose.strand.matrix[j][14];
+            z[j] = pose.strand.matrix[j][12];
         }
         snprintf(text, sizeof text, "frame %g", document_frame(s.document, 24 + i * EVERY));
         svg_text(svg, f.x, f.y + 6, "start", text);
         svg_line(svg, f.x, at_y(&f, 0), f.x + f.w, at_y(&f, 0), grey, 1);
-        svg_curve(svg, &f, x, z, pose.tail.count, accent, 5);
+        svg_curve(svg, &f, x, z, pose.strand.count, accent, 5);
     }
     svg_end(svg, "figure6");
     finish(csv, "figure6");

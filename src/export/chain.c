@@ -3,11 +3,9 @@
 #include "base/need.h"
 #include "export/form.h"
 #include "model/vector.h"
-#include "rig/chain_bones.h"
+#include "rig/strand.h"
 #include <stdio.h>
 #include <stdlib.h>
-
-static const float still[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
 
 /// What a chain needs of its model.
 struct limb {
@@ -19,21 +17,20 @@ static bool open(const struct posing *posing, int rig, const struct rig_pose *po
                  struct error *error)
 {
     const struct chain *chain = &posing->document->rigs[rig]->chain;
-    const struct imported *imported = pose->chain.imported;
+    const struct imported *imported = pose->model.imported;
     struct limb *limb = form->owned = need(1, sizeof *limb);
-    struct chain_pose rest;
+    float rest[ANGLES_MAX_JOINTS + 1][3];
     limb->imported = imported;
     if (!chain_find(&imported->gltf, chain->from, chain->to, &limb->bones, error)) return false;
-    chain_points(imported, &limb->bones, &imported->rest, still, &rest);
+    chain_points_at_rest(imported, &limb->bones, rest);
     form->joint_count = limb->bones.count;
     form->joints = need_zeroed((size_t)form->joint_count, sizeof *form->joints);
     for (int n = 0; n < form->joint_count; n++) {
         form->joints[n].parent = n - 1;
         snprintf(form->joints[n].name, FORM_NAME, "%.60s", imported->gltf.nodes[limb->bones.node[n]].name);
-        for (int k = 0; k < 3; k++) form->joints[n].offset[k] = n > 0 ? rest.point[n][k] - rest.point[n - 1][k] : 0;
+        for (int k = 0; k < 3; k++) form->joints[n].offset[k] = n > 0 ? rest[n][k] - rest[n - 1][k] : 0;
     }
-    for (int k = 0; k < 3; k++)
-        form->tip[k] = rest.point[form->joint_count][k] - rest.point[form->joint_count - 1][k];
+    for (int k = 0; k < 3; k++) form->tip[k] = rest[form->joint_count][k] - rest[form->joint_count - 1][k];
     return true;
 }
 
@@ -55,7 +52,7 @@ static versors turn_of(const struct imported *imported, const struct gltf_pose *
 static void key(const struct form *form, const struct rig_pose *pose, struct form_key *key)
 {
     const struct limb *limb = form->owned;
-    const struct gltf_pose *now = pose->chain.pose;
+    const struct gltf_pose *now = pose->model.pose;
     versors before = glms_quat_identity();
     memcpy(key->translation, now->world[limb->bones.node[0]] + 12, sizeof key->translation);
     for (int n = 0; n < form->joint_count; n++) {
@@ -66,12 +63,5 @@ static void key(const struct form *form, const struct rig_pose *pose, struct for
     }
 }
 
-static void columns(const struct export_range *range, int rig, const struct rig_pose *pose, double key,
-                    form_column *column, void *user)
-{
-    const struct chain *chain = &range->posing->document->rigs[rig]->chain;
-    form_channels(range, rig, chain->channels, chain->channel_count, pose->chain.count - 1, key, column, user);
-}
-
 const struct form_kind chain_form = {
-    .holds = FORM_JOINTS, .open = open, .close = close, .key = key, .columns = columns};
+    .holds = FORM_JOINTS, .open = open, .close = close, .key = key, .columns = form_channels};

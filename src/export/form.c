@@ -1,5 +1,6 @@
 /// Which kinds of rigs are exported.
 #include "export/form.h"
+#include "rig/strand.h"
 #include <stdio.h>
 #include <string.h>
 
@@ -35,19 +36,22 @@ bool form_open(const struct export_range *range, int rig, struct form *form, str
     return false;
 }
 
-void form_channels(const struct export_range *range, int rig, const struct channel *channels, int count, int joints,
-                   double key, form_column *column, void *user)
+void form_channels(const struct export_range *range, int rig, const struct rig_pose *pose, double key,
+                   form_column *column, void *user)
 {
     const struct document *document = range->posing->document;
     const char *name = form_name(document->rigs[rig]);
-    for (int c = 0; c < count; c++) {
-        const struct channel *channel = &channels[c];
+    struct strand strand;
+    (void)pose;
+    if (!strand_find(range->posing, rig_body(document, rig), rig, &strand)) return;
+    for (int c = 0; c < strand.channel_count; c++) {
+        const struct channel *channel = &strand.channels[c];
         const wiggly_value value = range_value(range, channel->spline, key);
         if (!axis_bends(channel->axis))
             column(user, channel_moves(channel, value, 1, range->posing->look), "%s.%s.%s", name,
                    axis_word(channel->axis), document->splines[channel->spline]->name);
-        for (int n = 0; n < joints && axis_bends(channel->axis); n++) {
-            const double angle = channel_bend(channel, value, n, joints, range->posing->look);
+        for (int n = 0; n < strand.joints && axis_bends(channel->axis); n++) {
+            const double angle = channel_bend(channel, value, n, strand.joints, range->posing->look);
             column(user, 180 / 3.14159265358979323846 * angle, "%s.%s.%s.%d", name, axis_word(channel->axis),
                    document->splines[channel->spline]->name, n);
         }

@@ -75,9 +75,9 @@ extern const struct form_kind tail_form, character_form, model_form, chain_form;
 /// How a kind is exported; NULL if it is not.
 const struct form_kind *form_kind(enum rig_kind kind);
 
-/// Columns of the angles in degrees by which channels bend joints.
-void form_channels(const struct export_range *range, int rig, const struct channel *channels, int count, int joints,
-                   double key, form_column *column, void *user);
+/// Columns of the angles in degrees by which the channels of a tail or chain bend its joints.
+void form_channels(const struct export_range *range, int rig, const struct rig_pose *pose, double key,
+                   form_column *column, void *user);
 
 /// What a rig is called in files and messages: its name, or its kind's word.
 const char *form_name(const struct rig *rig);

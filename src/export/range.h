@@ -31,7 +31,7 @@ struct export_range {
 double range_frame(const struct export_range *range, double key);
 double range_seconds(const struct export_range *range, double key);
 
-/// Poses a rig of the document at a key; between two keys for one that is not whole. Outside of the document loops go on, and all
+/// Poses a rig of the document, a chain's model, at a key; between two keys for one that is not whole. Outside of the document loops go on, and all
 /// else stands still. False with a sentence if the rig's model is missing.
 bool range_pose(const struct export_range *range, int rig, double key, struct rig_pose *pose, struct error *error);
 

@@ -54,13 +54,13 @@ static void add_mesh(struct form *form, struct scaled_fox *fox, float scale)
 static void name_joints(struct form *form, int joints, const struct rig_pose *pose)
 {
     static const char *const names[LIMBS] = {"body", "chest", "head", "ear_l", "ear_r", "ear_tip_l", "ear_tip_r"};
-    const float length = pose_length(&pose->tail), segment = length / (float)joints;
+    const float length = pose_length(&pose->strand), segment = length / (float)joints;
     float pivot[LIMBS][3];
     form->joints[0] = (struct form_joint){.parent = -1};
     snprintf(form->joints[0].name, FORM_NAME, "%.50s_base", form->name);
     form->tip[2] = segment;
-    memcpy(form->joints[0].offset, pose->tail.matrix[0] + 12, 3 * sizeof(float));
-    limbs_pivots(pose_scale(&pose->tail), pivot);
+    memcpy(form->joints[0].offset, pose->strand.matrix[0] + 12, 3 * sizeof(float));
+    limbs_pivots(pose_scale(&pose->strand), pivot);
     for (int l = 0; l < LIMBS; l++) {
         struct form_joint *joint = &form->joints[FIRST_LIMB + l];
         const int parent = limb_parents[l];
@@ -88,7 +88,7 @@ static bool open(const struct posing *posing, int rig, const struct rig_pose *po
     (void)error;
     struct scaled_fox *fox = form->owned = need_zeroed(1, sizeof *fox);
     fox_create(fox_level(document_count_rigs(document, RIG_TAIL)), joints, &fox->fox);
-    add_mesh(form, fox, pose_scale(&pose->tail));
+    add_mesh(form, fox, pose_scale(&pose->strand));
     form->joints = need_zeroed((size_t)(FIRST_BONE + joints), sizeof *form->joints);
     form->joint_count = FIRST_BONE + joints;
     form->first_bone = FIRST_BONE;
@@ -126,27 +126,19 @@ static void rotation_between(const float from[16], const float to[16], float rot
 static void key(const struct form *form, const struct rig_pose *pose, struct form_key *key)
 {
     static const float upright[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
-    memcpy(key->translation, pose->tail.matrix[0] + 12, sizeof key->translation);
+    memcpy(key->translation, pose->strand.matrix[0] + 12, sizeof key->translation);
     memcpy(key->rotation[0], (const float[]){0, 0, 0, 1}, sizeof key->rotation[0]);
-    limbs_motions(&pose->tail.limbs, key->rotation + FIRST_LIMB, key->scale + FIRST_LIMB);
+    limbs_motions(&pose->strand.limbs, key->rotation + FIRST_LIMB, key->scale + FIRST_LIMB);
     for (int n = 0; FIRST_BONE + n < form->joint_count; n++)
-        rotation_between(n > 0 ? pose->tail.matrix[n - 1] : upright, pose->tail.matrix[n],
+        rotation_between(n > 0 ? pose->strand.matrix[n - 1] : upright, pose->strand.matrix[n],
                          key->rotation[FIRST_BONE + n]);
 }
 
 static void vertices(const struct form *form, const struct rig_pose *pose, float (*positions)[3])
 {
     const struct scaled_fox *fox = form->owned;
-    fox_pose(&fox->fox, &pose->tail);
+    fox_pose(&fox->fox, &pose->strand);
     fox_places(&fox->fox, positions);
 }
 
-static void columns(const struct export_range *range, int rig, const struct rig_pose *pose, double key,
-                    form_column *column, void *user)
-{
-    const struct tail *tail = &range->posing->document->rigs[rig]->tail;
-    (void)pose;
-    form_channels(range, rig, tail->channels, tail->channel_count, tail->joints, key, column, user);
-}
-
-const struct form_kind tail_form = {FORM_MESH | FORM_JOINTS | FORM_POINTS, open, close, key, vertices, columns};
+const struct form_kind tail_form = {FORM_MESH | FORM_JOINTS | FORM_POINTS, open, close, key, vertices, form_channels};

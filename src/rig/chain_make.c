@@ -1,7 +1,6 @@
 /// Chains with splines of their own.
 #include "rig/chain_make.h"
-#include "rig/chain_bones.h"
-#include "rig/posing_kind.h"
+#include "rig/strand.h"
 #include "scene/edit.h"
 #include <ctype.h>
 #include <math.h>
@@ -77,12 +76,11 @@ static void name_spline(const struct document *document, const char *chain, cons
 /// Metres along the bones at rest.
 static double length_of(const struct imported *imported, const struct chain_bones *bones, double scale)
 {
-    static const float still[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
-    struct chain_pose points;
+    float point[ANGLES_MAX_JOINTS + 1][3];
     double sum = 0;
-    chain_points(imported, bones, &imported->rest, still, &points);
-    for (int n = 1; n < points.count; n++) {
-        const float *a = points.point[n - 1], *b = points.point[n];
+    chain_points_at_rest(imported, bones, point);
+    for (int n = 1; n <= bones->count; n++) {
+        const float *a = point[n - 1], *b = point[n];
         sum += hypot(hypot((double)(b[0] - a[0]), (double)(b[1] - a[1])), (double)(b[2] - a[2]));
     }
     return fmax(scale * sum, 1e-3);

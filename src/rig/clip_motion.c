@@ -1,8 +1,8 @@
 /// Follows joints through clips.
 #include "model/vector.h"
-#include "rig/chain_bones.h"
 #include "rig/pinning_kind.h"
 #include "rig/posing_kind.h"
+#include "rig/strand.h"
 #include <math.h>
 #include <stdlib.h>
 

@@ -5,7 +5,7 @@
 #include <string.h>
 
 static const struct pinning_functions *const kinds[RIG_KINDS] = {
-    [RIG_TAIL] = &tail_pinning, [RIG_CHARACTER] = &character_pinning, [RIG_CHAIN] = &chain_pinning};
+    [RIG_TAIL] = &strand_pinning, [RIG_CHARACTER] = &character_pinning, [RIG_CHAIN] = &strand_pinning};
 
 void pinning_add_channel(const struct channel *channel, int n, int joints, const double way[3], pin_pull c)
 {
@@ -37,7 +37,7 @@ static bool find(void *context, const struct evaluation *evaluation, const struc
 static void weigh(void *context, const struct document *document, int rig, const int *splines, int count,
                   double *weights)
 {
-    const struct posing posing = {.document = document, .models = context};
+    const struct posing posing = {.document = document, .models = context, .at_rest = true};
     const struct pinning_functions *kind = kinds[document->rigs[rig]->kind];
     if (kind) kind->weigh(&posing, rig, splines, count, weights);
 }

@@ -15,7 +15,7 @@ struct pinning_functions {
 bool character_lowest(const struct posing *posing, int rig, double ceiling, double *room, struct low_point *low);
 bool clip_follow(void *context, const struct document *document, const struct joint_motion *motion, double *samples);
 
-extern const struct pinning_functions tail_pinning, character_pinning, chain_pinning;
+extern const struct pinning_functions strand_pinning, character_pinning;
 
 /// Adds what a channel's spline does to a point that a bend of joint n takes along `way`, metres a radian.
 void pinning_add_channel(const struct channel *channel, int n, int joints, const double way[3], pin_pull c);

@@ -1,7 +1,8 @@
-/// Bends a tail's joints by the values of its channels.
+/// Poses tails and chains, and the body that a tail is of.
 #include "model/fox.h"
 #include "model/limbs.h"
 #include "rig/posing_kind.h"
+#include "rig/strand.h"
 #include <math.h>
 
 _Static_assert((int)TAIL_MAX_JOINTS <= (int)POSE_MAX_JOINTS, "a pose holds every tail");
@@ -55,73 +56,51 @@ struct limbs tail_limbs(const struct tail *tail, const wiggly_value *values, enu
     return limbs;
 }
 
-void tail_bend_at(const struct tail *tail, const wiggly_value *values, enum look look, int n, double *side,
-                  double *up)
+void tail_base(const struct posing *posing, int rig, double position, const wiggly_value *values,
+               const struct by_hand *by_hand, double base[3])
 {
-    *side = 0.0;
-    *up = radians(angles_at(&tail->rest, n, tail->joints));
-    for (int c = 0; c < tail->channel_count; c++) {
-        const struct channel *channel = &tail->channels[c];
-        if (!axis_bends(channel->axis)) continue;
-        *(channel->axis == AXIS_UP ? up : side) += channel_bend(channel, values[c], n, tail->joints, look);
-    }
-}
-
-void tail_bend_frame(double frame[16], double side, double up)
-{
-    const double cs = cos(side), ss = sin(side), cu = cos(up), su = sin(up);
+    const struct tail *tail = &posing->document->rigs[rig]->tail;
+    double moved[3];
+    tail_limbs(tail, values, posing->look, base);
+    posing_base(posing, rig, by_hand, moved);
     for (int k = 0; k < 3; k++) {
-        const double x = frame[k], y = frame[4 + k], z = frame[8 + k];
-        const double turned = ss * x + cs * z;
-        frame[k] = cs * x - ss * z;
-        frame[4 + k] = cu * y - su * turned;
-        frame[8 + k] = su * y + cu * turned;
-    }
-}
-
-void pose_tail(const struct tail *tail, const wiggly_value *values, enum look look, struct pose *pose)
-{
-    double frame[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
-    for (int k = 0; k < 3; k++) frame[12 + k] = tail->position[k].track < 0 ? tail->position[k].value : 0.0;
-    const double segment = tail->length / tail->joints, height = FOX_BASE_HEIGHT / FOX_TAIL_LENGTH;
-    pose->ground = tail->position[1].track < 0 ? (float)(tail->position[1].value - height * tail->length) : 0.0f;
-    pose->count = tail->joints + 1;
-    double shift[3];
-    pose->limbs = tail_limbs(tail, values, look, shift);
-    for (int k = 0; k < 3; k++) frame[12 + k] += shift[k];
-    for (int n = 0; n <= tail->joints; n++) {
-        if (n < tail->joints) {
-            double side, up;
-            tail_bend_at(tail, values, look, n, &side, &up);
-            tail_bend_frame(frame, side, up);
-        }
-        for (int k = 0; k < 16; k++) pose->matrix[n][k] = (float)frame[k];
-        for (int k = 0; k < 3; k++) frame[12 + k] += segment * frame[8 + k];
-    }
-}
-
-/// Coordinates of a tail's position that follow splines; 0 for the others.
-static void base_at(const struct posing *posing, const struct tail *tail, double position, double base[3])
-{
-    for (int k = 0; k < 3; k++) {
-        const wiggly_value value = evaluation_at(posing->evaluation, tail->position[k].track, position);
-        base[k] = value.y + value.re;
+        const struct param *param = &tail->position[k];
+        const wiggly_value value = evaluation_at(posing->evaluation, param->track, position);
+        base[k] += moved[k] + (param->track < 0 ? param->value : value.y + value.re);
     }
 }
 
 static bool pose(const struct posing *posing, int rig, double position, const wiggly_value *values,
                  const struct by_hand *by_hand, struct rig_pose *posed)
 {
-    const struct tail *tail = &posing->document->rigs[rig]->tail;
-    double base[3], moved[3];
-    pose_tail(tail, values, posing->look, &posed->tail);
-    base_at(posing, tail, position, base);
-    posing_base(posing, rig, by_hand, moved);
-    for (int k = 0; k < 3; k++) base[k] += moved[k];
-    pose_move(&posed->tail, base);
+    struct pose *strand = &posed->strand;
+    struct path path;
+    (void)values;
+    if (!path_find(posing, rig, position, by_hand, &path)) return false;
+    strand->count = path.count - path.first + 1;
+    for (int n = 0; n < strand->count; n++) {
+        const struct path_node *node = &path.nodes[n + 1 < strand->count ? path.first + n : path.count - 1];
+        const double *at = n + 1 < strand->count ? node->at : path.end;
+        for (int k = 0; k < 12; k++)
+            strand->matrix[n][k] = k % 4 == 3 ? 0.0f : (float)node->frame[3 * (k / 4) + k % 4];
+        for (int k = 0; k < 3; k++) strand->matrix[n][12 + k] = (float)at[k];
+        strand->matrix[n][15] = 1.0f;
+    }
     return true;
 }
 
-static void bounds(const struct rig_pose *posed, float lo[3], float hi[3]) { pose_bounds(&posed->tail, lo, hi); }
+static bool pose_fox(const struct posing *posing, int rig, double position, const wiggly_value *values,
+                     const struct by_hand *by_hand, struct rig_pose *posed)
+{
+    const struct tail *tail = &posing->document->rigs[rig]->tail;
+    const double height = (double)(FOX_BASE_HEIGHT / FOX_TAIL_LENGTH) * tail->length;
+    double shift[3];
+    posed->strand.ground = tail->position[1].track < 0 ? (float)(tail->position[1].value - height) : 0.0f;
+    posed->strand.limbs = tail_limbs(tail, values, posing->look, shift);
+    return pose(posing, rig, position, values, by_hand, posed);
+}
 
-const struct posing_functions tail_posing = {pose, bounds};
+static void bounds(const struct rig_pose *posed, float lo[3], float hi[3]) { pose_bounds(&posed->strand, lo, hi); }
+
+const struct posing_functions tail_posing = {pose_fox, bounds};
+const struct posing_functions chain_posing = {pose, NULL};

@@ -1,7 +1,7 @@
 /// Poses an imported character: its clip, and its chains on top.
 #include "model/vector.h"
-#include "rig/chain_bones.h"
 #include "rig/posing_kind.h"
+#include "rig/strand.h"
 #include <math.h>
 
 double posing_clip_time(const struct document *document, double position, double duration)
@@ -11,59 +11,63 @@ double posing_clip_time(const struct document *document, double position, double
     return time < 0 ? time + duration : time;
 }
 
-static bool is_of(const struct document *document, const struct rig *chain, int model)
+/// The pose of a model's clip, in the memory for what is shown or that for all else; NULL: there is no such model.
+static struct gltf_pose *pose_clip(const struct posing *posing, int rig, double position, bool shown)
 {
-    return chain->kind == RIG_CHAIN &&
-           document_find_model(document, chain->chain.model, chain->chain.by_file) == model;
+    const struct document *document = posing->document;
+    const int number = rig < 0 ? 0 : document_rig_number(document, rig);
+    const struct imported *imported = rig < 0 ? NULL : models_imported(posing->models, number);
+    if (!imported) return NULL;
+    struct gltf_pose *pose = models_pose(posing->models, number, shown);
+    const struct gltf *gltf = &imported->gltf;
+    const char *name = document->rigs[rig]->model.clip;
+    const int clip = name && !posing->at_rest ? gltf_find_clip(gltf, name) : -1;
+    gltf_pose_clip(gltf, clip, clip < 0 ? 0 : posing_clip_time(document, position, gltf->clips[clip].duration), pose);
+    return pose;
 }
 
-/// Bends a chain; one that its model lacks is left out.
-static void add_chain(const struct posing *posing, const struct imported *imported, int rig, double position,
-                      const struct by_hand *by_hand, struct gltf_pose *pose)
+struct gltf_pose *posing_clip(const struct posing *posing, int rig, double position)
 {
-    const struct chain *chain = &posing->document->rigs[rig]->chain;
-    struct chain_bones bones;
-    wiggly_value values[RIG_MAX_INPUTS];
-    if (!chain_find(&imported->gltf, chain->from, chain->to, &bones, NULL)) return;
-    posing_values(posing, rig, position, by_hand, values);
-    chain_bend(imported, chain, &bones, values, posing->look, pose);
+    return pose_clip(posing, rig, position, false);
 }
 
-/// Where it stands: its lowest point at rest on the rig's position.
-static void place(const struct model_rig *rig, const struct imported *imported, const double moved[3], float root[16])
+/// Its lowest point at rest stands on the rig's position.
+void posing_root(const struct posing *posing, int rig, const struct by_hand *by_hand, double root[12])
 {
-    const float scale = (float)rig->scale;
-    vec3s at = {.raw = {0, -scale * imported->gltf.lo[1], 0}};
-    for (int k = 0; k < 3; k++) at.raw[k] += (float)(rig->position[k] + moved[k]);
-    const mat4s turned = glms_rotate_y(glms_translate_make(at), (float)(rig->turn * 3.14159265358979323846 / 180.0));
-    const mat4s scaled = glms_scale_uni(turned, scale);
-    memcpy(root, scaled.raw, sizeof scaled.raw);
+    const struct document *document = posing->document;
+    const struct model_rig *model = &document->rigs[rig]->model;
+    const struct imported *imported = models_imported(posing->models, document_rig_number(document, rig));
+    const double turn = model->turn * 3.14159265358979323846 / 180.0;
+    const double c = model->scale * cos(turn), s = model->scale * sin(turn);
+    const double columns[9] = {c, 0, -s, 0, model->scale, 0, s, 0, c};
+    memcpy(root, columns, sizeof columns);
+    posing_base(posing, rig, by_hand, root + 9);
+    for (int k = 0; k < 3; k++) root[9 + k] += model->position[k];
+    root[10] -= model->scale * (double)imported->gltf.lo[1];
 }
 
 bool posing_model(const struct posing *posing, int rig, double position, int hand, const struct by_hand *by_hand,
                   struct rig_pose *posed)
 {
     const struct document *document = posing->document;
-    const struct model_rig *model = &document->rigs[rig]->model;
-    const int number = document_rig_number(document, rig);
-    const struct imported *imported = models_imported(posing->models, number);
-    struct gltf_pose *pose = models_pose(posing->models, number, posing->shown);
-    if (!imported || !pose) return false;
-    const struct gltf *gltf = &imported->gltf;
-    const int clip = model->clip ? gltf_find_clip(gltf, model->clip) : -1;
-    gltf_pose_clip(gltf, clip, clip < 0 ? 0 : posing_clip_time(document, position, gltf->clips[clip].duration), pose);
+    struct gltf_pose *pose = pose_clip(posing, rig, position, posing->shown);
+    wiggly_value values[RIG_MAX_INPUTS];
+    struct strand strand;
+    double root[12];
+    if (!pose) return false;
+    const struct imported *imported = models_imported(posing->models, document_rig_number(document, rig));
     for (int r = 0; r < document->rig_count; r++) {
-        if (is_of(document, document->rigs[r], rig))
-            add_chain(posing, imported, r, position, r == hand ? by_hand : NULL, pose);
+        if (!strand_find(posing, rig, r, &strand)) continue;
+        posing_values(posing, r, position, r == hand ? by_hand : NULL, values);
+        strand_bend(&strand, values, posing->look, pose);
     }
-    gltf_pose_world(gltf, pose);
+    gltf_pose_world(&imported->gltf, pose);
     posed->kind = RIG_MODEL;
     posed->model.imported = imported;
     posed->model.pose = pose;
-    posed->model.ground = (float)model->position[1];
-    double moved[3];
-    posing_base(posing, rig, rig == hand ? by_hand : NULL, moved);
-    place(model, imported, moved, posed->model.root);
+    posed->model.ground = (float)document->rigs[rig]->model.position[1];
+    posing_root(posing, rig, rig == hand ? by_hand : NULL, root);
+    for (int k = 0; k < 16; k++) posed->model.root[k] = k % 4 == 3 ? k == 15 : (float)root[3 * (k / 4) + k % 4];
     return true;
 }
 

@@ -29,6 +29,7 @@ void posing_values(const struct posing *posing, int index, double position, cons
     add_hands(posing, index, by_hand, &sum);
     for (int i = 0; i < rig_input_count(rig); i++) {
         values[i] = evaluation_at(posing->evaluation, rig_input(rig, i), position);
+        values[i].y += sum.input[i].y;
         values[i].re += sum.input[i].re;
         values[i].im += sum.input[i].im;
     }

@@ -22,24 +22,17 @@ struct posing {
     const struct evaluation *evaluation; ///< NULL: all splines are 0
     const struct models *models;         ///< the characters' models; NULL: none
     enum look look;
+    bool at_rest; ///< clips do not play
     bool shown; ///< an imported character's pose is the one that stays until its next like that; else until any other
     /// Adds to `hand` how a rig of the document is moved by hand; NULL: none is.
     void (*move)(const void *context, int rig, struct by_hand *hand);
     const void *context; ///< for `move`
 };
 
-/// Where the bones of a chain begin, and its tip, in the world.
-struct chain_pose {
-    int count; ///< bones + 1
-    float point[ANGLES_MAX_JOINTS + 1][3];
-    const struct imported *imported; ///< whose bones they are; set by rig_pose(), as the pose
-    const struct gltf_pose *pose;    ///< the models' own: see struct posing
-};
-
 struct rig_pose {
     enum rig_kind kind;
     union {
-        struct pose tail;
+        struct pose strand; ///< a tail or chain: where its joints are, and its tip
         struct {
             const struct figure *figure;
             struct morph morph;
@@ -51,7 +44,6 @@ struct rig_pose {
             float root[16];               ///< its space → world
             float ground;                 ///< height of what it stands on, metres
         } model;
-        struct chain_pose chain;
         struct {
             float lo[3], hi[3]; ///< the box around it
         } meadow;
@@ -63,7 +55,10 @@ struct rig_pose {
 bool rig_pose(const struct posing *posing, int rig, double position, const struct by_hand *by_hand,
               struct rig_pose *pose);
 
-/// The box around a posed rig, metres.
+/// What a rig bends: the model that a chain is of, −1: there is none. All else is a body of its own.
+int rig_body(const struct document *document, int rig);
+
+/// The box around a posed rig that is a body, metres.
 void rig_bounds(const struct rig_pose *pose, float lo[3], float hi[3]);
 
 /// The angle, radians, by which a channel bends joint n of `joints` (eq. 27): gain·(y + Re(e^{−j·lag} x)), without y for
@@ -72,13 +67,6 @@ double channel_bend(const struct channel *channel, wiggly_value value, int n, in
 
 /// How far a channel moves a part of the body, degrees or percent: gain·(y + Re(e^{−j·n·lag} x)), for its n-th joint from 1 on.
 double channel_moves(const struct channel *channel, wiggly_value value, int n, enum look look);
-
-/// Poses a tail at its position, with 0 for coordinates that follow a spline (see pose_move()). `values[c]` is the spline value of
-/// channel c at the time shown. Joint n bends by gain·(y + Re(e^{−j·n·lag} x)) about each channel's axis, without y for
-/// PART_DISPLACEMENT, over rest (which bends up about the `up` axis, positive lifts). LOOK_STIFF takes every lag as 0.
-/// The ground is right below the animal, or at 0 if its height follows a spline.
-/// `side` turns before `up`. Allocates nothing.
-void pose_tail(const struct tail *tail, const wiggly_value *values, enum look look, struct pose *pose);
 
 /// Poses a soft character: its complex normal coordinates, each turned and scaled by its own drive (the paper's
 /// section 7.2, eq. 29 and 30).

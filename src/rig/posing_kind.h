@@ -8,13 +8,19 @@ struct posing_functions {
     /// `values` are those of the rig's inputs; the rest of `pose` is filled in. false if its model is missing.
     bool (*pose)(const struct posing *posing, int rig, double position, const wiggly_value *values,
                  const struct by_hand *by_hand, struct rig_pose *pose);
-    void (*bounds)(const struct rig_pose *pose, float lo[3], float hi[3]);
+    void (*bounds)(const struct rig_pose *pose, float lo[3], float hi[3]); ///< NULL: it is no body
 };
 
 /// Poses an imported character with all its chains; `by_hand` moves the rig `hand`, which is the model or one of its chains. false if
 /// there is no model.
 bool posing_model(const struct posing *posing, int rig, double position, int hand, const struct by_hand *by_hand,
                   struct rig_pose *posed);
+
+/// The places of its bones in its clip alone, in the models' memory for what is not shown; NULL where there is no model.
+struct gltf_pose *posing_clip(const struct posing *posing, int rig, double position);
+
+/// Where an imported character stands: columns and place of its space in the world.
+void posing_root(const struct posing *posing, int rig, const struct by_hand *by_hand, double root[12]);
 
 /// Seconds into a clip, which starts at frame 0 and repeats, at a position in samples.
 double posing_clip_time(const struct document *document, double position, double duration);
@@ -26,16 +32,12 @@ void posing_values(const struct posing *posing, int rig, double position, const 
 /// How far it is moved by hand, metres.
 void posing_base(const struct posing *posing, int rig, const struct by_hand *by_hand, double base[3]);
 
-/// The angles by which joint n of a tail turns about +y (`side`) and lifts (`up`), in radians.
-void tail_bend_at(const struct tail *tail, const wiggly_value *values, enum look look, int n, double *side,
-                  double *up);
-
 /// How the body's parts are moved, and how far that moves the tail's base, metres.
 struct limbs tail_limbs(const struct tail *tail, const wiggly_value *values, enum look look, double shift[3]);
 
-/// frame = frame · R_y(side) · R_x(−up): column-major, columns x, y, z, origin. R_x is negative because a positive angle turns
-/// +z down.
-void tail_bend_frame(double frame[16], double side, double up);
+/// Where a tail begins, metres of the world.
+void tail_base(const struct posing *posing, int rig, double position, const wiggly_value *values,
+               const struct by_hand *by_hand, double base[3]);
 
 /// tail_posing …
 #define POSING_FUNCTIONS(constant, name) extern const struct posing_functions name##_posing;

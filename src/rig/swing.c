@@ -1,8 +1,6 @@
 /// Steps what a spline answers while its base is moved by hand.
 #include "rig/swing.h"
-#include "model/vector.h"
-#include "rig/chain_bones.h"
-#include "rig/posing_kind.h"
+#include "rig/strand.h"
 #include "spline/poles.h"
 #include <math.h>
 
@@ -117,52 +115,24 @@ double swing_scale(const struct swing_arm *arm, const struct channel *channel, c
     return fabs(metres) > 1e-6 ? 1 / (metres * filter->peak) : 0;
 }
 
-void swing_arm_of_tail(const struct tail *tail, struct swing_arm *arm)
-{
-    struct tail still = *tail;
-    struct pose pose;
-    still.channel_count = 0;
-    pose_tail(&still, NULL, LOOK_WIGGLY, &pose);
-    const float *base = pose.matrix[0] + 12, *tip = pose.matrix[pose.count - 1] + 12;
-    const double along = (double)(tip[2] - base[2]), above = (double)(tip[1] - base[1]), length = hypot(along, above);
-    *arm = (struct swing_arm){.joints = tail->joints, .length = tail->length, .direction = {{1, 0, 0}}};
-    arm->direction[AXIS_UP][1] = length > 0 ? along / length : 1;
-    arm->direction[AXIS_UP][2] = length > 0 ? -above / length : 0;
-}
-
-/// At rest, as its character stands.
-static void arm_of_chain(const struct imported *imported, const struct chain *chain, const struct chain_bones *bones,
-                         const float root[16], struct swing_arm *arm)
-{
-    const struct chain_axes axes = chain_axes_at_rest(imported, bones, chain->turn);
-    const float *const about[] = {[AXIS_SIDE] = axes.side, [AXIS_UP] = axes.up};
-    struct chain_pose points;
-    chain_points(imported, bones, &imported->rest, root, &points);
-    *arm = (struct swing_arm){.joints = bones->count};
-    for (int n = 1; n < points.count; n++)
-        arm->length += (double)glms_vec3_distance(vec3_from(points.point[n - 1]), vec3_from(points.point[n]));
-    const vec3s out = glms_vec3_sub(vec3_from(points.point[bones->count]), vec3_from(points.point[0]));
-    for (enum axis axis = AXIS_SIDE; axis <= AXIS_UP; axis++) {
-        const vec3s turned = glms_mat4_mulv3(mat4_from(root), vec3_from(about[axis]), 0.0f);
-        const vec3s way = glms_vec3_normalize(glms_vec3_cross(turned, out));
-        for (int k = 0; k < 3; k++) arm->direction[axis][k] = chain_sign(chain, axis) * (double)way.raw[k];
-    }
-}
-
 bool swing_arm(const struct posing *posing, int rig, struct swing_arm *arm)
 {
-    const struct document *document = posing->document;
-    struct chain_bones bones;
-    struct rig_pose whole;
-    if (document->rigs[rig]->kind == RIG_TAIL) {
-        swing_arm_of_tail(&document->rigs[rig]->tail, arm);
-        return true;
+    const struct posing still = {.document = posing->document, .models = posing->models, .at_rest = true};
+    struct strand strand;
+    struct path path;
+    if (!path_find(&still, rig, 0, NULL, &path)) return false;
+    if (!strand_find(&still, rig_body(still.document, rig), rig, &strand)) return false;
+    const struct path_node *base = &path.nodes[path.first];
+    *arm = (struct swing_arm){.joints = strand.joints, .length = path_length(&path, strand.joints)};
+    path_arms(&path, strand.joints - 1);
+    for (enum axis axis = AXIS_SIDE; axis <= AXIS_UP; axis++) {
+        double turned[3][3], *way = arm->direction[axis];
+        const wiggly_value values[RIG_MAX_INPUTS] = {{0}};
+        strand_turned_axes(&strand, values, 0, turned);
+        path_way(base, turned[axis], way);
+        const double length = hypot(hypot(way[0], way[1]), way[2]);
+        for (int k = 0; k < 3; k++) way[k] = length > 0 ? strand_sign(&strand, axis) * way[k] / length : 0;
     }
-    const struct chain *chain = &document->rigs[rig]->chain;
-    const int model = document_find_model(document, chain->model, chain->by_file);
-    if (model < 0 || !posing_model(posing, model, 0, -1, NULL, &whole)) return false;
-    if (!chain_find(&whole.model.imported->gltf, chain->from, chain->to, &bones, NULL)) return false;
-    arm_of_chain(whole.model.imported, chain, &bones, whole.model.root, arm);
     return true;
 }
 

@@ -42,8 +42,6 @@ struct swing_arm {
     double direction[2][3]; ///< for AXIS_SIDE and AXIS_UP: unit vectors along which the base must move to bend it so
 };
 
-void swing_arm_of_tail(const struct tail *tail, struct swing_arm *arm);
-
 /// Of a rig that is a tail or chain; false where its model is missing.
 bool swing_arm(const struct posing *posing, int rig, struct swing_arm *arm);
 

@@ -131,10 +131,12 @@ static int add_channel(const struct stage *stage, struct core *core, const struc
 }
 
 /// The axis about which a tail bends when its base goes along a coordinate, where no channel of its does; else AXES.
-static enum axis missing_axis(const struct tail *tail, int coordinate, double *share)
+static enum axis missing_axis(const struct stage *stage, const struct core *core, int coordinate, double *share)
 {
-    struct swing_arm arm;
-    swing_arm_of_tail(tail, &arm);
+    const struct tail *tail = tail_of(core->document, stage->body_drag.rig);
+    const struct posing posing = stage_posing(core);
+    struct swing_arm arm = {.joints = 0};
+    swing_arm(&posing, stage->body_drag.rig, &arm);
     const bool up = fabs(arm.direction[AXIS_UP][coordinate]) > fabs(arm.direction[AXIS_SIDE][coordinate]);
     const enum axis axis = up ? AXIS_UP : AXIS_SIDE;
     *share = arm.direction[axis][coordinate];
@@ -150,7 +152,7 @@ static int add_missing(const struct stage *stage, struct core *core, int coordin
     const struct document *document = core->document;
     const struct tail *tail = tail_of(document, stage->body_drag.rig);
     double share;
-    const enum axis axis = missing_axis(tail, coordinate, &share);
+    const enum axis axis = missing_axis(stage, core, coordinate, &share);
     char name[NAME_SIZE];
     if (axis == AXES) return -1;
     snprintf(name, sizeof name, "%.250s %s", rig_title(document->rigs[stage->body_drag.rig]), axis_word(axis));
@@ -166,13 +168,14 @@ static int add_missing(const struct stage *stage, struct core *core, int coordin
 int base_hang_channels(const struct stage *stage, struct core *core, int coordinate, int base)
 {
     const int rig = stage->body_drag.rig, count = tail_of(core->document, rig)->channel_count;
+    const struct posing posing = stage_posing(core);
     for (int c = 0; c < count; c++) {
         const struct tail *tail = tail_of(core->document, rig);
         const struct channel channel = tail->channels[c];
         const struct param *equilibrium = &core->document->splines[channel.spline]->parameter[PARAMETER_EQUILIBRIUM];
         double direction[3], scale = drag_inertia_scale(stage, core->document, rig, c);
-        struct swing_arm arm;
-        swing_arm_of_tail(tail, &arm);
+        struct swing_arm arm = {.joints = 0};
+        swing_arm(&posing, rig, &arm);
         swing_direction(&arm, channel.axis, direction);
         bool swung = stage->body_drag.hangs[c] && fabs(direction[coordinate]) > LEAST_SHARE && scale != 0;
         if (!swung) continue;

@@ -100,10 +100,10 @@ static bool find_stand(const struct stage *stage, const struct core *core, int r
     float lo[3], hi[3];
     if (!rig_pose(&posing, rig, core->playback.position, NULL, &pose)) return false;
     if (pose.kind == RIG_TAIL) {
-        const float *base = pose.tail.matrix[0] + 12, scale = pose_scale(&pose.tail);
+        const float *base = pose.strand.matrix[0] + 12, scale = pose_scale(&pose.strand);
         *stand = (struct stand){{base[0], base[1], base[2]},
                                 {base[0] + scale * ring_middle[0], base[2] + scale * ring_middle[1]},
-                                pose.tail.ground,
+                                pose.strand.ground,
                                 scale * RING_RADIUS};
         return true;
     }

@@ -140,12 +140,12 @@ static bool show_tail(struct stage *stage, struct core *core, const struct pose 
     return true;
 }
 
-static bool show_chain(struct stage *stage, struct core *core, const struct chain_pose *pose, float width,
-                       uint32_t color, float tip[2])
+static bool show_chain(struct stage *stage, struct core *core, const struct pose *pose, float width, uint32_t color,
+                       float tip[2])
 {
     float points[ANGLES_MAX_JOINTS + 1][2];
     for (int n = 0; n < pose->count; n++) {
-        if (!stage_project_point(stage, core->layout.stage, pose->point[n], points[n])) return false;
+        if (!stage_project_point(stage, core->layout.stage, pose->matrix[n] + 12, points[n])) return false;
     }
     if (pose->count == 0) return false;
     drawlist_line(&core->list, points[0], pose->count, width, color);
@@ -214,9 +214,9 @@ static bool proxy_show(struct stage *stage, struct core *core, const struct posi
     if (!rig_pose(posing, rig, sample, NULL, &pose)) return false;
     switch (pose.kind) {
     case RIG_TAIL:
-        return show_tail(stage, core, &pose.tail, width, color, tip);
+        return show_tail(stage, core, &pose.strand, width, color, tip);
     case RIG_CHAIN:
-        return show_chain(stage, core, &pose.chain, width, color, tip);
+        return show_chain(stage, core, &pose.strand, width, color, tip);
     case RIG_CHARACTER:
         return show_character(stage, core, &pose, document_rig_number(posing->document, rig), width, color, tip);
     default:

@@ -3,7 +3,7 @@
 #define EDITOR_STAGE_PARTS_H
 
 #include "editor/stage/state.h"
-#include "rig/chain_bones.h"
+#include "rig/bones.h"
 #include "rig/posing.h"
 #include <math.h>
 

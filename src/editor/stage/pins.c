@@ -375,8 +375,7 @@ static void take_place(const struct rig_pose *pose, int at, float place[3])
         morph_vertex(figure, &pose->character.morph, at, place, NULL);
         for (int k = 0; k < 3; k++) place[k] += pose->character.position[k] - (k == 1 ? figure->lo[1] : 0.0f);
     } else {
-        const float *end = pose->kind == RIG_CHAIN ? pose->chain.point[at + 1] : pose->tail.matrix[at + 1] + 12;
-        memcpy(place, end, 3 * sizeof *place);
+        memcpy(place, pose->strand.matrix[at + 1] + 12, 3 * sizeof *place);
     }
 }
 

@@ -366,7 +366,7 @@ static struct hover hover_at(const struct stage *stage, const struct core *core,
         struct rig_pose pose;
         if (!tail_of(document, rig)) continue;
         stage_pose_strand(stage, core, rig, position, NULL, &pose);
-        const float distance = body_distance(stage, t, &pose.tail, x, y);
+        const float distance = body_distance(stage, t, &pose.strand, x, y);
         if (!(distance >= 0 && distance < farthest)) continue;
         farthest = distance;
         body = (struct hover){.kind = HOVER_BODY, .rig = rig, .x = x, .y = y};

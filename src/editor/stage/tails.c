@@ -85,7 +85,7 @@ static void pose(struct stage *stage, const struct core *core, int rig, int n)
     struct stage_tail *shown = &view->tails[view->tail_count++];
     stage_pose_strand(stage, core, rig, core->playback.position, NULL, &posed);
     strand_add(stage, rig, &posed);
-    *shown = (struct stage_tail){rig, posed.tail};
+    *shown = (struct stage_tail){rig, posed.strand};
     stage_add_fox(view, fox_of(stage, n, fox_level(document_count_rigs(core->document, RIG_TAIL)), tail->joints),
                   &shown->pose);
     add_blobs(view, &shown->pose);
@@ -93,45 +93,28 @@ static void pose(struct stage *stage, const struct core *core, int rig, int n)
 
 const struct stage_kind stage_tails = {.pose = pose, .bound_steps = BOUND_STEPS};
 
-/// The points of a chain of a character that is shown.
-static void add_strand(struct stage *stage, const struct core *core, int rig, int model,
-                       const struct chain_bones *bones)
-{
-    const struct stage_view *view = &stage->view;
-    const int number = document_rig_number(core->document, model);
-    const struct gltf_pose *chain_pose = models_pose(core->models, number, true);
-    for (int m = 0; m < view->model_count; m++) {
-        if (view->models[m].pose != chain_pose) continue;
-        struct rig_pose posed = {.kind = RIG_CHAIN};
-        chain_points(models_imported(core->models, number), bones, chain_pose, view->models[m].root, &posed.chain);
-        strand_add(stage, rig, &posed);
-    }
-}
-
 static void chain_pose(struct stage *stage, const struct core *core, int rig, int n)
 {
     const struct chain *chain = &core->document->rigs[rig]->chain;
     const int model = document_find_model(core->document, chain->model, chain->by_file);
     const struct imported *shown = model >= 0 ? bones_character(core, model) : NULL;
     struct chain_bones bones;
+    struct rig_pose posed;
     (void)n;
     if (!shown || !chain_find(&shown->gltf, chain->from, chain->to, &bones, NULL)) return;
     bones_mark(stage, core, rig, model, &bones);
-    add_strand(stage, core, rig, model, &bones);
+    if (stage_pose_strand(stage, core, rig, core->playback.position, NULL, &posed)) strand_add(stage, rig, &posed);
 }
 
 const struct stage_kind stage_chains = {.pose = chain_pose};
 
 static void take_points(const struct rig_pose *pose, int rig, struct strand *strand)
 {
-    const bool is_chain = pose->kind == RIG_CHAIN;
     strand->rig = rig;
-    strand->is_chain = is_chain;
-    strand->count = is_chain ? pose->chain.count : pose->tail.count;
-    for (int n = 0; n < strand->count; n++) {
-        const float *point = is_chain ? pose->chain.point[n] : pose->tail.matrix[n] + 12;
-        memcpy(strand->point[n], point, sizeof strand->point[n]);
-    }
+    strand->is_chain = pose->kind == RIG_CHAIN;
+    strand->count = pose->strand.count;
+    for (int n = 0; n < strand->count; n++)
+        memcpy(strand->point[n], pose->strand.matrix[n] + 12, sizeof strand->point[n]);
 }
 
 void strand_add(struct stage *stage, int rig, const struct rig_pose *pose)
