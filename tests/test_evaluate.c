@@ -120,7 +120,7 @@ TEST(shortest_curves)
     }
 }
 
-/// A band that turns many times between two samples: beyond what the quick sines are for.
+/// A band that turns many times between two samples.
 TEST(a_band_far_above_the_sample_rate)
 {
     wiggly_curve curve = solved(WIGGLY_COMPLEX, WIGGLY_FREE, NULL, SAMPLES);

@@ -1,8 +1,36 @@
 /// Values between samples (docs/mathematics.md, Phase): Catmull-Rom in the frame that turns with the band's centre,
 ///     x(t) = e^{jω_c t} · CatmullRom(e^{−jω_c t_i} x_i),
 /// so that a free oscillation is followed and not cut across; of x itself in cubic and real mode, and of y.
-#include "spline/evaluate.h"
 #include "spline/poles.h"
+#include <math.h>
+
+/// Index of a neighbour sample, at most two from one of the curve's: wrapped in a loop; -1 where there is none.
+static int neighbour_of(const wiggly_curve *curve, int i)
+{
+    if (curve->start == WIGGLY_LOOP) {
+        int period = curve->samples - 1;
+        return i < 0 ? i + period : i >= period ? i - period : i;
+    }
+    return i < 0 || i >= curve->samples ? -1 : i;
+}
+
+/// A position taken into the domain: sample i (the result) and u beyond it, 0 ≤ u < 1.
+static int locate(const wiggly_curve *curve, double position, double *u)
+{
+    double last = curve->samples - 1;
+    if (!(position >= 0 && position < last)) {
+        if (curve->start == WIGGLY_LOOP) {
+            position -= last * floor(position / last);
+            if (!(position < last)) position = 0; // rounded up to the seam
+        } else {
+            position = fmin(fmax(position, 0), last);
+        }
+        if (!(position >= 0)) position = 0; // NaN
+    }
+    int i = (int)position;
+    *u = position - i;
+    return i;
+}
 
 static double catmull_rom(double before, double from, double to, double after, double u)
 {
@@ -14,13 +42,13 @@ static double catmull_rom(double before, double from, double to, double after, d
 /// what the equilibrium's motion adds to a constant, behind it is not.
 static int beyond(const wiggly_curve *curve, int i)
 {
-    return i < curve->first && i + 2 > curve->first ? -1 : evaluate_neighbour(curve, i + 2);
+    return i < curve->first && i + 2 > curve->first ? -1 : neighbour_of(curve, i + 2);
 }
 
 /// Interpolates array[i … i+1] at u with neighbours, extrapolated linearly where missing.
 static double interpolate(const wiggly_curve *curve, const double *array, int i, int a, double u)
 {
-    int b = evaluate_neighbour(curve, i - 1);
+    int b = neighbour_of(curve, i - 1);
     double from = array[i], to = array[i + 1];
     return catmull_rom(b < 0 ? 2 * from - to : array[b], from, to, a < 0 ? 2 * to - from : array[a], u);
 }
@@ -33,7 +61,7 @@ static cplx turned(const wiggly_curve *curve, int i, cplx base, double angle)
 
 static cplx interpolate_complex(const wiggly_curve *curve, int i, double u)
 {
-    int b = evaluate_neighbour(curve, i - 1), a = beyond(curve, i);
+    int b = neighbour_of(curve, i - 1), a = beyond(curve, i);
     double turn = 0.5 * (curve->omega[i] + curve->omega[i + 1]) * curve->step;
     cplx base = {0, 0};
     if (i < curve->first) base = (cplx){curve->before[0], curve->before[1]};
@@ -49,9 +77,9 @@ wiggly_value wiggly_evaluate(const wiggly_curve *curve, double position)
 {
     if (curve->samples < 1) return (wiggly_value){0};
     double u;
-    int i = evaluate_locate(curve, position, &u);
+    int i = locate(curve, position, &u);
     if (u == 0 || i >= curve->samples - 1) return (wiggly_value){curve->y[i], curve->re[i], curve->im[i]};
-    double y = interpolate(curve, curve->y, i, evaluate_neighbour(curve, i + 2), u);
+    double y = interpolate(curve, curve->y, i, neighbour_of(curve, i + 2), u);
     if (curve->mode != WIGGLY_COMPLEX)
         return (wiggly_value){y, interpolate(curve, curve->re, i, beyond(curve, i), u), 0};
     cplx x = interpolate_complex(curve, i, u);
@@ -59,3 +87,11 @@ wiggly_value wiggly_evaluate(const wiggly_curve *curve, double position)
 }
 
 double wiggly_lagged(wiggly_value value, double lag) { return value.y + cos(lag) * value.re + sin(lag) * value.im; }
+
+void wiggly_evaluate_float(const wiggly_curve *curve, double from, double by, int count, float *out, size_t stride)
+{
+    for (int k = 0; k < count; k++) {
+        const wiggly_value value = wiggly_evaluate(curve, from + by * k);
+        out[(size_t)k * stride] = (float)(value.y + value.re);
+    }
+}
