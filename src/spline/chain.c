@@ -264,7 +264,7 @@ static double take_solution(chain *c)
     double largest = 0;
     if (!c->is_complex) {
         for (int j = 0; j < c->node_count; j++) {
-            double d = c->rows[j].right[0];
+            double d = c->rows[j].right[1];
             c->nodes[j].d_re += d;
             if (!(fabs(d) <= largest)) largest = fabs(d);
         }
@@ -317,7 +317,7 @@ static double sensitivity(chain *c)
         double largest = 0;
         for (int j = 0; j < c->node_count; j++) {
             const double *moved = c->rows[j].right;
-            const double size = fabs(moved[0]) + (c->is_complex ? fabs(moved[1]) + fabs(moved[2]) : 0);
+            const double size = fabs(moved[1]) + (c->is_complex ? fabs(moved[0]) + fabs(moved[2]) : 0);
             if (!(size <= largest)) largest = size;
         }
         change += largest;

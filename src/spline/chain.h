@@ -68,7 +68,7 @@ typedef struct chain_node {
     double x_im, d_re, d_im;    ///< solution
 } chain_node;
 
-/// One block row of the nodes' system: unknowns (Im x, Re d, Im d), or d alone.
+/// One block row of the nodes' system: unknowns (Im x, Re d, Im d), outside complex mode the middle one alone.
 typedef struct chain_row {
     double diagonal[6]; ///< 00 01 02 11 12 22 → inverse of the pivot block
     double below[9];    ///< A_{j+1,j}, row-major → L_{j+1,j}

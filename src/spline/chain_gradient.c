@@ -23,10 +23,6 @@ static cplx mismatch(cplx end, cplx f, cplx x, cplx g, cplx d)
 void chain_pull(const chain *c, int j, cplx on_x, cplx on_d)
 {
     double *right = c->rows[j].right;
-    if (!c->is_complex) {
-        right[0] += on_d.re;
-        return;
-    }
     right[0] += on_x.im, right[1] += on_d.re, right[2] += on_d.im;
 }
 
@@ -92,10 +88,6 @@ void chain_hold_known(const chain *c, int j)
     const unsigned fixed = c->nodes[j].fixed;
     const cplx tie = chain_node_tie(c, &c->nodes[j]);
     bool holds_d = fixed & (NODE_AT_REST | NODE_FIXED_E | NODE_SETTLED);
-    if (!c->is_complex) {
-        if (holds_d) right[0] = 0;
-        return;
-    }
     right[0] += tie.re * right[1] + tie.im * right[2];
     if (fixed & (NODE_AT_REST | NODE_FROM_REST)) right[0] = 0;
     if (holds_d) right[1] = 0;

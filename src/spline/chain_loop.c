@@ -41,22 +41,22 @@ static kernel_rank close_scalars(chain *c)
 {
     const int last = c->node_count - 1;
     chain_row *first = &c->rows[0];
-    double s = 1, n = 0, f = first->below[0], closed = first->diagonal[0] + (last == 0 ? 2 * f : 0), whole = closed;
+    double s = 1, n = 0, f = first->below[4], closed = first->diagonal[3] + (last == 0 ? 2 * f : 0), whole = closed;
     kernel_rank all = {true, true, 1};
     for (int k = 1; k <= last; k++) {
         chain_row *row = &c->rows[k];
-        if (k == last) f += row->below[0];
-        kernel_rank rank = kernel_pivot_one(&s, row->diagonal[0], n);
+        if (k == last) f += row->below[4];
+        kernel_rank rank = kernel_pivot_one(&s, row->diagonal[3], n);
         chain_add_rank(&all, rank);
-        n = row->below[0];
-        row->diagonal[0] = 1 / s;
-        c->to_first[k] = f * row->diagonal[0];
+        n = row->below[4];
+        row->diagonal[3] = 1 / s;
+        c->to_first[k] = f * row->diagonal[3];
         closed -= f * c->to_first[k];
         if (k == last) break;
-        row->below[0] = n * row->diagonal[0];
-        f *= -row->below[0];
+        row->below[4] = n * row->diagonal[3];
+        f *= -row->below[4];
     }
-    first->diagonal[0] = 1 / closed;
+    first->diagonal[3] = 1 / closed;
     chain_add_rank(&all, (kernel_rank){closed > 0 && closed < INFINITY, closed >= WEAKEST * whole, whole / closed});
     return all;
 }
@@ -66,15 +66,15 @@ static void solve_loop_scalars(chain *c)
     const int last = c->node_count - 1;
     chain_row *first = &c->rows[0];
     for (int k = 1; k <= last; k++) {
-        if (k > 1) c->rows[k].right[0] -= c->rows[k - 1].below[0] * c->rows[k - 1].right[0];
-        first->right[0] -= c->to_first[k] * c->rows[k].right[0];
+        if (k > 1) c->rows[k].right[1] -= c->rows[k - 1].below[4] * c->rows[k - 1].right[1];
+        first->right[1] -= c->to_first[k] * c->rows[k].right[1];
     }
-    double closed = first->right[0] *= first->diagonal[0], after = 0;
+    double closed = first->right[1] *= first->diagonal[3], after = 0;
     for (int k = last; k > 0; k--) {
         chain_row *row = &c->rows[k];
-        row->right[0] = row->diagonal[0] * row->right[0] - c->to_first[k] * closed;
-        if (k < last) row->right[0] -= row->below[0] * after;
-        after = row->right[0];
+        row->right[1] = row->diagonal[3] * row->right[1] - c->to_first[k] * closed;
+        if (k < last) row->right[1] -= row->below[4] * after;
+        after = row->right[1];
     }
 }
 
@@ -84,14 +84,15 @@ WIDEST static void solve_loop_blocks(chain *c)
     chain_row *first = &c->rows[0];
     const double none[9] = {0};
     for (int k = 1; k <= last; k++) {
-        if (k > 1) kernel_forward(c->rows[k].right, c->rows[k - 1].below, c->rows[k - 1].right);
+        if (k > 1) kernel_forward(true, c->rows[k].right, c->rows[k - 1].below, c->rows[k - 1].right);
         kernel_subtract_transposed(first->right, c->to_first + 9 * k, c->rows[k].right);
     }
-    kernel_backward(first->right, first->diagonal, none, none);
+    kernel_backward(true, first->right, first->diagonal, none, none);
     for (int k = last; k > 0; k--) {
         chain_row *row = &c->rows[k];
-        kernel_backward(row->right, row->diagonal, k < last ? row->below : none, k < last ? row[1].right : none);
-        kernel_forward(row->right, c->to_first + 9 * k, first->right);
+        kernel_backward(true, row->right, row->diagonal, k < last ? row->below : none,
+                        k < last ? row[1].right : none);
+        kernel_forward(true, row->right, c->to_first + 9 * k, first->right);
     }
 }
 

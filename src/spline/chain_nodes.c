@@ -72,7 +72,7 @@ ALWAYS_INLINE void assemble_stretch(const chain *c, int j, const kernel_node *p,
 }
 
 /// What comes into the first node's block: the start and its slope, in a loop the last stretch.
-static void assemble_first(const chain *c, const kernel_node *node, double *d)
+ALWAYS_INLINE void assemble_first(const chain *c, const kernel_node *node, double *d)
 {
     if (c->cyclic) {
         const kernel_node last = kernel_node_of(c, &c->nodes[c->node_count - 1]);
@@ -90,7 +90,7 @@ static void assemble_first(const chain *c, const kernel_node *node, double *d)
 }
 
 /// Row by row in local arrays, which the compiler keeps in registers.
-static void assemble_blocks(chain *c)
+ALWAYS_INLINE void assemble(chain *c, const bool is_complex)
 {
     kernel_node node = kernel_node_of(c, &c->nodes[0]), next;
     double d[6] = {0};
@@ -106,70 +106,22 @@ static void assemble_blocks(chain *c)
             kernel_form(d, end.h00, end.h01.re, end.h01.im, end.h11);
         }
         kernel_hold(d, &node);
-        for (int i = 0; i < 6; i++) c->rows[j].diagonal[i] = d[i], d[i] = entering[i];
-        for (int i = 0; i < 9; i++) c->rows[j].below[i] = n[i];
-    }
-}
-
-ALWAYS_INLINE void assemble_stretch_one(const chain *c, int j, const kernel_node *p, const kernel_node *q, double *d,
-                                        double *n, double *entering)
-{
-    const double *form = form_after(c, j);
-    const chain_node *end = &c->nodes[chain_next(c, j)];
-    *d += form[FORM_P11];
-    *n = -form[FORM_C11];
-    *entering = form[FORM_V11];
-    if (end->slope_weight > 0) {
-        const kernel_slope slope = kernel_slope_of(c, end);
-        const kernel_link_one link = kernel_link_of_one(&slope, form, p, q);
-        *d += link.weight * link.before * link.before;
-        *entering += link.weight * link.at * link.at;
-        *n += link.weight * link.at * link.before;
-    }
-    *n *= p->keep_d * q->keep_d;
-}
-
-static double assemble_first_one(const chain *c, const kernel_node *node)
-{
-    double d = 0, leaving = 0, n;
-    if (c->cyclic) {
-        const kernel_node last = kernel_node_of(c, &c->nodes[c->node_count - 1]);
-        assemble_stretch_one(c, c->node_count - 1, &last, node, &leaving, &n, &d);
-        return d;
-    }
-    d = chain_start_form(c).h11;
-    if (c->nodes[0].slope_weight > 0) {
-        const kernel_slope slope = kernel_slope_of(c, &c->nodes[0]);
-        d += slope.weight * slope.d_re * slope.d_re;
-    }
-    return d;
-}
-
-static void assemble_scalars(chain *c)
-{
-    kernel_node node = kernel_node_of(c, &c->nodes[0]), next;
-    double d = assemble_first_one(c, &node);
-    for (int j = 0; j < c->node_count; j++, node = next) {
-        double n = 0, entering = 0;
-        next = node;
-        if (j < chain_stretches(c)) {
-            next = kernel_node_of(c, &c->nodes[chain_next(c, j)]);
-            assemble_stretch_one(c, j, &node, &next, &d, &n, &entering);
-        } else {
-            d += chain_end_form(c).h11;
+        for (int i = 0; i < 6; i++) {
+            if (is_complex || i == 3) c->rows[j].diagonal[i] = d[i];
+            d[i] = entering[i];
         }
-        c->rows[j].diagonal[0] = kernel_hold_one(d, &node);
-        c->rows[j].below[0] = n;
-        d = entering;
+        for (int i = 0; i < 9; i++) {
+            if (is_complex || i == 4) c->rows[j].below[i] = n[i];
+        }
     }
 }
 
 void chain_assemble(chain *c)
 {
     if (c->is_complex) {
-        assemble_blocks(c);
+        assemble(c, true);
     } else {
-        assemble_scalars(c);
+        assemble(c, false);
     }
 }
 
@@ -192,11 +144,11 @@ static kernel_rank factor_scalars(chain *c)
     kernel_rank all = {true, true, 1};
     double n = 0, s = 1;
     for (chain_row *row = c->rows; row < c->rows + c->node_count; row++) {
-        kernel_rank rank = kernel_pivot_one(&s, row->diagonal[0], n);
+        kernel_rank rank = kernel_pivot_one(&s, row->diagonal[3], n);
         chain_add_rank(&all, rank);
-        n = row->below[0];
-        row->diagonal[0] = 1.0 / s;
-        row->below[0] = n * row->diagonal[0];
+        n = row->below[4];
+        row->diagonal[3] = 1.0 / s;
+        row->below[4] = n * row->diagonal[3];
     }
     return all;
 }
@@ -221,24 +173,14 @@ chain_rank chain_factor(chain *c)
     return chain_rank_with_loss(c, c->is_complex ? factor_blocks(c) : factor_scalars(c));
 }
 
-static void solve_scalars(chain *c)
-{
-    for (int j = 1; j < c->node_count; j++) c->rows[j].right[0] -= c->rows[j - 1].below[0] * c->rows[j - 1].right[0];
-    double after = 0;
-    for (int j = c->node_count - 1; j >= 0; j--) {
-        chain_row *row = &c->rows[j];
-        after = row->right[0] = row->diagonal[0] * row->right[0] - row->below[0] * after;
-    }
-}
-
-static void solve_blocks(chain *c)
+ALWAYS_INLINE void solve(chain *c, const bool is_complex)
 {
     chain_row *last = &c->rows[c->node_count - 1];
-    for (chain_row *row = c->rows; row < last; row++) kernel_forward(row[1].right, row->below, row->right);
+    for (chain_row *row = c->rows; row < last; row++)
+        kernel_forward(is_complex, row[1].right, row->below, row->right);
     const double none[3] = {0};
-    for (chain_row *row = last; row >= c->rows; row--) {
-        kernel_backward(row->right, row->diagonal, row->below, row < last ? row[1].right : none);
-    }
+    for (chain_row *row = last; row >= c->rows; row--)
+        kernel_backward(is_complex, row->right, row->diagonal, row->below, row < last ? row[1].right : none);
 }
 
 void chain_solve_nodes(chain *c)
@@ -246,19 +188,19 @@ void chain_solve_nodes(chain *c)
     if (c->cyclic) {
         chain_solve_loop(c);
     } else if (c->is_complex) {
-        solve_blocks(c);
+        solve(c, true);
     } else {
-        solve_scalars(c);
+        solve(c, false);
     }
 }
 
 /// What a stretch and the slope at its end pull where everything unknown is 0.
-ALWAYS_INLINE void pull_along(const chain *c, int j, const kernel_node *p, const kernel_node *q, double *right,
-                              double *entering)
+ALWAYS_INLINE void pull_along(const chain *c, int j, const kernel_node *p, const kernel_node *q, bool is_complex,
+                              double *right, double *entering)
 {
     const double *form = form_after(c, j);
     const chain_node *end = &c->nodes[chain_next(c, j)];
-    kernel_leave_pull(right, form, p, q);
+    kernel_leave_pull(is_complex, right, form, p, q);
     kernel_enter_pull(entering, form, p, q);
     if (end->slope_weight > 0) {
         const kernel_slope slope = kernel_slope_of(c, end);
@@ -268,12 +210,12 @@ ALWAYS_INLINE void pull_along(const chain *c, int j, const kernel_node *p, const
     }
 }
 
-static void pull_first(const chain *c, const kernel_node *node, double *right)
+ALWAYS_INLINE void pull_first(const chain *c, const kernel_node *node, bool is_complex, double *right)
 {
     if (c->cyclic) {
         const kernel_node last = kernel_node_of(c, &c->nodes[c->node_count - 1]);
         double leaving[3] = {0};
-        pull_along(c, c->node_count - 1, &last, node, leaving, right);
+        pull_along(c, c->node_count - 1, &last, node, is_complex, leaving, right);
         return;
     }
     const state_form h = chain_start_form(c);
@@ -285,82 +227,34 @@ static void pull_first(const chain *c, const kernel_node *node, double *right)
     }
 }
 
-static void pull_blocks(chain *c)
+ALWAYS_INLINE void pull_known(chain *c, const bool is_complex)
 {
     kernel_node node = kernel_node_of(c, &c->nodes[0]), next;
     double entering[3] = {0};
-    pull_first(c, &node, entering);
+    pull_first(c, &node, is_complex, entering);
     for (int j = 0; j < c->node_count; j++, node = next) {
-        double *right = c->rows[j].right;
+        double right[3];
         for (int i = 0; i < 3; i++) right[i] = entering[i], entering[i] = 0;
         next = node;
         if (j < chain_stretches(c)) {
             next = kernel_node_of(c, &c->nodes[chain_next(c, j)]);
-            pull_along(c, j, &node, &next, right, entering);
+            pull_along(c, j, &node, &next, is_complex, right, entering);
         } else {
             const state_form end = chain_end_form(c);
             kernel_form_pull(right, end.h01.re, end.h01.im, end.h11, node.x, node.d);
         }
         kernel_hold_pull(right, &node);
-    }
-}
-
-ALWAYS_INLINE void pull_along_one(const chain *c, int j, const kernel_node *p, const kernel_node *q, double *right,
-                                  double *entering)
-{
-    const double *form = form_after(c, j);
-    const chain_node *end = &c->nodes[chain_next(c, j)];
-    *right += kernel_leave_pull_one(form, p, q);
-    *entering = kernel_enter_pull_one(form, p, q);
-    if (end->slope_weight > 0) {
-        const kernel_slope slope = kernel_slope_of(c, end);
-        const kernel_link_one link = kernel_link_of_one(&slope, form, p, q);
-        *right += link.miss * link.before;
-        *entering += link.miss * link.at;
-    }
-}
-
-static double pull_first_one(const chain *c, const kernel_node *node)
-{
-    double right = 0, leaving = 0;
-    if (c->cyclic) {
-        const kernel_node last = kernel_node_of(c, &c->nodes[c->node_count - 1]);
-        pull_along_one(c, c->node_count - 1, &last, node, &leaving, &right);
-        return right;
-    }
-    const state_form h = chain_start_form(c);
-    right = -(h.h01.re * node->x + h.h11 * node->d);
-    if (c->nodes[0].slope_weight > 0) {
-        const kernel_slope slope = kernel_slope_of(c, &c->nodes[0]);
-        right += slope.weight * (slope.target - (slope.x_re * node->x + slope.d_re * node->d)) * slope.d_re;
-    }
-    return right;
-}
-
-static void pull_scalars(chain *c)
-{
-    kernel_node node = kernel_node_of(c, &c->nodes[0]), next;
-    double right = pull_first_one(c, &node);
-    for (int j = 0; j < c->node_count; j++, node = next) {
-        double entering = 0;
-        next = node;
-        if (j < chain_stretches(c)) {
-            next = kernel_node_of(c, &c->nodes[chain_next(c, j)]);
-            pull_along_one(c, j, &node, &next, &right, &entering);
-        } else {
-            const state_form end = chain_end_form(c);
-            right -= end.h01.re * node.x + end.h11 * node.d;
+        for (int i = 0; i < 3; i++) {
+            if (is_complex || i == 1) c->rows[j].right[i] = right[i];
         }
-        c->rows[j].right[0] = right * node.keep_d;
-        right = entering;
     }
 }
 
 void chain_pull_known(chain *c)
 {
     if (c->is_complex) {
-        pull_blocks(c);
+        pull_known(c, true);
     } else {
-        pull_scalars(c);
+        pull_known(c, false);
     }
 }

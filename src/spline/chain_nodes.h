@@ -1,7 +1,7 @@
 /// The nodes' system of a chain, one row at a time: what a chain and a loop share.
 ///
-/// Unknowns of a row are (Im x, Re d, Im d), a diagonal block is 00 01 02 11 12 22, a coupling A_{j+1,j} row-major; functions in
-/// _one are for cubic and real mode, where Re d is the only unknown.
+/// Unknowns of a row are (Im x, Re d, Im d), a diagonal block is 00 01 02 11 12 22, a coupling A_{j+1,j} row-major. In cubic and real mode
+/// Re d is the only unknown: what else these functions compute is then looked at by nobody, and the compiler leaves it out.
 #ifndef SPLINE_CHAIN_NODES_H
 #define SPLINE_CHAIN_NODES_H
 
@@ -75,8 +75,13 @@ ALWAYS_INLINE void kernel_enter(double *d, const double *f)
 }
 
 /// C* s_q − P s_p at the first node.
-ALWAYS_INLINE void kernel_leave_pull(double *r, const double *f, const kernel_node *p, const kernel_node *q)
+ALWAYS_INLINE void kernel_leave_pull(bool is_complex, double *r, const double *f, const kernel_node *p,
+                                     const kernel_node *q)
 {
+    if (!is_complex) {
+        r[1] += f[FORM_C01] * q->x + f[FORM_C11] * q->d - (f[FORM_P01] * p->x + f[FORM_P11] * p->d);
+        return;
+    }
     r[0] += f[FORM_C10] * q->d_im - (f[FORM_C00 + 1] * q->x + f[FORM_C10 + 1] * q->d);
     r[1] += f[FORM_C01] * q->x + f[FORM_C11] * q->d + f[FORM_C11 + 1] * q->d_im;
     r[2] += f[FORM_C11] * q->d_im - (f[FORM_C01 + 1] * q->x + f[FORM_C11 + 1] * q->d);
@@ -227,28 +232,23 @@ ALWAYS_INLINE void kernel_lower(double *l, const double *n, const double *p)
 }
 
 /// r −= L z.
-ALWAYS_INLINE void kernel_forward(double *r, const double *l, const double *z)
+ALWAYS_INLINE void kernel_forward(bool is_complex, double *r, const double *l, const double *z)
 {
-    for (int i = 0; i < 3; i++) r[i] -= l[3 * i] * z[0] + l[3 * i + 1] * z[1] + l[3 * i + 2] * z[2];
+    if (!is_complex) r[1] -= l[4] * z[1];
+    for (int i = 0; is_complex && i < 3; i++) r[i] -= l[3 * i] * z[0] + l[3 * i + 1] * z[1] + l[3 * i + 2] * z[2];
 }
 
 /// r ← P r − L* u, u the solution at the next node.
-ALWAYS_INLINE void kernel_backward(double *r, const double *p, const double *l, const double *u)
+ALWAYS_INLINE void kernel_backward(bool is_complex, double *r, const double *p, const double *l, const double *u)
 {
+    if (!is_complex) {
+        r[1] = p[3] * r[1] - l[4] * u[1];
+        return;
+    }
     double z0 = r[0], z1 = r[1], z2 = r[2];
     r[0] = p[0] * z0 + p[1] * z1 + p[2] * z2 - (l[0] * u[0] + l[3] * u[1] + l[6] * u[2]);
     r[1] = p[1] * z0 + p[3] * z1 + p[4] * z2 - (l[1] * u[0] + l[4] * u[1] + l[7] * u[2]);
     r[2] = p[2] * z0 + p[4] * z1 + p[5] * z2 - (l[2] * u[0] + l[5] * u[1] + l[8] * u[2]);
-}
-
-ALWAYS_INLINE double kernel_leave_pull_one(const double *f, const kernel_node *p, const kernel_node *q)
-{
-    return f[FORM_C01] * q->x + f[FORM_C11] * q->d - (f[FORM_P01] * p->x + f[FORM_P11] * p->d);
-}
-
-ALWAYS_INLINE double kernel_enter_pull_one(const double *f, const kernel_node *p, const kernel_node *q)
-{
-    return f[FORM_C10] * p->x + f[FORM_C11] * p->d - (f[FORM_V01] * q->x + f[FORM_V11] * q->d);
 }
 
 /// g = P F for a symmetric P.
@@ -285,27 +285,7 @@ ALWAYS_INLINE void kernel_subtract_transposed(double *r, const double *g, const 
     for (int v = 0; v < 3; v++) r[v] -= g[v] * z[0] + g[3 + v] * z[1] + g[6 + v] * z[2];
 }
 
-/// A slope as a row of the one unknown before and the one at the node.
-typedef struct kernel_link_one {
-    double before, at, weight, miss;
-} kernel_link_one;
-
-ALWAYS_INLINE kernel_link_one kernel_link_of_one(const kernel_slope *s, const double *f, const kernel_node *p,
-                                                 const kernel_node *q)
-{
-    double a = s->x_re - s->r_re * f[FORM_V01], at = s->d_re - s->r_re * f[FORM_V11];
-    double c = s->r_re * f[FORM_C10], before = s->r_re * f[FORM_C11];
-    double seen = (a * q->x + at * q->d) + (c * p->x + before * p->d);
-    double weight = s->weight / (1.0 + s->weight * (s->r_re * s->r_re) * (1.0 - f[FORM_V11]));
-    return (kernel_link_one){before, at, weight, weight * (s->target - seen)};
-}
-
-ALWAYS_INLINE double kernel_hold_one(double d, const kernel_node *node)
-{
-    return d * node->keep_d + (1.0 - node->keep_d);
-}
-
-/// s ← d − n² / s, the pivot: only a division and a difference wait for the pivot before.
+/// s ← d − n² / s, the pivot of the only unknown outside complex mode: only a division and a difference wait for the pivot before.
 ALWAYS_INLINE kernel_rank kernel_pivot_one(double *s, double d, double n)
 {
     *s = d - n * n / *s;
