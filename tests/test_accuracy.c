@@ -42,19 +42,20 @@ static double lapack_error(const wiggly_desc *desc, const double *expected)
     for (int u = 0; u < n; u++) {
         int k = u / w, part = u % w;
         double *column = band + (size_t)u * (size_t)(kd + 1);
-        column[0] = w == 2 ? m->diagonal[3 * k + 2 * part] : m->diagonal[k];
+        column[0] = m->diagonal[3 * k + 2 * part];
         if (w == 2 && part == 0) column[1] = m->diagonal[3 * k + 1];
         for (int r = 0; r < w; r++) {
-            column[w + r - part] = m->below[w * w * k + w * r + part];
-            column[2 * w + r - part] = m->below2[w * w * k + w * r + part];
+            column[w + r - part] = m->below[4 * k + 2 * r + part];
+            column[2 * w + r - part] = m->below2[4 * k + 2 * r + part];
         }
+        rows->gradient[u] = rows->gradient[2 * k + part];
     }
     double *x = rows->gradient, *re = calloc(2 * (size_t)desc->samples, sizeof *re), *im = re + desc->samples;
     int info = LAPACKE_dpbsv(LAPACK_COL_MAJOR, 'L', n, kd, 1, band, kd + 1, x, n);
     for (int i = 0; i < desc->samples; i++) {
         int k = i < first ? 0 : i - first;
-        re[i] = x[w * k] + rows->x[w * k];
-        if (w == 2) im[i] = x[w * k + 1] + rows->x[w * k + 1];
+        re[i] = x[w * k] + rows->x[2 * k];
+        if (w == 2) im[i] = x[w * k + 1] + rows->x[2 * k + 1];
     }
     double error = info == 0 ? relative_error(expected, re, w == 2 ? im : NULL, desc->samples) : INFINITY;
     free(y);

@@ -69,6 +69,13 @@ static void add_slope(const limits_work *w, wiggly_knot *last, const double on_t
     last->has_slope = true;
 }
 
+/// What the rows pull at each sample of a curve that begins with the system, into the real parts of their gradient.
+static void find_forces(const system_rows *rows, const double *re, const double *im)
+{
+    for (int k = 0; k < rows->count; k++) rows->x[2 * k] = re[k], rows->x[2 * k + 1] = rows->is_complex ? im[k] : 0;
+    system_forces(rows);
+}
+
 /// Re e of a part of the tail; returns Σ pull · free[1] over the held samples in units of E. -1 where there is no room.
 static bool push(limits_work *w, enum what what, double *along_turn)
 {
@@ -86,11 +93,11 @@ static bool push(limits_work *w, enum what what, double *along_turn)
     problem_find(solver, &tail->p, &curve, &result);
     w->tail_error += result.error;
     problem_set_rows(solver, &tail->p);
-    const double h = tail->desc.step, unit = h * h * h * tail->p.unit;
+    find_forces(&solver->rows, re, NULL);
+    const double h = tail->desc.step, unit = h * h * h * tail->p.unit, *force = solver->rows.gradient;
     *along_turn = 0;
     for (int i = tail->from; i <= tail->to; i++) {
-        if (limits_hold(w, i))
-            *along_turn += 2 * system_pull(&solver->rows, re, NULL, i - tail->begin) * m->free[1][i] / unit;
+        if (limits_hold(w, i)) *along_turn += 2 * force[2 * (i - tail->begin)] * m->free[1][i] / unit;
     }
     return true;
 }
@@ -136,8 +143,9 @@ static void add_push(limits_work *w)
     m->all[0] = at_rest(&tail->desc); // the body's knots were there meanwhile
     take_knots(solver, tail, 1);
     problem_set_rows(solver, &tail->p);
+    find_forces(&solver->rows, e, NULL);
     for (int i = tail->from; i <= tail->to; i++) {
-        if (limits_hold(w, i)) m->pull[i] = unit * system_pull(&solver->rows, e, NULL, i - L);
+        if (limits_hold(w, i)) m->pull[i] = unit * solver->rows.gradient[2 * (i - L)];
     }
     for (int i = 1; i < n; i++) {
         poles at = poles_at(&tail->desc, i, 0);
@@ -174,10 +182,9 @@ static bool solve_body(limits_work *w, const double on_turn[2])
     *w->result = result;
     if (body->held == 0) return true;
     problem_set_rows(solver, &body->p);
-    const double *re = w->curve->re + body->p.first, *im = w->curve->im + body->p.first;
+    find_forces(&solver->rows, w->curve->re + body->p.first, w->curve->im + body->p.first);
     for (int i = body->from; i <= body->to; i++) {
-        if (limits_hold(w, i))
-            m->pull[i] = system_pull(&solver->rows, re, solver->rows.is_complex ? im : NULL, i - body->p.first);
+        if (limits_hold(w, i)) m->pull[i] = solver->rows.gradient[2 * (i - body->p.first)];
     }
     return true;
 }

@@ -109,10 +109,9 @@ static bool factor(void *user, const double *stiffness)
     if (w->fresh) set_system(w);
     w->fresh = false;
     set_matrix(w);
-    const int stride = m->width == 2 ? 3 : 1;
-    double *at = m->diagonal + stride * (w->from - w->first);
+    double *at = m->diagonal + 3 * (w->from - w->first);
     for (int i = 0; i < w->search.count; i++) kept[i] = stiffness ? stiffness[i] : 0;
-    for (int i = 0; i < w->search.count; i++) at[stride * i] += kept[i];
+    for (int i = 0; i < w->search.count; i++) at[3 * i] += kept[i];
     return pentadiagonal_factor(m) != RANK_BROKEN;
 }
 
@@ -145,15 +144,14 @@ static void pull_tail(const limits_work *w)
 static void find_residual(limits_work *w, const double *force)
 {
     const system_rows *rows = &w->solver->rows;
-    const pentadiagonal *m = &w->solver->matrix;
     const int shift = w->from - w->first;
     const double *kept = w->solver->limits.stiffness;
     system_right_side(rows);
     if (limits_has_tail(w)) pull_tail(w);
     for (int i = 0; i < w->search.count; i++) {
-        const int k = shift + i, at = m->width * k;
+        const int k = shift + i;
         if (k < rows->count && rows->fixed[k] & FIXED_RE) continue;
-        rows->gradient[at] += force[i] - kept[i] * rows->x[at];
+        rows->gradient[2 * k] += force[i] - kept[i] * rows->x[2 * k];
     }
 }
 
@@ -161,19 +159,18 @@ static void solve(void *user, double *force)
 {
     limits_work *w = user;
     const pentadiagonal *m = &w->solver->matrix;
-    const int unknowns = m->width * m->count;
-    double *all = w->solver->rows.gradient, *x = w->solver->rows.x, *at = all + m->width * (w->from - w->first);
+    const int unknowns = 2 * m->count, from = 2 * (w->from - w->first);
+    double *all = w->solver->rows.gradient, *x = w->solver->rows.x;
     memset(all, 0, sizeof *all * (size_t)unknowns);
-    for (int i = 0; i < w->search.count; i++) at[m->width * i] = force[i];
+    for (int i = 0; i < w->search.count; i++) all[from + 2 * i] = force[i];
     pentadiagonal_solve(m, all);
     memcpy(x, all, sizeof *x * (size_t)unknowns);
-    for (int sweep = 0; sweep < SWEEPS && m->lost > lossy[m->width - 1]; sweep++) {
+    for (int sweep = 0; sweep < SWEEPS && m->lost > lossy[m->is_complex]; sweep++) {
         find_residual(w, force);
         pentadiagonal_solve(m, all);
         for (int i = 0; i < unknowns; i++) x[i] += all[i];
     }
-    at = x + m->width * (w->from - w->first);
-    for (int i = 0; i < w->search.count; i++) force[i] = at[m->width * i];
+    for (int i = 0; i < w->search.count; i++) force[i] = x[from + 2 * i];
 }
 
 double limits_release(limits_work *w)

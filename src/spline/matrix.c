@@ -5,12 +5,16 @@
 //
 //     D_k = |A_k|² + |B_{k+1}|² + 1        E_k = −A_k − A_{k+1}* B_{k+1}        F_k = B_{k+1}
 //
-// less what rows outside the domain would have added. A complex number u + jv is the block (u −v; v u).
+// less what rows outside the domain would have added. A complex number u + jv is the block (u −v; v u), in the other modes v is 0.
 #include "spline/system.h"
 
 static void add_complex(double *at, cplx z) { at[0] += z.re, at[1] -= z.im, at[2] += z.im, at[3] += z.re; }
 
-static void put_complex(double *at, cplx z) { at[0] = at[3] = z.re, at[1] = -z.im, at[2] = z.im; }
+static inline void put_complex(bool is_complex, double *at, cplx z)
+{
+    at[0] = z.re;
+    if (is_complex) at[1] = -z.im, at[2] = z.im, at[3] = z.re;
+}
 
 /// A jet row's weight, and its coefficients −a and b on its sample and the one before; the last sample's holds what is behind, too.
 static double jet_row(const system_rows *rows, int i, cplx *a, cplx *b)
@@ -23,7 +27,7 @@ static double jet_row(const system_rows *rows, int i, cplx *a, cplx *b)
 }
 
 /// The jets' blocks, each written once, when the row after it is known; a loop's last row is the first again.
-static void jet_rows_complex(const system_rows *rows, pentadiagonal *m)
+static inline void jet_rows(const system_rows *rows, pentadiagonal *m, const bool is_complex)
 {
     const int n = rows->count, end = rows->loop ? n : n - 1;
     cplx a, b, left = {0, 0}; // w a of the row before
@@ -32,10 +36,11 @@ static void jet_rows_complex(const system_rows *rows, pentadiagonal *m)
         const double w = jet_row(rows, i < n ? i : 0, &a, &b);
         if (i > 0) {
             double *d = m->diagonal + 3 * (i - 1);
-            d[0] = d[2] = own + w * cplx_norm(b), d[1] = 0;
-            put_complex(m->below + 4 * (i - 1),
+            d[0] = own + w * cplx_norm(b);
+            if (is_complex) d[1] = 0, d[2] = d[0];
+            put_complex(is_complex, m->below + 4 * (i - 1),
                         cplx_scale(-1, cplx_add(left, cplx_scale(w, cplx_mul(cplx_conj(a), b)))));
-            put_complex(m->below2 + 4 * (i - 1), cplx_scale(rows->loop || i < n - 1 ? w : 0, b));
+            put_complex(is_complex, m->below2 + 4 * (i - 1), cplx_scale(rows->loop || i < n - 1 ? w : 0, b));
         }
         own = before + w * cplx_norm(a);
         left = cplx_scale(w, a);
@@ -44,27 +49,8 @@ static void jet_rows_complex(const system_rows *rows, pentadiagonal *m)
     if (rows->loop) return;
     double *d = m->diagonal + 3 * (n - 1);
     d[0] = d[2] = own, d[1] = 0;
-    put_complex(m->below + 4 * (n - 1), (cplx){0, 0});
-    put_complex(m->below2 + 4 * (n - 1), (cplx){0, 0});
-}
-
-static void jet_rows_real(const system_rows *rows, pentadiagonal *m)
-{
-    const int n = rows->count, end = rows->loop ? n : n - 1;
-    double before = rows->loop ? rows->jet_weight[n - 1] : 0, own = 0, left = 0;
-    cplx a, b;
-    for (int i = 0; i <= end; i++) {
-        const double w = jet_row(rows, i < n ? i : 0, &a, &b);
-        if (i > 0) {
-            m->diagonal[i - 1] = own + w * (b.re * b.re);
-            m->below[i - 1] = -(left + w * (a.re * b.re));
-            m->below2[i - 1] = rows->loop || i < n - 1 ? w * b.re : 0;
-        }
-        own = before + w * (a.re * a.re);
-        left = w * a.re;
-        before = w;
-    }
-    if (!rows->loop) m->diagonal[n - 1] = own, m->below[n - 1] = m->below2[n - 1] = 0;
+    put_complex(is_complex, m->below + 4 * (n - 1), (cplx){0, 0});
+    put_complex(is_complex, m->below2 + 4 * (n - 1), (cplx){0, 0});
 }
 
 stencil system_slope_stencil(const system_rows *rows, const slope_row *slope)
@@ -106,14 +92,10 @@ static void slope_rows(const system_rows *rows, pentadiagonal *m)
             for (int j = 0; at[i] >= 0 && j <= i; j++) {
                 if (at[j] < 0) continue;
                 double *coupling = i - j == 2 ? m->below2 : m->below;
-                if (i == j && rows->is_complex) {
+                if (i == j) {
                     add_square(m->diagonal + 3 * at[i], w, s.c[i]);
-                } else if (i == j) {
-                    m->diagonal[at[i]] += w * (s.c[i].re * s.c[i].re);
-                } else if (rows->is_complex) {
-                    add_product(coupling + 4 * at[j], w, s.c[i], s.c[j]);
                 } else {
-                    coupling[at[j]] += w * (s.c[i].re * s.c[j].re);
+                    add_product(coupling + 4 * at[j], w, s.c[i], s.c[j]);
                 }
             }
         }
@@ -130,31 +112,18 @@ static void start_rows(const system_rows *rows, pentadiagonal *m)
         if (alone) on_x0 = cplx_add(row->on_x, cplx_mul(row->on_e, rows->tail));
         double w = row->weight, first = w * cplx_norm(on_x0), second = w * cplx_norm(on_x1);
         cplx both = cplx_scale(w, cplx_mul(cplx_conj(on_x1), on_x0));
-        m->diagonal[0] += first;
-        if (rows->is_complex) m->diagonal[2] += first;
+        m->diagonal[0] += first, m->diagonal[2] += first;
         if (alone) continue;
-        m->diagonal[rows->is_complex ? 3 : 1] += second;
-        if (rows->is_complex) {
-            m->diagonal[5] += second;
-            add_complex(m->below, both);
-        } else {
-            m->below[0] += both.re;
-        }
+        m->diagonal[3] += second, m->diagonal[5] += second;
+        add_complex(m->below, both);
     }
-}
-
-static void other_rows(const system_rows *rows, pentadiagonal *m)
-{
-    slope_rows(rows, m);
-    start_rows(rows, m);
-    for (int k = 0; k < rows->count && rows->is_complex; k++) m->diagonal[3 * k + 2] += rows->im_weight[k];
 }
 
 /// Clears row or column `part` (0 re, 1 im) of a 2×2 block.
 static void clear_row(double *at, int part) { at[2 * part] = at[2 * part + 1] = 0; }
 static void clear_column(double *at, int part) { at[part] = at[2 + part] = 0; }
 
-static void fix_complex(const system_rows *rows, pentadiagonal *m, int k, int part)
+static void fix(const system_rows *rows, pentadiagonal *m, int k, int part)
 {
     int n = rows->count, before = k > 0 ? k - 1 : n - 1, second = before > 0 ? before - 1 : n - 1;
     double *d = m->diagonal + 3 * k;
@@ -166,29 +135,21 @@ static void fix_complex(const system_rows *rows, pentadiagonal *m, int k, int pa
     if (rows->loop || k > 1) clear_row(m->below2 + 4 * second, part);
 }
 
-static void fix_real(const system_rows *rows, pentadiagonal *m, int k)
-{
-    int n = rows->count, before = k > 0 ? k - 1 : n - 1, second = before > 0 ? before - 1 : n - 1;
-    m->diagonal[k] = 1;
-    m->below[k] = m->below2[k] = 0;
-    if (rows->loop || k > 0) m->below[before] = 0;
-    if (rows->loop || k > 1) m->below2[second] = 0;
-}
-
 void system_matrix(const system_rows *rows, pentadiagonal *m)
 {
     m->count = rows->count;
-    m->width = rows->is_complex ? 2 : 1;
+    m->is_complex = rows->is_complex;
     m->cyclic = rows->loop;
     if (rows->is_complex) {
-        jet_rows_complex(rows, m);
+        jet_rows(rows, m, true);
     } else {
-        jet_rows_real(rows, m);
+        jet_rows(rows, m, false);
     }
-    other_rows(rows, m);
+    slope_rows(rows, m);
+    start_rows(rows, m);
+    for (int k = 0; k < rows->count && rows->is_complex; k++) m->diagonal[3 * k + 2] += rows->im_weight[k];
     for (int k = 0; k < rows->count; k++) {
-        if (!rows->is_complex && rows->fixed[k] & FIXED_RE) fix_real(rows, m, k);
-        if (rows->is_complex && rows->fixed[k] & FIXED_RE) fix_complex(rows, m, k, 0);
-        if (rows->is_complex && rows->fixed[k] & FIXED_IM) fix_complex(rows, m, k, 1);
+        if (rows->fixed[k] & FIXED_RE) fix(rows, m, k, 0);
+        if (rows->is_complex && rows->fixed[k] & FIXED_IM) fix(rows, m, k, 1);
     }
 }

@@ -35,26 +35,17 @@ static inline int64_t bits_of(double x)
     return bits & INT64_MAX;
 }
 
-/// The largest square, or magnitude; NaN where there is one.
-WIDEST static double largest_size(const double *x, int count, bool is_complex)
+/// The largest magnitude; NaN where there is one.
+WIDEST static double largest_modulus(const double *x, int count, bool is_complex)
 {
     int64_t most = 0;
-    if (is_complex) {
-        for (int k = 0; k < count; k++) {
-            int64_t bits = bits_of(x[2 * k] * x[2 * k] + x[2 * k + 1] * x[2 * k + 1]);
-            most = bits > most ? bits : most;
-        }
-    } else {
-        for (int k = 0; k < count; k++) most = bits_of(x[k]) > most ? bits_of(x[k]) : most;
+    for (int k = 0; k < count; k++) {
+        const double re = x[2 * k], im = x[2 * k + 1];
+        const int64_t bits = bits_of(is_complex ? re * re + im * im : re);
+        most = bits > most ? bits : most;
     }
     double largest;
     memcpy(&largest, &most, sizeof largest);
-    return largest;
-}
-
-static double largest_modulus(const double *x, int count, bool is_complex)
-{
-    double largest = largest_size(x, count, is_complex);
     return is_complex ? sqrt(largest) : largest;
 }
 
@@ -132,7 +123,7 @@ static void change_known(system_rows *rows, double sign)
 {
     double now = 1, of_drive = rounding;
     for (int k = 0; k < rows->count && rows->noise > 0; k++) {
-        if (rows->fixed[k] & FIXED_RE) rows->x[rows->is_complex ? 2 * k : k] += (now *= sign) * rows->noise;
+        if (rows->fixed[k] & FIXED_RE) rows->x[2 * k] += (now *= sign) * rows->noise;
         if (k > 0 && (rows->at[k].p.re != rows->at[k - 1].p.re || rows->at[k].p.im != rows->at[k - 1].p.im))
             of_drive = k * 7 % 5 < 2 ? -rounding : rounding;
         rows->at[k].g = cplx_scale(1 + of_drive, rows->at[k].g);
@@ -140,16 +131,25 @@ static void change_known(system_rows *rows, double sign)
     for (int s = 0; s < rows->slope_count; s++) rows->slopes[s].target += rows->noise;
 }
 
+/// 1 or −1 for each unknown, in an order that no spline has.
+static double some_sign(const system_rows *rows, int unknown)
+{
+    return (rows->is_complex ? unknown : unknown / 2) * 7 % 5 < 2 ? -1 : 1;
+}
+
+/// Whether an unknown is none.
+static bool is_known(const system_rows *rows, int unknown)
+{
+    return rows->fixed[unknown / 2] & (unknown % 2 ? FIXED_IM : FIXED_RE);
+}
+
 /// How far x is elsewhere by the rounding of what jets pull, where they weigh so much that they drown all else.
 static double change_by_jets(wiggly_solver *solver, const factorisation *f)
 {
     const system_rows *rows = &solver->rows;
-    const int unknowns = rows->count * (rows->is_complex ? 2 : 1);
-    const int width = rows->is_complex ? 2 : 1;
-    for (int i = 0; i < unknowns; i++) {
-        const bool known = rows->fixed[i / width] & (i % width ? FIXED_IM : FIXED_RE);
-        const double pull = rows->jet_weight[i / width] * rows->x[i];
-        rows->gradient[i] = known ? 0 : (i * 7 % 5 < 2 ? -rounding : rounding) * pull;
+    for (int i = 0; i < 2 * rows->count; i++) {
+        const double pull = rows->jet_weight[i / 2] * rows->x[i];
+        rows->gradient[i] = is_known(rows, i) ? 0 : some_sign(rows, i) * rounding * pull;
     }
     solve(solver, f);
     return largest_modulus(rows->gradient, rows->count, rows->is_complex);
@@ -165,7 +165,7 @@ static double change_by_drives(const system_rows *rows)
         drives += sqrt(cplx_norm(rows->drive[k]));
         p = cplx_add(p, rows->at[k].p);
         vary = vary || rows->at[k].p.re != first;
-        held = held || rows->fixed[k];
+        held = held || rows->fixed[k] & FIXED_RE;
     }
     return vary && !held ? DBL_EPSILON * drives / sqrt(cplx_norm(p)) : 0;
 }
@@ -204,15 +204,13 @@ static double size_of(const system_rows *rows, int k, bool imaginary)
 static double amplification(wiggly_solver *solver, const factorisation *f)
 {
     const system_rows *rows = &solver->rows;
-    const int width = rows->is_complex ? 2 : 1;
     double largest = 0;
-    for (int i = 0; i < width * rows->count; i++) {
-        const bool known = rows->fixed[i / width] & (i % width ? FIXED_IM : FIXED_RE);
-        rows->gradient[i] = known ? 0 : (i * 7 % 5 < 2 ? -1 : 1) * sqrt(size_of(rows, i / width, i % width));
+    for (int i = 0; i < 2 * rows->count; i++) {
+        rows->gradient[i] = is_known(rows, i) ? 0 : some_sign(rows, i) * sqrt(size_of(rows, i / 2, i % 2));
     }
     solve(solver, f);
-    for (int i = 0; i < width * rows->count; i++)
-        largest = fmax(largest, fabs(rows->gradient[i]) * sqrt(size_of(rows, i / width, i % width)));
+    for (int i = 0; i < 2 * rows->count; i++)
+        largest = fmax(largest, fabs(rows->gradient[i]) * sqrt(size_of(rows, i / 2, i % 2)));
     return sqrt(largest);
 }
 
@@ -220,7 +218,6 @@ static double amplification(wiggly_solver *solver, const factorisation *f)
 static bool refine(wiggly_solver *solver, const factorisation *f, minimum *result)
 {
     system_rows *rows = &solver->rows;
-    int unknowns = rows->count * (rows->is_complex ? 2 : 1);
     double before = INFINITY;
     for (result->sweeps = 0; result->sweeps < MAX_SWEEPS;) {
         if (result->sweeps == 0) {
@@ -236,7 +233,7 @@ static bool refine(wiggly_solver *solver, const factorisation *f, minimum *resul
             result->error = 4 * fmax(change, before);
             break;
         }
-        for (int i = 0; i < unknowns; i++) rows->x[i] += rows->gradient[i];
+        for (int i = 0; i < 2 * rows->count; i++) rows->x[i] += rows->gradient[i];
         result->sweeps++;
         result->largest = largest_modulus(rows->x, rows->count, rows->is_complex);
         if (!(result->largest < INFINITY)) return false;
@@ -273,13 +270,8 @@ static double error_by_rows(wiggly_solver *solver, factorisation *f)
 /// Everything that is not known 0 again.
 static void reset(const system_rows *rows)
 {
-    for (int k = 0; k < rows->count; k++) {
-        if (!rows->is_complex) {
-            if (!(rows->fixed[k] & FIXED_RE)) rows->x[k] = 0;
-            continue;
-        }
-        if (!(rows->fixed[k] & FIXED_RE)) rows->x[2 * k] = 0;
-        if (!(rows->fixed[k] & FIXED_IM)) rows->x[2 * k + 1] = 0;
+    for (int i = 0; i < 2 * rows->count; i++) {
+        if (!is_known(rows, i)) rows->x[i] = 0;
     }
 }
 
@@ -324,11 +316,9 @@ minimum solver_minimise(wiggly_solver *solver)
 void solver_run_forward(wiggly_solver *solver, int from)
 {
     system_rows *rows = &solver->rows;
-    int width = rows->is_complex ? 2 : 1;
     // x is a double sum of small steps: extended precision keeps the rounding of N² additions below the last digit of x.
-    const double *x = rows->x + width * from, *before = x - width;
-    long double x_re = x[0], x_im = 0, step_re = x_re - before[0], step_im = 0;
-    if (rows->is_complex) x_im = x[1], step_im = x_im - before[1];
+    const double *x = rows->x + 2 * from, *before = x - 2;
+    long double x_re = x[0], x_im = x[1], step_re = x_re - before[0], step_im = x_im - before[1];
     for (int i = from; i < rows->count - 1; i++) {
         coefficients at = rows->at[i];
         long double before_re = x_re - step_re, before_im = x_im - step_im;
@@ -338,7 +328,6 @@ void solver_run_forward(wiggly_solver *solver, int from)
                          (at.p.re * before_im + at.p.im * before_re) - rows->drive[i].im;
         step_re = re, step_im = im;
         x_re += step_re, x_im += step_im;
-        rows->x[width * (i + 1)] = (double)x_re;
-        if (rows->is_complex) rows->x[width * (i + 1) + 1] = (double)x_im;
+        rows->x[2 * i + 2] = (double)x_re, rows->x[2 * i + 3] = (double)x_im;
     }
 }

@@ -13,20 +13,19 @@
 #include <math.h>
 #include <string.h>
 
-enum { MAX_COLUMNS = 10, MAX_ROWS = 40 };
+enum { COLUMNS = 10, SEAM = 6, MAX_ROWS = 40 };
 
 /// A pivot below this is rounding, every column having had a 1 of a jet in it; what holds Im x of a slow spline of N samples is N⁻² of it.
 static const double lost = 1e-13;
 
-/// Rows in hand: columns are x_k, x_{k+1}, x_{k+2} and the seam's two samples, `width` each.
+/// Rows in hand: columns are x_k, x_{k+1}, x_{k+2} and from SEAM on the seam's two samples, re and im of each.
 typedef struct stack {
-    double row[MAX_ROWS][MAX_COLUMNS];
+    double row[MAX_ROWS][COLUMNS];
     int rows;
 } stack;
 
 typedef struct walk {
     const system_rows *rows;
-    int width, columns;
     int interior; ///< samples before the seam
     int k;        ///< sample that is being eliminated
     int slope;    ///< next slope row
@@ -39,7 +38,7 @@ static int column_of(const walk *w, int sample)
     int n = w->rows->count;
     if (sample >= n) sample -= n;
     if (sample < 0) sample += n;
-    return sample >= w->interior ? w->width * (3 + sample - w->interior) : w->width * (sample - w->k);
+    return sample >= w->interior ? SEAM + 2 * (sample - w->interior) : 2 * (sample - w->k);
 }
 
 static double *new_row(walk *w)
@@ -52,7 +51,7 @@ static double *new_row(walk *w)
 /// A complex row (two real ones, or one outside complex mode) of coefficients on n samples, times a weight's root.
 static void add_row(walk *w, double root, int n, const int *samples, const cplx *c)
 {
-    double *re = new_row(w), *im = w->width == 2 ? new_row(w) : NULL;
+    double *re = new_row(w), *im = w->rows->is_complex ? new_row(w) : NULL;
     for (int i = 0; i < n; i++) {
         int column = column_of(w, samples[i]);
         re[column] += root * c[i].re;
@@ -87,13 +86,13 @@ static void add_slope(walk *w, const slope_row *slope)
         if (at[i] < 0 || (s.c[i].re == 0 && s.c[i].im == 0)) continue;
         int column = column_of(w, at[i]);
         row[column] += root * s.c[i].re;
-        if (w->width == 2) row[column + 1] -= root * s.c[i].im;
+        row[column + 1] -= root * s.c[i].im;
     }
 }
 
 static void add_imaginary(walk *w, int sample)
 {
-    if (w->width == 2) new_row(w)[column_of(w, sample) + 1] = sqrt(w->rows->im_weight[sample]);
+    if (w->rows->is_complex) new_row(w)[column_of(w, sample) + 1] = sqrt(w->rows->im_weight[sample]);
 }
 
 static void add_start(walk *w)
@@ -150,20 +149,20 @@ static void clear_fixed(walk *w)
 {
     for (int s = 0; s < 3; s++) {
         int sample = w->k + s;
-        for (int part = 0; part < w->width && sample < w->interior; part++) {
-            if (is_fixed(w, sample, part)) clear_column(w, w->width * s + part);
+        for (int part = 0; part < 2 && sample < w->interior; part++) {
+            if (is_fixed(w, sample, part)) clear_column(w, 2 * s + part);
         }
     }
     for (int s = w->interior; s < w->rows->count; s++) {
-        for (int part = 0; part < w->width; part++) {
-            if (is_fixed(w, s, part)) clear_column(w, w->width * (3 + s - w->interior) + part);
+        for (int part = 0; part < 2; part++) {
+            if (is_fixed(w, s, part)) clear_column(w, column_of(w, s) + part);
         }
     }
 }
 
 static void swap_rows(stack *s, int a, int b)
 {
-    double kept[MAX_COLUMNS];
+    double kept[COLUMNS];
     memcpy(kept, s->row[a], sizeof kept);
     memcpy(s->row[a], s->row[b], sizeof kept);
     memcpy(s->row[b], kept, sizeof kept);
@@ -186,7 +185,7 @@ static bool reflect(walk *w, int top, int c)
         below += s->row[r][c] * s->row[r][c];
     }
     double length = sqrt(1 + below), head = 1 + length, scale = 1 / (length * head);
-    for (int j = c + 1; j < w->columns; j++) {
+    for (int j = c + 1; j < COLUMNS; j++) {
         double dot = head * pivot[j];
         for (int r = top + 1; r < s->rows; r++) dot += s->row[r][c] * s->row[r][j];
         dot *= scale;
@@ -202,7 +201,7 @@ static bool reflect(walk *w, int top, int c)
 static pentadiagonal_rank eliminate(walk *w, int sample, int first, int *top)
 {
     pentadiagonal_rank rank = RANK_FULL;
-    for (int part = 0; part < w->width; part++) {
+    for (int part = 0; part < 2; part++) {
         int c = first + part;
         if (is_fixed(w, sample, part)) { // an empty row of its own, kept in place
             new_row(w);
@@ -221,26 +220,22 @@ static pentadiagonal_rank eliminate(walk *w, int sample, int first, int *top)
 static void finish_step(walk *w, pentadiagonal *m)
 {
     stack *s = &w->stack;
-    int width = w->width, k = w->k, top = width;
-    double *d = m->diagonal + (width == 2 ? 3 : 1) * k;
-    d[0] = s->row[0][0];
-    if (width == 2) d[1] = s->row[0][1], d[2] = s->row[1][1];
-    for (int part = 0; part < width; part++) {
-        memcpy(m->below + width * (width * k + part), s->row[part] + width, sizeof(double) * (size_t)width);
-        memcpy(m->below2 + width * (width * k + part), s->row[part] + 2 * width, sizeof(double) * (size_t)width);
-        if (m->cyclic) {
-            memcpy(m->border + 2 * width * (width * k + part), s->row[part] + 3 * width,
-                   sizeof(double) * (size_t)(2 * width));
-        }
+    int k = w->k, top = 2;
+    double *d = m->diagonal + 3 * k;
+    d[0] = s->row[0][0], d[1] = s->row[0][1], d[2] = s->row[1][1];
+    for (int part = 0; part < 2; part++) {
+        memcpy(m->below + 4 * k + 2 * part, s->row[part] + 2, 2 * sizeof(double));
+        memcpy(m->below2 + 4 * k + 2 * part, s->row[part] + 4, 2 * sizeof(double));
+        if (m->cyclic) memcpy(m->border + 4 * (2 * k + part), s->row[part] + SEAM, 4 * sizeof(double));
     }
-    for (int c = width; c < w->columns; c++) top += reflect(w, top, c);
+    for (int c = 2; c < COLUMNS; c++) top += reflect(w, top, c);
     int rows = 0;
-    for (int r = width; r < top; r++, rows++) {
+    for (int r = 2; r < top; r++, rows++) {
         double *to = s->row[rows];
         const double *from = s->row[r];
-        memmove(to, from + width, sizeof(double) * (size_t)(2 * width));
-        memset(to + 2 * width, 0, sizeof(double) * (size_t)width);
-        memcpy(to + 3 * width, from + 3 * width, sizeof(double) * (size_t)(2 * width));
+        memmove(to, from + 2, 4 * sizeof(double));
+        memset(to + 4, 0, 2 * sizeof(double));
+        memcpy(to + SEAM, from + SEAM, 4 * sizeof(double));
     }
     s->rows = rows;
 }
@@ -248,30 +243,26 @@ static void finish_step(walk *w, pentadiagonal *m)
 static pentadiagonal_rank eliminate_seam(walk *w, pentadiagonal *m)
 {
     pentadiagonal_rank rank = RANK_FULL;
-    int width = w->width, top = 0;
+    int top = 0;
     for (int sample = w->interior; sample < w->rows->count; sample++) add_imaginary(w, sample);
     for (int s = w->slope; s < w->rows->slope_count; s++) {
         if (!crosses_seam(w, &w->rows->slopes[s])) add_slope(w, &w->rows->slopes[s]);
     }
     clear_fixed(w);
     for (int s = 0; s < 2; s++) {
-        pentadiagonal_rank of_sample = eliminate(w, w->interior + s, width * (3 + s), &top);
+        pentadiagonal_rank of_sample = eliminate(w, w->interior + s, SEAM + 2 * s, &top);
         rank = of_sample < rank ? of_sample : rank;
         if (rank == RANK_BROKEN) return rank;
     }
-    for (int r = 0; r < 2 * width; r++) {
-        for (int c = 0; c < 2 * width; c++) m->corner[r][c] = w->stack.row[r][3 * width + c];
-    }
+    for (int r = 0; r < BORDER_MAX; r++) memcpy(m->corner[r], w->stack.row[r] + SEAM, sizeof m->corner[r]);
     return rank;
 }
 
 pentadiagonal_rank orthogonal_factor(const system_rows *rows, pentadiagonal *m)
 {
-    walk w = {.rows = rows, .width = rows->is_complex ? 2 : 1};
-    w.columns = w.width * 5;
-    w.interior = rows->loop ? rows->count - 2 : rows->count;
+    walk w = {.rows = rows, .interior = rows->loop ? rows->count - 2 : rows->count};
     m->count = rows->count;
-    m->width = w.width;
+    m->is_complex = rows->is_complex;
     m->cyclic = rows->loop;
     pentadiagonal_rank rank = RANK_FULL;
     for (w.k = 0; w.k < w.interior; w.k++) {
@@ -288,66 +279,55 @@ pentadiagonal_rank orthogonal_factor(const system_rows *rows, pentadiagonal *m)
     return seam < rank ? seam : rank;
 }
 
-/// The w×w triangle of sample k as (00, 01, 11); a lone number is (00, 0, 1).
-static void triangle(const pentadiagonal *m, int k, double u[3])
-{
-    u[0] = m->diagonal[m->width == 2 ? 3 * k : k];
-    u[1] = m->width == 2 ? m->diagonal[3 * k + 1] : 0;
-    u[2] = m->width == 2 ? m->diagonal[3 * k + 2] : 1;
-}
-
 /// y_k = U_kk⁻ᵀ (b_k − U_{k−1,k}ᵀ y_{k−1} − U_{k−2,k}ᵀ y_{k−2}); the seam's part of b loses what the interior takes.
 static void solve_transposed(const pentadiagonal *m, int interior, double *b)
 {
-    int w = m->width;
     for (int k = 0; k < interior; k++) {
-        double u[3], *y = b + w * k;
-        triangle(m, k, u);
-        for (int part = 0; part < w; part++) {
-            for (int r = 0; r < w; r++) {
-                if (k > 0) y[part] -= m->below[w * (w * (k - 1) + r) + part] * b[w * (k - 1) + r];
-                if (k > 1) y[part] -= m->below2[w * (w * (k - 2) + r) + part] * b[w * (k - 2) + r];
+        const double *u = m->diagonal + 3 * k;
+        double *y = b + 2 * k;
+        for (int part = 0; part < 2; part++) {
+            for (int r = 0; r < 2; r++) {
+                if (k > 0) y[part] -= m->below[4 * (k - 1) + 2 * r + part] * b[2 * (k - 1) + r];
+                if (k > 1) y[part] -= m->below2[4 * (k - 2) + 2 * r + part] * b[2 * (k - 2) + r];
             }
         }
         y[0] /= u[0];
-        if (w == 2) y[1] = (y[1] - u[1] * y[0]) / u[2];
-        for (int c = 0; m->cyclic && c < 2 * w; c++) {
-            for (int r = 0; r < w; r++) b[w * interior + c] -= m->border[2 * w * (w * k + r) + c] * y[r];
+        y[1] = (y[1] - u[1] * y[0]) / u[2];
+        for (int c = 0; m->cyclic && c < BORDER_MAX; c++) {
+            for (int r = 0; r < 2; r++) b[2 * interior + c] -= m->border[4 * (2 * k + r) + c] * y[r];
         }
     }
 }
 
 static void solve_seam(const pentadiagonal *m, double *b)
 {
-    int size = 2 * m->width;
-    for (int c = 0; c < size; c++) {
+    for (int c = 0; c < BORDER_MAX; c++) {
         for (int r = 0; r < c; r++) b[c] -= m->corner[r][c] * b[r];
         b[c] /= m->corner[c][c];
     }
-    for (int r = size - 1; r >= 0; r--) {
-        for (int c = r + 1; c < size; c++) b[r] -= m->corner[r][c] * b[c];
+    for (int r = BORDER_MAX - 1; r >= 0; r--) {
+        for (int c = r + 1; c < BORDER_MAX; c++) b[r] -= m->corner[r][c] * b[c];
         b[r] /= m->corner[r][r];
     }
 }
 
 void orthogonal_solve(const pentadiagonal *m, double *b)
 {
-    int w = m->width, interior = m->cyclic ? m->count - 2 : m->count;
+    const int interior = m->cyclic ? m->count - 2 : m->count;
     solve_transposed(m, interior, b);
-    if (m->cyclic) solve_seam(m, b + w * interior);
+    if (m->cyclic) solve_seam(m, b + 2 * interior);
     for (int k = interior - 1; k >= 0; k--) {
-        double u[3], *x = b + w * k;
-        triangle(m, k, u);
-        for (int part = 0; part < w; part++) {
-            for (int c = 0; c < w; c++) {
-                if (k + 1 < interior) x[part] -= m->below[w * (w * k + part) + c] * b[w * (k + 1) + c];
-                if (k + 2 < interior) x[part] -= m->below2[w * (w * k + part) + c] * b[w * (k + 2) + c];
+        const double *u = m->diagonal + 3 * k;
+        double *x = b + 2 * k;
+        for (int part = 0; part < 2; part++) {
+            for (int c = 0; c < 2; c++) {
+                if (k + 1 < interior) x[part] -= m->below[4 * k + 2 * part + c] * b[2 * (k + 1) + c];
+                if (k + 2 < interior) x[part] -= m->below2[4 * k + 2 * part + c] * b[2 * (k + 2) + c];
             }
-            for (int c = 0; m->cyclic && c < 2 * w; c++) {
-                x[part] -= m->border[2 * w * (w * k + part) + c] * b[w * interior + c];
-            }
+            for (int c = 0; m->cyclic && c < BORDER_MAX; c++)
+                x[part] -= m->border[4 * (2 * k + part) + c] * b[2 * interior + c];
         }
-        if (w == 2) x[1] /= u[2];
-        x[0] = (x[0] - u[1] * (w == 2 ? x[1] : 0)) / u[0];
+        x[1] /= u[2];
+        x[0] = (x[0] - u[1] * x[1]) / u[0];
     }
 }

@@ -6,15 +6,16 @@
 
 enum { BORDER_MAX = 4 }; ///< unknowns of the two samples that a loop's border holds
 
-/// Blocks of width 1 (cubic and real mode) or 2 (re, im). Filled by system_matrix(), overwritten by the factor.
+/// Blocks of (Re x, Im x); outside complex mode only the first number of each is looked at. Filled by system_matrix(), overwritten by
+/// the factor.
 typedef struct pentadiagonal {
     int count; ///< block rows
-    int width;
+    bool is_complex;
     bool cyclic;
-    double *diagonal; ///< A_kk: (00, 01, 11) or 1 number a sample   → inverse of the pivot block
-    double *below;    ///< A_{k+1,k}: 2×2 row-major or 1 number        → L_{k+1,k}
-    double *below2;   ///< A_{k+2,k}                                   → L_{k+2,k}
-    double *border;   ///< cyclic: BORDER_MAX columns of width·count numbers → interior⁻¹ times the border
+    double *diagonal; ///< A_kk: (00, 01, 11)           → inverse of the pivot block
+    double *below;    ///< A_{k+1,k}: 2×2 row-major       → L_{k+1,k}
+    double *below2;   ///< A_{k+2,k}                      → L_{k+2,k}
+    double *border;   ///< cyclic: BORDER_MAX columns of 2·count numbers → interior⁻¹ times the border
     double edge[BORDER_MAX][2][BORDER_MAX]; ///< the border's rows that are not 0, before solving
     int edge_row[BORDER_MAX];
     int edge_count;
@@ -32,7 +33,7 @@ typedef enum pentadiagonal_rank {
 /// Factors. cyclic needs count ≥ 3.
 pentadiagonal_rank pentadiagonal_factor(pentadiagonal *matrix);
 
-/// b ← A⁻¹ b, width·count numbers; after a successful factor.
+/// b ← A⁻¹ b, 2·count numbers; after a successful factor.
 void pentadiagonal_solve(const pentadiagonal *matrix, double *b);
 
 #endif

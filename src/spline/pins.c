@@ -270,9 +270,9 @@ static void read_pulled(const pulled *of, double *x)
 {
     const system_rows *rows = &of->solver->rows;
     for (int i = 0; i < of->pulls.count; i++) {
-        const double *at = rows->x + (rows->is_complex ? 2 : 1) * (of->pulls.sample[i] - of->problem.first);
+        const double *at = rows->x + 2 * (of->pulls.sample[i] - of->problem.first);
         x[2 * i] = at[0];
-        x[2 * i + 1] = rows->is_complex ? at[1] : 0;
+        x[2 * i + 1] = at[1];
     }
 }
 

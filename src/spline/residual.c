@@ -32,7 +32,7 @@ static inline cplx sample_of(const system_rows *rows, int k)
     if (rows->loop) k = k < 0 ? last : k > last ? 0 : k;
     if (k < 0) return (cplx){0, 0};
     if (k > last) k = last;
-    return rows->is_complex ? (cplx){rows->x[2 * k], rows->x[2 * k + 1]} : (cplx){rows->x[k], 0};
+    return (cplx){rows->x[2 * k], rows->x[2 * k + 1]};
 }
 
 /// f_i: of a slow loop next to nothing is left of the sum of all, and not even their rounding may be.
@@ -48,7 +48,7 @@ static inline ddc drive_of(const system_rows *rows, int i)
     return (ddc){dd_scale(rows->at[i].g.re, bend), dd_scale(rows->at[i].g.im, bend)};
 }
 
-static inline ddc complex_jet(const system_rows *rows, int i)
+static inline ddc jet_of(const system_rows *rows, int i)
 {
     cplx before = sample_of(rows, i - 1), here = sample_of(rows, i), after = sample_of(rows, i + 1);
     ddc step = {dd_difference(here.re, before.re), dd_difference(here.im, before.im)};
@@ -63,48 +63,20 @@ static inline ddc complex_jet(const system_rows *rows, int i)
     return ddc_add(ddc_subtract(next, step), ddc_add(spring, drive_of(rows, i)));
 }
 
-static inline dd real_jet(const system_rows *rows, int i)
-{
-    const double *x = rows->x;
-    int last = rows->count - 1;
-    double before = i > 0 ? x[i - 1] : rows->loop ? x[last] : 0, here = x[i];
-    dd step = dd_difference(here, before);
-    dd next = i < last     ? dd_difference(x[i + 1], here)
-              : rows->loop ? dd_difference(x[0], here)
-                           : dd_product(rows->tail.re, here);
-    dd spring = dd_subtract(dd_product(rows->at[i].p.re, before), dd_scale(rows->at[i].m.re, step));
-    if (rows->fast) {
-        dd own = dd_product(rows->at[i].a_rest.re, here);
-        spring = dd_add(spring, dd_subtract(dd_product(rows->at[i].b_rest.re, before), own));
-    }
-    return dd_add(dd_subtract(next, step), dd_add(spring, drive_of(rows, i).re));
-}
-
 static const ddc no_jet = {{0, 0}, {0, 0}};
 
-static inline ddc complex_jet_at(const system_rows *rows, int i)
+static inline ddc jet_at(const system_rows *rows, int i)
 {
     const double *j = rows->jet + 4 * i;
     return (ddc){{j[0], j[1]}, {j[2], j[3]}};
 }
 
-static inline dd real_jet_at(const system_rows *rows, int i) { return (dd){rows->jet[2 * i], rows->jet[2 * i + 1]}; }
-
-static void complex_jets(const system_rows *rows)
+static void set_jets(const system_rows *rows)
 {
     for (int i = rows->jet_from; i <= rows->jet_to; i++) {
-        ddc r = ddc_scale((cplx){rows->jet_weight[i], 0}, complex_jet(rows, i));
+        ddc r = ddc_scale((cplx){rows->jet_weight[i], 0}, jet_of(rows, i));
         double *j = rows->jet + 4 * i;
         j[0] = r.re.hi, j[1] = r.re.lo, j[2] = r.im.hi, j[3] = r.im.lo;
-    }
-}
-
-static void real_jets(const system_rows *rows)
-{
-    for (int i = rows->jet_from; i <= rows->jet_to; i++) {
-        dd r = dd_scale(rows->jet_weight[i], real_jet(rows, i));
-        rows->jet[2 * i] = r.hi;
-        rows->jet[2 * i + 1] = r.lo;
     }
 }
 
@@ -116,12 +88,12 @@ static inline int jet_beside(const system_rows *rows, int i)
 }
 
 /// g = −(before − 2·here + after) + m* here − (m+p)* after, where there are such rows; the tail's row asks less of the last sample.
-static void complex_adjoint(const system_rows *rows)
+static void set_adjoint(const system_rows *rows)
 {
     for (int k = 0; k < rows->count; k++) {
         int b = jet_beside(rows, k - 1), a = jet_beside(rows, k + 1), h = jet_beside(rows, k);
-        ddc before = b >= 0 ? complex_jet_at(rows, b) : no_jet, after = a >= 0 ? complex_jet_at(rows, a) : no_jet;
-        ddc here = h >= 0 ? complex_jet_at(rows, h) : no_jet;
+        ddc before = b >= 0 ? jet_at(rows, b) : no_jet, after = a >= 0 ? jet_at(rows, a) : no_jet;
+        ddc here = h >= 0 ? jet_at(rows, h) : no_jet;
         ddc second = ddc_subtract(ddc_subtract(before, here), ddc_subtract(here, after));
         ddc g = ddc_subtract(ddc_scale(cplx_conj(rows->at[k].m), here), second);
         if (a >= 0) {
@@ -139,38 +111,19 @@ static void complex_adjoint(const system_rows *rows)
     }
 }
 
-static void real_adjoint(const system_rows *rows)
-{
-    for (int k = 0; k < rows->count; k++) {
-        int b = jet_beside(rows, k - 1), a = jet_beside(rows, k + 1), h = jet_beside(rows, k);
-        dd before = b >= 0 ? real_jet_at(rows, b) : no_jet.re, after = a >= 0 ? real_jet_at(rows, a) : no_jet.re;
-        dd here = h >= 0 ? real_jet_at(rows, h) : no_jet.re;
-        dd second = dd_subtract(dd_subtract(before, here), dd_subtract(here, after));
-        dd g = dd_subtract(dd_scale(rows->at[k].m.re, here), second);
-        if (a >= 0) g = dd_subtract(g, dd_add(dd_scale(rows->at[a].m.re, after), dd_scale(rows->at[a].p.re, after)));
-        if (rows->fast) {
-            g = dd_add(g, dd_scale(rows->at[k].a_rest.re, here));
-            if (a >= 0) g = dd_subtract(g, dd_scale(rows->at[a].b_rest.re, after));
-        }
-        if (!rows->loop && k == rows->count - 1) g = dd_subtract(g, dd_add(here, dd_scale(rows->tail.re, here)));
-        rows->gradient[k] = g.hi + g.lo;
-    }
-}
-
-/// Re(c x_j), or c.re x_j.
+/// Re(c x_j).
 static double part_of(const system_rows *rows, cplx c, int j)
 {
     if (j < 0) return 0;
-    return rows->is_complex ? c.re * rows->x[2 * j] - c.im * rows->x[2 * j + 1] : c.re * rows->x[j];
+    return c.re * rows->x[2 * j] - c.im * rows->x[2 * j + 1];
 }
 
 /// Takes w Re(c* …) off the gradient at a sample.
 static void pull_back(const system_rows *rows, cplx c, int j, double miss)
 {
     if (j < 0) return;
-    double *g = rows->gradient + (rows->is_complex ? 2 * j : j);
-    g[0] -= c.re * miss;
-    if (rows->is_complex) g[1] += c.im * miss;
+    rows->gradient[2 * j] -= c.re * miss;
+    rows->gradient[2 * j + 1] += c.im * miss;
 }
 
 static void add_slopes(const system_rows *rows)
@@ -188,23 +141,19 @@ static void add_slopes(const system_rows *rows)
 
 static void add_start(const system_rows *rows)
 {
-    int width = rows->is_complex ? 2 : 1;
     bool alone = rows->count == 1;
     const double *x = rows->x;
     double *g = rows->gradient;
-    cplx x0 = {x[0], rows->is_complex ? x[1] : 0}, e0 = cplx_mul(rows->tail, x0);
-    if (!alone) e0 = cplx_sub((cplx){x[width], rows->is_complex ? x[3] : 0}, x0);
+    cplx x0 = {x[0], x[1]}, e0 = cplx_mul(rows->tail, x0);
+    if (!alone) e0 = cplx_sub((cplx){x[2], x[3]}, x0);
     for (int i = 0; i < 2; i++) {
         const struct start_row *row = &rows->start.row[i];
         if (!(row->weight > 0)) continue;
         cplx cost = cplx_scale(row->weight, cplx_add(cplx_mul(row->on_x, x0), cplx_mul(row->on_e, e0)));
         cplx on_x = cplx_mul(cplx_conj(row->on_x), cost), on_e = cplx_mul(cplx_conj(row->on_e), cost);
         cplx back = alone ? cplx_mul(cplx_conj(rows->tail), on_e) : cplx_scale(-1, on_e);
-        g[0] -= on_x.re + back.re;
-        if (rows->is_complex) g[1] -= on_x.im + back.im;
-        if (alone) continue;
-        g[width] -= on_e.re;
-        if (rows->is_complex) g[3] -= on_e.im;
+        g[0] -= on_x.re + back.re, g[1] -= on_x.im + back.im;
+        if (!alone) g[2] -= on_e.re, g[3] -= on_e.im;
     }
 }
 
@@ -212,8 +161,8 @@ static void add_pulls(const system_rows *rows)
 {
     for (int i = 0; rows->pulls && i < rows->pulls->count; i++) {
         int k = rows->pulls->sample[i] - rows->first;
-        rows->gradient[rows->is_complex ? 2 * k : k] += rows->pulls->pull[i].re;
-        if (rows->is_complex) rows->gradient[2 * k + 1] += rows->pulls->pull[i].im;
+        rows->gradient[2 * k] += rows->pulls->pull[i].re;
+        rows->gradient[2 * k + 1] += rows->pulls->pull[i].im;
     }
 }
 
@@ -223,19 +172,13 @@ static void add_other_rows(const system_rows *rows)
     add_pulls(rows);
     add_slopes(rows);
     add_start(rows);
-    for (int k = 0; k < rows->count && rows->is_complex; k++)
-        rows->gradient[2 * k + 1] -= rows->im_weight[k] * rows->x[2 * k + 1];
+    for (int k = 0; k < rows->count; k++) rows->gradient[2 * k + 1] -= rows->im_weight[k] * rows->x[2 * k + 1];
 }
 
 /// Fixed unknowns take no correction.
 static void hold_fixed(const system_rows *rows)
 {
     for (int k = 0; k < rows->count; k++) {
-        if (!rows->fixed[k]) continue;
-        if (!rows->is_complex) {
-            rows->gradient[k] = 0;
-            continue;
-        }
         if (rows->fixed[k] & FIXED_RE) rows->gradient[2 * k] = 0;
         if (rows->fixed[k] & FIXED_IM) rows->gradient[2 * k + 1] = 0;
     }
@@ -245,10 +188,6 @@ static void hold_fixed(const system_rows *rows)
 static inline void pull_jet(const system_rows *rows, int k, cplx c, cplx r)
 {
     cplx pulled = cplx_mul(cplx_conj(c), r);
-    if (!rows->is_complex) {
-        rows->gradient[k] -= pulled.re;
-        return;
-    }
     rows->gradient[2 * k] -= pulled.re, rows->gradient[2 * k + 1] -= pulled.im;
 }
 
@@ -283,28 +222,28 @@ static void pull_plainly(const system_rows *rows)
 
 void system_forget_known(const system_rows *rows)
 {
-    memset(rows->x, 0, sizeof *rows->x * (size_t)(rows->is_complex ? 2 * rows->count : rows->count));
+    memset(rows->x, 0, sizeof *rows->x * 2 * (size_t)rows->count);
     memset(rows->drive, 0, sizeof *rows->drive * (size_t)rows->count);
     for (int i = 0; i < rows->slope_count; i++) rows->slopes[i].target = 0;
 }
 
-void system_right_side(const system_rows *rows)
+void system_forces(const system_rows *rows)
 {
-    memset(rows->gradient, 0, sizeof(double) * (size_t)(rows->is_complex ? 2 * rows->count : rows->count));
+    memset(rows->gradient, 0, sizeof *rows->gradient * 2 * (size_t)rows->count);
     pull_plainly(rows);
     add_other_rows(rows);
+}
+
+void system_right_side(const system_rows *rows)
+{
+    system_forces(rows);
     hold_fixed(rows);
 }
 
 void system_gradient(const system_rows *rows)
 {
-    if (rows->is_complex) {
-        complex_jets(rows);
-        complex_adjoint(rows);
-    } else {
-        real_jets(rows);
-        real_adjoint(rows);
-    }
+    set_jets(rows);
+    set_adjoint(rows);
     add_other_rows(rows);
     hold_fixed(rows);
 }

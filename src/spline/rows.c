@@ -242,7 +242,7 @@ static void set_rest(wiggly_solver *solver, const problem *p)
         rows->jet_weight[0] *= 2;
     } else {
         rows->fixed[1] = FIXED_RE | FIXED_IM;
-        if (p->y && !p->about) rows->x[rows->is_complex ? 2 : 1] = p->y[1] - p->level;
+        if (p->y && !p->about) rows->x[2] = p->y[1] - p->level;
     }
 }
 
@@ -251,16 +251,15 @@ static void set_constraints(wiggly_solver *solver, const problem *p)
 {
     system_rows *rows = &solver->rows;
     rows->slope_count = 0;
-    int width = rows->is_complex ? 2 : 1;
-    memset(rows->x, 0, sizeof(double) * (size_t)(width * rows->count));
-    memset(rows->fixed, 0, (size_t)rows->count);
+    memset(rows->x, 0, sizeof *rows->x * 2 * (size_t)rows->count);
+    memset(rows->fixed, rows->is_complex ? 0 : FIXED_IM, (size_t)rows->count);
     if (p->start == WIGGLY_REST) set_rest(solver, p);
     if (problem_implies_slope(p)) add_slope(rows, p, p->earliest, 0, implied_stiffness);
     for (int n = 0; n < p->desc->knot_count; n++) {
         const wiggly_knot *knot = &p->desc->knots[solver->order[n]];
         int k = knot->sample - p->first;
         rows->fixed[k] |= FIXED_RE;
-        rows->x[width * k] = knot->value - problem_about(p, knot->sample);
+        rows->x[2 * k] = knot->value - problem_about(p, knot->sample);
         if (knot->has_slope) add_slope(rows, p, knot->sample, knot->slope, knot->stiffness);
     }
 }

@@ -22,7 +22,7 @@ static void unpack(wiggly_solver *solver, const problem *p, wiggly_curve *curve)
     const system_rows *rows = &solver->rows;
     double *re = curve->re + p->first, *im = curve->im + p->first;
     for (int k = 0; k < rows->count; k++) {
-        re[k] = rows->x[rows->is_complex ? 2 * k : k];
+        re[k] = rows->x[2 * k];
         if (rows->is_complex) im[k] = rows->x[2 * k + 1];
     }
     problem_settle(solver, p, curve->re, curve->im);
@@ -58,17 +58,17 @@ static void join_knots(wiggly_solver *solver, const problem *p)
 {
     system_rows *rows = &solver->rows;
     problem_set_rows(solver, p);
-    int width = rows->is_complex ? 2 : 1, before = -1;
+    int before = -1;
     for (int k = 0; k < rows->count; k++) {
         if (!(rows->fixed[k] & FIXED_RE)) continue;
         for (int i = before + 1; i < k; i++) {
-            double from = before < 0 ? rows->x[width * k] : rows->x[width * before];
+            double from = before < 0 ? rows->x[2 * k] : rows->x[2 * before];
             double u = (double)(i - before) / (k - before); // each part by itself: the difference might overflow
-            rows->x[width * i] = from * (1 - u) + rows->x[width * k] * u;
+            rows->x[2 * i] = from * (1 - u) + rows->x[2 * k] * u;
         }
         before = k;
     }
-    for (int i = before + 1; before >= 0 && i < rows->count; i++) rows->x[width * i] = rows->x[width * before];
+    for (int i = before + 1; before >= 0 && i < rows->count; i++) rows->x[2 * i] = rows->x[2 * before];
 }
 
 /// Solves, and where the problem is singular as asked, solves the nearest one that is not.

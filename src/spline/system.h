@@ -6,7 +6,8 @@
 ///     slope   w       Re(here x_j + ahead (x_{j+1} − x_j) + behind (x_j − x_{j−1})) − target                  (eq. 9)
 ///     start   w       on_x x_0 + on_e (x_1 − x_0), twice
 ///     im      w_k     Im x_k                                              complex mode
-/// Outside a loop x_{−1} is 0 and x_M is (1 + tail) x_{M−1}. Fixed unknowns (knots on Re x, rest on both) keep the value that x holds.
+/// Outside a loop x_{−1} is 0 and x_M is (1 + tail) x_{M−1}. Fixed unknowns (knots on Re x, rest on both, outside complex mode every Im x)
+/// keep the value that x holds.
 #ifndef SPLINE_SYSTEM_H
 #define SPLINE_SYSTEM_H
 
@@ -56,9 +57,9 @@ typedef struct system_rows {
     const system_pulls *pulls; ///< or NULL
     int first;                 ///< sample of the spline that row 0 is: pulls are counted by these
     cplx tail;                 ///< x_M / x_{M−1} − 1: what moves by itself behind the last sample
-    double *x;                 ///< 2M: re, im; in cubic and real mode M
+    double *x;                 ///< 2M: re, im
     double *gradient;          ///< like x
-    double *jet;               ///< scratch of the residual: w r as double-doubles, 4M or 2M
+    double *jet;               ///< scratch of the residual: w r as double-doubles, 4M
 } system_rows;
 
 /// A row's coefficients on the samples j − 1, j and j + 1 that there are: `before` and `after` are their numbers or -1.
@@ -77,11 +78,11 @@ void system_gradient(const system_rows *rows);
 /// The same where x holds nothing but what is known: all of it is small sums, and plain double will do.
 void system_right_side(const system_rows *rows);
 
+/// What the rows pull at x, in plain double, and at fixed unknowns too: what holds them pulls as hard the other way.
+void system_forces(const system_rows *rows);
+
 /// Everything that is known 0: what is left is the answer to pulls.
 void system_forget_known(const system_rows *rows);
-
-/// −½ of the gradient of E·h³ by Re x of a sample, at a curve that begins with the system; `im` is NULL outside complex mode.
-double system_pull(const system_rows *rows, const double *re, const double *im, int k);
 
 /// The squared matrix Rᵀ W R with fixed unknowns as rows of the identity, ready to be factored.
 void system_matrix(const system_rows *rows, pentadiagonal *matrix);

@@ -54,19 +54,13 @@ static void work_destroy(struct work *w)
     free(w->curve.total);
 }
 
-/// A number of a block below the diagonal.
-static double below(const double *blocks, int block, int width, int row, int column)
-{
-    return width == 2 ? blocks[4 * block + 2 * row + column] : blocks[block];
-}
-
 /// The gradient at "knots fixed, 0 elsewhere" stands on the right, so that the solution is x less the knots.
 /// Entries that would stand below the last row are never read.
 static void fill_band(struct work *w)
 {
     const pentadiagonal *m = &w->solver->matrix;
     solver_describe(w->solver, &w->desc, w->about);
-    const int width = m->width, kd = width == 2 ? MOST_BAND : 2;
+    const int width = m->is_complex ? 2 : 1, kd = width == 2 ? MOST_BAND : 2;
     system_gradient(&w->solver->rows);
     w->unknowns = width * m->count;
     w->band_width = kd;
@@ -74,14 +68,13 @@ static void fill_band(struct work *w)
     for (int unknown = 0; unknown < w->unknowns; unknown++) {
         const int k = unknown / width, part = unknown % width;
         double *column = w->band + (size_t)unknown * (size_t)(kd + 1);
-        for (int row = part; row < width; row++)
-            column[row - part] = width == 2 ? m->diagonal[3 * k + row + part] : m->diagonal[k];
+        for (int row = part; row < width; row++) column[row - part] = m->diagonal[3 * k + row + part];
         for (int row = 0; row < width; row++) {
-            column[width + row - part] = below(m->below, k, width, row, part);
-            column[2 * width + row - part] = below(m->below2, k, width, row, part);
+            column[width + row - part] = m->below[4 * k + 2 * row + part];
+            column[2 * width + row - part] = m->below2[4 * k + 2 * row + part];
         }
+        w->right[unknown] = w->solver->rows.gradient[2 * k + part];
     }
-    memcpy(w->right, w->solver->rows.gradient, sizeof(double) * (size_t)w->unknowns);
 }
 
 /// Seconds that LAPACKE_dpbsv takes; NAN where it failed.
@@ -121,7 +114,7 @@ static double compare(struct work *w, const struct lapack *lapack)
         int sample = w->curve.first + i / width;
         bool im = i % width == 1;
         double ours = im ? w->curve.im[sample] : w->curve.total[sample];
-        double theirs = solved[i] + rows->x[i];
+        double theirs = solved[lapack ? i : 2 * (i / width) + i % width] + rows->x[2 * (i / width) + i % width];
         if (!im) theirs += w->about[sample];
         if (im && swings) theirs += w->solver->response.im[sample];
         worst = fmax(worst, fabs(theirs - ours)) + 0 * theirs;
