@@ -85,16 +85,9 @@ static bool add_worker(wiggly_batch *batch, wiggly_solver *own)
 /// Bytes of everything but the solvers.
 static size_t head_size(int threads) { return sizeof(wiggly_batch) + sizeof(worker) * (size_t)threads; }
 
-/// Bytes of one solver, the next one being aligned as it is; 0 where that does not fit.
-static size_t each_size(int samples, int knots)
-{
-    size_t each = wiggly_memsize(samples, knots), past = (sizeof(double) - each % sizeof(double)) % sizeof(double);
-    return each && !__builtin_add_overflow(each, past, &each) ? each : 0;
-}
-
 size_t wiggly_batch_memsize(int samples, int knots, int threads)
 {
-    size_t each = each_size(samples, knots), size;
+    size_t each = wiggly_memsize(samples, knots), size;
     if (!each || threads < 1 || threads > MAX_THREADS) return 0;
     bool fits = !__builtin_mul_overflow(each, (size_t)threads, &size) &&
                 !__builtin_add_overflow(size, head_size(threads), &size);
@@ -106,7 +99,7 @@ static wiggly_status start(void *memory, int samples, int knots, int threads, bo
 {
     wiggly_batch *batch = memory;
     unsigned char *solvers = (unsigned char *)memory + head_size(threads);
-    size_t each = each_size(samples, knots);
+    size_t each = wiggly_memsize(samples, knots);
     batch->owned = owned;
     thread_lock_create(&batch->lock);
     thread_signal_create(&batch->given);

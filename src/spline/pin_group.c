@@ -3,52 +3,32 @@
 #include <limits.h>
 #include <stdlib.h>
 
-/// A block handed out piece by piece; without one it is only measured.
-typedef struct arena {
-    unsigned char *block;
-    size_t used;
-    bool too_large;
-} arena;
-
-static void *take(arena *a, size_t count, size_t size)
-{
-    enum { ALIGNMENT = 16 };
-    size_t bytes, end;
-    if (__builtin_mul_overflow(count, size, &bytes) || __builtin_add_overflow(bytes, ALIGNMENT - 1, &bytes) ||
-        __builtin_add_overflow(a->used, bytes & ~(size_t)(ALIGNMENT - 1), &end)) {
-        a->too_large = true;
-        return NULL;
-    }
-    void *at = a->block ? a->block + a->used : NULL;
-    a->used = end;
-    return at;
-}
-
 static void lay_out_spline(pulled *of, arena *a, int places, int pressed)
 {
     const size_t count = (size_t)places;
-    pulled p = {.pulls = {.sample = take(a, count, sizeof(int)), .pull = take(a, count, sizeof(cplx))},
-                .e = take(a, (size_t)pressed, sizeof(double))};
+    pulled p = {.pulls = {.sample = arena_take(a, count, sizeof(int)), .pull = arena_take(a, count, sizeof(cplx))},
+                .e = arena_take(a, (size_t)pressed, sizeof(double))};
     if (of) *of = p;
 }
 
 static void lay_out_bounds(struct wiggly_group *at, arena *a, size_t rows, size_t samples)
 {
-    at->want = take(a, rows, sizeof(double));
+    at->want = arena_take(a, rows, sizeof(double));
     const size_t bounds = (size_t)at->bounds;
-    at->reduced = take(a, rows, rows * sizeof(double));
-    at->square = take(a, bounds, bounds * sizeof(double));
-    at->root = take(a, bounds, sizeof(double));
-    at->scale = take(a, bounds, sizeof(double));
-    at->product = take(a, bounds, sizeof(double));
-    at->pressing = take(a, bounds, sizeof(int));
+    at->reduced = arena_take(a, rows, rows * sizeof(double));
+    at->square = arena_take(a, bounds, bounds * sizeof(double));
+    at->root = arena_take(a, bounds, sizeof(double));
+    at->scale = arena_take(a, bounds, sizeof(double));
+    at->product = arena_take(a, bounds, sizeof(double));
+    at->pressing = arena_take(a, bounds, sizeof(int));
     one_sided_limit *limit = &at->search.limit[0];
     double **const of_search[] = {&at->search.value, &at->search.is_open, &at->search.move, &at->search.lack,
                                   &limit->gap,       &limit->push,        &limit->by_gap,   &limit->by_push};
-    for (size_t i = 0; i < sizeof of_search / sizeof *of_search; i++) *of_search[i] = take(a, bounds, sizeof(double));
-    at->tail_rows = take(a, rows, sizeof(tail_row));
-    at->e = take(a, samples, sizeof(double));
-    at->pressed = take(a, samples, sizeof(double));
+    for (size_t i = 0; i < sizeof of_search / sizeof *of_search; i++)
+        *of_search[i] = arena_take(a, bounds, sizeof(double));
+    at->tail_rows = arena_take(a, rows, sizeof(tail_row));
+    at->e = arena_take(a, samples, sizeof(double));
+    at->pressed = arena_take(a, samples, sizeof(double));
 }
 
 static struct wiggly_group *lay_out(arena *a, const struct wiggly_group *capacity, int samples)
@@ -57,23 +37,23 @@ static struct wiggly_group *lay_out(arena *a, const struct wiggly_group *capacit
     const size_t s = (size_t)splines, p = (size_t)capacity->places;
     const size_t rows = 3 * (size_t)pins + (size_t)capacity->bounds;
     struct wiggly_group measured = *capacity;
-    struct wiggly_group *g = take(a, 1, sizeof *g), *at = g ? g : &measured;
+    struct wiggly_group *g = arena_take(a, 1, sizeof *g), *at = g ? g : &measured;
     *at = measured;
-    at->pulled = take(a, s, sizeof(pulled));
+    at->pulled = arena_take(a, s, sizeof(pulled));
     for (int i = 0; i < splines; i++)
         lay_out_spline(at->pulled ? &at->pulled[i] : NULL, a, capacity->places, capacity->bounds > 0 ? samples : 0);
-    at->rows.row = take(a, rows, sizeof(pin_row));
-    at->rows.on = take(a, rows, 2 * s * sizeof(double));
-    at->rows.scratch = take(a, pin_rows_scratch(splines, pins > 0 ? pins : 1), sizeof(double));
-    at->order = take(a, (size_t)pins, sizeof(int));
-    at->pull_of = take(a, rows, sizeof(int));
-    at->compliance = take(a, 2 * p, 2 * p * sizeof(double));
-    at->alone = take(a, 2 * p, sizeof(double));
-    at->answer = take(a, 2 * p, rows * sizeof(double));
-    at->system = take(a, rows, rows * sizeof(double));
-    at->soft = take(a, rows, sizeof(double));
-    at->lambda = take(a, rows, sizeof(double));
-    at->miss = take(a, rows, sizeof(double));
+    at->rows.row = arena_take(a, rows, sizeof(pin_row));
+    at->rows.on = arena_take(a, rows, 2 * s * sizeof(double));
+    at->rows.scratch = arena_take(a, pin_rows_scratch(splines, pins > 0 ? pins : 1), sizeof(double));
+    at->order = arena_take(a, (size_t)pins, sizeof(int));
+    at->pull_of = arena_take(a, rows, sizeof(int));
+    at->compliance = arena_take(a, 2 * p, 2 * p * sizeof(double));
+    at->alone = arena_take(a, 2 * p, sizeof(double));
+    at->answer = arena_take(a, 2 * p, rows * sizeof(double));
+    at->system = arena_take(a, rows, rows * sizeof(double));
+    at->soft = arena_take(a, rows, sizeof(double));
+    at->lambda = arena_take(a, rows, sizeof(double));
+    at->miss = arena_take(a, rows, sizeof(double));
     if (capacity->bounds > 0) lay_out_bounds(at, a, rows, (size_t)samples);
     return g;
 }

@@ -1,4 +1,4 @@
-/// A solver's memory: one block, carved once, largest alignment first so that nothing needs padding.
+/// A solver's memory: one block, laid out once. And the filter that it keeps.
 #include "spline/solver.h"
 #include <limits.h>
 #include <math.h>
@@ -6,118 +6,115 @@
 #include <stdlib.h>
 #include <string.h>
 
-/// What carve() hands out for each sample and for each knot; keep in step with it.
-enum {
-    MATRIX_DOUBLES = 3 + 4 + 4 + 2 * BORDER_MAX,
-    CHAIN_DOUBLES = 8,
-    RUN_DOUBLES = 6,
-    LIMIT_DOUBLES = 11,
-    LINE = 64, ///< of the cache: columns begin with one
-    BYTES_PER_SAMPLE =
-        (int)((MATRIX_DOUBLES + 2 + 2 + 2 + 4 + 4) * sizeof(double) + sizeof(coefficients) +
-              LIMIT_DOUBLES * sizeof(double) + sizeof(cplx) + 3 * sizeof(int) + 2 * sizeof(unsigned char)),
-    BYTES_PER_KNOT = (int)(sizeof(slope_row) + sizeof(chain_stretch) + sizeof(chain_node) + sizeof(chain_row) +
-                           2 * sizeof(wiggly_knot) + 9 * sizeof(double) + sizeof(int)),
-    FIXED_BYTES = (int)(RUN_DOUBLES * CHAIN_RUN * sizeof(double)) + CHAIN_DOUBLES * LINE + 3 * LINE,
-};
+void *arena_take(arena *a, size_t count, size_t size)
+{
+    enum { ALIGNMENT = 16 };
+    size_t bytes, end;
+    if (__builtin_mul_overflow(count, size, &bytes) || __builtin_add_overflow(bytes, ALIGNMENT - 1, &bytes) ||
+        __builtin_add_overflow(a->used, bytes & ~(size_t)(ALIGNMENT - 1), &end)) {
+        a->too_large = true;
+        return NULL;
+    }
+    void *at = a->block ? a->block + a->used : NULL;
+    a->used = end;
+    return at;
+}
 
-_Static_assert((int)CHAIN_DOUBLES <= (int)MATRIX_DOUBLES, "the chain's tables lie over the matrix");
+enum { LINE = 64, RUN_COLUMNS = 6, POWER_COLUMNS = 8 }; ///< LINE: of the cache, columns begin with one
+
+/// Columns of so many numbers each, one after the other.
+static void lay_out_columns(unsigned char *at, double **const *columns, int count, size_t numbers)
+{
+    for (int i = 0; i < count && at; i++) {
+        at += (LINE - (uintptr_t)at % LINE) % LINE;
+        *columns[i] = (double *)(void *)at;
+        at += numbers * sizeof(double);
+    }
+}
+
+/// Arrays of so many numbers a sample. The matrix comes first: the chain's tables lie over it, longer where there are few samples.
+static void lay_out_numbers(wiggly_solver *at, arena *a, size_t samples)
+{
+    system_rows *rows = &at->rows;
+    pentadiagonal *m = &at->matrix;
+    chain *c = &at->chain;
+    limit_memory *l = &at->limits;
+    const struct {
+        double **array;
+        size_t each;
+    } matrix[] = {{&m->diagonal, 3}, {&m->below, 4}, {&m->below2, 4}, {&m->border, 2 * BORDER_MAX}},
+      others[] = {{&rows->jet_weight, 1},
+                  {&rows->im_weight, 1},
+                  {&rows->x, 2},
+                  {&rows->gradient, 2},
+                  {&rows->jet, 4},
+                  {&at->y, 1},
+                  {&at->response.total, 1},
+                  {&at->response.im, 1},
+                  {&at->response.speed, 1},
+                  {&l->pull, 1},
+                  {&l->spare, 1},
+                  {&l->re, 1},
+                  {&l->im, 1},
+                  {&l->free[0], 1},
+                  {&l->free[1], 1},
+                  {&l->pushed[0], 1},
+                  {&l->pushed[1], 1},
+                  {&l->stiffness, 1},
+                  {&l->by_push, 2}};
+    double **const powers[POWER_COLUMNS] = {&c->powers.p.re,   &c->powers.p.im,   &c->powers.q.re, &c->powers.q.im,
+                                            &c->powers.w01.re, &c->powers.w01.im, &c->powers.w00,  &c->powers.w11};
+    for (size_t i = 0; i < sizeof matrix / sizeof *matrix; i++)
+        *matrix[i].array = arena_take(a, samples, matrix[i].each * sizeof(double));
+    arena_take(a, POWER_COLUMNS + 1, LINE);
+    lay_out_columns((unsigned char *)m->diagonal, powers, POWER_COLUMNS, samples);
+    for (size_t i = 0; i < sizeof others / sizeof *others; i++)
+        *others[i].array = arena_take(a, samples, others[i].each * sizeof(double));
+}
+
+static wiggly_solver *lay_out(arena *a, int samples, int knots)
+{
+    wiggly_solver measured = {0}, *solver = arena_take(a, 1, sizeof *solver), *at = solver ? solver : &measured;
+    const size_t n = (size_t)samples, k = (size_t)knots + 1;
+    system_rows *rows = &at->rows;
+    chain *c = &at->chain;
+    double **const runs[RUN_COLUMNS] = {&c->pulled[0].re, &c->pulled[0].im, &c->pulled[1].re,
+                                        &c->pulled[1].im, &c->back.re,      &c->back.im};
+    at->samples = samples;
+    at->knots = knots;
+    at->longest_squared = INT_MAX;
+    c->stretch_capacity = knots + 1;
+    lay_out_numbers(at, a, n);
+    lay_out_columns(arena_take(a, RUN_COLUMNS, CHAIN_RUN * sizeof(double) + LINE), runs, RUN_COLUMNS, CHAIN_RUN);
+    rows->at = arena_take(a, n, sizeof *rows->at);
+    rows->drive = arena_take(a, n, sizeof *rows->drive);
+    rows->slopes = arena_take(a, k, sizeof *rows->slopes);
+    rows->fixed = arena_take(a, n, sizeof *rows->fixed);
+    c->stretches = arena_take(a, k, sizeof *c->stretches);
+    c->nodes = arena_take(a, k, sizeof *c->nodes);
+    c->rows = arena_take(a, k, sizeof *c->rows);
+    c->to_first = arena_take(a, k, 9 * sizeof *c->to_first);
+    for (int i = 0; i < 2; i++) c->stretch_of[i] = arena_take(a, n, sizeof *c->stretch_of[i]);
+    at->limits.own = arena_take(a, k, sizeof *at->limits.own);
+    at->limits.all = arena_take(a, k, sizeof *at->limits.all);
+    at->limits.held = arena_take(a, n, sizeof *at->limits.held);
+    at->order = arena_take(a, k, sizeof *at->order);
+    at->knot_at = arena_take(a, n, sizeof *at->knot_at);
+    return solver;
+}
 
 size_t wiggly_memsize(int samples, int knots)
 {
+    arena size = {0};
     if (samples < 1 || knots < 0) return 0;
-    size_t per_sample, per_knot, sum;
-    if (__builtin_mul_overflow((size_t)samples, (size_t)BYTES_PER_SAMPLE, &per_sample) ||
-        __builtin_mul_overflow((size_t)knots + 1, (size_t)BYTES_PER_KNOT, &per_knot) ||
-        __builtin_add_overflow(per_sample, per_knot, &sum) ||
-        __builtin_add_overflow(sum, sizeof(wiggly_solver) + FIXED_BYTES, &sum)) {
-        return 0;
-    }
-    return sum;
-}
-
-static void *take(unsigned char **at, size_t bytes)
-{
-    void *p = *at;
-    *at += bytes;
-    return p;
-}
-
-static void *take_lines(unsigned char **at, size_t bytes)
-{
-    *at += (LINE - (uintptr_t)*at % LINE) % LINE;
-    return take(at, bytes);
-}
-
-/// Tables of the chain, the powers' over the matrix.
-static void carve_tables(chain *c, unsigned char *runs, unsigned char *powers, size_t samples)
-{
-    double **const run_columns[] = {&c->pulled[0].re, &c->pulled[0].im, &c->pulled[1].re,
-                                    &c->pulled[1].im, &c->back.re,      &c->back.im};
-    double **const columns[] = {&c->powers.p.re,   &c->powers.p.im,   &c->powers.q.re, &c->powers.q.im,
-                                &c->powers.w01.re, &c->powers.w01.im, &c->powers.w00,  &c->powers.w11};
-    _Static_assert(sizeof run_columns / sizeof *run_columns == RUN_DOUBLES, "RUN_DOUBLES counts the columns");
-    _Static_assert(sizeof columns / sizeof *columns == CHAIN_DOUBLES, "CHAIN_DOUBLES counts the columns");
-    for (int i = 0; i < RUN_DOUBLES; i++) *run_columns[i] = take_lines(&runs, CHAIN_RUN * sizeof(double));
-    for (int i = 0; i < CHAIN_DOUBLES; i++) *columns[i] = take_lines(&powers, samples * sizeof(double));
-}
-
-static void carve(wiggly_solver *solver)
-{
-    unsigned char *at = (unsigned char *)(solver + 1);
-    size_t n = (size_t)solver->samples;
-    system_rows *rows = &solver->rows;
-    pentadiagonal *m = &solver->matrix;
-    rows->at = take(&at, n * sizeof(coefficients));
-    rows->drive = take(&at, n * sizeof(cplx));
-    m->diagonal = take(&at, 3 * n * sizeof(double));
-    m->below = take(&at, 4 * n * sizeof(double));
-    m->below2 = take(&at, 4 * n * sizeof(double));
-    m->border = take(&at, 2 * BORDER_MAX * n * sizeof(double));
-    take(&at, CHAIN_DOUBLES * LINE + LINE); // what the tables' columns are longer than the matrix of few samples
-    rows->jet_weight = take(&at, n * sizeof(double));
-    rows->im_weight = take(&at, n * sizeof(double));
-    rows->x = take(&at, 2 * n * sizeof(double));
-    rows->gradient = take(&at, 2 * n * sizeof(double));
-    rows->jet = take(&at, 4 * n * sizeof(double));
-    solver->y = take(&at, n * sizeof(double));
-    solver->response.total = take(&at, n * sizeof(double));
-    solver->response.im = take(&at, n * sizeof(double));
-    solver->response.speed = take(&at, n * sizeof(double));
-    limit_memory *limits = &solver->limits;
-    double **const of_limits[] = {&limits->pull,    &limits->spare,   &limits->re,        &limits->im,
-                                  &limits->free[0], &limits->free[1], &limits->pushed[0], &limits->pushed[1]};
-    _Static_assert(sizeof of_limits / sizeof *of_limits + 3 == LIMIT_DOUBLES, "LIMIT_DOUBLES counts the arrays");
-    for (size_t i = 0; i < sizeof of_limits / sizeof *of_limits; i++) *of_limits[i] = take(&at, n * sizeof(double));
-    limits->stiffness = take(&at, n * sizeof(double));
-    limits->by_push = take(&at, 2 * n * sizeof(double));
-    size_t k = (size_t)solver->knots + 1;
-    chain *c = &solver->chain;
-    limits->own = take(&at, k * sizeof(wiggly_knot));
-    limits->all = take(&at, k * sizeof(wiggly_knot));
-    rows->slopes = take(&at, k * sizeof(slope_row));
-    c->stretches = take(&at, k * sizeof(chain_stretch));
-    c->nodes = take(&at, k * sizeof(chain_node));
-    c->rows = take(&at, k * sizeof(chain_row));
-    c->to_first = take(&at, k * 9 * sizeof(double));
-    solver->order = take(&at, k * sizeof(int));
-    solver->knot_at = take(&at, n * sizeof(int));
-    c->stretch_of[0] = take(&at, n * sizeof(int));
-    c->stretch_of[1] = take(&at, n * sizeof(int));
-    rows->fixed = take(&at, n);
-    limits->held = take(&at, n);
-    carve_tables(c, at, (unsigned char *)m->diagonal, n);
+    lay_out(&size, samples, knots);
+    return size.too_large ? 0 : size.used;
 }
 
 wiggly_solver *solver_lay_out(void *memory, int samples, int knots)
 {
-    wiggly_solver *solver = memory;
-    solver->samples = samples;
-    solver->knots = knots;
-    solver->longest_squared = INT_MAX;
-    solver->chain.stretch_capacity = knots + 1;
-    carve(solver);
-    return solver;
+    arena a = {.block = memory};
+    return lay_out(&a, samples, knots);
 }
 
 wiggly_status wiggly_create_at(void *memory, size_t size, int samples, int knots, wiggly_solver **solver)

@@ -74,6 +74,15 @@ typedef struct minimum {
     int sweeps;
 } minimum;
 
+/// A block handed out piece by piece; without one it is only measured.
+typedef struct arena {
+    unsigned char *block;
+    size_t used;
+    bool too_large;
+} arena;
+
+void *arena_take(arena *a, size_t count, size_t size);
+
 /// Lays a solver into wiggly_memsize() bytes of zeroes, aligned for double. Their owner frees them.
 wiggly_solver *solver_lay_out(void *memory, int samples, int knots);
 
