@@ -1,7 +1,7 @@
 /// The filter by the block against the filter sample by sample: two texts of one formula must not drift apart.
 #include "near.h"
 
-#include "spline/poles_block.h"
+#include "spline/poles.h"
 #include <math.h>
 
 enum { SAMPLES = 3 * POLES_BLOCK + 7 };

@@ -1,5 +1,4 @@
 /// What follows once x is found: whether it can be meant, the samples outside the system, the total and what else a curve holds.
-#include "spline/poles_block.h"
 #include "spline/problem.h"
 #include "spline/wide.h"
 #include <math.h>

@@ -1,5 +1,4 @@
 /// From the problem to its rows, one after the other (system.h), for the solvers of the band.
-#include "spline/poles_block.h"
 #include "spline/problem.h"
 #include <float.h>
 #include <math.h>
