@@ -29,20 +29,32 @@ static double at_sample(wiggly_param param, int sample, double maximum)
 }
 
 /// Roots of s² + 2σs + ω² = 0.
-static poles real_poles(double sigma, double omega)
+static inline poles real_poles(double sigma, double omega)
 {
-    poles at = {.natural = omega, .decay = sigma};
-    if (sigma <= omega) {
-        double d = sqrt(omega - sigma) * sqrt(omega + sigma);
-        at.s[0] = (cplx){-sigma, d};
-        at.s[1] = (cplx){-sigma, -d};
-        at.centre = d;
-    } else {
-        double d = sigma + sqrt(sigma - omega) * sqrt(sigma + omega);
-        at.s[0] = (cplx){-omega * (omega / d), 0};
-        at.s[1] = (cplx){-d, 0};
-    }
-    return at;
+    const bool swings = sigma <= omega;
+    const double difference = swings ? omega - sigma : sigma - omega;
+    const double root = sqrt(difference) * sqrt(omega + sigma), fast = sigma + root;
+    const double slow = omega * (omega / (fast > 0 ? fast : 1)), turn = swings ? root : 0;
+    return (poles){
+        .s = {{-(swings ? sigma : slow), turn}, {-(swings ? sigma : fast), -turn}},
+        .natural = omega,
+        .centre = turn,
+        .decay = sigma,
+    };
+}
+
+static inline poles complex_poles(double omega, double zeta, double bandwidth)
+{
+    const double root = sqrt((1 - zeta) * (1 + zeta)), centre = omega * root, turn = omega * bandwidth;
+    // √(1−ζ²) − β of a pole near 0, without cancellation
+    const double sum = root + bandwidth,
+                 lower = ((1 - bandwidth) * (1 + bandwidth) - zeta * zeta) / (sum > 0 ? sum : 1);
+    return (poles){
+        .s = {{-zeta * omega, centre + turn}, {-zeta * omega, zeta < 1 ? omega * lower : -turn}},
+        .natural = omega,
+        .centre = centre,
+        .decay = zeta * omega,
+    };
 }
 
 poles poles_at(const wiggly_desc *desc, int sample, double floor)
@@ -51,17 +63,7 @@ poles poles_at(const wiggly_desc *desc, int sample, double floor)
     double omega = 2 * pi * at_sample(desc->frequency, sample, sqrt(largest));
     double zeta = fmax(at_sample(desc->damping, sample, sqrt(largest)), floor);
     if (desc->mode == WIGGLY_REAL) return real_poles(zeta * omega, omega);
-    zeta = fmin(zeta, 1.0);
-    double centre = omega * sqrt((1 - zeta) * (1 + zeta));
-    double bandwidth = at_sample(desc->bandwidth, sample, 1.0), turn = omega * bandwidth;
-    // √(1−ζ²) − β of a pole near 0, without cancellation
-    double lower = ((1 - bandwidth) * (1 + bandwidth) - zeta * zeta) / (sqrt((1 - zeta) * (1 + zeta)) + bandwidth);
-    return (poles){
-        .s = {{-zeta * omega, centre + turn}, {-zeta * omega, zeta < 1 ? omega * lower : -turn}},
-        .natural = omega,
-        .centre = centre,
-        .decay = zeta * omega,
-    };
+    return complex_poles(omega, fmin(zeta, 1.0), at_sample(desc->bandwidth, sample, 1.0));
 }
 
 /// The largest number's bits: positive ones are ordered as their bits are, above all that are not.
@@ -348,38 +350,30 @@ static void load(wiggly_param param, int from, int count, double *out)
     }
 }
 
+static inline void put_poles(const poles *at, double h, int i, poles_block *restrict block, exponents *restrict e)
+{
+    block->natural[i] = at->natural;
+    block->centre[i] = at->centre;
+    for (int k = 0; k < 2; k++) e->real[k][i] = at->s[k].re * h, e->half[k][i] = 0.5 * h * at->s[k].im;
+}
+
 WIDEST static void set_complex(const double *restrict f, const double *restrict z, const double *restrict b,
                                double floor, double h, int count, poles_block *restrict block, exponents *restrict e)
 {
     for (int i = 0; i < count; i++) {
-        double omega = 2 * pi * f[i], zeta = z[i] > floor ? z[i] : floor;
-        double beta = b[i] < 1 ? b[i] : 1;
-        zeta = zeta < 1 ? zeta : 1;
-        double root = sqrt((1 - zeta) * (1 + zeta)), centre = omega * root, turn = omega * beta;
-        double sum = root + beta;
-        double lower = ((1 - beta) * (1 + beta) - zeta * zeta) / (sum > 0 ? sum : 1);
-        block->natural[i] = omega;
-        block->centre[i] = centre;
-        e->real[0][i] = e->real[1][i] = -zeta * omega * h;
-        e->half[0][i] = 0.5 * h * (centre + turn);
-        e->half[1][i] = 0.5 * h * (zeta < 1 ? omega * lower : -turn);
+        const double zeta = z[i] > floor ? z[i] : floor;
+        const poles at = complex_poles(2 * pi * f[i], zeta < 1 ? zeta : 1, b[i] < 1 ? b[i] : 1);
+        put_poles(&at, h, i, block, e);
     }
 }
 
-WIDEST static void set_real(const double *restrict omega, const double *restrict sigma, double h, int count,
+WIDEST static void set_real(const double *restrict f, const double *restrict z, double floor, double h, int count,
                             poles_block *restrict block, exponents *restrict e)
 {
     for (int i = 0; i < count; i++) {
-        bool swings = sigma[i] <= omega[i];
-        double difference = swings ? omega[i] - sigma[i] : sigma[i] - omega[i];
-        double root = sqrt(difference) * sqrt(omega[i] + sigma[i]), fast = sigma[i] + root;
-        double slow = omega[i] * (omega[i] / (fast > 0 ? fast : 1));
-        block->natural[i] = omega[i];
-        block->centre[i] = swings ? root : 0;
-        e->real[0][i] = -h * (swings ? sigma[i] : slow);
-        e->real[1][i] = -h * (swings ? sigma[i] : fast);
-        e->half[0][i] = swings ? 0.5 * h * root : 0;
-        e->half[1][i] = -e->half[0][i];
+        const double omega = 2 * pi * f[i];
+        const poles at = real_poles((z[i] > floor ? z[i] : floor) * omega, omega);
+        put_poles(&at, h, i, block, e);
     }
 }
 
@@ -441,17 +435,14 @@ WIDEST static bool is_within_reach(const exponents *e, int count)
 static void set_exponents(const wiggly_desc *desc, int from, int count, double floor, poles_block *block,
                           exponents *e)
 {
-    double a[POLES_BLOCK], b[POLES_BLOCK], c[POLES_BLOCK];
+    double f[POLES_BLOCK], z[POLES_BLOCK], b[POLES_BLOCK];
+    load(desc->frequency, from, count, f);
+    load(desc->damping, from, count, z);
+    load(desc->bandwidth, from, count, b);
     if (desc->mode == WIGGLY_COMPLEX) {
-        load(desc->frequency, from, count, a);
-        load(desc->damping, from, count, b);
-        load(desc->bandwidth, from, count, c);
-        set_complex(a, b, c, floor, desc->step, count, block, e);
+        set_complex(f, z, b, floor, desc->step, count, block, e);
     } else {
-        load(desc->frequency, from, count, a);
-        load(desc->damping, from, count, b);
-        for (int i = 0; i < count; i++) a[i] *= 2 * pi, b[i] = fmax(b[i], floor) * a[i];
-        set_real(a, b, desc->step, count, block, e);
+        set_real(f, z, floor, desc->step, count, block, e);
     }
 }
 
