@@ -1,5 +1,5 @@
 /// Behind the last knot w moves by itself, w = e^{p…} w_L, until bounds press it: w = e^{p…} w_L + e. Re e is the real oscillator's spline
-/// from rest at L, Im e what turns with it (as limits_solve.c has it).
+/// from rest at L, Im e what turns with it.
 //
 // e = G r: the filter run forward over the jets r, each of which costs weight |r|²/(h³|g|²). So what a push makes of e is
 // G W⁻¹ Gᵀ of it: the filter run backwards over what is pushed, and forward over what that makes of the jets.
@@ -90,8 +90,6 @@ void bound_tail_add(const bound_tail *tail, const double *e, wiggly_curve *curve
 {
     static const double im[2] = {0, 1};
     for (int i = tail->begin + 1; i < tail->end; i++) {
-        curve->total[i] += e[i];
-        if (curve->floats) curve->floats[(size_t)i * (curve->stride ? curve->stride : 1)] = (float)curve->total[i];
         curve->re[i] += e[i];
         if (!tail->is_complex) continue;
         const tail_row row = bound_tail_row(tail, i, im);

@@ -35,7 +35,7 @@ void bound_tail_press(const bound_tail *tail, const tail_row *row, double push, 
 /// Σ row · e.
 double bound_tail_see(const bound_tail *tail, const tail_row *row, const double *e);
 
-/// Adds e to a solved curve.
+/// Adds e to x of a solved curve, and what turns with it.
 void bound_tail_add(const bound_tail *tail, const double *e, wiggly_curve *curve);
 
 #endif

@@ -4,8 +4,8 @@
 // the real oscillator, from rest at L, through what the held samples lack. Its energy is a quadratic of v = Im w_L, because
 // what they lack is linear in it: E(v) = E₀ + D₀ v + ½ D₁ v², D = dE/dv from the pulls at the held samples. Up to the last knot that
 // is a slope there, whose speed Re(p w_L) is linear in v as well: of stiffness ½ D₁ / (Im p)² and reached at v = −D₀ / D₁.
+#include "spline/bound_tail.h"
 #include "spline/limits.h"
-#include "spline/oscillator.h"
 #include <math.h>
 #include <string.h>
 
@@ -137,7 +137,7 @@ static void add_push(limits_work *w)
     limit_memory *m = &solver->limits;
     limits_part *tail = &w->tail;
     const int L = tail->begin, n = tail->desc.samples;
-    double turn = w->p->latest < 0 ? 0 : w->curve->im[L], *e = m->pushed[0] + L, h = tail->desc.step;
+    double turn = w->p->latest < 0 ? 0 : w->curve->im[L], *e = m->pushed[0] + L;
     const double unit = w->p->unit / tail->p.unit;
     for (int i = 0; i < n; i++) e[i] += turn * m->pushed[1][L + i];
     m->all[0] = at_rest(&tail->desc); // the body's knots were there meanwhile
@@ -147,16 +147,8 @@ static void add_push(limits_work *w)
     for (int i = tail->from; i <= tail->to; i++) {
         if (limits_hold(w, i)) m->pull[i] = unit * solver->rows.gradient[2 * (i - L)];
     }
-    for (int i = 1; i < n; i++) {
-        poles at = poles_at(&tail->desc, i, 0);
-        oscillator o = {at.decay, at.natural * at.natural};
-        speed_form back = poles_speed(&at, h, true), ahead = poles_speed(&at, h, false);
-        double speed = back.on_x.re * e[i] + back.on_e.re * (e[i] - e[i - 1]);
-        if (i + 1 < n) speed = 0.5 * (speed + ahead.on_x.re * e[i] + ahead.on_e.re * (e[i + 1] - e[i]));
-        w->curve->re[L + i] += e[i];
-        if (w->p->desc->mode == WIGGLY_COMPLEX)
-            w->curve->im[L + i] += oscillator_turn(o, (w->p->desc->samples - 1) * h) * (speed / h + o.d * e[i]);
-    }
+    const bound_tail moved = bound_tail_of(w->p, 1);
+    bound_tail_add(&moved, m->pushed[0], w->curve);
 }
 
 static bool solve_body(limits_work *w, const double on_turn[2])

@@ -9,7 +9,6 @@
 //
 // What no refinement can know is the rounding of the coefficients themselves. Where the system amplifies, they are changed by that much
 // once and the change of x is asked for, with the factor that is there: it is part of the error.
-#include "spline/orthogonal.h"
 #include "spline/solver.h"
 #include "spline/wide.h"
 #include <float.h>

@@ -9,7 +9,7 @@
 //
 // In a loop the last two samples, the seam, are columns of their own at the right and are solved last. A reflection starts from
 // the row with the largest entry, so that stiff slope rows do not wash out soft ones.
-#include "spline/orthogonal.h"
+#include "spline/system.h"
 #include <math.h>
 #include <string.h>
 

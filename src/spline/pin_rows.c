@@ -1,5 +1,5 @@
 /// Which combinations of a sample's pins can be reached: the eigenvectors of B°B°ᵀ, B being how far each spline's Re x and Im x move them.
-#include "spline/pin_rows.h"
+#include "spline/pin_group.h"
 #include "spline/symmetric.h"
 #include <math.h>
 #include <string.h>

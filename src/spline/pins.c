@@ -390,7 +390,12 @@ static void press_tail(wiggly_group *g, int spline, wiggly_curve *curve)
         bound_tail_press(&of->tail, &row, g->lambda[r], g->pressed, of->e);
         any = true;
     }
-    if (any) bound_tail_add(&of->tail, of->e, curve);
+    if (!any) return;
+    bound_tail_add(&of->tail, of->e, curve);
+    for (int i = of->tail.begin + 1; i < of->tail.end; i++) {
+        curve->total[i] += of->e[i];
+        if (curve->floats) curve->floats[(size_t)i * (curve->stride ? curve->stride : 1)] = (float)curve->total[i];
+    }
 }
 
 static wiggly_status solve_splines(wiggly_group *g, const wiggly_desc *descs, wiggly_curve *curves, int spline_count)

@@ -1,7 +1,6 @@
 /// From the description to the problem (docs/mathematics.md, Constraints): where the domain starts and ends, what knots are measured
 /// from, what the start costs.
 #include "spline/problem.h"
-#include "spline/variation.h"
 #include "spline/wide.h"
 #include <float.h>
 #include <math.h>

@@ -98,6 +98,12 @@ void problem_settle(wiggly_solver *solver, const problem *p, double *re, double 
 /// Whether the document is one for the chain: constant parameters, a constant equilibrium, no seam.
 bool problem_fits_chain(wiggly_solver *solver, const problem *p);
 
+/// Whether a description has noise that its knots are solved over: some amount, an oscillator of constant poles that has a frequency.
+bool variation_is_set(const wiggly_desc *desc);
+
+/// Adds the noise of every sample to u of a problem whose domain is known, and its value before `first` to what is held there.
+void variation_add(problem *p);
+
 /// Checks a description and applies the rules of the start; y receives the equilibrium where it moves, N numbers. What is wrong,
 /// or WIGGLY_OK.
 wiggly_status problem_pose(wiggly_solver *solver, const wiggly_desc *desc, double *y, problem *p);

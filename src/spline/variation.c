@@ -1,5 +1,5 @@
 /// Noise through the filter: what the jet engine would make of chance, sample by sample, of spread 1, times amount and size.
-#include "spline/variation.h"
+#include "spline/problem.h"
 #include <math.h>
 #include <stdint.h>
 
