@@ -33,7 +33,8 @@ static bool is_punctuation(int key) { return key < KEY_ESCAPE && key != KEY_SPAC
 
 static bool is_same(const struct binding *a, const struct binding *b)
 {
-    return a->run == b->run && a->core == b->core && a->argument == b->argument;
+    return a->run == b->run && a->core == b->core && a->curves == b->curves && a->inspector == b->inspector &&
+           a->knot == b->knot && a->request == b->request && a->argument == b->argument;
 }
 
 /// Whether an action can be reached: one of what it is bound to is on the layout.

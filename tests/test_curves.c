@@ -181,9 +181,9 @@ SESSION_TEST(test_ruler_units_and_snap, session_open(s, FIVE))
     session_move(s, s->editor->core.layout.ruler.x / 2, s->editor->core.layout.ruler.y + 8);
     session_press(s, BUTTON_LEFT, 1);
     session_release(s, BUTTON_LEFT);
-    assert_true(s->editor->curves->options.seconds);
+    assert_true(s->editor->core.curves.seconds);
     session_key(s, 'U', 0);
-    assert_false(s->editor->curves->options.seconds);
+    assert_false(s->editor->core.curves.seconds);
     float frame =
         (float)(s->editor->core.layout.plot.w / (s->editor->curves->view.frame1 - s->editor->curves->view.frame0));
     session_key(s, 'G', 0); // off the frames

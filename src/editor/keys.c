@@ -17,35 +17,21 @@
 #include "ui/theme.h"
 #include <math.h>
 
-static void run_leave(struct editor *e, int argument)
+/// Asks the app, or first the user, where to or whether work may be lost.
+static void ask_for(struct editor *editor, enum request_kind kind, int number)
 {
-    struct request request = {.kind = (enum request_kind)argument};
-    editor_leave(e, &request);
-}
-
-static void run_save(struct editor *e, int argument)
-{
-    if (argument == REQUEST_SAVE && e->core.path[0]) {
-        core_request(&e->core, REQUEST_SAVE, NULL);
+    const struct request request = {.kind = kind, .number = number};
+    const bool has_path = editor->core.path[0] != '\0';
+    if (kind == REQUEST_NEW || kind == REQUEST_OPEN || kind == REQUEST_QUIT) {
+        editor_leave(editor, &request);
+    } else if (kind == REQUEST_SAVE_AS || (kind == REQUEST_SAVE && !has_path)) {
+        dialogs_save_as(editor->dialogs, &editor->core);
+    } else if (kind == REQUEST_EXPORT) {
+        dialogs_export(editor->dialogs, &editor->core);
     } else {
-        dialogs_save_as(e->dialogs, &e->core);
+        editor->core.request = request;
     }
 }
-
-static void run_export(struct editor *e, int argument)
-{
-    (void)argument;
-    dialogs_export(e->dialogs, &e->core);
-}
-
-static void run_request(struct editor *e, int argument) { core_request(&e->core, (enum request_kind)argument, NULL); }
-
-static void run_ui_scale(struct editor *e, int direction)
-{
-    core_request_number(&e->core, REQUEST_UI_SCALE, direction);
-}
-
-static void run_figure(struct editor *e, int argument) { core_request_number(&e->core, REQUEST_FIGURE, argument); }
 
 static void run_insert(struct editor *e, int argument)
 {
@@ -78,16 +64,6 @@ static void run_select_none(struct editor *e, int argument)
     }
 }
 
-/// The selected pin, else the selected knots.
-static void run_delete(struct editor *e, int argument)
-{
-    if (has_pin(e)) {
-        pins_delete(&e->core);
-    } else {
-        core_delete_knots(&e->core, argument);
-    }
-}
-
 static void run_hold(struct editor *e, int argument)
 {
     (void)argument;
@@ -105,14 +81,6 @@ static void run_frame(struct editor *e, int argument)
     }
 }
 
-static void run_look(struct editor *e, int argument)
-{
-    static const enum look next[] = {
-        [LOOK_WIGGLY] = LOOK_STIFF, [LOOK_STIFF] = LOOK_CUBIC, [LOOK_CUBIC] = LOOK_WIGGLY};
-    (void)argument;
-    core_set_look(&e->core, next[e->core.look]);
-}
-
 enum clipboard_use { CLIPBOARD_COPY, CLIPBOARD_CUT, CLIPBOARD_PASTE, CLIPBOARD_DUPLICATE };
 
 /// Not while a value is typed: knots are not what is meant then.
@@ -128,49 +96,11 @@ static void run_clipboard(struct editor *e, int argument)
     }
 }
 
-static void run_normalise(struct editor *e, int argument)
-{
-    (void)argument;
-    curves_toggle_normal(e->curves, &e->core);
-}
-
-static void run_sheet(struct editor *e, int argument)
-{
-    (void)argument;
-    curves_toggle_sheet(e->curves, &e->core);
-}
-
-static void run_units(struct editor *e, int argument)
-{
-    (void)argument;
-    curves_toggle_units(e->curves, &e->core);
-}
-
-static void run_scale(struct editor *e, int argument) { curves_scale(e->curves, &e->core, argument); }
-
 static void run_brush(struct editor *e, int argument)
 {
     (void)argument;
     characters_set_brush(&e->core, !e->core.brush.on);
     if (e->core.brush.on) inspector_unfold(e->inspector, "section.character");
-}
-
-static void run_rename(struct editor *e, int argument)
-{
-    (void)argument;
-    inspector_rename(e->inspector);
-}
-
-static void run_add(struct editor *e, int argument)
-{
-    (void)argument;
-    inspector_add_menu(e->inspector);
-}
-
-static void run_remove_rig(struct editor *e, int argument)
-{
-    (void)argument;
-    inspector_remove_rig(e->inspector);
 }
 
 static void run_theme(struct editor *e, int argument)
@@ -218,41 +148,6 @@ static void run_fit_stage(struct editor *editor, int argument)
     stage_fit(editor->stage, &editor->core);
 }
 
-static void run_remedy(struct editor *editor, int argument)
-{
-    (void)argument;
-    curves_remedy_first(editor->curves, &editor->core);
-}
-
-/// What was selected is to be seen.
-static void reveal(struct editor *editor, const struct knot *knot)
-{
-    if (knot) curves_reveal(editor->curves, &editor->core, knot->frame, knot->value);
-}
-
-static void run_neighbour(struct editor *editor, int direction)
-{
-    if (has_pin(editor)) {
-        pins_select_neighbour(&editor->core, direction);
-        return;
-    }
-    reveal(editor, core_select_neighbour(&editor->core, direction));
-}
-
-static void run_visit(struct editor *editor, int direction)
-{
-    if (has_pin(editor)) {
-        pins_select_neighbour(&editor->core, direction);
-        return;
-    }
-    reveal(editor, core_visit_neighbour(&editor->core, direction));
-}
-
-static void run_extend(struct editor *editor, int direction)
-{
-    reveal(editor, core_extend_selection(&editor->core, direction));
-}
-
 /// The first of the sizes that is clearly larger than the present one, round the end.
 static double next_size(const double sizes[3], double present)
 {
@@ -279,38 +174,38 @@ const struct binding key_bindings[] = {
     {.key = 'Z', .mods = MOD_CTRL, .repeats = true, .core = core_undo, .argument = -1},
     {.key = 'Z', .mods = MOD_CTRL | MOD_SHIFT, .repeats = true, .core = core_undo, .argument = 1},
     {.key = 'Y', .mods = MOD_CTRL, .repeats = true, .core = core_undo, .argument = 1},
-    {.key = 'N', .mods = MOD_CTRL, .run = run_leave, .argument = REQUEST_NEW},
-    {.key = 'O', .mods = MOD_CTRL, .run = run_leave, .argument = REQUEST_OPEN},
-    {.key = 'Q', .mods = MOD_CTRL, .run = run_leave, .argument = REQUEST_QUIT},
-    {.key = 'S', .mods = MOD_CTRL, .run = run_save, .argument = REQUEST_SAVE},
-    {.key = 'S', .mods = MOD_CTRL | MOD_SHIFT, .run = run_save, .argument = REQUEST_SAVE_AS},
-    {.key = 'E', .mods = MOD_CTRL, .run = run_export},
-    {.key = '1', .mods = MOD_CTRL, .run = run_figure, .argument = 1},
-    {.key = '2', .mods = MOD_CTRL, .run = run_figure, .argument = 2},
-    {.key = '3', .mods = MOD_CTRL, .run = run_figure, .argument = 3},
-    {.key = '4', .mods = MOD_CTRL, .run = run_figure, .argument = 4},
-    {.key = '5', .mods = MOD_CTRL, .run = run_figure, .argument = 5},
-    {.key = '6', .mods = MOD_CTRL, .run = run_figure, .argument = 6},
-    {.key = '7', .mods = MOD_CTRL, .run = run_figure, .argument = 7},
-    {.key = '8', .mods = MOD_CTRL, .run = run_figure, .argument = 8},
-    {.key = '9', .mods = MOD_CTRL, .run = run_figure, .argument = 9},
-    {.key = '0', .mods = MOD_CTRL, .run = run_figure, .argument = 10},
-    {.key = '=', .mods = CTRL_SHIFT, .repeats = true, .run = run_ui_scale, .argument = 1},
-    {.key = '+', .mods = CTRL_SHIFT, .repeats = true, .run = run_ui_scale, .argument = 1},
-    {.key = '-', .mods = CTRL_SHIFT, .repeats = true, .run = run_ui_scale, .argument = -1},
-    {.key = '0', .mods = CTRL_SHIFT, .run = run_ui_scale, .argument = 0},
-    {.key = KEY_F8, .mods = MOD_SHIFT, .repeats = true, .run = run_ui_scale, .argument = -1},
-    {.key = KEY_F8, .repeats = true, .run = run_ui_scale, .argument = 1},
+    {.key = 'N', .mods = MOD_CTRL, .request = REQUEST_NEW},
+    {.key = 'O', .mods = MOD_CTRL, .request = REQUEST_OPEN},
+    {.key = 'Q', .mods = MOD_CTRL, .request = REQUEST_QUIT},
+    {.key = 'S', .mods = MOD_CTRL, .request = REQUEST_SAVE},
+    {.key = 'S', .mods = MOD_CTRL | MOD_SHIFT, .request = REQUEST_SAVE_AS},
+    {.key = 'E', .mods = MOD_CTRL, .request = REQUEST_EXPORT},
+    {.key = '1', .mods = MOD_CTRL, .request = REQUEST_FIGURE, .argument = 1},
+    {.key = '2', .mods = MOD_CTRL, .request = REQUEST_FIGURE, .argument = 2},
+    {.key = '3', .mods = MOD_CTRL, .request = REQUEST_FIGURE, .argument = 3},
+    {.key = '4', .mods = MOD_CTRL, .request = REQUEST_FIGURE, .argument = 4},
+    {.key = '5', .mods = MOD_CTRL, .request = REQUEST_FIGURE, .argument = 5},
+    {.key = '6', .mods = MOD_CTRL, .request = REQUEST_FIGURE, .argument = 6},
+    {.key = '7', .mods = MOD_CTRL, .request = REQUEST_FIGURE, .argument = 7},
+    {.key = '8', .mods = MOD_CTRL, .request = REQUEST_FIGURE, .argument = 8},
+    {.key = '9', .mods = MOD_CTRL, .request = REQUEST_FIGURE, .argument = 9},
+    {.key = '0', .mods = MOD_CTRL, .request = REQUEST_FIGURE, .argument = 10},
+    {.key = '=', .mods = CTRL_SHIFT, .repeats = true, .request = REQUEST_UI_SCALE, .argument = 1},
+    {.key = '+', .mods = CTRL_SHIFT, .repeats = true, .request = REQUEST_UI_SCALE, .argument = 1},
+    {.key = '-', .mods = CTRL_SHIFT, .repeats = true, .request = REQUEST_UI_SCALE, .argument = -1},
+    {.key = '0', .mods = CTRL_SHIFT, .request = REQUEST_UI_SCALE, .argument = 0},
+    {.key = KEY_F8, .mods = MOD_SHIFT, .repeats = true, .request = REQUEST_UI_SCALE, .argument = -1},
+    {.key = KEY_F8, .repeats = true, .request = REQUEST_UI_SCALE, .argument = 1},
     {.key = KEY_F5, .core = presenter_toggle},
     {.key = KEY_F10, .any_time = true, .run = run_theme},
-    {.key = KEY_F11, .any_time = true, .run = run_request, .argument = REQUEST_FULLSCREEN},
-    {.key = KEY_F12, .any_time = true, .run = run_request, .argument = REQUEST_SCREENSHOT},
+    {.key = KEY_F11, .any_time = true, .request = REQUEST_FULLSCREEN},
+    {.key = KEY_F12, .any_time = true, .request = REQUEST_SCREENSHOT},
     {.key = 'I', .run = run_insert, .argument = false},
     {.key = 'I', .mods = MOD_SHIFT, .run = run_insert, .argument = true},
-    {.key = KEY_DELETE, .run = run_delete},
-    {.key = KEY_BACKSPACE, .run = run_delete},
-    {.key = 'A', .run = run_add},
-    {.key = KEY_DELETE, .mods = MOD_SHIFT, .run = run_remove_rig},
+    {.key = KEY_DELETE, .core = core_delete},
+    {.key = KEY_BACKSPACE, .core = core_delete},
+    {.key = 'A', .inspector = inspector_add_menu},
+    {.key = KEY_DELETE, .mods = MOD_SHIFT, .inspector = inspector_remove_rig},
     {.key = 'A', .mods = MOD_CTRL, .core = core_select_all, .argument = false},
     {.key = 'A', .mods = CTRL_SHIFT, .core = core_select_all, .argument = true},
     {.key = 'A', .mods = MOD_SHIFT, .core = core_flip, .argument = SWITCH_AUTO_KEY},
@@ -321,8 +216,8 @@ const struct binding key_bindings[] = {
     {.key = 'D', .mods = MOD_CTRL, .run = run_clipboard, .argument = CLIPBOARD_DUPLICATE},
     {.key = KEY_PAGE_UP, .repeats = true, .core = core_activate_neighbour, .argument = -1},
     {.key = KEY_PAGE_DOWN, .repeats = true, .core = core_activate_neighbour, .argument = 1},
-    {.key = KEY_PAGE_UP, .mods = MOD_SHIFT, .repeats = true, .run = run_extend, .argument = -1},
-    {.key = KEY_PAGE_DOWN, .mods = MOD_SHIFT, .repeats = true, .run = run_extend, .argument = 1},
+    {.key = KEY_PAGE_UP, .mods = MOD_SHIFT, .repeats = true, .knot = core_extend_selection, .argument = -1},
+    {.key = KEY_PAGE_DOWN, .mods = MOD_SHIFT, .repeats = true, .knot = core_extend_selection, .argument = 1},
     {.key = 'T', .core = slopes_set, .argument = SLOPES_TOGGLE},
     {.key = 'T', .mods = MOD_SHIFT, .core = slopes_set, .argument = SLOPES_FLAT},
     {.key = 'T', .mods = MOD_CTRL, .core = slopes_set, .argument = SLOPES_SMOOTH},
@@ -333,12 +228,12 @@ const struct binding key_bindings[] = {
     {.key = 'M', .core = core_cycle_choice, .argument = PARAMETER_MODE},
     {.key = 'M', .mods = MOD_SHIFT, .core = core_cycle_choice, .argument = PARAMETER_PASSIVE},
     {.key = 'F', .mods = MOD_SHIFT, .core = core_find_frequency},
-    {.key = KEY_F2, .run = run_rename},
-    {.key = 'S', .run = run_scale, .argument = false},
-    {.key = 'S', .mods = MOD_SHIFT, .run = run_scale, .argument = true},
-    {.key = 'N', .run = run_normalise},
-    {.key = KEY_F3, .run = run_sheet},
-    {.key = 'U', .any_time = true, .run = run_units},
+    {.key = KEY_F2, .inspector = inspector_rename},
+    {.key = 'S', .curves = curves_scale, .argument = false},
+    {.key = 'S', .mods = MOD_SHIFT, .curves = curves_scale, .argument = true},
+    {.key = 'N', .core = core_flip, .argument = SWITCH_NORMALISE},
+    {.key = KEY_F3, .core = core_flip, .argument = SWITCH_SHEET},
+    {.key = 'U', .any_time = true, .core = core_flip, .argument = SWITCH_SECONDS},
     {.key = 'G', .any_time = true, .core = core_flip, .argument = SWITCH_SNAP},
     {.key = KEY_UP, .repeats = true, .core = core_nudge_parameter, .argument = 1},
     {.key = KEY_DOWN, .repeats = true, .core = core_nudge_parameter, .argument = -1},
@@ -365,12 +260,12 @@ const struct binding key_bindings[] = {
     {.key = KEY_PAGE_UP, .mods = CTRL_SHIFT, .repeats = true, .run = run_approach, .argument = 1},
     {.key = KEY_PAGE_DOWN, .mods = CTRL_SHIFT, .repeats = true, .run = run_approach, .argument = -1},
     {.key = KEY_HOME, .mods = MOD_SHIFT, .run = run_fit_stage},
-    {.key = 'W', .run = run_remedy},
+    {.key = 'W', .curves = curves_remedy_first},
     {.key = KEY_F6, .run = run_panel, .argument = 0},
     {.key = KEY_F6, .mods = MOD_SHIFT, .run = run_panel, .argument = 1},
     {.key = KEY_HOME, .run = run_frame, .argument = 0},
     {.key = KEY_END, .run = run_frame, .argument = 1},
-    {.key = 'V', .any_time = true, .run = run_look},
+    {.key = 'V', .any_time = true, .core = core_turn_look},
     {.key = 'O', .any_time = true, .core = core_flip, .argument = SWITCH_ONION},
     {.key = KEY_F4, .any_time = true, .core = core_flip, .argument = SWITCH_GHOST},
     {.key = 'P', .any_time = true, .core = core_flip, .argument = SWITCH_TRAIL},
@@ -378,20 +273,20 @@ const struct binding key_bindings[] = {
     {.key = 'H', .run = run_hold},
     {.key = KEY_PAGE_UP, .mods = MOD_ALT, .repeats = true, .core = pins_retime, .argument = -1},
     {.key = KEY_PAGE_DOWN, .mods = MOD_ALT, .repeats = true, .core = pins_retime, .argument = 1},
-    {.key = ',', .mods = MOD_ALT, .repeats = true, .run = run_visit, .argument = -1},
-    {.key = '.', .mods = MOD_ALT, .repeats = true, .run = run_visit, .argument = 1},
-    {.key = KEY_HOME, .mods = MOD_ALT, .repeats = true, .run = run_visit, .argument = -1},
-    {.key = KEY_END, .mods = MOD_ALT, .repeats = true, .run = run_visit, .argument = 1},
+    {.key = ',', .mods = MOD_ALT, .repeats = true, .knot = core_visit_neighbour, .argument = -1},
+    {.key = '.', .mods = MOD_ALT, .repeats = true, .knot = core_visit_neighbour, .argument = 1},
+    {.key = KEY_HOME, .mods = MOD_ALT, .repeats = true, .knot = core_visit_neighbour, .argument = -1},
+    {.key = KEY_END, .mods = MOD_ALT, .repeats = true, .knot = core_visit_neighbour, .argument = 1},
     {.key = 'J', .core = bones_make_chain, .argument = false},
     {.key = 'J', .mods = MOD_SHIFT, .core = bones_make_chain, .argument = true},
     {.key = 0},
 };
 
 const struct binding character_bindings[] = {
-    {.key = ',', .repeats = true, .run = run_neighbour, .argument = -1},
-    {.key = '.', .repeats = true, .run = run_neighbour, .argument = 1},
-    {.key = '<', .repeats = true, .run = run_extend, .argument = -1},
-    {.key = '>', .repeats = true, .run = run_extend, .argument = 1},
+    {.key = ',', .repeats = true, .knot = core_select_neighbour, .argument = -1},
+    {.key = '.', .repeats = true, .knot = core_select_neighbour, .argument = 1},
+    {.key = '<', .repeats = true, .knot = core_extend_selection, .argument = -1},
+    {.key = '>', .repeats = true, .knot = core_extend_selection, .argument = 1},
     {.key = '[', .core = playback_mark, .argument = 0},
     {.key = ']', .core = playback_mark, .argument = 1},
     {.key = '-', .any_time = true, .core = playback_change_speed, .argument = -1},
@@ -442,15 +337,21 @@ static void space_event(struct editor *editor, const struct event *event)
 
 static bool is_held_letter(int key) { return key == 'L' || parameter_of_letter(key) != PARAMETER_COUNT; }
 
-/// Runs what is bound, unless it excludes key repeats or running drags; true if anything is bound.
+/// Does what is bound, unless it excludes key repeats or running drags; true if anything is bound.
 static bool run(struct editor *editor, const struct binding *list, int key, unsigned mods, bool repeated)
 {
-    const struct binding *binding = list;
-    while (binding->key && (binding->key != key || binding->mods != mods)) binding++;
-    bool idle = (repeated && !binding->repeats) || (history_is_open(editor->core.history) && !binding->any_time);
-    if (!idle && binding->run) binding->run(editor, binding->argument);
-    if (!idle && binding->core) binding->core(&editor->core, binding->argument);
-    return binding->key != 0;
+    struct core *core = &editor->core;
+    const struct binding *b = list;
+    while (b->key && (b->key != key || b->mods != mods)) b++;
+    if ((repeated && !b->repeats) || (history_is_open(core->history) && !b->any_time)) return b->key != 0;
+    if (b->run) b->run(editor, b->argument);
+    if (b->core) b->core(core, b->argument);
+    if (b->curves) b->curves(editor->curves, core, b->argument);
+    if (b->inspector) b->inspector(editor->inspector);
+    if (b->request) ask_for(editor, b->request, b->argument);
+    const struct knot *knot = b->knot ? b->knot(core, b->argument) : NULL;
+    if (knot) curves_reveal(editor->curves, core, knot->frame, knot->value);
+    return b->key != 0;
 }
 
 /// The character of a key that was used elsewhere, say to close the help, is no command.

@@ -4,17 +4,18 @@
 
 #include "editor/editor.h"
 
-/// What a key does to the panels, and what it does to what they share alone.
-typedef void key_action(struct editor *editor, int argument);
-typedef void core_action(struct core *core, int argument);
-
+/// What a key does: one of these, with its argument.
 struct binding {
-    int key;         ///< or character
-    unsigned mods;   ///< exactly these
-    bool repeats;    ///< also while the key is kept down
-    bool any_time;   ///< also while a drag holds a step of the history open
-    key_action *run; ///< or
-    core_action *core;
+    int key;       ///< or character
+    unsigned mods; ///< exactly these
+    bool repeats;  ///< also while the key is kept down
+    bool any_time; ///< also while a drag holds a step of the history open
+    void (*run)(struct editor *editor, int argument);
+    void (*core)(struct core *core, int argument);
+    void (*curves)(struct curves *curves, struct core *core, int argument);
+    void (*inspector)(struct inspector *inspector);
+    const struct knot *(*knot)(struct core *core, int argument); ///< which is to be seen then
+    enum request_kind request;                                   ///< its number is the argument
     int argument;
 };
 

@@ -208,11 +208,19 @@ void core_flip(struct core *core, int which)
         [SWITCH_TRAIL] = {&core->overlays.trail,
                           {"Motion arc off.",
                            "Motion arc on: the path of the tip or liveliest point, one mark per frame (P)."}},
+        [SWITCH_SHEET] = {&core->curves.sheet,
+                          {"Dope sheet off.", "Dope sheet on: drag the marks in time, or a box around them (F3)."}},
+        [SWITCH_SECONDS] = {&core->curves.seconds, {"The ruler shows frames.", "The ruler shows seconds."}},
+        [SWITCH_NORMALISE] = {&core->curves.normalise,
+                              {"All curves share one axis again.",
+                               "Normalised: every curve is as high as the active one. The axis shows the active "
+                               "curve's values."}},
         [SWITCH_GHOST] = {&core->overlays.ghost,
                           {"Ghost off.", "Ghost on: the pose at the knot that is dragged or nudged (F4)."}},
     };
     bool *on = switches[which].on;
     *on = !*on;
+    core->refit_curves |= which == SWITCH_NORMALISE;
     core_message(core, false, switches[which].said[*on]);
 }
 
@@ -225,6 +233,14 @@ void core_set_look(struct core *core, enum look look)
     };
     core->look = look;
     core_message(core, false, texts[look]);
+}
+
+void core_turn_look(struct core *core, int unused)
+{
+    static const enum look next[] = {
+        [LOOK_WIGGLY] = LOOK_STIFF, [LOOK_STIFF] = LOOK_CUBIC, [LOOK_CUBIC] = LOOK_WIGGLY};
+    (void)unused;
+    core_set_look(core, next[core->look]);
 }
 
 double core_frame(const struct core *core)

@@ -48,11 +48,22 @@ void core_activate(struct core *core, int spline);
 /// The same, but keeps the selection.
 void core_turn_to(struct core *core, int spline);
 /// What is switched on and off, by keys and on the screen.
-enum core_switch { SWITCH_SNAP, SWITCH_AUTO_KEY, SWITCH_LOOP, SWITCH_ONION, SWITCH_TRAIL, SWITCH_GHOST };
+enum core_switch {
+    SWITCH_SNAP,
+    SWITCH_AUTO_KEY,
+    SWITCH_LOOP,
+    SWITCH_ONION,
+    SWITCH_TRAIL,
+    SWITCH_GHOST,
+    SWITCH_SHEET,
+    SWITCH_SECONDS,
+    SWITCH_NORMALISE
+};
 /// Flips one of them, and says so.
 void core_flip(struct core *core, int which);
 /// Chooses how the knots are shown, and says so.
 void core_set_look(struct core *core, enum look look);
+void core_turn_look(struct core *core, int unused);
 /// Frame (fractional) that is shown.
 double core_frame(const struct core *core);
 /// Position in samples (fractional) of a frame.

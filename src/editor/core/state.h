@@ -285,6 +285,13 @@ struct overlays {
     bool ghost; ///< the pose at the knot that is dragged or nudged
 };
 
+/// How the curves panel shows things; a view, never part of the document.
+struct curve_options {
+    bool normalise; ///< every curve as high as the active one; the axis shows the active one's values
+    bool seconds;   ///< on the ruler, in place of frames
+    bool sheet;     ///< the dope sheet is open
+};
+
 /// A knot by its indices.
 struct knot_place {
     int spline, knot;
@@ -326,6 +333,7 @@ struct core {
     struct pin_selection pin;
     struct brush brush;
     struct overlays overlays;
+    struct curve_options curves;
     double nudged_seconds; ///< that the ghost of the nudged knot is still shown
     bool auto_key;         ///< a body that is dragged gets knots at the playhead, else the whole shot moves
     bool record_armed;     ///< the next drag of a body is recorded from its start

@@ -13,8 +13,8 @@
 static uint64_t cache_key(const struct curves *curves, const struct core *core)
 {
     uint64_t revision[2] = {history_revision(core->history), core->evaluation ? core->evaluation->revision : 0};
-    int choice[3] = {core->active, (int)core->look, curves->options.normalise};
-    bool held = curves->options.normalise && core->drag.owner != NULL;
+    int choice[3] = {core->active, (int)core->look, core->curves.normalise};
+    bool held = core->curves.normalise && core->drag.owner != NULL;
     uint64_t key = hash_bytes(HASH_START, revision, sizeof revision);
     key = hash_bytes(key, choice, sizeof choice);
     key = hash_bytes(key, &held, sizeof held);

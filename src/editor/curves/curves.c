@@ -274,10 +274,10 @@ void curves_press(struct curves *curves, struct core *core, const struct event *
         warning_remedy(curves, core, &curves->warnings.list[hover.handle]);
         break;
     case HOVER_UNITS:
-        curves_toggle_units(curves, core);
+        core_flip(core, SWITCH_SECONDS);
         break;
     case HOVER_SHEET:
-        curves_toggle_sheet(curves, core);
+        core_flip(core, SWITCH_SHEET);
         break;
     case HOVER_ROW:
         sheet_press_row(curves, core, hover.spline, event);

@@ -10,12 +10,8 @@ struct curves *curves_create(void);
 void curves_destroy(struct curves *curves);
 /// Lays the dope sheet out, which takes its room from the plot.
 void sheet_update(struct curves *curves, struct core *core);
-/// Opens or closes the dope sheet.
-void curves_toggle_sheet(struct curves *curves, struct core *core);
 /// Where a knot's mark is on the dope sheet; false where it is out of sight.
 bool curves_mark_point(const struct curves *curves, const struct core *core, int spline, int knot, float xy[2]);
-/// The ruler counts frames or seconds.
-void curves_toggle_units(struct curves *curves, struct core *core);
 /// What is under a point of the panel.
 struct hover curves_hover(const struct curves *curves, const struct core *core, float x, float y);
 /// A press in the panel.
@@ -31,15 +27,13 @@ void curves_handle(const struct curves *curves, const struct core *core, const s
                    float xy[2]);
 /// The whole panel into the draw list. The playhead comes last: nothing before it depends on the time shown.
 void curves_show(struct curves *curves, struct core *core);
-/// Switches normalisation.
-void curves_toggle_normal(struct curves *curves, struct core *core);
 /// Another spline has become active than `before`: keeps the picture as it is.
 void curves_activate(struct curves *curves, struct core *core, int before);
 /// Fixes the first warning.
-void curves_remedy_first(struct curves *curves, struct core *core);
+void curves_remedy_first(struct curves *curves, struct core *core, int unused);
 /// Starts to scale the selected knots with the pointer: about the middle of the selection, or their values about the
 /// equilibrium. P goes on to the next pivot.
-void curves_scale(struct curves *curves, struct core *core, bool about_equilibrium);
+void curves_scale(struct curves *curves, struct core *core, int about_equilibrium);
 /// Where a handle of the box round the selected knots is: column and row −1 … 1, 0 0 is none. false where it is not shown.
 bool curves_box_point(const struct curves *curves, const struct core *core, int column, int row, float xy[2]);
 /// Moves the selected knots by frames, and by hundredths of the values in sight; repeated nudges are one undo step.

@@ -119,33 +119,24 @@ struct rect ruler_corner(const struct core *core)
     return (struct rect){layout->value_axis.x, layout->ruler.y, layout->value_axis.w, layout->ruler.h};
 }
 
-void curves_toggle_units(struct curves *curves, struct core *core)
-{
-    curves->options.seconds = !curves->options.seconds;
-    core_message(core, false, curves->options.seconds ? "The ruler shows seconds." : "The ruler shows frames.");
-}
-
-static void show_units(const struct curves *curves, struct core *core)
+static void show_units(struct core *core)
 {
     struct rect corner = ruler_corner(core);
-    const char *text = curves->options.seconds ? "s" : "frame";
+    const char *text = core->curves.seconds ? "s" : "frame";
     float x = corner.x + corner.w - 8 - font_width(FONT_LABEL, THEME_TEXT_SMALL, text);
     drawlist_text(&core->list, x, corner.y + 15, FONT_LABEL, THEME_TEXT_SMALL,
                   core->hover.kind == HOVER_UNITS ? theme()->text : theme()->text_dim, text);
 }
 
 /// Frames a unit of the ruler.
-static double ruler_unit(const struct curves *curves, const struct document *document)
-{
-    return curves->options.seconds ? document->fps : 1;
-}
+static double ruler_unit(const struct core *core) { return core->curves.seconds ? core->document->fps : 1; }
 
 /// Numbers of the ruler, centred over their grid lines; the one under the playhead's tag makes room for it.
 static void number_frames(const struct curves *curves, struct core *core, struct grid_step step)
 {
     const struct rect *ruler = &core->layout.ruler;
     const struct rect tag = playhead_tag(curves, core);
-    double unit = ruler_unit(curves, core->document);
+    double unit = ruler_unit(core);
     for (double i = ceil(curves->view.frame0 / unit / step.size); i * step.size <= curves->view.frame1 / unit; i++) {
         char text[32];
         snprintf(text, sizeof text, "%.*f", step.decimals, i * step.size + 0.0);
@@ -210,7 +201,7 @@ static void range_show_plot(const struct curves *curves, struct core *core)
 void grid_show(const struct curves *curves, struct core *core)
 {
     const struct layout *layout = &core->layout;
-    double unit = ruler_unit(curves, core->document);
+    double unit = ruler_unit(core);
     struct grid_step times = round_step(MIN_FRAME_STEP / (curves_pixels_per_frame(curves, core) * unit));
     struct grid_step values = round_step(MIN_VALUE_STEP / curves_pixels_per_value(curves, core));
     drawlist_rect(&core->list, layout->curves, theme()->panel);
@@ -225,7 +216,7 @@ void grid_show(const struct curves *curves, struct core *core)
     range_show_ruler(curves, core);
     number_frames(curves, core, times);
     drawlist_set_clip(&core->list, clip);
-    show_units(curves, core);
+    show_units(core);
     clip = drawlist_push_clip(&core->list, layout->value_axis);
     number_values(curves, core, values);
     drawlist_set_clip(&core->list, clip);

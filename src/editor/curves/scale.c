@@ -423,7 +423,7 @@ static void begin(struct curves *curves, struct core *core, enum pivot pivot, in
     say(curves, core);
 }
 
-void curves_scale(struct curves *curves, struct core *core, bool about_equilibrium)
+void curves_scale(struct curves *curves, struct core *core, int about_equilibrium)
 {
     core_collect(core, false);
     if (core->originals.count == 0) {

@@ -39,7 +39,7 @@ void sheet_update(struct curves *curves, struct core *core)
 {
     struct dope_sheet *sheet = &curves->sheet;
     const float room = core->layout.curves.h - core->layout.ruler.h - LEAST_PLOT - 2 * PAD;
-    const int total = sheet->shown ? list_rows(core, 0, NULL, 0) : 0;
+    const int total = core->curves.sheet ? list_rows(core, 0, NULL, 0) : 0;
     int rows = total < MOST_ROWS ? total : MOST_ROWS;
     if (rows > (int)(room / ROW)) rows = (int)fmaxf(room / ROW, 0);
     if (sheet->active != core->active_id) { // which may be out of sight
@@ -56,14 +56,6 @@ void sheet_update(struct curves *curves, struct core *core)
     if (core->layout.sheet_height == height) return;
     core->layout.sheet_height = height;
     core_layout(core);
-}
-
-void curves_toggle_sheet(struct curves *curves, struct core *core)
-{
-    curves->sheet.shown = !curves->sheet.shown;
-    core_message(core, false,
-                 curves->sheet.shown ? "Dope sheet on: drag the marks in time, or a box around them (F3)."
-                                     : "Dope sheet off.");
 }
 
 /// The middle of a row.
@@ -218,20 +210,20 @@ static void show_more(const struct curves *curves, struct core *core)
 }
 
 /// A small triangle in the ruler's corner: points down while the sheet is open.
-static void show_switch(const struct curves *curves, struct core *core)
+static void show_switch(struct core *core)
 {
     const struct rect r = sheet_switch(core);
     const float x = r.x + 8, y = r.y + r.h / 2, a = 3.5f;
     const float right[] = {x - a + 1, y - a, x + a, y, x - a + 1, y + a},
                 down[] = {x - a, y - a + 1, x + a, y - a + 1, x, y + a};
-    drawlist_convex(&core->list, curves->sheet.shown ? down : right, 3,
+    drawlist_convex(&core->list, core->curves.sheet ? down : right, 3,
                     core->hover.kind == HOVER_SHEET ? theme()->text : theme()->text_dim);
 }
 
 void sheet_show(const struct curves *curves, struct core *core)
 {
     const struct rect *area = &core->layout.sheet;
-    show_switch(curves, core);
+    show_switch(core);
     if (area->h <= 0) return;
     for (int row = 0; row < curves->sheet.rows; row++) show_row(curves, core, row);
     show_more(curves, core);

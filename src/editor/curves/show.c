@@ -332,11 +332,11 @@ static void show_labels(const struct curves *curves, struct core *core)
     }
 }
 
-static void tag_text(const struct curves *curves, const struct core *core, char text[32])
+static void tag_text(const struct core *core, char text[32])
 {
     double frame = round(core_frame(core)) + 0.0; /* the one that I would insert at */
-    snprintf(text, 32, curves->options.seconds ? "%.2f" : "%.0f",
-             curves->options.seconds ? frame / core->document->fps : frame);
+    snprintf(text, 32, core->curves.seconds ? "%.2f" : "%.0f",
+             core->curves.seconds ? frame / core->document->fps : frame);
 }
 
 struct rect playhead_tag(const struct curves *curves, const struct core *core)
@@ -345,7 +345,7 @@ struct rect playhead_tag(const struct curves *curves, const struct core *core)
     float x = curves_x(curves, core, core_frame(core));
     if (x < ruler->x || x > ruler->x + ruler->w) return (struct rect){0};
     char text[32];
-    tag_text(curves, core, text);
+    tag_text(core, text);
     float width = roundf(font_width(FONT_NUMBER, THEME_TEXT_SMALL, text)) + 10;
     float left = fminf(fmaxf(roundf(x - width / 2), ruler->x), ruler->x + ruler->w - width);
     return (struct rect){left, ruler->y + 3, width, 16};
@@ -359,7 +359,7 @@ static void show_playhead(const struct curves *curves, struct core *core)
     const struct rect tag = playhead_tag(curves, core);
     if (tag.w <= 0) return;
     char text[32];
-    tag_text(curves, core, text);
+    tag_text(core, text);
     drawlist_rect(&core->list, (struct rect){x - 0.5f, sheet->y, 1, sheet->h + plot->h}, theme()->playhead);
     drawlist_rounded(&core->list, tag, 3, theme()->playhead);
     drawlist_text(&core->list, tag.x + 5, tag.y + 12, FONT_NUMBER, THEME_TEXT_SMALL, theme()->panel, text);
@@ -384,11 +384,11 @@ static void show_empty(struct core *core)
 }
 
 /// Says above the curves' names where they are not shown as the document has them (V, N) and where knots do not snap (G).
-static void show_state(const struct curves *curves, struct core *core)
+static void show_state(struct core *core)
 {
     static const char *const looks[] = {[LOOK_WIGGLY] = "", [LOOK_STIFF] = "Stiff", [LOOK_CUBIC] = "Cubic"};
     const struct rect *ruler = &core->layout.ruler;
-    const char *normal = curves->options.normalise ? "fit" : "", *snap = core->no_snap ? "free" : "";
+    const char *normal = core->curves.normalise ? "fit" : "", *snap = core->no_snap ? "free" : "";
     const char *const words[] = {looks[core->look], normal, snap};
     char text[32] = "";
     for (int i = 0; i < 3; i++) {
@@ -417,7 +417,7 @@ void curves_show(struct curves *curves, struct core *core)
     show_empty(core);
     drawlist_set_clip(&core->list, panel);
     sheet_show(curves, core);
-    show_state(curves, core);
+    show_state(core);
     show_labels(curves, core);
     show_playhead(curves, core);
     ruler_pins_show(curves, core);

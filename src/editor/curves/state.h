@@ -12,12 +12,6 @@ enum {
     CURVES_HIT_RADIUS = 10,
 };
 
-/// How the curves panel shows things; a view, never part of the document.
-struct curve_options {
-    bool normalise; ///< every curve as high as the active one; the axis shows the active one's values
-    bool seconds;   ///< on the ruler, in place of frames
-};
-
 /// Where a spline's values are drawn, as values of the active one: scale·value + offset.
 struct value_map {
     double scale, offset;
@@ -27,7 +21,6 @@ enum { SHEET_MAX_ROWS = 16 };
 
 /// The dope sheet.
 struct dope_sheet {
-    bool shown;
     int first, rows, total; ///< first row in sight, how many are, and how many there are
     int spline[SHEET_MAX_ROWS];
     unsigned active; ///< id of the active spline when its row was last brought into sight
@@ -158,7 +151,6 @@ struct curves {
     struct view view;
     struct following following;
     struct dope_sheet sheet;
-    struct curve_options options;
     struct selection before_box; ///< the selection when a box was begun
     struct knot_drag knot_drag;
     struct scaling scaling;

@@ -135,7 +135,7 @@ void curves_frame_all(struct curves *curves, struct core *core)
     double range[2] = {INFINITY, -INFINITY};
     for (int s = 0; s < document->spline_count; s++) {
         const struct spline *spline = document->splines[s];
-        if (curves->options.normalise && s != core->active) continue;
+        if (core->curves.normalise && s != core->active) continue;
         for (int k = 0; k < spline->knot_count; k++) include_value(range, spline->knots[k].value);
         if (!evaluation || s >= evaluation->count) continue;
         for (int highest = 0; highest < 2 && evaluation->samples > 0; highest++) {
@@ -252,12 +252,12 @@ static void curves_span(const struct curves *curves, const struct document *docu
 static bool has_height(const double range[2]) { return range[1] - range[0] > 1e-12 * fmax(1, fabs(range[0])); }
 
 /// Where the values of one spline are drawn as those of another.
-static struct value_map map_between(const struct curves *curves, int active, int spline)
+static struct value_map map_between(const struct curves *curves, const struct core *core, int active, int spline)
 {
     const struct value_map as_it_is = {1, 0};
     const struct curve_cache *cache = &curves->cache;
     bool known = spline < cache->range_count && active >= 0 && active < cache->range_count;
-    if (!curves->options.normalise || spline == active || !known) return as_it_is;
+    if (!core->curves.normalise || spline == active || !known) return as_it_is;
     const double *to = cache->range[active], *from = cache->range[spline];
     if (!has_height(to)) return as_it_is;
     if (!has_height(from)) return (struct value_map){1, (to[0] + to[1]) / 2 - from[0]};
@@ -267,7 +267,7 @@ static struct value_map map_between(const struct curves *curves, int active, int
 
 struct value_map normal_map(const struct curves *curves, const struct core *core, int spline)
 {
-    return map_between(curves, core->active, spline);
+    return map_between(curves, core, core->active, spline);
 }
 
 float curves_y_of(const struct curves *curves, const struct core *core, int spline, double value)
@@ -280,7 +280,7 @@ void normal_update(struct curves *curves, const struct core *core)
 {
     struct curve_cache *cache = &curves->cache;
     const struct evaluation *evaluation = core->evaluation;
-    if (!curves->options.normalise || core->drag.owner || !evaluation) return;
+    if (!core->curves.normalise || core->drag.owner || !evaluation) return;
     cache->range_count = evaluation->count < CURVES_MAX_RANGES ? evaluation->count : CURVES_MAX_RANGES;
     for (int s = 0; s < cache->range_count; s++) {
         for (int highest = 0; highest < 2; highest++) {
@@ -290,21 +290,9 @@ void normal_update(struct curves *curves, const struct core *core)
     }
 }
 
-void curves_toggle_normal(struct curves *curves, struct core *core)
-{
-    curves->options.normalise = !curves->options.normalise;
-    normal_update(curves, core);
-    curves_frame_all(curves, core);
-    core_message(
-        core, false,
-        curves->options.normalise
-            ? "Normalised: every curve is as high as the active one. The axis shows the active curve's values."
-            : "All curves share one axis again.");
-}
-
 void curves_activate(struct curves *curves, struct core *core, int before)
 {
-    const struct value_map map = map_between(curves, before, core->active);
+    const struct value_map map = map_between(curves, core, before, core->active);
     view_rescale(curves, core, map.scale, map.offset);
 }
 

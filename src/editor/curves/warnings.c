@@ -262,8 +262,9 @@ static bool switch_off(struct core *core, const struct warning *warning, char te
     return core_put_knot(core, core->active, &knot);
 }
 
-void curves_remedy_first(struct curves *curves, struct core *core)
+void curves_remedy_first(struct curves *curves, struct core *core, int unused)
 {
+    (void)unused;
     warnings_update(curves, core);
     if (curves->warnings.count > 0) {
         warning_remedy(curves, core, &curves->warnings.list[0]);

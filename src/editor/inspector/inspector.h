@@ -20,7 +20,7 @@ void inspector_show_spline(struct inspector *in, int spline);
 /// A: the menu of what can be added, at the pointer over stage and curves, else on top of the inspector. And on something of the inspector.
 void inspector_add_menu(struct inspector *in);
 /// Shift+Del: asks whether to remove the rig that is shown, which is that of the active spline.
-void inspector_remove_rig(const struct inspector *in);
+void inspector_remove_rig(struct inspector *in);
 /// What the pointer is over.
 enum ui_over inspector_over(const struct inspector *in);
 /// A new document is on the table: forgets focus, running drag (without touching the history), scrolling and channel.

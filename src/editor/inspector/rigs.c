@@ -137,7 +137,7 @@ static void build_buttons(struct inspector *in)
     if (in->core->document->rig_count > before) inspector_show_rig(in, before);
 }
 
-void inspector_remove_rig(const struct inspector *in) { rigs_ask_remove(in->core, in->selected); }
+void inspector_remove_rig(struct inspector *in) { rigs_ask_remove(in->core, in->selected); }
 
 void inspector_rigs(struct inspector *in)
 {
