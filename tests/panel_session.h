@@ -21,11 +21,9 @@ static inline void panel_open(struct session *session, const char *scene, float 
 static inline struct models *panel_open_models(struct session *session, const char *scene)
 {
     struct error error = {0};
-    struct models *models = models_create();
     panel_open(session, scene, 1280, 1400);
+    struct models *models = session->table.models;
     if (!models_update(models, session->document, &error)) fail_msg("%s", error.text);
-    session->table.models = models;
-    session->world = table_world(&session->table);
     editor_open(session->editor, &session->world);
     return models;
 }

@@ -182,8 +182,10 @@ static inline void session_open(struct session *session, const char *scene)
     session->history = history_create(session->document);
     assert_non_null(session->history);
     session->editor = editor_create();
-    session->table =
-        (struct table){.editor = session->editor, .document = session->document, .history = session->history};
+    session->table = (struct table){.editor = session->editor,
+                                    .document = session->document,
+                                    .history = session->history,
+                                    .models = models_create()};
     session->world = table_world(&session->table);
     editor_open(session->editor, &session->world);
     if (session->editor->core.playback.playing) session_key(session, KEY_SPACE, 0);

@@ -68,7 +68,7 @@ SESSION_TEST(test_a_drag_from_a_bone_selects_nothing, open_beast(s, ""))
 /// How far a bone is turned from its rest, as a chord.
 static float turned(const struct session *s, const char *name)
 {
-    const struct imported *beast = models_imported(s->world.models, 0);
+    const struct imported *beast = models_imported(s->world.models, s->document, 0);
     const int node = gltf_find_node(&beast->gltf, name);
     const float *now = editor_stage(s->editor)->models[0].pose->world[node], *rest = beast->rest.world[node];
     float square = 0;

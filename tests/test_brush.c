@@ -62,7 +62,7 @@ static struct character_rig *rig_of(const struct studio *s) { return document_ch
 
 static void frame(struct studio *s)
 {
-    models_paint(s->models, s->session.document);
+    models_follow(s->models, s->session.document);
     session_frame(&s->session);
 }
 

@@ -86,7 +86,7 @@ TEST(test_a_chosen_clip_gives_the_scene_its_length)
     struct stand stand;
     struct error error;
     open_stand(&stand);
-    const struct gltf *gltf = &models_imported(stand.opened.models, 0)->gltf;
+    const struct gltf *gltf = &models_imported(stand.opened.models, stand.opened.document, 0)->gltf;
     assert_true(import_choose_clip(stand.opened.document, 0, gltf, "Trot", &error));
     assert_string_equal(stand.opened.document->rigs[0]->model.clip, "Trot");
     assert_int_equal(stand.opened.document->last_frame, 14);

@@ -46,8 +46,8 @@ static void read_motion(struct scene *scene, char *joint, enum motion_of of)
 /// Height of the hips in the clip at a sample, metres.
 static double height_at(const struct scene *scene, int sample)
 {
-    const struct imported *imported = models_imported(scene->models, 0);
-    struct gltf_pose *pose = models_pose(scene->models, 0, false);
+    const struct imported *imported = models_imported(scene->models, scene->document, 0);
+    struct gltf_pose *pose = models_pose(scene->models, scene->document, 0, false);
     const double time = fmod(sample * document_step(scene->document), imported->gltf.clips[0].duration);
     gltf_pose_clip(&imported->gltf, 0, time, pose);
     gltf_pose_world(&imported->gltf, pose);

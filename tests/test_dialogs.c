@@ -211,6 +211,7 @@ static void expect_advice(const char *json, const char *first, const char *statu
 {
     struct session s;
     panel_open(&s, json, 1280, 720);
+    s.editor->core.message.text[0] = 0; // that there is no such model
     dialogs_welcome(s.editor->dialogs);
     session_frame(&s);
     assert_non_null(shown_text(s.editor, first));

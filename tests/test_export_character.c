@@ -462,7 +462,7 @@ TEST_WITH(folder_make, folder_remove, what_opens_is_exported_whole)
                 here, models[n / 2], n < 2 ? "node 1" : "tip");
         assert_int_equal(fclose(out), 0);
         struct opened scene = open_scene(scene_path);
-        const struct skeleton *skeleton = &models_imported(scene.models, 0)->skeleton;
+        const struct skeleton *skeleton = &models_imported(scene.models, scene.document, 0)->skeleton;
         for (int bone = 0; bone < skeleton->count; bone++) {
             for (int k = 0; k < 3; k++) assert_true(isfinite(skeleton->bones[bone].tip[k]));
         }

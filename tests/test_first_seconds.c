@@ -1,4 +1,5 @@
 /// What a newcomer meets at once: things that swing can be caught, figures play, and no text lies over a character.
+#include "inside.h"
 #include "panel_session.h"
 
 #include "base/file.h"
@@ -55,16 +56,16 @@ SESSION_TEST(test_nothing_is_caught_at_rest, open_swinging(s, "0"))
 /// The highest point of any tail or body over the whole scene, pixels from the stage's upper edge.
 static float highest(struct session *s)
 {
-    const struct stage_view *view = editor_stage(s->editor);
+    const struct stage *stage = s->editor->stage;
     float y = INFINITY;
-    for (int t = 0; t < view->tail_count; t++) {
-        const float *base = view->tails[t].pose.matrix[0] + 12;
+    for (int t = 0; t < stage->tail_count; t++) {
+        const float *base = stage->tails[t].pose.matrix[0] + 12;
         const float ears[3] = {base[0], base[1] + 0.8f, base[2] - 0.4f};
         float xy[2];
         assert_true(stage_project_point(s->editor->stage, s->editor->core.layout.stage, ears, xy));
         y = fminf(y, xy[1]);
-        for (int n = 0; n < view->tails[t].pose.count; n++) {
-            stage_project_point(s->editor->stage, s->editor->core.layout.stage, view->tails[t].pose.matrix[n] + 12,
+        for (int n = 0; n < stage->tails[t].pose.count; n++) {
+            stage_project_point(s->editor->stage, s->editor->core.layout.stage, stage->tails[t].pose.matrix[n] + 12,
                                 xy);
             y = fminf(y, xy[1]);
         }

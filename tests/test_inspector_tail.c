@@ -46,7 +46,7 @@ TEST(test_place_and_size)
     panel_click(&s, "position.z.follow");
     panel_click(&s, "item.walk");
     assert_int_equal(tail(&s)->position[2].track, 1);
-    assert_near(editor_stage(s.editor)->tails[0].pose.matrix[0][14], 0.25, 1e-6);
+    assert_near(s.editor->stage->tails[0].pose.matrix[0][14], 0.25, 1e-6);
     panel_click(&s, "position.z.follow");
     assert_int_equal(tail(&s)->position[2].track, -1);
     assert_near(tail(&s)->position[2].value, 0.25, 1e-3); // stays where it was
@@ -153,7 +153,7 @@ TEST(test_tails)
     assert_string_equal(s.document->rigs[0]->name, "brush");
     panel_click(&s, "rig.copy");
     assert_int_equal(document_count_rigs(s.document, RIG_TAIL), 2);
-    assert_int_equal(editor_stage(s.editor)->tail_count, 2);
+    assert_int_equal(s.editor->stage->tail_count, 2);
     assert_int_equal(s.editor->inspector->rig, 1);
     panel_click(&s, "rig.delete"); // its spline bends the first one too: nothing to ask
     assert_int_equal(document_count_rigs(s.document, RIG_TAIL), 1);
@@ -161,7 +161,7 @@ TEST(test_tails)
     assert_int_equal(s.editor->dialogs->dialog.kind, DIALOG_ASK);
     session_key(&s, 'K', 0);
     assert_int_equal(document_count_rigs(s.document, RIG_TAIL), 0);
-    assert_int_equal(editor_stage(s.editor)->tail_count, 0);
+    assert_int_equal(s.editor->stage->tail_count, 0);
     assert_int_equal(s.document->spline_count, 2);
     panel_click(&s, "rig.add");
     panel_click(&s, "item.tail");

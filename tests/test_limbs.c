@@ -2,7 +2,7 @@
 #include "model/fox.h"
 #include "model/limbs.h"
 #include "model/vector.h"
-#include "near.h"
+#include "posed_tail.h"
 #include "rig/opened.h"
 #include "rig/pinning.h"
 #include "scene/edit.h"
@@ -69,33 +69,38 @@ TEST(the_head_looks_where_the_tail_goes)
     }
 }
 
-/// Lowest point of the skin.
-static float lowest(const struct pose *pose, const struct fox *fox, float (*place)[3])
+/// Its fox at a frame.
+static struct rig_pose fox_at(double frame)
 {
+    static struct rig_pose fox;
+    const struct posing posing = opened_posing(&scene);
+    assert_true(rig_pose_body(&posing, 0, frame * scene.document->substeps, NULL, &fox));
+    return fox;
+}
+
+/// Lowest point of the skin.
+static float lowest(double frame)
+{
+    const struct rig_pose fox = fox_at(frame);
     float low = INFINITY;
-    fox_pose(fox, pose);
-    fox_places(fox, place);
-    for (int v = 0; v < fox_vertex_count(fox); v++) low = fminf(low, place[v][1]);
+    int count;
+    float(*place)[3] = fox_places(&fox, &count);
+    for (int v = 0; v < count; v++) low = fminf(low, place[v][1]);
+    free(place);
     return low;
 }
 
 /// It crouches before it leaves the ground, stretches as it rises, gives way as it lands, and its feet never sink in.
 TEST(a_hop_is_anticipated_and_squashes)
 {
-    struct fox fox;
     open_scene("assets/scenes/follow.json");
-    fox_create(2, scene.document->rigs[0]->tail.joints, &fox);
-    float(*place)[3] = calloc((size_t)fox_vertex_count(&fox), sizeof *place);
-    assert_non_null(place);
     assert_true(pose_at(5)->limbs.stretch < -0.1f);
     assert_true(pose_at(10)->limbs.stretch > 0.1f);
     assert_true(pose_at(19)->limbs.stretch < -0.1f);
     assert_true(fabsf(pose_at(42)->limbs.stretch) < 0.02f);
-    for (int f = 0; f <= 96; f++) assert_true(lowest(pose_at(f), &fox, place) > -0.03f);
-    assert_true(lowest(pose_at(5), &fox, place) < 0.02f);
-    assert_true(lowest(pose_at(12), &fox, place) > 0.1f);
-    free(place);
-    fox_free(&fox);
+    for (int f = 0; f <= 96; f++) assert_true(lowest(f) > -0.03f);
+    assert_true(lowest(5) < 0.02f);
+    assert_true(lowest(12) > 0.1f);
     opened_free(&scene);
 }
 
@@ -108,27 +113,27 @@ TEST(bounds_hold_the_skin)
         {.breath = 0.25f, .stretch = 0.4f},
         {.breath = 0.25f, .stretch = -0.4f, .nod = 0.6f},
     };
-    struct fox fox;
     open_scene("assets/scenes/tail.json");
-    fox_create(1, scene.document->rigs[0]->tail.joints, &fox);
-    const struct gltf_part *coat = &fox.gltf.meshes->parts[0], *face = coat + 1;
-    float(*place)[3] = calloc((size_t)fox_vertex_count(&fox), sizeof *place);
-    assert_non_null(place);
+    const struct rig_pose fox = fox_at(0);
+    struct gltf_pose *moved = models_pose(scene.models, scene.document, 0, false);
+    const struct gltf *gltf = &fox.model.imported->gltf;
+    const struct gltf_part *coat = &gltf->meshes->parts[0], *face = coat + 1;
     for (size_t w = 0; w < sizeof wild / sizeof *wild; w++) {
         struct pose pose = *pose_at(0);
         float lo[3], hi[3];
+        int count;
         pose.limbs = wild[w];
         pose_bounds(&pose, lo, hi);
-        fox_pose(&fox, &pose);
-        fox_places(&fox, place);
+        fox_move(&wild[w], moved);
+        gltf_pose_world(gltf, moved);
+        float(*place)[3] = fox_places(&fox, &count);
         assert_true(face->vertex_count > 0);
         for (int v = 0; v < coat->vertex_count + face->vertex_count; v++) {
             if (v < coat->vertex_count && coat->fur[v][0] > 0) continue;
             for (int k = 0; k < 3; k++) assert_true(place[v][k] > lo[k] - 0.005f && place[v][k] < hi[k] + 0.005f);
         }
+        free(place);
     }
-    free(place);
-    fox_free(&fox);
     opened_free(&scene);
 }
 
@@ -136,11 +141,17 @@ TEST(bounds_hold_the_skin)
 TEST(ears_bend_as_chains)
 {
     const struct limbs back = {.ears = {0.3f, 0.5f}};
-    float matrix[LIMBS][16];
-    limbs_matrices(&back, 1.0f, matrix);
-    const float upright[2] = {matrix[LIMB_EAR][5], matrix[LIMB_EAR_TIP][5]};
-    assert_near(matrix[LIMB_HEAD][5], 1.0, 1e-6);
+    struct gltf fox;
+    struct gltf_pose pose;
+    fox_create(FOX_LEVELS - 1, 1, &fox);
+    assert_true(gltf_pose_create(&fox, &pose));
+    fox_move(&back, &pose);
+    gltf_pose_world(&fox, &pose);
+    const float upright[2] = {pose.joints[LIMB_EAR][5], pose.joints[LIMB_EAR_TIP][5]};
+    assert_near(pose.joints[LIMB_HEAD][5], 1.0, 1e-6);
     assert_true(upright[0] < 0.99f && upright[1] < upright[0] - 0.1f);
+    gltf_pose_free(&pose);
+    gltf_free(&fox);
 }
 
 /// What moves the body bends no joint: a wild spline on the lids leaves the tail as it is.

@@ -101,7 +101,7 @@ TEST(segments_keep_their_length_and_frames_stay_square)
             }
         }
     }
-    assert_near(pose_length(&pose), 1.6, 1e-5);
+    assert_near(pose.scale, 1.6 / (double)FOX_TAIL_LENGTH, 1e-5);
 }
 
 /// A channel of the displacement leaves the equilibrium, the base's own motion, out; moving takes the whole pose along.
@@ -292,25 +292,23 @@ TEST(the_ground_is_below_the_base)
 TEST(bounds_hold_a_curled_tail)
 {
     static struct pose pose;
-    struct fox fox;
-    fox_create(1, JOINTS, &fox);
-    float(*place)[3] = calloc((size_t)fox_vertex_count(&fox), sizeof *place);
-    assert_non_null(place);
+    static struct rig_pose fox;
+    struct models *models = models_create();
     for (int up = 0; up < 2; up++) {
         struct tail tail = plain_tail(AXIS_SIDE);
         float lo[3], hi[3];
         tail.channel_count = 0;
         tail.rest.value[0] = up ? 15.0 : -15.0;
-        pose_tail(&tail, NULL, LOOK_WIGGLY, &pose);
+        int count;
+        pose_tail_in(models, &tail, NULL, LOOK_WIGGLY, &pose, &fox);
         pose_bounds(&pose, lo, hi);
-        fox_pose(&fox, &pose);
-        fox_places(&fox, place);
-        for (int v = 0; v < fox_vertex_count(&fox); v++) {
+        float(*place)[3] = fox_places(&fox, &count);
+        for (int v = 0; v < count; v++) {
             for (int k = 0; k < 3; k++) assert_true(place[v][k] > lo[k] - 0.005f && place[v][k] < hi[k] + 0.005f);
         }
+        free(place);
     }
-    free(place);
-    fox_free(&fox);
+    models_destroy(models);
 }
 
 /// A tail that lies on the ground throws more shadow than one held up; both stay within the room given.
@@ -349,7 +347,7 @@ TEST(a_hop_takes_the_shadow_along)
     tail.length *= 0.2; // a small animal
     for (int high = 0; high < 2; high++) {
         pose_tail(&tail, NULL, LOOK_WIGGLY, &pose);
-        const float scale = pose_length(&pose) / FOX_TAIL_LENGTH;
+        const float scale = pose.scale;
         if (high) {
             for (int n = 0; n < pose.count; n++) pose.matrix[n][13] += 0.35f * scale;
         }

@@ -14,7 +14,8 @@ enum { WIDTH = 1000, HEIGHT = 400, JOINTS = 24 };
 
 static struct stage_view view;
 static struct pose posed;
-static struct fox fox;
+static struct models *models; ///< of its fox
+static struct rig_pose fox;
 static unsigned char pixels[HEIGHT][WIDTH][4]; ///< bottom row first
 
 /// A tail lifted in a curve to the right side of its animal, its camera and its shadows.
@@ -31,9 +32,16 @@ static void arrange(double side)
     channel.gain.value[0] = side;
     memset(&view, 0, sizeof view);
     view.colors = theme()->stage;
-    pose_tail(&tail, &(wiggly_value){.y = 1.0}, LOOK_WIGGLY, &posed);
-    if (fox.joints == 0) fox_create(0, JOINTS, &fox);
-    stage_add_fox(&view, &fox, &posed);
+    if (!models) models = models_create();
+    pose_tail_in(models, &tail, &(wiggly_value){.y = 1.0}, LOOK_WIGGLY, &posed, &fox);
+    struct stage_model *shown = &view.models[view.model_count++];
+    *shown = (struct stage_model){.gltf = &fox.model.imported->gltf,
+                                  .pose = fox.model.pose,
+                                  .ground = fox.model.ground,
+                                  .dusk = 0.35f * posed.scale};
+    memcpy(shown->root, fox.model.root, sizeof shown->root);
+    rig_bounds(&fox, shown->lo, shown->hi);
+    view.has_tail = true;
     float lo[3], hi[3];
     struct camera camera = camera_default();
     pose_bounds(&posed, lo, hi);
@@ -160,10 +168,10 @@ struct skinned {
 /// Bind-space vertices in, world positions and normals out: as the stage draws them, on a coat of their own.
 static void skin(const struct vertex *vertices, int count, struct skinned *out)
 {
-    struct fox own;
+    struct gltf own;
     fox_create(FOX_LEVELS - 1, JOINTS, &own);
-    struct gltf_part *coat = &own.gltf.meshes->parts[0];
-    const size_t whole = (size_t)fox_vertex_count(&own);
+    struct gltf_part *coat = &own.meshes->parts[0];
+    const size_t whole = (size_t)gltf_vertex_count(&own, own.node_count - 1);
     float(*place)[3] = calloc(whole, sizeof *place), (*normal)[3] = calloc(whole, sizeof *normal);
     assert_true(place && normal && count <= coat->vertex_count);
     for (int i = 0; i < count; i++) {
@@ -174,15 +182,14 @@ static void skin(const struct vertex *vertices, int count, struct skinned *out)
     }
     coat->vertex_count = count;
     fox_hang(coat, JOINTS);
-    fox_pose(&own, &posed);
-    gltf_pose_vertices(&own.gltf, &own.pose, own.gltf.node_count - 1, place, normal);
+    gltf_pose_vertices(&own, fox.model.pose, own.node_count - 1, place, normal);
     for (int i = 0; i < count; i++) {
-        memcpy(out[i].world, place[i], sizeof *place);
+        for (int k = 0; k < 3; k++) out[i].world[k] = fox.model.root[0] * place[i][k] + fox.model.root[12 + k];
         memcpy(out[i].normal, normal[i], sizeof *normal);
     }
     free(place);
     free(normal);
-    fox_free(&own);
+    gltf_free(&own);
 }
 
 static void cross(const float a[3], const float b[3], float out[3])
@@ -247,18 +254,18 @@ TEST(influences_fit_files)
 {
     static const int joints[] = {1, 2, 3, 24, 256};
     for (size_t n = 0; n < sizeof joints / sizeof *joints; n++) {
-        struct fox own;
+        struct gltf own;
         fox_create(1, joints[n], &own);
-        for (int p = 0; p < own.gltf.meshes->part_count; p++) {
-            const struct gltf_part *part = &own.gltf.meshes->parts[p];
+        for (int p = 0; p < own.meshes->part_count; p++) {
+            const struct gltf_part *part = &own.meshes->parts[p];
             for (int v = 0; v < part->vertex_count; v++) {
                 float sum = 0.0f;
                 for (int k = 0; k < 4; k++) sum += part->weights[v][k];
                 assert_near(sum, 1.0, 1e-6);
-                for (int k = 0; k < 4; k++) assert_true(part->joints[v][k] < own.gltf.joint_count);
+                for (int k = 0; k < 4; k++) assert_true(part->joints[v][k] < own.joint_count);
             }
         }
-        fox_free(&own);
+        gltf_free(&own);
     }
 }
 

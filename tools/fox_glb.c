@@ -13,6 +13,22 @@
 enum { JOINTS = 24 }; ///< of the tail in the file
 enum { COAT, FACE, MATERIALS };
 
+/// The node that one hangs on; and where one is in bind space.
+static int parent_of(int node)
+{
+    const int limb = node - FOX_FIRST_LIMB;
+    if (limb >= LIMBS) return node > FOX_FIRST_JOINT ? node - 1 : 0;
+    return limb_parents[limb] < 0 ? 0 : FOX_FIRST_LIMB + limb_parents[limb];
+}
+
+static vec3s place_of(int node)
+{
+    float pivot[LIMBS][3];
+    const float along = FOX_TAIL_LENGTH * (float)(node - FOX_FIRST_JOINT) / (float)JOINTS;
+    limbs_pivots(pivot);
+    return node >= FOX_FIRST_JOINT ? (vec3s){{0, 0, along}} : vec3_from(pivot[node - FOX_FIRST_LIMB]);
+}
+
 /// Copies a vertex; the tail's weights come later.
 static void add_vertex(struct gltf_part *part, const struct vertex *vertex)
 {
@@ -142,8 +158,8 @@ static json_t *make_nodes(struct gltf_file *file, json_t *joints, float (*invers
     vec3s place[FOX_FIRST_JOINT + JOINTS] = {{{0}}};
     for (int n = FOX_FIRST_LIMB; n < FOX_FIRST_JOINT + JOINTS; n++) {
         char name[32];
-        const int tail = n - FOX_FIRST_JOINT, parent = fox_parent(n);
-        fox_place(n, JOINTS, place[n].raw);
+        const int tail = n - FOX_FIRST_JOINT, parent = parent_of(n);
+        place[n] = place_of(n);
         if (tail < 0) {
             snprintf(name, sizeof name, "%s", names[n - FOX_FIRST_LIMB]);
         } else {

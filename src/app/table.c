@@ -44,7 +44,7 @@ void table_edit(struct table *table, double dt, struct frame_row *row)
 void table_solve(struct table *table, struct frame_row *row)
 {
     read_models(table);
-    if (table->models) models_paint(table->models, table->document);
+    if (table->models) models_follow(table->models, table->document);
     const double start = clock_now();
     solve(table, row);
     if (table->models) models_grow(table->models, table->document, &table->evaluation);

@@ -77,7 +77,7 @@ static bool run(const struct job *job, struct error *error)
     struct opened opened;
     if (!opened_read(&opened, job->character, error)) return false;
     bool done = true;
-    const struct imported *character = models_imported(opened.models, 0);
+    const struct imported *character = models_imported(opened.models, opened.document, 0);
     if (!character) {
         done = fail(error, ERROR_INPUT, "%s: expected a character with bones, got a soft one", job->character);
     } else if (!job->output) {

@@ -91,7 +91,7 @@ static float ground_radius(const struct stage_view *view)
             largest = fmaxf(largest, view->models[m].hi[k] - view->models[m].lo[k]);
     }
     const float scale = largest > LARGE ? largest / LARGE : largest > 0.0f ? fminf(largest / SMALL, 1.0f) : 1.0f;
-    return view->tail_count > 0 ? fmaxf(GROUND_RADIUS, GROUND_RADIUS * scale) : GROUND_RADIUS * scale;
+    return view->has_tail ? fmaxf(GROUND_RADIUS, GROUND_RADIUS * scale) : GROUND_RADIUS * scale;
 }
 
 static void set_color(struct corner *corner, uint32_t color, float opacity)

@@ -1,6 +1,8 @@
 /// Times drawing by the CPU's clock and, where there is one, the GPU's, and builds the fixed frame that timing logs carry as a yardstick.
 #include "draw/timer.h"
+#include "base/need.h"
 #include "base/progress.h"
+#include "model/fox.h"
 #include "model/vector.h"
 #include "ui/theme.h"
 #include <stdlib.h>
@@ -65,7 +67,8 @@ void reference_create(struct reference *reference)
 void reference_destroy(struct reference *reference)
 {
     drawlist_destroy(&reference->list);
-    fox_free(&reference->fox);
+    gltf_pose_free(&reference->pose);
+    gltf_free(&reference->fox);
 }
 
 static void arrange_lines(struct drawlist *list, struct rect panel)
@@ -94,26 +97,24 @@ static void arrange_text(struct drawlist *list, struct rect panel)
 }
 
 /// A tail that rises and bends over by 4° a joint, seen from the side.
-static void arrange_stage(struct stage_view *stage, const struct fox *fox, struct rect panel)
+static void arrange_stage(struct stage_view *stage, const struct gltf *fox, struct gltf_pose *pose, struct rect panel)
 {
     *stage = (struct stage_view){.viewport = panel, .eye = {3.0f, 1.2f, 3.0f}, .colors = theme()->stage, .hash = 1};
-    mat4 view, projection, frame;
+    mat4 view, projection;
     memcpy(stage->key_from, (float[3]){0, 0.8f, 0.6f}, sizeof stage->key_from);
     glm_lookat(stage->eye, (vec3){0.0f, 0.7f, 0.0f}, (vec3){0.0f, 1.0f, 0.0f}, view);
     glm_perspective(glm_rad(30.0f), panel.w / fmaxf(panel.h, 1.0f), 0.1f, 20.0f, projection);
     memcpy(stage->view, view, sizeof stage->view);
     memcpy(stage->projection, projection, sizeof stage->projection);
-    static struct pose pose;
-    pose.count = JOINTS + 1;
-    pose.ground = -FOX_BASE_HEIGHT;
-    glm_mat4_identity(frame);
-    glm_rotate(frame, glm_rad(-80.0f), (vec3){1.0f, 0.0f, 0.0f});
-    for (int i = 0; i <= JOINTS; i++) {
-        glm_rotate(frame, glm_rad(4.0f), (vec3){1.0f, 0.0f, 0.0f});
-        memcpy(pose.matrix[i], frame, sizeof pose.matrix[i]);
-        glm_translate(frame, (vec3){0.0f, 0.0f, FOX_TAIL_LENGTH / JOINTS});
+    for (int i = 0; i < JOINTS; i++) {
+        float *turn = pose->place[FOX_FIRST_JOINT + i].rotation;
+        glm_quat(turn, glm_rad(i == 0 ? -76.0f : 4.0f), 1.0f, 0.0f, 0.0f);
     }
-    stage_add_fox(stage, fox, &pose);
+    gltf_pose_world(fox, pose);
+    struct stage_model *shown = &stage->models[stage->model_count++];
+    *shown = (struct stage_model){
+        .gltf = fox, .pose = pose, .ground = -FOX_BASE_HEIGHT, .dusk = 0.35f, .lo = {-1, -1, -1}, .hi = {1, 2, 2}};
+    glm_mat4_identity((vec4 *)shown->root);
 }
 
 void reference_arrange(struct reference *reference, float width, float height)
@@ -122,10 +123,13 @@ void reference_arrange(struct reference *reference, float width, float height)
     struct rect upper = {0.0f, 0.0f, width, floorf(0.5f * height)};
     struct rect lower = {0.0f, upper.h, width, height - upper.h};
     drawlist_clear(&reference->list, whole);
-    if (reference->fox.joints == 0) fox_create(0, JOINTS, &reference->fox);
+    if (!reference->pose.place) {
+        fox_create(0, JOINTS, &reference->fox);
+        if (!gltf_pose_create(&reference->fox, &reference->pose)) need_failed();
+    }
     arrange_lines(&reference->list, lower);
     arrange_text(&reference->list, lower);
-    arrange_stage(&reference->stage, &reference->fox, upper);
+    arrange_stage(&reference->stage, &reference->fox, &reference->pose, upper);
 }
 
 static int ascending(const void *a, const void *b)

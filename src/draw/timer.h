@@ -39,7 +39,8 @@ enum { REFERENCE_RUNS_MAX = 64 };
 struct reference {
     struct drawlist list;
     struct stage_view stage;
-    struct fox fox; ///< made where it is first laid out
+    struct gltf fox; ///< made where it is first laid out, as is its pose
+    struct gltf_pose pose;
     double ms[REFERENCE_RUNS_MAX];
 };
 

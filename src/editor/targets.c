@@ -205,7 +205,7 @@ static bool find_body(struct target_place *place, struct error *error)
 {
     int n;
     struct editor *editor = place->editor;
-    bool shown = rig_named(place, RIG_TAIL, &n) && n < stage_seen(editor->stage)->tail_count;
+    bool shown = rig_named(place, RIG_TAIL, &n) && n < document_count_rigs(editor->core.document, RIG_TAIL);
     return (shown && stage_body_point(editor->stage, &editor->core, n, place->xy)) ||
            fail(error, ERROR_INPUT, "there is no body of a tail \"%s\" to be seen", place->target->name);
 }

@@ -254,7 +254,7 @@ static double position_of(const struct export_range *range, double key)
 bool range_pose(const struct export_range *range, int rig, double key, struct rig_pose *pose, struct error *error)
 {
     const int body = rig_body(range->posing->document, rig);
-    if (rig_pose(range->posing, body, position_of(range, key), NULL, pose)) return true;
+    if (rig_pose_body(range->posing, body, position_of(range, key), NULL, pose)) return true;
     return fail(error, ERROR_INPUT, "rigs[%d]: its model could not be read", rig);
 }
 

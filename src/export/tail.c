@@ -2,19 +2,15 @@
 #include "base/need.h"
 #include "export/form.h"
 #include "model/fox.h"
-#include "model/limbs.h"
-#include "model/vector.h"
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
-/// The fox, and what is scaled to its tail's length.
+/// The fox's mesh, scaled to its tail's length.
 struct scaled_fox {
-    struct fox fox;
     float (*position)[3], (*normal)[3], (*color)[3];
     uint32_t *indices;
 };
-
-enum { FIRST_LIMB = FOX_FIRST_LIMB, FIRST_BONE = FOX_FIRST_JOINT };
 
 /// Appends a part's vertices and triangles; a vertex of ours hangs on four joints at most.
 static void add_part(struct form *form, struct scaled_fox *fox, const struct gltf_part *part, float scale)
@@ -28,14 +24,13 @@ static void add_part(struct form *form, struct scaled_fox *fox, const struct glt
         memcpy(fox->color[at], part->color[v], sizeof fox->color[at]);
         for (int n = 0; n < FORM_INFLUENCES; n++) {
             form->weights[at][n] = part->weights[v][n];
-            form->slots[at][n] = part->weights[v][n] > 0.0f ? (uint16_t)(FIRST_LIMB + part->joints[v][n]) : 0;
+            form->slots[at][n] = part->weights[v][n] > 0.0f ? (uint16_t)(FOX_FIRST_LIMB + part->joints[v][n]) : 0;
         }
     }
 }
 
-static void add_mesh(struct form *form, struct scaled_fox *fox, float scale)
+static void add_mesh(struct form *form, struct scaled_fox *fox, const struct gltf_mesh *mesh, float scale)
 {
-    const struct gltf_mesh *mesh = fox->fox.gltf.meshes;
     size_t vertices = 1, indices = 1;
     for (int p = 0; p < mesh->part_count; p++) {
         vertices += (size_t)mesh->parts[p].vertex_count;
@@ -50,49 +45,34 @@ static void add_mesh(struct form *form, struct scaled_fox *fox, float scale)
     for (int p = 0; p < mesh->part_count; p++) add_part(form, fox, &mesh->parts[p], scale);
 }
 
-/// The joint that carries the animal, those of its body's parts, and those of the tail.
-static void name_joints(struct form *form, int joints, const struct rig_pose *pose)
+/// The node that carries the animal, those of its body's parts, and those of the tail.
+static void add_joints(struct form *form, const struct gltf *gltf, const float root[16])
 {
-    static const char *const names[LIMBS] = {"body", "chest", "head", "ear_l", "ear_r", "ear_tip_l", "ear_tip_r"};
-    const float length = pose_length(&pose->strand), segment = length / (float)joints;
-    float pivot[LIMBS][3];
-    form->joints[0] = (struct form_joint){.parent = -1};
-    snprintf(form->joints[0].name, FORM_NAME, "%.50s_base", form->name);
-    form->tip[2] = segment;
-    memcpy(form->joints[0].offset, pose->strand.matrix[0] + 12, 3 * sizeof(float));
-    limbs_pivots(pose_scale(&pose->strand), pivot);
-    for (int l = 0; l < LIMBS; l++) {
-        struct form_joint *joint = &form->joints[FIRST_LIMB + l];
-        const int parent = limb_parents[l];
-        joint->parent = parent < 0 ? 0 : FIRST_LIMB + parent;
+    form->joint_count = gltf->node_count - 1; // the last one shows the mesh
+    form->first_bone = FOX_FIRST_JOINT;
+    form->joints = need_zeroed((size_t)form->joint_count, sizeof *form->joints);
+    for (int j = 0; j < form->joint_count; j++) {
+        const struct gltf_node *node = &gltf->nodes[j];
+        struct form_joint *joint = &form->joints[j];
+        const char *name = j == 0 ? "base" : node->name + (j < FOX_FIRST_JOINT ? 0 : strlen("tail_"));
+        snprintf(joint->name, FORM_NAME, "%.50s_%.10s", form->name, name);
+        joint->parent = node->parent;
         for (int k = 0; k < 3; k++) {
-            joint->bind[k] = pivot[l][k];
-            joint->offset[k] = pivot[l][k] - (parent < 0 ? 0 : pivot[parent][k]);
+            joint->offset[k] = j == 0 ? root[12 + k] : root[0] * node->place.translation[k];
+            if (j > 0) joint->bind[k] = -root[0] * gltf->skins->inverse_bind[j - FOX_FIRST_LIMB][12 + k];
         }
-        snprintf(joint->name, FORM_NAME, "%.50s_%s", form->name, names[l]);
     }
-    for (int n = 0; n < joints; n++) {
-        struct form_joint *joint = &form->joints[FIRST_BONE + n];
-        *joint = (struct form_joint){.parent = n > 0 ? FIRST_BONE + n - 1 : 0,
-                                     .offset = {0, 0, n > 0 ? segment : 0},
-                                     .bind = {0, 0, (float)n * segment}};
-        snprintf(joint->name, FORM_NAME, "%.50s_%d", form->name, n);
-    }
+    form->tip[2] = root[0] * FOX_TAIL_LENGTH / (float)(form->joint_count - form->first_bone);
 }
 
 static bool open(const struct posing *posing, int rig, const struct rig_pose *pose, struct form *form,
                  struct error *error)
 {
-    const struct document *document = posing->document;
-    const int joints = document->rigs[rig]->tail.joints;
-    (void)error;
+    const struct gltf *gltf = &pose->model.imported->gltf;
+    (void)posing, (void)rig, (void)error;
     struct scaled_fox *fox = form->owned = need_zeroed(1, sizeof *fox);
-    fox_create(fox_level(document_count_rigs(document, RIG_TAIL)), joints, &fox->fox);
-    add_mesh(form, fox, pose_scale(&pose->strand));
-    form->joints = need_zeroed((size_t)(FIRST_BONE + joints), sizeof *form->joints);
-    form->joint_count = FIRST_BONE + joints;
-    form->first_bone = FIRST_BONE;
-    name_joints(form, joints, pose);
+    add_mesh(form, fox, gltf->meshes, pose->model.root[0]);
+    add_joints(form, gltf, pose->model.root);
     return true;
 }
 
@@ -100,7 +80,6 @@ static void close(struct form *form)
 {
     struct scaled_fox *fox = form->owned;
     if (fox) {
-        fox_free(&fox->fox);
         free(fox->position);
         free(fox->normal);
         free(fox->color);
@@ -112,33 +91,23 @@ static void close(struct form *form)
     free(form->joints);
 }
 
-/// The rotation that takes frame `from` to frame `to`: fromᵀ · to. What is bent by half a turn or more between two joints too.
-static void rotation_between(const float from[16], const float to[16], float rotation[4])
-{
-    mat4s a = mat4_from(from), b = mat4_from(to);
-    glm_vec3_zero(a.raw[3]);
-    glm_vec3_zero(b.raw[3]);
-    const versors q = glms_mat4_quat(glms_mat4_mul(glms_mat4_transpose(a), b));
-    const versors unit = glms_quat_normalize(q);
-    memcpy(rotation, unit.raw, 4 * sizeof *rotation);
-}
-
 static void key(const struct form *form, const struct rig_pose *pose, struct form_key *key)
 {
-    static const float upright[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
-    memcpy(key->translation, pose->strand.matrix[0] + 12, sizeof key->translation);
-    memcpy(key->rotation[0], (const float[]){0, 0, 0, 1}, sizeof key->rotation[0]);
-    limbs_motions(&pose->strand.limbs, key->rotation + FIRST_LIMB, key->scale + FIRST_LIMB);
-    for (int n = 0; FIRST_BONE + n < form->joint_count; n++)
-        rotation_between(n > 0 ? pose->strand.matrix[n - 1] : upright, pose->strand.matrix[n],
-                         key->rotation[FIRST_BONE + n]);
+    memcpy(key->translation, pose->model.root + 12, sizeof key->translation);
+    for (int j = 0; j < form->joint_count; j++) {
+        const struct gltf_place *place = &pose->model.pose->place[j];
+        memcpy(key->rotation[j], place->rotation, sizeof place->rotation);
+        memcpy(key->scale[j], place->scale, sizeof place->scale);
+    }
 }
 
 static void vertices(const struct form *form, const struct rig_pose *pose, float (*positions)[3])
 {
-    const struct scaled_fox *fox = form->owned;
-    fox_pose(&fox->fox, &pose->strand);
-    fox_places(&fox->fox, positions);
+    const float *root = pose->model.root;
+    const struct gltf *gltf = &pose->model.imported->gltf;
+    gltf_pose_vertices(gltf, pose->model.pose, gltf->node_count - 1, positions, NULL);
+    for (int v = 0; v < form->vertex_count; v++)
+        for (int k = 0; k < 3; k++) positions[v][k] = root[0] * positions[v][k] + root[12 + k];
 }
 
 const struct form_kind tail_form = {FORM_MESH | FORM_JOINTS | FORM_POINTS, open, close, key, vertices, form_channels};

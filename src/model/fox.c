@@ -1,4 +1,4 @@
-/// Gives the fox a tail of any number of joints, and poses it.
+/// Gives the fox a tail of any number of joints, and moves its body.
 ///
 /// Its skin is the file's but for the tail, whose weights are the uniform cubic B-spline along it, four joints at a time; where they reach back
 /// over the base, the body takes them. Vertices say in the file how far they follow the tail (`bend`).
@@ -10,6 +10,7 @@
 #include <assert.h>
 #include <math.h>
 #include <pthread.h>
+#include <stdio.h>
 #include <stdlib.h>
 
 enum { BODY = 0 }; ///< of the skin's joints
@@ -118,27 +119,20 @@ static void copy_mesh(const struct gltf_mesh *from, int joints, struct gltf_mesh
     for (int p = 0; p < from->part_count; p++) copy_part(&from->parts[p], joints, &mesh->parts[p]);
 }
 
-void fox_place(int node, int joints, float place[3])
+/// A node of the tail continues the one before, or the whole fox.
+static struct gltf_node make_joint(int n, int joints)
 {
-    float pivot[LIMBS][3];
-    limbs_pivots(1.0f, pivot);
-    memset(place, 0, 3 * sizeof *place);
-    if (node >= FOX_FIRST_JOINT) {
-        place[2] = FOX_TAIL_LENGTH * (float)(node - FOX_FIRST_JOINT) / (float)joints;
-    } else if (node >= FOX_FIRST_LIMB) {
-        memcpy(place, pivot[node - FOX_FIRST_LIMB], sizeof pivot[0]);
-    }
+    char name[32];
+    struct gltf_node node = {.parent = n > 0 ? FOX_FIRST_JOINT + n - 1 : 0,
+                             .place = {.rotation = {0, 0, 0, 1}, .scale = {1, 1, 1}}};
+    snprintf(name, sizeof name, "tail_%d", n);
+    node.name = need_text(name);
+    node.mesh = node.skin = -1;
+    if (n > 0) node.place.translation[2] = FOX_TAIL_LENGTH / (float)joints;
+    return node;
 }
 
-int fox_parent(int node)
-{
-    const int limb = node - FOX_FIRST_LIMB;
-    if (node == 0) return -1;
-    if (limb >= LIMBS) return node > FOX_FIRST_JOINT ? node - 1 : 0;
-    return limb_parents[limb] < 0 ? 0 : FOX_FIRST_LIMB + limb_parents[limb];
-}
-
-/// The nodes, the last one showing the mesh, and the skin.
+/// The file's nodes but for the tail's, the last one showing the mesh; and the skin.
 static void make_skeleton(struct gltf *fox, int joints)
 {
     const int bones = FOX_FIRST_JOINT + joints;
@@ -151,85 +145,46 @@ static void make_skeleton(struct gltf *fox, int joints)
     fox->nodes = need_zeroed((size_t)fox->node_count, sizeof *fox->nodes);
     fox->order = need((size_t)fox->node_count, sizeof *fox->order);
     for (int n = 0; n < fox->node_count; n++) {
-        static const struct gltf_place still = {.rotation = {0, 0, 0, 1}, .scale = {1, 1, 1}};
-        const bool shows = n == bones;
+        const struct gltf_node *own = &asset.nodes[n < bones ? n : asset.node_count - 1];
+        const int joint = n - FOX_FIRST_LIMB, tail = n - FOX_FIRST_JOINT;
         fox->order[n] = n;
-        fox->nodes[n] = (struct gltf_node){.parent = shows ? -1 : fox_parent(n),
-                                           .child = -1,
-                                           .next = -1,
-                                           .place = still,
-                                           .mesh = shows ? 0 : -1,
-                                           .skin = shows ? 0 : -1};
-        if (n < FOX_FIRST_LIMB || shows) continue;
-        float place[3];
-        fox_place(n, joints, place);
-        const mat4s back = glms_translate_make(glms_vec3_negate(vec3_from(place)));
-        skin->joints[n - FOX_FIRST_LIMB] = n;
-        memcpy(skin->inverse_bind[n - FOX_FIRST_LIMB], back.raw, sizeof skin->inverse_bind[0]);
+        if (tail >= 0 && n < bones) {
+            fox->nodes[n] = make_joint(tail, joints);
+        } else {
+            fox->nodes[n] = *own;
+            fox->nodes[n].name = need_text(own->name);
+        }
+        if (joint < 0 || n == bones) continue;
+        const vec3s back = {{0, 0, -FOX_TAIL_LENGTH * (float)tail / (float)joints}};
+        const mat4s matrix = tail < 0 ? mat4_from(asset.skins->inverse_bind[joint]) : glms_translate_make(back);
+        memcpy(skin->inverse_bind[joint], matrix.raw, sizeof skin->inverse_bind[joint]);
+        skin->joints[joint] = n;
     }
+    if (!gltf_link_nodes(fox)) need_failed();
 }
 
-static void make_pose(const struct gltf *gltf, struct gltf_pose *pose)
-{
-    const size_t nodes = (size_t)gltf->node_count;
-    *pose = (struct gltf_pose){.place = need_zeroed(nodes, sizeof *pose->place),
-                               .world = need_zeroed(nodes, sizeof *pose->world),
-                               .joints = need_zeroed((size_t)gltf->joint_count, sizeof *pose->joints),
-                               .weights = need_zeroed(1, sizeof *pose->weights)};
-}
-
-void fox_create(int level, int joints, struct fox *fox)
+void fox_create(int level, int joints, struct gltf *fox)
 {
     static pthread_once_t once = PTHREAD_ONCE_INIT;
-    struct gltf *gltf = &fox->gltf;
     pthread_once(&once, read_asset);
-    *fox = (struct fox){.level = level, .joints = joints};
-    *gltf = (struct gltf){.path = need_text(asset.path), .id = gltf_new_id(), .mesh_count = 1, .weight_count = 1};
-    gltf->meshes = need_zeroed(1, sizeof *gltf->meshes);
-    gltf->weights = need_zeroed(1, sizeof *gltf->weights);
-    copy_mesh(&asset.meshes[level], joints, gltf->meshes);
-    gltf->material_count = asset.material_count;
-    gltf->materials = copy_of(asset.materials, asset.material_count, sizeof *gltf->materials);
-    for (int m = 0; m < gltf->material_count; m++) gltf->materials[m].name = need_text(asset.materials[m].name);
-    make_skeleton(gltf, joints);
-    make_pose(gltf, &fox->pose);
+    *fox = (struct gltf){.path = need_text(asset.path), .id = gltf_new_id(), .mesh_count = 1, .weight_count = 1};
+    fox->meshes = need_zeroed(1, sizeof *fox->meshes);
+    fox->weights = need_zeroed(1, sizeof *fox->weights);
+    copy_mesh(&asset.meshes[level], joints, fox->meshes);
+    fox->material_count = asset.material_count;
+    fox->materials = copy_of(asset.materials, asset.material_count, sizeof *fox->materials);
+    for (int m = 0; m < fox->material_count; m++) fox->materials[m].name = need_text(asset.materials[m].name);
+    make_skeleton(fox, joints);
 }
 
-void fox_free(struct fox *fox)
+void fox_move(const struct limbs *limbs, struct gltf_pose *pose)
 {
-    gltf_pose_free(&fox->pose);
-    gltf_free(&fox->gltf);
-    *fox = (struct fox){0};
-}
-
-void fox_pose(const struct fox *fox, const struct pose *pose)
-{
-    const struct gltf_skin *skin = &fox->gltf.skins[0];
-    const struct gltf_pose *out = &fox->pose;
-    const vec3s size = glms_vec3_fill(pose_scale(pose));
-    const mat4s base = glms_scale(glms_translate_make(vec3_from(pose->matrix[0] + 12)), size);
-    float limbs[LIMBS][16];
-    limbs_matrices(&pose->limbs, 1.0f, limbs);
-    for (int j = 0; j < skin->joint_count; j++) {
-        const mat4s back = mat4_from(skin->inverse_bind[j]);
-        mat4s moved, world;
-        if (j < LIMBS) {
-            moved = glms_mat4_mul(base, mat4_from(limbs[j]));
-            world = glms_mat4_mul(moved, glms_mat4_inv(back));
-        } else {
-            world = glms_scale(mat4_from(pose->matrix[j - LIMBS]), size);
-            moved = glms_mat4_mul(world, back);
-        }
-        memcpy(out->joints[j], moved.raw, sizeof out->joints[j]);
-        memcpy(out->world[skin->joints[j]], world.raw, sizeof out->world[0]);
+    float turn[LIMBS][4], size[LIMBS][3];
+    limbs_motions(limbs, turn, size);
+    for (int l = 0; l < LIMBS; l++) {
+        struct gltf_place *place = &pose->place[FOX_FIRST_LIMB + l];
+        memcpy(place->rotation, turn[l], sizeof turn[l]);
+        memcpy(place->scale, size[l], sizeof size[l]);
     }
-    memcpy(out->world[0], base.raw, sizeof out->world[0]);
-    out->weights[0] = pose->limbs.blink;
-}
-
-int fox_vertex_count(const struct fox *fox) { return gltf_vertex_count(&fox->gltf, fox->gltf.node_count - 1); }
-
-void fox_places(const struct fox *fox, float (*places)[3])
-{
-    gltf_pose_vertices(&fox->gltf, &fox->pose, fox->gltf.node_count - 1, places, NULL);
+    pose->weights[0] = limbs->blink;
 }

@@ -37,29 +37,12 @@ int fox_level(int animals);
 /// Nodes: what carries all, the body's parts (limbs.h), and from FOX_FIRST_JOINT on the tail's joints. Of the skin's joints the first is left out.
 enum { FOX_FIRST_LIMB = 1, FOX_FIRST_JOINT = 8 };
 
-/// The node that one hangs on, −1 for the first; and where one is in bind space, for a tail of so many joints.
-int fox_parent(int node);
-void fox_place(int node, int joints, float place[3]);
-
 /// A fox with a tail of so many joints. Its only morph target moves nothing: its weight says how far the lids are closed, which its material
 /// draws.
-struct fox {
-    int level, joints;
-    struct gltf gltf;
-    struct gltf_pose pose;
-};
+void fox_create(int level, int joints, struct gltf *fox);
 
-void fox_create(int level, int joints, struct fox *fox);
-
-/// Leaves an empty one, all zero.
-void fox_free(struct fox *fox);
-
-/// Sets its pose, in the world. Allocates nothing.
-void fox_pose(const struct fox *fox, const struct pose *pose);
-
-/// Places of all its vertices as it is posed, and how many they are.
-void fox_places(const struct fox *fox, float (*places)[3]);
-int fox_vertex_count(const struct fox *fox);
+/// Sets the places of the body's parts, and the lids, over those at rest.
+void fox_move(const struct limbs *limbs, struct gltf_pose *pose);
 
 /// Gives what follows the tail (`fur`) weights of so many joints, and `along`, which is 0.
 void fox_hang(struct gltf_part *part, int joints);

@@ -18,16 +18,10 @@ const float fox_body_hi[3] = {0.36f, 1.16f - FOX_BASE_HEIGHT, 0.38f};
 
 const int limb_parents[LIMBS] = {-1, LIMB_BODY, LIMB_BODY, LIMB_HEAD, LIMB_HEAD, LIMB_EAR, LIMB_EAR + 1};
 
-static mat4s about(const float pivot[3], mat4s turn)
+/// Standing place → bind space.
+static void into_bind(const float standing[3], float bind[3])
 {
-    const vec3s p = vec3_from(pivot);
-    return glms_mat4_mul(glms_translate_make(p), glms_mat4_mul(turn, glms_translate_make(glms_vec3_negate(p))));
-}
-
-/// Standing place → bind space at a scale.
-static void into_bind(const float standing[3], float scale, float bind[3])
-{
-    for (int k = 0; k < 3; k++) bind[k] = scale * (standing[k] - (k == 1 ? FOX_BASE_HEIGHT : 0.0f));
+    for (int k = 0; k < 3; k++) bind[k] = standing[k] - (k == 1 ? FOX_BASE_HEIGHT : 0.0f);
 }
 
 static vec3s size_of(const struct limbs *limbs)
@@ -77,12 +71,12 @@ static mat4s head_from_bind(void)
     return mat4_from(matrix);
 }
 
-void limbs_pivots(float scale, float pivot[LIMBS][3])
+void limbs_pivots(float pivot[LIMBS][3])
 {
     const mat4s from_head = glms_mat4_inv(head_from_bind());
     memset(pivot, 0, LIMBS * sizeof *pivot);
-    into_bind(limbs_chest, 1.0f, pivot[LIMB_CHEST]);
-    into_bind(neck, 1.0f, pivot[LIMB_HEAD]);
+    into_bind(limbs_chest, pivot[LIMB_CHEST]);
+    into_bind(neck, pivot[LIMB_HEAD]);
     for (int l = LIMB_EAR; l < LIMBS; l++) {
         const float place = limbs_ear_joint[l >= LIMB_EAR_TIP];
         vec3s joint = glms_vec3_lerp(vec3_from(limbs_ear_root), vec3_from(limbs_ear_tip), place);
@@ -90,7 +84,6 @@ void limbs_pivots(float scale, float pivot[LIMBS][3])
         joint = glms_mat4_mulv3(from_head, joint, 1.0f);
         memcpy(pivot[l], joint.raw, sizeof pivot[l]);
     }
-    for (int l = 0; l < LIMBS; l++) glm_vec3_scale(pivot[l], scale, pivot[l]);
 }
 
 void limbs_motions(const struct limbs *limbs, float turn[LIMBS][4], float size[LIMBS][3])
@@ -112,25 +105,11 @@ void limbs_motions(const struct limbs *limbs, float turn[LIMBS][4], float size[L
     memcpy(size[LIMB_BODY], stretched.raw, sizeof size[LIMB_BODY]);
 }
 
-void limbs_matrices(const struct limbs *limbs, float scale, float matrix[LIMBS][16])
-{
-    float pivot[LIMBS][3], turn[LIMBS][4], size[LIMBS][3];
-    limbs_pivots(scale, pivot);
-    limbs_motions(limbs, turn, size);
-    for (int l = 0; l < LIMBS; l++) {
-        versors q;
-        memcpy(q.raw, turn[l], sizeof turn[l]);
-        mat4s part = about(pivot[l], glms_mat4_mul(glms_quat_mat4(q), glms_scale_make(vec3_from(size[l]))));
-        if (limb_parents[l] >= 0) part = glms_mat4_mul(mat4_from(matrix[limb_parents[l]]), part);
-        memcpy(matrix[l], part.raw, sizeof matrix[l]);
-    }
-}
-
 void limbs_bounds(const struct limbs *limbs, float lo[3], float hi[3])
 {
     const vec3s size = size_of(limbs);
     float joint[3];
-    into_bind(neck, 1.0f, joint);
+    into_bind(neck, joint);
     for (int k = 0; k < 3; k++) {
         const bool still =
             limbs->look == 0.0f && limbs->nod == 0.0f && limbs->ears[0] == 0.0f && limbs->ears[1] == 0.0f;

@@ -23,14 +23,11 @@ void limbs_base_slope(double stretch, double scale, double slope[3]);
 /// The part that each is attached to, −1 for the body.
 extern const int limb_parents[LIMBS];
 
-/// What each part turns and scales about, bind space at a fox of that scale.
-void limbs_pivots(float scale, float pivot[LIMBS][3]);
+/// What each part turns and scales about, bind space.
+void limbs_pivots(float pivot[LIMBS][3]);
 
 /// How each part moves against what it is attached to: turned (a unit quaternion x y z w), and before that scaled along bind space's axes.
 void limbs_motions(const struct limbs *limbs, float turn[LIMBS][4], float size[LIMBS][3]);
-
-/// Bind space → that of the body, at its tail's base: each part's matrix, column-major, at a fox of that scale.
-void limbs_matrices(const struct limbs *limbs, float scale, float matrix[LIMBS][16]);
 
 /// Where the box around the body comes to, bind size, from its tail's base.
 void limbs_bounds(const struct limbs *limbs, float lo[3], float hi[3]);

@@ -5,24 +5,9 @@
 #include "model/vector.h"
 #include <math.h>
 
-void pose_move(struct pose *pose, const double by[3])
-{
-    for (int n = 0; n < pose->count; n++) {
-        for (int k = 0; k < 3; k++) pose->matrix[n][12 + k] += (float)by[k];
-    }
-}
-
-float pose_length(const struct pose *pose)
-{
-    const vec3s base = vec3_from(pose->matrix[0] + 12), next = vec3_from(pose->matrix[1] + 12);
-    return glms_vec3_distance(base, next) * (float)(pose->count - 1);
-}
-
-float pose_scale(const struct pose *pose) { return pose_length(pose) / FOX_TAIL_LENGTH; }
-
 void pose_bounds(const struct pose *pose, float lo[3], float hi[3])
 {
-    const float scale = pose_scale(pose);
+    const float scale = pose->scale;
     limbs_bounds(&pose->limbs, lo, hi);
     for (int k = 0; k < 3; k++) {
         lo[k] = pose->matrix[0][12 + k] + scale * lo[k];

@@ -185,7 +185,7 @@ bool chain_make(struct document *document, const struct models *models, const st
                 struct error *error)
 {
     const struct rig *model = document->rigs[wish->model];
-    const struct imported *imported = models_imported(models, document_rig_number(document, wish->model));
+    const struct imported *imported = models_imported(models, document, wish->model);
     char name[NAME_SIZE];
     struct chain_bones bones;
     if (!imported)

@@ -39,14 +39,12 @@ static bool find(const struct models *models, const struct document *document, c
                  struct followed *followed)
 {
     const int rig = document_find_model(document, motion->model, motion->by_file);
-    if (rig < 0) return false;
-    const struct model_rig *model = &document->rigs[rig]->model;
-    const int number = document_rig_number(document, rig);
-    const struct imported *imported = models_imported(models, number);
+    const struct imported *imported = models_imported(models, document, rig);
     if (!imported) return false;
+    const struct model_rig *model = &document->rigs[rig]->model;
     const int clip = model->clip ? gltf_find_clip(&imported->gltf, model->clip) : -1;
     *followed = (struct followed){.imported = imported,
-                                  .pose = models_pose(models, number, false),
+                                  .pose = models_pose(models, document, rig, false),
                                   .node = gltf_find_node(&imported->gltf, motion->joint),
                                   .clip = clip,
                                   .duration = clip < 0 ? 0 : imported->gltf.clips[clip].duration,

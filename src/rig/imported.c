@@ -73,19 +73,22 @@ void skeleton_ends(const struct bone *bone, const struct gltf_pose *pose, float 
     memcpy(ends[1], end.raw, sizeof ends[1]);
 }
 
+bool imported_complete(struct imported *imported)
+{
+    if (!gltf_pose_create(&imported->gltf, &imported->rest) ||
+        !gltf_bounds_create(&imported->gltf, &imported->bounds))
+        return false;
+    skeleton_create(&imported->gltf, &imported->rest, &imported->skeleton);
+    return true;
+}
+
 bool imported_read(struct imported *imported, const char *path, struct error *error)
 {
     *imported = (struct imported){0};
     if (!gltf_read(path, &imported->gltf, error)) return false;
-    if (!gltf_pose_create(&imported->gltf, &imported->rest) ||
-        !gltf_bounds_create(&imported->gltf, &imported->bounds)) {
-        imported_free(imported);
-        return fail_no_memory(error, path);
-    }
-    gltf_pose_clip(&imported->gltf, -1, 0.0, &imported->rest);
-    gltf_pose_world(&imported->gltf, &imported->rest);
-    skeleton_create(&imported->gltf, &imported->rest, &imported->skeleton);
-    return true;
+    if (imported_complete(imported)) return true;
+    imported_free(imported);
+    return fail_no_memory(error, path);
 }
 
 void imported_free(struct imported *imported)

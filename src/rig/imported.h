@@ -28,6 +28,9 @@ struct imported {
 
 /// Reads a .glb or .gltf. On error nothing is left to free.
 bool imported_read(struct imported *imported, const char *path, struct error *error);
+
+/// Makes all else of one whose `gltf` is there. False if memory is short.
+bool imported_complete(struct imported *imported);
 void imported_free(struct imported *imported);
 
 /// Where a bone begins and ends in a pose, in the character's space.

@@ -2,6 +2,7 @@
 #include "rig/models.h"
 #include "base/file.h"
 #include "base/need.h"
+#include "model/fox.h"
 #include "rig/bones.h"
 #include "rig/model_files.h"
 #include <stdio.h>
@@ -15,9 +16,11 @@ struct character_model {
     uint64_t version;           ///< of the paint on it, 0: none
 };
 
-/// An imported character of one rig, and memory for its poses.
+/// An imported character of one rig, or the fox of a tail, and memory for its poses.
 struct placed_model {
-    char *path;                      ///< as the rig names it
+    char *path;        ///< as the rig names it; NULL: it is a tail
+    int level, joints; ///< of a fox, as what follows
+    struct imported *fox;
     const struct imported *imported; ///< NULL: it could not be read
     struct gltf_pose pose[2];        ///< [1] is shown
 };
@@ -26,6 +29,8 @@ struct models {
     struct model_files files;
     struct placed_model *placed; ///< in the order of the document
     int placed_count;
+    struct placed_model *tails; ///< in the order of the document
+    int tail_count;
     struct character_model *characters; ///< in the order of the document
     int character_count;
     struct meadow *meadow; ///< NULL until a document has one
@@ -49,12 +54,18 @@ static void drop_characters(struct models *models)
     models->character_count = 0;
 }
 
+static void free_placed(struct placed_model *placed)
+{
+    for (int k = 0; k < 2; k++) gltf_pose_free(&placed->pose[k]);
+    if (placed->fox) imported_free(placed->fox);
+    free(placed->fox);
+    free(placed->path);
+    *placed = (struct placed_model){0};
+}
+
 static void drop_placed(struct models *models)
 {
-    for (int i = 0; i < models->placed_count; i++) {
-        for (int k = 0; k < 2; k++) gltf_pose_free(&models->placed[i].pose[k]);
-        free(models->placed[i].path);
-    }
+    for (int i = 0; i < models->placed_count; i++) free_placed(&models->placed[i]);
     models->placed_count = 0;
 }
 
@@ -63,8 +74,10 @@ void models_destroy(struct models *models)
     if (!models) return;
     drop_characters(models);
     drop_placed(models);
+    for (int i = 0; i < models->tail_count; i++) free_placed(&models->tails[i]);
     meadow_destroy(models->meadow);
     free(models->placed);
+    free(models->tails);
     model_files_free(&models->files);
     free(models->characters);
     free(models);
@@ -148,7 +161,6 @@ static void update_characters(struct models *models, const struct document *docu
         keep_first(first, &trouble);
     }
     models->character_count = count;
-    models_paint(models, document);
 }
 
 static bool check_clip(const struct model_rig *rig, const struct gltf *gltf, struct error *error)
@@ -156,6 +168,33 @@ static bool check_clip(const struct model_rig *rig, const struct gltf *gltf, str
     if (!rig->clip || gltf_find_clip(gltf, rig->clip) >= 0) return true;
     return fail(error, ERROR_INPUT, "%s: expected a clip called \"%s\", got %s%s", rig->model, rig->clip,
                 gltf->clip_count > 0 ? "others, such as " : "none", gltf->clip_count > 0 ? gltf->clips[0].name : "");
+}
+
+static bool make_poses(struct placed_model *placed, const struct imported *imported)
+{
+    placed->imported = imported;
+    return gltf_pose_create(&imported->gltf, &placed->pose[0]) && gltf_pose_create(&imported->gltf, &placed->pose[1]);
+}
+
+/// Makes a fox anew where its tail's joints, or the number of tails, are others.
+static void update_tails(struct models *models, const struct document *document)
+{
+    const int count = document_count_rigs(document, RIG_TAIL), level = fox_level(count);
+    int rig = document_next_rig(document, RIG_TAIL, 0);
+    while (models->tail_count > count) free_placed(&models->tails[--models->tail_count]);
+    if (count > models->tail_count) models->tails = need_more(models->tails, (size_t)count, sizeof *models->tails);
+    while (models->tail_count < count) models->tails[models->tail_count++] = (struct placed_model){0};
+    for (int i = 0; i < count; i++, rig = document_next_rig(document, RIG_TAIL, rig + 1)) {
+        struct placed_model *placed = &models->tails[i];
+        const int joints = document->rigs[rig]->tail.joints;
+        if (placed->joints == joints && placed->level == level) continue;
+        free_placed(placed);
+        placed->level = level;
+        placed->joints = joints;
+        placed->fox = need_zeroed(1, sizeof *placed->fox);
+        fox_create(level, joints, &placed->fox->gltf);
+        if (!imported_complete(placed->fox) || !make_poses(placed, placed->fox)) need_failed();
+    }
 }
 
 /// Reads the model of one rig and makes room for its poses.
@@ -167,10 +206,7 @@ static bool place_model(struct models *models, const struct document *document, 
     if (!resolve(document, rig->model, path, error)) return false;
     const struct imported *imported = model_files_imported(&models->files, path, error);
     if (!imported) return false;
-    for (int k = 0; k < 2; k++) {
-        if (!gltf_pose_create(&imported->gltf, &placed->pose[k])) return fail_no_memory(error, rig->model);
-    }
-    placed->imported = imported;
+    if (!make_poses(placed, imported)) return fail_no_memory(error, rig->model);
     return check_clip(rig, &imported->gltf, error);
 }
 
@@ -194,9 +230,8 @@ static bool check_chains(const struct models *models, const struct document *doc
     for (int r = document_next_rig(document, RIG_CHAIN, 0); r >= 0;
          r = document_next_rig(document, RIG_CHAIN, r + 1)) {
         const struct chain *chain = &document->rigs[r]->chain;
-        const int model = document_find_model(document, chain->model, chain->by_file);
         const struct imported *imported =
-            model < 0 ? NULL : models_imported(models, document_rig_number(document, model));
+            models_imported(models, document, document_find_model(document, chain->model, chain->by_file));
         struct chain_bones bones;
         if (!imported) continue;
         if (!chain_find(&imported->gltf, chain->from, chain->to, &bones, error)) return false;
@@ -211,6 +246,7 @@ bool models_update(struct models *models, const struct document *document, struc
     models->version++;
     update_characters(models, document, &first);
     update_placed(models, document, &first);
+    models_follow(models, document);
     check_chains(models, document, &trouble);
     keep_first(&first, &trouble);
     if (first.kind != ERROR_NONE && error) *error = first;
@@ -228,7 +264,7 @@ bool models_suit(const struct models *models, const struct document *document)
     return rig < 0;
 }
 
-void models_paint(struct models *models, const struct document *document)
+void models_follow(struct models *models, const struct document *document)
 {
     int rig = document_next_rig(document, RIG_CHARACTER, 0);
     for (int i = 0; i < models->character_count && rig >= 0;
@@ -241,6 +277,7 @@ void models_paint(struct models *models, const struct document *document)
         painted_update(model->painted, paint ? (const float(*)[2])paint->values : NULL);
         model->version = paint ? paint->version : 0;
     }
+    update_tails(models, document);
 }
 
 const struct figure *models_figure(const struct models *models, int character)
@@ -252,12 +289,24 @@ const struct figure *models_figure(const struct models *models, int character)
 
 uint64_t models_version(const struct models *models) { return models ? models->version : 0; }
 
-const struct imported *models_imported(const struct models *models, int model)
+/// What is placed for a rig, or NULL.
+static struct placed_model *find_placed(const struct models *models, const struct document *document, int rig)
 {
-    return models && model < models->placed_count ? models->placed[model].imported : NULL;
+    const bool is_tail = rig >= 0 && document->rigs[rig]->kind == RIG_TAIL;
+    if (!models || rig < 0 || (!is_tail && document->rigs[rig]->kind != RIG_MODEL)) return NULL;
+    const int number = document_rig_number(document, rig);
+    if (number >= (is_tail ? models->tail_count : models->placed_count)) return NULL;
+    return is_tail ? &models->tails[number] : &models->placed[number];
 }
 
-struct gltf_pose *models_pose(const struct models *models, int model, bool shown)
+const struct imported *models_imported(const struct models *models, const struct document *document, int rig)
 {
-    return models_imported(models, model) ? &models->placed[model].pose[shown] : NULL;
+    const struct placed_model *placed = find_placed(models, document, rig);
+    return placed ? placed->imported : NULL;
+}
+
+struct gltf_pose *models_pose(const struct models *models, const struct document *document, int rig, bool shown)
+{
+    struct placed_model *placed = find_placed(models, document, rig);
+    return placed && placed->imported ? &placed->pose[shown] : NULL;
 }

@@ -21,10 +21,10 @@ bool models_update(struct models *models, const struct document *document, struc
 /// Whether these are the models that the document's rigs name, as when edits have added or removed some since models_update().
 bool models_suit(const struct models *models, const struct document *document);
 
-/// Applies the document's paint to the figures of its characters: call it once a frame after models_update(), before posing.
-/// Only changes cost time, and only the first paint on a character allocates; if the paint is for
-/// another model, the character stays plain.
-void models_paint(struct models *models, const struct document *document);
+/// Applies the document's paint to the figures of its characters, and gives its tails foxes of their joints: call it once a frame before
+/// solving and posing. Only changes cost time, and only the first paint on a character and another number of joints allocate; if the paint
+/// is for another model, the character stays plain.
+void models_follow(struct models *models, const struct document *document);
 
 /// Whether paint suits a figure: it has as many coordinates and vertices.
 bool models_paint_fits(const struct paint *paint, const struct figure *figure);
@@ -35,8 +35,8 @@ const struct figure *models_figure(const struct models *models, int character);
 /// Changes whenever models_update() is called; 0 for none. `models` may be NULL.
 uint64_t models_version(const struct models *models);
 
-/// The document's i-th model rig; NULL if it could not be read. `models` may be NULL.
-const struct imported *models_imported(const struct models *models, int model);
+/// What a rig of the document shows, a model rig or the fox of a tail; NULL: it is none, or could not be read. `models` may be NULL.
+const struct imported *models_imported(const struct models *models, const struct document *document, int rig);
 
 /// Solves the document's meadow where it has changed.
 void models_grow(struct models *models, const struct document *document, const struct evaluation *evaluation);
@@ -45,6 +45,6 @@ void models_grow(struct models *models, const struct document *document, const s
 const struct meadow *models_meadow(const struct models *models);
 
 /// Memory for a pose of it: one for what is shown, one for all else. NULL where models_imported() is.
-struct gltf_pose *models_pose(const struct models *models, int model, bool shown);
+struct gltf_pose *models_pose(const struct models *models, const struct document *document, int rig, bool shown);
 
 #endif

@@ -36,10 +36,12 @@ static void add_bends(const struct path *path, int joint, const struct strand *s
 }
 
 /// What a tail's base follows, and how it moves with the body's stretch; pinning_add_channel() takes percent for degrees.
-static void add_base(const struct tail *tail, const wiggly_value *values, const int *splines, int count, pin_pull *c)
+static void add_base(const struct posing *posing, int rig, const wiggly_value *values, const int *splines, int count,
+                     pin_pull *c)
 {
+    const struct tail *tail = &posing->document->rigs[rig]->tail;
     double way[3];
-    const struct limbs limbs = tail_limbs(tail, values, LOOK_WIGGLY, way);
+    const struct limbs limbs = tail_base(posing, rig, 0, values, NULL, way);
     limbs_base_slope((double)limbs.stretch, tail->length / (double)FOX_TAIL_LENGTH, way);
     for (int k = 0; k < 3; k++) way[k] *= 1.8 / 3.14159265358979323846;
     for (int s = 0; s < count; s++) {
@@ -70,7 +72,7 @@ static bool find(const struct posing *posing, int rig, double sample, int which,
         if (!strand_find(posing, body, r, &strand)) continue;
         posing_values(posing, r, sample, NULL, values);
         add_bends(&path, which, &strand, values, splines, count, c);
-        if (r == body) add_base(&document->rigs[rig]->tail, values, splines, count, c);
+        if (r == body) add_base(posing, rig, values, splines, count, c);
     }
     return true;
 }

@@ -41,7 +41,8 @@ static double moved(const struct tail *tail, const wiggly_value *values, enum lo
     return fmin(fmax(sum, bearable[axis].lowest), bearable[axis].highest);
 }
 
-struct limbs tail_limbs(const struct tail *tail, const wiggly_value *values, enum look look, double shift[3])
+/// How the body's parts are moved, and how far that moves the tail's base, metres.
+static struct limbs tail_limbs(const struct tail *tail, const wiggly_value *values, enum look look, double shift[3])
 {
     const double stretch = moved(tail, values, look, AXIS_STRETCH, 1) / 100;
     struct limbs limbs = {
@@ -56,18 +57,25 @@ struct limbs tail_limbs(const struct tail *tail, const wiggly_value *values, enu
     return limbs;
 }
 
-void tail_base(const struct posing *posing, int rig, double position, const wiggly_value *values,
-               const struct by_hand *by_hand, double base[3])
+float tail_ground(const struct tail *tail)
+{
+    const double height = (double)(FOX_BASE_HEIGHT / FOX_TAIL_LENGTH) * tail->length;
+    return tail->position[1].track < 0 ? (float)(tail->position[1].value - height) : 0.0f;
+}
+
+struct limbs tail_base(const struct posing *posing, int rig, double position, const wiggly_value *values,
+                       const struct by_hand *by_hand, double base[3])
 {
     const struct tail *tail = &posing->document->rigs[rig]->tail;
+    const struct limbs limbs = tail_limbs(tail, values, posing->look, base);
     double moved[3];
-    tail_limbs(tail, values, posing->look, base);
     posing_base(posing, rig, by_hand, moved);
     for (int k = 0; k < 3; k++) {
         const struct param *param = &tail->position[k];
         const wiggly_value value = evaluation_at(posing->evaluation, param->track, position);
         base[k] += moved[k] + (param->track < 0 ? param->value : value.y + value.re);
     }
+    return limbs;
 }
 
 static bool pose(const struct posing *posing, int rig, double position, const wiggly_value *values,
@@ -93,10 +101,10 @@ static bool pose_fox(const struct posing *posing, int rig, double position, cons
                      const struct by_hand *by_hand, struct rig_pose *posed)
 {
     const struct tail *tail = &posing->document->rigs[rig]->tail;
-    const double height = (double)(FOX_BASE_HEIGHT / FOX_TAIL_LENGTH) * tail->length;
-    double shift[3];
-    posed->strand.ground = tail->position[1].track < 0 ? (float)(tail->position[1].value - height) : 0.0f;
-    posed->strand.limbs = tail_limbs(tail, values, posing->look, shift);
+    double base[3];
+    posed->strand.ground = tail_ground(tail);
+    posed->strand.scale = (float)(tail->length / (double)FOX_TAIL_LENGTH);
+    posed->strand.limbs = tail_base(posing, rig, position, values, by_hand, base);
     return pose(posing, rig, position, values, by_hand, posed);
 }
 

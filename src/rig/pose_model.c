@@ -1,4 +1,5 @@
-/// Poses an imported character: its clip, and its chains on top.
+/// Poses an imported character, or the fox of a tail: its clip, and what bends it on top.
+#include "model/fox.h"
 #include "model/vector.h"
 #include "rig/posing_kind.h"
 #include "rig/strand.h"
@@ -11,16 +12,15 @@ double posing_clip_time(const struct document *document, double position, double
     return time < 0 ? time + duration : time;
 }
 
-/// The pose of a model's clip, in the memory for what is shown or that for all else; NULL: there is no such model.
+/// A body's clip, or rest, in the memory for what is shown or that for all else; NULL: it cannot be shown.
 static struct gltf_pose *pose_clip(const struct posing *posing, int rig, double position, bool shown)
 {
     const struct document *document = posing->document;
-    const int number = rig < 0 ? 0 : document_rig_number(document, rig);
-    const struct imported *imported = rig < 0 ? NULL : models_imported(posing->models, number);
+    const struct imported *imported = models_imported(posing->models, document, rig);
     if (!imported) return NULL;
-    struct gltf_pose *pose = models_pose(posing->models, number, shown);
+    struct gltf_pose *pose = models_pose(posing->models, document, rig, shown);
     const struct gltf *gltf = &imported->gltf;
-    const char *name = document->rigs[rig]->model.clip;
+    const char *name = document->rigs[rig]->kind == RIG_MODEL ? document->rigs[rig]->model.clip : NULL;
     const int clip = name && !posing->at_rest ? gltf_find_clip(gltf, name) : -1;
     gltf_pose_clip(gltf, clip, clip < 0 ? 0 : posing_clip_time(document, position, gltf->clips[clip].duration), pose);
     return pose;
@@ -36,7 +36,7 @@ void posing_root(const struct posing *posing, int rig, const struct by_hand *by_
 {
     const struct document *document = posing->document;
     const struct model_rig *model = &document->rigs[rig]->model;
-    const struct imported *imported = models_imported(posing->models, document_rig_number(document, rig));
+    const struct imported *imported = models_imported(posing->models, document, rig);
     const double turn = model->turn * 3.14159265358979323846 / 180.0;
     const double c = model->scale * cos(turn), s = model->scale * sin(turn);
     const double columns[9] = {c, 0, -s, 0, model->scale, 0, s, 0, c};
@@ -46,27 +46,47 @@ void posing_root(const struct posing *posing, int rig, const struct by_hand *by_
     root[10] -= model->scale * (double)imported->gltf.lo[1];
 }
 
-bool posing_model(const struct posing *posing, int rig, double position, int hand, const struct by_hand *by_hand,
-                  struct rig_pose *posed)
+/// Moves the fox's body, and finds where it stands, as posing_root() does.
+static float place_fox(const struct posing *posing, int rig, double position, const struct by_hand *by_hand,
+                       struct gltf_pose *pose, double root[12])
+{
+    const struct tail *tail = &posing->document->rigs[rig]->tail;
+    const double scale = tail->length / (double)FOX_TAIL_LENGTH;
+    const double columns[9] = {scale, 0, 0, 0, scale, 0, 0, 0, scale};
+    wiggly_value values[RIG_MAX_INPUTS];
+    posing_values(posing, rig, position, by_hand, values);
+    memcpy(root, columns, sizeof columns);
+    const struct limbs limbs = tail_base(posing, rig, position, values, by_hand, root + 9);
+    fox_move(&limbs, pose);
+    return tail_ground(tail);
+}
+
+bool rig_pose_body(const struct posing *posing, int rig, double position, const struct by_hand *by_hand,
+                   struct rig_pose *posed)
 {
     const struct document *document = posing->document;
+    const bool is_tail = document->rigs[rig]->kind == RIG_TAIL;
+    if (!is_tail && document->rigs[rig]->kind != RIG_MODEL) return rig_pose(posing, rig, position, by_hand, posed);
     struct gltf_pose *pose = pose_clip(posing, rig, position, posing->shown);
     wiggly_value values[RIG_MAX_INPUTS];
     struct strand strand;
     double root[12];
     if (!pose) return false;
-    const struct imported *imported = models_imported(posing->models, document_rig_number(document, rig));
     for (int r = 0; r < document->rig_count; r++) {
         if (!strand_find(posing, rig, r, &strand)) continue;
-        posing_values(posing, r, position, r == hand ? by_hand : NULL, values);
+        posing_values(posing, r, position, r == rig ? by_hand : NULL, values);
         strand_bend(&strand, values, posing->look, pose);
     }
-    gltf_pose_world(&imported->gltf, pose);
     posed->kind = RIG_MODEL;
-    posed->model.imported = imported;
+    posed->model.imported = models_imported(posing->models, document, rig);
     posed->model.pose = pose;
-    posed->model.ground = (float)document->rigs[rig]->model.position[1];
-    posing_root(posing, rig, rig == hand ? by_hand : NULL, root);
+    if (is_tail) {
+        posed->model.ground = place_fox(posing, rig, position, by_hand, pose, root);
+    } else {
+        posed->model.ground = (float)document->rigs[rig]->model.position[1];
+        posing_root(posing, rig, by_hand, root);
+    }
+    gltf_pose_world(&posed->model.imported->gltf, pose);
     for (int k = 0; k < 16; k++) posed->model.root[k] = k % 4 == 3 ? k == 15 : (float)root[3 * (k / 4) + k % 4];
     return true;
 }
@@ -75,7 +95,7 @@ static bool pose(const struct posing *posing, int rig, double position, const wi
                  const struct by_hand *by_hand, struct rig_pose *posed)
 {
     (void)values;
-    return posing_model(posing, rig, position, rig, by_hand, posed);
+    return rig_pose_body(posing, rig, position, by_hand, posed);
 }
 
 static void bounds(const struct rig_pose *posed, float lo[3], float hi[3])

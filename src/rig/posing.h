@@ -55,6 +55,10 @@ struct rig_pose {
 bool rig_pose(const struct posing *posing, int rig, double position, const struct by_hand *by_hand,
               struct rig_pose *pose);
 
+/// The same of what a rig of the document shows: a tail's fox is a model, as an imported character is.
+bool rig_pose_body(const struct posing *posing, int rig, double position, const struct by_hand *by_hand,
+                   struct rig_pose *pose);
+
 /// What a rig bends: the model that a chain is of, −1: there is none. All else is a body of its own.
 int rig_body(const struct document *document, int rig);
 

@@ -11,11 +11,6 @@ struct posing_functions {
     void (*bounds)(const struct rig_pose *pose, float lo[3], float hi[3]); ///< NULL: it is no body
 };
 
-/// Poses an imported character with all its chains; `by_hand` moves the rig `hand`, which is the model or one of its chains. false if
-/// there is no model.
-bool posing_model(const struct posing *posing, int rig, double position, int hand, const struct by_hand *by_hand,
-                  struct rig_pose *posed);
-
 /// The places of its bones in its clip alone, in the models' memory for what is not shown; NULL where there is no model.
 struct gltf_pose *posing_clip(const struct posing *posing, int rig, double position);
 
@@ -32,12 +27,12 @@ void posing_values(const struct posing *posing, int rig, double position, const 
 /// How far it is moved by hand, metres.
 void posing_base(const struct posing *posing, int rig, const struct by_hand *by_hand, double base[3]);
 
-/// How the body's parts are moved, and how far that moves the tail's base, metres.
-struct limbs tail_limbs(const struct tail *tail, const wiggly_value *values, enum look look, double shift[3]);
+/// Where a tail begins, metres of the world, and how the body's parts are moved.
+struct limbs tail_base(const struct posing *posing, int rig, double position, const wiggly_value *values,
+                       const struct by_hand *by_hand, double base[3]);
 
-/// Where a tail begins, metres of the world.
-void tail_base(const struct posing *posing, int rig, double position, const wiggly_value *values,
-               const struct by_hand *by_hand, double base[3]);
+/// Height of what the body of a tail stands on.
+float tail_ground(const struct tail *tail);
 
 /// tail_posing …
 #define POSING_FUNCTIONS(constant, name) extern const struct posing_functions name##_posing;

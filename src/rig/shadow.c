@@ -47,7 +47,7 @@ static struct shadow_blob tail_blob(const struct pose *pose, vec2s slope, float 
 
 int pose_blobs(const struct pose *pose, const float from[3], struct shadow_blob *blobs, int capacity)
 {
-    const float scale = pose_scale(pose), ground = pose->ground;
+    const float scale = pose->scale, ground = pose->ground;
     const float above = fmaxf(pose->matrix[0][13] - ground - scale * FOX_BASE_HEIGHT, 0.0f);
     const int body_count = (int)(sizeof body_blobs / sizeof *body_blobs);
     const vec2s slope = slope_of(from);

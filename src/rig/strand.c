@@ -1,5 +1,6 @@
 /// Bends tails and chains, and follows the nodes from a root to their tips.
 #include "rig/strand.h"
+#include "model/fox.h"
 #include "model/vector.h"
 #include "rig/posing_kind.h"
 #include <math.h>
@@ -64,7 +65,7 @@ static struct strand strand_of_tail(const struct tail *tail)
                             .channel_count = tail->channel_count,
                             .joints = tail->joints,
                             .rest = &tail->rest};
-    for (int n = 0; n < tail->joints; n++) strand.bones.node[n] = n;
+    for (int n = 0; n < tail->joints; n++) strand.bones.node[n] = FOX_FIRST_JOINT + n;
     return strand;
 }
 
@@ -89,7 +90,7 @@ bool strand_find(const struct posing *posing, int body, int rig, struct strand *
         return true;
     }
     if (document->rigs[rig]->kind != RIG_CHAIN || body < 0) return false;
-    const struct imported *imported = models_imported(posing->models, document_rig_number(document, body));
+    const struct imported *imported = models_imported(posing->models, document, body);
     return imported && strand_of_chain(&document->rigs[rig]->chain, imported, strand);
 }
 
@@ -272,8 +273,10 @@ static void list_joints(const struct tail *tail, struct path *path)
     const double segment = tail->length / tail->joints;
     path->count = tail->joints;
     for (int n = 0; n < path->count; n++)
-        path->nodes[n] = (struct path_node){
-            .node = n, .offset = {0, 0, n > 0 ? segment : 0}, .rotation = {0, 0, 0, 1}, .scale = {1, 1, 1}};
+        path->nodes[n] = (struct path_node){.node = FOX_FIRST_JOINT + n,
+                                            .offset = {0, 0, n > 0 ? segment : 0},
+                                            .rotation = {0, 0, 0, 1},
+                                            .scale = {1, 1, 1}};
     memcpy(path->tip, (const double[]){0, 0, segment}, sizeof path->tip);
 }
 

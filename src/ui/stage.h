@@ -1,10 +1,9 @@
-/// The stage's contents: a camera, posed tails, soft and imported characters, and their shadows. Made by the editor, drawn by draw/.
+/// The stage's contents: a camera, soft and imported characters, and their shadows. Made by the editor, drawn by draw/.
 #ifndef UI_STAGE_H
 #define UI_STAGE_H
 
 #include "base/hash.h"
 #include "model/figure.h"
-#include "model/fox.h"
 #include "model/gltf.h"
 #include "ui/drawlist.h"
 #include "ui/theme.h"
@@ -16,12 +15,6 @@ enum {
     STAGE_MAX_MODELS = 4 + STAGE_MAX_TAILS, ///< imported characters, and the foxes of tails
     STAGE_MAX_REEDS = 4096,
     STAGE_MAX_BLOBS = 20 * STAGE_MAX_TAILS + 4 * STAGE_MAX_CHARACTERS + 4 * STAGE_MAX_MODELS,
-};
-
-/// A tail as it stands; what is drawn of it is one of the models.
-struct stage_tail {
-    int rig; ///< in the document
-    struct pose pose;
 };
 
 /// One soft character to draw, standing on the ground at `position`.
@@ -75,8 +68,7 @@ struct stage_view {
     float middle[2];      ///< x and z of the middle of the lit ground
     float key_from[3];    ///< where the key light comes from: a direction of the world, unit length
     struct stage_colors colors;
-    struct stage_tail tails[STAGE_MAX_TAILS];
-    int tail_count;
+    bool has_tail; ///< the ground is never small
     struct stage_character characters[STAGE_MAX_CHARACTERS];
     int character_count;
     struct stage_model models[STAGE_MAX_MODELS];
@@ -93,9 +85,6 @@ static inline void stage_add_blob(struct stage_view *view, float x, float z, flo
     if (view->blob_count < STAGE_MAX_BLOBS)
         view->blobs[view->blob_count++] = (struct stage_blob){x, z, radius, strength};
 }
-
-/// Shows a fox, posed so.
-void stage_add_fox(struct stage_view *view, const struct fox *fox, const struct pose *pose);
 
 /// Hash of what all pictures of the stage share: viewport, camera, light and colours.
 static inline uint64_t stage_scenery_hash(const struct stage_view *view)

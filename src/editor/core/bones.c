@@ -10,7 +10,7 @@
 
 const struct imported *bones_character(const struct core *core, int model)
 {
-    return models_imported(core->models, document_rig_number(core->document, model));
+    return models_imported(core->models, core->document, model);
 }
 
 int bones_selected(const struct core *core, int *model)

@@ -37,7 +37,8 @@ static double place_of(const struct core *core, int rig, double *width)
     const struct rig *at = core->document->rigs[rig];
     const int number = document_rig_number(core->document, rig);
     const struct figure *figure = at->kind == RIG_CHARACTER ? models_figure(core->models, number) : NULL;
-    const struct imported *imported = at->kind == RIG_MODEL ? models_imported(core->models, number) : NULL;
+    const struct imported *imported =
+        at->kind == RIG_MODEL ? models_imported(core->models, core->document, rig) : NULL;
     *width = ROOM;
     if (figure) *width = (double)(figure->hi[0] - figure->lo[0]);
     if (imported) *width = (double)(imported->gltf.hi[0] - imported->gltf.lo[0]) * at->model.scale;

@@ -100,7 +100,7 @@ static bool find_stand(const struct stage *stage, const struct core *core, int r
     float lo[3], hi[3];
     if (!rig_pose(&posing, rig, core->playback.position, NULL, &pose)) return false;
     if (pose.kind == RIG_TAIL) {
-        const float *base = pose.strand.matrix[0] + 12, scale = pose_scale(&pose.strand);
+        const float *base = pose.strand.matrix[0] + 12, scale = pose.strand.scale;
         *stand = (struct stand){{base[0], base[1], base[2]},
                                 {base[0] + scale * ring_middle[0], base[2] + scale * ring_middle[1]},
                                 pose.strand.ground,
@@ -120,7 +120,7 @@ static bool find_stand(const struct stage *stage, const struct core *core, int r
 /// Whether a ray passes through the box around a body.
 static bool passes_box(const struct pose *pose, const float eye[3], const float direction[3])
 {
-    const float *base = pose->matrix[0] + 12, scale = pose_scale(pose);
+    const float *base = pose->matrix[0] + 12, scale = pose->scale;
     float near = 0, far = INFINITY, lo[3], hi[3];
     limbs_bounds(&pose->limbs, lo, hi);
     for (int k = 0; k < 3; k++) {
@@ -147,34 +147,45 @@ static float meet(const struct gltf_part *part, const float (*place)[3], const f
     return nearest;
 }
 
-float body_distance(const struct stage *stage, int tail, const struct pose *pose, float x, float y)
+/// Where a ray meets the body of a fox, or INFINITY.
+static float body_distance(struct stage *stage, const struct rig_pose *fox, const float direction[3])
 {
-    const struct stage_view *view = &stage->view;
-    const struct shown_fox *fox = &stage->foxes[tail];
-    const float viewport[4] = {view->viewport.x, view->viewport.y, view->viewport.w, view->viewport.h};
-    float direction[3], nearest = INFINITY;
-    camera_ray(view->view, view->projection, viewport, (const float[2]){x, y}, direction);
-    if (fox->fox.joints != pose->count - 1 || !passes_box(pose, view->eye, direction)) return -1;
-    const float(*place)[3] = (const float(*)[3])fox->place;
-    const struct gltf_mesh *mesh = fox->fox.gltf.meshes;
-    fox_pose(&fox->fox, pose); // the next frame poses it again as it is shown
-    fox_places(&fox->fox, fox->place);
-    for (int p = 0; p < mesh->part_count; p++) {
-        nearest = meet(&mesh->parts[p], place, view->eye, direction, nearest);
-        place += mesh->parts[p].vertex_count;
+    const struct gltf *gltf = &fox->model.imported->gltf;
+    const float *root = fox->model.root;
+    const int node = gltf->node_count - 1, count = gltf_vertex_count(gltf, node);
+    float(*place)[3] = stage->skin.posed, nearest = INFINITY;
+    if (count > stage->skin.capacity) return INFINITY;
+    stage->skin.hash = 0;
+    gltf_pose_vertices(gltf, fox->model.pose, node, place, NULL);
+    for (int v = 0; v < count; v++)
+        for (int k = 0; k < 3; k++) place[v][k] = root[0] * place[v][k] + root[12 + k];
+    for (int p = 0; p < gltf->meshes->part_count; p++) {
+        const struct gltf_part *part = &gltf->meshes->parts[p];
+        nearest = meet(part, (const float(*)[3])place, stage->view.eye, direction, nearest);
+        place += part->vertex_count;
     }
-    return nearest < INFINITY ? nearest : -1;
+    return nearest;
 }
 
-struct hover body_hover(const struct stage *stage, float x, float y)
+struct hover body_hover(struct stage *stage, const struct core *core, double position, float x, float y)
 {
+    const struct stage_view *view = &stage->view;
+    const struct stage_hand by = {stage, core, core->document};
+    const struct posing posing = stage_posing_by_hand(&by);
+    const float viewport[4] = {view->viewport.x, view->viewport.y, view->viewport.w, view->viewport.h};
     struct hover hover = {.kind = HOVER_NONE};
-    float nearest = INFINITY;
-    for (int t = 0; t < stage->view.tail_count; t++) {
-        const float distance = body_distance(stage, t, &stage->view.tails[t].pose, x, y);
-        if (!(distance >= 0 && distance < nearest)) continue;
+    float direction[3], nearest = INFINITY;
+    camera_ray(view->view, view->projection, viewport, (const float[2]){x, y}, direction);
+    for (int t = 0; t < stage->tail_count; t++) {
+        const int rig = stage->tails[t].rig;
+        struct rig_pose pose;
+        if (!tail_of(core->document, rig) || !rig_pose(&posing, rig, position, NULL, &pose)) continue;
+        if (!passes_box(&pose.strand, view->eye, direction)) continue;
+        if (!rig_pose_body(&posing, rig, position, NULL, &pose)) continue;
+        const float distance = body_distance(stage, &pose, direction);
+        if (distance >= nearest) continue;
         nearest = distance;
-        hover = (struct hover){.kind = HOVER_BODY, .rig = stage->view.tails[t].rig, .x = x, .y = y};
+        hover = (struct hover){.kind = HOVER_BODY, .rig = rig, .x = x, .y = y};
     }
     return hover;
 }
@@ -183,13 +194,11 @@ bool body_point(const struct stage *stage, const struct core *core, int tail, in
 {
     static const float places[BODY_POINTS][3] = {
         {0, 0.18f, -0.45f}, {0, 0.54f, -0.385f}, {0, 0.05f, -0.25f}, {0, 0, -0.5f}}; // chest, head, rump, paws
-    const struct pose *pose = &stage->view.tails[tail].pose;
-    const vec3s base = vec3_from(pose->matrix[0] + 12);
-    float matrix[LIMBS][16];
-    limbs_matrices(&pose->limbs, 1.0f, matrix);
-    const mat4s moved = mat4_from(matrix[point == BODY_HEAD ? LIMB_HEAD : LIMB_BODY]);
+    if (tail >= stage->tail_count || stage->tails[tail].model < 0) return false;
+    const struct stage_model *fox = &stage->view.models[stage->tails[tail].model];
+    const mat4s moved = mat4_from(fox->pose->joints[point == BODY_HEAD ? LIMB_HEAD : LIMB_BODY]);
     const vec3s at = glms_mat4_mulv3(moved, vec3_from(places[point]), 1.0f);
-    const vec3s place = glms_vec3_muladds(at, pose_scale(pose), base);
+    const vec3s place = glms_mat4_mulv3(mat4_from(fox->root), at, 1.0f);
     return stage_project_point(stage, core->layout.stage, place.raw, xy);
 }
 

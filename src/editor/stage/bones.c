@@ -175,8 +175,8 @@ static int model_under(const struct stage *stage, const struct core *core)
     if (core->hover.kind == HOVER_BONE) return core->hover.model;
     if (core->brush.on || !rect_contains(view->viewport, core->pointer_x, core->pointer_y)) return -1;
     int rig = document_next_rig(core->document, RIG_MODEL, 0);
-    for (int n = 0; rig >= 0; n++, rig = document_next_rig(core->document, RIG_MODEL, rig + 1)) {
-        const struct gltf_pose *pose = models_pose(core->models, n, true);
+    for (; rig >= 0; rig = document_next_rig(core->document, RIG_MODEL, rig + 1)) {
+        const struct gltf_pose *pose = models_pose(core->models, core->document, rig, true);
         for (int m = 0; pose && m < view->model_count; m++) {
             if (view->models[m].pose == pose && is_over(stage, core, &view->models[m])) return rig;
         }

@@ -18,13 +18,13 @@ static const float WIDTH = 0.013f;   ///< of a reed of 1 m
 static const double DEGREE = 0.017453292519943295;
 
 /// How bodies push a reed, radians towards +x and +z.
-static void push_of(const struct stage_view *view, const float place[3], double pushed[2])
+static void push_of(const struct stage *stage, const float place[3], double pushed[2])
 {
     pushed[0] = pushed[1] = 0;
-    for (int t = 0; t < view->tail_count; t++) {
-        const struct pose *pose = &view->tails[t].pose;
+    for (int t = 0; t < stage->tail_count; t++) {
+        const struct pose *pose = &stage->tails[t].pose;
         const float *base = pose->matrix[0] + 12;
-        const double scale = (double)pose_scale(pose);
+        const double scale = (double)pose->scale;
         const double x = (double)(place[0] - base[0]), z = (double)(place[2] - base[2]) - MIDDLE * scale;
         const double far = hypot(x, 0.75 * z) / (REACH * scale); // longer than wide
         if (!(far < 1) || !(far > 0)) continue;
@@ -60,9 +60,9 @@ static bool brush_reed(struct brushed_reed *reed, const double pushed[2], bool h
 }
 
 /// How all are pushed now, and how they swing.
-static void brush_all(struct meadow_view *shown, const struct core *core, const struct stage_view *view,
-                      const struct spline *spline, int count)
+static void brush_all(struct stage *stage, const struct core *core, const struct spline *spline, int count)
 {
+    struct meadow_view *shown = &stage->meadow;
     struct swing_filter filter;
     const bool held = body_is_held(core) && core->drag.moved, moves = filter_of(spline, &filter);
     const bool steps = moves && shown->dt > 0 && (held || shown->swings);
@@ -72,7 +72,7 @@ static void brush_all(struct meadow_view *shown, const struct core *core, const 
     for (int r = 0; r < count; r++) {
         struct brushed_reed *reed = &shown->brushed[r];
         double pushed[2];
-        push_of(view, shown->reeds[r].place, pushed);
+        push_of(stage, shown->reeds[r].place, pushed);
         if (steps) {
             shown->swings |= brush_reed(reed, pushed, held, &m, filter.natural, shown->dt);
         } else {
@@ -122,7 +122,7 @@ static void pose(struct stage *stage, const struct core *core, int rig, int n)
                                               .width = WIDTH * (0.5f + 0.5f * reed->height)};
         memcpy(shown->reeds[r].place, reed->place, sizeof reed->place);
     }
-    brush_all(shown, core, &stage->view, core->document->splines[of->spline], count);
+    brush_all(stage, core, core->document->splines[of->spline], count);
     for (int r = 0; r < count; r++) {
         for (int k = 0; k < 2; k++)
             shown->reeds[r].pushed[k] = (float)(shown->brushed[r].pushed[k] + shown->brushed[r].q[k]);

@@ -34,24 +34,31 @@ static void add_shadows(struct stage_view *view, const struct stage_model *shown
     }
 }
 
-static void pose(struct stage *stage, const struct core *core, int rig, int n)
+struct stage_model *models_show(struct stage *stage, const struct core *core, int rig, struct rig_pose *posed)
 {
     struct stage_view *view = &stage->view;
     const struct stage_hand by = {stage, core, core->document};
     struct posing posing = stage_posing_by_hand(&by);
-    struct rig_pose posed;
-    (void)n;
     posing.shown = true;
-    if (view->model_count == STAGE_MAX_MODELS || !rig_pose(&posing, rig, core->playback.position, NULL, &posed))
-        return;
+    if (view->model_count == STAGE_MAX_MODELS) return NULL;
+    if (!rig_pose_body(&posing, rig, core->playback.position, NULL, posed)) return NULL;
     struct stage_model *shown = &view->models[view->model_count++];
     *shown = (struct stage_model){
-        .gltf = &posed.model.imported->gltf, .pose = posed.model.pose, .ground = posed.model.ground};
-    memcpy(shown->root, posed.model.root, sizeof shown->root);
+        .gltf = &posed->model.imported->gltf, .pose = posed->model.pose, .ground = posed->model.ground};
+    memcpy(shown->root, posed->model.root, sizeof shown->root);
+    rig_bounds(posed, shown->lo, shown->hi);
+    return shown;
+}
+
+static void pose(struct stage *stage, const struct core *core, int rig, int n)
+{
+    struct rig_pose posed;
+    struct stage_model *shown = models_show(stage, core, rig, &posed);
+    (void)n;
+    if (!shown) return;
     bones_add(stage, rig, &posed);
-    rig_bounds(&posed, shown->lo, shown->hi);
     shown->dusk = fmaxf(0.3f * (shown->hi[1] - shown->lo[1]), 1e-6f);
-    add_shadows(view, shown);
+    add_shadows(&stage->view, shown);
 }
 
 static uint64_t hash(uint64_t sum, const struct stage_view *view)
@@ -81,6 +88,12 @@ void skin_reserve(struct stage *stage)
     int most = 0;
     for (int c = 0; c < stage->view.character_count; c++) {
         const int count = stage->view.characters[c].figure->character.vertex_count;
+        most = count > most ? count : most;
+    }
+    for (int t = 0; t < stage->tail_count; t++) {
+        if (stage->tails[t].model < 0) continue;
+        const struct gltf *fox = stage->view.models[stage->tails[t].model].gltf;
+        const int count = gltf_vertex_count(fox, fox->node_count - 1);
         most = count > most ? count : most;
     }
     if (most <= skin->capacity) return;

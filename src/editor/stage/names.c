@@ -17,9 +17,9 @@ static const float FEET = -0.5f; ///< z of the paws from where the tail begins, 
 static bool place_name(const struct stage *stage, const struct core *core, int tail, const char *name,
                        struct rect *place)
 {
-    const struct pose *pose = &stage->view.tails[tail].pose;
+    const struct pose *pose = &stage->tails[tail].pose;
     const float *base = pose->matrix[0] + 12;
-    const float feet[3] = {base[0], pose->ground, base[2] + FEET * pose_scale(pose)};
+    const float feet[3] = {base[0], pose->ground, base[2] + FEET * pose->scale};
     const struct rect r = core->layout.stage;
     float xy[2];
     if (!stage_project_point(stage, r, feet, xy)) return false;
@@ -50,7 +50,7 @@ void names_show(const struct stage *stage, struct core *core)
     const struct document *document = core->document;
     struct rect shown[STAGE_MAX_TAILS], place;
     int count = 0, rig = document_next_rig(document, RIG_TAIL, 0);
-    for (int t = 0; rig >= 0 && t < stage->view.tail_count && stage->view.tail_count > 1; t++) {
+    for (int t = 0; rig >= 0 && t < stage->tail_count && stage->tail_count > 1; t++) {
         const struct tail *tail = &document->rigs[rig]->tail;
         const char *name = document->rigs[rig]->name;
         const uint32_t color =

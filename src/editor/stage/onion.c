@@ -96,7 +96,7 @@ static bool station(const struct stage *stage, const struct core *core, const st
     const vec3s point = glms_vec3_lerp(from, to, (float)(at - joint));
     if (!stage_project_point(stage, core->layout.stage, point.raw, disc->middle)) return false;
     const float depth = camera_depth(view->view, view->eye, pose->matrix[joint] + 12);
-    float metres = fox_tail_radius((float)share * FOX_TAIL_LENGTH) * pose_scale(pose);
+    float metres = fox_tail_radius((float)share * FOX_TAIL_LENGTH) * pose->scale;
     disc->radius = metres * 0.5f * view->viewport.h * view->projection[5] / fmaxf(depth, 0.1f);
     return true;
 }

@@ -43,9 +43,6 @@ struct posing stage_posing_by_hand(const struct stage_hand *hand);
 bool stage_pose_strand(const struct stage *stage, const struct core *core, int rig, double position,
                        const struct what_if *change, struct rig_pose *pose);
 
-/// Frees what is drawn of tails.
-void foxes_free(struct stage *stage);
-
 /// Notes what hangs on the held body, before anything is edited.
 void base_begin(struct stage *stage, const struct core *core);
 /// Where a coordinate is at a sample, metres, as a spline would have it.
@@ -60,6 +57,9 @@ void base_follow(const struct stage *stage, struct core *core, int coordinate, i
 int base_hang_channels(const struct stage *stage, struct core *core, int coordinate, int base);
 /// Adds a sentence on that spline to what is said; nothing for -1.
 void base_say_channel(const struct core *core, int spline, char *text, size_t size);
+
+/// Shows what a rig has as a model: an imported character, or the fox of a tail; NULL where it has none, or there is no room.
+struct stage_model *models_show(struct stage *stage, const struct core *core, int rig, struct rig_pose *posed);
 
 /// Adds one that is shown.
 void strand_add(struct stage *stage, int rig, const struct rig_pose *pose);
@@ -143,12 +143,10 @@ void brush_pose(struct stage *stage, struct core *core, bool covered);
 /// Draws the ring on the surface; above the legend, what the brush does and what is painted at the pointer.
 void brush_show(struct stage *stage, struct core *core);
 
-/// The body under a point of the stage (HOVER_BODY), the nearest to the eye, or HOVER_NONE.
-struct hover body_hover(const struct stage *stage, float x, float y);
-/// How far from the eye a point of the stage meets the body of a posed tail, metres, or a negative number.
-float body_distance(const struct stage *stage, int tail, const struct pose *pose, float x, float y);
+/// The body under a point of the stage (HOVER_BODY) at a position in samples, the nearest to the eye, or HOVER_NONE.
+struct hover body_hover(struct stage *stage, const struct core *core, double position, float x, float y);
 /// What was under a point within the last third of a second of a scene that plays: who presses there aimed at that.
-struct hover body_moment_ago(const struct stage *stage, const struct core *core, float x, float y);
+struct hover body_moment_ago(struct stage *stage, const struct core *core, float x, float y);
 /// Points of a body that are likely to be in sight, the likeliest first, on the screen; false where one is behind the eye.
 enum { BODY_HEAD = 1, BODY_POINTS = 4 };
 bool body_point(const struct stage *stage, const struct core *core, int tail, int point, float xy[2]);

@@ -24,7 +24,6 @@ void stage_destroy(struct stage *stage)
 {
     brush_free(&stage->painting);
     skin_free(&stage->skin);
-    foxes_free(stage);
     free(stage);
 }
 
@@ -53,7 +52,7 @@ struct hover stage_hover(struct stage *stage, const struct core *core, float x, 
     if (pins && joint.kind == HOVER_JOINT) joint = strand_end(stage, core, &joint);
     struct hover found = joint;
     if (found.kind == HOVER_NONE) found = floors_hover(stage, core, x, y);
-    if (found.kind == HOVER_NONE) found = body_hover(stage, x, y);
+    if (found.kind == HOVER_NONE) found = body_hover(stage, core, core->playback.position, x, y);
     const struct hover pin = pins_hover(stage, core, &found, x, y);
     return pin.kind == HOVER_NONE ? found : pin;
 }
@@ -272,7 +271,7 @@ void stage_pose(struct stage *stage, struct core *core, bool covered)
     core->refit_stage = false;
     struct stage_view *view = &stage->view;
     const struct document *document = core->document;
-    view->tail_count = view->character_count = view->model_count = view->blob_count = 0;
+    stage->tail_count = view->character_count = view->model_count = view->blob_count = 0;
     view->meadow.count = 0;
     stage->strand_count = stage->bone_count = 0;
     for (int kind = 0; kind < RIG_KINDS; kind++) {
@@ -281,6 +280,7 @@ void stage_pose(struct stage *stage, struct core *core, bool covered)
             kinds[kind]->pose(stage, core, rig, n);
         }
     }
+    view->has_tail = stage->tail_count > 0;
     view->viewport = core->layout.stage;
     view->colors = theme()->stage;
     camera_matrices(&stage->camera, view->viewport.w / view->viewport.h, view->view, view->projection, view->eye);
@@ -299,7 +299,7 @@ void stage_ring(struct core *core, const float xy[2])
 static const char *empty_text(const struct stage *stage, const struct core *core)
 {
     const struct stage_view *view = &stage->view;
-    if (view->tail_count > 0 || view->character_count > 0 || view->model_count > 0 || view->meadow.count > 0)
+    if (stage->tail_count > 0 || view->character_count > 0 || view->model_count > 0 || view->meadow.count > 0)
         return NULL;
     if (document_character(core->document, 0) || document_find_rig(core->document, RIG_MODEL, 0) >= 0)
         return "wiggly could not read this scene's character. Its curves are below.";
@@ -350,31 +350,20 @@ static double position_ago(const struct core *core, double seconds)
 }
 
 /// The tail, chain or body that was under the point at a position, or HOVER_NONE.
-static struct hover hover_at(const struct stage *stage, const struct core *core, double position, float x, float y)
+static struct hover hover_at(struct stage *stage, const struct core *core, double position, float x, float y)
 {
-    const struct document *document = core->document;
-    struct hover joint = {.kind = HOVER_NONE}, body = joint;
-    float nearest = STRAND_REACH, farthest = INFINITY;
+    struct hover joint = {.kind = HOVER_NONE};
+    float nearest = STRAND_REACH;
     for (int s = 0; s < stage->strand_count; s++) {
         const int rig = stage->strands[s].rig;
         struct strand strand;
         if (!strand_pose(stage, core, rig, position, NULL, &strand)) continue;
         strand_nearer(stage, core, &strand, (const float[2]){x, y}, &nearest, &joint);
     }
-    for (int t = 0; t < stage->view.tail_count; t++) {
-        const int rig = stage->view.tails[t].rig;
-        struct rig_pose pose;
-        if (!tail_of(document, rig)) continue;
-        stage_pose_strand(stage, core, rig, position, NULL, &pose);
-        const float distance = body_distance(stage, t, &pose.strand, x, y);
-        if (!(distance >= 0 && distance < farthest)) continue;
-        farthest = distance;
-        body = (struct hover){.kind = HOVER_BODY, .rig = rig, .x = x, .y = y};
-    }
-    return joint.kind != HOVER_NONE ? joint : body;
+    return joint.kind != HOVER_NONE ? joint : body_hover(stage, core, position, x, y);
 }
 
-struct hover body_moment_ago(const struct stage *stage, const struct core *core, float x, float y)
+struct hover body_moment_ago(struct stage *stage, const struct core *core, float x, float y)
 {
     struct hover hover = {.kind = HOVER_NONE};
     for (double ago = STEP; core->playback.playing && ago <= MOMENT && hover.kind == HOVER_NONE; ago += STEP) {

@@ -118,7 +118,7 @@ struct trail_point {
     float place[3];
 };
 
-/// The surface of the character that was last pointed at, as the stage shows it; memory for up to `capacity` vertices.
+/// The surface of the character or fox that was last pointed at, as the stage shows it; memory for up to `capacity` vertices.
 struct skin {
     int capacity;
     float (*posed)[3]; ///< positions in the world
@@ -191,10 +191,11 @@ struct meadow_view {
     bool swings;
 };
 
-/// What is drawn of a tail.
-struct shown_fox {
-    struct fox fox;
-    float (*place)[3]; ///< of its vertices, for who points at it
+/// A tail as it stands.
+struct shown_tail {
+    int rig;   ///< in the document
+    int model; ///< its fox, in the view; −1: none
+    struct pose pose;
 };
 
 struct stage {
@@ -210,7 +211,8 @@ struct stage {
     struct tail_drag tail_drag;
     struct body_drag body_drag;
     struct record record;
-    struct shown_fox foxes[STAGE_MAX_TAILS]; ///< all zero: not yet
+    struct shown_tail tails[STAGE_MAX_TAILS];
+    int tail_count;
     struct drag_inertia inertia[STAGE_MAX_STRANDS];
     struct trail_point trail[TRAILS][TRAIL_FRAMES];
     struct liveliest liveliest;

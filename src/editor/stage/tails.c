@@ -1,5 +1,4 @@
 /// Tails and chains on the stage: how they are posed, and where their joints are on the screen.
-#include "base/need.h"
 #include "editor/core/bones.h"
 #include "editor/stage/parts.h"
 #include "editor/stage/stage.h"
@@ -7,9 +6,10 @@
 #include "rig/shadow.h"
 #include <assert.h>
 #include <math.h>
-#include <stdlib.h>
 
 enum { BOUND_STEPS = 120, BLOBS_OF_ONE_TAIL = 20 };
+
+static const float DUSK = 0.35f; ///< of a fox of bind size
 
 static void move_by_hand(const void *context, int rig, struct by_hand *hand)
 {
@@ -53,42 +53,18 @@ static void add_blobs(struct stage_view *view, const struct pose *pose)
     }
 }
 
-static void free_fox(struct shown_fox *shown)
-{
-    fox_free(&shown->fox);
-    free(shown->place);
-    *shown = (struct shown_fox){0};
-}
-
-void foxes_free(struct stage *stage)
-{
-    for (int n = 0; n < STAGE_MAX_TAILS; n++) free_fox(&stage->foxes[n]);
-}
-
-/// The fox of the n-th tail, made anew where its joints or the number of tails have changed.
-static const struct fox *fox_of(struct stage *stage, int n, int level, int joints)
-{
-    struct shown_fox *shown = &stage->foxes[n];
-    if (shown->fox.level == level && shown->fox.joints == joints) return &shown->fox;
-    free_fox(shown);
-    fox_create(level, joints, &shown->fox);
-    shown->place = need((size_t)fox_vertex_count(&shown->fox), sizeof *shown->place);
-    return &shown->fox;
-}
-
 static void pose(struct stage *stage, const struct core *core, int rig, int n)
 {
     struct stage_view *view = &stage->view;
-    const struct tail *tail = &core->document->rigs[rig]->tail;
-    struct rig_pose posed;
-    if (view->tail_count == STAGE_MAX_TAILS) return;
-    struct stage_tail *shown = &view->tails[view->tail_count++];
+    struct rig_pose posed, body;
+    (void)n;
+    if (stage->tail_count == STAGE_MAX_TAILS) return;
     stage_pose_strand(stage, core, rig, core->playback.position, NULL, &posed);
     strand_add(stage, rig, &posed);
-    *shown = (struct stage_tail){rig, posed.strand};
-    stage_add_fox(view, fox_of(stage, n, fox_level(document_count_rigs(core->document, RIG_TAIL)), tail->joints),
-                  &shown->pose);
-    add_blobs(view, &shown->pose);
+    add_blobs(view, &posed.strand);
+    struct stage_model *fox = models_show(stage, core, rig, &body);
+    if (fox) fox->dusk = DUSK * posed.strand.scale;
+    stage->tails[stage->tail_count++] = (struct shown_tail){rig, fox ? view->model_count - 1 : -1, posed.strand};
 }
 
 const struct stage_kind stage_tails = {.pose = pose, .bound_steps = BOUND_STEPS};
