@@ -1,7 +1,7 @@
 /// What joints do in clips, as equilibria follow it: against the clip itself, without its corners, again and again.
 #include "near.h"
 #include "rig/import.h"
-#include "rig/pinning.h"
+#include "rig/posing.h"
 #include <math.h>
 #include <stdlib.h>
 

@@ -17,14 +17,18 @@ WORLD_TEST(test_places, world_open(world))
     assert_reversible(world, set_position(world, 2, 0, LOOP));
     assert_near(document_tail(world->document, 0)->position[0].value, 0.5, 0);
     assert_int_equal(document_tail(world->document, 0)->position[2].track, LOOP);
-    assert_reversible(world, edit_length(world_edit(world), 0, 2.5, &world->error));
+    struct rig longer = *world->document->rigs[0];
+    longer.tail.length = 2.5;
+    assert_reversible(world, edit_rig_set(world_edit(world), 0, &longer, &world->error));
     assert_near(document_tail(world->document, 0)->length, 2.5, 0);
     assert_refused(world, set_position(world, 0, NAN, -1), "t: the position must be finite");
     assert_refused(world, set_position(world, 1, 0, 3), "t: there is no spline to follow");
     assert_refused(world, set_position(world, 3, 0, -1), "there is no such coordinate");
-    assert_refused(world, edit_length(world_edit(world), 0, 0, &world->error),
+    longer = *world->document->rigs[0];
+    longer.tail.length = 0;
+    assert_refused(world, edit_rig_set(world_edit(world), 0, &longer, &world->error),
                    "the length must be above 0 and finite");
-    assert_refused(world, edit_length(world_edit(world), 1, 1, &world->error), "there is no such tail");
+    assert_refused(world, edit_rig_set(world_edit(world), 1, &longer, &world->error), "there is no such tail");
 }
 
 WORLD_TEST(test_channels, world_open(world))

@@ -4,7 +4,6 @@
 #include "base/file.h"
 #include "model/figure.h"
 #include "rig/opened.h"
-#include "rig/pinning.h"
 #include "scene/edit.h"
 #include "scene/history.h"
 #include "scene/load.h"

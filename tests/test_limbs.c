@@ -4,7 +4,6 @@
 #include "model/vector.h"
 #include "posed_tail.h"
 #include "rig/opened.h"
-#include "rig/pinning.h"
 #include "scene/edit.h"
 #include "scene/history.h"
 #include <math.h>

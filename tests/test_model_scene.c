@@ -198,7 +198,7 @@ WORLD_TEST(channels_of_a_chain_are_edited_as_those_of_a_tail, open_whole(world))
                    "only a tail has angles at rest");
     assert_refused(world, edit_axis(world_edit(world), (struct channel_place){WALK, 0}, AXIS_SIDE, &world->error),
                    "there is no such rig");
-    assert_refused(world, edit_length(world_edit(world), TAIL, 1, &world->error), "there is no such tail");
+    assert_refused(world, edit_joints(world_edit(world), TAIL, 1, &world->error), "there is no such tail");
     assert_refused(world, edit_spline_remove(world_edit(world), 1, &world->error),
                    "s: still used in 1 place; remove those first");
 }
@@ -238,23 +238,23 @@ WORLD_TEST(models_and_chains_are_added, open_whole(world))
 WORLD_TEST(models_and_chains_are_set, open_whole(world))
 {
     char from[] = "a", to[] = "b", nothing[] = "";
-    struct rig place = {.model = {.position = {1, 2, 3}, .scale = 4, .turn = -5}};
-    struct rig ends = {.chain = {.from = from, .to = to, .turn = 7}};
-    assert_reversible(world, edit_place(world_edit(world), WALK, &place.model, &world->error));
+    struct rig place = *world->document->rigs[WALK], ends = *world->document->rigs[TAIL];
+    place.model.position[2] = 3, place.model.scale = 4, place.model.turn = -5;
+    ends.chain.from = from, ends.chain.to = to, ends.chain.turn = 7, ends.chain.mirror = false;
+    assert_reversible(world, edit_rig_set(world_edit(world), WALK, &place, &world->error));
     assert_near(world->document->rigs[WALK]->model.position[2], 3, 0);
     assert_reversible(world, edit_clip(world_edit(world), WALK, "Run", &world->error));
     assert_reversible(world, edit_clip(world_edit(world), WALK, NULL, &world->error));
     assert_null(world->document->rigs[WALK]->model.clip);
-    assert_reversible(world, edit_chain(world_edit(world), TAIL, &ends.chain, &world->error));
+    assert_reversible(world, edit_rig_set(world_edit(world), TAIL, &ends, &world->error));
     assert_string_equal(world->document->rigs[TAIL]->chain.to, "b");
     assert_false(world->document->rigs[TAIL]->chain.mirror);
     ends.chain.to = nothing;
-    assert_refused(world, edit_chain(world_edit(world), TAIL, &ends.chain, &world->error),
+    assert_refused(world, edit_rig_set(world_edit(world), TAIL, &ends, &world->error),
                    "a chain needs the names of its first joint and its last");
     place.model.turn = NAN;
-    assert_refused(world, edit_place(world_edit(world), WALK, &place.model, &world->error),
-                   "the turn must be finite");
-    assert_refused(world, edit_place(world_edit(world), TAIL, &place.model, &world->error), "there is no such model");
+    assert_refused(world, edit_rig_set(world_edit(world), WALK, &place, &world->error), "the turn must be finite");
+    assert_refused(world, edit_rig_set(world_edit(world), TAIL, &place, &world->error), "there is no such model");
     world_undo_all(world);
     assert_document(world, whole);
 }
@@ -285,6 +285,24 @@ static const char *random_name(void)
     return names[rand() % 7];
 }
 
+/// Gives a rig the ends of a chain like that, or the numbers of a model.
+static bool set_like(struct document *document, int r, const struct rig *like, struct error *error)
+{
+    struct rig changed = *like;
+    if (r < document->rig_count && document->rigs[r]->kind == like->kind) {
+        changed = *document->rigs[r];
+        if (like->kind == RIG_CHAIN) {
+            changed.chain.from = like->chain.from;
+            changed.chain.to = like->chain.to;
+            changed.chain.mirror = like->chain.mirror;
+        } else {
+            changed.model.scale = like->model.scale;
+            changed.model.turn = like->model.turn;
+        }
+    }
+    return edit_rig_set(document, r, &changed, error);
+}
+
 /// Any edit of rigs or of what follows them, possible or not.
 static bool random_edit(struct world *world)
 {
@@ -313,11 +331,11 @@ static bool random_edit(struct world *world)
     case 0:
         return edit_rig_add(document, &rig, error);
     case 1:
-        return edit_chain(document, r, &rig.chain, error);
+        return set_like(document, r, &rig, error);
     case 2:
         return edit_rig_add(document, &rig, error);
     case 3:
-        return edit_place(document, r, &rig.model, error);
+        return set_like(document, r, &rig, error);
     case 4:
         return edit_rig_remove(document, r, error);
     case 5:

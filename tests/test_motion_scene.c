@@ -171,7 +171,7 @@ TEST(a_motion_is_read_when_it_has_changed)
     assert_solved(&stand, WAG, -2.5);
     struct rig ends = *world->document->rigs[TAIL];
     ends.chain.turn = 30;
-    world_must(world, edit_chain(world_edit(world), TAIL, &ends.chain, &world->error));
+    world_must(world, edit_rig_set(world_edit(world), TAIL, &ends, &world->error));
     assert_true(stand_update(&stand));
     assert_int_equal(stand.reads, 7); // only wag's goes by the chain
     assert_int_equal(stand.evaluation.solved_splines, 2);

@@ -2,7 +2,6 @@
 #include "near.h"
 
 #include "rig/opened.h"
-#include "rig/pinning.h"
 #include "scene/edit.h"
 #include "scene/history.h"
 #include <stdlib.h>

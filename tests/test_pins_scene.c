@@ -3,7 +3,6 @@
 
 #include "model/figure.h"
 #include "rig/opened.h"
-#include "rig/pinning.h"
 #include "scene/edit.h"
 #include "scene/history.h"
 #include "scene/load.h"

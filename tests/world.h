@@ -27,7 +27,7 @@ char *world_print(const struct world *world);
 void assert_document(const struct world *world, const char *expected);
 
 /// The document, to be edited in a step, which this opens unless one is open:
-/// `world_must(&world, edit_length(world_edit(&world), 0, 2.5, &world.error))`.
+/// `world_must(&world, edit_joints(world_edit(&world), 0, 12, &world.error))`.
 struct document *world_edit(struct world *world);
 /// Closes the step of an edit that has been done or refused; the same of one that must be possible.
 bool world_step(struct world *world, bool done);

@@ -1,7 +1,7 @@
 /// A frame of the document on the table: edit, solve, pose, show.
 #include "app/table.h"
 #include "base/progress.h"
-#include "rig/pinning.h"
+#include "rig/posing.h"
 #include "scene/load.h"
 #include <stdlib.h>
 

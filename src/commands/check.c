@@ -4,7 +4,7 @@
 #include "commands/commands.h"
 #include "commands/options.h"
 #include "commands/report.h"
-#include "rig/pinning.h"
+#include "rig/posing.h"
 #include "scene/evaluate.h"
 #include "scene/load.h"
 #include <math.h>

@@ -21,11 +21,18 @@ struct painter {
     void (*extent)(const struct stage_view *view, struct extent *extent);
 };
 
-enum { PAINTERS = 3 };
+/// One a kind of rigs that is drawn in a way of its own, in the order in which they are drawn.
+#define PAINTER_LIST(PAINTER) PAINTER(character) PAINTER(model) PAINTER(meadow)
 
-/// One a kind of rigs, in the order in which they are drawn.
+#define PAINTER_COUNT(name) +1
+enum { PAINTERS = PAINTER_LIST(PAINTER_COUNT) };
+#undef PAINTER_COUNT
+
+/// character_painter …
+#define PAINTER(name) extern const struct painter name##_painter;
+PAINTER_LIST(PAINTER)
+#undef PAINTER
 extern const struct painter *const painters[PAINTERS];
-extern const struct painter character_painter, model_painter, meadow_painter;
 
 /// Uniforms that the program of every painter has.
 struct painter_uniforms {

@@ -4,7 +4,9 @@
 #include "draw/painter.h"
 #include <stdlib.h>
 
-const struct painter *const painters[PAINTERS] = {&character_painter, &model_painter, &meadow_painter};
+#define PAINTER_ROW(name) &name##_painter,
+const struct painter *const painters[PAINTERS] = {PAINTER_LIST(PAINTER_ROW)};
+#undef PAINTER_ROW
 
 struct painter_uniforms painter_find_uniforms(GLuint program)
 {

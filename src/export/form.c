@@ -4,10 +4,11 @@
 #include <stdio.h>
 #include <string.h>
 
-static const struct form_kind *const kinds[RIG_KINDS] = {
-    [RIG_TAIL] = &tail_form,   [RIG_CHARACTER] = &character_form,           [RIG_MODEL] = &model_form,
-    [RIG_CHAIN] = &chain_form, [RIG_MEADOW] = &(const struct form_kind){0}, // nothing holds one
-};
+const struct form_kind meadow_form = {0}; // no format holds one
+
+#define FORM_ROW(constant, name) [constant] = &name##_form,
+static const struct form_kind *const kinds[RIG_KINDS] = {RIG_KIND_LIST(FORM_ROW)};
+#undef FORM_ROW
 
 const struct form_kind *form_kind(enum rig_kind kind) { return kinds[kind]; }
 

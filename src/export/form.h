@@ -70,7 +70,10 @@ struct form_kind {
                     form_column *column, void *user);
 };
 
-extern const struct form_kind tail_form, character_form, model_form, chain_form;
+/// tail_form …
+#define FORM_KIND(constant, name) extern const struct form_kind name##_form;
+RIG_KIND_LIST(FORM_KIND)
+#undef FORM_KIND
 
 /// How a kind is exported; NULL if it is not.
 const struct form_kind *form_kind(enum rig_kind kind);

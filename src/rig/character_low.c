@@ -1,6 +1,5 @@
 /// The lowest vertices of a soft character, for its floor: a few samples at a time, so that most vertices are seen to stay above all of
 /// them at once.
-#include "rig/pinning_kind.h"
 #include "rig/posing_kind.h"
 #include "spline/wide.h"
 #include <math.h>

@@ -1,6 +1,5 @@
 /// Follows joints through clips.
 #include "model/vector.h"
-#include "rig/pinning_kind.h"
 #include "rig/posing_kind.h"
 #include "rig/strand.h"
 #include <math.h>

@@ -50,4 +50,4 @@ static void bounds(const struct rig_pose *posed, float lo[3], float hi[3])
     }
 }
 
-const struct posing_functions character_posing = {pose, bounds};
+const struct posing_functions character_posing = {pose, bounds, &character_pinning};

@@ -1,7 +1,6 @@
 /// Opens and solves scenes for commands.
 #include "rig/opened.h"
 #include "rig/import.h"
-#include "rig/pinning.h"
 #include "scene/load.h"
 #include "scene/pins.h"
 

@@ -1,5 +1,4 @@
 /// Points of soft characters: the vertices of their models.
-#include "rig/pinning_kind.h"
 #include "rig/posing_kind.h"
 #include <math.h>
 

@@ -4,7 +4,6 @@
 /// the joint, in that frame, by L (a × r). The axes are those that the turns behind each leave.
 #include "model/fox.h"
 #include "model/limbs.h"
-#include "rig/pinning_kind.h"
 #include "rig/posing_kind.h"
 #include "rig/strand.h"
 #include <string.h>

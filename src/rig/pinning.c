@@ -1,11 +1,7 @@
 /// Finds pinned points by the kind of their rig.
-#include "rig/pinning.h"
-#include "rig/pinning_kind.h"
+#include "rig/posing_kind.h"
 #include <math.h>
 #include <string.h>
-
-static const struct pinning_functions *const kinds[RIG_KINDS] = {
-    [RIG_TAIL] = &strand_pinning, [RIG_CHARACTER] = &character_pinning, [RIG_CHAIN] = &strand_pinning};
 
 void pinning_add_channel(const struct channel *channel, int n, int joints, const double way[3], pin_pull c)
 {
@@ -30,16 +26,16 @@ static bool find(void *context, const struct evaluation *evaluation, const struc
 {
     const struct posing posing = {.document = document, .evaluation = evaluation, .models = context};
     if (count > 0) memset(c, 0, (size_t)count * sizeof *c);
-    return kinds[document->rigs[rig]->kind]->find(&posing, rig, document_sample(document, pin->frame), pin->point,
-                                                  splines, count, c, point);
+    const struct pinning_functions *pins = posing_kinds[document->rigs[rig]->kind]->pins;
+    return pins->find(&posing, rig, document_sample(document, pin->frame), pin->point, splines, count, c, point);
 }
 
 static void weigh(void *context, const struct document *document, int rig, const int *splines, int count,
                   double *weights)
 {
     const struct posing posing = {.document = document, .models = context, .at_rest = true};
-    const struct pinning_functions *kind = kinds[document->rigs[rig]->kind];
-    if (kind) kind->weigh(&posing, rig, splines, count, weights);
+    const struct pinning_functions *pins = posing_kinds[document->rigs[rig]->kind]->pins;
+    if (pins) pins->weigh(&posing, rig, splines, count, weights);
 }
 
 static bool lowest(void *context, const struct evaluation *evaluation, const struct document *document, int rig,

@@ -110,5 +110,5 @@ static bool pose_fox(const struct posing *posing, int rig, double position, cons
 
 static void bounds(const struct rig_pose *posed, float lo[3], float hi[3]) { pose_bounds(&posed->strand, lo, hi); }
 
-const struct posing_functions tail_posing = {pose_fox, bounds};
-const struct posing_functions chain_posing = {pose, NULL};
+const struct posing_functions tail_posing = {pose_fox, bounds, &strand_pinning};
+const struct posing_functions chain_posing = {pose, NULL, &strand_pinning};

@@ -27,4 +27,4 @@ static void bounds(const struct rig_pose *posed, float lo[3], float hi[3])
     memcpy(hi, posed->meadow.hi, sizeof posed->meadow.hi);
 }
 
-const struct posing_functions meadow_posing = {pose, bounds};
+const struct posing_functions meadow_posing = {pose, bounds, NULL};

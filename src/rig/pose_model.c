@@ -109,4 +109,4 @@ static void bounds(const struct rig_pose *posed, float lo[3], float hi[3])
     memcpy(hi, box[1], sizeof box[1]);
 }
 
-const struct posing_functions model_posing = {pose, bounds};
+const struct posing_functions model_posing = {pose, bounds, NULL};

@@ -4,7 +4,7 @@
 #include <string.h>
 
 #define POSING_ROW(constant, name) [constant] = &name##_posing,
-static const struct posing_functions *const kinds[RIG_KINDS] = {RIG_KIND_LIST(POSING_ROW)};
+const struct posing_functions *const posing_kinds[RIG_KINDS] = {RIG_KIND_LIST(POSING_ROW)};
 #undef POSING_ROW
 
 /// All that moves a rig by hand.
@@ -43,7 +43,10 @@ bool rig_pose(const struct posing *posing, int index, double position, const str
     const struct rig *rig = posing->document->rigs[index];
     posing_values(posing, index, position, by_hand, values);
     pose->kind = rig->kind;
-    return kinds[rig->kind]->pose(posing, index, position, values, by_hand, pose);
+    return posing_kinds[rig->kind]->pose(posing, index, position, values, by_hand, pose);
 }
 
-void rig_bounds(const struct rig_pose *pose, float lo[3], float hi[3]) { kinds[pose->kind]->bounds(pose, lo, hi); }
+void rig_bounds(const struct rig_pose *pose, float lo[3], float hi[3])
+{
+    posing_kinds[pose->kind]->bounds(pose, lo, hi);
+}

@@ -4,11 +4,21 @@
 
 #include "rig/posing.h"
 
+/// How points of a rig are found and moved, as model_source.find() and weigh(). `posing` is as the paper has it, and `sample` a pin's.
+struct pinning_functions {
+    bool (*find)(const struct posing *posing, int rig, double sample, int which, const int *splines, int count,
+                 pin_pull *c, struct pin_point *point);
+    void (*weigh)(const struct posing *posing, int rig, const int *splines, int count, double *weights);
+};
+
+extern const struct pinning_functions strand_pinning, character_pinning;
+
 struct posing_functions {
     /// `values` are those of the rig's inputs; the rest of `pose` is filled in. false if its model is missing.
     bool (*pose)(const struct posing *posing, int rig, double position, const wiggly_value *values,
                  const struct by_hand *by_hand, struct rig_pose *pose);
     void (*bounds)(const struct rig_pose *pose, float lo[3], float hi[3]); ///< NULL: it is no body
+    const struct pinning_functions *pins;                                  ///< NULL: it takes none
 };
 
 /// The places of its bones in its clip alone, in the models' memory for what is not shown; NULL where there is no model.
@@ -34,7 +44,18 @@ struct limbs tail_base(const struct posing *posing, int rig, double position, co
 /// Height of what the body of a tail stands on.
 float tail_ground(const struct tail *tail);
 
-/// tail_posing …
+/// As model_source.lowest() and follow().
+bool character_lowest(const struct posing *posing, int rig, double ceiling, double *room, struct low_point *low);
+bool clip_follow(void *context, const struct document *document, const struct joint_motion *motion, double *samples);
+
+/// Adds what a channel's spline does to a point that a bend of joint n takes along `way`, metres a radian.
+void pinning_add_channel(const struct channel *channel, int n, int joints, const double way[3], pin_pull c);
+
+/// Σ |c|²
+double pinning_square(const pin_pull c);
+
+/// By kind: tail_posing …
+extern const struct posing_functions *const posing_kinds[RIG_KINDS];
 #define POSING_FUNCTIONS(constant, name) extern const struct posing_functions name##_posing;
 RIG_KIND_LIST(POSING_FUNCTIONS)
 #undef POSING_FUNCTIONS

@@ -55,6 +55,8 @@ bool edit_range(struct document *document, int first, int last, enum range_fit f
 bool edit_rig_add(struct document *document, const struct rig *contents, struct error *error);
 /// Refused while a chain or a spline needs it.
 bool edit_rig_remove(struct document *document, int rig, struct error *error);
+/// Replaces a rig by a clone of one that was copied from it and changed in numbers, or in the ends of a chain.
+bool edit_rig_set(struct document *document, int rig, const struct rig *wanted, struct error *error);
 /// Not empty, and no other rig's. What goes by the old name goes by the new one.
 bool edit_rig_name(struct document *document, int rig, const char *name, struct error *error);
 
@@ -78,7 +80,6 @@ bool edit_channel_remove(struct document *document, struct channel_place at, str
 /// Coordinate 0 … 2 of a tail: metres, or a spline to follow.
 bool edit_position(struct document *document, int rig, int coordinate, const struct param *param,
                    struct error *error);
-bool edit_length(struct document *document, int rig, double metres, struct error *error);
 /// The tail keeps its shape.
 bool edit_joints(struct document *document, int rig, int count, struct error *error);
 /// A copy of the rig goes beside it; if it is no tail, a plain one bent by `spline` (-1: by nothing).
@@ -96,11 +97,8 @@ bool edit_floor(struct document *document, int rig, bool on, double height, stru
 bool edit_paint_new(struct document *document, int rig, int coordinates, int vertices, struct error *error);
 bool edit_paint(struct document *document, int rig, const struct dab *dab, struct error *error);
 
-/// The model's clip, or NULL; its position, scale and turn; a chain's from, to, turn and mirror; all numbers of a meadow.
+/// The model's clip, or NULL.
 bool edit_clip(struct document *document, int rig, const char *clip, struct error *error);
-bool edit_place(struct document *document, int rig, const struct model_rig *place, struct error *error);
-bool edit_chain(struct document *document, int rig, const struct chain *chain, struct error *error);
-bool edit_meadow(struct document *document, int rig, const struct meadow_rig *meadow, struct error *error);
 
 /// A pin, whose id is given; the frame, point and place of the pin of that id; and away with it.
 bool edit_pin_add(struct document *document, int rig, const struct pin *pin, struct error *error);

@@ -231,35 +231,9 @@ bool edit_clip(struct document *document, int rig, const char *clip, struct erro
     return edit_replace_rig(document, rig, changed, error);
 }
 
-bool edit_place(struct document *document, int rig, const struct model_rig *wanted, struct error *error)
+bool edit_rig_set(struct document *document, int rig, const struct rig *wanted, struct error *error)
 {
-    const struct rig *found = edit_find_rig(document, rig, EDIT_KIND(RIG_MODEL), error);
-    if (!found) return false;
-    struct rig *changed = rig_clone(found);
-    memcpy(changed->model.position, wanted->position, sizeof wanted->position);
-    changed->model.scale = wanted->scale;
-    changed->model.turn = wanted->turn;
-    return edit_replace_rig(document, rig, changed, error);
-}
-
-bool edit_chain(struct document *document, int rig, const struct chain *wanted, struct error *error)
-{
-    const struct rig *found = edit_find_rig(document, rig, EDIT_KIND(RIG_CHAIN), error);
-    if (!found || !check_ends(wanted, error)) return false;
-    struct rig *changed = rig_clone(found);
-    set_text(&changed->chain.from, wanted->from);
-    set_text(&changed->chain.to, wanted->to);
-    changed->chain.turn = wanted->turn;
-    changed->chain.mirror = wanted->mirror;
-    return edit_replace_rig(document, rig, changed, error);
-}
-
-bool edit_meadow(struct document *document, int rig, const struct meadow_rig *wanted, struct error *error)
-{
-    const struct rig *found = edit_find_rig(document, rig, EDIT_KIND(RIG_MEADOW), error);
-    if (!found) return false;
-    struct rig *changed = rig_clone(found);
-    changed->meadow = *wanted;
-    changed->meadow.spline = found->meadow.spline;
-    return edit_replace_rig(document, rig, changed, error);
+    if (!edit_find_rig(document, rig, EDIT_KIND(wanted->kind), error)) return false;
+    if (wanted->kind == RIG_CHAIN && !check_ends(&wanted->chain, error)) return false;
+    return edit_replace_rig(document, rig, rig_clone(wanted), error);
 }

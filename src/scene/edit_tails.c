@@ -118,12 +118,3 @@ bool edit_position(struct document *document, int rig, int coordinate, const str
     changed->tail.position[coordinate].value = wanted.value;
     return edit_replace_rig(document, rig, changed, error);
 }
-
-bool edit_length(struct document *document, int rig, double metres, struct error *error)
-{
-    const struct rig *old = edit_find_rig(document, rig, EDIT_KIND(RIG_TAIL), error);
-    if (!old) return false;
-    struct rig *changed = rig_clone(old);
-    changed->tail.length = metres;
-    return edit_replace_rig(document, rig, changed, error);
-}

@@ -272,8 +272,8 @@ void bones_set_end(struct core *core, int chain, bool first, int node)
     contents.chain.from = ends[0];
     contents.chain.to = ends[1];
     core_begin(core, "Set chain's bones", 0);
-    const bool done = edit_chain(core->document, chain, &contents.chain, &core->error) &&
-                      follow_end(core, contents.name, old, ends[1]);
+    const bool done =
+        edit_rig_set(core->document, chain, &contents, &core->error) && follow_end(core, contents.name, old, ends[1]);
     if (!core_end(core, done)) return;
     const struct rig *rig = core->document->rigs[chain];
     snprintf(text, sizeof text, "%.80s goes from %.100s to %.100s.", rig_title(rig), rig->chain.from, rig->chain.to);

@@ -28,9 +28,10 @@ static const void *shown(const struct inspector *in)
 
 static bool set(struct inspector *in, int which, double number, struct error *error)
 {
-    struct meadow_rig meadow = *(const struct meadow_rig *)shown(in);
-    number_put(&rows[which], &meadow, number);
-    return edit_meadow(in->core->document, document_find_rig(in->core->document, RIG_MEADOW, 0), &meadow, error);
+    const int rig = document_find_rig(in->core->document, RIG_MEADOW, 0);
+    struct rig changed = *in->core->document->rigs[rig];
+    number_put(&rows[which], &changed.meadow, number);
+    return edit_rig_set(in->core->document, rig, &changed, error);
 }
 
 void inspector_meadow(struct inspector *in)

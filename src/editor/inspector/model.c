@@ -73,9 +73,9 @@ static const void *shown_rig(const struct inspector *in) { return &in->core->doc
 static bool set(struct inspector *in, int which, double number, struct error *error)
 {
     const int rig = shown_model(in);
-    struct model_rig model = in->core->document->rigs[rig]->model;
-    number_put(&place[which], &model, number);
-    return edit_place(in->core->document, rig, &model, error);
+    struct rig changed = *in->core->document->rigs[rig];
+    number_put(&place[which], &changed.model, number);
+    return edit_rig_set(in->core->document, rig, &changed, error);
 }
 
 /// The selected bone, and what can be made of it.

@@ -203,9 +203,10 @@ static const void *shown_tail(const struct inspector *in) { return &inspector_sh
 
 static bool set_size(struct inspector *in, int which, double number, struct error *error)
 {
-    const int rig = in->rig;
-    return which == 0 ? edit_joints(in->core->document, rig, (int)lround(number), error)
-                      : edit_length(in->core->document, rig, number, error);
+    struct rig changed = *inspector_shown(in);
+    if (which == 0) return edit_joints(in->core->document, in->rig, (int)lround(number), error);
+    changed.tail.length = number;
+    return edit_rig_set(in->core->document, in->rig, &changed, error);
 }
 
 void inspector_overlays(struct inspector *in)
@@ -343,19 +344,19 @@ static const void *shown_chain(const struct inspector *in) { return &inspector_s
 
 static bool set_turn(struct inspector *in, int which, double degrees, struct error *error)
 {
-    struct chain chain = inspector_shown(in)->chain;
+    struct rig changed = *inspector_shown(in);
     (void)which;
-    chain.turn = degrees;
-    return edit_chain(in->core->document, in->rig, &chain, error);
+    changed.chain.turn = degrees;
+    return edit_rig_set(in->core->document, in->rig, &changed, error);
 }
 
 static void build_mirror(struct inspector *in)
 {
-    struct chain chain = inspector_shown(in)->chain;
+    struct rig changed = *inspector_shown(in);
     struct rect r = inspector_labelled(in, "mirror");
     ui_hint(&in->ui, r, "Bend to the other side, as a left ear does to a right one");
-    if (ui_toggle(&in->ui, r, "chain.mirror", &chain.mirror) && core_begin(in->core, "Mirror chain", 0))
-        core_end(in->core, edit_chain(in->core->document, in->rig, &chain, &in->core->error));
+    if (ui_toggle(&in->ui, r, "chain.mirror", &changed.chain.mirror) && core_begin(in->core, "Mirror chain", 0))
+        core_end(in->core, edit_rig_set(in->core->document, in->rig, &changed, &in->core->error));
 }
 
 static void build_twin(struct inspector *in)

@@ -445,9 +445,9 @@ static double shift_spline(struct core *core, int spline, double way, char why[S
 /// Of an imported character.
 static double shift_model(struct core *core, int rig, int coordinate, double by)
 {
-    struct model_rig moved = core->document->rigs[rig]->model;
-    moved.position[coordinate] = core_round(moved.position[coordinate] + by, RESOLUTION);
-    return edit_place(core->document, rig, &moved, &core->error) ? by : 0;
+    struct rig moved = *core->document->rigs[rig];
+    moved.model.position[coordinate] = core_round(moved.model.position[coordinate] + by, RESOLUTION);
+    return edit_rig_set(core->document, rig, &moved, &core->error) ? by : 0;
 }
 
 /// A height that is a number says where the ground is, which stays. How far the coordinate went.

@@ -91,7 +91,7 @@ static uint64_t hash(uint64_t sum, const struct stage_view *view)
     return sum;
 }
 
-const struct stage_kind stage_characters = {.pose = pose, .bound_steps = BOUND_STEPS, .aside = aside, .hash = hash};
+const struct stage_kind character_stage = {.pose = pose, .bound_steps = BOUND_STEPS, .aside = aside, .hash = hash};
 
 /// The vertex that is seen there from the front of the character at rest.
 static int front_vertex(const struct figure *figure, const double uv[2])

@@ -142,4 +142,4 @@ static uint64_t hash(uint64_t sum, const struct stage_view *view)
     return hash_bytes(sum, meadow->reeds, (size_t)meadow->count * sizeof *meadow->reeds);
 }
 
-const struct stage_kind stage_meadows = {.pose = pose, .bound_steps = 1, .hash = hash};
+const struct stage_kind meadow_stage = {.pose = pose, .bound_steps = 1, .hash = hash};

@@ -74,7 +74,7 @@ static uint64_t hash(uint64_t sum, const struct stage_view *view)
     return sum;
 }
 
-const struct stage_kind stage_models = {.pose = pose, .bound_steps = BOUND_STEPS, .hash = hash};
+const struct stage_kind model_stage = {.pose = pose, .bound_steps = BOUND_STEPS, .hash = hash};
 
 void skin_free(struct skin *skin)
 {

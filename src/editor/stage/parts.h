@@ -19,7 +19,10 @@ struct stage_kind {
     uint64_t (*hash)(uint64_t hash, const struct stage_view *view);
 };
 
-extern const struct stage_kind stage_tails, stage_characters, stage_models, stage_chains, stage_meadows;
+/// tail_stage …
+#define STAGE_KIND(constant, name) extern const struct stage_kind name##_stage;
+RIG_KIND_LIST(STAGE_KIND)
+#undef STAGE_KIND
 
 /// What rigs are posed from: the world, in the editor's look.
 struct posing stage_posing(const struct core *core);

@@ -164,10 +164,9 @@ enum { RING_SIZE = 13 };
 static const float AZIMUTH_OF_ONE = -1.13f, AZIMUTH_OF_PAIR = -1.5708f;
 
 /// In this order they are posed, hashed and drawn.
-static const struct stage_kind *const kinds[RIG_KINDS] = {
-    [RIG_TAIL] = &stage_tails,   [RIG_CHARACTER] = &stage_characters, [RIG_MODEL] = &stage_models,
-    [RIG_CHAIN] = &stage_chains, [RIG_MEADOW] = &stage_meadows,
-};
+#define STAGE_ROW(constant, name) [constant] = &name##_stage,
+static const struct stage_kind *const kinds[RIG_KINDS] = {RIG_KIND_LIST(STAGE_ROW)};
+#undef STAGE_ROW
 
 /// Adds the motion of one over the whole scene to the box lo … hi; false where it is not to be seen.
 static bool add_motion(const struct stage *stage, const struct core *core, int rig, int n, float lo[3], float hi[3])

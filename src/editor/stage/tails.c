@@ -67,7 +67,7 @@ static void pose(struct stage *stage, const struct core *core, int rig, int n)
     stage->tails[stage->tail_count++] = (struct shown_tail){rig, fox ? view->model_count - 1 : -1, posed.strand};
 }
 
-const struct stage_kind stage_tails = {.pose = pose, .bound_steps = BOUND_STEPS};
+const struct stage_kind tail_stage = {.pose = pose, .bound_steps = BOUND_STEPS};
 
 static void chain_pose(struct stage *stage, const struct core *core, int rig, int n)
 {
@@ -82,7 +82,7 @@ static void chain_pose(struct stage *stage, const struct core *core, int rig, in
     if (stage_pose_strand(stage, core, rig, core->playback.position, NULL, &posed)) strand_add(stage, rig, &posed);
 }
 
-const struct stage_kind stage_chains = {.pose = chain_pose};
+const struct stage_kind chain_stage = {.pose = chain_pose};
 
 static void take_points(const struct rig_pose *pose, int rig, struct strand *strand)
 {
