@@ -1,47 +1,26 @@
 /// Finds things in a glTF character, and frees it.
 #include "model/gltf.h"
-#include "model/gltf_read.h"
+#include <jansson.h>
 #include <stdlib.h>
 #include <string.h>
 
-static int compare_names(const void *a, const void *b)
+void gltf_link_nodes(struct gltf *gltf)
 {
-    const struct gltf_called *p = a, *q = b;
-    const int order = strcmp(p->name, q->name);
-    return order ? order : p->node - q->node;
-}
-
-bool gltf_link_nodes(struct gltf *gltf)
-{
-    gltf->called = malloc(((size_t)gltf->node_count + 1) * sizeof *gltf->called);
-    if (!gltf->called) return false;
-    for (int n = 0; n < gltf->node_count; n++) {
-        gltf->nodes[n].child = gltf->nodes[n].next = -1;
-        gltf->called[n] = (struct gltf_called){gltf->nodes[n].name, n};
-    }
+    for (int n = 0; n < gltf->node_count; n++) gltf->nodes[n].child = gltf->nodes[n].next = -1;
     for (int n = gltf->node_count - 1; n >= 0; n--) {
         struct gltf_node *node = &gltf->nodes[n];
         if (node->parent < 0) continue;
         node->next = gltf->nodes[node->parent].child;
         gltf->nodes[node->parent].child = n;
     }
-    qsort(gltf->called, (size_t)gltf->node_count, sizeof *gltf->called, compare_names);
-    return true;
 }
 
 int gltf_find_node(const struct gltf *gltf, const char *name)
 {
-    int first = 0, end = gltf->node_count;
-    while (first < end) {
-        const int middle = first + (end - first) / 2;
-        if (strcmp(gltf->called[middle].name, name) < 0) {
-            first = middle + 1;
-        } else {
-            end = middle;
-        }
+    for (int n = 0; n < gltf->node_count; n++) {
+        if (strcmp(gltf->nodes[n].name, name) == 0) return n;
     }
-    const bool found = first < gltf->node_count && strcmp(gltf->called[first].name, name) == 0;
-    return found ? gltf->called[first].node : -1;
+    return -1;
 }
 
 int gltf_find_clip(const struct gltf *gltf, const char *name)
@@ -97,10 +76,11 @@ static void free_mesh(struct gltf_mesh *mesh)
 
 static void free_clips(struct gltf *gltf)
 {
-    struct gltf_owned *owned = gltf->owned;
-    for (size_t i = 0; owned && i < owned->count; i++) free(owned->accessors[i].values);
-    free(owned);
     for (int i = 0; i < gltf->clip_count; i++) {
+        for (int c = 0; c < gltf->clips[i].channel_count; c++) {
+            free(gltf->clips[i].channels[c].times);
+            free(gltf->clips[i].channels[c].values);
+        }
         free(gltf->clips[i].name);
         free(gltf->clips[i].channels);
     }
@@ -123,7 +103,6 @@ void gltf_free(struct gltf *gltf)
     free_clips(gltf);
     free(gltf->nodes);
     free(gltf->order);
-    free(gltf->called);
     free(gltf->skins);
     free(gltf->meshes);
     for (int i = 0; i < gltf->material_count; i++) free(gltf->materials[i].name);

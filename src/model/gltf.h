@@ -95,8 +95,7 @@ struct gltf_part {
     int index_count;
     struct gltf_target *targets; ///< as many as the mesh has
     int material;                ///< −1: plain white
-    bool has_polygons;           ///< GLTF_POLYGONS, unless flat
-    bool flat;                   ///< the file has no normals, so each triangle has vertices of its own
+    bool has_polygons;           ///< GLTF_POLYGONS
     bool
         shared; ///< its vertices are those of the mesh's first part, at the same addresses; so is `uv`, unless materials differ in that
 };
@@ -125,8 +124,8 @@ struct gltf_channel {
     enum gltf_path path;
     enum gltf_interpolation interpolation;
     int key_count, components; ///< components: 3, 4 or the mesh's targets
-    const float *times;        ///< seconds, ascending
-    const float *values; ///< `components` a key; three times as many for GLTF_CUBIC: tangent in, value, tangent out
+    float *times;              ///< seconds, ascending
+    float *values; ///< `components` a key; three times as many for GLTF_CUBIC: tangent in, value, tangent out
 };
 
 struct gltf_clip {
@@ -136,17 +135,10 @@ struct gltf_clip {
     int channel_count;
 };
 
-/// A node by its name.
-struct gltf_called {
-    const char *name;
-    int node;
-};
-
 struct gltf {
     char *path;
     struct gltf_node *nodes;
-    int *order;                 ///< all nodes, parents before children
-    struct gltf_called *called; ///< all nodes by name, those of one name by number
+    int *order; ///< all nodes, parents before children
     int node_count;
     struct gltf_skin *skins;
     int skin_count;
@@ -165,7 +157,6 @@ struct gltf {
     char *not_shown;    ///< names of what is in the file and not shown, comma separated; NULL: all is shown
     size_t room;        ///< bytes that may still be made of it, so that no claim of a small file fills the memory
     uint64_t id;        ///< tells it from any other that was read in this process; never 0
-    void *owned;        ///< private: memory that clips point into
 };
 
 /// Reads a .glb or .gltf (with its files or data URIs). What it takes in memory is bounded by a small multiple of the sizes of the files
@@ -196,8 +187,8 @@ const char *gltf_target_name(const struct gltf_mesh *mesh, int target);
 bool gltf_decode_image(const unsigned char *bytes, size_t size, size_t most, struct gltf_image *image,
                        struct error *error);
 
-/// Finds each node's child and next from all parents, and sorts their names. False where memory is short.
-bool gltf_link_nodes(struct gltf *gltf);
+/// Finds each node's child and next from all parents.
+void gltf_link_nodes(struct gltf *gltf);
 
 /// The first node, or clip, with that name, or −1.
 int gltf_find_node(const struct gltf *gltf, const char *name);

@@ -4,26 +4,24 @@
 #include <stdlib.h>
 #include <string.h>
 
-/// The numbers of an accessor, which many samplers may share.
-static const struct gltf_floats *read_floats(struct gltf_reader *r, const json_t *sampler, const char *key)
+/// The numbers of a sampler's accessor; the caller frees them. NULL with an error.
+static float *read_floats(struct gltf_reader *r, const json_t *sampler, const char *key, int *count, int *components)
 {
-    struct gltf_owned *owned = r->gltf->owned;
     struct glb_numbers numbers;
     int accessor;
-    if (!gltf_index(r, sampler, key, (int)owned->count, &accessor)) return NULL;
+    if (!gltf_index(r, sampler, key, (int)json_array_size(gltf_array(r, "accessors")), &accessor)) return NULL;
     if (accessor < 0) {
         gltf_bad(r, ".%s: expected an accessor, got none", key);
         return NULL;
     }
-    struct gltf_floats *floats = &owned->accessors[accessor];
-    if (floats->values) return floats;
     if (!glb_numbers(&r->file, accessor, &numbers, r->error)) return NULL;
-    size_t count = (size_t)numbers.count * (size_t)numbers.components;
-    float *values = gltf_make(r, count, sizeof *values);
-    for (size_t i = 0; values && i < count; i++) values[i] = (float)numbers.values[i];
+    const size_t total = (size_t)numbers.count * (size_t)numbers.components;
+    float *values = gltf_make(r, total, sizeof *values);
+    for (size_t i = 0; values && i < total; i++) values[i] = (float)numbers.values[i];
     free(numbers.values);
-    *floats = (struct gltf_floats){values, numbers.count, numbers.components};
-    return values ? floats : NULL;
+    *count = numbers.count;
+    *components = numbers.components;
+    return values;
 }
 
 static bool read_interpolation(struct gltf_reader *r, const json_t *sampler, struct gltf_channel *channel)
@@ -41,25 +39,22 @@ static bool read_interpolation(struct gltf_reader *r, const json_t *sampler, str
 
 static bool read_sampler(struct gltf_reader *r, const json_t *sampler, struct gltf_channel *channel)
 {
-    const struct gltf_floats *times = read_floats(r, sampler, "input");
-    const struct gltf_floats *values = times ? read_floats(r, sampler, "output") : NULL;
-    if (!values || !read_interpolation(r, sampler, channel)) return false;
-    if (times->components != 1) return gltf_bad(r, ".input: expected times, got %d numbers a key", times->components);
-    for (int i = 1; i < times->count; i++) {
-        if (times->values[i] < times->values[i - 1])
-            return gltf_bad(r, ".input: expected ascending times, got %g after %g", (double)times->values[i],
-                            (double)times->values[i - 1]);
+    int count, of_time, components;
+    channel->times = read_floats(r, sampler, "input", &channel->key_count, &of_time);
+    channel->values = channel->times ? read_floats(r, sampler, "output", &count, &components) : NULL;
+    if (!channel->values || !read_interpolation(r, sampler, channel)) return false;
+    if (of_time != 1) return gltf_bad(r, ".input: expected times, got %d numbers a key", of_time);
+    for (int i = 1; i < channel->key_count; i++) {
+        if (channel->times[i] < channel->times[i - 1])
+            return gltf_bad(r, ".input: expected ascending times, got %g after %g", (double)channel->times[i],
+                            (double)channel->times[i - 1]);
     }
     int width = channel->path == GLTF_WEIGHTS ? 1 : channel->components;
     int64_t expected =
-        (int64_t)times->count * (channel->interpolation == GLTF_CUBIC ? 3 : 1) * channel->components / width;
-    if (values->components != width || values->count != expected)
-        return gltf_bad(r, ".output: expected %lld elements of %d numbers, got %d of %d", (long long)expected, width,
-                        values->count, values->components);
-    channel->key_count = times->count;
-    channel->times = times->values;
-    channel->values = values->values;
-    return true;
+        (int64_t)channel->key_count * (channel->interpolation == GLTF_CUBIC ? 3 : 1) * channel->components / width;
+    return (components == width && count == expected) ||
+           gltf_bad(r, ".output: expected %lld elements of %d numbers, got %d of %d", (long long)expected, width,
+                    count, components);
 }
 
 /// Where the channel goes; false for a place that is not there or that clips leave alone.
@@ -91,9 +86,10 @@ static bool read_channel(struct gltf_reader *r, const json_t *json, const json_t
     if (!gltf_index(r, json, "sampler", (int)json_array_size(samplers), &sampler)) return false;
     if (sampler < 0) return gltf_bad(r, ".sampler: expected a sampler, got none");
     gltf_at(r, "animations[%zu].samplers[%d]", clip, sampler);
-    if (!read_sampler(r, json_array_get(samplers, (size_t)sampler), &channel)) return false;
-    out->channels[out->channel_count++] = channel;
-    out->duration = fmax(out->duration, (double)channel.times[channel.key_count - 1]);
+    struct gltf_channel *to = &out->channels[out->channel_count++];
+    *to = channel;
+    if (!read_sampler(r, json_array_get(samplers, (size_t)sampler), to)) return false;
+    out->duration = fmax(out->duration, (double)to->times[to->key_count - 1]);
     return true;
 }
 
@@ -117,11 +113,7 @@ static bool read_clip(struct gltf_reader *r, const json_t *json, size_t number, 
 bool gltf_read_clips(struct gltf_reader *r)
 {
     const json_t *clips = gltf_array(r, "animations"), *clip;
-    size_t i, accessors = json_array_size(gltf_array(r, "accessors"));
-    struct gltf_owned *owned = calloc(1, sizeof *owned + accessors * sizeof *owned->accessors);
-    if (!owned) return fail_no_memory(r->error, r->file.path);
-    owned->count = accessors;
-    r->gltf->owned = owned;
+    size_t i;
     gltf_at(r, "animations");
     r->gltf->clips = gltf_make(r, json_array_size(clips), sizeof *r->gltf->clips);
     if (!r->gltf->clips) return false;

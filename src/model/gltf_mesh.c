@@ -1,4 +1,4 @@
-/// Reads meshes: triangles, strips and fans, their vertices and morph targets.
+/// Reads meshes: vertices and morph targets, triangles, strips and fans.
 #include "model/gltf_read.h"
 #include "model/surface.h"
 #include "model/vector.h"
@@ -8,6 +8,182 @@
 #include <string.h>
 
 enum { LINES = 1, TRIANGLES = 4, STRIP = 5, FAN = 6 };
+
+// --- vertices
+
+/// The numbers of an attribute, as many as the part has vertices in the file.
+static bool read_numbers(struct gltf_reader *r, const json_t *attributes, const char *name, int least, int most,
+                         int count, struct glb_numbers *numbers)
+{
+    if (!glb_numbers(&r->file, glb_integer(attributes, name, -1), numbers, r->error)) return false;
+    if (numbers->components >= least && numbers->components <= most && numbers->count == count) return true;
+    gltf_bad(r, ".attributes.%s: expected %d elements of %d numbers, got %d of %d", name, count, most, numbers->count,
+             numbers->components);
+    free(numbers->values);
+    return false;
+}
+
+/// An attribute as rows of `width` floats, NULL where it is missing. Of four, a missing fourth is 1.
+static bool read_rows(struct gltf_reader *r, const json_t *attributes, const char *name, int width, int count,
+                      float **rows)
+{
+    struct glb_numbers numbers;
+    if (!json_object_get(attributes, name)) return true;
+    if (!read_numbers(r, attributes, name, width == 4 ? 3 : width, width, count, &numbers)) return false;
+    float *row = *rows = gltf_make(r, (size_t)count, (size_t)width * sizeof **rows);
+    const double *from = numbers.values;
+    for (int i = 0; row && i < count; i++, row += width, from += numbers.components) {
+        for (int k = 0; k < width; k++) row[k] = k < numbers.components ? (float)from[k] : 1;
+    }
+    free(numbers.values);
+    return *rows;
+}
+
+/// Adds four influences, from `first`, to each vertex.
+static bool read_four(struct gltf_reader *r, const json_t *attributes, int set, struct gltf_part *part)
+{
+    struct glb_numbers joints, weights;
+    char name[2][16] = {"JOINTS_0", "WEIGHTS_0"};
+    bool whole = true;
+    name[0][7] = name[1][8] = (char)('0' + set);
+    if (!read_numbers(r, attributes, name[0], 4, 4, part->vertex_count, &joints)) return false;
+    if (!read_numbers(r, attributes, name[1], 4, 4, part->vertex_count, &weights)) {
+        free(joints.values);
+        return false;
+    }
+    for (int n = 0; whole && n < 4 * part->vertex_count; n++) {
+        int vertex = n / 4, k = n % 4;
+        double joint = joints.values[n], weight = weights.values[n];
+        whole = joint >= 0 && joint <= UINT16_MAX && joint == floor(joint) && weight < 1e6;
+        part->joints[vertex][4 * set + k] = whole ? (uint16_t)joint : 0;
+        part->weights[vertex][4 * set + k] = weight > 0 ? (float)weight : 0;
+    }
+    free(joints.values);
+    free(weights.values);
+    return whole ||
+           gltf_bad(r, ".attributes.%s: expected numbers of joints, and weights from 0 to 1, got others", name[0]);
+}
+
+/// Weights whose sum is 1; a vertex without any follows its first joint.
+static void share_out(uint16_t joints[GLTF_INFLUENCES], float weights[GLTF_INFLUENCES])
+{
+    double sum = 0;
+    for (int k = 0; k < GLTF_INFLUENCES; k++) sum += (double)weights[k];
+    if (!(sum > 0)) weights[0] = 1, sum = 1;
+    for (int k = 0; k < GLTF_INFLUENCES; k++) {
+        weights[k] = (float)((double)weights[k] / sum);
+        if (weights[k] <= 0) joints[k] = 0;
+    }
+}
+
+/// Joints and weights, up to eight a vertex.
+static bool read_influences(struct gltf_reader *r, const json_t *attributes, struct gltf_part *part)
+{
+    if (!json_object_get(attributes, "JOINTS_0")) return true;
+    part->joints = gltf_make(r, (size_t)part->vertex_count, sizeof *part->joints);
+    part->weights = part->joints ? gltf_make(r, (size_t)part->vertex_count, sizeof *part->weights) : NULL;
+    if (!part->weights || !read_four(r, attributes, 0, part)) return false;
+    if (json_object_get(attributes, "JOINTS_1") && !read_four(r, attributes, 1, part)) return false;
+    for (int i = 0; i < part->vertex_count; i++) share_out(part->joints[i], part->weights[i]);
+    return !json_object_get(attributes, "JOINTS_2") || gltf_not_shown(r, "more than 8 joints a vertex");
+}
+
+static void normalise(float (*normal)[3], int count)
+{
+    for (int i = 0; normal && i < count; i++) {
+        float length = glm_vec3_norm(normal[i]);
+        if (fabsf(length - 1) < 1e-6f) continue; // ours stay as they are, to the bit
+        if (length > 0 && isfinite(length)) {
+            glm_vec3_divs(normal[i], length, normal[i]);
+        } else {
+            glm_vec3_copy((vec3){0, 1, 0}, normal[i]);
+        }
+    }
+}
+
+static bool read_targets(struct gltf_reader *r, const json_t *targets, int count, struct gltf_part *part)
+{
+    if ((size_t)count != json_array_size(targets))
+        return gltf_bad(r, ".targets: expected %d as in the mesh's first primitive, got %zu", count,
+                        json_array_size(targets));
+    part->targets = gltf_make(r, (size_t)count, sizeof *part->targets);
+    for (int i = 0; part->targets && i < count; i++) {
+        const json_t *target = json_array_get(targets, (size_t)i);
+        float *position = NULL, *normal = NULL;
+        bool read = read_rows(r, target, "POSITION", 3, part->vertex_count, &position) &&
+                    (!part->normal || r->stored || read_rows(r, target, "NORMAL", 3, part->vertex_count, &normal));
+        part->targets[i] = (struct gltf_target){(float(*)[3])position, (float(*)[3])normal};
+        if (!read) return false;
+    }
+    return part->targets;
+}
+
+/// What the fox has and no standard names; in other files what is called so may be anything, and is left out unless it suits.
+static bool read_coat(struct gltf_reader *r, const json_t *attributes, struct gltf_part *part)
+{
+    static const char *const names[] = {"_MARK", "_FUR"};
+    const json_t *accessors = gltf_array(r, "accessors");
+    float *rows[2] = {NULL, NULL};
+    for (int i = 0; i < 2; i++) {
+        const json_t *accessor = json_array_get(accessors, (size_t)glb_integer(attributes, names[i], -1));
+        const char *shape = json_string_value(json_object_get(accessor, "type"));
+        if (!shape || strcmp(shape, i ? "VEC2" : "VEC3") != 0 ||
+            glb_integer(accessor, "count", -1) != part->vertex_count)
+            return true;
+    }
+    const bool read = read_rows(r, attributes, names[0], 3, part->vertex_count, &rows[0]) &&
+                      read_rows(r, attributes, names[1], 2, part->vertex_count, &rows[1]);
+    part->mark = (float(*)[3])rows[0];
+    part->fur = (float(*)[2])rows[1];
+    return read;
+}
+
+/// Reads the attributes and targets of a part's vertices, but for texture coordinates; what the file has not is NULL.
+static bool read_vertices(struct gltf_reader *r, const json_t *primitive, int targets, struct gltf_part *part)
+{
+    const json_t *attributes = json_object_get(primitive, "attributes");
+    const int count = part->vertex_count;
+    float *position = NULL, *normal = NULL, *color = NULL;
+    bool read = read_rows(r, attributes, "POSITION", 3, count, &position) &&
+                read_rows(r, attributes, "NORMAL", 3, count, &normal) &&
+                read_rows(r, attributes, "COLOR_0", 4, count, &color);
+    part->position = (float(*)[3])position;
+    part->normal = (float(*)[3])normal;
+    part->color = (float(*)[4])color;
+    if (!read) return false;
+    normalise(part->normal, count);
+    return read_coat(r, attributes, part) && read_influences(r, attributes, part) &&
+           read_targets(r, json_object_get(primitive, "targets"), targets, part);
+}
+
+/// Puts texture coordinates where the material has them on its texture (KHR_texture_transform).
+static void place_uv(const struct gltf_uv *uv, float (*at)[2], int count)
+{
+    float c = cosf(uv->rotation), s = sinf(uv->rotation);
+    for (int i = 0; at && i < count; i++) {
+        float u = at[i][0] * uv->scale[0], v = at[i][1] * uv->scale[1];
+        at[i][0] = c * u + s * v + uv->offset[0];
+        at[i][1] = -s * u + c * v + uv->offset[1];
+    }
+}
+
+static bool read_uv(struct gltf_reader *r, const json_t *attributes, struct gltf_part *part)
+{
+    static const struct gltf_uv plain = {.scale = {1, 1}};
+    const struct gltf_uv *uv = part->material >= 0 ? &r->uvs[part->material] : &plain;
+    char name[32];
+    float *rows = NULL;
+    snprintf(name, sizeof name, "TEXCOORD_%d", uv->set);
+    if (!read_rows(r, attributes, name, 2, part->vertex_count, &rows)) {
+        free(rows);
+        return false;
+    }
+    part->uv = (float(*)[2])rows;
+    place_uv(uv, part->uv, part->vertex_count);
+    return true;
+}
+
+// --- triangles
 
 /// The corners as the file has them; in order where it has no indices.
 static bool read_corners(struct gltf_reader *r, const json_t *primitive, int vertices, uint32_t **corners, int *count)
@@ -102,40 +278,73 @@ static bool count_in_file(struct gltf_reader *r, const json_t *attributes, int *
     return true;
 }
 
+/// Gives each corner of a part a copy of its vertex's row, in an array that may be NULL.
+static bool spread(struct gltf_reader *r, const struct gltf_part *part, void *array, size_t size)
+{
+    char *old, *rows;
+    memcpy(&old, array, sizeof old);
+    if (!old) return true;
+    r->file.room += (size_t)part->vertex_count * size;
+    rows = gltf_make(r, (size_t)part->index_count, size);
+    if (!rows) return false;
+    for (int i = 0; i < part->index_count; i++) memcpy(rows + (size_t)i * size, old + part->indices[i] * size, size);
+    memcpy(array, &rows, sizeof rows);
+    free(old);
+    return true;
+}
+
+/// What glTF wants where there are no normals: each triangle with vertices of its own, and flat.
+static bool flatten(struct gltf_reader *r, int targets, struct gltf_part *part)
+{
+    bool done = spread(r, part, &part->position, sizeof *part->position) &&
+                spread(r, part, &part->uv, sizeof *part->uv) && spread(r, part, &part->color, sizeof *part->color) &&
+                spread(r, part, &part->joints, sizeof *part->joints) &&
+                spread(r, part, &part->weights, sizeof *part->weights) &&
+                spread(r, part, &part->mark, sizeof *part->mark) && spread(r, part, &part->fur, sizeof *part->fur);
+    for (int t = 0; done && t < targets; t++)
+        done = spread(r, part, &part->targets[t].position, sizeof *part->position);
+    part->normal = done ? gltf_make(r, (size_t)part->index_count, sizeof *part->normal) : NULL;
+    if (!part->normal) return false;
+    part->vertex_count = part->index_count;
+    for (int i = 0; i < part->index_count; i++) {
+        float(*corner)[3] = part->position + i - i % 3;
+        vec3s normal = triangle_normal(corner[0], corner[1], corner[2]);
+        glm_vec3_copy(normal.raw, part->normal[i]);
+        part->indices[i] = (uint32_t)i;
+    }
+    normalise(part->normal, part->vertex_count);
+    return true;
+}
+
 /// Reads a primitive; `like` has the vertices of the mesh's first part, if there is one.
 static bool read_part(struct gltf_reader *r, const json_t *primitive, const json_t *like, struct gltf_mesh *mesh,
                       struct gltf_part *part)
 {
     const json_t *attributes = json_object_get(primitive, "attributes");
-    struct gltf_vertices vertices = {0};
+    const bool is_flat = !r->stored && !json_object_get(attributes, "NORMAL");
     uint32_t *corners;
     int count;
-    if (!count_in_file(r, attributes, &vertices.in_file)) return false;
+    if (!count_in_file(r, attributes, &part->vertex_count)) return false;
     if (!gltf_index(r, primitive, "material", r->gltf->material_count, &part->material)) return false;
-    if (!read_corners(r, primitive, vertices.in_file, &corners, &count)) {
+    if (!read_corners(r, primitive, part->vertex_count, &corners, &count)) {
         free(corners);
         return false;
     }
     if (!make_triangles(r, (int)glb_integer(primitive, "mode", TRIANGLES), corners, count, part)) return false;
     drop_repeats(part);
     if (part->index_count == 0) return gltf_not_shown(r, "triangles without area");
-    part->flat = !r->stored && !json_object_get(attributes, "NORMAL");
-    part->has_polygons =
-        !part->flat && json_object_get(json_object_get(primitive, "extensions"), GLTF_POLYGONS) != NULL;
-    vertices.order = part->flat ? part->indices : NULL;
-    vertices.count = part->flat ? part->index_count : vertices.in_file;
-    if (!part->flat && shares(primitive, like)) {
+    part->has_polygons = !is_flat && json_object_get(json_object_get(primitive, "extensions"), GLTF_POLYGONS);
+    if (!is_flat && shares(primitive, like)) {
         share(r, part, mesh->parts);
     } else {
-        if (!gltf_read_vertices(r, primitive, &vertices, mesh->target_count, part)) return false;
-        for (int n = 0; part->joints && n < vertices.count * GLTF_INFLUENCES; n++) {
+        int *joints = &r->joints_of[mesh - r->gltf->meshes];
+        if (!read_vertices(r, primitive, mesh->target_count, part)) return false;
+        for (int n = 0; part->joints && n < part->vertex_count * GLTF_INFLUENCES; n++) {
             const int joint = part->joints[n / GLTF_INFLUENCES][n % GLTF_INFLUENCES];
-            if (joint >= r->joints_of[mesh - r->gltf->meshes]) r->joints_of[mesh - r->gltf->meshes] = joint + 1;
+            if (joint >= *joints) *joints = joint + 1;
         }
     }
-    if (!part->uv && !gltf_read_uv(r, attributes, &vertices, part)) return false;
-    for (int i = 0; part->flat && i < part->index_count; i++) part->indices[i] = (uint32_t)i;
-    return true;
+    return (part->uv || read_uv(r, attributes, part)) && (!is_flat || flatten(r, mesh->target_count, part));
 }
 
 /// Whether a primitive has triangles; what else it has is named.
@@ -202,37 +411,4 @@ bool gltf_read_meshes(struct gltf_reader *r)
         if (!read_mesh(r, mesh, i)) return false;
     }
     return true;
-}
-
-/// A mesh without normals has corners of its own for each triangle.
-static size_t count_in_primitive(const struct gltf_reader *r, const json_t *primitive)
-{
-    const json_t *attributes = json_object_get(primitive, "attributes");
-    const bool flat = !r->stored && !json_object_get(attributes, "NORMAL");
-    const int64_t mode = glb_integer(primitive, "mode", TRIANGLES),
-                  position = glb_integer(attributes, "POSITION", -1),
-                  counted = flat ? glb_integer(primitive, "indices", position) : position,
-                  count = glb_integer(json_array_get(gltf_array(r, "accessors"), (size_t)counted), "count", 0);
-    if (mode < TRIANGLES || count < (flat ? 3 : 1)) return 0;
-    return (size_t)(!flat ? count : mode == TRIANGLES ? count - count % 3 : 3 * (count - 2));
-}
-
-bool gltf_count_vertices(const struct gltf_reader *r, size_t *total)
-{
-    const json_t *meshes = gltf_array(r, "meshes"), *mesh, *node, *primitive;
-    const size_t mesh_count = json_array_size(meshes);
-    size_t *count = calloc(mesh_count + 1, sizeof *count), i, k;
-    if (!count) return false;
-    json_array_foreach(meshes, i, mesh){json_array_foreach(json_object_get(mesh, "primitives"), k,
-                                                           primitive){count[i] += count_in_primitive(r, primitive);
-}
-}
-*total = 0;
-json_array_foreach(gltf_array(r, "nodes"), i, node)
-{
-    const int64_t shown = glb_integer(node, "mesh", -1);
-    if (shown >= 0 && (size_t)shown < mesh_count) *total += count[shown];
-}
-free(count);
-return true;
 }

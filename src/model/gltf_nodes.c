@@ -152,8 +152,9 @@ bool gltf_read_nodes(struct gltf_reader *r)
     {
         if (!read_node(r, json, i)) return false;
     }
-    return read_parents(r, nodes) && put_in_order(r, nodes) && choose_scene(r) && read_weights(r, nodes) &&
-           (gltf_link_nodes(r->gltf) || fail_no_memory(r->error, r->file.path));
+    if (!read_parents(r, nodes)) return false;
+    gltf_link_nodes(r->gltf);
+    return put_in_order(r, nodes) && choose_scene(r) && read_weights(r, nodes);
 }
 
 static bool read_inverse_bind(struct gltf_reader *r, const json_t *json, struct gltf_skin *skin)

@@ -168,12 +168,12 @@ static bool check_extensions(struct gltf_reader *r)
     return json_array_size(gltf_array(r, "cameras")) == 0 || gltf_not_shown(r, "cameras");
 }
 
-/// Refuses what is too large before anything is made of it.
+/// Nodes may show a mesh again and again.
 static bool check_vertices(struct gltf_reader *r)
 {
     const size_t limit = r->file.room < VERTEX_LIMIT ? r->file.room : VERTEX_LIMIT;
-    size_t total;
-    if (!gltf_count_vertices(r, &total)) return fail_no_memory(r->error, r->file.path);
+    size_t total = 0;
+    for (int n = 0; n < r->gltf->node_count; n++) total += (size_t)gltf_vertex_count(r->gltf, n);
     return total <= limit ||
            fail(r->error, ERROR_INPUT, "%s: nodes: expected at most %zu vertices together%s, got %zu", r->file.path,
                 limit, limit < VERTEX_LIMIT ? " in a file of this size" : "", total);
@@ -231,18 +231,18 @@ static bool read_all(struct gltf_reader *r)
     if (!check_version(r) || !check_arrays(r) || !check_extensions(r)) return false;
     if (!glb_read_buffers(&r->file, r->error)) return false;
     r->pixel_room = PIXEL_ROOM + r->file.room;
-    if (!check_vertices(r)) return false;
     r->gltf->path = strdup(r->file.path);
     r->gltf->id = gltf_new_id();
     if (!r->gltf->path) return fail_no_memory(r->error, r->file.path);
-    return gltf_read_materials(r) && gltf_read_meshes(r) && gltf_read_nodes(r) && gltf_read_skins(r) &&
-           gltf_read_clips(r) && measure(r);
+    return gltf_read_materials(r) && gltf_read_meshes(r) && gltf_read_nodes(r) && check_vertices(r) &&
+           gltf_read_skins(r) && gltf_read_clips(r) && measure(r);
 }
 
-/// Reads what is open, and closes it.
-static bool read_open(struct gltf_reader *r)
+/// Reads what is open, if it is, and closes it.
+static bool read_open(struct gltf_reader *r, bool is_open)
 {
-    const bool done = read_all(r);
+    *r->gltf = (struct gltf){0};
+    const bool done = is_open && read_all(r);
     r->gltf->room = r->file.room;
     free(r->uvs);
     free(r->joints_of);
@@ -255,20 +255,17 @@ static bool read_open(struct gltf_reader *r)
 bool gltf_read(const char *path, struct gltf *gltf, struct error *error)
 {
     struct gltf_reader r = {.gltf = gltf, .error = error};
-    *gltf = (struct gltf){0};
-    return glb_open(&r.file, path, error) && read_open(&r);
+    return read_open(&r, glb_open(&r.file, path, error));
 }
 
 bool gltf_read_stored(const char *path, struct gltf *gltf, struct error *error)
 {
     struct gltf_reader r = {.gltf = gltf, .error = error, .stored = true};
-    *gltf = (struct gltf){0};
-    return glb_open(&r.file, path, error) && read_open(&r);
+    return read_open(&r, glb_open(&r.file, path, error));
 }
 
 bool gltf_read_bytes(const char *path, char *data, size_t size, struct gltf *gltf, struct error *error)
 {
     struct gltf_reader r = {.gltf = gltf, .error = error};
-    *gltf = (struct gltf){0};
-    return glb_open_bytes(&r.file, path, data, size, error) && read_open(&r);
+    return read_open(&r, glb_open_bytes(&r.file, path, data, size, error));
 }

@@ -11,18 +11,6 @@ struct gltf_uv {
     float offset[2], rotation, scale[2];
 };
 
-/// The floats of an accessor of a clip, read once.
-struct gltf_floats {
-    float *values;
-    int count, components;
-};
-
-/// Arrays that clips point into.
-struct gltf_owned {
-    size_t count;
-    struct gltf_floats accessors[];
-};
-
 /// What is known while a file is read. Functions fail with a sentence in `error`; what was read so far is freed with `gltf`.
 struct gltf_reader {
     struct glb file;
@@ -63,28 +51,9 @@ bool gltf_not_shown(struct gltf_reader *r, const char *format, ...) __attribute_
 
 bool gltf_read_materials(struct gltf_reader *r);
 bool gltf_read_meshes(struct gltf_reader *r);
-
-/// Adds up how many vertices all nodes will show, by what the JSON says; what is wrong in it counts as none, and is refused where it is
-/// read. False where memory is short.
-bool gltf_count_vertices(const struct gltf_reader *r, size_t *total);
 bool gltf_read_nodes(struct gltf_reader *r);
 bool gltf_read_skins(struct gltf_reader *r);
 bool gltf_read_clips(struct gltf_reader *r);
-
-/// Which vertices of the file a part has.
-struct gltf_vertices {
-    int in_file;           ///< how many the accessors have
-    const uint32_t *order; ///< which of them each vertex is; NULL: the same
-    int count;
-};
-
-/// Reads the attributes and targets of a part's vertices, but for texture coordinates; what the file has not is NULL.
-bool gltf_read_vertices(struct gltf_reader *r, const json_t *primitive, const struct gltf_vertices *vertices,
-                        int targets, struct gltf_part *part);
-
-/// Reads the texture coordinates that the part's material wants.
-bool gltf_read_uv(struct gltf_reader *r, const json_t *attributes, const struct gltf_vertices *vertices,
-                  struct gltf_part *part);
 
 /// Puts an image of the file into gltf.images, once; −1 and named as not shown where it cannot be.
 bool gltf_read_image(struct gltf_reader *r, int image, int *index);

@@ -47,7 +47,6 @@ static void add_part(struct surface_builder *b, const struct gltf *gltf, const s
                      float (*position)[3])
 {
     const int first = b->surface->vertex_count, first_uv = b->surface->looks.uv_count;
-    const int first_index = b->surface->index_count;
     b->material = part->material >= 0 ? add_material(b, gltf, part->material) : LOOKS_NONE;
     for (int i = 0; i < part->vertex_count && !b->failed; i++) {
         const double p[3] = {(double)position[i][0], (double)position[i][1], (double)position[i][2]};
@@ -67,8 +66,6 @@ static void add_part(struct surface_builder *b, const struct gltf *gltf, const s
             builder_corner(b, (uint32_t)first + corner[k], part->uv ? (uint32_t)first_uv + corner[k] : LOOKS_NONE);
     }
     builder_end_polygon(b);
-    if (part->flat && !b->failed)
-        builder_merge(b, first, first_index); // the reader has given each triangle vertices of its own
 }
 
 static bool add_nodes(struct surface_builder *b, const struct gltf *gltf, const struct gltf_pose *pose)
@@ -92,7 +89,7 @@ bool gltf_surface_read(const char *path, struct surface *surface, struct error *
     struct gltf gltf;
     struct gltf_pose pose;
     *surface = (struct surface){0};
-    if (!gltf_read(path, &gltf, error)) return false;
+    if (!gltf_read_stored(path, &gltf, error)) return false;
     struct surface_builder builder = {.surface = surface, .material = LOOKS_NONE};
     if (gltf_pose_create(&gltf, &pose)) {
         gltf_pose_clip(&gltf, -1, 0, &pose);

@@ -92,7 +92,7 @@ bool stl_read(const char *path, struct surface *surface, struct error *error)
     struct surface_builder builder = {.surface = surface, .material = LOOKS_NONE};
     const bool done = read_either(path, data, size, &builder, error);
     free(data);
-    if (done && !builder.failed) builder_merge(&builder, 0, 0);
+    if (done && !builder.failed) builder_merge(&builder);
     if (done) return builder_finish(&builder, path, "an STL file", error);
     surface_free(surface);
     return false;

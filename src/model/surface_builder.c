@@ -125,33 +125,26 @@ uint32_t builder_material(struct surface_builder *b, const char *name)
     return (uint32_t)looks->material_count++;
 }
 
-void builder_merge(struct surface_builder *b, int first, int first_index)
+void builder_merge(struct surface_builder *b)
 {
     struct surface *s = b->surface;
-    const int count = s->vertex_count - first;
-    if (count <= 0) return;
-    struct spot *spots = malloc((size_t)count * sizeof *spots);
+    const size_t count = (size_t)s->vertex_count;
+    struct spot *spots = malloc((count + 1) * sizeof *spots);
     uint32_t *name =
-        malloc((size_t)count * sizeof *name); // first each vertex's earliest at its place, then that one's new number
+        malloc((count + 1) * sizeof *name); // first each vertex's earliest at its place, then that one's new number
     if (spots && name) {
-        spots_sort((const float(*)[3])s->position + first, count, spots);
-        for (int i = 0, earliest = 0; i < count; i++) {
+        spots_sort((const float(*)[3])s->position, s->vertex_count, spots);
+        for (size_t i = 0, earliest = 0; i < count; i++) {
             if (!spots_meet(&spots[earliest], &spots[i])) earliest = i;
             name[spots[i].vertex] = spots[earliest].vertex;
         }
-        int kept = 0;
-        for (int i = 0; i < count; i++) {
-            if (name[i] != (uint32_t)i) {
-                name[i] = name[name[i]];
-                continue;
-            }
-            memmove(s->position[first + kept], s->position[first + i], sizeof *s->position);
-            if (s->color) memmove(s->color[first + kept], s->color[first + i], sizeof *s->color);
-            name[i] = (uint32_t)kept++;
+        s->vertex_count = 0;
+        for (size_t i = 0; i < count; i++) {
+            const bool is_first = name[i] == (uint32_t)i;
+            if (is_first) memmove(s->position[s->vertex_count], s->position[i], sizeof *s->position);
+            name[i] = is_first ? (uint32_t)s->vertex_count++ : name[name[i]];
         }
-        for (int i = first_index; i < s->index_count; i++)
-            s->indices[i] = (uint32_t)first + name[s->indices[i] - (uint32_t)first];
-        s->vertex_count = first + kept;
+        for (int i = 0; i < s->index_count; i++) s->indices[i] = name[s->indices[i]];
     } else {
         b->failed = true;
     }

@@ -43,8 +43,8 @@ uint32_t builder_material(struct surface_builder *builder, const char *name);
 /// where there are no vertices or no triangles then; `kind` says what it is, as in "a PLY file". On failure the surface is empty.
 bool builder_finish(struct surface_builder *builder, const char *path, const char *kind, struct error *error);
 
-/// Makes one of vertices at the same place, from number `first` on; the indices from `first_index` on are those that name them.
-void builder_merge(struct surface_builder *builder, int first, int first_index);
+/// Makes one of vertices at the same place, which have no colours.
+void builder_merge(struct surface_builder *builder);
 
 // The words of a text file, one after the other.
 
