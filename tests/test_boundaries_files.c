@@ -12,7 +12,7 @@
 #include "inside.h"
 #include "model/character.h"
 #include "model/gltf.h"
-#include "model/obj.h"
+#include "model/surface.h"
 #include "scene/knots.h"
 #include "scene/load.h"
 #include "scene/paint.h"

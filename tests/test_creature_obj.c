@@ -1,7 +1,7 @@
 /// The generated creature, as the file that is simulated: one closed manifold that stands on the ground, with the budget,
 /// normals and arms that the simulation and the stage count on.
 #include "model/character.h"
-#include "model/obj.h"
+#include "model/surface.h"
 #include "near.h"
 #include <math.h>
 #include <stdio.h>

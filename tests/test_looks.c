@@ -4,7 +4,7 @@
 #include "base/png.h"
 #include "export_scene.h"
 #include "model/figure.h"
-#include "model/obj.h"
+#include "model/surface.h"
 #include "offscreen.h"
 #include "puppet.h"
 

@@ -1,5 +1,5 @@
 /// OBJ files as they come: every form of a face, polygons, colours, continuations, and what must be refused with its line.
-#include "model/obj.h"
+#include "model/surface.h"
 #include "near.h"
 #include "temporary.h"
 #include <stdio.h>

@@ -2,7 +2,7 @@
 /// through to the character's file.
 #include "model/character.h"
 #include "model/gltf.h"
-#include "model/obj.h"
+#include "model/surface.h"
 #include "near.h"
 #include "temporary.h"
 #include <jansson.h>

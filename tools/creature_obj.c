@@ -4,7 +4,7 @@
 /// 1.5 m high, looks towards +z and stands on y = 0; its arms stand well clear of the body, so that a lattice around the
 /// mesh does not glue them together.
 #include "base/need.h"
-#include "model/obj.h"
+#include "model/surface.h"
 #include "model/vector.h"
 #include "models/isosurface.h"
 #include "models/mesh.h"

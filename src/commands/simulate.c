@@ -8,7 +8,7 @@
 #include "commands/progress.h"
 #include "commands/simulate_shake.h"
 #include "model/motion.h"
-#include "model/obj.h"
+#include "model/surface.h"
 #include "simulation/soft.h"
 #include <math.h>
 #include <stdio.h>

@@ -1,6 +1,6 @@
-/// Reads OBJ surfaces.
-#include "model/obj.h"
+/// Reads and writes OBJ surfaces and their materials.
 #include "base/file.h"
+#include "base/png.h"
 #include "base/progress.h"
 #include "model/surface_readers.h"
 #include <limits.h>
@@ -9,16 +9,156 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { FILE_LIMIT = 1 << 30, SHOWN_MAX = 24 };
+enum { FILE_LIMIT = 1 << 30, TEXT_LIMIT = 16 << 20, SHOWN_MAX = 24, LIBRARY_NAME = 256 };
 enum { TELLING = 1 << 16 }; ///< lines between two words about how far it is
 
-/// A file being read. `line` is cut off its text with a NUL, comments and continuations resolved.
+/// A text being read, line by line.
+struct lines {
+    char *next, *line; ///< `line` is cut off the text with a NUL, without comments, continuations resolved
+    int number;        ///< from 1
+    bool joins;        ///< a line that ends in a backslash goes on in the next one
+};
+
+static char *skip_space(char *at) { return at + strspn(at, " \t\r"); }
+
+/// Cuts the next line off; false at the end of the text.
+static bool next_line(struct lines *l)
+{
+    if (!*l->next) return false;
+    l->line = l->next;
+    l->number++;
+    for (char *end = l->line;; end++) {
+        end += strcspn(end, "\n");
+        l->next = *end ? end + 1 : end;
+        char *last = end > l->line && end[-1] == '\r' ? end - 1 : end;
+        bool joined = l->joins && *end && last > l->line && last[-1] == '\\';
+        if (!joined) {
+            *end = '\0';
+            break;
+        }
+        memset(last - 1, ' ', (size_t)(end - last) + 2);
+        l->number++;
+    }
+    l->line[strcspn(l->line, "#")] = '\0';
+    return true;
+}
+
+/// What follows the line's first word if that is `word`; else NULL.
+static char *behind(const struct lines *l, const char *word)
+{
+    char *at = skip_space(l->line);
+    const size_t length = strlen(word);
+    return strncmp(at, word, length) == 0 && strchr(" \t\r", at[length]) ? skip_space(at + length) : NULL;
+}
+
+/// The rest of a line: a name, which may have spaces.
+static char *name_at(char *at)
+{
+    size_t length = strlen(at);
+    while (length > 0 && strchr(" \t\r", at[length - 1])) at[--length] = '\0';
+    return at;
+}
+
+// --- materials
+
+static void note(struct looks *looks, const char *name)
+{
+    if (!looks->left_out) looks->left_out = strdup(name);
+}
+
+/// A file named from the folder of another one; '\\' separates folders too.
+static bool read_beside(const char *path, const char *name, size_t limit, char **data, size_t *size)
+{
+    char folder[PATH_LIMIT], plain[PATH_LIMIT], place[PATH_LIMIT];
+    if (snprintf(plain, sizeof plain, "%s", name) >= (int)sizeof plain || !path_folder(path, folder)) return false;
+    for (char *c = plain; *c; c++) {
+        if (*c == '\\') *c = '/';
+    }
+    return path_resolve(folder, plain, place) && file_read(place, limit, data, size, NULL);
+}
+
+/// What is left of a map's line behind its options, each of which has numbers or on/off behind it.
+static const char *map_name(const char *at)
+{
+    while (*at == '-' && strchr(at, ' ')) {
+        at += strcspn(at, " \t");
+        for (at += strspn(at, " \t"); *at;) {
+            const size_t length = strcspn(at, " \t");
+            const bool word = strncmp(at, "on", length) == 0 || strncmp(at, "off", length) == 0;
+            char *end;
+            strtod(at, &end);
+            if (!word && end != at + length) break;
+            at += length;
+            at += strspn(at, " \t");
+        }
+    }
+    return at;
+}
+
+static void read_image(const char *path, const char *value, struct looks *looks, struct looks_material *material)
+{
+    const char *name = map_name(value);
+    char *data = NULL;
+    size_t size = 0;
+    const size_t room = LOOKS_IMAGES_LIMIT - looks_image_bytes(looks);
+    if (material->image) return;
+    if (!read_beside(path, name, room, &data, &size) || !looks_image_kind((unsigned char *)data, size)) {
+        free(data);
+        note(looks, name);
+        return;
+    }
+    material->image = (unsigned char *)data;
+    material->image_size = size;
+}
+
+static bool in_range(const char *text, float *value)
+{
+    const float number = strtof(text, NULL);
+    if (!(number >= 0 && number <= 1)) return false;
+    *value = number;
+    return true;
+}
+
+/// Reads a line of a material, which are in a builder that has its name.
+static void read_member(const char *path, const struct lines *l, struct looks *looks, struct looks_material *material)
+{
+    char *at;
+    if ((at = behind(l, "Kd"))) {
+        for (int k = 0; k < 3; k++) in_range(at, &material->color[k]), strtof(at, &at);
+    } else if ((at = behind(l, "d"))) {
+        in_range(at, &material->color[3]);
+    } else if ((at = behind(l, "Tr")) && in_range(at, &material->color[3])) {
+        material->color[3] = 1 - material->color[3];
+    } else if ((at = behind(l, "map_Kd"))) {
+        read_image(path, name_at(at), looks, material);
+    }
+}
+
+/// Adds the materials of a file named from the folder of an OBJ file. What cannot be read, or is neither PNG nor JPEG, is left out and noted in
+/// the looks.
+static void read_materials(const char *obj_path, const char *name, struct surface_builder *builder)
+{
+    struct looks *looks = &builder->surface->looks;
+    uint32_t current = LOOKS_NONE;
+    struct lines lines = {0};
+    char *text = NULL, *at;
+    size_t size;
+    if (!read_beside(obj_path, name, TEXT_LIMIT, &text, &size)) {
+        note(looks, name);
+        return;
+    }
+    for (lines.next = text; next_line(&lines);) {
+        if ((at = behind(&lines, "newmtl"))) current = builder_material(builder, name_at(at));
+        if (current != LOOKS_NONE) read_member(obj_path, &lines, looks, &looks->materials[current]);
+    }
+    free(text);
+}
+
+// --- surfaces
+
 struct reader {
     const char *path;
-    const char *text;
-    long size;
-    char *next, *line;
-    int number; ///< of the line, from 1
+    struct lines lines;
     struct surface *surface;
     struct surface_builder builder;
     struct error *error;
@@ -27,33 +167,10 @@ struct reader {
 static bool expected(const struct reader *r, const char *what, const char *got)
 {
     int shown = (int)strcspn(got, " \t\r");
-    if (shown == 0) return fail(r->error, ERROR_INPUT, "%s:%d: expected %s, got nothing", r->path, r->number, what);
+    if (shown == 0)
+        return fail(r->error, ERROR_INPUT, "%s:%d: expected %s, got nothing", r->path, r->lines.number, what);
     if (shown > SHOWN_MAX) shown = SHOWN_MAX;
-    return fail(r->error, ERROR_INPUT, "%s:%d: expected %s, got '%.*s'", r->path, r->number, what, shown, got);
-}
-
-static char *skip_space(char *at) { return at + strspn(at, " \t\r"); }
-
-/// Cuts the next line off, joining lines that end in a backslash; false at the end of the text.
-static bool next_line(struct reader *r)
-{
-    if (!*r->next) return false;
-    r->line = r->next;
-    r->number++;
-    for (char *end = r->line;; end++) {
-        end += strcspn(end, "\n");
-        r->next = *end ? end + 1 : end;
-        char *last = end > r->line && end[-1] == '\r' ? end - 1 : end;
-        bool joined = *end && last > r->line && last[-1] == '\\';
-        if (!joined) {
-            *end = '\0';
-            break;
-        }
-        memset(last - 1, ' ', (size_t)(end - last) + 2);
-        r->number++;
-    }
-    r->line[strcspn(r->line, "#")] = '\0';
-    return true;
+    return fail(r->error, ERROR_INPUT, "%s:%d: expected %s, got '%.*s'", r->path, r->lines.number, what, shown, got);
 }
 
 /// Up to `count` numbers; returns how many there are before the end of the line, -1 if a word is not a number.
@@ -84,7 +201,7 @@ static bool read_vertex(struct reader *r, char *at)
     if (count < 6) return true;
     const double *wrong = builder_wrong_color(numbers + 3);
     if (wrong)
-        return fail(r->error, ERROR_INPUT, "%s:%d: expected a colour from 0 to 1, got %g", r->path, r->number,
+        return fail(r->error, ERROR_INPUT, "%s:%d: expected a colour from 0 to 1, got %g", r->path, r->lines.number,
                     *wrong);
     builder_color(&r->builder, numbers + 3);
     return true;
@@ -130,39 +247,33 @@ static bool read_corner(struct reader *r, char **at)
 /// f a b c d … as the fan abc, acd, …
 static bool read_face(struct reader *r, char *at)
 {
-    for (at = skip_space(at); *at;) {
+    while (*at) {
         if (!read_corner(r, &at)) return false;
     }
     const int count = builder_end_polygon(&r->builder);
     if (count < 3)
         return fail(r->error, ERROR_INPUT, "%s:%d: expected a face of three corners or more, got %d", r->path,
-                    r->number, count);
+                    r->lines.number, count);
     return true;
 }
 
-/// The rest of a line: a name, which may have spaces.
-static char *name_at(char *at)
+static bool read_line(struct reader *r)
 {
-    at = skip_space(at);
-    size_t length = strlen(at);
-    while (length > 0 && strchr(" \t\r", at[length - 1])) at[--length] = '\0';
-    return at;
+    const struct lines *l = &r->lines;
+    char *at;
+    if ((at = behind(l, "v"))) return read_vertex(r, at);
+    if ((at = behind(l, "vt"))) return read_uv(r, at);
+    if ((at = behind(l, "f"))) return read_face(r, at);
+    if ((at = behind(l, "usemtl"))) r->builder.material = builder_material(&r->builder, name_at(at));
+    if ((at = behind(l, "mtllib"))) read_materials(r->path, name_at(at), &r->builder);
+    return true;
 }
 
-static bool read_lines(struct reader *r)
+static bool read_lines(struct reader *r, const char *text, long size)
 {
-    while (next_line(r)) {
-        if (r->number % TELLING == 0) stage_tell("reading the mesh", r->next - r->text, r->size);
-        char *word = skip_space(r->line);
-        const size_t length = strcspn(word, " \t\r");
-        bool good = true;
-        if (length == 1 && *word == 'v') good = read_vertex(r, word + 1);
-        if (length == 2 && strncmp(word, "vt", 2) == 0) good = read_uv(r, word + 2);
-        if (length == 1 && *word == 'f') good = read_face(r, word + 1);
-        if (length == 6 && strncmp(word, "usemtl", 6) == 0)
-            r->builder.material = builder_material(&r->builder, name_at(word + 6));
-        if (length == 6 && strncmp(word, "mtllib", 6) == 0) mtl_read(r->path, name_at(word + 6), &r->builder);
-        if (!good) return false;
+    while (next_line(&r->lines)) {
+        if (r->lines.number % TELLING == 0) stage_tell("reading the mesh", r->lines.next - text, size);
+        if (!read_line(r)) return false;
     }
     return true;
 }
@@ -173,14 +284,111 @@ bool obj_read(const char *path, struct surface *surface, struct error *error)
     size_t size;
     *surface = (struct surface){0};
     if (!file_read(path, FILE_LIMIT, &text, &size, error)) return false;
-    struct reader reader = {
-        .path = path, .text = text, .size = (long)size, .next = text, .surface = surface, .error = error};
-    reader.builder = (struct surface_builder){.surface = surface, .material = LOOKS_NONE};
+    struct reader reader = {.path = path,
+                            .lines = {.next = text, .joins = true},
+                            .surface = surface,
+                            .builder = {.surface = surface, .material = LOOKS_NONE},
+                            .error = error};
     bool done = strlen(text) == size
-                    ? read_lines(&reader)
+                    ? read_lines(&reader, text, (long)size)
                     : fail(error, ERROR_INPUT, "%s: expected the text of an OBJ file, got binary data", path);
     free(text);
     if (done) return builder_finish(&reader.builder, path, "an OBJ file", error);
     surface_free(surface);
     return false;
+}
+
+// --- writing
+
+/// A backslash at the end of a line would join it to the next one.
+static void write_use(FILE *out, const char *name)
+{
+    const size_t length = strlen(name);
+    fprintf(out, "usemtl %s%s\n", name, length > 0 && name[length - 1] == '\\' ? " " : "");
+}
+
+/// "folder/up.rest.obj" → "folder/up.rest" and the ending; false where that is too long.
+static bool name_beside(const char *obj_path, const char *ending, char path[PATH_LIMIT])
+{
+    const int stem = (int)strlen(obj_path) - (path_has_end(obj_path, ".obj") ? 4 : 0);
+    return snprintf(path, PATH_LIMIT, "%.*s%s", stem, obj_path, ending) < PATH_LIMIT;
+}
+
+static bool write_materials(FILE *out, const char *obj_path, const struct looks *looks, struct error *error)
+{
+    for (int m = 0; m < looks->material_count; m++) {
+        const struct looks_material *material = &looks->materials[m];
+        const float *c = material->color;
+        fprintf(out, "newmtl %s\nKd %.9g %.9g %.9g\nd %.9g\n", material->name, (double)c[0], (double)c[1],
+                (double)c[2], (double)c[3]);
+        if (!material->image) continue;
+        char ending[32], path[PATH_LIMIT];
+        const char *kind = looks_image_kind(material->image, material->image_size);
+        snprintf(ending, sizeof ending, "-%d.%s", m + 1, kind && *kind == 'j' ? "jpg" : "png");
+        if (!name_beside(obj_path, ending, path))
+            return fail(error, ERROR_INPUT, "%s: the name is too long", obj_path);
+        if (!file_write_atomic(path, material->image, material->image_size, error)) return false;
+        fprintf(out, "map_Kd %s\n", path_name(path));
+    }
+    return true;
+}
+
+/// Writes the materials, and their pictures, beside an OBJ file; `name` is what the OBJ file calls them.
+static bool write_library(const char *obj_path, const struct looks *looks, char name[LIBRARY_NAME],
+                          struct error *error)
+{
+    char path[PATH_LIMIT];
+    struct file_output output;
+    if (!name_beside(obj_path, ".mtl", path) || snprintf(name, LIBRARY_NAME, "%s", path_name(path)) >= LIBRARY_NAME)
+        return fail(error, ERROR_INPUT, "%s: the name is too long", obj_path);
+    if (!file_output_open(&output, path, error)) return false;
+    if (write_materials(output.stream, obj_path, looks, error)) return file_output_commit(&output, error);
+    file_output_discard(&output);
+    return false;
+}
+static void write_vertices(FILE *out, const struct surface *s)
+{
+    for (int i = 0; i < s->vertex_count; i++) {
+        const float *p = s->position[i];
+        fprintf(out, "v %.9g %.9g %.9g", (double)p[0], (double)p[1], (double)p[2]);
+        for (int k = 0; s->color && k < 3; k++) fprintf(out, " %.9g", (double)srgb_from_linear(s->color[i][k]));
+        fputc('\n', out);
+    }
+    for (int i = 0; i < s->looks.uv_count; i++)
+        fprintf(out, "vt %.9g %.9g\n", (double)s->looks.uv[i][0], 1 - (double)s->looks.uv[i][1]);
+}
+
+static void write_corner(FILE *out, const struct surface *s, int index)
+{
+    fprintf(out, " %u", s->indices[index] + 1);
+    if (s->looks.corner && s->looks.corner[index] != LOOKS_NONE) fprintf(out, "/%u", s->looks.corner[index] + 1);
+}
+
+/// A polygon is a fan: each triangle that goes on with it adds its last corner.
+static void write_faces(FILE *out, const struct surface *s)
+{
+    const struct looks *looks = &s->looks;
+    uint32_t material = LOOKS_NONE;
+    for (int i = 0; i + 2 < s->index_count; i += 3) {
+        const uint32_t own = looks->material ? looks->material[i / 3] : LOOKS_NONE;
+        if (own != material && own != LOOKS_NONE) write_use(out, looks->materials[own].name);
+        material = own;
+        fputs("f", out);
+        for (int k = 0; k < 3; k++) write_corner(out, s, i + k);
+        for (; looks->joined && i + 5 < s->index_count && looks->joined[i / 3 + 1]; i += 3)
+            write_corner(out, s, i + 5);
+        fputc('\n', out);
+    }
+}
+
+bool obj_write(const char *path, const struct surface *surface, struct error *error)
+{
+    struct file_output output;
+    char library[LIBRARY_NAME];
+    if (surface->looks.material && !write_library(path, &surface->looks, library, error)) return false;
+    if (!file_output_open(&output, path, error)) return false;
+    if (surface->looks.material) fprintf(output.stream, "mtllib %s\n", library);
+    write_vertices(output.stream, surface);
+    write_faces(output.stream, surface);
+    return file_output_commit(&output, error);
 }

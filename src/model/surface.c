@@ -2,7 +2,6 @@
 #include "model/surface.h"
 #include "base/file.h"
 #include "base/need.h"
-#include "model/obj.h"
 #include "model/surface_readers.h"
 #include <math.h>
 #include <stdlib.h>
@@ -79,6 +78,12 @@ bool looks_show(const struct looks *looks)
         if (looks->materials[m].image || c[0] != 1 || c[1] != 1 || c[2] != 1 || c[3] != 1) return true;
     }
     return false;
+}
+
+const char *looks_image_kind(const unsigned char *bytes, size_t size)
+{
+    if (size > 8 && memcmp(bytes, "\x89PNG\r\n\x1a\n", 8) == 0) return "png";
+    return size > 3 && memcmp(bytes, "\xFF\xD8\xFF", 3) == 0 ? "jpeg" : NULL;
 }
 
 size_t looks_image_bytes(const struct looks *looks)

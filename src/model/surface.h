@@ -54,6 +54,16 @@ static inline bool triangle_repeats(const uint32_t corner[3])
 /// appearance. Errors name the file, the place in it, what was expected and what was found. Memory is bounded by the file's size.
 bool surface_read(const char *path, struct surface *surface, struct error *error);
 
+/// Reads an OBJ file. Vertices keep the file's order and number, which is what simulations refer to. Polygons become fans
+/// of triangles; of materials names, Kd, d and map_Kd (PNG, JPEG) are read; normals, groups and lines are ignored. Colours after a
+/// position (`v x y z r g b`) are sRGB in the file, as Blender writes them; a vertex without one is white if others have one.
+/// Errors say "file:line: expected …, got …".
+bool obj_read(const char *path, struct surface *surface, struct error *error);
+
+/// Writes positions, colours, texture coordinates and polygons with 9 digits, so that they read back equal (colours but for a float's
+/// last bit), and where there are materials NAME.mtl and their pictures NAME-1.png … beside it. Atomic, like file_output_commit().
+bool obj_write(const char *path, const struct surface *surface, struct error *error);
+
 /// Per vertex, 1 where some triangle has it; the caller frees it.
 uint8_t *surface_used_vertices(const struct surface *surface);
 
@@ -68,6 +78,9 @@ bool looks_show(const struct looks *looks);
 
 /// Leaves out which materials triangles have where none has one, and polygons where all are triangles.
 void looks_drop_unused(struct looks *looks, int triangles);
+
+/// "png" or "jpeg" by a picture's first bytes, or NULL.
+const char *looks_image_kind(const unsigned char *bytes, size_t size);
 
 /// Bytes of all its pictures.
 size_t looks_image_bytes(const struct looks *looks);

@@ -1,5 +1,4 @@
-/// What the readers of surfaces share: the surface that grows while they read, the words of text files, the materials of OBJ files; and
-/// the readers. Private to src/model.
+/// What the readers of surfaces share: the surface that grows while they read, the words of text files; and the readers. Private to src/model.
 #ifndef MODEL_SURFACE_READERS_H
 #define MODEL_SURFACE_READERS_H
 
@@ -68,20 +67,6 @@ bool words_integer(struct words *words, const char *what, long least, long most,
 
 /// "file:line: expected …, got …"
 bool words_expected(struct words *words, const char *what);
-
-// The materials of OBJ files.
-
-enum { MTL_NAME = 256 };
-
-/// Adds the materials of a file named from the folder of an OBJ file: newmtl, Kd, d, Tr, map_Kd. A file that cannot be read, or a picture
-/// that is neither PNG nor JPEG, is left out and noted in the looks.
-void mtl_read(const char *obj_path, const char *name, struct surface_builder *builder);
-
-/// Writes the materials, and their pictures, beside an OBJ file; `name` is what the OBJ file calls them.
-bool mtl_write(const char *obj_path, const struct looks *looks, char name[MTL_NAME], struct error *error);
-
-/// "png" or "jpeg" by a picture's first bytes, or NULL.
-const char *looks_image_kind(const unsigned char *bytes, size_t size);
 
 // The readers of single formats, for surface_read().
 

@@ -3,7 +3,7 @@
 #define SIMULATION_REGION_H
 
 #include "base/error.h"
-#include "model/obj.h"
+#include "model/surface.h"
 #include "simulation/lattice.h"
 #include <stdbool.h>
 #include <stdint.h>

@@ -5,7 +5,7 @@
 #define SIMULATION_SOFTNESS_H
 
 #include "base/error.h"
-#include "model/obj.h"
+#include "model/surface.h"
 #include "simulation/body.h"
 #include "simulation/lattice.h"
 

@@ -1,5 +1,5 @@
 /// OBJ surfaces: what one load and save gives, the next one gives again; colours, which are encoded anew, nearly.
-#include "model/obj.h"
+#include "model/surface.h"
 #include "surface.h"
 #include <stdlib.h>
 
