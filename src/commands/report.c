@@ -1,7 +1,7 @@
 /// Puts what a solution misses into words, and prints what a glTF character holds.
 #include "commands/report.h"
 #include "base/error.h"
-#include "rig/bones.h"
+#include "rig/imported.h"
 #include "scene/pins.h"
 #include <math.h>
 #include <stdio.h>

@@ -1,7 +1,7 @@
 /// An imported character as a form: its vertices, and its moving nodes as joints. All in the space of its file.
 #include "base/need.h"
 #include "export/form.h"
-#include "rig/bones.h"
+#include "rig/imported.h"
 #include <stdlib.h>
 #include <string.h>
 

@@ -1,4 +1,4 @@
-/// Moves the parts of the fox's body.
+/// Moves the parts of the fox's body, and measures it with its tail.
 #include "model/limbs.h"
 #include "model/fox.h"
 #include "model/vector.h"
@@ -116,5 +116,23 @@ void limbs_bounds(const struct limbs *limbs, float lo[3], float hi[3])
         const float wider = fmaxf(limbs->breath, 0.0f) * LIMBS_CHEST_RADIUS, reach = still ? 0.0f : HEAD_RADIUS;
         lo[k] = size.raw[k] * fminf(fox_body_lo[k] - wider, joint[k] - reach);
         hi[k] = size.raw[k] * fmaxf(fox_body_hi[k] + wider, joint[k] + reach);
+    }
+}
+
+void pose_bounds(const struct pose *pose, float lo[3], float hi[3])
+{
+    const float scale = pose->scale;
+    limbs_bounds(&pose->limbs, lo, hi);
+    for (int k = 0; k < 3; k++) {
+        lo[k] = pose->matrix[0][12 + k] + scale * lo[k];
+        hi[k] = pose->matrix[0][12 + k] + scale * hi[k];
+    }
+    for (int n = 0; n < pose->count; n++) {
+        const float along = FOX_TAIL_LENGTH * (float)n / (float)(pose->count - 1);
+        const float radius = scale * fox_tail_radius(along);
+        for (int k = 0; k < 3; k++) {
+            lo[k] = fminf(lo[k], pose->matrix[n][12 + k] - radius);
+            hi[k] = fmaxf(hi[k], pose->matrix[n][12 + k] + radius);
+        }
     }
 }

@@ -2,7 +2,6 @@
 #ifndef RIG_CHAIN_MAKE_H
 #define RIG_CHAIN_MAKE_H
 
-#include "rig/bones.h"
 #include "rig/models.h"
 #include "scene/document.h"
 

@@ -6,6 +6,7 @@
 #define RIG_IMPORTED_H
 
 #include "model/gltf.h"
+#include "scene/channel.h"
 
 /// From a node to a child that is a bone too; where there is none, on to a tip.
 struct bone {
@@ -35,5 +36,19 @@ void imported_free(struct imported *imported);
 
 /// Where a bone begins and ends in a pose, in the character's space.
 void skeleton_ends(const struct bone *bone, const struct gltf_pose *pose, float ends[2][3]);
+
+// --- bones of a chain
+
+struct chain_bones {
+    int count;
+    int node[ANGLES_MAX_JOINTS]; ///< each the parent of the next
+};
+
+/// The bones from one to another below it, both by name. false with a sentence.
+bool chain_find(const struct gltf *gltf, const char *from, const char *to, struct chain_bones *bones,
+                struct error *error);
+
+/// The bone at the end of the only way down from `from`; −1 with a sentence where the way branches, or is too long.
+int chain_end(const struct gltf *gltf, int from, struct error *error);
 
 #endif

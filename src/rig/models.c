@@ -3,7 +3,6 @@
 #include "base/file.h"
 #include "base/need.h"
 #include "model/fox.h"
-#include "rig/bones.h"
 #include "rig/model_files.h"
 #include <stdio.h>
 #include <stdlib.h>

@@ -11,7 +11,7 @@ struct pinning_functions {
     void (*weigh)(const struct posing *posing, int rig, const int *splines, int count, double *weights);
 };
 
-extern const struct pinning_functions strand_pinning, character_pinning;
+extern const struct pinning_functions strand_pinning;
 
 struct posing_functions {
     /// `values` are those of the rig's inputs; the rest of `pose` is filled in. false if its model is missing.

@@ -6,7 +6,6 @@
 #ifndef RIG_STRAND_H
 #define RIG_STRAND_H
 
-#include "rig/bones.h"
 #include "rig/posing.h"
 
 /// Unit axes in the character's space. `along`: from the first bone to the tip at rest. `side`: world up made perpendicular to it (for a

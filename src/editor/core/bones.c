@@ -1,9 +1,9 @@
 /// The selected bone of an imported character, chains of its bones, and what follows it.
 #include "editor/core/bones.h"
 #include "editor/core/core.h"
-#include "rig/bones.h"
 #include "rig/chain_make.h"
 #include "rig/import.h"
+#include "rig/imported.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>

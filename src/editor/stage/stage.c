@@ -355,7 +355,7 @@ static struct hover hover_at(struct stage *stage, const struct core *core, doubl
     float nearest = STRAND_REACH;
     for (int s = 0; s < stage->strand_count; s++) {
         const int rig = stage->strands[s].rig;
-        struct strand strand;
+        struct shown_strand strand;
         if (!strand_pose(stage, core, rig, position, NULL, &strand)) continue;
         strand_nearer(stage, core, &strand, (const float[2]){x, y}, &nearest, &joint);
     }

@@ -31,7 +31,7 @@ struct tail_drag_axis {
 enum { STAGE_MAX_STRANDS = 32, STAGE_MAX_BONES = 2048, STAGE_MAX_PINS = SCENE_MAX_PINS };
 
 /// A tail or chain as a row of points, from its first joint to its tip.
-struct strand {
+struct shown_strand {
     int rig; ///< in the document
     bool is_chain;
     int count;
@@ -202,8 +202,8 @@ struct stage {
     struct stage_view view;
     struct meadow_view meadow;
     struct camera camera;
-    struct rect figure;                       ///< see stage_figure(); from the middle of the stage, in heights of it
-    struct strand strands[STAGE_MAX_STRANDS]; ///< shown
+    struct rect figure; ///< see stage_figure(); from the middle of the stage, in heights of it
+    struct shown_strand strands[STAGE_MAX_STRANDS]; ///< shown
     int strand_count;
     struct shown_bone bones[STAGE_MAX_BONES];
     int bone_count;

@@ -34,8 +34,8 @@ static const struct channel *channel_for(const struct core *core, const struct r
     return found;
 }
 
-static struct tail_drag_axis axis_for(const struct core *core, const struct rig *rig, const struct strand *strand,
-                                      int joint, enum axis axis)
+static struct tail_drag_axis axis_for(const struct core *core, const struct rig *rig,
+                                      const struct shown_strand *strand, int joint, enum axis axis)
 {
     const struct channel *channel = channel_for(core, rig, axis);
     const int joints = strand->count - 1;
@@ -85,7 +85,7 @@ static void derivative(const struct stage *stage, const struct core *core, const
                        const float at[2], double response[2])
 {
     const struct tail_drag *grab = &stage->tail_drag;
-    struct strand strand;
+    struct shown_strand strand;
     float moved[2] = {at[0], at[1]};
     double change = PROBE * axis->values_per_radian;
     const struct what_if what_if = {axis->spline, change, change * axis->turn};
@@ -152,7 +152,7 @@ static void apply(void *room, struct core *core)
     const struct drag *drag = &core->drag;
     if (!grab->axis[AXIS_SIDE].active && !grab->axis[AXIS_UP].active) return;
     if (!tail_drag_holds(core->document, grab->rig, grab->joint)) return;
-    struct strand strand;
+    struct shown_strand strand;
     float at[2];
     if (!strand_pose(stage, core, grab->rig, core->playback.position, NULL, &strand)) return;
     if (!strand_project(stage, core, &strand, grab->joint, grab->fraction, at)) return;
@@ -194,7 +194,7 @@ void tail_drag_begin(struct stage *stage, struct core *core, const struct hover 
 {
     const struct rig *rig = core->document->rigs[hover->rig];
     struct tail_drag *grab = &stage->tail_drag;
-    struct strand strand;
+    struct shown_strand strand;
     drag_begin(core, &owner, stage, rig->kind == RIG_CHAIN ? "Pull chain" : "Pull tail", event);
     *grab = (struct tail_drag){.rig = hover->rig, .joint = hover->joint, .fraction = hover->fraction};
     if (!strand_pose(stage, core, grab->rig, core->playback.position, NULL, &strand)) return;

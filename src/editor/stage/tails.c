@@ -84,7 +84,7 @@ static void chain_pose(struct stage *stage, const struct core *core, int rig, in
 
 const struct stage_kind chain_stage = {.pose = chain_pose};
 
-static void take_points(const struct rig_pose *pose, int rig, struct strand *strand)
+static void take_points(const struct rig_pose *pose, int rig, struct shown_strand *strand)
 {
     strand->rig = rig;
     strand->is_chain = pose->kind == RIG_CHAIN;
@@ -98,7 +98,7 @@ void strand_add(struct stage *stage, int rig, const struct rig_pose *pose)
     if (stage->strand_count < STAGE_MAX_STRANDS) take_points(pose, rig, &stage->strands[stage->strand_count++]);
 }
 
-const struct strand *strand_of(const struct stage *stage, int rig)
+const struct shown_strand *strand_of(const struct stage *stage, int rig)
 {
     for (int s = 0; s < stage->strand_count; s++) {
         if (stage->strands[s].rig == rig) return &stage->strands[s];
@@ -107,7 +107,7 @@ const struct strand *strand_of(const struct stage *stage, int rig)
 }
 
 bool strand_pose(const struct stage *stage, const struct core *core, int rig, double position,
-                 const struct what_if *change, struct strand *strand)
+                 const struct what_if *change, struct shown_strand *strand)
 {
     const struct document *document = core->document;
     struct rig_pose pose;
@@ -118,7 +118,7 @@ bool strand_pose(const struct stage *stage, const struct core *core, int rig, do
     return true;
 }
 
-bool strand_project(const struct stage *stage, const struct core *core, const struct strand *strand, int joint,
+bool strand_project(const struct stage *stage, const struct core *core, const struct shown_strand *strand, int joint,
                     double fraction, float xy[2])
 {
     assert(joint >= 0 && joint < strand->count);
@@ -131,12 +131,12 @@ bool strand_project(const struct stage *stage, const struct core *core, const st
 bool stage_project(const struct stage *stage, const struct core *core, int rig, int joint, double fraction,
                    float xy[2])
 {
-    const struct strand *strand = strand_of(stage, rig);
+    const struct shown_strand *strand = strand_of(stage, rig);
     return strand && joint < strand->count && strand_project(stage, core, strand, joint, fraction, xy);
 }
 
-void strand_nearer(const struct stage *stage, const struct core *core, const struct strand *strand, const float p[2],
-                   float *nearest, struct hover *hover)
+void strand_nearer(const struct stage *stage, const struct core *core, const struct shown_strand *strand,
+                   const float p[2], float *nearest, struct hover *hover)
 {
     for (int n = 0; n + 1 < strand->count; n++) {
         float a[2], b[2];
@@ -156,7 +156,7 @@ struct hover strand_hover(const struct stage *stage, const struct core *core, fl
     struct hover hover = {.kind = HOVER_NONE};
     float nearest = STRAND_REACH;
     for (int s = 0; s < stage->strand_count; s++) {
-        const struct strand *strand = &stage->strands[s];
+        const struct shown_strand *strand = &stage->strands[s];
         if (!strand->is_chain) strand_nearer(stage, core, strand, (const float[2]){x, y}, &nearest, &hover);
     }
     return hover;
@@ -165,7 +165,7 @@ struct hover strand_hover(const struct stage *stage, const struct core *core, fl
 struct hover strand_end(const struct stage *stage, const struct core *core, const struct hover *between)
 {
     struct hover hover = {.kind = HOVER_POINT, .rig = between->rig};
-    const struct strand *strand = strand_of(stage, hover.rig);
+    const struct shown_strand *strand = strand_of(stage, hover.rig);
     float xy[2];
     hover.joint = (int)round(between->joint + between->fraction) - 1;
     if (hover.joint < 0) hover.joint = 0;
