@@ -173,6 +173,7 @@ void strand_turned_axes(const struct strand *strand, const wiggly_value *values,
     strand_axes(strand, joint, axis);
     strand_angles(strand, values, LOOK_WIGGLY, joint, angle);
     for (int a = 1; a < 3; a++) {
+        if (angle[a] == 0.0) continue;
         const double *about = axis[a], c = cos(angle[a]), s = -sin(angle[a]);
         for (int before = 0; before < a; before++) {
             double *v = axis[before], across[3];
