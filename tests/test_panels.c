@@ -111,7 +111,7 @@ static void check_dialogs(struct session *f)
     assert_true(core_begin(core, "Change start", 0));
     assert_true(core_end(core, core_set_parameter(core, 0, PARAMETER_START, WIGGLY_REST)));
     for (int kind = 0; kind < 4; kind++) {
-        if (kind == 0) dialog_ask_open(f->editor->dialogs);
+        if (kind == 0) dialog_open(f->editor->dialogs, DIALOG_OPEN, "");
         if (kind == 1) dialogs_save_as(f->editor->dialogs, &f->editor->core);
         if (kind == 2) dialogs_leave(f->editor->dialogs, &f->editor->core, &quit);
         if (kind == 3)

@@ -114,18 +114,10 @@ void editor_let_go(struct editor *editor)
     inspector_let_go(editor->inspector);
 }
 
-/// Asks about an edit that core wants confirmed.
+/// Asks what core wants answered. When something opens over the panels, ends any drag and lets go of held keys.
 static void ask(struct editor *editor)
 {
-    if (editor->core.ask.kind == ASK_NOTHING) return;
-    dialogs_ask(editor->dialogs, &editor->core, &editor->core.ask);
-    editor->core.ask.kind = ASK_NOTHING;
-    inspector_let_go(editor->inspector);
-}
-
-/// When something opens over the panels, ends any drag and lets go of held keys.
-static void let_go(struct editor *editor)
-{
+    if (dialogs_ask(editor->dialogs, &editor->core)) inspector_let_go(editor->inspector);
     if (!dialogs_cover(editor->dialogs)) return;
     drag_end(&editor->core, true);
     editor->core.held_key = 0;
@@ -157,7 +149,6 @@ void editor_event(struct editor *editor, const struct event *event)
     if (!used) dispatch(editor, event);
     editor_settle(editor);
     ask(editor);
-    let_go(editor);
 }
 
 void editor_advance(struct editor *editor, double dt)

@@ -138,6 +138,13 @@ void core_request_number(struct core *core, enum request_kind kind, int number)
     core->request.number = number;
 }
 
+struct question *core_ask(struct core *core, const struct answer *answers, int count,
+                          void (*answered)(void *dialogs, struct core *core, int answer))
+{
+    core->question = (struct question){.answers = answers, .count = count, .answered = answered};
+    return &core->question;
+}
+
 void core_message(struct core *core, bool is_error, const char *text)
 {
     snprintf(core->message.text, sizeof core->message.text, "%s", text);

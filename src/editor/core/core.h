@@ -33,6 +33,9 @@ void core_jump(struct core *core, size_t done);
 void core_request(struct core *core, enum request_kind kind, const char *path);
 /// The same with a number.
 void core_request_number(struct core *core, enum request_kind kind, int number);
+/// A question of core's own, to be given its words: asked after the event.
+struct question *core_ask(struct core *core, const struct answer *answers, int count,
+                          void (*answered)(void *dialogs, struct core *core, int answer));
 /// Shows a sentence in the status line (an error until the next key or click, else for some seconds of `dt`).
 void core_message(struct core *core, bool is_error, const char *text);
 /// Puts a knot within the limits of its spline. Where one holds it, says so: "held by the limit 1.2 of sway at frame 14".

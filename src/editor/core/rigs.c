@@ -183,7 +183,8 @@ static void forget(struct removal *removal)
     free(removal->others);
 }
 
-int rigs_own_splines(const struct document *document, int rig, char *names, size_t size)
+/// The names of the splines that move nothing but this rig, comma separated; how many.
+static int own_splines(const struct document *document, int rig, char *names, size_t size)
 {
     struct removal removal;
     int count = 0;
@@ -236,7 +237,7 @@ static bool remove_splines(struct core *core, const struct removal *removal)
     return done;
 }
 
-void rigs_remove(struct core *core, int rig, bool with_splines)
+static void remove_rig(struct core *core, int rig, bool with_splines)
 {
     struct removal removal;
     if (rig < 0 || rig >= core->document->rig_count || history_is_open(core->history)) return;
@@ -248,14 +249,30 @@ void rigs_remove(struct core *core, int rig, bool with_splines)
     core_end(core, done);
 }
 
+static void answer_removal(void *dialogs, struct core *core, int answer)
+{
+    (void)dialogs;
+    remove_rig(core, core->subject.rig, answer == 0);
+}
+
 void rigs_ask_remove(struct core *core, int rig)
 {
-    char names[64];
+    static const struct answer answers[] = {
+        {"dialog.with", "With splines", 'W'}, {"dialog.keep", "Keep splines", 'K'}, {"dialog.cancel", "Cancel", 'C'}};
     if (rig < 0 || rig >= core->document->rig_count) {
         core_message(core, false, "There is nothing on the stage to remove.");
-    } else if (rigs_own_splines(core->document, rig, names, sizeof names) == 0) {
-        rigs_remove(core, rig, false);
-    } else {
-        core->ask = (struct ask){.kind = ASK_RIG, .rig = rig};
+        return;
     }
+    char names[160];
+    const int count = own_splines(core->document, rig, names, sizeof names);
+    if (count == 0) {
+        remove_rig(core, rig, false);
+        return;
+    }
+    struct question *question = core_ask(core, answers, 3, answer_removal);
+    core->subject.rig = rig;
+    snprintf(question->title, sizeof question->title, "Remove %.150s, with its spline%s or without?",
+             path_name(rig_title(core->document->rigs[rig])), count == 1 ? "" : "s");
+    snprintf(question->note, sizeof question->note, "Nothing else moves by %s. Kept, %s for what you add next.",
+             names, count == 1 ? "it stays" : "they stay");
 }

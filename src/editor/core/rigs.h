@@ -16,11 +16,8 @@ void rigs_add_tail(struct core *core);
 void rigs_add_meadow(struct core *core);
 /// One more like it beside all else, moved by the same splines; an imported character brings copies of its chains.
 void rigs_copy(struct core *core, int rig);
-/// Removes a rig, and the chains on it. Where splines move nothing else, asks whether they are to go too.
+/// Removes a rig, and the chains on it. Where splines move nothing else, asks whether they are to go too. What follows a joint of it keeps the
+/// value at the playhead.
 void rigs_ask_remove(struct core *core, int rig);
-/// Does it. What follows a joint of it keeps the value at the playhead.
-void rigs_remove(struct core *core, int rig, bool with_splines);
-/// The names of the splines that move nothing but this rig, comma separated; how many.
-int rigs_own_splines(const struct document *document, int rig, char *names, size_t size);
 
 #endif

@@ -1,11 +1,11 @@
 /// Adds, removes, reorders and retimes splines.
 #include "editor/core/spline_list.h"
 #include "editor/core/core.h"
-#include "editor/core/rigs.h"
 #include "editor/core/selection.h"
 #include "scene/order.h"
 #include "ui/theme.h"
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 
 uint32_t spline_list_color(const struct document *document, int spline)
@@ -136,8 +136,10 @@ static bool release(struct core *core, const struct reference *reference)
     return false;
 }
 
-static void spline_list_remove_now(struct core *core)
+static void remove_active(void *dialogs, struct core *core, int answer)
 {
+    (void)dialogs;
+    (void)answer;
     if (!core_active_spline(core) || !core_begin(core, "Delete spline", 0)) return;
     struct reference reference;
     bool good = true;
@@ -149,12 +151,20 @@ static void spline_list_remove_now(struct core *core)
 
 void spline_list_remove(struct core *core)
 {
-    if (!core_active_spline(core)) return;
-    if (reference_count(core->document, core->active) == 0) {
-        spline_list_remove_now(core);
+    static const struct answer answers[] = {{"dialog.delete", "Delete", 'D'}, {"dialog.cancel", "Cancel", 'C'}};
+    const struct spline *active = core_active_spline(core);
+    if (!active) return;
+    const int count = reference_count(core->document, core->active);
+    if (count == 0) {
+        remove_active(NULL, core, 0);
         return;
     }
-    core->ask = (struct ask){.kind = ASK_REMOVE};
+    struct question *question = core_ask(core, answers, 2, remove_active);
+    snprintf(question->title, sizeof question->title, "%.200s is used in %d place%s", active->name, count,
+             count == 1 ? "" : "s");
+    snprintf(question->note, sizeof question->note,
+             "Parameters that follow it keep their value at the playhead. Tails and characters on the "
+             "stage stop using it.");
 }
 
 static int knot_count(const struct document *document)
@@ -170,23 +180,40 @@ static void set_fps(struct core *core, double fps, bool keeps_seconds)
     core_end(core, edit_fps(core->document, fps, keeps_seconds, &core->error));
 }
 
+static void answer_fps(void *dialogs, struct core *core, int answer)
+{
+    (void)dialogs;
+    set_fps(core, core->subject.fps, answer == 1);
+}
+
+void spline_list_fps(struct core *core, double fps)
+{
+    static const struct answer answers[] = {{"dialog.frames", "Keep frames", 'F'},
+                                            {"dialog.seconds", "Keep seconds", 'S'},
+                                            {"dialog.cancel", "Cancel", 'C'}};
+    const double before = core->document->fps;
+    if (fps == before) return;
+    if (knot_count(core->document) == 0 || !(fps > 0 && fps <= SCENE_MAX_FPS)) {
+        set_fps(core, fps, false);
+        return;
+    }
+    struct question *question = core_ask(core, answers, 3, answer_fps);
+    core->subject.fps = fps;
+    snprintf(question->title, sizeof question->title, "%g frames per second instead of %g", fps, before);
+    snprintf(question->note, sizeof question->note,
+             "Keep frames: knots stay on their frames, and everything goes %s. Keep seconds: knots and range move to "
+             "new frames and the timing stays.",
+             fps > before ? "faster" : "slower");
+}
+
 static void set_range(struct core *core, int first, int last, enum range_fit fit)
 {
     if (!core_begin(core, "Set range", 0)) return;
     core_end(core, edit_range(core->document, first, last, fit, &core->error));
 }
 
-void spline_list_fps(struct core *core, double fps)
-{
-    if (fps == core->document->fps) return;
-    if (knot_count(core->document) == 0 || !(fps > 0 && fps <= SCENE_MAX_FPS)) {
-        set_fps(core, fps, false);
-    } else {
-        core->ask = (struct ask){.kind = ASK_FPS, .number = fps};
-    }
-}
-
-int spline_list_outside(const struct document *document, int first, int last)
+/// How many knots a range would leave outside.
+static int count_outside(const struct document *document, int first, int last)
 {
     struct document moved = *document;
     int count = 0;
@@ -203,34 +230,28 @@ int spline_list_outside(const struct document *document, int first, int last)
     return count;
 }
 
-void spline_list_range(struct core *core, int first, int last)
+static void answer_range(void *dialogs, struct core *core, int answer)
 {
-    bool possible = last >= first && last <= SCENE_MAX_FRAME && first >= -SCENE_MAX_FRAME &&
-                    (long long)last - first <= document_longest(core->document);
-    if (possible && spline_list_outside(core->document, first, last) > 0) {
-        core->ask = (struct ask){.kind = ASK_RANGE, .first = first, .last = last};
-    } else {
-        set_range(core, first, last, RANGE_REFUSE);
-    }
+    (void)dialogs;
+    set_range(core, core->subject.first, core->subject.last, answer == 0 ? RANGE_MOVE : RANGE_TRIM);
 }
 
-void spline_list_answer(struct core *core, const struct ask *ask, int answer)
+void spline_list_range(struct core *core, int first, int last)
 {
-    switch (ask->kind) {
-    case ASK_NOTHING:
-    case ASK_ADD:
-        break;
-    case ASK_RIG:
-        rigs_remove(core, ask->rig, answer == 0);
-        break;
-    case ASK_FPS:
-        set_fps(core, ask->number, answer == 1);
-        break;
-    case ASK_RANGE:
-        set_range(core, ask->first, ask->last, answer == 0 ? RANGE_MOVE : RANGE_TRIM);
-        break;
-    case ASK_REMOVE:
-        spline_list_remove_now(core);
-        break;
+    static const struct answer answers[] = {
+        {"dialog.move", "Move", 'M'}, {"dialog.trim", "Trim", 'T'}, {"dialog.cancel", "Cancel", 'C'}};
+    const bool possible = last >= first && last <= SCENE_MAX_FRAME && first >= -SCENE_MAX_FRAME &&
+                          (long long)last - first <= document_longest(core->document);
+    const int count = possible ? count_outside(core->document, first, last) : 0;
+    if (count == 0) {
+        set_range(core, first, last, RANGE_REFUSE);
+        return;
     }
+    struct question *question = core_ask(core, answers, 3, answer_range);
+    core->subject.first = first;
+    core->subject.last = last;
+    snprintf(question->title, sizeof question->title, "%d knot%s would fall outside frames %d to %d", count,
+             count == 1 ? "" : "s", first, last);
+    snprintf(question->note, sizeof question->note,
+             "Move shifts them to the nearest free frames inside. Trim deletes them.");
 }

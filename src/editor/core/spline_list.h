@@ -1,6 +1,6 @@
 /// What happens to the list of splines and to the scene's timing.
 ///
-/// Whatever loses or moves something that nobody asked to be moved is asked about first, through core's `ask`.
+/// Whatever loses or moves something that nobody asked to be moved is asked about first.
 #ifndef EDITOR_CORE_SPLINE_LIST_H
 #define EDITOR_CORE_SPLINE_LIST_H
 
@@ -26,11 +26,7 @@ double spline_list_present(const struct core *core, int spline, enum parameter p
 void spline_list_remove(struct core *core);
 /// Sets frames per second; asks whether knots keep their frames or their seconds, where there are any.
 void spline_list_fps(struct core *core, double fps);
-/// How many knots a range would leave outside.
-int spline_list_outside(const struct document *document, int first, int last);
 /// Sets the range; asks what becomes of knots that would lie outside.
 void spline_list_range(struct core *core, int first, int last);
-/// Does what was asked about as the answer to it says.
-void spline_list_answer(struct core *core, const struct ask *ask, int answer);
 
 #endif

@@ -111,6 +111,7 @@ struct selection {
 };
 
 struct drag_owner;
+struct core;
 
 /// The drag of the pointer that is running. Whose it is and what that does: drag.h.
 struct drag {
@@ -223,10 +224,24 @@ struct edited {
     int spline[CORE_MAX_EDITED];
 };
 
-/// What is asked about before: ASK_REMOVE is about the active spline, ASK_ADD asks for a file.
-struct ask {
-    enum { ASK_NOTHING, ASK_FPS, ASK_RANGE, ASK_REMOVE, ASK_RIG, ASK_ADD } kind;
-    double number;
+struct answer {
+    const char *name;  ///< of its button
+    const char *label; ///< on it
+    int key;           ///< letter that answers as well
+};
+
+/// A question that a dialog asks. The last answer is the one that changes nothing; Esc gives it.
+struct question {
+    char title[320];
+    char note[256]; ///< below it, unless the dialog has an error to show
+    const struct answer *answers;
+    int count;
+    void (*answered)(void *dialogs, struct core *core, int answer); ///< by another than the last
+};
+
+/// What core's question is about.
+struct subject {
+    double fps;
     int first, last;
     int rig;
 };
@@ -346,10 +361,11 @@ struct core {
     char path[PATH_LIMIT]; ///< of the document's own file, or ""
     struct message message;
     struct status status;
-    struct error error;     ///< of the last edit that failed, until core_settle()
-    bool unkept;            ///< unsaved work has no recovery file
-    bool unshown;           ///< something of the status line has changed since it was drawn
-    struct ask ask;         ///< what is to be asked next
+    struct error error;       ///< of the last edit that failed, until core_settle()
+    bool unkept;              ///< unsaved work has no recovery file
+    bool unshown;             ///< something of the status line has changed since it was drawn
+    struct question question; ///< what is to be asked next, before an edit; no answers: nothing
+    struct subject subject;
     char *clipboard;        ///< knots that were copied, as text; NULL at first
     struct request request; ///< the app carries it out after the event
     struct drawlist list;

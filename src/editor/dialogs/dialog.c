@@ -13,8 +13,7 @@ enum { LIST_ROWS = 8, BUTTON_WIDTH = 104 };
 
 static bool is_question(const struct dialog *dialog)
 {
-    return dialog->kind == DIALOG_UNSAVED || dialog->kind == DIALOG_RECOVER || dialog->kind == DIALOG_ASK ||
-           dialog->kind == DIALOG_CHANGED;
+    return dialog->kind >= DIALOG_UNSAVED && dialog->kind <= DIALOG_ASK;
 }
 
 static void list_folder(struct dialog *dialog, const char *folder)
@@ -54,7 +53,7 @@ static void dialog_match(struct dialog *dialog)
     }
 }
 
-static void open_dialog(struct dialogs *dialogs, enum dialog_kind kind, const char *path)
+void dialog_open(struct dialogs *dialogs, enum dialog_kind kind, const char *path)
 {
     struct dialog *dialog = &dialogs->dialog;
     dialog->kind = kind;
@@ -71,8 +70,6 @@ static void open_dialog(struct dialogs *dialogs, enum dialog_kind kind, const ch
     dialog_match(dialog);
 }
 
-void dialog_open(struct dialogs *dialogs, enum dialog_kind kind) { open_dialog(dialogs, kind, ""); }
-
 void dialog_close(struct dialogs *dialogs)
 {
     struct dialog *dialog = &dialogs->dialog;
@@ -81,33 +78,21 @@ void dialog_close(struct dialogs *dialogs)
     dialog->after.kind = REQUEST_NONE;
 }
 
-void dialog_ask_open(struct dialogs *dialogs) { open_dialog(dialogs, DIALOG_OPEN, ""); }
-
 void dialogs_save_as(struct dialogs *dialogs, const struct core *core)
 {
     size_t length = strlen(core->title);
     bool named = length > 5 && strcmp(core->title + length - 5, ".json") == 0;
     const char *name = named ? core->title : "untitled.json";
-    open_dialog(dialogs, DIALOG_SAVE_AS, core->path[0] ? core->path : name);
+    dialog_open(dialogs, DIALOG_SAVE_AS, core->path[0] ? core->path : name);
 }
 
-static void go_on(struct dialogs *dialogs, struct core *core, const struct request *after)
+void dialog_go_on(struct dialogs *dialogs, struct core *core, const struct request *after)
 {
     if (after->kind == REQUEST_OPEN && !after->path[0]) {
-        dialog_ask_open(dialogs);
+        dialog_open(dialogs, DIALOG_OPEN, "");
     } else if (after->kind != REQUEST_NONE) {
         core_request(core, after->kind, after->path);
     }
-}
-
-void dialogs_leave(struct dialogs *dialogs, struct core *core, const struct request *after)
-{
-    if (history_is_saved(core->history)) {
-        go_on(dialogs, core, after);
-        return;
-    }
-    dialog_ask_unsaved(dialogs, core);
-    dialogs->dialog.after = *after;
 }
 
 void dialog_await(struct dialogs *dialogs, struct core *core, enum request_kind kind, const char *path)
@@ -126,25 +111,11 @@ bool dialogs_answer(struct dialogs *dialogs, struct core *core, const struct req
     if (ok) {
         struct request after = dialog->after;
         dialog_close(dialogs);
-        go_on(dialogs, core, &after);
+        dialog_go_on(dialogs, core, &after);
     } else {
         snprintf(dialog->error, sizeof dialog->error, "%s", text);
     }
     return true;
-}
-
-static void decide(struct dialogs *dialogs, struct core *core, int choice)
-{
-    struct dialog *dialog = &dialogs->dialog;
-    struct request after = dialog->after;
-    if (choice == UNSAVED_SAVE && core->path[0]) {
-        dialog_await(dialogs, core, REQUEST_SAVE, NULL);
-    } else if (choice == UNSAVED_SAVE) {
-        dialogs_save_as(dialogs, core);
-    } else {
-        dialog_close(dialogs);
-        if (choice == UNSAVED_DISCARD) go_on(dialogs, core, &after);
-    }
 }
 
 static bool ends_with(const char *text, const char *end)
@@ -179,16 +150,12 @@ static void confirm(struct dialogs *dialogs, struct core *core)
 
 static void answer(struct dialogs *dialogs, struct core *core, int given)
 {
+    const struct dialog *dialog = &dialogs->dialog;
+    void (*const answered)(void *, struct core *, int) = dialog->question.answered;
+    const bool changes = given + 1 < dialog->question.count;
     if (given < 0) return;
-    if (dialogs->dialog.kind == DIALOG_ASK) {
-        dialog_ask_answer(dialogs, core, given);
-    } else if (dialogs->dialog.kind == DIALOG_UNSAVED) {
-        decide(dialogs, core, given);
-    } else if (dialogs->dialog.kind == DIALOG_CHANGED) {
-        dialog_changed_answer(dialogs, core, given);
-    } else {
-        dialog_recover_answer(dialogs, core, given);
-    }
+    if (!changes || dialog->kind == DIALOG_ASK) dialog_close(dialogs);
+    if (changes) answered(dialogs, core, given);
 }
 
 /// A letter that answers brings its character along, which is no part of a path that is typed next.

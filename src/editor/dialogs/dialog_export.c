@@ -108,7 +108,7 @@ void dialogs_export(struct dialogs *dialogs, const struct core *core)
         wish->first = document->first_frame;
         wish->last = document->last_frame;
     }
-    dialog_open(dialogs, DIALOG_EXPORT);
+    dialog_open(dialogs, DIALOG_EXPORT, "");
     dialogs->dialog.ui.focus = ui_id(path_field);
 }
 

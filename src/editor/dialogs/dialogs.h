@@ -77,8 +77,8 @@ bool dialogs_answer(struct dialogs *dialogs, struct core *core, const struct req
                     const char *text);
 /// Draws the help and the dialog.
 void dialogs_show(struct dialogs *dialogs, struct core *core);
-/// Asks before an edit.
-void dialogs_ask(struct dialogs *dialogs, const struct core *core, const struct ask *ask);
+/// Asks core's question, or which file REQUEST_ADD is about; false where there is nothing to ask.
+bool dialogs_ask(struct dialogs *dialogs, struct core *core);
 /// Somebody else has written the document's file, of that name: asks whether to keep mine, take theirs or save under
 /// another name. `saving`: the user has just asked to save, and that request needs no other answer. false where something else
 /// lies over the panels, or a drag goes on.

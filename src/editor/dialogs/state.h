@@ -24,27 +24,12 @@ enum dialog_kind {
 
 enum { DIALOG_MAX_NAMES = 256, DIALOG_NAME_SIZE = 256, DIALOG_ERROR_SIZE = 400 };
 
-struct answer {
-    const char *name;  ///< of its button
-    const char *label; ///< on it
-    int key;           ///< letter that answers as well
-};
-
-/// The last answer is the one that changes nothing; Esc gives it. The dialog's `choice` is the one Enter gives.
-struct question {
-    char title[320];
-    char note[256]; ///< below it, unless the dialog has an error to show
-    const struct answer *answers;
-    int count;
-};
-
 /// The dialog on the screen; zero is a valid start (none, no access to folders).
 struct dialog {
     enum dialog_kind kind;
     struct ui ui; ///< its text is the path
     struct dialog_files files;
-    struct ask ask; ///< of DIALOG_ASK
-    struct question question;
+    struct question question;  ///< its `choice` is the one that Enter gives
     struct request after;      ///< what to do once the work is saved or discarded; REQUEST_NONE: nothing
     enum request_kind awaited; ///< what was requested and is not answered yet; REQUEST_NONE: nothing
     bool saving;               ///< DIALOG_CHANGED: the user has asked to save
@@ -95,12 +80,12 @@ struct dialogs {
     struct rect card;  ///< where it is
 };
 
-/// Shows a dialog that has no text.
-void dialog_open(struct dialogs *dialogs, enum dialog_kind kind);
+/// Shows a dialog with a path, or "".
+void dialog_open(struct dialogs *dialogs, enum dialog_kind kind, const char *path);
 /// Closes whichever is shown.
 void dialog_close(struct dialogs *dialogs);
-/// Asks which file to open.
-void dialog_ask_open(struct dialogs *dialogs);
+/// Does what was to follow, REQUEST_OPEN without a path: asks for one.
+void dialog_go_on(struct dialogs *dialogs, struct core *core, const struct request *after);
 /// Asks something of the app; the dialog takes nothing until dialogs_answer().
 void dialog_await(struct dialogs *dialogs, struct core *core, enum request_kind kind, const char *path);
 
@@ -115,18 +100,6 @@ enum { QUESTION_UNUSED = -2, QUESTION_OPEN = -1 };
 int question_build(struct dialog *dialog);
 /// What a key does: an answer, QUESTION_OPEN where it moved the choice, or QUESTION_UNUSED.
 int question_key(struct dialog *dialog, int key);
-
-/// DIALOG_ASK: does what was asked about as the answer says.
-void dialog_ask_answer(struct dialogs *dialogs, struct core *core, int answer);
-
-enum unsaved_answer { UNSAVED_SAVE, UNSAVED_DISCARD, UNSAVED_CANCEL };
-
-/// DIALOG_UNSAVED: asks what to do with unsaved changes.
-void dialog_ask_unsaved(struct dialogs *dialogs, const struct core *core);
-/// DIALOG_CHANGED: what an answer does.
-void dialog_changed_answer(struct dialogs *dialogs, struct core *core, int answer);
-/// DIALOG_RECOVER: what an answer does.
-void dialog_recover_answer(struct dialogs *dialogs, struct core *core, int answer);
 
 /// F1 opens it; wheel, ↑ ↓ and PgUp PgDn scroll it; any other key or a click closes it. While it is open help_event() is true
 /// for keys, text, buttons and the wheel.

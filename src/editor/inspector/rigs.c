@@ -206,7 +206,7 @@ static void carry_out(struct inspector *in, struct choice choice)
         rigs_add_tail(in->core);
         break;
     case ADD_FILE:
-        in->core->ask = (struct ask){.kind = ASK_ADD};
+        core_request(in->core, REQUEST_ADD, NULL);
         break;
     case ADD_COPY:
         rigs_copy(in->core, choice.rig);
