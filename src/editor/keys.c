@@ -273,18 +273,18 @@ const struct binding key_bindings[] = {
     {.key = 'H', .run = run_hold},
     {.key = KEY_PAGE_UP, .mods = MOD_ALT, .repeats = true, .core = pins_retime, .argument = -1},
     {.key = KEY_PAGE_DOWN, .mods = MOD_ALT, .repeats = true, .core = pins_retime, .argument = 1},
-    {.key = ',', .mods = MOD_ALT, .repeats = true, .knot = core_visit_neighbour, .argument = -1},
-    {.key = '.', .mods = MOD_ALT, .repeats = true, .knot = core_visit_neighbour, .argument = 1},
-    {.key = KEY_HOME, .mods = MOD_ALT, .repeats = true, .knot = core_visit_neighbour, .argument = -1},
-    {.key = KEY_END, .mods = MOD_ALT, .repeats = true, .knot = core_visit_neighbour, .argument = 1},
+    {.key = ',', .mods = MOD_ALT, .repeats = true, .pins = true, .knot = core_visit_neighbour, .argument = -1},
+    {.key = '.', .mods = MOD_ALT, .repeats = true, .pins = true, .knot = core_visit_neighbour, .argument = 1},
+    {.key = KEY_HOME, .mods = MOD_ALT, .repeats = true, .pins = true, .knot = core_visit_neighbour, .argument = -1},
+    {.key = KEY_END, .mods = MOD_ALT, .repeats = true, .pins = true, .knot = core_visit_neighbour, .argument = 1},
     {.key = 'J', .core = bones_make_chain, .argument = false},
     {.key = 'J', .mods = MOD_SHIFT, .core = bones_make_chain, .argument = true},
     {.key = 0},
 };
 
 const struct binding character_bindings[] = {
-    {.key = ',', .repeats = true, .knot = core_select_neighbour, .argument = -1},
-    {.key = '.', .repeats = true, .knot = core_select_neighbour, .argument = 1},
+    {.key = ',', .repeats = true, .pins = true, .knot = core_select_neighbour, .argument = -1},
+    {.key = '.', .repeats = true, .pins = true, .knot = core_select_neighbour, .argument = 1},
     {.key = '<', .repeats = true, .knot = core_extend_selection, .argument = -1},
     {.key = '>', .repeats = true, .knot = core_extend_selection, .argument = 1},
     {.key = '[', .core = playback_mark, .argument = 0},
@@ -349,7 +349,9 @@ static bool run(struct editor *editor, const struct binding *list, int key, unsi
     if (b->curves) b->curves(editor->curves, core, b->argument);
     if (b->inspector) b->inspector(editor->inspector);
     if (b->request) ask_for(editor, b->request, b->argument);
-    const struct knot *knot = b->knot ? b->knot(core, b->argument) : NULL;
+    const bool pins = b->pins && has_pin(editor);
+    if (pins) pins_select_neighbour(core, b->argument);
+    const struct knot *knot = b->knot && !pins ? b->knot(core, b->argument) : NULL;
     if (knot) curves_reveal(editor->curves, core, knot->frame, knot->value);
     return b->key != 0;
 }

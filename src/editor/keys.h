@@ -15,6 +15,7 @@ struct binding {
     void (*curves)(struct curves *curves, struct core *core, int argument);
     void (*inspector)(struct inspector *inspector);
     const struct knot *(*knot)(struct core *core, int argument); ///< which is to be seen then
+    bool pins;                                                   ///< goes from pin to pin where one is selected
     enum request_kind request;                                   ///< its number is the argument
     int argument;
 };

@@ -20,13 +20,6 @@ uint64_t core_merge_key(const struct core *core, uint64_t kind)
     return key ? key : 1;
 }
 
-/// Whether a pin is selected that has not been undone.
-static bool has_pin(const struct core *core)
-{
-    int rig;
-    return pins_selected(core, &rig) != NULL;
-}
-
 static void select_only(struct core *core, unsigned id)
 {
     pins_clear(core);
@@ -95,8 +88,9 @@ void core_remove_knots(struct core *core, const char *label)
 
 void core_delete(struct core *core, int unused)
 {
+    int rig;
     (void)unused;
-    if (has_pin(core)) {
+    if (pins_selected(core, &rig)) {
         pins_delete(core);
     } else {
         core_remove_knots(core, selected_count(core) == 1 ? "Delete knot" : "Delete knots");
@@ -128,7 +122,7 @@ static int beside(const struct document *document, const struct spline *spline, 
     return found;
 }
 
-static const struct knot *select_beside(struct core *core, int direction)
+const struct knot *core_select_neighbour(struct core *core, int direction)
 {
     const struct spline *spline = core_active_spline(core);
     if (!spline || spline->knot_count == 0) return NULL;
@@ -140,19 +134,11 @@ static const struct knot *select_beside(struct core *core, int direction)
     return &spline->knots[next];
 }
 
-const struct knot *core_select_neighbour(struct core *core, int direction)
-{
-    if (!has_pin(core)) return select_beside(core, direction);
-    pins_select_neighbour(core, direction);
-    return NULL;
-}
-
 const struct knot *core_visit_neighbour(struct core *core, int direction)
 {
     const struct document *document = core->document;
     const struct spline *spline = core_active_spline(core);
     const int next = spline ? beside(document, spline, core->playback.position, direction) : -1;
-    if (has_pin(core)) return core_select_neighbour(core, direction);
     if (next < 0) {
         core_message(core, false,
                      direction < 0 ? "No knot lies before the playhead." : "No knot lies behind the playhead.");
@@ -171,7 +157,7 @@ const struct knot *core_extend_selection(struct core *core, int direction)
     for (int k = 0; spline && k < spline->knot_count; k++) {
         if (selection_has(&core->selection, spline->knots[k].id) && (end < 0 || direction > 0)) end = k;
     }
-    if (end < 0) return select_beside(core, direction);
+    if (end < 0) return core_select_neighbour(core, direction);
     int next = end + direction;
     if (next < 0 || next >= spline->knot_count) return NULL;
     selection_set(&core->selection, spline->knots[next].id, true);

@@ -16,7 +16,7 @@ void core_remove_knots(struct core *core, const char *label);
 void core_delete(struct core *core, int unused);
 /// Selects all knots of the active spline, or of all that are shown.
 void core_select_all(struct core *core, int all_splines);
-/// Selects the selected pin's neighbour, else the selected knot's (from the playhead where not just one is selected); NULL where there is none.
+/// Selects the selected knot's neighbour (from the playhead where not just one is selected); NULL where there is none.
 const struct knot *core_select_neighbour(struct core *core, int direction);
 /// Selects the first knot after the playhead (1), or the last one before it (-1), and goes there; NULL where there is none.
 const struct knot *core_visit_neighbour(struct core *core, int direction);

@@ -83,36 +83,60 @@ static bool is_original(const struct originals *originals, const struct document
     return false;
 }
 
-enum room originals_room(const struct core *core, retime *rule, const void *how, double *stopped)
+enum room originals_room(const struct core *core, knot_rule *rule, const void *how, char why[STOPPED_SIZE])
 {
     const struct document *document = core->document;
     const struct originals *originals = &core->originals;
     enum room room = ROOM_FREE;
-    for (int i = 0, before = 0; i < originals->count; i++) {
+    double stopped = 0;
+    for (int i = 0, before = 0; i < originals->count && room != ROOM_OUTSIDE; i++) {
         const struct original *original = &originals->list[i];
         const struct spline *spline = document->splines[original->spline];
-        const double frame = rule(how, original);
+        const double frame = rule(how, original).frame;
         const int sample = document_sample(document, frame);
         const bool meets = i > 0 && originals->list[i - 1].spline == original->spline && sample == before;
         const bool outside = sample < 0 || sample > document_last_knot_sample(document, spline);
         const bool taken = spline_find_knot(document, spline, sample) >= 0 &&
                            !is_original(originals, document, original->spline, sample);
-        if (stopped && room == ROOM_FREE && (meets || taken || outside)) *stopped = frame;
-        if (outside) return ROOM_OUTSIDE;
+        if (room == ROOM_FREE) stopped = frame;
         if (meets || taken) room = ROOM_OCCUPIED;
+        if (outside) room = ROOM_OUTSIDE;
         before = sample;
     }
+    if (room == ROOM_OUTSIDE) snprintf(why, STOPPED_SIZE, "a knot would leave the range");
+    if (room == ROOM_OCCUPIED) snprintf(why, STOPPED_SIZE, "a knot would land on another on frame %g", stopped);
     return room;
 }
 
-void explain_blocked(enum room room, double stopped, char why[STOPPED_SIZE])
+/// Whether a rule reverses their order.
+static bool are_reversed(const struct originals *originals, knot_rule *rule, const void *how)
 {
-    why[0] = 0;
-    if (room == ROOM_OUTSIDE) snprintf(why, STOPPED_SIZE, "a knot would leave the range");
-    if (room == ROOM_OCCUPIED) snprintf(why, STOPPED_SIZE, "a knot would land on another on frame %g", stopped);
+    const struct original *list = originals->list;
+    for (int i = 1; i < originals->count; i++) {
+        if (list[i].spline == list[i - 1].spline) return rule(how, &list[i]).frame < rule(how, &list[i - 1]).frame;
+    }
+    return false;
 }
 
-double retime_shift(const void *frames, const struct original *original)
+/// So that they do not run into each other, those that go to the right go first, the last one ahead of all. Where their order is reversed,
+/// all are taken out before.
+bool originals_put(struct core *core, knot_rule *rule, const void *how, char why[STOPPED_SIZE])
 {
-    return original->knot.frame + *(const double *)frames;
+    const struct originals *originals = &core->originals;
+    const bool reversed = are_reversed(originals, rule, how);
+    bool done = true;
+    for (int i = 0; i < 2 * originals->count && done; i++) {
+        const bool first = i < originals->count;
+        const int at = first ? originals->count - 1 - i : i - originals->count;
+        const struct original *original = &originals->list[at];
+        struct knot knot = rule(how, original);
+        if (reversed && first) {
+            done = edit_knot_remove(core->document, original->spline, knot.id, &core->error);
+        } else if (reversed || first == (knot.frame > original->knot.frame)) {
+            core_hold(core->document->splines[original->spline], &knot, why);
+            done =
+                (reversed ? edit_knot_insert : edit_knot_set)(core->document, original->spline, &knot, &core->error);
+        }
+    }
+    return done;
 }

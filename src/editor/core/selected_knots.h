@@ -26,18 +26,16 @@ void originals_add(struct originals *originals, int spline, const struct knot *k
 /// Takes them into `originals`; `later` also takes what comes behind the first one of each spline.
 void core_collect(struct core *core, bool later);
 
-/// A new frame for an original.
-typedef double retime(const void *how, const struct original *original);
+/// What becomes of an original.
+typedef struct knot knot_rule(const void *how, const struct original *original);
 
 /// Whether knots can go where they are to.
 enum room { ROOM_FREE, ROOM_OCCUPIED, ROOM_OUTSIDE };
 
 /// Whether the originals can go where a rule, which keeps or reverses their order, puts them: inside the range, apart, and off the
-/// knots that stay. The document is as it was when they were collected. `stopped` (or NULL) is the frame that one cannot have.
-enum room originals_room(const struct core *core, retime *rule, const void *how, double *stopped);
-/// Says why there is none: "a knot would leave the range"; "" where there is.
-void explain_blocked(enum room room, double stopped, char why[STOPPED_SIZE]);
-/// The rule that moves all of them by `*(const double *)frames`.
-double retime_shift(const void *frames, const struct original *original);
+/// knots that stay. If not, `why` says so: "a knot would leave the range". The document is as it was when they were collected.
+enum room originals_room(const struct core *core, knot_rule *rule, const void *how, char why[STOPPED_SIZE]);
+/// An edit: puts them there, for which there must be room. `why` says which one a limit holds; core->error, why it could not be done.
+bool originals_put(struct core *core, knot_rule *rule, const void *how, char why[STOPPED_SIZE]);
 
 #endif

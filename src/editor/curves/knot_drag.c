@@ -75,56 +75,41 @@ static double wanted_frames(const struct curves *curves, const struct core *core
     }
     if (drag->snap) frames = fabs(frames) < 0.5 ? 0 : round(held->knot.frame + frames) - held->knot.frame;
     shift_limits(curves, originals, core->document, &least, &most);
-    if (frames < least || frames > most) explain_blocked(ROOM_OUTSIDE, 0, why);
+    if (frames < least || frames > most) snprintf(why, STOPPED_SIZE, "a knot would leave the range");
     if (curves->knot_drag.ripple && frames > most)
         snprintf(why, STOPPED_SIZE, "the last knot has reached the end of the range. Extend the range to make room");
     return fmax(fmin(frames, most), least);
 }
 
-/// The value of a knot that is moved by `up` on the screen, in values of the active spline.
-static double moved_value(const struct curves *curves, const struct core *core, const struct original *original,
-                          double up)
-{
-    const double scale = normal_map(curves, core, original->spline).scale;
-    const double resolution = 0.01 / curves_pixels_per_value(curves, core) / scale;
-    return core_round(original->knot.value + up / scale, resolution);
-}
+/// Moves knots in time, and the selected ones on the screen, in values of the active spline.
+struct moving {
+    const struct curves *curves;
+    const struct core *core;
+    double frames, up, resolution;
+};
 
-/// Moves all originals; from the far end on, so that they do not run into each other. `why` says which one a limit held.
-static bool move_knots(const struct curves *curves, const struct core *core, double frames, double up,
-                       char why[STOPPED_SIZE])
+static struct knot moved(const void *how, const struct original *original)
 {
-    for (int i = 0; i < core->originals.count; i++) {
-        const struct original *original = &core->originals.list[frames > 0 ? core->originals.count - 1 - i : i];
-        struct knot knot = original->knot;
-        knot.frame += frames;
-        if (up != 0 && selection_has(&core->selection, original->knot.id))
-            knot.value = moved_value(curves, core, original, up);
-        core_hold(core->document->splines[original->spline], &knot, why);
-        if (!edit_knot_set(core->document, original->spline, &knot, NULL)) return false;
-    }
-    return true;
+    const struct moving *moving = how;
+    const double scale = normal_map(moving->curves, moving->core, original->spline).scale;
+    struct knot knot = original->knot;
+    knot.frame += moving->frames;
+    if (moving->up != 0 && selection_has(&moving->core->selection, knot.id))
+        knot.value = core_round(knot.value + moving->up / scale, moving->resolution / scale);
+    return knot;
 }
 
 static void apply_knots(void *of, struct core *core)
 {
     struct curves *curves = of;
-    const struct drag *drag = &core->drag;
-    if (core->originals.count == 0) return;
+    const double pixels = curves_pixels_per_value(curves, core);
     char why[STOPPED_SIZE] = "";
-    double frames = wanted_frames(curves, core, why), stopped = 0;
-    double up = drag->lock_x ? 0 : -drag->moved_y / curves_pixels_per_value(curves, core);
-    const enum room room = originals_room(core, retime_shift, &frames, &stopped);
-    if (room != ROOM_FREE) {
-        explain_blocked(room, stopped, why);
-        frames = curves->knot_drag.free_frames;
-    }
-    if (!move_knots(curves, core, frames, up, why)) {
-        drag_restart(core);
-        frames = curves->knot_drag.free_frames;
-        move_knots(curves, core, frames, up, why);
-    }
-    curves->knot_drag.free_frames = frames;
+    if (core->originals.count == 0) return;
+    struct moving moving = {curves, core, wanted_frames(curves, core, why),
+                            core->drag.lock_x ? 0 : -core->drag.moved_y / pixels, 0.01 / pixels};
+    if (originals_room(core, moved, &moving, why) != ROOM_FREE) moving.frames = curves->knot_drag.free_frames;
+    curves->knot_drag.free_frames = moving.frames;
+    if (!originals_put(core, moved, &moving, why)) drag_restart(core);
     drag_say_stopped(core, why);
 }
 
@@ -201,39 +186,23 @@ static const double GHOST_SECONDS = 1.2;
 /// Kinds of nudges for core_merge_key().
 enum nudge_kind { NUDGE_FRAMES = 1, NUDGE_VALUE };
 
-/// The shift itself, or the next multiple of it behind the knots that are in the way; 0 where there is no room, and why.
-static double free_shift(const struct core *core, double frames, char why[STOPPED_SIZE])
-{
-    for (double shift = frames; frames != 0; shift += frames) {
-        enum room room = originals_room(core, retime_shift, &shift, NULL);
-        if (room == ROOM_FREE) return shift;
-        if (room != ROOM_OUTSIDE) continue;
-        explain_blocked(room, 0, why);
-        break;
-    }
-    return 0;
-}
-
 void curves_nudge(const struct curves *curves, struct core *core, double frames, double hundredths)
 {
-    const struct originals *originals = &core->originals;
-    if (history_is_open(core->history)) return;
+    const double up = 0.01 * hundredths * core->visible;
+    struct moving moving = {curves, core, frames, up, 0.01 * fabs(up)};
+    enum room room = ROOM_FREE;
     char why[STOPPED_SIZE] = "";
+    if (history_is_open(core->history)) return;
     core_collect(core, false);
-    double shift = free_shift(core, frames, why), up = 0.01 * hundredths * core->visible;
-    if (*why) core_stopped(core, why);
-    if (originals->count == 0 || (shift == 0 && up == 0)) return;
+    // over the knots that are in the way
+    while (frames != 0 && (room = originals_room(core, moved, &moving, why)) == ROOM_OCCUPIED)
+        moving.frames += frames;
+    if (room == ROOM_OUTSIDE) moving.frames = 0;
+    if (room == ROOM_OUTSIDE) core_stopped(core, why);
+    if (core->originals.count == 0 || (moving.frames == 0 && up == 0)) return;
+    if (room == ROOM_FREE) why[0] = 0;
     core_begin(core, "Nudge knots", core_merge_key(core, frames != 0 ? NUDGE_FRAMES : NUDGE_VALUE));
-    for (int i = 0; i < originals->count; i++) {
-        // from the far end, so that they do not run into each other
-        const struct original *original = &originals->list[shift > 0 ? originals->count - 1 - i : i];
-        const double value = up / normal_map(curves, core, original->spline).scale;
-        struct knot knot = original->knot;
-        knot.frame += shift;
-        if (value != 0) knot.value = core_round(knot.value + value, 0.01 * fabs(value));
-        core_hold(core->document->splines[original->spline], &knot, why);
-        core_put_knot(core, original->spline, &knot);
-    }
+    originals_put(core, moved, &moving, why);
     core_end(core, true);
     if (*why) core_stopped(core, why);
     core->nudged_seconds = GHOST_SECONDS;

@@ -183,33 +183,6 @@ static struct factors wanted(const struct curves *curves, const struct core *cor
     return (struct factors){drag->lock_y ? 1 : clamped(by.time), drag->lock_x ? 1 : clamped(by.value)};
 }
 
-/// What a new frame follows from.
-struct retiming {
-    const struct curves *curves;
-    const struct core *core;
-    double factor;
-};
-
-static double scaled_frame(const void *how, const struct original *original)
-{
-    const struct retiming *retiming = how;
-    const double pivot = retiming->curves->scaling.frame, before = original->knot.frame;
-    const double frame = pivot + retiming->factor * (before - pivot);
-    if (retiming->factor == 1) return before;
-    return retiming->core->drag.snap ? round(frame) : frame;
-}
-
-/// The factor of time, or the last one by which all knots found room, and why.
-static double free_time(struct curves *curves, const struct core *core, double factor)
-{
-    struct scaling *scaling = &curves->scaling;
-    const struct retiming retiming = {curves, core, factor};
-    double frame = 0;
-    const enum room room = originals_room(core, scaled_frame, &retiming, &frame);
-    explain_blocked(room, frame, scaling->stopped[0]);
-    return room == ROOM_FREE ? scaling->free_time = factor : scaling->free_time;
-}
-
 /// A value scaled about the pivot.
 static double scaled_value(const struct curves *curves, const struct core *core, const struct original *original,
                            double factor)
@@ -222,54 +195,46 @@ static double scaled_value(const struct curves *curves, const struct core *core,
     return core_round(pivot + factor * (original->knot.value - pivot), resolution);
 }
 
-static struct knot scaled(struct curves *curves, const struct core *core, const struct original *original)
+/// What the factors make of a knot.
+struct scale {
+    const struct curves *curves;
+    const struct core *core;
+};
+
+static struct knot scaled(const void *how, const struct original *original)
 {
+    const struct curves *curves = ((const struct scale *)how)->curves;
+    const struct core *core = ((const struct scale *)how)->core;
     const struct factors by = curves->scaling.by;
-    const struct retiming retiming = {curves, core, by.time};
+    const double pivot = curves->scaling.frame, steeper = by.value / by.time;
+    const double frame = pivot + by.time * (original->knot.frame - pivot);
     struct knot to = original->knot;
-    double visible = curves->view.value1 - curves->view.value0, steeper = by.value / by.time;
-    to.frame = scaled_frame(&retiming, original);
+    if (by.time != 1) to.frame = core->drag.snap ? round(frame) : frame;
     if (by.value != 1) to.value = scaled_value(curves, core, original, by.value);
-    core_hold(core->document->splines[original->spline], &to, curves->scaling.stopped[1]);
-    if (steeper != 1) to.slope = core_round(original->knot.slope * steeper, SLOPE_RESOLUTION * visible);
+    if (steeper != 1) to.slope = core_round(original->knot.slope * steeper, SLOPE_RESOLUTION * core->visible);
     return to;
 }
 
-/// Takes the knots out and puts them in anew, so that they do not run into each other, whatever their order becomes.
-static void move_all(struct curves *curves, struct core *core)
+static bool changes_values(const struct core *core, const struct scale *scale)
 {
-    struct scaling *scaling = &curves->scaling;
-    const struct originals *originals = &core->originals;
-    struct document *document = core->document;
-    const bool moves = scaling->by.time != 1;
-    bool changes = moves;
-    scaling->stopped[1][0] = 0;
-    for (int i = 0; i < originals->count && moves; i++) {
-        const struct original *original = &originals->list[i];
-        edit_knot_remove(document, original->spline, original->knot.id, &core->error);
-    }
-    for (int i = 0; i < originals->count; i++) {
-        const struct original *original = &originals->list[i];
-        const struct knot knot = scaled(curves, core, original);
-        changes |= knot.value != original->knot.value;
-        const bool done = moves ? edit_knot_insert(document, original->spline, &knot, &core->error)
-                                : edit_knot_set(document, original->spline, &knot, &core->error);
-        if (done) continue;
-        drag_restart(core);
-        return;
-    }
-    if (!scaling->stopped[1][0] && !changes && scaling->by.value != 1)
-        snprintf(scaling->stopped[1], sizeof scaling->stopped[1], "all are on the %s",
-                 pivot_name(scaling, scaling->pivot));
+    bool changes = false;
+    for (int i = 0; i < core->originals.count && !changes; i++)
+        changes = scaled(scale, &core->originals.list[i]).value != core->originals.list[i].knot.value;
+    return changes;
 }
 
 static void apply(void *room, struct core *core)
 {
     struct curves *curves = room;
     struct scaling *scaling = &curves->scaling;
+    const struct scale scale = {curves, core};
     scaling->by = wanted(curves, core);
-    scaling->by.time = free_time(curves, core, scaling->by.time);
-    move_all(curves, core);
+    scaling->stopped[0][0] = scaling->stopped[1][0] = 0;
+    if (originals_room(core, scaled, &scale, scaling->stopped[0]) != ROOM_FREE) scaling->by.time = scaling->free_time;
+    scaling->free_time = scaling->by.time;
+    if (scaling->by.value != 1 && scaling->by.time == 1 && !changes_values(core, &scale))
+        snprintf(scaling->stopped[1], STOPPED_SIZE, "all are on the %s", pivot_name(scaling, scaling->pivot));
+    if (!originals_put(core, scaled, &scale, scaling->stopped[1])) drag_restart(core);
     say(curves, core);
 }
 
