@@ -11,304 +11,227 @@
 enum { MAX_NUMBERS = 2, MAX_NAME = 256 };
 
 /// A target taken apart: kind(name,number,…); the name may hold anything, the numbers are what follows the last
-/// commas.
+/// commas. Then what of the document has that name, as its kind says.
 struct target {
     char name[MAX_NAME];
     double number[MAX_NUMBERS];
-};
-
-struct target_place {
-    struct editor *editor; ///< as it was after all: inspector_target() lays its widgets out to find one
-    const struct target *target;
-    float xy[2];
-};
-
-typedef bool find_place(struct target_place *place, struct error *error);
-
-static bool in_plot(struct target_place *place, double frame, double value, struct error *error)
-{
-    place->xy[0] = curves_x(place->editor->curves, &place->editor->core, frame);
-    place->xy[1] = curves_y(place->editor->curves, &place->editor->core, value);
-    const struct rect *plot = &place->editor->core.layout.plot;
-    bool inside = place->xy[0] >= plot->x && place->xy[1] >= plot->y && place->xy[0] <= plot->x + plot->w &&
-                  place->xy[1] <= plot->y + plot->h;
-    return inside ||
-           fail(error, ERROR_INPUT, "frame %g, value %g is not in the visible part of the curves", frame, value);
-}
-
-static bool spline_named(const struct target_place *place, int *spline, struct error *error)
-{
-    *spline = document_find_spline(place->editor->core.document, place->target->name);
-    return *spline >= 0 || fail(error, ERROR_INPUT, "there is no spline \"%s\"", place->target->name);
-}
-
-static bool knot_named(struct target_place *place, const struct knot **knot, struct error *error)
-{
     int spline;
-    if (!spline_named(place, &spline, error)) return false;
-    double k = place->target->number[0];
-    const struct spline *owner = place->editor->core.document->splines[spline];
-    if (!(k >= 0 && k < owner->knot_count)) {
-        return fail(error, ERROR_INPUT, "the spline \"%s\" has %d knots, no knot %g", owner->name, owner->knot_count,
-                    k);
-    }
-    *knot = &owner->knots[(int)k];
-    return true;
+    const struct knot *knot;
+    int rig, nth; ///< which of all, and of its kind
+    const struct pin *pin;
+};
+
+/// The editor is as it was after all: inspector_target() lays its widgets out to find one.
+typedef bool find_place(struct editor *editor, const struct target *target, float xy[2]);
+
+static bool in_plot(const struct editor *editor, double frame, double value, float xy[2])
+{
+    const struct rect *plot = &editor->core.layout.plot;
+    xy[0] = curves_x(editor->curves, &editor->core, frame);
+    xy[1] = curves_y(editor->curves, &editor->core, value);
+    return xy[0] >= plot->x && xy[1] >= plot->y && xy[0] <= plot->x + plot->w && xy[1] <= plot->y + plot->h;
 }
 
-static bool find_knot(struct target_place *place, struct error *error)
+static bool find_knot(struct editor *editor, const struct target *target, float xy[2])
 {
-    const struct document *document = place->editor->core.document;
-    const struct knot *knot;
-    if (!knot_named(place, &knot, error)) return false;
-    return in_plot(place, document_frame(document, document_sample(document, knot->frame)), knot->value, error);
+    const struct document *document = editor->core.document;
+    return in_plot(editor, document_frame(document, document_sample(document, target->knot->frame)),
+                   target->knot->value, xy);
 }
 
 /// A knot's mark on the dope sheet: mark(sway,2).
-static bool find_mark(struct target_place *place, struct error *error)
+static bool find_mark(struct editor *editor, const struct target *target, float xy[2])
 {
-    const struct document *document = place->editor->core.document;
-    const struct knot *knot;
-    if (!knot_named(place, &knot, error)) return false;
-    const int spline = document_find_spline(document, place->target->name);
-    return curves_mark_point(place->editor->curves, &place->editor->core, spline, (int)place->target->number[0],
-                             place->xy) ||
-           fail(error, ERROR_INPUT, "the dope sheet does not show that knot of \"%s\"", place->target->name);
+    return curves_mark_point(editor->curves, &editor->core, target->spline, (int)target->number[0], xy);
 }
 
 /// The end of a knot's slope handle: handle(sway,2,1), 0 before and 1 after the knot.
-static bool find_handle(struct target_place *place, struct error *error)
+static bool find_handle(struct editor *editor, const struct target *target, float xy[2])
 {
-    const struct knot *knot;
-    if (!knot_named(place, &knot, error)) return false;
-    if (!knot->has_slope) return fail(error, ERROR_INPUT, "that knot of \"%s\" has no slope", place->target->name);
-    curves_handle(place->editor->curves, &place->editor->core, knot, place->target->number[1] > 0, place->xy);
-    return true;
+    curves_handle(editor->curves, &editor->core, target->knot, target->number[1] > 0, xy);
+    return target->knot->has_slope;
 }
 
-static bool find_curve(struct target_place *place, struct error *error)
+static bool find_curve(struct editor *editor, const struct target *target, float xy[2])
 {
-    int spline;
-    if (!spline_named(place, &spline, error)) return false;
-    return in_plot(place, place->target->number[0], place->target->number[1], error);
+    return in_plot(editor, target->number[0], target->number[1], xy);
 }
 
 /// A handle of the box round the selected knots: box(1,0) is the middle of its right edge, box(-1,-1) the upper left corner.
-static bool find_box(struct target_place *place, struct error *error)
+static bool find_box(struct editor *editor, const struct target *target, float xy[2])
 {
-    const int column = (int)place->target->number[0], row = (int)place->target->number[1];
-    return curves_box_point(place->editor->curves, &place->editor->core, column, row, place->xy) ||
-           fail(error, ERROR_INPUT, "the selected knots have no such handle");
+    return curves_box_point(editor->curves, &editor->core, (int)target->number[0], (int)target->number[1], xy);
 }
 
-static bool find_warning(struct target_place *place, struct error *error)
+static bool find_warning(struct editor *editor, const struct target *target, float xy[2])
 {
-    double number = place->target->number[0];
-    return curves_warning(place->editor->curves, &place->editor->core, number, place->xy) ||
-           fail(error, ERROR_INPUT, "no warning %g is to be seen", number);
+    return curves_warning(editor->curves, &editor->core, target->number[0], xy);
 }
 
-static bool find_ruler(struct target_place *place, struct error *error)
+static bool find_ruler(struct editor *editor, const struct target *target, float xy[2])
 {
-    const struct rect *ruler = &place->editor->core.layout.ruler;
-    place->xy[0] = curves_x(place->editor->curves, &place->editor->core, place->target->number[0]);
-    place->xy[1] = ruler->y + ruler->h / 2;
-    return rect_contains(*ruler, place->xy[0], place->xy[1]) ||
-           fail(error, ERROR_INPUT, "frame %g is not on the visible part of the ruler", place->target->number[0]);
+    const struct rect *ruler = &editor->core.layout.ruler;
+    xy[0] = curves_x(editor->curves, &editor->core, target->number[0]);
+    xy[1] = ruler->y + ruler->h / 2;
+    return rect_contains(*ruler, xy[0], xy[1]);
 }
 
-static bool find_stage(struct target_place *place, struct error *error)
+static bool find_stage(struct editor *editor, const struct target *target, float xy[2])
 {
-    (void)error;
-    const struct rect *stage = &place->editor->core.layout.stage;
-    place->xy[0] = stage->x + stage->w * (float)place->target->number[0];
-    place->xy[1] = stage->y + stage->h * (float)place->target->number[1];
+    const struct rect *stage = &editor->core.layout.stage;
+    xy[0] = stage->x + stage->w * (float)target->number[0];
+    xy[1] = stage->y + stage->h * (float)target->number[1];
     return true;
 }
 
 /// From where the pointer is, in heights of the stage: pointer(0.1,0).
-static bool find_pointer(struct target_place *place, struct error *error)
+static bool find_pointer(struct editor *editor, const struct target *target, float xy[2])
 {
-    (void)error;
-    const struct core *core = &place->editor->core;
-    place->xy[0] = core->pointer_x + core->layout.stage.h * (float)place->target->number[0];
-    place->xy[1] = core->pointer_y + core->layout.stage.h * (float)place->target->number[1];
+    const struct core *core = &editor->core;
+    xy[0] = core->pointer_x + core->layout.stage.h * (float)target->number[0];
+    xy[1] = core->pointer_y + core->layout.stage.h * (float)target->number[1];
     return true;
 }
 
-/// The rig of a kind that has the target's name, and which of its kind it is; NULL where there is none. A character without a
-/// name goes by its model.
-static const struct rig *rig_named(const struct target_place *place, enum rig_kind kind, int *n)
+/// A place along the row of joints of a tail or chain: 0 is the first, 1 the tip.
+static bool find_along(struct editor *editor, const struct target *target, float xy[2])
 {
-    const struct document *document = place->editor->core.document;
-    int r = document_next_rig(document, kind, 0);
-    for (*n = 0; r >= 0; (*n)++, r = document_next_rig(document, kind, r + 1)) {
-        const struct rig *rig = document->rigs[r];
-        if (strcmp(rig_title(rig), place->target->name) == 0) return rig;
-    }
-    return NULL;
+    const int joints = bones_joints(&editor->core, target->rig);
+    const double along = fmin(fmax(target->number[0], 0), 1) * joints;
+    const int joint = (int)fmin(floor(along), joints - 1);
+    return stage_project(editor->stage, &editor->core, target->rig, joint, along - joint, xy);
 }
 
-/// A place along a row of joints: 0 is the first, 1 the tip.
-static bool find_along(struct target_place *place, enum rig_kind kind, const char *word, struct error *error)
+/// What is behind a character's own name and a slash, or else all of a text.
+static const char *bone_name(const struct rig *character, const char *text)
 {
-    int n;
-    const struct rig *rig = rig_named(place, kind, &n);
-    if (rig) {
-        const int index = document_find_rig_id(place->editor->core.document, rig->id),
-                  joints = bones_joints(&place->editor->core, index);
-        double along = fmin(fmax(place->target->number[0], 0), 1) * joints;
-        int joint = (int)fmin(floor(along), joints - 1);
-        if (stage_project(place->editor->stage, &place->editor->core, index, joint, along - joint, place->xy))
-            return true;
-    }
-    return fail(error, ERROR_INPUT, "there is no %s \"%s\" to be seen", word, place->target->name);
-}
-
-static bool find_tail(struct target_place *place, struct error *error)
-{
-    return find_along(place, RIG_TAIL, "tail", error);
-}
-
-static bool find_chain(struct target_place *place, struct error *error)
-{
-    return find_along(place, RIG_CHAIN, "chain", error);
-}
-
-/// The name of a bone on a character: all of the target's, or what is behind the character's own name and a slash. NULL: another one's.
-static const char *bone_name(const struct target_place *place, const struct rig *character, bool whole)
-{
-    const char *name = place->target->name, *title = rig_title(character);
+    const char *title = rig_title(character);
     const size_t length = strlen(title);
-    if (whole) return name;
-    return strncmp(name, title, length) == 0 && name[length] == '/' ? name + length + 1 : NULL;
+    return strncmp(text, title, length) == 0 && text[length] == '/' ? text + length + 1 : text;
 }
 
 /// A bone of the imported characters: bone(tail_1), the first that there is, or bone(dog 2/tail_1).
-static bool find_bone(struct target_place *place, struct error *error)
+static bool find_bone(struct editor *editor, const struct target *target, float xy[2])
 {
-    const struct document *document = place->editor->core.document;
-    for (int whole = 1; whole >= 0; whole--) {
-        for (int r = document_next_rig(document, RIG_MODEL, 0); r >= 0;
-             r = document_next_rig(document, RIG_MODEL, r + 1)) {
-            const struct imported *shown = bones_character(&place->editor->core, r);
-            const char *name = bone_name(place, document->rigs[r], whole);
-            const int node = shown && name ? gltf_find_node(&shown->gltf, name) : -1;
-            if (node >= 0 && stage_bone_point(place->editor->stage, &place->editor->core, r, node, place->xy))
-                return true;
-        }
+    const struct document *document = editor->core.document;
+    int r = document_next_rig(document, RIG_MODEL, 0);
+    for (; r >= 0; r = document_next_rig(document, RIG_MODEL, r + 1)) {
+        const struct imported *shown = bones_character(&editor->core, r);
+        const int node = shown ? gltf_find_node(&shown->gltf, bone_name(document->rigs[r], target->name)) : -1;
+        if (node >= 0 && stage_bone_point(editor->stage, &editor->core, r, node, xy)) return true;
     }
-    return fail(error, ERROR_INPUT, "there is no bone \"%s\" to be seen", place->target->name);
+    return false;
 }
 
-static bool find_body(struct target_place *place, struct error *error)
+static bool find_body(struct editor *editor, const struct target *target, float xy[2])
 {
-    int n;
-    struct editor *editor = place->editor;
-    bool shown = rig_named(place, RIG_TAIL, &n) && n < document_count_rigs(editor->core.document, RIG_TAIL);
-    return (shown && stage_body_point(editor->stage, &editor->core, n, place->xy)) ||
-           fail(error, ERROR_INPUT, "there is no body of a tail \"%s\" to be seen", place->target->name);
+    return stage_body_point(editor->stage, &editor->core, target->nth, xy);
 }
 
 /// A point of a character's surface: character(up,0.5,0.8), where it is now. u goes across and v up the box of the character
 /// at rest, seen from the front.
-static bool find_character(struct target_place *place, struct error *error)
+static bool find_character(struct editor *editor, const struct target *target, float xy[2])
 {
-    int n;
-    bool known = rig_named(place, RIG_CHARACTER, &n);
-    return (known && stage_character_point(place->editor->stage, n, place->target->number, place->xy)) ||
-           fail(error, ERROR_INPUT, "there is no character \"%s\" to be seen", place->target->name);
-}
-
-/// The n-th pin of a rig, in the order of frames.
-static const struct pin *pin_named(const struct target_place *place, struct error *error)
-{
-    const struct document *document = place->editor->core.document;
-    const double n = place->target->number[0];
-    for (int r = 0; r < document->rig_count; r++) {
-        const struct rig *rig = document->rigs[r];
-        if (strcmp(rig_title(rig), place->target->name) == 0 && n >= 0 && n < rig->pin_count)
-            return &rig->pins[(int)n];
-    }
-    fail(error, ERROR_INPUT, "there is no pin %g of \"%s\"", n, place->target->name);
-    return NULL;
+    return stage_character_point(editor->stage, target->nth, target->number, xy);
 }
 
 /// The edge of a character's floor: floor(creature).
-static bool find_floor(struct target_place *place, struct error *error)
+static bool find_floor(struct editor *editor, const struct target *target, float xy[2])
 {
-    int n;
-    const struct editor *editor = place->editor;
-    return (rig_named(place, RIG_CHARACTER, &n) && stage_floor_point(editor->stage, &editor->core, n, place->xy)) ||
-           fail(error, ERROR_INPUT, "there is no floor of \"%s\" to be seen", place->target->name);
+    return stage_floor_point(editor->stage, &editor->core, target->nth, xy);
 }
 
-/// The marker of a pin on the stage: pin(tail,0).
-static bool find_pin(struct target_place *place, struct error *error)
+/// The marker of a pin on the stage: pin(tail,0), in the order of frames.
+static bool find_pin(struct editor *editor, const struct target *target, float xy[2])
 {
-    const struct pin *pin = pin_named(place, error);
-    if (!pin) return false;
-    return stage_pin_point(place->editor->stage, &place->editor->core, pin->id, place->xy) ||
-           fail(error, ERROR_INPUT, "that pin of \"%s\" is not in sight", place->target->name);
+    return stage_pin_point(editor->stage, &editor->core, target->pin->id, xy);
 }
 
 /// Its mark on the ruler: pintime(tail,0).
-static bool find_pin_time(struct target_place *place, struct error *error)
+static bool find_pin_time(struct editor *editor, const struct target *target, float xy[2])
 {
-    const struct editor *editor = place->editor;
-    const struct pin *pin = pin_named(place, error);
-    if (!pin) return false;
-    return curves_pin_point(editor->curves, &editor->core, pin, place->xy) ||
-           fail(error, ERROR_INPUT, "that pin of \"%s\" is not on the visible part of the ruler",
-                place->target->name);
+    return curves_pin_point(editor->curves, &editor->core, target->pin, xy);
 }
 
-static bool find_divider(struct target_place *place, struct error *error)
+static bool find_divider(struct editor *editor, const struct target *target, float xy[2])
 {
-    const struct layout *l = &place->editor->core.layout;
-    bool inspector = strcmp(place->target->name, "inspector") == 0;
-    if (!inspector && strcmp(place->target->name, "stage") != 0) {
-        return fail(error, ERROR_INPUT, "there is no divider \"%s\": expected stage or inspector",
-                    place->target->name);
-    }
-    place->xy[0] = inspector ? l->inspector.x : l->curves.x + l->curves.w / 2;
-    place->xy[1] = inspector ? l->inspector.h / 2 : l->curves.y;
-    return true;
+    const struct layout *l = &editor->core.layout;
+    const bool inspector = strcmp(target->name, "inspector") == 0;
+    xy[0] = inspector ? l->inspector.x : l->curves.x + l->curves.w / 2;
+    xy[1] = inspector ? l->inspector.h / 2 : l->curves.y;
+    return inspector || strcmp(target->name, "stage") == 0;
 }
 
-static bool find_widget(struct target_place *place, struct error *error)
+static bool find_widget(struct editor *editor, const struct target *target, float xy[2])
 {
-    return inspector_target(place->editor->inspector, place->target->name, &place->xy[0], &place->xy[1]) ||
-           fail(error, ERROR_INPUT, "the inspector does not show \"%s\"", place->target->name);
+    return inspector_target(editor->inspector, target->name, &xy[0], &xy[1]);
 }
+
+/// Whose name a target has.
+enum target_of { OF_NOBODY, OF_ITSELF, OF_SPLINE, OF_KNOT, OF_RIG, OF_PIN };
 
 static const struct target_kind {
     const char *kind;
-    bool named;  ///< takes a name
-    int numbers; ///< and that many numbers
+    enum target_of of;
+    enum rig_kind rig; ///< OF_RIG
+    int numbers;       ///< how many there are behind the name
     find_place *find;
+    const char *missing; ///< why there is no such place, although what it is of is there
 } kinds[] = {
-    {.kind = "knot", .named = true, .numbers = 1, .find = find_knot},
-    {.kind = "mark", .named = true, .numbers = 1, .find = find_mark},
-    {.kind = "handle", .named = true, .numbers = 2, .find = find_handle},
-    {.kind = "curve", .named = true, .numbers = 2, .find = find_curve},
-    {.kind = "box", .named = false, .numbers = 2, .find = find_box},
-    {.kind = "warning", .named = false, .numbers = 1, .find = find_warning},
-    {.kind = "ruler", .named = false, .numbers = 1, .find = find_ruler},
-    {.kind = "stage", .named = false, .numbers = 2, .find = find_stage},
-    {.kind = "pointer", .named = false, .numbers = 2, .find = find_pointer},
-    {.kind = "tail", .named = true, .numbers = 1, .find = find_tail},
-    {.kind = "chain", .named = true, .numbers = 1, .find = find_chain},
-    {.kind = "bone", .named = true, .numbers = 0, .find = find_bone},
-    {.kind = "body", .named = true, .numbers = 0, .find = find_body},
-    {.kind = "character", .named = true, .numbers = 2, .find = find_character},
-    {.kind = "pin", .named = true, .numbers = 1, .find = find_pin},
-    {.kind = "pintime", .named = true, .numbers = 1, .find = find_pin_time},
-    {.kind = "floor", .named = true, .numbers = 0, .find = find_floor},
-    {.kind = "divider", .named = true, .numbers = 0, .find = find_divider},
-    {.kind = "slider", .named = true, .numbers = 0, .find = find_widget},
-    {.kind = "widget", .named = true, .numbers = 0, .find = find_widget},
+    {"knot", OF_KNOT, 0, 1, find_knot, "that knot is not in the visible part of the curves"},
+    {"mark", OF_KNOT, 0, 1, find_mark, "the dope sheet does not show that knot"},
+    {"handle", OF_KNOT, 0, 2, find_handle, "that knot has no slope"},
+    {"curve", OF_SPLINE, 0, 2, find_curve, "that is not in the visible part of the curves"},
+    {"box", OF_NOBODY, 0, 2, find_box, "the selected knots have no such handle"},
+    {"warning", OF_NOBODY, 0, 1, find_warning, "that warning is not to be seen"},
+    {"ruler", OF_NOBODY, 0, 1, find_ruler, "that frame is not on the visible part of the ruler"},
+    {"stage", OF_NOBODY, 0, 2, find_stage, ""},
+    {"pointer", OF_NOBODY, 0, 2, find_pointer, ""},
+    {"tail", OF_RIG, RIG_TAIL, 1, find_along, "that tail is not to be seen"},
+    {"chain", OF_RIG, RIG_CHAIN, 1, find_along, "that chain is not to be seen"},
+    {"bone", OF_ITSELF, 0, 0, find_bone, "there is no such bone to be seen"},
+    {"body", OF_RIG, RIG_TAIL, 0, find_body, "no body of that tail is to be seen"},
+    {"character", OF_RIG, RIG_CHARACTER, 2, find_character, "that character is not to be seen"},
+    {"pin", OF_PIN, 0, 1, find_pin, "that pin is not in sight"},
+    {"pintime", OF_PIN, 0, 1, find_pin_time, "that pin is not on the visible part of the ruler"},
+    {"floor", OF_RIG, RIG_CHARACTER, 0, find_floor, "no floor of that character is to be seen"},
+    {"divider", OF_ITSELF, 0, 0, find_divider, "there is no such divider: expected stage or inspector"},
+    {"slider", OF_ITSELF, 0, 0, find_widget, "the inspector does not show it"},
+    {"widget", OF_ITSELF, 0, 0, find_widget, "the inspector does not show it"},
 };
+
+/// Finds the spline of the target's name, and its knot where the kind asks for one.
+static bool find_spline(const struct document *document, const struct target_kind *kind, struct target *target,
+                        struct error *error)
+{
+    const double k = target->number[0];
+    target->spline = document_find_spline(document, target->name);
+    if (target->spline < 0) return fail(error, ERROR_INPUT, "there is no spline \"%s\"", target->name);
+    const struct spline *spline = document->splines[target->spline];
+    if (kind->of == OF_SPLINE) return true;
+    if (!(k >= 0 && k < spline->knot_count))
+        return fail(error, ERROR_INPUT, "the spline \"%s\" has %d knots, no knot %g", spline->name,
+                    spline->knot_count, k);
+    target->knot = &spline->knots[(int)k];
+    return true;
+}
+
+/// Finds the rig of the kind that has the target's name, or one with such a pin. A character without a name goes by its model.
+static bool find_rig(const struct document *document, const struct target_kind *kind, struct target *target,
+                     struct error *error)
+{
+    const double n = target->number[0];
+    for (target->rig = target->nth = 0; target->rig < document->rig_count; target->rig++) {
+        const struct rig *rig = document->rigs[target->rig];
+        const bool is_named = strcmp(rig_title(rig), target->name) == 0;
+        if (kind->of == OF_RIG && rig->kind == kind->rig && is_named) return true;
+        if (kind->of == OF_PIN && is_named && n >= 0 && n < rig->pin_count) target->pin = &rig->pins[(int)n];
+        if (target->pin) return true;
+        target->nth += rig->kind == kind->rig;
+    }
+    if (kind->of == OF_PIN) return fail(error, ERROR_INPUT, "there is no pin %g of \"%s\"", n, target->name);
+    return fail(error, ERROR_INPUT, "there is no %s \"%s\"", rig_word(kind->rig), target->name);
+}
 
 /// Cuts the last ",number" off `text`; false where there is none.
 static bool cut_number(char *text, double *number)
@@ -337,19 +260,22 @@ static const struct target_kind *parse(const char *text, struct target *target)
         for (int n = kind->numbers - 1; n >= 0; n--) {
             if (!cut_number(target->name, &target->number[n])) return NULL;
         }
-        return kind->named == (target->name[0] != 0) ? kind : NULL;
+        return (kind->of != OF_NOBODY) == (target->name[0] != 0) ? kind : NULL;
     }
     return NULL;
 }
 
-bool editor_target(struct editor *editor, const char *target, float *x, float *y, struct error *error)
+bool editor_target(struct editor *editor, const char *text, float *x, float *y, struct error *error)
 {
-    struct target parts;
-    const struct target_kind *kind = parse(target, &parts);
-    if (!kind) return fail(error, ERROR_INPUT, "\"%s\" is no target such as knot(sway,2) or stage(0.5,0.5)", target);
-    struct target_place place = {.editor = editor, .target = &parts};
-    if (!kind->find(&place, error)) return false;
-    *x = place.xy[0];
-    *y = place.xy[1];
+    const struct document *document = editor->core.document;
+    struct target target;
+    float xy[2];
+    const struct target_kind *kind = parse(text, &target);
+    if (!kind) return fail(error, ERROR_INPUT, "\"%s\" is no target such as knot(sway,2) or stage(0.5,0.5)", text);
+    if ((kind->of == OF_SPLINE || kind->of == OF_KNOT) && !find_spline(document, kind, &target, error)) return false;
+    if ((kind->of == OF_RIG || kind->of == OF_PIN) && !find_rig(document, kind, &target, error)) return false;
+    if (!kind->find(editor, &target, xy)) return fail(error, ERROR_INPUT, "%s", kind->missing);
+    *x = xy[0];
+    *y = xy[1];
     return true;
 }
