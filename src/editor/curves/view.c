@@ -75,32 +75,58 @@ static void keep_sane(struct curves *curves, struct core *core)
     core->visible = view->value1 - view->value0;
 }
 
-/// Shows a part, within reason.
-static void view_set(struct curves *curves, struct core *core, struct view view)
-{
-    curves->view = view;
-    keep_sane(curves, core);
-}
+/// Before anything is included.
+static const struct view NOTHING = {INFINITY, -INFINITY, INFINITY, -INFINITY};
 
-static void include_value(double range[2], double value)
+static void include_value(struct view *part, double value)
 {
     if (!isfinite(value)) return;
-    range[0] = fmin(range[0], value);
-    range[1] = fmax(range[1], value);
+    part->value0 = fmin(part->value0, value);
+    part->value1 = fmax(part->value1, value);
 }
 
-/// Sets the visible values to a range with a margin; a flat one gets a unit around it.
-static void show_values(struct view *view, const double range[2])
+/// Widens a part to a knot as it is drawn.
+static void include_knot(const struct curves *curves, const struct core *core, struct knot_place at,
+                         struct view *part)
 {
-    double span = range[1] - range[0];
-    if (!isfinite(span)) {
-        view->value0 = -1;
-        view->value1 = 1;
-        return;
+    const struct value_map map = normal_map(curves, core, at.spline);
+    const struct knot *knot = knot_at(core->document, at);
+    part->frame0 = fmin(part->frame0, knot->frame);
+    part->frame1 = fmax(part->frame1, knot->frame);
+    include_value(part, map.scale * knot->value + map.offset);
+}
+
+/// Widens a part to the values, as they are drawn, that a curve takes from a sample to another.
+static void include_curve(const struct curves *curves, const struct core *core, int spline, double first, double last,
+                          struct view *part)
+{
+    const struct evaluation *evaluation = core->evaluation;
+    const struct value_map map = normal_map(curves, core, spline);
+    if (!evaluation || spline >= evaluation->count || evaluation->samples == 0) return;
+    last = fmin(last, evaluation->samples - 1);
+    for (int highest = 0; highest < 2 && first <= last; highest++) {
+        const int sample = evaluation_extreme(evaluation, spline, (int)first, (int)last, highest);
+        include_value(part, map.scale * evaluation->curves[spline].total[sample] + map.offset);
     }
-    double margin = span > 1e-9 * fmax(fabs(range[0]), fabs(range[1])) && span > 1e-9 ? 0.12 * span : 1;
-    view->value0 = range[0] - margin;
-    view->value1 = range[1] + margin;
+}
+
+/// The same as far as it is in sight.
+static void include_seen(const struct curves *curves, const struct core *core, int spline, double first, double last,
+                         struct view *part)
+{
+    const double left = floor(core_position(core->document, curves->view.frame0));
+    const double right = ceil(core_position(core->document, curves->view.frame1));
+    include_curve(curves, core, spline, fmax(first, fmax(left, 0)), fmin(last, right), part);
+}
+
+/// Sets the visible values to those of a part with a margin; flat ones get a unit around them.
+static void show_values(struct view *view, const struct view *part)
+{
+    const double span = part->value1 - part->value0, largest = fmax(fabs(part->value0), fabs(part->value1));
+    const double margin = span > 1e-9 * largest && span > 1e-9 ? 0.12 * span : 1;
+    const bool known = isfinite(span);
+    view->value0 = known ? part->value0 - margin : -1;
+    view->value1 = known ? part->value1 + margin : 1;
 }
 
 /// Makes room for what else is drawn of the active spline: its imaginary part, and what it swings about.
@@ -109,15 +135,15 @@ static void include_rest(struct curves *curves, const struct core *core)
     enum { COLUMNS = 200 };
     const double margin = 0.06, last = document_samples(core->document) - 1;
     struct view *view = &curves->view;
-    double range[2] = {view->value0, view->value1};
+    struct view part = *view;
     for (int column = 0; column <= COLUMNS && core->active >= 0; column++) {
         const wiggly_value v = evaluation_at(core->evaluation, core->active, last * column / COLUMNS);
-        include_value(range, v.y);
-        include_value(range, v.y + v.im);
+        include_value(&part, v.y);
+        include_value(&part, v.y + v.im);
     }
-    const double span = range[1] - range[0];
-    if (range[0] < view->value0) view->value0 = range[0] - margin * span;
-    if (range[1] > view->value1) view->value1 = range[1] + margin * span;
+    const double span = part.value1 - part.value0;
+    if (part.value0 < view->value0) view->value0 = part.value0 - margin * span;
+    if (part.value1 > view->value1) view->value1 = part.value1 + margin * span;
 }
 
 /// The view stays where it is, whatever was edited.
@@ -127,126 +153,79 @@ static void follow_stop(struct curves *curves, struct core *core)
     core->edited = (struct edited){0};
 }
 
-void curves_frame_all(struct curves *curves, struct core *core)
+/// Shows a part, within reason, and no more what was edited.
+static void view_set(struct curves *curves, struct core *core, struct view view)
 {
     follow_stop(curves, core);
-    const struct document *document = core->document;
-    const struct evaluation *evaluation = core->evaluation;
-    double range[2] = {INFINITY, -INFINITY};
-    for (int s = 0; s < document->spline_count; s++) {
-        const struct spline *spline = document->splines[s];
-        if (core->curves.normalise && s != core->active) continue;
-        for (int k = 0; k < spline->knot_count; k++) include_value(range, spline->knots[k].value);
-        if (!evaluation || s >= evaluation->count) continue;
-        for (int highest = 0; highest < 2 && evaluation->samples > 0; highest++) {
-            int sample = evaluation_extreme(evaluation, s, 0, evaluation->samples - 1, highest);
-            include_value(range, evaluation->curves[s].total[sample]);
-        }
-    }
-    show_values(&curves->view, range);
-    include_rest(curves, core);
-    double frames = document->last_frame - document->first_frame;
-    curves->view.frame0 = document->first_frame - fmax(0.02 * frames, 0.5);
-    curves->view.frame1 = document->last_frame + fmax(0.02 * frames, 0.5);
+    curves->view = view;
     keep_sane(curves, core);
 }
 
-/// Widens a range to what a curve does in the frames that are in sight.
-static void include_part(const struct curves *curves, const struct core *core, int spline, double range[2])
+void curves_frame_all(struct curves *curves, struct core *core)
 {
-    enum { COLUMNS = 200 };
-    const struct value_map map = normal_map(curves, core, spline);
-    for (int column = 0; column <= COLUMNS; column++) {
-        double frame = curves->view.frame0 + (curves->view.frame1 - curves->view.frame0) * column / COLUMNS;
-        wiggly_value v = evaluation_at(core->evaluation, spline, core_position(core->document, frame));
-        include_value(range, map.scale * (v.y + v.re) + map.offset);
+    const struct document *document = core->document;
+    struct view part = NOTHING;
+    for (int s = 0; s < document->spline_count; s++) {
+        const struct spline *spline = document->splines[s];
+        if (core->curves.normalise && s != core->active) continue;
+        for (int k = 0; k < spline->knot_count; k++) include_value(&part, spline->knots[k].value);
+        include_curve(curves, core, s, 0, INFINITY, &part);
     }
+    show_values(&curves->view, &part);
+    include_rest(curves, core);
+    const double margin = fmax(0.02 * (document->last_frame - document->first_frame), 0.5);
+    view_set(curves, core,
+             (struct view){document->first_frame - margin, document->last_frame + margin, curves->view.value0,
+                           curves->view.value1});
 }
 
 void curves_frame_selection(struct curves *curves, struct core *core)
 {
-    const struct document *document = core->document;
-    double values[2] = {INFINITY, -INFINITY};
-    double frames[2] = {INFINITY, -INFINITY};
-    for (struct knot_place at = SELECTED_START; selected_next(core, &at);) {
-        const struct value_map map = normal_map(curves, core, at.spline);
-        include_value(values, map.scale * knot_at(document, at)->value + map.offset);
-        include_value(frames, knot_at(document, at)->frame);
-    }
-    if (frames[0] > frames[1]) {
+    struct view part = NOTHING;
+    for (struct knot_place at = SELECTED_START; selected_next(core, &at);) include_knot(curves, core, at, &part);
+    if (part.frame0 > part.frame1) {
         curves_frame_all(curves, core);
         return;
     }
-    double margin = fmax(0.25 * (frames[1] - frames[0]), 6);
-    follow_stop(curves, core);
-    curves->view.frame0 = frames[0] - margin;
-    curves->view.frame1 = frames[1] + margin;
+    const double margin = fmax(0.25 * (part.frame1 - part.frame0), 6);
+    curves->view.frame0 = part.frame0 - margin;
+    curves->view.frame1 = part.frame1 + margin;
     int seen = -1;
     for (struct knot_place at = SELECTED_START; selected_next(core, &at); seen = at.spline) {
-        if (at.spline != seen) include_part(curves, core, at.spline, values);
+        if (at.spline != seen) include_seen(curves, core, at.spline, 0, INFINITY, &part);
     }
-    show_values(&curves->view, values);
-    keep_sane(curves, core);
+    show_values(&curves->view, &part);
+    view_set(curves, core, curves->view);
+}
+
+static void shift(struct curves *curves, struct core *core, double frames, double values)
+{
+    const struct view *v = &curves->view;
+    view_set(curves, core,
+             (struct view){v->frame0 + frames, v->frame1 + frames, v->value0 + values, v->value1 + values});
 }
 
 void curves_reveal(struct curves *curves, struct core *core, double frame, double value)
 {
-    follow_stop(curves, core);
-    struct view *view = &curves->view;
-    double frames = 0.05 * (view->frame1 - view->frame0);
-    double values = 0.05 * (view->value1 - view->value0);
-    double dx = fmin(frame - frames - view->frame0, 0) + fmax(frame + frames - view->frame1, 0);
-    double dy = fmin(value - values - view->value0, 0) + fmax(value + values - view->value1, 0);
-    view->frame0 += dx;
-    view->frame1 += dx;
-    view->value0 += dy;
-    view->value1 += dy;
-    keep_sane(curves, core);
-}
-
-/// Shows the values v that were shown as scale·v + offset.
-static void view_rescale(struct curves *curves, struct core *core, double scale, double offset)
-{
-    follow_stop(curves, core);
-    curves->view.value0 = (curves->view.value0 - offset) / scale;
-    curves->view.value1 = (curves->view.value1 - offset) / scale;
-    keep_sane(curves, core);
+    const struct view *view = &curves->view;
+    const double frames = 0.05 * (view->frame1 - view->frame0), values = 0.05 * (view->value1 - view->value0);
+    shift(curves, core, fmin(frame - frames - view->frame0, 0) + fmax(frame + frames - view->frame1, 0),
+          fmin(value - values - view->value0, 0) + fmax(value + values - view->value1, 0));
 }
 
 void curves_pan(struct curves *curves, struct core *core, double dx, double dy)
 {
-    follow_stop(curves, core);
-    struct view *view = &curves->view;
-    double frames = dx / curves_pixels_per_frame(curves, core);
-    double values = dy / curves_pixels_per_value(curves, core);
-    view->frame0 -= frames;
-    view->frame1 -= frames;
-    view->value0 += values;
-    view->value1 += values;
-    keep_sane(curves, core);
+    shift(curves, core, -dx / curves_pixels_per_frame(curves, core), dy / curves_pixels_per_value(curves, core));
 }
 
 void curves_zoom(struct curves *curves, struct core *core, float x, float y, double time_factor, double value_factor)
 {
-    follow_stop(curves, core);
-    struct view *view = &curves->view;
-    double frame = curves_frame(curves, core, x);
-    double value = curves_value(curves, core, y);
-    view->frame0 = frame + (view->frame0 - frame) * time_factor;
-    view->frame1 = frame + (view->frame1 - frame) * time_factor;
-    view->value0 = value + (view->value0 - value) * value_factor;
-    view->value1 = value + (view->value1 - value) * value_factor;
-    keep_sane(curves, core);
-}
-
-/// Samples that are in sight.
-static void curves_span(const struct curves *curves, const struct document *document, int *first, int *count)
-{
-    double last = document_samples(document) - 1;
-    double left = fmin(fmax(floor(core_position(document, curves->view.frame0)), 0), last);
-    double right = fmin(fmax(ceil(core_position(document, curves->view.frame1)), 0), last);
-    *first = (int)left;
-    *count = (int)(right - left) + 1;
+    const struct view *view = &curves->view;
+    const double frame = curves_frame(curves, core, x), value = curves_value(curves, core, y);
+    view_set(curves, core,
+             (struct view){frame + (view->frame0 - frame) * time_factor, frame + (view->frame1 - frame) * time_factor,
+                           value + (view->value0 - value) * value_factor,
+                           value + (view->value1 - value) * value_factor});
 }
 
 static bool has_height(const double range[2]) { return range[1] - range[0] > 1e-12 * fmax(1, fabs(range[0])); }
@@ -293,7 +272,10 @@ void normal_update(struct curves *curves, const struct core *core)
 void curves_activate(struct curves *curves, struct core *core, int before)
 {
     const struct value_map map = map_between(curves, core, before, core->active);
-    view_rescale(curves, core, map.scale, map.offset);
+    const struct view *view = &curves->view;
+    view_set(curves, core,
+             (struct view){view->frame0, view->frame1, (view->value0 - map.offset) / map.scale,
+                           (view->value1 - map.offset) / map.scale});
 }
 
 static const double RATE = 14;     ///< of the way that is left, a second
@@ -303,54 +285,27 @@ static const double WIDEST = 1.7;  ///< of the visible frames: what needs more i
 
 bool follow_moves(const struct curves *curves) { return curves->following.moves; }
 
-/// Widens a range to the values, as they are drawn, that a curve takes from a sample to another, as far as these are in sight.
-static void include_curve(const struct curves *curves, const struct core *core, int spline, int first, int last,
-                          struct view *edited)
-{
-    const struct evaluation *evaluation = core->evaluation;
-    const struct value_map map = normal_map(curves, core, spline);
-    int seen, count;
-    if (!evaluation || spline >= evaluation->count || evaluation->samples == 0) return;
-    curves_span(curves, core->document, &seen, &count);
-    const int end = seen + count < evaluation->samples ? seen + count - 1 : evaluation->samples - 1;
-    first = first > seen ? first : seen;
-    last = last < end ? last : end;
-    for (int highest = 0; highest < 2 && first <= last; highest++) {
-        const int sample = evaluation_extreme(evaluation, spline, first, last, highest);
-        const double value = map.scale * evaluation->curves[spline].total[sample] + map.offset;
-        if (!isfinite(value)) continue;
-        edited->value0 = fmin(edited->value0, value);
-        edited->value1 = fmax(edited->value1, value);
-    }
-}
-
-/// Widens a range to a knot, and the curve from the knot before to the one after it.
-static void include_knot(const struct curves *curves, const struct core *core, struct knot_place at,
-                         struct view *edited)
+/// Widens a part to a knot, and the curve from the knot before to the one after it.
+static void include_around(const struct curves *curves, const struct core *core, struct knot_place at,
+                           struct view *part)
 {
     const struct document *document = core->document;
-    const struct spline *spline = document->splines[at.spline];
-    const struct knot *knot = &spline->knots[at.knot];
-    const struct value_map map = normal_map(curves, core, at.spline);
-    const double value = map.scale * knot->value + map.offset;
-    const bool has_next = at.knot + 1 < spline->knot_count;
-    const int first = at.knot > 0 ? document_sample(document, knot[-1].frame) : 0;
-    const int last = has_next ? document_sample(document, knot[1].frame) : document_samples(document) - 1;
-    *edited = (struct view){fmin(edited->frame0, knot->frame), fmax(edited->frame1, knot->frame),
-                            fmin(edited->value0, value), fmax(edited->value1, value)};
-    include_curve(curves, core, at.spline, first, last, edited);
+    const struct knot *knot = knot_at(document, at);
+    const bool has_next = at.knot + 1 < document->splines[at.spline]->knot_count;
+    include_knot(curves, core, at, part);
+    const double first = at.knot > 0 ? document_sample(document, knot[-1].frame) : 0;
+    const double last = has_next ? (double)document_sample(document, knot[1].frame) : INFINITY;
+    include_seen(curves, core, at.spline, first, last, part);
 }
 
 /// The frames and values of all that was edited since the last picture; of splines only values, where they are in sight.
 static struct view edited_part(const struct curves *curves, const struct core *core)
 {
     const struct edited *edited = &core->edited;
-    const struct document *document = core->document;
-    struct view part = {INFINITY, -INFINITY, INFINITY, -INFINITY};
+    struct view part = NOTHING;
     for (struct knot_place at = SELECTED_START; edited->selection && selected_next(core, &at);)
-        include_knot(curves, core, at, &part);
-    for (int i = 0; i < edited->count; i++)
-        include_curve(curves, core, edited->spline[i], 0, document_samples(document) - 1, &part);
+        include_around(curves, core, at, &part);
+    for (int i = 0; i < edited->count; i++) include_seen(curves, core, edited->spline[i], 0, INFINITY, &part);
     return part;
 }
 
@@ -393,16 +348,15 @@ void curves_advance(struct curves *curves, struct core *core, double dt)
     const bool is_measured = core->drag.owner && core->drag.room == curves; // which must hold still then
     if (!following->moves || is_measured) return;
     const double share = 1 - exp(-RATE * fmax(dt, 0));
-    struct view *view = &curves->view;
-    const struct view *goal = &following->goal;
+    const struct view *view = &curves->view, *goal = &following->goal;
     const double left[4] = {goal->frame0 - view->frame0, goal->frame1 - view->frame1, goal->value0 - view->value0,
                             goal->value1 - view->value1};
     const double frames = fmax(fabs(left[0]), fabs(left[1])) * curves_pixels_per_frame(curves, core);
     const double values = fmax(fabs(left[2]), fabs(left[3])) * curves_pixels_per_value(curves, core);
     const bool there = fmax(frames, values) < CLOSE;
-    view_set(curves, core,
-             there ? *goal
-                   : (struct view){view->frame0 + share * left[0], view->frame1 + share * left[1],
-                                   view->value0 + share * left[2], view->value1 + share * left[3]});
+    curves->view = there ? *goal
+                         : (struct view){view->frame0 + share * left[0], view->frame1 + share * left[1],
+                                         view->value0 + share * left[2], view->value1 + share * left[3]};
+    keep_sane(curves, core);
     following->moves = !there;
 }
