@@ -115,7 +115,7 @@ SESSION_TEST(test_a_part_is_played_without_brackets, session_open(s, scene))
     session_key(s, KEY_HOME, MOD_CTRL);
     playback_seek(&s->editor->core, 50);
     session_key(s, KEY_END, MOD_CTRL);
-    assert_true(playback->has_range);
+    assert_true(playback_is_part(&s->editor->core));
     assert_near(playback->range[0], 20, 0);
     assert_near(playback->range[1], 50, 0);
 }

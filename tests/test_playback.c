@@ -151,7 +151,7 @@ SESSION_TEST(test_no_part, open_at(s, 40))
     playback_seek(&s->editor->core, 0);
     session_type(s, "[");
     assert_range(s, 0, 100);
-    assert_false(s->editor->core.playback.has_range);
+    assert_false(playback_is_part(&s->editor->core));
 }
 
 /// Scrubbing shows frames exactly, and what lies between them with Ctrl, from the press on.

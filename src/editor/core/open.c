@@ -4,6 +4,7 @@
 #include "editor/core/core.h"
 #include "editor/core/pins.h"
 #include "editor/core/selection.h"
+#include <math.h>
 #include <string.h>
 
 /// The spline that is active first: the first that moves something, else the first; -1 if there is none.
@@ -24,7 +25,8 @@ static void open_playback(struct core *core)
     const struct document *document = core->document;
     core->seen_first = document->first_frame;
     core->seen_substeps = document->substeps;
-    core->playback = (struct playback){.looping = true, .speed = 1, .playing = document->about != NULL};
+    core->playback = (struct playback){
+        .looping = true, .speed = 1, .playing = document->about != NULL, .range = {-INFINITY, INFINITY}};
     for (int s = 0; s < document->spline_count; s++)
         core->playback.playing |= spline_start(document->splines[s]) == WIGGLY_LOOP;
     core->auto_key = false;

@@ -7,14 +7,13 @@
 
 void playback_range(const struct core *core, double range[2])
 {
-    const struct playback *playback = &core->playback;
-    range[0] = core->document->first_frame;
-    range[1] = core->document->last_frame;
-    if (!playback->has_range) return;
-    double first = fmax(playback->range[0], range[0]), last = fmin(playback->range[1], range[1]);
-    if (first >= last) return; // nothing of it is left in the scene
-    range[0] = first;
-    range[1] = last;
+    const struct document *document = core->document;
+    const double *part = core->playback.range;
+    range[0] = fmax(part[0], document->first_frame);
+    range[1] = fmin(part[1], document->last_frame);
+    if (range[0] < range[1]) return;
+    range[0] = document->first_frame; // nothing of it is left in the scene
+    range[1] = document->last_frame;
 }
 
 bool playback_is_part(const struct core *core)
@@ -26,13 +25,12 @@ bool playback_is_part(const struct core *core)
 
 void playback_choose(struct core *core, double first, double last)
 {
-    const struct document *document = core->document;
-    struct playback *playback = &core->playback;
-    first = fmax(first, document->first_frame);
-    last = fmin(last, document->last_frame);
-    playback->has_range = first < last && (first > document->first_frame || last < document->last_frame);
-    playback->range[0] = first;
-    playback->range[1] = last;
+    double *range = core->playback.range;
+    range[0] = first;
+    range[1] = last;
+    if (first < last && playback_is_part(core)) return;
+    range[0] = -INFINITY;
+    range[1] = INFINITY;
 }
 
 void playback_say_range(struct core *core)

@@ -191,10 +191,7 @@ struct playback {
     double position; ///< in samples; may lie between two
     double speed;    ///< 1: real time
     long dropped;    ///< frames of the scene that no picture showed, since it plays
-    bool has_range;  ///< a part is played: these frames
-    double range[2];
-    bool had_range; ///< the same before a drag
-    double old_range[2];
+    double range[2]; ///< frames of the part that is played, as far as the scene has them; of all: infinite
 };
 
 struct message {

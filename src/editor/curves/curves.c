@@ -38,9 +38,8 @@ bool curves_wants_frames(const struct curves *curves) { return follow_moves(curv
 static const float CURVE_REACH = 7, OTHER_REACH = 7, WARNING_REACH = 9;
 static const double ZOOM_STEP = 0.15; ///< of a wheel's notch, as a power of e
 
-/// The nearest knot of one spline, where it is nearer than `reach`; returns its distance, else `reach`.
-static float nearest_knot(const struct curves *curves, const struct core *core, int of, float x, float y, float reach,
-                          struct hover *hover)
+float nearest_knot(const struct curves *curves, const struct core *core, int of, float row, float x, float y,
+                   float reach, struct hover *hover)
 {
     const struct spline *spline = core->document->splines[of];
     float best = reach;
@@ -48,7 +47,7 @@ static float nearest_knot(const struct curves *curves, const struct core *core, 
         const struct knot *knot = &spline->knots[k];
         float at = curves_knot_x(curves, core, knot);
         if (at > x + reach) break;
-        float distance = hypotf(x - at, y - curves_y_of(curves, core, of, knot->value));
+        float distance = hypotf(x - at, isnan(row) ? y - curves_y_of(curves, core, of, knot->value) : 0);
         if (distance > best) continue;
         best = distance;
         *hover = (struct hover){.kind = HOVER_KNOT, .spline = of, .knot = knot->id};
@@ -63,7 +62,7 @@ static void nearest_other_knot(const struct curves *curves, const struct core *c
     float best = OTHER_REACH;
     for (int i = 0; i < curves->cache.other_count; i++) {
         const int spline = curves_other(curves, core->document, i);
-        if (spline >= 0) best = nearest_knot(curves, core, spline, x, y, best, hover);
+        if (spline >= 0) best = nearest_knot(curves, core, spline, NAN, x, y, best, hover);
     }
 }
 
@@ -152,7 +151,7 @@ struct hover curves_hover(const struct curves *curves, const struct core *core, 
     if (rect_contains(sheet_area(core), x, y)) return sheet_hover(curves, core, x, y);
     if (!rect_contains(core->layout.plot, x, y) || !spline) return hover;
     bool seen = spline_list_seen(core) != NULL;
-    if (seen) nearest_knot(curves, core, core->active, x, y, CURVES_HIT_RADIUS, &hover);
+    if (seen) nearest_knot(curves, core, core->active, NAN, x, y, CURVES_HIT_RADIUS, &hover);
     if (seen && hover.kind == HOVER_NONE) nearest_handle(curves, core, spline, x, y, &hover);
     if (hover.kind == HOVER_NONE) nearest_warning(curves, core, x, y, &hover);
     if (hover.kind == HOVER_NONE) nearest_other_knot(curves, core, x, y, &hover);
@@ -316,16 +315,17 @@ static struct rect box_rect(const struct drag *drag)
                          fabsf(drag->y - drag->start_y)};
 }
 
-/// Selects or deselects what of one spline is in the box.
-static void take_inside(const struct curves *curves, struct core *core, int s)
+/// Selects or deselects what of one spline is in the box, in the plot or, with the height of its row, on the sheet.
+static void take_inside(const struct curves *curves, struct core *core, int s, float row)
 {
     const struct rect box = box_rect(&core->drag);
     const struct spline *spline = core->document->splines[s];
     for (int k = curves_knot_from(curves, core, spline, box.x); k < spline->knot_count; k++) {
         const struct knot *knot = &spline->knots[k];
         const float x = curves_knot_x(curves, core, knot), y = curves_y_of(curves, core, s, knot->value);
-        if (x > box.x + box.w) break;
-        if (rect_contains(box, x, y)) selection_set(&core->selection, knot->id, curves->knot_drag.box != BOX_REMOVE);
+        if (x >= box.x + box.w) break;
+        if (x >= box.x && (!isnan(row) || rect_contains(box, x, y)))
+            selection_set(&core->selection, knot->id, curves->knot_drag.box != BOX_REMOVE);
     }
 }
 
@@ -336,14 +336,15 @@ static void move(void *room, struct core *core)
     const struct document *document = core->document;
     selection_copy(&core->selection, &curves->before_box);
     if (curves->knot_drag.box == BOX_REPLACE) selection_clear(&core->selection);
-    if (curves->knot_drag.in_sheet) {
-        sheet_take_inside(curves, core, box_rect(&core->drag));
-        return;
+    for (int s = 0; curves->knot_drag.in_sheet && s < document->spline_count; s++) {
+        const float row = sheet_row_in(curves, core, s, box_rect(&core->drag));
+        if (!isnan(row)) take_inside(curves, core, s, row);
     }
-    if (spline_list_seen(core)) take_inside(curves, core, core->active);
+    if (curves->knot_drag.in_sheet) return;
+    if (spline_list_seen(core)) take_inside(curves, core, core->active, NAN);
     for (int i = 0; i < curves->cache.other_count; i++) {
         const int other = curves_other(curves, document, i);
-        if (other >= 0) take_inside(curves, core, other);
+        if (other >= 0) take_inside(curves, core, other, NAN);
     }
 }
 

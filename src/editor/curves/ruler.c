@@ -9,6 +9,7 @@
 #include "ui/theme.h"
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 static const float MIN_FRAME_STEP = 64, MIN_VALUE_STEP = 34, TAG_GAP = 3; ///< pixels between numbers
 
@@ -151,15 +152,12 @@ static void number_frames(const struct curves *curves, struct core *core, struct
 /// A press that did not move plays all again; `keep` false brings the former part back.
 static void end(void *room, struct core *core, bool keep)
 {
-    struct playback *playback = &core->playback;
-    (void)room;
+    const double *before = ((const struct curves *)room)->range_before;
     if (!keep) {
-        playback->has_range = playback->had_range;
-        playback->range[0] = playback->old_range[0];
-        playback->range[1] = playback->old_range[1];
+        playback_choose(core, before[0], before[1]);
     } else if (!core->drag.moved) {
-        playback->has_range = false;
-        core_message(core, false, "Playing the whole scene.");
+        playback_choose(core, -INFINITY, INFINITY);
+        playback_say_range(core);
     }
 }
 
@@ -234,11 +232,8 @@ static void move(void *room, struct core *core)
 void range_begin(struct curves *curves, struct core *core, const struct event *event)
 {
     static const struct drag_owner owner = {.cursor = CURSOR_HORIZONTAL, .move = move, .end = end};
-    struct playback *playback = &core->playback;
     drag_begin(core, &owner, curves, NULL, event);
-    playback->had_range = playback->has_range;
-    playback->old_range[0] = playback->range[0];
-    playback->old_range[1] = playback->range[1];
+    memcpy(curves->range_before, core->playback.range, sizeof curves->range_before);
 }
 
 static const float REACH = 6;                        ///< pixels beside a mark

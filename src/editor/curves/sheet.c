@@ -10,9 +10,8 @@
 
 enum { ROW = 16, PAD = 3, MOST_ROWS = 6 }; ///< pixels, pixels above and below, rows; what is more is scrolled to
 
-static const float LEAST_PLOT = 90;          ///< pixels that the curves keep
-static const float REACH = 7, RADIUS = 3.5f; ///< of a mark
-static const float CROWDED = 3;              ///< pixels between marks below which one stands for several
+static const float LEAST_PLOT = 90; ///< pixels that the curves keep
+static const float REACH = 7;       ///< of a mark
 
 /// The splines of all rows that are shown; how many there are.
 static int list_rows(const struct core *core, int first, int *splines, int most)
@@ -89,17 +88,8 @@ struct hover sheet_hover(const struct curves *curves, const struct core *core, f
 {
     const int s = row_spline(curves, core, y);
     struct hover hover = {.kind = s >= 0 ? HOVER_ROW : HOVER_NONE, .spline = s};
-    float best = REACH;
     if (s < 0 || !rect_contains(core->layout.sheet, x, y)) return hover;
-    const struct spline *spline = core->document->splines[s];
-    for (int k = curves_knot_from(curves, core, spline, x - REACH); k < spline->knot_count; k++) {
-        const struct knot *knot = &spline->knots[k];
-        const float at = curves_knot_x(curves, core, knot), distance = fabsf(x - at);
-        if (at > x + REACH) break;
-        if (distance > best) continue;
-        best = distance;
-        hover = (struct hover){.kind = HOVER_KNOT, .spline = s, .knot = knot->id};
-    }
+    nearest_knot(curves, core, s, y, x, y, REACH, &hover);
     return hover;
 }
 
@@ -117,21 +107,13 @@ void sheet_press_row(struct curves *curves, struct core *core, int spline, const
     curves->knot_drag.in_sheet = true;
 }
 
-void sheet_take_inside(const struct curves *curves, struct core *core, struct rect box)
+float sheet_row_in(const struct curves *curves, const struct core *core, int spline, struct rect box)
 {
     for (int row = 0; row < curves->sheet.rows; row++) {
-        const int s = curves->sheet.spline[row];
-        if (s >= core->document->spline_count) continue;
-        const float top = row_y(core, row) - ROW / 2.0f;
-        if (top + ROW <= box.y || top >= box.y + box.h) continue;
-        const struct spline *spline = core->document->splines[s];
-        for (int k = curves_knot_from(curves, core, spline, box.x); k < spline->knot_count; k++) {
-            const struct knot *knot = &spline->knots[k];
-            const float x = curves_knot_x(curves, core, knot);
-            if (x >= box.x + box.w) break;
-            if (x >= box.x) selection_set(&core->selection, knot->id, curves->knot_drag.box != BOX_REMOVE);
-        }
+        const float y = row_y(core, row), half = ROW / 2.0f;
+        if (curves->sheet.spline[row] == spline) return y + half > box.y && y - half < box.y + box.h ? y : NAN;
     }
+    return NAN;
 }
 
 bool sheet_wheel(struct curves *curves, struct core *core, const struct event *event)
@@ -155,23 +137,6 @@ bool curves_mark_point(const struct curves *curves, const struct core *core, int
     return false;
 }
 
-static void show_marks(const struct curves *curves, struct core *core, int s, float y)
-{
-    const struct spline *spline = core->document->splines[s];
-    const uint32_t color = spline_list_color(core->document, s);
-    const struct rect *sheet = &core->layout.sheet;
-    int k = curves_knot_from(curves, core, spline, sheet->x - RADIUS - 1);
-    for (; k < spline->knot_count; k = crowd_next(curves, core, s, k, CROWDED)) {
-        const struct knot *knot = &spline->knots[k];
-        const float x = curves_knot_x(curves, core, knot);
-        const bool selected = selection_has(&core->selection, knot->id);
-        const bool hovered = core->hover.kind == HOVER_KNOT && core->hover.knot == knot->id;
-        if (x > sheet->x + sheet->w + RADIUS + 1) break;
-        knot_mark(&core->list, x, y, selected ? RADIUS + 1 : RADIUS, color, selected);
-        if (hovered) knot_ring(&core->list, x, y);
-    }
-}
-
 /// A row: its band where it is the active one, a line from the first mark to the last one, the marks, and the name behind them.
 static void show_row(const struct curves *curves, struct core *core, int row)
 {
@@ -191,7 +156,7 @@ static void show_row(const struct curves *curves, struct core *core, int row)
         const float to = curves_knot_x(curves, core, &spline->knots[spline->knot_count - 1]);
         drawlist_rect(&core->list, (struct rect){from, roundf(y) - 0.5f, to - from, 1}, theme_fade(color, 0.35f));
     }
-    show_marks(curves, core, s, y);
+    knots_show(curves, core, s, y);
     drawlist_set_clip(&core->list, clip);
     drawlist_text_fit(&core->list, left, roundf(y + 4), panel->x + panel->w - 6 - left,
                       active ? FONT_LABEL_BOLD : FONT_LABEL, THEME_TEXT_SMALL,

@@ -15,7 +15,8 @@ enum { MAX_LABELS = CURVES_MAX_OTHERS + 2, RING_POINTS = 25 };
 static const float KNOT_RADIUS = 4.5f, OTHER_RADIUS = 3, HOVER_RADIUS = 6.5f, HANDLE_REACH = 130, HANDLE_RADIUS = 3;
 static const double FIRM_LENGTH = 48, DECADE_LENGTH = 12; ///< of a handle; of ten times the stiffness
 static const float MARK_STEP = 12;                        ///< columns from mark to mark in a band
-static const float OTHERS_CROWDED = 3;                    ///< pixels between knots below which one stands for several
+static const float MARK_RADIUS = 3.5f;                    ///< on the dope sheet
+static const float CROWDED = 3;                           ///< pixels between knots below which one stands for several
 static const float LABEL_STEP = 15;
 static const float FAN_NEAR = 0.24f,
                    FAN_STEP = 0.03f; ///< opacity of the least lagged copy, and less of each further one
@@ -127,12 +128,14 @@ static void show_handle(const struct curves *curves, struct core *core, const st
     }
 }
 
-void knot_ring(struct drawlist *list, float x, float y)
+/// The ring around the knot under the pointer.
+static void knot_ring(struct drawlist *list, float x, float y)
 {
     show_ring(list, x, y, HOVER_RADIUS, 1.25f, theme()->playhead);
 }
 
-void knot_mark(struct drawlist *list, float x, float y, float r, uint32_t color, bool selected)
+/// A knot: a diamond, filled with its colour; with an outline where it is selected.
+static void knot_mark(struct drawlist *list, float x, float y, float r, uint32_t color, bool selected)
 {
     const float xy[] = {x, y - r, x + r, y, x, y + r, x - r, y, x, y - r};
     drawlist_convex(list, xy, 4, color);
@@ -165,7 +168,8 @@ static bool is_hovered(const struct core *core, const struct knot *knot)
     return core->hover.kind == HOVER_KNOT && core->hover.knot == knot->id;
 }
 
-int crowd_next(const struct curves *curves, const struct core *core, int spline, int knot, float gap)
+/// The knot to draw after one, where knots are crowded: the next that is selected or under the pointer, or at least `gap` pixels on.
+static int crowd_next(const struct curves *curves, const struct core *core, int spline, int knot, float gap)
 {
     const struct spline *of = core->document->splines[spline];
     const float end = curves_knot_x(curves, core, &of->knots[knot]) + gap;
@@ -253,21 +257,27 @@ static void show_knots(const struct curves *curves, struct core *core)
     }
 }
 
-/// Knots of the other curves, small unless they are selected: a click on one makes its spline the active one.
-static void show_other_knots(const struct curves *curves, struct core *core, int s)
+/// A click on one makes its spline the active one.
+void knots_show(const struct curves *curves, struct core *core, int s, float row)
 {
     const struct spline *spline = core->document->splines[s];
     const struct rect *plot = &core->layout.plot;
-    const uint32_t full = spline_list_color(core->document, s), color = theme_fade(full, THEME_OTHERS);
-    int k = curves_knot_from(curves, core, spline, plot->x);
-    for (; k < spline->knot_count; k = crowd_next(curves, core, s, k, OTHERS_CROWDED)) {
+    const uint32_t full = spline_list_color(core->document, s);
+    const bool on_sheet = !isnan(row);
+    const float margin = on_sheet ? MARK_RADIUS + 1 : 0;
+    int k = curves_knot_from(curves, core, spline, plot->x - margin);
+    for (; k < spline->knot_count; k = crowd_next(curves, core, s, k, CROWDED)) {
         const struct knot *knot = &spline->knots[k];
-        bool selected = selection_has(&core->selection, knot->id);
-        float x = curves_knot_x(curves, core, knot);
-        float y = curves_y_of(curves, core, s, knot->value);
-        if (x < plot->x) continue;
-        if (x > plot->x + plot->w) break;
-        knot_mark(&core->list, x, y, selected ? KNOT_RADIUS : OTHER_RADIUS, selected ? full : color, selected);
+        const bool selected = selection_has(&core->selection, knot->id);
+        const float x = curves_knot_x(curves, core, knot);
+        const float y = on_sheet ? row : curves_y_of(curves, core, s, knot->value);
+        if (x < plot->x - margin) continue;
+        if (x > plot->x + plot->w + margin) break;
+        knot_mark(&core->list, x, y,
+                  selected   ? KNOT_RADIUS
+                  : on_sheet ? MARK_RADIUS
+                             : OTHER_RADIUS,
+                  on_sheet || selected ? full : theme_fade(full, THEME_OTHERS), selected);
         if (is_hovered(core, knot)) knot_ring(&core->list, x, y);
     }
 }
@@ -403,17 +413,19 @@ void curves_show(struct curves *curves, struct core *core)
 {
     struct rect clip = drawlist_push_clip(&core->list, core->layout.curves);
     curves_update(curves, core);
-    warnings_update(curves, core);
     grid_show(curves, core);
     struct rect panel = drawlist_push_clip(&core->list, core->layout.plot);
     limits_show(curves, core);
     show_lines(curves, core);
     for (int i = 0; i < curves->cache.other_count; i++) {
-        show_other_knots(curves, core, curves->cache.other_spline[i]);
+        knots_show(curves, core, curves->cache.other_spline[i], NAN);
     }
     show_knots(curves, core);
-    if (!core->drag.owner) scale_box_show(curves, core, true);
-    warnings_show(curves, core);
+    if (!core->drag.owner) { // else all that would change with every step
+        scale_box_show(curves, core, true);
+        warnings_update(curves, core);
+        warnings_show(curves, core);
+    }
     show_empty(core);
     drawlist_set_clip(&core->list, panel);
     sheet_show(curves, core);

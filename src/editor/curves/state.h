@@ -156,6 +156,7 @@ struct curves {
     struct scaling scaling;
     struct limit_drag limit_drag;
     struct pin_time_drag pin_drag;
+    double range_before[2]; ///< of what is played, when a drag of it began
     struct ghost ghost;
     struct curve_cache cache;
     struct warnings warnings;
@@ -200,6 +201,12 @@ void drag_begin_slope(struct curves *curves, struct core *core, unsigned knot, i
 /// The active spline's limits, dashed.
 void limits_show(const struct curves *curves, struct core *core);
 
+/// Draws the knots of a spline that are small unless they are selected, those of the dope sheet with the height of their row, else NAN.
+void knots_show(const struct curves *curves, struct core *core, int spline, float row);
+/// The nearest knot of one spline, where it is nearer than `reach`, likewise; returns its distance, else `reach`.
+float nearest_knot(const struct curves *curves, const struct core *core, int of, float row, float x, float y,
+                   float reach, struct hover *hover);
+
 /// The pin whose mark on the ruler is there, or HOVER_NONE.
 struct hover ruler_pins_hover(const struct curves *curves, const struct core *core, float x, float y);
 /// Selects it, goes to its frame and starts to drag it.
@@ -214,8 +221,8 @@ struct rect sheet_switch(const struct core *core);
 struct hover sheet_hover(const struct curves *curves, const struct core *core, float x, float y);
 /// A press beside the marks: the spline becomes the active one; a double click inserts a knot on its curve, a drag begins a box.
 void sheet_press_row(struct curves *curves, struct core *core, int spline, const struct event *event);
-/// Selects or deselects, as the running drag says, the marks in a box.
-void sheet_take_inside(const struct curves *curves, struct core *core, struct rect box);
+/// The row of a spline that a box on the sheet touches: its height, else NAN.
+float sheet_row_in(const struct curves *curves, const struct core *core, int spline, struct rect box);
 /// Scrolls it; false where the wheel means something else.
 bool sheet_wheel(struct curves *curves, struct core *core, const struct event *event);
 /// Rows, marks, names, and its switch in the ruler's corner.
@@ -236,10 +243,6 @@ void range_begin(struct curves *curves, struct core *core, const struct event *e
 double handle_length(double stiffness);
 /// The stiffness that a length of the handle stands for.
 double handle_stiffness(double length);
-/// A knot: a diamond, filled with its colour; with an outline where it is selected.
-void knot_mark(struct drawlist *list, float x, float y, float radius, uint32_t color, bool selected);
-/// The ring around the knot under the pointer.
-void knot_ring(struct drawlist *list, float x, float y);
 /// Where the playhead's frame number is, on the ruler; empty where the playhead is out of sight.
 struct rect playhead_tag(const struct curves *curves, const struct core *core);
 
@@ -247,9 +250,6 @@ struct rect playhead_tag(const struct curves *curves, const struct core *core);
 struct rect ruler_corner(const struct core *core);
 /// Grids, numbers and ruler; part of curves_show().
 void grid_show(const struct curves *curves, struct core *core);
-
-/// The knot to draw after one, where knots are crowded: the next that is selected or under the pointer, or at least `gap` pixels on.
-int crowd_next(const struct curves *curves, const struct core *core, int spline, int knot, float gap);
 
 /// Finds what is wrong with a solved spline. At most WARNINGS_MAX, spans in the order of time.
 void warnings_find(const struct document *document, const struct evaluation *evaluation, int of,

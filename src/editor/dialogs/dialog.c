@@ -433,8 +433,9 @@ void dialogs_set_files(struct dialogs *dialogs, const struct dialog_files *files
 
 bool dialogs_event(struct dialogs *dialogs, struct core *core, const struct event *event, bool busy)
 {
-    return dialog_event(dialogs, core, event) || help_event(dialogs, core, event, busy) ||
-           welcome_event(dialogs, event);
+    const bool calm = event->kind == EVENT_POINTER && dialogs->dialog.kind == DIALOG_NONE;
+    return !calm && (dialog_event(dialogs, core, event) || help_event(dialogs, core, event, busy) ||
+                     welcome_event(dialogs, event));
 }
 
 void dialogs_show(struct dialogs *dialogs, struct core *core)
