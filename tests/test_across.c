@@ -1,5 +1,4 @@
 /// Knots of several splines at once: selected, moved, nudged, scaled, sloped, deleted, copied and pasted as one step.
-#include "editor/core/selected_knots.h"
 #include "editor/core/selection.h"
 #include "inside.h"
 #include "panel_session.h"

@@ -1,5 +1,5 @@
 /// Keyboards of other countries: every action has a key there, and what is typed is what counts, not the key that types it.
-#include "editor/core/playback.h"
+#include "editor/core/core.h"
 #include "editor/keys.h"
 #include "inside.h"
 #include "panel_session.h"

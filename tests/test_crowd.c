@@ -1,6 +1,5 @@
 /// Splines of thousands of knots: which are selected, and how they are drawn.
 #include "editor/core/knots.h"
-#include "editor/core/selected_knots.h"
 #include "editor/core/selection.h"
 #include "five_knots.h"
 #include "inside.h"

@@ -3,7 +3,7 @@
 #include "panel_session.h"
 
 #include "base/file.h"
-#include "editor/core/spline_list.h"
+#include "editor/core/core.h"
 #include "editor/stage/parts.h"
 #include <math.h>
 

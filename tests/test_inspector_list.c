@@ -1,5 +1,5 @@
 /// The inspector's scene, list of splines, tracks and palette, by the events of mouse and keyboard.
-#include "editor/core/spline_list.h"
+#include "editor/core/core.h"
 #include "inside.h"
 #include "panel_session.h"
 

@@ -1,5 +1,5 @@
 /// Playback: the real clock, speed, the part that is played, and scrubbing.
-#include "editor/core/playback.h"
+#include "editor/core/core.h"
 #include "editor/transport/transport.h"
 #include "inside.h"
 #include "panel_session.h"

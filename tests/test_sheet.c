@@ -1,5 +1,4 @@
 /// The dope sheet: rows of marks that share the ruler's time, dragged, boxed, scrolled, by mouse and by key.
-#include "editor/core/selected_knots.h"
 #include "editor/core/selection.h"
 #include "inside.h"
 #include "panel_session.h"

@@ -2,7 +2,6 @@
 #include "editor/core/core.h"
 #include "editor/core/drag.h"
 #include "editor/core/knots.h"
-#include "editor/core/playback.h"
 #include "editor/curves/curves.h"
 #include "editor/dialogs/dialogs.h"
 #include "editor/editor.h"

@@ -6,8 +6,6 @@
 #include "editor/core/drag.h"
 #include "editor/core/knots.h"
 #include "editor/core/pins.h"
-#include "editor/core/playback.h"
-#include "editor/core/selected_knots.h"
 #include "editor/core/selection.h"
 #include "editor/curves/curves.h"
 #include "editor/dialogs/dialogs.h"

@@ -3,7 +3,6 @@
 #include "editor/core/core.h"
 #include "editor/core/knots.h"
 #include "editor/core/pins.h"
-#include "editor/core/selected_knots.h"
 #include "editor/core/selection.h"
 #include "scene/knots.h"
 #include <math.h>

@@ -1,4 +1,6 @@
-/// The core of the editor: edits, messages, requests to the app, the active spline, where the panels are.
+/// The core of the editor: edits, messages, requests to the app, the active spline and the list of all, where the panels are, playing.
+///
+/// Whatever loses or moves something that nobody asked to be moved is asked about first.
 #ifndef EDITOR_CORE_CORE_H
 #define EDITOR_CORE_CORE_H
 
@@ -93,5 +95,52 @@ bool presenter_event(struct core *core, const struct event *event);
 void presenter_advance(struct core *core, double dt, bool busy);
 /// Whether a panel is on its way.
 bool presenter_is_sliding(const struct core *core);
+
+/// Plays or pauses.
+void playback_toggle(struct core *core);
+/// Advances by `dt` seconds of the real clock. Counts the scene frames that a late picture skipped.
+void playback_advance(struct core *core, double dt);
+/// Stops at a frame.
+void playback_seek(struct core *core, double frame);
+/// Stops and goes to the next whole frame in a direction.
+void playback_step(struct core *core, int direction);
+/// Stops and goes to an end of the range.
+void playback_end(struct core *core, int direction);
+/// The next faster (direction 1) or slower speed, 0.1 … 4 times real time; 0: real time.
+void playback_change_speed(struct core *core, int direction);
+
+/// First and last frame that are played: the part that was chosen, as far as the scene has it, else all.
+void playback_range(const struct core *core, double range[2]);
+/// Whether less than the whole scene is played.
+bool playback_is_part(const struct core *core);
+/// Sets the part; an empty one, or one that holds everything, is none.
+void playback_choose(struct core *core, double first, double last);
+/// Says which part is played.
+void playback_say_range(struct core *core);
+/// Sets the part's beginning (0) or end (1) to the playhead's frame.
+void playback_mark(struct core *core, int end);
+
+/// The colour of a spline on the screen, 0xRRGGBBAA: its own, or the theme's in turn.
+uint32_t spline_list_color(const struct document *document, int spline);
+/// Whether the curves show a spline: those that are solo where any is, else those that are not hidden.
+bool spline_list_shows(const struct core *core, int spline);
+/// The active spline where the curves show it, else NULL.
+const struct spline *spline_list_seen(const struct core *core);
+/// After an edit, undo or redo: the active spline keeps being the same one, and the playhead stays on its frame.
+void spline_list_refresh(struct core *core);
+/// A new spline at the end of the list with its first knot at the playhead; it is active then.
+void spline_list_add(struct core *core);
+/// A copy of the active spline behind it; it is active then.
+void spline_list_copy(struct core *core);
+/// Moves a spline to another place in the list.
+void spline_list_move(struct core *core, int spline, int to);
+/// The number that a track gives at the playhead, inside of what the parameter takes.
+double spline_list_present(const struct core *core, int spline, enum parameter parameter);
+/// Deletes the active spline; asks where something follows it.
+void spline_list_remove(struct core *core);
+/// Sets frames per second; asks whether knots keep their frames or their seconds, where there are any.
+void spline_list_fps(struct core *core, double fps);
+/// Sets the range; asks what becomes of knots that would lie outside.
+void spline_list_range(struct core *core, int first, int last);
 
 #endif

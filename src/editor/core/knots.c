@@ -3,10 +3,7 @@
 #include "base/hash.h"
 #include "editor/core/core.h"
 #include "editor/core/pins.h"
-#include "editor/core/playback.h"
-#include "editor/core/selected_knots.h"
 #include "editor/core/selection.h"
-#include "editor/core/spline_list.h"
 #include <math.h>
 
 uint64_t core_merge_key(const struct core *core, uint64_t kind)

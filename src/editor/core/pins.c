@@ -2,8 +2,6 @@
 #include "editor/core/pins.h"
 #include "base/hash.h"
 #include "editor/core/core.h"
-#include "editor/core/playback.h"
-#include "editor/core/selected_knots.h"
 #include "editor/core/selection.h"
 #include "scene/pins.h"
 #include <math.h>

@@ -1,6 +1,5 @@
 /// Time: playing, stepping, scrubbing, and the part of the scene that is played, which is never saved. The position is in
 /// samples and may lie between two.
-#include "editor/core/playback.h"
 #include "editor/core/core.h"
 #include <math.h>
 #include <stdio.h>

@@ -2,7 +2,6 @@
 #include "editor/core/rigs.h"
 #include "base/need.h"
 #include "editor/core/core.h"
-#include "editor/core/spline_list.h"
 #include "scene/order.h"
 #include <math.h>
 #include <stdio.h>

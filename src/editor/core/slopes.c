@@ -1,7 +1,7 @@
 /// The slopes of the selected knots: on, off, flat, Catmull-Rom, turned and made firmer by keys.
 #include "editor/core/core.h"
 #include "editor/core/knots.h"
-#include "editor/core/selected_knots.h"
+#include "editor/core/selection.h"
 #include <math.h>
 
 /// Kinds of nudges for core_merge_key(), apart from those of nudge.c.

@@ -1,5 +1,4 @@
 /// Adds, removes, reorders and retimes splines.
-#include "editor/core/spline_list.h"
 #include "editor/core/core.h"
 #include "editor/core/selection.h"
 #include "scene/order.h"

@@ -3,7 +3,6 @@
 #include "editor/core/bones.h"
 #include "editor/core/core.h"
 #include "editor/core/knots.h"
-#include "editor/core/spline_list.h"
 #include "editor/curves/state.h"
 #include <limits.h>
 #include <math.h>

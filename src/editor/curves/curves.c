@@ -3,10 +3,7 @@
 #include "editor/core/core.h"
 #include "editor/core/knots.h"
 #include "editor/core/pins.h"
-#include "editor/core/playback.h"
-#include "editor/core/selected_knots.h"
 #include "editor/core/selection.h"
-#include "editor/core/spline_list.h"
 #include "editor/curves/state.h"
 #include "ui/theme.h"
 #include <math.h>

@@ -1,8 +1,6 @@
 /// Drags of knots and of their slopes: edits made anew from the originals at every step. With ripple the later knots move along.
 #include "editor/core/core.h"
 #include "editor/core/knots.h"
-#include "editor/core/playback.h"
-#include "editor/core/selected_knots.h"
 #include "editor/core/selection.h"
 #include "editor/curves/state.h"
 #include <assert.h>

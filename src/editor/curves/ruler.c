@@ -1,8 +1,6 @@
 /// Grids, numbers and the ruler: on it the part that is played, and a mark for each pin, which is dragged to move it in time.
 #include "editor/core/core.h"
 #include "editor/core/pins.h"
-#include "editor/core/playback.h"
-#include "editor/core/spline_list.h"
 #include "editor/curves/state.h"
 #include "scene/pins.h"
 #include "ui/font.h"

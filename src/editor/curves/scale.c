@@ -4,7 +4,7 @@
 /// between the knots scales with them. About the equilibrium, q is the equilibrium of the knot's own spline at the knot: what
 /// swings about it swings b times as far.
 #include "editor/core/core.h"
-#include "editor/core/selected_knots.h"
+#include "editor/core/selection.h"
 #include "editor/curves/state.h"
 #include "ui/font.h"
 #include "ui/theme.h"

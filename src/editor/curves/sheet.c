@@ -2,7 +2,6 @@
 #include "editor/core/core.h"
 #include "editor/core/knots.h"
 #include "editor/core/selection.h"
-#include "editor/core/spline_list.h"
 #include "editor/curves/state.h"
 #include "ui/font.h"
 #include "ui/theme.h"

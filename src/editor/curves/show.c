@@ -1,7 +1,6 @@
 /// Draws the curves panel: lines, knots, slope handles, names, playhead.
 #include "editor/core/core.h"
 #include "editor/core/selection.h"
-#include "editor/core/spline_list.h"
 #include "editor/curves/state.h"
 #include "scene/pins.h"
 #include "ui/font.h"

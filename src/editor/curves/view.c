@@ -4,7 +4,7 @@
 /// Let a … b be the values that the active curve takes and c … d those of another: normalised, the other's value v is drawn where the
 /// active one's a + (v − c)·(b − a)/(d − c) is.
 #include "editor/core/core.h"
-#include "editor/core/selected_knots.h"
+#include "editor/core/selection.h"
 #include "editor/curves/state.h"
 #include <limits.h>
 #include <math.h>

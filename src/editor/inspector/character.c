@@ -1,7 +1,6 @@
 /// The inspector's section on a soft character: what moves each of its coordinates, how it is shown, and the brush.
 #include "editor/core/characters.h"
 #include "editor/core/core.h"
-#include "editor/core/spline_list.h"
 #include "editor/inspector/parts.h"
 #include "rig/models.h"
 #include <stdio.h>

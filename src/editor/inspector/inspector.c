@@ -4,7 +4,6 @@
 #include "editor/core/core.h"
 #include "editor/core/knots.h"
 #include "editor/core/pins.h"
-#include "editor/core/spline_list.h"
 #include "editor/inspector/parts.h"
 #include <math.h>
 #include <stdio.h>

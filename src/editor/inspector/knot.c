@@ -2,7 +2,7 @@
 /// the same; frames keep their distances either way.
 #include "editor/core/core.h"
 #include "editor/core/knots.h"
-#include "editor/core/selected_knots.h"
+#include "editor/core/selection.h"
 #include "editor/inspector/parts.h"
 #include <math.h>
 #include <stddef.h>

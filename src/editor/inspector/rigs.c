@@ -3,7 +3,6 @@
 #include "base/file.h"
 #include "editor/core/bones.h"
 #include "editor/core/core.h"
-#include "editor/core/spline_list.h"
 #include "editor/inspector/inspector.h"
 #include "editor/inspector/parts.h"
 #include <stdio.h>

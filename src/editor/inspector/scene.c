@@ -1,6 +1,5 @@
 /// The inspector's section on the scene: frames per second, range and substeps; and how it is solved.
 #include "editor/core/core.h"
-#include "editor/core/spline_list.h"
 #include "editor/inspector/parts.h"
 #include <math.h>
 #include <stdio.h>

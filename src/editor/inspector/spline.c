@@ -2,7 +2,6 @@
 #include "editor/core/bones.h"
 #include "editor/core/core.h"
 #include "editor/core/knots.h"
-#include "editor/core/spline_list.h"
 #include "editor/inspector/parts.h"
 #include "scene/order.h"
 #include <math.h>

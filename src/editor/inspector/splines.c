@@ -1,7 +1,6 @@
 /// The inspector's list of splines: which is active, what it is called, its colour, whether the curves show it, its place.
 #include "editor/core/core.h"
 #include "editor/core/selection.h"
-#include "editor/core/spline_list.h"
 #include "editor/inspector/inspector.h"
 #include "editor/inspector/parts.h"
 #include "scene/text.h"

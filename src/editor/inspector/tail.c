@@ -1,7 +1,6 @@
 /// The inspector's section on the tail or chain that is shown: which splines bend it, where a tail stands, how it is built.
 #include "editor/core/bones.h"
 #include "editor/core/core.h"
-#include "editor/core/spline_list.h"
 #include "editor/inspector/parts.h"
 #include <math.h>
 #include <stdio.h>

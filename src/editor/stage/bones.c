@@ -1,6 +1,6 @@
 /// Bones of imported characters on the stage: which one is under the pointer, a click on one, and how they are drawn.
 #include "editor/core/bones.h"
-#include "editor/core/spline_list.h"
+#include "editor/core/core.h"
 #include "editor/stage/parts.h"
 #include "editor/stage/stage.h"
 #include "model/vector.h"

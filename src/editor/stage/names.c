@@ -1,6 +1,5 @@
 /// Words on the stage: the names of several rigs of a kind, and what the scene is about.
 #include "editor/core/core.h"
-#include "editor/core/spline_list.h"
 #include "editor/stage/parts.h"
 #include "editor/stage/stage.h"
 #include "ui/font.h"

@@ -2,7 +2,6 @@
 #include "editor/core/core.h"
 #include "editor/core/knots.h"
 #include "editor/core/selection.h"
-#include "editor/core/spline_list.h"
 #include "editor/stage/parts.h"
 #include "editor/stage/stage.h"
 #include "model/fox.h"

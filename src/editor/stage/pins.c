@@ -3,8 +3,6 @@
 #include "editor/core/bones.h"
 #include "editor/core/core.h"
 #include "editor/core/drag.h"
-#include "editor/core/playback.h"
-#include "editor/core/spline_list.h"
 #include "editor/stage/parts.h"
 #include "editor/stage/stage.h"
 #include "model/vector.h"

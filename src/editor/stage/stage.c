@@ -5,7 +5,6 @@
 #include "editor/core/core.h"
 #include "editor/core/drag.h"
 #include "editor/core/pins.h"
-#include "editor/core/playback.h"
 #include "editor/stage/parts.h"
 #include "ui/font.h"
 #include "ui/theme.h"

@@ -2,7 +2,6 @@
 #include "editor/transport/transport.h"
 #include "editor/core/core.h"
 #include "editor/core/drag.h"
-#include "editor/core/playback.h"
 #include "editor/core/rigs.h"
 #include "ui/font.h"
 #include "ui/theme.h"
