@@ -13,23 +13,19 @@
 #include <math.h>
 #include <stdio.h>
 
-/// A divider between the panels follows the pointer.
-static void move_stage_divider(void *room, struct core *core)
-{
-    (void)room;
-    core_divider_move(core, DIVIDER_STAGE, core->drag.x, core->drag.y);
-}
-
-static void move_inspector_divider(void *room, struct core *core)
-{
-    (void)room;
-    core_divider_move(core, DIVIDER_INSPECTOR, core->drag.x, core->drag.y);
-}
+static void move_divider(void *room, struct core *core);
 
 static const struct drag_owner divider_drags[] = {
-    [DIVIDER_STAGE] = {.cursor = CURSOR_VERTICAL, .move = move_stage_divider},
-    [DIVIDER_INSPECTOR] = {.cursor = CURSOR_HORIZONTAL, .move = move_inspector_divider},
+    [DIVIDER_STAGE] = {.cursor = CURSOR_VERTICAL, .move = move_divider},
+    [DIVIDER_INSPECTOR] = {.cursor = CURSOR_HORIZONTAL, .move = move_divider},
 };
+
+/// A divider between the panels follows the pointer.
+static void move_divider(void *room, struct core *core)
+{
+    (void)room;
+    core_divider_move(core, (enum divider)(core->drag.owner - divider_drags), core->drag.x, core->drag.y);
+}
 
 static void press(struct editor *editor, const struct event *event)
 {
@@ -207,32 +203,24 @@ static void update_hover(struct editor *editor)
     if (panel == PANEL_STATUS) editor->core.hover = transport_hover(&editor->core, x, y);
 }
 
-/// The grip in the middle of a divider shows that it can be dragged.
-static void show_grip(struct editor *editor, enum divider divider, float x, float y)
+/// The grip in the middle shows that it can be dragged.
+static void show_divider(struct editor *editor, enum divider divider)
 {
     enum { LENGTH = 36, THICKNESS = 3 };
-    const bool across = divider == DIVIDER_STAGE;
+    struct core *core = &editor->core;
+    const struct rect *curves = &core->layout.curves, *inspector = &core->layout.inspector;
+    const bool across = divider == DIVIDER_STAGE, held = core->drag.owner == &divider_drags[divider];
+    const bool hot = !core->drag.owner && core_divider_at(core, core->pointer_x, core->pointer_y) == divider;
+    const struct rect line =
+        across ? (struct rect){0, curves->y, curves->w, 1} : (struct rect){inspector->x, 0, 1, inspector->h};
     const float w = across ? LENGTH : THICKNESS, h = across ? THICKNESS : LENGTH;
-    const bool held = editor->core.drag.owner == &divider_drags[divider];
-    const bool hot = !editor->core.drag.owner &&
-                     core_divider_at(&editor->core, editor->core.pointer_x, editor->core.pointer_y) == divider;
-    const uint32_t color = held ? theme()->accent : hot ? theme()->text : theme()->text_dim;
-    drawlist_rounded(&editor->core.list, (struct rect){roundf(x - w / 2), roundf(y - h / 2), w, h}, THICKNESS / 2.0f,
-                     color);
-}
-
-static void show_stage_divider(struct editor *editor)
-{
-    const struct rect *curves = &editor->core.layout.curves;
-    drawlist_rect(&editor->core.list, (struct rect){0, curves->y, curves->w, 1}, theme()->border);
-    if (!editor->core.presenter.on) show_grip(editor, DIVIDER_STAGE, curves->w / 2, curves->y + 0.5f);
-}
-
-static void show_inspector_divider(struct editor *editor)
-{
-    const struct rect *inspector = &editor->core.layout.inspector;
-    drawlist_rect(&editor->core.list, (struct rect){inspector->x, 0, 1, inspector->h}, theme()->border);
-    if (!editor->core.presenter.on) show_grip(editor, DIVIDER_INSPECTOR, inspector->x + 0.5f, inspector->h / 2);
+    const struct rect grip = {roundf(line.x + (line.w - w) / 2), roundf(line.y + (line.h - h) / 2), w, h};
+    drawlist_rect(&core->list, line, theme()->border);
+    if (!core->presenter.on)
+        drawlist_rounded(&core->list, grip, THICKNESS / 2.0f,
+                         held  ? theme()->accent
+                         : hot ? theme()->text
+                               : theme()->text_dim);
 }
 
 /// A control that the pointer is on explains itself; else the one that has the keyboard.
@@ -256,9 +244,9 @@ static void show_panels(struct editor *editor)
     const bool below = !presenter->on || presenter->below > 0, side = !presenter->on || presenter->side > 0;
     const char *hint = inspector_hint(editor->inspector);
     if (below) curves_show(editor->curves, &editor->core);
-    if (below) show_stage_divider(editor); // below the inspector's menus
+    if (below) show_divider(editor, DIVIDER_STAGE); // below the inspector's menus
     if (side) inspector_show(editor->inspector, dialogs_cover(editor->dialogs));
-    if (side) show_inspector_divider(editor);
+    if (side) show_divider(editor, DIVIDER_INSPECTOR);
     if (!hint) hint = editor->core.drag.hint;
     if (below) transport_show(&editor->core, hint);
 }

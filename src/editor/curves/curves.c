@@ -44,10 +44,8 @@ float nearest_knot(const struct curves *curves, const struct core *core, int of,
         const struct knot *knot = &spline->knots[k];
         float at = curves_knot_x(curves, core, knot);
         if (at > x + reach) break;
-        float distance = hypotf(x - at, isnan(row) ? y - curves_y_of(curves, core, of, knot->value) : 0);
-        if (distance > best) continue;
-        best = distance;
-        *hover = (struct hover){.kind = HOVER_KNOT, .spline = of, .knot = knot->id};
+        if (is_nearest(hypotf(x - at, isnan(row) ? y - curves_y_of(curves, core, of, knot->value) : 0), &best))
+            *hover = (struct hover){.kind = HOVER_KNOT, .spline = of, .knot = knot->id};
     }
     return best;
 }
@@ -82,10 +80,8 @@ static void nearest_handle(const struct curves *curves, const struct core *core,
         for (int end = 0; end < 2; end++) {
             float xy[2];
             curves_handle(curves, core, knot, end, xy);
-            float distance = hypotf(x - xy[0], y - xy[1]);
-            if (distance > best) continue;
-            best = distance;
-            *hover = (struct hover){.kind = HOVER_SLOPE, .spline = core->active, .knot = knot->id, .handle = end};
+            if (is_nearest(hypotf(x - xy[0], y - xy[1]), &best))
+                *hover = (struct hover){.kind = HOVER_SLOPE, .spline = core->active, .knot = knot->id, .handle = end};
         }
     }
 }
@@ -130,10 +126,8 @@ static void limits_hover(const struct curves *curves, const struct core *core, c
     float best = REACH;
     for (int i = 0; i < 2; i++) {
         double value = spline->parameter[limit_of(i)].value;
-        float distance = isfinite(value) ? fabsf(y - curves_y(curves, core, value)) : INFINITY;
-        if (distance > best) continue;
-        best = distance;
-        *hover = (struct hover){.kind = HOVER_LIMIT, .spline = core->active, .handle = i};
+        if (is_nearest(isfinite(value) ? fabsf(y - curves_y(curves, core, value)) : INFINITY, &best))
+            *hover = (struct hover){.kind = HOVER_LIMIT, .spline = core->active, .handle = i};
     }
 }
 

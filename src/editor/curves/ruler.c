@@ -159,39 +159,21 @@ static void end(void *room, struct core *core, bool keep)
     }
 }
 
-/// Where the part lies on the screen.
-static void edges(const struct curves *curves, const struct core *core, float x[2])
+/// Marks the part that is played on the ruler, and tints it in the plot; nothing where all is.
+static void show_range(const struct curves *curves, struct core *core)
 {
-    const struct rect *plot = &core->layout.plot;
+    const struct rect *plot = &core->layout.plot, *ruler = &core->layout.ruler;
     double range[2];
+    float x[2];
+    if (!playback_is_part(core)) return;
     playback_range(core, range);
-    for (int end = 0; end < 2; end++) {
+    for (int end = 0; end < 2; end++)
         x[end] = fminf(fmaxf(curves_x(curves, core, range[end]), plot->x), plot->x + plot->w);
-    }
-}
-
-/// Marks the part on the ruler; nothing where all is played.
-static void range_show_ruler(const struct curves *curves, struct core *core)
-{
-    const struct rect *ruler = &core->layout.ruler;
-    float x[2];
-    if (!playback_is_part(core)) return;
-    edges(curves, core, x);
-    struct rect band = {x[0], ruler->y, x[1] - x[0], ruler->h};
-    drawlist_rect(&core->list, band, theme_fade(theme()->accent, 0.14f));
-    drawlist_rect(&core->list, (struct rect){band.x, ruler->y, 2, ruler->h}, theme()->accent);
-    drawlist_rect(&core->list, (struct rect){band.x + band.w - 2, ruler->y, 2, ruler->h}, theme()->accent);
-}
-
-/// Tints the part in the plot.
-static void range_show_plot(const struct curves *curves, struct core *core)
-{
-    const struct rect *plot = &core->layout.plot;
-    float x[2];
-    if (!playback_is_part(core)) return;
-    edges(curves, core, x);
-    drawlist_rect(&core->list, (struct rect){x[0], plot->y, x[1] - x[0], plot->h},
-                  theme_fade(theme()->accent, 0.05f));
+    const float width = x[1] - x[0];
+    drawlist_rect(&core->list, (struct rect){x[0], plot->y, width, plot->h}, theme_fade(theme()->accent, 0.05f));
+    drawlist_rect(&core->list, (struct rect){x[0], ruler->y, width, ruler->h}, theme_fade(theme()->accent, 0.14f));
+    drawlist_rect(&core->list, (struct rect){x[0], ruler->y, 2, ruler->h}, theme()->accent);
+    drawlist_rect(&core->list, (struct rect){x[1] - 2, ruler->y, 2, ruler->h}, theme()->accent);
 }
 
 void grid_show(const struct curves *curves, struct core *core)
@@ -204,12 +186,11 @@ void grid_show(const struct curves *curves, struct core *core)
     struct rect clip = drawlist_push_clip(&core->list, field_of(core));
     shade_outside(curves, core);
     draw_lines(curves, core, times, unit, values);
-    range_show_plot(curves, core);
     drawlist_set_clip(&core->list, clip);
     drawlist_rect(&core->list, (struct rect){layout->ruler.x, layout->sheet.y - 1, layout->ruler.w, 1},
                   theme()->border);
+    show_range(curves, core);
     clip = drawlist_push_clip(&core->list, layout->ruler);
-    range_show_ruler(curves, core);
     number_frames(curves, core, times);
     drawlist_set_clip(&core->list, clip);
     show_units(core);

@@ -469,10 +469,8 @@ void scale_box_hover(const struct curves *curves, const struct core *core, float
     if (!find_knot_box(curves, core, &box)) return;
     for (int i = 0; i < BOX_HANDLES; i++) {
         if (!handle_place(&box, i, xy)) continue;
-        const float distance = hypotf(x - xy[0], y - xy[1]);
-        if (distance > best) continue;
-        best = distance;
-        *hover = (struct hover){.kind = HOVER_BOX, .spline = core->active, .handle = i};
+        if (is_nearest(hypotf(x - xy[0], y - xy[1]), &best))
+            *hover = (struct hover){.kind = HOVER_BOX, .spline = core->active, .handle = i};
     }
 }
 

@@ -133,20 +133,12 @@ static void knot_ring(struct drawlist *list, float x, float y)
     show_ring(list, x, y, HOVER_RADIUS, 1.25f, theme()->playhead);
 }
 
-/// A knot: a diamond, filled with its colour; with an outline where it is selected.
-static void knot_mark(struct drawlist *list, float x, float y, float r, uint32_t color, bool selected)
+/// A knot: a diamond, with an outline or 0.
+static void knot_mark(struct drawlist *list, float x, float y, float r, uint32_t color, uint32_t outline)
 {
     const float xy[] = {x, y - r, x + r, y, x, y + r, x - r, y, x, y - r};
     drawlist_convex(list, xy, 4, color);
-    if (selected) drawlist_line(list, xy, 5, 1.5f, theme()->playhead);
-}
-
-/// A knot of the active spline that is not selected, through which the panel is seen.
-static void show_hollow(struct drawlist *list, float x, float y, uint32_t color)
-{
-    const float r = KNOT_RADIUS, xy[] = {x, y - r, x + r, y, x, y + r, x - r, y, x, y - r};
-    drawlist_convex(list, xy, 4, theme()->panel);
-    drawlist_line(list, xy, 5, 1.5f, color);
+    if (outline) drawlist_line(list, xy, 5, 1.5f, outline);
 }
 
 /// A short stroke that says "this knot has a slope" without the handle's length.
@@ -215,11 +207,8 @@ static void show_knot(const struct curves *curves, struct core *core, const stru
     float y = curves_y(curves, core, knot->value);
     if (knot->has_slope && selected) show_handle(curves, core, knot, color);
     if (knot->has_slope && !selected) show_tick(curves, core, knot, color);
-    if (selected) {
-        knot_mark(&core->list, x, y, KNOT_RADIUS, color, true);
-    } else {
-        show_hollow(&core->list, x, y, color);
-    }
+    knot_mark(&core->list, x, y, KNOT_RADIUS, selected ? color : theme()->panel,
+              selected ? theme()->playhead : color); // one that is not selected is hollow
     if (is_hovered(core, knot)) knot_ring(&core->list, x, y);
 }
 
@@ -276,7 +265,7 @@ void knots_show(const struct curves *curves, struct core *core, int s, float row
                   selected   ? KNOT_RADIUS
                   : on_sheet ? MARK_RADIUS
                              : OTHER_RADIUS,
-                  on_sheet || selected ? full : theme_fade(full, THEME_OTHERS), selected);
+                  on_sheet || selected ? full : theme_fade(full, THEME_OTHERS), selected ? theme()->playhead : 0);
         if (is_hovered(core, knot)) knot_ring(&core->list, x, y);
     }
 }

@@ -203,6 +203,14 @@ void limits_show(const struct curves *curves, struct core *core);
 
 /// Draws the knots of a spline that are small unless they are selected, those of the dope sheet with the height of their row, else NAN.
 void knots_show(const struct curves *curves, struct core *core, int spline, float row);
+/// Whether something is no further than what was found before, or may be; `best` is how far.
+static inline bool is_nearest(float distance, float *best)
+{
+    if (distance > *best) return false;
+    *best = distance;
+    return true;
+}
+
 /// The nearest knot of one spline, where it is nearer than `reach`, likewise; returns its distance, else `reach`.
 float nearest_knot(const struct curves *curves, const struct core *core, int of, float row, float x, float y,
                    float reach, struct hover *hover);
