@@ -284,7 +284,7 @@ $(B)/adversary: $(B)/obj/tools/adversary.o $(patsubst %.c,$(B)/obj/%.o,$(wildcar
 # Of the sources only what readers and exports need, and no GL.
 FUZZED := $(wildcard src/base/*.c src/spline/*.c src/scene/*.c src/model/*.c) src/ui/event.c \
     $(addprefix src/app/,replay.c settings.c) $(addprefix src/timing/,readlog.c columns.c) \
-    $(wildcard src/rig/*.c src/export/*.c) src/draw/skirt.c src/draw/model_surface.c $(addprefix src/simulation/,\
+    $(wildcard src/rig/*.c src/export/*.c) src/draw/skirt.c src/draw/posed.c $(addprefix src/simulation/,\
     drive.c softness.c lattice.c tiling.c voxels.c solid.c winding.c element.c material.c eigen.c)
 fuzzers: $(FUZZERS:%=$(B)/%)
 $(B)/fuzzed.a: $(FUZZED:%.c=$(B)/obj/%.o) $(B)/obj/embedded_table.o $(B)/obj/embedded_data.o $(FUZZ_SUPPORT:%.c=$(B)/obj/%.o)

@@ -46,9 +46,9 @@ static inline void offscreen_draw(const struct stage_view *view, int width, int 
     assert_int_equal(glGetError(), GL_NO_ERROR);
 }
 
-/// Draws a character alone, the box lo … hi in sight.
-static inline void offscreen_draw_character(const struct stage_character *character, const float lo[3],
-                                            const float hi[3], int width, int height, void *pixels)
+/// Draws `count` characters alone, the box lo … hi in sight.
+static inline void offscreen_draw_characters(const struct stage_character *characters, int count, const float lo[3],
+                                             const float hi[3], int width, int height, void *pixels)
 {
     static struct stage_view view;
     const float aspect = (float)width / (float)height;
@@ -59,8 +59,8 @@ static inline void offscreen_draw_character(const struct stage_character *charac
     camera_fit(&camera, lo, hi, aspect, 0);
     camera_matrices(&camera, aspect, view.view, view.projection, view.eye);
     camera_lamp(&camera, view.key_from);
-    view.characters[0] = *character;
-    view.character_count = 1;
+    memcpy(view.characters, characters, (size_t)count * sizeof *characters);
+    view.character_count = count;
     offscreen_draw(&view, width, height, pixels);
 }
 

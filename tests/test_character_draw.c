@@ -22,11 +22,13 @@ static struct stage_character shown(const struct figure *figure)
     return (struct stage_character){.figure = figure, .map_coordinate = -1};
 }
 
-static void draw(const struct stage_character *character, picture pixels)
+static void draw_all(const struct stage_character *characters, int count, picture pixels)
 {
     const float lo[3] = {-1, 0, -1}, hi[3] = {1, 1.5f, 1};
-    offscreen_draw_character(character, lo, hi, WIDTH, HEIGHT, pixels);
+    offscreen_draw_characters(characters, count, lo, hi, WIDTH, HEIGHT, pixels);
 }
+
+static void draw(const struct stage_character *character, picture pixels) { draw_all(character, 1, pixels); }
 
 /// Pixels that differ by more than `tolerance` in any channel.
 static int differing(const picture a, const picture b, int tolerance)
@@ -65,6 +67,24 @@ TEST(coordinates_move_it)
     assert_true(differing(one, other, 2) < 20);
     draw(&still, other);
     assert_true(differing(one, other, 20) > 1000);
+    figure_free(&figure);
+}
+
+/// Several rigs may show the same figure.
+TEST(a_figure_stands_in_two_places)
+{
+    if (!platform) skip();
+    static picture pair;
+    struct character character = puppet_character(0.03f, 0);
+    struct figure figure = puppet_figure(&character);
+    struct stage_character both[2] = {shown(&figure), shown(&figure)};
+    both[0].position[0] = -0.5f;
+    both[1].position[0] = 0.5f;
+    draw_all(both, 2, pair);
+    for (int c = 0; c < 2; c++) {
+        draw(&both[c], one);
+        assert_true(differing(one, pair, 20) > 1000);
+    }
     figure_free(&figure);
 }
 

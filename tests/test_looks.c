@@ -180,7 +180,7 @@ static void draw(const struct figure *figure, int map_coordinate, picture pixels
 {
     const float lo[3] = {-0.7f, 0, -0.7f}, hi[3] = {0.7f, 1.2f, 0.7f};
     const struct stage_character character = {.figure = figure, .map_coordinate = map_coordinate};
-    offscreen_draw_character(&character, lo, hi, WIDTH, HEIGHT, pixels);
+    offscreen_draw_characters(&character, 1, lo, hi, WIDTH, HEIGHT, pixels);
 }
 
 /// Pixels in which channel k is more than twice the others.

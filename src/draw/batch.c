@@ -5,25 +5,19 @@
 #include <stddef.h>
 #include <stdlib.h>
 
-static void describe_attribute(GLuint location, GLint count, GLenum type, size_t offset)
-{
-    glEnableVertexAttribArray(location);
-    glVertexAttribPointer(location, count, type, type == GL_UNSIGNED_BYTE, sizeof(struct batch_vertex),
-                          (const void *)offset);
-}
-
 static void create_buffers(struct batch *batch)
 {
+    const size_t stride = sizeof(struct batch_vertex);
     glGenVertexArrays(1, &batch->array);
     glGenBuffers(1, &batch->vertex_buffer);
     glGenBuffers(1, &batch->index_buffer);
     glBindVertexArray(batch->array);
     glBindBuffer(GL_ARRAY_BUFFER, batch->vertex_buffer);
     glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, batch->index_buffer);
-    describe_attribute(0, 2, GL_FLOAT, offsetof(struct batch_vertex, x));
-    describe_attribute(1, 2, GL_FLOAT, offsetof(struct batch_vertex, u));
-    describe_attribute(2, 4, GL_UNSIGNED_BYTE, offsetof(struct batch_vertex, color));
-    describe_attribute(3, 3, GL_FLOAT, offsetof(struct batch_vertex, across));
+    gl_attribute(0, 2, GL_FLOAT, stride, offsetof(struct batch_vertex, x));
+    gl_attribute(1, 2, GL_FLOAT, stride, offsetof(struct batch_vertex, u));
+    gl_attribute(2, 4, GL_UNSIGNED_BYTE, stride, offsetof(struct batch_vertex, color));
+    gl_attribute(3, 3, GL_FLOAT, stride, offsetof(struct batch_vertex, across));
     glBindVertexArray(0);
 }
 

@@ -1,28 +1,18 @@
-/// Compiles and links the shaders built into the program.
+/// Compiles and links the shaders built into the program, and fills buffers and textures.
 #include "draw/gl.h"
 #include "base/embedded.h"
 #include "base/png.h"
+#include <assert.h>
 #include <stdio.h>
 #include <string.h>
 
-/// The compiler's log may have many lines; the first says what is wrong.
-static void first_line(char *log)
+static GLuint compile(GLenum kind, const char *name, const char *define)
 {
-    log[strcspn(log, "\r\n")] = '\0';
-    if (!*log) snprintf(log, 2, "?");
-}
-
-static GLuint compile(GLenum kind, const char *name, const char *define, struct error *error)
-{
-    char path[64];
+    char path[64], line[64] = "";
     snprintf(path, sizeof path, "shaders/%s", name);
     const struct embedded *source = embedded_find(path);
-    if (!source) {
-        fail(error, ERROR_ENVIRONMENT, "%s: expected a shader built into the program, got none", path);
-        return 0;
-    }
+    assert(source);
     GLuint shader = glCreateShader(kind);
-    char line[64] = "";
     if (define) snprintf(line, sizeof line, "#define %s\n", define);
     const GLchar *text = (const GLchar *)source->data;
     const GLint first = (GLint)strcspn(text, "\n") + 1; // "#version …" comes before all else
@@ -30,42 +20,68 @@ static GLuint compile(GLenum kind, const char *name, const char *define, struct 
     const GLint lengths[] = {first, (GLint)strlen(line), (GLint)source->size - first};
     glShaderSource(shader, 3, texts, lengths);
     glCompileShader(shader);
-    GLint ok = 0;
-    glGetShaderiv(shader, GL_COMPILE_STATUS, &ok);
-    if (ok) return shader;
-    char log[256] = "";
-    glGetShaderInfoLog(shader, sizeof log, NULL, log);
-    first_line(log);
-    glDeleteShader(shader);
-    fail(error, ERROR_ENVIRONMENT, "%s: the graphics driver cannot compile it: %s", path, log);
-    return 0;
+    return shader;
 }
 
-static GLuint link_program(GLuint vertex, GLuint fragment, const char *name, struct error *error)
+/// false with the first line of the driver's log.
+static bool refuse(const char *name, const char *what, char *log, struct error *error)
 {
-    GLuint program = glCreateProgram();
-    glAttachShader(program, vertex);
-    glAttachShader(program, fragment);
-    glLinkProgram(program);
-    GLint ok = 0;
-    glGetProgramiv(program, GL_LINK_STATUS, &ok);
-    if (ok) return program;
+    log[strcspn(log, "\r\n")] = '\0';
+    return fail(error, ERROR_ENVIRONMENT, "shaders/%s: the graphics driver cannot %s it: %s", name, what,
+                *log ? log : "?");
+}
+
+static bool is_compiled(GLuint shader, const char *name, struct error *error)
+{
     char log[256] = "";
+    GLint ok = 0;
+    glGetShaderiv(shader, GL_COMPILE_STATUS, &ok);
+    if (ok) return true;
+    glGetShaderInfoLog(shader, sizeof log, NULL, log);
+    return refuse(name, "compile", log, error);
+}
+
+static bool is_linked(GLuint program, const char *name, struct error *error)
+{
+    char log[256] = "";
+    GLint ok = 0;
+    glLinkProgram(program);
+    glGetProgramiv(program, GL_LINK_STATUS, &ok);
+    if (ok) return true;
     glGetProgramInfoLog(program, sizeof log, NULL, log);
-    first_line(log);
-    glDeleteProgram(program);
-    fail(error, ERROR_ENVIRONMENT, "shaders/%s: the graphics driver cannot link it: %s", name, log);
-    return 0;
+    return refuse(name, "link", log, error);
 }
 
 GLuint gl_program(const char *vertex_name, const char *fragment_name, const char *define, struct error *error)
 {
-    GLuint vertex = compile(GL_VERTEX_SHADER, vertex_name, define, error);
-    GLuint fragment = vertex ? compile(GL_FRAGMENT_SHADER, fragment_name, define, error) : 0;
-    GLuint program = fragment ? link_program(vertex, fragment, vertex_name, error) : 0;
-    if (vertex) glDeleteShader(vertex);
-    if (fragment) glDeleteShader(fragment);
+    const GLuint vertex = compile(GL_VERTEX_SHADER, vertex_name, define);
+    const GLuint fragment = compile(GL_FRAGMENT_SHADER, fragment_name, define);
+    GLuint program = glCreateProgram();
+    glAttachShader(program, vertex);
+    glAttachShader(program, fragment);
+    if (!is_compiled(vertex, vertex_name, error) || !is_compiled(fragment, fragment_name, error) ||
+        !is_linked(program, vertex_name, error)) {
+        glDeleteProgram(program);
+        program = 0;
+    }
+    glDeleteShader(vertex);
+    glDeleteShader(fragment);
     return program;
+}
+
+GLuint gl_buffer(GLenum target, size_t bytes, const void *data, GLenum usage)
+{
+    GLuint buffer;
+    glGenBuffers(1, &buffer);
+    glBindBuffer(target, buffer);
+    glBufferData(target, (GLsizeiptr)bytes, data, usage);
+    return buffer;
+}
+
+void gl_attribute(GLuint index, GLint size, GLenum type, size_t stride, size_t offset)
+{
+    glEnableVertexAttribArray(index);
+    glVertexAttribPointer(index, size, type, type == GL_UNSIGNED_BYTE, (GLsizei)stride, (const void *)offset);
 }
 
 GLuint gl_picture(const unsigned char *pixels, int width, int height)
@@ -79,22 +95,11 @@ GLuint gl_picture(const unsigned char *pixels, int width, int height)
     return texture;
 }
 
-GLuint gl_white(void)
-{
-    static const unsigned char white[4] = {255, 255, 255, 255};
-    return gl_picture(white, 1, 1);
-}
-
 void gl_uniform_linear(GLint location, uint32_t color)
 {
     float linear[3];
     for (int k = 0; k < 3; k++) linear[k] = srgb_to_linear((float)(color >> (24 - 8 * k) & 0xFFu) / 255);
     glUniform3fv(location, 1, linear);
-}
-
-void gl_find_uniforms(GLuint program, const struct gl_uniform *uniforms, size_t count)
-{
-    for (size_t i = 0; i < count; i++) *uniforms[i].location = glGetUniformLocation(program, uniforms[i].name);
 }
 
 int gl_largest_texture(void)

@@ -1,7 +1,6 @@
 /// Draws pictures of the stage at twice their size and averages four pixels into one.
 #include "draw/picture.h"
 #include "base/need.h"
-#include "draw/gl.h"
 #include "draw/stage.h"
 #include <stdlib.h>
 
@@ -10,21 +9,12 @@ enum { FINE = 2 }; ///< pixels drawn a side for one of the picture
 struct picture {
     int width, height;
     struct stage_renderer *stage;
-    GLuint framebuffer, color, depth;
+    struct stage_target target;
     unsigned char *drawn, *pixels; ///< as drawn, bottom row first; and the picture
 };
 
-static GLuint attach(GLenum place, GLenum format, int width, int height)
-{
-    GLuint buffer = 0;
-    glGenRenderbuffers(1, &buffer);
-    glBindRenderbuffer(GL_RENDERBUFFER, buffer);
-    glRenderbufferStorage(GL_RENDERBUFFER, format, width, height);
-    glFramebufferRenderbuffer(GL_FRAMEBUFFER, place, GL_RENDERBUFFER, buffer);
-    return buffer;
-}
-
-static bool create_framebuffer(struct picture *picture, struct error *error)
+/// A framebuffer to draw into.
+static bool create_target(struct picture *picture, struct error *error)
 {
     GLint largest = 0, before = 0;
     const int width = FINE * picture->width, height = FINE * picture->height;
@@ -33,11 +23,7 @@ static bool create_framebuffer(struct picture *picture, struct error *error)
         return fail(error, ERROR_ENVIRONMENT, "expected a picture of 1 to %d pixels a side, got %d × %d",
                     largest / FINE, picture->width, picture->height);
     glGetIntegerv(GL_FRAMEBUFFER_BINDING, &before);
-    glGenFramebuffers(1, &picture->framebuffer);
-    glBindFramebuffer(GL_FRAMEBUFFER, picture->framebuffer);
-    picture->color = attach(GL_COLOR_ATTACHMENT0, GL_RGBA8, width, height);
-    picture->depth = attach(GL_DEPTH_ATTACHMENT, GL_DEPTH_COMPONENT24, width, height);
-    const bool complete = glCheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE;
+    const bool complete = stage_target_bind(&picture->target, width, height);
     glBindFramebuffer(GL_FRAMEBUFFER, (GLuint)before);
     return complete || fail(error, ERROR_ENVIRONMENT, "the graphics driver makes no framebuffer of %d × %d pixels",
                             width, height);
@@ -48,7 +34,7 @@ struct picture *picture_create(int width, int height, struct error *error)
     struct picture *picture = need_zeroed(1, sizeof *picture);
     picture->width = width;
     picture->height = height;
-    if ((picture->stage = stage_renderer_create(error)) && create_framebuffer(picture, error)) {
+    if ((picture->stage = stage_renderer_create(error)) && create_target(picture, error)) {
         const size_t bytes = 4 * (size_t)width * (size_t)height;
         picture->drawn = need(FINE * FINE, bytes);
         picture->pixels = need(bytes, 1);
@@ -62,9 +48,7 @@ void picture_destroy(struct picture *picture)
 {
     if (!picture) return;
     stage_renderer_destroy(picture->stage);
-    glDeleteFramebuffers(1, &picture->framebuffer);
-    glDeleteRenderbuffers(1, &picture->color);
-    glDeleteRenderbuffers(1, &picture->depth);
+    stage_target_destroy(&picture->target);
     free(picture->drawn);
     free(picture->pixels);
     free(picture);
@@ -77,7 +61,7 @@ static void draw(struct picture *picture, const struct stage_view *view, bool tr
     GLint before = 0;
     long bytes = 0;
     glGetIntegerv(GL_FRAMEBUFFER_BINDING, &before);
-    glBindFramebuffer(GL_FRAMEBUFFER, picture->framebuffer);
+    stage_target_bind(&picture->target, width, height);
     glDisable(GL_SCISSOR_TEST);
     stage_upload(picture->stage, view, &bytes);
     if (transparent) {

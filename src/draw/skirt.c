@@ -1,8 +1,9 @@
-/// Finds outlines, and which way skirts hang.
-#include "draw/skirt.h"
+/// Finds outlines, and hangs skirts there.
+#include "draw/posed.h"
 #include "model/adjacency.h"
-#include "model/vector.h"
-#include <string.h>
+
+/// Pixels that the skirt is nearer to the eye where the surface goes on: it may lean towards the eye.
+static const float LIFT = 2.0f;
 
 /// Whether a triangle faces the eye, or nearly: the rasteriser, which rounds, has the last word.
 static bool is_front(const float a[3], const float b[3], const float c[3], const float eye[3], float sign)
@@ -14,24 +15,27 @@ static bool is_front(const float a[3], const float b[3], const float c[3], const
     return facing >= 0.0f || facing * facing < slack * glms_vec3_norm2(normal) * glms_vec3_norm2(to_eye);
 }
 
-void skirt_face(const struct skirt_mesh *mesh, int first, int end, const float eye[3])
+void posed_face(struct posed *mesh, const float eye[3])
 {
-    const float(*place)[3] = mesh->place;
-    for (int i = first; i < end; i += 3) {
-        const uint32_t *corner = mesh->indices + i;
-        mesh->front[i / 3] =
-            is_front(place[corner[0]], place[corner[1]], place[corner[2]], eye, mesh->mirrored ? -1.0f : 1.0f);
+    const float(*place)[3] = (const float(*)[3])mesh->place;
+    for (int p = 0; p < mesh->part_count; p++) {
+        const struct posed_part *part = &mesh->parts[p];
+        for (int i = part->first; i < part->end; i += 3) {
+            const uint32_t *corner = mesh->indices + i;
+            mesh->front[i / 3] =
+                is_front(place[corner[0]], place[corner[1]], place[corner[2]], eye, part->mirrored ? -1.0f : 1.0f);
+        }
     }
 }
 
-int skirt_next(const struct skirt_mesh *mesh, int first, int end, bool both_sides)
+int skirt_next(const struct posed *mesh, const struct posed_part *part, int from)
 {
-    for (int i = first; i < end; i++) {
+    for (int i = from; i < part->end; i++) {
         const int other = mesh->neighbours[i];
         const bool front = mesh->front[i / 3];
-        if (other < 0 ? front || both_sides : front && !mesh->front[other]) return i;
+        if (other < 0 ? front || part->both_sides : front && !mesh->front[other]) return i;
     }
-    return end;
+    return part->end;
 }
 
 /// Along the vertex's normal, so that the skirts of edges that follow each other meet; but off the edge, where the normal does not point away from it.
@@ -42,18 +46,56 @@ static vec3s outwards(vec3s ray, const float normal[3], vec3s off_edge)
     return glms_vec3_dot(out, off_edge) < 0.3f ? off_edge : out;
 }
 
-void skirt_out(const struct skirt_mesh *mesh, int corner, const float normal[2][3], const float eye[3], float pixel,
-               float out[2][3])
+/// How far the skirt sticks out at one end of its edge: a pixel, across the line of sight. `side` is where the triangle lies not.
+static vec3s step_out(const struct skirt_vertex *end, vec3s edge, float side, bool open, const float eye[3],
+                      float seam)
 {
-    const float *end[2] = {mesh->place[mesh->indices[corner]], mesh->place[mesh->indices[next_corner(corner)]]};
-    const vec3s edge = glms_vec3_sub(vec3_from(end[1]), vec3_from(end[0]));
-    const float side =
-        mesh->front[corner / 3] == mesh->mirrored ? -1.0f : 1.0f; // the triangle lies to the left of its edge
+    const vec3s ray = glms_vec3_sub(vec3_from(end->place), vec3_from(eye));
+    const vec3s off_edge = glms_vec3_scale(glms_vec3_normalize(glms_vec3_cross(ray, edge)), side);
+    return glms_vec3_scale(open ? off_edge : outwards(ray, end->normal, off_edge), seam * glms_vec3_norm(ray));
+}
+
+/// The surface at one end of an edge; on its back turned to the eye.
+static void look_at(const struct posed *mesh, int corner, bool back, struct skirt_vertex *out)
+{
+    const uint32_t vertex = mesh->indices[corner];
+    *out = (struct skirt_vertex){.look = mesh->looks[vertex], .cover = 1.0f};
+    for (int k = 0; k < 3; k++) {
+        out->place[k] = mesh->place[vertex][k];
+        out->normal[k] = back ? -mesh->normal[vertex][k] : mesh->normal[vertex][k];
+    }
+}
+
+/// Takes the place in the picture half a pixel back into the triangle: on its edge, what is read may come from the picture's other side.
+static void pull_in(const struct posed *mesh, int corner, const float eye[3], float seam, struct skirt_vertex ends[2])
+{
+    const uint32_t third = mesh->indices[next_corner(next_corner(corner))];
+    const vec3s from = vec3_from(ends[0].place), edge = glms_vec3_sub(vec3_from(ends[1].place), from);
+    const float area = glms_vec3_norm(glms_vec3_cross(edge, glms_vec3_sub(vec3_from(mesh->place[third]), from)));
+    const float pixel = seam * glms_vec3_distance(from, vec3_from(eye));
+    const float share = fminf(0.5f * pixel * glms_vec3_norm(edge) / fmaxf(area, 1e-12f), 0.5f);
     for (int e = 0; e < 2; e++) {
-        const vec3s ray = glms_vec3_sub(vec3_from(end[e]), vec3_from(eye));
-        const vec3s off_edge = glms_vec3_scale(glms_vec3_normalize(glms_vec3_cross(ray, edge)), side);
-        vec3s step = mesh->neighbours[corner] < 0 ? off_edge : outwards(ray, normal[e], off_edge);
-        step = glms_vec3_scale(step, pixel * glms_vec3_norm(ray));
-        memcpy(out[e], step.raw, sizeof out[e]);
+        for (int k = 0; k < 2; k++) ends[e].look.uv[k] += share * (mesh->looks[third].uv[k] - ends[e].look.uv[k]);
+    }
+}
+
+void skirt_hang(const struct posed *mesh, const struct posed_part *part, int corner, const float eye[3], float seam,
+                struct skirt_vertex out[SKIRT_CORNERS])
+{
+    const bool front = mesh->front[corner / 3], open = mesh->neighbours[corner] < 0;
+    const float side = front == part->mirrored ? -1.0f : 1.0f; // the triangle lies to the left of its edge
+    look_at(mesh, corner, !front, &out[0]);
+    look_at(mesh, next_corner(corner), !front, &out[1]);
+    pull_in(mesh, corner, eye, seam, out);
+    const vec3s edge = glms_vec3_sub(vec3_from(out[1].place), vec3_from(out[0].place));
+    for (int e = 0; e < 2; e++) {
+        const vec3s off = step_out(&out[e], edge, side, open, eye, seam);
+        struct skirt_vertex *outer = &out[3 - e];
+        *outer = out[e];
+        outer->cover = 0.0f;
+        for (int k = 0; k < 3; k++) outer->place[k] += off.raw[k];
+    }
+    for (int c = 0; mesh->neighbours[corner] == NEIGHBOUR_CUT && c < SKIRT_CORNERS; c++) {
+        for (int k = 0; k < 3; k++) out[c].place[k] += LIFT * seam * (eye[k] - out[c].place[k]);
     }
 }

@@ -1,82 +1,112 @@
-/// Draws the stage: ground, shadows and rigs, by the painters and with the camera and light that they share.
+/// Draws the stage: ground, shadows and rigs, with the camera and light that they share.
 #include "draw/stage.h"
 #include "base/need.h"
-#include "draw/painter.h"
 #include <stdlib.h>
 
-#define PAINTER_ROW(name) &name##_painter,
-const struct painter *const painters[PAINTERS] = {PAINTER_LIST(PAINTER_ROW)};
-#undef PAINTER_ROW
+struct stage_renderer {
+    struct program programs[PROGRAMS];
+    struct stage_flat *flat;
+    struct stage_meshes *meshes;
+    struct stage_meadows meadows;
+};
 
-struct painter_uniforms painter_find_uniforms(GLuint program)
-{
-    return (struct painter_uniforms){
-        .clip_from_world = glGetUniformLocation(program, "clip_from_world"),
-        .eye = glGetUniformLocation(program, "eye"),
-        .key_from = glGetUniformLocation(program, "key_from"),
-        .earth = glGetUniformLocation(program, "earth"),
-        .seam = glGetUniformLocation(program, "seam"),
-    };
-}
+static const struct {
+    const char *vertex, *fragment, *define;
+} sources[PROGRAMS] = {
+    [PROGRAM_COAT] = {"stage_skirt.vert", "stage_mesh.frag", "FURRED"},
+    [PROGRAM_FACE] = {"stage_skirt.vert", "stage_mesh.frag", "FACED"},
+    [PROGRAM_PLAIN] = {"stage_skirt.vert", "stage_mesh.frag", NULL},
+    [PROGRAM_PICTURED] = {"stage_skirt.vert", "stage_mesh.frag", "PICTURED"},
+    [PROGRAM_MEADOW] = {"stage_meadow.vert", "stage_mesh.frag", NULL},
+    [PROGRAM_FLAT] = {"stage_flat.vert", "stage_flat.frag", NULL},
+};
+
+static const char *const uniform_names[UNIFORMS] = {
+    [AT_CLIP_FROM_WORLD] = "clip_from_world",
+    [AT_EYE] = "eye",
+    [AT_KEY_FROM] = "key_from",
+    [AT_EARTH] = "earth",
+    [AT_SEAM] = "seam",
+    [AT_SHADE] = "shade",
+    [AT_BLINK] = "blink",
+    [AT_HEAD_FROM_BIND] = "head_from_bind",
+    [AT_LINE] = "line",
+    [AT_BASE] = "base",
+    [AT_PICTURE] = "picture",
+    [AT_CUTOFF] = "cutoff",
+    [AT_BLENDED] = "blended",
+    [AT_BOTH_SIDES] = "both_sides",
+    [AT_BEND] = "bend",
+    [AT_TOP] = "top",
+    [AT_BOTTOM] = "bottom",
+    [AT_ROWS] = "rows",
+    [AT_SHADOW] = "shadow",
+};
 
 mat4s stage_clip_from_world(const struct stage_view *view)
 {
     return glms_mat4_mul(mat4_from(view->projection), mat4_from(view->view));
 }
 
-void painter_use(GLuint program, const struct painter_uniforms *at, const struct stage_view *view, float seam)
+void program_use(const struct program *program, const struct stage_view *view, float seam)
 {
     const mat4s clip_from_world = stage_clip_from_world(view);
-    glUseProgram(program);
-    glUniformMatrix4fv(at->clip_from_world, 1, GL_FALSE, clip_from_world.raw[0]);
-    glUniform3fv(at->eye, 1, view->eye);
-    glUniform3fv(at->key_from, 1, view->key_from);
-    gl_uniform_linear(at->earth, view->colors.bounce);
-    glUniform1f(at->seam, seam);
+    glUseProgram(program->name);
+    glUniformMatrix4fv(program->at[AT_CLIP_FROM_WORLD], 1, GL_FALSE, clip_from_world.raw[0]);
+    glUniform3fv(program->at[AT_EYE], 1, view->eye);
+    glUniform3fv(program->at[AT_KEY_FROM], 1, view->key_from);
+    gl_uniform_linear(program->at[AT_EARTH], view->colors.bounce);
+    glUniform1f(program->at[AT_SEAM], seam);
 }
 
-struct stage_renderer {
-    struct stage_flat *flat;
-    void *states[PAINTERS]; ///< of the painters
-};
+static bool create_program(struct program *program, enum stage_program which, struct error *error)
+{
+    program->name = gl_program(sources[which].vertex, sources[which].fragment, sources[which].define, error);
+    for (int u = 0; program->name && u < UNIFORMS; u++)
+        program->at[u] = glGetUniformLocation(program->name, uniform_names[u]);
+    return program->name != 0;
+}
 
 struct stage_renderer *stage_renderer_create(struct error *error)
 {
     struct stage_renderer *renderer = need_zeroed(1, sizeof *renderer);
-    bool made = (renderer->flat = stage_flat_create(error)) != NULL;
-    for (int p = 0; made && p < PAINTERS; p++) made = (renderer->states[p] = painters[p]->create(error)) != NULL;
-    if (made) return renderer;
-    stage_renderer_destroy(renderer);
-    return NULL;
+    for (int p = 0; p < PROGRAMS; p++) {
+        if (create_program(&renderer->programs[p], (enum stage_program)p, error)) continue;
+        while (--p >= 0) glDeleteProgram(renderer->programs[p].name);
+        free(renderer);
+        return NULL;
+    }
+    renderer->flat = stage_flat_create();
+    renderer->meshes = stage_meshes_create(renderer->programs);
+    stage_meadows_create(&renderer->meadows);
+    return renderer;
 }
 
 void stage_renderer_destroy(struct stage_renderer *renderer)
 {
     if (!renderer) return;
-    for (int p = 0; p < PAINTERS; p++) {
-        if (renderer->states[p]) painters[p]->destroy(renderer->states[p]);
-    }
+    for (int p = 0; p < PROGRAMS; p++) glDeleteProgram(renderer->programs[p].name);
     stage_flat_destroy(renderer->flat);
+    stage_meshes_destroy(renderer->meshes);
+    stage_meadows_destroy(&renderer->meadows);
     free(renderer);
 }
 
 void stage_upload(struct stage_renderer *renderer, const struct stage_view *view, long *bytes)
 {
-    for (int p = 0; p < PAINTERS; p++) painters[p]->upload(renderer->states[p], view, bytes);
-    *bytes += stage_flat_upload(renderer->flat, view);
+    *bytes += stage_meshes_upload(renderer->meshes, view) + stage_meadows_upload(&renderer->meadows, view) +
+              stage_flat_upload(renderer->flat, view);
 }
 
-static void draw_rigs(const struct stage_renderer *renderer, const struct stage_view *view, float scale, float seam)
-{
-    for (int p = 0; p < PAINTERS; p++) painters[p]->draw(renderer->states[p], view, scale, seam);
-}
-
-static void begin_rigs(void)
+/// Clears depth, and draws the rigs.
+static void draw_rigs(const struct stage_renderer *renderer, const struct stage_view *view, float scale)
 {
     glEnable(GL_DEPTH_TEST);
     glDepthFunc(GL_LESS);
     glEnable(GL_CULL_FACE);
     glClear(GL_DEPTH_BUFFER_BIT);
+    stage_meshes_draw(renderer->meshes, view, scale, 0.0f);
+    stage_meadows_draw(&renderer->meadows, &renderer->programs[PROGRAM_MEADOW], view);
 }
 
 static void end_rigs(void)
@@ -91,14 +121,13 @@ void stage_draw(struct stage_renderer *renderer, const struct stage_view *view, 
     glViewport(x, y, width, height);
     glDisable(GL_DEPTH_TEST);
     glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ZERO, GL_ONE);
-    stage_flat_draw(renderer->flat, y, height);
-    begin_rigs();
-    draw_rigs(renderer, view, scale, 0.0f);
-    // Edges without multisampling: a skirt a pixel wide (draw/skirt.h) fades out from the outlines over whatever is behind: the
+    stage_flat_draw(renderer->flat, &renderer->programs[PROGRAM_FLAT], y, height);
+    draw_rigs(renderer, view, scale);
+    // Edges without multisampling: a skirt a pixel wide (draw/posed.h) fades out from the outlines over whatever is behind: the
     // background or the animal itself.
     glEnable(GL_BLEND);
     glDepthMask(GL_FALSE);
-    draw_rigs(renderer, view, scale, 2.0f / (view->projection[5] * (float)height));
+    stage_meshes_draw(renderer->meshes, view, scale, 2.0f / (view->projection[5] * (float)height));
     glDepthMask(GL_TRUE);
     glDisable(GL_BLEND);
     end_rigs();
@@ -107,7 +136,6 @@ void stage_draw(struct stage_renderer *renderer, const struct stage_view *view, 
 void stage_draw_rigs(struct stage_renderer *renderer, const struct stage_view *view, int width, int height)
 {
     glViewport(0, 0, width, height);
-    begin_rigs();
-    draw_rigs(renderer, view, (float)height / view->viewport.h, 0.0f);
+    draw_rigs(renderer, view, (float)height / view->viewport.h);
     end_rigs();
 }

@@ -5,15 +5,64 @@
 #include "base/error.h"
 #include "draw/area.h"
 #include "draw/gl.h"
+#include "model/vector.h"
 #include "ui/stage.h"
+
+// The programs of all that is on it.
+
+enum stage_program {
+    PROGRAM_COAT,
+    PROGRAM_FACE,  ///< what a face is drawn on
+    PROGRAM_PLAIN, ///< surfaces of which nothing is left out, has a picture or is seen through: its pixels are cheaper
+    PROGRAM_PICTURED, ///< any other mesh, and all skirts but coats'
+    PROGRAM_MEADOW,
+    PROGRAM_FLAT,
+    PROGRAMS
+};
+
+/// Named as in the shaders.
+enum uniform {
+    AT_CLIP_FROM_WORLD,
+    AT_EYE,
+    AT_KEY_FROM,
+    AT_EARTH,
+    AT_SEAM,
+    AT_SHADE,
+    AT_BLINK,
+    AT_HEAD_FROM_BIND,
+    AT_LINE,
+    AT_BASE,
+    AT_PICTURE,
+    AT_CUTOFF,
+    AT_BLENDED,
+    AT_BOTH_SIDES,
+    AT_BEND,
+    AT_TOP,
+    AT_BOTTOM,
+    AT_ROWS,
+    AT_SHADOW,
+    UNIFORMS
+};
+
+struct program {
+    GLuint name;
+    GLint at[UNIFORMS]; ///< −1 where it has none, and setting that does nothing
+};
+
+/// Uses a program, with the camera, the light and the softness of edges.
+void program_use(const struct program *program, const struct stage_view *view, float seam);
+
+/// projection · view, column-major.
+mat4s stage_clip_from_world(const struct stage_view *view);
+
+// All of it together.
 
 struct stage_renderer;
 
 struct stage_renderer *stage_renderer_create(struct error *error);
 void stage_renderer_destroy(struct stage_renderer *renderer);
 
-/// Uploads what `view` needs: joint matrices, ground and shadows; meshes were made once. Adds to `bytes`. Allocates
-/// nothing.
+/// Uploads what `view` needs: posed meshes, ground and shadows. Adds to `bytes`. Allocates only for what is seen for the first time.
 void stage_upload(struct stage_renderer *renderer, const struct stage_view *view, long *bytes);
 
 /// Draws what was uploaded into a rectangle of the framebuffer (device pixels; x, y from the bottom left, as in
@@ -23,13 +72,15 @@ void stage_draw(struct stage_renderer *renderer, const struct stage_view *view, 
 /// The rigs alone, over the whole of a framebuffer, without the soft edges that blend into what is behind.
 void stage_draw_rigs(struct stage_renderer *renderer, const struct stage_view *view, int width, int height);
 
-// A smaller picture of the stage, drawn first and then enlarged onto the panel.
+// A picture of the stage that is drawn beside the screen.
 
 struct stage_target {
     GLuint framebuffer, color, depth;
     int width, height;
 };
 
+/// Binds a framebuffer of that size; false if the driver cannot make it.
+bool stage_target_bind(struct stage_target *target, int width, int height);
 void stage_target_destroy(struct stage_target *target);
 
 /// Where the stage goes in a framebuffer of `height` pixels, and how much of it shows.
@@ -54,21 +105,41 @@ struct area stage_extent(const struct stage_view *view, struct area viewport, in
 /// Height of the ground under the lowest rig.
 float stage_lowest_ground(const struct stage_view *view);
 
-/// Extends it by a box in world space.
-struct extent;
-void extent_add_box(struct extent *extent, const float lo[3], const float hi[3]);
-
-// What lies flat on the stage: background, ground and contact shadows, as a few quads of one shader.
+// What lies flat on the stage: background, ground and contact shadows, as a few quads of one program.
 
 struct stage_flat;
 
-struct stage_flat *stage_flat_create(struct error *error);
+struct stage_flat *stage_flat_create(void);
 void stage_flat_destroy(struct stage_flat *flat);
 
 /// Makes this frame's quads and uploads them; returns how many bytes that were.
 long stage_flat_upload(struct stage_flat *flat, const struct stage_view *view);
 
 /// Covers the viewport, whose lowest row is `y`, with the caller's blend function. Leaves blending off.
-void stage_flat_draw(const struct stage_flat *flat, int y, int height);
+void stage_flat_draw(const struct stage_flat *flat, const struct program *program, int y, int height);
+
+// Reeds.
+
+struct stage_meadows {
+    GLuint vertex_array, corners, indices, instances;
+};
+
+void stage_meadows_create(struct stage_meadows *meadows);
+void stage_meadows_destroy(struct stage_meadows *meadows);
+/// Returns how many bytes that were.
+long stage_meadows_upload(const struct stage_meadows *meadows, const struct stage_view *view);
+void stage_meadows_draw(const struct stage_meadows *meadows, const struct program *program,
+                        const struct stage_view *view);
+
+// Imported characters, foxes and soft characters.
+
+struct stage_meshes;
+
+struct stage_meshes *stage_meshes_create(const struct program programs[PROGRAMS]);
+void stage_meshes_destroy(struct stage_meshes *meshes);
+/// Poses all that are in view; returns how many bytes were uploaded.
+long stage_meshes_upload(struct stage_meshes *meshes, const struct stage_view *view);
+/// `scale` is device pixels a logical one. `seam` is metres a pixel at a distance of 1 m in the pass that softens silhouettes, else 0.
+void stage_meshes_draw(const struct stage_meshes *meshes, const struct stage_view *view, float scale, float seam);
 
 #endif

@@ -1,6 +1,5 @@
 /// Finds what moves on the stage, and where on the screen.
 #include "base/hash.h"
-#include "draw/painter.h"
 #include "draw/stage.h"
 #include <math.h>
 
@@ -14,7 +13,9 @@ struct extent {
 float stage_lowest_ground(const struct stage_view *view)
 {
     float lowest = INFINITY;
-    for (int p = 0; p < PAINTERS; p++) lowest = fminf(lowest, painters[p]->ground(view));
+    for (int c = 0; c < view->character_count; c++) lowest = fminf(lowest, view->characters[c].position[1]);
+    for (int m = 0; m < view->model_count; m++) lowest = fminf(lowest, view->models[m].ground);
+    if (view->meadow.count > 0) lowest = fminf(lowest, 0.0f);
     return lowest < INFINITY ? lowest : 0.0f;
 }
 
@@ -39,7 +40,7 @@ static void add_point(struct extent *extent, const float world[3])
     }
 }
 
-void extent_add_box(struct extent *extent, const float lo[3], const float hi[3])
+static void add_box(struct extent *extent, const float lo[3], const float hi[3])
 {
     for (int corner = 0; corner < 8; corner++) {
         const float world[3] = {corner & 1 ? hi[0] : lo[0], corner & 2 ? hi[1] : lo[1], corner & 4 ? hi[2] : lo[2]};
@@ -51,7 +52,25 @@ static void add_blob(struct extent *extent, const struct stage_blob *blob, float
 {
     const float lo[3] = {blob->x - blob->radius, ground, blob->z - blob->radius};
     const float hi[3] = {blob->x + blob->radius, ground, blob->z + blob->radius};
-    extent_add_box(extent, lo, hi);
+    add_box(extent, lo, hi);
+}
+
+/// The box at rest, grown by the amplitudes.
+static void add_character(struct extent *extent, const struct stage_character *shown)
+{
+    const struct figure *figure = shown->figure;
+    float lo[3], hi[3];
+    for (int k = 0; k < 3; k++) {
+        float reach = 0.0f;
+        for (int d = 0; d < shown->morph.count; d++) {
+            const float *weight = shown->morph.weight[d];
+            reach += hypotf(weight[0], weight[1]) * figure->largest[shown->morph.coordinate[d]][k];
+        }
+        const float place = shown->position[k] - (k == 1 ? figure->lo[1] : 0.0f);
+        lo[k] = place + figure->lo[k] - reach;
+        hi[k] = place + figure->hi[k] + reach;
+    }
+    add_box(extent, lo, hi);
 }
 
 struct area stage_extent(const struct stage_view *view, struct area viewport, int margin)
@@ -59,7 +78,9 @@ struct area stage_extent(const struct stage_view *view, struct area viewport, in
     struct extent extent = {
         .clip_from_world = stage_clip_from_world(view), .lo = {INFINITY, INFINITY}, .hi = {-INFINITY, -INFINITY}};
     const float ground = stage_lowest_ground(view);
-    for (int p = 0; p < PAINTERS; p++) painters[p]->extent(view, &extent);
+    for (int c = 0; c < view->character_count; c++) add_character(&extent, &view->characters[c]);
+    for (int m = 0; m < view->model_count; m++) add_box(&extent, view->models[m].lo, view->models[m].hi);
+    if (view->meadow.count > 0) add_box(&extent, view->meadow.lo, view->meadow.hi);
     for (int b = 0; b < view->blob_count; b++) add_blob(&extent, &view->blobs[b], ground);
     if (extent.is_everywhere) return viewport;
     if (!(extent.lo[0] <= extent.hi[0])) return (struct area){0};

@@ -1,6 +1,5 @@
 /// Draws background, ground and contact shadows.
 #include "base/need.h"
-#include "draw/painter.h"
 #include "draw/stage.h"
 #include <math.h>
 #include <stddef.h>
@@ -24,10 +23,7 @@ struct corner {
 };
 
 struct stage_flat {
-    GLuint program, vertex_array, vertices;
-    struct {
-        GLint top, bottom, rows, shadow;
-    } at;
+    GLuint vertex_array, vertices;
     struct stage_colors colors;
     int quads;
     struct corner corners[MAX_QUADS * CORNERS];
@@ -36,46 +32,23 @@ struct stage_flat {
 /// Two triangles' corners, as signs.
 static const float square[CORNERS][2] = {{-1, -1}, {1, -1}, {1, 1}, {-1, -1}, {1, 1}, {-1, 1}};
 
-struct stage_flat *stage_flat_create(struct error *error)
+struct stage_flat *stage_flat_create(void)
 {
     struct stage_flat *flat = need_zeroed(1, sizeof *flat);
-    flat->program = gl_program("stage_flat.vert", "stage_flat.frag", NULL, error);
-    if (!flat->program) {
-        free(flat);
-        return NULL;
-    }
-    const struct gl_uniform uniforms[] = {
-        {&flat->at.top, "top"},
-        {&flat->at.bottom, "bottom"},
-        {&flat->at.rows, "rows"},
-        {&flat->at.shadow, "shadow"},
-    };
-    gl_find_uniforms(flat->program, uniforms, sizeof uniforms / sizeof *uniforms);
     glGenVertexArrays(1, &flat->vertex_array);
     glBindVertexArray(flat->vertex_array);
-    glGenBuffers(1, &flat->vertices);
-    glBindBuffer(GL_ARRAY_BUFFER, flat->vertices);
-    glBufferData(GL_ARRAY_BUFFER, sizeof flat->corners, NULL, GL_DYNAMIC_DRAW);
-    const struct {
-        GLint size;
-        size_t offset;
-    } attributes[] = {
-        {4, offsetof(struct corner, clip)}, {2, offsetof(struct corner, local)}, {4, offsetof(struct corner, color)}};
-    for (GLuint a = 0; a < 3; a++) {
-        glEnableVertexAttribArray(a);
-        glVertexAttribPointer(a, attributes[a].size, GL_FLOAT, GL_FALSE, sizeof(struct corner),
-                              (const void *)attributes[a].offset);
-    }
+    flat->vertices = gl_buffer(GL_ARRAY_BUFFER, sizeof flat->corners, NULL, GL_DYNAMIC_DRAW);
+    gl_attribute(0, 4, GL_FLOAT, sizeof(struct corner), offsetof(struct corner, clip));
+    gl_attribute(1, 2, GL_FLOAT, sizeof(struct corner), offsetof(struct corner, local));
+    gl_attribute(2, 4, GL_FLOAT, sizeof(struct corner), offsetof(struct corner, color));
     glBindVertexArray(0);
     return flat;
 }
 
 void stage_flat_destroy(struct stage_flat *flat)
 {
-    if (!flat) return;
     glDeleteVertexArrays(1, &flat->vertex_array);
     glDeleteBuffers(1, &flat->vertices);
-    glDeleteProgram(flat->program);
     free(flat);
 }
 
@@ -149,17 +122,17 @@ static void set_srgb(GLint location, uint32_t color)
     glUniform3fv(location, 1, corner.color);
 }
 
-void stage_flat_draw(const struct stage_flat *flat, int y, int height)
+void stage_flat_draw(const struct stage_flat *flat, const struct program *program, int y, int height)
 {
-    glUseProgram(flat->program);
-    set_srgb(flat->at.top, flat->colors.top);
-    set_srgb(flat->at.bottom, flat->colors.bottom);
-    glUniform2f(flat->at.rows, (float)y, 1.0f / (float)height);
-    glUniform1i(flat->at.shadow, false);
+    glUseProgram(program->name);
+    set_srgb(program->at[AT_TOP], flat->colors.top);
+    set_srgb(program->at[AT_BOTTOM], flat->colors.bottom);
+    glUniform2f(program->at[AT_ROWS], (float)y, 1.0f / (float)height);
+    glUniform1i(program->at[AT_SHADOW], false);
     glBindVertexArray(flat->vertex_array);
     glDisable(GL_BLEND);
     glDrawArrays(GL_TRIANGLES, 0, SCENERY * CORNERS);
-    glUniform1i(flat->at.shadow, true);
+    glUniform1i(program->at[AT_SHADOW], true);
     glEnable(GL_BLEND);
     glDrawArrays(GL_TRIANGLES, SCENERY * CORNERS, (flat->quads - SCENERY) * CORNERS);
     glDisable(GL_BLEND);

@@ -1,4 +1,4 @@
-/// Draws the stage at a lower resolution and enlarges it.
+/// Framebuffers beside the screen; draws the stage into one at a lower resolution, and enlarges it.
 #include "draw/batch.h"
 #include "draw/stage.h"
 
@@ -18,8 +18,7 @@ static void attach(GLuint *buffer, GLenum place, GLenum format, int width, int h
     glFramebufferRenderbuffer(GL_FRAMEBUFFER, place, GL_RENDERBUFFER, *buffer);
 }
 
-/// Binds a framebuffer of that size.
-static bool bind(struct stage_target *target, int width, int height)
+bool stage_target_bind(struct stage_target *target, int width, int height)
 {
     if (target->framebuffer && target->width == width && target->height == height) {
         glBindFramebuffer(GL_FRAMEBUFFER, target->framebuffer);
@@ -53,7 +52,7 @@ bool stage_target_draw(struct stage_target *target, struct stage_renderer *rende
     const int height = area_max(1, (int)lroundf((float)(to.y1 - to.y0) * scale));
     GLint screen = 0;
     glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &screen);
-    bool drawn = bind(target, width, height);
+    bool drawn = stage_target_bind(target, width, height);
     if (drawn) {
         batch_apply_scissor(needed(place, scale, width, height), height);
         stage_draw(renderer, view, 0, 0, width, height);

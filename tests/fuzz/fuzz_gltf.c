@@ -1,5 +1,5 @@
 /// Characters in .glb and .gltf, by every reader of them: imported, as a surface, and as a character of ours; and what is drawn of them.
-#include "draw/model_surface.h"
+#include "draw/posed.h"
 #include "rig/imported.h"
 #include "surface.h"
 #include <stdlib.h>
@@ -22,17 +22,14 @@ static void pose_at(const struct imported *imported, int clip, double time, stru
 
 static void draw(const struct imported *imported)
 {
-    static const float still[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}, eye[3] = {0, 0, 1};
-    const struct gltf *gltf = &imported->gltf;
-    struct model_surface surface;
-    model_surface_create(&surface, gltf);
-    model_surface_pose(&surface, gltf, &imported->rest, still, eye);
-    for (int node = 0; surface.indices && node < gltf->node_count; node++) {
-        const struct skirt_mesh mesh = model_surface_mesh(&surface, gltf, &imported->rest, node);
-        fuzz_outlines(&mesh, (const float(*)[3])surface.normal, surface.first_index[node],
-                      surface.first_index[node + 1]);
-    }
-    model_surface_free(&surface);
+    static const float eye[3] = {0, 0, 1};
+    const struct stage_model shown = {
+        .gltf = &imported->gltf, .pose = &imported->rest, .root = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}};
+    struct posed mesh;
+    posed_from_gltf(&mesh, shown.gltf);
+    posed_pose_gltf(&mesh, &shown, eye);
+    fuzz_outlines(&mesh, eye);
+    posed_free(&mesh);
 }
 
 static void import(const char *path)

@@ -2,7 +2,7 @@
 #ifndef TESTS_FUZZ_SURFACE_H
 #define TESTS_FUZZ_SURFACE_H
 
-#include "draw/skirt.h"
+#include "draw/posed.h"
 #include "fuzz.h"
 #include "model/adjacency.h"
 #include "model/decimate.h"
@@ -10,35 +10,25 @@
 #include <stdlib.h>
 
 /// The outlines of a mesh as it stands, from an eye.
-static inline void fuzz_outlines(const struct skirt_mesh *mesh, const float (*normal)[3], int first, int end)
+static inline void fuzz_outlines(const struct posed *mesh, const float eye[3])
 {
-    const float eye[3] = {1, 2, 3};
-    skirt_face(mesh, first, end, eye);
-    for (int i = first - 1; (i = skirt_next(mesh, i + 1, end, i % 2 == 0)) < end;) {
-        float ends[2][3], out[2][3];
-        for (int k = 0; k < 3; k++) {
-            ends[0][k] = normal[mesh->indices[i]][k];
-            ends[1][k] = normal[mesh->indices[next_corner(i)]][k];
-        }
-        skirt_out(mesh, i, (const float(*)[3])ends, eye, 1e-3f, out);
+    for (int p = 0; p < mesh->part_count; p++) {
+        const struct posed_part *part = &mesh->parts[p];
+        struct skirt_vertex skirt[SKIRT_CORNERS];
+        for (int i = part->first - 1; (i = skirt_next(mesh, part, i + 1)) < part->end;)
+            skirt_hang(mesh, part, i, eye, 1e-3f, skirt);
     }
 }
 
-static inline void fuzz_triangles(const struct character *c, const uint32_t *indices, int index_count)
+static inline void fuzz_triangles(const struct figure *figure, bool coarse)
 {
-    const float(*place)[3] = (const float(*)[3])c->position;
-    const size_t room = (size_t)index_count + 1;
-    int *neighbours = malloc(room * sizeof *neighbours);
-    uint32_t *look = malloc(room * sizeof *look);
-    bool *front = malloc(room * sizeof *front);
-    for (int i = 0; i < index_count; i++) look[i] = neighbours_look(0, c->color[indices[i]]);
-    neighbours_find(place, c->vertex_count, indices, index_count, neighbours);
-    neighbours_cut(place, indices, look, index_count, neighbours);
-    const struct skirt_mesh mesh = {.indices = indices, .neighbours = neighbours, .place = place, .front = front};
-    fuzz_outlines(&mesh, (const float(*)[3])c->normal, 0, index_count);
-    free(neighbours);
-    free(look);
-    free(front);
+    const float eye[3] = {1, 2, 3};
+    const struct stage_character shown = {.figure = figure};
+    struct posed mesh;
+    posed_from_figure(&mesh, figure, coarse);
+    posed_pose_figure(&mesh, &shown, eye);
+    fuzz_outlines(&mesh, eye);
+    posed_free(&mesh);
 }
 
 /// What `analyze` writes of a character, and what a frame that shows it hands to the GPU. Takes the character.
@@ -52,9 +42,9 @@ static inline void fuzz_figure(struct character *character)
         fuzz_expect(figure.edges.other[e] < (uint32_t)c->vertex_count, "an edge ends at a vertex of the surface");
     for (int k = 0; k < 2 * c->coordinate_count; k++) figure_turn_normals(&figure, k / 2, k % 2, turn);
     free(turn);
-    fuzz_triangles(c, c->indices, c->index_count);
+    fuzz_triangles(&figure, false);
     decimate(c, c->index_count / 6, figure.coarse, figure.coarse_from, &figure.coarse_count);
-    fuzz_triangles(c, figure.coarse, figure.coarse_count);
+    fuzz_triangles(&figure, true);
     figure_free(&figure);
 }
 
