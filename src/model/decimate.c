@@ -1,7 +1,7 @@
 /// Half-edge collapses in rounds. In each round every removable vertex picks the neighbour onto which it collapses at least
 /// cost; the cheapest collapse, unless one touches what another has changed.
-#include "model/decimate.h"
 #include "base/need.h"
+#include "model/figure.h"
 #include "model/vector.h"
 #include <math.h>
 #include <stdlib.h>

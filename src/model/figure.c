@@ -1,7 +1,6 @@
 /// Prepares a character for the stage: normals, a coarser mesh, its bounds; and moves it.
 #include "model/figure.h"
 #include "base/need.h"
-#include "model/decimate.h"
 #include "model/vector.h"
 #include <math.h>
 #include <stdlib.h>

@@ -67,6 +67,12 @@ void figure_free(struct figure *figure);
 /// Index of the coordinate of that name, or −1.
 int figure_find(const struct figure *figure, const char *name);
 
+/// Fewer triangles over the same vertices, so that whatever these carry stays as it is. Writes at most `triangles` triangles (more if the surface would fold or open) that look like
+/// the character's own to `indices`, which has room for all of those. Vertices collapse onto neighbours, starting with those
+/// that change shape and colour least. `sources` (NULL: nobody asks) says which of the character's triangles each was.
+void decimate(const struct character *character, int triangles, uint32_t *indices, uint32_t *sources,
+              int *index_count);
+
 // A soft character in motion: the sum of its complex normal coordinates, each turned and scaled by a weight,
 // D(j) = Re(Σ_k z_k Ñ_{k,j}).
 

@@ -1,8 +1,11 @@
-/// Opens .glb and .gltf files.
+/// Opens .glb and .gltf files, and what they keep in files beside them and in data URIs.
 #include "model/glb.h"
+#include "base/base64.h"
 #include "base/file.h"
 #include "base/json.h"
 #include "base/progress.h"
+#include <ctype.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -83,4 +86,104 @@ int64_t glb_integer(const json_t *object, const char *key, int64_t otherwise)
     if (!member) return otherwise;
     json_int_t value = json_is_integer(member) ? json_integer_value(member) : -1;
     return value >= 0 && value <= INT32_MAX ? (int64_t)value : -1;
+}
+
+// --- bytes outside of the chunk
+
+static bool read_data(const char *uri, struct glb_buffer *buffer, struct error *error)
+{
+    const char *comma = strchr(uri, ',');
+    const bool is_base64 = comma && comma - uri >= 7 && strncmp(comma - 7, ";base64", 7) == 0;
+    if (!is_base64) return fail(error, ERROR_INPUT, "expected a data URI in base64, got another");
+    unsigned char *bytes = malloc(base64_capacity(strlen(comma)));
+    if (!bytes) return fail_no_memory(error, "a data URI");
+    *buffer = (struct glb_buffer){.bytes = {.at = bytes}, .owned = bytes};
+    if (base64_decode(comma + 1, bytes, &buffer->bytes.size)) return true;
+    free(bytes);
+    *buffer = (struct glb_buffer){0};
+    return fail(error, ERROR_INPUT, "expected base64, got something else");
+}
+
+/// "a%20b" → "a b"; false for an address, an absolute path, and what is no name of a file.
+static bool decode_name(const char *uri, char name[PATH_LIMIT])
+{
+    size_t length = 0;
+    if (uri[0] == '/' || uri[0] == '\0' || uri[strcspn(uri, ":/")] == ':') return false;
+    for (; *uri && length + 1 < PATH_LIMIT; uri++) {
+        char hex[3] = {0};
+        if (*uri == '%' && isxdigit((unsigned char)uri[1]) && isxdigit((unsigned char)uri[2])) {
+            memcpy(hex, uri + 1, 2);
+            uri += 2;
+        }
+        name[length] = hex[0] ? (char)strtol(hex, NULL, 16) : *uri;
+        if (name[length++] == '\0') return false;
+    }
+    name[length] = '\0';
+    return *uri == '\0' && name[0] != '/';
+}
+
+bool glb_read_uri(struct glb *glb, const char *uri, struct glb_buffer *buffer, struct error *error)
+{
+    char name[PATH_LIMIT], folder[PATH_LIMIT], path[PATH_LIMIT];
+    *buffer = (struct glb_buffer){0};
+    if (strncmp(uri, "data:", 5) == 0) return read_data(uri, buffer, error);
+    if (!decode_name(uri, name) || !path_folder(glb->path, folder) ||
+        snprintf(path, sizeof path, "%s%s%s", folder, folder[0] ? "/" : "", name) >= (int)sizeof path)
+        return fail(error, ERROR_INPUT,
+                    "expected a data URI or a file's name, from the folder of this one, got '%.80s'", uri);
+    char *data;
+    size_t size;
+    if (!file_read(path, GLB_FILE_LIMIT, &data, &size, error)) return false;
+    glb->room += GLB_GROWTH * size;
+    stage_tell("reading a glTF file", 0, (long)size);
+    *buffer = (struct glb_buffer){{(unsigned char *)data, size}, data};
+    return true;
+}
+
+/// The buffer before number `index` that has the same file; NULL where none has.
+static const struct glb_buffer *same_file(const struct glb *glb, const json_t *buffers, size_t index, const char *uri)
+{
+    for (size_t i = 0; i < index && strncmp(uri, "data:", 5) != 0; i++) {
+        const char *other = json_string_value(json_object_get(json_array_get(buffers, i), "uri"));
+        if (other && strcmp(other, uri) == 0) return &glb->buffers[i];
+    }
+    return NULL;
+}
+
+static bool read_buffer(struct glb *glb, const json_t *buffers, size_t index, struct glb_buffer *buffer,
+                        struct error *error)
+{
+    const json_t *described = json_array_get(buffers, index);
+    const char *uri = json_string_value(json_object_get(described, "uri"));
+    const struct glb_buffer *same = uri ? same_file(glb, buffers, index, uri) : NULL;
+    struct error why = {0};
+    if (same) {
+        buffer->bytes = same->bytes;
+    } else if (!uri) {
+        if (index == 0) buffer->bytes = glb->chunk;
+    } else if (!glb_read_uri(glb, uri, buffer, &why)) {
+        return fail(error, why.kind, "%s: buffers[%zu].uri: %s", glb->path, index, why.text);
+    }
+    int64_t length = glb_integer(described, "byteLength", 0);
+    if (length >= 0 && length <= (int64_t)buffer->bytes.size) return true;
+    return fail(error, ERROR_INPUT,
+                "%s: buffers[%zu].byteLength: expected at most the %zu bytes that are there, got %lld", glb->path,
+                index, buffer->bytes.size, (long long)length);
+}
+
+bool glb_read_buffers(struct glb *glb, struct error *error)
+{
+    const json_t *buffers = json_object_get(glb->json, "buffers");
+    size_t total = 0;
+    glb->buffers = calloc(json_array_size(buffers) + 1, sizeof *glb->buffers);
+    if (!glb->buffers) return fail_no_memory(error, glb->path);
+    for (size_t i = 0; i < json_array_size(buffers); i++) {
+        struct glb_buffer *buffer = &glb->buffers[glb->buffer_count++];
+        if (!read_buffer(glb, buffers, i, buffer, error)) return false;
+        if (buffer->owned) total += buffer->bytes.size;
+        if (total > GLB_FILE_LIMIT)
+            return fail(error, ERROR_INPUT, "%s: buffers[%zu]: expected at most %d MiB in all, got more", glb->path,
+                        i, GLB_FILE_LIMIT >> 20);
+    }
+    return true;
 }

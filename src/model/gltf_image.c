@@ -1,6 +1,5 @@
 /// Decodes the pictures of glTF files: PNG and JPEG from buffer views, data URIs and files.
 #include "model/gltf_read.h"
-#include "model/picture_check.h"
 #include <limits.h>
 #include <stdlib.h>
 #include <string.h>
@@ -35,6 +34,76 @@ static void *noted(void *memory)
 #endif
 #pragma GCC diagnostic pop
 
+// --- what a picture must hold to before it is decoded: the chunks of a PNG (ISO 15948) and the segments of a JPEG (ITU T.81, annex B)
+
+enum { MARKER = 0xFF, START = 0xD8, END = 0xD9, FIRST_RESTART = 0xD0, HUFFMAN_TABLES = 0xC4 };
+enum { LENGTHS = 16, MOST_CODES = 256 };
+enum { SIGNATURE = 8, CHUNK_HEAD = 8, CHUNK_TAIL = 4 };
+
+/// A segment's tables: a byte that names it, how many codes there are of each length, the codes.
+static bool tables_fit(const unsigned char *at, const unsigned char *end)
+{
+    while (at < end) {
+        int codes = 0;
+        if (end - at < 1 + LENGTHS) return false;
+        for (int i = 1; i <= LENGTHS; i++) codes += at[i];
+        if (codes > MOST_CODES || codes > end - at - 1 - LENGTHS) return false;
+        at += 1 + LENGTHS + codes;
+    }
+    return true;
+}
+
+/// Behind the next marker, or NULL. What is no marker lies between, as coded samples do.
+static const unsigned char *next_marker(const unsigned char *at, const unsigned char *end, int *marker)
+{
+    at = memchr(at, MARKER, (size_t)(end - at));
+    while (at && at < end && *at == MARKER) at++;
+    if (!at || at == end) return NULL;
+    *marker = *at;
+    return at + 1;
+}
+
+static bool jpeg_is_sound(const unsigned char *at, const unsigned char *end)
+{
+    int marker = 0;
+    while ((at = next_marker(at, end, &marker)) && marker != END) {
+        const bool alone = marker == 0 || (marker >= FIRST_RESTART && marker <= START);
+        if (alone) continue;
+        const long length = end - at < 2 ? 0 : at[0] << 8 | at[1];
+        if (length < 2 || length > end - at) return marker != HUFFMAN_TABLES;
+        if (marker == HUFFMAN_TABLES && !tables_fit(at + 2, at + length)) return false;
+        at += length;
+    }
+    return true;
+}
+
+static bool png_is_sound(const unsigned char *at, const unsigned char *end)
+{
+    bool has_data = false;
+    for (at += SIGNATURE; end - at >= CHUNK_HEAD;) {
+        const long length = (long)at[0] << 24 | at[1] << 16 | at[2] << 8 | at[3];
+        if (memcmp(at + 4, "IEND", 4) == 0) return true;
+        const bool is_data = memcmp(at + 4, "IDAT", 4) == 0;
+        if (is_data && length == 0 && !has_data) return false;
+        has_data |= is_data;
+        if (length > end - at - CHUNK_HEAD - CHUNK_TAIL) return false;
+        at += CHUNK_HEAD + length + CHUNK_TAIL;
+    }
+    return true;
+}
+
+/// Whether a PNG's chunks end within the file and its data does not begin with an empty one, and a JPEG's Huffman tables within their
+/// segments and have 256 codes at most: stb_image takes memory for what a chunk claims, copies an empty one to nowhere, and up to 2.28
+/// writes past its tables. True of what is neither.
+static bool is_sound(const unsigned char *bytes, size_t size)
+{
+    if (size >= SIGNATURE && memcmp(bytes, "\x89PNG", 4) == 0) return png_is_sound(bytes, bytes + size);
+    if (size > 0 && bytes[0] == MARKER) return jpeg_is_sound(bytes, bytes + size); // its start may be filled up
+    return true;
+}
+
+// --- pictures
+
 enum { PIXELS_A_BYTE = 8256 }; // what deflate packs into a byte at most, at a bit a pixel
 
 /// The encoded bytes. `why` says what is wrong with them.
@@ -56,7 +125,7 @@ bool gltf_decode_image(const unsigned char *bytes, size_t size, size_t most, str
                        struct error *error)
 {
     int channels, length = size <= INT_MAX ? (int)size : 0;
-    if (!picture_is_sound(bytes, size))
+    if (!is_sound(bytes, size))
         return fail(error, ERROR_INPUT, "expected PNG or JPEG: a part of it is larger than it may be, or empty");
     starved = false;
     if (!stbi_info_from_memory(bytes, length, &image->width, &image->height, &channels))

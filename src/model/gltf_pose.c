@@ -1,8 +1,10 @@
-/// Poses of glTF characters: the matrices of nodes and joints, and their vertices: v′ = Σ wⱼ Jⱼ (v + Σ wₜ Δₜ v), and normals by the
-/// cofactors of the same matrix.
+/// Poses of glTF characters: clips, the matrices of nodes and joints, their vertices, v′ = Σ wⱼ Jⱼ (v + Σ wₜ Δₜ v), with normals by the
+/// cofactors of the same matrix, and the boxes around them.
 #include "model/gltf.h"
 #include "model/vector.h"
+#include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 bool gltf_pose_create(const struct gltf *gltf, struct gltf_pose *pose)
 {
@@ -187,4 +189,174 @@ void gltf_pose_vertices(const struct gltf *gltf, const struct gltf_pose *pose, i
         positions += part->vertex_count;
         if (normals) normals += part->vertex_count;
     }
+}
+
+// --- clips at a time
+//
+// Between the keys k and k + 1 with s = (t − t_k) / T, T = t_{k+1} − t_k, a channel is v_k (step), (1 − s) v_k + s v_{k+1} (linear; a
+// rotation goes along the great circle, the short way) or, with the tangents b_k out of and a_k into a key,
+//     (2s³ − 3s² + 1) v_k + T (s³ − 2s² + s) b_k + (3s² − 2s³) v_{k+1} + T (s³ − s²) a_{k+1}.
+
+/// The last key at or before a time; the first where there is none.
+static int key_at(const struct gltf_channel *channel, double time)
+{
+    int low = 0, high = channel->key_count;
+    while (high - low > 1) {
+        int middle = low + (high - low) / 2;
+        if ((double)channel->times[middle] <= time) {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    return low;
+}
+
+static void normalise(float q[4])
+{
+    float length = sqrtf(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
+    for (int k = 0; k < 4; k++) q[k] = length > 0 ? q[k] / length : (float)(k == 3);
+}
+
+/// From a to b, or to −b where that is nearer: both are the same rotation. cglm's own goes through zero where b is nearly −a.
+static void slerp(const float a[4], const float b[4], float s, float out[4])
+{
+    float cosine = a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3];
+    float sign = cosine < 0 ? -1.0f : 1.0f, from = 1 - s, to = s;
+    if (cosine * sign < 0.9999f) {
+        float angle = acosf(cosine * sign);
+        from = sinf(from * angle) / sinf(angle);
+        to = sinf(to * angle) / sinf(angle);
+    }
+    for (int k = 0; k < 4; k++) out[k] = from * a[k] + to * sign * b[k];
+}
+
+static void cubic(const float *key, int components, float s, float T, float *out)
+{
+    const float *value = key + components, *leaving = key + 2 * components, *arriving = key + 3 * components;
+    const float *next = key + 4 * components;
+    float s2 = s * s, s3 = s2 * s;
+    for (int k = 0; k < components; k++)
+        out[k] = (2 * s3 - 3 * s2 + 1) * value[k] + T * (s3 - 2 * s2 + s) * leaving[k] + (3 * s2 - 2 * s3) * next[k] +
+                 T * (s3 - s2) * arriving[k];
+}
+
+void gltf_channel_at(const struct gltf_channel *channel, double time, float *out)
+{
+    int key = key_at(channel, time), n = channel->components;
+    bool is_cubic = channel->interpolation == GLTF_CUBIC;
+    size_t stride = (size_t)(is_cubic ? 3 * n : n);
+    const float *at = channel->values + (size_t)key * stride;
+    double from = (double)channel->times[key];
+    bool held = key + 1 == channel->key_count || time <= from || channel->interpolation == GLTF_STEP;
+    double T = held ? 1 : (double)channel->times[key + 1] - from;
+    float s = (float)((time - from) / T);
+    if (held) {
+        memcpy(out, is_cubic ? at + n : at, (size_t)n * sizeof *out);
+    } else if (is_cubic) {
+        cubic(at, n, s, (float)T, out);
+    } else if (channel->path == GLTF_ROTATION) {
+        slerp(at, at + n, s, out);
+    } else {
+        for (int k = 0; k < n; k++) out[k] = (1 - s) * at[k] + s * at[n + k];
+    }
+    if (channel->path == GLTF_ROTATION) normalise(out);
+}
+
+void gltf_pose_clip(const struct gltf *gltf, int clip, double time, struct gltf_pose *pose)
+{
+    for (int n = 0; n < gltf->node_count; n++) pose->place[n] = gltf->nodes[n].place;
+    for (int w = 0; w < gltf->weight_count; w++) pose->weights[w] = gltf->weights[w];
+    for (int i = 0; clip >= 0 && i < gltf->clips[clip].channel_count; i++) {
+        const struct gltf_channel *channel = &gltf->clips[clip].channels[i];
+        struct gltf_place *place = &pose->place[channel->node];
+        float *const out[] = {place->translation, place->rotation, place->scale,
+                              pose->weights + gltf->nodes[channel->node].first_weight};
+        gltf_channel_at(channel, time, out[channel->path]);
+    }
+}
+
+// --- boxes around what each joint carries
+
+/// Adds a vertex, with the room that its morph targets may take it through.
+static void add_vertex(struct gltf_box *box, const struct gltf_mesh *mesh, const struct gltf_part *part, int v)
+{
+    for (int k = 0; k < 3; k++) {
+        float reach = 0.0f;
+        for (int t = 0; t < mesh->target_count; t++) {
+            if (part->targets[t].position) reach += fabsf(part->targets[t].position[v][k]);
+        }
+        box->lo[k] = fminf(box->lo[k], part->position[v][k] - reach);
+        box->hi[k] = fmaxf(box->hi[k], part->position[v][k] + reach);
+    }
+}
+
+static void add_part(struct gltf_box *boxes, const struct gltf_mesh *mesh, const struct gltf_part *part, bool skinned)
+{
+    for (int v = 0; v < part->vertex_count; v++) {
+        for (int i = 0; i < (skinned && part->joints ? GLTF_INFLUENCES : 1); i++) {
+            int joint = skinned && part->joints ? part->joints[v][i] : 0;
+            if (!part->joints || !skinned || part->weights[v][i] > 0.0f) add_vertex(&boxes[joint], mesh, part, v);
+        }
+    }
+}
+
+static int box_count(const struct gltf *gltf, const struct gltf_node *node)
+{
+    if (node->mesh < 0) return 0;
+    return node->skin < 0 ? 1 : gltf->skins[node->skin].joint_count;
+}
+
+bool gltf_bounds_create(const struct gltf *gltf, struct gltf_bounds *bounds)
+{
+    size_t total = 1;
+    for (int n = 0; n < gltf->node_count; n++) total += (size_t)box_count(gltf, &gltf->nodes[n]);
+    *bounds = (struct gltf_bounds){.boxes = malloc(total * sizeof *bounds->boxes)};
+    if (!bounds->boxes) return false;
+    for (int n = 0; n < gltf->node_count; n++) {
+        const struct gltf_node *node = &gltf->nodes[n];
+        const int count = box_count(gltf, node);
+        struct gltf_box *first = bounds->boxes + bounds->count;
+        for (int f = 0; f < count; f++) {
+            first[f] = (struct gltf_box){
+                n, node->skin < 0 ? -1 : f, {INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
+        }
+        for (int p = 0; count > 0 && p < gltf->meshes[node->mesh].part_count; p++)
+            add_part(first, &gltf->meshes[node->mesh], &gltf->meshes[node->mesh].parts[p], node->skin >= 0);
+        for (int f = 0; f < count; f++) { // most joints of a large skin move a small part of one mesh, or nothing
+            if (first[f].lo[0] <= first[f].hi[0]) bounds->boxes[bounds->count++] = first[f];
+        }
+    }
+    return true;
+}
+
+void gltf_bounds_free(struct gltf_bounds *bounds)
+{
+    free(bounds->boxes);
+    *bounds = (struct gltf_bounds){0};
+}
+
+void gltf_bounds_at(const struct gltf_bounds *bounds, const struct gltf *gltf, const struct gltf_pose *pose,
+                    float lo[3], float hi[3])
+{
+    for (int k = 0; k < 3; k++) {
+        lo[k] = INFINITY;
+        hi[k] = -INFINITY;
+    }
+    for (int f = 0; f < bounds->count; f++) {
+        const struct gltf_box *box = &bounds->boxes[f];
+        const struct gltf_node *node = &gltf->nodes[box->node];
+        const float *m =
+            box->joint < 0 ? pose->world[box->node] : pose->joints[gltf->skins[node->skin].first_joint + box->joint];
+        for (int k = 0; k < 3; k++) {
+            float middle = m[12 + k], reach = 0.0f;
+            for (int a = 0; a < 3; a++) {
+                middle += m[4 * a + k] * 0.5f * (box->lo[a] + box->hi[a]);
+                reach += fabsf(m[4 * a + k]) * 0.5f * (box->hi[a] - box->lo[a]);
+            }
+            lo[k] = fminf(lo[k], middle - reach);
+            hi[k] = fmaxf(hi[k], middle + reach);
+        }
+    }
+    for (int k = 0; k < 3 && !(lo[0] <= hi[0]); k++) lo[k] = hi[k] = 0.0f;
 }

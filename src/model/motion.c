@@ -1,7 +1,6 @@
-/// Opens motions of any format, and reads columns of them.
+/// Reads and writes motions: each format has a reader of its header and a writer of its start.
 #include "model/motion.h"
 #include "base/npy.h"
-#include "model/motion_format.h"
 #include <errno.h>
 #include <fcntl.h>
 #include <math.h>
@@ -11,7 +10,14 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-bool motion_read_at(const struct motion *m, int64_t offset, void *bytes, size_t count, struct error *error)
+_Static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "the files' numbers are read as they lie");
+
+enum { PC2_HEADER = 32, MDD_HEADER = 8 };
+
+static const char pc2_magic[12] = "POINTCACHE2"; ///< begins a PC2 file
+
+/// Reads exactly `count` bytes at `offset`; a file that ends before is an error.
+static bool read_at(const struct motion *m, int64_t offset, void *bytes, size_t count, struct error *error)
 {
     for (size_t done = 0; done < count;) {
         ssize_t got = pread(m->file, (char *)bytes + done, count - done, offset + (int64_t)done);
@@ -25,7 +31,8 @@ bool motion_read_at(const struct motion *m, int64_t offset, void *bytes, size_t 
     return true;
 }
 
-bool motion_counts(struct motion *m, int64_t frames, int64_t vertices, struct error *error)
+/// Counts of a header: such that 3 · vertices is one too.
+static bool set_counts(struct motion *m, int64_t frames, int64_t vertices, struct error *error)
 {
     if (frames < 1 || frames > INT32_MAX || vertices < 1 || vertices > INT32_MAX / 3)
         return fail(error, ERROR_INPUT, "%s: expected one frame and one vertex or more, got %lld and %lld", m->path,
@@ -35,7 +42,8 @@ bool motion_counts(struct motion *m, int64_t frames, int64_t vertices, struct er
     return true;
 }
 
-bool motion_layout(struct motion *m, int64_t size, struct error *error)
+/// Sets the strides of numbers in C order and checks that the file has them all.
+static bool set_layout(struct motion *m, int64_t size, struct error *error)
 {
     m->strides[2] = m->number_size;
     m->strides[1] = 3 * m->strides[2];
@@ -46,13 +54,120 @@ bool motion_layout(struct motion *m, int64_t size, struct error *error)
                 m->path, m->frames, m->vertices, (long long)(room > 0 ? room : 0));
 }
 
+// --- NumPy's .npy: an array of shape (frames, vertices, 3) or (frames, 3 vertices)
+
+static bool set_shape(struct motion *m, const struct npy *npy, struct error *error)
+{
+    bool flat = npy->count == 2 && npy->lengths[1] % 3 == 0;
+    if (!flat && !(npy->count == 3 && npy->lengths[2] == 3))
+        return fail(error, ERROR_INPUT, "%s: expected an array of shape (frames, vertices, 3), got %s", m->path,
+                    npy->shape);
+    return set_counts(m, npy->lengths[0], flat ? npy->lengths[1] / 3 : npy->lengths[1], error);
+}
+
+/// Fortran order: the first index runs fastest. Of (frames, 3 vertices) vertex and coordinate are one index in which the
+/// coordinate runs faster.
+static void set_order(struct motion *m, const struct npy *npy)
+{
+    int64_t column = (int64_t)m->number_size * m->frames;
+    bool flat = npy->count == 2;
+    m->columns_first = npy->columns_first;
+    if (!m->columns_first) return;
+    m->strides[1] = flat ? 3 * column : column;
+    m->strides[2] = flat ? column : column * m->vertices;
+}
+
+static bool npy_read_header(struct motion *m, int64_t size, struct error *error)
+{
+    unsigned char start[NPY_START];
+    char text[NPY_DICTIONARY + 1];
+    struct npy npy;
+    if (!read_at(m, 0, start, sizeof start, error) || !npy_start(&npy, m->path, start, error)) return false;
+    m->data = npy.data;
+    if (!read_at(m, m->data - (int64_t)npy.dictionary, text, npy.dictionary, error)) return false;
+    text[npy.dictionary] = '\0';
+    if (!npy_dictionary(&npy, m->path, text, error)) return false;
+    m->swapped = npy.swapped;
+    m->number_size = npy.number_size;
+    if (!set_shape(m, &npy, error) || !set_layout(m, size, error)) return false;
+    set_order(m, &npy);
+    return true;
+}
+
+// --- the point caches PC2 and MDD
+//
+//     PC2, little endian                          MDD, big endian
+//     0   char[12]  "POINTCACHE2\0"               0   int32    frames F
+//     12  int32     version, 1                    4   int32    points
+//     16  int32     points                        8   float[F] times in seconds
+//     20  float     first frame
+//     24  float     frames a sample
+//     28  int32     samples
+//     then float32 x y z of each point of each frame, in both
+
+static bool pc2_read_header(struct motion *m, int64_t size, struct error *error)
+{
+    int32_t numbers[5];
+    if (!read_at(m, sizeof pc2_magic, numbers, sizeof numbers, error)) return false;
+    if (numbers[0] != 1)
+        return fail(error, ERROR_INPUT, "%s: expected version 1 of PC2, got %d", m->path, (int)numbers[0]);
+    m->data = PC2_HEADER;
+    m->number_size = 4;
+    return set_counts(m, numbers[4], numbers[1], error) && set_layout(m, size, error);
+}
+
+static int32_t big_endian(const unsigned char b[4])
+{
+    return (int32_t)((uint32_t)b[0] << 24 | (uint32_t)b[1] << 16 | (uint32_t)b[2] << 8 | b[3]);
+}
+
+static double time_at(const unsigned char *times, int frame)
+{
+    int32_t bits = big_endian(times + 4 * (size_t)frame);
+    float time;
+    memcpy(&time, &bits, sizeof time);
+    return (double)time;
+}
+
+/// Frames per second where the times are evenly apart, within a hundredth of a step (they are floats); else 0.
+static double fps_of_times(const unsigned char *times, int frames)
+{
+    double first = time_at(times, 0), step = (time_at(times, frames - 1) - first) / (frames - 1);
+    if (!(step > 0) || !isfinite(step)) return 0;
+    for (int i = 1; i < frames - 1; i++) {
+        if (!(fabs(time_at(times, i) - first - i * step) <= 0.01 * step)) return 0;
+    }
+    double fps = 1 / step, whole = round(fps);
+    return fabs(fps - whole) < 1e-4 * fps ? whole : fps;
+}
+
+static bool mdd_read_header(struct motion *m, int64_t size, struct error *error)
+{
+    unsigned char counts[MDD_HEADER];
+    if (!read_at(m, 0, counts, sizeof counts, error)) return false;
+    if (!set_counts(m, big_endian(counts), big_endian(counts + 4), error)) return false;
+    m->data = MDD_HEADER + 4 * (int64_t)m->frames;
+    m->number_size = 4;
+    m->swapped = true;
+    if (!set_layout(m, size, error)) return false;
+    size_t bytes = 4 * (size_t)m->frames;
+    unsigned char *times = malloc(bytes);
+    if (!times) return fail_no_memory(error, m->path);
+    bool done = read_at(m, MDD_HEADER, times, bytes, error);
+    if (done) m->fps = m->frames > 1 ? fps_of_times(times, m->frames) : 0;
+    free(times);
+    return done;
+}
+
+// --- all formats
+
 static bool read_header(struct motion *m, int64_t size, struct error *error)
 {
     char start[sizeof pc2_magic] = {0};
     if (size < (int64_t)sizeof start)
         return fail(error, ERROR_INPUT, "%s: expected a motion (.npy, .pc2 or .mdd), got a file of %lld bytes",
                     m->path, (long long)size);
-    if (!motion_read_at(m, 0, start, sizeof start, error)) return false;
+    if (!read_at(m, 0, start, sizeof start, error)) return false;
     if (memcmp(start, npy_magic, sizeof npy_magic) == 0) return npy_read_header(m, size, error);
     if (memcmp(start, pc2_magic, sizeof pc2_magic) == 0) return pc2_read_header(m, size, error);
     const char *dot = strrchr(m->path, '.'); // MDD has no magic
@@ -128,7 +243,7 @@ static bool read_rows(const struct motion *m, int first, int count, char *bytes,
     size_t size = (size_t)count * (size_t)m->number_size;
     for (int i = 0; i < m->frames; i++) {
         int64_t at = m->data + i * m->strides[0] + (int64_t)first * m->number_size;
-        if (!motion_read_at(m, at, bytes, size, error)) return false;
+        if (!read_at(m, at, bytes, size, error)) return false;
         int bad = convert(m, bytes, count, slab + (size_t)i * (size_t)count, 1);
         if (bad < count) return not_finite(m, i, first + bad, error);
     }
@@ -142,7 +257,7 @@ static bool read_columns(const struct motion *m, int first, int count, char *byt
     for (int j = 0; j < count; j++) {
         int column = first + j;
         int64_t at = m->data + column / 3 * m->strides[1] + column % 3 * m->strides[2];
-        if (!motion_read_at(m, at, bytes, size, error)) return false;
+        if (!read_at(m, at, bytes, size, error)) return false;
         int bad = convert(m, bytes, m->frames, slab + j, (size_t)count);
         if (bad < m->frames) return not_finite(m, bad, column, error);
     }
@@ -159,3 +274,92 @@ bool motion_columns(const struct motion *motion, int first, int count, double *s
     free(bytes);
     return done;
 }
+
+// --- writing
+
+static void print_npy_start(FILE *out, const struct motion_span *span)
+{
+    char header[NPY_HEADER];
+    npy_print_header((const int[]){span->frames, span->vertices, 3}, 3, header);
+    fwrite(header, 1, sizeof header, out);
+}
+
+static void print_pc2_start(FILE *out, const struct motion_span *span)
+{
+    const int32_t before[2] = {1, span->vertices}, after = span->frames;
+    const float time[2] = {(float)span->first, (float)span->spacing};
+    fwrite(pc2_magic, 1, sizeof pc2_magic, out);
+    fwrite(before, 4, 2, out);
+    fwrite(time, 4, 2, out);
+    fwrite(&after, 4, 1, out);
+}
+
+static void print_swapped(FILE *out, uint32_t bits)
+{
+    bits = __builtin_bswap32(bits);
+    fwrite(&bits, sizeof bits, 1, out);
+}
+
+static void print_swapped_float(FILE *out, float number)
+{
+    uint32_t bits;
+    memcpy(&bits, &number, sizeof bits);
+    print_swapped(out, bits);
+}
+
+static void print_mdd_start(FILE *out, const struct motion_span *span)
+{
+    print_swapped(out, (uint32_t)span->frames);
+    print_swapped(out, (uint32_t)span->vertices);
+    for (int i = 0; i < span->frames; i++) print_swapped_float(out, (float)(span->first + i * span->spacing));
+}
+
+void motion_print_start(FILE *out, enum motion_form form, const struct motion_span *span)
+{
+    static void (*const print[])(FILE * out, const struct motion_span *span) = {
+        [MOTION_NPY] = print_npy_start, [MOTION_PC2] = print_pc2_start, [MOTION_MDD] = print_mdd_start};
+    print[form](out, span);
+}
+
+void motion_print_frame(FILE *out, enum motion_form form, const float (*position)[3], int vertices)
+{
+    if (form != MOTION_MDD) {
+        fwrite(position, sizeof *position, (size_t)vertices, out);
+        return;
+    }
+    for (int i = 0; i < vertices; i++) {
+        for (int k = 0; k < 3; k++) print_swapped_float(out, position[i][k]);
+    }
+}
+
+bool motion_write_open(struct motion_writer *writer, const char *path, int frames, int vertices, struct error *error)
+{
+    const char *dot = strrchr(path, '.');
+    const struct motion_span span = {.frames = frames, .vertices = vertices, .spacing = 1};
+    *writer = (struct motion_writer){.form = dot && strcasecmp(dot, ".pc2") == 0 ? MOTION_PC2 : MOTION_NPY,
+                                     .frames = frames,
+                                     .vertices = vertices};
+    if (!file_output_open(&writer->output, path, error)) return false;
+    motion_print_start(writer->output.stream, writer->form, &span);
+    return true;
+}
+
+bool motion_write_frame(struct motion_writer *writer, const float (*position)[3], struct error *error)
+{
+    motion_print_frame(writer->output.stream, writer->form, position, writer->vertices);
+    if (ferror(writer->output.stream))
+        return fail(error, ERROR_ENVIRONMENT, "%s: cannot be written: %s", writer->output.path, strerror(errno));
+    writer->written++;
+    return true;
+}
+
+bool motion_write_commit(struct motion_writer *writer, struct error *error)
+{
+    if (writer->written == writer->frames) return file_output_commit(&writer->output, error);
+    fail(error, ERROR_ENVIRONMENT, "%s: expected %d frames, got %d", writer->output.path, writer->frames,
+         writer->written);
+    motion_write_discard(writer);
+    return false;
+}
+
+void motion_write_discard(struct motion_writer *writer) { file_output_discard(&writer->output); }

@@ -5,7 +5,6 @@
 #include "draw/posed.h"
 #include "fuzz.h"
 #include "model/adjacency.h"
-#include "model/decimate.h"
 #include "model/figure.h"
 #include <stdlib.h>
 

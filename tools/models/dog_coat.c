@@ -1,6 +1,6 @@
 /// The dog's coat: a smooth union of limbs, each of which is made of round cones and follows a chain of joints; its mesh and its colours.
 #include "base/need.h"
-#include "model/decimate.h"
+#include "model/figure.h"
 #include "model/vector.h"
 #include "models/dog.h"
 #include "models/isosurface.h"
