@@ -88,8 +88,10 @@ void gltf_motion_free(struct gltf_motion *motion)
     json_decref(motion->channels);
 }
 
-void gltf_motion_add(struct gltf_motion *motion, json_int_t node, enum gltf_path path, const float *values,
-                     const float *slopes, int width, int stride)
+/// Adds what moves a node: `width` numbers a key, `stride` from one key to the next, and how fast they change by second (NULL: straight
+/// lines between keys).
+static void add_numbers(struct gltf_motion *motion, json_int_t node, enum gltf_path path, const float *values,
+                        const float *slopes, int width, int stride)
 {
     static const struct {
         const char *name;
@@ -120,8 +122,8 @@ void gltf_motion_add(struct gltf_motion *motion, json_int_t node, enum gltf_path
 void gltf_motion_add_keys(struct gltf_motion *motion, json_int_t node, enum gltf_path path, const struct keys *keys,
                           int column, int width)
 {
-    gltf_motion_add(motion, node, path, keys_at(keys, 0, column), keys->slopes ? keys->slopes + column : NULL, width,
-                    keys->width);
+    add_numbers(motion, node, path, keys_at(keys, 0, column), keys->slopes ? keys->slopes + column : NULL, width,
+                keys->width);
 }
 
 json_t *gltf_motion_json(const struct gltf_motion *motion, const char *name)
@@ -248,7 +250,7 @@ static void add_weights(struct scene *scene, const struct part *part)
         if (!slopes || (part->targets->clamped && weight <= 0)) continue;
         slopes[i] = keys->slopes[(size_t)(i / width) * (size_t)keys->width + (size_t)column] / target->scale;
     }
-    gltf_motion_add(&scene->motion, part->mesh_node, GLTF_WEIGHTS, values, slopes, width, width);
+    add_numbers(&scene->motion, part->mesh_node, GLTF_WEIGHTS, values, slopes, width, width);
     free(values);
     free(slopes);
 }

@@ -17,11 +17,6 @@ struct gltf_motion {
 void gltf_motion_begin(struct gltf_motion *motion, struct gltf_file *file, const struct export_range *range);
 void gltf_motion_free(struct gltf_motion *motion);
 
-/// Adds what moves a node: `width` numbers a key, `stride` from one key to the next, and how fast they change by second (NULL: straight
-/// lines between keys).
-void gltf_motion_add(struct gltf_motion *motion, json_int_t node, enum gltf_path path, const float *values,
-                     const float *slopes, int width, int stride);
-
 /// Adds a column of a rig's keys, with tangents if they have some.
 void gltf_motion_add_keys(struct gltf_motion *motion, json_int_t node, enum gltf_path path, const struct keys *keys,
                           int column, int width);

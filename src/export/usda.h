@@ -49,15 +49,7 @@ struct usda_model {
 /// Writes the prim of a rig. False with a sentence. All of the model but what it is made of is zero.
 bool usda_model_write(struct usda_model *model, struct error *error);
 
-/// Where a node is at a key, against its parent.
-const struct gltf_place *usda_place(const struct usda_model *model, int key, int node);
-
-/// Finds the joints, from all keys.
-void usda_make_joints(struct usda_model *model);
-
-/// Of a joint against its parent at rest; of one in the character's space as a skeleton was bound to it, or at rest where the skin has no
-/// such joint.
-void usda_rest(const struct usda_model *model, int joint, double matrix[16]);
+/// Of a joint in the character's space as a skeleton was bound to it, or at rest where the skin has no such joint.
 void usda_bind(struct usda_model *model, int skeleton, int joint, double matrix[16]);
 
 /// Names all materials and writes them, and their textures' files.

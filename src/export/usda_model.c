@@ -1,9 +1,162 @@
 /// The skeletons of a rig in a .usda file, and what moves them.
+#include "base/need.h"
 #include "export/keys.h"
 #include "export/usda.h"
+#include <math.h>
 #include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
+
+// --- the joints: which there are, and where they rest
+
+/// Where a node is at a key, against its parent.
+static const struct gltf_place *place_at(const struct usda_model *model, int key, int node)
+{
+    return &model->places[(size_t)key * (size_t)model->gltf->node_count + (size_t)node];
+}
+
+/// Whether half precision, with 11 bits, has the number.
+static bool is_half(float number)
+{
+    int exponent;
+    const float mantissa = 2048 * frexpf(number, &exponent);
+    return number == 0 || (exponent > -13 && exponent <= 16 && fabsf(mantissa - roundf(mantissa)) < 1e-3f);
+}
+
+static bool moves(const struct usda_model *model, int node)
+{
+    for (int k = 0; k < model->range->key_count; k++) {
+        if (memcmp(place_at(model, k, node), &model->gltf->nodes[node].place, sizeof *model->places) != 0)
+            return !model->gltf->nodes[node].has_matrix;
+    }
+    return false;
+}
+
+static bool needs_two_joints(const struct usda_model *model, int node)
+{
+    const float *scale = place_at(model, 0, node)->scale;
+    for (int k = 1; k < model->range->key_count; k++) {
+        if (memcmp(place_at(model, k, node)->scale, scale, 3 * sizeof *scale) != 0) return false;
+    }
+    return !is_half(scale[0]) || !is_half(scale[1]) || !is_half(scale[2]);
+}
+
+/// Of a joint against its parent, at rest.
+static void rest_of(const struct usda_model *model, int number, double m[16])
+{
+    const struct usda_joint *joint = &model->joints[number];
+    struct gltf_node node = model->gltf->nodes[joint->node];
+    if (joint->part == JOINT_UNSCALED) {
+        for (int k = 0; k < 3; k++) node.place.scale[k] = 1;
+    } else if (joint->part == JOINT_SCALE) {
+        node.place = (struct gltf_place){.rotation = {0, 0, 0, 1}};
+        memcpy(node.place.scale, place_at(model, 0, joint->node)->scale, sizeof node.place.scale);
+    }
+    gltf_node_matrix(&node, m);
+}
+
+static void add_joint(struct usda_model *model, struct usda_names *names, int node, int parent,
+                      enum usda_joint_part part)
+{
+    const int j = model->joint_count++;
+    struct usda_joint *joint = &model->joints[j];
+    char wanted[FORM_NAME];
+    double local[16];
+    *joint = (struct usda_joint){
+        .node = node, .parent = parent, .part = part, .moves = part != JOINT_SCALE && moves(model, node)};
+    snprintf(wanted, sizeof wanted, "%.40s%s", model->gltf->nodes[node].name, part == JOINT_SCALE ? "_scale" : "");
+    usda_unique(names, wanted, joint->name);
+    rest_of(model, j, parent >= 0 ? local : joint->world);
+    if (parent >= 0) gltf_multiply(model->joints[parent].world, local, joint->world);
+    model->joint_of[node] = j;
+}
+
+/// Whether the node moves a mesh, or some of it, as a whole.
+static bool carries(const struct gltf *gltf, int node)
+{
+    const struct gltf_node *n = &gltf->nodes[node];
+    for (int p = 0; n->mesh >= 0 && p < gltf->meshes[n->mesh].part_count; p++) {
+        if (n->skin < 0 || !gltf->meshes[n->mesh].parts[p].joints) return true;
+    }
+    return false;
+}
+
+/// Marks what must be a joint: those of skins, what meshes hang at, and what is above them.
+static void mark(const struct gltf *gltf, bool *needed)
+{
+    for (int s = 0; s < gltf->skin_count; s++)
+        for (int j = 0; j < gltf->skins[s].joint_count; j++) needed[gltf->skins[s].joints[j]] = true;
+    for (int i = gltf->node_count - 1; i >= 0; i--) {
+        const int n = gltf->order[i], parent = gltf->nodes[n].parent;
+        needed[n] = needed[n] || carries(gltf, n);
+        if (parent >= 0 && needed[n]) needed[parent] = true;
+    }
+}
+
+static void make_joints(struct usda_model *model)
+{
+    const struct gltf *gltf = model->gltf;
+    struct usda_names names = {0};
+    bool *needed = need_zeroed((size_t)gltf->node_count + 1, sizeof *needed);
+    mark(gltf, needed);
+    for (int i = 0; i < gltf->node_count; i++) {
+        const int n = gltf->order[i], above = gltf->nodes[n].parent;
+        model->joint_of[n] = -1;
+        if (!needed[n]) continue;
+        const bool two = moves(model, n) && needs_two_joints(model, n);
+        add_joint(model, &names, n, above >= 0 ? model->joint_of[above] : -1, two ? JOINT_UNSCALED : JOINT_WHOLE);
+        if (two) add_joint(model, &names, n, model->joint_of[n], JOINT_SCALE);
+    }
+    free(needed);
+    usda_names_free(&names);
+}
+
+// --- where it was bound
+
+/// The inverse of an affine matrix; false where it has none.
+static bool invert(const float m[16], double inverse[16])
+{
+    double a[3][3];
+    for (int i = 0; i < 9; i++) a[i / 3][i % 3] = (double)m[i / 3 * 4 + i % 3];
+    double det = 0;
+    for (int c = 0; c < 3; c++) {
+        const double *p = a[(c + 1) % 3], *q = a[(c + 2) % 3];
+        for (int r = 0; r < 3; r++)
+            inverse[4 * r + c] = p[(r + 1) % 3] * q[(r + 2) % 3] - p[(r + 2) % 3] * q[(r + 1) % 3];
+    }
+    for (int r = 0; r < 3; r++) det += a[0][r] * inverse[4 * r];
+    if (!(fabs(det) > 1e-300)) return false;
+    for (int c = 0; c < 3; c++) {
+        for (int r = 0; r < 3; r++) inverse[4 * c + r] /= det;
+        inverse[4 * c + 3] = 0;
+    }
+    for (int r = 0; r < 3; r++)
+        inverse[12 + r] =
+            -(inverse[r] * (double)m[12] + inverse[4 + r] * (double)m[13] + inverse[8 + r] * (double)m[14]);
+    inverse[15] = 1;
+    return true;
+}
+
+/// Finds the nodes of a skin among its joints.
+static void find_slots(const struct usda_model *model, int skin, bool joints)
+{
+    for (int j = skin >= 0 ? model->gltf->skins[skin].joint_count - 1 : -1; j >= 0; j--)
+        model->slot_of[model->gltf->skins[skin].joints[j]] = joints ? j : -1;
+}
+
+void usda_bind(struct usda_model *model, int skeleton, int joint, double matrix[16])
+{
+    const struct gltf *gltf = model->gltf;
+    const int node = model->joints[joint].node, skin = skeleton < gltf->skin_count ? skeleton : -1;
+    if (skin != model->slots) {
+        find_slots(model, model->slots, false);
+        find_slots(model, skin, true);
+        model->slots = skin;
+    }
+    const int slot = model->joint_of[node] == joint ? model->slot_of[node] : -1;
+    if (slot < 0 || !invert(gltf->skins[skin].inverse_bind[slot], matrix))
+        memcpy(matrix, model->joints[joint].world, sizeof model->joints[joint].world);
+}
 
 // --- keys
 
@@ -92,7 +245,7 @@ static void write_skeleton(struct usda_model *model, int skeleton)
     fputs("]\n            uniform matrix4d[] restTransforms = [", model->out);
     for (int j = 0; j < model->joint_count; j++) {
         if (j > 0) fputs(", ", model->out);
-        usda_rest(model, j, m);
+        rest_of(model, j, m);
         usda_matrix(model->out, m);
     }
     fputs("]\n", model->out);
@@ -108,20 +261,20 @@ typedef void write_joint(const struct usda_model *model, int key, const struct u
 static void write_translation(const struct usda_model *model, int key, const struct usda_joint *joint,
                               const char *before)
 {
-    usda_vector(model->out, before, usda_place(model, key, joint->node)->translation);
+    usda_vector(model->out, before, place_at(model, key, joint->node)->translation);
 }
 
 static void write_rotation(const struct usda_model *model, int key, const struct usda_joint *joint,
                            const char *before)
 {
-    const float *q = usda_place(model, key, joint->node)->rotation;
+    const float *q = place_at(model, key, joint->node)->rotation;
     fprintf(model->out, "%s(%.9g, %.9g, %.9g, %.9g)", before, (double)q[3], (double)q[0], (double)q[1], (double)q[2]);
 }
 
 static void write_scale(const struct usda_model *model, int key, const struct usda_joint *joint, const char *before)
 {
     static const float one[3] = {1, 1, 1};
-    usda_vector(model->out, before, joint->part == JOINT_UNSCALED ? one : usda_place(model, key, joint->node)->scale);
+    usda_vector(model->out, before, joint->part == JOINT_UNSCALED ? one : place_at(model, key, joint->node)->scale);
 }
 
 /// A key for all joints that move; of the weights where `write` is NULL.
@@ -150,7 +303,7 @@ static int count_keys(const struct usda_model *model, size_t member, size_t size
 {
     for (int k = 1; k < model->range->key_count; k++) {
         for (int n = 0; n < model->gltf->node_count; n++) {
-            const char *first = (const char *)usda_place(model, 0, n), *now = (const char *)usda_place(model, k, n);
+            const char *first = (const char *)place_at(model, 0, n), *now = (const char *)place_at(model, k, n);
             if (memcmp(first + member, now + member, size) != 0) return model->range->key_count;
         }
     }
@@ -210,23 +363,24 @@ static size_t count_prims(const struct gltf *gltf)
     return count;
 }
 
+/// False where so many keys have no room.
 static bool reserve(struct usda_model *model)
 {
     const struct gltf *gltf = model->gltf;
-    const size_t keys = (size_t)model->range->key_count, nodes = (size_t)gltf->node_count + 1,
-                 weights = (size_t)gltf->weight_count + 1;
-    model->places = calloc(keys * nodes, sizeof *model->places);
-    model->weights = calloc(keys * weights, sizeof *model->weights);
-    model->shapes = calloc(weights, sizeof *model->shapes);
-    model->joints = calloc(2 * nodes, sizeof *model->joints);
-    model->joint_of = calloc(nodes, sizeof *model->joint_of);
-    model->slot_of = malloc(nodes * sizeof *model->slot_of);
-    model->materials = calloc((size_t)gltf->material_count + 1, sizeof *model->materials);
-    model->prims = calloc(count_prims(gltf), sizeof *model->prims);
-    for (size_t n = 0; model->slot_of && n < nodes; n++) model->slot_of[n] = -1;
+    const size_t keys = (size_t)model->range->key_count, nodes = (size_t)gltf->node_count,
+                 weights = (size_t)gltf->weight_count;
+    if (!need_has_room(keys * (nodes * sizeof *model->places + weights * sizeof *model->weights))) return false;
+    model->places = need_zeroed(keys * nodes, sizeof *model->places);
+    model->weights = need_zeroed(keys * weights, sizeof *model->weights);
+    model->shapes = need_zeroed(weights, sizeof *model->shapes);
+    model->joints = need_zeroed(2 * nodes, sizeof *model->joints);
+    model->joint_of = need_zeroed(nodes, sizeof *model->joint_of);
+    model->slot_of = need(nodes, sizeof *model->slot_of);
+    model->materials = need_zeroed((size_t)gltf->material_count, sizeof *model->materials);
+    model->prims = need_zeroed(count_prims(gltf), sizeof *model->prims);
+    for (size_t n = 0; n < nodes; n++) model->slot_of[n] = -1;
     model->slots = -1;
-    return model->places && model->weights && model->shapes && model->joints && model->joint_of && model->slot_of &&
-           model->materials && model->prims;
+    return true;
 }
 
 static void release(struct usda_model *model)
@@ -283,7 +437,7 @@ bool usda_model_write(struct usda_model *model, struct error *error)
     const bool room = reserve(model) && gltf_pose_create(model->gltf, &pose);
     bool done = (room || fail_no_memory(error, model->gltf->path)) && collect_keys(model, &pose, error);
     if (done) {
-        usda_make_joints(model);
+        make_joints(model);
         name_shapes(model);
     }
     done = done && write_root(model, error) && write_all(model, error);

@@ -1,5 +1,6 @@
 /// Writes a character to a .glb file.
 #include "base/file.h"
+#include "base/need.h"
 #include "model/figure.h"
 #include "model/gltf_shape.h"
 #include <stdio.h>
@@ -54,31 +55,16 @@ static void split_vertices(struct split *s, const struct character *c, struct ch
     }
 }
 
-static void split_free(struct split *split)
+static void split_create(struct split *split, const struct character *c)
 {
-    free(split->source);
-    free(split->indices);
-    free(split->uv);
-    *split = (struct split){0};
-}
-
-/// False where memory is short.
-static bool split_create(struct split *split, const struct character *c)
-{
-    const size_t most = (size_t)c->vertex_count + (c->looks.corner ? (size_t)c->index_count : 0) + 1;
-    struct chains chains = {.uv = malloc(most * sizeof *chains.uv), .next = malloc(most * sizeof *chains.next)};
-    *split = (struct split){.source = malloc(most * sizeof *split->source),
-                            .indices = malloc(((size_t)c->index_count + 1) * sizeof *split->indices),
-                            .uv = c->looks.uv ? malloc(most * sizeof *split->uv) : NULL};
-    const bool good = chains.uv && chains.next && split->source && split->indices && (split->uv || !c->looks.uv);
-    if (good) {
-        split_vertices(split, c, &chains);
-    } else {
-        split_free(split);
-    }
+    const size_t most = (size_t)c->vertex_count + (c->looks.corner ? (size_t)c->index_count : 0);
+    struct chains chains = {.uv = need(most, sizeof *chains.uv), .next = need(most, sizeof *chains.next)};
+    *split = (struct split){.source = need(most, sizeof *split->source),
+                            .indices = need((size_t)c->index_count, sizeof *split->indices),
+                            .uv = c->looks.uv ? need(most, sizeof *split->uv) : NULL};
+    split_vertices(split, c, &chains);
     free(chains.uv);
     free(chains.next);
-    return good;
 }
 
 // --- the file
@@ -94,24 +80,19 @@ struct output {
 };
 
 /// Re Ñ and −Im Ñ of each coordinate, and with a figure how they turn normals.
-static bool make_targets(struct output *o, const struct character *c, const struct figure *figure)
+static void make_targets(struct output *o, const struct character *c, const struct figure *figure)
 {
     const size_t count = 2 * (size_t)c->coordinate_count;
-    o->shape.targets = calloc(count + 1, sizeof *o->shape.targets);
-    o->names = calloc(count + 1, sizeof *o->names);
-    o->turns = calloc(count + 1, sizeof *o->turns);
-    if (!o->shape.targets || !o->names || !o->turns) return false;
+    o->shape.targets = need(count, sizeof *o->shape.targets);
+    o->names = need(count, sizeof *o->names);
+    o->turns = need_zeroed(count, sizeof *o->turns);
     o->shape.target_count = (int)count;
     for (size_t t = 0; t < count; t++) {
         const struct coordinate *n = &c->coordinates[t / 2];
         const bool imaginary = t % 2;
-        if (asprintf(&o->names[t], "%s.%s", n->name, imaginary ? "im" : "re") < 0) {
-            o->names[t] = NULL;
-            return false;
-        }
+        if (asprintf(&o->names[t], "%s.%s", n->name, imaginary ? "im" : "re") < 0) need_failed();
         if (figure) {
-            o->turns[t] = malloc(((size_t)c->vertex_count + 1) * sizeof *o->turns[t]);
-            if (!o->turns[t]) return false;
+            o->turns[t] = need((size_t)c->vertex_count, sizeof *o->turns[t]);
             figure_turn_normals(figure, (int)t / 2, imaginary, o->turns[t]);
         }
         o->shape.targets[t] = (struct gltf_shape_target){.name = o->names[t],
@@ -120,13 +101,12 @@ static bool make_targets(struct output *o, const struct character *c, const stru
                                                          .scale = imaginary ? -1 : 1,
                                                          .turn = 1};
     }
-    return true;
 }
 
-static bool open_output(struct output *o, const struct character *c, const struct figure *figure)
+static void open_output(struct output *o, const struct character *c, const struct figure *figure)
 {
     *o = (struct output){.looks.file = &o->file};
-    if (!split_create(&o->split, c)) return false;
+    split_create(&o->split, c);
     o->shape = (struct gltf_shape){.name = "character",
                                    .vertex_count = o->split.count,
                                    .source = o->split.source,
@@ -138,7 +118,7 @@ static bool open_output(struct output *o, const struct character *c, const struc
                                    .index_count = c->index_count,
                                    .looks = &c->looks,
                                    .character = c};
-    return make_targets(o, c, figure);
+    make_targets(o, c, figure);
 }
 
 static void close_output(struct output *o)
@@ -152,7 +132,9 @@ static void close_output(struct output *o)
     free(o->turns);
     gltf_looks_free(&o->looks);
     gltf_file_free(&o->file);
-    split_free(&o->split);
+    free(o->split.source);
+    free(o->split.indices);
+    free(o->split.uv);
 }
 
 static bool write_file(struct output *o, const char *path, struct error *error)
@@ -172,10 +154,10 @@ static bool write_file(struct output *o, const char *path, struct error *error)
 bool character_write(const char *path, const struct character *character, bool turn_normals, struct error *error)
 {
     struct figure figure = {.character = *character};
-    struct output o = {0};
+    struct output o;
     if (turn_normals) figure_derive(&figure);
-    const bool made = open_output(&o, character, turn_normals ? &figure : NULL);
-    const bool done = made ? write_file(&o, path, error) : fail_no_memory(error, path);
+    open_output(&o, character, turn_normals ? &figure : NULL);
+    const bool done = write_file(&o, path, error);
     close_output(&o);
     figure_forget(&figure);
     return done;

@@ -174,9 +174,6 @@ void gltf_free(struct gltf *gltf);
 /// A number for gltf.id.
 uint64_t gltf_new_id(void);
 
-/// Copies the materials into empty looks, with their pictures where these are PNG or JPEG. False where memory is short.
-bool gltf_copy_looks(const struct gltf *gltf, struct looks *looks);
-
 /// Whether it is a soft character: character_read() finds coordinates in it.
 bool gltf_is_soft(const struct gltf *gltf);
 
@@ -209,17 +206,15 @@ void gltf_pose_free(struct gltf_pose *pose);
 /// alone. Allocates nothing.
 void gltf_pose_clip(const struct gltf *gltf, int clip, double time, struct gltf_pose *pose);
 
-/// What a channel says at a time, as long as `components`.
-void gltf_channel_at(const struct gltf_channel *channel, double time, float *out);
-
 /// World and joint matrices from places. Allocates nothing.
 void gltf_pose_world(const struct gltf *gltf, struct gltf_pose *pose);
 
-/// In double precision: a place as a matrix; of a node against its parent, and in the model's space, at rest; and a · b.
-void gltf_place_matrix(const struct gltf_place *place, double matrix[16]);
+/// In double precision: the matrix of a node against its parent at rest, and a · b.
 void gltf_node_matrix(const struct gltf_node *node, double matrix[16]);
-void gltf_rest_matrix(const struct gltf *gltf, int node, double matrix[16]);
 void gltf_multiply(const double a[16], const double b[16], double product[16]);
+
+/// Turns a normal by a matrix, whatever its scale; a mirror turns it round, with the triangles. Its length is 1 then.
+void gltf_turn_normal(const float matrix[16], float normal[3]);
 
 /// What skinning multiplies the vertices of a skin's joint by: world of the joint · inverse bind. The same as in `joints`.
 void gltf_joint_matrix(const struct gltf *gltf, const struct gltf_pose *pose, int skin, int joint, float matrix[16]);

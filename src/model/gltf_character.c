@@ -63,11 +63,40 @@ static void add_vertices(struct surface *s, int base, const struct gltf_part *pa
     }
 }
 
+/// The base colour and, where that takes no more than `room`, the bytes of its picture.
+static bool copy_look(const struct gltf *gltf, int number, size_t room, struct looks_material *look)
+{
+    const struct gltf_material *material = &gltf->materials[number];
+    for (int k = 0; k < 4; k++) look->color[k] = glm_clamp(material->color[k], 0, 1);
+    const struct gltf_image *image = material->image >= 0 ? &gltf->images[material->image] : NULL;
+    if (look->image || !image || image->size > room || !looks_image_kind(image->bytes, image->size)) return true;
+    look->image = malloc(image->size);
+    if (!look->image) return false;
+    memcpy(look->image, image->bytes, image->size);
+    look->image_size = image->size;
+    return true;
+}
+
+/// Copies the materials into empty looks, with their pictures where these are PNG or JPEG. False where memory is short.
+static bool copy_looks(const struct gltf *gltf, struct looks *looks)
+{
+    size_t room = LOOKS_IMAGES_LIMIT;
+    looks->materials = calloc((size_t)gltf->material_count + 1, sizeof *looks->materials);
+    if (!looks->materials) return false;
+    for (int m = 0; m < gltf->material_count; m++) {
+        struct looks_material *look = &looks->materials[looks->material_count++];
+        look->name = strdup(gltf->materials[m].name);
+        if (!look->name || !copy_look(gltf, m, room, look)) return false;
+        room -= look->image_size;
+    }
+    return true;
+}
+
 /// All parts of a mesh as one surface.
 static bool make_surface(const struct gltf *gltf, const struct gltf_mesh *mesh, struct surface *s)
 {
     int next = 0, index = 0;
-    if (!reserve(mesh, s) || !gltf_copy_looks(gltf, &s->looks)) return false;
+    if (!reserve(mesh, s) || !copy_looks(gltf, &s->looks)) return false;
     for (int p = 0; p < mesh->part_count; p++) {
         const struct gltf_part *part = &mesh->parts[p];
         const int base = first_vertex(part, &next);
@@ -177,40 +206,18 @@ static bool take_coordinates(const struct gltf_mesh *mesh, struct character *c)
 
 // --- its place
 
-static void transform(const double m[16], double weight, float v[3])
-{
-    const double x = (double)v[0], y = (double)v[1], z = (double)v[2];
-    for (int i = 0; i < 3; i++) v[i] = (float)(m[i] * x + m[4 + i] * y + m[8 + i] * z + m[12 + i] * weight);
-}
-
-/// The cofactors of the linear part, which turn normals whatever the scale; returns the determinant.
-static double cofactors(const double m[16], double c[16])
-{
-    for (int n = 0; n < 16; n++) c[n] = 0;
-    for (int n = 0; n < 9; n++) {
-        int column = n / 3, row = n % 3, c1 = (column + 1) % 3, c2 = (column + 2) % 3, r1 = (row + 1) % 3;
-        int r2 = (row + 2) % 3;
-        c[4 * column + row] = m[4 * c1 + r1] * m[4 * c2 + r2] - m[4 * c2 + r1] * m[4 * c1 + r2];
-    }
-    return m[0] * c[0] + m[1] * c[1] + m[2] * c[2];
-}
-
 /// Puts a character where its node stands. A mirror turns the triangles round, and the normals with them.
-static void place(struct character *c, const double matrix[16])
+static void place(struct character *c, mat4s m)
 {
-    double normal[16];
-    bool mirrored = cofactors(matrix, normal) < 0;
     for (int i = 0; i < c->vertex_count; i++) {
-        transform(matrix, 1, c->position[i]);
-        transform(normal, 0, c->normal[i]);
-        float *n = c->normal[i], length = glm_vec3_norm(n);
-        if (length > 0) glm_vec3_divs(n, mirrored ? -length : length, n);
+        glm_mat4_mulv3(m.raw, c->position[i], 1, c->position[i]);
+        gltf_turn_normal((const float *)m.raw, c->normal[i]);
         for (int k = 0; k < c->coordinate_count; k++) {
-            transform(matrix, 0, c->coordinates[k].re[i]);
-            transform(matrix, 0, c->coordinates[k].im[i]);
+            glm_mat4_mulv3(m.raw, c->coordinates[k].re[i], 0, c->coordinates[k].re[i]);
+            glm_mat4_mulv3(m.raw, c->coordinates[k].im[i], 0, c->coordinates[k].im[i]);
         }
     }
-    for (int i = 0; mirrored && i + 2 < c->index_count; i += 3) {
+    for (int i = 0; glms_mat4_det(m) < 0 && i + 2 < c->index_count; i += 3) {
         if (c->looks.joined) c->looks.joined[i / 3] = 0; // a fan that is turned round begins elsewhere
         uint32_t corner = c->indices[i + 1];
         c->indices[i + 1] = c->indices[i + 2];
@@ -218,17 +225,19 @@ static void place(struct character *c, const double matrix[16])
     }
 }
 
-/// Where the first node has it that shows it. What no node moves stays as it is, to the last bit.
-static void place_as_node(const struct gltf *gltf, const struct gltf_mesh *mesh, struct character *c)
+/// Where the first node has it that shows it. What no node moves stays as it is, to the last bit. False where memory is short.
+static bool place_as_node(const struct gltf *gltf, const struct gltf_mesh *mesh, struct character *c)
 {
-    double matrix[16];
+    struct gltf_pose rest;
     bool moved = false;
     int node = 0;
     while (node < gltf->node_count && gltf->nodes[node].mesh != mesh - gltf->meshes) node++;
-    if (node == gltf->node_count) return;
-    gltf_rest_matrix(gltf, node, matrix);
-    for (int n = 0; n < 16; n++) moved = moved || matrix[n] != (n % 5 == 0);
-    if (moved) place(c, matrix);
+    if (node == gltf->node_count) return true;
+    if (!gltf_pose_create(gltf, &rest)) return false;
+    for (int n = 0; n < 16; n++) moved = moved || rest.world[node][n] != (n % 5 == 0);
+    if (moved) place(c, mat4_from(rest.world[node]));
+    gltf_pose_free(&rest);
+    return true;
 }
 
 // --- all of it
@@ -247,9 +256,7 @@ static bool make_character(const struct gltf *gltf, const struct gltf_mesh *mesh
         if (!part->shared && part->normal)
             memcpy(c->normal + base, part->normal, (size_t)part->vertex_count * sizeof *part->normal);
     }
-    if (!take_coordinates(mesh, c)) return false;
-    place_as_node(gltf, mesh, c);
-    return true;
+    return take_coordinates(mesh, c) && place_as_node(gltf, mesh, c);
 }
 
 static bool read_character(const struct gltf *gltf, struct character *c, struct error *error)
@@ -281,34 +288,6 @@ bool character_read(const char *path, struct character *character, struct error 
 }
 
 // --- one surface of all that a file shows at rest
-
-/// The base colour and, where that takes no more than `room`, the bytes of its picture.
-static bool copy_look(const struct gltf *gltf, int number, size_t room, struct looks_material *look)
-{
-    const struct gltf_material *material = &gltf->materials[number];
-    for (int k = 0; k < 4; k++) look->color[k] = glm_clamp(material->color[k], 0, 1);
-    const struct gltf_image *image = material->image >= 0 ? &gltf->images[material->image] : NULL;
-    if (look->image || !image || image->size > room || !looks_image_kind(image->bytes, image->size)) return true;
-    look->image = malloc(image->size);
-    if (!look->image) return false;
-    memcpy(look->image, image->bytes, image->size);
-    look->image_size = image->size;
-    return true;
-}
-
-bool gltf_copy_looks(const struct gltf *gltf, struct looks *looks)
-{
-    size_t room = LOOKS_IMAGES_LIMIT;
-    looks->materials = calloc((size_t)gltf->material_count + 1, sizeof *looks->materials);
-    if (!looks->materials) return false;
-    for (int m = 0; m < gltf->material_count; m++) {
-        struct looks_material *look = &looks->materials[looks->material_count++];
-        look->name = strdup(gltf->materials[m].name);
-        if (!look->name || !copy_look(gltf, m, room, look)) return false;
-        room -= look->image_size;
-    }
-    return true;
-}
 
 static uint32_t add_material(struct surface_builder *b, const struct gltf *gltf, int number)
 {

@@ -68,8 +68,9 @@ void gltf_joint_matrix(const struct gltf *gltf, const struct gltf_pose *pose, in
 
 // --- in double precision, columns first
 
-void gltf_place_matrix(const struct gltf_place *place, double m[16])
+void gltf_node_matrix(const struct gltf_node *node, double m[16])
 {
+    const struct gltf_place *place = &node->place;
     const double x = (double)place->rotation[0], y = (double)place->rotation[1], z = (double)place->rotation[2],
                  w = (double)place->rotation[3];
     const double turned[3][3] = {{1 - 2 * (y * y + z * z), 2 * (x * y + w * z), 2 * (x * z - w * y)},
@@ -81,11 +82,6 @@ void gltf_place_matrix(const struct gltf_place *place, double m[16])
         m[12 + c] = (double)place->translation[c];
     }
     m[15] = 1;
-}
-
-void gltf_node_matrix(const struct gltf_node *node, double m[16])
-{
-    gltf_place_matrix(&node->place, m);
     for (int i = 0; i < 16 && node->has_matrix; i++) m[i] = (double)node->matrix[i];
 }
 
@@ -94,17 +90,6 @@ void gltf_multiply(const double a[16], const double b[16], double product[16])
     for (int i = 0; i < 16; i++) {
         product[i] = 0;
         for (int k = 0; k < 4; k++) product[i] += a[4 * k + i % 4] * b[i / 4 * 4 + k];
-    }
-}
-
-void gltf_rest_matrix(const struct gltf *gltf, int node, double m[16])
-{
-    gltf_node_matrix(&gltf->nodes[node], m);
-    while ((node = gltf->nodes[node].parent) >= 0) {
-        double above[16], below[16];
-        memcpy(below, m, sizeof below);
-        gltf_node_matrix(&gltf->nodes[node], above);
-        gltf_multiply(above, below, m);
     }
 }
 
@@ -151,8 +136,7 @@ static void stretch(const float (*joints)[16], const uint16_t *joint, const floa
     }
 }
 
-/// Turns a normal whatever the scale; a mirror turns it round, with the triangles.
-static void turn(const float m[16], float normal[3])
+void gltf_turn_normal(const float m[16], float normal[3])
 {
     const vec3s x = vec3_from(m), y = vec3_from(m + 4), z = vec3_from(m + 8), yz = glms_vec3_cross(y, z);
     vec3s sum = glms_vec3_scale(yz, normal[0]);
@@ -184,7 +168,7 @@ void gltf_pose_vertices(const struct gltf *gltf, const struct gltf_pose *pose, i
             move(m, positions[i]);
             if (!normals) continue;
             if (skinned && part->along) stretch(joints, part->joints[i], part->along[i], at.raw, m);
-            turn(m, normals[i]);
+            gltf_turn_normal(m, normals[i]);
         }
         positions += part->vertex_count;
         if (normals) normals += part->vertex_count;
@@ -241,7 +225,8 @@ static void cubic(const float *key, int components, float s, float T, float *out
                  T * (s3 - s2) * arriving[k];
 }
 
-void gltf_channel_at(const struct gltf_channel *channel, double time, float *out)
+/// What a channel says at a time, as long as `components`.
+static void channel_at(const struct gltf_channel *channel, double time, float *out)
 {
     int key = key_at(channel, time), n = channel->components;
     bool is_cubic = channel->interpolation == GLTF_CUBIC;
@@ -272,7 +257,7 @@ void gltf_pose_clip(const struct gltf *gltf, int clip, double time, struct gltf_
         struct gltf_place *place = &pose->place[channel->node];
         float *const out[] = {place->translation, place->rotation, place->scale,
                               pose->weights + gltf->nodes[channel->node].first_weight};
-        gltf_channel_at(channel, time, out[channel->path]);
+        channel_at(channel, time, out[channel->path]);
     }
 }
 

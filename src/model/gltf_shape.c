@@ -1,6 +1,6 @@
 /// Writes meshes, materials and pictures of glTF files.
 #include "model/gltf_shape.h"
-#include "model/surface_readers.h"
+#include "base/need.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -21,12 +21,7 @@ static json_int_t find_texture(struct gltf_looks *l, const struct looks_material
         if (known->size == material->image_size && memcmp(known->bytes, material->image, known->size) == 0)
             return (json_int_t)t;
     }
-    struct gltf_picture *larger = realloc(l->pictures, (count + 1) * sizeof *larger);
-    if (!larger) {
-        l->file->without_memory = true;
-        return 0;
-    }
-    l->pictures = larger;
+    l->pictures = need_more(l->pictures, count + 1, sizeof *l->pictures);
     l->pictures[count] = (struct gltf_picture){material->image, material->image_size};
     const json_int_t view = gltf_file_add_bytes(l->file, material->image, material->image_size);
     const json_int_t image = gltf_append(l->file, l->images,
@@ -129,13 +124,13 @@ static json_t *make_primitives(struct gltf_looks *l, const struct gltf_shape *sh
 {
     const struct looks *looks = shape->looks;
     const uint32_t materials = looks ? (uint32_t)looks->material_count : 0;
-    uint32_t *corners = malloc(((size_t)shape->index_count + 1) * sizeof *corners);
+    uint32_t *corners = need((size_t)shape->index_count, sizeof *corners);
     json_t *primitives = json_array();
     if (!l->materials) l->materials = json_array();
     if (!l->textures) l->textures = json_array();
     if (!l->images) l->images = json_array();
-    if (!corners || !attributes) l->file->without_memory = true;
-    for (uint32_t m = 0; corners && attributes && m <= materials; m++) {
+    if (!attributes) l->file->without_memory = true;
+    for (uint32_t m = 0; attributes && m <= materials; m++) {
         const bool none = m == materials;
         const size_t count = collect(shape, none ? LOOKS_NONE : m, corners);
         if (count == 0) continue;
@@ -154,11 +149,7 @@ static json_int_t add_vectors(struct gltf_looks *l, const struct gltf_shape *sha
                               float scale, const float range[2], bool bounds)
 {
     const size_t count = (size_t)shape->vertex_count;
-    float(*copy)[3] = malloc((count + 1) * sizeof *copy);
-    if (!copy) {
-        l->file->without_memory = true;
-        return 0;
-    }
+    float(*copy)[3] = need(count, sizeof *copy);
     for (size_t i = 0; i < count; i++) {
         const float *vector = vectors[shape->source ? shape->source[i] : i];
         for (int k = 0; k < 3; k++) copy[i][k] = fminf(fmaxf(scale * vector[k], range[0]), range[1]);
