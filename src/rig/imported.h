@@ -6,7 +6,7 @@
 #define RIG_IMPORTED_H
 
 #include "model/gltf.h"
-#include "scene/channel.h"
+#include "scene/rig.h"
 
 /// From a node to a child that is a bone too; where there is none, on to a tip.
 struct bone {

@@ -6,7 +6,6 @@
 #define SCENE_DOCUMENT_H
 
 #include "base/error.h"
-#include "scene/joint_motion.h"
 #include "scene/parameter.h"
 #include "scene/rig.h"
 #include <stdatomic.h>

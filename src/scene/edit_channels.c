@@ -1,11 +1,13 @@
-/// Edits of the channels of a tail or chain.
+/// Edits of the channels of a tail or chain, and of a character's drives, floor and paint.
 #include "base/need.h"
 #include "scene/editing.h"
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 /// The channel at a place; NULL refuses the edit.
-static const struct channel *find(const struct document *document, struct channel_place at, struct error *error)
+static const struct channel *find_channel(const struct document *document, struct channel_place at,
+                                          struct error *error)
 {
     const struct rig *rig = edit_find_rig(document, at.rig, EDIT_BENT, error);
     if (!rig) return NULL;
@@ -71,7 +73,7 @@ bool edit_angles(struct document *document, struct channel_place at, enum angle_
     if (!rig) return false;
     if (kind == ANGLE_REST && rig->kind != RIG_TAIL)
         return fail(error, ERROR_INPUT, "only a tail has angles at rest");
-    if (kind != ANGLE_REST && !find(document, at, error)) return false;
+    if (kind != ANGLE_REST && !find_channel(document, at, error)) return false;
     if (!edit_check_angles(rig, angles, error)) return false;
     struct angles wanted = *angles;
     for (int i = 0; i < numbers_of(&wanted); i++) wanted.value[i] += 0.0;
@@ -94,7 +96,8 @@ bool edit_check_part(enum channel_part part, struct error *error)
 
 bool edit_axis(struct document *document, struct channel_place at, enum axis axis, struct error *error)
 {
-    if (!find(document, at, error) || !edit_check_axis(document->rigs[at.rig]->kind, axis, error)) return false;
+    if (!find_channel(document, at, error) || !edit_check_axis(document->rigs[at.rig]->kind, axis, error))
+        return false;
     struct rig *changed = rig_clone(document->rigs[at.rig]);
     changed->bent.channels[at.channel].axis = axis;
     return edit_replace_rig(document, at.rig, changed, error);
@@ -102,7 +105,7 @@ bool edit_axis(struct document *document, struct channel_place at, enum axis axi
 
 bool edit_part(struct document *document, struct channel_place at, enum channel_part of, struct error *error)
 {
-    if (!find(document, at, error) || !edit_check_part(of, error)) return false;
+    if (!find_channel(document, at, error) || !edit_check_part(of, error)) return false;
     struct rig *changed = rig_clone(document->rigs[at.rig]);
     changed->bent.channels[at.channel].of = of;
     return edit_replace_rig(document, at.rig, changed, error);
@@ -110,7 +113,7 @@ bool edit_part(struct document *document, struct channel_place at, enum channel_
 
 bool edit_feed(struct document *document, struct channel_place at, int spline, struct error *error)
 {
-    if (!find(document, at, error) || !edit_has_spline(document, spline, error)) return false;
+    if (!find_channel(document, at, error) || !edit_has_spline(document, spline, error)) return false;
     struct rig *changed = rig_clone(document->rigs[at.rig]);
     changed->bent.channels[at.channel].spline = spline;
     return edit_replace_rig(document, at.rig, changed, error);
@@ -145,9 +148,119 @@ bool edit_channel_add(struct document *document, int rig, int spline, enum axis 
 
 bool edit_channel_remove(struct document *document, struct channel_place at, struct error *error)
 {
-    if (!find(document, at, error)) return false;
+    if (!find_channel(document, at, error)) return false;
     struct rig *changed = rig_clone(document->rigs[at.rig]);
     struct channel *gone = &changed->bent.channels[at.channel];
     memmove(gone, gone + 1, (size_t)(--changed->bent.channel_count - at.channel) * sizeof *gone);
     return edit_replace_rig(document, at.rig, changed, error);
+}
+
+static const struct character_rig *find_character(const struct document *document, int rig, struct error *error)
+{
+    const struct rig *found = edit_find_rig(document, rig, EDIT_KIND(RIG_CHARACTER), error);
+    return found ? &found->character : NULL;
+}
+
+static const struct drive *find_drive(const struct document *document, int rig, int index, struct error *error)
+{
+    const struct character_rig *character = find_character(document, rig, error);
+    if (!character) return NULL;
+    if (index >= 0 && index < character->drive_count) return &character->drives[index];
+    fail(error, ERROR_INPUT, "this character has no such coordinate");
+    return NULL;
+}
+
+static bool check_drive(const struct document *document, const struct drive *drive, struct error *error)
+{
+    if (!edit_has_spline(document, drive->spline, error)) return false;
+    if (isfinite(drive->amplitude) && isfinite(drive->lag)) return true;
+    return fail(error, ERROR_INPUT, "amplitude and lag must be finite");
+}
+
+bool edit_drive(struct document *document, int rig, int index, const struct drive *drive, struct error *error)
+{
+    if (!find_drive(document, rig, index, error) || !check_drive(document, drive, error)) return false;
+    struct rig *changed = rig_clone(document->rigs[rig]);
+    struct drive *own = &changed->character.drives[index];
+    own->spline = drive->spline;
+    own->amplitude = drive->amplitude + 0.0;
+    own->lag = drive->lag + 0.0;
+    return edit_replace_rig(document, rig, changed, error);
+}
+
+bool edit_drive_add(struct document *document, int rig, const char *name, const struct drive *drive,
+                    struct error *error)
+{
+    const struct character_rig *old = find_character(document, rig, error);
+    if (!old) return false;
+    if (!name || !name[0]) return fail(error, ERROR_INPUT, "a coordinate needs a name");
+    if (!check_drive(document, drive, error)) return false;
+    if (old->drive_count == CHARACTER_MAX_DRIVES) {
+        return fail(error, ERROR_INPUT, "a character has at most %d coordinates", CHARACTER_MAX_DRIVES);
+    }
+    struct rig *changed = rig_clone(document->rigs[rig]);
+    struct character_rig *own = &changed->character;
+    own->drives[own->drive_count] = (struct drive){.name = need_text(name),
+                                                   .spline = drive->spline,
+                                                   .amplitude = drive->amplitude + 0.0,
+                                                   .lag = drive->lag + 0.0};
+    own->drive_count++;
+    return edit_replace_rig(document, rig, changed, error);
+}
+
+bool edit_drive_remove(struct document *document, int rig, int index, struct error *error)
+{
+    if (!find_drive(document, rig, index, error)) return false;
+    struct rig *changed = rig_clone(document->rigs[rig]);
+    struct character_rig *own = &changed->character;
+    struct drive *gone = &own->drives[index];
+    free(gone->name);
+    memmove(gone, gone + 1, (size_t)(--own->drive_count - index) * sizeof *gone);
+    return edit_replace_rig(document, rig, changed, error);
+}
+
+bool edit_floor(struct document *document, int rig, bool on, double height, struct error *error)
+{
+    if (!find_character(document, rig, error)) return false;
+    if (!isfinite(height)) return fail(error, ERROR_INPUT, "a floor's height must be finite");
+    struct rig *changed = rig_clone(document->rigs[rig]);
+    changed->character.has_floor = on;
+    changed->character.floor = height + 0.0;
+    return edit_replace_rig(document, rig, changed, error);
+}
+
+bool edit_paint_new(struct document *document, int rig, int coordinates, int vertices, struct error *error)
+{
+    if (!find_character(document, rig, error)) return false;
+    if (coordinates < 1 || vertices < 1)
+        return fail(error, ERROR_INPUT, "there is nothing to paint on this character");
+    struct paint *paint = paint_create(coordinates, vertices);
+    struct character_rig *own = &document_own_rig(document, rig)->character;
+    paint_drop(own->painted);
+    own->painted = paint;
+    return true;
+}
+
+static bool check_dab(const struct paint *paint, const struct dab *dab, struct error *error)
+{
+    if (!paint) return fail(error, ERROR_INPUT, "this character has no paint yet");
+    if (dab->coordinate < 0 || dab->coordinate >= paint->coordinates) {
+        return fail(error, ERROR_INPUT, "there is no such coordinate in the paint");
+    }
+    for (int i = 0; i < dab->count; i++) {
+        const float *value = dab->values[i];
+        const bool good = fabsf(value[0]) <= PAINT_MOST_SWELL && fabsf(value[1]) <= PAINT_MOST_LEAD;
+        if (!good || dab->vertices[i] < 0 || dab->vertices[i] >= paint->vertices) {
+            return fail(error, ERROR_INPUT, "paint must be finite, and on the model");
+        }
+    }
+    return true;
+}
+
+bool edit_paint(struct document *document, int rig, const struct dab *dab, struct error *error)
+{
+    const struct character_rig *old = find_character(document, rig, error);
+    if (!old || !check_dab(old->painted, dab, error)) return false;
+    if (dab->count > 0) paint_dab(&document_own_rig(document, rig)->character.painted, dab);
+    return true;
 }

@@ -1,7 +1,8 @@
-/// Edits that add, copy, remove, move, rename and colour splines.
+/// Edits of splines: the list of them, their parameters and their knots.
 #include "base/need.h"
 #include "scene/editing.h"
 #include "scene/order.h"
+#include "scene/text.h"
 #include <ctype.h>
 #include <limits.h>
 #include <math.h>
@@ -157,5 +158,277 @@ bool edit_spline_color(struct document *document, int spline, int color, struct 
     if (!edit_has_spline(document, spline, error)) return false;
     if (color < -1 || color > 0xFFFFFF) return fail(error, ERROR_INPUT, "there is no such colour");
     if (document->splines[spline]->color != color) document_own_spline(document, spline)->color = color;
+    return true;
+}
+
+static bool same_param(const struct param *a, const struct param *b)
+{
+    return a->value == b->value && a->track == b->track && a->gain == b->gain && motion_equals(a->motion, b->motion);
+}
+
+/// Gives the spline the parameters of `wanted`.
+static void set(struct document *document, int index, const struct spline *wanted)
+{
+    const struct spline *old = document->splines[index];
+    bool same = true;
+    for (int p = 0; p < PARAMETER_COUNT; p++) same &= same_param(&old->parameter[p], &wanted->parameter[p]);
+    if (same) return;
+    struct spline *own = document_own_spline(document, index);
+    motion_hold(wanted->parameter[PARAMETER_EQUILIBRIUM].motion);
+    motion_drop(own->parameter[PARAMETER_EQUILIBRIUM].motion);
+    memcpy(own->parameter, wanted->parameter, sizeof own->parameter);
+}
+
+static bool check_track(const struct document *document, const struct spline *spline, enum parameter parameter,
+                        int track, struct error *error)
+{
+    const struct parameter_row *row = &parameter_rows[parameter];
+    if (row->kind != PARAMETER_TRACK)
+        return fail(error, ERROR_INPUT, "%s: %s must be a number", spline->name, row->name);
+    return track < document->spline_count ||
+           fail(error, ERROR_INPUT, "%s: there is no spline to follow", spline->name);
+}
+
+/// The motion as the document has it, with one holder; NULL: it may not be followed.
+static struct joint_motion *new_motion(const struct document *document, const struct spline *spline,
+                                       enum parameter parameter, const struct param *param, struct error *error)
+{
+    const char *name = spline->name;
+    struct joint_motion motion = *param->motion;
+    const char *model = motion.model ? motion.model : "";
+    bool good = true;
+    motion.by_file = document_find_model(document, model, false) < 0;
+    if (parameter != PARAMETER_EQUILIBRIUM) {
+        good = fail(error, ERROR_INPUT, "%s: only the equilibrium follows a joint", name);
+    } else if (!motion.joint || !motion.joint[0] || (unsigned)motion.of >= MOTION_KINDS || !isfinite(param->gain)) {
+        good = fail(error, ERROR_INPUT, "%s: a motion needs a joint and a finite gain", name);
+    } else if (document_find_model(document, model, motion.by_file) < 0) {
+        good = fail(error, ERROR_INPUT, "%s: there is no model \"%s\" to follow", name, model);
+    } else if (motion.chain && document_find_chain(document, motion.chain) < 0) {
+        good = fail(error, ERROR_INPUT, "%s: there is no chain \"%s\"", name, motion.chain);
+    }
+    return good ? motion_create(&motion) : NULL;
+}
+
+static bool check_constant(const struct spline *spline, enum parameter parameter, double value, struct error *error)
+{
+    double low = parameter_rows[parameter].minimum, high = parameter_maximum(parameter, spline_mode(spline));
+    const char *name = parameter_rows[parameter].name;
+    if (!isfinite(value)) return fail(error, ERROR_INPUT, "%s: %s must be finite", spline->name, name);
+    if (parameter_rows[parameter].kind == PARAMETER_WHOLE && value != floor(value))
+        return fail(error, ERROR_INPUT, "%s: %s must be a whole number", spline->name, name);
+    if (value >= low && value <= high) return true;
+    if (value < low) return fail(error, ERROR_INPUT, "%s: %s must be at least %g", spline->name, name, low);
+    return fail(error, ERROR_INPUT, "%s: %s must be at most %g", spline->name, name, high);
+}
+
+/// A limit may be infinite, which is none; knots stay within.
+static bool check_limit(const struct document *document, const struct spline *spline, enum parameter parameter,
+                        double value, struct error *error)
+{
+    const struct parameter_row *row = &parameter_rows[parameter];
+    const bool is_high = parameter == PARAMETER_HIGH;
+    const double other = spline->parameter[is_high ? PARAMETER_LOW : PARAMETER_HIGH].value;
+    if (value == row->standard) return true;
+    if (!isfinite(value)) return fail(error, ERROR_INPUT, "%s: a limit must be finite", spline->name);
+    if (!document_check_samples(1, document_samples(document), true, error)) return false;
+    if (is_high ? value <= other : value >= other)
+        return fail(error, ERROR_INPUT, "%s: the low limit must be below the high one", spline->name);
+    for (int k = 0; k < spline->knot_count; k++) {
+        char frame[NUMBER_TEXT_SIZE];
+        if (is_high ? spline->knots[k].value <= value : spline->knots[k].value >= value) continue;
+        number_print(spline->knots[k].frame, frame);
+        return fail(error, ERROR_INPUT, "%s: the knot at frame %s is %s that", spline->name, frame,
+                    is_high ? "above" : "below");
+    }
+    return true;
+}
+
+/// Clamps what the mode does not allow.
+static void clamp_to_mode(struct spline *settings, enum wiggly_mode mode)
+{
+    for (enum parameter p = 0; p < PARAMETER_COUNT; p++)
+        settings->parameter[p].value = fmin(settings->parameter[p].value, parameter_maximum(p, mode));
+}
+
+static bool check_loop(const struct document *document, const struct spline *spline, struct error *error)
+{
+    int last = document_samples(document) - 1;
+    if (last == 0) return fail(error, ERROR_INPUT, "%s: a loop needs more than one frame", spline->name);
+    if (spline_find_knot(document, spline, last) < 0) return true;
+    return fail(error, ERROR_INPUT,
+                "%s: delete the knot at the last frame first; in a loop that frame repeats the first", spline->name);
+}
+
+static bool set_choice(const struct document *document, struct spline *settings, enum parameter parameter,
+                       double value, struct error *error)
+{
+    const struct parameter_row *row = &parameter_rows[parameter];
+    if (!(value >= 0 && value <= row->maximum && value == floor(value)))
+        return fail(error, ERROR_INPUT, "there is no such %s", row->name);
+    settings->parameter[parameter] = param_number(value);
+    if (parameter == PARAMETER_MODE) clamp_to_mode(settings, (enum wiggly_mode)value);
+    return parameter != PARAMETER_START || value != WIGGLY_LOOP || check_loop(document, settings, error);
+}
+
+static bool set_number(const struct document *document, struct spline *settings, enum parameter parameter,
+                       double value, struct error *error)
+{
+    const bool limits = parameter_rows[parameter].kind == PARAMETER_LIMIT;
+    if (!(limits ? check_limit(document, settings, parameter, value, error)
+                 : check_constant(settings, parameter, value, error)))
+        return false;
+    settings->parameter[parameter] = param_number(value + 0.0);
+    return true;
+}
+
+/// Whether no spline follows itself, by way of others.
+static bool has_order(const struct document *document, int spline, int track, struct error *error)
+{
+    struct order_cycle cycle;
+    return scene_has_order(document, &cycle) ||
+           fail(error, ERROR_INPUT, "%s cannot follow %s, which already follows it", document->splines[spline]->name,
+                document->splines[track]->name);
+}
+
+static bool change(struct document *document, int spline, enum parameter parameter, const struct param *param,
+                   struct error *error)
+{
+    struct spline settings = *document->splines[spline];
+    struct joint_motion *motion = NULL;
+    if (parameter_rows[parameter].kind == PARAMETER_CHOICE) {
+        if (!set_choice(document, &settings, parameter, param->value, error)) return false;
+    } else if (param->motion) {
+        motion = new_motion(document, &settings, parameter, param, error);
+        if (!motion) return false;
+        settings.parameter[parameter] = (struct param){0, -1, motion, param->gain + 0.0};
+    } else if (param->track >= 0) {
+        if (!check_track(document, &settings, parameter, param->track, error)) return false;
+        settings.parameter[parameter] = param_track(param->track);
+    } else if (!set_number(document, &settings, parameter, param->value, error)) {
+        return false;
+    }
+    set(document, spline, &settings);
+    motion_drop(motion);
+    return param->track < 0 || has_order(document, spline, param->track, error);
+}
+
+bool edit_parameter(struct document *document, int spline, enum parameter parameter, const struct param *param,
+                    struct error *error)
+{
+    if (!edit_has_spline(document, spline, error)) return false;
+    if ((unsigned)parameter >= PARAMETER_COUNT) return fail(error, ERROR_INPUT, "there is no such parameter");
+    struct document *before = edit_begin(document);
+    return edit_end(document, before, change(document, spline, parameter, param, error), error);
+}
+
+/// Whether a knot may go where it says; `id` is its own.
+static bool check_knot(const struct document *document, const struct spline *spline, const struct knot *knot,
+                       unsigned id, struct error *error)
+{
+    char frame[NUMBER_TEXT_SIZE];
+    if (!isfinite(knot->frame) || !isfinite(knot->value) || !isfinite(knot->slope) || !isfinite(knot->stiffness)) {
+        return fail(error, ERROR_INPUT, "%s: a knot's numbers must be finite", spline->name);
+    }
+    const double low = spline->parameter[PARAMETER_LOW].value, high = spline->parameter[PARAMETER_HIGH].value;
+    if (knot->value < low || knot->value > high) {
+        return fail(error, ERROR_INPUT, "%s: a knot at %.6g would be %s limit, %.6g", spline->name, knot->value,
+                    knot->value < low ? "below the low" : "above the high", knot->value < low ? low : high);
+    }
+    if (knot->stiffness <= 0) return fail(error, ERROR_INPUT, "%s: stiffness must be above 0", spline->name);
+    int sample = document_sample(document, knot->frame), last = document_last_knot_sample(document, spline);
+    if (sample < 0 || sample > last) {
+        number_print(knot->frame, frame);
+        return fail(error, ERROR_INPUT, "%s: frame %s is outside %d to %d%s", spline->name, frame,
+                    document->first_frame, document->last_frame,
+                    spline_start(spline) == WIGGLY_LOOP ? "; the last frame of a loop repeats the first" : "");
+    }
+    int there = spline_find_knot(document, spline, sample);
+    if (there < 0 || spline->knots[there].id == id) return true;
+    number_print(knot->frame, frame);
+    return fail(error, ERROR_INPUT, "%s: there is already a knot at frame %s", spline->name, frame);
+}
+
+/// −0 is saved as 0, so it must be 0 in the document, too.
+static struct knot without_negative_zeros(struct knot knot)
+{
+    knot.frame += 0.0;
+    knot.value += 0.0;
+    knot.slope += 0.0;
+    return knot;
+}
+
+static bool has_id(const struct document *document, unsigned id)
+{
+    for (int i = 0; i < document->spline_count; i++) {
+        if (spline_find_id(document->splines[i], id) >= 0) return true;
+    }
+    return false;
+}
+
+bool edit_knot_insert(struct document *document, int spline, const struct knot *knot, struct error *error)
+{
+    struct knot added = without_negative_zeros(*knot);
+    long long total = 1;
+    if (!edit_has_spline(document, spline, error)) return false;
+    const struct spline *old = document->splines[spline];
+    if (!check_knot(document, old, &added, 0, error)) return false;
+    if (added.id != 0 && has_id(document, added.id)) {
+        return fail(error, ERROR_INPUT, "%s: this knot already exists", old->name);
+    }
+    for (int i = 0; i < document->spline_count; i++) total += document->splines[i]->knot_count;
+    if (total > SCENE_MAX_KNOTS) return fail(error, ERROR_INPUT, "the limit of %d knots is reached", SCENE_MAX_KNOTS);
+    if (added.id == 0) added.id = document->next_id;
+    if (document->next_id <= added.id) document->next_id = added.id + 1;
+    struct spline *own = document_own_spline(document, spline);
+    if (own->knot_count == own->knot_capacity) {
+        own->knot_capacity += own->knot_capacity / 2 + 1;
+        own->knots = need_more(own->knots, (size_t)own->knot_capacity, sizeof *own->knots);
+    }
+    const int at = spline_lower_bound(document, own, document_sample(document, added.frame));
+    memmove(&own->knots[at + 1], &own->knots[at], (size_t)(own->knot_count++ - at) * sizeof added);
+    own->knots[at] = added;
+    return true;
+}
+
+/// Index of the knot with that id; -1 with a sentence.
+static int find(const struct document *document, int spline, unsigned id, struct error *error)
+{
+    if (!edit_has_spline(document, spline, error)) return -1;
+    const int at = spline_find_id(document->splines[spline], id);
+    if (at < 0) fail(error, ERROR_INPUT, "%s: this knot no longer exists", document->splines[spline]->name);
+    return at;
+}
+
+bool edit_knot_remove(struct document *document, int spline, unsigned id, struct error *error)
+{
+    const int at = find(document, spline, id, error);
+    if (at < 0) return false;
+    struct spline *own = document_own_spline(document, spline);
+    memmove(&own->knots[at], &own->knots[at + 1], (size_t)(--own->knot_count - at) * sizeof *own->knots);
+    return true;
+}
+
+static bool same_knot(const struct knot *a, const struct knot *b)
+{
+    return a->frame == b->frame && a->value == b->value && a->slope == b->slope && a->stiffness == b->stiffness &&
+           a->has_slope == b->has_slope;
+}
+
+bool edit_knot_set(struct document *document, int spline, const struct knot *knot, struct error *error)
+{
+    struct knot changed = without_negative_zeros(*knot);
+    const int from = find(document, spline, knot->id, error);
+    if (from < 0) return false;
+    const struct spline *old = document->splines[spline];
+    changed.extra = old->knots[from].extra;
+    if (!check_knot(document, old, &changed, changed.id, error)) return false;
+    if (same_knot(&changed, &old->knots[from])) return true;
+    struct knot *knots = document_own_spline(document, spline)->knots;
+    int to = spline_lower_bound(document, document->splines[spline], document_sample(document, changed.frame));
+    if (to > from) to--; // where it is once the old one is gone
+    if (to > from) memmove(&knots[from], &knots[from + 1], (size_t)(to - from) * sizeof *knots);
+    if (to < from) memmove(&knots[to + 1], &knots[to], (size_t)(from - to) * sizeof *knots);
+    knots[to] = changed;
     return true;
 }

@@ -1,10 +1,12 @@
-/// Reads and writes knots as JSON.
+/// Reads and writes knots as JSON, and reads them from CSV lines frame,value[,slope[,stiffness]].
 #include "scene/knots.h"
 #include "base/need.h"
 #include "scene/members.h"
 #include "scene/reader.h"
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 
 void knot_list_free(struct knot_list *list)
 {
@@ -65,6 +67,155 @@ static bool parse_json(const char *name, const char *text, struct knot_list *lis
     document_destroy(reader.document);
     if (reader.failed) knot_list_free(list);
     return !reader.failed;
+}
+
+enum { MAX_FIELDS = 64, MAX_FIELD = 64, FIRST_KNOTS = 64 };
+
+enum column { COLUMN_FRAME, COLUMN_VALUE, COLUMN_SLOPE, COLUMN_STIFFNESS, COLUMN_COUNT };
+
+static const char *const column_names[] = {
+    [COLUMN_FRAME] = "frame", [COLUMN_VALUE] = "value", [COLUMN_SLOPE] = "slope", [COLUMN_STIFFNESS] = "stiffness"};
+
+static const char byte_order_mark[] = "\xEF\xBB\xBF", cut_off[] = "…"; // no number ends in that
+
+/// A line's fields, without surrounding quotes and blanks.
+struct line {
+    int number;
+    int count;
+    char field[MAX_FIELDS][MAX_FIELD];
+};
+
+struct csv {
+    const char *name;
+    struct line line;
+    int at[COLUMN_COUNT]; ///< field of each column, -1: there is none
+    struct knot_list *list;
+    int capacity;
+    struct error *error;
+};
+
+static bool bad(const struct csv *csv, const char *expected, const char *got)
+{
+    return fail(csv->error, ERROR_INPUT, "%s:%d: expected %s, got %s%.60s%s", csv->name, csv->line.number, expected,
+                got && *got ? "\"" : "", got && *got ? got : "nothing", got && *got ? "\"" : "");
+}
+
+static void take_field(struct line *line, const char *from, size_t length)
+{
+    static const char around[] = " \t\r\"";
+    while (length > 0 && strchr(around, *from)) from++, length--;
+    while (length > 0 && strchr(around, from[length - 1])) length--;
+    if (line->count == MAX_FIELDS) return;
+    char *field = line->field[line->count++];
+    const bool fits = length < MAX_FIELD;
+    if (!fits) length = MAX_FIELD - sizeof cut_off;
+    memcpy(field, from, length);
+    strcpy(field + length, fits ? "" : cut_off);
+}
+
+/// Splits a line at semicolons, else tabs, else commas. With the first two a comma in a number is its decimal point.
+static void split(struct line *line, const char *text, size_t length)
+{
+    char separator = memchr(text, ';', length) ? ';' : memchr(text, '\t', length) ? '\t' : ',';
+    line->count = 0;
+    for (const char *end = text + length; text <= end;) {
+        const char *next = memchr(text, separator, (size_t)(end - text));
+        if (!next) next = end;
+        take_field(line, text, (size_t)(next - text));
+        text = next + 1;
+    }
+    for (int i = 0; i < line->count && separator != ','; i++) {
+        char *comma = strchr(line->field[i], ',');
+        if (comma) *comma = '.';
+    }
+}
+
+static bool is_number(const char *field, double *number)
+{
+    char *end;
+    *number = strtod(field, &end);
+    return end != field && !*end && isfinite(*number);
+}
+
+/// A header: columns go by name; frame and value are the first and second if it does not name them.
+static void read_header(struct csv *csv)
+{
+    for (int c = 0; c < COLUMN_COUNT; c++) {
+        csv->at[c] = c <= COLUMN_VALUE ? c : -1;
+        for (int i = 0; i < csv->line.count; i++) {
+            if (strcasecmp(csv->line.field[i], column_names[c]) == 0) csv->at[c] = i;
+        }
+    }
+}
+
+/// Reads a field's number; an optional one that is missing stays as it is.
+static bool read_field(const struct csv *csv, enum column column, bool *given, double *number)
+{
+    static const char *const expected[] = {[COLUMN_FRAME] = "a frame from -1000000000 to 1000000000",
+                                           [COLUMN_VALUE] =
+                                               "a value after the frame (frame,value[,slope[,stiffness]])",
+                                           [COLUMN_SLOPE] = "a number as the slope",
+                                           [COLUMN_STIFFNESS] = "a number above 0 as the stiffness"};
+    int at = csv->at[column];
+    const char *field = at >= 0 && at < csv->line.count ? csv->line.field[at] : "";
+    *given = *field;
+    if (!*field && column > COLUMN_VALUE) return true;
+    bool good = is_number(field, number);
+    if (column == COLUMN_FRAME) good = good && fabs(*number) <= SCENE_MAX_FRAME;
+    if (column == COLUMN_STIFFNESS) good = good && *number > 0;
+    return good || bad(csv, expected[column], field);
+}
+
+static bool add_knot(struct csv *csv, const struct knot *knot)
+{
+    struct knot_list *list = csv->list;
+    if (list->count == SCENE_MAX_KNOTS) return bad(csv, "at most 100000 knots", "more");
+    if (list->count == csv->capacity) {
+        csv->capacity = csv->capacity > 0 ? 2 * csv->capacity : FIRST_KNOTS;
+        list->knots = need_more(list->knots, (size_t)csv->capacity, sizeof *list->knots);
+    }
+    list->knots[list->count++] = *knot;
+    return true;
+}
+
+static bool read_knot(struct csv *csv)
+{
+    struct knot knot = {.stiffness = KNOT_DEFAULT_STIFFNESS};
+    bool given;
+    return read_field(csv, COLUMN_FRAME, &given, &knot.frame) && read_field(csv, COLUMN_VALUE, &given, &knot.value) &&
+           read_field(csv, COLUMN_STIFFNESS, &given, &knot.stiffness) &&
+           read_field(csv, COLUMN_SLOPE, &knot.has_slope, &knot.slope) && add_knot(csv, &knot);
+}
+
+static bool read_line(struct csv *csv, const char *text, size_t length, bool *started)
+{
+    double number;
+    size_t blank = strspn(text, " \t\r");
+    if (blank >= length || text[blank] == '#') return true;
+    split(&csv->line, text, length);
+    bool is_header = !*started && csv->line.count > 1 && !is_number(csv->line.field[0], &number) &&
+                     !is_number(csv->line.field[1], &number);
+    *started = true;
+    if (!is_header) return read_knot(csv);
+    read_header(csv);
+    return true;
+}
+
+static bool knots_parse_csv(const char *name, const char *text, struct knot_list *list, struct error *error)
+{
+    struct csv csv = {.name = name, .at = {0, 1, 2, 3}, .list = list, .error = error};
+    bool started = false, good = true;
+    *list = (struct knot_list){0};
+    if (strncmp(text, byte_order_mark, sizeof byte_order_mark - 1) == 0) text += sizeof byte_order_mark - 1;
+    while (good && *text) {
+        size_t length = strcspn(text, "\n");
+        csv.line.number++;
+        good = read_line(&csv, text, length, &started);
+        text += length + (text[length] == '\n');
+    }
+    if (good && list->count == 0) good = bad(&csv, "knots as JSON or as lines frame,value", "");
+    if (!good) knot_list_free(list);
+    return good;
 }
 
 bool knots_parse(const char *name, const char *text, struct knot_list *list, struct error *error)

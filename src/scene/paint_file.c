@@ -1,9 +1,9 @@
 /// Reads and writes paint: inside of scenes, and as .npy.
-#include "scene/paint_file.h"
 #include "base/base64.h"
 #include "base/file.h"
 #include "base/need.h"
 #include "base/npy.h"
+#include "scene/rig_kind.h"
 #include <limits.h>
 #include <math.h>
 #include <stdlib.h>

@@ -3,11 +3,90 @@
 #ifndef SCENE_RIG_H
 #define SCENE_RIG_H
 
-#include "scene/channel.h"
-#include "scene/character.h"
+#include "scene/paint.h"
 #include "scene/parameter.h"
 #include <stdatomic.h>
 #include <stddef.h>
+
+// --- channels: splines that bend joints, each joint later than the one before, or move a part of the tail's fox
+
+enum {
+    ANGLES_MAX_JOINTS = 256,
+    RAMP_MAX_POINTS = 32, ///< and at least 2
+};
+
+/// How they are written in the file.
+enum angle_form { ANGLES_ONE, ANGLES_EACH, ANGLES_RAMP };
+
+/// The angle at a place from 0 (the first joint) to 1 (the last); straight between points, constant before the first and behind the last.
+struct ramp_point {
+    double at, angle;
+};
+
+/// Degrees.
+struct angles {
+    enum angle_form form;
+    int count; ///< of joints of ANGLES_EACH, of points of ANGLES_RAMP
+    union {
+        double value[ANGLES_MAX_JOINTS]; ///< value[0] alone of ANGLES_ONE
+        struct ramp_point ramp[RAMP_MAX_POINTS];
+    };
+};
+
+/// The angle of a joint, of `joints` in all. Behind the last number of ANGLES_EACH it stays the last.
+double angles_at(const struct angles *angles, int joint, int joints);
+
+/// How far a joint lags behind the first: of one number, that times `joint`; else the joint's own.
+double angles_lag(const struct angles *lag, int joint, int joints);
+
+/// How many angles it is made of: 1, one a joint or one a point of the ramp. And each of them.
+int angles_count(const struct angles *angles);
+double angles_number(const struct angles *angles, int index);
+void angles_set_number(struct angles *angles, int index, double degrees);
+
+enum { SCENE_MAX_CHANNELS = 64 }; ///< of one rig
+
+/// About what a joint bends. Tails do not twist; but the rest, which move the body, are theirs alone.
+enum axis {
+    AXIS_SIDE,
+    AXIS_UP,
+    AXIS_TWIST,
+    AXIS_LOOK,    ///< turns the head sideways, degrees
+    AXIS_NOD,     ///< lifts it, degrees
+    AXIS_EARS,    ///< lays the ears back, degrees; their tips by as much again, and later
+    AXIS_BREATH,  ///< widens the chest, percent
+    AXIS_STRETCH, ///< makes the body taller at the same volume, percent
+    AXIS_BLINK,   ///< closes the lids, percent
+    AXES
+};
+
+/// Whether it bends joints; else it moves the body.
+bool axis_bends(enum axis axis);
+
+/// Its word in files, and the unit of its gain.
+const char *axis_word(enum axis axis);
+const char *axis_unit(enum axis axis);
+
+/// The gain that a new channel has: one that shows.
+double axis_gain(enum axis axis);
+
+/// Which part of its spline a channel bends by: the total y + Re(e^{−j·n·lag} x), or without the equilibrium y. The latter is for a rig
+/// on something that moves: y is the base's motion, and x is relative to it.
+enum channel_part { PART_TOTAL, PART_DISPLACEMENT };
+
+struct channel {
+    int spline; ///< index
+    enum axis axis;
+    enum channel_part of;
+    struct angles lag;  ///< see angles_lag()
+    struct angles gain; ///< degrees (or percent) per unit of the spline; of what moves the body the first counts
+    struct json_t *extra;
+};
+
+#define CHANNEL_DEFAULT_LAG 6.5  /* degrees a joint */
+#define CHANNEL_DEFAULT_GAIN 5.0 /* degrees (or percent) a unit of the spline, where a file names none */
+
+// --- kinds of rig
 
 enum { TAIL_MAX_JOINTS = ANGLES_MAX_JOINTS };
 
@@ -23,6 +102,32 @@ struct tail {
 
 #define TAIL_DEFAULT_JOINTS 24
 #define TAIL_DEFAULT_LENGTH 1.6 /* m */
+
+enum { CHARACTER_MAX_DRIVES = 4 };
+
+/// What moves one complex normal coordinate of a character (eq. 30): A e^{−j·lag} x.
+struct drive {
+    char *name;       ///< of the coordinate in the model
+    int spline;       ///< index
+    double amplitude; ///< A
+    double lag;       ///< degrees
+    struct json_t *extra;
+};
+
+/// A soft character in a scene (paper, section 7.2). Its model is a separate file, which is not read here and may be missing.
+struct character_rig {
+    char *model;           ///< a file, relative to the document's folder unless absolute
+    struct paint *painted; ///< NULL: none, or its file could not be read
+    char *paint_file;      ///< .npy that the scene names for its paint, or NULL
+    double position[3];    ///< metres
+    struct drive drives[CHARACTER_MAX_DRIVES];
+    int drive_count;
+    bool has_floor;
+    double floor; ///< height above which all of it is kept, metres of the world
+    int phases; ///< axis 0 … 2 along which its first coordinate's phases are shown at first; −1: its own colours
+};
+
+#define DRIVE_DEFAULT_AMPLITUDE 1.0
 
 /// An imported character: a glTF file, which is not read here and may be missing.
 struct model_rig {

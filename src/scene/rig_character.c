@@ -1,6 +1,5 @@
 /// Characters as a kind of rig.
 #include "base/need.h"
-#include "scene/paint_file.h"
 #include "scene/rig_kind.h"
 #include <math.h>
 #include <stdlib.h>

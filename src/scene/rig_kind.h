@@ -64,21 +64,6 @@ struct rig_functions {
 RIG_KIND_LIST(RIG_FUNCTIONS)
 #undef RIG_FUNCTIONS
 
-void load_fields(struct reader *reader, const struct value *object, const struct field *fields, struct rig *rig);
-void print_fields(struct members *members, const struct document *document, const struct rig *rig,
-                  const struct field *fields, const char *folder);
-
-/// Gives the texts of a shallow copy memory of their own, frees them, and counts their bytes.
-void copy_fields(const struct field *fields, struct rig *copy);
-void free_fields(const struct field *fields, struct rig *rig);
-size_t fields_bytes(const struct field *fields, const struct rig *rig);
-
-/// Whether all numbers are finite and in their ranges; −0 becomes 0, as it is saved.
-bool fields_check(const struct field *fields, struct rig *rig, struct error *error);
-
-/// Whether two rigs of a kind have the same in them.
-bool fields_equal(const struct field *fields, const struct rig *a, const struct rig *b);
-
 /// `joints` of the functions below: how many the rig has, or JOINTS_UNKNOWN where only its model says.
 enum { JOINTS_UNKNOWN = 0 };
 
@@ -96,6 +81,12 @@ void load_channels(struct reader *reader, const struct value *object, const char
                    struct rig *rig);
 void print_channels(struct members *members, const struct document *document, const struct rig *rig,
                     const char *folder);
+
+/// Paint in a scene's file: "vertices", and "paint", an array of a string for each coordinate, or null for one without paint: base64 of its
+/// vertices' a and ψ, little-endian float32; or the name of its .npy file, which alone is printed where that could not be read. Paint that
+/// changes nothing is not printed.
+void paint_load(struct reader *reader, const struct value *object, struct rig *rig);
+void paint_print(struct members *members, const struct document *document, const struct rig *rig, const char *folder);
 
 /// Keys of a channel's object.
 extern const char *const channel_keys[];

@@ -1,6 +1,6 @@
 /// Finds the line of every value in a scene's text.
-#include "scene/source.h"
 #include "base/json.h"
+#include "scene/reader.h"
 #include <stdio.h>
 #include <string.h>
 

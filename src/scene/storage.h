@@ -127,10 +127,6 @@ int storage_knot_room(const struct spline *spline, int samples);
 /// A curve at rest, for where there is no solution.
 void storage_flatten(wiggly_curve *curve, const wiggly_desc *desc);
 
-/// Reads again the motions for which the document's frames, model, clip or chain or the source's version have changed, so that their
-/// splines are solved. What cannot be read is 0 throughout.
-void motions_bake(struct evaluation *evaluation, const struct document *document);
-
 /// Makes room for the document's groups. Without pins it costs nothing.
 void pinned_resize(struct evaluation *evaluation, const struct document *document);
 void pinned_free(struct pinned *pinned);
@@ -147,15 +143,6 @@ bool pinned_solve(struct pinned *pinned, wiggly_status *status);
 
 /// Measures what is left of all pins.
 void pinned_measure(struct pinned *pinned);
-
-/// How far splines move a point: |c| over all of a pin's pulls.
-double pin_ease(const wiggly_pin *pin);
-
-/// Sets where x is to take a point that is at `from`, where Σ Re(c x) is `passed`; `ease` is pin_ease() without pins. A tail's or chain's is
-/// taken only part of its way where it is far or hard to move, and its conditions (also in `pulls`, which are the pin's) are weighed so
-/// that what hardly moves it, as the motion is without pins, gives way. All of it is continuous in `to` and `from`.
-void pin_aim(const struct pin_point *from, double ease, const double to[3], const double passed[3], wiggly_pin *pin,
-             wiggly_pull *pulls);
 
 /// Makes room for floors. And whether a rig of the group in hand has one.
 void floors_resize(struct pinned *pinned, int samples);
