@@ -33,39 +33,8 @@ struct fit {
     double *pull;         ///< W G, 2 count × frames
     double metric[BLOCK]; ///< W G Wᵀ
     int first;            ///< the frame from which on nothing drives the motion
-    double *factors;      ///< of each frame: L, then L⁻¹ E of the block E beside it, d × d each
+    double *band;         ///< the system of all frames, 2 d × d n; then its right side
 };
-
-/// A = L Lᵀ in place (d × d, row after row, the lower half).
-static void factor(double *a, int d)
-{
-    for (int j = 0; j < d; j++) {
-        for (int i = j; i < d; i++) {
-            double sum = a[i * d + j];
-            for (int k = 0; k < j; k++) sum -= a[i * d + k] * a[j * d + k];
-            a[i * d + j] = i == j ? sqrt(fmax(sum, 1e-300)) : sum / a[j * d + j];
-        }
-    }
-}
-
-/// x ← L⁻¹ x, each of `columns` columns of x (row after row).
-static void solve_lower(const double *l, int d, double *x, int columns)
-{
-    for (int i = 0; i < d; i++) {
-        for (int c = 0; c < columns; c++) {
-            for (int k = 0; k < i; k++) x[i * columns + c] -= l[i * d + k] * x[k * columns + c];
-            x[i * columns + c] /= l[i * d + i];
-        }
-    }
-}
-
-static void solve_upper(const double *l, int d, double *x)
-{
-    for (int i = d - 1; i >= 0; i--) {
-        for (int k = i + 1; k < d; k++) x[i] -= l[k * d + i] * x[k];
-        x[i] /= l[i * d + i];
-    }
-}
 
 /// How much of μ counts between frame t and the next.
 static double firmness(const struct fit *f, int t) { return t < f->first ? driven : 1; }
@@ -83,62 +52,44 @@ static void weigh_pushes(const struct fit *f, double *push, double complex *z)
     }
 }
 
-/// E, the block between a frame and the next: −μ z̄ as it acts on (Re R, −Im R) … of the pairs.
-static void fill_beside(const double *push, const double complex *z, int d, double *e)
+/// Adds to a number of the lower band, column after column; blocks of two neighbouring frames lie in it.
+static void put(double *band, int d, int row, int column, double value)
 {
-    memset(e, 0, (size_t)(d * d) * sizeof *e);
-    // Re(conj(R_t+1) z R_t) in a = Re R, b = −Im R: (a a' + b b') Re z + (a' b − b' a) Im z
-    for (int k = 0; k < d / 2; k++) {
-        double *at = e + 2 * k * d + 2 * k;
-        at[0] = at[d + 1] = -push[k] * creal(z[k]);
-        at[1] = push[k] * cimag(z[k]);
-        at[d] = -push[k] * cimag(z[k]);
+    band[column * 2 * d + row - column] += value;
+}
+
+/// What pushes a pole between frame t and the next: μ |R_t+1 − z R_t|² in a = Re R, b = −Im R, as
+/// Re(conj(R_t+1) z R_t) = (a a' + b b') Re z + (a' b − b' a) Im z.
+static void put_push(double *band, int d, int t, int k, double push, double complex z)
+{
+    const int a = t * d + 2 * k, next = a + d;
+    for (int i = 0; i < 2; i++) {
+        put(band, d, a + i, a + i, push * creal(z * conj(z)));
+        put(band, d, next + i, next + i, push);
+        put(band, d, next + i, a + i, -push * creal(z));
     }
+    put(band, d, next, a + 1, -push * cimag(z));
+    put(band, d, next + 1, a, push * cimag(z));
 }
 
 /// R given Ñ.
 static void solve_courses(struct fit *f)
 {
-    int n = f->series->frames, d = 2 * f->series->count;
-    size_t block = (size_t)(d * d);
-    double push[TIME_SERIES_MAX], x[ROWS_MAX] = {0}, beside[BLOCK];
+    const int n = f->series->frames, d = 2 * f->series->count;
+    double push[TIME_SERIES_MAX], *band = f->band, *x = band + 2 * d * d * n;
     double complex z[TIME_SERIES_MAX];
     weigh_pushes(f, push, z);
-    fill_beside(push, z, d, beside);
+    memset(band, 0, 2 * (size_t)(d * d) * (size_t)n * sizeof *band);
     for (int t = 0; t < n; t++) {
-        double *l = f->factors + 2 * (size_t)t * block, *y = l + block;
-        const double *before = t > 0 ? y - 2 * block : NULL;
-        memcpy(l, f->metric, block * sizeof *l);
         for (int i = 0; i < d; i++) {
-            double size = cabs(z[i / 2]);
-            l[i * d + i] +=
-                push[i / 2] * ((t > 0 ? firmness(f, t - 1) : 0) + (t < n - 1 ? size * size * firmness(f, t) : 0));
+            for (int k = 0; k <= i; k++) put(band, d, t * d + i, t * d + k, f->metric[i * d + k]);
+            x[t * d + i] = f->pull[i * n + t];
         }
-        for (int i = 0; before && i < d; i++) {
-            for (int j = 0; j <= i; j++) {
-                for (int k = 0; k < d; k++) l[i * d + j] -= before[k * d + i] * before[k * d + j];
-            }
-        }
-        factor(l, d);
-        for (size_t i = 0; i < block; i++) y[i] = firmness(f, t) * beside[i];
-        solve_lower(l, d, y, d);
-        double right[ROWS_MAX];
-        for (int i = 0; i < d; i++) {
-            right[i] = f->pull[i * n + t];
-            for (int k = 0; before && k < d; k++) right[i] -= before[k * d + i] * x[k];
-        }
-        solve_lower(l, d, right, 1);
-        for (int i = 0; i < d; i++) f->series->rows[i * n + t] = x[i] = right[i];
+        for (int k = 0; k < d / 2 && t + 1 < n; k++) put_push(band, d, t, k, firmness(f, t) * push[k], z[k]);
     }
-    for (int t = n - 1; t >= 0; t--) {
-        const double *l = f->factors + 2 * (size_t)t * block, *y = l + block;
-        double right[ROWS_MAX];
-        for (int i = 0; i < d; i++) {
-            right[i] = f->series->rows[i * n + t];
-            for (int k = 0; t < n - 1 && k < d; k++) right[i] -= y[i * d + k] * x[k];
-        }
-        solve_upper(l, d, right);
-        for (int i = 0; i < d; i++) f->series->rows[i * n + t] = x[i] = right[i];
+    if (f->lapack->dpbsv(LAPACK_COLUMNS_FIRST, 'L', n * d, 2 * d - 1, 1, band, 2 * d, x, n * d) != 0) return;
+    for (int t = 0; t < n; t++) {
+        for (int i = 0; i < d; i++) f->series->rows[i * n + t] = x[t * d + i];
     }
 }
 
@@ -206,7 +157,7 @@ void time_series_create(struct time_series *c, const struct lapack *lapack, cons
     c->rows = need(d * n, sizeof *c->rows);
     c->weights = need(d * n, sizeof *c->weights);
     fit.pull = need(d * n, sizeof *fit.pull);
-    fit.factors = need(2 * d * d * n, sizeof *fit.factors);
+    fit.band = need((2 * d + 1) * d * n, sizeof *fit.band);
     basis_create(&fit.basis, frames, (int)d);
     for (int k = 0; k < count; k++) {
         double *re = c->rows + 2 * (size_t)k * n, *im = re + n;
@@ -217,7 +168,7 @@ void time_series_create(struct time_series *c, const struct lapack *lapack, cons
     measure_parts(&fit);
     basis_free(&fit.basis);
     free(fit.pull);
-    free(fit.factors);
+    free(fit.band);
 }
 
 void time_series_free(struct time_series *c)
