@@ -69,10 +69,12 @@ static void add_slope(const limits_work *w, wiggly_knot *last, const double on_t
     last->has_slope = true;
 }
 
-/// What the rows pull at each sample of a curve that begins with the system, into the real parts of their gradient.
+/// What the rows pull at each sample of a curve that begins with the system, into the real parts of their gradient; `im` may be NULL in
+/// a real one.
 static void find_forces(const system_rows *rows, const double *re, const double *im)
 {
-    for (int k = 0; k < rows->count; k++) rows->x[2 * k] = re[k], rows->x[2 * k + 1] = rows->is_complex ? im[k] : 0;
+    for (int k = 0; k < rows->count; k++)
+        rows->x[2 * k] = re[k], rows->x[2 * k + 1] = im && rows->is_complex ? im[k] : 0;
     system_forces(rows);
 }
 
