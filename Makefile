@@ -282,7 +282,7 @@ $(B)/adversary: $(B)/obj/tools/adversary.o $(patsubst %.c,$(B)/obj/%.o,$(wildcar
 	$(Q)$(LINK) $^ -lquadmath $(LIBS) -o $@
 
 # Of the sources only what readers and exports need, and no GL.
-FUZZED := $(wildcard src/base/*.c src/spline/*.c src/scene/*.c src/model/*.c) src/ui/event.c \
+FUZZED := $(wildcard src/base/*.c src/spline/*.c src/scene/*.c src/model/*.c) src/ui/event.c src/ui/theme.c \
     $(addprefix src/app/,replay.c settings.c) $(addprefix src/timing/,readlog.c columns.c) \
     $(wildcard src/rig/*.c src/export/*.c) src/draw/skirt.c src/draw/posed.c $(addprefix src/simulation/,\
     drive.c softness.c lattice.c tiling.c voxels.c solid.c winding.c element.c material.c eigen.c)
