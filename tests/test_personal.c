@@ -4,7 +4,7 @@
 #include "inside.h"
 
 #include "app/personal.h"
-#include "app/remembered.h"
+#include "app/settings.h"
 #include "ui/theme.h"
 #include <stdio.h>
 #include <string.h>

@@ -2,7 +2,7 @@
 #include "blind.h"
 
 #include "app/personal.h"
-#include "app/remembered.h"
+#include "app/settings.h"
 #include "base/file.h"
 #include "folder.h"
 #include <stdio.h>

@@ -1,33 +1,62 @@
 /// The user's settings, recent files and recovery, for interactive windows.
 #include "app/personal.h"
 #include "app/autosave.h"
-#include "app/folders.h"
-#include "app/remembered.h"
+#include "app/settings.h"
 #include "app/state.h"
 #include "base/file.h"
 #include "base/need.h"
 #include "base/progress.h"
 #include "scene/load.h"
 #include "ui/theme.h"
+#include <errno.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <time.h>
 
-static const char settings_name[] = "settings";
+/// What the settings hold, besides files.
+struct choices {
+    enum theme_kind theme;
+    double ui_scale, stage_share, inspector_width;
+    bool is_welcomed; ///< somebody who has closed the card that says what to try first
+};
 
 struct personal {
     char settings_path[PATH_LIMIT + 16]; ///< "" where there is no folder for it
     char state_folder[PATH_LIMIT];
-    struct autosave *autosave;        ///< NULL: unsaved work is not kept
-    struct recovery_entry offered;    ///< what the dialog asks about
-    bool is_offered;                  ///< `offered` is claimed
-    bool is_new;                      ///< somebody who has not been told yet what to try first
-    enum theme_kind theme;            ///< as in the settings
-    double ui_scale;                  ///< the same
-    double stage_share, panels_width; ///< as they were at the start
+    struct autosave *autosave;     ///< NULL: unsaved work is not kept
+    struct recovery_entry offered; ///< what the dialog asks about
+    bool is_offered;               ///< `offered` is claimed
+    struct choices choices;        ///< as in the settings
 };
+
+/// Writes the path of the user's folder for such files ($XDG_CONFIG_HOME/wiggly, else ~/.config/wiggly): the base directory
+/// specification says to ignore a relative path in the variable.
+static bool find_folder(const char *variable, const char *below_home, char path[PATH_LIMIT], struct error *error)
+{
+    const char *own = getenv(variable), *home = getenv("HOME");
+    const bool is_set = own && own[0] == '/';
+    if (!is_set && (!home || home[0] != '/'))
+        return fail(error, ERROR_ENVIRONMENT, "no home folder: expected HOME or %s, got neither", variable);
+    const int length = is_set ? snprintf(path, PATH_LIMIT, "%s/wiggly", own)
+                              : snprintf(path, PATH_LIMIT, "%s/%s/wiggly", home, below_home);
+    return length < PATH_LIMIT || fail(error, ERROR_ENVIRONMENT, "the path of the folder %s is too long", path);
+}
+
+/// The same, and makes it and its parents if missing (readable by the user alone).
+static bool make_folder(const char *variable, const char *below_home, char path[PATH_LIMIT], struct error *error)
+{
+    if (!find_folder(variable, below_home, path, error)) return false;
+    for (char *slash = strchr(path + 1, '/');; slash = strchr(slash + 1, '/')) {
+        if (slash) *slash = '\0';
+        bool made = mkdir(path, 0700) == 0 || errno == EEXIST;
+        if (!made) return fail(error, ERROR_ENVIRONMENT, "%s: cannot be made: %s", path, strerror(errno));
+        if (!slash) return true;
+        *slash = '/';
+    }
+}
 
 static void complain(struct app *app, const struct error *error)
 {
@@ -50,98 +79,69 @@ static void store_settings(struct app *app, struct settings *settings)
     settings_free(settings);
 }
 
-static void store_text(struct app *app, const char *key, const char *value)
+static struct choices choices_of(const struct app *app)
 {
+    const struct layout *layout = &app->table.editor->core.layout;
+    return (struct choices){.theme = theme_in_use(),
+                            .ui_scale = app->ui_scale,
+                            .stage_share = (double)layout->stage_share,
+                            .inspector_width = (double)layout->inspector_width,
+                            .is_welcomed = !dialogs_is_welcoming(app->table.editor->dialogs)};
+}
+
+/// Stores what has changed; the panels' places only at the end, for they are dragged.
+static void note_choices(struct app *app, bool ends)
+{
+    struct choices before = app->personal->choices, now = choices_of(app);
+    now.is_welcomed |= before.is_welcomed; // once closed, the card for new users does not come back
+    if (!ends) now.stage_share = before.stage_share, now.inspector_width = before.inspector_width;
+    const bool has_moved = now.stage_share != before.stage_share || now.inspector_width != before.inspector_width;
+    if (now.theme == before.theme && now.ui_scale == before.ui_scale && !has_moved &&
+        now.is_welcomed == before.is_welcomed)
+        return;
+    app->personal->choices = now;
     struct settings *settings = open_settings(app);
     if (!settings) return;
-    settings_set(settings, key, value);
+    if (now.theme != before.theme) settings_set(settings, "theme", theme()->name);
+    if (now.ui_scale != before.ui_scale) settings_set_number(settings, "ui_scale", now.ui_scale);
+    if (has_moved) settings_set_number(settings, "stage_share", now.stage_share);
+    if (has_moved) settings_set_number(settings, "inspector_width", now.inspector_width);
+    if (now.is_welcomed && !before.is_welcomed) settings_set(settings, "welcomed", "yes");
     store_settings(app, settings);
 }
 
-static void store_number(struct app *app, const char *key, double value)
+static void start_choices(struct app *app, const struct settings *settings)
 {
-    struct settings *settings = open_settings(app);
-    if (!settings) return;
-    settings_set_number(settings, key, value);
-    store_settings(app, settings);
-}
-
-static void start_theme(struct app *app, const struct settings *settings)
-{
+    struct core *core = &app->table.editor->core;
     const char *name = settings_get(settings, "theme", 0);
-    int kind = name ? theme_find(name) : -1;
+    const int kind = name ? theme_find(name) : -1;
     if (kind >= 0 && !app->options->theme) theme_use((enum theme_kind)kind);
-    app->personal->theme = theme_in_use();
-}
-
-static void start_ui_scale(struct app *app, const struct settings *settings)
-{
-    const double stored = settings_number(settings, "ui_scale", app->ui_scale);
-    if (!(app->options->ui_scale > 0)) app->ui_scale = fmin(fmax(stored, UI_SCALE_LEAST), UI_SCALE_MOST);
-    app->personal->ui_scale = app->ui_scale;
+    core_set_panels(core, settings_number(settings, "stage_share", (double)core->layout.stage_share),
+                    settings_number(settings, "inspector_width", (double)core->layout.inspector_width));
+    const double scale = settings_number(settings, "ui_scale", app->ui_scale);
+    if (!(app->options->ui_scale > 0)) app->ui_scale = fmin(fmax(scale, UI_SCALE_LEAST), UI_SCALE_MOST);
     ui_scale_fit(app);
+    if (!settings_get(settings, "welcomed", 0)) dialogs_welcome(app->table.editor->dialogs);
+    app->personal->choices = choices_of(app);
 }
 
 static void start_settings(struct app *app)
 {
     struct personal *personal = app->personal;
     struct error error = {0};
+    struct export_memory memory;
     char folder[PATH_LIMIT];
-    if (folder_make(FOLDER_CONFIG, folder, sizeof folder, &error)) {
-        snprintf(personal->settings_path, sizeof personal->settings_path, "%s/%s", folder, settings_name);
+    if (!make_folder("XDG_CONFIG_HOME", ".config", folder, &error)) {
+        complain(app, &error);
+        return;
     }
-    struct settings *settings = personal->settings_path[0] ? settings_open(personal->settings_path, &error) : NULL;
-    const struct layout *layout = &app->table.editor->core.layout;
-    personal->stage_share = (double)layout->stage_share;
-    personal->panels_width = (double)layout->inspector_width;
-    if (settings) {
-        personal->stage_share = settings_number(settings, "stage_share", personal->stage_share);
-        personal->panels_width = settings_number(settings, "inspector_width", personal->panels_width);
-        core_set_panels(&app->table.editor->core, personal->stage_share, personal->panels_width);
-        start_theme(app, settings);
-        start_ui_scale(app, settings);
-        struct export_memory memory;
-        export_memory_read(settings, app_path(app), &memory);
-        dialogs_set_export(app->table.editor->dialogs, &memory);
-        personal->is_new = !settings_get(settings, "welcomed", 0);
-        if (personal->is_new) dialogs_welcome(app->table.editor->dialogs);
-    }
+    snprintf(personal->settings_path, sizeof personal->settings_path, "%s/settings", folder);
+    struct settings *settings = settings_load(personal->settings_path, &error);
+    start_choices(app, settings);
+    export_memory_read(settings, app_path(app), &memory);
+    dialogs_set_export(app->table.editor->dialogs, &memory);
     settings_free(settings);
     complain(app, &error);
-}
-
-/// Stores the theme once its key has changed it.
-static void note_theme(struct app *app)
-{
-    if (app->personal->theme == theme_in_use()) return;
-    app->personal->theme = theme_in_use();
-    store_text(app, "theme", theme()->name);
-}
-
-/// Stores the scale once it has been changed.
-static void note_ui_scale(struct app *app)
-{
-    if (app->personal->ui_scale == app->ui_scale || app->options->record || app->options->frames) return;
-    app->personal->ui_scale = app->ui_scale;
-    store_number(app, "ui_scale", app->ui_scale);
-}
-
-/// Once closed, the card for new users does not come back.
-static void note_welcomed(struct app *app)
-{
-    if (!app->personal->is_new || dialogs_is_welcoming(app->table.editor->dialogs)) return;
-    app->personal->is_new = false;
-    store_text(app, "welcomed", "yes");
-}
-
-static void end_settings(struct app *app)
-{
-    struct personal *personal = app->personal;
-    const struct layout *layout = &app->table.editor->core.layout;
-    const double share = (double)layout->stage_share, width = (double)layout->inspector_width;
-    if (share == personal->stage_share && width == personal->panels_width) return;
-    store_number(app, "stage_share", share);
-    store_number(app, "inspector_width", width);
 }
 
 void personal_note_file(struct app *app, const char *path)
@@ -216,7 +216,7 @@ static void start_autosave(struct app *app)
     struct personal *personal = app->personal;
     struct error error = {0};
     struct recovery_slot slot;
-    if (!folder_make(FOLDER_STATE, personal->state_folder, sizeof personal->state_folder, &error) ||
+    if (!make_folder("XDG_STATE_HOME", ".local/state", personal->state_folder, &error) ||
         !recovery_claim(personal->state_folder, &slot, &error)) {
         complain(app, &error);
         return;
@@ -248,9 +248,7 @@ void personal_update(struct app *app)
 {
     struct error error = {0};
     if (!app->personal) return;
-    note_theme(app);
-    note_ui_scale(app);
-    note_welcomed(app);
+    note_choices(app, false);
     struct autosave *autosave = app->personal->autosave;
     const struct autosave_work work = work_of(app);
     if (autosave && !autosave_update(autosave, &work, clock_now(), &error)) complain(app, &error);
@@ -303,7 +301,7 @@ void personal_end(struct app *app, bool keep)
 {
     struct personal *personal = app->personal;
     if (!personal) return;
-    end_settings(app);
+    note_choices(app, true);
     if (personal->is_offered) recovery_release(&personal->offered.slot);
     autosave_close(personal->autosave, keep && !history_is_saved(app->table.history));
     free(personal);
