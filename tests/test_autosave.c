@@ -1,7 +1,7 @@
 /// Recovery files: what is in them when, who may have them, and that a program that is killed leaves them whole.
 #include "near.h"
 
-#include "app/autosave.h"
+#include "app/recovery.h"
 #include "base/file.h"
 #include "folder.h"
 #include "scene/load.h"
@@ -138,7 +138,7 @@ TEST_WITH(folder_make, folder_remove, test_newest_first)
     for (int i = 0; i < 3; i++) {
         struct scene_origin origin = {.content = 1};
         strcpy(origin.path, originals[order[i]]);
-        assert_true(recovery_write(&slots[order[i]], document, &origin, &error));
+        assert_true(scene_save_for(document, slots[order[i]].path, &origin, &error));
         nanosleep(&(struct timespec){.tv_nsec = 20000000}, NULL); // the clock of file times is a coarse one
     }
     for (int i = 0; i < 3; i++) recovery_release(&slots[i]);

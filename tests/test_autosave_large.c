@@ -1,7 +1,7 @@
 /// Recovery files of a large scene, in the app's frames: soon after an edit, of one moment, and there after a kill.
 #include "blind.h"
 
-#include "app/autosave.h"
+#include "app/recovery.h"
 #include "base/file.h"
 #include "folder.h"
 #include "scene/load.h"

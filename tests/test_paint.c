@@ -391,7 +391,7 @@ TEST(a_recovery_file_keeps_paint)
     struct error error = {0};
     paint_stroke(&s);
     if (!recovery_claim(folder, &slot, &error)) fail_msg("%s", error.text);
-    assert_true(recovery_write(&slot, s.document, &(struct scene_origin){.path = "/walk.json"}, &error));
+    assert_true(scene_save_for(s.document, slot.path, &(struct scene_origin){.path = "/walk.json"}, &error));
     assert_holds_paint(&s, slot.path);
     recovery_release(&slot);
     studio_close(&s);

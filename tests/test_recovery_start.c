@@ -41,7 +41,7 @@ static void leave(const char *original, const char *name)
     struct document *document = scene_parse("left", text, strlen(text), NULL, &error);
     struct scene_origin origin = {0};
     snprintf(origin.path, sizeof origin.path, "%s", original);
-    assert_true(recovery_write(&slot, document, &origin, &error));
+    assert_true(scene_save_for(document, slot.path, &origin, &error));
     document_destroy(document);
     recovery_release(&slot);
 }

@@ -2,7 +2,7 @@
 #include "gltf_builder.h"
 #include "starve.h"
 
-#include "app/autosave.h"
+#include "app/recovery.h"
 #include "base/file.h"
 #include "base/json.h"
 #include "base/lapack.h"

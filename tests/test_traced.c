@@ -3,8 +3,8 @@
 #include "folder.h"
 #include "traced.h"
 
-#include "app/autosave.h"
 #include "app/film_file.h"
+#include "app/recovery.h"
 #include "base/file.h"
 #include "commands/commands.h"
 #include "scene/load.h"

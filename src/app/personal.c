@@ -1,6 +1,6 @@
 /// The user's settings, recent files and recovery, for interactive windows.
 #include "app/personal.h"
-#include "app/autosave.h"
+#include "app/recovery.h"
 #include "app/settings.h"
 #include "app/state.h"
 #include "base/file.h"

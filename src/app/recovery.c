@@ -1,14 +1,16 @@
-/// Slots of recovery files, locked by the program that uses them.
+/// Slots of recovery files, locked by the program that uses them, and the thread that writes them.
 #include "app/recovery.h"
-#include "base/file.h"
-#include "scene/load.h"
+#include "base/need.h"
 #include <errno.h>
 #include <fcntl.h>
+#include <math.h>
+#include <stdatomic.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/file.h>
 #include <sys/stat.h>
+#include <threads.h>
 #include <unistd.h>
 
 /// The lock file is never removed: that would let two programs hold two locks of one name.
@@ -87,21 +89,136 @@ bool recovery_find(const char *folder, const char *of, struct recovery_entry *en
     return true;
 }
 
-bool recovery_write(const struct recovery_slot *slot, const struct document *document,
-                    const struct scene_origin *origin, struct error *error)
+void recovery_remove(const struct recovery_slot *slot) { unlink(slot->path); }
+
+static const double INTERVAL = 1; ///< seconds from the start of one write to that of the next
+
+struct autosave {
+    struct recovery_slot slot;
+    uint64_t revision; ///< of the last write
+    double begun;      ///< when
+    bool has_file, complained;
+
+    bool writes;               ///< there is a write that has not been reported
+    struct document *document; ///< the thread's until `ended`, like the next two
+    struct scene_origin origin;
+    struct error error; ///< of a failure
+    thrd_t thread;
+    bool threaded; ///< to be joined
+    atomic_bool ended;
+};
+
+static struct scene_origin origin_of(const struct autosave_work *work)
 {
-    struct file_output output;
-    char folder[PATH_LIMIT];
-    size_t size;
-    if (!path_folder(slot->path, folder)) return fail(error, ERROR_ENVIRONMENT, "the path is too long");
-    char *text = scene_print_for(document, folder, origin, &size);
-    const bool opened = file_output_open(&output, slot->path, error);
-    if (opened) {
-        fchmod(fileno(output.stream), 0600); // the work is nobody else's
-        fwrite(text, 1, size, output.stream);
-    }
-    free(text);
-    return opened && file_output_commit(&output, error);
+    struct scene_origin origin = {.content = work->content};
+    snprintf(origin.path, sizeof origin.path, "%s", work->path);
+    return origin;
 }
 
-void recovery_remove(const struct recovery_slot *slot) { unlink(slot->path); }
+static int run(void *user)
+{
+    struct autosave *autosave = user;
+    autosave->error = (struct error){0};
+    scene_save_for(autosave->document, autosave->slot.path, &autosave->origin, &autosave->error);
+    atomic_store(&autosave->ended, true);
+    return 0;
+}
+
+struct autosave *autosave_open(const struct recovery_slot *slot)
+{
+    struct autosave *autosave = need_zeroed(1, sizeof *autosave);
+    autosave->slot = *slot;
+    autosave->begun = -INFINITY;
+    return autosave;
+}
+
+static void begin(struct autosave *autosave, const struct autosave_work *work, double now)
+{
+    autosave->document = document_copy(work->document);
+    autosave->origin = origin_of(work);
+    autosave->revision = work->revision;
+    autosave->begun = now;
+    autosave->writes = autosave->has_file = true;
+    atomic_store(&autosave->ended, false);
+    autosave->threaded = thrd_create(&autosave->thread, run, autosave) == thrd_success;
+    if (!autosave->threaded) run(autosave); // a late frame is better than lost work
+}
+
+static bool is_busy(struct autosave *autosave) { return autosave->writes && !atomic_load(&autosave->ended); }
+
+/// For the thread, unless it is the one that calls.
+static void wait(struct autosave *autosave)
+{
+    while (is_busy(autosave) && !thrd_equal(thrd_current(), autosave->thread))
+        thrd_sleep(&(struct timespec){.tv_nsec = 1000000}, NULL);
+}
+
+/// Ends what the last write leaves.
+static void finish(struct autosave *autosave)
+{
+    if (autosave->threaded) thrd_join(autosave->thread, NULL);
+    document_destroy(autosave->document);
+    autosave->document = NULL;
+    autosave->threaded = autosave->writes = false;
+}
+
+/// What came of the last write: only the first failure in a row is told; the next interval tries again.
+static bool report(struct autosave *autosave, struct error *error)
+{
+    if (!autosave->writes) return true;
+    const bool failed = autosave->error.kind != ERROR_NONE, is_news = failed && !autosave->complained;
+    finish(autosave);
+    autosave->complained = failed;
+    if (failed) autosave->revision = 0;
+    return !is_news || fail(error, ERROR_ENVIRONMENT, "Unsaved work has no recovery file: %s", autosave->error.text);
+}
+
+bool autosave_is_behind(struct autosave *autosave, const struct autosave_work *work)
+{
+    return !work->saved && work->revision != autosave->revision;
+}
+
+bool autosave_update(struct autosave *autosave, const struct autosave_work *work, double now, struct error *error)
+{
+    if (is_busy(autosave)) return true;
+    const bool good = report(autosave, error);
+    if (work->saved) {
+        if (autosave->has_file) recovery_remove(&autosave->slot);
+        autosave->has_file = false;
+        autosave->revision = 0;
+    } else if (autosave_is_behind(autosave, work) && now - autosave->begun >= INTERVAL) {
+        begin(autosave, work, now);
+    }
+    return good;
+}
+
+bool autosave_fails(const struct autosave *autosave) { return autosave->complained; }
+
+bool autosave_flush(struct autosave *autosave, const struct autosave_work *work, struct error *error)
+{
+    const struct scene_origin origin = origin_of(work);
+    wait(autosave);
+    autosave->has_file = true;
+    return scene_save_for(work->document, autosave->slot.path, &origin, error);
+}
+
+void autosave_move(struct autosave *autosave, const struct recovery_slot *slot)
+{
+    wait(autosave);
+    recovery_remove(&autosave->slot);
+    recovery_release(&autosave->slot);
+    autosave->slot = *slot;
+    autosave->has_file = true;
+}
+
+const char *autosave_path(const struct autosave *autosave) { return autosave->slot.path; }
+
+void autosave_close(struct autosave *autosave, bool keep)
+{
+    if (!autosave) return;
+    wait(autosave);
+    finish(autosave);
+    if (!keep) recovery_remove(&autosave->slot);
+    recovery_release(&autosave->slot);
+    free(autosave);
+}

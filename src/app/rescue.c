@@ -13,21 +13,17 @@
 enum { MAX_NAMES = 1000 };
 enum { RESERVE = 64 << 20, LONGEST_WAIT = 2 }; ///< bytes put by for the rescue; seconds
 
-/// A place for the work: `folder` "" is the working folder, `name` has no ending.
-struct place {
-    const char *folder, *name;
-    int name_length;
-};
-
-static bool write_to(const struct app *app, const struct place *place, char *path, size_t size, struct error *error)
+/// Writes the work into a folder, "" being the working folder, under a name that is free.
+static bool write_to(const struct app *app, const char *folder, char *path, size_t size, struct error *error)
 {
-    const char *slash = place->folder[0] ? "/" : "";
+    const char *name = app_path(app)[0] ? path_name(app_path(app)) : "untitled.json", *dot = strrchr(name, '.');
+    const int stem = (int)(dot && dot > name ? dot - name : (long)strlen(name));
     for (int i = 1; i <= MAX_NAMES; i++) {
         char number[16] = "";
         if (i > 1) snprintf(number, sizeof number, "-%d", i);
-        int length = snprintf(path, size, "%s%s%.*s.recovered%s.json", place->folder, slash, place->name_length,
-                              place->name, number);
-        if (length >= (int)size) return fail(error, ERROR_ENVIRONMENT, "%s: the path is too long", place->name);
+        int length =
+            snprintf(path, size, "%s%s%.*s.recovered%s.json", folder, folder[0] ? "/" : "", stem, name, number);
+        if (length >= (int)size) return fail(error, ERROR_ENVIRONMENT, "%s: the path is too long", name);
         struct stat about; // of the name itself: a link that leads nowhere is somebody's
         if (lstat(path, &about) != 0) return scene_save(app->table.document, path, error);
     }
@@ -35,27 +31,18 @@ static bool write_to(const struct app *app, const struct place *place, char *pat
 }
 
 /// Beside the scene's own file, else in the home folder, else in a new folder of ours where all may write: nobody can have put a link
-/// there.
+/// there. What failed first is told.
 static bool write_somewhere(const struct app *app, char *path, size_t size, struct error *error)
 {
-    const char *home = getenv("HOME"), *own = app_path(app)[0] ? app_path(app) : "untitled.json";
-    const char *name = path_name(own), *dot = strrchr(name, '.');
-    int stem = (int)(dot && dot > name ? dot - name : (long)strlen(name));
-    const struct place places[] = {
-        {"", own, (int)(name - own) + stem},
-        {home ? home : "", name, stem},
-    };
-    char shared[] = "/tmp/wiggly-XXXXXX";
-    struct error first = {0};
-    for (size_t i = 0; i < sizeof places / sizeof *places; i++) {
-        if (write_to(app, &places[i], path, size, i == 0 ? &first : error)) return true;
-    }
-    const struct place last = {shared, name, stem};
-    if (mkdtemp(shared)) {
-        if (write_to(app, &last, path, size, error)) return true;
-        rmdir(shared);
-    }
-    *error = first;
+    char beside[PATH_LIMIT], shared[] = "/tmp/wiggly-XXXXXX";
+    const char *home = getenv("HOME");
+    struct error other;
+    path_folder(app_path(app), beside);
+    if (write_to(app, beside, path, size, error)) return true;
+    if (write_to(app, home ? home : "", path, size, &other)) return true;
+    if (!mkdtemp(shared)) return false;
+    if (write_to(app, shared, path, size, &other)) return true;
+    rmdir(shared);
     return false;
 }
 

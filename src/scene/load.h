@@ -45,6 +45,10 @@ char *scene_print_for(const struct document *document, const char *folder, const
 /// Writes the canonical text into a file, whole or not at all; paths in it are relative to the file's folder.
 bool scene_save(const struct document *document, const char *path, struct error *error);
 
+/// The same with its `origin`, readable by the user alone.
+bool scene_save_for(const struct document *document, const char *path, const struct scene_origin *origin,
+                    struct error *error);
+
 /// Reads the paint that a scene names as .npy files and has not inside. If a file is missing or broken, it reads the others
 /// and returns false with the first error; the character then moves as its model does, and the name stays in the document.
 bool scene_read_paint(struct document *document, struct error *error);

@@ -7,6 +7,7 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
 static bool is_parameter(const char *key) { return parameter_find(key) != PARAMETER_COUNT; }
 
@@ -154,15 +155,24 @@ char *scene_print(const struct document *document, size_t *size)
     return scene_print_for(document, document->folder, NULL, size);
 }
 
-bool scene_save(const struct document *document, const char *path, struct error *error)
+bool scene_save_for(const struct document *document, const char *path, const struct scene_origin *origin,
+                    struct error *error)
 {
+    struct file_output output;
     char folder[PATH_LIMIT];
     size_t size;
     if (!path_folder(path, folder)) return fail(error, ERROR_ENVIRONMENT, "%s: the path is too long", path);
-    char *text = scene_print_for(document, folder, NULL, &size);
-    const bool saved = file_write_atomic(path, text, size, error);
+    char *text = scene_print_for(document, folder, origin, &size);
+    const bool opened = file_output_open(&output, path, error);
+    if (opened && origin) fchmod(fileno(output.stream), 0600); // the work is nobody else's
+    if (opened) fwrite(text, 1, size, output.stream);
     free(text);
-    return saved;
+    return opened && file_output_commit(&output, error);
+}
+
+bool scene_save(const struct document *document, const char *path, struct error *error)
+{
+    return scene_save_for(document, path, NULL, error);
 }
 
 uint64_t scene_hash(const struct document *document)
