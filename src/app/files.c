@@ -1,5 +1,5 @@
-/// Carries out what the editor may only ask for: files, the window, and the end of the run.
-#include "app/assets.h"
+/// Carries out what the editor may only ask for: files, the clipboard, the window, and the end of the run. Notices that somebody else has
+/// written the document's file.
 #include "app/exporting.h"
 #include "app/state.h"
 #include "base/embedded.h"
@@ -24,7 +24,76 @@ static const char new_scene[] =
     " \"rigs\": [{\"type\": \"tail\", \"name\": \"tail\", \"position\": [0, 0.26, 0], \"rest\": 2,"
     " \"spline\": \"sway\"}]}";
 
+/// Seen from the program's folder. The installation comes first: beside it may be somebody's own assets/scenes.
+static const char *const places[] = {"../share/wiggly/scenes", "../assets/scenes", "../../assets/scenes",
+                                     "../../../assets/scenes"};
+
+/// The folder of the scenes that come with the running program: those of the tree that it was built in, or of its installation. false
+/// if it stands alone.
+static bool assets_folder(char folder[PATH_LIMIT])
+{
+    char program[PATH_LIMIT], beside[PATH_LIMIT];
+    ssize_t length = readlink("/proc/self/exe", program, sizeof program - 1);
+    if (length < 0) return false;
+    program[length] = '\0';
+    if (!path_folder(program, beside)) return false;
+    for (size_t i = 0; i < sizeof places / sizeof *places; i++) {
+        if (path_resolve(beside, places[i], folder) && access(folder, F_OK) == 0) return true;
+    }
+    return false;
+}
+
+/// Compares folders by identity, not name: one may be mounted in two places.
+static bool is_same(const char *folder, const char *other)
+{
+    struct stat a, b;
+    return stat(folder, &a) == 0 && stat(other, &b) == 0 && a.st_dev == b.st_dev && a.st_ino == b.st_ino;
+}
+
+/// Whether a file (after following links) is in that folder.
+static bool assets_has(const char *path)
+{
+    char file[PATH_LIMIT], folder[PATH_LIMIT], own[PATH_LIMIT];
+    return realpath(path, file) && path_folder(file, folder) && assets_folder(own) && is_same(folder, own);
+}
+
 const char *app_path(const struct app *app) { return app->table.document->path ? app->table.document->path : ""; }
+
+void file_watch_note(struct app *app, uint64_t content)
+{
+    struct own_file *own = &app->own_file;
+    snprintf(own->path, sizeof own->path, "%s", app_path(app));
+    own->content = content;
+}
+
+static void file_watch_note_now(struct app *app) { file_watch_note(app, file_content(app_path(app))); }
+
+uint64_t file_watch_known(const struct app *app)
+{
+    const struct own_file *own = &app->own_file;
+    return strcmp(own->path, app_path(app)) == 0 ? own->content
+                                                 : 0; // another document's file, back by undo: who knows
+}
+
+/// What somebody else has written into the document's file; 0: nothing, or it is gone.
+static uint64_t changed_content(const struct app *app)
+{
+    const uint64_t now = app_path(app)[0] ? file_content(app_path(app)) : 0;
+    return now == file_watch_known(app) ? 0 : now;
+}
+
+/// Asks what to do about a changed file: instead of saving, if the user `saves`.
+static bool ask_changed(struct app *app, bool saves)
+{
+    return dialogs_ask_changed(app->table.editor->dialogs, &app->table.editor->core, path_name(app_path(app)), saves);
+}
+
+void file_watch_look(struct app *app)
+{
+    const uint64_t now = changed_content(app);
+    if (now == 0 || now == app->own_file.asked) return;
+    if (ask_changed(app, false)) app->own_file.asked = now;
+}
 
 static void show_title(struct app *app)
 {
@@ -278,7 +347,8 @@ static bool carry_out(struct app *app, const struct request *request, struct err
     case REQUEST_UI_SCALE:
         return ui_scale_step(app, request->number, error);
     case REQUEST_COPY:
-        app_copy(app);
+        // not in a replay, which must leave the user's clipboard alone
+        if (!app->replay) platform_set_clipboard(app->platform, app->table.editor->core.clipboard);
         return true;
     case REQUEST_PASTE:
         app->paste = !app->replay; /* a replay has the text that was pasted when it was recorded */
@@ -292,7 +362,7 @@ static bool is_asked_about(struct app *app, const struct request *request)
 {
     const bool saves = request->kind == REQUEST_SAVE ||
                        (request->kind == REQUEST_SAVE_AS && strcmp(request->path, app_path(app)) == 0);
-    return saves && file_watch_stops_save(app);
+    return saves && changed_content(app) && ask_changed(app, true);
 }
 
 void app_requests(struct app *app)
@@ -306,6 +376,20 @@ void app_requests(struct app *app)
         const bool goes_on = done && request.kind == REQUEST_EXPORT;
         if (!goes_on) editor_answer(app->table.editor, &request, done, error.text);
     }
+}
+
+enum { MAX_CLIPBOARD = 16 << 20 }; ///< bytes
+
+const char *app_clipboard_text(struct app *app)
+{
+    const char *text = platform_clipboard(app->platform);
+    if (!text || !*text) {
+        core_message(&app->table.editor->core, false, "The clipboard has no text.");
+    } else if (strlen(text) > MAX_CLIPBOARD) {
+        core_message(&app->table.editor->core, true, "The clipboard holds more than 16 MB, too much for knots.");
+        text = NULL;
+    }
+    return text && *text ? text : NULL;
 }
 
 static bool is_scene_name(const char *name)

@@ -1,6 +1,7 @@
-/// One frame of the app: take input, work on the table, draw, log.
+/// One frame of the app: take input (the window's, a replay's, the demo's), work on the table, draw, log.
 #include "app/exporting.h"
 #include "app/state.h"
+#include "base/embedded.h"
 #include "base/progress.h"
 #include "platform/process.h"
 #include <limits.h>
@@ -59,6 +60,53 @@ static void play_events(struct app *app)
     if (app->error.kind != ERROR_NONE) app->failed = true;
 }
 
+struct replay *demo_replay(struct error *error)
+{
+    const struct embedded *file = embedded_find("demo/demo.replay");
+    if (file) return replay_parse("demo.replay", (const char *)file->data, file->size, error);
+    fail(error, ERROR_ENVIRONMENT, "the demo is not in this build");
+    return NULL;
+}
+
+/// Everything as it was when the program started: whoever watches has changed nothing, and a round depends on no other.
+static bool start_anew(struct app *app, struct error *error)
+{
+    theme_use(app->demo.theme);
+    app_open_editor(app);
+    return app_open(app, NULL, error);
+}
+
+bool demo_next(struct app *app, double dt, struct error *error)
+{
+    struct demo *demo = &app->demo;
+    demo->seconds += dt;
+    demo->frame = (long)(60 * demo->seconds + 0.5);
+    if (demo->frame < replay_get_header(app->replay)->frames) return true;
+    replay_destroy(app->replay);
+    app->replay = demo_replay(error);
+    demo->seconds = 0;
+    demo->frame = 0;
+    return app->replay && start_anew(app, error);
+}
+
+/// Whether somebody wants to try for themselves.
+static bool is_touch(const struct event *event)
+{
+    const bool pressed = event->kind == EVENT_KEY || event->kind == EVENT_BUTTON;
+    return (pressed && event->action == ACTION_PRESS) || event->kind == EVENT_WHEEL || event->kind == EVENT_DROP;
+}
+
+/// Ends the demo with the start scene and the user's settings, as without one.
+static bool stop_demo(struct app *app, struct error *error)
+{
+    replay_destroy(app->replay);
+    app->replay = NULL;
+    app->demo.on = false;
+    if (!start_anew(app, error)) return false;
+    if (platform_is_window(app->platform)) personal_start(app);
+    return true;
+}
+
 /// The demo's next frame, unless somebody has stopped it.
 static void play_demo(struct app *app)
 {
@@ -73,7 +121,7 @@ static bool is_for_editor(struct app *app, const struct event *event)
     if (!app->replay || event->kind == EVENT_EXPOSE) return true;
     if (!app->demo.on) return event->kind == EVENT_CLOSE;
     app->quit |= event->kind == EVENT_CLOSE;
-    if (demo_is_touched_by(event) && !demo_stop(app, &app->error)) app->failed = true;
+    if (is_touch(event) && !stop_demo(app, &app->error)) app->failed = true;
     return event->kind == EVENT_SIZE || event->kind == EVENT_DROP;
 }
 

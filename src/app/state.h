@@ -111,15 +111,11 @@ void app_rescue_without_memory(struct app *app);
 /// A new size of the window, in logical pixels of the display.
 void app_resize(struct app *app, float width, float height, float scale);
 
-/// The document has to do with that content of its own file, or with what is in it now: it says the same, or the user has seen it.
+/// The document has to do with that content of its own file: it says the same, or the user has seen it.
 void file_watch_note(struct app *app, uint64_t content);
-void file_watch_note_now(struct app *app);
 
 /// The content of the document's own file that was noted; 0: unknown.
 uint64_t file_watch_known(const struct app *app);
-
-/// Whether saving has to wait, for somebody else has changed the file: the user is asked.
-bool file_watch_stops_save(struct app *app);
 
 /// The window has the focus again: asks what to do about a changed file, once for each change.
 void file_watch_look(struct app *app);
@@ -137,10 +133,6 @@ bool ui_scale_step(struct app *app, int direction, struct error *error);
 struct replay *demo_replay(struct error *error);
 /// `dt` seconds on; behind the recording's end the next round begins.
 bool demo_next(struct app *app, double dt, struct error *error);
-/// Whether somebody wants to try for themselves.
-bool demo_is_touched_by(const struct event *event);
-/// Ends it with the start scene and the user's settings, as without a demo.
-bool demo_stop(struct app *app, struct error *error);
 
 /// The folder in which the editor's dialogs look for files.
 void app_connect_files(struct app *app);
@@ -148,8 +140,6 @@ void app_connect_files(struct app *app);
 /// Gives up the export that runs, with nothing written.
 void app_stop_export(struct app *app);
 
-/// Copies the editor's text to the clipboard (not in a replay, which must leave the user's clipboard alone).
-void app_copy(struct app *app);
 /// The clipboard's text, or NULL, telling the user that there is none or too much.
 const char *app_clipboard_text(struct app *app);
 
