@@ -285,7 +285,7 @@ $(B)/adversary: $(B)/obj/tools/adversary.o $(patsubst %.c,$(B)/obj/%.o,$(wildcar
 FUZZED := $(wildcard src/base/*.c src/spline/*.c src/scene/*.c src/model/*.c) src/ui/event.c src/ui/theme.c \
     $(addprefix src/app/,replay.c settings.c) $(addprefix src/timing/,readlog.c columns.c) \
     $(wildcard src/rig/*.c src/export/*.c) src/draw/skirt.c src/draw/posed.c $(addprefix src/simulation/,\
-    drive.c softness.c lattice.c tiling.c voxels.c solid.c winding.c element.c material.c eigen.c)
+    drive.c region.c lattice.c tiling.c voxels.c solid.c winding.c element.c eigen.c)
 fuzzers: $(FUZZERS:%=$(B)/%)
 $(B)/fuzzed.a: $(FUZZED:%.c=$(B)/obj/%.o) $(B)/obj/embedded_table.o $(B)/obj/embedded_data.o $(FUZZ_SUPPORT:%.c=$(B)/obj/%.o)
 	$(Q)rm -f $@ && ar rcs $@ $^

@@ -6,7 +6,6 @@
 
 #include "simulation/blocks.h"
 #include "simulation/element.h"
-#include "simulation/material.h"
 #include <stdbool.h>
 
 struct body {

@@ -9,16 +9,10 @@
 /// Each triangle gives a third of its area to its corners.
 static void add_areas(const struct surface *surface, double *area)
 {
-    for (int i = 0; i < surface->index_count; i += 3) {
-        double edge[2][3], across[3];
-        const uint32_t *corner = surface->indices + i;
-        for (int c = 0; c < 3; c++) {
-            for (int k = 0; k < 2; k++) {
-                edge[k][c] = (double)surface->position[corner[k + 1]][c] - (double)surface->position[corner[0]][c];
-            }
-        }
-        vec3_cross(edge[0], edge[1], across);
-        for (int k = 0; k < 3; k++) area[corner[k]] += vec3_length(across) / 6;
+    double normal[3], middle[3];
+    for (int i = 0; i < surface->index_count; i++) {
+        triangle_measure(surface, i / 3, normal, middle);
+        area[surface->indices[i]] += vec3_length(normal) / 6;
     }
 }
 

@@ -4,7 +4,6 @@
 #include "base/progress.h"
 #include "simulation/element.h"
 #include "simulation/linear.h"
-#include "simulation/tiling.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -20,14 +19,12 @@ static double solid_volume(const struct solid *solid)
 {
     const struct surface *surface = &solid->shape;
     double sum = 0, lo[3], hi[3];
-    for (int i = 0; i < surface->index_count; i += 3) {
-        double edge[3][3], across[3];
-        for (int k = 0; k < 3; k++) {
-            const float *p = surface->position[surface->indices[i + k]];
-            for (int c = 0; c < 3; c++) edge[k][c] = (double)p[c] - (double)surface->position[0][c];
-        }
-        vec3_cross(edge[0], edge[1], across);
-        sum += vec3_dot(across, edge[2]) / 6;
+    for (int t = 0; t < surface->index_count / 3; t++) {
+        double p[3][3], across[3];
+        triangle_corners(surface, t, p);
+        for (int k = 0; k < 9; k++) p[k / 3][k % 3] -= (double)surface->position[0][k % 3];
+        vec3_cross(p[0], p[1], across);
+        sum += vec3_dot(across, p[2]) / 6;
     }
     surface_bounds(surface, lo, hi);
     const double box = (hi[0] - lo[0]) * (hi[1] - lo[1]) * (hi[2] - lo[2]);
@@ -164,15 +161,9 @@ static void locate(const struct lattice *lattice, int tet, const float point[3],
 static double (*normals_of(const struct surface *surface))[3]
 {
     double(*normal)[3] = need_zeroed((size_t)surface->vertex_count + 1, sizeof *normal);
-    for (int i = 0; normal && i < surface->index_count; i++) { // each corner adds its triangle's normal
-        double edge[2][3], across[3];
-        const uint32_t *corner = surface->indices + i / 3 * 3;
-        for (int c = 0; c < 3; c++) {
-            for (int k = 0; k < 2; k++) {
-                edge[k][c] = (double)surface->position[corner[k + 1]][c] - (double)surface->position[corner[0]][c];
-            }
-        }
-        vec3_cross(edge[0], edge[1], across);
+    for (int i = 0; i < surface->index_count; i++) { // each corner adds its triangle's normal
+        double across[3], middle[3];
+        triangle_measure(surface, i / 3, across, middle);
         for (int c = 0; c < 3; c++) normal[surface->indices[i]][c] += across[c];
     }
     return normal;

@@ -1,7 +1,10 @@
-/// Reads and applies --pin.
+/// Reads and applies --pin; weights of nodes, from vertices or from distances, and the elements' stiffness from these: --soft.
 #include "simulation/region.h"
+#include "base/file.h"
 #include "base/need.h"
+#include "base/npy.h"
 #include "base/png.h"
+#include "simulation/linear.h"
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -108,4 +111,110 @@ bool region_nodes(const struct region *region, const struct lattice *lattice, co
         if (region->kind == REGION_SPHERE) inside[i] = squared <= region->size * region->size;
     }
     return true;
+}
+
+enum { FILE_LIMIT = 1 << 30 };
+
+/// Shortest ways along the elements' edges from the pinned nodes (Bellman and Ford), the longest being 1.
+static bool weigh_distance(const struct lattice *lattice, const struct body *body, const char *name, double *node,
+                           struct error *error)
+{
+    double longest = 0;
+    for (int i = 0; i < lattice->node_count; i++) node[i] = body->pinned[i] ? 0 : INFINITY;
+    for (bool changed = true; changed;) {
+        changed = false;
+        for (int e = 0; e < lattice->tet_count; e++) {
+            for (int k = 0; k < 16; k++) {
+                int from = lattice->tet[e][k / 4], to = lattice->tet[e][k % 4];
+                double edge[3];
+                for (int c = 0; c < 3; c++) edge[c] = lattice->node[to][c] - lattice->node[from][c];
+                double way = node[from] + vec3_length(edge);
+                if (way >= node[to]) continue;
+                node[to] = way;
+                changed = true;
+            }
+        }
+    }
+    for (int i = 0; i < lattice->node_count; i++) longest = isfinite(node[i]) ? fmax(longest, node[i]) : longest;
+    for (int i = 0; i < lattice->node_count; i++) node[i] = fmin(1, node[i] / longest);
+    return longest > 0 || fail(error, ERROR_INPUT, "%s: --soft distance: expected a pinned region, got none", name);
+}
+
+static bool weigh_color(const struct surface *surface, const char *name, double *vertex, struct error *error)
+{
+    if (!surface->color)
+        return fail(error, ERROR_INPUT, "%s: --soft color: expected colours of vertices, got none", name);
+    for (int i = 0; i < surface->vertex_count; i++) {
+        for (int c = 0; c < 3; c++) vertex[i] += (double)srgb_from_linear(surface->color[i][c]) / 3;
+        vertex[i] = fmin(1, fmax(0, vertex[i])); // files may have colours brighter than white, and darker than black
+    }
+    return true;
+}
+
+/// The numbers of a .npy of `vertices` float32 or float64 numbers.
+static bool read_weights(const char *path, const char *data, size_t size, int vertices, double *vertex,
+                         struct error *error)
+{
+    struct npy npy;
+    char text[NPY_DICTIONARY + 1];
+    if (size < NPY_START) return fail(error, ERROR_INPUT, "%s: expected a .npy file, got %zu bytes", path, size);
+    if (!npy_start(&npy, path, (const unsigned char *)data, error)) return false;
+    if ((size_t)npy.data > size)
+        return fail(error, ERROR_INPUT, "%s: expected a header of %lld bytes, got %zu", path, (long long)npy.data,
+                    size);
+    memcpy(text, data + npy.data - npy.dictionary, npy.dictionary);
+    text[npy.dictionary] = '\0';
+    if (!npy_dictionary(&npy, path, text, error)) return false;
+    bool fits = npy.count >= 1 && npy.lengths[0] == vertices;
+    for (int i = 1; i < npy.count; i++) fits &= npy.lengths[i] == 1;
+    if (!fits)
+        return fail(error, ERROR_INPUT, "%s: expected an array of %d numbers, one a vertex, got %s", path, vertices,
+                    npy.shape);
+    if (size - (size_t)npy.data < (size_t)vertices * (size_t)npy.number_size)
+        return fail(error, ERROR_INPUT, "%s: expected %d numbers, got a file that ends before", path, vertices);
+    for (int i = 0; i < vertices; i++) {
+        vertex[i] = npy_number(&npy, data + npy.data + (size_t)i * (size_t)npy.number_size);
+        if (!(vertex[i] >= 0 && vertex[i] <= 1))
+            return fail(error, ERROR_INPUT, "%s: vertex %d: expected a number from 0 to 1, got %g", path, i,
+                        vertex[i]);
+    }
+    return true;
+}
+
+static bool weigh_painted(const char *path, int vertices, double *vertex, struct error *error)
+{
+    char *data;
+    size_t size;
+    if (!file_read(path, FILE_LIMIT, &data, &size, error)) return false;
+    bool good = read_weights(path, data, size, vertices, vertex, error);
+    free(data);
+    return good;
+}
+
+static bool weigh(const struct softness *softness, const struct lattice *lattice, const struct surface *surface,
+                  const char *name, const struct body *body, double *vertex, double *node, struct error *error)
+{
+    if (strcmp(softness->from, "distance") == 0) return weigh_distance(lattice, body, name, node, error);
+    bool good = strcmp(softness->from, "color") == 0
+                    ? weigh_color(surface, name, vertex, error)
+                    : weigh_painted(softness->from, surface->vertex_count, vertex, error);
+    if (good) lattice_spread(lattice, vertex, node);
+    return good;
+}
+
+bool softness_apply(const struct softness *softness, const struct lattice *lattice, const struct surface *surface,
+                    const char *name, struct body *body, struct error *error)
+{
+    if (!softness->from) return true;
+    double *vertex = need_zeroed((size_t)surface->vertex_count + 1, sizeof *vertex);
+    double *node = need_zeroed((size_t)lattice->node_count + 1, sizeof *node);
+    const bool good = weigh(softness, lattice, surface, name, body, vertex, node, error);
+    for (int e = 0; good && e < body->element_count; e++) {
+        double weight = 0;
+        for (int a = 0; a < 4; a++) weight += node[lattice->tet[e][a]] / 4;
+        body->elements[e].stiffness = pow(softness->times, -weight);
+    }
+    free(vertex);
+    free(node);
+    return good;
 }

@@ -8,7 +8,6 @@
 #include "simulation/integrator.h"
 #include "simulation/lattice.h"
 #include "simulation/region.h"
-#include "simulation/softness.h"
 
 /// How a body is moved.
 struct shake {

@@ -155,24 +155,6 @@ static void join_neighbours(struct repair *r)
     }
 }
 
-static void corner_at(const struct surface *s, int triangle, int k, double at[3])
-{
-    const float *p = s->position[s->indices[3 * triangle + k]];
-    for (int c = 0; c < 3; c++) at[c] = (double)p[c];
-}
-
-/// The triangle's normal, twice its area long, and three times its middle.
-static void measure(const struct surface *s, int triangle, double normal[3], double middle[3])
-{
-    double p[3][3], edge[2][3];
-    for (int k = 0; k < 3; k++) corner_at(s, triangle, k, p[k]);
-    for (int c = 0; c < 3; c++) {
-        for (int k = 0; k < 2; k++) edge[k][c] = p[k + 1][c] - p[0][c];
-        middle[c] = p[0][c] + p[1][c] + p[2][c];
-    }
-    vec3_cross(edge[0], edge[1], normal);
-}
-
 /// Turns the triangles that are connected with the first one of a patch to agree with it; returns how many they are.
 static int spread(struct repair *r, uint8_t *reached, int first)
 {
@@ -207,7 +189,7 @@ static struct settled settle_patch(struct repair *r, int first, int count)
     struct settled patch = {0};
     double middle[3] = {0}, turned = 0, normal[3], at[3];
     for (int i = first; i < first + count; i++) {
-        measure(r->shape, r->patch[i], normal, at);
+        triangle_measure(r->shape, r->patch[i], normal, at);
         const double area = vec3_length(normal);
         patch.area += area;
         turned += r->turned[r->patch[i]] ? area : 0;
@@ -215,7 +197,7 @@ static struct settled settle_patch(struct repair *r, int first, int count)
     }
     if (turned > patch.area / 2) turn_patch(r, first, count);
     for (int i = first; patch.area > 0 && i < first + count; i++) {
-        measure(r->shape, r->patch[i], normal, at);
+        triangle_measure(r->shape, r->patch[i], normal, at);
         for (int c = 0; c < 3; c++) at[c] = at[c] / 3 - middle[c] / patch.area;
         patch.volume += vec3_dot(normal, at) / 6 * (r->turned[r->patch[i]] ? -1 : 1);
     }
@@ -226,7 +208,7 @@ static double whole_area(const struct surface *s)
 {
     double sum = 0, normal[3], middle[3];
     for (int t = 0; t < s->index_count / 3; t++) {
-        measure(s, t, normal, middle);
+        triangle_measure(s, t, normal, middle);
         sum += vec3_length(normal);
     }
     return sum;
@@ -236,7 +218,7 @@ static double whole_area(const struct surface *s)
 static int crosses(const struct surface *s, int triangle, const double from[3], const double direction[3])
 {
     double p[3][3], edge[2][3], away[3], h[3], q[3];
-    for (int k = 0; k < 3; k++) corner_at(s, triangle, k, p[k]);
+    triangle_corners(s, triangle, p);
     for (int c = 0; c < 3; c++) {
         for (int k = 0; k < 2; k++) edge[k][c] = p[k + 1][c] - p[0][c];
         away[c] = from[c] - p[0][c];
@@ -267,7 +249,7 @@ static bool faces_inwards(const struct repair *r, int first, int count, int rays
     for (int ray = 0; ray < rays; ray++) {
         const int own = r->patch[first + (int)(random_of(&seed) * count)];
         double direction[3], normal[3], middle[3];
-        measure(s, own, normal, middle);
+        triangle_measure(s, own, normal, middle);
         for (int c = 0; c < 3; c++) {
             middle[c] /= 3;
             direction[c] = random_of(&seed) - 0.5;

@@ -1,6 +1,6 @@
 /// Cuts a solid into elements by the tetrahedra of a lattice.
-#include "simulation/tiling.h"
 #include "base/need.h"
+#include "simulation/lattice.h"
 #include <math.h>
 #include <stdint.h>
 #include <stdlib.h>

@@ -1,7 +1,7 @@
 /// A tree of triangles, and sums over it.
-#include "simulation/winding.h"
 #include "base/need.h"
 #include "simulation/linear.h"
+#include "simulation/solid.h"
 #include <math.h>
 #include <stdlib.h>
 
@@ -10,25 +10,25 @@ enum { LEAF = 8, DEPTH_MAX = 64 };
 // A node counts as a dipole from this many radii away: the error of the sum is then below 0.01.
 static const double FAR = 4;
 
-static void corners_of(const struct surface *surface, int triangle, double corner[3][3])
+void triangle_measure(const struct surface *surface, int triangle, double normal[3], double middle[3])
 {
-    for (int k = 0; k < 3; k++) {
-        const float *p = surface->position[surface->indices[3 * triangle + k]];
-        for (int c = 0; c < 3; c++) corner[k][c] = (double)p[c];
+    double p[3][3], edge[2][3];
+    triangle_corners(surface, triangle, p);
+    for (int c = 0; c < 3; c++) {
+        for (int k = 0; k < 2; k++) edge[k][c] = p[k + 1][c] - p[0][c];
+        middle[c] = p[0][c] + p[1][c] + p[2][c];
     }
+    vec3_cross(edge[0], edge[1], normal);
 }
 
 /// The triangle's normal, as long as its area, and its middle.
-static void measure_triangle(const struct surface *surface, int triangle, double area[3], double middle[3])
+static void weigh_triangle(const struct surface *surface, int triangle, double area[3], double middle[3])
 {
-    double p[3][3], edge[2][3];
-    corners_of(surface, triangle, p);
+    triangle_measure(surface, triangle, area, middle);
     for (int c = 0; c < 3; c++) {
-        for (int k = 0; k < 2; k++) edge[k][c] = (p[k + 1][c] - p[0][c]) / 2;
-        middle[c] = (p[0][c] + p[1][c] + p[2][c]) / 3;
+        area[c] /= 2;
+        middle[c] /= 3;
     }
-    vec3_cross(edge[0], edge[1], area);
-    for (int c = 0; c < 3; c++) area[c] *= 2;
 }
 
 static void measure_node(const struct winding *w, struct winding_node *node, double lo[3], double hi[3])
@@ -40,7 +40,7 @@ static void measure_node(const struct winding *w, struct winding_node *node, dou
     }
     for (int i = node->first; i < node->first + node->count; i++) {
         double area[3], middle[3];
-        measure_triangle(w->surface, w->order[i], area, middle);
+        weigh_triangle(w->surface, w->order[i], area, middle);
         const double size = fmax(vec3_length(area), 1e-300);
         total += size;
         for (int c = 0; c < 3; c++) {
@@ -53,7 +53,7 @@ static void measure_node(const struct winding *w, struct winding_node *node, dou
     for (int c = 0; c < 3; c++) node->middle[c] /= total;
     for (int i = node->first; i < node->first + node->count; i++) {
         double p[3][3];
-        corners_of(w->surface, w->order[i], p);
+        triangle_corners(w->surface, w->order[i], p);
         for (int k = 0; k < 3; k++) {
             const double away[3] = {p[k][0] - node->middle[0], p[k][1] - node->middle[1], p[k][2] - node->middle[2]};
             node->radius = fmax(node->radius, vec3_length(away));
@@ -67,7 +67,7 @@ static int part(const struct winding *w, int first, int count, int axis, double 
     int below = 0;
     for (int i = first; i < first + count; i++) {
         double area[3], middle[3];
-        measure_triangle(w->surface, w->order[i], area, middle);
+        weigh_triangle(w->surface, w->order[i], area, middle);
         if (!(middle[axis] < at)) continue;
         const int swap = w->order[i];
         w->order[i] = w->order[first + below];
@@ -115,7 +115,7 @@ void winding_free(struct winding *winding)
 static double half_angle(const struct surface *surface, int triangle, const double point[3])
 {
     double p[3][3], length[3], across[3];
-    corners_of(surface, triangle, p);
+    triangle_corners(surface, triangle, p);
     for (int k = 0; k < 3; k++) {
         for (int c = 0; c < 3; c++) p[k][c] -= point[c];
         length[k] = vec3_length(p[k]);
