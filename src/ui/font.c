@@ -1,14 +1,33 @@
-/// Loads fonts, measures text and rasterises glyphs.
+/// Loads fonts, measures text, and packs the glyphs of all fonts and sizes into one texture.
 #include "ui/font.h"
 #include "base/embedded.h"
-#include "ui/face.h"
-#include <stb/stb_truetype.h>
+#include "base/need.h"
+#include "ui/theme.h"
+#include <math.h>
+#include <stdlib.h>
 #include <string.h>
+
+// The implementation lives here and nowhere else; the library is not written for our warnings.
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wconversion"
+#pragma GCC diagnostic ignored "-Wshadow"
+#define STBTT_malloc(size, user) ((void)(user), need(size, 1))
+#define STBTT_free(piece, user) ((void)(user), free(piece))
+#define STB_TRUETYPE_IMPLEMENTATION
+#include <stb/stb_truetype.h>
+#pragma GCC diagnostic pop
+
+/// Every character the program can show has a slot: an index into tables, the same for all fonts.
+enum { SLOTS = 291, OVERSAMPLE = 3 };
 
 struct face {
     stbtt_fontinfo info;
     float cap_height; ///< in ems
-    struct face_glyph glyphs[FACE_SLOTS];
+    struct face_glyph {
+        enum font source; ///< another font if this one lacks the character
+        int index;        ///< in the source's file
+        float advance;    ///< in ems
+    } glyphs[SLOTS];
 };
 
 /// Read once at start-up and never written again.
@@ -32,7 +51,8 @@ static const struct {
 };
 enum { RUN_COUNT = sizeof runs / sizeof runs[0] };
 
-int face_slot(uint32_t codepoint)
+/// The slot of a character, or that of '?'.
+static int slot_of(uint32_t codepoint)
 {
     int slot = 0;
     for (int i = 0; i < RUN_COUNT; i++) {
@@ -50,25 +70,6 @@ static uint32_t codepoint_of(int slot)
         slot -= length;
     }
     return 0;
-}
-
-const struct face_glyph *face_glyph(enum font font, int slot) { return &faces[font].glyphs[slot]; }
-
-void face_glyph_box(enum font source, int index, float em, int *x0, int *y0, int *x1, int *y1)
-{
-    const stbtt_fontinfo *info = &faces[source].info;
-    float scale = stbtt_ScaleForMappingEmToPixels(info, em);
-    stbtt_GetGlyphBitmapBox(info, index, scale * FACE_OVERSAMPLE, scale, x0, y0, x1, y1);
-}
-
-float face_rasterise(enum font source, int index, float em, unsigned char *out, int width, int height, int stride)
-{
-    const stbtt_fontinfo *info = &faces[source].info;
-    float scale = stbtt_ScaleForMappingEmToPixels(info, em);
-    float shift_x = 0.0f, shift_y = 0.0f;
-    stbtt_MakeGlyphBitmapSubpixelPrefilter(info, out, width, height, stride, scale * FACE_OVERSAMPLE, scale, 0.0f,
-                                           0.0f, FACE_OVERSAMPLE, 1, &shift_x, &shift_y, index);
-    return shift_x;
 }
 
 static bool read_face(enum font font, struct error *error)
@@ -107,7 +108,7 @@ bool font_init(struct error *error)
         if (!read_face((enum font)font, error)) return false;
     }
     for (int font = 0; font < FONT_COUNT; font++) {
-        for (int slot = 0; slot < FACE_SLOTS; slot++) {
+        for (int slot = 0; slot < SLOTS; slot++) {
             struct face_glyph glyph = find_glyph((enum font)font, codepoint_of(slot));
             faces[font].glyphs[slot] = glyph.index ? glyph : find_glyph((enum font)font, '?');
         }
@@ -118,7 +119,7 @@ bool font_init(struct error *error)
 float font_width(enum font font, float size, const char *utf8)
 {
     float ems = 0.0f;
-    for (uint32_t c; (c = utf8_next(&utf8)) != 0;) ems += faces[font].glyphs[face_slot(c)].advance;
+    for (uint32_t c; (c = utf8_next(&utf8)) != 0;) ems += faces[font].glyphs[slot_of(c)].advance;
     return ems * size;
 }
 
@@ -134,7 +135,7 @@ size_t font_line(enum font font, float size, const char *utf8, float width)
         size_t length = (size_t)(at - utf8);
         if (length >= 256) break;
         bool whole = *at == ' ' || *at == '\0';
-        ems += faces[font].glyphs[face_slot(c)].advance;
+        ems += faces[font].glyphs[slot_of(c)].advance;
         if (ems * size > width) return fits ? fits : length;
         if (whole) fits = length;
     }
@@ -169,4 +170,131 @@ uint32_t utf8_next(const char **text)
         return REPLACEMENT;
     *text += count;
     return codepoint;
+}
+
+// The atlas.
+
+enum { SIZE_COUNT = 3, ATLAS_WIDTH = 2048, ATLAS_MAX_HEIGHT = 8192, GAP = 1 };
+
+static const float sizes[SIZE_COUNT] = {THEME_TEXT_SMALL, THEME_TEXT_NORMAL, THEME_TEXT_TITLE};
+
+/// atlas.storage: glyphs by font, size and slot.
+struct glyph_table {
+    struct glyph glyphs[FONT_COUNT][SIZE_COUNT][SLOTS];
+};
+
+/// Glyphs are set in rows like type: left to right, each row below the tallest glyph of the last.
+struct typesetter {
+    int x, y, row_height;
+};
+
+/// Finds room for w × h texels, with a gap on all sides so that filtering never sees a neighbour.
+static void set_type(struct typesetter *setter, int w, int h, struct glyph *glyph)
+{
+    if (setter->x + w + GAP > ATLAS_WIDTH) {
+        setter->x = GAP;
+        setter->y += setter->row_height + GAP;
+        setter->row_height = 0;
+    }
+    glyph->x0 = (unsigned short)setter->x;
+    glyph->y0 = (unsigned short)setter->y;
+    glyph->x1 = (unsigned short)(setter->x + w);
+    glyph->y1 = (unsigned short)(setter->y + h);
+    setter->x += w + GAP;
+    if (h > setter->row_height) setter->row_height = h;
+}
+
+enum { ENTRY_COUNT = FONT_COUNT * SIZE_COUNT * SLOTS };
+
+/// One entry of the table.
+struct entry {
+    struct glyph *glyph;
+    const struct face_glyph *source;
+    const stbtt_fontinfo *info;
+    float em, scale; ///< device pixels, and to a unit of the font
+};
+
+static struct entry table_entry(const struct atlas *atlas, int i)
+{
+    struct glyph_table *table = atlas->storage;
+    int font = i / (SIZE_COUNT * SLOTS), size = i / SLOTS % SIZE_COUNT, slot = i % SLOTS;
+    struct entry entry = {.glyph = &table->glyphs[font][size][slot], .source = &faces[font].glyphs[slot]};
+    entry.info = &faces[entry.source->source].info;
+    entry.em = sizes[size] * atlas->scale;
+    entry.scale = stbtt_ScaleForMappingEmToPixels(entry.info, entry.em);
+    return entry;
+}
+
+/// Three samples across make a pixel, and the filter that does so takes two columns more.
+static void place_glyph(struct typesetter *setter, struct entry entry)
+{
+    struct glyph *glyph = entry.glyph;
+    int x0, y0, x1, y1;
+    stbtt_GetGlyphBitmapBox(entry.info, entry.source->index, entry.scale * OVERSAMPLE, entry.scale, &x0, &y0, &x1,
+                            &y1);
+    glyph->advance = entry.source->advance * entry.em;
+    if (x1 <= x0 || y1 <= y0) return;
+    int width = x1 - x0 + OVERSAMPLE - 1;
+    set_type(setter, width, y1 - y0, glyph);
+    glyph->xoff = (float)x0 / OVERSAMPLE;
+    glyph->xoff2 = (float)(x0 + width) / OVERSAMPLE;
+    glyph->yoff = (float)y0;
+    glyph->yoff2 = (float)y1;
+}
+
+static void rasterise_glyph(struct atlas *atlas, struct entry entry)
+{
+    struct glyph *glyph = entry.glyph;
+    if (glyph->x1 == glyph->x0) return;
+    unsigned char *out = atlas->coverage + (size_t)glyph->y0 * (size_t)atlas->width + glyph->x0;
+    float shift_x = 0, shift_y = 0;
+    stbtt_MakeGlyphBitmapSubpixelPrefilter(entry.info, out, glyph->x1 - glyph->x0, glyph->y1 - glyph->y0,
+                                           atlas->width, entry.scale * OVERSAMPLE, entry.scale, 0, 0, OVERSAMPLE, 1,
+                                           &shift_x, &shift_y, entry.source->index);
+    glyph->xoff += shift_x;
+    glyph->xoff2 += shift_x;
+}
+
+/// Light text on dark looks thinner than it is: coverage^0.85, measured by eye.
+static void thicken(struct atlas *atlas)
+{
+    unsigned char curve[256];
+    for (int i = 0; i < 256; i++) curve[i] = (unsigned char)lroundf(255.0f * powf((float)i / 255.0f, 0.85f));
+    size_t texels = (size_t)atlas->width * (size_t)atlas->height;
+    for (size_t i = 0; i < texels; i++) atlas->coverage[i] = curve[atlas->coverage[i]];
+}
+
+bool atlas_build(float scale, struct atlas *atlas, struct error *error)
+{
+    struct typesetter setter = {.x = GAP + 1, .y = GAP + 1};
+    struct glyph_table *table = need_zeroed(1, sizeof *table);
+    *atlas = (struct atlas){.width = ATLAS_WIDTH, .scale = scale, .storage = table};
+    for (int i = 0; i < ENTRY_COUNT; i++) place_glyph(&setter, table_entry(atlas, i));
+    atlas->height = setter.y + setter.row_height + GAP;
+    if (atlas->height > ATLAS_MAX_HEIGHT) {
+        atlas_free(atlas);
+        return fail(error, ERROR_ENVIRONMENT, "the fonts do not fit into a texture at scale %g", (double)scale);
+    }
+    atlas->coverage = need_zeroed((size_t)atlas->height, (size_t)atlas->width);
+    for (int i = 0; i < ENTRY_COUNT; i++) rasterise_glyph(atlas, table_entry(atlas, i));
+    atlas->coverage[0] = 255;
+    thicken(atlas);
+    return true;
+}
+
+void atlas_free(struct atlas *atlas)
+{
+    free(atlas->coverage);
+    free(atlas->storage);
+    *atlas = (struct atlas){0};
+}
+
+const struct glyph *atlas_glyph(const struct atlas *atlas, enum font font, float size, uint32_t codepoint)
+{
+    const struct glyph_table *table = atlas->storage;
+    int nearest = 0;
+    for (int i = 1; i < SIZE_COUNT; i++) {
+        if (fabsf(sizes[i] - size) < fabsf(sizes[nearest] - size)) nearest = i;
+    }
+    return &table->glyphs[font][nearest][slot_of(codepoint)];
 }
