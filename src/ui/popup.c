@@ -86,13 +86,6 @@ void ui_popup_end(struct ui *ui)
     if (event->kind == EVENT_WHEEL || event->kind == EVENT_TEXT) ui->used = true;
 }
 
-/// Whether a press on the field opens its popup; a second press counts as outside and closes it.
-static void open_where_pressed(struct ui *ui, struct rect field, uint32_t id, const char *name, int which)
-{
-    bool pressed = ui_pressed(ui, field, BUTTON_LEFT);
-    if (pressed || ui_activated(ui, id)) ui_popup_open(ui, name, which, field);
-}
-
 /// Marks the field that opens the popup: several may open the same one.
 static uint32_t opener_id(const char *name, int which)
 {
@@ -105,8 +98,8 @@ void ui_dropdown(struct ui *ui, struct rect r, const char *name, int which, cons
 {
     struct rect field = ui_field_of(r);
     uint32_t id = opener_id(name, which);
-    ui_register(ui, id, field);
-    open_where_pressed(ui, field, id, name, which);
+    if (ui_clicked(ui, id, field))
+        ui_popup_open(ui, name, which, field); // a second press counts as outside and closes it
     if (ui->pass != UI_PASS_DRAW) return;
     bool hot = ui_hovered(ui, field) || (ui_popup_is_open(ui, name) && ui->popup.which == which);
     drawlist_rounded(ui->list, field, UI_RADIUS, theme()->raised);
@@ -125,8 +118,7 @@ void ui_dropdown(struct ui *ui, struct rect r, const char *name, int which, cons
 void ui_swatch(struct ui *ui, struct rect r, const char *name, const char *popup, int which, uint32_t color)
 {
     uint32_t id = ui_id(name);
-    ui_register(ui, id, r);
-    open_where_pressed(ui, r, id, popup, which);
+    if (ui_clicked(ui, id, r)) ui_popup_open(ui, popup, which, r);
     if (ui->pass != UI_PASS_DRAW) return;
     struct rect chip = {r.x + (r.w - 10) / 2, r.y + (r.h - 10) / 2, 10, 10};
     drawlist_rounded(ui->list, chip, 3, color);
@@ -138,8 +130,7 @@ bool ui_color(struct ui *ui, struct rect r, const char *name, uint32_t color, bo
 {
     uint32_t id = ui_id(name);
     struct rect field = rect_inset(r, 4);
-    ui_register(ui, id, r);
-    bool pressed = ui_pressed(ui, r, BUTTON_LEFT) || ui_activated(ui, id);
+    bool pressed = ui_clicked(ui, id, r);
     if (ui->pass != UI_PASS_DRAW) return pressed;
     drawlist_rounded(ui->list, field, UI_RADIUS, color);
     if (chosen || ui_hovered(ui, r)) {

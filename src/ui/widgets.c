@@ -251,6 +251,12 @@ bool ui_activated(struct ui *ui, uint32_t id)
     return true;
 }
 
+bool ui_clicked(struct ui *ui, uint32_t id, struct rect r)
+{
+    ui_register(ui, id, r);
+    return ui_pressed(ui, r, BUTTON_LEFT) || ui_activated(ui, id);
+}
+
 enum ui_change ui_held_change(struct ui *ui)
 {
     const struct event *event = ui->event;

@@ -82,8 +82,7 @@ bool ui_section(struct ui *ui, const char *name, const char *title, bool *closed
     uint32_t id = ui_id(name);
     bool first = ui->stop_count == 0;
     ui_hint(ui, r, *closed ? "Open this section" : "Close this section");
-    ui_register(ui, id, r);
-    if (ui_pressed(ui, r, BUTTON_LEFT) || ui_activated(ui, id)) *closed = !*closed;
+    if (ui_clicked(ui, id, r)) *closed = !*closed;
     if (ui->pass == UI_PASS_DRAW) {
         if (!first) drawlist_rect(ui->list, line, theme()->border);
         uint32_t color = ui_hovered(ui, r) ? theme()->text : theme()->text_dim;
@@ -107,8 +106,7 @@ bool ui_button(struct ui *ui, struct rect r, const char *name, const char *label
 {
     struct rect field = ui_field_of(r);
     uint32_t id = ui_id(name);
-    ui_register(ui, id, field);
-    bool pressed = ui_pressed(ui, field, BUTTON_LEFT) || ui_activated(ui, id);
+    bool pressed = ui_clicked(ui, id, field);
     if (ui->pass == UI_PASS_DRAW) {
         bool hot = ui_hovered(ui, field);
         uint32_t fill = primary ? theme()->accent : hot ? theme()->hover : theme()->fill;
@@ -124,8 +122,7 @@ bool ui_toggle(struct ui *ui, struct rect r, const char *name, bool *on)
 {
     struct rect box = {r.x, r.y + (r.h - 16) / 2, 28, 16};
     uint32_t id = ui_id(name);
-    ui_register(ui, id, box);
-    bool pressed = ui_pressed(ui, box, BUTTON_LEFT) || ui_activated(ui, id);
+    bool pressed = ui_clicked(ui, id, box);
     if (pressed) *on = !*on;
     if (ui->pass == UI_PASS_DRAW) {
         uint32_t fill = *on ? theme()->accent : ui_hovered(ui, box) ? theme()->hover : theme()->fill;
@@ -150,8 +147,7 @@ static void paint_row(struct ui *ui, uint32_t id, struct rect r, bool selected, 
 bool ui_list_row(struct ui *ui, struct rect r, const char *name, const char *text, uint32_t color, bool selected)
 {
     uint32_t id = ui_id(name);
-    ui_register(ui, id, r);
-    bool pressed = ui_pressed(ui, r, BUTTON_LEFT) || ui_activated(ui, id);
+    bool pressed = ui_clicked(ui, id, r);
     if (ui->pass == UI_PASS_DRAW) {
         const bool hot = ui_hovered(ui, r);
         float left = r.x + 6;

@@ -23,11 +23,15 @@ void ui_keep(struct ui *ui, uint32_t id);
 void ui_move_focus(struct ui *ui, int direction);
 /// Enter or Space on the focused widget; used up.
 bool ui_activated(struct ui *ui, uint32_t id);
+/// Registers a widget that is pressed. true if it was, with the left button or by Enter or Space.
+bool ui_clicked(struct ui *ui, uint32_t id, struct rect r);
 
 /// The outline of a control; `hot`: under the pointer.
 void ui_outline(struct ui *ui, struct rect r, float radius, bool hot);
 void ui_focus_ring(struct ui *ui, uint32_t id, struct rect r);
 void ui_number_text(struct ui *ui, struct rect r, const char *text, uint32_t color);
+/// What an event does to the line that is being typed in `field`: UI_LINE_DONE by a press elsewhere, Enter, or Tab, which is not used up.
+enum ui_line ui_typing_event(struct ui *ui, uint32_t id, struct rect field);
 /// The line that is being typed, with its caret, inside `r`.
 void ui_paint_text(struct ui *ui, struct rect r, const struct ui_text *text, enum font font, float size,
                    bool focused);

@@ -171,24 +171,27 @@ void ui_line_begin(struct ui *ui, const char *name, const char *text)
 
 bool ui_line_is_open(const struct ui *ui, const char *name) { return ui->typing == ui_id(name); }
 
-static enum ui_line line_event(struct ui *ui, struct rect r)
+enum ui_line ui_typing_event(struct ui *ui, uint32_t id, struct rect field)
 {
     const struct event *event = ui->event;
     if (event->kind == EVENT_BUTTON && event->action == ACTION_PRESS) {
-        if (!ui_hovered(ui, r)) return UI_LINE_DONE; // the press is for whatever is there
-        ui->text.all = event->clicks == 2;
+        if (!ui_hovered(ui, field)) return UI_LINE_DONE; // the press is for whatever is there
         ui->used = true;
+        ui->focus = id;
+        ui->text.all = event->clicks == 2;
     }
     if (!ui_is_typing_key(ui, event)) return UI_LINE_NONE;
     ui->used = true;
-    bool press = event->kind == EVENT_KEY && event->action == ACTION_PRESS;
+    bool press = event->kind == EVENT_KEY && event->action == ACTION_PRESS, changed;
     if (press && event->key == KEY_ESCAPE) return UI_LINE_CANCEL;
     if (press && event->key == KEY_ENTER) return UI_LINE_DONE;
     if (press && event->key == KEY_TAB) {
         ui->used = false; // ui_end() moves on from here
         return UI_LINE_DONE;
     }
-    ui_text_event(&ui->text, event, NULL);
+    ui_text_event(&ui->text, event, &changed);
+    ui->typed |= changed;
+    ui->refused &= !changed;
     return UI_LINE_NONE;
 }
 
@@ -207,7 +210,7 @@ enum ui_line ui_line(struct ui *ui, struct rect r, const char *name)
     }
     if (ui->pass != UI_PASS_EVENT || ui->blocked || ui->began) return UI_LINE_NONE;
     bool press = ui->event->kind == EVENT_BUTTON && ui->event->action == ACTION_PRESS;
-    enum ui_line line = ui->used && !press ? UI_LINE_NONE : line_event(ui, field);
+    enum ui_line line = ui->used && !press ? UI_LINE_NONE : ui_typing_event(ui, id, field);
     if (line != UI_LINE_NONE) ui->typing = 0;
     return line;
 }

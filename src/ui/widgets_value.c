@@ -115,36 +115,14 @@ static enum ui_change commit(struct ui *ui, const struct ui_number *number, bool
 static enum ui_change typing_event(struct ui *ui, uint32_t id, struct rect field, const struct ui_number *number,
                                    double *value)
 {
-    const struct event *event = ui->event;
-    if (event->kind == EVENT_BUTTON && event->action == ACTION_PRESS) {
-        if (!ui_hovered(ui, field)) return commit(ui, number, false, value);
-        ui->used = true;
-        ui->focus = id;
-        ui->text.all = event->clicks == 2;
-        return UI_NONE;
-    }
-    if (!ui_is_typing_key(ui, event)) return UI_NONE;
-    ui->used = true;
-    if (event->kind == EVENT_KEY && event->action != ACTION_RELEASE) {
-        if (event->key == KEY_ENTER) return commit(ui, number, true, value);
-        if (event->key == KEY_ESCAPE) {
-            end_typing(ui);
-            return UI_NONE;
-        }
-        if (event->key == KEY_TAB) {
-            enum ui_change change = commit(ui, number, true, value);
-            ui->used = ui->refused; // else ui_end() moves on from here
-            if (!ui->refused) ui->focus = id;
-            return change;
-        }
-    }
-    bool changed;
-    ui_text_event(&ui->text, event, &changed);
-    if (changed) {
-        ui->typed = true;
-        ui->refused = false;
-    }
-    return UI_NONE;
+    const bool by_key = ui->event->kind == EVENT_KEY;
+    const enum ui_line line = ui_typing_event(ui, id, field);
+    if (line == UI_LINE_CANCEL) end_typing(ui);
+    if (line != UI_LINE_DONE) return UI_NONE;
+    const enum ui_change change = commit(ui, number, by_key, value);
+    ui->used |= by_key && ui->refused;
+    if (!ui->used && by_key) ui->focus = id; // Tab goes on from here
+    return change;
 }
 
 /// Starts the mapping from pixels to values at `x`: on a bar where the pointer is, in a field or a fine drag at the value.
