@@ -24,39 +24,58 @@ bool fail_no_memory(struct error *error, const char *what)
     return fail(error, ERROR_ENVIRONMENT, "%s: not enough memory", what);
 }
 
-static int utf8_length(const unsigned char *s)
+enum { REPLACEMENT = 0xFFFD };
+
+/// Number of bytes after a first byte, and its own bits; -1 if it cannot be a first byte.
+static int continuation_bytes(unsigned char first, uint32_t *bits)
 {
-    int n = *s < 0x80                           ? 1
-            : (*s & 0xE0) == 0xC0 && *s >= 0xC2 ? 2
-            : (*s & 0xF0) == 0xE0               ? 3
-            : (*s & 0xF8) == 0xF0               ? 4
-                                                : 0;
-    for (int i = 1; i < n; i++) {
-        if ((s[i] & 0xC0) != 0x80) return 0;
+    if (first < 0x80) return *bits = first, 0;
+    if (first >= 0xC2 && first <= 0xDF) return *bits = first & 0x1Fu, 1;
+    if (first >= 0xE0 && first <= 0xEF) return *bits = first & 0x0Fu, 2;
+    if (first >= 0xF0 && first <= 0xF4) return *bits = first & 0x07u, 3;
+    return -1;
+}
+
+uint32_t utf8_next(const char **text)
+{
+    const unsigned char *s = (const unsigned char *)*text;
+    if (*s == 0) return 0;
+    uint32_t codepoint = 0;
+    int count = continuation_bytes(*s, &codepoint);
+    *text += 1;
+    for (int i = 1; i <= count; i++) {
+        if ((s[i] & 0xC0) != 0x80) return REPLACEMENT;
+        codepoint = codepoint << 6 | (s[i] & 0x3Fu);
     }
-    return n;
+    bool overlong = (count == 2 && codepoint < 0x800) || (count == 3 && codepoint < 0x10000);
+    if (count < 0 || overlong || codepoint > 0x10FFFF || (codepoint >= 0xD800 && codepoint <= 0xDFFF))
+        return REPLACEMENT;
+    *text += count;
+    return codepoint;
 }
 
 /// U+0080 … U+009F are control characters as well: some terminals obey them.
-static int plain_length(const unsigned char *s)
+static int plain_length(const char *s)
 {
-    const int n = utf8_length(s);
-    const int is_control = *s < 0x20 || *s == 0x7F || (n == 2 && *s == 0xC2 && s[1] < 0xA0);
-    return is_control ? 0 : n;
+    const char *next = s;
+    const uint32_t c = utf8_next(&next);
+    const bool is_broken = c == REPLACEMENT && next == s + 1, is_control = c < 0x20 || (c >= 0x7F && c < 0xA0);
+    return is_broken || is_control ? 0 : (int)(next - s);
 }
 
 void printable(const char *text, char *shown, size_t size)
 {
     static const char more[] = "…";
     size_t used = 0, cut = 0; // `cut`: where the sign for more would still fit
-    for (const unsigned char *s = (const unsigned char *)text; *s;) {
+    for (const char *s = text; *s;) {
         char piece[8];
         int taken = plain_length(s), length = taken;
         if (taken > 0) {
             memcpy(piece, s, (size_t)taken);
         } else {
             taken = 1;
-            length = *s == '\n' ? snprintf(piece, sizeof piece, "\\n") : snprintf(piece, sizeof piece, "\\x%02x", *s);
+            length = *s == '\n' ? snprintf(piece, sizeof piece, "\\n")
+                                : snprintf(piece, sizeof piece, "\\x%02x", (unsigned char)*s);
         }
         if (used + sizeof more <= size) cut = used;
         if (used + (size_t)length >= size) {

@@ -6,6 +6,7 @@
 #include <stdarg.h>
 #include <stdbool.h>
 #include <stddef.h>
+#include <stdint.h>
 #include <stdio.h>
 
 // Errors of data and of the environment: a kind, which is also the exit status, and one sentence for people.
@@ -30,6 +31,9 @@ bool fail(struct error *error, enum error_kind kind, const char *format, ...) __
 bool fail_no_memory(struct error *error, const char *what);
 
 // Text from outside, fit for terminals and windows.
+
+/// Decodes one UTF-8 character and moves on; 0xFFFD for a broken byte, 0 at the end.
+uint32_t utf8_next(const char **text);
 
 /// Copies a text, with control characters and bytes that are no UTF-8 as \n or \x1b; what does not fit is cut at a whole character and
 /// ends in "…".

@@ -14,9 +14,6 @@ float font_cap_height(enum font font, float size);
 /// Bytes of the next line of a text that fit into `width`, ending at a space if possible; at least one character.
 size_t font_line(enum font font, float size, const char *utf8, float width);
 
-/// Decodes one UTF-8 character and moves on; 0xFFFD for a broken byte, 0 at the end.
-uint32_t utf8_next(const char **text);
-
 /// One rasterised glyph of an atlas: texels [x0, x1) × [y0, y1), drawn at pen + (xoff, yoff) device pixels, y down.
 struct glyph {
     unsigned short x0, y0, x1, y1;

@@ -38,26 +38,11 @@ static void erase(struct ui_text *text, int from, int to)
 
 static int utf8_encode(uint32_t c, char out[4])
 {
-    if (c < 0x80) {
-        out[0] = (char)c;
-        return 1;
-    }
-    if (c < 0x800) {
-        out[0] = (char)(0xC0 | c >> 6);
-        out[1] = (char)(0x80 | (c & 0x3F));
-        return 2;
-    }
-    if (c < 0x10000) {
-        out[0] = (char)(0xE0 | c >> 12);
-        out[1] = (char)(0x80 | (c >> 6 & 0x3F));
-        out[2] = (char)(0x80 | (c & 0x3F));
-        return 3;
-    }
-    out[0] = (char)(0xF0 | c >> 18);
-    out[1] = (char)(0x80 | (c >> 12 & 0x3F));
-    out[2] = (char)(0x80 | (c >> 6 & 0x3F));
-    out[3] = (char)(0x80 | (c & 0x3F));
-    return 4;
+    static const unsigned leads[] = {0, 0, 0xC0, 0xE0, 0xF0};
+    const int n = c < 0x80 ? 1 : c < 0x800 ? 2 : c < 0x10000 ? 3 : 4;
+    for (int i = n - 1; i > 0; i--, c >>= 6) out[i] = (char)(0x80 | (c & 0x3F));
+    out[0] = (char)(leads[n] | c);
+    return n;
 }
 
 static bool insert(struct ui_text *text, uint32_t codepoint)
@@ -160,6 +145,16 @@ void ui_paint_text(struct ui *ui, struct rect r, const struct ui_text *text, enu
     if (focused) drawlist_rect(ui->list, (struct rect){roundf(caret), r.y + 3, 1, r.h - 6}, theme()->accent);
 }
 
+static void paint_field(struct ui *ui, struct rect r, float pad, bool focused)
+{
+    if (ui_hovered(ui, r)) ui->over = UI_OVER_TEXT;
+    drawlist_rounded(ui->list, r, UI_RADIUS, theme()->raised);
+    if (focused) drawlist_rounded_line(ui->list, r, UI_RADIUS, 1.5f, theme()->accent);
+    if (!focused) ui_outline(ui, r, UI_RADIUS, ui_hovered(ui, r));
+    const struct rect inner = {r.x + pad, r.y, r.w - 2 * pad, r.h};
+    ui_paint_text(ui, inner, &ui->text, FONT_LABEL, THEME_TEXT_NORMAL, focused);
+}
+
 void ui_line_begin(struct ui *ui, const char *name, const char *text)
 {
     ui_text_set(&ui->text, text);
@@ -201,13 +196,7 @@ enum ui_line ui_line(struct ui *ui, struct rect r, const char *name)
     struct rect field = ui_field_of(r);
     ui_register(ui, id, field);
     if (ui->typing != id) return UI_LINE_NONE;
-    if (ui->pass == UI_PASS_DRAW) {
-        if (ui_hovered(ui, field)) ui->over = UI_OVER_TEXT;
-        drawlist_rounded(ui->list, field, UI_RADIUS, theme()->raised);
-        drawlist_rounded_line(ui->list, field, UI_RADIUS, 1.5f, theme()->accent);
-        struct rect inner = {field.x + 6, field.y, field.w - 12, field.h};
-        ui_paint_text(ui, inner, &ui->text, FONT_LABEL, THEME_TEXT_NORMAL, true);
-    }
+    if (ui->pass == UI_PASS_DRAW) paint_field(ui, field, 6, true);
     if (ui->pass != UI_PASS_EVENT || ui->blocked || ui->began) return UI_LINE_NONE;
     bool press = ui->event->kind == EVENT_BUTTON && ui->event->action == ACTION_PRESS;
     enum ui_line line = ui->used && !press ? UI_LINE_NONE : ui_typing_event(ui, id, field);
@@ -227,14 +216,6 @@ bool ui_text_field(struct ui *ui, struct rect r, const char *name)
     }
     bool active = ui->focus == id;
     if (ui->pass == UI_PASS_EVENT && !ui->used && active) ui->used = ui_text_event(&ui->text, ui->event, &changed);
-    if (ui->pass != UI_PASS_DRAW) return changed;
-    if (ui_hovered(ui, r)) ui->over = UI_OVER_TEXT;
-    drawlist_rounded(ui->list, r, UI_RADIUS, theme()->raised);
-    if (active) {
-        drawlist_rounded_line(ui->list, r, UI_RADIUS, 1.5f, theme()->accent);
-    } else {
-        ui_outline(ui, r, UI_RADIUS, ui_hovered(ui, r));
-    }
-    ui_paint_text(ui, (struct rect){r.x + 8, r.y, r.w - 16, r.h}, &ui->text, FONT_LABEL, THEME_TEXT_NORMAL, active);
+    if (ui->pass == UI_PASS_DRAW) paint_field(ui, r, 8, active);
     return changed;
 }
