@@ -99,7 +99,7 @@ FIXED_CFLAGS := -std=c11 -fno-fast-math -ffp-contract=off -fPIC -fno-semantic-in
 SPLINE_CFLAGS := $(if $(VARIANT),,-O3 -fno-math-errno -fno-trapping-math)
 
 # src/timing/allocations.c counts what our own objects allocate.
-WRAPPED := malloc calloc realloc aligned_alloc posix_memalign strdup
+WRAPPED := malloc calloc realloc strdup
 OWN_LDFLAGS := $(SANITIZERS) -Wl,--as-needed $(WRAPPED:%=-Wl,--wrap=%)
 LIBS = $(PKG_LIBS) -lm -ldl -lpthread $(LDLIBS)
 TEST_LIBS = -lcmocka -llapacke -lopenblas -lquadmath

@@ -3,7 +3,7 @@
 #include "panel_session.h"
 #include "shown.h"
 
-#include "app/exporting.h"
+#include "app/state.h"
 #include "ui/font.h"
 #include <string.h>
 

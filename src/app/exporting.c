@@ -1,5 +1,4 @@
 /// Exports beside the frames.
-#include "app/exporting.h"
 #include "app/film.h"
 #include "app/state.h"
 #include "base/need.h"

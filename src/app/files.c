@@ -1,6 +1,5 @@
 /// Carries out what the editor may only ask for: files, the clipboard, the window, and the end of the run. Notices that somebody else has
 /// written the document's file.
-#include "app/exporting.h"
 #include "app/state.h"
 #include "base/embedded.h"
 #include "base/error.h"

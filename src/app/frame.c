@@ -1,5 +1,4 @@
 /// One frame of the app: take input (the window's, a replay's, the demo's), work on the table, draw, log.
-#include "app/exporting.h"
 #include "app/state.h"
 #include "base/embedded.h"
 #include "base/progress.h"

@@ -137,6 +137,20 @@ bool demo_next(struct app *app, double dt, struct error *error);
 /// The folder in which the editor's dialogs look for files.
 void app_connect_files(struct app *app);
 
+// The export that the Export dialog asked for, done beside the frames: a copy of the document is solved and written by a thread, films
+// are drawn picture by picture.
+
+/// The formats, in the order that the dialog lists them.
+extern const struct dialog_format exporting_formats[];
+extern const int exporting_format_count;
+
+/// Begins; the answer comes once exporting_step() is done with it. False with a sentence.
+bool exporting_start(struct app *app, const struct request *request, struct error *error);
+/// The running one is to end, with nothing written; if there is none, nothing happens.
+void exporting_stop(struct app *app);
+/// Call it once a frame: goes on with the running one, and tells the editor. Under a fixed clock it ends in the frame it began in.
+void exporting_step(struct app *app);
+
 /// Gives up the export that runs, with nothing written.
 void app_stop_export(struct app *app);
 

@@ -13,8 +13,6 @@ long allocation_count(void) { return atomic_load_explicit(&count, memory_order_r
 void *__real_malloc(size_t size);
 void *__real_calloc(size_t members, size_t size);
 void *__real_realloc(void *memory, size_t size);
-void *__real_aligned_alloc(size_t alignment, size_t size);
-int __real_posix_memalign(void **memory, size_t alignment, size_t size);
 char *__real_strdup(const char *text);
 
 void *__wrap_malloc(size_t size)
@@ -33,18 +31,6 @@ void *__wrap_realloc(void *memory, size_t size)
 {
     count_one();
     return __real_realloc(memory, size);
-}
-
-void *__wrap_aligned_alloc(size_t alignment, size_t size)
-{
-    count_one();
-    return __real_aligned_alloc(alignment, size);
-}
-
-int __wrap_posix_memalign(void **memory, size_t alignment, size_t size)
-{
-    count_one();
-    return __real_posix_memalign(memory, alignment, size);
 }
 
 char *__wrap_strdup(const char *text)

@@ -75,4 +75,7 @@ struct timing_log {
 bool timing_log_read(const char *path, struct timing_log *log, struct error *error);
 void timing_log_free(struct timing_log *log);
 
+/// Percentiles of every time, frames over budget, a histogram of frame_ms, and where the slowest frames spent their time.
+void distribution_print(const struct timing_log *log, const char *name, FILE *out);
+
 #endif

@@ -1,5 +1,4 @@
 /// Prints how a log's frame times are distributed.
-#include "timing/distribution.h"
 #include "base/error.h"
 #include "base/need.h"
 #include "timing/columns.h"
