@@ -341,7 +341,7 @@ static bool carry_out(struct app *app, const struct request *request, struct err
     case REQUEST_SCREENSHOT:
         return take_picture(app, error);
     case REQUEST_FULLSCREEN:
-        platform_fullscreen(app->platform, !platform_is_fullscreen(app->platform));
+        platform_toggle_fullscreen(app->platform);
         return true;
     case REQUEST_UI_SCALE:
         return ui_scale_step(app, request->number, error);

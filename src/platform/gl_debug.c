@@ -17,20 +17,9 @@ static struct {
 
 static const char *kind_of(GLenum type)
 {
-    switch (type) {
-    case GL_DEBUG_TYPE_ERROR:
-        return "error";
-    case GL_DEBUG_TYPE_DEPRECATED_BEHAVIOR:
-        return "deprecated";
-    case GL_DEBUG_TYPE_UNDEFINED_BEHAVIOR:
-        return "undefined";
-    case GL_DEBUG_TYPE_PORTABILITY:
-        return "portability";
-    case GL_DEBUG_TYPE_PERFORMANCE:
-        return "performance";
-    default:
-        return "other";
-    }
+    static const char *const kinds[] = {"error", "deprecated", "undefined", "portability", "performance"};
+    const GLenum kind = type - GL_DEBUG_TYPE_ERROR; // GL's numbers are in that order
+    return kind < sizeof kinds / sizeof *kinds ? kinds[kind] : "other";
 }
 
 /// Messages about speed or of low severity are shown but not counted.

@@ -1,5 +1,6 @@
-/// Ends the process in order when the X display is gone.
+/// Ends the process in order when the display is gone, X's or Wayland's.
 #include "platform/surface.h"
+#include <poll.h>
 #include <unistd.h>
 
 enum { EXIT_LOST = 3 };
@@ -12,6 +13,8 @@ struct x_error {
     unsigned long resource, serial;
     unsigned char code, request, minor;
 };
+
+struct wl_display;
 
 static platform_rescue *rescue;
 static void *rescue_user;
@@ -66,9 +69,21 @@ void platform_on_lost(platform_rescue *function, void *user)
     handle_errors();
 }
 
+/// The client library, which GLFW has loaded if it uses it, notices a dead compositor only when it reads, and GLFW no longer reads then.
+static bool is_wayland_lost(void)
+{
+    struct wl_display *(*get_display)(void);
+    int (*get_fd)(struct wl_display *), (*get_error)(struct wl_display *);
+    struct wl_display *display = symbol_find("glfwGetWaylandDisplay", &get_display) ? get_display() : NULL;
+    if (!display || !symbol_find("wl_display_get_fd", &get_fd) || !symbol_find("wl_display_get_error", &get_error))
+        return false;
+    struct pollfd end = {.fd = get_fd(display)};
+    return get_error(display) != 0 || (poll(&end, 1, 0) > 0 && (end.revents & (POLLHUP | POLLERR | POLLNVAL)) != 0);
+}
+
 void window_check(const struct window *window, bool idle)
 {
-    if (rescue && wayland_is_lost()) end();
+    if (rescue && is_wayland_lost()) end();
     if (!rescue || !handle_errors()) return;
     own = window_number(window);
     if (!error_seen && !idle) return;

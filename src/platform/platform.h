@@ -42,8 +42,8 @@ double platform_refresh_rate(struct platform *platform);
 
 bool platform_is_window(const struct platform *platform);
 void platform_title(struct platform *platform, const char *title);
-void platform_fullscreen(struct platform *platform, bool on);
-bool platform_is_fullscreen(const struct platform *platform);
+/// Has the window fill the screen, or not any more.
+void platform_toggle_fullscreen(struct platform *platform);
 /// The system's clipboard as UTF-8, the process's own without a window. NULL if it holds no text; valid until the next
 /// call.
 const char *platform_clipboard(struct platform *platform);

@@ -52,14 +52,6 @@ void keep_freed_memory(void);
 /// In builds with the address sanitizer: keeps the loaded graphics driver in memory until the process ends.
 void keep_driver_loaded(void);
 
-// What GLFW does not report about a Wayland display.
-
-/// Whether the window's Wayland connection has ended.
-bool wayland_is_lost(void);
-
-/// Whether cursors may be made: GLFW 3.3 crashes on a Wayland display without a pointer. Asks the display.
-bool wayland_allows_cursors(void);
-
 /// Puts the address of a symbol of a library that GLFW may have loaded, which the program itself need not depend on, into a pointer; false
 /// if nothing of that name is loaded.
 static inline bool symbol_find(const char *name, void *pointer)

@@ -16,7 +16,8 @@ enum { CURSOR_KINDS = CURSOR_TEXT + 1 };
 struct window {
     GLFWwindow *handle;
     struct event_queue *queue;
-    GLFWcursor *cursors[CURSOR_KINDS];
+    GLFWcursor *cursors[CURSOR_KINDS]; ///< made once there is a pointer
+    bool has_cursors;
     enum mouse_cursor cursor;
     struct surface_size size;
     float units;       ///< logical pixels a unit of GLFW's window coordinates
@@ -134,9 +135,22 @@ static unsigned mods_now(GLFWwindow *handle)
     return mods;
 }
 
+/// GLFW 3.3 crashes where a cursor is made on a Wayland display without a pointer.
+static void create_cursors(struct window *window)
+{
+    static const int shapes[CURSOR_KINDS] = {
+        [CURSOR_ARROW] = GLFW_ARROW_CURSOR,        [CURSOR_HAND] = GLFW_HAND_CURSOR,
+        [CURSOR_HORIZONTAL] = GLFW_HRESIZE_CURSOR, [CURSOR_VERTICAL] = GLFW_VRESIZE_CURSOR,
+        [CURSOR_MOVE] = GLFW_CROSSHAIR_CURSOR,     [CURSOR_TEXT] = GLFW_IBEAM_CURSOR,
+    };
+    window->has_cursors = true;
+    for (int i = 0; i < CURSOR_KINDS; i++) window->cursors[i] = glfwCreateStandardCursor(shapes[i]);
+}
+
 static void on_pointer(GLFWwindow *handle, double x, double y)
 {
     struct window *window = of(handle);
+    if (!window->has_cursors) create_cursors(window);
     push(window, (struct event){.kind = EVENT_POINTER,
                                 .x = (float)x * window->units,
                                 .y = (float)y * window->units,
@@ -232,17 +246,6 @@ static bool fail_glfw(struct error *error, const char *what)
                 (unsigned)code);
 }
 
-static void create_cursors(struct window *window)
-{
-    static const int shapes[CURSOR_KINDS] = {
-        [CURSOR_ARROW] = GLFW_ARROW_CURSOR,        [CURSOR_HAND] = GLFW_HAND_CURSOR,
-        [CURSOR_HORIZONTAL] = GLFW_HRESIZE_CURSOR, [CURSOR_VERTICAL] = GLFW_VRESIZE_CURSOR,
-        [CURSOR_MOVE] = GLFW_CROSSHAIR_CURSOR,     [CURSOR_TEXT] = GLFW_IBEAM_CURSOR,
-    };
-    if (!wayland_allows_cursors()) return;
-    for (int i = 0; i < CURSOR_KINDS; i++) window->cursors[i] = glfwCreateStandardCursor(shapes[i]);
-}
-
 struct window *window_create(int width, int height, const char *title, int vsync, struct event_queue *queue,
                              struct error *error)
 {
@@ -265,7 +268,6 @@ struct window *window_create(int width, int height, const char *title, int vsync
     glfwSetWindowSizeLimits(window->handle, 480, 320, GLFW_DONT_CARE, GLFW_DONT_CARE);
     glfwMakeContextCurrent(window->handle);
     glfwSwapInterval(vsync);
-    create_cursors(window);
     update_size(window);
     listen(window->handle);
     return window;
@@ -385,33 +387,28 @@ double platform_refresh_rate(struct platform *platform)
     return mode ? mode->refreshRate : 0.0;
 }
 
-void platform_fullscreen(struct platform *platform, bool on)
+void platform_toggle_fullscreen(struct platform *platform)
 {
     struct window *window = platform->window;
-    if (!window || on == window->is_fullscreen) return;
-    if (on) {
+    if (!window) return;
+    if (window->is_fullscreen) {
+        glfwSetWindowMonitor(window->handle, NULL, window->x, window->y, window->width, window->height,
+                             GLFW_DONT_CARE);
+    } else {
         GLFWmonitor *monitor = nearest_monitor(window);
         const GLFWvidmode *mode = monitor ? glfwGetVideoMode(monitor) : NULL;
         if (!mode) return;
         glfwGetWindowPos(window->handle, &window->x, &window->y);
         glfwGetWindowSize(window->handle, &window->width, &window->height);
         glfwSetWindowMonitor(window->handle, monitor, 0, 0, mode->width, mode->height, mode->refreshRate);
-    } else {
-        glfwSetWindowMonitor(window->handle, NULL, window->x, window->y, window->width, window->height,
-                             GLFW_DONT_CARE);
     }
-    window->is_fullscreen = on;
-}
-
-bool platform_is_fullscreen(const struct platform *platform)
-{
-    return platform->window && platform->window->is_fullscreen;
+    window->is_fullscreen = !window->is_fullscreen;
 }
 
 void platform_cursor(struct platform *platform, enum mouse_cursor cursor)
 {
     struct window *window = platform->window;
-    if (!window || cursor == window->cursor) return;
+    if (!window || !window->has_cursors || cursor == window->cursor) return;
     window->cursor = cursor;
     if (window->cursors[cursor]) glfwSetCursor(window->handle, window->cursors[cursor]);
 }
