@@ -1,6 +1,6 @@
 /// What wiggly export writes of imported characters: their own files with a clip more, in either container, and .usda.
 #include "base/file.h"
-#include "export/sidecar.h"
+#include "export/form.h"
 #include "export_scene.h"
 
 #include <jansson.h>

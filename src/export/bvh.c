@@ -1,5 +1,5 @@
 /// Joints as .bvh. Metres, y up; a joint turns by R_y · R_x · R_z, so that a tail's side and up are the first two of its channels.
-#include "export/keys.h"
+#include "export/form.h"
 #include <ctype.h>
 #include <math.h>
 #include <string.h>
@@ -76,12 +76,10 @@ static void write_key(FILE *out, const struct form *form, const struct keys *key
     }
 }
 
-bool bvh_write(struct export_range *range, FILE *out, char summary[FORMAT_SUMMARY], struct error *error)
+bool bvh_write(struct export_range *range, FILE *out, struct error *error)
 {
     struct form form;
     struct keys keys;
-    range->total = range->key_count;
-    range->is_cubic = false;
     if (!form_open(range, range->rigs[0], &form, error)) return false;
     const bool done = keys_collect(range, range->rigs[0], &form, &keys, error);
     if (done) {
@@ -94,7 +92,8 @@ bool bvh_write(struct export_range *range, FILE *out, char summary[FORMAT_SUMMAR
             write_key(out, &form, &keys, form.first_bone, k);
             fputc('\n', out);
         }
-        snprintf(summary, FORMAT_SUMMARY, "%d joints, %d frames", form.joint_count - form.first_bone, keys.count);
+        snprintf(range->summary, FORMAT_SUMMARY, "%d joints, %d frames", form.joint_count - form.first_bone,
+                 keys.count);
     }
     keys_free(&keys);
     form_close(&form);

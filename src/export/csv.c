@@ -51,7 +51,7 @@ static bool write_row(struct export_range *range, double key, struct row *row, s
     return true;
 }
 
-bool csv_write(struct export_range *range, FILE *out, char summary[FORMAT_SUMMARY], struct error *error)
+bool csv_write(struct export_range *range, FILE *out, struct error *error)
 {
     struct row row = {.out = out, .names = true};
     range->total = range->key_count;
@@ -60,6 +60,6 @@ bool csv_write(struct export_range *range, FILE *out, char summary[FORMAT_SUMMAR
     for (int k = 0; k < range->key_count; k++) {
         if (!write_row(range, k, &row, error) || !range_proceed(range, error)) return false;
     }
-    snprintf(summary, FORMAT_SUMMARY, "%d columns, %d rows", row.columns, range->key_count);
+    snprintf(range->summary, FORMAT_SUMMARY, "%d columns, %d rows", row.columns, range->key_count);
     return true;
 }

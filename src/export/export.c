@@ -1,6 +1,4 @@
 /// Finds the format, the rigs and the keys, poses the rigs at these, and writes the file whole or not at all.
-#include "export/export.h"
-#include "base/file.h"
 #include "export/form.h"
 #include "scene/text.h"
 #include <math.h>
@@ -9,24 +7,15 @@
 #include <strings.h>
 #include <sys/types.h>
 
-struct format {
-    const char *ending;
-    bool without_rigs; ///< it makes sense without one
-    unsigned holds;    ///< of what a kind of rig gives (form.h); 0: any kind
-    bool one_rig;      ///< it holds one rig
-    /// Writes all of it to a stream, whose errors the caller sees, and says in a few words what it wrote.
-    bool (*write)(struct export_range *range, FILE *out, char summary[FORMAT_SUMMARY], struct error *error);
-};
-
 static const struct format formats[] = {
-    {.ending = ".glb", .holds = FORM_MESH | FORM_FILE, .write = glb_write},
-    {.ending = ".gltf", .holds = FORM_MESH | FORM_FILE, .write = gltf_write},
+    {.ending = ".glb", .holds = FORM_MESH | FORM_FILE, .write = gltf_write, .has_tangents = true, .is_binary = true},
+    {.ending = ".gltf", .holds = FORM_MESH | FORM_FILE, .write = gltf_write, .has_tangents = true},
     {.ending = ".usda", .holds = FORM_MESH | FORM_FILE, .write = usda_write},
     {.ending = ".bvh", .holds = FORM_JOINTS, .write = bvh_write, .one_rig = true},
     {.ending = ".csv", .write = csv_write, .without_rigs = true},
-    {.ending = ".pc2", .holds = FORM_POINTS, .write = pc2_write, .one_rig = true},
-    {.ending = ".mdd", .holds = FORM_POINTS, .write = mdd_write, .one_rig = true},
-    {.ending = ".npy", .holds = FORM_POINTS, .write = npy_write, .one_rig = true},
+    {.ending = ".pc2", .holds = FORM_POINTS, .write = points_write, .motion = MOTION_PC2, .one_rig = true},
+    {.ending = ".mdd", .holds = FORM_POINTS, .write = points_write, .motion = MOTION_MDD, .one_rig = true},
+    {.ending = ".npy", .holds = FORM_POINTS, .write = points_write, .motion = MOTION_NPY, .one_rig = true},
 };
 
 enum { FORMAT_COUNT = sizeof formats / sizeof *formats, MAX_KEYS = 100000000 };
@@ -71,8 +60,7 @@ static void list_names(const struct document *document, char *text, size_t size)
 }
 
 /// Why there is no rig to write; `unfit` is one that the format cannot hold, or −1.
-static bool fail_rigs(const struct export_range *range, const struct format *format, const char *wanted, int unfit,
-                      struct error *error)
+static bool fail_rigs(const struct export_range *range, int unfit, struct error *error)
 {
     const struct document *document = range->posing->document;
     char names[256], endings[EXPORT_ENDINGS];
@@ -81,10 +69,10 @@ static bool fail_rigs(const struct export_range *range, const struct format *for
         return fail(error, ERROR_INPUT, "the scene has no rig to export: its splines go into a .csv file");
     if (unfit < 0)
         return fail(error, ERROR_INPUT, "%s: expected the name of a rig, %s, got \"%s\"", range->rig_choice, names,
-                    wanted);
+                    range->options->rig);
     const struct rig *rig = document->rigs[unfit];
     list_endings(form_kind(rig->kind)->holds, endings);
-    return fail(error, ERROR_INPUT, "a %s file cannot hold the %s \"%s\": export it as %s", format->ending,
+    return fail(error, ERROR_INPUT, "a %s file cannot hold the %s \"%s\": export it as %s", range->format->ending,
                 rig_word(rig->kind), form_name(rig), endings);
 }
 
@@ -101,10 +89,11 @@ static void note(struct export_report *report, const char *format, ...)
     va_end(arguments);
 }
 
-static bool choose_rigs(struct export_range *range, const struct format *format, const char *wanted,
-                        struct export_report *report, struct error *error)
+static bool choose_rigs(struct export_range *range, struct export_report *report, struct error *error)
 {
     const struct document *document = range->posing->document;
+    const struct format *format = range->format;
+    const char *wanted = range->options->rig;
     int unfit = -1;
     for (int i = 0; i < document->rig_count && i < SCENE_MAX_RIGS; i++) {
         const struct rig *rig = document->rigs[i];
@@ -115,8 +104,7 @@ static bool choose_rigs(struct export_range *range, const struct format *format,
             unfit = i;
         }
     }
-    if (range->rig_count == 0 && !(format->without_rigs && !wanted))
-        return fail_rigs(range, format, wanted, unfit, error);
+    if (range->rig_count == 0 && !(format->without_rigs && !wanted)) return fail_rigs(range, unfit, error);
     const bool is_lost = unfit >= 0 && form_kind(document->rigs[unfit]->kind)->holds == 0; // a chain is in its model
     if (is_lost && range->rig_count > 0)
         note(report, "a %s file cannot hold the %s \"%.40s\", which is left out", format->ending,
@@ -128,9 +116,9 @@ static bool choose_rigs(struct export_range *range, const struct format *format,
                 range->rig_choice);
 }
 
-static bool choose_keys(struct export_range *range, const struct export_options *options,
-                        struct export_report *report, struct error *error)
+static bool choose_keys(struct export_range *range, struct export_report *report, struct error *error)
 {
+    const struct export_options *options = range->options;
     const struct document *document = range->posing->document;
     const double first = options->has_frames ? options->first : document->first_frame;
     const double last = options->has_frames ? options->last : document->last_frame;
@@ -145,6 +133,7 @@ static bool choose_keys(struct export_range *range, const struct export_options 
         return fail(error, ERROR_INPUT, "expected at most %d keys, got %.0f: ask for fewer frames or keys a second",
                     MAX_KEYS, keys);
     range->key_count = (int)keys;
+    range->total = (long)range->key_count * range->rig_count;
     const double end = range_frame(range, range->key_count - 1);
     if (fabs(end - last) > 1e-6)
         note(report, "the last key is on frame %g, because no key falls on frame %g", end, last);
@@ -189,13 +178,12 @@ static bool commit(struct export_range *range, struct file_output *output, struc
     return true;
 }
 
-static bool write_file(struct export_range *range, const struct format *format, const char *path,
-                       struct export_report *report, struct error *error)
+static bool write_file(struct export_range *range, struct export_report *report, struct error *error)
 {
     struct file_output output;
-    char summary[FORMAT_SUMMARY] = "", size[32];
-    if (!file_check_place(path, error) || !file_output_open(&output, path, error)) return false;
-    if (!format->write(range, output.stream, summary, error)) {
+    char size[32];
+    if (!file_check_place(range->path, error) || !file_output_open(&output, range->path, error)) return false;
+    if (!range->format->write(range, output.stream, error)) {
         file_output_discard(&output);
         sidecars_discard(&range->sidecars);
         return false;
@@ -203,35 +191,29 @@ static bool write_file(struct export_range *range, const struct format *format, 
     const off_t bytes = ftello(output.stream);
     if (!commit(range, &output, error)) return false;
     print_size(bytes, size, sizeof size);
-    snprintf(report->text, sizeof report->text, "%s, %s", summary, size);
+    snprintf(report->text, sizeof report->text, "%s, %s", range->summary, size);
     return true;
 }
 
 bool export_write(const struct posing *posing, const char *path, const struct export_options *options,
                   struct export_report *report, struct error *error)
 {
-    const struct format *format = find_format(path);
-    char title[FORM_NAME], endings[EXPORT_ENDINGS];
+    char endings[EXPORT_ENDINGS];
     struct export_range range = {
         .posing = posing,
-        .clip = options->clip,
-        .title = title,
+        .options = options,
+        .format = find_format(path),
         .path = path,
         .rig_choice = options->rig_choice ? options->rig_choice : "--rig",
-        .is_signed = options->is_signed,
-        .is_cubic = options->is_cubic,
-        .proceed = options->proceed,
-        .user = options->user,
     };
     *report = (struct export_report){0};
-    make_title(posing->document, title);
-    if (!format) {
+    make_title(posing->document, range.title);
+    if (!range.format) {
         export_endings(endings);
         return fail(error, ERROR_USAGE, "%s: expected a name ending in %s", path, endings);
     }
-    if (!choose_rigs(&range, format, options->rig, report, error) || !choose_keys(&range, options, report, error))
-        return false;
-    return write_file(&range, format, path, report, error);
+    return choose_rigs(&range, report, error) && choose_keys(&range, report, error) &&
+           write_file(&range, report, error);
 }
 
 // --- the rigs at the times that are exported
@@ -272,6 +254,7 @@ bool range_is_inside(const struct export_range *range, double key)
 bool range_proceed(struct export_range *range, struct error *error)
 {
     range->done++;
-    if (!range->proceed || range->proceed(range->user, range->done, range->total)) return true;
+    const struct export_options *options = range->options;
+    if (!options->proceed || options->proceed(options->user, range->done, range->total)) return true;
     return fail(error, ERROR_ENVIRONMENT, "interrupted; nothing was written");
 }

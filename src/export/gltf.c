@@ -291,7 +291,7 @@ static bool add_rig(struct scene *scene, int rig, struct error *error)
     struct file_targets targets = {0};
     if (!form_open(scene->range, rig, &form, error)) return false;
     bool done = keys_collect(scene->range, rig, &form, &keys, error);
-    if (done) make_targets(&form, &keys, !scene->range->is_signed, &targets);
+    if (done) make_targets(&form, &keys, !scene->range->options->is_signed, &targets);
     if (done) {
         struct part part = {.form = &form, .keys = &keys, .targets = &targets};
         add_nodes(scene, &part, add_mesh(scene, &part));
@@ -313,7 +313,7 @@ static json_t *make_root(struct scene *scene)
     gltf_looks_complete(&scene->looks, root);
     if (json_array_size(scene->skins) > 0) gltf_set(&scene->file, root, "skins", json_incref(scene->skins));
     if (json_array_size(scene->motion.channels) > 0) {
-        const char *name = scene->range->clip ? scene->range->clip : scene->range->title;
+        const char *name = scene->range->options->clip ? scene->range->options->clip : scene->range->title;
         gltf_set(&scene->file, root, "animations", json_pack("[o]", gltf_motion_json(&scene->motion, name)));
     }
     return root;
@@ -328,7 +328,7 @@ static void summarise(const struct scene *scene, char summary[FORMAT_SUMMARY])
 }
 
 static bool write_scene(struct export_range *range, const int *rigs, int count, bool binary, FILE *out,
-                        char summary[FORMAT_SUMMARY], struct error *error)
+                        struct error *error)
 {
     struct scene scene = {.range = range};
     json_t **const arrays[] = {&scene.roots, &scene.nodes, &scene.meshes, &scene.skins};
@@ -339,7 +339,7 @@ static bool write_scene(struct export_range *range, const int *rigs, int count, 
     gltf_motion_begin(&scene.motion, &scene.file, range);
     for (int r = 0; done && r < count; r++) done = add_rig(&scene, rigs[r], error);
     done = done && gltf_file_write(&scene.file, make_root(&scene), binary, out, error);
-    summarise(&scene, summary);
+    summarise(&scene, range->summary);
     for (int i = 0; i < ARRAYS; i++) json_decref(*arrays[i]);
     gltf_motion_free(&scene.motion);
     gltf_looks_free(&scene.looks);
@@ -347,34 +347,21 @@ static bool write_scene(struct export_range *range, const int *rigs, int count, 
     return done;
 }
 
+bool gltf_write_rig(struct export_range *range, int rig, FILE *out, struct error *error)
+{
+    return write_scene(range, &rig, 1, true, out, error);
+}
+
 /// An imported character has a file of its own, in which nothing else has a place.
-static bool write_either(struct export_range *range, bool binary, FILE *out, char summary[FORMAT_SUMMARY],
-                         struct error *error)
+bool gltf_write(struct export_range *range, FILE *out, struct error *error)
 {
     const struct document *document = range->posing->document;
     for (int r = 0; r < range->rig_count; r++) {
         const struct rig *rig = document->rigs[range->rigs[r]];
         if (!(form_kind(rig->kind)->holds & FORM_FILE)) continue;
-        if (range->rig_count == 1) return gltf_model_write(range, binary, out, summary, error);
+        if (range->rig_count == 1) return gltf_model_write(range, out, error);
         return fail(error, ERROR_INPUT, "\"%s\" is exported into a copy of its own file: choose one rig with %s",
                     form_name(rig), range->rig_choice);
     }
-    range->total = (long)range->key_count * range->rig_count;
-    return write_scene(range, range->rigs, range->rig_count, binary, out, summary, error);
-}
-
-bool gltf_write_rig(struct export_range *range, int rig, FILE *out, struct error *error)
-{
-    char summary[FORMAT_SUMMARY];
-    return write_scene(range, &rig, 1, true, out, summary, error);
-}
-
-bool glb_write(struct export_range *range, FILE *out, char summary[FORMAT_SUMMARY], struct error *error)
-{
-    return write_either(range, true, out, summary, error);
-}
-
-bool gltf_write(struct export_range *range, FILE *out, char summary[FORMAT_SUMMARY], struct error *error)
-{
-    return write_either(range, false, out, summary, error);
+    return write_scene(range, range->rigs, range->rig_count, range->format->is_binary, out, error);
 }

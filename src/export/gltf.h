@@ -2,7 +2,7 @@
 #ifndef EXPORT_GLTF_H
 #define EXPORT_GLTF_H
 
-#include "export/keys.h"
+#include "export/form.h"
 #include "model/gltf.h"
 #include "model/gltf_file.h"
 
@@ -26,7 +26,6 @@ json_t *gltf_motion_json(const struct gltf_motion *motion, const char *name);
 
 /// Writes the file that the range's only rig came from, with a clip added or, where it has one of that name, replaced. All else stays as it
 /// was; in the other container, .glb or .gltf, it says the same. Without a chain there is no new clip.
-bool gltf_model_write(struct export_range *range, bool binary, FILE *out, char summary[FORMAT_SUMMARY],
-                      struct error *error);
+bool gltf_model_write(struct export_range *range, FILE *out, struct error *error);
 
 #endif

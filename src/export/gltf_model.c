@@ -121,12 +121,12 @@ static bool check_place(const struct export_range *range, const struct glb *sour
 }
 
 /// Takes the bytes that new ones follow: those of a .glb's chunk, if that is its first buffer; none of a .gltf; else all there are.
-static bool take_bytes(const struct export_range *range, bool binary, struct original *o, struct error *error)
+static bool take_bytes(const struct export_range *range, struct original *o, struct error *error)
 {
     const json_t *buffers = json_object_get(o->source.json, "buffers"), *first = json_array_get(buffers, 0);
     const bool has_chunk = o->source.chunk.at && first && !json_object_get(first, "uri");
     gltf_file_continue(&o->file, o->source.json);
-    if (!o->is_same || (binary && !has_chunk)) return gather(o, error);
+    if (!o->is_same || (range->format->is_binary && !has_chunk)) return gather(o, error);
     if (has_chunk) gltf_file_append(&o->file, o->source.chunk.at, o->source.chunk.size);
     if (!has_chunk) o->file.buffer = (json_int_t)json_array_size(buffers);
     return check_place(range, &o->source, error);
@@ -164,15 +164,15 @@ static bool put_clip(struct export_range *range, const struct form *form, struct
     struct keys keys;
     json_t *root = o->source.json;
     const char *plays = range->posing->document->rigs[range->rigs[0]]->model.clip;
-    if (!range->clip) range->clip = plays ? plays : range->title;
+    const char *name = range->options->clip ? range->options->clip : plays ? plays : range->title;
     if (!keys_collect(range, range->rigs[0], form, &keys, error)) return false;
     gltf_motion_begin(&motion, &o->file, range);
     for (int c = 0; body->clip && c < body->clip->channel_count; c++)
         add_channel(&motion, body, &keys, &body->clip->channels[c]);
     for (int j = 0; j < body->bone_count; j++)
         gltf_motion_add_keys(&motion, body->node[j], GLTF_ROTATION, &keys, keys_rotation(j), 4);
-    json_t *clip = gltf_motion_json(&motion, range->clip);
-    const int known = gltf_find_clip(body->gltf, range->clip);
+    json_t *clip = gltf_motion_json(&motion, name);
+    const int known = gltf_find_clip(body->gltf, name);
     if (known < 0) {
         gltf_append_to(&o->file, root, "animations", clip);
     } else if (json_array_set_new(json_object_get(root, "animations"), (size_t)known, clip) != 0) {
@@ -183,19 +183,18 @@ static bool put_clip(struct export_range *range, const struct form *form, struct
     return true;
 }
 
-static bool write_file(struct export_range *range, const struct form *form, bool binary, FILE *out,
-                       struct error *error)
+static bool write_file(struct export_range *range, const struct form *form, FILE *out, struct error *error)
 {
     struct original o = {0};
     const struct model_body *body = form->owned;
-    const bool has_clip = body->bone_count > 0;
+    const bool has_clip = body->bone_count > 0, binary = range->format->is_binary;
     if (!glb_open(&o.source, body->gltf->path, error)) return false;
     o.is_same = (memcmp(o.source.data, "glTF", 4) == 0) == binary;
     bool done;
     if (!has_clip && o.is_same) {
         done = check_place(range, &o.source, error) && write_same(body->gltf->path, out, error);
     } else {
-        done = take_bytes(range, binary, &o, error) && (!has_clip || put_clip(range, form, &o, error)) &&
+        done = take_bytes(range, &o, error) && (!has_clip || put_clip(range, form, &o, error)) &&
                gltf_file_write(&o.file, json_incref(o.source.json), binary, out, error);
     }
     gltf_file_free(&o.file);
@@ -203,18 +202,16 @@ static bool write_file(struct export_range *range, const struct form *form, bool
     return done;
 }
 
-bool gltf_model_write(struct export_range *range, bool binary, FILE *out, char summary[FORMAT_SUMMARY],
-                      struct error *error)
+bool gltf_model_write(struct export_range *range, FILE *out, struct error *error)
 {
     struct form form;
-    range->total = range->key_count;
     if (!form_open(range, range->rigs[0], &form, error)) return false;
-    const bool done = write_file(range, &form, binary, out, error);
+    const bool done = write_file(range, &form, out, error);
     const int bones = ((const struct model_body *)form.owned)->bone_count;
     if (bones > 0) {
-        snprintf(summary, FORMAT_SUMMARY, "%d bones bent by chains, %d keys", bones, range->key_count);
+        snprintf(range->summary, FORMAT_SUMMARY, "%d bones bent by chains, %d keys", bones, range->key_count);
     } else {
-        snprintf(summary, FORMAT_SUMMARY, "what is in the file as it was, because no chain moves it");
+        snprintf(range->summary, FORMAT_SUMMARY, "what is in the file as it was, because no chain moves it");
     }
     form_close(&form);
     return done;

@@ -1,6 +1,6 @@
 /// Collects the keys of one rig, and the slopes of its curves by differences.
-#include "export/keys.h"
 #include "base/need.h"
+#include "export/form.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -105,7 +105,7 @@ bool keys_collect(struct export_range *range, int rig, const struct form *form, 
     const struct sampler from = {range, form, rig};
     const size_t count = (size_t)range->key_count,
                  width = 3 + 10 * (size_t)form->joint_count + (size_t)form->target_count;
-    const bool tangents = range->is_cubic && range->key_count > 1;
+    const bool tangents = range->options->is_cubic && range->format->has_tangents && range->key_count > 1;
     *keys = (struct keys){.count = range->key_count, .width = (int)width, .joints = form->joint_count};
     if (!need_has_room((2 * count + 1) * width * sizeof *keys->rows)) return fail_no_memory(error, form->name);
     keys->rows = need_zeroed((count + 1) * width, sizeof *keys->rows);

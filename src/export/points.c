@@ -1,13 +1,13 @@
 /// Where all vertices of a rig are at each key: .pc2, .mdd and .npy.
 #include "base/need.h"
 #include "export/form.h"
-#include "model/motion.h"
 #include <stdlib.h>
 
-static bool write_keys(struct export_range *range, const struct form *form, FILE *out, enum motion_form as,
-                       float (*positions)[3], struct error *error)
+static bool write_keys(struct export_range *range, const struct form *form, FILE *out, float (*positions)[3],
+                       struct error *error)
 {
     struct rig_pose pose;
+    const enum motion_form as = range->format->motion;
     const bool in_seconds = as == MOTION_MDD;
     const struct document *document = range->posing->document;
     const struct motion_span span = {
@@ -27,31 +27,14 @@ static bool write_keys(struct export_range *range, const struct form *form, FILE
     return true;
 }
 
-static bool write_points(struct export_range *range, FILE *out, enum motion_form as, char summary[FORMAT_SUMMARY],
-                         struct error *error)
+bool points_write(struct export_range *range, FILE *out, struct error *error)
 {
     struct form form;
     if (!form_open(range, range->rigs[0], &form, error)) return false;
     float(*positions)[3] = need((size_t)form.vertex_count + 1, sizeof *positions);
-    range->total = range->key_count;
-    const bool done = write_keys(range, &form, out, as, positions, error);
-    snprintf(summary, FORMAT_SUMMARY, "%d vertices, %d frames", form.vertex_count, range->key_count);
+    const bool done = write_keys(range, &form, out, positions, error);
+    snprintf(range->summary, FORMAT_SUMMARY, "%d vertices, %d frames", form.vertex_count, range->key_count);
     free(positions);
     form_close(&form);
     return done;
-}
-
-bool pc2_write(struct export_range *range, FILE *out, char summary[FORMAT_SUMMARY], struct error *error)
-{
-    return write_points(range, out, MOTION_PC2, summary, error);
-}
-
-bool mdd_write(struct export_range *range, FILE *out, char summary[FORMAT_SUMMARY], struct error *error)
-{
-    return write_points(range, out, MOTION_MDD, summary, error);
-}
-
-bool npy_write(struct export_range *range, FILE *out, char summary[FORMAT_SUMMARY], struct error *error)
-{
-    return write_points(range, out, MOTION_NPY, summary, error);
 }

@@ -1,6 +1,6 @@
 /// Keeps the files beside another in step with it.
-#include "export/sidecar.h"
 #include "base/need.h"
+#include "export/form.h"
 #include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>

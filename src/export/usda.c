@@ -91,22 +91,20 @@ static bool write_rig(struct export_range *range, int rig, const char *name, FIL
     return done;
 }
 
-static void summarise(const struct export_range *range, char summary[FORMAT_SUMMARY])
+static void summarise(struct export_range *range)
 {
-    const int used = snprintf(summary, FORMAT_SUMMARY, "%d rig%s, %d keys", range->rig_count,
+    const int used = snprintf(range->summary, FORMAT_SUMMARY, "%d rig%s, %d keys", range->rig_count,
                               range->rig_count == 1 ? "" : "s", range->key_count);
     if (range->sidecars.count == 0) return;
-    snprintf(summary + used, FORMAT_SUMMARY - (size_t)used, ", %d texture%s in %.40s", range->sidecars.count,
+    snprintf(range->summary + used, FORMAT_SUMMARY - (size_t)used, ", %d texture%s in %.40s", range->sidecars.count,
              range->sidecars.count == 1 ? "" : "s", path_name(range->sidecars.folder));
 }
 
-bool usda_write(struct export_range *range, FILE *out, char summary[FORMAT_SUMMARY], struct error *error)
+bool usda_write(struct export_range *range, FILE *out, struct error *error)
 {
     struct usda_names names = {0};
     char(*name)[FORM_NAME] = need_zeroed((size_t)range->rig_count + 1, sizeof *name);
     bool done = true;
-    range->total = (long)range->key_count * range->rig_count;
-    range->is_cubic = false;
     fprintf(out, "#usda 1.0\n(\n    defaultPrim = \"scene\"\n    metersPerUnit = 1\n    upAxis = \"Y\"\n");
     fprintf(out, "    startTimeCode = %.9g\n    endTimeCode = %.9g\n    timeCodesPerSecond = %.9g\n)\n",
             range_frame(range, 0), range_frame(range, range->key_count - 1), range->posing->document->fps);
@@ -119,6 +117,6 @@ bool usda_write(struct export_range *range, FILE *out, char summary[FORMAT_SUMMA
     fputs("}\n", out);
     usda_names_free(&names);
     free(name);
-    summarise(range, summary);
+    summarise(range);
     return done;
 }

@@ -1,6 +1,5 @@
 /// The skeletons of a rig in a .usda file, and what moves them.
 #include "base/need.h"
-#include "export/keys.h"
 #include "export/usda.h"
 #include <math.h>
 #include <stddef.h>
