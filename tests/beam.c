@@ -1,7 +1,6 @@
 /// Beams of cubes for the tests of the simulation.
 #include "beam.h"
 #include "near.h"
-#include <stdlib.h>
 
 void beam_create(struct beam *beam, const int cells[3], double edge)
 {

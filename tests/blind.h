@@ -7,7 +7,6 @@
 #include "app/state.h"
 #include "platform/surface.h"
 #include "ui/font.h"
-#include <stdlib.h>
 
 struct blind {
     struct app app;

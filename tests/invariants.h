@@ -6,8 +6,6 @@
 
 #include "scene/load.h"
 #include "scene/order.h"
-#include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 static inline void assert_scene_timing(const struct document *d)

@@ -6,7 +6,6 @@
 #include "blind.h"
 #include "inside.h"
 
-#include <stdint.h>
 #include <stdio.h>
 #include <string.h>
 #include <unistd.h>

@@ -22,7 +22,8 @@
 /// Adds a test that begins at that line.
 void tests_add(struct CMUnitTest test, int line);
 
-/// Runs all that were added, in the order of their lines, between a set-up and a tear-down of all; NULL: none. What main() returns.
+/// Runs all that were added, in the order of their lines, between a set-up and a tear-down of all; NULL: none. What main() returns, which a
+/// test has of its own where there is one of the two.
 int tests_run(CMFixtureFunction set_up, CMFixtureFunction tear_down);
 
 /// A test with a set-up and a tear-down of its own: TEST_WITH(set_up, tear_down, name) { … }.

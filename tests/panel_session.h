@@ -7,7 +7,6 @@
 
 #include "rig/models.h"
 #include <stdio.h>
-#include <stdlib.h>
 
 /// Opens a scene in a window of that size.
 static inline void panel_open(struct session *session, const char *scene, float width, float height)

@@ -9,7 +9,6 @@
 #include "scene/load.h"
 #include "ui/font.h"
 #include <ctype.h>
-#include <stdlib.h>
 #include <string.h>
 
 struct session {

@@ -6,7 +6,6 @@
 #include "spline/solver.h"
 #include <lapacke.h>
 #include <stdio.h>
-#include <stdlib.h>
 
 struct subject {
     wiggly_mode mode;
@@ -220,5 +219,3 @@ TEST(no_long_spline_is_called_exact_that_is_not)
     }
     assert_in_range(exact, subjects * 9 / 10, subjects);
 }
-
-int main(void) { return tests_run(NULL, NULL); }

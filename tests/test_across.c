@@ -1,6 +1,4 @@
 /// Knots of several splines at once: selected, moved, nudged, scaled, sloped, deleted, copied and pasted as one step.
-#include "editor/core/selection.h"
-#include "inside.h"
 #include "panel_session.h"
 
 static const char TWO[] =
@@ -349,5 +347,3 @@ SESSION_TEST(test_the_playhead_goes_to_the_next_knot, session_open(s, TWO))
     assert_near(playback->position, 60, 0);
     assert_null(history_undo_label(s->history));
 }
-
-int main(void) { return tests_run(NULL, NULL); }

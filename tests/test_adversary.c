@@ -3,7 +3,6 @@
 #include "near.h"
 
 #include "adversary.h"
-#include <stdio.h>
 
 static struct adversary_problem problem;
 

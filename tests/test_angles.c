@@ -1,8 +1,6 @@
 /// Angles along a tail: looked up, read, printed, edited, and resampled for another number of joints.
 #include "posed_tail.h"
 #include "world.h"
-#include <stdlib.h>
-#include <string.h>
 
 enum { JOINTS = 5 };
 
@@ -118,5 +116,3 @@ WORLD_TEST(a_ramp_stays_as_joints_are_added, world_open(world))
         assert_near(channel->lag.ramp[i].angle, ramp.ramp[i].angle, 0);
     }
 }
-
-int main(void) { return tests_run(NULL, NULL); }

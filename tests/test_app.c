@@ -6,7 +6,6 @@
 #include "shown.h"
 #include "temporary.h"
 #include <signal.h>
-#include <stdio.h>
 #include <string.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -246,5 +245,3 @@ TEST(the_last_place_is_ones_own)
     unlink(path);
     assert_int_equal(rmdir(folder), 0);
 }
-
-int main(void) { return tests_run(NULL, NULL); }

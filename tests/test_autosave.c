@@ -1,14 +1,10 @@
 /// Recovery files: what is in them when, who may have them, and that a program that is killed leaves them whole.
-#include "near.h"
 
 #include "app/recovery.h"
 #include "base/file.h"
 #include "folder.h"
-#include "scene/load.h"
 #include "world.h"
 #include <signal.h>
-#include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
@@ -290,5 +286,3 @@ TEST_WITH(folder_make, folder_remove, test_killed_while_saving)
     world_close(&small);
     world_close(&large);
 }
-
-int main(void) { return tests_run(NULL, NULL); }

@@ -6,7 +6,6 @@
 #include "folder.h"
 #include "scene/load.h"
 #include <signal.h>
-#include <stdio.h>
 #include <string.h>
 #include <sys/wait.h>
 #include <time.h>
@@ -188,5 +187,3 @@ TEST_WITH(folder_make, folder_remove, a_kill)
     recovery_release(&entry.slot);
     document_destroy(document);
 }
-
-int main(void) { return tests_run(NULL, NULL); }

@@ -4,8 +4,6 @@
 
 #include "curve.h"
 #include "spline/solver.h"
-#include <math.h>
-#include <stdlib.h>
 
 enum { SAMPLES = 2000 };
 

@@ -1,7 +1,6 @@
 /// Many splines over threads: the same bits as one at a time, statuses each its own; and what happens when memory runs out.
 #include "near.h"
 
-#include <stdlib.h>
 #include <string.h>
 
 /// Allocations that are still granted; counts down.
@@ -318,5 +317,3 @@ TEST(running_out_of_memory_is_said)
     granted = -1;
     assert_null(solver);
 }
-
-int main(void) { return tests_run(NULL, NULL); }

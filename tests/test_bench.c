@@ -2,7 +2,6 @@
 #include "near.h"
 
 #include "bench/bench.h"
-#include <math.h>
 #include <string.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -79,5 +78,3 @@ TEST(what_cannot_be_solved_is_no_figure)
     assert_true(WIFEXITED(status) && WEXITSTATUS(status) != 0);
     assert_non_null(strstr(says, "twice"));
 }
-
-int main(void) { return tests_run(NULL, NULL); }

@@ -1,7 +1,5 @@
 /// Keyboards of other countries: every action has a key there, and what is typed is what counts, not the key that types it.
-#include "editor/core/core.h"
 #include "editor/keys.h"
-#include "inside.h"
 #include "panel_session.h"
 
 static const char scene[] =
@@ -157,5 +155,3 @@ SESSION_TEST(test_a_key_that_closes_something_types_nothing, session_open(s, sce
     session_type(s, ".");
     assert_int_equal(selection_count(&s->editor->core.selection, s->document->splines[0]), 1);
 }
-
-int main(void) { return tests_run(NULL, NULL); }

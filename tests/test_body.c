@@ -2,7 +2,6 @@
 #include "panel_session.h"
 
 #include "editor/stage/parts.h"
-#include <math.h>
 
 static const char scene[] = "{\"frames\": [0, 48], \"splines\": ["
                             "{\"name\": \"sway\", \"frequency\": 1.5, \"damping\": 0.2, \"bandwidth\": 0.1},"
@@ -325,5 +324,3 @@ TEST(test_a_press_right_after_a_rig_went)
     assert_int_equal(s.document->rigs[0]->kind, RIG_MEADOW);
     session_close(&s);
 }
-
-int main(void) { return tests_run(NULL, NULL); }

@@ -4,7 +4,6 @@
 #include "beast.h"
 #include "editor/core/bones.h"
 #include "folder.h"
-#include <stddef.h>
 
 /// The beast on the stage at rest, with a chain in its left ear. The pointer is where it does nothing.
 static void open_beast(struct session *session, const char *chains)

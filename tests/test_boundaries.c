@@ -1,13 +1,10 @@
 /// Every limit that a scene, an edit or the library names: what lies one below it and at it is taken, what lies one above it is refused
 /// with a sentence that says the limit. The limits stand here as numbers, as the manual has them.
-#include "near.h"
 
 #include "folder.h"
 #include "world.h"
 
 #include "base/file.h"
-#include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 enum { TEXT = 1 << 20 };
@@ -391,5 +388,3 @@ TEST(pins_and_bounds_of_a_group)
         if (status == WIGGLY_OK) wiggly_destroy(solver);
     }
 }
-
-int main(void) { return tests_run(NULL, NULL); }

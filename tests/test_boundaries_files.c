@@ -1,6 +1,5 @@
 /// The limits of files, pictures, the clipboard and of names that are taken: what lies at each is taken, what lies one above it is refused with
 /// a sentence. Large files are holes, which take no disk.
-#include "near.h"
 
 #include "app/recovery.h"
 #include "app/replay.h"
@@ -18,8 +17,6 @@
 #include "scene/paint.h"
 #include "scene/text.h"
 #include <jansson.h>
-#include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -364,5 +361,3 @@ TEST_WITH(folder_make, folder_remove, names_of_rescued_scenes)
     if (home) setenv("HOME", home, 1);
     free(home);
 }
-
-int main(void) { return tests_run(NULL, NULL); }

@@ -180,5 +180,3 @@ TEST(so_they_do_behind_the_last_knot)
     check_groups(12, 1);
     check_groups(12, 2);
 }
-
-int main(void) { return tests_run(NULL, NULL); }

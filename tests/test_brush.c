@@ -1,10 +1,8 @@
 /// The brush on a character's surface, by mouse and keys: what a stroke changes and what it leaves alone, its undo, its modes, and
 /// the distances that it works with.
-#include "inside.h"
 #include "panel_session.h"
 #include "puppet.h"
 #include "timing/framelog.h"
-#include <stdio.h>
 #include <unistd.h>
 
 /// Two fingers of 0.8 m, 7 cm apart through the air, on one palm.

@@ -1,7 +1,6 @@
 /// The stage's camera: what it is fitted to is in view, and what it shows lies where it says.
 #include "near.h"
 #include "rig/camera.h"
-#include <math.h>
 
 static const float viewport[4] = {100.0f, 50.0f, 1000.0f, 400.0f};
 
@@ -133,5 +132,3 @@ TEST(the_eye_stays_above_the_floor)
         if (camera.elevation < CAMERA_MAX_ELEVATION) assert_true(eye[1] > lo[1]);
     }
 }
-
-int main(void) { return tests_run(NULL, NULL); }

@@ -2,7 +2,6 @@
 #include "blind.h"
 #include "shown.h"
 
-#include "editor/editor.h"
 #include "editor/stage/stage.h"
 #include <stdio.h>
 #include <string.h>
@@ -88,5 +87,3 @@ TEST(a_click_on_it_takes_it_away)
         blind_close(&b);
     }
 }
-
-int main(void) { return tests_run(NULL, NULL); }

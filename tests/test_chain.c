@@ -3,9 +3,7 @@
 #include "rig/strand.h"
 
 #include "model/vector.h"
-#include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 
 enum { BONES = 8 };
 
@@ -154,5 +152,3 @@ TEST(test_what_is_no_chain)
     assert_int_equal(chain_end(gltf, 4, &error), BONES + 1);
     free_character(&imported);
 }
-
-int main(void) { return tests_run(NULL, NULL); }

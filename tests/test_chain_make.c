@@ -4,8 +4,6 @@
 #include "rig/import.h"
 #include "rig/opened.h"
 #include "scene/history.h"
-#include <math.h>
-#include <string.h>
 
 static const char dog[] = "assets/models/dog.glb";
 
@@ -208,5 +206,3 @@ TEST(test_sides_of_names)
     assert_false(chain_other_side("tail_1", other));
     assert_false(chain_other_side("Roll", other));
 }
-
-int main(void) { return tests_run(NULL, NULL); }

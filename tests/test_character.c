@@ -2,7 +2,6 @@
 #include "model/character.h"
 #include "near.h"
 #include "temporary.h"
-#include <stdio.h>
 #include <string.h>
 
 /// A tetrahedron with two coordinates and coloured corners.
@@ -313,5 +312,3 @@ TEST(changed_bytes_do_no_harm)
     }
     assert_in_range(refused, 50, 999);
 }
-
-int main(void) { return tests_run(NULL, NULL); }

@@ -1,10 +1,7 @@
 /// Soft characters by what a person sees: the same picture as of a figure that already has the shape, the place or the colours that it
 /// should be given.
-#include "draw/stage.h"
-#include "model/figure.h"
 #include "offscreen.h"
 #include "puppet.h"
-#include "ui/theme.h"
 #include <stdio.h>
 
 enum { WIDTH = 500, HEIGHT = 300 };

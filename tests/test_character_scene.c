@@ -5,9 +5,7 @@
 #include "scene/edit.h"
 #include "scene/history.h"
 #include "scene/load.h"
-#include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -269,5 +267,3 @@ TEST(a_scene_saved_elsewhere_finds_its_model)
     rmdir(deeper);
     rmdir(folder);
 }
-
-int main(void) { return tests_run(NULL, NULL); }

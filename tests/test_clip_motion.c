@@ -2,8 +2,6 @@
 #include "near.h"
 #include "rig/import.h"
 #include "rig/posing.h"
-#include <math.h>
-#include <stdlib.h>
 
 enum { SUBSTEPS = 4, CYCLES = 3 };
 
@@ -132,5 +130,3 @@ TEST(test_what_is_not_there)
     assert_false(source.follow(source.context, scene.document, &no_model, scene.samples));
     close_scene(&scene);
 }
-
-int main(void) { return tests_run(NULL, NULL); }

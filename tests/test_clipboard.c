@@ -1,5 +1,4 @@
 /// Knots as text and on the clipboard: what is read, what is refused and with which words, and what pasting does.
-#include "inside.h"
 #include "panel_session.h"
 #include "scene/knots.h"
 
@@ -210,5 +209,3 @@ SESSION_TEST(test_copies_come_behind_and_pass_through, session_open(s, FIVE))
     assert_non_null(strstr(mark + 1, "\"mark\": \"kept\"")); // keys that nobody here knows are copied too
     free(now);
 }
-
-int main(void) { return tests_run(NULL, NULL); }

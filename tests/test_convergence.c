@@ -2,8 +2,6 @@
 /// followed or tracked. The same knots, in seconds, at 24, 48, 96 and 192 samples a second.
 #include "near.h"
 
-#include <stdlib.h>
-
 #include "curve.h"
 #include <stdio.h>
 #include <string.h>

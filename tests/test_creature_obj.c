@@ -3,9 +3,7 @@
 #include "model/character.h"
 #include "model/surface.h"
 #include "near.h"
-#include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 
 enum { MOST_TRIANGLES = 15000 };
 

@@ -1,8 +1,6 @@
 /// Splines of thousands of knots: which are selected, and how they are drawn.
 #include "editor/core/knots.h"
-#include "editor/core/selection.h"
 #include "five_knots.h"
-#include "inside.h"
 #include "panel_session.h"
 #include "shown.h"
 
@@ -100,5 +98,3 @@ TEST(a_crowd_is_drawn_as_columns)
     assert_true(many < few + few / 4);
     session_close(&s);
 }
-
-int main(void) { return tests_run(NULL, NULL); }

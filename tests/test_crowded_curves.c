@@ -1,7 +1,5 @@
 /// Curves whose swings are finer than a pixel column, and the marks of knots that are.
-#include "editor/curves/state.h"
 #include "five_knots.h"
-#include "inside.h"
 #include "panel_session.h"
 
 /// Opens a scene of one spline with a knot every `gap` frames, whose values come again and again.
@@ -68,5 +66,3 @@ TEST(swings_finer_than_a_column_are_a_band)
     for (int i = 0; i < list->count; i++) assert_int_not_equal(list->commands[i].kind, DRAW_BAND);
     session_close(&s);
 }
-
-int main(void) { return tests_run(NULL, NULL); }

@@ -1,7 +1,5 @@
 /// The curves panel as an animator uses it: boxes, scaling, retiming, other curves, ruler. Events in, document out.
-#include "editor/curves/state.h"
 #include "five_knots.h"
-#include "inside.h"
 #include "panel_session.h"
 
 static void assert_frames(const struct session *s, const double *frames)
@@ -449,5 +447,3 @@ SESSION_TEST(
         assert_true(cache->re[c][1] > plot->y + 4 && cache->re[c][1] < plot->y + plot->h - 4);
     }
 }
-
-int main(void) { return tests_run(NULL, NULL); }

@@ -1,7 +1,5 @@
 /// The demo: all of it can be played, it begins anew by itself, and the first touch ends it.
 #include "blind.h"
-#include "editor/dialogs/state.h"
-#include "editor/editor.h"
 #include "inside.h"
 #include "scene/load.h"
 #include "shown.h"
@@ -116,5 +114,3 @@ TEST(test_the_window_closes_at_once)
     assert_true(b.app.quit);
     blind_close(&b);
 }
-
-int main(void) { return tests_run(NULL, NULL); }

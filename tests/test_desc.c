@@ -93,5 +93,3 @@ TEST(the_filter_is_kept_where_every_member_that_it_is_of_is_the_same)
         assert_int_equal(desc_same_filter(&desc, &other), !m->filters);
     }
 }
-
-int main(void) { return tests_run(NULL, NULL); }

@@ -1,9 +1,7 @@
 /// Details of the editor, one each: notches of the wheel, lists longer than the screen, held letters, targets of recordings.
-#include "inside.h"
 #include "panel_session.h"
 #include "shown.h"
 #include "ui/theme.h"
-#include <math.h>
 
 static const char tail[] =
     "{\"wiggly\": 1, \"frames\": [0, 120], \"splines\": ["
@@ -227,5 +225,3 @@ TEST(presets_look_alike_and_plain)
     }
     session_close(&s);
 }
-
-int main(void) { return tests_run(NULL, NULL); }

@@ -1,10 +1,6 @@
 /// The dialogs that deal with files of before: recent ones, and work that an earlier run left behind.
-#include "inside.h"
 #include "panel_session.h"
 #include "shown.h"
-
-#include "ui/font.h"
-#include <string.h>
 
 static const char scene[] = "{\"frames\": [0, 48], \"splines\": [{\"name\": \"sway\", \"knots\": "
                             "[{\"frame\": 0, \"value\": 0}, {\"frame\": 12, \"value\": 1}]}]}";
@@ -244,5 +240,3 @@ TEST(test_advice_names_what_is_there)
     expect_advice(SWING_BY("") "}", "Double-click", "Double-click to set a knot. Space plays, F1 shows all keys");
     expect_advice(SWING "}", "Double-click", "Drag a knot. Space plays, F1 shows all keys");
 }
-
-int main(void) { return tests_run(NULL, NULL); }

@@ -1,11 +1,8 @@
 /// The Export dialog: the name's ending is the format, what the format lets choose, and what is remembered.
-#include "inside.h"
 #include "panel_session.h"
 #include "shown.h"
 
 #include "app/state.h"
-#include "ui/font.h"
-#include <string.h>
 
 static const char scene[] = "{\"frames\": [0, 48], \"substeps\": 2, \"splines\": [{\"name\": \"sway\", \"knots\": "
                             "[{\"frame\": 0, \"value\": 0}, {\"frame\": 12, \"value\": 1}]}],"
@@ -248,5 +245,3 @@ SESSION_TEST(test_small_windows, open_session(s, "walk.json", 640, 400))
     assert_non_null(row);
     assert_true(row->y > row->clip.y && row->y < row->clip.y + row->clip.h);
 }
-
-int main(void) { return tests_run(NULL, NULL); }

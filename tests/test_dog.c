@@ -3,10 +3,7 @@
 #include "temporary.h"
 
 #include "model/gltf.h"
-#include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 
 #define DOG "assets/models/dog.glb"
 enum { KEYS = 24, LEGS = 4 };

@@ -8,7 +8,6 @@
 #include "ui/font.h"
 #include "ui/theme.h"
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 enum { WIDTH = 320, HEIGHT = 240 };

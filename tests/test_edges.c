@@ -74,5 +74,3 @@ TEST(looks_cut)
         assert_int_equal(neighbours[2], 1);
     }
 }
-
-int main(void) { return tests_run(NULL, NULL); }

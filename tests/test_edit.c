@@ -1,8 +1,6 @@
 /// Edits: what they do, and that none makes a document that would not load.
-#include "near.h"
 
 #include "world.h"
-#include <stdlib.h>
 #include <string.h>
 
 /// A knot may pass others: it is found by its id, and knots stay by sample; its unknown keys go with it.
@@ -138,5 +136,3 @@ WORLD_TEST(test_angles, world_open(world))
     assert_document(world, before);
     free(before);
 }
-
-int main(void) { return tests_run(NULL, NULL); }

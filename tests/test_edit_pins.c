@@ -1,9 +1,7 @@
 /// Pins in the document: read, saved byte by byte, edited, undone, and kept such that the saved file loads.
-#include "near.h"
 
 #include "scene/pins.h"
 #include "world.h"
-#include <stdlib.h>
 #include <string.h>
 
 enum { SIDE, UP, BASE };
@@ -112,5 +110,3 @@ WORLD_TEST(test_what_would_not_load_is_refused, open(world))
     assert_refused(world, edit_start(world, UP, WIGGLY_LOOP),
                    "t: pins: expected a frame before 48, because the last frame of a loop repeats the first, got 48");
 }
-
-int main(void) { return tests_run(NULL, NULL); }

@@ -1,9 +1,7 @@
 /// Edits of the list of splines and of the scene's timing: what they do to what refers to a spline, and that undo
 /// brings back every byte and every id.
-#include "near.h"
 
 #include "world.h"
-#include <stdlib.h>
 #include <string.h>
 
 WORLD_TEST(test_a_new_spline, world_open(world))
@@ -225,5 +223,3 @@ WORLD_TEST(test_ids_of_a_restarted_step, world_open(world))
     assert_int_equal(world->document->splines[1]->knots[0].id, knot);
     history_end(world->history);
 }
-
-int main(void) { return tests_run(NULL, NULL); }

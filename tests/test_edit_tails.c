@@ -1,8 +1,6 @@
 /// Edits of tails and channels: what they do, that undoing gives the same text again, and what is refused.
-#include "near.h"
 
 #include "world.h"
-#include <stdlib.h>
 #include <string.h>
 
 static bool set_position(struct world *world, int coordinate, double value, int track)
@@ -124,5 +122,3 @@ WORLD_TEST(test_joints_of_what_does_not_bend, world_open(world))
     assert_int_equal(stretch->gain.count, 5);
     for (int n = 0; n < 5; n++) assert_near(stretch->gain.value[n], 1 + 0.5 * n, 1e-6);
 }
-
-int main(void) { return tests_run(NULL, NULL); }

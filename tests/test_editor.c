@@ -2,7 +2,6 @@
 #include "session.h"
 
 #include <stdio.h>
-#include <stdlib.h>
 
 static const char SWAY[] =
     "{\"wiggly\": 1, \"frames\": [0, 48], \"splines\": [{\"name\": \"sway\", \"frequency\": 1,"
@@ -354,5 +353,3 @@ TEST(test_a_monkey_can_be_undone)
         session_close(&s);
     }
 }
-
-int main(void) { return tests_run(NULL, NULL); }

@@ -5,7 +5,6 @@
 #include "timing/framelog.h"
 #include "ui/theme.h"
 #include <stdio.h>
-#include <stdlib.h>
 
 static const char TAIL[] =
     "{\"wiggly\": 1, \"frames\": [0, 120], \"splines\": [{\"name\": \"sway\", \"frequency\": 1, \"damping\": 0.08,"
@@ -500,5 +499,3 @@ TEST(test_targets_that_are_not_there)
     }
     session_close(&s);
 }
-
-int main(void) { return tests_run(NULL, NULL); }

@@ -140,5 +140,3 @@ TEST(a_curve_that_was_never_solved_is_0)
     wiggly_evaluate_float(&curve, 3, 1, 2, out, 1);
     assert_true(out[0] == 0 && out[1] == 0);
 }
-
-int main(void) { return tests_run(NULL, NULL); }

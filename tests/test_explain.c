@@ -1,8 +1,6 @@
 /// The frequency that explains knots: known oscillations are found again, from knots near their extrema.
 #include "near.h"
 
-#include <math.h>
-#include <stdint.h>
 #include <string.h>
 #include <wiggly/wiggly.h>
 
@@ -93,5 +91,3 @@ TEST(what_cannot_be_told_is_not)
     assert_true(wiggly_explain(&desc, best) >= 1);
     assert_near(best[0].frequency, 2, 0.02);
 }
-
-int main(void) { return tests_run(NULL, NULL); }

@@ -275,5 +275,3 @@ TEST_WITH(folder_make, folder_remove, all_rigs_come_out)
     assert_string_equal(gltf.clips[0].name, "Sway");
     gltf_free(&gltf);
 }
-
-int main(void) { return tests_run(NULL, NULL); }

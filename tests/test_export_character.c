@@ -473,5 +473,3 @@ TEST_WITH(folder_make, folder_remove, what_opens_is_exported_whole)
         close_scene(&scene);
     }
 }
-
-int main(void) { return tests_run(NULL, NULL); }

@@ -4,7 +4,6 @@
 #include "draw/draw.h"
 #include "temporary.h"
 #include <dirent.h>
-#include <stdio.h>
 #include <string.h>
 
 enum { WIDTH = 480, HEIGHT = 360 };
@@ -87,5 +86,3 @@ TEST(tails_of_few_joints)
         compare_frames(temporary_file("extent.json", scene, (size_t)length));
     }
 }
-
-int main(void) { return tests_run(NULL, NULL); }

@@ -1,7 +1,5 @@
 /// What an animator feels first: presets, time to settle, what stays in its place, and a sentence on every control near the pointer.
-#include "inside.h"
 #include "panel_session.h"
-#include <math.h>
 
 static const char tail_scene[] =
     "{\"wiggly\": 1, \"frames\": [0, 96], \"splines\": [" PANEL_SPLINES "],"
@@ -223,5 +221,3 @@ TEST(test_presets_can_be_read_on_a_small_window)
     assert_near(of(&s, PARAMETER_FREQUENCY)->value, 3, 0);
     session_close(&s);
 }
-
-int main(void) { return tests_run(NULL, NULL); }

@@ -4,7 +4,6 @@
 #include "rig/posing.h"
 #include "scene/load.h"
 #include <complex.h>
-#include <math.h>
 
 struct scene {
     struct document *document;
@@ -157,5 +156,3 @@ TEST(it_keeps_its_volume)
     }
     close_scene(&scene);
 }
-
-int main(void) { return tests_run(NULL, NULL); }

@@ -4,7 +4,6 @@
 #include "rig/posing.h"
 #include "scene/load.h"
 #include <complex.h>
-#include <stdlib.h>
 
 static struct document *document;
 static struct evaluation evaluation;
@@ -271,5 +270,3 @@ TEST(test_stiff_tangents_make_the_hermite_cubic)
     double coarse = cubic_error(16, 1e8, hermite), fine = cubic_error(64, 1e8, hermite);
     assert_true(coarse < 0.01 && fine < 0.3 * coarse); // as h: eq. 9 holds the slope half a sample late
 }
-
-int main(void) { return tests_run(NULL, NULL); }

@@ -1,11 +1,8 @@
 /// What a newcomer meets at once: things that swing can be caught, figures play, and no text lies over a character.
-#include "inside.h"
 #include "panel_session.h"
 
 #include "base/file.h"
-#include "editor/core/core.h"
 #include "editor/stage/parts.h"
-#include <math.h>
 
 static const char swings[] =
     "{\"frames\": [0, 96], \"splines\": [{\"name\": \"sway\", \"frequency\": 1, \"damping\": 0.02, \"start\": "
@@ -124,5 +121,3 @@ TEST(test_two_tails_are_told_apart)
     assert_true(x[0] > 0 && x[1] > 0 && fabsf(x[0] - x[1]) > 100);
     session_close(&s);
 }
-
-int main(void) { return tests_run(NULL, NULL); }

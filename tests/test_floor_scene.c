@@ -8,7 +8,6 @@
 #include "scene/history.h"
 #include "scene/load.h"
 #include "temporary.h"
-#include <stdlib.h>
 #include <string.h>
 
 /// `more` is of the character, `spline` of the one that moves it up.
@@ -240,5 +239,3 @@ TEST(a_floor_is_saved_with_what_is_not_known)
     free(text);
     opened_free(&opened);
 }
-
-int main(void) { return tests_run(NULL, NULL); }

@@ -1,8 +1,6 @@
 /// A character's floor on the stage: its edge is pointed at and dragged up and down.
 #include "panel_session.h"
 
-#include <math.h>
-
 static const char creature[] =
     "{\"wiggly\": 1, \"frames\": [0, 60], \"splines\": [{\"name\": \"s\", \"frequency\": 1, \"damping\": 0.1, "
     "\"knots\": [{\"frame\": 0, \"value\": 0}, {\"frame\": 20, \"value\": 5}]}], \"rigs\": [{\"type\": "
@@ -77,5 +75,3 @@ SESSION_TEST(test_without_a_floor_there_is_no_edge, open_creature(s))
     assert_int_not_equal(s->editor->core.hover.kind, HOVER_FLOOR);
     assert_false(editor_target(s->editor, "floor(c)", &at[0], &at[1], &error));
 }
-
-int main(void) { return tests_run(NULL, NULL); }

@@ -1,8 +1,5 @@
 /// assets/scenes/follow.json: a body that hops aside and back, and a tail that is keyed nowhere and follows through.
-#include "inside.h"
 #include "panel_session.h"
-
-#include <math.h>
 
 enum { JOINTS = 24, FRAMES = 96, X = 12, Y = 13 };
 
@@ -88,5 +85,3 @@ TEST(test_playing_is_scrubbing)
     assert_memory_equal(pose_of(&s)->matrix, first.matrix, (JOINTS + 1) * sizeof first.matrix[0]);
     session_close(&s);
 }
-
-int main(void) { return tests_run(NULL, NULL); }

@@ -36,5 +36,3 @@ TEST(wrong_calls_are_counted)
     fclose(said);
     platform_destroy(platform);
 }
-
-int main(void) { return tests_run(NULL, NULL); }

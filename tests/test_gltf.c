@@ -374,5 +374,3 @@ TEST(nodes_and_scenes)
     gltf_pose_free(&pose);
     gltf_free(&gltf);
 }
-
-int main(void) { return tests_run(NULL, NULL); }

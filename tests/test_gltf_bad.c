@@ -385,5 +385,3 @@ TEST(chunks_of_a_png)
     assert_false(gltf_decode_image(file, sizeof file - 1, 1 << 20, &image, &error));
     if (!strstr(error.text, "or empty")) fail_msg("%s", error.text);
 }
-
-int main(void) { return tests_run(NULL, NULL); }

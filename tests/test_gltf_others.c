@@ -152,5 +152,3 @@ TEST(hands_and_controllers_open)
     assert_int_equal(vertices_of(hand, 0, -1, vertices), 1360);
     assert_extent(vertices, 1360, expected);
 }
-
-int main(void) { return tests_run(NULL, NULL); }

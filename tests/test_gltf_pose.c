@@ -311,5 +311,3 @@ TEST(normals_of_a_stretched_node)
     gltf_pose_free(&pose);
     gltf_free(&gltf);
 }
-
-int main(void) { return tests_run(NULL, NULL); }

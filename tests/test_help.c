@@ -1,8 +1,6 @@
 /// The overlay with all keys: whole in every usual window, scrolled in small ones, and true: it names each key that the editor
 /// answers to, and no other.
-#include "editor/dialogs/state.h"
 #include "editor/keys.h"
-#include "inside.h"
 #include "panel_session.h"
 #include "shown.h"
 
@@ -329,5 +327,3 @@ TEST(test_the_page_of_keys_names_no_others)
     fclose(page);
     assert_true(rows > 60);
 }
-
-int main(void) { return tests_run(NULL, NULL); }

@@ -1,11 +1,8 @@
 /// Steps of edits: every one can be taken back and done again.
-#include "near.h"
 
 #include "starve.h"
 #include "timing/framelog.h"
 #include "world.h"
-#include <stdlib.h>
-#include <string.h>
 
 /// A drag re-applies its edits from the same state each frame, gives an inserted knot the same id again, and is one
 /// step.
@@ -357,5 +354,3 @@ TEST(test_another_document)
     free(second);
     world_close(&world);
 }
-
-int main(void) { return tests_run(NULL, NULL); }

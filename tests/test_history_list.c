@@ -1,5 +1,4 @@
 /// The inspector's list of the history: every step can be seen and gone to, by mouse, keys and wheel.
-#include "inside.h"
 #include "panel_session.h"
 #include "shown.h"
 
@@ -124,5 +123,3 @@ SESSION_TEST(test_not_in_a_drag, open_list(s, 2))
     assert_int_equal(knots(s), 3);
     history_end(s->history);
 }
-
-int main(void) { return tests_run(NULL, NULL); }

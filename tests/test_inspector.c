@@ -1,5 +1,4 @@
 /// The inspector: what its widgets do to the document, by the events of mouse and keyboard.
-#include "inside.h"
 #include "panel_session.h"
 #include "shown.h"
 
@@ -416,5 +415,3 @@ TEST(test_the_hint_of_a_position_outlives_the_panel)
     assert_string_equal(inspector_hint(s.editor->inspector), "Position of the body along y");
     session_close(&s);
 }
-
-int main(void) { return tests_run(NULL, NULL); }

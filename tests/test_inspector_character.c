@@ -1,7 +1,6 @@
 /// The inspector's section on a character, by mouse and keys; and the stage that shows what it says.
 #include "panel_session.h"
 #include "puppet.h"
-#include <stdio.h>
 #include <unistd.h>
 
 static char model[] = "/tmp/wiggly-test-XXXXXX";

@@ -1,6 +1,4 @@
 /// The inspector's scene, list of splines, tracks and palette, by the events of mouse and keyboard.
-#include "editor/core/core.h"
-#include "inside.h"
 #include "panel_session.h"
 
 static const char scene[] =
@@ -325,5 +323,3 @@ TEST(test_random_input_comes_back)
     }
     assert_true(steps >= quick_or_all(10, 60));
 }
-
-int main(void) { return tests_run(NULL, NULL); }

@@ -1,8 +1,5 @@
 /// The inspector's section on tails: every part of a tail set by hand, each a step that undo takes back byte by byte.
-#include "inside.h"
 #include "panel_session.h"
-
-#include <math.h>
 
 static const char scene[] =
     "{\"frames\": [0, 48], \"splines\": [{\"name\": \"sway\", \"knots\": [{\"frame\": 0, \"value\": 0.5}]}, "
@@ -181,5 +178,3 @@ TEST(test_toggles)
     assert_null(history_undo_label(s.history));
     close_undone(&s, before);
 }
-
-int main(void) { return tests_run(NULL, NULL); }

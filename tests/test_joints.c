@@ -4,7 +4,6 @@
 
 #include "beast.h"
 #include "editor/core/bones.h"
-#include "editor/curves/curves.h"
 #include "folder.h"
 #include "shown.h"
 

@@ -1,8 +1,6 @@
 /// Nothing needs a mouse: what it does to selection, views, panels and warnings, the keyboard does too.
-#include "inside.h"
 #include "panel_session.h"
 #include "ui/theme.h"
-#include <math.h>
 
 static const char scene[] =
     "{\"wiggly\": 1, \"frames\": [0, 96], \"splines\": [{\"name\": \"sway\", \"frequency\": 0.5, \"damping\": 0.01, "
@@ -148,5 +146,3 @@ SESSION_TEST(test_the_focus_is_seen_wherever_it_goes, session_open(s, scene))
     session_click(s, "knot(sway,1)");
     assert_true(tab_round(s) > 45);
 }
-
-int main(void) { return tests_run(NULL, NULL); }

@@ -6,9 +6,6 @@
 #include "rig/opened.h"
 #include "scene/edit.h"
 #include "scene/history.h"
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
 
 static struct opened scene;
 
@@ -219,5 +216,3 @@ TEST(pins_hold_what_is_drawn)
     assert_true(stretched > 0.05f);
     opened_free(&scene);
 }
-
-int main(void) { return tests_run(NULL, NULL); }

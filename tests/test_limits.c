@@ -3,11 +3,8 @@
 #include "near.h"
 
 #include "spline/solver.h"
-#include "textbook.h"
 #include "textbook_parts.h"
-#include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 enum { SAMPLES = 241, MOST_KNOTS = 6, LAYOUTS = 200 };

@@ -1,12 +1,6 @@
 /// Limits in the app: their lines are dragged, knots stop at them, the inspector switches them, files say what is wrong.
-#include "near.h"
 
 #include "panel_session.h"
-
-#include "editor/curves/state.h"
-#include "scene/load.h"
-#include <stdlib.h>
-#include <string.h>
 
 static const char swinging[] =
     "{\"wiggly\": 1, \"frames\": [0, 120], \"splines\": [{\"name\": \"sway\", \"frequency\": 1.2, \"damping\": 0.05, "
@@ -158,5 +152,3 @@ TEST(a_file_with_wrong_limits_says_so)
         assert_string_equal(error.text, wrong[i][1]);
     }
 }
-
-int main(void) { return tests_run(NULL, NULL); }

@@ -1,9 +1,7 @@
 /// How a mesh of somebody else's looks, all the way: an OBJ with a texture, two materials and quads becomes a soft character, is read
 /// back, drawn and exported.
-#include "base/file.h"
 #include "base/png.h"
 #include "export_scene.h"
-#include "model/figure.h"
 #include "model/surface.h"
 #include "offscreen.h"
 #include "puppet.h"

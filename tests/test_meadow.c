@@ -1,11 +1,7 @@
 /// Meadows: loaded and saved, solved as the variations that they are, pushed by bodies and swinging after them.
-#include "near.h"
 
 #include "panel_session.h"
 #include "rig/meadow.h"
-#include "scene/load.h"
-#include <stdlib.h>
-#include <string.h>
 
 static const char scene[] =
     "{\"wiggly\": 1, \"frames\": [0, 96], \"splines\": [{\"name\": \"wind\", \"frequency\": 1, \"damping\": 0.1, "
@@ -179,5 +175,3 @@ SESSION_TEST(reeds_that_nothing_pulls_back_do_not_swing, panel_open_models(s, sc
     assert_true(pushed > 0.5);
     session_release(s, BUTTON_LEFT);
 }
-
-int main(void) { return tests_run(NULL, NULL); }

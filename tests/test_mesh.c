@@ -3,8 +3,6 @@
 #include "models/fox_maker.h"
 #include "near.h"
 #include "temporary.h"
-#include <math.h>
-#include <stdlib.h>
 
 static float dot(const float a[3], const float b[3]) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
@@ -235,5 +233,3 @@ TEST(the_file_is_what_its_tool_makes)
     gltf_free(&made);
     gltf_free(&committed);
 }
-
-int main(void) { return tests_run(NULL, NULL); }

@@ -3,8 +3,6 @@
 #include "base/png.h"
 #include "gltf_builder.h"
 #include "offscreen.h"
-#include "rig/camera.h"
-#include "ui/theme.h"
 
 enum { WIDTH = 240, HEIGHT = 240 };
 

@@ -1,12 +1,8 @@
 /// Imported characters and their chains: read, printed, copied, edited, and carried along when the scene is saved elsewhere.
-#include "near.h"
 
 #include "invariants.h"
 #include "world.h"
-#include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 
 /// As it is printed.
 static const char whole[] = "{\n"
@@ -388,5 +384,3 @@ TEST(random_walks_lead_back)
         world_close(&world);
     }
 }
-
-int main(void) { return tests_run(NULL, NULL); }

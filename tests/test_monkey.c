@@ -6,14 +6,11 @@
 #include "app/personal.h"
 #include "app/recovery.h"
 #include "beast.h"
-#include "inside.h"
 #include "invariants.h"
 #include "monkey.h"
 #include "puppet.h"
 #include <dirent.h>
-#include <stdio.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
 enum {
     SEEDS = 8,

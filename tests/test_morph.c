@@ -300,5 +300,3 @@ TEST(a_model_is_read_once_and_again_when_it_changes)
     character_free(&character);
     character_free(&finer);
 }
-
-int main(void) { return tests_run(NULL, NULL); }

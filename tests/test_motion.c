@@ -4,7 +4,6 @@
 #include "temporary.h"
 #include <glob.h>
 #include <string.h>
-#include <unistd.h>
 
 enum { FRAMES = 5, VERTICES = 4, COLUMNS = 3 * VERTICES };
 
@@ -245,5 +244,3 @@ TEST(changed_headers_do_no_harm)
     }
     assert_in_range(refused, 50, 999);
 }
-
-int main(void) { return tests_run(NULL, NULL); }

@@ -4,9 +4,6 @@
 #include "world.h"
 
 #include "scene/evaluate.h"
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
 
 #define MODELS                                                                                                       \
     "\"rigs\": [{\"type\": \"model\", \"name\": \"dog\", \"model\": \"dog.glb\", \"clip\": \"Walk\"},"               \
@@ -268,5 +265,3 @@ TEST(a_motion_keeps_to_its_joint)
     free(text);
     stand_close(&stand);
 }
-
-int main(void) { return tests_run(NULL, NULL); }

@@ -2,7 +2,6 @@
 #include "model/surface.h"
 #include "near.h"
 #include "temporary.h"
-#include <stdio.h>
 #include <string.h>
 
 static bool read_text(const char *text, struct surface *surface, struct error *error)
@@ -153,5 +152,3 @@ TEST(bad_files_get_one_sentence)
     assert_false(obj_read("/nowhere.obj", &s, &error));
     assert_non_null(strstr(error.text, "/nowhere.obj: cannot be opened"));
 }
-
-int main(void) { return tests_run(NULL, NULL); }

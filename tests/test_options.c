@@ -128,5 +128,3 @@ TEST(test_nearest_word)
     longest[sizeof longest - 1] = 0;
     assert_null(options_nearest(longest, words, 3));
 }
-
-int main(void) { return tests_run(NULL, NULL); }

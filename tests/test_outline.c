@@ -1,7 +1,6 @@
 /// Characters as a person sees them: their outlines, inner ones too, are those of a much finer picture, without stairs.
 #include "blind.h"
 #include "offscreen.h"
-#include <stdlib.h>
 
 enum { WIDTH = 500, HEIGHT = 200, FINE = 4, BYTES = WIDTH * HEIGHT * 4 };
 static unsigned char drawn[BYTES], fine[FINE * FINE * BYTES];

@@ -1,10 +1,8 @@
 /// Onion skin and motion arc: what they show, and that they follow an edit in its own frame.
 #include "editor/stage/parts.h"
-#include "inside.h"
 #include "panel_session.h"
 
 #include "ui/theme.h"
-#include <math.h>
 
 static const char scene[] =
     "{\"frames\": [0, 96], \"splines\": [{\"name\": \"sway\", \"frequency\": 1, \"damping\": 0.1, \"knots\": ["
@@ -237,5 +235,3 @@ SESSION_TEST(test_a_character_has_a_ghost, open_bear(s))
     assert_in_range((int)(head[1] - low), 0, 60);
     assert_near(high, foot[1], 60);
 }
-
-int main(void) { return tests_run(NULL, NULL); }

@@ -78,5 +78,3 @@ TEST(waiting_for_input_says_nothing)
     for (int i = 0; i < 200; i++) pace_swapped(&pace, 0.004 * i, i % 5 != 0);
     assert_false(pace.limits);
 }
-
-int main(void) { return tests_run(NULL, NULL); }

@@ -9,7 +9,6 @@
 #include "scene/load.h"
 #include "scene/paint.h"
 #include "temporary.h"
-#include <string.h>
 
 enum { COORDINATES = 2, VERTICES = 50 };
 
@@ -449,5 +448,3 @@ TEST(paint_goes_out_and_in_as_npy)
     studio_close(&s);
     remove_folder(folder);
 }
-
-int main(void) { return tests_run(NULL, NULL); }

@@ -1,7 +1,6 @@
 /// What paint makes of a figure.
 #include "puppet.h"
 #include "rig/posing.h"
-#include <string.h>
 
 /// Paint on a figure is e^{a + jψ} at each vertex; normals follow as if the model had been made so.
 TEST(paint_turns_and_scales_coordinates)
@@ -66,5 +65,3 @@ TEST(changes_are_noted)
     figure_free(&plain);
     free(paint);
 }
-
-int main(void) { return tests_run(NULL, NULL); }

@@ -1,6 +1,4 @@
 /// Status line and dialogs; and of all panels: no text leaves its panel, none lies over another.
-#include "editor/dialogs/state.h"
-#include "inside.h"
 #include "panel_session.h"
 
 static const char small_scene[] =
@@ -348,5 +346,3 @@ SESSION_TEST(test_figures_change_twice_a_second, panel_open(s, small_scene, 1280
     }
     assert_in_range(changes, 3, 5);
 }
-
-int main(void) { return tests_run(NULL, NULL); }

@@ -1,13 +1,11 @@
 /// The table of parameters: each is one that the solver knows, in the right place; an edit of it is seen in the curve, is saved, and is
 /// loaded again; and a reader of docs/scene-format.md finds it.
-#include "near.h"
 
 #include "base/file.h"
 #include "scene/evaluate.h"
 #include "scene/order.h"
 #include "spline/desc.h"
 #include "world.h"
-#include <stdlib.h>
 #include <string.h>
 
 static const char scene[] =
@@ -172,5 +170,3 @@ TEST(each_is_described)
     }
     free(text);
 }
-
-int main(void) { return tests_run(NULL, NULL); }

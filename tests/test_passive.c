@@ -213,5 +213,3 @@ TEST(slopes_at_twice_the_rate)
     assert_true(change[WIGGLY_OSCILLATOR][1] < 0.08 * change[WIGGLY_OSCILLATOR][0]); // as h²
     assert_true(change[WIGGLY_FILTER][1] > 0.2 * change[WIGGLY_FILTER][0]);          // as h
 }
-
-int main(void) { return tests_run(NULL, NULL); }

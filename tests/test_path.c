@@ -43,5 +43,3 @@ TEST(what_is_too_long_is_refused)
     longest[PATH_LIMIT - 4] = '\0';
     assert_false(path_resolve(longest, "a.glb", absolute));
 }
-
-int main(void) { return tests_run(NULL, NULL); }

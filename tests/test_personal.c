@@ -6,7 +6,6 @@
 #include "app/personal.h"
 #include "app/settings.h"
 #include "ui/theme.h"
-#include <stdio.h>
 #include <string.h>
 #include <unistd.h>
 
@@ -132,5 +131,3 @@ TEST_WITH(folder_make, folder_remove, settings_that_cannot_be_stored_are_said)
     assert_int_equal(system(command), 0);
     end(&blind);
 }
-
-int main(void) { return tests_run(NULL, NULL); }

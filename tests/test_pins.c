@@ -501,5 +501,3 @@ TEST(a_spline_too_short_bars_no_other)
     assert_int_equal(solve_group(g, WIGGLY_CHAIN, memory, curves), WIGGLY_OK);
     assert_near(g->pin[0].left[1], 0, 1e-9);
 }
-
-int main(void) { return tests_run(NULL, NULL); }

@@ -4,7 +4,6 @@
 #include "rig/opened.h"
 #include "scene/edit.h"
 #include "scene/history.h"
-#include <stdlib.h>
 #include <string.h>
 
 /// A pinned point of a scene, and the drag's circle or line.
@@ -179,5 +178,3 @@ TEST(what_can_be_reached_is_reached)
     if (met < 0.4 * count || near < 0.75 * count)
         fail_msg("of %d places %d are met, and %d nearly: expected 40 and 75 percent", count, met, near);
 }
-
-int main(void) { return tests_run(NULL, NULL); }

@@ -8,7 +8,6 @@
 #include "scene/load.h"
 #include "scene/pins.h"
 #include "temporary.h"
-#include <stdlib.h>
 #include <string.h>
 
 /// A scene that is edited and solved.
@@ -451,5 +450,3 @@ TEST(test_a_point_that_the_model_lacks)
     assert_non_null(strstr(error.text, "soft: expected a vertex from 0 to "));
     assert_non_null(strstr(error.text, " in the pin at frame 4, got 9999999"));
 }
-
-int main(void) { return tests_run(NULL, NULL); }

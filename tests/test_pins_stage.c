@@ -1,11 +1,9 @@
 /// Pins by mouse and keyboard: on the stage, on the ruler, in the inspector.
-#include "inside.h"
 #include "panel_session.h"
 #include "shown.h"
 
 #include "editor/core/pins.h"
 #include "scene/pins.h"
-#include <math.h>
 
 static const char tail[] =
     "{\"wiggly\": 1, \"frames\": [0, 60], \"splines\": [{\"name\": \"s\", \"frequency\": 1, \"damping\": 0.1, "
@@ -266,5 +264,3 @@ SESSION_TEST(test_the_inspector_lists_pins_and_takes_numbers, open_tail(s))
     panel_click(s, "pin.0.remove");
     assert_int_equal(pins_of(s), 0);
 }
-
-int main(void) { return tests_run(NULL, NULL); }

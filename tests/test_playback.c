@@ -1,7 +1,4 @@
 /// Playback: the real clock, speed, the part that is played, and scrubbing.
-#include "editor/core/core.h"
-#include "editor/transport/transport.h"
-#include "inside.h"
 #include "panel_session.h"
 
 /// 24 frames a second, two samples a frame: a position of 2 is one frame.
@@ -203,5 +200,3 @@ SESSION_TEST(test_controls, open_at(s, 10))
     assert_near(s->editor->core.playback.speed, 1, 0);
     assert_int_equal(s->document->splines[0]->knot_count, 2);
 }
-
-int main(void) { return tests_run(NULL, NULL); }

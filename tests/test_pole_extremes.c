@@ -113,5 +113,3 @@ TEST(a_spring_is_a_frequency_and_a_damping)
     assert_near(at.s[1][0], -2, 1e-14);
     assert_near(at.s[0][0], 0, 1e-15);
 }
-
-int main(void) { return tests_run(NULL, NULL); }

@@ -1,5 +1,4 @@
 /// The inspector's poles: dragged in the inset they set frequency, damping and bandwidth.
-#include "inside.h"
 #include "panel_session.h"
 
 static const char scene[] =
@@ -105,5 +104,3 @@ SESSION_TEST(test_arrow_keys_move_a_focused_pole, open_poles(s, 0))
     session_key(s, KEY_LEFT, 0);
     assert_near(value(s, PARAMETER_BANDWIDTH), 0.133, 1e-12);
 }
-
-int main(void) { return tests_run(NULL, NULL); }

@@ -2,7 +2,6 @@
 #include "near.h"
 
 #include "spline/poles.h"
-#include <math.h>
 
 enum { SAMPLES = 3 * POLES_BLOCK + 7 };
 
@@ -50,5 +49,3 @@ TEST(blocks_are_samples)
         compare(&desc, 0.05);
     }
 }
-
-int main(void) { return tests_run(NULL, NULL); }

@@ -239,5 +239,3 @@ TEST(test_a_line_is_edited_in_place)
     assert_string_equal(p.typed, "elsewhere");
     assert_int_equal(p.pressed, 1);
 }
-
-int main(void) { return tests_run(NULL, NULL); }

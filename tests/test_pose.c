@@ -4,9 +4,6 @@
 #include "posed_tail.h"
 #include "rig/shadow.h"
 #include "scene/load.h"
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
 
 enum { JOINTS = 24, LOOP_FRAMES = 120 };
 
@@ -355,5 +352,3 @@ TEST(a_hop_takes_the_shadow_along)
     }
     for (int b = 0; b < 3; b++) assert_near((double)(blobs[1][b].strength / blobs[0][b].strength), exp(-1), 0.02);
 }
-
-int main(void) { return tests_run(NULL, NULL); }

@@ -1,7 +1,5 @@
 /// Larger type, and presenting: how large everything is, panels that slide away, keys as they are pressed.
 #include "blind.h"
-#include "editor/core/core.h"
-#include "editor/editor.h"
 #include "inside.h"
 #include "scene/load.h"
 #include "shown.h"
@@ -197,5 +195,3 @@ TEST(test_what_is_pressed_is_shown_and_fades)
     assert_null(shown_text(b.app.table.editor, "right drag"));
     blind_close(&b);
 }
-
-int main(void) { return tests_run(NULL, NULL); }

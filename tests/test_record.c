@@ -1,9 +1,7 @@
 /// Recording the body's way: few knots that keep to the hand's motion, a tail that swings as it did, one step to undo.
-#include "inside.h"
 #include "panel_session.h"
 
 #include "editor/stage/parts.h"
-#include <math.h>
 
 static const char scene[] =
     "{\"frames\": [0, 96], \"splines\": [{\"name\": \"sway\", \"frequency\": 1.2, \"damping\": 0.25, \"bandwidth\": "
@@ -185,5 +183,3 @@ TEST(test_a_way_without_a_channel_gets_one)
     free(before);
     session_close(&s);
 }
-
-int main(void) { return tests_run(NULL, NULL); }

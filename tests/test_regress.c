@@ -3,9 +3,7 @@
 #include "near.h"
 #include "timing/columns.h"
 #include "timing/framelog.h"
-#include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 #include <sys/wait.h>
 #include <unistd.h>

@@ -118,5 +118,3 @@ TEST(words_of_the_command_line)
     const char *const bad[] = {"", "0", "0.2", "1.5", "half", "0.5x", "nan"};
     for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) assert_false(resolution_parse(&r, bad[i]));
 }
-
-int main(void) { return tests_run(NULL, NULL); }

@@ -84,5 +84,3 @@ TEST(test_finite_over_the_slider_box)
         }
     }
 }
-
-int main(void) { return tests_run(NULL, NULL); }

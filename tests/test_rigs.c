@@ -1,5 +1,4 @@
 /// Tails, characters and models come and go in the window, each as one step of the history.
-#include "inside.h"
 #include "panel_session.h"
 #include "rig/import.h"
 #include <unistd.h>
@@ -161,5 +160,3 @@ TEST(test_a_glb_is_told_by_its_beginning)
     document_destroy(document);
     unlink(path);
 }
-
-int main(void) { return tests_run(NULL, NULL); }

@@ -6,7 +6,6 @@
 #include "scene/text.h"
 #include <dirent.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -515,5 +514,3 @@ TEST(test_a_value_beyond_reach_is_flat)
     evaluation_free(&evaluation);
     document_destroy(document);
 }
-
-int main(void) { return tests_run(NULL, NULL); }

@@ -1,9 +1,7 @@
 /// Every screen in every size, at every scale, dark and light: all text is whole, apart from other text, and can be read.
 #include "base/file.h"
-#include "inside.h"
 #include "legible.h"
 #include "panel_session.h"
-#include "ui/theme.h"
 
 #define KNOTS                                                                                                        \
     "\"knots\": [{\"frame\": 0, \"value\": 0}, {\"frame\": 30, \"value\": 1, \"slope\": 1}, {\"frame\": 70, "        \
@@ -253,5 +251,3 @@ TEST(test_the_tail_on_every_screen)
 }
 
 TEST(test_crowded_on_every_screen) { assert_int_equal(walk_all(crowded, false), 0); }
-
-int main(void) { return tests_run(NULL, NULL); }

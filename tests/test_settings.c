@@ -5,8 +5,6 @@
 #include "app/settings.h"
 #include "base/file.h"
 #include "folder.h"
-#include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -177,5 +175,3 @@ TEST_WITH(make_folder, folder_remove, test_two_windows)
         settings_free(settings);
     }
 }
-
-int main(void) { return tests_run(NULL, NULL); }

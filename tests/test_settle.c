@@ -4,7 +4,6 @@
 #include "curve.h"
 #include "editor/inspector/response.h"
 #include "spline_of.h"
-#include <math.h>
 
 /// x″ + 2ζω x′ + ω² x = 0 from 1 at standstill, by a fourth-order Runge-Kutta method: last time at which |x| > 0.05.
 static double textbook_real(double omega, double zeta)
@@ -118,5 +117,3 @@ TEST(test_what_has_no_number)
     assert_int_equal(fine.kind, SETTLE_ALONE);
     assert_near(fine.seconds, log(20) / (0.01 * 2 * acos(-1.0)), 1e-9);
 }
-
-int main(void) { return tests_run(NULL, NULL); }

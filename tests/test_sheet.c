@@ -1,6 +1,4 @@
 /// The dope sheet: rows of marks that share the ruler's time, dragged, boxed, scrolled, by mouse and by key.
-#include "editor/core/selection.h"
-#include "inside.h"
 #include "panel_session.h"
 
 static const char TWO[] =
@@ -122,5 +120,3 @@ TEST(test_rows_scroll)
     assert_false(editor_target(s.editor, "mark(s9,0)", &x, &y, &error));
     session_close(&s);
 }
-
-int main(void) { return tests_run(NULL, NULL); }

@@ -4,7 +4,6 @@
 #include "simulation/blocks.h"
 #include "simulation/linear.h"
 #include <lapacke.h>
-#include <stdlib.h>
 #include <string.h>
 
 static double determinant(const double m[3][3])
@@ -208,5 +207,3 @@ TEST(eigenvalues_against_lapack)
         }
     }
 }
-
-int main(void) { return tests_run(NULL, NULL); }

@@ -2,7 +2,6 @@
 #include "near.h"
 #include "simulation/lattice.h"
 #include "simulation/solid.h"
-#include <stdlib.h>
 #include <string.h>
 
 static void add_vertex(struct surface *surface, double x, double y, double z)
@@ -375,5 +374,3 @@ TEST(strays_stay)
     lattice_free(&lattice);
     surface_free(&box);
 }
-
-int main(void) { return tests_run(NULL, NULL); }

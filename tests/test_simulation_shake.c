@@ -3,10 +3,7 @@
 #include "simulation/linear.h"
 #include "simulation/soft.h"
 #include "temporary.h"
-#include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 /// A box of `width` × `height` × `width` that stands on y = 0, white at its upper four corners and black below.
 struct box {
@@ -359,5 +356,3 @@ TEST(a_track_stays_finite)
         drive_free(&drive);
     }
 }
-
-int main(void) { return tests_run(NULL, NULL); }

@@ -53,5 +53,3 @@ TEST(nodes_stand_for_themselves)
     gltf_pose_free(&pose);
     gltf_free(&gltf);
 }
-
-int main(void) { return tests_run(NULL, NULL); }

@@ -73,5 +73,3 @@ TEST(test_the_nearest_handle_is_pulled)
         session_close(&s);
     }
 }
-
-int main(void) { return tests_run(NULL, NULL); }

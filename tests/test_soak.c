@@ -88,5 +88,3 @@ TEST(pointing) { leaves_nothing(point_around, false); }
 TEST(dragging) { leaves_nothing(drag_and_give_up, true); }
 
 TEST(looking) { leaves_nothing(open_and_close, true); }
-
-int main(void) { return tests_run(NULL, NULL); }

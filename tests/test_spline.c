@@ -2,8 +2,6 @@
 /// and finite answers whatever is asked.
 #include "near.h"
 
-#include <stdlib.h>
-
 #include "curve.h"
 #include <stdio.h>
 #include <string.h>

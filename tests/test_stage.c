@@ -3,12 +3,7 @@
 #include "models/fox_maker.h"
 #include "offscreen.h"
 #include "posed_tail.h"
-#include "rig/camera.h"
 #include "rig/shadow.h"
-#include "ui/theme.h"
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
 
 enum { WIDTH = 1000, HEIGHT = 400, JOINTS = 24 };
 

@@ -11,9 +11,7 @@
 #include "blind.h"
 #include "commands/commands.h"
 #include "folder.h"
-#include "platform/surface.h"
 #include "scene/load.h"
-#include "ui/font.h"
 #include <dirent.h>
 #include <sys/mman.h>
 #include <time.h>

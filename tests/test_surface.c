@@ -6,10 +6,7 @@
 #include "near.h"
 #include "temporary.h"
 #include <jansson.h>
-#include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 static struct surface read_good(const char *name, const void *bytes, size_t size)
 {
@@ -361,5 +358,3 @@ TEST(limits_of_a_ply)
     assert_refused_text("bright.ply", print_ply(0, 0, 1001), "expected a colour from 0 to 1, got 1001");
     assert_refused_text("dark.ply", print_ply(0, 0, -1001), "expected a colour from 0 to 1, got -1001");
 }
-
-int main(void) { return tests_run(NULL, NULL); }

@@ -3,7 +3,6 @@
 
 #include "rig/swing.h"
 #include "spline_of.h"
-#include <math.h>
 #include <string.h>
 
 static const double turn = 6.283185307179586;
@@ -205,5 +204,3 @@ TEST(test_scale_and_direction)
     assert_near(direction[1], cos(turn / 12), 1e-6);
     assert_near(direction[2], -sin(turn / 12), 1e-6);
 }
-
-int main(void) { return tests_run(NULL, NULL); }

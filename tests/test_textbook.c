@@ -210,5 +210,3 @@ TEST(the_textbook_meets_every_small_problem)
     fclose(file);
     assert_true(problems >= 24);
 }
-
-int main(void) { return tests_run(NULL, NULL); }

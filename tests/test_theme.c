@@ -3,7 +3,6 @@
 #include "color.h"
 #include "near.h"
 #include "ui/theme.h"
-#include <math.h>
 
 static void each_theme(void (*check)(void))
 {
@@ -245,5 +244,3 @@ TEST(test_names)
     assert_int_equal(theme_find("light"), THEME_LIGHT);
     assert_int_equal(theme_find("solarised"), -1);
 }
-
-int main(void) { return tests_run(NULL, NULL); }

@@ -3,7 +3,6 @@
 #include "regress/bootstrap.h"
 #include "timing/columns.h"
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 

@@ -1,7 +1,6 @@
 /// Variations: other motions of the same material through the same knots.
 #include "near.h"
 
-#include <math.h>
 #include <string.h>
 #include <wiggly/wiggly.h>
 
@@ -203,5 +202,3 @@ TEST(a_batch_has_the_same_bits)
     }
     wiggly_batch_destroy(batch);
 }
-
-int main(void) { return tests_run(NULL, NULL); }

@@ -1,10 +1,6 @@
 /// The frequency of knots by a key, and variations in the inspector and the file.
-#include "near.h"
 
 #include "panel_session.h"
-#include "scene/load.h"
-#include <stdlib.h>
-#include <string.h>
 
 /// Extrema of 1.25 Hz, 24 frames a second.
 static const char swinging[] =
@@ -89,5 +85,3 @@ TEST(the_file_has_both_numbers_and_what_else_is_there)
     load_fails("{\"seed\": 1}", "variation.amount: expected");
     load_fails("{\"seed\": 1, \"amount\": -1}", "variation.amount: expected");
 }
-
-int main(void) { return tests_run(NULL, NULL); }

@@ -8,7 +8,6 @@
 #include "scene/load.h"
 #include <dirent.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 static const char folder[] = "tests/vectors";
@@ -119,5 +118,3 @@ TEST(chain_and_band_meet_every_vector)
     closedir(directory);
     assert_true(scenes >= 35);
 }
-
-int main(void) { return tests_run(NULL, NULL); }

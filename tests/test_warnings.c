@@ -1,7 +1,5 @@
 /// Warnings in the curves panel: said where something is wrong, silent where nothing is, and gone after one click.
 #include "base/file.h"
-#include "editor/curves/state.h"
-#include "inside.h"
 #include "panel_session.h"
 
 /// A jump within two frames, and a knot half a period later that asks for the same value again.
@@ -111,5 +109,3 @@ SESSION_TEST(test_a_cubic_has_nothing_to_warn_of, session_open(s, WIDE))
     session_key(s, 'V', 0);
     assert_int_equal(s->editor->curves->warnings.count, 0);
 }
-
-int main(void) { return tests_run(NULL, NULL); }

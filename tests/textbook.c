@@ -1,5 +1,4 @@
 /// The textbook's spline: its domain, its dense system and what follows from the answer.
-#include "textbook.h"
 
 #include "textbook_parts.h"
 #include <assert.h>

@@ -1,7 +1,5 @@
 /// A small document, and edits of it.
 #include "world.h"
-#include "near.h"
-#include <stdlib.h>
 
 static const char scene_text[] =
     "{\"frames\": [0, 48], \"splines\": ["
