@@ -2,9 +2,8 @@
 #ifndef TESTS_INVARIANTS_H
 #define TESTS_INVARIANTS_H
 
-#include "near.h"
+#include "documents.h"
 
-#include "scene/load.h"
 #include "scene/order.h"
 #include <string.h>
 
@@ -160,22 +159,6 @@ static inline void assert_invariants(const struct document *document)
     assert_tails(document);
     assert_characters(document);
     assert_models(document);
-}
-
-/// What is saved loads again, and prints the same.
-static inline void assert_loads_again(const struct document *document)
-{
-    struct error error = {0};
-    size_t size, again_size;
-    char *text = scene_print(document, &size);
-    assert_non_null(text);
-    struct document *again = scene_parse("saved", text, size, NULL, &error);
-    if (!again) fail_msg("what was saved does not load: %s", error.text);
-    char *printed = scene_print(again, &again_size);
-    assert_string_equal(printed, text);
-    free(printed);
-    free(text);
-    document_destroy(again);
 }
 
 #endif

@@ -38,10 +38,30 @@ int tests_run(CMFixtureFunction set_up, CMFixtureFunction tear_down);
 /// A test: TEST(name) { … }.
 #define TEST(name) TEST_WITH(NULL, NULL, name)
 
+/// A test of something that is opened before it and closed after it:
+/// TEST_OF(struct session, s, session_open(s, scene), session_close(s), name) { … s->document … }.
+#define TEST_OF(type, it, opens, closes, name)                                                                       \
+    static void name##_of(type *it);                                                                                 \
+    TEST(name)                                                                                                       \
+    {                                                                                                                \
+        type a_##it = {0}, *it = &a_##it;                                                                            \
+        opens;                                                                                                       \
+        name##_of(it);                                                                                               \
+        closes;                                                                                                      \
+    }                                                                                                                \
+    static void name##_of(type *it)
+
 /// Whether this is `make test-all`, where a test may take all the time that it needs. Otherwise it does less of the same.
 static inline bool is_thorough(void) { return getenv("THOROUGH") && *getenv("THOROUGH"); }
 
 static inline int quick_or_all(int quick, int all) { return is_thorough() ? all : quick; }
+
+/// Fails with the sentence of a call that is refused: assert_done(scene_save(document, path, &error)).
+#define assert_done(call)                                                                                            \
+    do {                                                                                                             \
+        struct error error = {0};                                                                                    \
+        if (!(call)) fail_msg("%s", error.text);                                                                     \
+    } while (0)
 
 static inline void assert_near_at(double actual, double expected, double tolerance, const char *what,
                                   const char *file, int line)

@@ -2,11 +2,9 @@
 #ifndef TESTS_SESSION_H
 #define TESTS_SESSION_H
 
-#include "near.h"
+#include "documents.h"
 
 #include "app/table.h"
-#include "base/error.h"
-#include "scene/load.h"
 #include "ui/font.h"
 #include <ctype.h>
 #include <string.h>
@@ -141,20 +139,11 @@ static inline void session_type(struct session *session, const char *text)
 }
 
 /// The document's canonical text; freed by the caller.
-static inline char *session_saved(const struct session *session)
-{
-    size_t size;
-    char *text = scene_print(session->document, &size);
-    assert_non_null(text);
-    return text;
-}
+static inline char *session_saved(const struct session *session) { return text_of_document(session->document); }
 
-/// The document's canonical text must be `expected`.
 static inline void assert_saved(const struct session *session, const char *expected)
 {
-    char *text = session_saved(session);
-    assert_string_equal(text, expected);
-    free(text);
+    assert_prints(session->document, expected);
 }
 
 /// The document is no longer `original`; one undo brings that back byte by byte, one redo what there was.
@@ -173,11 +162,9 @@ static inline void assert_one_step(struct session *session, const char *original
 /// possible.
 static inline void session_open(struct session *session, const char *scene)
 {
-    struct error error = {0};
     memset(session, 0, sizeof *session);
-    if (!font_init(&error)) fail_msg("%s", error.text);
-    session->document = scene_parse("test", scene, strlen(scene), NULL, &error);
-    if (!session->document) fail_msg("%s", error.text);
+    assert_done(font_init(&error));
+    session->document = document_of_text(scene);
     session->history = history_create(session->document);
     assert_non_null(session->history);
     session->editor = editor_create();
@@ -192,15 +179,6 @@ static inline void session_open(struct session *session, const char *scene)
 }
 
 /// A test in a session that `opens` opens and that is closed at its end: SESSION_TEST(name, session_open(s, scene)) { … }.
-#define SESSION_TEST(name, opens)                                                                                    \
-    static void name##_in(struct session *s);                                                                        \
-    TEST(name)                                                                                                       \
-    {                                                                                                                \
-        struct session session, *s = &session;                                                                       \
-        opens;                                                                                                       \
-        name##_in(s);                                                                                                \
-        session_close(s);                                                                                            \
-    }                                                                                                                \
-    static void name##_in(struct session *s)
+#define SESSION_TEST(name, opens) TEST_OF(struct session, s, opens, session_close(s), name)
 
 #endif

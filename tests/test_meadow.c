@@ -1,5 +1,4 @@
 /// Meadows: loaded and saved, solved as the variations that they are, pushed by bodies and swinging after them.
-
 #include "panel_session.h"
 #include "rig/meadow.h"
 
@@ -31,9 +30,7 @@ SESSION_TEST(it_is_read_and_written, session_open(s, scene))
     char *saved = session_saved(s);
     assert_non_null(strstr(saved, "\"count\": 300"));
     assert_non_null(strstr(saved, "\"mood\": \"mild\""));
-    struct error error = {0};
-    struct document *again = scene_parse("again", saved, strlen(saved), NULL, &error);
-    if (!again) fail_msg("%s", error.text);
+    struct document *again = document_of_text(saved);
     assert_memory_equal(&again->rigs[1]->meadow, meadow, sizeof *meadow);
     document_destroy(again);
     free(saved);
@@ -79,9 +76,7 @@ SESSION_TEST(its_numbers_are_set_in_the_inspector, panel_open(s, scene, 1280, 24
 /// Played in a loop, the meadow that ships does not jump.
 TEST(the_meadow_of_the_app_loops)
 {
-    struct error error = {0};
-    struct document *document = scene_load("assets/scenes/meadow.json", NULL, &error);
-    if (!document) fail_msg("%s", error.text);
+    struct document *document = document_of_file("assets/scenes/meadow.json");
     for (int s = 0; s < document->spline_count; s++)
         assert_int_equal(spline_start(document->splines[s]), WIGGLY_LOOP);
     document_destroy(document);

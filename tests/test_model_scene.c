@@ -69,25 +69,9 @@ static const char whole[] = "{\n"
 
 enum { WALK, TAIL, CAT, EAR };
 
-static struct document *parse(const char *text)
-{
-    struct error error = {0};
-    struct document *document = scene_parse("scene.json", text, strlen(text), NULL, &error);
-    if (!document) fail_msg("%s", error.text);
-    return document;
-}
-
-static void assert_prints(const struct document *document, const char *expected)
-{
-    size_t size;
-    char *text = scene_print(document, &size);
-    assert_string_equal(text, expected);
-    free(text);
-}
-
 TEST(what_is_printed_is_read_again)
 {
-    struct document *document = parse(whole);
+    struct document *document = document_of_text(whole);
     assert_prints(document, whole);
     const struct chain *chain = &document->rigs[TAIL]->chain;
     assert_int_equal(document_find_model(document, chain->model, chain->by_file), WALK);
@@ -102,8 +86,8 @@ TEST(what_is_printed_is_read_again)
 TEST(a_file_may_leave_out_what_is_usual)
 {
     struct document *document =
-        parse("{\"frames\": [0, 9], \"rigs\": [{\"type\": \"chain\", \"model\": \"a.glb\","
-              " \"from\": \"b\", \"to\": \"b\"}, {\"type\": \"model\", \"model\": \"a.glb\"}]}");
+        document_of_text("{\"frames\": [0, 9], \"rigs\": [{\"type\": \"chain\", \"model\": \"a.glb\","
+                         " \"from\": \"b\", \"to\": \"b\"}, {\"type\": \"model\", \"model\": \"a.glb\"}]}");
     const struct model_rig *model = &document->rigs[1]->model;
     assert_null(model->clip);
     assert_near(model->scale, 1, 0);
@@ -120,12 +104,11 @@ TEST(every_kind_of_rig_can_be_copied)
         "{\"frames\": [0, 9], \"splines\": [{\"name\": \"s\"}], \"rigs\": [{\"type\": \"character\", \"model\":"
         " \"a.glb\", \"paint\": \"a.npy\", \"coordinates\": [{\"name\": \"up\", \"spline\": \"s\"}]},"
         " {\"type\": \"tail\", \"name\": \"t\", \"spline\": \"s\"}]}";
-    struct document *documents[] = {parse(whole), parse(character)};
+    struct document *documents[] = {document_of_text(whole), document_of_text(character)};
     assert_true(edit_paint_new(documents[1], 0, 1, 4, NULL));
     documents[1]->rigs[0]->character.painted->values[2][1] = 0.5f;
     for (int d = 0; d < 2; d++) {
-        size_t size;
-        char *text = scene_print(documents[d], &size);
+        char *text = text_of_document(documents[d]);
         for (int r = 0; r < documents[d]->rig_count; r++) {
             struct rig *rig = documents[d]->rigs[r], *copy = rig_clone(rig);
             assert_int_equal(rig_bytes(copy, NULL), rig_bytes(rig, NULL));
@@ -143,11 +126,11 @@ TEST(every_kind_of_rig_can_be_copied)
 /// A chain that names its model by the file follows it; one that goes by the name keeps that.
 TEST(paths_lead_to_the_same_models_from_another_folder)
 {
-    struct document *document = parse(whole);
+    struct document *document = document_of_text(whole);
     document->folder = strdup("/films");
     size_t size;
     char *text = scene_print_for(document, "/films/new", NULL, &size);
-    struct document *moved = parse(text);
+    struct document *moved = document_of_text(text);
     assert_string_equal(moved->rigs[WALK]->model.model, "../walk.glb");
     assert_string_equal(moved->rigs[CAT]->model.model, "../models/cat.glb");
     assert_string_equal(moved->rigs[EAR]->chain.model, "../models/cat.glb");
@@ -161,16 +144,7 @@ TEST(paths_lead_to_the_same_models_from_another_folder)
 
 // --- edits
 
-/// A world with that scene under edit.
-static void open_whole(struct world *world)
-{
-    world_open(world);
-    document_destroy(world->document);
-    world->document = parse(whole);
-    history_clear(world->history, world->document);
-}
-
-WORLD_TEST(channels_of_a_chain_are_edited_as_those_of_a_tail, open_whole(world))
+WORLD_TEST(channels_of_a_chain_are_edited_as_those_of_a_tail, world_open_scene(world, whole))
 {
     const struct angles ramp = {.form = ANGLES_RAMP, .count = 2, .ramp = {{0, 1}, {1, 30}}};
     const struct angles many = {.form = ANGLES_EACH, .count = 7, .value = {1, 2, 3, 4, 5, 6, 7}};
@@ -199,7 +173,7 @@ WORLD_TEST(channels_of_a_chain_are_edited_as_those_of_a_tail, open_whole(world))
                    "s: still used in 1 place; remove those first");
 }
 
-WORLD_TEST(models_and_chains_are_added, open_whole(world))
+WORLD_TEST(models_and_chains_are_added, world_open_scene(world, whole))
 {
     char file[] = "../films/walk.glb", from[] = "leg", to[] = "foot";
     struct channel channel = {.axis = AXIS_UP, .lag = {.value = {3}}, .gain = {.value = {4}}};
@@ -231,7 +205,7 @@ WORLD_TEST(models_and_chains_are_added, open_whole(world))
     assert_document(world, whole);
 }
 
-WORLD_TEST(models_and_chains_are_set, open_whole(world))
+WORLD_TEST(models_and_chains_are_set, world_open_scene(world, whole))
 {
     char from[] = "a", to[] = "b", nothing[] = "";
     struct rig place = *world->document->rigs[WALK], ends = *world->document->rigs[TAIL];
@@ -255,7 +229,7 @@ WORLD_TEST(models_and_chains_are_set, open_whole(world))
     assert_document(world, whole);
 }
 
-WORLD_TEST(chains_keep_to_their_model, open_whole(world))
+WORLD_TEST(chains_keep_to_their_model, world_open_scene(world, whole))
 {
     assert_refused(world, edit_rig_remove(world_edit(world), WALK, &world->error),
                    "walk: still needed by tail; remove those first");
@@ -363,7 +337,7 @@ TEST(random_walks_lead_back)
     for (unsigned seed = 1; seed <= 20; seed++) {
         struct world world;
         srand(seed);
-        open_whole(&world);
+        world_open_scene(&world, whole);
         for (int i = 0; i < 150; i++) {
             history_begin(world.history, "Random", 0);
             for (int k = rand() % 3; k >= 0; k--) random_edit(&world);

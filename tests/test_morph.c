@@ -1,8 +1,8 @@
 /// Soft characters: equations 29 and 30, normals, the coarse mesh, phases as colours, and models that are not there.
+#include "documents.h"
 #include "puppet.h"
 #include "rig/models.h"
 #include "rig/posing.h"
-#include "scene/load.h"
 #include "ui/theme.h"
 #include <complex.h>
 #include <malloc.h>
@@ -235,16 +235,13 @@ TEST(the_phase_map_is_even_and_cyclic)
 static struct document *scene_with(const char *model)
 {
     char text[512];
-    struct error error = {0};
     snprintf(
         text, sizeof text,
         "{\"wiggly\": 1, \"frames\": [0, 9], \"splines\": [{\"name\": \"s\", \"knots\": []}], \"rigs\": [{\"type\": "
         "\"character\", \"model\": \"%s\", \"coordinates\": [{\"name\": \"a\", \"spline\": \"s\"}, {\"name\": "
         "\"z\", \"spline\": \"s\"}]}]}",
         model);
-    struct document *document = scene_parse("scene.json", text, strlen(text), NULL, &error);
-    if (!document) fail_msg("%s", error.text);
-    return document;
+    return document_of_text(text);
 }
 
 /// The scene stays as it is; one sentence says what is the matter.

@@ -22,14 +22,6 @@ static const char scene[] =
 enum { WAG, EAR, TIP, ALONE, SPLINES };
 enum { DOG, TAIL };
 
-static struct document *parse(const char *text)
-{
-    struct error error = {0};
-    struct document *document = scene_parse("scene.json", text, strlen(text), NULL, &error);
-    if (!document) fail_msg("%s", error.text);
-    return document;
-}
-
 /// A scene under edit, and its solution.
 struct stand {
     struct world world;
@@ -58,10 +50,7 @@ static bool read_walk(void *context, const struct document *document, const stru
 static void stand_open(struct stand *stand)
 {
     *stand = (struct stand){.evaluation.models = {.follow = read_walk, .context = stand, .version = 1}};
-    world_open(&stand->world);
-    document_destroy(stand->world.document);
-    stand->world.document = parse(scene);
-    history_clear(stand->world.history, stand->world.document);
+    world_open_scene(&stand->world, scene);
 }
 
 static void stand_close(struct stand *stand)
@@ -69,6 +58,8 @@ static void stand_close(struct stand *stand)
     evaluation_free(&stand->evaluation);
     world_close(&stand->world);
 }
+
+#define STAND_TEST(name) TEST_OF(struct stand, stand, stand_open(stand), stand_close(stand), name)
 
 /// Solves what the edits since the last call made out of date. Whether anything was.
 static bool stand_update(struct stand *stand)
@@ -116,84 +107,70 @@ static void assert_solved(struct stand *stand, int index, double gain)
 
 TEST(motions_are_printed_as_they_were_read)
 {
-    struct document *document = parse(scene);
-    size_t size;
-    char *first = scene_print(document, &size);
+    struct document *document = document_of_text(scene);
+    char *first = text_of_document(document);
     assert_non_null(strstr(first, "\"equilibrium\": { \"model\": \"dog\", \"joint\": \"hips\", \"of\": \"across\", "
                                   "\"gain\": -2.5, \"chain\": \"tail\", \"why\": 1 }"));
     assert_non_null(strstr(first, "{ \"model\": \"dog.glb\", \"joint\": \"head\", \"of\": \"turn\", \"gain\": 1 }"));
-    struct document *again = parse(first);
-    char *second = scene_print(again, &size);
-    assert_string_equal(second, first);
+    assert_loads_again(document);
     free(first);
-    free(second);
     document_destroy(document);
-    document_destroy(again);
 }
 
-TEST(a_motion_is_solved_as_a_track_is)
+STAND_TEST(a_motion_is_solved_as_a_track_is)
 {
-    struct stand stand;
-    stand_open(&stand);
-    assert_true(stand_update(&stand));
-    assert_solved(&stand, WAG, -2.5);
-    assert_solved(&stand, EAR, 1);
-    const wiggly_curve *ear = &stand.evaluation.curves[EAR];
+    assert_true(stand_update(stand));
+    assert_solved(stand, WAG, -2.5);
+    assert_solved(stand, EAR, 1);
+    const wiggly_curve *ear = &stand->evaluation.curves[EAR];
     assert_near(ear->y[0], ear->y[ear->samples - 1], 0);
     assert_true(fabs(ear->y[0] - ear->y[1]) > 1e-6);
-    stand_close(&stand);
 }
 
 /// Each motion is read again only when something that it depends on has changed; then its splines and their followers are solved.
-TEST(a_motion_is_read_when_it_has_changed)
+STAND_TEST(a_motion_is_read_when_it_has_changed)
 {
-    struct stand stand;
-    stand_open(&stand);
-    struct world *world = &stand.world;
-    stand_update(&stand);
-    assert_int_equal(stand.reads, 2);
-    assert_false(stand_update(&stand));
-    assert_int_equal(stand.evaluation.solved_splines, 0);
+    struct world *world = &stand->world;
+    stand_update(stand);
+    assert_int_equal(stand->reads, 2);
+    assert_false(stand_update(stand));
+    assert_int_equal(stand->evaluation.solved_splines, 0);
     world_must(world, edit_insert(world, ALONE, 7, 1));
-    assert_true(stand_update(&stand));
-    assert_int_equal(stand.reads, 2);
-    assert_int_equal(stand.evaluation.solved_splines, 1);
+    assert_true(stand_update(stand));
+    assert_int_equal(stand->reads, 2);
+    assert_int_equal(stand->evaluation.solved_splines, 1);
     world_must(world, edit_clip(world_edit(world), DOG, "Gallop", &world->error));
-    assert_true(stand_update(&stand));
-    assert_int_equal(stand.reads, 4);
-    assert_int_equal(stand.evaluation.solved_splines, 3); // wag, its follower, ear
-    assert_solved(&stand, WAG, -2.5);
+    assert_true(stand_update(stand));
+    assert_int_equal(stand->reads, 4);
+    assert_int_equal(stand->evaluation.solved_splines, 3); // wag, its follower, ear
+    assert_solved(stand, WAG, -2.5);
     assert_true(history_undo(world->history));
-    assert_true(stand_update(&stand));
-    assert_solved(&stand, WAG, -2.5);
+    assert_true(stand_update(stand));
+    assert_solved(stand, WAG, -2.5);
     struct rig ends = *world->document->rigs[TAIL];
     ends.chain.turn = 30;
     world_must(world, edit_rig_set(world_edit(world), TAIL, &ends, &world->error));
-    assert_true(stand_update(&stand));
-    assert_int_equal(stand.reads, 7); // only wag's goes by the chain
-    assert_int_equal(stand.evaluation.solved_splines, 2);
+    assert_true(stand_update(stand));
+    assert_int_equal(stand->reads, 7); // only wag's goes by the chain
+    assert_int_equal(stand->evaluation.solved_splines, 2);
     world_must(world, edit_frames(world, -10, 60));
-    assert_true(stand_update(&stand));
-    assert_int_equal(stand.reads, 9);
-    assert_solved(&stand, WAG, -2.5);
-    assert_solved(&stand, EAR, 1);
-    stand.is_missing = true;
-    assert_false(stand_update(&stand));
-    stand.evaluation.models.version++;
-    assert_true(stand_update(&stand));
-    for (int i = 0; i < stand.evaluation.samples; i++) assert_near(stand.evaluation.curves[WAG].y[i], 0, 0);
-    assert_solved(&stand, WAG, -2.5);
-    stand_close(&stand);
+    assert_true(stand_update(stand));
+    assert_int_equal(stand->reads, 9);
+    assert_solved(stand, WAG, -2.5);
+    assert_solved(stand, EAR, 1);
+    stand->is_missing = true;
+    assert_false(stand_update(stand));
+    stand->evaluation.models.version++;
+    assert_true(stand_update(stand));
+    for (int i = 0; i < stand->evaluation.samples; i++) assert_near(stand->evaluation.curves[WAG].y[i], 0, 0);
+    assert_solved(stand, WAG, -2.5);
 }
 
-TEST(without_a_source_it_stays_at_0)
+STAND_TEST(without_a_source_it_stays_at_0)
 {
-    struct stand stand;
-    stand_open(&stand);
-    stand.evaluation.models = (struct model_source){0};
-    stand_update(&stand);
-    for (int i = 0; i < stand.evaluation.samples; i++) assert_near(stand.evaluation.curves[EAR].total[i], 0, 0);
-    stand_close(&stand);
+    stand->evaluation.models = (struct model_source){0};
+    stand_update(stand);
+    for (int i = 0; i < stand->evaluation.samples; i++) assert_near(stand->evaluation.curves[EAR].total[i], 0, 0);
 }
 
 static bool follow(struct world *world, enum parameter parameter, struct joint_motion *motion, double gain)
@@ -202,28 +179,26 @@ static bool follow(struct world *world, enum parameter parameter, struct joint_m
     return edit_parameter(world_edit(world), ALONE, parameter, &param, &world->error);
 }
 
-TEST(following_is_edited_and_undone)
+STAND_TEST(following_is_edited_and_undone)
 {
-    struct stand stand;
-    stand_open(&stand);
-    struct world *world = &stand.world;
+    struct world *world = &stand->world;
     char model[] = "dog", joint[] = "spine", nobody[] = "cat", nothing[] = "";
     struct joint_motion motion = {.model = model, .joint = joint, .of = MOTION_UP};
-    stand_update(&stand);
+    stand_update(stand);
     assert_reversible(world, follow(world, PARAMETER_EQUILIBRIUM, &motion, 3));
     memset(joint, 'x', sizeof joint - 1);
     assert_string_equal(world->document->splines[ALONE]->parameter[PARAMETER_EQUILIBRIUM].motion->joint, "spine");
-    stand_update(&stand);
-    assert_solved(&stand, ALONE, 3);
-    const int reads = stand.reads;
+    stand_update(stand);
+    assert_solved(stand, ALONE, 3);
+    const int reads = stand->reads;
     assert_reversible(world, follow(world, PARAMETER_EQUILIBRIUM,
                                     world->document->splines[ALONE]->parameter[PARAMETER_EQUILIBRIUM].motion, 4));
-    stand_update(&stand);
-    assert_solved(&stand, ALONE, 4);
-    assert_int_equal(stand.reads, reads); // a gain alone reads nothing
+    stand_update(stand);
+    assert_solved(stand, ALONE, 4);
+    assert_int_equal(stand->reads, reads); // a gain alone reads nothing
     assert_reversible(world, edit_number(world, ALONE, PARAMETER_EQUILIBRIUM, 1));
-    stand_update(&stand);
-    assert_near(stand.evaluation.curves[ALONE].y[5], 1, 0);
+    stand_update(stand);
+    assert_near(stand->evaluation.curves[ALONE].y[5], 1, 0);
     assert_reversible(world, edit_track(world, WAG, PARAMETER_EQUILIBRIUM, ALONE));
     assert_refused(world, follow(world, PARAMETER_DAMPING, &motion, 1),
                    "alone: only the equilibrium follows a joint");
@@ -237,15 +212,12 @@ TEST(following_is_edited_and_undone)
     motion.joint = nothing;
     assert_refused(world, follow(world, PARAMETER_EQUILIBRIUM, &motion, 1),
                    "alone: a motion needs a joint and a finite gain");
-    stand_close(&stand);
 }
 
 /// Names that motions go by are renamed with what they name, which is not removed before them; files move with the scene.
-TEST(a_motion_keeps_to_its_joint)
+STAND_TEST(a_motion_keeps_to_its_joint)
 {
-    struct stand stand;
-    stand_open(&stand);
-    struct world *world = &stand.world;
+    struct world *world = &stand->world;
     struct document *document = world->document;
     assert_refused(world, edit_rig_remove(world_edit(world), DOG, &world->error),
                    "dog: still needed by tail, wag, ear; remove those first");
@@ -263,5 +235,4 @@ TEST(a_motion_keeps_to_its_joint)
     char *text = scene_print_for(document, "/films/deeper", NULL, &size);
     assert_non_null(strstr(text, "{ \"model\": \"../dog.glb\", \"joint\": \"head\""));
     free(text);
-    stand_close(&stand);
 }

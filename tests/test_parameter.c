@@ -1,6 +1,5 @@
 /// The table of parameters: each is one that the solver knows, in the right place; an edit of it is seen in the curve, is saved, and is
 /// loaded again; and a reader of docs/scene-format.md finds it.
-
 #include "base/file.h"
 #include "scene/evaluate.h"
 #include "scene/order.h"
@@ -83,10 +82,8 @@ static void assert_same_curves(const struct evaluation *a, const struct evaluati
 
 static void assert_round_trip(const struct world *world)
 {
-    struct error error;
-    char *text = world_print(world);
-    struct document *again = scene_parse("again", text, strlen(text), NULL, &error);
-    assert_non_null(again);
+    char *text = text_of_document(world->document);
+    struct document *again = document_of_text(text);
     for (int s = 0; s < again->spline_count; s++) {
         for (enum parameter p = 0; p < PARAMETER_COUNT; p++) {
             const struct spline *spline = world->document->splines[s];
@@ -118,11 +115,9 @@ static double another(const struct spline *spline, enum parameter p)
 static void try_edit(int spline, enum parameter parameter, struct param param)
 {
     const char *name = parameter_rows[parameter].name;
-    struct world world = {0};
+    struct world world;
     struct evaluation kept = {0}, fresh = {0};
-    world.document = scene_parse("scene", scene, sizeof scene - 1, NULL, &world.error);
-    world.history = history_create(world.document);
-    assert_non_null(world.document);
+    world_open_scene(&world, scene);
     evaluation_update(&kept, world.document, false);
     int samples = kept.samples;
     double *before = malloc(sizeof *before * (size_t)samples);
@@ -142,8 +137,7 @@ static void try_edit(int spline, enum parameter parameter, struct param param)
 
 TEST(an_edit_of_each_is_seen_and_saved)
 {
-    struct error error;
-    struct document *document = scene_parse("scene", scene, sizeof scene - 1, NULL, &error);
+    struct document *document = document_of_text(scene);
     for (int s = 0; s < document->spline_count; s++) {
         for (enum parameter p = 0; p < PARAMETER_COUNT; p++) {
             const struct spline *spline = document->splines[s];
@@ -162,8 +156,7 @@ TEST(each_is_described)
 {
     char *text, quoted[64];
     size_t size;
-    struct error error;
-    assert_true(file_read("docs/scene-format.md", 1 << 20, &text, &size, &error));
+    assert_done(file_read("docs/scene-format.md", 1 << 20, &text, &size, &error));
     for (enum parameter p = 0; p < PARAMETER_COUNT; p++) {
         snprintf(quoted, sizeof quoted, "`%s`", parameter_key(p));
         if (!strstr(text, quoted)) fail_msg("docs/scene-format.md does not name %s", quoted);

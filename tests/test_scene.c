@@ -1,8 +1,7 @@
 /// Documents: what is loaded, saved, printed and solved.
-#include "near.h"
+#include "documents.h"
 
 #include "scene/evaluate.h"
-#include "scene/load.h"
 #include "scene/text.h"
 #include <dirent.h>
 #include <stdio.h>
@@ -11,23 +10,6 @@
 #include <unistd.h>
 
 enum { PATH_SIZE = 512, HEARD_SIZE = 2048 };
-
-static struct document *parse(const char *text)
-{
-    struct error error = {0};
-    struct document *document = scene_parse("scene.json", text, strlen(text), NULL, &error);
-    if (!document) fail_msg("%s", error.text);
-    return document;
-}
-
-static void assert_prints(const struct document *document, const char *expected)
-{
-    size_t size;
-    char *text = scene_print(document, &size);
-    assert_string_equal(text, expected);
-    assert_int_equal(size, strlen(expected));
-    free(text);
-}
 
 // --- numbers
 
@@ -93,8 +75,8 @@ TEST(test_numbers_read_back)
 TEST(test_defaults)
 {
     struct document *document =
-        parse("{\"frames\": [0, 120], \"splines\": [{\"name\": \"x\", \"knots\": [{\"frame\": 3, "
-              "\"value\": 2}]}], \"rigs\": [{\"type\": \"tail\", \"name\": \"t\", \"spline\": \"x\"}]}");
+        document_of_text("{\"frames\": [0, 120], \"splines\": [{\"name\": \"x\", \"knots\": [{\"frame\": 3, "
+                         "\"value\": 2}]}], \"rigs\": [{\"type\": \"tail\", \"name\": \"t\", \"spline\": \"x\"}]}");
     assert_prints(document, "{\n"
                             "  \"wiggly\": 1,\n"
                             "  \"fps\": 24,\n"
@@ -130,7 +112,7 @@ TEST(test_defaults)
                             "  ]\n"
                             "}\n");
     document_destroy(document);
-    document = parse("{\"frames\": [-3, -3]}");
+    document = document_of_text("{\"frames\": [-3, -3]}");
     assert_prints(document, "{\n  \"wiggly\": 1,\n  \"fps\": 24,\n  \"substeps\": 1,\n  \"frames\": [-3, -3],\n"
                             "  \"splines\": [],\n  \"rigs\": []\n}\n");
     document_destroy(document);
@@ -140,7 +122,7 @@ TEST(test_defaults)
 /// well.
 TEST(test_unknown_keys_are_kept)
 {
-    struct document *document = parse(
+    struct document *document = document_of_text(
         "{\"z\": [1, 2.50, {\"k\": null}, []], \"frames\": [0, 9], \"a\": 9007199254740993, \"splines\": [\n"
         "{\"name\": \"q\\\"\\\\\\u0001\\u00e9\", \"mode\": \"real\", \"note\": true, \"frequency\": {\"by\": \"me\", "
         "\"spline\": \"w\"}, \"knots\": [{\"frequency\": {}, \"value\": 1, \"frame\": 2}]}, {\"name\": \"w\", "
@@ -167,7 +149,7 @@ TEST(test_unknown_keys_are_kept)
 /// A tail on a moving base: coordinates that follow splines, a channel without the base's part, and what only others know.
 TEST(test_moving_bases_are_kept)
 {
-    struct document *document = parse(
+    struct document *document = document_of_text(
         "{\"frames\": [0, 9], \"splines\": [{\"name\": \"walk\", \"position\": 3}], \"rigs\": [{\"type\": \"tail\", "
         "\"name\": \"t\", \"frequency\": 1, \"position\": [{\"by\": \"me\", \"spline\": \"walk\"}, 0.26, "
         "{\"spline\": "
@@ -177,8 +159,7 @@ TEST(test_moving_bases_are_kept)
     assert_int_equal(tail->position[1].track, -1);
     assert_near(tail->position[1].value, 0.26, 0);
     assert_int_equal(tail->channels[0].of, PART_DISPLACEMENT);
-    size_t size;
-    char *text = scene_print(document, &size);
+    char *text = text_of_document(document);
     assert_non_null(
         strstr(text, "\"position\": [{ \"spline\": \"walk\", \"by\": \"me\" }, 0.26, { \"spline\": \"walk\" }],"));
     assert_non_null(strstr(text, "\"axis\": \"side\", \"of\": \"displacement\", \"lag\": 6.5"));
@@ -200,15 +181,10 @@ static void assert_same_param(const struct param *a, const struct param *b)
 
 static void assert_round_trip(const char *path)
 {
-    struct error error = {0};
-    struct document *document = scene_load(path, NULL, &error);
-    if (!document) fail_msg("%s", error.text);
-    size_t size, again_size;
-    char *text = scene_print(document, &size);
-    struct document *again = scene_parse("printed.json", text, size, NULL, &error);
-    if (!again) fail_msg("%s", error.text);
-    char *again_text = scene_print(again, &again_size);
-    assert_string_equal(again_text, text);
+    struct document *document = document_of_file(path);
+    char *text = text_of_document(document);
+    struct document *again = document_of_text(text);
+    assert_prints(again, text);
     assert_true(scene_hash(document) == scene_hash(again));
     assert_int_equal(again->spline_count, document->spline_count);
     for (int i = 0; i < document->spline_count; i++) {
@@ -217,7 +193,6 @@ static void assert_round_trip(const char *path)
             assert_same_param(&again->splines[i]->parameter[p], &document->splines[i]->parameter[p]);
         }
     }
-    free(again_text);
     free(text);
     document_destroy(again);
     document_destroy(document);
@@ -245,9 +220,9 @@ TEST(test_round_trips)
 TEST(test_knots_on_samples)
 {
     struct document *document =
-        parse("{\"frames\": [-10, 10], \"substeps\": 4, \"fps\": 25, \"splines\": [{\"name\": \"x\", "
-              "\"knots\": [{\"frame\": 10.12, \"value\": 3}, {\"frame\": -10.125, \"value\": 1}, "
-              "{\"frame\": 0.125, \"value\": 2}]}]}");
+        document_of_text("{\"frames\": [-10, 10], \"substeps\": 4, \"fps\": 25, \"splines\": [{\"name\": \"x\", "
+                         "\"knots\": [{\"frame\": 10.12, \"value\": 3}, {\"frame\": -10.125, \"value\": 1}, "
+                         "{\"frame\": 0.125, \"value\": 2}]}]}");
     const struct spline *spline = document->splines[0];
     assert_int_equal(document_samples(document), 81);
     assert_near(document_step(document), 0.01, 1e-18);
@@ -364,7 +339,7 @@ TEST(test_save)
     snprintf(expected, sizeof expected,
              "{\n  \"wiggly\": 1,\n  \"fps\": 24,\n  \"substeps\": 1,\n  \"frames\": [0, 7],\n"
              "  \"splines\": [],\n  \"rigs\": []\n}\n");
-    struct document *document = parse("{\"frames\": [0, 7]}");
+    struct document *document = document_of_text("{\"frames\": [0, 7]}");
     struct error error = {0};
     assert_int_equal(symlink("scene.json", link), 0);
     assert_true(scene_save(document, link, &error)); // through a link that leads nowhere yet
@@ -409,7 +384,7 @@ static const char chain[] =
 
 TEST(test_a_scene_without_splines)
 {
-    struct document *document = parse("{\"frames\": [0, 120]}");
+    struct document *document = document_of_text("{\"frames\": [0, 120]}");
     struct evaluation evaluation = {0};
     evaluation_update(&evaluation, document, false);
     assert_int_equal(evaluation.solved_splines, 0);
@@ -419,7 +394,7 @@ TEST(test_a_scene_without_splines)
 
 TEST(test_only_followers_are_solved)
 {
-    struct document *document = parse(chain);
+    struct document *document = document_of_text(chain);
     struct evaluation evaluation = {0};
     evaluation_update(&evaluation, document, false);
     assert_int_equal(evaluation.solved_splines, 4);
@@ -457,7 +432,7 @@ TEST(test_only_followers_are_solved)
 /// What is solved bit by bit, as edits come, is what is solved at once: a curve is a function of the document.
 TEST(test_partial_solves_agree)
 {
-    struct document *document = parse(chain);
+    struct document *document = document_of_text(chain);
     struct evaluation partial = {0}, whole = {0};
     evaluation_update(&partial, document, false);
     document_own_spline(document, 2)->knots[1].value = 0.25;
@@ -474,7 +449,8 @@ TEST(test_partial_solves_agree)
 
 TEST(test_evaluation_fits_the_document)
 {
-    struct document *small = parse("{\"frames\": [0, 5], \"splines\": [{\"name\": \"x\"}]}"), *large = parse(chain);
+    struct document *small = document_of_text("{\"frames\": [0, 5], \"splines\": [{\"name\": \"x\"}]}"),
+                    *large = document_of_text(chain);
     struct evaluation evaluation = {0};
     evaluation_update(&evaluation, small, false);
     evaluation_update(&evaluation, large, false);
@@ -497,9 +473,7 @@ TEST(test_a_value_beyond_reach_is_flat)
 {
     static const char text[] = "{\"wiggly\": 1, \"frames\": [0, 40], \"splines\": [{\"name\": \"a\", \"knots\": "
                                "[{\"frame\": 0, \"value\": 1}, {\"frame\": 30, \"value\": -1.7e308}]}]}";
-    struct error error = {0};
-    struct document *document = scene_parse("huge.json", text, sizeof text - 1, NULL, &error);
-    assert_non_null(document);
+    struct document *document = document_of_text(text);
     struct evaluation evaluation = {0};
     evaluation_update(&evaluation, document, false);
     assert_int_equal(evaluation.status[0], WIGGLY_ERROR_NUMBER);

@@ -1,11 +1,10 @@
 /// Every scene of tests/vectors against its exact answers (60-digit arithmetic), through the same path as the app:
 /// scene file → document → solver, by the chain and by the band, which agree to 1e-9 of the range. The tolerances are those of docs/mathematics.md: 1e-9 of the range for cubic splines, else 1e-8. One
 /// is a loop of calm 0 that its equilibrium drives in resonance: its answer is the one with calm 0.05, and the solver says so.
-#include "near.h"
+#include "documents.h"
 
 #include "base/file.h"
 #include "scene/evaluate.h"
-#include "scene/load.h"
 #include <dirent.h>
 #include <stdio.h>
 #include <string.h>
@@ -91,10 +90,8 @@ static void check_document(const char *name, const struct document *document, co
 static void check_scene(const char *name)
 {
     char path[512];
-    struct error error = {0};
     snprintf(path, sizeof path, "%s/%s.json", folder, name);
-    struct document *document = scene_load(path, NULL, &error);
-    if (!document) fail_msg("%s", error.text);
+    struct document *document = document_of_file(path);
     snprintf(path, sizeof path, "%s/%s.csv", folder, name);
     double *expected = read_numbers(path, 1 + 3 * document->spline_count, document_samples(document));
     check_document(name, document, expected);

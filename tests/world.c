@@ -11,11 +11,12 @@ static const char scene_text[] =
     "\"rigs\": [{\"type\": \"tail\", \"name\": \"t\", \"joints\": 3, \"channels\": [{\"spline\": \"sway\"}, "
     "{\"spline\": \"loop\", \"axis\": \"up\", \"gain\": [1, 2, 3]}]}]}";
 
-void world_open(struct world *world)
+void world_open(struct world *world) { world_open_scene(world, scene_text); }
+
+void world_open_scene(struct world *world, const char *scene)
 {
     *world = (struct world){0};
-    world->document = scene_parse("scene.json", scene_text, sizeof scene_text - 1, NULL, &world->error);
-    if (!world->document) fail_msg("%s", world->error.text);
+    world->document = document_of_text(scene);
     world->history = history_create(world->document);
     assert_non_null(world->history);
 }
@@ -26,20 +27,9 @@ void world_close(struct world *world)
     document_destroy(world->document);
 }
 
-char *world_print(const struct world *world)
-{
-    size_t size;
-    char *text = scene_print(world->document, &size);
-    assert_non_null(text);
-    return text;
-}
+char *world_print(const struct world *world) { return text_of_document(world->document); }
 
-void assert_document(const struct world *world, const char *expected)
-{
-    char *text = world_print(world);
-    assert_string_equal(text, expected);
-    free(text);
-}
+void assert_document(const struct world *world, const char *expected) { assert_prints(world->document, expected); }
 
 struct document *world_edit(struct world *world)
 {
@@ -53,8 +43,7 @@ struct document *world_edit(struct world *world)
 /// Closes the step; the text of what was there before it, if that is wanted.
 static char *end_step(struct world *world, bool wanted)
 {
-    struct world before = {.document = world->before};
-    char *text = wanted ? world_print(&before) : NULL;
+    char *text = wanted ? text_of_document(world->before) : NULL;
     history_end(world->history);
     document_destroy(world->before);
     world->before = NULL;

@@ -2,11 +2,10 @@
 #ifndef TESTS_WORLD_H
 #define TESTS_WORLD_H
 
-#include "near.h"
+#include "documents.h"
 
 #include "scene/edit.h"
 #include "scene/history.h"
-#include "scene/load.h"
 
 /// The splines of the document: three knots; spring and friction from rest; a loop that follows the first.
 enum { SWAY, PLUCK, LOOP };
@@ -20,6 +19,8 @@ struct world {
 };
 
 void world_open(struct world *world);
+/// The same of another scene.
+void world_open_scene(struct world *world, const char *scene);
 void world_close(struct world *world);
 
 /// The document's canonical text; freed by the caller.
@@ -53,15 +54,6 @@ bool edit_start(struct world *world, int spline, enum wiggly_start start);
 bool edit_frames(struct world *world, int first, int last);
 
 /// A test of a world that `opens` opens and that is closed at its end: WORLD_TEST(name, world_open(world)) { … }.
-#define WORLD_TEST(name, opens)                                                                                      \
-    static void name##_in(struct world *world);                                                                      \
-    TEST(name)                                                                                                       \
-    {                                                                                                                \
-        struct world a_world, *world = &a_world;                                                                     \
-        opens;                                                                                                       \
-        name##_in(world);                                                                                            \
-        world_close(world);                                                                                          \
-    }                                                                                                                \
-    static void name##_in(struct world *world)
+#define WORLD_TEST(name, opens) TEST_OF(struct world, world, opens, world_close(world), name)
 
 #endif
