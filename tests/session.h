@@ -17,6 +17,8 @@ struct session {
     struct editor *editor;
     float x, y;    ///< pointer
     unsigned mods; ///< of pointer and buttons
+    char **saved;  ///< what session_saved() has given
+    int saved_count;
 };
 
 static inline void session_send(struct session *session, struct event event)
@@ -24,7 +26,12 @@ static inline void session_send(struct session *session, struct event event)
     editor_event(session->editor, &event);
 }
 
-static inline void session_close(struct session *session) { table_free(&session->table); }
+static inline void session_close(struct session *session)
+{
+    while (session->saved_count > 0) free(session->saved[--session->saved_count]);
+    free(session->saved);
+    table_free(&session->table);
+}
 
 /// A frame of 1/60 s, the editor's requests left to the test.
 static inline void session_frame(struct session *session)
@@ -138,8 +145,14 @@ static inline void session_type(struct session *session, const char *text)
     for (; *text; text++) session_strike(session, toupper((unsigned char)*text), 0, (unsigned char)*text);
 }
 
-/// The document's canonical text; freed by the caller.
-static inline char *session_saved(const struct session *session) { return text_of_document(session->document); }
+/// The document's canonical text, which lives as long as the session.
+static inline const char *session_saved(struct session *session)
+{
+    const size_t count = (size_t)++session->saved_count;
+    session->saved = realloc(session->saved, count * sizeof *session->saved);
+    assert_non_null(session->saved);
+    return session->saved[count - 1] = text_of_document(session->document);
+}
 
 static inline void assert_saved(const struct session *session, const char *expected)
 {
@@ -149,13 +162,12 @@ static inline void assert_saved(const struct session *session, const char *expec
 /// The document is no longer `original`; one undo brings that back byte by byte, one redo what there was.
 static inline void assert_one_step(struct session *session, const char *original)
 {
-    char *changed = session_saved(session);
+    const char *changed = session_saved(session);
     assert_string_not_equal(changed, original);
     session_key(session, 'Z', MOD_CTRL);
     assert_saved(session, original);
     session_key(session, 'Y', MOD_CTRL);
     assert_saved(session, changed);
-    free(changed);
 }
 
 /// Opens a scene given as text and shows its first frame (1280×720, paused). Fails the test where that is not

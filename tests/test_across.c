@@ -63,7 +63,7 @@ SESSION_TEST(test_shift_clicks_add_knots_of_another_curve, session_open(s, TWO))
 
 SESSION_TEST(test_a_drag_moves_all_in_one_step, session_open(s, TWO))
 {
-    char *original = session_saved(s);
+    const char *original = session_saved(s);
     box(s, "curve(sway,17,1.1)", "curve(sway,26,0.1)");
     const float frame =
         curves_x(s->editor->curves, &s->editor->core, 1) - curves_x(s->editor->curves, &s->editor->core, 0);
@@ -78,7 +78,6 @@ SESSION_TEST(test_a_drag_moves_all_in_one_step, session_open(s, TWO))
     assert_near(knot(s, 2, 0)->value - 0.2, up, 0.01);
     assert_near(knot(s, 0, 2)->frame, 30, 0);
     assert_one_step(s, original);
-    free(original);
 }
 
 /// The last knot of one spline stops them all; none is lost where another knot is in the way.
@@ -105,29 +104,26 @@ SESSION_TEST(test_normalised_curves_move_by_the_same_height, session_open(s, TWO
     session_key(s, 'N', 0);
     session_frame(s);
     session_key(s, 'A', MOD_CTRL | MOD_SHIFT);
-    char *original = session_saved(s);
+    const char *original = session_saved(s);
     const double before[2] = {knot(s, 0, 1)->value, knot(s, 1, 0)->value};
     session_key(s, KEY_UP, MOD_ALT | MOD_SHIFT);
     const double by[2] = {knot(s, 0, 1)->value - before[0], knot(s, 1, 0)->value - before[1]};
     assert_true(by[0] > 0 && by[1] > 0);
     assert_true(by[1] < 0.7 * by[0]); // of a curve that is drawn larger than it is
     assert_one_step(s, original);
-    free(original);
 }
 
 SESSION_TEST(test_delete_and_slopes_are_one_step, session_open(s, TWO))
 {
     session_key(s, 'A', MOD_CTRL | MOD_SHIFT);
-    char *original = session_saved(s);
+    const char *original = session_saved(s);
     session_key(s, 'T', MOD_SHIFT);
     for (int i = 0; i < 3; i++) assert_true(knot(s, i, 0)->has_slope);
     assert_one_step(s, original);
-    free(original);
     original = session_saved(s);
     session_key(s, KEY_DELETE, 0);
     for (int i = 0; i < 3; i++) assert_int_equal(s->document->splines[i]->knot_count, 0);
     assert_one_step(s, original);
-    free(original);
 }
 
 static void paste(struct session *s, const char *text)
@@ -140,7 +136,8 @@ SESSION_TEST(test_pasted_knots_go_to_their_splines, session_open(s, TWO))
 {
     session_key(s, 'A', MOD_CTRL | MOD_SHIFT);
     session_key(s, 'C', MOD_CTRL);
-    char *text = strdup(s->editor->core.clipboard), *original = session_saved(s);
+    const char *original = session_saved(s);
+    char *text = strdup(s->editor->core.clipboard);
     assert_non_null(strstr(text, "\"spline\": \"up\""));
     session_click(s, "ruler(21)");
     paste(s, text);
@@ -150,7 +147,6 @@ SESSION_TEST(test_pasted_knots_go_to_their_splines, session_open(s, TWO))
     assert_near(knot(s, 1, 1)->frame, 31, 0); // 20 is 10 behind the first one, of another spline
     assert_int_equal(count(s), 7);
     assert_one_step(s, original);
-    free(original);
     free(text);
 }
 
@@ -172,7 +168,7 @@ SESSION_TEST(test_pasted_knots_of_unknown_splines_go_to_the_active_one, session_
 SESSION_TEST(test_copies_go_behind_the_end, session_open(s, TWO))
 {
     session_key(s, 'A', MOD_CTRL | MOD_SHIFT);
-    char *original = session_saved(s);
+    const char *original = session_saved(s);
     session_key(s, 'D', MOD_CTRL); // 10 … 60 and 40 behind each other: 20 later
     assert_int_equal(s->document->splines[0]->knot_count, 8);
     assert_int_equal(s->document->last_frame, 130);
@@ -180,13 +176,12 @@ SESSION_TEST(test_copies_go_behind_the_end, session_open(s, TWO))
     assert_near(knot(s, 1, 2)->frame, 90, 0);
     assert_int_equal(count(s), 7);
     assert_one_step(s, original);
-    free(original);
 }
 
 SESSION_TEST(test_scaling_about_the_equilibrium, session_open(s, TWO))
 {
     session_key(s, 'A', MOD_CTRL | MOD_SHIFT);
-    char *original = session_saved(s);
+    const char *original = session_saved(s);
     session_strike(s, 'S', MOD_SHIFT, 'S');
     session_type(s, "2");
     session_frame(s);
@@ -197,7 +192,6 @@ SESSION_TEST(test_scaling_about_the_equilibrium, session_open(s, TWO))
     assert_near(knot(s, 1, 1)->value, -1, 1e-9); // a cubic's equilibrium is 0 too
     assert_near(knot(s, 0, 1)->frame, 20, 0);
     assert_one_step(s, original);
-    free(original);
 }
 
 SESSION_TEST(test_two_factors_and_what_stops_them, session_open(s, TWO))
@@ -252,7 +246,7 @@ SESSION_TEST(test_an_edge_of_the_box_scales_about_the_other_side, session_open(s
     const float unit =
         (float)(s->editor->core.layout.plot.h / (s->editor->curves->view.value1 - s->editor->curves->view.value0));
     box(s, "curve(sway,17,1.1)", "curve(sway,34,-1.2)"); // 20 and 30 of sway, 20 of up, 22 of far
-    char *original = session_saved(s);
+    const char *original = session_saved(s);
     session_pull(s, "box(0,-1)", 0, -unit / 2, 4);
     assert_true(says(s, "value × 1.25"));
     assert_non_null(strstr(s->editor->curves->scaling.sentence, "value × 1.25 about the other side.  P: the equili"));
@@ -262,7 +256,6 @@ SESSION_TEST(test_an_edge_of_the_box_scales_about_the_other_side, session_open(s
     assert_near(knot(s, 1, 0)->value, -1 + 1.5 * 1.25, 0.01);
     assert_near(knot(s, 0, 1)->frame, 20, 0);
     assert_one_step(s, original);
-    free(original);
 }
 
 /// With Alt about the equilibrium, or with P: the upper edge goes along, the lower one the other way.
@@ -289,7 +282,7 @@ SESSION_TEST(test_a_corner_of_the_box_scales_both_and_says_what_stops_it, sessio
     const struct curves *curves = s->editor->curves;
     const float frame = (float)(s->editor->core.layout.plot.w / (curves->view.frame1 - curves->view.frame0));
     box(s, "curve(sway,17,1.1)", "curve(sway,34,-1.2)");
-    char *original = session_saved(s);
+    const char *original = session_saved(s);
     session_pull(s, "box(1,-1)", 10 * frame, 0, 4);
     assert_near(knot(s, 0, 2)->frame, 40, 0);
     assert_near(knot(s, 0, 1)->frame, 20, 0);
@@ -299,7 +292,6 @@ SESSION_TEST(test_a_corner_of_the_box_scales_both_and_says_what_stops_it, sessio
     assert_true(knot(s, 0, 2)->frame <= 96);
     session_key(s, KEY_ESCAPE, 0);
     assert_saved(s, original);
-    free(original);
 }
 
 /// A knot is where a handle would be, and a press there takes the knot; a single one, and knots on one frame, have fewer handles.

@@ -25,7 +25,7 @@ static void hold_and_drag(struct session *s, float dx, float dy, int steps)
 
 SESSION_TEST(test_tail_follows_through_and_settles, session_open(s, scene))
 {
-    char *before = session_saved(s);
+    const char *before = session_saved(s);
     hold_and_drag(s, -150, 0, 12);
     float base = joint(s, 0)[X], trailing = joint(s, JOINTS)[X] - base;
     assert_true(base > 0.1f);       // the pointer went to the left, where +x is
@@ -48,7 +48,6 @@ SESSION_TEST(test_tail_follows_through_and_settles, session_open(s, scene))
     session_key(s, 'Z', MOD_CTRL);
     assert_null(history_undo_label(s->history));
     assert_saved(s, before);
-    free(before);
 }
 
 /// Lagged joints come later: each extremum of the bend is at the base first and at the tip last.
@@ -73,7 +72,7 @@ SESSION_TEST(test_swing_runs_along_the_tail, session_open(s, scene))
 
 SESSION_TEST(test_escape_takes_it_back, session_open(s, scene))
 {
-    char *before = session_saved(s);
+    const char *before = session_saved(s);
     hold_and_drag(s, 80, 30, 6);
     session_key(s, KEY_ESCAPE, 0);
     session_button(s, BUTTON_LEFT, ACTION_RELEASE, 1);
@@ -83,7 +82,6 @@ SESSION_TEST(test_escape_takes_it_back, session_open(s, scene))
     assert_false(editor_wants_frames(s->editor));
     assert_saved(s, before);
     assert_null(history_undo_label(s->history));
-    free(before);
 }
 
 /// A held body may lose its tail, to an edit made meanwhile; letting go of it then changes nothing.
@@ -94,11 +92,10 @@ TEST(test_a_tail_that_goes_while_held)
     session_open(&s, scene);
     hold_and_drag(&s, 80, 30, 6);
     assert_true(edit_rig_remove(s.document, 0, &error));
-    char *without = session_saved(&s);
+    const char *without = session_saved(&s);
     session_button(&s, BUTTON_LEFT, ACTION_RELEASE, 1);
     session_frame(&s);
     assert_saved(&s, without);
-    free(without);
     session_close(&s);
 }
 
@@ -113,12 +110,11 @@ static void press_as_it_goes(const char *target)
     history_begin(s.history, "Remove tail", 0);
     assert_true(edit_rig_remove(s.document, 0, &error));
     history_end(s.history);
-    char *without = session_saved(&s);
+    const char *without = session_saved(&s);
     session_press(&s, BUTTON_LEFT, 1);
     session_drag(&s, 40, 10, 3);
     session_release(&s, BUTTON_LEFT);
     assert_saved(&s, without);
-    free(without);
     session_close(&s);
 }
 
@@ -159,7 +155,7 @@ static void drag_a_tracked_body(const char *text, int track)
     session_key(&s, KEY_RIGHT, 0);
     session_key(&s, KEY_RIGHT, 0);
     assert_near(joint(&s, 0)[X], 0.1, 1e-6);
-    char *before = session_saved(&s);
+    const char *before = session_saved(&s);
     hold_and_drag(&s, -60, 0, 4);
     session_key(&s, 'X', 0);
     float x = joint(&s, 0)[X];
@@ -173,7 +169,6 @@ static void drag_a_tracked_body(const char *text, int track)
     assert_near(document_tail(s.document, 0)->position[2].value, 0, 0);
     session_key(&s, 'Z', MOD_CTRL);
     assert_saved(&s, before);
-    free(before);
     session_close(&s);
 }
 
@@ -242,7 +237,7 @@ TEST(test_a_limit_holds_the_body)
 /// With it a place that was a number gets a spline, which begins where the body was, and the tail follows that through.
 SESSION_TEST(test_auto_key_makes_a_place_follow, session_open(s, scene))
 {
-    char *before = session_saved(s);
+    const char *before = session_saved(s);
     session_key(s, 'A', MOD_SHIFT);
     for (int i = 0; i < 12; i++) session_key(s, KEY_RIGHT, 0);
     hold_and_drag(s, -60, 0, 4);
@@ -264,7 +259,6 @@ SESSION_TEST(test_auto_key_makes_a_place_follow, session_open(s, scene))
     assert_string_equal(s->editor->core.message.text, "Keyed tail x at frame 12.");
     session_key(s, 'Z', MOD_CTRL);
     assert_saved(s, before);
-    free(before);
 }
 
 /// Ctrl lifts it; it never sinks into the ground, and its height is keyed above that.

@@ -140,7 +140,7 @@ SESSION_TEST(the_map_of_poles_has_its_numbers, panel_open(s, tail, 1280, 1400))
 /// A letter that is let go while a dialog is open is no longer held once that is closed.
 SESSION_TEST(a_letter_let_go_in_a_dialog_is_not_held, session_open(s, tail))
 {
-    char *before = session_saved(s);
+    const char *before = session_saved(s);
     session_hold(s, 'F', ACTION_PRESS);
     dialogs_offer_recovery(s->editor->dialogs, &(struct recovery_offer){.name = "walk.json"}); // by no key
     assert_int_equal(s->editor->dialogs->dialog.kind, DIALOG_RECOVER);
@@ -149,7 +149,6 @@ SESSION_TEST(a_letter_let_go_in_a_dialog_is_not_held, session_open(s, tail))
     assert_int_equal(s->editor->dialogs->dialog.kind, DIALOG_NONE);
     session_key(s, KEY_UP, 0);
     assert_saved(s, before);
-    free(before);
 }
 
 TEST(nothing_to_follow_is_an_error)

@@ -69,7 +69,7 @@ TEST(test_a_pull_taken_back_leaves_nothing_selected)
 SESSION_TEST(test_the_tail_follows_the_hand, session_open(s, TAIL))
 {
     session_click(s, "ruler(60)");
-    char *original = session_saved(s);
+    const char *original = session_saved(s);
     pull(s, 0.95f, 60, -40);
     assert_int_equal(s->document->splines[0]->knot_count, 4); // one knot in each channel, at the playhead
     assert_int_equal(s->document->splines[1]->knot_count, 3);
@@ -80,7 +80,6 @@ SESSION_TEST(test_the_tail_follows_the_hand, session_open(s, TAIL))
     session_key(s, 'Z', MOD_CTRL);
     assert_null(history_undo_label(s->history)); // a pull is one step
     assert_saved(s, original);
-    free(original);
 }
 
 TEST(test_a_pull_out_of_reach_stays_calm)

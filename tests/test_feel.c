@@ -14,7 +14,7 @@ static const struct param *of(const struct session *s, enum parameter which)
 
 SESSION_TEST(test_a_preset_is_one_step, panel_open(s, tail_scene, 1280, 720))
 {
-    char *before = session_saved(s);
+    const char *before = session_saved(s);
     panel_click(s, "preset.whip");
     assert_near(of(s, PARAMETER_FREQUENCY)->value, 1.8, 0);
     assert_near(of(s, PARAMETER_DAMPING)->value, 0.12, 0);
@@ -27,7 +27,6 @@ SESSION_TEST(test_a_preset_is_one_step, panel_open(s, tail_scene, 1280, 720))
     assert_int_equal(spline_mode(s->document->splines[1]), WIGGLY_COMPLEX);
     assert_near(of(s, PARAMETER_FREQUENCY)->value, 5, 0);
     assert_near(document_tail(s->document, 0)->channels[0].lag.value[0], 6.5, 0);
-    free(before);
 }
 
 /// An exponential's envelope falls to 5 % after ln 20 / (2π f ζ).
@@ -36,7 +35,7 @@ TEST(test_the_time_to_settle_is_set)
     struct session s;
     const double tau = 2 * acos(-1.0), ln20 = log(20);
     panel_open(&s, tail_scene, 1280, 720);
-    char *before = session_saved(&s);
+    const char *before = session_saved(&s);
     panel_enter(&s, "settle", "2");
     assert_near(of(&s, PARAMETER_FREQUENCY)->value, 1, 0);
     assert_near(of(&s, PARAMETER_DAMPING)->value, ln20 / (tau * 2), 1e-4);
@@ -53,7 +52,6 @@ TEST(test_the_time_to_settle_is_set)
     panel_enter(&s, "settle", "1.5");
     const double damping = of(&s, PARAMETER_DAMPING)->value;
     assert_true(damping > 0.2 && damping < 0.4);
-    free(before);
     session_close(&s);
 }
 

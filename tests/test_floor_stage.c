@@ -25,7 +25,7 @@ static void edge(struct session *s, float xy[2])
 /// The edge stays under the pointer, and all is one step.
 SESSION_TEST(test_the_edge_is_dragged_down, open_creature(s))
 {
-    char *before = session_saved(s);
+    const char *before = session_saved(s);
     session_point(s, "floor(c)");
     session_frame(s);
     assert_int_equal(s->editor->core.hover.kind, HOVER_FLOOR);
@@ -38,19 +38,17 @@ SESSION_TEST(test_the_edge_is_dragged_down, open_creature(s))
     assert_true(floor_of(s) < -0.02);
     if (!(fabsf(to[1] - from[1] - 30) < 6)) fail_msg("the edge moved by %g pixels of 30", (double)(to[1] - from[1]));
     assert_one_step(s, before);
-    free(before);
 }
 
 /// Whatever the pointer says, the floor is not above the feet; Esc puts it back.
 SESSION_TEST(test_it_stops_at_the_feet_and_esc_cancels, open_creature(s))
 {
-    char *before = session_saved(s);
+    const char *before = session_saved(s);
     session_pull(s, "floor(c)", 0, -300, 4);
     assert_near(floor_of(s), 0.2, 1e-12);
     session_key(s, KEY_ESCAPE, 0);
     session_release(s, BUTTON_LEFT);
     assert_saved(s, before);
-    free(before);
 }
 
 /// The curve gives way while the floor is dragged, in the same frame.

@@ -11,7 +11,7 @@ static const char *active_name(const struct session *f) { return f->document->sp
 SESSION_TEST(test_a_spline_is_added_at_the_playhead, panel_open(s, scene, 1280, 720))
 {
     session_click(s, "ruler(24)");
-    char *before = session_saved(s);
+    const char *before = session_saved(s);
     panel_click(s, "spline.add");
     assert_string_equal(active_name(s), "spline");
     assert_near(s->document->splines[3]->knots[0].frame, 24, 0);
@@ -19,14 +19,13 @@ SESSION_TEST(test_a_spline_is_added_at_the_playhead, panel_open(s, scene, 1280, 
     assert_one_step(s, before);
     session_key(s, 'Z', MOD_CTRL);
     assert_true(s->editor->core.active >= 0 && s->editor->core.active < 3);
-    free(before);
 }
 
 /// What is being edited stays what it is when the list around it changes, and when that is undone.
 SESSION_TEST(test_the_active_spline_is_followed, panel_open(s, scene, 1280, 720))
 {
     panel_click(s, "spline.pace");
-    char *before = session_saved(s);
+    const char *before = session_saved(s);
     panel_click(s, "spline.down");
     assert_string_equal(active_name(s), "pace");
     assert_int_equal(s->editor->core.active, 2);
@@ -39,7 +38,6 @@ SESSION_TEST(test_the_active_spline_is_followed, panel_open(s, scene, 1280, 720)
     panel_click(s, "spline.delete"); // nothing follows it: no question
     assert_int_equal(s->document->spline_count, 3);
     assert_int_equal(s->editor->dialogs->dialog.kind, DIALOG_NONE);
-    free(before);
 }
 
 /// Deleting what others follow asks; then they keep the value of that frame, and the tail lets go of it.
@@ -47,7 +45,7 @@ SESSION_TEST(test_deleting_a_followed_spline_asks, panel_open(s, scene, 1280, 72
 {
     session_click(s, "ruler(90)");
     panel_click(s, "spline.pace");
-    char *before = session_saved(s);
+    const char *before = session_saved(s);
     panel_click(s, "spline.delete");
     assert_int_equal(s->editor->dialogs->dialog.kind, DIALOG_ASK);
     session_key(s, KEY_ESCAPE, 0);
@@ -59,14 +57,12 @@ SESSION_TEST(test_deleting_a_followed_spline_asks, panel_open(s, scene, 1280, 72
     assert_near(s->document->splines[1]->parameter[PARAMETER_FREQUENCY].value, 2, 1e-9);
     assert_int_equal(document_tail(s->document, 0)->channels[1].spline, 1);
     assert_one_step(s, before);
-    free(before);
     panel_click(s, "spline.lift");
     before = session_saved(s);
     panel_click(s, "spline.delete");
     session_key(s, KEY_ENTER, 0);
     assert_int_equal(document_tail(s->document, 0)->channel_count, 1);
     assert_one_step(s, before);
-    free(before);
 }
 
 /// The only spline may go as well; what is left still draws, and can be added to.
@@ -88,7 +84,7 @@ TEST(test_renaming)
 {
     struct session f;
     panel_open(&f, scene, 1280, 720);
-    char *before = session_saved(&f);
+    const char *before = session_saved(&f);
     panel_press(&f, "spline.sway", 2);
     panel_release(&f);
     panel_type(&f, "swing");
@@ -113,13 +109,12 @@ TEST(test_renaming)
     assert_string_equal(f.document->splines[0]->name, "swing");
     assert_non_null(strstr(f.editor->core.message.text, "a spline needs a name"));
     assert_int_equal(f.document->splines[0]->knot_count, 3);
-    free(before);
     session_close(&f);
 }
 
 SESSION_TEST(test_rows_are_dragged_to_their_place, panel_open(s, scene, 1280, 720))
 {
-    char *before = session_saved(s);
+    const char *before = session_saved(s);
     panel_press(s, "spline.sway", 1);
     session_drag(s, 0, 2 * UI_ROW, 4);
     assert_string_equal(s->document->splines[0]->name, "sway"); // not before it is dropped
@@ -127,12 +122,11 @@ SESSION_TEST(test_rows_are_dragged_to_their_place, panel_open(s, scene, 1280, 72
     assert_string_equal(s->document->splines[2]->name, "sway");
     assert_string_equal(active_name(s), "sway");
     assert_one_step(s, before);
-    free(before);
 }
 
 SESSION_TEST(test_colours, panel_open(s, scene, 1280, 720))
 {
-    char *before = session_saved(s);
+    const char *before = session_saved(s);
     panel_click(s, "color.pace");
     panel_click(s, "color.3");
     assert_int_equal(s->document->splines[1]->color, 0x1F9E7A);
@@ -150,7 +144,6 @@ SESSION_TEST(test_colours, panel_open(s, scene, 1280, 720))
     assert_int_equal(s->document->splines[1]->color, 0x123456);
     panel_click(s, "color.none");
     assert_saved(s, before);
-    free(before);
 }
 
 SESSION_TEST(test_hidden_and_solo_curves, panel_open(s, scene, 1280, 720))
@@ -174,7 +167,7 @@ SESSION_TEST(test_hidden_and_solo_curves, panel_open(s, scene, 1280, 720))
 SESSION_TEST(test_a_track_is_attached_and_detached, panel_open(s, scene, 1280, 720))
 {
     session_click(s, "ruler(90)");
-    char *before = session_saved(s);
+    const char *before = session_saved(s);
     panel_click(s, "follow.damping");
     assert_true(panel_shows(s, "item.pace"));
     assert_false(panel_shows(s, "item.sway"));
@@ -191,13 +184,12 @@ SESSION_TEST(test_a_track_is_attached_and_detached, panel_open(s, scene, 1280, 7
     panel_click(s, "follow.damping");
     assert_int_equal(s->document->splines[0]->parameter[PARAMETER_DAMPING].track, -1);
     assert_near(s->document->splines[0]->parameter[PARAMETER_DAMPING].value, 1, 0); // 2, as far as damping goes
-    free(before);
 }
 
 SESSION_TEST(test_frames_per_second_ask, panel_open(s, scene, 1280, 1600))
 {
     panel_click(s, "section.scene");
-    char *before = session_saved(s);
+    const char *before = session_saved(s);
     panel_enter(s, "scene.fps", "48");
     assert_int_equal(s->editor->dialogs->dialog.kind, DIALOG_ASK);
     assert_near(s->document->fps, 24, 0);
@@ -213,14 +205,13 @@ SESSION_TEST(test_frames_per_second_ask, panel_open(s, scene, 1280, 1600))
     panel_enter(s, "scene.fps", "0");
     assert_non_null(strstr(s->editor->core.message.text, "rate: expected"));
     session_key(s, KEY_ESCAPE, 0);
-    free(before);
 }
 
 SESSION_TEST(test_a_range_asks_for_its_knots, panel_open(s, scene, 1280, 1600))
 {
     panel_click(s, "section.scene");
     session_click(s, "ruler(80)");
-    char *before = session_saved(s);
+    const char *before = session_saved(s);
     panel_enter(s, "scene.last", "50");
     assert_int_equal(s->editor->dialogs->dialog.kind, DIALOG_ASK);
     session_key(s, 'T', 0);
@@ -240,7 +231,6 @@ SESSION_TEST(test_a_range_asks_for_its_knots, panel_open(s, scene, 1280, 1600))
     panel_enter(s, "scene.substeps", "4");
     assert_near(core_frame(&s->editor->core), 50, 0);
     assert_int_equal(s->document->substeps, 4);
-    free(before);
 }
 
 /// More frames than the splines' samples allow are refused in the field, and nothing is asked about knots.
@@ -249,7 +239,8 @@ SESSION_TEST(a_range_has_an_end, panel_open(s, scene, 1280, 2000))
     panel_click(s, "section.scene");
     panel_enter(s, "scene.substeps", "4");
     const int longest = (SPLINE_MAX_SAMPLES - 1) / 4;
-    char *before = session_saved(s), most[64];
+    const char *before = session_saved(s);
+    char most[64];
     panel_enter(s, "scene.last", "999999999");
     assert_int_equal(s->editor->dialogs->dialog.kind, DIALOG_NONE);
     snprintf(most, sizeof most, "last: expected -1000000000 … %d, got 999999999", longest);
@@ -257,13 +248,11 @@ SESSION_TEST(a_range_has_an_end, panel_open(s, scene, 1280, 2000))
     panel_enter(s, "scene.first", "-999999999");
     snprintf(most, sizeof most, "first: expected %d … 1000000000", s->document->last_frame - longest);
     assert_non_null(strstr(s->editor->core.message.text, most));
-    char *after = session_saved(s);
+    const char *after = session_saved(s);
     assert_string_equal(after, before);
     snprintf(most, sizeof most, "%d", longest);
     panel_enter(s, "scene.last", most);
     assert_int_equal(s->document->last_frame, longest);
-    free(before);
-    free(after);
 }
 
 static unsigned next_random(unsigned *seed) { return (*seed = *seed * 1664525u + 1013904223u) >> 8; }
@@ -304,21 +293,19 @@ TEST(test_random_input_comes_back)
         unsigned random = seed;
         panel_open(&f, scene, 1280, 1600);
         panel_click(&f, "section.scene");
-        char *first = session_saved(&f);
+        const char *first = session_saved(&f);
         for (int i = 0; i < 3000 && f.document->spline_count < 50; i++) random_input(&f, &random);
         for (int i = 0; i < 3; i++) session_key(&f, KEY_ESCAPE, 0);
         session_release(&f, BUTTON_LEFT);
         session_key(&f, KEY_ESCAPE, 0);
         struct error error = {0};
-        char *last = session_saved(&f);
+        const char *last = session_saved(&f);
         struct document *again = scene_parse("again", last, strlen(last), NULL, &error);
         if (!again) fail_msg("seed %u: what was saved does not load: %s", seed, error.text);
         document_destroy(again);
         assert_false(history_is_open(f.history));
         while (history_undo(f.history)) steps++;
         assert_saved(&f, first);
-        free(last);
-        free(first);
         session_close(&f);
     }
     assert_true(steps >= quick_or_all(10, 60));

@@ -11,24 +11,23 @@ static const char scene[] =
 static const struct tail *tail(const struct session *s) { return document_tail(s->document, 0); }
 
 /// Everything is in reach on a tall screen.
-static char *open_tall(struct session *s)
+static const char *open_tall(struct session *s)
 {
     panel_open(s, scene, 1280, 1600);
     return session_saved(s);
 }
 
-static void close_undone(struct session *s, char *before)
+static void close_undone(struct session *s, const char *before)
 {
     while (history_undo_label(s->history)) session_key(s, 'Z', MOD_CTRL);
     assert_saved(s, before);
-    free(before);
     session_close(s);
 }
 
 TEST(test_place_and_size)
 {
     struct session s;
-    char *before = open_tall(&s);
+    const char *before = open_tall(&s);
     panel_enter(&s, "position.x", "0.5");
     assert_near(tail(&s)->position[0].value, 0.5, 0);
     panel_enter(&s, "length", "2");
@@ -53,7 +52,7 @@ TEST(test_place_and_size)
 TEST(test_channels)
 {
     struct session s;
-    char *before = open_tall(&s);
+    const char *before = open_tall(&s);
     panel_click(&s, "axis.0");
     panel_click(&s, "item.up");
     panel_click(&s, "part.displacement");
@@ -78,7 +77,7 @@ TEST(test_channels)
 TEST(test_angles_one_for_each_joint)
 {
     struct session s;
-    char *before = open_tall(&s);
+    const char *before = open_tall(&s);
     panel_click(&s, "lag.each");
     for (int n = 0; n < 4; n++) assert_near(tail(&s)->channels[0].lag.value[n], 6 * n, 1e-9);
     panel_enter(&s, "lag.joint", "-0.04");
@@ -91,12 +90,11 @@ TEST(test_angles_one_for_each_joint)
     panel_click(&s, "gain.each");
     panel_enter(&s, "gain.joint", "9"); // the first, as none was touched yet
     assert_near(tail(&s)->channels[0].gain.value[0], 9, 0);
-    char *good = session_saved(&s);
+    const char *good = session_saved(&s);
     panel_enter(&s, "gain.joint", "x");
     assert_non_null(strstr(s.editor->core.message.text, "joint 1: expected a number"));
     assert_saved(&s, good);
     session_key(&s, KEY_ESCAPE, 0);
-    free(good);
     panel_click(&s, "gain.ramp");
     assert_int_equal(tail(&s)->channels[0].gain.form, ANGLES_RAMP);
     panel_click(&s, "gain.ramp");
@@ -110,9 +108,9 @@ TEST(test_angles_one_for_each_joint)
 TEST(test_angles_are_drawn)
 {
     struct session s;
-    char *before = open_tall(&s);
+    const char *before = open_tall(&s);
     panel_click(&s, "gain.each");
-    char *flat = session_saved(&s);
+    const char *flat = session_saved(&s);
     panel_press(&s, "gain.curve", 1); // at the first joint
     session_drag(&s, 80, -20, 4);     // a third of the way is the next joint
     assert_true(tail(&s)->channels[0].gain.value[0] > 5 &&
@@ -135,14 +133,13 @@ TEST(test_angles_are_drawn)
     session_key(&s, KEY_LEFT, 0);
     session_key(&s, KEY_UP, 0);
     assert_int_equal(s.editor->inspector->joint[ANGLE_GAIN], joint - 1);
-    free(flat);
     close_undone(&s, before);
 }
 
 TEST(test_tails)
 {
     struct session s;
-    char *before = open_tall(&s);
+    const char *before = open_tall(&s);
     panel_click(&s, "tail.name");
     session_key(&s, 'A', MOD_CTRL);
     panel_type(&s, "brush");
@@ -170,7 +167,7 @@ TEST(test_tails)
 TEST(test_toggles)
 {
     struct session s;
-    char *before = open_tall(&s);
+    const char *before = open_tall(&s);
     panel_click(&s, "onion");
     panel_click(&s, "trail");
     panel_click(&s, "record");

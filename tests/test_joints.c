@@ -38,7 +38,7 @@ static const struct chain *tail(const struct session *session) { return &session
 
 SESSION_TEST(test_an_equilibrium_comes_to_follow_the_tip_of_its_chain, open_beast(s, "0"))
 {
-    char *before = session_saved(s);
+    const char *before = session_saved(s);
     panel_click(s, "follow.equilibrium");
     panel_click(s, "item.A joint of beast");
     assert_non_null(equilibrium(s)->motion);
@@ -50,12 +50,11 @@ SESSION_TEST(test_an_equilibrium_comes_to_follow_the_tip_of_its_chain, open_beas
     assert_one_step(s, before);
     panel_click(s, "follow.equilibrium");
     assert_null(equilibrium(s)->motion);
-    free(before);
 }
 
 SESSION_TEST(test_a_joint_is_chosen_from_a_list, open_beast(s, FOLLOWS))
 {
-    char *before = session_saved(s);
+    const char *before = session_saved(s);
     panel_click(s, "joint.0");
     panel_click(s, "item.neck");
     assert_string_equal(equilibrium(s)->motion->joint, "neck");
@@ -69,7 +68,6 @@ SESSION_TEST(test_a_joint_is_chosen_from_a_list, open_beast(s, FOLLOWS))
     assert_string_equal(equilibrium(s)->motion->joint, "neck");
     for (int step = 0; step < 3; step++) session_key(s, 'Z', MOD_CTRL);
     assert_saved(s, before);
-    free(before);
 }
 
 /// Tab to the field, Enter, a few letters, Enter.
@@ -103,7 +101,7 @@ static int lines_on_stage(const struct session *session)
 
 SESSION_TEST(test_a_joint_is_picked_on_the_stage, open_beast(s, FOLLOWS))
 {
-    char *before = session_saved(s);
+    const char *before = session_saved(s);
     session_move(s, 2, 2); // over no model
     session_frame(s);
     const int without = lines_on_stage(s);
@@ -121,17 +119,15 @@ SESSION_TEST(test_a_joint_is_picked_on_the_stage, open_beast(s, FOLLOWS))
     session_click(s, "bone(neck)");
     assert_string_equal(equilibrium(s)->motion->joint, "neck");
     assert_one_step(s, before);
-    char *after = session_saved(s);
+    const char *after = session_saved(s);
     session_click(s, "bone(spine)");
     assert_saved(s, after); // one click is what was asked for
-    free(after);
-    free(before);
 }
 
 SESSION_TEST(test_the_ends_of_a_chain_are_chosen_from_lists,
              open_beast(s, "{\"model\": \"beast\", \"joint\": \"tail_8\", \"of\": \"up\", \"chain\": \"tail\"}"))
 {
-    char *before = session_saved(s);
+    const char *before = session_saved(s);
     panel_click(s, "chain.to.1");
     assert_false(panel_shows(s, "item.neck")); // not below the first bone
     panel_click(s, "item.tail_6");
@@ -146,23 +142,21 @@ SESSION_TEST(test_the_ends_of_a_chain_are_chosen_from_lists,
     session_key(s, 'Z', MOD_CTRL);
     session_key(s, 'Z', MOD_CTRL);
     assert_saved(s, before);
-    free(before);
 }
 
 SESSION_TEST(test_a_chain_goes_to_another_limb, open_beast(s, "0"))
 {
-    char *before = session_saved(s);
+    const char *before = session_saved(s);
     panel_click(s, "chain.from.pick");
     session_click(s, "bone(ear_L_1)");
     assert_string_equal(tail(s)->from, "ear_L_1");
     assert_string_equal(tail(s)->to, "ear_L_2");
     assert_one_step(s, before);
-    free(before);
 }
 
 SESSION_TEST(test_ends_that_are_no_chain_are_refused, open_beast(s, "0"))
 {
-    char *before = session_saved(s);
+    const char *before = session_saved(s);
     panel_click(s, "chain.to.pick");
     session_click(s, "bone(neck)");
     assert_saved(s, before);
@@ -172,7 +166,6 @@ SESSION_TEST(test_ends_that_are_no_chain_are_refused, open_beast(s, "0"))
     session_click(s, "bone(head)");
     assert_saved(s, before);
     assert_non_null(strstr(s->editor->core.message.text, "\"head\" branches into"));
-    free(before);
 }
 
 /// Two beasts side by side: a bone goes by its character's name, and can be asked for by it.

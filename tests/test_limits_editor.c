@@ -29,7 +29,7 @@ static void pull(struct session *s, const char *from, const char *to)
 
 SESSION_TEST(a_line_is_dragged_as_far_as_the_knots, session_open(s, swinging))
 {
-    char *original = session_saved(s);
+    const char *original = session_saved(s);
     assert_non_null(strstr(original, "\"limits\": [null, 1.2]"));
     session_point(s, "curve(sway,100,1.2)");
     session_frame(s);
@@ -43,7 +43,6 @@ SESSION_TEST(a_line_is_dragged_as_far_as_the_knots, session_open(s, swinging))
     assert_near(s->document->splines[0]->knots[3].value, 1, 0);
     for (int i = 0; i < 2; i++) session_key(s, 'Z', MOD_CTRL);
     assert_saved(s, original);
-    free(original);
 }
 
 /// While a limit holds a knot the status line says so, and no longer; it stays after the release, to be read.
@@ -123,13 +122,11 @@ SESSION_TEST(the_inspector_switches_each, panel_open(s, swinging, 1280, 900))
     assert_near(limit(s, PARAMETER_LOW), -0.45, 0);
     panel_click(s, "limit.high");
     assert_true(limit(s, PARAMETER_HIGH) == INFINITY);
-    char *text = session_saved(s);
+    const char *text = session_saved(s);
     assert_non_null(strstr(text, "\"limits\": [-0.45, null]"));
-    free(text);
     panel_click(s, "limit.low");
     text = session_saved(s);
     assert_null(strstr(text, "limits"));
-    free(text);
 }
 
 TEST(a_file_with_wrong_limits_says_so)

@@ -46,7 +46,7 @@ static void where(struct session *s, const char *target, float xy[2])
 SESSION_TEST(test_ctrl_and_a_drag_pin_a_joint_which_follows_the_pointer, open_tail(s))
 {
     for (int step = 0; step < 10; step++) session_key(s, KEY_RIGHT, 0);
-    char *before = session_saved(s);
+    const char *before = session_saved(s);
     pull_with_ctrl(s, "tail(tail,1)", 0, -30);
     float tip[2], marker[2];
     where(s, "tail(tail,1)", tip);
@@ -61,7 +61,6 @@ SESSION_TEST(test_ctrl_and_a_drag_pin_a_joint_which_follows_the_pointer, open_ta
     if (!(apart < 8)) fail_msg("the tip is %g pixels from the pointer", (double)apart);
     assert_int_equal(s->document->splines[0]->knot_count, 1);
     assert_one_step(s, before);
-    free(before);
 }
 
 SESSION_TEST(test_the_plain_drag_still_sets_knots, open_tail(s))
@@ -75,7 +74,7 @@ SESSION_TEST(test_the_plain_drag_still_sets_knots, open_tail(s))
 
 SESSION_TEST(test_an_axis_can_be_locked_and_esc_cancels, open_tail(s))
 {
-    char *before = session_saved(s);
+    const char *before = session_saved(s);
     pull_with_ctrl(s, "tail(tail,1)", 30, 25);
     const struct pin free_pin = *pin_of(s, 0);
     session_key(s, 'Y', 0);
@@ -90,7 +89,6 @@ SESSION_TEST(test_an_axis_can_be_locked_and_esc_cancels, open_tail(s))
     session_release(s, BUTTON_LEFT);
     session_key(s, KEY_DELETE, 0); // nothing is selected now
     assert_saved(s, before);
-    free(before);
 }
 
 /// Pins the tip where it is, at frame 10.
@@ -106,7 +104,7 @@ SESSION_TEST(test_a_pin_is_moved_nudged_retimed_and_deleted_by_keys, open_tail(s
 {
     pin_the_tip(s);
     assert_int_equal(pins_of(s), 1);
-    char *placed = session_saved(s);
+    const char *placed = session_saved(s);
     const struct pin first = *pin_of(s, 0);
     session_key(s, KEY_UP, MOD_ALT);
     session_key(s, KEY_UP, MOD_ALT);
@@ -129,19 +127,18 @@ SESSION_TEST(test_a_pin_is_moved_nudged_retimed_and_deleted_by_keys, open_tail(s
     session_key(s, KEY_DELETE, 0);
     assert_int_equal(pins_of(s), 1);
     assert_near(pin_of(s, 0)->frame, 20, 0);
-    free(placed);
 }
 
 SESSION_TEST(test_a_marker_is_dragged_on_the_stage_and_on_the_ruler, open_tail(s))
 {
     pin_the_tip(s);
     session_key(s, KEY_ESCAPE, 0);
-    char *placed = session_saved(s);
+    const char *placed = session_saved(s);
     session_pull(s, "pin(tail,0)", 0, -25, 4);
     session_release(s, BUTTON_LEFT);
     assert_int_equal(pins_of(s), 1);
     assert_one_step(s, placed);
-    char *moved = session_saved(s);
+    const char *moved = session_saved(s);
     float from[2], to[2];
     where(s, "ruler(10)", from);
     where(s, "ruler(25)", to);
@@ -162,8 +159,6 @@ SESSION_TEST(test_a_marker_is_dragged_on_the_stage_and_on_the_ruler, open_tail(s
     session_drag(s, to[0] - from[0], 0, 4);
     session_release(s, BUTTON_LEFT);
     assert_near(pin_of(s, 0)->frame, 40, 0);
-    free(moved);
-    free(placed);
 }
 
 /// A pin that throws a rig far makes its curves high: they come into sight.
@@ -188,7 +183,7 @@ SESSION_TEST(test_the_surface_of_a_character_is_pinned_and_follows_the_pointer, 
 {
     session_frame(s);
     for (int step = 0; step < 10; step++) session_key(s, KEY_RIGHT, 0);
-    char *before = session_saved(s);
+    const char *before = session_saved(s);
     session_point(s, "character(c,0.5,0.9)");
     session_frame(s);
     assert_int_equal(s->editor->core.hover.kind, HOVER_POINT);
@@ -201,7 +196,6 @@ SESSION_TEST(test_the_surface_of_a_character_is_pinned_and_follows_the_pointer, 
     assert_true(left->is_found);
     assert_true(fabs(left->way[0]) < 0.05 && fabs(left->way[1]) < 0.05);
     assert_one_step(s, before);
-    free(before);
 }
 
 /// The soles hardly move: pulling them would throw all else far.

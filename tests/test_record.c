@@ -62,7 +62,7 @@ TEST(test_recorded_is_what_was_seen)
     perform(&s, false, live_base, live_tip);
     session_close(&s);
     session_open(&s, scene);
-    char *before = session_saved(&s);
+    const char *before = session_saved(&s);
     perform(&s, true, base, tip);
     assert_int_equal(s.document->spline_count, 3);
     assert_string_equal(s.document->splines[1]->name, "tail x");
@@ -95,7 +95,6 @@ TEST(test_recorded_is_what_was_seen)
     assert_null(history_undo_label(s.history));
     session_key(&s, 'Y', MOD_CTRL);
     assert_int_equal(s.document->spline_count, 3);
-    free(before);
     session_close(&s);
 }
 
@@ -116,7 +115,7 @@ TEST(test_a_second_take_replaces_the_first)
 }
 
 /// With the pointer on the body; the document as it is then.
-static char *open_at_body(struct session *s)
+static const char *open_at_body(struct session *s)
 {
     session_open(s, scene);
     session_point(s, "body(tail)");
@@ -127,7 +126,7 @@ static char *open_at_body(struct session *s)
 TEST(test_escape_forgets_the_recording)
 {
     struct session s;
-    char *before = open_at_body(&s);
+    const char *before = open_at_body(&s);
     session_press(&s, BUTTON_LEFT, 1);
     session_drag(&s, -40, 0, 4);
     session_send(&s, (struct event){.kind = EVENT_KEY, .key = 'R', .action = ACTION_PRESS});
@@ -135,7 +134,6 @@ TEST(test_escape_forgets_the_recording)
     session_key(&s, KEY_ESCAPE, 0);
     assert_saved(&s, before);
     assert_false(record_has_motion(s.editor->stage));
-    free(before);
     session_close(&s);
 }
 
@@ -143,7 +141,7 @@ TEST(test_escape_forgets_the_recording)
 TEST(test_a_way_without_a_channel_gets_one)
 {
     struct session s;
-    char *before = open_at_body(&s);
+    const char *before = open_at_body(&s);
     s.mods = MOD_CTRL;
     session_press(&s, BUTTON_LEFT, 1);
     session_hold(&s, KEY_SPACE, ACTION_PRESS);
@@ -180,6 +178,5 @@ TEST(test_a_way_without_a_channel_gets_one)
     assert_true(most > 0.03f);
     session_key(&s, 'Z', MOD_CTRL);
     assert_saved(&s, before);
-    free(before);
     session_close(&s);
 }

@@ -11,7 +11,7 @@ static const char bear[] =
 
 SESSION_TEST(test_the_menu_opens_by_its_key, panel_open(s, "{\"frames\": [0, 48], \"splines\": []}", 1280, 720))
 {
-    char *before = session_saved(s);
+    const char *before = session_saved(s);
     session_move(s, 300, 200);
     session_key(s, 'A', 0);
     float x, y;
@@ -36,13 +36,12 @@ SESSION_TEST(test_the_menu_opens_by_its_key, panel_open(s, "{\"frames\": [0, 48]
     panel_click(s, "item.tail");
     assert_int_equal(document_count_rigs(s->document, RIG_TAIL), 2);
     assert_true(document_tail(s->document, 1)->position[0].value > 1);
-    free(before);
 }
 
 SESSION_TEST(test_a_second_bear_stands_beside_the_first, panel_open_models(s, bear))
 {
     session_frame(s);
-    char *before = session_saved(s);
+    const char *before = session_saved(s);
     session_key(s, 'A', 0);
     panel_click(s, "item.copy.0");
     session_frame(s);
@@ -53,12 +52,11 @@ SESSION_TEST(test_a_second_bear_stands_beside_the_first, panel_open_models(s, be
     assert_int_equal(editor_stage(s->editor)->character_count, 2);
     assert_int_equal(s->editor->core.characters.character, 1);
     assert_one_step(s, before);
-    free(before);
 }
 
 SESSION_TEST(test_a_rig_goes_with_its_splines_or_without, panel_open_models(s, bear))
 {
-    char *before = session_saved(s);
+    const char *before = session_saved(s);
     session_key(s, KEY_DELETE, MOD_SHIFT);
     assert_int_equal(s->editor->dialogs->dialog.kind, DIALOG_ASK);
     assert_non_null(strstr(s->editor->dialogs->dialog.question.title, "Remove bear"));
@@ -78,7 +76,6 @@ SESSION_TEST(test_a_rig_goes_with_its_splines_or_without, panel_open_models(s, b
     assert_one_step(s, before);
     session_key(s, KEY_DELETE, MOD_SHIFT);
     assert_non_null(strstr(s->editor->core.message.text, "nothing on the stage"));
-    free(before);
 }
 
 /// A model goes with the chains on it; what followed its joints keeps its place.
@@ -91,7 +88,7 @@ SESSION_TEST(test_a_model_goes_with_its_chains,
                     "\"assets/models/dog.glb\"}, {\"type\": \"chain\", \"name\": \"ear\", \"model\": \"dog\", "
                     "\"from\": \"ear_1_L\", \"to\": \"ear_2_L\", \"channels\": [{\"spline\": \"u\"}]}]}"))
 {
-    char *before = session_saved(s);
+    const char *before = session_saved(s);
     panel_click(s, "model.0");
     panel_click(s, "rig.copy"); // with its chain
     assert_int_equal(document_count_rigs(s->document, RIG_CHAIN), 2);
@@ -104,14 +101,13 @@ SESSION_TEST(test_a_model_goes_with_its_chains,
     assert_int_equal(s->document->spline_count, 1);
     assert_null(s->document->splines[0]->parameter[PARAMETER_EQUILIBRIUM].motion);
     assert_one_step(s, before);
-    free(before);
 }
 
 /// The file dialog asks the app for it; a bad file leaves a sentence and the document as it was.
 SESSION_TEST(test_a_file_is_asked_for, panel_open(s, "{\"frames\": [0, 48], \"splines\": []}", 1280, 720))
 {
     while (editor_take_request(s->editor).kind != REQUEST_NONE) continue;
-    char *before = session_saved(s);
+    const char *before = session_saved(s);
     session_key(s, 'A', 0);
     panel_click(s, "item.file");
     assert_int_equal(s->editor->dialogs->dialog.kind, DIALOG_ADD);
@@ -123,7 +119,6 @@ SESSION_TEST(test_a_file_is_asked_for, panel_open(s, "{\"frames\": [0, 48], \"sp
     panel_answer(s, REQUEST_ADD, false, "no.glb: cannot be read");
     assert_string_equal(s->editor->dialogs->dialog.error, "no.glb: cannot be read");
     assert_saved(s, before);
-    free(before);
 }
 
 TEST(test_files_are_told_apart)

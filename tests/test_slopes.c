@@ -5,13 +5,12 @@
 SESSION_TEST(test_slopes_flat_and_smooth, session_open(s, FIVE))
 {
     session_key(s, 'A', MOD_CTRL);
-    char *original = session_saved(s);
+    const char *original = session_saved(s);
     session_key(s, 'T', MOD_CTRL);
     assert_near(spline(s, 0)->knots[0].slope, (1.0 - 0) / 10 * 24, 1e-2); // only one neighbour
     assert_near(spline(s, 0)->knots[2].slope, (0.5 - 1) / 20 * 24, 1e-2);
     assert_near(spline(s, 0)->knots[3].slope, (0.0 + 1) / 30 * 24, 1e-2);
     assert_one_step(s, original);
-    free(original);
     original = session_saved(s);
     session_key(s, 'T', MOD_SHIFT);
     for (int k = 0; k < 5; k++) {
@@ -19,7 +18,6 @@ SESSION_TEST(test_slopes_flat_and_smooth, session_open(s, FIVE))
         assert_near(spline(s, 0)->knots[k].slope, 0, 0);
     }
     assert_one_step(s, original);
-    free(original);
     panel_click(s, "slope.smooth"); // the same by the inspector's buttons
     assert_near(spline(s, 0)->knots[0].slope, (1.0 - 0) / 10 * 24, 1e-2);
     panel_click(s, "slope.switch");

@@ -33,7 +33,7 @@ static void assert_remedied(struct session *s, const char *scene, enum warning_k
     session_open(s, scene);
     assert_int_equal(s->editor->curves->warnings.count, 1);
     assert_int_equal(s->editor->curves->warnings.list[0].kind, kind);
-    char *original = session_saved(s);
+    const char *original = session_saved(s);
     session_point(s, "warning(0)");
     session_frame(s);
     assert_int_equal(s->editor->core.hover.kind, HOVER_WARNING);
@@ -48,7 +48,6 @@ static void assert_remedied(struct session *s, const char *scene, enum warning_k
     assert_null(history_undo_label(s->history));
     session_key(s, 'Y', MOD_CTRL);
     assert_int_equal(s->editor->curves->warnings.count, 0);
-    free(original);
 }
 
 TEST(test_a_swing_is_tamed_by_what_helps)
