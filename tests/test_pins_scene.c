@@ -20,8 +20,7 @@ static struct document *document_of(struct stand *stand) { return stand->opened.
 
 static void stand_open(struct stand *stand, const char *path)
 {
-    struct error error = {0};
-    if (!opened_read(&stand->opened, path, &error)) fail_msg("%s", error.text);
+    assert_done(opened_read(&stand->opened, path, &error));
     stand->history = history_create(stand->opened.document);
     assert_non_null(stand->history);
 }
@@ -31,6 +30,8 @@ static void stand_close(struct stand *stand)
     history_destroy(stand->history);
     opened_free(&stand->opened);
 }
+
+#define STAND_TEST(name, opens) TEST_OF(struct stand, stand, opens, stand_close(stand), name)
 
 /// The document of a step that opens; and its end, after an edit that must be possible.
 static struct document *begin(struct stand *stand)
@@ -76,19 +77,16 @@ static struct pin_point find(struct stand *stand, int rig, int point, double fra
 }
 
 /// A vertex moves as far as x, however far: one round of solving is enough for its pins.
-TEST(a_characters_point_moves_by_its_pull_however_far)
+STAND_TEST(a_characters_point_moves_by_its_pull_however_far, stand_open(stand, "assets/scenes/character.json"))
 {
-    struct stand stand = {0};
     pin_pull c[64], ignored[64];
-    stand_open(&stand, "assets/scenes/character.json");
-    opened_solve(&stand.opened, SOLVER_BY_LENGTH);
-    const int sample = document_sample(document_of(&stand), 30);
-    const struct pin_point near = find(&stand, 0, 100, 30, c);
-    stand.opened.evaluation.curves[0].re[sample] += 1000;
-    const struct pin_point far = find(&stand, 0, 100, 30, ignored);
+    opened_solve(&stand->opened, SOLVER_BY_LENGTH);
+    const int sample = document_sample(document_of(stand), 30);
+    const struct pin_point near = find(stand, 0, 100, 30, c);
+    stand->opened.evaluation.curves[0].re[sample] += 1000;
+    const struct pin_point far = find(stand, 0, 100, 30, ignored);
     assert_true(near.is_linear && far.is_linear);
     for (int k = 0; k < 3; k++) assert_near(far.at[k] - near.at[k], 1000 * c[0][k][0], 1e-6 * near.size);
-    stand_close(&stand);
 }
 
 static double left_of(struct stand *stand, int rig, int pin)
@@ -140,16 +138,6 @@ TEST(test_pulls_are_derivatives)
     check_pulls("assets/scenes/dog.json", 2, 1, 30, 1e-2, 1e-4);
 }
 
-static void write_scene(const char *name, const char *splines, const char *rigs, char path[512])
-{
-    char text[4096], folder[1024];
-    assert_non_null(getcwd(folder, sizeof folder));
-    const int size = snprintf(text, sizeof text, "{\"frames\": [0, 60], \"splines\": [%s], \"rigs\": [", splines);
-    const int rest = snprintf(text + size, sizeof text - (size_t)size, rigs, folder, folder);
-    const int whole = size + rest + snprintf(text + size + rest, sizeof text - (size_t)(size + rest), "]}");
-    snprintf(path, 512, "%s", temporary_file(name, text, (size_t)whole));
-}
-
 static const char four_splines[] =
     "{\"name\": \"up\", \"frequency\": 1.5, \"damping\": 0.1, \"knots\": [{\"frame\": 0, \"value\": 0.2}, "
     "{\"frame\": 20, \"value\": 1}]},"
@@ -157,6 +145,17 @@ static const char four_splines[] =
     "\"value\": -0.5}]},"
     "{\"name\": \"sway\", \"frequency\": 0.8, \"damping\": 0.1, \"knots\": [{\"frame\": 50, \"value\": 0.1}]},"
     "{\"name\": \"after\", \"frequency\": 2, \"damping\": 0.2, \"equilibrium\": {\"spline\": \"up\"}}";
+
+/// A scene of those and some rigs, which say `%s` for the folder that models are in.
+static const char *write_scene(const char *name, const char *rigs)
+{
+    char folder[1024], filled[2048], text[4096];
+    assert_non_null(getcwd(folder, sizeof folder));
+    snprintf(filled, sizeof filled, rigs, folder); // NOLINT
+    const int size =
+        snprintf(text, sizeof text, "{\"frames\": [0, 60], \"splines\": [%s], \"rigs\": [%s]}", four_splines, filled);
+    return temporary_file(name, text, (size_t)size);
+}
 
 static const char creature_and_tails[] =
     "{\"type\": \"character\", \"name\": \"creature\", \"model\": \"%s/assets/models/creature.glb\", \"position\": "
@@ -173,9 +172,7 @@ static const char creature_and_tails[] =
 
 static void open_zoo(struct stand *stand)
 {
-    char path[512];
-    write_scene("zoo.json", four_splines, creature_and_tails, path);
-    stand_open(stand, path);
+    stand_open(stand, write_scene("zoo.json", creature_and_tails));
     solve(stand);
 }
 
@@ -286,9 +283,10 @@ static void assert_met(struct stand *stand, int rig, double tolerance)
     }
 }
 
-/// Bit by bit what a solve from nothing gives.
+/// Solves, and bit by bit it is what a solve from nothing gives.
 static void assert_same_as_whole(struct stand *stand)
 {
+    solve(stand);
     struct evaluation whole = {.models = models_source(stand->opened.models)};
     const struct evaluation *seen = &stand->opened.evaluation;
     evaluation_update(&whole, document_of(stand), false);
@@ -300,30 +298,24 @@ static void assert_same_as_whole(struct stand *stand)
     evaluation_free(&whole);
 }
 
-TEST(test_a_character_meets_its_pins)
+STAND_TEST(test_a_character_meets_its_pins, open_zoo(stand))
 {
-    struct stand stand = {0};
-    open_zoo(&stand);
-    const int vertex = free_vertex(&stand);
-    pin_near(&stand, CREATURE, vertex, 30, 0.4, -0.3);
-    pin_near(&stand, CREATURE, vertex, 41, -0.5, 0.2);
-    solve(&stand);
-    assert_met(&stand, CREATURE, 1e-9);
-    assert_same_as_whole(&stand);
-    stand_close(&stand);
+    const int vertex = free_vertex(stand);
+    pin_near(stand, CREATURE, vertex, 30, 0.4, -0.3);
+    pin_near(stand, CREATURE, vertex, 41, -0.5, 0.2);
+    solve(stand);
+    assert_met(stand, CREATURE, 1e-9);
+    assert_same_as_whole(stand);
 }
 
-TEST(test_a_tail_meets_its_pins)
+STAND_TEST(test_a_tail_meets_its_pins, stand_open(stand, "assets/scenes/tail.json"))
 {
-    struct stand stand = {0};
-    stand_open(&stand, "assets/scenes/tail.json");
-    solve(&stand);
-    pin_near(&stand, 0, 23, 30, 0.2, 0.1);
-    pin_near(&stand, 0, 23, free_frame(&stand, 23, 70), -0.1, 0.1);
-    solve(&stand);
-    assert_met(&stand, 0, 1e-6);
-    assert_same_as_whole(&stand);
-    stand_close(&stand);
+    solve(stand);
+    pin_near(stand, 0, 23, 30, 0.2, 0.1);
+    pin_near(stand, 0, 23, free_frame(stand, 23, 70), -0.1, 0.1);
+    solve(stand);
+    assert_met(stand, 0, 1e-6);
+    assert_same_as_whole(stand);
 }
 
 /// What a pin leaves, and what there was before it.
@@ -337,52 +329,41 @@ static double part_left(struct stand *stand, int rig, int point, double frame, d
     return left_of(stand, rig, 0) / way;
 }
 
-TEST(test_a_chain_on_a_clip_is_pinned)
+STAND_TEST(test_a_chain_on_a_clip_is_pinned, stand_open(stand, "assets/scenes/dog.json"))
 {
-    struct stand stand = {0};
-    stand_open(&stand, "assets/scenes/dog.json");
-    solve(&stand);
-    assert_true(part_left(&stand, 1, 7, 30, 0.3, 0.1) < 0.3);
-    assert_same_as_whole(&stand);
+    solve(stand);
+    assert_true(part_left(stand, 1, 7, 30, 0.3, 0.1) < 0.3);
+    assert_same_as_whole(stand);
     float at[3];
-    stage_point(&stand, 1, 7, 30, at);
-    const struct pin_left *left = evaluation_pin(&stand.opened.evaluation, document_of(&stand), 1, 0);
+    stage_point(stand, 1, 7, 30, at);
+    const struct pin_left *left = evaluation_pin(&stand->opened.evaluation, document_of(stand), 1, 0);
     for (int k = 0; k < 3; k++) assert_near(at[k], left->at[k], 1e-6);
-    stand_close(&stand);
 }
 
-TEST(test_a_tail_on_a_moving_base_is_pinned)
+STAND_TEST(test_a_tail_on_a_moving_base_is_pinned, stand_open(stand, "assets/scenes/follow.json"))
 {
-    struct stand stand = {0};
-    stand_open(&stand, "assets/scenes/follow.json");
-    solve(&stand);
-    assert_true(part_left(&stand, 0, 23, 30, 0.1, 0.1) < 0.5);
-    assert_same_as_whole(&stand);
-    struct knot base = document_of(&stand)->splines[0]->knots[1];
+    solve(stand);
+    assert_true(part_left(stand, 0, 23, 30, 0.1, 0.1) < 0.5);
+    assert_same_as_whole(stand);
+    struct knot base = document_of(stand)->splines[0]->knots[1];
     base.value = 0.9;
-    end(&stand, edit_knot_set(begin(&stand), 0, &base, NULL));
-    solve(&stand); // the pinned splines follow the base by a track, and where it is
-    assert_same_as_whole(&stand);
-    stand_close(&stand);
+    end(stand, edit_knot_set(begin(stand), 0, &base, NULL));
+    assert_same_as_whole(stand); // the pinned splines follow the base by a track, and where it is
 }
 
 /// The creature and a tail share a spline; another tail, pinned itself, follows a third that is pinned.
-TEST(test_rigs_that_share_splines)
+STAND_TEST(test_rigs_that_share_splines, open_zoo(stand))
 {
-    struct stand stand = {0};
-    open_zoo(&stand);
-    const double own = find(&stand, OWN, 11, 20, (pin_pull[64]){{{0}}}).at[1];
-    pin_near(&stand, CREATURE, free_vertex(&stand), 30, 0.4, -0.3);
-    pin_near(&stand, SHARED, 9, 44, 0.1, 0);
-    solve(&stand);
-    assert_met(&stand, CREATURE, 1e-6);
-    assert_true(left_of(&stand, SHARED, 0) < 0.05);
-    const double followed = find(&stand, OWN, 11, 20, (pin_pull[64]){{{0}}}).at[1];
+    const double own = find(stand, OWN, 11, 20, (pin_pull[64]){{{0}}}).at[1];
+    pin_near(stand, CREATURE, free_vertex(stand), 30, 0.4, -0.3);
+    pin_near(stand, SHARED, 9, 44, 0.1, 0);
+    solve(stand);
+    assert_met(stand, CREATURE, 1e-6);
+    assert_true(left_of(stand, SHARED, 0) < 0.05);
+    const double followed = find(stand, OWN, 11, 20, (pin_pull[64]){{{0}}}).at[1];
     assert_true(fabs(followed - own) > 1e-3); // it sees the pinned curve
-    pin_near(&stand, OWN, 11, 20, 0.3, 0.2);
-    solve(&stand);
-    assert_same_as_whole(&stand);
-    stand_close(&stand);
+    pin_near(stand, OWN, 11, 20, 0.3, 0.2);
+    assert_same_as_whole(stand);
 }
 
 /// Edit number `i` of those below; false after the last.
@@ -410,42 +391,35 @@ static bool edit_once(struct stand *stand, int i)
 }
 
 /// Whatever was edited, undone and looked at in between, the curves are those of the document.
-TEST(test_edits_give_the_same_bits)
+STAND_TEST(test_edits_give_the_same_bits, open_zoo(stand))
 {
-    struct stand stand = {0};
-    open_zoo(&stand);
-    struct document *document = document_of(&stand);
-    pin_near(&stand, CREATURE, free_vertex(&stand), 30, 0.4, -0.3);
-    pin_near(&stand, SHARED, 9, 44, 0.1, 0.2);
-    pin_near(&stand, OWN, 7, 10, 0.2, 0.2);
-    solve(&stand);
+    struct document *document = document_of(stand);
+    pin_near(stand, CREATURE, free_vertex(stand), 30, 0.4, -0.3);
+    pin_near(stand, SHARED, 9, 44, 0.1, 0.2);
+    pin_near(stand, OWN, 7, 10, 0.2, 0.2);
+    solve(stand);
     for (int i = 0; i < 7; i++) {
-        assert_true(edit_once(&stand, i));
-        solve(&stand);
-        assert_same_as_whole(&stand);
+        assert_true(edit_once(stand, i));
+        assert_same_as_whole(stand);
     }
-    evaluation_update(&stand.opened.evaluation, document, true);
-    while (history_undo(stand.history)) {
-        solve(&stand);
-        assert_same_as_whole(&stand);
+    evaluation_update(&stand->opened.evaluation, document, true);
+    while (history_undo(stand->history)) {
+        assert_same_as_whole(stand);
     }
-    while (history_redo(stand.history)) {
-        solve(&stand);
-        assert_same_as_whole(&stand);
+    while (history_redo(stand->history)) {
+        assert_same_as_whole(stand);
     }
-    stand_close(&stand);
 }
 
 TEST(test_a_point_that_the_model_lacks)
 {
     struct stand stand = {0};
     struct error error = {0};
-    char path[512];
-    write_scene("lacks.json", four_splines,
-                "{\"type\": \"character\", \"name\": \"soft\", \"model\": \"%s/assets/models/creature.glb\", "
-                "\"coordinates\": [{\"name\": \"up\", \"spline\": \"up\"}], \"pins\": [{\"frame\": 4, \"vertex\": "
-                "9999999, \"to\": [0, 0, 0]}]}",
-                path);
+    const char *path = write_scene(
+        "lacks.json",
+        "{\"type\": \"character\", \"name\": \"soft\", \"model\": \"%s/assets/models/creature.glb\", "
+        "\"coordinates\": [{\"name\": \"up\", \"spline\": \"up\"}], \"pins\": [{\"frame\": 4, \"vertex\": "
+        "9999999, \"to\": [0, 0, 0]}]}");
     assert_false(opened_read(&stand.opened, path, &error));
     assert_non_null(strstr(error.text, "soft: expected a vertex from 0 to "));
     assert_non_null(strstr(error.text, " in the pin at frame 4, got 9999999"));
