@@ -5,7 +5,6 @@
 #include "near.h"
 
 #include "scene/load.h"
-#include <string.h>
 
 static inline struct document *document_of_text(const char *text)
 {

@@ -11,7 +11,6 @@
 #include "rig/models.h"
 #include "scene/load.h"
 #include <dirent.h>
-#include <string.h>
 
 /// A scene that is open, solved, its models read.
 struct opened {

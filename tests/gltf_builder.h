@@ -5,7 +5,6 @@
 #include "model/gltf.h"
 #include "near.h"
 #include "temporary.h"
-#include <string.h>
 
 enum { BYTE = 5120, UBYTE = 5121, SHORT = 5122, USHORT = 5123, UINT = 5125, FLOAT = 5126 };
 

@@ -5,7 +5,6 @@
 #include "documents.h"
 
 #include "scene/order.h"
-#include <string.h>
 
 static inline void assert_scene_timing(const struct document *d)
 {

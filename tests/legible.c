@@ -3,7 +3,6 @@
 #include "color.h"
 #include "near.h"
 #include "ui/font.h"
-#include <string.h>
 
 static const char *text_of(const struct drawlist *list, const struct draw_command *command)
 {

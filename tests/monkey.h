@@ -6,8 +6,6 @@
 #include "blind.h"
 #include "inside.h"
 
-#include <stdio.h>
-#include <string.h>
 #include <unistd.h>
 
 /// Files that the monkey opens, or tries to.

@@ -1,5 +1,5 @@
 /// TEST(): a test that is named once. assert_near(): doubles within a tolerance, which cmocka 1.1.5 lacks (its assert_float_equal casts to
-/// float). Includes cmocka with what it needs, so that tests include this first.
+/// float). Includes cmocka with what it needs, and the plain headers of C; tests include this first.
 #ifndef TESTS_NEAR_H
 #define TESTS_NEAR_H
 
@@ -12,7 +12,9 @@
 
 #include <math.h>
 #include <stdbool.h>
+#include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 // cmocka's fail() macro is in the way of base/error.h's function of that name; fail_msg() is built on it.
 #undef fail
@@ -61,6 +63,14 @@ static inline int quick_or_all(int quick, int all) { return is_thorough() ? all 
     do {                                                                                                             \
         struct error error = {0};                                                                                    \
         if (!(call)) fail_msg("%s", error.text);                                                                     \
+    } while (0)
+
+/// Fails unless the call is refused, with those words in its sentence.
+#define assert_refusal(call, words)                                                                                  \
+    do {                                                                                                             \
+        struct error error = {0};                                                                                    \
+        assert_false(call);                                                                                          \
+        if (!strstr(error.text, words)) fail_msg("'%s' lacks '%s'", error.text, words);                              \
     } while (0)
 
 static inline void assert_near_at(double actual, double expected, double tolerance, const char *what,

@@ -8,7 +8,6 @@
 #include "platform/platform.h"
 #include "rig/camera.h"
 #include "ui/theme.h"
-#include <string.h>
 
 static struct platform *platform;
 static struct stage_renderer *renderer;

@@ -6,7 +6,6 @@
 #include "session.h"
 
 #include "rig/models.h"
-#include <stdio.h>
 
 /// Opens a scene in a window of that size.
 static inline void panel_open(struct session *session, const char *scene, float width, float height)

@@ -5,7 +5,6 @@
 #include "near.h"
 
 #include "rig/posing.h"
-#include <string.h>
 
 static inline void pose_tail_in(struct models *models, const struct tail *tail, const wiggly_value *values,
                                 enum look look, struct pose *pose, struct rig_pose *fox)

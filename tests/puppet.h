@@ -5,7 +5,6 @@
 #include "model/figure.h"
 #include "models/isosurface.h"
 #include "near.h"
-#include <string.h>
 
 static inline float puppet_distance(const float p[3])
 {

@@ -7,7 +7,6 @@
 #include "app/table.h"
 #include "ui/font.h"
 #include <ctype.h>
-#include <string.h>
 
 struct session {
     struct table table;

@@ -5,7 +5,6 @@
 #include "quad.h"
 #include "spline/solver.h"
 #include <lapacke.h>
-#include <stdio.h>
 
 struct subject {
     wiggly_mode mode;

@@ -3,7 +3,6 @@
 #include "analysis/spectrum.h"
 #include "planted.h"
 #include "with_lapack.h"
-#include <string.h>
 
 static void analyse(struct analysis *analysis, const struct motion *motion, double fps, int modes,
                     const double direction[3])

@@ -3,7 +3,6 @@
 #include "analysis/component.h"
 #include "planted.h"
 #include "with_lapack.h"
-#include <string.h>
 
 enum { VERTICES = 60, COLUMNS = 3 * VERTICES, MOST = 2, SEEDS = 3 };
 

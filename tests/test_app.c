@@ -6,7 +6,6 @@
 #include "shown.h"
 #include "temporary.h"
 #include <signal.h>
-#include <string.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <time.h>

@@ -5,7 +5,6 @@
 #include "folder.h"
 #include "world.h"
 #include <signal.h>
-#include <string.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <time.h>

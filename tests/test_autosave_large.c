@@ -6,7 +6,6 @@
 #include "folder.h"
 #include "scene/load.h"
 #include <signal.h>
-#include <string.h>
 #include <sys/wait.h>
 #include <time.h>
 #include <unistd.h>

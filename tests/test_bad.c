@@ -5,7 +5,6 @@
 #include "scene/load.h"
 #include <dirent.h>
 #include <fcntl.h>
-#include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
 

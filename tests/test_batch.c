@@ -1,8 +1,6 @@
 /// Many splines over threads: the same bits as one at a time, statuses each its own; and what happens when memory runs out.
 #include "near.h"
 
-#include <string.h>
-
 /// Allocations that are still granted; counts down.
 static long granted = -1;
 

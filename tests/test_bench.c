@@ -2,7 +2,6 @@
 #include "near.h"
 
 #include "bench/bench.h"
-#include <string.h>
 #include <sys/wait.h>
 #include <unistd.h>
 

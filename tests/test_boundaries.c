@@ -5,7 +5,6 @@
 #include "world.h"
 
 #include "base/file.h"
-#include <string.h>
 
 enum { TEXT = 1 << 20 };
 

@@ -17,7 +17,6 @@
 #include "scene/paint.h"
 #include "scene/text.h"
 #include <jansson.h>
-#include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
 

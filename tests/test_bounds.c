@@ -2,7 +2,6 @@
 #include "near.h"
 
 #include "textbook.h"
-#include <string.h>
 
 enum { SAMPLES = 121, SPLINES = 2, KNOTS = 4, BOUNDS = 36 };
 

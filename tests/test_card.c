@@ -3,8 +3,6 @@
 #include "shown.h"
 
 #include "editor/stage/stage.h"
-#include <stdio.h>
-#include <string.h>
 
 enum { STEPS = 12, REACH = 6, LINE = 16 };
 

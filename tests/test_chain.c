@@ -3,7 +3,6 @@
 #include "rig/strand.h"
 
 #include "model/vector.h"
-#include <stdio.h>
 
 enum { BONES = 8 };
 

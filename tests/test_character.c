@@ -2,7 +2,6 @@
 #include "model/character.h"
 #include "near.h"
 #include "temporary.h"
-#include <string.h>
 
 /// A tetrahedron with two coordinates and coloured corners.
 static void make_character(struct character *c)

@@ -2,7 +2,6 @@
 /// should be given.
 #include "offscreen.h"
 #include "puppet.h"
-#include <stdio.h>
 
 enum { WIDTH = 500, HEIGHT = 300 };
 

@@ -5,8 +5,6 @@
 #include "scene/edit.h"
 #include "scene/history.h"
 #include "scene/load.h"
-#include <stdio.h>
-#include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
 

@@ -3,8 +3,6 @@
 #include "near.h"
 
 #include "curve.h"
-#include <stdio.h>
-#include <string.h>
 
 enum { FRAMES = 96, FPS = 24, LEVELS = 4, FINEST = 1 << (LEVELS - 1), SAMPLES = FRAMES * FINEST + 1, KNOTS = 3 };
 

@@ -3,7 +3,6 @@
 #include "model/character.h"
 #include "model/surface.h"
 #include "near.h"
-#include <stdio.h>
 
 enum { MOST_TRIANGLES = 15000 };
 

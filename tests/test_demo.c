@@ -3,7 +3,6 @@
 #include "inside.h"
 #include "scene/load.h"
 #include "shown.h"
-#include <string.h>
 
 static void demo_open(struct blind *b)
 {

@@ -4,7 +4,6 @@
 
 #include "curve.h"
 #include "spline/desc.h"
-#include <string.h>
 
 enum { SAMPLES = 481, KNOTS = 3 };
 

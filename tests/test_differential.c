@@ -6,8 +6,6 @@
 #include "spline/solver.h"
 #include "textbook.h"
 #include <lapacke.h>
-#include <stdio.h>
-#include <string.h>
 
 enum { MAX = 40 };
 

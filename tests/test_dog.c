@@ -3,7 +3,6 @@
 #include "temporary.h"
 
 #include "model/gltf.h"
-#include <string.h>
 
 #define DOG "assets/models/dog.glb"
 enum { KEYS = 24, LEGS = 4 };

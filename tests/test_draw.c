@@ -7,8 +7,6 @@
 #include "platform/platform.h"
 #include "ui/font.h"
 #include "ui/theme.h"
-#include <stdio.h>
-#include <string.h>
 
 enum { WIDTH = 320, HEIGHT = 240 };
 static const uint32_t WHITE = 0xFFFFFFFFu, BLACK = 0x000000FFu;

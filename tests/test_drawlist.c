@@ -4,7 +4,6 @@
 #include "ui/event.h"
 #include "ui/font.h"
 #include "ui/theme.h"
-#include <string.h>
 
 static const struct rect WHOLE = {0.0f, 0.0f, 200.0f, 100.0f};
 

@@ -1,7 +1,6 @@
 /// Edits: what they do, and that none makes a document that would not load.
 
 #include "world.h"
-#include <string.h>
 
 /// A knot may pass others: it is found by its id, and knots stay by sample; its unknown keys go with it.
 WORLD_TEST(test_knots, world_open(world))

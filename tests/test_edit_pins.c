@@ -2,7 +2,6 @@
 
 #include "scene/pins.h"
 #include "world.h"
-#include <string.h>
 
 enum { SIDE, UP, BASE };
 

@@ -2,7 +2,6 @@
 /// brings back every byte and every id.
 
 #include "world.h"
-#include <string.h>
 
 WORLD_TEST(test_a_new_spline, world_open(world))
 {

@@ -1,7 +1,6 @@
 /// Edits of tails and channels: what they do, that undoing gives the same text again, and what is refused.
 
 #include "world.h"
-#include <string.h>
 
 static bool set_position(struct world *world, int coordinate, double value, int track)
 {

@@ -1,8 +1,6 @@
 /// The editor as its user meets it: mouse and keys in, document out. Without GL.
 #include "session.h"
 
-#include <stdio.h>
-
 static const char SWAY[] =
     "{\"wiggly\": 1, \"frames\": [0, 48], \"splines\": [{\"name\": \"sway\", \"frequency\": 1,"
     "\"damping\": 0.1, \"knots\": [{\"frame\": 0, \"value\": 0}, {\"frame\": 12, \"value\": 1},"

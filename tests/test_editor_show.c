@@ -4,7 +4,6 @@
 
 #include "timing/framelog.h"
 #include "ui/theme.h"
-#include <stdio.h>
 
 static const char TAIL[] =
     "{\"wiggly\": 1, \"frames\": [0, 120], \"splines\": [{\"name\": \"sway\", \"frequency\": 1, \"damping\": 0.08,"

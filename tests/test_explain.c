@@ -1,7 +1,6 @@
 /// The frequency that explains knots: known oscillations are found again, from knots near their extrema.
 #include "near.h"
 
-#include <string.h>
 #include <wiggly/wiggly.h>
 
 enum { SEEDS = 200, MOST = 8 };

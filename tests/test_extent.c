@@ -4,7 +4,6 @@
 #include "draw/draw.h"
 #include "temporary.h"
 #include <dirent.h>
-#include <string.h>
 
 enum { WIDTH = 480, HEIGHT = 360 };
 static unsigned char partial[WIDTH * HEIGHT * 4], whole[WIDTH * HEIGHT * 4];

@@ -7,7 +7,6 @@
 #include "scene/load.h"
 #include "shown.h"
 #include <fcntl.h>
-#include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
 

@@ -8,7 +8,6 @@
 #include "scene/history.h"
 #include "scene/load.h"
 #include "temporary.h"
-#include <string.h>
 
 /// `more` is of the character, `spline` of the one that moves it up.
 static bool read_scene(struct opened *opened, const char *start, const char *knots, const char *spline,

@@ -3,8 +3,6 @@
 
 #include "platform/platform.h"
 #include <epoxy/gl.h>
-#include <stdio.h>
-#include <string.h>
 #include <unistd.h>
 
 TEST(wrong_calls_are_counted)

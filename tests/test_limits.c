@@ -4,8 +4,6 @@
 
 #include "spline/solver.h"
 #include "textbook_parts.h"
-#include <stdio.h>
-#include <string.h>
 
 enum { SAMPLES = 241, MOST_KNOTS = 6, LAYOUTS = 200 };
 

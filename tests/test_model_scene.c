@@ -2,7 +2,6 @@
 
 #include "invariants.h"
 #include "world.h"
-#include <stdio.h>
 
 /// As it is printed.
 static const char whole[] = "{\n"

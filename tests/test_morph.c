@@ -6,7 +6,6 @@
 #include "ui/theme.h"
 #include <complex.h>
 #include <malloc.h>
-#include <stdio.h>
 #include <unistd.h>
 
 /// Every vertex moves in its own way.

@@ -3,7 +3,6 @@
 #include "near.h"
 #include "temporary.h"
 #include <glob.h>
-#include <string.h>
 
 enum { FRAMES = 5, VERTICES = 4, COLUMNS = 3 * VERTICES };
 

@@ -5,7 +5,6 @@
 #include "base/file.h"
 #include "base/need.h"
 #include "scene/load.h"
-#include <string.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <threads.h>

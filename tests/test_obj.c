@@ -2,7 +2,6 @@
 #include "model/surface.h"
 #include "near.h"
 #include "temporary.h"
-#include <string.h>
 
 static bool read_text(const char *text, struct surface *surface, struct error *error)
 {

@@ -1,7 +1,6 @@
 /// The command line's table: what is understood, what is refused, and that a refused value leaves its target alone.
 #include "commands/options.h"
 #include "near.h"
-#include <string.h>
 
 static bool loud;
 static const char *out;

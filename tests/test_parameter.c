@@ -5,7 +5,6 @@
 #include "scene/order.h"
 #include "spline/desc.h"
 #include "world.h"
-#include <string.h>
 
 static const char scene[] =
     "{\"wiggly\": 1, \"frames\": [0, 240], \"splines\": ["

@@ -4,8 +4,6 @@
 
 #include "base/file.h"
 #include "curve.h"
-#include <stdio.h>
-#include <string.h>
 
 enum { MOST = 4096 };
 

@@ -2,8 +2,6 @@
 #include "near.h"
 
 #include "base/file.h"
-#include <stdio.h>
-#include <string.h>
 #include <unistd.h>
 
 static void assert_resolved(const char *folder, const char *path, const char *expected)

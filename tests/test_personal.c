@@ -6,7 +6,6 @@
 #include "app/personal.h"
 #include "app/settings.h"
 #include "ui/theme.h"
-#include <string.h>
 #include <unistd.h>
 
 /// As the app starts in a window; the folders are the test's own.

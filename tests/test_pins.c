@@ -8,7 +8,6 @@
 #include "temporary.h"
 #include <dirent.h>
 #include <jansson.h>
-#include <string.h>
 
 enum { MOST_SPLINES = 8, MOST_PINS = 40 };
 

@@ -4,7 +4,6 @@
 #include "rig/opened.h"
 #include "scene/edit.h"
 #include "scene/history.h"
-#include <string.h>
 
 /// A pinned point of a scene, and the drag's circle or line.
 struct drag {

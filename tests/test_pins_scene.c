@@ -8,7 +8,6 @@
 #include "scene/load.h"
 #include "scene/pins.h"
 #include "temporary.h"
-#include <string.h>
 
 /// A scene that is edited and solved.
 struct stand {

@@ -2,8 +2,6 @@
 #include "near.h"
 #include "ui/font.h"
 #include "ui/widgets.h"
-#include <stdio.h>
-#include <string.h>
 
 enum { ITEMS = 30 };
 

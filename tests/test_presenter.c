@@ -3,7 +3,6 @@
 #include "inside.h"
 #include "scene/load.h"
 #include "shown.h"
-#include <string.h>
 
 static struct core *core_of(struct blind *b) { return &b->app.table.editor->core; }
 

@@ -9,7 +9,6 @@
 #include "scene/load.h"
 #include "shown.h"
 #include <fcntl.h>
-#include <string.h>
 #include <sys/stat.h>
 #include <time.h>
 #include <unistd.h>

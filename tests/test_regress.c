@@ -3,8 +3,6 @@
 #include "near.h"
 #include "timing/columns.h"
 #include "timing/framelog.h"
-#include <stdio.h>
-#include <string.h>
 #include <sys/wait.h>
 #include <unistd.h>
 

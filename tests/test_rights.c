@@ -5,7 +5,6 @@
 #include "folder.h"
 #include <errno.h>
 #include <grp.h>
-#include <string.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <sys/xattr.h>

@@ -4,8 +4,6 @@
 #include "scene/evaluate.h"
 #include "scene/text.h"
 #include <dirent.h>
-#include <stdio.h>
-#include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
 

@@ -5,7 +5,6 @@
 #include "app/settings.h"
 #include "base/file.h"
 #include "folder.h"
-#include <string.h>
 #include <sys/wait.h>
 #include <unistd.h>
 

@@ -4,7 +4,6 @@
 #include "simulation/blocks.h"
 #include "simulation/linear.h"
 #include <lapacke.h>
-#include <string.h>
 
 static double determinant(const double m[3][3])
 {

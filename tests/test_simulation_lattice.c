@@ -2,7 +2,6 @@
 #include "near.h"
 #include "simulation/lattice.h"
 #include "simulation/solid.h"
-#include <string.h>
 
 static void add_vertex(struct surface *surface, double x, double y, double z)
 {

@@ -4,7 +4,6 @@
 #include "simulation/integrator.h"
 #include "simulation/linear.h"
 #include <lapacke.h>
-#include <string.h>
 
 static const double pi = 3.14159265358979323846;
 

@@ -3,7 +3,6 @@
 #include "simulation/linear.h"
 #include "simulation/soft.h"
 #include "temporary.h"
-#include <string.h>
 
 /// A box of `width` × `height` × `width` that stands on y = 0, white at its upper four corners and black below.
 struct box {

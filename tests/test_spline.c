@@ -3,8 +3,6 @@
 #include "near.h"
 
 #include "curve.h"
-#include <stdio.h>
-#include <string.h>
 
 enum { MAX = 512 };
 

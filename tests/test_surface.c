@@ -6,7 +6,6 @@
 #include "near.h"
 #include "temporary.h"
 #include <jansson.h>
-#include <string.h>
 
 static struct surface read_good(const char *name, const void *bytes, size_t size)
 {

@@ -3,7 +3,6 @@
 
 #include "rig/swing.h"
 #include "spline_of.h"
-#include <string.h>
 
 static const double turn = 6.283185307179586;
 

@@ -4,8 +4,6 @@
 #include "textbook.h"
 #include <dirent.h>
 #include <jansson.h>
-#include <stdio.h>
-#include <string.h>
 
 enum { MAX_SPLINES = 4, MAX_KNOTS = 64 };
 

@@ -2,8 +2,6 @@
 #include "near.h"
 #include "regress/bootstrap.h"
 #include "timing/columns.h"
-#include <stdio.h>
-#include <string.h>
 #include <unistd.h>
 
 static char folder[] = "/tmp/wiggly-test-XXXXXX";

@@ -9,7 +9,6 @@
 #include "commands/commands.h"
 #include "scene/load.h"
 #include "scene/paint.h"
-#include <string.h>
 
 #if !defined __x86_64__ || defined __SANITIZE_ADDRESS__ || defined __SANITIZE_THREAD__
 static void all(void **state)

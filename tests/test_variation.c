@@ -1,7 +1,6 @@
 /// Variations: other motions of the same material through the same knots.
 #include "near.h"
 
-#include <string.h>
 #include <wiggly/wiggly.h>
 
 enum { MOST = 2000, SEEDS = 400 };

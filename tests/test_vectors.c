@@ -6,8 +6,6 @@
 #include "base/file.h"
 #include "scene/evaluate.h"
 #include <dirent.h>
-#include <stdio.h>
-#include <string.h>
 
 static const char folder[] = "tests/vectors";
 

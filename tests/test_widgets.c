@@ -3,8 +3,6 @@
 #include "ui/font.h"
 #include "ui/theme.h"
 #include "ui/widgets.h"
-#include <stdio.h>
-#include <string.h>
 
 /// A panel with one of everything.
 struct panel {
