@@ -190,7 +190,8 @@ TEST(bad_files_get_one_sentence)
     assert_refused(npy(1, "{'descr': '<f4'}", 4, false), "expected the header of an .npy array");
     assert_refused(npy(9, "{'descr': '<f4', 'fortran_order': False, 'shape': (5, 4, 3), }", 4, false),
                    "expected the header of an .npy array");
-    assert_refused(temporary_file("short.npy", "\x93NUMPY\1\0\xff\x0f{'descr': ", 20), "got a file that ends before");
+    assert_refused(temporary_file("short.npy", "\x93NUMPY\1\0\xff\x0f{'descr': ", 20),
+                   "expected a header of 4105 bytes, got 20");
     assert_refused(temporary_file("empty.npy", "", 0), "got a file of 0 bytes");
     assert_refused(temporary_file("text.npy", "v 0 0 0\nv 1 1 1\n", 16), "got something else");
     assert_refused(temporary_file("short.mdd", "\0\0\0\5\0\0\0\4\0\0\0\0\0\0\0\0", 16),

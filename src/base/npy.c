@@ -1,27 +1,48 @@
-/// Reads and writes the header of .npy files.
+/// Reads numbers, and reads and writes the header of .npy files.
 #include "base/npy.h"
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+
+int number_size(enum number_type type)
+{
+    return type == NUMBER_FLOAT64 ? 8 : type >= NUMBER_INT32 ? 4 : type >= NUMBER_INT16 ? 2 : 1;
+}
+
+double number_read(const void *at, enum number_type type, bool big_endian)
+{
+    union {
+        unsigned char bytes[8];
+        int8_t int8;
+        int16_t int16;
+        int32_t int32;
+        uint64_t whole;
+        float float32;
+        double float64;
+    } number = {.whole = 0};
+    const int size = number_size(type);
+    for (int i = 0; i < size; i++) number.bytes[i] = ((const unsigned char *)at)[big_endian ? size - 1 - i : i];
+    switch (type) {
+    case NUMBER_INT8:
+        return number.int8;
+    case NUMBER_INT16:
+        return number.int16;
+    case NUMBER_INT32:
+        return number.int32;
+    case NUMBER_FLOAT32:
+        return (double)number.float32;
+    case NUMBER_FLOAT64:
+        return number.float64;
+    default:
+        return (double)number.whole;
+    }
+}
 
 const char npy_magic[6] = "\x93NUMPY";
 
 static bool bad_header(const char *path, struct error *error)
 {
     return fail(error, ERROR_INPUT, "%s: expected the header of an .npy array, got something else", path);
-}
-
-bool npy_start(struct npy *npy, const char *path, const unsigned char start[NPY_START], struct error *error)
-{
-    *npy = (struct npy){0};
-    bool is_short = start[6] == 1; // version 1 has a length of 2 bytes, later ones of 4
-    uint32_t length = (uint32_t)start[8] | (uint32_t)start[9] << 8;
-    if (!is_short) length |= (uint32_t)start[10] << 16 | (uint32_t)start[11] << 24;
-    bool good = memcmp(start, npy_magic, sizeof npy_magic) == 0 && start[6] >= 1 && start[6] <= 3;
-    if (!good || length > NPY_DICTIONARY) return bad_header(path, error);
-    npy->dictionary = length;
-    npy->data = (is_short ? 10 : 12) + (int64_t)length;
-    return true;
 }
 
 /// The text after 'key': in the dictionary, or NULL.
@@ -67,8 +88,23 @@ static bool read_lengths(struct npy *npy, const char *shape)
     return true;
 }
 
-bool npy_dictionary(struct npy *npy, const char *path, const char *text, struct error *error)
+bool npy_read_header(struct npy *npy, const char *path, const char *data, size_t size, struct error *error)
 {
+    char text[NPY_DICTIONARY + 1];
+    const unsigned char *start = (const unsigned char *)data;
+    *npy = (struct npy){0};
+    if (size < NPY_START) return fail(error, ERROR_INPUT, "%s: expected a .npy file, got %zu bytes", path, size);
+    const bool is_short = start[6] == 1; // version 1 has a length of 2 bytes, later ones of 4
+    uint32_t length = (uint32_t)start[8] | (uint32_t)start[9] << 8;
+    if (!is_short) length |= (uint32_t)start[10] << 16 | (uint32_t)start[11] << 24;
+    const bool good = memcmp(start, npy_magic, sizeof npy_magic) == 0 && start[6] >= 1 && start[6] <= 3;
+    if (!good || length > NPY_DICTIONARY) return bad_header(path, error);
+    npy->data = (is_short ? 10 : 12) + (int64_t)length;
+    if (npy->data > (int64_t)size)
+        return fail(error, ERROR_INPUT, "%s: expected a header of %lld bytes, got %zu", path, (long long)npy->data,
+                    size);
+    memcpy(text, data + npy->data - length, length);
+    text[length] = '\0';
     if (!read_type(npy, path, text, error)) return false;
     const char *shape = value_of(text, "'shape'"), *order = value_of(text, "'fortran_order'");
     if (!shape || !order || !read_lengths(npy, shape)) return bad_header(path, error);
@@ -78,15 +114,7 @@ bool npy_dictionary(struct npy *npy, const char *path, const char *text, struct 
 
 double npy_number(const struct npy *npy, const char *at)
 {
-    unsigned char bytes[8] = {0};
-    for (int i = 0; i < npy->number_size; i++)
-        bytes[i] = (unsigned char)at[npy->swapped ? npy->number_size - 1 - i : i];
-    float single;
-    double number;
-    memcpy(&single, bytes, sizeof single);
-    if (npy->number_size == 4) return (double)single;
-    memcpy(&number, bytes, sizeof number);
-    return number;
+    return number_read(at, npy->number_size == 4 ? NUMBER_FLOAT32 : NUMBER_FLOAT64, npy->swapped);
 }
 
 void npy_print_header(const int *lengths, int count, char header[NPY_HEADER])

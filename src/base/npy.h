@@ -1,4 +1,4 @@
-/// The header of NumPy's .npy files: magic, version, a length, and a Python dictionary such as
+/// Numbers in binary files, and the header of NumPy's .npy files: magic, version, a length, and a Python dictionary such as
 /// {'descr': '<f4', 'fortran_order': False, 'shape': (96, 4000, 3), }
 #ifndef BASE_NPY_H
 #define BASE_NPY_H
@@ -8,6 +8,24 @@
 #include <stdint.h>
 
 _Static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "the files' numbers are read as they lie");
+
+/// As OpenGL and glTF number them.
+enum number_type {
+    NUMBER_INT8 = 5120,
+    NUMBER_UINT8,
+    NUMBER_INT16,
+    NUMBER_UINT16,
+    NUMBER_INT32,
+    NUMBER_UINT32,
+    NUMBER_FLOAT32,
+    NUMBER_FLOAT64 = 5130
+};
+
+/// Bytes of a number.
+int number_size(enum number_type type);
+
+/// The number at a place that need not be aligned.
+double number_read(const void *at, enum number_type type, bool big_endian);
 
 enum {
     NPY_START = 12,        ///< bytes up to and including the dictionary's length
@@ -22,7 +40,6 @@ extern const char npy_magic[6];
 /// An array of float32 or float64.
 struct npy {
     int64_t data;       ///< where the numbers start
-    size_t dictionary;  ///< bytes of it, right before the numbers
     int number_size;    ///< 4 or 8 bytes
     bool swapped;       ///< big endian
     bool columns_first; ///< the first index runs fastest (Fortran order)
@@ -31,11 +48,8 @@ struct npy {
     char shape[64]; ///< as the file has it, for messages
 };
 
-/// Reads the start: where dictionary and numbers are. `path` is for messages.
-bool npy_start(struct npy *npy, const char *path, const unsigned char start[NPY_START], struct error *error);
-
-/// Reads the rest from the dictionary, a NUL-terminated text.
-bool npy_dictionary(struct npy *npy, const char *path, const char *text, struct error *error);
+/// Reads the header from the first bytes of a file, NPY_START + NPY_DICTIONARY of them or all there are. `path` is for messages.
+bool npy_read_header(struct npy *npy, const char *path, const char *data, size_t size, struct error *error);
 
 /// One number, in the file's type and byte order.
 double npy_number(const struct npy *npy, const char *at);

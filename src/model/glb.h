@@ -12,8 +12,6 @@ enum {
     GLB_MAGIC = 0x46546C67, ///< "glTF"
     GLB_JSON = 0x4E4F534A,
     GLB_BIN = 0x004E4942,
-    GLB_FLOAT = 5126, ///< component types are OpenGL's
-    GLB_UNSIGNED_INT = 5125,
 };
 
 /// The largest file, and what may be made of a file: so many bytes, and so many for each of its own.

@@ -1,4 +1,5 @@
 /// Numbers from the accessors of a glTF file.
+#include "base/npy.h"
 #include "model/glb.h"
 #include <math.h>
 #include <stdlib.h>
@@ -7,51 +8,26 @@
 /// Elements in the binary chunk: each `components` numbers of one type, `stride` bytes apart.
 struct elements {
     const unsigned char *bytes;
-    int type, components;
+    enum number_type type;
+    int components;
     size_t stride;
     bool normalised;
 };
 
-static size_t size_of_type(int64_t type)
+/// 0 for what is no type of glTF's.
+static int size_of_type(int64_t type)
 {
-    switch (type) {
-    case 5120: // byte
-    case 5121: // unsigned byte
-        return 1;
-    case 5122: // short
-    case 5123: // unsigned short
-        return 2;
-    case GLB_UNSIGNED_INT:
-    case GLB_FLOAT:
-        return 4;
-    default:
-        return 0;
-    }
+    const bool known = type >= NUMBER_INT8 && type <= NUMBER_FLOAT32 && type != NUMBER_INT32;
+    return known ? number_size((enum number_type)type) : 0;
 }
 
-static double number_at(const struct elements *e, int element, int component)
+static double element_at(const struct elements *e, int element, int component)
 {
-    const unsigned char *at = e->bytes + (size_t)element * e->stride + (size_t)component * size_of_type(e->type);
-    float single;
-    uint32_t word;
-    uint16_t half = 0;
-    if (e->type != 5120 && e->type != 5121) memcpy(&half, at, sizeof half);
-    switch (e->type) {
-    case 5120:
-        return e->normalised ? fmax((int8_t)*at / 127.0, -1) : (int8_t)*at;
-    case 5121:
-        return e->normalised ? *at / 255.0 : *at;
-    case 5122:
-        return e->normalised ? fmax((int16_t)half / 32767.0, -1) : (int16_t)half;
-    case 5123:
-        return e->normalised ? half / 65535.0 : half;
-    case GLB_UNSIGNED_INT:
-        memcpy(&word, at, sizeof word);
-        return word;
-    default:
-        memcpy(&single, at, sizeof single);
-        return (double)single;
-    }
+    static const double largest[] = {127, 255, 32767, 65535};
+    const unsigned char *at = e->bytes + (size_t)element * e->stride + (size_t)(component * number_size(e->type));
+    const double number = number_read(at, e->type, false);
+    const bool whole = e->normalised && e->type < NUMBER_INT32;
+    return whole ? fmax(number / largest[e->type - NUMBER_INT8], -1) : number;
 }
 
 static const json_t *view_of(const struct glb *glb, int64_t index)
@@ -76,7 +52,7 @@ static bool find_elements(const struct glb *glb, const json_t *place, int64_t co
 {
     struct glb_bytes view;
     int64_t index = glb_integer(place, "bufferView", -1), at = glb_integer(place, "byteOffset", 0);
-    int64_t element = (int64_t)size_of_type(e->type) * e->components;
+    int64_t element = size_of_type(e->type) * e->components;
     if (!glb_view(glb, index, &view) || at < 0 || element == 0) return false;
     int64_t stride = glb_integer(view_of(glb, index), "byteStride", element);
     if (stride < element || (count > 0 && at + stride * (count - 1) + element > (int64_t)view.size)) return false;
@@ -91,14 +67,14 @@ static bool apply_sparse(const struct glb *glb, const json_t *sparse, struct ele
 {
     const json_t *places = json_object_get(sparse, "indices");
     int64_t count = glb_integer(sparse, "count", -1);
-    struct elements indices = {.type = (int)glb_integer(places, "componentType", -1), .components = 1};
+    struct elements indices = {.type = (enum number_type)glb_integer(places, "componentType", -1), .components = 1};
     if (count < 0 || count > numbers->count || !find_elements(glb, places, count, &indices)) return false;
     if (!find_elements(glb, json_object_get(sparse, "values"), count, values)) return false;
     for (int i = 0; i < (int)count; i++) {
-        double index = number_at(&indices, i, 0);
+        double index = element_at(&indices, i, 0);
         if (!(index >= 0 && index < numbers->count)) return false;
         double *element = numbers->values + (size_t)index * (size_t)numbers->components;
-        for (int k = 0; k < numbers->components; k++) element[k] = number_at(values, i, k);
+        for (int k = 0; k < numbers->components; k++) element[k] = element_at(values, i, k);
     }
     return true;
 }
@@ -122,7 +98,7 @@ static bool fill(const struct glb *glb, const json_t *accessor, struct elements 
     const json_t *sparse = json_object_get(accessor, "sparse");
     for (int i = 0; e->bytes && i < numbers->count; i++) {
         for (int k = 0; k < e->components; k++)
-            numbers->values[(size_t)i * (size_t)e->components + (size_t)k] = number_at(e, i, k);
+            numbers->values[(size_t)i * (size_t)e->components + (size_t)k] = element_at(e, i, k);
     }
     return !sparse || apply_sparse(glb, sparse, e, numbers);
 }
@@ -154,7 +130,7 @@ bool glb_numbers(const struct glb *glb, int64_t index, struct glb_numbers *numbe
     const json_t *accessors = json_object_get(glb->json, "accessors");
     const json_t *accessor = index >= 0 ? json_array_get(accessors, (size_t)index) : NULL;
     int64_t count = glb_integer(accessor, "count", -1), type = glb_integer(accessor, "componentType", -1);
-    struct elements e = {.type = (int)type,
+    struct elements e = {.type = (enum number_type)type,
                          .components = components_of(accessor),
                          .normalised = json_is_true(json_object_get(accessor, "normalized"))};
     *numbers = (struct glb_numbers){.components = e.components};

@@ -2,28 +2,31 @@
 #include "model/gltf_file.h"
 #include "base/base64.h"
 #include "base/json.h"
+#include "base/npy.h"
+#include "model/glb.h"
 #include <math.h>
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 
-enum { ARRAY_BUFFER = 34962, ELEMENT_ARRAY_BUFFER = 34963, UNSIGNED_SHORT = 5123, UNSIGNED_INT = 5125, FLOAT = 5126 };
+enum { ARRAY_BUFFER = 34962, ELEMENT_ARRAY_BUFFER = 34963 };
 
 static const struct element {
     const char *shape;
-    int components, type, size; ///< `size`: bytes of a component
-    int target;                 ///< 0: none
+    int components;
+    enum number_type type;
+    int target; ///< 0: none
 } kinds[] = {
-    [ELEMENTS_INDICES] = {"SCALAR", 1, UNSIGNED_INT, 4, ELEMENT_ARRAY_BUFFER},
-    [ELEMENTS_SHORT_INDICES] = {"SCALAR", 1, UNSIGNED_SHORT, 2, ELEMENT_ARRAY_BUFFER},
-    [ELEMENTS_VECTORS] = {"VEC3", 3, FLOAT, 4, ARRAY_BUFFER},
-    [ELEMENTS_UVS] = {"VEC2", 2, FLOAT, 4, ARRAY_BUFFER},
-    [ELEMENTS_JOINTS] = {"VEC4", 4, UNSIGNED_SHORT, 2, ARRAY_BUFFER},
-    [ELEMENTS_WEIGHTS] = {"VEC4", 4, FLOAT, 4, ARRAY_BUFFER},
-    [ELEMENTS_MATRICES] = {"MAT4", 16, FLOAT, 4, 0},
-    [ELEMENTS_KEYS] = {"SCALAR", 1, FLOAT, 4, 0},
-    [ELEMENTS_KEY_VECTORS] = {"VEC3", 3, FLOAT, 4, 0},
-    [ELEMENTS_TURNS] = {"VEC4", 4, FLOAT, 4, 0},
+    [ELEMENTS_INDICES] = {"SCALAR", 1, NUMBER_UINT32, ELEMENT_ARRAY_BUFFER},
+    [ELEMENTS_SHORT_INDICES] = {"SCALAR", 1, NUMBER_UINT16, ELEMENT_ARRAY_BUFFER},
+    [ELEMENTS_VECTORS] = {"VEC3", 3, NUMBER_FLOAT32, ARRAY_BUFFER},
+    [ELEMENTS_UVS] = {"VEC2", 2, NUMBER_FLOAT32, ARRAY_BUFFER},
+    [ELEMENTS_JOINTS] = {"VEC4", 4, NUMBER_UINT16, ARRAY_BUFFER},
+    [ELEMENTS_WEIGHTS] = {"VEC4", 4, NUMBER_FLOAT32, ARRAY_BUFFER},
+    [ELEMENTS_MATRICES] = {"MAT4", 16, NUMBER_FLOAT32, 0},
+    [ELEMENTS_KEYS] = {"SCALAR", 1, NUMBER_FLOAT32, 0},
+    [ELEMENTS_KEY_VECTORS] = {"VEC3", 3, NUMBER_FLOAT32, 0},
+    [ELEMENTS_TURNS] = {"VEC4", 4, NUMBER_FLOAT32, 0},
 };
 
 void gltf_file_continue(struct gltf_file *file, json_t *root)
@@ -106,7 +109,8 @@ json_int_t gltf_file_add(struct gltf_file *file, enum gltf_elements elements, co
 {
     const struct element *kind = &kinds[elements];
     if (!file->accessors) file->accessors = json_array();
-    const json_int_t view = add_view(file, data, count * (size_t)(kind->components * kind->size), kind->target);
+    const json_int_t view =
+        add_view(file, data, count * (size_t)(kind->components * number_size(kind->type)), kind->target);
     json_t *accessor = json_pack("{s:I, s:i, s:I, s:s}", "bufferView", view, "componentType", kind->type, "count",
                                  (json_int_t)count, "type", kind->shape);
     if (bounds) add_bounds(file, accessor, data, count, kind->components);
@@ -123,12 +127,12 @@ static void write_binary(const struct gltf_file *file, const char *text, FILE *o
 {
     const size_t length = strlen(text), padded = (length + 3) / 4 * 4, chunk = file->size > 0 ? 8 + file->size : 0;
     const uint32_t total = (uint32_t)(12 + 8 + padded + chunk);
-    write_words(out, 0x46546C67, 2); // "glTF"
+    write_words(out, GLB_MAGIC, 2);
     fwrite(&total, sizeof total, 1, out);
-    write_words(out, (uint32_t)padded, 0x4E4F534A); // "JSON"
+    write_words(out, (uint32_t)padded, GLB_JSON);
     fprintf(out, "%s%*s", text, (int)(padded - length), "");
     if (chunk == 0) return;
-    write_words(out, (uint32_t)file->size, 0x004E4942); // "BIN"
+    write_words(out, (uint32_t)file->size, GLB_BIN);
     fwrite(file->data, 1, file->size, out);
 }
 

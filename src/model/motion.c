@@ -77,16 +77,13 @@ static void set_order(struct motion *m, const struct npy *npy)
     m->strides[2] = flat ? column : column * m->vertices;
 }
 
-static bool npy_read_header(struct motion *m, int64_t size, struct error *error)
+static bool read_npy_header(struct motion *m, int64_t size, struct error *error)
 {
-    unsigned char start[NPY_START];
-    char text[NPY_DICTIONARY + 1];
+    char start[NPY_START + NPY_DICTIONARY];
     struct npy npy;
-    if (!read_at(m, 0, start, sizeof start, error) || !npy_start(&npy, m->path, start, error)) return false;
+    const size_t there = size < (int64_t)sizeof start ? (size_t)size : sizeof start;
+    if (!read_at(m, 0, start, there, error) || !npy_read_header(&npy, m->path, start, there, error)) return false;
     m->data = npy.data;
-    if (!read_at(m, m->data - (int64_t)npy.dictionary, text, npy.dictionary, error)) return false;
-    text[npy.dictionary] = '\0';
-    if (!npy_dictionary(&npy, m->path, text, error)) return false;
     m->swapped = npy.swapped;
     m->number_size = npy.number_size;
     if (!set_shape(m, &npy, error) || !set_layout(m, size, error)) return false;
@@ -105,7 +102,7 @@ static bool npy_read_header(struct motion *m, int64_t size, struct error *error)
 //     28  int32     samples
 //     then float32 x y z of each point of each frame, in both
 
-static bool pc2_read_header(struct motion *m, int64_t size, struct error *error)
+static bool read_pc2_header(struct motion *m, int64_t size, struct error *error)
 {
     int32_t numbers[5];
     if (!read_at(m, sizeof pc2_magic, numbers, sizeof numbers, error)) return false;
@@ -141,7 +138,7 @@ static double fps_of_times(const unsigned char *times, int frames)
     return fabs(fps - whole) < 1e-4 * fps ? whole : fps;
 }
 
-static bool mdd_read_header(struct motion *m, int64_t size, struct error *error)
+static bool read_mdd_header(struct motion *m, int64_t size, struct error *error)
 {
     unsigned char counts[MDD_HEADER];
     if (!read_at(m, 0, counts, sizeof counts, error)) return false;
@@ -168,10 +165,10 @@ static bool read_header(struct motion *m, int64_t size, struct error *error)
         return fail(error, ERROR_INPUT, "%s: expected a motion (.npy, .pc2 or .mdd), got a file of %lld bytes",
                     m->path, (long long)size);
     if (!read_at(m, 0, start, sizeof start, error)) return false;
-    if (memcmp(start, npy_magic, sizeof npy_magic) == 0) return npy_read_header(m, size, error);
-    if (memcmp(start, pc2_magic, sizeof pc2_magic) == 0) return pc2_read_header(m, size, error);
+    if (memcmp(start, npy_magic, sizeof npy_magic) == 0) return read_npy_header(m, size, error);
+    if (memcmp(start, pc2_magic, sizeof pc2_magic) == 0) return read_pc2_header(m, size, error);
     const char *dot = strrchr(m->path, '.'); // MDD has no magic
-    if (dot && strcasecmp(dot, ".mdd") == 0) return mdd_read_header(m, size, error);
+    if (dot && strcasecmp(dot, ".mdd") == 0) return read_mdd_header(m, size, error);
     return fail(error, ERROR_INPUT, "%s: expected a motion (.npy, .pc2 or .mdd), got something else", m->path);
 }
 
@@ -197,7 +194,7 @@ void motion_close(struct motion *motion)
     *motion = (struct motion){.file = -1};
 }
 
-static double number_at(const struct motion *m, const char *bytes)
+static double real_at(const struct motion *m, const char *bytes)
 {
     if (m->number_size == 4) {
         uint32_t bits;
@@ -220,7 +217,7 @@ static int convert(const struct motion *m, const char *bytes, int count, double 
 {
     double sum = 0; // stays 0 unless a number is not finite
     for (int i = 0; i < count; i++) {
-        double number = number_at(m, bytes + (size_t)i * (size_t)m->number_size);
+        double number = real_at(m, bytes + (size_t)i * (size_t)m->number_size);
         out[(size_t)i * stride] = number;
         sum += 0 * number;
     }

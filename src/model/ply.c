@@ -4,6 +4,7 @@
 /// order, number by number; of vertices x y z, colours and texture coordinates are kept, of faces the list of their vertices, and of
 /// triangle strips the triangles.
 #include "base/file.h"
+#include "base/npy.h"
 #include "model/surface_readers.h"
 #include <limits.h>
 #include <math.h>
@@ -12,12 +13,11 @@
 
 enum { FILE_LIMIT = 1 << 30, ELEMENTS_MAX = 16, PROPERTIES_MAX = 64 };
 enum format { TEXT, LITTLE, BIG };
-enum type { NO_TYPE, INT8, UINT8, INT16, UINT16, INT32, UINT32, FLOAT32, FLOAT64 };
 enum role { OTHER, X, Y, Z, RED, GREEN, BLUE, U, V, ROLES, CORNERS, STRIPS };
 
 struct property {
-    enum type count_type; ///< of a list's length; NO_TYPE: one number
-    enum type type;
+    enum number_type count_type; ///< of a list's length; 0: one number
+    enum number_type type;
     enum role role;
 };
 
@@ -40,11 +40,12 @@ struct ply {
 
 static const struct {
     const char *name;
-    enum type type;
-} types[] = {{"char", INT8},   {"uchar", UINT8},   {"short", INT16},     {"ushort", UINT16},
-             {"int", INT32},   {"uint", UINT32},   {"float", FLOAT32},   {"double", FLOAT64},
-             {"int8", INT8},   {"uint8", UINT8},   {"int16", INT16},     {"uint16", UINT16},
-             {"int32", INT32}, {"uint32", UINT32}, {"float32", FLOAT32}, {"float64", FLOAT64}};
+    enum number_type type;
+} types[] = {
+    {"char", NUMBER_INT8},   {"uchar", NUMBER_UINT8},   {"short", NUMBER_INT16},     {"ushort", NUMBER_UINT16},
+    {"int", NUMBER_INT32},   {"uint", NUMBER_UINT32},   {"float", NUMBER_FLOAT32},   {"double", NUMBER_FLOAT64},
+    {"int8", NUMBER_INT8},   {"uint8", NUMBER_UINT8},   {"int16", NUMBER_INT16},     {"uint16", NUMBER_UINT16},
+    {"int32", NUMBER_INT32}, {"uint32", NUMBER_UINT32}, {"float32", NUMBER_FLOAT32}, {"float64", NUMBER_FLOAT64}};
 
 static const struct {
     const char *name;
@@ -65,16 +66,9 @@ static const struct {
              {"texture_u", U},
              {"texture_v", V}};
 
-static int size_of(enum type type)
-{
-    static const int sizes[] = {
-        [INT8] = 1, [UINT8] = 1, [INT16] = 2, [UINT16] = 2, [INT32] = 4, [UINT32] = 4, [FLOAT32] = 4, [FLOAT64] = 8};
-    return sizes[type];
-}
-
 // --- header
 
-static bool read_type(struct words *w, enum type *type)
+static bool read_type(struct words *w, enum number_type *type)
 {
     for (size_t i = 0; i < sizeof types / sizeof *types; i++) {
         *type = types[i].type;
@@ -176,45 +170,17 @@ static bool read_header(struct ply *ply)
 
 // --- numbers
 
-static double binary_number(enum type type, uint64_t bits)
-{
-    float single;
-    double real;
-    const uint32_t low = (uint32_t)bits;
-    switch (type) {
-    case INT8:
-        return (int8_t)bits;
-    case INT16:
-        return (int16_t)bits;
-    case INT32:
-        return (int32_t)bits;
-    case FLOAT32:
-        memcpy(&single, &low, sizeof single);
-        return (double)single;
-    case FLOAT64:
-        memcpy(&real, &bits, sizeof real);
-        return real;
-    default:
-        return (double)bits;
-    }
-}
-
 /// Infinity and NaN are refused where they are `used`; properties that are left out may have them.
-static bool next_number(struct ply *ply, enum type type, bool used, double *number)
+static bool next_number(struct ply *ply, enum number_type type, bool used, double *number)
 {
     struct words *w = &ply->words;
     if (ply->format == TEXT) return words_number(w, "a number", number);
-    const int size = size_of(type);
-    uint64_t bits = 0;
+    const int size = number_size(type);
     if (ply->end - w->at < size)
         return fail(w->error, ERROR_INPUT, "%s: expected as many numbers as the header says, got the end of the file",
                     w->path);
-    for (int i = 0; i < size; i++) {
-        const int place = ply->format == LITTLE ? i : size - 1 - i;
-        bits |= (uint64_t)(unsigned char)w->at[i] << 8 * place;
-    }
+    *number = number_read(w->at, type, ply->format == BIG);
     w->at += size;
-    *number = binary_number(type, bits);
     return !used || isfinite(*number) ||
            fail(w->error, ERROR_INPUT, "%s: expected finite numbers, got NaN or infinity", w->path);
 }
@@ -271,14 +237,17 @@ static bool read_list(struct ply *ply, const struct property *p, bool textured)
     return true;
 }
 
-static double largest_of(enum type type) { return type == UINT8 ? 255 : type == UINT16 ? 65535 : 1; }
+static double largest_of(enum number_type type)
+{
+    return type == NUMBER_UINT8 ? 255 : type == NUMBER_UINT16 ? 65535 : 1;
+}
 
 static bool read_one(struct ply *ply, const struct element *e, bool textured)
 {
     double values[ROLES] = {0}, number;
     for (int i = 0; i < e->property_count; i++) {
         const struct property *p = &e->properties[i];
-        if (p->count_type != NO_TYPE) {
+        if (p->count_type) {
             if (!read_list(ply, p, textured)) return false;
         } else {
             if (!next_number(ply, p->type, p->role != OTHER, &number)) return false;

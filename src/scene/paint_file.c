@@ -33,7 +33,7 @@ static bool check_shape(const char *name, const struct npy *npy, size_t size, st
 }
 
 /// Number `part` (a or ψ) at a vertex of a coordinate.
-static double number_at(const struct npy *npy, const char *data, int64_t coordinate, int64_t vertex, int64_t part)
+static double value_at(const struct npy *npy, const char *data, int64_t coordinate, int64_t vertex, int64_t part)
 {
     const int64_t *n = npy->lengths;
     const int64_t index =
@@ -63,30 +63,17 @@ static bool read_values(const char *name, const struct npy *npy, const char *dat
     struct error why;
     for (int c = 0; c < paint->coordinates; c++) {
         for (int v = 0; v < paint->vertices; v++) {
-            for (int k = 0; k < 2; k++) values_of(paint, c)[v][k] = (float)number_at(npy, data, c, v, k);
+            for (int k = 0; k < 2; k++) values_of(paint, c)[v][k] = (float)value_at(npy, data, c, v, k);
         }
         if (!check_values(paint, c, &why)) return fail(error, ERROR_INPUT, "%s: %s", name, why.text);
     }
     return true;
 }
 
-static bool read_header(struct npy *npy, const char *name, const char *data, size_t size, struct error *error)
-{
-    char text[NPY_DICTIONARY + 1];
-    if (size < NPY_START) return fail(error, ERROR_INPUT, "%s: expected an .npy file, got %zu bytes", name, size);
-    if (!npy_start(npy, name, (const unsigned char *)data, error)) return false;
-    if (npy->data > (int64_t)size)
-        return fail(error, ERROR_INPUT, "%s: expected a header of %lld bytes, got %zu", name, (long long)npy->data,
-                    size);
-    memcpy(text, data + npy->data - (int64_t)npy->dictionary, npy->dictionary);
-    text[npy->dictionary] = '\0';
-    return npy_dictionary(npy, name, text, error) && check_shape(name, npy, size, error);
-}
-
 static struct paint *paint_parse(const char *name, const char *data, size_t size, struct error *error)
 {
     struct npy npy;
-    if (!read_header(&npy, name, data, size, error)) return NULL;
+    if (!npy_read_header(&npy, name, data, size, error) || !check_shape(name, &npy, size, error)) return NULL;
     struct paint *paint = paint_create((int)npy.lengths[0], (int)npy.lengths[1]);
     if (read_values(name, &npy, data, paint, error)) return paint;
     paint_drop(paint);

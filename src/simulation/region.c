@@ -156,15 +156,7 @@ static bool read_weights(const char *path, const char *data, size_t size, int ve
                          struct error *error)
 {
     struct npy npy;
-    char text[NPY_DICTIONARY + 1];
-    if (size < NPY_START) return fail(error, ERROR_INPUT, "%s: expected a .npy file, got %zu bytes", path, size);
-    if (!npy_start(&npy, path, (const unsigned char *)data, error)) return false;
-    if ((size_t)npy.data > size)
-        return fail(error, ERROR_INPUT, "%s: expected a header of %lld bytes, got %zu", path, (long long)npy.data,
-                    size);
-    memcpy(text, data + npy.data - npy.dictionary, npy.dictionary);
-    text[npy.dictionary] = '\0';
-    if (!npy_dictionary(&npy, path, text, error)) return false;
+    if (!npy_read_header(&npy, path, data, size, error)) return false;
     bool fits = npy.count >= 1 && npy.lengths[0] == vertices;
     for (int i = 1; i < npy.count; i++) fits &= npy.lengths[i] == 1;
     if (!fits)
