@@ -103,7 +103,7 @@ TEST_WITH(folder_make, folder_remove, pictures_of_a_size)
     for (size_t size = MOST; size <= MOST + 1; size++) {
         struct surface surface;
         hole("a.png", png, strlen(png), size);
-        if (!obj_read(folder_path("a.obj"), &surface, &error)) fail_msg("%s", error.text);
+        if (!surface_read(folder_path("a.obj"), &surface, &error)) fail_msg("%s", error.text);
         const bool taken = size <= MOST;
         assert_int_equal(surface.looks.materials[0].image_size, taken ? size : 0);
         if (taken) assert_null(surface.looks.left_out);

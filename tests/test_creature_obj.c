@@ -17,7 +17,7 @@ static int read_creature(void **state)
     struct error error = {0};
     snprintf(path, sizeof path, "%s/creature.obj", out ? out : "/tmp");
     snprintf(command, sizeof command, "%s/creature_obj '%s' >/dev/null", build ? build : "build", path);
-    if (system(command) != 0 || !obj_read(path, &surface, &error)) return -1;
+    if (system(command) != 0 || !surface_read(path, &surface, &error)) return -1;
     bool made = surface.color && character_create(&creature, &surface, 0);
     surface_free(&surface);
     return made ? 0 : -1;

@@ -42,7 +42,7 @@ static int make_cube(void **state)
     write_text("cube.mtl", material_text);
     write_text("cube.obj", cube_text);
     write_text("scene.json", scene_text);
-    if (!obj_read(folder_path("cube.obj"), &surface, &error)) fail_msg("%s", error.text);
+    if (!surface_read(folder_path("cube.obj"), &surface, &error)) fail_msg("%s", error.text);
     assert_true(character_create(&character, &surface, 1));
     character.coordinates[0].name = strdup("up");
     for (int i = 0; i < character.vertex_count; i++)

@@ -5,7 +5,7 @@
 
 static bool read_text(const char *text, struct surface *surface, struct error *error)
 {
-    return obj_read(temporary_file("form.obj", text, strlen(text)), surface, error);
+    return surface_read(temporary_file("form.obj", text, strlen(text)), surface, error);
 }
 
 TEST(all_forms_of_a_face)
@@ -54,7 +54,7 @@ TEST(what_is_written_reads_back_equal)
     struct error error;
     const char *path = temporary_path("round.obj");
     assert_true(obj_write(path, &out, &error));
-    assert_true(obj_read(path, &in, &error));
+    assert_true(surface_read(path, &in, &error));
     assert_int_equal(in.vertex_count, 3);
     assert_memory_equal(in.position, position, sizeof position);
     assert_memory_equal(in.indices, indices, sizeof indices);
@@ -146,8 +146,8 @@ TEST(bad_files_get_one_sentence)
     }
     struct surface s;
     struct error error;
-    assert_false(obj_read(temporary_file("form.obj", "v 0\0 0", 6), &s, &error));
+    assert_false(surface_read(temporary_file("form.obj", "v 0\0 0", 6), &s, &error));
     assert_non_null(strstr(error.text, "got binary data"));
-    assert_false(obj_read("/nowhere.obj", &s, &error));
+    assert_false(surface_read("/nowhere.obj", &s, &error));
     assert_non_null(strstr(error.text, "/nowhere.obj: cannot be opened"));
 }

@@ -230,7 +230,7 @@ TEST(looks_come_through)
     struct surface s = read_good("m.obj", text, strlen(text)), again;
     struct error error;
     assert_true(obj_write(temporary_path("m.rest.obj"), &s, &error));
-    assert_true(obj_read(temporary_path("m.rest.obj"), &again, &error));
+    assert_true(surface_read(temporary_path("m.rest.obj"), &again, &error));
     assert_memory_equal(again.looks.uv, s.looks.uv, 4 * sizeof *s.looks.uv);
     assert_memory_equal(again.looks.corner, s.looks.corner, 12 * sizeof *s.looks.corner);
     assert_memory_equal(again.looks.joined, s.looks.joined, 4);
@@ -275,7 +275,7 @@ TEST(names_of_materials_come_through)
     temporary_file("n.mtl", mtl, strlen(mtl));
     struct surface s = read_good("n.obj", text, strlen(text)), again;
     assert_true(obj_write(temporary_path("n.rest.obj"), &s, &error));
-    if (!obj_read(temporary_path("n.rest.obj"), &again, &error)) fail_msg("%s", error.text);
+    if (!surface_read(temporary_path("n.rest.obj"), &again, &error)) fail_msg("%s", error.text);
     const struct surface *const both[] = {&s, &again};
     for (int i = 0; i < 2; i++) {
         const struct looks *looks = &both[i]->looks;

@@ -340,21 +340,14 @@ static bool add_nodes(struct surface_builder *b, const struct gltf *gltf, const 
     return true;
 }
 
-bool gltf_surface_read(const char *path, struct surface *surface, struct error *error)
+bool gltf_surface_read(struct words *words, struct surface_builder *builder)
 {
     struct gltf gltf;
     struct gltf_pose pose;
-    *surface = (struct surface){0};
-    if (!gltf_read_stored(path, &gltf, error)) return false;
-    struct surface_builder builder = {.surface = surface, .material = LOOKS_NONE};
-    if (gltf_pose_create(&gltf, &pose)) {
-        gltf_pose_clip(&gltf, -1, 0, &pose);
-        gltf_pose_world(&gltf, &pose);
-        builder.failed = !add_nodes(&builder, &gltf, &pose) || builder.failed;
-        gltf_pose_free(&pose);
-    } else {
-        builder.failed = true;
-    }
+    if (!gltf_read_stored(words->path, &gltf, words->error)) return false;
+    const bool posed = gltf_pose_create(&gltf, &pose); // at rest
+    builder->failed = !posed || !add_nodes(builder, &gltf, &pose) || builder->failed;
+    if (posed) gltf_pose_free(&pose);
     gltf_free(&gltf);
-    return builder_finish(&builder, path, "a glTF file", error);
+    return true;
 }

@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { FILE_LIMIT = 1 << 30, TEXT_LIMIT = 16 << 20, SHOWN_MAX = 24, LIBRARY_NAME = 256 };
+enum { TEXT_LIMIT = 16 << 20, SHOWN_MAX = 24, LIBRARY_NAME = 256 };
 enum { TELLING = 1 << 16 }; ///< lines between two words about how far it is
 
 /// A text being read, line by line.
@@ -159,8 +159,7 @@ static void read_materials(const char *obj_path, const char *name, struct surfac
 struct reader {
     const char *path;
     struct lines lines;
-    struct surface *surface;
-    struct surface_builder builder;
+    struct surface_builder *builder;
     struct error *error;
 };
 
@@ -197,13 +196,13 @@ static bool read_vertex(struct reader *r, char *at)
     int count = read_numbers(r, at, numbers, 6);
     if (count < 0) return false;
     if (count < 3) return expected(r, "three coordinates of a vertex", "");
-    builder_vertex(&r->builder, numbers);
+    builder_vertex(r->builder, numbers);
     if (count < 6) return true;
     const double *wrong = builder_wrong_color(numbers + 3);
     if (wrong)
         return fail(r->error, ERROR_INPUT, "%s:%d: expected a colour from 0 to 1, got %g", r->path, r->lines.number,
                     *wrong);
-    builder_color(&r->builder, numbers + 3);
+    builder_color(r->builder, numbers + 3);
     return true;
 }
 
@@ -212,14 +211,14 @@ static bool read_uv(struct reader *r, char *at)
 {
     double numbers[2] = {0};
     if (read_numbers(r, at, numbers, 2) < 0) return false;
-    builder_uv(&r->builder, numbers[0], 1 - numbers[1]);
+    builder_uv(r->builder, numbers[0], 1 - numbers[1]);
     return true;
 }
 
 /// The number of texture coordinates that follows a "/"; LOOKS_NONE where there are none such.
 static uint32_t uv_of(const struct reader *r, const char *at)
 {
-    const int count = r->surface->looks.uv_count;
+    const int count = r->builder->surface->looks.uv_count;
     long index = *at == '/' && at[1] != '/' ? strtol(at + 1, NULL, 10) : 0;
     if (index < 0) index += count + 1;
     return index >= 1 && index <= count ? (uint32_t)index - 1 : LOOKS_NONE;
@@ -229,7 +228,7 @@ static uint32_t uv_of(const struct reader *r, const char *at)
 static bool read_corner(struct reader *r, char **at)
 {
     char *end, *start = *at;
-    const int count = r->surface->vertex_count;
+    const int count = r->builder->surface->vertex_count;
     long index = strtol(start, &end, 10);
     if (index < 0) index += count + 1;
     bool written = end > start && (*end == '/' || strchr(" \t\r", *end));
@@ -239,7 +238,7 @@ static bool read_corner(struct reader *r, char **at)
         snprintf(what, sizeof what, "a vertex from 1 to %d", count);
         return expected(r, what, start);
     }
-    builder_corner(&r->builder, (uint32_t)index - 1, uv_of(r, end));
+    builder_corner(r->builder, (uint32_t)index - 1, uv_of(r, end));
     *at = skip_space(end + strcspn(end, " \t\r"));
     return true;
 }
@@ -250,7 +249,7 @@ static bool read_face(struct reader *r, char *at)
     while (*at) {
         if (!read_corner(r, &at)) return false;
     }
-    const int count = builder_end_polygon(&r->builder);
+    const int count = builder_end_polygon(r->builder);
     if (count < 3)
         return fail(r->error, ERROR_INPUT, "%s:%d: expected a face of three corners or more, got %d", r->path,
                     r->lines.number, count);
@@ -264,38 +263,24 @@ static bool read_line(struct reader *r)
     if ((at = behind(l, "v"))) return read_vertex(r, at);
     if ((at = behind(l, "vt"))) return read_uv(r, at);
     if ((at = behind(l, "f"))) return read_face(r, at);
-    if ((at = behind(l, "usemtl"))) r->builder.material = builder_material(&r->builder, name_at(at));
-    if ((at = behind(l, "mtllib"))) read_materials(r->path, name_at(at), &r->builder);
+    if ((at = behind(l, "usemtl"))) r->builder->material = builder_material(r->builder, name_at(at));
+    if ((at = behind(l, "mtllib"))) read_materials(r->path, name_at(at), r->builder);
     return true;
 }
 
-static bool read_lines(struct reader *r, const char *text, long size)
+bool obj_read(struct words *words, struct surface_builder *builder)
 {
-    while (next_line(&r->lines)) {
-        if (r->lines.number % TELLING == 0) stage_tell("reading the mesh", r->lines.next - text, size);
-        if (!read_line(r)) return false;
+    const char *text = words->at;
+    const long size = words->end - text;
+    struct reader r = {
+        .path = words->path, .lines = {.next = words->at, .joins = true}, .builder = builder, .error = words->error};
+    if (memchr(text, '\0', (size_t)size))
+        return fail(r.error, ERROR_INPUT, "%s: expected the text of an OBJ file, got binary data", r.path);
+    while (next_line(&r.lines)) {
+        if (r.lines.number % TELLING == 0) stage_tell("reading the mesh", r.lines.next - text, size);
+        if (!read_line(&r)) return false;
     }
     return true;
-}
-
-bool obj_read(const char *path, struct surface *surface, struct error *error)
-{
-    char *text;
-    size_t size;
-    *surface = (struct surface){0};
-    if (!file_read(path, FILE_LIMIT, &text, &size, error)) return false;
-    struct reader reader = {.path = path,
-                            .lines = {.next = text, .joins = true},
-                            .surface = surface,
-                            .builder = {.surface = surface, .material = LOOKS_NONE},
-                            .error = error};
-    bool done = strlen(text) == size
-                    ? read_lines(&reader, text, (long)size)
-                    : fail(error, ERROR_INPUT, "%s: expected the text of an OBJ file, got binary data", path);
-    free(text);
-    if (done) return builder_finish(&reader.builder, path, "an OBJ file", error);
-    surface_free(surface);
-    return false;
 }
 
 // --- writing
@@ -346,6 +331,7 @@ static bool write_library(const char *obj_path, const struct looks *looks, char 
     file_output_discard(&output);
     return false;
 }
+
 static void write_vertices(FILE *out, const struct surface *s)
 {
     for (int i = 0; i < s->vertex_count; i++) {

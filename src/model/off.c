@@ -1,15 +1,13 @@
 /// Reads OFF surfaces: OFF, and with colours (C), normals (N) and texture coordinates (ST) at vertices, as text.
-#include "base/file.h"
 #include "model/surface_readers.h"
 #include <limits.h>
-#include <stdlib.h>
 #include <string.h>
 
-enum { FILE_LIMIT = 1 << 30, NUMBERS_MAX = 16 };
+enum { NUMBERS_MAX = 16 };
 
 struct off {
-    struct words words;
-    struct surface_builder builder;
+    struct words *words;
+    struct surface_builder *builder;
     bool colors, normals, uvs;
     long vertices, faces;
 };
@@ -18,7 +16,7 @@ struct off {
 static bool read_head(struct off *o)
 {
     long edges;
-    struct words *w = &o->words;
+    struct words *w = o->words;
     if (words_more(w) && strchr("SCNO", *w->at)) {
         const char *end = w->at + strcspn(w->at, " \t\r\n");
         o->uvs = strncmp(w->at, "ST", 2) == 0;
@@ -42,20 +40,20 @@ static bool read_vertex(struct off *o)
     double numbers[NUMBERS_MAX];
     const int color = o->normals ? 6 : 3, uv = color + (o->colors ? 4 : 0), count = uv + (o->uvs ? 2 : 0);
     for (int i = 0; i < count; i++) {
-        if (!words_number(&o->words, "a coordinate of a vertex", &numbers[i])) return false;
+        if (!words_number(o->words, "a coordinate of a vertex", &numbers[i])) return false;
     }
-    builder_vertex(&o->builder, numbers);
+    builder_vertex(o->builder, numbers);
     if (o->colors) {
         double *rgb = numbers + color;
         const bool bytes = rgb[0] > 1 || rgb[1] > 1 || rgb[2] > 1;
         for (int k = 0; k < 3; k++) rgb[k] = rgb[k] / (bytes ? 255 : 1);
         const double *wrong = builder_wrong_color(rgb);
         if (wrong)
-            return fail(o->words.error, ERROR_INPUT, "%s:%d: expected a colour from 0 to 1, or to 255, got %g",
-                        o->words.path, o->words.line, *wrong * (bytes ? 255 : 1));
-        builder_color(&o->builder, rgb);
+            return fail(o->words->error, ERROR_INPUT, "%s:%d: expected a colour from 0 to 1, or to 255, got %g",
+                        o->words->path, o->words->line, *wrong * (bytes ? 255 : 1));
+        builder_color(o->builder, rgb);
     }
-    if (o->uvs) builder_uv(&o->builder, numbers[uv], 1 - numbers[uv + 1]);
+    if (o->uvs) builder_uv(o->builder, numbers[uv], 1 - numbers[uv + 1]);
     return true;
 }
 
@@ -63,41 +61,27 @@ static bool read_vertex(struct off *o)
 static bool read_face(struct off *o)
 {
     long corners, vertex;
-    if (!words_integer(&o->words, "a face of three corners or more", 1, INT_MAX, &corners)) return false;
+    if (!words_integer(o->words, "a face of three corners or more", 1, INT_MAX, &corners)) return false;
     for (long i = 0; i < corners; i++) {
-        if (!words_integer(&o->words, "the number of a vertex, from 0", 0, o->builder.surface->vertex_count - 1,
+        if (!words_integer(o->words, "the number of a vertex, from 0", 0, o->builder->surface->vertex_count - 1,
                            &vertex))
             return false;
-        builder_corner(&o->builder, (uint32_t)vertex, o->uvs ? (uint32_t)vertex : LOOKS_NONE);
+        builder_corner(o->builder, (uint32_t)vertex, o->uvs ? (uint32_t)vertex : LOOKS_NONE);
     }
-    builder_end_polygon(&o->builder);
-    words_skip_line(&o->words);
+    builder_end_polygon(o->builder);
+    words_skip_line(o->words);
     return true;
 }
 
-static bool read_all(struct off *o)
+bool off_read(struct words *words, struct surface_builder *builder)
 {
-    if (!read_head(o)) return false;
-    for (long i = 0; i < o->vertices && !o->builder.failed; i++) {
-        if (!read_vertex(o)) return false;
+    struct off o = {.words = words, .builder = builder};
+    if (!read_head(&o)) return false;
+    for (long i = 0; i < o.vertices && !builder->failed; i++) {
+        if (!read_vertex(&o)) return false;
     }
-    for (long i = 0; i < o->faces && !o->builder.failed; i++) {
-        if (!read_face(o)) return false;
+    for (long i = 0; i < o.faces && !builder->failed; i++) {
+        if (!read_face(&o)) return false;
     }
     return true;
-}
-
-bool off_read(const char *path, struct surface *surface, struct error *error)
-{
-    char *text;
-    size_t size;
-    *surface = (struct surface){0};
-    if (!file_read(path, FILE_LIMIT, &text, &size, error)) return false;
-    struct off off = {.words = {.path = path, .at = text, .line = 1, .error = error},
-                      .builder = {.surface = surface, .material = LOOKS_NONE}};
-    const bool done = read_all(&off);
-    free(text);
-    if (done) return builder_finish(&off.builder, path, "an OFF file", error);
-    surface_free(surface);
-    return false;
 }

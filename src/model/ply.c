@@ -3,15 +3,13 @@
 /// A header lists elements, and the properties of each: one number, or a list with its length before it. Everything is read in the file's
 /// order, number by number; of vertices x y z, colours and texture coordinates are kept, of faces the list of their vertices, and of
 /// triangle strips the triangles.
-#include "base/file.h"
 #include "base/npy.h"
 #include "model/surface_readers.h"
 #include <limits.h>
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
-enum { FILE_LIMIT = 1 << 30, ELEMENTS_MAX = 16, PROPERTIES_MAX = 64 };
+enum { ELEMENTS_MAX = 16, PROPERTIES_MAX = 64 };
 enum format { TEXT, LITTLE, BIG };
 enum role { OTHER, X, Y, Z, RED, GREEN, BLUE, U, V, ROLES, CORNERS, STRIPS };
 
@@ -30,12 +28,11 @@ struct element {
 };
 
 struct ply {
-    struct words words; ///< of the header, then of the text
-    const char *end;
+    struct words *words; ///< of the header, then of the text
     enum format format;
     struct element elements[ELEMENTS_MAX];
     int element_count;
-    struct surface_builder builder;
+    struct surface_builder *builder;
 };
 
 static const struct {
@@ -104,7 +101,7 @@ static bool read_property(struct words *w, struct element *e)
 
 static bool read_element(struct ply *ply)
 {
-    struct words *w = &ply->words;
+    struct words *w = ply->words;
     if (ply->element_count == ELEMENTS_MAX) return words_expected(w, "at most 16 elements");
     struct element *e = &ply->elements[ply->element_count++];
     words_more(w);
@@ -133,7 +130,7 @@ static bool read_format(struct ply *ply)
 {
     static const char *const formats[] = {
         [TEXT] = "ascii", [LITTLE] = "binary_little_endian", [BIG] = "binary_big_endian"};
-    struct words *w = &ply->words;
+    struct words *w = ply->words;
     for (int f = TEXT; f <= BIG; f++) {
         ply->format = (enum format)f;
         if (words_take(w, formats[f])) {
@@ -146,7 +143,7 @@ static bool read_format(struct ply *ply)
 
 static bool read_header(struct ply *ply)
 {
-    struct words *w = &ply->words;
+    struct words *w = ply->words;
     if (!words_take(w, "ply"))
         return fail(w->error, ERROR_INPUT, "%s: expected a PLY file, got something else", w->path);
     while (!words_take(w, "end_header")) {
@@ -173,10 +170,10 @@ static bool read_header(struct ply *ply)
 /// Infinity and NaN are refused where they are `used`; properties that are left out may have them.
 static bool next_number(struct ply *ply, enum number_type type, bool used, double *number)
 {
-    struct words *w = &ply->words;
+    struct words *w = ply->words;
     if (ply->format == TEXT) return words_number(w, "a number", number);
     const int size = number_size(type);
-    if (ply->end - w->at < size)
+    if (w->end - w->at < size)
         return fail(w->error, ERROR_INPUT, "%s: expected as many numbers as the header says, got the end of the file",
                     w->path);
     *number = number_read(w->at, type, ply->format == BIG);
@@ -214,26 +211,26 @@ static void add_to_strip(struct surface_builder *b, struct strip *strip, long ve
 
 static bool read_list(struct ply *ply, const struct property *p, bool textured)
 {
-    struct words *w = &ply->words;
+    struct words *w = ply->words;
     struct strip strip = {0};
     double length, number;
     if (!next_number(ply, p->count_type, true, &length)) return false;
     if (length < 0) return fail(w->error, ERROR_INPUT, "%s: expected the length of a list, got %g", w->path, length);
-    for (double i = 0; i < length && !ply->builder.failed; i++) {
+    for (double i = 0; i < length && !ply->builder->failed; i++) {
         if (!next_number(ply, p->type, p->role != OTHER, &number)) return false;
         if (p->role != CORNERS && p->role != STRIPS) continue;
-        const int vertices = ply->builder.surface->vertex_count;
+        const int vertices = ply->builder->surface->vertex_count;
         const bool ends = p->role == STRIPS && number < 0;
         if (!ends && !(number >= 0 && number < vertices && number == floor(number)))
             return fail(w->error, ERROR_INPUT, "%s: expected a vertex from 0 to %d, got %g", w->path, vertices - 1,
                         number);
         if (p->role == STRIPS) {
-            add_to_strip(&ply->builder, &strip, (long)number);
+            add_to_strip(ply->builder, &strip, (long)number);
         } else {
-            builder_corner(&ply->builder, (uint32_t)number, textured ? (uint32_t)number : LOOKS_NONE);
+            builder_corner(ply->builder, (uint32_t)number, textured ? (uint32_t)number : LOOKS_NONE);
         }
     }
-    if (p->role == CORNERS) builder_end_polygon(&ply->builder);
+    if (p->role == CORNERS) builder_end_polygon(ply->builder);
     return true;
 }
 
@@ -256,15 +253,15 @@ static bool read_one(struct ply *ply, const struct element *e, bool textured)
         }
     }
     if (!e->vertices) return true;
-    builder_vertex(&ply->builder, values + X);
+    builder_vertex(ply->builder, values + X);
     if (e->has[RED] && e->has[GREEN] && e->has[BLUE]) {
         const double *wrong = builder_wrong_color(values + RED);
         if (wrong)
-            return fail(ply->words.error, ERROR_INPUT, "%s: vertex %d: expected a colour from 0 to 1, got %g",
-                        ply->words.path, ply->builder.surface->vertex_count, *wrong);
-        builder_color(&ply->builder, values + RED);
+            return fail(ply->words->error, ERROR_INPUT, "%s: vertex %d: expected a colour from 0 to 1, got %g",
+                        ply->words->path, ply->builder->surface->vertex_count, *wrong);
+        builder_color(ply->builder, values + RED);
     }
-    if (e->has[U] && e->has[V]) builder_uv(&ply->builder, values[U], 1 - values[V]);
+    if (e->has[U] && e->has[V]) builder_uv(ply->builder, values[U], 1 - values[V]);
     return true;
 }
 
@@ -274,25 +271,15 @@ static bool read_elements(struct ply *ply)
     for (int i = 0; i < ply->element_count; i++) {
         const struct element *e = &ply->elements[i];
         if (e->vertices) textured = e->has[U] && e->has[V];
-        for (long n = 0; n < e->count && e->property_count > 0 && !ply->builder.failed; n++) {
+        for (long n = 0; n < e->count && e->property_count > 0 && !ply->builder->failed; n++) {
             if (!read_one(ply, e, textured)) return false;
         }
     }
     return true;
 }
 
-bool ply_read(const char *path, struct surface *surface, struct error *error)
+bool ply_read(struct words *words, struct surface_builder *builder)
 {
-    char *data;
-    size_t size;
-    *surface = (struct surface){0};
-    if (!file_read(path, FILE_LIMIT, &data, &size, error)) return false;
-    struct ply ply = {.words = {.path = path, .at = data, .line = 1, .error = error},
-                      .end = data + size,
-                      .builder = {.surface = surface, .material = LOOKS_NONE}};
-    const bool done = read_header(&ply) && read_elements(&ply);
-    free(data);
-    if (done) return builder_finish(&ply.builder, path, "a PLY file", error);
-    surface_free(surface);
-    return false;
+    struct ply ply = {.words = words, .builder = builder};
+    return read_header(&ply) && read_elements(&ply);
 }

@@ -1,11 +1,10 @@
 /// Reads STL surfaces, text or binary. Triangles stand alone in the file: corners at the same place become one vertex.
-#include "base/file.h"
+#include "base/npy.h"
 #include "model/surface_readers.h"
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
-enum { FILE_LIMIT = 1 << 30, HEAD = 84, FACET = 50, COUNT_AT = 80, CORNERS_AT = 12 };
+enum { HEAD = 84, FACET = 50, COUNT_AT = 80, CORNERS_AT = 12 };
 
 static void add_corner(struct surface_builder *b, const double position[3])
 {
@@ -39,25 +38,17 @@ static bool read_text(struct words *w, struct surface_builder *b)
     return true;
 }
 
-static uint32_t word_at(const unsigned char *bytes)
-{
-    return (uint32_t)bytes[0] | (uint32_t)bytes[1] << 8 | (uint32_t)bytes[2] << 16 | (uint32_t)bytes[3] << 24;
-}
-
-static bool read_binary(const char *path, const unsigned char *bytes, uint32_t count, struct surface_builder *b,
-                        struct error *error)
+static bool read_binary(struct words *w, uint32_t count, struct surface_builder *b)
 {
     for (uint32_t i = 0; i < count && !b->failed; i++) {
         for (int corner = 0; corner < 3; corner++) {
+            const char *at = w->at + HEAD + (size_t)i * FACET + CORNERS_AT + 12 * corner;
             double p[3];
             for (int k = 0; k < 3; k++) {
-                const uint32_t word = word_at(bytes + HEAD + (size_t)i * FACET + CORNERS_AT + 12 * corner + 4 * k);
-                float number;
-                memcpy(&number, &word, sizeof number);
-                if (!isfinite(number))
-                    return fail(error, ERROR_INPUT, "%s: facet %u: expected finite numbers, got NaN or infinity",
-                                path, i);
-                p[k] = (double)number;
+                p[k] = number_read(at + 4 * k, NUMBER_FLOAT32, false);
+                if (!isfinite(p[k]))
+                    return fail(w->error, ERROR_INPUT, "%s: facet %u: expected finite numbers, got NaN or infinity",
+                                w->path, i);
             }
             add_corner(b, p);
         }
@@ -67,33 +58,22 @@ static bool read_binary(const char *path, const unsigned char *bytes, uint32_t c
 }
 
 /// Text begins with "solid"; but so do some binary files, whose size tells them.
-static bool read_either(const char *path, char *data, size_t size, struct surface_builder *b, struct error *error)
+static bool read_either(struct words *w, struct surface_builder *b)
 {
-    const unsigned char *bytes = (const unsigned char *)data;
-    const uint32_t count = size >= HEAD ? word_at(bytes + COUNT_AT) : 0;
+    const size_t size = (size_t)(w->end - w->at);
+    const uint32_t count = size >= HEAD ? (uint32_t)number_read(w->at + COUNT_AT, NUMBER_UINT32, false) : 0;
     const size_t whole = HEAD + (size_t)count * FACET;
-    const bool solid = strncmp(data + strspn(data, " \t\r\n"), "solid", 5) == 0;
-    if (solid && size != whole) {
-        struct words words = {.path = path, .at = data, .line = 1, .error = error};
-        return read_text(&words, b);
-    }
-    if (size < HEAD) return fail(error, ERROR_INPUT, "%s: expected an STL file, got something else", path);
-    if (whole <= size) return read_binary(path, bytes, count, b, error);
-    return fail(error, ERROR_INPUT, "%s: expected %zu bytes for %u facets, got %zu: it is not whole", path, whole,
-                count, size);
+    const bool solid = strncmp(w->at + strspn(w->at, " \t\r\n"), "solid", 5) == 0;
+    if (solid && size != whole) return read_text(w, b);
+    if (size < HEAD) return fail(w->error, ERROR_INPUT, "%s: expected an STL file, got something else", w->path);
+    if (whole <= size) return read_binary(w, count, b);
+    return fail(w->error, ERROR_INPUT, "%s: expected %zu bytes for %u facets, got %zu: it is not whole", w->path,
+                whole, count, size);
 }
 
-bool stl_read(const char *path, struct surface *surface, struct error *error)
+bool stl_read(struct words *words, struct surface_builder *builder)
 {
-    char *data;
-    size_t size;
-    *surface = (struct surface){0};
-    if (!file_read(path, FILE_LIMIT, &data, &size, error)) return false;
-    struct surface_builder builder = {.surface = surface, .material = LOOKS_NONE};
-    const bool done = read_either(path, data, size, &builder, error);
-    free(data);
-    if (done && !builder.failed) builder_merge(&builder);
-    if (done) return builder_finish(&builder, path, "an STL file", error);
-    surface_free(surface);
-    return false;
+    const bool done = read_either(words, builder);
+    if (done && !builder->failed) builder_merge(builder);
+    return done;
 }

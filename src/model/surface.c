@@ -7,20 +7,31 @@
 #include <stdlib.h>
 #include <string.h>
 
+enum { FILE_LIMIT = 1 << 30 };
+
 bool surface_read(const char *path, struct surface *surface, struct error *error)
 {
     static const struct {
-        const char *end;
-        bool (*read)(const char *path, struct surface *surface, struct error *error);
-    } formats[] = {{".stl", stl_read},
-                   {".ply", ply_read},
-                   {".off", off_read},
-                   {".glb", gltf_surface_read},
-                   {".gltf", gltf_surface_read}};
-    for (size_t i = 0; i < sizeof formats / sizeof *formats; i++) {
-        if (path_has_end(path, formats[i].end)) return formats[i].read(path, surface, error);
-    }
-    return obj_read(path, surface, error);
+        const char *end, *kind;
+        bool (*read)(struct words *words, struct surface_builder *builder);
+    } formats[] = {{".stl", "an STL file", stl_read},           {".ply", "a PLY file", ply_read},
+                   {".off", "an OFF file", off_read},           {".glb", "a glTF file", gltf_surface_read},
+                   {".gltf", "a glTF file", gltf_surface_read}, {"", "an OBJ file", obj_read}};
+    struct words words = {.path = path, .line = 1, .error = error};
+    struct surface_builder builder = {.surface = surface, .material = LOOKS_NONE};
+    char *data = NULL;
+    size_t size = 0;
+    int i = 0;
+    *surface = (struct surface){0};
+    while (formats[i].end[0] && !path_has_end(path, formats[i].end)) i++;
+    if (formats[i].read != gltf_surface_read && !file_read(path, FILE_LIMIT, &data, &size, error)) return false;
+    words.at = data;
+    words.end = data + size;
+    const bool done = formats[i].read(&words, &builder);
+    free(data);
+    if (done) return builder_finish(&builder, path, formats[i].kind, error);
+    surface_free(surface);
+    return false;
 }
 
 uint8_t *surface_used_vertices(const struct surface *surface)

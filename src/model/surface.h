@@ -51,14 +51,12 @@ static inline bool triangle_repeats(const uint32_t corner[3])
 
 /// Reads a mesh: OBJ, STL, PLY, OFF, .glb or .gltf by the end of its name (any other is read as OBJ). Vertices keep the file's order and
 /// number, which is what simulations refer to; those of an STL file, which has none, are the different places in the order of their first
-/// appearance. Errors name the file, the place in it, what was expected and what was found. Memory is bounded by the file's size.
-bool surface_read(const char *path, struct surface *surface, struct error *error);
-
-/// Reads an OBJ file. Vertices keep the file's order and number, which is what simulations refer to. Polygons become fans
-/// of triangles; of materials names, Kd, d and map_Kd (PNG, JPEG) are read; normals, groups and lines are ignored. Colours after a
+/// appearance. Polygons become fans of triangles. Errors name the file, the place in it, what was expected and what was found. Memory is
+/// bounded by the file's size.
+///
+/// Of an OBJ file's materials names, Kd, d and map_Kd (PNG, JPEG) are read; normals, groups and lines are ignored. Colours after a
 /// position (`v x y z r g b`) are sRGB in the file, as Blender writes them; a vertex without one is white if others have one.
-/// Errors say "file:line: expected …, got …".
-bool obj_read(const char *path, struct surface *surface, struct error *error);
+bool surface_read(const char *path, struct surface *surface, struct error *error);
 
 /// Writes positions, colours, texture coordinates and polygons with 9 digits, so that they read back equal (colours but for a float's
 /// last bit), and where there are materials NAME.mtl and their pictures NAME-1.png … beside it. Atomic, like file_output_commit().

@@ -8,7 +8,7 @@
 
 // A surface that grows while a file is read.
 
-/// All zero but `surface` at first.
+/// All zero but `surface` and `material`, LOOKS_NONE, at first.
 struct surface_builder {
     struct surface *surface;                                                     ///< an empty one at first
     uint32_t material;                                                           ///< of the next triangles
@@ -45,12 +45,13 @@ bool builder_finish(struct surface_builder *builder, const char *path, const cha
 /// Makes one of vertices at the same place, which have no colours.
 void builder_merge(struct surface_builder *builder);
 
-// The words of a text file, one after the other.
+// A file being read, and the words of a text, one after the other.
 
 struct words {
     const char *path;
-    char *at; ///< ends in a NUL
-    int line; ///< from 1
+    char *at;        ///< ends in a NUL
+    const char *end; ///< where that NUL is
+    int line;        ///< from 1
     struct error *error;
 };
 
@@ -68,13 +69,14 @@ bool words_integer(struct words *words, const char *what, long least, long most,
 /// "file:line: expected …, got …"
 bool words_expected(struct words *words, const char *what);
 
-// The readers of single formats, for surface_read().
+// The readers of single formats, for surface_read(), which finishes what they build.
 
-bool ply_read(const char *path, struct surface *surface, struct error *error);
-bool stl_read(const char *path, struct surface *surface, struct error *error);
-bool off_read(const char *path, struct surface *surface, struct error *error);
+bool obj_read(struct words *words, struct surface_builder *builder);
+bool ply_read(struct words *words, struct surface_builder *builder);
+bool stl_read(struct words *words, struct surface_builder *builder);
+bool off_read(struct words *words, struct surface_builder *builder);
 
-/// All that a .glb or .gltf file shows, at rest.
-bool gltf_surface_read(const char *path, struct surface *surface, struct error *error);
+/// All that a .glb or .gltf file shows, at rest. It opens the file itself.
+bool gltf_surface_read(struct words *words, struct surface_builder *builder);
 
 #endif

@@ -7,7 +7,7 @@
 static char *saved(const char *path, size_t *size, struct error *error)
 {
     struct surface surface;
-    if (!obj_read(path, &surface, error)) return NULL;
+    if (!surface_read(path, &surface, error)) return NULL;
     free(surface.color);
     surface.color = NULL;
     fuzz_expect(obj_write(path, &surface, error), error->text);
