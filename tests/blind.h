@@ -16,7 +16,6 @@ struct blind {
 /// Starts the app on a scene file (NULL: the built-in one) as app_run() does headless, 1280 × 720.
 static inline void blind_open(struct blind *blind, const char *scene)
 {
-    struct error error = {0};
     struct app *app = &blind->app;
     *blind = (struct blind){.options = {.scene = scene, .headless = true}};
     app->options = &blind->options;
@@ -25,11 +24,11 @@ static inline void blind_open(struct blind *blind, const char *scene)
     app->platform = platform_blind(1280, 720, 1);
     app->table.history = history_create(NULL);
     app->table.models = models_create();
-    if (!font_init(&error)) fail_msg("%s", error.text);
+    assert_done(font_init(&error));
     app->table.editor = editor_create();
     app_connect_files(app);
     app_resize(app, 1280, 720, 1);
-    if (!app_open(app, scene, &error)) fail_msg("%s", error.text);
+    assert_done(app_open(app, scene, &error));
 }
 
 static inline void blind_close(struct blind *blind) { app_free(&blind->app); }
@@ -52,5 +51,22 @@ static inline void blind_frame(struct blind *blind)
     if (blind->app.failed) fail_msg("%s", blind->app.error.text);
     blind->app.quit = false;
 }
+
+/// Presses and releases a key.
+static inline void blind_send_key(struct blind *blind, int key, unsigned mods)
+{
+    blind_send(blind, (struct event){.kind = EVENT_KEY, .key = key, .action = ACTION_PRESS, .mods = mods});
+    blind_send(blind, (struct event){.kind = EVENT_KEY, .key = key, .action = ACTION_RELEASE, .mods = mods});
+}
+
+/// The same, and a frame.
+static inline void blind_key(struct blind *blind, int key, unsigned mods)
+{
+    blind_send_key(blind, key, mods);
+    blind_frame(blind);
+}
+
+/// A test of the app as `opens` starts it: BLIND_TEST(name, blind_open(b, NULL)) { … }.
+#define BLIND_TEST(name, opens) TEST_OF(struct blind, b, opens, blind_close(b), name)
 
 #endif

@@ -5,6 +5,7 @@
 
 #include "app/personal.h"
 #include "app/settings.h"
+#include "base/file.h"
 #include "ui/theme.h"
 #include <unistd.h>
 
@@ -25,15 +26,6 @@ static void end(struct blind *blind)
 {
     personal_end(&blind->app, false);
     blind_close(blind);
-}
-
-static struct settings *stored(void)
-{
-    struct error error = {0};
-    struct settings *settings = settings_load(folder_path("wiggly/settings"), &error);
-    assert_non_null(settings);
-    assert_int_equal(error.kind, ERROR_NONE);
-    return settings;
 }
 
 TEST_WITH(folder_make, folder_remove, looks_and_panels_are_as_they_were_left)
@@ -68,9 +60,7 @@ TEST_WITH(folder_make, folder_remove, the_welcome_comes_once)
         assert_int_equal(dialogs_is_welcoming(blind.app.table.editor->dialogs), run < 2);
         blind_frame(&blind);
         if (run == 1) {
-            blind_send(&blind, (struct event){.kind = EVENT_KEY, .key = KEY_ESCAPE, .action = ACTION_PRESS});
-            blind_send(&blind, (struct event){.kind = EVENT_KEY, .key = KEY_ESCAPE, .action = ACTION_RELEASE});
-            blind_frame(&blind);
+            blind_key(&blind, KEY_ESCAPE, 0);
             personal_update(&blind.app);
         }
         end(&blind);
@@ -80,8 +70,7 @@ TEST_WITH(folder_make, folder_remove, the_welcome_comes_once)
 static const char *new_file(const char *name)
 {
     const char *path = folder_path(name);
-    FILE *file = fopen(path, "w");
-    assert_true(file && fclose(file) == 0);
+    assert_done(file_write_atomic(path, "", 0, &error));
     return path;
 }
 
@@ -102,7 +91,9 @@ TEST_WITH(folder_make, folder_remove, files_and_the_last_export_are_remembered)
     assert_int_equal(personal_recent(&blind.app, files, DIALOG_MAX_RECENT), 2);
     assert_string_equal(files[0].path, folder_path("two.json"));
     assert_string_equal(files[1].path, folder_path("one.json"));
-    struct settings *settings = stored();
+    struct error error;
+    struct settings *settings = settings_load(folder_path("wiggly/settings"), &error);
+    assert_true(settings && error.kind == ERROR_NONE);
     export_memory_read(settings, "", &memory);
     settings_free(settings);
     assert_string_equal(memory.path, request.path);
@@ -116,17 +107,15 @@ TEST_WITH(folder_make, folder_remove, files_and_the_last_export_are_remembered)
 TEST_WITH(folder_make, folder_remove, settings_that_cannot_be_stored_are_said)
 {
     struct blind blind;
-    char command[256];
     start(&blind);
     personal_note_file(&blind.app, new_file("one.json"));
     const struct message *message = &blind.app.table.editor->core.message;
     assert_false(message->is_error);
-    snprintf(command, sizeof command, "rm -rf %s/wiggly && touch %s/wiggly", folder, folder);
-    assert_int_equal(system(command), 0);
+    assert_int_equal(rename(folder_path("wiggly"), folder_path("was")), 0);
+    new_file("wiggly");
     personal_note_file(&blind.app, new_file("two.json"));
     assert_true(message->is_error);
     assert_non_null(strstr(message->text, "settings"));
-    snprintf(command, sizeof command, "rm %s/wiggly", folder);
-    assert_int_equal(system(command), 0);
+    assert_int_equal(unlink(folder_path("wiggly")), 0);
     end(&blind);
 }

@@ -1,17 +1,10 @@
 /// Larger type, and presenting: how large everything is, panels that slide away, keys as they are pressed.
 #include "blind.h"
+#include "documents.h"
 #include "inside.h"
-#include "scene/load.h"
 #include "shown.h"
 
 static struct core *core_of(struct blind *b) { return &b->app.table.editor->core; }
-
-static void key(struct blind *b, int which, unsigned mods)
-{
-    blind_send(b, (struct event){.kind = EVENT_KEY, .key = which, .mods = mods, .action = ACTION_PRESS});
-    blind_send(b, (struct event){.kind = EVENT_KEY, .key = which, .mods = mods, .action = ACTION_RELEASE});
-    blind_frame(b);
-}
 
 /// The pointer in device pixels, as a window at scale 1 sends it.
 static void point(struct blind *b, float x, float y)
@@ -25,172 +18,143 @@ static void frames(struct blind *b, int count)
     for (int i = 0; i < count; i++) blind_frame(b);
 }
 
-static char *saved(struct blind *b)
-{
-    size_t size;
-    return scene_print(b->app.table.document, &size);
-}
-
 enum { CTRL_SHIFT = MOD_CTRL | MOD_SHIFT };
 
-TEST(test_keys_make_everything_larger_and_smaller)
+BLIND_TEST(test_keys_make_everything_larger_and_smaller, blind_open(b, NULL))
 {
-    struct blind b;
-    blind_open(&b, NULL);
-    key(&b, '=', CTRL_SHIFT);
-    assert_near(core_of(&b)->layout.window.w, 1024, 1e-3);
-    assert_near(core_of(&b)->scale, 1.25, 1e-6);
-    assert_non_null(shown_text(b.app.table.editor, "125 %"));
-    key(&b, KEY_F8, 0);
-    assert_near(core_of(&b)->scale, 1.5, 1e-6);
-    key(&b, '-', CTRL_SHIFT);
-    key(&b, '-', CTRL_SHIFT);
-    key(&b, KEY_F8, MOD_SHIFT);
-    assert_near(core_of(&b)->scale, 0.75, 1e-6);
-    key(&b, '-', CTRL_SHIFT);
-    assert_near(core_of(&b)->scale, 0.75, 1e-6);
-    key(&b, '0', CTRL_SHIFT);
-    assert_near(core_of(&b)->layout.window.w, 1280, 1e-3);
-    blind_close(&b);
+    blind_key(b, '=', CTRL_SHIFT);
+    assert_near(core_of(b)->layout.window.w, 1024, 1e-3);
+    assert_near(core_of(b)->scale, 1.25, 1e-6);
+    assert_non_null(shown_text(b->app.table.editor, "125 %"));
+    blind_key(b, KEY_F8, 0);
+    assert_near(core_of(b)->scale, 1.5, 1e-6);
+    blind_key(b, '-', CTRL_SHIFT);
+    blind_key(b, '-', CTRL_SHIFT);
+    blind_key(b, KEY_F8, MOD_SHIFT);
+    assert_near(core_of(b)->scale, 0.75, 1e-6);
+    blind_key(b, '-', CTRL_SHIFT);
+    assert_near(core_of(b)->scale, 0.75, 1e-6);
+    blind_key(b, '0', CTRL_SHIFT);
+    assert_near(core_of(b)->layout.window.w, 1280, 1e-3);
 }
 
 /// What is on the screen under the pointer stays there.
-TEST(test_the_pointer_means_the_same_place)
+BLIND_TEST(test_the_pointer_means_the_same_place, blind_open(b, NULL))
 {
-    struct blind b;
-    blind_open(&b, NULL);
-    point(&b, 640, 300);
-    key(&b, '=', CTRL_SHIFT);
-    assert_near(core_of(&b)->pointer_x, 512, 1e-3);
-    point(&b, 700, 500);
-    assert_near(core_of(&b)->pointer_x, 560, 1e-3);
-    assert_near(core_of(&b)->pointer_y, 400, 1e-3);
-    blind_close(&b);
+    point(b, 640, 300);
+    blind_key(b, '=', CTRL_SHIFT);
+    assert_near(core_of(b)->pointer_x, 512, 1e-3);
+    point(b, 700, 500);
+    assert_near(core_of(b)->pointer_x, 560, 1e-3);
+    assert_near(core_of(b)->pointer_y, 400, 1e-3);
 }
 
-TEST(test_a_scale_without_room_is_refused)
+BLIND_TEST(test_a_scale_without_room_is_refused, blind_open(b, NULL))
 {
-    struct blind b;
-    blind_open(&b, NULL);
-    for (int i = 0; i < 4; i++) key(&b, '=', CTRL_SHIFT);
-    assert_near(core_of(&b)->scale, 1.5, 1e-6);
-    assert_string_equal(core_of(&b)->message.text, "175 % needs a window of 1330 × 700, not 1280 × 720");
-    blind_frame(&b);
-    assert_non_null(shown_text(b.app.table.editor, core_of(&b)->message.text)); // in full
-    blind_send(&b, (struct event){.kind = EVENT_SIZE, .x = 1000, .y = 600, .scale = 1});
-    blind_frame(&b);
-    assert_near(core_of(&b)->scale, 1.25, 1e-6);
-    blind_send(&b, (struct event){.kind = EVENT_SIZE, .x = 2560, .y = 1440, .scale = 2});
-    blind_frame(&b);
-    assert_near(core_of(&b)->scale, 3, 1e-6);
-    assert_near(core_of(&b)->layout.window.w, 2560 / 1.5, 1e-2);
-    blind_close(&b);
+    for (int i = 0; i < 4; i++) blind_key(b, '=', CTRL_SHIFT);
+    assert_near(core_of(b)->scale, 1.5, 1e-6);
+    assert_string_equal(core_of(b)->message.text, "175 % needs a window of 1330 × 700, not 1280 × 720");
+    blind_frame(b);
+    assert_non_null(shown_text(b->app.table.editor, core_of(b)->message.text)); // in full
+    blind_send(b, (struct event){.kind = EVENT_SIZE, .x = 1000, .y = 600, .scale = 1});
+    blind_frame(b);
+    assert_near(core_of(b)->scale, 1.25, 1e-6);
+    blind_send(b, (struct event){.kind = EVENT_SIZE, .x = 2560, .y = 1440, .scale = 2});
+    blind_frame(b);
+    assert_near(core_of(b)->scale, 3, 1e-6);
+    assert_near(core_of(b)->layout.window.w, 2560 / 1.5, 1e-2);
 }
 
-TEST(test_the_status_line_changes_it_by_mouse)
+BLIND_TEST(test_the_status_line_changes_it_by_mouse, blind_open(b, NULL))
 {
-    struct blind b;
-    blind_open(&b, NULL);
     const float x = 6 + 24 + 42 + 44 + 64 + 20;
     struct event press = {.kind = EVENT_BUTTON, .action = ACTION_PRESS, .clicks = 1, .x = x, .y = 708};
-    blind_send(&b, press);
-    blind_frame(&b);
-    assert_near(core_of(&b)->scale, 1.25, 1e-6);
+    blind_send(b, press);
+    blind_frame(b);
+    assert_near(core_of(b)->scale, 1.25, 1e-6);
     press.button = BUTTON_RIGHT; // the bar is higher now
     press.x *= 1.25f;
-    blind_send(&b, press);
-    blind_frame(&b);
-    assert_near(core_of(&b)->scale, 1, 1e-6);
-    blind_close(&b);
+    blind_send(b, press);
+    blind_frame(b);
+    assert_near(core_of(b)->scale, 1, 1e-6);
 }
 
-TEST(test_presenting_gives_the_stage_the_window_and_changes_nothing)
+BLIND_TEST(test_presenting_gives_the_stage_the_window_and_changes_nothing, blind_open(b, NULL))
 {
-    struct blind b;
-    blind_open(&b, NULL);
-    char *before = saved(&b);
-    const struct layout normal = core_of(&b)->layout;
-    key(&b, KEY_F5, 0);
-    frames(&b, 30);
-    const struct layout *l = &core_of(&b)->layout;
-    assert_near(core_of(&b)->scale, 1.5, 1e-6);
+    char *before = text_of_document(b->app.table.document);
+    const struct layout normal = core_of(b)->layout;
+    blind_key(b, KEY_F5, 0);
+    frames(b, 30);
+    const struct layout *l = &core_of(b)->layout;
+    assert_near(core_of(b)->scale, 1.5, 1e-6);
     assert_near(l->stage.w * 1.5f, 1280, 1);
     assert_near(l->stage.h * 1.5f, 720, 1);
     assert_true(l->inspector.x >= l->window.w && l->curves.y >= l->window.h);
-    assert_null(shown_text(b.app.table.editor, "Splines"));
-    key(&b, KEY_ESCAPE, 0);
-    assert_memory_equal(&core_of(&b)->layout, &normal, sizeof normal);
-    assert_non_null(shown_text(b.app.table.editor, "Splines"));
-    assert_true(history_is_saved(b.app.table.history));
-    char *after = saved(&b);
-    assert_string_equal(before, after);
+    assert_null(shown_text(b->app.table.editor, "Splines"));
+    blind_key(b, KEY_ESCAPE, 0);
+    assert_memory_equal(&core_of(b)->layout, &normal, sizeof normal);
+    assert_non_null(shown_text(b->app.table.editor, "Splines"));
+    assert_true(history_is_saved(b->app.table.history));
+    assert_prints(b->app.table.document, before);
     free(before);
-    free(after);
-    blind_close(&b);
 }
 
-TEST(test_a_panel_comes_when_the_pointer_does)
+BLIND_TEST(test_a_panel_comes_when_the_pointer_does, blind_open(b, NULL))
 {
-    struct blind b;
-    blind_open(&b, NULL);
-    key(&b, KEY_F5, 0);
-    frames(&b, 30);
-    point(&b, 600, 300);
-    frames(&b, 30);
-    assert_near(core_of(&b)->presenter.side, 0, 0);
-    point(&b, 1275, 300);
-    frames(&b, 3);
-    assert_true(core_of(&b)->presenter.side > 0 && core_of(&b)->presenter.side < 1);
-    frames(&b, 30);
-    assert_near(core_of(&b)->presenter.side, 1, 0);
-    assert_near(core_of(&b)->presenter.below, 0, 0);
-    assert_near(core_of(&b)->layout.stage.w * 1.5f, 1280, 1); // it lies over the stage
-    point(&b, 1000, 300);
-    frames(&b, 30);
-    assert_near(core_of(&b)->presenter.side, 1, 0);
-    point(&b, 300, 715);
-    frames(&b, 30);
-    assert_near(core_of(&b)->presenter.side, 0, 0);
-    assert_near(core_of(&b)->presenter.below, 1, 0);
-    key(&b, KEY_TAB, 0);
-    frames(&b, 30);
-    assert_near(core_of(&b)->presenter.side, 1, 0);
-    assert_true(core_of(&b)->layout.stage.w < core_of(&b)->layout.inspector.x + 1); // now they share the window
-    key(&b, KEY_TAB, 0);
-    frames(&b, 30);
-    assert_near(core_of(&b)->presenter.below, 0, 0);
-    key(&b, KEY_F5, 0);
-    assert_false(core_of(&b)->presenter.on);
-    blind_close(&b);
+    blind_key(b, KEY_F5, 0);
+    frames(b, 30);
+    point(b, 600, 300);
+    frames(b, 30);
+    assert_near(core_of(b)->presenter.side, 0, 0);
+    point(b, 1275, 300);
+    frames(b, 3);
+    assert_true(core_of(b)->presenter.side > 0 && core_of(b)->presenter.side < 1);
+    frames(b, 30);
+    assert_near(core_of(b)->presenter.side, 1, 0);
+    assert_near(core_of(b)->presenter.below, 0, 0);
+    assert_near(core_of(b)->layout.stage.w * 1.5f, 1280, 1); // it lies over the stage
+    point(b, 1000, 300);
+    frames(b, 30);
+    assert_near(core_of(b)->presenter.side, 1, 0);
+    point(b, 300, 715);
+    frames(b, 30);
+    assert_near(core_of(b)->presenter.side, 0, 0);
+    assert_near(core_of(b)->presenter.below, 1, 0);
+    blind_key(b, KEY_TAB, 0);
+    frames(b, 30);
+    assert_near(core_of(b)->presenter.side, 1, 0);
+    assert_true(core_of(b)->layout.stage.w < core_of(b)->layout.inspector.x + 1); // now they share the window
+    blind_key(b, KEY_TAB, 0);
+    frames(b, 30);
+    assert_near(core_of(b)->presenter.below, 0, 0);
+    blind_key(b, KEY_F5, 0);
+    assert_false(core_of(b)->presenter.on);
 }
 
-TEST(test_what_is_pressed_is_shown_and_fades)
+BLIND_TEST(test_what_is_pressed_is_shown_and_fades, blind_open(b, NULL))
 {
-    struct blind b;
-    blind_open(&b, NULL);
-    key(&b, 'Z', MOD_CTRL);
-    assert_null(shown_text(b.app.table.editor, "Ctrl + Z"));
-    key(&b, KEY_F5, 0);
-    assert_non_null(shown_text(b.app.table.editor, "F5"));
-    key(&b, 'Z', MOD_CTRL);
-    assert_non_null(shown_text(b.app.table.editor, "Ctrl + Z"));
-    assert_non_null(shown_text(b.app.table.editor, "Nothing to undo")); // the status line is away or on its way
-    key(&b, 'Z', MOD_CTRL);
-    assert_non_null(shown_text(b.app.table.editor, "Ctrl + Z ×2"));
-    frames(&b, 120);
-    assert_null(shown_text(b.app.table.editor, "Ctrl + Z ×2"));
+    blind_key(b, 'Z', MOD_CTRL);
+    assert_null(shown_text(b->app.table.editor, "Ctrl + Z"));
+    blind_key(b, KEY_F5, 0);
+    assert_non_null(shown_text(b->app.table.editor, "F5"));
+    blind_key(b, 'Z', MOD_CTRL);
+    assert_non_null(shown_text(b->app.table.editor, "Ctrl + Z"));
+    assert_non_null(shown_text(b->app.table.editor, "Nothing to undo")); // the status line is away or on its way
+    blind_key(b, 'Z', MOD_CTRL);
+    assert_non_null(shown_text(b->app.table.editor, "Ctrl + Z ×2"));
+    frames(b, 120);
+    assert_null(shown_text(b->app.table.editor, "Ctrl + Z ×2"));
     struct event event = {
         .kind = EVENT_BUTTON, .button = BUTTON_RIGHT, .action = ACTION_PRESS, .clicks = 1, .x = 600, .y = 300};
-    blind_send(&b, event);
-    blind_frame(&b);
-    assert_non_null(shown_text(b.app.table.editor, "right-click"));
-    point(&b, 640, 300);
-    assert_non_null(shown_text(b.app.table.editor, "right drag"));
-    frames(&b, 120);
-    assert_non_null(shown_text(b.app.table.editor, "right drag"));
+    blind_send(b, event);
+    blind_frame(b);
+    assert_non_null(shown_text(b->app.table.editor, "right-click"));
+    point(b, 640, 300);
+    assert_non_null(shown_text(b->app.table.editor, "right drag"));
+    frames(b, 120);
+    assert_non_null(shown_text(b->app.table.editor, "right drag"));
     event.action = ACTION_RELEASE;
-    blind_send(&b, event);
-    frames(&b, 120);
-    assert_null(shown_text(b.app.table.editor, "right drag"));
-    blind_close(&b);
+    blind_send(b, event);
+    frames(b, 120);
+    assert_null(shown_text(b->app.table.editor, "right drag"));
 }

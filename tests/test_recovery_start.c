@@ -1,24 +1,30 @@
 /// A start after a kill: which scene is on the table, and what is offered.
 #include "blind.h"
+#include "documents.h"
 #include "inside.h"
 
 #include "app/personal.h"
 #include "app/recovery.h"
 #include "base/file.h"
 #include "folder.h"
-#include "scene/load.h"
 #include "shown.h"
 #include <fcntl.h>
 #include <sys/stat.h>
 #include <time.h>
 #include <unistd.h>
 
+/// A scene of one spline.
+static const char *scene_of(const char *name)
+{
+    static char text[160];
+    snprintf(text, sizeof text,
+             "{\"wiggly\": 1, \"frames\": [0, 48], \"splines\": [{\"name\": \"%s\", \"knots\": []}]}", name);
+    return text;
+}
+
 static void write_scene(const char *path, const char *name)
 {
-    FILE *file = fopen(path, "w");
-    assert_non_null(file);
-    fprintf(file, "{\"wiggly\": 1, \"frames\": [0, 48], \"splines\": [{\"name\": \"%s\", \"knots\": []}]}", name);
-    assert_int_equal(fclose(file), 0);
+    assert_done(file_write_atomic(path, scene_of(name), strlen(scene_of(name)), &error));
 }
 
 static const char *state_folder(void)
@@ -32,15 +38,11 @@ static const char *state_folder(void)
 static void leave(const char *original, const char *name)
 {
     struct recovery_slot slot;
-    struct error error;
-    char text[160];
-    snprintf(text, sizeof text,
-             "{\"wiggly\": 1, \"frames\": [0, 48], \"splines\": [{\"name\": \"%s\", \"knots\": []}]}", name);
-    if (!recovery_claim(state_folder(), &slot, &error)) fail_msg("%s", error.text);
-    struct document *document = scene_parse("left", text, strlen(text), NULL, &error);
+    assert_done(recovery_claim(state_folder(), &slot, &error));
+    struct document *document = document_of_text(scene_of(name));
     struct scene_origin origin = {0};
     snprintf(origin.path, sizeof origin.path, "%s", original);
-    assert_true(scene_save_for(document, slot.path, &origin, &error));
+    assert_done(scene_save_for(document, slot.path, &origin, &error));
     document_destroy(document);
     recovery_release(&slot);
 }
@@ -69,15 +71,6 @@ static void end(struct blind *blind)
     blind_close(blind);
 }
 
-static void press_with(struct blind *blind, int key, unsigned mods)
-{
-    blind_send(blind, (struct event){.kind = EVENT_KEY, .key = key, .action = ACTION_PRESS, .mods = mods});
-    blind_send(blind, (struct event){.kind = EVENT_KEY, .key = key, .action = ACTION_RELEASE, .mods = mods});
-    blind_frame(blind);
-}
-
-static void press(struct blind *blind, int key) { press_with(blind, key, 0); }
-
 static const struct dialog *dialog(const struct blind *blind) { return &blind->app.table.editor->dialogs->dialog; }
 static const char *message(const struct blind *blind) { return blind->app.table.editor->core.message.text; }
 static const char *shown(const struct blind *blind) { return blind->app.table.document->splines[0]->name; }
@@ -92,8 +85,8 @@ TEST_WITH(forget_all, NULL, another_scene_is_shown_and_the_work_kept)
     start(&blind, folder_path("asked.json"));
     assert_int_equal(dialog(&blind)->kind, DIALOG_NONE);
     assert_non_null(strstr(message(&blind), "Unsaved work on walk.json is kept"));
-    press(&blind, KEY_ENTER);
-    press(&blind, 'R');
+    blind_key(&blind, KEY_ENTER, 0);
+    blind_key(&blind, 'R', 0);
     assert_string_equal(shown(&blind), "asked for");
     end(&blind);
     assert_true(recovery_find(state_folder(), NULL, &entry, NULL));
@@ -111,7 +104,7 @@ TEST_WITH(forget_all, NULL, its_own_work_is_offered)
     assert_int_equal(dialog(&blind)->kind, DIALOG_RECOVER);
     assert_non_null(strstr(dialog(&blind)->question.title, "asked.json"));
     assert_string_equal(shown(&blind), "asked for");
-    press(&blind, 'R');
+    blind_key(&blind, 'R', 0);
     assert_string_equal(shown(&blind), "recovered");
     assert_string_equal(app_path(&blind.app), folder_path("asked.json"));
     end(&blind);
@@ -124,7 +117,7 @@ TEST_WITH(forget_all, NULL, discarded_work_of_its_own_leaves_the_other)
     leave(folder_path("asked.json"), "recovered");
     leave("", "untitled");
     start(&blind, folder_path("asked.json"));
-    press(&blind, 'D');
+    blind_key(&blind, 'D', 0);
     assert_int_equal(dialog(&blind)->kind, DIALOG_NONE);
     assert_non_null(strstr(message(&blind), "Unsaved work on an untitled scene is kept"));
     assert_string_equal(shown(&blind), "asked for");
@@ -145,7 +138,7 @@ TEST_WITH(forget_all, NULL, a_relative_name_is_the_same_scene)
     assert_int_equal(fchdir(here), 0);
     close(here);
     start(&blind, folder_path("asked.json"));
-    press(&blind, 'R');
+    blind_key(&blind, 'R', 0);
     assert_string_equal(shown(&blind), "recovered");
     assert_string_equal(app_path(&blind.app), folder_path("asked.json"));
     end(&blind);
@@ -157,9 +150,7 @@ TEST_WITH(forget_all, NULL, a_long_path_is_the_same_scene)
     struct blind blind;
     struct recovery_entry entry;
     char path[PATH_LIMIT], *text;
-    size_t size;
-    struct error error;
-    size_t length = (size_t)snprintf(path, sizeof path, "%s", folder);
+    size_t size, length = (size_t)snprintf(path, sizeof path, "%s", folder);
     for (int i = 0; i < 9; i++) {
         length += (size_t)snprintf(path + length, sizeof path - length, "/%0200d\n", i);
         assert_int_equal(mkdir(path, 0700), 0);
@@ -168,18 +159,18 @@ TEST_WITH(forget_all, NULL, a_long_path_is_the_same_scene)
     write_scene(path, "as saved");
     leave(path, "recovered");
     start(&blind, NULL);
-    press(&blind, 'R');
+    blind_key(&blind, 'R', 0);
     assert_string_equal(app_path(&blind.app), path);
-    press_with(&blind, 'S', MOD_CTRL);
-    press(&blind, 'K'); // what is in the file is not known: keep mine
+    blind_key(&blind, 'S', MOD_CTRL);
+    blind_key(&blind, 'K', 0); // what is in the file is not known: keep mine
     assert_string_equal(message(&blind), "Saved.");
-    if (!file_read(path, 1 << 16, &text, &size, &error)) fail_msg("%s", error.text);
+    assert_done(file_read(path, 1 << 16, &text, &size, &error));
     assert_non_null(strstr(text, "recovered"));
     free(text);
-    press_with(&blind, 'S', MOD_CTRL | MOD_SHIFT);
+    blind_key(&blind, 'S', MOD_CTRL | MOD_SHIFT);
     assert_string_equal(dialog(&blind)->ui.text.bytes, path);
-    press(&blind, KEY_ESCAPE);
-    press_with(&blind, 'E', MOD_CTRL);
+    blind_key(&blind, KEY_ESCAPE, 0);
+    blind_key(&blind, 'E', MOD_CTRL);
     snprintf(path + length, sizeof path - length, "/walk.");
     assert_memory_equal(blind.app.table.editor->dialogs->exporting.memory.path, path, strlen(path));
     end(&blind);
@@ -210,19 +201,19 @@ TEST_WITH(forget_all, NULL, autosave_that_fails_is_marked)
     write_scene(folder_path("asked.json"), "asked for");
     start(&blind, folder_path("asked.json"));
     assert_int_equal(rename(state_folder(), away), 0);
-    press(&blind, 'I');
+    blind_key(&blind, 'I', 0);
     go_on_until(&blind, true);
     assert_non_null(strstr(message(&blind), "Unsaved work has no recovery file"));
-    press(&blind, KEY_ESCAPE);
+    blind_key(&blind, KEY_ESCAPE, 0);
     assert_string_equal(message(&blind), "");
     assert_true(is_marked(&blind));
     assert_int_equal(rename(away, state_folder()), 0);
     go_on_until(&blind, false);
     assert_int_equal(rename(state_folder(), away), 0);
-    press(&blind, KEY_RIGHT);
-    press(&blind, 'I');
+    blind_key(&blind, KEY_RIGHT, 0);
+    blind_key(&blind, 'I', 0);
     go_on_until(&blind, true);
-    press_with(&blind, 'S', MOD_CTRL);
+    blind_key(&blind, 'S', MOD_CTRL);
     go_on_until(&blind, false);
     end(&blind);
     assert_int_equal(rename(away, state_folder()), 0);
@@ -237,7 +228,7 @@ TEST_WITH(forget_all, NULL, no_autosave_is_marked)
     start(&blind, NULL);
     assert_int_equal(setenv("XDG_STATE_HOME", folder_of_state, 1), 0);
     assert_false(is_marked(&blind));
-    press(&blind, 'I');
+    blind_key(&blind, 'I', 0);
     go_on_until(&blind, true);
     end(&blind);
 }

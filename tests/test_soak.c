@@ -16,17 +16,9 @@ static size_t heap_bytes(void)
     return info.uordblks + info.hblkhd;
 }
 
-static void key(int which, unsigned mods)
-{
-    blind_send(&blind, (struct event){.kind = EVENT_KEY, .key = which, .action = ACTION_PRESS, .mods = mods});
-    blind_send(&blind, (struct event){.kind = EVENT_KEY, .key = which, .action = ACTION_RELEASE, .mods = mods});
-}
-
 static void button(enum event_action action, float x, float y)
 {
-    blind_send(
-        &blind,
-        (struct event){.kind = EVENT_BUTTON, .button = BUTTON_LEFT, .action = action, .clicks = 1, .x = x, .y = y});
+    blind_send(&blind, (struct event){.kind = EVENT_BUTTON, .action = action, .clicks = 1, .x = x, .y = y});
 }
 
 static void nothing(int frame) { (void)frame; }
@@ -53,17 +45,17 @@ static void drag_and_give_up(int frame)
         button(ACTION_PRESS, x, y);
     }
     blind_send(&blind, (struct event){.kind = EVENT_POINTER, .x = x + 1, .y = y + (float)(frame % 50)});
-    if (frame % 50 == 48) key(KEY_ESCAPE, 0);
+    if (frame % 50 == 48) blind_send_key(&blind, KEY_ESCAPE, 0);
     if (frame % 50 == 49) button(ACTION_RELEASE, x, y);
 }
 
 /// Dialogs and help that are opened and closed.
 static void open_and_close(int frame)
 {
-    if (frame % 20 == 0) key(KEY_F1, 0);
-    if (frame % 20 == 8) key(KEY_ESCAPE, 0);
-    if (frame % 40 == 10) key('S', MOD_CTRL | MOD_SHIFT);
-    if (frame % 40 == 18) key(KEY_ESCAPE, 0);
+    if (frame % 20 == 0) blind_send_key(&blind, KEY_F1, 0);
+    if (frame % 20 == 8) blind_send_key(&blind, KEY_ESCAPE, 0);
+    if (frame % 40 == 10) blind_send_key(&blind, 'S', MOD_CTRL | MOD_SHIFT);
+    if (frame % 40 == 18) blind_send_key(&blind, KEY_ESCAPE, 0);
 }
 
 static void leaves_nothing(void (*act)(int frame), bool allocates)
