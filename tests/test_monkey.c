@@ -33,7 +33,7 @@ static int name_count;
 /// The document as it was put on the table.
 struct origin {
     unsigned serial;
-    char *text, *folder, *paint; ///< the folder and the file of its paint that it had
+    char *text, *folder;
 };
 
 static const char *keep(const char *name)
@@ -62,20 +62,16 @@ static void copy_scene(const char *name)
 static void make_puppet(void)
 {
     static const char scene[] = "{\"wiggly\": 1, \"frames\": [0, 48], \"splines\": [{\"name\": \"s\", \"frequency\": "
-                                "1, \"knots\": [{\"frame\": 0,"
-                                " \"value\": 1}, {\"frame\": 20, \"value\": -1}]}], \"rigs\": [{\"type\": "
-                                "\"character\", \"model\": \"puppet.glb\","
-                                " \"coordinates\": [{\"name\": \"a\", \"spline\": \"s\"}]}, {\"type\": \"tail\", "
-                                "\"name\": \"t\", \"spline\": \"s\"}]}";
-    struct error error = {0};
+                                "1, \"knots\": [{\"frame\": 0, "
+                                "\"value\": 1}, {\"frame\": 20, \"value\": -1}]}], \"rigs\": [{\"type\": "
+                                "\"character\", \"model\": \"puppet.glb\", "
+                                "\"coordinates\": [{\"name\": \"a\", \"spline\": \"s\"}]}, "
+                                "{\"type\": \"tail\", \"name\": \"t\", \"spline\": \"s\"}]}";
     struct character character = puppet_character(0.2f, 2);
     for (int i = 0; i < character.vertex_count; i++) character.coordinates[0].re[i][1] = 0.2f;
-    if (!character_write("puppet.glb", &character, true, &error)) fail_msg("%s", error.text);
+    assert_done(character_write("puppet.glb", &character, true, &error));
     character_free(&character);
-    FILE *file = fopen("puppet.json", "w");
-    assert_non_null(file);
-    fputs(scene, file);
-    assert_int_equal(fclose(file), 0);
+    assert_done(file_write_atomic("puppet.json", scene, sizeof scene - 1, &error));
     files.good[files.good_count++] = "puppet.json";
 }
 
@@ -89,10 +85,7 @@ static void make_beast(void)
         "\"from\": \"tail_1\", \"to\": \"tail_8\", \"channels\": [{\"spline\": \"wag\", \"axis\": \"side\", "
         "\"gain\": {\"ramp\": [[0, 4], [0.5, 9], [1, 12]]}}]}]}";
     assert_true(beast_write("beast.glb"));
-    FILE *file = fopen("beast.json", "w");
-    assert_non_null(file);
-    fputs(scene, file);
-    assert_int_equal(fclose(file), 0);
+    assert_done(file_write_atomic("beast.json", scene, sizeof scene - 1, &error));
     files.good[files.good_count++] = "beast.json";
     files.good[files.good_count++] = "beast.glb";
 }
@@ -100,15 +93,11 @@ static void make_beast(void)
 /// A scene that is long enough to be solved in the background, and not too long for keep_small().
 static void make_long(void)
 {
-    FILE *file = fopen("long.json", "w");
-    assert_non_null(file);
-    fputs("{\"wiggly\": 1, \"frames\": [0, 3000], \"splines\": [{\"name\": \"s\", \"start\": \"loop\", "
-          "\"frequency\": 1, "
-          "\"knots\": [{\"frame\": 0, \"value\": 1}, {\"frame\": 20, \"value\": -1}]}], \"rigs\": [{\"type\": "
-          "\"tail\", "
-          "\"name\": \"t\", \"spline\": \"s\"}]}",
-          file);
-    assert_int_equal(fclose(file), 0);
+    static const char scene[] = "{\"wiggly\": 1, \"frames\": [0, 3000], \"splines\": [{\"name\": \"s\", \"start\": "
+                                "\"loop\", \"frequency\": 1, "
+                                "\"knots\": [{\"frame\": 0, \"value\": 1}, {\"frame\": 20, \"value\": -1}]}], "
+                                "\"rigs\": [{\"type\": \"tail\", \"name\": \"t\", \"spline\": \"s\"}]}";
+    assert_done(file_write_atomic("long.json", scene, sizeof scene - 1, &error));
 }
 
 /// Copies, as the monkey saves beside what it opens; sorted, so that a seed says which it opens.
@@ -157,20 +146,12 @@ static int remove_files(void **state)
     return chdir("/") != 0 || system(command) != 0;
 }
 
-static char *printed(const struct document *document)
-{
-    size_t size;
-    char *text = scene_print(document, &size);
-    assert_non_null(text);
-    return text;
-}
-
 static void remember(struct origin *origin, const struct document *document)
 {
     free(origin->text);
     free(origin->folder);
     origin->serial = document->serial;
-    origin->text = printed(document);
+    origin->text = text_of_document(document);
     origin->folder = strdup(document->folder ? document->folder : "");
 }
 
@@ -221,8 +202,7 @@ static void hands_off(struct monkey *m)
 {
     m->mods = 0;
     for (int i = 0; i < 6; i++) {
-        blind_send(m->blind, (struct event){.kind = EVENT_KEY, .key = KEY_ESCAPE, .action = ACTION_PRESS});
-        blind_send(m->blind, (struct event){.kind = EVENT_KEY, .key = KEY_ESCAPE, .action = ACTION_RELEASE});
+        blind_send_key(m->blind, KEY_ESCAPE, 0);
         for (int b = 0; b < 3; b++) monkey_button(m, (enum event_button)b, ACTION_RELEASE, 1);
         blind_frame(m->blind);
     }
@@ -237,21 +217,17 @@ static void assert_undone(struct monkey *m, struct origin *origin)
     watch_origin(origin, app);
     const size_t all = history_count(app->table.history), done = history_done(app->table.history);
     core_jump(&app->table.editor->core, all);
-    char *last = printed(app->table.document);
+    char *last = text_of_document(app->table.document);
     core_jump(&app->table.editor->core, 0);
     blind_frame(m->blind);
     if (history_dropped(app->table.history) > 0 || app->table.document->serial != origin->serial)
         remember(origin, app->table.document);
-    char *first = printed(app->table.document);
-    assert_string_equal(first, origin->text);
+    assert_prints(app->table.document, origin->text);
     core_jump(&app->table.editor->core, all);
     blind_frame(m->blind);
-    char *again = printed(app->table.document);
-    assert_string_equal(again, last);
+    assert_prints(app->table.document, last);
     core_jump(&app->table.editor->core, done);
-    free(first);
     free(last);
-    free(again);
 }
 
 /// With absolute paths, wherever the document is from.
@@ -264,12 +240,10 @@ static char *printed_anywhere(const struct document *document)
 /// As when the display is lost: the work is in a recovery file, and that gives the document.
 static void assert_rescued(struct app *app)
 {
-    struct error error = {0};
     if (history_is_saved(app->table.history)) return;
     const char *path = personal_rescue(app);
     assert_non_null(path);
-    struct document *rescued = scene_load(path, NULL, &error);
-    if (!rescued) fail_msg("%s", error.text);
+    struct document *rescued = document_of_file(path);
     char *own = printed_anywhere(app->table.document), *again = printed_anywhere(rescued);
     assert_string_equal(again, own);
     document_destroy(rescued);
@@ -343,11 +317,9 @@ static void say_where(void)
 /// Writes all events to a file as a replay, from here on.
 static void record(struct app *app, const char *path)
 {
-    struct error error = {0};
     struct replay_header header = {
         .width = 1280, .height = 720, .scale = 1, .scene_hash = scene_hash(app->table.document)};
-    app->recording = recording_open(path, &header, &error);
-    if (!app->recording) fail_msg("%s", error.text);
+    assert_done(app->recording = recording_open(path, &header, &error));
 }
 
 /// Starts the app as a window does.

@@ -178,8 +178,8 @@ static void run_app(int (*run)(void *user), bool apart)
     mtx_init(&blind.app.working, mtx_timed);
     personal_start(&blind.app);
     blind_frame(&blind);
-    blind_send(&blind, (struct event){.kind = EVENT_KEY, .key = KEY_RIGHT, .action = ACTION_PRESS});
-    blind_send(&blind, (struct event){.kind = EVENT_KEY, .key = 'I', .action = ACTION_PRESS});
+    blind_send_key(&blind, KEY_RIGHT, 0);
+    blind_send_key(&blind, 'I', 0);
     blind_frame(&blind);
     if (!scene_save(blind.app.table.document, folder_path("expected.json"), NULL)) _exit(9);
     app_rescue_without_memory(&blind.app);

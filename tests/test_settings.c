@@ -19,8 +19,7 @@ static int make_folder(void **state)
 
 static void write_text(const char *file, const char *text)
 {
-    struct error error;
-    if (!file_write_atomic(file, text, strlen(text), &error)) fail_msg("%s", error.text);
+    assert_done(file_write_atomic(file, text, strlen(text), &error));
 }
 
 static struct settings *load(const char *text)
@@ -35,11 +34,10 @@ static struct settings *load(const char *text)
 
 static void assert_saved(const struct settings *settings, const char *expected)
 {
-    struct error error;
     char *data;
     size_t size;
-    assert_true(settings_save(settings, path, &error));
-    assert_true(file_read(path, 1 << 20, &data, &size, &error));
+    assert_done(settings_save(settings, path, &error));
+    assert_done(file_read(path, 1 << 20, &data, &size, &error));
     assert_string_equal(data, expected);
     free(data);
 }

@@ -1,5 +1,6 @@
 /// Saving, keeping unsaved work and exporting, with each system call failing in turn or being the last: what is on disk is old or new,
 /// and whole.
+#include "documents.h"
 #include "folder.h"
 #include "traced.h"
 
@@ -7,13 +8,11 @@
 #include "app/recovery.h"
 #include "base/file.h"
 #include "commands/commands.h"
-#include "scene/load.h"
 #include "scene/paint.h"
 
 #if !defined __x86_64__ || defined __SANITIZE_ADDRESS__ || defined __SANITIZE_THREAD__
-static void all(void **state)
+TEST(all)
 {
-    (void)state;
     print_message("skip - the registers of system calls are x86-64's, and a sanitizer has calls of its own\n");
     skip();
 }
@@ -72,9 +71,7 @@ static int save(void *user)
 /// Scene and paint belong together.
 static int saved_version(void)
 {
-    struct error error = {0};
-    struct document *document = scene_load(work("walk.json"), NULL, &error);
-    if (!document) fail_msg("%s", error.text);
+    struct document *document = document_of_file(work("walk.json"));
     const int version = (int)document->fps;
     const struct paint *paint = document_character(document, 0)->painted;
     assert_non_null(paint);
@@ -86,14 +83,12 @@ static int saved_version(void)
 /// Saves once more: there is the scene then, and nothing that an earlier save left.
 static void save_next(void)
 {
-    struct error error = {0};
-    assert_true(
-        file_write_atomic(folder_path("elsewhere"), "", 0, &error)); // for a program looks once for what is left
-    struct document *document = scene_load(work("walk.json"), NULL, &error);
-    if (!document) fail_msg("%s", error.text);
+    // For a program looks once for what is left.
+    assert_done(file_write_atomic(folder_path("elsewhere"), "", 0, &error));
+    struct document *document = document_of_file(work("walk.json"));
     document_set_path(document, work("walk.json"));
     mark(document, NEXT);
-    if (!scene_save(document, document->path, &error)) fail_msg("%s", error.text);
+    assert_done(scene_save(document, document->path, &error));
     document_destroy(document);
     assert_int_equal(saved_version(), NEXT);
     command("test $(ls -A %s/work | wc -l) = 1 || { ls -A %s/work >&2; false; }");
@@ -139,23 +134,20 @@ static void torment(const char *what, struct job *job)
 
 static struct document *painted_scene(void)
 {
-    struct error error = {0};
     command("rm -rf %s/old %s/work && mkdir %s/work");
-    struct document *document = scene_parse("walk", scene, sizeof scene - 1, NULL, &error);
-    if (!document) fail_msg("%s", error.text);
+    struct document *document = document_of_text(scene);
     document->folder = strdup(work("x"));
     *strrchr(document->folder, '/') = '\0';
     document_set_path(document, work("walk.json"));
     mark(document, OLD);
-    if (!scene_save(document, document->path, &error)) fail_msg("%s", error.text);
+    assert_done(scene_save(document, document->path, &error));
     command("cp -r %s/work %s/old");
     mark(document, NEW);
     return document;
 }
 
-static void a_save_with_paint(void **state)
+TEST(a_save_with_paint)
 {
-    (void)state;
     struct job job = {save, saved_version, save_next, painted_scene(), {0}};
     torment("a save with paint", &job);
     document_destroy(job.document);
@@ -175,17 +167,14 @@ static int autosave(void *user)
 
 static int autosaved_version(void)
 {
-    struct error error = {0};
-    struct document *document = scene_load(work("recovery-1"), NULL, &error);
-    if (!document) fail_msg("%s", error.text);
+    struct document *document = document_of_file(work("recovery-1"));
     const int version = (int)document->fps;
     document_destroy(document);
     return version;
 }
 
-static void unsaved_work(void **state)
+TEST(unsaved_work)
 {
-    (void)state;
     struct job job = {autosave, autosaved_version, NULL, painted_scene(), {.lock = -1}};
     snprintf(job.slot.path, sizeof job.slot.path, "%s", work("recovery-1"));
     command("rm -rf %s/old/*");
@@ -273,9 +262,8 @@ static int exported_version(void)
     return version == NEW && old > 0 ? 0 : version;
 }
 
-static void exports(void **state)
+TEST(exports)
 {
-    (void)state;
     const bool has_ffmpeg = system("ffmpeg -version >/dev/null 2>&1") == 0;
     struct job job = {export_it, exported_version, NULL, NULL, {0}};
     for (size_t o = 0; o < sizeof outputs / sizeof *outputs; o++) {
@@ -288,10 +276,9 @@ static void exports(void **state)
         command("cp -r %s/work %s/old");
         for (int i = 0; i < MOST_FILES && output->files[i]; i++) {
             char path[192];
-            assert_true(file_read(work(output->files[i]), 1 << 24, &expected[i].data, &expected[i].size, NULL));
+            assert_done(file_read(work(output->files[i]), 1 << 24, &expected[i].data, &expected[i].size, &error));
             snprintf(path, sizeof path, "%s/old/%s", folder, output->files[i]);
-            FILE *old = fopen(path, "w");
-            assert_true(old && fputs("old\n", old) >= 0 && fclose(old) == 0);
+            assert_done(file_write_atomic(path, "old\n", 4, &error));
         }
         torment(output->files[output->files[1] ? 1 : 0], &job);
         for (int i = 0; i < MOST_FILES; i++) free(expected[i].data);
@@ -300,16 +287,4 @@ static void exports(void **state)
 }
 #endif
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-#if !defined __x86_64__ || defined __SANITIZE_ADDRESS__ || defined __SANITIZE_THREAD__
-        cmocka_unit_test(all),
-#else
-        cmocka_unit_test(a_save_with_paint),
-        cmocka_unit_test(unsaved_work),
-        cmocka_unit_test(exports),
-#endif
-    };
-    return cmocka_run_group_tests(tests, folder_make, folder_remove);
-}
+int main(void) { return tests_run(folder_make, folder_remove); }
