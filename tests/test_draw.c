@@ -423,11 +423,11 @@ TEST(test_very_long_line_is_drawn_whole)
 TEST(test_reference_frame_does_not_depend_on_the_scene)
 {
     begin();
-    assert_true(draw_reference_ms(draw, WIDTH, HEIGHT, 3) > 0.0);
+    assert_true(draw_reference_ms(draw, WIDTH, HEIGHT, 1.0f, 3) > 0.0);
     draw_read(WIDTH, HEIGHT, expected);
     record_panel(10.0f);
     show();
-    assert_true(draw_reference_ms(draw, WIDTH, HEIGHT, 3) > 0.0);
+    assert_true(draw_reference_ms(draw, WIDTH, HEIGHT, 1.0f, 3) > 0.0);
     draw_read(WIDTH, HEIGHT, pixels);
     assert_memory_equal(pixels, expected, sizeof pixels);
 }

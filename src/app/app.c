@@ -57,7 +57,8 @@ static bool open_log(struct app *app, struct error *error)
     };
     platform_size(app->platform, &header.width, &header.height, &header.scale);
     if (o->log && !header.vsync && app->draw) {
-        header.reference_ms = draw_reference_ms(app->draw, header.width, header.height, REFERENCE_FRAMES);
+        header.reference_ms = draw_reference_ms(app->draw, header.width, header.height,
+                                                header.scale * (float)app->ui_scale_shown, REFERENCE_FRAMES);
         app->lost = true;
         app->last_swap = NAN;
     }

@@ -56,24 +56,12 @@ static void add_edge(struct batch *batch, const struct stretch *s, const float *
     }
 }
 
-static void add_core(struct batch *batch, const struct stretch *s, uint32_t color)
-{
-    const float left = s->x[0], right = s->x[s->count - 1];
-    const uint32_t base = batch_reserve(batch, 4, 6);
-    batch_add(batch, shape_vertex(left, s->core_top, color));
-    batch_add(batch, shape_vertex(right, s->core_top, color));
-    batch_add(batch, shape_vertex(right, s->core_bottom, color));
-    batch_add(batch, shape_vertex(left, s->core_bottom, color));
-    batch_triangle(batch, base, base + 1, base + 2);
-    batch_triangle(batch, base, base + 2, base + 3);
-}
-
 void band_add(struct batch *batch, const float *xy, int count, float width, float scale, uint32_t color)
 {
     const float reach = 0.5f * fmaxf(width * scale, 1.0f);
     for (int first = 0; first + 2 < count;) {
         const struct stretch s = take_stretch(xy, first, count, reach, scale);
-        add_core(batch, &s, color);
+        shape_fill(batch, s.x[0], s.core_top, s.x[s.count - 1], s.core_bottom, color);
         add_edge(batch, &s, s.top, -1.0f, s.core_top, color);
         add_edge(batch, &s, s.bottom, 1.0f, s.core_bottom, color);
         first += s.count - 1; // the next begins with this one's last column

@@ -1,7 +1,7 @@
 /// Collects triangles and draws them in order with few calls.
 #include "draw/batch.h"
 #include "base/need.h"
-#include "draw/timer.h"
+#include "base/progress.h"
 #include <stddef.h>
 #include <stdlib.h>
 
@@ -67,8 +67,6 @@ void batch_begin(struct batch *batch, int width, int height, GLuint texture, int
     batch->scissor = (struct area){0, 0, width, height};
 }
 
-void batch_set_scissor(struct batch *batch, struct area scissor) { batch->scissor = scissor; }
-
 static bool same_area(struct area a, struct area b)
 {
     return a.x0 == b.x0 && a.y0 == b.y0 && a.x1 == b.x1 && a.y1 == b.y1;
@@ -118,14 +116,14 @@ void batch_apply_scissor(struct area area, int height)
 
 static void upload(struct batch *batch)
 {
-    double start = timer_now_us();
+    double start = clock_now();
     size_t vertex_bytes = (size_t)batch->vertex_count * sizeof *batch->vertices;
     size_t index_bytes = (size_t)batch->index_count * sizeof *batch->indices;
     // New storage each time: the driver need not wait until the old one is no longer read.
     glBufferData(GL_ARRAY_BUFFER, (GLsizeiptr)vertex_bytes, batch->vertices, GL_STREAM_DRAW);
     glBufferData(GL_ELEMENT_ARRAY_BUFFER, (GLsizeiptr)index_bytes, batch->indices, GL_STREAM_DRAW);
     batch->uploaded_bytes += (long)(vertex_bytes + index_bytes);
-    batch->upload_us += timer_now_us() - start;
+    batch->upload_us += 1e6 * (clock_now() - start);
 }
 
 static void set_state(const struct batch *batch)

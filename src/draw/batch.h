@@ -35,7 +35,7 @@ struct batch {
     int vertex_count, index_count, part_count;
     unsigned generation; ///< changes with every flush, which invalidates earlier indices
     int width, height;   ///< framebuffer
-    struct area scissor; ///< of what is added now
+    struct area scissor; ///< of what is added from now on: the caller sets it
     GLuint texture;
     int texture_width, texture_height;
     double upload_us;
@@ -47,9 +47,6 @@ void batch_destroy(struct batch *batch);
 
 /// Starts a frame of width × height device pixels with an atlas texture.
 void batch_begin(struct batch *batch, int width, int height, GLuint texture, int texture_width, int texture_height);
-
-/// What follows shows only inside `scissor`.
-void batch_set_scissor(struct batch *batch, struct area scissor);
 
 /// Fills an area with an opaque colour 0xRRGGBBAA, cheaper than triangles where it is large.
 void batch_fill(struct batch *batch, struct area area, uint32_t color);

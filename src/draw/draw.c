@@ -2,6 +2,7 @@
 #include "draw/draw.h"
 #include "base/hash.h"
 #include "base/need.h"
+#include "base/progress.h"
 #include "draw/batch.h"
 #include "draw/damage.h"
 #include "draw/paint.h"
@@ -22,7 +23,6 @@ struct draw {
     struct line_scratch scratch;
     struct damage damage;
     struct gpu_timer timer;
-    struct reference reference;
 };
 
 static bool is_software(const char *renderer)
@@ -68,7 +68,6 @@ struct draw *draw_create(float scale, struct error *error)
         draw_destroy(draw);
         return NULL;
     }
-    reference_create(&draw->reference);
     gpu_timer_create(&draw->timer, is_software(draw_renderer_name()));
     return draw;
 }
@@ -77,7 +76,6 @@ void draw_destroy(struct draw *draw)
 {
     if (!draw) return;
     gpu_timer_destroy(&draw->timer);
-    reference_destroy(&draw->reference);
     stage_target_destroy(&draw->stage_target);
     if (draw->stage) stage_renderer_destroy(draw->stage);
     if (draw->atlas_texture) glDeleteTextures(1, &draw->atlas_texture);
@@ -139,9 +137,9 @@ static void draw_damage(struct draw *draw, const struct draw_input *input, struc
                         struct draw_cost *cost)
 {
     const struct damage *damage = &draw->damage;
-    double start = timer_now_us();
+    double start = clock_now();
     if (input->stage && any_touches(damage, viewport)) stage_upload(draw->stage, input->stage, &cost->uploaded_bytes);
-    cost->upload_us = timer_now_us() - start;
+    cost->upload_us = 1e6 * (clock_now() - start);
 
     gpu_timer_begin(&draw->timer, input->frame);
     struct batch *batch = &draw->batch;
@@ -159,20 +157,20 @@ static void draw_damage(struct draw *draw, const struct draw_input *input, struc
     cost->rectangles = damage->count;
     cost->uploaded_bytes += batch->uploaded_bytes;
     cost->upload_us += batch->upload_us;
-    cost->draw_us = timer_now_us() - start - cost->upload_us;
+    cost->draw_us = 1e6 * (clock_now() - start) - cost->upload_us;
 }
 
 void draw_frame(struct draw *draw, const struct draw_input *input, struct draw_cost *cost)
 {
     *cost = (struct draw_cost){0};
     cost->gpu_us = gpu_timer_take(&draw->timer, &cost->gpu_frame);
-    double start = timer_now_us();
+    double start = clock_now();
     // Where the driver takes no larger texture the old glyphs serve, if less sharply.
     if (input->scale != draw->atlas.scale) load_atlas(draw, input->scale, NULL);
     if (!input->keeps) damage_forget(&draw->damage);
     const struct damage_stage stage = describe_stage(input);
     damage_update(&draw->damage, input->width, input->height, input->scale, input->list, &stage);
-    double compared = timer_now_us() - start;
+    double compared = 1e6 * (clock_now() - start);
     if (draw->damage.count > 0) draw_damage(draw, input, stage.viewport, cost);
     cost->draw_us += compared;
 }
@@ -191,22 +189,6 @@ void draw_read(int width, int height, unsigned char *rgba)
         }
     }
     for (size_t i = 3; i < stride * (size_t)height; i += 4) rgba[i] = 255;
-}
-
-double draw_reference_ms(struct draw *draw, int width, int height, int count)
-{
-    const float scale = draw->atlas.scale;
-    reference_arrange(&draw->reference, (float)width / scale, (float)height / scale);
-    struct draw_input input = {width, height, scale, false, &draw->reference.list, &draw->reference.stage, -1, 1.0f};
-    for (int i = 0; i < count && i < REFERENCE_RUNS_MAX; i++) {
-        struct draw_cost cost;
-        double start = timer_now_us();
-        draw_frame(draw, &input, &cost);
-        glFinish();
-        draw->reference.ms[i] = (timer_now_us() - start) * 1.0e-3;
-    }
-    damage_forget(&draw->damage);
-    return reference_median(&draw->reference, count);
 }
 
 const char *draw_renderer_name(void)

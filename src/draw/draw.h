@@ -44,8 +44,8 @@ void draw_frame(struct draw *draw, const struct draw_input *input, struct draw_c
 void draw_read(int width, int height, unsigned char *rgba);
 
 /// Draws and finishes a fixed reference frame (the same geometry always, nothing from the document) `count` times and
-/// returns the median in milliseconds: the yardstick in the log's header. At most 64 times. Overwrites the framebuffer.
-double draw_reference_ms(struct draw *draw, int width, int height, int count);
+/// returns the median in milliseconds: the yardstick in the log's header. The framebuffer then no longer holds the last frame.
+double draw_reference_ms(struct draw *draw, int width, int height, float scale, int count);
 
 /// Renderer and version strings of the context.
 const char *draw_renderer_name(void);

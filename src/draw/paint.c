@@ -1,11 +1,6 @@
 /// Turns the commands of a draw list, and the glyphs of their texts, into triangles.
 #include "draw/paint.h"
 
-/// A glyph's picture on the screen: corners in device pixels and in the atlas.
-struct quad {
-    float x0, y0, x1, y1, u0, v0, u1, v1;
-};
-
 /// Clips an interval to [low, high], its texels in proportion; false if nothing is left.
 static bool clip_axis(float *from, float *to, float *texel_from, float *texel_to, int low, int high)
 {
@@ -21,22 +16,9 @@ static bool clip_axis(float *from, float *to, float *texel_from, float *texel_to
     return *to > *from;
 }
 
-static void add_quad(struct batch *batch, const struct quad *quad, uint32_t color)
-{
-    const float x[4] = {quad->x0, quad->x1, quad->x1, quad->x0}, y[4] = {quad->y0, quad->y0, quad->y1, quad->y1};
-    const float u[4] = {quad->u0, quad->u1, quad->u1, quad->u0}, v[4] = {quad->v0, quad->v0, quad->v1, quad->v1};
-    uint32_t base = batch_reserve(batch, 4, 6);
-    for (int i = 0; i < 4; i++) {
-        struct batch_vertex vertex = shape_vertex(x[i], y[i], color);
-        vertex.u = u[i];
-        vertex.v = v[i];
-        batch_add(batch, vertex);
-    }
-    batch_triangle(batch, base, base + 1, base + 2);
-    batch_triangle(batch, base, base + 2, base + 3);
-}
-
-void paint_text(const struct painter *painter, const struct draw_command *command, const char *text, struct area clip)
+/// A line of text with its pen at (x, y) logical pixels, cut off at `clip`.
+static void paint_text(const struct painter *painter, const struct draw_command *command, const char *text,
+                       struct area clip)
 {
     float pen = roundf(command->x * painter->scale), baseline = roundf(command->y * painter->scale);
     for (uint32_t c; (c = utf8_next(&text)) != 0;) {
@@ -51,7 +33,7 @@ void paint_text(const struct painter *painter, const struct draw_command *comman
         if (glyph->x1 == glyph->x0) continue;
         if (!clip_axis(&quad.x0, &quad.x1, &quad.u0, &quad.u1, clip.x0, clip.x1)) continue;
         if (!clip_axis(&quad.y0, &quad.y1, &quad.v0, &quad.v1, clip.y0, clip.y1)) continue;
-        add_quad(painter->batch, &quad, command->color);
+        shape_quad(painter->batch, &quad, command->color);
     }
 }
 
@@ -69,9 +51,9 @@ static void choose_scissor(struct batch *batch, const struct draw_command *comma
 {
     bool cuts_itself = command->kind == DRAW_RECT || command->kind == DRAW_TEXT || is_whole(command);
     if (!cuts_itself) {
-        batch_set_scissor(batch, area_intersect(clip, area));
+        batch->scissor = area_intersect(clip, area);
     } else if (!area_contains(batch->scissor, area_intersect(reach, area))) {
-        batch_set_scissor(batch, area);
+        batch->scissor = area;
     }
 }
 
@@ -107,7 +89,7 @@ static void paint_command(const struct painter *painter, const struct drawlist *
 
 void paint_list(const struct painter *painter, const struct drawlist *list, struct area area)
 {
-    batch_set_scissor(painter->batch, area);
+    painter->batch->scissor = area;
     for (int i = 0; i < list->count; i++) {
         const struct draw_command *command = &list->commands[i];
         struct area reach = area_outer(command->bounds, painter->scale);

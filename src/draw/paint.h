@@ -10,6 +10,15 @@
 /// A vertex of a filled shape: full coverage, white texel.
 struct batch_vertex shape_vertex(float x, float y, uint32_t color);
 
+/// A rectangle: corners in device pixels and in the atlas.
+struct quad {
+    float x0, y0, x1, y1, u0, v0, u1, v1;
+};
+
+void shape_quad(struct batch *batch, const struct quad *quad, uint32_t color);
+/// One that is filled, from (x0, y0) to (x1, y1).
+void shape_fill(struct batch *batch, float x0, float y0, float x1, float y1, uint32_t color);
+
 /// The rectangle from (x0, y0) to (x1, y1), device pixels, clipped to `clip`. A partly covered pixel gets exactly
 /// that share of the colour.
 void shape_rect(struct batch *batch, const float corners[4], struct area clip, uint32_t color);
@@ -47,13 +56,6 @@ struct line_style {
 void line_add(struct batch *batch, struct line_scratch *scratch, const float *xy, int count, struct line_style style,
               struct area visible);
 
-// Fewer points for the same picture.
-
-/// Scales points to device pixels and leaves out those that lie within a twentieth of a pixel of the line without them.
-/// Reads until `out` (`capacity` points, at least 3) is full; returns how many were written, and in `read` how many
-/// input points were looked at: where that is less than `count`, the rest begins at point read − 1. Ends are kept.
-int simplify_line(const float *xy, int count, float scale, struct line_point *out, int capacity, int *read);
-
 // The strip of triangles of one line, in device pixels.
 
 /// A line being drawn: its look, and the last pair of vertices, for the next quad to share.
@@ -88,9 +90,5 @@ struct painter {
 
 /// Adds every command that touches `area`, in order, clipped to it.
 void paint_list(const struct painter *painter, const struct drawlist *list, struct area area);
-
-/// Adds a line of text with its pen at (x, y) logical pixels, cut off at `clip`.
-void paint_text(const struct painter *painter, const struct draw_command *command, const char *text,
-                struct area clip);
 
 #endif

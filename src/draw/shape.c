@@ -18,6 +18,26 @@ struct batch_vertex shape_vertex(float x, float y, uint32_t color)
     };
 }
 
+void shape_quad(struct batch *batch, const struct quad *quad, uint32_t color)
+{
+    const float x[4] = {quad->x0, quad->x1, quad->x1, quad->x0}, y[4] = {quad->y0, quad->y0, quad->y1, quad->y1};
+    const float u[4] = {quad->u0, quad->u1, quad->u1, quad->u0}, v[4] = {quad->v0, quad->v0, quad->v1, quad->v1};
+    uint32_t base = batch_reserve(batch, 4, 6);
+    for (int i = 0; i < 4; i++) {
+        struct batch_vertex vertex = shape_vertex(x[i], y[i], color);
+        vertex.u = u[i];
+        vertex.v = v[i];
+        batch_add(batch, vertex);
+    }
+    batch_triangle(batch, base, base + 1, base + 2);
+    batch_triangle(batch, base, base + 2, base + 3);
+}
+
+void shape_fill(struct batch *batch, float x0, float y0, float x1, float y1, uint32_t color)
+{
+    shape_quad(batch, &(struct quad){x0, y0, x1, y1, 0.5f, 0.5f, 0.5f, 0.5f}, color);
+}
+
 /// A run of pixels with equal coverage.
 struct span {
     int from, to;
@@ -44,17 +64,6 @@ static int cut_spans(float from, float to, int clip_from, int clip_to, struct sp
     return count;
 }
 
-static void add_quad(struct batch *batch, struct area area, uint32_t color)
-{
-    uint32_t base = batch_reserve(batch, 4, 6);
-    batch_add(batch, shape_vertex((float)area.x0, (float)area.y0, color));
-    batch_add(batch, shape_vertex((float)area.x1, (float)area.y0, color));
-    batch_add(batch, shape_vertex((float)area.x1, (float)area.y1, color));
-    batch_add(batch, shape_vertex((float)area.x0, (float)area.y1, color));
-    batch_triangle(batch, base, base + 1, base + 2);
-    batch_triangle(batch, base, base + 2, base + 3);
-}
-
 static uint32_t covered(uint32_t color, float coverage)
 {
     return (color & 0xFFFFFF00u) | (uint32_t)lroundf((float)(color & 0xFFu) * coverage);
@@ -72,7 +81,7 @@ void shape_rect(struct batch *batch, const float corners[4], struct area clip, u
             if ((shade & 0xFFu) == 0xFFu && area_pixels(area) >= FILL_PIXELS) {
                 batch_fill(batch, area, shade);
             } else {
-                add_quad(batch, area, shade);
+                shape_fill(batch, (float)area.x0, (float)area.y0, (float)area.x1, (float)area.y1, shade);
             }
         }
     }
