@@ -21,27 +21,9 @@ static const struct {
     [PROGRAM_FLAT] = {"stage_flat.vert", "stage_flat.frag", NULL},
 };
 
-static const char *const uniform_names[UNIFORMS] = {
-    [AT_CLIP_FROM_WORLD] = "clip_from_world",
-    [AT_EYE] = "eye",
-    [AT_KEY_FROM] = "key_from",
-    [AT_EARTH] = "earth",
-    [AT_SEAM] = "seam",
-    [AT_SHADE] = "shade",
-    [AT_BLINK] = "blink",
-    [AT_HEAD_FROM_BIND] = "head_from_bind",
-    [AT_LINE] = "line",
-    [AT_BASE] = "base",
-    [AT_PICTURE] = "picture",
-    [AT_CUTOFF] = "cutoff",
-    [AT_BLENDED] = "blended",
-    [AT_BOTH_SIDES] = "both_sides",
-    [AT_BEND] = "bend",
-    [AT_TOP] = "top",
-    [AT_BOTTOM] = "bottom",
-    [AT_ROWS] = "rows",
-    [AT_SHADOW] = "shadow",
-};
+#define UNIFORM_NAME(constant, name) #name,
+static const char *const uniform_names[UNIFORMS] = {UNIFORM_LIST(UNIFORM_NAME)};
+#undef UNIFORM_NAME
 
 mat4s stage_clip_from_world(const struct stage_view *view)
 {

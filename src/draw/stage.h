@@ -21,28 +21,30 @@ enum stage_program {
 };
 
 /// Named as in the shaders.
-enum uniform {
-    AT_CLIP_FROM_WORLD,
-    AT_EYE,
-    AT_KEY_FROM,
-    AT_EARTH,
-    AT_SEAM,
-    AT_SHADE,
-    AT_BLINK,
-    AT_HEAD_FROM_BIND,
-    AT_LINE,
-    AT_BASE,
-    AT_PICTURE,
-    AT_CUTOFF,
-    AT_BLENDED,
-    AT_BOTH_SIDES,
-    AT_BEND,
-    AT_TOP,
-    AT_BOTTOM,
-    AT_ROWS,
-    AT_SHADOW,
-    UNIFORMS
-};
+#define UNIFORM_LIST(X)                                                                                              \
+    X(AT_CLIP_FROM_WORLD, clip_from_world)                                                                           \
+    X(AT_EYE, eye)                                                                                                   \
+    X(AT_KEY_FROM, key_from)                                                                                         \
+    X(AT_EARTH, earth)                                                                                               \
+    X(AT_SEAM, seam)                                                                                                 \
+    X(AT_SHADE, shade)                                                                                               \
+    X(AT_BLINK, blink)                                                                                               \
+    X(AT_HEAD_FROM_BIND, head_from_bind)                                                                             \
+    X(AT_LINE, line)                                                                                                 \
+    X(AT_BASE, base)                                                                                                 \
+    X(AT_PICTURE, picture)                                                                                           \
+    X(AT_CUTOFF, cutoff)                                                                                             \
+    X(AT_BLENDED, blended)                                                                                           \
+    X(AT_BOTH_SIDES, both_sides)                                                                                     \
+    X(AT_BEND, bend)                                                                                                 \
+    X(AT_TOP, top)                                                                                                   \
+    X(AT_BOTTOM, bottom)                                                                                             \
+    X(AT_ROWS, rows)                                                                                                 \
+    X(AT_SHADOW, shadow)
+
+#define UNIFORM_PLACE(constant, name) constant,
+enum uniform { UNIFORM_LIST(UNIFORM_PLACE) UNIFORMS };
+#undef UNIFORM_PLACE
 
 struct program {
     GLuint name;
