@@ -2,7 +2,7 @@
 #include "beam.h"
 #include "near.h"
 
-void beam_create(struct beam *beam, const int cells[3], double edge)
+static void make_cubes(struct beam *beam, const int cells[3], double edge)
 {
     static const int axes[6][3] = {{0, 1, 2}, {1, 2, 0}, {2, 0, 1}, {0, 2, 1}, {2, 1, 0}, {1, 0, 2}};
     int points[3] = {cells[0] + 1, cells[1] + 1, cells[2] + 1};
@@ -26,20 +26,25 @@ void beam_create(struct beam *beam, const int cells[3], double edge)
     }
 }
 
-void beam_free(struct beam *beam)
+void beam_open(struct beam *beam, const int cells[3], double edge, struct material material, bool clamped)
 {
-    free(beam->rest);
-    free(beam->tet);
+    *beam = (struct beam){0};
+    make_cubes(beam, cells, edge);
+    assert_true(body_create(&beam->body, (const double(*)[3])beam->rest, beam->nodes, (const int(*)[4])beam->tet,
+                            NULL, beam->tets, material, 1000));
+    for (int i = 0; i < beam->nodes; i++) {
+        if (clamped && beam->rest[i][0] < 1e-9) body_pin(&beam->body, i);
+    }
+    body_ready(&beam->body);
 }
 
-void beam_body(const struct beam *beam, struct material material, double density, bool clamped, struct body *body)
+void beam_close(struct beam *beam)
 {
-    assert_true(body_create(body, (const double(*)[3])beam->rest, beam->nodes, (const int(*)[4])beam->tet, NULL,
-                            beam->tets, material, density));
-    for (int i = 0; i < beam->nodes; i++) {
-        if (clamped && beam->rest[i][0] < 1e-9) body_pin(body, i);
-    }
-    body_ready(body);
+    if (beam->integrator.work) integrator_free(&beam->integrator);
+    modes_free(&beam->modes);
+    body_free(&beam->body);
+    free(beam->rest);
+    free(beam->tet);
 }
 
 double beam_random(uint64_t *state)

@@ -2,22 +2,29 @@
 #ifndef TESTS_BEAM_H
 #define TESTS_BEAM_H
 
+#include "near.h"
+
 #include "simulation/body.h"
+#include "simulation/integrator.h"
 #include <stdint.h>
 
-/// A beam along x from the origin. Freed with beam_free().
+/// A beam along x from the origin, its body, and what a test makes of that.
 struct beam {
     int nodes, tets;
     double (*rest)[3];
     int (*tet)[4];
+    struct body body;
+    struct modes modes;
+    struct integrator integrator;
 };
 
-/// cells[0] × cells[1] × cells[2] cubes of edge `edge`.
-void beam_create(struct beam *beam, const int cells[3], double edge);
-void beam_free(struct beam *beam);
+/// cells[0] × cells[1] × cells[2] cubes of edge `edge` and density 1000; the nodes at x = 0 pinned where `clamped`.
+void beam_open(struct beam *beam, const int cells[3], double edge, struct material material, bool clamped);
 
-/// Its body; the nodes at x = 0 pinned where `clamped`.
-void beam_body(const struct beam *beam, struct material material, double density, bool clamped, struct body *body);
+/// Frees what there is of it.
+void beam_close(struct beam *beam);
+
+#define BEAM_TEST(name, opens) TEST_OF(struct beam, beam, opens, beam_close(beam), name)
 
 /// Numbers in −1 … 1, the same in every run.
 double beam_random(uint64_t *state);

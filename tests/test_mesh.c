@@ -47,28 +47,20 @@ static int open_edges(const struct mesh *mesh)
     return open;
 }
 
-TEST(the_body_is_closed)
-{
-    struct mesh mesh = {0};
-    mesh_fox_body(0.030f, 0.0028f, 3, &mesh);
-    assert_int_equal(open_edges(&mesh), 0);
-    mesh_free(&mesh);
-}
+#define MESH_TEST(name, makes) TEST_OF(struct mesh, mesh, makes, mesh_free(mesh), name)
 
-TEST(the_tail_is_open_only_inside_the_body)
+MESH_TEST(the_body_is_closed, mesh_fox_body(0.030f, 0.0028f, 3, mesh)) { assert_int_equal(open_edges(mesh), 0); }
+
+MESH_TEST(the_tail_is_open_only_inside_the_body, mesh_fox_tail(100, 40, mesh))
 {
-    enum { SEGMENTS = 40 };
-    struct mesh mesh = {0};
-    mesh_fox_tail(100, SEGMENTS, &mesh);
-    assert_int_equal(open_edges(&mesh), SEGMENTS);
+    assert_int_equal(open_edges(mesh), 40);
     float start = INFINITY, end = -INFINITY;
-    for (int v = 0; v < mesh.vertex_count; v++) {
-        start = fminf(start, mesh.vertices[v].position[2]);
-        end = fmaxf(end, mesh.vertices[v].position[2]);
+    for (int v = 0; v < mesh->vertex_count; v++) {
+        start = fminf(start, mesh->vertices[v].position[2]);
+        end = fmaxf(end, mesh->vertices[v].position[2]);
     }
     assert_near(end, FOX_TAIL_LENGTH, 1e-5);
     assert_true(start < -0.05f && start > fox_body_lo[2]);
-    mesh_free(&mesh);
 }
 
 /// Lighting and culling rely on it.
@@ -97,13 +89,11 @@ TEST(normals_are_unit_and_agree_with_the_triangles)
 }
 
 /// What an eye sees as round is nowhere cut off by an edge: at 250 pixels a metre not by a pixel.
-TEST(silhouettes_have_no_corners)
+MESH_TEST(silhouettes_have_no_corners, mesh_fox(0, mesh))
 {
-    struct mesh mesh = {0};
-    mesh_fox(0, &mesh);
-    for (int i = 0; i < mesh.index_count; i++) {
-        const struct vertex *a = &mesh.vertices[mesh.indices[i]];
-        const struct vertex *b = &mesh.vertices[mesh.indices[i % 3 == 2 ? i - 2 : i + 1]];
+    for (int i = 0; i < mesh->index_count; i++) {
+        const struct vertex *a = &mesh->vertices[mesh->indices[i]];
+        const struct vertex *b = &mesh->vertices[mesh->indices[i % 3 == 2 ? i - 2 : i + 1]];
         float edge[3], turn[3];
         for (int k = 0; k < 3; k++) {
             edge[k] = a->position[k] - b->position[k];
@@ -111,7 +101,6 @@ TEST(silhouettes_have_no_corners)
         }
         assert_true(sqrtf(dot(edge, edge) * dot(turn, turn)) / 8.0f < 0.004f); // height of the arc over the edge
     }
-    mesh_free(&mesh);
 }
 
 TEST(the_stage_stays_within_its_triangles)
@@ -124,24 +113,19 @@ TEST(the_stage_stays_within_its_triangles)
     }
 }
 
-TEST(the_body_stands_on_the_ground)
+MESH_TEST(the_body_stands_on_the_ground, mesh_fox_body(0.030f, 0.0028f, 3, mesh))
 {
-    struct mesh mesh = {0};
-    mesh_fox_body(0.030f, 0.0028f, 3, &mesh);
     float low = INFINITY;
-    for (int v = 0; v < mesh.vertex_count; v++) low = fminf(low, mesh.vertices[v].position[1]);
+    for (int v = 0; v < mesh->vertex_count; v++) low = fminf(low, mesh->vertices[v].position[1]);
     assert_near(low, -FOX_BASE_HEIGHT, 0.02);
-    mesh_free(&mesh);
 }
 
 /// Where the tail leaves the body both skins coincide, in place, colour and bending, so that no line shows.
-TEST(tail_and_body_meet_smoothly)
+MESH_TEST(tail_and_body_meet_smoothly, mesh_fox_body(0.030f, 0.0028f, 3, mesh))
 {
-    struct mesh mesh = {0};
-    mesh_fox_body(0.030f, 0.0028f, 3, &mesh);
     int seen = 0;
-    for (int v = 0; v < mesh.vertex_count; v++) {
-        const struct vertex *vertex = &mesh.vertices[v];
+    for (int v = 0; v < mesh->vertex_count; v++) {
+        const struct vertex *vertex = &mesh->vertices[v];
         const float z = vertex->position[2];
         if (z < 0.13f || z > 0.2f) continue;
         const float radius = hypotf(vertex->position[0], vertex->position[1]);
@@ -151,18 +135,15 @@ TEST(tail_and_body_meet_smoothly)
         seen++;
     }
     assert_true(seen > 40);
-    mesh_free(&mesh);
 }
 
 /// From the root it swells to about twice as much, and its pointed tip is white.
-TEST(the_brush_swells_and_ends_white)
+MESH_TEST(the_brush_swells_and_ends_white, mesh_fox_tail(100, 40, mesh))
 {
-    struct mesh mesh = {0};
-    mesh_fox_tail(100, 40, &mesh);
     float thickest = 0.0f, at = 0.0f;
     int edges = 0;
     for (int ring = 0; ring < 100; ring++) {
-        const struct vertex *top = &mesh.vertices[ring * 40 + 10];
+        const struct vertex *top = &mesh->vertices[ring * 40 + 10];
         if (top->position[1] > thickest) at = top->position[2];
         thickest = fmaxf(thickest, top->position[1]);
         edges += ring > 0 && (top->mark[MARK_WHITE] > 0) != (top[-40].mark[MARK_WHITE] > 0);
@@ -170,29 +151,25 @@ TEST(the_brush_swells_and_ends_white)
     assert_near(thickest / FOX_TAIL_RADIUS, 2.0, 0.1);
     assert_true(at > 0.5f * FOX_TAIL_LENGTH && at < 0.75f * FOX_TAIL_LENGTH);
     assert_int_equal(edges, 1);
-    const struct vertex *tip = &mesh.vertices[mesh.vertex_count - 1];
+    const struct vertex *tip = &mesh->vertices[mesh->vertex_count - 1];
     assert_true(tip->color[0] > 0.8f && tip->color[2] > 0.75f);
-    mesh_free(&mesh);
 }
 
 /// The stage draws eyes and nose in the head's own space, from the front.
-TEST(the_face_looks_where_the_stage_draws_it)
+MESH_TEST(the_face_looks_where_the_stage_draws_it, mesh_fox(0, mesh))
 {
-    struct mesh mesh = {0};
     float m[16];
     int nose = 0, eyes[2] = {0, 0};
     fox_head_from_bind(m);
-    mesh_fox(0, &mesh);
-    for (int v = 0; v < mesh.vertex_count; v++) {
-        const float *p = mesh.vertices[v].position;
+    for (int v = 0; v < mesh->vertex_count; v++) {
+        const float *p = mesh->vertices[v].position;
         float q[3];
         for (int k = 0; k < 3; k++) q[k] = m[k] * p[0] + m[4 + k] * p[1] + m[8 + k] * p[2] + m[12 + k];
-        if (mesh.vertices[v].color[0] > 0.1f || q[2] > -0.04f) continue;
+        if (mesh->vertices[v].color[0] > 0.1f || q[2] > -0.04f) continue;
         nose += fabsf(q[0]) < 0.02f && fabsf(q[1] + 0.05f) < 0.03f && q[2] < -0.25f;
         eyes[q[0] > 0] += fabsf(fabsf(q[0]) - 0.076f) < 0.03f && fabsf(q[1] - 0.016f) < 0.035f;
     }
     assert_true(nose > 3 && eyes[0] > 3 && eyes[1] > 3);
-    mesh_free(&mesh);
 }
 
 /// Of a part: both have as many vertices and triangles, and each vertex the same place, coat and weights, but for another machine's rounding.
@@ -219,12 +196,11 @@ TEST(the_file_is_what_its_tool_makes)
     char path[512], command[1100];
     const char *build = getenv("B");
     struct gltf made, committed;
-    struct error error = {0};
     snprintf(path, sizeof path, "%s", temporary_path("fox.glb"));
     snprintf(command, sizeof command, "%s/fox_glb '%s' >/dev/null", build ? build : "build", path);
     assert_int_equal(system(command), 0);
-    if (!gltf_read(path, &made, &error) || !gltf_read("assets/models/fox.glb", &committed, &error))
-        fail_msg("%s", error.text);
+    assert_done(gltf_read(path, &made, &error));
+    assert_done(gltf_read("assets/models/fox.glb", &committed, &error));
     assert_int_equal(made.mesh_count, FOX_LEVELS);
     assert_int_equal(made.node_count, committed.node_count);
     for (int m = 0; m < FOX_LEVELS; m++) {

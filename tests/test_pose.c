@@ -1,15 +1,16 @@
 /// The tail's pose: directions and units of the file format, lag (paper, section 7.1), and the default scene's
 /// motion.
+#include "documents.h"
 #include "model/fox.h"
 #include "posed_tail.h"
 #include "rig/shadow.h"
-#include "scene/load.h"
 
 enum { JOINTS = 24, LOOP_FRAMES = 120 };
 
 static const double turn = 6.283185307179586;
 
 static struct channel channels[2];
+static struct pose pose;
 
 /// A straight tail with one channel: lag 6.5 and gain 5 degrees.
 static struct tail plain_tail(enum axis axis)
@@ -26,21 +27,21 @@ static struct tail plain_tail(enum axis axis)
 }
 
 /// Frame n's column c, relative to frame n − 1 (frame −1 is the world).
-static void relative_axis(const struct pose *pose, int n, int c, double out[3])
+static void relative_axis(const struct pose *of, int n, int c, double out[3])
 {
     static const float world[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
-    const float *before = n > 0 ? pose->matrix[n - 1] : world;
+    const float *before = n > 0 ? of->matrix[n - 1] : world;
     for (int k = 0; k < 3; k++) {
         out[k] = 0.0;
-        for (int r = 0; r < 3; r++) out[k] += (double)before[4 * k + r] * (double)pose->matrix[n][4 * c + r];
+        for (int r = 0; r < 3; r++) out[k] += (double)before[4 * k + r] * (double)of->matrix[n][4 * c + r];
     }
 }
 
 /// How far joint n turns about +y, in radians.
-static double side_bend(const struct pose *pose, int n)
+static double side_bend(const struct pose *of, int n)
 {
     double z[3];
-    relative_axis(pose, n, 2, z);
+    relative_axis(of, n, 2, z);
     return atan2(z[0], z[2]);
 }
 
@@ -48,7 +49,6 @@ static wiggly_value oscillation(double phase) { return (wiggly_value){.re = cos(
 
 TEST(side_turns_about_y_and_up_lifts)
 {
-    static struct pose pose;
     const wiggly_value one = {.y = 1.0};
     struct tail tail = plain_tail(AXIS_SIDE);
     pose_tail(&tail, &one, LOOK_WIGGLY, &pose);
@@ -64,7 +64,6 @@ TEST(side_turns_about_y_and_up_lifts)
 
 TEST(rest_bends_without_any_channel)
 {
-    static struct pose pose;
     struct tail tail = plain_tail(AXIS_SIDE);
     tail.channel_count = 0;
     tail.rest.form = ANGLES_EACH;
@@ -78,7 +77,6 @@ TEST(rest_bends_without_any_channel)
 
 TEST(segments_keep_their_length_and_frames_stay_square)
 {
-    static struct pose pose;
     struct tail tail = plain_tail(AXIS_SIDE);
     channels[1] = channels[0];
     channels[1].axis = AXIS_UP;
@@ -104,7 +102,7 @@ TEST(segments_keep_their_length_and_frames_stay_square)
 /// A channel of the displacement leaves the equilibrium, the base's own motion, out; moving takes the whole pose along.
 TEST(displacement_leaves_out_what_the_base_does)
 {
-    static struct pose pose, moved;
+    static struct pose moved;
     struct tail tail = plain_tail(AXIS_SIDE);
     const wiggly_value value = {.y = 7.0, .re = 0.4, .im = 0.3}, apart = {.re = 0.4, .im = 0.3};
     pose_tail(&tail, &apart, LOOK_WIGGLY, &pose);
@@ -136,7 +134,6 @@ TEST(every_joint_lags_behind_the_base)
 
 TEST(the_stiff_look_moves_all_joints_in_phase)
 {
-    static struct pose pose;
     const struct tail tail = plain_tail(AXIS_SIDE);
     const wiggly_value value = oscillation(1.1);
     pose_tail(&tail, &value, LOOK_STIFF, &pose);
@@ -145,7 +142,6 @@ TEST(the_stiff_look_moves_all_joints_in_phase)
 
 TEST(arrays_give_each_joint_its_own_lag_and_gain)
 {
-    static struct pose pose;
     const struct tail tail = plain_tail(AXIS_SIDE);
     channels[0].lag.form = channels[0].gain.form = ANGLES_EACH;
     channels[0].lag.count = channels[0].gain.count = JOINTS;
@@ -159,7 +155,6 @@ TEST(arrays_give_each_joint_its_own_lag_and_gain)
 
 TEST(the_longest_chain_fits)
 {
-    static struct pose pose;
     struct tail tail = plain_tail(AXIS_SIDE);
     tail.joints = TAIL_MAX_JOINTS;
     const wiggly_value value = oscillation(0.3);
@@ -174,34 +169,26 @@ struct scene {
     struct evaluation evaluation;
 };
 
-static int open_scene(void **state)
+static void open_scene(struct scene *scene)
 {
-    static struct scene scene;
-    struct error error = {0};
-    scene.document = scene_load("assets/scenes/tail.json", NULL, &error);
-    if (!scene.document) {
-        print_error("%s\n", error.text);
-        return -1;
-    }
-    evaluation_update(&scene.evaluation, scene.document, false);
-    *state = &scene;
-    return 0;
+    scene->document = document_of_file("assets/scenes/tail.json");
+    evaluation_update(&scene->evaluation, scene->document, false);
 }
 
-static int close_scene(void **state)
+static void close_scene(struct scene *scene)
 {
-    struct scene *scene = *state;
     evaluation_free(&scene->evaluation);
     document_destroy(scene->document);
-    return 0;
 }
 
-static void pose_at(const struct scene *scene, double frame, struct pose *pose)
+#define SCENE_TEST(name) TEST_OF(struct scene, scene, open_scene(scene), close_scene(scene), name)
+
+static void pose_at(const struct scene *scene, double frame, struct pose *out)
 {
     const struct posing posing = {.document = scene->document, .evaluation = &scene->evaluation};
     struct rig_pose posed;
     assert_true(rig_pose(&posing, 0, frame, NULL, &posed));
-    *pose = posed.strand;
+    *out = posed.strand;
 }
 
 static double distance(const float a[3], const float b[3])
@@ -209,9 +196,8 @@ static double distance(const float a[3], const float b[3])
     return sqrt(pow(a[0] - b[0], 2.0) + pow(a[1] - b[1], 2.0) + pow(a[2] - b[2], 2.0));
 }
 
-TEST_WITH(open_scene, close_scene, the_default_scene_is_made_of_few_knots)
+SCENE_TEST(the_default_scene_is_made_of_few_knots)
 {
-    const struct scene *scene = *state;
     int knots = 0;
     for (int s = 0; s < scene->document->spline_count; s++) {
         knots += s < 2 ? scene->document->splines[s]->knot_count : 0; // those of the tail, which come first
@@ -221,10 +207,10 @@ TEST_WITH(open_scene, close_scene, the_default_scene_is_made_of_few_knots)
 }
 
 /// Positions and velocities from frame to frame change no more where the loop closes than elsewhere.
-TEST_WITH(open_scene, close_scene, the_default_scene_loops_without_a_pop)
+SCENE_TEST(the_default_scene_loops_without_a_pop)
 {
     static struct pose poses[LOOP_FRAMES];
-    for (int f = 0; f < LOOP_FRAMES; f++) pose_at(*state, f, &poses[f]);
+    for (int f = 0; f < LOOP_FRAMES; f++) pose_at(scene, f, &poses[f]);
     double step_elsewhere = 0.0, jerk_elsewhere = 0.0, step_at_seam = 0.0, jerk_at_seam = 0.0;
     for (int f = 0; f < LOOP_FRAMES; f++) {
         const int next = (f + 1) % LOOP_FRAMES, after = (f + 2) % LOOP_FRAMES;
@@ -242,17 +228,16 @@ TEST_WITH(open_scene, close_scene, the_default_scene_loops_without_a_pop)
     assert_true(step_at_seam <= step_elsewhere);
     assert_true(jerk_at_seam <= jerk_elsewhere);
     static struct pose last;
-    pose_at(*state, LOOP_FRAMES, &last);
+    pose_at(scene, LOOP_FRAMES, &last);
     assert_near(distance(last.matrix[JOINTS] + 12, poses[0].matrix[JOINTS] + 12), 0.0, 1e-5);
 }
 
-TEST_WITH(open_scene, close_scene, the_default_scene_swings_widely_above_the_ground)
+SCENE_TEST(the_default_scene_swings_widely_above_the_ground)
 {
-    static struct pose pose;
     float low = INFINITY, left = INFINITY, right = -INFINITY;
     for (double f = 0.0; f < LOOP_FRAMES; f += 0.25) {
         float lo[3], hi[3];
-        pose_at(*state, f, &pose);
+        pose_at(scene, f, &pose);
         pose_bounds(&pose, lo, hi);
         for (int n = 0; n < pose.count; n++) {
             for (int k = 0; k < 3; k++) {
@@ -270,7 +255,6 @@ TEST_WITH(open_scene, close_scene, the_default_scene_swings_widely_above_the_gro
 /// The body stands where its height says, on 0 where that follows a spline, wherever it is to the side.
 TEST(the_ground_is_below_the_base)
 {
-    static struct pose pose;
     struct tail tail = plain_tail(AXIS_SIDE);
     tail.channel_count = 0;
     pose_tail(&tail, NULL, LOOK_WIGGLY, &pose);
@@ -288,7 +272,6 @@ TEST(the_ground_is_below_the_base)
 /// Curled into a ring over the back, or into one below the feet: what redraws and cameras go by holds the skin.
 TEST(bounds_hold_a_curled_tail)
 {
-    static struct pose pose;
     static struct rig_pose fox;
     struct models *models = models_create();
     for (int up = 0; up < 2; up++) {
@@ -311,7 +294,6 @@ TEST(bounds_hold_a_curled_tail)
 /// A tail that lies on the ground throws more shadow than one held up; both stay within the room given.
 TEST(shadows_are_stronger_near_the_ground)
 {
-    static struct pose pose;
     struct shadow_blob blobs[32];
     struct tail tail = plain_tail(AXIS_SIDE);
     tail.channel_count = 0;
@@ -336,7 +318,6 @@ TEST(shadows_are_stronger_near_the_ground)
 /// The higher an animal hops, the weaker the shadow under its body: what is left falls to 1 : e in a third of its size.
 TEST(a_hop_takes_the_shadow_along)
 {
-    static struct pose pose;
     static const float overhead[3] = {0, 1, 0};
     struct shadow_blob blobs[2][32];
     struct tail tail = plain_tail(AXIS_SIDE);

@@ -110,29 +110,27 @@ TEST(stress_is_the_slope_of_energy)
 }
 
 /// At rest the stiffness is that of linear elasticity; near it, the derivative of the forces; everywhere, definite.
-TEST(stiffness_is_the_slope_of_forces)
+BEAM_TEST(stiffness_is_the_slope_of_forces,
+          beam_open(beam, (const int[3]){2, 1, 1}, 0.5, material_from(10, 0.3), true))
 {
-    struct beam beam;
-    struct body body;
+    struct body *body = &beam->body;
     uint64_t seed = 3;
-    beam_create(&beam, (const int[3]){2, 1, 1}, 0.5);
-    beam_body(&beam, material_from(10, 0.3), 1, true, &body);
-    const int n = beam.nodes;
+    const int n = beam->nodes;
     double(*x)[3] = calloc((size_t)n, sizeof *x), (*d)[3] = calloc((size_t)n, sizeof *d);
     double(*kd)[3] = calloc((size_t)n, sizeof *kd), (*up)[3] = calloc((size_t)n, sizeof *up);
     double(*down)[3] = calloc((size_t)n, sizeof *down);
     for (int i = 0; i < 3 * n; i++) { // stretched a little, so that no eigenvalue is below zero
-        vec3_flat(d)[i] = body.pinned[i / 3] ? 0 : beam_random(&seed);
-        vec3_flat(x)[i] = 1.1 * vec3_flat(beam.rest)[i] + (body.pinned[i / 3] ? 0 : 0.01 * beam_random(&seed));
+        vec3_flat(d)[i] = body->pinned[i / 3] ? 0 : beam_random(&seed);
+        vec3_flat(x)[i] = 1.1 * vec3_flat(beam->rest)[i] + (body->pinned[i / 3] ? 0 : 0.01 * beam_random(&seed));
     }
-    body_forces(&body, (const double(*)[3])x, up);
-    body_stiffness(&body);
-    blocks_multiply(&body.stiffness, (const double(*)[3])d, kd);
+    body_forces(body, (const double(*)[3])x, up);
+    body_stiffness(body);
+    blocks_multiply(&body->stiffness, (const double(*)[3])d, kd);
     const double step = 1e-6;
     for (int i = 0; i < 3 * n; i++) vec3_flat(x)[i] += step * vec3_flat(d)[i];
-    body_forces(&body, (const double(*)[3])x, up);
+    body_forces(body, (const double(*)[3])x, up);
     for (int i = 0; i < 3 * n; i++) vec3_flat(x)[i] -= 2 * step * vec3_flat(d)[i];
-    body_forces(&body, (const double(*)[3])x, down);
+    body_forces(body, (const double(*)[3])x, down);
     for (int i = 0; i < 3 * n; i++)
         assert_near(vec3_flat(kd)[i], -(vec3_flat(up)[i] - vec3_flat(down)[i]) / (2 * step), 1e-6);
     free(x);
@@ -140,26 +138,22 @@ TEST(stiffness_is_the_slope_of_forces)
     free(kd);
     free(up);
     free(down);
-    body_free(&body);
-    beam_free(&beam);
 }
 
 /// However the nodes lie, dᵀKd ≥ 0, and conjugate gradients find what LAPACKE's Cholesky finds.
-TEST(conjugate_gradients_against_a_dense_solver)
+BEAM_TEST(conjugate_gradients_against_a_dense_solver,
+          beam_open(beam, (const int[3]){3, 2, 1}, 1, material_from(10, 0.45), true))
 {
-    struct beam beam;
-    struct body body;
+    struct body *body = &beam->body;
     uint64_t seed = 4;
-    beam_create(&beam, (const int[3]){3, 2, 1}, 1);
-    beam_body(&beam, material_from(10, 0.45), 1, true, &body);
-    const int n = 3 * beam.nodes;
-    double(*x)[3] = calloc((size_t)beam.nodes, sizeof *x), (*b)[3] = calloc((size_t)beam.nodes, sizeof *b);
+    const int n = 3 * beam->nodes;
+    double(*x)[3] = calloc((size_t)beam->nodes, sizeof *x), (*b)[3] = calloc((size_t)beam->nodes, sizeof *b);
     double *dense = calloc((size_t)(n * n), sizeof *dense), *right = calloc((size_t)n, sizeof *right);
     for (int round = 0; round < 20; round++) {
         for (int i = 0; i < n; i++) vec3_flat(x)[i] = 3 * beam_random(&seed); // half of the elements are inverted
-        body_forces(&body, (const double(*)[3])x, b);
-        body_stiffness(&body);
-        const struct blocks *k = &body.stiffness;
+        body_forces(body, (const double(*)[3])x, b);
+        body_stiffness(body);
+        const struct blocks *k = &body->stiffness;
         memset(dense, 0, (size_t)(n * n) * sizeof *dense);
         for (int row = 0; row < k->rows; row++) {
             for (int p = k->start[row]; p < k->start[row + 1]; p++) {
@@ -170,9 +164,9 @@ TEST(conjugate_gradients_against_a_dense_solver)
             }
         }
         for (int i = 0; i < n; i++) right[i] = vec3_flat(b)[i] = beam_random(&seed);
-        memset(x, 0, (size_t)beam.nodes * sizeof *x);
+        memset(x, 0, (size_t)beam->nodes * sizeof *x);
         assert_int_equal(LAPACKE_dposv(LAPACK_ROW_MAJOR, 'L', n, 1, dense, n, right, 1), 0); // 0: definite
-        int steps = conjugate_solve(&body.scratch, k, (const double(*)[3])b, x, 1e-13, 10000);
+        int steps = conjugate_solve(&body->scratch, k, (const double(*)[3])b, x, 1e-13, 10000);
         assert_in_range(steps, 1, 9999);
         for (int i = 0; i < n; i++) assert_near(vec3_flat(x)[i], right[i], 1e-9);
     }
@@ -180,8 +174,6 @@ TEST(conjugate_gradients_against_a_dense_solver)
     free(b);
     free(dense);
     free(right);
-    body_free(&body);
-    beam_free(&beam);
 }
 
 TEST(eigenvalues_against_lapack)

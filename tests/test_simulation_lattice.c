@@ -57,13 +57,30 @@ static void add_sphere(struct surface *surface, double radius)
     }
 }
 
-static struct lattice lattice_of(const struct surface *surface, int target)
-{
+/// A surface and its lattice, either of which may be there or not.
+struct cut {
+    struct surface surface;
     struct lattice lattice;
-    struct error error = {0};
-    if (!lattice_create(&lattice, surface, target, NAN, "test", &error)) fail_msg("%s", error.text);
-    return lattice;
+};
+
+static void cut_into(struct cut *cut, int target)
+{
+    assert_done(lattice_create(&cut->lattice, &cut->surface, target, NAN, "test", &error));
 }
+
+static void cut_sphere(struct cut *cut, int target)
+{
+    add_sphere(&cut->surface, 1);
+    cut_into(cut, target);
+}
+
+static void cut_free(struct cut *cut)
+{
+    lattice_free(&cut->lattice);
+    surface_free(&cut->surface);
+}
+
+#define CUT_TEST(name, opens) TEST_OF(struct cut, cut, opens, cut_free(cut), name)
 
 static struct solid solid_of(const struct surface *surface)
 {
@@ -79,14 +96,13 @@ static double filled_volume(const struct lattice *lattice)
     return sum;
 }
 
-TEST(voxels_inside_a_sphere)
+CUT_TEST(voxels_inside_a_sphere, add_sphere(&cut->surface, 1))
 {
-    struct surface sphere = {0};
-    add_sphere(&sphere, 1);
-    for (int i = 0; i < sphere.vertex_count; i += 100) add_triangle(&sphere, i, i, i); // of no size: changes nothing
+    for (int i = 0; i < cut->surface.vertex_count; i += 100)
+        add_triangle(&cut->surface, i, i, i); // of no size: changes nothing
     // The grid's planes go through the poles and along edges: hits on vertices and edges are the rule here.
     struct voxels voxels = {.size = {41, 41, 41}, .origin = {-1.025, -1.025, -1.025}, .spacing = 0.05};
-    struct solid solid = solid_of(&sphere);
+    struct solid solid = solid_of(&cut->surface);
     assert_int_equal(solid.open, 0);
     voxels_fill(&voxels, &solid);
     for (int i = 0; i < 41 * 41 * 41; i++) {
@@ -97,141 +113,122 @@ TEST(voxels_inside_a_sphere)
     }
     voxels_free(&voxels);
     solid_free(&solid);
-    surface_free(&sphere);
 }
 
-TEST(a_sphere_in_about_as_many_tetrahedra_as_asked)
+CUT_TEST(a_sphere_in_about_as_many_tetrahedra_as_asked, add_sphere(&cut->surface, 1))
 {
-    struct surface sphere = {0};
-    add_sphere(&sphere, 1);
     for (int target = 500; target <= 8000; target *= 4) {
-        struct lattice lattice = lattice_of(&sphere, target);
-        assert_near((double)lattice.tet_count / target, 1, 0.1);
-        assert_near(filled_volume(&lattice) / (4 / 3.0 * acos(-1.0)), 1, 0.01);
-        assert_int_equal(lattice.part_count, 1);
-        lattice_free(&lattice);
+        cut_into(cut, target);
+        assert_near((double)cut->lattice.tet_count / target, 1, 0.1);
+        assert_near(filled_volume(&cut->lattice) / (4 / 3.0 * acos(-1.0)), 1, 0.01);
+        assert_int_equal(cut->lattice.part_count, 1);
+        lattice_free(&cut->lattice);
     }
-    surface_free(&sphere);
 }
 
 /// The vertices stay where they are at rest, and follow any affine map of the nodes exactly.
-TEST(embedding_reproduces_linear_fields)
+CUT_TEST(embedding_reproduces_linear_fields, add_sphere(&cut->surface, 1))
 {
     static const double map[3][4] = {{1.2, 0.3, -0.1, 5}, {-0.4, 0.8, 0.2, -1}, {0.1, 0.5, 1.5, 2}};
-    struct surface sphere = {0};
-    add_sphere(&sphere, 1);
-    struct lattice lattice = lattice_of(&sphere, 1000);
-    double(*x)[3] = calloc((size_t)lattice.node_count, sizeof *x);
-    float(*position)[3] = calloc((size_t)lattice.vertex_count, sizeof *position);
+    cut_into(cut, 1000);
+    double(*x)[3] = calloc((size_t)cut->lattice.node_count, sizeof *x);
+    float(*position)[3] = calloc((size_t)cut->lattice.vertex_count, sizeof *position);
     assert_true(x && position);
-    for (int i = 0; i < lattice.node_count; i++) {
+    for (int i = 0; i < cut->lattice.node_count; i++) {
         for (int c = 0; c < 3; c++) {
             x[i][c] = map[c][3];
-            for (int k = 0; k < 3; k++) x[i][c] += map[c][k] * lattice.node[i][k];
+            for (int k = 0; k < 3; k++) x[i][c] += map[c][k] * cut->lattice.node[i][k];
         }
     }
-    lattice_embed(&lattice, (const double(*)[3])x, position);
-    for (int i = 0; i < lattice.vertex_count; i++) {
+    lattice_embed(&cut->lattice, (const double(*)[3])x, position);
+    for (int i = 0; i < cut->lattice.vertex_count; i++) {
         for (int c = 0; c < 3; c++) {
             double expected = map[c][3];
-            for (int k = 0; k < 3; k++) expected += map[c][k] * (double)sphere.position[i][k];
+            for (int k = 0; k < 3; k++) expected += map[c][k] * (double)cut->surface.position[i][k];
             assert_near(position[i][c], expected, 1e-6);
         }
-        for (int a = 0; a < 4; a++) assert_true(lattice.weight[i][a] > -0.5 && lattice.weight[i][a] < 1.5);
+        for (int a = 0; a < 4; a++) assert_true(cut->lattice.weight[i][a] > -0.5 && cut->lattice.weight[i][a] < 1.5);
     }
     free(x);
     free(position);
-    lattice_free(&lattice);
-    surface_free(&sphere);
 }
+
+#define GAP 0.1
 
 /// Two prongs closer together than a cube's edge share no node above the base that joins them. The fork is made of three
 /// boxes that run into each other, which are one solid.
-TEST(prongs_closer_than_a_cell_are_not_glued)
+CUT_TEST(prongs_closer_than_a_cell_are_not_glued,
+         add_box(&cut->surface, (const double[3]){0, 0, 0}, (const double[3]){2 + GAP, 1, 1}))
 {
-    const double gap = 0.1;
-    struct surface fork = {0};
-    add_box(&fork, (const double[3]){0, 0, 0}, (const double[3]){2 + gap, 1, 1});
-    add_box(&fork, (const double[3]){0, 0.5, 0}, (const double[3]){1, 4, 1});
-    add_box(&fork, (const double[3]){1 + gap, 0.5, 0}, (const double[3]){2 + gap, 4, 1});
-    struct lattice lattice = lattice_of(&fork, 1000);
-    assert_true(lattice.cell > 3 * gap);
-    assert_int_equal(lattice.part_count, 1);
-    assert_near(filled_volume(&lattice), 1 * (2 + gap) + 2 * 3, 0.6);
-    int *side = calloc((size_t)lattice.node_count, sizeof *side);
+    add_box(&cut->surface, (const double[3]){0, 0.5, 0}, (const double[3]){1, 4, 1});
+    add_box(&cut->surface, (const double[3]){1 + GAP, 0.5, 0}, (const double[3]){2 + GAP, 4, 1});
+    cut_into(cut, 1000);
+    assert_true(cut->lattice.cell > 3 * GAP);
+    assert_int_equal(cut->lattice.part_count, 1);
+    assert_near(filled_volume(&cut->lattice), 1 * (2 + GAP) + 2 * 3, 0.6);
+    int *side = calloc((size_t)cut->lattice.node_count, sizeof *side);
     assert_non_null(side);
     // Colour the nodes of either prong from its top, going from element to element as long as they lie above the base.
     for (int i = 8; i < 24; i++) {
-        if ((double)fork.position[i][1] < 3.9) continue;
-        for (int a = 0; a < 4; a++) side[lattice.tet[lattice.host[i]][a]] |= i < 16 ? 1 : 2;
+        if ((double)cut->surface.position[i][1] < 3.9) continue;
+        for (int a = 0; a < 4; a++) side[cut->lattice.tet[cut->lattice.host[i]][a]] |= i < 16 ? 1 : 2;
     }
     for (int round = 0; round < 100; round++) {
-        for (int e = 0; e < lattice.tet_count; e++) {
-            const int *tet = lattice.tet[e];
+        for (int e = 0; e < cut->lattice.tet_count; e++) {
+            const int *tet = cut->lattice.tet[e];
             int reached = 0;
             bool above = true;
             for (int a = 0; a < 4; a++) {
                 reached |= side[tet[a]];
-                above = above && lattice.node[tet[a]][1] > 1 + lattice.cell;
+                above = above && cut->lattice.node[tet[a]][1] > 1 + cut->lattice.cell;
             }
             for (int a = 0; above && a < 4; a++) side[tet[a]] |= reached;
         }
     }
     int seen[4] = {0};
-    for (int i = 0; i < lattice.node_count; i++) seen[side[i]]++;
+    for (int i = 0; i < cut->lattice.node_count; i++) seen[side[i]]++;
     assert_true(seen[1] > 20 && seen[2] > 20);
     assert_int_equal(seen[3], 0);
     free(side);
-    lattice_free(&lattice);
-    surface_free(&fork);
 }
 
-TEST(separate_solids_are_separate_parts)
+CUT_TEST(separate_solids_are_separate_parts,
+         add_box(&cut->surface, (const double[3]){0, 0, 0}, (const double[3]){1, 1, 1}))
 {
-    struct surface two = {0};
-    add_box(&two, (const double[3]){0, 0, 0}, (const double[3]){1, 1, 1});
-    add_box(&two, (const double[3]){1.1, 0, 0}, (const double[3]){2.1, 1, 1});
-    struct lattice lattice = lattice_of(&two, 500);
-    assert_int_equal(lattice.part_count, 2);
+    add_box(&cut->surface, (const double[3]){1.1, 0, 0}, (const double[3]){2.1, 1, 1});
+    cut_into(cut, 500);
+    assert_int_equal(cut->lattice.part_count, 2);
     for (int i = 0; i < 16; i++) {
-        assert_int_equal(lattice.part[lattice.host[i]], lattice.part[lattice.host[i < 8 ? 0 : 8]]);
+        assert_int_equal(cut->lattice.part[cut->lattice.host[i]],
+                         cut->lattice.part[cut->lattice.host[i < 8 ? 0 : 8]]);
     }
-    lattice_free(&lattice);
-    surface_free(&two);
 }
 
 /// A mesh that is symmetric left and right gets a lattice that is.
-TEST(the_lattice_is_as_symmetric_as_the_mesh)
+CUT_TEST(the_lattice_is_as_symmetric_as_the_mesh, cut_sphere(cut, 700))
 {
-    struct surface sphere = {0};
-    add_sphere(&sphere, 1);
-    struct lattice lattice = lattice_of(&sphere, 700);
-    for (int i = 0; i < lattice.node_count; i++) {
+    for (int i = 0; i < cut->lattice.node_count; i++) {
         bool found = false;
-        for (int j = 0; j < lattice.node_count && !found; j++) {
-            const double *p = lattice.node[i], *q = lattice.node[j];
+        for (int j = 0; j < cut->lattice.node_count && !found; j++) {
+            const double *p = cut->lattice.node[i], *q = cut->lattice.node[j];
             found = fabs(p[0] + q[0]) < 1e-6 && fabs(p[1] - q[1]) < 1e-6 && fabs(p[2] - q[2]) < 1e-6;
         }
         assert_true(found);
     }
-    lattice_free(&lattice);
-    surface_free(&sphere);
 }
 
 /// However thin it is, cutting it takes bounded memory, and where nothing is left of it that is said.
-TEST(a_needle_is_cut_within_bounds)
+CUT_TEST(a_needle_is_cut_within_bounds,
+         add_box(&cut->surface, (const double[3]){0, 0, 0}, (const double[3]){1e-3, 2, 1e-3}))
 {
-    struct lattice lattice;
     struct error error = {0};
-    struct surface needle = {0}, hair = {0};
-    add_box(&needle, (const double[3]){0, 0, 0}, (const double[3]){1e-3, 2, 1e-3});
-    lattice = lattice_of(&needle, 3000);
-    assert_true(lattice.tet_count > 100);
-    lattice_free(&lattice);
+    struct surface hair = {0};
+    cut_into(cut, 3000);
+    assert_true(cut->lattice.tet_count > 100);
+    lattice_free(&cut->lattice);
     add_box(&hair, (const double[3]){0, 0, 0}, (const double[3]){1e-9, 2, 1e-9});
-    assert_false(lattice_create(&lattice, &hair, 3000, NAN, "hair.obj", &error));
+    assert_false(lattice_create(&cut->lattice, &hair, 3000, NAN, "hair.obj", &error));
     assert_string_equal(error.text, "hair.obj: the mesh is too thin for a lattice of 3000 tetrahedra");
-    surface_free(&needle);
     surface_free(&hair);
 }
 
@@ -268,59 +265,49 @@ static void flip(struct surface *surface, int triangle)
 }
 
 /// Every third triangle of a box seen from inside, all of another one that stands in it, and a cavity that faces rightly inwards.
-TEST(mixed_sides_are_made_to_agree)
+CUT_TEST(mixed_sides_are_made_to_agree,
+         add_box(&cut->surface, (const double[3]){0, 0, 0}, (const double[3]){4, 4, 4}))
 {
-    struct surface three = {0};
-    add_box(&three, (const double[3]){0, 0, 0}, (const double[3]){4, 4, 4});
-    add_box(&three, (const double[3]){3, 1, 1}, (const double[3]){8, 2, 2});
-    add_box(&three, (const double[3]){1, 1, 1}, (const double[3]){2, 2, 2});
-    for (int t = 0; t < 12; t += 3) flip(&three, t);
-    for (int t = 12; t < 36; t++) flip(&three, t);
-    struct solid solid = solid_of(&three);
+    add_box(&cut->surface, (const double[3]){3, 1, 1}, (const double[3]){8, 2, 2});
+    add_box(&cut->surface, (const double[3]){1, 1, 1}, (const double[3]){2, 2, 2});
+    for (int t = 0; t < 12; t += 3) flip(&cut->surface, t);
+    for (int t = 12; t < 36; t++) flip(&cut->surface, t);
+    struct solid solid = solid_of(&cut->surface);
     assert_int_equal(solid.open, 0);
     assert_int_equal(solid.turned, 4 + 12);
-    struct lattice lattice = lattice_of(&three, 2000);
-    assert_near(filled_volume(&lattice), 64 - 1 + 4, 1.5);
-    assert_string_equal(lattice.repair, "16 triangles turned to face outwards");
-    lattice_free(&lattice);
+    cut_into(cut, 2000);
+    assert_near(filled_volume(&cut->lattice), 64 - 1 + 4, 1.5);
+    assert_string_equal(cut->lattice.repair, "16 triangles turned to face outwards");
     solid_free(&solid);
-    surface_free(&three);
 }
 
-TEST(a_triangle_there_twice_counts_once)
+CUT_TEST(a_triangle_there_twice_counts_once, add_sphere(&cut->surface, 1))
 {
-    struct surface sphere = {0};
-    add_sphere(&sphere, 1);
-    const int triangles = sphere.index_count / 3;
+    const int triangles = cut->surface.index_count / 3;
     for (int t = 0; t < triangles; t++) {
-        const uint32_t *corner = sphere.indices + 3 * t;
+        const uint32_t *corner = cut->surface.indices + 3 * t;
         const int a = (int)corner[0], b = (int)corner[1], c = (int)corner[2];
-        add_triangle(&sphere, b, a, c); // seen from both sides
+        add_triangle(&cut->surface, b, a, c); // seen from both sides
     }
-    struct lattice lattice = lattice_of(&sphere, 1000);
-    assert_near(filled_volume(&lattice) / (4 / 3.0 * acos(-1.0)), 1, 0.02);
-    assert_non_null(strstr(lattice.repair, " duplicate triangles left out"));
-    lattice_free(&lattice);
-    surface_free(&sphere);
+    cut_into(cut, 1000);
+    assert_near(filled_volume(&cut->lattice) / (4 / 3.0 * acos(-1.0)), 1, 0.02);
+    assert_non_null(strstr(cut->lattice.repair, " duplicate triangles left out"));
 }
 
 /// Winding numbers against those of a plain sum over all triangles' solid angles, which for a closed sphere are 0 and 1.
-TEST(the_tree_sums_like_all_triangles)
+CUT_TEST(the_tree_sums_like_all_triangles, add_sphere(&cut->surface, 1))
 {
-    struct surface sphere = {0};
     struct winding winding;
-    add_sphere(&sphere, 1);
-    winding_create(&winding, &sphere);
+    winding_create(&winding, &cut->surface);
     for (int i = 0; i < 200; i++) {
         const double r = i * 0.015, p[3] = {r * 0.6, r * 0.64, r * -0.48};
         if (fabs(r - 1) > 0.01) assert_near(winding_at(&winding, p), r < 1, 0.01);
     }
     winding_free(&winding);
-    sphere.index_count /= 2; // the upper half: seen from its middle, half of all directions
-    winding_create(&winding, &sphere);
+    cut->surface.index_count /= 2; // the upper half: seen from its middle, half of all directions
+    winding_create(&winding, &cut->surface);
     assert_near(winding_at(&winding, (const double[3]){0, 0, 0}), 0.5, 0.01);
     winding_free(&winding);
-    surface_free(&sphere);
 }
 
 /// So few triangles that they are no tree.
@@ -339,37 +326,29 @@ TEST(four_triangles_are_summed_one_by_one)
 }
 
 /// A bowl is closed by a flat lid, on which it takes up half of all directions.
-TEST(a_hole_is_closed_by_winding_numbers)
+CUT_TEST(a_hole_is_closed_by_winding_numbers, add_sphere(&cut->surface, 1))
 {
-    struct surface sphere = {0};
-    add_sphere(&sphere, 1);
-    memmove(sphere.indices, sphere.indices + 3 * 2 * 64 * 10,
-            sizeof *sphere.indices * (size_t)(sphere.index_count - 3 * 2 * 64 * 10));
-    sphere.index_count -= 3 * 2 * 64 * 10;
-    struct lattice lattice = lattice_of(&sphere, 2000);
+    memmove(cut->surface.indices, cut->surface.indices + 3 * 2 * 64 * 10,
+            sizeof *cut->surface.indices * (size_t)(cut->surface.index_count - 3 * 2 * 64 * 10));
+    cut->surface.index_count -= 3 * 2 * 64 * 10;
+    cut_into(cut, 2000);
     const double pi = acos(-1.0), height = 1 - cos(pi * 10 / 32), cap = pi * height * height * (3 - height) / 3;
-    assert_near(filled_volume(&lattice), 4 / 3.0 * pi - cap, 0.02 * 4 / 3.0 * pi);
-    assert_non_null(strstr(lattice.repair, "open at 64 edges"));
-    lattice_free(&lattice);
-    surface_free(&sphere);
+    assert_near(filled_volume(&cut->lattice), 4 / 3.0 * pi - cap, 0.02 * 4 / 3.0 * pi);
+    assert_non_null(strstr(cut->lattice.repair, "open at 64 edges"));
 }
 
 /// Vertices that no triangle has stay where they are, and do not widen the box.
-TEST(strays_stay)
+CUT_TEST(strays_stay, add_vertex(&cut->surface, 1000, 0, 0))
 {
-    struct surface box = {0};
-    add_vertex(&box, 1000, 0, 0);
-    add_box(&box, (const double[3]){0, 0, 0}, (const double[3]){1, 1, 1});
-    struct lattice lattice = lattice_of(&box, 500);
-    assert_int_equal(lattice.host[0], -1);
-    assert_true(lattice.cell < 0.5);
-    float(*position)[3] = calloc((size_t)box.vertex_count, sizeof *position);
+    add_box(&cut->surface, (const double[3]){0, 0, 0}, (const double[3]){1, 1, 1});
+    cut_into(cut, 500);
+    assert_int_equal(cut->lattice.host[0], -1);
+    assert_true(cut->lattice.cell < 0.5);
+    float(*position)[3] = calloc((size_t)cut->surface.vertex_count, sizeof *position);
     assert_non_null(position);
     position[0][0] = 1000;
-    lattice_embed(&lattice, (const double(*)[3])lattice.node, position);
+    lattice_embed(&cut->lattice, (const double(*)[3])cut->lattice.node, position);
     assert_near(position[0][0], 1000, 0);
     assert_near(position[8][0], 1, 1e-6);
     free(position);
-    lattice_free(&lattice);
-    surface_free(&box);
 }

@@ -38,11 +38,10 @@ static void add_linear_stiffness(const double p[4][3], double young, double pois
 }
 
 /// Generalised eigenvalues ω² of a clamped beam, ascending, by LAPACKE's dsygvd with lumped masses.
-static int dense_eigenvalues(const struct beam *beam, const struct body *body, double young, double poisson,
-                             double **values)
+static int dense_eigenvalues(const struct beam *beam, double young, double poisson, double **values)
 {
     int *unknown = calloc((size_t)beam->nodes * 3, sizeof *unknown), n = 0;
-    for (int i = 0; i < 3 * beam->nodes; i++) unknown[i] = body->pinned[i / 3] ? -1 : n++;
+    for (int i = 0; i < 3 * beam->nodes; i++) unknown[i] = beam->body.pinned[i / 3] ? -1 : n++;
     assert_in_range(n, 1, 1500);
     double *k = calloc((size_t)(n * n), sizeof *k), *m = calloc((size_t)(n * n), sizeof *m);
     *values = calloc((size_t)n, sizeof **values);
@@ -56,7 +55,7 @@ static int dense_eigenvalues(const struct beam *beam, const struct body *body, d
         add_linear_stiffness((const double(*)[3])p, young, poisson, mine, n, k);
     }
     for (int i = 0; i < 3 * beam->nodes; i++) {
-        if (unknown[i] >= 0) m[unknown[i] * n + unknown[i]] = body->mass[i / 3];
+        if (unknown[i] >= 0) m[unknown[i] * n + unknown[i]] = beam->body.mass[i / 3];
     }
     assert_int_equal(LAPACKE_dsygvd(LAPACK_ROW_MAJOR, 1, 'N', 'L', n, k, n, m, n, *values), 0);
     free(unknown);
@@ -93,36 +92,27 @@ static double measure_frequency(struct integrator *integrator, double (*shape)[3
 }
 
 /// The lowest frequency of the simulated motion is that of the generalised eigenproblem of the same mesh.
-TEST(cantilever_swings_at_its_first_frequency)
+BEAM_TEST(cantilever_swings_at_its_first_frequency,
+          beam_open(beam, (const int[3]){10, 2, 3}, 0.1, material_from(2e5, 0.3), true))
 {
     const double young = 2e5, poisson = 0.3;
-    struct beam beam;
-    struct body body;
-    struct modes modes;
-    struct integrator integrator;
     double *values;
-    beam_create(&beam, (const int[3]){10, 2, 3}, 0.1);
-    beam_body(&beam, material_from(young, poisson), 1000, true, &body);
-    dense_eigenvalues(&beam, &body, young, poisson, &values);
+    dense_eigenvalues(beam, young, poisson, &values);
     double expected = sqrt(values[0]) / (2 * pi);
 
-    modes_create(&modes, &body, 8);
-    for (int k = 0; k < 8; k++) assert_near(modes.frequency[k] / (sqrt(values[k]) / (2 * pi)), 1, 1e-7);
+    modes_create(&beam->modes, &beam->body, 8);
+    for (int k = 0; k < 8; k++) assert_near(beam->modes.frequency[k] / (sqrt(values[k]) / (2 * pi)), 1, 1e-7);
 
-    integrator_create(&integrator, &body, 1 / expected / 60);
-    integrator.tolerance = 1e-9;
-    for (int i = 0; i < beam.nodes; i++) { // bent a little, with some of the higher modes besides
-        double along = beam.rest[i][0];
-        integrator.x[i][1] += 1e-3 * along * along;
+    integrator_create(&beam->integrator, &beam->body, 1 / expected / 60);
+    beam->integrator.tolerance = 1e-9;
+    for (int i = 0; i < beam->nodes; i++) { // bent a little, with some of the higher modes besides
+        double along = beam->rest[i][0];
+        beam->integrator.x[i][1] += 1e-3 * along * along;
     }
-    double measured = measure_frequency(&integrator, modes.shape, 21);
+    double measured = measure_frequency(&beam->integrator, beam->modes.shape, 21);
     print_message("cantilever: %.6g Hz simulated, %.6g Hz by dsygvd\n", measured, expected);
     assert_near(measured / expected, 1, 0.01);
-    integrator_free(&integrator);
-    modes_free(&modes);
     free(values);
-    body_free(&body);
-    beam_free(&beam);
 }
 
 /// Linear tetrahedra lock: they are too stiff in bending, by an error that falls with the square of their size.
@@ -135,16 +125,11 @@ TEST(cantilever_converges_to_euler_and_bernoulli)
     for (int k = 0; k < 3; k++) {
         int n = 1 << k;
         struct beam beam;
-        struct body body;
-        struct modes modes;
-        beam_create(&beam, (const int[3]){(int)length * n, n, n}, 1.0 / n);
-        beam_body(&beam, material_from(young, 0), density, true, &body);
-        modes_create(&modes, &body, 1);
-        error[k] = modes.frequency[0] / slender - 1;
+        beam_open(&beam, (const int[3]){(int)length * n, n, n}, 1.0 / n, material_from(young, 0), true);
+        modes_create(&beam.modes, &beam.body, 1);
+        error[k] = beam.modes.frequency[0] / slender - 1;
         print_message("%d cubes across: %.4f of Euler and Bernoulli's\n", n, 1 + error[k]);
-        modes_free(&modes);
-        body_free(&body);
-        beam_free(&beam);
+        beam_close(&beam);
     }
     assert_true(error[0] > 3 * error[1] && error[1] > 3 * error[2]);
     assert_near(error[2], 0, 0.075);
@@ -169,39 +154,30 @@ static void follow_energy(struct integrator *integrator, double range[2])
 
 /// Swinging by a fifth of the length in its first mode the body keeps its energy; torn at so that nine tenths of the
 /// energy go into stretching that the steps are too long for, it loses energy and never gains any.
-TEST(energy_stays_over_many_periods)
+BEAM_TEST(energy_stays_over_many_periods,
+          beam_open(beam, (const int[3]){5, 1, 1}, 0.2, material_from(1e5, 0.3), true))
 {
-    struct beam beam;
-    struct body body;
-    struct modes modes;
-    struct integrator integrator;
     double range[2];
-    beam_create(&beam, (const int[3]){5, 1, 1}, 0.2);
-    beam_body(&beam, material_from(1e5, 0.3), 1000, true, &body);
-    modes_create(&modes, &body, 1);
-    const double omega = 2 * pi * modes.frequency[0], step = 1 / modes.frequency[0] / 50;
-    integrator_create(&integrator, &body, step);
-    integrator.tolerance = 1e-7;
-    double tip = vec3_length(modes.shape[beam.nodes - 1]);
-    for (int i = 0; i < 3 * beam.nodes; i++)
-        vec3_flat(integrator.v)[i] = 0.2 * omega / tip * vec3_flat(modes.shape)[i];
-    follow_energy(&integrator, range);
+    modes_create(&beam->modes, &beam->body, 1);
+    const double omega = 2 * pi * beam->modes.frequency[0], step = 1 / beam->modes.frequency[0] / 50;
+    integrator_create(&beam->integrator, &beam->body, step);
+    beam->integrator.tolerance = 1e-7;
+    double tip = vec3_length(beam->modes.shape[beam->nodes - 1]);
+    for (int i = 0; i < 3 * beam->nodes; i++)
+        vec3_flat(beam->integrator.v)[i] = 0.2 * omega / tip * vec3_flat(beam->modes.shape)[i];
+    follow_energy(&beam->integrator, range);
     print_message("energy of a swing: %.5f … %.5f of the first\n", range[0], range[1]);
     assert_near(range[0], 1, 0.02);
     assert_near(range[1], 1, 0.02);
-    assert_int_equal(integrator.calmed, 0);
-    integrator_free(&integrator);
+    assert_int_equal(beam->integrator.calmed, 0);
+    integrator_free(&beam->integrator);
 
-    integrator_create(&integrator, &body, step);
-    integrator.tolerance = 1e-7;
-    for (int i = 0; i < beam.nodes; i++) integrator.x[i][1] += 0.2 * beam.rest[i][0] * beam.rest[i][0];
-    follow_energy(&integrator, range);
+    integrator_create(&beam->integrator, &beam->body, step);
+    beam->integrator.tolerance = 1e-7;
+    for (int i = 0; i < beam->nodes; i++) beam->integrator.x[i][1] += 0.2 * beam->rest[i][0] * beam->rest[i][0];
+    follow_energy(&beam->integrator, range);
     print_message("energy after a jerk: %.5f … %.5f of the first\n", range[0], range[1]);
     assert_true(range[1] <= 1.01);
-    integrator_free(&integrator);
-    modes_free(&modes);
-    body_free(&body);
-    beam_free(&beam);
 }
 
 static void momenta(const struct integrator *integrator, double linear[3], double angular[3])
@@ -219,32 +195,25 @@ static void momenta(const struct integrator *integrator, double linear[3], doubl
 }
 
 /// A free body that is thrown, spins and wobbles keeps its linear momentum, and its angular one to the order of the steps.
-TEST(a_free_body_keeps_its_momenta)
+BEAM_TEST(a_free_body_keeps_its_momenta,
+          beam_open(beam, (const int[3]){4, 2, 1}, 0.25, material_from(2e4, 0.35), false))
 {
-    struct beam beam;
-    struct body body;
-    struct integrator integrator;
     uint64_t seed = 6;
-    beam_create(&beam, (const int[3]){4, 2, 1}, 0.25);
-    beam_body(&beam, material_from(2e4, 0.35), 1000, false, &body);
-    integrator_create(&integrator, &body, 0.005);
-    integrator.tolerance = 1e-10;
+    integrator_create(&beam->integrator, &beam->body, 0.005);
+    beam->integrator.tolerance = 1e-10;
     const double spin[3] = {1, 2, 3};
-    for (int i = 0; i < beam.nodes; i++) {
-        vec3_cross(spin, beam.rest[i], integrator.v[i]);
-        for (int c = 0; c < 3; c++) integrator.v[i][c] += 0.5 * c + 0.5 * beam_random(&seed);
+    for (int i = 0; i < beam->nodes; i++) {
+        vec3_cross(spin, beam->rest[i], beam->integrator.v[i]);
+        for (int c = 0; c < 3; c++) beam->integrator.v[i][c] += 0.5 * c + 0.5 * beam_random(&seed);
     }
     double linear[3], angular[3], first_linear[3], first_angular[3];
-    momenta(&integrator, first_linear, first_angular);
-    for (int step = 0; step < 400; step++) assert_true(integrator_step(&integrator));
-    momenta(&integrator, linear, angular);
+    momenta(&beam->integrator, first_linear, first_angular);
+    for (int step = 0; step < 400; step++) assert_true(integrator_step(&beam->integrator));
+    momenta(&beam->integrator, linear, angular);
     for (int c = 0; c < 3; c++) {
         assert_near(linear[c], first_linear[c], 1e-6 * vec3_length(first_linear));
         assert_near(angular[c], first_angular[c], 1e-4 * vec3_length(first_angular));
     }
-    integrator_free(&integrator);
-    body_free(&body);
-    beam_free(&beam);
 }
 
 static int count_inverted(const struct body *body)
@@ -259,89 +228,68 @@ TEST(a_scrambled_body_comes_back_to_rest)
 {
     for (uint64_t seed = 1; seed <= 4; seed++) {
         struct beam beam;
-        struct body body;
-        struct integrator integrator;
         uint64_t numbers = seed;
-        beam_create(&beam, (const int[3]){3, 3, 3}, 1 / 3.0);
-        beam_body(&beam, material_from(1e5, 0.35), 1000, true, &body);
-        integrator_create(&integrator, &body, 0.02);
-        integrator.mass_damping = 2;
-        integrator.stiffness_damping = 0.02;
-        integrator.tolerance = 1e-6;
+        beam_open(&beam, (const int[3]){3, 3, 3}, 1 / 3.0, material_from(1e5, 0.35), true);
+        integrator_create(&beam.integrator, &beam.body, 0.02);
+        beam.integrator.mass_damping = 2;
+        beam.integrator.stiffness_damping = 0.02;
+        beam.integrator.tolerance = 1e-6;
         for (int i = 0; i < beam.nodes; i++) {
-            for (int c = 0; c < 3 && !body.pinned[i]; c++) integrator.x[i][c] = 0.5 + beam_random(&numbers);
+            for (int c = 0; c < 3 && !beam.body.pinned[i]; c++) beam.integrator.x[i][c] = 0.5 + beam_random(&numbers);
         }
         double(*force)[3] = calloc((size_t)beam.nodes, sizeof *force);
-        body_forces(&body, (const double(*)[3])integrator.x, force);
-        assert_true(count_inverted(&body) > 50); // of 162
-        for (int step = 0; step < 500; step++) assert_true(integrator_step(&integrator));
-        body_forces(&body, (const double(*)[3])integrator.x, force);
-        assert_int_equal(count_inverted(&body), 0);
+        body_forces(&beam.body, (const double(*)[3])beam.integrator.x, force);
+        assert_true(count_inverted(&beam.body) > 50); // of 162
+        for (int step = 0; step < 500; step++) assert_true(integrator_step(&beam.integrator));
+        body_forces(&beam.body, (const double(*)[3])beam.integrator.x, force);
+        assert_int_equal(count_inverted(&beam.body), 0);
         for (int i = 0; i < 3 * beam.nodes; i++) {
-            assert_near(vec3_flat(integrator.x)[i], vec3_flat(beam.rest)[i], 1e-3);
+            assert_near(vec3_flat(beam.integrator.x)[i], vec3_flat(beam.rest)[i], 1e-3);
         }
         free(force);
-        integrator_free(&integrator);
-        body_free(&body);
-        beam_free(&beam);
+        beam_close(&beam);
     }
 }
 
 /// At rest Rayleigh's damping takes e^(−ζωt) off the first mode's swing.
-TEST(damping_is_the_ratio_asked_for)
+BEAM_TEST(damping_is_the_ratio_asked_for,
+          beam_open(beam, (const int[3]){6, 1, 2}, 0.2, material_from(1e5, 0.3), true))
 {
     const double ratio = 0.05;
     const int period = 100, periods = 5;
-    struct beam beam;
-    struct body body;
-    struct modes modes;
-    struct integrator integrator;
-    beam_create(&beam, (const int[3]){6, 1, 2}, 0.2);
-    beam_body(&beam, material_from(1e5, 0.3), 1000, true, &body);
-    modes_create(&modes, &body, 1);
-    double omega = 2 * pi * modes.frequency[0];
-    integrator_create(&integrator, &body, 1 / modes.frequency[0] / period);
-    integrator.mass_damping = ratio * omega;
-    integrator.stiffness_damping = ratio / omega;
+    modes_create(&beam->modes, &beam->body, 1);
+    double omega = 2 * pi * beam->modes.frequency[0];
+    integrator_create(&beam->integrator, &beam->body, 1 / beam->modes.frequency[0] / period);
+    beam->integrator.mass_damping = ratio * omega;
+    beam->integrator.stiffness_damping = ratio / omega;
     double start = 0, end = 0;
-    for (int i = 0; i < beam.nodes; i++) {
-        for (int c = 0; c < 3; c++) integrator.x[i][c] += 1e-4 * modes.shape[i][c];
+    for (int i = 0; i < beam->nodes; i++) {
+        for (int c = 0; c < 3; c++) beam->integrator.x[i][c] += 1e-4 * beam->modes.shape[i][c];
     }
     for (int step = 0; step < period * periods; step++) {
-        assert_true(integrator_step(&integrator));
-        double swing = coordinate(&integrator, modes.shape);
+        assert_true(integrator_step(&beam->integrator));
+        double swing = coordinate(&beam->integrator, beam->modes.shape);
         if (step < period) start = fmax(start, swing);
         if (step >= period * (periods - 1)) end = fmax(end, swing);
     }
     // From one period's largest swing (its end: the start is a peak before the first step) to the last one's.
     assert_near(log(start / end) / (2 * pi * ratio * (periods - 1)), 1, 0.02);
-    integrator_free(&integrator);
-    modes_free(&modes);
-    body_free(&body);
-    beam_free(&beam);
 }
 
 /// A free body's six rigid motions are no modes, and its first real one is that of dsygvd.
-TEST(modes_of_a_free_body_leave_out_the_rigid_ones)
+BEAM_TEST(modes_of_a_free_body_leave_out_the_rigid_ones,
+          beam_open(beam, (const int[3]){4, 2, 1}, 0.3, material_from(1e5, 0.3), false))
 {
-    struct beam beam;
-    struct body body;
-    struct modes modes;
     double *values;
-    beam_create(&beam, (const int[3]){4, 2, 1}, 0.3);
-    beam_body(&beam, material_from(1e5, 0.3), 1000, false, &body);
-    dense_eigenvalues(&beam, &body, 1e5, 0.3, &values);
-    modes_create(&modes, &body, 12);
-    assert_int_equal(modes.count, 12);
-    for (int k = 0; k < 12; k++) assert_near(modes.frequency[k] / (sqrt(values[k + 6]) / (2 * pi)), 1, 1e-7);
+    dense_eigenvalues(beam, 1e5, 0.3, &values);
+    modes_create(&beam->modes, &beam->body, 12);
+    assert_int_equal(beam->modes.count, 12);
+    for (int k = 0; k < 12; k++) assert_near(beam->modes.frequency[k] / (sqrt(values[k + 6]) / (2 * pi)), 1, 1e-7);
     for (int k = 0; k < 144; k++) { // they diagonalise the mass
         double dot = 0;
-        const double *p = modes.shape[k / 12 * beam.nodes], *q = modes.shape[k % 12 * beam.nodes];
-        for (int i = 0; i < 3 * beam.nodes; i++) dot += p[i] * body.mass[i / 3] * q[i];
+        const double *p = beam->modes.shape[k / 12 * beam->nodes], *q = beam->modes.shape[k % 12 * beam->nodes];
+        for (int i = 0; i < 3 * beam->nodes; i++) dot += p[i] * beam->body.mass[i / 3] * q[i];
         assert_near(dot, k / 12 == k % 12, 1e-8);
     }
     free(values);
-    modes_free(&modes);
-    body_free(&body);
-    beam_free(&beam);
 }

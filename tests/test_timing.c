@@ -1,11 +1,12 @@
 /// The timing log is evidence: what it writes, what it sums up and what timing_diff concludes must be exact.
+#include "base/file.h"
+#include "folder.h"
 #include "near.h"
 #include "regress/bootstrap.h"
 #include "timing/columns.h"
 #include <unistd.h>
 
-static char folder[] = "/tmp/wiggly-test-XXXXXX";
-static char path[sizeof folder + 16], other_path[sizeof folder + 16];
+static char path[96], other_path[96];
 
 static const struct frame_header header = {.gl_renderer = "test",
                                            .width = 1280,
@@ -32,20 +33,35 @@ static struct frame_row row(long frame, double ms)
                               .allocations = -1};
 }
 
+static void write_text(const char *to, const char *text)
+{
+    assert_done(file_write_atomic(to, text, strlen(text), &error));
+}
+
+static struct framelog *open_log(const char *to, const struct frame_header *with, int capacity)
+{
+    struct framelog *log;
+    assert_done(log = framelog_open(to, with, capacity, &error));
+    return log;
+}
+
+static void push(struct framelog *log, long frame, double ms)
+{
+    const struct frame_row pushed = row(frame, ms);
+    framelog_push(log, &pushed);
+}
+
 /// Writes a log of `count` frames that take base + 0.01·(frame mod 10) ms; returns its summary in `text`.
 static void write_log(const char *to, int count, int capacity, double base, char *text, size_t size)
 {
-    struct error error = {0};
-    struct framelog *log = framelog_open(to, &header, capacity, &error);
-    assert_non_null(log);
+    struct framelog *log = open_log(to, &header, capacity);
     for (int i = 0; i < count; i++) {
-        struct frame_row frame = row(i, base + 0.01 * (i % 10));
-        framelog_push(log, &frame);
+        push(log, i, base + 0.01 * (i % 10));
     }
     memset(text, 0, size);
     FILE *summary = fmemopen(text, size - 1, "w");
     assert_non_null(summary);
-    assert_true(framelog_close(log, summary, &error));
+    assert_done(framelog_close(log, summary, &error));
     fclose(summary);
 }
 
@@ -54,8 +70,7 @@ TEST(test_what_is_written_reads_back)
     char text[1024];
     write_log(path, 600, 4096, 10, text, sizeof text);
     struct timing_log log;
-    struct error error = {0};
-    assert_true(timing_log_read(path, &log, &error));
+    assert_done(timing_log_read(path, &log, &error));
     assert_int_equal(log.rows, 598); // the two warm-up frames are left out
     assert_int_equal(log.runs, 1);
     const double *last = &log.values[597 * COLUMN_COUNT];
@@ -70,13 +85,10 @@ TEST(test_what_is_written_reads_back)
 
 TEST(test_header_says_where_it_was_measured)
 {
-    char text[1024], file_text[4096] = "";
+    char text[1024], *file_text;
+    size_t length;
     write_log(path, 3, 256, 10, text, sizeof text);
-    FILE *file = fopen(path, "r");
-    assert_non_null(file);
-    size_t length = fread(file_text, 1, sizeof file_text - 1, file);
-    fclose(file);
-    assert_true(length > 0);
+    assert_done(file_read(path, 4096, &file_text, &length, &error));
     const char *keys[] = {"# schema: " TIMING_SCHEMA "\n",
                           "# wiggly: ",
                           "# compiler: ",
@@ -94,35 +106,33 @@ TEST(test_header_says_where_it_was_measured)
     }
     assert_non_null(
         strstr(file_text, "\n2,0.040000,10.0200,15.0200,10.0,0.0,0.0,1002.0,0.0,0.0,0.0,NA,0.0,0,121,5,0,NA,NA,0\n"));
+    free(file_text);
 }
 
 /// A switch in the middle of a session is said where it is made; reading finds both names, each once.
 TEST(test_a_log_names_every_solver)
 {
-    struct error error = {0};
     struct frame_header chain = header;
     chain.solver = "chain";
-    struct framelog *log = framelog_open(path, &chain, 256, &error);
-    assert_non_null(log);
+    struct framelog *log = open_log(path, &chain, 256);
     for (int i = 0; i < 30; i++) {
         struct frame_row frame = row(i, 10);
         frame.solver = i >= 10 && i < 20 ? "band" : "chain";
         framelog_push(log, &frame);
     }
-    assert_true(framelog_close(log, NULL, &error));
-    char text[8192] = "";
-    FILE *file = fopen(path, "r");
-    assert_non_null(file);
-    assert_true(fread(text, 1, sizeof text - 1, file) > 0);
-    fclose(file);
+    assert_done(framelog_close(log, NULL, &error));
+    char *text;
+    size_t length;
+    assert_done(file_read(path, 8192, &text, &length, &error));
     const char *first = strstr(text, "\n# solver: chain\n"), *names = strstr(text, "\nframe,");
     const char *switched = strstr(text, "\n# solver: band\n10,"), *back = strstr(text, "\n# solver: chain\n20,");
     assert_true(first && names && switched && back && first < names && names < switched && switched < back);
     struct timing_log read;
-    assert_true(timing_log_read(path, &read, &error));
+    assert_done(timing_log_read(path, &read, &error));
     assert_int_equal(read.rows, 28);
     assert_int_equal(read.runs, 1);
     assert_string_equal(read.solvers, "chain, band");
+    free(text);
     timing_log_free(&read);
 }
 
@@ -153,25 +163,21 @@ TEST(test_long_session_keeps_the_last_frames)
     write_log(path, 1000, 256, 10, text, sizeof text);
     assert_non_null(strstr(text, "256 in 5.11 s"));
     struct timing_log log;
-    struct error error = {0};
-    assert_true(timing_log_read(path, &log, &error));
+    assert_done(timing_log_read(path, &log, &error));
     assert_int_equal(log.rows, 998); // the file has them all
     timing_log_free(&log);
 }
 
 TEST(test_pushing_allocates_nothing)
 {
-    struct error error = {0};
-    struct framelog *log = framelog_open(path, &header, 1024, &error);
-    assert_non_null(log);
+    struct framelog *log = open_log(path, &header, 1024);
     long before = allocation_count();
     assert_true(before > 0);
     for (int i = 0; i < 700; i++) {
-        struct frame_row frame = row(i, 10);
-        framelog_push(log, &frame);
+        push(log, i, 10);
     }
     assert_int_equal(allocation_count() - before, 0);
-    assert_true(framelog_close(log, NULL, &error));
+    assert_done(framelog_close(log, NULL, &error));
 }
 
 TEST(test_failures_name_the_path)
@@ -184,8 +190,7 @@ TEST(test_failures_name_the_path)
     struct framelog *log = framelog_open("/dev/full", &header, 256, &error);
     assert_non_null(log);
     for (int i = 0; i < 1000; i++) {
-        struct frame_row frame = row(i, 10);
-        framelog_push(log, &frame);
+        push(log, i, 10);
     }
     assert_false(framelog_close(log, NULL, &error));
     assert_non_null(strstr(error.text, "/dev/full: the timing log could not be written: No space left on device"));
@@ -206,14 +211,9 @@ TEST(test_broken_logs_are_refused)
         {"", "there are no frames"},
     };
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
-        FILE *file = fopen(path, "w");
-        assert_non_null(file);
-        fputs(cases[i].text, file);
-        fclose(file);
         struct timing_log log;
-        struct error error = {0};
-        assert_false(timing_log_read(path, &log, &error));
-        if (!strstr(error.text, cases[i].says)) fail_msg("'%s' does not say '%s'", error.text, cases[i].says);
+        write_text(path, cases[i].text);
+        assert_refusal(timing_log_read(path, &log, &error), cases[i].says);
     }
 }
 
@@ -292,19 +292,16 @@ TEST(test_pairs_cancel_drift)
 
 TEST(test_gpu_time_is_in_the_row_of_its_frame)
 {
-    struct error error = {0};
-    struct framelog *log = framelog_open(path, &header, 256, &error);
-    assert_non_null(log);
+    struct framelog *log = open_log(path, &header, 256);
     for (int i = 0; i < 600; i++) { // comes back three frames late; the last three never do
         if (i >= 3) framelog_gpu(log, i - 3, 1000 + (i - 3));
         framelog_gpu(log, i - 30, 1); // too late
         framelog_gpu(log, -1, 1);     // of no frame of the run
-        struct frame_row frame = row(i, 10);
-        framelog_push(log, &frame);
+        push(log, i, 10);
     }
-    assert_true(framelog_close(log, NULL, &error));
+    assert_done(framelog_close(log, NULL, &error));
     struct timing_log read;
-    assert_true(timing_log_read(path, &read, &error));
+    assert_done(timing_log_read(path, &read, &error));
     for (int r = 0; r < read.rows; r++) {
         const double *values = &read.values[(size_t)r * COLUMN_COUNT];
         if (values[COLUMN_FRAME] < 597) assert_near(values[COLUMN_GPU_US], 1000 + values[COLUMN_FRAME], 0);
@@ -315,13 +312,9 @@ TEST(test_gpu_time_is_in_the_row_of_its_frame)
 
 TEST(test_logs_of_the_schema_before_are_read)
 {
-    FILE *file = fopen(path, "w");
-    assert_non_null(file);
-    fputs("# schema: wiggly-frames 1\nframe,t_s,frame_ms,wait_us\n0,0.5,16.5,NA\n", file);
-    fclose(file);
+    write_text(path, "# schema: wiggly-frames 1\nframe,t_s,frame_ms,wait_us\n0,0.5,16.5,NA\n");
     struct timing_log log;
-    struct error error = {0};
-    assert_true(timing_log_read(path, &log, &error));
+    assert_done(timing_log_read(path, &log, &error));
     assert_near(log.values[COLUMN_FRAME_MS], 16.5, 0);
     assert_true(isnan(log.values[COLUMN_FRAME_INTERVAL_MS]));
     assert_true(isnan(log.values[COLUMN_SWAP_US]));
@@ -359,40 +352,27 @@ TEST(test_timing_diff_verdicts)
 TEST(test_timing_diff_compares_counters_exactly)
 {
     char text[1024];
-    struct error error = {0};
     assert_int_equal(diff_status_of(10, 10), 0);
-    struct framelog *log = framelog_open(other_path, &header, 512, &error);
-    assert_non_null(log);
+    struct framelog *log = open_log(other_path, &header, 512);
     for (int i = 0; i < 400; i++) {
         struct frame_row frame = row(i, 10 + 0.01 * (i % 10));
         frame.samples += i == 399; // one sample more, in one frame of four hundred
         framelog_push(log, &frame);
     }
-    assert_true(framelog_close(log, NULL, &error));
+    assert_done(framelog_close(log, NULL, &error));
     assert_int_equal(diff_status(), 1);
     write_log(other_path, 399, 512, 10, text, sizeof text); // a frame less
     assert_int_equal(diff_status(), 2);
-    FILE *broken = fopen(other_path, "w");
-    assert_non_null(broken);
-    fclose(broken);
+    write_text(other_path, "");
     assert_int_equal(diff_status(), 2);
 }
 
 static int make_folder(void **state)
 {
-    (void)state;
-    if (!mkdtemp(folder)) return -1;
-    snprintf(path, sizeof path, "%s/log.csv", folder);
-    snprintf(other_path, sizeof other_path, "%s/other.csv", folder);
+    if (folder_make(state) != 0) return -1;
+    snprintf(path, sizeof path, "%s", folder_path("log.csv"));
+    snprintf(other_path, sizeof other_path, "%s", folder_path("other.csv"));
     return 0;
 }
 
-static int remove_folder(void **state)
-{
-    (void)state;
-    unlink(path);
-    unlink(other_path);
-    return rmdir(folder);
-}
-
-int main(void) { return tests_run(make_folder, remove_folder); }
+int main(void) { return tests_run(make_folder, folder_remove); }
