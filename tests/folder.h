@@ -2,8 +2,9 @@
 #ifndef TESTS_FOLDER_H
 #define TESTS_FOLDER_H
 
-#include <stdio.h>
-#include <stdlib.h>
+#include "near.h"
+
+#include "base/file.h"
 
 static char folder[64]; ///< its path
 
@@ -30,6 +31,14 @@ static inline const char *folder_path(const char *name)
     next = 1 - next;
     snprintf(paths[next], sizeof paths[next], "%s/%s", folder, name);
     return paths[next];
+}
+
+/// Writes a file in it, and returns its path.
+static inline const char *folder_file(const char *name, const char *text)
+{
+    const char *path = folder_path(name);
+    assert_done(file_write_atomic(path, text, strlen(text), &error));
+    return path;
 }
 
 #endif

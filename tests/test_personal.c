@@ -5,7 +5,6 @@
 
 #include "app/personal.h"
 #include "app/settings.h"
-#include "base/file.h"
 #include "ui/theme.h"
 #include <unistd.h>
 
@@ -67,13 +66,6 @@ TEST_WITH(folder_make, folder_remove, the_welcome_comes_once)
     }
 }
 
-static const char *new_file(const char *name)
-{
-    const char *path = folder_path(name);
-    assert_done(file_write_atomic(path, "", 0, &error));
-    return path;
-}
-
 TEST_WITH(folder_make, folder_remove, files_and_the_last_export_are_remembered)
 {
     struct blind blind;
@@ -81,8 +73,8 @@ TEST_WITH(folder_make, folder_remove, files_and_the_last_export_are_remembered)
     struct request request = {.wish = {.is_cubic = true, .keys = 3, .width = 640, .height = 360}};
     struct export_memory memory;
     start(&blind);
-    personal_note_file(&blind.app, new_file("one.json"));
-    personal_note_file(&blind.app, new_file("two.json"));
+    personal_note_file(&blind.app, folder_file("one.json", ""));
+    personal_note_file(&blind.app, folder_file("two.json", ""));
     snprintf(request.path, sizeof request.path, "%s", folder_path("out.glb"));
     personal_note_export(&blind.app, &request);
     end(&blind);
@@ -108,12 +100,12 @@ TEST_WITH(folder_make, folder_remove, settings_that_cannot_be_stored_are_said)
 {
     struct blind blind;
     start(&blind);
-    personal_note_file(&blind.app, new_file("one.json"));
+    personal_note_file(&blind.app, folder_file("one.json", ""));
     const struct message *message = &blind.app.table.editor->core.message;
     assert_false(message->is_error);
     assert_int_equal(rename(folder_path("wiggly"), folder_path("was")), 0);
-    new_file("wiggly");
-    personal_note_file(&blind.app, new_file("two.json"));
+    folder_file("wiggly", "");
+    personal_note_file(&blind.app, folder_file("two.json", ""));
     assert_true(message->is_error);
     assert_non_null(strstr(message->text, "settings"));
     assert_int_equal(unlink(folder_path("wiggly")), 0);

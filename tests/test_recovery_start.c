@@ -22,11 +22,6 @@ static const char *scene_of(const char *name)
     return text;
 }
 
-static void write_scene(const char *path, const char *name)
-{
-    assert_done(file_write_atomic(path, scene_of(name), strlen(scene_of(name)), &error));
-}
-
 static const char *state_folder(void)
 {
     static char path[160];
@@ -80,7 +75,7 @@ TEST_WITH(forget_all, NULL, another_scene_is_shown_and_the_work_kept)
 {
     struct blind blind;
     struct recovery_entry entry;
-    write_scene(folder_path("asked.json"), "asked for");
+    folder_file("asked.json", scene_of("asked for"));
     leave(folder_path("walk.json"), "recovered");
     start(&blind, folder_path("asked.json"));
     assert_int_equal(dialog(&blind)->kind, DIALOG_NONE);
@@ -97,7 +92,7 @@ TEST_WITH(forget_all, NULL, another_scene_is_shown_and_the_work_kept)
 TEST_WITH(forget_all, NULL, its_own_work_is_offered)
 {
     struct blind blind;
-    write_scene(folder_path("asked.json"), "asked for");
+    folder_file("asked.json", scene_of("asked for"));
     leave(folder_path("asked.json"), "recovered");
     leave(folder_path("walk.json"), "of another");
     start(&blind, folder_path("asked.json"));
@@ -113,7 +108,7 @@ TEST_WITH(forget_all, NULL, its_own_work_is_offered)
 TEST_WITH(forget_all, NULL, discarded_work_of_its_own_leaves_the_other)
 {
     struct blind blind;
-    write_scene(folder_path("asked.json"), "asked for");
+    folder_file("asked.json", scene_of("asked for"));
     leave(folder_path("asked.json"), "recovered");
     leave("", "untitled");
     start(&blind, folder_path("asked.json"));
@@ -132,7 +127,7 @@ TEST_WITH(forget_all, NULL, a_relative_name_is_the_same_scene)
 {
     struct blind blind;
     const int here = open(".", O_RDONLY | O_DIRECTORY);
-    write_scene(folder_path("asked.json"), "asked for");
+    folder_file("asked.json", scene_of("asked for"));
     assert_int_equal(chdir(folder), 0);
     leave("asked.json", "recovered");
     assert_int_equal(fchdir(here), 0);
@@ -156,7 +151,7 @@ TEST_WITH(forget_all, NULL, a_long_path_is_the_same_scene)
         assert_int_equal(mkdir(path, 0700), 0);
     }
     snprintf(path + length, sizeof path - length, "/walk.json");
-    write_scene(path, "as saved");
+    assert_done(file_write_atomic(path, scene_of("as saved"), strlen(scene_of("as saved")), &error));
     leave(path, "recovered");
     start(&blind, NULL);
     blind_key(&blind, 'R', 0);
@@ -198,7 +193,7 @@ TEST_WITH(forget_all, NULL, autosave_that_fails_is_marked)
     struct blind blind;
     char away[sizeof folder + 16];
     snprintf(away, sizeof away, "%s/away", folder);
-    write_scene(folder_path("asked.json"), "asked for");
+    folder_file("asked.json", scene_of("asked for"));
     start(&blind, folder_path("asked.json"));
     assert_int_equal(rename(state_folder(), away), 0);
     blind_key(&blind, 'I', 0);

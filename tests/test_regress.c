@@ -1,6 +1,6 @@
 /// Planted delays: timing_diff on seeded logs of eleven pairs on a machine that drifts, stutters and is shared, with builds that
 /// draw in turn (make regress). The same build three times in a row says nothing; what is planted is found, and named.
-#include "near.h"
+#include "folder.h"
 #include "timing/columns.h"
 #include "timing/framelog.h"
 #include <sys/wait.h>
@@ -8,8 +8,7 @@
 
 enum { PAIRS = 11, FRAMES = 300, WARM_UP = 10 };
 
-static char folder[] = "/tmp/wiggly-test-XXXXXX";
-static char old_path[sizeof folder + 16], new_path[sizeof folder + 16], run_path[sizeof folder + 16];
+static char old_path[96], new_path[96], run_path[96];
 
 /// What the new build does besides its work, in microseconds.
 struct plant {
@@ -62,9 +61,8 @@ static struct framelog *open_run(const char *path)
 {
     struct frame_header header = {
         .gl_renderer = "test", .warm_up = WARM_UP, .reference_ms = NAN, .first_frame_ms = NAN};
-    struct error error = {0};
-    struct framelog *log = framelog_open(path, &header, FRAMES, &error);
-    assert_non_null(log);
+    struct framelog *log;
+    assert_done(log = framelog_open(path, &header, FRAMES, &error));
     return log;
 }
 
@@ -82,13 +80,11 @@ static void append(const char *from, const char *to)
 /// Both builds' logs. The machine's speed wanders from frame to frame, the same for both: they draw in turn.
 static void write_logs(unsigned seed, const struct plant *plant)
 {
-    struct error error = {0};
     srand(seed);
     unlink(old_path);
     unlink(new_path);
     for (int pair = 0; pair < PAIRS; pair++) {
-        char second_path[sizeof run_path + 4];
-        snprintf(second_path, sizeof second_path, "%s2", run_path);
+        const char *second_path = folder_path("second.csv");
         struct framelog *old = open_run(run_path), *new = open_run(second_path);
         double speed = 0.8 + 0.8 * uniform(), luck = spread(0.003); // where the second build's memory came to lie
         int phase = rand();
@@ -99,7 +95,7 @@ static void write_logs(unsigned seed, const struct plant *plant)
             push(old, &before);
             push(new, &after);
         }
-        assert_true(framelog_close(old, NULL, &error) && framelog_close(new, NULL, &error));
+        assert_done(framelog_close(old, NULL, &error) && framelog_close(new, NULL, &error));
         append(run_path, old_path);
         append(second_path, new_path);
         unlink(run_path);
@@ -174,20 +170,11 @@ TEST(test_faster_is_no_failure) { assert_int_equal(compare(1, &(struct plant){.d
 
 static int make_folder(void **state)
 {
-    (void)state;
-    if (!mkdtemp(folder)) return -1;
-    snprintf(old_path, sizeof old_path, "%s/old.csv", folder);
-    snprintf(new_path, sizeof new_path, "%s/new.csv", folder);
-    snprintf(run_path, sizeof run_path, "%s/run.csv", folder);
+    if (folder_make(state) != 0) return -1;
+    snprintf(old_path, sizeof old_path, "%s", folder_path("old.csv"));
+    snprintf(new_path, sizeof new_path, "%s", folder_path("new.csv"));
+    snprintf(run_path, sizeof run_path, "%s", folder_path("run.csv"));
     return 0;
 }
 
-static int remove_folder(void **state)
-{
-    (void)state;
-    unlink(old_path);
-    unlink(new_path);
-    return rmdir(folder);
-}
-
-int main(void) { return tests_run(make_folder, remove_folder); }
+int main(void) { return tests_run(make_folder, folder_remove); }

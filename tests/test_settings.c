@@ -8,25 +8,10 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-static char path[96];
-
-static int make_folder(void **state)
-{
-    if (folder_make(state) != 0) return -1;
-    snprintf(path, sizeof path, "%s/settings", folder);
-    return 0;
-}
-
-static void write_text(const char *file, const char *text)
-{
-    assert_done(file_write_atomic(file, text, strlen(text), &error));
-}
-
 static struct settings *load(const char *text)
 {
     struct error error;
-    write_text(path, text);
-    struct settings *settings = settings_load(path, &error);
+    struct settings *settings = settings_load(folder_file("settings", text), &error);
     assert_non_null(settings);
     if (error.kind != ERROR_NONE) fail_msg("%s", error.text);
     return settings;
@@ -36,14 +21,14 @@ static void assert_saved(const struct settings *settings, const char *expected)
 {
     char *data;
     size_t size;
-    assert_done(settings_save(settings, path, &error));
-    assert_done(file_read(path, 1 << 20, &data, &size, &error));
+    assert_done(settings_save(settings, folder_path("settings"), &error));
+    assert_done(file_read(folder_path("settings"), 1 << 20, &data, &size, &error));
     assert_string_equal(data, expected);
     free(data);
 }
 
 /// What this program does not know, remarks included, is there again after a save.
-TEST_WITH(make_folder, folder_remove, test_unknown_lines_stay)
+TEST_WITH(folder_make, folder_remove, test_unknown_lines_stay)
 {
     struct settings *settings = load("# mine\ntheme = dark\n\nfuture = 1 = 2\n");
     assert_string_equal(settings_get(settings, "future", 0), "1 = 2");
@@ -54,7 +39,7 @@ TEST_WITH(make_folder, folder_remove, test_unknown_lines_stay)
     settings_free(settings);
 }
 
-TEST_WITH(make_folder, folder_remove, test_numbers)
+TEST_WITH(folder_make, folder_remove, test_numbers)
 {
     struct settings *settings = load("a = 0.25\nb = wide\nc =\nd = inf\n");
     assert_near(settings_number(settings, "a", 1), 0.25, 0);
@@ -66,11 +51,11 @@ TEST_WITH(make_folder, folder_remove, test_numbers)
 }
 
 /// One sentence about the first broken line; the others count.
-TEST_WITH(make_folder, folder_remove, test_broken)
+TEST_WITH(folder_make, folder_remove, test_broken)
 {
     struct error error;
-    write_text(path, "theme dark\n= x\ninspector_width = 300\n");
-    struct settings *settings = settings_load(path, &error);
+    struct settings *settings =
+        settings_load(folder_file("settings", "theme dark\n= x\ninspector_width = 300\n"), &error);
     assert_non_null(settings);
     assert_int_equal(error.kind, ERROR_INPUT);
     assert_non_null(strstr(error.text, "settings:1: expected key = value, got \"theme dark\""));
@@ -80,16 +65,14 @@ TEST_WITH(make_folder, folder_remove, test_broken)
     assert_non_null(settings);
     assert_int_equal(error.kind, ERROR_INPUT);
     settings_free(settings);
-    char missing[128];
-    snprintf(missing, sizeof missing, "%s.none", path);
-    settings = settings_load(missing, &error);
+    settings = settings_load(folder_path("none"), &error);
     assert_non_null(settings);
     assert_int_equal(error.kind, ERROR_NONE);
     settings_free(settings);
 }
 
 /// Values that a line cannot hold are left out, never written so that they read back as others.
-TEST_WITH(make_folder, folder_remove, test_unstorable)
+TEST_WITH(folder_make, folder_remove, test_unstorable)
 {
     struct settings *settings = load("recent = /a\n");
     settings_push(settings, "recent", "/b\nrecent = /c", 12);
@@ -99,20 +82,17 @@ TEST_WITH(make_folder, folder_remove, test_unstorable)
     settings_free(settings);
 }
 
-TEST_WITH(make_folder, folder_remove, test_recent)
+TEST_WITH(folder_make, folder_remove, test_recent)
 {
     struct settings *settings = load("theme = dark\n");
     struct dialog_recent files[DIALOG_MAX_RECENT + 4];
-    char file[96];
+    char name[32];
     for (int i = 0; i < 15; i++) {
-        snprintf(file, sizeof file, "%s/%d.json", folder, i);
-        write_text(file, "{}");
-        recent_note(settings, file);
+        snprintf(name, sizeof name, "%d.json", i);
+        recent_note(settings, folder_file(name, "{}"));
     }
-    snprintf(file, sizeof file, "%s/9.json", folder);
-    recent_note(settings, file); // again: it moves to the top
-    snprintf(file, sizeof file, "%s/14.json", folder);
-    assert_int_equal(unlink(file), 0);
+    recent_note(settings, folder_path("9.json")); // again: it moves to the top
+    assert_int_equal(unlink(folder_path("14.json")), 0);
     int count = recent_list(settings, files, DIALOG_MAX_RECENT + 4);
     assert_int_equal(count, DIALOG_MAX_RECENT);
     assert_non_null(strstr(files[0].path, "/9.json"));
@@ -126,39 +106,35 @@ TEST_WITH(make_folder, folder_remove, test_recent)
 
 enum { ROUNDS = 5, EACH = DIALOG_MAX_RECENT / 2 };
 
-static void name_file(char file[96], int window, int i) { snprintf(file, 96, "%s/%d-%d.json", folder, window, i); }
+static const char *name_of(int window, int i)
+{
+    static char name[32];
+    snprintf(name, sizeof name, "%d-%d.json", window, i);
+    return name;
+}
 
 /// One window opens its files, each of which is a change of the settings.
 static void open_files(int window)
 {
     struct blind blind;
-    char file[96];
     blind_open(&blind, NULL);
     personal_start(&blind.app);
-    for (int i = 0; i < EACH; i++) {
-        name_file(file, window, i);
-        personal_note_file(&blind.app, file);
-    }
+    for (int i = 0; i < EACH; i++) personal_note_file(&blind.app, folder_path(name_of(window, i)));
     personal_end(&blind.app, false);
     blind_close(&blind);
     _exit(0);
 }
 
 /// Two windows change the file at the same time: it holds what both have changed.
-TEST_WITH(make_folder, folder_remove, test_two_windows)
+TEST_WITH(folder_make, folder_remove, test_two_windows)
 {
-    char file[96], settings_path[128];
     struct dialog_recent files[DIALOG_MAX_RECENT];
-    snprintf(settings_path, sizeof settings_path, "%s/wiggly/settings", folder);
     assert_int_equal(setenv("XDG_CONFIG_HOME", folder, 1), 0);
     assert_int_equal(setenv("XDG_STATE_HOME", folder, 1), 0);
-    for (int i = 0; i < 2 * EACH; i++) {
-        name_file(file, i % 2, i / 2);
-        write_text(file, "{}");
-    }
+    for (int i = 0; i < 2 * EACH; i++) folder_file(name_of(i % 2, i / 2), "{}");
     for (int round = 0; round < ROUNDS; round++) {
         struct error error;
-        unlink(settings_path);
+        unlink(folder_path("wiggly/settings"));
         for (int window = 0; window < 2; window++) {
             if (fork() == 0) open_files(window);
         }
@@ -166,7 +142,7 @@ TEST_WITH(make_folder, folder_remove, test_two_windows)
             assert_true(wait(&status) > 0);
             assert_int_equal(status, 0);
         }
-        struct settings *settings = settings_load(settings_path, &error);
+        struct settings *settings = settings_load(folder_path("wiggly/settings"), &error);
         assert_non_null(settings);
         assert_int_equal(recent_list(settings, files, DIALOG_MAX_RECENT), 2 * EACH);
         settings_free(settings);

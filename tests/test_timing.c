@@ -1,7 +1,5 @@
 /// The timing log is evidence: what it writes, what it sums up and what timing_diff concludes must be exact.
-#include "base/file.h"
 #include "folder.h"
-#include "near.h"
 #include "regress/bootstrap.h"
 #include "timing/columns.h"
 #include <unistd.h>
@@ -31,11 +29,6 @@ static struct frame_row row(long frame, double ms)
                               .knots = 5,
                               .event_to_swap_us = NAN,
                               .allocations = -1};
-}
-
-static void write_text(const char *to, const char *text)
-{
-    assert_done(file_write_atomic(to, text, strlen(text), &error));
 }
 
 static struct framelog *open_log(const char *to, const struct frame_header *with, int capacity)
@@ -212,7 +205,7 @@ TEST(test_broken_logs_are_refused)
     };
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         struct timing_log log;
-        write_text(path, cases[i].text);
+        folder_file("log.csv", cases[i].text);
         assert_refusal(timing_log_read(path, &log, &error), cases[i].says);
     }
 }
@@ -312,7 +305,7 @@ TEST(test_gpu_time_is_in_the_row_of_its_frame)
 
 TEST(test_logs_of_the_schema_before_are_read)
 {
-    write_text(path, "# schema: wiggly-frames 1\nframe,t_s,frame_ms,wait_us\n0,0.5,16.5,NA\n");
+    folder_file("log.csv", "# schema: wiggly-frames 1\nframe,t_s,frame_ms,wait_us\n0,0.5,16.5,NA\n");
     struct timing_log log;
     assert_done(timing_log_read(path, &log, &error));
     assert_near(log.values[COLUMN_FRAME_MS], 16.5, 0);
@@ -363,7 +356,7 @@ TEST(test_timing_diff_compares_counters_exactly)
     assert_int_equal(diff_status(), 1);
     write_log(other_path, 399, 512, 10, text, sizeof text); // a frame less
     assert_int_equal(diff_status(), 2);
-    write_text(other_path, "");
+    folder_file("other.csv", "");
     assert_int_equal(diff_status(), 2);
 }
 
