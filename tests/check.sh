@@ -10,6 +10,14 @@ ok() { # <what> <status of what was tried, 0 is good>
     fi
 }
 
+# A command that must succeed, such as [ or cmp; $out and $err stay.
+holds() { # <what> <command>...
+    local what=$1 status=0
+    shift
+    "$@" || status=$?
+    ok "$what" $status
+}
+
 # Runs a command and expects an exit status; its output is in $out and $err.
 expect() { # <status> <what> <command>...
     local wanted=$1 what=$2 status=0

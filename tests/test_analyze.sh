@@ -42,15 +42,13 @@ says "the file has the targets" '"targetNames":["up.re","up.im","up-2.re","up-2.
     "$(tr -d '\0' <"$scratch/out/box.glb")"
 says "the scene finds the file from where it is" '"model": "out/box.glb"' "$(cat "$scratch/box.json")"
 expect 0 "the scene is one" "$WIGGLY" check "$scratch/box.json"
-[ -z "$out$err" ]
-ok "without a complaint" $?
+holds "without a complaint" [ -z "$out$err" ]
 first=$(cksum <"$scratch/out/box.glb")
 analyze 0 "one motion twice" "$scratch/up.npy" "$scratch/up.npy" --rest "$scratch/box.obj" --fps 30 -o "$scratch/out/box.glb"
 says "gives names of their own" "  up-2: explains " "$out"
 analyze 0 "the first again" "$scratch/up.npy" "$scratch/side.pc2" --rest "$scratch/up.rest.obj" --fps 30 --modes 2 \
     --method cpca --shake up:side -o "$scratch/out/box.glb" --scene "$scratch/box.json"
-[ "$first" = "$(cksum <"$scratch/out/box.glb")" ]
-ok "gives the same bytes" $?
+holds "gives the same bytes" [ "$first" = "$(cksum <"$scratch/out/box.glb")" ]
 
 targets_turn_normals() { # <file>
     tr -d '\0' <"$1" | grep -aq '"targets":\[{"POSITION":[0-9]*,"NORMAL":'
@@ -65,8 +63,7 @@ ok "the help says how" $?
 
 analyze 0 "by poles, with scene and table" "$scratch/side.pc2" --rest "$scratch/box.obj" --fps 30 --modes 3 -o "$scratch/side.glb" \
     --scene "$scratch/side.json" --coordinates "$scratch/side.csv"
-[ -z "$err" ]
-ok "without a warning" $?
+holds "without a warning" [ -z "$err" ]
 says "says that there is one pole" "  1 of 3 coordinates: the motion has no more poles that matter" "$out"
 says "finds the frequency that was asked for" "    frequency 1.99" "$out"
 # No knot more than needed, and the error of the motion no more than a tenth above that of the coordinate itself.

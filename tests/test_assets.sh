@@ -28,8 +28,7 @@ is() { # <saved or untitled> <what> <wiggly> <scene>
     cp "$4" before.json
     expect 0 "$what opens" edit "$3" "$4"
     cmp -s "$4" before.json || found=saved
-    [ $found = "$wanted" ]
-    ok "$what: $wanted" $?
+    holds "$what: $wanted" [ $found = "$wanted" ]
 }
 
 is untitled "a scene of the tree's" tree/build/wiggly tree/assets/scenes/mine.json

@@ -33,8 +33,7 @@ cp -r Makefile LICENSE wiggly.pc.in include src shaders assets tools tests "$scr
 mkdir "$scratch/their tree/build"
 cp "$built/wiggly" "$built"/libwiggly.* "$scratch/their tree/build"
 expect 0 "B and DESTDIR with spaces" make -C "$scratch/their tree" B="$scratch/my build" -n install DESTDIR="$scratch/a stage"
-[ -d "$scratch/my build" ]
-ok "the build folder is the one that was named" $?
+holds "the build folder is the one that was named" [ -d "$scratch/my build" ]
 rm -rf "$scratch/their tree/build/links"
 
 if [ "$(id -u)" = 0 ]; then

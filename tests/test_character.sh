@@ -18,8 +18,7 @@ expect 0 "Ctrl+7 opens Figure 7" replay "$root/assets/scenes/tail.json" "5 key 7
 says "with the phases of its vertical movement" '"phases": "y"' "$(cat deep/result.json)"
 expect 0 "saved in another folder it finds its model" "$WIGGLY" check deep/result.json
 model=$(sed -n 's/.*"model": "\(.*\)",/\1/p' deep/result.json)
-[ -f "deep/$model" ]
-ok "by a path from there" $?
+holds "by a path from there" [ -f "deep/$model" ]
 
 cp "$root/assets/scenes/up-down.json" "$scratch/lost.json"
 expect 1 "a missing model is a problem" "$WIGGLY" check lost.json

@@ -106,17 +106,14 @@ expect 0 "live --headless" live --frames 90 --log "$scratch/live.csv" --screensh
 says "prints the summary" "fps on average" "$out"
 [ "$(identify -format '%m %wx%h' "$scratch/live.png" 2>&1)" = "PNG 640x360" ]
 ok "the picture is a PNG of the size asked for" $?
-[ "$(identify -format '%k' "$scratch/live.png" 2>/dev/null || echo 0)" -gt 100 ]
-ok "the picture is not empty" $?
-[ "$(grep -cvE '^(#|frame)' "$scratch/live.csv")" -eq 90 ]
-ok "the log has a row a frame" $?
+holds "the picture is not empty" [ "$(identify -format '%k' "$scratch/live.png" 2>/dev/null || echo 0)" -gt 100 ]
+holds "the log has a row a frame" [ "$(grep -cvE '^(#|frame)' "$scratch/live.csv")" -eq 90 ]
 allocations=$(awk -F, 'BEGIN { total = 0 }
     /^frame/ { for (c = 1; c <= NF; c++) if ($c == "allocations") column = c; next }
     !/^#/ && $1 >= 60 { if ($column == "NA") unknown = 1; total += $column }
     END { print unknown ? "NA" : total }' "$scratch/live.csv")
 [ "$allocations" = 0 ] || echo "  allocations after frame 60: $allocations"
-[ "$allocations" = 0 ]
-ok "playing allocates nothing" $?
+holds "playing allocates nothing" [ "$allocations" = 0 ]
 expect 0 "the document at the end is a good scene" "$WIGGLY" check "$scratch/end.json"
 expect 0 "it opens again" blind --frames 2 "$scratch/end.json"
 expect 1 "live of a scene that is not there" blind --frames 2 "$scratch/none.json"

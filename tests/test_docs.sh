@@ -96,8 +96,7 @@ paste() { # <where> <text>
             { sed '/^frames/d' header && echo "frames 5" && echo "2 paste $encoded"; } >paste.replay &&
             "$build/wiggly" live --no-draw --replay paste.replay --result pasted.json empty.json
     ) >/dev/null 2>&1
-    grep -q '"value": 1, "slope": 0, "stiffness": 50 }' "$scratch/pasted.json"
-    ok "$1: is pasted" $?
+    holds "$1: is pasted" grep -q '"value": 1, "slope": 0, "stiffness": 50 }' "$scratch/pasted.json"
 }
 
 shown() { # <where> <text>
@@ -152,15 +151,13 @@ for command in $commands; do
         [[ $all =~ $option[^a-z-] || (-n $short && $all == *" $short "*) ]] || echo "$option"
     done <"$scratch/$command.options")
     [ -z "$missing" ] || echo "  not in README or docs: $missing"
-    [ -z "$missing" ]
-    ok "every option of $command is named" $?
+    holds "every option of $command is named" [ -z "$missing" ]
 done
 # shellcheck disable=SC2086
 unknown=$(grep -ohE '`[^`]*`' $documents | grep -oE -- '--[a-z][a-z-]*' | sort -u |
     grep -vxFf <(cut -d' ' -f1 "$scratch"/*.options; grep -ohE -- '--[a-z-]+' tools/*.py tools/wiggly-bench.c; printf '%s\n' --help --version --cflags --libs))
 [ -z "$unknown" ] || echo "  unknown option $unknown"
-[ -z "$unknown" ]
-ok "every option that is named is there" $?
+holds "every option that is named is there" [ -z "$unknown" ]
 
 missing=$(for command in $commands; do [[ $all =~ \`wiggly\ \[?$command[^a-z] ]] || echo "$command"; done)
 [ -z "$missing" ] || echo "  not in README or docs: $missing"
@@ -170,8 +167,7 @@ ok "every command is named" $?
 # shellcheck disable=SC2086
 unknown=$(grep -ohE '`wiggly [a-z]+' $documents | cut -d' ' -f2 | sort -u | grep -vxFf <(tr ' ' '\n' <<<"$commands"))
 [ -z "$unknown" ] || echo "  unknown command $unknown"
-[ -z "$unknown" ]
-ok "every command that is named is there" $?
+holds "every command that is named is there" [ -z "$unknown" ]
 
 # shellcheck disable=SC2086
 while read -r line; do
@@ -192,7 +188,6 @@ for document in $documents; do
             while read -r name; do grep -qrE "\b$name\(" src include tests || echo "$name()"; done
     )
     [ -z "$missing" ] || echo "  not there:" $missing
-    [ -z "$missing" ]
-    ok "$document: files and links are there" $?
+    holds "$document: files and links are there" [ -z "$missing" ]
 done
 exit $((cases_failed > 0))

@@ -15,8 +15,7 @@ says "joints, keys and size are said" "TAIL.GLB: 24 joints, 121 keys, 6" "$out"
 cmp -s "$scratch/tail.glb" <(sed 's/TAIL/tail/' "$scratch/TAIL.GLB")
 ok "the same scene gives the same bytes" $?
 expect 0 "--quiet" "$WIGGLY" export $scenes/tail.json -o "$scratch/tail.csv" --quiet
-[ "$out$err" = "" ]
-ok "says nothing" $?
+holds "says nothing" [ "$out$err" = "" ]
 expect 0 "keys that do not end on the last frame" "$WIGGLY" export $scenes/tail.json -o "$scratch/tail.csv" --fps 7.3
 says "are said" "warning: the last key is on frame 118.356" "$err"
 expect 0 "a meadow beside a tail" "$WIGGLY" export $scenes/meadow.json -o "$scratch/meadow.glb"
@@ -30,20 +29,17 @@ texture=$(ls "$scratch/dog_textures")
 mkdir -p "$scratch/taken_textures/$texture"
 expect 3 "a folder where the texture has to go" "$WIGGLY" export $scenes/dog.json -o "$scratch/taken.usda" --substeps 1
 says "is named" "taken_textures/$texture" "$err"
-[ ! -e "$scratch/taken.usda" ]
-ok "and there is no scene without its texture" $?
+holds "and there is no scene without its texture" [ ! -e "$scratch/taken.usda" ]
 for file in tail dog; do
     tr -cd '{(' <"$scratch/$file.usda" | wc -c >"$scratch/opened"
     tr -cd '})' <"$scratch/$file.usda" | wc -c >"$scratch/closed"
-    cmp -s "$scratch/opened" "$scratch/closed"
-    ok "$file.usda: what is opened is closed" $?
+    holds "$file.usda: what is opened is closed" cmp -s "$scratch/opened" "$scratch/closed"
 done
 expect 0 "a soft character" "$WIGGLY" export $scenes/character.json -o "$scratch/soft.glb" --frames 0:4
 says "says how many morph targets it has" " morph targets, 5 keys" "$out"
 cp $scenes/tail.json "$scratch/stroll.json"
 expect 0 "a scene of another name" "$WIGGLY" export "$scratch/stroll.json" -o "$scratch/a.gltf"
-grep -q '"name": *"stroll"' "$scratch/a.gltf"
-ok "gives its name to the clip" $?
+holds "gives its name to the clip" grep -q '"name": *"stroll"' "$scratch/a.gltf"
 
 # A character of several files stays beside them.
 size=$(od -An -tu4 -j12 -N4 assets/models/dog.glb | tr -d ' ')
@@ -97,13 +93,11 @@ for scene in tail follow character figure7 compositing; do
     "$WIGGLY" export $scenes/$scene.json -o "$scratch/own/$scene-cubic.gltf" --keys cubic --signed --quiet
 done
 expect 0 "the validator reads what wiggly makes" node tests/others/validate.js "$folder" "$scratch"/own/*.gl*
-[ "$(grep -c "0 errors, 0 warnings, 0 infos, 0 hints" <<<"$out")" -eq 10 ]
-ok "without a complaint" $?
+holds "without a complaint" [ "$(grep -c "0 errors, 0 warnings, 0 infos, 0 hints" <<<"$out")" -eq 10 ]
 "$WIGGLY" export $scenes/dog.json -o "$scratch/dog.glb" --quiet
 "$WIGGLY" export $scenes/dog.json -o "$scratch/dog.gltf" --quiet
 "$WIGGLY" export $scenes/dog.json -o "$scratch/dog-cubic.glb" --keys cubic --quiet
 expect 0 "the validator reads an imported character with a new clip" node tests/others/validate.js "$folder" \
     "$scratch/dog.glb" "$scratch/dog.gltf" "$scratch/dog-cubic.glb"
-[ "$(grep -c "0 errors, 0 warnings" <<<"$out")" -eq 3 ]
-ok "without an error or a warning" $?
+holds "without an error or a warning" [ "$(grep -c "0 errors, 0 warnings" <<<"$out")" -eq 3 ]
 exit $((cases_failed > 0))

@@ -23,22 +23,18 @@ fresh() {
 fresh
 expect 0 "a plain .png" "$WIGGLY" export $tail -o "$scratch/out/walk.png" --fps 1 $small
 is "is a sequence, both ends among it" 6 "$(count 'walk-000[1-6].png')"
-cmp -s "$scratch/out/walk-0001.png" "$scratch/out/walk-0006.png"
-ok "a loop ends as it began" $?
+holds "a loop ends as it began" cmp -s "$scratch/out/walk-0001.png" "$scratch/out/walk-0006.png"
 ! cmp -s "$scratch/out/walk-0001.png" "$scratch/out/walk-0003.png"
 ok "and moves meanwhile" $?
 expect 0 "two rounds" "$WIGGLY" export $tail -o "$scratch/out/round%03d.png" --fps 1 --loops 2 $small
 is "have each frame once" 10 "$(count 'round0??.png')"
-cmp -s "$scratch/out/round001.png" "$scratch/out/round006.png"
-ok "the second is the first again" $?
+holds "the second is the first again" cmp -s "$scratch/out/round001.png" "$scratch/out/round006.png"
 expect 0 "frames 24 to 48" "$WIGGLY" export $tail -o "$scratch/out/part.png" --fps 1 --frames 24:48 $small
-cmp -s "$scratch/out/part-0001.png" "$scratch/out/walk-0002.png"
-ok "begin with what is there at frame 24" $?
+holds "begin with what is there at frame 24" cmp -s "$scratch/out/part-0001.png" "$scratch/out/walk-0002.png"
 expect 0 "two frames" "$WIGGLY" export $tail -o "$scratch/out/two.png" --frames 24:25 --size 160x90
 says "say what they are" "two.png: 2 pictures of 160 × 90, 24 a second" "$out"
 expect 0 "one frame" "$WIGGLY" export $tail -o "$scratch/out/one.png" --frames 24:24 $small
-cmp -s "$scratch/out/one.png" "$scratch/out/walk-0002.png"
-ok "keeps its name" $?
+holds "keeps its name" cmp -s "$scratch/out/one.png" "$scratch/out/walk-0002.png"
 
 if command -v convert >/dev/null; then
     brightness() { convert "$1" -crop "$2" -colorspace gray -format '%[fx:int(100*mean)]' info:; }
@@ -87,8 +83,7 @@ kill -TERM $program
 status=0
 wait $program || status=$?
 is "a film that is interrupted ends at once" 3 $status
-[ ! -e "$scratch/late" ]
-ok "without waiting for ffmpeg" $?
+holds "without waiting for ffmpeg" [ ! -e "$scratch/late" ]
 is "and leaves what was there before" "walk.mp4 old" "$(ls -A "$scratch/out") $(cat "$scratch/out/walk.mp4")"
 "$WIGGLY" export $tail -o "$scratch/out/walk.png" 2>"$scratch/stderr" &
 program=$!
@@ -110,8 +105,7 @@ keys() { # <name>: a replay that exports to it
 keys "$scratch/out/from_app.csv" >"$scratch/export.txt"
 expect 0 "the app exports a table" "$WIGGLY" live $tail --no-draw --replay "$scratch/export.txt"
 "$WIGGLY" export $tail -o "$scratch/out/from_command.csv" --quiet
-cmp "$scratch/out/from_app.csv" "$scratch/out/from_command.csv"
-ok "which is the one that the command writes" $?
+holds "which is the one that the command writes" cmp "$scratch/out/from_app.csv" "$scratch/out/from_command.csv"
 "$WIGGLY" live assets/scenes/dog.json --no-draw --frames 1 --record "$scratch/begin.txt" >/dev/null 2>&1
 keys "$scratch/out/dog_from_app.glb" >"$scratch/export.txt"
 expect 0 "the app exports the dog" "$WIGGLY" live assets/scenes/dog.json --no-draw --replay "$scratch/export.txt"

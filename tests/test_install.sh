@@ -13,24 +13,21 @@ ok "make install" $status
 root=$scratch/stage/opt/wiggly
 for file in bin/wiggly lib/libwiggly.a lib/libwiggly.so lib/cmake/wiggly/wigglyConfig.cmake lib/pkgconfig/wiggly.pc include/wiggly/wiggly.h share/wiggly/scenes/tail.json \
     share/man/man1/wiggly.1 share/applications/wiggly.desktop share/icons/hicolor/scalable/apps/wiggly.svg; do
-    [ -s "$root/$file" ]
-    ok "$file is installed" $?
+    holds "$file is installed" [ -s "$root/$file" ]
 done
 
 page=$root/share/man/man1/wiggly.1
 if command -v man >/dev/null; then
     expect 0 "the page is one for man" man --warnings=all -l "$page"
     [ -z "$err" ] || echo "  $err"
-    [ -z "$err" ]
-    ok "without a warning" $?
+    holds "without a warning" [ -z "$err" ]
 fi
 for command in live solve check simulate analyze log; do
     missing=$("$root/bin/wiggly" $command --help | sed -nE 's/^  ((-., )?--[a-z-]+.*[^ ])  +.*/\1/p' | while IFS= read -r option; do
         sed 's/\\-/-/g' "$page" | grep -qxF ".B $option" || echo "$option"
     done)
     [ -z "$missing" ] || echo "  not in wiggly.1: $missing"
-    [ -z "$missing" ]
-    ok "the page has every option of $command" $?
+    holds "the page has every option of $command" [ -z "$missing" ]
 done
 entry() { sed -n "s/^$1=//p" "$root/share/applications/wiggly.desktop"; }
 [ "$(entry Exec)" = "wiggly %f" ] && [ -e "$root/share/icons/hicolor/scalable/apps/$(entry Icon).svg" ]
@@ -43,8 +40,7 @@ fi
 root=$scratch/moved
 mv "$scratch/stage/opt/wiggly" "$root"
 grep -rlI "$scratch/stage\|/opt/wiggly" "$root" >"$scratch/names"
-[ ! -s "$scratch/names" ]
-ok "no file of it names its place" $?
+holds "no file of it names its place" [ ! -s "$scratch/names" ]
 from_elsewhere() { (cd "$scratch" && "$root/bin/wiggly" "$@"); }
 expect 0 "the default scene opens" from_elsewhere live --no-draw --frames 2 --result "$scratch/opened.json"
 expect 0 "and is the installed one" cmp "$scratch/opened.json" <(from_elsewhere live --no-draw --frames 2 \
@@ -53,8 +49,7 @@ expect 0 "a scene there finds its model" from_elsewhere live --no-draw --frames 
 
 export PKG_CONFIG_PATH=$root/lib/pkgconfig
 version=$(sed -n 's/.*define WIGGLY_VERSION "\(.*\)"/\1/p' include/wiggly/wiggly.h)
-[ "$(pkg-config --modversion wiggly)" = "$version" ]
-ok "the .pc file carries the version" $?
+holds "the .pc file carries the version" [ "$(pkg-config --modversion wiggly)" = "$version" ]
 flags=$(pkg-config --cflags --libs wiggly)
 export LD_LIBRARY_PATH=$root/lib # where no ldconfig has been
 
@@ -65,8 +60,7 @@ for example in examples/*; do
     expect 0 "example $name compiles" $compiler -Wall -Wextra -Wshadow -Wconversion -Werror $sanitizers "$example" $flags -o "$scratch/$name"
     expect 0 "example $name runs" "$scratch/$name"
 done
-[ "$("$scratch/curve" | wc -l)" -eq 122 ]
-ok "the curve has a header and 121 samples" $?
+holds "the curve has a header and 121 samples" [ "$("$scratch/curve" | wc -l)" -eq 122 ]
 # The knots are hit exactly: sample 36 is 1, sample 90 is -0.5.
 says "the curve hits its second knot" "1.500000,1.000000000," "$("$scratch/curve")"
 says "the curve hits its third knot" "3.750000,-0.500000000," "$("$scratch/curve")"
@@ -94,12 +88,10 @@ needs() { # <program>: the libraries of ours that it loads
 # shellcheck disable=SC2086
 expect 0 "a program is linked with the shared library" $CC $sanitizers "$scratch/version.c" $flags -o "$scratch/version"
 says "by its soname" "libwiggly.so.${version%%.*}" "$(needs "$scratch/version")"
-[ "$("$scratch/version")" = "$version" ]
-ok "which knows its version" $?
+holds "which knows its version" [ "$("$scratch/version")" = "$version" ]
 # shellcheck disable=SC2086
 expect 0 "or with the static one" $CC $sanitizers "$scratch/version.c" ${flags/-lwiggly/-l:libwiggly.a} -o "$scratch/version"
-[ -z "$(needs "$scratch/version")" ]
-ok "and then needs none" $?
+holds "and then needs none" [ -z "$(needs "$scratch/version")" ]
 
 if command -v cmake >/dev/null; then
     mkdir "$scratch/project"
@@ -124,8 +116,7 @@ CMAKE
     expect 0 "a CMake project builds" env -u MAKEFLAGS cmake --build "$scratch/made"
     unset LD_LIBRARY_PATH
     for kind in shared static; do
-        [ "$("$scratch/made/$kind")" = "$version" ]
-        ok "and runs with the $kind library" $?
+        holds "and runs with the $kind library" [ "$("$scratch/made/$kind")" = "$version" ]
     done
 else
     echo "skip - CMake projects, because cmake is not installed"

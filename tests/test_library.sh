@@ -14,11 +14,9 @@ names() { # <nm's arguments>...: what is defined there and seen from outside
 }
 names -g "$B/libwiggly.a" >"$scratch/static"
 names -D "$shared" | grep -v '^__\|^_init$\|^_fini$' >"$scratch/shared" # a sanitizer's own
-[ -s "$scratch/promised" ]
-ok "the header promises functions" $?
+holds "the header promises functions" [ -s "$scratch/promised" ]
 for kind in static shared; do
-    diff "$scratch/promised" "$scratch/$kind"
-    ok "the names that leave the $kind library are those of the header" $?
+    holds "the names that leave the $kind library are those of the header" diff "$scratch/promised" "$scratch/$kind"
 done
 says "the shared library's soname has the major version" "[libwiggly.so.${version%%.*}]" "$(readelf -d "$shared" | grep SONAME)"
 

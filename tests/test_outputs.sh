@@ -6,8 +6,7 @@ cd_name=$(basename "$scratch")
 
 expect 2 "two outputs to one file are refused" "$WIGGLY" live --headless --frames 2 --log "$scratch/a" --result "$scratch/a"
 says "in a sentence with both options" "wiggly live: --log and --result: expected two files, got $scratch/a for both" "$err"
-[ ! -e "$scratch/a" ]
-ok "before anything is written" $?
+holds "before anything is written" [ ! -e "$scratch/a" ]
 expect 2 "by another name, too" "$WIGGLY" live --headless --frames 2 --screenshot "$scratch/../$cd_name/b" --record "$scratch/./b"
 touch "$scratch/there"
 ln -s there "$scratch/link"
@@ -20,8 +19,7 @@ expect 2 "a character and its time series are two files" "$WIGGLY" analyze x.npy
 # A process number that the system never gives, and one that lives.
 touch "$scratch/.wiggly-999999999-0.tmp" "$scratch/.wiggly-$$-3.tmp" "$scratch/.wiggly-999999999-0.tmp.mine"
 expect 0 "a table is written" "$WIGGLY" solve $scene --output "$scratch/out.csv"
-[ ! -e "$scratch/.wiggly-999999999-0.tmp" ]
-ok "what a killed program was writing is removed" $?
+holds "what a killed program was writing is removed" [ ! -e "$scratch/.wiggly-999999999-0.tmp" ]
 [ -e "$scratch/.wiggly-$$-3.tmp" ] && [ -e "$scratch/.wiggly-999999999-0.tmp.mine" ]
 ok "what a living one writes stays, and files of others" $?
 
@@ -66,8 +64,7 @@ says "says so" "pipe.json: expected a file, got something else" "$err"
 "$WIGGLY" solve $scene >"$scratch/plain.csv"
 "$WIGGLY" solve $scene -o /dev/stdout | cmp - "$scratch/plain.csv" && "$WIGGLY" solve $scene -o >(cat >"$scratch/piped.csv")
 wait $!
-cmp "$scratch/piped.csv" "$scratch/plain.csv"
-ok "a pipe with a reader gets the table" $?
+holds "a pipe with a reader gets the table" cmp "$scratch/piped.csv" "$scratch/plain.csv"
 
 escape=$(printf '\033')
 name="$scratch/${escape}[31mred"$'\n'"two.json"

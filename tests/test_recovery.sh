@@ -35,28 +35,24 @@ larger() { grep -qE "^ui_scale = 1\.[0-9]+" "$XDG_CONFIG_HOME/wiggly/settings"; 
 eventually "how large everything is, is remembered" larger
 xdotool key ctrl+shift+0
 edit_and_kill shift+Left Right Right Right
-cmp "$scratch/mine.json" assets/scenes/tail.json
-ok "the scene's own file is as it was" $?
+holds "the scene's own file is as it was" cmp "$scratch/mine.json" assets/scenes/tail.json
 says "it says whose work it is" "\"file\": \"$scratch/mine.json\"" "$(grep recovers "$state/recovery-1")"
 
 start_app wiggly
 xdotool key l # later
 quit_app
-[ -s "$state/recovery-1" ]
-ok "later: it stays" $?
+holds "later: it stays" [ -s "$state/recovery-1" ]
 
 start_app wiggly
 xdotool key r
 timeout 60 xdotool search --sync --onlyvisible --name '^\*mine.json' >/dev/null
 ok "recover: the title shows the scene with unsaved work" $?
-[ -s "$state/recovery-1" ]
-ok "it is still kept while it is not saved" $?
+holds "it is still kept while it is not saved" [ -s "$state/recovery-1" ]
 other=$app
 start_app '^tail.json|^untitled'
 xdotool key r # would recover what is offered, and insert nothing
 quit_app
-[ -s "$state/recovery-1" ]
-ok "what a running app works on is not offered to another" $?
+holds "what a running app works on is not offered to another" [ -s "$state/recovery-1" ]
 app=$other
 other=""
 xdotool key ctrl+s
@@ -84,6 +80,5 @@ ok "quitting without saving deletes it" $?
 echo "theme dark" >"$XDG_CONFIG_HOME/wiggly/settings"
 start_app wiggly
 quit_app
-silent "$(cat "$scratch/app.err")"
-ok "broken settings keep nobody from working" $?
+holds "broken settings keep nobody from working" silent "$(cat "$scratch/app.err")"
 exit $((cases_failed > 0))

@@ -21,10 +21,8 @@ for n in 1 2 3 4 5 6; do
 done
 expect 0 "figures one after the other, knots deleted, all undone" figure 40 \
     "2 key 4 ctrl" "4 key A ctrl" "5 key Delete" "8 key 5 ctrl" "12 key Z ctrl" "13 key Z ctrl" "14 key Z ctrl" "15 key S ctrl"
-cmp "$scratch/figure.json" "$scratch/own.json"
-ok "the first document is back" $?
+holds "the first document is back" cmp "$scratch/figure.json" "$scratch/own.json"
 cp $scene "$scratch/own.json"
 expect 0 "a figure is no file's" figure 40 "2 key 4 ctrl" "4 key S ctrl"
-cmp "$scratch/own.json" $scene
-ok "saving one leaves the file that was open before alone" $?
+holds "saving one leaves the file that was open before alone" cmp "$scratch/own.json" $scene
 [ $cases_failed -eq 0 ]

@@ -52,8 +52,7 @@ refused "a window of no size" 'lines.replay:8: expected a width and a height fro
 expect 0 "the smallest window, CRLF, blank lines, a wheel with all modifiers" play_lines \
     $'5 size 64 64\r' "  " $'\t' "9 wheel 0 1 400 500 shift ctrl alt super"
 expect 0 "a paste" play_lines "5 key Escape" "6 paste 0,0.5%0a1,0.25%20"
-grep -q '"value": 0.25 }' "$scratch/lines.json"
-ok "sets the knots of its text" $?
+holds "sets the knots of its text" grep -q '"value": 0.25 }' "$scratch/lines.json"
 refused "a paste of nothing" 'lines.replay:8: expected a text, got the end of the line' "5 paste"
 printf 'wiggly-replay 1\0\n' >"$scratch/nul.replay"
 expect 1 "a NUL byte in a replay" play "$scratch/nul.replay" $scene nul
@@ -62,6 +61,5 @@ says "is named" "nul.replay: expected text, got a NUL byte" "$err"
 # A recording whose program was killed has no length yet: it ends with its last event.
 { printf '%s\n' "$header" | sed 's/^frames .*/frames 0/' && printf '%s\n' "5 key A" "12 key Escape"; } >"$scratch/killed.replay"
 expect 0 "a recording that was cut short" play "$scratch/killed.replay" $scene killed
-[ "$(grep -vc '^[#f]' "$scratch/killed.csv")" -eq 13 ]
-ok "plays to its last event" $?
+holds "plays to its last event" [ "$(grep -vc '^[#f]' "$scratch/killed.csv")" -eq 13 ]
 [ $cases_failed -eq 0 ]

@@ -17,8 +17,7 @@ knots() { grep -o '"frame":' "$1" | wc -l; }
 # Waits for the app's own end and looks at what it left.
 check_rescue() { # <cause> <file with the work> <what the sentence says>
     await_end
-    [ $status -eq 3 ]
-    ok "$1: exit status 3" $?
+    holds "$1: exit status 3" [ $status -eq 3 ]
     says "$1: one sentence says where the work is" "$3" "$(cat "$scratch/app.err")"
     [ "$(grep -c ^wiggly "$scratch/app.err")" -eq 1 ] && cmp "$scratch/mine.json" assets/scenes/tail.json
     ok "$1: the scene's own file is as it was" $?
@@ -47,8 +46,7 @@ for slot in 5 6; do # destroyed while nothing moves, and while it draws
     xdotool search --onlyvisible --name wiggly windowclose
     check_rescue "a destroyed window" "$recovery-$slot" "$recovery-$slot, and the next start offers to recover it"
 done
-grep -q '^frames [1-9]' "$scratch/mine.replay"
-ok "the recording has its length" $?
+holds "the recording has its length" grep -q '^frames [1-9]' "$scratch/mine.replay"
 
 start_server
 chmod -R a-w "$XDG_STATE_HOME"

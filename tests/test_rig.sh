@@ -8,8 +8,7 @@ says "the clips" "Walk (1 s)" "$out"
 says "and the bones, each under its parent" "          tail_3" "$out"
 
 says "the ways that chains can go" "  tail_1:tail_8 (8 bones)" "$out"
-[ "$(grep -c "^ways down" <<<"$out")" = 1 ]
-ok "under one heading" $?
+holds "under one heading" [ "$(grep -c "^ways down" <<<"$out")" = 1 ]
 expect 0 "check says what a character is" "$WIGGLY" check $dog
 says "and what it holds" "$dog: a glTF character of 19816 triangles and 43 joints" "$out"
 says "with its clips" "Trot (0.583 s)" "$out"
@@ -21,8 +20,7 @@ awk 'BEGIN { printf "{\"asset\":{\"version\":\"2.0\"},\"nodes\":["
     for (i = 0; i < 9999; i++) printf "{\"name\":\"b%d\",\"children\":[%d,%d]},{\"name\":\"s%d\"},", i, 2 * i + 2, 2 * i + 1, i
     print "{\"name\":\"end\"}]}" }' >"$scratch/deep.gltf"
 expect 0 "check of 10,000 bones, each below the one before" "$WIGGLY" check "$scratch/deep.gltf"
-[ "$(grep -cE '^ +(\([0-9]+ deep\) )?([bs][0-9]+|end)$' <<<"$out")" = 19999 ]
-ok "lists all" $?
+holds "lists all" [ "$(grep -cE '^ +(\([0-9]+ deep\) )?([bs][0-9]+|end)$' <<<"$out")" = 19999 ]
 says "those beyond a screen's width with their depth" "(9999 deep) end" "$out"
 says "each under its parent" "        b3
           s3
@@ -39,15 +37,13 @@ says "with the frequency" '"frequency": 2,' "$(cat "$scratch/dog.json")"
 expect 3 "a scene in a folder that is not there" "$WIGGLY" rig $dog --chain tail_1 -o "$scratch/none/dog.json"
 says "is said" "none/dog.json: cannot be written" "$err"
 expect 0 "its splines follow the clip" "$WIGGLY" solve "$scratch/dog.json" -o "$scratch/dog.csv"
-[ "$(awk -F, 'NR > 1 && $3 * $3 > 1e-4' "$scratch/dog.csv" | wc -l)" -gt 5 ]
-ok "and swing" $?
+holds "and swing" [ "$(awk -F, 'NR > 1 && $3 * $3 > 1e-4' "$scratch/dog.csv" | wc -l)" -gt 5 ]
 expect 0 "straight to an animated character" "$WIGGLY" rig $dog --chain tail_1 --clip Trot -o "$scratch/trot.glb"
 expect 0 "which opens" "$WIGGLY" rig "$scratch/trot.glb"
 says "with the clip at its own length" "Trot (0.583 s)" "$out"
 expect 0 "a clip of its own for knots alone" "$WIGGLY" rig $dog --chain tail_1 --plain -o "$scratch/plain.json"
 grep -q '"joint"' "$scratch/plain.json"
-[ $? -eq 1 ]
-ok "follows nothing" $?
+holds "follows nothing" [ $? -eq 1 ]
 
 expect 1 "a soft character" "$WIGGLY" rig assets/models/creature.glb
 says "has no bones" "creature.glb: expected a character with bones, got a soft one" "$err"
@@ -61,6 +57,5 @@ expect 2 "a chain without a file to write" "$WIGGLY" rig $dog --chain tail_1
 expect 2 "a file that nobody knows" "$WIGGLY" rig $dog --chain tail_1 -o "$scratch/no.fbx"
 expect 2 "what is no character" "$WIGGLY" rig assets/scenes/tail.json
 expect 1 "a character that is not there" "$WIGGLY" rig "$scratch/none.glb"
-[ ! -e "$scratch/no.json" ]
-ok "nothing is written where something is wrong" $?
+holds "nothing is written where something is wrong" [ ! -e "$scratch/no.json" ]
 exit $((cases_failed > 0))

@@ -12,25 +12,20 @@ quick="--tets 60 --seconds 0.25 --fps 24 --substeps 2"
 # shellcheck disable=SC2086 # the options are split on purpose
 expect 0 "a box is shaken" "$WIGGLY" simulate "$scratch/box.obj" --shake side $quick -o "$scratch/box.npy"
 says "says what was written" "box.npy: 6 frames of 8 vertices at 24 fps" "$out"
-[ "$(stat -c %s "$scratch/box.npy")" -eq $((128 + 6 * 8 * 3 * 4)) ]
-ok "the .npy holds 6 × 8 × 3 floats" $?
-[ "$(grep -c '^v ' "$scratch/box.rest.obj")" -eq 8 ]
-ok "the rest mesh has the same vertices" $?
+holds "the .npy holds 6 × 8 × 3 floats" [ "$(stat -c %s "$scratch/box.npy")" -eq $((128 + 6 * 8 * 3 * 4)) ]
+holds "the rest mesh has the same vertices" [ "$(grep -c '^v ' "$scratch/box.rest.obj")" -eq 8 ]
 first=$(cat "$scratch/box.npy" | cksum)
 # shellcheck disable=SC2086
 expect 0 "again" "$WIGGLY" simulate "$scratch/box.obj" --shake side $quick -o "$scratch/box.npy" --verbose
-[ "$first" = "$(cat "$scratch/box.npy" | cksum)" ]
-ok "the same command gives the same bytes" $?
+holds "the same command gives the same bytes" [ "$first" = "$(cat "$scratch/box.npy" | cksum)" ]
 says "--verbose tells how far it is" "frame 6 of 6" "$err"
 
 # shellcheck disable=SC2086
 expect 0 "PC2, a push along a vector" "$WIGGLY" simulate "$scratch/box.obj" --shake 1,0,1 --impulse $quick -o "$scratch/box.pc2"
-[ "$(head -c 11 "$scratch/box.pc2")" = POINTCACHE2 ]
-ok "is PC2" $?
+holds "is PC2" [ "$(head -c 11 "$scratch/box.pc2")" = POINTCACHE2 ]
 expect 0 "normal modes" "$WIGGLY" simulate "$scratch/box.obj" --modal 3 --tets 60 --frequency 1.5 -o "$scratch/modes.npy"
 says "prints their frequencies, the lowest as asked for" "   1          1.5" "$out"
-[ "$(stat -c %s "$scratch/modes.npy")" -eq $((128 + 3 * 8 * 3 * 4)) ]
-ok "writes three shapes" $?
+holds "writes three shapes" [ "$(stat -c %s "$scratch/modes.npy")" -eq $((128 + 3 * 8 * 3 * 4)) ]
 
 # shellcheck disable=SC2086
 expect 0 "a mesh with a hole" "$WIGGLY" simulate "$scratch/open.obj" $quick -o "$scratch/open.npy"
@@ -46,8 +41,7 @@ ok "stands as the box does" $?
 # An undamped body that is thrown far needs any number of steps. The two simulations that say how large the error is are made in any case.
 expect 0 "an accuracy that is out of reach" "$WIGGLY" simulate "$scratch/box.obj" --tets 60 --seconds 0.5 --damping 0 --amplitude 0.4 \
     --accuracy 1e-4 --budget 0 -o "$scratch/far.npy" --verbose
-[ "$(grep -c 'steps a frame: error' <<<"$err")" -eq 1 ]
-ok "is searched for within the budget" $?
+holds "is searched for within the budget" [ "$(grep -c 'steps a frame: error' <<<"$err")" -eq 1 ]
 says "and the error that was reached is said" "far.npy: warning: expected an error of the motion of at most 0.01 %, got " "$err"
 says "with what gives less" "--substeps 16 or a larger --budget may come nearer" "$err"
 
@@ -56,8 +50,7 @@ refused() { # <exit status> <what it says> <arguments>...
     shift 2
     expect "$status" "refuses: $what" "$WIGGLY" simulate "$@"
     says "in one line" "$what" "$err"
-    [ "$(printf '%s\n' "$err" | wc -l)" -eq 1 ]
-    ok "and no more" $?
+    holds "and no more" [ "$(printf '%s\n' "$err" | wc -l)" -eq 1 ]
 }
 o="-o $scratch/none.npy"
 sed 's/^v 0 0 0$/v 0 0 0 1e30 0 0/' "$scratch/box.obj" >"$scratch/bright.obj"
@@ -83,8 +76,7 @@ for name in white whiter; do
     # shellcheck disable=SC2086
     expect 0 "softness where vertices are $name" "$WIGGLY" simulate "$scratch/$name.obj" --soft color $quick -o "$scratch/$name.npy"
 done
-cmp -s "$scratch/white.npy" "$scratch/whiter.npy"
-ok "white is as soft as it gets" $?
+holds "white is as soft as it gets" cmp -s "$scratch/white.npy" "$scratch/whiter.npy"
 expect 0 "a painted map of softness" "$WIGGLY" simulate "$scratch/box.obj" --soft "$scratch/map.npy" $quick -o "$scratch/soft.npy"
 # shellcheck disable=SC2086
 {
@@ -113,8 +105,7 @@ expect 0 "a painted map of softness" "$WIGGLY" simulate "$scratch/box.obj" --sof
     refused 2 "expected a name ending in .npy for --modal" "$scratch/box.obj" --modal 2 -o "$scratch/box.pc2"
     refused 3 "$scratch/no/such/none.npy" "$scratch/box.obj" --tets 60 -o "$scratch/no/such/none.npy"
 }
-[ -z "$(find "$scratch" -name '*none*')" ]
-ok "nothing was written" $?
+holds "nothing was written" [ -z "$(find "$scratch" -name '*none*')" ]
 
 # A disk of one block: the old file stays, nothing half-written beside it.
 (
@@ -122,22 +113,17 @@ ok "nothing was written" $?
     trap '' XFSZ
     "$WIGGLY" simulate "$scratch/box.obj" --tets 60 --seconds 4 -o "$scratch/box.npy" >"$scratch/full" 2>&1
 )
-[ $? -eq 3 ]
-ok "a file that cannot grow is exit status 3" $?
+holds "a file that cannot grow is exit status 3" [ $? -eq 3 ]
 says "and a sentence" "box.npy" "$(grep -v tetrahedra "$scratch/full")"
-[ "$first" = "$(cat "$scratch/box.npy" | cksum)" ]
-ok "the old file is intact" $?
-[ "$(find "$scratch" -name '*box.npy*' | wc -l)" -eq 1 ]
-ok "no temporary file stays" $?
+holds "the old file is intact" [ "$first" = "$(cat "$scratch/box.npy" | cksum)" ]
+holds "no temporary file stays" [ "$(find "$scratch" -name '*box.npy*' | wc -l)" -eq 1 ]
 
 "$WIGGLY" simulate "$scratch/box.obj" --tets 2000 --seconds 1000 -o "$scratch/stopped.npy" >"$scratch/begun" 2>/dev/null &
 for _ in $(seq 600); do [ -s "$scratch/begun" ] && break; sleep 0.1; done
 kill -INT $!
 wait $!
-[ $? -eq 3 ]
-ok "Ctrl+C ends it in order" $?
-[ -z "$(find "$scratch" -name '*stopped*')" ]
-ok "and leaves no half a file" $?
+holds "Ctrl+C ends it in order" [ $? -eq 3 ]
+holds "and leaves no half a file" [ -z "$(find "$scratch" -name '*stopped*')" ]
 
 # Finding 200 modes of so large a body takes minutes, and is not heard of again.
 "$WIGGLY" simulate "$scratch/box.obj" --tets 100000 --modal 200 --verbose -o "$scratch/stopped.npy" >"$scratch/begun" 2>&1 &

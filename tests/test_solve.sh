@@ -49,20 +49,17 @@ says "says so" "the equilibrium of this loop does not end where it starts" "$out
 
 for scene in assets/scenes/*.json; do
     expect 0 "check of $scene" "$WIGGLY" check "$scene"
-    [ -z "$out$err" ]
-    ok "has nothing to say about $scene" $?
+    holds "has nothing to say about $scene" [ -z "$out$err" ]
 done
 
 printf '{"frames": [9, 0], "fps": -1,\n"splines": [{"name": 3}]}' >"$scratch/bad.json"
 expect 1 "check of a scene with three errors" "$WIGGLY" check "$scratch/bad.json"
-[ "$(wc -l <<<"$out")" -eq 3 ]
-ok "prints all three" $?
+holds "prints all three" [ "$(wc -l <<<"$out")" -eq 3 ]
 says "with the line" "bad.json:2: splines[0].name: expected a string, got a number" "$out"
 
 printf 'old' >"$scratch/out.csv"
 expect 1 "solve -o of a bad scene" "$WIGGLY" solve "$scratch/bad.json" -o "$scratch/out.csv"
-[ "$(cat "$scratch/out.csv")" = old ]
-ok "leaves the old file alone" $?
+holds "leaves the old file alone" [ "$(cat "$scratch/out.csv")" = old ]
 expect 3 "solve to a full disk" "$WIGGLY" solve assets/scenes/figure1.json -o /dev/full
 says "says so" "/dev/full: cannot be written: No space left on device" "$err"
 exit $((cases_failed > 0))

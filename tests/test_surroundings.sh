@@ -115,12 +115,10 @@ refused_everywhere() { # <what> <folder> <what the sentence says>
         [ "${command%% *}" = rig ] && ending=json
         expect 3 "$1: ${command%% *}" bash -c "set -o pipefail; (ulimit -f ${4:-unlimited}; exec \"$WIGGLY\" $command -o \"$2/old.$ending\") 2>&1 | cat >&2"
         says "$1: ${command%% *} says why" "$3" "$err"
-        [ "$(printf '%s\n' "$err" | wc -l)" -eq 1 ]
-        ok "$1: in one sentence" $?
+        holds "$1: in one sentence" [ "$(printf '%s\n' "$err" | wc -l)" -eq 1 ]
     done
     after=$(cd "$2" && ls -A; cat "$2"/old.*)
-    [ "$before" = "$after" ]
-    ok "$1: what was there is as it was, and nothing is left beside it" $?
+    holds "$1: what was there is as it was, and nothing is left beside it" [ "$before" = "$after" ]
 }
 
 prepare() { mkdir -p "$1" && echo old >"$1/old.csv" && echo old >"$1/old.json"; }

@@ -26,8 +26,7 @@ kill_weston() {
     kill -9 $weston
     weston=""
     await_end
-    [ $status -eq 3 ]
-    ok "a killed compositor: exit status 3" $?
+    holds "a killed compositor: exit status 3" [ $status -eq 3 ]
 }
 
 wayland() { env -u DISPLAY WAYLAND_DISPLAY=$display "$WIGGLY" live "$@"; }

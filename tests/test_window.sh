@@ -11,8 +11,7 @@ knots() { [ "$(grep -o '"frame":' "$scratch/mine.json" | wc -l)" "$@" ]; }
 
 expect 0 "frames in a window" "$WIGGLY" live --frames 60 --log "$scratch/window.csv" --screenshot "$scratch/window.png"
 says "prints the summary" "fps on average" "$out"
-[ "$(identify -format '%wx%h' "$scratch/window.png" 2>&1)" = 1280x720 ]
-ok "the picture has the window's size" $?
+holds "the picture has the window's size" [ "$(identify -format '%wx%h' "$scratch/window.png" 2>&1)" = 1280x720 ]
 
 cp assets/scenes/tail.json "$scratch/mine.json"
 before=$(grep -o '"frame":' "$scratch/mine.json" | wc -l)
@@ -46,6 +45,5 @@ eventually "a double click on the curves inserts a knot" knots -eq $((before + 2
 keys ctrl+z ctrl+s
 eventually "one Ctrl+Z takes it back" cmp -s "$scratch/mine.json" "$scratch/undone.json"
 quit_app
-cmp "$scratch/mine.json" "$scratch/saved.json"
-ok "byte for byte" $?
+holds "byte for byte" cmp "$scratch/mine.json" "$scratch/saved.json"
 exit $((cases_failed > 0))
