@@ -55,7 +55,7 @@ static inline void assert_param(const struct document *d, const struct param *pa
     if (!param_follows(param)) assert_true(may_be_infinite ? !isnan(param->value) : isfinite(param->value));
     if (!param->motion) return;
     assert_int_equal(param->track, -1);
-    assert_true(isfinite(param->gain) && param->motion->joint[0]);
+    assert_true(isfinite(param->motion->gain) && param->motion->joint[0]);
     assert_true(document_find_model(d, param->motion->model, param->motion->by_file) >= 0);
 }
 

@@ -91,11 +91,11 @@ WORLD_TEST(forms_are_edited_and_undone, world_open(world))
     for (size_t i = 0; i < sizeof turns / sizeof *turns; i++) assert_reversible(world, edit_lag(world, turns[i]));
     struct angles wrong = ramp;
     wrong.ramp[1].at = 0.25;
-    assert_refused(world, edit_lag(world, &wrong), "the places of a ramp must ascend");
+    assert_refused(world, edit_lag(world, &wrong), "t: the places of a ramp must ascend");
     wrong.ramp[1].at = 2;
-    assert_refused(world, edit_lag(world, &wrong), "the places of a ramp are from 0 to 1");
+    assert_refused(world, edit_lag(world, &wrong), "t: the places of a ramp are from 0 to 1");
     wrong.count = 1;
-    assert_refused(world, edit_lag(world, &wrong), "a ramp has from 2 to 32 points");
+    assert_refused(world, edit_lag(world, &wrong), "t: a ramp has from 2 to 32 points");
     wrong = each;
     wrong.count = 2;
     assert_refused(world, edit_lag(world, &wrong), "t: there must be one angle for each of the 3 joints");

@@ -109,11 +109,11 @@ TEST(edits_are_undone_to_the_byte)
     struct document *document = parse(whole);
     struct history *history = history_create(document);
     size_t size;
-    char *before = scene_print(document, &size);
+    char *before = scene_print(document, &size), twist[] = "twist";
     end(history, edit_drive(begin(history, document), 0, 0,
                             &(const struct drive){.spline = 1, .amplitude = -2, .lag = 45}, NULL));
-    end(history, edit_drive_add(begin(history, document), 0, "twist",
-                                &(const struct drive){.name = "twist", .spline = 0, .amplitude = 1}, NULL));
+    end(history, edit_drive(begin(history, document), 0, -1,
+                            &(const struct drive){.name = twist, .spline = 0, .amplitude = 1}, NULL));
     end(history, edit_drive_remove(begin(history, document), 0, 0, NULL));
     const struct character_rig *rig = document_character(document, 0);
     assert_int_equal(rig->drive_count, 2);
@@ -163,7 +163,7 @@ TEST(rigs_keep_their_order)
     end(history, edit_rig_remove(begin(history, document), 0, NULL));
     assert_order(document, "ctt");
     const struct drive drive = {.name = "up", .spline = 1, .amplitude = 1};
-    end(history, edit_drive_add(begin(history, document), 0, drive.name, &drive, NULL));
+    end(history, edit_drive(begin(history, document), 0, -1, &drive, NULL));
     end(history, edit_rig_remove(begin(history, document), 1, NULL));
     assert_order(document, "ct");
     assert_string_equal(document->rigs[1]->name, "tail");
@@ -189,11 +189,11 @@ TEST(impossible_edits_are_refused)
     assert_false(edit_drive(document, 0, 2, &good, &error));
     assert_string_equal(error.text, "this character has no such coordinate");
     assert_false(edit_drive(document, 0, 0, &other, &error));
-    assert_string_equal(error.text, "there is no such spline");
+    assert_string_equal(error.text, "../models/a.glb: there is no such spline");
     assert_false(edit_drive(document, 0, 0, &endless, &error));
-    assert_string_equal(error.text, "amplitude and lag must be finite");
-    assert_false(edit_drive_add(document, 0, NULL, &good, &error));
-    assert_string_equal(error.text, "a coordinate needs a name");
+    assert_string_equal(error.text, "../models/a.glb: the amplitude must be finite");
+    assert_false(edit_drive(document, 0, -1, &good, &error));
+    assert_string_equal(error.text, "../models/a.glb: \"name\" must not be empty");
     assert_false(edit_drive_remove(document, 0, -1, &error));
     assert_string_equal(error.text, "this character has no such coordinate");
     history_end(history);

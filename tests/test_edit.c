@@ -40,12 +40,12 @@ WORLD_TEST(test_refused_knots, world_open(world))
     assert_refused(world, edit_insert(world, SWAY, -0.6, 0), "sway: frame -0.6 is outside 0 to 48");
     assert_refused(world, edit_insert(world, LOOP, 48, 0),
                    "loop: frame 48 is outside 0 to 48; the last frame of a loop repeats the first");
-    assert_refused(world, edit_insert(world, SWAY, 5, NAN), "sway: a knot's numbers must be finite");
-    assert_refused(world, edit_insert(world, SWAY, INFINITY, 0), "sway: a knot's numbers must be finite");
+    assert_refused(world, edit_insert(world, SWAY, 5, NAN), "sway: a knot: the value must be finite");
+    assert_refused(world, edit_insert(world, SWAY, INFINITY, 0), "sway: a knot: the frame must be finite");
     struct knot soft = world->document->splines[SWAY]->knots[1];
     soft.value = soft.stiffness = 0;
     assert_refused(world, edit_knot_set(world_edit(world), SWAY, &soft, &world->error),
-                   "sway: stiffness must be above 0");
+                   "sway: a knot: the stiffness must be above 0 and finite");
     assert_refused(world, edit_knot_remove(world_edit(world), SWAY, 99, &world->error),
                    "sway: this knot no longer exists");
     assert_refused(world, edit_insert(world, 3, 5, 0), "there is no such spline");
@@ -124,9 +124,9 @@ WORLD_TEST(test_angles, world_open(world))
     world_must(world,
                edit_angles(world_edit(world), (struct channel_place){0, -1}, ANGLE_REST, &each, &world->error));
     assert_int_equal(document_tail(world->document, 0)->rest.form, ANGLES_EACH);
-    world_must(world, edit_axis(world_edit(world), (struct channel_place){0, 0}, AXIS_UP, &world->error));
+    world_must(world, edit_bend(world, 0, 0, -1, AXIS_UP, -1));
     assert_refused(world, edit_angles(world_edit(world), at, ANGLE_LAG, &wrong, &world->error),
-                   "angles must be finite");
+                   "t: angles must be finite");
     assert_refused(world, edit_angles(world_edit(world), no_channel, ANGLE_LAG, &wrong, &world->error),
                    "there is no such channel");
     assert_refused(world, edit_angles(world_edit(world), no_rig, ANGLE_LAG, &wrong, &world->error),

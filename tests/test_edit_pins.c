@@ -83,10 +83,10 @@ WORLD_TEST(test_what_would_not_load_is_refused, open(world))
     assert_refused(world, edit_pin_set(world_edit(world), 0, &pin, &world->error),
                    "t: pins: expected a frame from 0 to 48, got 49");
     pin.to[1] = NAN;
-    assert_refused(world, edit_pin_set(world_edit(world), 0, &pin, &world->error),
-                   "t: a pin's numbers must be finite");
+    assert_refused(world, edit_pin_set(world_edit(world), 0, &pin, &world->error), "t: a pin: the to must be finite");
     pin = (struct pin){.frame = 2, .point = 12};
-    assert_refused(world, edit_pin_add(world_edit(world), 0, &pin, &world->error), "t: there is no point 12 to pin");
+    assert_refused(world, edit_pin_add(world_edit(world), 0, &pin, &world->error),
+                   "t: pins: expected a whole number from 0 to 11, got 12");
     assert_refused(world, edit_pin_remove(world_edit(world), 0, pin.id, &world->error),
                    "t: this pin no longer exists");
     assert_refused(world, edit_mode(world, SIDE, WIGGLY_CUBIC),
@@ -100,7 +100,7 @@ WORLD_TEST(test_what_would_not_load_is_refused, open(world))
     assert_refused(world, edit_track(world, BASE, PARAMETER_EQUILIBRIUM, SIDE),
                    "t: pins: expected splines that are not solved before and after each other, got \"up\", which "
                    "follows \"base\"");
-    assert_refused(world, edit_feed(world_edit(world), (struct channel_place){0, 1}, BASE, &world->error),
+    assert_refused(world, edit_bend(world, 0, 1, BASE, -1, -1),
                    "t: pins: expected splines with a swing of their own, got \"base\", which is cubic");
     assert_refused(world, edit_frames(world, 0, 20), "t: pins: expected a frame from 0 to 20, got 30");
     pin.frame = 48;

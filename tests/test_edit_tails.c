@@ -4,8 +4,9 @@
 
 static bool set_position(struct world *world, int coordinate, double value, int track)
 {
-    const struct param param = {.value = value, .track = track};
-    return edit_position(world_edit(world), 0, coordinate, &param, &world->error);
+    struct rig moved = *world_edit(world)->rigs[0];
+    moved.tail.position[coordinate] = (struct param){.value = value, .track = track};
+    return edit_rig_set(world->document, 0, &moved, &world->error);
 }
 
 WORLD_TEST(test_places, world_open(world))
@@ -20,28 +21,24 @@ WORLD_TEST(test_places, world_open(world))
     assert_near(document_tail(world->document, 0)->length, 2.5, 0);
     assert_refused(world, set_position(world, 0, NAN, -1), "t: the position must be finite");
     assert_refused(world, set_position(world, 1, 0, 3), "t: there is no spline to follow");
-    assert_refused(world, set_position(world, 3, 0, -1), "there is no such coordinate");
     longer = *world->document->rigs[0];
     longer.tail.length = 0;
     assert_refused(world, edit_rig_set(world_edit(world), 0, &longer, &world->error),
-                   "the length must be above 0 and finite");
+                   "t: the length must be above 0 and finite");
     assert_refused(world, edit_rig_set(world_edit(world), 1, &longer, &world->error), "there is no such tail");
 }
 
 WORLD_TEST(test_channels, world_open(world))
 {
-    assert_reversible(world, edit_feed(world_edit(world), (struct channel_place){0, 1}, PLUCK, &world->error));
+    assert_reversible(world, edit_bend(world, 0, 1, PLUCK, -1, -1));
     assert_int_equal(document_tail(world->document, 0)->channels[1].spline, PLUCK);
-    assert_reversible(world,
-                      edit_part(world_edit(world), (struct channel_place){0, 1}, PART_DISPLACEMENT, &world->error));
+    assert_reversible(world, edit_bend(world, 0, 1, -1, -1, PART_DISPLACEMENT));
     assert_int_equal(document_tail(world->document, 0)->channels[1].of, PART_DISPLACEMENT);
     enum axis other = document_tail(world->document, 0)->channels[1].axis == AXIS_UP ? AXIS_SIDE : AXIS_UP;
-    assert_reversible(world, edit_axis(world_edit(world), (struct channel_place){0, 1}, other, &world->error));
+    assert_reversible(world, edit_bend(world, 0, 1, -1, other, -1));
     assert_int_equal(document_tail(world->document, 0)->channels[1].axis, other);
-    assert_refused(world, edit_feed(world_edit(world), (struct channel_place){0, 1}, 9, &world->error),
-                   "there is no such spline");
-    assert_refused(world, edit_part(world_edit(world), (struct channel_place){0, 2}, PART_TOTAL, &world->error),
-                   "there is no such channel");
+    assert_refused(world, edit_bend(world, 0, 1, 9, -1, -1), "t: there is no such spline");
+    assert_refused(world, edit_bend(world, 0, 2, -1, -1, PART_TOTAL), "there is no such channel");
 }
 
 WORLD_TEST(test_which_tails_there_are, world_open(world))
@@ -87,12 +84,12 @@ WORLD_TEST(test_which_channels_there_are, world_open(world))
     assert_refused(world, edit_channel_remove(world_edit(world), (struct channel_place){0, 2}, &world->error),
                    "there is no such channel");
     assert_refused(world, edit_channel_add(world_edit(world), 0, -1, AXIS_SIDE, PART_TOTAL, &world->error),
-                   "there is no such spline");
+                   "t: there is no such spline");
     for (int c = 2; c < SCENE_MAX_CHANNELS; c++)
         assert_true(world_step(
             world, edit_channel_add(world_edit(world), 0, PLUCK, AXIS_UP, PART_DISPLACEMENT, &world->error)));
     assert_refused(world, edit_channel_add(world_edit(world), 0, PLUCK, AXIS_UP, PART_DISPLACEMENT, &world->error),
-                   "t: there are 64 channels, and no more fit");
+                   "t: at most 64 channels fit");
 }
 
 /// The gains of all joints together, and the lag from base to tip, stay; arrays are read at the same shares of the length.
@@ -114,7 +111,7 @@ WORLD_TEST(test_joints_keep_the_shape, world_open(world))
 /// What moves the tail as a whole moves it as far, and still has one number for each joint.
 WORLD_TEST(test_joints_of_what_does_not_bend, world_open(world))
 {
-    world_must(world, edit_axis(world_edit(world), (struct channel_place){0, 1}, AXIS_STRETCH, &world->error));
+    world_must(world, edit_bend(world, 0, 1, -1, AXIS_STRETCH, -1));
     assert_int_equal(document_tail(world->document, 0)->channels[1].gain.form, ANGLES_EACH);
     assert_reversible(world, edit_joints(world_edit(world), 0, 5, &world->error));
     const struct channel *stretch = &document_tail(world->document, 0)->channels[1];

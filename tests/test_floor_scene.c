@@ -115,11 +115,14 @@ TEST(a_floor_above_the_feet_is_refused)
     struct opened opened = open_scene("free", "", ", \"floor\": -1");
     struct history *history = history_create(opened.document);
     struct error error = {0};
+    struct rig changed = *opened.document->rigs[0];
+    changed.character.floor = 0.5;
     history_begin(history, "Floor", 0);
-    assert_false(edit_floor(opened.document, 0, true, 0.5, &error));
+    assert_false(edit_rig_set(opened.document, 0, &changed, &error));
     assert_non_null(strstr(error.text, "floor: expected a height of at most 0"));
     assert_true(opened.document->rigs[0]->character.floor == -1);
-    assert_true(edit_floor(opened.document, 0, true, -0.25, &error));
+    changed.character.floor = -0.25;
+    assert_true(edit_rig_set(opened.document, 0, &changed, &error));
     history_end(history);
     assert_true(opened.document->rigs[0]->character.floor == -0.25);
     assert_true(history_undo(history));

@@ -180,7 +180,7 @@ static void edit_random_setting(struct world *world)
         edit_angles(document, at, (enum angle_kind)(rand() % 3), &angles, &world->error);
         break;
     case 2:
-        edit_axis(document, at, (enum axis)(rand() % 2), &world->error);
+        edit_bend(world, 0, at.channel < 0 ? 2 : at.channel, -1, rand() % 2, -1);
         break;
     default:
         edit_parameter(document, rand() % 3, parameter, &param, &world->error);

@@ -45,7 +45,7 @@ SESSION_TEST(test_an_equilibrium_comes_to_follow_the_tip_of_its_chain, open_beas
     assert_string_equal(equilibrium(s)->motion->joint, "tail_8");
     assert_string_equal(equilibrium(s)->motion->chain, "tail");
     assert_int_equal(equilibrium(s)->motion->of, MOTION_UP);
-    assert_true(equilibrium(s)->gain > 1); // a metre is more of the tip than 1 of what knots directed
+    assert_true(equilibrium(s)->motion->gain > 1); // a metre is more of the tip than 1 of what knots directed
     assert_int_equal(tail(s)->channels[0].of, PART_DISPLACEMENT);
     assert_one_step(s, before);
     panel_click(s, "follow.equilibrium");
@@ -59,12 +59,12 @@ SESSION_TEST(test_a_joint_is_chosen_from_a_list, open_beast(s, FOLLOWS))
     panel_click(s, "item.neck");
     assert_string_equal(equilibrium(s)->motion->joint, "neck");
     assert_int_equal(equilibrium(s)->motion->of, MOTION_TURN);
-    assert_near(equilibrium(s)->gain, 2, 0);
+    assert_near(equilibrium(s)->motion->gain, 2, 0);
     assert_one_step(s, before);
     panel_click(s, "joint.of.across");
     assert_int_equal(equilibrium(s)->motion->of, MOTION_ACROSS);
     panel_enter(s, "joint.gain", "-3");
-    assert_near(equilibrium(s)->gain, -3, 0);
+    assert_near(equilibrium(s)->motion->gain, -3, 0);
     assert_string_equal(equilibrium(s)->motion->joint, "neck");
     for (int step = 0; step < 3; step++) session_key(s, 'Z', MOD_CTRL);
     assert_saved(s, before);

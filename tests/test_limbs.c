@@ -166,8 +166,10 @@ TEST(the_body_leaves_the_tail_alone)
 
 static bool try_axis(struct history *history, int rig, int channel, enum axis axis)
 {
+    struct channel changed = scene.document->rigs[rig]->bent.channels[channel];
+    changed.axis = axis;
     history_begin(history, "Axis", 0);
-    const bool possible = edit_axis(scene.document, (struct channel_place){rig, channel}, axis, NULL);
+    const bool possible = edit_channel(scene.document, (struct channel_place){rig, channel}, &changed, NULL);
     history_end(history);
     return possible;
 }

@@ -25,9 +25,9 @@ TEST(positions_are_those_of_equation_30)
     struct character character = puppet_character(0.2f, 3);
     stir(&character);
     struct figure figure = puppet_figure(&character);
-    const struct character_rig rig = {
-        .drives = {{.name = "c", .amplitude = 0.7, .lag = 40}, {.name = "a", .amplitude = -1.5, .lag = -100}},
-        .drive_count = 2};
+    const struct character_rig rig = {.drives = (struct drive[]){{.name = "c", .amplitude = 0.7, .lag = 40},
+                                                                 {.name = "a", .amplitude = -1.5, .lag = -100}},
+                                      .drive_count = 2};
     const wiggly_value x[] = {{0.25, 0.6, -0.9}, {0, -0.3, 0.4}};
     const double complex value[] = {0.25 + cexp(-I * 40 * M_PI / 180) * (0.6 - 0.9 * I),
                                     cexp(I * 100 * M_PI / 180) * (-0.3 + 0.4 * I)};
@@ -70,7 +70,7 @@ TEST(real_parts_alone_lose_what_lags)
     struct character character = puppet_character(0.2f, 1);
     for (int i = 0; i < character.vertex_count; i++) character.coordinates[0].im[i][1] = -1.0f;
     struct figure figure = puppet_figure(&character);
-    const struct character_rig rig = {.drives = {{.name = "a", .amplitude = 1}}, .drive_count = 1};
+    const struct character_rig rig = {.drives = &(struct drive){.name = "a", .amplitude = 1}, .drive_count = 1};
     for (int frame = 0; frame < 24; frame++) {
         const double t = 2 * M_PI * frame / 24;
         const wiggly_value x = {0, cos(t), sin(t)};

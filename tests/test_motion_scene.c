@@ -139,7 +139,10 @@ STAND_TEST(a_motion_is_read_when_it_has_changed)
     assert_true(stand_update(stand));
     assert_int_equal(stand->reads, 2);
     assert_int_equal(stand->evaluation.solved_splines, 1);
-    world_must(world, edit_clip(world_edit(world), DOG, "Gallop", &world->error));
+    char gallop[] = "Gallop";
+    struct rig galloping = *world->document->rigs[DOG];
+    galloping.model.clip = gallop;
+    world_must(world, edit_rig_set(world_edit(world), DOG, &galloping, &world->error));
     assert_true(stand_update(stand));
     assert_int_equal(stand->reads, 4);
     assert_int_equal(stand->evaluation.solved_splines, 3); // wag, its follower, ear
@@ -175,7 +178,9 @@ STAND_TEST(without_a_source_it_stays_at_0)
 
 static bool follow(struct world *world, enum parameter parameter, struct joint_motion *motion, double gain)
 {
-    const struct param param = {.track = -1, .motion = motion, .gain = gain};
+    struct joint_motion followed = *motion;
+    const struct param param = {.track = -1, .motion = &followed};
+    followed.gain = gain;
     return edit_parameter(world_edit(world), ALONE, parameter, &param, &world->error);
 }
 
@@ -202,16 +207,16 @@ STAND_TEST(following_is_edited_and_undone)
     assert_reversible(world, edit_track(world, WAG, PARAMETER_EQUILIBRIUM, ALONE));
     assert_refused(world, follow(world, PARAMETER_DAMPING, &motion, 1),
                    "alone: only the equilibrium follows a joint");
-    assert_refused(world, follow(world, PARAMETER_EQUILIBRIUM, &motion, NAN),
-                   "alone: a motion needs a joint and a finite gain");
+    assert_refused(world, follow(world, PARAMETER_EQUILIBRIUM, &motion, NAN), "alone: the gain must be finite");
+    motion.joint = nothing;
+    assert_refused(world, follow(world, PARAMETER_EQUILIBRIUM, &motion, 1), "alone: \"joint\" must not be empty");
+    motion.joint = joint;
     motion.chain = nobody;
-    assert_refused(world, follow(world, PARAMETER_EQUILIBRIUM, &motion, 1), "alone: there is no chain \"cat\"");
+    assert_refused(world, follow(world, PARAMETER_EQUILIBRIUM, &motion, 1),
+                   "alone: expected the name of a chain, got \"cat\"");
     motion.model = nobody;
     assert_refused(world, follow(world, PARAMETER_EQUILIBRIUM, &motion, 1),
-                   "alone: there is no model \"cat\" to follow");
-    motion.joint = nothing;
-    assert_refused(world, follow(world, PARAMETER_EQUILIBRIUM, &motion, 1),
-                   "alone: a motion needs a joint and a finite gain");
+                   "alone: expected the name or file of a model rig, got \"cat\"");
 }
 
 /// Names that motions go by are renamed with what they name, which is not removed before them; files move with the scene.

@@ -372,17 +372,18 @@ static bool edit_once(struct stand *stand, int i)
     struct pin moved = document->rigs[SHARED]->pins ? document->rigs[SHARED]->pins[0] : (struct pin){0};
     struct knot knot = document->splines[0]->knots[1];
     struct angles gain = document->rigs[SHARED]->tail.channels[1].gain;
-    const struct param place = param_number(0.9);
+    struct rig aside = *document->rigs[SHARED];
     static const int pinned[] = {CREATURE, OWN, SHARED};
     moved.to[1] += 0.1;
     moved.frame = 40;
     knot.value = 0.5;
     gain.value[0] = 9;
+    aside.tail.position[0] = param_number(0.9);
     bool done = false;
     if (i == 0) done = edit_pin_set(document, SHARED, &moved, NULL);
     if (i == 1) done = edit_angles(document, (struct channel_place){SHARED, 1}, ANGLE_GAIN, &gain, NULL);
     if (i == 2) done = edit_knot_set(document, 0, &knot, NULL);
-    if (i == 3) done = edit_position(document, SHARED, 0, &place, NULL);
+    if (i == 3) done = edit_rig_set(document, SHARED, &aside, NULL);
     if (i >= 4 && i < 7)
         done = edit_pin_remove(document, pinned[i - 4], document->rigs[pinned[i - 4]]->pins[0].id, NULL);
     history_end(stand->history);

@@ -130,6 +130,19 @@ bool edit_frames(struct world *world, int first, int last)
     return edit_range(world_edit(world), first, last, RANGE_REFUSE, &world->error);
 }
 
+bool edit_bend(struct world *world, int rig, int channel, int spline, int axis, int of)
+{
+    struct document *document = world_edit(world);
+    struct channel changed = {.spline = 0};
+    int count;
+    const struct channel *channels = rig_channels(document->rigs[rig], &count);
+    if (channel < count) changed = channels[channel];
+    if (spline >= 0) changed.spline = spline;
+    if (axis >= 0) changed.axis = (enum axis)axis;
+    if (of >= 0) changed.of = (enum channel_part)of;
+    return edit_channel(document, (struct channel_place){rig, channel}, &changed, &world->error);
+}
+
 int world_undo_all(struct world *world)
 {
     int count = 0;

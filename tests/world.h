@@ -52,6 +52,8 @@ bool edit_track(struct world *world, int spline, enum parameter parameter, int t
 bool edit_mode(struct world *world, int spline, enum wiggly_mode mode);
 bool edit_start(struct world *world, int spline, enum wiggly_start start);
 bool edit_frames(struct world *world, int first, int last);
+/// A channel gets another spline, axis or part; −1: its own.
+bool edit_bend(struct world *world, int rig, int channel, int spline, int axis, int of);
 
 /// A test of a world that `opens` opens and that is closed at its end: WORLD_TEST(name, world_open(world)) { … }.
 #define WORLD_TEST(name, opens) TEST_OF(struct world, world, opens, world_close(world), name)

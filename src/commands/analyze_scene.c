@@ -59,8 +59,10 @@ static bool fill(struct document *document, const char *model, const struct char
                  const struct analyzed *analyzed, struct error *error)
 {
     int chosen[CHARACTER_MAX_DRIVES], count = choose(character, analyzed, chosen);
+    struct drive drives[CHARACTER_MAX_DRIVES];
     char name[] = "character", *file = need_text(path_name(model));
-    struct rig rig = {.kind = RIG_CHARACTER, .name = name, .character = {.model = file, .phases = -1}};
+    struct rig rig = {
+        .kind = RIG_CHARACTER, .name = name, .character = {.model = file, .phases = -1, .drives = drives}};
     double fps = 0, seconds = 0;
     for (int i = 0; i < count; i++) {
         const struct analyzed *each = &analyzed[chosen[i]];
@@ -71,8 +73,7 @@ static bool fill(struct document *document, const char *model, const struct char
                 edit_range(document, 0, (int)round(fps * seconds), RANGE_REFUSE, error);
     for (int i = 0; done && i < count; i++) {
         char *driver = character->coordinates[chosen[i]].name;
-        rig.character.drives[rig.character.drive_count++] =
-            (struct drive){.name = driver, .spline = i, .amplitude = 1};
+        drives[rig.character.drive_count++] = (struct drive){.name = driver, .spline = i, .amplitude = 1};
         done = add_spline(document, driver, &analyzed[chosen[i]], error);
     }
     done = done && edit_rig_add(document, &rig, error);

@@ -34,7 +34,7 @@ static bool jumps(const struct document *document, const struct evaluation *eval
                       : equilibrium->motion   ? evaluation_motion(evaluation, index)
                                               : NULL;
     if (spline_start(spline) != WIGGLY_LOOP || !y) return false;
-    const double slack = equilibrium->motion ? MOTION_SLACK * fabs(equilibrium->gain) : 0;
+    const double slack = equilibrium->motion ? MOTION_SLACK * fabs(equilibrium->motion->gain) : 0;
     return !(fabs(y[0] - y[evaluation->samples - 1]) <= slack);
 }
 

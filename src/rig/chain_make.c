@@ -134,8 +134,8 @@ static bool add_spline(const struct plan *plan, const char *axis, struct error *
 static bool follow_tip(const struct plan *plan, int spline, enum motion_of of, struct error *error)
 {
     struct joint_motion motion = {
-        .model = plan->model, .by_file = plan->by_file, .joint = plan->to, .of = of, .chain = plan->chain};
-    const struct param equilibrium = {.track = -1, .motion = &motion, .gain = 1};
+        .model = plan->model, .by_file = plan->by_file, .joint = plan->to, .of = of, .gain = 1, .chain = plan->chain};
+    const struct param equilibrium = {.track = -1, .motion = &motion};
     return set(plan, spline, PARAMETER_EQUILIBRIUM, equilibrium, error);
 }
 

@@ -7,6 +7,7 @@
 #include <fcntl.h>
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
@@ -98,9 +99,9 @@ static bool add_soft(struct document *document, char *file, int spline, const st
 {
     const struct coordinate *first = &character->coordinates[0];
     const int driver = spline_for(document, spline, first, error);
-    const struct drive drive = {.name = first->name, .spline = driver, .amplitude = DRIVE_DEFAULT_AMPLITUDE};
+    struct drive drive = {.name = first->name, .spline = driver, .amplitude = DRIVE_DEFAULT_AMPLITUDE};
     const struct rig rig = {.kind = RIG_CHARACTER,
-                            .character = {.model = file, .phases = -1, .drives = {drive}, .drive_count = 1}};
+                            .character = {.model = file, .phases = -1, .drives = &drive, .drive_count = 1}};
     return driver >= 0 && edit_rig_add(document, &rig, error);
 }
 
@@ -149,7 +150,11 @@ bool import_choose_clip(struct document *document, int rig, const struct gltf *g
                         struct error *error)
 {
     const int found = clip ? gltf_find_clip(gltf, clip) : -1;
-    if (!edit_clip(document, rig, clip, error)) return false;
+    struct rig changed = *document->rigs[rig];
+    char *name = changed.model.clip = clip && clip[0] ? need_text(clip) : NULL;
+    const bool done = edit_rig_set(document, rig, &changed, error);
+    free(name);
+    if (!done) return false;
     if (found < 0 || document->spline_count > 0) return true;
     const double fps = frame_rate(&gltf->clips[found]);
     return edit_fps(document, fps, false, error) &&

@@ -55,7 +55,7 @@ bool edit_range(struct document *document, int first, int last, enum range_fit f
 bool edit_rig_add(struct document *document, const struct rig *contents, struct error *error);
 /// Refused while a chain or a spline needs it.
 bool edit_rig_remove(struct document *document, int rig, struct error *error);
-/// Replaces a rig by a clone of one that was copied from it and changed in numbers, or in the ends of a chain.
+/// Replaces a rig by a clone of one that was copied from it, as a structure, and changed in anything but its name, pins and paint.
 bool edit_rig_set(struct document *document, int rig, const struct rig *wanted, struct error *error);
 /// Not empty, and no other rig's. What goes by the old name goes by the new one.
 bool edit_rig_name(struct document *document, int rig, const char *name, struct error *error);
@@ -68,37 +68,27 @@ struct channel_place {
 };
 bool edit_angles(struct document *document, struct channel_place at, enum angle_kind kind,
                  const struct angles *angles, struct error *error);
-bool edit_axis(struct document *document, struct channel_place at, enum axis axis, struct error *error);
-bool edit_part(struct document *document, struct channel_place at, enum channel_part of, struct error *error);
-/// The spline that the channel bends by.
-bool edit_feed(struct document *document, struct channel_place at, int spline, struct error *error);
+/// Replaces a channel.
+bool edit_channel(struct document *document, struct channel_place at, const struct channel *channel,
+                  struct error *error);
 /// One more, the last.
 bool edit_channel_add(struct document *document, int rig, int spline, enum axis axis, enum channel_part of,
                       struct error *error);
 bool edit_channel_remove(struct document *document, struct channel_place at, struct error *error);
 
-/// Coordinate 0 … 2 of a tail: metres, or a spline to follow.
-bool edit_position(struct document *document, int rig, int coordinate, const struct param *param,
-                   struct error *error);
 /// The tail keeps its shape.
 bool edit_joints(struct document *document, int rig, int count, struct error *error);
 /// A copy of the rig goes beside it; if it is no tail, a plain one bent by `spline` (-1: by nothing).
 bool edit_tail_add(struct document *document, int rig, int spline, enum axis axis, enum channel_part of,
                    struct error *error);
 
-/// Replaces a drive's spline, amplitude and lag.
+/// Replaces what drives a coordinate of a character, but for its name; index -1: it becomes one more, the last.
 bool edit_drive(struct document *document, int rig, int index, const struct drive *drive, struct error *error);
-bool edit_drive_add(struct document *document, int rig, const char *name, const struct drive *drive,
-                    struct error *error);
 bool edit_drive_remove(struct document *document, int rig, int index, struct error *error);
-bool edit_floor(struct document *document, int rig, bool on, double height, struct error *error);
 
 /// Replaces a character's paint by one that changes nothing, for its model's coordinates and vertices.
 bool edit_paint_new(struct document *document, int rig, int coordinates, int vertices, struct error *error);
 bool edit_paint(struct document *document, int rig, const struct dab *dab, struct error *error);
-
-/// The model's clip, or NULL.
-bool edit_clip(struct document *document, int rig, const char *clip, struct error *error);
 
 /// A pin, whose id is given; the frame, point and place of the pin of that id; and away with it.
 bool edit_pin_add(struct document *document, int rig, const struct pin *pin, struct error *error);

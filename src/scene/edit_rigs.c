@@ -3,6 +3,7 @@
 #include "base/need.h"
 #include "scene/editing.h"
 #include "scene/pins.h"
+#include "scene/rig_kind.h"
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -10,18 +11,10 @@
 
 enum { NAME_SIZE = 512 };
 
-bool edit_rig_fits(const struct document *document, struct error *error)
+static bool rig_fits(const struct document *document, struct error *error)
 {
     return document->rig_count < SCENE_MAX_RIGS ||
            fail(error, ERROR_INPUT, "there are %d rigs, and no more fit", SCENE_MAX_RIGS);
-}
-
-void edit_rig_append(struct document *document, struct rig *rig, char *name)
-{
-    free(rig->name);
-    rig->name = name;
-    rig->id = ++document->next_rig_id;
-    document_add_rig(document, rig);
 }
 
 static bool is_taken(const struct document *document, const char *name, int own)
@@ -84,7 +77,8 @@ static bool is_file_of_any(const struct document *document, const char *name)
     return any;
 }
 
-char *edit_rig_free_name(const struct document *document, const char *wanted)
+/// A free name of a rig: `wanted`, or with a number.
+static char *free_name(const struct document *document, const char *wanted)
 {
     char name[NAME_SIZE];
     snprintf(name, sizeof name, "%s", wanted);
@@ -149,111 +143,46 @@ bool edit_rig_name(struct document *document, int rig, const char *name, struct 
     return true;
 }
 
-static bool check_ends(const struct chain *chain, struct error *error)
-{
-    if (!chain->from || !chain->from[0] || !chain->to || !chain->to[0]) {
-        return fail(error, ERROR_INPUT, "a chain needs the names of its first joint and its last");
-    }
-    return true;
-}
-
-static bool check_chain(const struct document *document, const struct rig *rig, struct error *error)
-{
-    const struct chain *chain = &rig->chain;
-    const char *model = chain->model ? chain->model : "";
-    if (!check_ends(chain, error)) return false;
-    if (document_find_model(document, model, false) < 0 && document_find_model(document, model, true) < 0) {
-        return fail(error, ERROR_INPUT, "there is no model \"%s\" in the scene", model);
-    }
-    if (chain->channel_count < 0 || chain->channel_count > SCENE_MAX_CHANNELS) {
-        return fail(error, ERROR_INPUT, "a chain has at most %d channels", SCENE_MAX_CHANNELS);
-    }
-    for (int c = 0; c < chain->channel_count; c++) {
-        const struct channel *channel = &chain->channels[c];
-        if (!edit_has_spline(document, channel->spline, error) || !edit_check_axis(RIG_CHAIN, channel->axis, error) ||
-            !edit_check_part(channel->of, error) || !edit_check_angles(rig, &channel->lag, error) ||
-            !edit_check_angles(rig, &channel->gain, error))
-            return false;
-    }
-    return true;
-}
-
-static bool check_character(const struct document *document, const struct character_rig *rig, struct error *error)
-{
-    if (!rig->model || !rig->model[0]) return fail(error, ERROR_INPUT, "a character needs a file");
-    for (int i = 0; i < rig->drive_count; i++) {
-        if (!edit_has_spline(document, rig->drives[i].spline, error)) return false;
-    }
-    return true;
-}
-
-static bool check_contents(const struct document *document, const struct rig *rig, struct error *error)
-{
-    if (rig->kind == RIG_CHARACTER) return check_character(document, &rig->character, error);
-    if (rig->kind == RIG_MEADOW) return edit_has_spline(document, rig->meadow.spline, error);
-    if (rig->kind == RIG_CHAIN) return check_chain(document, rig, error);
-    return (rig->model.model && rig->model.model[0]) || fail(error, ERROR_INPUT, "a model needs a file");
-}
-
-/// Its name, or what it goes by: a file without folders and ending, or a joint.
+/// Its name, or what it goes by: a file without folders and ending, a joint or its kind.
 static char *new_name(const struct document *document, const struct rig *rig)
 {
-    if (rig->name && rig->name[0]) return edit_rig_free_name(document, rig->name);
-    if (rig->kind == RIG_CHAIN) return edit_rig_free_name(document, rig->chain.from);
-    if (rig->kind == RIG_MEADOW) return edit_rig_free_name(document, "meadow");
-    const char *path = rig->kind == RIG_CHARACTER ? rig->character.model : rig->model.model;
-    const char *file = path_name(path), *dot = strrchr(file, '.');
+    const bool is_file = !(rig->name && rig->name[0]) && (rig->kind == RIG_CHARACTER || rig->kind == RIG_MODEL);
+    const char *title = is_file ? path_name(rig_title(rig)) : rig_title(rig);
+    const char *dot = is_file ? strrchr(title, '.') : NULL;
     char stem[NAME_SIZE];
-    snprintf(stem, sizeof stem, "%.*s", (int)(dot && dot > file ? (size_t)(dot - file) : strlen(file)), file);
-    return edit_rig_free_name(document, stem[0] ? stem : "model");
+    snprintf(stem, sizeof stem, "%.*s", (int)(dot && dot > title ? (size_t)(dot - title) : strlen(title)), title);
+    return free_name(document, stem[0] ? stem : "model");
 }
 
 bool edit_rig_add(struct document *document, const struct rig *contents, struct error *error)
 {
-    if (!edit_rig_fits(document, error) || !check_contents(document, contents, error)) return false;
+    if (!rig_fits(document, error)) return false;
     struct rig *rig = rig_clone(contents);
-    if (!rig_check(rig, error)) {
+    if (!rig_check(document, rig, error)) {
         rig_drop(rig);
         return false;
     }
     struct document *before = edit_begin(document);
+    free(rig->name);
+    rig->name = new_name(document, contents);
     rig->extra = NULL;
-    if (rig->kind == RIG_CHAIN) rig->chain.by_file = document_find_model(document, rig->chain.model, false) < 0;
-    edit_rig_append(document, rig, new_name(document, contents));
+    rig->id = ++document->next_rig_id;
+    document_add_rig(document, rig);
     return edit_end(document, before, true, error);
-}
-
-bool edit_clip(struct document *document, int rig, const char *clip, struct error *error)
-{
-    const struct rig *found = edit_find_rig(document, rig, EDIT_KIND(RIG_MODEL), error);
-    if (!found) return false;
-    struct rig *changed = rig_clone(found);
-    set_text(&changed->model.clip, clip && clip[0] ? clip : NULL);
-    return edit_replace_rig(document, rig, changed, error);
 }
 
 bool edit_rig_set(struct document *document, int rig, const struct rig *wanted, struct error *error)
 {
-    if (!edit_find_rig(document, rig, EDIT_KIND(wanted->kind), error)) return false;
-    if (wanted->kind == RIG_CHAIN && !check_ends(&wanted->chain, error)) return false;
-    return edit_replace_rig(document, rig, rig_clone(wanted), error);
+    return edit_find_rig(document, rig, EDIT_KIND(wanted->kind), error) &&
+           edit_replace_rig(document, rig, rig_clone(wanted), error);
 }
 
-static bool check_numbers(const struct rig *rig, const struct pin *pin, struct error *error)
+/// Whether a rig may have a pin, of which −0 becomes 0.
+static bool check_pin(const struct document *document, const struct rig *rig, struct pin *pin, struct error *error)
 {
-    bool finite = isfinite(pin->frame);
-    for (int k = 0; k < 3; k++) finite &= isfinite(pin->to[k]);
-    if (!finite) return fail(error, ERROR_INPUT, "%s: a pin's numbers must be finite", rig_title(rig));
-    if (pin->point >= 0 && (rig->kind != RIG_TAIL || pin->point < rig->tail.joints)) return true;
-    return fail(error, ERROR_INPUT, "%s: there is no point %d to pin", rig_title(rig), pin->point);
-}
-
-/// −0 is saved as 0, so it must be 0 in the document, too.
-static struct pin without_negative_zeros(struct pin pin)
-{
-    pin.frame += 0.0;
-    for (int k = 0; k < 3; k++) pin.to[k] += 0.0;
-    return pin;
+    struct error why;
+    return fields_check(document, JOINTS_UNKNOWN, rig_pin_fields(rig), pin, &why) ||
+           fail(error, ERROR_INPUT, "%s: a pin: %s", rig_title(rig), why.text);
 }
 
 /// The rig that has the pin; NULL refuses the edit.
@@ -268,8 +197,8 @@ static const struct rig *find(const struct document *document, int rig, unsigned
 bool edit_pin_add(struct document *document, int rig, const struct pin *pin, struct error *error)
 {
     const struct rig *old = edit_find_rig(document, rig, EDIT_PINNED, error);
-    struct pin added = without_negative_zeros(*pin);
-    if (!old || !check_numbers(old, pin, error)) return false;
+    struct pin added = *pin;
+    if (!old || !check_pin(document, old, &added, error)) return false;
     if (pins_count(document) >= SCENE_MAX_PINS)
         return fail(error, ERROR_INPUT, "the limit of %d pins is reached", SCENE_MAX_PINS);
     struct document *before = edit_begin(document);
@@ -286,20 +215,13 @@ bool edit_pin_remove(struct document *document, int rig, unsigned id, struct err
     return edit_end(document, before, true, error);
 }
 
-static bool same_pin(const struct pin *a, const struct pin *b)
-{
-    bool same = a->frame == b->frame && a->point == b->point;
-    for (int k = 0; k < 3; k++) same &= a->to[k] == b->to[k];
-    return same;
-}
-
 bool edit_pin_set(struct document *document, int rig, const struct pin *pin, struct error *error)
 {
     const struct rig *old = find(document, rig, pin->id, error);
-    struct pin changed = without_negative_zeros(*pin);
-    if (!old || !check_numbers(old, pin, error)) return false;
+    struct pin changed = *pin;
+    if (!old || !check_pin(document, old, &changed, error)) return false;
     const struct pin *was = &old->pins[pins_find_id(old, pin->id)];
-    if (same_pin(was, &changed)) return true;
+    if (fields_equal(rig_pin_fields(old), was, &changed)) return true;
     changed.extra = was->extra;
     struct document *before = edit_begin(document);
     struct rig *own = document_own_rig(document, rig);

@@ -258,7 +258,7 @@ const struct rig *edit_find_rig(const struct document *document, int rig, unsign
 
 bool edit_replace_rig(struct document *document, int rig, struct rig *changed, struct error *error)
 {
-    const bool good = rig_check(changed, error);
+    const bool good = rig_check(document, changed, error);
     if (!good || rig_equals(document->rigs[rig], changed)) {
         rig_drop(changed);
         return good;

@@ -1,8 +1,8 @@
 /// Edits of splines: the list of them, their parameters and their knots.
 #include "base/need.h"
 #include "scene/editing.h"
+#include "scene/fields.h"
 #include "scene/order.h"
-#include "scene/text.h"
 #include <ctype.h>
 #include <limits.h>
 #include <math.h>
@@ -163,7 +163,7 @@ bool edit_spline_color(struct document *document, int spline, int color, struct 
 
 static bool same_param(const struct param *a, const struct param *b)
 {
-    return a->value == b->value && a->track == b->track && a->gain == b->gain && motion_equals(a->motion, b->motion);
+    return a->value == b->value && a->track == b->track && motion_equals(a->motion, b->motion);
 }
 
 /// Gives the spline the parameters of `wanted`.
@@ -193,21 +193,14 @@ static bool check_track(const struct document *document, const struct spline *sp
 static struct joint_motion *new_motion(const struct document *document, const struct spline *spline,
                                        enum parameter parameter, const struct param *param, struct error *error)
 {
-    const char *name = spline->name;
     struct joint_motion motion = *param->motion;
-    const char *model = motion.model ? motion.model : "";
-    bool good = true;
-    motion.by_file = document_find_model(document, model, false) < 0;
-    if (parameter != PARAMETER_EQUILIBRIUM) {
-        good = fail(error, ERROR_INPUT, "%s: only the equilibrium follows a joint", name);
-    } else if (!motion.joint || !motion.joint[0] || (unsigned)motion.of >= MOTION_KINDS || !isfinite(param->gain)) {
-        good = fail(error, ERROR_INPUT, "%s: a motion needs a joint and a finite gain", name);
-    } else if (document_find_model(document, model, motion.by_file) < 0) {
-        good = fail(error, ERROR_INPUT, "%s: there is no model \"%s\" to follow", name, model);
-    } else if (motion.chain && document_find_chain(document, motion.chain) < 0) {
-        good = fail(error, ERROR_INPUT, "%s: there is no chain \"%s\"", name, motion.chain);
-    }
-    return good ? motion_create(&motion) : NULL;
+    struct error why;
+    const bool good = parameter == PARAMETER_EQUILIBRIUM
+                          ? motion_check(document, &motion, &why)
+                          : fail(&why, ERROR_INPUT, "only the equilibrium follows a joint");
+    if (good) return motion_create(&motion);
+    fail(error, ERROR_INPUT, "%s: %s", spline->name, why.text);
+    return NULL;
 }
 
 static bool check_constant(const struct spline *spline, enum parameter parameter, double value, struct error *error)
@@ -301,7 +294,7 @@ static bool change(struct document *document, int spline, enum parameter paramet
     } else if (param->motion) {
         motion = new_motion(document, &settings, parameter, param, error);
         if (!motion) return false;
-        settings.parameter[parameter] = (struct param){0, -1, motion, param->gain + 0.0};
+        settings.parameter[parameter] = (struct param){.track = -1, .motion = motion};
     } else if (param->track >= 0) {
         if (!check_track(document, &settings, parameter, param->track, error)) return false;
         settings.parameter[parameter] = param_track(param->track);
@@ -322,20 +315,19 @@ bool edit_parameter(struct document *document, int spline, enum parameter parame
     return edit_end(document, before, change(document, spline, parameter, param, error), error);
 }
 
-/// Whether a knot may go where it says; `id` is its own.
-static bool check_knot(const struct document *document, const struct spline *spline, const struct knot *knot,
-                       unsigned id, struct error *error)
+/// Whether a knot may go where it says; `id` is its own. −0 is saved as 0, so it becomes 0.
+static bool check_knot(const struct document *document, const struct spline *spline, struct knot *knot, unsigned id,
+                       struct error *error)
 {
     char frame[NUMBER_TEXT_SIZE];
-    if (!isfinite(knot->frame) || !isfinite(knot->value) || !isfinite(knot->slope) || !isfinite(knot->stiffness)) {
-        return fail(error, ERROR_INPUT, "%s: a knot's numbers must be finite", spline->name);
-    }
+    struct error why;
+    if (!fields_check(document, JOINTS_UNKNOWN, knot_fields, knot, &why))
+        return fail(error, ERROR_INPUT, "%s: a knot: %s", spline->name, why.text);
     const double low = spline->parameter[PARAMETER_LOW].value, high = spline->parameter[PARAMETER_HIGH].value;
     if (knot->value < low || knot->value > high) {
         return fail(error, ERROR_INPUT, "%s: a knot at %.6g would be %s limit, %.6g", spline->name, knot->value,
                     knot->value < low ? "below the low" : "above the high", knot->value < low ? low : high);
     }
-    if (knot->stiffness <= 0) return fail(error, ERROR_INPUT, "%s: stiffness must be above 0", spline->name);
     int sample = document_sample(document, knot->frame), last = document_last_knot_sample(document, spline);
     if (sample < 0 || sample > last) {
         number_print(knot->frame, frame);
@@ -349,15 +341,6 @@ static bool check_knot(const struct document *document, const struct spline *spl
     return fail(error, ERROR_INPUT, "%s: there is already a knot at frame %s", spline->name, frame);
 }
 
-/// −0 is saved as 0, so it must be 0 in the document, too.
-static struct knot without_negative_zeros(struct knot knot)
-{
-    knot.frame += 0.0;
-    knot.value += 0.0;
-    knot.slope += 0.0;
-    return knot;
-}
-
 static bool has_id(const struct document *document, unsigned id)
 {
     for (int i = 0; i < document->spline_count; i++) {
@@ -368,7 +351,7 @@ static bool has_id(const struct document *document, unsigned id)
 
 bool edit_knot_insert(struct document *document, int spline, const struct knot *knot, struct error *error)
 {
-    struct knot added = without_negative_zeros(*knot);
+    struct knot added = *knot;
     long long total = 1;
     if (!edit_has_spline(document, spline, error)) return false;
     const struct spline *old = document->splines[spline];
@@ -409,21 +392,15 @@ bool edit_knot_remove(struct document *document, int spline, unsigned id, struct
     return true;
 }
 
-static bool same_knot(const struct knot *a, const struct knot *b)
-{
-    return a->frame == b->frame && a->value == b->value && a->slope == b->slope && a->stiffness == b->stiffness &&
-           a->has_slope == b->has_slope;
-}
-
 bool edit_knot_set(struct document *document, int spline, const struct knot *knot, struct error *error)
 {
-    struct knot changed = without_negative_zeros(*knot);
+    struct knot changed = *knot;
     const int from = find(document, spline, knot->id, error);
     if (from < 0) return false;
     const struct spline *old = document->splines[spline];
     changed.extra = old->knots[from].extra;
     if (!check_knot(document, old, &changed, changed.id, error)) return false;
-    if (same_knot(&changed, &old->knots[from])) return true;
+    if (fields_equal(knot_fields, &changed, &old->knots[from])) return true;
     struct knot *knots = document_own_spline(document, spline)->knots;
     int to = spline_lower_bound(document, document->splines[spline], document_sample(document, changed.frame));
     if (to > from) to--; // where it is once the old one is gone

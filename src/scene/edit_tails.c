@@ -1,4 +1,4 @@
-/// Edits of a tail: where and how long it is, how many joints it has, and one more.
+/// Edits of tails: one more, and how many joints one has.
 #include "scene/editing.h"
 #include <math.h>
 #include <stdlib.h>
@@ -17,29 +17,19 @@ static struct rig *plain_tail(void)
     return rig;
 }
 
-/// A copy of a tail, to stand beside it.
-static struct rig *tail_beside(const struct rig *tail)
-{
-    struct rig *copy = rig_clone(tail);
-    free(copy->name);
-    copy->name = NULL;
-    copy->extra = NULL;
-    copy->pin_count = 0; // what is pinned drives both
-    if (copy->tail.position[0].track < 0) copy->tail.position[0].value += ASIDE * copy->tail.length;
-    return copy;
-}
-
 bool edit_tail_add(struct document *document, int rig, int spline, enum axis axis, enum channel_part of,
                    struct error *error)
 {
     const bool is_tail = rig >= 0 && rig < document->rig_count && document->rigs[rig]->kind == RIG_TAIL;
-    if (!edit_rig_fits(document, error) || !edit_check_axis(RIG_TAIL, axis, error) || !edit_check_part(of, error))
-        return false;
-    struct document *before = edit_begin(document);
-    struct rig *added = is_tail ? tail_beside(document->rigs[rig]) : plain_tail();
+    struct rig *added = is_tail ? rig_clone(document->rigs[rig]) : plain_tail();
+    free(added->name);
+    added->name = NULL;
+    added->pin_count = 0; // what is pinned drives both
+    if (is_tail && added->tail.position[0].track < 0) added->tail.position[0].value += ASIDE * added->tail.length;
     if (!is_tail && edit_has_spline(document, spline, NULL)) edit_append_channel(added, spline, axis, of);
-    edit_rig_append(document, added, edit_rig_free_name(document, "tail"));
-    return edit_end(document, before, true, error);
+    const bool good = edit_rig_add(document, added, error);
+    rig_drop(added);
+    return good;
 }
 
 static double rounded(double degrees) { return round(degrees * ANGLE_RESOLUTION) / ANGLE_RESOLUTION + 0.0; }
@@ -101,20 +91,4 @@ bool edit_joints(struct document *document, int rig, int count, struct error *er
         resample(&channel->lag, count, bends && channel->lag.form == ANGLES_ONE ? factor : 1);
     }
     return edit_end(document, before, true, error);
-}
-
-bool edit_position(struct document *document, int rig, int coordinate, const struct param *param, struct error *error)
-{
-    const struct rig *old = edit_find_rig(document, rig, EDIT_KIND(RIG_TAIL), error);
-    if (!old) return false;
-    if (coordinate < 0 || coordinate > 2) return fail(error, ERROR_INPUT, "there is no such coordinate");
-    if (param->motion) return fail(error, ERROR_INPUT, "only an equilibrium follows a joint");
-    const struct param wanted = param->track >= 0 ? param_track(param->track) : param_number(param->value + 0.0);
-    if (wanted.track >= document->spline_count)
-        return fail(error, ERROR_INPUT, "%s: there is no spline to follow", old->name);
-    if (!isfinite(wanted.value)) return fail(error, ERROR_INPUT, "%s: the position must be finite", old->name);
-    struct rig *changed = rig_clone(old);
-    changed->tail.position[coordinate].track = wanted.track;
-    changed->tail.position[coordinate].value = wanted.value;
-    return edit_replace_rig(document, rig, changed, error);
 }

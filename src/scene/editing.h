@@ -22,21 +22,10 @@ bool edit_has_spline(const struct document *document, int spline, struct error *
 /// The rig at that index if it is of one of those kinds; NULL refuses the edit.
 const struct rig *edit_find_rig(const struct document *document, int rig, unsigned kinds, struct error *error);
 
-/// Puts a changed clone, which is taken over, in the place of a rig, if its numbers may be saved and it differs in more than name and pins.
+/// Puts a changed clone, which is taken over, in the place of a rig, if the document may have it and it differs in more than name and pins.
 bool edit_replace_rig(struct document *document, int rig, struct rig *changed, struct error *error);
-
-/// Whether one more rig fits, and adds one with an id and a name that it takes over.
-bool edit_rig_fits(const struct document *document, struct error *error);
-void edit_rig_append(struct document *document, struct rig *rig, char *name);
-
-/// A free name of a rig: `wanted`, or with a number. The caller frees it.
-char *edit_rig_free_name(const struct document *document, const char *wanted);
 
 /// One more channel, which shows.
 void edit_append_channel(struct rig *rig, int spline, enum axis axis, enum channel_part of);
-
-bool edit_check_angles(const struct rig *rig, const struct angles *angles, struct error *error);
-bool edit_check_axis(enum rig_kind kind, enum axis axis, struct error *error);
-bool edit_check_part(enum channel_part part, struct error *error);
 
 #endif

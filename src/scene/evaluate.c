@@ -235,15 +235,15 @@ static void motions_bake(struct evaluation *evaluation, const struct document *d
         struct baked *baked = &evaluation->storage->state[s].baked;
         if (!param->motion) continue;
         const uint64_t key = key_of(document, param->motion, &evaluation->models);
-        if (key == baked->key && param->gain == baked->gain) continue;
+        if (key == baked->key && param->motion->gain == baked->gain) continue;
         if (!baked->raw) {
             baked->raw = pool_take(&evaluation->storage->pool, (size_t)count, sizeof *baked->raw);
             baked->samples = pool_take(&evaluation->storage->pool, (size_t)count, sizeof *baked->samples);
         }
         if (key != baked->key) read(baked, document, param->motion, &evaluation->models);
-        for (int i = 0; i < count; i++) baked->samples[i] = param->gain * baked->raw[i];
+        for (int i = 0; i < count; i++) baked->samples[i] = param->motion->gain * baked->raw[i];
         baked->key = key;
-        baked->gain = param->gain;
+        baked->gain = param->motion->gain;
         baked->is_new = true;
     }
 }

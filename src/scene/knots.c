@@ -1,8 +1,7 @@
 /// Reads and writes knots as JSON, and reads them from CSV lines frame,value[,slope[,stiffness]].
 #include "scene/knots.h"
 #include "base/need.h"
-#include "scene/members.h"
-#include "scene/reader.h"
+#include "scene/fields.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -16,24 +15,15 @@ void knot_list_free(struct knot_list *list)
     *list = (struct knot_list){0};
 }
 
-void print_knot(struct text *text, const struct knot *knot, const char *spline)
-{
-    struct members members = {text, "{ ", ", ", false};
-    if (spline) member_string(&members, "spline", spline);
-    member_number(&members, "frame", knot->frame);
-    member_number(&members, "value", knot->value);
-    if (knot->has_slope) member_number(&members, "slope", knot->slope);
-    if (knot->stiffness != KNOT_DEFAULT_STIFFNESS) member_number(&members, "stiffness", knot->stiffness);
-    members_extra(&members, knot->extra, NULL);
-    text_string(text, " }");
-}
-
 char *knots_print(const struct knot_list *list)
 {
     struct text text = {0};
     for (int i = 0; i < list->count; i++) {
+        struct members members = {&text, "{ ", ", ", false};
         text_string(&text, i > 0 ? ",\n  " : "[\n  ");
-        print_knot(&text, &list->knots[i], list->splines ? list->splines[i] : NULL);
+        if (list->splines && list->splines[i]) member_string(&members, "spline", list->splines[i]);
+        fields_print(&members, NULL, knot_fields, &list->knots[i], NULL);
+        text_string(&text, " }");
     }
     text_string(&text, list->count > 0 ? "\n]\n" : "[]\n");
     text_bytes(&text, "", 1);
@@ -50,9 +40,8 @@ static void read_array(struct reader *reader, struct value array, struct knot_li
     list->count = count;
     for (int i = 0; i < count; i++) {
         const struct value object = reader_element(&array, i), spline = reader_member(&object, "spline");
-        reader_knot(reader, object, &list->knots[i]);
+        object_load(reader, &object, knot_fields, &list->knots[i]);
         if (spline.json) list->splines[i] = reader_name(reader, spline);
-        list->knots[i].id = 0;
         list->knots[i].extra = NULL; /* the reader's document goes */
     }
 }
@@ -65,8 +54,8 @@ static bool parse_json(const char *name, const char *text, struct knot_list *lis
     if (root.json) read_array(&reader, json_is_object(root.json) ? reader_member(&root, "knots") : root, list);
     json_decref(root.json);
     document_destroy(reader.document);
-    if (reader.failed) knot_list_free(list);
-    return !reader.failed;
+    if (reader.errors > 0) knot_list_free(list);
+    return reader.errors == 0;
 }
 
 enum { MAX_FIELDS = 64, MAX_FIELD = 64, FIRST_KNOTS = 64 };

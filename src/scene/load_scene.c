@@ -181,7 +181,7 @@ static void validate_scene(struct reader *reader, const struct where *scene_at)
     struct where splines_at = {.parent = scene_at, .key = "splines"};
     check_cycles(reader, &splines_at);
     check_aliasing(reader, &splines_at);
-    if (reader->has_domain && !reader->failed) check_pins(reader, scene_at);
+    if (reader->has_domain && reader->errors == 0) check_pins(reader, scene_at);
 }
 
 static void load_scene(struct reader *reader, json_t *json)
@@ -198,7 +198,7 @@ static void load_scene(struct reader *reader, json_t *json)
     load_rigs(reader, &scene);
     resolve_motions(reader, &scene);
     reader->document->extra = reader_keep(reader, reader_extra(reader, &scene, scene_keys));
-    if (!reader->failed) validate_scene(reader, &scene.at);
+    if (reader->errors == 0) validate_scene(reader, &scene.at);
 }
 
 /// Keeps whole numbers as integers, so that unknown keys stay exact, unless one is too large.
@@ -239,7 +239,7 @@ static struct document *parse_document(const char *name, const char *text, size_
         .source = {.name = name, .text = text, .size = size}, .problems = problems, .error = error};
     reader.document = document_create();
     parse(&reader);
-    if (!reader.failed) return reader.document;
+    if (reader.errors == 0) return reader.document;
     document_destroy(reader.document);
     return NULL;
 }

@@ -1,14 +1,12 @@
 /// Reads the splines of a scene.
 #include "base/need.h"
-#include "scene/reader.h"
-#include "scene/text.h"
+#include "scene/fields.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 /// Keys that are no parameters.
 static const char *const spline_keys[] = {"name", "knots", "color", "spring", "friction", NULL};
-static const char *const knot_keys[] = {"frame", "value", "slope", "stiffness", NULL};
 
 /// One of the two numbers; null: none.
 static void load_limit(struct reader *reader, const struct value limits, int index, double *limit)
@@ -54,7 +52,7 @@ static bool load_parameter(struct reader *reader, const struct value *object, st
     struct range range = {row->minimum, parameter_maximum(parameter, spline_mode(spline)), false};
     if (!value.json) return true;
     if (row->kind == PARAMETER_CHOICE) {
-        int word = reader_word(reader, value, row->words, -1);
+        int word = reader_word(reader, value, row->words);
         if (word >= 0) param->value = word;
         return word >= 0;
     }
@@ -89,19 +87,17 @@ static void load_spring(struct reader *reader, const struct value *object, struc
                        &spline->parameter[PARAMETER_DAMPING].value);
 }
 
-bool reader_knot(struct reader *reader, struct value object, struct knot *knot)
-{
-    const struct value slope = reader_member(&object, "slope");
-    const struct range positive = {0, INFINITY, true};
-    *knot = (struct knot){
-        .stiffness = KNOT_DEFAULT_STIFFNESS, .has_slope = slope.json, .id = reader->document->next_id++};
-    bool good = reader_number(reader, reader_member(&object, "frame"), true, range_any, &knot->frame);
-    good &= reader_number(reader, reader_member(&object, "value"), true, range_any, &knot->value);
-    good &= reader_number(reader, slope, false, range_any, &knot->slope);
-    good &= reader_number(reader, reader_member(&object, "stiffness"), false, positive, &knot->stiffness);
-    knot->extra = reader_keep(reader, reader_extra(reader, &object, knot_keys));
-    return good;
-}
+const struct field knot_fields[] = {
+    {FIELD("frame", FIELD_NUMBER, struct knot, frame), .range = FIELD_ANY, .is_required = true},
+    {FIELD("value", FIELD_NUMBER, struct knot, value), .range = FIELD_ANY, .is_required = true},
+    {FIELD("slope", FIELD_NUMBER, struct knot, slope), .range = FIELD_ANY, .flag = offsetof(struct knot, has_slope)},
+    {FIELD("stiffness", FIELD_NUMBER, struct knot, stiffness), .range = FIELD_POSITIVE,
+     .usual = {KNOT_DEFAULT_STIFFNESS}, .is_quiet = true},
+    FIELD_END(struct knot),
+};
+
+const struct field knot_list_field = {
+    FIELD_LIST_OF("knots", struct spline, knots, knot_count, knot_fields, SCENE_MAX_KNOTS)};
 
 /// By sample, then in file order, in which ids rise.
 static int compare_knots(const void *a, const void *b, void *document)
@@ -179,21 +175,19 @@ static void check_limits(struct reader *reader, const struct where *spline_at, c
 static void load_knots(struct reader *reader, const struct value *object, struct spline *spline)
 {
     const struct value knots = reader_member(object, "knots");
-    int count = reader_objects(reader, knots, SCENE_MAX_KNOTS);
-    if (count == 0) check_limits(reader, &object->at, &knots.at, spline, 0);
-    if (count <= 0) return;
-    reader->knot_count += count;
+    const int errors = reader->errors;
+    const unsigned first_id = reader->document->next_id;
+    reader->knot_count += json_array_size(knots.json);
     if (reader->knot_count > SCENE_MAX_KNOTS) {
         reader_fail(reader, &knots.at, "expected at most %d knots over all splines, got more", SCENE_MAX_KNOTS);
         return;
     }
-    spline->knots = need_zeroed((size_t)count, sizeof *spline->knots);
-    spline->knot_count = spline->knot_capacity = count;
-    unsigned first_id = reader->document->next_id;
-    bool good = true;
-    for (int i = 0; i < count; i++) good &= reader_knot(reader, reader_element(&knots, i), &spline->knots[i]);
-    if (good && reader->has_domain) check_knots(reader, &knots.at, spline, first_id);
-    if (good) check_limits(reader, &object->at, &knots.at, spline, first_id);
+    list_load(reader, object, &knot_list_field, spline);
+    spline->knot_capacity = spline->knot_count;
+    for (int i = 0; i < spline->knot_count; i++) spline->knots[i].id = reader->document->next_id++;
+    if (reader->errors > errors) return;
+    if (reader->has_domain && spline->knot_count > 0) check_knots(reader, &knots.at, spline, first_id);
+    check_limits(reader, &object->at, &knots.at, spline, first_id);
 }
 
 static void check_loop(struct reader *reader, const struct where *spline_at, const struct spline *spline)

@@ -175,8 +175,9 @@ static void load_inside(struct reader *reader, const struct value *object, struc
         load_coordinate(reader, reader_element(&value, i), character->painted, i);
 }
 
-void paint_load(struct reader *reader, const struct value *object, struct rig *rig)
+void paint_load(struct reader *reader, const struct value *object, void *at)
 {
+    struct rig *rig = at;
     const struct value paint = reader_member(object, "paint");
     if (json_is_array(paint.json)) {
         load_inside(reader, object, paint, &rig->character);
@@ -199,9 +200,9 @@ static void print_coordinate(struct text *text, const struct paint *paint, int c
     free(base64);
 }
 
-void paint_print(struct members *members, const struct document *document, const struct rig *rig, const char *folder)
+void paint_print(struct members *members, const struct document *document, const void *at, const char *folder)
 {
-    const struct character_rig *character = &rig->character;
+    const struct character_rig *character = &((const struct rig *)at)->character;
     const struct paint *paint = character->painted;
     if (!paint && character->paint_file) member_path(members, "paint", document, character->paint_file, folder);
     if (!paint || paint_is_plain(paint)) return;

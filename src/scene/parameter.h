@@ -15,6 +15,8 @@ enum motion_of { MOTION_TURN, MOTION_ACROSS, MOTION_UP, MOTION_KINDS };
 /// The file's words for them, ended by NULL.
 extern const char *const motion_words[];
 
+struct json_t;
+
 /// A joint, in the clip that its model plays, against its mean over the clip.
 struct joint_motion {
     atomic_int holders; ///< splines
@@ -22,7 +24,9 @@ struct joint_motion {
     bool by_file;       ///< `model` is the file
     char *joint;        ///< its name; not looked up here
     enum motion_of of;
+    double gain; ///< times what it does
     char *chain; ///< name of the chain whose direction counts, or NULL
+    struct json_t *extra;
 };
 
 /// A copy with one holder.
@@ -38,7 +42,6 @@ struct param {
     double value;                ///< used if it follows nothing
     int track;                   ///< index of the spline that is followed, or -1
     struct joint_motion *motion; ///< of the joint that is followed (joint_motion.h), or NULL; a spline holds it
-    double gain;                 ///< times that motion
 };
 
 /// A constant, and the track of a spline.

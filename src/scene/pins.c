@@ -94,9 +94,14 @@ int pins_last_sample(const struct document *document, const struct rig *rig)
     return samples - 1;
 }
 
-static bool check_frame(const struct document *document, const struct rig *rig, int at, struct pin_trouble *trouble)
+static bool check_place(const struct document *document, const struct rig *rig, int at, struct pin_trouble *trouble)
 {
     const double frame = rig->pins[at].frame;
+    const int point = rig->pins[at].point;
+    trouble->member = rig_pin_key(rig);
+    if (rig->kind == RIG_TAIL && point >= rig->tail.joints)
+        return fail(&trouble->error, ERROR_INPUT, "expected a whole number from 0 to %d, got %d",
+                    rig->tail.joints - 1, point);
     trouble->member = "frame";
     if (!document_has_frame(document, frame, pins_last_sample(document, rig), &trouble->error)) return false;
     return find_same(document, rig, at) < 0 ||
@@ -147,7 +152,7 @@ bool pins_check(const struct document *document, struct pin_trouble *trouble)
         const struct rig *rig = document->rigs[r];
         for (int i = 0; i < rig->pin_count; i++) {
             *trouble = (struct pin_trouble){.rig = r, .pin = i};
-            if (!check_frame(document, rig, i, trouble)) return false;
+            if (!check_place(document, rig, i, trouble)) return false;
         }
         *trouble = (struct pin_trouble){.rig = r, .pin = -1, .member = member_that_holds(rig)};
         if (!check_floor(rig, trouble)) return false;

@@ -1,7 +1,7 @@
 /// Writes a document as the text of a scene file.
 #include "base/file.h"
+#include "scene/fields.h"
 #include "scene/load.h"
-#include "scene/members.h"
 #include "scene/order.h"
 #include "scene/text.h"
 #include <math.h>
@@ -54,15 +54,6 @@ static void print_variation(struct members *members, const struct spline *spline
     text_string(members->text, " }");
 }
 
-static void print_knots(struct text *text, const struct spline *spline)
-{
-    for (int i = 0; i < spline->knot_count; i++) {
-        text_string(text, i > 0 ? ",\n        " : "[\n        ");
-        print_knot(text, &spline->knots[i], NULL);
-    }
-    text_string(text, spline->knot_count > 0 ? "\n      ]" : "[]");
-}
-
 static void print_spline(struct text *text, const struct document *document, const struct spline *spline,
                          const char *folder)
 {
@@ -85,8 +76,7 @@ static void print_spline(struct text *text, const struct document *document, con
         member(&members, name);
         print_param(text, document, &spline->parameter[p], spline->extra, name, folder);
     }
-    member(&members, "knots");
-    print_knots(text, spline);
+    list_print(&members, document, &knot_list_field, spline, folder);
     members_extra(&members, spline->extra, is_parameter);
     text_string(text, "\n    }");
 }
@@ -199,12 +189,6 @@ void member_number(struct members *members, const char *key, double value)
     text_number(members->text, value);
 }
 
-void member_flag(struct members *members, const char *key, bool value)
-{
-    member(members, key);
-    text_string(members->text, value ? "true" : "false");
-}
-
 void member_string(struct members *members, const char *key, const char *string)
 {
     member(members, key);
@@ -218,7 +202,7 @@ void member_path(struct members *members, const char *key, const struct document
     member_string(members, key, path_rebase(path, document->folder, folder, moved) ? moved : path);
 }
 
-void members_extra(struct members *members, json_t *extra, holds_tracks *skips)
+void members_extra(struct members *members, json_t *extra, bool (*skips)(const char *key))
 {
     const char *key;
     json_t *value;
@@ -249,10 +233,10 @@ void print_param(struct text *text, const struct document *document, const struc
     }
     struct members track = {text, "{ ", ", ", false};
     if (param->motion) {
-        print_motion(&track, document, param, folder);
+        fields_print(&track, document, motion_fields, param->motion, folder);
     } else {
         member_string(&track, "spline", document->splines[param->track]->name);
+        members_extra(&track, json_object_get(extras, key), NULL);
     }
-    members_extra(&track, json_object_get(extras, key), NULL);
     text_string(text, " }");
 }

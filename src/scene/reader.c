@@ -33,15 +33,14 @@ static void report(struct reader *reader, bool is_error, const char *sentence)
 
 bool reader_report(struct reader *reader, const struct error *error)
 {
-    if (!reader->failed && reader->error) *reader->error = *error;
-    reader->failed = true;
+    if (reader->errors++ == 0 && reader->error) *reader->error = *error;
     report(reader, true, error->text);
     return false;
 }
 
 bool reader_fail(struct reader *reader, const struct where *where, const char *format, ...)
 {
-    if (reader->failed && !reader->problems) return false;
+    if (reader->errors > 0 && !reader->problems) return reader->errors++, false;
     struct error error;
     va_list arguments;
     va_start(arguments, format);
@@ -143,26 +142,25 @@ void reader_flag(struct reader *reader, struct value value, bool *target)
     }
 }
 
-/// "a", "b" or "c"
-static const char *list_words(const char *const *words, char *text, size_t size)
+const char *list_words(const char *const *words, char text[WORDS_TEXT])
 {
     size_t length = 0;
-    for (int i = 0; words[i] && length < size; i++) {
+    for (int i = 0; words[i] && length < WORDS_TEXT; i++) {
         const char *before = i == 0 ? "" : words[i + 1] ? ", " : " or ";
-        length += (size_t)snprintf(text + length, size - length, "%s\"%s\"", before, words[i]);
+        if (!words[i][0]) continue;
+        length += (size_t)snprintf(text + length, WORDS_TEXT - length, "%s\"%s\"", before, words[i]);
     }
     return text;
 }
 
-int reader_word(struct reader *reader, struct value value, const char *const *words, int missing)
+int reader_word(struct reader *reader, struct value value, const char *const *words)
 {
-    char expected[128];
+    char expected[WORDS_TEXT];
     const char *word = json_string_value(value.json);
-    if (!value.json && missing >= 0) return missing;
     for (int i = 0; word && words[i]; i++) {
-        if (strcmp(words[i], word) == 0) return i;
+        if (words[i][0] && strcmp(words[i], word) == 0) return i;
     }
-    list_words(words, expected, sizeof expected);
+    list_words(words, expected);
     if (!word) {
         reader_unexpected(reader, value, expected);
     } else {
@@ -189,12 +187,6 @@ bool reader_array(struct reader *reader, struct value value, size_t count, const
     if (!json_is_array(value.json)) return reader_unexpected(reader, value, expected);
     if (json_array_size(value.json) == count) return true;
     return reader_fail(reader, &value.at, "expected %s, got %zu elements", expected, json_array_size(value.json));
-}
-
-void reader_point(struct reader *reader, struct value value, double point[3])
-{
-    if (!value.json || !reader_array(reader, value, 3, "[x, y, z]")) return;
-    for (int i = 0; i < 3; i++) reader_number(reader, reader_element(&value, i), true, range_any, &point[i]);
 }
 
 int reader_objects(struct reader *reader, struct value value, int limit)
@@ -289,8 +281,8 @@ static json_t *read_track(struct reader *reader, const struct value *object, str
     return reader_extra(reader, object, known);
 }
 
-static json_t *read_followed(struct reader *reader, const struct value *object, bool may_be_motion,
-                             struct param *param)
+static void read_followed(struct reader *reader, const struct value *object, const char *key, bool may_be_motion,
+                          struct param *param, json_t **extra)
 {
     const bool is_motion = json_object_get(object->json, "model") != NULL;
     if (is_motion && json_object_get(object->json, "spline")) {
@@ -298,17 +290,18 @@ static json_t *read_followed(struct reader *reader, const struct value *object, 
     } else if (is_motion && !may_be_motion) {
         reader_fail(reader, &object->at,
                     "expected a number or {\"spline\": name}: only an equilibrium follows a model");
+    } else if (is_motion) {
+        motion_load(reader, object, param);
     } else {
-        return is_motion ? reader_motion(reader, object, param) : read_track(reader, object, param);
+        reader_put(extra, key, read_track(reader, object, param));
     }
-    return NULL;
 }
 
 void reader_param(struct reader *reader, struct value value, struct range range, const char *key, bool may_be_motion,
                   struct param *param, json_t **extra)
 {
     if (json_is_object(value.json)) {
-        reader_put(extra, key, read_followed(reader, &value, may_be_motion, param));
+        read_followed(reader, &value, key, may_be_motion, param, extra);
     } else if (!json_is_number(value.json)) {
         reader_unexpected(reader, value, "a number or {\"spline\": name}");
     } else {

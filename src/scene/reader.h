@@ -71,10 +71,11 @@ struct reader {
     struct source source;
     struct problems *problems; ///< NULL: only the first error counts
     struct error *error;       ///< the first error
-    bool failed;
+    int errors;
     struct document *document;
+    const struct rig *rig;    ///< being read
     bool has_domain;          ///< frames, fps and substeps are valid
-    long long knot_count;     ///< over all splines
+    size_t knot_count;        ///< over all splines
     struct name_index *names; ///< sorted; one a spline
     int name_count;
     const char *warned[READER_MAX_WARNED]; ///< unknown keys that were warned about: once each
@@ -127,14 +128,16 @@ bool reader_integer(struct reader *reader, struct value value, int minimum, int 
 /// Reads an optional true or false.
 void reader_flag(struct reader *reader, struct value value, bool *target);
 
-/// Index of a string among `words` (which ends with NULL); `missing` if there is no string, -1 after an error.
-int reader_word(struct reader *reader, struct value value, const char *const *words, int missing);
+enum { WORDS_TEXT = 128 };
+
+/// "a", "b" or "c": words that NULL ends, without empty ones.
+const char *list_words(const char *const *words, char text[WORDS_TEXT]);
+
+/// Index of a string among `words` (list_words()); -1 after an error.
+int reader_word(struct reader *reader, struct value value, const char *const *words);
 
 /// The reader's text as JSON; NULL after an error (syntax, too deep, too much).
 json_t *reader_parse(struct reader *reader);
-
-/// Reads a knot and gives it an id; false after an error.
-bool reader_knot(struct reader *reader, struct value object, struct knot *knot);
 
 /// A copy of a required, non-empty string; NULL after an error.
 char *reader_name(struct reader *reader, struct value value);
@@ -145,9 +148,6 @@ int reader_objects(struct reader *reader, struct value value, int limit);
 /// Whether a value is an array of `count` elements; fails with "expected `expected`, got …" if not.
 bool reader_array(struct reader *reader, struct value value, size_t count, const char *expected);
 
-/// Reads an optional [x, y, z].
-void reader_point(struct reader *reader, struct value value, double point[3]);
-
 /// Index of the spline that a required string names; -1 after an error.
 int reader_spline_name(struct reader *reader, struct value value);
 
@@ -157,13 +157,13 @@ json_t *reader_extra(struct reader *reader, const struct value *object, const ch
 /// Puts unknown keys (or NULL) into the object `*extra`, which is made if it is NULL, under a key.
 void reader_put(json_t **extra, const char *key, json_t *unknown);
 
-/// Reads a number in a range, a track, `{"spline": "other"}`, or, if it may be one, the motion of a joint. Unknown keys of the latter two go
-/// into the object `*extra`, which is made if it is NULL, under `key`.
+/// Reads a number in a range, a track, `{"spline": "other"}`, or, if it may be one, the motion of a joint. Unknown keys of a track go into the
+/// object `*extra`, which is made if it is NULL, under `key`.
 void reader_param(struct reader *reader, struct value value, struct range range, const char *key, bool may_be_motion,
                   struct param *param, json_t **extra);
 
-/// Reads the motion of a joint; returns its unknown keys, or NULL.
-json_t *reader_motion(struct reader *reader, const struct value *object, struct param *param);
+/// Reads the motion of a joint.
+void motion_load(struct reader *reader, const struct value *object, struct param *param);
 
 /// Gives an object of unknown keys (or NULL) to the document.
 json_t *reader_keep(struct reader *reader, json_t *extra);

@@ -8,6 +8,8 @@
 #include <stdatomic.h>
 #include <stddef.h>
 
+struct document;
+
 // --- channels: splines that bend joints, each joint later than the one before, or move a part of the tail's fox
 
 enum {
@@ -43,6 +45,8 @@ double angles_lag(const struct angles *lag, int joint, int joints);
 int angles_count(const struct angles *angles);
 double angles_number(const struct angles *angles, int index);
 void angles_set_number(struct angles *angles, int index, double degrees);
+
+bool angles_equal(const struct angles *a, const struct angles *b);
 
 enum { SCENE_MAX_CHANNELS = 64 }; ///< of one rig
 
@@ -120,7 +124,7 @@ struct character_rig {
     struct paint *painted; ///< NULL: none, or its file could not be read
     char *paint_file;      ///< .npy that the scene names for its paint, or NULL
     double position[3];    ///< metres
-    struct drive drives[CHARACTER_MAX_DRIVES];
+    struct drive *drives;  ///< at most CHARACTER_MAX_DRIVES
     int drive_count;
     bool has_floor;
     double floor; ///< height above which all of it is kept, metres of the world
@@ -208,7 +212,7 @@ struct rig {
 /// The file's word for a kind: "tail" …
 const char *rig_word(enum rig_kind kind);
 
-/// What to call it in a sentence: its name, or the file or joint that it is about.
+/// What to call it in a sentence: its name, or the file or joint that it is about, or its kind.
 const char *rig_title(const struct rig *rig);
 
 /// Whether it is a character that is kept above a floor.
@@ -239,8 +243,8 @@ struct rig *rig_clone(const struct rig *rig);
 struct rig *rig_hold(struct rig *rig);
 void rig_drop(struct rig *rig);
 
-/// Whether the numbers of what an edit changed may be saved; −0 becomes 0.
-bool rig_check(struct rig *rig, struct error *error);
+/// Whether a document may have a rig as an edit made it; −0 becomes 0, and a chain's model is looked up.
+bool rig_check(const struct document *document, struct rig *rig, struct error *error);
 
 /// Whether two are the same but for name, pins and unknown keys.
 bool rig_equals(const struct rig *a, const struct rig *b);

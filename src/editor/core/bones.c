@@ -183,9 +183,10 @@ static bool bend_by_the_rest(struct core *core, int spline, int model)
         const struct chain *chain = &document->rigs[r]->chain;
         const int count = bones_model_of(document, chain) == model ? chain->channel_count : 0;
         for (int c = 0; c < count; c++) {
-            if (document->rigs[r]->chain.channels[c].spline != spline) continue;
-            const struct channel_place at = {r, c};
-            done &= edit_part(core->document, at, PART_DISPLACEMENT, &core->error);
+            struct channel changed = document->rigs[r]->chain.channels[c];
+            if (changed.spline != spline) continue;
+            changed.of = PART_DISPLACEMENT;
+            done &= edit_channel(core->document, (struct channel_place){r, c}, &changed, &core->error);
         }
     }
     return done;
@@ -199,20 +200,17 @@ void bones_follow(struct core *core, int spline, int model, int node)
     if (!character || history_is_open(core->history)) return;
     const struct channel *channel = NULL;
     const struct rig *bent = bent_by(document, spline, model, &channel), *rig = document->rigs[model];
-    struct joint_motion motion = {.model = rig->name ? rig->name : rig->model.model, .of = MOTION_TURN};
-    struct param param = {.track = -1, .gain = 1, .motion = &motion};
+    struct joint_motion motion = {.model = rig->name ? rig->name : rig->model.model, .of = MOTION_TURN, .gain = 1};
+    const struct param param = {.track = -1, .motion = &motion};
     if (bent) {
         motion.chain = bent->name;
         motion.joint = bent->chain.to;
         motion.of = motion_along(channel->axis);
-        if (motion.of != MOTION_TURN) param.gain = gain_for(core, model, &bent->chain, channel);
+        if (motion.of != MOTION_TURN) motion.gain = gain_for(core, model, &bent->chain, channel);
     }
     const bool goes_on =
         old->motion && document_find_model(document, old->motion->model, old->motion->by_file) == model;
-    if (goes_on) {
-        motion = *old->motion;
-        param.gain = old->gain;
-    }
+    if (goes_on) motion = *old->motion;
     int chosen_on;
     const int chosen = bones_selected(core, &chosen_on);
     if (node < 0 && !bent && chosen_on == model) node = chosen;

@@ -71,11 +71,16 @@ static int spline_to_use(struct core *core)
 void rigs_add_tail(struct core *core)
 {
     struct document *document = core->document;
-    const struct param place = param_number(free_place(core, ROOM));
+    const double place = free_place(core, ROOM);
     if (!core_begin(core, "Add tail", 0)) return;
     const int spline = spline_to_use(core);
-    const bool done = spline >= 0 && edit_tail_add(document, -1, spline, AXIS_SIDE, PART_TOTAL, &core->error);
-    finish(core, done && edit_position(document, document->rig_count - 1, 0, &place, &core->error));
+    bool done = spline >= 0 && edit_tail_add(document, -1, spline, AXIS_SIDE, PART_TOTAL, &core->error);
+    if (done) {
+        struct rig added = *document->rigs[document->rig_count - 1];
+        added.tail.position[0] = param_number(place);
+        done = edit_rig_set(document, document->rig_count - 1, &added, &core->error);
+    }
+    finish(core, done);
     if (done) core_activate(core, spline);
 }
 

@@ -117,14 +117,16 @@ static bool release(struct core *core, const struct reference *reference)
     struct document *document = core->document;
     const int owner = reference->owner, which = reference->which;
     const wiggly_value now = evaluation_at(core->evaluation, core->active, core->playback.position);
-    const struct param stays = param_number(now.y + now.re);
     switch (reference->kind) {
     case REFERENCE_TRACK: {
         const enum parameter parameter = (enum parameter)which;
         return core_set_parameter(core, owner, parameter, spline_list_present(core, owner, parameter));
     }
-    case REFERENCE_POSITION:
-        return edit_position(document, owner, which, &stays, &core->error);
+    case REFERENCE_POSITION: {
+        struct rig changed = *document->rigs[owner];
+        changed.tail.position[which] = param_number(now.y + now.re);
+        return edit_rig_set(document, owner, &changed, &core->error);
+    }
     case REFERENCE_CHANNEL:
         return edit_channel_remove(document, (struct channel_place){owner, which}, &core->error);
     case REFERENCE_DRIVE:

@@ -1,9 +1,11 @@
 /// The inspector's section on a soft character: what moves each of its coordinates, how it is shown, and the brush.
+#include "base/need.h"
 #include "editor/core/characters.h"
 #include "editor/core/core.h"
 #include "editor/inspector/parts.h"
 #include "rig/models.h"
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 enum { MAX_ITEMS = 32 }; ///< coordinates that may be added
@@ -145,10 +147,19 @@ static void build_facts(struct inspector *in)
 
 static const void *selected(const struct inspector *in) { return characters_selected(in->core); }
 
+static bool put_floor(struct inspector *in, bool on, double height, struct error *error)
+{
+    const int owner = characters_rig(in->core);
+    struct rig changed = *in->core->document->rigs[owner];
+    changed.character.has_floor = on;
+    changed.character.floor = height;
+    return edit_rig_set(in->core->document, owner, &changed, error);
+}
+
 static bool set_floor(struct inspector *in, int which, double height, struct error *error)
 {
     (void)which;
-    return edit_floor(in->core->document, characters_rig(in->core), true, height, error);
+    return put_floor(in, true, height, error);
 }
 
 static const struct number_row floor_rows[] = {
@@ -165,8 +176,7 @@ static void build_floor(struct inspector *in, const struct character_rig *rig)
     int on = rig->has_floor;
     if (inspector_choice(in, "floor", "Keep the whole character above a height", "floor", choices, 2, &on)) {
         if (core_begin(in->core, on ? "Set floor" : "Remove floor", 0))
-            core_end(in->core, edit_floor(in->core->document, owner, on,
-                                          rig->has_floor ? rig->floor : rig->position[1], &in->core->error));
+            core_end(in->core, put_floor(in, on, rig->has_floor ? rig->floor : rig->position[1], &in->core->error));
         return;
     }
     if (!rig->has_floor) return;
@@ -284,10 +294,11 @@ void inspector_character_lists(struct inspector *in)
         const int picked = ui_popup_list(&in->ui, add_list, items, free_coordinates(in, rig, items), -1);
         if (picked < 0) return;
         const int spline = in->core->active >= 0 ? in->core->active : 0;
-        const struct drive drive = {.spline = spline, .amplitude = DRIVE_DEFAULT_AMPLITUDE};
+        char *name = need_text(items[picked].name);
+        const struct drive drive = {.name = name, .spline = spline, .amplitude = DRIVE_DEFAULT_AMPLITUDE};
         const int owner = characters_rig(in->core);
         if (core_begin(in->core, "Add coordinate", 0))
-            core_end(in->core,
-                     edit_drive_add(in->core->document, owner, items[picked].name, &drive, &in->core->error));
+            core_end(in->core, edit_drive(in->core->document, owner, -1, &drive, &in->core->error));
+        free(name);
     }
 }

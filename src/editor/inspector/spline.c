@@ -167,21 +167,20 @@ static void build_of(struct inspector *in)
     if (core_begin(in->core, "Set joint's motion", 0)) core_end(in->core, follow_joint(in, &param, &in->core->error));
 }
 
-static const void *followed_gain(const struct inspector *in) { return followed(in); }
+static const void *followed_gain(const struct inspector *in) { return followed(in)->motion; }
 
 static bool set_gain(struct inspector *in, int which, double gain, struct error *error)
 {
     struct joint_motion motion = *followed(in)->motion;
-    struct param param = *followed(in);
+    const struct param param = {.track = -1, .motion = &motion};
     (void)which;
-    param.gain = gain;
-    param.motion = &motion;
+    motion.gain = gain;
     return follow_joint(in, &param, error);
 }
 
 static const struct number_row gain_rows[] = {
     {"joint.gain", "times", NULL, "How much of the joint's motion it follows", "Set joint's gain",
-     NUMBER_AT(struct param, gain), 0, 0, -1e6, 1e6, 1, 0.01, 2},
+     NUMBER_AT(struct joint_motion, gain), 0, 0, -1e6, 1e6, 1, 0.01, 2},
 };
 
 static void build_joint(struct inspector *in)

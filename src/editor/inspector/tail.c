@@ -45,17 +45,23 @@ static const struct number_row position[] = {
 
 static double get_position(const struct inspector *in, int k) { return inspector_shown(in)->tail.position[k].value; }
 
+static bool put_position(struct inspector *in, int k, struct param param, struct error *error)
+{
+    struct rig changed = *inspector_shown(in);
+    changed.tail.position[k] = param;
+    return edit_rig_set(in->core->document, in->rig, &changed, error);
+}
+
 static bool set_position(struct inspector *in, int k, double metres, struct error *error)
 {
-    const struct param param = param_number(metres);
-    return edit_position(in->core->document, in->rig, k, &param, error);
+    return put_position(in, k, param_number(metres), error);
 }
 
 /// A step of its own: lets the body follow a spline, or stay.
 static void follow(struct inspector *in, int k, struct param param)
 {
     if (core_begin(in->core, param.track < 0 ? "Stop following" : "Follow spline", 0))
-        core_end(in->core, edit_position(in->core->document, in->rig, k, &param, &in->core->error));
+        core_end(in->core, put_position(in, k, param, &in->core->error));
 }
 
 /// A coordinate: a number, or the spline that it follows, and the button from one to the other.
@@ -118,15 +124,21 @@ static void choose(struct inspector *in, int channel)
     in->channel = channel; // of two by the same spline
 }
 
+/// A step of its own.
+static bool put_channel(struct inspector *in, const char *label, const struct channel *channel)
+{
+    return core_begin(in->core, label, 0) &&
+           core_end(in->core, edit_channel(in->core->document, place_of(in), channel, &in->core->error));
+}
+
 /// A gain that was never set becomes the new axis's.
 static void set_axis(struct inspector *in, enum axis axis)
 {
-    const struct channel *channel = chosen_channel(in);
-    const struct angles gain = {.value = {axis_gain(axis)}};
-    const bool untouched = channel->gain.form == ANGLES_ONE && channel->gain.value[0] == axis_gain(channel->axis);
-    if (!core_begin(in->core, "Set axis", 0)) return;
-    const bool done = edit_axis(in->core->document, place_of(in), axis, &in->core->error);
-    core_end(in->core, done && (!untouched || inspector_set_angles(in, ANGLE_GAIN, &gain)));
+    struct channel changed = *chosen_channel(in);
+    const bool untouched = changed.gain.form == ANGLES_ONE && changed.gain.value[0] == axis_gain(changed.axis);
+    changed.axis = axis;
+    if (untouched) changed.gain.value[0] = axis_gain(axis);
+    put_channel(in, "Set axis", &changed);
 }
 
 static void build_axis_list(struct inspector *in, const struct channel *channel)
@@ -150,9 +162,10 @@ static void build_channel_lists(struct inspector *in)
     if (channel) build_axis_list(in, channel);
     if (!ui_popup_is_open(&in->ui, feed_list) || !channel) return;
     int picked = inspector_spline_list(in, feed_list, NULL, channel->spline);
-    if (picked < 0 || !core_begin(in->core, "Set channel's spline", 0)) return;
-    const struct channel_place at = place_of(in);
-    if (core_end(in->core, edit_feed(in->core->document, at, picked, &in->core->error))) choose(in, at.channel);
+    if (picked < 0) return;
+    struct channel changed = *channel;
+    changed.spline = picked;
+    if (put_channel(in, "Set channel's spline", &changed)) choose(in, in->channel);
 }
 
 /// Where a chain begins and where it ends.
@@ -301,9 +314,11 @@ static void build_choices(struct inspector *in, const struct channel *channel)
         set_axis(in, (enum axis)axis);
     }
     if (inspector_choice(in, "bends by", "Total, or displacement only: use that for a tail on a moving base", "part",
-                         parts, 2, &part) &&
-        core_begin(in->core, "Set what bends", 0))
-        core_end(in->core, edit_part(in->core->document, place_of(in), (enum channel_part)part, &in->core->error));
+                         parts, 2, &part)) {
+        struct channel changed = *channel;
+        changed.of = (enum channel_part)part;
+        put_channel(in, "Set what bends", &changed);
+    }
 }
 
 /// Its channels: the list; and what the chosen one is made of.

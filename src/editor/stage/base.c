@@ -84,8 +84,9 @@ double base_value(const struct core *core, int rig, int coordinate, int sample)
 void base_follow(const struct stage *stage, struct core *core, int coordinate, int base)
 {
     const int rig = stage->body_drag.rig;
-    const struct param param = param_track(base);
-    edit_position(core->document, rig, coordinate, &param, &core->error);
+    struct rig moved = *core->document->rigs[rig];
+    moved.tail.position[coordinate] = param_track(base);
+    edit_rig_set(core->document, rig, &moved, &core->error);
 }
 
 static void follow_base(struct core *core, int spline, int base)

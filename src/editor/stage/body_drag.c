@@ -458,8 +458,9 @@ static double shift_coordinate(struct core *core, int rig, int coordinate, doubl
     if (!tail) return shift_model(core, rig, coordinate, by);
     const struct param *param = &tail->position[coordinate];
     if (param->track >= 0) return shift_spline(core, param->track, by, why);
-    const struct param moved = param_number(core_round(param->value + by, RESOLUTION));
-    edit_position(core->document, rig, coordinate, &moved, &core->error);
+    struct rig moved = *core->document->rigs[rig];
+    moved.tail.position[coordinate] = param_number(core_round(param->value + by, RESOLUTION));
+    edit_rig_set(core->document, rig, &moved, &core->error);
     return by;
 }
 

@@ -74,10 +74,11 @@ static void apply(void *room, struct core *core)
 {
     const struct floor_drag *drag = &((const struct stage *)room)->floor_drag;
     if (!floors_exist(core->document, drag->rig)) return;
-    const double highest = core->document->rigs[drag->rig]->character.position[1];
+    struct rig changed = *core->document->rigs[drag->rig];
     const double height = drag->start - core->drag.moved_y / drag->pixels_per_metre;
-    const double rounded = fmin(core_round(height, 0.5 / drag->pixels_per_metre), highest);
-    edit_floor(core->document, drag->rig, true, rounded, &core->error);
+    const double rounded = core_round(height, 0.5 / drag->pixels_per_metre);
+    changed.character.floor = fmin(rounded, changed.character.position[1]);
+    edit_rig_set(core->document, drag->rig, &changed, &core->error);
 }
 
 void floors_begin(struct stage *stage, struct core *core, const struct hover *hover, const struct event *event)

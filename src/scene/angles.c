@@ -1,21 +1,8 @@
-/// Channels and their angles: looked up along the joints, read and printed.
-#include "base/need.h"
-#include "scene/rig_kind.h"
-#include <stdlib.h>
-#include <string.h>
-
-_Static_assert((int)SCENE_MAX_CHANNELS <= (int)RIG_MAX_INPUTS, "a channel is an input");
-
-const char *const channel_keys[] = {"spline", "axis", "of", "lag", "gain", NULL};
-static const char *const axis_words[AXES] = {
-    [AXIS_SIDE] = "side",     [AXIS_UP] = "up",           [AXIS_TWIST] = "twist",
-    [AXIS_LOOK] = "look",     [AXIS_NOD] = "nod",         [AXIS_EARS] = "ears",
-    [AXIS_BREATH] = "breath", [AXIS_STRETCH] = "stretch", [AXIS_BLINK] = "blink"};
-static const char *const parts[] = {[PART_TOTAL] = "total", [PART_DISPLACEMENT] = "displacement", NULL};
+/// The angles of channels: looked up along the joints, read, checked and printed.
+#include "scene/fields.h"
+#include <math.h>
 
 bool axis_bends(enum axis axis) { return axis <= AXIS_TWIST; }
-
-const char *axis_word(enum axis axis) { return axis_words[axis]; }
 
 const char *axis_unit(enum axis axis) { return axis >= AXIS_BREATH ? "%" : "°"; }
 
@@ -24,13 +11,6 @@ double axis_gain(enum axis axis)
     static const double gain[AXES] = {
         [AXIS_LOOK] = 20, [AXIS_NOD] = 10, [AXIS_EARS] = 20, [AXIS_BREATH] = 2, [AXIS_BLINK] = 100};
     return gain[axis] > 0 ? gain[axis] : CHANNEL_DEFAULT_GAIN;
-}
-
-static enum axis axis_called(const char *word)
-{
-    int axis = AXIS_SIDE;
-    while (axis + 1 < AXES && strcmp(axis_words[axis], word) != 0) axis++;
-    return (enum axis)axis;
 }
 
 static double ramp_at(const struct angles *angles, double place)
@@ -78,9 +58,10 @@ void angles_set_number(struct angles *angles, int index, double degrees)
 }
 
 /// An array of one number a joint.
-static void load_each(struct reader *reader, struct value value, int joints, struct angles *angles)
+static void load_each(struct reader *reader, struct value value, struct angles *angles)
 {
     const size_t count = json_array_size(value.json);
+    const int joints = reader->rig->kind == RIG_TAIL ? reader->rig->tail.joints : JOINTS_UNKNOWN;
     if (joints != JOINTS_UNKNOWN && count != (size_t)joints) {
         reader_fail(reader, &value.at, "expected one number for each of the %d joints, got %zu", joints, count);
     } else if (count < 1 || count > ANGLES_MAX_JOINTS) {
@@ -127,13 +108,13 @@ static void load_ramp(struct reader *reader, const struct value *object, struct 
     }
 }
 
-void load_angles(struct reader *reader, struct value value, int joints, struct angles *angles, json_t **extra)
+void load_angles(struct reader *reader, struct value value, struct angles *angles, json_t **extra)
 {
     if (!value.json) return;
     if (json_is_number(value.json)) {
         reader_number(reader, value, true, range_any, &angles->value[0]);
     } else if (json_is_array(value.json)) {
-        load_each(reader, value, joints, angles);
+        load_each(reader, value, angles);
     } else if (json_is_object(value.json)) {
         load_ramp(reader, &value, angles, extra);
     } else {
@@ -141,33 +122,47 @@ void load_angles(struct reader *reader, struct value value, int joints, struct a
     }
 }
 
-void load_channel(struct reader *reader, const struct value *object, const char *const *axes, int joints,
-                  struct channel *channel, json_t *extra)
+_Static_assert(sizeof(struct ramp_point) == 2 * sizeof(double), "a ramp is places and angles in turn");
+
+static int numbers_of(const struct angles *angles)
 {
-    channel->spline = reader_spline_name(reader, reader_member(object, "spline"));
-    int word = reader_word(reader, reader_member(object, "axis"), axes, AXIS_SIDE);
-    channel->axis = word < 0 ? AXIS_SIDE : axis_called(axes[word]);
-    word = reader_word(reader, reader_member(object, "of"), parts, PART_TOTAL);
-    channel->of = word < 0 ? PART_TOTAL : (enum channel_part)word;
-    channel->lag.value[0] = CHANNEL_DEFAULT_LAG;
-    channel->gain.value[0] = CHANNEL_DEFAULT_GAIN;
-    load_angles(reader, reader_member(object, "lag"), joints, &channel->lag, &extra);
-    load_angles(reader, reader_member(object, "gain"), joints, &channel->gain, &extra);
-    channel->extra = reader_keep(reader, extra);
+    return angles_count(angles) * (angles->form == ANGLES_RAMP ? 2 : 1);
 }
 
-void load_channels(struct reader *reader, const struct value *object, const char *const *axes, int joints,
-                   struct rig *rig)
+bool angles_equal(const struct angles *a, const struct angles *b)
 {
-    const struct value value = reader_member(object, "channels");
-    const int count = reader_objects(reader, value, SCENE_MAX_CHANNELS);
-    if (count <= 0) return;
-    rig->bent.channels = need_zeroed((size_t)count, sizeof *rig->bent.channels);
-    rig->bent.channel_count = count;
-    for (int i = 0; i < count; i++) {
-        const struct value one = reader_element(&value, i);
-        load_channel(reader, &one, axes, joints, &rig->bent.channels[i], reader_extra(reader, &one, channel_keys));
+    bool same = a->form == b->form && angles_count(a) == angles_count(b);
+    for (int i = 0; same && i < numbers_of(a); i++) same = a->value[i] == b->value[i];
+    return same;
+}
+
+static bool check_ramp(const struct angles *ramp, struct error *error)
+{
+    if (ramp->count < 2 || ramp->count > RAMP_MAX_POINTS) {
+        return fail(error, ERROR_INPUT, "a ramp has from 2 to %d points", RAMP_MAX_POINTS);
     }
+    for (int i = 0; i < ramp->count; i++) {
+        const double at = ramp->ramp[i].at;
+        if (!(at >= 0 && at <= 1)) return fail(error, ERROR_INPUT, "the places of a ramp are from 0 to 1");
+        if (i > 0 && at <= ramp->ramp[i - 1].at) return fail(error, ERROR_INPUT, "the places of a ramp must ascend");
+    }
+    return true;
+}
+
+bool check_angles(int joints, struct angles *angles, struct error *error)
+{
+    if ((unsigned)angles->form > ANGLES_RAMP) return fail(error, ERROR_INPUT, "there is no such form of angles");
+    if (angles->form == ANGLES_RAMP && !check_ramp(angles, error)) return false;
+    if (angles->form == ANGLES_EACH && joints != JOINTS_UNKNOWN && angles->count != joints)
+        return fail(error, ERROR_INPUT, "there must be one angle for each of the %d joints", joints);
+    if (angles->form == ANGLES_EACH && (angles->count < 1 || angles->count > ANGLES_MAX_JOINTS)) {
+        return fail(error, ERROR_INPUT, "there must be from 1 to %d angles", ANGLES_MAX_JOINTS);
+    }
+    for (int i = 0; i < angles_count(angles); i++) {
+        if (!isfinite(angles_number(angles, i))) return fail(error, ERROR_INPUT, "angles must be finite");
+    }
+    for (int i = 0; i < numbers_of(angles); i++) angles->value[i] += 0.0;
+    return true;
 }
 
 static void print_ramp(struct text *text, const struct angles *angles, json_t *extra)
@@ -194,32 +189,4 @@ void print_angles(struct members *members, const char *key, const struct angles 
     } else {
         text_number(members->text, angles->value[0]);
     }
-}
-
-static bool holds_ramp(const char *key) { return strcmp(key, "lag") == 0 || strcmp(key, "gain") == 0; }
-
-static void print_channel(struct text *text, const struct document *document, const struct channel *channel)
-{
-    struct members members = {text, "{ ", ", ", false};
-    member_string(&members, "spline", document->splines[channel->spline]->name);
-    member_string(&members, "axis", axis_word(channel->axis));
-    if (channel->of != PART_TOTAL) member_string(&members, "of", parts[channel->of]);
-    print_angles(&members, "lag", &channel->lag, channel->extra);
-    print_angles(&members, "gain", &channel->gain, channel->extra);
-    members_extra(&members, channel->extra, holds_ramp);
-    text_string(text, " }");
-}
-
-void print_channels(struct members *members, const struct document *document, const struct rig *rig,
-                    const char *folder)
-{
-    const int count = rig->bent.channel_count;
-    struct text *text = members->text;
-    (void)folder;
-    member(members, "channels");
-    for (int i = 0; i < count; i++) {
-        text_string(text, i > 0 ? ",\n        " : "[\n        ");
-        print_channel(text, document, &rig->bent.channels[i]);
-    }
-    text_string(text, count > 0 ? "\n      ]" : "[]");
 }

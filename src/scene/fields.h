@@ -1,0 +1,150 @@
+/// The objects of a scene file: printed key by key; and by rows, one for each member, read, printed, checked, compared, copied and freed.
+/// Private to src/scene.
+#ifndef SCENE_FIELDS_H
+#define SCENE_FIELDS_H
+
+#include "scene/reader.h"
+#include "scene/text.h"
+
+/// An object being written: `open` comes before its first member, `separator` before the others.
+struct members {
+    struct text *text;
+    const char *open, *separator;
+    bool any;
+};
+
+/// Writes a key; its value follows.
+void member(struct members *members, const char *key);
+void member_number(struct members *members, const char *key, double value);
+void member_string(struct members *members, const char *key, const char *string);
+
+/// A path of the document, for a file in `folder`.
+void member_path(struct members *members, const char *key, const struct document *document, const char *path,
+                 const char *folder);
+
+/// Writes the unknown keys, but for those that `skips` (may be NULL) says hold the unknown keys of a member.
+void members_extra(struct members *members, json_t *extra, bool (*skips)(const char *key));
+
+/// A number, a track or a motion, for a file in `folder`; `extras` holds the unknown keys of the latter two, by `key`.
+void print_param(struct text *text, const struct document *document, const struct param *param, json_t *extras,
+                 const char *key, const char *folder);
+
+/// The rigs as an array, with paths relative to `folder`, that of the file.
+void print_rigs(struct text *text, const struct document *document, const char *folder);
+
+/// [1, 2, 3]
+void text_numbers(struct text *text, const double *values, int count);
+
+// --- rows
+
+enum field_kind {
+    FIELD_OWN, ///< read and printed by functions of its own, if any
+    FIELD_NUMBER,
+    FIELD_WHOLE,
+    FIELD_FLAG,
+    FIELD_NUMBERS, ///< an array of two or three
+    FIELD_WORD,    ///< which of some words
+    FIELD_TEXT,
+    FIELD_PATH,
+    FIELD_MODEL,  ///< the name of a model rig, or its file
+    FIELD_SPLINE, ///< the index of the spline that is named
+    FIELD_PLACE,  ///< three numbers or splines to follow
+    FIELD_ANGLES,
+    FIELD_PAINT, ///< held, beside a row that reads and prints it
+    FIELD_LIST,  ///< objects
+};
+
+enum { FIELDS_MOST = 16 }; ///< of an object
+
+/// A member of an object.
+struct field {
+    const char *key; ///< NULL behind the last row, whose place is that of the unknown keys
+    enum field_kind kind;
+    size_t place, size;       ///< in its structure; the size of a list is that of an element
+    struct range range;       ///< of numbers; how many elements a list may have
+    double usual[3];          ///< where a file does not say
+    const char *const *words; ///< ended by NULL; an empty one is none
+    const struct field *rows; ///< of a list's elements
+    size_t count;             ///< place of the number of a list's elements
+    size_t flag;              ///< place of whether there is a number (0: there always is), or a model is a file
+    bool is_required;         ///< in the file
+    bool is_quiet;            ///< not printed where it is as usual
+    bool is_apart;            ///< does not count where two are compared
+    /// Instead of what the kind does.
+    void (*load)(struct reader *reader, const struct value *object, void *at);
+    void (*print)(struct members *members, const struct document *document, const void *at, const char *folder);
+};
+
+/// A row's beginning; a list's; the last row; ranges of numbers.
+#define FIELD(name, kind_of, type, member)                                                                           \
+    .key = name, .kind = kind_of, .place = offsetof(type, member), .size = sizeof(((type *)0)->member)
+#define FIELD_LIST_OF(name, type, member, number, rows_of, most)                                                     \
+    .key = name, .kind = FIELD_LIST, .place = offsetof(type, member), .size = sizeof(((type *)0)->member[0]),        \
+    .count = offsetof(type, number), .rows = rows_of, .range = {0, most, false}
+#define FIELD_END(type)                                                                                              \
+    {                                                                                                                \
+        .place = offsetof(type, extra)                                                                               \
+    }
+#define FIELD_ANY                                                                                                    \
+    {                                                                                                                \
+        -INFINITY, INFINITY, false                                                                                   \
+    }
+#define FIELD_POSITIVE                                                                                               \
+    {                                                                                                                \
+        0, INFINITY, true                                                                                            \
+    }
+
+/// All is as usual.
+void fields_reset(const struct field *fields, void *at);
+
+/// Reads the members; unknown keys of tracks and ramps go into `*extra`, which is made if it is NULL, by key.
+void fields_load(struct reader *reader, const struct value *object, const struct field *fields, void *at,
+                 json_t **extra);
+/// Reads a whole object with its unknown keys. As usual is what it does not say.
+void object_load(struct reader *reader, const struct value *object, const struct field *fields, void *at);
+/// Reads and prints the list that the row is about.
+void list_load(struct reader *reader, const struct value *object, const struct field *field, void *at);
+void list_print(struct members *members, const struct document *document, const struct field *field, const void *at,
+                const char *folder);
+
+/// Prints all members, the unknown ones last.
+void fields_print(struct members *members, const struct document *document, const struct field *fields,
+                  const void *at, const char *folder);
+
+/// Whether a document may have it as an edit made it; −0 becomes 0. `joints` as in check_angles().
+bool fields_check(const struct document *document, int joints, const struct field *fields, void *at,
+                  struct error *error);
+bool fields_equal(const struct field *fields, const void *a, const void *b);
+
+/// Gives a shallow copy memory of its own.
+void fields_copy(const struct field *fields, void *copy);
+void fields_free(const struct field *fields, void *at);
+/// Bytes behind pointers, but for paint that `other` (may be NULL) has, too.
+size_t fields_bytes(const struct field *fields, const void *at, const void *other);
+
+/// The row of a key, or NULL.
+const struct field *fields_find(const struct field *fields, const char *key);
+
+/// Whether two texts are equal; NULL is only itself.
+bool same_text(const char *a, const char *b);
+
+/// Looks a model rig up by name, else by its file; false: there is none.
+bool model_find(const struct document *document, const char *text, bool *by_file, struct error *error);
+
+/// Whether a spline's equilibrium may follow it; −0 becomes 0, and its model is looked up.
+bool motion_check(const struct document *document, struct joint_motion *motion, struct error *error);
+
+extern const struct field knot_fields[], knot_list_field, motion_fields[];
+
+// --- angles
+
+/// A rig's joints, where only its model says how many there are.
+enum { JOINTS_UNKNOWN = 0 };
+
+/// A number for all joints, an array of one for each or a ramp, whose unknown keys go into the object `*extra` under the value's key. A
+/// missing value leaves `angles` alone.
+void load_angles(struct reader *reader, struct value value, struct angles *angles, json_t **extra);
+void print_angles(struct members *members, const char *key, const struct angles *angles, json_t *extra);
+bool check_angles(int joints, struct angles *angles, struct error *error);
+
+#endif
