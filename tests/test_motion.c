@@ -12,15 +12,14 @@ static double number(int i, int j) { return 100 * i + j + 0.5; }
 static void assert_holds_numbers(const char *path, double fps)
 {
     struct motion motion;
-    struct error error;
     double slab[FRAMES * COLUMNS];
-    if (!motion_open(&motion, path, &error)) fail_msg("%s", error.text);
+    assert_done(motion_open(&motion, path, &error));
     assert_int_equal(motion.frames, FRAMES);
     assert_int_equal(motion.vertices, VERTICES);
     assert_near(motion.fps, fps, 0);
     for (int first = 0; first < COLUMNS; first += 5) { // slabs that end inside of a vertex, the last one short
         int count = first + 5 < COLUMNS ? 5 : COLUMNS - first;
-        assert_true(motion_columns(&motion, first, count, slab, &error));
+        assert_done(motion_columns(&motion, first, count, slab, &error));
         for (int i = 0; i < FRAMES; i++) {
             for (int j = 0; j < count; j++) assert_near(slab[i * count + j], number(i, first + j), 0);
         }
@@ -62,6 +61,9 @@ static void add_npy(struct bytes *b, int version, const char *dictionary)
     add(b, dictionary, length, false);
 }
 
+/// A dictionary in C's order.
+#define DICTIONARY(descr, shape) "{'descr': " descr ", 'fortran_order': False, 'shape': " shape ", }"
+
 static const char *npy(int version, const char *dictionary, int number_size, bool swap)
 {
     static struct bytes b;
@@ -73,7 +75,7 @@ static const char *npy(int version, const char *dictionary, int number_size, boo
 
 TEST(npy_of_every_type)
 {
-    assert_holds_numbers(npy(1, "{'descr': '<f4', 'fortran_order': False, 'shape': (5, 4, 3), }\n", 4, false), 0);
+    assert_holds_numbers(npy(1, DICTIONARY("'<f4'", "(5, 4, 3)") "\n", 4, false), 0);
     assert_holds_numbers(npy(2, "{'descr': '<f8', 'fortran_order': False, 'shape': (5, 4, 3)}", 8, false), 0);
     assert_holds_numbers(npy(1, "{'shape': (5, 12), 'fortran_order': False, 'descr': '>f4'}", 4, true), 0);
     assert_holds_numbers(npy(1, "{'descr':'>f8','fortran_order':False,'shape':(5,12),}", 8, true), 0);
@@ -116,14 +118,13 @@ TEST(mdd_carries_its_rate)
 static void write_motion(const char *path)
 {
     struct motion_writer writer;
-    struct error error;
-    assert_true(motion_write_open(&writer, path, FRAMES, VERTICES, &error));
+    assert_done(motion_write_open(&writer, path, FRAMES, VERTICES, &error));
     for (int i = 0; i < FRAMES; i++) {
         float frame[VERTICES][3];
         for (int j = 0; j < COLUMNS; j++) frame[j / 3][j % 3] = (float)number(i, j);
-        assert_true(motion_write_frame(&writer, (const float(*)[3])frame, &error));
+        assert_done(motion_write_frame(&writer, (const float(*)[3])frame, &error));
     }
-    if (!motion_write_commit(&writer, &error)) fail_msg("%s", error.text);
+    assert_done(motion_write_commit(&writer, &error));
 }
 
 TEST(what_is_written_reads_back)
@@ -143,14 +144,12 @@ TEST(an_abandoned_motion_leaves_nothing)
     const char *path = temporary_path("abandoned.npy");
     float frame[VERTICES][3] = {{0}};
     struct motion_writer writer;
-    struct error error;
     unlink(path);
     for (int commit = 0; commit < 2; commit++) {
-        assert_true(motion_write_open(&writer, path, FRAMES, VERTICES, &error));
-        assert_true(motion_write_frame(&writer, (const float(*)[3])frame, &error));
+        assert_done(motion_write_open(&writer, path, FRAMES, VERTICES, &error));
+        assert_done(motion_write_frame(&writer, (const float(*)[3])frame, &error));
         if (commit) {
-            assert_false(motion_write_commit(&writer, &error));
-            assert_non_null(strstr(error.text, "expected 5 frames, got 1"));
+            assert_refusal(motion_write_commit(&writer, &error), "expected 5 frames, got 1");
         } else {
             motion_write_discard(&writer);
         }
@@ -172,24 +171,21 @@ static void assert_refused(const char *path, const char *says)
 
 TEST(bad_files_get_one_sentence)
 {
-    assert_refused(npy(1, "{'descr': '<i4', 'fortran_order': False, 'shape': (5, 4, 3), }", 4, false),
+    assert_refused(npy(1, DICTIONARY("'<i4'", "(5, 4, 3)"), 4, false),
                    "expected numbers of type float32 or float64, got '<i4'");
-    assert_refused(npy(1, "{'descr': [('x', '<f4')], 'fortran_order': False, 'shape': (5, 4, 3), }", 4, false),
+    assert_refused(npy(1, DICTIONARY("[('x', '<f4')]", "(5, 4, 3)"), 4, false),
                    "expected numbers of type float32 or float64, got [('x'");
-    assert_refused(npy(1, "{'descr': '<f4', 'fortran_order': False, 'shape': (60,), }", 4, false),
+    assert_refused(npy(1, DICTIONARY("'<f4'", "(60,)"), 4, false),
                    "expected an array of shape (frames, vertices, 3), got (60,)");
-    assert_refused(npy(1, "{'descr': '<f4', 'fortran_order': False, 'shape': (5, 3, 4), }", 4, false),
-                   "got (5, 3, 4)");
-    assert_refused(npy(1, "{'descr': '<f4', 'fortran_order': False, 'shape': (0, 4, 3), }", 4, false),
+    assert_refused(npy(1, DICTIONARY("'<f4'", "(5, 3, 4)"), 4, false), "got (5, 3, 4)");
+    assert_refused(npy(1, DICTIONARY("'<f4'", "(0, 4, 3)"), 4, false),
                    "expected one frame and one vertex or more, got 0 and 4");
-    assert_refused(npy(1, "{'descr': '<f4', 'fortran_order': False, 'shape': (6, 4, 3), }", 4, false),
+    assert_refused(npy(1, DICTIONARY("'<f4'", "(6, 4, 3)"), 4, false),
                    "expected 6 frames of 4 vertices, got a file that ends in frame 5");
-    assert_refused(
-        npy(1, "{'descr': '<f8', 'fortran_order': False, 'shape': (1000000000, 700000000, 3), }", 4, false),
-        "got a file that ends in frame 0");
+    assert_refused(npy(1, DICTIONARY("'<f8'", "(1000000000, 700000000, 3)"), 4, false),
+                   "got a file that ends in frame 0");
     assert_refused(npy(1, "{'descr': '<f4'}", 4, false), "expected the header of an .npy array");
-    assert_refused(npy(9, "{'descr': '<f4', 'fortran_order': False, 'shape': (5, 4, 3), }", 4, false),
-                   "expected the header of an .npy array");
+    assert_refused(npy(9, DICTIONARY("'<f4'", "(5, 4, 3)"), 4, false), "expected the header of an .npy array");
     assert_refused(temporary_file("short.npy", "\x93NUMPY\1\0\xff\x0f{'descr': ", 20),
                    "expected a header of 4105 bytes, got 20");
     assert_refused(temporary_file("empty.npy", "", 0), "got a file of 0 bytes");
@@ -205,14 +201,12 @@ TEST(a_number_that_is_none_is_named)
 {
     static struct bytes b;
     double slab[FRAMES * COLUMNS];
-    add_npy(&b, 1, "{'descr': '<f4', 'fortran_order': False, 'shape': (5, 4, 3), }");
+    add_npy(&b, 1, DICTIONARY("'<f4'", "(5, 4, 3)"));
     for (int n = 0; n < FRAMES * COLUMNS; n++) add_number(&b, n == 2 * COLUMNS + 7 ? (double)NAN : 1, 4, false);
     struct motion motion;
-    struct error error;
-    assert_true(motion_open(&motion, temporary_file("motion.npy", b.data, b.size), &error));
-    assert_true(motion_columns(&motion, 0, 7, slab, &error));
-    assert_false(motion_columns(&motion, 5, 4, slab, &error));
-    assert_non_null(strstr(error.text, "frame 2, vertex 2: expected a finite number"));
+    assert_done(motion_open(&motion, temporary_file("motion.npy", b.data, b.size), &error));
+    assert_done(motion_columns(&motion, 0, 7, slab, &error));
+    assert_refusal(motion_columns(&motion, 5, 4, slab, &error), "frame 2, vertex 2: expected a finite number");
     motion_close(&motion);
 }
 

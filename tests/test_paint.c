@@ -115,20 +115,21 @@ STUDIO_TEST(a_stroke_goes_on_or_is_cancelled)
 STUDIO_TEST(paint_that_is_no_number_is_refused)
 {
     const float broken[][2] = {{NAN, 0}, {0, INFINITY}, {11, 0}, {0, -2000}};
+    struct error error;
     const int vertex = 3, beyond = VERTICES;
     struct dab made = {0, 1, &vertex, NULL};
     history_begin(s->history, "Paint", 0);
     made.values = broken;
-    assert_false(edit_paint(s->document, 0, &made, NULL)); // no paint yet
+    assert_false(edit_paint(s->document, 0, &made, &error)); // no paint yet
     new_paint(s);
     for (int i = 0; i < 4; i++) {
         made.values = &broken[i];
-        assert_false(edit_paint(s->document, 0, &made, NULL));
+        assert_false(edit_paint(s->document, 0, &made, &error));
     }
     made = (struct dab){0, 1, &beyond, (const float[][2]){{0, 0}}};
-    assert_false(edit_paint(s->document, 0, &made, NULL));
+    assert_false(edit_paint(s->document, 0, &made, &error));
     made = (struct dab){COORDINATES, 1, &vertex, (const float[][2]){{0, 0}}};
-    assert_false(edit_paint(s->document, 0, &made, NULL));
+    assert_false(edit_paint(s->document, 0, &made, &error));
     assert_true(paint_is_plain(rig_of(s)->painted));
     history_end(s->history);
 }

@@ -1,12 +1,9 @@
 /// Splines solved together so that points are where they must be: against exact answers (tests/vectors/pins, 60-digit arithmetic), random
 /// groups in other orders, and what is refused.
-#include "near.h"
+#include "documents.h"
 
-#include "base/file.h"
 #include "scene/evaluate.h"
-#include "scene/load.h"
-#include "temporary.h"
-#include <dirent.h>
+#include "vectors.h"
 #include <jansson.h>
 
 enum { MOST_SPLINES = 8, MOST_PINS = 40 };
@@ -60,28 +57,10 @@ static void read_sheet(struct sheet *sheet, const json_t *file, const struct doc
 
 static struct document *document_of(const json_t *file)
 {
-    struct error error = {0};
     char *text = json_dumps(json_object_get(file, "scene"), 0);
-    const char *path = temporary_file("pins.json", text, strlen(text));
-    struct document *document = scene_load(path, NULL, &error);
-    if (!document) fail_msg("%s", error.text);
+    struct document *document = document_of_text(text);
     free(text);
     return document;
-}
-
-/// Skips the header and the frame's column.
-static void read_rows(const char *path, double *numbers, int columns, int rows)
-{
-    char *text, *at;
-    size_t size;
-    struct error error;
-    if (!file_read(path, (size_t)1 << 24, &text, &size, &error)) fail_msg("%s", error.text);
-    at = strchr(text, '\n');
-    for (int i = 0; i < rows; i++) {
-        strtod(at + 1, &at);
-        for (int k = 0; k < columns; k++) numbers[columns * i + k] = strtod(at + 1, &at);
-    }
-    free(text);
 }
 
 static wiggly_curve curve_of(double *memory, int samples)
@@ -91,19 +70,6 @@ static wiggly_curve curve_of(double *memory, int samples)
                           .re = memory + 2 * samples,
                           .im = memory + 3 * samples,
                           .omega = memory + 4 * samples};
-}
-
-static void compare(const char *name, const wiggly_curve *curve, const double *expected, int columns, int spline)
-{
-    double low = INFINITY, high = -INFINITY, worst = 0;
-    for (int i = 0; i < curve->samples; i++) {
-        const double *row = expected + columns * i + 3 * spline;
-        low = fmin(low, row[0]), high = fmax(high, row[0]);
-        worst = fmax(worst, fabs(curve->total[i] - row[0]));
-        worst = fmax(worst, fmax(fabs(curve->re[i] - row[1]), fabs(curve->im[i] - row[2])));
-    }
-    worst /= fmax(high - low, fmax(fabs(low), fabs(high)));
-    if (!(worst <= 1e-8)) fail_msg("%s, spline %d: off by %g of its range", name, spline, worst);
 }
 
 static void check_group(const char *name, struct sheet *sheet, const struct document *document,
@@ -126,7 +92,10 @@ static void check_group(const char *name, struct sheet *sheet, const struct docu
     wiggly_status status =
         wiggly_group_solve(group, descs, sheet->weights, curves, sheet->splines, sheet->pin, sheet->pins);
     if (status != WIGGLY_OK) fail_msg("%s: %s", name, wiggly_status_text(status));
-    for (int s = 0; s < sheet->splines; s++) compare(name, &curves[s], expected, 3 * sheet->splines, s);
+    for (int s = 0; s < sheet->splines; s++) {
+        const double worst = vectors_error(&curves[s], expected, 1 + 3 * sheet->splines, s);
+        if (!(worst <= 1e-8)) fail_msg("%s, spline %d: off by %g of its range", name, s, worst);
+    }
     for (int p = 0; p < sheet->pins; p++) {
         for (int i = 0; i < 3; i++) assert_near(sheet->pin[p].left[i], sheet->left[p][i], 1e-9);
     }
@@ -146,10 +115,7 @@ static void check_file(const char *name)
     static struct sheet sheet;
     memset(&sheet, 0, sizeof sheet);
     read_sheet(&sheet, file, document);
-    const int samples = document_samples(document), columns = 3 * sheet.splines;
-    double *expected = malloc(sizeof *expected * (size_t)(samples * columns));
-    snprintf(path, sizeof path, "%s/%s.csv", folder, name);
-    read_rows(path, expected, columns, samples);
+    double *expected = vectors_table(folder, name, 1 + 3 * sheet.splines, document_samples(document));
     check_group(name, &sheet, document, expected, WIGGLY_CHAIN);
     check_group(name, &sheet, document, expected, WIGGLY_BAND);
     free(expected);
@@ -157,22 +123,7 @@ static void check_file(const char *name)
     json_decref(file);
 }
 
-TEST(every_vector_is_met)
-{
-    DIR *directory = opendir(folder);
-    assert_non_null(directory);
-    int files = 0;
-    struct dirent *entry;
-    while ((entry = readdir(directory)) != NULL) {
-        char *dot = strstr(entry->d_name, ".json");
-        if (!dot) continue;
-        *dot = '\0';
-        check_file(entry->d_name);
-        files++;
-    }
-    closedir(directory);
-    assert_true(files >= 9);
-}
+TEST(every_vector_is_met) { assert_true(vectors_each(folder, check_file) >= 9); }
 
 // --- random groups ---------------------------------------------------------------------------------------------------
 
@@ -441,32 +392,25 @@ static wiggly_status status_of(struct random_group *g)
 
 TEST(what_cannot_be_held_is_refused)
 {
-    struct random_group *g = make_group(2, 2, 1);
-    g->pin[0].sample = SAMPLES;
-    assert_int_equal(status_of(g), WIGGLY_ERROR_PIN);
-    g = make_group(2, 2, 1);
-    g->descs[1].start = WIGGLY_LOOP;
-    g->descs[1].knot_count = 0;
-    g->pin[0].sample = SAMPLES - 1;
-    assert_int_equal(status_of(g), WIGGLY_ERROR_PIN);
-    g = make_group(2, 2, 1);
-    g->descs[0].mode = WIGGLY_CUBIC;
-    assert_int_equal(status_of(g), WIGGLY_ERROR_PIN);
-    g = make_group(2, 2, 1);
-    g->descs[0].calm = 0;
-    assert_int_equal(status_of(g), WIGGLY_ERROR_PIN);
-    g = make_group(2, 2, 1);
-    g->descs[0].frequency.value = 0;
-    assert_int_equal(status_of(g), WIGGLY_ERROR_PIN);
-    g = make_group(2, 2, 1);
-    g->pin[0].to[1] = NAN;
-    assert_int_equal(status_of(g), WIGGLY_ERROR_NUMBER);
-    g = make_group(2, 2, 1);
-    g->weights[0] = 0;
-    assert_int_equal(status_of(g), WIGGLY_ERROR_NUMBER);
-    g = make_group(2, 2, 1);
-    g->pulls[0][1].spline = 2;
-    assert_int_equal(status_of(g), WIGGLY_ERROR_ARGUMENT);
+    static const wiggly_status expected[] = {WIGGLY_ERROR_PIN,    WIGGLY_ERROR_PIN,     WIGGLY_ERROR_PIN,
+                                             WIGGLY_ERROR_PIN,    WIGGLY_ERROR_PIN,     WIGGLY_ERROR_NUMBER,
+                                             WIGGLY_ERROR_NUMBER, WIGGLY_ERROR_ARGUMENT};
+    for (int i = 0; i < 8; i++) {
+        struct random_group *g = make_group(2, 2, 1);
+        if (i == 0) g->pin[0].sample = SAMPLES;
+        if (i == 1) {
+            g->descs[1].start = WIGGLY_LOOP;
+            g->descs[1].knot_count = 0;
+            g->pin[0].sample = SAMPLES - 1;
+        }
+        if (i == 2) g->descs[0].mode = WIGGLY_CUBIC;
+        if (i == 3) g->descs[0].calm = 0;
+        if (i == 4) g->descs[0].frequency.value = 0;
+        if (i == 5) g->pin[0].to[1] = NAN;
+        if (i == 6) g->weights[0] = 0;
+        if (i == 7) g->pulls[0][1].spline = 2;
+        assert_int_equal(status_of(g), expected[i]);
+    }
 }
 
 /// In a scene of two samples there is nothing to pull.

@@ -1,5 +1,6 @@
 /// Documents: what is loaded, saved, printed and solved.
 #include "documents.h"
+#include "folder.h"
 
 #include "scene/evaluate.h"
 #include "scene/text.h"
@@ -202,16 +203,16 @@ TEST(test_round_trips)
     static const char *const folders[] = {"tests/vectors", "assets/scenes"};
     int count = 0;
     for (int i = 0; i < 2; i++) {
-        DIR *folder = opendir(folders[i]);
-        assert_non_null(folder);
-        for (struct dirent *entry; (entry = readdir(folder));) {
+        DIR *all = opendir(folders[i]);
+        assert_non_null(all);
+        for (struct dirent *entry; (entry = readdir(all));) {
             char path[PATH_SIZE];
             if (!strstr(entry->d_name, ".json")) continue;
             snprintf(path, sizeof path, "%s/%s", folders[i], entry->d_name);
             assert_round_trip(path);
             count++;
         }
-        closedir(folder);
+        closedir(all);
     }
     assert_true(count > 30);
 }
@@ -309,16 +310,14 @@ TEST(test_escaped_keys)
 
 static void assert_file_is(const char *path, const char *expected)
 {
-    char text[PATH_SIZE] = "";
-    FILE *file = fopen(path, "r");
-    assert_non_null(file);
-    size_t size = fread(text, 1, sizeof text - 1, file);
-    fclose(file);
-    text[size] = '\0';
+    char *text;
+    size_t size;
+    assert_done(file_read(path, PATH_SIZE, &text, &size, &error));
     assert_string_equal(text, expected);
+    free(text);
 }
 
-static int count_files(const char *folder)
+static int count_files(void)
 {
     int count = 0;
     DIR *all = opendir(folder);
@@ -329,17 +328,15 @@ static int count_files(const char *folder)
 }
 
 /// A link stays a link, the mode stays, nothing is left beside the file, and a failure leaves the old content.
-TEST(test_save)
+TEST_WITH(folder_make, folder_remove, test_save)
 {
-    char folder[] = "/tmp/wiggly-save-XXXXXX", path[PATH_SIZE], link[PATH_SIZE], expected[PATH_SIZE];
-    assert_non_null(mkdtemp(folder));
-    snprintf(path, sizeof path, "%s/scene.json", folder);
-    snprintf(link, sizeof link, "%s/link.json", folder);
-    snprintf(expected, sizeof expected,
-             "{\n  \"wiggly\": 1,\n  \"fps\": 24,\n  \"substeps\": 1,\n  \"frames\": [0, 7],\n"
-             "  \"splines\": [],\n  \"rigs\": []\n}\n");
+    char path[PATH_SIZE], link[PATH_SIZE];
+    char expected[] = "{\n  \"wiggly\": 1,\n  \"fps\": 24,\n  \"substeps\": 1,\n  \"frames\": [0, 7],\n"
+                      "  \"splines\": [],\n  \"rigs\": []\n}\n";
     struct document *document = document_of_text("{\"frames\": [0, 7]}");
     struct error error = {0};
+    snprintf(path, sizeof path, "%s", folder_path("scene.json"));
+    snprintf(link, sizeof link, "%s", folder_path("link.json"));
     assert_int_equal(symlink("scene.json", link), 0);
     assert_true(scene_save(document, link, &error)); // through a link that leads nowhere yet
     assert_file_is(path, expected);
@@ -353,7 +350,7 @@ TEST(test_save)
     assert_true(S_ISLNK(about.st_mode));
     assert_int_equal(stat(path, &about), 0);
     assert_int_equal(about.st_mode & 0777, 0640);
-    assert_int_equal(count_files(folder), 2);
+    assert_int_equal(count_files(), 2);
     assert_false(scene_save(document, folder, &error));
     assert_int_equal(error.kind, ERROR_ENVIRONMENT);
     assert_true(scene_save(document, "/dev/null", &error)); // which must stay a device
@@ -362,9 +359,6 @@ TEST(test_save)
     assert_false(scene_save(document, "/dev/full", &error));
     assert_non_null(strstr(error.text, "No space left"));
     document_destroy(document);
-    assert_int_equal(unlink(link), 0);
-    assert_int_equal(unlink(path), 0);
-    assert_int_equal(rmdir(folder), 0);
 }
 
 // --- evaluation
@@ -381,27 +375,48 @@ static const char chain[] =
     "{\"frame\": 48, \"value\": 2}]},"
     "{\"name\": \"a\", \"mode\": \"cubic\", \"knots\": [{\"frame\": 9, \"value\": 3}]}]}";
 
-TEST(test_a_scene_without_splines)
+/// A document and its curves.
+struct solved {
+    struct document *document;
+    struct evaluation evaluation;
+};
+
+static void solved_open(struct solved *s, const char *text)
 {
-    struct document *document = document_of_text("{\"frames\": [0, 120]}");
-    struct evaluation evaluation = {0};
-    evaluation_update(&evaluation, document, false);
-    assert_int_equal(evaluation.solved_splines, 0);
-    evaluation_free(&evaluation);
-    document_destroy(document);
+    s->document = document_of_text(text);
+    evaluation_update(&s->evaluation, s->document, false);
 }
 
-TEST(test_only_followers_are_solved)
+static void solved_close(struct solved *s)
 {
-    struct document *document = document_of_text(chain);
-    struct evaluation evaluation = {0};
-    evaluation_update(&evaluation, document, false);
-    assert_int_equal(evaluation.solved_splines, 4);
-    assert_int_equal(evaluation.solved_samples, 4 * 49);
-    assert_int_equal(evaluation.solved_knots, 5);
-    for (int i = 0; i < 4; i++) assert_int_equal(evaluation.status[i], WIGGLY_OK);
-    assert_near(evaluation.curves[1].total[20], 1, 0);
-    assert_near(evaluation.curves[0].y[20], 1, 0);
+    evaluation_free(&s->evaluation);
+    document_destroy(s->document);
+}
+
+#define SOLVED_TEST(name, text) TEST_OF(struct solved, s, solved_open(s, text), solved_close(s), name)
+
+SOLVED_TEST(test_a_scene_without_splines, "{\"frames\": [0, 120]}")
+{
+    assert_int_equal(s->evaluation.solved_splines, 0);
+}
+
+/// Solves anew what hangs on these splines; how many that were.
+static long solved_again(struct solved *s, const bool edited[4], bool as_cubics)
+{
+    for (int i = 0; i < 4; i++)
+        if (edited[i]) document_own_spline(s->document, i);
+    evaluation_update(&s->evaluation, s->document, as_cubics);
+    return s->evaluation.solved_splines;
+}
+
+SOLVED_TEST(test_only_followers_are_solved, chain)
+{
+    assert_int_equal(s->evaluation.solved_splines, 4);
+    assert_int_equal(s->evaluation.solved_samples, 4 * 49);
+    assert_int_equal(s->evaluation.solved_knots, 5);
+    for (int i = 0; i < 4; i++) assert_int_equal(s->evaluation.status[i], WIGGLY_OK);
+    assert_near(s->evaluation.curves[1].total[20], 1, 0);
+    assert_near(s->evaluation.curves[0].y[20], 1, 0);
     static const struct {
         bool edited[4];
         int solved, solved_as_cubics;
@@ -410,40 +425,26 @@ TEST(test_only_followers_are_solved)
         {{false, true, false, false}, 2, 2},  {{false, false, true, false}, 3, 1},
         {{false, false, false, true}, 1, 1},  {{true, false, false, true}, 2, 2},
     };
-    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        for (int s = 0; s < 4; s++)
-            if (cases[i].edited[s]) document_own_spline(document, s);
-        evaluation_update(&evaluation, document, false);
-        assert_int_equal(evaluation.solved_splines, cases[i].solved);
-    }
-    evaluation_update(&evaluation, document, true); // another look solves all
-    assert_int_equal(evaluation.solved_splines, 4);
-    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        for (int s = 0; s < 4; s++)
-            if (cases[i].edited[s]) document_own_spline(document, s);
-        evaluation_update(&evaluation, document, true);
-        assert_int_equal(evaluation.solved_splines, cases[i].solved_as_cubics);
-    }
-    evaluation_free(&evaluation);
-    document_destroy(document);
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++)
+        assert_int_equal(solved_again(s, cases[i].edited, false), cases[i].solved);
+    evaluation_update(&s->evaluation, s->document, true); // another look solves all
+    assert_int_equal(s->evaluation.solved_splines, 4);
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++)
+        assert_int_equal(solved_again(s, cases[i].edited, true), cases[i].solved_as_cubics);
 }
 
 /// What is solved bit by bit, as edits come, is what is solved at once: a curve is a function of the document.
-TEST(test_partial_solves_agree)
+SOLVED_TEST(test_partial_solves_agree, chain)
 {
-    struct document *document = document_of_text(chain);
-    struct evaluation partial = {0}, whole = {0};
-    evaluation_update(&partial, document, false);
-    document_own_spline(document, 2)->knots[1].value = 0.25;
-    evaluation_update(&partial, document, false);
-    evaluation_update(&whole, document, false);
+    struct evaluation whole = {0};
+    document_own_spline(s->document, 2)->knots[1].value = 0.25;
+    evaluation_update(&s->evaluation, s->document, false);
+    evaluation_update(&whole, s->document, false);
     for (int i = 0; i < 4; i++) {
-        assert_memory_equal(partial.curves[i].total, whole.curves[i].total, 49 * sizeof(double));
-        assert_memory_equal(partial.curves[i].im, whole.curves[i].im, 49 * sizeof(double));
+        assert_memory_equal(s->evaluation.curves[i].total, whole.curves[i].total, 49 * sizeof(double));
+        assert_memory_equal(s->evaluation.curves[i].im, whole.curves[i].im, 49 * sizeof(double));
     }
     evaluation_free(&whole);
-    evaluation_free(&partial);
-    document_destroy(document);
 }
 
 TEST(test_evaluation_fits_the_document)
@@ -468,22 +469,17 @@ TEST(test_evaluation_fits_the_document)
 }
 
 /// A value that no curve can pass: nothing moves any more, the status says why, and nothing that reads the curve falls over.
-TEST(test_a_value_beyond_reach_is_flat)
+SOLVED_TEST(test_a_value_beyond_reach_is_flat,
+            "{\"frames\": [0, 40], \"splines\": [{\"name\": \"a\", \"knots\": [{\"frame\": 0, \"value\": 1}, "
+            "{\"frame\": 30, \"value\": -1.7e308}]}]}")
 {
-    static const char text[] = "{\"wiggly\": 1, \"frames\": [0, 40], \"splines\": [{\"name\": \"a\", \"knots\": "
-                               "[{\"frame\": 0, \"value\": 1}, {\"frame\": 30, \"value\": -1.7e308}]}]}";
-    struct document *document = document_of_text(text);
-    struct evaluation evaluation = {0};
-    evaluation_update(&evaluation, document, false);
-    assert_int_equal(evaluation.status[0], WIGGLY_ERROR_NUMBER);
-    document_own_spline(document, 0)->knots[1].value = -1;
-    evaluation_update(&evaluation, document, false);
-    assert_near(evaluation.curves[0].total[30], -1, 0);
-    document_own_spline(document, 0)->knots[1].value = -1.7e308;
-    evaluation_update(&evaluation, document, false);
-    assert_int_equal(evaluation.status[0], WIGGLY_ERROR_NUMBER);
-    wiggly_value value = wiggly_evaluate(&evaluation.curves[0], 12.5);
+    assert_int_equal(s->evaluation.status[0], WIGGLY_ERROR_NUMBER);
+    document_own_spline(s->document, 0)->knots[1].value = -1;
+    evaluation_update(&s->evaluation, s->document, false);
+    assert_near(s->evaluation.curves[0].total[30], -1, 0);
+    document_own_spline(s->document, 0)->knots[1].value = -1.7e308;
+    evaluation_update(&s->evaluation, s->document, false);
+    assert_int_equal(s->evaluation.status[0], WIGGLY_ERROR_NUMBER);
+    wiggly_value value = wiggly_evaluate(&s->evaluation.curves[0], 12.5);
     assert_near(value.y + value.re, 0, 0);
-    evaluation_free(&evaluation);
-    document_destroy(document);
 }

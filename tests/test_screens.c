@@ -8,54 +8,23 @@
     "\"value\": -0.3}]"
 #define SPLINE(name) "{\"name\": \"" name "\", \"frequency\": 1.25, \"damping\": 0.1, " KNOTS "}"
 
+#define LONG_NAME "a spline whose name is far longer than any panel is wide"
+#define SPLINES SPLINE("sway") "," SPLINE("up") "," SPLINE("ears") "," SPLINE(LONG_NAME) ","
+#define MORE_SPLINES SPLINE("head") "," SPLINE("breath") "," SPLINE("left hand") "," SPLINE("tip")
+
 /// Eight splines and three tails, some with names that fit nowhere.
 static const char crowded[] =
     "{\"wiggly\": 1, \"about\": \"A title of a scene that goes on for longer than the width of a stage allows. And a "
-    "text "
-    "below it that would fill a page, were there one, and has to be content with a few lines at the upper left of "
-    "the "
-    "stage, out of the way of what stands in its middle, however small the window is made; what is left over is not "
-    "shown, and nobody will miss it, since it says nothing that was not said before, at length.\", "
-    "\"frames\": [0, 96], \"splines\": [" SPLINE("sway") "," SPLINE("up") "," SPLINE("ears") "," SPLINE(
-        "a spline "
-        "whose name "
-        "is far "
-        "longer than "
-        "any panel "
-        "is wide") "," SPLINE("head") "," SPLINE("breath") "," SPLINE("left hand") "," SPLINE("tip") "],\"rigs\": ["
-                                                                                                     "{\"type\": "
-                                                                                                     "\"tail\", "
-                                                                                                     "\"name\": "
-                                                                                                     "\"tail\", "
-                                                                                                     "\"channels\": "
-                                                                                                     "[{\"spline\": "
-                                                                                                     "\"sway\"}, "
-                                                                                                     "{\"spline\": "
-                                                                                                     "\"up\", "
-                                                                                                     "\"axis\": "
-                                                                                                     "\"up\"}]}, "
-                                                                                                     "{\"type\": "
-                                                                                                     "\"tail\", "
-                                                                                                     "\"name\": "
-                                                                                                     "\"another "
-                                                                                                     "tail, whose "
-                                                                                                     "name is "
-                                                                                                     "rather long as "
-                                                                                                     "well\", "
-                                                                                                     "\"spline\": "
-                                                                                                     "\"head\", "
-                                                                                                     "\"position\": "
-                                                                                                     "[1.2, 0.26, "
-                                                                                                     "0]}, "
-                                                                                                     "{\"type\": "
-                                                                                                     "\"tail\", "
-                                                                                                     "\"name\": "
-                                                                                                     "\"third\", "
-                                                                                                     "\"spline\": "
-                                                                                                     "\"breath\", "
-                                                                                                     "\"position\": "
-                                                                                                     "[-1.2, 0.26, "
-                                                                                                     "0]}]}";
+    "text below it that would fill a page, were there one, and has to be content with a few lines at the upper "
+    "left of the stage, out of the way of what stands in its middle, however small the window is made; what is left "
+    "over is "
+    "not shown, and nobody will miss it, since it says nothing that was not said before, at length.\", "
+    "\"frames\": [0, 96], \"splines\": [" SPLINES MORE_SPLINES
+    "], \"rigs\": [{\"type\": \"tail\", \"name\": \"tail\", "
+    "\"channels\": [{\"spline\": \"sway\"}, {\"spline\": \"up\", \"axis\": \"up\"}]}, "
+    "{\"type\": \"tail\", \"name\": \"another tail, whose name is rather long as well\", \"spline\": \"head\", "
+    "\"position\": [1.2, 0.26, 0]}, {\"type\": \"tail\", \"name\": \"third\", \"spline\": \"breath\", "
+    "\"position\": [-1.2, 0.26, 0]}]}";
 
 static const char long_message[] =
     "a sentence that goes on and on about what is wrong with this file until there is no room left for it in the "
@@ -244,8 +213,7 @@ TEST(test_the_tail_on_every_screen)
 {
     char *scene;
     size_t size;
-    struct error error;
-    if (!file_read("assets/scenes/tail.json", 1 << 20, &scene, &size, &error)) fail_msg("%s", error.text);
+    assert_done(file_read("assets/scenes/tail.json", 1 << 20, &scene, &size, &error));
     assert_int_equal(walk_all(scene, true), 0);
     free(scene);
 }

@@ -29,11 +29,44 @@ static void make_box(struct box *box, float width, float height)
                                     .index_count = 36};
 }
 
-static void make_soft(struct soft *soft, struct box *box, const struct soft_options *options)
+/// A box made soft, and what shakes it.
+struct shaken {
+    struct box box;
+    struct soft_options options;
+    struct soft soft;
+    struct integrator integrator;
+    struct floor floor;
+};
+
+/// In about as many tetrahedra; what else is wanted of its options is set before soften().
+static void box_open(struct shaken *s, float width, float height, int tets)
 {
-    struct error error;
-    if (!soft_create(soft, &box->surface, "box", options, &error)) fail_msg("%s", error.text);
+    *s = (struct shaken){.options = soft_default_options()};
+    s->options.tets = tets;
+    make_box(&s->box, width, height);
 }
+
+static void soften(struct shaken *s)
+{
+    assert_done(soft_create(&s->soft, &s->box.surface, "box", &s->options, &error));
+}
+
+/// Gets an integrator of steps of so many seconds.
+static void shake_by(struct shaken *s, double step, double tolerance)
+{
+    integrator_create(&s->integrator, &s->soft.body, step);
+    s->integrator.tolerance = tolerance;
+}
+
+static void box_close(struct shaken *s)
+{
+    if (s->integrator.work) integrator_free(&s->integrator);
+    floor_free(&s->floor);
+    soft_free(&s->soft);
+}
+
+#define BOX_TEST(name, width, height, tets)                                                                          \
+    TEST_OF(struct shaken, s, box_open(s, width, height, tets), box_close(s), name)
 
 /// φᵀM d, d being the direction for all nodes, or their displacements.
 static double project(const struct soft *soft, int mode, const double direction[3], const double (*x)[3])
@@ -49,28 +82,23 @@ static double project(const struct soft *soft, int mode, const double direction[
 }
 
 /// Each mode of a body whose base moves a little is an oscillator that −Γ a(t) pushes: q'' + 2ζω q' + ω² q = −Γ a.
-TEST(a_moving_base_shakes_a_mode_as_it_shakes_an_oscillator)
+BOX_TEST(a_moving_base_shakes_a_mode_as_it_shakes_an_oscillator, 0.3f, 1, 300)
 {
     const double side[3] = {1, 0, 0}, h = 1e-3;
-    struct box box;
-    struct soft soft;
-    struct integrator integrator;
+    const struct soft *soft = &s->soft;
+    struct integrator *integrator = &s->integrator;
     struct shake shake = {.direction = {1, 0, 0}, .driven = true};
-    struct soft_options options = soft_default_options();
-    options.tets = 300;
-    options.shake = &shake;
-    options.modes = 6;
-    options.damping = 0.1;
-    make_box(&box, 0.3f, 1);
-    make_soft(&soft, &box, &options);
-    assert_near(soft_frequency(&soft), 2, 1e-9);
+    s->options.shake = &shake;
+    s->options.modes = 6;
+    s->options.damping = 0.1;
+    soften(s);
+    assert_near(soft_frequency(soft), 2, 1e-9);
     struct drive drive = {.kind = DRIVE_BURST, .direction = {1, 0, 0}, .size = 1e-4, .frequency = 1.7, .seconds = 3};
-    integrator_create(&integrator, &soft.body, h);
-    integrator.mass_damping = soft.alpha;
-    integrator.stiffness_damping = soft.beta;
-    integrator.tolerance = 1e-10;
-    integrator.loads.drive = &drive;
-    const double omega = 2 * M_PI * 2, gamma = project(&soft, soft.shaken, side, NULL);
+    shake_by(s, h, 1e-10);
+    integrator->mass_damping = soft->alpha;
+    integrator->stiffness_damping = soft->beta;
+    integrator->loads.drive = &drive;
+    const double omega = 2 * M_PI * 2, gamma = project(soft, soft->shaken, side, NULL);
     double q = 0, v = 0, difference = 0, size = 0;
     for (int step = 0; step < quick_or_all(800, 2000); step++) {
         for (int k = 0; k < 20; k++) { // symplectic Euler in steps of a twentieth
@@ -79,89 +107,60 @@ TEST(a_moving_base_shakes_a_mode_as_it_shakes_an_oscillator)
                   omega * omega * q);
             q += h / 20 * v;
         }
-        assert_true(integrator_step(&integrator));
-        double found = project(&soft, soft.shaken, side, (const double(*)[3])integrator.x);
+        assert_true(integrator_step(integrator));
+        double found = project(soft, soft->shaken, side, (const double(*)[3])integrator->x);
         difference += (found - q) * (found - q);
         size += q * q;
     }
     print_message("differs from the oscillator by %.2g\n", sqrt(difference / size));
     assert_true(size > 0 && sqrt(difference / size) < 0.01);
-    assert_int_equal(integrator.calmed, 0);
-    integrator_free(&integrator);
-    soft_free(&soft);
+    assert_int_equal(integrator->calmed, 0);
 }
 
 /// Under its weight a body rests where inner forces and weight balance, sunk and not moving.
-TEST(gravity_is_settled_before_the_start)
+BOX_TEST(gravity_is_settled_before_the_start, 0.4f, 1, 300)
 {
-    struct box box;
-    struct soft soft;
-    struct integrator integrator;
-    struct soft_options options = soft_default_options();
-    options.tets = 300;
-    options.frequency = 3;
-    make_box(&box, 0.4f, 1);
-    make_soft(&soft, &box, &options);
-    integrator_create(&integrator, &soft.body, 0.01);
-    integrator.tolerance = 1e-7;
-    integrator.loads.gravity = 9.81;
-    assert_true(integrator_settle(&integrator));
-    double(*held)[3] = calloc((size_t)soft.body.node_count, sizeof *held), lowest = 0;
-    memcpy(held, integrator.x, (size_t)soft.body.node_count * sizeof *held);
-    for (int step = 0; step < 50; step++) assert_true(integrator_step(&integrator));
-    for (int i = 0; i < soft.body.node_count; i++) {
-        for (int c = 0; c < 3; c++) assert_near(integrator.x[i][c], held[i][c], 1e-5);
-        lowest = fmin(lowest, held[i][1] - soft.body.rest[i][1]);
+    struct integrator *integrator = &s->integrator;
+    const struct body *body = &s->soft.body;
+    s->options.frequency = 3;
+    soften(s);
+    shake_by(s, 0.01, 1e-7);
+    integrator->loads.gravity = 9.81;
+    assert_true(integrator_settle(integrator));
+    double(*held)[3] = calloc((size_t)body->node_count, sizeof *held), lowest = 0;
+    memcpy(held, integrator->x, (size_t)body->node_count * sizeof *held);
+    for (int step = 0; step < 50; step++) assert_true(integrator_step(integrator));
+    for (int i = 0; i < body->node_count; i++) {
+        for (int c = 0; c < 3; c++) assert_near(integrator->x[i][c], held[i][c], 1e-5);
+        lowest = fmin(lowest, held[i][1] - body->rest[i][1]);
     }
     assert_true(lowest < -1e-3);
     free(held);
-    integrator_free(&integrator);
-    soft_free(&soft);
 }
 
 /// A box that nothing holds, above a floor.
-struct loose_box {
-    struct box box;
-    struct soft soft;
-    struct integrator integrator;
-    struct floor floor;
-};
-
-static void make_loose(struct loose_box *loose, double floor, double stiffness_damping, double mass_damping)
+static void loose_open(struct shaken *s, double floor, double stiffness_damping, double mass_damping)
 {
-    struct soft_options options = soft_default_options();
-    options.tets = 200;
-    options.pin.kind = REGION_NONE;
-    options.young = 1e5;
-    make_box(&loose->box, 1, 1);
-    make_soft(&loose->soft, &loose->box, &options);
-    struct soft *soft = &loose->soft;
-    floor_create(&loose->floor, &soft->lattice, &loose->box.surface, floor, soft->young, options.density);
-    integrator_create(&loose->integrator, &soft->body, 0.005);
-    loose->integrator.tolerance = 1e-6;
-    loose->integrator.stiffness_damping = stiffness_damping;
-    loose->integrator.mass_damping = mass_damping;
-    loose->integrator.loads.gravity = 9.81;
-    loose->integrator.loads.floor = &loose->floor;
-}
-
-static void free_loose(struct loose_box *loose)
-{
-    integrator_free(&loose->integrator);
-    floor_free(&loose->floor);
-    soft_free(&loose->soft);
+    box_open(s, 1, 1, 200);
+    s->options.pin.kind = REGION_NONE;
+    s->options.young = 1e5;
+    soften(s);
+    floor_create(&s->floor, &s->soft.lattice, &s->box.surface, floor, s->soft.young, s->options.density);
+    shake_by(s, 0.005, 1e-6);
+    s->integrator.stiffness_damping = stiffness_damping;
+    s->integrator.mass_damping = mass_damping;
+    s->integrator.loads.gravity = 9.81;
+    s->integrator.loads.floor = &s->floor;
 }
 
 /// It falls, bounces and comes to rest on the floor, no corner below it by more than a hundredth of the height.
-TEST(a_box_falls_on_the_floor_and_stays)
+TEST_OF(struct shaken, s, loose_open(s, -0.3, 0.01, 3), box_close(s), a_box_falls_on_the_floor_and_stays)
 {
-    struct loose_box loose;
-    make_loose(&loose, -0.3, 0.01, 3);
-    const struct integrator *integrator = &loose.integrator;
+    const struct integrator *integrator = &s->integrator;
     float place[8][3], lowest = 1;
     for (int step = 0; step < 800; step++) {
-        assert_true(integrator_step(&loose.integrator));
-        lattice_embed(&loose.soft.lattice, (const double(*)[3])integrator->x, place);
+        assert_true(integrator_step(&s->integrator));
+        lattice_embed(&s->soft.lattice, (const double(*)[3])integrator->x, place);
         for (int i = 0; i < 8; i++) lowest = fminf(lowest, place[i][1]);
     }
     print_message("lowest %.3f m, at the end %.3f m at %.2g m/s\n", (double)lowest, (double)place[0][1],
@@ -170,30 +169,29 @@ TEST(a_box_falls_on_the_floor_and_stays)
     for (int i = 0; i < 8; i++) {
         if (!(i & 2)) assert_near(place[i][1], -0.3, 0.01);
     }
-    for (int i = 0; i < loose.soft.body.node_count; i++) assert_near(integrator->v[i][1], 0, 0.1);
-    free_loose(&loose);
+    for (int i = 0; i < s->soft.body.node_count; i++) assert_near(integrator->v[i][1], 0, 0.1);
 }
 
 /// What lies on the floor and has hardly any damping of its own stays in touch: its vertices do not go in and out with every step.
 TEST(a_box_on_the_floor_does_not_chatter)
 {
     enum { STEPS = 1800, LAST = 600, FEW = 60 };
-    struct loose_box loose;
+    struct shaken loose, *s = &loose;
     if (!is_thorough()) skip();
-    make_loose(&loose, -0.1, 0.002, 0.5);
+    loose_open(s, -0.1, 0.002, 0.5);
     bool below[8] = {false};
     int changes = 0;
     for (int step = 0; step < STEPS; step++) {
-        assert_true(integrator_step(&loose.integrator));
+        assert_true(integrator_step(&s->integrator));
         for (int i = 0; i < 8; i++) {
-            changes += step >= STEPS - LAST && loose.floor.touched[i] != below[i];
-            below[i] = loose.floor.touched[i];
+            changes += step >= STEPS - LAST && s->floor.touched[i] != below[i];
+            below[i] = s->floor.touched[i];
         }
     }
-    print_message("%d changes of touch in %d steps; %ld steps calmed\n", changes, LAST, loose.integrator.calmed);
+    print_message("%d changes of touch in %d steps; %ld steps calmed\n", changes, LAST, s->integrator.calmed);
     assert_true(changes < FEW);
-    assert_true(loose.integrator.calmed < 5);
-    free_loose(&loose);
+    assert_true(s->integrator.calmed < 5);
+    box_close(s);
 }
 
 /// Volume of the body as a multiple of that of a box of 1 × 8 × 1.
@@ -210,70 +208,60 @@ TEST(a_beam_is_monotone_under_refinement)
 {
     const double young = 1e6, length = 7.6;
     const double slender = 1.8751040687 * 1.8751040687 / (2 * M_PI * length * length) * sqrt(young / (12 * 1000));
-    struct box box;
-    make_box(&box, 1, 8);
     double before = INFINITY;
     for (int tets = 400; tets <= quick_or_all(1600, 12800); tets *= 2) {
-        struct soft soft;
-        struct soft_options options = soft_default_options();
-        options.tets = tets;
-        options.young = young;
-        options.poisson = 0;
-        options.pin = (struct region){.kind = REGION_FOOT, .size = 0.4};
-        make_soft(&soft, &box, &options);
-        double ratio = soft.modes.frequency[0] / slender;
-        print_message("%d tetrahedra, volume %.3f: %.4f of Euler and Bernoulli's\n", soft.lattice.tet_count,
-                      swelling(&soft.lattice), ratio);
-        assert_near(swelling(&soft.lattice), 1, 0.02);
+        struct shaken s;
+        box_open(&s, 1, 8, tets);
+        s.options.young = young;
+        s.options.poisson = 0;
+        s.options.pin = (struct region){.kind = REGION_FOOT, .size = 0.4};
+        soften(&s);
+        double ratio = s.soft.modes.frequency[0] / slender;
+        print_message("%d tetrahedra, volume %.3f: %.4f of Euler and Bernoulli's\n", s.soft.lattice.tet_count,
+                      swelling(&s.soft.lattice), ratio);
+        assert_near(swelling(&s.soft.lattice), 1, 0.02);
         assert_true(ratio < before && ratio > 0.985);
         before = ratio;
-        soft_free(&soft);
+        box_close(&s);
     }
     assert_near(before, 1, is_thorough() ? 0.015 : 0.07);
 }
 
-static int count_pinned(struct box *box, const char *where)
+static int count_pinned(const char *where)
 {
-    struct soft soft;
-    struct soft_options options = soft_default_options();
-    options.tets = 300;
-    assert_true(region_parse(where, &options.pin));
-    make_soft(&soft, box, &options);
-    int pinned = soft.pinned, wrong = 0;
-    for (int i = 0; i < soft.body.node_count; i++) wrong += soft.body.pinned[i] && soft.body.rest[i][1] < 0.5;
-    soft_free(&soft);
+    struct shaken s;
+    const struct body *body = &s.soft.body;
+    box_open(&s, 0.5f, 1, 300);
+    assert_true(region_parse(where, &s.options.pin));
+    soften(&s);
+    int pinned = s.soft.pinned, wrong = 0;
+    for (int i = 0; i < body->node_count; i++) wrong += body->pinned[i] && body->rest[i][1] < 0.5;
+    box_close(&s);
     return wrong ? -1 : pinned;
 }
 
 /// Where nobody says what is held, the lowest twentieth of the height is, up to a layer of nodes that lies there.
-TEST(the_lowest_twentieth_is_held)
+BOX_TEST(the_lowest_twentieth_is_held, 0.5f, 1, 2000)
 {
-    struct box box;
-    struct soft soft;
-    struct soft_options options = soft_default_options();
+    const struct body *body = &s->soft.body;
     double highest = -1, lowest_free = INFINITY;
-    options.tets = 2000;
-    make_box(&box, 0.5f, 1);
-    make_soft(&soft, &box, &options);
-    for (int i = 0; i < soft.body.node_count; i++) {
-        const double y = soft.body.rest[i][1];
-        if (soft.body.pinned[i]) highest = fmax(highest, y);
-        if (!soft.body.pinned[i]) lowest_free = fmin(lowest_free, y);
+    soften(s);
+    for (int i = 0; i < body->node_count; i++) {
+        const double y = body->rest[i][1];
+        if (body->pinned[i]) highest = fmax(highest, y);
+        if (!body->pinned[i]) lowest_free = fmin(lowest_free, y);
     }
     assert_near(highest, 0.05, 1e-6);
     assert_true(lowest_free > highest + 0.01);
-    soft_free(&soft);
 }
 
 TEST(regions_hold_what_they_name)
 {
-    struct box box;
     struct region region;
-    make_box(&box, 0.5f, 1);
-    assert_true(count_pinned(&box, "plane:0,0.7,0,0,-1,0") > 4); // all above 0.7
-    assert_true(count_pinned(&box, "sphere:0,1,0,0.3") > 0);
-    assert_true(count_pinned(&box, "color:FFFFFF") > 0); // the upper corners
-    assert_int_equal(count_pinned(&box, "none"), 0);
+    assert_true(count_pinned("plane:0,0.7,0,0,-1,0") > 4); // all above 0.7
+    assert_true(count_pinned("sphere:0,1,0,0.3") > 0);
+    assert_true(count_pinned("color:FFFFFF") > 0); // the upper corners
+    assert_int_equal(count_pinned("none"), 0);
     static const char *const wrong[] = {
         "",          "foot",           "-1",          "0.1,2",        "plane:0,0,0,0,0,0",
         "plane:1,2", "sphere:0,0,0,0", "color:12345", "color:GGGGGG", "0.1m"};
@@ -284,22 +272,20 @@ TEST(regions_hold_what_they_name)
 TEST(softness_falls_as_the_map_says)
 {
     static const char *const maps[] = {"distance", "color"};
-    struct box box;
-    make_box(&box, 0.3f, 1);
     for (int m = 0; m < 2; m++) {
-        struct soft soft;
-        struct soft_options options = soft_default_options();
-        options.tets = 500;
-        options.softness = (struct softness){.from = maps[m], .times = 8};
-        make_soft(&soft, &box, &options);
+        struct shaken s;
+        const struct body *body = &s.soft.body;
+        box_open(&s, 0.3f, 1, 500);
+        s.options.softness = (struct softness){.from = maps[m], .times = 8};
+        soften(&s);
         double least = 1, most = 0;
-        for (int e = 0; e < soft.body.element_count; e++) {
-            least = fmin(least, soft.body.elements[e].stiffness);
-            most = fmax(most, soft.body.elements[e].stiffness);
+        for (int e = 0; e < body->element_count; e++) {
+            least = fmin(least, body->elements[e].stiffness);
+            most = fmax(most, body->elements[e].stiffness);
         }
         print_message("%s: %.3f … %.3f\n", maps[m], least, most);
         assert_true(least * 8 < 1.5 && least * 8 > 0.999 && most > 0.6 && most < 1.001);
-        soft_free(&soft);
+        box_close(&s);
     }
 }
 
@@ -313,8 +299,7 @@ TEST(a_track_is_smooth)
     for (int i = 0; i < 5; i++) fprintf(file, "%g, %g\n", time[i], value[i]);
     fclose(file);
     struct drive drive = {.size = 1};
-    struct error error;
-    if (!drive_read_track(&drive, path, &error)) fail_msg("%s", error.text);
+    assert_done(drive_read_track(&drive, path, &error));
     unlink(path);
     for (int i = 0; i < 5; i++) assert_near(drive_place(&drive, time[i]), value[i], 1e-12);
     for (double t = 0.05; t < 0.65; t += 0.0417) {

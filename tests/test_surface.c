@@ -10,17 +10,14 @@
 static struct surface read_good(const char *name, const void *bytes, size_t size)
 {
     struct surface surface;
-    struct error error;
-    if (!surface_read(temporary_file(name, bytes, size), &surface, &error)) fail_msg("%s", error.text);
+    assert_done(surface_read(temporary_file(name, bytes, size), &surface, &error));
     return surface;
 }
 
 static void assert_refused(const char *name, const void *bytes, size_t size, const char *says)
 {
     struct surface surface;
-    struct error error = {0};
-    assert_false(surface_read(temporary_file(name, bytes, size), &surface, &error));
-    if (!strstr(error.text, says)) fail_msg("'%s' lacks '%s'", error.text, says);
+    assert_refusal(surface_read(temporary_file(name, bytes, size), &surface, &error), says);
     assert_null(surface.position);
 }
 
@@ -85,14 +82,15 @@ TEST(ply_in_both_byte_orders)
 }
 
 #define PLY "ply\nformat ascii 1.0\n"
+#define XYZ "property float x\nproperty float y\nproperty float z\n"
+#define FACE "element face 1\nproperty list int int vertex_indices\nend_header\n"
 
 TEST(ply_as_text)
 {
-    const char *text =
-        PLY "obj_info made by hand\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
-            "property float s\nproperty float t\nelement tristrips 1\n"
-            "property list int int vertex_indices\nend_header\n"
-            "0 0 0 0 0\n1 0 0 1 0\n0 1 0 0 1\n1 1 0 1 1\n8 0 1 2 3 -1 0 1 2\n";
+    const char *text = PLY "obj_info made by hand\nelement vertex 4\n" XYZ
+                           "property float s\nproperty float t\nelement tristrips 1\n"
+                           "property list int int vertex_indices\nend_header\n"
+                           "0 0 0 0 0\n1 0 0 1 0\n0 1 0 0 1\n1 1 0 1 1\n8 0 1 2 3 -1 0 1 2\n";
     struct surface s = read_good("b.ply", text, strlen(text));
     const uint32_t indices[] = {0, 1, 2, 2, 1, 3, 0, 1, 2};
     assert_int_equal(s.index_count, 9);
@@ -102,22 +100,17 @@ TEST(ply_as_text)
     assert_refused_text("c.ply", PLY "element vertex 1\nproperty float x\nend_header\n1\n",
                         "vertices with x, y and z");
     assert_refused_text("c.ply",
-                        PLY "element vertex 1\nproperty float x\nproperty float y\nproperty float z\nproperty float "
-                            "red\nproperty float green\nproperty float blue\nend_header\n0 0 0 0 0 1e30\n",
+                        PLY
+                        "element vertex 1\n" XYZ
+                        "property float red\nproperty float green\nproperty float blue\nend_header\n0 0 0 0 0 1e30\n",
                         "c.ply: vertex 1: expected a colour from 0 to 1, got 1e+30");
     assert_refused_text("c.ply", PLY "element vertex many\n",
                         "c.ply:3: expected the number of an element, got 'many'");
-    assert_refused_text("c.ply",
-                        PLY "element vertex 2000000000\nproperty float x\nproperty float y\nproperty float z\n"
-                            "end_header\n1 2 3\n",
+    assert_refused_text("c.ply", PLY "element vertex 2000000000\n" XYZ "end_header\n1 2 3\n",
                         "expected a number, got the end of the file");
-    assert_refused_text("c.ply",
-                        PLY "element vertex 1\nproperty float x\nproperty float y\nproperty float z\n"
-                            "element face 1\nproperty list int int vertex_indices\nend_header\n1 2 3\n2000000000 0 0",
+    assert_refused_text("c.ply", PLY "element vertex 1\n" XYZ FACE "1 2 3\n2000000000 0 0",
                         "expected a number, got the end of the file");
-    assert_refused_text("c.ply",
-                        PLY "element vertex 1\nproperty float x\nproperty float y\nproperty float z\n"
-                            "element face 1\nproperty list int int vertex_indices\nend_header\n1 2 3\n3 0 0 1",
+    assert_refused_text("c.ply", PLY "element vertex 1\n" XYZ FACE "1 2 3\n3 0 0 1",
                         "expected a vertex from 0 to 0, got 1");
 }
 
@@ -191,7 +184,7 @@ TEST(off_with_colours)
 /// Triangles that name a vertex twice are left out; in a strip they are how it jumps. A mesh of nothing else is refused.
 TEST(triangles_that_repeat_a_vertex_are_left_out)
 {
-#define THREE_OF_PLY "element vertex 3\nproperty float x\nproperty float y\nproperty float z\nelement "
+#define THREE_OF_PLY "element vertex 3\n" XYZ "element "
 #define LISTS_OF_PLY "\nproperty list int int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n"
 #define FACET(a, b, c) "facet normal 0 0 1\nouter loop\nvertex " a "\nvertex " b "\nvertex " c "\nendloop\nendfacet\n"
     static const struct {
@@ -228,9 +221,8 @@ TEST(looks_come_through)
     temporary_file("m.mtl", mtl, strlen(mtl));
     temporary_file("wood grain.png", png, sizeof png);
     struct surface s = read_good("m.obj", text, strlen(text)), again;
-    struct error error;
-    assert_true(obj_write(temporary_path("m.rest.obj"), &s, &error));
-    assert_true(surface_read(temporary_path("m.rest.obj"), &again, &error));
+    assert_done(obj_write(temporary_path("m.rest.obj"), &s, &error));
+    assert_done(surface_read(temporary_path("m.rest.obj"), &again, &error));
     assert_memory_equal(again.looks.uv, s.looks.uv, 4 * sizeof *s.looks.uv);
     assert_memory_equal(again.looks.corner, s.looks.corner, 12 * sizeof *s.looks.corner);
     assert_memory_equal(again.looks.joined, s.looks.joined, 4);
@@ -244,8 +236,8 @@ TEST(looks_come_through)
     assert_true(character_create(&character, &again, 1));
     character.coordinates[0].name = strdup("up");
     character.coordinates[0].re[2][1] = 3;
-    assert_true(character_write(temporary_path("m.glb"), &character, true, &error));
-    assert_true(character_read(temporary_path("m.glb"), &read, &error));
+    assert_done(character_write(temporary_path("m.glb"), &character, true, &error));
+    assert_done(character_read(temporary_path("m.glb"), &read, &error));
     assert_int_equal(read.vertex_count, 6 + 2);
     assert_memory_equal(read.position, s.position, 6 * sizeof *s.position); // first those of the mesh, in its order
     assert_near(read.coordinates[0].re[2][1], 3, 0);
@@ -253,7 +245,7 @@ TEST(looks_come_through)
     for (int i = 6; i < 8; i++) moved += read.coordinates[0].re[i][1] == 3;
     assert_int_equal(moved, 1); // and its copy at the seam
     struct gltf gltf;
-    if (!gltf_read(temporary_path("m.glb"), &gltf, &error)) fail_msg("%s", error.text);
+    assert_done(gltf_read(temporary_path("m.glb"), &gltf, &error));
     assert_int_equal(gltf.meshes[0].part_count, 2);
     assert_string_equal(gltf.materials[0].name, "red one");
     assert_near(gltf.materials[0].color[1], 0.5, 0);
@@ -271,11 +263,10 @@ TEST(names_of_materials_come_through)
 {
     const char *mtl = "newmtl red \t\r\nKd 1 0.5 0\nnewmtl back\\\nKd 0 0 1\n";
     const char *text = "mtllib n.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl red\nf 1 2 3\nusemtl back\\ \nf 1 3 2\n";
-    struct error error;
     temporary_file("n.mtl", mtl, strlen(mtl));
     struct surface s = read_good("n.obj", text, strlen(text)), again;
-    assert_true(obj_write(temporary_path("n.rest.obj"), &s, &error));
-    if (!surface_read(temporary_path("n.rest.obj"), &again, &error)) fail_msg("%s", error.text);
+    assert_done(obj_write(temporary_path("n.rest.obj"), &s, &error));
+    assert_done(surface_read(temporary_path("n.rest.obj"), &again, &error));
     const struct surface *const both[] = {&s, &again};
     for (int i = 0; i < 2; i++) {
         const struct looks *looks = &both[i]->looks;

@@ -1,8 +1,6 @@
 /// The judge of the solver is judged itself: the textbook's answers against those of tests/vectors (60-digit arithmetic).
-#include "near.h"
-
 #include "textbook.h"
-#include <dirent.h>
+#include "vectors.h"
 #include <jansson.h>
 
 enum { MAX_SPLINES = 4, MAX_KNOTS = 64 };
@@ -13,7 +11,7 @@ static const char folder[] = "tests/vectors";
 struct scene {
     json_t *root;
     int samples, substeps, first_frame, count;
-    double rows[TEXTBOOK_MAX][1 + 3 * MAX_SPLINES];
+    double *table;
     double totals[MAX_SPLINES][TEXTBOOK_MAX];
 };
 
@@ -30,18 +28,11 @@ static bool read_scene(struct scene *scene, const char *name)
     scene->samples = ((int)json_integer_value(json_array_get(frames, 1)) - scene->first_frame) * scene->substeps + 1;
     scene->count = (int)json_array_size(json_object_get(scene->root, "splines"));
     if (scene->samples > TEXTBOOK_MAX) return false;
-    snprintf(path, sizeof path, "%s/%s.csv", folder, name);
-    FILE *file = fopen(path, "r");
-    assert_non_null(file);
-    while (fgetc(file) != '\n') {
-    }
-    for (int i = 0; i < scene->samples; i++) {
-        for (int c = 0; c < 1 + 3 * scene->count; c++) {
-            assert_int_equal(fscanf(file, c ? ",%lf" : "%lf", &scene->rows[i][c]), 1);
-            if (c % 3 == 1) scene->totals[c / 3][i] = scene->rows[i][c];
-        }
-    }
-    fclose(file);
+    const int columns = 1 + 3 * scene->count;
+    scene->table = vectors_table(folder, name, columns, scene->samples);
+    for (int i = 0; i < scene->samples * scene->count; i++)
+        scene->totals[i % scene->count][i / scene->count] =
+            scene->table[i / scene->count * columns + 1 + 3 * (i % scene->count)];
     return true;
 }
 
@@ -113,38 +104,30 @@ static void check_spline(const struct scene *scene, const char *name, int s)
     wiggly_knot knots[MAX_KNOTS];
     wiggly_desc desc = read_desc(scene, spline, knots);
     wiggly_status status;
-    double total[TEXTBOOK_MAX], re[TEXTBOOK_MAX], im[TEXTBOOK_MAX], low = INFINITY, high = -INFINITY, worst = 0;
+    double total[TEXTBOOK_MAX], re[TEXTBOOK_MAX], im[TEXTBOOK_MAX];
     if (!textbook_curve(&desc, &book, &status, total, re, im)) fail_msg("%s, spline %d: singular", name, s);
-    for (int i = 0; i < scene->samples; i++) {
-        const double *expected = &scene->rows[i][1 + 3 * s];
-        low = fmin(low, expected[0]);
-        high = fmax(high, expected[0]);
-        worst = fmax(worst, fabs(total[i] - expected[0]));
-        worst = fmax(worst, fmax(fabs(re[i] - expected[1]), fabs(im[i] - expected[2])));
-    }
-    double size = fmax(high - low, fmax(fabs(low), fabs(high)));
-    if (!(worst <= 1e-12 * size)) fail_msg("%s, spline %d: off by %g of its range", name, s, worst / size);
+    const wiggly_curve curve = {.samples = scene->samples, .total = total, .re = re, .im = im};
+    const double worst = vectors_error(&curve, scene->table, 1 + 3 * scene->count, s);
+    if (!(worst <= 1e-12)) fail_msg("%s, spline %d: off by %g of its range", name, s, worst);
     bool resonant = strcmp(name, "loop_resonant") == 0 && s == 1; // its swing has no answer at calm 0
     assert_int_equal(status, resonant ? WIGGLY_CALMED : WIGGLY_OK);
 }
 
-TEST(the_textbook_meets_every_vector)
+static int checked;
+
+static void check_scene(const char *name)
 {
     static struct scene scene;
-    DIR *directory = opendir(folder);
-    assert_non_null(directory);
-    int checked = 0;
-    struct dirent *entry;
-    while ((entry = readdir(directory)) != NULL) {
-        char *dot = strstr(entry->d_name, ".json");
-        if (!dot) continue;
-        *dot = '\0';
-        bool fits = read_scene(&scene, entry->d_name);
-        for (int s = 0; fits && s < scene.count; s++) check_spline(&scene, entry->d_name, s);
-        checked += fits;
-        json_decref(scene.root);
-    }
-    closedir(directory);
+    const bool fits = read_scene(&scene, name);
+    for (int s = 0; fits && s < scene.count; s++) check_spline(&scene, name, s);
+    checked += fits;
+    if (fits) free(scene.table);
+    json_decref(scene.root);
+}
+
+TEST(the_textbook_meets_every_vector)
+{
+    vectors_each(folder, check_scene);
     assert_true(checked >= 60);
 }
 

@@ -3,52 +3,17 @@
 /// is a loop of calm 0 that its equilibrium drives in resonance: its answer is the one with calm 0.05, and the solver says so.
 #include "documents.h"
 
-#include "base/file.h"
 #include "scene/evaluate.h"
-#include <dirent.h>
+#include "vectors.h"
 
 static const char folder[] = "tests/vectors";
-
-/// Reads the numbers of a CSV after its header line; `columns` of them a row.
-static double *read_numbers(const char *path, int columns, int rows)
-{
-    char *text;
-    size_t size;
-    struct error error;
-    if (!file_read(path, (size_t)1 << 26, &text, &size, &error)) fail_msg("%s", error.text);
-    double *numbers = malloc(sizeof *numbers * (size_t)(columns * rows));
-    char *at = strchr(text, '\n');
-    for (int i = 0; i < columns * rows; i++) {
-        char *end;
-        numbers[i] = strtod(at + 1, &end);
-        if (end == at + 1) fail_msg("%s: fewer than %d numbers", path, columns * rows);
-        at = end;
-    }
-    free(text);
-    return numbers;
-}
-
-/// Largest difference in total, Re x and Im x from columns 3·spline + 1 …, relative to the total's range or magnitude.
-static double relative_error(const wiggly_curve *curve, const double *expected, int columns, int spline)
-{
-    double low = INFINITY, high = -INFINITY, worst = 0;
-    for (int i = 0; i < curve->samples; i++) {
-        const double *row = expected + columns * i + 1 + 3 * spline;
-        low = fmin(low, row[0]);
-        high = fmax(high, row[0]);
-        worst = fmax(worst, fabs(curve->total[i] - row[0]));
-        worst = fmax(worst, fabs(curve->re[i] - row[1]));
-        worst = fmax(worst, fabs(curve->im[i] - row[2]));
-    }
-    return worst / fmax(high - low, fmax(fabs(low), fabs(high)));
-}
 
 static void check_spline(const char *name, const struct document *document, const struct evaluation *evaluation,
                          const double *expected, int spline)
 {
     const struct spline *of = document->splines[spline];
     const char *solver = evaluation_solver(evaluation);
-    double worst = relative_error(&evaluation->curves[spline], expected, 1 + 3 * document->spline_count, spline);
+    double worst = vectors_error(&evaluation->curves[spline], expected, 1 + 3 * document->spline_count, spline);
     double tolerance = spline_mode(of) == WIGGLY_CUBIC ? 1e-9 : 1e-8;
     if (!(worst <= tolerance)) fail_msg("%s, %s, %s: off by %g of its range", name, of->name, solver, worst);
     bool calmed = strcmp(name, "loop_resonant") == 0 && strcmp(of->name, "x") == 0;
@@ -90,26 +55,10 @@ static void check_scene(const char *name)
     char path[512];
     snprintf(path, sizeof path, "%s/%s.json", folder, name);
     struct document *document = document_of_file(path);
-    snprintf(path, sizeof path, "%s/%s.csv", folder, name);
-    double *expected = read_numbers(path, 1 + 3 * document->spline_count, document_samples(document));
+    double *expected = vectors_table(folder, name, 1 + 3 * document->spline_count, document_samples(document));
     check_document(name, document, expected);
     free(expected);
     document_destroy(document);
 }
 
-TEST(chain_and_band_meet_every_vector)
-{
-    DIR *directory = opendir(folder);
-    assert_non_null(directory);
-    int scenes = 0;
-    struct dirent *entry;
-    while ((entry = readdir(directory)) != NULL) {
-        char *dot = strstr(entry->d_name, ".json");
-        if (!dot) continue;
-        *dot = '\0';
-        check_scene(entry->d_name);
-        scenes++;
-    }
-    closedir(directory);
-    assert_true(scenes >= 35);
-}
+TEST(chain_and_band_meet_every_vector) { assert_true(vectors_each(folder, check_scene) >= 35); }

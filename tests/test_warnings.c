@@ -87,10 +87,9 @@ TEST(test_the_scenes_of_the_program_are_quiet)
     for (size_t i = 0; i < sizeof paths / sizeof paths[0]; i++) {
         struct session s;
         struct warnings found;
-        struct error error;
         char *text;
         size_t size;
-        if (!file_read(paths[i], 1 << 20, &text, &size, &error)) fail_msg("%s", error.text);
+        assert_done(file_read(paths[i], 1 << 20, &text, &size, &error));
         session_open(&s, text);
         for (int spline = 0; spline < s.document->spline_count; spline++) {
             warnings_find(s.document, &s.table.evaluation, spline, &found);
