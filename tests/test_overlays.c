@@ -176,8 +176,7 @@ static void open_bear(struct session *s)
     panel_open_models(
         s, "{\"frames\": [0, 96], \"splines\": [{\"name\": \"swing\", \"knots\": [{\"frame\": 0, \"value\": 0},"
            "{\"frame\": 40, \"value\": 1}]}], \"rigs\": [{\"type\": \"character\", \"name\": \"bear\", \"model\": "
-           "\"assets/models/creature.glb\", \"coordinates\": [{\"name\": \"side\", \"spline\": "
-           "\"swing\"}]}]}");
+           "\"assets/models/creature.glb\", \"coordinates\": [{\"name\": \"side\", \"spline\": \"swing\"}]}]}");
     session_frame(s);
 }
 

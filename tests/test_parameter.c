@@ -12,8 +12,7 @@ static const char scene[] =
     "0.2}, \"knots\": ["
     "{\"frame\": 8, \"value\": 1}, {\"frame\": 40, \"value\": 0, \"slope\": 1}, {\"frame\": 90, \"value\": 2}]},"
     "{\"name\": \"b\", \"mode\": \"real\", \"spring\": 40, \"friction\": 1, \"variation\": {\"amount\": 0.2}, "
-    "\"knots\": ["
-    "{\"frame\": 8, \"value\": 1}, {\"frame\": 40, \"value\": 0, \"slope\": 1}]},"
+    "\"knots\": [{\"frame\": 8, \"value\": 1}, {\"frame\": 40, \"value\": 0, \"slope\": 1}]},"
     "{\"name\": \"c\", \"mode\": \"cubic\", \"start\": \"rest\", \"knots\": ["
     "{\"frame\": 8, \"value\": 0.4}, {\"frame\": 40, \"value\": 0.5}]}]}";
 

@@ -158,16 +158,12 @@ static const char *write_scene(const char *name, const char *rigs)
 
 static const char creature_and_tails[] =
     "{\"type\": \"character\", \"name\": \"creature\", \"model\": \"%s/assets/models/creature.glb\", \"position\": "
-    "[0.5, "
-    "1, -0.25], \"coordinates\": [{\"name\": \"up-3\", \"spline\": \"up\", \"amplitude\": 11, \"lag\": 40}, "
-    "{\"name\": "
-    "\"side-2\", \"spline\": \"side\", \"amplitude\": 4, \"lag\": -10}]},"
+    "[0.5, 1, -0.25], \"coordinates\": [{\"name\": \"up-3\", \"spline\": \"up\", \"amplitude\": 11, \"lag\": 40}, "
+    "{\"name\": \"side-2\", \"spline\": \"side\", \"amplitude\": 4, \"lag\": -10}]},"
     "{\"type\": \"tail\", \"name\": \"shared\", \"joints\": 10, \"position\": [1, 0.5, 0], \"channels\": "
-    "[{\"spline\": "
-    "\"side\", \"gain\": 6}, {\"spline\": \"sway\", \"axis\": \"up\", \"gain\": 7}]},"
+    "[{\"spline\": \"side\", \"gain\": 6}, {\"spline\": \"sway\", \"axis\": \"up\", \"gain\": 7}]},"
     "{\"type\": \"tail\", \"name\": \"own\", \"joints\": 12, \"position\": [0, {\"spline\": \"up\"}, 0], \"rest\": "
-    "3, "
-    "\"channels\": [{\"spline\": \"after\", \"gain\": 7, \"of\": \"displacement\"}]}";
+    "3, \"channels\": [{\"spline\": \"after\", \"gain\": 7, \"of\": \"displacement\"}]}";
 
 static void open_zoo(struct stand *stand)
 {

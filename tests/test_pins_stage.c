@@ -9,8 +9,7 @@ static const char tail[] =
     "{\"wiggly\": 1, \"frames\": [0, 60], \"splines\": [{\"name\": \"s\", \"frequency\": 1, \"damping\": 0.1, "
     "\"knots\": [{\"frame\": 0, \"value\": 0}]}, {\"name\": \"u\", \"frequency\": 0.7, \"damping\": 0.1, \"knots\": "
     "[{\"frame\": 0, \"value\": 0}]}], \"rigs\": [{\"type\": \"tail\", \"name\": \"tail\", \"position\": [0, 0.4, "
-    "0], "
-    "\"channels\": [{\"spline\": \"s\", \"axis\": \"side\"}, {\"spline\": \"u\", \"axis\": \"up\"}]}]}";
+    "0], \"channels\": [{\"spline\": \"s\", \"axis\": \"side\"}, {\"spline\": \"u\", \"axis\": \"up\"}]}]}";
 
 static const char creature[] =
     "{\"wiggly\": 1, \"frames\": [0, 60], \"splines\": [{\"name\": \"s\", \"frequency\": 1, \"damping\": 0.1, "

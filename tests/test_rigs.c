@@ -5,8 +5,7 @@
 
 static const char bear[] =
     "{\"frames\": [0, 48], \"splines\": [{\"name\": \"s\", \"knots\": [{\"frame\": 0, \"value\": 1}]}, {\"name\": "
-    "\"t\", "
-    "\"knots\": []}], \"rigs\": [{\"type\": \"character\", \"name\": \"bear\", \"model\": "
+    "\"t\", \"knots\": []}], \"rigs\": [{\"type\": \"character\", \"name\": \"bear\", \"model\": "
     "\"assets/models/creature.glb\", \"coordinates\": [{\"name\": \"up\", \"spline\": \"s\"}]}]}";
 
 SESSION_TEST(test_the_menu_opens_by_its_key, panel_open(s, "{\"frames\": [0, 48], \"splines\": []}", 1280, 720))

@@ -151,8 +151,7 @@ TEST(test_moving_bases_are_kept)
     struct document *document = document_of_text(
         "{\"frames\": [0, 9], \"splines\": [{\"name\": \"walk\", \"position\": 3}], \"rigs\": [{\"type\": \"tail\", "
         "\"name\": \"t\", \"frequency\": 1, \"position\": [{\"by\": \"me\", \"spline\": \"walk\"}, 0.26, "
-        "{\"spline\": "
-        "\"walk\"}], \"spline\": \"walk\", \"of\": \"displacement\"}]}");
+        "{\"spline\": \"walk\"}], \"spline\": \"walk\", \"of\": \"displacement\"}]}");
     const struct tail *tail = document_tail(document, 0);
     assert_int_equal(tail->position[0].track, 0);
     assert_int_equal(tail->position[1].track, -1);
@@ -262,8 +261,7 @@ TEST(test_warnings)
                  "s.json:4: splines[0].hey: unknown key: kept, but it has no effect\n");
     assert_heard("{\"frames\": [0, 9], \"splines\": [{\"name\": \"x\", \"frequency\":\n11, \"bandwidth\": 0.2}]}",
                  "s.json:2: splines[0].frequency: 13.2 Hz is above half the sample rate, 12 Hz: it aliases\n");
-    const char *slope = "s.json:%d: splines[0].knots[%d].slope: slope has no effect: the next sample is a "
-                        "knot too\n";
+    const char *slope = "s.json:%d: splines[0].knots[%d].slope: slope has no effect: the next sample is a knot too\n";
     char expected[HEARD_SIZE];
     snprintf(expected, sizeof expected, slope, 3, 1);
     assert_heard("{\"frames\": [0, 9], \"splines\": [{\"name\": \"x\", \"knots\": [\n{\"frame\": 5, \"value\": 0},\n"
@@ -371,8 +369,7 @@ static const char chain[] =
     "{\"name\": \"c\", \"frequency\": {\"spline\": \"b\"}, \"knots\": [{\"frame\": 0, \"value\": 0}, {\"frame\": 20, "
     "\"value\": 1}]},"
     "{\"name\": \"b\", \"mode\": \"cubic\", \"frequency\": {\"spline\": \"a\"}, \"knots\": [{\"frame\": 0, "
-    "\"value\": 1}, "
-    "{\"frame\": 48, \"value\": 2}]},"
+    "\"value\": 1}, {\"frame\": 48, \"value\": 2}]},"
     "{\"name\": \"a\", \"mode\": \"cubic\", \"knots\": [{\"frame\": 9, \"value\": 3}]}]}";
 
 /// A document and its curves.

@@ -17,8 +17,7 @@ static const char crowded[] =
     "{\"wiggly\": 1, \"about\": \"A title of a scene that goes on for longer than the width of a stage allows. And a "
     "text below it that would fill a page, were there one, and has to be content with a few lines at the upper "
     "left of the stage, out of the way of what stands in its middle, however small the window is made; what is left "
-    "over is "
-    "not shown, and nobody will miss it, since it says nothing that was not said before, at length.\", "
+    "over is not shown, and nobody will miss it, since it says nothing that was not said before, at length.\", "
     "\"frames\": [0, 96], \"splines\": [" SPLINES MORE_SPLINES
     "], \"rigs\": [{\"type\": \"tail\", \"name\": \"tail\", "
     "\"channels\": [{\"spline\": \"sway\"}, {\"spline\": \"up\", \"axis\": \"up\"}]}, "
