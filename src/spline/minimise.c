@@ -77,14 +77,8 @@ factorisation solver_factor(wiggly_solver *solver)
     return factor_rows(solver);
 }
 
-static void solve(wiggly_solver *solver, const factorisation *f)
-{
-    if (f->squared) {
-        pentadiagonal_solve(&solver->matrix, solver->rows.gradient);
-    } else {
-        orthogonal_solve(&solver->matrix, solver->rows.gradient);
-    }
-}
+/// gradient ← what it means for x.
+static void solve(wiggly_solver *solver) { pentadiagonal_solve(&solver->matrix, solver->rows.gradient); }
 
 /// z and a part of it; rounding turns nothing that is real.
 static cplx changed(cplx z, cplx part)
@@ -94,7 +88,7 @@ static cplx changed(cplx z, cplx part)
 }
 
 /// How far x is elsewhere if the coefficients are changed by these parts of them.
-static double change_of(wiggly_solver *solver, const factorisation *f, cplx of_m, cplx of_p, double of_others)
+static double change_of(wiggly_solver *solver, cplx of_m, cplx of_p, double of_others)
 {
     system_rows *rows = &solver->rows;
     for (int k = 0; k < rows->count; k++) {
@@ -113,7 +107,7 @@ static double change_of(wiggly_solver *solver, const factorisation *f, cplx of_m
     }
     for (int i = 0; i < 2; i++) rows->start.row[i].on_x = cplx_scale(1 + of_others, rows->start.row[i].on_x);
     system_gradient(rows);
-    solve(solver, f);
+    solve(solver);
     return largest_modulus(rows->gradient, rows->count, rows->is_complex);
 }
 
@@ -143,14 +137,14 @@ static bool is_known(const system_rows *rows, int unknown)
 }
 
 /// How far x is elsewhere by the rounding of what jets pull, where they weigh so much that they drown all else.
-static double change_by_jets(wiggly_solver *solver, const factorisation *f)
+static double change_by_jets(wiggly_solver *solver)
 {
     const system_rows *rows = &solver->rows;
     for (int i = 0; i < 2 * rows->count; i++) {
         const double pull = rows->jet_weight[i / 2] * rows->x[i];
         rows->gradient[i] = is_known(rows, i) ? 0 : some_sign(rows, i) * rounding * pull;
     }
-    solve(solver, f);
+    solve(solver);
     return largest_modulus(rows->gradient, rows->count, rows->is_complex);
 }
 
@@ -171,16 +165,16 @@ static double change_by_drives(const system_rows *rows)
 
 /// How far x would be elsewhere if the coefficients were rounded otherwise, as poles that fade and as poles that turn otherwise, and what
 /// the equilibrium takes off the knots.
-static double sensitivity(wiggly_solver *solver, const factorisation *f)
+static double sensitivity(wiggly_solver *solver)
 {
     const cplx none = {0, 0}, parts[2] = {{rounding, 0}, {0, rounding}};
-    const double heavy = solver->rows.fast ? change_by_jets(solver, f) : 0;
+    const double heavy = solver->rows.fast ? change_by_jets(solver) : 0;
     double change = 0;
     for (int i = 0; i < (solver->rows.is_complex ? 2 : 1);
          i++) { // of m and p, each by itself: together they may make up for each other
         change_known(&solver->rows, i ? 1 : -1);
-        change += change_of(solver, f, parts[i], none, i ? 0 : rounding);
-        change += change_of(solver, f, none, parts[i], 0);
+        change += change_of(solver, parts[i], none, i ? 0 : rounding);
+        change += change_of(solver, none, parts[i], 0);
     }
     if (solver->rows.loop && solver->rows.driven) change += change_by_drives(&solver->rows);
     return 48 * change + 4 * heavy;
@@ -200,14 +194,14 @@ static double size_of(const system_rows *rows, int k, bool imaginary)
 
 /// Of a system that nothing but knots and jets holds: how much larger than the rows' errors x's may be. No pivot need be small for that,
 /// where poles fade: each row then knows only its neighbour.
-static double amplification(wiggly_solver *solver, const factorisation *f)
+static double amplification(wiggly_solver *solver)
 {
     const system_rows *rows = &solver->rows;
     double largest = 0;
     for (int i = 0; i < 2 * rows->count; i++) {
         rows->gradient[i] = is_known(rows, i) ? 0 : some_sign(rows, i) * sqrt(size_of(rows, i / 2, i % 2));
     }
-    solve(solver, f);
+    solve(solver);
     for (int i = 0; i < 2 * rows->count; i++)
         largest = fmax(largest, fabs(rows->gradient[i]) * sqrt(size_of(rows, i / 2, i % 2)));
     return sqrt(largest);
@@ -224,7 +218,7 @@ static bool refine(wiggly_solver *solver, const factorisation *f, minimum *resul
         } else {
             system_gradient(rows);
         }
-        solve(solver, f);
+        solve(solver);
         bool first = result->sweeps == 0;
         double change = first ? 0 : largest_modulus(rows->gradient, rows->count, rows->is_complex);
         if (!(change < INFINITY)) return false;
@@ -259,7 +253,7 @@ static double error_by_rows(wiggly_solver *solver, factorisation *f)
     double change = INFINITY;
     if (other.rank != RANK_BROKEN) {
         system_gradient(rows);
-        solve(solver, &other);
+        solve(solver);
         change = largest_modulus(rows->gradient, rows->count, rows->is_complex);
     }
     *f = solver_factor(solver);
@@ -281,7 +275,7 @@ minimum solver_refine(wiggly_solver *solver, factorisation *f)
     if (f->rank != RANK_BROKEN) result.solved = refine(solver, f, &result);
     const bool open = rows->is_open && rows->count >= 3;
     bool settled = result.solved && result.error <= enough(rows) * result.largest;
-    if (open && f->squared && settled) settled = amplification(solver, f) <= largest_squared;
+    if (open && f->squared && settled) settled = amplification(solver) <= largest_squared;
     if (f->squared && !settled && rows->count >= 3) {
         reset(rows);
         *f = factor_rows(solver);
@@ -296,7 +290,7 @@ minimum solver_refine(wiggly_solver *solver, factorisation *f)
     const bool settles = result.error <= unsettled * result.largest;
     result.weak = !rows->fast && (f->rank == RANK_WEAK || !settles); // jets of unlike weights cost digits, too
     if (rows->cut) result.error += result.largest;
-    const double amplified = open && !f->squared ? amplification(solver, f) : 0;
+    const double amplified = open && !f->squared ? amplification(solver) : 0;
     if (amplified > hopeless) {
         result.error += rounding * amplified * result.largest;
         result.weak = result.weak || result.error > unsettled * result.largest;
@@ -308,7 +302,7 @@ minimum solver_minimise(wiggly_solver *solver)
 {
     factorisation f = solver_factor(solver);
     minimum result = solver_refine(solver, &f);
-    if (result.solved && !result.unrefined) result.error += sensitivity(solver, &f);
+    if (result.solved && !result.unrefined) result.error += sensitivity(solver);
     return result;
 }
 

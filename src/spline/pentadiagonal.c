@@ -9,9 +9,8 @@
 //     |        F2  E3  D4    |                      U_k  = E_k − L2_{k−1} U_{k−1}ᵀ
 //                                                   L1_k = U_k S_k⁻¹,  L2_k = F_k S_k⁻¹
 //
-// No fill outside the band and no pivoting: A is positive definite. A loop wraps the band around; there the last two samples
-// are taken out as a border B with corner C, the rest is factored as above, and the border is solved through its Schur
-// complement C − Bᵀ A⁻¹ B. (Periodic tridiagonal solvers do the same with Sherman–Morrison.)
+// No fill outside the band and no pivoting: A is positive definite. A loop wraps the band around; there the last two samples are the
+// border, whose rows of L are full, and their corner of A, less what the rest takes off, is factored by itself.
 #include "spline/pentadiagonal.h"
 #include "spline/wide.h"
 #include <float.h>
@@ -21,9 +20,17 @@
 /// A pivot below this part of its diagonal entry is rounding; those of a knot-free stretch of G samples are about G⁻³ of it.
 static const double rounding = 8 * DBL_EPSILON;
 
+/// The border's unknowns: outside complex mode only every other one is there.
+static int stride_of(const pentadiagonal *m) { return m->is_complex ? 1 : 2; }
+
+/// Rows before the border.
+static int interior_of(const pentadiagonal *m) { return m->cyclic ? m->count - 2 : m->count; }
+
 typedef struct block {
     double a, b, c, d; ///< [a b; c d]
 } block;
+
+static const block zero = {0, 0, 0, 0};
 
 // Each step is written once, for a mode that is known where it is compiled: outside complex mode a block is its first number.
 
@@ -63,11 +70,37 @@ static inline block squared(bool is_complex, block x, const double *s)
     return (block){xs.a * x.a + xs.b * x.b, off, off, xs.c * x.c + xs.d * x.d};
 }
 
-/// Each row waits for the one before: what is left to do once 1 / det of that is known, U S⁻¹ Uᵀ of it, is a product and a difference.
-static inline pentadiagonal_rank factor(pentadiagonal *m, int rows, const bool is_complex)
+static void add_to_corner(pentadiagonal *m, int r, int c, block x)
 {
+    m->corner[r][c] += x.a, m->corner[r][c + 1] += x.b;
+    m->corner[r + 1][c] += x.c, m->corner[r + 1][c + 1] += x.d;
+}
+
+/// Border ← L of a sample's rows, once the others are factored; corner ← what that leaves of it.
+static inline void eliminate_border(pentadiagonal *m, int of_sample, const bool is_complex)
+{
+    block before = zero, second = zero, own = zero, beside = zero; // L S of row k−1 and k−2; L S L'
+    for (int k = 0; k < interior_of(m); k++) {
+        double *border = m->border + BORDER_ROW * k;
+        block now = load(is_complex, border + 4 * of_sample);
+        if (k > 1) now = minus_product(is_complex, now, second, load(is_complex, m->below2 + 4 * (k - 2)));
+        if (k > 0) now = minus_product(is_complex, now, before, load(is_complex, m->below + 4 * (k - 1)));
+        const block l = times_symmetric(is_complex, now, m->diagonal + 3 * k);
+        store(is_complex, border + 4 * of_sample, l);
+        own = minus_product(is_complex, own, now, l);
+        beside = minus_product(is_complex, beside, now, load(is_complex, border));
+        second = before, before = now;
+    }
+    add_to_corner(m, 2 * of_sample, 2 * of_sample, own);
+    if (of_sample > 0) add_to_corner(m, 2, 0, beside);
+}
+
+/// Each row waits for the one before: what is left to do once 1 / det of that is known, U S⁻¹ Uᵀ of it, is a product and a difference.
+static inline pentadiagonal_rank factor(pentadiagonal *m, const bool is_complex)
+{
+    const int rows = interior_of(m);
     double lost = 1, inverse = 0;
-    const block zero = {0, 0, 0, 0};
+    m->is_rooted = false;
     block square = zero, u = zero, l2 = zero, f = zero; // of row k−1; square: U S⁻¹ Uᵀ times det
     block l2_before = zero, f_before = zero;            // of row k−2
     for (int k = 0; k < rows; k++) {
@@ -92,13 +125,31 @@ static inline pentadiagonal_rank factor(pentadiagonal *m, int rows, const bool i
         store(is_complex, below2, l2);
     }
     m->lost = lost;
+    for (int s = 0; s < 2 && m->cyclic; s++) eliminate_border(m, s, is_complex);
     return lost * rounding > 1 ? RANK_WEAK : RANK_FULL;
 }
 
-static inline void solve(const pentadiagonal *m, int rows, double *x, const bool is_complex)
+static void solve_corner(const pentadiagonal *m, double *t)
 {
+    const int stride = stride_of(m);
+    for (int r = 0; r < BORDER_MAX; r += stride) {
+        for (int k = 0; k < r; k += stride) t[r] -= m->corner[r][k] * t[k];
+        t[r] /= m->corner[r][r];
+    }
+    for (int r = BORDER_MAX - stride; r >= 0; r -= stride) {
+        for (int k = r + stride; k < BORDER_MAX; k += stride) t[r] -= m->corner[k][r] * t[k];
+        t[r] /= m->corner[r][r];
+    }
+}
+
+static inline void solve(const pentadiagonal *m, double *x, const bool is_complex)
+{
+    const int rows = interior_of(m), stride = is_complex ? 1 : 2;
+    double t[BORDER_MAX] = {0}; // of the border
+    for (int c = 0; m->cyclic && c < BORDER_MAX; c++) t[c] = x[2 * rows + c];
     double p0 = 0, p1 = 0, q0 = 0, q1 = 0; // forward: z_{k−1}, z_{k−2}
     for (int k = 0; k < rows; k++) {
+        const double *s = m->diagonal + 3 * k, *b = m->border + BORDER_ROW * k;
         double z0 = x[2 * k], z1 = x[2 * k + 1];
         if (k > 1) {
             const double *l = m->below2 + 4 * (k - 2);
@@ -110,67 +161,56 @@ static inline void solve(const pentadiagonal *m, int rows, double *x, const bool
             z0 -= is_complex ? l[0] * p0 + l[1] * p1 : l[0] * p0;
             if (is_complex) z1 -= l[2] * p0 + l[3] * p1;
         }
+        if (m->is_rooted) z1 = is_complex ? s[1] * z0 + s[2] * z1 : 0, z0 *= s[0];
+        for (int c = 0; m->cyclic && c < BORDER_MAX; c += stride)
+            t[c] -= is_complex ? b[2 * c] * z0 + b[2 * c + 1] * z1 : b[2 * c] * z0;
         q0 = p0, q1 = p1, p0 = z0, p1 = z1;
         x[2 * k] = z0, x[2 * k + 1] = z1;
     }
+    if (m->cyclic) solve_corner(m, t);
+    for (int c = 0; m->cyclic && c < BORDER_MAX; c++) x[2 * rows + c] = t[c];
     p0 = p1 = q0 = q1 = 0; // backward: x_{k+1}, x_{k+2}
     for (int k = rows - 1; k >= 0; k--) {
         const double *s = m->diagonal + 3 * k, *l = m->below + 4 * k, *l2 = m->below2 + 4 * k;
-        double z0 = x[2 * k], z1 = x[2 * k + 1];
-        double y0 = s[0] * z0 - l2[0] * q0 - l[0] * p0, y1 = 0;
-        if (is_complex) {
-            y0 = s[0] * z0 + s[1] * z1 - (l2[0] * q0 + l2[2] * q1) - (l[0] * p0 + l[2] * p1);
-            y1 = s[1] * z0 + s[2] * z1 - (l2[1] * q0 + l2[3] * q1) - (l[1] * p0 + l[3] * p1);
+        const double *b = m->border + BORDER_ROW * k;
+        double y0 = x[2 * k], y1 = is_complex ? x[2 * k + 1] : 0;
+        if (!m->is_rooted) {
+            const double z0 = y0;
+            y0 = is_complex ? s[0] * z0 + s[1] * y1 : s[0] * z0;
+            if (is_complex) y1 = s[1] * z0 + s[2] * y1;
         }
+        for (int c = 0; m->cyclic && c < BORDER_MAX; c += stride) {
+            y0 -= b[2 * c] * t[c];
+            if (is_complex) y1 -= b[2 * c + 1] * t[c];
+        }
+        y0 -= is_complex ? l2[0] * q0 + l2[2] * q1 : l2[0] * q0;
+        y0 -= is_complex ? l[0] * p0 + l[2] * p1 : l[0] * p0;
+        if (is_complex) y1 = y1 - (l2[1] * q0 + l2[3] * q1) - (l[1] * p0 + l[3] * p1);
+        if (m->is_rooted) y0 = is_complex ? s[0] * y0 + s[1] * y1 : s[0] * y0, y1 *= s[2];
         q0 = p0, q1 = p1, p0 = y0, p1 = y1;
         x[2 * k] = y0, x[2 * k + 1] = y1;
     }
 }
 
-WIDEST static pentadiagonal_rank factor_rows(pentadiagonal *m, int rows)
+WIDEST static pentadiagonal_rank factor_rows(pentadiagonal *m)
 {
-    return m->is_complex ? factor(m, rows, true) : factor(m, rows, false);
+    return m->is_complex ? factor(m, true) : factor(m, false);
 }
-
-static void solve_rows(const pentadiagonal *m, int rows, double *x)
-{
-    if (m->is_complex) {
-        solve(m, rows, x, true);
-    } else {
-        solve(m, rows, x, false);
-    }
-}
-
-/// The column of the border that belongs to an interior row, as a list: only the rows next to the seam are not 0.
-static double *edge_entry(pentadiagonal *m, int row, int within, int column)
-{
-    int e = 0;
-    while (e < m->edge_count && m->edge_row[e] != row) e++;
-    if (e == m->edge_count) {
-        m->edge_row[m->edge_count++] = row;
-        memset(m->edge[e], 0, sizeof m->edge[e]);
-    }
-    return &m->edge[e][within][column];
-}
-
-/// The border's unknowns: outside complex mode only every other one is there.
-static int stride_of(const pentadiagonal *m) { return m->is_complex ? 1 : 2; }
 
 /// Moves the coupling block A_{row,column} (at `from`, which becomes 0) out of the band into border or corner.
 static void move_to_border(pentadiagonal *m, int row, int column, double *from)
 {
-    const int stride = stride_of(m), interior = m->count - 2;
+    const int stride = stride_of(m), interior = interior_of(m), r = 2 * (row - interior), c = 2 * (column - interior);
     for (int i = 0; i < 2; i += stride) {
         for (int j = 0; j < 2; j += stride) {
             double value = from[2 * i + j];
             if (row < interior) {
-                *edge_entry(m, row, i, 2 * (column - interior) + j) += value;
+                m->border[BORDER_ROW * row + 2 * (c + j) + i] += value;
             } else if (column < interior) {
-                *edge_entry(m, column, j, 2 * (row - interior) + i) += value;
+                m->border[BORDER_ROW * column + 2 * (r + i) + j] += value;
             } else {
-                int r = 2 * (row - interior) + i, c = 2 * (column - interior) + j;
-                m->corner[r][c] += value;
-                m->corner[c][r] += value;
+                m->corner[r + i][c + j] += value;
+                m->corner[c + j][r + i] += value;
             }
             from[2 * i + j] = 0;
         }
@@ -179,8 +219,8 @@ static void move_to_border(pentadiagonal *m, int row, int column, double *from)
 
 static void split_border(pentadiagonal *m)
 {
-    const int interior = m->count - 2;
-    m->edge_count = 0;
+    const int interior = interior_of(m);
+    memset(m->border, 0, sizeof *m->border * BORDER_ROW * (size_t)interior);
     memset(m->corner, 0, sizeof m->corner);
     for (int s = 0; s < 2; s++) {
         const double *d = m->diagonal + 3 * (interior + s);
@@ -214,63 +254,23 @@ static pentadiagonal_rank factor_corner(pentadiagonal *m, const double *entry)
     return rank;
 }
 
-/// Border columns ← interior⁻¹ B; corner ← Cholesky factor of C − Bᵀ interior⁻¹ B.
-static pentadiagonal_rank factor_border(pentadiagonal *m)
-{
-    const int stride = stride_of(m), interior = m->count - 2;
-    double entry[BORDER_MAX];
-    for (int c = 0; c < BORDER_MAX; c++) entry[c] = m->corner[c][c];
-    for (int c = 0; c < BORDER_MAX; c += stride) {
-        double *column = m->border + (size_t)c * (size_t)(2 * m->count);
-        memset(column, 0, sizeof *column * (size_t)(2 * interior));
-        for (int e = 0; e < m->edge_count; e++) {
-            for (int i = 0; i < 2; i += stride) column[2 * m->edge_row[e] + i] = m->edge[e][i][c];
-        }
-        solve_rows(m, interior, column);
-        for (int r = 0; r < BORDER_MAX; r += stride) {
-            for (int e = 0; e < m->edge_count; e++) {
-                for (int i = 0; i < 2; i += stride)
-                    m->corner[r][c] -= m->edge[e][i][r] * column[2 * m->edge_row[e] + i];
-            }
-        }
-    }
-    return factor_corner(m, entry);
-}
-
 pentadiagonal_rank pentadiagonal_factor(pentadiagonal *m)
 {
-    if (!m->cyclic) return factor_rows(m, m->count);
+    if (!m->cyclic) return factor_rows(m);
     split_border(m);
-    pentadiagonal_rank inner = factor_rows(m, m->count - 2);
+    double entry[BORDER_MAX];
+    for (int c = 0; c < BORDER_MAX; c++) entry[c] = m->corner[c][c];
+    const pentadiagonal_rank inner = factor_rows(m);
     if (inner == RANK_BROKEN) return inner;
-    pentadiagonal_rank border = factor_border(m);
+    const pentadiagonal_rank border = factor_corner(m, entry);
     return border < inner ? border : inner;
 }
 
 void pentadiagonal_solve(const pentadiagonal *m, double *b)
 {
-    if (!m->cyclic) {
-        solve_rows(m, m->count, b);
-        return;
-    }
-    const int stride = stride_of(m), interior = m->count - 2;
-    double *t = b + 2 * interior;
-    solve_rows(m, interior, b);
-    for (int c = 0; c < BORDER_MAX; c += stride) {
-        for (int e = 0; e < m->edge_count; e++) {
-            for (int i = 0; i < 2; i += stride) t[c] -= m->edge[e][i][c] * b[2 * m->edge_row[e] + i];
-        }
-    }
-    for (int r = 0; r < BORDER_MAX; r += stride) {
-        for (int k = 0; k < r; k += stride) t[r] -= m->corner[r][k] * t[k];
-        t[r] /= m->corner[r][r];
-    }
-    for (int r = BORDER_MAX - stride; r >= 0; r -= stride) {
-        for (int k = r + stride; k < BORDER_MAX; k += stride) t[r] -= m->corner[k][r] * t[k];
-        t[r] /= m->corner[r][r];
-    }
-    for (int c = 0; c < BORDER_MAX; c += stride) {
-        const double *column = m->border + (size_t)c * (size_t)(2 * m->count);
-        for (int i = 0; i < 2 * interior; i++) b[i] -= column[i] * t[c];
+    if (m->is_complex) {
+        solve(m, b, true);
+    } else {
+        solve(m, b, false);
     }
 }

@@ -4,7 +4,8 @@
 
 #include <stdbool.h>
 
-enum { BORDER_MAX = 4 }; ///< unknowns of the two samples that a loop's border holds
+/// Unknowns of the two samples that a loop's border holds, and their numbers for one row.
+enum { BORDER_MAX = 4, BORDER_ROW = 2 * BORDER_MAX };
 
 /// Blocks of (Re x, Im x); outside complex mode only the first number of each is looked at. Filled by system_matrix(), overwritten by
 /// the factor.
@@ -12,14 +13,13 @@ typedef struct pentadiagonal {
     int count; ///< block rows
     bool is_complex;
     bool cyclic;
-    double *diagonal; ///< A_kk: (00, 01, 11)           → inverse of the pivot block
-    double *below;    ///< A_{k+1,k}: 2×2 row-major       → L_{k+1,k}
-    double *below2;   ///< A_{k+2,k}                      → L_{k+2,k}
-    double *border;   ///< cyclic: BORDER_MAX columns of 2·count numbers → interior⁻¹ times the border
-    double edge[BORDER_MAX][2][BORDER_MAX]; ///< the border's rows that are not 0, before solving
-    int edge_row[BORDER_MAX];
-    int edge_count;
-    double corner[BORDER_MAX][BORDER_MAX]; ///< Cholesky factor of the border's Schur complement
+    bool is_rooted; ///< diagonal holds inverses of the pivots' roots
+    double *
+        diagonal; ///< A_kk: (00, 01, 11)           → inverse of the pivot block, or [a b; 0 c] whose product with its transpose that is
+    double *below;  ///< A_{k+1,k}: 2×2 row-major       → L_{k+1,k}
+    double *below2; ///< A_{k+2,k}                      → L_{k+2,k}
+    double *border; ///< cyclic, of every row before the border BORDER_ROW numbers: 4×2 row-major → L_{border,k}
+    double corner[BORDER_MAX][BORDER_MAX]; ///< → Cholesky factor of what the rest leaves of it
     double
         lost; ///< largest part of its diagonal entry that a pivot has lost, as entry / pivot; from the factorisation
 } pentadiagonal;

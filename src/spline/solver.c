@@ -42,7 +42,7 @@ static void lay_out_numbers(wiggly_solver *at, arena *a, size_t samples)
     const struct {
         double **array;
         size_t each;
-    } matrix[] = {{&m->diagonal, 3}, {&m->below, 4}, {&m->below2, 4}, {&m->border, 2 * BORDER_MAX}},
+    } matrix[] = {{&m->diagonal, 3}, {&m->below, 4}, {&m->below2, 4}, {&m->border, BORDER_ROW}},
       others[] = {{&rows->jet_weight, 1},
                   {&rows->im_weight, 1},
                   {&rows->x, 2},

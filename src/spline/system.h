@@ -87,12 +87,8 @@ void system_forget_known(const system_rows *rows);
 /// The squared matrix Rᵀ W R with fixed unknowns as rows of the identity, ready to be factored.
 void system_matrix(const system_rows *rows, pentadiagonal *matrix);
 
-/// The rows themselves, brought to triangular form Q U = R by Householder reflections: Uᵀ U is the same matrix that pentadiagonal.h
-/// factors, but its condition was never squared. For long domains. Into the memory of `matrix` (diagonal: U_kk, below: U_{k,k+1},
-/// below2: U_{k,k+2}, border: U_{k,seam}).
+/// The factor that pentadiagonal_factor() makes of that, from the rows themselves, whose condition was never squared: by rotations to
+/// triangular form. For long domains.
 pentadiagonal_rank orthogonal_factor(const system_rows *rows, pentadiagonal *matrix);
-
-/// b ← (Uᵀ U)⁻¹ b after a successful factor.
-void orthogonal_solve(const pentadiagonal *matrix, double *b);
 
 #endif
