@@ -26,6 +26,7 @@ static inline struct character puppet_solid(const struct solid *made_of, const f
     isosurface(made_of, lo, hi, cell, &mesh);
     struct surface surface = {
         .vertex_count = mesh.vertex_count, .indices = mesh.indices, .index_count = mesh.index_count};
+    mesh.indices = NULL;
     surface.position = malloc((size_t)mesh.vertex_count * sizeof *surface.position);
     assert_non_null(surface.position);
     for (int i = 0; i < mesh.vertex_count; i++)
@@ -39,7 +40,6 @@ static inline struct character puppet_solid(const struct solid *made_of, const f
         character.coordinates[k].name = strdup((const char[]){(char)('a' + k), '\0'});
         assert_non_null(character.coordinates[k].name);
     }
-    free(surface.position);
     mesh_free(&mesh);
     return character;
 }

@@ -9,8 +9,11 @@ static void make_character(struct character *c)
     float position[4][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
     float color[4][3] = {{1, 0.5f, 0}, {1, 1, 1}, {0.25f, 0, 1}, {0, 0, 0}};
     uint32_t indices[] = {0, 2, 1, 0, 1, 3, 1, 2, 3, 2, 0, 3};
-    const struct surface surface = {
-        .position = position, .color = color, .vertex_count = 4, .indices = indices, .index_count = 12};
+    struct surface surface = {.position = memcpy(malloc(sizeof position), position, sizeof position),
+                              .color = memcpy(malloc(sizeof color), color, sizeof color),
+                              .vertex_count = 4,
+                              .indices = memcpy(malloc(sizeof indices), indices, sizeof indices),
+                              .index_count = 12};
     assert_true(character_create(c, &surface, 2));
     for (int n = 0; n < 24; n++) {
         c->coordinates[n / 12].re[n / 3 % 4][n % 3] = (float)sin(n);

@@ -46,10 +46,9 @@ static int make_cube(void **state)
     assert_true(character_create(&character, &surface, 1));
     character.coordinates[0].name = strdup("up");
     for (int i = 0; i < character.vertex_count; i++)
-        character.coordinates[0].re[i][1] = 0.2f * surface.position[i][1];
+        character.coordinates[0].re[i][1] = 0.2f * character.position[i][1];
     assert_true(character_write(folder_path("cube.glb"), &character, true, &error));
     character_free(&character);
-    surface_free(&surface);
     return 0;
 }
 

@@ -157,9 +157,12 @@ TEST(the_coarse_mesh_is_the_same_surface)
 /// Vertices at one place and with one normal share their neighbours; where a triangle has two of them, they are no neighbours of themselves.
 TEST(a_triangle_between_vertices_at_one_place)
 {
-    float position[4][3] = {{0}, {0}, {1, 0, 0}, {0}};
-    uint32_t indices[] = {0, 1, 2, 1, 3, 0};
-    struct surface surface = {.position = position, .vertex_count = 4, .indices = indices, .index_count = 6};
+    const float position[4][3] = {{0}, {0}, {1, 0, 0}, {0}};
+    const uint32_t indices[] = {0, 1, 2, 1, 3, 0};
+    struct surface surface = {.position = memcpy(malloc(sizeof position), position, sizeof position),
+                              .vertex_count = 4,
+                              .indices = memcpy(malloc(sizeof indices), indices, sizeof indices),
+                              .index_count = 6};
     struct character character;
     struct figure figure;
     assert_true(character_create(&character, &surface, 0));

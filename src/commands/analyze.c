@@ -173,8 +173,8 @@ static void warn_of_cancelling(const struct motion *motion, const struct analysi
         motion->path, a->cancelled, a->cancelled > 1 ? "s" : "");
 }
 
-static bool check_motion(const struct job *job, const struct motion *motion, const struct surface *rest, double *fps,
-                         struct error *error)
+static bool check_motion(const struct job *job, const struct motion *motion, const struct character *rest,
+                         double *fps, struct error *error)
 {
     if (motion->vertices != rest->vertex_count)
         return fail(error, ERROR_INPUT, "%s: expected %d vertices as %s has, got %d", motion->path,
@@ -186,7 +186,8 @@ static bool check_motion(const struct job *job, const struct motion *motion, con
 
 /// A coordinate is added to the mesh at rest; a motion centred elsewhere has other axes, units or an offset. One that walks may be
 /// anywhere.
-static void warn_of_distance(const struct motion *motion, const struct analysis *analysis, const struct surface *rest)
+static void warn_of_distance(const struct motion *motion, const struct analysis *analysis,
+                             const struct character *rest)
 {
     double centre[3] = {0}, walked[3] = {0}, distance = 0, size = 0;
     for (int n = 0; n < 3 * rest->vertex_count; n++) {
@@ -232,14 +233,14 @@ static void keep_all(const struct job *job, const struct analysis *analysis, con
 }
 
 /// Analyses one file and appends its coordinates to the character.
-static bool analyse(const struct job *job, int file, const struct lapack *lapack, const struct surface *rest,
-                    struct result *result, struct error *error)
+static bool analyse(const struct job *job, int file, const struct lapack *lapack, struct result *result,
+                    struct error *error)
 {
     struct motion motion;
     struct analysis analysis = {0};
     double fps = 0;
     if (!motion_open(&motion, job->files[file], error)) return false;
-    bool done = check_motion(job, &motion, rest, &fps, error);
+    bool done = check_motion(job, &motion, &result->character, &fps, error);
     const struct analysis_plan plan = {
         .method = method_of(job),
         .fps = fps,
@@ -249,7 +250,7 @@ static bool analyse(const struct job *job, int file, const struct lapack *lapack
     };
     done = done && analysis_create(&analysis, lapack, &motion, &plan, error);
     if (done) {
-        warn_of_distance(&motion, &analysis, rest);
+        warn_of_distance(&motion, &analysis, &result->character);
         warn_of_speed(&motion, &analysis, fps);
         warn_of_cancelling(&motion, &analysis);
         report_motion(job, &motion, &analysis, fps);
@@ -271,7 +272,7 @@ static void drop_unused(struct result *result)
     }
 }
 
-static bool analyse_files(const struct job *job, const struct lapack *lapack, const struct surface *rest,
+static bool analyse_files(const struct job *job, const struct lapack *lapack, struct surface *rest,
                           struct result *result, struct error *error)
 {
     int files = 0;
@@ -279,7 +280,7 @@ static bool analyse_files(const struct job *job, const struct lapack *lapack, co
     result->analyzed = need_zeroed((size_t)(files * job->modes), sizeof *result->analyzed);
     if (!character_create(&result->character, rest, files * job->modes)) return fail_no_memory(error, job->rest);
     for (int i = 0; i < files; i++) {
-        if (!analyse(job, i, lapack, rest, result, error)) return false;
+        if (!analyse(job, i, lapack, result, error)) return false;
     }
     drop_unused(result);
     const struct character *character = &result->character;

@@ -2,27 +2,7 @@
 #include "base/need.h"
 #include "export/form.h"
 #include "model/vector.h"
-#include <stdio.h>
 #include <stdlib.h>
-
-/// Re Ñ and −Im Ñ of one coordinate, for the weights Re z and Im z.
-static void add_targets(struct form *form, const struct figure *figure, int coordinate)
-{
-    static const char *const parts[] = {"re", "im"};
-    const struct coordinate *n = &figure->character.coordinates[coordinate];
-    const size_t count = (size_t)form->vertex_count + 1;
-    for (int part = 0; part < 2; part++) {
-        struct form_target *target = &form->targets[form->target_count++];
-        *target = (struct form_target){.position = need(count, sizeof *target->position),
-                                       .normal = need(count, sizeof *target->normal),
-                                       .group = coordinate};
-        if (asprintf(&target->name, "%s.%s", n->name, parts[part]) < 0) need_failed();
-        for (int i = 0; i < form->vertex_count; i++) {
-            for (int k = 0; k < 3; k++) target->position[i][k] = part ? -n->im[i][k] : n->re[i][k];
-        }
-        figure_turn_normals(figure, coordinate, part == 1, target->normal);
-    }
-}
 
 /// The character with those of its coordinates alone that the rig moves by.
 struct moving {
@@ -62,18 +42,15 @@ static bool open(const struct posing *posing, int rig, const struct rig_pose *po
     for (int k = 0; k < c->coordinate_count; k++) {
         if (!moves_by(&pose->character.morph, k)) continue;
         moving->coordinates[moving->character.coordinate_count++] = c->coordinates[k];
-        add_targets(form, figure, k);
+        for (int part = 0; part < 2; part++)
+            form->targets[form->target_count++] = (struct form_target){figure_target_create(figure, k, part), k};
     }
     return true;
 }
 
 static void close(struct form *form)
 {
-    for (int t = 0; t < form->target_count; t++) {
-        free(form->targets[t].name);
-        free(form->targets[t].position);
-        free(form->targets[t].normal);
-    }
+    for (int t = 0; t < form->target_count; t++) figure_target_free(&form->targets[t].figure);
     free(form->targets);
     free(form->owned);
 }

@@ -107,9 +107,8 @@ struct form_joint {
 };
 
 struct form_target {
-    char *name;
-    float (*position)[3], (*normal)[3]; ///< how far it moves vertices and turns normals at weight 1
-    int group;                          ///< targets of one group keep their proportion
+    struct figure_target figure; ///< how far it moves vertices and turns normals at weight 1
+    int group;                   ///< targets of one group keep their proportion
 };
 
 struct form {

@@ -59,13 +59,13 @@ static void make_targets(const struct form *form, const struct keys *keys, bool 
         struct file_target *target = &targets->list[t];
         *target = (struct file_target){.source = t, .scale = 1.0f};
         if (clamped) target->scale = largest_of(form, keys, form->targets[t].group);
-        snprintf(target->name, FORM_NAME, "%s", form->targets[t].name);
+        snprintf(target->name, FORM_NAME, "%s", form->targets[t].figure.name);
     }
     for (int t = 0; clamped && t < count; t++) {
         if (!is_ever_negative(keys, t)) continue;
         struct file_target *target = &targets->list[targets->count++];
         *target = (struct file_target){.source = t, .scale = -targets->list[t].scale};
-        name_negative(form->targets[t].name, target->name);
+        name_negative(form->targets[t].figure.name, target->name);
     }
 }
 
@@ -178,9 +178,9 @@ static json_int_t add_mesh(struct scene *scene, const struct part *part)
     shape.targets = need((size_t)shape.target_count, sizeof *shape.targets);
     for (int t = 0; t < shape.target_count; t++) {
         const struct file_target *target = &part->targets->list[t];
-        const struct form_target *of = &form->targets[target->source];
-        shape.targets[t] = (struct gltf_shape_target){target->name, (const float(*)[3])of->position,
-                                                      (const float(*)[3])of->normal, target->scale, target->scale};
+        const struct figure_target *of = &form->targets[target->source].figure;
+        shape.targets[t] = (struct gltf_shape_target){target->name, of->position, (const float(*)[3])of->normal,
+                                                      of->sign * target->scale, target->scale};
     }
     const json_int_t mesh = gltf_append(&scene->file, scene->meshes, gltf_shape_json(&scene->looks, &shape));
     free(shape.targets);

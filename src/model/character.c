@@ -22,19 +22,10 @@ static void compute_normals(struct character *c)
     }
 }
 
-static void *copy_of(const void *bytes, size_t size)
+static float (*white(int count))[3]
 {
-    void *copy = malloc(size);
-    if (copy) memcpy(copy, bytes, size);
-    return copy;
-}
-
-/// `color` as it is, or white.
-static float (*copy_colors(const struct surface *s))[3]
-{
-    float(*color)[3] = malloc((size_t)s->vertex_count * sizeof *color);
-    for (int n = 0; color && n < 3 * s->vertex_count; n++)
-        color[n / 3][n % 3] = s->color ? s->color[n / 3][n % 3] : 1;
+    float(*color)[3] = malloc((size_t)count * sizeof *color);
+    for (int n = 0; color && n < 3 * count; n++) color[n / 3][n % 3] = 1;
     return color;
 }
 
@@ -53,19 +44,19 @@ static bool create_coordinates(struct character *c, int count)
     return whole;
 }
 
-bool character_create(struct character *c, const struct surface *surface, int coordinates)
+bool character_create(struct character *c, struct surface *surface, int coordinates)
 {
-    size_t vectors = (size_t)surface->vertex_count * sizeof *c->position;
     *c = (struct character){
         .vertex_count = surface->vertex_count,
         .index_count = surface->index_count,
-        .position = copy_of(surface->position, vectors),
-        .normal = malloc(vectors),
-        .color = copy_colors(surface),
-        .indices = copy_of(surface->indices, (size_t)surface->index_count * sizeof *c->indices),
+        .position = surface->position,
+        .normal = malloc((size_t)surface->vertex_count * sizeof *c->normal),
+        .color = surface->color ? surface->color : white(surface->vertex_count),
+        .indices = surface->indices,
+        .looks = surface->looks,
     };
-    if (c->position && c->normal && c->color && c->indices && create_coordinates(c, coordinates) &&
-        looks_copy(&c->looks, &surface->looks, surface->index_count)) {
+    *surface = (struct surface){0};
+    if (c->normal && c->color && create_coordinates(c, coordinates)) {
         compute_normals(c);
         return true;
     }

@@ -39,9 +39,9 @@ struct character {
     int coordinate_count;
 };
 
-/// A character at rest: the surface's vertices in their order, normals from its triangles, `coordinates` coordinates whose
+/// A character at rest: takes the surface over, which is left empty, with normals from its triangles and `coordinates` coordinates whose
 /// Ñ are zero and whose names are NULL. False where memory is short.
-bool character_create(struct character *character, const struct surface *surface, int coordinates);
+bool character_create(struct character *character, struct surface *surface, int coordinates);
 
 /// Reads a .glb or .gltf: the first mesh with morph targets (else the first mesh), all its triangles as one. Coordinates are the
 /// pairs of morph targets called NAME.re and NAME.im; without our extras their numbers are 0. Normals are computed where

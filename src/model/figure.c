@@ -3,6 +3,7 @@
 #include "base/need.h"
 #include "model/vector.h"
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -182,7 +183,7 @@ void figure_forget(struct figure *figure)
     figure_free(figure);
 }
 
-void figure_turn_normals(const struct figure *figure, int coordinate, bool imaginary, float (*turn)[3])
+static void turn_normals(const struct figure *figure, int coordinate, bool imaginary, float (*turn)[3])
 {
     const struct character *c = &figure->character;
     for (int i = 0; i < c->vertex_count; i++) {
@@ -192,6 +193,24 @@ void figure_turn_normals(const struct figure *figure, int coordinate, bool imagi
         const vec3s sum = glms_vec3_add(glms_vec3_cross(du, v), glms_vec3_cross(u, dv));
         for (int k = 0; k < 3; k++) turn[i][k] = imaginary ? -sum.raw[k] : sum.raw[k];
     }
+}
+
+struct figure_target figure_target_create(const struct figure *figure, int coordinate, bool imaginary)
+{
+    const struct coordinate *n = &figure->character.coordinates[coordinate];
+    struct figure_target target = {.sign = imaginary ? -1.0f : 1.0f,
+                                   .position = (const float(*)[3])(imaginary ? n->im : n->re)};
+    if (asprintf(&target.name, "%s.%s", n->name, imaginary ? "im" : "re") < 0) need_failed();
+    if (!figure->slopes) return target;
+    target.normal = need((size_t)figure->character.vertex_count + 1, sizeof *target.normal);
+    turn_normals(figure, coordinate, imaginary, target.normal);
+    return target;
+}
+
+void figure_target_free(struct figure_target *target)
+{
+    free(target->name);
+    free(target->normal);
 }
 
 bool figure_has_room(const struct character *character)

@@ -51,9 +51,17 @@ void figure_create(struct figure *figure, struct character *character);
 void figure_derive(struct figure *figure);
 void figure_forget(struct figure *figure);
 
-/// How the real or the imaginary part of a coordinate turns normals, to first order, as morph targets have it: n = t₁ × t₂, and the
-/// coordinate moves both tangents; −Im for the imaginary part.
-void figure_turn_normals(const struct figure *figure, int coordinate, bool imaginary, float (*turn)[3]);
+/// The real or the imaginary part of a coordinate as a morph target: Re Ñ or −Im Ñ.
+struct figure_target {
+    char *name;                 ///< "up.re"
+    float sign;                 ///< times `position`: how far it takes vertices
+    const float (*position)[3]; ///< the coordinate's
+    float (*normal)[3];         ///< how it turns normals, or NULL
+};
+
+/// A target that turns normals, to first order, where the figure is derived: n = t₁ × t₂, and the coordinate moves both tangents.
+struct figure_target figure_target_create(const struct figure *figure, int coordinate, bool imaginary);
+void figure_target_free(struct figure_target *target);
 
 /// For a copy of a figure with other coordinates: an id; refits the slope of one coordinate at one vertex after it or a
 /// neighbour has changed; measures its largest amplitudes.

@@ -75,36 +75,26 @@ struct output {
     struct gltf_looks looks;
     struct split split;
     struct gltf_shape shape;
-    char **names;       ///< of the targets
-    float (**turns)[3]; ///< how targets turn normals, or NULL
+    struct figure_target *targets;
 };
 
-/// Re Ñ and −Im Ñ of each coordinate, and with a figure how they turn normals.
-static void make_targets(struct output *o, const struct character *c, const struct figure *figure)
+static void make_targets(struct output *o, const struct figure *figure)
 {
-    const size_t count = 2 * (size_t)c->coordinate_count;
-    o->shape.targets = need(count, sizeof *o->shape.targets);
-    o->names = need(count, sizeof *o->names);
-    o->turns = need_zeroed(count, sizeof *o->turns);
-    o->shape.target_count = (int)count;
-    for (size_t t = 0; t < count; t++) {
-        const struct coordinate *n = &c->coordinates[t / 2];
-        const bool imaginary = t % 2;
-        if (asprintf(&o->names[t], "%s.%s", n->name, imaginary ? "im" : "re") < 0) need_failed();
-        if (figure) {
-            o->turns[t] = need((size_t)c->vertex_count, sizeof *o->turns[t]);
-            figure_turn_normals(figure, (int)t / 2, imaginary, o->turns[t]);
-        }
-        o->shape.targets[t] = (struct gltf_shape_target){.name = o->names[t],
-                                                         .position = (const float(*)[3])(imaginary ? n->im : n->re),
-                                                         .normal = (const float(*)[3])o->turns[t],
-                                                         .scale = imaginary ? -1 : 1,
-                                                         .turn = 1};
+    const int count = 2 * figure->character.coordinate_count;
+    o->targets = need((size_t)count, sizeof *o->targets);
+    o->shape.targets = need((size_t)count, sizeof *o->shape.targets);
+    o->shape.target_count = count;
+    for (int t = 0; t < count; t++) {
+        const struct figure_target *own = &o->targets[t];
+        o->targets[t] = figure_target_create(figure, t / 2, t % 2);
+        o->shape.targets[t] =
+            (struct gltf_shape_target){own->name, own->position, (const float(*)[3])own->normal, own->sign, 1};
     }
 }
 
-static void open_output(struct output *o, const struct character *c, const struct figure *figure)
+static void open_output(struct output *o, const struct figure *figure)
 {
+    const struct character *c = &figure->character;
     *o = (struct output){.looks.file = &o->file};
     split_create(&o->split, c);
     o->shape = (struct gltf_shape){.name = "character",
@@ -118,18 +108,14 @@ static void open_output(struct output *o, const struct character *c, const struc
                                    .index_count = c->index_count,
                                    .looks = &c->looks,
                                    .character = c};
-    make_targets(o, c, figure);
+    make_targets(o, figure);
 }
 
 static void close_output(struct output *o)
 {
-    for (int t = 0; t < o->shape.target_count; t++) {
-        free(o->names[t]);
-        free(o->turns[t]);
-    }
+    for (int t = 0; t < o->shape.target_count; t++) figure_target_free(&o->targets[t]);
     free(o->shape.targets);
-    free(o->names);
-    free(o->turns);
+    free(o->targets);
     gltf_looks_free(&o->looks);
     gltf_file_free(&o->file);
     free(o->split.source);
@@ -156,7 +142,7 @@ bool character_write(const char *path, const struct character *character, bool t
     struct figure figure = {.character = *character};
     struct output o;
     if (turn_normals) figure_derive(&figure);
-    open_output(&o, character, turn_normals ? &figure : NULL);
+    open_output(&o, &figure);
     const bool done = write_file(&o, path, error);
     close_output(&o);
     figure_forget(&figure);

@@ -104,36 +104,6 @@ size_t looks_image_bytes(const struct looks *looks)
     return sum;
 }
 
-static void *copy_of(const void *bytes, size_t size, bool *good)
-{
-    void *copy = bytes ? malloc(size + 1) : NULL;
-    if (copy) memcpy(copy, bytes, size);
-    *good = *good && (copy || !bytes);
-    return copy;
-}
-
-bool looks_copy(struct looks *to, const struct looks *from, int index_count)
-{
-    const size_t indices = (size_t)index_count, triangles = indices / 3;
-    bool good = true;
-    *to = (struct looks){.uv_count = from->uv_count};
-    to->uv = copy_of(from->uv, (size_t)from->uv_count * sizeof *to->uv, &good);
-    to->corner = copy_of(from->corner, indices * sizeof *to->corner, &good);
-    to->material = copy_of(from->material, triangles * sizeof *to->material, &good);
-    to->joined = copy_of(from->joined, triangles * sizeof *to->joined, &good);
-    to->materials = calloc((size_t)from->material_count + 1, sizeof *to->materials);
-    good = good && to->materials;
-    for (int m = 0; good && m < from->material_count; m++) {
-        const struct looks_material *material = &from->materials[m];
-        struct looks_material *copy = &to->materials[to->material_count++];
-        *copy = *material;
-        copy->name = copy_of(material->name, strlen(material->name) + 1, &good);
-        copy->image = copy_of(material->image, material->image_size, &good);
-    }
-    if (!good) looks_free(to);
-    return good;
-}
-
 void looks_free(struct looks *looks)
 {
     for (int m = 0; m < looks->material_count; m++) {

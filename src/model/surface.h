@@ -83,8 +83,6 @@ const char *looks_image_kind(const unsigned char *bytes, size_t size);
 /// Bytes of all its pictures.
 size_t looks_image_bytes(const struct looks *looks);
 
-/// A deep copy. On failure, false and an empty one.
-bool looks_copy(struct looks *to, const struct looks *from, int index_count);
 void looks_free(struct looks *looks);
 
 #endif

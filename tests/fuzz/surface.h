@@ -36,11 +36,12 @@ static inline void fuzz_figure(struct character *character)
     struct figure figure;
     figure_create(&figure, character);
     const struct character *c = &figure.character;
-    float(*turn)[3] = malloc(((size_t)c->vertex_count + 1) * sizeof *turn);
     for (int e = 0; e < figure.edges.first[c->vertex_count]; e++)
         fuzz_expect(figure.edges.other[e] < (uint32_t)c->vertex_count, "an edge ends at a vertex of the surface");
-    for (int k = 0; k < 2 * c->coordinate_count; k++) figure_turn_normals(&figure, k / 2, k % 2, turn);
-    free(turn);
+    for (int k = 0; k < 2 * c->coordinate_count; k++) {
+        struct figure_target target = figure_target_create(&figure, k / 2, k % 2);
+        figure_target_free(&target);
+    }
     fuzz_triangles(&figure, false);
     decimate(c, c->index_count / 6, figure.coarse, figure.coarse_from, &figure.coarse_count);
     fuzz_triangles(&figure, true);
