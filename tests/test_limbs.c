@@ -1,6 +1,5 @@
 /// The fox lives: splines breathe, blink, turn its head, flick its ears and squash it, and its skin follows.
 #include "model/fox.h"
-#include "model/limbs.h"
 #include "model/vector.h"
 #include "posed_tail.h"
 #include "rig/opened.h"

@@ -3,7 +3,6 @@
 #include "base/need.h"
 #include "model/fox.h"
 #include "model/gltf_file.h"
-#include "model/limbs.h"
 #include "model/vector.h"
 #include "models/fox_maker.h"
 #include <math.h>

@@ -8,7 +8,7 @@
 #include <stdlib.h>
 
 /// What a chain needs of its model.
-struct limb {
+struct source {
     const struct imported *imported;
     struct chain_bones bones;
 };
@@ -18,16 +18,16 @@ static bool open(const struct posing *posing, int rig, const struct rig_pose *po
 {
     const struct chain *chain = &posing->document->rigs[rig]->chain;
     const struct imported *imported = pose->model.imported;
-    struct limb *limb = form->owned = need(1, sizeof *limb);
+    struct source *source = form->owned = need(1, sizeof *source);
     float rest[ANGLES_MAX_JOINTS + 1][3];
-    limb->imported = imported;
-    if (!chain_find(&imported->gltf, chain->from, chain->to, &limb->bones, error)) return false;
-    chain_points_at_rest(imported, &limb->bones, rest);
-    form->joint_count = limb->bones.count;
+    source->imported = imported;
+    if (!chain_find(&imported->gltf, chain->from, chain->to, &source->bones, error)) return false;
+    chain_points_at_rest(imported, &source->bones, rest);
+    form->joint_count = source->bones.count;
     form->joints = need_zeroed((size_t)form->joint_count, sizeof *form->joints);
     for (int n = 0; n < form->joint_count; n++) {
         form->joints[n].parent = n - 1;
-        snprintf(form->joints[n].name, FORM_NAME, "%.60s", imported->gltf.nodes[limb->bones.node[n]].name);
+        snprintf(form->joints[n].name, FORM_NAME, "%.60s", imported->gltf.nodes[source->bones.node[n]].name);
         for (int k = 0; k < 3; k++) form->joints[n].offset[k] = n > 0 ? rest[n][k] - rest[n - 1][k] : 0;
     }
     for (int k = 0; k < 3; k++) form->tip[k] = rest[form->joint_count][k] - rest[form->joint_count - 1][k];
@@ -51,12 +51,12 @@ static versors turn_of(const struct imported *imported, const struct gltf_pose *
 
 static void key(const struct form *form, const struct rig_pose *pose, struct form_key *key)
 {
-    const struct limb *limb = form->owned;
+    const struct source *source = form->owned;
     const struct gltf_pose *now = pose->model.pose;
     versors before = glms_quat_identity();
-    memcpy(key->translation, now->world[limb->bones.node[0]] + 12, sizeof key->translation);
+    memcpy(key->translation, now->world[source->bones.node[0]] + 12, sizeof key->translation);
     for (int n = 0; n < form->joint_count; n++) {
-        const versors turn = turn_of(limb->imported, now, limb->bones.node[n]);
+        const versors turn = turn_of(source->imported, now, source->bones.node[n]);
         const versors own = glms_quat_mul(glms_quat_inv(before), turn);
         memcpy(key->rotation[n], own.raw, sizeof key->rotation[n]);
         before = turn;

@@ -7,7 +7,6 @@
 #define MODEL_FOX_H
 
 #include "model/gltf.h"
-#include "model/pose.h"
 
 #define FOX_TAIL_LENGTH 1.6f
 #define FOX_TAIL_RADIUS 0.072f  /* at the base */
@@ -34,17 +33,65 @@ enum { FOX_LEVELS = 4 };
 /// The level at which that many animals are drawn.
 int fox_level(int animals);
 
-/// Nodes: what carries all, the body's parts (limbs.h), and from FOX_FIRST_JOINT on the tail's joints. Of the skin's joints the first is left out.
+/// Nodes: what carries all, the body's parts (enum limb), and from FOX_FIRST_JOINT on the tail's joints. Of the skin's joints the first is left out.
 enum { FOX_FIRST_LIMB = 1, FOX_FIRST_JOINT = 8 };
 
 /// A fox with a tail of so many joints. Its only morph target moves nothing: its weight says how far the lids are closed, which its material
 /// draws.
 void fox_create(int level, int joints, struct gltf *fox);
 
-/// Sets the places of the body's parts, and the lids, over those at rest.
-void fox_move(const struct limbs *limbs, struct gltf_pose *pose);
-
 /// Gives what follows the tail (`fur`) weights of so many joints, and `along`, which is 0.
 void fox_hang(struct gltf_part *part, int joints);
+
+// --- the parts of its body that move: chest, head and ears. Each moves with the one that it is attached to: the ears' tips with their
+// --- roots, these with the head, all with the body.
+
+/// How far the parts of the body are moved from how they were made; see fox_move().
+struct limbs {
+    float look, nod, ears[2];     ///< radians; of the ears' roots and tips
+    float breath, stretch, blink; ///< shares
+};
+
+enum limb { LIMB_BODY, LIMB_CHEST, LIMB_HEAD, LIMB_EAR, LIMB_EAR_TIP = LIMB_EAR + 2, LIMBS = LIMB_EAR_TIP + 2 };
+
+/// What the maker of the skin needs too: the middle of the chest and how far it reaches, standing (y = 0 is the ground); and an ear, in the
+/// head's own space, with the places along it where it bends.
+#define LIMBS_CHEST_RADIUS 0.18f
+extern const float limbs_chest[3], limbs_ear_root[3], limbs_ear_tip[3], limbs_ear_joint[2];
+
+/// Where the tail's base comes to as the body stretches from its feet, at a fox of that scale; metres.
+void limbs_base(double stretch, double scale, double base[3]);
+
+/// By how much that changes for a change of the stretch.
+void limbs_base_slope(double stretch, double scale, double slope[3]);
+
+/// The part that each is attached to, −1 for the body.
+extern const int limb_parents[LIMBS];
+
+/// What each part turns and scales about, bind space.
+void limbs_pivots(float pivot[LIMBS][3]);
+
+/// Where the box around the body comes to, bind size, from its tail's base.
+void limbs_bounds(const struct limbs *limbs, float lo[3], float hi[3]);
+
+// --- where it is
+
+enum { POSE_MAX_JOINTS = 256 };
+
+/// A pose: frames of joints+1 points along the tail, in metres; entry n is where joint n sits, the last one is the
+/// tip. Column-major 4×4, +z along the tail, y up. Entry n carries the bend of joint n.
+struct pose {
+    int count;    ///< joints + 1
+    float ground; ///< height of what the body of a tail stands on, metres
+    float scale;  ///< of its animal against the one that is made
+    struct limbs limbs;
+    float matrix[POSE_MAX_JOINTS + 1][16];
+};
+
+/// The box around the skin of tail and torso (whose size follows the tail's length), metres.
+void pose_bounds(const struct pose *pose, float lo[3], float hi[3]);
+
+/// Sets the places of the body's parts, and the lids, over those at rest.
+void fox_move(const struct limbs *limbs, struct gltf_pose *pose);
 
 #endif

@@ -3,7 +3,6 @@
 /// With L the matrix that takes the frame of a joint, bent, into the world, a turn about an axis a of it moves a point that is r away from
 /// the joint, in that frame, by L (a × r). The axes are those that the turns behind each leave.
 #include "model/fox.h"
-#include "model/limbs.h"
 #include "rig/posing_kind.h"
 #include "rig/strand.h"
 #include <string.h>

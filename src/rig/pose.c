@@ -1,6 +1,5 @@
 /// Poses tails and chains, and the body that a tail is of.
 #include "model/fox.h"
-#include "model/limbs.h"
 #include "rig/posing_kind.h"
 #include "rig/strand.h"
 #include <math.h>

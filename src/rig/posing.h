@@ -3,7 +3,7 @@
 #define RIG_POSING_H
 
 #include "model/figure.h"
-#include "model/pose.h"
+#include "model/fox.h"
 #include "rig/models.h"
 #include "scene/evaluate.h"
 

@@ -2,7 +2,7 @@
 #ifndef RIG_SHADOW_H
 #define RIG_SHADOW_H
 
-#include "model/pose.h"
+#include "model/fox.h"
 
 /// A soft disc on the ground; strength 0 … 1, more where nearer to it.
 struct shadow_blob {

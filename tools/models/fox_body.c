@@ -1,6 +1,5 @@
 /// The fox without its tail, as a union of round cones.
 #include "model/fox.h"
-#include "model/limbs.h"
 #include "model/vector.h"
 #include "models/fox_maker.h"
 #include "models/isosurface.h"

@@ -12,7 +12,7 @@ struct vertex {
     float color[3]; ///< linear RGB
     float bend;     ///< how far it follows the joints: 1 on the tail, 0 on the torso, between where they join
     float open;     ///< share of the light from all around that reaches it, 0 … 1
-    float limb[3];  ///< which two parts of the body it hangs on, and its share of the second: see limbs.h
+    float limb[3];  ///< which two parts of the body it hangs on, and its share of the second: see fox.h
     float mark[3];  ///< a coat's markings, see below; `color` is what they come to
 };
 

@@ -3,7 +3,6 @@
 #include "editor/core/drag.h"
 #include "editor/stage/parts.h"
 #include "model/fox.h"
-#include "model/limbs.h"
 #include "model/vector.h"
 #include "rig/pick.h"
 #include "ui/theme.h"
