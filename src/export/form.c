@@ -1,7 +1,10 @@
-/// Which kinds of rigs are exported.
+/// Which kinds of rigs are exported; collects the keys of one rig, and the slopes of its curves by differences.
 #include "export/form.h"
+#include "base/need.h"
 #include "rig/strand.h"
+#include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 const struct form_kind meadow_form = {0}; // no format holds one
@@ -63,4 +66,123 @@ void form_close(struct form *form)
 {
     if (form->kind) form->kind->close(form);
     *form = (struct form){0};
+}
+
+// --- keys
+
+#define STEP (1.0 / 16) /* of differences, in keys */
+
+/// Who poses what.
+struct sampler {
+    const struct export_range *range;
+    const struct form *form;
+    int rig;
+};
+
+static bool sample(const struct sampler *from, const struct keys *keys, double key, float *row, struct error *error)
+{
+    struct rig_pose pose;
+    struct form_key values = {.rotation = (float(*)[4])(row + keys_rotation(0)),
+                              .scale = (float(*)[3])(row + keys_scale(keys, 0)),
+                              .offset = (float(*)[3])(row + keys_offset(keys, 0)),
+                              .weight = row + keys_weight(keys, 0)};
+    for (int j = 0; j < keys->joints; j++) {
+        for (int k = 0; k < 3; k++) values.scale[j][k] = 1;
+        memcpy(values.offset[j], from->form->joints[j].offset, sizeof values.offset[j]);
+    }
+    if (!range_pose(from->range, from->rig, key, &pose, error)) return false;
+    from->form->kind->key(from->form, &pose, &values);
+    memcpy(row, values.translation, sizeof values.translation);
+    return true;
+}
+
+void keys_turn_short_way(const float before[4], float q[4])
+{
+    if (before[0] * q[0] + before[1] * q[1] + before[2] * q[2] + before[3] * q[3] >= 0) return;
+    for (int k = 0; k < 4; k++) q[k] = -q[k];
+}
+
+static void turn_short_way(const struct keys *keys, const float *before, float *row)
+{
+    for (int j = 0; j < keys->joints; j++) keys_turn_short_way(before + keys_rotation(j), row + keys_rotation(j));
+}
+
+void keys_close_loop(float *rows, int width, int count)
+{
+    float *last = rows + (size_t)(count - 1) * (size_t)width;
+    for (int i = 0; i < width && last > rows; i++) {
+        if (!(fabsf(last[i] - rows[i]) <= 1e-5f)) return;
+    }
+    memmove(last, rows, (size_t)width * sizeof *rows);
+}
+
+/// slope = Σ factor · row(key + offset) / seconds
+struct difference {
+    double offset[3], factor[3];
+};
+
+/// About the key; or, at an end of the document, from its inside.
+static struct difference choose_difference(const struct export_range *range, double key, bool loops)
+{
+    if (!loops && !range_is_inside(range, key - STEP))
+        return (struct difference){{0, STEP, 2 * STEP}, {-1.5, 2, -0.5}};
+    if (!loops && !range_is_inside(range, key + STEP))
+        return (struct difference){{0, -STEP, -2 * STEP}, {1.5, -2, 0.5}};
+    return (struct difference){{-STEP, 0, STEP}, {-0.5, 0, 0.5}};
+}
+
+/// `scratch` is a row.
+static bool add_slopes(const struct sampler *from, struct keys *keys, float *scratch, struct error *error)
+{
+    const size_t width = (size_t)keys->width;
+    const double seconds = range_seconds(from->range, STEP);
+    const bool loops = memcmp(keys->rows, keys_at(keys, keys->count - 1, 0), width * sizeof *keys->rows) == 0;
+    for (int k = 0; k < keys->count; k++) {
+        const struct difference difference = choose_difference(from->range, k, loops);
+        float *slope = keys->slopes + (size_t)k * width;
+        for (int d = 0; d < 3; d++) {
+            if (difference.factor[d] == 0) continue;
+            if (!sample(from, keys, k + difference.offset[d], scratch, error)) return false;
+            turn_short_way(keys, keys_at(keys, k, 0), scratch);
+            for (size_t i = 0; i < width; i++)
+                slope[i] += (float)(difference.factor[d] / seconds * (double)scratch[i]);
+        }
+    }
+    return true;
+}
+
+static bool collect(struct export_range *range, const struct sampler *from, struct keys *keys, struct error *error)
+{
+    const size_t width = (size_t)keys->width;
+    for (int k = 0; k < keys->count; k++) {
+        float *row = keys->rows + (size_t)k * width;
+        if (!sample(from, keys, k, row, error) || !range_proceed(range, error)) return false;
+        if (k > 0) turn_short_way(keys, row - width, row);
+        keys->travels = keys->travels || memcmp(row, keys->rows, 3 * sizeof *row) != 0;
+    }
+    keys_close_loop(keys->rows, keys->width, keys->count);
+    return !keys->slopes || add_slopes(from, keys, keys->rows + (size_t)keys->count * width, error);
+}
+
+bool keys_collect(struct export_range *range, int rig, const struct form *form, struct keys *keys,
+                  struct error *error)
+{
+    const struct sampler from = {range, form, rig};
+    const size_t count = (size_t)range->key_count,
+                 width = 3 + 10 * (size_t)form->joint_count + (size_t)form->target_count;
+    const bool tangents = range->options->is_cubic && range->format->has_tangents && range->key_count > 1;
+    *keys = (struct keys){.count = range->key_count, .width = (int)width, .joints = form->joint_count};
+    if (!need_has_room((2 * count + 1) * width * sizeof *keys->rows)) return fail_no_memory(error, form->name);
+    keys->rows = need_zeroed((count + 1) * width, sizeof *keys->rows);
+    if (tangents) keys->slopes = need_zeroed(count * width, sizeof *keys->slopes);
+    const bool done = collect(range, &from, keys, error);
+    if (!done) keys_free(keys);
+    return done;
+}
+
+void keys_free(struct keys *keys)
+{
+    free(keys->rows);
+    free(keys->slopes);
+    *keys = (struct keys){0};
 }

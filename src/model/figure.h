@@ -63,12 +63,6 @@ struct figure_target {
 struct figure_target figure_target_create(const struct figure *figure, int coordinate, bool imaginary);
 void figure_target_free(struct figure_target *target);
 
-/// For a copy of a figure with other coordinates: an id; refits the slope of one coordinate at one vertex after it or a
-/// neighbour has changed; measures its largest amplitudes.
-uint64_t figure_new_id(void);
-void figure_fit(struct figure *figure, int coordinate, int vertex);
-void figure_measure(struct figure *figure, int coordinate);
-
 /// Leaves an empty figure.
 void figure_free(struct figure *figure);
 

@@ -55,7 +55,4 @@ bool gltf_read_nodes(struct gltf_reader *r);
 bool gltf_read_skins(struct gltf_reader *r);
 bool gltf_read_clips(struct gltf_reader *r);
 
-/// Puts an image of the file into gltf.images, once; −1 and named as not shown where it cannot be.
-bool gltf_read_image(struct gltf_reader *r, int image, int *index);
-
 #endif
