@@ -160,7 +160,7 @@ static void assert_all_explained(struct session *s)
         const struct rect *r = &stops[i].rect;
         session_move(s, r->x + r->w / 2, r->y + r->h / 2);
         session_frame(s);
-        const char *hint = inspector_hint(s->editor->inspector);
+        const char *hint = inspector_ui(s->editor->inspector)->hint;
         if (!hint)
             fail_msg("the control at %g, %g, %g × %g has no tooltip", (double)r->x, (double)r->y, (double)r->w,
                      (double)r->h);

@@ -65,7 +65,7 @@ SESSION_TEST(test_typing_keeps_keys_from_the_editor, panel_open(s, scene, 1280, 
 {
     panel_press(s, "frequency", 2);
     panel_release(s);
-    assert_true(inspector_is_typing(s->editor->inspector));
+    assert_true(inspector_ui(s->editor->inspector)->typing);
     session_key(s, 'A', MOD_CTRL); // all of what is typed, not all knots
     panel_type(s, "v m.");
     assert_int_equal(selection_count(&s->editor->core.selection, s->document->splines[0]), 0);
@@ -83,7 +83,7 @@ SESSION_TEST(test_typing_keeps_keys_from_the_editor, panel_open(s, scene, 1280, 
     assert_true(s->editor->dialogs->help.open);
     session_key(s, KEY_ESCAPE, 0);
     session_key(s, KEY_ESCAPE, 0);
-    assert_false(inspector_is_typing(s->editor->inspector));
+    assert_false(inspector_ui(s->editor->inspector)->typing);
     session_key(s, 'V', 0);
     assert_int_equal(s->editor->core.look, LOOK_STIFF);
 }
@@ -412,6 +412,6 @@ TEST(test_the_hint_of_a_position_outlives_the_panel)
     assert_true(inspector_target(s.editor->inspector, "position.y", &x, &y));
     session_move(&s, x, y);
     session_frame(&s);
-    assert_string_equal(inspector_hint(s.editor->inspector), "Position of the body along y");
+    assert_string_equal(inspector_ui(s.editor->inspector)->hint, "Position of the body along y");
     session_close(&s);
 }

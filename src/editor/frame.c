@@ -136,7 +136,7 @@ void editor_event(struct editor *editor, const struct event *event)
     dialogs_note(editor->dialogs, event);
     bool used = dialogs_event(editor->dialogs, &editor->core, event, inspector_is_dragging(editor->inspector)) ||
                 drag_event(&editor->core, event) ||
-                (!inspector_is_typing(editor->inspector) && presenter_event(&editor->core, event)) ||
+                (!inspector_ui(editor->inspector)->typing && presenter_event(&editor->core, event)) ||
                 (!editor->core.drag.owner && inspector_event(editor->inspector, event));
     if (event->kind == EVENT_KEY && event->action != ACTION_RELEASE) {
         editor->press = (struct press){.used = used, .repeated = event->action == ACTION_REPEAT};
@@ -149,8 +149,9 @@ void editor_event(struct editor *editor, const struct event *event)
 void editor_advance(struct editor *editor, double dt)
 {
     struct message *message = &editor->core.message;
-    const bool busy = inspector_is_typing(editor->inspector) || inspector_is_dragging(editor->inspector) ||
-                      inspector_has_menu(editor->inspector) || dialogs_cover(editor->dialogs);
+    const struct ui *ui = inspector_ui(editor->inspector);
+    const bool busy =
+        ui->typing || inspector_is_dragging(editor->inspector) || ui->popup.id || dialogs_cover(editor->dialogs);
     editor->press = (struct press){.used = false}; // what it types comes in the same frame
     if (message->seconds_left > 0) {
         message->seconds_left -= dt;
@@ -228,12 +229,12 @@ static void show_tooltip(struct editor *editor)
 {
     struct core *core = &editor->core;
     const struct rect cursor = {core->pointer_x, core->pointer_y - 4, 14, 22};
-    struct rect at = cursor;
-    const char *text = inspector_hint(editor->inspector);
-    if (!text) text = transport_hint(core);
-    if (!text) text = inspector_focus_hint(editor->inspector, &at);
+    const struct ui *ui = inspector_ui(editor->inspector);
+    const char *text = ui->hint ? ui->hint : transport_hint(core);
+    const bool is_focus = !text && ui->focus;
+    if (is_focus) text = ui->focus_hint;
     if (dialogs_cover(editor->dialogs) || core->drag.owner) text = NULL;
-    tooltip_offer(&editor->tooltip, text, core->pointer_x, core->pointer_y, at);
+    tooltip_offer(&editor->tooltip, text, core->pointer_x, core->pointer_y, is_focus ? ui->focus_rect : cursor);
     tooltip_show(&editor->tooltip, core->layout.window, &core->list);
 }
 
@@ -242,7 +243,7 @@ static void show_panels(struct editor *editor)
 {
     const struct presenter *presenter = &editor->core.presenter;
     const bool below = !presenter->on || presenter->below > 0, side = !presenter->on || presenter->side > 0;
-    const char *hint = inspector_hint(editor->inspector);
+    const char *hint = inspector_ui(editor->inspector)->hint;
     if (below) curves_show(editor->curves, &editor->core);
     if (below) show_divider(editor, DIVIDER_STAGE); // below the inspector's menus
     if (side) inspector_show(editor->inspector, dialogs_cover(editor->dialogs));
@@ -284,7 +285,8 @@ enum mouse_cursor editor_cursor(const struct editor *editor)
     if (editor->core.drag.owner) return editor->core.drag.owner->cursor;
     enum divider divider = core_divider_at(&editor->core, editor->core.pointer_x, editor->core.pointer_y);
     if (divider != DIVIDER_NONE) return divider_drags[divider].cursor;
-    if (inspector_over(editor->inspector) != UI_OVER_NOTHING) return of_widget[inspector_over(editor->inspector)];
+    over = inspector_ui(editor->inspector)->over;
+    if (over != UI_OVER_NOTHING) return of_widget[over];
     if (editor->core.hover.kind == HOVER_CURVE && editor->core.hover.spline == editor->core.active)
         return CURSOR_ARROW;
     return of_hover[editor->core.hover.kind];

@@ -84,7 +84,7 @@ enum clipboard_use { CLIPBOARD_COPY, CLIPBOARD_CUT, CLIPBOARD_PASTE, CLIPBOARD_D
 /// Not while a value is typed: knots are not what is meant then.
 static void run_clipboard(struct editor *e, int argument)
 {
-    if (inspector_is_typing(e->inspector)) return;
+    if (inspector_ui(e->inspector)->typing) return;
     if (argument == CLIPBOARD_DUPLICATE) {
         core_duplicate_knots(&e->core);
     } else if (argument == CLIPBOARD_PASTE) {

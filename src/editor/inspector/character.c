@@ -10,8 +10,6 @@
 
 enum { MAX_ITEMS = 32 }; ///< coordinates that may be added
 
-static const char spline_list[] = "drive.splines", add_list[] = "drive.add";
-
 /// Shows a coordinate, and what it feels like.
 static void choose(struct inspector *in, int drive)
 {
@@ -80,13 +78,15 @@ void inspector_felt_drive(struct inspector *in)
     if (felt_drive(in)) inspector_numbers(in, drive_rows, sizeof drive_rows / sizeof drive_rows[0], &home);
 }
 
-static void build_spline(struct inspector *in, const struct drive *drive)
+static void choose_spline(struct inspector *in, const struct dropdown *list)
 {
-    struct rect r = inspector_labelled(in, "spline");
-    const uint32_t color = spline_list_color(in->core->document, drive->spline);
-    ui_hint(&in->ui, r, "The spline that drives this coordinate");
-    ui_dropdown(&in->ui, r, spline_list, 0, in->core->document->splines[drive->spline]->name, color);
+    struct drive next = characters_selected(in->core)->drives[in->core->characters.drive];
+    next.spline = inspector_spline_list(in, list, next.spline);
+    if (next.spline < 0 || !core_begin(in->core, "Set spline", 0)) return;
+    if (core_end(in->core, set_drive(in, &next, &in->core->error))) choose(in, in->core->characters.drive);
 }
+
+static const struct dropdown spline_list = {"drive.splines", "The spline that drives this coordinate", choose_spline};
 
 /// Whether the rig drives the coordinate already.
 static bool is_driven(const struct character_rig *rig, const char *name)
@@ -110,6 +110,23 @@ static int free_coordinates(const struct inspector *in, const struct character_r
     }
     return count;
 }
+
+static void add_coordinate(struct inspector *in, const struct dropdown *list)
+{
+    struct ui_item items[MAX_ITEMS];
+    const int count = free_coordinates(in, characters_selected(in->core), items);
+    const int picked = ui_popup_list(&in->ui, list->name, items, count, -1), owner = characters_rig(in->core);
+    if (picked < 0) return;
+    char *name = need_text(items[picked].name);
+    const struct drive drive = {
+        .name = name, .spline = in->core->active >= 0 ? in->core->active : 0, .amplitude = DRIVE_DEFAULT_AMPLITUDE};
+    if (core_begin(in->core, "Add coordinate", 0))
+        core_end(in->core, edit_drive(in->core->document, owner, -1, &drive, &in->core->error));
+    free(name);
+}
+
+static const struct dropdown add_list = {"drive.add", "One more way for it to swing, by the active spline",
+                                         add_coordinate};
 
 /// Phases as colours, by direction of movement; and the stiff twin beside it.
 static void build_looks(struct inspector *in)
@@ -258,47 +275,16 @@ void inspector_character(struct inspector *in)
     struct ui_item items[MAX_ITEMS];
     if (view->drive >= rig->drive_count) view->drive = 0;
     build_drives(in, rig);
-    if (free_coordinates(in, rig, items) > 0 && in->core->document->spline_count > 0) {
-        const struct rect r = ui_row(&in->ui, UI_ROW);
-        ui_hint(&in->ui, r, "One more way for it to swing, by the active spline");
-        ui_dropdown(&in->ui, r, add_list, 0, "Add a coordinate", 0);
-    }
+    if (free_coordinates(in, rig, items) > 0 && in->core->document->spline_count > 0)
+        inspector_dropdown(in, &add_list, ui_row(&in->ui, UI_ROW), 0, "Add a coordinate", 0);
     ui_space(&in->ui, 4);
     if (view->drive < rig->drive_count) {
-        build_spline(in, &rig->drives[view->drive]);
+        inspector_spline_field(in, &spline_list, inspector_labelled(in, "spline"), 0,
+                               rig->drives[view->drive].spline);
         build_facts(in);
     }
     build_floor(in, rig);
     build_looks(in);
     inspector_overlays(in);
     build_brush(in);
-}
-
-static void spline_popup(struct inspector *in, const struct drive *drive)
-{
-    struct drive next = *drive;
-    next.spline = inspector_spline_list(in, spline_list, NULL, drive->spline);
-    if (next.spline < 0 || !core_begin(in->core, "Set spline", 0)) return;
-    if (core_end(in->core, set_drive(in, &next, &in->core->error))) choose(in, in->core->characters.drive);
-}
-
-void inspector_character_lists(struct inspector *in)
-{
-    const struct character_view *view = &in->core->characters;
-    const struct character_rig *rig = document_character(in->core->document, view->character);
-    if (!rig) return;
-    if (ui_popup_is_open(&in->ui, spline_list) && view->drive < rig->drive_count) {
-        spline_popup(in, &rig->drives[view->drive]);
-    } else if (ui_popup_is_open(&in->ui, add_list)) {
-        struct ui_item items[MAX_ITEMS];
-        const int picked = ui_popup_list(&in->ui, add_list, items, free_coordinates(in, rig, items), -1);
-        if (picked < 0) return;
-        const int spline = in->core->active >= 0 ? in->core->active : 0;
-        char *name = need_text(items[picked].name);
-        const struct drive drive = {.name = name, .spline = spline, .amplitude = DRIVE_DEFAULT_AMPLITUDE};
-        const int owner = characters_rig(in->core);
-        if (core_begin(in->core, "Add coordinate", 0))
-            core_end(in->core, edit_drive(in->core->document, owner, -1, &drive, &in->core->error));
-        free(name);
-    }
 }

@@ -3,7 +3,6 @@
 #include "base/need.h"
 #include "editor/core/core.h"
 #include "editor/core/knots.h"
-#include "editor/core/pins.h"
 #include "editor/inspector/parts.h"
 #include <math.h>
 #include <stdio.h>
@@ -12,40 +11,29 @@
 
 enum { FOOTER = 40 }; ///< height of the look switch, which never scrolls away
 
-static bool has_spline(const struct inspector *in) { return core_active_spline(in->core) != NULL; }
-
-static bool may_vary(const struct inspector *in)
-{
-    const struct spline *spline = core_active_spline(in->core);
-    return spline && spline_mode(spline) != WIGGLY_CUBIC;
-}
-
-static bool has_tail(const struct inspector *in)
-{
-    const struct document *document = in->core->document;
-    return document_find_rig(document, RIG_TAIL, 0) >= 0 || document_find_rig(document, RIG_CHAIN, 0) >= 0;
-}
-
-static bool has_model(const struct inspector *in) { return document_find_rig(in->core->document, RIG_MODEL, 0) >= 0; }
-
 static const char *tail_title(struct inspector *in)
 {
     const struct rig *shown = inspector_shown(in);
     return shown && shown->kind == RIG_CHAIN ? "Chain set-up" : "Tail set-up";
 }
 
-static bool has_character(const struct inspector *in) { return document_character(in->core->document, 0) != NULL; }
+/// What sections need one of: rigs of a kind, the active spline, one that swings.
+enum {
+    TAILS = 1 << RIG_TAIL,
+    CHAINS = 1 << RIG_CHAIN,
+    CHARACTERS = 1 << RIG_CHARACTER,
+    MODELS = 1 << RIG_MODEL,
+    MEADOWS = 1 << RIG_MEADOW,
+    SPLINE = 1 << RIG_KINDS,
+    SWING = SPLINE << 1,
+};
 
-static bool has_meadow(const struct inspector *in)
+static unsigned what_there_is(const struct core *core)
 {
-    return document_find_rig(in->core->document, RIG_MEADOW, 0) >= 0;
-}
-
-static bool takes_pins(const struct inspector *in)
-{
-    bool any = false;
-    for (int r = 0; r < in->core->document->rig_count; r++) any |= pins_suit(in->core->document->rigs[r]);
-    return any;
+    const struct spline *spline = core_active_spline(core);
+    unsigned found = !spline ? 0 : spline_mode(spline) == WIGGLY_CUBIC ? SPLINE : SPLINE | SWING;
+    for (int r = 0; r < core->document->rig_count; r++) found |= 1u << core->document->rigs[r]->kind;
+    return found;
 }
 
 /// From the top down; `name` is what replays call the header.
@@ -53,26 +41,25 @@ static const struct section {
     const char *name, *title;
     const char *(*titled)(struct inspector *in); ///< in place of a title
     void (*build)(struct inspector *in);
-    void (*lists)(struct inspector *in);       ///< that it has opened over the panel; NULL: none
-    bool (*shown)(const struct inspector *in); ///< NULL: always
-    bool closed;                               ///< at first
+    unsigned needs; ///< one of these, for it to be shown; 0: nothing
+    bool closed;    ///< at first
 } sections[] = {
-    {"section.feel", "Feel", NULL, inspector_feel, inspector_track_list, has_spline, false},
-    {"section.knot", NULL, inspector_knot_title, inspector_knot, NULL, has_spline, false},
-    {"section.splines", "Splines", NULL, inspector_splines, inspector_palette, NULL, false},
-    {"section.spline", "Spline", NULL, inspector_spline, NULL, has_spline, false},
-    {"section.rigs", "Tails and characters", NULL, inspector_rigs, inspector_add_list, NULL, false},
-    {"section.model", "Imported character", NULL, inspector_model, inspector_model_lists, has_model, false},
-    {"section.tail", NULL, tail_title, inspector_tail, inspector_tail_lists, has_tail, false},
-    {"section.character", "Character", NULL, inspector_character, inspector_character_lists, has_character, false},
-    {"section.meadow", "Meadow", NULL, inspector_meadow, NULL, has_meadow, false},
-    {"section.pins", "Pins", NULL, inspector_pins, NULL, takes_pins, false},
-    {"section.advanced", "Advanced", NULL, inspector_advanced, NULL, has_spline, true},
-    {"section.poles", "Poles and response", NULL, inspector_poles, NULL, has_spline, true},
-    {"section.limits", "Limits and steadiness", NULL, inspector_limits, NULL, has_spline, true},
-    {"section.variation", "Variation", NULL, inspector_variation, NULL, may_vary, true},
-    {"section.scene", "Scene", NULL, inspector_scene, NULL, NULL, true},
-    {"section.history", "History", NULL, inspector_history, NULL, NULL, true}, // the last one: see there
+    {"section.feel", "Feel", NULL, inspector_feel, SPLINE, false},
+    {"section.knot", NULL, inspector_knot_title, inspector_knot, SPLINE, false},
+    {"section.splines", "Splines", NULL, inspector_splines, 0, false},
+    {"section.spline", "Spline", NULL, inspector_spline, SPLINE, false},
+    {"section.rigs", "Tails and characters", NULL, inspector_rigs, 0, false},
+    {"section.model", "Imported character", NULL, inspector_model, MODELS, false},
+    {"section.tail", NULL, tail_title, inspector_tail, TAILS | CHAINS, false},
+    {"section.character", "Character", NULL, inspector_character, CHARACTERS, false},
+    {"section.meadow", "Meadow", NULL, inspector_meadow, MEADOWS, false},
+    {"section.pins", "Pins", NULL, inspector_pins, TAILS | CHAINS | CHARACTERS, false},
+    {"section.advanced", "Advanced", NULL, inspector_advanced, SPLINE, true},
+    {"section.poles", "Poles and response", NULL, inspector_poles, SPLINE, true},
+    {"section.limits", "Limits and steadiness", NULL, inspector_limits, SPLINE, true},
+    {"section.variation", "Variation", NULL, inspector_variation, SWING, true},
+    {"section.scene", "Scene", NULL, inspector_scene, 0, true},
+    {"section.history", "History", NULL, inspector_history, 0, true}, // the last one: see there
 };
 
 _Static_assert(sizeof sections / sizeof sections[0] <= INSPECTOR_MAX_SECTIONS, "each has a flag in struct inspector");
@@ -94,7 +81,7 @@ static void build_sections(struct inspector *in)
     for (size_t i = 0; i < sizeof sections / sizeof sections[0]; i++) {
         const struct section *section = &sections[i];
         bool *flipped = &in->flipped[i];
-        if (section->shown && !section->shown(in)) continue;
+        if (section->needs && !(section->needs & what_there_is(in->core))) continue;
         bool closed = *flipped != section->closed;
         const float top = in->ui.y;
         bool open =
@@ -135,14 +122,14 @@ static void build(struct inspector *in, struct rect area)
 {
     struct ui *ui = &in->ui;
     struct rect view = {area.x, area.y, area.w, fmaxf(0, area.h - FOOTER)};
+    in->list = NULL;
     ui_scroll_begin(ui, &in->scroll, view);
     build_sections(in);
     ui_space(ui, 4);
     ui_scroll_end(ui);
     build_look(in, (struct rect){area.x, area.y + view.h, area.w, FOOTER});
-    for (size_t i = 0; i < sizeof sections / sizeof sections[0]; i++) {
-        if (sections[i].lists) sections[i].lists(in);
-    }
+    inspector_offer(in, &inspector_add_list); // wherever A was pressed
+    if (in->list) in->list->build(in, in->list);
 }
 
 struct inspector *inspector_create(struct core *core)
@@ -154,7 +141,7 @@ struct inspector *inspector_create(struct core *core)
 
 void inspector_destroy(struct inspector *in) { free(in); }
 
-enum ui_over inspector_over(const struct inspector *in) { return in->ui.over; }
+const struct ui *inspector_ui(const struct inspector *in) { return &in->ui; }
 
 void inspector_reset(struct inspector *in)
 {
@@ -258,18 +245,6 @@ void inspector_let_go(struct inspector *in)
 
 bool inspector_is_dragging(const struct inspector *in) { return in->ui.held && in->ui.moved; }
 
-bool inspector_is_typing(const struct inspector *in) { return in->ui.typing != 0; }
-
-bool inspector_has_menu(const struct inspector *in) { return in->ui.popup.id != 0; }
-
-const char *inspector_hint(const struct inspector *in) { return in->ui.hint; }
-
-const char *inspector_focus_hint(const struct inspector *in, struct rect *at)
-{
-    *at = in->ui.focus_rect;
-    return in->ui.focus ? in->ui.focus_hint : NULL;
-}
-
 bool inspector_target(struct inspector *in, const char *name, float *x, float *y)
 {
     char widget[128];
@@ -353,18 +328,29 @@ void number_put(const struct number_row *row, void *of, double number)
 static double get_number(const struct inspector *in, const struct number_row *row, const struct number_home *home,
                          int which)
 {
+    if (home->rig) return number_at(row, in->core->document->rigs[home->rig(in)]);
     return home->of ? number_at(row, home->of(in)) : home->get(in, which);
 }
 
-/// A drag stays where it last was possible.
-static void drag(struct inspector *in, const struct number_home *home, int which, double value)
+static bool set_number(struct inspector *in, const struct number_row *row, const struct number_home *home, int which,
+                       double number, struct error *error)
 {
-    double *possible = &in->dragged;
-    if (home->set(in, which, value, NULL)) {
-        *possible = value;
+    if (!home->rig) return home->set(in, which, number, error);
+    const int rig = home->rig(in);
+    struct rig changed = *in->core->document->rigs[rig];
+    number_put(row, &changed, number);
+    return edit_rig_set(in->core->document, rig, &changed, error);
+}
+
+/// A drag stays where it last was possible.
+static void drag(struct inspector *in, const struct number_row *row, const struct number_home *home, int which,
+                 double value)
+{
+    if (set_number(in, row, home, which, value, NULL)) {
+        in->dragged = value;
     } else {
         history_restart(in->core->history);
-        home->set(in, which, *possible, NULL);
+        set_number(in, row, home, which, in->dragged, NULL);
     }
 }
 
@@ -376,8 +362,8 @@ static void change_number(struct inspector *in, const struct number_row *row, co
     in->change = change;
     if (!inspector_begin(in, change, row->undo, row->name)) return;
     if (is_first) in->dragged = get_number(in, row, home, which);
-    if (change == UI_DRAG) drag(in, home, which, value);
-    inspector_end(in, change, change == UI_DRAG || home->set(in, which, value, &in->core->error));
+    if (change == UI_DRAG) drag(in, row, home, which, value);
+    inspector_end(in, change, change == UI_DRAG || set_number(in, row, home, which, value, &in->core->error));
 }
 
 enum ui_change inspector_number(struct inspector *in, const struct number_row *row, const struct number_home *home,
@@ -435,20 +421,43 @@ int inspector_spline_items(const struct inspector *in, const bool *left_out, int
     return count;
 }
 
-int inspector_spline_list(struct inspector *in, const char *list, const bool *left_out, int chosen)
+int inspector_spline_list(struct inspector *in, const struct dropdown *list, int chosen)
 {
     struct ui_item items[INSPECTOR_MAX_SPLINES];
     int splines[INSPECTOR_MAX_SPLINES] = {0}, row;
-    const int count = inspector_spline_items(in, left_out, chosen, items, splines, &row);
-    int picked = ui_popup_list(&in->ui, list, items, count, row);
+    const int count = inspector_spline_items(in, NULL, chosen, items, splines, &row);
+    int picked = ui_popup_list(&in->ui, list->name, items, count, row);
     return picked < 0 ? -1 : splines[picked];
+}
+
+void inspector_offer(struct inspector *in, const struct dropdown *list)
+{
+    if (ui_popup_is_open(&in->ui, list->name)) in->list = list;
+}
+
+void inspector_dropdown(struct inspector *in, const struct dropdown *list, struct rect r, int which, const char *text,
+                        uint32_t color)
+{
+    ui_hint(&in->ui, r, list->hint);
+    ui_dropdown(&in->ui, r, list->name, which, text, color);
+    inspector_offer(in, list);
+}
+
+void inspector_spline_field(struct inspector *in, const struct dropdown *list, struct rect r, int which, int spline)
+{
+    const struct document *document = in->core->document;
+    inspector_dropdown(in, list, r, which, document->splines[spline]->name, spline_list_color(document, spline));
+}
+
+struct rect inspector_label(struct inspector *in, struct rect r, const char *label)
+{
+    ui_label(&in->ui, (struct rect){r.x, r.y, UI_LABEL, r.h}, label, theme()->text_dim);
+    return (struct rect){r.x + UI_LABEL + UI_GAP, r.y, r.w - UI_LABEL - UI_GAP, r.h};
 }
 
 struct rect inspector_labelled(struct inspector *in, const char *label)
 {
-    struct rect r = ui_row(&in->ui, UI_ROW);
-    ui_label(&in->ui, (struct rect){r.x, r.y, UI_LABEL, r.h}, label, theme()->text_dim);
-    return (struct rect){r.x + UI_LABEL + UI_GAP, r.y, r.w - UI_LABEL - UI_GAP, r.h};
+    return inspector_label(in, ui_row(&in->ui, UI_ROW), label);
 }
 
 bool inspector_choice(struct inspector *in, const char *label, const char *hint, const char *name,

@@ -21,8 +21,8 @@ void inspector_show_spline(struct inspector *in, int spline);
 void inspector_add_menu(struct inspector *in);
 /// Shift+Del: asks whether to remove the rig that is shown, which is that of the active spline.
 void inspector_remove_rig(struct inspector *in);
-/// What the pointer is over.
-enum ui_over inspector_over(const struct inspector *in);
+/// Its widgets: what the pointer is over, what has the keyboard, what is typed.
+const struct ui *inspector_ui(const struct inspector *in);
 /// A new document is on the table: forgets focus, running drag (without touching the history), scrolling and channel.
 void inspector_reset(struct inspector *in);
 /// An event for the inspector; true where it used it up.
@@ -33,14 +33,6 @@ void inspector_show(struct inspector *in, bool covered);
 void inspector_let_go(struct inspector *in);
 /// Whether a slider is being dragged (a history step is open).
 bool inspector_is_dragging(const struct inspector *in);
-/// Whether a value is being typed.
-bool inspector_is_typing(const struct inspector *in);
-/// Whether a menu is open, which may lie beside the panel.
-bool inspector_has_menu(const struct inspector *in);
-/// A sentence on what the pointer is over in the inspector, or NULL.
-const char *inspector_hint(const struct inspector *in);
-/// The same on what has the keyboard there, and where that is.
-const char *inspector_focus_hint(const struct inspector *in, struct rect *at);
 /// Where the widget `name` is: "frequency", "frequency,2.5" (where its bar shows 2.5), "mode.real", "spline.sway",
 /// "channel.0", "look.stiff", "section.knot". false where it is not shown or scrolled out of sight.
 bool inspector_target(struct inspector *in, const char *name, float *x, float *y);

@@ -8,8 +8,6 @@
 
 enum { MAX_CLIPS = 256 }; ///< in the list to choose from
 
-static const char clip_list[] = "model.clips";
-
 /// The rig that is shown: that of the selected bone, else the one chosen here.
 static int shown_model(const struct inspector *in)
 {
@@ -31,52 +29,34 @@ static void build_file(struct inspector *in, const struct model_rig *rig, const 
     ui_paragraph(&in->ui, text, theme()->text_dim);
 }
 
-static void build_clip(struct inspector *in, const struct model_rig *rig, const struct imported *shown)
-{
-    if (!shown || shown->gltf.clip_count == 0) return;
-    struct rect r = inspector_labelled(in, "clip");
-    ui_hint(&in->ui, r, "The animation in the file that it plays, over and over");
-    ui_dropdown(&in->ui, r, clip_list, in->model, rig->clip ? rig->clip : "None", 0);
-}
-
-void inspector_model_lists(struct inspector *in)
+static void choose_clip(struct inspector *in, const struct dropdown *list)
 {
     const int model = shown_model(in);
-    const struct imported *shown = model >= 0 ? bones_character(in->core, model) : NULL;
-    if (!ui_popup_is_open(&in->ui, clip_list) || !shown) return;
-    const struct gltf *gltf = &shown->gltf;
+    const struct gltf *gltf = &bones_character(in->core, model)->gltf;
     const char *clip = in->core->document->rigs[model]->model.clip;
     struct ui_item items[MAX_CLIPS + 1] = {{"none", "None", 0}};
     int count = 1;
     for (int c = 0; c < gltf->clip_count && c < MAX_CLIPS; c++)
         items[count++] = (struct ui_item){gltf->clips[c].name, gltf->clips[c].name, 0};
-    const int picked = ui_popup_list(&in->ui, clip_list, items, count, clip ? gltf_find_clip(gltf, clip) + 1 : 0);
-    if (picked < 0) return;
-    bones_choose_clip(in->core, model, picked > 0 ? gltf->clips[picked - 1].name : NULL);
+    const int picked = ui_popup_list(&in->ui, list->name, items, count, clip ? gltf_find_clip(gltf, clip) + 1 : 0);
+    if (picked >= 0) bones_choose_clip(in->core, model, picked > 0 ? gltf->clips[picked - 1].name : NULL);
 }
+
+static const struct dropdown clip_list = {"model.clips", "The animation in the file that it plays, over and over",
+                                          choose_clip};
 
 static const struct number_row place[] = {
-    {"model.x", "x", "m", "Where it stands along x", "Place character", NUMBER_AT(struct model_rig, position[0]), 0,
+    {"model.x", "x", "m", "Where it stands along x", "Place character", NUMBER_AT(struct rig, model.position[0]), 0,
      0, -1e6, 1e6, 0, 0.01, 3},
-    {"model.y", "y", "m", "Height of what it stands on", "Place character", NUMBER_AT(struct model_rig, position[1]),
+    {"model.y", "y", "m", "Height of what it stands on", "Place character", NUMBER_AT(struct rig, model.position[1]),
      0, 0, -1e6, 1e6, 0, 0.01, 3},
-    {"model.z", "z", "m", "Where it stands along z", "Place character", NUMBER_AT(struct model_rig, position[2]), 0,
+    {"model.z", "z", "m", "Where it stands along z", "Place character", NUMBER_AT(struct rig, model.position[2]), 0,
      0, -1e6, 1e6, 0, 0.01, 3},
     {"model.scale", "scale", NULL, "Scales the size that the file gives it", "Place character",
-     NUMBER_AT(struct model_rig, scale), 0, 0, 1e-9, 1e9, 1, 0.01, 3},
-    {"model.turn", "turn", "°", "About the vertical", "Place character", NUMBER_AT(struct model_rig, turn), -180, 180,
+     NUMBER_AT(struct rig, model.scale), 0, 0, 1e-9, 1e9, 1, 0.01, 3},
+    {"model.turn", "turn", "°", "About the vertical", "Place character", NUMBER_AT(struct rig, model.turn), -180, 180,
      -36000, 36000, 0, 1, 0},
 };
-
-static const void *shown_rig(const struct inspector *in) { return &in->core->document->rigs[shown_model(in)]->model; }
-
-static bool set(struct inspector *in, int which, double number, struct error *error)
-{
-    const int rig = shown_model(in);
-    struct rig changed = *in->core->document->rigs[rig];
-    number_put(&place[which], &changed.model, number);
-    return edit_rig_set(in->core->document, rig, &changed, error);
-}
 
 /// The selected bone, and what can be made of it.
 static void build_bone(struct inspector *in)
@@ -112,10 +92,12 @@ void inspector_model(struct inspector *in)
 {
     const int model = shown_model(in);
     const struct imported *shown = bones_character(in->core, model);
-    static const struct number_home home = {.of = shown_rig, .set = set};
+    static const struct number_home home = {.rig = shown_model};
     in->model = document_rig_number(in->core->document, model);
     build_file(in, &in->core->document->rigs[model]->model, shown);
-    build_clip(in, &in->core->document->rigs[model]->model, shown);
+    const char *clip = in->core->document->rigs[model]->model.clip;
+    if (shown && shown->gltf.clip_count > 0)
+        inspector_dropdown(in, &clip_list, inspector_labelled(in, "clip"), in->model, clip ? clip : "None", 0);
     inspector_numbers(in, place, sizeof place / sizeof place[0], &home);
     if (shown) build_bone(in);
 }

@@ -37,21 +37,23 @@ void inspector_parameter(struct inspector *in, enum parameter parameter);
 const struct channel *inspector_felt_channel(const struct inspector *in);
 void inspector_felt_drive(struct inspector *in);
 
-/// The lists that open over the panel, built after all else: the splines' palette, and the splines that a parameter may follow.
-void inspector_palette(struct inspector *in);
-void inspector_track_list(struct inspector *in);
-/// The list of splines that may bend a tail or chain, and the one that its body may follow.
-void inspector_tail_lists(struct inspector *in);
-
+/// A list that opens over the panel.
+struct dropdown {
+    const char *name, *hint; ///< and what the field that opens it is for
+    /// Lays it out after all else in the panel, and does what was picked.
+    void (*build)(struct inspector *in, const struct dropdown *list);
+};
+/// Has it built where it is open: to be called where something may have opened it.
+void inspector_offer(struct inspector *in, const struct dropdown *list);
+/// A field with a text, and a swatch unless `color` is 0, that opens it, about `which`. And the same with a spline.
+void inspector_dropdown(struct inspector *in, const struct dropdown *list, struct rect r, int which, const char *text,
+                        uint32_t color);
+void inspector_spline_field(struct inspector *in, const struct dropdown *list, struct rect r, int which, int spline);
 /// The menu of what can be added.
-void inspector_add_list(struct inspector *in);
+extern const struct dropdown inspector_add_list;
 
 /// An open list of the bones of a model rig below one (−1: all), by name; the node that was picked, or −1.
-int inspector_bone_list(struct inspector *in, const char *list, int model, int top, const char *chosen);
-/// The list of an imported character's clips.
-void inspector_model_lists(struct inspector *in);
-/// The lists that open over the section on a character; built after all else in the panel.
-void inspector_character_lists(struct inspector *in);
+int inspector_bone_list(struct inspector *in, const struct dropdown *list, int model, int top, const char *chosen);
 
 /// Whether that is the end of a change, and no step of a drag: the curves may follow.
 bool inspector_changed(enum ui_change change);
@@ -65,6 +67,7 @@ void inspector_end(struct inspector *in, enum ui_change change, bool done);
 /// Where the numbers of a table are: the struct that holds number `which` (or, without one, what it is), and the edit that makes it
 /// another.
 struct number_home {
+    int (*rig)(const struct inspector *in); ///< whose struct rig has them, or NULL; then nothing else is needed
     const void *(*of)(const struct inspector *in);
     double (*get)(const struct inspector *in, int which);
     bool (*set)(struct inspector *in, int which, double number, struct error *error);
@@ -105,9 +108,10 @@ void inspector_numbers(struct inspector *in, const struct number_row *rows, int 
 int inspector_spline_items(const struct inspector *in, const bool *left_out, int chosen, struct ui_item *items,
                            int *splines, int *row);
 /// The open list of them; the one that was picked, or -1.
-int inspector_spline_list(struct inspector *in, const char *list, const bool *left_out, int chosen);
+int inspector_spline_list(struct inspector *in, const struct dropdown *list, int chosen);
 
-/// A row with a label; returns what is right of it.
+/// A label, in a row of its own or at the left of one; returns what is right of it.
+struct rect inspector_label(struct inspector *in, struct rect r, const char *label);
 struct rect inspector_labelled(struct inspector *in, const char *label);
 
 /// A row of segments with a label; true if `*chosen` changed.

@@ -1,4 +1,5 @@
-/// The inspector's list of all rigs: which of them is shown, one less, and the menu of what can be added.
+/// The inspector's list of all rigs: which of them is shown, one less, and the menu of what can be added; and the section on the
+/// meadow.
 #include "editor/core/rigs.h"
 #include "base/file.h"
 #include "editor/core/bones.h"
@@ -112,12 +113,10 @@ static void build_row(struct inspector *in, int rig)
 
 enum { MAX_COPIES = 4, MAX_ITEMS = 5 + MAX_COPIES, LABEL = 96, WIDTH = 244 };
 
-static const char add_list[] = "add";
-
 static void open_add(struct inspector *in, struct rect at)
 {
     at.w = WIDTH;
-    ui_popup_open(&in->ui, add_list, 0, at);
+    ui_popup_open(&in->ui, inspector_add_list.name, 0, at);
 }
 
 static void build_buttons(struct inspector *in)
@@ -223,14 +222,15 @@ static void carry_out(struct inspector *in, struct choice choice)
     if (in->core->document->rig_count > before) inspector_show_rig(in, before);
 }
 
-void inspector_add_list(struct inspector *in)
+static void choose_added(struct inspector *in, const struct dropdown *list)
 {
     struct menu menu = {.count = 0};
-    if (!ui_popup_is_open(&in->ui, add_list)) return;
     fill(in, &menu);
-    const int picked = ui_popup_list(&in->ui, add_list, menu.items, menu.count, -1);
+    const int picked = ui_popup_list(&in->ui, list->name, menu.items, menu.count, -1);
     if (picked >= 0) carry_out(in, menu.choices[picked]);
 }
+
+const struct dropdown inspector_add_list = {.name = "add", .build = choose_added};
 
 void inspector_add_menu(struct inspector *in)
 {
@@ -241,4 +241,31 @@ void inspector_add_menu(struct inspector *in)
     open_add(in, beside ? (struct rect){x, y, 0, 0} : (struct rect){panel.x + UI_PAD, panel.y, 0, 4});
     if (beside) in->ui.popup.room = (struct rect){0, 0, panel.x, layout->status.y};
     in->ui.focus = ui_id("item.tail");
+}
+
+static const struct number_row meadow_rows[] = {
+    {"meadow.count", "reeds", NULL, "How many reeds there are", "Change meadow", WHOLE_AT(struct rig, meadow.count),
+     1, MEADOW_MAX_REEDS, 1, MEADOW_MAX_REEDS, 1000, 1, 0},
+    {"meadow.height", "height", "m", "Of a reed; each is up to 30 % taller or shorter", "Change meadow",
+     NUMBER_AT(struct rig, meadow.height), 0.05, 2, 0.001, INSPECTOR_NO_LIMIT, 0.8, 0.01, 2},
+    {"meadow.wide", "width", "m", "The meadow's extent along x", "Change meadow",
+     NUMBER_AT(struct rig, meadow.area[0]), 0.5, 10, 0.001, INSPECTOR_NO_LIMIT, 6, 0.1, 1},
+    {"meadow.deep", "depth", "m", "The meadow's extent along z", "Change meadow",
+     NUMBER_AT(struct rig, meadow.area[1]), 0.5, 10, 0.001, INSPECTOR_NO_LIMIT, 4, 0.1, 1},
+    {"meadow.variation", "variation", NULL, "How far each reed goes its own way; 0: all move alike", "Change meadow",
+     NUMBER_AT(struct rig, meadow.variation), 0, 2, 0, 100, 0.5, 0.05, 2},
+    {"meadow.lag", "lag", "°", "How much later each joint of a reed swings", "Change meadow",
+     NUMBER_AT(struct rig, meadow.lag), -45, 45, -INSPECTOR_NO_LIMIT, INSPECTOR_NO_LIMIT, 12, 0.5, 1},
+    {"meadow.gain", "gain", "°", "How far each of a reed's six joints bends", "Change meadow",
+     NUMBER_AT(struct rig, meadow.gain), -20, 20, -INSPECTOR_NO_LIMIT, INSPECTOR_NO_LIMIT, 6, 0.5, 1},
+    {"meadow.seed", "seed", NULL, "Another number plants and moves them otherwise", "Change meadow",
+     WHOLE_AT(struct rig, meadow.seed), 0, 999, 0, 999999, 0, 1, 0},
+};
+
+static int shown_meadow(const struct inspector *in) { return document_find_rig(in->core->document, RIG_MEADOW, 0); }
+
+void inspector_meadow(struct inspector *in)
+{
+    static const struct number_home home = {.rig = shown_meadow};
+    inspector_numbers(in, meadow_rows, sizeof meadow_rows / sizeof meadow_rows[0], &home);
 }

@@ -44,42 +44,39 @@ static void build_slider(struct inspector *in, enum parameter parameter, struct 
     inspector_number(in, &number, &home, (int)parameter, r);
 }
 
-static const char track_list[] = "follow";
-
 enum { MAX_BONES = 1024 }; ///< in a list
 
-static const char joint_list[] = "joint";
-
-/// The joint, in the field where the spline would be that is followed.
-static void build_joint_field(struct inspector *in, const struct joint_motion *motion, struct rect field)
+/// What the active spline's equilibrium follows.
+static const struct param *followed(const struct inspector *in)
 {
-    struct rect icon = {field.x + field.w - INSPECTOR_ICON, field.y, INSPECTOR_ICON, field.h};
-    const int active = in->core->active;
-    const int model = document_find_model(in->core->document, motion->model, motion->by_file);
-    char title[BONES_TITLE];
-    const char *text = model < 0 ? motion->joint : bones_title(in->core->document, model, motion->joint, title);
-    field.w -= INSPECTOR_ICON + 4;
-    ui_hint(&in->ui, field, "The joint it follows through the clip");
-    ui_dropdown(&in->ui, field, joint_list, 0, text, 0);
-    const bool picking = in->core->pick.use == BONE_FOLLOWED && in->core->pick.which == active;
-    if (ui_icon_button(&in->ui, icon, "joint.pick", UI_ICON_PICK, picking, "Pick it on the stage"))
-        bones_pick(in->core, picking ? BONE_SELECTED : BONE_FOLLOWED, active);
+    return &core_active_spline(in->core)->parameter[PARAMETER_EQUILIBRIUM];
 }
 
-static void build_track(struct inspector *in, enum parameter parameter, const char *label, struct rect r)
+int inspector_bone_list(struct inspector *in, const struct dropdown *list, int model, int top, const char *chosen)
 {
-    const struct spline *spline = in->core->document->splines[in->core->active];
-    const struct param *param = &spline->parameter[parameter];
-    ui_label(&in->ui, (struct rect){r.x, r.y, UI_LABEL, r.h}, label, theme()->text_dim);
-    struct rect field = {r.x + UI_LABEL + UI_GAP, r.y, r.w - UI_LABEL - UI_GAP, r.h};
-    if (param->motion) {
-        build_joint_field(in, param->motion, field);
-        return;
+    const struct imported *character = bones_character(in->core, model);
+    int nodes[MAX_BONES], row = -1;
+    struct ui_item items[MAX_BONES];
+    const int count = bones_below(character, top, nodes, MAX_BONES), node = gltf_find_node(&character->gltf, chosen);
+    for (int b = 0; b < count; b++) {
+        const char *name = character->gltf.nodes[nodes[b]].name;
+        if (nodes[b] == node) row = b;
+        items[b] = (struct ui_item){name, name, 0};
     }
-    ui_hint(&in->ui, field, "The spline it follows, sample by sample");
-    ui_dropdown(&in->ui, field, track_list, (int)parameter, in->core->document->splines[param->track]->name,
-                spline_list_color(in->core->document, param->track));
+    const int picked = ui_popup_list(&in->ui, list->name, items, count, row);
+    return picked < 0 ? -1 : nodes[picked];
 }
+
+static void choose_joint(struct inspector *in, const struct dropdown *list)
+{
+    const struct joint_motion *motion = followed(in)->motion;
+    const int model = document_find_model(in->core->document, motion->model, motion->by_file);
+    if (model < 0 || !bones_character(in->core, model)) return;
+    const int node = inspector_bone_list(in, list, model, -1, motion->joint);
+    if (node >= 0) bones_follow(in->core, in->core->active, model, node);
+}
+
+static const struct dropdown joint_list = {"joint", "The joint it follows through the clip", choose_joint};
 
 static void set_track(struct inspector *in, enum parameter parameter, struct param param)
 {
@@ -99,28 +96,87 @@ static bool find_leaders(const struct inspector *in, bool left_out[INSPECTOR_MAX
     return any;
 }
 
-static void open_list(struct inspector *in, enum parameter parameter, struct rect r)
+enum { MAX_MODELS = 16, MODEL_TEXT = 112 }; ///< whose joints are offered
+
+/// The character whose joint the equilibrium is to follow: rows below the splines, called after their rigs. Returns how many.
+static int add_models(const struct inspector *in, struct ui_item *items, char texts[][MODEL_TEXT], int *models)
+{
+    int count = 0;
+    for (int r = document_next_rig(in->core->document, RIG_MODEL, 0); r >= 0 && count < MAX_MODELS;
+         r = document_next_rig(in->core->document, RIG_MODEL, r + 1)) {
+        if (!bones_character(in->core, r)) continue;
+        snprintf(texts[count], MODEL_TEXT, "A joint of %.80s", rig_title(in->core->document->rigs[r]));
+        items[count] = (struct ui_item){texts[count], texts[count], 0};
+        models[count++] = r;
+    }
+    return count;
+}
+
+static void choose_track(struct inspector *in, const struct dropdown *list)
+{
+    struct ui *ui = &in->ui;
+    const struct spline *spline = core_active_spline(in->core);
+    enum parameter parameter = (enum parameter)ui->popup.which;
+    bool left_out[INSPECTOR_MAX_SPLINES];
+    struct ui_item items[INSPECTOR_MAX_SPLINES + MAX_MODELS];
+    char texts[MAX_MODELS][MODEL_TEXT];
+    int splines[INSPECTOR_MAX_SPLINES], models[MAX_MODELS], row;
+    find_leaders(in, left_out);
+    const int count = inspector_spline_items(in, left_out, spline->parameter[parameter].track, items, splines, &row);
+    const int more = parameter == PARAMETER_EQUILIBRIUM ? add_models(in, items + count, texts, models) : 0;
+    const int picked = ui_popup_list(ui, list->name, items, count + more, row);
+    if (picked >= count) {
+        bones_follow(in->core, in->core->active, models[picked - count], -1);
+    } else if (picked >= 0) {
+        set_track(in, parameter, param_track(splines[picked]));
+    }
+}
+
+static const struct dropdown track_list = {"follow", "The spline it follows, sample by sample", choose_track};
+
+/// The joint, in the field where the spline would be that is followed.
+static void build_joint_field(struct inspector *in, const struct joint_motion *motion, struct rect field)
+{
+    struct rect icon = {field.x + field.w - INSPECTOR_ICON, field.y, INSPECTOR_ICON, field.h};
+    const int active = in->core->active;
+    const int model = document_find_model(in->core->document, motion->model, motion->by_file);
+    char title[BONES_TITLE];
+    const char *text = model < 0 ? motion->joint : bones_title(in->core->document, model, motion->joint, title);
+    field.w -= INSPECTOR_ICON + 4;
+    inspector_dropdown(in, &joint_list, field, 0, text, 0);
+    const bool picking = in->core->pick.use == BONE_FOLLOWED && in->core->pick.which == active;
+    if (ui_icon_button(&in->ui, icon, "joint.pick", UI_ICON_PICK, picking, "Pick it on the stage"))
+        bones_pick(in->core, picking ? BONE_SELECTED : BONE_FOLLOWED, active);
+}
+
+static void build_track(struct inspector *in, enum parameter parameter, struct rect r)
+{
+    const struct param *param = &core_active_spline(in->core)->parameter[parameter];
+    const struct rect field = inspector_label(in, r, parameter_rows[parameter].name);
+    if (param->motion) {
+        build_joint_field(in, param->motion, field);
+    } else {
+        inspector_spline_field(in, &track_list, field, (int)parameter, param->track);
+    }
+}
+
+static void open_list(struct inspector *in, enum parameter parameter, bool joints, struct rect r)
 {
     bool left_out[INSPECTOR_MAX_SPLINES];
-    const bool joints =
-        parameter == PARAMETER_EQUILIBRIUM && document_find_rig(in->core->document, RIG_MODEL, 0) >= 0;
     if (find_leaders(in, left_out) || joints) {
-        ui_popup_open(&in->ui, track_list, (int)parameter, r);
+        ui_popup_open(&in->ui, track_list.name, (int)parameter, r);
         return;
     }
     char text[160];
-    snprintf(text, sizeof text, "There is no other spline for %.80s to follow.",
-             in->core->document->splines[in->core->active]->name);
+    snprintf(text, sizeof text, "There is no other spline for %.80s to follow.", core_active_spline(in->core)->name);
     core_message(in->core, true, text);
 }
 
-/// A row in which a parameter follows a spline, in place of its slider; and the button at its right that lets it follow one
-/// or lets go.
-static void build_track_button(struct inspector *in, enum parameter parameter, struct rect r)
+/// The button at the right of a row that lets a parameter follow a spline, from a list in the field of the row, or lets go.
+static void build_track_button(struct inspector *in, enum parameter parameter, struct rect r, struct rect row)
 {
-    int active = in->core->active;
-    bool follows = param_follows(&in->core->document->splines[active]->parameter[parameter]);
-    enum ui_icon icon = follows ? UI_ICON_UNFOLLOW : UI_ICON_FOLLOW;
+    const int active = in->core->active;
+    const bool follows = param_follows(&in->core->document->splines[active]->parameter[parameter]);
     const bool joints =
         parameter == PARAMETER_EQUILIBRIUM && document_find_rig(in->core->document, RIG_MODEL, 0) >= 0;
     const char *hint = follows  ? "Stop following; keep the value at the playhead"
@@ -128,22 +184,12 @@ static void build_track_button(struct inspector *in, enum parameter parameter, s
                                 : "Follow another spline";
     char name[64];
     snprintf(name, sizeof name, "follow.%s", parameter_rows[parameter].name);
-    if (!ui_icon_button(&in->ui, r, name, icon, false, hint)) return;
-    if (follows) {
-        double value = spline_list_present(in->core, active, parameter);
-        set_track(in, parameter, param_number(value));
-    } else {
-        struct rect row = {in->ui.area.x + UI_PAD + UI_LABEL + UI_GAP, r.y, 0, r.h};
-        row.w = r.x - 2 - row.x;
-        open_list(in, parameter, row);
-    }
-}
-
-/// What the active spline's equilibrium follows.
-static const struct param *followed(const struct inspector *in)
-{
-    const struct spline *spline = core_active_spline(in->core);
-    return spline ? &spline->parameter[PARAMETER_EQUILIBRIUM] : NULL;
+    const bool pressed = ui_icon_button(&in->ui, r, name, follows ? UI_ICON_UNFOLLOW : UI_ICON_FOLLOW, false, hint);
+    if (pressed && follows) set_track(in, parameter, param_number(spline_list_present(in->core, active, parameter)));
+    if (pressed && !follows)
+        open_list(in, parameter, joints,
+                  (struct rect){row.x + UI_LABEL + UI_GAP, row.y, row.w - UI_LABEL - UI_GAP, row.h});
+    inspector_offer(in, &track_list);
 }
 
 /// An edit: follows a joint like this.
@@ -199,10 +245,10 @@ static void build_number(struct inspector *in, enum parameter parameter)
     if (!param_follows(&spline->parameter[parameter])) {
         build_slider(in, parameter, r);
     } else {
-        build_track(in, parameter, parameter_rows[parameter].name, r);
+        build_track(in, parameter, r);
     }
     struct rect button = {r.x + r.w + 2, r.y, UI_ROW, UI_ROW};
-    if (may_follow) build_track_button(in, parameter, button);
+    if (may_follow) build_track_button(in, parameter, button, r);
     if (spline->parameter[parameter].motion) build_joint(in);
 }
 
@@ -304,68 +350,4 @@ void inspector_variation(struct inspector *in)
     ui_hint(&in->ui, button, "Another motion through the same knots");
     if (ui_button(&in->ui, button, "variation.roll", "Roll", false)) roll(in, spline);
     if (reason) ui_paragraph(&in->ui, reason, theme()->text_dim);
-}
-
-enum { MAX_MODELS = 16, MODEL_TEXT = 112 }; ///< whose joints are offered
-
-/// The character whose joint the equilibrium is to follow: rows below the splines, called after their rigs. Returns how many.
-static int add_models(const struct inspector *in, struct ui_item *items, char texts[][MODEL_TEXT], int *models)
-{
-    int count = 0;
-    for (int r = document_next_rig(in->core->document, RIG_MODEL, 0); r >= 0 && count < MAX_MODELS;
-         r = document_next_rig(in->core->document, RIG_MODEL, r + 1)) {
-        if (!bones_character(in->core, r)) continue;
-        snprintf(texts[count], MODEL_TEXT, "A joint of %.80s", rig_title(in->core->document->rigs[r]));
-        items[count] = (struct ui_item){texts[count], texts[count], 0};
-        models[count++] = r;
-    }
-    return count;
-}
-
-/// Below the row of an equilibrium that follows a joint: what of it, how much; and the list of joints to choose from.
-static void build_joint_list(struct inspector *in)
-{
-    const struct param *param = followed(in);
-    if (!ui_popup_is_open(&in->ui, joint_list) || !param || !param->motion) return;
-    const int model = document_find_model(in->core->document, param->motion->model, param->motion->by_file);
-    if (model < 0 || !bones_character(in->core, model)) return;
-    const int node = inspector_bone_list(in, joint_list, model, -1, param->motion->joint);
-    if (node >= 0) bones_follow(in->core, in->core->active, model, node);
-}
-
-void inspector_track_list(struct inspector *in)
-{
-    struct ui *ui = &in->ui;
-    const struct spline *spline = core_active_spline(in->core);
-    build_joint_list(in);
-    if (!ui_popup_is_open(ui, track_list) || !spline) return;
-    enum parameter parameter = (enum parameter)ui->popup.which;
-    bool left_out[INSPECTOR_MAX_SPLINES];
-    struct ui_item items[INSPECTOR_MAX_SPLINES + MAX_MODELS];
-    char texts[MAX_MODELS][MODEL_TEXT];
-    int splines[INSPECTOR_MAX_SPLINES], models[MAX_MODELS], row;
-    find_leaders(in, left_out);
-    const int count = inspector_spline_items(in, left_out, spline->parameter[parameter].track, items, splines, &row);
-    const int more = parameter == PARAMETER_EQUILIBRIUM ? add_models(in, items + count, texts, models) : 0;
-    const int picked = ui_popup_list(ui, track_list, items, count + more, row);
-    if (picked >= count) {
-        bones_follow(in->core, in->core->active, models[picked - count], -1);
-    } else if (picked >= 0) {
-        set_track(in, parameter, param_track(splines[picked]));
-    }
-}
-
-int inspector_bone_list(struct inspector *in, const char *list, int model, int top, const char *chosen)
-{
-    const struct imported *character = bones_character(in->core, model);
-    int nodes[MAX_BONES], row = -1;
-    struct ui_item items[MAX_BONES];
-    const int count = bones_below(character, top, nodes, MAX_BONES), node = gltf_find_node(&character->gltf, chosen);
-    for (int b = 0; b < count; b++) {
-        const char *name = character->gltf.nodes[nodes[b]].name;
-        if (nodes[b] == node) row = b;
-        items[b] = (struct ui_item){name, name, 0};
-    }
-    const int picked = ui_popup_list(&in->ui, list, items, count, row);
-    return picked < 0 ? -1 : nodes[picked];
 }

@@ -11,6 +11,75 @@ enum { MAX_ROWS = 8, SWATCH = 22 }; ///< splines listed at once; widths in pixel
 
 static const char rename_line[] = "rename";
 
+enum { COLOR = 28, WIDTH = THEME_SPLINE_COLORS * COLOR + 20 };
+
+static const char hex_line[] = "color.hex";
+
+static void set_color(struct inspector *in, int spline, int color)
+{
+    if (core_begin(in->core, "Set colour", 0))
+        core_end(in->core, edit_spline_color(in->core->document, spline, color, &in->core->error));
+}
+
+/// true where one of the theme's was picked.
+static bool build_theme(struct inspector *in, int spline, struct rect r)
+{
+    uint32_t present = spline_list_color(in->core->document, spline);
+    bool picked = false;
+    for (int i = 0; i < THEME_SPLINE_COLORS; i++) {
+        char name[24];
+        snprintf(name, sizeof name, "color.%d", i);
+        struct rect field = {r.x + (float)(i * COLOR), r.y, COLOR, COLOR};
+        if (!ui_color(&in->ui, field, name, theme()->spline[i], theme()->spline[i] == present)) continue;
+        set_color(in, spline, (int)theme_spline_rgb(i));
+        picked = true;
+    }
+    return picked;
+}
+
+/// "#RRGGBB", typed over; nonsense is said and changes nothing.
+static void build_typed(struct inspector *in, int spline, struct rect r)
+{
+    struct ui *ui = &in->ui;
+    char text[COLOR_TEXT_SIZE];
+    int color;
+    int stored = in->core->document->splines[spline]->color;
+    color_print(stored < 0 ? (int)theme_spline_rgb(spline % THEME_SPLINE_COLORS) : stored, text);
+    if (!ui_line_is_open(ui, hex_line)) {
+        if (ui_button(ui, r, "color.type", text, false)) ui_line_begin(ui, hex_line, text);
+        return;
+    }
+    if (ui_line(ui, r, hex_line) != UI_LINE_DONE) return;
+    if (color_parse(ui->text.bytes, &color)) {
+        set_color(in, spline, color);
+    } else {
+        snprintf(ui->complaint, sizeof ui->complaint, "colour: expected something like #FFB000, got “%.40s”",
+                 ui->text.bytes);
+    }
+}
+
+static void build_palette(struct inspector *in, const struct dropdown *list)
+{
+    (void)list;
+    struct ui *ui = &in->ui;
+    int spline = document_find_spline_id(in->core->document, (unsigned)ui->popup.which);
+    if (spline < 0) return;
+    ui_popup_begin(ui, WIDTH, COLOR + UI_ROW + 8);
+    struct rect r = {ui->scroll_area.x + 6, ui->y + 2, THEME_SPLINE_COLORS * COLOR, COLOR};
+    bool picked = build_theme(in, spline, r);
+    struct rect typed = {r.x, r.y + COLOR + 2, 86, UI_ROW}, none = {r.x + 92, typed.y, r.w - 92, UI_ROW};
+    build_typed(in, spline, typed);
+    if (ui_button(ui, none, "color.none", "Default", false)) {
+        set_color(in, spline, -1);
+        picked = true;
+    }
+    ui_space(ui, COLOR + UI_ROW + 8);
+    ui_popup_end(ui);
+    if (picked) ui_popup_close(ui);
+}
+
+static const struct dropdown palette = {"palette", "Colour of this spline", build_palette};
+
 void inspector_rename(struct inspector *in)
 {
     const struct spline *spline = core_active_spline(in->core);
@@ -84,8 +153,9 @@ static bool build_row(struct inspector *in, int s, struct rect r)
     }
     struct rect swatch = {r.x, r.y, SWATCH, r.h};
     snprintf(name, sizeof name, "color.%s", spline->name);
-    ui_hint(ui, swatch, "Colour of this spline");
-    ui_swatch(ui, swatch, name, "palette", (int)spline->id, spline_list_color(in->core->document, s));
+    ui_hint(ui, swatch, palette.hint);
+    ui_swatch(ui, swatch, name, palette.name, (int)spline->id, spline_list_color(in->core->document, s));
+    inspector_offer(in, &palette);
     build_visibility(in, s, r);
     return dropped;
 }
@@ -139,71 +209,4 @@ void inspector_splines(struct inspector *in)
         ui_paragraph(ui, text, theme()->text_dim);
     }
     build_buttons(in);
-}
-
-enum { COLOR = 28, WIDTH = THEME_SPLINE_COLORS * COLOR + 20 };
-
-static const char palette[] = "palette", hex_line[] = "color.hex";
-
-static void set_color(struct inspector *in, int spline, int color)
-{
-    if (core_begin(in->core, "Set colour", 0))
-        core_end(in->core, edit_spline_color(in->core->document, spline, color, &in->core->error));
-}
-
-/// true where one of the theme's was picked.
-static bool build_theme(struct inspector *in, int spline, struct rect r)
-{
-    uint32_t present = spline_list_color(in->core->document, spline);
-    bool picked = false;
-    for (int i = 0; i < THEME_SPLINE_COLORS; i++) {
-        char name[24];
-        snprintf(name, sizeof name, "color.%d", i);
-        struct rect field = {r.x + (float)(i * COLOR), r.y, COLOR, COLOR};
-        if (!ui_color(&in->ui, field, name, theme()->spline[i], theme()->spline[i] == present)) continue;
-        set_color(in, spline, (int)theme_spline_rgb(i));
-        picked = true;
-    }
-    return picked;
-}
-
-/// "#RRGGBB", typed over; nonsense is said and changes nothing.
-static void build_typed(struct inspector *in, int spline, struct rect r)
-{
-    struct ui *ui = &in->ui;
-    char text[COLOR_TEXT_SIZE];
-    int color;
-    int stored = in->core->document->splines[spline]->color;
-    color_print(stored < 0 ? (int)theme_spline_rgb(spline % THEME_SPLINE_COLORS) : stored, text);
-    if (!ui_line_is_open(ui, hex_line)) {
-        if (ui_button(ui, r, "color.type", text, false)) ui_line_begin(ui, hex_line, text);
-        return;
-    }
-    if (ui_line(ui, r, hex_line) != UI_LINE_DONE) return;
-    if (color_parse(ui->text.bytes, &color)) {
-        set_color(in, spline, color);
-    } else {
-        snprintf(ui->complaint, sizeof ui->complaint, "colour: expected something like #FFB000, got “%.40s”",
-                 ui->text.bytes);
-    }
-}
-
-void inspector_palette(struct inspector *in)
-{
-    struct ui *ui = &in->ui;
-    if (!ui_popup_is_open(ui, palette)) return;
-    int spline = document_find_spline_id(in->core->document, (unsigned)ui->popup.which);
-    if (spline < 0) return;
-    ui_popup_begin(ui, WIDTH, COLOR + UI_ROW + 8);
-    struct rect r = {ui->scroll_area.x + 6, ui->y + 2, THEME_SPLINE_COLORS * COLOR, COLOR};
-    bool picked = build_theme(in, spline, r);
-    struct rect typed = {r.x, r.y + COLOR + 2, 86, UI_ROW}, none = {r.x + 92, typed.y, r.w - 92, UI_ROW};
-    build_typed(in, spline, typed);
-    if (ui_button(ui, none, "color.none", "Default", false)) {
-        set_color(in, spline, -1);
-        picked = true;
-    }
-    ui_space(ui, COLOR + UI_ROW + 8);
-    ui_popup_end(ui);
-    if (picked) ui_popup_close(ui);
 }

@@ -52,6 +52,7 @@ struct inspector {
     char knot_title[32];                  ///< of the section on knots
     struct poles_view poles;
     struct history_view history;
+    const struct dropdown *list; ///< that is open, in the running pass; NULL: none
 };
 
 #endif

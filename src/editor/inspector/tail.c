@@ -16,7 +16,7 @@ static const struct {
     {AXIS_STRETCH, {"stretch", "stretches", 0}}, {AXIS_BLINK, {"blink", "closes the lids", 0}},
 };
 
-static const char rename_line[] = "tail.rename", place_list[] = "place";
+static const char rename_line[] = "tail.rename";
 
 static void build_name(struct inspector *in)
 {
@@ -64,43 +64,40 @@ static void follow(struct inspector *in, int k, struct param param)
         core_end(in->core, put_position(in, k, param, &in->core->error));
 }
 
-/// A coordinate: a number, or the spline that it follows, and the button from one to the other.
-static void build_coordinate(struct inspector *in, const struct tail *tail, int k)
+static void choose_place(struct inspector *in, const struct dropdown *list)
 {
-    struct rect r = ui_row(&in->ui, UI_ROW), icon = {r.x + r.w - INSPECTOR_ICON, r.y, INSPECTOR_ICON, r.h};
-    static const struct number_home home = {.get = get_position, .set = set_position};
-    const struct param *param = &tail->position[k];
-    char button[32];
-    r.w -= INSPECTOR_ICON + 4;
-    snprintf(button, sizeof button, "position.%s.follow", coordinate_name(k));
-    struct rect field = {r.x + UI_LABEL + UI_GAP, r.y, r.w - UI_LABEL - UI_GAP, r.h};
-    if (param->track >= 0) {
-        ui_label(&in->ui, (struct rect){r.x, r.y, UI_LABEL, r.h}, coordinate_name(k), theme()->text_dim);
-        ui_dropdown(&in->ui, field, place_list, k, in->core->document->splines[param->track]->name,
-                    spline_list_color(in->core->document, param->track));
-        wiggly_value now = evaluation_at(in->core->evaluation, param->track, in->core->playback.position);
-        if (ui_icon_button(&in->ui, icon, button, UI_ICON_UNFOLLOW, false,
-                           "Stop following; stay at the current position"))
-            follow(in, k, param_number(core_round(now.y + now.re, 1e-3)));
-        return;
-    }
-    inspector_number(in, &position[k], &home, k, r);
-    if (in->core->document->spline_count == 0) return;
-    if (ui_icon_button(&in->ui, icon, button, UI_ICON_FOLLOW, false, "Follow a spline (in metres)")) {
-        ui_popup_open(&in->ui, place_list, k, field);
-    }
-}
-
-static void place_popup(struct inspector *in)
-{
-    const struct rig *rig = inspector_shown(in);
-    if (!ui_popup_is_open(&in->ui, place_list) || !rig || rig->kind != RIG_TAIL) return;
-    int k = in->ui.popup.which;
-    int picked = inspector_spline_list(in, place_list, NULL, rig->tail.position[k].track);
+    const int k = in->ui.popup.which;
+    const int picked = inspector_spline_list(in, list, inspector_shown(in)->tail.position[k].track);
     if (picked >= 0) follow(in, k, param_track(picked));
 }
 
-static const char feed_list[] = "feed", axis_list[] = "axis";
+static const struct dropdown place_list = {"place", "The spline it follows, sample by sample", choose_place};
+
+/// A coordinate: a number, or the spline that it follows, and the button from one to the other.
+static void build_coordinate(struct inspector *in, const struct tail *tail, int k)
+{
+    static const struct number_home home = {.get = get_position, .set = set_position};
+    const int track = tail->position[k].track;
+    const bool follows = track >= 0;
+    const char *hint = follows ? "Stop following; stay at the current position" : "Follow a spline (in metres)";
+    struct rect r = ui_row(&in->ui, UI_ROW), icon = {r.x + r.w - INSPECTOR_ICON, r.y, INSPECTOR_ICON, r.h};
+    char button[32];
+    r.w -= INSPECTOR_ICON + 4;
+    snprintf(button, sizeof button, "position.%s.follow", coordinate_name(k));
+    const struct rect field = {r.x + UI_LABEL + UI_GAP, r.y, r.w - UI_LABEL - UI_GAP, r.h};
+    if (follows) {
+        inspector_spline_field(in, &place_list, inspector_label(in, r, coordinate_name(k)), k, track);
+    } else {
+        inspector_number(in, &position[k], &home, k, r);
+        if (in->core->document->spline_count == 0) return;
+    }
+    if (ui_icon_button(&in->ui, icon, button, follows ? UI_ICON_UNFOLLOW : UI_ICON_FOLLOW, false, hint)) {
+        const wiggly_value now = evaluation_at(in->core->evaluation, track, in->core->playback.position);
+        if (follows) follow(in, k, param_number(core_round(now.y + now.re, 1e-3)));
+        if (!follows) ui_popup_open(&in->ui, place_list.name, k, field);
+    }
+    inspector_offer(in, &place_list);
+}
 
 static struct channel_place place_of(const struct inspector *in)
 {
@@ -141,84 +138,106 @@ static void set_axis(struct inspector *in, enum axis axis)
     put_channel(in, "Set axis", &changed);
 }
 
-static void build_axis_list(struct inspector *in, const struct channel *channel)
+static void choose_axis(struct inspector *in, const struct dropdown *list)
 {
     enum { COUNT = sizeof tail_axes / sizeof *tail_axes };
     struct ui_item items[COUNT];
     int row = -1;
-    if (!ui_popup_is_open(&in->ui, axis_list)) return;
     for (int a = 0; a < COUNT; a++) {
         items[a] = tail_axes[a].item;
-        if (tail_axes[a].axis == channel->axis) row = a;
+        if (tail_axes[a].axis == chosen_channel(in)->axis) row = a;
     }
-    const int picked = ui_popup_list(&in->ui, axis_list, items, COUNT, row);
+    const int picked = ui_popup_list(&in->ui, list->name, items, COUNT, row);
     if (picked >= 0) set_axis(in, tail_axes[picked].axis);
 }
 
-/// The list of splines that the channel can bend by, and of what it can move, where one is open.
-static void build_channel_lists(struct inspector *in)
+static const struct dropdown axis_list = {"axis", "The way it bends, or moves the body", choose_axis};
+
+static void choose_feed(struct inspector *in, const struct dropdown *list)
 {
-    const struct channel *channel = chosen_channel(in);
-    if (channel) build_axis_list(in, channel);
-    if (!ui_popup_is_open(&in->ui, feed_list) || !channel) return;
-    int picked = inspector_spline_list(in, feed_list, NULL, channel->spline);
-    if (picked < 0) return;
-    struct channel changed = *channel;
-    changed.spline = picked;
-    if (put_channel(in, "Set channel's spline", &changed)) choose(in, in->channel);
+    struct channel changed = *chosen_channel(in);
+    changed.spline = inspector_spline_list(in, list, changed.spline);
+    if (changed.spline >= 0 && put_channel(in, "Set channel's spline", &changed)) choose(in, in->channel);
 }
 
-/// Where a chain begins and where it ends.
-static const struct end {
-    const char *label, *list, *pick, *hint;
+static const struct dropdown feed_list = {"feed", "The spline that bends it", choose_feed};
+
+/// Where a chain begins or ends.
+struct end {
+    struct dropdown list; ///< the first member, from which the rest is found
+    const char *label, *pick;
     enum bone_use use;
-} ends[2] = {
-    {"from", "chain.from", "chain.from.pick", "The bone that it begins with", BONE_FIRST},
-    {"to", "chain.to", "chain.to.pick", "The bone that it ends with", BONE_LAST},
 };
 
-static void end_list(struct inspector *in, const struct end *end, const struct chain *chain)
+static void choose_end(struct inspector *in, const struct dropdown *list)
 {
+    const bool first = ((const struct end *)list)->use == BONE_FIRST;
+    const struct chain *chain = &inspector_shown(in)->chain;
     const int model = bones_model_of(in->core->document, chain);
     const struct imported *character = model >= 0 ? bones_character(in->core, model) : NULL;
-    if (!ui_popup_is_open(&in->ui, end->list) || !character) return;
-    const bool first = end->use == BONE_FIRST;
+    if (!character) return;
     const int top = first ? -1 : gltf_find_node(&character->gltf, chain->from);
-    const int node = inspector_bone_list(in, end->list, model, top, first ? chain->from : chain->to);
+    const int node = inspector_bone_list(in, list, model, top, first ? chain->from : chain->to);
     if (node >= 0) bones_set_end(in->core, in->rig, first, node);
 }
 
-/// The lists of the bones that a chain can begin and end with.
-static void build_chain_lists(struct inspector *in)
-{
-    for (int e = 0; e < 2; e++) {
-        const struct rig *rig = inspector_shown(in);
-        if (rig && rig->kind == RIG_CHAIN) end_list(in, &ends[e], &rig->chain);
-    }
-}
-
-void inspector_tail_lists(struct inspector *in)
-{
-    build_channel_lists(in);
-    build_chain_lists(in);
-    place_popup(in);
-}
-
-static const struct number_row size[] = {
-    {"joints", "joints", NULL, "More joints bend more smoothly; shape and swing stay the same", "Set joints",
-     WHOLE_AT(struct tail, joints), 1, 64, 1, TAIL_MAX_JOINTS, TAIL_DEFAULT_JOINTS, 1, 0},
-    {"length", "length", "m", "Length of the tail; the body scales with it", "Set length",
-     NUMBER_AT(struct tail, length), 0.2, 4, 1e-3, 1e6, TAIL_DEFAULT_LENGTH, 0.05, 2},
+static const struct end ends[2] = {
+    {{"chain.from", "The bone that it begins with", choose_end}, "from", "chain.from.pick", BONE_FIRST},
+    {{"chain.to", "The bone that it ends with", choose_end}, "to", "chain.to.pick", BONE_LAST},
 };
+
+static const struct number_row joints_row = {"joints",
+                                             "joints",
+                                             NULL,
+                                             "More joints bend more smoothly; shape and swing stay the same",
+                                             "Set joints",
+                                             WHOLE_AT(struct tail, joints),
+                                             1,
+                                             64,
+                                             1,
+                                             TAIL_MAX_JOINTS,
+                                             TAIL_DEFAULT_JOINTS,
+                                             1,
+                                             0};
+
+static const struct number_row length_row = {"length",
+                                             "length",
+                                             "m",
+                                             "Length of the tail; the body scales with it",
+                                             "Set length",
+                                             NUMBER_AT(struct rig, tail.length),
+                                             0.2,
+                                             4,
+                                             1e-3,
+                                             1e6,
+                                             TAIL_DEFAULT_LENGTH,
+                                             0.05,
+                                             2};
+
+static const struct number_row turn_row = {"chain.turn",
+                                           "turn",
+                                           "°",
+                                           "Turns the axes of side and up about the chain's own direction",
+                                           "Turn chain's axes",
+                                           NUMBER_AT(struct rig, chain.turn),
+                                           -180,
+                                           180,
+                                           -36000,
+                                           36000,
+                                           0,
+                                           1,
+                                           0};
+
+static int shown_rig(const struct inspector *in) { return in->rig; }
+
+static const struct number_home of_shown = {.rig = shown_rig};
 
 static const void *shown_tail(const struct inspector *in) { return &inspector_shown(in)->tail; }
 
-static bool set_size(struct inspector *in, int which, double number, struct error *error)
+static bool set_joints(struct inspector *in, int which, double number, struct error *error)
 {
-    struct rig changed = *inspector_shown(in);
-    if (which == 0) return edit_joints(in->core->document, in->rig, (int)lround(number), error);
-    changed.tail.length = number;
-    return edit_rig_set(in->core->document, in->rig, &changed, error);
+    (void)which;
+    return edit_joints(in->core->document, in->rig, (int)lround(number), error);
 }
 
 void inspector_overlays(struct inspector *in)
@@ -304,13 +323,10 @@ static void build_choices(struct inspector *in, const struct channel *channel)
         [AXIS_SIDE] = {"side", "Side"}, [AXIS_UP] = {"up", "Up"}, [AXIS_TWIST] = {"twist", "Twist"}};
     static const struct ui_choice parts[] = {
         [PART_TOTAL] = {"total", "Total"}, [PART_DISPLACEMENT] = {"displacement", "Displaced"}};
-    struct ui *ui = &in->ui;
     int axis = (int)channel->axis, part = (int)channel->of;
-    struct rect row = inspector_labelled(in, "axis");
-    ui_hint(ui, row, "The way it bends, or moves the body");
     if (inspector_shown(in)->kind == RIG_TAIL) {
-        ui_dropdown(ui, row, axis_list, in->channel, axis_label(channel->axis), 0);
-    } else if (ui_segments(ui, row, "axis", chain, 3, &axis)) {
+        inspector_dropdown(in, &axis_list, inspector_labelled(in, "axis"), in->channel, axis_label(channel->axis), 0);
+    } else if (inspector_choice(in, "axis", axis_list.hint, "axis", chain, 3, &axis)) {
         set_axis(in, (enum axis)axis);
     }
     if (inspector_choice(in, "bends by", "Total, or displacement only: use that for a tail on a moving base", "part",
@@ -327,11 +343,7 @@ static void build_channel(struct inspector *in)
     build_buttons(in);
     const struct channel *channel = chosen_channel(in);
     if (!channel) return;
-    const char *spline = in->core->document->splines[channel->spline]->name;
-    const struct rect field = inspector_labelled(in, "spline");
-    ui_hint(&in->ui, field, "The spline that bends it");
-    ui_dropdown(&in->ui, field, feed_list, in->channel, spline,
-                spline_list_color(in->core->document, channel->spline));
+    inspector_spline_field(in, &feed_list, inspector_labelled(in, "spline"), in->channel, channel->spline);
     build_choices(in, channel);
 }
 
@@ -342,26 +354,10 @@ static void build_end(struct inspector *in, const struct end *end, const char *b
                 icon = {field.x + field.w - INSPECTOR_ICON, field.y, INSPECTOR_ICON, field.h};
     field.w -= INSPECTOR_ICON + 4;
     const int rig = in->rig;
-    ui_hint(&in->ui, field, end->hint);
-    ui_dropdown(&in->ui, field, end->list, rig, bone, 0);
+    inspector_dropdown(in, &end->list, field, rig, bone, 0);
     const bool picking = in->core->pick.use == end->use && in->core->pick.which == rig;
     if (ui_icon_button(&in->ui, icon, end->pick, UI_ICON_PICK, picking, "Pick it on the stage"))
         bones_pick(in->core, picking ? BONE_SELECTED : end->use, rig);
-}
-
-static const struct number_row turn_rows[] = {
-    {"chain.turn", "turn", "°", "Turns the axes of side and up about the chain's own direction", "Turn chain's axes",
-     NUMBER_AT(struct chain, turn), -180, 180, -36000, 36000, 0, 1, 0},
-};
-
-static const void *shown_chain(const struct inspector *in) { return &inspector_shown(in)->chain; }
-
-static bool set_turn(struct inspector *in, int which, double degrees, struct error *error)
-{
-    struct rig changed = *inspector_shown(in);
-    (void)which;
-    changed.chain.turn = degrees;
-    return edit_rig_set(in->core->document, in->rig, &changed, error);
 }
 
 static void build_mirror(struct inspector *in)
@@ -386,11 +382,10 @@ static void build_twin(struct inspector *in)
 /// What a chain is made of, its place in the list of chains aside; and the buttons that make its twin and take it away.
 static void build_chain(struct inspector *in)
 {
-    static const struct number_home home = {.of = shown_chain, .set = set_turn};
     const struct chain *chain = &inspector_shown(in)->chain;
     build_end(in, &ends[0], chain->from);
     build_end(in, &ends[1], chain->to);
-    inspector_numbers(in, turn_rows, 1, &home);
+    inspector_numbers(in, &turn_row, 1, &of_shown);
     build_mirror(in);
     build_twin(in);
 }
@@ -399,7 +394,7 @@ static void build_chain(struct inspector *in)
 static void build_shown(struct inspector *in)
 {
     const bool is_tail = inspector_shown(in)->kind == RIG_TAIL;
-    static const struct number_home home = {.of = shown_tail, .set = set_size};
+    static const struct number_home joints = {.of = shown_tail, .set = set_joints};
     if (in->channel >= rig_input_count(inspector_shown(in))) in->channel = 0;
     build_channels(in);
     if (is_tail) inspector_angles(in, ANGLE_REST);
@@ -410,7 +405,8 @@ static void build_shown(struct inspector *in)
         build_chain(in);
         return;
     }
-    inspector_numbers(in, size, sizeof size / sizeof size[0], &home);
+    inspector_numbers(in, &joints_row, 1, &joints);
+    inspector_numbers(in, &length_row, 1, &of_shown);
     for (int k = 0; k < 3; k++) build_coordinate(in, &inspector_shown(in)->tail, k);
 }
 
