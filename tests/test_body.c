@@ -12,7 +12,7 @@ static const char scene[] = "{\"frames\": [0, 48], \"splines\": ["
 
 enum { JOINTS = 24, X = 12, Y = 13, Z = 14 };
 
-static const float *joint(const struct session *s, int n) { return s->editor->stage->tails[0].pose.matrix[n]; }
+static const float *joint(const struct session *s, int n) { return s->editor->stage->strands[0].pose.matrix[n]; }
 
 /// Takes hold of the body and moves the pointer along the screen; the button stays down.
 static void hold_and_drag(struct session *s, float dx, float dy, int steps)
@@ -277,7 +277,7 @@ SESSION_TEST(test_a_body_is_lifted, session_open(s, scene))
     s->mods = 0;
     session_release(s, BUTTON_LEFT);
     assert_near(joint(s, 0)[Y], y, 1e-3);
-    assert_near(s->editor->stage->tails[0].pose.ground, 0, 0);
+    assert_near(s->editor->stage->strands[0].pose.ground, 0, 0);
 }
 
 /// A click, or a press beside the body, moves nothing.

@@ -56,13 +56,13 @@ static float highest(struct session *s)
     const struct stage *stage = s->editor->stage;
     float y = INFINITY;
     for (int t = 0; t < stage->tail_count; t++) {
-        const float *base = stage->tails[t].pose.matrix[0] + 12;
+        const float *base = stage->strands[t].pose.matrix[0] + 12;
         const float ears[3] = {base[0], base[1] + 0.8f, base[2] - 0.4f};
         float xy[2];
         assert_true(stage_project_point(s->editor->stage, s->editor->core.layout.stage, ears, xy));
         y = fminf(y, xy[1]);
-        for (int n = 0; n < stage->tails[t].pose.count; n++) {
-            stage_project_point(s->editor->stage, s->editor->core.layout.stage, stage->tails[t].pose.matrix[n] + 12,
+        for (int n = 0; n < stage->strands[t].pose.count; n++) {
+            stage_project_point(s->editor->stage, s->editor->core.layout.stage, stage->strands[t].pose.matrix[n] + 12,
                                 xy);
             y = fminf(y, xy[1]);
         }

@@ -16,7 +16,7 @@ static void open_scene(struct session *s)
     session_key(s, KEY_LEFT, MOD_SHIFT);
 }
 
-static const struct pose *pose_of(const struct session *s) { return &s->editor->stage->tails[0].pose; }
+static const struct pose *pose_of(const struct session *s) { return &s->editor->stage->strands[0].pose; }
 
 /// How far joint n turns sideways from the one before, radians.
 static double side_bend(const struct pose *pose, int n)

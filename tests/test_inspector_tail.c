@@ -42,7 +42,7 @@ TEST(test_place_and_size)
     panel_click(&s, "position.z.follow");
     panel_click(&s, "item.walk");
     assert_int_equal(tail(&s)->position[2].track, 1);
-    assert_near(s.editor->stage->tails[0].pose.matrix[0][14], 0.25, 1e-6);
+    assert_near(s.editor->stage->strands[0].pose.matrix[0][14], 0.25, 1e-6);
     panel_click(&s, "position.z.follow");
     assert_int_equal(tail(&s)->position[2].track, -1);
     assert_near(tail(&s)->position[2].value, 0.25, 1e-3); // stays where it was

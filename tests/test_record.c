@@ -11,7 +11,7 @@ static const char scene[] =
 
 enum { JOINTS = 24, X = 12, DRAGGED = 60, WATCHED = 150 };
 
-static float joint_x(const struct session *s, int n) { return s->editor->stage->tails[0].pose.matrix[n][X]; }
+static float joint_x(const struct session *s, int n) { return s->editor->stage->strands[0].pose.matrix[n][X]; }
 
 TEST(test_few_knots_keep_to_the_way)
 {
@@ -168,7 +168,7 @@ TEST(test_a_way_without_a_channel_gets_one)
     for (int f = 0; f < 90; f++) {
         s.editor->core.playback.position = f;
         session_frame(&s);
-        const struct pose *pose = &s.editor->stage->tails[0].pose;
+        const struct pose *pose = &s.editor->stage->strands[0].pose;
         static float first;
         const float rise = pose->matrix[JOINTS][13] - pose->matrix[0][13];
         if (f == 0) first = rise;

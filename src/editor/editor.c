@@ -17,7 +17,7 @@ struct editor *editor_create(void)
     struct editor *editor = need_zeroed(1, sizeof *editor);
     drawlist_create(&editor->core.list, MAX_COMMANDS, MAX_POINTS, MAX_TEXT);
     editor->curves = curves_create();
-    editor->stage = stage_create();
+    editor->stage = stage_create(&editor->core);
     editor->inspector = inspector_create(&editor->core);
     editor->dialogs = dialogs_create();
     editor->core.layout.stage_share = 400.0f / (720 - THEME_STATUS_HEIGHT);

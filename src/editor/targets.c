@@ -144,7 +144,7 @@ static bool find_floor(struct editor *editor, const struct target *target, float
 /// The marker of a pin on the stage: pin(tail,0), in the order of frames.
 static bool find_pin(struct editor *editor, const struct target *target, float xy[2])
 {
-    return stage_pin_point(editor->stage, &editor->core, target->pin->id, xy);
+    return stage_pin_point(editor->stage, &editor->core, target->pin, xy);
 }
 
 /// Its mark on the ruler: pintime(tail,0).

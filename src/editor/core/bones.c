@@ -43,7 +43,7 @@ int bones_joints(const struct core *core, int rig)
 {
     const struct rig *bent = core->document->rigs[rig];
     if (bent->kind == RIG_TAIL) return bent->tail.joints;
-    const int model = document_find_model(core->document, bent->chain.model, bent->chain.by_file);
+    const int model = rig_body(core->document, rig);
     const struct imported *shown = model >= 0 ? bones_character(core, model) : NULL;
     struct chain_bones bones;
     return shown && chain_find(&shown->gltf, bent->chain.from, bent->chain.to, &bones, NULL) ? bones.count : 1;
@@ -93,11 +93,6 @@ void bones_make_chain(struct core *core, int follow)
     tell(core, core->document->rigs[rig], model, follow);
 }
 
-int bones_model_of(const struct document *document, const struct chain *chain)
-{
-    return document_find_model(document, chain->model, chain->by_file);
-}
-
 static bool is_below(const struct gltf *gltf, int node, int top)
 {
     while (node >= 0 && node != top) node = gltf->nodes[node].parent;
@@ -132,21 +127,25 @@ void bones_clicked(struct core *core, int model, int node)
         bones_select(core, model, node);
     } else if (pick.use == BONE_FOLLOWED) {
         bones_follow(core, pick.which, model, node);
-    } else if (bones_model_of(document, &document->rigs[pick.which]->chain) == model) {
+    } else if (rig_body(document, pick.which) == model) {
         bones_set_end(core, pick.which, pick.use == BONE_FIRST, node);
     } else {
         core_message(core, true, "This bone is another character's: a chain stays on its own.");
     }
 }
 
+static bool is_chain_on(const struct document *document, int rig, int model)
+{
+    return document->rigs[rig]->kind == RIG_CHAIN && rig_body(document, rig) == model;
+}
+
 /// A chain of a model that a spline bends, and the first of its channels that does; NULL where there is none.
 static const struct rig *bent_by(const struct document *document, int spline, int model,
                                  const struct channel **channel)
 {
-    for (int r = document_next_rig(document, RIG_CHAIN, 0); r >= 0;
-         r = document_next_rig(document, RIG_CHAIN, r + 1)) {
+    for (int r = 0; r < document->rig_count; r++) {
         const struct chain *chain = &document->rigs[r]->chain;
-        if (bones_model_of(document, chain) != model) continue;
+        if (!is_chain_on(document, r, model)) continue;
         for (int c = 0; c < chain->channel_count; c++) {
             *channel = &chain->channels[c];
             if (chain->channels[c].spline == spline) return document->rigs[r];
@@ -178,10 +177,8 @@ static bool bend_by_the_rest(struct core *core, int spline, int model)
 {
     const struct document *document = core->document;
     bool done = true;
-    for (int r = document_next_rig(document, RIG_CHAIN, 0); r >= 0;
-         r = document_next_rig(document, RIG_CHAIN, r + 1)) {
-        const struct chain *chain = &document->rigs[r]->chain;
-        const int count = bones_model_of(document, chain) == model ? chain->channel_count : 0;
+    for (int r = 0; r < document->rig_count; r++) {
+        const int count = is_chain_on(document, r, model) ? document->rigs[r]->chain.channel_count : 0;
         for (int c = 0; c < count; c++) {
             struct channel changed = document->rigs[r]->chain.channels[c];
             if (changed.spline != spline) continue;
@@ -256,7 +253,7 @@ static bool follow_end(struct core *core, const char *chain, const char *old, ch
 void bones_set_end(struct core *core, int chain, bool first, int node)
 {
     struct rig contents = *core->document->rigs[chain];
-    const int model = bones_model_of(core->document, &contents.chain);
+    const int model = rig_body(core->document, chain);
     const struct imported *character = model >= 0 ? bones_character(core, model) : NULL;
     struct error error = {0};
     char *ends[2];
@@ -281,11 +278,8 @@ void bones_set_end(struct core *core, int chain, bool first, int node)
 /// Whether a chain of the model begins at a bone.
 static bool begins_at(const struct document *document, int model, const char *from)
 {
-    for (int r = document_next_rig(document, RIG_CHAIN, 0); r >= 0;
-         r = document_next_rig(document, RIG_CHAIN, r + 1)) {
-        const struct chain *chain = &document->rigs[r]->chain;
-        if (document_find_model(document, chain->model, chain->by_file) == model && strcmp(chain->from, from) == 0)
-            return true;
+    for (int r = 0; r < document->rig_count; r++) {
+        if (is_chain_on(document, r, model) && strcmp(document->rigs[r]->chain.from, from) == 0) return true;
     }
     return false;
 }
@@ -294,7 +288,7 @@ static bool begins_at(const struct document *document, int model, const char *fr
 static bool find_twin(const struct core *core, int rig, char from[BONE_NAME_SIZE], char to[BONE_NAME_SIZE])
 {
     const struct chain *chain = &core->document->rigs[rig]->chain;
-    const int model = document_find_model(core->document, chain->model, chain->by_file);
+    const int model = rig_body(core->document, rig);
     const struct imported *shown = model >= 0 ? bones_character(core, model) : NULL;
     if (!shown || !chain_other_side(chain->from, from) || !chain_other_side(chain->to, to)) return false;
     return gltf_find_node(&shown->gltf, from) >= 0 && gltf_find_node(&shown->gltf, to) >= 0 &&

@@ -24,8 +24,6 @@ void bones_choose_clip(struct core *core, int model, const char *clip);
 
 /// The bones of a character to choose from, in the order of its file, those below `top` (−1: all); at most `most`. Returns how many.
 int bones_below(const struct imported *character, int top, int *nodes, int most);
-/// The model rig that a chain is on, or −1.
-int bones_model_of(const struct document *document, const struct chain *chain);
 
 /// Has a spline's equilibrium follow a joint of a model rig (−1: the one that suits best), as one step. What of it, how much of it and along
 /// which chain's axes stays as it was; at first it is what a chain that the spline bends wants.

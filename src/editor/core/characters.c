@@ -8,15 +8,6 @@ const struct character_rig *characters_selected(const struct core *core)
     return document_character(core->document, core->characters.character);
 }
 
-const struct coordinate *characters_coordinate(const struct core *core)
-{
-    const struct character_rig *rig = characters_selected(core);
-    const struct figure *figure = models_figure(core->models, core->characters.character);
-    if (!rig || !figure || core->characters.drive >= rig->drive_count) return NULL;
-    const int at = figure_find(figure, rig->drives[core->characters.drive].name);
-    return at >= 0 ? &figure->character.coordinates[at] : NULL;
-}
-
 void characters_open(struct core *core)
 {
     const struct character_rig *first = document_character(core->document, 0);
@@ -27,11 +18,18 @@ void characters_open(struct core *core)
 
 const struct figure *characters_figure(const struct core *core, int *coordinate)
 {
-    const struct coordinate *selected = characters_coordinate(core);
-    if (!selected) return NULL;
+    const struct character_rig *rig = characters_selected(core);
     const struct figure *figure = models_figure(core->models, core->characters.character);
-    *coordinate = (int)(selected - figure->character.coordinates);
-    return figure;
+    if (!rig || !figure || core->characters.drive >= rig->drive_count) return NULL;
+    *coordinate = figure_find(figure, rig->drives[core->characters.drive].name);
+    return *coordinate >= 0 ? figure : NULL;
+}
+
+const struct coordinate *characters_coordinate(const struct core *core)
+{
+    int coordinate;
+    const struct figure *figure = characters_figure(core, &coordinate);
+    return figure ? &figure->character.coordinates[coordinate] : NULL;
 }
 
 /// Shows the phases along the axis in which the coordinate moves most, where no other was chosen.

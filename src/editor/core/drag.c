@@ -126,6 +126,14 @@ bool drag_lock(struct drag *drag, int key)
     return true;
 }
 
+bool drag_lock_axis(struct drag *drag, int *axis, int key)
+{
+    if (key != 'X' && key != 'Y' && key != 'Z') return false;
+    *axis = *axis == key - 'X' ? -1 : key - 'X';
+    drag->stale = true;
+    return true;
+}
+
 void drag_say_stopped(struct core *core, const char *why)
 {
     if (*why) {

@@ -43,6 +43,8 @@ void drag_end(struct core *core, bool keep);
 void drag_show(const void *room, struct core *core);
 /// X and Y: only the frame, only the value may change. false for other keys.
 bool drag_lock(struct drag *drag, int key);
+/// X, Y and Z: only along that `axis`, or again along all of them (−1).
+bool drag_lock_axis(struct drag *drag, int *axis, int key);
 /// The status line says what stops a drag for as long as that does; "": nothing.
 void drag_say_stopped(struct core *core, const char *why);
 

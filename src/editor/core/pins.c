@@ -4,6 +4,7 @@
 #include "editor/core/core.h"
 #include "editor/core/selection.h"
 #include "scene/pins.h"
+#include "ui/theme.h"
 #include <math.h>
 #include <stdio.h>
 
@@ -11,16 +12,27 @@ enum pin_nudge { NUDGE_PLACE, NUDGE_FRAME };
 
 static const double RESOLUTION = 1e-4; ///< metres that the document gets
 
+const struct pin *pins_next(const struct document *document, struct pin_place *place)
+{
+    place->at++;
+    for (; place->rig < document->rig_count && place->at >= document->rigs[place->rig]->pin_count; place->rig++)
+        place->at = 0;
+    return place->rig < document->rig_count ? &document->rigs[place->rig]->pins[place->at] : NULL;
+}
+
 const struct pin *pins_selected(const struct core *core, int *rig)
 {
-    const struct document *document = core->document;
-    for (int r = 0; r < document->rig_count && core->pin.any; r++) {
-        const int at = pins_find_id(document->rigs[r], core->pin.id);
-        if (at < 0) continue;
-        *rig = r;
-        return &document->rigs[r]->pins[at];
-    }
-    return NULL;
+    struct pin_place place = PINS_START;
+    const struct pin *pin = NULL;
+    while (core->pin.any && (pin = pins_next(core->document, &place)) && pin->id != core->pin.id) continue;
+    *rig = place.rig;
+    return pin;
+}
+
+uint32_t pins_color(const struct document *document, int rig)
+{
+    const int spline = rig_point_spline(document->rigs[rig]);
+    return spline >= 0 ? spline_list_color(document, spline) : theme()->text_dim;
 }
 
 /// Selects a pin, and no knots.
@@ -147,14 +159,11 @@ static bool is_before(const struct pin *a, const struct pin *b)
 void pins_select_neighbour(struct core *core, int direction)
 {
     int rig;
-    const struct document *document = core->document;
     const struct pin *from = pins_selected(core, &rig), *best = NULL;
-    for (int r = 0; from && r < document->rig_count; r++) {
-        for (int i = 0; i < document->rigs[r]->pin_count; i++) {
-            const struct pin *pin = &document->rigs[r]->pins[i];
-            if (pin == from || is_before(pin, from) == (direction > 0)) continue;
-            if (!best || is_before(pin, best) == (direction > 0)) best = pin;
-        }
+    struct pin_place place = PINS_START;
+    for (const struct pin *pin; from && (pin = pins_next(core->document, &place));) {
+        if (pin == from || is_before(pin, from) == (direction > 0)) continue;
+        if (!best || is_before(pin, best) == (direction > 0)) best = pin;
     }
     if (best) pins_visit(core, best);
 }

@@ -4,8 +4,18 @@
 
 #include "editor/core/state.h"
 
+/// A pin by its indices; PINS_START: before the first one.
+struct pin_place {
+    int rig, at;
+};
+#define PINS_START                                                                                                   \
+    (struct pin_place) { 0, -1 }
+/// Goes on to the next pin, rig by rig; NULL behind the last one.
+const struct pin *pins_next(const struct document *document, struct pin_place *place);
 /// The selected pin and its rig, or NULL.
 const struct pin *pins_selected(const struct core *core, int *rig);
+/// The colour of a rig's pins: that of its first spline.
+uint32_t pins_color(const struct document *document, int rig);
 /// Selects a pin and goes to its frame.
 void pins_visit(struct core *core, const struct pin *pin);
 /// Lets go of the selected pin.

@@ -109,10 +109,8 @@ static bool copy_chains(struct core *core, int model, const char *copy)
     const int count = core->document->rig_count;
     bool done = true;
     for (int r = 0; r < count && done; r++) {
-        const struct rig *rig = core->document->rigs[r];
-        if (rig->kind != RIG_CHAIN) continue;
-        if (document_find_model(core->document, rig->chain.model, rig->chain.by_file) != model) continue;
-        struct rig chain = *rig;
+        if (r == model || rig_body(core->document, r) != model) continue;
+        struct rig chain = *core->document->rigs[r];
         char name[256];
         snprintf(name, sizeof name, "%s", copy);
         chain.chain.model = name;
@@ -163,13 +161,7 @@ struct removal {
     bool *mine, *others; ///< by spline: named by what goes, by what stays
 };
 
-static bool goes(const struct removal *removal, int rig)
-{
-    const struct rig *other = removal->document->rigs[rig];
-    return rig == removal->rig ||
-           (other->kind == RIG_CHAIN &&
-            document_find_model(removal->document, other->chain.model, other->chain.by_file) == removal->rig);
-}
+static bool goes(const struct removal *removal, int rig) { return rig_body(removal->document, rig) == removal->rig; }
 
 static void survey(struct removal *removal, const struct document *document, int rig)
 {

@@ -228,23 +228,20 @@ static void place(const struct curves *curves, const struct core *core, const st
 
 struct hover ruler_pins_hover(const struct curves *curves, const struct core *core, float x, float y)
 {
-    const struct document *document = core->document;
     const struct rect *ruler = &core->layout.ruler;
     struct hover hover = {.kind = HOVER_NONE};
     float best = REACH;
     const float edge = ruler->y + ruler->h;
     if (y < edge - ABOVE || y >= edge + BELOW || x < ruler->x || x >= ruler->x + ruler->w) return hover;
-    for (int r = 0; r < document->rig_count; r++) {
-        for (int i = 0; i < document->rigs[r]->pin_count; i++) {
-            const struct pin *pin = &document->rigs[r]->pins[i];
-            float xy[2];
-            place(curves, core, pin, xy);
-            float distance = fabsf(x - xy[0]);
-            if (distance < REACH && core->pin.any && core->pin.id == pin->id) distance = 0;
-            if (distance >= best) continue;
-            best = distance;
-            hover = (struct hover){.kind = HOVER_PIN, .rig = r, .joint = pin->point, .pin = pin->id};
-        }
+    struct pin_place at = PINS_START;
+    for (const struct pin *pin; (pin = pins_next(core->document, &at));) {
+        float xy[2];
+        place(curves, core, pin, xy);
+        float distance = fabsf(x - xy[0]);
+        if (distance < REACH && core->pin.any && core->pin.id == pin->id) distance = 0;
+        if (distance >= best) continue;
+        best = distance;
+        hover = (struct hover){.kind = HOVER_PIN, .rig = at.rig, .joint = pin->point, .pin = pin->id};
     }
     return hover;
 }
@@ -287,23 +284,19 @@ void ruler_pins_begin(struct curves *curves, struct core *core, const struct hov
 
 void ruler_pins_show(const struct curves *curves, struct core *core)
 {
-    const struct document *document = core->document;
-    for (int r = 0; r < document->rig_count; r++) {
-        const struct rig *rig = document->rigs[r];
-        const int spline = rig_point_spline(rig);
-        const uint32_t color = spline >= 0 ? spline_list_color(document, spline) : theme()->text_dim;
-        for (int i = 0; i < rig->pin_count; i++) {
-            const struct pin *pin = &rig->pins[i];
-            const bool selected = core->pin.any && core->pin.id == pin->id;
-            const bool hot = core->hover.kind == HOVER_PIN && core->hover.pin == pin->id;
-            const float radius = RADIUS + (selected || hot ? 1 : 0);
-            float xy[2];
-            place(curves, core, pin, xy);
-            if (xy[0] < core->layout.ruler.x || xy[0] > core->layout.ruler.x + core->layout.ruler.w) continue;
-            const struct rect disc = {xy[0] - radius, xy[1] - radius, 2 * radius, 2 * radius};
-            drawlist_rounded(&core->list, disc, radius, selected ? theme()->playhead : color);
-            drawlist_rounded_line(&core->list, disc, radius, 1, selected || hot ? color : theme()->panel);
-        }
+    const struct rect *ruler = &core->layout.ruler;
+    struct pin_place at = PINS_START;
+    for (const struct pin *pin; (pin = pins_next(core->document, &at));) {
+        const uint32_t color = pins_color(core->document, at.rig);
+        const bool selected = core->pin.any && core->pin.id == pin->id;
+        const bool hot = core->hover.kind == HOVER_PIN && core->hover.pin == pin->id;
+        const float radius = RADIUS + (selected || hot ? 1 : 0);
+        float xy[2];
+        place(curves, core, pin, xy);
+        if (xy[0] < ruler->x || xy[0] > ruler->x + ruler->w) continue;
+        const struct rect disc = {xy[0] - radius, xy[1] - radius, 2 * radius, 2 * radius};
+        drawlist_rounded(&core->list, disc, radius, selected ? theme()->playhead : color);
+        drawlist_rounded_line(&core->list, disc, radius, 1, selected || hot ? color : theme()->panel);
     }
 }
 

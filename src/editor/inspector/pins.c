@@ -9,26 +9,15 @@
 
 enum { MAX_ROWS = 8 }; ///< pins listed at once
 
-/// A pin in the list of all, rig by rig.
-struct pin_row {
-    int rig, at;
-};
-
-static struct pin_row place_of(const struct document *document, int row)
+/// The row of the selected pin in the list of all, 0 where none is.
+static int selected_row(const struct core *core)
 {
-    int rig = 0;
-    while (row >= document->rigs[rig]->pin_count) row -= document->rigs[rig++]->pin_count;
-    return (struct pin_row){rig, row};
-}
-
-/// The row of the selected pin, 0 where none is.
-static int selected_row(const struct inspector *in)
-{
-    int rig, row = 0;
-    const struct pin *pin = pins_selected(in->core, &rig);
-    if (!pin) return 0;
-    for (int r = 0; r < rig; r++) row += in->core->document->rigs[r]->pin_count;
-    return row + (int)(pin - in->core->document->rigs[rig]->pins);
+    struct pin_place place = PINS_START;
+    int row = 0;
+    for (const struct pin *pin; core->pin.any && (pin = pins_next(core->document, &place)); row++) {
+        if (pin->id == core->pin.id) return row;
+    }
+    return 0;
 }
 
 /// Millimetres that are left; NAN where that is not known.
@@ -42,10 +31,9 @@ static double left_of(const struct inspector *in, int rig, int at)
 static const char *word_of(const struct rig *rig) { return rig->kind == RIG_CHARACTER ? "vertex" : "joint"; }
 
 /// true if the pin was removed.
-static bool build_row(struct inspector *in, int row)
+static bool build_row(struct inspector *in, int row, struct pin_place place)
 {
     struct ui *ui = &in->ui;
-    const struct pin_row place = place_of(in->core->document, row);
     const struct rig *rig = in->core->document->rigs[place.rig];
     const struct pin *pin = &rig->pins[place.at];
     struct rect r = ui_row(ui, UI_ROW), button = {r.x + r.w - r.h, r.y, r.h, r.h};
@@ -70,10 +58,10 @@ static bool build_row(struct inspector *in, int row)
 
 static void build_list(struct inspector *in, int count)
 {
-    const int rows = count < MAX_ROWS ? count : MAX_ROWS;
-    const int first = inspector_first_row(count, selected_row(in), MAX_ROWS);
-    for (int row = first; row < first + rows; row++) {
-        if (build_row(in, row)) return;
+    const int first = inspector_first_row(count, selected_row(in->core), MAX_ROWS);
+    struct pin_place place = PINS_START;
+    for (int row = 0; row < first + MAX_ROWS && pins_next(in->core->document, &place); row++) {
+        if (row >= first && build_row(in, row, place)) return;
     }
     if (count <= MAX_ROWS) return;
     char text[64];

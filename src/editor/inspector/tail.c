@@ -173,7 +173,7 @@ static void choose_end(struct inspector *in, const struct dropdown *list)
 {
     const bool first = ((const struct end *)list)->use == BONE_FIRST;
     const struct chain *chain = &inspector_shown(in)->chain;
-    const int model = bones_model_of(in->core->document, chain);
+    const int model = rig_body(in->core->document, in->rig);
     const struct imported *character = model >= 0 ? bones_character(in->core, model) : NULL;
     if (!character) return;
     const int top = first ? -1 : gltf_find_node(&character->gltf, chain->from);

@@ -12,15 +12,12 @@
 
 enum { AXIS_X, AXIS_Y, AXIS_Z };
 
-static const double LEAST_AXIS = 0.3; ///< pixels of an axis in a pixel across, below which it is as slow as that
-
 /// Along one axis of the ground, so that the body stays under the pointer: the axis' own direction on the screen counts.
 static double along_axis(const struct body_drag *hold, const double axis[2], double dx, double dy)
 {
     double across = axis[0] * hold->right[0] + axis[1] * hold->right[1];
     double away = (axis[0] * hold->right[1] - axis[1] * hold->right[0]) * hold->pitch;
-    double square = fmax(across * across + away * away, LEAST_AXIS * LEAST_AXIS);
-    return (dx * across - dy * away) / square / hold->pixels_per_metre;
+    return stage_along(across, away, dx, dy) / hold->pixels_per_metre;
 }
 
 void body_drag_way(const struct stage *stage, const struct core *core, double offset[3])
@@ -52,16 +49,8 @@ void body_drag_advance(struct stage *stage, const struct core *core)
 
 void body_drag_offset(const struct stage *stage, const struct core *core, int rig, double offset[3])
 {
-    const bool held = body_is_held(core) && body_carries(core->document, stage->body_drag.rig, rig);
+    const bool held = body_is_held(core) && rig_body(core->document, rig) == stage->body_drag.rig;
     for (int k = 0; k < 3; k++) offset[k] = held ? stage->body_drag.offset[k] : 0;
-}
-
-static bool lock(struct stage *stage, int key)
-{
-    if (key != 'X' && key != 'Y' && key != 'Z') return false;
-    const int axis = key - 'X';
-    stage->body_drag.axis = stage->body_drag.axis == axis ? -1 : axis;
-    return true;
 }
 
 enum { RING_POINTS = 64 };
@@ -77,13 +66,6 @@ struct tail *tail_of(const struct document *document, int rig)
     return is_tail ? &document->rigs[rig]->tail : NULL;
 }
 
-bool body_carries(const struct document *document, int body, int rig)
-{
-    const struct rig *carried = document->rigs[rig];
-    return rig == body || (carried->kind == RIG_CHAIN &&
-                           document_find_model(document, carried->chain.model, carried->chain.by_file) == body);
-}
-
 /// Where a body stands now.
 struct stand {
     float base[3], middle[2]; ///< what the pointer holds; x and z
@@ -93,8 +75,7 @@ struct stand {
 /// False where there is no such body, or nothing to see of it.
 static bool find_stand(const struct stage *stage, const struct core *core, int rig, struct stand *stand)
 {
-    const struct stage_hand by = {stage, core, core->document};
-    const struct posing posing = stage_posing_by_hand(&by);
+    const struct posing posing = stage_posing_by_hand(stage);
     struct rig_pose pose;
     float lo[3], hi[3];
     if (!rig_pose(&posing, rig, core->playback.position, NULL, &pose)) return false;
@@ -169,14 +150,13 @@ static float body_distance(struct stage *stage, const struct rig_pose *fox, cons
 struct hover body_hover(struct stage *stage, const struct core *core, double position, float x, float y)
 {
     const struct stage_view *view = &stage->view;
-    const struct stage_hand by = {stage, core, core->document};
-    const struct posing posing = stage_posing_by_hand(&by);
+    const struct posing posing = stage_posing_by_hand(stage);
     const float viewport[4] = {view->viewport.x, view->viewport.y, view->viewport.w, view->viewport.h};
     struct hover hover = {.kind = HOVER_NONE};
     float direction[3], nearest = INFINITY;
     camera_ray(view->view, view->projection, viewport, (const float[2]){x, y}, direction);
     for (int t = 0; t < stage->tail_count; t++) {
-        const int rig = stage->tails[t].rig;
+        const int rig = stage->strands[t].rig;
         struct rig_pose pose;
         if (!tail_of(core->document, rig) || !rig_pose(&posing, rig, position, NULL, &pose)) continue;
         if (!passes_box(&pose.strand, view->eye, direction)) continue;
@@ -193,8 +173,8 @@ bool body_point(const struct stage *stage, const struct core *core, int tail, in
 {
     static const float places[BODY_POINTS][3] = {
         {0, 0.18f, -0.45f}, {0, 0.54f, -0.385f}, {0, 0.05f, -0.25f}, {0, 0, -0.5f}}; // chest, head, rump, paws
-    if (tail >= stage->tail_count || stage->tails[tail].model < 0) return false;
-    const struct stage_model *fox = &stage->view.models[stage->tails[tail].model];
+    if (tail >= stage->tail_count || stage->strands[tail].model < 0) return false;
+    const struct stage_model *fox = &stage->view.models[stage->strands[tail].model];
     const mat4s moved = mat4_from(fox->pose->joints[point == BODY_HEAD ? LIMB_HEAD : LIMB_BODY]);
     const vec3s at = glms_mat4_mulv3(moved, vec3_from(places[point]), 1.0f);
     const vec3s place = glms_mat4_mulv3(mat4_from(fox->root), at, 1.0f);
@@ -258,8 +238,9 @@ static enum drag_answer take_event(void *room, struct core *core, const struct e
     // Ctrl may still be down, which lifts bodies.
     const bool key = event->kind == EVENT_KEY && event->action == ACTION_PRESS && !(event->mods & MOD_ALT);
     if (!key) return DRAG_PASSES;
-    if (event->key != 'R') return lock(room, event->key) ? DRAG_USED : DRAG_PASSES;
-    const struct stage *stage = room;
+    struct stage *stage = room;
+    if (event->key != 'R')
+        return drag_lock_axis(&core->drag, &stage->body_drag.axis, event->key) ? DRAG_USED : DRAG_PASSES;
     if (!tail_of(core->document, stage->body_drag.rig)) {
         core_message(core, false,
                      "An imported character stands in one place for the whole shot: its motion is its clip's.");
@@ -289,8 +270,7 @@ void body_drag_begin(struct stage *stage, struct core *core, int rig, const stru
     drag_begin(core, &body_owner, stage, "Move body", event);
     *hold = (struct body_drag){.rig = rig, .axis = -1};
     find_stand(stage, core, rig, &stand);
-    const float depth = camera_depth(stage->view.view, stage->view.eye, stand.base);
-    hold->pixels_per_metre = 0.5 * (double)(core->layout.stage.h * stage->view.projection[5] / fmaxf(depth, 0.1f));
+    hold->pixels_per_metre = stage_pixels_per_metre(stage, core, stand.base);
     double pitch = sin((double)camera->elevation);
     hold->pitch = copysign(fmax(fabs(pitch), LEAST_PITCH), pitch);
     hold->rise = fmax(cos((double)camera->elevation), LEAST_RISE);

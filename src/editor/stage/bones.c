@@ -89,6 +89,13 @@ static bool is_better(const struct candidate *a, const struct candidate *best)
     return a->fraction < best->fraction;
 }
 
+/// An edit in the same frame may have taken away what was last shown.
+static bool exists(const struct document *document, const struct shown_bone *bone)
+{
+    const bool is_there = bone->model < document->rig_count && document->rigs[bone->model]->kind == RIG_MODEL;
+    return is_there && (bone->chain < 0 || tail_drag_holds(document, bone->chain, bone->joint));
+}
+
 struct hover bone_hover(const struct stage *stage, const struct core *core, float x, float y)
 {
     const float p[2] = {x, y};
@@ -98,8 +105,8 @@ struct hover bone_hover(const struct stage *stage, const struct core *core, floa
         if (measure(stage, core, b, p, &candidate)) nearest = fminf(nearest, candidate.distance);
     }
     for (int b = 0; b < stage->bone_count && !core->brush.on; b++) {
-        if (measure(stage, core, b, p, &candidate) && candidate.distance < nearest + OVERLAP &&
-            is_better(&candidate, &best))
+        if (exists(core->document, &stage->bones[b]) && measure(stage, core, b, p, &candidate) &&
+            candidate.distance < nearest + OVERLAP && is_better(&candidate, &best))
             best = candidate;
     }
     if (best.bone < 0) return (struct hover){.kind = HOVER_NONE};
@@ -114,18 +121,14 @@ struct hover bone_hover(const struct stage *stage, const struct core *core, floa
                           .y = best.xy[1]};
 }
 
-bool bone_exists(const struct document *document, int model)
-{
-    return model < document->rig_count && document->rigs[model]->kind == RIG_MODEL;
-}
-
 void bone_click(const struct stage *stage, struct core *core)
 {
     const struct hover *pressed = &stage->pressed;
     const struct document *document = core->document;
     const bool on_chain = pressed->kind == HOVER_JOINT && pressed->rig < document->rig_count &&
                           document->rigs[pressed->rig]->kind == RIG_CHAIN;
-    if ((pressed->kind == HOVER_BONE || on_chain) && bone_exists(document, pressed->model)) {
+    const bool is_there = pressed->model < document->rig_count && document->rigs[pressed->model]->kind == RIG_MODEL;
+    if ((pressed->kind == HOVER_BONE || on_chain) && is_there) {
         bones_clicked(core, pressed->model, pressed->node);
     } else if (core->pick.use == BONE_SELECTED) {
         bones_clear(core);

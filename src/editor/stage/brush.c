@@ -59,36 +59,24 @@ static const struct figure *pose_figure(struct stage *stage, const struct core *
     return skin_pose(stage, core->characters.character) ? figure : NULL;
 }
 
+/// What strokes are called, and what they are with Shift and with Ctrl.
+static const struct stroke {
+    const char *label;
+    enum brush_mode smoothed, other;
+} strokes[] = {
+    [BRUSH_ADVANCE] = {"Advance phase", BRUSH_SMOOTH_PHASE, BRUSH_DELAY},
+    [BRUSH_DELAY] = {"Delay phase", BRUSH_SMOOTH_PHASE, BRUSH_ADVANCE},
+    [BRUSH_SMOOTH_PHASE] = {"Smooth phase", BRUSH_ADVANCE, BRUSH_SMOOTH_PHASE},
+    [BRUSH_MORE] = {"More amplitude", BRUSH_SMOOTH_AMPLITUDE, BRUSH_LESS},
+    [BRUSH_LESS] = {"Less amplitude", BRUSH_SMOOTH_AMPLITUDE, BRUSH_MORE},
+    [BRUSH_SMOOTH_AMPLITUDE] = {"Smooth amplitude", BRUSH_MORE, BRUSH_SMOOTH_AMPLITUDE},
+    [BRUSH_ERASE] = {"Erase paint", BRUSH_ERASE, BRUSH_ERASE},
+};
+
 enum brush_mode brush_stroke(const struct brush *brush, unsigned mods)
 {
-    static const enum brush_mode smoothed[] = {
-        [BRUSH_ADVANCE] = BRUSH_SMOOTH_PHASE,  [BRUSH_DELAY] = BRUSH_SMOOTH_PHASE,
-        [BRUSH_SMOOTH_PHASE] = BRUSH_ADVANCE,  [BRUSH_MORE] = BRUSH_SMOOTH_AMPLITUDE,
-        [BRUSH_LESS] = BRUSH_SMOOTH_AMPLITUDE, [BRUSH_SMOOTH_AMPLITUDE] = BRUSH_MORE,
-        [BRUSH_ERASE] = BRUSH_ERASE,
-    };
-    static const enum brush_mode other[] = {
-        [BRUSH_ADVANCE] = BRUSH_DELAY,
-        [BRUSH_DELAY] = BRUSH_ADVANCE,
-        [BRUSH_SMOOTH_PHASE] = BRUSH_SMOOTH_PHASE,
-        [BRUSH_MORE] = BRUSH_LESS,
-        [BRUSH_LESS] = BRUSH_MORE,
-        [BRUSH_SMOOTH_AMPLITUDE] = BRUSH_SMOOTH_AMPLITUDE,
-        [BRUSH_ERASE] = BRUSH_ERASE,
-    };
-    return mods & MOD_SHIFT ? smoothed[brush->mode] : mods & MOD_CTRL ? other[brush->mode] : brush->mode;
-}
-
-/// The name of a stroke.
-static const char *brush_label(enum brush_mode stroke)
-{
-    static const char *const labels[] = {
-        [BRUSH_ADVANCE] = "Advance phase",     [BRUSH_DELAY] = "Delay phase",
-        [BRUSH_SMOOTH_PHASE] = "Smooth phase", [BRUSH_MORE] = "More amplitude",
-        [BRUSH_LESS] = "Less amplitude",       [BRUSH_SMOOTH_AMPLITUDE] = "Smooth amplitude",
-        [BRUSH_ERASE] = "Erase paint",
-    };
-    return labels[stroke];
+    const struct stroke *stroke = &strokes[brush->mode];
+    return mods & MOD_SHIFT ? stroke->smoothed : mods & MOD_CTRL ? stroke->other : brush->mode;
 }
 
 /// The spots that the pointer went over since the last frame; those off the character are left out.
@@ -303,7 +291,7 @@ bool brush_press(struct stage *stage, struct core *core, const struct event *eve
         return true;
     }
     painting->stroke = brush_stroke(brush, event->mods);
-    drag_begin(core, &owner, stage, brush_label(painting->stroke), event);
+    drag_begin(core, &owner, stage, strokes[painting->stroke].label, event);
     painting->x = event->x;
     painting->y = event->y;
     painting->has_dabbed = false;
@@ -411,7 +399,7 @@ static void show_state(const struct stage *stage, struct core *core, const struc
     const struct rect legend = characters_legend(core);
     const struct rect box = {legend.x, legend.y - STATE_HEIGHT - 8, legend.w, STATE_HEIGHT};
     const bool paints = brush_paints(core);
-    const char *label = brush_label(paints ? painting->stroke : brush_stroke(brush, core->mods));
+    const char *label = strokes[paints ? painting->stroke : brush_stroke(brush, core->mods)].label;
     char text[64] = "nothing painted here";
     if (painting->covers && paint) describe_spot(stage, paint, coordinate, text, sizeof text);
     if (!painting->covers)

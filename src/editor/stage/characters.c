@@ -112,16 +112,11 @@ static int front_vertex(const struct figure *figure, const double uv[2])
 
 bool stage_character_point(const struct stage *stage, int character, const double uv[2], float xy[2])
 {
-    const struct stage_view *view = &stage->view;
-    for (int i = 0; i < view->character_count; i++) {
-        const struct stage_character *shown = &view->characters[i];
-        float point[3];
-        if (shown->rig != character || shown->is_twin) continue;
-        morph_vertex(shown->figure, &shown->morph, front_vertex(shown->figure, uv), point, NULL);
-        for (int k = 0; k < 3; k++) point[k] += shown->position[k] - (k == 1 ? shown->figure->lo[1] : 0.0f);
-        return stage_project_point(stage, view->viewport, point, xy);
-    }
-    return false;
+    const struct stage_character *shown = stage_character_shown(stage, character);
+    float point[3];
+    if (!shown) return false;
+    stage_vertex(shown->figure, &shown->morph, shown->position, front_vertex(shown->figure, uv), point);
+    return stage_project_point(stage, stage->view.viewport, point, xy);
 }
 
 enum { SECTORS = 36, RINGS = 5, LEGEND_WIDTH = 196, LEGEND_HEIGHT = 132 };

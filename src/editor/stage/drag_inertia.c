@@ -96,7 +96,7 @@ void drag_inertia_land(struct stage *stage)
 void drag_inertia_stop(struct stage *stage, const struct document *document, int body)
 {
     for (int r = 0; r < document->rig_count; r++) {
-        const int at = body_carries(document, body, r) ? find(stage, document->rigs[r]->id) : -1;
+        const int at = rig_body(document, r) == body ? find(stage, document->rigs[r]->id) : -1;
         if (at >= 0) stage->inertia[at] = (struct drag_inertia){0};
     }
 }

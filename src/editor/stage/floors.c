@@ -8,17 +8,11 @@
 #include "ui/theme.h"
 #include <math.h>
 #include <stdio.h>
-#include <string.h>
 
 static const float AROUND = 0.42f; ///< of the character's breadth or depth: how far the edge is from its middle
 static const float EDGE_REACH = 5; ///< pixels
 static const double LEAST_RISE =
     0.3; ///< cosine of the camera's elevation below which height follows the pointer less
-
-bool floors_exist(const struct document *document, int rig)
-{
-    return rig >= 0 && rig < document->rig_count && rig_has_floor(document->rigs[rig]);
-}
 
 /// The floor of a character that is shown, and where it is on the screen; NULL where it has none, or it is not in sight.
 static const struct character_rig *floors_find(const struct stage *stage, const struct core *core,
@@ -73,8 +67,9 @@ struct hover floors_hover(const struct stage *stage, const struct core *core, fl
 static void apply(void *room, struct core *core)
 {
     const struct floor_drag *drag = &((const struct stage *)room)->floor_drag;
-    if (!floors_exist(core->document, drag->rig)) return;
-    struct rig changed = *core->document->rigs[drag->rig];
+    const struct document *document = core->document;
+    if (drag->rig >= document->rig_count || !rig_has_floor(document->rigs[drag->rig])) return; // an edit took it away
+    struct rig changed = *document->rigs[drag->rig];
     const double height = drag->start - core->drag.moved_y / drag->pixels_per_metre;
     const double rounded = core_round(height, 0.5 / drag->pixels_per_metre);
     changed.character.floor = fmin(rounded, changed.character.position[1]);
@@ -86,14 +81,11 @@ void floors_begin(struct stage *stage, struct core *core, const struct hover *ho
     static const struct drag_owner owner = {.cursor = CURSOR_VERTICAL, .apply = apply, .end = stage_click};
     const struct character_rig *rig = &core->document->rigs[hover->rig]->character;
     const float at[3] = {(float)rig->position[0], (float)rig->floor, (float)rig->position[2]};
-    const float depth = fmaxf(camera_depth(stage->view.view, stage->view.eye, at), 0.1f);
     const double rise = fmax(cos((double)stage->camera.elevation), LEAST_RISE);
     core->hover = *hover;
     drag_begin(core, &owner, stage, "Set floor", event);
     stage->floor_drag = (struct floor_drag){
-        .rig = hover->rig,
-        .start = rig->floor,
-        .pixels_per_metre = 0.5 * rise * (double)(core->layout.stage.h * stage->view.projection[5] / depth)};
+        .rig = hover->rig, .start = rig->floor, .pixels_per_metre = rise * stage_pixels_per_metre(stage, core, at)};
 }
 
 static const float TOUCH = 2e-3f;     ///< of the character's height: what is so near touches
@@ -104,14 +96,14 @@ static const float FAR_SIDE = 0.35f,
 /// Where the lowest vertex is as it is posed.
 static void find_lowest(const struct stage_character *shown, float place[3])
 {
-    const struct figure *figure = shown->figure;
-    place[1] = INFINITY;
-    for (int v = 0; v < figure->character.vertex_count; v++) {
+    float lowest = INFINITY;
+    int found = 0;
+    for (int v = 0; v < shown->figure->character.vertex_count; v++) {
         float at[3];
-        morph_vertex(figure, &shown->morph, v, at, NULL);
-        if (at[1] < place[1]) memcpy(place, at, sizeof at);
+        morph_vertex(shown->figure, &shown->morph, v, at, NULL);
+        if (at[1] < lowest) lowest = at[1], found = v;
     }
-    for (int k = 0; k < 3; k++) place[k] += shown->position[k] - (k == 1 ? figure->lo[1] : 0.0f);
+    stage_vertex(shown->figure, &shown->morph, shown->position, found, place);
 }
 
 /// A disc on the floor under the lowest point, and a line to that where it is below.
@@ -196,12 +188,9 @@ void floors_show(const struct stage *stage, struct core *core)
 
 bool stage_floor_point(const struct stage *stage, const struct core *core, int character, float xy[2])
 {
-    for (int c = 0; c < stage->view.character_count; c++) {
-        const struct stage_character *shown = &stage->view.characters[c];
-        struct shown_floor floor = {0};
-        if (shown->rig != character || !floors_find(stage, core, shown, &floor)) continue;
-        for (int k = 0; k < 2; k++) xy[k] = 0.5f * (floor.xy[floor.first][k] + floor.xy[(floor.first + 1) % 4][k]);
-        return true;
-    }
-    return false;
+    const struct stage_character *shown = stage_character_shown(stage, character);
+    struct shown_floor floor = {0};
+    if (!shown || !floors_find(stage, core, shown, &floor)) return false;
+    for (int k = 0; k < 2; k++) xy[k] = 0.5f * (floor.xy[floor.first][k] + floor.xy[(floor.first + 1) % 4][k]);
+    return true;
 }

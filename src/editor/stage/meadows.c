@@ -22,7 +22,7 @@ static void push_of(const struct stage *stage, const float place[3], double push
 {
     pushed[0] = pushed[1] = 0;
     for (int t = 0; t < stage->tail_count; t++) {
-        const struct pose *pose = &stage->tails[t].pose;
+        const struct pose *pose = &stage->strands[t].pose;
         const float *base = pose->matrix[0] + 12;
         const double scale = (double)pose->scale;
         const double x = (double)(place[0] - base[0]), z = (double)(place[2] - base[2]) - MIDDLE * scale;

@@ -37,8 +37,7 @@ static void add_shadows(struct stage_view *view, const struct stage_model *shown
 struct stage_model *models_show(struct stage *stage, const struct core *core, int rig, struct rig_pose *posed)
 {
     struct stage_view *view = &stage->view;
-    const struct stage_hand by = {stage, core, core->document};
-    struct posing posing = stage_posing_by_hand(&by);
+    struct posing posing = stage_posing_by_hand(stage);
     posing.shown = true;
     if (view->model_count == STAGE_MAX_MODELS) return NULL;
     if (!rig_pose_body(&posing, rig, core->playback.position, NULL, posed)) return NULL;
@@ -91,8 +90,8 @@ void skin_reserve(struct stage *stage)
         most = count > most ? count : most;
     }
     for (int t = 0; t < stage->tail_count; t++) {
-        if (stage->tails[t].model < 0) continue;
-        const struct gltf *fox = stage->view.models[stage->tails[t].model].gltf;
+        if (stage->strands[t].model < 0) continue;
+        const struct gltf *fox = stage->view.models[stage->strands[t].model].gltf;
         const int count = gltf_vertex_count(fox, fox->node_count - 1);
         most = count > most ? count : most;
     }
@@ -104,18 +103,13 @@ void skin_reserve(struct stage *stage)
 
 bool skin_pose(struct stage *stage, int character)
 {
-    const struct stage_view *view = &stage->view;
     struct skin *skin = &stage->skin;
-    for (int c = 0; c < view->character_count; c++) {
-        const struct stage_character *shown = &view->characters[c];
-        if (shown->rig != character || shown->is_twin) continue;
-        if (shown->figure->character.vertex_count > skin->capacity) return false;
-        const uint64_t hash = hash_word(hash_word(view->hash, shown->figure->id), (uint64_t)character);
-        if (skin->hash != hash) morph_places(shown->figure, &shown->morph, shown->position, skin->posed);
-        skin->hash = hash;
-        return true;
-    }
-    return false;
+    const struct stage_character *shown = stage_character_shown(stage, character);
+    if (!shown || shown->figure->character.vertex_count > skin->capacity) return false;
+    const uint64_t hash = hash_word(hash_word(stage->view.hash, shown->figure->id), (uint64_t)character);
+    if (skin->hash != hash) morph_places(shown->figure, &shown->morph, shown->position, skin->posed);
+    skin->hash = hash;
+    return true;
 }
 
 bool skin_spot(const struct stage *stage, const struct figure *figure, float x, float y, struct surface_spot *spot)

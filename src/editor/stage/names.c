@@ -16,7 +16,7 @@ static const float FEET = -0.5f; ///< z of the paws from where the tail begins, 
 static bool place_name(const struct stage *stage, const struct core *core, int tail, const char *name,
                        struct rect *place)
 {
-    const struct pose *pose = &stage->tails[tail].pose;
+    const struct pose *pose = &stage->strands[tail].pose;
     const float *base = pose->matrix[0] + 12;
     const float feet[3] = {base[0], pose->ground, base[2] + FEET * pose->scale};
     const struct rect r = core->layout.stage;

@@ -152,16 +152,6 @@ static bool show_chain(struct stage *stage, struct core *core, const struct pose
     return true;
 }
 
-/// The character where the stage shows it: of a pair, the one that is not stiff.
-static const struct stage_character *find_shown(const struct stage *stage, int character)
-{
-    for (int c = 0; c < stage->view.character_count; c++) {
-        const struct stage_character *shown = &stage->view.characters[c];
-        if (shown->rig == character && !shown->is_twin) return shown;
-    }
-    return NULL;
-}
-
 /// Poses its surface and puts that on the screen, in the memory for what is pointed at, which is posed anew then.
 static bool project_surface(struct stage *stage, const struct core *core, const struct figure *figure,
                             const struct morph *morph, const float position[3])
@@ -184,7 +174,7 @@ static bool show_character(struct stage *stage, struct core *core, const struct 
                            float width, uint32_t color, float tip[2])
 {
     const struct figure *figure = pose->character.figure;
-    const struct stage_character *shown = find_shown(stage, character);
+    const struct stage_character *shown = stage_character_shown(stage, character);
     struct silhouette *silhouette = &stage->silhouette;
     if (!shown || !project_surface(stage, core, figure, &pose->character.morph, shown->position) ||
         !silhouette_open(silhouette, core->layout.stage))

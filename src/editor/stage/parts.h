@@ -34,17 +34,17 @@ void stage_ring(struct core *core, const float xy[2]);
 /// The end of a drag that never moved: a click, on a bone or beside all.
 void stage_click(void *room, struct core *core, bool keep);
 
-/// What moves rigs by hand: the body that is held, and what swings after it.
-struct stage_hand {
-    const struct stage *stage;
-    const struct core *core;
-    const struct document *document;
-};
-/// The same with that, which must outlive it.
-struct posing stage_posing_by_hand(const struct stage_hand *hand);
-/// Poses a tail or chain with what is moved by hand; `change` may be NULL. False if its model is missing.
-bool stage_pose_strand(const struct stage *stage, const struct core *core, int rig, double position,
-                       const struct what_if *change, struct rig_pose *pose);
+/// The same with what is moved by hand: the body that is held, and what swings after it.
+struct posing stage_posing_by_hand(const struct stage *stage);
+/// Pixels a metre that faces the eye takes at a place.
+double stage_pixels_per_metre(const struct stage *stage, const struct core *core, const float place[3]);
+/// How far along an axis of the world the pointer's way goes, in pixels as the axis goes on the screen, for each across and up.
+double stage_along(double across, double up, double dx, double dy);
+/// A character as the stage shows it (its number in the document): of a pair, the one that is not stiff. NULL: it does not.
+const struct stage_character *stage_character_shown(const struct stage *stage, int character);
+/// Where a vertex of a character is in the world that stands at a position.
+void stage_vertex(const struct figure *figure, const struct morph *morph, const float position[3], int vertex,
+                  float place[3]);
 
 /// Notes what hangs on the held body, before anything is edited.
 void base_begin(struct stage *stage, const struct core *core);
@@ -64,20 +64,18 @@ void base_say_channel(const struct core *core, int spline, char *text, size_t si
 /// Shows what a rig has as a model: an imported character, or the fox of a tail; NULL where it has none, or there is no room.
 struct stage_model *models_show(struct stage *stage, const struct core *core, int rig, struct rig_pose *posed);
 
-/// Adds one that is shown.
-void strand_add(struct stage *stage, int rig, const struct rig_pose *pose);
 /// The one of a rig as it was last shown, or NULL.
 const struct shown_strand *strand_of(const struct stage *stage, int rig);
-/// Poses one with what is moved by hand; `change` may be NULL. false if its model is missing.
+/// Poses one with what is moved by hand; `change` may be NULL. false if it, or its model, is missing.
 bool strand_pose(const struct stage *stage, const struct core *core, int rig, double position,
-                 const struct what_if *change, struct shown_strand *strand);
+                 const struct what_if *change, struct rig_pose *pose);
 /// Where a point of it is on the screen: `fraction` 0 … 1 of the way from joint to joint + 1. false where it is behind the eye.
-bool strand_project(const struct stage *stage, const struct core *core, const struct shown_strand *strand, int joint,
+bool strand_project(const struct stage *stage, const struct core *core, const struct pose *strand, int joint,
                     double fraction, float xy[2]);
 /// Pixels from its centre line within which a tail is taken.
 #define STRAND_REACH 16.0f
 /// Sets `hover` (HOVER_JOINT) and `nearest` (pixels) if a point of it is nearer to p than that.
-void strand_nearer(const struct stage *stage, const struct core *core, const struct shown_strand *strand,
+void strand_nearer(const struct stage *stage, const struct core *core, int rig, const struct pose *strand,
                    const float p[2], float *nearest, struct hover *hover);
 /// The nearest point of a tail (HOVER_JOINT), or HOVER_NONE. Chains are pointed at by their bones (bone_hover()).
 struct hover strand_hover(const struct stage *stage, const struct core *core, float x, float y);
@@ -96,8 +94,6 @@ void bones_mark(struct stage *stage, const struct core *core, int rig, int model
 
 /// The bone that is meant by a point of the stage: HOVER_JOINT of its chain, else HOVER_BONE, or HOVER_NONE.
 struct hover bone_hover(const struct stage *stage, const struct core *core, float x, float y);
-/// Whether a rig is still an imported character.
-bool bone_exists(const struct document *document, int model);
 /// A click where the pointer went down: selects the bone there, or none.
 void bone_click(const struct stage *stage, struct core *core);
 
@@ -112,8 +108,6 @@ struct shown_floor {
 
 /// The edge of a floor under a point of the stage (HOVER_FLOOR), or HOVER_NONE.
 struct hover floors_hover(const struct stage *stage, const struct core *core, float x, float y);
-/// Whether a rig of the document has a floor.
-bool floors_exist(const struct document *document, int rig);
 
 /// Starts to drag a floor; edits nothing until the pointer moves.
 void floors_begin(struct stage *stage, struct core *core, const struct hover *hover, const struct event *event);
@@ -123,8 +117,6 @@ void floors_show(const struct stage *stage, struct core *core);
 /// What of pins is under a point of the stage: a marker (HOVER_PIN), else, where nothing else was `found` there, a point of a surface
 /// that can be pinned (HOVER_POINT). HOVER_NONE: nothing.
 struct hover pins_hover(struct stage *stage, const struct core *core, const struct hover *found, float x, float y);
-/// Whether what was found is still in the document.
-bool pins_hover_exists(const struct core *core, const struct hover *hover);
 
 /// Starts to drag what is under the pointer, a point or a marker; edits nothing until it moves.
 void pins_begin(struct stage *stage, struct core *core, const struct hover *hover, const struct event *event);
@@ -171,8 +163,6 @@ void body_drag_show(struct stage *stage, struct core *core);
 void body_drag_way(const struct stage *stage, const struct core *core, double offset[3]);
 /// The held body goes as far as the pointer and limits have it: before what else advances.
 void body_drag_advance(struct stage *stage, const struct core *core);
-/// Whether a body's motion takes a rig along: itself, or the chains of an imported character.
-bool body_carries(const struct document *document, int body, int rig);
 /// How far the running drag has moved a rig from where the document has it, metres; 0 where the body that is held does not carry it.
 void body_drag_offset(const struct stage *stage, const struct core *core, int rig, double offset[3]);
 

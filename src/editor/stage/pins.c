@@ -15,7 +15,6 @@
 
 static const float MARKER_REACH = 9;    ///< pixels
 static const float LEAST_SHARE = 0.05f; ///< of how far the surface moves at most: what moves less is not offered
-static const double LEAST_AXIS = 0.3;   ///< pixels of an axis in a pixel across, below which it is as slow as that
 
 /// How far a vertex moves with a unit of what moves the character, squared, as a share of what is the most along each axis.
 static float share_of(const struct stage_character *shown, int vertex)
@@ -43,7 +42,7 @@ static int nearest_corner(const struct surface_spot *spot)
 }
 
 /// The vertex of the characters' surfaces under a point, that of the nearest to the eye.
-static struct hover find_vertex(struct stage *stage, const struct document *document, float x, float y)
+static struct hover find_vertex(struct stage *stage, const struct core *core, float x, float y)
 {
     const struct stage_view *view = &stage->view;
     struct hover hover = {.kind = HOVER_NONE};
@@ -53,7 +52,8 @@ static struct hover find_vertex(struct stage *stage, const struct document *docu
         struct surface_spot spot;
         float xy[2];
         if (!skin_pose(stage, shown->rig) || !skin_spot(stage, shown->figure, x, y, &spot)) continue;
-        const int rig = document_find_rig(document, RIG_CHARACTER, shown->rig), vertex = nearest_corner(&spot);
+        const int rig = document_find_rig(core->document, RIG_CHARACTER, shown->rig), vertex = nearest_corner(&spot);
+        if (!point_exists(core, (struct rig_point){rig, vertex})) continue; // an edit in the same frame took it away
         const float *place = stage->skin.posed[vertex];
         const float depth = camera_depth(view->view, view->eye, place);
         if (depth >= nearest) continue;
@@ -75,8 +75,24 @@ static struct hover surface_hover(struct stage *stage, const struct core *core, 
         return (struct hover){.kind = HOVER_NONE};
     if (still && pointed->hash == stage->view.hash) return pointed->hover;
     if (still && core->playback.playing) return (struct hover){.kind = HOVER_NONE};
-    *pointed = (struct pointed){x, y, stage->view.hash, find_vertex(stage, core->document, x, y)};
+    *pointed = (struct pointed){x, y, stage->view.hash, find_vertex(stage, core, x, y)};
     return pointed->hover;
+}
+
+/// Goes on to the next pin that has a marker: those of a pair of characters, which stand aside, have none.
+static const struct pin *next_marker(const struct core *core, struct pin_place *place)
+{
+    const struct pin *pin;
+    do {
+        pin = pins_next(core->document, place);
+    } while (pin && core->characters.compare && core->document->rigs[place->rig]->kind == RIG_CHARACTER);
+    return pin;
+}
+
+static bool project(const struct stage *stage, const struct core *core, const double place[3], float xy[2])
+{
+    const float at[3] = {(float)place[0], (float)place[1], (float)place[2]};
+    return stage_project_point(stage, core->layout.stage, at, xy);
 }
 
 /// The marker under a point; of several the selected one, else the nearest.
@@ -84,17 +100,16 @@ static struct hover marker_hover(const struct stage *stage, const struct core *c
 {
     struct hover hover = {.kind = HOVER_NONE};
     float best = MARKER_REACH;
-    for (int i = 0; i < stage->pin_count; i++) {
-        const struct shown_pin *pin = &stage->pins[i];
+    struct pin_place place = PINS_START;
+    for (const struct pin *pin; (pin = next_marker(core, &place));) {
         float xy[2];
-        if (!stage_project_point(stage, core->layout.stage, pin->to, xy)) continue;
+        if (!project(stage, core, pin->to, xy)) continue;
         float distance = hypotf(xy[0] - x, xy[1] - y);
-        if (distance >= MARKER_REACH) continue;
-        if (core->pin.any && core->pin.id == pin->id) distance = 0;
+        if (distance < MARKER_REACH && core->pin.any && core->pin.id == pin->id) distance = 0;
         if (distance >= best) continue;
         best = distance;
         hover = (struct hover){
-            .kind = HOVER_PIN, .rig = pin->point.rig, .joint = pin->point.at, .pin = pin->id, .x = xy[0], .y = xy[1]};
+            .kind = HOVER_PIN, .rig = place.rig, .joint = pin->point, .pin = pin->id, .x = xy[0], .y = xy[1]};
     }
     return hover;
 }
@@ -107,35 +122,17 @@ struct hover pins_hover(struct stage *stage, const struct core *core, const stru
     return found->kind == HOVER_NONE ? surface_hover(stage, core, x, y) : (struct hover){.kind = HOVER_NONE};
 }
 
-bool pins_hover_exists(const struct core *core, const struct hover *hover)
-{
-    if (hover->kind == HOVER_POINT) return point_exists(core, (struct rig_point){hover->rig, hover->joint});
-    const struct document *document = core->document;
-    return hover->rig < document->rig_count && pins_find_id(document->rigs[hover->rig], hover->pin) >= 0;
-}
-
 /// The picture's directions in the world, and its scale at a place.
 static void pins_take_plane(const struct stage *stage, const struct core *core, const double place[3],
                             struct pin_drag *drag)
 {
     const struct stage_view *view = &stage->view;
     const float at[3] = {(float)place[0], (float)place[1], (float)place[2]};
-    const float depth = fmaxf(camera_depth(view->view, view->eye, at), 0.1f);
-    drag->pixels_per_metre = 0.5 * (double)(core->layout.stage.h * view->projection[5] / depth);
+    drag->pixels_per_metre = stage_pixels_per_metre(stage, core, at);
     for (int k = 0; k < 3; k++) {
         drag->right[k] = (double)view->view[4 * k];
         drag->up[k] = (double)view->view[4 * k + 1];
     }
-}
-
-/// X, Y and Z lock an axis; false for other keys.
-static bool lock(struct stage *stage, struct drag *drag, int key)
-{
-    if (key != 'X' && key != 'Y' && key != 'Z') return false;
-    const int axis = key - 'X';
-    stage->pin_drag.axis = stage->pin_drag.axis == axis ? -1 : axis;
-    drag->stale = true;
-    return true;
 }
 
 /// Where the pointer has taken the point.
@@ -146,9 +143,7 @@ static void drag_to(const struct pin_drag *drag, double dx, double dy, double to
         if (drag->axis < 0) to[k] += (dx * drag->right[k] - dy * drag->up[k]) / drag->pixels_per_metre;
     }
     if (drag->axis < 0) return;
-    const double across = drag->right[drag->axis], up = drag->up[drag->axis];
-    const double square = fmax(across * across + up * up, LEAST_AXIS * LEAST_AXIS);
-    to[drag->axis] += (dx * across - dy * up) / square / drag->pixels_per_metre;
+    to[drag->axis] += stage_along(drag->right[drag->axis], drag->up[drag->axis], dx, dy) / drag->pixels_per_metre;
 }
 
 /// The point, or the marker, goes where the pointer is now.
@@ -164,7 +159,8 @@ static enum drag_answer take_event(void *room, struct core *core, const struct e
 {
     // Ctrl may still be down, which takes joints.
     const bool key = event->kind == EVENT_KEY && event->action == ACTION_PRESS && !(event->mods & MOD_ALT);
-    return key && lock(room, &core->drag, event->key) ? DRAG_USED : DRAG_PASSES;
+    return key && drag_lock_axis(&core->drag, &((struct stage *)room)->pin_drag.axis, event->key) ? DRAG_USED
+                                                                                                  : DRAG_PASSES;
 }
 
 static const float HERE = 5, ELSEWHERE = 3.5f, RING = 8, LIT = 6.5f, END = 2; ///< radii, pixels
@@ -255,31 +251,6 @@ void stage_hold_point(struct stage *stage, struct core *core)
     }
 }
 
-static void add_pin(struct stage *stage, const struct core *core, int rig, int at)
-{
-    const struct document *document = core->document;
-    const struct pin *pin = &document->rigs[rig]->pins[at];
-    const struct pin_left *left = evaluation_pin(core->evaluation, document, rig, at);
-    const int spline = rig_point_spline(document->rigs[rig]);
-    struct shown_pin *shown = &stage->pins[stage->pin_count++];
-    *shown = (struct shown_pin){.id = pin->id, .point = {rig, pin->point}, .frame = pin->frame};
-    shown->color = spline >= 0 ? spline_list_color(document, spline) : theme()->text_dim;
-    shown->is_known = left && left->is_found;
-    for (int k = 0; k < 3; k++) shown->to[k] = (float)pin->to[k];
-    for (int k = 0; k < 3 && shown->is_known; k++) shown->place[k] = (float)left->at[k];
-}
-
-/// Finds all markers for the document as it is solved now.
-static void update(struct stage *stage, const struct core *core)
-{
-    const struct document *document = core->document;
-    stage->pin_count = 0;
-    for (int r = 0; r < document->rig_count; r++) {
-        if (document->rigs[r]->kind == RIG_CHARACTER && core->characters.compare) continue; // they stand aside
-        for (int i = 0; i < document->rigs[r]->pin_count; i++) add_pin(stage, core, r, i);
-    }
-}
-
 static void show_disc(struct drawlist *list, const float xy[2], float radius, uint32_t color)
 {
     drawlist_rounded(list, (struct rect){xy[0] - radius, xy[1] - radius, 2 * radius, 2 * radius}, radius, color);
@@ -299,16 +270,20 @@ static void show_frame(struct core *core, const float xy[2], double frame)
     drawlist_text(&core->list, xy[0] + RING + 4, xy[1] + 4, FONT_NUMBER, THEME_TEXT_SMALL, theme()->text, text);
 }
 
-static void show_marker(const struct stage *stage, struct core *core, const struct shown_pin *pin, bool here)
+/// Where its point should be, and a line to where it is on its frame as far as that is known.
+static void show_marker(const struct stage *stage, struct core *core, struct pin_place place, const struct pin *pin)
 {
     struct drawlist *list = &core->list;
+    const struct document *document = core->document;
+    const struct pin_left *left = evaluation_pin(core->evaluation, document, place.rig, place.at);
+    const bool here = document_sample(document, pin->frame) == document_sample(document, core_frame(core));
     const bool selected = core->pin.any && core->pin.id == pin->id;
     const bool hot = core->hover.kind == HOVER_PIN && core->hover.pin == pin->id;
     const float radius = here || selected || hot ? HERE : ELSEWHERE;
-    const uint32_t color = theme_fade(pin->color, here || selected || hot ? 1 : FAINT);
+    const uint32_t color = theme_fade(pins_color(document, place.rig), here || selected || hot ? 1 : FAINT);
     float line[2][2];
-    if (!stage_project_point(stage, core->layout.stage, pin->to, line[0])) return;
-    const bool has_end = pin->is_known && stage_project_point(stage, core->layout.stage, pin->place, line[1]);
+    if (!project(stage, core, pin->to, line[0])) return;
+    const bool has_end = left && left->is_found && project(stage, core, left->at, line[1]);
     if (has_end && hypotf(line[1][0] - line[0][0], line[1][1] - line[0][1]) > LEAST_LINE) {
         drawlist_line(list, line[0], 2, 1.25f, color);
         show_disc(list, line[1], END, color);
@@ -331,26 +306,18 @@ static void show_lit(struct core *core)
 
 void pins_show(struct stage *stage, struct core *core)
 {
-    const struct document *document = core->document;
     int rig;
-    update(stage, core);
+    struct pin_place place = PINS_START;
     const struct pin *selected = pins_selected(core, &rig);
     if (selected && point_exists(core, (struct rig_point){rig, selected->point}))
         path_show(stage, core, TRAIL_OF_PIN, (struct rig_point){rig, selected->point});
-    const int now = document_sample(document, core_frame(core));
-    for (int i = 0; i < stage->pin_count; i++) {
-        const struct shown_pin *pin = &stage->pins[i];
-        show_marker(stage, core, pin, document_sample(document, pin->frame) == now);
-    }
+    for (const struct pin *pin; (pin = next_marker(core, &place));) show_marker(stage, core, place, pin);
     show_lit(core);
 }
 
-bool stage_pin_point(const struct stage *stage, const struct core *core, unsigned id, float xy[2])
+bool stage_pin_point(const struct stage *stage, const struct core *core, const struct pin *pin, float xy[2])
 {
-    for (int i = 0; i < stage->pin_count; i++) {
-        if (stage->pins[i].id == id) return stage_project_point(stage, core->layout.stage, stage->pins[i].to, xy);
-    }
-    return false;
+    return project(stage, core, pin->to, xy);
 }
 
 bool point_exists(const struct core *core, struct rig_point point)
@@ -369,9 +336,7 @@ bool point_exists(const struct core *core, struct rig_point point)
 static void take_place(const struct rig_pose *pose, int at, float place[3])
 {
     if (pose->kind == RIG_CHARACTER) {
-        const struct figure *figure = pose->character.figure;
-        morph_vertex(figure, &pose->character.morph, at, place, NULL);
-        for (int k = 0; k < 3; k++) place[k] += pose->character.position[k] - (k == 1 ? figure->lo[1] : 0.0f);
+        stage_vertex(pose->character.figure, &pose->character.morph, pose->character.position, at, place);
     } else {
         memcpy(place, pose->strand.matrix[at + 1] + 12, 3 * sizeof *place);
     }

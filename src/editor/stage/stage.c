@@ -12,9 +12,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-struct stage *stage_create(void)
+struct stage *stage_create(const struct core *core)
 {
     struct stage *stage = need_zeroed(1, sizeof *stage);
+    stage->core = core;
     stage->camera = camera_default();
     return stage;
 }
@@ -30,7 +31,7 @@ void stage_open(struct stage *stage)
 {
     memset(stage->inertia, 0, sizeof stage->inertia);
     memset(&stage->meadow, 0, sizeof stage->meadow);
-    stage->strand_count = stage->bone_count = stage->pin_count = 0;
+    stage->strand_count = stage->tail_count = stage->bone_count = 0;
 }
 
 const struct stage_view *stage_seen(const struct stage *stage) { return &stage->view; }
@@ -54,20 +55,6 @@ struct hover stage_hover(struct stage *stage, const struct core *core, float x, 
     if (found.kind == HOVER_NONE) found = body_hover(stage, core, core->playback.position, x, y);
     const struct hover pin = pins_hover(stage, core, &found, x, y);
     return pin.kind == HOVER_NONE ? found : pin;
-}
-
-/// What is under a point and still in the document: an edit in the same frame may have taken away what was last shown.
-static struct hover hover_now(struct stage *stage, const struct core *core, float x, float y)
-{
-    const struct document *document = core->document;
-    struct hover hover = stage_hover(stage, core, x, y);
-    if (hover.kind == HOVER_JOINT && !tail_drag_holds(document, hover.rig, hover.joint)) hover.kind = HOVER_NONE;
-    if (hover.kind == HOVER_BONE && !bone_exists(document, hover.model)) hover.kind = HOVER_NONE;
-    if (hover.kind == HOVER_BODY && !tail_of(document, hover.rig)) hover.kind = HOVER_NONE;
-    if ((hover.kind == HOVER_POINT || hover.kind == HOVER_PIN) && !pins_hover_exists(core, &hover))
-        hover.kind = HOVER_NONE;
-    if (hover.kind == HOVER_FLOOR && !floors_exist(document, hover.rig)) hover.kind = HOVER_NONE;
-    return hover;
 }
 
 bool stage_body_point(struct stage *stage, const struct core *core, int tail, float xy[2])
@@ -113,7 +100,7 @@ void stage_press(struct stage *stage, struct core *core, const struct event *eve
     }
     if (brush_press(stage, core, event)) return;
     stage->pointed.hash = 0; // a press means what is there now, even while all moves
-    struct hover hover = hover_now(stage, core, event->x, event->y);
+    struct hover hover = stage_hover(stage, core, event->x, event->y);
     const bool holds = event->button == BUTTON_LEFT && core->pick.use == BONE_SELECTED;
     if (holds && hover.kind == HOVER_NONE) hover = body_moment_ago(stage, core, event->x, event->y);
     stage->pressed = hover;
@@ -157,6 +144,35 @@ bool stage_project_point(const struct stage *stage, struct rect r, const float p
     return camera_project(stage->view.view, stage->view.projection, viewport, point, xy);
 }
 
+double stage_pixels_per_metre(const struct stage *stage, const struct core *core, const float place[3])
+{
+    const float depth = camera_depth(stage->view.view, stage->view.eye, place);
+    return 0.5 * (double)(core->layout.stage.h * stage->view.projection[5] / fmaxf(depth, 0.1f));
+}
+
+static const double LEAST_AXIS = 0.3; ///< pixels of an axis in a pixel across, below which it is as slow as that
+
+double stage_along(double across, double up, double dx, double dy)
+{
+    return (dx * across - dy * up) / fmax(across * across + up * up, LEAST_AXIS * LEAST_AXIS);
+}
+
+const struct stage_character *stage_character_shown(const struct stage *stage, int character)
+{
+    for (int c = 0; c < stage->view.character_count; c++) {
+        const struct stage_character *shown = &stage->view.characters[c];
+        if (shown->rig == character && !shown->is_twin) return shown;
+    }
+    return NULL;
+}
+
+void stage_vertex(const struct figure *figure, const struct morph *morph, const float position[3], int vertex,
+                  float place[3])
+{
+    morph_vertex(figure, morph, vertex, place, NULL);
+    for (int k = 0; k < 3; k++) place[k] += position[k] - (k == 1 ? figure->lo[1] : 0.0f);
+}
+
 enum { RING_SIZE = 13 };
 
 /// Radians. Characters look towards +z; one is met from a bit aside, a pair from the front.
@@ -171,8 +187,7 @@ static const struct stage_kind *const kinds[RIG_KINDS] = {RIG_KIND_LIST(STAGE_RO
 static bool add_motion(const struct stage *stage, const struct core *core, int rig, int n, float lo[3], float hi[3])
 {
     const struct stage_kind *kind = kinds[core->document->rigs[rig]->kind];
-    const struct stage_hand by = {stage, core, core->document};
-    const struct posing posing = stage_posing_by_hand(&by);
+    const struct posing posing = stage_posing_by_hand(stage);
     const double last = document_samples(core->document) - 1;
     bool any = false;
     for (int step = 0; kind->bound_steps > 0 && step <= kind->bound_steps; step++) {
@@ -354,9 +369,9 @@ static struct hover hover_at(struct stage *stage, const struct core *core, doubl
     float nearest = STRAND_REACH;
     for (int s = 0; s < stage->strand_count; s++) {
         const int rig = stage->strands[s].rig;
-        struct shown_strand strand;
-        if (!strand_pose(stage, core, rig, position, NULL, &strand)) continue;
-        strand_nearer(stage, core, &strand, (const float[2]){x, y}, &nearest, &joint);
+        struct rig_pose posed;
+        if (!strand_pose(stage, core, rig, position, NULL, &posed)) continue;
+        strand_nearer(stage, core, rig, &posed.strand, (const float[2]){x, y}, &nearest, &joint);
     }
     return joint.kind != HOVER_NONE ? joint : body_hover(stage, core, position, x, y);
 }

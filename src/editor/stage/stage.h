@@ -6,7 +6,7 @@
 
 struct stage;
 
-struct stage *stage_create(void);
+struct stage *stage_create(const struct core *core);
 void stage_destroy(struct stage *stage);
 /// A point of the screen where body_hover() finds that tail's body; false where it is hidden.
 bool stage_body_point(struct stage *stage, const struct core *core, int tail, float xy[2]);
@@ -52,7 +52,7 @@ void stage_nudge_pin(struct stage *stage, struct core *core, double right, doubl
 /// Pins what is pointed at where it is; else the selected pin's point once more, at the playhead; else a tip, or what moves most.
 void stage_hold_point(struct stage *stage, struct core *core);
 /// Where a pin's marker is on the screen; false where it is not in sight.
-bool stage_pin_point(const struct stage *stage, const struct core *core, unsigned id, float xy[2]);
+bool stage_pin_point(const struct stage *stage, const struct core *core, const struct pin *pin, float xy[2]);
 /// The middle of a near edge of a character's floor on the screen (its number among characters); false where it is not in sight.
 bool stage_floor_point(const struct stage *stage, const struct core *core, int character, float xy[2]);
 

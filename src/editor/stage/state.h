@@ -28,14 +28,13 @@ struct tail_drag_axis {
     double values_per_radian;   ///< of bend at the grabbed joint
 };
 
-enum { STAGE_MAX_STRANDS = 32, STAGE_MAX_BONES = 2048, STAGE_MAX_PINS = SCENE_MAX_PINS };
+enum { STAGE_MAX_STRANDS = 32, STAGE_MAX_BONES = 2048 };
 
-/// A tail or chain as a row of points, from its first joint to its tip.
+/// A tail or chain as it was last posed, from its first joint to its tip.
 struct shown_strand {
-    int rig; ///< in the document
-    bool is_chain;
-    int count;
-    float point[ANGLES_MAX_JOINTS + 1][3]; ///< world
+    int rig;   ///< in the document
+    int model; ///< a tail's fox, in the view; −1: none
+    struct pose pose;
 };
 
 /// A bone of an imported character as it was last posed.
@@ -132,16 +131,6 @@ struct pointed {
     struct hover hover;
 };
 
-/// A pin as it was last shown.
-struct shown_pin {
-    unsigned id;
-    struct rig_point point;
-    double frame;
-    float to[3], place[3]; ///< where its point should be on its frame, and is; world
-    bool is_known;         ///< the second
-    uint32_t color;        ///< of the rig's first spline
-};
-
 /// The pin that is dragged.
 struct pin_drag {
     struct rig_point point;
@@ -191,36 +180,26 @@ struct meadow_view {
     bool swings;
 };
 
-/// A tail as it stands.
-struct shown_tail {
-    int rig;   ///< in the document
-    int model; ///< its fox, in the view; −1: none
-    struct pose pose;
-};
-
 struct stage {
+    const struct core *core;
     struct stage_view view;
     struct meadow_view meadow;
     struct camera camera;
     struct rect figure; ///< see stage_figure(); from the middle of the stage, in heights of it
-    struct shown_strand strands[STAGE_MAX_STRANDS]; ///< shown
-    int strand_count;
+    struct shown_strand strands[STAGE_MAX_STRANDS]; ///< shown: tails, then chains
+    int strand_count, tail_count;
     struct shown_bone bones[STAGE_MAX_BONES];
     int bone_count;
     struct hover pressed; ///< what the running drag began on
     struct tail_drag tail_drag;
     struct body_drag body_drag;
     struct record record;
-    struct shown_tail tails[STAGE_MAX_TAILS];
-    int tail_count;
     struct drag_inertia inertia[STAGE_MAX_STRANDS];
     struct trail_point trail[TRAILS][TRAIL_FRAMES];
     struct liveliest liveliest;
     struct skin skin;
     struct silhouette silhouette; ///< of what is drawn as an outline just now
     struct pointed pointed;
-    struct shown_pin pins[STAGE_MAX_PINS];
-    int pin_count;
     struct pin_drag pin_drag;
     struct floor_drag floor_drag;
     struct painting painting;

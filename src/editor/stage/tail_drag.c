@@ -34,8 +34,8 @@ static const struct channel *channel_for(const struct core *core, const struct r
     return found;
 }
 
-static struct tail_drag_axis axis_for(const struct core *core, const struct rig *rig,
-                                      const struct shown_strand *strand, int joint, enum axis axis)
+static struct tail_drag_axis axis_for(const struct core *core, const struct rig *rig, const struct pose *strand,
+                                      int joint, enum axis axis)
 {
     const struct channel *channel = channel_for(core, rig, axis);
     const int joints = strand->count - 1;
@@ -85,12 +85,12 @@ static void derivative(const struct stage *stage, const struct core *core, const
                        const float at[2], double response[2])
 {
     const struct tail_drag *grab = &stage->tail_drag;
-    struct shown_strand strand;
+    struct rig_pose posed;
     float moved[2] = {at[0], at[1]};
     double change = PROBE * axis->values_per_radian;
     const struct what_if what_if = {axis->spline, change, change * axis->turn};
-    if (strand_pose(stage, core, grab->rig, core->playback.position, &what_if, &strand))
-        strand_project(stage, core, &strand, grab->joint, grab->fraction, moved);
+    if (strand_pose(stage, core, grab->rig, core->playback.position, &what_if, &posed))
+        strand_project(stage, core, &posed.strand, grab->joint, grab->fraction, moved);
     response[0] = (moved[0] - at[0]) / PROBE;
     response[1] = (moved[1] - at[1]) / PROBE;
 }
@@ -152,10 +152,10 @@ static void apply(void *room, struct core *core)
     const struct drag *drag = &core->drag;
     if (!grab->axis[AXIS_SIDE].active && !grab->axis[AXIS_UP].active) return;
     if (!tail_drag_holds(core->document, grab->rig, grab->joint)) return;
-    struct shown_strand strand;
+    struct rig_pose posed;
     float at[2];
-    if (!strand_pose(stage, core, grab->rig, core->playback.position, NULL, &strand)) return;
-    if (!strand_project(stage, core, &strand, grab->joint, grab->fraction, at)) return;
+    if (!strand_pose(stage, core, grab->rig, core->playback.position, NULL, &posed)) return;
+    if (!strand_project(stage, core, &posed.strand, grab->joint, grab->fraction, at)) return;
     double miss[2] = {grab->start[0] + drag->moved_x - at[0], grab->start[1] + drag->moved_y - at[1]};
     if (grab->applied && hypot(miss[0], miss[1]) < CLOSE) return;
     double column[2][2] = {{0}}, step[2];
@@ -194,12 +194,12 @@ void tail_drag_begin(struct stage *stage, struct core *core, const struct hover 
 {
     const struct rig *rig = core->document->rigs[hover->rig];
     struct tail_drag *grab = &stage->tail_drag;
-    struct shown_strand strand;
+    struct rig_pose posed;
     drag_begin(core, &owner, stage, rig->kind == RIG_CHAIN ? "Pull chain" : "Pull tail", event);
     *grab = (struct tail_drag){.rig = hover->rig, .joint = hover->joint, .fraction = hover->fraction};
-    if (!strand_pose(stage, core, grab->rig, core->playback.position, NULL, &strand)) return;
-    grab->axis[AXIS_SIDE] = axis_for(core, rig, &strand, grab->joint, AXIS_SIDE);
-    grab->axis[AXIS_UP] = axis_for(core, rig, &strand, grab->joint, AXIS_UP);
+    if (!strand_pose(stage, core, grab->rig, core->playback.position, NULL, &posed)) return;
+    grab->axis[AXIS_SIDE] = axis_for(core, rig, &posed.strand, grab->joint, AXIS_SIDE);
+    grab->axis[AXIS_UP] = axis_for(core, rig, &posed.strand, grab->joint, AXIS_UP);
     if (grab->axis[AXIS_SIDE].active && grab->axis[AXIS_SIDE].spline == grab->axis[AXIS_UP].spline) {
         grab->axis[AXIS_UP].active = false;
     }
@@ -209,6 +209,6 @@ void tail_drag_begin(struct stage *stage, struct core *core, const struct hover 
     core->playback.position = grab->sample;
     grab->start[0] = hover->x;
     grab->start[1] = hover->y;
-    if (!strand_pose(stage, core, grab->rig, core->playback.position, NULL, &strand)) return;
-    strand_project(stage, core, &strand, grab->joint, grab->fraction, grab->start);
+    if (!strand_pose(stage, core, grab->rig, core->playback.position, NULL, &posed)) return;
+    strand_project(stage, core, &posed.strand, grab->joint, grab->fraction, grab->start);
 }

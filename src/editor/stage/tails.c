@@ -13,28 +13,28 @@ static const float DUSK = 0.35f; ///< of a fox of bind size
 
 static void move_by_hand(const void *context, int rig, struct by_hand *hand)
 {
-    const struct stage_hand *by = context;
+    const struct stage *stage = context;
     double offset[3];
-    body_drag_offset(by->stage, by->core, rig, offset);
+    body_drag_offset(stage, stage->core, rig, offset);
     for (int k = 0; k < 3; k++) hand->base[k] += offset[k];
-    drag_inertia_add(by->stage, by->document, rig, hand->input);
+    drag_inertia_add(stage, stage->core->document, rig, hand->input);
 }
 
-struct posing stage_posing_by_hand(const struct stage_hand *hand)
+struct posing stage_posing_by_hand(const struct stage *stage)
 {
-    struct posing posing = stage_posing(hand->core);
+    struct posing posing = stage_posing(stage->core);
     posing.move = move_by_hand;
-    posing.context = hand;
+    posing.context = stage;
     return posing;
 }
 
-bool stage_pose_strand(const struct stage *stage, const struct core *core, int rig, double position,
-                       const struct what_if *change, struct rig_pose *pose)
+bool strand_pose(const struct stage *stage, const struct core *core, int rig, double position,
+                 const struct what_if *change, struct rig_pose *pose)
 {
-    const struct stage_hand by = {stage, core, core->document};
-    const struct posing posing = stage_posing_by_hand(&by);
+    const struct posing posing = stage_posing_by_hand(stage);
     struct by_hand hand = {0};
     int count;
+    if (!tail_drag_holds(core->document, rig, 0)) return false;
     const struct channel *channels = rig_channels(core->document->rigs[rig], &count);
     for (int c = 0; change && c < count; c++) {
         if (channels[c].spline == change->spline) hand.input[c] = (wiggly_value){.re = change->re, .im = change->im};
@@ -59,12 +59,13 @@ static void pose(struct stage *stage, const struct core *core, int rig, int n)
     struct rig_pose posed, body;
     (void)n;
     if (stage->tail_count == STAGE_MAX_TAILS) return;
-    stage_pose_strand(stage, core, rig, core->playback.position, NULL, &posed);
-    strand_add(stage, rig, &posed);
+    strand_pose(stage, core, rig, core->playback.position, NULL, &posed);
     add_blobs(view, &posed.strand);
     struct stage_model *fox = models_show(stage, core, rig, &body);
     if (fox) fox->dusk = DUSK * posed.strand.scale;
-    stage->tails[stage->tail_count++] = (struct shown_tail){rig, fox ? view->model_count - 1 : -1, posed.strand};
+    stage->strands[stage->strand_count++] =
+        (struct shown_strand){rig, fox ? view->model_count - 1 : -1, posed.strand};
+    stage->tail_count++;
 }
 
 const struct stage_kind tail_stage = {.pose = pose, .bound_steps = BOUND_STEPS};
@@ -72,31 +73,19 @@ const struct stage_kind tail_stage = {.pose = pose, .bound_steps = BOUND_STEPS};
 static void chain_pose(struct stage *stage, const struct core *core, int rig, int n)
 {
     const struct chain *chain = &core->document->rigs[rig]->chain;
-    const int model = document_find_model(core->document, chain->model, chain->by_file);
+    const int model = rig_body(core->document, rig);
     const struct imported *shown = model >= 0 ? bones_character(core, model) : NULL;
     struct chain_bones bones;
     struct rig_pose posed;
     (void)n;
     if (!shown || !chain_find(&shown->gltf, chain->from, chain->to, &bones, NULL)) return;
     bones_mark(stage, core, rig, model, &bones);
-    if (stage_pose_strand(stage, core, rig, core->playback.position, NULL, &posed)) strand_add(stage, rig, &posed);
+    if (stage->strand_count < STAGE_MAX_STRANDS &&
+        strand_pose(stage, core, rig, core->playback.position, NULL, &posed))
+        stage->strands[stage->strand_count++] = (struct shown_strand){rig, -1, posed.strand};
 }
 
 const struct stage_kind chain_stage = {.pose = chain_pose};
-
-static void take_points(const struct rig_pose *pose, int rig, struct shown_strand *strand)
-{
-    strand->rig = rig;
-    strand->is_chain = pose->kind == RIG_CHAIN;
-    strand->count = pose->strand.count;
-    for (int n = 0; n < strand->count; n++)
-        memcpy(strand->point[n], pose->strand.matrix[n] + 12, sizeof strand->point[n]);
-}
-
-void strand_add(struct stage *stage, int rig, const struct rig_pose *pose)
-{
-    if (stage->strand_count < STAGE_MAX_STRANDS) take_points(pose, rig, &stage->strands[stage->strand_count++]);
-}
 
 const struct shown_strand *strand_of(const struct stage *stage, int rig)
 {
@@ -106,24 +95,12 @@ const struct shown_strand *strand_of(const struct stage *stage, int rig)
     return NULL;
 }
 
-bool strand_pose(const struct stage *stage, const struct core *core, int rig, double position,
-                 const struct what_if *change, struct shown_strand *strand)
-{
-    const struct document *document = core->document;
-    struct rig_pose pose;
-    if (rig >= document->rig_count) return false;
-    if (document->rigs[rig]->kind != RIG_TAIL && document->rigs[rig]->kind != RIG_CHAIN) return false;
-    if (!stage_pose_strand(stage, core, rig, position, change, &pose)) return false;
-    take_points(&pose, rig, strand);
-    return true;
-}
-
-bool strand_project(const struct stage *stage, const struct core *core, const struct shown_strand *strand, int joint,
+bool strand_project(const struct stage *stage, const struct core *core, const struct pose *strand, int joint,
                     double fraction, float xy[2])
 {
     assert(joint >= 0 && joint < strand->count);
     const int next = joint + 1 < strand->count ? joint + 1 : joint;
-    const vec3s from = vec3_from(strand->point[joint]), to = vec3_from(strand->point[next]);
+    const vec3s from = vec3_from(strand->matrix[joint] + 12), to = vec3_from(strand->matrix[next] + 12);
     const vec3s world = glms_vec3_lerp(from, to, (float)fraction);
     return stage_project_point(stage, core->layout.stage, world.raw, xy);
 }
@@ -132,10 +109,10 @@ bool stage_project(const struct stage *stage, const struct core *core, int rig, 
                    float xy[2])
 {
     const struct shown_strand *strand = strand_of(stage, rig);
-    return strand && joint < strand->count && strand_project(stage, core, strand, joint, fraction, xy);
+    return strand && joint < strand->pose.count && strand_project(stage, core, &strand->pose, joint, fraction, xy);
 }
 
-void strand_nearer(const struct stage *stage, const struct core *core, const struct shown_strand *strand,
+void strand_nearer(const struct stage *stage, const struct core *core, int rig, const struct pose *strand,
                    const float p[2], float *nearest, struct hover *hover)
 {
     for (int n = 0; n + 1 < strand->count; n++) {
@@ -146,8 +123,8 @@ void strand_nearer(const struct stage *stage, const struct core *core, const str
         float distance = hypotf(p[0] - at[0], p[1] - at[1]);
         if (distance >= *nearest) continue;
         *nearest = distance;
-        *hover = (struct hover){
-            .kind = HOVER_JOINT, .rig = strand->rig, .joint = n, .fraction = fraction, .x = at[0], .y = at[1]};
+        *hover =
+            (struct hover){.kind = HOVER_JOINT, .rig = rig, .joint = n, .fraction = fraction, .x = at[0], .y = at[1]};
     }
 }
 
@@ -155,10 +132,12 @@ struct hover strand_hover(const struct stage *stage, const struct core *core, fl
 {
     struct hover hover = {.kind = HOVER_NONE};
     float nearest = STRAND_REACH;
-    for (int s = 0; s < stage->strand_count; s++) {
-        const struct shown_strand *strand = &stage->strands[s];
-        if (!strand->is_chain) strand_nearer(stage, core, strand, (const float[2]){x, y}, &nearest, &hover);
+    for (int s = 0; s < stage->tail_count; s++) {
+        const struct shown_strand *tail = &stage->strands[s];
+        strand_nearer(stage, core, tail->rig, &tail->pose, (const float[2]){x, y}, &nearest, &hover);
     }
+    // An edit in the same frame may have taken away what was last shown.
+    if (!tail_drag_holds(core->document, hover.rig, hover.joint)) hover.kind = HOVER_NONE;
     return hover;
 }
 
@@ -169,7 +148,8 @@ struct hover strand_end(const struct stage *stage, const struct core *core, cons
     float xy[2];
     hover.joint = (int)round(between->joint + between->fraction) - 1;
     if (hover.joint < 0) hover.joint = 0;
-    if (!strand || hover.joint + 1 >= strand->count || !strand_project(stage, core, strand, hover.joint + 1, 0, xy))
+    if (!strand || hover.joint + 1 >= strand->pose.count ||
+        !strand_project(stage, core, &strand->pose, hover.joint + 1, 0, xy))
         return (struct hover){.kind = HOVER_NONE};
     hover.x = xy[0];
     hover.y = xy[1];
