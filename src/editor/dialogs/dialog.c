@@ -26,12 +26,6 @@ static void list_folder(struct dialog *dialog, const char *folder)
     dialog->name_count = count > 0 ? count : 0;
 }
 
-static bool is_scene(const char *name)
-{
-    const size_t length = strlen(name);
-    return length >= 5 && strcmp(name + length - 5, ".json") == 0;
-}
-
 /// Lists the folder of the path where it is a new one, and picks the names that fit what is typed after it.
 static void dialog_match(struct dialog *dialog)
 {
@@ -48,7 +42,7 @@ static void dialog_match(struct dialog *dialog)
     for (int i = 0; i < dialog->name_count; i++) {
         // While the whole name is selected, the next character replaces it: everything is still open.
         bool fits = dialog->ui.text.all || strncmp(dialog->names[i], name, length) == 0;
-        if (dialog->kind == DIALOG_ADD && is_scene(dialog->names[i])) fits = false;
+        if (dialog->kind == DIALOG_ADD && path_has_end(dialog->names[i], ".json")) fits = false;
         if (fits) dialog->match[dialog->match_count++] = i;
     }
 }
@@ -80,9 +74,7 @@ void dialog_close(struct dialogs *dialogs)
 
 void dialogs_save_as(struct dialogs *dialogs, const struct core *core)
 {
-    size_t length = strlen(core->title);
-    bool named = length > 5 && strcmp(core->title + length - 5, ".json") == 0;
-    const char *name = named ? core->title : "untitled.json";
+    const char *name = path_has_end(core->title, ".json") ? core->title : "untitled.json";
     dialog_open(dialogs, DIALOG_SAVE_AS, core->path[0] ? core->path : name);
 }
 
@@ -118,12 +110,6 @@ bool dialogs_answer(struct dialogs *dialogs, struct core *core, const struct req
     return true;
 }
 
-static bool ends_with(const char *text, const char *end)
-{
-    size_t length = strlen(text), n = strlen(end);
-    return length >= n && strcmp(text + length - n, end) == 0;
-}
-
 /// Asks the app to open or save what is typed.
 static void confirm(struct dialogs *dialogs, struct core *core)
 {
@@ -132,11 +118,11 @@ static void confirm(struct dialogs *dialogs, struct core *core)
     const char *typed = dialog->ui.text.bytes;
     bool saving = dialog->kind == DIALOG_SAVE_AS;
     if (is_question(dialog)) return;
-    if (!typed[0] || ends_with(typed, "/")) {
+    if (!*path_name(typed)) {
         snprintf(dialog->error, sizeof dialog->error, "Type a file name.");
         return;
     }
-    int length = snprintf(path, sizeof path, "%s%s", typed, saving && !ends_with(typed, ".json") ? ".json" : "");
+    int length = snprintf(path, sizeof path, "%s%s", typed, saving && !path_has_end(typed, ".json") ? ".json" : "");
     if (length >= (int)sizeof path) {
         snprintf(dialog->error, sizeof dialog->error, "The path is too long.");
         return;
@@ -262,7 +248,7 @@ static bool is_confirmed(const struct dialog *dialog, struct rect list)
     const struct event *event = ui->event;
     bool twice = ui->pass == UI_PASS_EVENT && event->kind == EVENT_BUTTON && event->action == ACTION_PRESS &&
                  event->button == BUTTON_LEFT && event->clicks == 2;
-    return twice && rect_contains(list, event->x, event->y) && ui->text.bytes[0] && !ends_with(ui->text.bytes, "/");
+    return twice && rect_contains(list, event->x, event->y) && *path_name(ui->text.bytes);
 }
 
 /// A recent file: its name, and right of it the folder that it is in.

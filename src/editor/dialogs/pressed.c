@@ -16,26 +16,15 @@ enum { HEIGHT = 36, PAD = 18, MARGIN = 14, GAP = 8 };
 /// As docs/keys.md writes it.
 static const char *name_of(int key)
 {
-    switch (key) {
-    case KEY_ESCAPE:
-        return "Esc";
-    case KEY_DELETE:
-        return "Del";
-    case KEY_PAGE_UP:
-        return "PgUp";
-    case KEY_PAGE_DOWN:
-        return "PgDn";
-    case KEY_LEFT:
-        return "←";
-    case KEY_RIGHT:
-        return "→";
-    case KEY_UP:
-        return "↑";
-    case KEY_DOWN:
-        return "↓";
-    default:
-        return key_name(key);
+    static const struct {
+        int key;
+        const char *name;
+    } names[] = {{KEY_ESCAPE, "Esc"}, {KEY_DELETE, "Del"}, {KEY_PAGE_UP, "PgUp"}, {KEY_PAGE_DOWN, "PgDn"},
+                 {KEY_LEFT, "←"},     {KEY_RIGHT, "→"},    {KEY_UP, "↑"},         {KEY_DOWN, "↓"}};
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
+        if (names[i].key == key) return names[i].name;
     }
+    return key_name(key);
 }
 
 /// Shows a word with the modifiers before it. The same again counts.
