@@ -162,38 +162,26 @@ static void build_facts(struct inspector *in)
     }
 }
 
-static const void *selected(const struct inspector *in) { return characters_selected(in->core); }
-
-static bool put_floor(struct inspector *in, bool on, double height, struct error *error)
-{
-    const int owner = characters_rig(in->core);
-    struct rig changed = *in->core->document->rigs[owner];
-    changed.character.has_floor = on;
-    changed.character.floor = height;
-    return edit_rig_set(in->core->document, owner, &changed, error);
-}
-
-static bool set_floor(struct inspector *in, int which, double height, struct error *error)
-{
-    (void)which;
-    return put_floor(in, true, height, error);
-}
+static int shown_rig(const struct inspector *in) { return characters_rig(in->core); }
 
 static const struct number_row floor_rows[] = {
     {"floor.height", "height", "m", "No point of the character goes lower", "Set floor",
-     NUMBER_AT(struct character_rig, floor), -1, 0, -INSPECTOR_NO_LIMIT, INSPECTOR_NO_LIMIT, 0, 0.01, 3},
+     NUMBER_AT(struct rig, character.floor), -1, 0, -INSPECTOR_NO_LIMIT, INSPECTOR_NO_LIMIT, 0, 0.01, 3},
 };
 
 /// Whether nothing of it may be below a height, and which.
 static void build_floor(struct inspector *in, const struct character_rig *rig)
 {
     static const struct ui_choice choices[] = {{"off", "Off"}, {"on", "On"}};
-    static const struct number_home home = {.of = selected, .set = set_floor};
+    static const struct number_home home = {.rig = shown_rig};
     const int owner = characters_rig(in->core);
     int on = rig->has_floor;
     if (inspector_choice(in, "floor", "Keep the whole character above a height", "floor", choices, 2, &on)) {
+        struct rig changed = *in->core->document->rigs[owner];
+        changed.character.has_floor = on;
+        if (on) changed.character.floor = rig->position[1];
         if (core_begin(in->core, on ? "Set floor" : "Remove floor", 0))
-            core_end(in->core, put_floor(in, on, rig->has_floor ? rig->floor : rig->position[1], &in->core->error));
+            core_end(in->core, edit_rig_set(in->core->document, owner, &changed, &in->core->error));
         return;
     }
     if (!rig->has_floor) return;

@@ -335,7 +335,7 @@ static double get_number(const struct inspector *in, const struct number_row *ro
 static bool set_number(struct inspector *in, const struct number_row *row, const struct number_home *home, int which,
                        double number, struct error *error)
 {
-    if (!home->rig) return home->set(in, which, number, error);
+    if (home->set) return home->set(in, which, number, error);
     const int rig = home->rig(in);
     struct rig changed = *in->core->document->rigs[rig];
     number_put(row, &changed, number);
@@ -482,4 +482,11 @@ int inspector_first_row(int count, int chosen, int most)
 {
     const int first = chosen - most / 2, last = count - most;
     return first > last ? (last > 0 ? last : 0) : first > 0 ? first : 0;
+}
+
+void inspector_more(struct inspector *in, int count, int most, const char *what)
+{
+    char text[96];
+    snprintf(text, sizeof text, "%d of %d%s", most, count, what);
+    if (count > most) ui_paragraph(&in->ui, text, theme()->text_dim);
 }

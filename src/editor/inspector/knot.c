@@ -34,13 +34,6 @@ static const struct {
     [FIELD_STIFFNESS] = {"Set stiffness", "How firmly the slope holds; 1000 is firm (Shift+D, Shift+E)"},
 };
 
-/// What the selected knots have in a field: the first one's number, and whether others have another.
-struct knot_numbers {
-    int count;
-    double first;
-    bool mixed;
-};
-
 static struct knot_numbers survey(const struct inspector *in, int field)
 {
     struct knot_numbers numbers = {.first = NAN};
@@ -52,7 +45,11 @@ static struct knot_numbers survey(const struct inspector *in, int field)
     return numbers;
 }
 
-static double get(const struct inspector *in, int field) { return survey(in, field).first; }
+static double get(const struct inspector *in, int field)
+{
+    (void)field;
+    return in->knots.first;
+}
 
 /// Gives every selected knot the number, or moves it by what the first one moves; in the order in which no knot meets
 /// another of them. false with a sentence where one cannot go there.
@@ -74,10 +71,9 @@ static bool set(struct inspector *in, int field, double value, struct error *err
 
 static const char *show_several(const struct inspector *in, int field, char text[64])
 {
-    const struct knot_numbers numbers = survey(in, field);
-    if (numbers.count == 1) return NULL;
-    if (field != FIELD_FRAME) return numbers.mixed ? "mixed" : NULL;
-    snprintf(text, 64, "%.6g …", numbers.first);
+    if (in->knots.count == 1) return NULL;
+    if (field != FIELD_FRAME) return in->knots.mixed ? "mixed" : NULL;
+    snprintf(text, 64, "%.6g …", in->knots.first);
     return text;
 }
 
@@ -99,10 +95,10 @@ static void fit_to_one(const struct inspector *in, int field, double value, stru
 static void build_field(struct inspector *in, int field, struct rect r)
 {
     static const struct number_home home = {.get = get, .set = set, .shown = show_several};
-    const struct knot_numbers numbers = survey(in, field); // as the field before left the document
     struct number_row row = rows[field];
-    if (numbers.count == 0) return;
-    if (numbers.count == 1) fit_to_one(in, field, numbers.first, &row);
+    in->knots = survey(in, field); // as the field before left the document
+    if (in->knots.count == 0) return;
+    if (in->knots.count == 1) fit_to_one(in, field, in->knots.first, &row);
     if (inspector_changed(inspector_number(in, &row, &home, field, r))) core_edited(in->core, -1);
 }
 
@@ -209,8 +205,7 @@ static void build_overview(struct inspector *in, const struct spline *spline)
                               {"knot.all", "All", "Select all knots of the spline (Ctrl+A)"},
                           });
     if (pressed == 0) core_insert_on_curve(in->core, core_frame(in->core), true, false);
-    if (pressed == 1 && !core_visit_neighbour(in->core, 1))
-        core_message(in->core, false, "There is no knot after the playhead.");
+    if (pressed == 1) core_visit_neighbour(in->core, 1);
     if (pressed == 2) core_select_all(in->core, false);
 }
 

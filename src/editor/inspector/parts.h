@@ -67,7 +67,7 @@ void inspector_end(struct inspector *in, enum ui_change change, bool done);
 /// Where the numbers of a table are: the struct that holds number `which` (or, without one, what it is), and the edit that makes it
 /// another.
 struct number_home {
-    int (*rig)(const struct inspector *in); ///< whose struct rig has them, or NULL; then nothing else is needed
+    int (*rig)(const struct inspector *in); ///< whose struct rig has them, or NULL; then set() may be NULL
     const void *(*of)(const struct inspector *in);
     double (*get)(const struct inspector *in, int which);
     bool (*set)(struct inspector *in, int which, double number, struct error *error);
@@ -129,6 +129,8 @@ int inspector_icons(struct inspector *in, struct rect r, const struct icon_butto
 
 /// The first of `most` rows to show of a list, the chosen one among them.
 int inspector_first_row(int count, int chosen, int most);
+/// Below the rows: says that there are more, and of what.
+void inspector_more(struct inspector *in, int count, int most, const char *what);
 
 /// Switches for what is drawn over the stage: onion skin, motion arc, ghost.
 void inspector_overlays(struct inspector *in);

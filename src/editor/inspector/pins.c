@@ -63,10 +63,7 @@ static void build_list(struct inspector *in, int count)
     for (int row = 0; row < first + MAX_ROWS && pins_next(in->core->document, &place); row++) {
         if (row >= first && build_row(in, row, place)) return;
     }
-    if (count <= MAX_ROWS) return;
-    char text[64];
-    snprintf(text, sizeof text, "%d of %d pins; , and . show more", MAX_ROWS, count);
-    ui_paragraph(&in->ui, text, theme()->text_dim);
+    inspector_more(in, count, MAX_ROWS, " pins; , and . show more");
 }
 
 /// How many points the rig has.

@@ -139,15 +139,10 @@ void inspector_remove_rig(struct inspector *in) { rigs_ask_remove(in->core, in->
 
 void inspector_rigs(struct inspector *in)
 {
-    const int count = in->core->document->rig_count, chosen = in->selected;
-    const int first = count <= MAX_ROWS || chosen < MAX_ROWS ? 0 : chosen - MAX_ROWS + 1;
+    const int count = in->core->document->rig_count, first = inspector_first_row(count, in->selected, MAX_ROWS);
     if (count == 0) ui_paragraph(&in->ui, "Nothing is on the stage yet.", theme()->text_dim);
     for (int r = first; r < count && r < first + MAX_ROWS; r++) build_row(in, r);
-    if (count > MAX_ROWS) {
-        char text[64];
-        snprintf(text, sizeof text, "%d of %d", MAX_ROWS, count);
-        ui_paragraph(&in->ui, text, theme()->text_dim);
-    }
+    inspector_more(in, count, MAX_ROWS, "");
     build_buttons(in);
 }
 

@@ -6,12 +6,7 @@
 
 enum { ROW_RATE, ROW_FIRST, ROW_LAST, ROW_SUBSTEPS, ROWS };
 
-static double get(const struct inspector *in, int which)
-{
-    const struct document *document = in->core->document;
-    const double numbers[ROWS] = {document->fps, document->first_frame, document->last_frame, document->substeps};
-    return numbers[which];
-}
+static const void *document_of(const struct inspector *in) { return in->core->document; }
 
 /// Rate and range ask before they move knots.
 static bool set(struct inspector *in, int which, double number, struct error *error)
@@ -28,14 +23,14 @@ static bool set(struct inspector *in, int which, double number, struct error *er
 }
 
 static const struct number_row rows[ROWS] = {
-    [ROW_RATE] = {"scene.fps", "rate", "fps", "Frames per second; asks whether to keep frames or seconds", NULL, 0,
-                  false, 0, 0, 0.001, SCENE_MAX_FPS, 24, 1, 0},
-    [ROW_FIRST] = {"scene.first", "first", NULL, "First frame of the scene", NULL, 0, true, 0, 0, -SCENE_MAX_FRAME,
-                   SCENE_MAX_FRAME, NAN, 1, 0},
-    [ROW_LAST] = {"scene.last", "last", NULL, "Last frame of the scene; in a loop it repeats the first", NULL, 0,
-                  true, 0, 0, -SCENE_MAX_FRAME, SCENE_MAX_FRAME, NAN, 1, 0},
-    [ROW_SUBSTEPS] = {"scene.substeps", "substeps", NULL, "Samples per frame, for motion blur", NULL, 0, true, 0, 0,
-                      1, SCENE_MAX_SUBSTEPS, 1, 1, 0},
+    [ROW_RATE] = {"scene.fps", "rate", "fps", "Frames per second; asks whether to keep frames or seconds", NULL,
+                  NUMBER_AT(struct document, fps), 0, 0, 0.001, SCENE_MAX_FPS, 24, 1, 0},
+    [ROW_FIRST] = {"scene.first", "first", NULL, "First frame of the scene", NULL,
+                   WHOLE_AT(struct document, first_frame), 0, 0, -SCENE_MAX_FRAME, SCENE_MAX_FRAME, NAN, 1, 0},
+    [ROW_LAST] = {"scene.last", "last", NULL, "Last frame of the scene; in a loop it repeats the first", NULL,
+                  WHOLE_AT(struct document, last_frame), 0, 0, -SCENE_MAX_FRAME, SCENE_MAX_FRAME, NAN, 1, 0},
+    [ROW_SUBSTEPS] = {"scene.substeps", "substeps", NULL, "Samples per frame, for motion blur", NULL,
+                      WHOLE_AT(struct document, substeps), 0, 0, 1, SCENE_MAX_SUBSTEPS, 1, 1, 0},
 };
 
 static void build_solver(struct inspector *in)
@@ -48,7 +43,7 @@ static void build_solver(struct inspector *in)
 
 void inspector_scene(struct inspector *in)
 {
-    static const struct number_home home = {.get = get, .set = set, .settles = true};
+    static const struct number_home home = {.of = document_of, .set = set, .settles = true};
     for (int i = 0; i < ROWS; i++) {
         struct number_row row = rows[i];
         const double longest = document_longest(in->core->document);

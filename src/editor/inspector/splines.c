@@ -203,10 +203,6 @@ void inspector_splines(struct inspector *in)
     int to = drop_place(in, first, rows, top);
     if (from >= 0) show_drop(in, from, to, top + (float)((to - first + (to > from ? 1 : 0)) * UI_ROW));
     if (dropped >= 0) spline_list_move(in->core, dropped, to);
-    if (count > MAX_ROWS) {
-        char text[64];
-        snprintf(text, sizeof text, "%d of %d splines; PgUp and PgDn show more", MAX_ROWS, count);
-        ui_paragraph(ui, text, theme()->text_dim);
-    }
+    inspector_more(in, count, MAX_ROWS, " splines; PgUp and PgDn show more");
     build_buttons(in);
 }

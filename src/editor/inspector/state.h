@@ -31,6 +31,13 @@ struct history_view {
     size_t count, done; ///< of the history, when it was last laid out
 };
 
+/// What the selected knots have in a field: the first one's number, and whether others have another.
+struct knot_numbers {
+    int count;
+    double first;
+    bool mixed;
+};
+
 /// The inspector's own view state; zero but for `core` is a valid start.
 struct inspector {
     struct core *core;
@@ -49,6 +56,7 @@ struct inspector {
     struct bone_selection seen_bone;      ///< that was last shown
     const char *revealed;                 ///< section that is to be in sight, NULL: none
     double dragged;                       ///< what it would be; of several knots, what was last possible
+    struct knot_numbers knots;            ///< of the field that was built last
     char knot_title[32];                  ///< of the section on knots
     struct poles_view poles;
     struct history_view history;

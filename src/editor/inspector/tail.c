@@ -34,34 +34,36 @@ static void build_name(struct inspector *in)
     }
 }
 
-static const struct number_row position[] = {
-    {"position.x", "x", "m", "Position of the body along x", "Move body", NUMBER_AT(struct param, value), 0, 0, -1e6,
-     1e6, 0, 0.01, 3},
-    {"position.y", "y", "m", "Position of the body along y", "Move body", NUMBER_AT(struct param, value), 0, 0, -1e6,
-     1e6, 0.26, 0.01, 3},
-    {"position.z", "z", "m", "Position of the body along z", "Move body", NUMBER_AT(struct param, value), 0, 0, -1e6,
-     1e6, 0, 0.01, 3},
+enum { ROW_X, ROW_JOINTS = ROW_X + 3, ROW_LENGTH, ROW_TURN };
+
+/// Numbers of the shown rig.
+static const struct number_row rows[] = {
+    [ROW_X] = {"position.x", "x", "m", "Position of the body along x", "Move body",
+               NUMBER_AT(struct rig, tail.position[0].value), 0, 0, -1e6, 1e6, 0, 0.01, 3},
+    {"position.y", "y", "m", "Position of the body along y", "Move body",
+     NUMBER_AT(struct rig, tail.position[1].value), 0, 0, -1e6, 1e6, 0.26, 0.01, 3},
+    {"position.z", "z", "m", "Position of the body along z", "Move body",
+     NUMBER_AT(struct rig, tail.position[2].value), 0, 0, -1e6, 1e6, 0, 0.01, 3},
+    [ROW_JOINTS] = {"joints", "joints", NULL, "More joints bend more smoothly; shape and swing stay the same",
+                    "Set joints", WHOLE_AT(struct rig, tail.joints), 1, 64, 1, TAIL_MAX_JOINTS, TAIL_DEFAULT_JOINTS,
+                    1, 0},
+    [ROW_LENGTH] = {"length", "length", "m", "Length of the tail; the body scales with it", "Set length",
+                    NUMBER_AT(struct rig, tail.length), 0.2, 4, 1e-3, 1e6, TAIL_DEFAULT_LENGTH, 0.05, 2},
+    [ROW_TURN] = {"chain.turn", "turn", "°", "Turns the axes of side and up about the chain's own direction",
+                  "Turn chain's axes", NUMBER_AT(struct rig, chain.turn), -180, 180, -36000, 36000, 0, 1, 0},
 };
 
-static double get_position(const struct inspector *in, int k) { return inspector_shown(in)->tail.position[k].value; }
+static int shown_rig(const struct inspector *in) { return in->rig; }
 
-static bool put_position(struct inspector *in, int k, struct param param, struct error *error)
-{
-    struct rig changed = *inspector_shown(in);
-    changed.tail.position[k] = param;
-    return edit_rig_set(in->core->document, in->rig, &changed, error);
-}
-
-static bool set_position(struct inspector *in, int k, double metres, struct error *error)
-{
-    return put_position(in, k, param_number(metres), error);
-}
+static const struct number_home of_shown = {.rig = shown_rig};
 
 /// A step of its own: lets the body follow a spline, or stay.
 static void follow(struct inspector *in, int k, struct param param)
 {
+    struct rig changed = *inspector_shown(in);
+    changed.tail.position[k] = param;
     if (core_begin(in->core, param.track < 0 ? "Stop following" : "Follow spline", 0))
-        core_end(in->core, put_position(in, k, param, &in->core->error));
+        core_end(in->core, edit_rig_set(in->core->document, in->rig, &changed, &in->core->error));
 }
 
 static void choose_place(struct inspector *in, const struct dropdown *list)
@@ -76,7 +78,6 @@ static const struct dropdown place_list = {"place", "The spline it follows, samp
 /// A coordinate: a number, or the spline that it follows, and the button from one to the other.
 static void build_coordinate(struct inspector *in, const struct tail *tail, int k)
 {
-    static const struct number_home home = {.get = get_position, .set = set_position};
     const int track = tail->position[k].track;
     const bool follows = track >= 0;
     const char *hint = follows ? "Stop following; stay at the current position" : "Follow a spline (in metres)";
@@ -88,7 +89,7 @@ static void build_coordinate(struct inspector *in, const struct tail *tail, int 
     if (follows) {
         inspector_spline_field(in, &place_list, inspector_label(in, r, coordinate_name(k)), k, track);
     } else {
-        inspector_number(in, &position[k], &home, k, r);
+        inspector_number(in, &rows[ROW_X + k], &of_shown, k, r);
         if (in->core->document->spline_count == 0) return;
     }
     if (ui_icon_button(&in->ui, icon, button, follows ? UI_ICON_UNFOLLOW : UI_ICON_FOLLOW, false, hint)) {
@@ -185,54 +186,6 @@ static const struct end ends[2] = {
     {{"chain.from", "The bone that it begins with", choose_end}, "from", "chain.from.pick", BONE_FIRST},
     {{"chain.to", "The bone that it ends with", choose_end}, "to", "chain.to.pick", BONE_LAST},
 };
-
-static const struct number_row joints_row = {"joints",
-                                             "joints",
-                                             NULL,
-                                             "More joints bend more smoothly; shape and swing stay the same",
-                                             "Set joints",
-                                             WHOLE_AT(struct tail, joints),
-                                             1,
-                                             64,
-                                             1,
-                                             TAIL_MAX_JOINTS,
-                                             TAIL_DEFAULT_JOINTS,
-                                             1,
-                                             0};
-
-static const struct number_row length_row = {"length",
-                                             "length",
-                                             "m",
-                                             "Length of the tail; the body scales with it",
-                                             "Set length",
-                                             NUMBER_AT(struct rig, tail.length),
-                                             0.2,
-                                             4,
-                                             1e-3,
-                                             1e6,
-                                             TAIL_DEFAULT_LENGTH,
-                                             0.05,
-                                             2};
-
-static const struct number_row turn_row = {"chain.turn",
-                                           "turn",
-                                           "°",
-                                           "Turns the axes of side and up about the chain's own direction",
-                                           "Turn chain's axes",
-                                           NUMBER_AT(struct rig, chain.turn),
-                                           -180,
-                                           180,
-                                           -36000,
-                                           36000,
-                                           0,
-                                           1,
-                                           0};
-
-static int shown_rig(const struct inspector *in) { return in->rig; }
-
-static const struct number_home of_shown = {.rig = shown_rig};
-
-static const void *shown_tail(const struct inspector *in) { return &inspector_shown(in)->tail; }
 
 static bool set_joints(struct inspector *in, int which, double number, struct error *error)
 {
@@ -385,7 +338,7 @@ static void build_chain(struct inspector *in)
     const struct chain *chain = &inspector_shown(in)->chain;
     build_end(in, &ends[0], chain->from);
     build_end(in, &ends[1], chain->to);
-    inspector_numbers(in, &turn_row, 1, &of_shown);
+    inspector_numbers(in, &rows[ROW_TURN], 1, &of_shown);
     build_mirror(in);
     build_twin(in);
 }
@@ -394,7 +347,7 @@ static void build_chain(struct inspector *in)
 static void build_shown(struct inspector *in)
 {
     const bool is_tail = inspector_shown(in)->kind == RIG_TAIL;
-    static const struct number_home joints = {.of = shown_tail, .set = set_joints};
+    static const struct number_home joints = {.rig = shown_rig, .set = set_joints};
     if (in->channel >= rig_input_count(inspector_shown(in))) in->channel = 0;
     build_channels(in);
     if (is_tail) inspector_angles(in, ANGLE_REST);
@@ -405,8 +358,8 @@ static void build_shown(struct inspector *in)
         build_chain(in);
         return;
     }
-    inspector_numbers(in, &joints_row, 1, &joints);
-    inspector_numbers(in, &length_row, 1, &of_shown);
+    inspector_numbers(in, &rows[ROW_JOINTS], 1, &joints);
+    inspector_numbers(in, &rows[ROW_LENGTH], 1, &of_shown);
     for (int k = 0; k < 3; k++) build_coordinate(in, &inspector_shown(in)->tail, k);
 }
 
