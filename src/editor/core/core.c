@@ -131,12 +131,6 @@ void core_request(struct core *core, enum request_kind kind, const char *path)
     snprintf(core->request.path, sizeof core->request.path, "%s", path ? path : "");
 }
 
-void core_request_number(struct core *core, enum request_kind kind, int number)
-{
-    core_request(core, kind, NULL);
-    core->request.number = number;
-}
-
 struct question *core_ask(struct core *core, const struct answer *answers, int count,
                           void (*answered)(void *dialogs, struct core *core, int answer))
 {

@@ -33,8 +33,6 @@ void core_undo(struct core *core, int direction);
 void core_jump(struct core *core, size_t done);
 /// Asks the app for something; `path` may be NULL.
 void core_request(struct core *core, enum request_kind kind, const char *path);
-/// The same with a number.
-void core_request_number(struct core *core, enum request_kind kind, int number);
 /// A question of core's own, to be given its words: asked after the event.
 struct question *core_ask(struct core *core, const struct answer *answers, int count,
                           void (*answered)(void *dialogs, struct core *core, int answer));

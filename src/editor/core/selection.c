@@ -25,7 +25,6 @@ void selection_set(struct selection *selection, unsigned id, bool selected)
 {
     if (selected) reserve(selection, id + 1);
     if (id >= selection->capacity) return;
-    selection->changes++;
     uint64_t bit = UINT64_C(1) << (id % 64);
     if (selected) {
         selection->bits[id / 64] |= bit;
@@ -37,7 +36,6 @@ void selection_set(struct selection *selection, unsigned id, bool selected)
 void selection_clear(struct selection *selection)
 {
     if (selection->bits) memset(selection->bits, 0, selection->capacity / 8);
-    selection->changes++;
 }
 
 void selection_drop_from(struct selection *selection, unsigned id)

@@ -107,7 +107,6 @@ enum panel { PANEL_NONE, PANEL_STAGE, PANEL_CURVES, PANEL_INSPECTOR, PANEL_STATU
 struct selection {
     uint64_t *bits;
     unsigned capacity; ///< ids
-    uint64_t changes;  ///< grows whenever it may have changed
 };
 
 struct drag_owner;

@@ -30,7 +30,7 @@ void curves_open(struct curves *curves)
     curves->warnings = (struct warnings){0};
 }
 
-bool curves_wants_frames(const struct curves *curves) { return follow_moves(curves); }
+bool curves_wants_frames(const struct curves *curves) { return curves->following.moves; }
 
 static const float CURVE_REACH = 7, OTHER_REACH = 7, WARNING_REACH = 9;
 static const double ZOOM_STEP = 0.15; ///< of a wheel's notch, as a power of e

@@ -20,7 +20,7 @@ void curves_press(struct curves *curves, struct core *core, const struct event *
 void curves_wheel(struct curves *curves, struct core *core, const struct event *event);
 /// A new document is on the table.
 void curves_open(struct curves *curves);
-/// Whether a search for warnings goes on, or the view moves.
+/// Whether the view moves.
 bool curves_wants_frames(const struct curves *curves);
 /// Ends of a knot's slope handle: before (0) or after (1) the knot.
 void curves_handle(const struct curves *curves, const struct core *core, const struct knot *knot, int end,

@@ -171,8 +171,6 @@ double curves_pixels_per_value(const struct curves *curves, const struct core *c
 double curves_frame(const struct curves *curves, const struct core *core, double x);
 /// Logical pixels to value.
 double curves_value(const struct curves *curves, const struct core *core, double y);
-/// Whether the view is on its way.
-bool follow_moves(const struct curves *curves);
 
 /// Where a spline's values are drawn.
 struct value_map normal_map(const struct curves *curves, const struct core *core, int spline);

@@ -283,8 +283,6 @@ static const double CLOSE = 0.25;  ///< pixels: it is there
 static const double MARGIN = 0.06; ///< of what is seen, beyond what was edited
 static const double WIDEST = 1.7;  ///< of the visible frames: what needs more is panned to
 
-bool follow_moves(const struct curves *curves) { return curves->following.moves; }
-
 /// Widens a part to a knot, and the curve from the knot before to the one after it.
 static void include_around(const struct curves *curves, const struct core *core, struct knot_place at,
                            struct view *part)

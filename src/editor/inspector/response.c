@@ -95,7 +95,7 @@ static double crossing(const struct filter *filter, double inside, double outsid
 struct passband filter_passband(const struct filter *filter)
 {
     double nyquist = 0.5 / filter->step, low = find_peak(filter), high = low;
-    struct passband band = {.peak_hz = low, .peak = filter_decibels(filter, low)};
+    struct passband band = {.peak = filter_decibels(filter, low)};
     band.zero = filter_decibels(filter, 0) - band.peak;
     double level = band.peak - half_power;
     for (int i = 0; i < filter->count; i++) { // a wide opening has a hollow between its poles

@@ -30,7 +30,6 @@ double filter_decibels(const struct filter *filter, double hz);
 
 /// What the figure shows of a response at frequencies from 0 to half the sample rate.
 struct passband {
-    double peak_hz;
     double peak;  ///< dB
     double zero;  ///< response at zero frequency relative to the peak, dB
     double width; ///< Hz between the outermost points 3.01 dB (half the power) below the peak

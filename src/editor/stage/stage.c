@@ -205,19 +205,6 @@ static bool add_motion(const struct stage *stage, const struct core *core, int r
     return any;
 }
 
-/// Adds all motion of a kind to the box lo … hi; false where nothing of it is to be seen.
-static bool add_bounds(const struct stage *stage, const struct core *core, enum rig_kind kind, float lo[3],
-                       float hi[3])
-{
-    const struct document *document = core->document;
-    bool any = false;
-    int rig = document_next_rig(document, kind, 0);
-    for (int n = 0; rig >= 0; n++, rig = document_next_rig(document, kind, rig + 1)) {
-        any |= add_motion(stage, core, rig, n, lo, hi);
-    }
-    return any;
-}
-
 /// Keeps where its motion is in the picture, from the middle of the stage in heights of it, as the camera stands now.
 static void note_figure(struct stage *stage, struct rect place, const float lo[3], const float hi[3])
 {
@@ -247,10 +234,12 @@ struct rect stage_figure(const struct stage *stage, const struct core *core)
 void stage_fit(struct stage *stage, const struct core *core)
 {
     float lo[3] = {INFINITY, INFINITY, INFINITY}, hi[3] = {-INFINITY, -INFINITY, -INFINITY};
-    bool seen[RIG_KINDS], any = false;
-    for (int kind = 0; kind < RIG_KINDS; kind++) {
-        seen[kind] = add_bounds(stage, core, (enum rig_kind)kind, lo, hi);
-        any |= seen[kind];
+    const struct document *document = core->document;
+    bool seen[RIG_KINDS] = {false}, any = false;
+    for (int r = 0; r < document->rig_count; r++) {
+        const bool moves = add_motion(stage, core, r, document_rig_number(document, r), lo, hi);
+        seen[document->rigs[r]->kind] |= moves;
+        any |= moves;
     }
     stage->camera = camera_default();
     if ((seen[RIG_CHARACTER] || seen[RIG_MODEL]) && !seen[RIG_TAIL])
@@ -260,7 +249,7 @@ void stage_fit(struct stage *stage, const struct core *core)
     if (!any) return;
     for (int k = 0; k < 2; k++) stage->view.middle[k] = 0.5f * (lo[2 * k] + hi[2 * k]);
     const struct rect place = core->layout.stage;
-    const float caption = core->plain ? 0 : caption_height(place, core->document);
+    const float caption = core->plain ? 0 : caption_height(place, document);
     camera_fit(&stage->camera, lo, hi, place.w / place.h, caption / place.h);
     note_figure(stage, place, lo, hi);
 }

@@ -46,7 +46,7 @@ bool transport_event(struct core *core, const struct event *event)
     if (control == HOVER_NONE || (turns ? event->dy == 0 : event->button == BUTTON_MIDDLE)) return false;
     const int step = turns ? (event->dy > 0 ? 1 : -1) : !left ? 0 : event->mods & MOD_SHIFT ? -1 : 1;
     if (control == HOVER_SPEED) playback_change_speed(core, step);
-    if (control == HOVER_UI_SCALE) core_request_number(core, REQUEST_UI_SCALE, step);
+    if (control == HOVER_UI_SCALE) core->request = (struct request){.kind = REQUEST_UI_SCALE, .number = step};
     if (turns || !left) return true;
     if (control == HOVER_PLAY) playback_toggle(core);
     if (control == HOVER_LOOP) core_flip(core, SWITCH_LOOP);
