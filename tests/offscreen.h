@@ -34,6 +34,11 @@ static inline int offscreen_close(void **state)
     return 0;
 }
 
+/// The main() of tests that draw pictures of that size.
+#define OFFSCREEN_MAIN(width, height)                                                                                \
+    static int open_picture(__attribute__((unused)) void **state) { return offscreen_open(width, height); }          \
+    int main(void) { return tests_run(open_picture, offscreen_close); }
+
 /// Draws a view over the whole picture and reads it, bottom row first.
 static inline void offscreen_draw(const struct stage_view *view, int width, int height, void *pixels)
 {

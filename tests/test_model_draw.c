@@ -10,12 +10,6 @@ typedef unsigned char picture[HEIGHT][WIDTH][4];
 
 static picture one, other;
 
-static int set_up(void **state)
-{
-    (void)state;
-    return offscreen_open(WIDTH, HEIGHT);
-}
-
 /// A square that shows u and v from `from` to `to` of a picture, which a sampler reads.
 static void draw(const char *sampler, float from, float to, const unsigned char *pixels, int side, picture drawn)
 {
@@ -125,4 +119,4 @@ TEST(a_near_texture_has_edges_or_none)
     assert_int_equal(differing(one, other), 0);
 }
 
-int main(void) { return tests_run(set_up, offscreen_close); }
+OFFSCREEN_MAIN(WIDTH, HEIGHT)

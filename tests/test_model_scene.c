@@ -147,26 +147,22 @@ WORLD_TEST(channels_of_a_chain_are_edited_as_those_of_a_tail, world_open_scene(w
 {
     const struct angles ramp = {.form = ANGLES_RAMP, .count = 2, .ramp = {{0, 1}, {1, 30}}};
     const struct angles many = {.form = ANGLES_EACH, .count = 7, .value = {1, 2, 3, 4, 5, 6, 7}};
-    assert_reversible(
-        world, edit_angles(world_edit(world), (struct channel_place){TAIL, 0}, ANGLE_LAG, &ramp, &world->error));
-    assert_reversible(
-        world, edit_angles(world_edit(world), (struct channel_place){TAIL, 0}, ANGLE_GAIN, &many, &world->error));
+    assert_reversible(world, EDIT(edit_angles, (struct channel_place){TAIL, 0}, ANGLE_LAG, &ramp));
+    assert_reversible(world, EDIT(edit_angles, (struct channel_place){TAIL, 0}, ANGLE_GAIN, &many));
     assert_reversible(world, edit_bend(world, TAIL, 0, -1, AXIS_TWIST, -1));
     assert_reversible(world, edit_bend(world, TAIL, 0, -1, -1, PART_DISPLACEMENT));
-    assert_reversible(world, edit_channel_add(world_edit(world), EAR, 0, AXIS_TWIST, PART_TOTAL, &world->error));
-    assert_reversible(world, edit_spline_add(world_edit(world), 0, "first", NULL, &world->error));
+    assert_reversible(world, EDIT(edit_channel_add, EAR, 0, AXIS_TWIST, PART_TOTAL));
+    assert_reversible(world, EDIT(edit_spline_add, 0, "first", NULL));
     assert_int_equal(document_find_spline(world->document, "s"),
                      world->document->rigs[TAIL]->chain.channels[1].spline);
     assert_reversible(world, edit_bend(world, TAIL, 1, 0, -1, -1));
-    assert_reversible(world, edit_channel_remove(world_edit(world), (struct channel_place){TAIL, 0}, &world->error));
+    assert_reversible(world, EDIT(edit_channel_remove, (struct channel_place){TAIL, 0}));
     assert_int_equal(world->document->rigs[TAIL]->chain.channel_count, 1);
-    assert_refused(world,
-                   edit_angles(world_edit(world), (struct channel_place){TAIL, 0}, ANGLE_REST, &ramp, &world->error),
+    assert_refused(world, EDIT(edit_angles, (struct channel_place){TAIL, 0}, ANGLE_REST, &ramp),
                    "only a tail has angles at rest");
     assert_refused(world, edit_bend(world, WALK, 0, -1, AXIS_SIDE, -1), "there is no such rig");
-    assert_refused(world, edit_joints(world_edit(world), TAIL, 1, &world->error), "there is no such tail");
-    assert_refused(world, edit_spline_remove(world_edit(world), 1, &world->error),
-                   "s: still used in 1 place; remove those first");
+    assert_refused(world, EDIT(edit_joints, TAIL, 1), "there is no such tail");
+    assert_refused(world, EDIT(edit_spline_remove, 1), "s: still used in 1 place; remove those first");
 }
 
 WORLD_TEST(models_and_chains_are_added, world_open_scene(world, whole))
@@ -176,15 +172,15 @@ WORLD_TEST(models_and_chains_are_added, world_open_scene(world, whole))
     struct rig model = {.kind = RIG_MODEL, .model = {.model = file, .clip = from, .scale = 2}};
     struct rig chain = {.kind = RIG_CHAIN,
                         .chain = {.model = file, .from = from, .to = to, .channels = &channel, .channel_count = 1}};
-    assert_refused(world, edit_rig_add(world_edit(world), &chain, &world->error),
+    assert_refused(world, EDIT(edit_rig_add, &chain),
                    "leg: expected the name or file of a model rig, got \"../films/walk.glb\"");
-    assert_reversible(world, edit_rig_add(world_edit(world), &model, &world->error));
+    assert_reversible(world, EDIT(edit_rig_add, &model));
     assert_string_equal(world->document->rigs[4]->name, "walk 2");
-    assert_reversible(world, edit_rig_add(world_edit(world), &chain, &world->error));
+    assert_reversible(world, EDIT(edit_rig_add, &chain));
     assert_string_equal(world->document->rigs[5]->name, "leg");
     assert_true(world->document->rigs[5]->chain.by_file);
     chain.chain.model = world->document->rigs[4]->name;
-    assert_reversible(world, edit_rig_add(world_edit(world), &chain, &world->error));
+    assert_reversible(world, EDIT(edit_rig_add, &chain));
     assert_string_equal(world->document->rigs[6]->name, "leg 2");
     memset(file, 'x', sizeof file - 1);
     memset(from, 'x', sizeof from - 1);
@@ -193,10 +189,9 @@ WORLD_TEST(models_and_chains_are_added, world_open_scene(world, whole))
     assert_string_equal(world->document->rigs[4]->model.model, "../films/walk.glb");
     assert_near(world->document->rigs[6]->chain.channels[0].gain.value[0], 4, 0);
     model.model.scale = 0;
-    assert_refused(world, edit_rig_add(world_edit(world), &model, &world->error),
-                   "xxxxxxxxxxxxxxxxx: the scale must be above 0 and finite");
+    assert_refused(world, EDIT(edit_rig_add, &model), "xxxxxxxxxxxxxxxxx: the scale must be above 0 and finite");
     channel.spline = 1;
-    assert_refused(world, edit_rig_add(world_edit(world), &chain, &world->error), "xxx: there is no such spline");
+    assert_refused(world, EDIT(edit_rig_add, &chain), "xxx: there is no such spline");
     world_undo_all(world);
     assert_document(world, whole);
 }
@@ -207,42 +202,38 @@ WORLD_TEST(models_and_chains_are_set, world_open_scene(world, whole))
     struct rig place = *world->document->rigs[WALK], ends = *world->document->rigs[TAIL];
     place.model.position[2] = 3, place.model.scale = 4, place.model.turn = -5;
     ends.chain.from = from, ends.chain.to = to, ends.chain.turn = 7, ends.chain.mirror = false;
-    assert_reversible(world, edit_rig_set(world_edit(world), WALK, &place, &world->error));
+    assert_reversible(world, EDIT(edit_rig_set, WALK, &place));
     assert_near(world->document->rigs[WALK]->model.position[2], 3, 0);
     place.model.clip = run;
-    assert_reversible(world, edit_rig_set(world_edit(world), WALK, &place, &world->error));
+    assert_reversible(world, EDIT(edit_rig_set, WALK, &place));
     place.model.clip = NULL;
-    assert_reversible(world, edit_rig_set(world_edit(world), WALK, &place, &world->error));
+    assert_reversible(world, EDIT(edit_rig_set, WALK, &place));
     assert_null(world->document->rigs[WALK]->model.clip);
-    assert_reversible(world, edit_rig_set(world_edit(world), TAIL, &ends, &world->error));
+    assert_reversible(world, EDIT(edit_rig_set, TAIL, &ends));
     assert_string_equal(world->document->rigs[TAIL]->chain.to, "b");
     assert_false(world->document->rigs[TAIL]->chain.mirror);
     ends.chain.to = nothing;
-    assert_refused(world, edit_rig_set(world_edit(world), TAIL, &ends, &world->error),
-                   "tail: \"to\" must not be empty");
+    assert_refused(world, EDIT(edit_rig_set, TAIL, &ends), "tail: \"to\" must not be empty");
     place.model.turn = NAN;
-    assert_refused(world, edit_rig_set(world_edit(world), WALK, &place, &world->error),
-                   "walk: the turn must be finite");
-    assert_refused(world, edit_rig_set(world_edit(world), TAIL, &place, &world->error), "there is no such model");
+    assert_refused(world, EDIT(edit_rig_set, WALK, &place), "walk: the turn must be finite");
+    assert_refused(world, EDIT(edit_rig_set, TAIL, &place), "there is no such model");
     world_undo_all(world);
     assert_document(world, whole);
 }
 
 WORLD_TEST(chains_keep_to_their_model, world_open_scene(world, whole))
 {
-    assert_refused(world, edit_rig_remove(world_edit(world), WALK, &world->error),
-                   "walk: still needed by tail; remove those first");
-    assert_reversible(world, edit_rig_name(world_edit(world), WALK, "dog", &world->error));
+    assert_refused(world, EDIT(edit_rig_remove, WALK), "walk: still needed by tail; remove those first");
+    assert_reversible(world, EDIT(edit_rig_name, WALK, "dog"));
     assert_string_equal(world->document->rigs[TAIL]->chain.model, "dog");
-    assert_reversible(world, edit_rig_name(world_edit(world), CAT, "cat", &world->error));
+    assert_reversible(world, EDIT(edit_rig_name, CAT, "cat"));
     assert_string_equal(world->document->rigs[EAR]->chain.model, "models/cat.glb");
-    assert_refused(world, edit_rig_name(world_edit(world), WALK, "models/cat.glb", &world->error),
+    assert_refused(world, EDIT(edit_rig_name, WALK, "models/cat.glb"),
                    "models/cat.glb is the file by which a model is found");
-    assert_refused(world, edit_rig_name(world_edit(world), EAR, "tail", &world->error),
-                   "there is a rig called tail already");
-    assert_refused(world, edit_rig_name(world_edit(world), EAR, NULL, &world->error), "a chain needs a name");
-    assert_reversible(world, edit_rig_remove(world_edit(world), EAR, &world->error));
-    assert_reversible(world, edit_rig_remove(world_edit(world), CAT, &world->error));
+    assert_refused(world, EDIT(edit_rig_name, EAR, "tail"), "there is a rig called tail already");
+    assert_refused(world, EDIT(edit_rig_name, EAR, NULL), "a chain needs a name");
+    assert_reversible(world, EDIT(edit_rig_remove, EAR));
+    assert_reversible(world, EDIT(edit_rig_remove, CAT));
     world_undo_all(world);
     assert_document(world, whole);
 }

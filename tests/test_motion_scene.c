@@ -142,7 +142,7 @@ STAND_TEST(a_motion_is_read_when_it_has_changed)
     char gallop[] = "Gallop";
     struct rig galloping = *world->document->rigs[DOG];
     galloping.model.clip = gallop;
-    world_must(world, edit_rig_set(world_edit(world), DOG, &galloping, &world->error));
+    world_must(world, EDIT(edit_rig_set, DOG, &galloping));
     assert_true(stand_update(stand));
     assert_int_equal(stand->reads, 4);
     assert_int_equal(stand->evaluation.solved_splines, 3); // wag, its follower, ear
@@ -152,7 +152,7 @@ STAND_TEST(a_motion_is_read_when_it_has_changed)
     assert_solved(stand, WAG, -2.5);
     struct rig ends = *world->document->rigs[TAIL];
     ends.chain.turn = 30;
-    world_must(world, edit_rig_set(world_edit(world), TAIL, &ends, &world->error));
+    world_must(world, EDIT(edit_rig_set, TAIL, &ends));
     assert_true(stand_update(stand));
     assert_int_equal(stand->reads, 7); // only wag's goes by the chain
     assert_int_equal(stand->evaluation.solved_splines, 2);
@@ -181,7 +181,7 @@ static bool follow(struct world *world, enum parameter parameter, struct joint_m
     struct joint_motion followed = *motion;
     const struct param param = {.track = -1, .motion = &followed};
     followed.gain = gain;
-    return edit_parameter(world_edit(world), ALONE, parameter, &param, &world->error);
+    return EDIT(edit_parameter, ALONE, parameter, &param);
 }
 
 STAND_TEST(following_is_edited_and_undone)
@@ -224,17 +224,14 @@ STAND_TEST(a_motion_keeps_to_its_joint)
 {
     struct world *world = &stand->world;
     struct document *document = world->document;
-    assert_refused(world, edit_rig_remove(world_edit(world), DOG, &world->error),
-                   "dog: still needed by tail, wag, ear; remove those first");
-    assert_refused(world, edit_rig_remove(world_edit(world), TAIL, &world->error),
-                   "tail: still needed by wag; remove those first");
-    assert_reversible(world, edit_rig_name(world_edit(world), DOG, "wolf", &world->error));
-    assert_reversible(world, edit_rig_name(world_edit(world), TAIL, "brush", &world->error));
+    assert_refused(world, EDIT(edit_rig_remove, DOG), "dog: still needed by tail, wag, ear; remove those first");
+    assert_refused(world, EDIT(edit_rig_remove, TAIL), "tail: still needed by wag; remove those first");
+    assert_reversible(world, EDIT(edit_rig_name, DOG, "wolf"));
+    assert_reversible(world, EDIT(edit_rig_name, TAIL, "brush"));
     const struct param *wag = &document->splines[WAG]->parameter[PARAMETER_EQUILIBRIUM];
     assert_string_equal(wag->motion->model, "wolf");
     assert_string_equal(wag->motion->chain, "brush");
-    assert_refused(world, edit_rig_name(world_edit(world), DOG, "dog.glb", &world->error),
-                   "dog.glb is the file by which a model is found");
+    assert_refused(world, EDIT(edit_rig_name, DOG, "dog.glb"), "dog.glb is the file by which a model is found");
     document->folder = strdup("/films");
     size_t size;
     char *text = scene_print_for(document, "/films/deeper", NULL, &size);

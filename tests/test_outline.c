@@ -5,12 +5,6 @@
 enum { WIDTH = 500, HEIGHT = 200, FINE = 4, BYTES = WIDTH * HEIGHT * 4 };
 static unsigned char drawn[BYTES], fine[FINE * FINE * BYTES];
 
-static int set_up(void **state)
-{
-    (void)state;
-    return offscreen_open(FINE * WIDTH, FINE * HEIGHT);
-}
-
 /// A pixel's channel in the finer picture: the mean over its area.
 static int averaged(int x, int y, int channel)
 {
@@ -68,4 +62,4 @@ TEST(outlines_have_no_stairs)
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) expect_smooth(cases[i].scene, cases[i].most);
 }
 
-int main(void) { return tests_run(set_up, offscreen_close); }
+OFFSCREEN_MAIN(FINE *WIDTH, FINE *HEIGHT)

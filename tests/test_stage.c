@@ -66,12 +66,6 @@ static int brightness(const unsigned char *pixel) { return pixel[0] + pixel[1] +
 
 static bool is_fur(const unsigned char *pixel) { return pixel[0] > 60 && pixel[0] > pixel[2] + 25; }
 
-static int set_up(void **state)
-{
-    (void)state;
-    return offscreen_open(WIDTH, HEIGHT);
-}
-
 TEST(the_tail_is_drawn_where_its_joints_are)
 {
     if (!platform) skip();
@@ -300,4 +294,4 @@ TEST(skin_follows_the_joints)
     }
 }
 
-int main(void) { return tests_run(set_up, offscreen_close); }
+OFFSCREEN_MAIN(WIDTH, HEIGHT)

@@ -30,6 +30,9 @@ void assert_document(const struct world *world, const char *expected);
 /// The document, to be edited in a step, which this opens unless one is open:
 /// `world_must(&world, edit_joints(world_edit(&world), 0, 12, &world.error))`.
 struct document *world_edit(struct world *world);
+/// An edit of `world` by scene/edit.h, in such a step: assert_reversible(world, EDIT(edit_joints, 0, 12)).
+#define EDIT(edit, ...) edit(world_edit(world), __VA_ARGS__, &world->error)
+
 /// Closes the step of an edit that has been done or refused; the same of one that must be possible.
 bool world_step(struct world *world, bool done);
 void world_must(struct world *world, bool done);
