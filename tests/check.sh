@@ -1,5 +1,7 @@
 # What the test scripts share: cases that are counted by tools/run-tests.sh. Sourced, not run.
 cases_failed=0
+B=${B:-build}
+WIGGLY=${WIGGLY:-$B/wiggly}
 
 ok() { # <what> <status of what was tried, 0 is good>
     if [ "$2" -eq 0 ]; then
@@ -44,8 +46,10 @@ silent() { # <text>
 thorough() { [ -n "${THOROUGH:-}" ]; }
 quickly() { thorough || echo "$@"; } # <options that make it short>...
 
+# A script may have more to do at its end, and then fails where one of its cases did.
+at_end() { :; }
 scratch=$(mktemp -d)
-trap 'rm -rf "$scratch"' EXIT
+trap 'status=$?; at_end; rm -rf "$scratch"; exit $((status || cases_failed))' EXIT
 
 # The tests leave the user's own files alone.
 export XDG_CONFIG_HOME=$scratch/config XDG_STATE_HOME=$scratch/state

@@ -3,7 +3,7 @@
 unset WAYLAND_DISPLAY
 server=""
 app=""
-trap 'kill $app $server 2>/dev/null; wait 2>/dev/null; rm -rf "$scratch"' EXIT
+at_end() { kill $app $server 2>/dev/null; wait 2>/dev/null; }
 
 # Tries a command until it succeeds.
 eventually() { # <what> <command>...

@@ -1,6 +1,5 @@
 # Whose a scene is: those that belong to the running binary open as untitled, by whatever path; all others under their own names.
 . tests/check.sh
-WIGGLY=${WIGGLY:-build/wiggly}
 unset DISPLAY WAYLAND_DISPLAY
 
 mkdir -p "$scratch"/tree/build "$scratch"/tree/assets "$scratch"/usr/bin "$scratch"/usr/share/wiggly "$scratch"/own/assets
@@ -39,4 +38,3 @@ is saved "a user's scene in a folder assets/scenes" tree/build/wiggly own/assets
 is saved "one in a folder share/wiggly/scenes" tree/build/wiggly own/share/wiggly/scenes/mine.json
 is saved "one beside an installation" usr/bin/wiggly usr/assets/scenes/mine.json
 is saved "a user's scene by a link among the tree's" tree/build/wiggly tree/assets/scenes/link.json
-exit $((cases_failed > 0))

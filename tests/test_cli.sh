@@ -1,6 +1,5 @@
 # The real binary from the outside: usage, exit statuses, every broken scene, a headless run of the live app.
 . tests/check.sh
-WIGGLY=${WIGGLY:-build/wiggly}
 unset DISPLAY WAYLAND_DISPLAY
 
 one_sentence() { # <what> <text>
@@ -161,4 +160,3 @@ expect 1 "live with a broken scene" blind --frames 2 tests/vectors/complex_defau
 expect 3 "a log that cannot be made" blind --frames 2 --log "$scratch/no/live.csv"
 one_sentence "says so in one line" "$err"
 says "with its path" "no/live.csv" "$err"
-exit $((cases_failed > 0))

@@ -1,7 +1,6 @@
 # Displays that refuse: the app says so in one line and runs headless, as it does where there is none.
 . tests/check.sh
 . tests/desktop.sh
-WIGGLY=${WIGGLY:-build/wiggly}
 
 falls_back() { # <what>
     rm -f "$scratch/picture.png"
@@ -37,4 +36,3 @@ stop_server
 start_server -extension GLX
 falls_back "a display without GLX"
 stop_server
-exit $((cases_failed > 0))

@@ -1,7 +1,6 @@
 # wiggly export from the outside: what it says, what it refuses, Ctrl+C; and the Khronos validator on every glTF file, where npm can fetch
 # it (at a pinned version, into the build folder).
 . tests/check.sh
-WIGGLY=${WIGGLY:-build/wiggly}
 validator=gltf-validator@2.0.0-dev.3.10
 folder=${B:-build}/gltf-validator
 scenes=assets/scenes
@@ -79,7 +78,7 @@ says "and says so" "interrupted; nothing was written" "$(<"$scratch/stderr")"
 
 skip() { # <why>
     echo "skip - $1"
-    exit $((cases_failed > 0))
+    exit 0
 }
 command -v node >/dev/null && command -v npm >/dev/null || skip "there is no npm, so no glTF validator"
 if [ ! -e "$folder/node_modules/gltf-validator/package.json" ]; then
@@ -100,4 +99,3 @@ holds "without a complaint" [ "$(grep -c "0 errors, 0 warnings, 0 infos, 0 hints
 expect 0 "the validator reads an imported character with a new clip" node tests/others/validate.js "$folder" \
     "$scratch/dog.glb" "$scratch/dog.gltf" "$scratch/dog-cubic.glb"
 holds "without an error or a warning" [ "$(grep -c "0 errors, 0 warnings" <<<"$out")" -eq 3 ]
-exit $((cases_failed > 0))

@@ -1,6 +1,5 @@
 # wiggly export to pictures and films: as many as asked for, of that size, showing the scene; and nothing left behind by a failure.
 . tests/check.sh
-WIGGLY=${WIGGLY:-build/wiggly}
 tail=assets/scenes/tail.json
 small="--size 160x90 --quiet"
 
@@ -118,7 +117,7 @@ expect 0 "a folder that is not there stops nothing" "$WIGGLY" live $tail --no-dr
 
 if ! command -v ffmpeg >/dev/null || ! command -v ffprobe >/dev/null; then
     echo "skip - no films are made, as ffmpeg is missing"
-    exit $cases_failed
+    exit 0
 fi
 fresh
 probe() { # <file>
@@ -140,4 +139,3 @@ if command -v convert >/dev/null; then
     awk -v off="$off" 'BEGIN { exit !(off < 0.02) }'
     ok "its last frame looks as the picture does: off by $off" $?
 fi
-exit $cases_failed

@@ -2,7 +2,6 @@
 # version into the build folder; where there is no npm or no network they are skipped.
 . tests/check.sh
 . tests/box.sh
-WIGGLY=${WIGGLY:-build/wiggly}
 validator=gltf-validator@2.0.0-dev.3.10
 folder=${B:-build}/gltf-validator
 
@@ -35,4 +34,3 @@ expect 0 "the validator reads it" node "$scratch/validate.js" "$folder" "$scratc
 says "without a complaint" "0 errors, 0 warnings; 8 vertices, morph targets: true" "$out"
 expect 0 "it reads the dog of the tree" node "$scratch/validate.js" "$folder" assets/models/dog.glb
 says "without a complaint" "0 errors, 0 warnings; " "$out"
-exit $((cases_failed > 0))

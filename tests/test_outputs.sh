@@ -1,6 +1,5 @@
 # What commands write: never two things to one file, nothing left behind, and no control character of a name on the terminal.
 . tests/check.sh
-WIGGLY=${WIGGLY:-build/wiggly}
 scene=assets/scenes/tail.json
 cd_name=$(basename "$scratch")
 
@@ -116,4 +115,3 @@ sed -i "s/^# solver: .*/# solver: ${escape}[31m/" "$name.log"
 expect 0 "is summarised" "$WIGGLY" log "$name.log"
 ! raw "$out$err"
 ok "and it is told escaped" $?
-exit $((cases_failed > 0))

@@ -1,7 +1,6 @@
 # Unsaved work outlives kill -9: the next start offers it, and neither the scene's own file nor another running app is touched.
 . tests/check.sh
 . tests/desktop.sh
-WIGGLY=${WIGGLY:-build/wiggly}
 state=$XDG_STATE_HOME/wiggly
 
 expect 0 "a headless run" "$WIGGLY" live --no-draw --frames 2
@@ -9,7 +8,7 @@ expect 0 "a headless run" "$WIGGLY" live --no-draw --frames 2
 ok "a headless run makes no files of the user's" $?
 
 other=""
-trap 'kill $app $other $server 2>/dev/null; wait 2>/dev/null; rm -rf "$scratch"' EXIT
+at_end() { kill $app $other $server 2>/dev/null; wait 2>/dev/null; }
 start_server
 
 # Inserts a knot, waits for the recovery file, and kills the app.
@@ -81,4 +80,3 @@ echo "theme dark" >"$XDG_CONFIG_HOME/wiggly/settings"
 start_app wiggly
 quit_app
 holds "broken settings keep nobody from working" silent "$(cat "$scratch/app.err")"
-exit $((cases_failed > 0))

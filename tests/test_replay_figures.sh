@@ -1,6 +1,5 @@
 # Figures of the paper by their keys, in the app as a whole.
 . tests/check.sh
-WIGGLY=${WIGGLY:-build/wiggly}
 unset DISPLAY WAYLAND_DISPLAY
 scene=tests/replays/session.json
 replay=tests/replays/session.replay
@@ -25,4 +24,3 @@ holds "the first document is back" cmp "$scratch/figure.json" "$scratch/own.json
 cp $scene "$scratch/own.json"
 expect 0 "a figure is no file's" figure 40 "2 key 4 ctrl" "4 key S ctrl"
 holds "saving one leaves the file that was open before alone" cmp "$scratch/own.json" $scene
-[ $cases_failed -eq 0 ]

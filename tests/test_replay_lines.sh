@@ -1,6 +1,5 @@
 # Replays of a few lines, and ones that do not fit: what is wrong is said in one sentence with its line.
 . tests/check.sh
-WIGGLY=${WIGGLY:-build/wiggly}
 unset DISPLAY WAYLAND_DISPLAY
 scene=tests/replays/session.json
 replay=tests/replays/session.replay
@@ -62,4 +61,3 @@ says "is named" "nul.replay: expected text, got a NUL byte" "$err"
 { printf '%s\n' "$header" | sed 's/^frames .*/frames 0/' && printf '%s\n' "5 key A" "12 key Escape"; } >"$scratch/killed.replay"
 expect 0 "a recording that was cut short" play "$scratch/killed.replay" $scene killed
 holds "plays to its last event" [ "$(grep -vc '^[#f]' "$scratch/killed.csv")" -eq 13 ]
-[ $cases_failed -eq 0 ]

@@ -1,7 +1,6 @@
 # What surrounds the program: the range of each option, a locale with decimal commas, folders that may not be written to, full disks.
 # And each limit that a user can meet is known: tests/limits.txt says which test is at it.
 . tests/check.sh
-WIGGLY=${WIGGLY:-build/wiggly}
 unset DISPLAY WAYLAND_DISPLAY
 scene=assets/scenes/tail.json
 
@@ -127,7 +126,7 @@ prepare "$scratch/small"
 refused_everywhere "a full disk" "$scratch/small" "File too large" 0
 prepare "$scratch/locked"
 if mkdir "$scratch/tiny" && mount -t tmpfs -o size=16k none "$scratch/tiny" 2>/dev/null; then
-    trap 'umount "$scratch/tiny"; umount "$scratch/locked" 2>/dev/null; rm -rf "$scratch"' EXIT
+    at_end() { umount "$scratch/tiny"; umount "$scratch/locked" 2>/dev/null; }
     prepare "$scratch/tiny"
     yes >"$scratch/tiny/rest" 2>/dev/null
     refused_everywhere "a disk without room" "$scratch/tiny" "No space left on device"
@@ -195,4 +194,3 @@ ok "docs/reliability.md names tests that are there" ${#missing}
 unproven=$(grep -E '^\| [^*-]' docs/reliability.md | grep -vE '`test_|^\| Promise ')
 [ -z "$unproven" ] || printf '%s\n' "$unproven"
 ok "and one for each promise" ${#unproven}
-exit $((cases_failed > 0))

@@ -1,10 +1,9 @@
 # Two running programs: on one scene's file, with one settings file and one folder of recovery files.
 . tests/check.sh
 . tests/desktop.sh
-WIGGLY=${WIGGLY:-build/wiggly}
 first=""
 second=""
-trap 'kill $app $first $second $server 2>/dev/null; wait 2>/dev/null; rm -rf "$scratch"' EXIT
+at_end() { kill $app $first $second $server 2>/dev/null; wait 2>/dev/null; }
 settings=$XDG_CONFIG_HOME/wiggly/settings
 recovery=$XDG_STATE_HOME/wiggly/recovery
 mine=$scratch/mine.json
@@ -103,4 +102,3 @@ eventually "and is offered the other" recovered
 [ -s "$recovery-1" ] && [ -s "$recovery-2" ] && ! cmp -s "$recovery-1" "$recovery-2"
 ok "both are still kept, and differ" $?
 holds "neither complains" silent "$(cat "$scratch/app.err" "$scratch/second.err")"
-exit $((cases_failed > 0))

@@ -2,9 +2,8 @@
 # Skipped where there is no weston, or where GLFW speaks X11 alone and Debian's build for Wayland cannot be had.
 . tests/check.sh
 . tests/desktop.sh
-WIGGLY=${WIGGLY:-build/wiggly}
 weston=""
-trap 'kill -9 $app $weston 2>/dev/null; wait 2>/dev/null; rm -rf "$scratch"' EXIT
+at_end() { kill -9 $app $weston 2>/dev/null; wait 2>/dev/null; }
 
 skip() { # <why>
     echo "skip - $1"
@@ -61,4 +60,3 @@ expect 0 "frames in a window without a seat" wayland --frames 20
 start_wayland
 kill_weston
 says "and one sentence" "wiggly live: the window or its display is gone" "$(cat "$scratch/app.err")"
-exit $((cases_failed > 0))

@@ -1,7 +1,6 @@
 # The live app in a real window, driven by keys and mouse as a person would: see it run, edit, undo, save, quit, open again.
 . tests/check.sh
 . tests/desktop.sh
-WIGGLY=${WIGGLY:-build/wiggly}
 start_server
 
 keys() { xdotool key --delay 30 "$@"; }
@@ -46,4 +45,3 @@ keys ctrl+z ctrl+s
 eventually "one Ctrl+Z takes it back" cmp -s "$scratch/mine.json" "$scratch/undone.json"
 quit_app
 holds "byte for byte" cmp "$scratch/mine.json" "$scratch/saved.json"
-exit $((cases_failed > 0))
