@@ -3,13 +3,12 @@
 #define TESTS_EXPORT_SCENE_H
 
 #include "base/file.h"
+#include "documents.h"
 #include "export/export.h"
 #include "folder.h"
 #include "model/gltf.h"
 #include "model/motion.h"
-#include "near.h"
 #include "rig/models.h"
-#include "scene/load.h"
 #include <dirent.h>
 
 /// A scene that is open, solved, its models read.
@@ -23,11 +22,9 @@ struct opened {
 static inline struct opened open_scene(const char *path)
 {
     struct opened scene = {.models = models_create()};
-    struct error error = {0};
-    scene.document = scene_load(path, NULL, &error);
-    if (!scene.document) fail_msg("%s", error.text);
+    scene.document = document_of_file(path);
     document_set_path(scene.document, path);
-    assert_true(models_update(scene.models, scene.document, &error));
+    assert_done(models_update(scene.models, scene.document, &error));
     evaluation_update(&scene.evaluation, scene.document, false);
     return scene;
 }
@@ -49,11 +46,10 @@ static inline void close_scene(struct opened *scene)
 /// Exports a scene; returns the file's path, of the same storage at each second call.
 static inline const char *export_file(const char *scene_path, const char *file, struct export_options options)
 {
-    struct error error = {0};
     struct export_report report;
     struct opened scene = open_scene(scene_path);
     const char *path = folder_path(file);
-    if (!export_write(posing_of(&scene), path, &options, &report, &error)) fail_msg("%s", error.text);
+    assert_done(export_write(posing_of(&scene), path, &options, &report, &error));
     close_scene(&scene);
     return path;
 }
@@ -76,13 +72,12 @@ struct points {
 static inline struct points read_points(const char *path)
 {
     struct motion motion;
-    struct error error;
-    if (!motion_open(&motion, path, &error)) fail_msg("%s", error.text);
+    assert_done(motion_open(&motion, path, &error));
     struct points points = {motion.frames, motion.vertices, motion.fps, NULL};
     const int columns = 3 * motion.vertices;
     points.number = malloc((size_t)columns * (size_t)motion.frames * sizeof *points.number);
     assert_non_null(points.number);
-    assert_true(motion_columns(&motion, 0, columns, points.number, &error));
+    assert_done(motion_columns(&motion, 0, columns, points.number, &error));
     motion_close(&motion);
     return points;
 }
@@ -97,11 +92,10 @@ static inline double glb_clip_is_off(const char *path, const char *name, const s
 {
     struct gltf gltf;
     struct gltf_pose pose;
-    struct error error;
     double off = 0;
     int node = 0;
     float(*place)[3] = malloc((size_t)points->vertices * sizeof *place);
-    if (!gltf_read(path, &gltf, &error)) fail_msg("%s", error.text);
+    assert_done(gltf_read(path, &gltf, &error));
     assert_true(place && gltf_pose_create(&gltf, &pose));
     const int clip = name ? gltf_find_clip(&gltf, name) : 0;
     assert_true(name ? clip >= 0 : gltf.clip_count == 1);
@@ -125,8 +119,7 @@ static inline double glb_clip_is_off(const char *path, const char *name, const s
 static inline char *bytes_of(const char *path, size_t *size)
 {
     char *data;
-    struct error error;
-    if (!file_read(path, 1 << 28, &data, size, &error)) fail_msg("%s", error.text);
+    assert_done(file_read(path, 1 << 28, &data, size, &error));
     return data;
 }
 

@@ -73,8 +73,7 @@ static inline const char *builder_json(struct builder *b, const char *members)
 
 static inline void read_text(const char *text, struct gltf *gltf)
 {
-    struct error error;
-    if (!gltf_read(temporary_file("model.gltf", text, strlen(text)), gltf, &error)) fail_msg("%s", error.text);
+    assert_done(gltf_read(temporary_file("model.gltf", text, strlen(text)), gltf, &error));
 }
 
 static inline void read_built(struct builder *b, const char *members, struct gltf *gltf)

@@ -18,10 +18,9 @@ static inline void panel_open(struct session *session, const char *scene, float 
 /// The same with the models of its characters, in a window so high that no section has to be scrolled to.
 static inline struct models *panel_open_models(struct session *session, const char *scene)
 {
-    struct error error = {0};
     panel_open(session, scene, 1280, 1400);
     struct models *models = session->table.models;
-    if (!models_update(models, session->document, &error)) fail_msg("%s", error.text);
+    assert_done(models_update(models, session->document, &error));
     editor_open(session->editor, &session->world);
     return models;
 }

@@ -35,8 +35,7 @@ static inline void make_motion(struct motion *motion, int frames, int vertices, 
         }
     }
     fclose(file);
-    struct error error;
-    if (!motion_open(motion, path, &error)) fail_msg("%s", error.text);
+    assert_done(motion_open(motion, path, &error));
 }
 
 #endif

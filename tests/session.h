@@ -63,9 +63,8 @@ static inline void session_drag(struct session *session, float dx, float dy, int
 /// Puts the pointer on a target of editor_target(); fails the test where there is none.
 static inline void session_point(struct session *session, const char *target)
 {
-    struct error error = {0};
     float x, y;
-    if (!editor_target(session->editor, target, &x, &y, &error)) fail_msg("%s", error.text);
+    assert_done(editor_target(session->editor, target, &x, &y, &error));
     session_move(session, x, y);
 }
 

@@ -295,24 +295,21 @@ SESSION_TEST(test_a_corner_of_the_box_scales_both_and_says_what_stops_it, sessio
 }
 
 /// A knot is where a handle would be, and a press there takes the knot; a single one, and knots on one frame, have fewer handles.
-TEST(test_the_box_has_the_handles_that_can_scale)
+SESSION_TEST(test_the_box_has_the_handles_that_can_scale, session_open(s, TWO))
 {
-    struct session s;
     float x, y;
     struct error error;
-    session_open(&s, TWO);
-    session_click(&s, "knot(sway,1)");
-    assert_false(editor_target(s.editor, "box(0,-1)", &x, &y, &error));
-    s.mods = MOD_SHIFT;
-    session_click(&s, "knot(up,0)"); // on the same frame
-    s.mods = 0;
-    assert_true(editor_target(s.editor, "box(0,-1)", &x, &y, &error));
-    assert_false(editor_target(s.editor, "box(1,0)", &x, &y, &error));
-    assert_false(editor_target(s.editor, "box(1,-1)", &x, &y, &error));
-    session_point(&s, "knot(sway,1)");
-    session_frame(&s);
-    assert_int_equal(s.editor->core.hover.kind, HOVER_KNOT);
-    session_close(&s);
+    session_click(s, "knot(sway,1)");
+    assert_false(editor_target(s->editor, "box(0,-1)", &x, &y, &error));
+    s->mods = MOD_SHIFT;
+    session_click(s, "knot(up,0)"); // on the same frame
+    s->mods = 0;
+    assert_true(editor_target(s->editor, "box(0,-1)", &x, &y, &error));
+    assert_false(editor_target(s->editor, "box(1,0)", &x, &y, &error));
+    assert_false(editor_target(s->editor, "box(1,-1)", &x, &y, &error));
+    session_point(s, "knot(sway,1)");
+    session_frame(s);
+    assert_int_equal(s->editor->core.hover.kind, HOVER_KNOT);
 }
 
 /// With Alt, from the playhead; a system that sends the comma all the same goes no further.

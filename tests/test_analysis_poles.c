@@ -65,10 +65,9 @@ static void grow(struct plant *p, uint32_t seed)
 static void analyse(struct analysis *analysis, struct plant *p, int modes)
 {
     struct motion motion;
-    struct error error;
     const struct analysis_plan plan = {ANALYSIS_POLES, p->fps, modes, NULL, 0};
     make_motion(&motion, p->frames, VERTICES, planted, p);
-    if (!analysis_create(analysis, &lapack, &motion, &plan, &error)) fail_msg("%s", error.text);
+    assert_done(analysis_create(analysis, &lapack, &motion, &plan, &error));
     motion_close(&motion);
 }
 
@@ -287,10 +286,9 @@ static void analyse_kicked(struct analysis *a, struct kicked *body, int first)
 {
     const struct analysis_plan plan = {ANALYSIS_POLES, 48, 3, NULL, first};
     struct motion motion;
-    struct error error;
     kick(body);
     make_motion(&motion, KICKED_FRAMES, VERTICES, kicked, body);
-    if (!analysis_create(a, &lapack, &motion, &plan, &error)) fail_msg("%s", error.text);
+    assert_done(analysis_create(a, &lapack, &motion, &plan, &error));
     motion_close(&motion);
 }
 
@@ -331,18 +329,15 @@ static double quick(int i, int j, void *user)
     return cos(2 * M_PI * 22 * i / 48.0 + j) * exp(-0.02 * i) + cos(2 * M_PI * 3 * i / 48.0 - j) * exp(-0.01 * i);
 }
 
-TEST(motion_near_half_the_rate_is_told)
+TEST_OF(struct motion, motion, make_motion(motion, 192, VERTICES, quick, NULL), motion_close(motion),
+        motion_near_half_the_rate_is_told)
 {
     const struct analysis_plan plan = {ANALYSIS_POLES, 48, 2, NULL, 0};
-    struct motion motion;
     struct analysis a;
-    struct error error;
-    make_motion(&motion, 192, VERTICES, quick, NULL);
-    if (!analysis_create(&a, &lapack, &motion, &plan, &error)) fail_msg("%s", error.text);
+    assert_done(analysis_create(&a, &lapack, motion, &plan, &error));
     assert_near(a.fast_share, 1 / 3.0, 0.02); // powers go as 1 / damping
     assert_near(component_near(&a, 22)->frequency, 22, 0.01);
     analysis_free(&a);
-    motion_close(&motion);
 }
 
 int main(void) { return tests_run(with_lapack_load, with_lapack_unload); }

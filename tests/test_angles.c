@@ -29,37 +29,24 @@ static const char text[] =
     " \"joints\": 5, \"rest\": {\"ramp\": [[0, 1], [1, 2]], \"mood\": 1}, \"spline\": \"s\","
     " \"lag\": {\"ramp\": [[0.25, 10], [0.5, 40], [1, 120]], \"ease\": \"in\"}}]}";
 
-static struct document *parse(const char *json)
-{
-    struct error error = {0};
-    struct document *document = scene_parse("scene.json", json, strlen(json), NULL, &error);
-    if (!document) fail_msg("%s", error.text);
-    return document;
-}
-
 TEST(ramps_are_printed_as_they_were_read)
 {
-    struct document *document = parse(text);
+    struct document *document = document_of_text(text);
     assert_memory_equal(&document->rigs[0]->tail.channels[0].lag.ramp, &ramp.ramp, 3 * sizeof *ramp.ramp);
-    size_t size;
-    char *first = scene_print(document, &size);
+    char *first = text_of_document(document);
     assert_non_null(strstr(first, "\"rest\": { \"ramp\": [[0, 1], [1, 2]], \"mood\": 1 }"));
     assert_non_null(
         strstr(first, "\"lag\": { \"ramp\": [[0.25, 10], [0.5, 40], [1, 120]], \"ease\": \"in\" }, \"gain\": 5 }"));
-    struct document *again = parse(first);
-    char *second = scene_print(again, &size);
-    assert_string_equal(first, second);
+    assert_loads_again(document);
     free(first);
-    free(second);
     document_destroy(document);
-    document_destroy(again);
 }
 
 /// A ramp poses a tail exactly as the numbers that it stands for.
 TEST(a_ramp_poses_like_its_numbers)
 {
     static struct pose posed[2];
-    struct document *document = parse(text);
+    struct document *document = document_of_text(text);
     struct tail *tail = &document->rigs[0]->tail;
     const wiggly_value value = {.y = 0.1, .re = 0.7, .im = -0.4};
     pose_tail(tail, &value, LOOK_WIGGLY, &posed[0]);

@@ -1,5 +1,6 @@
 /// The app's frames and files, without a picture.
 #include "blind.h"
+#include "documents.h"
 #include "inside.h"
 
 #include "scene/load.h"
@@ -32,28 +33,26 @@ static void send_pointer(struct blind *blind, enum event_kind kind, float x, flo
 }
 
 /// Events happen in their order: a figure's key before the first movement of a drag ends the press, and the movement is no drag.
-TEST(a_figure_ends_a_press_that_began_in_its_frame)
+TEST_OF(struct blind, blind, blind_open(blind, scene_file()), blind_close(blind),
+        a_figure_ends_a_press_that_began_in_its_frame)
 {
-    struct blind blind;
-    blind_open(&blind, scene_file());
-    blind_frame(&blind);
-    struct app *app = &blind.app;
+    blind_frame(blind);
+    struct app *app = &blind->app;
     const double before = app->table.document->splines[0]->knots[1].value;
     float x, y;
     assert_true(editor_target(app->table.editor, "knot(s,1)", &x, &y, NULL));
-    send_pointer(&blind, EVENT_POINTER, x, y);
-    send_pointer(&blind, EVENT_BUTTON, x, y);
-    send_key(&blind, '3', MOD_CTRL);
-    send_pointer(&blind, EVENT_POINTER, x, y - 40);
-    blind_frame(&blind);
+    send_pointer(blind, EVENT_POINTER, x, y);
+    send_pointer(blind, EVENT_BUTTON, x, y);
+    send_key(blind, '3', MOD_CTRL);
+    send_pointer(blind, EVENT_POINTER, x, y - 40);
+    blind_frame(blind);
     assert_false(history_is_open(app->table.history));
     assert_string_equal(history_undo_label(app->table.history), "Open a figure");
     assert_int_equal(history_count(app->table.history), 1);
-    blind_frame(&blind);
-    send_key(&blind, 'Z', MOD_CTRL);
-    blind_frame(&blind);
+    blind_frame(blind);
+    send_key(blind, 'Z', MOD_CTRL);
+    blind_frame(blind);
     assert_true(app->table.document->splines[0]->knots[1].value == before);
-    blind_close(&blind);
 }
 
 /// Figure 2 is of poles and response: both are in sight at once, from the command line and by its key.
@@ -95,9 +94,7 @@ static void open_edited(struct blind *blind, char folder[64], char path[96])
 
 static void assert_knots_in_file(const char *path, int knots)
 {
-    struct error error = {0};
-    struct document *document = scene_load(path, NULL, &error);
-    if (!document) fail_msg("%s", error.text);
+    struct document *document = document_of_file(path);
     assert_int_equal(document->splines[0]->knot_count, knots);
     document_destroy(document);
 }

@@ -24,10 +24,9 @@ static struct autosave_work work_of(const struct world *world)
 
 static void update(struct autosave *autosave, const struct world *world, double now)
 {
-    struct error error = {0};
     struct autosave_work work = work_of(world);
     for (int i = 0; i < 4; i++) { // the thread may still be at the last write
-        if (!autosave_update(autosave, &work, now, &error)) fail_msg("%s", error.text);
+        assert_done(autosave_update(autosave, &work, now, &error));
         wait_a_moment();
     }
 }
@@ -41,21 +40,17 @@ static void update_until(struct autosave *autosave, const struct world *world, d
 
 static struct autosave *open_autosave(void)
 {
-    struct error error = {0};
     struct recovery_slot slot;
-    if (!recovery_claim(folder, &slot, &error)) fail_msg("%s", error.text);
+    assert_done(recovery_claim(folder, &slot, &error));
     return autosave_open(&slot);
 }
 
 /// The document in the newest file that was left behind, as text.
 static char *recovered_text(struct recovery_entry *entry)
 {
-    struct error error = {0};
-    size_t size;
     assert_true(recovery_find(folder, NULL, entry, NULL));
-    struct document *document = scene_load(entry->slot.path, NULL, &error);
-    if (!document) fail_msg("%s", error.text);
-    char *text = scene_print(document, &size);
+    struct document *document = document_of_file(entry->slot.path);
+    char *text = text_of_document(document);
     document_destroy(document);
     return text;
 }
@@ -93,13 +88,12 @@ TEST_WITH(folder_make, folder_remove, test_when)
 TEST_WITH(folder_make, folder_remove, test_left_behind)
 {
     struct world world;
-    struct error error = {0};
     struct recovery_entry entry;
     world_open(&world);
     struct autosave *autosave = open_autosave();
     world_must(&world, edit_insert(&world, SWAY, 5, 5));
     struct autosave_work work = work_of(&world);
-    assert_true(autosave_flush(autosave, &work, &error));
+    assert_done(autosave_flush(autosave, &work, &error));
     struct stat about;
     assert_int_equal(stat(autosave_path(autosave), &about), 0);
     assert_int_equal(about.st_mode & 0777, 0600);
@@ -164,7 +158,6 @@ TEST_WITH(folder_make, folder_remove, test_paths)
     world_must(&world, edit_insert(&world, SWAY, 5, 5));
     for (size_t i = 0; i < sizeof paths / sizeof *paths; i++) {
         struct autosave *autosave = open_autosave();
-        struct error error = {0};
         struct recovery_entry entry;
         char path[PATH_LIMIT];
         const size_t length = paths[i].length, rest = strlen(paths[i].end);
@@ -173,13 +166,12 @@ TEST_WITH(folder_make, folder_remove, test_paths)
         struct autosave_work work = work_of(&world);
         work.path = path;
         work.content = UINT64_MAX - 7;
-        assert_true(autosave_flush(autosave, &work, &error));
+        assert_done(autosave_flush(autosave, &work, &error));
         autosave_close(autosave, true);
         assert_true(recovery_find(folder, path, &entry, NULL));
         assert_string_equal(entry.origin.path, path);
         assert_true(entry.origin.content == UINT64_MAX - 7);
-        struct document *document = scene_load(entry.slot.path, NULL, &error);
-        if (!document) fail_msg("%s", error.text);
+        struct document *document = document_of_file(entry.slot.path);
         document_destroy(document);
         recovery_remove(&entry.slot);
         recovery_release(&entry.slot);
@@ -191,13 +183,12 @@ TEST_WITH(folder_make, folder_remove, test_paths)
 TEST_WITH(folder_make, folder_remove, test_path_that_is_no_text)
 {
     struct world world;
-    struct error error = {0};
     struct recovery_entry entry;
     world_open(&world);
     struct autosave *autosave = open_autosave();
     struct autosave_work work = work_of(&world);
     work.path = "/home/me/\xff.json";
-    assert_true(autosave_flush(autosave, &work, &error));
+    assert_done(autosave_flush(autosave, &work, &error));
     autosave_close(autosave, true);
     char *text = recovered_text(&entry);
     assert_document(&world, text);
@@ -251,14 +242,13 @@ TEST_WITH(folder_make, folder_remove, test_killed_while_saving)
 {
     struct world small, large;
     char path[80];
-    struct error error = {0};
     world_open(&small);
     world_open(&large);
     world_must(&large, edit_frames(&large, 0, 4000));
     for (int f = 31; f < 4000; f++) world_must(&large, edit_insert(&large, SWAY, f, sin(f)));
-    char *texts[] = {world_print(&small), world_print(&large)};
+    const char *texts[] = {world_print(&small), world_print(&large)};
     snprintf(path, sizeof path, "%s/mine.json", folder);
-    assert_true(scene_save(small.document, path, &error));
+    assert_done(scene_save(small.document, path, &error));
     srand(7);
     int seen[2] = {0, 0};
     // Until one save was cut short at least; on a loaded machine they take longer.
@@ -274,14 +264,12 @@ TEST_WITH(folder_make, folder_remove, test_killed_while_saving)
         assert_true(WIFSIGNALED(status));
         char *data;
         size_t size;
-        if (!file_read(path, 1 << 24, &data, &size, &error)) fail_msg("%s", error.text);
+        assert_done(file_read(path, 1 << 24, &data, &size, &error));
         bool is_large = strcmp(data, texts[1]) == 0;
         if (!is_large) assert_string_equal(data, texts[0]);
         seen[is_large]++;
         free(data);
     }
-    free(texts[0]);
-    free(texts[1]);
     world_close(&small);
     world_close(&large);
 }

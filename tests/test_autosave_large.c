@@ -1,5 +1,6 @@
 /// Recovery files of a large scene, in the app's frames: soon after an edit, of one moment, and there after a kill.
 #include "blind.h"
+#include "documents.h"
 
 #include "app/recovery.h"
 #include "base/file.h"
@@ -36,14 +37,13 @@ static void write_scene(const char *path)
 
 static void open_session(struct session *session)
 {
-    struct error error = {0};
     struct recovery_slot slot;
     char path[128];
     snprintf(path, sizeof path, "%s", folder_path("large.json"));
     write_scene(path);
     *session = (struct session){0};
     blind_open(&session->blind, path);
-    if (!recovery_claim(folder, &slot, &error)) fail_msg("%s", error.text);
+    assert_done(recovery_claim(folder, &slot, &error));
     session->autosave = autosave_open(&slot);
 }
 
@@ -52,7 +52,6 @@ static struct document *document_of(const struct session *session) { return sess
 /// A frame with a key's events, unless it is 0, at the pace of a display. Whether there are edits that no copy has.
 static bool frame(struct session *session, int key, unsigned mods)
 {
-    struct error error = {0};
     struct app *app = &session->blind.app;
     for (int action = 0; key && action < 2; action++)
         blind_send(&session->blind, (struct event){.kind = EVENT_KEY,
@@ -64,8 +63,7 @@ static bool frame(struct session *session, int key, unsigned mods)
                                        .path = app_path(app),
                                        .revision = history_revision(app->table.history),
                                        .saved = history_is_saved(app->table.history)};
-    if (!autosave_update(session->autosave, &work, (double)session->frame++ / RATE, &error))
-        fail_msg("%s", error.text);
+    assert_done(autosave_update(session->autosave, &work, (double)session->frame++ / RATE, &error));
     return autosave_is_behind(session->autosave, &work);
 }
 
@@ -89,10 +87,9 @@ static char *text_of(struct session *session)
 
 static void assert_kept(const char *path, const char *expected)
 {
-    struct error error = {0};
     char *data;
     size_t size;
-    if (!file_read(path, (size_t)1 << 30, &data, &size, &error)) fail_msg("%s", error.text);
+    assert_done(file_read(path, (size_t)1 << 30, &data, &size, &error));
     assert_true(size > strlen(expected));
     if (strncmp(data, expected, strlen(expected)) != 0) fail_msg("the recovery file has another scene");
     assert_non_null(strstr(data + strlen(expected) - 1, "\n  \"recovers\": { \"file\": "));
@@ -162,7 +159,6 @@ TEST_WITH(folder_make, folder_remove, edits)
 TEST_WITH(folder_make, folder_remove, a_kill)
 {
     struct recovery_entry entry;
-    struct error error = {0};
     int status;
     fflush(stdout);
     const pid_t child = fork();
@@ -179,8 +175,7 @@ TEST_WITH(folder_make, folder_remove, a_kill)
     assert_int_equal(waitpid(child, &status, 0), child);
     assert_true(WIFSIGNALED(status) && WTERMSIG(status) == SIGKILL);
     assert_true(recovery_find(folder, NULL, &entry, NULL));
-    struct document *document = scene_load(entry.slot.path, NULL, &error);
-    if (!document) fail_msg("%s", error.text);
+    struct document *document = document_of_file(entry.slot.path);
     assert_int_equal(document->splines[0]->knot_count, KNOTS + 1);
     assert_int_equal(document->splines[SPLINES - 1]->knot_count, KNOTS);
     recovery_release(&entry.slot);

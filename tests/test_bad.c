@@ -1,8 +1,7 @@
 /// Scenes that must be refused: each with one sentence that names file, line and path, and without a crash or a leak.
-#include "near.h"
+#include "documents.h"
 
 #include "folder.h"
-#include "scene/load.h"
 #include <dirent.h>
 #include <fcntl.h>
 #include <sys/stat.h>
@@ -203,13 +202,8 @@ TEST(test_damaged_bytes)
             assert_int_equal(strncmp(error.text, "damaged.json:", 13), 0);
             continue;
         }
-        size_t printed_size;
-        char *printed = scene_print(document, &printed_size);
-        struct document *again = scene_parse("printed.json", printed, printed_size, NULL, &error);
-        if (!again) fail_msg("what was saved does not load: %s", error.text);
-        document_destroy(again);
+        assert_loads_again(document);
         document_destroy(document);
-        free(printed);
     }
     free(damaged);
     free(text);

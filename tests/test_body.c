@@ -85,30 +85,25 @@ SESSION_TEST(test_escape_takes_it_back, session_open(s, scene))
 }
 
 /// A held body may lose its tail, to an edit made meanwhile; letting go of it then changes nothing.
-TEST(test_a_tail_that_goes_while_held)
+SESSION_TEST(test_a_tail_that_goes_while_held, session_open(s, scene))
 {
-    struct session s;
-    struct error error;
-    session_open(&s, scene);
-    hold_and_drag(&s, 80, 30, 6);
-    assert_true(edit_rig_remove(s.document, 0, &error));
-    const char *without = session_saved(&s);
-    session_button(&s, BUTTON_LEFT, ACTION_RELEASE, 1);
-    session_frame(&s);
-    assert_saved(&s, without);
-    session_close(&s);
+    hold_and_drag(s, 80, 30, 6);
+    assert_done(edit_rig_remove(s->document, 0, &error));
+    const char *without = session_saved(s);
+    session_button(s, BUTTON_LEFT, ACTION_RELEASE, 1);
+    session_frame(s);
+    assert_saved(s, without);
 }
 
 /// A press in the frame in which an edit takes the tail away finds nothing to take hold of.
 static void press_as_it_goes(const char *target)
 {
     struct session s;
-    struct error error;
     session_open(&s, scene);
     session_frame(&s);
     session_point(&s, target);
     history_begin(s.history, "Remove tail", 0);
-    assert_true(edit_rig_remove(s.document, 0, &error));
+    assert_done(edit_rig_remove(s.document, 0, &error));
     history_end(s.history);
     const char *without = session_saved(&s);
     session_press(&s, BUTTON_LEFT, 1);
@@ -298,23 +293,22 @@ static void strike(struct session *s, int key, unsigned mods)
 }
 
 /// What is shown is of the last frame: a tail that an event before the press took away is not taken hold of.
-TEST(test_a_press_right_after_a_rig_went)
-{
-    struct session s;
+SESSION_TEST(
+    test_a_press_right_after_a_rig_went,
     session_open(
-        &s, "{\"frames\": [0, 48], \"splines\": [{\"name\": \"sway\", \"frequency\": 1, \"knots\": [{\"frame\": 0, "
-            "\"value\": 1}]}], \"rigs\": [{\"type\": \"tail\", \"name\": \"tail\", \"spline\": \"sway\"}, {\"type\": "
-            "\"meadow\", \"name\": \"reeds\", \"spline\": \"sway\", \"count\": 20}]}");
-    session_click(&s, "body(tail)");
-    session_key(&s, KEY_SPACE, 0);
-    for (int i = 0; i < 30; i++) session_frame(&s);
-    session_point(&s, "tail(tail,1)");
-    strike(&s, KEY_DELETE, MOD_SHIFT);
-    if (s.editor->dialogs->dialog.kind == DIALOG_ASK) strike(&s, 'K', 0);
-    assert_int_equal(s.document->rig_count, 1);
-    assert_true(s.editor->core.playback.playing);
-    session_press(&s, BUTTON_LEFT, 1);
-    session_release(&s, BUTTON_LEFT);
-    assert_int_equal(s.document->rigs[0]->kind, RIG_MEADOW);
-    session_close(&s);
+        s, "{\"frames\": [0, 48], \"splines\": [{\"name\": \"sway\", \"frequency\": 1, \"knots\": [{\"frame\": 0, "
+           "\"value\": 1}]}], \"rigs\": [{\"type\": \"tail\", \"name\": \"tail\", \"spline\": \"sway\"}, {\"type\": "
+           "\"meadow\", \"name\": \"reeds\", \"spline\": \"sway\", \"count\": 20}]}"))
+{
+    session_click(s, "body(tail)");
+    session_key(s, KEY_SPACE, 0);
+    for (int i = 0; i < 30; i++) session_frame(s);
+    session_point(s, "tail(tail,1)");
+    strike(s, KEY_DELETE, MOD_SHIFT);
+    if (s->editor->dialogs->dialog.kind == DIALOG_ASK) strike(s, 'K', 0);
+    assert_int_equal(s->document->rig_count, 1);
+    assert_true(s->editor->core.playback.playing);
+    session_press(s, BUTTON_LEFT, 1);
+    session_release(s, BUTTON_LEFT);
+    assert_int_equal(s->document->rigs[0]->kind, RIG_MEADOW);
 }

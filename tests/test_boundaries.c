@@ -267,9 +267,8 @@ WORLD_TEST(rigs_of_an_edit, world_open(world))
     }
     assert_false(world_step(world, edit_tail_add(world_edit(world), 0, -1, AXIS_SIDE, PART_TOTAL, &world->error)));
     assert_string_equal(world->error.text, "there are 1024 rigs, and no more fit");
-    char *text = world_print(world);
+    const char *text = world_print(world);
     takes(text);
-    free(text);
 }
 
 /// So many samples each of so many splines, the first with a limit or none.
@@ -308,18 +307,15 @@ TEST(samples_of_a_scene)
 }
 
 /// A limited spline in a longer scene, and a longer scene with a limited spline.
-TEST(samples_of_limits)
+WORLD_TEST(samples_of_limits, world_open(world))
 {
     static const char *const says = "at most 20000 samples where a spline has a low or high limit, got 20001";
-    struct world world;
-    world_open(&world);
-    world_must(&world, edit_frames(&world, 0, 20000));
-    assert_refused(&world, edit_number(&world, 0, PARAMETER_HIGH, 1e6), says);
-    world_must(&world, edit_range(world_edit(&world), 0, 19999, RANGE_REFUSE, &world.error));
-    world_must(&world, edit_number(&world, 0, PARAMETER_HIGH, 1e6));
-    assert_refused(&world, edit_frames(&world, 0, 20000), says);
-    assert_int_equal(document_longest(world.document), 19999);
-    world_close(&world);
+    world_must(world, edit_frames(world, 0, 20000));
+    assert_refused(world, edit_number(world, 0, PARAMETER_HIGH, 1e6), says);
+    world_must(world, edit_range(world_edit(world), 0, 19999, RANGE_REFUSE, &world->error));
+    world_must(world, edit_number(world, 0, PARAMETER_HIGH, 1e6));
+    assert_refused(world, edit_frames(world, 0, 20000), says);
+    assert_int_equal(document_longest(world->document), 19999);
 }
 
 /// A name has no limit: a long one comes back from its file byte by byte.
@@ -329,25 +325,19 @@ TEST(names_of_any_length)
     char *text = malloc(TEXT), *name = malloc(TEXT);
     assert_true(text && name);
     for (size_t i = 0; i < sizeof lengths / sizeof *lengths; i++) {
-        struct error error;
         memset(name, 'n', (size_t)lengths[i]);
         name[lengths[i]] = '\0';
         sprintf(text,
                 "{" FRAMES ", \"splines\": [{\"name\": \"%s\"}], \"rigs\": [{\"type\": \"tail\", \"name\": \"%s\"}]}",
                 name, name);
-        struct document *document = parse(text, strlen(text), &error);
-        if (!document) fail_msg("%s", error.text);
-        size_t size, again_size;
-        char *printed = scene_print(document, &size);
+        struct document *document = document_of_text(text);
+        char *printed = text_of_document(document);
         document_destroy(document);
-        document = parse(printed, size, &error);
-        assert_non_null(document);
+        document = document_of_text(printed);
         assert_string_equal(document->splines[0]->name, name);
-        char *again = scene_print(document, &again_size);
-        assert_string_equal(again, printed);
+        assert_prints(document, printed);
         document_destroy(document);
         free(printed);
-        free(again);
     }
     free(text);
     free(name);

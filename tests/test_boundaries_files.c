@@ -97,13 +97,12 @@ TEST_WITH(folder_make, folder_remove, pictures_of_a_size)
     enum { MOST = 256 << 20 };
     static const char obj[] = "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl a\nf 1 2 3\n",
                       mtl[] = "newmtl a\nmap_Kd a.png\n", png[] = "\x89PNG\r\n\x1a\n";
-    struct error error;
-    assert_true(file_write_atomic(folder_path("a.mtl"), mtl, strlen(mtl), &error));
-    assert_true(file_write_atomic(folder_path("a.obj"), obj, strlen(obj), &error));
+    assert_done(file_write_atomic(folder_path("a.mtl"), mtl, strlen(mtl), &error));
+    assert_done(file_write_atomic(folder_path("a.obj"), obj, strlen(obj), &error));
     for (size_t size = MOST; size <= MOST + 1; size++) {
         struct surface surface;
         hole("a.png", png, strlen(png), size);
-        if (!surface_read(folder_path("a.obj"), &surface, &error)) fail_msg("%s", error.text);
+        assert_done(surface_read(folder_path("a.obj"), &surface, &error));
         const bool taken = size <= MOST;
         assert_int_equal(surface.looks.materials[0].image_size, taken ? size : 0);
         if (taken) assert_null(surface.looks.left_out);
@@ -286,7 +285,6 @@ TEST_WITH(folder_make, folder_remove, unknown_keys)
 {
     for (int keys = 63; keys <= 65; keys++) {
         struct text text = {0};
-        struct error error = {0};
         struct problems problems = {.report = count_warning};
         text_string(&text, "{\"wiggly\": 1, \"frames\": [0, 1]");
         for (int i = 0; i < keys; i++) {
@@ -296,7 +294,7 @@ TEST_WITH(folder_make, folder_remove, unknown_keys)
         }
         text_string(&text, "}");
         warned = last_warning = 0;
-        struct document *document = scene_parse("s", text.data, text.size, &problems, &error);
+        struct document *document = scene_parse("s", text.data, text.size, &problems, NULL);
         assert_non_null(document);
         assert_int_equal(warned, keys < 64 ? keys : 64);
         assert_int_equal(last_warning, keys >= 64);

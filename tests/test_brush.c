@@ -107,90 +107,84 @@ static const float *value_of(const struct studio *s, int coordinate, int vertex)
     return rig_of(s)->painted->values[coordinate * rig_of(s)->painted->vertices + vertex];
 }
 
-TEST(a_stroke_changes_phase_where_it_is_and_nowhere_else)
+#define STUDIO_TEST(name) TEST_OF(struct studio, s, studio_open(s), studio_close(s), name)
+
+STUDIO_TEST(a_stroke_changes_phase_where_it_is_and_nowhere_else)
 {
-    struct studio s;
-    studio_open(&s);
-    session_key(&s.session, 'K', 0);
-    s.session.editor->core.brush.radius = 0.2; // 0.19 m: through the air it would reach the other finger
-    hold(&s, left_finger, 0, 30);
-    assert_non_null(rig_of(&s)->painted);
+    session_key(&s->session, 'K', 0);
+    s->session.editor->core.brush.radius = 0.2; // 0.19 m: through the air it would reach the other finger
+    hold(s, left_finger, 0, 30);
+    assert_non_null(rig_of(s)->painted);
     float most = 0;
-    for (int i = 0; i < s.plain->character.vertex_count; i++) {
-        const float *p = s.plain->character.position[i], *value = value_of(&s, 0, i);
+    for (int i = 0; i < s->plain->character.vertex_count; i++) {
+        const float *p = s->plain->character.position[i], *value = value_of(s, 0, i);
         assert_true(value[1] >= 0);
         assert_near((double)value[0], 0, 0);
-        assert_near((double)value_of(&s, 1, i)[1], 0, 0);
+        assert_near((double)value_of(s, 1, i)[1], 0, 0);
         if (p[0] > 0 || p[1] < 0.4f) assert_near((double)value[1], 0, 0);
         most = fmaxf(most, value[1]);
     }
     // Half a second at 0.4 of a turn a second, but for what the surface has moved under the pointer meanwhile.
     assert_near((double)most, 0.5 * 0.4 * 6.2831853, 0.1);
-    assert_int_equal((int)history_count(s.session.history), 1);
-    assert_string_equal(history_undo_label(s.session.history), "Advance phase");
-    studio_close(&s);
+    assert_int_equal((int)history_count(s->session.history), 1);
+    assert_string_equal(history_undo_label(s->session.history), "Advance phase");
 }
 
-TEST(undo_and_redo_are_exact)
+STUDIO_TEST(undo_and_redo_are_exact)
 {
-    struct studio s;
-    studio_open(&s);
-    session_key(&s.session, 'K', 0);
-    hold(&s, left_finger, 0, 10);
-    const size_t size = 2 * (size_t)s.plain->character.vertex_count * sizeof(float[2]);
+    session_key(&s->session, 'K', 0);
+    hold(s, left_finger, 0, 10);
+    const size_t size = 2 * (size_t)s->plain->character.vertex_count * sizeof(float[2]);
     float *once = malloc(size), *twice = malloc(size);
     assert_true(once && twice);
-    memcpy(once, rig_of(&s)->painted->values, size);
-    session_point(&s.session, left_finger);
-    session_press(&s.session, BUTTON_LEFT, 1);
+    memcpy(once, rig_of(s)->painted->values, size);
+    session_point(&s->session, left_finger);
+    session_press(&s->session, BUTTON_LEFT, 1);
     for (int i = 0; i < 10; i++) {
-        session_move(&s.session, s.session.x, s.session.y + 8);
-        frame(&s);
+        session_move(&s->session, s->session.x, s->session.y + 8);
+        frame(s);
     }
-    session_release(&s.session, BUTTON_LEFT);
-    memcpy(twice, rig_of(&s)->painted->values, size);
+    session_release(&s->session, BUTTON_LEFT);
+    memcpy(twice, rig_of(s)->painted->values, size);
     assert_true(memcmp(once, twice, size) != 0);
-    session_key(&s.session, 'Z', MOD_CTRL);
-    assert_memory_equal(rig_of(&s)->painted->values, once, size);
-    session_key(&s.session, 'Z', MOD_CTRL);
-    assert_null(rig_of(&s)->painted);
-    frame(&s);
-    assert_memory_equal(models_figure(s.models, 0)->character.coordinates[0].re, s.plain->character.coordinates[0].re,
-                        (size_t)s.plain->character.vertex_count * sizeof(float[3]));
-    session_key(&s.session, 'Y', MOD_CTRL);
-    session_key(&s.session, 'Y', MOD_CTRL);
-    assert_memory_equal(rig_of(&s)->painted->values, twice, size);
-    session_point(&s.session, left_finger);
-    session_press(&s.session, BUTTON_LEFT, 1);
-    frames(&s, 5);
-    session_key(&s.session, KEY_ESCAPE, 0); // takes the stroke back, and the brush stays
-    assert_memory_equal(rig_of(&s)->painted->values, twice, size);
-    assert_true(s.session.editor->core.brush.on);
-    assert_int_equal((int)history_count(s.session.history), 2);
+    session_key(&s->session, 'Z', MOD_CTRL);
+    assert_memory_equal(rig_of(s)->painted->values, once, size);
+    session_key(&s->session, 'Z', MOD_CTRL);
+    assert_null(rig_of(s)->painted);
+    frame(s);
+    assert_memory_equal(models_figure(s->models, 0)->character.coordinates[0].re,
+                        s->plain->character.coordinates[0].re,
+                        (size_t)s->plain->character.vertex_count * sizeof(float[3]));
+    session_key(&s->session, 'Y', MOD_CTRL);
+    session_key(&s->session, 'Y', MOD_CTRL);
+    assert_memory_equal(rig_of(s)->painted->values, twice, size);
+    session_point(&s->session, left_finger);
+    session_press(&s->session, BUTTON_LEFT, 1);
+    frames(s, 5);
+    session_key(&s->session, KEY_ESCAPE, 0); // takes the stroke back, and the brush stays
+    assert_memory_equal(rig_of(s)->painted->values, twice, size);
+    assert_true(s->session.editor->core.brush.on);
+    assert_int_equal((int)history_count(s->session.history), 2);
     free(once);
     free(twice);
-    studio_close(&s);
 }
 
 /// Only the press, which makes room for the stroke, may allocate.
-TEST(a_stroke_allocates_nothing_as_it_goes_on)
+STUDIO_TEST(a_stroke_allocates_nothing_as_it_goes_on)
 {
-    struct studio s;
-    studio_open(&s);
-    session_key(&s.session, 'K', 0);
-    hold(&s, right_finger, 0, 3);
-    session_key(&s.session, KEY_SPACE, 0); // playing, as one paints
-    session_point(&s.session, left_finger);
-    session_press(&s.session, BUTTON_LEFT, 1);
-    frames(&s, 2);
+    session_key(&s->session, 'K', 0);
+    hold(s, right_finger, 0, 3);
+    session_key(&s->session, KEY_SPACE, 0); // playing, as one paints
+    session_point(&s->session, left_finger);
+    session_press(&s->session, BUTTON_LEFT, 1);
+    frames(s, 2);
     const long before = allocation_count();
     for (int i = 0; i < 20; i++) {
-        session_move(&s.session, s.session.x, s.session.y + 6);
-        frame(&s);
+        session_move(&s->session, s->session.x, s->session.y + 6);
+        frame(s);
     }
     assert_int_equal(allocation_count() - before, 0);
-    session_release(&s.session, BUTTON_LEFT);
-    studio_close(&s);
+    session_release(&s->session, BUTTON_LEFT);
 }
 
 static double mean_lead(const struct studio *s)
@@ -200,53 +194,48 @@ static double mean_lead(const struct studio *s)
     return sum / rig_of(s)->painted->vertices;
 }
 
-TEST(modes_and_modifiers_do_what_they_say)
+STUDIO_TEST(modes_and_modifiers_do_what_they_say)
 {
-    struct studio s;
-    studio_open(&s);
-    panel_click(&s.session, "paint.on");
-    assert_true(s.session.editor->core.brush.on);
-    hold(&s, left_finger, MOD_CTRL, 10);
-    assert_string_equal(history_undo_label(s.session.history), "Delay phase");
-    const double delayed = mean_lead(&s);
+    panel_click(&s->session, "paint.on");
+    assert_true(s->session.editor->core.brush.on);
+    hold(s, left_finger, MOD_CTRL, 10);
+    assert_string_equal(history_undo_label(s->session.history), "Delay phase");
+    const double delayed = mean_lead(s);
     assert_true(delayed < -1e-3);
-    panel_click(&s.session, "phase.delay");
-    hold(&s, left_finger, MOD_CTRL, 10);
-    assert_string_equal(history_undo_label(s.session.history), "Advance phase");
-    assert_true(fabs(mean_lead(&s)) < -0.1 * delayed); // all but what the surface moved meanwhile
-    panel_click(&s.session, "swing.less");
-    for (int stroke = 0; stroke < 6; stroke++) hold(&s, left_finger, 0, 300);
-    panel_click(&s.session, "erase.all");
-    assert_string_equal(history_undo_label(s.session.history), "Less amplitude");
+    panel_click(&s->session, "phase.delay");
+    hold(s, left_finger, MOD_CTRL, 10);
+    assert_string_equal(history_undo_label(s->session.history), "Advance phase");
+    assert_true(fabs(mean_lead(s)) < -0.1 * delayed); // all but what the surface moved meanwhile
+    panel_click(&s->session, "swing.less");
+    for (int stroke = 0; stroke < 6; stroke++) hold(s, left_finger, 0, 300);
+    panel_click(&s->session, "erase.all");
+    assert_string_equal(history_undo_label(s->session.history), "Less amplitude");
     float least = 0;
-    for (int i = 0; i < rig_of(&s)->painted->vertices; i++) {
-        const float swell = value_of(&s, 0, i)[0];
+    for (int i = 0; i < rig_of(s)->painted->vertices; i++) {
+        const float swell = value_of(s, 0, i)[0];
         assert_true(expf(swell) > 0); // never turned round
         least = fminf(least, swell);
     }
     assert_near((double)expf(least), 0.01, 1e-4);
-    hold(&s, left_finger, 0, 600);
-    panel_click(&s.session, "paint.clean");
-    assert_true(paint_is_plain(rig_of(&s)->painted));
-    assert_string_equal(history_undo_label(s.session.history), "Remove paint");
-    session_key(&s.session, 'Z', MOD_CTRL);
-    assert_false(paint_is_plain(rig_of(&s)->painted));
-    studio_close(&s);
+    hold(s, left_finger, 0, 600);
+    panel_click(&s->session, "paint.clean");
+    assert_true(paint_is_plain(rig_of(s)->painted));
+    assert_string_equal(history_undo_label(s->session.history), "Remove paint");
+    session_key(&s->session, 'Z', MOD_CTRL);
+    assert_false(paint_is_plain(rig_of(s)->painted));
 }
 
 /// Soft at the rim: half way out a moment of the brush does about half of what it does in the middle, near the rim hardly anything.
-TEST(a_dab_fades_towards_its_rim)
+STUDIO_TEST(a_dab_fades_towards_its_rim)
 {
-    struct studio s;
-    studio_open(&s);
-    session_key(&s.session, 'K', 0);
-    s.session.editor->core.brush.radius = 0.2;
-    hold(&s, left_finger, 0, 3);
-    const struct reach *reach = &s.session.editor->stage->painting.work.reach;
+    session_key(&s->session, 'K', 0);
+    s->session.editor->core.brush.radius = 0.2;
+    hold(s, left_finger, 0, 3);
+    const struct reach *reach = &s->session.editor->stage->painting.work.reach;
     float most = 0, radius = 0;
     for (int i = 0; i < reach->count; i++) {
         const int vertex = reach->vertices[i];
-        const float done = value_of(&s, 0, vertex)[1];
+        const float done = value_of(s, 0, vertex)[1];
         most = fmaxf(most, done);
         if (done > 0) radius = fmaxf(radius, reach->distance[vertex]);
     }
@@ -256,34 +245,30 @@ TEST(a_dab_fades_towards_its_rim)
         const float away = reach->distance[reach->vertices[i]] / radius;
         const bool is_half_way = away > 0.45f && away < 0.55f;
         if (!is_half_way && !(away > 0.9f && away <= 1)) continue;
-        sum[!is_half_way] += (double)(value_of(&s, 0, reach->vertices[i])[1] / most);
+        sum[!is_half_way] += (double)(value_of(s, 0, reach->vertices[i])[1] / most);
         count[!is_half_way]++;
     }
     assert_near(sum[0] / count[0], 0.52, 0.12);
     assert_near(sum[1] / count[1], 0, 0.04);
-    studio_close(&s);
 }
 
 /// However long a stroke is held, phases in its reach differ by a quarter of a turn at most, and amplitudes by a factor of four; another
 /// stroke goes on from there.
-TEST(a_long_stroke_saturates)
+STUDIO_TEST(a_long_stroke_saturates)
 {
-    struct studio s;
-    studio_open(&s);
-    session_key(&s.session, 'K', 0);
+    session_key(&s->session, 'K', 0);
     for (int stroke = 1; stroke <= 2; stroke++) {
-        hold(&s, left_finger, 0, 600);
+        hold(s, left_finger, 0, 600);
         float most = 0;
-        for (int i = 0; i < s.plain->character.vertex_count; i++) most = fmaxf(most, value_of(&s, 0, i)[1]);
+        for (int i = 0; i < s->plain->character.vertex_count; i++) most = fmaxf(most, value_of(s, 0, i)[1]);
         if (stroke == 1) assert_near((double)most, 1.5707963, 0.02);
         if (stroke == 2) assert_true(most > 2 && most < 3.1416f); // the surface has moved under the pointer
     }
-    panel_click(&s.session, "swing.more");
-    hold(&s, left_finger, MOD_CTRL, 600);
+    panel_click(&s->session, "swing.more");
+    hold(s, left_finger, MOD_CTRL, 600);
     float least = 0;
-    for (int i = 0; i < s.plain->character.vertex_count; i++) least = fminf(least, value_of(&s, 0, i)[0]);
+    for (int i = 0; i < s->plain->character.vertex_count; i++) least = fminf(least, value_of(s, 0, i)[0]);
     assert_near((double)expf(least), 0.25, 0.02);
-    studio_close(&s);
 }
 
 /// Sum over all edges of the finger's middle of how much Ñ' differs in phase and in the logarithm of amplitude.
@@ -322,94 +307,83 @@ static void make_rough(struct studio *s)
         values[i][1] += 3.14159265f;
     }
     const struct dab dab = {0, count, vertices, (const float(*)[2])values};
-    struct error error;
     history_begin(s->session.history, "Rough", 0);
-    assert_true(edit_paint_new(s->session.document, 0, 2, count, &error));
-    assert_true(edit_paint(s->session.document, 0, &dab, &error));
+    assert_done(edit_paint_new(s->session.document, 0, 2, count, &error));
+    assert_done(edit_paint(s->session.document, 0, &dab, &error));
     history_end(s->session.history);
     free(vertices);
     free(values);
 }
 
-TEST(smoothing_reduces_variation)
+STUDIO_TEST(smoothing_reduces_variation)
 {
-    struct studio s;
-    studio_open(&s);
-    make_rough(&s);
-    frame(&s);
+    make_rough(s);
+    frame(s);
     double rough[2], even[2], calm[2];
-    variation(&s, rough);
-    session_key(&s.session, 'K', 0);
-    s.session.editor->core.brush.radius = 0.25;
-    hold(&s, left_finger, MOD_SHIFT, 30); // advance, with Shift
-    assert_string_equal(history_undo_label(s.session.history), "Smooth phase");
-    variation(&s, even);
+    variation(s, rough);
+    session_key(&s->session, 'K', 0);
+    s->session.editor->core.brush.radius = 0.25;
+    hold(s, left_finger, MOD_SHIFT, 30); // advance, with Shift
+    assert_string_equal(history_undo_label(s->session.history), "Smooth phase");
+    variation(s, even);
     assert_true(even[0] < 0.3 * rough[0]);
     assert_near(even[1], rough[1], 1e-3 * rough[1]); // amplitudes stay
-    panel_click(&s.session, "swing.smooth");
-    hold(&s, left_finger, 0, 30);
-    variation(&s, calm);
+    panel_click(&s->session, "swing.smooth");
+    hold(s, left_finger, 0, 30);
+    variation(s, calm);
     assert_true(calm[1] < 0.3 * rough[1]);
     assert_near(calm[0], even[0], 1e-3 * rough[0]);
-    studio_close(&s);
 }
 
-TEST(the_map_is_shown_and_the_rest_of_the_stage_still_turns)
+STUDIO_TEST(the_map_is_shown_and_the_rest_of_the_stage_still_turns)
 {
-    struct studio s;
-    studio_open(&s);
-    const struct editor *editor = s.session.editor;
+    const struct editor *editor = s->session.editor;
     assert_int_equal(editor->stage->view.characters[0].map_coordinate, -1);
-    session_key(&s.session, 'K', 0);
-    frame(&s);
+    session_key(&s->session, 'K', 0);
+    frame(s);
     assert_int_equal(editor->stage->view.characters[0].map_coordinate, 0);
     assert_int_equal(editor->stage->view.characters[0].map_axis, 0); // it moves along x most
-    session_point(&s.session, left_finger);
-    frame(&s);
+    session_point(&s->session, left_finger);
+    frame(s);
     assert_true(editor->stage->painting.covers);
     const double radius = editor->core.brush.radius, strength = editor->core.brush.strength;
     const float distance = editor->stage->camera.distance;
-    s.session.mods = MOD_CTRL;
-    session_wheel(&s.session, 1);
-    s.session.mods = MOD_SHIFT;
-    session_wheel(&s.session, -1);
-    s.session.mods = 0;
+    s->session.mods = MOD_CTRL;
+    session_wheel(&s->session, 1);
+    s->session.mods = MOD_SHIFT;
+    session_wheel(&s->session, -1);
+    s->session.mods = 0;
     assert_true(editor->core.brush.radius > radius && editor->core.brush.strength < strength);
     assert_near((double)editor->stage->camera.distance, (double)distance, 0);
     const float azimuth = editor->stage->camera.azimuth;
-    session_point(&s.session, "stage(0.95,0.5)");
-    session_press(&s.session, BUTTON_LEFT, 1);
-    session_drag(&s.session, -40, 0, 4);
-    session_release(&s.session, BUTTON_LEFT);
+    session_point(&s->session, "stage(0.95,0.5)");
+    session_press(&s->session, BUTTON_LEFT, 1);
+    session_drag(&s->session, -40, 0, 4);
+    session_release(&s->session, BUTTON_LEFT);
     assert_true(editor->stage->camera.azimuth != azimuth);
-    assert_int_equal((int)history_count(s.session.history), 0);
-    session_key(&s.session, KEY_ESCAPE, 0);
-    frame(&s);
+    assert_int_equal((int)history_count(s->session.history), 0);
+    session_key(&s->session, KEY_ESCAPE, 0);
+    frame(s);
     assert_false(editor->core.brush.on);
     assert_int_equal(editor->stage->view.characters[0].map_coordinate, -1);
-    studio_close(&s);
 }
 
 /// A press that is released before a frame came paints all the same; paint for another model is left alone.
-TEST(a_click_paints_and_foreign_paint_is_left_alone)
+STUDIO_TEST(a_click_paints_and_foreign_paint_is_left_alone)
 {
-    struct studio s;
-    studio_open(&s);
-    session_key(&s.session, 'K', 0);
-    session_point(&s.session, left_finger);
-    session_press(&s.session, BUTTON_LEFT, 1);
-    session_release(&s.session, BUTTON_LEFT);
-    assert_true(mean_lead(&s) > 0);
-    struct error error;
-    history_begin(s.session.history, "Foreign", 0);
-    assert_true(edit_paint_new(s.session.document, 0, 5, 7, &error));
-    history_end(s.session.history);
-    const uint64_t version = rig_of(&s)->painted->version;
-    frame(&s);
-    hold(&s, left_finger, 0, 5);
-    assert_int_equal(rig_of(&s)->painted->version, version);
-    assert_int_equal((int)history_count(s.session.history), 2);
-    studio_close(&s);
+    session_key(&s->session, 'K', 0);
+    session_point(&s->session, left_finger);
+    session_press(&s->session, BUTTON_LEFT, 1);
+    session_release(&s->session, BUTTON_LEFT);
+    assert_true(mean_lead(s) > 0);
+    history_begin(s->session.history, "Foreign", 0);
+    assert_done(edit_paint_new(s->session.document, 0, 5, 7, &error));
+    history_end(s->session.history);
+    const uint64_t version = rig_of(s)->painted->version;
+    frame(s);
+    hold(s, left_finger, 0, 5);
+    assert_int_equal(rig_of(s)->painted->version, version);
+    assert_int_equal((int)history_count(s->session.history), 2);
 }
 
 /// On a ball the way over the surface is radius times angle.

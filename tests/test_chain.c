@@ -81,9 +81,11 @@ static struct channel channel_of(enum axis axis, double gain)
     return (struct channel){.axis = axis, .lag.value = {20}, .gain.value = {gain}};
 }
 
-TEST(test_bends_as_the_tail_does)
+#define CHARACTER_TEST(name)                                                                                         \
+    TEST_OF(struct imported, imported, *imported = make_character(), free_character(imported), name)
+
+CHARACTER_TEST(test_bends_as_the_tail_does)
 {
-    struct imported imported = make_character();
     struct channel channels[] = {channel_of(AXIS_SIDE, 9), channel_of(AXIS_UP, 6)};
     const wiggly_value values[] = {{.y = 0.2, .re = 1, .im = -0.5}, {.re = -0.7, .im = 0.9}};
     const struct chain chain = {.from = first, .to = last, .channels = channels, .channel_count = 2};
@@ -91,53 +93,47 @@ TEST(test_bends_as_the_tail_does)
     for (int k = 0; k < 3; k++) tail.position[k] = param_number(k == 1 ? 1 : 0);
     struct points points;
     struct pose expected;
-    bend(&imported, &chain, values, &points);
+    bend(imported, &chain, values, &points);
     pose_tail(&tail, values, LOOK_WIGGLY, &expected);
     assert_int_equal(expected.count, BONES + 1);
     for (int n = 0; n <= BONES; n++) {
         for (int k = 0; k < 3; k++) assert_near(points.point[n][k], expected.matrix[n][12 + k], 2e-6);
     }
     assert_true(fabsf(points.point[BONES][0]) > 0.1f);
-    free_character(&imported);
 }
 
-TEST(test_axes_turn_and_mirror)
+CHARACTER_TEST(test_axes_turn_and_mirror)
 {
-    struct imported imported = make_character();
     struct channel side = channel_of(AXIS_SIDE, 9);
     const wiggly_value value = {.re = 1};
     struct chain chain = {.from = first, .to = last, .channels = &side, .channel_count = 1};
     struct points plain, mirrored, turned;
-    bend(&imported, &chain, &value, &plain);
+    bend(imported, &chain, &value, &plain);
     chain.mirror = true;
-    bend(&imported, &chain, &value, &mirrored);
+    bend(imported, &chain, &value, &mirrored);
     chain.mirror = false;
     chain.turn = 90;
-    bend(&imported, &chain, &value, &turned);
+    bend(imported, &chain, &value, &turned);
     assert_near(mirrored.point[BONES][0], -plain.point[BONES][0], 2e-6);
     assert_near(plain.point[BONES][1], 1, 2e-6);
     // a quarter turn about +z takes y to -x: what went to +x now goes to +y
     assert_near(turned.point[BONES][0], 0, 2e-6);
     assert_near(turned.point[BONES][1] - 1, plain.point[BONES][0], 2e-6);
-    free_character(&imported);
 }
 
-TEST(test_twist_turns_without_moving)
+CHARACTER_TEST(test_twist_turns_without_moving)
 {
-    struct imported imported = make_character();
     struct channel twist = channel_of(AXIS_TWIST, 9);
     const wiggly_value value = {.re = 1};
     const struct chain chain = {.from = first, .to = last, .channels = &twist, .channel_count = 1};
     struct points points;
-    bend(&imported, &chain, &value, &points);
+    bend(imported, &chain, &value, &points);
     for (int n = 0; n <= BONES; n++) assert_near(points.point[n][0], 0, 2e-6);
-    free_character(&imported);
 }
 
-TEST(test_what_is_no_chain)
+CHARACTER_TEST(test_what_is_no_chain)
 {
-    struct imported imported = make_character();
-    const struct gltf *gltf = &imported.gltf;
+    const struct gltf *gltf = &imported->gltf;
     struct chain_bones bones;
     struct error error;
     assert_false(chain_find(gltf, "bone_4", "bone_2", &bones, &error));
@@ -149,5 +145,4 @@ TEST(test_what_is_no_chain)
         error.text,
         "\"bone_3\" branches into \"bone_4\" and \"spur\": choose the bone where the chain is to begin or end");
     assert_int_equal(chain_end(gltf, 4, &error), BONES + 1);
-    free_character(&imported);
 }

@@ -28,18 +28,13 @@ static void make_character(struct character *c)
     c->coordinates[1].pca2 = 0.98;
 }
 
-static void read_good(const char *path, struct character *c)
-{
-    struct error error;
-    if (!character_read(path, c, &error)) fail_msg("%s", error.text);
-}
+static void read_good(const char *path, struct character *c) { assert_done(character_read(path, c, &error)); }
 
 TEST(what_is_written_reads_back_equal)
 {
     struct character out, in;
-    struct error error;
     make_character(&out);
-    if (!character_write(temporary_path("character.glb"), &out, true, &error)) fail_msg("%s", error.text);
+    assert_done(character_write(temporary_path("character.glb"), &out, true, &error));
     read_good(temporary_path("character.glb"), &in);
     assert_int_equal(in.vertex_count, 4);
     assert_int_equal(in.index_count, 12);
@@ -64,36 +59,29 @@ TEST(what_is_written_reads_back_equal)
 }
 
 /// The deformation that a viewer makes of the morph targets is Re(z Ñ): the imaginary target is −Im Ñ.
-TEST(the_imaginary_target_is_negated)
+TEST_OF(struct character, c, make_character(c), character_free(c), the_imaginary_target_is_negated)
 {
-    struct character c;
-    struct error error;
-    make_character(&c);
-    assert_true(character_write(temporary_path("sign.glb"), &c, true, &error));
+    assert_done(character_write(temporary_path("sign.glb"), c, true, &error));
     FILE *file = fopen(temporary_path("sign.glb"), "rb");
     float last[12];
     fseek(file, -3 * (long)sizeof last,
           SEEK_END); // the last imaginary part, before how it turns normals and as many bytes of indices
     assert_int_equal(fread(last, sizeof last, 1, file), 1);
     fclose(file);
-    for (int n = 0; n < 12; n++) assert_near(last[n], -c.coordinates[1].im[n / 3][n % 3], 0);
-    character_free(&c);
+    for (int n = 0; n < 12; n++) assert_near(last[n], -c->coordinates[1].im[n / 3][n % 3], 0);
 }
 
-TEST(normals_point_outwards)
+TEST_OF(struct character, c, make_character(c), character_free(c), normals_point_outwards)
 {
-    struct character c;
-    make_character(&c);
     for (int i = 0; i < 4; i++) {
         double length = 0, outwards = 0;
         for (int k = 0; k < 3; k++) {
-            length += (double)c.normal[i][k] * c.normal[i][k];
-            outwards += (double)c.normal[i][k] * (c.position[i][k] - 0.25);
+            length += (double)c->normal[i][k] * c->normal[i][k];
+            outwards += (double)c->normal[i][k] * (c->position[i][k] - 0.25);
         }
         assert_near(length, 1, 1e-6);
         assert_true(outwards > 0);
     }
-    character_free(&c);
 }
 
 /// A .glb of this JSON and these bytes.
@@ -185,9 +173,7 @@ TEST(a_mesh_stands_where_its_node_puts_it)
 static void assert_refused(const char *path, const char *says)
 {
     struct character c;
-    struct error error = {0};
-    assert_false(character_read(path, &c, &error));
-    if (!strstr(error.text, says)) fail_msg("'%s' lacks '%s'", error.text, says);
+    assert_refusal(character_read(path, &c, &error), says);
     assert_null(c.position);
 }
 
@@ -200,7 +186,6 @@ TEST(triangles_that_repeat_a_vertex_are_left_out)
     } bin = {{0, 0, 0, 1, 0, 0, 0, 0, 1}, {0, 1, 0, 0, 1, 2}};
     char json[1024];
     struct character c;
-    struct error error;
 #define REPEATS                                                                                                      \
     HEAD ",\"bufferViews\":[{\"buffer\":0,\"byteLength\":36},{\"buffer\":0,\"byteOffset\":36,\"byteLength\":12}],"   \
          "\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"count\":3,\"type\":\"VEC3\"},{\"bufferView\":1," \
@@ -215,8 +200,8 @@ TEST(triangles_that_repeat_a_vertex_are_left_out)
     assert_int_equal(c.looks.material[0], 0);
     character_free(&c);
     snprintf(json, sizeof json, REPEATS, 3);
-    assert_false(character_read(glb(json, &bin, sizeof bin), &c, &error));
-    assert_non_null(strstr(error.text, "expected a mesh of triangles, got triangles without area"));
+    assert_refusal(character_read(glb(json, &bin, sizeof bin), &c, &error),
+                   "expected a mesh of triangles, got triangles without area");
 }
 
 #define MESH "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0}}]}]"

@@ -1,5 +1,5 @@
 /// Characters in scene files: read, refused, printed, edited and carried along when the scene is saved elsewhere.
-#include "near.h"
+#include "documents.h"
 
 #include "base/file.h"
 #include "scene/edit.h"
@@ -11,14 +11,6 @@
 #define SPLINES "\"splines\": [{\"name\": \"s\", \"frequency\": 1, \"knots\": []}, {\"name\": \"t\", \"knots\": []}]"
 #define SCENE(rig) "{\"wiggly\": 1, \"frames\": [0, 48],\n" SPLINES ",\n\"rigs\": [" rig "]}"
 
-static struct document *parse(const char *text)
-{
-    struct error error = {0};
-    struct document *document = scene_parse("scene.json", text, strlen(text), NULL, &error);
-    if (!document) fail_msg("%s", error.text);
-    return document;
-}
-
 static const char whole[] = SCENE(
     "{\"type\": \"character\", \"model\": \"../models/a.glb\", \"glow\": 3, \"coordinates\": [{\"name\": \"up\","
     " \"spline\": \"s\", \"amplitude\": 0.5, \"lag\": 30, \"tint\": \"red\"}, {\"name\": \"side\", \"spline\":"
@@ -26,7 +18,7 @@ static const char whole[] = SCENE(
 
 TEST(a_character_is_read)
 {
-    struct document *document = parse(whole);
+    struct document *document = document_of_text(whole);
     assert_int_equal(document_count_rigs(document, RIG_CHARACTER), 1);
     assert_int_equal(document_count_rigs(document, RIG_TAIL), 1);
     const struct character_rig *rig = document_character(document, 0);
@@ -45,20 +37,15 @@ TEST(a_character_is_read)
 /// The order of the rigs and what the file says beyond what we know are kept, and printing is stable.
 TEST(it_is_printed_as_it_was_read)
 {
-    struct document *document = parse(whole);
-    size_t size;
-    char *text = scene_print(document, &size);
+    struct document *document = document_of_text(whole);
+    char *text = text_of_document(document);
     assert_true(strstr(text, "\"character\"") < strstr(text, "\"tail\""));
     assert_non_null(strstr(text, "\"model\": \"../models/a.glb\""));
     assert_non_null(strstr(text, "\"lag\": 30, \"tint\": \"red\" }"));
     assert_non_null(strstr(text, "\"paint\": \"a.npy\",\n      \"glow\": 3"));
-    struct document *again = parse(text);
-    char *second = scene_print(again, &size);
-    assert_string_equal(second, text);
+    assert_loads_again(document);
     free(text);
-    free(second);
     document_destroy(document);
-    document_destroy(again);
 }
 
 TEST(bad_characters_are_refused)
@@ -106,10 +93,9 @@ static void end(struct history *history, bool done)
 
 TEST(edits_are_undone_to_the_byte)
 {
-    struct document *document = parse(whole);
+    struct document *document = document_of_text(whole);
     struct history *history = history_create(document);
-    size_t size;
-    char *before = scene_print(document, &size), twist[] = "twist";
+    char *before = text_of_document(document), twist[] = "twist";
     end(history, edit_drive(begin(history, document), 0, 0,
                             &(const struct drive){.spline = 1, .amplitude = -2, .lag = 45}, NULL));
     end(history, edit_drive(begin(history, document), 0, -1,
@@ -119,17 +105,13 @@ TEST(edits_are_undone_to_the_byte)
     assert_int_equal(rig->drive_count, 2);
     assert_string_equal(rig->drives[0].name, "side");
     assert_string_equal(rig->drives[1].name, "twist");
-    char *after = scene_print(document, &size);
+    char *after = text_of_document(document);
     while (history_undo(history)) continue;
-    char *undone = scene_print(document, &size);
-    assert_string_equal(undone, before);
+    assert_prints(document, before);
     while (history_redo(history)) continue;
-    char *redone = scene_print(document, &size);
-    assert_string_equal(redone, after);
+    assert_prints(document, after);
     free(before);
     free(after);
-    free(undone);
-    free(redone);
     history_destroy(history);
     document_destroy(document);
 }
@@ -137,8 +119,7 @@ TEST(edits_are_undone_to_the_byte)
 /// Where the rigs' types begin in a scene's text, as "tct": tails and characters in their order.
 static void assert_order(const struct document *document, const char *order)
 {
-    size_t size;
-    char *text = scene_print(document, &size);
+    char *text = text_of_document(document);
     const char *at = text;
     for (; *order; order++) {
         at = strstr(at, "\"type\": ");
@@ -154,8 +135,8 @@ static void assert_order(const struct document *document, const char *order)
 TEST(rigs_keep_their_order)
 {
     struct document *document =
-        parse(SCENE("{\"type\": \"tail\", \"name\": \"a\"}, {\"type\": \"character\", \"model\":"
-                    " \"a.glb\"}, {\"type\": \"tail\", \"name\": \"b\"}"));
+        document_of_text(SCENE("{\"type\": \"tail\", \"name\": \"a\"}, {\"type\": \"character\", \"model\":"
+                               " \"a.glb\"}, {\"type\": \"tail\", \"name\": \"b\"}"));
     struct history *history = history_create(document);
     assert_order(document, "tct");
     end(history, edit_tail_add(begin(history, document), 2, 0, AXIS_SIDE, PART_TOTAL, NULL));
@@ -179,7 +160,7 @@ TEST(rigs_keep_their_order)
 
 TEST(impossible_edits_are_refused)
 {
-    struct document *document = parse(whole);
+    struct document *document = document_of_text(whole);
     struct history *history = history_create(document);
     const struct drive good = {.amplitude = 1}, other = {.spline = 2}, endless = {.amplitude = (double)INFINITY};
     struct error error = {0};
@@ -205,7 +186,7 @@ TEST(impossible_edits_are_refused)
 /// Splines move in their list, and what moves the character goes with them; one that moves it stays.
 TEST(drives_follow_their_splines)
 {
-    struct document *document = parse(whole);
+    struct document *document = document_of_text(whole);
     struct history *history = history_create(document);
     end(history, edit_spline_move(begin(history, document), 0, 1, NULL));
     assert_int_equal(document_character(document, 0)->drives[0].spline, 1);
@@ -244,16 +225,14 @@ TEST(a_scene_saved_elsewhere_finds_its_model)
     assert_non_null(mkdtemp(folder));
     snprintf(deeper, sizeof deeper, "%s/deeper", folder);
     assert_int_equal(mkdir(deeper, 0777), 0);
-    struct document *document = parse(whole);
+    struct document *document = document_of_text(whole);
     document->folder = strdup(folder);
     free(document_character(document, 0)->model);
     document_character(document, 0)->model = strdup("models/a.glb");
     snprintf(path, sizeof path, "%s/scene.json", deeper);
-    struct error error = {0};
-    assert_true(scene_save(document, path, &error));
+    assert_done(scene_save(document, path, &error));
     assert_string_equal(document_character(document, 0)->model, "models/a.glb");
-    struct document *loaded = scene_load(path, NULL, &error);
-    assert_non_null(loaded);
+    struct document *loaded = document_of_file(path);
     assert_string_equal(document_character(loaded, 0)->model, "../models/a.glb");
     snprintf(path, sizeof path, "%s/models/a.glb", folder);
     assert_true(path_resolve(loaded->folder, document_character(loaded, 0)->model, absolute));

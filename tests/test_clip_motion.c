@@ -52,81 +52,71 @@ static double height_at(const struct scene *scene, int sample)
     return (double)pose->world[gltf_find_node(&imported->gltf, hips)][13];
 }
 
-TEST(test_up_is_the_joints_height_less_its_mean)
+#define SCENE_TEST(name) TEST_OF(struct scene, scene, *scene = open_scene(), close_scene(scene), name)
+
+SCENE_TEST(test_up_is_the_joints_height_less_its_mean)
 {
-    struct scene scene = open_scene();
     double mean = 0, most = 0;
-    read_motion(&scene, hips, MOTION_UP);
-    const int cycle = (scene.count - 1) / CYCLES;
-    for (int s = 0; s < cycle; s++) mean += height_at(&scene, s) / cycle;
-    for (int s = 0; s < scene.count; s++) {
-        assert_near(scene.samples[s], height_at(&scene, s) - mean, 2e-3);
-        most = fmax(most, fabs(scene.samples[s]));
+    read_motion(scene, hips, MOTION_UP);
+    const int cycle = (scene->count - 1) / CYCLES;
+    for (int s = 0; s < cycle; s++) mean += height_at(scene, s) / cycle;
+    for (int s = 0; s < scene->count; s++) {
+        assert_near(scene->samples[s], height_at(scene, s) - mean, 2e-3);
+        most = fmax(most, fabs(scene->samples[s]));
     }
     assert_true(most > 0.005);
-    close_scene(&scene);
 }
 
 /// A clip that no number of samples fits goes on in its own time, round after round.
-TEST(test_a_clip_between_samples_does_not_drift)
+SCENE_TEST(test_a_clip_between_samples_does_not_drift)
 {
-    struct scene scene = open_scene();
     double mean = 0;
-    scene.document->fps = 23.375; // a round of one second is 93.5 samples
-    scene.document->last_frame = 30 * 24;
-    free(scene.samples);
-    scene.count = document_samples(scene.document);
-    scene.samples = calloc((size_t)scene.count, sizeof *scene.samples);
-    read_motion(&scene, hips, MOTION_UP);
-    for (int s = 0; s < 187; s++) mean += height_at(&scene, s) / 187;
-    for (int s = 0; s < scene.count; s++) assert_near(scene.samples[s], height_at(&scene, s) - mean, 2e-3);
-    close_scene(&scene);
+    scene->document->fps = 23.375; // a round of one second is 93.5 samples
+    scene->document->last_frame = 30 * 24;
+    free(scene->samples);
+    scene->count = document_samples(scene->document);
+    scene->samples = calloc((size_t)scene->count, sizeof *scene->samples);
+    read_motion(scene, hips, MOTION_UP);
+    for (int s = 0; s < 187; s++) mean += height_at(scene, s) / 187;
+    for (int s = 0; s < scene->count; s++) assert_near(scene->samples[s], height_at(scene, s) - mean, 2e-3);
 }
 
-TEST(test_every_cycle_is_the_same)
+SCENE_TEST(test_every_cycle_is_the_same)
 {
-    struct scene scene = open_scene();
-    read_motion(&scene, head, MOTION_ACROSS);
-    const int cycle = (scene.count - 1) / CYCLES;
-    for (int s = cycle; s < scene.count; s++) assert_near(scene.samples[s], scene.samples[s - cycle], 0);
-    close_scene(&scene);
+    read_motion(scene, head, MOTION_ACROSS);
+    const int cycle = (scene->count - 1) / CYCLES;
+    for (int s = cycle; s < scene->count; s++) assert_near(scene->samples[s], scene->samples[s - cycle], 0);
 }
 
 /// Straight lines from key to key would bend at every fourth sample only; a spline's second differences do not jump.
-TEST(test_corners_are_rounded)
+SCENE_TEST(test_corners_are_rounded)
 {
-    struct scene scene = open_scene();
     double largest = 0, jump = 0, before = 0;
-    read_motion(&scene, hips, MOTION_ACROSS);
-    for (int s = 1; s + 1 < scene.count; s++) {
-        const double bend = scene.samples[s - 1] - 2 * scene.samples[s] + scene.samples[s + 1];
+    read_motion(scene, hips, MOTION_ACROSS);
+    for (int s = 1; s + 1 < scene->count; s++) {
+        const double bend = scene->samples[s - 1] - 2 * scene->samples[s] + scene->samples[s + 1];
         if (s > 1) jump = fmax(jump, fabs(bend - before));
         largest = fmax(largest, fabs(bend));
         before = bend;
     }
     assert_true(largest > 0);
     assert_true(jump < 0.5 * largest);
-    close_scene(&scene);
 }
 
-TEST(test_turn_is_in_degrees)
+SCENE_TEST(test_turn_is_in_degrees)
 {
-    struct scene scene = open_scene();
     double most = 0;
-    read_motion(&scene, hips, MOTION_TURN);
-    for (int s = 0; s < scene.count; s++) most = fmax(most, fabs(scene.samples[s]));
+    read_motion(scene, hips, MOTION_TURN);
+    for (int s = 0; s < scene->count; s++) most = fmax(most, fabs(scene->samples[s]));
     assert_true(most > 0.5 && most < 45);
-    close_scene(&scene);
 }
 
-TEST(test_what_is_not_there)
+SCENE_TEST(test_what_is_not_there)
 {
     static char nobody[] = "nobody";
-    struct scene scene = open_scene();
-    const struct model_source source = models_source(scene.models);
+    const struct model_source source = models_source(scene->models);
     const struct joint_motion no_joint = {.model = dog_name, .joint = nobody},
                               no_model = {.model = nobody, .joint = hips};
-    assert_false(source.follow(source.context, scene.document, &no_joint, scene.samples));
-    assert_false(source.follow(source.context, scene.document, &no_model, scene.samples));
-    close_scene(&scene);
+    assert_false(source.follow(source.context, scene->document, &no_joint, scene->samples));
+    assert_false(source.follow(source.context, scene->document, &no_model, scene->samples));
 }

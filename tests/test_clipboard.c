@@ -31,10 +31,9 @@ TEST(test_text_reads_back_equal)
     struct knot knots[] = {{.frame = -3.25, .value = 1.0 / 3, .stiffness = KNOT_DEFAULT_STIFFNESS},
                            {.frame = 7, .value = -2e-9, .has_slope = true, .slope = 0.1, .stiffness = 12}};
     struct knot_list list;
-    struct error error = {0};
     char *text = knots_print(&(struct knot_list){.knots = knots, .count = 2});
     assert_non_null(strstr(text, "{ \"frame\": 7, \"value\": -2e-9, \"slope\": 0.1, \"stiffness\": 12 }"));
-    if (!knots_parse("clipboard", text, &list, &error)) fail_msg("%s", error.text);
+    assert_done(knots_parse("clipboard", text, &list, &error));
     assert_int_equal(list.count, 2);
     for (int k = 0; k < 2; k++) {
         assert_near(list.knots[k].frame, knots[k].frame, 0);

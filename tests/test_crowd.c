@@ -85,16 +85,13 @@ SESSION_TEST(a_drag_is_found, open_crowd(s, 300))
 }
 
 /// Of a crowd each pixel column shows one knot, and the highest and lowest value are reached by its stroke.
-TEST(a_crowd_is_drawn_as_columns)
+SESSION_TEST(a_crowd_is_drawn_as_columns, open_crowd(s, CROWD))
 {
-    struct session s;
-    open_crowd(&s, CROWD);
-    session_frame(&s);
-    const int few = s.editor->core.list.point_count;
-    session_close(&s);
-    open_crowd(&s, 3 * CROWD);
-    session_frame(&s);
-    const int many = s.editor->core.list.point_count;
+    session_frame(s);
+    const int few = s->editor->core.list.point_count;
+    session_close(s);
+    open_crowd(s, 3 * CROWD);
+    session_frame(s);
+    const int many = s->editor->core.list.point_count;
     assert_true(many < few + few / 4);
-    session_close(&s);
 }

@@ -295,11 +295,10 @@ SESSION_TEST(test_every_knot_is_drawn, session_open(s, FIVE))
     for (int i = 0; i < 2; i++) {
         for (int k = 0; k < spline(s, i)->knot_count; k++) {
             char target[32];
-            struct error error;
             float x, y;
             int drawn = 0;
             snprintf(target, sizeof target, "knot(%s,%d)", spline(s, i)->name, k);
-            if (!editor_target(s->editor, target, &x, &y, &error)) fail_msg("%s", error.text);
+            assert_done(editor_target(s->editor, target, &x, &y, &error));
             for (int c = 0; c < list->count; c++) {
                 const struct draw_command *command = &list->commands[c];
                 if (command->kind != DRAW_CONVEX || command->count != 4) continue;

@@ -23,23 +23,20 @@ static double frames_wide(struct session *s)
 }
 
 /// A turn of two notches is as much as two of one.
-TEST(notches_of_the_wheel_add_up)
+SESSION_TEST(notches_of_the_wheel_add_up, session_open(s, tail))
 {
-    struct session s;
     double width[3];
-    session_open(&s, tail);
-    session_point(&s, "curve(sway,40,-0.5)");
-    width[0] = frames_wide(&s);
-    session_wheel(&s, 1);
-    session_wheel(&s, 1);
-    width[1] = frames_wide(&s);
-    session_wheel(&s, 2);
-    width[2] = frames_wide(&s);
+    session_point(s, "curve(sway,40,-0.5)");
+    width[0] = frames_wide(s);
+    session_wheel(s, 1);
+    session_wheel(s, 1);
+    width[1] = frames_wide(s);
+    session_wheel(s, 2);
+    width[2] = frames_wide(s);
     assert_true(width[1] < 0.95 * width[0] && width[1] > 0.3 * width[0]);
     assert_near(width[2] / width[1], width[1] / width[0], 1e-3);
-    session_wheel(&s, -4);
-    assert_near(frames_wide(&s), width[0], 1e-3 * width[0]);
-    session_close(&s);
+    session_wheel(s, -4);
+    assert_near(frames_wide(s), width[0], 1e-3 * width[0]);
 }
 
 /// More splines than the window is high: the wheel turns the open list, wherever on it the pointer is.
@@ -88,23 +85,20 @@ TEST(lag_is_the_active_splines)
 }
 
 /// In the list of rigs each has the colour of the spline that moves it first.
-TEST(a_rig_has_the_colour_of_its_first_spline)
+SESSION_TEST(a_rig_has_the_colour_of_its_first_spline, panel_open(s, tail, 1280, 1400))
 {
-    struct session s;
     float x, y;
     int found = 0;
-    panel_open(&s, tail, 1280, 1400);
-    inspector_unfold(s.editor->inspector, "section.rigs");
-    session_frame(&s);
-    assert_true(inspector_target(s.editor->inspector, "tail.0", &x, &y));
-    const struct drawlist *list = &s.editor->core.list;
+    inspector_unfold(s->editor->inspector, "section.rigs");
+    session_frame(s);
+    assert_true(inspector_target(s->editor->inspector, "tail.0", &x, &y));
+    const struct drawlist *list = &s->editor->core.list;
     for (int i = 0; i < list->count; i++) {
         const struct draw_command *c = &list->commands[i];
         found +=
             c->kind == DRAW_CONVEX && c->color == theme()->spline[0] && fabsf(c->bounds.y + c->bounds.h / 2 - y) < 2;
     }
     assert_int_equal(found, 1);
-    session_close(&s);
 }
 
 /// Lines that are drawn within 10 pixels of a widget's middle.
@@ -151,46 +145,38 @@ SESSION_TEST(a_letter_let_go_in_a_dialog_is_not_held, session_open(s, tail))
     assert_saved(s, before);
 }
 
-TEST(nothing_to_follow_is_an_error)
-{
-    struct session s;
+SESSION_TEST(
+    nothing_to_follow_is_an_error,
     panel_open(
-        &s, "{\"wiggly\": 1, \"frames\": [0, 48], \"splines\": [{\"name\": \"alone\", \"knots\": []}], \"rigs\": []}",
-        1280, 720);
-    panel_click(&s, "follow.frequency");
-    assert_true(s.editor->core.message.is_error);
-    assert_non_null(strstr(s.editor->core.message.text, "no other spline for alone to follow"));
-    session_close(&s);
+        s, "{\"wiggly\": 1, \"frames\": [0, 48], \"splines\": [{\"name\": \"alone\", \"knots\": []}], \"rigs\": []}",
+        1280, 720))
+{
+    panel_click(s, "follow.frequency");
+    assert_true(s->editor->core.message.is_error);
+    assert_non_null(strstr(s->editor->core.message.text, "no other spline for alone to follow"));
 }
 
 /// What a recording names and the scene does not have is said.
-TEST(targets_that_are_missing_are_said)
+SESSION_TEST(targets_that_are_missing_are_said, session_open(s, tail))
 {
     static const char *const missing[] = {"pin(tail,0)",  "pintime(tail,0)", "knot(sway,7)",
                                           "knot(none,0)", "tail(none,0.5)",  "divider(none)"};
-    struct session s;
-    session_open(&s, tail);
     for (size_t i = 0; i < sizeof missing / sizeof *missing; i++) {
         struct error error = {0};
         float x, y;
-        if (editor_target(s.editor, missing[i], &x, &y, &error)) fail_msg("%s is there", missing[i]);
+        if (editor_target(s->editor, missing[i], &x, &y, &error)) fail_msg("%s is there", missing[i]);
         assert_true(error.text[0]);
     }
-    session_close(&s);
 }
 
-TEST(a_target_from_the_pointer)
+SESSION_TEST(a_target_from_the_pointer, session_open(s, tail))
 {
-    struct session s;
-    struct error error = {0};
     float x, y;
-    session_open(&s, tail);
-    session_move(&s, 300, 200);
-    const float height = s.editor->core.layout.stage.h;
-    assert_true(editor_target(s.editor, "pointer(0.1,-0.2)", &x, &y, &error));
+    session_move(s, 300, 200);
+    const float height = s->editor->core.layout.stage.h;
+    assert_done(editor_target(s->editor, "pointer(0.1,-0.2)", &x, &y, &error));
     assert_near(x, 300 + 0.1f * height, 1e-3);
     assert_near(y, 200 - 0.2f * height, 1e-3);
-    session_close(&s);
 }
 
 /// Knots before a first frame are asked about, as those behind a last one are.
@@ -206,21 +192,18 @@ SESSION_TEST(a_first_frame_asks_for_its_knots, panel_open(s, tail, 1280, 1600))
 }
 
 /// A preset is no state that something is in: none of their buttons looks like the one that Enter presses.
-TEST(presets_look_alike_and_plain)
+SESSION_TEST(presets_look_alike_and_plain, panel_open(s, tail, 1280, 1400))
 {
     static const char *const presets[] = {"preset.cat", "preset.whip", "preset.heavy", "preset.jelly",
                                           "preset.antenna"};
-    struct session s;
-    panel_open(&s, tail, 1280, 1400);
-    const struct drawlist *list = &s.editor->core.list;
+    const struct drawlist *list = &s->editor->core.list;
     for (size_t p = 0; p < sizeof presets / sizeof *presets; p++) {
         float x, y;
-        assert_true(inspector_target(s.editor->inspector, presets[p], &x, &y));
+        assert_true(inspector_target(s->editor->inspector, presets[p], &x, &y));
         for (int i = 0; i < list->count; i++) {
             const struct draw_command *c = &list->commands[i];
             const bool covers = c->kind != DRAW_TEXT && c->bounds.w < 200 && rect_contains(c->bounds, x, y);
             if (covers && c->color == theme()->accent) fail_msg("%s stands out", presets[p]);
         }
     }
-    session_close(&s);
 }

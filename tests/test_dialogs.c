@@ -181,25 +181,22 @@ SESSION_TEST(test_welcome, open_session(s))
 }
 
 /// What the card says suits the scene: before and after a character of one's own is dropped on the window.
-TEST(test_welcome_with_a_character)
+SESSION_TEST(test_welcome_with_a_character, open_session(s))
 {
-    struct session s;
-    open_session(&s);
-    dialogs_welcome(s.editor->dialogs);
-    session_frame(&s);
-    assert_non_null(shown_text(s.editor, "Drop a .glb"));
-    session_send(&s, (struct event){.kind = EVENT_DROP, .path = "/home/ada/rex.glb"});
-    expect_request(&s, REQUEST_OPEN, "/home/ada/rex.glb");
-    session_close(&s);
+    dialogs_welcome(s->editor->dialogs);
+    session_frame(s);
+    assert_non_null(shown_text(s->editor, "Drop a .glb"));
+    session_send(s, (struct event){.kind = EVENT_DROP, .path = "/home/ada/rex.glb"});
+    expect_request(s, REQUEST_OPEN, "/home/ada/rex.glb");
+    session_close(s);
     panel_open(
-        &s,
+        s,
         "{\"frames\": [0, 24], \"splines\": [], \"rigs\": [{\"type\": \"model\", \"model\": \"/home/ada/rex.glb\"}]}",
         1280, 720);
-    dialogs_welcome(s.editor->dialogs);
-    session_frame(&s);
-    assert_non_null(shown_text(s.editor, "Press Shift+J"));
-    assert_null(shown_text(s.editor, "Drop a .glb"));
-    session_close(&s);
+    dialogs_welcome(s->editor->dialogs);
+    session_frame(s);
+    assert_non_null(shown_text(s->editor, "Press Shift+J"));
+    assert_null(shown_text(s->editor, "Drop a .glb"));
 }
 
 /// Opens a scene with the card on; whether card and status line say what is to be said of it.

@@ -181,12 +181,11 @@ TEST(is_what_its_tool_makes)
     char path[512], command[1100];
     const char *build = getenv("B");
     struct gltf made;
-    struct error error = {0};
     if (!is_thorough()) skip();
     snprintf(path, sizeof path, "%s", temporary_path("made.glb"));
     snprintf(command, sizeof command, "%s/dog_glb '%s' >/dev/null", build ? build : "build", path);
     assert_int_equal(system(command), 0);
-    if (!gltf_read(path, &made, &error)) fail_msg("%s", error.text);
+    assert_done(gltf_read(path, &made, &error));
     assert_int_equal(made.node_count, dog.node_count);
     for (int n = 0; n < dog.node_count; n++) {
         assert_string_equal(made.nodes[n].name, dog.nodes[n].name);

@@ -178,9 +178,8 @@ TEST(test_atlas_advances_match_layout)
     const float sizes[] = {THEME_TEXT_SMALL, THEME_TEXT_NORMAL, THEME_TEXT_TITLE}, scales[] = {1.0f, 1.5f, 2.0f};
     for (int i = 0; i < 9; i++) {
         struct atlas atlas;
-        struct error error;
         float size = sizes[i % 3], scale = scales[i / 3], sum = 0.0f;
-        assert_true(atlas_build(scale, &atlas, &error));
+        assert_done(atlas_build(scale, &atlas, &error));
         for (const char *at = sample; *at;) sum += atlas_glyph(&atlas, FONT_LABEL, size, utf8_next(&at))->advance;
         assert_near(sum / scale, font_width(FONT_LABEL, size, sample), 0.01);
         assert_int_equal(atlas.coverage[0], 255);
@@ -192,8 +191,7 @@ TEST(test_atlas_advances_match_layout)
 TEST(test_atlas_has_the_signs_of_the_interface)
 {
     struct atlas atlas;
-    struct error error;
-    assert_true(atlas_build(1.0f, &atlas, &error));
+    assert_done(atlas_build(1.0f, &atlas, &error));
     for (int font = 0; font < FONT_COUNT; font++) {
         const struct glyph *missing = atlas_glyph(&atlas, (enum font)font, 13.0f, '?');
         for (const char *at = "←→↑↓−°·×²…–—ζβωλ±≤≥äÖß€•√∞"; *at;) {

@@ -16,39 +16,24 @@ static const char pinned_text[] =
     "{\"frame\": 12.25, \"joint\": 5, \"to\": [0.25, 0, 1]}]},"
     "{\"type\": \"tail\", \"name\": \"free\"}]}";
 
-static void open(struct world *world)
-{
-    *world = (struct world){0};
-    world->document = scene_parse("scene.json", pinned_text, sizeof pinned_text - 1, NULL, &world->error);
-    if (!world->document) fail_msg("%s", world->error.text);
-    world->history = history_create(world->document);
-    assert_non_null(world->history);
-}
+#define PINNED_TEST(name) WORLD_TEST(name, world_open_scene(world, pinned_text))
 
-TEST(test_saves_what_it_reads)
+PINNED_TEST(test_saves_what_it_reads)
 {
-    struct world world;
-    open(&world);
-    const struct rig *rig = world.document->rigs[0];
+    const struct rig *rig = world->document->rigs[0];
     assert_int_equal(rig->pin_count, 2);
     assert_near(rig->pins[0].frame, 12.25, 0);
     assert_int_equal(rig->pins[1].point, 11);
     assert_near(rig->pins[1].to[2], 0.5, 0);
-    char *text = world_print(&world);
+    const char *text = world_print(world);
     assert_non_null(strstr(text, "\"pins\": [\n        { \"frame\": 12.25, \"joint\": 5, \"to\": [0.25, 0, 1] },\n"
                                  "        { \"frame\": 30, \"joint\": 11, \"to\": [0, 1, 0.5], \"why\": \"grip\" }"));
-    struct world again = world;
-    again.document = scene_parse("scene.json", text, strlen(text), NULL, &world.error);
-    assert_non_null(again.document);
-    assert_document(&again, text);
-    document_destroy(again.document);
-    free(text);
-    world_close(&world);
+    assert_loads_again(world->document);
 }
 
-WORLD_TEST(test_every_edit_is_undone, open(world))
+PINNED_TEST(test_every_edit_is_undone)
 {
-    char *before = world_print(world);
+    const char *before = world_print(world);
     assert_reversible(world, edit_pin_add(world_edit(world), 0,
                                           &(struct pin){.frame = 20, .point = 3, .to = {1, 2, 3}}, &world->error));
     assert_int_equal(world->document->rigs[0]->pin_count, 3);
@@ -71,10 +56,9 @@ WORLD_TEST(test_every_edit_is_undone, open(world))
     assert_int_equal(world->document->rigs[0]->pin_count, 1);
     world_undo_all(world);
     assert_document(world, before);
-    free(before);
 }
 
-WORLD_TEST(test_what_would_not_load_is_refused, open(world))
+PINNED_TEST(test_what_would_not_load_is_refused)
 {
     struct pin pin = world->document->rigs[0]->pins[1];
     assert_refused(world, edit_pin_add(world_edit(world), 0, &pin, &world->error),

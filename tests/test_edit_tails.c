@@ -43,7 +43,7 @@ WORLD_TEST(test_channels, world_open(world))
 
 WORLD_TEST(test_which_tails_there_are, world_open(world))
 {
-    char *before = world_print(world);
+    const char *before = world_print(world);
     assert_reversible(world, edit_tail_add(world_edit(world), 0, 0, AXIS_SIDE, PART_TOTAL, &world->error));
     assert_int_equal(document_count_rigs(world->document, RIG_TAIL), 2);
     const struct tail *copy = document_tail(world->document, 1);
@@ -66,7 +66,6 @@ WORLD_TEST(test_which_tails_there_are, world_open(world))
     assert_int_equal(document_tail(world->document, 0)->channels[0].spline, PLUCK);
     world_undo_all(world);
     assert_document(world, before);
-    free(before);
 }
 
 WORLD_TEST(test_which_channels_there_are, world_open(world))

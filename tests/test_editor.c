@@ -40,18 +40,15 @@ SESSION_TEST(test_double_click_inserts_at_the_pointer, session_open(s, SWAY))
     assert_int_equal(sway(s)->knot_count, 4);
 }
 
-TEST(test_insert_at_playhead_keeps_the_curve)
+SESSION_TEST(test_insert_at_playhead_keeps_the_curve, session_open(s, SWAY))
 {
-    struct session s;
     double before[49];
-    session_open(&s, SWAY);
-    memcpy(before, s.table.evaluation.curves[0].total, sizeof before);
-    session_click(&s, "ruler(30)");
-    session_key(&s, 'I', 0);
-    assert_int_equal(sway(&s)->knot_count, 5);
-    assert_near(sway(&s)->knots[3].frame, 30, 0);
-    for (int i = 0; i < 49; i++) assert_near(s.table.evaluation.curves[0].total[i], before[i], 1e-7);
-    session_close(&s);
+    memcpy(before, s->table.evaluation.curves[0].total, sizeof before);
+    session_click(s, "ruler(30)");
+    session_key(s, 'I', 0);
+    assert_int_equal(sway(s)->knot_count, 5);
+    assert_near(sway(s)->knots[3].frame, 30, 0);
+    for (int i = 0; i < 49; i++) assert_near(s->table.evaluation.curves[0].total[i], before[i], 1e-7);
 }
 
 SESSION_TEST(test_a_drag_is_one_step_and_snaps, session_open(s, SWAY))

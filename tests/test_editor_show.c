@@ -19,10 +19,9 @@ static const float PLOT_TOLERANCE = 0.01f;
 
 static void point_at_tail(struct session *s, float share, float xy[2])
 {
-    struct error error = {0};
     char target[32];
     snprintf(target, sizeof target, "tail(tail,%g)", share);
-    if (!editor_target(s->editor, target, &xy[0], &xy[1], &error)) fail_msg("%s", error.text);
+    assert_done(editor_target(s->editor, target, &xy[0], &xy[1], &error));
 }
 
 /// Pulls the tail at `share` by (dx, dy) and waits; asserts that it follows the pointer.
@@ -47,22 +46,19 @@ static int selected_from(const struct session *s, unsigned id)
     return count;
 }
 
-TEST(test_a_pull_taken_back_leaves_nothing_selected)
+SESSION_TEST(test_a_pull_taken_back_leaves_nothing_selected, session_open(s, TAIL))
 {
-    struct session s;
     float at[2];
-    session_open(&s, TAIL);
-    session_key(&s, KEY_RIGHT, 0); // where there is no knot
-    const unsigned next = s.document->next_id;
-    point_at_tail(&s, 0.9f, at);
-    session_move(&s, at[0], at[1]);
-    session_press(&s, BUTTON_LEFT, 1);
-    session_drag(&s, 30, 10, 5);
-    assert_int_equal(selected_from(&s, next), 1);
-    session_key(&s, KEY_ESCAPE, 0);
-    assert_int_equal(s.document->next_id, next); // its ids are given again
-    assert_int_equal(selected_from(&s, next), 0);
-    session_close(&s);
+    session_key(s, KEY_RIGHT, 0); // where there is no knot
+    const unsigned next = s->document->next_id;
+    point_at_tail(s, 0.9f, at);
+    session_move(s, at[0], at[1]);
+    session_press(s, BUTTON_LEFT, 1);
+    session_drag(s, 30, 10, 5);
+    assert_int_equal(selected_from(s, next), 1);
+    session_key(s, KEY_ESCAPE, 0);
+    assert_int_equal(s->document->next_id, next); // its ids are given again
+    assert_int_equal(selected_from(s, next), 0);
 }
 
 SESSION_TEST(test_the_tail_follows_the_hand, session_open(s, TAIL))
@@ -81,42 +77,36 @@ SESSION_TEST(test_the_tail_follows_the_hand, session_open(s, TAIL))
     assert_saved(s, original);
 }
 
-TEST(test_a_pull_out_of_reach_stays_calm)
+SESSION_TEST(test_a_pull_out_of_reach_stays_calm, session_open(s, TAIL))
 {
-    struct session s;
     float at[2];
-    session_open(&s, TAIL);
-    point_at_tail(&s, 0.9f, at);
-    session_move(&s, at[0], at[1]);
-    session_press(&s, BUTTON_LEFT, 1);
-    session_drag(&s, -5000, 3000, 5);
-    for (int i = 0; i < 100; i++) session_frame(&s);
-    for (int i = 0; i < s.table.evaluation.samples; i++)
-        assert_true(fabs(s.table.evaluation.curves[0].total[i]) < 100);
-    session_key(&s, KEY_ESCAPE, 0);
-    assert_int_equal(s.document->splines[0]->knot_count, 3);
-    session_close(&s);
+    point_at_tail(s, 0.9f, at);
+    session_move(s, at[0], at[1]);
+    session_press(s, BUTTON_LEFT, 1);
+    session_drag(s, -5000, 3000, 5);
+    for (int i = 0; i < 100; i++) session_frame(s);
+    for (int i = 0; i < s->table.evaluation.samples; i++)
+        assert_true(fabs(s->table.evaluation.curves[0].total[i]) < 100);
+    session_key(s, KEY_ESCAPE, 0);
+    assert_int_equal(s->document->splines[0]->knot_count, 3);
 }
 
 /// However often the hand goes around the root, the tail winds up once.
-TEST(test_a_pull_in_circles_winds_up_once)
+SESSION_TEST(test_a_pull_in_circles_winds_up_once, session_open(s, TAIL))
 {
-    struct session s;
     float at[2], root[2];
-    session_open(&s, TAIL);
-    point_at_tail(&s, 0.05f, root);
-    point_at_tail(&s, 0.9f, at);
-    session_move(&s, at[0], at[1]);
-    session_press(&s, BUTTON_LEFT, 1);
+    point_at_tail(s, 0.05f, root);
+    point_at_tail(s, 0.9f, at);
+    session_move(s, at[0], at[1]);
+    session_press(s, BUTTON_LEFT, 1);
     const float reach = hypotf(at[0] - root[0], at[1] - root[1]), from = atan2f(at[1] - root[1], at[0] - root[0]);
     for (int i = 1; i <= 400; i++) {
         const float angle = from + 0.1f * (float)i;
-        session_move(&s, root[0] + reach * cosf(angle), root[1] + reach * sinf(angle));
-        session_frame(&s);
+        session_move(s, root[0] + reach * cosf(angle), root[1] + reach * sinf(angle));
+        session_frame(s);
         for (int c = 0; c < 2; c++) // the values of seven radians where it is held
-            assert_true(fabs(s.table.evaluation.curves[c].total[0]) < 6.2);
+            assert_true(fabs(s->table.evaluation.curves[c].total[0]) < 6.2);
     }
-    session_close(&s);
 }
 
 /// The hand has it soon wherever the tail's swing stands: how that answers to the knot is learnt while pulling.
@@ -363,41 +353,35 @@ SESSION_TEST(test_the_curves_say_how_they_are_shown, session_open(s, TAIL))
 }
 
 /// Home puts everything back into sight where the pointer is: the camera over the stage, else the curves.
-TEST(test_home_brings_the_tail_back)
+SESSION_TEST(test_home_brings_the_tail_back, session_open(s, TAIL))
 {
-    struct session s;
     float before[2], after[2];
-    session_open(&s, TAIL);
-    point_at_tail(&s, 0.9f, before);
-    session_point(&s, "stage(0.9,0.2)");
-    session_press(&s, BUTTON_RIGHT, 1);
-    session_drag(&s, 90, 30, 3);
-    session_release(&s, BUTTON_RIGHT);
-    session_point(&s, "curve(sway,60,0)");
-    session_key(&s, KEY_HOME, 0);
-    point_at_tail(&s, 0.9f, after);
+    point_at_tail(s, 0.9f, before);
+    session_point(s, "stage(0.9,0.2)");
+    session_press(s, BUTTON_RIGHT, 1);
+    session_drag(s, 90, 30, 3);
+    session_release(s, BUTTON_RIGHT);
+    session_point(s, "curve(sway,60,0)");
+    session_key(s, KEY_HOME, 0);
+    point_at_tail(s, 0.9f, after);
     assert_true(fabsf(after[0] - before[0]) > 5);
-    session_point(&s, "stage(0.9,0.2)");
-    session_key(&s, KEY_HOME, 0);
-    point_at_tail(&s, 0.9f, after);
+    session_point(s, "stage(0.9,0.2)");
+    session_key(s, KEY_HOME, 0);
+    point_at_tail(s, 0.9f, after);
     assert_near(after[0], before[0], 0.01);
     assert_near(after[1], before[1], 0.01);
-    session_close(&s);
 }
 
-TEST(test_small_windows)
+SESSION_TEST(test_small_windows, session_open(s, TAIL))
 {
     const float sizes[][2] = {{1280, 720}, {960, 600}, {3000, 1700}, {200, 100}, {1, 1}};
-    struct session s;
-    session_open(&s, TAIL);
     for (size_t i = 0; i < sizeof sizes / sizeof sizes[0]; i++) {
-        editor_resize(s.editor, sizes[i][0], sizes[i][1], 1);
-        session_frame(&s);
-        const struct drawlist *list = &s.editor->core.list;
+        editor_resize(s->editor, sizes[i][0], sizes[i][1], 1);
+        session_frame(s);
+        const struct drawlist *list = &s->editor->core.list;
         assert_false(list->overflow);
         for (int p = 0; p < 2 * list->point_count; p++) assert_true(isfinite(list->points[p]));
     }
-    session_close(&s);
 }
 
 SESSION_TEST(test_dividers, session_open(s, TAIL))
@@ -428,8 +412,7 @@ static char *scene_with_knots(int knots)
 static void set(struct session *s, enum parameter parameter, double value)
 {
     const struct param param = param_number(value);
-    struct error error = {0};
-    if (!edit_parameter(s->document, 0, parameter, &param, &error)) fail_msg("%s", error.text);
+    assert_done(edit_parameter(s->document, 0, parameter, &param, &error));
 }
 
 /// Sets every slider to one of its ends, as the bits of `ends` say, and looks at the curve.
@@ -470,7 +453,7 @@ TEST(test_finite_curves_at_every_extreme)
     }
 }
 
-TEST(test_targets_that_are_not_there)
+SESSION_TEST(test_targets_that_are_not_there, session_open(s, TAIL))
 {
     const char *const wrong[] = {"",
                                  "knot",
@@ -487,13 +470,10 @@ TEST(test_targets_that_are_not_there)
                                  "divider(x)",
                                  "slider(nope)",
                                  "knot(sway,0"};
-    struct session s;
-    session_open(&s, TAIL);
     for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++) {
         struct error error = {0};
         float x, y;
-        assert_false(editor_target(s.editor, wrong[i], &x, &y, &error));
+        assert_false(editor_target(s->editor, wrong[i], &x, &y, &error));
         assert_true(error.text[0] != 0);
     }
-    session_close(&s);
 }

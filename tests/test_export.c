@@ -38,8 +38,7 @@ TEST_WITH(folder_make, folder_remove, tangents_make_up_for_keys)
 static void each_channel(const char *path, void (*visit)(const struct gltf_channel *channel))
 {
     struct gltf gltf;
-    struct error error;
-    if (!gltf_read(path, &gltf, &error)) fail_msg("%s", error.text);
+    assert_done(gltf_read(path, &gltf, &error));
     for (int c = 0; c < gltf.clips[0].channel_count; c++) visit(&gltf.clips[0].channels[c]);
     gltf_free(&gltf);
 }
@@ -77,9 +76,8 @@ TEST_WITH(folder_make, folder_remove, keys_loop_and_turn_the_short_way)
     for (int n = 0; n < tail->joints; n++)
         tail->rest.value[n] = 119; // where a matrix gives the one quaternion now, its negative then
     struct export_report report;
-    struct error error;
     const struct export_options usual = {0};
-    assert_true(export_write(posing_of(&scene), folder_path("wild.glb"), &usual, &report, &error));
+    assert_done(export_write(posing_of(&scene), folder_path("wild.glb"), &usual, &report, &error));
     close_scene(&scene);
     each_channel(folder_path("wild.glb"), assert_short_way);
 }
@@ -87,14 +85,13 @@ TEST_WITH(folder_make, folder_remove, keys_loop_and_turn_the_short_way)
 TEST_WITH(folder_make, folder_remove, weights_stay_within_one_unless_signed)
 {
     struct gltf gltf;
-    struct error error;
     const char *path = export_scene("character", "split.glb", (struct export_options){0});
     each_channel(path, assert_within_one);
-    assert_true(gltf_read(path, &gltf, &error));
+    assert_done(gltf_read(path, &gltf, &error));
     assert_int_equal(gltf.meshes[0].target_count, 8); // of the two coordinates that the scene moves it by
     gltf_free(&gltf);
     path = export_scene("character", "signed.glb", (struct export_options){.is_signed = true});
-    assert_true(gltf_read(path, &gltf, &error));
+    assert_done(gltf_read(path, &gltf, &error));
     assert_int_equal(gltf.meshes[0].target_count, 4);
     gltf_free(&gltf);
 }
@@ -103,10 +100,9 @@ TEST_WITH(folder_make, folder_remove, weights_stay_within_one_unless_signed)
 TEST_WITH(folder_make, folder_remove, an_exported_creature_opens_as_one)
 {
     struct character original, again;
-    struct error error;
     const char *path = export_scene("character", "again.glb", (struct export_options){0});
-    if (!character_read(path, &again, &error)) fail_msg("%s", error.text);
-    assert_true(character_read("assets/models/creature.glb", &original, &error));
+    assert_done(character_read(path, &again, &error));
+    assert_done(character_read("assets/models/creature.glb", &original, &error));
     assert_int_equal(again.coordinate_count, 2);
     assert_int_equal(again.vertex_count, original.vertex_count);
     for (int c = 0; c < 2; c++) {
@@ -154,8 +150,7 @@ TEST_WITH(folder_make, folder_remove, a_rate_that_misses_the_end_is_said)
     for (int misses = 0; misses < 2; misses++) {
         const struct export_options options = {.rate = misses ? 18 : 12, .has_frames = true, .last = 22};
         struct export_report report = {0};
-        struct error error;
-        assert_true(export_write(posing_of(&scene), folder_path("t.csv"), &options, &report, &error));
+        assert_done(export_write(posing_of(&scene), folder_path("t.csv"), &options, &report, &error));
         assert_int_equal(strstr(report.note, "the last key is on frame") != NULL, misses);
     }
     close_scene(&scene);
@@ -177,9 +172,8 @@ TEST_WITH(folder_make, folder_remove, a_table_has_splines_and_channels)
     char line[8192], expected[128];
     struct opened scene = open_scene("assets/scenes/tail.json");
     struct export_report report;
-    struct error error;
     const struct export_options usual = {0};
-    assert_true(export_write(posing_of(&scene), folder_path("t.csv"), &usual, &report, &error));
+    assert_done(export_write(posing_of(&scene), folder_path("t.csv"), &usual, &report, &error));
     FILE *file = fopen(folder_path("t.csv"), "r");
     assert_non_null(file);
     assert_non_null(fgets(line, sizeof line, file));
@@ -236,9 +230,7 @@ static void assert_fails(const char *scene_path, const char *file, struct export
 {
     struct opened scene = open_scene(scene_path);
     struct export_report report;
-    struct error error = {0};
-    assert_false(export_write(posing_of(&scene), folder_path(file), &options, &report, &error));
-    if (!strstr(error.text, sentence)) fail_msg("expected \"%s\" in: %s", sentence, error.text);
+    assert_refusal(export_write(posing_of(&scene), folder_path(file), &options, &report, &error), sentence);
     assert_int_equal(files_in_folder(), 0);
     close_scene(&scene);
 }

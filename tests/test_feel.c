@@ -30,29 +30,26 @@ SESSION_TEST(test_a_preset_is_one_step, panel_open(s, tail_scene, 1280, 720))
 }
 
 /// An exponential's envelope falls to 5 % after ln 20 / (2π f ζ).
-TEST(test_the_time_to_settle_is_set)
+SESSION_TEST(test_the_time_to_settle_is_set, panel_open(s, tail_scene, 1280, 720))
 {
-    struct session s;
     const double tau = 2 * acos(-1.0), ln20 = log(20);
-    panel_open(&s, tail_scene, 1280, 720);
-    const char *before = session_saved(&s);
-    panel_enter(&s, "settle", "2");
-    assert_near(of(&s, PARAMETER_FREQUENCY)->value, 1, 0);
-    assert_near(of(&s, PARAMETER_DAMPING)->value, ln20 / (tau * 2), 1e-4);
-    assert_one_step(&s, before);
-    panel_enter(&s, "settle", "0.01"); // sooner than critical damping
-    assert_true(s.editor->core.message.is_error);
-    assert_non_null(strstr(s.editor->core.message.text, "settles in: expected 0.48"));
-    session_key(&s, KEY_ESCAPE, 0);
-    panel_press(&s, "settle", 1);
-    session_drag(&s, 20, 0, 4); // a second later
-    panel_release(&s);
-    assert_near(of(&s, PARAMETER_DAMPING)->value, ln20 / (tau * 3), 2e-3);
-    panel_click(&s, "mode.real");
-    panel_enter(&s, "settle", "1.5");
-    const double damping = of(&s, PARAMETER_DAMPING)->value;
+    const char *before = session_saved(s);
+    panel_enter(s, "settle", "2");
+    assert_near(of(s, PARAMETER_FREQUENCY)->value, 1, 0);
+    assert_near(of(s, PARAMETER_DAMPING)->value, ln20 / (tau * 2), 1e-4);
+    assert_one_step(s, before);
+    panel_enter(s, "settle", "0.01"); // sooner than critical damping
+    assert_true(s->editor->core.message.is_error);
+    assert_non_null(strstr(s->editor->core.message.text, "settles in: expected 0.48"));
+    session_key(s, KEY_ESCAPE, 0);
+    panel_press(s, "settle", 1);
+    session_drag(s, 20, 0, 4); // a second later
+    panel_release(s);
+    assert_near(of(s, PARAMETER_DAMPING)->value, ln20 / (tau * 3), 2e-3);
+    panel_click(s, "mode.real");
+    panel_enter(s, "settle", "1.5");
+    const double damping = of(s, PARAMETER_DAMPING)->value;
     assert_true(damping > 0.2 && damping < 0.4);
-    session_close(&s);
 }
 
 static float place_of(struct session *s, const char *name)
@@ -79,43 +76,40 @@ static void wait(struct session *s, int frames)
 }
 
 /// It comes after half a second of rest, beside the pointer and inside the window, and goes with a press.
-TEST(test_a_tooltip_is_near_the_pointer)
+SESSION_TEST(test_a_tooltip_is_near_the_pointer, panel_open(s, tail_scene, 960, 600))
 {
     static const char *const names[] = {"frequency", "preset.cat", "look.cubic"};
-    struct session s;
-    panel_open(&s, tail_scene, 960, 600);
-    const struct rect window = s.editor->core.layout.window;
-    const struct tooltip *tooltip = &s.editor->tooltip;
+    const struct rect window = s->editor->core.layout.window;
+    const struct tooltip *tooltip = &s->editor->tooltip;
     for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
         float x, y;
-        assert_true(inspector_target(s.editor->inspector, names[i], &x, &y));
-        session_move(&s, x, y);
-        session_frame(&s);
+        assert_true(inspector_target(s->editor->inspector, names[i], &x, &y));
+        session_move(s, x, y);
+        session_frame(s);
         assert_false(tooltip_is_shown(tooltip));
-        assert_true(editor_wants_frames(s.editor));
-        wait(&s, 20);
-        session_move(&s, x + 2, y); // not at rest yet
-        wait(&s, 20);
+        assert_true(editor_wants_frames(s->editor));
+        wait(s, 20);
+        session_move(s, x + 2, y); // not at rest yet
+        wait(s, 20);
         assert_false(tooltip_is_shown(tooltip));
-        wait(&s, 20);
+        wait(s, 20);
         assert_true(tooltip_is_shown(tooltip));
         const struct rect box = tooltip_box(tooltip, window);
-        assert_false(rect_contains(box, s.x, s.y));
-        assert_true(fabsf(box.y + box.h / 2 - s.y) < 80 && box.x <= s.x + 20);
+        assert_false(rect_contains(box, s->x, s->y));
+        assert_true(fabsf(box.y + box.h / 2 - s->y) < 80 && box.x <= s->x + 20);
         assert_true(box.x >= 0 && box.y >= 0 && box.x + box.w <= window.w && box.y + box.h <= window.h);
     }
-    session_press(&s, BUTTON_MIDDLE, 1);
-    session_frame(&s);
+    session_press(s, BUTTON_MIDDLE, 1);
+    session_frame(s);
     assert_false(tooltip_is_shown(tooltip));
-    session_release(&s, BUTTON_MIDDLE);
-    session_move(&s, 100, 100);
-    wait(&s, 40);
+    session_release(s, BUTTON_MIDDLE);
+    session_move(s, 100, 100);
+    wait(s, 40);
     assert_false(tooltip_is_shown(tooltip));
-    session_key(&s, KEY_TAB, 0); // the first section's header has the keyboard
-    wait(&s, 40);
+    session_key(s, KEY_TAB, 0); // the first section's header has the keyboard
+    wait(s, 40);
     assert_true(tooltip_is_shown(tooltip));
     assert_true(tooltip_box(tooltip, window).x > window.w - 280);
-    session_close(&s);
 }
 
 /// All words of a tooltip are drawn, inside its box.
@@ -186,36 +180,32 @@ static void open_file(struct session *s, const char *scene)
     wait(s, 2);
 }
 
-TEST(test_every_control_of_characters_explains_itself)
-{
-    struct session s;
+SESSION_TEST(
+    test_every_control_of_characters_explains_itself,
     open_file(
-        &s,
+        s,
         "{\"frames\": [0, 48], \"splines\": [{\"name\": \"s\", \"frequency\": 1, \"knots\": [{\"frame\": 0, "
         "\"value\": 1}]}], \"rigs\": ["
         "{\"type\": \"character\", \"model\": \"assets/models/creature.glb\", \"coordinates\": "
-        "[{\"name\": \"up\", \"spline\": \"s\"}], \"pins\": [{\"frame\": 4, \"vertex\": 9, \"to\": [0, 1, 0]}]}]}");
-    session_key(&s, 'K', 0);
-    assert_all_explained(&s);
-    session_close(&s);
-    open_file(&s,
+        "[{\"name\": \"up\", \"spline\": \"s\"}], \"pins\": [{\"frame\": 4, \"vertex\": 9, \"to\": [0, 1, 0]}]}]}"))
+{
+    session_key(s, 'K', 0);
+    assert_all_explained(s);
+    session_close(s);
+    open_file(s,
               "{\"frames\": [0, 48], \"splines\": [{\"name\": \"s\", \"frequency\": 1, \"knots\": [{\"frame\": 0, "
               "\"value\": 1}]}], \"rigs\": ["
               "{\"type\": \"model\", \"name\": \"dog\", \"model\": \"assets/models/dog.glb\"}, {\"type\": \"chain\", "
               "\"name\": \"ear\", \"model\": \"dog\", \"from\": \"ear_1_L\", \"to\": \"ear_2_L\", \"channels\": "
               "[{\"spline\": \"s\"}]}]}");
-    session_key(&s, 'J', 0);
-    assert_all_explained(&s);
-    session_close(&s);
+    session_key(s, 'J', 0);
+    assert_all_explained(s);
 }
 
-TEST(test_presets_can_be_read_on_a_small_window)
+SESSION_TEST(test_presets_can_be_read_on_a_small_window, panel_open(s, tail_scene, 640, 360))
 {
     static const char *const words[] = {"Cat", "Whip", "Heavy", "Jelly", "Antenna"};
-    struct session s;
-    panel_open(&s, tail_scene, 640, 360);
-    for (size_t i = 0; i < sizeof words / sizeof *words; i++) assert_true(session_shows(&s, words[i]));
-    panel_click(&s, "preset.jelly");
-    assert_near(of(&s, PARAMETER_FREQUENCY)->value, 3, 0);
-    session_close(&s);
+    for (size_t i = 0; i < sizeof words / sizeof *words; i++) assert_true(session_shows(s, words[i]));
+    panel_click(s, "preset.jelly");
+    assert_near(of(s, PARAMETER_FREQUENCY)->value, 3, 0);
 }

@@ -1,5 +1,5 @@
 /// The paper's Figure 7 and the scenes with the character: what the committed model shows, and that every scene finds it.
-#include "near.h"
+#include "documents.h"
 
 #include "rig/posing.h"
 #include "scene/load.h"
@@ -14,11 +14,9 @@ struct scene {
 static struct scene open_scene(const char *path)
 {
     struct scene scene;
-    struct error error = {0};
-    scene.document = scene_load(path, NULL, &error);
-    if (!scene.document) fail_msg("%s", error.text);
+    scene.document = document_of_file(path);
     scene.models = models_create();
-    if (!models_update(scene.models, scene.document, &error)) fail_msg("%s", error.text);
+    assert_done(models_update(scene.models, scene.document, &error));
     scene.figure = models_figure(scene.models, 0);
     return scene;
 }
@@ -47,28 +45,28 @@ static double lead(const struct figure *figure, const char *name, int axis, cons
 static const float head[2][3] = {{-0.3f, 1.2f, -1}, {0.3f, 2, 1}};
 static const float left_hand[2][3] = {{0.6f, 0, -1}, {1, 2, 1}}, right_hand[2][3] = {{-1, 0, -1}, {-0.6f, 2, 1}};
 
+#define FIGURE7_TEST(name)                                                                                           \
+    TEST_OF(struct scene, scene, *scene = open_scene("assets/scenes/figure7.json"), close_scene(scene), name)
+
 /// "The phase varies smoothly over the character, with the motion of the arms and hands being delayed significantly
 /// compared to the body."
-TEST(hands_follow_the_body)
+FIGURE7_TEST(hands_follow_the_body)
 {
-    struct scene scene = open_scene("assets/scenes/figure7.json");
-    const double body = lead(scene.figure, "up", 1, head[0], head[1]);
-    const double left = lead(scene.figure, "up", 1, left_hand[0], left_hand[1]);
-    const double right = lead(scene.figure, "up", 1, right_hand[0], right_hand[1]);
+    const double body = lead(scene->figure, "up", 1, head[0], head[1]);
+    const double left = lead(scene->figure, "up", 1, left_hand[0], left_hand[1]);
+    const double right = lead(scene->figure, "up", 1, right_hand[0], right_hand[1]);
     assert_true(fabs(body) < 20);
     assert_true(body - left > 35 && body - left < 120);
     assert_true(fabs(left - right) < 15);
-    assert_int_equal(document_character(scene.document, 0)->phases, 1);
-    close_scene(&scene);
+    assert_int_equal(document_character(scene->document, 0)->phases, 1);
 }
 
 /// Over no edge of the mesh does the movement turn by more than a few degrees where there is any to speak of.
-TEST(phases_are_smooth)
+FIGURE7_TEST(phases_are_smooth)
 {
-    struct scene scene = open_scene("assets/scenes/figure7.json");
-    const struct character *character = &scene.figure->character;
-    const struct coordinate *up = &character->coordinates[figure_find(scene.figure, "up")];
-    const double least = 0.1 * (double)scene.figure->largest[figure_find(scene.figure, "up")][1];
+    const struct character *character = &scene->figure->character;
+    const struct coordinate *up = &character->coordinates[figure_find(scene->figure, "up")];
+    const double least = 0.1 * (double)scene->figure->largest[figure_find(scene->figure, "up")][1];
     for (int i = 0; i < character->index_count; i++) {
         const uint32_t a = character->indices[i], b = character->indices[i % 3 == 2 ? i - 2 : i + 1];
         const double complex from = (double)up->re[a][1] + I * (double)up->im[a][1];
@@ -76,20 +74,18 @@ TEST(phases_are_smooth)
         if (cabs(from) < least || cabs(to) < least) continue;
         assert_true(fabs(carg(to / from)) * 180 / M_PI < 20);
     }
-    close_scene(&scene);
 }
 
 /// Eq. 30: one spline of nine knots moves both coordinates, one a quarter of a swing behind the other.
-TEST(two_coordinates_follow_one_spline_of_nine_knots)
+TEST_OF(struct scene, scene, *scene = open_scene("assets/scenes/character.json"), close_scene(scene),
+        two_coordinates_follow_one_spline_of_nine_knots)
 {
-    struct scene scene = open_scene("assets/scenes/character.json");
-    const struct character_rig *rig = document_character(scene.document, 0);
-    assert_int_equal(scene.document->spline_count, 1);
-    assert_int_equal(scene.document->splines[0]->knot_count, 9);
+    const struct character_rig *rig = document_character(scene->document, 0);
+    assert_int_equal(scene->document->spline_count, 1);
+    assert_int_equal(scene->document->splines[0]->knot_count, 9);
     assert_int_equal(rig->drive_count, 2);
     assert_int_equal(rig->drives[0].spline, rig->drives[1].spline);
     assert_near(rig->drives[1].lag - rig->drives[0].lag, 90, 0);
-    close_scene(&scene);
 }
 
 /// Feet stay where they are, whatever the spline does, and the character stays in one piece: within reach of where it rests.
@@ -137,11 +133,10 @@ static double volume_at(const struct character *c, const struct coordinate *n, d
 }
 
 /// Flesh keeps its volume: at amplitude 1 to 5 % in every phase, of every coordinate that the model has.
-TEST(it_keeps_its_volume)
+FIGURE7_TEST(it_keeps_its_volume)
 {
     enum { PHASES = 36 };
-    struct scene scene = open_scene("assets/scenes/figure7.json");
-    const struct character *c = &scene.figure->character;
+    const struct character *c = &scene->figure->character;
     assert_int_equal(c->coordinate_count, 6);
     for (int k = 0; k < c->coordinate_count; k++) {
         const struct coordinate *n = &c->coordinates[k];
@@ -154,5 +149,4 @@ TEST(it_keeps_its_volume)
         }
         if (least < -0.05 || most > 0.05) fail_msg("%s: %.3f … %.3f of the volume", n->name, least, most);
     }
-    close_scene(&scene);
 }

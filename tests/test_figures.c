@@ -1,5 +1,5 @@
 /// The paper's figures as scenes: each shows what the paper says it shows.
-#include "near.h"
+#include "documents.h"
 
 #include "rig/posing.h"
 #include "scene/load.h"
@@ -10,9 +10,7 @@ static struct evaluation evaluation;
 
 static void open_figure(const char *path)
 {
-    struct error error = {0};
-    document = scene_load(path, NULL, &error);
-    if (!document) fail_msg("%s", error.text);
+    document = document_of_file(path);
     evaluation_update(&evaluation, document, false);
     for (int i = 0; i < evaluation.count; i++) assert_int_equal(evaluation.status[i], WIGGLY_OK);
 }

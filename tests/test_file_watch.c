@@ -69,165 +69,139 @@ static void open_changed(struct blind *blind)
     assert_true(holds(scene(), "theirs"));
 }
 
-TEST(keep_mine_writes_it)
+#define CHANGED_TEST(name) TEST_OF(struct blind, blind, open_changed(blind), blind_close(blind), name)
+
+CHANGED_TEST(keep_mine_writes_it)
 {
-    struct blind blind;
-    open_changed(&blind);
-    press(&blind, 'K', 0);
-    assert_int_equal(asked(&blind), DIALOG_NONE);
+    press(blind, 'K', 0);
+    assert_int_equal(asked(blind), DIALOG_NONE);
     assert_true(holds(scene(), "mine"));
-    assert_true(history_is_saved(blind.app.table.history));
-    press(&blind, 'I', MOD_SHIFT);
-    press(&blind, 'S', MOD_CTRL); // mine again: nothing to ask
-    assert_int_equal(asked(&blind), DIALOG_NONE);
-    blind_close(&blind);
+    assert_true(history_is_saved(blind->app.table.history));
+    press(blind, 'I', MOD_SHIFT);
+    press(blind, 'S', MOD_CTRL); // mine again: nothing to ask
+    assert_int_equal(asked(blind), DIALOG_NONE);
 }
 
-TEST(take_theirs_can_be_undone)
+CHANGED_TEST(take_theirs_can_be_undone)
 {
-    struct blind blind;
-    open_changed(&blind);
-    press(&blind, 'T', 0);
-    assert_int_equal(asked(&blind), DIALOG_NONE);
-    assert_string_equal(blind.app.table.document->splines[0]->name, "theirs");
-    assert_string_equal(app_path(&blind.app), scene());
-    assert_true(history_is_saved(blind.app.table.history));
-    press(&blind, 'Z', MOD_CTRL);
-    assert_string_equal(blind.app.table.document->splines[0]->name, "mine");
-    assert_int_equal(blind.app.table.document->splines[0]->knot_count, 1);
-    assert_false(history_is_saved(blind.app.table.history));
-    blind_close(&blind);
+    press(blind, 'T', 0);
+    assert_int_equal(asked(blind), DIALOG_NONE);
+    assert_string_equal(blind->app.table.document->splines[0]->name, "theirs");
+    assert_string_equal(app_path(&blind->app), scene());
+    assert_true(history_is_saved(blind->app.table.history));
+    press(blind, 'Z', MOD_CTRL);
+    assert_string_equal(blind->app.table.document->splines[0]->name, "mine");
+    assert_int_equal(blind->app.table.document->splines[0]->knot_count, 1);
+    assert_false(history_is_saved(blind->app.table.history));
 }
 
 /// Theirs is no scene any more: the sentence says so, and mine stays on the table.
-TEST(broken_theirs_is_not_taken)
+CHANGED_TEST(broken_theirs_is_not_taken)
 {
-    struct blind blind;
-    open_changed(&blind);
     write_scene("{");
-    press(&blind, 'T', 0);
-    assert_int_equal(asked(&blind), DIALOG_CHANGED);
-    assert_non_null(strstr(blind.app.table.editor->dialogs->dialog.error, "walk.json:1"));
-    assert_string_equal(blind.app.table.document->splines[0]->name, "mine");
-    press(&blind, KEY_ESCAPE, 0);
-    assert_int_equal(asked(&blind), DIALOG_NONE);
-    blind_close(&blind);
+    press(blind, 'T', 0);
+    assert_int_equal(asked(blind), DIALOG_CHANGED);
+    assert_non_null(strstr(blind->app.table.editor->dialogs->dialog.error, "walk.json:1"));
+    assert_string_equal(blind->app.table.document->splines[0]->name, "mine");
+    press(blind, KEY_ESCAPE, 0);
+    assert_int_equal(asked(blind), DIALOG_NONE);
 }
 
-TEST(save_as_keeps_both)
+CHANGED_TEST(save_as_keeps_both)
 {
-    struct blind blind;
-    open_changed(&blind);
-    press(&blind, KEY_ENTER, 0); // the one that loses nothing
-    assert_int_equal(asked(&blind), DIALOG_SAVE_AS);
-    ui_text_set(&blind.app.table.editor->dialogs->dialog.ui.text, folder_path("other.json"));
-    press(&blind, KEY_ENTER, 0);
-    assert_int_equal(asked(&blind), DIALOG_NONE);
+    press(blind, KEY_ENTER, 0); // the one that loses nothing
+    assert_int_equal(asked(blind), DIALOG_SAVE_AS);
+    ui_text_set(&blind->app.table.editor->dialogs->dialog.ui.text, folder_path("other.json"));
+    press(blind, KEY_ENTER, 0);
+    assert_int_equal(asked(blind), DIALOG_NONE);
     assert_true(holds(scene(), "theirs"));
     assert_true(holds(folder_path("other.json"), "mine"));
-    blind_close(&blind);
 }
+
+#define MINE_TEST(name) TEST_OF(struct blind, blind, open_mine(blind), blind_close(blind), name)
 
 /// "Save as" under the same name is a save, too.
-TEST(save_as_over_theirs_asks)
+MINE_TEST(save_as_over_theirs_asks)
 {
-    struct blind blind;
-    open_mine(&blind);
     write_scene(theirs);
-    press(&blind, 'S', MOD_CTRL | MOD_SHIFT);
-    press(&blind, KEY_ENTER, 0);
-    assert_int_equal(asked(&blind), DIALOG_CHANGED);
+    press(blind, 'S', MOD_CTRL | MOD_SHIFT);
+    press(blind, KEY_ENTER, 0);
+    assert_int_equal(asked(blind), DIALOG_CHANGED);
     assert_true(holds(scene(), "theirs"));
-    blind_close(&blind);
 }
 
-TEST(cancel_writes_nothing)
+CHANGED_TEST(cancel_writes_nothing)
 {
-    struct blind blind;
-    open_changed(&blind);
-    press(&blind, KEY_ESCAPE, 0);
-    assert_int_equal(asked(&blind), DIALOG_NONE);
+    press(blind, KEY_ESCAPE, 0);
+    assert_int_equal(asked(blind), DIALOG_NONE);
     assert_true(holds(scene(), "theirs"));
-    assert_false(history_is_saved(blind.app.table.history));
-    press(&blind, 'S', MOD_CTRL);
-    assert_int_equal(asked(&blind), DIALOG_CHANGED); // asked again
-    blind_close(&blind);
+    assert_false(history_is_saved(blind->app.table.history));
+    press(blind, 'S', MOD_CTRL);
+    assert_int_equal(asked(blind), DIALOG_CHANGED); // asked again
 }
 
 /// Saving on the way out asks as well, and the way out goes on afterwards.
-TEST(quitting_asks_as_well)
+MINE_TEST(quitting_asks_as_well)
 {
-    struct blind blind;
-    open_mine(&blind);
     write_scene(theirs);
-    press(&blind, 'Q', MOD_CTRL);
-    press(&blind, 'S', 0);
-    assert_int_equal(asked(&blind), DIALOG_CHANGED);
-    blind_send(&blind, (struct event){.kind = EVENT_KEY, .key = 'K', .action = ACTION_PRESS});
-    app_frame(&blind.app);
-    app_frame(&blind.app);
-    assert_true(blind.app.quit);
+    press(blind, 'Q', MOD_CTRL);
+    press(blind, 'S', 0);
+    assert_int_equal(asked(blind), DIALOG_CHANGED);
+    blind_send(blind, (struct event){.kind = EVENT_KEY, .key = 'K', .action = ACTION_PRESS});
+    app_frame(&blind->app);
+    app_frame(&blind->app);
+    assert_true(blind->app.quit);
     assert_true(holds(scene(), "mine"));
-    blind_close(&blind);
 }
 
-TEST(focus_asks_once_a_change)
+MINE_TEST(focus_asks_once_a_change)
 {
-    struct blind blind;
-    open_mine(&blind);
-    focus(&blind);
-    assert_int_equal(asked(&blind), DIALOG_NONE);
+    focus(blind);
+    assert_int_equal(asked(blind), DIALOG_NONE);
     write_scene(theirs);
-    focus(&blind);
-    assert_int_equal(asked(&blind), DIALOG_CHANGED);
-    press(&blind, KEY_ESCAPE, 0);
-    focus(&blind);
-    assert_int_equal(asked(&blind), DIALOG_NONE);
+    focus(blind);
+    assert_int_equal(asked(blind), DIALOG_CHANGED);
+    press(blind, KEY_ESCAPE, 0);
+    focus(blind);
+    assert_int_equal(asked(blind), DIALOG_NONE);
     write_scene("{\"wiggly\": 1, \"splines\": [{\"name\": \"once more\", \"knots\": []}]}");
-    focus(&blind);
-    assert_int_equal(asked(&blind), DIALOG_CHANGED);
-    press(&blind, 'K', 0);
+    focus(blind);
+    assert_int_equal(asked(blind), DIALOG_CHANGED);
+    press(blind, 'K', 0);
     assert_true(holds(scene(), "once more")); // not before the next save
-    press(&blind, 'S', MOD_CTRL);
-    assert_int_equal(asked(&blind), DIALOG_NONE);
+    press(blind, 'S', MOD_CTRL);
+    assert_int_equal(asked(blind), DIALOG_NONE);
     assert_true(holds(scene(), "mine"));
-    blind_close(&blind);
 }
 
 /// Touched, written over with the same content, or copied onto itself: that is no other file.
-TEST(the_same_content_is_no_change)
+MINE_TEST(the_same_content_is_no_change)
 {
-    struct blind blind;
-    open_mine(&blind);
-    press(&blind, 'S', MOD_CTRL);
-    press(&blind, 'I', MOD_SHIFT);
+    press(blind, 'S', MOD_CTRL);
+    press(blind, 'I', MOD_SHIFT);
     char command[400];
     snprintf(command, sizeof command, "cp %s %s.copy && mv %s.copy %s && touch -d 2001-01-01 %s", scene(), scene(),
              scene(), scene(), scene());
     assert_int_equal(system(command), 0);
-    focus(&blind);
-    assert_int_equal(asked(&blind), DIALOG_NONE);
+    focus(blind);
+    assert_int_equal(asked(blind), DIALOG_NONE);
     assert_int_equal(unlink(scene()), 0); // nor is one that is gone: saving loses nobody's work
-    focus(&blind);
-    press(&blind, 'S', MOD_CTRL);
-    assert_int_equal(asked(&blind), DIALOG_NONE);
+    focus(blind);
+    press(blind, 'S', MOD_CTRL);
+    assert_int_equal(asked(blind), DIALOG_NONE);
     assert_true(holds(scene(), "mine"));
-    blind_close(&blind);
 }
 
 /// The same size, and the same time to the second: what is in it tells.
-TEST(the_content_counts)
+MINE_TEST(the_content_counts)
 {
-    struct blind blind;
-    open_mine(&blind);
     struct stat about;
     assert_int_equal(stat(scene(), &about), 0);
     write_scene("{\"wiggly\": 1, \"frames\": [0, 48], \"splines\": [{\"name\": \"MINE\", \"knots\": []}]}");
     assert_int_equal(utimensat(AT_FDCWD, scene(), (struct timespec[]){about.st_mtim, {about.st_mtim.tv_sec, 1}}, 0),
                      0);
-    press(&blind, 'S', MOD_CTRL);
-    assert_int_equal(asked(&blind), DIALOG_CHANGED);
-    blind_close(&blind);
+    press(blind, 'S', MOD_CTRL);
+    assert_int_equal(asked(blind), DIALOG_CHANGED);
 }
 
 TEST(the_mouse_answers)

@@ -76,9 +76,8 @@ TEST(test_figures_play_below_their_captions)
         char path[64];
         size_t size;
         char *text;
-        struct error error = {0};
         snprintf(path, sizeof path, "assets/scenes/figure%d.json", figure);
-        if (!file_read(path, 1 << 20, &text, &size, &error)) fail_msg("%s", error.text);
+        assert_done(file_read(path, 1 << 20, &text, &size, &error));
         struct session s;
         session_open(&s, text);
         editor_open(s.editor, &s.world);
@@ -96,18 +95,18 @@ TEST(test_figures_play_below_their_captions)
 }
 
 /// Two tails have their names at their feet, each behind a dot in the colour of its curve.
-TEST(test_two_tails_are_told_apart)
-{
-    struct session s;
+SESSION_TEST(
+    test_two_tails_are_told_apart,
     session_open(
-        &s,
+        s,
         "{\"frames\": [0, 24], \"splines\": [{\"name\": \"a\", \"color\": \"#ff8000\"}, {\"name\": \"b\", \"color\": "
         "\"#0080ff\"}], "
         "\"rigs\": [{\"type\": \"tail\", \"name\": \"old\", \"channels\": [{\"spline\": \"a\"}]}, "
-        "{\"type\": \"tail\", \"name\": \"new\", \"position\": [2, 0, 0], \"channels\": [{\"spline\": \"b\"}]}]}");
-    session_frame(&s);
-    const struct rect stage = s.editor->core.layout.stage;
-    const struct drawlist *list = &s.editor->core.list;
+        "{\"type\": \"tail\", \"name\": \"new\", \"position\": [2, 0, 0], \"channels\": [{\"spline\": \"b\"}]}]}"))
+{
+    session_frame(s);
+    const struct rect stage = s->editor->core.layout.stage;
+    const struct drawlist *list = &s->editor->core.list;
     float x[2] = {0};
     for (int i = 1; i < list->count; i++) {
         const struct draw_command *command = &list->commands[i];
@@ -115,9 +114,8 @@ TEST(test_two_tails_are_told_apart)
         for (int t = 0; t < 2; t++) {
             if (strcmp(list->text + command->first, t ? "new" : "old") != 0) continue;
             x[t] = command->x;
-            assert_int_equal(list->commands[i - 1].color, spline_list_color(s.document, t));
+            assert_int_equal(list->commands[i - 1].color, spline_list_color(s->document, t));
         }
     }
     assert_true(x[0] > 0 && x[1] > 0 && fabsf(x[0] - x[1]) > 100);
-    session_close(&s);
 }

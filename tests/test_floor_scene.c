@@ -1,5 +1,5 @@
 /// A character's floor: no vertex below it at any sample, knots and pins met as ever, whatever was edited before.
-#include "near.h"
+#include "documents.h"
 
 #include "base/file.h"
 #include "model/figure.h"
@@ -29,8 +29,7 @@ static bool read_scene(struct opened *opened, const char *start, const char *kno
 static struct opened open_scene(const char *start, const char *knots, const char *more)
 {
     struct opened opened;
-    struct error error = {0};
-    if (!read_scene(&opened, start, knots, "", more, &error)) fail_msg("%s", error.text);
+    assert_done(read_scene(&opened, start, knots, "", more, &error));
     opened_solve(&opened, SOLVER_BY_LENGTH);
     return opened;
 }
@@ -81,21 +80,20 @@ TEST(nothing_is_below_the_floor)
 }
 
 /// Solved again after a knot was elsewhere meanwhile.
-TEST(the_same_document_gives_the_same_bits)
+TEST_OF(struct opened, opened, *opened = open_scene("free", "{ \"frame\": 20, \"value\": 5 }", ", \"floor\": 0"),
+        opened_free(opened), the_same_document_gives_the_same_bits)
 {
-    struct opened opened = open_scene("free", "{ \"frame\": 20, \"value\": 5 }", ", \"floor\": 0");
-    struct evaluation *evaluation = &opened.evaluation;
+    struct evaluation *evaluation = &opened->evaluation;
     const size_t size = (size_t)evaluation->samples * sizeof(double);
     double *was = malloc(size);
     assert_non_null(was);
     memcpy(was, evaluation->curves[0].im, size);
     for (double value = 5.5; value >= 5; value -= 0.25) {
-        document_own_spline(opened.document, 0)->knots[0].value = value;
-        evaluation_update(evaluation, opened.document, false);
+        document_own_spline(opened->document, 0)->knots[0].value = value;
+        evaluation_update(evaluation, opened->document, false);
     }
     assert_memory_equal(was, evaluation->curves[0].im, size);
     free(was);
-    opened_free(&opened);
 }
 
 /// A floor that nothing touches changes no bit, and it is said where knots hold the character below.
@@ -110,25 +108,22 @@ TEST(an_untouched_floor_is_none_and_a_missed_one_is_told)
     opened_free(&floored);
 }
 
-TEST(a_floor_above_the_feet_is_refused)
+TEST_OF(struct opened, opened, *opened = open_scene("free", "", ", \"floor\": -1"), opened_free(opened),
+        a_floor_above_the_feet_is_refused)
 {
-    struct opened opened = open_scene("free", "", ", \"floor\": -1");
-    struct history *history = history_create(opened.document);
-    struct error error = {0};
-    struct rig changed = *opened.document->rigs[0];
+    struct history *history = history_create(opened->document);
+    struct rig changed = *opened->document->rigs[0];
     changed.character.floor = 0.5;
     history_begin(history, "Floor", 0);
-    assert_false(edit_rig_set(opened.document, 0, &changed, &error));
-    assert_non_null(strstr(error.text, "floor: expected a height of at most 0"));
-    assert_true(opened.document->rigs[0]->character.floor == -1);
+    assert_refusal(edit_rig_set(opened->document, 0, &changed, &error), "floor: expected a height of at most 0");
+    assert_true(opened->document->rigs[0]->character.floor == -1);
     changed.character.floor = -0.25;
-    assert_true(edit_rig_set(opened.document, 0, &changed, &error));
+    assert_done(edit_rig_set(opened->document, 0, &changed, &error));
     history_end(history);
-    assert_true(opened.document->rigs[0]->character.floor == -0.25);
+    assert_true(opened->document->rigs[0]->character.floor == -0.25);
     assert_true(history_undo(history));
-    assert_true(opened.document->rigs[0]->character.floor == -1);
+    assert_true(opened->document->rigs[0]->character.floor == -1);
     history_destroy(history);
-    opened_free(&opened);
 }
 
 /// A vertex low down that both splines move, and where it is at a sample.
@@ -194,10 +189,9 @@ TEST(all_that_a_spline_may_have_at_once)
                                           ", \"variation\": { \"seed\": 7, \"amount\": 0.3 }, "
                                           "\"limits\": [-6, 6]"};
     double seen[3][121];
-    struct error error = {0};
     for (int n = 0; n < 3; n++) {
         struct opened opened;
-        if (!read_scene(&opened, "free", knots, splines[n], pin, &error)) fail_msg("%s", error.text);
+        assert_done(read_scene(&opened, "free", knots, splines[n], pin, &error));
         opened_solve(&opened, SOLVER_BY_LENGTH);
         assert_int_equal(opened.evaluation.samples, 121);
         check_knots(&opened);
@@ -226,18 +220,15 @@ TEST(splines_without_a_swing_are_refused)
     }
 }
 
-TEST(a_floor_is_saved_with_what_is_not_known)
+TEST_OF(struct opened, opened, *opened = open_scene("free", "", ", \"floor\": -0.5, \"carpet\": \"red\""),
+        opened_free(opened), a_floor_is_saved_with_what_is_not_known)
 {
-    struct opened opened = open_scene("free", "", ", \"floor\": -0.5, \"carpet\": \"red\"");
-    size_t size;
-    char *text = scene_print(opened.document, &size);
-    assert_non_null(text);
+    char *text = text_of_document(opened->document);
     assert_non_null(strstr(text, "\"floor\": -0.5"));
     assert_non_null(strstr(text, "\"carpet\": \"red\""));
     free(text);
-    opened.document->rigs[0]->character.has_floor = false;
-    text = scene_print(opened.document, &size);
+    opened->document->rigs[0]->character.has_floor = false;
+    text = text_of_document(opened->document);
     assert_null(strstr(text, "\"floor\""));
     free(text);
-    opened_free(&opened);
 }

@@ -18,8 +18,7 @@ static double floor_of(const struct session *s) { return s->document->rigs[0]->c
 
 static void edge(struct session *s, float xy[2])
 {
-    struct error error;
-    if (!editor_target(s->editor, "floor(c)", &xy[0], &xy[1], &error)) fail_msg("%s", error.text);
+    assert_done(editor_target(s->editor, "floor(c)", &xy[0], &xy[1], &error));
 }
 
 /// The edge stays under the pointer, and all is one step.

@@ -5,11 +5,8 @@ enum { JOINTS = 24, FRAMES = 96, X = 12, Y = 13 };
 
 static void open_scene(struct session *s)
 {
-    struct error error = {0};
-    size_t size;
-    struct document *document = scene_load("assets/scenes/follow.json", NULL, &error);
-    if (!document) fail_msg("%s", error.text);
-    char *text = scene_print(document, &size);
+    struct document *document = document_of_file("assets/scenes/follow.json");
+    char *text = text_of_document(document);
     session_open(s, text);
     free(text);
     document_destroy(document);
@@ -59,29 +56,26 @@ SESSION_TEST(test_hops_over_the_ground, open_scene(s))
 }
 
 /// Playing, stepping and jumping show the same pose at the same time, to the last bit; the last frame is the first again.
-TEST(test_playing_is_scrubbing)
+SESSION_TEST(test_playing_is_scrubbing, open_scene(s))
 {
     static struct pose played[4 * FRAMES];
-    struct session s;
-    open_scene(&s);
-    session_hold(&s, KEY_SPACE, ACTION_PRESS);
-    session_hold(&s, KEY_SPACE, ACTION_RELEASE);
+    session_hold(s, KEY_SPACE, ACTION_PRESS);
+    session_hold(s, KEY_SPACE, ACTION_RELEASE);
     double at[4 * FRAMES];
     int count = 0;
     while (count < 4 * FRAMES / 2) {
-        session_frame(&s);
-        at[count] = s.editor->core.playback.position;
-        played[count++] = *pose_of(&s);
+        session_frame(s);
+        at[count] = s->editor->core.playback.position;
+        played[count++] = *pose_of(s);
     }
-    session_key(&s, KEY_SPACE, 0);
+    session_key(s, KEY_SPACE, 0);
     for (int i = count - 1; i >= 0; i -= 7) {
-        s.editor->core.playback.position = at[i];
-        session_frame(&s);
-        assert_memory_equal(pose_of(&s)->matrix, played[i].matrix, (JOINTS + 1) * sizeof played[i].matrix[0]);
+        s->editor->core.playback.position = at[i];
+        session_frame(s);
+        assert_memory_equal(pose_of(s)->matrix, played[i].matrix, (JOINTS + 1) * sizeof played[i].matrix[0]);
     }
-    session_key(&s, KEY_LEFT, MOD_SHIFT);
-    struct pose first = *pose_of(&s);
-    session_key(&s, KEY_RIGHT, MOD_SHIFT);
-    assert_memory_equal(pose_of(&s)->matrix, first.matrix, (JOINTS + 1) * sizeof first.matrix[0]);
-    session_close(&s);
+    session_key(s, KEY_LEFT, MOD_SHIFT);
+    struct pose first = *pose_of(s);
+    session_key(s, KEY_RIGHT, MOD_SHIFT);
+    assert_memory_equal(pose_of(s)->matrix, first.matrix, (JOINTS + 1) * sizeof first.matrix[0]);
 }

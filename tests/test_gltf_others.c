@@ -61,8 +61,7 @@ static int vertices_of(const char *path, double time, int node, float (*vertices
 {
     struct gltf gltf;
     struct gltf_pose pose;
-    struct error error;
-    if (!gltf_read(path, &gltf, &error)) fail_msg("%s", error.text);
+    assert_done(gltf_read(path, &gltf, &error));
     assert_true(gltf_pose_create(&gltf, &pose));
     gltf_pose_clip(&gltf, gltf.clip_count - 1, time, &pose);
     gltf_pose_world(&gltf, &pose);

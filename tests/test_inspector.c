@@ -156,26 +156,23 @@ SESSION_TEST(test_one_knot_has_one_frame, panel_open(s, scene, 1280, 1400))
 }
 
 /// Nothing is selected: the section says what knots there are and works without pointing at one; what is below stays where it is.
-TEST(test_the_knot_section_without_a_knot)
+SESSION_TEST(test_the_knot_section_without_a_knot, panel_open(s, scene, 1280, 1400))
 {
-    struct session f;
     float x, y[2];
-    panel_open(&f, scene, 1280, 1400);
-    assert_true(inspector_target(f.editor->inspector, "section.splines", &x, &y[0]));
-    f.editor->core.playback.position = 20;
-    panel_click(&f, "knot.insert");
-    assert_int_equal(f.document->splines[0]->knot_count, 4);
-    assert_near(f.document->splines[0]->knots[1].frame, 20, 0);
-    assert_true(inspector_target(f.editor->inspector, "section.splines", &x, &y[1]));
+    assert_true(inspector_target(s->editor->inspector, "section.splines", &x, &y[0]));
+    s->editor->core.playback.position = 20;
+    panel_click(s, "knot.insert");
+    assert_int_equal(s->document->splines[0]->knot_count, 4);
+    assert_near(s->document->splines[0]->knots[1].frame, 20, 0);
+    assert_true(inspector_target(s->editor->inspector, "section.splines", &x, &y[1]));
     assert_near(y[1], y[0], 0);
-    assert_false(panel_shows(&f, "knot.insert"));
-    session_key(&f, KEY_ESCAPE, 0);
-    panel_click(&f, "knot.next");
-    assert_near(f.editor->core.playback.position, 36, 0);
-    session_key(&f, KEY_ESCAPE, 0);
-    panel_click(&f, "knot.all");
-    assert_true(panel_shows(&f, "slope.flat"));
-    session_close(&f);
+    assert_false(panel_shows(s, "knot.insert"));
+    session_key(s, KEY_ESCAPE, 0);
+    panel_click(s, "knot.next");
+    assert_near(s->editor->core.playback.position, 36, 0);
+    session_key(s, KEY_ESCAPE, 0);
+    panel_click(s, "knot.all");
+    assert_true(panel_shows(s, "slope.flat"));
 }
 
 /// Several knots at once: typed numbers are set, drags and frames move, and what is not possible changes nothing.
@@ -295,32 +292,31 @@ TEST(test_the_solver_is_said)
     }
 }
 
-TEST(test_says_what_the_solver_and_the_poles_mean)
-{
-    struct session f;
+SESSION_TEST(
+    test_says_what_the_solver_and_the_poles_mean,
     panel_open(
-        &f,
+        s,
         "{\"wiggly\": 1, \"frames\": [0, 96], \"splines\": [{\"name\": \"a\", \"mode\": \"real\", \"frequency\": 1, "
         "\"knots\": [{\"frame\": 0, \"value\": 1}, {\"frame\": 12, \"value\": -1}, {\"frame\": 24, \"value\": "
         "1}]}]}",
-        1280, 720);
+        1280, 720))
+{
     char words[24];
-    assert_int_equal(f.table.evaluation.status[0], WIGGLY_OK);
-    f.table.evaluation.status[0] = WIGGLY_CALMED;
-    snprintf(words, sizeof words, "%s", wiggly_status_text(f.table.evaluation.status[0]));
-    assert_true(shows_text(&f, words));
-    assert_true(shows_text(&f, "Rings forever"));
-    panel_drag(&f, "damping", 0.5);
-    panel_release(&f);
-    session_frame(&f);
-    assert_false(shows_text(&f, words));
-    assert_true(shows_text(&f, "Settles to 5 % 21 frames after the last knot."));
-    panel_drag(&f, "damping", 2);
-    panel_release(&f);
-    assert_true(shows_text(&f, "Settles to 5 % 45 frames after"));
-    panel_enter(&f, "frequency", "20");
-    assert_true(shows_text(&f, "half the sample rate"));
-    session_close(&f);
+    assert_int_equal(s->table.evaluation.status[0], WIGGLY_OK);
+    s->table.evaluation.status[0] = WIGGLY_CALMED;
+    snprintf(words, sizeof words, "%s", wiggly_status_text(s->table.evaluation.status[0]));
+    assert_true(shows_text(s, words));
+    assert_true(shows_text(s, "Rings forever"));
+    panel_drag(s, "damping", 0.5);
+    panel_release(s);
+    session_frame(s);
+    assert_false(shows_text(s, words));
+    assert_true(shows_text(s, "Settles to 5 % 21 frames after the last knot."));
+    panel_drag(s, "damping", 2);
+    panel_release(s);
+    assert_true(shows_text(s, "Settles to 5 % 45 frames after"));
+    panel_enter(s, "frequency", "20");
+    assert_true(shows_text(s, "half the sample rate"));
 }
 
 static void assert_finite_and_loadable(struct session *f)
@@ -332,14 +328,7 @@ static void assert_finite_and_loadable(struct session *f)
                         isfinite(f->table.evaluation.curves[s].im[i]));
         }
     }
-    size_t size;
-    struct error error = {0};
-    char *text = scene_print(f->document, &size);
-    assert_non_null(text);
-    struct document *again = scene_parse("again", text, size, NULL, &error);
-    if (!again) fail_msg("what was saved does not load: %s", error.text);
-    document_destroy(again);
-    free(text);
+    assert_loads_again(f->document);
 }
 
 /// A scene of one spline with `knots` knots, an array of them on every frame.

@@ -73,77 +73,67 @@ static const struct stage_character *on_stage(const struct puppetry *p, int inde
     return &view->characters[index];
 }
 
-TEST(amplitude_and_lag_are_live_and_one_step_each)
+#define PUPPET_TEST(name) TEST_OF(struct puppetry, p, open_puppet(p), close_puppet(p), name)
+
+PUPPET_TEST(amplitude_and_lag_are_live_and_one_step_each)
 {
-    struct puppetry p;
-    open_puppet(&p);
-    const float before = on_stage(&p, 0)->morph.weight[0][0];
-    panel_drag(&p.session, "amplitude", 1.5);
-    assert_true(fabs(document_character(p.session.document, 0)->drives[0].amplitude - 1.5) < 0.05);
-    assert_near((double)on_stage(&p, 0)->morph.weight[0][0],
-                (double)before * document_character(p.session.document, 0)->drives[0].amplitude, 1e-4);
-    panel_release(&p.session);
-    panel_enter(&p.session, "drive.lag", "90");
-    assert_near(document_character(p.session.document, 0)->drives[0].lag, 90, 0);
-    assert_true(history_undo(p.session.history));
-    assert_near(document_character(p.session.document, 0)->drives[0].lag, 0, 0);
-    assert_true(history_undo(p.session.history));
-    assert_near(document_character(p.session.document, 0)->drives[0].amplitude, 1, 0);
-    assert_false(history_undo(p.session.history));
-    close_puppet(&p);
+    const float before = on_stage(p, 0)->morph.weight[0][0];
+    panel_drag(&p->session, "amplitude", 1.5);
+    assert_true(fabs(document_character(p->session.document, 0)->drives[0].amplitude - 1.5) < 0.05);
+    assert_near((double)on_stage(p, 0)->morph.weight[0][0],
+                (double)before * document_character(p->session.document, 0)->drives[0].amplitude, 1e-4);
+    panel_release(&p->session);
+    panel_enter(&p->session, "drive.lag", "90");
+    assert_near(document_character(p->session.document, 0)->drives[0].lag, 90, 0);
+    assert_true(history_undo(p->session.history));
+    assert_near(document_character(p->session.document, 0)->drives[0].lag, 0, 0);
+    assert_true(history_undo(p->session.history));
+    assert_near(document_character(p->session.document, 0)->drives[0].amplitude, 1, 0);
+    assert_false(history_undo(p->session.history));
 }
 
-TEST(coordinates_come_and_go_and_change_their_spline)
+PUPPET_TEST(coordinates_come_and_go_and_change_their_spline)
 {
-    struct puppetry p;
-    open_puppet(&p);
-    panel_click(&p.session, "drive.add.0");
-    panel_click(&p.session, "item.b");
-    assert_int_equal(document_character(p.session.document, 0)->drive_count, 2);
-    assert_string_equal(document_character(p.session.document, 0)->drives[1].name, "b");
-    panel_click(&p.session, "drive.1");
-    panel_click(&p.session, "drive.splines.0");
-    panel_click(&p.session, "item.t");
-    assert_int_equal(document_character(p.session.document, 0)->drives[1].spline, 1);
-    assert_int_equal(document_character(p.session.document, 0)->drives[0].spline, 0);
-    assert_int_equal(on_stage(&p, 0)->morph.count, 2);
-    panel_click(&p.session, "drive.0.remove");
-    assert_int_equal(document_character(p.session.document, 0)->drive_count, 1);
-    assert_string_equal(document_character(p.session.document, 0)->drives[0].name, "b");
-    while (history_undo(p.session.history)) continue;
-    assert_int_equal(document_character(p.session.document, 0)->drive_count, 1);
-    assert_string_equal(document_character(p.session.document, 0)->drives[0].name, "a");
-    close_puppet(&p);
+    panel_click(&p->session, "drive.add.0");
+    panel_click(&p->session, "item.b");
+    assert_int_equal(document_character(p->session.document, 0)->drive_count, 2);
+    assert_string_equal(document_character(p->session.document, 0)->drives[1].name, "b");
+    panel_click(&p->session, "drive.1");
+    panel_click(&p->session, "drive.splines.0");
+    panel_click(&p->session, "item.t");
+    assert_int_equal(document_character(p->session.document, 0)->drives[1].spline, 1);
+    assert_int_equal(document_character(p->session.document, 0)->drives[0].spline, 0);
+    assert_int_equal(on_stage(p, 0)->morph.count, 2);
+    panel_click(&p->session, "drive.0.remove");
+    assert_int_equal(document_character(p->session.document, 0)->drive_count, 1);
+    assert_string_equal(document_character(p->session.document, 0)->drives[0].name, "b");
+    while (history_undo(p->session.history)) continue;
+    assert_int_equal(document_character(p->session.document, 0)->drive_count, 1);
+    assert_string_equal(document_character(p->session.document, 0)->drives[0].name, "a");
 }
 
-TEST(phases_and_twin_are_views)
+PUPPET_TEST(phases_and_twin_are_views)
 {
-    struct puppetry p;
-    open_puppet(&p);
-    assert_int_equal(on_stage(&p, 0)->map_coordinate, -1);
-    panel_click(&p.session, "phases.z");
-    session_frame(&p.session);
-    assert_int_equal(on_stage(&p, 0)->map_coordinate, 0);
-    assert_int_equal(on_stage(&p, 0)->map_axis, 2);
-    panel_click(&p.session, "twin.on");
-    session_frame(&p.session);
-    assert_int_equal(editor_stage(p.session.editor)->character_count, 2);
-    assert_true(on_stage(&p, 0)->coarse && on_stage(&p, 1)->coarse);
-    assert_true(on_stage(&p, 1)->position[0] - on_stage(&p, 0)->position[0] > 1.0f);
-    assert_near((double)on_stage(&p, 1)->morph.weight[0][1], 0, 0);
-    assert_true(history_is_saved(p.session.history) || history_undo_label(p.session.history) == NULL);
-    close_puppet(&p);
+    assert_int_equal(on_stage(p, 0)->map_coordinate, -1);
+    panel_click(&p->session, "phases.z");
+    session_frame(&p->session);
+    assert_int_equal(on_stage(p, 0)->map_coordinate, 0);
+    assert_int_equal(on_stage(p, 0)->map_axis, 2);
+    panel_click(&p->session, "twin.on");
+    session_frame(&p->session);
+    assert_int_equal(editor_stage(p->session.editor)->character_count, 2);
+    assert_true(on_stage(p, 0)->coarse && on_stage(p, 1)->coarse);
+    assert_true(on_stage(p, 1)->position[0] - on_stage(p, 0)->position[0] > 1.0f);
+    assert_near((double)on_stage(p, 1)->morph.weight[0][1], 0, 0);
+    assert_true(history_is_saved(p->session.history) || history_undo_label(p->session.history) == NULL);
 }
 
-TEST(the_look_is_stiff_for_characters_too)
+PUPPET_TEST(the_look_is_stiff_for_characters_too)
 {
-    struct puppetry p;
-    open_puppet(&p);
-    session_key(&p.session, KEY_RIGHT, 0);
-    assert_true(fabsf(on_stage(&p, 0)->morph.weight[0][1]) > 1e-3f);
-    session_key(&p.session, 'V', 0);
-    assert_near((double)on_stage(&p, 0)->morph.weight[0][1], 0, 0);
-    close_puppet(&p);
+    session_key(&p->session, KEY_RIGHT, 0);
+    assert_true(fabsf(on_stage(p, 0)->morph.weight[0][1]) > 1e-3f);
+    session_key(&p->session, 'V', 0);
+    assert_near((double)on_stage(p, 0)->morph.weight[0][1], 0, 0);
 }
 
 int main(void) { return tests_run(make_model, remove_model); }

@@ -80,36 +80,33 @@ SESSION_TEST(test_an_empty_list, panel_open(s, scene, 960, 600))
     assert_string_equal(active_name(s), "spline");
 }
 
-TEST(test_renaming)
+SESSION_TEST(test_renaming, panel_open(s, scene, 1280, 720))
 {
-    struct session f;
-    panel_open(&f, scene, 1280, 720);
-    const char *before = session_saved(&f);
-    panel_press(&f, "spline.sway", 2);
-    panel_release(&f);
-    panel_type(&f, "swing");
-    session_key(&f, KEY_ENTER, 0);
-    assert_string_equal(f.document->splines[0]->name, "swing");
-    assert_one_step(&f, before);
-    panel_click(&f, "section.splines"); // F2 opens the list again
-    session_key(&f, KEY_F2, 0);
-    panel_type(&f, "pace");
-    session_key(&f, KEY_ENTER, 0);
-    assert_string_equal(f.document->splines[0]->name, "swing");
-    assert_non_null(strstr(f.editor->core.message.text, "a spline called pace already exists"));
-    session_key(&f, KEY_F2, 0);
-    session_key(&f, KEY_END, 0); // the name that is there is what is edited
-    panel_type(&f, "s");
-    session_key(&f, KEY_ENTER, 0);
-    assert_string_equal(f.document->splines[0]->name, "swings");
-    session_key(&f, 'Z', MOD_CTRL);
-    session_key(&f, KEY_F2, 0);
-    session_key(&f, KEY_DELETE, 0); // all is selected
-    session_key(&f, KEY_ENTER, 0);
-    assert_string_equal(f.document->splines[0]->name, "swing");
-    assert_non_null(strstr(f.editor->core.message.text, "a spline needs a name"));
-    assert_int_equal(f.document->splines[0]->knot_count, 3);
-    session_close(&f);
+    const char *before = session_saved(s);
+    panel_press(s, "spline.sway", 2);
+    panel_release(s);
+    panel_type(s, "swing");
+    session_key(s, KEY_ENTER, 0);
+    assert_string_equal(s->document->splines[0]->name, "swing");
+    assert_one_step(s, before);
+    panel_click(s, "section.splines"); // F2 opens the list again
+    session_key(s, KEY_F2, 0);
+    panel_type(s, "pace");
+    session_key(s, KEY_ENTER, 0);
+    assert_string_equal(s->document->splines[0]->name, "swing");
+    assert_non_null(strstr(s->editor->core.message.text, "a spline called pace already exists"));
+    session_key(s, KEY_F2, 0);
+    session_key(s, KEY_END, 0); // the name that is there is what is edited
+    panel_type(s, "s");
+    session_key(s, KEY_ENTER, 0);
+    assert_string_equal(s->document->splines[0]->name, "swings");
+    session_key(s, 'Z', MOD_CTRL);
+    session_key(s, KEY_F2, 0);
+    session_key(s, KEY_DELETE, 0); // all is selected
+    session_key(s, KEY_ENTER, 0);
+    assert_string_equal(s->document->splines[0]->name, "swing");
+    assert_non_null(strstr(s->editor->core.message.text, "a spline needs a name"));
+    assert_int_equal(s->document->splines[0]->knot_count, 3);
 }
 
 SESSION_TEST(test_rows_are_dragged_to_their_place, panel_open(s, scene, 1280, 720))
@@ -248,8 +245,7 @@ SESSION_TEST(a_range_has_an_end, panel_open(s, scene, 1280, 2000))
     panel_enter(s, "scene.first", "-999999999");
     snprintf(most, sizeof most, "first: expected %d … 1000000000", s->document->last_frame - longest);
     assert_non_null(strstr(s->editor->core.message.text, most));
-    const char *after = session_saved(s);
-    assert_string_equal(after, before);
+    assert_saved(s, before);
     snprintf(most, sizeof most, "%d", longest);
     panel_enter(s, "scene.last", most);
     assert_int_equal(s->document->last_frame, longest);
@@ -298,11 +294,7 @@ TEST(test_random_input_comes_back)
         for (int i = 0; i < 3; i++) session_key(&f, KEY_ESCAPE, 0);
         session_release(&f, BUTTON_LEFT);
         session_key(&f, KEY_ESCAPE, 0);
-        struct error error = {0};
-        const char *last = session_saved(&f);
-        struct document *again = scene_parse("again", last, strlen(last), NULL, &error);
-        if (!again) fail_msg("seed %u: what was saved does not load: %s", seed, error.text);
-        document_destroy(again);
+        assert_loads_again(f.document);
         assert_false(history_is_open(f.history));
         while (history_undo(f.history)) steps++;
         assert_saved(&f, first);

@@ -61,19 +61,16 @@ SESSION_TEST(test_the_camera_turns_and_comes_back, session_open(s, scene))
     assert_memory_equal(&before, &s->editor->stage->camera, sizeof before);
 }
 
-TEST(test_panels_have_sizes_to_choose_from)
+SESSION_TEST(test_panels_have_sizes_to_choose_from, session_open(s, scene))
 {
-    struct session s;
-    session_open(&s, scene);
-    const struct layout *layout = &s.editor->core.layout, first = *layout;
-    session_key(&s, KEY_F6, 0);
-    session_key(&s, KEY_F6, MOD_SHIFT);
+    const struct layout *layout = &s->editor->core.layout, first = *layout;
+    session_key(s, KEY_F6, 0);
+    session_key(s, KEY_F6, MOD_SHIFT);
     assert_true(layout->stage_share > first.stage_share && layout->inspector_width > first.inspector_width);
-    session_key(&s, KEY_F6, 0);
-    session_key(&s, KEY_F6, MOD_SHIFT);
+    session_key(s, KEY_F6, 0);
+    session_key(s, KEY_F6, MOD_SHIFT);
     assert_true(layout->stage_share < first.stage_share);
     assert_true(layout->inspector_width < 480 && layout->inspector_width > first.inspector_width);
-    session_close(&s);
 }
 
 SESSION_TEST(test_a_warning_is_done_away_with, session_open(s, jump))

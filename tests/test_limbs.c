@@ -10,8 +10,7 @@ static struct opened scene;
 
 static void open_scene(const char *path)
 {
-    struct error error = {0};
-    if (!opened_read(&scene, path, &error)) fail_msg("%s", error.text);
+    assert_done(opened_read(&scene, path, &error));
     opened_solve(&scene, SOLVER_BY_LENGTH);
 }
 

@@ -22,8 +22,7 @@ static const char scene_text[] =
 
 static void write_text(const char *name, const char *text)
 {
-    struct error error;
-    assert_true(file_write_atomic(folder_path(name), text, strlen(text), &error));
+    assert_done(file_write_atomic(folder_path(name), text, strlen(text), &error));
 }
 
 /// The mesh as a file and as analyze makes a character of it.
@@ -32,22 +31,21 @@ static int make_cube(void **state)
     unsigned char pixels[16][16][4];
     struct surface surface;
     struct character character;
-    struct error error = {0};
     if (folder_make(state) != 0) return -1;
     for (int i = 0; i < 16 * 16; i++) {
         const unsigned char red[4] = {255, 0, 0, 255}, blue[4] = {0, 0, 255, 255};
         memcpy(pixels[i / 16][i % 16], i % 16 < 8 ? red : blue, 4);
     }
-    assert_true(png_write(folder_path("two.png"), 16, 16, pixels[0][0], &error));
+    assert_done(png_write(folder_path("two.png"), 16, 16, pixels[0][0], &error));
     write_text("cube.mtl", material_text);
     write_text("cube.obj", cube_text);
     write_text("scene.json", scene_text);
-    if (!surface_read(folder_path("cube.obj"), &surface, &error)) fail_msg("%s", error.text);
+    assert_done(surface_read(folder_path("cube.obj"), &surface, &error));
     assert_true(character_create(&character, &surface, 1));
     character.coordinates[0].name = strdup("up");
     for (int i = 0; i < character.vertex_count; i++)
         character.coordinates[0].re[i][1] = 0.2f * character.position[i][1];
-    assert_true(character_write(folder_path("cube.glb"), &character, true, &error));
+    assert_done(character_write(folder_path("cube.glb"), &character, true, &error));
     character_free(&character);
     return 0;
 }
@@ -55,8 +53,7 @@ static int make_cube(void **state)
 static struct character read_character(const char *name)
 {
     struct character character;
-    struct error error;
-    if (!character_read(folder_path(name), &character, &error)) fail_msg("%s", error.text);
+    assert_done(character_read(folder_path(name), &character, &error));
     return character;
 }
 
@@ -83,24 +80,20 @@ static void assert_looks(const struct character *c)
     free(png);
 }
 
-TEST(they_are_read_back)
+TEST_OF(struct character, c, *c = read_character("cube.glb"), character_free(c), they_are_read_back)
 {
-    struct character c = read_character("cube.glb");
-    assert_looks(&c);
-    struct error error;
-    assert_true(character_write(folder_path("again.glb"), &c, true, &error));
-    character_free(&c);
-    c = read_character("again.glb");
-    assert_looks(&c);
-    character_free(&c);
+    assert_looks(c);
+    assert_done(character_write(folder_path("again.glb"), c, true, &error));
+    character_free(c);
+    *c = read_character("again.glb");
+    assert_looks(c);
 }
 
 /// A model file can be a mesh again: simulate and analyze take it, with its quads.
 TEST(a_mesh_of_quads_comes_out_of_gltf)
 {
     struct surface surface;
-    struct error error;
-    if (!surface_read(folder_path("cube.glb"), &surface, &error)) fail_msg("%s", error.text);
+    assert_done(surface_read(folder_path("cube.glb"), &surface, &error));
     assert_int_equal(surface.index_count, 36);
     assert_non_null(surface.looks.joined);
     for (int t = 0; t < 12; t++) assert_int_equal(surface.looks.joined[t], t % 2);
@@ -113,10 +106,9 @@ static const char *export_cube(const char *name)
 {
     struct opened scene = open_cube();
     struct export_report report;
-    struct error error = {0};
     const struct export_options usual = {0};
     const char *path = folder_path(name);
-    if (!export_write(posing_of(&scene), path, &usual, &report, &error)) fail_msg("%s", error.text);
+    assert_done(export_write(posing_of(&scene), path, &usual, &report, &error));
     close_scene(&scene);
     return path;
 }
@@ -126,8 +118,7 @@ TEST(they_are_exported_as_gltf)
     const char *const names[] = {"out.glb", "out.gltf"};
     for (int n = 0; n < 2; n++) {
         struct gltf gltf;
-        struct error error;
-        if (!gltf_read(export_cube(names[n]), &gltf, &error)) fail_msg("%s", error.text);
+        assert_done(gltf_read(export_cube(names[n]), &gltf, &error));
         assert_null(gltf.not_shown);
         assert_int_equal(gltf.meshes[0].part_count, 2);
         assert_int_equal(gltf.materials[TEXTURED].image, 0);
@@ -245,8 +236,7 @@ TEST(a_far_picture_is_smooth)
         memset(waves[i / SIDE][i % SIDE], 32 + 6 * abs(i % 64 - 32), 3);
         waves[i / SIDE][i % SIDE][3] = 255;
     }
-    struct error error;
-    assert_true(png_write(folder_path("waves.png"), SIDE, SIDE, waves[0][0], &error));
+    assert_done(png_write(folder_path("waves.png"), SIDE, SIDE, waves[0][0], &error));
     struct character c = read_character("cube.glb");
     struct looks_material *sides = &c.looks.materials[TEXTURED];
     free(sides->image);

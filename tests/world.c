@@ -23,11 +23,19 @@ void world_open_scene(struct world *world, const char *scene)
 
 void world_close(struct world *world)
 {
+    while (world->printed_count > 0) free(world->printed[--world->printed_count]);
+    free(world->printed);
     history_destroy(world->history);
     document_destroy(world->document);
 }
 
-char *world_print(const struct world *world) { return text_of_document(world->document); }
+const char *world_print(struct world *world)
+{
+    const size_t count = (size_t)++world->printed_count;
+    world->printed = realloc(world->printed, count * sizeof *world->printed);
+    assert_non_null(world->printed);
+    return world->printed[count - 1] = text_of_document(world->document);
+}
 
 void assert_document(const struct world *world, const char *expected) { assert_prints(world->document, expected); }
 
@@ -76,7 +84,7 @@ void assert_reversible(struct world *world, bool done)
 {
     char *before = end_step(world, true);
     if (!done) fail_msg("%s", world->error.text);
-    char *after = world_print(world);
+    char *after = text_of_document(world->document);
     assert_string_not_equal(before, after);
     assert_true(history_undo(world->history));
     assert_document(world, before);

@@ -16,6 +16,8 @@ struct world {
     struct error error;      ///< of the last edit that was refused
     struct document *before; ///< the step of world_edit(); NULL: none is open
     const char *label;       ///< of the step before
+    char **printed;          ///< what world_print() has given
+    int printed_count;
 };
 
 void world_open(struct world *world);
@@ -23,8 +25,8 @@ void world_open(struct world *world);
 void world_open_scene(struct world *world, const char *scene);
 void world_close(struct world *world);
 
-/// The document's canonical text; freed by the caller.
-char *world_print(const struct world *world);
+/// The document's canonical text, which lives as long as the world.
+const char *world_print(struct world *world);
 void assert_document(const struct world *world, const char *expected);
 
 /// The document, to be edited in a step, which this opens unless one is open:
