@@ -123,12 +123,6 @@ static void go_on(const chain *c, const chain_node *p, int left, int k, const cp
     weight[3] = n;
 }
 
-int chain_length_after(const chain *c, int j)
-{
-    int ahead = j + 1 < c->node_count ? c->nodes[j + 1].sample : c->count;
-    return ahead - c->nodes[j].sample;
-}
-
 /// x of `count` samples inside a run from its sample `from` on: four columns of the tables, weighted with the state (x, d) and the
 /// costate that it starts from.
 WIDEST static void fill_complex(const chain *c, const cplx weight[4], int from, int count, double *restrict re,
@@ -153,24 +147,6 @@ WIDEST static void fill_real(const chain *c, const cplx weight[4], int from, int
     const double *restrict g0 = c->pulled[0].re + from, *restrict g1 = c->pulled[1].re + from;
     const double a = weight[0].re, b = weight[1].re, d = weight[2].re, e = weight[3].re;
     for (int i = 0; i < count; i++) re[i] = (f0[i] * a + f1[i] * b) + (g0[i] * d + g1[i] * e);
-}
-
-/// x of `count` samples from the state (x, d) on where nothing pulls.
-WIDEST static void fill_free_complex(const chain *c, int count, cplx x, cplx d, double *restrict re,
-                                     double *restrict im)
-{
-    const double *restrict pr = c->powers.p.re, *restrict pi = c->powers.p.im;
-    const double *restrict qr = c->powers.q.re, *restrict qi = c->powers.q.im;
-    for (int i = 0; i < count; i++) {
-        re[i] = (pr[i] * x.re - pi[i] * x.im) + (qr[i] * d.re - qi[i] * d.im);
-        im[i] = (pr[i] * x.im + pi[i] * x.re) + (qr[i] * d.im + qi[i] * d.re);
-    }
-}
-
-WIDEST static void fill_free_real(const chain *c, int count, double x, double d, double *restrict re)
-{
-    const double *restrict p = c->powers.p.re, *restrict q = c->powers.q.re;
-    for (int i = 0; i < count; i++) re[i] = p[i] * x + q[i] * d;
 }
 
 /// Fills samples of a run, whole blocks where there is room up to `end`: what is behind them is filled later.
@@ -228,23 +204,20 @@ static bool fill_stretch(const chain *c, const chain_node *p, const chain_node *
     return tame;
 }
 
-/// x of `count` samples from the last node on, where the arrays begin.
-static bool run_free(const chain *c, const chain_node *last, int count, double *re, double *im)
+/// x from the last node on, where nothing pulls: r = 0.
+static bool run_free(const chain *c, double *re, double *im)
 {
-    cplx x = {last->value, last->x_im}, d = {last->d_re, last->d_im};
-    bool tame = is_tame(x) && is_tame(d);
-    for (int i = 0; i < count; i += CHAIN_RUN) { // nothing pulls: r = 0
-        int run = count - i < CHAIN_RUN ? count - i : CHAIN_RUN;
-        if (c->is_complex) {
-            fill_free_complex(c, run, x, d, re + i, im + i);
-        } else {
-            fill_free_real(c, run, x.re, d.re, re + i);
-        }
-        if (i + run == count) break;
-        cplx p = chain_power(c, &c->powers.p, CHAIN_RUN), q = chain_power(c, &c->powers.q, CHAIN_RUN);
-        cplx next = cplx_add(cplx_mul(p, x), cplx_mul(q, d));
-        d = cplx_add(cplx_mul(cplx_mul(c->delta2, q), x), cplx_mul(p, d));
-        x = next;
+    const chain_node *last = &c->nodes[c->node_count - 1];
+    cplx weight[4] = {{last->value, last->x_im}, {last->d_re, last->d_im}};
+    const bool tame = is_tame(weight[0]) && is_tame(weight[1]);
+    for (int at = last->sample; at < c->count; at += c->run) {
+        const int run = c->count - at < c->run ? c->count - at : c->run;
+        fill_samples(c, weight, 0, run, at, c->count, re, im);
+        if (at + run == c->count) break;
+        cplx p = chain_power(c, &c->powers.p, run), q = chain_power(c, &c->powers.q, run);
+        cplx next = cplx_add(cplx_mul(p, weight[0]), cplx_mul(q, weight[1]));
+        weight[1] = cplx_add(cplx_mul(cplx_mul(c->delta2, q), weight[0]), cplx_mul(p, weight[1]));
+        weight[0] = next;
     }
     return tame;
 }
@@ -346,7 +319,8 @@ static double bound_of_piece(const chain_node *from, const chain_node *to, int l
     return 5 * (fabs(from->value) + fabs(to->value)) + length * (fabs(from->d_re) + fabs(to->d_re));
 }
 
-bool chain_fill(chain *c, double *x_re, double *x_im)
+/// x from the solved nodes, everywhere. false where sums might overflow.
+static bool fill(chain *c, double *x_re, double *x_im)
 {
     const chain_node *last = &c->nodes[c->node_count - 1];
     double *im = c->is_complex ? x_im : NULL;
@@ -354,15 +328,11 @@ bool chain_fill(chain *c, double *x_re, double *x_im)
     c->cubic_bound = fabs(last->value) + (c->count - last->sample) * fabs(last->d_re);
     for (int j = 0; j < chain_stretches(c); j++) {
         const chain_node *p = &c->nodes[j], *q = &c->nodes[chain_next(c, j)];
-        if (!c->is_complex) {
-            double piece = bound_of_piece(p, q, chain_length_after(c, j));
-            c->cubic_bound = piece > c->cubic_bound ? piece : c->cubic_bound;
-        }
+        const double piece = c->is_complex ? 0 : bound_of_piece(p, q, c->stretches[p->stretch].length);
+        c->cubic_bound = piece > c->cubic_bound ? piece : c->cubic_bound;
         tame = fill_stretch(c, p, q, x_re, im) && tame;
     }
-    if (c->cyclic) return tame;
-    im = im ? im + last->sample : NULL;
-    return run_free(c, last, c->count - last->sample, x_re + last->sample, im) && tame;
+    return (c->cyclic || run_free(c, x_re, im)) && tame;
 }
 
 static double largest_value(const chain *c)
@@ -396,5 +366,5 @@ bool chain_solve(chain *c, double *x_re, double *x_im)
     }
     c->size = size;
     c->error = fmax(c->error, chain_error(c, size));
-    return chain_fill(c, x_re, x_im);
+    return fill(c, x_re, x_im);
 }

@@ -119,16 +119,13 @@ typedef struct chain {
     double lost;        ///< entries over pivots of the factor, the largest of its rows
     double error;       ///< estimated error of x
     double size;        ///< of what was solved for
-    double cubic_bound; ///< both poles at 1: what |x| stays below, of the last chain_fill()
+    double cubic_bound; ///< both poles at 1: what |x| stays below
 } chain;
 
 /// Solves for the nodes and writes x of every sample of the system (x_im only in complex mode). Where `kept` is set, only
 /// values have changed since the last solve and its factor is used again. false where the nodes' system has lost so many digits
 /// that its answer is not to be taken, or numbers are so large that sums might overflow.
 bool chain_solve(chain *chain, double *x_re, double *x_im);
-
-/// The last of its steps: x of every sample from the states at the nodes. false where sums might overflow.
-bool chain_fill(chain *chain, double *x_re, double *x_im);
 
 /// Forgets tables and factor: another filter, or their memory was used for something else.
 void chain_forget(chain *chain);
@@ -186,8 +183,6 @@ void chain_pull(const chain *chain, int j, cplx on_x, cplx on_d);
 void chain_hold_known(const chain *chain, int j);
 /// The same of the imaginary rows alone.
 void chain_pull_imaginary(chain *chain);
-/// Samples of the stretch after node j, and the node at its end.
-int chain_length_after(const chain *chain, int j);
 static inline int chain_next(const chain *c, int j) { return j + 1 < c->node_count ? j + 1 : 0; }
 /// How many stretches there are: one less than nodes, in a loop as many.
 static inline int chain_stretches(const chain *c) { return c->cyclic ? c->node_count : c->node_count - 1; }

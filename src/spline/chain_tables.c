@@ -203,13 +203,20 @@ static int find_stretch(chain *c, int length, bool settles)
     return c->stretch_count - 1;
 }
 
+/// Samples of the stretch after node j.
+static int length_after(const chain *c, int j)
+{
+    int ahead = j + 1 < c->node_count ? c->nodes[j + 1].sample : c->count;
+    return ahead - c->nodes[j].sample;
+}
+
 void chain_make_tables(chain *c)
 {
     int after = c->cyclic ? 0 : c->count - 1 - c->nodes[c->node_count - 1].sample;
     extend_powers(c, after < CHAIN_RUN ? after : CHAIN_RUN);
     for (int j = 0; j < chain_stretches(c); j++) {
         bool settles = c->nodes[chain_next(c, j)].fixed & NODE_SETTLED;
-        int stretch = find_stretch(c, chain_length_after(c, j), settles);
+        int stretch = find_stretch(c, length_after(c, j), settles);
         if (stretch < 0) { // full of lengths of earlier solves; those of this one fit, they are no more than nodes
             forget_stretches(c);
             j = -1;

@@ -6,21 +6,21 @@
 
 static const double blow_up = 1e4;
 
-/// Largest less smallest.
-static double range_of(const double *values, int count)
+extent extent_of(const double *values, int count)
 {
-    double low = values[0], high = values[0];
+    extent e = {values[0], values[0]};
     for (int i = 1; i < count; i++) {
-        low = values[i] < low ? values[i] : low;
-        high = values[i] > high ? values[i] : high;
+        e.low = values[i] < e.low ? values[i] : e.low;
+        e.high = values[i] > e.high ? values[i] : e.high;
     }
-    return high - low;
+    return e;
 }
 
 /// Largest of |value − y| over knots, T·|slope| over slopes, and y's range: what max |x| is measured against.
 static double problem_scale(const problem *p)
 {
-    double scale = p->y ? range_of(p->y, p->desc->samples) : 0;
+    const extent y = p->y ? extent_of(p->y, p->desc->samples) : (extent){0, 0};
+    double scale = y.high - y.low;
     double t = (p->start == WIGGLY_LOOP ? p->count : p->count - 1) * p->desc->step;
     for (int k = 0; k < p->desc->knot_count; k++) {
         const wiggly_knot *knot = &p->desc->knots[k];

@@ -235,13 +235,6 @@ static double error_of_circle(const forced_response *u, int period, double step,
                     fabsl(det));
 }
 
-static double range_of(const double *x, int count)
-{
-    double low = x[0], high = x[0];
-    for (int i = 0; i < count; i++) low = x[i] < low ? x[i] : low, high = x[i] > high ? x[i] : high;
-    return high - low;
-}
-
 /// Of y's range: a loop whose error may be more is run in extended precision.
 static const double narrow = 1e-11;
 
@@ -250,7 +243,8 @@ static bool run_loop(const wiggly_desc *desc, const double *y, double floor, for
 {
     const forces f = forces_of(desc, floor);
     const int period = desc->samples - 1;
-    const double range = range_of(y, period);
+    const extent all = extent_of(y, period);
+    const double range = all.high - all.low;
     const double seconds = period * desc->step;
     double end[2];
     long double wide_end[2], state[2] = {0, 0};
@@ -275,9 +269,7 @@ static bool run_loop(const wiggly_desc *desc, const double *y, double floor, for
         for (int i = 0; i <= period; i++) u->total[i] -= (double)(mean / period);
         return true;
     }
-    double largest = 0;
-    for (int i = 0; i < period; i++) largest = fabs(u->total[i]) > largest ? fabs(u->total[i]) : largest;
-    return largest <= blow_up * range;
+    return extent_size(extent_of(u->total, period)) <= blow_up * range;
 }
 
 WIDEST static void imaginary_constant(const double *restrict q, const double *restrict speed, double gain, double d,

@@ -11,8 +11,7 @@
 
 enum { SWEEPS = 2 };
 
-static const double lossy[2] = {
-    1e5, 1e8};                   ///< digits lost by a factor from which on what it solves is refined; in complex mode
+static const double lossy = 1e8; ///< digits lost by a complex factor from which on what it solves is refined
 static const double stiff = 1e6; ///< of the first row, that spring
 
 /// −a and −b of a row.
@@ -165,7 +164,7 @@ static void solve(void *user, double *force)
     for (int i = 0; i < w->search.count; i++) all[from + 2 * i] = force[i];
     pentadiagonal_solve(m, all);
     memcpy(x, all, sizeof *x * (size_t)unknowns);
-    for (int sweep = 0; sweep < SWEEPS && m->lost > lossy[m->is_complex]; sweep++) {
+    for (int sweep = 0; sweep < SWEEPS && m->is_complex && m->lost > lossy; sweep++) {
         find_residual(w, force);
         pentadiagonal_solve(m, all);
         for (int i = 0; i < unknowns; i++) x[i] += all[i];

@@ -2,6 +2,7 @@
 #include "spline/problem.h"
 #include <float.h>
 #include <math.h>
+#include <string.h>
 
 /// Below this many radians of the natural frequency over the domain the imaginary rows hold Im x and may not be left out. Above, what
 /// they change is below 1e-9 of x; twice as high up and more it is about 1e-14. Where next to nothing holds the start it takes more.
@@ -187,16 +188,6 @@ static double cplx_size(cplx z) { return fmax(fabs(z.re), fabs(z.im)); }
 
 static bool same_cplx(cplx a, cplx b) { return a.re == b.re && a.im == b.im; }
 
-static bool same_row(struct start_row a, struct start_row b)
-{
-    return a.weight == b.weight && same_cplx(a.on_x, b.on_x) && same_cplx(a.on_e, b.on_e);
-}
-
-static bool same_start(start_cost a, start_cost b)
-{
-    return same_row(a.row[0], b.row[0]) && same_row(a.row[1], b.row[1]);
-}
-
 /// What the last sample's jet sees of what moves by itself.
 static cplx tail_of(const constant_filter *f, const problem *p)
 {
@@ -244,7 +235,7 @@ static void set_chain(wiggly_solver *solver, const problem *p)
     const constant_filter *f = problem_filter(solver, p);
     if (!same_filter(solver, p)) chain_forget(c);
     start_cost start = start_of(p);
-    if (!same_start(start, c->start) || c->count != problem_rows(p)) c->kept = false;
+    if (memcmp(&start, &c->start, sizeof start) != 0 || c->count != problem_rows(p)) c->kept = false;
     if (c->settles != p->settles || c->cyclic != (p->start == WIGGLY_LOOP) || c->oscillates != problem_oscillates(p))
         c->kept = false;
     c->is_complex = p->desc->mode == WIGGLY_COMPLEX;

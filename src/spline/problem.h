@@ -4,6 +4,7 @@
 
 #include "spline/forced_response.h"
 #include "spline/solver.h"
+#include <math.h>
 
 /// Values and equilibria beyond this are refused: sums of them must not overflow.
 #define LARGEST_VALUE 1e300
@@ -118,6 +119,16 @@ wiggly_status problem_find(wiggly_solver *solver, problem *p, wiggly_curve *curv
 
 /// Whether a slope is implied at the earliest knot, because nothing else holds the spline.
 bool problem_implies_slope(const problem *p);
+
+/// The smallest and the largest of at least one value.
+typedef struct extent {
+    double low, high;
+} extent;
+
+extent extent_of(const double *values, int count);
+
+/// The largest magnitude.
+static inline double extent_size(extent e) { return fmax(fabs(e.low), fabs(e.high)); }
 
 /// Whether max |x| is beyond what the knots can mean. `solved` is the chain where that found x, else NULL.
 bool problem_blew_up(const problem *p, const chain *solved, const wiggly_curve *curve);

@@ -289,18 +289,11 @@ static bool cancels(const problem *p)
     return values < little * needed;
 }
 
-/// The largest |y| of the domain.
-static double farthest(const problem *p)
-{
-    double most = 0;
-    for (int i = 0; i < p->desc->samples; i++) most = fabs(p->y[i]) > most ? fabs(p->y[i]) : most;
-    return most;
-}
-
 /// Rounding of what knots are measured from; where there is no response that is told otherwise.
 static double noise_of(const problem *p)
 {
-    return 4 * DBL_EPSILON * farthest(p) + (p->response.error < INFINITY ? p->response.error / 240 : 0);
+    return 4 * DBL_EPSILON * extent_size(extent_of(p->y, p->desc->samples)) +
+           (p->response.error < INFINITY ? p->response.error / 240 : 0);
 }
 
 void problem_set_rows(wiggly_solver *solver, const problem *p)

@@ -135,18 +135,6 @@ static bool is_still(const problem *p)
     return !moves || !rings;
 }
 
-/// Largest magnitude, and largest less smallest.
-static void measure(const double *values, int count, double *magnitude, double *range)
-{
-    double low = values[0], high = low;
-    for (int i = 1; i < count; i++) {
-        low = values[i] < low ? values[i] : low;
-        high = values[i] > high ? values[i] : high;
-    }
-    *magnitude = fmax(fabs(low), fabs(high));
-    *range = high - low;
-}
-
 /// Where a total is next to nothing beside its x, its error is no worse than one of so small a part of x.
 static const double negligible = 1e-6;
 
@@ -155,10 +143,8 @@ static wiggly_status judge(wiggly_curve *curve, const minimum *result, wiggly_st
 {
     curve->error = 0;
     if (result->error > 0) {
-        double magnitude, range, of_x, ignored;
-        measure(curve->total, curve->samples, &magnitude, &range);
-        measure(curve->re, curve->samples, &of_x, &ignored);
-        double size = fmax(fmax(range, magnitude), negligible * of_x);
+        const extent total = extent_of(curve->total, curve->samples), re = extent_of(curve->re, curve->samples);
+        const double size = fmax(fmax(total.high - total.low, extent_size(total)), negligible * extent_size(re));
         curve->error = size > 0 ? result->error / size : 0;
         // Of a curve that is all error the size says nothing of that of the right one.
         if (curve->error > 1 && curve->error < DBL_MAX) curve->error = DBL_MAX;
