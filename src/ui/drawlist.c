@@ -198,6 +198,21 @@ void drawlist_rounded_line(struct drawlist *list, struct rect r, float radius, f
     drawlist_line(list, xy, count + 1, width, color);
 }
 
+static struct rect around(const float middle[2], float radius)
+{
+    return (struct rect){middle[0] - radius, middle[1] - radius, 2 * radius, 2 * radius};
+}
+
+void drawlist_disc(struct drawlist *list, const float middle[2], float radius, uint32_t color)
+{
+    drawlist_rounded(list, around(middle, radius), radius, color);
+}
+
+void drawlist_circle(struct drawlist *list, const float middle[2], float radius, float width, uint32_t color)
+{
+    drawlist_rounded_line(list, around(middle, radius), radius, width, color);
+}
+
 /// Appends `length` bytes of text, and a NUL after them in the pool.
 static void add_text(struct drawlist *list, const struct draw_command *style, const char *text, size_t length,
                      float width)

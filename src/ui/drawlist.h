@@ -73,6 +73,9 @@ void drawlist_convex(struct drawlist *list, const float *xy, int count, uint32_t
 /// Filled rounded rectangle, and its outline, which lies inside `r`.
 void drawlist_rounded(struct drawlist *list, struct rect r, float radius, uint32_t color);
 void drawlist_rounded_line(struct drawlist *list, struct rect r, float radius, float width, uint32_t color);
+/// A disc about a point; and a circle, whose outer edge is `radius` away from it.
+void drawlist_disc(struct drawlist *list, const float middle[2], float radius, uint32_t color);
+void drawlist_circle(struct drawlist *list, const float middle[2], float radius, float width, uint32_t color);
 /// UTF-8 text with its baseline at (x, y); x is rounded to device pixels when drawn. `size` in logical pixels.
 void drawlist_text(struct drawlist *list, float x, float y, enum font font, float size, uint32_t color,
                    const char *utf8);

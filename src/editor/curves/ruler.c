@@ -294,9 +294,8 @@ void ruler_pins_show(const struct curves *curves, struct core *core)
         float xy[2];
         place(curves, core, pin, xy);
         if (xy[0] < ruler->x || xy[0] > ruler->x + ruler->w) continue;
-        const struct rect disc = {xy[0] - radius, xy[1] - radius, 2 * radius, 2 * radius};
-        drawlist_rounded(&core->list, disc, radius, selected ? theme()->playhead : color);
-        drawlist_rounded_line(&core->list, disc, radius, 1, selected || hot ? color : theme()->panel);
+        drawlist_disc(&core->list, xy, radius, selected ? theme()->playhead : color);
+        drawlist_circle(&core->list, xy, radius, 1, selected || hot ? color : theme()->panel);
     }
 }
 

@@ -9,9 +9,9 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { MAX_LABELS = CURVES_MAX_OTHERS + 2, RING_POINTS = 25 };
+enum { MAX_LABELS = CURVES_MAX_OTHERS + 2 };
 
-static const float KNOT_RADIUS = 4.5f, OTHER_RADIUS = 3, HOVER_RADIUS = 6.5f, HANDLE_REACH = 130, HANDLE_RADIUS = 3;
+static const float KNOT_RADIUS = 4.5f, OTHER_RADIUS = 3, HOVER_RADIUS = 7.125f, HANDLE_REACH = 130, HANDLE_RADIUS = 3;
 static const double FIRM_LENGTH = 48, DECADE_LENGTH = 12; ///< of a handle; of ten times the stiffness
 static const float MARK_STEP = 12;                        ///< columns from mark to mark in a band
 static const float MARK_RADIUS = 3.5f;                    ///< on the dope sheet
@@ -78,17 +78,6 @@ static void show_lines(struct curves *curves, struct core *core)
     show_line(core, &cache->re[0][0], cache->count, cache->band, 2.5f, color);
 }
 
-static void show_ring(struct drawlist *list, float x, float y, float radius, float width, uint32_t color)
-{
-    float xy[RING_POINTS][2];
-    for (int i = 0; i < RING_POINTS; i++) {
-        double angle = 2 * acos(-1.0) * i / (RING_POINTS - 1);
-        xy[i][0] = x + radius * (float)cos(angle);
-        xy[i][1] = y + radius * (float)sin(angle);
-    }
-    drawlist_line(list, &xy[0][0], RING_POINTS, width, color);
-}
-
 double handle_length(double stiffness)
 {
     return fmin(fmax(FIRM_LENGTH + DECADE_LENGTH * log10(stiffness / KNOT_DEFAULT_STIFFNESS), 12), 120);
@@ -111,6 +100,12 @@ void curves_handle(const struct curves *curves, const struct core *core, const s
     xy[1] = curves_y(curves, core, knot->value) + (float)fmin(fmax(down * factor, -1e3), 1e3);
 }
 
+/// The ring around what is under the pointer.
+static void hover_ring(struct drawlist *list, float x, float y)
+{
+    drawlist_circle(list, (const float[2]){x, y}, HOVER_RADIUS, 1.25f, theme()->playhead);
+}
+
 static void show_handle(const struct curves *curves, struct core *core, const struct knot *knot, uint32_t color)
 {
     float ends[2][2];
@@ -118,19 +113,10 @@ static void show_handle(const struct curves *curves, struct core *core, const st
     curves_handle(curves, core, knot, 1, ends[1]);
     drawlist_line(&core->list, &ends[0][0], 2, 1, theme_fade(color, 0.8f));
     for (int end = 0; end < 2; end++) {
-        struct rect dot = {ends[end][0] - HANDLE_RADIUS, ends[end][1] - HANDLE_RADIUS, 2 * HANDLE_RADIUS,
-                           2 * HANDLE_RADIUS};
-        drawlist_rounded(&core->list, dot, HANDLE_RADIUS, color);
-        if (core->hover.kind == HOVER_SLOPE && core->hover.knot == knot->id && core->hover.handle == end) {
-            show_ring(&core->list, ends[end][0], ends[end][1], HOVER_RADIUS, 1.25f, theme()->playhead);
-        }
+        drawlist_disc(&core->list, ends[end], HANDLE_RADIUS, color);
+        if (core->hover.kind == HOVER_SLOPE && core->hover.knot == knot->id && core->hover.handle == end)
+            hover_ring(&core->list, ends[end][0], ends[end][1]);
     }
-}
-
-/// The ring around the knot under the pointer.
-static void knot_ring(struct drawlist *list, float x, float y)
-{
-    show_ring(list, x, y, HOVER_RADIUS, 1.25f, theme()->playhead);
 }
 
 /// A knot: a diamond, with an outline or 0.
@@ -209,7 +195,7 @@ static void show_knot(const struct curves *curves, struct core *core, const stru
     if (knot->has_slope && !selected) show_tick(curves, core, knot, color);
     knot_mark(&core->list, x, y, KNOT_RADIUS, selected ? color : theme()->panel,
               selected ? theme()->playhead : color); // one that is not selected is hollow
-    if (is_hovered(core, knot)) knot_ring(&core->list, x, y);
+    if (is_hovered(core, knot)) hover_ring(&core->list, x, y);
 }
 
 /// Whether the knots of one column go without a mark, because the marks of their neighbours would cover it: in a band, which goes through
@@ -266,7 +252,7 @@ void knots_show(const struct curves *curves, struct core *core, int s, float row
                   : on_sheet ? MARK_RADIUS
                              : OTHER_RADIUS,
                   on_sheet || selected ? full : theme_fade(full, THEME_OTHERS), selected ? theme()->playhead : 0);
-        if (is_hovered(core, knot)) knot_ring(&core->list, x, y);
+        if (is_hovered(core, knot)) hover_ring(&core->list, x, y);
     }
 }
 

@@ -114,8 +114,7 @@ static void show_pointer(const struct pressed *pressed, struct core *core)
 {
     const float x = pressed->pointer[0], y = pressed->pointer[1];
     const float arrow[8] = {x, y, x, y + 17, x + 12, y + 12, x, y};
-    if (pressed->is_down)
-        drawlist_rounded_line(&core->list, (struct rect){x - 12, y - 12, 24, 24}, 12, 2, theme()->accent);
+    if (pressed->is_down) drawlist_circle(&core->list, pressed->pointer, 12, 2, theme()->accent);
     drawlist_convex(&core->list, arrow, 3, theme()->text);
     drawlist_line(&core->list, arrow, 4, 1, theme()->panel);
 }

@@ -263,9 +263,7 @@ static void draw(const struct inspector *in, const struct angle_view *view)
     line[count + 1][0] = view->plot.x + view->plot.w;
     line[count + 1][1] = line[count][1];
     drawlist_line(list, line[is_ramp ? 0 : 1], is_ramp ? count + 2 : count, 1.5f, theme()->accent);
-    const float *selected = line[view->selected + 1], r = 3.5f;
-    const struct rect mark = {selected[0] - r, selected[1] - r, 2 * r, 2 * r};
-    if (!is_ramp) drawlist_rounded(list, mark, r, theme()->accent);
+    if (!is_ramp) drawlist_disc(list, line[view->selected + 1], 3.5f, theme()->accent);
 }
 
 /// The point that a place of the plot stands for.

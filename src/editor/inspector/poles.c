@@ -170,7 +170,7 @@ static void poles_draw_inset(const struct poles_view *view, const struct pole_se
         draw_cross(list, high, y, 3.5f, theme()->accent);
     }
     float x = poles_x(view, r, setting->hz);
-    drawlist_rounded(list, (struct rect){x - 3.5f, y - 3.5f, 7, 7}, 3.5f, theme()->text);
+    drawlist_disc(list, (const float[2]){x, y}, 3.5f, theme()->text);
     drawlist_set_clip(list, whole);
 }
 

@@ -115,10 +115,8 @@ static void show_mark(const struct stage *stage, struct core *core, const float 
         !stage_project_point(stage, core->layout.stage, low, line[1]))
         return;
     if (low[1] < height) drawlist_line(&core->list, line[0], 2, 1.25f, color);
-    for (int e = 0; e < 2; e++) {
-        const float r = e == 0 ? MARK : END;
-        drawlist_rounded(&core->list, (struct rect){line[e][0] - r, line[e][1] - r, 2 * r, 2 * r}, r, color);
-    }
+    drawlist_disc(&core->list, line[0], MARK, color);
+    drawlist_disc(&core->list, line[1], END, color);
 }
 
 /// The height, at the corner that is farthest to the right.

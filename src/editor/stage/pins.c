@@ -251,17 +251,6 @@ void stage_hold_point(struct stage *stage, struct core *core)
     }
 }
 
-static void show_disc(struct drawlist *list, const float xy[2], float radius, uint32_t color)
-{
-    drawlist_rounded(list, (struct rect){xy[0] - radius, xy[1] - radius, 2 * radius, 2 * radius}, radius, color);
-}
-
-static void show_circle(struct drawlist *list, const float xy[2], float radius, uint32_t color)
-{
-    const struct rect r = {xy[0] - radius, xy[1] - radius, 2 * radius, 2 * radius};
-    drawlist_rounded_line(list, r, radius, 1.5f, color);
-}
-
 /// The frame of a marker, right of it.
 static void show_frame(struct core *core, const float xy[2], double frame)
 {
@@ -286,11 +275,11 @@ static void show_marker(const struct stage *stage, struct core *core, struct pin
     const bool has_end = left && left->is_found && project(stage, core, left->at, line[1]);
     if (has_end && hypotf(line[1][0] - line[0][0], line[1][1] - line[0][1]) > LEAST_LINE) {
         drawlist_line(list, line[0], 2, 1.25f, color);
-        show_disc(list, line[1], END, color);
+        drawlist_disc(list, line[1], END, color);
     }
-    show_disc(list, line[0], radius + 1.5f, theme_fade(theme()->panel, here || selected ? 0.8f : 0.4f));
-    show_disc(list, line[0], radius, color);
-    if (selected || hot) show_circle(list, line[0], RING, theme()->playhead);
+    drawlist_disc(list, line[0], radius + 1.5f, theme_fade(theme()->panel, here || selected ? 0.8f : 0.4f));
+    drawlist_disc(list, line[0], radius, color);
+    if (selected || hot) drawlist_circle(list, line[0], RING, 1.5f, theme()->playhead);
     if (selected || hot) show_frame(core, line[0], pin->frame);
 }
 
@@ -299,9 +288,9 @@ static void show_lit(struct core *core)
 {
     const float xy[2] = {core->hover.x, core->hover.y};
     if (core->hover.kind != HOVER_POINT || core->drag.owner) return;
-    show_circle(&core->list, xy, LIT + 1.5f, theme_fade(theme()->panel, 0.6f));
-    show_circle(&core->list, xy, LIT, theme()->playhead);
-    show_disc(&core->list, xy, END, theme()->playhead);
+    drawlist_circle(&core->list, xy, LIT + 1.5f, 1.5f, theme_fade(theme()->panel, 0.6f));
+    drawlist_circle(&core->list, xy, LIT, 1.5f, theme()->playhead);
+    drawlist_disc(&core->list, xy, END, theme()->playhead);
 }
 
 void pins_show(struct stage *stage, struct core *core)

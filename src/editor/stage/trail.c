@@ -136,8 +136,7 @@ static void show_now(struct stage *stage, struct core *core, struct rig_point po
 {
     float xy[2];
     if (!project_now(stage, core, point, xy)) return;
-    struct rect ring = {xy[0] - NOW, xy[1] - NOW, 2 * NOW, 2 * NOW};
-    drawlist_rounded_line(&core->list, ring, NOW, 1.5f, theme()->playhead);
+    drawlist_circle(&core->list, xy, NOW, 1.5f, theme()->playhead);
 }
 
 void path_show(struct stage *stage, struct core *core, enum trail which, struct rig_point point)
