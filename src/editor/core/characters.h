@@ -22,10 +22,4 @@ bool characters_blank_paint(struct core *core, const struct figure *figure);
 /// Takes all paint off the selected character, as a step of the history.
 void characters_clean_paint(struct core *core);
 
-/// The radius of the brush on a figure, metres.
-static inline float brush_radius_of(const struct brush *brush, const struct figure *figure)
-{
-    return (float)brush->radius * (figure->hi[1] - figure->lo[1]);
-}
-
 #endif

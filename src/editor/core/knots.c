@@ -110,13 +110,9 @@ void core_select_all(struct core *core, int all_splines)
 /// Index of the first knot after, or last one before, a position; -1 where there is none.
 static int beside(const struct document *document, const struct spline *spline, double position, int direction)
 {
-    int found = -1;
-    for (int k = 0; k < spline->knot_count; k++) {
-        double sample = document_sample(document, spline->knots[k].frame);
-        if (direction < 0 && sample < position) found = k;
-        if (direction > 0 && sample > position) return k;
-    }
-    return found;
+    const int before = spline_lower_bound(document, spline, (int)ceil(position)) - 1;
+    const int after = spline_lower_bound(document, spline, (int)floor(position) + 1);
+    return direction < 0 ? before : after < spline->knot_count ? after : -1;
 }
 
 const struct knot *core_select_neighbour(struct core *core, int direction)

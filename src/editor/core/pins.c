@@ -51,11 +51,6 @@ void pins_visit(struct core *core, const struct pin *pin)
 
 void pins_clear(struct core *core) { core->pin.any = false; }
 
-bool pins_suit(const struct rig *rig)
-{
-    return rig->kind == RIG_TAIL || rig->kind == RIG_CHAIN || rig->kind == RIG_CHARACTER;
-}
-
 double pins_frame_here(const struct core *core, int rig)
 {
     const struct document *document = core->document;

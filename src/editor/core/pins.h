@@ -20,8 +20,6 @@ uint32_t pins_color(const struct document *document, int rig);
 void pins_visit(struct core *core, const struct pin *pin);
 /// Lets go of the selected pin.
 void pins_clear(struct core *core);
-/// Whether a rig is of a kind that takes pins.
-bool pins_suit(const struct rig *rig);
 /// The frame on which a pin of the rig at the playhead is: a whole one, inside the scene.
 double pins_frame_here(const struct core *core, int rig);
 /// Pins a point inside the open step, or moves the pin that it has on the frame; selects it.

@@ -1,5 +1,6 @@
 /// Adds, removes, reorders and retimes splines.
 #include "editor/core/core.h"
+#include "editor/core/rigs.h"
 #include "editor/core/selection.h"
 #include "scene/order.h"
 #include "ui/theme.h"
@@ -168,13 +169,6 @@ void spline_list_remove(struct core *core)
              "stage stop using it.");
 }
 
-static int knot_count(const struct document *document)
-{
-    int count = 0;
-    for (int s = 0; s < document->spline_count; s++) count += document->splines[s]->knot_count;
-    return count;
-}
-
 static void set_fps(struct core *core, double fps, bool keeps_seconds)
 {
     if (!core_begin(core, "Set frames per second", 0)) return;
@@ -194,7 +188,7 @@ void spline_list_fps(struct core *core, double fps)
                                             {"dialog.cancel", "Cancel", 'C'}};
     const double before = core->document->fps;
     if (fps == before) return;
-    if (knot_count(core->document) == 0 || !(fps > 0 && fps <= SCENE_MAX_FPS)) {
+    if (!rigs_have_knots(core->document) || !(fps > 0 && fps <= SCENE_MAX_FPS)) {
         set_fps(core, fps, false);
         return;
     }

@@ -41,6 +41,205 @@ void body_drag_way(const struct stage *stage, const struct core *core, double of
     if (hold->axis == AXIS_Y || (hold->axis < 0 && hold->lifts)) offset[1] = fmax(up / hold->rise, hold->lowest);
 }
 
+static const double RESOLUTION = 1e-3; ///< metres that the document gets
+
+/// What is said afterwards, and what held a knot.
+struct report {
+    char text[512], why[STOPPED_SIZE];
+    size_t length;
+};
+
+static void say(struct report *report, const char *text)
+{
+    report->length +=
+        (size_t)snprintf(report->text + report->length, sizeof report->text - report->length, "%s", text);
+    if (report->length >= sizeof report->text) report->length = sizeof report->text - 1;
+}
+
+/// A name, after a comma where it is not the first.
+static void say_name(struct report *report, bool is_first, const char *name)
+{
+    if (!is_first) say(report, ", ");
+    say(report, name);
+}
+
+/// The sample of the playhead, or the last one where a spline has knots.
+static int sample_of(const struct core *core, int spline)
+{
+    const struct document *document = core->document;
+    const int sample = document_sample(document, round(core_frame(core)));
+    const int last = document_last_knot_sample(document, document->splines[spline]);
+    return sample > last ? last : sample < 0 ? 0 : sample;
+}
+
+/// A knot at the playhead. A coordinate that was a number gets a spline, which begins where the body was. The spline by which the
+/// tail swings with that from now on where it did not, else -1.
+static int key_coordinate(const struct stage *stage, struct core *core, int coordinate, double by,
+                          char why[STOPPED_SIZE])
+{
+    const struct document *document = core->document;
+    const int rig = stage->body_drag.rig;
+    const bool is_new = tail_of(document, rig)->position[coordinate].track < 0;
+    const int spline = base_spline(stage, core, coordinate);
+    if (spline < 0) return -1;
+    const int sample = sample_of(core, spline);
+    const double before = base_value(core, rig, coordinate, sample);
+    if (!is_new) {
+        struct knot knot = core_knot_at(document, spline, sample);
+        knot.value = core_round(before + by, RESOLUTION);
+        core_hold(document->splines[spline], &knot, why);
+        core_put_knot(core, spline, &knot);
+        core_edited(core, spline);
+        return -1;
+    }
+    if (sample > 1) base_put_knot(core, spline, 0, before, true, why);
+    base_put_knot(core, spline, sample, before + by, true, why);
+    base_follow(stage, core, coordinate, spline);
+    const int swings = base_hang_channels(stage, core, coordinate, spline);
+    core_edited(core, spline);
+    return swings;
+}
+
+static void key_body(struct stage *stage, struct core *core, const double offset[3])
+{
+    struct report report = {.length = 0};
+    char frame[64];
+    bool is_first = true;
+    int swings = -1;
+    base_begin(stage, core);
+    say(&report, "Keyed ");
+    for (int k = 0; k < 3; k++) {
+        if (offset[k] == 0) continue;
+        const int made = key_coordinate(stage, core, k, offset[k], report.why);
+        if (made >= 0) swings = made;
+        const int track = tail_of(core->document, stage->body_drag.rig)->position[k].track;
+        if (track < 0) continue;
+        say_name(&report, is_first, core->document->splines[track]->name);
+        is_first = false;
+    }
+    snprintf(frame, sizeof frame, " at frame %.0f.", round(core_frame(core)));
+    say(&report, frame);
+    core_add_stopped(report.why, report.text, sizeof report.text);
+    base_say_channel(core, swings, report.text, sizeof report.text);
+    if (!is_first) core_message(core, false, report.text);
+}
+
+/// How far of a way all knots of a spline can go within its limits, and the knot that stops them, or NULL.
+static double room_for(const struct spline *spline, double by, const struct knot **stops)
+{
+    double room = by;
+    *stops = NULL;
+    for (int i = 0; i < spline->knot_count; i++) {
+        const double value = spline->knots[i].value, within = spline_within(spline, value + by);
+        if (within == value + by || fabs(within - value) >= fabs(room)) continue;
+        room = within - value;
+        *stops = &spline->knots[i];
+    }
+    return room;
+}
+
+/// Keeps the way of the held body, metres, where the limits of the splines that it follows will keep what place_body() or a recording
+/// makes of it.
+static void place_within(const struct stage *stage, const struct core *core, double offset[3])
+{
+    const struct document *document = core->document;
+    const struct tail *tail = tail_of(document, stage->body_drag.rig);
+    const bool keys = core->auto_key || stage->record.running || record_has_motion(stage);
+    if (!tail) offset[1] = 0; // a character stays on its ground
+    for (int k = 0; tail && k < 3; k++) {
+        const int track = tail->position[k].track;
+        if (offset[k] == 0 || track < 0) continue;
+        const struct spline *spline = document->splines[track];
+        if (keys) {
+            const double before = base_value(core, stage->body_drag.rig, k, sample_of(core, track));
+            offset[k] = spline_within(spline, before + offset[k]) - before;
+        } else {
+            const struct knot *stops;
+            offset[k] = room_for(spline, offset[k], &stops);
+        }
+    }
+}
+
+/// All knots of a spline, so that what follows it moves as it did, elsewhere: all by as much as each can go. How far that was.
+static double shift_spline(struct core *core, int spline, double way, char why[STOPPED_SIZE])
+{
+    const int count = core->document->splines[spline]->knot_count;
+    const struct knot *stops;
+    const double by = room_for(core->document->splines[spline], way, &stops);
+    if (stops) {
+        struct knot moved = *stops;
+        moved.value += way;
+        core_hold(core->document->splines[spline], &moved, why);
+    }
+    if (by == 0) return 0;
+    for (int i = 0; i < count; i++) {
+        struct knot knot = core->document->splines[spline]->knots[i];
+        knot.value = spline_within(core->document->splines[spline], core_round(knot.value + by, RESOLUTION));
+        core_put_knot(core, spline, &knot);
+    }
+    core_edited(core, spline);
+    return by;
+}
+
+/// Of an imported character.
+static double shift_model(struct core *core, int rig, int coordinate, double by)
+{
+    struct rig moved = *core->document->rigs[rig];
+    moved.model.position[coordinate] = core_round(moved.model.position[coordinate] + by, RESOLUTION);
+    return edit_rig_set(core->document, rig, &moved, &core->error) ? by : 0;
+}
+
+/// A height that is a number says where the ground is, which stays. How far the coordinate went.
+static double shift_coordinate(struct core *core, int rig, int coordinate, double by, char why[STOPPED_SIZE])
+{
+    const struct tail *tail = tail_of(core->document, rig);
+    if (coordinate == 1 && (!tail || tail->position[1].track < 0)) return 0;
+    if (!tail) return shift_model(core, rig, coordinate, by);
+    const struct param *param = &tail->position[coordinate];
+    if (param->track >= 0) return shift_spline(core, param->track, by, why);
+    struct rig moved = *core->document->rigs[rig];
+    moved.tail.position[coordinate] = param_number(core_round(param->value + by, RESOLUTION));
+    edit_rig_set(core->document, rig, &moved, &core->error);
+    return by;
+}
+
+static void shift_body(struct stage *stage, struct core *core, const double offset[3])
+{
+    struct report report = {.length = 0};
+    bool is_first = true;
+    say(&report, "Moved for the whole shot: ");
+    for (int k = 0; k < 3; k++) {
+        char part[32];
+        if (offset[k] == 0) continue;
+        const double by = shift_coordinate(core, stage->body_drag.rig, k, offset[k], report.why);
+        if (by == 0) continue;
+        snprintf(part, sizeof part, "%s %+.2f m", coordinate_name(k), by);
+        say_name(&report, is_first, part);
+        is_first = false;
+    }
+    if (is_first && report.why[0]) {
+        core_stopped(core, report.why);
+    } else if (is_first) {
+        core_message(core, false, "It sits on the ground again: auto-key (Shift+A) or R keeps a height.");
+    } else {
+        const bool keys = tail_of(core->document, stage->body_drag.rig) && !report.why[0];
+        say(&report, keys ? ". Auto-key (Shift+A) sets knots instead." : ".");
+        core_add_stopped(report.why, report.text, sizeof report.text);
+        core_message(core, false, report.text);
+    }
+}
+
+/// The new place, metres from the old one: knots at the playhead with auto-key, else all of the shot moves. Says which.
+static void place_body(struct stage *stage, struct core *core, const double offset[3])
+{
+    if (core->auto_key && tail_of(core->document, stage->body_drag.rig)) {
+        key_body(stage, core, offset);
+    } else {
+        shift_body(stage, core, offset);
+    }
+    drag_inertia_land(stage);
+}
+
 void body_drag_advance(struct stage *stage, const struct core *core)
 {
     body_drag_way(stage, core, stage->body_drag.offset);
@@ -281,200 +480,4 @@ void body_drag_begin(struct stage *stage, struct core *core, int rig, const stru
     hold->lifts = event->mods & MOD_CTRL;
     const float sitting = stand.ground + FOX_BASE_HEIGHT * (float)tail->length / FOX_TAIL_LENGTH;
     hold->lowest = fmin(0, (double)(sitting - stand.base[1]));
-}
-
-static const double RESOLUTION = 1e-3; ///< metres that the document gets
-
-/// What is said afterwards, and what held a knot.
-struct report {
-    char text[512], why[STOPPED_SIZE];
-    size_t length;
-};
-
-static void say(struct report *report, const char *text)
-{
-    report->length +=
-        (size_t)snprintf(report->text + report->length, sizeof report->text - report->length, "%s", text);
-    if (report->length >= sizeof report->text) report->length = sizeof report->text - 1;
-}
-
-/// A name, after a comma where it is not the first.
-static void say_name(struct report *report, bool is_first, const char *name)
-{
-    if (!is_first) say(report, ", ");
-    say(report, name);
-}
-
-/// The sample of the playhead, or the last one where a spline has knots.
-static int sample_of(const struct core *core, int spline)
-{
-    const struct document *document = core->document;
-    const int sample = document_sample(document, round(core_frame(core)));
-    const int last = document_last_knot_sample(document, document->splines[spline]);
-    return sample > last ? last : sample < 0 ? 0 : sample;
-}
-
-/// A knot at the playhead. A coordinate that was a number gets a spline, which begins where the body was. The spline by which the
-/// tail swings with that from now on where it did not, else -1.
-static int key_coordinate(const struct stage *stage, struct core *core, int coordinate, double by,
-                          char why[STOPPED_SIZE])
-{
-    const struct document *document = core->document;
-    const int rig = stage->body_drag.rig;
-    const bool is_new = tail_of(document, rig)->position[coordinate].track < 0;
-    const int spline = base_spline(stage, core, coordinate);
-    if (spline < 0) return -1;
-    const int sample = sample_of(core, spline);
-    const double before = base_value(core, rig, coordinate, sample);
-    if (!is_new) {
-        struct knot knot = core_knot_at(document, spline, sample);
-        knot.value = core_round(before + by, RESOLUTION);
-        core_hold(document->splines[spline], &knot, why);
-        core_put_knot(core, spline, &knot);
-        core_edited(core, spline);
-        return -1;
-    }
-    if (sample > 1) base_put_knot(core, spline, 0, before, true, why);
-    base_put_knot(core, spline, sample, before + by, true, why);
-    base_follow(stage, core, coordinate, spline);
-    const int swings = base_hang_channels(stage, core, coordinate, spline);
-    core_edited(core, spline);
-    return swings;
-}
-
-static void key_body(struct stage *stage, struct core *core, const double offset[3])
-{
-    struct report report = {.length = 0};
-    char frame[64];
-    bool is_first = true;
-    int swings = -1;
-    base_begin(stage, core);
-    say(&report, "Keyed ");
-    for (int k = 0; k < 3; k++) {
-        if (offset[k] == 0) continue;
-        const int made = key_coordinate(stage, core, k, offset[k], report.why);
-        if (made >= 0) swings = made;
-        const int track = tail_of(core->document, stage->body_drag.rig)->position[k].track;
-        if (track < 0) continue;
-        say_name(&report, is_first, core->document->splines[track]->name);
-        is_first = false;
-    }
-    snprintf(frame, sizeof frame, " at frame %.0f.", round(core_frame(core)));
-    say(&report, frame);
-    core_add_stopped(report.why, report.text, sizeof report.text);
-    base_say_channel(core, swings, report.text, sizeof report.text);
-    if (!is_first) core_message(core, false, report.text);
-}
-
-/// How far of a way all knots of a spline can go within its limits, and the knot that stops them, or NULL.
-static double room_for(const struct spline *spline, double by, const struct knot **stops)
-{
-    double room = by;
-    *stops = NULL;
-    for (int i = 0; i < spline->knot_count; i++) {
-        const double value = spline->knots[i].value, within = spline_within(spline, value + by);
-        if (within == value + by || fabs(within - value) >= fabs(room)) continue;
-        room = within - value;
-        *stops = &spline->knots[i];
-    }
-    return room;
-}
-
-void place_within(const struct stage *stage, const struct core *core, double offset[3])
-{
-    const struct document *document = core->document;
-    const struct tail *tail = tail_of(document, stage->body_drag.rig);
-    const bool keys = core->auto_key || stage->record.running || record_has_motion(stage);
-    if (!tail) offset[1] = 0; // a character stays on its ground
-    for (int k = 0; tail && k < 3; k++) {
-        const int track = tail->position[k].track;
-        if (offset[k] == 0 || track < 0) continue;
-        const struct spline *spline = document->splines[track];
-        if (keys) {
-            const double before = base_value(core, stage->body_drag.rig, k, sample_of(core, track));
-            offset[k] = spline_within(spline, before + offset[k]) - before;
-        } else {
-            const struct knot *stops;
-            offset[k] = room_for(spline, offset[k], &stops);
-        }
-    }
-}
-
-/// All knots of a spline, so that what follows it moves as it did, elsewhere: all by as much as each can go. How far that was.
-static double shift_spline(struct core *core, int spline, double way, char why[STOPPED_SIZE])
-{
-    const int count = core->document->splines[spline]->knot_count;
-    const struct knot *stops;
-    const double by = room_for(core->document->splines[spline], way, &stops);
-    if (stops) {
-        struct knot moved = *stops;
-        moved.value += way;
-        core_hold(core->document->splines[spline], &moved, why);
-    }
-    if (by == 0) return 0;
-    for (int i = 0; i < count; i++) {
-        struct knot knot = core->document->splines[spline]->knots[i];
-        knot.value = spline_within(core->document->splines[spline], core_round(knot.value + by, RESOLUTION));
-        core_put_knot(core, spline, &knot);
-    }
-    core_edited(core, spline);
-    return by;
-}
-
-/// Of an imported character.
-static double shift_model(struct core *core, int rig, int coordinate, double by)
-{
-    struct rig moved = *core->document->rigs[rig];
-    moved.model.position[coordinate] = core_round(moved.model.position[coordinate] + by, RESOLUTION);
-    return edit_rig_set(core->document, rig, &moved, &core->error) ? by : 0;
-}
-
-/// A height that is a number says where the ground is, which stays. How far the coordinate went.
-static double shift_coordinate(struct core *core, int rig, int coordinate, double by, char why[STOPPED_SIZE])
-{
-    const struct tail *tail = tail_of(core->document, rig);
-    if (coordinate == 1 && (!tail || tail->position[1].track < 0)) return 0;
-    if (!tail) return shift_model(core, rig, coordinate, by);
-    const struct param *param = &tail->position[coordinate];
-    if (param->track >= 0) return shift_spline(core, param->track, by, why);
-    struct rig moved = *core->document->rigs[rig];
-    moved.tail.position[coordinate] = param_number(core_round(param->value + by, RESOLUTION));
-    edit_rig_set(core->document, rig, &moved, &core->error);
-    return by;
-}
-
-static void shift_body(struct stage *stage, struct core *core, const double offset[3])
-{
-    struct report report = {.length = 0};
-    bool is_first = true;
-    say(&report, "Moved for the whole shot: ");
-    for (int k = 0; k < 3; k++) {
-        char part[32];
-        if (offset[k] == 0) continue;
-        const double by = shift_coordinate(core, stage->body_drag.rig, k, offset[k], report.why);
-        if (by == 0) continue;
-        snprintf(part, sizeof part, "%s %+.2f m", coordinate_name(k), by);
-        say_name(&report, is_first, part);
-        is_first = false;
-    }
-    if (is_first && report.why[0]) {
-        core_stopped(core, report.why);
-    } else if (is_first) {
-        core_message(core, false, "It sits on the ground again: auto-key (Shift+A) or R keeps a height.");
-    } else {
-        const bool keys = tail_of(core->document, stage->body_drag.rig) && !report.why[0];
-        say(&report, keys ? ". Auto-key (Shift+A) sets knots instead." : ".");
-        core_add_stopped(report.why, report.text, sizeof report.text);
-        core_message(core, false, report.text);
-    }
-}
-
-void place_body(struct stage *stage, struct core *core, const double offset[3])
-{
-    if (core->auto_key && tail_of(core->document, stage->body_drag.rig)) {
-        key_body(stage, core, offset);
-    } else {
-        shift_body(stage, core, offset);
-    }
-    drag_inertia_land(stage);
 }

@@ -18,6 +18,12 @@ static const double SHORTEST = 1.0 / 60; ///< seconds that a click paints
 static const float STRIDE = 0.3f;        ///< of the radius on the screen, between the spots of one frame
 static const float RIM = 0.25f;          ///< beyond the radius, so that the ring can be drawn between vertices
 
+/// The radius of the brush on a figure, metres.
+static float radius_of(const struct brush *brush, const struct figure *figure)
+{
+    return (float)brush->radius * (figure->hi[1] - figure->lo[1]);
+}
+
 static void free_work(struct brush_work *work)
 {
     reach_free(&work->reach);
@@ -73,7 +79,8 @@ static const struct stroke {
     [BRUSH_ERASE] = {"Erase paint", BRUSH_ERASE, BRUSH_ERASE},
 };
 
-enum brush_mode brush_stroke(const struct brush *brush, unsigned mods)
+/// What a stroke that begins with these modifiers does: Shift smooths, Ctrl reverses.
+static enum brush_mode brush_stroke(const struct brush *brush, unsigned mods)
 {
     const struct stroke *stroke = &strokes[brush->mode];
     return mods & MOD_SHIFT ? stroke->smoothed : mods & MOD_CTRL ? stroke->other : brush->mode;
@@ -86,7 +93,7 @@ static int find_way(const struct stage *stage, const struct core *core, const st
     const struct painting *painting = &stage->painting;
     const float dx = core->pointer_x - painting->x, dy = core->pointer_y - painting->y;
     const float metres = 2 * stage->camera.distance / stage->view.projection[5] / core->layout.stage.h;
-    const float stride = fmaxf(1, STRIDE * brush_radius_of(&core->brush, figure) / metres);
+    const float stride = fmaxf(1, STRIDE * radius_of(&core->brush, figure) / metres);
     const int steps = (int)fminf(REACH_MAX_SPOTS, fmaxf(1, ceilf(hypotf(dx, dy) / stride)));
     int count = 0;
     for (int i = 1; i <= steps; i++) {
@@ -258,9 +265,9 @@ static void apply(void *room, struct core *core)
     painting->y = core->pointer_y;
     painting->has_dabbed = true;
     if (count == 0) return;
-    reach_find(&painting->work.reach, figure, spots, count, brush_radius_of(brush, figure));
-    const struct dab dab = brush_dab(painting, paint, figure, coordinate, brush_radius_of(brush, figure),
-                                     brush->strength * core->drag.dt);
+    reach_find(&painting->work.reach, figure, spots, count, radius_of(brush, figure));
+    const struct dab dab =
+        brush_dab(painting, paint, figure, coordinate, radius_of(brush, figure), brush->strength * core->drag.dt);
     edit_paint(core->document, characters_rig(core), &dab, &core->error);
 }
 
@@ -331,7 +338,7 @@ void brush_pose(struct stage *stage, struct core *core, bool covered)
     const struct figure *figure = pose_figure(stage, core, &coordinate);
     if (!figure || !skin_spot(stage, figure, core->pointer_x, core->pointer_y, &painting->spot)) return;
     painting->covers = true;
-    reach_find(&painting->work.reach, figure, &painting->spot, 1, (1 + RIM) * brush_radius_of(brush, figure));
+    reach_find(&painting->work.reach, figure, &painting->spot, 1, (1 + RIM) * radius_of(brush, figure));
 }
 
 enum { STATE_HEIGHT = 46 };
@@ -359,7 +366,7 @@ static void show_ring(struct stage *stage, struct core *core, const struct figur
 {
     struct silhouette *silhouette = &stage->silhouette;
     const struct reach *reach = &stage->painting.work.reach;
-    const float radius = brush_radius_of(&core->brush, figure);
+    const float radius = radius_of(&core->brush, figure);
     silhouette_clear(silhouette);
     for (int i = 0; i < reach->count; i++) {
         float xy[2];

@@ -126,8 +126,6 @@ void pins_show(struct stage *stage, struct core *core);
 
 /// Frees its memory.
 void brush_free(struct painting *painting);
-/// What a stroke that begins with these modifiers does: Shift smooths, Ctrl reverses.
-enum brush_mode brush_stroke(const struct brush *brush, unsigned mods);
 /// Handles a press on the stage; true if it began a stroke.
 bool brush_press(struct stage *stage, struct core *core, const struct event *event);
 /// Ctrl+wheel changes the radius, Shift+wheel the strength; true if it was one of these.
@@ -140,8 +138,6 @@ void brush_show(struct stage *stage, struct core *core);
 
 /// The body under a point of the stage (HOVER_BODY) at a position in samples, the nearest to the eye, or HOVER_NONE.
 struct hover body_hover(struct stage *stage, const struct core *core, double position, float x, float y);
-/// What was under a point within the last third of a second of a scene that plays: who presses there aimed at that.
-struct hover body_moment_ago(struct stage *stage, const struct core *core, float x, float y);
 /// Points of a body that are likely to be in sight, the likeliest first, on the screen; false where one is behind the eye.
 enum { BODY_HEAD = 1, BODY_POINTS = 4 };
 bool body_point(const struct stage *stage, const struct core *core, int tail, int point, float xy[2]);
@@ -151,11 +147,6 @@ struct tail *tail_of(const struct document *document, int rig);
 void body_drag_begin(struct stage *stage, struct core *core, int rig, const struct event *event);
 /// Whether a body is dragged.
 bool body_is_held(const struct core *core);
-/// Keeps the way of the held body, metres, where the limits of the splines that it follows will keep what place_body() or a recording
-/// makes of it.
-void place_within(const struct stage *stage, const struct core *core, double offset[3]);
-/// The new place, metres from the old one: knots at the playhead with auto-key, else all of the shot moves. Says which.
-void place_body(struct stage *stage, struct core *core, const double offset[3]);
 /// A ring on the ground round the body that is held or can be.
 void body_drag_show(struct stage *stage, struct core *core);
 

@@ -90,6 +90,45 @@ static void pan(void *room, struct core *core)
 static const struct drag_owner panning = {.cursor = CURSOR_MOVE, .move = pan, .end = stage_click};
 static const struct drag_owner orbiting = {.cursor = CURSOR_ARROW, .move = orbit, .end = stage_click};
 
+static const double MOMENT = 0.35, STEP = 1.0 / 60; ///< seconds; between two steps a tail moves less than its reach
+
+/// The position that was shown some seconds ago, round the end of what is played.
+static double position_ago(const struct core *core, double seconds)
+{
+    const struct document *document = core->document;
+    double range[2];
+    playback_range(core, range);
+    const double first = core_position(document, range[0]), last = core_position(document, range[1]);
+    const double back = seconds * document->fps * document->substeps * core->playback.speed;
+    const double position = core->playback.position - back;
+    return position >= first || !core->playback.looping ? fmax(position, first)
+                                                        : fmax(last - (first - position), first);
+}
+
+/// The tail, chain or body that was under the point at a position, or HOVER_NONE.
+static struct hover hover_at(struct stage *stage, const struct core *core, double position, float x, float y)
+{
+    struct hover joint = {.kind = HOVER_NONE};
+    float nearest = STRAND_REACH;
+    for (int s = 0; s < stage->strand_count; s++) {
+        const int rig = stage->strands[s].rig;
+        struct rig_pose posed;
+        if (!strand_pose(stage, core, rig, position, NULL, &posed)) continue;
+        strand_nearer(stage, core, rig, &posed.strand, (const float[2]){x, y}, &nearest, &joint);
+    }
+    return joint.kind != HOVER_NONE ? joint : body_hover(stage, core, position, x, y);
+}
+
+/// What was under a point within the last third of a second of a scene that plays: who presses there aimed at that.
+static struct hover moment_ago(struct stage *stage, const struct core *core, float x, float y)
+{
+    struct hover hover = {.kind = HOVER_NONE};
+    for (double ago = STEP; core->playback.playing && ago <= MOMENT && hover.kind == HOVER_NONE; ago += STEP) {
+        hover = hover_at(stage, core, position_ago(core, ago), x, y);
+    }
+    return hover;
+}
+
 void stage_press(struct stage *stage, struct core *core, const struct event *event)
 {
     const bool pans = event->button == BUTTON_MIDDLE || (event->button == BUTTON_LEFT && core->space_down);
@@ -102,7 +141,7 @@ void stage_press(struct stage *stage, struct core *core, const struct event *eve
     stage->pointed.hash = 0; // a press means what is there now, even while all moves
     struct hover hover = stage_hover(stage, core, event->x, event->y);
     const bool holds = event->button == BUTTON_LEFT && core->pick.use == BONE_SELECTED;
-    if (holds && hover.kind == HOVER_NONE) hover = body_moment_ago(stage, core, event->x, event->y);
+    if (holds && hover.kind == HOVER_NONE) hover = moment_ago(stage, core, event->x, event->y);
     stage->pressed = hover;
     if (event->button == BUTTON_LEFT && hover.kind != HOVER_PIN) pins_clear(core);
     if (holds && (hover.kind == HOVER_POINT || hover.kind == HOVER_PIN)) {
@@ -172,8 +211,6 @@ void stage_vertex(const struct figure *figure, const struct morph *morph, const 
     morph_vertex(figure, morph, vertex, place, NULL);
     for (int k = 0; k < 3; k++) place[k] += position[k] - (k == 1 ? figure->lo[1] : 0.0f);
 }
-
-enum { RING_SIZE = 13 };
 
 /// Radians. Characters look towards +z; one is met from a bit aside, a pair from the front.
 static const float AZIMUTH_OF_ONE = -1.13f, AZIMUTH_OF_PAIR = -1.5708f;
@@ -293,8 +330,7 @@ void stage_pose(struct stage *stage, struct core *core, bool covered)
 
 void stage_ring(struct core *core, const float xy[2])
 {
-    struct rect ring = {xy[0] - RING_SIZE / 2.0f, xy[1] - RING_SIZE / 2.0f, RING_SIZE, RING_SIZE};
-    drawlist_rounded_line(&core->list, ring, RING_SIZE / 2.0f, 1.5f, theme()->playhead);
+    drawlist_circle(&core->list, xy, 6.5f, 1.5f, theme()->playhead);
 }
 
 /// What an empty stage says, or NULL.
@@ -334,42 +370,4 @@ void stage_show(struct stage *stage, struct core *core)
     drag_show(stage, core);
     pins_show(stage, core);
     drawlist_set_clip(&core->list, clip);
-}
-
-static const double MOMENT = 0.35, STEP = 1.0 / 60; ///< seconds; between two steps a tail moves less than its reach
-
-/// The position that was shown some seconds ago, round the end of what is played.
-static double position_ago(const struct core *core, double seconds)
-{
-    const struct document *document = core->document;
-    double range[2];
-    playback_range(core, range);
-    const double first = core_position(document, range[0]), last = core_position(document, range[1]);
-    const double back = seconds * document->fps * document->substeps * core->playback.speed;
-    const double position = core->playback.position - back;
-    return position >= first || !core->playback.looping ? fmax(position, first)
-                                                        : fmax(last - (first - position), first);
-}
-
-/// The tail, chain or body that was under the point at a position, or HOVER_NONE.
-static struct hover hover_at(struct stage *stage, const struct core *core, double position, float x, float y)
-{
-    struct hover joint = {.kind = HOVER_NONE};
-    float nearest = STRAND_REACH;
-    for (int s = 0; s < stage->strand_count; s++) {
-        const int rig = stage->strands[s].rig;
-        struct rig_pose posed;
-        if (!strand_pose(stage, core, rig, position, NULL, &posed)) continue;
-        strand_nearer(stage, core, rig, &posed.strand, (const float[2]){x, y}, &nearest, &joint);
-    }
-    return joint.kind != HOVER_NONE ? joint : body_hover(stage, core, position, x, y);
-}
-
-struct hover body_moment_ago(struct stage *stage, const struct core *core, float x, float y)
-{
-    struct hover hover = {.kind = HOVER_NONE};
-    for (double ago = STEP; core->playback.playing && ago <= MOMENT && hover.kind == HOVER_NONE; ago += STEP) {
-        hover = hover_at(stage, core, position_ago(core, ago), x, y);
-    }
-    return hover;
 }
