@@ -43,29 +43,22 @@ bool silhouette_open(struct silhouette *silhouette, struct rect stage)
     return true;
 }
 
-/// The nodes between two places of an axis, all but the outermost, which stay outside so that every outline closes.
-static void nodes_between(double from, double to, float cell, int count, int range[2])
+/// The nodes in a box, all but the outermost, which stay outside so that every outline closes: first and last column, first and last row.
+static void find_nodes(const struct silhouette *silhouette, const float low[2], const float high[2], int nodes[2][2])
 {
-    range[0] = (int)fmax(ceil(from / (double)cell), 1);
-    range[1] = (int)fmin(floor(to / (double)cell), count - 2);
+    const float from[2] = {silhouette->area.x, silhouette->area.y};
+    const int count[2] = {silhouette->columns, silhouette->rows};
+    const double cell = (double)silhouette->cell;
+    for (int k = 0; k < 2; k++) {
+        nodes[k][0] = (int)fmax(ceil((double)(low[k] - from[k]) / cell), 1);
+        nodes[k][1] = (int)fmin(floor((double)(high[k] - from[k]) / cell), count[k] - 2);
+    }
 }
 
-static void find_nodes(const struct silhouette *silhouette, const float low[2], const float high[2], int columns[2],
-                       int rows[2])
+static void place_node(const struct silhouette *silhouette, int row, int column, float xy[2])
 {
-    const struct rect *area = &silhouette->area;
-    nodes_between(low[0] - area->x, high[0] - area->x, silhouette->cell, silhouette->columns, columns);
-    nodes_between(low[1] - area->y, high[1] - area->y, silhouette->cell, silhouette->rows, rows);
-}
-
-static float node_x(const struct silhouette *silhouette, int column)
-{
-    return silhouette->area.x + silhouette->cell * (float)column;
-}
-
-static float node_y(const struct silhouette *silhouette, int row)
-{
-    return silhouette->area.y + silhouette->cell * (float)row;
+    xy[0] = silhouette->area.x + silhouette->cell * (float)column;
+    xy[1] = silhouette->area.y + silhouette->cell * (float)row;
 }
 
 /// Unlike hypotf(), not a call: this is asked of every node of a grid that grows as the view comes near.
@@ -89,11 +82,12 @@ void silhouette_add_link(struct silhouette *silhouette, const float from[2], flo
     const float reach = fmaxf(from_radius, to_radius) - OUTSIDE * silhouette->cell;
     const float low[2] = {fminf(from[0], to[0]) - reach, fminf(from[1], to[1]) - reach};
     const float high[2] = {fmaxf(from[0], to[0]) + reach, fmaxf(from[1], to[1]) + reach};
-    int columns[2], rows[2];
-    find_nodes(silhouette, low, high, columns, rows);
-    for (int row = rows[0]; row <= rows[1]; row++) {
-        for (int column = columns[0]; column <= columns[1]; column++) {
-            const float p[2] = {node_x(silhouette, column), node_y(silhouette, row)};
+    int nodes[2][2];
+    find_nodes(silhouette, low, high, nodes);
+    for (int row = nodes[1][0]; row <= nodes[1][1]; row++) {
+        for (int column = nodes[0][0]; column <= nodes[0][1]; column++) {
+            float p[2];
+            place_node(silhouette, row, column, p);
             float *inside = &silhouette->inside[row][column];
             *inside = larger(*inside, depth_in_link(p, from, from_radius, to, to_radius));
         }
@@ -109,18 +103,18 @@ static float turn(const float a[2], const float b[2], const float c[2])
 void silhouette_add_triangle(struct silhouette *silhouette, const float corner[3][2], const float inside[3])
 {
     float low[2], high[2];
-    int columns[2], rows[2];
+    int nodes[2][2];
     for (int k = 0; k < 2; k++) {
         low[k] = fminf(corner[0][k], fminf(corner[1][k], corner[2][k]));
         high[k] = fmaxf(corner[0][k], fmaxf(corner[1][k], corner[2][k]));
     }
-    find_nodes(silhouette, low, high, columns, rows);
+    find_nodes(silhouette, low, high, nodes);
     const float area = turn(corner[0], corner[1], corner[2]), most = -OUTSIDE * silhouette->cell;
-    for (int row = rows[0]; row <= rows[1] && area != 0; row++) {
-        for (int column = columns[0]; column <= columns[1]; column++) {
-            const float p[2] = {node_x(silhouette, column), node_y(silhouette, row)};
-            float *node = &silhouette->inside[row][column], share[3];
+    for (int row = nodes[1][0]; row <= nodes[1][1] && area != 0; row++) {
+        for (int column = nodes[0][0]; column <= nodes[0][1]; column++) {
+            float *node = &silhouette->inside[row][column], share[3], p[2];
             if (*node >= most) continue; // by another one, as on a body's far side
+            place_node(silhouette, row, column, p);
             for (int k = 0; k < 3; k++) share[k] = turn(corner[(k + 1) % 3], corner[(k + 2) % 3], p) / area;
             if (!(share[0] >= 0 && share[1] >= 0 && share[2] >= 0)) continue;
             const float depth = share[0] * inside[0] + share[1] * inside[1] + share[2] * inside[2];
@@ -148,28 +142,18 @@ void silhouette_soften(struct silhouette *silhouette)
 
 enum side { SIDE_TOP, SIDE_RIGHT, SIDE_BOTTOM, SIDE_LEFT };
 
-static bool is_inside(const struct silhouette *silhouette, int row, int column)
-{
-    return silhouette->inside[row][column] >= 0;
-}
-
-/// Whether the outline crosses a side of the cell whose upper left node that is.
-static bool crosses(const struct silhouette *silhouette, int row, int column, enum side side)
-{
-    const int rows[2] = {row + (side == SIDE_BOTTOM), row + (side != SIDE_TOP)};
-    const int columns[2] = {column + (side == SIDE_RIGHT), column + (side != SIDE_LEFT)};
-    return is_inside(silhouette, rows[0], columns[0]) != is_inside(silhouette, rows[1], columns[1]);
-}
-
-/// Where it does.
-static void crossing(const struct silhouette *silhouette, int row, int column, enum side side, float xy[2])
+/// Whether the outline crosses a side of the cell whose upper left node that is, and where; `xy` may be NULL.
+static bool crosses(const struct silhouette *silhouette, int row, int column, enum side side, float xy[2])
 {
     const int rows[2] = {row + (side == SIDE_BOTTOM), row + (side != SIDE_TOP)};
     const int columns[2] = {column + (side == SIDE_RIGHT), column + (side != SIDE_LEFT)};
     const float a = silhouette->inside[rows[0]][columns[0]], b = silhouette->inside[rows[1]][columns[1]];
-    const float t = a / (a - b);
-    xy[0] = node_x(silhouette, columns[0]) + t * silhouette->cell * (float)(columns[1] - columns[0]);
-    xy[1] = node_y(silhouette, rows[0]) + t * silhouette->cell * (float)(rows[1] - rows[0]);
+    if (!xy || (a >= 0) == (b >= 0)) return (a >= 0) != (b >= 0);
+    const float along = a / (a - b) * silhouette->cell;
+    place_node(silhouette, rows[0], columns[0], xy);
+    xy[0] += along * (float)(columns[1] - columns[0]);
+    xy[1] += along * (float)(rows[1] - rows[0]);
+    return true;
 }
 
 /// The side by which the outline that came in by one leaves; where all four are crossed, it turns around the corner at the left hand.
@@ -178,7 +162,7 @@ static enum side leave(const struct silhouette *silhouette, int row, int column,
     static const enum side order[] = {1, 3, 2};
     for (int i = 0; i < 3; i++) {
         const enum side out = (in + order[i]) % 4;
-        if (crosses(silhouette, row, column, out)) return out;
+        if (crosses(silhouette, row, column, out, NULL)) return out;
     }
     return in;
 }
@@ -193,7 +177,7 @@ static int follow_from(struct silhouette *silhouette, int row, int column)
     do {
         if (in == SIDE_TOP) silhouette->followed[row][column] = true;
         if (in == SIDE_BOTTOM) silhouette->followed[row + 1][column] = true;
-        if (count < SILHOUETTE_POINTS - 1) crossing(silhouette, row, column, in, silhouette->points[count++]);
+        if (count < SILHOUETTE_POINTS - 1) crosses(silhouette, row, column, in, silhouette->points[count++]);
         const enum side out = leave(silhouette, row, column, in);
         if (out == in) break;
         row += down[out];
@@ -208,7 +192,7 @@ int silhouette_follow(struct silhouette *silhouette)
 {
     for (int row = 1; row + 1 < silhouette->rows; row++) {
         for (int column = 0; column + 1 < silhouette->columns; column++) {
-            if (silhouette->followed[row][column] || !crosses(silhouette, row, column, SIDE_TOP)) continue;
+            if (silhouette->followed[row][column] || !crosses(silhouette, row, column, SIDE_TOP, NULL)) continue;
             const int count = follow_from(silhouette, row, column);
             if (count > LEAST_POINTS) return count;
         }
