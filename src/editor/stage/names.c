@@ -48,17 +48,15 @@ void names_show(const struct stage *stage, struct core *core)
 {
     const struct document *document = core->document;
     struct rect shown[STAGE_MAX_TAILS], place;
-    int count = 0, rig = document_next_rig(document, RIG_TAIL, 0);
-    for (int t = 0; rig >= 0 && t < stage->tail_count && stage->tail_count > 1; t++) {
-        const struct tail *tail = &document->rigs[rig]->tail;
-        const char *name = document->rigs[rig]->name;
-        const uint32_t color =
-            tail->channel_count > 0 ? spline_list_color(document, tail->channels[0].spline) : theme()->text_dim;
-        bool free = place_name(stage, core, t, name, &place);
+    int count = 0;
+    for (int t = 0; t < stage->tail_count && stage->tail_count > 1; t++) {
+        const struct rig *rig = document->rigs[stage->strands[t].rig];
+        const int spline = rig->tail.channel_count > 0 ? rig->tail.channels[0].spline : -1;
+        const uint32_t color = spline >= 0 ? spline_list_color(document, spline) : theme()->text_dim;
+        bool free = place_name(stage, core, t, rig->name, &place);
         for (int i = 0; i < count && free; i++) free = !overlap(&place, &shown[i]);
-        if (free) show_name(core, &place, color, name);
+        if (free) show_name(core, &place, color, rig->name);
         if (free) shown[count++] = place;
-        rig = document_next_rig(document, RIG_TAIL, rig + 1);
     }
 }
 
