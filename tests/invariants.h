@@ -67,7 +67,7 @@ static inline void assert_splines(const struct document *d)
         assert_true(spline->name && spline->name[0]);
         assert_int_equal(document_find_spline(d, spline->name), s);
         assert_int_equal(document_find_spline_id(d, spline->id), s);
-        assert_true(spline->id < d->next_spline_id);
+        assert_true(spline->id < d->next_id);
         assert_true(spline->knot_count <= spline->knot_capacity);
         assert_in_range(spline->color + 1, 0, 0x1000000);
         for (enum parameter p = 0; p < PARAMETER_COUNT; p++) {

@@ -27,7 +27,7 @@ struct document *document_create(void)
     document->fps = 24;
     document->substeps = 1;
     document->last_frame = 120;
-    document->next_id = document->next_spline_id = 1;
+    document->next_id = 1;
     return document;
 }
 

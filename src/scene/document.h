@@ -32,7 +32,7 @@ struct knot {
     double slope;     ///< value per second
     double stiffness; ///< 1/s
     bool has_slope;
-    unsigned id;          ///< unique in the document, kept through edits and undo; not saved
+    unsigned id;          ///< unique in the document, as those of splines, rigs and pins, kept through edits and undo; not saved
     struct json_t *extra; ///< unknown keys of the file, owned by the document, or NULL
 };
 
@@ -43,7 +43,7 @@ struct spline {
     struct knot *knots; ///< by sample
     int knot_count, knot_capacity;
     int color;   ///< 0xRRGGBB, or -1: from the theme, in turn
-    unsigned id; ///< unique among the splines, kept through edits and undo; not saved
+    unsigned id; ///< as a knot's
     struct json_t *extra;
 };
 
@@ -69,9 +69,7 @@ struct document {
     struct rig **rigs; ///< in the order of the file
     int rig_count;
     char *folder;            ///< where relative paths start; NULL: the working folder
-    unsigned next_id;        ///< of a knot
-    unsigned next_spline_id; ///< of a spline
-    unsigned next_rig_id;    ///< of a rig, less one
+    unsigned next_id;        ///< of a knot, pin, spline or rig
     uint64_t edits;          ///< another number after every edit, undone or not, than any document had; not saved
     struct json_t *extra;
     struct json_t *owned; ///< what `extra` pointers point into; never changed once loaded

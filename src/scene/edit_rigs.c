@@ -166,7 +166,7 @@ bool edit_rig_add(struct document *document, const struct rig *contents, struct 
     free(rig->name);
     rig->name = new_name(document, contents);
     rig->extra = NULL;
-    rig->id = ++document->next_rig_id;
+    rig->id = document->next_id++;
     document_add_rig(document, rig);
     return edit_end(document, before, true, error);
 }

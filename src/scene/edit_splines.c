@@ -69,7 +69,7 @@ static bool add(struct document *document, int at, struct spline *spline, struct
         spline_drop(spline);
         return false;
     }
-    spline->id = document->next_spline_id++;
+    spline->id = document->next_id++;
     for (int k = 0; k < spline->knot_count; k++) spline->knots[k].id = document->next_id++;
     document_insert_spline(document, at, spline);
     move_references(document, INT_MAX, at);

@@ -28,7 +28,7 @@ struct history {
     bool is_open, can_merge;
     const char *label;
     uint64_t merge;
-    unsigned next_id, next_spline_id, next_rig_id; ///< the document's, as the open step began
+    unsigned next_id; ///< the document's, as the open step began
 };
 
 /// Forgets the states from an index on.
@@ -79,19 +79,13 @@ void history_begin(struct history *history, const char *label, uint64_t merge)
     history->label = label;
     history->merge = merge;
     history->next_id = history->document->next_id;
-    history->next_spline_id = history->document->next_spline_id;
-    history->next_rig_id = history->document->next_rig_id;
 }
-
-static unsigned larger(unsigned a, unsigned b) { return a > b ? a : b; }
 
 /// The document becomes what it was in the current state. Ids that were given since are not given again.
 static void go_back(struct history *history)
 {
     struct document *document = history->document, *next = document_copy(current(history)->document);
-    next->next_id = larger(next->next_id, document->next_id);
-    next->next_spline_id = larger(next->next_spline_id, document->next_spline_id);
-    next->next_rig_id = larger(next->next_rig_id, document->next_rig_id);
+    if (document->next_id > next->next_id) next->next_id = document->next_id;
     document_destroy(history->left);
     history->left = document_copy(document);
     document_become(document, next);
@@ -108,8 +102,6 @@ void history_restart(struct history *history)
     if (!has_changed(history)) return;
     go_back(history);
     history->document->next_id = history->next_id; // so that what is inserted again gets the same ids
-    history->document->next_spline_id = history->next_spline_id;
-    history->document->next_rig_id = history->next_rig_id;
 }
 
 /// Drops the oldest steps while they replaced more than the limit, an eighth of it at a time, so that the rest rarely move.

@@ -279,7 +279,7 @@ void load_splines(struct reader *reader, const struct value *scene)
     for (int i = 0; i < count; i++) {
         const struct value object = reader_element(&splines, i);
         document->splines[i] = spline_create();
-        document->splines[i]->id = document->next_spline_id++;
+        document->splines[i]->id = document->next_id++;
         document->splines[i]->name = reader_name(reader, reader_member(&object, "name"));
     }
     index_names(reader, &splines.at);

@@ -173,7 +173,7 @@ struct pin {
     double frame;         ///< as written; may be fractional
     int point;            ///< of a character: a vertex of its model; of a tail or chain: a joint, whose end it is
     double to[3];         ///< metres of the world
-    unsigned id;          ///< unique among the document's knots and pins, kept through edits and undo; not saved
+    unsigned id;          ///< as a knot's
     struct json_t *extra; ///< unknown keys of the file, owned by the document, or NULL
 };
 
@@ -190,7 +190,7 @@ enum { RIG_MAX_INPUTS = 64 }; ///< of a rig of any kind
 
 struct rig {
     atomic_int holders; ///< documents
-    unsigned id;        ///< unique among the rigs, kept through edits and undo; not saved
+    unsigned id;        ///< as a knot's
     enum rig_kind kind;
     char *name; ///< NULL where the file has none
     union {

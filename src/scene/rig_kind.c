@@ -163,7 +163,7 @@ void load_rigs(struct reader *reader, const struct value *scene)
         int kind = load_kind(reader, reader_member(&object, "type"));
         // any kind will do where it is unknown: the scene is refused
         struct rig *rig = rig_create(kind < 0 ? RIG_TAIL : (enum rig_kind)kind);
-        rig->id = ++document->next_rig_id;
+        rig->id = document->next_id++;
         document_add_rig(document, rig);
         reader->rig = rig;
         if (kind >= 0) object_load(reader, &object, kinds[kind]->fields, rig);
