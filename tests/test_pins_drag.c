@@ -124,7 +124,7 @@ static const struct drag drags[] = {
 TEST(far_drags_do_not_jump)
 {
     static struct stand stand;
-    for (size_t i = 0; i < sizeof drags / sizeof *drags; i++) {
+    for (size_t i = 0; i < sizeof drags / sizeof *drags; i += (size_t)quick_or_all(3, 1)) {
         const struct drag *drag = &drags[i];
         double change;
         open_drag(&stand, drag);
@@ -167,7 +167,7 @@ TEST(what_can_be_reached_is_reached)
     srand(1);
     for (size_t i = 0; i < sizeof drags / sizeof *drags; i++) {
         open_drag(&stand, &drags[i]);
-        for (int n = 0; n < 50; n++) {
+        for (int n = 0; n < quick_or_all(10, 50); n++) {
             move_within_reach(&stand, &drags[i], 0.4);
             const double left = solve(&stand, &drags[i]);
             met += left <= 1e-6, near += left < 0.01, count++;

@@ -21,7 +21,7 @@ void basis_free(struct basis *b)
     *b = (struct basis){0};
 }
 
-static double dot(const double *a, const double *b, int count)
+double basis_dot(const double *a, const double *b, int count)
 {
     double sum = 0;
     for (int i = 0; i < count; i++) sum += a[i] * b[i];
@@ -34,15 +34,15 @@ void basis_append(struct basis *b, const double *sequence)
     double *q = b->q + row * n, *lower = b->lower + row * (size_t)b->capacity;
     memcpy(q, sequence, n * sizeof *q);
     memset(lower, 0, (size_t)b->capacity * sizeof *lower);
-    double whole = sqrt(dot(q, q, b->frames));
+    double whole = sqrt(basis_dot(q, q, b->frames));
     for (int pass = 0; pass < 2; pass++) {
         for (size_t k = 0; k < row; k++) {
-            double along = dot(q, b->q + k * n, b->frames);
+            double along = basis_dot(q, b->q + k * n, b->frames);
             lower[k] += along;
             for (size_t t = 0; t < n; t++) q[t] -= along * b->q[k * n + t];
         }
     }
-    double left = sqrt(dot(q, q, b->frames));
+    double left = sqrt(basis_dot(q, q, b->frames));
     bool spanned = !(left > dependent * whole);
     for (size_t t = 0; t < n; t++) q[t] = spanned ? 0 : q[t] / left;
     lower[row] = spanned ? 0 : left;
@@ -55,7 +55,7 @@ double basis_gain(const struct basis *b, int last, const double *gram)
     double gain = 0;
     for (int k = b->count - last; k < b->count; k++) {
         const double *q = b->q + (size_t)k * n;
-        for (size_t t = 0; t < n; t++) gain += q[t] * dot(q, gram + t * n, b->frames);
+        for (size_t t = 0; t < n; t++) gain += q[t] * basis_dot(q, gram + t * n, b->frames);
     }
     return gain;
 }

@@ -6,6 +6,8 @@
 
 // Sequences over the frames, and least squares on them.
 
+double basis_dot(const double *a, const double *b, int count);
+
 /// B: `count` sequences, each of `frames` numbers. B = L Q with orthonormal rows of Q and L lower triangular.
 struct basis {
     int frames, count, capacity;

@@ -21,13 +21,6 @@ void exponentials_fill(double complex z, int frames, double *rows)
     }
 }
 
-static double dot(const double *a, const double *b, int count)
-{
-    double sum = 0;
-    for (int i = 0; i < count; i++) sum += a[i] * b[i];
-    return sum;
-}
-
 static void append(struct basis *basis, double complex z, double *room)
 {
     exponentials_fill(z, basis->frames, room);
@@ -47,7 +40,7 @@ static double largest_part(const struct basis *basis, const double *gram, double
         for (int i = 0; i < 4; i++) {
             const double *a = weights + (size_t)(k + i / 2) * n, *b = weights + (size_t)(k + i % 2) * n;
             double power = 0, product = 0;
-            for (size_t t = 0; t < n; t++) power += a[t] * dot(gram + t * n, b, basis->frames);
+            for (size_t t = 0; t < n; t++) power += a[t] * basis_dot(gram + t * n, b, basis->frames);
             for (int j = 0; j < basis->capacity; j++)
                 product +=
                     basis->lower[(k + i / 2) * basis->capacity + j] * basis->lower[(k + i % 2) * basis->capacity + j];

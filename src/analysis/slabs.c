@@ -5,9 +5,6 @@
 
 enum { SLAB_NUMBERS = 1 << 20 }; ///< 8 MiB: a slab and its copies fit the cache
 
-/// Called with columns [first, first + count) of S.
-typedef void visit(void *user, const double *slab, int first, int count);
-
 /// Subtracts each column's mean, and stores it in `means` unless that is NULL.
 static void remove_means(double *slab, int frames, int count, double *means)
 {
@@ -20,67 +17,65 @@ static void remove_means(double *slab, int frames, int count, double *means)
     }
 }
 
-static bool visit_slabs(const struct motion *motion, visit *each, void *user, double *means, struct error *error)
-{
-    int columns = 3 * motion->vertices, width = SLAB_NUMBERS / motion->frames + 1;
-    if (width > columns) width = columns;
-    double *slab = need((size_t)motion->frames * (size_t)width, sizeof *slab);
-    bool done = true;
-    for (int first = 0; done && first < columns; first += width) {
-        int count = columns - first < width ? columns - first : width;
-        done = motion_columns(motion, first, count, slab, error);
-        if (!done) break;
-        remove_means(slab, motion->frames, count, means ? means + first : NULL);
-        each(user, slab, first, count);
-    }
-    free(slab);
-    return done;
-}
-
-struct gram {
-    const struct lapack *lapack;
-    double *sum;
-    int frames;
+/// Some columns of S.
+struct slab {
+    const struct motion *motion;
+    int columns, width, first, count; ///< of all; of a slab at most; of this one
+    double *numbers;
 };
 
-static void add_products(void *user, const double *slab, int first, int count)
+static struct slab before_first(const struct motion *motion)
 {
-    const struct gram *g = user;
-    (void)first;
-    g->lapack->dsyrk(LAPACK_ROWS_FIRST, BLAS_LOWER, BLAS_PLAIN, g->frames, count, 1, slab, count, 1, g->sum,
-                     g->frames);
+    const int columns = 3 * motion->vertices, width = SLAB_NUMBERS / motion->frames + 1;
+    struct slab slab = {.motion = motion, .columns = columns, .width = width < columns ? width : columns};
+    slab.numbers = need((size_t)motion->frames * (size_t)slab.width, sizeof *slab.numbers);
+    return slab;
+}
+
+/// Reads the next one; false behind the last and where it cannot be read.
+static bool read_next(struct slab *slab, double *means, struct error *error)
+{
+    const int left = slab->columns - slab->first - slab->count;
+    if (left == 0) return false;
+    slab->first += slab->count;
+    slab->count = left < slab->width ? left : slab->width;
+    if (!motion_columns(slab->motion, slab->first, slab->count, slab->numbers, error)) {
+        slab->count = 0;
+        return false;
+    }
+    remove_means(slab->numbers, slab->motion->frames, slab->count, means ? means + slab->first : NULL);
+    return true;
+}
+
+/// Whether all were read.
+static bool end(const struct slab *slab)
+{
+    free(slab->numbers);
+    return slab->first + slab->count == slab->columns;
 }
 
 bool slabs_gram(const struct lapack *lapack, const struct motion *motion, double *gram, double *means,
                 struct error *error)
 {
     size_t n = (size_t)motion->frames;
-    struct gram g = {lapack, gram, motion->frames};
+    struct slab slab = before_first(motion);
     for (size_t i = 0; i < n * n; i++) gram[i] = 0;
-    if (!visit_slabs(motion, add_products, &g, means, error)) return false;
+    while (read_next(&slab, means, error))
+        lapack->dsyrk(LAPACK_ROWS_FIRST, BLAS_LOWER, BLAS_PLAIN, motion->frames, slab.count, 1, slab.numbers,
+                      slab.count, 1, gram, motion->frames);
+    if (!end(&slab)) return false;
     for (size_t i = 0; i < n; i++) {
         for (size_t j = i + 1; j < n; j++) gram[i * n + j] = gram[j * n + i];
     }
     return true;
 }
 
-struct combination {
-    const struct lapack *lapack;
-    const double *weights;
-    double *combined;
-    int rows, frames, columns;
-};
-
-static void combine(void *user, const double *slab, int first, int count)
-{
-    const struct combination *c = user;
-    c->lapack->dgemm(LAPACK_ROWS_FIRST, BLAS_PLAIN, BLAS_PLAIN, c->rows, count, c->frames, 1, c->weights, c->frames,
-                     slab, count, 0, c->combined + first, c->columns);
-}
-
 bool slabs_combine(const struct lapack *lapack, const struct motion *motion, const double *weights, int rows,
                    double *combined, struct error *error)
 {
-    struct combination c = {lapack, weights, combined, rows, motion->frames, 3 * motion->vertices};
-    return visit_slabs(motion, combine, &c, NULL, error);
+    struct slab slab = before_first(motion);
+    while (read_next(&slab, NULL, error))
+        lapack->dgemm(LAPACK_ROWS_FIRST, BLAS_PLAIN, BLAS_PLAIN, rows, slab.count, motion->frames, 1, weights,
+                      motion->frames, slab.numbers, slab.count, 0, combined + slab.first, slab.columns);
+    return end(&slab);
 }

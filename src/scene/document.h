@@ -32,7 +32,8 @@ struct knot {
     double slope;     ///< value per second
     double stiffness; ///< 1/s
     bool has_slope;
-    unsigned id;          ///< unique in the document, as those of splines, rigs and pins, kept through edits and undo; not saved
+    unsigned
+        id; ///< unique in the document, as those of splines, rigs and pins, kept through edits and undo; not saved
     struct json_t *extra; ///< unknown keys of the file, owned by the document, or NULL
 };
 
@@ -68,9 +69,9 @@ struct document {
     int spline_count;
     struct rig **rigs; ///< in the order of the file
     int rig_count;
-    char *folder;            ///< where relative paths start; NULL: the working folder
-    unsigned next_id;        ///< of a knot, pin, spline or rig
-    uint64_t edits;          ///< another number after every edit, undone or not, than any document had; not saved
+    char *folder;     ///< where relative paths start; NULL: the working folder
+    unsigned next_id; ///< of a knot, pin, spline or rig
+    uint64_t edits;   ///< another number after every edit, undone or not, than any document had; not saved
     struct json_t *extra;
     struct json_t *owned; ///< what `extra` pointers point into; never changed once loaded
 };
