@@ -62,9 +62,9 @@ static bool shake(struct job *job, struct soft *soft, const struct surface *surf
 static bool write_modes(const struct job *job, const struct soft *soft, struct error *error)
 {
     const int vertices = soft->lattice.vertex_count, nodes = soft->body.node_count;
-    struct motion_writer writer;
+    struct file_output output;
     float(*shape)[3] = need_zeroed((size_t)vertices + 1, sizeof *shape);
-    bool good = motion_write_open(&writer, job->output, soft->modes.count, vertices, error);
+    bool good = motion_start(&output, job->output, soft->modes.count, vertices, error);
     for (int k = 0; good && k < soft->modes.count; k++) {
         lattice_embed(&soft->lattice, (const double(*)[3])(soft->modes.shape + (size_t)k * (size_t)nodes), shape);
         float largest = 0;
@@ -76,10 +76,9 @@ static bool write_modes(const struct job *job, const struct soft *soft, struct e
         for (int i = 0; i < vertices; i++) {
             for (int c = 0; c < 3; c++) shape[i][c] *= scale;
         }
-        good = motion_write_frame(&writer, (const float(*)[3])shape, error);
-        if (!good) motion_write_discard(&writer);
+        fwrite(shape, sizeof *shape, (size_t)vertices, output.stream);
     }
-    good = good && motion_write_commit(&writer, error);
+    good = good && file_output_commit(&output, error);
     free(shape);
     if (!good) return false;
     printf("%4s %12s\n", "mode", "Hz");

@@ -135,22 +135,20 @@ static void embed_frame(const struct shake_job *job, const struct soft *soft, co
 }
 
 static bool write_frames(const struct shake_job *job, const struct soft *soft, const struct surface *surface,
-                         const struct record *record, struct motion_writer *writer, struct error *error)
+                         const struct record *record, struct file_output *output, struct error *error)
 {
-    float(*position)[3] = need_zeroed((size_t)soft->lattice.vertex_count + 1, sizeof *position);
+    const size_t vertices = (size_t)soft->lattice.vertex_count;
+    float(*position)[3] = need_zeroed(vertices + 1, sizeof *position);
     double(*x)[3] = need_zeroed((size_t)record->nodes + 1, sizeof *x);
-    bool good = true;
     memcpy(position, surface->position, (size_t)surface->vertex_count * sizeof *position); // strays stay there
-    for (int frame = 0; good && frame < record->frames; frame++) {
+    for (int frame = 0; frame < record->frames && !ferror(output->stream); frame++) {
         embed_frame(job, soft, record, frame, x, position);
-        good = motion_write_frame(writer, (const float(*)[3])position, error);
+        fwrite(position, sizeof *position, vertices, output->stream);
         stage_tell("writing the motion", frame + 1, record->frames);
     }
     free(position);
     free(x);
-    if (good) return motion_write_commit(writer, error);
-    motion_write_discard(writer);
-    return false;
+    return file_output_commit(output, error);
 }
 
 static void report(const struct shake_job *job, const struct soft *soft, const struct record *record, double left,
@@ -181,20 +179,20 @@ bool simulate_shake(const struct shake_job *job, struct soft *soft, const struct
 {
     const int frames = (int)fmax(1, round(job->seconds * job->fps)), nodes = soft->body.node_count;
     struct record fine = {.frames = frames, .nodes = nodes}, coarse = fine;
-    struct motion_writer writer;
+    struct file_output output;
     const double started = clock_now();
     double left;
     if (!need_has_room(2 * (size_t)frames * (size_t)nodes * sizeof *fine.place))
         return fail_no_memory(error, job->mesh);
-    if (!motion_write_open(&writer, job->output, frames, soft->lattice.vertex_count, error)) return false;
+    if (!motion_start(&output, job->output, frames, soft->lattice.vertex_count, error)) return false;
     fine.place = need_zeroed((size_t)frames * (size_t)nodes, sizeof *fine.place);
     coarse.place = need_zeroed((size_t)frames * (size_t)nodes, sizeof *coarse.place);
     bool good = refine(job, soft, &fine, &coarse, &left, error);
     if (good) {
-        good = write_frames(job, soft, surface, &fine, &writer, error);
+        good = write_frames(job, soft, surface, &fine, &output, error);
         if (good) report(job, soft, &fine, left, started);
     } else {
-        motion_write_discard(&writer);
+        file_output_discard(&output);
     }
     free(fine.place);
     free(coarse.place);

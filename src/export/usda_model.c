@@ -6,6 +6,35 @@
 #include <stdlib.h>
 #include <string.h>
 
+// --- matrices in double precision, columns first
+
+/// Of a node against its parent at rest.
+static void node_matrix(const struct gltf_node *node, double m[16])
+{
+    const struct gltf_place *place = &node->place;
+    const double x = (double)place->rotation[0], y = (double)place->rotation[1], z = (double)place->rotation[2],
+                 w = (double)place->rotation[3];
+    const double turned[3][3] = {{1 - 2 * (y * y + z * z), 2 * (x * y + w * z), 2 * (x * z - w * y)},
+                                 {2 * (x * y - w * z), 1 - 2 * (x * x + z * z), 2 * (y * z + w * x)},
+                                 {2 * (x * z + w * y), 2 * (y * z - w * x), 1 - 2 * (x * x + y * y)}};
+    for (int c = 0; c < 3; c++) {
+        for (int r = 0; r < 3; r++) m[4 * c + r] = (double)place->scale[c] * turned[c][r];
+        m[4 * c + 3] = 0;
+        m[12 + c] = (double)place->translation[c];
+    }
+    m[15] = 1;
+    for (int i = 0; i < 16 && node->has_matrix; i++) m[i] = (double)node->matrix[i];
+}
+
+/// a · b
+static void multiply(const double a[16], const double b[16], double product[16])
+{
+    for (int i = 0; i < 16; i++) {
+        product[i] = 0;
+        for (int k = 0; k < 4; k++) product[i] += a[4 * k + i % 4] * b[i / 4 * 4 + k];
+    }
+}
+
 // --- the joints: which there are, and where they rest
 
 /// Where a node is at a key, against its parent.
@@ -51,7 +80,7 @@ static void rest_of(const struct usda_model *model, int number, double m[16])
         node.place = (struct gltf_place){.rotation = {0, 0, 0, 1}};
         memcpy(node.place.scale, place_at(model, 0, joint->node)->scale, sizeof node.place.scale);
     }
-    gltf_node_matrix(&node, m);
+    node_matrix(&node, m);
 }
 
 static void add_joint(struct usda_model *model, struct usda_names *names, int node, int parent,
@@ -66,7 +95,7 @@ static void add_joint(struct usda_model *model, struct usda_names *names, int no
     snprintf(wanted, sizeof wanted, "%.40s%s", model->gltf->nodes[node].name, part == JOINT_SCALE ? "_scale" : "");
     usda_unique(names, wanted, joint->name);
     rest_of(model, j, parent >= 0 ? local : joint->world);
-    if (parent >= 0) gltf_multiply(model->joints[parent].world, local, joint->world);
+    if (parent >= 0) multiply(model->joints[parent].world, local, joint->world);
     model->joint_of[node] = j;
 }
 

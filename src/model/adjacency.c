@@ -28,6 +28,14 @@ void spots_sort(const float (*position)[3], int count, struct spot *spots)
     qsort(spots, (size_t)count, sizeof *spots, compare_spots);
 }
 
+void spots_first(const struct spot *spots, int count, uint32_t *first)
+{
+    for (int i = 0; i < count; i++) {
+        const bool same = i > 0 && spots_meet(&spots[i - 1], &spots[i]);
+        first[spots[i].vertex] = same ? first[spots[i - 1].vertex] : spots[i].vertex;
+    }
+}
+
 /// Both directions of an edge: only counted while there is no list yet, else entered at `fill`. Twins may be the ends of one, so a vertex may
 /// be its own other end.
 static void add_edge(struct adjacency *adjacency, int *fill, uint32_t i, uint32_t j)
@@ -163,14 +171,6 @@ static float (*snap(const float (*position)[3], int count))[3]
     return snapped;
 }
 
-static void merge_vertices(const struct spot *spots, int count, uint32_t *spot)
-{
-    for (int i = 0; i < count; i++) {
-        const bool same = i > 0 && spots_meet(&spots[i - 1], &spots[i]);
-        spot[spots[i].vertex] = same ? spot[spots[i - 1].vertex] : spots[i].vertex;
-    }
-}
-
 static void list_corners(struct corners *corners, int vertex_count, const uint32_t *indices, int index_count)
 {
     for (int v = 0; v < vertex_count; v++) corners->last[v] = -1;
@@ -210,7 +210,7 @@ void neighbours_find(const float (*position)[3], int vertex_count, const uint32_
                               need_zeroed(vertices, sizeof *corners.many),
                               need((size_t)index_count + 1, sizeof *corners.before)};
     spots_sort((const float(*)[3])snapped, vertex_count, spots);
-    merge_vertices(spots, vertex_count, corners.spot);
+    spots_first(spots, vertex_count, corners.spot);
     list_corners(&corners, vertex_count, indices, index_count);
     for (int i = 0; i < index_count; i++) neighbours[i] = find_one(&corners, indices, i);
     free(snapped);

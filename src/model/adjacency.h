@@ -31,6 +31,9 @@ void spots_sort(const float (*position)[3], int count, struct spot *spots);
 /// Whether two vertices are at the very same place.
 bool spots_meet(const struct spot *a, const struct spot *b);
 
+/// Of each vertex: the first one at the very same place.
+void spots_first(const struct spot *spots, int count, uint32_t *first);
+
 // Which triangle lies on the other side of each edge.
 
 enum { NEIGHBOUR_NONE = -1, NEIGHBOUR_CUT = -2 }; ///< the mesh ends; what it looks like does

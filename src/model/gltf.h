@@ -209,10 +209,6 @@ void gltf_pose_clip(const struct gltf *gltf, int clip, double time, struct gltf_
 /// World and joint matrices from places. Allocates nothing.
 void gltf_pose_world(const struct gltf *gltf, struct gltf_pose *pose);
 
-/// In double precision: the matrix of a node against its parent at rest, and a · b.
-void gltf_node_matrix(const struct gltf_node *node, double matrix[16]);
-void gltf_multiply(const double a[16], const double b[16], double product[16]);
-
 /// Turns a normal by a matrix, whatever its scale; a mirror turns it round, with the triangles. Its length is 1 then.
 void gltf_turn_normal(const float matrix[16], float normal[3]);
 

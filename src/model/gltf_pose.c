@@ -66,33 +66,6 @@ void gltf_joint_matrix(const struct gltf *gltf, const struct gltf_pose *pose, in
     memcpy(matrix, &m, sizeof m);
 }
 
-// --- in double precision, columns first
-
-void gltf_node_matrix(const struct gltf_node *node, double m[16])
-{
-    const struct gltf_place *place = &node->place;
-    const double x = (double)place->rotation[0], y = (double)place->rotation[1], z = (double)place->rotation[2],
-                 w = (double)place->rotation[3];
-    const double turned[3][3] = {{1 - 2 * (y * y + z * z), 2 * (x * y + w * z), 2 * (x * z - w * y)},
-                                 {2 * (x * y - w * z), 1 - 2 * (x * x + z * z), 2 * (y * z + w * x)},
-                                 {2 * (x * z + w * y), 2 * (y * z - w * x), 1 - 2 * (x * x + y * y)}};
-    for (int c = 0; c < 3; c++) {
-        for (int r = 0; r < 3; r++) m[4 * c + r] = (double)place->scale[c] * turned[c][r];
-        m[4 * c + 3] = 0;
-        m[12 + c] = (double)place->translation[c];
-    }
-    m[15] = 1;
-    for (int i = 0; i < 16 && node->has_matrix; i++) m[i] = (double)node->matrix[i];
-}
-
-void gltf_multiply(const double a[16], const double b[16], double product[16])
-{
-    for (int i = 0; i < 16; i++) {
-        product[i] = 0;
-        for (int k = 0; k < 4; k++) product[i] += a[4 * k + i % 4] * b[i / 4 * 4 + k];
-    }
-}
-
 // --- vertices
 
 /// v + Σ w Δ; `targets` are those of positions or, from the same array, of normals.

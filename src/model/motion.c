@@ -6,7 +6,6 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include <strings.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -167,8 +166,7 @@ static bool read_header(struct motion *m, int64_t size, struct error *error)
     if (!read_at(m, 0, start, sizeof start, error)) return false;
     if (memcmp(start, npy_magic, sizeof npy_magic) == 0) return read_npy_header(m, size, error);
     if (memcmp(start, pc2_magic, sizeof pc2_magic) == 0) return read_pc2_header(m, size, error);
-    const char *dot = strrchr(m->path, '.'); // MDD has no magic
-    if (dot && strcasecmp(dot, ".mdd") == 0) return read_mdd_header(m, size, error);
+    if (path_has_end(m->path, ".mdd")) return read_mdd_header(m, size, error); // it has no magic
     return fail(error, ERROR_INPUT, "%s: expected a motion (.npy, .pc2 or .mdd), got something else", m->path);
 }
 
@@ -329,34 +327,10 @@ void motion_print_frame(FILE *out, enum motion_form form, const float (*position
     }
 }
 
-bool motion_write_open(struct motion_writer *writer, const char *path, int frames, int vertices, struct error *error)
+bool motion_start(struct file_output *output, const char *path, int frames, int vertices, struct error *error)
 {
-    const char *dot = strrchr(path, '.');
     const struct motion_span span = {.frames = frames, .vertices = vertices, .spacing = 1};
-    *writer = (struct motion_writer){.form = dot && strcasecmp(dot, ".pc2") == 0 ? MOTION_PC2 : MOTION_NPY,
-                                     .frames = frames,
-                                     .vertices = vertices};
-    if (!file_output_open(&writer->output, path, error)) return false;
-    motion_print_start(writer->output.stream, writer->form, &span);
+    if (!file_output_open(output, path, error)) return false;
+    motion_print_start(output->stream, path_has_end(path, ".pc2") ? MOTION_PC2 : MOTION_NPY, &span);
     return true;
 }
-
-bool motion_write_frame(struct motion_writer *writer, const float (*position)[3], struct error *error)
-{
-    motion_print_frame(writer->output.stream, writer->form, position, writer->vertices);
-    if (ferror(writer->output.stream))
-        return fail(error, ERROR_ENVIRONMENT, "%s: cannot be written: %s", writer->output.path, strerror(errno));
-    writer->written++;
-    return true;
-}
-
-bool motion_write_commit(struct motion_writer *writer, struct error *error)
-{
-    if (writer->written == writer->frames) return file_output_commit(&writer->output, error);
-    fail(error, ERROR_ENVIRONMENT, "%s: expected %d frames, got %d", writer->output.path, writer->frames,
-         writer->written);
-    motion_write_discard(writer);
-    return false;
-}
-
-void motion_write_discard(struct motion_writer *writer) { file_output_discard(&writer->output); }

@@ -45,23 +45,8 @@ struct motion_span {
 void motion_print_start(FILE *out, enum motion_form form, const struct motion_span *span);
 void motion_print_frame(FILE *out, enum motion_form form, const float (*position)[3], int vertices);
 
-/// A motion being written.
-struct motion_writer {
-    struct file_output output; // all private
-    enum motion_form form;
-    int frames, vertices, written;
-};
-
-/// Starts a file of `frames` frames: .npy or, where the path ends in .pc2, PC2. `path` must live until the end.
-bool motion_write_open(struct motion_writer *writer, const char *path, int frames, int vertices, struct error *error);
-
-/// Appends a frame of vertices × 3 numbers.
-bool motion_write_frame(struct motion_writer *writer, const float (*position)[3], struct error *error);
-
-/// Puts the file in place once all frames are written; on failure the old file is intact. Ends the writer in any case.
-bool motion_write_commit(struct motion_writer *writer, struct error *error);
-
-/// Ends the writer and removes its file.
-void motion_write_discard(struct motion_writer *writer);
+/// Starts a file of `frames` frames: .npy or, where the path ends in .pc2, PC2. The caller adds the frames (positions as they lie in memory),
+/// and commits or discards it.
+bool motion_start(struct file_output *output, const char *path, int frames, int vertices, struct error *error);
 
 #endif

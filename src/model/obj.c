@@ -276,7 +276,7 @@ bool obj_read(struct words *words, struct surface_builder *builder)
         .path = words->path, .lines = {.next = words->at, .joins = true}, .builder = builder, .error = words->error};
     if (memchr(text, '\0', (size_t)size))
         return fail(r.error, ERROR_INPUT, "%s: expected the text of an OBJ file, got binary data", r.path);
-    while (next_line(&r.lines)) {
+    while (!builder->failed && next_line(&r.lines)) {
         if (r.lines.number % TELLING == 0) stage_tell("reading the mesh", r.lines.next - text, size);
         if (!read_line(&r)) return false;
     }

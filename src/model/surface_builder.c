@@ -8,29 +8,21 @@
 
 enum { COUNT_LIMIT = 1 << 28, COLOR_LIMIT = 1000 };
 
-/// Room for one more element of `size` bytes; NULL, and failed, where there is none. The old block stays valid.
-static void *grow(struct surface_builder *b, void *block, size_t size, int count, int *capacity)
-{
-    if (count < *capacity) return block;
-    const int wanted = *capacity ? 2 * *capacity : 256;
-    void *larger = count < COUNT_LIMIT ? realloc(block, size * (size_t)wanted) : NULL;
-    if (larger) {
-        *capacity = wanted;
-    } else {
-        b->failed = true;
-    }
-    return larger;
-}
-
-/// array[count] = *value, in an array that grows. The caller counts.
+/// array[count] = *value, in an array that grows. The caller counts. Once there was no room, nothing is added any more.
 static bool put(struct surface_builder *b, void *array, int count, int *capacity, const void *value, size_t size)
 {
-    void *block;
+    char *block;
+    if (b->failed) return false;
     memcpy(&block, array, sizeof block);
-    block = grow(b, block, size, count, capacity);
-    if (!block) return false;
-    memcpy(array, &block, sizeof block);
-    memcpy((char *)block + (size_t)count * size, value, size);
+    if (count == *capacity) {
+        const int wanted = *capacity ? 2 * *capacity : 256;
+        block = count < COUNT_LIMIT ? realloc(block, size * (size_t)wanted) : NULL;
+        b->failed = !block;
+        if (b->failed) return false;
+        *capacity = wanted;
+        memcpy(array, &block, sizeof block);
+    }
+    memcpy(block + (size_t)count * size, value, size);
     return true;
 }
 
@@ -134,10 +126,7 @@ void builder_merge(struct surface_builder *b)
         malloc((count + 1) * sizeof *name); // first each vertex's earliest at its place, then that one's new number
     if (spots && name) {
         spots_sort((const float(*)[3])s->position, s->vertex_count, spots);
-        for (size_t i = 0, earliest = 0; i < count; i++) {
-            if (!spots_meet(&spots[earliest], &spots[i])) earliest = i;
-            name[spots[i].vertex] = spots[earliest].vertex;
-        }
+        spots_first(spots, s->vertex_count, name);
         s->vertex_count = 0;
         for (size_t i = 0; i < count; i++) {
             const bool is_first = name[i] == (uint32_t)i;
