@@ -23,20 +23,21 @@ static bool read_numbers(struct gltf_reader *r, const json_t *attributes, const 
     return false;
 }
 
-/// An attribute as rows of `width` floats, NULL where it is missing. Of four, a missing fourth is 1.
+/// An attribute as rows of `width` floats, in an array that stays NULL where it is missing. Of four, a missing fourth is 1.
 static bool read_rows(struct gltf_reader *r, const json_t *attributes, const char *name, int width, int count,
-                      float **rows)
+                      void *array)
 {
     struct glb_numbers numbers;
     if (!json_object_get(attributes, name)) return true;
     if (!read_numbers(r, attributes, name, width == 4 ? 3 : width, width, count, &numbers)) return false;
-    float *row = *rows = gltf_make(r, (size_t)count, (size_t)width * sizeof **rows);
+    float *const rows = gltf_make(r, (size_t)count, (size_t)width * sizeof *rows), *row = rows;
+    memcpy(array, &rows, sizeof rows);
     const double *from = numbers.values;
     for (int i = 0; row && i < count; i++, row += width, from += numbers.components) {
         for (int k = 0; k < width; k++) row[k] = k < numbers.components ? (float)from[k] : 1;
     }
     free(numbers.values);
-    return *rows;
+    return rows;
 }
 
 /// Adds four influences, from `first`, to each vertex.
@@ -109,11 +110,10 @@ static bool read_targets(struct gltf_reader *r, const json_t *targets, int count
     part->targets = gltf_make(r, (size_t)count, sizeof *part->targets);
     for (int i = 0; part->targets && i < count; i++) {
         const json_t *target = json_array_get(targets, (size_t)i);
-        float *position = NULL, *normal = NULL;
-        bool read = read_rows(r, target, "POSITION", 3, part->vertex_count, &position) &&
-                    (!part->normal || r->stored || read_rows(r, target, "NORMAL", 3, part->vertex_count, &normal));
-        part->targets[i] = (struct gltf_target){(float(*)[3])position, (float(*)[3])normal};
-        if (!read) return false;
+        struct gltf_target *to = &part->targets[i];
+        if (!read_rows(r, target, "POSITION", 3, part->vertex_count, &to->position)) return false;
+        if (part->normal && !r->stored && !read_rows(r, target, "NORMAL", 3, part->vertex_count, &to->normal))
+            return false;
     }
     return part->targets;
 }
@@ -123,7 +123,6 @@ static bool read_coat(struct gltf_reader *r, const json_t *attributes, struct gl
 {
     static const char *const names[] = {"_MARK", "_FUR"};
     const json_t *accessors = gltf_array(r, "accessors");
-    float *rows[2] = {NULL, NULL};
     for (int i = 0; i < 2; i++) {
         const json_t *accessor = json_array_get(accessors, (size_t)glb_integer(attributes, names[i], -1));
         const char *shape = json_string_value(json_object_get(accessor, "type"));
@@ -131,11 +130,8 @@ static bool read_coat(struct gltf_reader *r, const json_t *attributes, struct gl
             glb_integer(accessor, "count", -1) != part->vertex_count)
             return true;
     }
-    const bool read = read_rows(r, attributes, names[0], 3, part->vertex_count, &rows[0]) &&
-                      read_rows(r, attributes, names[1], 2, part->vertex_count, &rows[1]);
-    part->mark = (float(*)[3])rows[0];
-    part->fur = (float(*)[2])rows[1];
-    return read;
+    return read_rows(r, attributes, names[0], 3, part->vertex_count, &part->mark) &&
+           read_rows(r, attributes, names[1], 2, part->vertex_count, &part->fur);
 }
 
 /// Reads the attributes and targets of a part's vertices, but for texture coordinates; what the file has not is NULL.
@@ -143,14 +139,10 @@ static bool read_vertices(struct gltf_reader *r, const json_t *primitive, int ta
 {
     const json_t *attributes = json_object_get(primitive, "attributes");
     const int count = part->vertex_count;
-    float *position = NULL, *normal = NULL, *color = NULL;
-    bool read = read_rows(r, attributes, "POSITION", 3, count, &position) &&
-                read_rows(r, attributes, "NORMAL", 3, count, &normal) &&
-                read_rows(r, attributes, "COLOR_0", 4, count, &color);
-    part->position = (float(*)[3])position;
-    part->normal = (float(*)[3])normal;
-    part->color = (float(*)[4])color;
-    if (!read) return false;
+    if (!read_rows(r, attributes, "POSITION", 3, count, &part->position) ||
+        !read_rows(r, attributes, "NORMAL", 3, count, &part->normal) ||
+        !read_rows(r, attributes, "COLOR_0", 4, count, &part->color))
+        return false;
     normalise(part->normal, count);
     return read_coat(r, attributes, part) && read_influences(r, attributes, part) &&
            read_targets(r, json_object_get(primitive, "targets"), targets, part);
@@ -172,13 +164,8 @@ static bool read_uv(struct gltf_reader *r, const json_t *attributes, struct gltf
     static const struct gltf_uv plain = {.scale = {1, 1}};
     const struct gltf_uv *uv = part->material >= 0 ? &r->uvs[part->material] : &plain;
     char name[32];
-    float *rows = NULL;
     snprintf(name, sizeof name, "TEXCOORD_%d", uv->set);
-    if (!read_rows(r, attributes, name, 2, part->vertex_count, &rows)) {
-        free(rows);
-        return false;
-    }
-    part->uv = (float(*)[2])rows;
+    if (!read_rows(r, attributes, name, 2, part->vertex_count, &part->uv)) return false;
     place_uv(uv, part->uv, part->vertex_count);
     return true;
 }
