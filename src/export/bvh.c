@@ -10,49 +10,39 @@ static void write_name(FILE *out, const char *name)
     for (const char *c = name; *c; c++) fputc(isspace((unsigned char)*c) ? '_' : *c, out);
 }
 
-static void indent(FILE *out, int depth)
+static void write_offset(FILE *out, const float offset[3], int depth)
 {
-    for (int i = 0; i < depth; i++) fputs("  ", out);
+    fprintf(out, "%*sOFFSET %.9g %.9g %.9g\n", 2 * depth, "", (double)offset[0], (double)offset[1],
+            (double)offset[2]);
 }
 
 static void write_end(FILE *out, const float tip[3], int depth)
 {
-    indent(out, depth);
-    fputs("End Site\n", out);
-    indent(out, depth);
-    fputs("{\n", out);
-    indent(out, depth + 1);
-    fprintf(out, "OFFSET %.9g %.9g %.9g\n", (double)tip[0], (double)tip[1], (double)tip[2]);
-    indent(out, depth);
-    fputs("}\n", out);
+    fprintf(out, "%*sEnd Site\n%*s{\n", 2 * depth, "", 2 * depth, "");
+    write_offset(out, tip, depth + 1);
+    fprintf(out, "%*s}\n", 2 * depth, "");
 }
 
 static void write_joint(FILE *out, const struct form *form, int j, int depth)
 {
+    static const float none[3];
     const struct form_joint *joint = &form->joints[j];
     const bool root = j == form->first_bone;
     bool is_last = true;
-    indent(out, depth);
-    fputs(root ? "ROOT " : "JOINT ", out);
+    fprintf(out, "%*s%s ", 2 * depth, "", root ? "ROOT" : "JOINT");
     write_name(out, joint->name);
-    fputc('\n', out);
-    indent(out, depth);
-    fputs("{\n", out);
-    indent(out, depth + 1);
-    fprintf(out, "OFFSET %.9g %.9g %.9g\n", root ? 0.0 : (double)joint->offset[0],
-            root ? 0.0 : (double)joint->offset[1], root ? 0.0 : (double)joint->offset[2]);
-    indent(out, depth + 1);
-    fputs(root ? "CHANNELS 6 Xposition Yposition Zposition Yrotation Xrotation Zrotation\n"
-               : "CHANNELS 3 Yrotation Xrotation Zrotation\n",
-          out);
+    fprintf(out, "\n%*s{\n", 2 * depth, "");
+    write_offset(out, root ? none : joint->offset, depth + 1);
+    fprintf(out, "%*sCHANNELS %s\n", 2 * depth + 2, "",
+            root ? "6 Xposition Yposition Zposition Yrotation Xrotation Zrotation"
+                 : "3 Yrotation Xrotation Zrotation");
     for (int child = j + 1; child < form->joint_count; child++) {
         if (form->joints[child].parent != j) continue;
         is_last = false;
         write_joint(out, form, child, depth + 1);
     }
     if (is_last) write_end(out, form->tip, depth + 1);
-    indent(out, depth);
-    fputs("}\n", out);
+    fprintf(out, "%*s}\n", 2 * depth, "");
 }
 
 /// Angles with q = R_y(angle[0]) · R_x(angle[1]) · R_z(angle[2]), degrees.

@@ -1,11 +1,17 @@
-/// Finds the format, the rigs and the keys, poses the rigs at these, and writes the file whole or not at all.
+/// Finds the format, the rigs and the keys, poses the rigs at these, and writes the file, and those that it names, whole or not at all.
+#include "base/need.h"
 #include "export/form.h"
 #include "scene/text.h"
+#include <errno.h>
 #include <math.h>
 #include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <strings.h>
+#include <sys/stat.h>
 #include <sys/types.h>
+#include <unistd.h>
 
 static const struct format formats[] = {
     {.ending = ".glb", .holds = FORM_MESH | FORM_FILE, .write = gltf_write, .has_tangents = true, .is_binary = true},
@@ -257,4 +263,58 @@ bool range_proceed(struct export_range *range, struct error *error)
     const struct export_options *options = range->options;
     if (!options->proceed || options->proceed(options->user, range->done, range->total)) return true;
     return fail(error, ERROR_ENVIRONMENT, "interrupted; nothing was written");
+}
+
+// --- the files beside the one that is written
+
+static bool make_folder(struct sidecars *sidecars, const char *folder, struct error *error)
+{
+    if (sidecars->folder[0]) return true;
+    snprintf(sidecars->folder, sizeof sidecars->folder, "%s", folder);
+    sidecars->is_new = mkdir(folder, 0777) == 0;
+    if (sidecars->is_new || errno == EEXIST) return true;
+    return fail(error, ERROR_ENVIRONMENT, "%s: cannot be made: %s", folder, strerror(errno));
+}
+
+bool sidecars_add(struct sidecars *sidecars, const char *folder, const char *name, const void *data, size_t size,
+                  struct error *error)
+{
+    if (!make_folder(sidecars, folder, error)) return false;
+    sidecars->files = need_more(sidecars->files, (size_t)sidecars->count + 1, sizeof *sidecars->files);
+    struct sidecar *file = &sidecars->files[sidecars->count];
+    if (asprintf(&file->path, "%s/%s", folder, name) < 0) need_failed();
+    file->is_new = access(file->path, F_OK) != 0;
+    if (!file_check_place(file->path, error) || !file_output_open(&file->output, file->path, error)) {
+        free(file->path);
+        return false;
+    }
+    sidecars->count++;
+    fwrite(data, 1, size, file->output.stream); // whether it could be written is seen as it is committed
+    return true;
+}
+
+bool sidecars_commit(struct sidecars *sidecars, struct error *error)
+{
+    for (int i = 0; i < sidecars->count; i++) {
+        if (!file_output_commit(&sidecars->files[i].output, error)) return false;
+    }
+    return true;
+}
+
+void sidecars_discard(struct sidecars *sidecars)
+{
+    for (int i = 0; i < sidecars->count; i++) {
+        const bool committed = !sidecars->files[i].output.stream;
+        if (!committed) file_output_discard(&sidecars->files[i].output);
+        if (committed && sidecars->files[i].is_new) unlink(sidecars->files[i].path);
+    }
+    if (sidecars->is_new) rmdir(sidecars->folder);
+    sidecars_free(sidecars);
+}
+
+void sidecars_free(struct sidecars *sidecars)
+{
+    for (int i = 0; i < sidecars->count; i++) free(sidecars->files[i].path);
+    free(sidecars->files);
+    *sidecars = (struct sidecars){0};
 }
