@@ -1,14 +1,9 @@
 /// The adversary's problems.
 #include "adversary.h"
+#include "uniform.h"
 
 #include <math.h>
 #include <string.h>
-
-static double uniform(uint64_t *seed)
-{
-    *seed = *seed * 6364136223846793005u + 1442695040888963407u;
-    return (double)(*seed >> 11) * 0x1p-53;
-}
 
 static int pick(uint64_t *seed, int count) { return (int)(uniform(seed) * count); }
 

@@ -43,13 +43,19 @@ static inline void close_scene(struct opened *scene)
     document_destroy(scene->document);
 }
 
-/// Exports a scene; returns the file's path, of the same storage at each second call.
-static inline const char *export_file(const char *scene_path, const char *file, struct export_options options)
+/// Exports what is open; returns the file's path, of the same storage at each second call.
+static inline const char *export_opened(struct opened *scene, const char *file, struct export_options options)
 {
     struct export_report report;
-    struct opened scene = open_scene(scene_path);
     const char *path = folder_path(file);
-    assert_done(export_write(posing_of(&scene), path, &options, &report, &error));
+    assert_done(export_write(posing_of(scene), path, &options, &report, &error));
+    return path;
+}
+
+static inline const char *export_file(const char *scene_path, const char *file, struct export_options options)
+{
+    struct opened scene = open_scene(scene_path);
+    const char *path = export_opened(&scene, file, options);
     close_scene(&scene);
     return path;
 }

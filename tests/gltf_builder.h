@@ -13,7 +13,11 @@ struct builder {
     size_t size;
     char views[1 << 13], accessors[1 << 13], json[1 << 16];
     int view_count, accessor_count;
+    struct gltf gltf; ///< what read_built() has read
 };
+
+/// A test that reads what it builds: GLTF_TEST(name) { add_data(b, …); read_built(b, members); … b->gltf … }.
+#define GLTF_TEST(name) TEST_OF(struct builder, b, , gltf_free(&b->gltf), name)
 
 static inline int add_view(struct builder *b, const void *data, size_t size, int stride)
 {
@@ -76,9 +80,9 @@ static inline void read_text(const char *text, struct gltf *gltf)
     assert_done(gltf_read(temporary_file("model.gltf", text, strlen(text)), gltf, &error));
 }
 
-static inline void read_built(struct builder *b, const char *members, struct gltf *gltf)
+static inline void read_built(struct builder *b, const char *members)
 {
-    read_text(builder_json(b, members), gltf);
+    read_text(builder_json(b, members), &b->gltf);
 }
 
 #endif

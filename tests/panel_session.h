@@ -95,6 +95,14 @@ static inline void panel_drag(struct session *session, const char *name, double 
 
 static inline void panel_release(struct session *session) { session_release(session, BUTTON_LEFT); }
 
+/// Presses a widget, drags it by (dx, dy) in `steps` events and lets go.
+static inline void panel_pull(struct session *session, const char *name, float dx, float dy, int steps)
+{
+    panel_press(session, name, 1);
+    session_drag(session, dx, dy, steps);
+    panel_release(session);
+}
+
 /// What the app says to the oldest request of a kind.
 static inline void panel_answer(struct session *session, enum request_kind kind, bool ok, const char *text)
 {

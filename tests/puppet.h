@@ -52,6 +52,13 @@ static inline struct character puppet_character(float cell, int coordinates)
     return puppet_solid(&ball, lo, hi, cell, coordinates);
 }
 
+/// Writes it, and frees it.
+static inline void puppet_write(struct character *character, const char *path)
+{
+    assert_done(character_write(path, character, true, &error));
+    character_free(character);
+}
+
 /// The figure of a character, which it takes over.
 static inline struct figure puppet_figure(struct character *character)
 {

@@ -68,6 +68,12 @@ static inline void session_point(struct session *session, const char *target)
     session_move(session, x, y);
 }
 
+static inline void session_hover(struct session *session, const char *target)
+{
+    session_point(session, target);
+    session_frame(session);
+}
+
 static inline void session_button(struct session *session, enum event_button which, enum event_action action,
                                   int clicks)
 {
@@ -99,12 +105,32 @@ static inline void session_pull(struct session *session, const char *target, flo
     session_drag(session, dx, dy, steps);
 }
 
+/// The same, and lets go.
+static inline void session_carry(struct session *session, const char *target, float dx, float dy, int steps)
+{
+    session_pull(session, target, dx, dy, steps);
+    session_release(session, BUTTON_LEFT);
+}
+
+/// The last of so many clicks where the pointer is.
+static inline void session_click_here(struct session *session, int clicks)
+{
+    session_press(session, BUTTON_LEFT, clicks);
+    session_release(session, BUTTON_LEFT);
+}
+
 /// A click on a target.
 static inline void session_click(struct session *session, const char *target)
 {
     session_point(session, target);
-    session_press(session, BUTTON_LEFT, 1);
-    session_release(session, BUTTON_LEFT);
+    session_click_here(session, 1);
+}
+
+static inline void session_click_with(struct session *session, unsigned mods, const char *target)
+{
+    session->mods = mods;
+    session_click(session, target);
+    session->mods = 0;
 }
 
 static inline void session_wheel(struct session *session, float notches)

@@ -4,6 +4,7 @@
 #include "curve.h"
 #include "quad.h"
 #include "spline/solver.h"
+#include "uniform.h"
 #include <lapacke.h>
 
 struct subject {
@@ -174,12 +175,6 @@ TEST(long_domains_that_lose_digits)
         if (status != cases[c].status) fail_msg("case %zu: %s, off by %g", c, wiggly_status_text(status), error);
         assert_near(error, 0, cases[c].most);
     }
-}
-
-static double uniform(uint64_t *seed)
-{
-    *seed = *seed * 6364136223846793005u + 1442695040888963407u;
-    return (double)(*seed >> 11) * 0x1p-53;
 }
 
 /// A long spline that is meant to be hard: hardly damped, its start held by next to nothing, knots far apart or close together.

@@ -1,13 +1,13 @@
 /// Knots of several splines at once: selected, moved, nudged, scaled, sloped, deleted, copied and pasted as one step.
 #include "panel_session.h"
+#include "shown.h"
 
 static const char TWO[] =
-    "{\"wiggly\": 1, \"frames\": [0, 96], \"splines\": [{\"name\": \"sway\", \"frequency\": 1,"
-    "\"damping\": 0.1, \"knots\": [{\"frame\": 10, \"value\": 0}, {\"frame\": 20, \"value\": 1},"
-    "{\"frame\": 30, \"value\": -1}, {\"frame\": 60, \"value\": 0}]},"
-    "{\"name\": \"up\", \"mode\": \"cubic\", \"limits\": [-50, 60], \"knots\": [{\"frame\": 20, \"value\": 0.5},"
-    "{\"frame\": 40, \"value\": -0.5}]},"
-    "{\"name\": \"far\", \"mode\": \"cubic\", \"knots\": [{\"frame\": 22, \"value\": 0.2}]}]}";
+    "{\"wiggly\": 1, \"frames\": [0, 96], \"splines\": [{\"name\": \"sway\", \"frequency\": 1,\"damping\": 0.1, "
+    "\"knots\": [{\"frame\": 10, \"value\": 0}, {\"frame\": 20, \"value\": 1},{\"frame\": 30, \"value\": -1}, "
+    "{\"frame\": 60, \"value\": 0}]},{\"name\": \"up\", \"mode\": \"cubic\", \"limits\": [-50, 60], \"knots\": "
+    "[{\"frame\": 20, \"value\": 0.5},{\"frame\": 40, \"value\": -0.5}]},{\"name\": \"far\", \"mode\": \"cubic\", "
+    "\"knots\": [{\"frame\": 22, \"value\": 0.2}]}]}";
 
 static const struct knot *knot(const struct session *s, int spline, int k)
 {
@@ -21,8 +21,7 @@ static void box(struct session *s, const char *from, const char *to)
 {
     session_point(s, from);
     session_press(s, BUTTON_LEFT, 1);
-    session_point(s, to);
-    session_frame(s);
+    session_hover(s, to);
     session_release(s, BUTTON_LEFT);
 }
 
@@ -67,8 +66,7 @@ SESSION_TEST(test_a_drag_moves_all_in_one_step, session_open(s, TWO))
     box(s, "curve(sway,17,1.1)", "curve(sway,26,0.1)");
     const float frame =
         curves_x(s->editor->curves, &s->editor->core, 1) - curves_x(s->editor->curves, &s->editor->core, 0);
-    session_pull(s, "knot(up,0)", 5 * frame, -12, 4);
-    session_release(s, BUTTON_LEFT);
+    session_carry(s, "knot(up,0)", 5 * frame, -12, 4);
     assert_near(knot(s, 0, 1)->frame, 25, 0);
     assert_near(knot(s, 1, 0)->frame, 25, 0);
     assert_near(knot(s, 2, 0)->frame, 27, 0);
@@ -84,16 +82,13 @@ SESSION_TEST(test_a_drag_moves_all_in_one_step, session_open(s, TWO))
 SESSION_TEST(test_what_one_meets_stops_all, session_open(s, TWO))
 {
     session_key(s, 'A', MOD_CTRL | MOD_SHIFT);
-    session_pull(s, "knot(up,0)", 900, 0, 6);
-    session_release(s, BUTTON_LEFT);
+    session_carry(s, "knot(up,0)", 900, 0, 6);
     assert_near(knot(s, 0, 3)->frame, 96, 0);
     assert_near(knot(s, 0, 0)->frame, 46, 0);
     assert_near(knot(s, 1, 1)->frame, 76, 0);
     session_key(s, 'Z', MOD_CTRL);
     session_click(s, "knot(sway,1)"); // on 20, with one on 30
-    s->mods = MOD_SHIFT;
-    session_click(s, "knot(far,0)");
-    s->mods = 0;
+    session_click_with(s, MOD_SHIFT, "knot(far,0)");
     session_key(s, KEY_RIGHT, MOD_ALT | MOD_SHIFT); // 30 is taken in one spline: both go on to 40
     assert_near(knot(s, 0, 2)->frame, 40, 0);
     assert_near(knot(s, 2, 0)->frame, 42, 0);
@@ -229,17 +224,6 @@ SESSION_TEST(test_two_factors_and_what_stops_them, session_open(s, TWO))
     session_key(s, KEY_ESCAPE, 0);
 }
 
-/// The words of a draw list, one a line.
-static bool says(const struct session *s, const char *text)
-{
-    const struct drawlist *list = &s->editor->core.list;
-    for (int i = 0; i < list->count; i++) {
-        if (list->commands[i].kind == DRAW_TEXT && strcmp(list->text + list->commands[i].first, text) == 0)
-            return true;
-    }
-    return false;
-}
-
 /// The upper edge goes along with the pointer, the lower one stays; the factor is beside the pointer.
 SESSION_TEST(test_an_edge_of_the_box_scales_about_the_other_side, session_open(s, TWO))
 {
@@ -248,7 +232,7 @@ SESSION_TEST(test_an_edge_of_the_box_scales_about_the_other_side, session_open(s
     box(s, "curve(sway,17,1.1)", "curve(sway,34,-1.2)"); // 20 and 30 of sway, 20 of up, 22 of far
     const char *original = session_saved(s);
     session_pull(s, "box(0,-1)", 0, -unit / 2, 4);
-    assert_true(says(s, "value × 1.25"));
+    assert_non_null(shown_text(s->editor, "value × 1.25"));
     assert_non_null(strstr(s->editor->curves->scaling.sentence, "value × 1.25 about the other side.  P: the equili"));
     session_release(s, BUTTON_LEFT);
     assert_near(knot(s, 0, 1)->value, 1.5, 0.01);
@@ -286,9 +270,9 @@ SESSION_TEST(test_a_corner_of_the_box_scales_both_and_says_what_stops_it, sessio
     session_pull(s, "box(1,-1)", 10 * frame, 0, 4);
     assert_near(knot(s, 0, 2)->frame, 40, 0);
     assert_near(knot(s, 0, 1)->frame, 20, 0);
-    assert_true(says(s, "time × 2"));
+    assert_non_null(shown_text(s->editor, "time × 2"));
     session_drag(s, 80 * frame, 0, 10); // 110 is outside
-    assert_true(says(s, "a knot would leave the range"));
+    assert_non_null(shown_text(s->editor, "a knot would leave the range"));
     assert_true(knot(s, 0, 2)->frame <= 96);
     session_key(s, KEY_ESCAPE, 0);
     assert_saved(s, original);
@@ -301,14 +285,11 @@ SESSION_TEST(test_the_box_has_the_handles_that_can_scale, session_open(s, TWO))
     struct error error;
     session_click(s, "knot(sway,1)");
     assert_false(editor_target(s->editor, "box(0,-1)", &x, &y, &error));
-    s->mods = MOD_SHIFT;
-    session_click(s, "knot(up,0)"); // on the same frame
-    s->mods = 0;
+    session_click_with(s, MOD_SHIFT, "knot(up,0)"); // on the same frame
     assert_true(editor_target(s->editor, "box(0,-1)", &x, &y, &error));
     assert_false(editor_target(s->editor, "box(1,0)", &x, &y, &error));
     assert_false(editor_target(s->editor, "box(1,-1)", &x, &y, &error));
-    session_point(s, "knot(sway,1)");
-    session_frame(s);
+    session_hover(s, "knot(sway,1)");
     assert_int_equal(s->editor->core.hover.kind, HOVER_KNOT);
 }
 
@@ -329,10 +310,8 @@ SESSION_TEST(test_the_playhead_goes_to_the_next_knot, session_open(s, TWO))
     assert_near(playback->position, 10, 0);
     assert_non_null(strstr(s->editor->core.message.text, "No knot lies before"));
     session_point(s, "knot(sway,3)");
-    session_press(s, BUTTON_LEFT, 1);
-    session_release(s, BUTTON_LEFT);
-    session_press(s, BUTTON_LEFT, 2);
-    session_release(s, BUTTON_LEFT);
+    session_click_here(s, 1);
+    session_click_here(s, 2);
     assert_near(playback->position, 60, 0);
     assert_null(history_undo_label(s->history));
 }

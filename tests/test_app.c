@@ -1,30 +1,39 @@
 /// The app's frames and files, without a picture.
 #include "blind.h"
 #include "documents.h"
+#include "folder.h"
 #include "inside.h"
 
 #include "scene/load.h"
 #include "shown.h"
-#include "temporary.h"
 #include <signal.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <time.h>
+#include <unistd.h>
 
 enum { NOBODY = 65534 };
 
-/// A scene in a file of its own, with knots at frames 0 and 36.
-static const char *scene_file(void)
+/// At frames 0 and 36.
+static const char two_knots[] = "{\"wiggly\": 1, \"frames\": [0, 48], \"splines\": [{\"name\": \"s\", \"knots\": "
+                                "[{\"frame\": 0, \"value\": 0}, {\"frame\": 36, \"value\": 1}]}]}";
+
+static const char *scene(void) { return folder_path("scene.json"); }
+
+/// Opens a scene in a folder of its own that everybody may read.
+static void open_scene(struct blind *blind, const char *text)
 {
-    static const char text[] = "{\"wiggly\": 1, \"frames\": [0, 48], \"splines\": [{\"name\": \"s\", \"knots\": "
-                               "[{\"frame\": 0, \"value\": 0}, {\"frame\": 36, \"value\": 1}]}]}";
-    return temporary_file("app.json", text, sizeof text - 1);
+    assert_int_equal(folder_make(NULL), 0);
+    assert_int_equal(chmod(folder, 0755), 0);
+    blind_open(blind, folder_file("scene.json", text));
+    blind_frame(blind);
 }
 
-static void send_key(struct blind *blind, int key, unsigned mods)
+static void close_scene(struct blind *blind)
 {
-    blind_send(blind, (struct event){.kind = EVENT_KEY, .key = key, .action = ACTION_PRESS, .mods = mods});
-    blind_send(blind, (struct event){.kind = EVENT_KEY, .key = key, .action = ACTION_RELEASE, .mods = mods});
+    blind_close(blind);
+    folder_remove(NULL);
 }
 
 static void send_pointer(struct blind *blind, enum event_kind kind, float x, float y)
@@ -33,25 +42,23 @@ static void send_pointer(struct blind *blind, enum event_kind kind, float x, flo
 }
 
 /// Events happen in their order: a figure's key before the first movement of a drag ends the press, and the movement is no drag.
-TEST_OF(struct blind, blind, blind_open(blind, scene_file()), blind_close(blind),
+TEST_OF(struct blind, blind, open_scene(blind, two_knots), close_scene(blind),
         a_figure_ends_a_press_that_began_in_its_frame)
 {
-    blind_frame(blind);
     struct app *app = &blind->app;
     const double before = app->table.document->splines[0]->knots[1].value;
     float x, y;
     assert_true(editor_target(app->table.editor, "knot(s,1)", &x, &y, NULL));
     send_pointer(blind, EVENT_POINTER, x, y);
     send_pointer(blind, EVENT_BUTTON, x, y);
-    send_key(blind, '3', MOD_CTRL);
+    blind_send_key(blind, '3', MOD_CTRL);
     send_pointer(blind, EVENT_POINTER, x, y - 40);
     blind_frame(blind);
     assert_false(history_is_open(app->table.history));
     assert_string_equal(history_undo_label(app->table.history), "Open a figure");
     assert_int_equal(history_count(app->table.history), 1);
     blind_frame(blind);
-    send_key(blind, 'Z', MOD_CTRL);
-    blind_frame(blind);
+    blind_key(blind, 'Z', MOD_CTRL);
     assert_true(app->table.document->splines[0]->knots[1].value == before);
 }
 
@@ -62,7 +69,7 @@ TEST(poles_of_figure_2_are_in_sight)
         struct blind blind;
         float x, y;
         blind_open(&blind, by_key ? NULL : "assets/scenes/figure2.json");
-        if (by_key) send_key(&blind, '2', MOD_CTRL);
+        if (by_key) blind_send_key(&blind, '2', MOD_CTRL);
         blind_frame(&blind);
         blind_frame(&blind);
         struct editor *editor = blind.app.table.editor;
@@ -74,21 +81,10 @@ TEST(poles_of_figure_2_are_in_sight)
     }
 }
 
-/// Opens a copy of the scene in a folder that everybody may read, and edits it.
-static void open_edited(struct blind *blind, char folder[64], char path[96])
+static void open_edited(struct blind *blind)
 {
-    snprintf(folder, 64, "/tmp/wiggly-test-XXXXXX");
-    assert_non_null(mkdtemp(folder));
-    assert_int_equal(chmod(folder, 0755), 0);
-    snprintf(path, 96, "%s/scene.json", folder);
-    FILE *file = fopen(path, "w");
-    assert_non_null(file);
-    fputs("{\"wiggly\": 1, \"frames\": [0, 48], \"splines\": [{\"name\": \"s\", \"knots\": []}]}", file);
-    assert_int_equal(fclose(file), 0);
-    blind_open(blind, path);
-    blind_frame(blind);
-    send_key(blind, 'I', 0);
-    blind_frame(blind);
+    open_scene(blind, "{\"wiggly\": 1, \"frames\": [0, 48], \"splines\": [{\"name\": \"s\", \"knots\": []}]}");
+    blind_key(blind, 'I', 0);
     assert_false(history_is_saved(blind->app.table.history));
 }
 
@@ -100,132 +96,108 @@ static void assert_knots_in_file(const char *path, int knots)
 }
 
 /// Ctrl+S fails in one sentence that names the file; the work and the file as it was are there, and nothing else is.
-static void assert_save_fails(struct blind *blind, const char *folder, const char *path)
+static void assert_save_fails(struct blind *blind)
 {
-    send_key(blind, 'S', MOD_CTRL);
-    blind_frame(blind);
+    blind_key(blind, 'S', MOD_CTRL);
     const struct message *message = &blind->app.table.editor->core.message;
     assert_true(message->is_error);
-    assert_non_null(strstr(message->text, path));
+    assert_non_null(strstr(message->text, scene()));
     assert_null(strchr(message->text, '\n'));
     assert_false(history_is_saved(blind->app.table.history));
     assert_int_equal(blind->app.table.document->splines[0]->knot_count, 1);
-    assert_knots_in_file(path, 0);
+    assert_knots_in_file(scene(), 0);
     char command[128];
     snprintf(command, sizeof command, "[ \"$(ls -A %s)\" = scene.json ]", folder);
     assert_int_equal(system(command), 0);
 }
 
 /// The same succeeds once there is nothing in its way.
-static void save_and_close(struct blind *blind, const char *folder, const char *path)
+static void assert_save_succeeds(struct blind *blind)
 {
-    send_key(blind, 'S', MOD_CTRL);
-    blind_frame(blind);
+    blind_key(blind, 'S', MOD_CTRL);
     assert_true(history_is_saved(blind->app.table.history));
-    assert_knots_in_file(path, 1);
-    blind_close(blind);
-    unlink(path);
-    assert_int_equal(rmdir(folder), 0);
+    assert_knots_in_file(scene(), 1);
+    unlink(scene());
+    assert_int_equal(rmdir(folder), 0); // there was nothing else
 }
 
+#define EDITED_TEST(name) TEST_OF(struct blind, b, open_edited(b), close_scene(b), name)
+
 /// A limit of the process stands for the disk that ends.
-TEST(work_outlives_a_full_disk)
+EDITED_TEST(work_outlives_a_full_disk)
 {
-    struct blind blind;
-    char folder[64], path[96];
-    open_edited(&blind, folder, path);
     struct rlimit before, small;
     assert_int_equal(getrlimit(RLIMIT_FSIZE, &before), 0);
     small = before;
     small.rlim_cur = 100;
     signal(SIGXFSZ, SIG_IGN);
     assert_int_equal(setrlimit(RLIMIT_FSIZE, &small), 0);
-    assert_save_fails(&blind, folder, path);
+    assert_save_fails(b);
     assert_int_equal(setrlimit(RLIMIT_FSIZE, &before), 0);
-    save_and_close(&blind, folder, path);
+    assert_save_succeeds(b);
 }
 
-TEST(work_outlives_a_folder_that_cannot_be_written)
+EDITED_TEST(work_outlives_a_folder_that_cannot_be_written)
 {
-    struct blind blind;
-    char folder[64], path[96];
-    open_edited(&blind, folder, path);
     const bool is_root = geteuid() == 0;
     assert_int_equal(chmod(folder, 0555), 0);
     if (is_root) assert_int_equal(seteuid(NOBODY), 0);
-    assert_save_fails(&blind, folder, path);
+    assert_save_fails(b);
     if (is_root) assert_int_equal(seteuid(0), 0);
     assert_int_equal(chmod(folder, 0755), 0);
-    save_and_close(&blind, folder, path);
+    assert_save_succeeds(b);
 }
 
 /// Saves again and again, a knot more or less each time, until it is killed.
 static void save_for_ever(struct blind *blind)
 {
     for (;;) {
-        send_key(blind, 'Z', MOD_CTRL);
-        send_key(blind, 'S', MOD_CTRL);
-        blind_frame(blind);
-        send_key(blind, 'Y', MOD_CTRL);
-        send_key(blind, 'S', MOD_CTRL);
-        blind_frame(blind);
+        blind_send_key(blind, 'Z', MOD_CTRL);
+        blind_key(blind, 'S', MOD_CTRL);
+        blind_send_key(blind, 'Y', MOD_CTRL);
+        blind_key(blind, 'S', MOD_CTRL);
     }
 }
 
-TEST(a_file_outlives_a_program_that_is_killed_while_it_saves)
+EDITED_TEST(a_file_outlives_a_program_that_is_killed_while_it_saves)
 {
-    struct blind blind;
-    char folder[64], path[96], command[96];
-    open_edited(&blind, folder, path);
     for (int i = 0; i < 20; i++) {
         const pid_t child = fork();
         assert_true(child >= 0);
-        if (child == 0) save_for_ever(&blind);
+        if (child == 0) save_for_ever(b);
         nanosleep(&(struct timespec){.tv_nsec = 3000000 + 700000 * i}, NULL);
         assert_int_equal(kill(child, SIGKILL), 0);
         assert_int_equal(waitpid(child, NULL, 0), child);
-        struct document *document = scene_load(path, NULL, NULL);
+        struct document *document = scene_load(scene(), NULL, NULL);
         assert_non_null(document);
         document_destroy(document);
     }
-    blind_close(&blind);
-    snprintf(command, sizeof command, "rm -r %s", folder);
-    assert_int_equal(system(command), 0);
 }
 
 /// The last resort never writes through a link that somebody has put in its way.
-TEST(a_rescue_follows_no_link)
+EDITED_TEST(a_rescue_follows_no_link)
 {
-    struct blind blind;
-    char folder[64], path[96], link[128], victim[128], rescued[128];
-    open_edited(&blind, folder, path);
-    snprintf(link, sizeof link, "%s/scene.recovered.json", folder);
-    snprintf(victim, sizeof victim, "%s/victim", folder);
-    snprintf(rescued, sizeof rescued, "%s/scene.recovered-2.json", folder);
-    assert_int_equal(symlink(victim, link), 0);
+    char victim[128];
+    snprintf(victim, sizeof victim, "%s", folder_path("victim"));
+    assert_int_equal(symlink(victim, folder_path("scene.recovered.json")), 0);
     struct error error = {0};
     fail(&error, ERROR_ENVIRONMENT, "the end");
-    app_rescue(&blind.app, &error);
+    app_rescue(&b->app, &error);
     assert_int_not_equal(access(victim, F_OK), 0);
-    assert_non_null(strstr(error.text, rescued));
-    assert_knots_in_file(rescued, 1);
-    blind_close(&blind);
-    snprintf(victim, sizeof victim, "rm -r %s", folder);
-    assert_int_equal(system(victim), 0);
+    assert_non_null(strstr(error.text, folder_path("scene.recovered-2.json")));
+    assert_knots_in_file(folder_path("scene.recovered-2.json"), 1);
 }
 
 /// Where nothing else can be written, it is a folder that nobody could know of and that is the user's alone.
-TEST(the_last_place_is_ones_own)
+EDITED_TEST(the_last_place_is_ones_own)
 {
-    struct blind blind;
     struct stat about;
-    char folder[64], path[96], *home = getenv("HOME") ? strdup(getenv("HOME")) : NULL;
-    open_edited(&blind, folder, path);
-    document_set_path(blind.app.table.document, "/proc/scene.json");
+    char *home = getenv("HOME") ? strdup(getenv("HOME")) : NULL;
+    document_set_path(b->app.table.document, "/proc/scene.json");
     setenv("HOME", "/proc", 1);
     struct error error = {0};
     fail(&error, ERROR_ENVIRONMENT, "the end");
-    app_rescue(&blind.app, &error);
+    app_rescue(&b->app, &error);
     if (home) setenv("HOME", home, 1);
     free(home);
     char rescued[64] = "";
@@ -237,7 +209,4 @@ TEST(the_last_place_is_ones_own)
     assert_int_equal(stat(rescued, &about), 0);
     assert_int_equal(about.st_mode & 0777, 0700);
     assert_int_equal(rmdir(rescued), 0);
-    blind_close(&blind);
-    unlink(path);
-    assert_int_equal(rmdir(folder), 0);
 }

@@ -53,11 +53,7 @@ static struct document *document_of(const struct session *session) { return sess
 static bool frame(struct session *session, int key, unsigned mods)
 {
     struct app *app = &session->blind.app;
-    for (int action = 0; key && action < 2; action++)
-        blind_send(&session->blind, (struct event){.kind = EVENT_KEY,
-                                                   .key = key,
-                                                   .mods = mods,
-                                                   .action = action ? ACTION_RELEASE : ACTION_PRESS});
+    if (key) blind_send_key(&session->blind, key, mods);
     blind_frame(&session->blind);
     const struct autosave_work work = {.document = document_of(session),
                                        .path = app_path(app),

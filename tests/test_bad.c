@@ -9,22 +9,10 @@
 
 enum { MEGABYTE = 1 << 20, LINE_SIZE = 512, NOBODY = 65534 };
 
-static void write_file(const char *path, const char *data, size_t size)
+static char *read_figure(size_t *size)
 {
-    FILE *file = fopen(path, "wb");
-    assert_non_null(file);
-    assert_int_equal(fwrite(data, 1, size, file), size);
-    assert_int_equal(fclose(file), 0);
-}
-
-static char *read_text(const char *path, size_t *size)
-{
-    FILE *file = fopen(path, "rb");
-    assert_non_null(file);
-    char *text = malloc(MEGABYTE);
-    assert_non_null(text);
-    *size = fread(text, 1, MEGABYTE, file);
-    fclose(file);
+    char *text;
+    assert_done(file_read("assets/scenes/figure5.json", MEGABYTE, &text, size, &error));
     return text;
 }
 
@@ -129,7 +117,7 @@ TEST(test_what_is_no_file)
 
 TEST(test_no_permission)
 {
-    write_file(folder_path("secret.json"), "{}", 2);
+    folder_file("secret.json", "{}");
     assert_int_equal(chmod(folder_path("secret.json"), 0), 0);
     bool is_root = geteuid() == 0; // who may read anything
     if (is_root) assert_int_equal(seteuid(NOBODY), 0);
@@ -155,7 +143,7 @@ static void assert_flood_refused(const char *pattern, const char *fragment)
     char *flood = malloc(size);
     assert_non_null(flood);
     for (size_t i = 0; i < size; i += length) memcpy(flood + i, pattern, length);
-    write_file(folder_path("flood.json"), flood, size);
+    assert_done(file_write_atomic(folder_path("flood.json"), flood, size, &error));
     free(flood);
     assert_refused(folder_path("flood.json"), fragment);
     assert_int_equal(unlink(folder_path("flood.json")), 0);
@@ -173,7 +161,7 @@ TEST(test_floods)
 TEST(test_cut_off_anywhere)
 {
     size_t size;
-    char *text = read_text("assets/scenes/figure5.json", &size);
+    char *text = read_figure(&size);
     while (size > 0 && text[size - 1] != '}') size--;
     for (size_t cut = 0; cut < size; cut++) {
         struct error error = {0};
@@ -188,7 +176,7 @@ TEST(test_cut_off_anywhere)
 TEST(test_damaged_bytes)
 {
     size_t size;
-    char *text = read_text("assets/scenes/figure5.json", &size), *damaged = malloc(size);
+    char *text = read_figure(&size), *damaged = malloc(size);
     assert_non_null(damaged);
     srand(20);
     for (int round = 0; round < 4000; round++) {

@@ -12,14 +12,9 @@ static void *failing_calloc(size_t count, size_t size) { return granted-- == 0 ?
 #undef calloc
 
 #include "curve.h"
+#include "uniform.h"
 
 enum { SPLINES = 300, SAMPLES = 130, KNOTS = 9 };
-
-static double uniform(uint64_t *seed)
-{
-    *seed = *seed * 6364136223846793005u + 1442695040888963407u;
-    return (double)(*seed >> 11) * 0x1p-53;
-}
 
 /// Splines of every mode and start, some with the same parameters as the one before, some wrong.
 static void make_splines(wiggly_desc *desc, wiggly_knot (*knots)[KNOTS])

@@ -4,11 +4,10 @@
 #include "editor/stage/parts.h"
 
 static const char scene[] = "{\"frames\": [0, 48], \"splines\": ["
-                            "{\"name\": \"sway\", \"frequency\": 1.5, \"damping\": 0.2, \"bandwidth\": 0.1},"
-                            "{\"name\": \"walk\", \"mode\": \"cubic\", \"knots\": [{\"frame\": 0, \"value\": 0.1}, "
-                            "{\"frame\": 48, \"value\": 0.1}]}],"
-                            "\"rigs\": [{\"type\": \"tail\", \"name\": \"tail\", \"position\": [0, 0.26, 0], "
-                            "\"channels\": [{\"spline\": \"sway\"}]}]}";
+                            "{\"name\": \"sway\", \"frequency\": 1.5, \"damping\": 0.2, \"bandwidth\": "
+                            "0.1},{\"name\": \"walk\", \"mode\": \"cubic\", \"knots\": [{\"frame\": 0, \"value\": "
+                            "0.1}, {\"frame\": 48, \"value\": 0.1}]}],\"rigs\": [{\"type\": \"tail\", \"name\": "
+                            "\"tail\", \"position\": [0, 0.26, 0], \"channels\": [{\"spline\": \"sway\"}]}]}";
 
 enum { JOINTS = 24, X = 12, Y = 13, Z = 14 };
 
@@ -17,8 +16,7 @@ static const float *joint(const struct session *s, int n) { return s->editor->st
 /// Takes hold of the body and moves the pointer along the screen; the button stays down.
 static void hold_and_drag(struct session *s, float dx, float dy, int steps)
 {
-    session_point(s, "body(tail)");
-    session_frame(s);
+    session_hover(s, "body(tail)");
     session_press(s, BUTTON_LEFT, 1);
     session_drag(s, dx, dy, steps);
 }
@@ -260,8 +258,7 @@ SESSION_TEST(test_auto_key_makes_a_place_follow, session_open(s, scene))
 SESSION_TEST(test_a_body_is_lifted, session_open(s, scene))
 {
     session_key(s, 'A', MOD_SHIFT);
-    session_point(s, "body(tail)");
-    session_frame(s);
+    session_hover(s, "body(tail)");
     s->mods = MOD_CTRL;
     session_press(s, BUTTON_LEFT, 1);
     session_drag(s, 0, 80, 4);
@@ -280,8 +277,7 @@ SESSION_TEST(test_clicks_leave_the_body_alone, session_open(s, scene))
 {
     session_click(s, "body(tail)");
     assert_null(history_undo_label(s->history));
-    session_pull(s, "stage(0.03,0.1)", 40, 0, 3);
-    session_release(s, BUTTON_LEFT);
+    session_carry(s, "stage(0.03,0.1)", 40, 0, 3);
     assert_near(joint(s, 0)[X], 0, 0);
     assert_null(history_undo_label(s->history));
 }
@@ -308,7 +304,6 @@ SESSION_TEST(
     if (s->editor->dialogs->dialog.kind == DIALOG_ASK) strike(s, 'K', 0);
     assert_int_equal(s->document->rig_count, 1);
     assert_true(s->editor->core.playback.playing);
-    session_press(s, BUTTON_LEFT, 1);
-    session_release(s, BUTTON_LEFT);
+    session_click_here(s, 1);
     assert_int_equal(s->document->rigs[0]->kind, RIG_MEADOW);
 }

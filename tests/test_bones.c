@@ -40,8 +40,7 @@ static const char *selected(const struct session *session)
 SESSION_TEST(test_the_bone_pointed_at_says_its_name_and_a_click_selects_it, open_beast(s, ""))
 {
     assert_false(session_shows(s, "neck"));
-    session_point(s, "bone(neck)");
-    session_frame(s);
+    session_hover(s, "bone(neck)");
     assert_int_equal(s->editor->core.hover.kind, HOVER_BONE);
     assert_true(session_shows(s, "neck"));
     assert_string_equal(selected(s), "");
@@ -59,8 +58,7 @@ SESSION_TEST(test_the_bone_pointed_at_says_its_name_and_a_click_selects_it, open
 /// A drag from a bone moves the character; it is no click.
 SESSION_TEST(test_a_drag_from_a_bone_selects_nothing, open_beast(s, ""))
 {
-    session_pull(s, "bone(neck)", 40, 0, 4);
-    session_release(s, BUTTON_LEFT);
+    session_carry(s, "bone(neck)", 40, 0, 4);
     assert_string_equal(selected(s), "");
 }
 
@@ -117,8 +115,7 @@ SESSION_TEST(test_of_bones_over_each_other_the_near_one_is_picked, open_beast(s,
         if (fabsf(left[0] - right[0]) > 2) continue;
         session_move(s, (left[0] + right[0]) / 2, (left[1] + right[1]) / 2);
         session_frame(s);
-        session_press(s, BUTTON_LEFT, 1);
-        session_release(s, BUTTON_LEFT);
+        session_click_here(s, 1);
         assert_string_equal(selected(s), view->eye[0] > 0 ? "leg_FL_1" : "leg_FR_1");
     }
     session_move(s, 2, 2);
@@ -226,9 +223,7 @@ SESSION_TEST(test_a_chains_turn_is_dragged, open_beast(s, TAIL))
 {
     const char *before = session_saved(s);
     char *from = strdup(s->document->rigs[1]->chain.from);
-    panel_press(s, "chain.turn", 1);
-    session_drag(s, 40, 0, 6);
-    panel_release(s);
+    panel_pull(s, "chain.turn", 40, 0, 6);
     assert_true(s->document->rigs[1]->chain.turn > 0);
     assert_string_equal(s->document->rigs[1]->chain.from, from);
     assert_one_step(s, before);
@@ -272,9 +267,7 @@ SESSION_TEST(test_a_gain_becomes_a_ramp_whose_points_move, open_beast(s, TAIL))
     assert_int_equal(gain_of_tail(s)->count, 2);
     assert_near(gain_of_tail(s)->ramp[1].angle, 8, 0);
     const char *flat = session_saved(s);
-    panel_press(s, "gain.point.1", 1);
-    session_drag(s, -40, -12, 4);
-    panel_release(s);
+    panel_pull(s, "gain.point.1", -40, -12, 4);
     assert_true(gain_of_tail(s)->ramp[1].angle > 8);
     assert_true(gain_of_tail(s)->ramp[1].at < 1);
     assert_one_step(s, flat);
@@ -282,8 +275,7 @@ SESSION_TEST(test_a_gain_becomes_a_ramp_whose_points_move, open_beast(s, TAIL))
     session_move(s, s->x + 60, s->y - 8);
     session_release(s, BUTTON_LEFT);
     session_move(s, s->x + 8, s->y + 16); // beside the line
-    session_press(s, BUTTON_LEFT, 2);
-    session_release(s, BUTTON_LEFT);
+    session_click_here(s, 2);
     assert_int_equal(gain_of_tail(s)->count, 3);
     panel_press(s, "gain.point.1", 1);
     session_release(s, BUTTON_LEFT);
@@ -308,17 +300,12 @@ SESSION_TEST(test_a_ramps_plot_is_as_high_as_its_points, open_beast(s, TAIL))
 {
     panel_click(s, "gain.ramp");
     const double *scale = s->editor->inspector->ramp_scale[ANGLE_GAIN];
-    panel_press(s, "gain.point.0", 1);
-    session_drag(s, 0, -30, 2);
-    panel_release(s);
+    panel_pull(s, "gain.point.0", 0, -30, 2);
     assert_true(gain_of_tail(s)->ramp[0].angle > 10);
     assert_near(scale[1], 1.2 * gain_of_tail(s)->ramp[0].angle, 1e-9);
     session_move(s, s->x + 60, s->y + 50);
-    session_press(s, BUTTON_LEFT, 2); // a point between
-    session_release(s, BUTTON_LEFT);
-    panel_press(s, "gain.point.2", 1);
-    session_drag(s, 0, -80, 2);
-    panel_release(s);
+    session_click_here(s, 2); // a point between
+    panel_pull(s, "gain.point.2", 0, -80, 2);
     assert_int_equal(gain_of_tail(s)->count, 3);
     const double last = gain_of_tail(s)->ramp[2].angle;
     assert_near(scale[1], 1.2 * last, 1e-9);

@@ -73,7 +73,7 @@ TEST_WITH(folder_make, folder_remove, settings_of_many_lines)
         struct error error;
         char *text = filled(2 * (size_t)lines, '#');
         for (int i = 0; i < lines; i++) text[2 * i + 1] = '\n';
-        assert_true(file_write_atomic(folder_path("settings"), text, strlen(text), &error));
+        folder_file("settings", text);
         struct settings *settings = settings_load(folder_path("settings"), &error);
         assert_int_equal(error.kind != ERROR_NONE, lines > 1000);
         if (lines > 1000) says(&error, "settings:1001: expected at most 1000 lines, got more: ignoring the rest");
@@ -97,8 +97,8 @@ TEST_WITH(folder_make, folder_remove, pictures_of_a_size)
     enum { MOST = 256 << 20 };
     static const char obj[] = "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl a\nf 1 2 3\n",
                       mtl[] = "newmtl a\nmap_Kd a.png\n", png[] = "\x89PNG\r\n\x1a\n";
-    assert_done(file_write_atomic(folder_path("a.mtl"), mtl, strlen(mtl), &error));
-    assert_done(file_write_atomic(folder_path("a.obj"), obj, strlen(obj), &error));
+    folder_file("a.mtl", mtl);
+    folder_file("a.obj", obj);
     for (size_t size = MOST; size <= MOST + 1; size++) {
         struct surface surface;
         hole("a.png", png, strlen(png), size);
@@ -126,7 +126,7 @@ TEST_WITH(folder_make, folder_remove, pictures_of_a_width)
     struct error error = {0};
     unsigned char *pixels = calloc(MOST + 1, 4);
     assert_non_null(pixels);
-    assert_true(file_write_atomic(folder_path("a.gltf"), gltf, strlen(gltf), &error));
+    folder_file("a.gltf", gltf);
     for (int width = MOST - 1; width <= MOST + 1; width++) {
         struct gltf model;
         char path[128];
@@ -340,7 +340,7 @@ TEST_WITH(folder_make, folder_remove, names_of_rescued_scenes)
     snprintf(own, sizeof own, "%s/home", folder);
     assert_int_equal(mkdir(own, 0700), 0);
     assert_int_equal(setenv("HOME", own, 1), 0);
-    assert_true(file_write_atomic(folder_path("walk.json"), scene, strlen(scene), &error));
+    folder_file("walk.json", scene);
     blind_open(&blind, folder_path("walk.json"));
     blind_frame(&blind);
     blind_send(&blind, (struct event){.kind = EVENT_KEY, .key = 'I', .action = ACTION_PRESS});

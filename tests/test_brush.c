@@ -1,9 +1,9 @@
 /// The brush on a character's surface, by mouse and keys: what a stroke changes and what it leaves alone, its undo, its modes, and
 /// the distances that it works with.
+#include "folder.h"
 #include "panel_session.h"
 #include "puppet.h"
 #include "timing/framelog.h"
-#include <unistd.h>
 
 /// Two fingers of 0.8 m, 7 cm apart through the air, on one palm.
 static float hand_distance(const float p[3])
@@ -30,23 +30,13 @@ static struct character make_hand(void)
     return character;
 }
 
-static char model[] = "/tmp/wiggly-test-XXXXXX";
+static const char *model(void) { return folder_path("hand.glb"); }
 
 static int make_model(void **state)
 {
-    (void)state;
-    struct error error = {0};
+    if (folder_make(state) != 0) return -1;
     struct character character = make_hand();
-    close(mkstemp(model));
-    bool written = character_write(model, &character, true, &error);
-    character_free(&character);
-    return written ? 0 : -1;
-}
-
-static int remove_model(void **state)
-{
-    (void)state;
-    unlink(model);
+    puppet_write(&character, model());
     return 0;
 }
 
@@ -77,15 +67,13 @@ static void studio_open(struct studio *s)
              "\"loop\", \"knots\": [{\"frame\": 0, \"value\": 1}, {\"frame\": 20, \"value\": -1}]}], \"rigs\": ["
              "{\"type\": \"character\", \"name\": \"hand\", \"model\": \"%s\", \"coordinates\": [{\"name\": \"a\", "
              "\"spline\": \"s\"}]}]}",
-             model);
+             model());
     s->models = panel_open_models(&s->session, scene);
     if (s->session.editor->core.playback.playing) session_key(&s->session, KEY_SPACE, 0);
     s->plain = models_figure(s->models, 0);
     s->session.editor->stage->camera.azimuth = -1.5708f; // from the front
     frame(s);
 }
-
-static void studio_close(struct studio *s) { session_close(&s->session); }
 
 /// The middle of the front of a finger, 3/4 up.
 static const char left_finger[] = "character(hand,0.2,0.75)", right_finger[] = "character(hand,0.8,0.75)";
@@ -107,7 +95,7 @@ static const float *value_of(const struct studio *s, int coordinate, int vertex)
     return rig_of(s)->painted->values[coordinate * rig_of(s)->painted->vertices + vertex];
 }
 
-#define STUDIO_TEST(name) TEST_OF(struct studio, s, studio_open(s), studio_close(s), name)
+#define STUDIO_TEST(name) TEST_OF(struct studio, s, studio_open(s), session_close(&s->session), name)
 
 STUDIO_TEST(a_stroke_changes_phase_where_it_is_and_nowhere_else)
 {
@@ -373,8 +361,7 @@ STUDIO_TEST(a_click_paints_and_foreign_paint_is_left_alone)
 {
     session_key(&s->session, 'K', 0);
     session_point(&s->session, left_finger);
-    session_press(&s->session, BUTTON_LEFT, 1);
-    session_release(&s->session, BUTTON_LEFT);
+    session_click_here(&s->session, 1);
     assert_true(mean_lead(s) > 0);
     history_begin(s->session.history, "Foreign", 0);
     assert_done(edit_paint_new(s->session.document, 0, 5, 7, &error));
@@ -414,4 +401,4 @@ TEST(distances_follow_the_surface)
     figure_free(&figure);
 }
 
-int main(void) { return tests_run(make_model, remove_model); }
+int main(void) { return tests_run(make_model, folder_remove); }

@@ -1,12 +1,11 @@
 /// Characters in scene files: read, refused, printed, edited and carried along when the scene is saved elsewhere.
 #include "documents.h"
+#include "folder.h"
 
 #include "base/file.h"
 #include "scene/edit.h"
 #include "scene/history.h"
-#include "scene/load.h"
 #include <sys/stat.h>
-#include <unistd.h>
 
 #define SPLINES "\"splines\": [{\"name\": \"s\", \"frequency\": 1, \"knots\": []}, {\"name\": \"t\", \"knots\": []}]"
 #define SCENE(rig) "{\"wiggly\": 1, \"frames\": [0, 48],\n" SPLINES ",\n\"rigs\": [" rig "]}"
@@ -219,28 +218,21 @@ TEST(paths_are_rebased)
 }
 
 /// "Save as" into another folder: the file there leads to the same model; the document that goes on keeps its folder.
-TEST(a_scene_saved_elsewhere_finds_its_model)
+TEST_WITH(folder_make, folder_remove, a_scene_saved_elsewhere_finds_its_model)
 {
-    char folder[] = "/tmp/wiggly-test-XXXXXX", deeper[64], path[128], absolute[PATH_LIMIT];
-    assert_non_null(mkdtemp(folder));
-    snprintf(deeper, sizeof deeper, "%s/deeper", folder);
-    assert_int_equal(mkdir(deeper, 0777), 0);
+    char absolute[PATH_LIMIT];
+    const char *path = folder_path("deeper/scene.json");
+    assert_int_equal(mkdir(folder_path("deeper"), 0777), 0);
     struct document *document = document_of_text(whole);
     document->folder = strdup(folder);
     free(document_character(document, 0)->model);
     document_character(document, 0)->model = strdup("models/a.glb");
-    snprintf(path, sizeof path, "%s/scene.json", deeper);
     assert_done(scene_save(document, path, &error));
     assert_string_equal(document_character(document, 0)->model, "models/a.glb");
     struct document *loaded = document_of_file(path);
     assert_string_equal(document_character(loaded, 0)->model, "../models/a.glb");
-    snprintf(path, sizeof path, "%s/models/a.glb", folder);
     assert_true(path_resolve(loaded->folder, document_character(loaded, 0)->model, absolute));
-    assert_string_equal(absolute, path);
+    assert_string_equal(absolute, folder_path("models/a.glb"));
     document_destroy(document);
     document_destroy(loaded);
-    snprintf(path, sizeof path, "%s/scene.json", deeper);
-    unlink(path);
-    rmdir(deeper);
-    rmdir(folder);
 }

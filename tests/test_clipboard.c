@@ -120,9 +120,7 @@ TEST(test_bad_text_is_refused_in_one_sentence)
 SESSION_TEST(test_copy_and_paste_at_the_playhead, session_open(s, FIVE))
 {
     session_click(s, "knot(sway,1)");
-    s->mods = MOD_SHIFT;
-    session_click(s, "knot(sway,2)");
-    s->mods = 0;
+    session_click_with(s, MOD_SHIFT, "knot(sway,2)");
     char *text = copied(s, 'C');
     session_click(s, "ruler(70)");
     const char *original = session_saved(s);
@@ -178,9 +176,7 @@ SESSION_TEST(test_a_paste_that_does_not_fit_changes_nothing, session_open(s, FIV
 SESSION_TEST(test_copies_come_behind_and_pass_through, session_open(s, FIVE))
 {
     session_click(s, "knot(sway,2)");
-    s->mods = MOD_SHIFT;
-    session_click(s, "knot(sway,3)");
-    s->mods = 0;
+    session_click_with(s, MOD_SHIFT, "knot(sway,3)");
     const char *original = session_saved(s);
     session_key(s, 'D', MOD_CTRL); // 30, 40 → 50, and 60 is taken: 51, 61
     assert_int_equal(sway(s)->knot_count, 7);

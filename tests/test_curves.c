@@ -23,8 +23,7 @@ static void drag_box(struct session *s, const char *from, const char *to, unsign
     session_point(s, from);
     s->mods = mods;
     session_press(s, BUTTON_LEFT, 1);
-    session_point(s, to);
-    session_frame(s);
+    session_hover(s, to);
 }
 
 static void box(struct session *s, const char *from, const char *to, unsigned mods)
@@ -38,8 +37,7 @@ SESSION_TEST(test_a_box_selects_adds_and_removes, session_open(s, FIVE))
 {
     drag_box(s, "curve(sway,15,1.4)", "curve(sway,35,-1.2)", 0);
     assert_selected(s, "01100"); // already while the box grows
-    session_point(s, "curve(sway,25,-1.2)");
-    session_frame(s);
+    session_hover(s, "curve(sway,25,-1.2)");
     assert_selected(s, "01000"); // and where it shrinks again
     session_release(s, BUTTON_LEFT);
     box(s, "curve(sway,45,1.4)", "curve(sway,65,-1.2)", MOD_SHIFT);
@@ -60,8 +58,7 @@ SESSION_TEST(test_escape_takes_a_box_back_and_a_click_clears, session_open(s, FI
     assert_selected(s, "00010");
     session_release(s, BUTTON_LEFT);
     session_point(s, "curve(sway,66,-1.2)");
-    session_press(s, BUTTON_LEFT, 1);
-    session_release(s, BUTTON_LEFT);
+    session_click_here(s, 1);
     assert_selected(s, "00000");
 }
 
@@ -103,12 +100,10 @@ SESSION_TEST(test_scaling_by_pointer_about_the_playhead, session_open(s, FIVE))
     session_key(s, 'A', MOD_CTRL);
     session_point(s, "curve(sway,40,0)");
     session_type(s, "spx");
-    session_point(s, "curve(sway,50,0.7)"); // one and a half times as far
-    session_frame(s);
+    session_hover(s, "curve(sway,50,0.7)"); // one and a half times as far
     const double frames[] = {5, 20, 35, 50, 80};
     assert_frames(s, frames);
-    session_press(s, BUTTON_LEFT, 1); // a click keeps it
-    session_release(s, BUTTON_LEFT);
+    session_click_here(s, 1); // a click keeps it
     assert_false(history_is_open(s->history));
     assert_frames(s, frames);
 }
@@ -172,8 +167,7 @@ SESSION_TEST(test_a_ripple_moves_what_comes_after, session_open(s, FIVE))
 SESSION_TEST(test_ruler_units_and_snap, session_open(s, FIVE))
 {
     session_move(s, s->editor->core.layout.ruler.x / 2, s->editor->core.layout.ruler.y + 8);
-    session_press(s, BUTTON_LEFT, 1);
-    session_release(s, BUTTON_LEFT);
+    session_click_here(s, 1);
     assert_true(s->editor->core.curves.seconds);
     session_key(s, 'U', 0);
     assert_false(s->editor->core.curves.seconds);
@@ -219,8 +213,7 @@ SESSION_TEST(test_double_click_on_the_curve_keeps_it, session_open(s, FIVE))
         snprintf(target, sizeof target, "curve(sway,%d,%.9g)", frame, before[frame]);
         s->mods = mods;
         session_click(s, target);
-        session_press(s, BUTTON_LEFT, 2);
-        session_release(s, BUTTON_LEFT);
+        session_click_here(s, 2);
         assert_int_equal(spline(s, 0)->knot_count, count + 1);
         int k = selection_single(&s->editor->core.selection, spline(s, 0));
         assert_near(spline(s, 0)->knots[k].frame, frame, 0);

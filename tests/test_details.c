@@ -4,12 +4,11 @@
 #include "ui/theme.h"
 
 static const char tail[] =
-    "{\"wiggly\": 1, \"frames\": [0, 120], \"splines\": ["
-    "{\"name\": \"sway\", \"frequency\": 1, \"knots\": [{\"frame\": 0, \"value\": 0.8}, {\"frame\": 40, \"value\": "
-    "-1}]},"
-    "{\"name\": \"lift\", \"frequency\": 0.5, \"knots\": [{\"frame\": 20, \"value\": 0.4}]}], \"rigs\": ["
-    "{\"type\": \"tail\", \"name\": \"tail\", \"channels\": [{\"spline\": \"sway\", \"axis\": \"side\"},"
-    " {\"spline\": \"lift\", \"axis\": \"up\", \"gain\": 3}]}]}";
+    "{\"wiggly\": 1, \"frames\": [0, 120], \"splines\": [{\"name\": \"sway\", \"frequency\": 1, \"knots\": "
+    "[{\"frame\": 0, \"value\": 0.8}, {\"frame\": 40, \"value\": -1}]},{\"name\": \"lift\", \"frequency\": 0.5, "
+    "\"knots\": [{\"frame\": 20, \"value\": 0.4}]}], \"rigs\": [{\"type\": \"tail\", \"name\": \"tail\", "
+    "\"channels\": [{\"spline\": \"sway\", \"axis\": \"side\"}, {\"spline\": \"lift\", \"axis\": \"up\", \"gain\": "
+    "3}]}]}";
 
 static double frames_wide(struct session *s)
 {

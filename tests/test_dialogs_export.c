@@ -152,12 +152,11 @@ SESSION_TEST(test_one_rig_only, open_session(s, "walk.json", 1280, 720))
 TEST(test_joints_are_tails_and_chains)
 {
     static const char dog[] = "{\"frames\": [0, 48], \"splines\": [{\"name\": \"sway\"}], \"rigs\": [{\"type\": "
-                              "\"model\", \"name\": \"dog\", "
-                              "\"model\": \"dog.glb\"}, {\"type\": \"chain\", \"name\": \"brush\", \"model\": "
-                              "\"dog\", \"from\": \"a\", \"to\": "
-                              "\"b\", \"channels\": [{\"spline\": \"sway\"}]}, {\"type\": \"chain\", \"name\": "
-                              "\"ear\", \"model\": \"dog\", "
-                              "\"from\": \"c\", \"to\": \"d\", \"channels\": [{\"spline\": \"sway\"}]}]}";
+                              "\"model\", \"name\": \"dog\", \"model\": \"dog.glb\"}, {\"type\": \"chain\", "
+                              "\"name\": \"brush\", \"model\": \"dog\", \"from\": \"a\", \"to\": \"b\", "
+                              "\"channels\": [{\"spline\": \"sway\"}]}, {\"type\": \"chain\", \"name\": \"ear\", "
+                              "\"model\": \"dog\", \"from\": \"c\", \"to\": \"d\", \"channels\": [{\"spline\": "
+                              "\"sway\"}]}]}";
     struct session s;
     open_other(&s, dog, "dog.json", 1280, 720);
     click(&s, ".pc2");

@@ -5,15 +5,10 @@
 #include "curve.h"
 #include "spline/solver.h"
 #include "textbook.h"
+#include "uniform.h"
 #include <lapacke.h>
 
 enum { MAX = 40 };
-
-static double uniform(uint64_t *seed)
-{
-    *seed = *seed * 6364136223846793005u + 1442695040888963407u;
-    return (double)(*seed >> 11) * 0x1p-53;
-}
 
 static int pick(uint64_t *seed, int count) { return (int)(uniform(seed) * count); }
 

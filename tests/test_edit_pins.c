@@ -6,15 +6,12 @@
 enum { SIDE, UP, BASE };
 
 static const char pinned_text[] =
-    "{\"frames\": [0, 48], \"splines\": ["
-    "{\"name\": \"side\", \"frequency\": 1, \"knots\": [{\"frame\": 0, \"value\": 0}]},"
-    "{\"name\": \"up\", \"frequency\": 2, \"equilibrium\": {\"spline\": \"base\"}},"
-    "{\"name\": \"base\", \"mode\": \"cubic\"}],"
-    "\"rigs\": [{\"type\": \"tail\", \"name\": \"t\", \"joints\": 12, \"position\": [0, {\"spline\": \"base\"}, 0],"
-    "\"channels\": [{\"spline\": \"side\"}, {\"spline\": \"up\", \"axis\": \"up\"}],"
-    "\"pins\": [{\"frame\": 30, \"joint\": 11, \"to\": [0, 1, 0.5], \"why\": \"grip\"},"
-    "{\"frame\": 12.25, \"joint\": 5, \"to\": [0.25, 0, 1]}]},"
-    "{\"type\": \"tail\", \"name\": \"free\"}]}";
+    "{\"frames\": [0, 48], \"splines\": [{\"name\": \"side\", \"frequency\": 1, \"knots\": [{\"frame\": 0, "
+    "\"value\": 0}]},{\"name\": \"up\", \"frequency\": 2, \"equilibrium\": {\"spline\": \"base\"}},{\"name\": "
+    "\"base\", \"mode\": \"cubic\"}],\"rigs\": [{\"type\": \"tail\", \"name\": \"t\", \"joints\": 12, \"position\": "
+    "[0, {\"spline\": \"base\"}, 0],\"channels\": [{\"spline\": \"side\"}, {\"spline\": \"up\", \"axis\": "
+    "\"up\"}],\"pins\": [{\"frame\": 30, \"joint\": 11, \"to\": [0, 1, 0.5], \"why\": \"grip\"},{\"frame\": 12.25, "
+    "\"joint\": 5, \"to\": [0.25, 0, 1]}]},{\"type\": \"tail\", \"name\": \"free\"}]}";
 
 #define PINNED_TEST(name) WORLD_TEST(name, world_open_scene(world, pinned_text))
 

@@ -27,10 +27,8 @@ static float pixels_per_frame(struct session *s)
 SESSION_TEST(test_double_click_inserts_at_the_pointer, session_open(s, SWAY))
 {
     session_point(s, "curve(sway,30,1.1)");
-    session_press(s, BUTTON_LEFT, 1);
-    session_release(s, BUTTON_LEFT);
-    session_press(s, BUTTON_LEFT, 2);
-    session_release(s, BUTTON_LEFT);
+    session_click_here(s, 1);
+    session_click_here(s, 2);
     assert_int_equal(sway(s)->knot_count, 5);
     assert_near(sway(s)->knots[3].frame, 30, 0);
     assert_near(sway(s)->knots[3].value, 1.1, 1e-5);
@@ -143,8 +141,7 @@ SESSION_TEST(test_a_click_edits_nothing, session_open(s, SWAY))
 {
     uint64_t revision = history_revision(s->history);
     session_click(s, "knot(sway,1)");
-    session_pull(s, "knot(sway,2)", 1, 1, 2); // a hand that trembles
-    session_release(s, BUTTON_LEFT);
+    session_carry(s, "knot(sway,2)", 1, 1, 2); // a hand that trembles
     assert_true(history_revision(s->history) == revision);
 }
 
@@ -216,8 +213,7 @@ SESSION_TEST(test_slopes, session_open(s, SWAY))
     assert_near(sway(s)->knots[1].slope, slope, 1e-12);
     session_key(s, 'E', MOD_SHIFT);
     assert_near(sway(s)->knots[1].stiffness, 1250, 1e-9);
-    session_pull(s, "handle(sway,1,1)", 0, -60, 5);
-    session_release(s, BUTTON_LEFT);
+    session_carry(s, "handle(sway,1,1)", 0, -60, 5);
     assert_true(sway(s)->knots[1].slope > slope + 0.1);
     assert_near(sway(s)->knots[1].value, 1, 0);
     session_key(s, 'Z', MOD_CTRL);

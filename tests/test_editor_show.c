@@ -6,14 +6,12 @@
 #include "ui/theme.h"
 
 static const char TAIL[] =
-    "{\"wiggly\": 1, \"frames\": [0, 120], \"splines\": [{\"name\": \"sway\", \"frequency\": 1, \"damping\": 0.08,"
-    "\"bandwidth\": 0.08, \"start\": \"loop\", \"knots\": [{\"frame\": 0, \"value\": 0.8}, {\"frame\": 40, \"value\":"
-    "-1}, {\"frame\": 80, \"value\": 0.6}]}, {\"name\": \"lift\", \"frequency\": 0.5, \"damping\": 0.1, \"start\":"
-    "\"loop\", \"knots\": [{\"frame\": 20, \"value\": 0.4}, {\"frame\": 90, \"value\": -0.2}]}], \"rigs\": "
-    "[{\"type\":"
-    "\"tail\", \"name\": \"tail\", \"position\": [0, 0.4, 0], \"channels\": [{\"spline\": \"sway\", \"axis\": "
-    "\"side\"},"
-    "{\"spline\": \"lift\", \"axis\": \"up\", \"gain\": 3}]}]}";
+    "{\"wiggly\": 1, \"frames\": [0, 120], \"splines\": [{\"name\": \"sway\", \"frequency\": 1, \"damping\": "
+    "0.08,\"bandwidth\": 0.08, \"start\": \"loop\", \"knots\": [{\"frame\": 0, \"value\": 0.8}, {\"frame\": 40, "
+    "\"value\":-1}, {\"frame\": 80, \"value\": 0.6}]}, {\"name\": \"lift\", \"frequency\": 0.5, \"damping\": 0.1, "
+    "\"start\":\"loop\", \"knots\": [{\"frame\": 20, \"value\": 0.4}, {\"frame\": 90, \"value\": -0.2}]}], "
+    "\"rigs\": [{\"type\":\"tail\", \"name\": \"tail\", \"position\": [0, 0.4, 0], \"channels\": [{\"spline\": "
+    "\"sway\", \"axis\": \"side\"},{\"spline\": \"lift\", \"axis\": \"up\", \"gain\": 3}]}]}";
 
 static const float PLOT_TOLERANCE = 0.01f;
 
@@ -215,8 +213,7 @@ SESSION_TEST(test_the_drawn_curve_goes_through_its_knots, session_open(s, TAIL))
         int count;
         float nearest = 1e9f;
         snprintf(target, sizeof target, "knot(sway,%d)", k);
-        session_point(s, target);
-        session_frame(s);
+        session_hover(s, target);
         const float *xy = active_line(s, &count);
         assert_non_null(xy);
         assert_true(count <= 1280); // a vertex a column at most
@@ -387,8 +384,7 @@ SESSION_TEST(test_small_windows, session_open(s, TAIL))
 SESSION_TEST(test_dividers, session_open(s, TAIL))
 {
     float height = editor_stage(s->editor)->viewport.h;
-    session_pull(s, "divider(stage)", 0, -100, 4);
-    session_release(s, BUTTON_LEFT);
+    session_carry(s, "divider(stage)", 0, -100, 4);
     assert_near(editor_stage(s->editor)->viewport.h, height - 100, 1);
     session_drag(s, 0, -100, 4); // let go
     assert_near(editor_stage(s->editor)->viewport.h, height - 100, 1);

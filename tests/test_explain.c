@@ -1,5 +1,6 @@
 /// The frequency that explains knots: known oscillations are found again, from knots near their extrema.
 #include "near.h"
+#include "uniform.h"
 
 #include <wiggly/wiggly.h>
 
@@ -7,23 +8,18 @@ enum { SEEDS = 200, MOST = 8 };
 
 static const double tau = 6.283185307179586;
 
-static double next(uint64_t *state)
-{
-    *state = *state * 6364136223846793005u + 1442695040888963407u;
-    return (double)(*state >> 11) * 0x1p-53;
-}
-
 /// Knots within a frame of the extrema of a damped oscillation, 24 frames a second.
 static double plant(int seed, wiggly_mode mode, wiggly_knot knots[MOST], wiggly_desc *desc)
 {
     uint64_t state = (uint64_t)seed * 2654435761u + 99;
-    for (int i = 0; i < 8; i++) next(&state);
-    const double f = 0.5 + 1.5 * next(&state), damping = 0.15 * next(&state), root = sqrt(1 - damping * damping);
-    const int count = 5 + (int)(4 * next(&state));
+    for (int i = 0; i < 8; i++) uniform(&state);
+    const double f = 0.5 + 1.5 * uniform(&state), damping = 0.15 * uniform(&state),
+                 root = sqrt(1 - damping * damping);
+    const int count = 5 + (int)(4 * uniform(&state));
     *desc = wiggly_default_desc();
     desc->samples = 400, desc->mode = mode, desc->knots = knots, desc->knot_count = count;
     for (int i = 0; i < count; i++) {
-        int frame = (int)lround(5 + i * 12 / (f * root)) + (int)(3 * next(&state)) - 1;
+        int frame = (int)lround(5 + i * 12 / (f * root)) + (int)(3 * uniform(&state)) - 1;
         if (i > 0 && frame <= knots[i - 1].sample) frame = knots[i - 1].sample + 1;
         const double t = (frame - 5) / 24.0;
         knots[i] = (wiggly_knot){.sample = frame, .value = exp(-damping * tau * f * t) * cos(tau * f * root * t)};

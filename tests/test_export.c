@@ -75,9 +75,7 @@ TEST_WITH(folder_make, folder_remove, keys_loop_and_turn_the_short_way)
     struct tail *tail = document_tail(scene.document, 0);
     for (int n = 0; n < tail->joints; n++)
         tail->rest.value[n] = 119; // where a matrix gives the one quaternion now, its negative then
-    struct export_report report;
-    const struct export_options usual = {0};
-    assert_done(export_write(posing_of(&scene), folder_path("wild.glb"), &usual, &report, &error));
+    export_opened(&scene, "wild.glb", (struct export_options){0});
     close_scene(&scene);
     each_channel(folder_path("wild.glb"), assert_short_way);
 }
@@ -171,9 +169,7 @@ TEST_WITH(folder_make, folder_remove, a_table_has_splines_and_channels)
 {
     char line[8192], expected[128];
     struct opened scene = open_scene("assets/scenes/tail.json");
-    struct export_report report;
-    const struct export_options usual = {0};
-    assert_done(export_write(posing_of(&scene), folder_path("t.csv"), &usual, &report, &error));
+    export_opened(&scene, "t.csv", (struct export_options){0});
     FILE *file = fopen(folder_path("t.csv"), "r");
     assert_non_null(file);
     assert_non_null(fgets(line, sizeof line, file));

@@ -22,10 +22,8 @@ static struct opened open_dog_without_chains(void)
 TEST_WITH(folder_make, folder_remove, without_a_chain_the_file_stays_the_same)
 {
     struct opened scene = open_dog_without_chains();
-    struct export_report report;
-    const struct export_options usual = {0};
     size_t size, again;
-    assert_done(export_write(posing_of(&scene), folder_path("same.glb"), &usual, &report, &error));
+    export_opened(&scene, "same.glb", (struct export_options){0});
     close_scene(&scene);
     char *original = bytes_of("assets/models/dog.glb", &size), *copy = bytes_of(folder_path("same.glb"), &again);
     assert_int_equal(size, again);
@@ -67,21 +65,17 @@ TEST_WITH(folder_make, folder_remove, text_files_get_a_clip_too)
 {
     static const char scene_text[] =
         "{\"wiggly\": 1, \"frames\": [0, 24], \"splines\": [{\"name\": \"s\", \"frequency\": 1, \"knots\": "
-        "[{\"frame\": 0, "
-        "\"value\": 2}]}], \"rigs\": [{\"type\": \"model\", \"name\": \"fox\", \"model\": \"fox.gltf\", \"clip\": "
-        "\"tail\"}, "
-        "{\"type\": \"chain\", \"name\": \"end\", \"model\": \"fox\", \"from\": \"tail_12\", \"to\": \"tail_23\", "
-        "\"channels\": [{\"spline\": \"s\"}]}]}";
-    struct export_report report;
+        "[{\"frame\": 0, \"value\": 2}]}], \"rigs\": [{\"type\": \"model\", \"name\": \"fox\", \"model\": "
+        "\"fox.gltf\", \"clip\": \"tail\"}, {\"type\": \"chain\", \"name\": \"end\", \"model\": \"fox\", \"from\": "
+        "\"tail_12\", \"to\": \"tail_23\", \"channels\": [{\"spline\": \"s\"}]}]}";
     const struct export_options usual = {0}, signed_weights = {.is_signed = true};
     export_scene("tail", "fox.gltf", usual);
-    assert_done(file_write_atomic(folder_path("scene.json"), scene_text, strlen(scene_text), &error));
-    struct opened scene = open_scene(folder_path("scene.json"));
-    assert_done(export_write(posing_of(&scene), folder_path("fox.npy"), &usual, &report, &error));
+    struct opened scene = open_scene(folder_file("scene.json", scene_text));
+    export_opened(&scene, "fox.npy", (struct export_options){0});
     struct points points = read_points(folder_path("fox.npy"));
-    assert_done(export_write(posing_of(&scene), folder_path("out.gltf"), &signed_weights, &report, &error));
+    export_opened(&scene, "out.gltf", signed_weights);
     assert_near(glb_clip_is_off(folder_path("out.gltf"), "tail", &points), 0, 5e-6);
-    assert_done(export_write(posing_of(&scene), folder_path("out.glb"), &usual, &report, &error));
+    export_opened(&scene, "out.glb", (struct export_options){0});
     assert_near(glb_clip_is_off(folder_path("out.glb"), "tail", &points), 0, 5e-6);
     close_scene(&scene);
     free(points.number);
@@ -146,15 +140,12 @@ static void assert_same_dog(const char *path, const char *other_path)
 static void convert(const char *model, const char *file)
 {
     char text[512];
-    struct export_report report;
-    const struct export_options usual = {0};
     snprintf(text, sizeof text,
              "{\"wiggly\": 1, \"frames\": [0, 24], \"splines\": [{\"name\": \"s\", \"frequency\": 1, \"knots\": "
              "[]}], \"rigs\": [{\"type\": \"model\", \"model\": \"%s\"}]}",
              model);
-    assert_done(file_write_atomic(folder_path("one.json"), text, strlen(text), &error));
-    struct opened scene = open_scene(folder_path("one.json"));
-    assert_done(export_write(posing_of(&scene), folder_path(file), &usual, &report, &error));
+    struct opened scene = open_scene(folder_file("one.json", text));
+    export_opened(&scene, file, (struct export_options){0});
     close_scene(&scene);
 }
 
@@ -188,17 +179,13 @@ TEST_WITH(folder_make, folder_remove, what_is_not_known_stays)
         "{\"k\":[1.5]}}}],\"unknown\":[{\"x\":1},{}],\"extensionsUsed\":[\"EXT_none\"],\"unknown\":[{\"x\":2}]}";
     static const char scene_text[] =
         "{\"wiggly\": 1, \"frames\": [0, 2], \"splines\": [{\"name\": \"s\", \"knots\": [{\"frame\": 0, \"value\": "
-        "1}]}], "
-        "\"rigs\": [{\"type\": \"model\", \"name\": \"it\", \"model\": \"theirs.gltf\"}, {\"type\": \"chain\", "
-        "\"name\": \"c\", "
-        "\"model\": \"it\", \"from\": \"a\", \"to\": \"b\", \"channels\": [{\"spline\": \"s\"}]}]}";
+        "1}]}], \"rigs\": [{\"type\": \"model\", \"name\": \"it\", \"model\": \"theirs.gltf\"}, {\"type\": "
+        "\"chain\", \"name\": \"c\", \"model\": \"it\", \"from\": \"a\", \"to\": \"b\", \"channels\": [{\"spline\": "
+        "\"s\"}]}]}";
     static const char *const added[] = {"animations", "accessors", "bufferViews", "buffers"};
-    struct export_report report;
-    const struct export_options usual = {0};
-    assert_done(file_write_atomic(folder_path("theirs.gltf"), text, strlen(text), &error));
-    assert_done(file_write_atomic(folder_path("scene.json"), scene_text, strlen(scene_text), &error));
-    struct opened scene = open_scene(folder_path("scene.json"));
-    assert_done(export_write(posing_of(&scene), folder_path("out.gltf"), &usual, &report, &error));
+    folder_file("theirs.gltf", text);
+    struct opened scene = open_scene(folder_file("scene.json", scene_text));
+    export_opened(&scene, "out.gltf", (struct export_options){0});
     close_scene(&scene);
     json_t *before = json_loads(text, 0, NULL), *after = json_load_file(folder_path("out.gltf"), 0, NULL);
     assert_int_equal(json_array_size(json_object_get(after, "animations")), 1);
@@ -338,11 +325,8 @@ TEST_WITH(folder_make, folder_remove, usd_tells_joints_of_one_name_apart)
     assert_int_equal(json_dump_file(json, folder_path("many.gltf"), 0), 0);
     json_decref(json);
     json_decref(below);
-    assert_done(file_write_atomic(folder_path("one.json"), scene_text, strlen(scene_text), &error));
-    struct opened scene = open_scene(folder_path("one.json"));
-    struct export_report report;
-    const struct export_options usual = {0};
-    assert_done(export_write(posing_of(&scene), folder_path("many.usda"), &usual, &report, &error));
+    struct opened scene = open_scene(folder_file("one.json", scene_text));
+    export_opened(&scene, "many.usda", (struct export_options){0});
     close_scene(&scene);
     static char *names[JOINTS];
     size_t size;
@@ -398,8 +382,7 @@ TEST_WITH(folder_make, folder_remove, a_body_keeps_its_curves)
         "\"axis\": \"side\", \"gain\": 20}]}]}";
     export_scene("tail", "fox.glb", (struct export_options){.is_cubic = true});
     char fox[128];
-    snprintf(fox, sizeof fox, "%s", folder_path("fox.json"));
-    assert_done(file_write_atomic(fox, scene_text, strlen(scene_text), &error));
+    snprintf(fox, sizeof fox, "%s", folder_file("fox.json", scene_text));
     const struct {
         const char *scene, *clip;
         double rate;
@@ -429,29 +412,23 @@ TEST_WITH(folder_make, folder_remove, what_opens_is_exported_whole)
     char here[2048];
     assert_non_null(getcwd(here, sizeof here));
     for (int n = 0; n < 6; n++) {
-        char scene_path[256], file[256];
+        char text[4096];
         struct error error = {0};
-        struct export_report report;
-        const struct export_options usual = {0};
         struct gltf gltf;
-        snprintf(scene_path, sizeof scene_path, "%s", folder_path("odd.json"));
-        FILE *out = fopen(scene_path, "w");
-        assert_non_null(out);
-        fprintf(out,
-                "{\"wiggly\": 1, \"frames\": [0, 2], \"splines\": [{\"name\": \"s\", \"frequency\": 2, \"knots\": "
-                "[{\"frame\": 0, \"value\": 1}, {\"frame\": 2, \"value\": -1}]}], \"rigs\": [{\"type\": \"model\", "
-                "\"name\": \"it\", \"model\": \"%s/tests/fuzz/seeds/export/%s\"}, {\"type\": \"chain\", \"name\": "
-                "\"tail\", \"model\": \"it\", \"from\": \"root\", \"to\": \"%s\", \"channels\": [{\"spline\": \"s\", "
-                "\"axis\": \"side\", \"gain\": 9}]}]}",
-                here, models[n / 2], n < 2 ? "node 1" : "tip");
-        assert_int_equal(fclose(out), 0);
-        struct opened scene = open_scene(scene_path);
+        snprintf(
+            text, sizeof text,
+            "{\"wiggly\": 1, \"frames\": [0, 2], \"splines\": [{\"name\": \"s\", \"frequency\": 2, \"knots\": "
+            "[{\"frame\": 0, \"value\": 1}, {\"frame\": 2, \"value\": -1}]}], \"rigs\": [{\"type\": \"model\", "
+            "\"name\": \"it\", \"model\": \"%s/tests/fuzz/seeds/export/%s\"}, {\"type\": \"chain\", \"name\": "
+            "\"tail\", \"model\": \"it\", \"from\": \"root\", \"to\": \"%s\", \"channels\": [{\"spline\": \"s\", "
+            "\"axis\": \"side\", \"gain\": 9}]}]}",
+            here, models[n / 2], n < 2 ? "node 1" : "tip");
+        struct opened scene = open_scene(folder_file("odd.json", text));
         const struct skeleton *skeleton = &models_imported(scene.models, scene.document, 0)->skeleton;
         for (int bone = 0; bone < skeleton->count; bone++) {
             for (int k = 0; k < 3; k++) assert_true(isfinite(skeleton->bones[bone].tip[k]));
         }
-        snprintf(file, sizeof file, "%s", folder_path(files[n % 2]));
-        if (!export_write(posing_of(&scene), file, &usual, &report, &error)) fail_msg("%s", error.text);
+        const char *file = export_opened(&scene, files[n % 2], (struct export_options){0});
         if (!gltf_read(file, &gltf, &error)) fail_msg("%s: %s", models[n / 2], error.text);
         gltf_free(&gltf);
         close_scene(&scene);

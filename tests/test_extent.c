@@ -75,10 +75,9 @@ TEST(each_scene)
 TEST(tails_of_few_joints)
 {
     static const char text[] = "{\"wiggly\": 1, \"frames\": [0, 60], \"loop\": true, \"splines\": [{\"name\": \"s\", "
-                               "\"frequency\": 1, \"knots\": "
-                               "[{\"frame\": 0, \"value\": 3}, {\"frame\": 30, \"value\": -3}]}], \"tails\": "
-                               "[{\"name\": \"t\", \"joints\": %d, "
-                               "\"channels\": [{\"spline\": \"s\", \"axis\": \"side\", \"gain\": 50, \"lag\": 9}]}]}";
+                               "\"frequency\": 1, \"knots\": [{\"frame\": 0, \"value\": 3}, {\"frame\": 30, "
+                               "\"value\": -3}]}], \"tails\": [{\"name\": \"t\", \"joints\": %d, \"channels\": "
+                               "[{\"spline\": \"s\", \"axis\": \"side\", \"gain\": 50, \"lag\": 9}]}]}";
     for (int joints = 1; joints <= 5; joints++) {
         char scene[700];
         int length = snprintf(scene, sizeof scene, text, joints);

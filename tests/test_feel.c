@@ -42,9 +42,7 @@ SESSION_TEST(test_the_time_to_settle_is_set, panel_open(s, tail_scene, 1280, 720
     assert_true(s->editor->core.message.is_error);
     assert_non_null(strstr(s->editor->core.message.text, "settles in: expected 0.48"));
     session_key(s, KEY_ESCAPE, 0);
-    panel_press(s, "settle", 1);
-    session_drag(s, 20, 0, 4); // a second later
-    panel_release(s);
+    panel_pull(s, "settle", 20, 0, 4); // a second later
     assert_near(of(s, PARAMETER_DAMPING)->value, ln20 / (tau * 3), 2e-3);
     panel_click(s, "mode.real");
     panel_enter(s, "settle", "1.5");
@@ -192,12 +190,10 @@ SESSION_TEST(
     session_key(s, 'K', 0);
     assert_all_explained(s);
     session_close(s);
-    open_file(s,
-              "{\"frames\": [0, 48], \"splines\": [{\"name\": \"s\", \"frequency\": 1, \"knots\": [{\"frame\": 0, "
-              "\"value\": 1}]}], \"rigs\": ["
-              "{\"type\": \"model\", \"name\": \"dog\", \"model\": \"assets/models/dog.glb\"}, {\"type\": \"chain\", "
-              "\"name\": \"ear\", \"model\": \"dog\", \"from\": \"ear_1_L\", \"to\": \"ear_2_L\", \"channels\": "
-              "[{\"spline\": \"s\"}]}]}");
+    open_file(s, "{\"frames\": [0, 48], \"splines\": [{\"name\": \"s\", \"frequency\": 1, \"knots\": [{\"frame\": 0, "
+                 "\"value\": 1}]}], \"rigs\": [{\"type\": \"model\", \"name\": \"dog\", \"model\": "
+                 "\"assets/models/dog.glb\"}, {\"type\": \"chain\", \"name\": \"ear\", \"model\": \"dog\", \"from\": "
+                 "\"ear_1_L\", \"to\": \"ear_2_L\", \"channels\": [{\"spline\": \"s\"}]}]}");
     session_key(s, 'J', 0);
     assert_all_explained(s);
 }

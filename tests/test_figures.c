@@ -220,21 +220,19 @@ static double cubic_error(int substeps, double stiffness, const double *expected
 /// Without tangents the classical spline is the natural C² cubic (scipy.interpolate.CubicSpline, bc_type="natural").
 TEST(test_cubic_is_the_natural_spline)
 {
-    static const double natural[] = {
-        0,
-        0.4902902902902902,
-        0.86286286286286262,
-        1,
-        0.82736069402736068,
-        0.44411077744411065,
-        -0.0072072072072071336,
-        -0.38405071738405083,
-        -0.54818151484818145,
-        -0.46036036036036038,
-        -0.18034701368034683,
-        0.22779446112779428,
-        0.70000000000000051,
-    };
+    static const double natural[] = {0,
+                                     0.4902902902902902,
+                                     0.86286286286286262,
+                                     1,
+                                     0.82736069402736068,
+                                     0.44411077744411065,
+                                     -0.0072072072072071336,
+                                     -0.38405071738405083,
+                                     -0.54818151484818145,
+                                     -0.46036036036036038,
+                                     -0.18034701368034683,
+                                     0.22779446112779428,
+                                     0.70000000000000051};
     double coarse = cubic_error(4, 0, natural), fine = cubic_error(32, 0, natural);
     assert_true(coarse < 1e-3 && fine < 1e-5);
     assert_true(fine < coarse / 50); // as h²
@@ -244,21 +242,19 @@ TEST(test_cubic_is_the_natural_spline)
 /// smoothness at one end of the scale, local support at the other.
 TEST(test_stiff_tangents_make_the_hermite_cubic)
 {
-    static const double hermite[] = {
-        0,
-        0.33333333333333326,
-        0.77777777777777768,
-        1,
-        0.86831275720164613,
-        0.53909465020576131,
-        0.11111111111111116,
-        -0.3168724279835391,
-        -0.62345679012345667,
-        -0.63333333333333341,
-        -0.37654320987654311,
-        0.087654320987654077,
-        0.69999999999999984,
-    };
+    static const double hermite[] = {0,
+                                     0.33333333333333326,
+                                     0.77777777777777768,
+                                     1,
+                                     0.86831275720164613,
+                                     0.53909465020576131,
+                                     0.11111111111111116,
+                                     -0.3168724279835391,
+                                     -0.62345679012345667,
+                                     -0.63333333333333341,
+                                     -0.37654320987654311,
+                                     0.087654320987654077,
+                                     0.69999999999999984};
     double before = INFINITY;
     for (double stiffness = 0.01; stiffness < 1e5; stiffness *= 100) {
         double error = cubic_error(32, stiffness, hermite);

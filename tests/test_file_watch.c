@@ -13,13 +13,6 @@
 static const char theirs[] =
     "{\"wiggly\": 1, \"frames\": [0, 96], \"splines\": [{\"name\": \"theirs\", \"knots\": []}]}";
 
-static void press(struct blind *blind, int key, unsigned mods)
-{
-    blind_send(blind, (struct event){.kind = EVENT_KEY, .key = key, .action = ACTION_PRESS, .mods = mods});
-    blind_send(blind, (struct event){.kind = EVENT_KEY, .key = key, .action = ACTION_RELEASE, .mods = mods});
-    blind_frame(blind);
-}
-
 static void focus(struct blind *blind)
 {
     blind_send(blind, (struct event){.kind = EVENT_FOCUS});
@@ -55,7 +48,7 @@ static void open_mine(struct blind *blind)
     write_scene("{\"wiggly\": 1, \"frames\": [0, 48], \"splines\": [{\"name\": \"mine\", \"knots\": []}]}");
     blind_open(blind, scene());
     blind_frame(blind);
-    press(blind, 'I', 0);
+    blind_key(blind, 'I', 0);
     assert_false(history_is_saved(blind->app.table.history));
 }
 
@@ -63,7 +56,7 @@ static void open_changed(struct blind *blind)
 {
     open_mine(blind);
     write_scene(theirs);
-    press(blind, 'S', MOD_CTRL);
+    blind_key(blind, 'S', MOD_CTRL);
     assert_int_equal(asked(blind), DIALOG_CHANGED);
     assert_string_equal(blind->app.table.editor->dialogs->dialog.question.title, "walk.json has changed on the disk");
     assert_true(holds(scene(), "theirs"));
@@ -73,23 +66,23 @@ static void open_changed(struct blind *blind)
 
 CHANGED_TEST(keep_mine_writes_it)
 {
-    press(blind, 'K', 0);
+    blind_key(blind, 'K', 0);
     assert_int_equal(asked(blind), DIALOG_NONE);
     assert_true(holds(scene(), "mine"));
     assert_true(history_is_saved(blind->app.table.history));
-    press(blind, 'I', MOD_SHIFT);
-    press(blind, 'S', MOD_CTRL); // mine again: nothing to ask
+    blind_key(blind, 'I', MOD_SHIFT);
+    blind_key(blind, 'S', MOD_CTRL); // mine again: nothing to ask
     assert_int_equal(asked(blind), DIALOG_NONE);
 }
 
 CHANGED_TEST(take_theirs_can_be_undone)
 {
-    press(blind, 'T', 0);
+    blind_key(blind, 'T', 0);
     assert_int_equal(asked(blind), DIALOG_NONE);
     assert_string_equal(blind->app.table.document->splines[0]->name, "theirs");
     assert_string_equal(app_path(&blind->app), scene());
     assert_true(history_is_saved(blind->app.table.history));
-    press(blind, 'Z', MOD_CTRL);
+    blind_key(blind, 'Z', MOD_CTRL);
     assert_string_equal(blind->app.table.document->splines[0]->name, "mine");
     assert_int_equal(blind->app.table.document->splines[0]->knot_count, 1);
     assert_false(history_is_saved(blind->app.table.history));
@@ -99,20 +92,20 @@ CHANGED_TEST(take_theirs_can_be_undone)
 CHANGED_TEST(broken_theirs_is_not_taken)
 {
     write_scene("{");
-    press(blind, 'T', 0);
+    blind_key(blind, 'T', 0);
     assert_int_equal(asked(blind), DIALOG_CHANGED);
     assert_non_null(strstr(blind->app.table.editor->dialogs->dialog.error, "walk.json:1"));
     assert_string_equal(blind->app.table.document->splines[0]->name, "mine");
-    press(blind, KEY_ESCAPE, 0);
+    blind_key(blind, KEY_ESCAPE, 0);
     assert_int_equal(asked(blind), DIALOG_NONE);
 }
 
 CHANGED_TEST(save_as_keeps_both)
 {
-    press(blind, KEY_ENTER, 0); // the one that loses nothing
+    blind_key(blind, KEY_ENTER, 0); // the one that loses nothing
     assert_int_equal(asked(blind), DIALOG_SAVE_AS);
     ui_text_set(&blind->app.table.editor->dialogs->dialog.ui.text, folder_path("other.json"));
-    press(blind, KEY_ENTER, 0);
+    blind_key(blind, KEY_ENTER, 0);
     assert_int_equal(asked(blind), DIALOG_NONE);
     assert_true(holds(scene(), "theirs"));
     assert_true(holds(folder_path("other.json"), "mine"));
@@ -124,19 +117,19 @@ CHANGED_TEST(save_as_keeps_both)
 MINE_TEST(save_as_over_theirs_asks)
 {
     write_scene(theirs);
-    press(blind, 'S', MOD_CTRL | MOD_SHIFT);
-    press(blind, KEY_ENTER, 0);
+    blind_key(blind, 'S', MOD_CTRL | MOD_SHIFT);
+    blind_key(blind, KEY_ENTER, 0);
     assert_int_equal(asked(blind), DIALOG_CHANGED);
     assert_true(holds(scene(), "theirs"));
 }
 
 CHANGED_TEST(cancel_writes_nothing)
 {
-    press(blind, KEY_ESCAPE, 0);
+    blind_key(blind, KEY_ESCAPE, 0);
     assert_int_equal(asked(blind), DIALOG_NONE);
     assert_true(holds(scene(), "theirs"));
     assert_false(history_is_saved(blind->app.table.history));
-    press(blind, 'S', MOD_CTRL);
+    blind_key(blind, 'S', MOD_CTRL);
     assert_int_equal(asked(blind), DIALOG_CHANGED); // asked again
 }
 
@@ -144,8 +137,8 @@ CHANGED_TEST(cancel_writes_nothing)
 MINE_TEST(quitting_asks_as_well)
 {
     write_scene(theirs);
-    press(blind, 'Q', MOD_CTRL);
-    press(blind, 'S', 0);
+    blind_key(blind, 'Q', MOD_CTRL);
+    blind_key(blind, 'S', 0);
     assert_int_equal(asked(blind), DIALOG_CHANGED);
     blind_send(blind, (struct event){.kind = EVENT_KEY, .key = 'K', .action = ACTION_PRESS});
     app_frame(&blind->app);
@@ -161,15 +154,15 @@ MINE_TEST(focus_asks_once_a_change)
     write_scene(theirs);
     focus(blind);
     assert_int_equal(asked(blind), DIALOG_CHANGED);
-    press(blind, KEY_ESCAPE, 0);
+    blind_key(blind, KEY_ESCAPE, 0);
     focus(blind);
     assert_int_equal(asked(blind), DIALOG_NONE);
     write_scene("{\"wiggly\": 1, \"splines\": [{\"name\": \"once more\", \"knots\": []}]}");
     focus(blind);
     assert_int_equal(asked(blind), DIALOG_CHANGED);
-    press(blind, 'K', 0);
+    blind_key(blind, 'K', 0);
     assert_true(holds(scene(), "once more")); // not before the next save
-    press(blind, 'S', MOD_CTRL);
+    blind_key(blind, 'S', MOD_CTRL);
     assert_int_equal(asked(blind), DIALOG_NONE);
     assert_true(holds(scene(), "mine"));
 }
@@ -177,8 +170,8 @@ MINE_TEST(focus_asks_once_a_change)
 /// Touched, written over with the same content, or copied onto itself: that is no other file.
 MINE_TEST(the_same_content_is_no_change)
 {
-    press(blind, 'S', MOD_CTRL);
-    press(blind, 'I', MOD_SHIFT);
+    blind_key(blind, 'S', MOD_CTRL);
+    blind_key(blind, 'I', MOD_SHIFT);
     char command[400];
     snprintf(command, sizeof command, "cp %s %s.copy && mv %s.copy %s && touch -d 2001-01-01 %s", scene(), scene(),
              scene(), scene(), scene());
@@ -187,7 +180,7 @@ MINE_TEST(the_same_content_is_no_change)
     assert_int_equal(asked(blind), DIALOG_NONE);
     assert_int_equal(unlink(scene()), 0); // nor is one that is gone: saving loses nobody's work
     focus(blind);
-    press(blind, 'S', MOD_CTRL);
+    blind_key(blind, 'S', MOD_CTRL);
     assert_int_equal(asked(blind), DIALOG_NONE);
     assert_true(holds(scene(), "mine"));
 }
@@ -200,7 +193,7 @@ MINE_TEST(the_content_counts)
     write_scene("{\"wiggly\": 1, \"frames\": [0, 48], \"splines\": [{\"name\": \"MINE\", \"knots\": []}]}");
     assert_int_equal(utimensat(AT_FDCWD, scene(), (struct timespec[]){about.st_mtim, {about.st_mtim.tv_sec, 1}}, 0),
                      0);
-    press(blind, 'S', MOD_CTRL);
+    blind_key(blind, 'S', MOD_CTRL);
     assert_int_equal(asked(blind), DIALOG_CHANGED);
 }
 
@@ -250,21 +243,21 @@ TEST(what_others_wrote_before_recovery_is_noticed)
         struct blind blind;
         write_scene("{\"wiggly\": 1, \"frames\": [0, 48], \"splines\": [{\"name\": \"mine\", \"knots\": []}]}");
         open_at_desk(&blind);
-        press(&blind, 'I', 0);
+        blind_key(&blind, 'I', 0);
         if (when == BEFORE) write_scene(theirs);
         crash(&blind);
         if (when == ONCE_KEPT) write_scene(theirs);
         for (int crashes = 0; crashes < 2; crashes++) {
             open_at_desk(&blind);
             assert_int_equal(asked(&blind), DIALOG_RECOVER);
-            press(&blind, 'R', 0);
+            blind_key(&blind, 'R', 0);
             assert_int_equal(blind.app.table.document->splines[0]->knot_count, 1);
             if (crashes == 0) crash(&blind);
         }
-        press(&blind, 'S', MOD_CTRL);
+        blind_key(&blind, 'S', MOD_CTRL);
         assert_int_equal(asked(&blind), when == NEVER ? DIALOG_NONE : DIALOG_CHANGED);
         assert_int_equal(holds(scene(), "theirs"), when != NEVER);
-        if (when != NEVER) press(&blind, 'K', 0);
+        if (when != NEVER) blind_key(&blind, 'K', 0);
         assert_int_equal(asked(&blind), DIALOG_NONE);
         assert_true(holds(scene(), "mine"));
         assert_true(history_is_saved(blind.app.table.history));

@@ -6,11 +6,10 @@
 
 static const char swings[] =
     "{\"frames\": [0, 96], \"splines\": [{\"name\": \"sway\", \"frequency\": 1, \"damping\": 0.02, \"start\": "
-    "\"loop\", \"knots\": [{\"frame\": 0, \"value\": 1}, {\"frame\": 48, \"value\": 1}]},"
-    "{\"name\": \"run\", \"mode\": \"cubic\", \"start\": \"loop\", \"knots\": [{\"frame\": 0, \"value\": 0}, "
-    "{\"frame\": 48, \"value\": 9}]}],"
-    "\"rigs\": [{\"type\": \"tail\", \"name\": \"tail\", \"position\": [%s, 0.26, 0], \"channels\": [{\"spline\": "
-    "\"sway\", \"lag\": 6, \"gain\": 6}]}]}";
+    "\"loop\", \"knots\": [{\"frame\": 0, \"value\": 1}, {\"frame\": 48, \"value\": 1}]},{\"name\": \"run\", "
+    "\"mode\": \"cubic\", \"start\": \"loop\", \"knots\": [{\"frame\": 0, \"value\": 0}, {\"frame\": 48, \"value\": "
+    "9}]}],\"rigs\": [{\"type\": \"tail\", \"name\": \"tail\", \"position\": [%s, 0.26, 0], \"channels\": "
+    "[{\"spline\": \"sway\", \"lag\": 6, \"gain\": 6}]}]}";
 
 static void open_swinging(struct session *s, const char *x)
 {

@@ -4,9 +4,8 @@
 static const char creature[] =
     "{\"wiggly\": 1, \"frames\": [0, 60], \"splines\": [{\"name\": \"s\", \"frequency\": 1, \"damping\": 0.1, "
     "\"knots\": [{\"frame\": 0, \"value\": 0}, {\"frame\": 20, \"value\": 5}]}], \"rigs\": [{\"type\": "
-    "\"character\", "
-    "\"name\": \"c\", \"model\": \"assets/models/creature.glb\", \"position\": [0, 0.2, 0], \"coordinates\": "
-    "[{\"name\": \"up\", \"spline\": \"s\"}], \"floor\": 0}]}";
+    "\"character\", \"name\": \"c\", \"model\": \"assets/models/creature.glb\", \"position\": [0, 0.2, 0], "
+    "\"coordinates\": [{\"name\": \"up\", \"spline\": \"s\"}], \"floor\": 0}]}";
 
 static void open_creature(struct session *s)
 {
@@ -25,8 +24,7 @@ static void edge(struct session *s, float xy[2])
 SESSION_TEST(test_the_edge_is_dragged_down, open_creature(s))
 {
     const char *before = session_saved(s);
-    session_point(s, "floor(c)");
-    session_frame(s);
+    session_hover(s, "floor(c)");
     assert_int_equal(s->editor->core.hover.kind, HOVER_FLOOR);
     assert_int_equal(editor_cursor(s->editor), CURSOR_VERTICAL);
     float from[2], to[2];

@@ -17,11 +17,10 @@ static void add_triangle(struct builder *b)
 /// The uv of a triangle whose texture coordinates are accessor 1: they take any component type.
 static void assert_uv(struct builder *b, const double expected[3][2])
 {
-    struct gltf gltf;
-    read_built(b, MESH("\"POSITION\":0,\"TEXCOORD_0\":1"), &gltf);
-    const struct gltf_part *part = &gltf.meshes[0].parts[0];
+    read_built(b, MESH("\"POSITION\":0,\"TEXCOORD_0\":1"));
+    const struct gltf_part *part = &b->gltf.meshes[0].parts[0];
     for (int i = 0; i < 6; i++) assert_near(part->uv[i / 2][i % 2], expected[i / 2][i % 2], 1e-7);
-    gltf_free(&gltf);
+    gltf_free(&b->gltf);
 }
 
 TEST(every_component_type)
@@ -60,136 +59,114 @@ TEST(every_component_type)
 }
 
 /// Positions and texture coordinates in turn in one view, with a gap, from a byte of their own.
-TEST(strides_and_offsets)
+GLTF_TEST(strides_and_offsets)
 {
     const float rows[3][7] = {{9, 1, 2, 3, 0.5f, 0.25f, 9}, {9, 4, 5, 6, 1, 0, 9}, {9, 7, 8, 10, 0, 1, 9}};
-    struct builder b = {0};
-    struct gltf gltf;
-    add_view(&b, rows, sizeof rows, 28);
-    add_accessor(&b, FLOAT, "VEC3", 3, ",\"bufferView\":0,\"byteOffset\":4");
-    add_accessor(&b, FLOAT, "VEC2", 3, ",\"bufferView\":0,\"byteOffset\":16");
-    read_built(&b, MESH("\"POSITION\":0,\"TEXCOORD_0\":1"), &gltf);
-    const struct gltf_part *part = &gltf.meshes[0].parts[0];
+    add_view(b, rows, sizeof rows, 28);
+    add_accessor(b, FLOAT, "VEC3", 3, ",\"bufferView\":0,\"byteOffset\":4");
+    add_accessor(b, FLOAT, "VEC2", 3, ",\"bufferView\":0,\"byteOffset\":16");
+    read_built(b, MESH("\"POSITION\":0,\"TEXCOORD_0\":1"));
+    const struct gltf_part *part = &b->gltf.meshes[0].parts[0];
     for (int i = 0; i < 3; i++) {
         assert_memory_equal(part->position[i], rows[i] + 1, 12);
         assert_memory_equal(part->uv[i], rows[i] + 4, 8);
     }
-    assert_near(gltf.lo[0], 1, 0);
-    assert_near(gltf.hi[2], 10, 0);
-    gltf_free(&gltf);
+    assert_near(b->gltf.lo[0], 1, 0);
+    assert_near(b->gltf.hi[2], 10, 0);
 }
 
 /// Changes to a view, and to zeros where there is no view.
-TEST(sparse_accessors)
+GLTF_TEST(sparse_accessors)
 {
     const uint8_t places[] = {2};
     const float by[] = {0.5f, 3, -1};
-    struct builder b = {0};
-    struct gltf gltf;
-    int view = add_view(&b, triangle, sizeof triangle, 0), indices = add_view(&b, places, 1, 0);
-    int values = add_view(&b, by, sizeof by, 0);
+    int view = add_view(b, triangle, sizeof triangle, 0), indices = add_view(b, places, 1, 0);
+    int values = add_view(b, by, sizeof by, 0);
     char sparse[256], more[320];
     snprintf(sparse, sizeof sparse,
              ",\"sparse\":{\"count\":1,\"indices\":{\"bufferView\":%d,\"componentType\":5121},\"values\":{"
              "\"bufferView\":%d}}",
              indices, values);
     snprintf(more, sizeof more, ",\"bufferView\":%d%s", view, sparse);
-    add_accessor(&b, FLOAT, "VEC3", 3, more);
-    add_accessor(&b, FLOAT, "VEC3", 3, sparse);
-    add_accessor(&b, FLOAT, "VEC3", 3, "");
-    read_built(&b,
-               "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0},\"targets\":[{\"POSITION\":1},"
-               "{\"POSITION\":2}]}]}]," ONE_NODE,
-               &gltf);
-    const struct gltf_part *part = &gltf.meshes[0].parts[0];
+    add_accessor(b, FLOAT, "VEC3", 3, more);
+    add_accessor(b, FLOAT, "VEC3", 3, sparse);
+    add_accessor(b, FLOAT, "VEC3", 3, "");
+    read_built(b, "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0},\"targets\":[{\"POSITION\":1},"
+                  "{\"POSITION\":2}]}]}]," ONE_NODE);
+    const struct gltf_part *part = &b->gltf.meshes[0].parts[0];
     const float position[3][3] = {{0, 0, 0}, {1, 0, 0}, {0.5f, 3, -1}}, moved[3][3] = {{0}, {0}, {0.5f, 3, -1}};
-    assert_int_equal(gltf.meshes[0].target_count, 2);
+    assert_int_equal(b->gltf.meshes[0].target_count, 2);
     assert_memory_equal(part->position, position, sizeof position);
     assert_memory_equal(part->targets[0].position, moved, sizeof moved);
     for (int i = 0; i < 9; i++) assert_near(part->targets[1].position[i / 3][i % 3], 0, 0);
-    gltf_free(&gltf);
 }
 
 /// Five corners as triangles (the two left over are dropped), strip and fan; points and lines are named.
-TEST(strips_and_fans)
+GLTF_TEST(strips_and_fans)
 {
     const float corners[5][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}, {0, 2, 0}};
     const uint8_t indices[] = {0, 1, 2, 3, 4};
-    struct builder b = {0};
-    struct gltf gltf;
-    add_data(&b, FLOAT, "VEC3", 5, corners, sizeof corners);
-    add_data(&b, FLOAT, "VEC3", 5, corners, sizeof corners); // taken for normals, so that vertices stay shared
-    add_data(&b, UBYTE, "SCALAR", 5, indices, sizeof indices);
+    add_data(b, FLOAT, "VEC3", 5, corners, sizeof corners);
+    add_data(b, FLOAT, "VEC3", 5, corners, sizeof corners); // taken for normals, so that vertices stay shared
+    add_data(b, UBYTE, "SCALAR", 5, indices, sizeof indices);
 #define PRIMITIVE(mode) "{\"attributes\":{\"POSITION\":0,\"NORMAL\":1},\"indices\":2,\"mode\":" mode "}"
-    read_built(&b,
-               "\"meshes\":[{\"primitives\":[" PRIMITIVE("0") "," PRIMITIVE("1") "," PRIMITIVE("3") "," PRIMITIVE(
-                   "4") "," PRIMITIVE("5") "," PRIMITIVE("6") "]}]," ONE_NODE,
-               &gltf);
+    read_built(b, "\"meshes\":[{\"primitives\":[" PRIMITIVE("0") "," PRIMITIVE("1") "," PRIMITIVE("3") "," PRIMITIVE(
+                      "4") "," PRIMITIVE("5") "," PRIMITIVE("6") "]}]," ONE_NODE);
     const uint32_t plain[] = {0, 1, 2}, strip[] = {0, 1, 2, 1, 3, 2, 2, 3, 4}, fan[] = {1, 2, 0, 2, 3, 0, 3, 4, 0};
-    const struct gltf_part *parts = gltf.meshes[0].parts;
-    assert_int_equal(gltf.meshes[0].part_count, 3);
+    const struct gltf_part *parts = b->gltf.meshes[0].parts;
+    assert_int_equal(b->gltf.meshes[0].part_count, 3);
     assert_int_equal(parts[0].index_count, 3);
     assert_memory_equal(parts[0].indices, plain, sizeof plain);
     assert_int_equal(parts[1].index_count, 9);
     assert_memory_equal(parts[1].indices, strip, sizeof strip);
     assert_int_equal(parts[2].index_count, 9);
     assert_memory_equal(parts[2].indices, fan, sizeof fan);
-    assert_string_equal(gltf.not_shown, "points, lines");
-    gltf_free(&gltf);
+    assert_string_equal(b->gltf.not_shown, "points, lines");
 }
 
 /// Strips jump by triangles that name a vertex twice, which no reader keeps; a primitive of nothing else is not there.
-TEST(triangles_that_repeat_a_vertex_are_left_out)
+GLTF_TEST(triangles_that_repeat_a_vertex_are_left_out)
 {
     const float corners[4][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}};
     const uint8_t strip[] = {0, 1, 2, 2, 1, 3}, flat[] = {0, 1, 0, 3, 3, 3};
-    struct builder b = {0};
-    struct gltf gltf;
-    add_data(&b, FLOAT, "VEC3", 4, corners, sizeof corners);
-    add_data(&b, FLOAT, "VEC3", 4, corners, sizeof corners);
-    add_data(&b, UBYTE, "SCALAR", 6, strip, sizeof strip);
-    add_data(&b, UBYTE, "SCALAR", 6, flat, sizeof flat);
+    add_data(b, FLOAT, "VEC3", 4, corners, sizeof corners);
+    add_data(b, FLOAT, "VEC3", 4, corners, sizeof corners);
+    add_data(b, UBYTE, "SCALAR", 6, strip, sizeof strip);
+    add_data(b, UBYTE, "SCALAR", 6, flat, sizeof flat);
 #define REPEATS(normal, indices, mode)                                                                               \
     "{\"attributes\":{\"POSITION\":0" normal "},\"indices\":" indices ",\"mode\":" mode                              \
     ",\"targets\":[{\"POSITION\":0}]}"
-    read_built(&b,
-               "\"meshes\":[{\"primitives\":[" REPEATS("", "3", "4") "," REPEATS(
-                   ",\"NORMAL\":1", "2", "5") "," REPEATS("", "2", "5") "]}]," ONE_NODE,
-               &gltf);
+    read_built(b, "\"meshes\":[{\"primitives\":[" REPEATS("", "3", "4") "," REPEATS(
+                      ",\"NORMAL\":1", "2", "5") "," REPEATS("", "2", "5") "]}]," ONE_NODE);
     const uint32_t indices[] = {0, 1, 2, 2, 3, 1};
-    const struct gltf_part *parts = gltf.meshes[0].parts;
-    assert_int_equal(gltf.meshes[0].part_count, 2);
+    const struct gltf_part *parts = b->gltf.meshes[0].parts;
+    assert_int_equal(b->gltf.meshes[0].part_count, 2);
     assert_int_equal(parts[0].index_count, 6);
     assert_memory_equal(parts[0].indices, indices, sizeof indices);
     assert_int_equal(parts[1].vertex_count, 6); // flat: three a triangle
-    assert_string_equal(gltf.not_shown, "triangles without area");
-    gltf_free(&gltf);
+    assert_string_equal(b->gltf.not_shown, "triangles without area");
     const char *path = temporary_file(
-        "flat.gltf", b.json,
-        strlen(builder_json(&b, "\"meshes\":[{\"primitives\":[" REPEATS("", "3", "4") "]}]," ONE_NODE)));
+        "flat.gltf", b->json,
+        strlen(builder_json(b, "\"meshes\":[{\"primitives\":[" REPEATS("", "3", "4") "]}]," ONE_NODE)));
     struct surface surface;
     assert_refusal(surface_read(path, &surface, &error), "got none");
 }
 
 /// Two triangles that share an edge at a right angle: without normals in the file each gets vertices of its own, and is flat.
-TEST(missing_normals_are_flat)
+GLTF_TEST(missing_normals_are_flat)
 {
     const float corners[4][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
     const uint16_t indices[] = {0, 1, 2, 0, 3, 1};
     const uint8_t colors[4][4] = {{255, 0, 0, 255}, {0, 255, 0, 255}, {0, 0, 255, 255}, {0, 0, 0, 51}};
-    struct builder b = {0};
-    struct gltf gltf;
-    add_data(&b, FLOAT, "VEC3", 4, corners, sizeof corners);
-    add_data(&b, USHORT, "SCALAR", 6, indices, sizeof indices);
+    add_data(b, FLOAT, "VEC3", 4, corners, sizeof corners);
+    add_data(b, USHORT, "SCALAR", 6, indices, sizeof indices);
     char more[64];
-    snprintf(more, sizeof more, ",\"normalized\":true,\"bufferView\":%d", add_view(&b, colors, sizeof colors, 0));
-    add_accessor(&b, UBYTE, "VEC4", 4, more);
+    snprintf(more, sizeof more, ",\"normalized\":true,\"bufferView\":%d", add_view(b, colors, sizeof colors, 0));
+    add_accessor(b, UBYTE, "VEC4", 4, more);
     read_built(
-        &b,
-        "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0,\"COLOR_0\":2},\"indices\":1,\"targets\":["
-        "{\"POSITION\":0}]}],\"weights\":[0.5]}]," ONE_NODE,
-        &gltf);
-    const struct gltf_part *part = &gltf.meshes[0].parts[0];
+        b, "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0,\"COLOR_0\":2},\"indices\":1,\"targets\":["
+           "{\"POSITION\":0}]}],\"weights\":[0.5]}]," ONE_NODE);
+    const struct gltf_part *part = &b->gltf.meshes[0].parts[0];
     assert_int_equal(part->vertex_count, 6);
     for (int i = 0; i < 6; i++) {
         assert_int_equal(part->indices[i], i);
@@ -198,29 +175,25 @@ TEST(missing_normals_are_flat)
         for (int k = 0; k < 4; k++) assert_near(part->color[i][k], colors[indices[i]][k] / 255.0, 1e-7);
         assert_near(part->normal[i][i < 3 ? 2 : 1], 1, 1e-6);
     }
-    assert_near(gltf.hi[0], 1.5, 1e-6); // the weights at rest count
-    gltf_free(&gltf);
+    assert_near(b->gltf.hi[0], 1.5, 1e-6); // the weights at rest count
 }
 
-TEST(eight_influences)
+GLTF_TEST(eight_influences)
 {
     const uint8_t first[3][4] = {{0, 1, 2, 3}, {3, 0, 0, 0}, {1, 9, 0, 0}}, second[3][4] = {{4, 5, 6, 7}, {0}, {0}};
     const float weights[3][4] = {{0.2f, 0.2f, 0.2f, 0.2f}, {0, 0, 0, 0}, {0.5f, 0, 0, 0}};
     const float more[3][4] = {{0.2f, 0.2f, 0.2f, 0.6f}, {0}, {0}};
-    struct builder b = {0};
-    struct gltf gltf;
-    add_triangle(&b);
-    add_data(&b, UBYTE, "VEC4", 3, first, sizeof first);
-    add_data(&b, FLOAT, "VEC4", 3, weights, sizeof weights);
-    add_data(&b, UBYTE, "VEC4", 3, second, sizeof second);
-    add_data(&b, FLOAT, "VEC4", 3, more, sizeof more);
+    add_triangle(b);
+    add_data(b, UBYTE, "VEC4", 3, first, sizeof first);
+    add_data(b, FLOAT, "VEC4", 3, weights, sizeof weights);
+    add_data(b, UBYTE, "VEC4", 3, second, sizeof second);
+    add_data(b, FLOAT, "VEC4", 3, more, sizeof more);
     read_built(
-        &b,
+        b,
         "\"skins\":[{\"joints\":[1,2,3,4,5,6,7,8]}],\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0,"
         "\"JOINTS_0\":1,\"WEIGHTS_0\":2,\"JOINTS_1\":3,\"WEIGHTS_1\":4}}]}],\"nodes\":[{\"mesh\":0,\"skin\":0},{},{},"
-        "{},{},{},{},{},{}]",
-        &gltf);
-    const struct gltf_part *part = &gltf.meshes[0].parts[0];
+        "{},{},{},{},{},{}]");
+    const struct gltf_part *part = &b->gltf.meshes[0].parts[0];
     for (int k = 0; k < 8; k++) {
         assert_int_equal(part->joints[0][k], k);
         assert_near(part->weights[0][k], k < 7 ? 0.1 : 0.3, 1e-6); // their sum was 2
@@ -229,9 +202,8 @@ TEST(eight_influences)
     }
     assert_int_equal(part->joints[1][0], 3);
     assert_int_equal(part->joints[2][1], 0); // the number of a joint without weight says nothing
-    assert_string_equal(gltf.nodes[8].name, "node 8");
-    assert_null(gltf.not_shown);
-    gltf_free(&gltf);
+    assert_string_equal(b->gltf.nodes[8].name, "node 8");
+    assert_null(b->gltf.not_shown);
 }
 
 /// 16 by 16 pixels of 128.
@@ -241,23 +213,21 @@ TEST(eight_influences)
     "AQEAAD8AAP/Z"
 
 /// PNG in a view, JPEG in a data URI, PNG in a file; one picture that is none.
-TEST(materials_and_images)
+GLTF_TEST(materials_and_images)
 {
     unsigned char pixels[2 * 3 * 4];
-    struct builder b = {0};
-    struct gltf gltf;
     for (int i = 0; i < 24; i++) pixels[i] = (unsigned char)(10 * i);
     const float uv[3][2] = {{0, 0}, {1, 0}, {0, 1}};
-    add_triangle(&b);
-    add_data(&b, FLOAT, "VEC2", 3, uv, sizeof uv);
+    add_triangle(b);
+    add_data(b, FLOAT, "VEC2", 3, uv, sizeof uv);
     assert_done(png_write(temporary_path("a b.png"), 2, 3, pixels, &error));
     char *png;
     size_t png_size;
     assert_done(file_read(temporary_path("a b.png"), 1000, &png, &png_size, &error));
-    assert_int_equal(add_view(&b, png, png_size, 0), 2);
+    assert_int_equal(add_view(b, png, png_size, 0), 2);
     free(png);
     read_built(
-        &b,
+        b,
         "\"images\":[{\"bufferView\":2,\"mimeType\":\"image/png\"},{\"uri\":\"data:image/jpeg;base64," GREY_JPEG
         "\"},{\"uri\":\"a%20b.png\"},"
         "{\"name\":\"none\",\"bufferView\":0},{\"name\":\"unused\",\"bufferView\":0},{\"uri\":\"../missing.png\"}],"
@@ -277,40 +247,38 @@ TEST(materials_and_images)
         "}},"
         "{\"pbrMetallicRoughness\":{\"baseColorTexture\":{\"index\":5}}}],"
         "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0,\"TEXCOORD_1\":1},\"material\":1},"
-        "{\"attributes\":{\"POSITION\":0,\"TEXCOORD_1\":1}}]}]," ONE_NODE,
-        &gltf);
-    assert_int_equal(gltf.image_count, 3);
-    assert_int_equal(gltf.images[0].width, 16);
-    assert_in_range(gltf.images[0].pixels[4], 126, 130);
-    assert_int_equal(gltf.images[0].pixels[3], 255);
+        "{\"attributes\":{\"POSITION\":0,\"TEXCOORD_1\":1}}]}]," ONE_NODE);
+    assert_int_equal(b->gltf.image_count, 3);
+    assert_int_equal(b->gltf.images[0].width, 16);
+    assert_in_range(b->gltf.images[0].pixels[4], 126, 130);
+    assert_int_equal(b->gltf.images[0].pixels[3], 255);
     for (int i = 1; i < 3; i++) {
-        assert_int_equal(gltf.images[i].width, 2);
-        assert_int_equal(gltf.images[i].height, 3);
-        assert_memory_equal(gltf.images[i].pixels, pixels, sizeof pixels);
+        assert_int_equal(b->gltf.images[i].width, 2);
+        assert_int_equal(b->gltf.images[i].height, 3);
+        assert_memory_equal(b->gltf.images[i].pixels, pixels, sizeof pixels);
     }
     const int image[] = {0, 1, 2, -1, -1, -1, -1};
-    for (int i = 0; i < 7; i++) assert_int_equal(gltf.materials[i].image, image[i]);
-    assert_near(gltf.materials[0].color[1], 0.25, 0);
-    assert_near(gltf.materials[0].color[3], 0.75, 0);
-    assert_true(gltf.materials[0].blended && gltf.materials[0].double_sided);
-    assert_near(gltf.materials[1].cutoff, 0.5, 0);
-    assert_near(gltf.materials[2].cutoff, 0.25, 0);
-    assert_near(gltf.materials[3].cutoff, 0, 0);
+    for (int i = 0; i < 7; i++) assert_int_equal(b->gltf.materials[i].image, image[i]);
+    assert_near(b->gltf.materials[0].color[1], 0.25, 0);
+    assert_near(b->gltf.materials[0].color[3], 0.75, 0);
+    assert_true(b->gltf.materials[0].blended && b->gltf.materials[0].double_sided);
+    assert_near(b->gltf.materials[1].cutoff, 0.5, 0);
+    assert_near(b->gltf.materials[2].cutoff, 0.25, 0);
+    assert_near(b->gltf.materials[3].cutoff, 0, 0);
     // scale, then a quarter turn, then the offset: (1, 0) → (2, 0) → (0, −2) → (0.5, −1.75)
-    const struct gltf_part *part = &gltf.meshes[0].parts[0];
+    const struct gltf_part *part = &b->gltf.meshes[0].parts[0];
     assert_near(part->uv[1][0], 0.5, 1e-6);
     assert_near(part->uv[1][1], -1.75, 1e-6);
     assert_near(part->uv[2][0], 4.5, 1e-6);
     assert_near(part->uv[2][1], 0.25, 1e-6);
-    assert_null(gltf.meshes[0].parts[1].uv); // plain white has no second set
-    assert_int_equal(gltf.meshes[0].parts[1].material, -1);
-    assert_non_null(strstr(gltf.not_shown, "KHR_materials_sheen, image none (expected PNG or JPEG"));
-    assert_non_null(strstr(gltf.not_shown, "normal maps"));
-    assert_non_null(strstr(gltf.not_shown, "image ../missing.png ("));
-    assert_null(strstr(gltf.not_shown, "KHR_texture_transform"));
-    assert_null(strstr(gltf.not_shown, "unused"));
-    assert_null(strstr(strstr(gltf.not_shown, "image none") + 1, "image none")); // once
-    gltf_free(&gltf);
+    assert_null(b->gltf.meshes[0].parts[1].uv); // plain white has no second set
+    assert_int_equal(b->gltf.meshes[0].parts[1].material, -1);
+    assert_non_null(strstr(b->gltf.not_shown, "KHR_materials_sheen, image none (expected PNG or JPEG"));
+    assert_non_null(strstr(b->gltf.not_shown, "normal maps"));
+    assert_non_null(strstr(b->gltf.not_shown, "image ../missing.png ("));
+    assert_null(strstr(b->gltf.not_shown, "KHR_texture_transform"));
+    assert_null(strstr(b->gltf.not_shown, "unused"));
+    assert_null(strstr(strstr(b->gltf.not_shown, "image none") + 1, "image none")); // once
 }
 
 /// The same file as .glb, as .gltf with a file beside it, and as one that counts on neither.
@@ -340,33 +308,28 @@ TEST(containers)
 }
 
 /// Children may come before parents; what the scene leaves out has no mesh.
-TEST(nodes_and_scenes)
+GLTF_TEST(nodes_and_scenes)
 {
-    struct builder b = {0};
-    struct gltf gltf;
     struct gltf_pose pose;
-    add_triangle(&b);
+    add_triangle(b);
     read_built(
-        &b,
-        "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0}}]}],\"cameras\":[{}],\"scene\":1,"
-        "\"scenes\":[{\"nodes\":[3]},{\"nodes\":[2]}],\"nodes\":[{\"mesh\":0,\"name\":\"leaf\",\"scale\":[2,2,2]},"
-        "{\"children\":[0],\"matrix\":[0,1,0,0,-1,0,0,0,0,0,1,0,5,0,0,1]},"
-        "{\"children\":[1],\"translation\":[0,0,7]},{\"mesh\":0}]",
-        &gltf);
-    assert_int_equal(gltf_find_node(&gltf, "leaf"), 0);
-    assert_int_equal(gltf_find_node(&gltf, "tree"), -1);
-    assert_int_equal(gltf.nodes[0].parent, 1);
-    assert_true(gltf.nodes[1].has_matrix);
-    assert_int_equal(gltf.nodes[3].mesh, -1);
-    assert_string_equal(gltf.not_shown, "cameras, other scenes");
-    assert_true(gltf_pose_create(&gltf, &pose));
+        b, "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0}}]}],\"cameras\":[{}],\"scene\":1,"
+           "\"scenes\":[{\"nodes\":[3]},{\"nodes\":[2]}],\"nodes\":[{\"mesh\":0,\"name\":\"leaf\",\"scale\":[2,2,2]},"
+           "{\"children\":[0],\"matrix\":[0,1,0,0,-1,0,0,0,0,0,1,0,5,0,0,1]},"
+           "{\"children\":[1],\"translation\":[0,0,7]},{\"mesh\":0}]");
+    assert_int_equal(gltf_find_node(&b->gltf, "leaf"), 0);
+    assert_int_equal(gltf_find_node(&b->gltf, "tree"), -1);
+    assert_int_equal(b->gltf.nodes[0].parent, 1);
+    assert_true(b->gltf.nodes[1].has_matrix);
+    assert_int_equal(b->gltf.nodes[3].mesh, -1);
+    assert_string_equal(b->gltf.not_shown, "cameras, other scenes");
+    assert_true(gltf_pose_create(&b->gltf, &pose));
     float positions[3][3], normals[3][3];
-    gltf_pose_vertices(&gltf, &pose, 0, positions, normals);
+    gltf_pose_vertices(&b->gltf, &pose, 0, positions, normals);
     // (1, 0, 0) → (2, 0, 0) → (0, 2, 0) + (5, 0, 0) → + (0, 0, 7)
     const double moved[] = {5, 2, 7};
     for (int k = 0; k < 3; k++) assert_near(positions[1][k], moved[k], 1e-6);
     assert_near(normals[0][2], 1, 1e-6);
-    assert_near(gltf.lo[0], 3, 1e-6); // (0, 2, 0) turned is (−2, 0, 0)
+    assert_near(b->gltf.lo[0], 3, 1e-6); // (0, 2, 0) turned is (−2, 0, 0)
     gltf_pose_free(&pose);
-    gltf_free(&gltf);
 }

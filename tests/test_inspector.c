@@ -138,9 +138,7 @@ SESSION_TEST(test_knot_is_edited_in_place, panel_open(s, scene, 1280, 1600))
     panel_enter(s, "frame", "60"); // where another knot sits
     assert_near(s->document->splines[0]->knots[2].frame, 70, 0);
     assert_true(s->editor->core.message.is_error);
-    panel_press(s, "frame", 1);
-    session_drag(s, 600, 0, 1); // far beyond the scene: it stops at the last frame
-    panel_release(s);
+    panel_pull(s, "frame", 600, 0, 1); // far beyond the scene: it stops at the last frame
     assert_near(s->document->splines[0]->knots[2].frame, 96, 0);
     panel_click(s, "has_slope");
     assert_true(s->document->splines[0]->knots[2].has_slope);
@@ -184,9 +182,7 @@ SESSION_TEST(test_several_knots, panel_open(s, scene, 1280, 1600))
     for (int k = 0; k < 3; k++) assert_near(s->document->splines[0]->knots[k].value, 0.25, 0);
     session_key(s, 'Z', MOD_CTRL); // one step
     assert_near(s->document->splines[0]->knots[1].value, 1, 0);
-    panel_press(s, "value", 1);
-    session_drag(s, 50, 0, 5);
-    panel_release(s);
+    panel_pull(s, "value", 50, 0, 5);
     assert_near(s->document->splines[0]->knots[0].value, 0.5, 1e-12);
     assert_near(s->document->splines[0]->knots[2].value, 0, 1e-12);
     session_key(s, 'Z', MOD_CTRL);
@@ -197,9 +193,7 @@ SESSION_TEST(test_several_knots, panel_open(s, scene, 1280, 1600))
     panel_enter(s, "frame", "40"); // the last one would leave the scene
     assert_near(s->document->splines[0]->knots[0].frame, 10, 0);
     assert_non_null(strstr(s->editor->core.message.text, "frame 100 is outside 0 to 96"));
-    panel_press(s, "frame", 1);
-    session_drag(s, 60, 0, 60); // as far as it goes
-    panel_release(s);
+    panel_pull(s, "frame", 60, 0, 60); // as far as it goes
     assert_near(s->document->splines[0]->knots[2].frame, 96, 0);
     assert_near(s->document->splines[0]->knots[1].frame, 72, 0);
     session_key(s, 'T', 0);

@@ -113,8 +113,7 @@ SESSION_TEST(test_a_joint_is_picked_on_the_stage, open_beast(s, FOLLOWS))
     session_click(s, "bone(leg_FL_2)");
     assert_saved(s, before); // Esc had let go: the click only selected the bone
     panel_click(s, "joint.pick");
-    session_pull(s, "bone(tail_4)", 30, 20, 4); // a drag turns the camera, also over a chain
-    session_release(s, BUTTON_LEFT);
+    session_carry(s, "bone(tail_4)", 30, 20, 4); // a drag turns the camera, also over a chain
     assert_saved(s, before);
     session_click(s, "bone(neck)");
     assert_string_equal(equilibrium(s)->motion->joint, "neck");
@@ -186,8 +185,7 @@ TEST(test_a_second_character_is_named)
         const char *bone = rig ? "right/neck" : "left/neck";
         char target[64];
         snprintf(target, sizeof target, "bone(%s)", bone);
-        session_point(&s, target);
-        session_frame(&s);
+        session_hover(&s, target);
         assert_non_null(shown_text(s.editor, bone));
         session_click(&s, target);
         assert_true(bones_selected(&s.editor->core, &model) >= 0);

@@ -5,8 +5,7 @@
 static const char scene[] =
     "{\"wiggly\": 1, \"frames\": [0, 96], \"splines\": [{\"name\": \"sway\", \"frequency\": 0.5, \"damping\": 0.01, "
     "\"knots\": [{\"frame\": 0, \"value\": 0}, {\"frame\": 36, \"value\": 1}, {\"frame\": 40, \"value\": -1}, "
-    "{\"frame\": 90, \"value\": 0}]}],"
-    "\"rigs\": [{\"type\": \"tail\", \"name\": \"tail\", \"spline\": \"sway\"}]}";
+    "{\"frame\": 90, \"value\": 0}]}],\"rigs\": [{\"type\": \"tail\", \"name\": \"tail\", \"spline\": \"sway\"}]}";
 
 /// A jump within two frames.
 static const char jump[] = "{\"wiggly\": 1, \"frames\": [0, 72], \"splines\": [{\"name\": \"sway\", \"frequency\": 1,"

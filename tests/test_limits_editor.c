@@ -21,8 +21,7 @@ static void pull(struct session *s, const char *from, const char *to)
 {
     session_point(s, from);
     session_press(s, BUTTON_LEFT, 1);
-    session_point(s, to);
-    session_frame(s);
+    session_hover(s, to);
     session_release(s, BUTTON_LEFT);
     session_frame(s);
 }
@@ -31,8 +30,7 @@ SESSION_TEST(a_line_is_dragged_as_far_as_the_knots, session_open(s, swinging))
 {
     const char *original = session_saved(s);
     assert_non_null(strstr(original, "\"limits\": [null, 1.2]"));
-    session_point(s, "curve(sway,100,1.2)");
-    session_frame(s);
+    session_hover(s, "curve(sway,100,1.2)");
     assert_int_equal(s->editor->core.hover.kind, HOVER_LIMIT);
     pull(s, "curve(sway,100,1.2)", "curve(sway,100,1.05)");
     assert_near(limit(s, PARAMETER_HIGH), 1.05, 0.01);

@@ -16,14 +16,8 @@ static const char cube_text[] =
 static const char material_text[] = "newmtl sides\nmap_Kd two.png\nnewmtl top\nKd 0 0.5 0\n";
 static const char scene_text[] =
     "{\"wiggly\": 1, \"frames\": [0, 24], \"splines\": [{\"name\": \"s\", \"frequency\": 1, \"knots\": [{\"frame\": "
-    "0, "
-    "\"value\": 1}]}], \"rigs\": [{\"type\": \"character\", \"name\": \"cube\", \"model\": \"cube.glb\", "
+    "0, \"value\": 1}]}], \"rigs\": [{\"type\": \"character\", \"name\": \"cube\", \"model\": \"cube.glb\", "
     "\"coordinates\": [{\"name\": \"up\", \"spline\": \"s\"}]}]}";
-
-static void write_text(const char *name, const char *text)
-{
-    assert_done(file_write_atomic(folder_path(name), text, strlen(text), &error));
-}
 
 /// The mesh as a file and as analyze makes a character of it.
 static int make_cube(void **state)
@@ -37,9 +31,9 @@ static int make_cube(void **state)
         memcpy(pixels[i / 16][i % 16], i % 16 < 8 ? red : blue, 4);
     }
     assert_done(png_write(folder_path("two.png"), 16, 16, pixels[0][0], &error));
-    write_text("cube.mtl", material_text);
-    write_text("cube.obj", cube_text);
-    write_text("scene.json", scene_text);
+    folder_file("cube.mtl", material_text);
+    folder_file("cube.obj", cube_text);
+    folder_file("scene.json", scene_text);
     assert_done(surface_read(folder_path("cube.obj"), &surface, &error));
     assert_true(character_create(&character, &surface, 1));
     character.coordinates[0].name = strdup("up");
@@ -100,17 +94,9 @@ TEST(a_mesh_of_quads_comes_out_of_gltf)
     surface_free(&surface);
 }
 
-static struct opened open_cube(void) { return open_scene(folder_path("scene.json")); }
-
 static const char *export_cube(const char *name)
 {
-    struct opened scene = open_cube();
-    struct export_report report;
-    const struct export_options usual = {0};
-    const char *path = folder_path(name);
-    assert_done(export_write(posing_of(&scene), path, &usual, &report, &error));
-    close_scene(&scene);
-    return path;
+    return export_file(folder_path("scene.json"), name, (struct export_options){0});
 }
 
 TEST(they_are_exported_as_gltf)

@@ -34,7 +34,7 @@ static void draw(const char *sampler, float from, float to, const unsigned char 
              "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0,\"TEXCOORD_0\":1},\"indices\":2,"
              "\"material\":0}]}],\"nodes\":[{\"mesh\":0}],\"scenes\":[{\"nodes\":[0]}]",
              path, sampler);
-    read_built(&b, members, &gltf);
+    read_text(builder_json(&b, members), &gltf);
     assert_true(gltf_pose_create(&gltf, &pose));
     gltf_pose_world(&gltf, &pose);
     struct camera camera = camera_default();

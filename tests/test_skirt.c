@@ -28,7 +28,7 @@ TEST(nodes_stand_for_themselves)
     add_data(&b, FLOAT, "VEC3", 4, square, sizeof square);
     add_data(&b, FLOAT, "VEC3", 4, normals, sizeof normals);
     add_data(&b, UBYTE, "SCALAR", 6, indices, sizeof indices);
-    read_built(&b, nodes, &gltf);
+    read_text(builder_json(&b, nodes), &gltf);
     assert_true(gltf_pose_create(&gltf, &pose));
     gltf_pose_clip(&gltf, -1, 0, &pose);
     gltf_pose_world(&gltf, &pose);
