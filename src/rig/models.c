@@ -3,10 +3,116 @@
 #include "base/file.h"
 #include "base/need.h"
 #include "model/fox.h"
-#include "rig/model_files.h"
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
+
+enum model_kind { MODEL_FIGURE, MODEL_IMPORTED };
+
+/// A file that was read, and its state at that time.
+struct model_file {
+    char *path; ///< absolute
+    struct timespec changed;
+    off_t size;
+    enum model_kind kind;
+    union {
+        struct figure figure;
+        struct imported imported;
+    };
+};
+
+/// The models that were read, kept by path and read again only when the file has changed.
+struct model_files {
+    struct model_file **files;
+    int count;
+};
+
+static void file_destroy(struct model_file *file)
+{
+    if (!file) return;
+    if (file->kind == MODEL_FIGURE) {
+        figure_free(&file->figure);
+    } else {
+        imported_free(&file->imported);
+    }
+    free(file->path);
+    free(file);
+}
+
+static void free_files(struct model_files *files)
+{
+    for (int i = 0; i < files->count; i++) file_destroy(files->files[i]);
+    free(files->files);
+    *files = (struct model_files){0};
+}
+
+static bool is_current(const struct model_file *file, const struct stat *about)
+{
+    return file->size == about->st_size && file->changed.tv_sec == about->st_mtim.tv_sec &&
+           file->changed.tv_nsec == about->st_mtim.tv_nsec;
+}
+
+static int find_file(const struct model_files *files, const char *path, enum model_kind kind)
+{
+    for (int i = 0; i < files->count; i++) {
+        if (files->files[i]->kind == kind && strcmp(files->files[i]->path, path) == 0) return i;
+    }
+    return -1;
+}
+
+static bool read_figure(struct figure *figure, const char *path, struct error *error)
+{
+    struct character character = {0};
+    if (!character_read(path, &character, error)) return false;
+    if (!figure_has_room(&character)) {
+        character_free(&character);
+        return fail_no_memory(error, path);
+    }
+    figure_create(figure, &character);
+    return true;
+}
+
+static struct model_file *read_file(const char *path, enum model_kind kind, struct error *error)
+{
+    struct model_file *file = need_zeroed(1, sizeof *file);
+    file->path = need_text(path);
+    file->kind = kind;
+    if (kind == MODEL_FIGURE ? read_figure(&file->figure, path, error) : imported_read(&file->imported, path, error))
+        return file;
+    file_destroy(file);
+    return NULL;
+}
+
+/// Puts a file that was read in the place of an older one, or (`at` −1) adds it.
+static void keep(struct model_files *files, int at, struct model_file *file)
+{
+    if (at >= 0) {
+        file_destroy(files->files[at]);
+        files->files[at] = file;
+        return;
+    }
+    files->files = need_more(files->files, (size_t)files->count + 1, sizeof *files->files);
+    files->files[files->count++] = file;
+}
+
+/// The model in a file, read again only if the file has changed; NULL with a sentence.
+static const struct model_file *obtain(struct model_files *files, const char *path, enum model_kind kind,
+                                       struct error *error)
+{
+    struct stat about = {0};
+    bool is_there = stat(path, &about) == 0;
+    int at = find_file(files, path, kind);
+    if (at >= 0 && is_there && is_current(files->files[at], &about)) return files->files[at];
+    struct model_file *file = read_file(path, kind, error);
+    if (!file) return NULL;
+    file->changed = about.st_mtim;
+    file->size = about.st_size;
+    keep(files, at, file);
+    return file;
+}
+
+// --- the models of a document
 
 /// The model of one character.
 struct character_model {
@@ -77,7 +183,7 @@ void models_destroy(struct models *models)
     meadow_destroy(models->meadow);
     free(models->placed);
     free(models->tails);
-    model_files_free(&models->files);
+    free_files(&models->files);
     free(models->characters);
     free(models);
 }
@@ -134,7 +240,8 @@ static const struct figure *find_figure(struct models *models, const struct docu
     const struct character_rig *rig = &of->character;
     char path[PATH_LIMIT];
     if (!resolve(document, rig->model, path, error)) return NULL;
-    const struct figure *figure = model_files_figure(&models->files, path, error);
+    const struct model_file *file = obtain(&models->files, path, MODEL_FIGURE, error);
+    const struct figure *figure = file ? &file->figure : NULL;
     if (figure && check_names(rig, figure, error) && check_pins(of, figure->character.vertex_count, error))
         check_paint(rig, figure, error);
     return figure;
@@ -203,10 +310,10 @@ static bool place_model(struct models *models, const struct document *document, 
     char path[PATH_LIMIT];
     *placed = (struct placed_model){.path = need_text(rig->model)};
     if (!resolve(document, rig->model, path, error)) return false;
-    const struct imported *imported = model_files_imported(&models->files, path, error);
-    if (!imported) return false;
-    if (!make_poses(placed, imported)) return fail_no_memory(error, rig->model);
-    return check_clip(rig, &imported->gltf, error);
+    const struct model_file *file = obtain(&models->files, path, MODEL_IMPORTED, error);
+    if (!file) return false;
+    if (!make_poses(placed, &file->imported)) return fail_no_memory(error, rig->model);
+    return check_clip(rig, &file->imported.gltf, error);
 }
 
 static void update_placed(struct models *models, const struct document *document, struct error *first)
