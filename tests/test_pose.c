@@ -3,7 +3,6 @@
 #include "documents.h"
 #include "model/fox.h"
 #include "posed_tail.h"
-#include "rig/shadow.h"
 
 enum { JOINTS = 24, LOOP_FRAMES = 120 };
 

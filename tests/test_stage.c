@@ -3,7 +3,6 @@
 #include "models/fox_maker.h"
 #include "offscreen.h"
 #include "posed_tail.h"
-#include "rig/shadow.h"
 
 enum { WIDTH = 1000, HEIGHT = 400, JOINTS = 24 };
 
@@ -43,11 +42,7 @@ static void arrange(double side)
     camera_fit(&camera, lo, hi, (float)WIDTH / HEIGHT, 0);
     camera_matrices(&camera, (float)WIDTH / HEIGHT, view.view, view.projection, view.eye);
     camera_lamp(&camera, view.key_from);
-    struct shadow_blob blobs[STAGE_MAX_BLOBS];
-    view.blob_count = pose_blobs(&posed, view.key_from, blobs, STAGE_MAX_BLOBS);
-    for (int b = 0; b < view.blob_count; b++) {
-        view.blobs[b] = (struct stage_blob){blobs[b].x, blobs[b].z, blobs[b].radius, blobs[b].strength};
-    }
+    view.blob_count = pose_blobs(&posed, view.key_from, view.blobs, STAGE_MAX_BLOBS);
 }
 
 static void draw(void) { offscreen_draw(&view, WIDTH, HEIGHT, pixels); }

@@ -48,7 +48,7 @@ static void add_box(struct extent *extent, const float lo[3], const float hi[3])
     }
 }
 
-static void add_blob(struct extent *extent, const struct stage_blob *blob, float ground)
+static void add_blob(struct extent *extent, const struct shadow_blob *blob, float ground)
 {
     const float lo[3] = {blob->x - blob->radius, ground, blob->z - blob->radius};
     const float hi[3] = {blob->x + blob->radius, ground, blob->z + blob->radius};

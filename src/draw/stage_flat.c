@@ -106,7 +106,7 @@ long stage_flat_upload(struct stage_flat *flat, const struct stage_view *view)
     add_disc(flat, clip_from_world, view->middle[0], ground, view->middle[1], ground_radius(view),
              view->colors.ground, 1.0f);
     for (int b = 0; b < view->blob_count; b++) {
-        const struct stage_blob *blob = &view->blobs[b];
+        const struct shadow_blob *blob = &view->blobs[b];
         add_disc(flat, clip_from_world, blob->x, ground, blob->z, blob->radius, view->colors.shadow, blob->strength);
     }
     const long bytes = flat->quads * CORNERS * (long)sizeof *flat->corners;

@@ -91,6 +91,15 @@ struct pose {
 /// The box around the skin of tail and torso (whose size follows the tail's length), metres.
 void pose_bounds(const struct pose *pose, float lo[3], float hi[3]);
 
+/// A soft contact shadow on the ground: a disc that darkens; `strength` 0 … 1, more where nearer.
+struct shadow_blob {
+    float x, z, radius, strength;
+};
+
+/// The shadows that a tail and its animal throw under a lamp in direction `from`: the body's, then evenly along the tail; those too weak to be
+/// seen are skipped. Writes at most `capacity` (20 shows a tail well) and returns how many. Allocates nothing.
+int pose_blobs(const struct pose *pose, const float from[3], struct shadow_blob *blobs, int capacity);
+
 /// Sets the places of the body's parts, and the lids, over those at rest.
 void fox_move(const struct limbs *limbs, struct gltf_pose *pose);
 

@@ -4,6 +4,7 @@
 
 #include "base/hash.h"
 #include "model/figure.h"
+#include "model/fox.h"
 #include "model/gltf.h"
 #include "ui/drawlist.h"
 #include "ui/theme.h"
@@ -55,11 +56,6 @@ struct stage_meadow {
     float lo[3], hi[3]; ///< the box around it, world
 };
 
-/// A soft contact shadow on the ground: a disc that darkens; `strength` 0 … 1, more where nearer.
-struct stage_blob {
-    float x, z, radius, strength;
-};
-
 struct stage_view {
     struct rect viewport; ///< logical pixels of the window
     float view[16];       ///< world → eye, column-major
@@ -74,7 +70,7 @@ struct stage_view {
     struct stage_model models[STAGE_MAX_MODELS];
     int model_count;
     struct stage_meadow meadow;
-    struct stage_blob blobs[STAGE_MAX_BLOBS];
+    struct shadow_blob blobs[STAGE_MAX_BLOBS];
     int blob_count;
     uint64_t hash; ///< of everything above: equal hash, equal pixels
 };
@@ -83,7 +79,7 @@ struct stage_view {
 static inline void stage_add_blob(struct stage_view *view, float x, float z, float radius, float strength)
 {
     if (view->blob_count < STAGE_MAX_BLOBS)
-        view->blobs[view->blob_count++] = (struct stage_blob){x, z, radius, strength};
+        view->blobs[view->blob_count++] = (struct shadow_blob){x, z, radius, strength};
 }
 
 /// Hash of what all pictures of the stage share: viewport, camera, light and colours.

@@ -3,7 +3,6 @@
 #include "editor/stage/parts.h"
 #include "editor/stage/stage.h"
 #include "model/vector.h"
-#include "rig/shadow.h"
 #include <assert.h>
 #include <math.h>
 
@@ -44,13 +43,9 @@ bool strand_pose(const struct stage *stage, const struct core *core, int rig, do
 
 static void add_blobs(struct stage_view *view, const struct pose *pose)
 {
-    struct shadow_blob blobs[BLOBS_OF_ONE_TAIL];
-    int room = STAGE_MAX_BLOBS - view->blob_count;
-    int count = pose_blobs(pose, view->key_from, blobs, room < BLOBS_OF_ONE_TAIL ? room : BLOBS_OF_ONE_TAIL);
-    for (int i = 0; i < count; i++) {
-        view->blobs[view->blob_count++] =
-            (struct stage_blob){blobs[i].x, blobs[i].z, blobs[i].radius, blobs[i].strength};
-    }
+    const int room = STAGE_MAX_BLOBS - view->blob_count;
+    view->blob_count += pose_blobs(pose, view->key_from, view->blobs + view->blob_count,
+                                   room < BLOBS_OF_ONE_TAIL ? room : BLOBS_OF_ONE_TAIL);
 }
 
 static void pose(struct stage *stage, const struct core *core, int rig, int n)

@@ -1,5 +1,4 @@
 /// Finds where a posed tail and its animal keep the lamp from the ground.
-#include "rig/shadow.h"
 #include "model/fox.h"
 #include "model/vector.h"
 #include <math.h>
