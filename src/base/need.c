@@ -50,7 +50,7 @@ _Noreturn void need_failed(void)
 static size_t bytes_of(size_t count, size_t size)
 {
     size_t bytes;
-    if (!checked_mul(count, size, &bytes)) need_failed();
+    if (__builtin_mul_overflow(count, size, &bytes)) need_failed();
     return bytes ? bytes : 1;
 }
 

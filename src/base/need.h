@@ -34,12 +34,4 @@ typedef void need_rescue(void *user, struct error *error);
 /// From now on `rescue` (NULL: none) is called where memory runs out, and has `reserve` bytes that are put by for it.
 void need_keep(size_t reserve, need_rescue *rescue, void *user);
 
-// Arithmetic on sizes that reports overflow.
-
-/// sum = a + b; false where it overflows.
-static inline bool checked_add(size_t a, size_t b, size_t *sum) { return !__builtin_add_overflow(a, b, sum); }
-
-/// product = a · b; false where it overflows.
-static inline bool checked_mul(size_t a, size_t b, size_t *product) { return !__builtin_mul_overflow(a, b, product); }
-
 #endif

@@ -32,7 +32,7 @@ static double *take(double **room, int count)
 static void find_weights(const struct drive *drive, const wiggly_curve *curve, int samples, struct driven *driven,
                          int room)
 {
-    const double lag = drive->lag * 3.14159265358979323846 / 180.0, c = cos(lag), s = sin(lag);
+    const double lag = radians(drive->lag), c = cos(lag), s = sin(lag);
     for (int i = 0; i < room; i++) {
         const int at = i < samples ? i : samples - 1;
         driven->re[i] = drive->amplitude * (curve->y[at] + curve->re[at] * c + curve->im[at] * s);

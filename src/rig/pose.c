@@ -6,8 +6,6 @@
 
 _Static_assert((int)TAIL_MAX_JOINTS <= (int)POSE_MAX_JOINTS, "a pose holds every tail");
 
-static double radians(double degrees) { return degrees * 3.14159265358979323846 / 180.0; }
-
 double channel_bend(const struct channel *channel, wiggly_value value, int n, int joints, enum look look)
 {
     const double lag = look == LOOK_STIFF ? 0.0 : radians(angles_lag(&channel->lag, n, joints));
@@ -77,12 +75,11 @@ struct limbs tail_base(const struct posing *posing, int rig, double position, co
     return limbs;
 }
 
-static bool pose(const struct posing *posing, int rig, double position, const wiggly_value *values,
-                 const struct by_hand *by_hand, struct rig_pose *posed)
+static bool pose(const struct posing *posing, int rig, double position, const struct by_hand *by_hand,
+                 struct rig_pose *posed)
 {
     struct pose *strand = &posed->strand;
     struct path path;
-    (void)values;
     if (!path_find(posing, rig, position, by_hand, &path)) return false;
     strand->count = path.count - path.first + 1;
     for (int n = 0; n < strand->count; n++) {
@@ -96,15 +93,17 @@ static bool pose(const struct posing *posing, int rig, double position, const wi
     return true;
 }
 
-static bool pose_fox(const struct posing *posing, int rig, double position, const wiggly_value *values,
-                     const struct by_hand *by_hand, struct rig_pose *posed)
+static bool pose_fox(const struct posing *posing, int rig, double position, const struct by_hand *by_hand,
+                     struct rig_pose *posed)
 {
     const struct tail *tail = &posing->document->rigs[rig]->tail;
+    wiggly_value values[RIG_MAX_INPUTS];
     double base[3];
+    posing_values(posing, rig, position, by_hand, values);
     posed->strand.ground = tail_ground(tail);
     posed->strand.scale = (float)(tail->length / (double)FOX_TAIL_LENGTH);
     posed->strand.limbs = tail_base(posing, rig, position, values, by_hand, base);
-    return pose(posing, rig, position, values, by_hand, posed);
+    return pose(posing, rig, position, by_hand, posed);
 }
 
 static void bounds(const struct rig_pose *posed, float lo[3], float hi[3]) { pose_bounds(&posed->strand, lo, hi); }

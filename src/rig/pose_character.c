@@ -14,7 +14,7 @@ void pose_character(const struct character_rig *rig, const struct figure *figure
         const int coordinate = figure_find(figure, drive->name);
         if (coordinate < 0) continue;
         const bool stiff = look == LOOK_STIFF;
-        const double lag = stiff ? 0.0 : drive->lag * 3.14159265358979323846 / 180.0;
+        const double lag = stiff ? 0.0 : radians(drive->lag);
         const double re = x->y + x->re * cos(lag) + x->im * sin(lag);
         const double im = stiff ? 0.0 : x->im * cos(lag) - x->re * sin(lag);
         morph->coordinate[morph->count] = coordinate;
@@ -32,7 +32,7 @@ static const struct figure *figure_of(const struct posing *posing, int rig)
 /// A e^{−j·lag}
 static void turn_of(const struct drive *drive, double turn[2])
 {
-    const double lag = drive->lag * 3.14159265358979323846 / 180.0;
+    const double lag = radians(drive->lag);
     turn[0] = drive->amplitude * cos(lag);
     turn[1] = -drive->amplitude * sin(lag);
 }
@@ -127,13 +127,14 @@ static void weigh(const struct posing *posing, int rig, const int *splines, int 
 
 static const struct pinning_functions pinning = {find, weigh};
 
-static bool pose(const struct posing *posing, int rig, double position, const wiggly_value *values,
-                 const struct by_hand *by_hand, struct rig_pose *posed)
+static bool pose(const struct posing *posing, int rig, double position, const struct by_hand *by_hand,
+                 struct rig_pose *posed)
 {
     const struct character_rig *character = &posing->document->rigs[rig]->character;
-    const struct figure *figure = models_figure(posing->models, document_rig_number(posing->document, rig));
-    (void)position;
+    const struct figure *figure = figure_of(posing, rig);
+    wiggly_value values[RIG_MAX_INPUTS];
     if (!figure) return false;
+    posing_values(posing, rig, position, by_hand, values);
     posed->character.figure = figure;
     for (int k = 0; k < 3; k++) {
         posed->character.position[k] = (float)(character->position[k] + (by_hand ? by_hand->base[k] : 0));

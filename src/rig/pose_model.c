@@ -37,7 +37,7 @@ void posing_root(const struct posing *posing, int rig, const struct by_hand *by_
     const struct document *document = posing->document;
     const struct model_rig *model = &document->rigs[rig]->model;
     const struct imported *imported = models_imported(posing->models, document, rig);
-    const double turn = model->turn * 3.14159265358979323846 / 180.0;
+    const double turn = radians(model->turn);
     const double c = model->scale * cos(turn), s = model->scale * sin(turn);
     const double columns[9] = {c, 0, -s, 0, model->scale, 0, s, 0, c};
     memcpy(root, columns, sizeof columns);
@@ -91,13 +91,6 @@ bool rig_pose_body(const struct posing *posing, int rig, double position, const 
     return true;
 }
 
-static bool pose(const struct posing *posing, int rig, double position, const wiggly_value *values,
-                 const struct by_hand *by_hand, struct rig_pose *posed)
-{
-    (void)values;
-    return rig_pose_body(posing, rig, position, by_hand, posed);
-}
-
 static void bounds(const struct rig_pose *posed, float lo[3], float hi[3])
 {
     const struct imported *imported = posed->model.imported;
@@ -109,4 +102,4 @@ static void bounds(const struct rig_pose *posed, float lo[3], float hi[3])
     memcpy(hi, box[1], sizeof box[1]);
 }
 
-const struct posing_functions model_posing = {pose, bounds, NULL};
+const struct posing_functions model_posing = {rig_pose_body, bounds, NULL};

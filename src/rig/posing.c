@@ -38,12 +38,9 @@ void posing_values(const struct posing *posing, int index, double position, cons
 bool rig_pose(const struct posing *posing, int index, double position, const struct by_hand *by_hand,
               struct rig_pose *pose)
 {
-    wiggly_value values[RIG_MAX_INPUTS];
     if (index < 0 || index >= posing->document->rig_count) return false;
-    const struct rig *rig = posing->document->rigs[index];
-    posing_values(posing, index, position, by_hand, values);
-    pose->kind = rig->kind;
-    return posing_kinds[rig->kind]->pose(posing, index, position, values, by_hand, pose);
+    pose->kind = posing->document->rigs[index]->kind;
+    return posing_kinds[pose->kind]->pose(posing, index, position, by_hand, pose);
 }
 
 void rig_bounds(const struct rig_pose *pose, float lo[3], float hi[3])

@@ -13,10 +13,13 @@ struct pinning_functions {
 
 extern const struct pinning_functions strand_pinning;
 
+/// For angles of files, which are in degrees.
+static inline double radians(double degrees) { return degrees * 3.14159265358979323846 / 180.0; }
+
 struct posing_functions {
-    /// `values` are those of the rig's inputs; the rest of `pose` is filled in. false if its model is missing.
-    bool (*pose)(const struct posing *posing, int rig, double position, const wiggly_value *values,
-                 const struct by_hand *by_hand, struct rig_pose *pose);
+    /// All of `pose` but its kind is filled in. false if its model is missing.
+    bool (*pose)(const struct posing *posing, int rig, double position, const struct by_hand *by_hand,
+                 struct rig_pose *pose);
     void (*bounds)(const struct rig_pose *pose, float lo[3], float hi[3]); ///< NULL: it is no body
     const struct pinning_functions *pins;                                  ///< NULL: it takes none
 };

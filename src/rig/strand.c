@@ -7,8 +7,6 @@
 
 static const float UPRIGHT = 0.98f; ///< cosine against world up from which on a chain stands or hangs
 
-static double radians(double degrees) { return degrees * 3.14159265358979323846 / 180.0; }
-
 static vec3s place_of(const float matrix[16]) { return vec3_from(matrix + 12); }
 
 /// Character's space → a bone's own at rest, without its place.

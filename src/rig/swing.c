@@ -8,8 +8,6 @@ static const double LEAST_DAMPING = 0.05; ///< a ratio, as in the cost of the st
 static const double STILL = 1e-4;         ///< metres of swing that nobody sees
 static const double RADIANS = 0.017453292519943295;
 
-static cplx exp_complex(cplx z) { return (cplx){exp(z.re) * cos(z.im), exp(z.re) * sin(z.im)}; }
-
 static cplx divide(cplx a, cplx b) { return cplx_scale(1 / cplx_norm(b), cplx_mul(a, cplx_conj(b))); }
 
 static cplx pole(const struct swing_filter *filter, int k) { return (cplx){filter->s[k][0], filter->s[k][1]}; }
@@ -18,9 +16,9 @@ static cplx pole(const struct swing_filter *filter, int k) { return (cplx){filte
 static cplx response(const struct swing_filter *filter, double t)
 {
     const cplx apart = cplx_sub(pole(filter, 0), pole(filter, 1));
-    const cplx first = exp_complex(cplx_scale(t, pole(filter, 0)));
+    const cplx first = cplx_exp(cplx_scale(t, pole(filter, 0)));
     if (cplx_norm(apart) * t * t < 1e-12) return cplx_scale(t, first);
-    return divide(cplx_sub(first, exp_complex(cplx_scale(t, pole(filter, 1)))), apart);
+    return divide(cplx_sub(first, cplx_exp(cplx_scale(t, pole(filter, 1)))), apart);
 }
 
 /// The response to a step of the base is φ̇, at most about ω_n φ. Two complex poles at −σ + j(ω ± β) ring up together:
@@ -65,8 +63,8 @@ static void step_filter(struct swing *swing, const struct swing_filter *filter, 
 {
     const cplx x = {swing->x[0], swing->x[1]}, z = {swing->z[0] - kick, swing->z[1]};
     const cplx later =
-        cplx_add(cplx_mul(exp_complex(cplx_scale(dt, pole(filter, 1))), x), cplx_mul(response(filter, dt), z));
-    const cplx kept = cplx_mul(exp_complex(cplx_scale(dt, pole(filter, 0))), z);
+        cplx_add(cplx_mul(cplx_exp(cplx_scale(dt, pole(filter, 1))), x), cplx_mul(response(filter, dt), z));
+    const cplx kept = cplx_mul(cplx_exp(cplx_scale(dt, pole(filter, 0))), z);
     swing->x[0] = later.re;
     swing->x[1] = filter->is_complex ? later.im : 0;
     swing->z[0] = kept.re;
