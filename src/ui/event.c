@@ -3,21 +3,13 @@
 #include <stddef.h>
 #include <string.h>
 
-static const char *const special_names[KEY_COUNT - KEY_ESCAPE] = {
-    [KEY_ESCAPE - KEY_ESCAPE] = "Escape",  [KEY_ENTER - KEY_ESCAPE] = "Enter",
-    [KEY_TAB - KEY_ESCAPE] = "Tab",        [KEY_BACKSPACE - KEY_ESCAPE] = "Backspace",
-    [KEY_INSERT - KEY_ESCAPE] = "Insert",  [KEY_DELETE - KEY_ESCAPE] = "Delete",
-    [KEY_LEFT - KEY_ESCAPE] = "Left",      [KEY_RIGHT - KEY_ESCAPE] = "Right",
-    [KEY_UP - KEY_ESCAPE] = "Up",          [KEY_DOWN - KEY_ESCAPE] = "Down",
-    [KEY_PAGE_UP - KEY_ESCAPE] = "PageUp", [KEY_PAGE_DOWN - KEY_ESCAPE] = "PageDown",
-    [KEY_HOME - KEY_ESCAPE] = "Home",      [KEY_END - KEY_ESCAPE] = "End",
-    [KEY_F1 - KEY_ESCAPE] = "F1",          [KEY_F2 - KEY_ESCAPE] = "F2",
-    [KEY_F3 - KEY_ESCAPE] = "F3",          [KEY_F4 - KEY_ESCAPE] = "F4",
-    [KEY_F5 - KEY_ESCAPE] = "F5",          [KEY_F6 - KEY_ESCAPE] = "F6",
-    [KEY_F7 - KEY_ESCAPE] = "F7",          [KEY_F8 - KEY_ESCAPE] = "F8",
-    [KEY_F9 - KEY_ESCAPE] = "F9",          [KEY_F10 - KEY_ESCAPE] = "F10",
-    [KEY_F11 - KEY_ESCAPE] = "F11",        [KEY_F12 - KEY_ESCAPE] = "F12",
-};
+/// From KEY_ESCAPE on.
+static const char *const special_names[] = {"Escape", "Enter", "Tab",  "Backspace", "Insert",   "Delete", "Left",
+                                            "Right",  "Up",    "Down", "PageUp",    "PageDown", "Home",   "End",
+                                            "F1",     "F2",    "F3",   "F4",        "F5",       "F6",     "F7",
+                                            "F8",     "F9",    "F10",  "F11",       "F12"};
+
+_Static_assert(sizeof special_names / sizeof *special_names == KEY_COUNT - KEY_ESCAPE, "each has a name");
 
 /// The names of keys whose name is their character: upper-case letters, digits, punctuation.
 static const char printed_names[] = "!\0\"\0#\0$\0%\0&\0'\0(\0)\0*\0+\0,\0-\0.\0/\0"
@@ -35,10 +27,10 @@ const char *key_name(int key)
 
 int key_from_name(const char *name)
 {
-    if (name[0] >= '!' && name[0] <= '`' && name[1] == '\0') return name[0];
     if (strcmp(name, "Space") == 0) return KEY_SPACE;
-    for (int key = KEY_ESCAPE; key < KEY_COUNT; key++) {
-        if (strcmp(special_names[key - KEY_ESCAPE], name) == 0) return key;
+    for (int key = '!'; key < KEY_COUNT; key++) {
+        const char *own = key_name(key);
+        if (own && strcmp(own, name) == 0) return key;
     }
     return KEY_NONE;
 }

@@ -125,7 +125,8 @@ float font_width(enum font font, float size, const char *utf8)
 
 float font_cap_height(enum font font, float size) { return faces[font].cap_height * size; }
 
-size_t font_line(enum font font, float size, const char *utf8, float width)
+/// Bytes of a text that fit into `width`, ending at a space if possible; at least one character.
+static size_t line_length(enum font font, float size, const char *utf8, float width)
 {
     float ems = 0.0f;
     size_t fits = 0;
@@ -140,6 +141,14 @@ size_t font_line(enum font font, float size, const char *utf8, float width)
         if (whole) fits = length;
     }
     return fits ? fits : (size_t)(at - utf8);
+}
+
+size_t font_take_line(enum font font, float size, float width, const char **utf8)
+{
+    const size_t length = line_length(font, size, *utf8, width);
+    *utf8 += length;
+    while (**utf8 == ' ') ++*utf8;
+    return length;
 }
 
 // The atlas.

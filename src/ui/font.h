@@ -11,8 +11,9 @@ bool font_init(struct error *error);
 /// Width of a text in logical pixels, and the height of its capitals (for centring).
 float font_width(enum font font, float size, const char *utf8);
 float font_cap_height(enum font font, float size);
-/// Bytes of the next line of a text that fit into `width`, ending at a space if possible; at least one character.
-size_t font_line(enum font font, float size, const char *utf8, float width);
+/// Bytes of the next line of a text that fit into `width`, ending at a space if possible; at least one character. The text moves on to the
+/// line after.
+size_t font_take_line(enum font font, float size, float width, const char **utf8);
 
 /// One rasterised glyph of an atlas: texels [x0, x1) × [y0, y1), drawn at pen + (xoff, yoff) device pixels, y down.
 struct glyph {

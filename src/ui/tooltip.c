@@ -38,15 +38,6 @@ bool tooltip_is_shown(const struct tooltip *tooltip)
 
 bool tooltip_waits(const struct tooltip *tooltip) { return tooltip->text && !tooltip->spent && tooltip->rest < WAIT; }
 
-/// The bytes of the next line; moves on to the one after.
-static size_t take_line(const char **text, float width)
-{
-    const size_t length = font_line(FONT_LABEL, THEME_TEXT_SMALL, *text, width);
-    *text += length;
-    while (**text == ' ') ++*text;
-    return length;
-}
-
 static float text_width(struct rect window) { return fminf(WIDTH, window.w - 2 * MARGIN) - 2 * PAD_X; }
 
 struct rect tooltip_box(const struct tooltip *tooltip, struct rect window)
@@ -54,7 +45,7 @@ struct rect tooltip_box(const struct tooltip *tooltip, struct rect window)
     const float width = text_width(window), whole = font_width(FONT_LABEL, THEME_TEXT_SMALL, tooltip->text);
     const char *rest = tooltip->text;
     int lines = 0;
-    for (; *rest; lines++) take_line(&rest, width);
+    for (; *rest; lines++) font_take_line(FONT_LABEL, THEME_TEXT_SMALL, width, &rest);
     const float w = fminf(ceilf(whole), width) + 2 * PAD_X, h = (float)(lines * LINE + 2 * PAD_Y);
     const struct rect *at = &tooltip->at;
     const float below = at->y + at->h + BELOW, above = at->y - BELOW - h;
@@ -75,7 +66,8 @@ void tooltip_show(const struct tooltip *tooltip, struct rect window, struct draw
     for (; *rest; y += LINE) {
         const char *start = rest;
         char part[257];
-        snprintf(part, sizeof part, "%.*s", (int)take_line(&rest, text_width(window)), start);
+        const size_t length = font_take_line(FONT_LABEL, THEME_TEXT_SMALL, text_width(window), &rest);
+        snprintf(part, sizeof part, "%.*s", (int)length, start);
         drawlist_text(list, box.x + PAD_X, y, FONT_LABEL, THEME_TEXT_SMALL, theme()->text, part);
     }
 }

@@ -257,6 +257,14 @@ bool ui_clicked(struct ui *ui, uint32_t id, struct rect r)
     return ui_pressed(ui, r, BUTTON_LEFT) || ui_activated(ui, id);
 }
 
+void ui_hold(struct ui *ui, uint32_t id)
+{
+    ui->held = id;
+    ui->moved = ui->fine = false;
+    ui->press_x = ui->event->x;
+    ui->press_y = ui->event->y;
+}
+
 enum ui_change ui_held_change(struct ui *ui)
 {
     const struct event *event = ui->event;

@@ -53,16 +53,14 @@ void ui_paragraph(struct ui *ui, const char *text, uint32_t color)
     enum { LINE = 16, MAX_LINES = 4 };
     for (int line = 0; line < MAX_LINES && *text; line++) {
         struct rect r = ui_row(ui, LINE);
-        size_t length = font_line(FONT_LABEL, THEME_TEXT_SMALL, text, r.w);
-        if (ui->pass == UI_PASS_DRAW) {
-            char part[257];
-            snprintf(part, sizeof part, "%.*s", (int)length, text);
-            float y = ui_baseline(r, FONT_LABEL, THEME_TEXT_SMALL);
-            drawlist_text_fit(ui->list, r.x, y, r.w, FONT_LABEL, THEME_TEXT_SMALL, color,
-                              line == MAX_LINES - 1 ? text : part);
-        }
-        text += length;
-        while (*text == ' ') text++;
+        const char *start = text;
+        const size_t length = font_take_line(FONT_LABEL, THEME_TEXT_SMALL, r.w, &text);
+        if (ui->pass != UI_PASS_DRAW) continue;
+        char part[257];
+        snprintf(part, sizeof part, "%.*s", (int)length, start);
+        float y = ui_baseline(r, FONT_LABEL, THEME_TEXT_SMALL);
+        drawlist_text_fit(ui->list, r.x, y, r.w, FONT_LABEL, THEME_TEXT_SMALL, color,
+                          line == MAX_LINES - 1 ? start : part);
     }
 }
 
@@ -239,9 +237,7 @@ static enum ui_row_event row_event(struct ui *ui, struct rect r, uint32_t id)
     if (ui_activated(ui, id)) return UI_ROW_PRESSED;
     if (!ui_pressed(ui, r, BUTTON_LEFT)) return UI_ROW_NONE;
     if (ui->event->clicks == 2) return UI_ROW_TWICE;
-    ui->held = id;
-    ui->moved = false;
-    ui->press_y = ui->event->y;
+    ui_hold(ui, id);
     return UI_ROW_PRESSED;
 }
 

@@ -66,10 +66,7 @@ static void press(struct ui *ui, struct rect area, const struct ui_handle *handl
 {
     int at = nearest(handles, count, ui->event->x, ui->event->y);
     if (at < 0 || !ui_pressed(ui, area, BUTTON_LEFT)) return;
-    ui->held = id_of(&handles[at]);
-    ui->moved = false;
-    ui->press_x = ui->event->x;
-    ui->press_y = ui->event->y;
+    ui_hold(ui, id_of(&handles[at]));
     ui->handle_x = handles[at].x;
     ui->handle_y = handles[at].y;
 }

@@ -13,6 +13,8 @@ struct rect ui_field_of(struct rect row);
 
 /// Whether the running event is this button going down over `r`, not clipped and not used yet; then it is used up.
 bool ui_pressed(struct ui *ui, struct rect r, enum event_button button);
+/// The running event's press holds that widget from now on.
+void ui_hold(struct ui *ui, uint32_t id);
 /// What a key or a button means to what is held: the release drops it, Esc cancels; others are used up.
 enum ui_change ui_held_change(struct ui *ui);
 /// Whether the running event presses or repeats a key and widget `id` has the focus; the caller marks it as used.

@@ -211,10 +211,7 @@ static enum ui_change idle_event(struct ui *ui, uint32_t id, struct rect field, 
         if (ui->event->clicks == 2) {
             begin_typing(ui, id, *value, true);
         } else {
-            ui->held = id;
-            ui->moved = false;
-            ui->fine = false;
-            ui->press_x = ui->event->x;
+            ui_hold(ui, id);
         }
         return UI_NONE;
     }
@@ -286,9 +283,7 @@ static void paint(struct ui *ui, struct rect r, struct rect field, uint32_t id, 
     char formatted[64];
     format_number(number, value, formatted, sizeof formatted);
     const char *text = number->shown ? number->shown : formatted;
-    if (has_bar(number)) {
-        paint_bar(ui, field, number, value, hot, held);
-    }
+    if (has_bar(number)) paint_bar(ui, field, number, value, hot, held);
     if (held) {
         drawlist_rounded_line(ui->list, field, UI_RADIUS, 1, theme()->accent);
     } else {

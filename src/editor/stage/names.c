@@ -82,15 +82,6 @@ static struct caption caption_of(const struct document *document)
 
 static float caption_width(struct rect place) { return fminf(WIDEST, place.w - 2 * MARGIN); }
 
-/// Takes one line of a text that is `width` wide: its length in bytes; `*text` goes on to what follows it.
-static size_t take_line(const char **text, enum font font, float width)
-{
-    size_t length = font_line(font, THEME_TEXT_NORMAL, *text, width);
-    *text += length;
-    while (**text == ' ') (*text)++;
-    return length;
-}
-
 float caption_height(struct rect place, const struct document *document)
 {
     if (!document->about) return 0;
@@ -98,7 +89,7 @@ float caption_height(struct rect place, const struct document *document)
     const char *rest = caption.rest;
     int lines = 1;
     while (lines < MAX_LINES && *rest) {
-        take_line(&rest, FONT_LABEL, caption_width(place));
+        font_take_line(FONT_LABEL, THEME_TEXT_NORMAL, caption_width(place), &rest);
         lines++;
     }
     return (float)(MARGIN + lines * LINE);
@@ -118,8 +109,9 @@ void stage_show_caption(struct core *core, float bottom)
     for (int line = 1; line < MAX_LINES && *rest && y + LINE < bottom; line++) {
         char text[MAX_TITLE + 1];
         const char *from = rest;
+        const size_t length = font_take_line(FONT_LABEL, THEME_TEXT_NORMAL, width, &rest);
         y += LINE;
-        snprintf(text, sizeof text, "%.*s", (int)take_line(&rest, FONT_LABEL, width), from);
+        snprintf(text, sizeof text, "%.*s", (int)length, from);
         drawlist_text(&core->list, place.x + MARGIN, y, FONT_LABEL, THEME_TEXT_NORMAL, theme()->text_dim, text);
     }
     drawlist_set_clip(&core->list, clip);
