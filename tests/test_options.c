@@ -26,7 +26,6 @@ static const struct usage usage = {
     .summary = "a command of the tests",
     .options = specs,
     .option_count = sizeof specs / sizeof specs[0],
-    .operand_minimum = 1,
     .operand_maximum = 2,
 };
 

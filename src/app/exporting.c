@@ -130,11 +130,8 @@ void exporting_stop(struct app *app)
 
 static enum film_state begin_film(struct export_job *job)
 {
-    const struct opened *opened = &job->opened;
-    const struct editor_world world = {
-        .document = opened->document, .evaluation = &opened->evaluation, .models = opened->models};
     const struct export_options options = options_of(job);
-    job->film = film_open(&world, job->request.path, &options, &job->error);
+    job->film = film_open(&job->opened, job->request.path, &options, &job->error);
     return job->film ? FILM_RUNS : FILM_FAILED;
 }
 

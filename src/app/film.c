@@ -4,6 +4,7 @@
 #include "base/file.h"
 #include "base/need.h"
 #include "draw/picture.h"
+#include "editor/editor.h"
 #include "platform/platform.h"
 #include <math.h>
 #include <stdio.h>
@@ -116,7 +117,7 @@ static bool choose_shape(struct film *film, const struct export_options *options
                 film->format->ending);
 }
 
-struct film *film_open(const struct editor_world *world, const char *path, const struct export_options *options,
+struct film *film_open(const struct opened *opened, const char *path, const struct export_options *options,
                        struct error *error)
 {
     struct film *film = need_zeroed(1, sizeof *film);
@@ -125,10 +126,12 @@ struct film *film_open(const struct editor_world *world, const char *path, const
     film->path = path;
     film->editor = editor_create();
     if (file_check_place(path, error) && choose_shape(film, options, error) &&
-        choose_frames(film, world->document, options, error) &&
+        choose_frames(film, opened->document, options, error) &&
         (film->picture = picture_create(film->shape.width, film->shape.height, error)) &&
         (film->file = film->kind->open(path, &film->shape, error))) {
-        editor_open(film->editor, world);
+        editor_open(film->editor, &(struct editor_world){.document = opened->document,
+                                                         .evaluation = &opened->evaluation,
+                                                         .models = opened->models});
         return film;
     }
     film_close(film);
@@ -201,12 +204,12 @@ static bool run(struct film *film, const struct export_options *options, struct 
     }
 }
 
-bool film_write(const struct editor_world *world, const char *path, const struct export_options *options,
+bool film_write(const struct opened *opened, const char *path, const struct export_options *options,
                 struct export_report *report, struct error *error)
 {
     struct platform *platform = platform_offscreen(1, 1, 1, error);
     if (!platform) return false;
-    struct film *film = film_open(world, path, options, error);
+    struct film *film = film_open(opened, path, options, error);
     bool done = film && run(film, options, error);
     if (done) film_report(film, report);
     film_close(film);

@@ -2,8 +2,8 @@
 #ifndef APP_FILM_H
 #define APP_FILM_H
 
-#include "editor/editor.h"
 #include "export/export.h"
+#include "rig/opened.h"
 
 enum { FILM_ENDINGS = 64 };
 
@@ -12,16 +12,15 @@ bool film_knows(const char *path);
 void film_endings(char text[FILM_ENDINGS]);
 
 /// Draws and writes it all, whole or not at all, without a display. A .png name with %d in it, as walk-%04d.png, is that of a sequence,
-/// and walk.png is short for that if there is more than one picture. The world's splines must be solved and its models read; it has no
-/// need of a history.
-bool film_write(const struct editor_world *world, const char *path, const struct export_options *options,
+/// and walk.png is short for that if there is more than one picture. Its splines must be solved and its models read.
+bool film_write(const struct opened *opened, const char *path, const struct export_options *options,
                 struct export_report *report, struct error *error);
 
 struct film;
 
-/// The same in steps, for a program that has an OpenGL context and other things to do. World and path must live as long; NULL with a
+/// The same in steps, for a program that has an OpenGL context and other things to do. Scene and path must live as long; NULL with a
 /// sentence.
-struct film *film_open(const struct editor_world *world, const char *path, const struct export_options *options,
+struct film *film_open(const struct opened *opened, const char *path, const struct export_options *options,
                        struct error *error);
 
 enum film_state { FILM_RUNS, FILM_DONE, FILM_FAILED };

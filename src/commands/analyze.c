@@ -361,7 +361,6 @@ int command_analyze(int argc, char **argv)
         .summary = "Finds the complex normal coordinate of each motion (.npy, .pc2, .mdd) and writes a character.",
         .options = options,
         .option_count = sizeof options / sizeof options[0],
-        .operand_minimum = 1,
         .operand_maximum = FILES_MAX,
     };
     enum options_result result = options_parse(&usage, argc, argv, job.files);

@@ -100,7 +100,6 @@ int command_check(int argc, char **argv)
         .operands = "scene.json",
         .summary =
             "Prints every problem in a scene file, with its line; of a character, its clips, bones and chains.",
-        .operand_minimum = 1,
         .operand_maximum = 1,
     };
     enum options_result result = options_parse(&usage, argc, argv, &path);

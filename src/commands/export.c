@@ -31,16 +31,17 @@ static bool proceed(void *user, long done, long total)
     return !progress_interrupted();
 }
 
-static bool write_export(struct job *job, const struct editor_world *world, struct error *error)
+static bool write_motion(struct job *job, struct opened *opened, struct error *error)
 {
     struct export_report report;
-    const struct posing posing = {
-        .document = world->document, .evaluation = world->evaluation, .models = world->models};
+    document_set_path(opened->document, job->scene);
+    opened_solve(opened, SOLVER_BY_LENGTH);
+    const struct posing posing = opened_posing(opened);
     job->options.proceed = proceed;
     job->options.user = job;
     job->progress.started = clock_now();
     if (job->theme) theme_use((enum theme_kind)(job->theme - 1));
-    const bool done = film_knows(job->output) ? film_write(world, job->output, &job->options, &report, error)
+    const bool done = film_knows(job->output) ? film_write(opened, job->output, &job->options, &report, error)
                                               : export_write(&posing, job->output, &job->options, &report, error);
     if (!done) progress_clear(&job->progress);
     if (done && *report.note) print_line(stderr, "%s: warning: %s", job->output, report.note);
@@ -64,15 +65,6 @@ static bool write_paint(const struct job *job, const struct document *document, 
         return true;
     }
     return fail(error, ERROR_INPUT, "%s: expected paint on %s, got none", job->scene, name ? name : "a character");
-}
-
-static bool write_motion(struct job *job, struct opened *opened, struct error *error)
-{
-    document_set_path(opened->document, job->scene);
-    opened_solve(opened, SOLVER_BY_LENGTH);
-    const struct editor_world world = {
-        .document = opened->document, .evaluation = &opened->evaluation, .models = opened->models};
-    return write_export(job, &world, error);
 }
 
 static bool run(struct job *job, struct error *error)
@@ -147,7 +139,6 @@ int command_export(int argc, char **argv)
         .summary = "Writes the motion of a scene for other programs. The file's extension chooses the format.",
         .options = options,
         .option_count = sizeof options / sizeof *options,
-        .operand_minimum = 1,
         .operand_maximum = 1,
     };
     enum options_result result = options_parse(&usage, argc, argv, &job.scene);

@@ -11,7 +11,6 @@ int command_log(int argc, char **argv)
         .command = "log",
         .operands = "FILE.csv",
         .summary = "Prints percentiles, frames over budget, a histogram and the slowest frames of a timing log.",
-        .operand_minimum = 1,
         .operand_maximum = 1,
     };
     enum options_result result = options_parse(&usage, argc, argv, &path);

@@ -199,8 +199,8 @@ static enum options_result read_option(const struct usage *usage, int argc, char
 
 static void print_help(const struct usage *usage)
 {
-    printf("Usage: wiggly %s%s%s%s\n%s\n", usage->command, usage->option_count ? " [options]" : "",
-           *usage->operands ? " " : "", usage->operands, usage->summary);
+    printf("Usage: wiggly %s%s %s\n%s\n", usage->command, usage->option_count ? " [options]" : "", usage->operands,
+           usage->summary);
     if (usage->option_count) printf("\nOptions:\n");
     for (int i = 0; i < usage->option_count; i++) {
         const struct option_spec *option = &usage->options[i];
@@ -260,7 +260,8 @@ enum options_result options_parse(const struct usage *usage, int argc, char **ar
             return options_wrong(usage, "'%s' is one argument too many", argv[i]);
         }
     }
-    if (count < usage->operand_minimum) return options_wrong(usage, "an argument is missing: %s", usage->operands);
+    if (count == 0 && usage->operands[0] != '[')
+        return options_wrong(usage, "an argument is missing: %s", usage->operands);
     return check_outputs(usage);
 }
 

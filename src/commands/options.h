@@ -37,11 +37,11 @@ struct option_spec {
 /// A subcommand's command line.
 struct usage {
     const char *command;  ///< "live"
-    const char *operands; ///< "[scene.json]", or ""
+    const char *operands; ///< "scene.json", or "[scene.json]" where it may be left out
     const char *summary;  ///< one line
     const struct option_spec *options;
     int option_count;
-    int operand_minimum, operand_maximum;
+    int operand_maximum;
 };
 
 // Options that several commands have; 0: not given.

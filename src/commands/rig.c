@@ -128,7 +128,6 @@ int command_rig(int argc, char **argv)
         .summary = "Gives a character's tail, ears or hair follow-through. Without -o, lists its clips and bones.",
         .options = options,
         .option_count = sizeof options / sizeof *options,
-        .operand_minimum = 1,
         .operand_maximum = 1,
     };
     enum options_result result = options_parse(&usage, argc, argv, &job.character);

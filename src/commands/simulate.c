@@ -250,7 +250,6 @@ int command_simulate(int argc, char **argv)
                    "vertices in every frame.",
         .options = options,
         .option_count = sizeof options / sizeof *options,
-        .operand_minimum = 1,
         .operand_maximum = 1,
     };
     enum options_result result = options_parse(&usage, argc, argv, &job.mesh);

@@ -87,7 +87,6 @@ int command_solve(int argc, char **argv)
         .summary = "Solves every spline of a scene and writes every sample as CSV: total, Re x, Im x.",
         .options = options,
         .option_count = sizeof options / sizeof *options,
-        .operand_minimum = 1,
         .operand_maximum = 1,
     };
     enum options_result result = options_parse(&usage, argc, argv, &scene);
