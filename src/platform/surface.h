@@ -42,13 +42,6 @@ void window_check(const struct window *window, bool idle);
 struct offscreen *offscreen_create(int width, int height, struct error *error);
 void offscreen_destroy(struct offscreen *offscreen);
 
-/// Whether a swap of the current context keeps the back buffer: found out by swapping twice.
-bool probe_keeps(struct platform *platform);
-
-/// A software driver allocates and frees the memory of a frame's triangles in each frame. Makes the C library keep it: passing
-/// it back to the system and out again costs a tenth of the processor.
-void keep_freed_memory(void);
-
 /// In builds with the address sanitizer: keeps the loaded graphics driver in memory until the process ends.
 void keep_driver_loaded(void);
 
