@@ -3,7 +3,7 @@
 #include "near.h"
 
 #include "draw/draw.h"
-#include "draw/timer.h"
+#include "draw/gl.h"
 #include "platform/platform.h"
 #include "ui/font.h"
 #include "ui/theme.h"

@@ -3,7 +3,7 @@
 #include "app/film_file.h"
 #include "base/file.h"
 #include "base/need.h"
-#include "draw/picture.h"
+#include "draw/draw.h"
 #include "editor/editor.h"
 #include "platform/platform.h"
 #include <math.h>
@@ -54,15 +54,6 @@ static const struct film_format *find_format(const char *path)
 }
 
 bool film_knows(const char *path) { return find_format(path) != NULL; }
-
-void film_endings(char text[FILM_ENDINGS])
-{
-    text[0] = '\0';
-    for (int f = 0; f < FORMATS; f++) {
-        strcat(text, formats[f].ending);
-        strcat(text, f < FORMATS - 2 ? ", " : f == FORMATS - 2 ? " and " : "");
-    }
-}
 
 /// Whether its end meets its start: a spline does, or an imported character's clip may.
 static bool loops(const struct document *document)

@@ -5,9 +5,9 @@
 #include "base/progress.h"
 #include "draw/batch.h"
 #include "draw/damage.h"
+#include "draw/gl.h"
 #include "draw/paint.h"
 #include "draw/stage.h"
-#include "draw/timer.h"
 #include "ui/font.h"
 #include "ui/theme.h"
 #include <stdio.h>

@@ -1,6 +1,6 @@
 /// Draws pictures of the stage at twice their size and averages four pixels into one.
-#include "draw/picture.h"
 #include "base/need.h"
+#include "draw/draw.h"
 #include "draw/stage.h"
 #include <stdlib.h>
 
