@@ -5,11 +5,10 @@
 #include "export/export.h"
 #include "rig/opened.h"
 
-enum { FILM_ENDINGS = 64 };
+#define FILM_ENDINGS ".mp4, .webm, .gif and .png"
 
-/// Whether a file of that name is a film or a picture, and the endings that are: ".mp4, .webm, .gif and .png".
+/// Whether a file of that name is a film or a picture.
 bool film_knows(const char *path);
-void film_endings(char text[FILM_ENDINGS]);
 
 /// Draws and writes it all, whole or not at all, without a display. A .png name with %d in it, as walk-%04d.png, is that of a sequence,
 /// and walk.png is short for that if there is more than one picture. Its splines must be solved and its models read.

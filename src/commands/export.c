@@ -7,6 +7,7 @@
 #include "commands/commands.h"
 #include "commands/options.h"
 #include "commands/progress.h"
+#include "platform/process.h"
 #include "rig/opened.h"
 #include "scene/paint.h"
 #include "ui/theme.h"
@@ -28,7 +29,7 @@ static bool proceed(void *user, long done, long total)
 {
     struct job *job = user;
     if (!job->quiet) progress_show(&job->progress, done, total);
-    return !progress_interrupted();
+    return !process_was_told_to_end();
 }
 
 static bool write_motion(struct job *job, struct opened *opened, struct error *error)
@@ -87,12 +88,11 @@ static bool read_frames(const char *text, struct export_options *options)
 /// Checks what the table of options cannot.
 static enum options_result check(const struct usage *usage, struct job *job)
 {
-    char endings[EXPORT_ENDINGS], films[FILM_ENDINGS];
+    char endings[EXPORT_ENDINGS];
     if (!job->output) return options_wrong(usage, "-o FILE is missing: name the file to write");
     export_endings(endings);
-    film_endings(films);
     if (!export_knows(job->output) && !film_knows(job->output))
-        return options_wrong(usage, "--output: expected a name ending in %s, or %s, got '%s'", endings, films,
+        return options_wrong(usage, "--output: expected a name ending in %s, or " FILM_ENDINGS ", got '%s'", endings,
                              job->output);
     if (job->paint && !path_has_end(job->output, ".npy"))
         return options_wrong(usage, "--paint: expected an output that ends in .npy, got '%s'", job->output);
@@ -144,7 +144,7 @@ int command_export(int argc, char **argv)
     enum options_result result = options_parse(&usage, argc, argv, &job.scene);
     if (result == OPTIONS_RUN) result = check(&usage, &job);
     if (result != OPTIONS_RUN) return (int)result;
-    progress_catch_interrupts();
+    process_catch_end();
     struct error error;
     return options_end(run(&job, &error), &error);
 }

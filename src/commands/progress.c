@@ -8,14 +8,6 @@
 #include <stdio.h>
 #include <unistd.h>
 
-static volatile sig_atomic_t interrupted;
-
-static void interrupt(int signal_number)
-{
-    (void)signal_number;
-    interrupted = 1;
-}
-
 /// Calls nothing that may not be called in the midst of anything.
 static void end_at_once(int signal_number)
 {
@@ -27,18 +19,12 @@ static void end_at_once(int signal_number)
     _exit(ERROR_ENVIRONMENT);
 }
 
-static void on_signals(void (*handler)(int))
+void progress_end_when_interrupted(void)
 {
-    struct sigaction action = {.sa_handler = handler, .sa_flags = (int)SA_RESETHAND};
+    struct sigaction action = {.sa_handler = end_at_once, .sa_flags = (int)SA_RESETHAND};
     sigaction(SIGINT, &action, NULL);
     sigaction(SIGTERM, &action, NULL);
 }
-
-void progress_catch_interrupts(void) { on_signals(interrupt); }
-
-void progress_end_when_interrupted(void) { on_signals(end_at_once); }
-
-bool progress_interrupted(void) { return interrupted != 0; }
 
 void progress_clear(const struct progress *progress)
 {

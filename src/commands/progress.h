@@ -4,12 +4,9 @@
 
 #include <stdbool.h>
 
-/// Lets Ctrl+C (or an end of the session) be noticed, so that a command ends cleanly; the second time it ends at once.
-void progress_catch_interrupts(void);
-bool progress_interrupted(void);
-
 /// Lets Ctrl+C end the program at once, whatever it does: with a sentence, with ERROR_ENVIRONMENT as exit status, and without the files
-/// that were being written. For commands that have nothing else to clean up.
+/// that were being written. For commands that have nothing else to clean up; others look at
+/// process_was_told_to_end().
 void progress_end_when_interrupted(void);
 
 /// Shows stages of the work that tell how far they are (base/progress.h) from now on; `lines` as below.
