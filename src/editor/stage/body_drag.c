@@ -3,8 +3,8 @@
 #include "editor/core/drag.h"
 #include "editor/stage/parts.h"
 #include "model/fox.h"
+#include "model/reach.h"
 #include "model/vector.h"
-#include "rig/pick.h"
 #include "ui/theme.h"
 #include <math.h>
 #include <stdio.h>

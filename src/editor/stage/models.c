@@ -2,8 +2,8 @@
 #include "base/hash.h"
 #include "base/need.h"
 #include "editor/stage/parts.h"
+#include "model/reach.h"
 #include "model/vector.h"
-#include "rig/pick.h"
 #include <math.h>
 #include <stdlib.h>
 

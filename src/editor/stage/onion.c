@@ -5,8 +5,8 @@
 #include "editor/stage/parts.h"
 #include "editor/stage/stage.h"
 #include "model/fox.h"
+#include "model/reach.h"
 #include "model/vector.h"
-#include "rig/pick.h"
 #include "ui/font.h"
 #include "ui/theme.h"
 #include <math.h>
