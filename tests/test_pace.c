@@ -1,7 +1,7 @@
 /// Who keeps the time: the display where swaps wait for it, else the app, at the display's own rate.
 #include "near.h"
 
-#include "app/pace.h"
+#include "app/resolution.h"
 
 /// Frames one after the other of `work` seconds each, on a display whose swaps wait for its next picture (or do not), behind
 /// a queue of so many frames. Returns how long they took.

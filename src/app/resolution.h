@@ -1,5 +1,5 @@
-/// Chooses the stage's resolution: lower while it moves and frames take too long. A still stage is always drawn
-/// exactly.
+/// How frames keep up: the stage's resolution, lower while it moves and frames take too long (a still stage is always drawn
+/// exactly), and when the next one may begin.
 #ifndef APP_RESOLUTION_H
 #define APP_RESOLUTION_H
 
@@ -40,5 +40,24 @@ struct resolution_cost {
 
 /// Reports it. A swap that waits for the display is no work: where the graphics card has a clock, that counts instead.
 void resolution_measure(struct resolution *resolution, const struct resolution_cost *cost);
+
+// When the next frame may begin: swaps that wait for the display set the pace; if they do not, the app keeps to the display's rate.
+
+/// Zero: a display of 60 Hz of which nothing else is known yet.
+struct pace {
+    double period; ///< of the display, s
+    bool limits;   ///< swaps do not wait
+    int run;       ///< frames in a row that followed each other at once
+    double start;  ///< when judging began, s
+};
+
+/// The display's rate in Hz, 0 if unknown. A new rate restarts the judgement.
+void pace_set_rate(struct pace *pace, double rate);
+
+/// A swap has returned. `at_once`: the frame waited for nothing else.
+void pace_swapped(struct pace *pace, double now, bool at_once);
+
+/// When the next frame may begin, after one that was due at `due` and began at `frame_start`.
+double pace_next(const struct pace *pace, double due, double frame_start);
 
 #endif

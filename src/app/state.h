@@ -3,7 +3,6 @@
 #define APP_STATE_H
 
 #include "app/app.h"
-#include "app/pace.h"
 #include "app/personal.h"
 #include "app/replay.h"
 #include "app/resolution.h"
