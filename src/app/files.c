@@ -121,22 +121,16 @@ void app_adopt(struct app *app, struct document *document)
     show_title(app);
 }
 
-/// The folder that embedded scenes find their models from: that of the program's other scenes.
-static struct document *built_in_place(struct document *document)
-{
-    char folder[PATH_LIMIT];
-    if (document && assets_folder(folder)) document->folder = need_text(folder);
-    return document;
-}
-
+/// It finds its models in the folder of the program's other scenes.
 static struct document *parse_built_in(const char *name, struct error *error)
 {
-    char path[64];
+    char path[64], folder[PATH_LIMIT];
     snprintf(path, sizeof path, "scenes/%s", name);
     const struct embedded *file = embedded_find(path);
-    if (file) return built_in_place(scene_parse(name, (const char *)file->data, file->size, NULL, error));
-    fail(error, ERROR_ENVIRONMENT, "%s is not in this build", path);
-    return NULL;
+    if (!file) fail(error, ERROR_ENVIRONMENT, "%s is not in this build", path);
+    struct document *document = file ? scene_parse(name, (const char *)file->data, file->size, NULL, error) : NULL;
+    if (document && assets_folder(folder)) document->folder = need_text(folder);
+    return document;
 }
 
 /// What a figure of the paper is about is in sight, however it was opened.

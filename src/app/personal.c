@@ -32,9 +32,9 @@ struct personal {
     struct choices choices;        ///< as in the settings
 };
 
-/// Writes the path of the user's folder for such files ($XDG_CONFIG_HOME/wiggly, else ~/.config/wiggly): the base directory
-/// specification says to ignore a relative path in the variable.
-static bool find_folder(const char *variable, const char *below_home, char path[PATH_LIMIT], struct error *error)
+/// Writes the path of the user's folder for such files ($XDG_CONFIG_HOME/wiggly, else ~/.config/wiggly: the base directory
+/// specification says to ignore a relative path in the variable), and makes it and its parents if missing (readable by the user alone).
+static bool make_folder(const char *variable, const char *below_home, char path[PATH_LIMIT], struct error *error)
 {
     const char *own = getenv(variable), *home = getenv("HOME");
     const bool is_set = own && own[0] == '/';
@@ -42,13 +42,7 @@ static bool find_folder(const char *variable, const char *below_home, char path[
         return fail(error, ERROR_ENVIRONMENT, "no home folder: expected HOME or %s, got neither", variable);
     const int length = is_set ? snprintf(path, PATH_LIMIT, "%s/wiggly", own)
                               : snprintf(path, PATH_LIMIT, "%s/%s/wiggly", home, below_home);
-    return length < PATH_LIMIT || fail(error, ERROR_ENVIRONMENT, "the path of the folder %s is too long", path);
-}
-
-/// The same, and makes it and its parents if missing (readable by the user alone).
-static bool make_folder(const char *variable, const char *below_home, char path[PATH_LIMIT], struct error *error)
-{
-    if (!find_folder(variable, below_home, path, error)) return false;
+    if (length >= PATH_LIMIT) return fail(error, ERROR_ENVIRONMENT, "the path of the folder %s is too long", path);
     for (char *slash = strchr(path + 1, '/');; slash = strchr(slash + 1, '/')) {
         if (slash) *slash = '\0';
         bool made = mkdir(path, 0700) == 0 || errno == EEXIST;

@@ -184,6 +184,8 @@ void strand_turned_axes(const struct strand *strand, const wiggly_value *values,
 
 // --- the way from the root
 
+static const double unit[3] = {1, 1, 1};
+
 static void multiply(const double a[9], const double b[9], double product[9])
 {
     for (int i = 0; i < 9; i++)
@@ -209,7 +211,6 @@ static void rotation_matrix(const double q[4], double m[9])
 /// Places all nodes in the world, from a root's columns and place.
 static void place_nodes(struct path *path, const double root[12])
 {
-    static const double unit[3] = {1, 1, 1};
     const double *frame = root, *scale = unit, *at = root + 9;
     for (int n = 0; n < path->count; n++) {
         struct path_node *node = &path->nodes[n];
@@ -322,7 +323,6 @@ void path_arms(struct path *path, int joint)
     double to[3] = {end[0], end[1], end[2]};
     for (int n = last; n >= 0; n--) {
         struct path_node *node = &path->nodes[n];
-        static const double unit[3] = {1, 1, 1};
         for (int k = 0; k < 3; k++) node->arm[k] = node->scale[k] * to[k];
         apply(node->turn, unit, node->arm, to);
         for (int k = 0; k < 3; k++) to[k] += node->offset[k];
@@ -331,7 +331,6 @@ void path_arms(struct path *path, int joint)
 
 void path_way(const struct path_node *node, const double axis[3], double way[3])
 {
-    static const double unit[3] = {1, 1, 1};
     double across[3];
     vector_cross(axis, node->arm, across);
     apply(node->frame, unit, across, way);

@@ -49,8 +49,6 @@ void body_free(struct body *body)
     *body = (struct body){0};
 }
 
-void body_pin(struct body *body, int node) { body->pinned[node] = true; }
-
 void body_ready(struct body *body)
 {
     for (int e = 0; e < body->element_count; e++) {

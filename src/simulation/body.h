@@ -12,7 +12,7 @@ struct body {
     int node_count, element_count;
     double (*rest)[3];        ///< m
     double *mass;             ///< kg
-    bool *pinned;             ///< never moves
+    bool *pinned;             ///< never moves: the caller says so
     struct element *elements; ///< of positive volume
     struct material material;
     struct svd *svd;          ///< scratch: of each element's F at the last body_forces()
@@ -27,8 +27,7 @@ bool body_create(struct body *body, const double (*rest)[3], int node_count, con
                  const double *fraction, int element_count, struct material material, double density);
 void body_free(struct body *body);
 
-/// Pins a node. Call body_ready() after the last one and before anything below.
-void body_pin(struct body *body, int node);
+/// Once nodes are pinned, before anything below.
 void body_ready(struct body *body);
 
 /// The forces at the positions x (N; 0 at pinned nodes); returns the energy (J).

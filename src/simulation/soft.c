@@ -32,7 +32,7 @@ static bool pin(struct soft *soft, const struct surface *surface, const struct r
     bool good = region_nodes(region, &soft->lattice, surface, name, inside, error);
     for (int i = 0; good && i < soft->body.node_count; i++) {
         if (!inside[i]) continue;
-        body_pin(&soft->body, i);
+        soft->body.pinned[i] = true;
         soft->pinned++;
     }
     free(inside);
