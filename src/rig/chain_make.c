@@ -66,13 +66,6 @@ static void name_chain(const struct document *document, const char *bone, char n
     for (int n = 2; is_taken(document, name); n++) snprintf(name, NAME_SIZE, "%.*s %d", length, bone, n);
 }
 
-static void name_spline(const struct document *document, const char *chain, const char *axis, char name[NAME_SIZE])
-{
-    snprintf(name, NAME_SIZE, "%s %s", chain, axis);
-    for (int n = 2; document_find_spline(document, name) >= 0; n++)
-        snprintf(name, NAME_SIZE, "%s %s %d", chain, axis, n);
-}
-
 /// Metres along the bones at rest.
 static double length_of(const struct imported *imported, const struct chain_bones *bones, double scale)
 {
@@ -123,7 +116,7 @@ static bool add_spline(const struct plan *plan, const char *axis, struct error *
 {
     char name[NAME_SIZE];
     const int spline = plan->document->spline_count;
-    name_spline(plan->document, plan->chain, axis, name);
+    snprintf(name, sizeof name, "%s %s", plan->chain, axis);
     return edit_spline_add(plan->document, spline, name, NULL, error) &&
            set(plan, spline, PARAMETER_FREQUENCY, param_number(plan->frequency), error) &&
            set(plan, spline, PARAMETER_DAMPING, param_number(plan->damping), error) &&

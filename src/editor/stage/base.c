@@ -17,18 +17,9 @@ static const double RESOLUTION = 1e-3; ///< metres
 static const double LEAST_SHARE = 0.05;
 static const double MAIN_SHARE = 0.5; ///< of a way that bends the tail above all along an axis
 
-/// "tail x", or with a number behind it where that is taken.
-static void free_name(const struct document *document, const char *base, char name[NAME_SIZE])
-{
-    snprintf(name, NAME_SIZE, "%s", base);
-    for (int n = 2; document_find_spline(document, name) >= 0; n++) snprintf(name, NAME_SIZE, "%s %d", base, n);
-}
-
 /// Adds a spline behind all others; its index, or -1.
-static int add_spline(struct core *core, const char *base)
+static int add_spline(struct core *core, const char *name)
 {
-    char name[NAME_SIZE];
-    free_name(core->document, base, name);
     const bool done = edit_spline_add(core->document, -1, name, NULL, &core->error);
     return done ? core->document->spline_count - 1 : -1;
 }
