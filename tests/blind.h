@@ -24,7 +24,7 @@ static inline void blind_open(struct blind *blind, const char *scene)
     app->platform = platform_blind(1280, 720, 1);
     app->table.history = history_create(NULL);
     app->table.models = models_create();
-    assert_done(font_init(&error));
+    font_init();
     app->table.editor = editor_create();
     app_connect_files(app);
     app_resize(app, 1280, 720, 1);

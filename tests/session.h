@@ -199,7 +199,7 @@ static inline void assert_one_step(struct session *session, const char *original
 static inline void session_open(struct session *session, const char *scene)
 {
     memset(session, 0, sizeof *session);
-    assert_done(font_init(&error));
+    font_init();
     session->document = document_of_text(scene);
     session->history = history_create(session->document);
     assert_non_null(session->history);

@@ -26,7 +26,8 @@ static int set_up(void **state)
         print_message("skip - %s\n", error.text);
         return 0;
     }
-    if (font_init(&error)) draw = draw_create(1.0f, &error);
+    font_init();
+    draw = draw_create(1.0f, &error);
     drawlist_create(&list, 1024, 300000, 4096);
     if (draw) return 0;
     print_error("%s\n", error.text);

@@ -178,7 +178,8 @@ static bool start(struct app *app, struct error *error)
     const struct app_options *o = app->options;
     if (o->theme) theme_use((enum theme_kind)(o->theme - 1));
     if (!open_replay(app, error)) return false;
-    if (!font_init(error) || !open_platform(app, error) || !set_resolution(app, error)) return false;
+    font_init();
+    if (!open_platform(app, error) || !set_resolution(app, error)) return false;
     int width, height;
     float scale;
     platform_size(app->platform, &width, &height, &scale);
@@ -189,7 +190,7 @@ static bool start(struct app *app, struct error *error)
     if (!o->no_draw && !(app->draw = draw_create(scale, error))) return false;
     app_open_editor(app);
     app->table.models = models_create();
-    if (!(app->table.history = history_create(NULL))) return fail(error, ERROR_ENVIRONMENT, "out of memory");
+    app->table.history = history_create(NULL);
     if (!app_open(app, o->scene, error)) return false;
     uint64_t hash = scene_hash(app->table.document);
     if (!check_scene(app, hash, error)) return false;

@@ -127,8 +127,7 @@ static struct document *parse_built_in(const char *name, struct error *error)
     char path[64], folder[PATH_LIMIT];
     snprintf(path, sizeof path, "scenes/%s", name);
     const struct embedded *file = embedded_find(path);
-    if (!file) fail(error, ERROR_ENVIRONMENT, "%s is not in this build", path);
-    struct document *document = file ? scene_parse(name, (const char *)file->data, file->size, NULL, error) : NULL;
+    struct document *document = scene_parse(name, (const char *)file->data, file->size, NULL, error);
     if (document && assets_folder(folder)) document->folder = need_text(folder);
     return document;
 }

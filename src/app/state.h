@@ -128,7 +128,7 @@ void ui_scale_to_ui(const struct app *app, struct event *event);
 /// The next step up (1) or down (-1), or the display's own scale (0). Refuses one that leaves the panels no room.
 bool ui_scale_step(struct app *app, int direction, struct error *error);
 
-/// The demo's recording, from its start. NULL with a sentence where it is broken or not in this build.
+/// The demo's recording, from its start. NULL with a sentence where it is broken.
 struct replay *demo_replay(struct error *error);
 /// `dt` seconds on; behind the recording's end the next round begins.
 bool demo_next(struct app *app, double dt, struct error *error);

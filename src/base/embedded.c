@@ -1,5 +1,6 @@
 /// Looks up files built into the program.
 #include "base/embedded.h"
+#include <assert.h>
 #include <string.h>
 
 /// Made by tools/embed.sh.
@@ -8,10 +9,9 @@ extern const size_t embedded_file_count;
 
 const struct embedded *embedded_find(const char *name)
 {
-    for (size_t i = 0; i < embedded_file_count; i++) {
-        if (strcmp(embedded_files[i].name, name) == 0) return &embedded_files[i];
-    }
-    return NULL;
+    const struct embedded *file = embedded_files;
+    for (; strcmp(file->name, name) != 0; file++) assert(file + 1 < embedded_files + embedded_file_count);
+    return file;
 }
 
 const struct embedded *embedded_next(const char *folder, const struct embedded *previous)

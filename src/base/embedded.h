@@ -11,7 +11,7 @@ struct embedded {
     size_t size;
 };
 
-/// NULL where there is no such file.
+/// A file that is there.
 const struct embedded *embedded_find(const char *name);
 
 /// The next file whose name begins with `folder`, after `previous` or from the start (NULL); NULL after the last.

@@ -2,7 +2,6 @@
 #include "draw/gl.h"
 #include "base/embedded.h"
 #include "base/png.h"
-#include <assert.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -11,7 +10,6 @@ static GLuint compile(GLenum kind, const char *name, const char *define)
     char path[64], line[64] = "";
     snprintf(path, sizeof path, "shaders/%s", name);
     const struct embedded *source = embedded_find(path);
-    assert(source);
     GLuint shader = glCreateShader(kind);
     if (define) snprintf(line, sizeof line, "#define %s\n", define);
     const GLchar *text = (const GLchar *)source->data;

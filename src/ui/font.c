@@ -72,19 +72,13 @@ static uint32_t codepoint_of(int slot)
     return 0;
 }
 
-static bool read_face(enum font font, struct error *error)
+static void read_face(enum font font)
 {
     struct face *face = &faces[font];
-    const struct embedded *file = embedded_find(file_names[font]);
-    if (!file) return fail(error, ERROR_ENVIRONMENT, "%s: expected a font in the binary, got none", file_names[font]);
-    int offset = stbtt_GetFontOffsetForIndex(file->data, 0);
-    if (offset < 0 || !stbtt_InitFont(&face->info, file->data, offset)) {
-        return fail(error, ERROR_ENVIRONMENT, "%s: expected an OpenType font, got something else", file_names[font]);
-    }
     int x0, y0, x1, y1;
+    stbtt_InitFont(&face->info, embedded_find(file_names[font])->data, 0);
     float scale = stbtt_ScaleForMappingEmToPixels(&face->info, 1.0f);
     face->cap_height = stbtt_GetCodepointBox(&face->info, 'H', &x0, &y0, &x1, &y1) ? (float)y1 * scale : 0.7f;
-    return true;
 }
 
 /// Which font has the character: the one asked for, else the others in turn; glyph 0 (a box) if none has.
@@ -102,18 +96,15 @@ static struct face_glyph find_glyph(enum font font, uint32_t codepoint)
     return glyph;
 }
 
-bool font_init(struct error *error)
+void font_init(void)
 {
-    for (int font = 0; font < FONT_COUNT; font++) {
-        if (!read_face((enum font)font, error)) return false;
-    }
+    for (int font = 0; font < FONT_COUNT; font++) read_face((enum font)font);
     for (int font = 0; font < FONT_COUNT; font++) {
         for (int slot = 0; slot < SLOTS; slot++) {
             struct face_glyph glyph = find_glyph((enum font)font, codepoint_of(slot));
             faces[font].glyphs[slot] = glyph.index ? glyph : find_glyph((enum font)font, '?');
         }
     }
-    return true;
 }
 
 float font_width(enum font font, float size, const char *utf8)

@@ -6,7 +6,7 @@
 #include "ui/drawlist.h"
 
 /// Reads the embedded fonts; once at start-up. Layout works from here on.
-bool font_init(struct error *error);
+void font_init(void);
 
 /// Width of a text in logical pixels, and the height of its capitals (for centring).
 float font_width(enum font font, float size, const char *utf8);
