@@ -59,12 +59,6 @@ static void skeleton_create(const struct gltf *gltf, const struct gltf_pose *res
     free(children);
 }
 
-static void skeleton_free(struct skeleton *skeleton)
-{
-    free(skeleton->bones);
-    *skeleton = (struct skeleton){0};
-}
-
 void skeleton_ends(const struct bone *bone, const struct gltf_pose *pose, float ends[2][3])
 {
     vec3s end = bone->child >= 0 ? place_of(pose, bone->child)
@@ -93,7 +87,7 @@ bool imported_read(struct imported *imported, const char *path, struct error *er
 
 void imported_free(struct imported *imported)
 {
-    skeleton_free(&imported->skeleton);
+    free(imported->skeleton.bones);
     gltf_bounds_free(&imported->bounds);
     gltf_pose_free(&imported->rest);
     gltf_free(&imported->gltf);

@@ -12,8 +12,7 @@ double posing_clip_time(const struct document *document, double position, double
     return time < 0 ? time + duration : time;
 }
 
-/// A body's clip, or rest, in the memory for what is shown or that for all else; NULL: it cannot be shown.
-static struct gltf_pose *pose_clip(const struct posing *posing, int rig, double position, bool shown)
+struct gltf_pose *posing_clip(const struct posing *posing, int rig, double position, bool shown)
 {
     const struct document *document = posing->document;
     const struct imported *imported = models_imported(posing->models, document, rig);
@@ -24,11 +23,6 @@ static struct gltf_pose *pose_clip(const struct posing *posing, int rig, double 
     const int clip = name && !posing->at_rest ? gltf_find_clip(gltf, name) : -1;
     gltf_pose_clip(gltf, clip, clip < 0 ? 0 : posing_clip_time(document, position, gltf->clips[clip].duration), pose);
     return pose;
-}
-
-struct gltf_pose *posing_clip(const struct posing *posing, int rig, double position)
-{
-    return pose_clip(posing, rig, position, false);
 }
 
 /// Its lowest point at rest stands on the rig's position.
@@ -67,7 +61,7 @@ bool rig_pose_body(const struct posing *posing, int rig, double position, const 
     const struct document *document = posing->document;
     const bool is_tail = document->rigs[rig]->kind == RIG_TAIL;
     if (!is_tail && document->rigs[rig]->kind != RIG_MODEL) return rig_pose(posing, rig, position, by_hand, posed);
-    struct gltf_pose *pose = pose_clip(posing, rig, position, posing->shown);
+    struct gltf_pose *pose = posing_clip(posing, rig, position, posing->shown);
     wiggly_value values[RIG_MAX_INPUTS];
     struct strand strand;
     double root[12];

@@ -24,8 +24,9 @@ struct posing_functions {
     const struct pinning_functions *pins;                                  ///< NULL: it takes none
 };
 
-/// The places of its bones in its clip alone, in the models' memory for what is not shown; NULL where there is no model.
-struct gltf_pose *posing_clip(const struct posing *posing, int rig, double position);
+/// The places of its bones in its clip alone, or at rest, in the models' memory for what is shown or that for all else; NULL where there is no
+/// model.
+struct gltf_pose *posing_clip(const struct posing *posing, int rig, double position, bool shown);
 
 /// Where an imported character stands: columns and place of its space in the world.
 void posing_root(const struct posing *posing, int rig, const struct by_hand *by_hand, double root[12]);

@@ -58,22 +58,15 @@ static struct draw_command *add(struct drawlist *list, enum draw_kind kind, stru
     return command;
 }
 
-static uint64_t hash_floats(uint64_t hash, float a, float b)
-{
-    float pair[2] = {a, b};
-    return hash_bytes(hash, pair, sizeof pair);
-}
-
 /// Hashes the finished command and keeps it.
 static void commit(struct drawlist *list, struct draw_command *command)
 {
     uint64_t hash =
         hash_word(HASH_START, (uint64_t)command->kind << 40 | (uint64_t)command->font << 32 | command->color);
-    hash = hash_floats(hash, command->width, command->x);
-    hash = hash_floats(hash, command->y, 0.0f);
-    hash = hash_floats(hash, command->on, command->off);
-    hash = hash_floats(hash, command->clip.x, command->clip.y);
-    hash = hash_floats(hash, command->clip.w, command->clip.h);
+    const struct rect *clip = &command->clip;
+    const float numbers[] = {command->width, command->x, command->y, command->on, command->off,
+                             clip->x,        clip->y,    clip->w,    clip->h};
+    hash = hash_bytes(hash, numbers, sizeof numbers);
     size_t first = (size_t)command->first, count = (size_t)command->count;
     if (command->kind == DRAW_TEXT) {
         hash = hash_bytes(hash, list->text + first, count);
