@@ -7,28 +7,24 @@
 static bool read_models(struct opened *opened, struct error *error)
 {
     opened->models = models_create();
-    return scene_read_paint(opened->document, error) && models_update(opened->models, opened->document, error);
-}
-
-static bool read_any(struct opened *opened, const char *path, bool with_models, struct error *error)
-{
-    *opened =
-        (struct opened){.document = import_suits(path) ? import_scene(path, error) : scene_load(path, NULL, error)};
-    if (!opened->document) return false;
-    if (!with_models && !document_has_motions(opened->document) && !pins_hold_any(opened->document)) return true;
-    if (read_models(opened, error)) return true;
+    if (scene_read_paint(opened->document, error) && models_update(opened->models, opened->document, error))
+        return true;
     opened_free(opened);
     return false;
 }
 
-bool opened_read(struct opened *opened, const char *path, struct error *error)
-{
-    return read_any(opened, path, true, error);
-}
-
 bool opened_read_splines(struct opened *opened, const char *path, struct error *error)
 {
-    return read_any(opened, path, false, error);
+    *opened =
+        (struct opened){.document = import_suits(path) ? import_scene(path, error) : scene_load(path, NULL, error)};
+    if (!opened->document) return false;
+    const bool needs_models = document_has_motions(opened->document) || pins_hold_any(opened->document);
+    return !needs_models || read_models(opened, error);
+}
+
+bool opened_read(struct opened *opened, const char *path, struct error *error)
+{
+    return opened_read_splines(opened, path, error) && (opened->models || read_models(opened, error));
 }
 
 void opened_solve(struct opened *opened, enum solver_choice solver)

@@ -33,15 +33,6 @@ static bool rotate(int n, double *a, double *vectors, int p, int q)
     return true;
 }
 
-static void exchange_rows(int n, double *vectors, int p, int q)
-{
-    for (int k = 0; k < n; k++) {
-        double x = vectors[p * n + k];
-        vectors[p * n + k] = vectors[q * n + k];
-        vectors[q * n + k] = x;
-    }
-}
-
 static void sort(int n, double *values, double *vectors)
 {
     for (int i = 0; i < n - 1; i++) {
@@ -53,7 +44,11 @@ static void sort(int n, double *values, double *vectors)
         double value = values[i];
         values[i] = values[least];
         values[least] = value;
-        exchange_rows(n, vectors, i, least);
+        for (int k = 0; k < n; k++) {
+            value = vectors[i * n + k];
+            vectors[i * n + k] = vectors[least * n + k];
+            vectors[least * n + k] = value;
+        }
     }
 }
 
