@@ -33,7 +33,7 @@ void beam_open(struct beam *beam, const int cells[3], double edge, struct materi
     assert_true(body_create(&beam->body, (const double(*)[3])beam->rest, beam->nodes, (const int(*)[4])beam->tet,
                             NULL, beam->tets, material, 1000));
     for (int i = 0; i < beam->nodes; i++) {
-        if (clamped && beam->rest[i][0] < 1e-9) body_pin(&beam->body, i);
+        if (clamped && beam->rest[i][0] < 1e-9) beam->body.pinned[i] = true;
     }
     body_ready(&beam->body);
 }

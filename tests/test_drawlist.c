@@ -14,7 +14,6 @@ struct fixture {
 static int set_up(void **state)
 {
     static struct fixture fixture;
-    struct error error;
     *state = &fixture;
     drawlist_create(&fixture.list, 8, 16, 64);
     font_init();

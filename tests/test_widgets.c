@@ -481,7 +481,6 @@ TEST(test_controls_are_seen_where_they_are)
 static int start(void **state)
 {
     (void)state;
-    struct error error = {0};
     font_init();
     return 0;
 }
