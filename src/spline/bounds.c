@@ -35,7 +35,7 @@ static bool factor(void *user, const double *stiffness)
         g->root[i] = sqrt(stiffness[i]);
         for (int j = 0; j <= i; j++) g->square[m * i + j] = (i == j) + g->root[i] * row[j] * g->root[j];
     }
-    symmetric_factor(m, g->square);
+    symmetric_reduce(m, m, g->square);
     return true;
 }
 
@@ -70,7 +70,7 @@ static bool finish(void *user)
         g->product[i] = want[g->pressing[i]];
         for (int j = 0; j <= i; j++) g->square[count * i + j] = reduced_row(g, g->pressing[i])[g->pressing[j]];
     }
-    symmetric_factor(count, g->square);
+    symmetric_reduce(count, count, g->square);
     symmetric_solve(count, g->square, g->product);
     memset(lambda, 0, sizeof *lambda * (size_t)m);
     for (int i = 0; i < count; i++) {

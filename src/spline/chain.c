@@ -342,6 +342,21 @@ static double largest_value(const chain *c)
     return largest;
 }
 
+static bool must_refine(const chain *c)
+{
+    const double unrefined = 3e4; // beyond it an answer may miss the tolerance
+    return c->rank == CHAIN_WEAK || c->loose || c->lost > unrefined;
+}
+
+/// What the factor's lost digits make of an x of that size; 0 where that is nothing worth telling.
+static double error_of(const chain *c, double size)
+{
+    if (c->rank == CHAIN_WEAK || (c->im_weight > 0 && c->lost > TELLING_LOSS))
+        return 16 * DBL_EPSILON * sqrt(c->lost) * size; // refined: what is left is the coefficients' rounding
+    if (c->loose) return 100 * DBL_EPSILON * c->lost * size;
+    return c->lost > TELLING_LOSS ? 16 * DBL_EPSILON * c->lost * size : 0;
+}
+
 bool chain_solve(chain *c, double *x_re, double *x_im)
 {
     if (!c->kept) {
@@ -357,7 +372,7 @@ bool chain_solve(chain *c, double *x_re, double *x_im)
     chain_solve_nodes(c);
     double size = fmax(take_solution(c), largest_value(c));
     if (c->rank == CHAIN_WEAK && c->count <= LONGEST_FOR_BAND) return false;
-    if (chain_must_refine(c) && !refine(c, size)) return false;
+    if (must_refine(c) && !refine(c, size)) return false;
     if (c->rank == CHAIN_WEAK || (c->loose && c->lost > TELLING_LOSS)) c->error += sensitivity(c);
     if (c->im_weight > 0) {
         chain_pull_imaginary(c);
@@ -365,6 +380,6 @@ bool chain_solve(chain *c, double *x_re, double *x_im)
         take_solution(c);
     }
     c->size = size;
-    c->error = fmax(c->error, chain_error(c, size));
+    c->error = fmax(c->error, error_of(c, size));
     return fill(c, x_re, x_im);
 }

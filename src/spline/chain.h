@@ -167,10 +167,6 @@ static inline cplx chain_entry(const chain_stretch *stretch, int at)
 void chain_make_tables(chain *chain);
 void chain_assemble(chain *chain);
 chain_rank chain_factor(chain *chain);
-/// Whether the factor has lost so many digits that its answers are refined.
-bool chain_must_refine(const chain *chain);
-/// What the factor's lost digits make of an x of that size; 0 where that is nothing worth telling.
-double chain_error(const chain *chain, double size);
 /// rows' right ← solution.
 void chain_solve_nodes(chain *chain);
 /// rows' right ← the right-hand side: −½ of the energy's gradient where everything unknown is 0.

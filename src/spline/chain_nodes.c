@@ -1,7 +1,6 @@
 /// The nodes' block-tridiagonal system of one spline: assembled from stretches, start and slopes, factored, solved (see chain.c for
 /// the mathematics, chain_nodes.h for the rows).
 #include "spline/chain_nodes.h"
-#include <float.h>
 
 /// Each row's |on_x x + on_e e|² with e = x_1 − x_0 = d + (λ−1) x.
 state_form chain_start_form(const chain *c)
@@ -151,20 +150,6 @@ static kernel_rank factor_scalars(chain *c)
         row->below[4] = n * row->diagonal[3];
     }
     return all;
-}
-
-bool chain_must_refine(const chain *c)
-{
-    const double unrefined = 3e4; // beyond it an answer may miss the tolerance
-    return c->rank == CHAIN_WEAK || c->loose || c->lost > unrefined;
-}
-
-double chain_error(const chain *c, double size)
-{
-    if (c->rank == CHAIN_WEAK || (c->im_weight > 0 && c->lost > TELLING_LOSS))
-        return 16 * DBL_EPSILON * sqrt(c->lost) * size; // refined: what is left is the coefficients' rounding
-    if (c->loose) return 100 * DBL_EPSILON * c->lost * size;
-    return c->lost > TELLING_LOSS ? 16 * DBL_EPSILON * c->lost * size : 0;
 }
 
 chain_rank chain_factor(chain *c)

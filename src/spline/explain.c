@@ -1,4 +1,5 @@
 /// The frequency and damping that explain knots best (docs/mathematics.md, Frequency).
+#include "spline/symmetric.h"
 #include <math.h>
 #include <string.h>
 #include <wiggly/wiggly.h>
@@ -61,23 +62,20 @@ static double cost_of(const sight *s, double frequency, double damping)
 {
     const double natural = tau * frequency, decay = damping * natural;
     const double turn = natural * sqrt((1 - damping) * (1 + damping)), missed = natural * blur * s->mean;
-    double factor[MOST][MOST], y[MOST], size = 0, volume = 0;
-    for (int i = 0; i < s->count; i++) {
-        y[i] = s->value[i];
+    const int n = s->count;
+    double k[MOST * MOST], y[MOST], size = 0, volume = 0;
+    memcpy(y, s->value, sizeof y);
+    for (int i = 0; i < n; i++) {
         for (int j = 0; j <= i; j++) {
             const double apart = s->time[i] - s->time[j], age = s->time[i] + s->time[j] - 2 * s->time[0];
-            double sum = kinship(s, decay, turn, apart) + pluck * exp(-decay * age) * cos(turn * apart);
-            if (i == j) sum += missed * missed;
-            for (int k = 0; k < j; k++) sum -= factor[i][k] * factor[j][k];
-            if (i == j && !(sum > 0)) return INFINITY;
-            factor[i][j] = i == j ? sqrt(sum) : sum / factor[j][j];
+            k[n * i + j] = kinship(s, decay, turn, apart) + pluck * exp(-decay * age) * cos(turn * apart);
         }
-        for (int k = 0; k < i; k++) y[i] -= factor[i][k] * y[k];
-        y[i] /= factor[i][i];
-        size += y[i] * y[i];
-        volume += log(factor[i][i]);
+        k[n * i + i] += missed * missed;
     }
-    return size > 0 ? 0.5 * s->count * log(size) + volume : INFINITY;
+    symmetric_reduce(n, n, k);
+    symmetric_solve(n, k, y);
+    for (int i = 0; i < n; i++) size += s->value[i] * y[i], volume += log(k[n * i + i]);
+    return size > 0 ? 0.5 * n * log(size) + volume : INFINITY;
 }
 
 static wiggly_explanation explain_at(const sight *s, double frequency)

@@ -460,7 +460,7 @@ static wiggly_status pull(wiggly_group *g, const wiggly_desc *descs, wiggly_curv
 {
     const int n = g->rows.count;
     wiggly_status status = WIGGLY_OK;
-    symmetric_factor(n, g->system);
+    symmetric_reduce(n, n, g->system);
     for (int round = 0; round < MAX_ROUNDS; round++) {
         symmetric_solve(n, g->system, g->miss);
         for (int r = 0; r < n; r++) g->lambda[r] += g->miss[r];

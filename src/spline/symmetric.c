@@ -75,8 +75,6 @@ void symmetric_reduce(int n, int count, double *a)
     }
 }
 
-void symmetric_factor(int n, double *a) { symmetric_reduce(n, n, a); }
-
 void symmetric_solve(int n, const double *a, double *b)
 {
     for (int i = 0; i < n; i++) b[i] = (b[i] - dot(a + n * i, b, i)) / a[n * i + i];
