@@ -128,19 +128,10 @@ static inline void monkey_point(struct monkey *m)
 
 static inline unsigned any_mods(struct monkey *m)
 {
-    static const unsigned mods[] = {0,
-                                    0,
-                                    0,
-                                    0,
-                                    0,
-                                    MOD_SHIFT,
-                                    MOD_CTRL,
-                                    MOD_ALT,
-                                    MOD_CTRL | MOD_SHIFT,
-                                    MOD_SUPER,
-                                    MOD_ALT | MOD_SHIFT,
-                                    MOD_ALT | MOD_CTRL};
-    return mods[below(m, sizeof mods / sizeof mods[0])];
+    static const unsigned mods[] = {MOD_SHIFT,           MOD_CTRL,          MOD_ALT, MOD_CTRL | MOD_SHIFT, MOD_SUPER,
+                                    MOD_ALT | MOD_SHIFT, MOD_ALT | MOD_CTRL};
+    const int n = below(m, 12); // none in five of twelve
+    return n < 5 ? 0 : mods[n - 5];
 }
 
 static inline void any_key(struct monkey *m)

@@ -60,12 +60,18 @@ static inline void session_drag(struct session *session, float dx, float dy, int
     }
 }
 
-/// Puts the pointer on a target of editor_target(); fails the test where there is none.
+/// Where a target of editor_target() is; fails the test where there is none.
+static inline void session_where(const struct session *session, const char *target, float xy[2])
+{
+    assert_done(editor_target(session->editor, target, &xy[0], &xy[1], &error));
+}
+
+/// Puts the pointer on a target.
 static inline void session_point(struct session *session, const char *target)
 {
-    float x, y;
-    assert_done(editor_target(session->editor, target, &x, &y, &error));
-    session_move(session, x, y);
+    float xy[2];
+    session_where(session, target, xy);
+    session_move(session, xy[0], xy[1]);
 }
 
 static inline void session_hover(struct session *session, const char *target)

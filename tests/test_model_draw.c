@@ -23,8 +23,7 @@ static void draw(const char *sampler, float from, float to, const unsigned char 
     struct builder b = {0};
     struct gltf gltf;
     struct gltf_pose pose;
-    struct error error;
-    assert_true(png_write(temporary_path(path), side, side, pixels, &error));
+    assert_done(png_write(temporary_path(path), side, side, pixels, &error));
     add_data(&b, FLOAT, "VEC3", 4, position, sizeof position);
     add_data(&b, FLOAT, "VEC2", 4, uv, sizeof uv);
     add_data(&b, USHORT, "SCALAR", 6, indices, sizeof indices);

@@ -81,8 +81,7 @@ SESSION_TEST(test_arc_is_where_the_tip_goes, session_open(s, scene))
         middle_of(s, find(s, DRAW_RECT, theme()->playhead).command[step], expected);
         assert_true(isfinite(expected[0]));
         for (int i = 0; i < step; i++) session_key(s, KEY_RIGHT, 0);
-        struct error error = {0};
-        assert_true(editor_target(s->editor, "tail(tail,1)", &tip[0], &tip[1], &error));
+        session_where(s, "tail(tail,1)", tip);
         assert_near(tip[0], expected[0], 0.1);
         assert_near(tip[1], expected[1], 0.1);
         session_key(s, KEY_LEFT, MOD_SHIFT);
@@ -224,13 +223,12 @@ SESSION_TEST(test_a_character_has_a_ghost, open_bear(s))
         low = fminf(low, points[2 * i + 1]);
         high = fmaxf(high, points[2 * i + 1]);
     }
-    struct error error;
     float head[2], foot[2];
     session_release(s, BUTTON_LEFT);
     session_click(s, "ruler(40)");
     session_frame(s);
-    assert_true(editor_target(s->editor, "character(bear,0.5,1)", &head[0], &head[1], &error));
-    assert_true(editor_target(s->editor, "character(bear,0.4,0)", &foot[0], &foot[1], &error));
+    session_where(s, "character(bear,0.5,1)", head);
+    session_where(s, "character(bear,0.4,0)", foot);
     assert_in_range((int)(head[1] - low), 0, 60);
     assert_near(high, foot[1], 60);
 }

@@ -9,15 +9,6 @@ enum { MOST = 4096 };
 
 static const double turn = 6.283185307179586;
 
-/// Solves into a curve of MOST samples or fewer.
-static void solve(const wiggly_desc *desc, wiggly_curve *curve)
-{
-    wiggly_solver *solver = NULL;
-    assert_int_equal(wiggly_create(desc->samples, desc->knot_count, &solver), WIGGLY_OK);
-    assert_int_equal(wiggly_solve(solver, desc, curve), WIGGLY_OK);
-    wiggly_destroy(solver);
-}
-
 static wiggly_desc swinging(wiggly_passive passive, double frequency, double damping)
 {
     wiggly_desc desc = wiggly_default_desc();
@@ -46,7 +37,7 @@ static int after_the_knots(wiggly_passive passive, double extrema[5])
     desc.samples = 121;
     desc.knots = knots;
     desc.knot_count = 5;
-    solve(&desc, &curve);
+    curve_solve(&curve, &desc);
     for (int i = 31; i < 120 && count < 5; i++) {
         const double *x = curve.total + i;
         if ((x[0] - x[-1]) * (x[1] - x[0]) <= 0) extrema[count++] = x[0];
@@ -67,7 +58,7 @@ static double peak_of_step(wiggly_passive passive, int substeps)
     desc.start = WIGGLY_REST;
     desc.equilibrium.track = track;
     for (int i = 0; i < desc.samples; i++) track[i] = step_at((double)i / substeps, 40);
-    solve(&desc, &curve);
+    curve_solve(&curve, &desc);
     for (int i = 0; i < desc.samples; i++) largest = fmax(largest, curve.total[i]);
     curve_destroy(&curve);
     return largest;
@@ -110,7 +101,7 @@ static double largest_on_a_rising_frequency(wiggly_passive passive)
     desc.knots = knots;
     desc.knot_count = 3;
     for (int i = 0; i < 241; i++) track[i] = 5.0 * i / 240;
-    solve(&desc, &curve);
+    curve_solve(&curve, &desc);
     for (int i = 0; i < 241; i++) largest = fmax(largest, fabs(curve.total[i]));
     curve_destroy(&curve);
     return largest;
@@ -131,7 +122,7 @@ static double change_with_rate(wiggly_passive passive, int substeps)
         desc.knots = knots;
         desc.knot_count = 3;
         curves[fine] = curve_create(desc.samples);
-        solve(&desc, &curves[fine]);
+        curve_solve(&curves[fine], &desc);
         at[fine] = curves[fine].total;
     }
     for (int i = 0; i <= 96 * substeps; i++) {
@@ -147,8 +138,7 @@ static void assert_row(const char *first, const char *filter, const char *oscill
 {
     char *text, row[256], dash[256];
     size_t size, at = 0;
-    struct error error;
-    assert_true(file_read("docs/corrections.md", 1 << 20, &text, &size, &error));
+    assert_done(file_read("docs/corrections.md", 1 << 20, &text, &size, &error));
     snprintf(row, sizeof row, " | %s | %s |", filter, oscillator);
     for (const char *c = row; *c; c++)
         at += (size_t)snprintf(dash + at, sizeof dash - at, *c == '-' ? "−" : "%c", *c);

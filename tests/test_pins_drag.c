@@ -29,9 +29,8 @@ static struct pin *pin_of(struct stand *stand, const struct drag *drag)
 
 static void open_drag(struct stand *stand, const struct drag *drag)
 {
-    struct error error = {0};
     memset(&stand->opened, 0, sizeof stand->opened);
-    if (!opened_read(&stand->opened, drag->scene, &error)) fail_msg("%s", error.text);
+    assert_done(opened_read(&stand->opened, drag->scene, &error));
     opened_solve(&stand->opened, SOLVER_BY_LENGTH);
     const struct model_source source = models_source(stand->opened.models);
     struct pin pin = {.frame = drag->frame, .point = drag->point};
@@ -43,7 +42,7 @@ static void open_drag(struct stand *stand, const struct drag *drag)
     struct history *history = history_create(stand->opened.document);
     memcpy(pin.to, at.at, sizeof pin.to);
     history_begin(history, "Pin", 0);
-    if (!edit_pin_add(stand->opened.document, drag->rig, &pin, &error)) fail_msg("%s", error.text);
+    assert_done(edit_pin_add(stand->opened.document, drag->rig, &pin, &error));
     history_end(history);
     history_destroy(history);
 }

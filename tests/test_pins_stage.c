@@ -36,20 +36,14 @@ static void pull_with_ctrl(struct session *s, const char *target, float dx, floa
     session_drag(s, dx, dy, 4);
 }
 
-static void where(struct session *s, const char *target, float xy[2])
-{
-    struct error error;
-    if (!editor_target(s->editor, target, &xy[0], &xy[1], &error)) fail_msg("%s", error.text);
-}
-
 SESSION_TEST(test_ctrl_and_a_drag_pin_a_joint_which_follows_the_pointer, open_tail(s))
 {
     for (int step = 0; step < 10; step++) session_key(s, KEY_RIGHT, 0);
     const char *before = session_saved(s);
     pull_with_ctrl(s, "tail(tail,1)", 0, -30);
     float tip[2], marker[2];
-    where(s, "tail(tail,1)", tip);
-    where(s, "pin(tail,0)", marker);
+    session_where(s, "tail(tail,1)", tip);
+    session_where(s, "pin(tail,0)", marker);
     const float x = s->x, y = s->y;
     session_release(s, BUTTON_LEFT);
     assert_int_equal(pins_of(s), 1);
@@ -139,15 +133,15 @@ SESSION_TEST(test_a_marker_is_dragged_on_the_stage_and_on_the_ruler, open_tail(s
     assert_one_step(s, placed);
     const char *moved = session_saved(s);
     float from[2], to[2];
-    where(s, "ruler(10)", from);
-    where(s, "ruler(25)", to);
+    session_where(s, "ruler(10)", from);
+    session_where(s, "ruler(25)", to);
     session_pull(s, "pintime(tail,0)", to[0] - from[0], 0, 4);
     session_release(s, BUTTON_LEFT);
     assert_near(pin_of(s, 0)->frame, 25, 0);
     assert_near(core_frame(&s->editor->core), 25, 0);
     assert_one_step(s, moved);
     float mark[2];
-    where(s, "pintime(tail,0)", mark); // it hangs over the ruler's edge, and is taken there, too
+    session_where(s, "pintime(tail,0)", mark); // it hangs over the ruler's edge, and is taken there, too
     session_move(s, mark[0], mark[1] + 4);
     while (s->editor->core.message.text[0]) session_frame(s);
     session_frame(s);

@@ -126,9 +126,8 @@ SESSION_TEST(test_part_on_the_ruler, open_at(s, 5))
     session_key(s, KEY_ESCAPE, 0); // takes the drag back
     assert_range(s, 40, 60);
     session_release(s, BUTTON_LEFT);
-    struct error error = {0};
     history_begin(s->history, "Range", 0);
-    assert_true(edit_range(s->document, 0, 50, RANGE_REFUSE, &error));
+    assert_done(edit_range(s->document, 0, 50, RANGE_REFUSE, &error));
     history_end(s->history);
     assert_range(s, 40, 50); // what the scene still has of it
     history_undo(s->history);

@@ -62,7 +62,6 @@ static struct settling settling_of(wiggly_passive passive, enum wiggly_mode mode
     struct spline spline = spline_of(mode, 1, 0.1, 0.1);
     wiggly_desc desc = wiggly_default_desc();
     wiggly_curve curve = curve_create(frames + 1);
-    wiggly_solver *solver;
     wiggly_knot knots[5] = {{0}};
     for (int i = 0; i < 5; i++) knots[i] = (wiggly_knot){.sample = frame[i], .value = value[i]};
     spline.parameter[PARAMETER_PASSIVE].value = passive;
@@ -73,10 +72,8 @@ static struct settling settling_of(wiggly_passive passive, enum wiggly_mode mode
     desc.passive = passive;
     desc.knots = knots;
     desc.knot_count = 5;
-    assert_int_equal(wiggly_create(frames + 1, 5, &solver), WIGGLY_OK);
-    assert_int_equal(wiggly_solve(solver, &desc, &curve), WIGGLY_OK);
+    curve_solve(&curve, &desc);
     struct settling settling = settle_measure(&spline, &curve, 30);
-    wiggly_destroy(solver);
     curve_destroy(&curve);
     return settling;
 }

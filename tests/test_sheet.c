@@ -101,20 +101,19 @@ TEST(test_rows_scroll)
     }
     strcat(scene, "]}");
     struct session s;
-    struct error error;
     float x, y;
     open_sheet(&s, scene);
     session_point(&s, "mark(s0,0)");
-    assert_false(editor_target(s.editor, "mark(s9,0)", &x, &y, &error));
+    assert_false(editor_target(s.editor, "mark(s9,0)", &x, &y, NULL));
     session_wheel(&s, -1);
     session_wheel(&s, -1);
     session_frame(&s);
-    assert_false(editor_target(s.editor, "mark(s0,0)", &x, &y, &error));
+    assert_false(editor_target(s.editor, "mark(s0,0)", &x, &y, NULL));
     session_key(&s, KEY_PAGE_UP, 0); // round to the last one
     session_frame(&s);
     session_point(&s, "mark(s9,0)");
     selection_set(&s.editor->core.hidden, s.document->splines[9]->id, true);
     session_frame(&s);
-    assert_false(editor_target(s.editor, "mark(s9,0)", &x, &y, &error));
+    assert_false(editor_target(s.editor, "mark(s9,0)", &x, &y, NULL));
     session_close(&s);
 }

@@ -1,5 +1,5 @@
 /// What a tail follows a dragged body by: the solver's own oscillator or filter, whatever the frame rate, and it comes to rest.
-#include "near.h"
+#include "curve.h"
 
 #include "rig/swing.h"
 #include "spline_of.h"
@@ -44,7 +44,6 @@ static wiggly_value solved(const struct spline *spline)
 {
     wiggly_desc desc = wiggly_default_desc();
     wiggly_curve curve = {.total = total, .y = y, .re = re, .im = im, .omega = omega};
-    wiggly_solver *solver;
     for (int i = 0; i < SAMPLES; i++) track[i] = base_at((double)i / RATE);
     desc.samples = SAMPLES;
     desc.step = 1.0 / RATE;
@@ -55,9 +54,7 @@ static wiggly_value solved(const struct spline *spline)
     desc.damping.value = spline->parameter[PARAMETER_DAMPING].value;
     desc.bandwidth.value = spline->parameter[PARAMETER_BANDWIDTH].value;
     desc.equilibrium.track = track;
-    assert_int_equal(wiggly_create(SAMPLES, 0, &solver), WIGGLY_OK);
-    assert_int_equal(wiggly_solve(solver, &desc, &curve), WIGGLY_OK);
-    wiggly_destroy(solver);
+    curve_solve(&curve, &desc);
     return (wiggly_value){y[SAMPLES - 1], re[SAMPLES - 1], im[SAMPLES - 1]};
 }
 

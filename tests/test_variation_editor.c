@@ -57,14 +57,12 @@ SESSION_TEST(the_dice_rolls_another_motion, panel_open(s, swinging, 1280, 1200))
 static void load_fails(const char *variation, const char *sentence)
 {
     char text[512];
-    struct error error = {0};
     const int size =
         snprintf(text, sizeof text,
                  "{\"wiggly\": 1, \"frames\": [0, 24], \"splines\": [{\"name\": \"a\", \"frequency\": 1, "
                  "\"variation\": %s, \"knots\": []}]}",
                  variation);
-    assert_null(scene_parse("scene", text, (size_t)size, NULL, &error));
-    if (!strstr(error.text, sentence)) fail_msg("%s", error.text);
+    assert_refusal(scene_parse("scene", text, (size_t)size, NULL, &error), sentence);
 }
 
 TEST(the_file_has_both_numbers_and_what_else_is_there)
