@@ -6,33 +6,28 @@
 write_box "$scratch/box.obj"
 sed '$s/ 1$//' "$scratch/box.obj" >"$scratch/open.obj"
 printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 3 2 1\n' >"$scratch/flat.obj"
-quick="--tets 60 --seconds 0.25 --fps 24 --substeps 2"
+quick=(--tets 60 --seconds 0.25 --fps 24 --substeps 2)
 
-# shellcheck disable=SC2086 # the options are split on purpose
-expect 0 "a box is shaken" "$WIGGLY" simulate "$scratch/box.obj" --shake side $quick -o "$scratch/box.npy"
+expect 0 "a box is shaken" "$WIGGLY" simulate "$scratch/box.obj" --shake side "${quick[@]}" -o "$scratch/box.npy"
 says "says what was written" "box.npy: 6 frames of 8 vertices at 24 fps" "$out"
 holds "the .npy holds 6 × 8 × 3 floats" [ "$(stat -c %s "$scratch/box.npy")" -eq $((128 + 6 * 8 * 3 * 4)) ]
 holds "the rest mesh has the same vertices" [ "$(grep -c '^v ' "$scratch/box.rest.obj")" -eq 8 ]
 first=$(cat "$scratch/box.npy" | cksum)
-# shellcheck disable=SC2086
-expect 0 "again" "$WIGGLY" simulate "$scratch/box.obj" --shake side $quick -o "$scratch/box.npy" --verbose
+expect 0 "again" "$WIGGLY" simulate "$scratch/box.obj" --shake side "${quick[@]}" -o "$scratch/box.npy" --verbose
 holds "the same command gives the same bytes" [ "$first" = "$(cat "$scratch/box.npy" | cksum)" ]
 says "--verbose tells how far it is" "frame 6 of 6" "$err"
 
-# shellcheck disable=SC2086
-expect 0 "PC2, a push along a vector" "$WIGGLY" simulate "$scratch/box.obj" --shake 1,0,1 --impulse $quick -o "$scratch/box.pc2"
+expect 0 "PC2, a push along a vector" "$WIGGLY" simulate "$scratch/box.obj" --shake 1,0,1 --impulse "${quick[@]}" -o "$scratch/box.pc2"
 holds "is PC2" [ "$(head -c 11 "$scratch/box.pc2")" = POINTCACHE2 ]
 expect 0 "normal modes" "$WIGGLY" simulate "$scratch/box.obj" --modal 3 --tets 60 --frequency 1.5 -o "$scratch/modes.npy"
 says "prints their frequencies, the lowest as asked for" "   1          1.5" "$out"
 holds "writes three shapes" [ "$(stat -c %s "$scratch/modes.npy")" -eq $((128 + 3 * 8 * 3 * 4)) ]
 
-# shellcheck disable=SC2086
-expect 0 "a mesh with a hole" "$WIGGLY" simulate "$scratch/open.obj" $quick -o "$scratch/open.npy"
+expect 0 "a mesh with a hole" "$WIGGLY" simulate "$scratch/open.obj" "${quick[@]}" -o "$scratch/open.npy"
 says "is told of" "open.obj: open at 3 edges: inside is where its winding number exceeds a half" "$out"
 { echo "v 90 90 90" && awk '/^v/ { print $1, 1000 * $2, -1000 * $4, 1000 * $3; next } /^f/ { print $1, $2 + 1, $3 + 1, $4 + 1 }' \
     "$scratch/box.obj"; } >"$scratch/z.obj"
-# shellcheck disable=SC2086
-expect 0 "a mesh in millimetres with z up" "$WIGGLY" simulate "$scratch/z.obj" --up z --scale 0.001 --shake side $quick -o "$scratch/z.npy"
+expect 0 "a mesh in millimetres with z up" "$WIGGLY" simulate "$scratch/z.obj" --up z --scale 0.001 --shake side "${quick[@]}" -o "$scratch/z.npy"
 says "with a vertex too many" "z.obj: warning: 1 vertex is part of no triangle" "$err"
 tail -n +2 "$scratch/z.rest.obj" | sed -n '/^v/p' | sed 's/-0\b/0/g' | diff -q - <(sed -n '/^v/p' "$scratch/box.rest.obj") >/dev/null
 ok "stands as the box does" $?
@@ -51,7 +46,7 @@ refused() { # <exit status> <what it says> <arguments>...
     says "in one line" "$what" "$err"
     holds "and no more" [ "$(printf '%s\n' "$err" | wc -l)" -eq 1 ]
 }
-o="-o $scratch/none.npy"
+o=(-o "$scratch/none.npy")
 sed 's/^v 0 0 0$/v 0 0 0 1e30 0 0/' "$scratch/box.obj" >"$scratch/bright.obj"
 # A .npy of float32, its numbers as bytes.
 write_map() { # <name> <shape> <bytes>
@@ -72,38 +67,34 @@ colored() { awk -v a="$1" -v b="$2" '/^v/ { c = $3 > 0 ? a : b; print $0, c, c, 
 colored 9 -9 >"$scratch/white.obj"
 colored 90 -90 >"$scratch/whiter.obj"
 for name in white whiter; do
-    # shellcheck disable=SC2086
-    expect 0 "softness where vertices are $name" "$WIGGLY" simulate "$scratch/$name.obj" --soft color $quick -o "$scratch/$name.npy"
+    expect 0 "softness where vertices are $name" "$WIGGLY" simulate "$scratch/$name.obj" --soft color "${quick[@]}" -o "$scratch/$name.npy"
 done
 holds "white is as soft as it gets" cmp -s "$scratch/white.npy" "$scratch/whiter.npy"
-expect 0 "a painted map of softness" "$WIGGLY" simulate "$scratch/box.obj" --soft "$scratch/map.npy" $quick -o "$scratch/soft.npy"
-# shellcheck disable=SC2086
-{
-    refused 1 "bright.obj:1: expected a colour from 0 to 1, got 1e+30" "$scratch/bright.obj" $o
-    refused 1 "short.npy: expected 8 numbers, got a file that ends before" "$scratch/box.obj" --soft "$scratch/short.npy" $o
-    refused 1 "long.npy: expected an array of 8 numbers, one a vertex" "$scratch/box.obj" --soft "$scratch/long.npy" $o
-    refused 1 "huge.npy: expected" "$scratch/box.obj" --soft "$scratch/huge.npy" $o
-    refused 1 "wild.npy: vertex 7: expected a number from 0 to 1, got nan" "$scratch/box.obj" --soft "$scratch/wild.npy" $o
-    refused 1 "above.npy: vertex 0: expected a number from 0 to 1, got 2" "$scratch/box.obj" --soft "$scratch/above.npy" $o
-    refused 1 "endless.npy: expected the header of an .npy array" "$scratch/box.obj" --soft "$scratch/endless.npy" $o
-    refused 1 "header.npy: expected a header of 128 bytes, got 23" "$scratch/box.obj" --soft "$scratch/header.npy" $o
-    refused 1 "tiny.npy: expected a .npy file" "$scratch/box.obj" --soft "$scratch/tiny.npy" $o
-    refused 1 "box.obj: expected" "$scratch/box.obj" --soft "$scratch/box.obj" $o
-    refused 1 "nowhere.npy: cannot be opened" "$scratch/box.obj" --soft "$scratch/nowhere.npy" $o
-    refused 1 "flat.obj: the mesh encloses no volume" "$scratch/flat.obj" $o
-    refused 1 "nowhere.obj" "$scratch/nowhere.obj" $o
-    refused 1 "nothing can move" "$scratch/box.obj" --tets 60 --pin 9 $o
-    refused 2 "--up: expected x, y or z" "$scratch/box.obj" --up w $o
-    refused 2 "unknown option --yuong (did you mean --young?)" "$scratch/box.obj" --yuong 1 $o
-    refused 2 "--poisson" "$scratch/box.obj" --poisson 0.5 $o
-    refused 2 "--shake: expected up, side, front or a vector x,y,z" "$scratch/box.obj" --shake 0,0,0 $o
-    refused 2 "--young and --frequency both set the stiffness" "$scratch/box.obj" --young 1e6 --frequency 2 $o
-    refused 2 "--density needs --young" "$scratch/box.obj" --density 500 $o
-    refused 2 "-o FILE is missing" "$scratch/box.obj"
-    refused 2 "expected a name ending in .npy or .pc2" "$scratch/box.obj" -o "$scratch/box.abc"
-    refused 2 "expected a name ending in .npy for --modal" "$scratch/box.obj" --modal 2 -o "$scratch/box.pc2"
-    refused 3 "$scratch/no/such/none.npy" "$scratch/box.obj" --tets 60 -o "$scratch/no/such/none.npy"
-}
+expect 0 "a painted map of softness" "$WIGGLY" simulate "$scratch/box.obj" --soft "$scratch/map.npy" "${quick[@]}" -o "$scratch/soft.npy"
+refused 1 "bright.obj:1: expected a colour from 0 to 1, got 1e+30" "$scratch/bright.obj" "${o[@]}"
+refused 1 "short.npy: expected 8 numbers, got a file that ends before" "$scratch/box.obj" --soft "$scratch/short.npy" "${o[@]}"
+refused 1 "long.npy: expected an array of 8 numbers, one a vertex" "$scratch/box.obj" --soft "$scratch/long.npy" "${o[@]}"
+refused 1 "huge.npy: expected" "$scratch/box.obj" --soft "$scratch/huge.npy" "${o[@]}"
+refused 1 "wild.npy: vertex 7: expected a number from 0 to 1, got nan" "$scratch/box.obj" --soft "$scratch/wild.npy" "${o[@]}"
+refused 1 "above.npy: vertex 0: expected a number from 0 to 1, got 2" "$scratch/box.obj" --soft "$scratch/above.npy" "${o[@]}"
+refused 1 "endless.npy: expected the header of an .npy array" "$scratch/box.obj" --soft "$scratch/endless.npy" "${o[@]}"
+refused 1 "header.npy: expected a header of 128 bytes, got 23" "$scratch/box.obj" --soft "$scratch/header.npy" "${o[@]}"
+refused 1 "tiny.npy: expected a .npy file" "$scratch/box.obj" --soft "$scratch/tiny.npy" "${o[@]}"
+refused 1 "box.obj: expected" "$scratch/box.obj" --soft "$scratch/box.obj" "${o[@]}"
+refused 1 "nowhere.npy: cannot be opened" "$scratch/box.obj" --soft "$scratch/nowhere.npy" "${o[@]}"
+refused 1 "flat.obj: the mesh encloses no volume" "$scratch/flat.obj" "${o[@]}"
+refused 1 "nowhere.obj" "$scratch/nowhere.obj" "${o[@]}"
+refused 1 "nothing can move" "$scratch/box.obj" --tets 60 --pin 9 "${o[@]}"
+refused 2 "--up: expected x, y or z" "$scratch/box.obj" --up w "${o[@]}"
+refused 2 "unknown option --yuong (did you mean --young?)" "$scratch/box.obj" --yuong 1 "${o[@]}"
+refused 2 "--poisson" "$scratch/box.obj" --poisson 0.5 "${o[@]}"
+refused 2 "--shake: expected up, side, front or a vector x,y,z" "$scratch/box.obj" --shake 0,0,0 "${o[@]}"
+refused 2 "--young and --frequency both set the stiffness" "$scratch/box.obj" --young 1e6 --frequency 2 "${o[@]}"
+refused 2 "--density needs --young" "$scratch/box.obj" --density 500 "${o[@]}"
+refused 2 "-o FILE is missing" "$scratch/box.obj"
+refused 2 "expected a name ending in .npy or .pc2" "$scratch/box.obj" -o "$scratch/box.abc"
+refused 2 "expected a name ending in .npy for --modal" "$scratch/box.obj" --modal 2 -o "$scratch/box.pc2"
+refused 3 "$scratch/no/such/none.npy" "$scratch/box.obj" --tets 60 -o "$scratch/no/such/none.npy"
 holds "nothing was written" [ -z "$(find "$scratch" -name '*none*')" ]
 
 # A disk of one block: the old file stays, nothing half-written beside it.
