@@ -35,8 +35,7 @@ says "compares with real principal components" "real PCA's first " "$out"
 says "says what all of them leave" "  relative error of the motion with 2 coordinates: " "$out"
 says "recommends a spline" '    spline: "mode": "complex", "frequency": ' "$out"
 says "and a range of lags" "lag over the surface: from 0 to 0 degrees" "$out"
-! grep -E -- '-0(\.0+)?[ ,)]' <<<"$out"
-ok "and prints no -0" $?
+holds "and prints no -0" not grep -E -- '-0(\.0+)?[ ,)]' <<<"$out"
 says "the file has the targets" '"targetNames":["up.re","up.im","up-2.re","up-2.im","side.re","side.im","side-2.re","side-2.im"]' \
     "$(tr -d '\0' <"$scratch/out/box.glb")"
 says "the scene finds the file from where it is" '"model": "out/box.glb"' "$(cat "$scratch/box.json")"
@@ -52,11 +51,9 @@ holds "gives the same bytes" [ "$first" = "$(cksum <"$scratch/out/box.glb")" ]
 targets_turn_normals() { # <file>
     tr -d '\0' <"$1" | grep -aq '"targets":\[{"POSITION":[0-9]*,"NORMAL":'
 }
-targets_turn_normals "$scratch/out/box.glb"
-ok "coordinates turn normals" $?
+holds "coordinates turn normals" targets_turn_normals "$scratch/out/box.glb"
 analyze 0 "without" "$scratch/up.npy" --rest "$scratch/box.obj" --fps 30 --no-normals -o "$scratch/still.glb"
-! targets_turn_normals "$scratch/still.glb"
-ok "they turn none" $?
+holds "they turn none" not targets_turn_normals "$scratch/still.glb"
 "$WIGGLY" analyze --help | grep -q -- --no-normals
 ok "the help says how" $?
 

@@ -52,7 +52,6 @@ for _ in $(seq 600); do kill -0 $app 2>/dev/null || break; sleep 0.1; done
 if kill -0 $app 2>/dev/null; then
     ok "gr: Ctrl+Q quits" 1
 else
-    wait $app
-    ok "gr: Ctrl+Q quits" $?
+    holds "gr: Ctrl+Q quits" wait $app
     app=""
 fi

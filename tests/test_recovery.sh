@@ -73,8 +73,7 @@ xdotool key --delay 30 space Home shift+Left Right Right Right Right i
 eventually "kept again" [ -s "$state/recovery-1" ]
 xdotool key --delay 30 ctrl+q d
 await_end
-gone "$state/recovery-1"
-ok "quitting without saving deletes it" $?
+holds "quitting without saving deletes it" gone "$state/recovery-1"
 
 echo "theme dark" >"$XDG_CONFIG_HOME/wiggly/settings"
 start_app wiggly

@@ -24,8 +24,7 @@ for last in 4095 4096; do
     "$WIGGLY" solve "$scratch/long.json" | cmp - <("$WIGGLY" solve --solver $way "$scratch/long.json")
     ok "of $((last + 1)) samples it is the $way" $?
 done
-! cmp -s "$scratch/chain.csv" "$scratch/band.csv"
-ok "the band is another way" $?
+holds "the band is another way" not cmp -s "$scratch/chain.csv" "$scratch/band.csv"
 paste -d, "$scratch/chain.csv" "$scratch/band.csv" | awk -F, 'NR > 1 { n = NF / 2; for (i = 1; i <= n; i++) if (($i - $(n + i)) ^ 2 > 1e-18) exit 1 }'
 ok "to the same curves" $?
 

@@ -37,8 +37,7 @@ start_wayland() { # [argument]...
     app=$!
     eventually "it runs" [ -e "$scratch/live.csv" ]
     sleep 2
-    kill -0 $app
-    ok "and goes on" $?
+    holds "and goes on" kill -0 $app
 }
 
 # Debian has GLFW for Wayland in a package that takes the place of the other; here it is only unpacked.
