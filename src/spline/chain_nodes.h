@@ -292,12 +292,6 @@ ALWAYS_INLINE kernel_rank kernel_pivot_one(double *s, double d, double n)
     return (kernel_rank){.sound = *s > 0.0 && *s < INFINITY, .firm = *s >= WEAKEST * d, .lost = d / *s};
 }
 
-/// It in a word.
-static inline chain_rank chain_rank_of(kernel_rank rank)
-{
-    return !rank.sound ? CHAIN_LOST : rank.firm ? CHAIN_FIRM : CHAIN_WEAK;
-}
-
 /// One row's rank added to all's.
 static inline void chain_add_rank(kernel_rank *all, kernel_rank rank)
 {
@@ -305,12 +299,12 @@ static inline void chain_add_rank(kernel_rank *all, kernel_rank rank)
     all->lost = rank.lost > all->lost ? rank.lost : all->lost;
 }
 
-/// The rank of a factor, and what it has lost.
+/// The rank of a factor in a word, and what it has lost.
 static inline chain_rank chain_rank_with_loss(chain *c, kernel_rank rank)
 {
     c->lost = rank.lost;
-    rank.firm = rank.firm && rank.lost < GREATEST_LOSS;
-    return chain_rank_of(rank);
+    if (!rank.sound) return CHAIN_LOST;
+    return rank.firm && rank.lost < GREATEST_LOSS ? CHAIN_FIRM : CHAIN_WEAK;
 }
 
 /// Factors a loop's rows.
