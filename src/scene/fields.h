@@ -66,7 +66,7 @@ struct field {
     const char *const *words; ///< ended by NULL; an empty one is none
     const struct field *rows; ///< of a list's elements
     size_t count;             ///< place of the number of a list's elements
-    size_t flag;              ///< place of whether there is a number (0: there always is), or a model is a file
+    size_t flag;              ///< place of a bool: whether there is a number (0: always), or a model is a file
     bool is_required;         ///< in the file
     bool is_quiet;            ///< not printed where it is as usual
     bool is_apart;            ///< does not count where two are compared
@@ -75,7 +75,7 @@ struct field {
     void (*print)(struct members *members, const struct document *document, const void *at, const char *folder);
 };
 
-/// A row's beginning; a list's; the last row; ranges of numbers.
+/// How a row begins, and the row of a list; then the last row, and two ranges of numbers.
 #define FIELD(name, kind_of, type, member)                                                                           \
     .key = name, .kind = kind_of, .place = offsetof(type, member), .size = sizeof(((type *)0)->member)
 #define FIELD_LIST_OF(name, type, member, number, rows_of, most)                                                     \

@@ -7,8 +7,9 @@
 //     |         U22 U23 U24     |   x_{k+2}. Once all rows that begin at x_k are in, U_k* is done.
 //     |             U33 U34 U35 |
 //
-// In a loop the last two samples, the seam, are columns of their own at the right, in hand to the end. Two rows at a time, stiff slope
-// rows do not wash out soft ones. As Uᵀ U = L S Lᵀ, what is written is U_kk⁻¹, the root of S_k⁻¹, and L_ik = (U_kk⁻¹ U_ki)ᵀ.
+// In a loop the last two samples, the seam, are columns of their own at the right, in hand to the end. A rotation sees
+// two rows alone, so that a stiff slope row does not drown the soft ones. As Uᵀ U = L S Lᵀ, what is written is U_kk⁻¹, the
+// root of S_k⁻¹, and L_ik = (U_kk⁻¹ U_ki)ᵀ.
 #include "spline/system.h"
 #include <math.h>
 #include <string.h>
